@@ -1,0 +1,49 @@
+# Compile options that every target shares, and the functions that declare modules and tests.
+
+add_library(facet_flags INTERFACE)
+target_compile_options(facet_flags INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes
+    -fno-math-errno -fno-trapping-math -ffp-contract=off)
+if(FACET_WERROR)
+    target_compile_options(facet_flags INTERFACE -Werror)
+endif()
+if(FACET_SANITIZE)
+    target_compile_options(facet_flags INTERFACE -fsanitize=${FACET_SANITIZE} -fno-sanitize-recover=all
+        -fno-omit-frame-pointer -g)
+    target_link_options(facet_flags INTERFACE -fsanitize=${FACET_SANITIZE})
+endif()
+if(FACET_FUZZ)
+    target_compile_options(facet_flags INTERFACE -fsanitize=fuzzer-no-link)
+    target_link_options(facet_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+target_include_directories(facet_flags INTERFACE
+    ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}
+    ${PROJECT_BINARY_DIR}/generated)
+
+set_property(GLOBAL PROPERTY FACET_MODULES "")
+
+# facet_module(NAME SOURCES a.c b.c LINK facet_base PkgConfig::x): one folder of src/ as the static library
+# facet_NAME, all of which become libfacet.
+function(facet_module name)
+    cmake_parse_arguments(M "" "" "SOURCES;LINK" ${ARGN})
+    add_library(facet_${name} STATIC ${M_SOURCES})
+    target_link_libraries(facet_${name} PUBLIC ${M_LINK} PRIVATE $<BUILD_INTERFACE:facet_flags>)
+    set_property(GLOBAL APPEND PROPERTY FACET_MODULES facet_${name})
+endfunction()
+
+# facet_test(NAME SOURCES a_test.c LINK facet_x): a cmocka program that ctest runs. It finds shared test data
+# through the environment variable FACET_TEST_DATA and skips (exit code 77) where it needs it and has none.
+function(facet_test name)
+    if(NOT BUILD_TESTING)
+        return()
+    endif()
+    cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+    if(NOT T_TIMEOUT)
+        set(T_TIMEOUT 300)
+    endif()
+    add_executable(${name}_test ${T_SOURCES})
+    target_link_libraries(${name}_test PRIVATE ${T_LINK} PkgConfig::CMOCKA m facet_flags)
+    add_test(NAME ${name} COMMAND ${name}_test WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
+        ENVIRONMENT "FACET_TEST_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
+endfunction()

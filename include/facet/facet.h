@@ -1,0 +1,346 @@
+/* facet.h - the public interface of libfacet: read a glTF model, light it, render it on the CPU.
+ *
+ * Conventions
+ *   Units      m, rad, s, cd, lx, cd/m^2; +Y up, right-handed, cameras look along -Z, as in glTF
+ *   Color      linear Rec.709 unless a name says _srgb
+ *   Images     texel (0, 0) is the top left one; rows from top to bottom
+ *   Descs      {0} is valid for every desc struct and means the defaults that the comments give
+ *   Failure    a function that can fail returns a facet_result and writes one sentence to *error (NULL: not
+ *              wanted); its outputs are NULL then and nothing leaks
+ *   Threads    different objects may be used from different threads, one object may be read from several;
+ *              results are equal to the last bit for every thread count
+ *   State      the library never prints, exits, reads the environment or keeps global state */
+#ifndef FACET_FACET_H
+#define FACET_FACET_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define FACET_API
+#else
+#define FACET_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- results, memory, messages ---- */
+
+/* What a call came to. */
+typedef enum facet_result {
+    FACET_OK = 0,
+    FACET_ERROR_ARGUMENT,    /* a desc or an argument asks for what cannot be */
+    FACET_ERROR_READ,        /* an input cannot be read: missing, no permission, I/O */
+    FACET_ERROR_INVALID,     /* an input was read and is not valid */
+    FACET_ERROR_UNSUPPORTED, /* an input needs a feature that facet or this build lacks */
+    FACET_ERROR_WRITE,       /* an output cannot be written */
+    FACET_ERROR_LIMIT,       /* a limit that the caller set is reached: memory, texture size, time */
+    FACET_ERROR_MEMORY,      /* out of memory */
+    FACET_ERROR_ENVIRONMENT, /* the machine lacks something: a display, a library */
+    FACET_ERROR_CANCELLED,   /* the progress callback asked to stop */
+    FACET_ERROR_BUG          /* facet contradicted itself; please report */
+} facet_result;
+
+/* One sentence that names the thing, the place and what was expected. */
+typedef struct facet_error {
+    facet_result result;
+    char message[1024]; /* UTF-8, ends with 0, without newline */
+} facet_error;
+
+/* Where memory comes from. {0}: malloc. allocate returns NULL when there is none; release gets the size
+ * that was asked for. Both are called from several threads at once. */
+typedef struct facet_allocator {
+    void *user;
+    void *(*allocate)(void *user, size_t size);
+    void (*release)(void *user, void *memory, size_t size);
+} facet_allocator;
+
+/* A limit on memory that several calls share: an allocator that counts. */
+typedef struct facet_budget facet_budget;
+FACET_API facet_result facet_budget_create(uint64_t limit_bytes /* 0: none, only count */,
+                                           facet_budget **budget, facet_error *error);
+FACET_API void
+facet_budget_destroy(facet_budget *budget); /* NULL is allowed; after all that it gave is released */
+FACET_API facet_allocator facet_budget_allocator(facet_budget *budget);
+FACET_API uint64_t facet_budget_used_bytes(const facet_budget *budget);
+FACET_API uint64_t facet_budget_peak_bytes(const facet_budget *budget);
+
+typedef enum facet_log_level { FACET_LOG_WARNING, FACET_LOG_INFO, FACET_LOG_DEBUG } facet_log_level;
+
+/* Receives messages about what is lost but survivable. {0}: silent. May be called from any thread, one call at
+ * a time per operation. */
+typedef struct facet_log {
+    void *user;
+    void (*message)(void *user, facet_log_level level, const char *text);
+} facet_log;
+
+/* Told how far an operation is; returns false to cancel it. {0}: nobody. stage is a static string. */
+typedef struct facet_progress {
+    void *user;
+    bool (*report)(void *user, const char *stage, double fraction);
+} facet_progress;
+
+/* ---- version and machine ---- */
+
+FACET_API const char *facet_version(void); /* "0.1.0" */
+/* One line each, ending with a newline: version, compiler, libraries with their versions, CPU, threads.
+ * Writes at most size bytes with the closing 0; returns the length that the whole text has. */
+FACET_API size_t facet_build_report(char *text, size_t size);
+/* CPUs that this process may use: affinity and cgroup quota counted in; at least 1. */
+FACET_API uint32_t facet_thread_count(void);
+
+/* ---- scenes ---- */
+
+typedef struct facet_scene facet_scene;
+
+/* How a model is read. {0}: with malloc, silently, all threads, files only from the model's folder. */
+typedef struct facet_scene_desc {
+    facet_allocator allocator;
+    facet_log log;
+    uint32_t thread_count;     /* 0: facet_thread_count() */
+    const char *root;          /* folder that URIs in the model may reach; NULL: the folder of the model */
+    uint64_t max_file_bytes;   /* 0: 4 GiB; larger files are refused */
+    uint32_t max_texture_size; /* texels along an edge; 0: 16384; larger images are refused */
+} facet_scene_desc;
+
+/* Reads a .glb or .gltf file (told apart by content) and what it refers to. Texels are decoded when a
+ * renderer asks for them. */
+FACET_API facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
+                                        facet_error *error);
+/* The same from memory, which may go afterwards. name stands for the file in messages; external files need
+ * desc->root. */
+FACET_API facet_result facet_scene_load_memory(const void *bytes, size_t size, const char *name,
+                                               const facet_scene_desc *desc, facet_scene **scene,
+                                               facet_error *error);
+/* The built-in scene: spheres over roughness and metallic, and a few instructive materials. */
+FACET_API facet_result facet_scene_create_builtin(const facet_scene_desc *desc, facet_scene **scene,
+                                                  facet_error *error);
+FACET_API void facet_scene_destroy(facet_scene *scene); /* NULL is allowed */
+
+/* How many of each there are. */
+typedef struct facet_scene_counts {
+    uint32_t scenes, nodes, meshes, primitives, materials, textures, images, cameras, lights, skins,
+        animations;
+    uint32_t instances; /* primitives as drawn in the default scene, a mesh under two nodes counted twice */
+    uint64_t vertices, triangles, lines, points; /* as stored, instances not counted */
+    uint64_t drawn_triangles;                    /* in the default scene, instances counted */
+} facet_scene_counts;
+FACET_API facet_scene_counts facet_scene_get_counts(const facet_scene *scene);
+
+/* Text that describes the model: a JSON object (UTF-8) with asset, counts, bounds, scenes, nodes, meshes,
+ * materials with their parameters, textures, images, cameras, lights, extensions with their state and the
+ * warnings of reading. docs/inspect.md lists the members. *text is released with facet_text_destroy(). */
+FACET_API facet_result facet_scene_describe_json(const facet_scene *scene, char **text, facet_error *error);
+FACET_API void facet_text_destroy(char *text);
+
+#define FACET_DEFAULT UINT32_MAX /* as an index: the one that the file names, or the first */
+
+/* Number of the first scene, camera of that name; FACET_ERROR_ARGUMENT names those there are. A decimal number
+ * is taken as the index where no name matches. */
+FACET_API facet_result facet_scene_find_scene(const facet_scene *scene, const char *name, uint32_t *index,
+                                              facet_error *error);
+FACET_API facet_result facet_scene_find_camera(const facet_scene *scene, const char *name, uint32_t *index,
+                                               facet_error *error);
+
+/* Axis-aligned bounds in world space of what scene_index draws, m. False: it draws nothing, both are 0. */
+FACET_API bool facet_scene_get_bounds(const facet_scene *scene, uint32_t scene_index, float minimum[3],
+                                      float maximum[3]);
+
+/* ---- cameras ---- */
+
+/* A camera in world space. */
+typedef struct facet_camera {
+    float eye[3];        /* m */
+    float target[3];     /* m; any point in front along the axis */
+    float up[3];         /* not parallel to the axis; {0}: +Y, or -Z for a camera that looks along Y */
+    float fov_y_rad;     /* vertical; 0: orthographic with ortho_height */
+    float ortho_height;  /* m, the full height of the picture at any distance */
+    float aspect;        /* width / height for which the camera was made; 0: the picture's */
+    float near_m, far_m; /* clipping distances along the axis; 0: none */
+} facet_camera;
+
+/* A camera on a sphere around a target, in the convention of <model-viewer>. Start from
+ * facet_orbit_default(). */
+typedef struct facet_orbit {
+    float azimuth_rad;  /* around +Y; 0: from +Z, positive: towards +X */
+    float polar_rad;    /* from +Y: 0 looks straight down, pi/2 is level */
+    float radius;       /* m; 0: radius_scale times what frames the model */
+    float radius_scale; /* 1 touches the border of the picture */
+    float target[3];    /* m, where has_target */
+    bool has_target;    /* false: the middle of the bounds */
+    bool orthographic;
+    float fov_y_rad;
+    bool is_z_up; /* the model has +Z up; the camera rises along it */
+} facet_orbit;
+FACET_API facet_orbit facet_orbit_default(void); /* azimuth 0, polar 75 deg, 105 %, fov 30 deg */
+
+/* The camera that orbit describes, such that the whole of scene_index is in a picture of that aspect (width /
+ * height): every vertex is tried, not only the corners of the bounds. */
+FACET_API facet_result facet_camera_from_orbit(const facet_scene *scene, uint32_t scene_index,
+                                               const facet_orbit *orbit, float aspect, facet_camera *camera,
+                                               facet_error *error);
+/* Camera number index of the file, where its first node of scene_index puts it. */
+FACET_API facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_index, uint32_t index,
+                                               facet_camera *camera, facet_error *error);
+
+/* ---- environments ---- */
+
+typedef struct facet_environment facet_environment;
+
+/* How an environment is read. {0}: with malloc, silently. */
+typedef struct facet_environment_desc {
+    facet_allocator allocator;
+    facet_log log;
+    uint32_t thread_count;    /* 0: facet_thread_count() */
+    uint64_t max_file_bytes;  /* 0: 4 GiB */
+    uint32_t max_size;        /* texels along an edge; 0: 32768 */
+    const char *cache_folder; /* keep prepared lights there; NULL: no cache */
+    uint64_t cache_bytes;     /* the most that the cache may hold; 0: 256 MiB */
+} facet_environment_desc;
+
+/* Reads an equirectangular picture (.hdr, .exr, or an 8-bit format, decoded from sRGB). The direction d (unit,
+ * +Y up) is at u = 0.5 + atan2(d.z, d.x) / 2pi from the left and v = acos(d.y) / pi from the top, before
+ * rotation. Texels are cd/m^2. */
+FACET_API facet_result facet_environment_load(const char *path, const facet_environment_desc *desc,
+                                              facet_environment **environment, facet_error *error);
+FACET_API facet_result facet_environment_load_memory(const void *bytes, size_t size, const char *name,
+                                                     const facet_environment_desc *desc,
+                                                     facet_environment **environment, facet_error *error);
+/* The built-in neutral studio: soft boxes in a grey room, white on average. */
+FACET_API facet_result facet_environment_create_studio(const facet_environment_desc *desc,
+                                                       facet_environment **environment, facet_error *error);
+/* The same radiance (cd/m^2, linear Rec.709) from everywhere. */
+FACET_API facet_result facet_environment_create_constant(const float radiance[3],
+                                                         const facet_environment_desc *desc,
+                                                         facet_environment **environment, facet_error *error);
+FACET_API void facet_environment_destroy(facet_environment *environment); /* NULL is allowed */
+
+/* ---- rendering ---- */
+
+typedef enum facet_quality { FACET_QUALITY_NORMAL, FACET_QUALITY_DRAFT, FACET_QUALITY_FINAL } facet_quality;
+
+typedef enum facet_tonemap {
+    FACET_TONEMAP_NONE, /* linear Rec.709; clamped when written to an 8- or 16-bit file */
+    FACET_TONEMAP_NEUTRAL,
+    FACET_TONEMAP_ACES,           /* Hill's fit of RRT and ODT */
+    FACET_TONEMAP_ACES_NARKOWICZ, /* Narkowicz's curve */
+    FACET_TONEMAP_AGX,
+    FACET_TONEMAP_REINHARD,
+    FACET_TONEMAP_REINHARD_EXTENDED, /* white point 4 */
+    FACET_TONEMAP_HABLE
+} facet_tonemap;
+
+typedef enum facet_energy {
+    FACET_ENERGY_GLTF,      /* the formulas of the glTF specification, comparable with Khronos' renderer */
+    FACET_ENERGY_CONSERVING /* multiple scattering compensated, no surface returns more than it received */
+} facet_energy;
+
+typedef enum facet_background {
+    FACET_BACKGROUND_TRANSPARENT,
+    FACET_BACKGROUND_COLOR,      /* background_color, as display-linear color behind the tone-mapped model */
+    FACET_BACKGROUND_ENVIRONMENT /* the environment itself, tone-mapped with the model */
+} facet_background;
+
+/* Arbitrary output variables: layers beside the picture; or them. Each is that of the nearest surface under
+ * the pixel's middle, not filtered; 0 where there is none (depth: infinity). */
+typedef enum facet_aov {
+    FACET_AOV_DEPTH = 1u << 0,       /* m along the camera's axis; 1 channel "Z" */
+    FACET_AOV_NORMAL = 1u << 1,      /* unit shading normal in world space; 3 channels "normal.X" .. */
+    FACET_AOV_ALBEDO = 1u << 2,      /* base color, linear; 3 channels "albedo.R" .. */
+    FACET_AOV_MATERIAL_ID = 1u << 3, /* index of the material plus 1; 1 channel "material.id" */
+    FACET_AOV_UV = 1u << 4,          /* TEXCOORD_0; 2 channels "uv.U", "uv.V" */
+    FACET_AOV_OCCLUSION = 1u << 5    /* occlusion texture, 1: open; 1 channel "occlusion.A" */
+} facet_aov;
+
+/* How facet_render() draws. {0}: 1024 x 768, the whole model, the built-in studio, transparent, linear. */
+typedef struct facet_render_desc {
+    facet_allocator allocator;
+    facet_log log;
+    facet_progress progress;
+    uint32_t thread_count;          /* 0: facet_thread_count(); the picture does not depend on it */
+    uint32_t width, height;         /* pixels; 0: 1024 x 768 */
+    uint32_t crop[4];               /* x, y, width, height of the part to draw; {0}: all */
+    uint32_t scene_index;           /* 0: the first; FACET_DEFAULT: the file's */
+    const facet_camera *camera;     /* NULL: facet_orbit_default() */
+    facet_environment *environment; /* NULL: none, black */
+    float environment_rotation_rad; /* around +Y, positive turns the light from +Z towards +X */
+    float environment_ev;           /* stops; the environment is scaled by 2^environment_ev */
+    bool ignore_scene_lights;       /* true: no KHR_lights_punctual */
+    facet_background background;
+    float background_color[3]; /* linear Rec.709, [0, 1] */
+    float background_blur;     /* perceptual roughness of the environment seen as background, [0, 1] */
+    facet_quality quality;
+    uint32_t samples; /* visibility samples per pixel; 0: as quality has it (draft 1, normal 4, final 16) */
+    facet_energy energy;
+    float exposure_ev; /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
+    facet_tonemap tonemap;
+    uint32_t aovs;       /* facet_aov or-ed */
+    double time_limit_s; /* 0: none; past it FACET_ERROR_LIMIT */
+} facet_render_desc;
+
+typedef struct facet_image facet_image;
+
+/* Renders on the CPU with prefiltered light: what real-time viewers show. The image has the layer "" (RGBA,
+ * float, linear, premultiplied) and one layer per AOV. */
+FACET_API facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc,
+                                    facet_image **image, facet_error *error);
+
+/* Seconds that the stages of the last facet_render() of an image took, and the work done. */
+typedef struct facet_render_stats {
+    double textures_s, geometry_s, light_s, shade_s, total_s; /* geometry: tangents and BVH; stages overlap */
+    uint64_t rays, shades, decoded_texels;
+    uint32_t thread_count;
+} facet_render_stats;
+FACET_API facet_render_stats facet_image_get_render_stats(const facet_image *image);
+
+/* ---- images ---- */
+
+/* A layer of an image, as long as the image lives. */
+typedef struct facet_image_view {
+    const char *name; /* "": the picture itself */
+    uint32_t width, height, channel_count;
+    const float *pixels; /* channel_count floats per texel */
+    size_t row_stride_bytes;
+} facet_image_view;
+
+FACET_API uint32_t facet_image_get_layer_count(const facet_image *image);
+FACET_API facet_image_view facet_image_get_layer(const facet_image *image, uint32_t layer);
+FACET_API void facet_image_destroy(facet_image *image); /* NULL is allowed */
+
+typedef enum facet_file_format {
+    FACET_FORMAT_FROM_NAME, /* by the extension of the path */
+    FACET_FORMAT_PNG,       /* 8 bits, sRGB, straight alpha */
+    FACET_FORMAT_PNG16,
+    FACET_FORMAT_JPEG, /* over background_color; no alpha */
+    FACET_FORMAT_WEBP,
+    FACET_FORMAT_EXR, /* half; all layers, premultiplied alpha */
+    FACET_FORMAT_EXR_FLOAT,
+    FACET_FORMAT_HDR, /* Radiance RGBE, no alpha */
+    FACET_FORMAT_PFM
+} facet_file_format;
+
+typedef struct facet_save_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* 0: facet_thread_count() */
+    facet_file_format format;
+    uint32_t jpeg_quality;    /* 1 to 100; 0: 92; also for WebP, where 100 is lossless */
+    uint32_t png_compression; /* 1 (fast) to 9 (small); 0: 4 */
+} facet_save_desc;
+
+/* Writes the whole file or nothing: to a temporary beside it, then renamed. */
+FACET_API facet_result facet_image_save(const facet_image *image, const char *path,
+                                        const facet_save_desc *desc, facet_error *error);
+/* The bytes that facet_image_save() would write, for a format that is named. Release with
+ * facet_bytes_destroy(). */
+FACET_API facet_result facet_image_encode(const facet_image *image, const facet_save_desc *desc,
+                                          unsigned char **bytes, size_t *size, facet_error *error);
+FACET_API void facet_bytes_destroy(unsigned char *bytes);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

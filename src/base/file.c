@@ -1,0 +1,219 @@
+/* file.c - see file.h. */
+#define _GNU_SOURCE
+#include "base/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+
+/* Reads what fd still has; for pipes and devices, whose size is not known before. */
+static facet_result read_stream(int fd, const char *path, uint64_t max_bytes,
+                                const facet_allocator *allocator, file_bytes *file, facet_error *error)
+{
+    unsigned char *data = NULL;
+    size_t capacity = 0;
+    size_t size = 0;
+    for (;;) {
+        if (!mem_reserve(allocator, (void **)&data, &capacity, size + 64 * 1024 + 1, 1)) {
+            mem_free(data);
+            return fail_memory(error, path, size);
+        }
+        ssize_t got = read(fd, data + size, capacity - size - 1);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            mem_free(data);
+            return fail(error, FACET_ERROR_READ, "%s: cannot be read: %s", path, strerror(errno));
+        }
+        size += (size_t)got;
+        if (max_bytes && size > max_bytes) {
+            mem_free(data);
+            return fail(error, FACET_ERROR_LIMIT, "%s: is larger than the limit of %llu bytes", path,
+                        (unsigned long long)max_bytes);
+        }
+        if (got == 0)
+            break;
+    }
+    data[size] = 0;
+    *file = (file_bytes){.data = data, .size = size, .mapping = data, .mapping_size = 0};
+    return FACET_OK;
+}
+
+facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,
+                       file_bytes *file, facet_error *error)
+{
+    *file = (file_bytes){0};
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return fail(error, FACET_ERROR_READ, "%s: cannot be opened: %s", path, strerror(errno));
+    facet_result result;
+    struct stat status;
+    if (fstat(fd, &status) != 0) {
+        result = fail(error, FACET_ERROR_READ, "%s: cannot be read: %s", path, strerror(errno));
+    } else if (S_ISDIR(status.st_mode)) {
+        result = fail(error, FACET_ERROR_READ, "%s: is a folder, not a file", path);
+    } else if (!S_ISREG(status.st_mode)) {
+        result = read_stream(fd, path, max_bytes, allocator, file, error);
+    } else if (max_bytes && (uint64_t)status.st_size > max_bytes) {
+        result = fail(error, FACET_ERROR_LIMIT, "%s: %llu bytes is larger than the limit of %llu", path,
+                      (unsigned long long)status.st_size, (unsigned long long)max_bytes);
+    } else {
+        /* The page behind the end must hold a 0: a size that fills its last page exactly is read instead. */
+        size_t size = (size_t)status.st_size;
+        size_t page = (size_t)sysconf(_SC_PAGESIZE);
+        void *mapping = size && size % page ? mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0) : MAP_FAILED;
+        if (mapping != MAP_FAILED) {
+            *file = (file_bytes){.data = mapping, .size = size, .mapping = mapping, .mapping_size = size};
+            result = FACET_OK;
+        } else {
+            result = read_stream(fd, path, max_bytes, allocator, file, error);
+        }
+    }
+    close(fd);
+    return result;
+}
+
+void file_close(file_bytes *file)
+{
+    if (file->mapping_size)
+        munmap(file->mapping, file->mapping_size);
+    else
+        mem_free(file->mapping);
+    *file = (file_bytes){0};
+}
+
+static bool write_all(int fd, const unsigned char *data, size_t size)
+{
+    while (size) {
+        ssize_t put = write(fd, data, size);
+        if (put < 0 && errno == EINTR)
+            continue;
+        if (put <= 0)
+            return false;
+        data += put;
+        size -= (size_t)put;
+    }
+    return true;
+}
+
+static facet_result write_directly(const char *path, const void *data, size_t size, facet_error *error)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    if (fd < 0)
+        return fail(error, FACET_ERROR_WRITE, "%s: cannot be opened for writing: %s", path, strerror(errno));
+    bool written = write_all(fd, data, size);
+    int code = errno;
+    if (close(fd) != 0 && written) {
+        written = false;
+        code = errno;
+    }
+    return written ? FACET_OK
+                   : fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
+}
+
+facet_result file_write(const char *path, const void *data, size_t size, facet_error *error)
+{
+    struct stat status;
+    bool exists = stat(path, &status) == 0;
+    if (exists && S_ISDIR(status.st_mode))
+        return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
+    if (exists && !S_ISREG(status.st_mode))
+        return write_directly(path, data, size, error);
+
+    char *temporary = NULL;
+    int fd = -1;
+    facet_result result = FACET_OK;
+    if (asprintf(&temporary, "%s.XXXXXX", path) < 0) {
+        temporary = NULL;
+        return fail_memory(error, "name of a temporary file", strlen(path) + 8);
+    }
+    fd = mkostemp(temporary, O_CLOEXEC);
+    if (fd < 0) {
+        result = fail(error, FACET_ERROR_WRITE, "%s: cannot be created: %s", path, strerror(errno));
+        goto done;
+    }
+    /* mkostemp makes it private; a new file gets what the umask allows, an old one keeps its mode. */
+    mode_t mask = umask(0);
+    umask(mask);
+    bool written = fchmod(fd, exists ? status.st_mode & 07777 : 0666 & ~mask) == 0 &&
+                   write_all(fd, data, size) && fsync(fd) == 0;
+    int code = errno;
+    if (close(fd) != 0 && written) {
+        written = false;
+        code = errno;
+    }
+    if (written && rename(temporary, path) != 0) {
+        written = false;
+        code = errno;
+    }
+    if (!written) {
+        unlink(temporary);
+        result = fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
+    }
+done:
+    free(temporary);
+    return result;
+}
+
+char *path_join(const facet_allocator *allocator, const char *folder, const char *name)
+{
+    size_t folder_length = strlen(folder);
+    size_t name_length = strlen(name);
+    char *path = mem_alloc(allocator, folder_length + name_length + 2, 1);
+    if (!path)
+        return NULL;
+    memcpy(path, folder, folder_length);
+    size_t at = folder_length;
+    if (at && path[at - 1] != '/')
+        path[at++] = '/';
+    memcpy(path + at, name, name_length + 1);
+    return path;
+}
+
+char *path_folder(const facet_allocator *allocator, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    size_t length = !slash ? 1 : slash == path ? 1 : (size_t)(slash - path);
+    char *folder = mem_alloc(allocator, length + 1, 1);
+    if (!folder)
+        return NULL;
+    memcpy(folder, slash ? path : ".", length);
+    folder[length] = 0;
+    return folder;
+}
+
+const char *path_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+const char *path_extension(const char *path)
+{
+    const char *point = strrchr(path_base_name(path), '.');
+    return point ? point + 1 : "";
+}
+
+bool path_is_inside(const char *path, const char *folder)
+{
+    char *real_path = realpath(path, NULL);
+    char *real_folder = realpath(folder, NULL);
+    bool inside = false;
+    if (real_path && real_folder) {
+        size_t length = strlen(real_folder);
+        inside =
+            strncmp(real_path, real_folder, length) == 0 &&
+            (real_path[length] == '/' || real_path[length] == 0 || (length == 1 && real_folder[0] == '/'));
+    }
+    free(real_path);
+    free(real_folder);
+    return inside;
+}

@@ -1,0 +1,37 @@
+/* file.h - whole files in and out, and names of files. */
+#ifndef BASE_FILE_H
+#define BASE_FILE_H
+
+#include "facet/facet.h"
+
+/* The bytes of a file; mapped where the system can, else read. */
+typedef struct file_bytes {
+    const unsigned char *data; /* at least one readable byte of 0 stands behind the last one */
+    size_t size;
+    void *mapping; /* what file_close() needs */
+    size_t mapping_size;
+} file_bytes;
+
+/* Opens path for reading as a whole. Fails with FACET_ERROR_READ (missing, a folder, no permission), _LIMIT
+ * where it is larger than max_bytes (0: no limit), _MEMORY. The file must not shrink while it is open. */
+facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,
+                       file_bytes *file, facet_error *error);
+void file_close(file_bytes *file); /* {0} is allowed; leaves {0} */
+
+/* Writes size bytes to path: a temporary beside it, flushed to the disk, then renamed; on failure
+ * (FACET_ERROR_WRITE) path is as it was and no temporary stays. A path that exists and is no regular file (a
+ * device, a pipe) is written to directly. */
+facet_result file_write(const char *path, const void *data, size_t size, facet_error *error);
+
+/* Joins folder and the relative path name into a block of mem_alloc(); NULL: no memory. */
+char *path_join(const facet_allocator *allocator, const char *folder, const char *name);
+/* The folder of path without trailing slash, "." where it has none; a block of mem_alloc(). */
+char *path_folder(const facet_allocator *allocator, const char *path);
+/* Behind the last slash. */
+const char *path_base_name(const char *path);
+/* From the last point of the base name on, without it, or "". */
+const char *path_extension(const char *path);
+/* Whether path, with links resolved, is folder or below it. False also where either does not exist. */
+bool path_is_inside(const char *path, const char *folder);
+
+#endif

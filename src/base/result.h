@@ -1,0 +1,20 @@
+/* result.h - how functions fail: a code and one sentence. */
+#ifndef BASE_RESULT_H
+#define BASE_RESULT_H
+
+#include "facet/facet.h"
+
+/* Writes the sentence to error (NULL: not wanted) and returns result, so that a caller can write
+ *     return fail(error, FACET_ERROR_INVALID, "%s: accessor %u: ...", name, i); */
+facet_result fail(facet_error *error, facet_result result, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* fail() for memory that was not there: "out of memory: WHAT (SIZE bytes)". */
+facet_result fail_memory(facet_error *error, const char *what, size_t size);
+
+/* Sends one formatted message to log, if there is one. */
+void log_warning(const facet_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void log_info(const facet_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void log_debug(const facet_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,198 @@
+/* text.c - see text.h. */
+#include "base/text.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+void text_add_bytes(text *t, const void *bytes, size_t size)
+{
+    if (t->has_failed)
+        return;
+    if (!mem_reserve(&t->allocator, (void **)&t->data, &t->capacity, t->length + size + 1, 1)) {
+        t->has_failed = true;
+        return;
+    }
+    memcpy(t->data + t->length, bytes, size);
+    t->length += size;
+    t->data[t->length] = 0;
+}
+
+void text_add(text *t, const char *string)
+{
+    text_add_bytes(t, string, strlen(string));
+}
+
+void text_addf(text *t, const char *format, ...)
+{
+    char small[256];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(small, sizeof small, format, arguments);
+    va_end(arguments);
+    if (length < 0)
+        return;
+    if ((size_t)length < sizeof small) {
+        text_add_bytes(t, small, (size_t)length);
+        return;
+    }
+    char *large = malloc((size_t)length + 1);
+    if (!large) {
+        t->has_failed = true;
+        return;
+    }
+    va_start(arguments, format);
+    vsnprintf(large, (size_t)length + 1, format, arguments);
+    va_end(arguments);
+    text_add_bytes(t, large, (size_t)length);
+    free(large);
+}
+
+void text_destroy(text *t)
+{
+    mem_free(t->data);
+    *t = (text){0};
+}
+
+/* ---- JSON ---- */
+
+/* Length of the UTF-8 sequence at s (1 to 4), 0 where it is none. Overlong forms, surrogates and what lies
+ * above U+10FFFF are none. */
+static size_t utf8_length(const unsigned char *s)
+{
+    if (s[0] < 0x80)
+        return 1;
+    size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : s[0] >= 0xc2 ? 2 : 0;
+    if (s[0] > 0xf4)
+        return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((s[i] & 0xc0) != 0x80)
+            return 0;
+    if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f) || (s[0] == 0xf0 && s[1] < 0x90) ||
+        (s[0] == 0xf4 && s[1] > 0x8f))
+        return 0;
+    return length;
+}
+
+static void add_quoted(text *t, const char *value)
+{
+    text_add(t, "\"");
+    const unsigned char *s = (const unsigned char *)value;
+    while (*s) {
+        size_t length = utf8_length(s);
+        if (length == 0) {
+            text_add(t, "\xef\xbf\xbd");
+            length = 1;
+        } else if (*s == '"' || *s == '\\') {
+            text_addf(t, "\\%c", *s);
+        } else if (*s < 0x20 || *s == 0x7f) {
+            text_addf(t, "\\u%04x", *s);
+        } else {
+            text_add_bytes(t, s, length);
+        }
+        s += length;
+    }
+    text_add(t, "\"");
+}
+
+static void begin_value(text *t, const char *key)
+{
+    if (t->needs_comma)
+        text_add(t, ",");
+    t->needs_comma = true;
+    if (key) {
+        add_quoted(t, key);
+        text_add(t, ":");
+    }
+}
+
+void json_begin_object(text *t, const char *key)
+{
+    begin_value(t, key);
+    text_add(t, "{");
+    t->needs_comma = false;
+}
+
+void json_end_object(text *t)
+{
+    text_add(t, "}");
+    t->needs_comma = true;
+}
+
+void json_begin_array(text *t, const char *key)
+{
+    begin_value(t, key);
+    text_add(t, "[");
+    t->needs_comma = false;
+}
+
+void json_end_array(text *t)
+{
+    text_add(t, "]");
+    t->needs_comma = true;
+}
+
+void json_string(text *t, const char *key, const char *value)
+{
+    begin_value(t, key);
+    if (value)
+        add_quoted(t, value);
+    else
+        text_add(t, "null");
+}
+
+void json_bool(text *t, const char *key, bool value)
+{
+    begin_value(t, key);
+    text_add(t, value ? "true" : "false");
+}
+
+void json_integer(text *t, const char *key, int64_t value)
+{
+    begin_value(t, key);
+    text_addf(t, "%lld", (long long)value);
+}
+
+void json_number(text *t, const char *key, double value)
+{
+    begin_value(t, key);
+    if (!isfinite(value)) {
+        text_add(t, "null");
+        return;
+    }
+    char digits[40];
+    for (int precision = 6; precision <= 17; precision++) {
+        snprintf(digits, sizeof digits, "%.*g", precision, value);
+        if (strtod(digits, NULL) == value)
+            break;
+    }
+    text_add(t, digits);
+}
+
+void json_float(text *t, const char *key, float value)
+{
+    begin_value(t, key);
+    if (!isfinite(value)) {
+        text_add(t, "null");
+        return;
+    }
+    char digits[40];
+    for (int precision = 6; precision <= 9; precision++) {
+        snprintf(digits, sizeof digits, "%.*g", precision, (double)value);
+        if (strtof(digits, NULL) == value)
+            break;
+    }
+    text_add(t, digits);
+}
+
+void json_floats(text *t, const char *key, const float *values, size_t count)
+{
+    json_begin_array(t, key);
+    for (size_t i = 0; i < count; i++)
+        json_float(t, NULL, values[i]);
+    json_end_array(t);
+}

@@ -1,0 +1,36 @@
+/* text.h - text that grows, and JSON written into it. */
+#ifndef BASE_TEXT_H
+#define BASE_TEXT_H
+
+#include "facet/facet.h"
+
+/* Text that grows. {.allocator} starts it; data is NULL or ends with 0. Running out of memory sets has_failed,
+ * after which everything is ignored: check once, at the end. */
+typedef struct text {
+    facet_allocator allocator;
+    char *data;
+    size_t length, capacity;
+    bool has_failed;
+    bool needs_comma; /* for the json_ functions */
+} text;
+
+void text_add(text *t, const char *string);
+void text_add_bytes(text *t, const void *bytes, size_t size);
+void text_addf(text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void text_destroy(text *t); /* {0} is allowed */
+
+/* JSON: keys are NULL inside arrays and at the top. Numbers print the shortest decimal that reads back as the
+ * same float or double; NaN and infinities, which JSON lacks, become null. Strings are UTF-8; bytes that are not
+ * become U+FFFD. */
+void json_begin_object(text *t, const char *key);
+void json_end_object(text *t);
+void json_begin_array(text *t, const char *key);
+void json_end_array(text *t);
+void json_string(text *t, const char *key, const char *value); /* NULL: null */
+void json_bool(text *t, const char *key, bool value);
+void json_integer(text *t, const char *key, int64_t value);
+void json_number(text *t, const char *key, double value);
+void json_float(text *t, const char *key, float value);
+void json_floats(text *t, const char *key, const float *values, size_t count);
+
+#endif

@@ -1,0 +1,33 @@
+/* film.h - what a renderer draws into: float RGBA, premultiplied, and one layer per AOV. */
+#ifndef CPU_FILM_H
+#define CPU_FILM_H
+
+#include "facet/facet.h"
+
+enum { FILM_MAX_LAYERS = 8 };
+
+typedef struct film_layer {
+    const char *name;                 /* "", "normal" .. */
+    const char *const *channel_names; /* full names as in an EXR file */
+    uint32_t channel_count;
+    float *pixels; /* interleaved, width * height * channel_count; block of mem_alloc() */
+} film_layer;
+
+/* Layer 0 is the picture, RGBA premultiplied. */
+typedef struct film {
+    uint32_t width, height;
+    uint32_t layer_count;
+    film_layer layers[FILM_MAX_LAYERS];
+} film;
+
+/* Layers for the facet_aov bits of aovs, all 0 (depth: infinity). */
+facet_result film_create(const facet_allocator *allocator, uint32_t width, uint32_t height, uint32_t aovs,
+                         film *out, facet_error *error);
+void film_destroy(film *f);                       /* {0} is allowed */
+film_layer *film_find(film *f, const char *name); /* NULL: not asked for */
+
+/* Tone-maps the picture in place: un-premultiplies, applies operator, clamps negative values to 0, premultiplies
+ * again, and lays it over color (display-linear RGB; NULL: stays transparent). */
+void film_develop(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count);
+
+#endif

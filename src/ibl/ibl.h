@@ -1,0 +1,42 @@
+/* ibl.h - image based light: from an environment picture to what a renderer looks up.
+ *
+ * An environment (facet_environment) keeps the picture. A light is what was prepared from it for one render:
+ * prefiltered GGX cube map mips, nine spherical harmonics coefficients of irradiance, as far as asked for. The
+ * environment keeps prepared parts and hands them out again; they are shared and never change. */
+#ifndef IBL_IBL_H
+#define IBL_IBL_H
+
+#include "facet/facet.h"
+
+/* What a render will look up. */
+typedef struct ibl_light_desc {
+    uint32_t thread_count;
+    bool needs_irradiance;
+    bool needs_specular;
+    float min_roughness,
+        max_roughness;        /* perceptual roughness of the surfaces; only these mips are filtered */
+    bool needs_background;    /* sharp environment, ibl_background() */
+    uint32_t background_size; /* height of the picture in pixels divided by its field of view in rad: how fine
+                                  the background has to be; 0: as fine as the source */
+} ibl_light_desc;
+
+/* Prepared light. Lookups take unit directions in the environment's own frame: rotate before. */
+typedef struct ibl_light ibl_light;
+
+/* Prepares, or hands out what was prepared before. Safe from several threads. Release with ibl_light_release(). */
+facet_result ibl_light_prepare(facet_environment *environment, const ibl_light_desc *desc,
+                               const ibl_light **light, facet_error *error);
+void ibl_light_release(const ibl_light *light); /* NULL is allowed */
+
+/* Irradiance / pi (cd/m^2 per channel): what a white Lambertian surface with normal N sends out. Never negative. */
+void ibl_irradiance_over_pi(const ibl_light *light, const float N[3], float out[3]);
+/* Radiance around R filtered with the GGX lobe of that perceptual roughness (cd/m^2 per channel). */
+void ibl_specular(const ibl_light *light, const float R[3], float perceptual_roughness, float out[3]);
+/* Radiance from direction d (cd/m^2 per channel), filtered over footprint_rad. */
+void ibl_background(const ibl_light *light, const float d[3], float footprint_rad, float out[3]);
+
+/* Split-sum terms of the height-correlated GGX (Karis 2013): reflectance = F0 out[0] + F90 out[1]. NdotV in
+ * [0, 1], perceptual_roughness in [0, 1]; bilinear in a table that is computed when facet is built. */
+void ibl_dfg(float NdotV, float perceptual_roughness, float out[2]);
+
+#endif

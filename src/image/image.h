@@ -1,0 +1,100 @@
+/* image.h - pictures in memory. Texel (0, 0) is the top left one, rows go down: said here, once. */
+#ifndef IMAGE_IMAGE_H
+#define IMAGE_IMAGE_H
+
+#include "facet/facet.h"
+
+typedef enum image_type { IMAGE_U8, IMAGE_U16, IMAGE_F16, IMAGE_F32 } image_type;
+
+/* Texels, interleaved, without padding between rows. {0} is no image. Integers stand for [0, 1]. */
+typedef struct image {
+    void *pixels; /* block of mem_alloc() */
+    uint32_t width, height;
+    uint32_t channel_count; /* 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA; alpha straight, always linear */
+    image_type type;
+    bool is_srgb; /* the color channels carry the sRGB transfer function; else linear */
+} image;
+
+size_t image_type_size(image_type type);              /* bytes of a channel */
+static inline size_t image_texel_size(const image *i) /* bytes of a texel */
+{
+    return image_type_size(i->type) * i->channel_count;
+}
+static inline size_t image_row_size(const image *i)
+{
+    return image_texel_size(i) * i->width;
+}
+
+/* Undefined texels. Fails with FACET_ERROR_MEMORY. */
+facet_result image_create(const facet_allocator *allocator, uint32_t width, uint32_t height,
+                          uint32_t channel_count, image_type type, image *out, facet_error *error);
+void image_destroy(image *i); /* {0} is allowed; leaves {0} */
+
+/* Another type, channel count (grey spreads to RGB, missing alpha is 1, dropped alpha is dropped) and transfer
+ * function. Works on rows in parallel. */
+facet_result image_convert(const image *in, const facet_allocator *allocator, uint32_t thread_count,
+                           uint32_t channel_count, image_type type, bool to_srgb, image *out,
+                           facet_error *error);
+
+/* ---- codecs: files in memory to images and back ---- */
+
+typedef enum image_codec {
+    IMAGE_CODEC_UNKNOWN,
+    IMAGE_CODEC_PNG,
+    IMAGE_CODEC_JPEG,
+    IMAGE_CODEC_WEBP,
+    IMAGE_CODEC_HDR,
+    IMAGE_CODEC_EXR,
+    IMAGE_CODEC_PFM,
+    IMAGE_CODEC_KTX2
+} image_codec;
+
+image_codec image_codec_detect(const void *bytes, size_t size); /* by the first bytes */
+const char *image_codec_name(image_codec codec);                /* "PNG" .. */
+
+/* How a file is decoded. {0}: as it is, largest edge 16384. */
+typedef struct image_decode_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* for codecs that can use them; 0: 1 */
+    uint32_t max_size; /* texels along an edge, 0: 16384; a larger picture fails with FACET_ERROR_LIMIT before
+                              memory is taken for it */
+    uint32_t max_reduction; /* 0: none. The picture may come reduced by 2^k with k <= max_reduction in both
+                               directions (rounded up) where the codec does that cheaply (JPEG: k <= 3) */
+    uint32_t channel_count; /* 0: the file's own; 3 or 4: as asked, 8-bit formats only */
+} image_decode_desc;
+
+/* What the header says; nothing else is read. width and height are those of the whole picture. */
+facet_result image_probe(const void *bytes, size_t size, const char *name, image *header /* pixels NULL */,
+                         image_codec *codec, facet_error *error);
+/* Decodes. name stands first in messages. PNG: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits; all
+ * of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2). HDR, EXR, PFM: F32 RGB
+ * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value. KTX2 fails with
+ * FACET_ERROR_UNSUPPORTED for now. */
+facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
+                          image *out, facet_error *error);
+
+/* One named layer of an EXR file, float. */
+typedef struct image_layer {
+    const char *const *channel_names; /* channel_count full names, "R", "normal.X" */
+    uint32_t channel_count;
+    const float *pixels; /* interleaved */
+    size_t row_stride_bytes;
+} image_layer;
+
+typedef struct image_encode_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* 0: 1; the bytes do not depend on it */
+    uint32_t quality;      /* JPEG, WebP: 1 to 100, 0: 92; WebP 100 is lossless */
+    uint32_t compression;  /* PNG: zlib level 1 to 9; 0: 4 */
+} image_encode_desc;
+
+/* Encoded bytes: a block of mem_alloc() and its used size. PNG, JPEG and WebP take U8 (PNG also U16) and write
+ * the samples as they are; HDR and PFM take F32 RGB. */
+facet_result image_encode(const image *i, image_codec codec, const image_encode_desc *desc,
+                          unsigned char **bytes, size_t *size, facet_error *error);
+/* Scanline OpenEXR, ZIP, half or float. */
+facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer *layers,
+                              uint32_t layer_count, bool as_half, const image_encode_desc *desc,
+                              unsigned char **bytes, size_t *size, facet_error *error);
+
+#endif

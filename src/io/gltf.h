@@ -1,0 +1,14 @@
+/* gltf.h - reads glTF 2.0 (.gltf with its files, and .glb) into a scene. */
+#ifndef IO_GLTF_H
+#define IO_GLTF_H
+
+#include "scene/scene.h"
+
+/* Reads a file that facet_scene_load() was asked for. See facet.h for what desc means and how it fails. */
+facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
+                       facet_error *error);
+/* The same from bytes, which are copied where the scene needs them. */
+facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
+                              facet_scene **scene, facet_error *error);
+
+#endif
