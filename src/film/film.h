@@ -1,6 +1,6 @@
 /* film.h - what a renderer draws into: float RGBA, premultiplied, and one layer per AOV. */
-#ifndef CPU_FILM_H
-#define CPU_FILM_H
+#ifndef FILM_FILM_H
+#define FILM_FILM_H
 
 #include "facet/facet.h"
 
