@@ -21,6 +21,7 @@ target_include_directories(facet_flags INTERFACE
     ${PROJECT_BINARY_DIR}/generated)
 
 set_property(GLOBAL PROPERTY FACET_MODULES "")
+set_property(GLOBAL PROPERTY FACET_EXTERNALS "")
 
 # facet_module(NAME SOURCES a.c b.c LINK facet_base PkgConfig::x): one folder of src/ as the static library
 # facet_NAME, all of which become libfacet.
@@ -29,6 +30,11 @@ function(facet_module name)
     add_library(facet_${name} STATIC ${M_SOURCES})
     target_link_libraries(facet_${name} PUBLIC ${M_LINK} PRIVATE $<BUILD_INTERFACE:facet_flags>)
     set_property(GLOBAL APPEND PROPERTY FACET_MODULES facet_${name})
+    foreach(item ${M_LINK})
+        if(NOT item MATCHES "^facet_")
+            set_property(GLOBAL APPEND PROPERTY FACET_EXTERNALS ${item})
+        endif()
+    endforeach()
 endfunction()
 
 # facet_test(NAME SOURCES a_test.c LINK facet_x): a cmocka program that ctest runs. It finds shared test data

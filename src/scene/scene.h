@@ -12,6 +12,8 @@
 
 #define SCENE_NONE UINT32_MAX
 
+struct text; /* base/text.h */
+
 /* ---- geometry ---- */
 
 typedef enum scene_mode { SCENE_POINTS, SCENE_LINES, SCENE_TRIANGLES } scene_mode;
@@ -187,6 +189,12 @@ void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ..
 /* Looks up scene->materials[index], or the default material for SCENE_NONE. */
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index);
 
+void scene_destroy(facet_scene *scene); /* NULL is allowed */
+/* facet_scene_create_builtin(), facet_scene_get_counts(), facet_scene_describe_json(). */
+facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **out, facet_error *error);
+facet_scene_counts scene_count(const facet_scene *scene);
+void scene_describe_json(const facet_scene *scene, struct text *out);
+
 /* ---- a scene at rest in world space ---- */
 
 typedef struct scene_instance {
@@ -226,6 +234,10 @@ typedef struct scene_pose {
 facet_result scene_pose_create(const facet_scene *scene, uint32_t index, const facet_allocator *allocator,
                                uint32_t thread_count, scene_pose *pose, facet_error *error);
 void scene_pose_destroy(scene_pose *pose); /* {0} is allowed */
+
+/* facet_camera_from_orbit(). */
+facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit, float aspect,
+                             facet_camera *camera, facet_error *error);
 
 /* ---- derived attributes ---- */
 

@@ -1,0 +1,54 @@
+/* camera_api.c - cameras of facet.h. */
+#include "base/result.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+facet_orbit facet_orbit_default(void)
+{
+    const float degree = 3.14159265f / 180.0f;
+    return (facet_orbit){.polar_rad = 75.0f * degree, .radius_scale = 1.05f, .fov_y_rad = 30.0f * degree};
+}
+
+facet_result facet_camera_from_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit,
+                                     float aspect, facet_camera *camera, facet_error *error)
+{
+    return scene_fit_orbit(scene, scene_index, orbit, aspect, camera, error);
+}
+
+facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_index, uint32_t index,
+                                     facet_camera *camera, facet_error *error)
+{
+    *camera = (facet_camera){0};
+    if (index >= scene->camera_count)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no camera %u; the file has %u", scene->source, index,
+                    scene->camera_count);
+    scene_pose pose;
+    facet_result result = scene_pose_create(scene, scene_index, &scene->allocator, 0, &pose, error);
+    if (result != FACET_OK)
+        return result;
+    const scene_posed_camera *found = NULL;
+    for (uint32_t i = 0; i < pose.camera_count && !found; i++)
+        if (pose.cameras[i].camera == index)
+            found = &pose.cameras[i];
+    if (found) {
+        const scene_camera *c = &scene->cameras[index];
+        const float *m = found->world.m;
+        *camera = (facet_camera){.fov_y_rad = c->is_orthographic ? 0.0f : c->fov_y_rad,
+                                 .ortho_height = c->ortho_height,
+                                 .aspect = c->is_orthographic ? c->ortho_width / c->ortho_height : c->aspect,
+                                 .near_m = c->near_m,
+                                 .far_m = c->far_m};
+        for (int k = 0; k < 3; k++) {
+            camera->eye[k] = m[12 + k];
+            camera->target[k] = m[12 + k] - m[8 + k];
+            camera->up[k] = m[4 + k];
+        }
+    } else {
+        result = fail(error, FACET_ERROR_ARGUMENT, "%s: camera %u \"%s\" is not attached to a node of the scene",
+                      scene->source, index, scene->cameras[index].name);
+    }
+    scene_pose_destroy(&pose);
+    return result;
+}

@@ -1,0 +1,146 @@
+/* image_api.c - images of facet.h: looking at layers, encoding, saving. */
+#include "api/api.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/result.h"
+#include "film/film_image.h"
+#include "image/image.h"
+
+#include <string.h>
+#include <strings.h>
+
+uint32_t facet_image_get_layer_count(const facet_image *image)
+{
+    return image->film.layer_count;
+}
+
+facet_image_view facet_image_get_layer(const facet_image *image, uint32_t layer)
+{
+    const film_layer *l = &image->film.layers[layer];
+    return (facet_image_view){.name = l->name,
+                              .width = image->film.width,
+                              .height = image->film.height,
+                              .channel_count = l->channel_count,
+                              .pixels = l->pixels,
+                              .row_stride_bytes = (size_t)image->film.width * l->channel_count * sizeof(float)};
+}
+
+void facet_image_destroy(facet_image *image)
+{
+    if (!image)
+        return;
+    film_destroy(&image->film);
+    mem_free(image);
+}
+
+/* ---- formats ---- */
+
+typedef struct format_name {
+    const char *extension;
+    facet_file_format format;
+} format_name;
+
+static const format_name format_names[] = {
+    {"png", FACET_FORMAT_PNG}, {"jpg", FACET_FORMAT_JPEG}, {"jpeg", FACET_FORMAT_JPEG}, {"webp", FACET_FORMAT_WEBP},
+    {"exr", FACET_FORMAT_EXR}, {"hdr", FACET_FORMAT_HDR},  {"pfm", FACET_FORMAT_PFM},
+};
+
+static facet_file_format format_from_name(const char *path)
+{
+    const char *extension = path_extension(path);
+    for (size_t i = 0; i < sizeof format_names / sizeof *format_names; i++)
+        if (strcasecmp(extension, format_names[i].extension) == 0)
+            return format_names[i].format;
+    return FACET_FORMAT_FROM_NAME;
+}
+
+static image_codec codec_of(facet_file_format format)
+{
+    switch (format) {
+    case FACET_FORMAT_JPEG:
+        return IMAGE_CODEC_JPEG;
+    case FACET_FORMAT_WEBP:
+        return IMAGE_CODEC_WEBP;
+    case FACET_FORMAT_HDR:
+        return IMAGE_CODEC_HDR;
+    case FACET_FORMAT_PFM:
+        return IMAGE_CODEC_PFM;
+    default:
+        return IMAGE_CODEC_PNG;
+    }
+}
+
+static facet_result encode_exr(const film *f, bool as_half, const image_encode_desc *desc, unsigned char **bytes,
+                               size_t *size, facet_error *error)
+{
+    image_layer layers[FILM_MAX_LAYERS];
+    for (uint32_t i = 0; i < f->layer_count; i++)
+        layers[i] =
+            (image_layer){.channel_names = f->layers[i].channel_names,
+                          .channel_count = f->layers[i].channel_count,
+                          .pixels = f->layers[i].pixels,
+                          .row_stride_bytes = (size_t)f->width * f->layers[i].channel_count * sizeof(float)};
+    return image_encode_exr(f->width, f->height, layers, f->layer_count, as_half, desc, bytes, size, error);
+}
+
+facet_result facet_image_encode(const facet_image *image, const facet_save_desc *desc, unsigned char **bytes,
+                                size_t *size, facet_error *error)
+{
+    *bytes = NULL;
+    *size = 0;
+    const film *f = &image->film;
+    image_encode_desc encode = {.allocator = desc->allocator,
+                                .thread_count = desc->thread_count ? desc->thread_count : facet_thread_count(),
+                                .quality = desc->jpeg_quality,
+                                .compression = desc->png_compression};
+    struct image converted = {0};
+    facet_result result;
+    switch (desc->format) {
+    case FACET_FORMAT_EXR:
+    case FACET_FORMAT_EXR_FLOAT:
+        return encode_exr(f, desc->format == FACET_FORMAT_EXR, &encode, bytes, size, error);
+    case FACET_FORMAT_HDR:
+    case FACET_FORMAT_PFM:
+        result = film_to_linear_image(f, &encode.allocator, encode.thread_count, &converted, error);
+        break;
+    case FACET_FORMAT_PNG:
+    case FACET_FORMAT_PNG16:
+    case FACET_FORMAT_WEBP:
+    case FACET_FORMAT_JPEG:
+        result = film_to_display_image(f, desc->format == FACET_FORMAT_PNG16 ? IMAGE_U16 : IMAGE_U8,
+                                       desc->format != FACET_FORMAT_JPEG, &encode.allocator, encode.thread_count,
+                                       &converted, error);
+        break;
+    default:
+        return fail(error, FACET_ERROR_ARGUMENT, "image: a file format must be named to encode it in memory");
+    }
+    if (result == FACET_OK)
+        result = image_encode(&converted, codec_of(desc->format), &encode, bytes, size, error);
+    image_destroy(&converted);
+    return result;
+}
+
+void facet_bytes_destroy(unsigned char *bytes)
+{
+    mem_free(bytes);
+}
+
+facet_result facet_image_save(const facet_image *image, const char *path, const facet_save_desc *desc,
+                              facet_error *error)
+{
+    facet_save_desc resolved = desc ? *desc : (facet_save_desc){0};
+    if (resolved.format == FACET_FORMAT_FROM_NAME)
+        resolved.format = format_from_name(path);
+    if (resolved.format == FACET_FORMAT_FROM_NAME)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: the name does not end in a picture format that facet writes: .png, .jpg, .webp, .exr, .hdr, "
+                    ".pfm",
+                    path);
+    unsigned char *bytes;
+    size_t size;
+    facet_result result = facet_image_encode(image, &resolved, &bytes, &size, error);
+    if (result == FACET_OK)
+        result = file_write(path, bytes, size, error);
+    facet_bytes_destroy(bytes);
+    return result;
+}

@@ -1,0 +1,120 @@
+/* scene_api.c - the scene part of facet.h: reading, counting, finding, describing. */
+#include "base/result.h"
+#include "base/text.h"
+#include "io/gltf.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const facet_scene_desc default_desc = {0};
+
+facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
+{
+    *scene = NULL;
+    return gltf_load(path, desc ? desc : &default_desc, scene, error);
+}
+
+facet_result facet_scene_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
+                                     facet_scene **scene, facet_error *error)
+{
+    *scene = NULL;
+    return gltf_load_memory(bytes, size, name ? name : "(memory)", desc ? desc : &default_desc, scene, error);
+}
+
+facet_result facet_scene_create_builtin(const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
+{
+    *scene = NULL;
+    return scene_create_builtin(desc ? desc : &default_desc, scene, error);
+}
+
+void facet_scene_destroy(facet_scene *scene)
+{
+    scene_destroy(scene);
+}
+
+facet_scene_counts facet_scene_get_counts(const facet_scene *scene)
+{
+    return scene_count(scene);
+}
+
+facet_result facet_scene_describe_json(const facet_scene *scene, char **text_out, facet_error *error)
+{
+    *text_out = NULL;
+    text t = {.allocator = scene->allocator};
+    scene_describe_json(scene, &t);
+    if (t.has_failed) {
+        text_destroy(&t);
+        return fail_memory(error, "description of the scene", t.capacity);
+    }
+    *text_out = t.data;
+    return FACET_OK;
+}
+
+void facet_text_destroy(char *description)
+{
+    mem_free(description);
+}
+
+/* Finds name among count names that name_at() gives; else reads it as a number. what is "scene", "camera". */
+static facet_result find(const facet_scene *scene, const char *what, const char *name, uint32_t count,
+                         const char *(*name_at)(const facet_scene *, uint32_t), uint32_t *index, facet_error *error)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (strcmp(name_at(scene, i), name) == 0) {
+            *index = i;
+            return FACET_OK;
+        }
+    char *end;
+    unsigned long number = strtoul(name, &end, 10);
+    if (end != name && *end == 0 && number < count && name[0] != '-') {
+        *index = (uint32_t)number;
+        return FACET_OK;
+    }
+    if (count == 0)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\": the file has none", scene->source, what,
+                    name);
+    text names = {0};
+    for (uint32_t i = 0; i < count && i < 12; i++)
+        text_addf(&names, "%s%u \"%s\"", i ? ", " : "", i, name_at(scene, i));
+    if (count > 12)
+        text_add(&names, ", ...");
+    facet_result result = fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\"; there are %s", scene->source,
+                               what, name, names.data ? names.data : "others");
+    text_destroy(&names);
+    return result;
+}
+
+static const char *scene_name(const facet_scene *scene, uint32_t index)
+{
+    return scene->scenes[index].name;
+}
+
+static const char *camera_name(const facet_scene *scene, uint32_t index)
+{
+    return scene->cameras[index].name;
+}
+
+facet_result facet_scene_find_scene(const facet_scene *scene, const char *name, uint32_t *index, facet_error *error)
+{
+    return find(scene, "scene", name, scene->scene_count, scene_name, index, error);
+}
+
+facet_result facet_scene_find_camera(const facet_scene *scene, const char *name, uint32_t *index, facet_error *error)
+{
+    return find(scene, "camera", name, scene->camera_count, camera_name, index, error);
+}
+
+bool facet_scene_get_bounds(const facet_scene *scene, uint32_t scene_index, float minimum[3], float maximum[3])
+{
+    scene_pose pose;
+    bool has_bounds = false;
+    memset(minimum, 0, 3 * sizeof *minimum);
+    memset(maximum, 0, 3 * sizeof *maximum);
+    if (scene_pose_create(scene, scene_index, &scene->allocator, 0, &pose, NULL) == FACET_OK) {
+        has_bounds = pose.has_bounds;
+        memcpy(minimum, pose.bounds_min, sizeof pose.bounds_min);
+        memcpy(maximum, pose.bounds_max, sizeof pose.bounds_max);
+        scene_pose_destroy(&pose);
+    }
+    return has_bounds;
+}

@@ -1,0 +1,55 @@
+/* version.c - what this build is and what it runs on. */
+#include "base/text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "build_config.h"
+#include "cpu/cpu_report.h"
+
+const char *facet_version(void)
+{
+    return FACET_VERSION;
+}
+
+static void add_cpu(text *t)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_cpu_init();
+    text_addf(t, "cpu       x86-64%s%s%s%s\n", __builtin_cpu_supports("sse4.2") ? " sse4.2" : "",
+              __builtin_cpu_supports("avx") ? " avx" : "", __builtin_cpu_supports("avx2") ? " avx2" : "",
+              __builtin_cpu_supports("avx512f") ? " avx512f" : "");
+#elif defined(__aarch64__)
+    text_add(t, "cpu       aarch64\n");
+#else
+    text_add(t, "cpu       other\n");
+#endif
+}
+
+size_t facet_build_report(char *out, size_t size)
+{
+    text t = {0};
+    text_addf(&t, "facet     %s\n", FACET_VERSION);
+#if defined(__clang__)
+    text_addf(&t, "compiler  clang %s, %s\n", __clang_version__, FACET_BUILD_TYPE);
+#else
+    text_addf(&t, "compiler  gcc %s, %s\n", __VERSION__, FACET_BUILD_TYPE);
+#endif
+    add_cpu(&t);
+    text_addf(&t, "threads   %u\n", facet_thread_count());
+    text_addf(&t, "renderers preview\n");
+    text_addf(&t, "embree    %s\n", cpu_embree_version());
+    text_addf(&t, "images    png (spng %s), jpeg (turbojpeg %s), webp (%s), exr (%s), hdr, pfm\n", FACET_SPNG_VERSION,
+              FACET_TURBOJPEG_VERSION, FACET_WEBP_VERSION, FACET_OPENEXR_VERSION);
+    text_addf(&t, "json      jansson %s\n", FACET_JANSSON_VERSION);
+    text_addf(&t, "opengl    not in this version\n");
+    size_t length = t.length;
+    if (size) {
+        size_t copied = length < size ? length : size - 1;
+        if (t.data)
+            memcpy(out, t.data, copied);
+        out[copied] = 0;
+    }
+    text_destroy(&t);
+    return length;
+}
