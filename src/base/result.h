@@ -4,6 +4,8 @@
 
 #include "facet/facet.h"
 
+#undef fail /* the test framework has a macro of that name; tests use fail_msg() */
+
 /* Writes the sentence to error (NULL: not wanted) and returns result, so that a caller can write
  *     return fail(error, FACET_ERROR_INVALID, "%s: accessor %u: ...", name, i); */
 facet_result fail(facet_error *error, facet_result result, const char *format, ...)

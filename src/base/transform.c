@@ -112,12 +112,12 @@ void mat4_normal_matrix(const mat4 *a, float out[9])
 {
     const float *m = a->m;
     out[0] = m[5] * m[10] - m[6] * m[9];
-    out[1] = m[6] * m[8] - m[4] * m[10];
-    out[2] = m[4] * m[9] - m[5] * m[8];
-    out[3] = m[2] * m[9] - m[1] * m[10];
+    out[1] = m[2] * m[9] - m[1] * m[10];
+    out[2] = m[1] * m[6] - m[2] * m[5];
+    out[3] = m[6] * m[8] - m[4] * m[10];
     out[4] = m[0] * m[10] - m[2] * m[8];
-    out[5] = m[1] * m[8] - m[0] * m[9];
-    out[6] = m[1] * m[6] - m[2] * m[5];
-    out[7] = m[2] * m[4] - m[0] * m[6];
+    out[5] = m[2] * m[4] - m[0] * m[6];
+    out[6] = m[4] * m[9] - m[5] * m[8];
+    out[7] = m[1] * m[8] - m[0] * m[9];
     out[8] = m[0] * m[5] - m[1] * m[4];
 }

@@ -1,0 +1,156 @@
+/* Tests of file.h: whole files or nothing, and names. */
+#define _GNU_SOURCE
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/file.h"
+#include "base/memory.h"
+
+static char folder[] = "/tmp/facet_file_test_XXXXXX";
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    return system(command);
+}
+
+static char *in_folder(const char *name)
+{
+    return path_join(NULL, folder, name);
+}
+
+static void what_is_written_is_read(void **state)
+{
+    (void)state;
+    static unsigned char data[3 * 4096 + 5];
+    for (size_t i = 0; i < sizeof data; i++)
+        data[i] = (unsigned char)(i * 7);
+    char *path = in_folder("a.bin");
+    const size_t sizes[] = {0, 1, 4095, 4096, 4097, 8192, sizeof data};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        facet_error error;
+        assert_int_equal(file_write(path, data, sizes[i], &error), FACET_OK);
+        file_bytes file;
+        assert_int_equal(file_open(path, 0, NULL, &file, &error), FACET_OK);
+        assert_int_equal(file.size, sizes[i]);
+        assert_memory_equal(file.data, data, sizes[i]);
+        assert_int_equal(file.data[file.size], 0);
+        file_close(&file);
+    }
+    mem_free(path);
+}
+
+static void modes_follow_umask_and_stay(void **state)
+{
+    (void)state;
+    char *path = in_folder("mode.bin");
+    mode_t old = umask(027);
+    assert_int_equal(file_write(path, "x", 1, NULL), FACET_OK);
+    umask(old);
+    struct stat status;
+    assert_int_equal(stat(path, &status), 0);
+    assert_int_equal(status.st_mode & 0777, 0640);
+    chmod(path, 0604);
+    assert_int_equal(file_write(path, "y", 1, NULL), FACET_OK);
+    assert_int_equal(stat(path, &status), 0);
+    assert_int_equal(status.st_mode & 0777, 0604);
+    mem_free(path);
+}
+
+static void failures_name_the_file(void **state)
+{
+    (void)state;
+    facet_error error;
+    file_bytes file;
+    char *missing = in_folder("missing");
+    assert_int_equal(file_open(missing, 0, NULL, &file, &error), FACET_ERROR_READ);
+    assert_non_null(strstr(error.message, missing));
+    assert_int_equal(file_open(folder, 0, NULL, &file, &error), FACET_ERROR_READ);
+    assert_int_equal(file_write(folder, "x", 1, &error), FACET_ERROR_WRITE);
+    char *below_missing = in_folder("missing/x.png");
+    assert_int_equal(file_write(below_missing, "x", 1, &error), FACET_ERROR_WRITE);
+    assert_non_null(strstr(error.message, below_missing));
+    char *small = in_folder("small");
+    assert_int_equal(file_write(small, "12345", 5, &error), FACET_OK);
+    assert_int_equal(file_open(small, 4, NULL, &file, &error), FACET_ERROR_LIMIT);
+    assert_int_equal(file_open(small, 5, NULL, &file, &error), FACET_OK);
+    file_close(&file);
+    mem_free(missing);
+    mem_free(below_missing);
+    mem_free(small);
+}
+
+static void a_full_device_is_an_error(void **state)
+{
+    (void)state;
+    if (access("/dev/full", W_OK) != 0)
+        skip();
+    facet_error error;
+    assert_int_equal(file_write("/dev/full", "x", 1, &error), FACET_ERROR_WRITE);
+    assert_non_null(strstr(error.message, "/dev/full"));
+}
+
+static void names_are_taken_apart(void **state)
+{
+    (void)state;
+    assert_string_equal(path_extension("a/b.tar.GZ"), "GZ");
+    assert_string_equal(path_extension("a.b/c"), "");
+    assert_string_equal(path_base_name("a/b/c.png"), "c.png");
+    char *of[] = {path_folder(NULL, "a/b/c"), path_folder(NULL, "c"), path_folder(NULL, "/c")};
+    assert_string_equal(of[0], "a/b");
+    assert_string_equal(of[1], ".");
+    assert_string_equal(of[2], "/");
+    for (int i = 0; i < 3; i++)
+        mem_free(of[i]);
+}
+
+static void links_do_not_lead_out(void **state)
+{
+    (void)state;
+    char *inner = in_folder("inner");
+    char *file = in_folder("inner/file");
+    char *link = in_folder("inner/link");
+    char *outside = in_folder("outside");
+    char *sibling = in_folder("inner2");
+    assert_int_equal(mkdir(inner, 0777), 0);
+    assert_int_equal(mkdir(sibling, 0777), 0);
+    assert_int_equal(file_write(file, "x", 1, NULL), FACET_OK);
+    assert_int_equal(file_write(outside, "x", 1, NULL), FACET_OK);
+    assert_int_equal(symlink(outside, link), 0);
+    assert_true(path_is_inside(file, inner));
+    assert_true(path_is_inside(inner, inner));
+    assert_false(path_is_inside(link, inner));
+    assert_false(path_is_inside(sibling, inner));
+    assert_false(path_is_inside(outside, inner));
+    assert_true(path_is_inside(file, "/"));
+    char *all[] = {inner, file, link, outside, sibling};
+    for (int i = 0; i < 5; i++)
+        mem_free(all[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_written_is_read), cmocka_unit_test(modes_follow_umask_and_stay),
+        cmocka_unit_test(failures_name_the_file),  cmocka_unit_test(a_full_device_is_an_error),
+        cmocka_unit_test(names_are_taken_apart),   cmocka_unit_test(links_do_not_lead_out),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

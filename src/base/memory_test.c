@@ -1,0 +1,108 @@
+/* Tests of memory.h: alignment, overflow, budgets, arenas. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+
+static void blocks_are_aligned_and_keep_their_size(void **state)
+{
+    (void)state;
+    for (size_t size = 0; size < 300; size += 7) {
+        unsigned char *block = mem_alloc(NULL, size, 3);
+        assert_non_null(block);
+        assert_int_equal((uintptr_t)block % 64, 0);
+        assert_int_equal(mem_size(block), 3 * size);
+        memset(block, 0xa5, 3 * size);
+        block = mem_resize(block, 2 * size, 3);
+        for (size_t i = 0; i < 3 * size; i++)
+            assert_int_equal(block[i], 0xa5);
+        mem_free(block);
+    }
+}
+
+static void sizes_that_overflow_are_refused(void **state)
+{
+    (void)state;
+    assert_null(mem_alloc(NULL, SIZE_MAX, 2));
+    assert_null(mem_alloc(NULL, SIZE_MAX / 2, 1));
+    assert_null(mem_zalloc(NULL, SIZE_MAX - 8, 1));
+    arena *a = arena_create(NULL);
+    assert_null(arena_alloc(a, SIZE_MAX / 4, 8));
+    arena_destroy(a);
+}
+
+static void a_budget_is_kept(void **state)
+{
+    (void)state;
+    facet_budget *budget;
+    assert_int_equal(facet_budget_create(10000, &budget, NULL), FACET_OK);
+    facet_allocator allocator = facet_budget_allocator(budget);
+    void *first = mem_alloc(&allocator, 6000, 1);
+    assert_non_null(first);
+    assert_null(mem_alloc(&allocator, 6000, 1));
+    mem_free(first);
+    assert_int_equal(facet_budget_used_bytes(budget), 0);
+    assert_true(facet_budget_peak_bytes(budget) >= 6000 && facet_budget_peak_bytes(budget) <= 10000);
+    void *second = mem_alloc(&allocator, 9000, 1);
+    assert_non_null(second);
+    assert_null(mem_resize(second, 20000, 1));
+    mem_free(second);
+    facet_budget_destroy(budget);
+}
+
+static void arena_blocks_do_not_overlap(void **state)
+{
+    (void)state;
+    facet_budget *budget;
+    assert_int_equal(facet_budget_create(0, &budget, NULL), FACET_OK);
+    facet_allocator allocator = facet_budget_allocator(budget);
+    arena *a = arena_create(&allocator);
+    unsigned char *blocks[200];
+    size_t sizes[200];
+    for (size_t i = 0; i < 200; i++) {
+        sizes[i] = i % 17 == 0 ? 50000 + i : 13 * i;
+        blocks[i] = arena_alloc(a, sizes[i], 1);
+        assert_int_equal((uintptr_t)blocks[i] % 16, 0);
+        memset(blocks[i], (int)i, sizes[i]);
+    }
+    for (size_t i = 0; i < 200; i++)
+        for (size_t k = 0; k < sizes[i]; k++)
+            assert_int_equal(blocks[i][k], i & 0xff);
+    assert_string_equal(arena_strdup(a, "kept"), "kept");
+    assert_true(arena_size(a) <= facet_budget_used_bytes(budget));
+    arena_destroy(a);
+    assert_int_equal(facet_budget_used_bytes(budget), 0);
+    facet_budget_destroy(budget);
+}
+
+static void reserve_grows_and_keeps(void **state)
+{
+    (void)state;
+    uint32_t *items = NULL;
+    size_t capacity = 0;
+    for (uint32_t i = 0; i < 5000; i++) {
+        assert_true(mem_reserve(NULL, (void **)&items, &capacity, i + 1, sizeof *items));
+        items[i] = i;
+    }
+    for (uint32_t i = 0; i < 5000; i++)
+        assert_int_equal(items[i], i);
+    assert_true(capacity < 10000);
+    mem_free(items);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_are_aligned_and_keep_their_size),
+        cmocka_unit_test(sizes_that_overflow_are_refused),
+        cmocka_unit_test(a_budget_is_kept),
+        cmocka_unit_test(arena_blocks_do_not_overlap),
+        cmocka_unit_test(reserve_grows_and_keeps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

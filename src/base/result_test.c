@@ -1,0 +1,60 @@
+/* Tests of result.h: one sentence, one line, whatever goes in. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/result.h"
+
+static void writes_code_and_sentence(void **state)
+{
+    (void)state;
+    facet_error error;
+    assert_int_equal(fail(&error, FACET_ERROR_INVALID, "%s: accessor %d", "a.gltf", 3), FACET_ERROR_INVALID);
+    assert_int_equal(error.result, FACET_ERROR_INVALID);
+    assert_string_equal(error.message, "a.gltf: accessor 3");
+    assert_int_equal(fail(NULL, FACET_ERROR_READ, "nobody listens"), FACET_ERROR_READ);
+}
+
+static void stays_one_line_and_in_bounds(void **state)
+{
+    (void)state;
+    facet_error error;
+    fail(&error, FACET_ERROR_INVALID, "name \"a\nb\x1b[31m\"");
+    assert_string_equal(error.message, "name \"a?b?[31m\"");
+    char longer[4000];
+    memset(longer, 'x', sizeof longer - 1);
+    longer[sizeof longer - 1] = 0;
+    fail(&error, FACET_ERROR_INVALID, "%s", longer);
+    assert_int_equal(strlen(error.message), sizeof error.message - 1);
+}
+
+static void keep_message(void *user, facet_log_level level, const char *text)
+{
+    (void)level;
+    strcpy(user, text);
+}
+
+static void log_sends_formatted_text(void **state)
+{
+    (void)state;
+    char kept[1024] = "";
+    facet_log log = {.user = kept, .message = keep_message};
+    log_warning(&log, "%d of %d", 2, 3);
+    assert_string_equal(kept, "2 of 3");
+    log_warning(&(facet_log){0}, "silent");
+    log_warning(NULL, "silent");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(writes_code_and_sentence),
+        cmocka_unit_test(stays_one_line_and_in_bounds),
+        cmocka_unit_test(log_sends_formatted_text),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

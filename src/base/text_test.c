@@ -1,0 +1,91 @@
+/* Tests of text.h: JSON that any reader takes back. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/text.h"
+
+static void json_has_commas_where_they_belong(void **state)
+{
+    (void)state;
+    text t = {0};
+    json_begin_object(&t, NULL);
+    json_string(&t, "name", "a");
+    json_begin_array(&t, "list");
+    json_integer(&t, NULL, -3);
+    json_begin_object(&t, NULL);
+    json_end_object(&t);
+    json_bool(&t, NULL, true);
+    json_end_array(&t);
+    json_string(&t, "none", NULL);
+    json_end_object(&t);
+    assert_string_equal(t.data, "{\"name\":\"a\",\"list\":[-3,{},true],\"none\":null}");
+    text_destroy(&t);
+}
+
+static void numbers_read_back(void **state)
+{
+    (void)state;
+    text t = {0};
+    json_begin_array(&t, NULL);
+    json_number(&t, NULL, 0.1);
+    json_number(&t, NULL, 1.0 / 3.0);
+    json_float(&t, NULL, 0.1f);
+    json_float(&t, NULL, 16777217.0f);
+    json_number(&t, NULL, (double)NAN);
+    json_float(&t, NULL, -INFINITY);
+    json_end_array(&t);
+    assert_string_equal(t.data, "[0.1,0.3333333333333333,0.1,16777216,null,null]");
+    text_destroy(&t);
+}
+
+static void strings_are_valid_utf8(void **state)
+{
+    (void)state;
+    text t = {0};
+    json_string(&t, NULL, "\"\\\n\x7f\xc3\xa9\xe2\x99\xbb\xf0\x9f\x98\x80");
+    assert_string_equal(t.data, "\"\\\"\\\\\\u000a\\u007f\xc3\xa9\xe2\x99\xbb\xf0\x9f\x98\x80\"");
+    text_destroy(&t);
+    t = (text){0};
+    json_string(&t, NULL, "\xff-\xc0\xaf-\xed\xa0\x80-\xe2\x99"); /* bad, overlong, surrogate, cut off */
+    assert_string_equal(t.data,
+                        "\"\xef\xbf\xbd-\xef\xbf\xbd\xef\xbf\xbd-\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd-"
+                        "\xef\xbf\xbd\xef\xbf\xbd\"");
+    text_destroy(&t);
+}
+
+static void long_text_grows_and_failure_sticks(void **state)
+{
+    (void)state;
+    text t = {0};
+    for (int i = 0; i < 1000; i++)
+        text_addf(&t, "%0300d", i);
+    assert_int_equal(t.length, 300000);
+    text_destroy(&t);
+
+    facet_budget *budget;
+    assert_int_equal(facet_budget_create(2000, &budget, NULL), FACET_OK);
+    t = (text){.allocator = facet_budget_allocator(budget)};
+    for (int i = 0; i < 1000; i++)
+        text_add(&t, "0123456789");
+    assert_true(t.has_failed);
+    text_destroy(&t);
+    assert_int_equal(facet_budget_used_bytes(budget), 0);
+    facet_budget_destroy(budget);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(json_has_commas_where_they_belong),
+        cmocka_unit_test(numbers_read_back),
+        cmocka_unit_test(strings_are_valid_utf8),
+        cmocka_unit_test(long_text_grows_and_failure_sticks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
