@@ -22,8 +22,8 @@ facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_in
 {
     *camera = (facet_camera){0};
     if (index >= scene->camera_count)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no camera %u; the file has %u", scene->source, index,
-                    scene->camera_count);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no camera %u; the file has %u", scene->source,
+                    index, scene->camera_count);
     scene_pose pose;
     facet_result result = scene_pose_create(scene, scene_index, &scene->allocator, 0, &pose, error);
     if (result != FACET_OK)
@@ -46,8 +46,9 @@ facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_in
             camera->up[k] = m[4 + k];
         }
     } else {
-        result = fail(error, FACET_ERROR_ARGUMENT, "%s: camera %u \"%s\" is not attached to a node of the scene",
-                      scene->source, index, scene->cameras[index].name);
+        result =
+            fail(error, FACET_ERROR_ARGUMENT, "%s: camera %u \"%s\" is not attached to a node of the scene",
+                 scene->source, index, scene->cameras[index].name);
     }
     scene_pose_destroy(&pose);
     return result;

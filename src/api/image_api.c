@@ -22,7 +22,8 @@ facet_image_view facet_image_get_layer(const facet_image *image, uint32_t layer)
                               .height = image->film.height,
                               .channel_count = l->channel_count,
                               .pixels = l->pixels,
-                              .row_stride_bytes = (size_t)image->film.width * l->channel_count * sizeof(float)};
+                              .row_stride_bytes =
+                                  (size_t)image->film.width * l->channel_count * sizeof(float)};
 }
 
 void facet_image_destroy(facet_image *image)
@@ -41,8 +42,9 @@ typedef struct format_name {
 } format_name;
 
 static const format_name format_names[] = {
-    {"png", FACET_FORMAT_PNG}, {"jpg", FACET_FORMAT_JPEG}, {"jpeg", FACET_FORMAT_JPEG}, {"webp", FACET_FORMAT_WEBP},
-    {"exr", FACET_FORMAT_EXR}, {"hdr", FACET_FORMAT_HDR},  {"pfm", FACET_FORMAT_PFM},
+    {"png", FACET_FORMAT_PNG},   {"jpg", FACET_FORMAT_JPEG}, {"jpeg", FACET_FORMAT_JPEG},
+    {"webp", FACET_FORMAT_WEBP}, {"exr", FACET_FORMAT_EXR},  {"hdr", FACET_FORMAT_HDR},
+    {"pfm", FACET_FORMAT_PFM},
 };
 
 static facet_file_format format_from_name(const char *path)
@@ -70,8 +72,8 @@ static image_codec codec_of(facet_file_format format)
     }
 }
 
-static facet_result encode_exr(const film *f, bool as_half, const image_encode_desc *desc, unsigned char **bytes,
-                               size_t *size, facet_error *error)
+static facet_result encode_exr(const film *f, bool as_half, const image_encode_desc *desc,
+                               unsigned char **bytes, size_t *size, facet_error *error)
 {
     image_layer layers[FILM_MAX_LAYERS];
     for (uint32_t i = 0; i < f->layer_count; i++)
@@ -90,7 +92,8 @@ facet_result facet_image_encode(const facet_image *image, const facet_save_desc 
     *size = 0;
     const film *f = &image->film;
     image_encode_desc encode = {.allocator = desc->allocator,
-                                .thread_count = desc->thread_count ? desc->thread_count : facet_thread_count(),
+                                .thread_count =
+                                    desc->thread_count ? desc->thread_count : facet_thread_count(),
                                 .quality = desc->jpeg_quality,
                                 .compression = desc->png_compression};
     struct image converted = {0};
@@ -108,8 +111,8 @@ facet_result facet_image_encode(const facet_image *image, const facet_save_desc 
     case FACET_FORMAT_WEBP:
     case FACET_FORMAT_JPEG:
         result = film_to_display_image(f, desc->format == FACET_FORMAT_PNG16 ? IMAGE_U16 : IMAGE_U8,
-                                       desc->format != FACET_FORMAT_JPEG, &encode.allocator, encode.thread_count,
-                                       &converted, error);
+                                       desc->format != FACET_FORMAT_JPEG, &encode.allocator,
+                                       encode.thread_count, &converted, error);
         break;
     default:
         return fail(error, FACET_ERROR_ARGUMENT, "image: a file format must be named to encode it in memory");
@@ -132,10 +135,11 @@ facet_result facet_image_save(const facet_image *image, const char *path, const 
     if (resolved.format == FACET_FORMAT_FROM_NAME)
         resolved.format = format_from_name(path);
     if (resolved.format == FACET_FORMAT_FROM_NAME)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: the name does not end in a picture format that facet writes: .png, .jpg, .webp, .exr, .hdr, "
-                    ".pfm",
-                    path);
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "%s: the name does not end in a picture format that facet writes: .png, .jpg, .webp, .exr, .hdr, "
+            ".pfm",
+            path);
     unsigned char *bytes;
     size_t size;
     facet_result result = facet_image_encode(image, &resolved, &bytes, &size, error);

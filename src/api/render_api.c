@@ -32,14 +32,15 @@ static facet_result resolve(const facet_scene *scene, const facet_render_desc *d
         out->height = 768;
     }
     if (!out->width || !out->height || out->width > MAX_IMAGE_SIZE || out->height > MAX_IMAGE_SIZE)
-        return fail(error, FACET_ERROR_ARGUMENT, "picture: %u x %u pixels; each side must be 1 to %d", out->width,
-                    out->height, MAX_IMAGE_SIZE);
+        return fail(error, FACET_ERROR_ARGUMENT, "picture: %u x %u pixels; each side must be 1 to %d",
+                    out->width, out->height, MAX_IMAGE_SIZE);
     const uint32_t *crop = out->crop;
     if (crop[0] || crop[1] || crop[2] || crop[3]) {
         if (!crop[2] || !crop[3] || crop[0] >= out->width || crop[1] >= out->height ||
             crop[2] > out->width - crop[0] || crop[3] > out->height - crop[1])
-            return fail(error, FACET_ERROR_ARGUMENT, "crop: %u,%u,%u,%u is not inside the picture of %u x %u pixels",
-                        crop[0], crop[1], crop[2], crop[3], out->width, out->height);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "crop: %u,%u,%u,%u is not inside the picture of %u x %u pixels", crop[0], crop[1],
+                        crop[2], crop[3], out->width, out->height);
     } else {
         out->crop[2] = out->width;
         out->crop[3] = out->height;
@@ -47,8 +48,10 @@ static facet_result resolve(const facet_scene *scene, const facet_render_desc *d
     if (!out->samples)
         out->samples = samples_of(out->quality);
     if (out->samples > MAX_SAMPLES)
-        return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %d", out->samples, MAX_SAMPLES);
-    if (!isfinite(out->exposure_ev) || !isfinite(out->environment_ev) || !isfinite(out->environment_rotation_rad))
+        return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %d", out->samples,
+                    MAX_SAMPLES);
+    if (!isfinite(out->exposure_ev) || !isfinite(out->environment_ev) ||
+        !isfinite(out->environment_rotation_rad))
         return fail(error, FACET_ERROR_ARGUMENT, "exposure, light: a value is not a finite number");
     if (!out->thread_count)
         out->thread_count = facet_thread_count();
@@ -78,7 +81,8 @@ facet_result facet_render(const facet_scene *scene, const facet_render_desc *des
     facet_image *made = mem_zalloc(&resolved.allocator, 1, sizeof *made);
     if (!made)
         return fail_memory(error, "image", sizeof *made);
-    result = film_create(&resolved.allocator, resolved.crop[2], resolved.crop[3], resolved.aovs, &made->film, error);
+    result = film_create(&resolved.allocator, resolved.crop[2], resolved.crop[3], resolved.aovs, &made->film,
+                         error);
     if (result == FACET_OK)
         result = preview_render(scene, &resolved, &made->film, &made->stats, error);
     if (result != FACET_OK) {

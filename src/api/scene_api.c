@@ -8,14 +8,15 @@
 
 static const facet_scene_desc default_desc = {0};
 
-facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
+facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
+                              facet_error *error)
 {
     *scene = NULL;
     return gltf_load(path, desc ? desc : &default_desc, scene, error);
 }
 
-facet_result facet_scene_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
-                                     facet_scene **scene, facet_error *error)
+facet_result facet_scene_load_memory(const void *bytes, size_t size, const char *name,
+                                     const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
 {
     *scene = NULL;
     return gltf_load_memory(bytes, size, name ? name : "(memory)", desc ? desc : &default_desc, scene, error);
@@ -57,7 +58,8 @@ void facet_text_destroy(char *description)
 
 /* Finds name among count names that name_at() gives; else reads it as a number. what is "scene", "camera". */
 static facet_result find(const facet_scene *scene, const char *what, const char *name, uint32_t count,
-                         const char *(*name_at)(const facet_scene *, uint32_t), uint32_t *index, facet_error *error)
+                         const char *(*name_at)(const facet_scene *, uint32_t), uint32_t *index,
+                         facet_error *error)
 {
     for (uint32_t i = 0; i < count; i++)
         if (strcmp(name_at(scene, i), name) == 0) {
@@ -71,15 +73,15 @@ static facet_result find(const facet_scene *scene, const char *what, const char 
         return FACET_OK;
     }
     if (count == 0)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\": the file has none", scene->source, what,
-                    name);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\": the file has none",
+                    scene->source, what, name);
     text names = {0};
     for (uint32_t i = 0; i < count && i < 12; i++)
         text_addf(&names, "%s%u \"%s\"", i ? ", " : "", i, name_at(scene, i));
     if (count > 12)
         text_add(&names, ", ...");
-    facet_result result = fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\"; there are %s", scene->source,
-                               what, name, names.data ? names.data : "others");
+    facet_result result = fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\"; there are %s",
+                               scene->source, what, name, names.data ? names.data : "others");
     text_destroy(&names);
     return result;
 }
@@ -94,17 +96,20 @@ static const char *camera_name(const facet_scene *scene, uint32_t index)
     return scene->cameras[index].name;
 }
 
-facet_result facet_scene_find_scene(const facet_scene *scene, const char *name, uint32_t *index, facet_error *error)
+facet_result facet_scene_find_scene(const facet_scene *scene, const char *name, uint32_t *index,
+                                    facet_error *error)
 {
     return find(scene, "scene", name, scene->scene_count, scene_name, index, error);
 }
 
-facet_result facet_scene_find_camera(const facet_scene *scene, const char *name, uint32_t *index, facet_error *error)
+facet_result facet_scene_find_camera(const facet_scene *scene, const char *name, uint32_t *index,
+                                     facet_error *error)
 {
     return find(scene, "camera", name, scene->camera_count, camera_name, index, error);
 }
 
-bool facet_scene_get_bounds(const facet_scene *scene, uint32_t scene_index, float minimum[3], float maximum[3])
+bool facet_scene_get_bounds(const facet_scene *scene, uint32_t scene_index, float minimum[3],
+                            float maximum[3])
 {
     scene_pose pose;
     bool has_bounds = false;
