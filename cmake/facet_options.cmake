@@ -37,19 +37,37 @@ function(facet_module name)
     endforeach()
 endfunction()
 
-# facet_test(NAME SOURCES a_test.c LINK facet_x): a cmocka program that ctest runs. It finds shared test data
-# through the environment variable FACET_TEST_DATA and skips (exit code 77) where it needs it and has none.
+set(FACET_TEST_PREFIX "" CACHE STRING "Stands before the names of tests: several builds in one ctest")
+set(FACET_TEST_LABEL "" CACHE STRING "Declare only the tests with this label; empty: all")
+
+# facet_add_test(NAME [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test. It finds shared test data through
+# the environment variable FACET_TEST_DATA and skips (exit code 77) where it needs it and has none.
+function(facet_add_test name)
+    cmake_parse_arguments(T "" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
+    if(FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS)
+        return()
+    endif()
+    if(NOT T_TIMEOUT)
+        set(T_TIMEOUT 300)
+    endif()
+    add_test(NAME ${FACET_TEST_PREFIX}${name} COMMAND ${T_COMMAND} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
+        ENVIRONMENT "FACET_TEST_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
+    if(T_LABELS)
+        set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES LABELS "${T_LABELS}")
+    endif()
+endfunction()
+
+# facet_test(NAME SOURCES a_test.c LINK facet_x [LABELS threads] [TIMEOUT s]): a cmocka program as a test.
 function(facet_test name)
     if(NOT BUILD_TESTING)
         return()
     endif()
-    cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
-    if(NOT T_TIMEOUT)
-        set(T_TIMEOUT 300)
+    cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+    if(FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS)
+        return()
     endif()
     add_executable(${name}_test ${T_SOURCES})
     target_link_libraries(${name}_test PRIVATE ${T_LINK} PkgConfig::CMOCKA m facet_flags)
-    add_test(NAME ${name} COMMAND ${name}_test WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
-        ENVIRONMENT "FACET_TEST_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
+    facet_add_test(${name} COMMAND ${name}_test TIMEOUT ${T_TIMEOUT} LABELS ${T_LABELS})
 endfunction()

@@ -1,0 +1,37 @@
+#!/bin/sh
+# package.sh BUILD - installs BUILD into a prefix and uses it as somebody else would: through CMake, through
+# pkg-config with the shared library, and through pkg-config with the static one.
+set -eu
+build=$1
+sources=$(cd "$(dirname -- "$0")" && pwd)
+prefix=$(mktemp -d)
+trap 'rm -rf "$prefix"' EXIT
+cmake --install "$build" --prefix "$prefix/usr" >/dev/null
+for file in bin/facet include/facet/facet.h share/man/man1/facet.1 share/man/man1/facet-render.1 \
+    share/bash-completion/completions/facet share/zsh/site-functions/_facet \
+    share/fish/vendor_completions.d/facet.fish include/facet/shade/brdf.h; do
+    [ -e "$prefix/usr/$file" ] || { echo "not installed: $file"; exit 1; }
+done
+pc=$(dirname "$(find "$prefix/usr" -name facet.pc)")
+lib=$(dirname "$pc")
+export PKG_CONFIG_PATH="$pc"
+if grep -rl "$PWD/src\|$build" "$pc" "$lib/cmake" >"$prefix/leaks" 2>/dev/null; then
+    echo "a path of the build machine stands in: $(cat "$prefix/leaks")"
+    exit 1
+fi
+
+cd "$prefix"
+cc -std=c11 "$sources/consumer.c" $(pkg-config --cflags --libs facet) -o shared
+LD_LIBRARY_PATH=$lib ./shared shared.png
+cc -std=c11 "$sources/consumer.c" $(pkg-config --cflags --static facet) "$lib/libfacet.a" \
+    $(pkg-config --libs --static facet | sed 's/-lfacet//') -o static
+./static static.png
+cmake -S "$sources" -B cmake -DCMAKE_PREFIX_PATH="$prefix/usr" >/dev/null
+cmake --build cmake >/dev/null
+LD_LIBRARY_PATH=$lib cmake/consumer cmake.png
+cmp shared.png static.png && cmp shared.png cmake.png
+LD_LIBRARY_PATH=$lib usr/bin/facet version
+# The sources of the shared text stand alone as well.
+printf '#include <facet/shade/shade.h>\nint main(void) { return D_GGX(1.0f, 1.0f) > 0.0f ? 0 : 1; }\n' >shade.c
+cc -std=c11 -I"$prefix/usr/include/facet" -I"$prefix/usr/include" shade.c -lm -o shade && ./shade
+echo "package: shared, static and CMake consumers draw the same picture"

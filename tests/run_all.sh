@@ -1,0 +1,37 @@
+#!/bin/sh
+# run_all.sh - builds facet in four ways and runs every test in one ctest, whose summary comes last:
+#     gcc     optimised, gcc, warnings are errors: all tests
+#     clang   optimised, clang, warnings are errors: all tests
+#     asan    clang with address and undefined behaviour sanitizers, and the fuzz targets: all tests
+#     tsan    clang with the thread sanitizer: the tests labelled threads
+# Arguments go to ctest, for example: ./run test -R brdf
+set -eu
+here=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
+build=$here/build/test
+mkdir -p "$build"
+jobs=$(nproc)
+
+# configure NAME CMAKE_OPTIONS...
+configure() {
+    name=$1
+    shift
+    cmake -S "$here" -B "$build/$name" -G Ninja -DFACET_WERROR=ON -DFACET_TEST_PREFIX="$name." "$@" \
+        >"$build/$name.log" 2>&1 && cmake --build "$build/$name" -j "$jobs" >>"$build/$name.log" 2>&1 || {
+        tail -n 60 "$build/$name.log"
+        echo "build $name failed"
+        exit 1
+    }
+    echo "built $name"
+}
+
+configure gcc -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
+configure clang -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Release
+configure asan -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=RelWithDebInfo -DFACET_SANITIZE=address,undefined \
+    -DFACET_FUZZ=ON -DFACET_BENCH=OFF
+configure tsan -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=RelWithDebInfo -DFACET_SANITIZE=thread \
+    -DFACET_BENCH=OFF -DFACET_TEST_LABEL=threads
+
+# One ctest over all builds: one summary.
+printf 'subdirs("gcc" "clang" "asan" "tsan")\n' >"$build/CTestTestfile.cmake"
+cd "$build"
+exec ctest -j "$jobs" --output-on-failure "$@"
