@@ -202,18 +202,28 @@ void facet_budget_destroy(facet_budget *budget)
     free(budget);
 }
 
-static void *budget_allocate(void *user, size_t size)
+/* False: size more would be over the limit. */
+static bool budget_take(facet_budget *budget, uint64_t size)
 {
-    facet_budget *budget = user;
     uint64_t used = atomic_fetch_add(&budget->used, size) + size;
-    void *memory = budget->limit && used > budget->limit ? NULL : malloc(size);
-    if (!memory) {
+    if (budget->limit && used > budget->limit) {
         atomic_fetch_sub(&budget->used, size);
-        return NULL;
+        return false;
     }
     uint64_t peak = atomic_load(&budget->peak);
     while (used > peak && !atomic_compare_exchange_weak(&budget->peak, &peak, used))
         ;
+    return true;
+}
+
+static void *budget_allocate(void *user, size_t size)
+{
+    facet_budget *budget = user;
+    if (!budget_take(budget, size))
+        return NULL;
+    void *memory = malloc(size);
+    if (!memory)
+        atomic_fetch_sub(&budget->used, size);
     return memory;
 }
 
@@ -222,6 +232,17 @@ static void budget_release(void *user, void *memory, size_t size)
     facet_budget *budget = user;
     free(memory);
     atomic_fetch_sub(&budget->used, size);
+}
+
+bool mem_account(const facet_allocator *allocator, ptrdiff_t bytes)
+{
+    if (!allocator || allocator->allocate != budget_allocate)
+        return true;
+    facet_budget *budget = allocator->user;
+    if (bytes > 0)
+        return budget_take(budget, (uint64_t)bytes);
+    atomic_fetch_sub(&budget->used, (uint64_t)-bytes);
+    return true;
 }
 
 facet_allocator facet_budget_allocator(facet_budget *budget)

@@ -14,6 +14,9 @@ void *mem_zalloc(const facet_allocator *allocator, size_t count, size_t size);
 void *mem_resize(void *block, size_t count, size_t size);
 void mem_free(void *block);         /* NULL is allowed */
 size_t mem_size(const void *block); /* bytes that were asked for */
+/* Counts bytes that another library took by itself (negative: gave back) against the limit of allocator, where
+ * allocator is that of a facet_budget. False: over the limit; they are not counted then. */
+bool mem_account(const facet_allocator *allocator, ptrdiff_t bytes);
 
 /* Grows the array *items (NULL at first; item_size bytes each, *capacity of them) to hold at least count. */
 bool mem_reserve(const facet_allocator *allocator, void **items, size_t *capacity, size_t count,

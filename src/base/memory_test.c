@@ -55,6 +55,22 @@ static void a_budget_is_kept(void **state)
     facet_budget_destroy(budget);
 }
 
+static void what_libraries_take_counts_against_a_budget(void **state)
+{
+    (void)state;
+    facet_budget *budget;
+    assert_int_equal(facet_budget_create(1000, &budget, NULL), FACET_OK);
+    facet_allocator allocator = facet_budget_allocator(budget);
+    assert_true(mem_account(&allocator, 900));
+    assert_false(mem_account(&allocator, 101));
+    assert_int_equal(facet_budget_used_bytes(budget), 900);
+    assert_true(mem_account(&allocator, -900));
+    assert_int_equal(facet_budget_used_bytes(budget), 0);
+    assert_int_equal(facet_budget_peak_bytes(budget), 900);
+    facet_budget_destroy(budget);
+    assert_true(mem_account(NULL, 1 << 30)); /* nobody counts */
+}
+
 static void arena_blocks_do_not_overlap(void **state)
 {
     (void)state;
@@ -101,6 +117,7 @@ int main(void)
         cmocka_unit_test(blocks_are_aligned_and_keep_their_size),
         cmocka_unit_test(sizes_that_overflow_are_refused),
         cmocka_unit_test(a_budget_is_kept),
+        cmocka_unit_test(what_libraries_take_counts_against_a_budget),
         cmocka_unit_test(arena_blocks_do_not_overlap),
         cmocka_unit_test(reserve_grows_and_keeps),
     };
