@@ -1,0 +1,184 @@
+/* ibl.h - image based light. What reads a texture is passed in and out as values: the *_sample functions say
+ * where to look and with what weight; a loop over them with a texture is the integral.
+ *
+ *   reference    specular_ibl_sample()   Monte Carlo over the BRDF itself, "SpecularIBL" of Karis 2013
+ *   prefilter    prefilter_sample()      one radiance per direction and roughness, "PrefilterEnvMap"
+ *   split sum    dfg_sample()            the BRDF's own integral (A, B), "IntegrateBRDF"
+ *   use          approximate_specular_ibl(), multiscatter_ibl(), surface_ibl() */
+#ifndef SHADE_IBL_H
+#define SHADE_IBL_H
+
+/* ---- the reference: sample i of n of the specular integral ---- */
+
+STRUCT(SpecularSample)
+{
+    vec3 L;      /* unit, where to read the environment */
+    vec3 weight; /* f N.L / pdf; 0 below the horizon */
+    float pdf;   /* of L, per sr */
+};
+
+/* H in the frame of N with density D N.H, and L = reflect(-V, H) of density D N.H / (4 V.H); then
+ *   f N.L / pdf = 4 F V_Smith N.L V.H / N.H = F G2 V.H / (N.H N.V).
+ * The mean over i of weight times radiance(L) is the reflected radiance. Karis 2013, "SpecularIBL", with
+ * height-correlated Smith. */
+FN SpecularSample specular_ibl_sample(uint i, uint n, vec3 F0, vec3 F90, float perceptual_roughness, vec3 N,
+                                      vec3 V)
+{
+    float alpha = max(alpha_from_roughness(perceptual_roughness), ALPHA_MIRROR);
+    vec3 H_local = sample_D_GGX(hammersley(i, n), alpha);
+    vec3 H = mul(basis_from_normal(N), H_local);
+    float NdotH = H_local[2];
+    float VdotH = clamp(dot(V, H), 0.0f, 1.0f);
+    SpecularSample r;
+    r.L = reflect(-V, H);
+    float NdotL = clamp(dot(N, r.L), 0.0f, 1.0f);
+    float NdotV = clamp(dot(N, V), NDOTV_MIN, 1.0f);
+    float Vis = sel(NdotL > 0.0f, V_SmithGGX(NdotL, NdotV, alpha), 0.0f);
+    r.weight = F_Schlick(F0, F90, VdotH) * (4.0f * Vis * NdotL * VdotH / max(NdotH, 1e-6f));
+    r.pdf = pdf_D_GGX(NdotH, alpha) / max(4.0f * VdotH, 1e-6f);
+    return r;
+}
+
+/* ---- prefiltered radiance ---- */
+
+STRUCT(PrefilterSample)
+{
+    vec3 L;       /* unit, where to read the environment */
+    float weight; /* N.L; 0 below the horizon, then not to be read */
+    float pdf;    /* of L, per sr */
+};
+
+/* Sample i of n for the lobe around R, with N = V = R: the lobe of a surface seen head on. Prefiltered radiance is
+ * the sum of weight times radiance(L, prefilter_lod()) over the sum of weight. alpha 0 is a copy: every sample is
+ * R. Karis 2013, "PrefilterEnvMap". */
+FN PrefilterSample prefilter_sample(uint i, uint n, float alpha, vec3 R)
+{
+    float a = max(alpha, ALPHA_MIRROR);
+    vec3 H = sample_D_GGX(hammersley(i, n), a);
+    float NdotL = 2.0f * H[2] * H[2] - 1.0f; /* L = reflect(-z, H) */
+    PrefilterSample r;
+    r.L = mul(basis_from_normal(R), vec3(2.0f * H[2] * H[0], 2.0f * H[2] * H[1], NdotL));
+    r.weight = max(NdotL, 0.0f);
+    r.pdf = 0.25f * D_GGX(H[2], a); /* D N.H / (4 V.H) with V.H = N.H */
+    return r;
+}
+
+/* Mip at which a sample of density pdf, one of n, covers a texel: 1/2 log2(omega_s / omega_p) + 1, at least 0.
+ * omega_s = 1 / (n pdf); texel_solid_angle = omega_p, 4 pi / (6 size^2) for a cube. The 1 overlaps the footprints.
+ * Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"; GPU Gems 3, chapter 20. */
+FN float prefilter_lod(float pdf, uint n, float texel_solid_angle)
+{
+    float sample_solid_angle = 1.0f / max(float(n) * pdf, 1e-20f);
+    return max(0.5f * log2(sample_solid_angle / texel_solid_angle) + 1.0f, 0.0f);
+}
+
+/* ---- the split sum ---- */
+
+/* Sample i of n of (A, B) with int f N.L dL = F0 A + F90 B: A carries 1 - (1 - V.H)^5, B carries (1 - V.H)^5, both
+ * times 4 Vis N.L V.H / N.H. N = z, V in the plane y = 0. NdotV in [0, 1]. k < 0: height-correlated Smith; else
+ * Schlick-GGX with that k. Karis 2013, "IntegrateBRDF". */
+FN vec2 dfg_sample_k(uint i, uint n, float perceptual_roughness, float NdotV, float k)
+{
+    float alpha = max(alpha_from_roughness(perceptual_roughness), ALPHA_MIRROR);
+    float mu = max(NdotV, NDOTV_MIN);
+    vec3 V = vec3(sqrt(max(1.0f - mu * mu, 0.0f)), 0.0f, mu);
+    vec3 H = sample_D_GGX(hammersley(i, n), alpha);
+    float VdotH = clamp(dot(V, H), 0.0f, 1.0f);
+    float NdotL = clamp(2.0f * VdotH * H[2] - mu, 0.0f, 1.0f);
+    float Vis = sel(k < 0.0f, V_SmithGGX(NdotL, mu, alpha), V_SchlickGGX(NdotL, mu, max(k, 0.0f)));
+    float w = 4.0f * Vis * NdotL * VdotH / max(H[2], 1e-6f);
+    float Fc = schlick_weight(VdotH);
+    return vec2((1.0f - Fc) * w, Fc * w);
+}
+
+/* With height-correlated Smith, facet's default. */
+FN vec2 dfg_sample(uint i, uint n, float perceptual_roughness, float NdotV)
+{
+    return dfg_sample_k(i, n, perceptual_roughness, NdotV, -1.0f);
+}
+
+/* With Karis' Schlick-GGX, k = alpha / 2. */
+FN vec2 dfg_sample_karis(uint i, uint n, float perceptual_roughness, float NdotV)
+{
+    return dfg_sample_k(i, n, perceptual_roughness, NdotV, k_ibl(alpha_from_roughness(perceptual_roughness)));
+}
+
+/* The mean of n samples: (A, B), each in [0, 1]. */
+FN vec2 integrate_dfg(float perceptual_roughness, float NdotV, uint n)
+{
+    vec2 sum = vec2(0.0f);
+    for (uint i = 0u; i < n; ++i)
+        sum += dfg_sample(i, n, perceptual_roughness, NdotV);
+    return sum * (1.0f / float(n));
+}
+FN vec2 integrate_dfg_karis(float perceptual_roughness, float NdotV, uint n)
+{
+    vec2 sum = vec2(0.0f);
+    for (uint i = 0u; i < n; ++i)
+        sum += dfg_sample_karis(i, n, perceptual_roughness, NdotV);
+    return sum * (1.0f / float(n));
+}
+
+/* ---- lighting ---- */
+
+/* Reflected radiance by the split sum: prefiltered (F0 A + F90 B); prefiltered in the direction reflect(-V, N).
+ * Karis 2013, "ApproximateSpecularIBL". */
+FN vec3 approximate_specular_ibl(vec3 F0, vec3 F90, vec3 prefiltered, vec2 dfg)
+{
+    return prefiltered * (F0 * dfg[0] + F90 * dfg[1]);
+}
+
+/* Reflectance of the specular layer: what leaves after one bounce, and after more. */
+STRUCT(MultiScatter)
+{
+    vec3 single;   /* FssEss, to be multiplied with prefiltered radiance */
+    vec3 multiple; /* FmsEms, to be multiplied with irradiance / pi */
+};
+
+/* Single and multiple scattering from the split sum:
+ *   FssEss = k_S A + F90 B,  Ems = 1 - A - B,  FmsEms = Ems FssEss Favg / (1 - Favg Ems)
+ * k_S is F0, or F_Schlick_roughness(). With k_S = F0 = F90 = 1 the two add up to 1; with k_S = F0 to
+ * specular_albedo(). Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting".
+ */
+FN MultiScatter multiscatter_ibl(vec3 k_S, vec3 F0, vec3 F90, vec2 dfg)
+{
+    MultiScatter r;
+    float Ems = 1.0f - dfg[0] - dfg[1];
+    vec3 F_mean = F_avg(F0, F90);
+    r.single = k_S * dfg[0] + F90 * dfg[1];
+    r.multiple = r.single * F_mean * Ems / (1.0f - F_mean * Ems);
+    return r;
+}
+
+/* Radiance (cd/m^2) that a surface reflects of its surroundings, occlusion included, emission not.
+ * specular_radiance is prefiltered for the surface's roughness along reflect(-V, N); dfg is (A, B) at NdotV.
+ *
+ * ENERGY_GLTF is Khronos' renderer: k_S by F_Schlick_roughness, the sum of single and multiple scattering times
+ * the specular radiance, the base under a dielectric weighted with one minus that sum (its largest channel, as
+ * KHR_materials_specular asks; Khronos' renderer takes each channel, which differs for a colored F0 only), and the
+ * whole sum times occlusion. ENERGY_CONSERVING: k_S = F0, and multiple scattering takes the irradiance, as
+ * Fdez-Aguera has it. Either way a white surface in a uniform light returns that light. */
+FN vec3 surface_ibl(Surface s, float NdotV, vec2 dfg, vec3 specular_radiance, vec3 irradiance_over_pi,
+                    int energy)
+{
+    vec3 F90 = vec3(s.F90);
+    vec3 one = vec3(1.0f);
+    vec3 k_base = s.F0;
+    vec3 k_metal = s.base_color;
+    vec3 multiple_radiance = irradiance_over_pi;
+    if (energy == ENERGY_GLTF) {
+        k_base = F_Schlick_roughness(s.F0, F90, s.perceptual_roughness, NdotV);
+        k_metal = F_Schlick_roughness(s.base_color, one, s.perceptual_roughness, NdotV);
+        multiple_radiance = specular_radiance;
+    }
+    MultiScatter base = multiscatter_ibl(k_base, s.F0, F90, dfg);
+    MultiScatter metal = multiscatter_ibl(k_metal, s.base_color, one, dfg);
+
+    float base_weight = 1.0f - max3(base.single + base.multiple);
+    vec3 dielectric_radiance = base.single * specular_radiance + base.multiple * multiple_radiance +
+                               s.base_color * irradiance_over_pi * base_weight;
+    vec3 metal_radiance = metal.single * specular_radiance + metal.multiple * multiple_radiance;
+    return mix(dielectric_radiance, metal_radiance, s.metallic) * s.occlusion;
+}
+
+#endif
