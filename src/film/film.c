@@ -1,0 +1,168 @@
+/* film.c - layers of a film, and its development: from light to what a display shows. See film.h. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "film/film.h"
+
+#include "shade/shade.h"
+
+/* ---- layers ---- */
+
+/* What a film can hold beside the picture. */
+typedef struct layer_kind {
+    uint32_t aov; /* 0: always there */
+    const char *name;
+    uint32_t channel_count;
+    const char *channel_names[4];
+    float background;
+} layer_kind;
+
+static const layer_kind layer_kinds[] = {
+    {0, "", 4, {"R", "G", "B", "A"}, 0.0f},
+    {FACET_AOV_DEPTH, "depth", 1, {"Z"}, INFINITY},
+    {FACET_AOV_NORMAL, "normal", 3, {"normal.X", "normal.Y", "normal.Z"}, 0.0f},
+    {FACET_AOV_ALBEDO, "albedo", 3, {"albedo.R", "albedo.G", "albedo.B"}, 0.0f},
+    {FACET_AOV_MATERIAL_ID, "material", 1, {"material.id"}, 0.0f},
+    {FACET_AOV_UV, "uv", 2, {"uv.U", "uv.V"}, 0.0f},
+    {FACET_AOV_OCCLUSION, "occlusion", 1, {"occlusion.A"}, 0.0f},
+};
+enum { LAYER_KIND_COUNT = sizeof layer_kinds / sizeof *layer_kinds };
+_Static_assert((int)LAYER_KIND_COUNT <= (int)FILM_MAX_LAYERS, "a film has room for every layer");
+
+facet_result film_create(const facet_allocator *allocator, uint32_t width, uint32_t height, uint32_t aovs,
+                         film *out, facet_error *error)
+{
+    *out = (film){0};
+    if (width == 0 || height == 0)
+        return fail(error, FACET_ERROR_ARGUMENT, "film: %u x %u pixels are none", width, height);
+    film f = {.width = width, .height = height};
+    size_t pixel_count = (size_t)width * height;
+    for (size_t k = 0; k < LAYER_KIND_COUNT; k++) {
+        const layer_kind *kind = &layer_kinds[k];
+        if (kind->aov && !(aovs & kind->aov))
+            continue;
+        size_t pixel_size = kind->channel_count * sizeof(float);
+        bool is_zero = kind->background == 0.0f;
+        float *pixels = is_zero ? mem_zalloc(allocator, pixel_count, pixel_size)
+                                : mem_alloc(allocator, pixel_count, pixel_size);
+        if (!pixels) {
+            film_destroy(&f);
+            return fail(error, FACET_ERROR_MEMORY, "out of memory: film of %u x %u pixels", width, height);
+        }
+        if (!is_zero)
+            for (size_t i = 0; i < pixel_count * kind->channel_count; i++)
+                pixels[i] = kind->background;
+        f.layers[f.layer_count++] = (film_layer){.name = kind->name,
+                                                 .channel_names = kind->channel_names,
+                                                 .channel_count = kind->channel_count,
+                                                 .pixels = pixels};
+    }
+    *out = f;
+    return FACET_OK;
+}
+
+void film_destroy(film *f)
+{
+    for (uint32_t i = 0; i < f->layer_count; i++)
+        mem_free(f->layers[i].pixels);
+    *f = (film){0};
+}
+
+film_layer *film_find(film *f, const char *name)
+{
+    for (uint32_t i = 0; i < f->layer_count; i++)
+        if (strcmp(f->layers[i].name, name) == 0)
+            return &f->layers[i];
+    return NULL;
+}
+
+/* ---- development ---- */
+
+_Static_assert(TONEMAP_NEUTRAL == (int)FACET_TONEMAP_NEUTRAL && TONEMAP_ACES == (int)FACET_TONEMAP_ACES &&
+                   TONEMAP_ACES_NARKOWICZ == (int)FACET_TONEMAP_ACES_NARKOWICZ &&
+                   TONEMAP_AGX == (int)FACET_TONEMAP_AGX && TONEMAP_REINHARD == (int)FACET_TONEMAP_REINHARD &&
+                   TONEMAP_REINHARD_EXTENDED == (int)FACET_TONEMAP_REINHARD_EXTENDED &&
+                   TONEMAP_HABLE == (int)FACET_TONEMAP_HABLE,
+               "the shared text numbers operators as the interface does");
+
+typedef struct development {
+    film *film;
+    vec3 behind; /* display-linear */
+    bool has_behind;
+    facet_tonemap operator_;
+} development;
+
+/* Develops pixels begin to end - 1. Not a number is black; what lies outside of a pixel's coverage does not
+ * count. operator_ is a constant at each call, which leaves one operator's text in each loop. */
+static inline __attribute__((always_inline)) void develop_pixels(const development *d, size_t begin,
+                                                                 size_t end, facet_tonemap operator_)
+{
+    float *pixel = d->film->layers[0].pixels + 4 * begin;
+    for (size_t i = begin; i < end; i++, pixel += 4) {
+        float opacity = clamp(pixel[3], 0.0f, 1.0f);
+        vec3 color = vec3(0.0f);
+        if (opacity > 0.0f) {
+            color = vec3(pixel[0], pixel[1], pixel[2]);
+            if (opacity < 1.0f)
+                color = color / opacity;
+            color = operator_ == FACET_TONEMAP_NONE ? clamp(color, 0.0f, FLT_MAX)
+                                                    : tonemap((int)operator_, color);
+            color = color * opacity;
+        }
+        if (d->has_behind) {
+            color = color + d->behind * (1.0f - opacity);
+            opacity = 1.0f;
+        }
+        pixel[0] = color[0];
+        pixel[1] = color[1];
+        pixel[2] = color[2];
+        pixel[3] = opacity;
+    }
+}
+
+static void develop_range(void *context, size_t begin, size_t end)
+{
+    const development *d = context;
+    switch (d->operator_) {
+    case FACET_TONEMAP_NEUTRAL:
+        develop_pixels(d, begin, end, FACET_TONEMAP_NEUTRAL);
+        break;
+    case FACET_TONEMAP_ACES:
+        develop_pixels(d, begin, end, FACET_TONEMAP_ACES);
+        break;
+    case FACET_TONEMAP_ACES_NARKOWICZ:
+        develop_pixels(d, begin, end, FACET_TONEMAP_ACES_NARKOWICZ);
+        break;
+    case FACET_TONEMAP_AGX:
+        develop_pixels(d, begin, end, FACET_TONEMAP_AGX);
+        break;
+    case FACET_TONEMAP_REINHARD:
+        develop_pixels(d, begin, end, FACET_TONEMAP_REINHARD);
+        break;
+    case FACET_TONEMAP_REINHARD_EXTENDED:
+        develop_pixels(d, begin, end, FACET_TONEMAP_REINHARD_EXTENDED);
+        break;
+    case FACET_TONEMAP_HABLE:
+        develop_pixels(d, begin, end, FACET_TONEMAP_HABLE);
+        break;
+    case FACET_TONEMAP_NONE:
+        develop_pixels(d, begin, end, FACET_TONEMAP_NONE);
+        break;
+    }
+}
+
+enum {
+    GRAIN = 16384
+}; /* pixels; about 0.1 ms of the quickest operator, to be worth a thread's start of 20 us */
+
+void film_develop(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count)
+{
+    development d = {.film = f, .operator_ = operator_, .has_behind = color != NULL};
+    if (color)
+        d.behind = vec3(color[0], color[1], color[2]);
+    parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, develop_range, &d);
+}
