@@ -1,0 +1,4 @@
+# Textures need no ray tracer: a library of their own, which tests and benchmarks link alone.
+facet_module(texture
+    SOURCES texture_pyramid.c texture_set.c texture_sample.c
+    LINK facet_scene facet_image facet_base m)

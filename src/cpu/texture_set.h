@@ -1,0 +1,24 @@
+/* texture_set.h - what texture_set.c builds and texture_sample.c reads. */
+#ifndef CPU_TEXTURE_SET_H
+#define CPU_TEXTURE_SET_H
+
+#include "cpu/texture.h"
+#include "cpu/texture_pyramid.h"
+
+/* A texture of the scene: its sampler, and its image in the ways in which it is read (NULL: white). */
+typedef struct texture_binding {
+    const texture_pyramid *color, *data;
+    scene_wrap wrap_u, wrap_v;
+    scene_filter mag_filter, min_filter;
+    scene_mip_filter mip_filter;
+} texture_binding;
+
+struct texture_set {
+    uint32_t binding_count, image_count;
+    texture_binding *bindings; /* one per scene texture */
+    texture_pyramid *pyramids; /* two per scene image: color, data; level_count 0: not there */
+    texture_tables *tables;
+    uint64_t decoded_texels;
+};
+
+#endif
