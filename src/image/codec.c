@@ -1,0 +1,201 @@
+/* codec.c - which codec a file needs, and the way to it. */
+#include "image/codec.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/result.h"
+
+typedef struct codec {
+    const char *name;
+    codec_probe *probe; /* NULL: this build has none */
+    codec_decode *decode;
+    codec_encode *encode; /* NULL: facet does not write it */
+} codec;
+
+static const codec codecs[] = {
+    [IMAGE_CODEC_UNKNOWN] = {.name = "unknown"},
+    [IMAGE_CODEC_PNG] = {"PNG", png_probe, png_decode, png_encode},
+    [IMAGE_CODEC_JPEG] = {"JPEG", jpeg_probe, jpeg_decode, jpeg_encode},
+#ifdef HAVE_WEBP
+    [IMAGE_CODEC_WEBP] = {"WebP", webp_probe, webp_decode, webp_encode},
+#else
+    [IMAGE_CODEC_WEBP] = {.name = "WebP"},
+#endif
+    [IMAGE_CODEC_HDR] = {"Radiance HDR", hdr_probe, hdr_decode, hdr_encode},
+#ifdef HAVE_OPENEXR
+    [IMAGE_CODEC_EXR] = {"OpenEXR", exr_probe, exr_decode, NULL},
+#else
+    [IMAGE_CODEC_EXR] = {.name = "OpenEXR"},
+#endif
+    [IMAGE_CODEC_PFM] = {"PFM", pfm_probe, pfm_decode, pfm_encode},
+    [IMAGE_CODEC_KTX2] = {.name = "KTX2"},
+};
+
+image_codec image_codec_detect(const void *bytes, size_t size)
+{
+    static const struct magic {
+        image_codec codec;
+        unsigned char offset, size;
+        const char *bytes;
+    } magics[] = {
+        {IMAGE_CODEC_PNG, 0, 8, "\x89PNG\r\n\x1a\n"},
+        {IMAGE_CODEC_JPEG, 0, 3, "\xff\xd8\xff"},
+        {IMAGE_CODEC_WEBP, 8, 4, "WEBP"},
+        {IMAGE_CODEC_HDR, 0, 11, "#?RADIANCE\n"},
+        {IMAGE_CODEC_HDR, 0, 11, "#?RADIANCE\r"},
+        {IMAGE_CODEC_HDR, 0, 7, "#?RGBE\n"},
+        {IMAGE_CODEC_HDR, 0, 7, "#?RGBE\r"},
+        {IMAGE_CODEC_EXR, 0, 4, "\x76\x2f\x31\x01"},
+        {IMAGE_CODEC_PFM, 0, 3, "PF\n"},
+        {IMAGE_CODEC_PFM, 0, 3, "Pf\n"},
+        {IMAGE_CODEC_PFM, 0, 3, "PF "},
+        {IMAGE_CODEC_PFM, 0, 3, "Pf "},
+        {IMAGE_CODEC_PFM, 0, 3, "PF\r"},
+        {IMAGE_CODEC_PFM, 0, 3, "Pf\r"},
+        {IMAGE_CODEC_KTX2, 0, 12, "\xabKTX 20\xbb\r\n\x1a\n"},
+    };
+    const unsigned char *b = bytes;
+    for (size_t i = 0; i < sizeof magics / sizeof *magics; i++) {
+        const struct magic *m = &magics[i];
+        if (size >= (size_t)m->offset + m->size && memcmp(b + m->offset, m->bytes, m->size) == 0 &&
+            (m->codec != IMAGE_CODEC_WEBP || memcmp(b, "RIFF", 4) == 0))
+            return m->codec;
+    }
+    return IMAGE_CODEC_UNKNOWN;
+}
+
+const char *image_codec_name(image_codec codec_id)
+{
+    return codecs[codec_id].name;
+}
+
+facet_result codec_check_size(const char *name, uint64_t width, uint64_t height, uint32_t max_size,
+                              facet_error *error)
+{
+    if (width == 0 || height == 0)
+        return fail(error, FACET_ERROR_INVALID, "%s: the picture has no texels (%llu x %llu)", name,
+                    (unsigned long long)width, (unsigned long long)height);
+    if (width > max_size || height > max_size)
+        return fail(error, FACET_ERROR_LIMIT, "%s: %llu x %llu texels, more than %u along an edge", name,
+                    (unsigned long long)width, (unsigned long long)height, max_size);
+    return FACET_OK;
+}
+
+facet_result codec_check_input(const image *i, const char *codec_name, bool is_type_right, const char *types,
+                               uint32_t channel_counts, facet_error *error)
+{
+    if (!i->pixels || i->width == 0 || i->height == 0)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no image to write", codec_name);
+    if (!is_type_right || !(channel_counts >> i->channel_count & 1u))
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: images of %s channels are written, not %u of type %d",
+                    codec_name, types, i->channel_count, (int)i->type);
+    return FACET_OK;
+}
+
+double codec_parse_number(const char *text, const char *end, const char **after)
+{
+    const char *p = text;
+    double sign = p < end && *p == '-' ? -1.0 : 1.0;
+    if (p < end && (*p == '-' || *p == '+'))
+        p++;
+    double x = 0.0;
+    int digits = 0;
+    int scale = 0; /* power of ten */
+    bool is_fraction = false;
+    for (; p < end && ((*p >= '0' && *p <= '9') || (*p == '.' && !is_fraction)); p++) {
+        if (*p == '.') {
+            is_fraction = true;
+            continue;
+        }
+        x = x * 10.0 + (*p - '0');
+        digits++;
+        scale -= is_fraction;
+    }
+    if (digits > 0 && end - p >= 2 && (*p == 'e' || *p == 'E')) {
+        const char *q = p + 1;
+        int exponent_sign = *q == '-' ? -1 : 1;
+        if (*q == '-' || *q == '+')
+            q++;
+        int exponent = 0;
+        const char *first = q;
+        for (; q < end && *q >= '0' && *q <= '9'; q++)
+            exponent = exponent < 1000 ? exponent * 10 + (*q - '0') : exponent;
+        if (q > first) {
+            scale += exponent_sign * exponent;
+            p = q;
+        }
+    }
+    if (after)
+        *after = p;
+    return digits ? sign * x * pow(10.0, scale) : (double)NAN;
+}
+
+/* The codec of a file, or why there is none. */
+static facet_result find_codec(const void *bytes, size_t size, const char *name, image_codec *id,
+                               facet_error *error)
+{
+    *id = image_codec_detect(bytes, size);
+    if (size == 0)
+        return fail(error, FACET_ERROR_INVALID, "%s: the file is empty", name);
+    if (*id == IMAGE_CODEC_UNKNOWN)
+        return fail(
+            error, FACET_ERROR_INVALID,
+            "%s: first bytes: a PNG, JPEG, WebP, Radiance HDR, OpenEXR, PFM or KTX2 file was expected", name);
+    if (*id == IMAGE_CODEC_KTX2)
+        return fail(error, FACET_ERROR_UNSUPPORTED,
+                    "%s: KTX2 pictures (glTF extension KHR_texture_basisu) are not read", name);
+    if (!codecs[*id].decode)
+        return fail(error, FACET_ERROR_UNSUPPORTED, "%s: this build of facet does not read %s files", name,
+                    codecs[*id].name);
+    return FACET_OK;
+}
+
+facet_result image_probe(const void *bytes, size_t size, const char *name, image *header,
+                         image_codec *codec_id, facet_error *error)
+{
+    *header = (image){0};
+    image_codec id;
+    facet_result result = find_codec(bytes, size, name, &id, error);
+    if (codec_id)
+        *codec_id = id;
+    return result == FACET_OK ? codecs[id].probe(bytes, size, name, header, error) : result;
+}
+
+facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
+                          image *out, facet_error *error)
+{
+    *out = (image){0};
+    image_decode_desc d = desc ? *desc : (image_decode_desc){0};
+    if (d.channel_count != 0 && d.channel_count != 3 && d.channel_count != 4)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %u channels were asked for; 0, 3 and 4 can be had",
+                    name, d.channel_count);
+    if (d.max_size == 0)
+        d.max_size = CODEC_MAX_SIZE;
+    if (d.thread_count == 0)
+        d.thread_count = 1;
+    image_codec id;
+    facet_result result = find_codec(bytes, size, name, &id, error);
+    return result == FACET_OK ? codecs[id].decode(bytes, size, name, &d, out, error) : result;
+}
+
+facet_result image_encode(const image *i, image_codec codec_id, const image_encode_desc *desc,
+                          unsigned char **bytes, size_t *size, facet_error *error)
+{
+    *bytes = NULL;
+    *size = 0;
+    image_encode_desc d = desc ? *desc : (image_encode_desc){0};
+    if (d.thread_count == 0)
+        d.thread_count = 1;
+    if (d.quality == 0)
+        d.quality = 92;
+    if (d.compression == 0)
+        d.compression = 4;
+    if (d.quality > 100 || d.compression > 9)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: quality %u (1 to 100) or compression %u (1 to 9)",
+                    codecs[codec_id].name, d.quality, d.compression);
+    if (!codecs[codec_id].encode)
+        return fail(error, FACET_ERROR_UNSUPPORTED, "this build of facet does not write %s files this way",
+                    codecs[codec_id].name);
+    return codecs[codec_id].encode(i, &d, bytes, size, error);
+}

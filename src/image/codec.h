@@ -1,0 +1,66 @@
+/* codec.h - what a codec offers to codec.c, and what codecs share. Each lives in the file that bears its name. */
+#ifndef IMAGE_CODEC_H
+#define IMAGE_CODEC_H
+
+#include "image/image.h"
+
+enum { CODEC_MAX_SIZE = 16384 }; /* the default of image_decode_desc.max_size */
+
+/* bytes begin with the codec's magic, size counts them; desc has no zeros in max_size and thread_count. out and
+ * header come as {0}. On failure nothing is left in them. */
+typedef facet_result codec_probe(const unsigned char *bytes, size_t size, const char *name, image *header,
+                                 facet_error *error);
+typedef facet_result codec_decode(const unsigned char *bytes, size_t size, const char *name,
+                                  const image_decode_desc *desc, image *out, facet_error *error);
+/* *bytes is NULL, *size 0 when called. */
+typedef facet_result codec_encode(const image *i, const image_encode_desc *desc, unsigned char **bytes,
+                                  size_t *size, facet_error *error);
+
+codec_probe png_probe, jpeg_probe, webp_probe, hdr_probe, exr_probe, pfm_probe;
+codec_decode png_decode, jpeg_decode, webp_decode, hdr_decode, exr_decode, pfm_decode;
+codec_encode png_encode, jpeg_encode, webp_encode, hdr_encode, pfm_encode;
+
+/* FACET_ERROR_LIMIT where an edge is longer than max_size, FACET_ERROR_INVALID where one is 0. */
+facet_result codec_check_size(const char *name, uint64_t width, uint64_t height, uint32_t max_size,
+                              facet_error *error);
+/* FACET_ERROR_ARGUMENT where i is not of the type and channel counts (a bit each: 1 << count) that codec takes. */
+facet_result codec_check_input(const image *i, const char *codec, bool is_type_right, const char *types,
+                               uint32_t channel_counts, facet_error *error);
+
+/* The decimal number at the start of [text, end), whatever the locale: sign, digits, point, exponent; NaN: there is
+ * none. Right to 1e-15. *after (NULL: not wanted) is behind it. */
+double codec_parse_number(const char *text, const char *end, const char **after);
+
+/* NaN and negative infinity become 0, infinity the largest finite value: what light may be made of. */
+static inline float codec_finite(float x)
+{
+    return x <= 3.402823466e38f ? (x >= -3.402823466e38f ? x : 0.0f) : (x > 0.0f ? 3.402823466e38f : 0.0f);
+}
+
+static inline uint32_t load_u32_be(const unsigned char *p)
+{
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+static inline void store_u32_be(unsigned char *p, uint32_t x)
+{
+    p[0] = (unsigned char)(x >> 24);
+    p[1] = (unsigned char)(x >> 16);
+    p[2] = (unsigned char)(x >> 8);
+    p[3] = (unsigned char)x;
+}
+
+static inline uint32_t load_u32_le(const unsigned char *p)
+{
+    return (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
+}
+
+static inline void store_u32_le(unsigned char *p, uint32_t x)
+{
+    p[0] = (unsigned char)x;
+    p[1] = (unsigned char)(x >> 8);
+    p[2] = (unsigned char)(x >> 16);
+    p[3] = (unsigned char)(x >> 24);
+}
+
+#endif

@@ -1,0 +1,57 @@
+/* deflate.c - see deflate.h. */
+#include "image/deflate.h"
+
+#include <zlib.h>
+
+#include "base/memory.h"
+
+static void *zlib_alloc(void *allocator, unsigned count, unsigned size)
+{
+    return mem_alloc(allocator, count, size);
+}
+
+static void zlib_free(void *allocator, void *memory)
+{
+    (void)allocator;
+    mem_free(memory);
+}
+
+size_t deflate_bound(size_t size)
+{
+    return size + size / 1024 + 64; /* stored blocks hold at least 16383 bytes and add 5 each */
+}
+
+/* All pieces but the last end with an empty stored block (Z_SYNC_FLUSH), which aligns them to bytes. */
+size_t deflate_piece(const facet_allocator *allocator, uint32_t level, const unsigned char *bytes,
+                     size_t size, size_t history_size, bool is_last, unsigned char *out)
+{
+    z_stream z = {.zalloc = zlib_alloc, .zfree = zlib_free, .opaque = (void *)allocator};
+    if (deflateInit2(&z, (int)level, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+        return 0;
+    if (history_size)
+        deflateSetDictionary(&z, bytes - history_size, (unsigned)history_size);
+    z.next_in = (unsigned char *)bytes;
+    z.avail_in = (unsigned)size;
+    z.next_out = out;
+    z.avail_out = (unsigned)deflate_bound(size);
+    deflate(&z, is_last ? Z_FINISH : Z_SYNC_FLUSH);
+    size_t used = z.total_out;
+    deflateEnd(&z);
+    return used;
+}
+
+void zlib_begin(unsigned char out[2])
+{
+    out[0] = 0x78; /* deflate, window of 32 KiB */
+    out[1] = 0x5e; /* makes both a multiple of 31 */
+}
+
+uint32_t zlib_checksum(const unsigned char *bytes, size_t size)
+{
+    return bytes ? (uint32_t)adler32_z(1, bytes, size) : 1;
+}
+
+uint32_t zlib_checksum_join(uint32_t first, uint32_t second, size_t second_size)
+{
+    return (uint32_t)adler32_combine(first, second, (z_off_t)second_size);
+}

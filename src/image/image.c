@@ -1,0 +1,242 @@
+/* image.c - pictures in memory: making them and changing their type. Files: codec.c. */
+#include "image/image.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "image/half.h"
+#include "image/srgb.h"
+
+size_t image_type_size(image_type type)
+{
+    static const unsigned char sizes[] = {1, 2, 2, 4};
+    return sizes[type];
+}
+
+facet_result image_create(const facet_allocator *allocator, uint32_t width, uint32_t height,
+                          uint32_t channel_count, image_type type, image *out, facet_error *error)
+{
+    *out = (image){0};
+    if (width == 0 || height == 0 || channel_count == 0 || channel_count > 4)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "image: %u x %u texels of %u channels are not 1 or more texels of 1 to 4 channels", width,
+                    height, channel_count);
+    image i = {.width = width, .height = height, .channel_count = channel_count, .type = type};
+    i.pixels = mem_alloc(allocator, height, image_row_size(&i)); /* a row has less than 2^36 bytes */
+    if (!i.pixels)
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: image of %u x %u texels of %zu bytes", width,
+                    height, image_texel_size(&i));
+    *out = i;
+    return FACET_OK;
+}
+
+void image_destroy(image *i)
+{
+    mem_free(i->pixels);
+    *i = (image){0};
+}
+
+/* ---- conversion ---- */
+
+enum { BLOCK_TEXELS = 256 }; /* converted at a time, through floats on the stack */
+
+/* What happens to the color channels between reading and writing. */
+typedef enum transfer { TRANSFER_NONE, TRANSFER_DECODE, TRANSFER_ENCODE } transfer;
+
+typedef struct conversion {
+    const image *in;
+    image *out;
+    transfer transfer;
+    srgb_tables tables;
+} conversion;
+
+static bool is_alpha(uint32_t channel, uint32_t channel_count)
+{
+    return channel_count % 2 == 0 && channel == channel_count - 1;
+}
+
+static float clamp_unit(float x) /* NaN becomes 0 */
+{
+    return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
+}
+
+/* One channel of count texels to floats, stride channels apart on both sides. */
+static void load_channel(const conversion *c, uint32_t channel, size_t first, size_t count, float *to)
+{
+    const uint32_t stride = c->in->channel_count;
+    const bool decode = c->transfer == TRANSFER_DECODE && !is_alpha(channel, stride);
+    const size_t start = first * stride + channel;
+    switch (c->in->type) {
+    case IMAGE_U8: {
+        const uint8_t *from = (const uint8_t *)c->in->pixels + start;
+        if (decode)
+            for (size_t i = 0; i < count; i++)
+                to[i] = c->tables.decoded[from[i * stride]];
+        else
+            for (size_t i = 0; i < count; i++)
+                to[i] = (float)from[i * stride] / 255.0f;
+        return;
+    }
+    case IMAGE_U16: {
+        const uint16_t *from = (const uint16_t *)c->in->pixels + start;
+        for (size_t i = 0; i < count; i++)
+            to[i] = (float)from[i * stride] / 65535.0f;
+        break;
+    }
+    case IMAGE_F16: {
+        const uint16_t *from = (const uint16_t *)c->in->pixels + start;
+        for (size_t i = 0; i < count; i++)
+            to[i] = half_to_float(from[i * stride]);
+        break;
+    }
+    case IMAGE_F32: {
+        const float *from = (const float *)c->in->pixels + start;
+        for (size_t i = 0; i < count; i++)
+            to[i] = from[i * stride];
+        break;
+    }
+    }
+    if (decode)
+        for (size_t i = 0; i < count; i++)
+            to[i] = (float)srgb_decode((double)clamp_unit(to[i]));
+}
+
+/* The way back. */
+static void store_channel(const conversion *c, uint32_t channel, size_t first, size_t count, float *from)
+{
+    const uint32_t stride = c->out->channel_count;
+    const bool encode = c->transfer == TRANSFER_ENCODE && !is_alpha(channel, stride);
+    const size_t start = first * stride + channel;
+    if (encode && c->out->type == IMAGE_U8) {
+        uint8_t *to = (uint8_t *)c->out->pixels + start;
+        for (size_t i = 0; i < count; i++)
+            to[i * stride] = srgb_encode_u8(&c->tables, from[i]);
+        return;
+    }
+    if (encode)
+        for (size_t i = 0; i < count; i++)
+            from[i] = (float)srgb_encode((double)clamp_unit(from[i]));
+    switch (c->out->type) {
+    case IMAGE_U8: {
+        uint8_t *to = (uint8_t *)c->out->pixels + start;
+        for (size_t i = 0; i < count; i++)
+            to[i * stride] = (uint8_t)(clamp_unit(from[i]) * 255.0f + 0.5f);
+        break;
+    }
+    case IMAGE_U16: {
+        uint16_t *to = (uint16_t *)c->out->pixels + start;
+        for (size_t i = 0; i < count; i++)
+            to[i * stride] = (uint16_t)(clamp_unit(from[i]) * 65535.0f + 0.5f);
+        break;
+    }
+    case IMAGE_F16: {
+        uint16_t *to = (uint16_t *)c->out->pixels + start;
+        for (size_t i = 0; i < count; i++)
+            to[i * stride] = half_from_float(from[i]);
+        break;
+    }
+    case IMAGE_F32: {
+        float *to = (float *)c->out->pixels + start;
+        for (size_t i = 0; i < count; i++)
+            to[i * stride] = from[i];
+        break;
+    }
+    }
+}
+
+/* The channel of the input that output channel c shows; -1: there is none, it is 1. */
+static int source_channel(uint32_t c, uint32_t out_count, uint32_t in_count)
+{
+    if (is_alpha(c, out_count))
+        return in_count % 2 == 0 ? (int)in_count - 1 : -1;
+    return in_count < 3 ? 0 : (int)c;
+}
+
+static void convert_texels(const conversion *c, size_t first, size_t count)
+{
+    float values[BLOCK_TEXELS];
+    int loaded = -2;
+    for (uint32_t channel = 0; channel < c->out->channel_count; channel++) {
+        int source = source_channel(channel, c->out->channel_count, c->in->channel_count);
+        /* store_channel() may have encoded the values in place */
+        if (source != loaded || c->transfer == TRANSFER_ENCODE) {
+            if (source >= 0)
+                load_channel(c, (uint32_t)source, first, count, values);
+            else
+                for (size_t i = 0; i < count; i++)
+                    values[i] = 1.0f;
+            loaded = source;
+        }
+        store_channel(c, channel, first, count, values);
+    }
+}
+
+/* 8 bits to 8 bits without a transfer: the copy that textures ask for. */
+static void copy_texels_u8(const conversion *c, size_t first, size_t count)
+{
+    const uint32_t in_count = c->in->channel_count;
+    const uint32_t out_count = c->out->channel_count;
+    const uint8_t *from = (const uint8_t *)c->in->pixels + first * in_count;
+    uint8_t *to = (uint8_t *)c->out->pixels + first * out_count;
+    if (in_count == 3 && out_count == 4) {
+        for (size_t i = 0; i < count; i++, from += 3, to += 4) {
+            to[0] = from[0];
+            to[1] = from[1];
+            to[2] = from[2];
+            to[3] = 255;
+        }
+        return;
+    }
+    for (uint32_t channel = 0; channel < out_count; channel++) {
+        int source = source_channel(channel, out_count, in_count);
+        for (size_t i = 0; i < count; i++)
+            to[i * out_count + channel] = source >= 0 ? from[i * in_count + (uint32_t)source] : 255;
+    }
+}
+
+static void convert_rows(void *context, size_t begin, size_t end)
+{
+    const conversion *c = context;
+    size_t width = c->in->width;
+    size_t first = begin * width;
+    size_t last = end * width;
+    bool is_plain = c->transfer == TRANSFER_NONE && c->in->type == c->out->type;
+    if (is_plain && c->in->channel_count == c->out->channel_count) {
+        size_t texel = image_texel_size(c->in);
+        memcpy((char *)c->out->pixels + first * texel, (const char *)c->in->pixels + first * texel,
+               (last - first) * texel);
+    } else if (is_plain && c->in->type == IMAGE_U8) {
+        copy_texels_u8(c, first, last - first);
+    } else {
+        for (; first < last; first += BLOCK_TEXELS)
+            convert_texels(c, first, last - first < BLOCK_TEXELS ? last - first : BLOCK_TEXELS);
+    }
+}
+
+facet_result image_convert(const image *in, const facet_allocator *allocator, uint32_t thread_count,
+                           uint32_t channel_count, image_type type, bool to_srgb, image *out,
+                           facet_error *error)
+{
+    *out = (image){0};
+    if (in->channel_count > 2 && channel_count < 3)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "image: %u channels cannot become %u: colors are not mixed to grey", in->channel_count,
+                    channel_count);
+    image made;
+    facet_result result = image_create(allocator, in->width, in->height, channel_count, type, &made, error);
+    if (result != FACET_OK)
+        return result;
+    made.is_srgb = to_srgb;
+    conversion c = {.in = in, .out = &made};
+    if (in->is_srgb != to_srgb) {
+        c.transfer = to_srgb ? TRANSFER_ENCODE : TRANSFER_DECODE;
+        srgb_tables_prepare(&c.tables);
+    }
+    size_t rows = 32768 / in->width + 1; /* enough that a thread is worth its start */
+    parallel_for(thread_count, in->height, rows, convert_rows, &c);
+    *out = made;
+    return FACET_OK;
+}
