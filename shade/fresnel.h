@@ -82,7 +82,7 @@ FN float F_dielectric(float cos_i, float eta)
     return sel(sin2_t >= 1.0f, 1.0f, 0.5f * (r_s * r_s + r_p * r_p));
 }
 
-/* Cosine-weighted mean of F_dielectric for eta >= 1, a fit (within 0.004 up to 2.5): Kulla and Conty 2017 as
+/* Cosine-weighted mean of F_dielectric for eta >= 1, a fit (within 0.006 up to 2.5): Kulla and Conty 2017 as
  * refitted in Cycles. From inside: 1 - (1 - mean) / eta^2, exact. */
 FN float F_dielectric_avg(float eta)
 {

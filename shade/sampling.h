@@ -54,12 +54,12 @@ FN float pdf_cosine(float NdotL)
 /* ---- GGX normals ---- */
 
 /* Microfacet normal H with density D_GGX(z, alpha) z. Walter et al. 2007, equation 35, as
- * sin^2 = a^2 u / (1 + (a^2 - 1) u), which keeps small angles exact. */
+ * sin^2 = a^2 u / (1 - u + a^2 u), in which nothing cancels. */
 FN vec3 sample_D_GGX(vec2 u, float alpha)
 {
     float phi = 2.0f * PI * u[0];
     float a2 = alpha * alpha;
-    float d = 1.0f / (1.0f + (a2 - 1.0f) * u[1]);
+    float d = 1.0f / (1.0f - u[1] + a2 * u[1]);
     float sin_theta = sqrt(a2 * u[1] * d);
     return vec3(sin_theta * cos(phi), sin_theta * sin(phi), sqrt((1.0f - u[1]) * d));
 }
