@@ -2,3 +2,5 @@
 facet_module(texture
     SOURCES texture_pyramid.c texture_set.c texture_sample.c
     LINK facet_scene facet_image facet_base m)
+facet_test(texture_pyramid SOURCES texture_pyramid_test.c LINK facet_texture)
+facet_test(texture_sample SOURCES texture_sample_test.c LINK facet_texture)

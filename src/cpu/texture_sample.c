@@ -200,12 +200,12 @@ static bool get_footprint(const texture_pyramid *p, const float duv_dx[2], const
     return true;
 }
 
-/* Trilinear probes along the major axis of the footprint.
+/* Trilinear probes along the major axis of the footprint (after McCormack et al. 1999, "Feline").
  *
- * As many as the axes' ratio asks for, up to 16, each as wide as the minor axis, so that together they cover the
- * footprint (after McCormack et al. 1999, "Feline"). Up to a ratio of 1.5 one probe as wide as the major axis does;
- * from there to 2 two of them part while their width shrinks to the minor axis. That keeps the result continuous
- * in the footprint: the outer probes reach its ends and coincide where a second one comes in. */
+ * As many as the axes' ratio asks for, up to 16, each as wide as the minor axis. Up to a ratio of 1.5 one probe as
+ * wide as the major axis does; from there to 2 two of them part while their width shrinks to the minor axis. n probes
+ * of width w that are s apart have the second moment (w^2 + (n^2 - 1) s^2) / 12; s is such that it is major^2 / 12,
+ * that of the footprint, so that hardly anything jumps where one more probe comes in. */
 static float4 sample_trilinear(const texture_binding *b, const texture_pyramid *p, const float uv[2],
                                const footprint *f)
 {
@@ -217,7 +217,7 @@ static float4 sample_trilinear(const texture_binding *b, const texture_pyramid *
     uint32_t probe_count = 1;
     float width = minor * ratio;
     if (ratio > 2.0f) {
-        probe_count = (uint32_t)ceilf(ratio - 0.25f); /* probes overlap by more than that */
+        probe_count = (uint32_t)ceilf(ratio - 0.25f); /* they overlap enough for that */
         width = minor;
     } else if (ratio > 1.5f) {
         probe_count = 2;
@@ -226,17 +226,14 @@ static float4 sample_trilinear(const texture_binding *b, const texture_pyramid *
     probe_count = probe_count < MAX_PROBES ? probe_count : MAX_PROBES;
 
     level_pair levels = get_levels(p, log2f(width));
-    float u = uv[0];
-    float v = uv[1];
-    float step_u = 0.0f;
-    float step_v = 0.0f;
-    if (probe_count > 1) {
-        float reach = 1.0f - width / f->major; /* from the middle of the first to that of the last */
-        step_u = f->axis[0] * reach / (float)(probe_count - 1);
-        step_v = f->axis[1] * reach / (float)(probe_count - 1);
-        u -= 0.5f * reach * f->axis[0];
-        v -= 0.5f * reach * f->axis[1];
-    }
+    float narrowing = width / f->major;
+    float spacing = 0.0f; /* over the major axis */
+    if (probe_count > 1)
+        spacing = sqrtf((1.0f - narrowing * narrowing) / (float)(probe_count * probe_count - 1));
+    float step_u = f->axis[0] * spacing;
+    float step_v = f->axis[1] * spacing;
+    float u = uv[0] - 0.5f * (float)(probe_count - 1) * step_u;
+    float v = uv[1] - 0.5f * (float)(probe_count - 1) * step_v;
     float4 sum = {0.0f, 0.0f, 0.0f, 0.0f};
     for (uint32_t i = 0; i < probe_count; i++) {
         float wrapped_u = wrap_coordinate(u + (float)i * step_u, b->wrap_u);
