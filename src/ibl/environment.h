@@ -1,0 +1,46 @@
+/* environment.h - what a facet_environment holds: the picture, and the parts of lights that were prepared of it. */
+#ifndef IBL_ENVIRONMENT_H
+#define IBL_ENVIRONMENT_H
+
+#include <pthread.h>
+
+#include "facet/facet.h"
+#include "ibl/cube.h"
+#include "ibl/equirect.h"
+#include "ibl/harmonics.h"
+#include "ibl/prefilter.h"
+#include "ibl/sh.h"
+#include "image/image.h"
+
+enum { BACKGROUND_COUNT = 4 }; /* the picture in full size, half, quarter, eighth */
+
+/* Parts are prepared when a light first asks for them, under the mutex; from then on they never change, so that lights
+ * read them without it. */
+typedef struct light_parts {
+    bool has_irradiance;
+    float irradiance_over_pi[SH_COUNT][3];
+    cube levels[PREFILTER_LEVEL_COUNT];
+    equirect backgrounds[BACKGROUND_COUNT];
+    harmonics harmonics; /* what levels from PREFILTER_SAMPLED_COUNT on are made of */
+} light_parts;
+
+struct facet_environment {
+    facet_allocator allocator;
+    facet_log log;
+    image picture;      /* equirectangular, F32 RGB, in [0, ENVIRONMENT_MAX_RADIANCE] */
+    uint64_t hash;      /* of what the picture was made from */
+    char *cache_folder; /* NULL: none */
+    uint64_t cache_bytes;
+    uint32_t reference_count; /* the caller's and one per light */
+    pthread_mutex_t mutex;    /* guards the two below and the one above */
+    light_parts parts;
+};
+
+/* Above the sun's 2e9 cd/m^2 and such that sums over a sphere stay finite. */
+#define ENVIRONMENT_MAX_RADIANCE 1e12f
+
+/* Another reference, and one less: the last one releases everything. */
+void environment_retain(facet_environment *environment);
+void environment_release(facet_environment *environment);
+
+#endif

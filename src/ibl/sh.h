@@ -1,0 +1,30 @@
+/* sh.h - diffuse irradiance as nine spherical harmonics (Ramamoorthi and Hanrahan 2001).
+ *
+ * Coefficients are in the order (l, m) = 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22 of the real basis
+ *   Y00 = 0.2820947918
+ *   Y1  = 0.4886025119 (y, z, x)
+ *   Y2  = 1.0925484306 (x y, y z), 0.3153915653 (3 z^2 - 1), 1.0925484306 x z, 0.5462742153 (x^2 - y^2) */
+#ifndef IBL_SH_H
+#define IBL_SH_H
+
+#include "facet/facet.h"
+#include "image/image.h"
+
+enum { SH_COUNT = 9 };
+
+/* The basis functions at the unit direction d. */
+void sh_basis(const double d[3], double y[SH_COUNT]);
+
+/* Coefficients of radiance, L_lm = integral of L Y_lm over the sphere, for a picture (F32 RGB) whose texels are
+ * each of one radiance: integrals over texels are exact. Deterministic for every thread count.
+ * FACET_ERROR_MEMORY. */
+facet_result sh_project(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
+                        double radiance[SH_COUNT][3], facet_error *error);
+
+/* Coefficients c of irradiance / pi in the order 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2: basis, clamped cosine
+ * (A_l = pi, 2 pi / 3, pi / 4) and 1 / pi folded in. */
+void sh_irradiance_over_pi(const double radiance[SH_COUNT][3], float c[SH_COUNT][3]);
+/* Their sum at the unit direction N, at least 0: nine bands ring around a small sun. */
+void sh_evaluate(const float c[SH_COUNT][3], const float N[3], float out[3]);
+
+#endif

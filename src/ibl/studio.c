@@ -1,0 +1,121 @@
+/* studio.c - see studio.h.
+ *
+ * A photographer's set for a product that stands at the origin and faces +Z: a large key light from the front, above
+ * and to the left, a dimmer fill from the right, two narrow strips behind for the rim, a broad ceiling, all white, and
+ * between them a grey room, lighter above than below, so that metals have both something bright and something dark
+ * to show. A soft box is a rectangle as seen from the origin whose edges fade over its softness. */
+#include "ibl/studio.h"
+
+#include <math.h>
+
+#include "base/parallel.h"
+#include "ibl/equirect.h"
+
+enum { WIDTH = 512, HEIGHT = 256 };
+
+/* A light at unit distance along its axis. */
+typedef struct soft_box {
+    float azimuth_deg;                       /* around +Y, 0: +Z, positive: towards +X */
+    float elevation_deg;                     /* above the horizon */
+    float half_width, half_height, softness; /* tangents of angles from the axis */
+    float radiance;                          /* cd/m^2 before the whole is scaled to a mean of 1 */
+} soft_box;
+
+static const soft_box boxes[] = {
+    {-40.0f, 38.0f, 0.55f, 0.40f, 0.10f, 9.0f},  /* key */
+    {55.0f, 18.0f, 0.45f, 0.65f, 0.14f, 3.2f},   /* fill */
+    {0.0f, 89.0f, 1.10f, 0.80f, 0.30f, 3.0f},    /* ceiling */
+    {140.0f, 22.0f, 0.14f, 0.80f, 0.06f, 10.0f}, /* rim, right */
+    {-142.0f, 18.0f, 0.14f, 0.80f, 0.06f, 8.0f}, /* rim, left */
+    {-95.0f, 5.0f, 0.25f, 0.55f, 0.12f, 2.0f},   /* edge, left */
+};
+enum { BOX_COUNT = sizeof boxes / sizeof boxes[0] };
+
+/* Mean of what room() and the boxes give over the sphere; the test of this file holds the product to 1. */
+#define STUDIO_MEAN 1.0f
+
+typedef struct placed_box {
+    float axis[3], right[3], up[3];
+} placed_box;
+
+typedef struct studio {
+    placed_box placed[BOX_COUNT];
+    float cosine[WIDTH], sine[WIDTH]; /* of the longitude */
+    float *pixels;
+} studio;
+
+static void place(const soft_box *b, placed_box *p)
+{
+    double azimuth = (double)b->azimuth_deg * 0.017453292519943295;
+    double elevation = (double)b->elevation_deg * 0.017453292519943295;
+    double sa = sin(azimuth);
+    double ca = cos(azimuth);
+    double se = sin(elevation);
+    double ce = cos(elevation);
+    *p = (placed_box){{(float)(ce * sa), (float)se, (float)(ce * ca)},
+                      {(float)ca, 0.0f, (float)-sa},
+                      {(float)(-se * sa), (float)ce, (float)(-se * ca)}};
+}
+
+static inline float fade(float low, float high, float x)
+{
+    float t = (x - low) / (high - low);
+    t = t < 0.0f ? 0.0f : t > 1.0f ? 1.0f : t;
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/* Walls: light grey overhead, darkest just below the horizon, a floor that is a little lit. y is that of the
+ * direction. */
+static inline float room(float y)
+{
+    return 0.22f + 0.38f * fade(-0.1f, 0.9f, y) + 0.12f * fade(0.1f, 0.8f, -y);
+}
+
+static inline float box_radiance(const soft_box *b, const placed_box *p, float x, float y, float z)
+{
+    float depth = x * p->axis[0] + y * p->axis[1] + z * p->axis[2];
+    float q = 1.0f / (depth > 0.05f ? depth : 0.05f);
+    float right = fabsf(x * p->right[0] + y * p->right[1] + z * p->right[2]) * q;
+    float up = fabsf(x * p->up[0] + y * p->up[1] + z * p->up[2]) * q;
+    float edge = fade(b->half_width, b->half_width - b->softness, right) *
+                 fade(b->half_height, b->half_height - b->softness, up);
+    return depth > 0.05f ? edge * b->radiance : 0.0f;
+}
+
+IBL_DISPATCH static void draw_rows(void *context, size_t begin, size_t end)
+{
+    const studio *s = context;
+    for (size_t row = begin; row < end; row++) {
+        double theta = 3.14159265358979323846 * ((double)row + 0.5) / HEIGHT;
+        float across = (float)sin(theta);
+        float y = (float)cos(theta);
+        float radiance[WIDTH];
+        for (int i = 0; i < WIDTH; i++)
+            radiance[i] = room(y);
+        for (int b = 0; b < BOX_COUNT; b++)
+            for (int i = 0; i < WIDTH; i++)
+                radiance[i] +=
+                    box_radiance(&boxes[b], &s->placed[b], across * s->cosine[i], y, across * s->sine[i]);
+        float *out = s->pixels + row * WIDTH * 3;
+        for (int i = 0; i < WIDTH; i++)
+            out[3 * i] = out[3 * i + 1] = out[3 * i + 2] = radiance[i] * (1.0f / STUDIO_MEAN);
+    }
+}
+
+facet_result studio_create(const facet_allocator *allocator, uint32_t thread_count, image *out,
+                           facet_error *error)
+{
+    facet_result result = image_create(allocator, WIDTH, HEIGHT, 3, IMAGE_F32, out, error);
+    if (result != FACET_OK)
+        return result;
+    studio s = {.pixels = out->pixels};
+    for (int b = 0; b < BOX_COUNT; b++)
+        place(&boxes[b], &s.placed[b]);
+    for (int i = 0; i < WIDTH; i++) {
+        double phi = 6.283185307179586 * ((i + 0.5) / WIDTH - 0.5);
+        s.cosine[i] = (float)cos(phi);
+        s.sine[i] = (float)sin(phi);
+    }
+    parallel_for(thread_count, HEIGHT, 16, draw_rows, &s);
+    return FACET_OK;
+}
