@@ -1,0 +1,69 @@
+/* embree.h - Embree 3.13 and Embree 4 behind one face: what the two call differently, and nothing else. */
+#ifndef CPU_EMBREE_H
+#define CPU_EMBREE_H
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#if RTC_VERSION >= 40000
+
+typedef struct RTCRayQueryContext embree_context;
+#define EMBREE_SCENE_FLAG_FILTER RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
+
+/* Nearest hits of the lanes with valid[i] == -1 of a packet of coherent rays; tfar shortens, geomID is set. */
+#define EMBREE_DEFINE_INTERSECT(N)                                                                           \
+    static inline void embree_intersect##N(const int *valid, RTCScene scene, struct RTCRayHit##N *rays)      \
+    {                                                                                                        \
+        struct RTCIntersectArguments arguments;                                                              \
+        rtcInitIntersectArguments(&arguments);                                                               \
+        arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;                                                       \
+        rtcIntersect##N(valid, scene, rays, &arguments);                                                     \
+    }
+
+/* One ray; filter is asked about every candidate and gets context, which starts with an embree_context. */
+static inline void embree_intersect1_filtered(RTCScene scene, struct RTCRayHit *ray, embree_context *context,
+                                              RTCFilterFunctionN filter)
+{
+    struct RTCIntersectArguments arguments;
+    rtcInitRayQueryContext(context);
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    arguments.context = context;
+    arguments.filter = filter;
+    rtcIntersect1(scene, ray, &arguments);
+}
+
+#else
+
+typedef struct RTCIntersectContext embree_context;
+#define EMBREE_SCENE_FLAG_FILTER RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
+
+/* Nearest hits of the lanes with valid[i] == -1 of a packet of coherent rays; tfar shortens, geomID is set. */
+#define EMBREE_DEFINE_INTERSECT(N)                                                                           \
+    static inline void embree_intersect##N(const int *valid, RTCScene scene, struct RTCRayHit##N *rays)      \
+    {                                                                                                        \
+        struct RTCIntersectContext context;                                                                  \
+        rtcInitIntersectContext(&context);                                                                   \
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;                                                 \
+        rtcIntersect##N(valid, scene, &context, rays);                                                       \
+    }
+
+/* One ray; filter is asked about every candidate and gets context, which starts with an embree_context. */
+static inline void embree_intersect1_filtered(RTCScene scene, struct RTCRayHit *ray, embree_context *context,
+                                              RTCFilterFunctionN filter)
+{
+    rtcInitIntersectContext(context);
+    context->filter = filter;
+    rtcIntersect1(scene, context, ray);
+}
+
+#endif
+
+EMBREE_DEFINE_INTERSECT(4)
+EMBREE_DEFINE_INTERSECT(8)
+EMBREE_DEFINE_INTERSECT(16)
+
+#endif

@@ -1,0 +1,158 @@
+/* light_setup.c - see light_setup.h. */
+#include "cpu/light_setup.h"
+
+#include <math.h>
+
+#include "base/result.h"
+
+#include "shade/shade.h"
+
+/* ---- what has to be prepared ---- */
+
+static bool is_entirely_metallic(const scene_material *material)
+{
+    return material->metallic >= 1.0f && material->metallic_roughness_texture.texture == SCENE_NONE;
+}
+
+/* Texels scale the factor down: a textured roughness may be anything up to it. */
+static void add_material(ibl_light_desc *needs, const scene_material *material, facet_energy energy)
+{
+    float roughness = clamp(material->perceptual_roughness, 0.0f, 1.0f);
+    bool is_textured = material->metallic_roughness_texture.texture != SCENE_NONE;
+    needs->min_roughness = min(needs->min_roughness, is_textured ? 0.0f : roughness);
+    needs->max_roughness = max(needs->max_roughness, roughness);
+    needs->needs_specular = true;
+    /* A metal scatters no light below its surface; the conserving mode takes multiple scattering from it. */
+    if (!is_entirely_metallic(material) || energy == FACET_ENERGY_CONSERVING)
+        needs->needs_irradiance = true;
+}
+
+static ibl_light_desc light_needs(const render_geometry_set *set, const camera_rays *camera,
+                                  const facet_render_desc *desc)
+{
+    ibl_light_desc needs = {.thread_count = desc->thread_count, .min_roughness = 1.0f};
+    for (uint32_t i = 0; i < set->count; i++)
+        if (set->items[i].is_lit)
+            add_material(&needs, set->items[i].material, desc->energy);
+    if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
+        if (desc->background_blur > 0.0f) {
+            needs.needs_specular = true;
+            needs.min_roughness = min(needs.min_roughness, desc->background_blur);
+            needs.max_roughness = max(needs.max_roughness, desc->background_blur);
+        } else {
+            needs.needs_background = true;
+            needs.background_size =
+                camera->is_orthographic ? 0 : (uint32_t)min(1.0f / camera->pixel_size, 1e6f);
+        }
+    }
+    return needs;
+}
+
+/* ---- punctual lights ---- */
+
+static vec3 load3(const float v[3])
+{
+    return vec3(v[0], v[1], v[2]);
+}
+
+static Light posed_light(const scene_posed_light *posed)
+{
+    const scene_light *l = posed->light;
+    vec3 intensity = load3(l->color) * l->intensity;
+    vec3 position = load3(posed->position);
+    vec3 direction = load3(posed->direction);
+    switch (l->type) {
+    case SCENE_LIGHT_DIRECTIONAL:
+        return light_directional(direction, intensity);
+    case SCENE_LIGHT_SPOT:
+        return light_spot(position, direction, intensity, l->range, l->inner_cone_rad, l->outer_cone_rad);
+    case SCENE_LIGHT_POINT:
+        break;
+    }
+    return light_point(position, intensity, l->range);
+}
+
+facet_result light_setup_create(const render_geometry_set *set, const scene_pose *pose,
+                                const camera_rays *camera, const facet_render_desc *desc, light_setup *out,
+                                facet_error *error)
+{
+    *out = (light_setup){.scale = exp2f(desc->environment_ev),
+                         .rotation_cos = cosf(desc->environment_rotation_rad),
+                         .rotation_sin = sinf(desc->environment_rotation_rad)};
+    if (pose->light_count && !desc->ignore_scene_lights) {
+        out->punctual = mem_alloc(&desc->allocator, pose->light_count, sizeof *out->punctual);
+        if (!out->punctual)
+            return fail_memory(error, "lights", pose->light_count * sizeof *out->punctual);
+        out->punctual_count = pose->light_count;
+        for (uint32_t i = 0; i < pose->light_count; i++)
+            out->punctual[i] = posed_light(&pose->lights[i]);
+    }
+    ibl_light_desc needs = light_needs(set, camera, desc);
+    if (!desc->environment || !(needs.needs_irradiance || needs.needs_specular || needs.needs_background))
+        return FACET_OK;
+    facet_result result = ibl_light_prepare(desc->environment, &needs, &out->ibl, error);
+    if (result != FACET_OK) {
+        light_setup_destroy(out);
+        return result;
+    }
+    out->has_irradiance = needs.needs_irradiance;
+    out->has_specular = needs.needs_specular;
+    out->has_background = needs.needs_background;
+    return FACET_OK;
+}
+
+void light_setup_destroy(light_setup *light)
+{
+    ibl_light_release(light->ibl);
+    mem_free(light->punctual);
+    *light = (light_setup){0};
+}
+
+/* ---- lookups ---- */
+
+/* World to environment: the environment is turned from +Z towards +X, so the direction is turned back. */
+static void to_environment(const light_setup *light, const float d[3], float out[3])
+{
+    out[0] = d[0] * light->rotation_cos - d[2] * light->rotation_sin;
+    out[1] = d[1];
+    out[2] = d[0] * light->rotation_sin + d[2] * light->rotation_cos;
+}
+
+static void scale3(float v[3], float factor)
+{
+    for (int i = 0; i < 3; i++)
+        v[i] *= factor;
+}
+
+void light_irradiance_over_pi(const light_setup *light, const float N[3], float out[3])
+{
+    float d[3];
+    out[0] = out[1] = out[2] = 0.0f;
+    if (!light->has_irradiance)
+        return;
+    to_environment(light, N, d);
+    ibl_irradiance_over_pi(light->ibl, d, out);
+    scale3(out, light->scale);
+}
+
+void light_specular(const light_setup *light, const float R[3], float perceptual_roughness, float out[3])
+{
+    float d[3];
+    out[0] = out[1] = out[2] = 0.0f;
+    if (!light->has_specular)
+        return;
+    to_environment(light, R, d);
+    ibl_specular(light->ibl, d, perceptual_roughness, out);
+    scale3(out, light->scale);
+}
+
+void light_background(const light_setup *light, const float d[3], float footprint_rad, float out[3])
+{
+    float turned[3];
+    out[0] = out[1] = out[2] = 0.0f;
+    if (!light->has_background)
+        return;
+    to_environment(light, d, turned);
+    ibl_background(light->ibl, turned, footprint_rad, out);
+    scale3(out, light->scale);
+}

@@ -1,0 +1,277 @@
+/* pixel.c - see pixel.h. Visibility is sampled several times in a pixel, light is computed once for each surface
+ * that the samples see there, as multisampling does: an edge is smooth and the inside costs one shade. */
+#include "cpu/pixel.h"
+
+#include <math.h>
+
+#include "shade/shade.h"
+
+/* Two hits on one mesh are one surface when their faces differ by less than 14 degrees and lie in one plane, within
+ * a pixel: a shade in between differs from both by less than can be seen. */
+static const float SAME_FACE_COS = 0.97f;
+
+static vec3 load3(const float *v)
+{
+    return vec3(v[0], v[1], v[2]);
+}
+
+/* ---- fragments ---- */
+
+static bool add_fragment(pixel_resolver *r, const visibility_hit *hit, uint32_t sample)
+{
+    if (!mem_reserve(r->allocator, (void **)&r->fragments, &r->fragment_capacity, r->fragment_count + 1,
+                     sizeof *r->fragments))
+        return false;
+    r->fragments[r->fragment_count++] = (pixel_fragment){.hit = *hit, .sample = sample};
+    return true;
+}
+
+/* Whether the nearest hit is all that the ray sees. */
+static bool is_simple(const pixel_resolver *r, const visibility_hit *hit, float x, float y)
+{
+    const render_geometry *g = &r->scene->geometries->items[hit->geometry];
+    if (g->is_see_through)
+        return false;
+    if (g->is_double_sided)
+        return true;
+    float origin[3];
+    float direction[3];
+    camera_rays_at(r->scene->camera, x, y, origin, direction);
+    return shading_is_visible_side(r->scene, hit, direction);
+}
+
+static bool collect_fragments(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hits)
+{
+    uint32_t n = r->pattern->sample_count;
+    float footprint = inversesqrt((float)n);
+    r->fragment_count = 0;
+    for (uint32_t sample = 0; sample < n; sample++) {
+        if (hits[sample].geometry == VISIBILITY_NONE)
+            continue;
+        float px = (float)x + r->pattern->points[2 * sample];
+        float py = (float)y + r->pattern->points[2 * sample + 1];
+        if (is_simple(r, &hits[sample], px, py)) {
+            if (!add_fragment(r, &hits[sample], sample))
+                return false;
+            continue;
+        }
+        visibility_hit layers[SEE_THROUGH_LAYERS + 1];
+        uint32_t count = see_through(r->embree, r->scene, px, py, footprint, layers);
+        r->rays++;
+        for (uint32_t i = 0; i < count; i++)
+            if (!add_fragment(r, &layers[i], sample))
+                return false;
+    }
+    return true;
+}
+
+/* ---- surfaces ---- */
+
+static vec3 hit_position(const pixel_resolver *r, uint32_t x, uint32_t y, const pixel_fragment *f)
+{
+    float origin[3];
+    float direction[3];
+    camera_rays_at(r->scene->camera, (float)x + r->pattern->points[2 * f->sample],
+                   (float)y + r->pattern->points[2 * f->sample + 1], origin, direction);
+    return load3(origin) + load3(direction) * f->hit.t;
+}
+
+static uint32_t quarter_of(const pixel_resolver *r, uint32_t sample)
+{
+    const float *point = r->pattern->points + 2 * sample;
+    return (uint32_t)(point[0] >= 0.5f) + 2 * (uint32_t)(point[1] >= 0.5f);
+}
+
+static bool is_one_surface(const pixel_resolver *r, uint32_t x, uint32_t y, const pixel_fragment *a,
+                           const pixel_fragment *b)
+{
+    if (a->hit.geometry != b->hit.geometry)
+        return false;
+    if (r->splits_quarters && quarter_of(r, a->sample) != quarter_of(r, b->sample))
+        return false;
+    if (a->hit.primitive == b->hit.primitive)
+        return true;
+    vec3 n = load3(a->hit.normal);
+    vec3 m = load3(b->hit.normal);
+    float n2 = dot(n, n);
+    float cos_nm = dot(n, m);
+    if (!(cos_nm > 0.0f && cos_nm * cos_nm > SAME_FACE_COS * SAME_FACE_COS * n2 * dot(m, m)))
+        return false;
+    float off_plane = dot(n, hit_position(r, x, y, b) - hit_position(r, x, y, a));
+    float pixel = camera_rays_pixel_size(r->scene->camera, a->hit.t);
+    return off_plane * off_plane <= pixel * pixel * n2;
+}
+
+static bool group_surfaces(pixel_resolver *r, uint32_t x, uint32_t y)
+{
+    r->surface_count = 0;
+    for (size_t i = 0; i < r->fragment_count; i++) {
+        pixel_fragment *f = &r->fragments[i];
+        size_t k = r->surface_count;
+        while (k > 0 && !is_one_surface(r, x, y, &r->fragments[r->surfaces[k - 1].first], f))
+            k--;
+        if (k == 0) {
+            if (!mem_reserve(r->allocator, (void **)&r->surfaces, &r->surface_capacity, r->surface_count + 1,
+                             sizeof *r->surfaces))
+                return false;
+            r->surfaces[r->surface_count++] = (pixel_surface){.first = (uint32_t)i};
+            k = r->surface_count;
+        }
+        pixel_surface *s = &r->surfaces[k - 1];
+        f->surface = (uint32_t)(k - 1);
+        s->fragment_count++;
+        s->middle[0] += r->pattern->points[2 * f->sample];
+        s->middle[1] += r->pattern->points[2 * f->sample + 1];
+    }
+    return true;
+}
+
+/* The fragment nearest to the middle of the surface's samples. */
+static const pixel_fragment *middle_fragment(const pixel_resolver *r, uint32_t number)
+{
+    const pixel_surface *s = &r->surfaces[number];
+    const pixel_fragment *nearest = &r->fragments[s->first];
+    float nearest_distance2 = INFINITY;
+    for (size_t i = s->first; i < r->fragment_count; i++) {
+        const pixel_fragment *f = &r->fragments[i];
+        if (f->surface != number)
+            continue;
+        float dx = r->pattern->points[2 * f->sample] - s->middle[0];
+        float dy = r->pattern->points[2 * f->sample + 1] - s->middle[1];
+        if (dx * dx + dy * dy < nearest_distance2) {
+            nearest = f;
+            nearest_distance2 = dx * dx + dy * dy;
+        }
+    }
+    return nearest;
+}
+
+/* Shades a surface at the centroid of its samples on one triangle, the one in the middle: inside what is covered,
+ * so that no texture is read beyond the mesh's edge. */
+static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t number)
+{
+    pixel_surface *s = &r->surfaces[number];
+    s->middle[0] /= (float)s->fragment_count;
+    s->middle[1] /= (float)s->fragment_count;
+    visibility_hit hit = middle_fragment(r, number)->hit;
+    float sum[5] = {0.0f}; /* t, u, v, x, y */
+    float count = 0.0f;
+    for (size_t i = s->first; i < r->fragment_count; i++) {
+        const pixel_fragment *f = &r->fragments[i];
+        if (f->surface != number || f->hit.primitive != hit.primitive)
+            continue;
+        sum[0] += f->hit.t;
+        sum[1] += f->hit.u;
+        sum[2] += f->hit.v;
+        sum[3] += r->pattern->points[2 * f->sample];
+        sum[4] += r->pattern->points[2 * f->sample + 1];
+        count += 1.0f;
+    }
+    hit.t = sum[0] / count;
+    hit.u = sum[1] / count;
+    hit.v = sum[2] / count;
+    shading_point point = {.hit = &hit,
+                           .x = (float)x + sum[3] / count,
+                           .y = (float)y + sum[4] / count,
+                           .footprint = r->splits_quarters ? 0.5f : 1.0f};
+    shading_result result;
+    shading_shade(r->scene, &point, &result);
+    r->shades++;
+    for (int i = 0; i < 3; i++)
+        s->radiance[i] = result.radiance[i];
+    /* Whether a masked texel is there was decided for each sample. */
+    bool is_blended = r->scene->geometries->items[hit.geometry].material->alpha_mode == SCENE_ALPHA_BLEND;
+    s->opacity = is_blended ? result.opacity : 1.0f;
+}
+
+/* ---- composition ---- */
+
+/* Puts the samples' layers over each other ("over", Porter and Duff 1984) and averages. */
+static void composite(const pixel_resolver *r, float rgba[4])
+{
+    float sum[3] = {0.0f};
+    float passed_sum = 0.0f; /* what passes all layers, over the samples that hit */
+    uint32_t hit_samples = 0;
+    for (size_t i = 0; i < r->fragment_count;) {
+        uint32_t sample = r->fragments[i].sample;
+        float passed = 1.0f;
+        for (; i < r->fragment_count && r->fragments[i].sample == sample; i++) {
+            const pixel_surface *s = &r->surfaces[r->fragments[i].surface];
+            float weight = passed * s->opacity;
+            for (int c = 0; c < 3; c++)
+                sum[c] += weight * s->radiance[c];
+            passed *= 1.0f - s->opacity;
+        }
+        passed_sum += passed;
+        hit_samples++;
+    }
+    float n = (float)r->pattern->sample_count;
+    for (int c = 0; c < 3; c++)
+        rgba[c] = sum[c] / n;
+    rgba[3] = ((float)hit_samples - passed_sum) / n;
+}
+
+static void add_background(const pixel_resolver *r, uint32_t x, uint32_t y, float rgba[4])
+{
+    float passed = 1.0f - rgba[3];
+    if (!r->draws_background || !(passed > 0.0f))
+        return;
+    const camera_rays *camera = r->scene->camera;
+    float origin[3];
+    float direction[3];
+    float radiance[3];
+    camera_rays_at(camera, (float)x + 0.5f, (float)y + 0.5f, origin, direction);
+    vec3 d = normalize(load3(direction));
+    float unit[3] = {d[0], d[1], d[2]};
+    if (r->background_blur > 0.0f)
+        light_specular(r->scene->light, unit, r->background_blur, radiance);
+    else
+        light_background(r->scene->light, unit, camera->is_orthographic ? 0.0f : camera->pixel_size,
+                         radiance);
+    for (int c = 0; c < 3; c++)
+        rgba[c] += passed * radiance[c];
+    rgba[3] = 1.0f;
+}
+
+bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hits, float rgba[4])
+{
+    if (!collect_fragments(r, x, y, hits) || !group_surfaces(r, x, y))
+        return false;
+    for (uint32_t i = 0; i < r->surface_count; i++)
+        shade_surface(r, x, y, i);
+    composite(r, rgba);
+    add_background(r, x, y, rgba);
+    for (int c = 0; c < 3; c++)
+        rgba[c] *= r->scale;
+    return true;
+}
+
+bool pixel_nearest_surface(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hit,
+                           shading_result *result, float *depth_m, uint32_t *geometry)
+{
+    if (hit->geometry == VISIBILITY_NONE)
+        return false;
+    float px = (float)x + 0.5f;
+    float py = (float)y + 0.5f;
+    visibility_hit layers[SEE_THROUGH_LAYERS + 1];
+    if (!is_simple(r, hit, px, py)) {
+        r->rays++;
+        if (see_through(r->embree, r->scene, px, py, 1.0f, layers) == 0)
+            return false;
+        hit = &layers[0];
+    }
+    shading_point point = {.hit = hit, .x = px, .y = py, .footprint = 1.0f};
+    shading_shade(r->scene, &point, result);
+    r->shades++;
+    *depth_m = hit->t;
+    *geometry = hit->geometry;
+    return true;
+}
+
+void pixel_resolver_destroy(pixel_resolver *r)
+{
+    mem_free(r->fragments);
+    mem_free(r->surfaces);
+    r->fragments = NULL;
+    r->surfaces = NULL;
+}

@@ -1,0 +1,49 @@
+/* pixel.h - the color of a pixel from what its samples see. */
+#ifndef CPU_PIXEL_H
+#define CPU_PIXEL_H
+
+#include "cpu/see_through.h"
+
+/* One surface of one sample; those of a sample follow each other from front to back. */
+typedef struct pixel_fragment {
+    visibility_hit hit;
+    uint32_t sample;
+    uint32_t surface; /* number of its pixel_surface */
+} pixel_fragment;
+
+/* Fragments that are shaded once. */
+typedef struct pixel_surface {
+    uint32_t first; /* fragment */
+    uint32_t fragment_count;
+    float middle[2]; /* of its samples, pixels from the pixel's top left */
+    float radiance[3];
+    float opacity;
+} pixel_surface;
+
+/* What one thread needs to resolve pixels one after the other. */
+typedef struct pixel_resolver {
+    const facet_allocator *allocator;
+    const embree_scene *embree;
+    const shading_scene *scene;
+    const visibility_pattern *pattern;
+    bool splits_quarters; /* surfaces are shaded for each quarter of a pixel */
+    bool draws_background;
+    float background_blur; /* perceptual roughness */
+    float scale;           /* of the radiance */
+    pixel_fragment *fragments;
+    pixel_surface *surfaces;
+    size_t fragment_capacity, surface_capacity;
+    size_t fragment_count, surface_count;
+    uint64_t rays, shades;
+} pixel_resolver;
+
+/* Radiance times scale, premultiplied, and coverage of pixel (x, y) of the whole picture, whose samples hit hits.
+ * False: no memory. */
+bool pixel_resolve(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hits,
+                   float rgba[4]);
+/* The nearest surface under the middle of the pixel; false: there is none. depth_m along the camera's axis. */
+bool pixel_nearest_surface(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hit,
+                           shading_result *result, float *depth_m, uint32_t *geometry);
+void pixel_resolver_destroy(pixel_resolver *resolver);
+
+#endif

@@ -1,0 +1,173 @@
+/* preview.c - see preview.h: the stages of a render and which of them run at the same time. */
+#include "cpu/preview.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "cpu/texture_need.h"
+#include "cpu/tiles.h"
+
+#include <math.h>
+
+/* All that is made for one picture. */
+typedef struct preview {
+    const facet_scene *scene;
+    const facet_render_desc *desc;
+    facet_render_stats *stats;
+    scene_pose pose;
+    camera_rays camera;
+    render_geometry_set geometries;
+    embree_scene embree;
+    texture_use *uses;
+    texture_set *textures;
+    light_setup light;
+} preview;
+
+/* ---- stages that need the geometry only, and not each other ---- */
+
+static facet_result prepare_textures(preview *p, facet_error *error)
+{
+    const facet_render_desc *desc = p->desc;
+    double start = clock_seconds();
+    float footprint = desc->quality == FACET_QUALITY_FINAL ? 0.5f : 1.0f;
+    float opacity_footprint = 1.0f / sqrtf((float)desc->samples);
+    texture_need_desc need = {.width = desc->width,
+                              .height = desc->height,
+                              .footprint = footprint,
+                              .opacity_footprint = fminf(footprint, opacity_footprint),
+                              .thread_count = desc->thread_count};
+    facet_result result =
+        texture_need(p->scene, &p->geometries, &p->camera, &need, &desc->allocator, p->uses, error);
+    if (result == FACET_OK)
+        result = texture_set_create(p->scene, p->uses, &desc->allocator, &desc->log, desc->thread_count,
+                                    &p->textures, error);
+    if (result == FACET_OK)
+        p->stats->decoded_texels = texture_set_decoded_texels(p->textures);
+    p->stats->textures_s = clock_seconds() - start;
+    return result;
+}
+
+static facet_result prepare_hierarchy(preview *p, facet_error *error)
+{
+    double start = clock_seconds();
+    facet_result result =
+        embree_scene_create(&p->geometries, &p->desc->allocator, p->desc->thread_count, &p->embree, error);
+    p->stats->geometry_s += clock_seconds() - start;
+    return result;
+}
+
+static facet_result prepare_tangents(preview *p, facet_error *error)
+{
+    return render_geometry_make_tangents(&p->geometries, &p->desc->allocator, p->desc->thread_count, error);
+}
+
+static facet_result prepare_light(preview *p, facet_error *error)
+{
+    double start = clock_seconds();
+    facet_result result = light_setup_create(&p->geometries, &p->pose, &p->camera, p->desc, &p->light, error);
+    p->stats->light_s = clock_seconds() - start;
+    return result;
+}
+
+/* The longest first, so that the others fill the threads beside it. */
+enum { STAGE_COUNT = 4 };
+static facet_result (*const STAGES[STAGE_COUNT])(preview *p, facet_error *error) = {
+    prepare_textures, prepare_light, prepare_tangents, prepare_hierarchy};
+
+typedef struct stage_run {
+    preview *p;
+    facet_result results[STAGE_COUNT];
+    facet_error errors[STAGE_COUNT];
+} stage_run;
+
+static void run_stages(void *context, size_t begin, size_t end)
+{
+    stage_run *run = context;
+    for (size_t i = begin; i < end; i++)
+        run->results[i] = STAGES[i](run->p, &run->errors[i]);
+}
+
+static facet_result prepare(preview *p, facet_error *error)
+{
+    const facet_render_desc *desc = p->desc;
+    double start = clock_seconds();
+    facet_result result =
+        scene_pose_create(p->scene, desc->scene_index, &desc->allocator, desc->thread_count, &p->pose, error);
+    if (result == FACET_OK)
+        result = camera_rays_create(desc->camera, desc->width, desc->height, &p->camera, error);
+    if (result == FACET_OK)
+        result = render_geometry_create(p->scene, &p->pose, &desc->allocator, &p->geometries, error);
+    if (result == FACET_OK)
+        result = render_geometry_transform(&p->geometries, &p->pose, &p->camera, &desc->allocator,
+                                           desc->thread_count, error);
+    if (result != FACET_OK)
+        return result;
+    p->uses = mem_zalloc(&desc->allocator, p->scene->texture_count, sizeof *p->uses);
+    if (!p->uses)
+        return fail_memory(error, "textures", p->scene->texture_count * sizeof *p->uses);
+    p->stats->geometry_s = clock_seconds() - start;
+
+    stage_run run = {.p = p};
+    parallel_for(desc->thread_count, STAGE_COUNT, 1, run_stages, &run);
+    for (int i = 0; i < STAGE_COUNT; i++)
+        if (run.results[i] != FACET_OK) {
+            if (error)
+                *error = run.errors[i];
+            return run.results[i];
+        }
+    return FACET_OK;
+}
+
+/* ---- the picture ---- */
+
+static facet_result check_limits(const facet_render_desc *desc, const char *stage, double fraction,
+                                 double deadline_s, facet_error *error)
+{
+    if (desc->progress.report && !desc->progress.report(desc->progress.user, stage, fraction))
+        return fail(error, FACET_ERROR_CANCELLED, "cancelled (%s)", stage);
+    if (deadline_s > 0.0 && clock_seconds() > deadline_s)
+        return fail(error, FACET_ERROR_LIMIT, "time limit: %g s were over (%s)", desc->time_limit_s, stage);
+    return FACET_OK;
+}
+
+static facet_result draw(preview *p, double deadline_s, film *target, facet_error *error)
+{
+    shading_scene shading = {.geometries = &p->geometries,
+                             .textures = p->textures,
+                             .light = &p->light,
+                             .camera = &p->camera,
+                             .energy = p->desc->energy};
+    tiles_desc tiles = {.render = p->desc, .embree = &p->embree, .scene = &shading, .deadline_s = deadline_s};
+    double start = clock_seconds();
+    facet_result result = tiles_draw(&tiles, target, p->stats, error);
+    p->stats->shade_s = clock_seconds() - start;
+    return result;
+}
+
+facet_result preview_render(const facet_scene *scene, const facet_render_desc *desc, film *target,
+                            facet_render_stats *stats, facet_error *error)
+{
+    double start = clock_seconds();
+    double deadline_s = desc->time_limit_s > 0.0 ? start + desc->time_limit_s : 0.0;
+    *stats = (facet_render_stats){.thread_count = desc->thread_count};
+    preview p = {.scene = scene, .desc = desc, .stats = stats};
+    facet_result result = check_limits(desc, "prepare", 0.0, deadline_s, error);
+    if (result == FACET_OK)
+        result = prepare(&p, error);
+    if (result == FACET_OK)
+        result = check_limits(desc, "shade", 0.0, deadline_s, error);
+    if (result == FACET_OK)
+        result = draw(&p, deadline_s, target, error);
+    if (result == FACET_OK)
+        result = check_limits(desc, "shade", 1.0, 0.0, error);
+
+    light_setup_destroy(&p.light);
+    texture_set_destroy(p.textures);
+    embree_scene_destroy(&p.embree);
+    render_geometry_destroy(&p.geometries);
+    scene_pose_destroy(&p.pose);
+    mem_free(p.uses);
+    stats->total_s = clock_seconds() - start;
+    return result;
+}

@@ -1,0 +1,40 @@
+/* shading.h - from a hit to light: attributes, textures and the shared surface. */
+#ifndef CPU_SHADING_H
+#define CPU_SHADING_H
+
+#include "cpu/light_setup.h"
+#include "cpu/texture.h"
+#include "cpu/visibility.h"
+
+/* All that shading reads; nothing of it changes while a picture is drawn. */
+typedef struct shading_scene {
+    const render_geometry_set *geometries;
+    const texture_set *textures;
+    const light_setup *light;
+    const camera_rays *camera;
+    facet_energy energy;
+} shading_scene;
+
+/* A hit and the picture position whose ray made it. */
+typedef struct shading_point {
+    const visibility_hit *hit;
+    float x, y;      /* pixels */
+    float footprint; /* side of the square that the shade stands for, pixels */
+} shading_point;
+
+typedef struct shading_result {
+    float radiance[3]; /* cd/m^2 towards the camera */
+    float opacity;     /* [0, 1] */
+    float normal[3];   /* unit shading normal, world space, on the side of the camera */
+    float base_color[3];
+    float occlusion;
+    float uv[2]; /* TEXCOORD_0 */
+} shading_result;
+
+/* Whether the hit shows a side that is drawn: the front, or any of a double-sided surface. direction is the ray's. */
+bool shading_is_visible_side(const shading_scene *scene, const visibility_hit *hit, const float direction[3]);
+/* Whether light passes the surface: 0 not there, 1 opaque. MASK gives 0 or 1. Cheaper than a shade. */
+float shading_opacity(const shading_scene *scene, const shading_point *point);
+void shading_shade(const shading_scene *scene, const shading_point *point, shading_result *out);
+
+#endif

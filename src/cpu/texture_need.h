@@ -1,0 +1,23 @@
+/* texture_need.h - which textures a picture reads, and how finely. */
+#ifndef CPU_TEXTURE_NEED_H
+#define CPU_TEXTURE_NEED_H
+
+#include "cpu/render_geometry.h"
+#include "cpu/texture.h"
+
+/* How a picture is drawn, as far as it matters to texture footprints. */
+typedef struct texture_need_desc {
+    uint32_t width, height;  /* of the whole picture: a crop reads the same mips */
+    float footprint;         /* side of the square that a shade stands for, pixels */
+    float opacity_footprint; /* of what is read to find whether a surface is there */
+    uint32_t thread_count;
+} texture_need_desc;
+
+/* Writes one use per texture of the scene. min_lod is a bound: over the triangles in the picture, the mip at which a
+ * texel is as large as the smaller extent of a pixel's footprint at the triangle's nearest vertex. Triangles that
+ * add up to a few pixels are not counted. Needs the vertices of set. Fails with FACET_ERROR_MEMORY. */
+facet_result texture_need(const facet_scene *scene, const render_geometry_set *set, const camera_rays *camera,
+                          const texture_need_desc *desc, const facet_allocator *allocator, texture_use *uses,
+                          facet_error *error);
+
+#endif

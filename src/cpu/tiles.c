@@ -1,0 +1,211 @@
+/* tiles.c - see tiles.h. Tiles are handed out one by one, because some cost a hundred times what others do; what a
+ * pixel shows depends on nothing but itself. */
+#include "cpu/tiles.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "cpu/pixel.h"
+#include "cpu/sample_pattern.h"
+
+enum { TILE = 32 };
+_Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
+
+/* The layers of the film; NULL: not asked for. */
+typedef struct layers {
+    film_layer *color, *depth, *normal, *albedo, *material, *uv, *occlusion;
+} layers;
+
+typedef struct picture {
+    const tiles_desc *desc;
+    uint32_t crop[4]; /* x, y, width, height in the whole picture */
+    uint32_t tile_columns, tile_count;
+    visibility_pattern pattern, middle;
+    layers layers;
+    bool wants_aovs;
+    /* shared by the threads */
+    _Atomic int result; /* the first that was not FACET_OK */
+    _Atomic uint32_t done;
+    _Atomic uint64_t rays, shades;
+    atomic_flag is_reporting;
+    double reported;
+} picture;
+
+/* ---- one block ---- */
+
+/* What a thread works with while it draws a tile. */
+typedef struct workspace {
+    pixel_resolver resolver;
+    visibility_hit *hits; /* VISIBILITY_BLOCK_PIXELS * sample_count */
+    visibility_hit middle_hits[VISIBILITY_BLOCK_PIXELS];
+} workspace;
+
+static void store(const film_layer *layer, size_t pixel, const float *values)
+{
+    if (layer)
+        memcpy(layer->pixels + pixel * layer->channel_count, values, layer->channel_count * sizeof(float));
+}
+
+static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, const visibility_hit *hit,
+                       size_t pixel)
+{
+    shading_result surface;
+    float depth_m;
+    uint32_t geometry;
+    if (!pixel_nearest_surface(&w->resolver, x, y, hit, &surface, &depth_m, &geometry))
+        return; /* the film starts with what stands for nothing */
+    float material = (float)p->desc->scene->geometries->items[geometry].material_id;
+    store(p->layers.depth, pixel, &depth_m);
+    store(p->layers.normal, pixel, surface.normal);
+    store(p->layers.albedo, pixel, surface.base_color);
+    store(p->layers.material, pixel, &material);
+    store(p->layers.uv, pixel, surface.uv);
+    store(p->layers.occlusion, pixel, &surface.occlusion);
+}
+
+static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
+{
+    const camera_rays *camera = p->desc->scene->camera;
+    uint32_t n = p->pattern.sample_count;
+    visibility_trace_block(p->desc->embree, camera, x, y, &p->pattern, w->hits);
+    w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * n;
+    if (p->wants_aovs) {
+        visibility_trace_block(p->desc->embree, camera, x, y, &p->middle, w->middle_hits);
+        w->resolver.rays += VISIBILITY_BLOCK_PIXELS;
+    }
+    for (uint32_t i = 0; i < VISIBILITY_BLOCK_PIXELS; i++) {
+        uint32_t px = x + i % VISIBILITY_BLOCK;
+        uint32_t py = y + i / VISIBILITY_BLOCK;
+        if (px < p->crop[0] || py < p->crop[1] || px - p->crop[0] >= p->crop[2] ||
+            py - p->crop[1] >= p->crop[3])
+            continue;
+        size_t pixel = (size_t)(py - p->crop[1]) * p->crop[2] + (px - p->crop[0]);
+        float rgba[4];
+        if (!pixel_resolve(&w->resolver, px, py, w->hits + (size_t)i * n, rgba))
+            return false;
+        store(p->layers.color, pixel, rgba);
+        if (p->wants_aovs)
+            write_aovs(p, w, px, py, &w->middle_hits[i], pixel);
+    }
+    return true;
+}
+
+/* ---- tiles ---- */
+
+static void stop(picture *p, facet_result result)
+{
+    int none = FACET_OK;
+    atomic_compare_exchange_strong(&p->result, &none, result);
+}
+
+/* Tells how far the picture is. A thread that finds another one telling goes on drawing. */
+static void report(picture *p)
+{
+    const facet_progress *progress = &p->desc->render->progress;
+    if (!progress->report || atomic_flag_test_and_set(&p->is_reporting))
+        return;
+    double fraction = (double)atomic_load(&p->done) / (double)p->tile_count;
+    if (fraction >= p->reported + 0.01) {
+        p->reported = fraction;
+        if (!progress->report(progress->user, "shade", fraction))
+            stop(p, FACET_ERROR_CANCELLED);
+    }
+    atomic_flag_clear(&p->is_reporting);
+}
+
+static void draw_tile(picture *p, uint32_t tile)
+{
+    const facet_render_desc *render = p->desc->render;
+    workspace w = {.hits =
+                       mem_alloc(&render->allocator,
+                                 (size_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count, sizeof *w.hits),
+                   .resolver = {.allocator = &render->allocator,
+                                .embree = p->desc->embree,
+                                .scene = p->desc->scene,
+                                .pattern = &p->pattern,
+                                .splits_quarters = render->quality == FACET_QUALITY_FINAL,
+                                .draws_background = render->background == FACET_BACKGROUND_ENVIRONMENT,
+                                .background_blur = render->background_blur,
+                                .scale = exp2f(render->exposure_ev)}};
+    uint32_t left = p->crop[0] / TILE * TILE + tile % p->tile_columns * TILE;
+    uint32_t top = p->crop[1] / TILE * TILE + tile / p->tile_columns * TILE;
+    bool has_memory = w.hits != NULL;
+    for (uint32_t block = 0; has_memory && block < TILE / VISIBILITY_BLOCK * (TILE / VISIBILITY_BLOCK);
+         block++) {
+        uint32_t x = left + block % (TILE / VISIBILITY_BLOCK) * VISIBILITY_BLOCK;
+        uint32_t y = top + block / (TILE / VISIBILITY_BLOCK) * VISIBILITY_BLOCK;
+        if (x + VISIBILITY_BLOCK <= p->crop[0] || y + VISIBILITY_BLOCK <= p->crop[1] ||
+            x >= p->crop[0] + p->crop[2] || y >= p->crop[1] + p->crop[3])
+            continue;
+        if (atomic_load_explicit(&p->result, memory_order_relaxed) != FACET_OK)
+            break;
+        has_memory = draw_block(p, &w, x, y);
+    }
+    if (!has_memory)
+        stop(p, FACET_ERROR_MEMORY);
+    atomic_fetch_add(&p->rays, w.resolver.rays);
+    atomic_fetch_add(&p->shades, w.resolver.shades);
+    pixel_resolver_destroy(&w.resolver);
+    mem_free(w.hits);
+}
+
+static void draw_tiles(void *context, size_t begin, size_t end)
+{
+    picture *p = context;
+    for (size_t tile = begin; tile < end; tile++) {
+        if (atomic_load(&p->result) != FACET_OK)
+            return;
+        if (p->desc->deadline_s > 0.0 && clock_seconds() > p->desc->deadline_s)
+            stop(p, FACET_ERROR_LIMIT);
+        draw_tile(p, (uint32_t)tile);
+        atomic_fetch_add(&p->done, 1);
+        report(p);
+    }
+}
+
+static facet_result explain(const picture *p, facet_error *error)
+{
+    switch (atomic_load(&p->result)) {
+    case FACET_OK:
+        return FACET_OK;
+    case FACET_ERROR_LIMIT:
+        return fail(error, FACET_ERROR_LIMIT, "time limit: %g s were over after %.0f %% of the picture",
+                    p->desc->render->time_limit_s, 100.0 * atomic_load(&p->done) / p->tile_count);
+    case FACET_ERROR_CANCELLED:
+        return fail(error, FACET_ERROR_CANCELLED, "cancelled while drawing");
+    default:
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: drawing a tile");
+    }
+}
+
+facet_result tiles_draw(const tiles_desc *desc, film *target, facet_render_stats *stats, facet_error *error)
+{
+    const facet_render_desc *render = desc->render;
+    const uint32_t *crop = render->crop;
+    static const float middle_point[2] = {0.5f, 0.5f};
+    float *points = mem_alloc(&render->allocator, render->samples, 2 * sizeof *points);
+    if (!points)
+        return fail_memory(error, "sample pattern", render->samples * 2 * sizeof *points);
+    sample_pattern(render->samples, points);
+    picture p = {.desc = desc,
+                 .crop = {crop[0], crop[1], target->width, target->height},
+                 .tile_columns = (crop[0] + target->width - 1) / TILE - crop[0] / TILE + 1,
+                 .pattern = {render->samples, points},
+                 .middle = {1, middle_point},
+                 .layers = {film_find(target, ""), film_find(target, "depth"), film_find(target, "normal"),
+                            film_find(target, "albedo"), film_find(target, "material"), film_find(target, "uv"),
+                            film_find(target, "occlusion")},
+                 .wants_aovs = render->aovs != 0,
+                 .is_reporting = ATOMIC_FLAG_INIT};
+    p.tile_count = p.tile_columns * ((crop[1] + target->height - 1) / TILE - crop[1] / TILE + 1);
+    parallel_for(render->thread_count, p.tile_count, 1, draw_tiles, &p);
+    mem_free(points);
+    stats->rays += atomic_load(&p.rays);
+    stats->shades += atomic_load(&p.shades);
+    return explain(&p, error);
+}

@@ -1,0 +1,20 @@
+/* tiles.h - draws a picture tile by tile on several threads. */
+#ifndef CPU_TILES_H
+#define CPU_TILES_H
+
+#include "cpu/shading.h"
+#include "film/film.h"
+
+/* What is drawn; {0} members as in facet_render_desc. */
+typedef struct tiles_desc {
+    const facet_render_desc *render;
+    const embree_scene *embree;
+    const shading_scene *scene;
+    double deadline_s; /* of clock_seconds(); 0: none */
+} tiles_desc;
+
+/* Fills every layer of film. Adds to stats->rays and ->shades. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past
+ * the deadline, FACET_ERROR_CANCELLED. */
+facet_result tiles_draw(const tiles_desc *desc, film *film, facet_render_stats *stats, facet_error *error);
+
+#endif
