@@ -132,6 +132,7 @@ typedef struct scene_node {
     uint32_t parent; /* SCENE_NONE: a root */
     uint32_t child_count;
     const uint32_t *children;
+    bool is_hidden;  /* KHR_node_visibility; with all below it */
     bool has_matrix; /* matrix instead of translation, rotation, scale */
     mat4 matrix;
     float translation[3], rotation[4], scale[3]; /* rotation a unit quaternion x y z w */
@@ -183,13 +184,15 @@ typedef struct facet_scene {
 /* An empty scene with its arena. */
 facet_result scene_create(const facet_allocator *allocator, const char *source, facet_scene **out,
                           facet_error *error);
+void scene_destroy(facet_scene *scene); /* NULL is allowed */
+/* Takes over an open file (leaves {0} in *file): closed with the scene. False: no memory, *file is as it was. */
+bool scene_keep_file(facet_scene *scene, file_bytes *file);
 /* Appends to scene->warnings and tells log; the same text is kept once. */
 void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Looks up scene->materials[index], or the default material for SCENE_NONE. */
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index);
 
-void scene_destroy(facet_scene *scene); /* NULL is allowed */
 /* facet_scene_create_builtin(), facet_scene_get_counts(), facet_scene_describe_json(). */
 facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **out, facet_error *error);
 facet_scene_counts scene_count(const facet_scene *scene);
@@ -229,12 +232,26 @@ typedef struct scene_pose {
     bool has_bounds;
 } scene_pose;
 
-/* Evaluates scene number index (FACET_DEFAULT: the default one). Singular node matrices draw nothing. Fails with
- * FACET_ERROR_ARGUMENT for an index that is not there. */
+/* Evaluates scene number index (FACET_DEFAULT: the default one). A file without scenes has one, number 0, of all
+ * its roots. Singular node matrices draw nothing, and what they would put farther out than 1e18 m. Fails with
+ * FACET_ERROR_ARGUMENT for an index that is not there, FACET_ERROR_LIMIT above 2^22 instances. */
 facet_result scene_pose_create(const facet_scene *scene, uint32_t index, const facet_allocator *allocator,
                                uint32_t thread_count, scene_pose *pose, facet_error *error);
 void scene_pose_destroy(scene_pose *pose); /* {0} is allowed */
 
+/* ---- cameras ---- */
+
+typedef enum scene_fit {
+    SCENE_FIT_VIEW,        /* as near as this one picture allows */
+    SCENE_FIT_ALL_AZIMUTHS /* as near as all pictures of a turn around the vertical through the target allow: the
+                              same distance for each */
+} scene_fit;
+
+/* facet_camera_from_orbit() for a pose that is there (it may draw nothing). The distance is exact: at radius_scale 1
+ * the outermost vertex is on the border of the picture. Fails with FACET_ERROR_ARGUMENT for numbers that are no
+ * camera. */
+facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect, scene_fit fit,
+                            uint32_t thread_count, facet_camera *camera, facet_error *error);
 /* facet_camera_from_orbit(). */
 facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit, float aspect,
                              facet_camera *camera, facet_error *error);

@@ -1,0 +1,101 @@
+/* gltf_buffers.c - buffers and buffer views: where bytes are. A buffer is read when something needs its bytes. */
+#include <string.h>
+
+#include "io/gltf_reader.h"
+
+static const char *const MESHOPT[2] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+void read_buffers(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "buffers");
+    size_t count = get_count(&array);
+    r->buffers = reader_alloc(r, "buffers", count, sizeof *r->buffers);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        gltf_buffer *buffer = &r->buffers[i];
+        buffer->byte_length = get_uint(r, &at, "byteLength", (uint64_t)1 << 53, REQUIRED_UINT);
+        buffer->uri = get_string(r, &at, "uri", NULL);
+        for (int k = 0; k < 2; k++)
+            buffer->is_fallback |= get_extension(r, &at, MESHOPT[k]).value != NULL;
+        if (reader_is_ok(r) && buffer->byte_length == 0)
+            reader_warn(r, &at, "byteLength", "must be at least 1, but is 0");
+        r->buffer_count = (uint32_t)(i + 1);
+    }
+}
+
+void read_views(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "bufferViews");
+    size_t count = get_count(&array);
+    r->views = reader_alloc(r, "buffer views", count, sizeof *r->views);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        gltf_view *view = &r->views[i];
+        view->buffer = get_required_index(r, &at, "buffer", r->buffer_count, "buffer");
+        view->offset = get_uint(r, &at, "byteOffset", (uint64_t)1 << 53, 0);
+        view->length = get_uint(r, &at, "byteLength", (uint64_t)1 << 53, REQUIRED_UINT);
+        view->stride = get_uint(r, &at, "byteStride", UINT32_MAX, 0);
+        if (!reader_is_ok(r))
+            return;
+        size_t size = r->buffers[view->buffer].byte_length;
+        if (view->offset > size)
+            reader_fail(r, &at, "byteOffset", FACET_ERROR_INVALID,
+                        "%zu is past the end of buffer %u (%zu bytes)", view->offset, view->buffer, size);
+        else if (view->length > size - view->offset)
+            reader_fail(r, &at, "byteLength", FACET_ERROR_INVALID,
+                        "%zu from offset %zu goes past the end of buffer %u (%zu bytes)", view->length,
+                        view->offset, view->buffer, size);
+        if (view->stride && (view->stride < 4 || view->stride > 252 || view->stride % 4))
+            reader_warn(r, &at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
+        for (int k = 0; k < 2; k++)
+            view->is_compressed |= r->buffers[view->buffer].is_fallback && !r->buffers[view->buffer].uri &&
+                                   get_extension(r, &at, MESHOPT[k]).value != NULL;
+        r->view_count = (uint32_t)(i + 1);
+    }
+}
+
+/* Makes the bytes of a buffer come to be. */
+static bool load_buffer(reader *r, uint32_t index)
+{
+    gltf_buffer *buffer = &r->buffers[index];
+    const json_place root = {.value = r->json};
+    const json_place array = {.parent = &root, .key = "buffers"};
+    const json_place at = {.parent = &array, .index = index};
+    if (buffer->data)
+        return true;
+    size_t size = 0;
+    if (buffer->uri) {
+        uri_bytes bytes;
+        if (!load_uri(r, buffer->uri, &bytes))
+            return reader_fail(r, &at, "uri", bytes.result, "%s", bytes.message);
+        buffer->data = bytes.data;
+        size = bytes.size;
+    } else if (index == 0 && r->bin) {
+        buffer->data = r->bin;
+        size = r->bin_size;
+    } else {
+        return reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "has neither a uri nor a binary chunk");
+    }
+    if (size < buffer->byte_length) {
+        buffer->data = NULL;
+        return reader_fail(r, &at, "byteLength", FACET_ERROR_INVALID, "says %zu bytes, but there are %zu",
+                           buffer->byte_length, size);
+    }
+    if (size - buffer->byte_length > (buffer->uri ? 0u : 3u))
+        reader_warn(r, &at, "byteLength", "says %zu bytes, but there are %zu; the rest is ignored",
+                    buffer->byte_length, size);
+    return true;
+}
+
+const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t index)
+{
+    const gltf_view *view = &r->views[index];
+    if (!reader_is_ok(r))
+        return NULL;
+    if (view->is_compressed) {
+        reader_fail(r, at, NULL, FACET_ERROR_UNSUPPORTED,
+                    "bufferViews[%u] is there with meshopt compression only, which is not read yet", index);
+        return NULL;
+    }
+    return load_buffer(r, view->buffer) ? r->buffers[view->buffer].data + view->offset : NULL;
+}

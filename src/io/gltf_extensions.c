@@ -1,0 +1,172 @@
+/* gltf_extensions.c - what the file says it uses, and what facet makes of each: the one table of extensions. */
+#include <string.h>
+
+#include "io/gltf_reader.h"
+
+typedef struct known_extension {
+    const char *name;
+    scene_support support;
+    const char *effect; /* of ignoring it, for the warning; NULL: none, no warning */
+} known_extension;
+
+static const known_extension KNOWN[] = {
+    {"EXT_texture_webp", SCENE_SUPPORTED, NULL},
+    {"KHR_lights_punctual", SCENE_SUPPORTED, NULL},
+    {"KHR_materials_emissive_strength", SCENE_SUPPORTED, NULL},
+    {"KHR_materials_ior", SCENE_SUPPORTED, NULL},
+    {"KHR_materials_specular", SCENE_SUPPORTED, NULL},
+    {"KHR_materials_unlit", SCENE_SUPPORTED, NULL},
+    {"KHR_mesh_quantization", SCENE_SUPPORTED, NULL},
+    {"KHR_node_visibility", SCENE_SUPPORTED, NULL},
+    {"KHR_texture_transform", SCENE_SUPPORTED, NULL},
+    /* Metadata, and hints for editors: nothing to see. */
+    {"FB_ngon_encoding", SCENE_IGNORED, NULL},
+    {"KHR_xmp", SCENE_IGNORED, NULL},
+    {"KHR_xmp_json_ld", SCENE_IGNORED, NULL},
+    {"EXT_structural_metadata", SCENE_IGNORED, NULL},
+    {"EXT_mesh_features", SCENE_IGNORED, NULL},
+    {"MSFT_lod", SCENE_IGNORED, NULL}, /* the finest level is the node itself */
+    /* Not yet. */
+    {"EXT_lights_ies", SCENE_IGNORED, "light profiles are left out"},
+    {"EXT_lights_image_based", SCENE_IGNORED, "the light of the file is left out"},
+    {"EXT_mesh_gpu_instancing", SCENE_IGNORED, "each mesh is drawn once"},
+    {"EXT_meshopt_compression", SCENE_IGNORED, "uncompressed data is used where there is any"},
+    {"EXT_texture_avif", SCENE_IGNORED, "other images are used where there are any"},
+    {"KHR_animation_pointer", SCENE_IGNORED, "nothing moves"},
+    {"KHR_draco_mesh_compression", SCENE_IGNORED, "uncompressed data is used where there is any"},
+    {"KHR_materials_anisotropy", SCENE_IGNORED, "reflections are round"},
+    {"KHR_materials_clearcoat", SCENE_IGNORED, "coats are left out"},
+    {"KHR_materials_diffuse_transmission", SCENE_IGNORED, "no light comes through"},
+    {"KHR_materials_dispersion", SCENE_IGNORED, "light is not split"},
+    {"KHR_materials_iridescence", SCENE_IGNORED, "thin films are left out"},
+    {"KHR_materials_pbrSpecularGlossiness", SCENE_IGNORED, "the metallic-roughness fallback is drawn"},
+    {"KHR_materials_sheen", SCENE_IGNORED, "sheen is left out"},
+    {"KHR_materials_transmission", SCENE_IGNORED, "surfaces are opaque"},
+    {"KHR_materials_variants", SCENE_IGNORED, "the default materials are drawn"},
+    {"KHR_materials_volume", SCENE_IGNORED, "insides are left out"},
+    {"KHR_materials_volume_scatter", SCENE_IGNORED, "insides are left out"},
+    {"KHR_meshopt_compression", SCENE_IGNORED, "uncompressed data is used where there is any"},
+    {"KHR_texture_basisu", SCENE_IGNORED, "other images are used where there are any"},
+    {"MSFT_texture_dds", SCENE_IGNORED, "other images are used where there are any"},
+};
+
+static const known_extension *find_known(const char *name)
+{
+    for (size_t i = 0; i < sizeof KNOWN / sizeof *KNOWN; i++)
+        if (strcmp(KNOWN[i].name, name) == 0)
+            return &KNOWN[i];
+    return NULL;
+}
+
+static scene_extension *find_listed(const reader *r, const char *name)
+{
+    for (uint32_t i = 0; i < r->scene->extension_count; i++)
+        if (strcmp(r->scene->extensions[i].name, name) == 0)
+            return &r->scene->extensions[i];
+    return NULL;
+}
+
+/* Takes a name from extensionsUsed or extensionsRequired into the list; NULL: an error is recorded. */
+static scene_extension *list(reader *r, const json_place *at)
+{
+    if (!json_is_string(at->value)) {
+        reader_fail(r, at, NULL, FACET_ERROR_INVALID, "must be a string");
+        return NULL;
+    }
+    const char *name = json_string_value(at->value);
+    scene_extension *listed = find_listed(r, name);
+    if (listed)
+        return listed;
+    const known_extension *known = find_known(name);
+    char *copy = arena_strdup(r->scene->arena, name);
+    if (!copy) {
+        reader_fail_memory(r, "extensions", strlen(name));
+        return NULL;
+    }
+    listed = &r->scene->extensions[r->scene->extension_count++];
+    *listed = (scene_extension){.name = copy, .support = known ? known->support : SCENE_IGNORED};
+    return listed;
+}
+
+/* Says, once per name, which extension objects stand somewhere below value without being listed. Bounded in depth:
+ * glTF's own objects nest no deeper. */
+static void check_declared(reader *r, json_t *value, int depth)
+{
+    size_t index;
+    json_t *element;
+    const char *key;
+    if (depth == 0)
+        return;
+    if (json_is_array(value)) {
+        json_array_foreach(value, index, element) if (json_is_object(element) || json_is_array(element))
+            check_declared(r, element, depth - 1);
+        return;
+    }
+    json_object_foreach(value, key, element)
+    {
+        if (strcmp(key, "extras") == 0 || !(json_is_object(element) || json_is_array(element)))
+            continue;
+        check_declared(r, element, depth - 1);
+        const char *name;
+        json_t *extension;
+        if (strcmp(key, "extensions") == 0)
+            json_object_foreach(element, name, extension)
+            {
+                if (!find_listed(r, name))
+                    reader_warn(r, NULL, NULL, "uses %.100s without naming it in extensionsUsed", name);
+                if (!json_is_object(extension))
+                    reader_warn(r, NULL, NULL, "has an extension %.100s that is no object", name);
+            }
+    }
+}
+
+void read_extensions(reader *r, const json_place *root)
+{
+    json_place used = get_array(r, root, "extensionsUsed");
+    json_place required = get_array(r, root, "extensionsRequired");
+    size_t most = get_count(&used) + get_count(&required);
+    enum { MOST_EXTENSIONS = 1000 }; /* lookups are linear */
+    if (most > MOST_EXTENSIONS) {
+        reader_fail(r, &used, NULL, FACET_ERROR_LIMIT, "lists more than %d extensions", (int)MOST_EXTENSIONS);
+        return;
+    }
+    r->scene->extensions = reader_alloc(r, "extensions", most, sizeof *r->scene->extensions);
+    for (size_t i = 0; i < get_count(&used) && reader_is_ok(r); i++) {
+        json_place at = get_element(&used, i);
+        uint32_t before = r->scene->extension_count;
+        scene_extension *extension = list(r, &at);
+        if (extension && r->scene->extension_count == before)
+            reader_warn(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
+    }
+    for (size_t i = 0; i < get_count(&required) && reader_is_ok(r); i++) {
+        json_place at = get_element(&required, i);
+        uint32_t before = r->scene->extension_count;
+        scene_extension *extension = list(r, &at);
+        if (!extension)
+            return;
+        if (r->scene->extension_count != before)
+            reader_warn(r, &at, NULL, "\"%.100s\" is not in extensionsUsed", extension->name);
+        else if (extension->is_required)
+            reader_warn(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
+        extension->is_required = true;
+        const known_extension *known = find_known(extension->name);
+        if (!known || (known->support == SCENE_IGNORED && known->effect))
+            reader_fail(r, NULL, NULL, FACET_ERROR_UNSUPPORTED,
+                        "requires the extension %.100s, which facet lacks", extension->name);
+    }
+    for (uint32_t i = 0; i < r->scene->extension_count && reader_is_ok(r); i++) {
+        const scene_extension *extension = &r->scene->extensions[i];
+        const known_extension *known = find_known(extension->name);
+        if (!known)
+            reader_warn(r, NULL, NULL, "uses the extension %.100s, which facet does not know",
+                        extension->name);
+        else if (known->effect)
+            reader_warn(r, NULL, NULL, "uses %s, which is not drawn yet: %s", extension->name, known->effect);
+    }
+    scene_extension *quantization = find_listed(r, "KHR_mesh_quantization");
+    r->has_quantization = quantization != NULL;
+    if (quantization && !quantization->is_required)
+        reader_warn(r, NULL, NULL, "uses KHR_mesh_quantization, which must be among extensionsRequired");
+    if (reader_is_ok(r))
+        check_declared(r, (json_t *)(uintptr_t)root->value, 12);
+}

@@ -1,0 +1,226 @@
+/* gltf_reader.h - what the files of the glTF reader share: its state, and typed access to the JSON with places in
+ * messages.
+ *
+ * Errors are sticky: the first one stays in reader.result, getters then give their fallback, and who loops or
+ * allocates asks reader_is_ok(). So parsing code reads like the specification's tables. */
+#ifndef IO_GLTF_READER_H
+#define IO_GLTF_READER_H
+
+#include <jansson.h>
+
+#include "scene/scene.h"
+
+/* ---- parsed tables of the binary data ---- */
+
+typedef struct gltf_buffer {
+    size_t byte_length;
+    const char *uri;           /* NULL: the binary chunk of a .glb, or nothing */
+    const unsigned char *data; /* NULL: not asked for yet */
+    bool is_fallback;          /* of a compression extension: has no bytes by design */
+} gltf_buffer;
+
+typedef struct gltf_view {
+    uint32_t buffer;
+    size_t offset, length;
+    size_t stride;      /* 0: tight */
+    bool is_compressed; /* meshopt, with no other bytes */
+} gltf_view;
+
+typedef enum gltf_component {
+    GLTF_I8 = 5120,
+    GLTF_U8 = 5121,
+    GLTF_I16 = 5122,
+    GLTF_U16 = 5123,
+    GLTF_U32 = 5125,
+    GLTF_F32 = 5126
+} gltf_component;
+
+typedef enum gltf_type {
+    GLTF_SCALAR,
+    GLTF_VEC2,
+    GLTF_VEC3,
+    GLTF_VEC4,
+    GLTF_MAT2,
+    GLTF_MAT3,
+    GLTF_MAT4,
+    GLTF_TYPE_COUNT
+} gltf_type;
+
+typedef struct gltf_accessor {
+    uint32_t view; /* SCENE_NONE: zeros */
+    size_t offset;
+    gltf_component component;
+    gltf_type type;
+    bool is_normalized;
+    uint32_t count;
+    uint32_t sparse_count; /* 0: not sparse */
+    uint32_t sparse_index_view, sparse_value_view;
+    size_t sparse_index_offset, sparse_value_offset;
+    gltf_component sparse_index_component;
+
+    /* What was made of it, so that primitives that share it share that too; NULL: not yet. */
+    const float *floats;
+    const uint32_t *indices;
+    uint32_t largest_index;
+    const float *positions; /* finite ones */
+    const uint8_t *is_lost; /* per vertex: its position was not finite; NULL: none */
+    const float *normals, *tangents, *colors, *texcoords;
+    bool has_tangents;        /* false: tangents were looked at and are of no use */
+    bool has_missing_normals; /* some have no direction and are 0 here */
+} gltf_accessor;
+
+/* ---- state ---- */
+
+typedef struct reader {
+    facet_scene *scene;
+    const facet_allocator *allocator;
+    const facet_log *log;
+    facet_error *error;
+    facet_result result; /* FACET_OK, or the first error */
+    uint32_t thread_count;
+    uint64_t max_file_bytes;
+    const char *folder; /* of the model; NULL: read from memory, there is none */
+    const char *root;   /* folder that URIs may reach; NULL: folder */
+
+    json_t *json;
+    const unsigned char *bin; /* binary chunk of a .glb; NULL: none */
+    size_t bin_size;
+
+    uint32_t buffer_count, view_count, accessor_count;
+    gltf_buffer *buffers;
+    gltf_view *views;
+    gltf_accessor *accessors;
+    const uint32_t *iota; /* 0, 1, 2, .. */
+    uint32_t iota_count;
+    uint64_t work; /* elements read so far; see reader_spend() */
+    bool has_quantization;
+} reader;
+
+/* ---- places ---- */
+
+/* A value in the JSON and how it was reached. Lives on the stack of who reads it; value NULL: it is not there,
+ * and every getter then gives its fallback. */
+typedef struct json_place {
+    const struct json_place *parent;
+    const char *key; /* NULL: element index of an array, or the root */
+    size_t index;
+    const json_t *value;
+} json_place;
+
+bool reader_is_ok(const reader *r);
+/* Records an error "SOURCE: PLACE.key: ..." (key NULL: of the place itself) unless there is one. Returns false. */
+bool reader_fail(reader *r, const json_place *at, const char *key, facet_result result, const char *format,
+                 ...) __attribute__((format(printf, 5, 6)));
+bool reader_fail_memory(reader *r, const char *what, size_t size);
+/* A warning of the same form; see scene_warn(). */
+void reader_warn(reader *r, const json_place *at, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* arena_zalloc() that records the error. count of 0 is allowed. */
+void *reader_alloc(reader *r, const char *what, size_t count, size_t size);
+/* The same without clearing. */
+void *reader_alloc_raw(reader *r, const char *what, size_t count, size_t size);
+/* Accounts for elements to be read. A file can refer to the same bytes any number of times: this bounds time and
+ * memory. False, with FACET_ERROR_LIMIT recorded, beyond 2^28. */
+bool reader_spend(reader *r, const json_place *at, uint64_t elements);
+
+/* ---- typed members ---- */
+
+/* An object or array member; value NULL where there is none or (recorded) it is something else. An empty array,
+ * which glTF forbids, gets a warning. */
+json_place get_object(reader *r, const json_place *object, const char *key);
+json_place get_array(reader *r, const json_place *object, const char *key);
+size_t get_count(const json_place *array);                                       /* 0 without value */
+json_place get_element(const json_place *array, size_t index);                   /* of any type */
+json_place get_element_object(reader *r, const json_place *array, size_t index); /* must be an object */
+/* extensions.NAME */
+json_place get_extension(reader *r, const json_place *object, const char *name);
+bool has_member(const json_place *object, const char *key);
+
+#define REQUIRED_UINT UINT64_MAX /* as fallback: absence is an error */
+/* A whole number in [0, maximum]; 5.0 counts as 5. */
+uint64_t get_uint(reader *r, const json_place *object, const char *key, uint64_t maximum, uint64_t fallback);
+/* An index below count, what names the things; SCENE_NONE where it is absent. */
+uint32_t get_index(reader *r, const json_place *object, const char *key, uint32_t count, const char *what);
+uint32_t get_required_index(reader *r, const json_place *object, const char *key, uint32_t count,
+                            const char *what);
+/* The value of a place itself as an index, for elements of arrays. */
+uint32_t get_index_value(reader *r, const json_place *at, uint32_t count, const char *what);
+float get_float(reader *r, const json_place *object, const char *key, float fallback);
+/* The same; outside [minimum, maximum] it is clamped with a warning. */
+float get_float_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
+                   float fallback);
+/* Fills out with exactly count numbers. False: absent (out stays) or (recorded) wrong. */
+bool get_floats(reader *r, const json_place *object, const char *key, float *out, size_t count);
+void get_floats_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
+                   float *out, size_t count);
+bool get_bool(reader *r, const json_place *object, const char *key, bool fallback);
+/* Owned by the JSON; fallback where absent. */
+const char *get_string(reader *r, const json_place *object, const char *key, const char *fallback);
+/* "name", copied to the scene; "" where there is none. Never fails but for memory. */
+const char *get_name(reader *r, const json_place *object);
+
+/* ---- the concerns, one file each ---- */
+
+/* gltf_buffers.c: tables of buffers and views; bytes come when asked for. */
+void read_buffers(reader *r, const json_place *root);
+void read_views(reader *r, const json_place *root);
+/* The bytes of a view; NULL, with the error recorded, where they cannot be had. */
+const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t view);
+
+/* gltf_accessors.c */
+void read_accessors(reader *r, const json_place *root);
+extern const uint32_t gltf_component_counts[GLTF_TYPE_COUNT];
+/* All elements as floats, gltf_component_counts[type] each, normalised integers in [-1, 1] or [0, 1]. Points into
+ * the file where the bytes are such floats already. NULL: an error is recorded. */
+const float *get_accessor_floats(reader *r, const json_place *at, uint32_t accessor);
+/* A scalar accessor of unsigned integers; *largest: the largest one. */
+const uint32_t *get_accessor_indices(reader *r, const json_place *at, uint32_t accessor, uint32_t *largest);
+
+/* gltf_attributes.c: vertex attributes as scene_primitive wants them; NULL: an error is recorded, or (tangents)
+ * there are none of use. */
+const float *get_positions(reader *r, const json_place *at, uint32_t accessor, const uint8_t **is_lost);
+const float *get_normals(reader *r, const json_place *at, uint32_t accessor, bool *has_missing);
+const float *get_tangents(reader *r, const json_place *at, uint32_t accessor);
+const float *get_texcoords(reader *r, const json_place *at, uint32_t accessor);
+const float *get_colors(reader *r, const json_place *at, uint32_t accessor);
+
+/* gltf_indices.c: the index list of a primitive, modes unrolled. */
+bool read_primitive_indices(reader *r, const json_place *at, scene_primitive *primitive,
+                            const uint8_t *is_lost);
+
+/* gltf_flat.c */
+/* Gives every triangle vertices of its own with the triangle's normal; drops tangents. */
+bool make_flat(reader *r, const json_place *at, scene_primitive *primitive);
+/* Fills in normals of length 0 with those of the triangles around, in a copy. */
+bool fill_missing_normals(reader *r, const json_place *at, scene_primitive *primitive);
+
+/* gltf_meshes.c, gltf_materials.c, gltf_textures.c, gltf_nodes.c: arrays of the scene. Order: textures, materials,
+ * meshes, nodes. */
+void read_images(reader *r, const json_place *root);
+void read_textures(reader *r, const json_place *root);
+void read_materials(reader *r, const json_place *root);
+void read_meshes(reader *r, const json_place *root);
+void read_cameras(reader *r, const json_place *root);
+void read_lights(reader *r, const json_place *root);
+void read_nodes(reader *r, const json_place *root);
+void read_scenes(reader *r, const json_place *root);
+
+/* gltf_extensions.c: what the file says it uses; fails on a required one that facet lacks. */
+void read_extensions(reader *r, const json_place *root);
+
+/* uri.c */
+/* The bytes that a URI stands for: decoded into the arena (data:) or mapped (a file; closed with the scene). what:
+ * "buffer", .. for messages. False: *message says why, and *result. Never touches the network. */
+typedef struct uri_bytes {
+    const unsigned char *data;
+    size_t size;
+    facet_result result;
+    char message[512]; /* without the place */
+} uri_bytes;
+bool load_uri(reader *r, const char *uri, uri_bytes *out);
+
+/* glb.c: splits a .glb; json and bin point into bytes. False: an error is recorded. */
+bool split_glb(reader *r, const unsigned char *bytes, size_t size, const char **json, size_t *json_size);
+
+#endif

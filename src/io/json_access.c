@@ -1,0 +1,381 @@
+/* json_access.c - typed members of JSON objects, and messages that say where; see gltf_reader.h. */
+#include <float.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "io/gltf_reader.h"
+
+/* ---- messages ---- */
+
+enum { PLACE_SIZE = 256, LIMIT_ELEMENTS = 1 << 28 };
+
+/* Appends the way to a place, "meshes[3].primitives[0]"; a way that is too long loses its end. */
+static void append_place(char *text, const json_place *at)
+{
+    if (!at)
+        return;
+    append_place(text, at->parent); /* as deep as the calls that built the chain */
+    size_t length = strlen(text);
+    if (at->key)
+        snprintf(text + length, PLACE_SIZE - length, "%s%s", length ? "." : "", at->key);
+    else if (at->parent)
+        snprintf(text + length, PLACE_SIZE - length, "[%zu]", at->index);
+}
+
+static void format_message(char *out, size_t size, const reader *r, const json_place *at, const char *key,
+                           const char *format, va_list arguments)
+{
+    char place[PLACE_SIZE] = "";
+    append_place(place, at);
+    size_t length = strlen(place);
+    if (key)
+        snprintf(place + length, PLACE_SIZE - length, "%s%s", length ? "." : "", key);
+    char what[768];
+    vsnprintf(what, sizeof what, format, arguments);
+    snprintf(out, size, "%s: %s%s%s", r->scene->source, place, place[0] ? ": " : "", what);
+}
+
+bool reader_is_ok(const reader *r)
+{
+    return r->result == FACET_OK;
+}
+
+bool reader_fail(reader *r, const json_place *at, const char *key, facet_result result, const char *format,
+                 ...)
+{
+    if (r->result != FACET_OK)
+        return false;
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    format_message(message, sizeof message, r, at, key, format, arguments);
+    va_end(arguments);
+    r->result = fail(r->error, result, "%s", message);
+    return false;
+}
+
+bool reader_fail_memory(reader *r, const char *what, size_t size)
+{
+    if (r->result == FACET_OK)
+        r->result = fail_memory(r->error, what, size);
+    return false;
+}
+
+void reader_warn(reader *r, const json_place *at, const char *key, const char *format, ...)
+{
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    format_message(message, sizeof message, r, at, key, format, arguments);
+    va_end(arguments);
+    scene_warn(r->scene, r->log, "%s", message);
+}
+
+void *reader_alloc_raw(reader *r, const char *what, size_t count, size_t size)
+{
+    if (!reader_is_ok(r))
+        return NULL;
+    void *memory = arena_alloc(r->scene->arena, count, size);
+    if (!memory)
+        reader_fail_memory(r, what, count > SIZE_MAX / size ? SIZE_MAX : count * size);
+    return memory;
+}
+
+void *reader_alloc(reader *r, const char *what, size_t count, size_t size)
+{
+    void *memory = reader_alloc_raw(r, what, count, size);
+    if (memory)
+        memset(memory, 0, count * size);
+    return memory;
+}
+
+bool reader_spend(reader *r, const json_place *at, uint64_t elements)
+{
+    r->work += elements;
+    if (r->work <= LIMIT_ELEMENTS)
+        return reader_is_ok(r);
+    return reader_fail(r, at, NULL, FACET_ERROR_LIMIT,
+                       "the model refers to more than %d elements of vertices and indices",
+                       (int)LIMIT_ELEMENTS);
+}
+
+/* ---- members ---- */
+
+static const char *type_name(const json_t *value)
+{
+    switch (json_typeof(value)) {
+    case JSON_OBJECT:
+        return "an object";
+    case JSON_ARRAY:
+        return "an array";
+    case JSON_STRING:
+        return "a string";
+    case JSON_INTEGER:
+    case JSON_REAL:
+        return "a number";
+    case JSON_TRUE:
+    case JSON_FALSE:
+        return "a boolean";
+    default:
+        return "null";
+    }
+}
+
+static json_place get_member(const json_place *object, const char *key)
+{
+    return (json_place){.parent = object,
+                        .key = key,
+                        .value = json_is_object(object->value) ? json_object_get(object->value, key) : NULL};
+}
+
+static void fail_type(reader *r, const json_place *at, const char *wanted)
+{
+    reader_fail(r, at, NULL, FACET_ERROR_INVALID, "must be %s, but is %s", wanted, type_name(at->value));
+}
+
+bool has_member(const json_place *object, const char *key)
+{
+    return get_member(object, key).value != NULL;
+}
+
+json_place get_object(reader *r, const json_place *object, const char *key)
+{
+    json_place at = get_member(object, key);
+    if (at.value && !json_is_object(at.value)) {
+        fail_type(r, &at, "an object");
+        at.value = NULL;
+    }
+    return at;
+}
+
+json_place get_array(reader *r, const json_place *object, const char *key)
+{
+    json_place at = get_member(object, key);
+    if (at.value && !json_is_array(at.value)) {
+        fail_type(r, &at, "an array");
+        at.value = NULL;
+    } else if (at.value && json_array_size(at.value) == 0) {
+        reader_warn(r, &at, NULL, "is empty, which glTF does not allow");
+    } else if (at.value && json_array_size(at.value) >= SCENE_NONE) {
+        reader_fail(r, &at, NULL, FACET_ERROR_LIMIT, "has more than 2^32 - 2 elements");
+        at.value = NULL;
+    }
+    return at;
+}
+
+size_t get_count(const json_place *array)
+{
+    return array->value ? json_array_size(array->value) : 0;
+}
+
+json_place get_element(const json_place *array, size_t index)
+{
+    return (json_place){.parent = array, .index = index, .value = json_array_get(array->value, index)};
+}
+
+json_place get_element_object(reader *r, const json_place *array, size_t index)
+{
+    json_place at = get_element(array, index);
+    if (at.value && !json_is_object(at.value)) {
+        fail_type(r, &at, "an object");
+        at.value = NULL;
+    }
+    return at;
+}
+
+json_place get_extension(reader *r, const json_place *object, const char *name)
+{
+    /* The chain must outlive this call, so "extensions" and the name are one link in messages. */
+    json_place extensions = get_object(r, object, "extensions");
+    json_place at = get_member(&extensions, name);
+    at.parent = object;
+    if (at.value && !json_is_object(at.value)) {
+        fail_type(r, &at, "an object");
+        at.value = NULL;
+    }
+    return at;
+}
+
+/* ---- numbers ---- */
+
+/* A whole number in [0, maximum]. */
+static bool to_uint(const json_t *value, uint64_t maximum, uint64_t *out)
+{
+    if (json_is_integer(value)) {
+        json_int_t number = json_integer_value(value);
+        if (number < 0 || (uint64_t)number > maximum)
+            return false;
+        *out = (uint64_t)number;
+        return true;
+    }
+    if (!json_is_real(value))
+        return false;
+    double number = json_real_value(value);
+    if (!(number >= 0.0 && number <= 9007199254740992.0 && number == floor(number)) ||
+        (uint64_t)number > maximum)
+        return false;
+    *out = (uint64_t)number;
+    return true;
+}
+
+uint64_t get_uint(reader *r, const json_place *object, const char *key, uint64_t maximum, uint64_t fallback)
+{
+    json_place at = get_member(object, key);
+    uint64_t out = 0;
+    if (!at.value && fallback != REQUIRED_UINT)
+        return fallback;
+    if (!at.value)
+        reader_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
+    else if (!json_is_number(at.value))
+        fail_type(r, &at, "a number");
+    else if (!to_uint(at.value, maximum, &out))
+        reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "%.17g is not a whole number from 0 to %llu",
+                    json_number_value(at.value), (unsigned long long)maximum);
+    else
+        return out;
+    return fallback == REQUIRED_UINT ? 0 : fallback;
+}
+
+uint32_t get_index_value(reader *r, const json_place *at, uint32_t count, const char *what)
+{
+    uint64_t index;
+    if (!json_is_number(at->value))
+        fail_type(r, at, "a number");
+    else if (!to_uint(at->value, SCENE_NONE - 1, &index) || index >= count)
+        reader_fail(r, at, NULL, FACET_ERROR_INVALID, "%.17g is the number of no %s (there %s %u)",
+                    json_number_value(at->value), what, count == 1 ? "is" : "are", count);
+    else
+        return (uint32_t)index;
+    return SCENE_NONE;
+}
+
+uint32_t get_index(reader *r, const json_place *object, const char *key, uint32_t count, const char *what)
+{
+    json_place at = get_member(object, key);
+    return at.value ? get_index_value(r, &at, count, what) : SCENE_NONE;
+}
+
+uint32_t get_required_index(reader *r, const json_place *object, const char *key, uint32_t count,
+                            const char *what)
+{
+    if (object->value && !has_member(object, key))
+        reader_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
+    return get_index(r, object, key, count, what);
+}
+
+/* False: recorded. Doubles beyond float are the largest float. */
+static bool to_float(reader *r, const json_place *at, float *out)
+{
+    if (!json_is_number(at->value)) {
+        fail_type(r, at, "a number");
+        return false;
+    }
+    double number = json_number_value(at->value);
+    *out = number > (double)FLT_MAX ? FLT_MAX : number < -(double)FLT_MAX ? -FLT_MAX : (float)number;
+    return true;
+}
+
+float get_float(reader *r, const json_place *object, const char *key, float fallback)
+{
+    json_place at = get_member(object, key);
+    float out = fallback;
+    if (at.value)
+        to_float(r, &at, &out);
+    return out;
+}
+
+static float clamp_with_warning(reader *r, const json_place *at, float value, float minimum, float maximum)
+{
+    if (value >= minimum && value <= maximum)
+        return value;
+    float clamped = value < minimum ? minimum : maximum;
+    reader_warn(r, at, NULL, "%g is out of range; %g is used", (double)value, (double)clamped);
+    return clamped;
+}
+
+float get_float_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
+                   float fallback)
+{
+    json_place at = get_member(object, key);
+    float out = fallback;
+    if (!at.value || !to_float(r, &at, &out))
+        return fallback;
+    return clamp_with_warning(r, &at, out, minimum, maximum);
+}
+
+bool get_floats(reader *r, const json_place *object, const char *key, float *out, size_t count)
+{
+    json_place at = get_array(r, object, key);
+    if (!at.value)
+        return false;
+    if (get_count(&at) != count)
+        return reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "must have %zu numbers, but has %zu", count,
+                           get_count(&at));
+    for (size_t i = 0; i < count; i++) {
+        json_place element = get_element(&at, i);
+        if (!to_float(r, &element, &out[i]))
+            return false;
+    }
+    return true;
+}
+
+void get_floats_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
+                   float *out, size_t count)
+{
+    if (!get_floats(r, object, key, out, count))
+        return;
+    json_place at = get_member(object, key);
+    for (size_t i = 0; i < count; i++) {
+        json_place element = get_element(&at, i);
+        out[i] = clamp_with_warning(r, &element, out[i], minimum, maximum);
+    }
+}
+
+/* ---- others ---- */
+
+bool get_bool(reader *r, const json_place *object, const char *key, bool fallback)
+{
+    json_place at = get_member(object, key);
+    if (!at.value)
+        return fallback;
+    if (!json_is_boolean(at.value)) {
+        fail_type(r, &at, "a boolean");
+        return fallback;
+    }
+    return json_is_true(at.value);
+}
+
+const char *get_string(reader *r, const json_place *object, const char *key, const char *fallback)
+{
+    json_place at = get_member(object, key);
+    if (!at.value)
+        return fallback;
+    if (!json_is_string(at.value)) {
+        fail_type(r, &at, "a string");
+        return fallback;
+    }
+    const char *string = json_string_value(at.value);
+    if (strlen(string) != json_string_length(at.value)) {
+        reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "has a character 0 inside");
+        return fallback;
+    }
+    return string;
+}
+
+const char *get_name(reader *r, const json_place *object)
+{
+    json_place at = get_member(object, "name");
+    if (!at.value)
+        return "";
+    if (!json_is_string(at.value)) {
+        reader_warn(r, &at, NULL, "must be a string, but is %s", type_name(at.value));
+        return "";
+    }
+    char *copy = arena_strdup(r->scene->arena, json_string_value(at.value));
+    if (!copy)
+        reader_fail_memory(r, "name", json_string_length(at.value));
+    return copy ? copy : "";
+}

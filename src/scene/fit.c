@@ -1,0 +1,236 @@
+/* fit.c - cameras on an orbit, at the distance that frames the model exactly. */
+#include "scene/scene.h"
+
+#include <math.h>
+
+#include "base/parallel.h"
+#include "base/result.h"
+
+/* Where an orbit looks from: unit vectors in world space, and the tangents of half the angles of view. */
+typedef struct view {
+    double target[3];
+    double right[3], up[3], back[3]; /* back: from the target to the eye */
+    double vertical[3];              /* the axis of the orbit */
+    double sin_polar, cos_polar;
+    double tan_x, tan_y; /* orthographic: the proportion aspect : 1 */
+    bool orthographic;
+    scene_fit fit;
+} view;
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* +Y up to +Z up, a quarter turn around X: what faced +Z faces -Y, the front in tools with +Z up. */
+static void orient(const double y_up[3], bool is_z_up, double out[3])
+{
+    out[0] = y_up[0];
+    out[1] = is_z_up ? -y_up[2] : y_up[1];
+    out[2] = is_z_up ? y_up[1] : y_up[2];
+}
+
+static void aim(view *v, const facet_orbit *orbit, float aspect)
+{
+    double sin_azimuth = sin((double)orbit->azimuth_rad);
+    double cos_azimuth = cos((double)orbit->azimuth_rad);
+    v->sin_polar = sin((double)orbit->polar_rad);
+    v->cos_polar = cos((double)orbit->polar_rad);
+    const double back[3] = {v->sin_polar * sin_azimuth, v->cos_polar, v->sin_polar * cos_azimuth};
+    /* Against the derivative of back by polar, so that looking straight down keeps an up. */
+    const double up[3] = {-v->cos_polar * sin_azimuth, v->sin_polar, -v->cos_polar * cos_azimuth};
+    const double right[3] = {cos_azimuth, 0.0, -sin_azimuth};
+    const double vertical[3] = {0.0, 1.0, 0.0};
+    orient(back, orbit->is_z_up, v->back);
+    orient(up, orbit->is_z_up, v->up);
+    orient(right, orbit->is_z_up, v->right);
+    orient(vertical, orbit->is_z_up, v->vertical);
+    v->orthographic = orbit->orthographic;
+    v->tan_y = orbit->orthographic ? 1.0 : tan(0.5 * (double)orbit->fov_y_rad);
+    v->tan_x = v->tan_y * (double)aspect;
+}
+
+/* ---- how far ---- */
+
+/* What must be kept clear of. Perspective: extent is the distance eye to target at which all vertices are in the
+ * picture. Orthographic: half the height that shows them. nearest: how far vertices come towards the eye. */
+typedef struct extent {
+    double extent, nearest;
+} extent;
+
+static void extent_add(extent *e, double value, double nearest)
+{
+    e->extent = value > e->extent ? value : e->extent;
+    e->nearest = nearest > e->nearest ? nearest : e->nearest;
+}
+
+/* A vertex at (x, y, z) right, up and back of the target is in the picture from distance d when |x| <= (d - z)
+ * tan_x and |y| <= (d - z) tan_y. */
+static void add_point(const view *v, const double p[3], extent *e)
+{
+    double x = dot(p, v->right);
+    double y = dot(p, v->up);
+    double z = dot(p, v->back);
+    double sideways = fmax(fabs(x) / v->tan_x, fabs(y) / v->tan_y);
+    extent_add(e, v->orthographic ? sideways : z + sideways, z);
+}
+
+/* The same for all azimuths. With height h and distance r from the vertical, and phi the angle between the vertex
+ * and the eye, x = r sin phi, y = h sin p - r cos phi cos p, z = h cos p + r cos phi sin p. Each bound above is
+ * a sum A + B cos phi + C |sin phi|, largest at A + sqrt(B^2 + C^2). */
+static void add_circle(const view *v, const double p[3], extent *e)
+{
+    double h = dot(p, v->vertical);
+    double r2 = dot(p, p) - h * h;
+    double r = r2 > 0.0 ? sqrt(r2) : 0.0;
+    double s = v->sin_polar;
+    double c = v->cos_polar;
+    double nearest = h * c + r * fabs(s);
+    if (v->orthographic) {
+        extent_add(e, fmax(r / v->tan_x, (fabs(h * s) + r * fabs(c)) / v->tan_y), nearest);
+        return;
+    }
+    double side = h * c + r * sqrt(s * s + 1.0 / (v->tan_x * v->tan_x));
+    double top = h * c + h * s / v->tan_y + r * fabs(s - c / v->tan_y);
+    double bottom = h * c - h * s / v->tan_y + r * fabs(s + c / v->tan_y);
+    extent_add(e, fmax(side, fmax(top, bottom)), nearest);
+}
+
+enum { GRAIN = 1 << 14 };
+
+typedef struct fit_job {
+    const view *view;
+    const scene_instance *instance;
+    extent *extents; /* one per GRAIN indices */
+} fit_job;
+
+static void fit_body(void *context, size_t begin, size_t end)
+{
+    const fit_job *job = context;
+    const scene_primitive *primitive = job->instance->primitive;
+    const view *v = job->view;
+    extent e = {-INFINITY, -INFINITY};
+    for (size_t i = begin; i < end; i++) {
+        float world[3];
+        mat4_transform_point(&job->instance->world, primitive->positions + 3 * (size_t)primitive->indices[i],
+                             world);
+        double p[3];
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] = (double)world[axis] - v->target[axis];
+        if (v->fit == SCENE_FIT_ALL_AZIMUTHS)
+            add_circle(v, p, &e);
+        else
+            add_point(v, p, &e);
+    }
+    job->extents[begin / GRAIN] = e;
+}
+
+/* False: no memory. */
+static bool measure(const scene_pose *pose, const view *v, uint32_t thread_count, extent *out)
+{
+    *out = (extent){-INFINITY, -INFINITY};
+    size_t most = 0;
+    for (uint32_t i = 0; i < pose->instance_count; i++)
+        if (pose->instances[i].primitive->index_count > most)
+            most = pose->instances[i].primitive->index_count;
+    extent *extents = mem_alloc(NULL, most / GRAIN + 1, sizeof *extents);
+    if (!extents)
+        return false;
+    for (uint32_t i = 0; i < pose->instance_count; i++) {
+        size_t count = pose->instances[i].primitive->index_count;
+        fit_job job = {.view = v, .instance = &pose->instances[i], .extents = extents};
+        parallel_for(thread_count, count, GRAIN, fit_body, &job);
+        for (size_t k = 0; k < (count + GRAIN - 1) / GRAIN; k++)
+            extent_add(out, extents[k].extent, extents[k].nearest);
+    }
+    mem_free(extents);
+    return true;
+}
+
+static bool is_in(float value, float minimum, float maximum)
+{
+    return value >= minimum && value <= maximum; /* false for NaN */
+}
+
+static facet_result check(const facet_orbit *orbit, float aspect, facet_error *error)
+{
+    const float most = 1e18f;
+    if (!is_in(aspect, 1e-4f, 1e4f))
+        return fail(error, FACET_ERROR_ARGUMENT, "orbit: an aspect of %g is no picture", (double)aspect);
+    if (!is_in(orbit->azimuth_rad, -most, most) || !is_in(orbit->polar_rad, -most, most))
+        return fail(error, FACET_ERROR_ARGUMENT, "orbit: azimuth and polar angle must be finite");
+    if (!is_in(orbit->radius, 0.0f, most))
+        return fail(error, FACET_ERROR_ARGUMENT, "orbit: radius %g is not in [0, 1e18] m",
+                    (double)orbit->radius);
+    if (orbit->radius == 0.0f && !is_in(orbit->radius_scale, 1e-6f, 1e6f))
+        return fail(error, FACET_ERROR_ARGUMENT, "orbit: radius scale %g is not in [1e-6, 1e6]",
+                    (double)orbit->radius_scale);
+    if (!is_in(orbit->fov_y_rad, 1e-4f, 3.1f) && !orbit->orthographic)
+        return fail(error, FACET_ERROR_ARGUMENT, "orbit: field of view %g is not in [0.0001, 3.1] rad",
+                    (double)orbit->fov_y_rad);
+    for (int i = 0; i < 3; i++)
+        if (orbit->has_target && !is_in(orbit->target[i], -most, most))
+            return fail(error, FACET_ERROR_ARGUMENT, "orbit: the target must be finite");
+    return FACET_OK;
+}
+
+facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect, scene_fit fit,
+                            uint32_t thread_count, facet_camera *camera, facet_error *error)
+{
+    *camera = (facet_camera){0};
+    facet_result result = check(orbit, aspect, error);
+    if (result != FACET_OK)
+        return result;
+    view v = {.fit = fit};
+    aim(&v, orbit, aspect);
+    for (int i = 0; i < 3; i++)
+        v.target[i] = orbit->has_target ? (double)orbit->target[i]
+                                        : 0.5 * ((double)pose->bounds_min[i] + (double)pose->bounds_max[i]);
+    /* Nothing to see is framed as a ball of 1 m would be, a single point (extent 0) as well. */
+    extent e = {-INFINITY, -INFINITY};
+    if (pose->has_bounds && !measure(pose, &v, thread_count, &e))
+        return fail_memory(error, "camera", sizeof e);
+    double narrow = fmin(1.0, (double)aspect);
+    double smallest = v.orthographic ? 1.0 / narrow : 1.0 / sin(atan(v.tan_y * narrow));
+    double diagonal = 0.0;
+    for (int i = 0; i < 3; i++)
+        diagonal = fmax(diagonal, (double)pose->bounds_max[i] - (double)pose->bounds_min[i]);
+    if (!(e.extent > 1e-7 * diagonal))
+        e = (extent){smallest, 1.0};
+
+    double distance = e.extent * (double)orbit->radius_scale;
+    if (v.orthographic) {
+        double half =
+            orbit->radius > 0.0f ? (double)orbit->radius * tan(0.5 * (double)orbit->fov_y_rad) : distance;
+        if (!(half > 0.0))
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "orbit: an orthographic camera with a radius needs a field of view");
+        camera->ortho_height = (float)(2.0 * half);
+        distance = orbit->radius > 0.0f ? (double)orbit->radius : 2.0 * half;
+        /* In front of everything: for parallel rays the distance is free. */
+        distance = fmax(distance, e.nearest + fmax(diagonal, half));
+    } else {
+        camera->fov_y_rad = orbit->fov_y_rad;
+        if (orbit->radius > 0.0f)
+            distance = (double)orbit->radius;
+    }
+    for (int i = 0; i < 3; i++) {
+        camera->target[i] = (float)v.target[i];
+        camera->eye[i] = (float)(v.target[i] + distance * v.back[i]);
+        camera->up[i] = (float)v.up[i];
+    }
+    camera->aspect = aspect;
+    return FACET_OK;
+}
+
+facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit,
+                             float aspect, facet_camera *camera, facet_error *error)
+{
+    *camera = (facet_camera){0};
+    scene_pose pose;
+    facet_result result = scene_pose_create(scene, scene_index, &scene->allocator, 0, &pose, error);
+    if (result == FACET_OK)
+        result = scene_fit_pose(&pose, orbit, aspect, SCENE_FIT_VIEW, 0, camera, error);
+    scene_pose_destroy(&pose);
+    return result;
+}
