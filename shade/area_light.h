@@ -39,10 +39,22 @@ FN float sphere_irradiance(float cos_angle, float sin_sigma)
     return max((c * acos(y) - x * q) * s2 + atan(q, x), 0.0f);
 }
 
+/* Irradiance per intensity (1/m^2) of a thin line between end0 and end1 (from the shaded point, m), all of it above
+ * the horizon, whose intensity is spread evenly along it and in all directions: the mean of N.p / |p|^3 over it,
+ *   (N.L0 / |L0| + N.L1 / |L1|) / (|L0| |L1| + L0.L1)
+ * For a short line N.L / d^2, as for a point. Karis 2013, tube lights. */
+FN float line_irradiance(vec3 N, vec3 end0, vec3 end1)
+{
+    float d0 = length(end0);
+    float d1 = length(end1);
+    return (dot(N, end0) / d0 + dot(N, end1) / d1) / (d0 * d1 + dot(end0, end1));
+}
+
 /* ---- the representative point ---- */
 
 /* Sphere: the point of it next to the ray along R = reflect(-V, N). center: from the shaded point, m. The factor
- * (alpha / alpha')^2 keeps the energy that D had before the light got a size. Karis 2013, equations 11 and 14. */
+ * (alpha / alpha')^2 keeps the energy that D had before the light got a size. Karis 2013,
+ * equation 11 and the normalisation after it. */
 FN RepresentativePoint representative_point_sphere(vec3 center, vec3 R, float radius, float alpha)
 {
     vec3 off_ray = R * dot(center, R) - center;
@@ -55,7 +67,7 @@ FN RepresentativePoint representative_point_sphere(vec3 center, vec3 R, float ra
 }
 
 /* Tube (capsule) between end0 and end1 (from the shaded point, m): the point of the segment next to the ray, then
- * the sphere step. A line widens the lobe along one axis only: alpha / alpha'. Karis 2013, equations 12 and 13. */
+ * the sphere step. A line widens the lobe along one axis only: alpha / alpha'. Karis 2013, tube lights. */
 FN RepresentativePoint representative_point_tube(vec3 end0, vec3 end1, vec3 R, float radius, float alpha)
 {
     vec3 axis = end1 - end0;
