@@ -9,29 +9,29 @@
 #include <string.h>
 #include <strings.h>
 
-uint32_t facet_image_get_layer_count(const facet_image *image)
+uint32_t facet_image_get_layer_count(const facet_image *picture)
 {
-    return image->film.layer_count;
+    return picture->film.layer_count;
 }
 
-facet_image_view facet_image_get_layer(const facet_image *image, uint32_t layer)
+facet_image_view facet_image_get_layer(const facet_image *picture, uint32_t layer)
 {
-    const film_layer *l = &image->film.layers[layer];
+    const film_layer *l = &picture->film.layers[layer];
     return (facet_image_view){.name = l->name,
-                              .width = image->film.width,
-                              .height = image->film.height,
+                              .width = picture->film.width,
+                              .height = picture->film.height,
                               .channel_count = l->channel_count,
                               .pixels = l->pixels,
                               .row_stride_bytes =
-                                  (size_t)image->film.width * l->channel_count * sizeof(float)};
+                                  (size_t)picture->film.width * l->channel_count * sizeof(float)};
 }
 
-void facet_image_destroy(facet_image *image)
+void facet_image_destroy(facet_image *picture)
 {
-    if (!image)
+    if (!picture)
         return;
-    film_destroy(&image->film);
-    mem_free(image);
+    film_destroy(&picture->film);
+    mem_free(picture);
 }
 
 /* ---- formats ---- */
@@ -85,18 +85,18 @@ static facet_result encode_exr(const film *f, bool as_half, const image_encode_d
     return image_encode_exr(f->width, f->height, layers, f->layer_count, as_half, desc, bytes, size, error);
 }
 
-facet_result facet_image_encode(const facet_image *image, const facet_save_desc *desc, unsigned char **bytes,
-                                size_t *size, facet_error *error)
+facet_result facet_image_encode(const facet_image *picture, const facet_save_desc *desc,
+                                unsigned char **bytes, size_t *size, facet_error *error)
 {
     *bytes = NULL;
     *size = 0;
-    const film *f = &image->film;
+    const film *f = &picture->film;
     image_encode_desc encode = {.allocator = desc->allocator,
                                 .thread_count =
                                     desc->thread_count ? desc->thread_count : facet_thread_count(),
                                 .quality = desc->jpeg_quality,
                                 .compression = desc->png_compression};
-    struct image converted = {0};
+    image converted = {0};
     facet_result result;
     switch (desc->format) {
     case FACET_FORMAT_EXR:
@@ -128,7 +128,7 @@ void facet_bytes_destroy(unsigned char *bytes)
     mem_free(bytes);
 }
 
-facet_result facet_image_save(const facet_image *image, const char *path, const facet_save_desc *desc,
+facet_result facet_image_save(const facet_image *picture, const char *path, const facet_save_desc *desc,
                               facet_error *error)
 {
     facet_save_desc resolved = desc ? *desc : (facet_save_desc){0};
@@ -142,7 +142,7 @@ facet_result facet_image_save(const facet_image *image, const char *path, const 
             path);
     unsigned char *bytes;
     size_t size;
-    facet_result result = facet_image_encode(image, &resolved, &bytes, &size, error);
+    facet_result result = facet_image_encode(picture, &resolved, &bytes, &size, error);
     if (result == FACET_OK)
         result = file_write(path, bytes, size, error);
     facet_bytes_destroy(bytes);
