@@ -1,0 +1,137 @@
+/* config.c - options from a JSON file (--config). */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/preset.h"
+
+#include "cli/failure.h"
+#include "cli/suggest.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Keeps text until config_destroy(); NULL: no memory. */
+static const char *keep(config *storage, const char *text)
+{
+    char **grown = realloc(storage->texts, (storage->text_count + 1) * sizeof *grown);
+    if (!grown)
+        return NULL;
+    storage->texts = grown;
+    char *copy = strdup(text);
+    if (copy)
+        storage->texts[storage->text_count++] = copy;
+    return copy;
+}
+
+void config_destroy(config *storage)
+{
+    for (size_t i = 0; i < storage->text_count; i++)
+        free(storage->texts[i]);
+    free(storage->texts);
+    *storage = (config){0};
+}
+
+/* Appends a string or number to text as it would stand on the command line. False: it is neither, or too long. */
+static bool append_scalar(const json_t *value, char *text, size_t size)
+{
+    size_t used = strlen(text);
+    int n = -1;
+    if (json_is_string(value))
+        n = snprintf(text + used, size - used, "%s", json_string_value(value));
+    else if (json_is_integer(value))
+        n = snprintf(text + used, size - used, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    else if (json_is_real(value))
+        n = snprintf(text + used, size - used, "%.17g", json_real_value(value));
+    return n >= 0 && (size_t)n < size - used;
+}
+
+/* A string, number, or array of these as text. */
+static bool to_text(const json_t *value, char *text, size_t size)
+{
+    text[0] = 0;
+    if (!json_is_array(value))
+        return append_scalar(value, text, size);
+    size_t i;
+    json_t *element;
+    json_array_foreach(value, i, element)
+    {
+        size_t used = strlen(text);
+        if (i > 0 && used + 1 < size)
+            memcpy(text + used, ",", 2);
+        if (!append_scalar(element, text, size))
+            return false;
+    }
+    return true;
+}
+
+/* How often a flag is meant: true once, a number for those that count. Negative: neither. */
+static long flag_count(const option *o, const json_t *value)
+{
+    if (json_is_boolean(value))
+        return json_is_true(value);
+    if (o->kind == OPTION_COUNT && json_is_integer(value) && json_integer_value(value) <= 9)
+        return (long)json_integer_value(value);
+    return -1;
+}
+
+static facet_result apply_member(command_line *c, const char *name, const json_t *value, config *storage,
+                                 facet_error *error)
+{
+    const char *path = c->config_name;
+    const option *o = option_find(c->verb, name, strlen(name));
+    if (!o) {
+        facet_error suggestion;
+        suggest_option(c->verb, name, strlen(name), &suggestion);
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %.900s", path, suggestion.message);
+    }
+    if (o->id == OPT_CONFIG || o->id == OPT_HELP)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %s: it cannot stand in a file", path, name);
+    if (is_given(c, o->id))
+        return FACET_OK;
+    if (!option_takes_value(o)) {
+        long count = flag_count(o, value);
+        if (count < 0)
+            return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be true or false", path, name);
+        facet_result result = FACET_OK;
+        for (; count > 0 && result == FACET_OK; count--)
+            result = command_line_set(c, o, NULL, SOURCE_CONFIG, error);
+        return result;
+    }
+    char text[4096];
+    if (!to_text(value, text, sizeof text))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "%s: %s: it must be text, a number or an array of these", path, name);
+    const char *kept = keep(storage, text);
+    if (!kept)
+        return fail_with(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
+    return command_line_set(c, o, kept, SOURCE_CONFIG, error);
+}
+
+facet_result config_apply(command_line *c, config *storage, facet_error *error)
+{
+    const char *path = option_text(c, OPT_CONFIG, NULL);
+    if (!path)
+        return FACET_OK;
+    FILE *file = fopen(path, "re");
+    if (!file)
+        return fail_with(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
+    json_error_t problem;
+    json_t *root = json_loadf(file, JSON_REJECT_DUPLICATES, &problem);
+    fclose(file);
+    if (!root)
+        return fail_with(error, FACET_ERROR_INVALID, "%s: line %d: %s", path, problem.line, problem.text);
+    facet_result result = FACET_OK;
+    c->config_name = path;
+    if (!json_is_object(root))
+        result = fail_with(error, FACET_ERROR_INVALID, "%s: it must hold one JSON object", path);
+    const char *name;
+    json_t *value;
+    json_object_foreach(root, name, value)
+    {
+        if (result == FACET_OK)
+            result = apply_member(c, name, value, storage, error);
+    }
+    json_decref(root);
+    return result;
+}

@@ -1,0 +1,61 @@
+/* failure.c - results become sentences and exit codes. */
+#include "cli/failure.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+const exit_meaning exit_meanings[] = {
+    {"0", "done; the output is complete"},
+    {"1", "done, with a negative answer: --strict and there were warnings, or some of several models failed"},
+    {"2", "the command line is wrong"},
+    {"3", "an input cannot be read: missing, no permission, I/O"},
+    {"4", "an input is not valid"},
+    {"5", "an input needs a feature that facet lacks"},
+    {"6", "the output cannot be written"},
+    {"7", "a limit is reached: memory, time, size of a texture or file"},
+    {"8", "the machine lacks something"},
+    {"70", "a bug in facet"},
+    {"75", "interrupted by SIGTERM; run it again"},
+    {"128+N", "killed by signal N"},
+    {NULL, NULL},
+};
+
+int exit_code_of(facet_result result)
+{
+    switch (result) {
+    case FACET_OK:
+        return EXIT_DONE;
+    case FACET_ERROR_ARGUMENT:
+        return EXIT_USAGE;
+    case FACET_ERROR_READ:
+        return EXIT_READ;
+    case FACET_ERROR_INVALID:
+        return EXIT_INVALID;
+    case FACET_ERROR_UNSUPPORTED:
+        return EXIT_UNSUPPORTED;
+    case FACET_ERROR_WRITE:
+        return EXIT_WRITE;
+    case FACET_ERROR_LIMIT:
+    case FACET_ERROR_MEMORY:
+        return EXIT_LIMIT;
+    case FACET_ERROR_ENVIRONMENT:
+        return EXIT_ENVIRONMENT;
+    case FACET_ERROR_CANCELLED:
+        return EXIT_AGAIN;
+    case FACET_ERROR_BUG:
+        break;
+    }
+    return EXIT_BUG;
+}
+
+facet_result fail_with(facet_error *error, facet_result result, const char *format, ...)
+{
+    if (!error)
+        return result;
+    error->result = result;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->message, sizeof error->message, format, arguments);
+    va_end(arguments);
+    return result;
+}

@@ -1,0 +1,36 @@
+/* failure.h - how functions of the command fail, and what the process then returns. */
+#ifndef CLI_FAILURE_H
+#define CLI_FAILURE_H
+
+#include "facet/facet.h"
+
+/* Exit codes; failure.c has what each means, docs/cli.md why. */
+enum {
+    EXIT_DONE = 0,
+    EXIT_NEGATIVE = 1,
+    EXIT_USAGE = 2,
+    EXIT_READ = 3,
+    EXIT_INVALID = 4,
+    EXIT_UNSUPPORTED = 5,
+    EXIT_WRITE = 6,
+    EXIT_LIMIT = 7,
+    EXIT_ENVIRONMENT = 8,
+    EXIT_BUG = 70,
+    EXIT_AGAIN = 75
+};
+
+/* One row of the table that help and the man pages print. */
+typedef struct exit_meaning {
+    const char *code;
+    const char *meaning;
+} exit_meaning;
+extern const exit_meaning exit_meanings[]; /* ends with {NULL} */
+
+/* The exit code for a result; FACET_ERROR_CANCELLED is EXIT_AGAIN. */
+int exit_code_of(facet_result result);
+
+/* Writes one sentence to error and returns result: return fail_with(error, FACET_ERROR_ARGUMENT, ...). */
+facet_result fail_with(facet_error *error, facet_result result, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif

@@ -1,0 +1,256 @@
+/* inspect_text.c - the description of a model, laid out for reading. */
+#include "cli/inspect_text.h"
+
+#include "cli/table.h"
+#include "cli/terminal.h"
+
+#include <string.h>
+
+enum { FEW = 20 };
+
+/* ---- members that may be missing ---- */
+
+static const char *text_of(const json_t *object, const char *key)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : "";
+}
+
+static double number_of(const json_t *object, const char *key)
+{
+    return json_number_value(json_object_get(object, key));
+}
+
+static long long integer_of(const json_t *object, const char *key)
+{
+    return (long long)json_number_value(json_object_get(object, key));
+}
+
+static double element_of(const json_t *array, size_t index)
+{
+    return json_number_value(json_array_get(array, index));
+}
+
+/* "1 node", "2 nodes" */
+static void add_count(FILE *stream, const char **separator, const json_t *counts, const char *key,
+                      const char *one)
+{
+    long long count = integer_of(counts, key);
+    if (!count)
+        return;
+    fprintf(stream, "%s%lld %s", *separator, count, count == 1 ? one : key);
+    *separator = ", ";
+}
+
+static void print_heading(FILE *stream, const char *title, size_t count)
+{
+    bool has_color = terminal_has_color(stream);
+    fprintf(stream, "\n%s%s%s (%zu)\n", has_color ? "\033[1m" : "", title, has_color ? "\033[0m" : "", count);
+}
+
+static void print_rest(FILE *stream, size_t count, bool all)
+{
+    if (!all && count > FEW)
+        fprintf(stream, "  ... and %zu more (-v prints all)\n", count - FEW);
+}
+
+/* ---- parts ---- */
+
+static void print_counts(FILE *stream, const json_t *counts)
+{
+    static const char *const stored[][2] = {
+        {"scenes", "scene"},   {"nodes", "node"},   {"meshes", "mesh"}, {"primitives", "primitive"},
+        {"cameras", "camera"}, {"lights", "light"}, {"skins", "skin"},  {"animations", "animation"}};
+    static const char *const geometry[][2] = {
+        {"vertices", "vertex"}, {"triangles", "triangle"}, {"lines", "line"}, {"points", "point"}};
+    const char *separator = "  holds      ";
+    for (size_t i = 0; i < sizeof stored / sizeof *stored; i++)
+        add_count(stream, &separator, counts, stored[i][0], stored[i][1]);
+    fputs(*separator == ',' ? "\n" : "", stream);
+    separator = "  geometry   ";
+    for (size_t i = 0; i < sizeof geometry / sizeof *geometry; i++)
+        add_count(stream, &separator, counts, geometry[i][0], geometry[i][1]);
+    fputs(*separator == ',' ? "\n" : "", stream);
+    fprintf(stream, "  drawn      %lld triangles in %lld instances\n", integer_of(counts, "drawn_triangles"),
+            integer_of(counts, "instances"));
+}
+
+static void print_bounds(FILE *stream, const json_t *bounds)
+{
+    const json_t *low = json_object_get(bounds, "min"), *high = json_object_get(bounds, "max");
+    if (!json_is_array(low) || !json_is_array(high)) {
+        fprintf(stream, "  size       nothing to see\n");
+        return;
+    }
+    double a[3], b[3];
+    for (size_t i = 0; i < 3; i++) {
+        a[i] = element_of(low, i);
+        b[i] = element_of(high, i);
+    }
+    fprintf(stream, "  size       %.4g x %.4g x %.4g m, from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g)\n",
+            b[0] - a[0], b[1] - a[1], b[2] - a[2], a[0], a[1], a[2], b[0], b[1], b[2]);
+}
+
+/* "base_color 0, normal 2": what ends in _texture, with the number of the texture. */
+static void list_textures(const json_t *material, char *text, size_t size)
+{
+    text[0] = 0;
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)material, key, value)
+    {
+        static const char suffix[] = "_texture";
+        size_t length = strlen(key), used = strlen(text);
+        if (length < sizeof suffix || strcmp(key + length - (sizeof suffix - 1), suffix) != 0 ||
+            !json_is_object(value))
+            continue;
+        snprintf(text + used, size - used, "%s%.*s %lld", used ? ", " : "",
+                 (int)(length - (sizeof suffix - 1)), key, integer_of(value, "texture"));
+    }
+}
+
+static void print_materials(FILE *stream, const json_t *materials, bool all)
+{
+    size_t count = json_array_size(materials);
+    if (!count)
+        return;
+    print_heading(stream, "Materials", count);
+    table t = {.column_count = 7};
+    static const char *const titles[] = {"#",         "name", "base color", "metallic",
+                                         "roughness", "kind", "textures"};
+    for (size_t i = 0; i < 7; i++)
+        table_add(&t, "%s", titles[i]);
+    for (size_t i = 0; i < count && (all || i < FEW); i++) {
+        const json_t *m = json_array_get(materials, i), *color = json_object_get(m, "base_color");
+        char textures[256];
+        list_textures(m, textures, sizeof textures);
+        table_add(&t, "%zu", i);
+        table_add(&t, "%s", text_of(m, "name"));
+        table_add(&t, "%.3g %.3g %.3g %.3g", element_of(color, 0), element_of(color, 1), element_of(color, 2),
+                  element_of(color, 3));
+        table_add(&t, "%.3g", number_of(m, "metallic"));
+        table_add(&t, "%.3g", number_of(m, "roughness"));
+        table_add(&t, "%s%s%s", text_of(m, "alpha_mode"),
+                  json_is_true(json_object_get(m, "double_sided")) ? ", double sided" : "",
+                  json_is_true(json_object_get(m, "unlit")) ? ", unlit" : "");
+        table_add(&t, "%s", textures);
+    }
+    table_print(&t, stream, 2);
+    print_rest(stream, count, all);
+}
+
+static void print_images(FILE *stream, const json_t *images, bool all)
+{
+    size_t count = json_array_size(images);
+    if (!count)
+        return;
+    print_heading(stream, "Images", count);
+    table t = {.column_count = 5};
+    for (size_t i = 0; i < count && (all || i < FEW); i++) {
+        const json_t *image = json_array_get(images, i);
+        long long width = integer_of(image, "width"), height = integer_of(image, "height");
+        table_add(&t, "%zu", i);
+        table_add(&t, "%s", text_of(image, "name"));
+        table_add(&t, "%s", text_of(image, "mime_type"));
+        if (width && height)
+            table_add(&t, "%lldx%lld", width, height);
+        else
+            table_add(&t, "unreadable");
+        table_add(&t, "%.1f KiB", number_of(image, "bytes") / 1024.0);
+    }
+    table_print(&t, stream, 2);
+    print_rest(stream, count, all);
+}
+
+/* Which image a texture shows, where that is not simply the one of the same number. */
+static void print_textures(FILE *stream, const json_t *textures, bool all)
+{
+    size_t count = json_array_size(textures);
+    if (!count)
+        return;
+    print_heading(stream, "Textures", count);
+    table t = {.column_count = 4};
+    for (size_t i = 0; i < count && (all || i < FEW); i++) {
+        const json_t *texture = json_array_get(textures, i), *image = json_object_get(texture, "image");
+        table_add(&t, "%zu", i);
+        if (json_is_integer(image))
+            table_add(&t, "image %lld", (long long)json_integer_value(image));
+        else
+            table_add(&t, "no image");
+        table_add(&t, "%s %s", text_of(texture, "wrap_u"), text_of(texture, "wrap_v"));
+        table_add(&t, "%s", text_of(texture, "name"));
+    }
+    table_print(&t, stream, 2);
+    print_rest(stream, count, all);
+}
+
+/* Cameras, lights, scenes: what can be named in options. */
+static void print_named(FILE *stream, const json_t *list, const char *title, bool all)
+{
+    size_t count = json_array_size(list);
+    if (!count)
+        return;
+    print_heading(stream, title, count);
+    table t = {.column_count = 3};
+    for (size_t i = 0; i < count && (all || i < FEW); i++) {
+        const json_t *item = json_array_get(list, i);
+        table_add(&t, "%zu", i);
+        table_add(&t, "%s", text_of(item, "type"));
+        table_add(&t, "%s", text_of(item, "name"));
+    }
+    table_print(&t, stream, 2);
+    print_rest(stream, count, all);
+}
+
+static void print_extensions(FILE *stream, const json_t *extensions)
+{
+    size_t count = json_array_size(extensions);
+    if (!count)
+        return;
+    print_heading(stream, "Extensions", count);
+    table t = {.column_count = 3};
+    for (size_t i = 0; i < count; i++) {
+        const json_t *e = json_array_get(extensions, i);
+        table_add(&t, "%s", text_of(e, "name"));
+        table_add(&t, "%s", text_of(e, "state"));
+        table_add(&t, "%s", json_is_true(json_object_get(e, "required")) ? "required" : "");
+    }
+    table_print(&t, stream, 2);
+}
+
+static void print_warnings(FILE *stream, const json_t *warnings)
+{
+    size_t count = json_array_size(warnings);
+    if (!count)
+        return;
+    print_heading(stream, "Warnings", count);
+    table t = {.column_count = 1};
+    for (size_t i = 0; i < count; i++)
+        table_add(&t, "%s", json_string_value(json_array_get(warnings, i)));
+    table_print(&t, stream, 2);
+}
+
+void inspect_print_text(FILE *stream, const char *name, const json_t *model, bool all)
+{
+    const json_t *asset = json_object_get(model, "asset");
+    fprintf(stream, "%s\n", name);
+    table t = {.column_count = 2};
+    static const char *const members[] = {"version", "generator", "copyright"};
+    for (size_t i = 0; i < 3; i++)
+        if (*text_of(asset, members[i])) {
+            table_add(&t, "%-9s", i ? members[i] : "glTF");
+            table_add(&t, "%s", text_of(asset, members[i]));
+        }
+    table_print(&t, stream, 2);
+    print_counts(stream, json_object_get(model, "counts"));
+    print_bounds(stream, json_object_get(model, "bounds"));
+    if (json_array_size(json_object_get(model, "scenes")) > 1)
+        print_named(stream, json_object_get(model, "scenes"), "Scenes", all);
+    print_materials(stream, json_object_get(model, "materials"), all);
+    print_textures(stream, json_object_get(model, "textures"), all);
+    print_images(stream, json_object_get(model, "images"), all);
+    print_named(stream, json_object_get(model, "cameras"), "Cameras", all);
+    print_named(stream, json_object_get(model, "lights"), "Lights", all);
+    print_extensions(stream, json_object_get(model, "extensions"));
+    print_warnings(stream, json_object_get(model, "warnings"));
+}

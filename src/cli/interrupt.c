@@ -1,0 +1,120 @@
+/* interrupt.c - signals and the time limit. */
+#define _DEFAULT_SOURCE
+#include "cli/interrupt.h"
+
+#include "cli/failure.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+#include <time.h>
+#include <unistd.h>
+
+/* What a signal handler shares with the process: the one place for state that is not passed along. */
+static volatile sig_atomic_t pending_signal;
+static const char *volatile safe_message;
+static volatile double deadline; /* on interrupt_clock(); 0: none */
+
+double interrupt_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void end_by(int number)
+{
+    signal(number, SIG_DFL);
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, number);
+    raise(number);
+    sigprocmask(SIG_UNBLOCK, &set, NULL);
+    _exit(128 + number);
+}
+
+static void on_stop(int number)
+{
+    if (safe_message) {
+        if (number == SIGTERM)
+            _exit(EXIT_AGAIN);
+        end_by(number);
+    }
+    pending_signal = number;
+    if (number == SIGINT)
+        signal(SIGINT, SIG_DFL);
+}
+
+static void on_deadline(int number)
+{
+    (void)number;
+    const char *message = safe_message;
+    if (!message)
+        return;
+    ssize_t ignored = write(STDERR_FILENO, message, strlen(message));
+    (void)ignored;
+    _exit(EXIT_LIMIT);
+}
+
+static void install(int number, void (*handler)(int))
+{
+    struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
+    sigaction(number, &action, NULL);
+}
+
+/* Installs on_stop() unless the parent asked to ignore the signal, as nohup does. */
+static void install_stop(int number)
+{
+    struct sigaction before;
+    if (sigaction(number, NULL, &before) == 0 && before.sa_handler == SIG_IGN)
+        return;
+    install(number, on_stop);
+}
+
+void interrupt_install(void)
+{
+    install_stop(SIGINT);
+    install_stop(SIGTERM);
+    install_stop(SIGHUP);
+}
+
+int interrupt_signal(void)
+{
+    return pending_signal;
+}
+
+void interrupt_set_deadline(double seconds)
+{
+    deadline = seconds > 0.0 ? interrupt_clock() + seconds : 0.0;
+    struct itimerval timer = {{0, 0}, {0, 0}};
+    if (seconds > 0.0) {
+        timer.it_value.tv_sec = (time_t)seconds;
+        timer.it_value.tv_usec = (suseconds_t)((seconds - (double)(time_t)seconds) * 1e6) + 1;
+        /* and again: the first may come while it is not safe to end */
+        timer.it_interval.tv_usec = 50000;
+        install(SIGALRM, on_deadline);
+    }
+    setitimer(ITIMER_REAL, &timer, NULL);
+}
+
+double interrupt_seconds_left(void)
+{
+    return deadline > 0.0 ? deadline - interrupt_clock() : 1e30;
+}
+
+void interrupt_set_safe(const char *message_at_deadline)
+{
+    safe_message = message_at_deadline;
+    if (pending_signal && message_at_deadline)
+        interrupt_exit();
+}
+
+int interrupt_exit(void)
+{
+    int number = pending_signal;
+    if (number == SIGTERM || number == 0)
+        return EXIT_AGAIN;
+    end_by(number);
+    return 128 + number;
+}

@@ -1,0 +1,30 @@
+/* interrupt.h - signals and the time limit: how the command is asked to stop, and how it then ends.
+ *
+ * SIGINT, SIGTERM and SIGHUP set a flag; whoever works on something long asks for it and cleans up. A second SIGINT
+ * kills. While nothing that must be cleaned up is open (interrupt_set_safe()), the time limit ends the process from
+ * the signal handler: reading a model cannot be cancelled in another way. */
+#ifndef CLI_INTERRUPT_H
+#define CLI_INTERRUPT_H
+
+#include <stdbool.h>
+
+void interrupt_install(void);
+/* The signal that came; 0: none. */
+int interrupt_signal(void);
+
+/* Begins a time limit for the process, s from now; 0: none. */
+void interrupt_set_deadline(double seconds);
+/* Seconds that are left; a very large number where there is no limit. */
+double interrupt_seconds_left(void);
+
+/* From now on it is safe to end the process at once, with exit code and the static sentence message, when a signal
+ * or the time limit says so; message NULL: no longer. */
+void interrupt_set_safe(const char *message_at_deadline);
+
+/* The exit code after an interruption: EXIT_AGAIN for SIGTERM; for others the process ends here by that signal. */
+int interrupt_exit(void);
+
+/* Seconds since the process began, as far as it matters. */
+double interrupt_clock(void);
+
+#endif

@@ -1,0 +1,18 @@
+/* limits.c - what a command may use. */
+#include "cli/limits.h"
+
+#include "cli/memory_limit.h"
+#include "cli/value.h"
+
+facet_result limits_read(const command_line *c, limits *out, facet_error *error)
+{
+    *out = (limits){.thread_count = (uint32_t)option_number(c, OPT_THREADS, 0.0),
+                    .max_texture_size = (uint32_t)option_number(c, OPT_MAX_TEXTURE, 0.0)};
+    if (!is_given(c, OPT_MAX_MEMORY))
+        out->max_memory_bytes = memory_limit_default();
+    else if (!value_bytes(option_text(c, OPT_MAX_MEMORY, ""), &out->max_memory_bytes))
+        return option_fail(c, OPT_MAX_MEMORY, "a size such as 512M or 2G", error);
+    if (is_given(c, OPT_TIME_LIMIT) && !value_seconds(option_text(c, OPT_TIME_LIMIT, ""), &out->time_limit_s))
+        return option_fail(c, OPT_TIME_LIMIT, "a time such as 30s, 500ms or 5m", error);
+    return FACET_OK;
+}

@@ -1,0 +1,16 @@
+/* limits.h - what a command may use: threads, memory, time, sizes. */
+#ifndef CLI_LIMITS_H
+#define CLI_LIMITS_H
+
+#include "cli/command_line.h"
+
+typedef struct limits {
+    uint32_t thread_count, max_texture_size; /* 0: the library's default */
+    uint64_t max_memory_bytes;               /* 0: no limit */
+    double time_limit_s;                     /* 0: none */
+} limits;
+
+/* Reads --threads, --max-memory, --max-texture, --time-limit. Fails with FACET_ERROR_ARGUMENT. */
+facet_result limits_read(const command_line *c, limits *out, facet_error *error);
+
+#endif

@@ -1,0 +1,112 @@
+/* main.c - facet VERB ...: finds the verb, parses its options, runs it. */
+#include "cli/commands.h"
+#include "cli/completion.h"
+#include "cli/failure.h"
+#include "cli/help.h"
+#include "cli/man_page.h"
+#include "cli/messages.h"
+#include "cli/output.h"
+#include "cli/output_name.h"
+#include "cli/suggest.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    int (*run)(command_line *c);
+} commands[] = {
+    {"render", cmd_render}, {"inspect", cmd_inspect}, {"version", cmd_version}, {"help", cmd_help}};
+
+/* Whether a word in the place of the verb is rather a file. */
+static bool looks_like_file(const char *word)
+{
+    return strchr(word, '.') || strchr(word, '/') || output_exists(word);
+}
+
+/* One sentence, or two lines, for a first word that is no verb. */
+static int explain_verb(const char *word)
+{
+    const char *near = suggest_verb(word);
+    if (verb_is_planned(word)) {
+        message_error("facet: this version does not have the command %s yet; facet help lists those it has",
+                      word);
+    } else if (word[0] == '-') {
+        message_error("facet: the command comes first, as in facet render %s; facet help lists the commands",
+                      word);
+    } else if (looks_like_file(word)) {
+        char stem[256];
+        if (!output_name_stem(word, stem, sizeof stem))
+            memcpy(stem, "model", 6);
+        message_error("facet: which command? For a picture: facet render %s -o %s.png", word, stem);
+        fprintf(stderr, "                  to see what is in it: facet inspect %s\n", word);
+    } else {
+        message_error("facet: there is no command \"%s\"%s%s%s", word, near ? "; did you mean " : "",
+                      near ? near : "; facet help lists those there are", near ? "?" : "");
+    }
+    return EXIT_USAGE;
+}
+
+/* Hidden: what the build makes from the option table. */
+static int generate(const char *what, const char *name)
+{
+    const verb *v = verb_find(name);
+    if (strcmp(what, "--generate-completion") == 0 && completion_print(stdout, name))
+        return EXIT_DONE;
+    if (strcmp(what, "--generate-man") == 0 && (v || strcmp(name, "facet") == 0)) {
+        man_page_print(stdout, v, facet_version());
+        return EXIT_DONE;
+    }
+    message_error("facet: %s: \"%s\" is not known", what, name);
+    return EXIT_USAGE;
+}
+
+static int run_verb(const verb *v, int argc, char **argv)
+{
+    command_line line;
+    facet_error error;
+    int exit_code = EXIT_BUG;
+    facet_result result = command_line_parse(v, argc, argv, &line, &error);
+    if (result != FACET_OK) {
+        message_error("facet: %s", error.message);
+        exit_code = exit_code_of(result);
+    } else if (is_given(&line, OPT_HELP)) {
+        help_print_verb(stdout, v);
+        exit_code = EXIT_DONE;
+    } else {
+        for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+            if (strcmp(commands[i].name, v->name) == 0)
+                exit_code = commands[i].run(&line);
+    }
+    command_line_destroy(&line);
+    return exit_code;
+}
+
+static int run(int argc, char **argv)
+{
+    if (argc < 2) {
+        help_print_overview(stderr);
+        return EXIT_USAGE;
+    }
+    const char *word = argv[1];
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0)
+        word = "help";
+    else if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0)
+        word = "version";
+    if (argc == 3 && strncmp(word, "--generate-", 11) == 0)
+        return generate(word, argv[2]);
+    const verb *v = verb_find(word);
+    return v ? run_verb(v, argc - 2, argv + 2) : explain_verb(word);
+}
+
+int main(int argc, char **argv)
+{
+    int exit_code = run(argc, argv);
+    facet_error error;
+    if (output_close_stdout(&error) != FACET_OK) {
+        message_error("%s", error.message);
+        if (exit_code == EXIT_DONE)
+            exit_code = EXIT_WRITE;
+    }
+    return exit_code;
+}

@@ -1,0 +1,120 @@
+/* options.h - the option table: every verb and every option, described once.
+ *
+ * Parsing, --help, man pages, completions and suggestions all read it; what an option does is in cmd_NAME.c. */
+#ifndef CLI_OPTIONS_H
+#define CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* What an option takes. */
+typedef enum option_kind {
+    OPTION_FLAG,    /* nothing */
+    OPTION_COUNT,   /* nothing, and counts: -vv */
+    OPTION_TEXT,    /* text that the verb understands */
+    OPTION_FILE,    /* text; completed with file names */
+    OPTION_FOLDER,  /* text; completed with folders */
+    OPTION_CHOICE,  /* one of choices */
+    OPTION_CHOICES, /* some of choices, separated by commas */
+    OPTION_NUMBER,  /* a real number in [minimum, maximum] */
+    OPTION_INTEGER  /* a whole number in [minimum, maximum] */
+} option_kind;
+
+typedef enum option_id {
+    OPT_OUTPUT,
+    OPT_NO_CLOBBER,
+    OPT_FORMAT,
+    OPT_SIZE,
+    OPT_CROP,
+    OPT_BACKGROUND,
+    OPT_BACKGROUND_BLUR,
+    OPT_AOV,
+    OPT_JPEG_QUALITY,
+    OPT_PNG_COMPRESSION,
+    OPT_CAMERA,
+    OPT_ORBIT,
+    OPT_TARGET,
+    OPT_FOV,
+    OPT_EYE,
+    OPT_UP,
+    OPT_ORTHO,
+    OPT_TURNTABLE,
+    OPT_ENV,
+    OPT_ENV_ROTATION,
+    OPT_ENV_INTENSITY,
+    OPT_ENV_CACHE,
+    OPT_LIGHTS,
+    OPT_EXPOSURE,
+    OPT_TONE_MAPPING,
+    OPT_ENERGY,
+    OPT_QUALITY,
+    OPT_SAMPLES,
+    OPT_RENDERER,
+    OPT_SCENE,
+    OPT_ROOT,
+    OPT_THREADS,
+    OPT_MAX_MEMORY,
+    OPT_MAX_TEXTURE,
+    OPT_TIME_LIMIT,
+    OPT_QUIET,
+    OPT_VERBOSE,
+    OPT_PROGRESS,
+    OPT_JSON,
+    OPT_STRICT,
+    OPT_PRESET,
+    OPT_CONFIG,
+    OPT_HELP,
+    OPTION_ID_COUNT
+} option_id;
+
+typedef struct option {
+    option_id id;
+    const char *name; /* long, without the dashes */
+    char letter;      /* short, 0: none */
+    option_kind kind;
+    const char *argument;       /* "WxH"; NULL for flags */
+    const char *default_text;   /* NULL: none to tell */
+    const char *help;           /* one line, without full stop */
+    const char *const *choices; /* ends with NULL; for OPTION_TEXT and _FILE words to complete with */
+    double minimum, maximum;    /* for numbers */
+} option;
+
+typedef struct option_group {
+    const char *title;
+    const option *options;
+    size_t option_count;
+} option_group;
+
+/* A command line that shows something, and what it does. */
+typedef struct example {
+    const char *command;
+    const char *what;
+} example;
+
+typedef struct verb {
+    const char *name;
+    const char *summary;   /* one line */
+    const char *arguments; /* "[MODEL...]"; "" none */
+    size_t max_arguments;
+    const char *file_types;   /* extensions of the arguments for completion: "glb gltf"; NULL: no files */
+    const char *const *words; /* words that an argument may be, for completion; NULL: none */
+    const char *description;  /* paragraphs, separated by empty lines; for the man page and --help */
+    const example *examples;  /* ends with {NULL} */
+    const option_group *const *groups; /* ends with NULL */
+} verb;
+
+extern const verb *const verbs[];        /* ends with NULL */
+const verb *verb_find(const char *name); /* NULL: no such verb in this version */
+/* Whether a later version is meant to have that verb, that option. */
+bool verb_is_planned(const char *name);
+bool option_is_planned(const char *name);
+
+const option *option_find(const verb *v, const char *name, size_t length); /* NULL: none */
+const option *option_find_letter(const verb *v, char letter);
+const option *option_find_id(const verb *v, option_id id);
+static inline bool option_takes_value(const option *o)
+{
+    return o->kind > OPTION_COUNT;
+}
+
+#endif

@@ -1,0 +1,72 @@
+/* output.c - pictures to files and standard output. */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/output.h"
+
+#include "cli/failure.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+bool output_exists(const char *path)
+{
+    return access(path, F_OK) == 0;
+}
+
+facet_result output_check(const char *path, facet_error *error)
+{
+    if (strcmp(path, "-") == 0)
+        return FACET_OK;
+    struct stat info;
+    if (stat(path, &info) == 0) {
+        if (S_ISDIR(info.st_mode))
+            return fail_with(error, FACET_ERROR_WRITE,
+                             "%s: it is a folder; the name of a picture was expected", path);
+        if (!S_ISREG(info.st_mode)) /* a device, a pipe: written directly */
+            return access(path, W_OK) == 0
+                       ? FACET_OK
+                       : fail_with(error, FACET_ERROR_WRITE, "%s: %s", path, strerror(errno));
+    }
+    char folder[4096];
+    const char *slash = strrchr(path, '/');
+    if (!slash)
+        snprintf(folder, sizeof folder, ".");
+    else
+        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+    if (stat(folder, &info) != 0)
+        return fail_with(error, FACET_ERROR_WRITE, "%s: there is no folder %s", path, folder);
+    if (!S_ISDIR(info.st_mode))
+        return fail_with(error, FACET_ERROR_WRITE, "%s: %s is not a folder", path, folder);
+    if (access(folder, W_OK | X_OK) != 0)
+        return fail_with(error, FACET_ERROR_WRITE, "%s: the folder %s cannot be written to: %s", path, folder,
+                         strerror(errno));
+    return FACET_OK;
+}
+
+facet_result output_write(const facet_image *image, const char *path, const facet_save_desc *desc,
+                          facet_error *error)
+{
+    if (strcmp(path, "-") != 0)
+        return facet_image_save(image, path, desc, error);
+    unsigned char *bytes;
+    size_t size;
+    facet_result result = facet_image_encode(image, desc, &bytes, &size, error);
+    if (result != FACET_OK)
+        return result;
+    if (fwrite(bytes, 1, size, stdout) != size || fflush(stdout) != 0)
+        result = fail_with(error, FACET_ERROR_WRITE, "stdout: %s", strerror(errno));
+    facet_bytes_destroy(bytes);
+    return result;
+}
+
+facet_result output_close_stdout(facet_error *error)
+{
+    bool has_failed = ferror(stdout) != 0;
+    errno = 0;
+    if (fflush(stdout) != 0 || has_failed)
+        return fail_with(error, FACET_ERROR_WRITE, "stdout: %s",
+                         errno ? strerror(errno) : "it could not be written");
+    return FACET_OK;
+}

@@ -1,0 +1,21 @@
+/* output.h - pictures to files and standard output. */
+#ifndef CLI_OUTPUT_H
+#define CLI_OUTPUT_H
+
+#include "facet/facet.h"
+
+/* Whether a picture can be written to path ("-": standard output), found out before the work: FACET_ERROR_WRITE names
+ * the folder that is missing or closed. */
+facet_result output_check(const char *path, facet_error *error);
+
+/* Writes image to path ("-": standard output). */
+facet_result output_write(const facet_image *image, const char *path, const facet_save_desc *desc,
+                          facet_error *error);
+
+/* Whether something is there already. */
+bool output_exists(const char *path);
+
+/* Ends writing to standard output; FACET_ERROR_WRITE where what was printed did not arrive. */
+facet_result output_close_stdout(facet_error *error);
+
+#endif

@@ -1,0 +1,107 @@
+/* render_camera.c - the camera that the options ask for, given the model. */
+#include "cli/render_camera.h"
+
+#include "cli/failure.h"
+
+#include <math.h>
+
+#define TWO_PI 6.283185307179586
+
+/* orbit->target in full: what is not given is the middle of the model. */
+static void resolve_target(const facet_scene *scene, uint32_t scene_index, const render_options *options,
+                           float target[3])
+{
+    float low[3], high[3];
+    facet_scene_get_bounds(scene, scene_index, low, high);
+    for (int i = 0; i < 3; i++)
+        target[i] = options->has_target[i] ? options->orbit.target[i] : 0.5f * low[i] + 0.5f * high[i];
+}
+
+static float aspect_of(const render_options *options)
+{
+    return (float)options->desc.width / (float)options->desc.height;
+}
+
+static facet_orbit orbit_of_frame(const facet_scene *scene, uint32_t scene_index,
+                                  const render_options *options, uint32_t frame)
+{
+    facet_orbit orbit = options->orbit;
+    bool is_partly_given = options->has_target[0] || options->has_target[1] || options->has_target[2];
+    if (options->turntable || is_partly_given) {
+        resolve_target(scene, scene_index, options, orbit.target);
+        orbit.has_target = true;
+    }
+    if (options->turntable)
+        orbit.azimuth_rad += (float)(TWO_PI * frame / options->turntable);
+    return orbit;
+}
+
+static float distance(const float a[3], const float b[3])
+{
+    return hypotf(hypotf(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+facet_result render_turntable_fit(const facet_scene *scene, uint32_t scene_index,
+                                  const render_options *options, turntable_fit *fit, facet_error *error)
+{
+    *fit = (turntable_fit){0};
+    if (options->orbit.radius > 0.0f && !options->orbit.orthographic)
+        return FACET_OK;
+    for (uint32_t frame = 0; frame < options->turntable; frame++) {
+        facet_orbit orbit = orbit_of_frame(scene, scene_index, options, frame);
+        facet_camera camera;
+        facet_result result =
+            facet_camera_from_orbit(scene, scene_index, &orbit, aspect_of(options), &camera, error);
+        if (result != FACET_OK)
+            return result;
+        fit->radius = fmaxf(fit->radius, distance(camera.eye, orbit.target));
+        fit->ortho_height = fmaxf(fit->ortho_height, camera.ortho_height);
+    }
+    return FACET_OK;
+}
+
+/* A camera at --eye that looks at --target. */
+static facet_result camera_from_eye(const facet_scene *scene, uint32_t scene_index,
+                                    const render_options *options, facet_camera *camera, facet_error *error)
+{
+    *camera = (facet_camera){.fov_y_rad = options->orbit.fov_y_rad};
+    resolve_target(scene, scene_index, options, camera->target);
+    for (int i = 0; i < 3; i++)
+        camera->eye[i] = options->eye[i];
+    float far_away = distance(camera->eye, camera->target);
+    if (!(far_away > 0.0f))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--eye: the camera stands on what it looks at (%g,%g,%g)", (double)camera->target[0],
+                         (double)camera->target[1], (double)camera->target[2]);
+    if (options->orbit.orthographic) {
+        camera->ortho_height = 2.0f * far_away * tanf(0.5f * camera->fov_y_rad);
+        camera->fov_y_rad = 0.0f;
+    }
+    if (options->orbit.is_z_up) {
+        bool looks_along_z = fabsf(camera->target[2] - camera->eye[2]) > 0.99999f * far_away;
+        camera->up[looks_along_z ? 1 : 2] = 1.0f;
+    }
+    return FACET_OK;
+}
+
+facet_result render_camera(const facet_scene *scene, uint32_t scene_index, const render_options *options,
+                           const turntable_fit *fit, uint32_t frame, facet_camera *camera, facet_error *error)
+{
+    if (options->camera) {
+        uint32_t index;
+        facet_result result = facet_scene_find_camera(scene, options->camera, &index, error);
+        if (result != FACET_OK)
+            return result;
+        return facet_camera_from_scene(scene, scene_index, index, camera, error);
+    }
+    if (options->has_eye)
+        return camera_from_eye(scene, scene_index, options, camera, error);
+    facet_orbit orbit = orbit_of_frame(scene, scene_index, options, frame);
+    if (fit->radius > 0.0f)
+        orbit.radius = fit->radius;
+    facet_result result =
+        facet_camera_from_orbit(scene, scene_index, &orbit, aspect_of(options), camera, error);
+    if (result == FACET_OK && fit->ortho_height > 0.0f)
+        camera->ortho_height = fit->ortho_height;
+    return result;
+}

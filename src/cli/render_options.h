@@ -1,0 +1,50 @@
+/* render_options.h - what the options of facet render ask for, checked, before any model is read. */
+#ifndef CLI_RENDER_OPTIONS_H
+#define CLI_RENDER_OPTIONS_H
+
+#include "cli/command_line.h"
+#include "cli/limits.h"
+#include "facet/facet.h"
+
+typedef enum environment_kind {
+    ENVIRONMENT_STUDIO,
+    ENVIRONMENT_NONE,
+    ENVIRONMENT_CONSTANT,
+    ENVIRONMENT_FILE
+} environment_kind;
+
+typedef struct render_options {
+    /* picture */
+    const char *output; /* pattern; NULL: named after the model */
+    bool is_stdout;
+    bool keeps_existing;    /* --no-clobber */
+    facet_save_desc save;   /* format is always named */
+    facet_render_desc desc; /* without allocator, log, progress, scene, camera, environment */
+
+    /* camera */
+    const char *camera; /* NULL: orbit or eye */
+    facet_orbit orbit;  /* has_target: has_target[0 .. 2] are all true */
+    bool has_target[3];
+    bool has_eye;
+    float eye[3];
+    uint32_t turntable; /* frames; 0: none */
+
+    /* light */
+    environment_kind environment;
+    const char *environment_path;
+    float environment_radiance[3];
+    const char *environment_cache;
+
+    /* model and limits */
+    const char *scene; /* NULL: the file's */
+    const char *root;
+    limits limits;
+} render_options;
+
+/* Fails with FACET_ERROR_ARGUMENT. Text stays with c. */
+facet_result render_options_read(const command_line *c, render_options *out, facet_error *error);
+
+/* The extension, without point, that files of a format have. */
+const char *render_extension(facet_file_format format);
+
+#endif

@@ -1,0 +1,65 @@
+/* render_report.c - what facet render did. */
+#include "cli/render_report.h"
+
+#include "cli/terminal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void report_picture(const messages *m, const picture_report *p, bool is_news)
+{
+    if (strcmp(p->output, "-") == 0)
+        is_news = false;
+    verbosity least = is_news || terminal_is(stderr) ? VERBOSITY_NORMAL : VERBOSITY_DETAILS;
+    const char *name = strcmp(p->output, "-") == 0 ? "stdout" : p->output;
+    if (p->is_kept) {
+        message_at(m, VERBOSITY_NORMAL, "%s: kept; it was there already", name);
+        return;
+    }
+    message_at(m, least, "%s: %ux%u, %u %s, %.2f s", name, p->width, p->height, p->samples,
+               p->samples == 1 ? "sample" : "samples", p->total_s);
+    const facet_render_stats *s = &p->stats;
+    message_at(
+        m, VERBOSITY_TIMINGS,
+        "%s: load %.1f ms, textures %.1f ms, geometry %.1f ms, light %.1f ms, shade %.1f ms, render %.1f ms, "
+        "save %.1f ms; %u threads",
+        name, 1e3 * p->load_s, 1e3 * s->textures_s, 1e3 * s->geometry_s, 1e3 * s->light_s, 1e3 * s->shade_s,
+        1e3 * s->total_s, 1e3 * p->save_s, s->thread_count);
+}
+
+json_t *report_picture_json(const picture_report *p)
+{
+    const facet_render_stats *s = &p->stats;
+    if (p->is_kept)
+        return json_pack("{s:s, s:s, s:b}", "model", p->model, "output", p->output, "kept", 1);
+    return json_pack(
+        "{s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}, s:I, s:I}", "model",
+        p->model, "output", p->output, "width", (json_int_t)p->width, "height", (json_int_t)p->height,
+        "samples", (json_int_t)p->samples, "rays", (json_int_t)s->rays, "shades", (json_int_t)s->shades,
+        "seconds", "total", p->total_s, "load", p->load_s, "textures", s->textures_s, "geometry",
+        s->geometry_s, "light", s->light_s, "shade", s->shade_s, "render", s->total_s, "save", p->save_s,
+        "decoded_texels", (json_int_t)s->decoded_texels, "threads", (json_int_t)s->thread_count);
+}
+
+json_t *report_warnings_json(const messages *m)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < m->warning_count; i++) {
+        json_t *text = json_string(m->warnings[i].text);
+        json_array_append_new(list, json_pack("{s:o, s:I}", "text", text ? text : json_null(), "count",
+                                              (json_int_t)m->warnings[i].count));
+    }
+    return list;
+}
+
+json_t *report_error_json(const facet_error *error, int exit_code)
+{
+    json_t *text = json_string(error->message);
+    return json_pack("{s:o, s:i}", "message", text ? text : json_null(), "exit_code", exit_code);
+}
+
+void report_print_json(const json_t *root)
+{
+    json_dumpf(root, stdout, JSON_REAL_PRECISION(9));
+    putchar('\n');
+}

@@ -1,0 +1,31 @@
+/* render_report.h - what facet render did: a line for people, an object for programs. */
+#ifndef CLI_RENDER_REPORT_H
+#define CLI_RENDER_REPORT_H
+
+#include "cli/messages.h"
+#include "facet/facet.h"
+
+#include <jansson.h>
+
+/* One picture that was written, or kept. */
+typedef struct picture_report {
+    const char *model, *output;
+    uint32_t width, height, samples;
+    bool is_kept;             /* --no-clobber: it was there */
+    facet_render_stats stats; /* of facet_render() */
+    double load_s, save_s, total_s;
+} picture_report;
+
+/* Lines on standard error as verbosity asks; is_news: also without -v and off a terminal (the user did not name the
+ * output). */
+void report_picture(const messages *m, const picture_report *p, bool is_news);
+
+/* The same as JSON; NULL: no memory. */
+json_t *report_picture_json(const picture_report *p);
+json_t *report_warnings_json(const messages *m);
+json_t *report_error_json(const facet_error *error, int exit_code);
+
+/* Prints root as one line on standard output. */
+void report_print_json(const json_t *root);
+
+#endif

@@ -1,0 +1,232 @@
+/* suggest.c - what the user may have meant: near names, and the names that other tools have for the same. */
+#include "cli/suggest.h"
+
+#include "cli/failure.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LONGEST = 63 };
+
+/* Names in f3d, blender, <model-viewer>, screenshot-glb, cmgen, gltf-transform, ImageMagick, and what to write here. */
+static const struct {
+    const char *theirs;
+    option_id id; /* offered only where the verb has it */
+    const char *ours;
+} foreign_names[] = {
+    {"resolution", OPT_SIZE, "--size 640x480"},
+    {"width", OPT_SIZE, "--size 640x480"},
+    {"height", OPT_SIZE, "--size 640x480"},
+    {"geometry", OPT_SIZE, "--size 640x480"},
+    {"dimensions", OPT_SIZE, "--size 640x480"},
+    {"resize", OPT_SIZE, "--size 640x480"},
+    {"out", OPT_OUTPUT, "--output FILE"},
+    {"out-file", OPT_OUTPUT, "--output FILE"},
+    {"outfile", OPT_OUTPUT, "--output FILE"},
+    {"output-file", OPT_OUTPUT, "--output FILE"},
+    {"render-output", OPT_OUTPUT, "--output FILE"},
+    {"output-path", OPT_OUTPUT, "--output FILE"},
+    {"render-format", OPT_FORMAT, "--format png"},
+    {"file-format", OPT_FORMAT, "--format png"},
+    {"hdri-file", OPT_ENV, "--env FILE"},
+    {"hdri", OPT_ENV, "--env FILE"},
+    {"hdr", OPT_ENV, "--env FILE"},
+    {"hdri-ambient", OPT_ENV, "--env FILE"},
+    {"ibl", OPT_ENV, "--env FILE"},
+    {"environment", OPT_ENV, "--env FILE"},
+    {"environment-image", OPT_ENV, "--env FILE"},
+    {"env-map", OPT_ENV, "--env FILE"},
+    {"environment-rotation", OPT_ENV_ROTATION, "--env-rotation DEG"},
+    {"environment-intensity", OPT_ENV_INTENSITY, "--env-intensity X"},
+    {"skybox", OPT_BACKGROUND, "--background env"},
+    {"skybox-image", OPT_BACKGROUND, "--env FILE --background env"},
+    {"hdri-skybox", OPT_BACKGROUND, "--background env"},
+    {"no-background", OPT_BACKGROUND, "--background transparent"},
+    {"transparent", OPT_BACKGROUND, "--background transparent"},
+    {"film-transparent", OPT_BACKGROUND, "--background transparent"},
+    {"alpha", OPT_BACKGROUND, "--background transparent"},
+    {"background-color", OPT_BACKGROUND, "--background '#rrggbb'"},
+    {"bg-color", OPT_BACKGROUND, "--background '#rrggbb'"},
+    {"bg", OPT_BACKGROUND, "--background '#rrggbb'"},
+    {"blur-background", OPT_BACKGROUND_BLUR, "--background-blur 0.3"},
+    {"camera-orbit", OPT_ORBIT, "--orbit \"0deg 75deg 105%\""},
+    {"camera-azimuth-angle", OPT_ORBIT, "--orbit AZIMUTH"},
+    {"azimuth", OPT_ORBIT, "--orbit AZIMUTH"},
+    {"camera-elevation-angle", OPT_ORBIT, "--orbit 0,POLAR (90 minus the elevation)"},
+    {"elevation", OPT_ORBIT, "--orbit 0,POLAR (90 minus the elevation)"},
+    {"camera-zoom-factor", OPT_ORBIT, "--orbit 0,75,50%"},
+    {"zoom", OPT_ORBIT, "--orbit 0,75,50%"},
+    {"distance", OPT_ORBIT, "--orbit 0,75,2m"},
+    {"camera-target", OPT_TARGET, "--target X,Y,Z"},
+    {"camera-focal-point", OPT_TARGET, "--target X,Y,Z"},
+    {"look-at", OPT_TARGET, "--target X,Y,Z"},
+    {"lookat", OPT_TARGET, "--target X,Y,Z"},
+    {"camera-position", OPT_EYE, "--eye X,Y,Z"},
+    {"position", OPT_EYE, "--eye X,Y,Z"},
+    {"camera-view-up", OPT_UP, "--up z"},
+    {"camera-view-angle", OPT_FOV, "--fov 30"},
+    {"field-of-view", OPT_FOV, "--fov 30"},
+    {"fovy", OPT_FOV, "--fov 30"},
+    {"camera-index", OPT_CAMERA, "--camera 0"},
+    {"camera-name", OPT_CAMERA, "--camera NAME"},
+    {"camera-orthographic", OPT_ORTHO, "--ortho"},
+    {"orthographic", OPT_ORTHO, "--ortho"},
+    {"light-intensity", OPT_EXPOSURE, "--exposure 2x"},
+    {"brightness", OPT_EXPOSURE, "--exposure +1"},
+    {"tonemap", OPT_TONE_MAPPING, "--tone-mapping neutral"},
+    {"tone-map", OPT_TONE_MAPPING, "--tone-mapping neutral"},
+    {"view-transform", OPT_TONE_MAPPING, "--tone-mapping agx"},
+    {"spp", OPT_SAMPLES, "--samples 16"},
+    {"raytracing-samples", OPT_SAMPLES, "--samples 16"},
+    {"ibl-samples", OPT_SAMPLES, "--samples 16"},
+    {"sample-count", OPT_SAMPLES, "--samples 16"},
+    {"msaa", OPT_SAMPLES, "--samples 16"},
+    {"anti-aliasing", OPT_SAMPLES, "--samples 16"},
+    {"engine", OPT_RENDERER, "--renderer preview"},
+    {"jobs", OPT_THREADS, "--threads N"},
+    {"num-threads", OPT_THREADS, "--threads N"},
+    {"memory-limit", OPT_MAX_MEMORY, "--max-memory 2G"},
+    {"timeout", OPT_TIME_LIMIT, "--time-limit 30s"},
+    {"loading-progress", OPT_PROGRESS, "--progress plain"},
+    {"silent", OPT_QUIET, "--quiet"},
+    {"debug", OPT_VERBOSE, "-vv"},
+    {"log-level", OPT_VERBOSE, "-v"},
+    {"quality-level", OPT_QUALITY, "--quality final"},
+    {"compression", OPT_PNG_COMPRESSION, "--png-compression 9"},
+    {"jpg-quality", OPT_JPEG_QUALITY, "--jpeg-quality 92"},
+    {"shot", OPT_TURNTABLE, "--turntable 36"},
+    {"skip-existing", OPT_NO_CLOBBER, "--no-clobber"},
+    {"no-overwrite", OPT_NO_CLOBBER, "--no-clobber"},
+    {"overwrite", OPT_OUTPUT, "nothing: an existing output is replaced unless --no-clobber is given"},
+    {"force", OPT_OUTPUT, "nothing: an existing output is replaced unless --no-clobber is given"},
+    {"input", OPT_HELP, "nothing: the model is given without an option"},
+    {"src", OPT_HELP, "nothing: the model is given without an option"},
+};
+
+static const struct {
+    char theirs;
+    option_id id;
+    const char *ours;
+} foreign_letters[] = {
+    {'w', OPT_SIZE, "--size 640x480"},
+    {'W', OPT_SIZE, "--size 640x480"},
+    {'i', OPT_HELP, "nothing: the model is given without an option"},
+    {'t', OPT_THREADS, "-j N, --threads N"},
+    {'f', OPT_FORMAT, "--format png"},
+    {'F', OPT_FORMAT, "--format png"},
+    {'b', OPT_BACKGROUND, "--background WHAT"},
+    {'c', OPT_BACKGROUND, "--background WHAT"},
+};
+
+/* ---- near names ---- */
+
+/* Lower case, "-" for "_", at most LONGEST characters. */
+static size_t fold(const char *word, char *folded)
+{
+    size_t n = 0;
+    for (; word[n] && n < LONGEST; n++)
+        folded[n] = word[n] == '_' ? '-' : (char)tolower((unsigned char)word[n]);
+    folded[n] = 0;
+    return n;
+}
+
+static unsigned least(unsigned a, unsigned b)
+{
+    return a < b ? a : b;
+}
+
+/* Optimal string alignment: Levenshtein 1966 with swaps of neighbours, three rows of the table at a time. */
+unsigned edit_distance(const char *a, const char *b)
+{
+    char x[LONGEST + 1], y[LONGEST + 1];
+    size_t nx = fold(a, x), ny = fold(b, y);
+    unsigned rows[3][LONGEST + 1];
+    unsigned *before = rows[0], *last = rows[1], *row = rows[2];
+    for (size_t j = 0; j <= ny; j++)
+        last[j] = (unsigned)j;
+    for (size_t i = 1; i <= nx; i++) {
+        row[0] = (unsigned)i;
+        for (size_t j = 1; j <= ny; j++) {
+            row[j] = least(least(last[j], row[j - 1]) + 1, last[j - 1] + (x[i - 1] != y[j - 1]));
+            if (i > 1 && j > 1 && x[i - 1] == y[j - 2] && x[i - 2] == y[j - 1])
+                row[j] = least(row[j], before[j - 2] + 1);
+        }
+        unsigned *free_row = before;
+        before = last;
+        last = row;
+        row = free_row;
+    }
+    return last[ny];
+}
+
+/* Whether text, mistyped, may be word, and how badly: smaller is nearer. A beginning of 3 letters or more is near. */
+static bool is_near(const char *text, const char *word, unsigned *badness)
+{
+    size_t length = strlen(text);
+    unsigned distance = edit_distance(text, word);
+    *badness = 2 * distance;
+    if (length >= 3 && length < strlen(word) && strncmp(text, word, length) == 0) {
+        *badness = 1;
+        return true;
+    }
+    return distance <= (length <= 3 ? 1u : length <= 7 ? 2u : 3u) && distance < length;
+}
+
+const char *suggest_word(const char *text, const char *const *words)
+{
+    const char *best = NULL;
+    unsigned least_bad = ~0u, badness;
+    for (; *words; words++)
+        if (is_near(text, *words, &badness) && badness < least_bad) {
+            least_bad = badness;
+            best = *words;
+        }
+    return best;
+}
+
+const char *suggest_verb(const char *text)
+{
+    const char *names[16] = {0};
+    for (size_t i = 0; verbs[i] && i < 15; i++)
+        names[i] = verbs[i]->name;
+    return suggest_word(text, names);
+}
+
+/* ---- options ---- */
+
+facet_result suggest_option(const verb *v, const char *name, size_t length, facet_error *error)
+{
+    char text[LONGEST + 1], folded[LONGEST + 1];
+    snprintf(text, sizeof text, "%.*s", (int)(length < LONGEST ? length : LONGEST), name);
+    fold(text, folded);
+    for (size_t i = 0; i < sizeof foreign_names / sizeof *foreign_names; i++)
+        if (strcmp(folded, foreign_names[i].theirs) == 0 && option_find_id(v, foreign_names[i].id))
+            return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean %s?", text,
+                             foreign_names[i].ours);
+    if (option_is_planned(folded))
+        return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: this version of facet does not have it yet",
+                         text);
+    const char *best = NULL;
+    unsigned least_bad = ~0u, badness;
+    for (const option_group *const *g = v->groups; *g; g++)
+        for (size_t i = 0; i < (*g)->option_count; i++)
+            if (is_near(folded, (*g)->options[i].name, &badness) && badness < least_bad) {
+                least_bad = badness;
+                best = (*g)->options[i].name;
+            }
+    if (best)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean --%s?", text, best);
+    return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; facet help %s lists those there are",
+                     text, v->name);
+}
+
+facet_result suggest_letter(const verb *v, char letter, facet_error *error)
+{
+    for (size_t i = 0; i < sizeof foreign_letters / sizeof *foreign_letters; i++)
+        if (letter == foreign_letters[i].theirs && option_find_id(v, foreign_letters[i].id))
+            return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option -%c; did you mean %s?", letter,
+                             foreign_letters[i].ours);
+    return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option -%c; facet help %s lists those there are",
+                     letter, v->name);
+}

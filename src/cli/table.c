@@ -1,0 +1,65 @@
+/* table.c - text in columns. */
+#include "cli/table.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDEST_COLUMN = 40 };
+
+void table_add(table *t, const char *format, ...)
+{
+    if (t->cell_count == t->cell_capacity) {
+        size_t capacity = t->cell_capacity ? 2 * t->cell_capacity : 64;
+        char **grown = realloc(t->cells, capacity * sizeof *grown);
+        if (!grown)
+            return;
+        t->cells = grown;
+        t->cell_capacity = capacity;
+    }
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
+    size_t size = strlen(text) + 1;
+    char *cell = malloc(size);
+    if (cell)
+        t->cells[t->cell_count++] = memcpy(cell, text, size);
+}
+
+/* Code points of UTF-8 text: as wide as it looks, nearly always. */
+static int width_of(const char *text)
+{
+    int width = 0;
+    for (; *text; text++)
+        width += ((unsigned char)*text & 0xc0) != 0x80;
+    return width;
+}
+
+void table_print(table *t, FILE *stream, int indent)
+{
+    int widths[TABLE_COLUMNS] = {0};
+    for (size_t i = 0; i < t->cell_count; i++) {
+        int width = width_of(t->cells[i]), *widest = &widths[i % t->column_count];
+        if (width > *widest)
+            *widest = width < WIDEST_COLUMN ? width : WIDEST_COLUMN;
+    }
+    for (size_t i = 0; i < t->cell_count; i++) {
+        size_t column = i % t->column_count;
+        if (column == 0)
+            fprintf(stream, "%*s", indent, "");
+        fputs(t->cells[i], stream);
+        int rest = widths[column] - width_of(t->cells[i]);
+        if (column + 1 == t->column_count)
+            fputc('\n', stream);
+        else
+            fprintf(stream, "%*s", (rest > 0 ? rest : 0) + 2, "");
+        free(t->cells[i]);
+    }
+    free(t->cells);
+    *t = (table){.column_count = t->column_count};
+}

@@ -1,0 +1,18 @@
+/* terminal.h - what the standard streams are attached to. */
+#ifndef CLI_TERMINAL_H
+#define CLI_TERMINAL_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+bool terminal_is(FILE *stream);
+/* Whether escape sequences for color are welcome there: a terminal, not a dumb one, and NO_COLOR is not set. */
+bool terminal_has_color(FILE *stream);
+/* Columns to write text in: COLUMNS or the terminal's, at most 100; 100 where neither is known. */
+int terminal_width(FILE *stream);
+
+/* Prints text at column indent in lines of at most width columns, continued at the same column; *column is where
+ * the stream stands and will stand. Words are separated by single blanks. */
+void terminal_wrap(FILE *stream, const char *text, int indent, int width, int *column);
+
+#endif

@@ -1,0 +1,29 @@
+/* value.h - the notations of option values. Each returns false where text is not such a value; outputs are then
+ * untouched. */
+#ifndef CLI_VALUE_H
+#define CLI_VALUE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* A finite decimal number at the start of *text, blanks before it skipped; *text moves behind it. */
+bool scan_number(const char **text, double *number);
+
+bool value_number(const char *text, double *number);
+/* count numbers separated by commas or blanks. */
+bool value_numbers(const char *text, size_t count, double *numbers);
+/* "640x480", "640,480", "512" (a square); 1 to 65536. */
+bool value_size(const char *text, uint32_t *width, uint32_t *height);
+/* Whole numbers "X,Y,W,H", W and H at least 1. */
+bool value_rectangle(const char *text, uint32_t rectangle[4]);
+/* "1500000", "512M", "2G", "1.5GiB"; K, M, G, T are powers of 1024. */
+bool value_bytes(const char *text, uint64_t *bytes);
+/* "30", "30s", "500ms", "5m", "1h"; more than 0. */
+bool value_seconds(const char *text, double *seconds);
+/* "+0.5" stops; "2x" the factor 2. */
+bool value_exposure(const char *text, double *stops);
+/* "30", "30deg", "0.5rad"; in rad. */
+bool value_angle(const char *text, double *radians);
+
+#endif
