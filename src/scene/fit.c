@@ -96,6 +96,17 @@ static void add_circle(const view *v, const double p[3], extent *e)
     extent_add(e, fmax(side, fmax(top, bottom)), nearest);
 }
 
+static void add_vertex(const view *v, const float world[3], extent *e)
+{
+    double p[3];
+    for (int axis = 0; axis < 3; axis++)
+        p[axis] = (double)world[axis] - v->target[axis];
+    if (v->fit == SCENE_FIT_ALL_AZIMUTHS)
+        add_circle(v, p, e);
+    else
+        add_point(v, p, e);
+}
+
 enum { GRAIN = 1 << 14 };
 
 typedef struct fit_job {
@@ -114,15 +125,27 @@ static void fit_body(void *context, size_t begin, size_t end)
         float world[3];
         mat4_transform_point(&job->instance->world, primitive->positions + 3 * (size_t)primitive->indices[i],
                              world);
-        double p[3];
-        for (int axis = 0; axis < 3; axis++)
-            p[axis] = (double)world[axis] - v->target[axis];
-        if (v->fit == SCENE_FIT_ALL_AZIMUTHS)
-            add_circle(v, p, &e);
-        else
-            add_point(v, p, &e);
+        add_vertex(v, world, &e);
     }
     job->extents[begin / GRAIN] = e;
+}
+
+/* Whether an instance cannot widen e, judged by the box around it: all bounds are convex, so they are largest at a
+ * corner. The margin covers the rounding of corners. Most instances of a scene of many are inside. */
+static bool is_inside(const view *v, const scene_instance *instance, const extent *e)
+{
+    const scene_primitive *primitive = instance->primitive;
+    extent box = {-INFINITY, -INFINITY};
+    for (unsigned corner = 0; corner < 8; corner++) {
+        float local[3];
+        float world[3];
+        for (unsigned axis = 0; axis < 3; axis++)
+            local[axis] = corner >> axis & 1 ? primitive->bounds_max[axis] : primitive->bounds_min[axis];
+        mat4_transform_point(&instance->world, local, world);
+        add_vertex(v, world, &box);
+    }
+    double margin = 1e-5 * (fabs(box.extent) + fabs(box.nearest));
+    return box.extent + margin < e->extent && box.nearest + margin < e->nearest;
 }
 
 /* False: no memory. */
@@ -138,6 +161,8 @@ static bool measure(const scene_pose *pose, const view *v, uint32_t thread_count
         return false;
     for (uint32_t i = 0; i < pose->instance_count; i++) {
         size_t count = pose->instances[i].primitive->index_count;
+        if (is_inside(v, &pose->instances[i], out))
+            continue;
         fit_job job = {.view = v, .instance = &pose->instances[i], .extents = extents};
         parallel_for(thread_count, count, GRAIN, fit_body, &job);
         for (size_t k = 0; k < (count + GRAIN - 1) / GRAIN; k++)
