@@ -23,11 +23,7 @@ static const codec codecs[] = {
     [IMAGE_CODEC_WEBP] = {.name = "WebP"},
 #endif
     [IMAGE_CODEC_HDR] = {"Radiance HDR", hdr_probe, hdr_decode, hdr_encode},
-#ifdef HAVE_OPENEXR
-    [IMAGE_CODEC_EXR] = {"OpenEXR", exr_probe, exr_decode, NULL},
-#else
-    [IMAGE_CODEC_EXR] = {.name = "OpenEXR"},
-#endif
+    [IMAGE_CODEC_EXR] = {"OpenEXR", exr_probe, exr_decode, NULL}, /* written by image_encode_exr() */
     [IMAGE_CODEC_PFM] = {"PFM", pfm_probe, pfm_decode, pfm_encode},
     [IMAGE_CODEC_KTX2] = {.name = "KTX2"},
 };

@@ -1,6 +1,6 @@
 /* exr_write.c - writing OpenEXR: scanlines in chunks of 16, ZIP, half or float, channels of several layers.
  * Layout: "OpenEXR File Layout" of the OpenEXR documentation. Chunks are made in parallel and put together in
- * order. Written here rather than through OpenEXRCore, which takes chunks in order only. */
+ * order. */
 #include "image/codec.h"
 
 #include <stdatomic.h>

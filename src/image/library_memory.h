@@ -1,4 +1,4 @@
-/* library_memory.h - a caller's allocator for libraries whose hooks carry no context (libspng, OpenEXRCore). */
+/* library_memory.h - a caller's allocator for a library whose hooks carry no context (libspng). */
 #ifndef IMAGE_LIBRARY_MEMORY_H
 #define IMAGE_LIBRARY_MEMORY_H
 
