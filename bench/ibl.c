@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "ibl/environment.h"
+#include "ibl/equirect.h"
 #include "ibl/ibl.h"
 
 #include "shade/shade.h"
@@ -161,13 +162,11 @@ static void print_errors(const settings *s)
             relative += p.square[i] / (p.reference[i] + 1e-12);
         }
         double mean[3];
-        double sharp[3];
         cube_mean(&e->parts.levels[level], mean);
-        cube_mean(&e->parts.levels[0], sharp);
-        printf("roughness %.3f  size %3u  RMS error / RMS %.5f  RMS of relative error %.5f  mean G %.5f "
-               "(picture %.5f, cube %.5f)\n",
+        printf("roughness %.2f  size %3u  RMS error / RMS %.5f  RMS of relative error %.5f  mean G %.5f "
+               "(picture %.5f)\n",
                (double)p.roughness, e->parts.levels[level].size, (sqrt)(square / reference),
-               (sqrt)(relative / PROBE_COUNT), mean[1], (double)e->parts.harmonics.mean[1], sharp[1]);
+               (sqrt)(relative / PROBE_COUNT), mean[1], (double)e->parts.harmonics.mean[1]);
     }
     ibl_light_release(light);
     facet_environment_destroy(e);
@@ -214,7 +213,7 @@ static void write_pictures(const settings *s, const char *folder)
     facet_environment *e = open_environment(s);
     const ibl_light *light = prepare(
         e, &(ibl_light_desc){.thread_count = s->thread_count, .needs_specular = true, .max_roughness = 1.0f});
-    for (uint32_t level = 0; level < PREFILTER_LEVEL_COUNT; level++)
+    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++)
         write_faces(&e->parts.levels[level], 0.5f / e->parts.harmonics.mean[1], folder, level);
     ibl_light_release(light);
     facet_environment_destroy(e);
@@ -240,8 +239,8 @@ int main(int argc, char **argv)
     }
     s.path = optind < argc ? argv[optind] : NULL;
     time_stage(&s, "irradiance", (ibl_light_desc){.needs_irradiance = true});
-    time_stage(&s, "sharp cube only", (ibl_light_desc){.needs_specular = true});
-    time_stage(&s, "roughness 0 to 0.125", (ibl_light_desc){.needs_specular = true, .max_roughness = 0.125f});
+    time_stage(&s, "mirror only", (ibl_light_desc){.needs_specular = true});
+    time_stage(&s, "roughness 0 to 0.16", (ibl_light_desc){.needs_specular = true, .max_roughness = 0.16f});
     time_stage(&s, "roughness 0.25 to 1",
                (ibl_light_desc){.needs_specular = true, .min_roughness = 0.25f, .max_roughness = 1.0f});
     time_stage(&s, "roughness 0.5 to 0.5",

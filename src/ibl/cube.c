@@ -1,8 +1,7 @@
-/* cube.c - see cube.h. Sampling an environment: cube_from_equirect.c. */
+/* cube.c - see cube.h. */
 #include "ibl/cube.h"
 
 #include "base/memory.h"
-#include "base/parallel.h"
 #include "base/result.h"
 
 facet_result cube_create(uint32_t size, const facet_allocator *allocator, cube *out, facet_error *error)
@@ -102,50 +101,4 @@ void cube_mean(const cube *c, double mean[3])
         }
     for (int i = 0; i < 3; i++)
         mean[i] = sum[i] / whole;
-}
-
-typedef struct halving {
-    const cube *in;
-    cube *out;
-} halving;
-
-IBL_DISPATCH static void halve_rows(void *context, size_t begin, size_t end)
-{
-    const halving *h = context;
-    uint32_t n = h->out->size;
-    float step = 2.0f / (float)h->in->size;
-    for (size_t i = begin; i < end; i++) {
-        uint32_t face = (uint32_t)(i / n);
-        int y = (int)(i % n);
-        rgbx *out = cube_texel(h->out, face, 0, y);
-        const rgbx *a = cube_texel(h->in, face, 0, 2 * y);
-        const rgbx *b = cube_texel(h->in, face, 0, 2 * y + 1);
-        float ta = ((float)(2 * y) + 0.5f) * step - 1.0f;
-        float tb = ta + step;
-        for (uint32_t x = 0; x < n; x++) {
-            /* a texel's solid angle is step^2 (1 + s^2 + t^2)^(-3/2) up to a relative error of step^2 / 8 that
-             * the four share */
-            float s0 = ((float)(2 * x) + 0.5f) * step - 1.0f;
-            float s1 = s0 + step;
-            float q[4] = {1.0f + s0 * s0 + ta * ta, 1.0f + s1 * s1 + ta * ta, 1.0f + s0 * s0 + tb * tb,
-                          1.0f + s1 * s1 + tb * tb};
-            float w[4];
-            for (int k = 0; k < 4; k++)
-                w[k] = 1.0f / (q[k] * sqrtf(q[k]));
-            rgbx sum = a[2 * x] * w[0] + a[2 * x + 1] * w[1] + b[2 * x] * w[2] + b[2 * x + 1] * w[3];
-            out[x] = sum * (1.0f / (w[0] + w[1] + w[2] + w[3]));
-        }
-    }
-}
-
-facet_result cube_half(const cube *in, const facet_allocator *allocator, uint32_t thread_count, cube *out,
-                       facet_error *error)
-{
-    facet_result result = cube_create(in->size / 2, allocator, out, error);
-    if (result != FACET_OK)
-        return result;
-    halving h = {in, out};
-    parallel_for(in->size >= 128 ? thread_count : 1, (size_t)6 * out->size, 16, halve_rows, &h);
-    cube_fill_borders(out);
-    return FACET_OK;
 }

@@ -1,4 +1,4 @@
-/* cube.h - cube maps of radiance: where directions are, seamless lookup, mip pyramids.
+/* cube.h - cube maps of radiance: where directions are, seamless lookup.
  *
  * Faces are +X -X +Y -Y +Z -Z. Position (s, t) on a face, both in [-1, 1], t downwards, is the direction of
  *   +X (1, -t, -s)   -X (-1, -t, s)   +Y (s, 1, t)   -Y (s, -1, -t)   +Z (s, -t, 1)   -Z (-s, -t, -1)
@@ -10,7 +10,6 @@
 #include <math.h>
 
 #include "facet/facet.h"
-#include "ibl/equirect.h"
 #include "ibl/simd.h"
 
 /* Six faces of size x size texels, each with a border of one texel that repeats what is across the edge: bilinear
@@ -82,13 +81,5 @@ static inline rgbx cube_fetch(const cube *c, cube_point p)
 double cube_texel_solid_angle(uint32_t size, uint32_t x, uint32_t y);
 /* Mean radiance over the sphere, texels weighted with their solid angle. */
 void cube_mean(const cube *c, double mean[3]);
-
-/* Samples the environment, the mean over each texel. size is a power of two. FACET_ERROR_MEMORY. */
-facet_result cube_from_equirect(const equirect *e, uint32_t size, const facet_allocator *allocator,
-                                uint32_t thread_count, cube *out, facet_error *error);
-
-/* Half the size, each texel the mean of four weighted with their solid angle. in->size is even. */
-facet_result cube_half(const cube *in, const facet_allocator *allocator, uint32_t thread_count, cube *out,
-                       facet_error *error);
 
 #endif

@@ -62,8 +62,8 @@ void environment_release(facet_environment *environment)
     light_parts *parts = &environment->parts;
     for (int i = 0; i < PREFILTER_LEVEL_COUNT; i++)
         cube_destroy(&parts->levels[i]);
-    for (int i = 0; i < BACKGROUND_COUNT; i++)
-        equirect_destroy(&parts->backgrounds[i]);
+    for (int i = 0; i < PICTURE_COUNT; i++)
+        image_destroy(&parts->pictures[i]);
     harmonics_destroy(&parts->harmonics);
     image_destroy(&environment->picture);
     mem_free(environment->cache_folder);

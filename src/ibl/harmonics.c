@@ -1,5 +1,5 @@
-/* harmonics.c - see harmonics.h. A grid of 2 L rows and 4 L columns for degree L: Fourier transform of each row,
- * then for each order m sums over rows against the associated Legendre functions, and back the same way. A row and
+/* harmonics.c - see harmonics.h. A grid of 2 L rows and at least 3 L columns for degree L: Fourier transform of each
+ * row, then for each order m sums over rows against the associated Legendre functions, and back the same way. A row and
  * its mirror at the equator share their Legendre functions: P_lm(-x) = (-1)^(l - m) P_lm(x), so what is summed is
  * the even part (row + mirror) where l - m is even and the odd part (row - mirror) where it is odd. */
 #include "ibl/harmonics.h"
@@ -10,16 +10,27 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "ibl/equirect.h"
 #include "ibl/fourier.h"
 
 static const double pi = 3.14159265358979323846;
 
 enum {
-    PARTS = 6,                    /* R G B, real and imaginary */
-    LANES = 8,                    /* of float8 */
-    MAX_PAIRS = HARMONICS_DEGREE, /* rows of a hemisphere */
-    MAX_BLOCKS = MAX_PAIRS / LANES
+    PARTS = 6, /* R G B, real and imaginary */
+    LANES = 8, /* of float8 */
+    MAX_BLOCKS = HARMONICS_DEGREE / LANES,
+    PAD = 2 /* texels around the grid, for cubic interpolation */
 };
+
+/* Columns of the grid: a power of two that keeps degree away from half of it, so that what a picture has above is
+ * not mistaken for what is below. */
+static uint32_t column_count(uint32_t degree)
+{
+    uint32_t count = 16;
+    while (count < 3 * degree)
+        count *= 2;
+    return count;
+}
 
 /* Rows of coefficients in both directions: [order][even odd][PARTS][pair]. */
 static size_t wave_index(uint32_t order, uint32_t is_odd, uint32_t part, uint32_t pair_count)
@@ -41,7 +52,7 @@ static size_t coefficient_count(void)
 
 /* P_lm = a[l] (x P_(l-1)m - b[l] P_(l-2)m), from P_mm on. */
 typedef struct legendre {
-    uint32_t order, block_count;
+    uint32_t first_block, block_count; /* blocks of rows; before the first, all P_lm are next to 0 */
     float a[HARMONICS_DEGREE + 1], b[HARMONICS_DEGREE + 1];
     float8 x[MAX_BLOCKS];     /* cos(theta) of the rows of the northern hemisphere */
     float8 start[MAX_BLOCKS]; /* P_mm */
@@ -58,9 +69,14 @@ static double power(double x, uint32_t n)
 
 static void legendre_init(legendre *p, uint32_t order, uint32_t degree, uint32_t pair_count)
 {
-    p->order = order;
-    p->block_count = pair_count / LANES;
     double m = order;
+    /* P_lm falls off like an Airy function where l sin(theta) < m; 6 m^(1/3) further it is below 1e-6 of its top */
+    p->block_count = pair_count / LANES;
+    p->first_block = 0;
+    while (p->first_block + 1 < p->block_count &&
+           (degree + 1) * sin(pi * ((p->first_block + 1) * LANES - 0.5) / (2.0 * pair_count)) <
+               m - 6.0 * cbrt(m))
+        p->first_block++;
     for (uint32_t l = order + 1; l <= degree; l++) {
         double l2 = (double)l * l;
         double k2 = (double)(l - 1) * (l - 1);
@@ -70,137 +86,171 @@ static void legendre_init(legendre *p, uint32_t order, uint32_t degree, uint32_t
     double norm = 1.0 / sqrt(4.0 * pi);
     for (uint32_t k = 1; k <= order; k++)
         norm *= sqrt((2.0 * k + 1.0) / (2.0 * k));
-    for (uint32_t j = 0; j < pair_count; j++) {
+    for (uint32_t j = p->first_block * LANES; j < pair_count; j++) {
         double theta = pi * (j + 0.5) / (2.0 * pair_count);
         double start = norm * power(sin(theta), order);
         p->x[j / LANES][j % LANES] = (float)cos(theta);
-        /* Near the poles high orders vanish: of degree l they come to anything from l sin(theta) = m on, and for l
-         * up to 128 P_mm is then above 1e-21. Zero keeps slow denormal numbers out. */
-        p->start[j / LANES][j % LANES] = start < 1e-30 ? 0.0f : (float)start;
+        /* P_lm comes to anything from l sin(theta) = m on, and for l up to 160 P_mm is then above 1e-26: what is
+         * far below never grows. Zero keeps slow denormal numbers out. */
+        p->start[j / LANES][j % LANES] = start < 1e-32 ? 0.0f : (float)start;
     }
 }
 
 /* ---- analysis ---- */
 
 typedef struct analysis {
-    const equirect *grid;
+    const equirect_view *view;
     harmonics *out;
     fourier transform;
-    float *waves;
 } analysis;
 
+/* Rows j and their mirrors: waves, not yet less the mean. */
 IBL_DISPATCH static void analyse_rows(void *context, size_t begin, size_t end)
 {
     const analysis *job = context;
     uint32_t pair_count = HARMONICS_DEGREE;
-    uint32_t width = job->grid->width;
-    const float *mean = job->out->mean;
+    uint32_t width = job->view->width;
     for (size_t j = begin; j < end; j++) {
-        float weight = (float)equirect_texel_solid_angle(width, job->grid->height, (uint32_t)j);
-        rgbx row[FOURIER_MAX], re[2][FOURIER_MAX / 2], im[2][FOURIER_MAX / 2];
-        for (int south = 0; south < 2; south++) {
-            const rgbx *from =
-                job->grid->texels + (south ? job->grid->height - 1 - j : j) * ((size_t)width + 1);
-            rgbx offset = {mean[0], mean[1], mean[2], 0.0f};
-            for (uint32_t x = 0; x < width; x++)
-                row[x] = (from[x] - offset) * weight;
-            fourier_forward(&job->transform, row, re[south], im[south]);
+        float weight = (float)equirect_texel_solid_angle(width, job->view->height, (uint32_t)j);
+        rgbx north[FOURIER_MAX], south[FOURIER_MAX];
+        float8 row[FOURIER_MAX], re[FOURIER_MAX / 2], im[FOURIER_MAX / 2];
+        equirect_view_texels(job->view, (uint32_t)j, 0, width, north);
+        equirect_view_texels(job->view, job->view->height - 1 - (uint32_t)j, 0, width, south);
+        for (uint32_t x = 0; x < width; x++) {
+            rgbx n = north[x] * weight;
+            rgbx s = south[x] * weight;
+            row[x] = (float8){n[0], n[1], n[2], 0.0f, s[0], s[1], s[2], 0.0f};
         }
+        fourier_forward(&job->transform, row, re, im);
         for (uint32_t m = 0; m <= HARMONICS_DEGREE; m++)
-            for (uint32_t odd = 0; odd < 2; odd++) {
-                float sign = odd ? -1.0f : 1.0f;
-                rgbx sum_re = re[0][m] + re[1][m] * sign;
-                rgbx sum_im = im[0][m] + im[1][m] * sign;
-                for (uint32_t i = 0; i < 3; i++) {
-                    job->waves[wave_index(m, odd, 2 * i, pair_count) + j] = sum_re[i];
-                    job->waves[wave_index(m, odd, 2 * i + 1, pair_count) + j] = sum_im[i];
-                }
+            for (uint32_t i = 0; i < 3; i++) {
+                float *even = job->out->waves + wave_index(m, 0, 2 * i, pair_count) + j;
+                float *odd = job->out->waves + wave_index(m, 1, 2 * i, pair_count) + j;
+                even[0] = re[m][i] + re[m][i + 4];
+                odd[0] = re[m][i] - re[m][i + 4];
+                even[pair_count] = im[m][i] + im[m][i + 4];
+                odd[pair_count] = im[m][i] - im[m][i + 4];
             }
+    }
+}
+
+/* Takes the mean over the sphere out of the waves. */
+static void remove_mean(harmonics *h)
+{
+    uint32_t pair_count = HARMONICS_DEGREE;
+    uint32_t width = column_count(HARMONICS_DEGREE);
+    for (uint32_t i = 0; i < 3; i++) {
+        float *even = h->waves + wave_index(0, 0, 2 * i, pair_count);
+        double sum = 0.0;
+        for (uint32_t j = 0; j < pair_count; j++)
+            sum += (double)even[j];
+        double mean = sum / (4.0 * pi);
+        for (uint32_t j = 0; j < pair_count; j++)
+            even[j] -= (float)(2.0 * width * mean * equirect_texel_solid_angle(width, 2 * pair_count, j));
+        h->mean[i] = (float)mean;
     }
 }
 
 IBL_DISPATCH static void analyse_orders(void *context, size_t begin, size_t end)
 {
-    const analysis *job = context;
-    for (size_t m = begin; m < end; m++) {
+    const harmonics *h = context;
+    for (size_t order = begin; order < end; order++) {
+        uint32_t m = (uint32_t)order;
         legendre p;
-        legendre_init(&p, (uint32_t)m, HARMONICS_DEGREE, HARMONICS_DEGREE);
-        float *out = job->out->coefficients + order_index((uint32_t)m);
+        legendre_init(&p, m, HARMONICS_DEGREE, HARMONICS_DEGREE);
+        float *out = h->coefficients + order_index(m);
         float8 now[MAX_BLOCKS], before[MAX_BLOCKS];
         memcpy(now, p.start, sizeof now);
         memset(before, 0, sizeof before);
-        for (uint32_t l = (uint32_t)m; l <= HARMONICS_DEGREE; l++, out += PARTS) {
+        for (uint32_t l = m; l <= HARMONICS_DEGREE; l++, out += PARTS) {
             if (l > m) {
-                for (uint32_t k = 0; k < MAX_BLOCKS; k++) {
+                for (uint32_t k = p.first_block; k < MAX_BLOCKS; k++) {
                     float8 next = (p.x[k] * now[k] - before[k] * p.b[l]) * p.a[l];
                     before[k] = now[k];
                     now[k] = next;
                 }
             }
-            const float *wave =
-                job->waves + wave_index((uint32_t)m, (l - (uint32_t)m) & 1, 0, HARMONICS_DEGREE);
-            const float8 *w = (const float8 *)wave;
-            for (uint32_t part = 0; part < PARTS; part++, w += MAX_BLOCKS) {
-                float8 sum = now[0] * w[0];
-                for (uint32_t k = 1; k < MAX_BLOCKS; k++)
-                    sum += now[k] * w[k];
-                out[part] = ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+            const float8 *wave = (const float8 *)(h->waves + wave_index(m, (l - m) & 1, 0, HARMONICS_DEGREE));
+            float8 sum[PARTS] = {{0}};
+            for (uint32_t k = p.first_block; k < MAX_BLOCKS; k++)
+                for (uint32_t part = 0; part < PARTS; part++)
+                    sum[part] += now[k] * wave[part * MAX_BLOCKS + k];
+            for (uint32_t part = 0; part < PARTS; part++) {
+                float8 s = sum[part];
+                out[part] = ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
             }
         }
     }
+}
+
+static facet_result create_scratch(harmonics *h, facet_error *error)
+{
+    uint32_t degree = HARMONICS_DEGREE;
+    size_t wave_count = wave_index(degree + 1, 0, 0, degree);
+    size_t grid_count = (2 * (size_t)degree + 2 * PAD) * ((size_t)column_count(degree) + 2 * PAD);
+    if (!h->waves)
+        h->waves = mem_alloc(&h->allocator, wave_count, sizeof *h->waves);
+    if (!h->grid)
+        h->grid = mem_alloc(&h->allocator, grid_count, sizeof *h->grid);
+    return h->waves && h->grid ? FACET_OK
+                               : fail_memory(error, "filtered environment", grid_count * sizeof *h->grid);
+}
+
+void harmonics_trim(harmonics *h)
+{
+    mem_free(h->waves);
+    mem_free(h->grid);
+    h->waves = NULL;
+    h->grid = NULL;
 }
 
 facet_result harmonics_create(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
                               harmonics *out, facet_error *error)
 {
     *out = (harmonics){0};
-    equirect grid;
-    facet_result result = equirect_create(picture, 4 * HARMONICS_DEGREE, 2 * HARMONICS_DEGREE, false,
-                                          allocator, thread_count, &grid, error);
-    if (result != FACET_OK)
-        return result;
-    size_t wave_count = wave_index(HARMONICS_DEGREE + 1, 0, 0, HARMONICS_DEGREE);
     harmonics h = {.coefficients = mem_alloc(allocator, coefficient_count(), sizeof(float))};
-    analysis job = {.grid = &grid, .out = &h, .waves = mem_alloc(allocator, wave_count, sizeof(float))};
-    if (!h.coefficients || !job.waves) {
-        result = fail_memory(error, "harmonics", wave_count * sizeof(float));
-        mem_free(h.coefficients);
-    } else {
-        equirect_mean(&grid, h.mean);
-        fourier_init(&job.transform, grid.width);
+    h.allocator = allocator ? *allocator : h.allocator;
+    equirect_view view = {0};
+    facet_result result = create_scratch(&h, error);
+    if (result == FACET_OK &&
+        (!h.coefficients || !equirect_view_create(picture, column_count(HARMONICS_DEGREE),
+                                                  2 * HARMONICS_DEGREE, allocator, &view)))
+        result = fail_memory(error, "harmonics", coefficient_count() * sizeof(float));
+    if (result == FACET_OK) {
+        analysis job = {.view = &view, .out = &h};
+        fourier_init(&job.transform, view.width);
         parallel_for(thread_count, HARMONICS_DEGREE, 16, analyse_rows, &job);
-        parallel_for(thread_count, HARMONICS_DEGREE + 1, 4, analyse_orders, &job);
+        remove_mean(&h);
+        parallel_for(thread_count, HARMONICS_DEGREE + 1, 4, analyse_orders, &h);
         *out = h;
+    } else {
+        harmonics_destroy(&h);
     }
-    mem_free(job.waves);
-    equirect_destroy(&grid);
+    equirect_view_destroy(&view);
     return result;
 }
 
 void harmonics_destroy(harmonics *h)
 {
+    harmonics_trim(h);
     mem_free(h->coefficients);
     *h = (harmonics){0};
 }
 
 /* ---- synthesis ---- */
 
-enum { PAD = 2 }; /* texels around the grid, for cubic interpolation */
-
 typedef struct synthesis {
     const harmonics *in;
     const float *kernel;
     uint32_t degree;
+    uint32_t width, height; /* of the grid, which has PAD more texels on all sides */
     fourier transform;
-    float *waves;
-    rgbx *grid; /* 2 degree rows of 4 degree texels, PAD more on all sides */
     cube *out;
 } synthesis;
 
 static rgbx *grid_texel(const synthesis *job, int x, int y)
 {
-    size_t stride = 4 * (size_t)job->degree + 2 * PAD;
-    return job->grid + (size_t)(y + PAD) * stride + (size_t)(x + PAD);
+    return job->in->grid + (size_t)(y + PAD) * (job->width + 2 * PAD) + (size_t)(x + PAD);
 }
 
 IBL_DISPATCH static void synthesise_orders(void *context, size_t begin, size_t end)
@@ -212,7 +262,7 @@ IBL_DISPATCH static void synthesise_orders(void *context, size_t begin, size_t e
         legendre p;
         legendre_init(&p, m, job->degree, pair_count);
         /* middles of columns of the grid of the analysis and of this one lie half a column off phi = 0 */
-        double turn = m * pi * (1.0 / (4.0 * job->degree) - 1.0 / (4.0 * HARMONICS_DEGREE));
+        double turn = m * pi * (1.0 / job->width - 1.0 / column_count(HARMONICS_DEGREE));
         float c = (float)cos(turn);
         float s = (float)sin(turn);
         float scaled[HARMONICS_DEGREE + 1][PARTS];
@@ -223,23 +273,27 @@ IBL_DISPATCH static void synthesise_orders(void *context, size_t begin, size_t e
                 scaled[l][2 * i + 1] = job->kernel[l] * (in[2 * i] * s + in[2 * i + 1] * c);
             }
         for (uint32_t k = 0; k < p.block_count; k++) {
-            float8 sum[2][PARTS] = {{{0}}};
+            float8 even[PARTS] = {{0}};
+            float8 odd[PARTS] = {{0}};
             float8 now = p.start[k];
             float8 before = {0};
-            for (uint32_t l = m; l <= job->degree; l++) {
-                if (l > m) {
-                    float8 next = (p.x[k] * now - before * p.b[l]) * p.a[l];
-                    before = now;
-                    now = next;
-                }
+            for (uint32_t l = m; k >= p.first_block && l <= job->degree; l += 2) {
                 for (uint32_t part = 0; part < PARTS; part++)
-                    sum[(l - m) & 1][part] += now * scaled[l][part];
+                    even[part] += now * scaled[l][part];
+                if (l == job->degree)
+                    break;
+                before = (p.x[k] * now - before * p.b[l + 1]) * p.a[l + 1];
+                for (uint32_t part = 0; part < PARTS; part++)
+                    odd[part] += before * scaled[l + 1][part];
+                if (l + 2 <= job->degree)
+                    now = (p.x[k] * before - now * p.b[l + 2]) * p.a[l + 2];
             }
-            for (uint32_t odd = 0; odd < 2; odd++)
-                for (uint32_t part = 0; part < PARTS; part++) {
-                    float *to = job->waves + wave_index(m, odd, part, pair_count) + (size_t)k * LANES;
-                    memcpy(to, &sum[odd][part], sizeof sum[odd][part]);
-                }
+            for (uint32_t part = 0; part < PARTS; part++) {
+                float *to = job->in->waves + wave_index(m, 0, part, pair_count) + (size_t)k * LANES;
+                memcpy(to, &even[part], sizeof even[part]);
+                to = job->in->waves + wave_index(m, 1, part, pair_count) + (size_t)k * LANES;
+                memcpy(to, &odd[part], sizeof odd[part]);
+            }
         }
     }
 }
@@ -248,36 +302,44 @@ IBL_DISPATCH static void synthesise_rows(void *context, size_t begin, size_t end
 {
     const synthesis *job = context;
     uint32_t pair_count = job->degree;
-    int width = (int)(4 * job->degree);
+    int width = (int)job->width;
     rgbx mean = {job->in->mean[0], job->in->mean[1], job->in->mean[2], 0.0f};
-    for (size_t j = begin; j < end; j++)
-        for (int south = 0; south < 2; south++) {
-            rgbx re[FOURIER_MAX / 2] = {{0}};
-            rgbx im[FOURIER_MAX / 2] = {{0}};
-            float sign = south ? -1.0f : 1.0f;
-            for (uint32_t m = 0; m <= job->degree; m++)
-                for (uint32_t i = 0; i < 3; i++) {
-                    const float *even = job->waves + wave_index(m, 0, 2 * i, pair_count) + j;
-                    const float *odd = job->waves + wave_index(m, 1, 2 * i, pair_count) + j;
-                    re[m][i] = even[0] + sign * odd[0];
-                    im[m][i] = even[pair_count] + sign * odd[pair_count];
-                }
-            rgbx *row = grid_texel(job, 0, south ? 2 * (int)job->degree - 1 - (int)j : (int)j);
-            fourier_backward(&job->transform, re, im, row);
-            for (int x = 0; x < width; x++)
-                row[x] += mean;
-            for (int x = 1; x <= PAD; x++) {
-                row[-x] = row[width - x];
-                row[width + x - 1] = row[x - 1];
+    for (size_t j = begin; j < end; j++) {
+        float8 row[FOURIER_MAX];
+        float8 re[FOURIER_MAX / 2] = {{0}};
+        float8 im[FOURIER_MAX / 2] = {{0}};
+        for (uint32_t m = 0; m <= job->degree; m++) {
+            float e[PARTS], o[PARTS];
+            for (uint32_t part = 0; part < PARTS; part++) {
+                e[part] = job->in->waves[wave_index(m, 0, part, pair_count) + j];
+                o[part] = job->in->waves[wave_index(m, 1, part, pair_count) + j];
             }
+            re[m] = (float8){e[0] + o[0], e[2] + o[2], e[4] + o[4], 0.0f,
+                             e[0] - o[0], e[2] - o[2], e[4] - o[4], 0.0f};
+            im[m] = (float8){e[1] + o[1], e[3] + o[3], e[5] + o[5], 0.0f,
+                             e[1] - o[1], e[3] - o[3], e[5] - o[5], 0.0f};
         }
+        fourier_backward(&job->transform, re, im, row);
+        rgbx *north = grid_texel(job, 0, (int)j);
+        rgbx *south = grid_texel(job, 0, (int)job->height - 1 - (int)j);
+        for (int x = 0; x < width; x++) {
+            north[x] = (rgbx){row[x][0], row[x][1], row[x][2], 0.0f} + mean;
+            south[x] = (rgbx){row[x][4], row[x][5], row[x][6], 0.0f} + mean;
+        }
+        for (int x = 1; x <= PAD; x++) {
+            north[-x] = north[width - x];
+            north[width + x - 1] = north[x - 1];
+            south[-x] = south[width - x];
+            south[width + x - 1] = south[x - 1];
+        }
+    }
 }
 
 /* Behind a pole comes the same row half a turn on. */
 static void fill_poles(const synthesis *job)
 {
-    int height = 2 * (int)job->degree;
-    int width = 4 * (int)job->degree;
+    int width = (int)job->width;
+    int height = (int)job->height;
     for (int k = 1; k <= PAD; k++)
         for (int x = -PAD; x < width + PAD; x++) {
             int across = (x + width + width / 2) % width;
@@ -295,63 +357,70 @@ static inline void cubic_weights(float f, float w[4])
     w[3] = f * f * (0.5f * f - 0.5f);
 }
 
+enum { MAX_CUBE_SIZE = 256 };
+
 IBL_DISPATCH static void fill_cube_rows(void *context, size_t begin, size_t end)
 {
     const synthesis *job = context;
     uint32_t size = job->out->size;
-    float columns_per_rad = (float)(4 * job->degree) * 0.159154943f;
-    size_t stride = 4 * (size_t)job->degree + 2 * PAD;
+    float columns_per_rad = (float)job->width * 0.159154943f;
+    float rows_per_rad = (float)job->height * 0.318309886f;
+    size_t stride = (size_t)job->width + 2 * PAD;
     for (size_t i = begin; i < end; i++) {
         uint32_t face = (uint32_t)(i / size);
         uint32_t y = (uint32_t)(i % size);
+        double d0[3], d1[3];
+        cube_direction(face, -1.0, (2.0 * y + 1.0) / size - 1.0, d0);
+        cube_direction(face, 1.0, (2.0 * y + 1.0) / size - 1.0, d1);
+        float from[3], step[3];
+        for (int k = 0; k < 3; k++) {
+            step[k] = (float)((d1[k] - d0[k]) / size);
+            from[k] = (float)d0[k] + 0.5f * step[k];
+        }
+        float u[MAX_CUBE_SIZE], v[MAX_CUBE_SIZE];
         for (uint32_t x = 0; x < size; x++) {
-            double d[3];
-            cube_direction(face, (2.0 * x + 1.0) / size - 1.0, (2.0 * y + 1.0) / size - 1.0, d);
-            float across = sqrtf((float)(d[0] * d[0] + d[2] * d[2]));
-            float u =
-                (equirect_atan2((float)d[2], (float)d[0]) + 3.14159265f) * columns_per_rad + (PAD - 0.5f);
-            float v = equirect_atan2(across, (float)d[1]) * columns_per_rad + (PAD - 0.5f);
-            int u0 = (int)u;
-            int v0 = (int)v;
+            float dx = from[0] + (float)x * step[0];
+            float dy = from[1] + (float)x * step[1];
+            float dz = from[2] + (float)x * step[2];
+            u[x] = (equirect_atan2(dz, dx) + 3.14159265f) * columns_per_rad + (PAD - 0.5f);
+            v[x] = equirect_atan2(sqrtf(dx * dx + dz * dz), dy) * rows_per_rad + (PAD - 0.5f);
+        }
+        rgbx *out = cube_texel(job->out, face, 0, (int)y);
+        for (uint32_t x = 0; x < size; x++) {
+            int u0 = (int)u[x];
+            int v0 = (int)v[x];
             float wu[4], wv[4];
-            cubic_weights(u - (float)u0, wu);
-            cubic_weights(v - (float)v0, wv);
-            const rgbx *g = job->grid + (size_t)(v0 - 1) * stride + (size_t)(u0 - 1);
+            cubic_weights(u[x] - (float)u0, wu);
+            cubic_weights(v[x] - (float)v0, wv);
+            const rgbx *g = job->in->grid + (size_t)(v0 - 1) * stride + (size_t)(u0 - 1);
             rgbx sum = {0};
             for (int k = 0; k < 4; k++, g += stride)
                 sum += (g[0] * wu[0] + g[1] * wu[1] + g[2] * wu[2] + g[3] * wu[3]) * wv[k];
-            *cube_texel(job->out, face, (int)x, (int)y) = rgbx_not_negative(sum);
+            out[x] = rgbx_not_negative(sum);
         }
     }
 }
 
-facet_result harmonics_filter(const harmonics *h, const float *kernel, uint32_t degree, uint32_t size,
+facet_result harmonics_filter(harmonics *h, const float *kernel, uint32_t degree, uint32_t size,
                               const facet_allocator *allocator, uint32_t thread_count, cube *out,
                               facet_error *error)
 {
-    facet_result result = cube_create(size, allocator, out, error);
+    facet_result result = create_scratch(h, error);
+    if (result == FACET_OK)
+        result = cube_create(size, allocator, out, error);
     if (result != FACET_OK)
         return result;
-    size_t wave_count = wave_index(degree + 1, 0, 0, degree);
-    size_t grid_count = (2 * (size_t)degree + 2 * PAD) * (4 * (size_t)degree + 2 * PAD);
     synthesis job = {.in = h,
                      .kernel = kernel,
                      .degree = degree,
-                     .waves = mem_alloc(allocator, wave_count, sizeof(float)),
-                     .grid = mem_alloc(allocator, grid_count, sizeof(rgbx)),
+                     .width = column_count(degree),
+                     .height = 2 * degree,
                      .out = out};
-    if (!job.waves || !job.grid) {
-        cube_destroy(out);
-        result = fail_memory(error, "filtered environment", grid_count * sizeof(rgbx));
-    } else {
-        fourier_init(&job.transform, 4 * degree);
-        parallel_for(thread_count, degree + 1, 4, synthesise_orders, &job);
-        parallel_for(thread_count, degree, 8, synthesise_rows, &job);
-        fill_poles(&job);
-        parallel_for(thread_count, 6 * (size_t)size, 16, fill_cube_rows, &job);
-        cube_fill_borders(out);
-    }
-    mem_free(job.waves);
-    mem_free(job.grid);
-    return result;
+    fourier_init(&job.transform, job.width);
+    parallel_for(thread_count, degree + 1, 4, synthesise_orders, &job);
+    parallel_for(thread_count, degree, 8, synthesise_rows, &job);
+    fill_poles(&job);
+    parallel_for(thread_count, 6 * (size_t)size, 16, fill_cube_rows, &job);
+    cube_fill_borders(out);
+    return FACET_OK;
 }

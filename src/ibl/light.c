@@ -6,7 +6,11 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "ibl/environment.h"
+#include "ibl/equirect.h"
 #include "ibl/ibl.h"
+
+/* Rows of the picture that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
+static const double sharp_rows = 512.0;
 
 /* What a light looks up in, shared with the environment, which it keeps. */
 struct ibl_light {
@@ -14,8 +18,8 @@ struct ibl_light {
     bool has_irradiance;
     float irradiance_over_pi[SH_COUNT][3];
     uint32_t first_level, last_level;   /* prepared; last_level < first_level: none */
-    cube levels[PREFILTER_LEVEL_COUNT]; /* not owned */
-    equirect background;                /* not owned */
+    cube levels[PREFILTER_LEVEL_COUNT]; /* not owned; [0] is not used */
+    image sharp, background;            /* not owned */
 };
 
 /* ---- preparing; the environment's mutex is held ---- */
@@ -34,76 +38,39 @@ static facet_result prepare_irradiance(facet_environment *e, uint32_t thread_cou
     return FACET_OK;
 }
 
-/* Texels along an edge of the sharp cube: half the picture's height is as fine as the picture at the horizon. */
-static uint32_t sharp_size(const image *picture)
-{
-    uint32_t size = 16;
-    while (size < PREFILTER_MAX_SIZE && 2 * size < picture->height)
-        size *= 2;
-    return size;
-}
-
-static facet_result prepare_sharp(facet_environment *e, uint32_t thread_count, facet_error *error)
-{
-    cube *out = &e->parts.levels[0];
-    if (out->texels)
-        return FACET_OK;
-    uint32_t size = sharp_size(&e->picture);
-    uint32_t width = e->picture.width < 4 * size ? e->picture.width : 4 * size;
-    uint32_t height = e->picture.height < 2 * size ? e->picture.height : 2 * size;
-    equirect source;
-    facet_result result =
-        equirect_create(&e->picture, width, height, true, &e->allocator, thread_count, &source, error);
-    if (result != FACET_OK)
-        return result;
-    result = cube_from_equirect(&source, size, &e->allocator, thread_count, out, error);
-    equirect_destroy(&source);
-    return result;
-}
-
 static facet_result prepare_level(facet_environment *e, uint32_t level, uint32_t thread_count,
                                   facet_error *error)
 {
     light_parts *parts = &e->parts;
     if (parts->levels[level].texels)
         return FACET_OK;
-    if (level < PREFILTER_SAMPLED_COUNT) {
-        facet_result result = prepare_sharp(e, thread_count, error);
-        if (result == FACET_OK && level > 0)
-            result = prefilter_sampled(&parts->levels[0], level, &e->allocator, thread_count,
-                                       &parts->levels[level], error);
-        return result;
-    }
     if (!parts->harmonics.coefficients) {
         facet_result result =
             harmonics_create(&e->picture, &e->allocator, thread_count, &parts->harmonics, error);
         if (result != FACET_OK)
             return result;
     }
-    return prefilter_harmonics(&parts->harmonics, level, &e->allocator, thread_count, &parts->levels[level],
-                               error);
+    return prefilter_level(&parts->harmonics, level, &e->allocator, thread_count, &parts->levels[level],
+                           error);
 }
 
-/* How often the background is halved: its texels stay smaller than pixels of 1 / background_size rad. */
-static uint32_t background_index(const image *picture, uint32_t background_size)
+/* The picture, halved as often as leaves at least rows rows (0: never). */
+static facet_result prepare_picture(facet_environment *e, double rows, uint32_t thread_count, image *picture,
+                                    facet_error *error)
 {
     uint32_t index = 0;
-    double needed = 3.14159265358979 * background_size; /* rows */
-    while (background_size && index + 1 < BACKGROUND_COUNT && (picture->height >> (index + 1)) >= needed)
+    while (rows > 0.0 && index + 1 < PICTURE_COUNT && (e->picture.height >> (index + 1)) >= rows)
         index++;
-    return index;
-}
-
-static facet_result prepare_background(facet_environment *e, uint32_t index, uint32_t thread_count,
-                                       facet_error *error)
-{
-    equirect *out = &e->parts.backgrounds[index];
-    if (out->texels)
-        return FACET_OK;
-    uint32_t width = e->picture.width >> index;
-    uint32_t height = e->picture.height >> index;
-    return equirect_create(&e->picture, width ? width : 1, height ? height : 1, false, &e->allocator,
-                           thread_count, out, error);
+    image *part = index ? &e->parts.pictures[index] : &e->picture;
+    if (!part->pixels) {
+        uint32_t width = e->picture.width >> index;
+        facet_result result = equirect_resize(&e->picture, width ? width : 1, e->picture.height >> index,
+                                              &e->allocator, thread_count, part, error);
+        if (result != FACET_OK)
+            return result;
+    }
+    *picture = *part;
+    return FACET_OK;
 }
 
 /* Fills light with the parts that desc asks for. */
@@ -118,17 +85,23 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
         light->has_irradiance = true;
         memcpy(light->irradiance_over_pi, e->parts.irradiance_over_pi, sizeof light->irradiance_over_pi);
     }
-    for (uint32_t level = light->first_level; level <= light->last_level; level++) {
+    if (desc->needs_specular && light->first_level == 0) {
+        result = prepare_picture(e, sharp_rows, desc->thread_count, &light->sharp, error);
+        if (result != FACET_OK)
+            return result;
+    }
+    uint32_t first = light->first_level ? light->first_level : 1;
+    for (uint32_t level = first; level <= light->last_level; level++) {
         result = prepare_level(e, level, desc->thread_count, error);
         if (result != FACET_OK)
             return result;
         light->levels[level] = e->parts.levels[level];
     }
-    if (desc->needs_background) {
-        uint32_t index = background_index(&e->picture, desc->background_size);
-        result = prepare_background(e, index, desc->thread_count, error);
-        light->background = e->parts.backgrounds[index];
-    }
+    harmonics_trim(&e->parts.harmonics);
+    /* texels smaller than pixels */
+    if (desc->needs_background)
+        result = prepare_picture(e, 3.14159265358979 * desc->background_size, desc->thread_count,
+                                 &light->background, error);
     return result;
 }
 
@@ -148,8 +121,8 @@ facet_result ibl_light_prepare(facet_environment *environment, const ibl_light_d
     l->environment = environment;
     l->first_level = 1;
     if (desc->needs_specular) {
-        float low = clamp01(desc->min_roughness) * (PREFILTER_LEVEL_COUNT - 1);
-        float high = clamp01(desc->max_roughness) * (PREFILTER_LEVEL_COUNT - 1);
+        float low = prefilter_lod_of(clamp01(desc->min_roughness));
+        float high = prefilter_lod_of(clamp01(desc->max_roughness));
         l->first_level = (uint32_t)(low < high ? low : high);
         l->last_level = (uint32_t)ceilf(low < high ? high : low);
     }
@@ -186,25 +159,30 @@ void ibl_irradiance_over_pi(const ibl_light *light, const float N[3], float out[
 void ibl_specular(const ibl_light *light, const float R[3], float perceptual_roughness, float out[3])
 {
     assert(light->first_level <= light->last_level);
-    float lod = clamp01(perceptual_roughness) * (PREFILTER_LEVEL_COUNT - 1);
+    float lod = prefilter_lod_of(clamp01(perceptual_roughness));
     float first = (float)light->first_level;
     float last = (float)light->last_level;
     lod = lod < first ? first : lod > last ? last : lod;
     uint32_t level = (uint32_t)lod;
     float fraction = lod - (float)level;
+    if (level == 0) {
+        equirect_lookup(&light->sharp, R, out);
+        if (fraction == 0.0f)
+            return;
+    }
     cube_point p = cube_locate(R[0], R[1], R[2]);
-    rgbx c = cube_fetch(&light->levels[level], p);
+    rgbx rough = {0};
     if (fraction > 0.0f)
-        c += (cube_fetch(&light->levels[level + 1], p) - c) * fraction;
+        rough = cube_fetch(&light->levels[level + 1], p);
+    rgbx smooth = level ? cube_fetch(&light->levels[level], p) : (rgbx){out[0], out[1], out[2], 0.0f};
+    rgbx c = smooth + (rough - smooth) * fraction;
     for (int i = 0; i < 3; i++)
         out[i] = c[i];
 }
 
 void ibl_background(const ibl_light *light, const float d[3], float footprint_rad, float out[3])
 {
-    assert(light->background.texels);
+    assert(light->background.pixels);
     (void)footprint_rad;
-    rgbx c = equirect_lookup(&light->background, d);
-    for (int i = 0; i < 3; i++)
-        out[i] = c[i];
+    equirect_lookup(&light->background, d, out);
 }

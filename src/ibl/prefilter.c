@@ -1,32 +1,33 @@
-/* prefilter.c - see prefilter.h. Wide lobes scale spherical harmonics, which is exact. Narrow lobes would need too many
- * of them and are sampled: importance samples of the lobe, each read from the mip whose texels are as large as what
- * the sample stands for (Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"). */
+/* prefilter.c - see prefilter.h. */
 #include "ibl/prefilter.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/memory.h"
-#include "base/parallel.h"
-#include "base/result.h"
-
 #include "shade/shade.h"
 
-/* How a level is made. Sizes give the half width of a lobe three texels and more, so that bilinear lookup keeps its
- * shape; degrees are such that what is cut off is below 1e-5 of the lobe. */
+/* How a level is made. Sizes give the half width of a lobe four texels and more, so that bilinear lookup keeps its
+ * shape; degrees are such that what is cut off of a lobe is below 0.3 % of its peak. */
 static const struct {
+    float roughness;
     uint16_t size, degree;
-} levels[PREFILTER_LEVEL_COUNT] = {{256, 0}, {128, 0}, {64, 128}, {32, 64}, {32, 64},
-                                   {16, 64}, {16, 64}, {16, 64},  {16, 64}};
-
-enum {
-    MAX_MIPS = 12,
-    SAMPLE_COUNT = 64 /* bench/ibl.c prints the error that this leaves */
-};
+} levels[PREFILTER_LEVEL_COUNT] = {{0.0f, 0, 0},    {0.16f, 128, 160}, {0.22f, 64, 160},
+                                   {0.3f, 64, 128}, {0.4f, 32, 64},    {0.52f, 32, 64},
+                                   {0.68f, 16, 64}, {0.84f, 16, 64},   {1.0f, 16, 64}};
 
 float prefilter_roughness(uint32_t level)
 {
-    return (float)level / (float)(PREFILTER_LEVEL_COUNT - 1);
+    return levels[level].roughness;
+}
+
+float prefilter_lod_of(float perceptual_roughness)
+{
+    uint32_t level = 0;
+    while (level + 2 < PREFILTER_LEVEL_COUNT && perceptual_roughness > levels[level + 1].roughness)
+        level++;
+    float low = levels[level].roughness;
+    float high = levels[level + 1].roughness;
+    return (float)level + (perceptual_roughness - low) / (high - low);
 }
 
 void prefilter_kernel(float perceptual_roughness, uint32_t degree, float *kernel)
@@ -69,84 +70,11 @@ void prefilter_kernel(float perceptual_roughness, uint32_t degree, float *kernel
         kernel[l] = (float)(sum[l] / sum[0]);
 }
 
-facet_result prefilter_harmonics(const harmonics *h, uint32_t level, const facet_allocator *allocator,
-                                 uint32_t thread_count, cube *out, facet_error *error)
+facet_result prefilter_level(harmonics *h, uint32_t level, const facet_allocator *allocator,
+                             uint32_t thread_count, cube *out, facet_error *error)
 {
     float kernel[HARMONICS_DEGREE + 1];
-    prefilter_kernel(prefilter_roughness(level), levels[level].degree, kernel);
+    prefilter_kernel(levels[level].roughness, levels[level].degree, kernel);
     return harmonics_filter(h, kernel, levels[level].degree, levels[level].size, allocator, thread_count, out,
                             error);
-}
-
-/* ---- narrow lobes ---- */
-
-/* A sample of the lobe around z, the same for every texel. */
-typedef struct lobe_sample {
-    float x, y, z, weight;
-    uint32_t mip;
-} lobe_sample;
-
-typedef struct lobe {
-    cube mips[MAX_MIPS]; /* [0] is not owned */
-    lobe_sample samples[SAMPLE_COUNT];
-    cube *out;
-} lobe;
-
-/* Samples with weights that add up to 1. */
-static void lobe_init(lobe *job, float alpha, uint32_t mip_count)
-{
-    float texel_solid_angle = 4.0f * PI / (6.0f * (float)job->mips[0].size * (float)job->mips[0].size);
-    double whole = 0.0;
-    for (uint32_t i = 0; i < SAMPLE_COUNT; i++) {
-        PrefilterSample p = prefilter_sample(i, SAMPLE_COUNT, alpha, vec3(0.0f, 0.0f, 1.0f));
-        float lod = prefilter_lod(p.pdf, SAMPLE_COUNT, texel_solid_angle);
-        uint32_t mip = (uint32_t)lod;
-        job->samples[i] =
-            (lobe_sample){p.L[0], p.L[1], p.L[2], p.weight, mip < mip_count ? mip : mip_count - 1};
-        whole += (double)p.weight;
-    }
-    for (uint32_t i = 0; i < SAMPLE_COUNT; i++)
-        job->samples[i].weight = (float)((double)job->samples[i].weight / whole);
-}
-
-IBL_DISPATCH static void sample_rows(void *context, size_t begin, size_t end)
-{
-    const lobe *job = context;
-    uint32_t size = job->out->size;
-    for (size_t i = begin; i < end; i++) {
-        uint32_t face = (uint32_t)(i / size);
-        uint32_t y = (uint32_t)(i % size);
-        for (uint32_t x = 0; x < size; x++) {
-            double d[3];
-            cube_direction(face, (2.0 * x + 1.0) / size - 1.0, (2.0 * y + 1.0) / size - 1.0, d);
-            mat3 basis = basis_from_normal(normalize(vec3((float)d[0], (float)d[1], (float)d[2])));
-            rgbx sum = {0};
-            for (uint32_t k = 0; k < SAMPLE_COUNT; k++) {
-                const lobe_sample *s = &job->samples[k];
-                vec3 L = COL(basis, 0) * s->x + COL(basis, 1) * s->y + COL(basis, 2) * s->z;
-                sum += cube_fetch(&job->mips[s->mip], cube_locate(L[0], L[1], L[2])) * s->weight;
-            }
-            *cube_texel(job->out, face, (int)x, (int)y) = sum;
-        }
-    }
-}
-
-facet_result prefilter_sampled(const cube *sharp, uint32_t level, const facet_allocator *allocator,
-                               uint32_t thread_count, cube *out, facet_error *error)
-{
-    lobe job = {.mips = {*sharp}, .out = out};
-    uint32_t mip_count = 1;
-    facet_result result = cube_create(levels[level].size, allocator, out, error);
-    for (; result == FACET_OK && mip_count < MAX_MIPS && job.mips[mip_count - 1].size > 2; mip_count++)
-        result = cube_half(&job.mips[mip_count - 1], allocator, thread_count, &job.mips[mip_count], error);
-    if (result == FACET_OK) {
-        lobe_init(&job, alpha_from_roughness(prefilter_roughness(level)), mip_count);
-        parallel_for(thread_count, 6 * (size_t)out->size, 8, sample_rows, &job);
-        cube_fill_borders(out);
-    } else {
-        cube_destroy(out);
-    }
-    for (uint32_t i = 1; i < MAX_MIPS; i++)
-        cube_destroy(&job.mips[i]);
-    return result;
 }
