@@ -35,8 +35,9 @@ FN float sphere_irradiance(float cos_angle, float sin_sigma)
     float sin_angle = sqrt(max(1.0f - c * c, 1e-12f));
     float x = sqrt(max(1.0f / s2 - 1.0f, 0.0f));
     float y = clamp(-x * c / sin_angle, -1.0f, 1.0f);
-    float q = sin_angle * sqrt(1.0f - y * y);
-    return max((c * acos(y) - x * q) * s2 + atan(q, x), 0.0f);
+    float w = sqrt((1.0f - y) * (1.0f + y));
+    float q = sin_angle * w;
+    return max((c * atan(w, y) - x * q) * s2 + atan(q, x), 0.0f); /* atan(w, y) = acos(y), precise near +-1 */
 }
 
 /* Irradiance per intensity (1/m^2) of a thin line between end0 and end1 (from the shaded point, m), all of it above
