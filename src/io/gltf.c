@@ -102,20 +102,13 @@ static void read_document(reader *r)
     if (reader_is_ok(r))
         read_extensions(r, &root);
     void (*const concerns[])(reader *, const json_place *) = {
-        read_buffers, read_views,  read_accessors, read_images, read_textures, read_materials,
-        read_meshes,  read_lights, read_cameras,   read_nodes,  read_scenes,
+        read_buffers, read_views,   read_accessors, read_images, read_textures, read_materials,  read_meshes,
+        read_lights,  read_cameras, read_nodes,     read_scenes, read_skins,    read_animations,
     };
     for (size_t i = 0; i < sizeof concerns / sizeof *concerns && reader_is_ok(r); i++)
         concerns[i](r, &root);
-    if (!reader_is_ok(r))
-        return;
-    json_place skins = get_array(r, &root, "skins");
-    json_place animations = get_array(r, &root, "animations");
-    r->scene->skin_count = (uint32_t)get_count(&skins);
-    r->scene->animation_count = (uint32_t)get_count(&animations);
-    if (r->scene->skin_count)
-        reader_warn(r, NULL, NULL,
-                    "has skins, which are not applied yet: meshes are drawn as they are stored");
+    if (reader_is_ok(r))
+        check_unused_buffers(r);
 }
 
 static void read_bytes(reader *r, const unsigned char *bytes, size_t size)

@@ -35,6 +35,7 @@ void read_views(reader *r, const json_place *root)
         view->offset = get_uint(r, &at, "byteOffset", (uint64_t)1 << 53, 0);
         view->length = get_uint(r, &at, "byteLength", (uint64_t)1 << 53, REQUIRED_UINT);
         view->stride = get_uint(r, &at, "byteStride", UINT32_MAX, 0);
+        uint64_t target = get_uint(r, &at, "target", UINT32_MAX, 0);
         if (!reader_is_ok(r))
             return;
         size_t size = r->buffers[view->buffer].byte_length;
@@ -47,11 +48,27 @@ void read_views(reader *r, const json_place *root)
                         view->offset, view->buffer, size);
         if (view->stride && (view->stride < 4 || view->stride > 252 || view->stride % 4))
             reader_warn(r, &at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
+        if (view->stride && target == 34963)
+            reader_warn(r, &at, "byteStride", "means nothing for indices");
         for (int k = 0; k < 2; k++)
             view->is_compressed |= r->buffers[view->buffer].is_fallback && !r->buffers[view->buffer].uri &&
                                    get_extension(r, &at, MESHOPT[k]).value != NULL;
         r->view_count = (uint32_t)(i + 1);
     }
+}
+
+bool has_view_source(const reader *r, uint32_t view)
+{
+    uint32_t buffer = r->views[view].buffer;
+    return r->buffers[buffer].uri || r->buffers[buffer].is_fallback || (buffer == 0 && r->bin);
+}
+
+bool has_accessor_source(const reader *r, uint32_t accessor)
+{
+    const gltf_accessor *a = &r->accessors[accessor];
+    return (a->view == SCENE_NONE || has_view_source(r, a->view)) &&
+           (a->sparse_count == 0 ||
+            (has_view_source(r, a->sparse_index_view) && has_view_source(r, a->sparse_value_view)));
 }
 
 /* Makes the bytes of a buffer come to be. */
@@ -98,4 +115,16 @@ const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t in
         return NULL;
     }
     return load_buffer(r, view->buffer) ? r->buffers[view->buffer].data + view->offset : NULL;
+}
+
+void check_unused_buffers(reader *r)
+{
+    const json_place root = {.value = r->json};
+    const json_place array = {.parent = &root, .key = "buffers"};
+    for (uint32_t i = 0; i < r->buffer_count; i++) {
+        const json_place at = {.parent = &array, .index = i};
+        uri_bytes bytes;
+        if (!r->buffers[i].data && r->buffers[i].uri && !load_uri(r, r->buffers[i].uri, &bytes))
+            reader_warn(r, &at, "uri", "%s; nothing uses it", bytes.message);
+    }
 }

@@ -3,51 +3,56 @@
 
 #include "io/gltf_reader.h"
 
+/* Kinds of objects that an extension may extend; or-ed. */
+enum { ROOT = 1, NODE = 2, MATERIAL = 4, INSIDE_MATERIAL = 8, TEXTURE = 16, ELSEWHERE = 32, ANYWHERE = 63 };
+
 typedef struct known_extension {
     const char *name;
     scene_support support;
+    int places;         /* where facet reads it; in others it means nothing */
     const char *effect; /* of ignoring it, for the warning; NULL: none, no warning */
 } known_extension;
 
 static const known_extension KNOWN[] = {
-    {"EXT_texture_webp", SCENE_SUPPORTED, NULL},
-    {"KHR_lights_punctual", SCENE_SUPPORTED, NULL},
-    {"KHR_materials_emissive_strength", SCENE_SUPPORTED, NULL},
-    {"KHR_materials_ior", SCENE_SUPPORTED, NULL},
-    {"KHR_materials_specular", SCENE_SUPPORTED, NULL},
-    {"KHR_materials_unlit", SCENE_SUPPORTED, NULL},
-    {"KHR_mesh_quantization", SCENE_SUPPORTED, NULL},
-    {"KHR_node_visibility", SCENE_SUPPORTED, NULL},
-    {"KHR_texture_transform", SCENE_SUPPORTED, NULL},
+    {"EXT_texture_webp", SCENE_SUPPORTED, TEXTURE, NULL},
+    {"KHR_lights_punctual", SCENE_SUPPORTED, ROOT | NODE, NULL},
+    {"KHR_materials_emissive_strength", SCENE_SUPPORTED, MATERIAL, NULL},
+    {"KHR_materials_ior", SCENE_SUPPORTED, MATERIAL, NULL},
+    {"KHR_materials_specular", SCENE_SUPPORTED, MATERIAL, NULL},
+    {"KHR_materials_unlit", SCENE_SUPPORTED, MATERIAL, NULL},
+    {"KHR_mesh_quantization", SCENE_SUPPORTED, ANYWHERE, NULL},
+    {"KHR_node_visibility", SCENE_SUPPORTED, NODE, NULL},
+    {"KHR_texture_transform", SCENE_SUPPORTED, INSIDE_MATERIAL, NULL},
     /* Metadata, and hints for editors: nothing to see. */
-    {"FB_ngon_encoding", SCENE_IGNORED, NULL},
-    {"KHR_xmp", SCENE_IGNORED, NULL},
-    {"KHR_xmp_json_ld", SCENE_IGNORED, NULL},
-    {"EXT_structural_metadata", SCENE_IGNORED, NULL},
-    {"EXT_mesh_features", SCENE_IGNORED, NULL},
-    {"MSFT_lod", SCENE_IGNORED, NULL}, /* the finest level is the node itself */
+    {"FB_ngon_encoding", SCENE_IGNORED, ANYWHERE, NULL},
+    {"KHR_xmp", SCENE_IGNORED, ANYWHERE, NULL},
+    {"KHR_xmp_json_ld", SCENE_IGNORED, ANYWHERE, NULL},
+    {"EXT_structural_metadata", SCENE_IGNORED, ANYWHERE, NULL},
+    {"EXT_mesh_features", SCENE_IGNORED, ANYWHERE, NULL},
+    {"MSFT_lod", SCENE_IGNORED, ANYWHERE, NULL}, /* the finest level is the node itself */
     /* Not yet. */
-    {"EXT_lights_ies", SCENE_IGNORED, "light profiles are left out"},
-    {"EXT_lights_image_based", SCENE_IGNORED, "the light of the file is left out"},
-    {"EXT_mesh_gpu_instancing", SCENE_IGNORED, "each mesh is drawn once"},
-    {"EXT_meshopt_compression", SCENE_IGNORED, "uncompressed data is used where there is any"},
-    {"EXT_texture_avif", SCENE_IGNORED, "other images are used where there are any"},
-    {"KHR_animation_pointer", SCENE_IGNORED, "nothing moves"},
-    {"KHR_draco_mesh_compression", SCENE_IGNORED, "uncompressed data is used where there is any"},
-    {"KHR_materials_anisotropy", SCENE_IGNORED, "reflections are round"},
-    {"KHR_materials_clearcoat", SCENE_IGNORED, "coats are left out"},
-    {"KHR_materials_diffuse_transmission", SCENE_IGNORED, "no light comes through"},
-    {"KHR_materials_dispersion", SCENE_IGNORED, "light is not split"},
-    {"KHR_materials_iridescence", SCENE_IGNORED, "thin films are left out"},
-    {"KHR_materials_pbrSpecularGlossiness", SCENE_IGNORED, "the metallic-roughness fallback is drawn"},
-    {"KHR_materials_sheen", SCENE_IGNORED, "sheen is left out"},
-    {"KHR_materials_transmission", SCENE_IGNORED, "surfaces are opaque"},
-    {"KHR_materials_variants", SCENE_IGNORED, "the default materials are drawn"},
-    {"KHR_materials_volume", SCENE_IGNORED, "insides are left out"},
-    {"KHR_materials_volume_scatter", SCENE_IGNORED, "insides are left out"},
-    {"KHR_meshopt_compression", SCENE_IGNORED, "uncompressed data is used where there is any"},
-    {"KHR_texture_basisu", SCENE_IGNORED, "other images are used where there are any"},
-    {"MSFT_texture_dds", SCENE_IGNORED, "other images are used where there are any"},
+    {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "light profiles are left out"},
+    {"EXT_lights_image_based", SCENE_IGNORED, ANYWHERE, "the light of the file is left out"},
+    {"EXT_mesh_gpu_instancing", SCENE_IGNORED, ANYWHERE, "each mesh is drawn once"},
+    {"EXT_meshopt_compression", SCENE_IGNORED, ANYWHERE, "uncompressed data is used where there is any"},
+    {"EXT_texture_avif", SCENE_IGNORED, ANYWHERE, "other images are used where there are any"},
+    {"KHR_animation_pointer", SCENE_IGNORED, ANYWHERE, "nothing moves"},
+    {"KHR_draco_mesh_compression", SCENE_IGNORED, ANYWHERE, "uncompressed data is used where there is any"},
+    {"KHR_materials_anisotropy", SCENE_IGNORED, ANYWHERE, "reflections are round"},
+    {"KHR_materials_clearcoat", SCENE_IGNORED, ANYWHERE, "coats are left out"},
+    {"KHR_materials_diffuse_transmission", SCENE_IGNORED, ANYWHERE, "no light comes through"},
+    {"KHR_materials_dispersion", SCENE_IGNORED, ANYWHERE, "light is not split"},
+    {"KHR_materials_iridescence", SCENE_IGNORED, ANYWHERE, "thin films are left out"},
+    {"KHR_materials_pbrSpecularGlossiness", SCENE_IGNORED, ANYWHERE,
+     "the metallic-roughness fallback is drawn"},
+    {"KHR_materials_sheen", SCENE_IGNORED, ANYWHERE, "sheen is left out"},
+    {"KHR_materials_transmission", SCENE_IGNORED, ANYWHERE, "surfaces are opaque"},
+    {"KHR_materials_variants", SCENE_IGNORED, ANYWHERE, "the default materials are drawn"},
+    {"KHR_materials_volume", SCENE_IGNORED, ANYWHERE, "insides are left out"},
+    {"KHR_materials_volume_scatter", SCENE_IGNORED, ANYWHERE, "insides are left out"},
+    {"KHR_meshopt_compression", SCENE_IGNORED, ANYWHERE, "uncompressed data is used where there is any"},
+    {"KHR_texture_basisu", SCENE_IGNORED, ANYWHERE, "other images are used where there are any"},
+    {"MSFT_texture_dds", SCENE_IGNORED, ANYWHERE, "other images are used where there are any"},
 };
 
 static const known_extension *find_known(const char *name)
@@ -64,6 +69,11 @@ static scene_extension *find_listed(const reader *r, const char *name)
         if (strcmp(r->scene->extensions[i].name, name) == 0)
             return &r->scene->extensions[i];
     return NULL;
+}
+
+bool is_extension_listed(const reader *r, const char *name)
+{
+    return find_listed(r, name) != NULL;
 }
 
 /* Takes a name from extensionsUsed or extensionsRequired into the list; NULL: an error is recorded. */
@@ -88,9 +98,38 @@ static scene_extension *list(reader *r, const json_place *at)
     return listed;
 }
 
-/* Says, once per name, which extension objects stand somewhere below value without being listed. Bounded in depth:
- * glTF's own objects nest no deeper. */
-static void check_declared(reader *r, json_t *value, int depth)
+/* What an object at a member of a parent at place is. */
+static int place_below(int place, const char *key)
+{
+    if (place == MATERIAL || place == INSIDE_MATERIAL)
+        return INSIDE_MATERIAL;
+    if (place != ROOT)
+        return ELSEWHERE;
+    return strcmp(key, "nodes") == 0       ? NODE
+           : strcmp(key, "materials") == 0 ? MATERIAL
+           : strcmp(key, "textures") == 0  ? TEXTURE
+                                           : ELSEWHERE;
+}
+
+static void check_extensions_of(reader *r, json_t *extensions, int place)
+{
+    const char *name;
+    json_t *extension;
+    json_object_foreach(extensions, name, extension)
+    {
+        const known_extension *known = find_known(name);
+        if (!find_listed(r, name))
+            reader_warn(r, NULL, NULL, "uses %.100s without naming it in extensionsUsed", name);
+        else if (known && !(known->places & place))
+            reader_warn(r, NULL, NULL, "has %.100s in an object that it does not extend", name);
+        if (!json_is_object(extension))
+            reader_warn(r, NULL, NULL, "has an extension %.100s that is no object", name);
+    }
+}
+
+/* Says, once per name, which extension objects stand below value, an object or array at place, without being listed
+ * or where they mean nothing. Bounded in depth: glTF's own objects nest no deeper. */
+static void check_objects(reader *r, json_t *value, int place, int depth)
 {
     size_t index;
     json_t *element;
@@ -98,25 +137,15 @@ static void check_declared(reader *r, json_t *value, int depth)
     if (depth == 0)
         return;
     if (json_is_array(value)) {
-        json_array_foreach(value, index, element) if (json_is_object(element) || json_is_array(element))
-            check_declared(r, element, depth - 1);
+        json_array_foreach(value, index, element) check_objects(r, element, place, depth - 1);
         return;
     }
     json_object_foreach(value, key, element)
     {
-        if (strcmp(key, "extras") == 0 || !(json_is_object(element) || json_is_array(element)))
-            continue;
-        check_declared(r, element, depth - 1);
-        const char *name;
-        json_t *extension;
         if (strcmp(key, "extensions") == 0)
-            json_object_foreach(element, name, extension)
-            {
-                if (!find_listed(r, name))
-                    reader_warn(r, NULL, NULL, "uses %.100s without naming it in extensionsUsed", name);
-                if (!json_is_object(extension))
-                    reader_warn(r, NULL, NULL, "has an extension %.100s that is no object", name);
-            }
+            check_extensions_of(r, element, place);
+        if (strcmp(key, "extras") != 0 && (json_is_object(element) || json_is_array(element)))
+            check_objects(r, element, place_below(place, key), depth - 1);
     }
 }
 
@@ -168,5 +197,5 @@ void read_extensions(reader *r, const json_place *root)
     if (quantization && !quantization->is_required)
         reader_warn(r, NULL, NULL, "uses KHR_mesh_quantization, which must be among extensionsRequired");
     if (reader_is_ok(r))
-        check_declared(r, (json_t *)(uintptr_t)root->value, 12);
+        check_objects(r, (json_t *)(uintptr_t)root->value, ROOT, 12);
 }

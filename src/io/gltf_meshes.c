@@ -104,7 +104,7 @@ static bool read_texcoords(reader *r, const json_place *attributes, scene_primit
     return true;
 }
 
-/* Names that glTF reserves must be ones it knows, without gaps in their numbers. */
+/* Names that glTF reserves must be ones it knows, without gaps in their numbers, and all must name accessors. */
 static void check_names(reader *r, const json_place *attributes)
 {
     static const char *const numbered[] = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
@@ -129,7 +129,26 @@ static void check_names(reader *r, const json_place *attributes)
         }
         if (!is_known)
             reader_warn(r, attributes, name, "is no attribute of glTF and is ignored");
+        uint32_t accessor = get_index(r, attributes, name, r->accessor_count, "accessor");
+        if (accessor != SCENE_NONE && r->accessors[accessor].component == GLTF_U32)
+            reader_warn(r, attributes, name,
+                        "accessor %u has componentType 5125, which attributes cannot have", accessor);
     }
+}
+
+/* Whether all that the primitive reads has bytes somewhere. */
+static bool has_sources(reader *r, const json_place *at, const json_place *attributes)
+{
+    const char *name;
+    json_t *value;
+    uint32_t indices = get_index(r, at, "indices", r->accessor_count, "accessor");
+    bool has_all = indices == SCENE_NONE || has_accessor_source(r, indices);
+    json_object_foreach((json_t *)(uintptr_t)attributes->value, name, value)
+    {
+        uint32_t accessor = get_index(r, attributes, name, r->accessor_count, "accessor");
+        has_all = has_all && (accessor == SCENE_NONE || has_accessor_source(r, accessor));
+    }
+    return has_all;
 }
 
 static bool read_attributes(reader *r, const json_place *attributes, scene_primitive *p,
@@ -239,6 +258,11 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
     if (json_object_size(attributes.value) == 0)
         reader_warn(r, &attributes, NULL, "is empty, which glTF does not allow");
     check_names(r, &attributes);
+    if (!has_sources(r, at, &attributes)) {
+        reader_warn(r, at, NULL, "is in a buffer without bytes and is not drawn");
+        make_empty(p);
+        return;
+    }
     const uint8_t *is_lost = NULL;
     bool has_missing_normals = false;
     if (!read_attributes(r, &attributes, p, &is_lost, &has_missing_normals)) {

@@ -168,6 +168,13 @@ void read_views(reader *r, const json_place *root);
 /* The bytes of a view; NULL, with the error recorded, where they cannot be had. */
 const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t view);
 
+/* Whether there is something that a view or an accessor (with its sparse parts) could be read from. A buffer with
+ * neither a uri nor the binary chunk behind it is valid, but empty. */
+bool has_view_source(const reader *r, uint32_t view);
+bool has_accessor_source(const reader *r, uint32_t accessor);
+/* Warns about the URIs of buffers that nothing used and that could not have been read. */
+void check_unused_buffers(reader *r);
+
 /* gltf_accessors.c */
 void read_accessors(reader *r, const json_place *root);
 extern const uint32_t gltf_component_counts[GLTF_TYPE_COUNT];
@@ -195,8 +202,8 @@ bool make_flat(reader *r, const json_place *at, scene_primitive *primitive);
 /* Fills in normals of length 0 with those of the triangles around, in a copy. */
 bool fill_missing_normals(reader *r, const json_place *at, scene_primitive *primitive);
 
-/* gltf_meshes.c, gltf_materials.c, gltf_textures.c, gltf_nodes.c: arrays of the scene. Order: textures, materials,
- * meshes, nodes. */
+/* gltf_meshes.c, gltf_materials.c, gltf_textures.c, gltf_nodes.c: arrays of the scene. Order: images, textures,
+ * materials, meshes, lights, cameras, nodes, scenes. */
 void read_images(reader *r, const json_place *root);
 void read_textures(reader *r, const json_place *root);
 void read_materials(reader *r, const json_place *root);
@@ -206,8 +213,13 @@ void read_lights(reader *r, const json_place *root);
 void read_nodes(reader *r, const json_place *root);
 void read_scenes(reader *r, const json_place *root);
 
+/* gltf_motion.c: checks and counts skins and animations; they are not evaluated yet. */
+void read_skins(reader *r, const json_place *root);
+void read_animations(reader *r, const json_place *root);
+
 /* gltf_extensions.c: what the file says it uses; fails on a required one that facet lacks. */
 void read_extensions(reader *r, const json_place *root);
+bool is_extension_listed(const reader *r, const char *name);
 
 /* uri.c */
 /* The bytes that a URI stands for: decoded into the arena (data:) or mapped (a file; closed with the scene). what:

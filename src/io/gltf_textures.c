@@ -40,6 +40,10 @@ static bool find_bytes(reader *r, const json_place *at, scene_image *out)
         reader_warn(r, at, "mimeType", "is missing beside the bufferView");
     if (view != SCENE_NONE && r->views[view].stride)
         reader_warn(r, at, "bufferView", "has a byteStride, which means nothing for an image");
+    if (!uri && !has_view_source(r, view)) {
+        reader_warn(r, at, "bufferView", "is in a buffer without bytes; white is used");
+        return false;
+    }
     if (uri) {
         uri_bytes bytes;
         if (!load_uri(r, uri, &bytes)) {
@@ -81,6 +85,8 @@ static void read_image(reader *r, const json_place *at, scene_image *out)
         reader_warn(r, at, NULL, "is no PNG, JPEG or WebP file; white is used");
     else if (said && strcmp(said, out->mime_type) != 0)
         reader_warn(r, at, "mimeType", "says \"%.40s\", but the image is %s", said, out->mime_type);
+    if (codec == IMAGE_CODEC_WEBP && !is_extension_listed(r, "EXT_texture_webp"))
+        reader_warn(r, at, NULL, "is a WebP file, which needs EXT_texture_webp");
     image header;
     if (out->mime_type[0] && codec != IMAGE_CODEC_KTX2 &&
         image_probe(out->bytes, out->size, out->name, &header, &codec, NULL) == FACET_OK) {
@@ -178,6 +184,7 @@ void read_textures(reader *r, const json_place *root)
 {
     json_place array = get_array(r, root, "textures");
     size_t count = get_count(&array);
+    get_array(r, root, "samplers"); /* checked even where nothing uses it */
     r->scene->textures = reader_alloc(r, "textures", count, sizeof *r->scene->textures);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);

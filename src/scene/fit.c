@@ -120,7 +120,7 @@ static void fit_body(void *context, size_t begin, size_t end)
     const fit_job *job = context;
     const scene_primitive *primitive = job->instance->primitive;
     const view *v = job->view;
-    extent e = {-INFINITY, -INFINITY};
+    extent e = {-HUGE_VAL, -HUGE_VAL};
     for (size_t i = begin; i < end; i++) {
         float world[3];
         mat4_transform_point(&job->instance->world, primitive->positions + 3 * (size_t)primitive->indices[i],
@@ -135,7 +135,7 @@ static void fit_body(void *context, size_t begin, size_t end)
 static bool is_inside(const view *v, const scene_instance *instance, const extent *e)
 {
     const scene_primitive *primitive = instance->primitive;
-    extent box = {-INFINITY, -INFINITY};
+    extent box = {-HUGE_VAL, -HUGE_VAL};
     for (unsigned corner = 0; corner < 8; corner++) {
         float local[3];
         float world[3];
@@ -151,7 +151,7 @@ static bool is_inside(const view *v, const scene_instance *instance, const exten
 /* False: no memory. */
 static bool measure(const scene_pose *pose, const view *v, uint32_t thread_count, extent *out)
 {
-    *out = (extent){-INFINITY, -INFINITY};
+    *out = (extent){-HUGE_VAL, -HUGE_VAL};
     size_t most = 0;
     for (uint32_t i = 0; i < pose->instance_count; i++)
         if (pose->instances[i].primitive->index_count > most)
@@ -212,7 +212,7 @@ facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, fl
         v.target[i] = orbit->has_target ? (double)orbit->target[i]
                                         : 0.5 * ((double)pose->bounds_min[i] + (double)pose->bounds_max[i]);
     /* Nothing to see is framed as a ball of 1 m would be, a single point (extent 0) as well. */
-    extent e = {-INFINITY, -INFINITY};
+    extent e = {-HUGE_VAL, -HUGE_VAL};
     if (pose->has_bounds && !measure(pose, &v, thread_count, &e))
         return fail_memory(error, "camera", sizeof e);
     double narrow = fmin(1.0, (double)aspect);
