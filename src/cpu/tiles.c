@@ -11,7 +11,6 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "cpu/pixel.h"
-#include "cpu/sample_pattern.h"
 
 enum { TILE = 32 };
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
@@ -86,11 +85,11 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
             continue;
         size_t pixel = (size_t)(py - p->crop[1]) * p->crop[2] + (px - p->crop[0]);
         float rgba[4];
-        if (!pixel_resolve(&w->resolver, px, py, w->hits + (size_t)i * n, rgba))
+        if (!pixel_resolve(&w->resolver, px, py, w->hits + visibility_first_hit(&p->pattern, i), rgba))
             return false;
         store(p->layers.color, pixel, rgba);
         if (p->wants_aovs)
-            write_aovs(p, w, px, py, &w->middle_hits[i], pixel);
+            write_aovs(p, w, px, py, &w->middle_hits[visibility_first_hit(&p->middle, i)], pixel);
     }
     return true;
 }
@@ -187,24 +186,23 @@ facet_result tiles_draw(const tiles_desc *desc, film *target, facet_render_stats
 {
     const facet_render_desc *render = desc->render;
     const uint32_t *crop = render->crop;
-    static const float middle_point[2] = {0.5f, 0.5f};
-    float *points = mem_alloc(&render->allocator, render->samples, 2 * sizeof *points);
-    if (!points)
-        return fail_memory(error, "sample pattern", render->samples * 2 * sizeof *points);
-    sample_pattern(render->samples, points);
     picture p = {.desc = desc,
                  .crop = {crop[0], crop[1], target->width, target->height},
                  .tile_columns = (crop[0] + target->width - 1) / TILE - crop[0] / TILE + 1,
-                 .pattern = {render->samples, points},
-                 .middle = {1, middle_point},
                  .layers = {film_find(target, ""), film_find(target, "depth"), film_find(target, "normal"),
-                            film_find(target, "albedo"), film_find(target, "material"), film_find(target, "uv"),
-                            film_find(target, "occlusion")},
+                            film_find(target, "albedo"), film_find(target, "material"),
+                            film_find(target, "uv"), film_find(target, "occlusion")},
                  .wants_aovs = render->aovs != 0,
                  .is_reporting = ATOMIC_FLAG_INIT};
     p.tile_count = p.tile_columns * ((crop[1] + target->height - 1) / TILE - crop[1] / TILE + 1);
-    parallel_for(render->thread_count, p.tile_count, 1, draw_tiles, &p);
-    mem_free(points);
+    bool has_memory = visibility_pattern_create(&render->allocator, render->samples, &p.pattern) &&
+                      visibility_pattern_create(&render->allocator, 1, &p.middle);
+    if (has_memory)
+        parallel_for(render->thread_count, p.tile_count, 1, draw_tiles, &p);
+    visibility_pattern_destroy(&p.pattern);
+    visibility_pattern_destroy(&p.middle);
+    if (!has_memory)
+        return fail_memory(error, "sample pattern", render->samples * sizeof(float));
     stats->rays += atomic_load(&p.rays);
     stats->shades += atomic_load(&p.shades);
     return explain(&p, error);

@@ -5,9 +5,7 @@
 
 #include <stddef.h>
 
-/* Pixels of a block in the order in which they are traced: 2 x 2 squares. */
-static const uint8_t TRACE_ORDER[VISIBILITY_BLOCK_PIXELS] = {0, 1, 4,  5,  2,  3,  6,  7,
-                                                             8, 9, 12, 13, 10, 11, 14, 15};
+#include "cpu/sample_pattern.h"
 
 /* What an RTCRayHitN is made of: arrays of N values of 4 bytes each, in this order. */
 enum ray_field {
@@ -46,13 +44,14 @@ typedef union packet {
     uint32_t u[FIELD_COUNT * 16];
 } packet;
 
-/* Rays through the picture positions x, y; n is a constant where this is inlined, so the loop is vectorised. */
+/* Rays through (x, y) plus offsets; n is a constant where this is inlined, so the loop is vectorised. */
 static inline __attribute__((always_inline)) void fill_packet(packet *p, int n, const camera_rays *camera,
-                                                              const float *x, const float *y)
+                                                              float x, float y, const float *offset_x,
+                                                              const float *offset_y)
 {
     for (int i = 0; i < n; i++) {
-        float X = x[i] - camera->middle[0];
-        float Y = y[i] - camera->middle[1];
+        float X = x + offset_x[i] - camera->middle[0];
+        float Y = y + offset_y[i] - camera->middle[1];
         for (int axis = 0; axis < 3; axis++) {
             p->f[(ORG_X + axis) * n + i] =
                 camera->origin[axis] + X * camera->origin_dx[axis] + Y * camera->origin_dy[axis];
@@ -70,65 +69,81 @@ static inline __attribute__((always_inline)) void fill_packet(packet *p, int n, 
     }
 }
 
-static inline __attribute__((always_inline)) void read_packet(const packet *p, int n, const uint32_t *slots,
-                                                              visibility_hit *hits)
+static inline __attribute__((always_inline)) void read_packet(const packet *p, int n, visibility_hit *hits)
 {
-    for (int i = 0; i < n; i++)
-        hits[slots[i]] = (visibility_hit){
-            .t = p->f[T_FAR * n + i],
-            .u = p->f[HIT_U * n + i],
-            .v = p->f[HIT_V * n + i],
-            .geometry = p->u[GEOMETRY * n + i],
-            .primitive = p->u[PRIMITIVE * n + i],
-            .normal = {p->f[NORMAL_X * n + i], p->f[NORMAL_Y * n + i], p->f[NORMAL_Z * n + i]}};
-}
-
-static void trace_packet(const embree_scene *scene, const camera_rays *camera, const float *x, const float *y,
-                         const uint32_t *slots, visibility_hit *hits)
-{
-    static const _Alignas(64)
-        int32_t all[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-    packet p;
-    switch (scene->packet_width) {
-    case 16:
-        fill_packet(&p, 16, camera, x, y);
-        embree_intersect16(all, scene->scene, &p.rays16);
-        read_packet(&p, 16, slots, hits);
-        break;
-    case 8:
-        fill_packet(&p, 8, camera, x, y);
-        embree_intersect8(all, scene->scene, &p.rays8);
-        read_packet(&p, 8, slots, hits);
-        break;
-    default:
-        fill_packet(&p, 4, camera, x, y);
-        embree_intersect4(all, scene->scene, &p.rays4);
-        read_packet(&p, 4, slots, hits);
-        break;
+    for (int i = 0; i < n; i++) {
+        hits[i].geometry = p->u[GEOMETRY * n + i];
+        if (hits[i].geometry == VISIBILITY_NONE)
+            continue;
+        hits[i].primitive = p->u[PRIMITIVE * n + i];
+        hits[i].t = p->f[T_FAR * n + i];
+        hits[i].u = p->f[HIT_U * n + i];
+        hits[i].v = p->f[HIT_V * n + i];
+        hits[i].normal[0] = p->f[NORMAL_X * n + i];
+        hits[i].normal[1] = p->f[NORMAL_Y * n + i];
+        hits[i].normal[2] = p->f[NORMAL_Z * n + i];
     }
 }
 
 void visibility_trace_block(const embree_scene *scene, const camera_rays *camera, uint32_t x, uint32_t y,
                             const visibility_pattern *pattern, visibility_hit *hits)
 {
-    uint32_t n = pattern->sample_count;
-    uint32_t ray_count = VISIBILITY_BLOCK_PIXELS * n; /* a multiple of every packet's width */
-    uint32_t place = 0;
-    uint32_t sample = 0;
-    for (uint32_t first = 0; first < ray_count; first += scene->packet_width) {
-        float px[16];
-        float py[16];
-        uint32_t slots[16];
-        for (uint32_t i = 0; i < scene->packet_width; i++) {
-            uint32_t pixel = TRACE_ORDER[place];
-            px[i] = (float)(x + pixel % VISIBILITY_BLOCK) + pattern->points[2 * sample];
-            py[i] = (float)(y + pixel / VISIBILITY_BLOCK) + pattern->points[2 * sample + 1];
-            slots[i] = pixel * n + sample;
-            if (++sample == n) {
-                sample = 0;
-                place++;
-            }
+    static const _Alignas(64)
+        int32_t all[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    float left = (float)x;
+    float top = (float)y;
+    uint32_t width = scene->packet_width;
+    uint32_t ray_count = VISIBILITY_BLOCK_PIXELS * pattern->sample_count; /* a multiple of every width */
+    packet p;
+    for (uint32_t first = 0; first < ray_count; first += width) {
+        const float *offset_x = pattern->offset_x + first;
+        const float *offset_y = pattern->offset_y + first;
+        switch (width) {
+        case 16:
+            fill_packet(&p, 16, camera, left, top, offset_x, offset_y);
+            embree_intersect16(all, scene->scene, &p.rays16);
+            read_packet(&p, 16, hits + first);
+            break;
+        case 8:
+            fill_packet(&p, 8, camera, left, top, offset_x, offset_y);
+            embree_intersect8(all, scene->scene, &p.rays8);
+            read_packet(&p, 8, hits + first);
+            break;
+        default:
+            fill_packet(&p, 4, camera, left, top, offset_x, offset_y);
+            embree_intersect4(all, scene->scene, &p.rays4);
+            read_packet(&p, 4, hits + first);
+            break;
         }
-        trace_packet(scene, camera, px, py, slots, hits);
     }
+}
+
+/* ---- patterns ---- */
+
+bool visibility_pattern_create(const facet_allocator *allocator, uint32_t sample_count,
+                               visibility_pattern *out)
+{
+    size_t ray_count = (size_t)VISIBILITY_BLOCK_PIXELS * sample_count;
+    *out =
+        (visibility_pattern){.sample_count = sample_count,
+                             .points = mem_alloc(allocator, 2 * (sample_count + ray_count), sizeof(float))};
+    if (!out->points)
+        return false;
+    out->offset_x = out->points + 2 * (size_t)sample_count;
+    out->offset_y = out->offset_x + ray_count;
+    sample_pattern(sample_count, out->points);
+    for (uint32_t pixel = 0; pixel < VISIBILITY_BLOCK_PIXELS; pixel++) {
+        size_t first = visibility_first_hit(out, pixel);
+        for (uint32_t i = 0; i < sample_count; i++) {
+            out->offset_x[first + i] = (float)(pixel % VISIBILITY_BLOCK) + out->points[2 * i];
+            out->offset_y[first + i] = (float)(pixel / VISIBILITY_BLOCK) + out->points[2 * i + 1];
+        }
+    }
+    return true;
+}
+
+void visibility_pattern_destroy(visibility_pattern *pattern)
+{
+    mem_free(pattern->points);
+    *pattern = (visibility_pattern){0};
 }

@@ -22,12 +22,24 @@ typedef struct visibility_hit {
 /* Where the rays of a block go through the picture. */
 typedef struct visibility_pattern {
     uint32_t sample_count;
-    const float *points; /* 2 per sample, in pixels from the pixel's top left */
+    float *points;              /* 2 per sample, in pixels from the pixel's top left; block of mem_alloc() */
+    float *offset_x, *offset_y; /* per ray of a block, in pixels from the block's top left */
 } visibility_pattern;
 
-/* Traces the rays of the block whose top left pixel is (x, y) of the whole picture: hits is
- * hits[pixel * sample_count + sample], pixels of the block in rows. */
+/* The pattern of sample_pattern(). False: no memory. */
+bool visibility_pattern_create(const facet_allocator *allocator, uint32_t sample_count,
+                               visibility_pattern *out);
+void visibility_pattern_destroy(visibility_pattern *pattern); /* {0} is allowed */
+
+/* Traces the rays of the block whose top left pixel is (x, y) of the whole picture, VISIBILITY_BLOCK_PIXELS *
+ * sample_count hits. The other members of a hit of VISIBILITY_NONE are undefined. */
 void visibility_trace_block(const embree_scene *scene, const camera_rays *camera, uint32_t x, uint32_t y,
                             const visibility_pattern *pattern, visibility_hit *hits);
+/* Number of the first of the sample_count hits of a pixel of the block, pixels counted in rows. They are traced in
+ * squares of 2 x 2: bits 1 and 2 of the number change places. */
+static inline size_t visibility_first_hit(const visibility_pattern *pattern, uint32_t pixel)
+{
+    return (size_t)((pixel & 9) | (pixel & 2) << 1 | (pixel & 4) >> 1) * pattern->sample_count;
+}
 
 #endif
