@@ -19,6 +19,8 @@ typedef struct header {
 } header;
 
 _Static_assert(sizeof(header) <= ALIGNMENT, "the header stands in one alignment unit before the block");
+/* A base is 2 * ALIGNMENT larger than its block, which starts at most this far behind it. */
+_Static_assert(sizeof(header) + ALIGNMENT - 1 + MEM_TAIL <= 2 * ALIGNMENT, "the tail is inside the base");
 
 static header *header_of(const void *block)
 {

@@ -4,9 +4,12 @@
 
 #include "facet/facet.h"
 
-/* count * size bytes, aligned to 64 (a cache line, and every vector type); contents undefined, mem_zalloc:
- * zero. NULL: there is none, or the product overflows. A block of 0 bytes is a block. Every block remembers
- * its allocator (NULL and {0}: malloc). */
+enum { MEM_TAIL = 16 };
+
+/* count * size bytes, aligned to 64 (a cache line, and every vector type), with MEM_TAIL more behind them that may
+ * be read, not written, so that loops can load whole words; contents undefined, mem_zalloc: zero. NULL: there is
+ * none, or the product overflows. A block of 0 bytes is a block. Every block remembers its allocator (NULL and {0}:
+ * malloc). */
 void *mem_alloc(const facet_allocator *allocator, size_t count, size_t size);
 void *mem_zalloc(const facet_allocator *allocator, size_t count, size_t size);
 /* A larger or smaller block with the same first bytes, from the allocator of block (never NULL); block is
