@@ -5,6 +5,7 @@
 #include "cli/input.h"
 #include "cli/interrupt.h"
 #include "cli/memory_limit.h"
+#include "cli/model_files.h"
 #include "cli/output.h"
 #include "cli/output_name.h"
 #include "cli/preset.h"
@@ -70,6 +71,17 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
+/* Whether the picture name would replace what is read for it. */
+static bool is_an_input(const render_run *run, const char *model, const char *name)
+{
+    const char *config_path = option_text(run->line, OPT_CONFIG, NULL);
+    if (run->options.is_stdout || run->options.keeps_existing || !output_exists(name))
+        return false;
+    return (model && strcmp(model, "-") != 0 && model_has_file(model, name)) ||
+           (run->options.environment_path && input_is_same_file(name, run->options.environment_path)) ||
+           (config_path && input_is_same_file(name, config_path));
+}
+
 /* Checks before any work that the first pictures of all models can be written, have different names and replace no
  * input. */
 static facet_result check_outputs(const render_run *run, facet_error *error)
@@ -83,12 +95,10 @@ static facet_result check_outputs(const render_run *run, facet_error *error)
         result = name_output(run, model, 0, name, error);
         if (result == FACET_OK)
             result = output_check(name, error);
-        const char *inputs[] = {model, run->options.environment_path,
-                                option_text(run->line, OPT_CONFIG, NULL)};
-        for (size_t k = 0; k < 3 && result == FACET_OK; k++)
-            if (inputs[k] && input_is_same_file(name, inputs[k]))
-                result = fail_with(error, FACET_ERROR_ARGUMENT,
-                                   "--output: %s is also an input and would be overwritten", name);
+        if (result == FACET_OK && is_an_input(run, model, name))
+            result = fail_with(
+                error, FACET_ERROR_ARGUMENT,
+                "%s: it is an input, too, and would be overwritten; name another output with -o", name);
         if (result == FACET_OK) {
             names[i] = malloc(strlen(name) + 1);
             if (names[i])
@@ -300,11 +310,8 @@ static void report_failure(render_run *run, const char *model, facet_error *erro
     message_error("%s", error->message);
     run->failure_count++;
     run->exit_code = exit_code_of(error->result);
-    if (run->failures) {
-        json_t *failure = report_error_json(error, run->exit_code);
-        json_object_set_new(failure, "model", json_string(name));
-        json_array_append_new(run->failures, failure);
-    }
+    if (run->failures)
+        json_array_append_new(run->failures, report_error_json(error, name, run->exit_code));
 }
 
 /* Adds the warnings of a model to the totals and forgets them. */
@@ -397,7 +404,7 @@ int cmd_render(command_line *c)
         exit_code = exit_code_of(result);
         message_error(result == FACET_ERROR_ARGUMENT ? "facet: %s" : "%s", error.message);
         if (run.failures)
-            json_array_append_new(run.failures, report_error_json(&error, exit_code));
+            json_array_append_new(run.failures, report_error_json(&error, NULL, exit_code));
     }
     if (run.pictures)
         print_json(&run, start, exit_code);

@@ -38,7 +38,8 @@ static void add_count(FILE *stream, const char **separator, const json_t *counts
     long long count = integer_of(counts, key);
     if (!count)
         return;
-    fprintf(stream, "%s%lld %s", *separator, count, count == 1 ? one : key);
+    const char *many = strncmp(key, "drawn_", 6) == 0 ? key + 6 : key;
+    fprintf(stream, "%s%lld %s", *separator, count, count == 1 ? one : many);
     *separator = ", ";
 }
 
@@ -71,8 +72,11 @@ static void print_counts(FILE *stream, const json_t *counts)
     for (size_t i = 0; i < sizeof geometry / sizeof *geometry; i++)
         add_count(stream, &separator, counts, geometry[i][0], geometry[i][1]);
     fputs(*separator == ',' ? "\n" : "", stream);
-    fprintf(stream, "  drawn      %lld triangles in %lld instances\n", integer_of(counts, "drawn_triangles"),
-            integer_of(counts, "instances"));
+    separator = "  drawn      ";
+    add_count(stream, &separator, counts, "drawn_triangles", "triangle");
+    separator = *separator == ',' ? " in " : separator;
+    add_count(stream, &separator, counts, "instances", "instance");
+    fputs(*separator == ',' ? "\n" : "", stream);
 }
 
 static void print_bounds(FILE *stream, const json_t *bounds)

@@ -77,6 +77,7 @@ void interrupt_install(void)
     install_stop(SIGINT);
     install_stop(SIGTERM);
     install_stop(SIGHUP);
+    signal(SIGXFSZ, SIG_IGN); /* a file beyond the user's limit is then a failed write, which cleans up */
 }
 
 int interrupt_signal(void)

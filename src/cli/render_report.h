@@ -23,7 +23,7 @@ void report_picture(const messages *m, const picture_report *p, bool is_news);
 /* The same as JSON; NULL: no memory. */
 json_t *report_picture_json(const picture_report *p);
 json_t *report_warnings_json(const messages *m);
-json_t *report_error_json(const facet_error *error, int exit_code);
+json_t *report_error_json(const facet_error *error, const char *model /* NULL: none */, int exit_code);
 
 /* Prints root as one line on standard output. */
 void report_print_json(const json_t *root);

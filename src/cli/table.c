@@ -48,16 +48,17 @@ void table_print(table *t, FILE *stream, int indent)
         if (width > *widest)
             *widest = width < WIDEST_COLUMN ? width : WIDEST_COLUMN;
     }
+    int missing = indent; /* blanks that stand before the next text: none at the end of a line */
     for (size_t i = 0; i < t->cell_count; i++) {
         size_t column = i % t->column_count;
-        if (column == 0)
-            fprintf(stream, "%*s", indent, "");
-        fputs(t->cells[i], stream);
-        int rest = widths[column] - width_of(t->cells[i]);
-        if (column + 1 == t->column_count)
+        int width = width_of(t->cells[i]);
+        if (width)
+            fprintf(stream, "%*s%s", missing, "", t->cells[i]);
+        missing = (width ? 0 : missing) + (width < widths[column] ? widths[column] - width : 0) + 2;
+        if (column + 1 == t->column_count) {
             fputc('\n', stream);
-        else
-            fprintf(stream, "%*s", (rest > 0 ? rest : 0) + 2, "");
+            missing = indent;
+        }
         free(t->cells[i]);
     }
     free(t->cells);

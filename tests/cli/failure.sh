@@ -1,0 +1,102 @@
+#!/bin/sh
+# failure.sh - every exit code, and that a failure leaves no file.
+set -eu
+. "$(dirname "$0")/lib.sh"
+write_triangle tri.gltf
+
+# 3, 4, 5: inputs
+expect 3 render missing.glb -o x.png
+says "missing.glb: "
+mkdir folder.glb
+expect 3 render folder.glb -o x.png
+rmdir folder.glb
+echo "no model" >bad.gltf
+expect 4 render bad.gltf -o x.png
+says "bad.gltf: "
+printf 'glTF\002\000\000\000' >short.glb
+expect 4 render short.glb -o x.png
+printf '{"asset":{"version":"2.0"},"extensionsRequired":["X_unknown"],"extensionsUsed":["X_unknown"]}' >needs.gltf
+expect 5 render needs.gltf -o x.png
+says "X_unknown"
+expect 5 inspect needs.gltf
+expect 4 inspect bad.gltf
+expect 3 render $small -o x.png --env missing.hdr
+says "missing.hdr: "
+expect 4 render $small -o x.png --env bad.gltf
+rm bad.gltf short.glb needs.gltf
+
+# 1: some of several; --strict
+expect 1 render $small tri.gltf missing.glb -o '{stem}.png'
+[ -s tri.png ] || failed "the good one of two models is missing"
+[ ! -e missing.png ] || failed "a picture of nothing"
+rm tri.png
+sed 's/"scene":0/"extensionsUsed":["X_unknown"],"scene":0/' tri.gltf >warns.gltf
+expect 0 render $small warns.gltf -o w.png
+says "X_unknown"
+[ "$(grep -c X_unknown err)" = 1 ] || failed "a warning came more than once"
+rm w.png
+expect 1 render $small warns.gltf -o w.png --strict -q
+[ -s w.png ] || failed "--strict leaves out the picture"
+expect 1 inspect --strict warns.gltf
+expect 0 inspect --strict tri.gltf
+rm w.png warns.gltf
+
+# 6: outputs
+expect 6 render $small -o nowhere/x.png
+says "nowhere"
+expect 6 render $small -o /proc/x.png
+expect 6 render $small -o tri.gltf/x.png
+mkdir folder.png
+expect 6 render $small -o folder.png
+rmdir folder.png
+if [ "$(id -u)" != 0 ]; then
+    mkdir closed
+    chmod 555 closed
+    expect 6 render $small -o closed/x.png
+    rmdir closed
+fi
+if [ -c /dev/full ]; then
+    code=0
+    "$facet" render $small -o - --format png >/dev/full 2>err || code=$?
+    [ $code = 6 ] || failed "exit code $code, not 6, on a full standard output"
+    says "stdout: "
+    code=0
+    "$facet" help >/dev/full 2>err || code=$?
+    [ $code = 6 ] || failed "exit code $code, not 6, for help on a full standard output"
+fi
+# a limit on the size of files, as a full disk
+code=0
+(ulimit -f 1 && exec "$facet" render --size 512 --format pfm -o big.pfm 2>err) || code=$?
+[ $code = 6 ] || failed "exit code $code, not 6, beyond the limit on file size"
+cp tri.gltf in.png
+expect 2 render $small in.png -o in.png
+says "in.png: it is an input, too"
+cmp -s tri.gltf in.png || failed "the input was overwritten"
+rm in.png
+echo texture >'my tri.png'
+sed 's/"scene":0/"images":[{"uri":"my%20tri.png"}],"scene":0/' tri.gltf >'my tri.gltf'
+expect 2 render $small 'my tri.gltf'
+says "my tri.png: it is an input, too"
+[ "$(cat 'my tri.png')" = texture ] || failed "a texture was overwritten"
+rm 'my tri.png' 'my tri.gltf'
+
+# 7: limits
+expect 7 render --size 4096 -o x.png --max-memory 8M
+says "--max-memory"
+expect 7 render --size 4096 --quality final -o x.png --time-limit 20ms
+says "time limit"
+
+# 75 and 130: interrupted in the middle
+interrupted() {
+    "$facet" render --size 8192 --samples 64 -o x.png 2>err &
+    process=$!
+    sleep 0.6
+    kill -"$1" $process
+    code=0
+    wait $process || code=$?
+    [ $code = "$2" ] || failed "exit code $code, not $2, after SIG$1"
+}
+interrupted TERM 75
+interrupted HUP 129
+only tri.gltf
+finish

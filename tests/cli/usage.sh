@@ -1,0 +1,89 @@
+#!/bin/sh
+# usage.sh - what the command says before it works: help, suggestions, exit code 2.
+set -eu
+. "$(dirname "$0")/lib.sh"
+
+expect 2
+says "facet COMMAND"
+expect 0 --help
+expect 0 -h
+expect 0 help
+expect 0 --version
+expect 0 version
+grep -qE '^facet [0-9]+\.[0-9]+\.[0-9]+$' out || failed "version prints $(cat out)"
+expect 0 version -v
+[ "$(wc -l <out)" -gt 4 ] || failed "version -v is short"
+expect 0 help exit-codes
+grep -q '75' out || failed "help exit-codes lacks 75"
+
+expect 2 model.glb
+says "facet: which command? For a picture: facet render model.glb -o model.png"
+for verb in bake convert ocean view plot compare batch serve merge; do
+    expect 2 $verb
+    says "this version does not have the command $verb yet"
+    [ "$(wc -l <err)" = 1 ] || failed "more than one line on $verb"
+    "$facet" help >out
+    ! grep -qE "^  $verb " out || failed "help lists $verb"
+done
+expect 2 rendr
+says "did you mean render?"
+expect 2 help bake
+expect 2 -v render
+says "the command comes first"
+
+expect 2 render --resolution=640,480
+says "did you mean --size 640x480?"
+for option in --hdri-file --output-file --width --environment-image --camera-orbit --no-background --tonemap --spp; do
+    expect 2 render $option x
+    says "did you mean --"
+done
+expect 2 render --denoise
+says "does not have it yet"
+expect 2 render --size 12y
+says "--size: \"12y\" is not WIDTHxHEIGHT"
+expect 2 render --crop 0,0,2000,10
+expect 2 render --background nocolor
+expect 2 render --orbit 1,2,3,4
+expect 2 render --fov 200
+expect 2 render --camera 0 --orbit 30
+expect 2 render --eye 0,0,1 --turntable 3
+expect 2 render --renderer path
+says "does not have path yet"
+expect 2 render -o x.bmp
+says ".png, .jpg, .webp, .exr, .hdr or .pfm"
+expect 2 render --aov depth -o x.png
+says "only .exr files have layers"
+expect 2 render --max-memory lots
+expect 2 render --time-limit 0
+expect 2 render --turntable 3 -o a.png
+says "put #### in it"
+expect 2 render a.glb b.glb -o a.png
+says "put {stem} in it"
+expect 2 render a/x.glb b/x.glb
+says "two models would both be written to x.png"
+expect 2 render -o - </dev/null
+says "add --format png"
+expect 2 render -o - --format png --json
+expect 2 version word
+expect 2 inspect
+only
+
+# help of a verb mentions all its options, and fits its width
+for verb in render inspect version help; do
+    expect 0 $verb --help
+    cp out help.$verb
+    expect 0 help $verb
+    cmp -s out help.$verb || failed "help $verb differs from $verb --help"
+    [ "$(awk '{ if (length($0) > w) w = length($0) } END { print w }' out)" -le 104 ] || failed "help $verb is wide"
+    rm help.$verb
+done
+"$facet" --generate-completion bash | awk '/^    render\)/, /^        ;;/' | grep -oE -- '--[a-z-]+' | sort -u >names
+[ "$(wc -l <names)" -gt 30 ] || failed "few options in the completion"
+expect 0 help render
+while read -r name; do
+    grep -qE -- "(^ .*)$name( |$)" out || failed "help render lacks $name"
+done <names
+COLUMNS=60 "$facet" help render >out
+[ "$(sed -n '/^Picture/,$p' out | awk '{ if (length($0) > w) w = length($0) } END { print w }')" -le 60 ] ||
+    failed "help does not wrap to 60 columns"
+finish
