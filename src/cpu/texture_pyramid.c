@@ -219,7 +219,8 @@ static unsigned char *place_level(texture_pyramid *p, uint32_t level, unsigned c
     unsigned char *texels = *at;
     uint32_t width = level_size(p->width, level);
     uint32_t height = level_size(p->height, level);
-    p->levels[level] = (texture_level){.texels = texels, .width = width, .height = height};
+    p->levels[level] = (texture_level){
+        .texels = texels, .width = width, .height = height, .size = {(float)width, (float)height}};
     *at += (size_t)width * height * p->channel_count * image_type_size(p->type);
     return texels;
 }
@@ -266,6 +267,7 @@ facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32
 {
     *out = (texture_pyramid){.width = width,
                              .height = height,
+                             .texel_size = {1.0f / (float)width, 1.0f / (float)height},
                              .first_level = first_level,
                              .level_count = texture_level_count(width, height),
                              .channel_count = source->channel_count,

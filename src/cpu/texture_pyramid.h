@@ -18,12 +18,14 @@ void texture_tables_fill(texture_tables *tables);
 typedef struct texture_level {
     const unsigned char *texels; /* rows without padding */
     uint32_t width, height;
+    float size[2]; /* the same, for lookups to load */
 } texture_level;
 
 /* Level n has max(1, size >> n) texels along an edge of size texels, as in OpenGL. 8-bit images keep their codes
  * (colors in sRGB); 16-bit ones are linear, whatever they were. */
 typedef struct texture_pyramid {
     uint32_t width, height;            /* of the full image, level 0 */
+    float texel_size[2];               /* 1 / width, 1 / height */
     uint32_t first_level, level_count; /* levels first_level to level_count - 1 are there */
     uint32_t channel_count;
     image_type type;                          /* IMAGE_U8 or IMAGE_U16 */

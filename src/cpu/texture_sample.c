@@ -4,7 +4,9 @@
 
 #include "cpu/texture_set.h"
 
-typedef float float4 __attribute__((vector_size(16))); /* RGBA */
+typedef float float4 __attribute__((vector_size(16))); /* RGBA; or u and v of two levels */
+typedef int32_t int4 __attribute__((vector_size(16)));
+typedef uint32_t uint4 __attribute__((vector_size(16)));
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -141,31 +143,45 @@ static float4 look_up(const texture_binding *b, const texture_pyramid *p, uint32
 
 /* ---- levels ---- */
 
-/* A lod as two levels and the weight of the second one; within the levels that are there. */
+/* Two levels and the weight of the second one. */
 typedef struct level_pair {
     uint32_t first, second;
     float fraction;
 } level_pair;
 
-static level_pair get_levels(const texture_pyramid *p, float lod)
+/* The lod log2(sqrt(width_2)) as levels that are there; width_2 > 0 and normal.
+ *
+ * Which levels they are comes from the exponent of width_2 alone, so that fetching need not wait for the logarithm.
+ * That is right to 6e-5: far below what a lod shows. With the mantissa 1 + t it is t and a correction that vanishes
+ * at both ends, so that octaves join. */
+INLINE level_pair get_levels(const texture_pyramid *p, float width_2)
 {
-    float low = (float)p->first_level;
-    float high = (float)(p->level_count - 1);
-    lod = lod > low ? (lod < high ? lod : high) : low;
-    uint32_t first = (uint32_t)lod;
-    float fraction = lod - (float)first;
-    return (level_pair){.first = first, .second = fraction > 0.0f ? first + 1 : first, .fraction = fraction};
+    uint32_t bits;
+    memcpy(&bits, &width_2, sizeof bits);
+    int32_t exponent = (int32_t)(bits >> 23) - 127;
+    int32_t first = exponent >> 1; /* rounded down */
+    bits = (bits & 0x007fffff) | 0x3f800000;
+    float t;
+    memcpy(&t, &bits, sizeof t);
+    t -= 1.0f;
+    float mantissa_log2 = t + t * (1.0f - t) * (0.438726f + t * (-0.239058f + t * 0.082131f));
+    float fraction = 0.5f * ((float)(exponent & 1) + mantissa_log2);
+    if (first < (int32_t)p->first_level)
+        return (level_pair){.first = p->first_level, .second = p->first_level};
+    if (first + 1 >= (int32_t)p->level_count)
+        return (level_pair){.first = p->level_count - 1, .second = p->level_count - 1};
+    return (level_pair){.first = (uint32_t)first, .second = (uint32_t)first + 1, .fraction = fraction};
 }
 
-/* Where the pixel lands in the texture: an ellipse. Lengths in texels of the full image. */
+/* Where the pixel lands in the texture: an ellipse. Lengths in texels of the full image, squared. */
 typedef struct footprint {
-    float longest;      /* length of the longer one of the derivatives along x and y, rho of OpenGL */
-    float major, minor; /* singular values of the derivatives: the axes' lengths */
-    float axis[2];      /* du, dv over the major axis */
+    float longest_2;        /* of the derivatives along x and y: rho of OpenGL */
+    float major_2, minor_2; /* of the axes */
+    float axis[2];          /* along the major axis, of any length, in texels */
 } footprint;
 
 /* False: it has no finite size. */
-static bool get_footprint(const texture_pyramid *p, const float duv_dx[2], const float duv_dy[2],
+INLINE bool get_footprint(const texture_pyramid *p, const float duv_dx[2], const float duv_dy[2],
                           footprint *f)
 {
     float width = (float)p->width;
@@ -179,25 +195,156 @@ static bool get_footprint(const texture_pyramid *p, const float duv_dx[2], const
     float b = ux * vx + uy * vy;
     float c = vx * vx + vy * vy;
     float mean = 0.5f * (a + c);
-    if (!(mean < 1e18f))
-        return false;
     float half = 0.5f * (a - c);
     float spread = sqrtf(half * half + b * b);
-    float major_2 = mean + spread;
-    float minor_2 = mean > spread ? mean - spread : 0.0f;
+    f->major_2 = mean + spread;
+    f->minor_2 = mean - spread;
     float x_2 = ux * ux + vx * vx;
     float y_2 = uy * uy + vy * vy;
-    f->longest = sqrtf(x_2 > y_2 ? x_2 : y_2);
-    f->major = sqrtf(major_2);
-    f->minor = sqrtf(minor_2);
+    f->longest_2 = x_2 > y_2 ? x_2 : y_2;
     /* The eigenvector of major_2, by the row of the matrix that is farther from 0. */
-    float eu = half > 0.0f ? half + spread : b;
-    float ev = half > 0.0f ? b : spread - half;
-    float length_2 = eu * eu + ev * ev;
-    float scale = length_2 > 0.0f ? f->major / sqrtf(length_2) : 0.0f;
-    f->axis[0] = eu * scale / width;
-    f->axis[1] = ev * scale / height;
-    return true;
+    f->axis[0] = half > 0.0f ? half + spread : b;
+    f->axis[1] = half > 0.0f ? b : spread - half;
+    return mean < 1e18f; /* whose square is finite; false for NaN */
+}
+
+/* How many probes stand along the major axis, how wide each is, and how far apart. See sample_trilinear(). */
+typedef struct probe_row {
+    uint32_t count;
+    float width_2; /* texels, squared */
+    float step[2]; /* du, dv */
+} probe_row;
+
+INLINE probe_row place_probes(const texture_pyramid *p, const footprint *f)
+{
+    /* Nothing is finer than a texel of the finest level. */
+    float finest = (float)(1u << p->first_level);
+    float minor_2 = f->minor_2 > finest * finest ? f->minor_2 : finest * finest;
+    if (f->major_2 <= 2.25f * minor_2)
+        return (probe_row){.count = 1, .width_2 = f->major_2};
+
+    const float most = (float)(MAX_PROBES * MAX_PROBES);
+    minor_2 = f->major_2 > most * minor_2 ? f->major_2 / most : minor_2;
+    float ratio = sqrtf(f->major_2 / minor_2);
+    uint32_t count = 2;
+    float width_2 = minor_2;
+    if (ratio > 2.0f)
+        count = (uint32_t)(ratio + 0.75f); /* one more than ratio - 1.25, rounded down: they overlap enough */
+    else
+        width_2 *= (3.0f - ratio) * (3.0f - ratio);
+    if (count > MAX_PROBES)
+        count = MAX_PROBES;
+    float axis_2 = f->axis[0] * f->axis[0] + f->axis[1] * f->axis[1];
+    float scale = sqrtf((f->major_2 - width_2) / (axis_2 * (float)(count * count - 1)));
+    return (probe_row){
+        .count = count,
+        .width_2 = width_2,
+        .step = {f->axis[0] * scale * p->texel_size[0], f->axis[1] * scale * p->texel_size[1]}};
+}
+
+/* ---- two levels at once ---- */
+
+/* Four texels of 8 bits that all channels read alike, to be blended: 255 stands for 1. */
+typedef unsigned char byte16 __attribute__((vector_size(16)));
+typedef uint16_t short8 __attribute__((vector_size(16)));
+
+INLINE float4 unpack(uint32_t texel)
+{
+    const byte16 zero = {0};
+    byte16 bytes = (byte16)(uint4){texel, 0, 0, 0};
+    short8 shorts =
+        (short8)__builtin_shufflevector(bytes, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    int4 ints = (int4)__builtin_shufflevector(shorts, (short8)zero, 0, 8, 1, 9, 2, 10, 3, 11);
+    return __builtin_convertvector(ints, float4);
+}
+
+/* fetch(), but 8-bit data of three and four channels in [0, 255]: see blend_levels(). */
+INLINE float4 fetch_raw(const texture_pyramid *p, const unsigned char *texels, size_t index,
+                        uint32_t channel_count, image_type type, bool is_data)
+{
+    if (type == IMAGE_U8 && is_data && channel_count == 4) {
+        uint32_t texel;
+        memcpy(&texel, texels + 4 * index, sizeof texel);
+        return unpack(texel);
+    }
+    if (type == IMAGE_U8 && is_data && channel_count == 3) {
+        uint32_t texel; /* and a byte more: MEM_TAIL allows it */
+        memcpy(&texel, texels + 3 * index, sizeof texel);
+        return unpack(texel | 0xff000000u);
+    }
+    return fetch(p, texels, index, channel_count, type);
+}
+
+/* Where a lookup reads two levels: lanes 0 and 1 are u and v of the first, 2 and 3 of the second. */
+typedef struct level_pair_view {
+    const unsigned char *texels[2];
+    float4 size;
+    int4 int_size;
+    int4 wrap_step; /* from behind an edge to where it goes on: the size where the axis repeats, else 1 */
+    size_t width[2];
+    float fraction; /* of the second */
+} level_pair_view;
+
+INLINE level_pair_view view_levels(const texture_binding *b, const texture_pyramid *p, float width_2)
+{
+    level_pair levels = get_levels(p, width_2);
+    const texture_level *first = &p->levels[levels.first];
+    const texture_level *second = &p->levels[levels.second];
+    level_pair_view view = {.texels = {first->texels, second->texels},
+                            .size = {first->size[0], first->size[1], second->size[0], second->size[1]},
+                            .int_size = {(int32_t)first->width, (int32_t)first->height,
+                                         (int32_t)second->width, (int32_t)second->height},
+                            .width = {first->width, second->width},
+                            .fraction = levels.fraction};
+    int32_t repeat_u = b->wrap_u == SCENE_WRAP_REPEAT ? -1 : 0;
+    int32_t repeat_v = b->wrap_v == SCENE_WRAP_REPEAT ? -1 : 0;
+    int4 repeats = {repeat_u, repeat_v, repeat_u, repeat_v};
+    view.wrap_step = (repeats & view.int_size) | (~repeats & 1);
+    return view;
+}
+
+/* Trilinear, at (u, v) in [0, 1]. What get_taps() does, for four coordinates. */
+INLINE float4 blend_levels(const texture_pyramid *p, const level_pair_view *view, float u, float v,
+                           uint32_t channel_count, image_type type, bool is_data)
+{
+    float4 x = (float4){u, v, u, v} * view->size - 0.5f;
+    int4 first = __builtin_convertvector(x + 1.0f, int4) - 1;
+    float4 fraction = x - __builtin_convertvector(first, float4);
+    int4 second = first + 1;
+    first += (first < 0) & view->wrap_step;
+    second -= (second >= view->int_size) & view->wrap_step;
+    float4 level[2];
+    for (int k = 0; k < 2; k++) {
+        const unsigned char *texels = view->texels[k];
+        size_t row_0 = (size_t)first[2 * k + 1] * view->width[k];
+        size_t row_1 = (size_t)second[2 * k + 1] * view->width[k];
+        size_t left = (size_t)first[2 * k];
+        size_t right = (size_t)second[2 * k];
+        float4 a = fetch_raw(p, texels, row_0 + left, channel_count, type, is_data);
+        float4 b = fetch_raw(p, texels, row_0 + right, channel_count, type, is_data);
+        float4 c = fetch_raw(p, texels, row_1 + left, channel_count, type, is_data);
+        float4 d = fetch_raw(p, texels, row_1 + right, channel_count, type, is_data);
+        float4 above = a + (b - a) * fraction[2 * k];
+        float4 below = c + (d - c) * fraction[2 * k];
+        level[k] = above + (below - above) * fraction[2 * k + 1];
+    }
+    return level[0] + (level[1] - level[0]) * view->fraction;
+}
+
+/* The mean of the probes. The format is a constant at each call. */
+INLINE float4 sum_probes(const texture_binding *b, const texture_pyramid *p, const float uv[2],
+                         const probe_row *probes, uint32_t channel_count, image_type type, bool is_data)
+{
+    level_pair_view view = view_levels(b, p, probes->width_2);
+    float begin = -0.5f * (float)(probes->count - 1);
+    float4 sum = {0.0f, 0.0f, 0.0f, 0.0f};
+    for (uint32_t i = 0; i < probes->count; i++) {
+        float u = wrap_coordinate(uv[0] + (begin + (float)i) * probes->step[0], b->wrap_u);
+        float v = wrap_coordinate(uv[1] + (begin + (float)i) * probes->step[1], b->wrap_v);
+        sum += blend_levels(p, &view, u, v, channel_count, type, is_data);
+    }
+    bool is_raw = type == IMAGE_U8 && is_data && channel_count >= 3;
+    return sum * ((is_raw ? 1.0f / 255.0f : 1.0f) / (float)probes->count);
 }
 
 /* Trilinear probes along the major axis of the footprint (after McCormack et al. 1999, "Feline").
@@ -209,43 +356,22 @@ static bool get_footprint(const texture_pyramid *p, const float duv_dx[2], const
 static float4 sample_trilinear(const texture_binding *b, const texture_pyramid *p, const float uv[2],
                                const footprint *f)
 {
-    /* Nothing is finer than a texel of the finest level. */
-    float finest = (float)(1u << p->first_level);
-    float minor = f->minor > finest ? f->minor : finest;
-    minor = minor > f->major / MAX_PROBES ? minor : f->major / MAX_PROBES;
-    float ratio = f->major > minor ? f->major / minor : 1.0f;
-    uint32_t probe_count = 1;
-    float width = minor * ratio;
-    if (ratio > 2.0f) {
-        probe_count = (uint32_t)ceilf(ratio - 0.25f); /* they overlap enough for that */
-        width = minor;
-    } else if (ratio > 1.5f) {
-        probe_count = 2;
-        width = minor * (3.0f - ratio);
+    probe_row probes = place_probes(p, f);
+    if (p->type == IMAGE_U16)
+        return sum_probes(b, p, uv, &probes, p->channel_count, IMAGE_U16, true);
+    bool is_data = p->color_values == p->alpha_values;
+    switch (p->channel_count) {
+    case 1:
+        return sum_probes(b, p, uv, &probes, 1, IMAGE_U8, false);
+    case 2:
+        return sum_probes(b, p, uv, &probes, 2, IMAGE_U8, false);
+    case 3:
+        return is_data ? sum_probes(b, p, uv, &probes, 3, IMAGE_U8, true)
+                       : sum_probes(b, p, uv, &probes, 3, IMAGE_U8, false);
+    default:
+        return is_data ? sum_probes(b, p, uv, &probes, 4, IMAGE_U8, true)
+                       : sum_probes(b, p, uv, &probes, 4, IMAGE_U8, false);
     }
-    probe_count = probe_count < MAX_PROBES ? probe_count : MAX_PROBES;
-
-    level_pair levels = get_levels(p, log2f(width));
-    float narrowing = width / f->major;
-    float spacing = 0.0f; /* over the major axis */
-    if (probe_count > 1)
-        spacing = sqrtf((1.0f - narrowing * narrowing) / (float)(probe_count * probe_count - 1));
-    float step_u = f->axis[0] * spacing;
-    float step_v = f->axis[1] * spacing;
-    float u = uv[0] - 0.5f * (float)(probe_count - 1) * step_u;
-    float v = uv[1] - 0.5f * (float)(probe_count - 1) * step_v;
-    float4 sum = {0.0f, 0.0f, 0.0f, 0.0f};
-    for (uint32_t i = 0; i < probe_count; i++) {
-        float wrapped_u = wrap_coordinate(u + (float)i * step_u, b->wrap_u);
-        float wrapped_v = wrap_coordinate(v + (float)i * step_v, b->wrap_v);
-        float4 fine = look_up_linear(b, p, levels.first, wrapped_u, wrapped_v);
-        if (levels.second != levels.first) {
-            float4 coarse = look_up_linear(b, p, levels.second, wrapped_u, wrapped_v);
-            fine += (coarse - fine) * levels.fraction;
-        }
-        sum += fine;
-    }
-    return sum * (1.0f / (float)probe_count);
 }
 
 static float4 sample_minified(const texture_binding *b, const texture_pyramid *p, const float uv[2],
@@ -257,12 +383,10 @@ static float4 sample_minified(const texture_binding *b, const texture_pyramid *p
     float v = wrap_coordinate(uv[1], b->wrap_v);
     if (b->mip_filter == SCENE_MIP_NONE)
         return look_up(b, p, p->first_level, b->min_filter, u, v);
-    float lod = log2f(f->longest);
-    if (b->mip_filter == SCENE_MIP_NEAREST) {
-        level_pair levels = get_levels(p, ceilf(lod + 0.5f) - 1.0f); /* OpenGL 4.6, equation 8.16 */
-        return look_up(b, p, levels.first, b->min_filter, u, v);
-    }
-    level_pair levels = get_levels(p, lod);
+    level_pair levels = get_levels(p, f->longest_2);
+    if (b->mip_filter ==
+        SCENE_MIP_NEAREST) /* at lod + 1/2 exactly it is the finer one: OpenGL 4.6, equation 8.16 */
+        return look_up(b, p, levels.fraction > 0.5f ? levels.second : levels.first, b->min_filter, u, v);
     float4 fine = look_up(b, p, levels.first, b->min_filter, u, v);
     float4 coarse = look_up(b, p, levels.second, b->min_filter, u, v);
     return fine + (coarse - fine) * levels.fraction;
@@ -274,10 +398,10 @@ static bool is_magnified(const texture_binding *b, const footprint *f)
 {
     bool has_mips = b->mip_filter != SCENE_MIP_NONE;
     if (has_mips && b->mag_filter == SCENE_FILTER_LINEAR && b->min_filter == SCENE_FILTER_NEAREST)
-        return f->longest <= 1.41421356f;
+        return f->longest_2 <= 2.0f;
     if (b->mip_filter == SCENE_MIP_LINEAR && b->min_filter == SCENE_FILTER_LINEAR)
-        return f->major <= 1.0f;
-    return f->longest <= 1.0f;
+        return f->major_2 <= 1.0f;
+    return f->longest_2 <= 1.0f;
 }
 
 void texture_sample(const texture_set *set, uint32_t index, bool as_color, const float uv[2],
