@@ -4,3 +4,4 @@ facet_module(texture
     LINK facet_image facet_base m) # of scene, only the header
 facet_test(texture_pyramid SOURCES texture_pyramid_test.c LINK facet_texture)
 facet_test(texture_sample SOURCES texture_sample_test.c LINK facet_texture)
+facet_test(texture_set SOURCES texture_set_test.c LINK facet_texture)
