@@ -237,6 +237,29 @@ static void test_multiscatter(void **state)
     }
 }
 
+/* Against 2 int E mu dmu by midpoints over the albedo that test_albedo checks, and the golden values (16.4). */
+static void test_mean_albedo(void **state)
+{
+    (void)state;
+    const double golden[GOLDEN_ROUGHNESS_COUNT] = {0.999490545680, 0.987250276739, 0.882323382618,
+                                                   0.656201421324, 0.409137092587};
+    for (int r = 0; r < GOLDEN_ROUGHNESS_COUNT; ++r) {
+        expect_near((double)E_avg_GGX(golden_roughness[r]), golden[r], 1e-4, "fit, roughness %g",
+                    (double)golden_roughness[r]);
+        float alpha = golden_roughness[r] * golden_roughness[r];
+        double mean = 0.0;
+        for (int i = 0; i < 40; ++i) {
+            float mu = ((float)i + 0.5f) / 40.0f;
+            albedo_case f = {mu, alpha, -1.0f, false};
+            mean += 2.0 * (double)mu * integrate_normals(alpha, 250, albedo_integrand, &f) / 40.0;
+        }
+        expect_near(mean, golden[r], 5e-4, "quadrature, roughness %g", (double)golden_roughness[r]);
+    }
+    assert_true(E_avg_GGX(0.0f) == 1.0f);
+    for (float r = 0.0f; r < 1.0f; r += 0.01f)
+        assert_true(E_avg_GGX(r + 0.01f) < E_avg_GGX(r) + 1e-6f);
+}
+
 static void test_lambert(void **state)
 {
     (void)state;
@@ -247,10 +270,14 @@ static void test_lambert(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_D_is_normalised),    cmocka_unit_test(test_D_anisotropic_is_normalised),
-        cmocka_unit_test(test_forms_agree),        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_weak_white_furnace), cmocka_unit_test(test_albedo),
-        cmocka_unit_test(test_multiscatter),       cmocka_unit_test(test_lambert)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_D_is_normalised),
+                                       cmocka_unit_test(test_D_anisotropic_is_normalised),
+                                       cmocka_unit_test(test_forms_agree),
+                                       cmocka_unit_test(test_values),
+                                       cmocka_unit_test(test_weak_white_furnace),
+                                       cmocka_unit_test(test_albedo),
+                                       cmocka_unit_test(test_multiscatter),
+                                       cmocka_unit_test(test_mean_albedo),
+                                       cmocka_unit_test(test_lambert)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,7 +42,7 @@ FN vec3 probe_brdf(int which, vec2 u)
     float E = 0.3f + 0.6f * u[1];
     if (which == 4)
         return multiscatter_scale(F_mean, E) + multiscatter_scale_turquin(F_mean, E) * 0.1f;
-    return multiscatter_scale_cycles(F_mean, E, 0.7f) + brdf_kulla_conty(F_mean, E, u[0], 0.6f) +
+    return multiscatter_scale_cycles(F_mean, E, E_avg_GGX(u[1])) + brdf_kulla_conty(F_mean, E, u[0], 0.6f) +
            brdf_lambert(F_mean);
 }
 
