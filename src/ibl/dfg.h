@@ -3,7 +3,7 @@
 #define IBL_DFG_H
 
 /* Node (x, y) holds the terms for sqrt(NdotV) = x / (DFG_SIZE - 1), perceptual roughness y / (DFG_SIZE - 1). The
- * square root spreads the grazing angles, where the terms change fastest (reference: bilinear error below). */
-enum { DFG_SIZE = 64 };
+ * square root spreads the grazing angles, where the terms change fastest. */
+enum { DFG_SIZE = 128 };
 
 #endif

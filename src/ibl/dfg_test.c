@@ -1,0 +1,97 @@
+/* dfg_test.c - the split-sum table against quadrature. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "ibl/near_test.h"
+
+#include "ibl/dfg.h"
+#include "ibl/ibl.h"
+
+/* reference/shading-model.md 16.2: A and B by tanh-sinh quadrature in long double. */
+static const double roughness[5] = {0.1, 0.25, 0.5, 0.75, 1.0};
+static const double NdotV[5] = {0.05, 0.25, 0.5, 0.75, 1.0};
+static const double golden_A[5][5] = {{0.2425478450, 0.7629295323, 0.9683388499, 0.9988543917, 0.9998984689},
+                                      {0.4492578850, 0.7580312136, 0.9556866708, 0.9923089370, 0.9956851107},
+                                      {0.7688192045, 0.7592543514, 0.8349161393, 0.8888141616, 0.9157850593},
+                                      {0.8398067681, 0.7165080086, 0.6546928351, 0.6312440025, 0.6268380177},
+                                      {0.8156842679, 0.5867642669, 0.4477051204, 0.3638935306, 0.3068192051}};
+static const double golden_B[5][5] = {
+    {0.7336597451, 0.2361624228, 0.03140327267, 0.001003954061, 8.755134939e-08},
+    {0.4448470451, 0.2035357355, 0.03263732940, 0.001502187630, 2.950018171e-06},
+    {0.1643125381, 0.08082754775, 0.02234729629, 0.002718728294, 2.737092643e-05},
+    {0.06511868640, 0.02794833429, 0.008483010132, 0.001641360163, 4.763906469e-05},
+    {0.03208961021, 0.01087625501, 0.002988735255, 6.330741246e-04, 3.361429473e-05}};
+
+static void test_golden_numbers(void **state)
+{
+    (void)state;
+    double worst = 0.0;
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) {
+            float dfg[2];
+            ibl_dfg((float)NdotV[j], (float)roughness[i], dfg);
+            worst = fmax(worst,
+                         fmax(fabs((double)dfg[0] - golden_A[i][j]), fabs((double)dfg[1] - golden_B[i][j])));
+        }
+    print_message("largest deviation, interpolated: %.2e\n", worst);
+    assert_true(worst < 2e-3);
+}
+
+/* r = 1 and N.V = 1 are a node: E = 1 - ln 2 exactly. */
+static void test_node(void **state)
+{
+    (void)state;
+    float dfg[2];
+    ibl_dfg(1.0f, 1.0f, dfg);
+    assert_near((double)dfg[0] + (double)dfg[1], 0.3068528194, 1e-4);
+    assert_near(dfg[0], golden_A[4][4], 1e-4);
+    assert_near(dfg[1], golden_B[4][4], 1e-4);
+}
+
+/* A mirror reflects Fresnel's share and nothing else. */
+static void test_mirror(void **state)
+{
+    (void)state;
+    for (int x = 0; x < DFG_SIZE; x++) {
+        float dfg[2];
+        double root = (double)x / (DFG_SIZE - 1);
+        ibl_dfg((float)(root * root), 0.0f, dfg);
+        double Fc = pow(1.0 - root * root, 5.0);
+        assert_near(dfg[0], 1.0 - Fc, 1e-5);
+        assert_near(dfg[1], Fc, 1e-5);
+    }
+}
+
+static void test_energy_and_range(void **state)
+{
+    (void)state;
+    for (int y = 0; y <= 500; y++)
+        for (int x = 0; x <= 500; x++) {
+            float dfg[2];
+            ibl_dfg((float)x / 500.0f, (float)y / 500.0f, dfg);
+            assert_true(dfg[0] >= 0.0f && dfg[1] >= 0.0f && dfg[0] + dfg[1] <= 1.0f + 1e-4f);
+        }
+    float inside[2], outside[2];
+    ibl_dfg(1.0f, 1.0f, inside);
+    ibl_dfg(1.5f, 3.0f, outside);
+    assert_memory_equal(inside, outside, sizeof inside);
+    ibl_dfg(0.0f, 0.0f, inside);
+    ibl_dfg(-1.0f, NAN, outside);
+    assert_memory_equal(inside, outside, sizeof inside);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_golden_numbers),
+        cmocka_unit_test(test_node),
+        cmocka_unit_test(test_mirror),
+        cmocka_unit_test(test_energy_and_range),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

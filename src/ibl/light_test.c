@@ -1,0 +1,531 @@
+/* light_test.c - prepared lights: what they filter, and that parts are prepared once, lazily and equally. */
+#include <math.h>
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "ibl/environment.h"
+#include "ibl/equirect.h"
+#include "ibl/ibl.h"
+#include "ibl/near_test.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* An environment of width x height whose texels come from radiance(direction). */
+static facet_environment *make(uint32_t width, uint32_t height,
+                               void (*radiance)(const float d[3], float out[3]))
+{
+    facet_environment *e = NULL;
+    assert_int_equal(facet_environment_create_constant((float[3]){0.0f, 0.0f, 0.0f}, NULL, &e, NULL),
+                     FACET_OK);
+    image_destroy(&e->picture);
+    assert_int_equal(image_create(NULL, width, height, 3, IMAGE_F32, &e->picture, NULL), FACET_OK);
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            float d[3];
+            equirect_direction(width, height, x, y, d);
+            radiance(d, (float *)e->picture.pixels + 3 * ((size_t)y * width + x));
+        }
+    return e;
+}
+
+static const ibl_light *prepare(facet_environment *e, ibl_light_desc desc)
+{
+    const ibl_light *light = NULL;
+    facet_error error = {0};
+    facet_result result = ibl_light_prepare(e, &desc, &light, &error);
+    if (result != FACET_OK)
+        print_error("%s\n", error.message);
+    assert_int_equal(result, FACET_OK);
+    return light;
+}
+
+static const ibl_light_desc everything = {
+    .needs_irradiance = true, .needs_specular = true, .max_roughness = 1.0f, .needs_background = true};
+
+static void test_direction(int i, int count, float d[3])
+{
+    /* a spiral (Fibonacci lattice) */
+    double y = 1.0 - (2.0 * i + 1.0) / count;
+    double phi = i * 2.399963229728653;
+    double across = sqrt(1.0 - y * y);
+    d[0] = (float)(across * cos(phi));
+    d[1] = (float)y;
+    d[2] = (float)(across * sin(phi));
+}
+
+static void test_constant(void **state)
+{
+    (void)state;
+    static const float radiance[3] = {0.3f, 1.0f, 1234.5f};
+    facet_environment *e = NULL;
+    assert_int_equal(facet_environment_create_constant(radiance, NULL, &e, NULL), FACET_OK);
+    const ibl_light *light = prepare(e, everything);
+    for (int i = 0; i < 500; i++) {
+        float d[3], out[3];
+        test_direction(i, 500, d);
+        for (int r = 0; r <= 50; r++) {
+            ibl_specular(light, d, (float)r / 50.0f, out);
+            for (int k = 0; k < 3; k++)
+                assert_near(out[k] / radiance[k], 1.0, 1e-6);
+        }
+        ibl_irradiance_over_pi(light, d, out);
+        for (int k = 0; k < 3; k++)
+            assert_near(out[k] / radiance[k], 1.0, 1e-6);
+        ibl_background(light, d, 0.0f, out);
+        for (int k = 0; k < 3; k++)
+            assert_near(out[k] / radiance[k], 1.0, 1e-6);
+    }
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+/* ---- bands ---- */
+
+static void tilted_band(const float d[3], int l, double *out)
+{
+    /* Legendre polynomial around an axis that no grid has: every m of degree l at once */
+    double x = 0.48 * (double)d[0] + 0.6 * (double)d[1] + 0.64 * (double)d[2];
+    double p[5] = {1.0, x, 1.5 * x * x - 0.5, 2.5 * x * x * x - 1.5 * x,
+                   (35.0 * x * x * x * x - 30.0 * x * x + 3.0) / 8.0};
+    *out = p[l];
+}
+
+static void bands_1_2_3(const float d[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double p;
+        tilted_band(d, k + 1, &p);
+        out[k] = (float)(1.0 + p);
+    }
+}
+
+static void band_4(const float d[3], float out[3])
+{
+    double p;
+    tilted_band(d, 4, &p);
+    out[0] = out[1] = out[2] = (float)(1.0 + p);
+}
+
+/* k_l of shading-model.md 16.4, quadrature in long double. */
+static void test_kernel_golden_numbers(void **state)
+{
+    (void)state;
+    static const double golden[5][5] = {
+        {0.10, 0.998693503699, 0.996229938117, 0.992824773157, 0.988665743355},
+        {0.25, 0.976092604298, 0.933738270618, 0.880606983182, 0.822958863625},
+        {0.50, 0.867395662812, 0.662405687279, 0.460387585347, 0.305538297757},
+        {0.75, 0.745131342455, 0.398824737791, 0.140121157544, 0.028984607620},
+        {1.00, 0.666666666667, 0.25, 0.0, -0.041666666667}};
+    for (int i = 0; i < 5; i++) {
+        float kernel[HARMONICS_DEGREE + 1];
+        prefilter_kernel((float)golden[i][0], HARMONICS_DEGREE, kernel);
+        assert_near(kernel[0], 1.0, 0.0);
+        for (int l = 1; l <= 4; l++)
+            assert_near(kernel[l], golden[i][l], 1e-6);
+    }
+}
+
+/* Each level scales each band by k_l: in its texels, and with a little more deviation in what is looked up between
+ * them. */
+static void check_bands(facet_environment *e, int first_band, int band_step)
+{
+    const ibl_light *light = prepare(e, everything);
+    double worst = 0.0;
+    double worst_between = 0.0;
+    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+        const cube *c = &e->parts.levels[level];
+        float kernel[5];
+        prefilter_kernel(prefilter_roughness(level), 4, kernel);
+        for (uint32_t i = 0; i < 6 * c->size * c->size; i++) {
+            double d[3], p;
+            uint32_t x = i % c->size;
+            uint32_t y = i / c->size % c->size;
+            cube_direction(i / c->size / c->size, (2.0 * x + 1.0) / c->size - 1.0,
+                           (2.0 * y + 1.0) / c->size - 1.0, d);
+            double scale = 1.0 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            float f[3] = {(float)(d[0] * scale), (float)(d[1] * scale), (float)(d[2] * scale)};
+            rgbx t = *cube_texel(c, i / c->size / c->size, (int)x, (int)y);
+            for (int k = 0; k < 3; k++) {
+                tilted_band(f, first_band + k * band_step, &p);
+                worst =
+                    fmax(worst, fabs((double)t[k] - (1.0 + (double)kernel[first_band + k * band_step] * p)));
+            }
+        }
+        for (int i = 0; i < 300; i++) {
+            float d[3], out[3];
+            double p;
+            test_direction(i, 300, d);
+            ibl_specular(light, d, prefilter_roughness(level), out);
+            for (int k = 0; k < 3; k++) {
+                tilted_band(d, first_band + k * band_step, &p);
+                double expected = 1.0 + (double)kernel[first_band + k * band_step] * p;
+                worst_between = fmax(worst_between, fabs((double)out[k] - expected));
+            }
+        }
+    }
+    print_message("largest deviation: %.2e, between texels %.2e\n", worst, worst_between);
+    assert_true(worst < 2e-3);
+    assert_true(worst_between < 6e-3);
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+static void test_bands(void **state)
+{
+    (void)state;
+    check_bands(make(1024, 512, bands_1_2_3), 1, 1);
+    check_bands(make(1024, 512, band_4), 4, 0);
+}
+
+/* ---- a sun of one texel ---- */
+
+static void sky(const float d[3], float out[3])
+{
+    out[0] = 0.2f;
+    out[1] = 0.3f + 0.1f * d[1];
+    out[2] = 0.4f;
+}
+
+/* No fireflies: nothing is brighter than the sun's energy times the lobe's peak, nor darker than the darkest sky less
+ * what ringing is left. No energy is lost. */
+static void check_sun(uint32_t sun_x, uint32_t sun_y)
+{
+    const uint32_t width = 1024;
+    facet_environment *e = make(width, 512, sky);
+    float *p = (float *)e->picture.pixels + 3 * ((size_t)sun_y * width + sun_x);
+    p[0] = p[1] = p[2] = 1e5f;
+    const ibl_light *light = prepare(e, everything);
+    double omega = equirect_texel_solid_angle(width, 512, sun_y);
+    double expected = 1e5 * omega / (4.0 * pi) + 0.3;
+    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+        const cube *c = &e->parts.levels[level];
+        double mean[3];
+        cube_mean(c, mean);
+        assert_near(mean[1] / expected, 1.0, 0.01);
+        double a2 = pow((double)prefilter_roughness(level), 4.0);
+        /* peak of D N.l / (4 m0): D(1) = 1 / (pi a^2); m0 >= 1/4 is the mean of N.l */
+        double peak = 0.55 + 1e5 * omega / (pi * a2 * 4.0) * (level < 5 ? 1.4 : 4.0);
+        for (uint32_t face = 0; face < 6; face++)
+            for (int y = 0; y < (int)c->size; y++)
+                for (int x = 0; x < (int)c->size; x++) {
+                    rgbx t = *cube_texel(c, face, x, y);
+                    for (int k = 0; k < 3; k++)
+                        assert_true((double)t[k] >= 0.0 && (double)t[k] < peak);
+                }
+    }
+    /* on the far side of the sun a lobe of roughness 0.16 or 0.3 sees sky only */
+    float d[3], out[3];
+    equirect_direction(width, 512, sun_x, sun_y, d);
+    for (int k = 0; k < 3; k++)
+        d[k] = -d[k];
+    ibl_specular(light, d, 0.16f, out);
+    assert_near(out[0], 0.2, 0.01);
+    ibl_specular(light, d, 0.3f, out);
+    assert_near(out[0], 0.2, 0.01);
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+static void test_sun(void **state)
+{
+    (void)state;
+    check_sun(614, 139); /* anywhere */
+    check_sun(0, 256);   /* on the picture's own seam */
+    check_sun(511, 20);  /* near a pole */
+    check_sun(384, 255); /* near the middle of an edge of the cube */
+}
+
+/* ---- rotation, seams, mirrors ---- */
+
+static float rotation_phase;
+
+static void pattern(const float d[3], float out[3])
+{
+    float c = cosf(rotation_phase);
+    float s = sinf(rotation_phase);
+    float x = c * d[0] + s * d[2];
+    float z = c * d[2] - s * d[0];
+    out[0] = x > 0.7f ? 20.0f : 0.5f + 0.5f * z;
+    out[1] = d[1] > 0.8f && x > 0.1f ? 5.0f : 0.1f;
+    out[2] = 1.0f + sinf(9.0f * x) * sinf(7.0f * z);
+}
+
+static void check_rotation(float phase, double tolerance)
+{
+    rotation_phase = 0.0f;
+    facet_environment *straight = make(512, 256, pattern);
+    rotation_phase = phase;
+    facet_environment *turned = make(512, 256, pattern);
+    const ibl_light *a = prepare(straight, everything);
+    const ibl_light *b = prepare(turned, everything);
+    float c = cosf(phase);
+    float s = sinf(phase);
+    for (int i = 0; i < 400; i++) {
+        float d[3], p[3], q[3];
+        test_direction(i, 400, d);
+        float r[3] = {c * d[0] - s * d[2], d[1], c * d[2] + s * d[0]};
+        static const float roughness[4] = {0.25f, 0.4f, 0.6f, 1.0f};
+        for (int k = 0; k < 4; k++) {
+            ibl_specular(a, d, roughness[k], p);
+            ibl_specular(b, r, roughness[k], q);
+            for (int j = 0; j < 3; j++)
+                assert_near(p[j], q[j], tolerance);
+        }
+        ibl_irradiance_over_pi(a, d, p);
+        ibl_irradiance_over_pi(b, r, q);
+        for (int j = 0; j < 3; j++)
+            assert_near(p[j], q[j], tolerance);
+    }
+    ibl_light_release(a);
+    ibl_light_release(b);
+    facet_environment_destroy(straight);
+    facet_environment_destroy(turned);
+}
+
+static void test_rotation(void **state)
+{
+    (void)state;
+    check_rotation((float)(0.5 * pi), 2e-4);
+    check_rotation(0.7f, 0.15); /* of radiance up to 20: edges of the pattern fall on other texels */
+}
+
+/* Along each edge of the cube, lookups on both sides of it differ by no more than lookups as far apart elsewhere. */
+static void test_seams(void **state)
+{
+    (void)state;
+    rotation_phase = 0.3f;
+    facet_environment *e = make(512, 256, pattern);
+    const ibl_light *light = prepare(e, everything);
+    for (int axis = 0; axis < 3; axis++)
+        for (int corner = 0; corner < 4; corner++)
+            for (int i = 0; i <= 100; i++)
+                for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+                    float a[3], b[3], p[3], q[3];
+                    int u = (axis + 1) % 3;
+                    int v = (axis + 2) % 3;
+                    a[axis] = b[axis] = (float)i / 50.0f - 1.0f;
+                    a[u] = b[u] = corner & 1 ? 1.0f : -1.0f;
+                    a[v] = b[v] = corner & 2 ? 1.0f : -1.0f;
+                    a[u] *= 1.00001f;
+                    b[v] *= 1.00001f;
+                    ibl_specular(light, a, prefilter_roughness(level), p);
+                    ibl_specular(light, b, prefilter_roughness(level), q);
+                    for (int k = 0; k < 3; k++)
+                        assert_near(p[k], q[k], 0.005);
+                }
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+/* Roughness 0 is the picture: at the middle of a texel, that texel. */
+static void test_mirror(void **state)
+{
+    (void)state;
+    facet_environment *e = make(256, 128, pattern);
+    const ibl_light *light = prepare(e, everything);
+    const float *pixels = e->picture.pixels;
+    for (uint32_t i = 0; i < 256 * 128; i += 37) {
+        float d[3], out[3];
+        equirect_direction(256, 128, i % 256, i / 256, d);
+        ibl_specular(light, d, 0.0f, out);
+        for (uint32_t k = 0; k < 3; k++)
+            assert_near(out[k], pixels[3 * i + k], 0.01);
+    }
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+/* Continuous in roughness, too. */
+static void test_roughness_is_continuous(void **state)
+{
+    (void)state;
+    facet_environment *e = make(256, 128, sky);
+    const ibl_light *light = prepare(e, everything);
+    for (uint32_t level = 1; level + 1 < PREFILTER_LEVEL_COUNT; level++) {
+        float d[3] = {0.6f, 0.64f, 0.48f};
+        float below[3], above[3];
+        ibl_specular(light, d, prefilter_roughness(level) - 1e-6f, below);
+        ibl_specular(light, d, prefilter_roughness(level) + 1e-6f, above);
+        for (int k = 0; k < 3; k++)
+            assert_near(below[k], above[k], 1e-4);
+    }
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+/* ---- parts ---- */
+
+static void test_parts_are_lazy(void **state)
+{
+    (void)state;
+    facet_environment *e = make(64, 32, sky);
+    const ibl_light *light = prepare(e, (ibl_light_desc){.needs_irradiance = true});
+    assert_true(e->parts.has_irradiance);
+    assert_null(e->parts.harmonics.coefficients);
+    ibl_light_release(light);
+
+    light = prepare(e, (ibl_light_desc){.needs_specular = true}); /* mirrors only */
+    assert_null(e->parts.harmonics.coefficients);
+    ibl_light_release(light);
+
+    light =
+        prepare(e, (ibl_light_desc){.needs_specular = true, .min_roughness = 0.45f, .max_roughness = 0.5f});
+    for (uint32_t level = 0; level < PREFILTER_LEVEL_COUNT; level++)
+        assert_int_equal(e->parts.levels[level].texels != NULL, level > 0 &&
+                                                                    prefilter_roughness(level) >= 0.4f &&
+                                                                    prefilter_roughness(level) <= 0.52f);
+    rgbx *texels = e->parts.levels[4].texels;
+    assert_non_null(texels);
+    assert_null(e->parts.harmonics.waves); /* scratch memory is not kept */
+    ibl_light_release(light);
+
+    light = prepare(e, everything); /* keeps what there is */
+    assert_ptr_equal(e->parts.levels[4].texels, texels);
+    facet_environment_destroy(e); /* the light keeps it */
+    float d[3] = {0.0f, 1.0f, 0.0f};
+    float out[3];
+    ibl_specular(light, d, 0.45f, out);
+    assert_near(out[0], 0.2, 1e-4);
+    ibl_light_release(light);
+}
+
+/* A level does not depend on what else was asked for, nor on the number of threads. */
+static void test_levels_are_equal(void **state)
+{
+    (void)state;
+    rotation_phase = 0.1f;
+    facet_environment *a = make(333, 150, pattern);
+    facet_environment *b = make(333, 150, pattern);
+    ibl_light_desc desc = everything;
+    desc.thread_count = 1;
+    const ibl_light *one = prepare(a, desc);
+    desc.thread_count = 5;
+    for (int r = 10; r >= 0; r--) {
+        desc.min_roughness = (float)r / 10.0f;
+        desc.max_roughness = desc.min_roughness;
+        ibl_light_release(prepare(b, desc));
+    }
+    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+        size_t edge = a->parts.levels[level].size + 2;
+        assert_int_equal(a->parts.levels[level].size, b->parts.levels[level].size);
+        assert_memory_equal(a->parts.levels[level].texels, b->parts.levels[level].texels,
+                            6 * edge * edge * sizeof(rgbx));
+    }
+    assert_memory_equal(a->parts.irradiance_over_pi, b->parts.irradiance_over_pi,
+                        sizeof a->parts.irradiance_over_pi);
+    ibl_light_release(one);
+    facet_environment_destroy(a);
+    facet_environment_destroy(b);
+}
+
+static void *prepare_in_thread(void *argument)
+{
+    const ibl_light *light = NULL;
+    ibl_light_desc desc = everything;
+    desc.thread_count = 2;
+    if (ibl_light_prepare(argument, &desc, &light, NULL) != FACET_OK)
+        return NULL;
+    return (void *)(uintptr_t)light;
+}
+
+static void test_threads_share(void **state)
+{
+    (void)state;
+    facet_environment *e = make(256, 128, sky);
+    pthread_t threads[4];
+    const ibl_light *lights[4];
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, prepare_in_thread, e), 0);
+    for (int i = 0; i < 4; i++) {
+        void *result = NULL;
+        pthread_join(threads[i], &result);
+        lights[i] = result;
+        assert_non_null(result);
+    }
+    assert_int_equal(e->reference_count, 5);
+    facet_environment_destroy(e);
+    float d[3] = {0.36f, 0.48f, -0.8f};
+    float first[3], other[3];
+    ibl_specular(lights[0], d, 0.37f, first);
+    for (int i = 1; i < 4; i++) {
+        ibl_specular(lights[i], d, 0.37f, other);
+        assert_memory_equal(first, other, sizeof first);
+    }
+    for (int i = 0; i < 4; i++)
+        ibl_light_release(lights[i]);
+}
+
+/* ---- memory ---- */
+
+typedef struct counter {
+    long left; /* allocations before one fails */
+    long held;
+} counter;
+
+static void *count_allocate(void *user, size_t size)
+{
+    counter *c = user;
+    if (c->left-- <= 0)
+        return NULL;
+    c->held++;
+    return malloc(size);
+}
+
+static void count_release(void *user, void *memory, size_t size)
+{
+    (void)size;
+    ((counter *)user)->held--;
+    free(memory);
+}
+
+/* Whichever allocation fails, the result says so and nothing leaks. */
+static void test_memory_runs_out(void **state)
+{
+    (void)state;
+    for (long limit = 0;; limit++) {
+        counter c = {.left = limit};
+        facet_environment_desc desc = {
+            .allocator = {&c, count_allocate, count_release}, .thread_count = 1, .cache_folder = NULL};
+        facet_environment *e = NULL;
+        facet_error error;
+        facet_result result = facet_environment_create_studio(&desc, &e, &error);
+        const ibl_light *light = NULL;
+        ibl_light_desc all = everything;
+        all.thread_count = 1;
+        all.background_size = 8;
+        if (result == FACET_OK)
+            result = ibl_light_prepare(e, &all, &light, &error);
+        if (result != FACET_OK) {
+            assert_int_equal(result, FACET_ERROR_MEMORY);
+            assert_null(light);
+        }
+        ibl_light_release(light);
+        facet_environment_destroy(e);
+        assert_int_equal(c.held, 0);
+        if (result == FACET_OK) {
+            print_message("%ld allocations\n", limit);
+            return;
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_constant),       cmocka_unit_test(test_kernel_golden_numbers),
+        cmocka_unit_test(test_bands),          cmocka_unit_test(test_sun),
+        cmocka_unit_test(test_rotation),       cmocka_unit_test(test_seams),
+        cmocka_unit_test(test_mirror),         cmocka_unit_test(test_roughness_is_continuous),
+        cmocka_unit_test(test_parts_are_lazy), cmocka_unit_test(test_levels_are_equal),
+        cmocka_unit_test(test_threads_share),  cmocka_unit_test(test_memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
