@@ -1,5 +1,5 @@
 /* area_light_test.c - sphere and line irradiance, and the representative point against the exact integral. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
 static const double pi = 3.14159265358979323846;

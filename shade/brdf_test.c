@@ -1,5 +1,5 @@
 /* brdf_test.c - distribution and visibility: properties, then golden numbers. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 /* Integral of D N.H g(H) over the hemisphere: midpoints in phi and in x = ln(tan theta / alpha), where D N.H is the
  * density 2 u (1 - u) / 2pi with u = 1 / (1 + e^-2x). n by n points; even in phi. */

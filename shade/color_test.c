@@ -1,5 +1,5 @@
 /* color_test.c - transfer functions and color spaces. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static void test_srgb_round_trip(void **state)
 {

@@ -1,5 +1,5 @@
 /* fresnel_test.c - reflectance: golden numbers from the equations in 80-bit floats, and properties. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static const double iors[3] = {1.33, 1.5, 2.42};
 

@@ -1,5 +1,5 @@
 /* ibl_test.c - split sum, prefilter and their use, against golden numbers and against each other. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
 

@@ -1,5 +1,5 @@
 /* lang_test.c - the dialect's C side means what GLSL means. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 #include "lang/lang_c_begin.h"
 

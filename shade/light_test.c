@@ -1,5 +1,5 @@
 /* light_test.c - punctual lights: units, falloff, cones, and what a lit surface sends out. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
 

@@ -1,5 +1,5 @@
 /* sampling_test.c - samplers against their densities. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -1,6 +1,6 @@
 /* seeds_test.c - formulas as circulating notes and summaries have them, failing a property that the right form
  * passes: so that nobody brings them back. docs/seeds.md lists them. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
 

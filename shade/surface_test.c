@@ -1,5 +1,5 @@
 /* surface_test.c - the glTF surface: parameters, reciprocity, white furnace in both energy modes, robustness. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
 

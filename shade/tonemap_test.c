@@ -1,5 +1,5 @@
 /* tonemap_test.c - operators against vectors, and what every operator promises. */
-#include "test_support.h"
+#include "testing/test_support.h"
 
 static const float inputs[7][3] = {{0.18f, 0.18f, 0.18f}, {1.0f, 1.0f, 1.0f},  {2.0f, 1.0f, 0.25f},
                                    {0.9f, 0.2f, 0.05f},   {10.0f, 0.5f, 0.1f}, {0.0f, 1.0f, 0.0f},
