@@ -241,7 +241,7 @@ static facet_result read_channels(const exr_header *h, const cursor *file, exr_c
     }
 }
 
-enum { NO_CHANNEL = UINT32_MAX };
+static const uint32_t NO_CHANNEL = UINT32_MAX;
 
 /* The channel named prefix (length bytes) and then suffix, whatever their case. */
 static uint32_t find_channel(const exr_header *h, const char *prefix, size_t length, const char *suffix)

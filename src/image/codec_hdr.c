@@ -114,7 +114,10 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
                 return fail(error, FACET_ERROR_UNSUPPORTED, "%s: FORMAT %.*s is not 32-bit_rle_rgbe", name,
                             length < 40 ? (int)length : 40, line);
         } else if (starts_with(line, length, exposure_key)) {
-            double exposure = codec_parse_number(line + sizeof exposure_key - 1, line + length, NULL);
+            const char *number = line + sizeof exposure_key - 1;
+            while (number < line + length && *number == ' ')
+                number++;
+            double exposure = codec_parse_number(number, line + length, NULL);
             h->exposure *= exposure;
             if (!(h->exposure > 1e-30 && h->exposure < 1e30)) /* NaN too */
                 return fail(error, FACET_ERROR_INVALID, "%s: %.*s: a positive number was expected", name,

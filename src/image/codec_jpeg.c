@@ -67,6 +67,18 @@ static bool is_adobe(const unsigned char *bytes, size_t size)
     return false;
 }
 
+/* Whether the last warning is about bytes that do not belong to the picture; damage to it is an error. TurboJPEG
+ * tells warnings and errors apart by the first of them only, so the message has to say. */
+static bool is_harmless(tjhandle handle)
+{
+    static const char *const harmless[] = {"extraneous bytes", "unknown JFIF revision",
+                                           "Unknown Adobe color"};
+    for (size_t i = 0; i < sizeof harmless / sizeof *harmless; i++)
+        if (tjGetErrorCode(handle) == TJERR_WARNING && strstr(tjGetErrorStr2(handle), harmless[i]))
+            return true;
+    return false;
+}
+
 /* Inks to light, each ink a filter over white: R = (1 - C)(1 - K). channel_count 3 or 4 may share memory. */
 static void convert_cmyk(const unsigned char *cmyk, bool is_inverted, size_t texel_count,
                          uint32_t channel_count, unsigned char *out)
@@ -119,10 +131,9 @@ static facet_result decode(tjhandle handle, const unsigned char *bytes, size_t s
                  : channel_count == 1 ? TJPF_GRAY
                  : channel_count == 3 ? TJPF_RGB
                                       : TJPF_RGBA;
-    /* Warnings are kept for what may be shown all the same; a picture that ends early may not. */
     if (tjDecompress2(handle, bytes, (unsigned long)size, target->pixels, (int)width, 0, (int)height, format,
                       TJFLAG_LIMITSCANS) != 0 &&
-        (tjGetErrorCode(handle) != TJERR_WARNING || strstr(tjGetErrorStr2(handle), "remature end")))
+        !is_harmless(handle))
         result = fail_jpeg(error, name, handle);
     if (result == FACET_OK && is_cmyk)
         convert_cmyk(target->pixels, is_adobe(bytes, size), (size_t)width * height, channel_count,

@@ -120,7 +120,7 @@ static int choose_format(const png_header *h, uint32_t *channel_count, int *flag
 
 static facet_result fail_png(facet_error *error, const char *name, int code)
 {
-    if (code == SPNG_EMEM)
+    if (library_memory_has_failed())
         return fail_memory(error, "PNG decoder", 0);
     return fail(error, FACET_ERROR_INVALID, "%s: PNG: %s", name, spng_strerror(code));
 }
@@ -163,6 +163,8 @@ static facet_result decode(spng_ctx *context, const unsigned char *bytes, size_t
                     channel_count);
     if (code == 0)
         code = spng_decode_image(context, out->pixels, decoded_size, format, flags);
+    if (code == 0)
+        code = spng_decode_chunks(context); /* to the end, so that the last CRCs count */
     return code == 0 ? FACET_OK : fail_png(error, name, code);
 }
 

@@ -163,8 +163,12 @@ static void make_chunks(void *context, size_t begin, size_t end)
     writing *w = context;
     const size_t row_size = (size_t)w->width * w->channel_count * sample_size(w);
     unsigned char *memory = mem_alloc(w->allocator, 2 * CHUNK_ROWS, row_size);
+    if (!memory) {
+        atomic_store(&w->has_no_memory, true);
+        return;
+    }
     unsigned char *predicted = memory + CHUNK_ROWS * row_size;
-    for (size_t i = begin; i < end && memory; i++) {
+    for (size_t i = begin; i < end; i++) {
         uint32_t y = (uint32_t)i * CHUNK_ROWS;
         uint32_t y_end = w->height - y > CHUNK_ROWS ? y + CHUNK_ROWS : w->height;
         size_t size = (y_end - y) * row_size;
@@ -185,7 +189,7 @@ static void make_chunks(void *context, size_t begin, size_t end)
             w->chunks[i].size = size;
         }
     }
-    if (!memory || w->chunks[end - 1].size == 0)
+    if (w->chunks[end - 1].size == 0)
         atomic_store(&w->has_no_memory, true);
     mem_free(memory);
 }

@@ -1,0 +1,124 @@
+/* image_test.h - what the tests of this module share: files, generated pictures, an allocator that fails. */
+#ifndef IMAGE_IMAGE_TEST_H
+#define IMAGE_IMAGE_TEST_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "image/image.h"
+
+#define TEST_DATA "src/image/testdata/"
+
+/* FACET_TEST_DATA/name into path; skips the test where the folder or the file is not there. */
+static inline void shared_path(char path[512], const char *name)
+{
+    const char *folder = getenv("FACET_TEST_DATA");
+    snprintf(path, 512, "%s/%s", folder ? folder : "", name);
+    FILE *file = folder ? fopen(path, "rb") : NULL;
+    if (!file) {
+        print_message("SKIP: %s of FACET_TEST_DATA is not there\n", name);
+        skip();
+    }
+    fclose(file);
+}
+
+static inline file_bytes read_file(const char *path)
+{
+    file_bytes file = {0};
+    facet_error error;
+    if (file_open(path, 0, NULL, &file, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    return file;
+}
+
+/* Decodes a file that must decode. */
+static inline image decode_file_as(const char *path, const image_decode_desc *desc)
+{
+    file_bytes file = read_file(path);
+    image i;
+    facet_error error;
+    if (image_decode(file.data, file.size, path, desc, &i, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    file_close(&file);
+    return i;
+}
+
+static inline image decode_file(const char *path)
+{
+    return decode_file_as(path, NULL);
+}
+
+/* A picture with smooth and noisy parts, the same in every run. */
+static inline image make_picture(uint32_t width, uint32_t height, uint32_t channel_count, image_type type)
+{
+    image i;
+    assert_int_equal(image_create(NULL, width, height, channel_count, type, &i, NULL), FACET_OK);
+    i.is_srgb = type == IMAGE_U8 || type == IMAGE_U16;
+    uint32_t noise = 1;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++)
+            for (uint32_t c = 0; c < channel_count; c++) {
+                size_t at = ((size_t)y * width + x) * channel_count + c;
+                noise = noise * 1664525u + 1013904223u;
+                uint32_t smooth = (x * 3 + y * (c + 1) * 2) % 256;
+                uint32_t value = y % 16 < 8 ? smooth : (smooth + (noise >> 28)) % 256;
+                if (x < width / 4)
+                    value = 40; /* flat */
+                if (type == IMAGE_U8)
+                    ((uint8_t *)i.pixels)[at] = (uint8_t)value;
+                else if (type == IMAGE_U16)
+                    ((uint16_t *)i.pixels)[at] = (uint16_t)(value * 257 ^ (noise >> 20 & 0xff));
+                else if (type == IMAGE_F32)
+                    ((float *)i.pixels)[at] = (float)value / 32.0f + (float)(noise >> 24) * 0.001f;
+            }
+    return i;
+}
+
+static inline void assert_same_texels(const image *a, const image *b)
+{
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_int_equal(a->channel_count, b->channel_count);
+    assert_int_equal(a->type, b->type);
+    assert_memory_equal(a->pixels, b->pixels, image_row_size(a) * a->height);
+}
+
+/* Gives memory until calls_left is 0; counts what is out. */
+typedef struct failing {
+    long calls_left; /* negative: never fails */
+    long blocks;     /* not yet released */
+} failing;
+
+static inline void *failing_allocate(void *user, size_t size)
+{
+    failing *f = user;
+    if (f->calls_left == 0)
+        return NULL;
+    f->calls_left--;
+    void *memory = malloc(size);
+    f->blocks += memory != NULL;
+    return memory;
+}
+
+static inline void failing_release(void *user, void *memory, size_t size)
+{
+    (void)size;
+    ((failing *)user)->blocks--;
+    free(memory);
+}
+
+static inline facet_allocator failing_allocator(failing *f)
+{
+    return (facet_allocator){f, failing_allocate, failing_release};
+}
+
+#endif
