@@ -81,7 +81,10 @@ static const uint16_t *get_row(const plane *source, uint32_t y, uint16_t *room)
     const unsigned char *codes = (const unsigned char *)source->texels + y * count;
     const uint16_t *color = source->color16;
     const uint16_t *alpha = source->alpha16;
-    if (source->channel_count % 2 == 1 || color == alpha) {
+    if (color == alpha) { /* data: as data16 has it, but this vectorises */
+        for (size_t i = 0; i < count; i++)
+            room[i] = (uint16_t)(257 * codes[i]);
+    } else if (source->channel_count % 2 == 1) {
         for (size_t i = 0; i < count; i++)
             room[i] = color[codes[i]];
     } else if (source->channel_count == 2) {
