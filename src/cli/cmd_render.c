@@ -402,7 +402,7 @@ int cmd_render(command_line *c)
         exit_code = render_all(&run);
     } else {
         exit_code = exit_code_of(result);
-        message_error(result == FACET_ERROR_ARGUMENT ? "facet: %s" : "%s", error.message);
+        message_error(error.message[0] == '-' ? "facet: %s" : "%s", error.message);
         if (run.failures)
             json_array_append_new(run.failures, report_error_json(&error, NULL, exit_code));
     }
