@@ -5,20 +5,16 @@
 #include "cli/input.h"
 #include "cli/interrupt.h"
 #include "cli/memory_limit.h"
-#include "cli/model_files.h"
 #include "cli/output.h"
-#include "cli/output_name.h"
 #include "cli/preset.h"
 #include "cli/progress.h"
 #include "cli/render_camera.h"
+#include "cli/render_names.h"
 #include "cli/render_options.h"
 #include "cli/render_report.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-enum { MAX_NAME = 4096 };
 
 /* All that a run shares. {0}. */
 typedef struct render_run {
@@ -35,91 +31,6 @@ typedef struct render_run {
     size_t warning_count, failure_count;
     int exit_code; /* of the last failure */
 } render_run;
-
-/* ---- names ---- */
-
-/* The name of a picture of model (NULL: built in); frame from 0, numbered from 1 as Blender does. */
-static facet_result name_output(const render_run *run, const char *model, uint32_t frame, char *name,
-                                facet_error *error)
-{
-    const render_options *o = &run->options;
-    if (o->is_stdout) {
-        memcpy(name, "-", 2);
-        return FACET_OK;
-    }
-    char stem[1024], pattern[64];
-    const char *used = o->output;
-    bool fits = output_name_stem(!model                    ? "facet"
-                                 : strcmp(model, "-") == 0 ? "stdin"
-                                                           : model,
-                                 stem, sizeof stem);
-    if (!used) {
-        snprintf(pattern, sizeof pattern, o->turntable ? "{stem}_####.%s" : "{stem}.%s",
-                 render_extension(o->save.format));
-        used = pattern;
-    }
-    if (fits)
-        fits = output_name_expand(used, stem, frame + 1, name, MAX_NAME);
-    if (!fits)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--output: the name for %s is too long",
-                         input_name(model));
-    return FACET_OK;
-}
-
-static int compare_names(const void *a, const void *b)
-{
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-/* Whether the picture name would replace what is read for it. */
-static bool is_an_input(const render_run *run, const char *model, const char *name)
-{
-    const char *config_path = option_text(run->line, OPT_CONFIG, NULL);
-    if (run->options.is_stdout || run->options.keeps_existing || !output_exists(name))
-        return false;
-    return (model && strcmp(model, "-") != 0 && model_has_file(model, name)) ||
-           (run->options.environment_path && input_is_same_file(name, run->options.environment_path)) ||
-           (config_path && input_is_same_file(name, config_path));
-}
-
-/* Checks before any work that the first pictures of all models can be written, have different names and replace no
- * input. */
-static facet_result check_outputs(const render_run *run, facet_error *error)
-{
-    size_t count = run->line->argument_count ? run->line->argument_count : 1, done = 0;
-    char **names = calloc(count, sizeof *names);
-    facet_result result = names ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
-    for (size_t i = 0; i < count && result == FACET_OK; i++) {
-        const char *model = run->line->argument_count ? run->line->arguments[i] : NULL;
-        char name[MAX_NAME];
-        result = name_output(run, model, 0, name, error);
-        if (result == FACET_OK)
-            result = output_check(name, error);
-        if (result == FACET_OK && is_an_input(run, model, name))
-            result = fail_with(
-                error, FACET_ERROR_ARGUMENT,
-                "%s: it is an input, too, and would be overwritten; name another output with -o", name);
-        if (result == FACET_OK) {
-            names[i] = malloc(strlen(name) + 1);
-            if (names[i])
-                memcpy(names[i], name, strlen(name) + 1);
-            else
-                result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
-            done += names[i] != NULL;
-        }
-    }
-    if (result == FACET_OK && !run->options.is_stdout) {
-        qsort(names, count, sizeof *names, compare_names);
-        for (size_t i = 1; i < count && result == FACET_OK; i++)
-            if (strcmp(names[i - 1], names[i]) == 0)
-                result = fail_with(error, FACET_ERROR_ARGUMENT,
-                                   "--output: two models would both be written to %s", names[i]);
-    }
-    for (size_t i = 0; i < done; i++)
-        free(names[i]);
-    free(names);
-    return result;
-}
 
 /* ---- reading ---- */
 
@@ -245,8 +156,8 @@ static facet_result render_frames(render_run *run, const char *model, const face
     if (result == FACET_OK && o->turntable)
         result = render_turntable_fit(scene, scene_index, o, &fit, error);
     for (uint32_t frame = 0; frame < (o->turntable ? o->turntable : 1) && result == FACET_OK; frame++) {
-        char name[MAX_NAME];
-        result = name_output(run, model, frame, name, error);
+        char name[RENDER_NAME_SIZE];
+        result = render_name(&run->options, model, frame, name, sizeof name, error);
         if (result != FACET_OK)
             break;
         picture_report report = {.model = input_name(model), .output = name, .load_s = frame ? 0.0 : load_s};
@@ -265,10 +176,10 @@ static facet_result render_frames(render_run *run, const char *model, const face
 /* --no-clobber for a still: nothing need be read. True: the picture was there, and that is reported. */
 static bool is_kept(render_run *run, const char *model)
 {
-    char name[MAX_NAME];
+    char name[RENDER_NAME_SIZE];
     facet_error ignored;
     if (!run->options.keeps_existing || run->options.is_stdout || run->options.turntable ||
-        name_output(run, model, 0, name, &ignored) != FACET_OK || !output_exists(name))
+        render_name(&run->options, model, 0, name, sizeof name, &ignored) != FACET_OK || !output_exists(name))
         return false;
     report_frame(run, &(picture_report){.model = input_name(model), .output = name, .is_kept = true});
     return true;
@@ -369,7 +280,7 @@ static facet_result begin(render_run *run, command_line *c, config *storage, fac
     if (result == FACET_OK)
         result = render_options_read(c, &run->options, error);
     if (result == FACET_OK)
-        result = check_outputs(run, error);
+        result = render_names_check(c, &run->options, error);
     if (result == FACET_OK)
         result = facet_budget_create(run->options.limits.max_memory_bytes, &run->budget, error);
     if (result != FACET_OK)

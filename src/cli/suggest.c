@@ -125,7 +125,7 @@ static const struct {
 static size_t fold(const char *word, char *folded)
 {
     size_t n = 0;
-    for (; word[n] && n < LONGEST; n++)
+    for (; n < LONGEST && word[n]; n++)
         folded[n] = word[n] == '_' ? '-' : (char)tolower((unsigned char)word[n]);
     folded[n] = 0;
     return n;
@@ -188,7 +188,7 @@ const char *suggest_word(const char *text, const char *const *words)
 const char *suggest_verb(const char *text)
 {
     const char *names[16] = {0};
-    for (size_t i = 0; verbs[i] && i < 15; i++)
+    for (size_t i = 0; i < 15 && verbs[i]; i++)
         names[i] = verbs[i]->name;
     return suggest_word(text, names);
 }

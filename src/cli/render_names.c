@@ -1,0 +1,91 @@
+/* render_names.c - what the pictures of facet render are called. */
+#include "cli/render_names.h"
+
+#include "cli/failure.h"
+#include "cli/input.h"
+#include "cli/model_files.h"
+#include "cli/output.h"
+#include "cli/output_name.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+facet_result render_name(const render_options *o, const char *model, uint32_t frame, char *name, size_t size,
+                         facet_error *error)
+{
+    if (o->is_stdout) {
+        memcpy(name, "-", 2);
+        return FACET_OK;
+    }
+    char stem[1024], pattern[64];
+    const char *used = o->output;
+    bool fits = output_name_stem(!model                    ? "facet"
+                                 : strcmp(model, "-") == 0 ? "stdin"
+                                                           : model,
+                                 stem, sizeof stem);
+    if (!used) {
+        snprintf(pattern, sizeof pattern, o->turntable ? "{stem}_####.%s" : "{stem}.%s",
+                 render_extension(o->save.format));
+        used = pattern;
+    }
+    if (fits)
+        fits = output_name_expand(used, stem, frame + 1, name, size); /* numbered from 1, as Blender does */
+    if (!fits)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "--output: the name for %s is too long",
+                         input_name(model));
+    return FACET_OK;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Whether the picture name would replace what is read for it. */
+static bool is_an_input(const command_line *c, const render_options *o, const char *model, const char *name)
+{
+    const char *config_path = option_text(c, OPT_CONFIG, NULL);
+    if (o->is_stdout || o->keeps_existing || !output_exists(name))
+        return false;
+    return (model && strcmp(model, "-") != 0 && model_has_file(model, name)) ||
+           (o->environment_path && input_is_same_file(name, o->environment_path)) ||
+           (config_path && input_is_same_file(name, config_path));
+}
+
+facet_result render_names_check(const command_line *c, const render_options *o, facet_error *error)
+{
+    size_t count = c->argument_count ? c->argument_count : 1, done = 0;
+    char **names = calloc(count, sizeof *names);
+    facet_result result = names ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    for (size_t i = 0; i < count && result == FACET_OK; i++) {
+        const char *model = c->argument_count ? c->arguments[i] : NULL;
+        char name[RENDER_NAME_SIZE];
+        result = render_name(o, model, 0, name, sizeof name, error);
+        if (result == FACET_OK)
+            result = output_check(name, error);
+        if (result == FACET_OK && is_an_input(c, o, model, name))
+            result = fail_with(
+                error, FACET_ERROR_ARGUMENT,
+                "%s: it is an input, too, and would be overwritten; name another output with -o", name);
+        if (result == FACET_OK) {
+            names[i] = malloc(strlen(name) + 1);
+            if (names[i])
+                memcpy(names[i], name, strlen(name) + 1);
+            else
+                result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+            done += names[i] != NULL;
+        }
+    }
+    if (result == FACET_OK && !o->is_stdout) {
+        qsort(names, count, sizeof *names, compare_names);
+        for (size_t i = 1; i < count && result == FACET_OK; i++)
+            if (strcmp(names[i - 1], names[i]) == 0)
+                result = fail_with(error, FACET_ERROR_ARGUMENT,
+                                   "--output: two models would both be written to %s", names[i]);
+    }
+    for (size_t i = 0; i < done; i++)
+        free(names[i]);
+    free(names);
+    return result;
+}

@@ -1,0 +1,18 @@
+/* render_names.h - what the pictures of facet render are called. */
+#ifndef CLI_RENDER_NAMES_H
+#define CLI_RENDER_NAMES_H
+
+#include "cli/render_options.h"
+
+enum { RENDER_NAME_SIZE = 4096 };
+
+/* The name of picture number frame (from 0) of model (NULL: the built-in scene), "-" for standard output. Fails with
+ * FACET_ERROR_ARGUMENT where it is longer than size bytes. */
+facet_result render_name(const render_options *o, const char *model, uint32_t frame, char *name, size_t size,
+                         facet_error *error);
+
+/* Checks before any work that the first pictures of all models can be written, have different names and replace
+ * nothing that is read for them. */
+facet_result render_names_check(const command_line *c, const render_options *o, facet_error *error);
+
+#endif
