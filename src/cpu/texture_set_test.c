@@ -1,4 +1,6 @@
 /* Tests of texture_set_create(): what is decoded, how far, and what happens where it cannot be. */
+#define _DEFAULT_SOURCE /* readdir() */
+#include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,9 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include <cmocka.h>
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "cpu/texture_set.h"
 
@@ -427,6 +431,61 @@ static void every_refused_block_is_an_error(void **state)
     tear_down(&f);
 }
 
+/* Looks the picture up in all ways, reduced and not. */
+static void use_as_texture(const char *path)
+{
+    file_bytes file;
+    assert_int_equal(file_open(path, 0, NULL, &file, NULL), FACET_OK);
+    fixture f;
+    set_up(&f);
+    f.images[0] = (scene_image){.name = path, .bytes = file.data, .size = file.size};
+    f.scene.image_count = f.scene.texture_count = 1;
+    for (int lod = 0; lod < 7; lod++) {
+        f.uses[0] = (texture_use){.is_read_as_color = true, .is_read_as_data = true, .min_lod = (float)lod};
+        texture_set *set = create(&f, 1);
+        for (int as_color = 0; as_color < 2; as_color++)
+            for (float size = 0.01f; size < 2.0f; size *= 3.0f) {
+                float texel[4];
+                texture_sample(set, 0, as_color, (float[2]){0.97f, -0.3f}, (float[2]){size, 0.0f},
+                               (float[2]){0.0f, 0.3f * size}, texel);
+                for (int k = 0; k < 4; k++)
+                    assert_true(texel[k] >= 0.0f && texel[k] <= 1.00001f);
+            }
+        texture_set_destroy(set);
+    }
+    assert_int_equal(f.warning_count, 0);
+    file_close(&file);
+    tear_down(&f);
+}
+
+/* Every depth, color type, interlacing and odd size that PNG has. */
+static void every_png_can_be_a_texture(void **state)
+{
+    (void)state;
+    const char *data = getenv("FACET_TEST_DATA");
+    static const char *const folders[] = {"primary", "16bit"};
+    int count = 0;
+    for (int i = 0; i < 2; i++) {
+        char folder[1024];
+        snprintf(folder, sizeof folder, "%s/images/pngsuite/%s", data ? data : "", folders[i]);
+        DIR *entries = data ? opendir(folder) : NULL;
+        if (!entries) {
+            print_message("skipped: no PngSuite under FACET_TEST_DATA\n");
+            skip();
+        }
+        for (struct dirent *entry; (entry = readdir(entries));) {
+            char path[2048];
+            snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+            if (strcasecmp(path_extension(path), "png") != 0)
+                continue;
+            use_as_texture(path);
+            count++;
+        }
+        closedir(entries);
+    }
+    assert_true(count > 50);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -442,6 +501,7 @@ int main(void)
         cmocka_unit_test(sixteen_bits_are_kept),
         cmocka_unit_test(sizes_are_those_of_the_full_image),
         cmocka_unit_test(every_refused_block_is_an_error),
+        cmocka_unit_test(every_png_can_be_a_texture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
