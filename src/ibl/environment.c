@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "ibl/cache.h"
 #include "ibl/studio.h"
 
 enum { DEFAULT_MAX_SIZE = 32768 };
@@ -113,23 +114,6 @@ static facet_result take_picture(facet_environment *e, image *decoded, const cha
     return FACET_OK;
 }
 
-/* 64 bits of the bytes, eight at a time: multiply, then fold the high bits, which depend on all, onto the low. */
-static uint64_t hash_bytes(const unsigned char *bytes, size_t size)
-{
-    const uint64_t prime = 0x9e3779b97f4a7c15u; /* 2^64 / golden ratio */
-    uint64_t hash = size * prime;
-    while (size) {
-        uint64_t word = 0;
-        size_t count = size < sizeof word ? size : sizeof word;
-        memcpy(&word, bytes, count);
-        hash = (hash ^ word) * prime;
-        hash ^= hash >> 32;
-        bytes += count;
-        size -= count;
-    }
-    return hash;
-}
-
 /* ---- the functions of facet.h ---- */
 
 facet_result facet_environment_load_memory(const void *bytes, size_t size, const char *name,
@@ -161,7 +145,7 @@ facet_result facet_environment_load_memory(const void *bytes, size_t size, const
         environment_release(e);
         return result;
     }
-    e->hash = hash_bytes(bytes, size);
+    e->hash = cache_hash(0, bytes, size);
     *environment = e;
     return FACET_OK;
 }
@@ -198,7 +182,7 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
         environment_release(e);
         return result;
     }
-    e->hash = hash_bytes(e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    e->hash = cache_hash(0, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }
@@ -222,7 +206,7 @@ facet_result facet_environment_create_constant(const float radiance[3], const fa
     for (int i = 0; i < 6; i++)
         p[i] = radiance[i % 3];
     limit_rows(&e->picture, 0, 1);
-    e->hash = hash_bytes(e->picture.pixels, image_row_size(&e->picture));
+    e->hash = cache_hash(0, e->picture.pixels, image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }

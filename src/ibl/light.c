@@ -1,13 +1,18 @@
 /* light.c - lights: which parts of an environment one needs, preparing them once, looking up in them. */
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "ibl/cache.h"
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
+
+/* Counts the changes to how parts are prepared: what a cache kept of another version is not used. */
+static const uint64_t recipe_version = 1;
 
 /* Rows of the picture that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
 static const double sharp_rows = 512.0;
@@ -29,29 +34,52 @@ static facet_result prepare_irradiance(facet_environment *e, uint32_t thread_cou
     light_parts *parts = &e->parts;
     if (parts->has_irradiance)
         return FACET_OK;
+    size_t size = sizeof parts->irradiance_over_pi;
+    parts->has_irradiance = cache_read(e, "irradiance", recipe_version, parts->irradiance_over_pi, size);
+    if (parts->has_irradiance)
+        return FACET_OK;
     double radiance[SH_COUNT][3];
     facet_result result = sh_project(&e->picture, &e->allocator, thread_count, radiance, error);
     if (result != FACET_OK)
         return result;
     sh_irradiance_over_pi((const double(*)[3])radiance, parts->irradiance_over_pi);
     parts->has_irradiance = true;
+    cache_write(e, "irradiance", recipe_version, parts->irradiance_over_pi, size);
     return FACET_OK;
+}
+
+/* Reads a level from the cache; false: not there, or no memory. */
+static bool read_level(const facet_environment *e, const char *part, uint64_t recipe, uint32_t level,
+                       cube *out)
+{
+    if (!e->cache_folder || cube_create(prefilter_size(level), &e->allocator, out, NULL) != FACET_OK)
+        return false;
+    if (cache_read(e, part, recipe, out->texels, mem_size(out->texels)))
+        return true;
+    cube_destroy(out);
+    return false;
 }
 
 static facet_result prepare_level(facet_environment *e, uint32_t level, uint32_t thread_count,
                                   facet_error *error)
 {
     light_parts *parts = &e->parts;
-    if (parts->levels[level].texels)
+    cube *out = &parts->levels[level];
+    if (out->texels)
         return FACET_OK;
-    if (!parts->harmonics.coefficients) {
-        facet_result result =
-            harmonics_create(&e->picture, &e->allocator, thread_count, &parts->harmonics, error);
-        if (result != FACET_OK)
-            return result;
-    }
-    return prefilter_level(&parts->harmonics, level, &e->allocator, thread_count, &parts->levels[level],
-                           error);
+    char part[16];
+    snprintf(part, sizeof part, "level%u", level);
+    uint64_t recipe = prefilter_recipe(level) ^ recipe_version;
+    if (read_level(e, part, recipe, level, out))
+        return FACET_OK;
+    facet_result result = FACET_OK;
+    if (!parts->harmonics.coefficients)
+        result = harmonics_create(&e->picture, &e->allocator, thread_count, &parts->harmonics, error);
+    if (result == FACET_OK)
+        result = prefilter_level(&parts->harmonics, level, &e->allocator, thread_count, out, error);
+    if (result == FACET_OK)
+        cache_write(e, part, recipe, out->texels, mem_size(out->texels));
+    return result;
 }
 
 /* The picture, halved as often as leaves at least rows rows (0: never). */

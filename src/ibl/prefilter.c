@@ -20,6 +20,17 @@ float prefilter_roughness(uint32_t level)
     return levels[level].roughness;
 }
 
+uint32_t prefilter_size(uint32_t level)
+{
+    return levels[level].size;
+}
+
+uint64_t prefilter_recipe(uint32_t level)
+{
+    uint32_t roughness = floatBitsToUint(levels[level].roughness);
+    return (uint64_t)roughness << 32 | (uint64_t)levels[level].size << 16 | levels[level].degree;
+}
+
 float prefilter_lod_of(float perceptual_roughness)
 {
     uint32_t level = 0;

@@ -17,6 +17,10 @@ enum { PREFILTER_LEVEL_COUNT = 9 };
 /* Perceptual roughness of a level. Each lobe is 1.4 to 1.9 times as wide as the one before, so that the mean of two
  * stays near the lobe between them; equal steps of roughness would make it 4 times at the smooth end. */
 float prefilter_roughness(uint32_t level);
+/* Texels along an edge of its faces. */
+uint32_t prefilter_size(uint32_t level);
+/* Differs between levels that are made differently. */
+uint64_t prefilter_recipe(uint32_t level);
 /* The level, with fraction, of a roughness in [0, 1]: linear in roughness between levels. */
 float prefilter_lod_of(float perceptual_roughness);
 
