@@ -88,13 +88,3 @@ facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint
     }
     return FACET_OK;
 }
-
-void camera_rays_at(const camera_rays *rays, float x, float y, float origin[3], float direction[3])
-{
-    float X = x - rays->middle[0];
-    float Y = y - rays->middle[1];
-    for (int i = 0; i < 3; i++) {
-        origin[i] = rays->origin[i] + X * rays->origin_dx[i] + Y * rays->origin_dy[i];
-        direction[i] = rays->direction[i] + X * rays->direction_dx[i] + Y * rays->direction_dy[i];
-    }
-}

@@ -235,11 +235,16 @@ static void add_background(const pixel_resolver *r, uint32_t x, uint32_t y, floa
 
 bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hits, float rgba[4])
 {
-    if (!collect_fragments(r, x, y, hits) || !group_surfaces(r, x, y))
+    if (!collect_fragments(r, x, y, hits))
         return false;
-    for (uint32_t i = 0; i < r->surface_count; i++)
-        shade_surface(r, x, y, i);
-    composite(r, rgba);
+    rgba[0] = rgba[1] = rgba[2] = rgba[3] = 0.0f;
+    if (r->fragment_count) {
+        if (!group_surfaces(r, x, y))
+            return false;
+        for (uint32_t i = 0; i < r->surface_count; i++)
+            shade_surface(r, x, y, i);
+        composite(r, rgba);
+    }
     add_background(r, x, y, rgba);
     for (int c = 0; c < 3; c++)
         rgba[c] *= r->scale;

@@ -87,7 +87,7 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
         float rgba[4];
         if (!pixel_resolve(&w->resolver, px, py, w->hits + visibility_first_hit(&p->pattern, i), rgba))
             return false;
-        store(p->layers.color, pixel, rgba);
+        memcpy(p->layers.color->pixels + 4 * pixel, rgba, sizeof rgba);
         if (p->wants_aovs)
             write_aovs(p, w, px, py, &w->middle_hits[visibility_first_hit(&p->middle, i)], pixel);
     }
