@@ -8,7 +8,6 @@
 #include "ibl/cube.h"
 #include "ibl/harmonics.h"
 #include "ibl/prefilter.h"
-#include "ibl/sh.h"
 #include "image/image.h"
 
 enum { PICTURE_COUNT = 4 }; /* in full size, half, quarter, eighth */
@@ -16,8 +15,6 @@ enum { PICTURE_COUNT = 4 }; /* in full size, half, quarter, eighth */
 /* Parts are prepared when a light first asks for them, under the mutex; from then on they never change, so that lights
  * read them without it. */
 typedef struct light_parts {
-    bool has_irradiance;
-    float irradiance_over_pi[SH_COUNT][3];
     image pictures[PICTURE_COUNT];      /* [0] is not used: that is the picture itself */
     cube levels[PREFILTER_LEVEL_COUNT]; /* [0] is not used */
     harmonics harmonics;                /* what levels are made of */

@@ -1,8 +1,8 @@
 /* ibl.h - image based light: from an environment picture to what a renderer looks up.
  *
  * An environment (facet_environment) keeps the picture. A light is what was prepared from it for one render:
- * prefiltered GGX cube map mips, nine spherical harmonics coefficients of irradiance, as far as asked for. The
- * environment keeps prepared parts and hands them out again; they are shared and never change. */
+ * cube maps filtered for GGX lobes, the roughest of which is the irradiance, as far as asked for. The environment
+ * keeps prepared parts and hands them out again; they are shared and never change. */
 #ifndef IBL_IBL_H
 #define IBL_IBL_H
 

@@ -17,36 +17,20 @@ static const uint64_t recipe_version = 1;
 /* Rows of the picture that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
 static const double sharp_rows = 512.0;
 
+/* At roughness 1, D is constant and the lobe is the cosine: what a white Lambertian surface sends out, and without the
+ * darkness that nine harmonics leave on the far side of a sun. */
+enum { LAMBERT_LEVEL = PREFILTER_LEVEL_COUNT - 1 };
+
 /* What a light looks up in, shared with the environment, which it keeps. */
 struct ibl_light {
     facet_environment *environment;
-    bool has_irradiance;
-    float irradiance_over_pi[SH_COUNT][3];
+    cube irradiance_over_pi;            /* not owned */
     uint32_t first_level, last_level;   /* prepared; last_level < first_level: none */
     cube levels[PREFILTER_LEVEL_COUNT]; /* not owned; [0] is not used */
     image sharp, background;            /* not owned */
 };
 
 /* ---- preparing; the environment's mutex is held ---- */
-
-static facet_result prepare_irradiance(facet_environment *e, uint32_t thread_count, facet_error *error)
-{
-    light_parts *parts = &e->parts;
-    if (parts->has_irradiance)
-        return FACET_OK;
-    size_t size = sizeof parts->irradiance_over_pi;
-    parts->has_irradiance = cache_read(e, "irradiance", recipe_version, parts->irradiance_over_pi, size);
-    if (parts->has_irradiance)
-        return FACET_OK;
-    double radiance[SH_COUNT][3];
-    facet_result result = sh_project(&e->picture, &e->allocator, thread_count, radiance, error);
-    if (result != FACET_OK)
-        return result;
-    sh_irradiance_over_pi((const double(*)[3])radiance, parts->irradiance_over_pi);
-    parts->has_irradiance = true;
-    cache_write(e, "irradiance", recipe_version, parts->irradiance_over_pi, size);
-    return FACET_OK;
-}
 
 /* Reads a level from the cache; false: not there, or no memory. */
 static bool read_level(const facet_environment *e, const char *part, uint64_t recipe, uint32_t level,
@@ -107,11 +91,10 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
 {
     facet_result result = FACET_OK;
     if (desc->needs_irradiance) {
-        result = prepare_irradiance(e, desc->thread_count, error);
+        result = prepare_level(e, LAMBERT_LEVEL, desc->thread_count, error);
         if (result != FACET_OK)
             return result;
-        light->has_irradiance = true;
-        memcpy(light->irradiance_over_pi, e->parts.irradiance_over_pi, sizeof light->irradiance_over_pi);
+        light->irradiance_over_pi = e->parts.levels[LAMBERT_LEVEL];
     }
     if (desc->needs_specular && light->first_level == 0) {
         result = prepare_picture(e, sharp_rows, desc->thread_count, &light->sharp, error);
@@ -180,8 +163,10 @@ void ibl_light_release(const ibl_light *light)
 
 void ibl_irradiance_over_pi(const ibl_light *light, const float N[3], float out[3])
 {
-    assert(light->has_irradiance);
-    sh_evaluate((const float(*)[3])light->irradiance_over_pi, N, out);
+    assert(light->irradiance_over_pi.texels);
+    rgbx c = cube_fetch(&light->irradiance_over_pi, cube_locate(N[0], N[1], N[2]));
+    for (int i = 0; i < 3; i++)
+        out[i] = c[i];
 }
 
 void ibl_specular(const ibl_light *light, const float R[3], float perceptual_roughness, float out[3])

@@ -11,9 +11,9 @@
 static const struct {
     float roughness;
     uint16_t size, degree;
-} levels[PREFILTER_LEVEL_COUNT] = {{0.0f, 0, 0},    {0.16f, 128, 160}, {0.22f, 64, 160},
-                                   {0.3f, 64, 128}, {0.4f, 32, 64},    {0.52f, 32, 64},
-                                   {0.68f, 16, 64}, {0.84f, 16, 64},   {1.0f, 16, 64}};
+} levels[PREFILTER_LEVEL_COUNT] = {{0.0f, 0, 0},    {0.16f, 128, 160}, {0.22f, 80, 160},
+                                   {0.3f, 64, 128}, {0.4f, 48, 64},    {0.52f, 40, 64},
+                                   {0.68f, 32, 64}, {0.84f, 32, 64},   {1.0f, 32, 64}};
 
 float prefilter_roughness(uint32_t level)
 {

@@ -22,17 +22,18 @@ typedef struct soft_box {
 } soft_box;
 
 static const soft_box boxes[] = {
-    {-40.0f, 38.0f, 0.55f, 0.40f, 0.10f, 9.0f},  /* key */
-    {55.0f, 18.0f, 0.45f, 0.65f, 0.14f, 3.2f},   /* fill */
-    {0.0f, 89.0f, 1.10f, 0.80f, 0.30f, 3.0f},    /* ceiling */
-    {140.0f, 22.0f, 0.14f, 0.80f, 0.06f, 10.0f}, /* rim, right */
-    {-142.0f, 18.0f, 0.14f, 0.80f, 0.06f, 8.0f}, /* rim, left */
-    {-95.0f, 5.0f, 0.25f, 0.55f, 0.12f, 2.0f},   /* edge, left */
+    {-38.0f, 36.0f, 0.34f, 0.27f, 0.07f, 16.0f},  /* key */
+    {52.0f, 20.0f, 0.20f, 0.42f, 0.08f, 5.0f},    /* fill */
+    {0.0f, 88.0f, 0.80f, 0.60f, 0.40f, 3.2f},     /* ceiling */
+    {138.0f, 24.0f, 0.10f, 0.70f, 0.05f, 13.0f},  /* rim, right */
+    {-140.0f, 20.0f, 0.10f, 0.70f, 0.05f, 10.0f}, /* rim, left */
+    {-98.0f, 4.0f, 0.22f, 0.60f, 0.18f, 2.5f},    /* edge, left */
+    {96.0f, 0.0f, 0.30f, 0.40f, 0.25f, 1.5f},     /* edge, right */
 };
 enum { BOX_COUNT = sizeof boxes / sizeof boxes[0] };
 
 /* Mean of what room() and the boxes give over the sphere; the test of this file holds the product to 1. */
-#define STUDIO_MEAN 1.0f
+#define STUDIO_MEAN 1.56775f
 
 typedef struct placed_box {
     float axis[3], right[3], up[3];
@@ -68,7 +69,7 @@ static inline float fade(float low, float high, float x)
  * direction. */
 static inline float room(float y)
 {
-    return 0.22f + 0.38f * fade(-0.1f, 0.9f, y) + 0.12f * fade(0.1f, 0.8f, -y);
+    return 0.34f + 0.46f * fade(-0.05f, 0.95f, y) + 0.34f * fade(0.02f, 0.75f, -y);
 }
 
 static inline float box_radiance(const soft_box *b, const placed_box *p, float x, float y, float z)
