@@ -1,0 +1,247 @@
+/* fit_test.c - framing: everything is in the picture, and something touches its border. */
+#include "scene/scene_test_support.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { COUNT = 400 };
+static float positions[3 * COUNT];
+static uint32_t indices[COUNT];
+
+/* Points on an odd shape around (5, -3, 2), after a fixed recipe. */
+static facet_scene *make_scene(void)
+{
+    uint32_t random = 12345;
+    scene_primitive p = {.mode = SCENE_POINTS,
+                         .vertex_count = COUNT,
+                         .index_count = COUNT,
+                         .indices = indices,
+                         .positions = positions,
+                         .material = SCENE_NONE};
+    const float extent[3] = {1.0f, 0.3f, 2.0f};
+    const float middle[3] = {5, -3, 2};
+    for (int k = 0; k < 3; k++) {
+        p.bounds_min[k] = 1e9f;
+        p.bounds_max[k] = -1e9f;
+    }
+    for (uint32_t i = 0; i < COUNT; i++) {
+        indices[i] = i;
+        for (uint32_t k = 0; k < 3; k++) {
+            random = random * 1664525u + 1013904223u;
+            float value = middle[k] + extent[k] * ((float)(random >> 8) / 8388608.0f - 1.0f);
+            positions[3 * i + k] = value;
+            p.bounds_min[k] = fminf(p.bounds_min[k], value);
+            p.bounds_max[k] = fmaxf(p.bounds_max[k], value);
+        }
+    }
+    facet_scene *scene = test_scene(1);
+    scene->meshes[0].primitives[0] = p;
+    return scene;
+}
+
+/* How far a vertex is from the middle of the picture, 1: on its border; behind the camera it is infinite. */
+static double reach(const facet_camera *camera, double aspect, const float point[3])
+{
+    double axis[3], up[3], right[3], v[3];
+    double length = 0, along = 0;
+    for (int k = 0; k < 3; k++) {
+        axis[k] = (double)camera->target[k] - (double)camera->eye[k];
+        length += axis[k] * axis[k];
+        v[k] = (double)point[k] - (double)camera->eye[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        axis[k] /= sqrt(length);
+        along += axis[k] * (double)camera->up[k];
+    }
+    length = 0;
+    for (int k = 0; k < 3; k++) {
+        up[k] = (double)camera->up[k] - along * axis[k];
+        length += up[k] * up[k];
+    }
+    double x = 0, y = 0, z = 0;
+    for (int k = 0; k < 3; k++)
+        up[k] /= sqrt(length);
+    for (int k = 0; k < 3; k++) {
+        right[k] = axis[(k + 1) % 3] * up[(k + 2) % 3] - axis[(k + 2) % 3] * up[(k + 1) % 3];
+        x += v[k] * right[k];
+        y += v[k] * up[k];
+        z += v[k] * axis[k];
+    }
+    double half = camera->fov_y_rad > 0.0f ? tan(0.5 * (double)camera->fov_y_rad) * z
+                                           : 0.5 * (double)camera->ortho_height;
+    return z > 0.0 ? fmax(fabs(x) / (half * aspect), fabs(y) / half) : HUGE_VAL;
+}
+
+static double farthest_reach(const facet_camera *camera, double aspect)
+{
+    double most = 0.0;
+    for (int i = 0; i < COUNT; i++)
+        most = fmax(most, reach(camera, aspect, positions + 3 * i));
+    return most;
+}
+
+static const float ANGLES[][2] = {{0, 1.3f}, {0.7f, 0.9f},     {-2.5f, 1.57079633f},
+                                  {3, 0},    {1, 3.14159265f}, {4, 2.2f}};
+enum { ANGLE_COUNT = 6 };
+
+static void the_outermost_vertex_touches_the_border(void **state)
+{
+    (void)state;
+    facet_scene *scene = make_scene();
+    static const float aspects[] = {1.0f, 1.7778f, 0.5f};
+    for (int i = 0; i < ANGLE_COUNT * 3 * 2 * 2; i++) {
+        facet_orbit orbit = {.azimuth_rad = ANGLES[i % ANGLE_COUNT][0],
+                             .polar_rad = ANGLES[i % ANGLE_COUNT][1],
+                             .radius_scale = 1.0f,
+                             .fov_y_rad = 0.6f,
+                             .orthographic = i / ANGLE_COUNT % 2 != 0,
+                             .is_z_up = i / ANGLE_COUNT / 2 % 2 != 0};
+        float aspect = aspects[i / ANGLE_COUNT / 4];
+        facet_camera camera;
+        assert_int_equal(scene_fit_orbit(scene, 0, &orbit, aspect, &camera, NULL), FACET_OK);
+        assert_near(farthest_reach(&camera, (double)aspect), 1.0, 1e-5);
+    }
+    scene_destroy(scene);
+}
+
+static void a_turntable_keeps_its_distance_and_cuts_nothing(void **state)
+{
+    (void)state;
+    facet_scene *scene = make_scene();
+    scene_pose pose;
+    assert_int_equal(scene_pose_create(scene, 0, NULL, 1, &pose, NULL), FACET_OK);
+    for (int i = 0; i < ANGLE_COUNT * 2; i++) {
+        double most = 0.0;
+        double distance = 0.0;
+        for (int step = 0; step < 720; step++) {
+            facet_orbit orbit = {.azimuth_rad = (float)step * 0.00872664626f,
+                                 .polar_rad = ANGLES[i % ANGLE_COUNT][1],
+                                 .radius_scale = 1.0f,
+                                 .fov_y_rad = 0.6f,
+                                 .orthographic = i >= ANGLE_COUNT};
+            facet_camera camera;
+            assert_int_equal(scene_fit_pose(&pose, &orbit, 1.5f, SCENE_FIT_ALL_AZIMUTHS, 1, &camera, NULL),
+                             FACET_OK);
+            double own = 0.0;
+            for (int k = 0; k < 3; k++)
+                own += pow((double)camera.eye[k] - (double)camera.target[k], 2);
+            distance = step == 0 ? sqrt(own) : distance;
+            assert_near(sqrt(own), distance, 1e-5 * distance);
+            most = fmax(most, farthest_reach(&camera, 1.5));
+        }
+        /* Exact for the whole turn: some azimuth touches the border, half a degree of steps aside. */
+        assert_near(most, 1.0, 2e-4);
+        assert_true(most <= 1.0 + 1e-5);
+    }
+    scene_pose_destroy(&pose);
+    scene_destroy(scene);
+}
+
+static void angles_are_those_of_model_viewer(void **state)
+{
+    (void)state;
+    facet_scene *scene = make_scene();
+    static const struct {
+        float azimuth, polar, direction[3];
+        bool is_z_up;
+    } cases[] = {{0, 1.57079633f, {0, 0, 1}, false},
+                 {1.57079633f, 1.57079633f, {1, 0, 0}, false},
+                 {0, 0, {0, 1, 0}, false},
+                 {0, 1.57079633f, {0, -1, 0}, true},
+                 {1.57079633f, 1.57079633f, {1, 0, 0}, true},
+                 {0, 0, {0, 0, 1}, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        facet_orbit orbit = {.azimuth_rad = cases[i].azimuth,
+                             .polar_rad = cases[i].polar,
+                             .radius = 7,
+                             .fov_y_rad = 0.5f,
+                             .target = {1, 2, 3},
+                             .has_target = true,
+                             .is_z_up = cases[i].is_z_up};
+        facet_camera camera;
+        assert_int_equal(scene_fit_orbit(scene, 0, &orbit, 1, &camera, NULL), FACET_OK);
+        for (int k = 0; k < 3; k++)
+            assert_near(camera.eye[k], orbit.target[k] + 7 * cases[i].direction[k], 1e-5);
+    }
+    scene_destroy(scene);
+}
+
+static void every_size_is_framed_alike(void **state)
+{
+    (void)state;
+    static const float scales[] = {1e-4f, 1, 1e6f};
+    facet_scene *scene = make_scene();
+    double distances[3];
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++)
+            scene->nodes[0].scale[k] = scales[i];
+        facet_orbit orbit = {.polar_rad = 1.3f, .radius_scale = 1.05f, .fov_y_rad = 0.5f};
+        facet_camera camera;
+        assert_int_equal(scene_fit_orbit(scene, 0, &orbit, 1.5f, &camera, NULL), FACET_OK);
+        distances[i] = ((double)camera.eye[2] - (double)camera.target[2]) / (double)scales[i];
+    }
+    assert_near(distances[0], distances[1], 1e-4 * distances[1]);
+    assert_near(distances[2], distances[1], 1e-4 * distances[1]);
+    scene_destroy(scene);
+}
+
+static void nothing_and_a_single_point_have_a_camera(void **state)
+{
+    (void)state;
+    for (uint32_t points = 0; points < 2; points++) {
+        facet_scene *scene = make_scene();
+        scene_primitive *p = &scene->meshes[0].primitives[0];
+        p->index_count = points;
+        memcpy(p->bounds_min, positions, sizeof p->bounds_min);
+        memcpy(p->bounds_max, positions, sizeof p->bounds_max);
+        for (int orthographic = 0; orthographic < 2; orthographic++) {
+            facet_orbit orbit = {.polar_rad = 1.3f,
+                                 .radius_scale = 1.05f,
+                                 .fov_y_rad = 0.5f,
+                                 .orthographic = orthographic != 0};
+            facet_camera camera;
+            assert_int_equal(scene_fit_orbit(scene, 0, &orbit, 1, &camera, NULL), FACET_OK);
+            double distance = 0.0;
+            for (int k = 0; k < 3; k++)
+                distance += fabs((double)camera.eye[k] - (double)camera.target[k]);
+            assert_true(distance > 0.1 && distance < 100.0);
+            assert_true(orthographic ? camera.ortho_height > 1.0f : camera.fov_y_rad == 0.5f);
+        }
+        scene_destroy(scene);
+    }
+}
+
+static void numbers_that_are_no_camera_are_refused(void **state)
+{
+    (void)state;
+    const facet_orbit good = {.polar_rad = 1, .radius_scale = 1, .fov_y_rad = 0.5f};
+    facet_orbit bad[6] = {good, good, good, good, good, good};
+    bad[0].fov_y_rad = 0;
+    bad[1].fov_y_rad = 4;
+    bad[2].radius_scale = -1;
+    bad[3].azimuth_rad = NAN;
+    bad[4].radius = INFINITY;
+    bad[5].has_target = true;
+    bad[5].target[1] = NAN;
+    facet_scene *scene = make_scene();
+    facet_camera camera;
+    facet_error error;
+    for (int i = 0; i < 6; i++)
+        assert_int_equal(scene_fit_orbit(scene, 0, &bad[i], 1, &camera, &error), FACET_ERROR_ARGUMENT);
+    assert_int_equal(scene_fit_orbit(scene, 0, &good, 0, &camera, &error), FACET_ERROR_ARGUMENT);
+    assert_int_equal(scene_fit_orbit(scene, 9, &good, 1, &camera, &error), FACET_ERROR_ARGUMENT);
+    scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_outermost_vertex_touches_the_border),
+        cmocka_unit_test(a_turntable_keeps_its_distance_and_cuts_nothing),
+        cmocka_unit_test(angles_are_those_of_model_viewer),
+        cmocka_unit_test(every_size_is_framed_alike),
+        cmocka_unit_test(nothing_and_a_single_point_have_a_camera),
+        cmocka_unit_test(numbers_that_are_no_camera_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
