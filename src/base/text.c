@@ -110,33 +110,33 @@ static void begin_value(text *t, const char *key)
     }
 }
 
-void json_begin_object(text *t, const char *key)
+void text_json_begin_object(text *t, const char *key)
 {
     begin_value(t, key);
     text_add(t, "{");
     t->needs_comma = false;
 }
 
-void json_end_object(text *t)
+void text_json_end_object(text *t)
 {
     text_add(t, "}");
     t->needs_comma = true;
 }
 
-void json_begin_array(text *t, const char *key)
+void text_json_begin_array(text *t, const char *key)
 {
     begin_value(t, key);
     text_add(t, "[");
     t->needs_comma = false;
 }
 
-void json_end_array(text *t)
+void text_json_end_array(text *t)
 {
     text_add(t, "]");
     t->needs_comma = true;
 }
 
-void json_string(text *t, const char *key, const char *value)
+void text_json_string(text *t, const char *key, const char *value)
 {
     begin_value(t, key);
     if (value)
@@ -145,19 +145,19 @@ void json_string(text *t, const char *key, const char *value)
         text_add(t, "null");
 }
 
-void json_bool(text *t, const char *key, bool value)
+void text_json_bool(text *t, const char *key, bool value)
 {
     begin_value(t, key);
     text_add(t, value ? "true" : "false");
 }
 
-void json_integer(text *t, const char *key, int64_t value)
+void text_json_integer(text *t, const char *key, int64_t value)
 {
     begin_value(t, key);
     text_addf(t, "%lld", (long long)value);
 }
 
-void json_number(text *t, const char *key, double value)
+void text_json_number(text *t, const char *key, double value)
 {
     begin_value(t, key);
     if (!isfinite(value)) {
@@ -173,7 +173,7 @@ void json_number(text *t, const char *key, double value)
     text_add(t, digits);
 }
 
-void json_float(text *t, const char *key, float value)
+void text_json_float(text *t, const char *key, float value)
 {
     begin_value(t, key);
     if (!isfinite(value)) {
@@ -189,10 +189,10 @@ void json_float(text *t, const char *key, float value)
     text_add(t, digits);
 }
 
-void json_floats(text *t, const char *key, const float *values, size_t count)
+void text_json_floats(text *t, const char *key, const float *values, size_t count)
 {
-    json_begin_array(t, key);
+    text_json_begin_array(t, key);
     for (size_t i = 0; i < count; i++)
-        json_float(t, NULL, values[i]);
-    json_end_array(t);
+        text_json_float(t, NULL, values[i]);
+    text_json_end_array(t);
 }

@@ -11,7 +11,7 @@ typedef struct text {
     char *data;
     size_t length, capacity;
     bool has_failed;
-    bool needs_comma; /* for the json_ functions */
+    bool needs_comma; /* for the text_json_ functions */
 } text;
 
 void text_add(text *t, const char *string);
@@ -22,15 +22,15 @@ void text_destroy(text *t); /* {0} is allowed */
 /* JSON: keys are NULL inside arrays and at the top. Numbers print the shortest decimal that reads back as the
  * same float or double; NaN and infinities, which JSON lacks, become null. Strings are UTF-8; bytes that are not
  * become U+FFFD. */
-void json_begin_object(text *t, const char *key);
-void json_end_object(text *t);
-void json_begin_array(text *t, const char *key);
-void json_end_array(text *t);
-void json_string(text *t, const char *key, const char *value); /* NULL: null */
-void json_bool(text *t, const char *key, bool value);
-void json_integer(text *t, const char *key, int64_t value);
-void json_number(text *t, const char *key, double value);
-void json_float(text *t, const char *key, float value);
-void json_floats(text *t, const char *key, const float *values, size_t count);
+void text_json_begin_object(text *t, const char *key);
+void text_json_end_object(text *t);
+void text_json_begin_array(text *t, const char *key);
+void text_json_end_array(text *t);
+void text_json_string(text *t, const char *key, const char *value); /* NULL: null */
+void text_json_bool(text *t, const char *key, bool value);
+void text_json_integer(text *t, const char *key, int64_t value);
+void text_json_number(text *t, const char *key, double value);
+void text_json_float(text *t, const char *key, float value);
+void text_json_floats(text *t, const char *key, const float *values, size_t count);
 
 #endif

@@ -14,16 +14,16 @@ static void json_has_commas_where_they_belong(void **state)
 {
     (void)state;
     text t = {0};
-    json_begin_object(&t, NULL);
-    json_string(&t, "name", "a");
-    json_begin_array(&t, "list");
-    json_integer(&t, NULL, -3);
-    json_begin_object(&t, NULL);
-    json_end_object(&t);
-    json_bool(&t, NULL, true);
-    json_end_array(&t);
-    json_string(&t, "none", NULL);
-    json_end_object(&t);
+    text_json_begin_object(&t, NULL);
+    text_json_string(&t, "name", "a");
+    text_json_begin_array(&t, "list");
+    text_json_integer(&t, NULL, -3);
+    text_json_begin_object(&t, NULL);
+    text_json_end_object(&t);
+    text_json_bool(&t, NULL, true);
+    text_json_end_array(&t);
+    text_json_string(&t, "none", NULL);
+    text_json_end_object(&t);
     assert_string_equal(t.data, "{\"name\":\"a\",\"list\":[-3,{},true],\"none\":null}");
     text_destroy(&t);
 }
@@ -32,14 +32,14 @@ static void numbers_read_back(void **state)
 {
     (void)state;
     text t = {0};
-    json_begin_array(&t, NULL);
-    json_number(&t, NULL, 0.1);
-    json_number(&t, NULL, 1.0 / 3.0);
-    json_float(&t, NULL, 0.1f);
-    json_float(&t, NULL, 16777217.0f);
-    json_number(&t, NULL, (double)NAN);
-    json_float(&t, NULL, -INFINITY);
-    json_end_array(&t);
+    text_json_begin_array(&t, NULL);
+    text_json_number(&t, NULL, 0.1);
+    text_json_number(&t, NULL, 1.0 / 3.0);
+    text_json_float(&t, NULL, 0.1f);
+    text_json_float(&t, NULL, 16777217.0f);
+    text_json_number(&t, NULL, (double)NAN);
+    text_json_float(&t, NULL, -INFINITY);
+    text_json_end_array(&t);
     assert_string_equal(t.data, "[0.1,0.3333333333333333,0.1,16777216,null,null]");
     text_destroy(&t);
 }
@@ -48,11 +48,11 @@ static void strings_are_valid_utf8(void **state)
 {
     (void)state;
     text t = {0};
-    json_string(&t, NULL, "\"\\\n\x7f\xc3\xa9\xe2\x99\xbb\xf0\x9f\x98\x80");
+    text_json_string(&t, NULL, "\"\\\n\x7f\xc3\xa9\xe2\x99\xbb\xf0\x9f\x98\x80");
     assert_string_equal(t.data, "\"\\\"\\\\\\u000a\\u007f\xc3\xa9\xe2\x99\xbb\xf0\x9f\x98\x80\"");
     text_destroy(&t);
     t = (text){0};
-    json_string(&t, NULL, "\xff-\xc0\xaf-\xed\xa0\x80-\xe2\x99"); /* bad, overlong, surrogate, cut off */
+    text_json_string(&t, NULL, "\xff-\xc0\xaf-\xed\xa0\x80-\xe2\x99"); /* bad, overlong, surrogate, cut off */
     assert_string_equal(t.data,
                         "\"\xef\xbf\xbd-\xef\xbf\xbd\xef\xbf\xbd-\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd-"
                         "\xef\xbf\xbd\xef\xbf\xbd\"");

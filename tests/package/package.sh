@@ -15,6 +15,8 @@ done
 pc=$(dirname "$(find "$prefix/usr" -name facet.pc)")
 lib=$(dirname "$pc")
 export PKG_CONFIG_PATH="$pc"
+foreign=$(nm --defined-only -g "$lib/libfacet.a" | awk 'NF == 3 {print $3}' | grep -v '^facet_' || true)
+[ -z "$foreign" ] || { echo "libfacet.a defines names that are not facet_*: $foreign"; exit 1; }
 if grep -rl "$PWD/src\|$build" "$pc" "$lib/cmake" >"$prefix/leaks" 2>/dev/null; then
     echo "a path of the build machine stands in: $(cat "$prefix/leaks")"
     exit 1
