@@ -32,7 +32,9 @@ void ibl_light_release(const ibl_light *light); /* NULL is allowed */
 void ibl_irradiance_over_pi(const ibl_light *light, const float N[3], float out[3]);
 /* Radiance around R filtered with the GGX lobe of that perceptual roughness (cd/m^2 per channel). */
 void ibl_specular(const ibl_light *light, const float R[3], float perceptual_roughness, float out[3]);
-/* Radiance from direction d (cd/m^2 per channel), filtered over footprint_rad. */
+/* Radiance from direction d (cd/m^2 per channel), from the picture reduced to background_size texels per rad, or up to
+ * twice as many. footprint_rad is what the caller samples; with several samples a pixel it needs no more filtering
+ * and is not read. */
 void ibl_background(const ibl_light *light, const float d[3], float footprint_rad, float out[3]);
 
 /* Split-sum terms of the height-correlated GGX (Karis 2013): reflectance = F0 out[0] + F90 out[1]. NdotV in
