@@ -236,7 +236,7 @@ static void every_changed_byte_is_noticed(void **state)
         bytes[k] ^= 0x10;
         image back;
         facet_result result = image_decode(bytes, size, "p", NULL, &back, NULL);
-        if (result == FACET_OK && k < size - 12) /* libspng stops before the CRC of IEND */
+        if (result == FACET_OK)
             fail_msg("byte %zu of %zu changed and nothing noticed", k, size);
         image_destroy(&back);
         bytes[k] ^= 0x10;

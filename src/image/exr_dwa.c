@@ -187,10 +187,10 @@ static facet_result unpack_ac(dwa *d, const unsigned char *packed)
         return FACET_OK;
     if (d->fields[FIELD_AC_CODING] == 0)
         return exr_huffman_decode(d->chunk->allocator, packed, packed_size, d->ac, count);
-    facet_result result =
-        zlib_inflate(d->chunk->allocator, packed, packed_size, (unsigned char *)d->ac, 2 * count);
+    if (!zlib_inflate(packed, packed_size, (unsigned char *)d->ac, 2 * count))
+        return FACET_ERROR_INVALID;
     load_halves(d->ac, count);
-    return result;
+    return FACET_OK;
 }
 
 static facet_result unpack_dc(dwa *d, const unsigned char *packed)
@@ -202,13 +202,13 @@ static facet_result unpack_dc(dwa *d, const unsigned char *packed)
     unsigned char *predicted = mem_alloc(d->chunk->allocator, count, 2);
     if (!predicted)
         return FACET_ERROR_MEMORY;
-    facet_result result =
-        zlib_inflate(d->chunk->allocator, packed, (size_t)d->fields[FIELD_DC_PACKED], predicted, 2 * count);
-    if (result == FACET_OK)
+    bool is_whole = zlib_inflate(packed, (size_t)d->fields[FIELD_DC_PACKED], predicted, 2 * count);
+    if (is_whole) {
         exr_unpredict(predicted, 2 * count, (unsigned char *)d->dc);
-    load_halves(d->dc, count);
+        load_halves(d->dc, count);
+    }
     mem_free(predicted);
-    return result;
+    return is_whole ? FACET_OK : FACET_ERROR_INVALID;
 }
 
 static facet_result unpack_runs(dwa *d, const unsigned char *packed)
@@ -220,9 +220,8 @@ static facet_result unpack_runs(dwa *d, const unsigned char *packed)
     unsigned char *coded = mem_alloc(d->chunk->allocator, coded_size, 1);
     if (!coded)
         return FACET_ERROR_MEMORY;
-    facet_result result =
-        zlib_inflate(d->chunk->allocator, packed, (size_t)d->fields[FIELD_RUNS_PACKED], coded, coded_size);
-    if (result == FACET_OK)
+    facet_result result = FACET_ERROR_INVALID;
+    if (zlib_inflate(packed, (size_t)d->fields[FIELD_RUNS_PACKED], coded, coded_size))
         result = exr_expand_runs(coded, coded_size, d->runs, size);
     mem_free(coded);
     return result;
@@ -233,7 +232,8 @@ static facet_result unpack_plain(dwa *d, const unsigned char *packed)
     const size_t size = (size_t)d->fields[FIELD_PLAIN_SIZE];
     if (size == 0)
         return FACET_OK;
-    return zlib_inflate(d->chunk->allocator, packed, (size_t)d->fields[FIELD_PLAIN_PACKED], d->plain, size);
+    bool is_whole = zlib_inflate(packed, (size_t)d->fields[FIELD_PLAIN_PACKED], d->plain, size);
+    return is_whole ? FACET_OK : FACET_ERROR_INVALID;
 }
 
 /* Whether the sizes fit the chunk's channels, so that memory can be taken for them. */

@@ -62,11 +62,11 @@ facet_result exr_unpack_zip(const exr_chunk *chunk, const unsigned char *packed,
     unsigned char *predicted = mem_alloc(chunk->allocator, chunk->size, 1);
     if (!predicted)
         return FACET_ERROR_MEMORY;
-    facet_result result = zlib_inflate(chunk->allocator, packed, packed_size, predicted, chunk->size);
-    if (result == FACET_OK)
+    bool is_whole = zlib_inflate(packed, packed_size, predicted, chunk->size);
+    if (is_whole)
         exr_unpredict(predicted, chunk->size, samples);
     mem_free(predicted);
-    return result;
+    return is_whole ? FACET_OK : FACET_ERROR_INVALID;
 }
 
 /* The bytes, high ones first, that PXR24 keeps of a sample. */
@@ -86,9 +86,9 @@ facet_result exr_unpack_pxr24(const exr_chunk *chunk, const unsigned char *packe
     unsigned char *planes = mem_alloc(chunk->allocator, size, 1);
     if (!planes)
         return FACET_ERROR_MEMORY;
-    facet_result result = zlib_inflate(chunk->allocator, packed, packed_size, planes, size);
+    bool is_whole = zlib_inflate(packed, packed_size, planes, size);
     const unsigned char *plane = planes;
-    for (uint32_t y = 0; y < chunk->height && result == FACET_OK; y++)
+    for (uint32_t y = 0; y < chunk->height && is_whole; y++)
         for (uint32_t c = 0; c < chunk->channel_count; c++) {
             const uint32_t bytes = pxr24_bytes(&chunk->channels[c]);
             const uint32_t shift = chunk->channels[c].type == EXR_FLOAT ? 8 : 0;
@@ -104,5 +104,5 @@ facet_result exr_unpack_pxr24(const exr_chunk *chunk, const unsigned char *packe
             plane += (size_t)bytes * chunk->width;
         }
     mem_free(planes);
-    return result;
+    return is_whole ? FACET_OK : FACET_ERROR_INVALID;
 }

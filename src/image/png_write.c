@@ -5,7 +5,6 @@
 #include "image/codec.h"
 
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <zlib.h>
@@ -14,10 +13,10 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "image/deflate.h"
+#include "image/png_filter.h"
 
 enum {
     BLOCK_SIZE = 128 * 1024, /* filtered bytes that are deflated by one thread at a time */
-    FILTER_COUNT = 5,
     CHUNK_FRAME = 12
 };
 
@@ -55,44 +54,6 @@ static void load_row(const image *i, uint32_t y, size_t row_size, unsigned char 
     }
 }
 
-/* The predictor of Paeth: of left, up and their corner what is nearest to left + up - corner. */
-static unsigned char paeth(int left, int up, int corner)
-{
-    int to_left = abs(up - corner);
-    int to_up = abs(left - corner);
-    int to_corner = abs(left + up - 2 * corner);
-    int nearest = to_up <= to_corner ? up : corner;
-    return (unsigned char)(to_left <= to_up && to_left <= to_corner ? left : nearest);
-}
-
-/* row filtered into out; texel bytes stand before row and above, and are readable (0 at the left border). */
-static void filter_row(int filter, const unsigned char *row, const unsigned char *above, size_t size,
-                       size_t texel, unsigned char *restrict out)
-{
-    const unsigned char *left = row - texel;
-    const unsigned char *corner = above - texel;
-    switch (filter) {
-    case 0:
-        memcpy(out, row, size);
-        return;
-    case 1:
-        for (size_t k = 0; k < size; k++)
-            out[k] = (unsigned char)(row[k] - left[k]);
-        return;
-    case 2:
-        for (size_t k = 0; k < size; k++)
-            out[k] = (unsigned char)(row[k] - above[k]);
-        return;
-    case 3:
-        for (size_t k = 0; k < size; k++)
-            out[k] = (unsigned char)(row[k] - ((left[k] + above[k]) >> 1));
-        return;
-    default:
-        for (size_t k = 0; k < size; k++)
-            out[k] = (unsigned char)(row[k] - paeth(left[k], above[k], corner[k]));
-    }
-}
-
 /* The sum of the filtered bytes taken as signed, which the PNG specification (12.7) advises to make small. */
 static uint32_t weight(const unsigned char *filtered, size_t size)
 {
@@ -108,7 +69,7 @@ static void filter_rows(void *context, size_t begin, size_t end)
     const size_t texel = image_texel_size(w->image);
     const size_t stride = texel + w->row_size;
     /* two rows with texel zeros before them, then one row per filter */
-    unsigned char *memory = mem_zalloc(&w->desc->allocator, 2 * stride + FILTER_COUNT * w->row_size, 1);
+    unsigned char *memory = mem_zalloc(&w->desc->allocator, 2 * stride + PNG_FILTER_COUNT * w->row_size, 1);
     if (!memory) {
         atomic_store(&w->has_no_memory, true);
         return;
@@ -122,9 +83,9 @@ static void filter_rows(void *context, size_t begin, size_t end)
         load_row(w->image, (uint32_t)y, w->row_size, row);
         int best = 0;
         uint32_t best_weight = UINT32_MAX;
-        for (int filter = 0; filter < FILTER_COUNT && best_weight > 0; filter++) {
+        for (int filter = 0; filter < PNG_FILTER_COUNT && best_weight > 0; filter++) {
             unsigned char *out = tried + (size_t)filter * w->row_size;
-            filter_row(filter, row, above, w->row_size, texel, out);
+            png_filter_row((png_filter)filter, row, above, w->row_size, texel, out);
             uint32_t sum = weight(out, w->row_size);
             if (sum < best_weight) {
                 best_weight = sum;
