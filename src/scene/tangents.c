@@ -18,7 +18,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/result.h"
+
+enum { GRAIN = 1 << 12 }; /* triangles that one thread takes at once */
 
 typedef struct triangle {
     uint32_t vertices[3];  /* welded */
@@ -37,6 +40,7 @@ typedef struct tangent_space {
     uint32_t *welded; /* per vertex: the first one equal to it */
     triangle *triangles;
     float *tangents; /* 4 per group */
+    float *out;      /* 4 per corner */
 } tangent_space;
 
 /* ---- vectors ---- */
@@ -46,11 +50,19 @@ static float dot3(const float a[3], const float b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* Makes v unit; the way over double only for lengths whose square a float cannot hold well. */
 static bool normalise(float v[3])
 {
+    float square = dot3(v, v);
+    if (square > 1e-30f && square < 1e30f) {
+        float scale = 1.0f / sqrtf(square);
+        for (int k = 0; k < 3; k++)
+            v[k] *= scale;
+        return true;
+    }
     double length =
         sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2]);
-    if (!(length > (double)FLT_MIN))
+    if (!(length > (double)FLT_MIN && length <= (double)FLT_MAX))
         return false;
     for (int k = 0; k < 3; k++)
         v[k] = (float)((double)v[k] / length);
@@ -163,8 +175,15 @@ static void set_up_triangle(const tangent_space *space, const uint32_t *indices,
     }
     t->is_mirrored = !(area > 0.0f);
     bool has_u = normalise(t->direction);
-    bool has_v = normalise(along_v);
+    bool has_v = fabsf(along_v[0]) > FLT_MIN || fabsf(along_v[1]) > FLT_MIN || fabsf(along_v[2]) > FLT_MIN;
     t->is_unclear = !(fabsf(area) > FLT_MIN) || !has_u || !has_v;
+}
+
+static void set_up_triangles(void *context, size_t begin, size_t end)
+{
+    const tangent_space *space = context;
+    for (size_t i = begin; i < end; i++)
+        set_up_triangle(space, space->primitive->indices + 3 * i, &space->triangles[i]);
 }
 
 /* ---- neighbors ---- */
@@ -333,28 +352,58 @@ static float corner_angle(const tangent_space *space, const triangle *t, int cor
     }
     if (!project(a, normal) || !project(b, normal))
         return 0.0f;
-    double cosine = (double)dot3(a, b);
-    return (float)acos(cosine < -1.0 ? -1.0 : cosine > 1.0 ? 1.0 : cosine);
+    float cosine = dot3(a, b);
+    return acosf(cosine < -1.0f ? -1.0f : cosine > 1.0f ? 1.0f : cosine);
 }
 
-static void sum_tangents(tangent_space *space)
+/* Stands for 1 in the sign of a group's tangent while that is a sum. */
+static const float UNFINISHED = 2.0f;
+
+/* What each corner adds to its group, into out: the triangle's direction, perpendicular to the normal there, times
+ * its angle. */
+static void weigh_corners(void *context, size_t begin, size_t end)
 {
-    for (uint32_t i = 0; i < space->triangle_count; i++) {
+    const tangent_space *space = context;
+    for (size_t i = begin; i < end; i++) {
         const triangle *t = &space->triangles[i];
         for (int corner = 0; corner < 3; corner++) {
-            if (t->groups[corner] == SCENE_NONE)
-                continue;
-            float *sum = space->tangents + 4 * (size_t)t->groups[corner];
-            sum[3] = t->is_mirrored ? -1.0f : 1.0f;
+            float *share = space->out + 4 * (3 * i + (size_t)corner);
             const float *normal = space->primitive->normals + 3 * (size_t)t->vertices[corner];
-            float direction[3] = {t->direction[0], t->direction[1], t->direction[2]};
-            if (t->is_unclear || !project(direction, normal))
-                continue;
-            float weight = corner_angle(space, t, corner, normal);
+            memcpy(share, t->direction, sizeof t->direction);
+            bool is_used = t->groups[corner] != SCENE_NONE && !t->is_unclear && project(share, normal);
+            float weight = is_used ? corner_angle(space, t, corner, normal) : 0.0f;
             for (int k = 0; k < 3; k++)
-                sum[k] += weight * direction[k];
+                share[k] = is_used ? weight * share[k] : 0.0f;
         }
     }
+}
+
+/* In the order of triangles, on one thread: sums must not depend on threads. */
+static void sum_tangents(tangent_space *space)
+{
+    for (size_t i = 0; i < space->triangle_count; i++) {
+        const triangle *t = &space->triangles[i];
+        for (size_t corner = 0; corner < 3; corner++) {
+            if (t->groups[corner] == SCENE_NONE)
+                continue;
+            const float *share = space->out + 4 * (3 * i + corner);
+            float *sum = space->tangents + 4 * (size_t)t->groups[corner];
+            sum[3] = t->is_mirrored ? -UNFINISHED : UNFINISHED;
+            for (int k = 0; k < 3; k++)
+                sum[k] += share[k];
+        }
+    }
+}
+
+/* Makes the sum of a group its tangent, the first time it is asked for. Made perpendicular once more: a long sum
+ * drifts. */
+static void finish(float *tangent, const float normal[3])
+{
+    if (fabsf(tangent[3]) != UNFINISHED)
+        return;
+    tangent[3] = tangent[3] < 0.0f ? -1.0f : 1.0f;
+    if (!normalise(tangent) || !project(tangent, normal))
+        any_perpendicular(normal, tangent);
 }
 
 /* Corners of degenerate triangles take the group of another corner at the same vertex; any_group is one per
@@ -368,12 +417,13 @@ static void write_tangents(tangent_space *space, const uint32_t *any_group, floa
             uint32_t vertex = t->vertices[corner];
             uint32_t group = t->groups[corner] != SCENE_NONE ? t->groups[corner] : any_group[vertex];
             const float *normal = space->primitive->normals + 3 * (size_t)vertex;
-            tangent[3] = 1.0f;
-            if (group != SCENE_NONE)
-                memcpy(tangent, space->tangents + 4 * (size_t)group, 4 * sizeof *tangent);
-            /* Once more perpendicular: a long sum drifts. */
-            if (group == SCENE_NONE || !normalise(tangent) || !project(tangent, normal))
+            if (group == SCENE_NONE) {
                 any_perpendicular(normal, tangent);
+                tangent[3] = 1.0f;
+            } else {
+                finish(space->tangents + 4 * (size_t)group, normal);
+                memcpy(tangent, space->tangents + 4 * (size_t)group, 4 * sizeof *tangent);
+            }
         }
     }
 }
@@ -383,7 +433,8 @@ facet_result scene_generate_tangents(const scene_primitive *primitive, uint32_t 
 {
     tangent_space space = {.primitive = primitive,
                            .uvs = primitive->texcoords[uv_set],
-                           .triangle_count = primitive->index_count / 3};
+                           .triangle_count = primitive->index_count / 3,
+                           .out = out};
     uint32_t *any_group = NULL;
     facet_result result = FACET_OK;
     space.welded = mem_alloc(allocator, primitive->vertex_count, sizeof *space.welded);
@@ -391,14 +442,14 @@ facet_result scene_generate_tangents(const scene_primitive *primitive, uint32_t 
     any_group = mem_alloc(allocator, primitive->vertex_count, sizeof *any_group);
     if (!space.welded || !space.triangles || !any_group || !weld(&space, allocator))
         goto no_memory;
-    for (uint32_t i = 0; i < space.triangle_count; i++)
-        set_up_triangle(&space, primitive->indices + 3 * (size_t)i, &space.triangles[i]);
+    parallel_for(0, space.triangle_count, GRAIN, set_up_triangles, &space);
     if (!connect(&space, allocator))
         goto no_memory;
     group_corners(&space);
     space.tangents = mem_zalloc(allocator, space.group_count, 4 * sizeof *space.tangents);
     if (!space.tangents)
         goto no_memory;
+    parallel_for(0, space.triangle_count, GRAIN, weigh_corners, &space);
     sum_tangents(&space);
     memset(any_group, 0xff, primitive->vertex_count * sizeof *any_group);
     for (uint32_t i = 0; i < space.triangle_count; i++)
