@@ -7,11 +7,11 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-static void ignore(void *user, facet_log_level level, const char *text)
+static void ignore(void *user, facet_log_level level, const char *message)
 {
     (void)user;
     (void)level;
-    (void)text;
+    (void)message;
 }
 
 /* What a renderer asks of each primitive. Also reads every vertex that an index names. */
