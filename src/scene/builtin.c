@@ -14,8 +14,8 @@ enum {
     COLUMNS = 6, /* of the grid: perceptual roughness 0 to 1 */
     ROWS = 4,    /* metallic 0 to 1, from below */
     NAMED = 7,
-    TILES_X = 14,
-    TILES_Z = 8,
+    TILES_X = 12,
+    TILES_Z = 5,
     GRID = COLUMNS * ROWS,
     MATERIALS = GRID + NAMED + 1
 };
@@ -31,12 +31,12 @@ static const struct {
     {"gold", {1.0f, 0.766f, 0.336f}, 1, 0.15f, {0}},
     {"copper", {0.955f, 0.638f, 0.538f}, 1, 0.35f, {0}},
     {"chrome", {0.549f, 0.556f, 0.554f}, 1, 0.0f, {0}},
-    {"glossy plastic", {0.03f, 0.16f, 0.42f}, 0, 0.08f, {0}},
-    {"satin plastic", {0.03f, 0.16f, 0.42f}, 0, 0.4f, {0}},
-    {"matte plastic", {0.03f, 0.16f, 0.42f}, 0, 0.85f, {0}},
+    {"glossy plastic", {0.02f, 0.1f, 0.3f}, 0, 0.08f, {0}},
+    {"satin plastic", {0.02f, 0.1f, 0.3f}, 0, 0.4f, {0}},
+    {"matte plastic", {0.02f, 0.1f, 0.3f}, 0, 0.85f, {0}},
     {"lamp", {0.05f, 0.05f, 0.05f}, 0, 0.6f, {1.0f, 0.62f, 0.22f}},
 };
-static const float GRID_COLOR[3] = {0.76f, 0.2f, 0.1f};
+static const float GRID_COLOR[3] = {0.56f, 0.11f, 0.06f};
 static const float TILE_COLORS[2] = {0.42f, 0.2f};
 
 /* ---- geometry ---- */
@@ -245,12 +245,12 @@ static void make_nodes(builder *b)
     scene_primitive sphere = make_sphere(b);
     for (uint32_t i = 0; i < GRID && !b->has_failed; i++)
         place(b, sphere, i, 2.2f * ((float)(i % COLUMNS) - 0.5f * (COLUMNS - 1)),
-              2.3f + 2.15f * (float)(i / COLUMNS), -2.0f, 1.0f);
+              2.25f + 2.15f * (float)(i / COLUMNS), -1.6f, 1.0f);
     for (uint32_t i = 0; i < NAMED && !b->has_failed; i++)
-        place(b, sphere, GRID + i, 1.9f * ((float)i - 0.5f * (NAMED - 1)), 0.85f, 1.6f, 0.85f);
+        place(b, sphere, GRID + i, 1.7f * ((float)i - 0.5f * (NAMED - 1)), 0.78f, 1.2f, 0.78f);
     scene_primitive plate = make_plate(b, GRID + NAMED);
     if (!b->has_failed)
-        place(b, plate, GRID + NAMED, 0.0f, 0.0f, 0.0f, 1.0f);
+        place(b, plate, GRID + NAMED, 0.0f, 0.0f, 0.2f, 1.0f);
 }
 
 facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **out, facet_error *error)
