@@ -27,6 +27,24 @@ static void blocks_are_aligned_and_keep_their_size(void **state)
     }
 }
 
+/* What stands on huge pages where there are any. */
+static void large_blocks_are_like_others(void **state)
+{
+    (void)state;
+    for (size_t size = (size_t)4 << 20; size < (size_t)10 << 20; size += ((size_t)1 << 20) + 4001) {
+        unsigned char *block = mem_alloc(NULL, size, 1);
+        assert_non_null(block);
+        assert_int_equal((uintptr_t)block % 64, 0);
+        memset(block, 0x5a, size);
+        unsigned char tail[MEM_TAIL];
+        memcpy(tail, block + size, sizeof tail);
+        block = mem_resize(block, size + 5, 1);
+        assert_int_equal(block[0], 0x5a);
+        assert_int_equal(block[size - 1], 0x5a);
+        mem_free(block);
+    }
+}
+
 static void sizes_that_overflow_are_refused(void **state)
 {
     (void)state;
@@ -117,6 +135,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_are_aligned_and_keep_their_size),
+        cmocka_unit_test(large_blocks_are_like_others),
         cmocka_unit_test(sizes_that_overflow_are_refused),
         cmocka_unit_test(a_budget_is_kept),
         cmocka_unit_test(what_libraries_take_counts_against_a_budget),
