@@ -253,8 +253,8 @@ typedef enum scene_fit {
 facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect, scene_fit fit,
                             uint32_t thread_count, facet_camera *camera, facet_error *error);
 /* facet_camera_from_orbit(). */
-facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit, float aspect,
-                             facet_camera *camera, facet_error *error);
+facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit,
+                             float aspect, facet_camera *camera, facet_error *error);
 
 /* ---- derived attributes ---- */
 
