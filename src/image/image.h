@@ -68,8 +68,8 @@ facet_result image_probe(const void *bytes, size_t size, const char *name, image
                          image_codec *codec, facet_error *error);
 /* Decodes. name stands first in messages. PNG: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits; all
  * of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2). HDR, EXR, PFM: F32 RGB
- * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where an EXR file holds half). KTX2 fails with
- * FACET_ERROR_UNSUPPORTED for now. */
+ * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where an EXR
+ * file holds half). KTX2 fails with FACET_ERROR_UNSUPPORTED for now. */
 facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
                           image *out, facet_error *error);
 
