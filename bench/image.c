@@ -1,5 +1,5 @@
-/* image.c - how long pictures take to read and write. Usage: bench/image [FILE..]; without files only generated
- * pictures. Each number is the best of several runs; "T" says how many threads. */
+/* image.c - how long pictures take to read and write. Usage: bench/image [FILE..]; without files only
+ * generated pictures. Each number is the best of several runs; "T" says how many threads. */
 #include <math.h>
 #include <stdio.h>
 

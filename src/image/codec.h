@@ -1,4 +1,5 @@
-/* codec.h - what a codec offers to codec.c, and what codecs share. Each lives in the file that bears its name. */
+/* codec.h - what a codec offers to codec.c, and what codecs share. Each lives in the file that bears its
+ * name. */
 #ifndef IMAGE_CODEC_H
 #define IMAGE_CODEC_H
 
@@ -6,8 +7,8 @@
 
 enum { CODEC_MAX_SIZE = 16384 }; /* the default of image_decode_desc.max_size */
 
-/* bytes begin with the codec's magic, size counts them; desc has no zeros in max_size and thread_count. out and
- * header come as {0}. On failure nothing is left in them. */
+/* bytes begin with the codec's magic, size counts them; desc has no zeros in max_size and thread_count.
+ * out and header come as {0}. On failure nothing is left in them. */
 typedef facet_result codec_probe(const unsigned char *bytes, size_t size, const char *name, image *header,
                                  facet_error *error);
 typedef facet_result codec_decode(const unsigned char *bytes, size_t size, const char *name,
@@ -23,12 +24,13 @@ codec_encode png_encode, jpeg_encode, webp_encode, hdr_encode, pfm_encode;
 /* FACET_ERROR_LIMIT where an edge is longer than max_size, FACET_ERROR_INVALID where one is 0. */
 facet_result codec_check_size(const char *name, uint64_t width, uint64_t height, uint32_t max_size,
                               facet_error *error);
-/* FACET_ERROR_ARGUMENT where i is not of the type and channel counts (a bit each: 1 << count) that codec takes. */
+/* FACET_ERROR_ARGUMENT where i is not of the type and channel counts (a bit each: 1 << count) that codec
+ * takes. */
 facet_result codec_check_input(const image *i, const char *codec, bool is_type_right, const char *types,
                                uint32_t channel_counts, facet_error *error);
 
-/* The decimal number at the start of [text, end), whatever the locale: sign, digits, point, exponent; NaN: there is
- * none. Right to 1e-15. *after (NULL: not wanted) is behind it. */
+/* The decimal number at the start of [text, end), whatever the locale: sign, digits, point, exponent; NaN:
+ * there is none. Right to 1e-15. *after (NULL: not wanted) is behind it. */
 double codec_parse_number(const char *text, const char *end, const char **after);
 
 /* NaN and negative infinity become 0, infinity the largest finite value: what light may be made of. */

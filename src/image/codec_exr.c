@@ -1,6 +1,6 @@
-/* codec_exr.c - reading OpenEXR: from the header and the table of chunks to texels. The codings of chunks stand
- * in exr_*.c, writing in exr_write.c. Layout: "OpenEXR File Layout" of the OpenEXR documentation. Read are the
- * first part of a file, its scanlines or its tiles of the finest level; deep data is refused. */
+/* codec_exr.c - reading OpenEXR: from the header and the table of chunks to texels. The codings of chunks
+ * stand in exr_*.c, writing in exr_write.c. Layout: "OpenEXR File Layout" of the OpenEXR documentation.
+ * Read are the first part of a file, its scanlines or its tiles of the finest level; deep data is refused. */
 #include "image/codec.h"
 
 #include <stdatomic.h>
@@ -214,8 +214,8 @@ static facet_result set_sizes(exr_header *h, const cursor *c, uint32_t max_size)
     return FACET_OK;
 }
 
-/* The channel records: name, type, linearity and three unused bytes, sampling in x and y. *count of channels is
- * filled up to capacity. */
+/* The channel records: name, type, linearity and three unused bytes, sampling in x and y. *count of
+ * channels is filled up to capacity. */
 static facet_result read_channels(const exr_header *h, const cursor *file, exr_channel *channels,
                                   uint32_t capacity, uint32_t *count)
 {
@@ -410,8 +410,8 @@ static facet_result unpack(const packed_chunk *c, exr_compression compression, u
                                   : FACET_ERROR_INVALID;
 }
 
-/* Samples of one channel to floats, stride apart. NaN and negative infinity become 0, infinity the greatest number
- * of the channel's type: 65504 of half, so that sums of such light stay finite. */
+/* Samples of one channel to floats, stride apart. NaN and negative infinity become 0, infinity the
+ * greatest number of the channel's type: 65504 of half, so that sums of such light stay finite. */
 static void convert_samples(const unsigned char *from, exr_type type, size_t count, float *to, size_t stride)
 {
     switch (type) {
@@ -494,8 +494,8 @@ static void decode_chunks(void *context, size_t begin, size_t end)
     }
 }
 
-/* Looks at all chunks before memory is taken for the picture: each has to be there, and together they have to be
- * large enough for it. Deflate, the densest of the codings but DWA, makes at most 1032 bytes of one. */
+/* Looks at all chunks before memory is taken for the picture: each has to be there, and together they have
+ * to be large enough for it. Deflate, the densest of the codings but DWA, makes at most 1032 bytes of one. */
 static facet_result check_chunks(const reading *r, const char *name, facet_error *error)
 {
     const exr_header *h = r->header;

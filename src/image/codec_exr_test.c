@@ -1,5 +1,5 @@
-/* codec_exr_test.c - OpenEXR: every coding of files that the OpenEXR library wrote, windows, tiles, parts; what we
- * write; environments against each other. */
+/* codec_exr_test.c - OpenEXR: every coding of files that the OpenEXR library wrote, windows, tiles, parts;
+ * what we write; environments against each other. */
 #include "image/image_test.h"
 
 #include <float.h>
@@ -45,8 +45,8 @@ static void lossless_codings(void **state)
         expect_samples(names[k], 0, 0, 0.0f, 0.0f);
 }
 
-/* PXR24 keeps 15 bits of a float's fraction; B44 6 of 16 bits in a block, but here halves differ by little; DWA
- * blurs dark corners beside bright ones. DWA and PXR24 keep alpha as it is. */
+/* PXR24 keeps 15 bits of a float's fraction; B44 6 of 16 bits in a block, but here halves differ by
+ * little; DWA blurs dark corners beside bright ones. DWA and PXR24 keep alpha as it is. */
 static void lossy_codings(void **state)
 {
     (void)state;

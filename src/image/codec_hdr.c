@@ -15,7 +15,8 @@
 
 enum { MIN_CODED_LENGTH = 8, MAX_CODED_LENGTH = 0x7fff }; /* scanlines that may have the four-run coding */
 
-/* What stands before the texels. Scanline s, texel t is at (x, y) = origin + s * scan_step + t * texel_step. */
+/* What stands before the texels. Scanline s, texel t is at (x, y) = origin + s * scan_step + t *
+ * texel_step. */
 typedef struct hdr_header {
     uint32_t width, height;
     uint32_t scan_count, scan_length;
@@ -181,8 +182,8 @@ static const unsigned char *skip_coded(const hdr_header *h, const unsigned char 
     return p;
 }
 
-/* The same for texels of four bytes, of which (1, 1, 1, n) repeats the one before n times; repeats that follow
- * each other are the bytes of one count, the low ones first. */
+/* The same for texels of four bytes, of which (1, 1, 1, n) repeats the one before n times; repeats that
+ * follow each other are the bytes of one count, the low ones first. */
 static const unsigned char *skip_flat(const hdr_header *h, const unsigned char *p, const unsigned char *end)
 {
     uint32_t shift = 0;

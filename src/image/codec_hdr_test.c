@@ -312,7 +312,8 @@ static void pfm_round_trip(void **state)
     image_destroy(&i);
 }
 
-/* Bottom row first; big-endian where the scale is positive; grey spreads; NaN and infinities as image.h says. */
+/* Bottom row first; big-endian where the scale is positive; grey spreads; NaN and infinities as image.h
+ * says. */
 static void pfm_by_hand(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* codec_jpeg.c - JPEG through TurboJPEG: reading with scaling by the DCT, writing without chroma subsampling. */
+/* codec_jpeg.c - JPEG through TurboJPEG: reading with scaling by the DCT, writing without chroma
+ * subsampling. */
 #include "image/codec.h"
 
 #include <limits.h>
@@ -46,8 +47,8 @@ facet_result jpeg_probe(const unsigned char *bytes, size_t size, const char *nam
     return result;
 }
 
-/* Whether an APP14 segment of Adobe stands before the first scan: its four-component files hold inks inverted,
- * 255 for none. */
+/* Whether an APP14 segment of Adobe stands before the first scan: its four-component files hold inks
+ * inverted, 255 for none. */
 static bool is_adobe(const unsigned char *bytes, size_t size)
 {
     size_t at = 2;
@@ -67,8 +68,8 @@ static bool is_adobe(const unsigned char *bytes, size_t size)
     return false;
 }
 
-/* Whether the last warning is about bytes that do not belong to the picture; damage to it is an error. TurboJPEG
- * tells warnings and errors apart by the first of them only, so the message has to say. */
+/* Whether the last warning is about bytes that do not belong to the picture; damage to it is an error.
+ * TurboJPEG tells warnings and errors apart by the first of them only, so the message has to say. */
 static bool is_harmless(tjhandle handle)
 {
     static const char *const harmless[] = {"extraneous bytes", "unknown JFIF revision",

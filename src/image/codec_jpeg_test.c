@@ -1,4 +1,5 @@
-/* codec_jpeg_test.c - JPEG and WebP: round trips by peak signal-to-noise ratio, reduced sizes, color spaces. */
+/* codec_jpeg_test.c - JPEG and WebP: round trips by peak signal-to-noise ratio, reduced sizes, color
+ * spaces. */
 #include "image/image_test.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* codec_pfm.c - portable float maps: three lines of header, then floats from the bottom row to the top one. */
+/* codec_pfm.c - portable float maps: three lines of header, then floats from the bottom row to the top
+ * one. */
 #include "image/codec.h"
 
 #include <math.h>

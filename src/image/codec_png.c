@@ -1,5 +1,6 @@
-/* codec_png.c - reading PNG: chunks, filters, interlacing, palettes and transparency. Writing: png_write.c.
- * Specification: Portable Network Graphics, third edition (W3C). Gamma, profiles and texts are passed over. */
+/* codec_png.c - reading PNG: chunks, filters, interlacing, palettes and transparency. Writing:
+ * png_write.c. Specification: Portable Network Graphics, third edition (W3C). Gamma, profiles and texts
+ * are passed over. */
 #include "image/codec.h"
 
 #include <string.h>
@@ -325,7 +326,8 @@ static bool is_direct(const png_header *h, const image *out)
            sample_count(h) == out->channel_count;
 }
 
-/* Undoes the filters of all rows and stores them; rows is clobbered. 0: done, else the filter that is unknown. */
+/* Undoes the filters of all rows and stores them; rows is clobbered. 0: done, else the filter that is
+ * unknown. */
 static int store_rows(const png_header *h, unsigned char *rows, const unsigned char *zeros, image *out)
 {
     const pass *passes = h->is_interlaced ? adam7 : whole;

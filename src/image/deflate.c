@@ -1,6 +1,6 @@
-/* deflate.c - see deflate.h. Levels 1 to 5 are ours: zlib's fast ones are made for streams that come in parts, and
- * take twice the time for as many bytes. Here all is in memory, matches begin with four equal bytes, and are looked
- * for in short chains. */
+/* deflate.c - see deflate.h. Levels 1 to 5 are ours: zlib's fast ones are made for streams that come in
+ * parts, and take twice the time for as many bytes. Here all is in memory, matches begin with four equal
+ * bytes, and are looked for in short chains. */
 #include "image/deflate.h"
 
 #include <string.h>
@@ -185,7 +185,8 @@ static size_t deflate_zlib(const facet_allocator *allocator, uint32_t level, con
 
 size_t deflate_bound(size_t size)
 {
-    /* Blocks are stored where that is smaller; ours hold 24576 bytes and more, zlib's 16383, and add 5 or 6. */
+    /* Blocks are stored where that is smaller; ours hold 24576 bytes and more, zlib's 16383, and add 5 or
+     * 6. */
     return size + size / 1024 + 2 * DEFLATE_BLOCK_ROOM;
 }
 

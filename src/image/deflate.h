@@ -9,10 +9,10 @@ enum { DEFLATE_WINDOW = 32768, ZLIB_FRAME = 6 /* bytes that a zlib stream (RFC 1
 /* The bytes that deflate_piece() may write for size bytes. */
 size_t deflate_bound(size_t size);
 
-/* Compresses bytes (less than 2 GiB), for a stream in which the history_size bytes right before them (at most
- * DEFLATE_WINDOW) came first. level: 1 (fast) to 9 (small), those from 6 on are zlib's. Pieces but the last end at
- * a byte and may be put behind each other. Returns the bytes written to out, which has deflate_bound(size); 0: there
- * is no memory. */
+/* Compresses bytes (less than 2 GiB), for a stream in which the history_size bytes right before them (at
+ * most DEFLATE_WINDOW) came first. level: 1 (fast) to 9 (small), those from 6 on are zlib's. Pieces but
+ * the last end at a byte and may be put behind each other. Returns the bytes written to out, which has
+ * deflate_bound(size); 0: there is no memory. */
 size_t deflate_piece(const facet_allocator *allocator, uint32_t level, const unsigned char *bytes,
                      size_t size, size_t history_size, bool is_last, unsigned char *out);
 

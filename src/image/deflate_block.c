@@ -67,8 +67,8 @@ static void sort_keys(uint32_t *keys, uint32_t count)
         }
 }
 
-/* How many leaves of Huffman's tree over sorted weights (two or more) have each depth, at most limit. Two queues:
- * leaves in their order, nodes as they are made. */
+/* How many leaves of Huffman's tree over sorted weights (two or more) have each depth, at most limit. Two
+ * queues: leaves in their order, nodes as they are made. */
 static void count_depths(const uint32_t *keys, uint32_t count, uint32_t limit, uint32_t counts[MAX_BITS + 1])
 {
     uint32_t weights[MAX_SYMBOLS];
@@ -93,8 +93,8 @@ static void count_depths(const uint32_t *keys, uint32_t count, uint32_t limit, u
         uint32_t depth = depths[parents[l]] + 1u;
         counts[depth < limit ? depth : limit]++;
     }
-    /* Too many at the limit: take a leaf from the deepest level above it and hang two below, one of them from the
-     * limit, until the code fits. */
+    /* Too many at the limit: take a leaf from the deepest level above it and hang two below, one of them
+     * from the limit, until the code fits. */
     uint32_t used = 0;
     for (uint32_t depth = 1; depth <= limit; depth++)
         used += counts[depth] << (limit - depth);
@@ -132,7 +132,8 @@ static void assign_codes(code *c, uint32_t symbols)
             c->bits[s] = (uint16_t)reverse_bits(next[c->lengths[s]]++, c->lengths[s]);
 }
 
-/* The best prefix code for the frequencies (less than 2^23) with at most limit bits. One symbol gets one bit. */
+/* The best prefix code for the frequencies (less than 2^23) with at most limit bits. One symbol gets one
+ * bit. */
 static void make_code(const uint32_t *frequencies, uint32_t symbols, uint32_t limit, code *c)
 {
     uint32_t keys[MAX_SYMBOLS]; /* frequency << 9 | symbol */
@@ -321,7 +322,8 @@ static void put_stored(bit_writer *w, const unsigned char *bytes, size_t size, b
     } while (size > 0);
 }
 
-/* Bits of the extra bits of all tokens, which no code changes; frequencies of the symbols, both zero before. */
+/* Bits of the extra bits of all tokens, which no code changes; frequencies of the symbols, both zero
+ * before. */
 static size_t count_symbols(const deflate_token *tokens, size_t count, uint32_t *literals,
                             uint32_t *distances)
 {

@@ -28,8 +28,8 @@ typedef struct bit_writer {
     uint32_t count;
 } bit_writer;
 
-/* Writes the tokens, which stand for size bytes, in the smallest kind of block: with codes of their own, fixed
- * codes, or stored. */
+/* Writes the tokens, which stand for size bytes, in the smallest kind of block: with codes of their own,
+ * fixed codes, or stored. */
 void deflate_write_block(bit_writer *w, const deflate_token *tokens, size_t count, const unsigned char *bytes,
                          size_t size, bool is_last);
 /* An empty stored block, which ends at a byte. */

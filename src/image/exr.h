@@ -40,8 +40,9 @@ typedef struct exr_chunk {
     const facet_allocator *allocator;
 } exr_chunk;
 
-/* Fill samples (chunk->size bytes) from packed. Fail, without a message, with FACET_ERROR_INVALID where packed is
- * damaged or does not hold exactly the chunk, and with FACET_ERROR_MEMORY. samples are then undefined. */
+/* Fill samples (chunk->size bytes) from packed. Fail, without a message, with FACET_ERROR_INVALID where
+ * packed is damaged or does not hold exactly the chunk, and with FACET_ERROR_MEMORY. samples are then
+ * undefined. */
 typedef facet_result exr_unpacker(const exr_chunk *chunk, const unsigned char *packed, size_t packed_size,
                                   unsigned char *samples);
 exr_unpacker exr_unpack_rle, exr_unpack_zip, exr_unpack_pxr24; /* exr_zip.c; zip: also for ZIPS */

@@ -10,14 +10,15 @@
 
 enum { BLOCK_BYTES = 14, FLAT_BYTES = 3, FLAT_SHIFT = 13 /* and above: a flat block */ };
 
-/* Codes order like the numbers: the bits of a positive half with the sign set, those of a negative inverted. */
+/* Codes order like the numbers: the bits of a positive half with the sign set, those of a negative
+ * inverted. */
 static uint16_t half_of_code(uint32_t code)
 {
     return (uint16_t)(code & 0x8000u ? code & 0x7fffu : ~code);
 }
 
-/* 16 bits: the first sample; 6 bits: a shift; 15 times 6 bits: differences, less 32, shifted. The first column
- * goes down from the first sample, all others to the right from the column before. */
+/* 16 bits: the first sample; 6 bits: a shift; 15 times 6 bits: differences, less 32, shifted. The first
+ * column goes down from the first sample, all others to the right from the column before. */
 static void unpack_block(const unsigned char *packed, uint16_t out[16])
 {
     uint32_t codes[16];
@@ -44,7 +45,8 @@ static uint16_t log_of_half(uint16_t half)
     return half_from_float((float)(8.0 * log((double)x)));
 }
 
-/* One half channel; its rows are row_stride bytes apart. Returns behind its data, NULL: there is too little. */
+/* One half channel; its rows are row_stride bytes apart. Returns behind its data, NULL: there is too
+ * little. */
 static const unsigned char *unpack_channel(const exr_chunk *chunk, bool is_linear, const unsigned char *p,
                                            const unsigned char *end, unsigned char *samples,
                                            size_t row_stride)

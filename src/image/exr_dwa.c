@@ -1,6 +1,6 @@
-/* exr_dwa.c - OpenEXR's DWAA and DWAB: color channels in blocks of 8 x 8 as JPEG codes them (a cosine transform
- * of perceptual values, coefficients as half numbers, Huffman or deflate), alpha run-length coded, others
- * deflated. Format: DreamWorks Animation 2014, as the OpenEXR library reads it. */
+/* exr_dwa.c - OpenEXR's DWAA and DWAB: color channels in blocks of 8 x 8 as JPEG codes them (a cosine
+ * transform of perceptual values, coefficients as half numbers, Huffman or deflate), alpha run-length
+ * coded, others deflated. Format: DreamWorks Animation 2014, as the OpenEXR library reads it. */
 #include "image/codec.h"
 #include "image/exr.h"
 
@@ -261,8 +261,8 @@ static const uint8_t zigzag[BLOCK_TEXELS] = {0,  1,  5,  6,  14, 15, 27, 28, 2, 
                                              10, 19, 23, 32, 39, 45, 52, 54, 20, 22, 33, 38, 46, 51, 55, 60,
                                              21, 34, 37, 47, 50, 56, 59, 61, 35, 36, 48, 49, 57, 58, 62, 63};
 
-/* The 8 values whose orthonormal cosine transform c is, stride apart: the sum over k of
- * s(k) c[k] cos((2 n + 1) k pi / 16), s(0) = sqrt(1/8), else 1/2; even and odd k apart, which n and 7 - n share. */
+/* The 8 values whose orthonormal cosine transform c is, stride apart: the sum over k of s(k) c[k] cos((2 n
+ * + 1) k pi / 16), s(0) = sqrt(1/8), else 1/2; even and odd k apart, which n and 7 - n share. */
 static void inverse_cosines(float *c, size_t stride)
 {
     const float s0 = 0.353553391f;                    /* cos(4 pi / 16) / 2 */

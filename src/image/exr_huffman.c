@@ -1,10 +1,10 @@
 /* exr_huffman.c - the Huffman coding of 16-bit numbers inside OpenEXR's PIZ and DWA.
  *
  * A block begins with five numbers of 32 bits: least and greatest symbol that has a code, size of the code
- * table, bits of the data, and an unused one. The table gives the length of each symbol's code in 6 bits, runs
- * of symbols without code in 6 or 14. Codes are canonical: among those of one length ordered by symbol, and long
- * codes before short ones. The greatest symbol stands for a run: 8 bits follow, so often the last number comes
- * again. Bits are taken from the high end of each byte. */
+ * table, bits of the data, and an unused one. The table gives the length of each symbol's code in 6 bits,
+ * runs of symbols without code in 6 or 14. Codes are canonical: among those of one length ordered by
+ * symbol, and long codes before short ones. The greatest symbol stands for a run: 8 bits follow, so often
+ * the last number comes again. Bits are taken from the high end of each byte. */
 #include "image/codec.h"
 #include "image/exr.h"
 
@@ -16,7 +16,7 @@ enum {
     SYMBOLS = 65537, /* the numbers, and the run symbol above them */
     HEADER_SIZE = 20,
     MAX_LENGTH =
-        57, /* of a code: what a refilled bit_reader holds; 58, which the format allows, takes 10^12 samples */
+        57, /* of a code, what a refilled bit_reader holds; the 58 of the format take 10^12 samples */
     FAST_BITS = 13,
     ZEROS_2 = 59, /* in place of a length: 2 to 5 symbols without code .. */
     ZEROS_6 = 63  /* .. 6 and more, as 8 bits say */

@@ -1,4 +1,5 @@
-/* exr_piz.c - OpenEXR's PIZ: 16-bit numbers, renumbered without gaps, through a Haar wavelet, Huffman-coded. */
+/* exr_piz.c - OpenEXR's PIZ: 16-bit numbers, renumbered without gaps, through a Haar wavelet,
+ * Huffman-coded. */
 #include "image/codec.h"
 #include "image/exr.h"
 
@@ -8,8 +9,8 @@
 
 enum { NUMBERS = 65536, BITMAP_SIZE = NUMBERS / 8 };
 
-/* The bitmap of the numbers that occur, of which bytes first to last are stored, to a table from rank to number;
- * 0 always occurs. Returns the greatest rank. */
+/* The bitmap of the numbers that occur, of which bytes first to last are stored, to a table from rank to
+ * number; 0 always occurs. Returns the greatest rank. */
 static uint32_t build_table(const unsigned char *bitmap, uint32_t first, uint32_t last,
                             uint16_t table[NUMBERS])
 {
@@ -58,8 +59,8 @@ static inline void merge_square(bool is_14, uint16_t *n, size_t right, size_t do
     merge(is_14, bottom_left, bottom_right, &n[down], &n[down + right]);
 }
 
-/* One level: numbers whose coordinates are multiples of 2 p become those that are multiples of p. An odd one out
- * at the right or bottom border has a partner in one direction only. */
+/* One level: numbers whose coordinates are multiples of 2 p become those that are multiples of p. An odd
+ * one out at the right or bottom border has a partner in one direction only. */
 static inline void merge_level(bool is_14, uint16_t *n, uint32_t width, uint32_t height, size_t x_step,
                                size_t y_step, uint32_t p)
 {
@@ -122,7 +123,8 @@ static void gather_rows(const exr_chunk *chunk, const uint16_t *planes, const ui
     }
 }
 
-/* Packed: first and last byte of the bitmap (16 bits each), the bytes, then size (32 bits) and Huffman data. */
+/* Packed: first and last byte of the bitmap (16 bits each), the bytes, then size (32 bits) and Huffman
+ * data. */
 facet_result exr_unpack_piz(const exr_chunk *chunk, const unsigned char *packed, size_t packed_size,
                             unsigned char *samples)
 {

@@ -28,7 +28,8 @@ facet_result exr_expand_runs(const unsigned char *packed, size_t packed_size, un
     return size == 0 ? FACET_OK : FACET_ERROR_INVALID;
 }
 
-/* Sums up the differences, less 128 each, then deals the first half to the even bytes, the second to the odd. */
+/* Sums up the differences, less 128 each, then deals the first half to the even bytes, the second to the
+ * odd. */
 void exr_unpredict(unsigned char *predicted, size_t size, unsigned char *out)
 {
     for (size_t k = 1; k < size; k++)

@@ -19,8 +19,8 @@ static inline float float_from_bits(uint32_t bits)
     return x;
 }
 
-/* Exact for all 65536 codes; NaN keeps its payload. The exponent is rebased from 15 to 127 by a multiplication
- * with 2^112, which also normalises subnormals. Without branches, so that loops vectorise. */
+/* Exact for all 65536 codes; NaN keeps its payload. The exponent is rebased from 15 to 127 by a
+ * multiplication with 2^112, which also normalises subnormals. Without branches, so that loops vectorise. */
 static inline float half_to_float(uint16_t half)
 {
     uint32_t magnitude = (uint32_t)(half & 0x7fffu) << 13;
@@ -31,10 +31,10 @@ static inline float half_to_float(uint16_t half)
     return float_from_bits(bits | (uint32_t)(half & 0x8000u) << 16);
 }
 
-/* Rounds to nearest, ties to even, as IEEE 754 has it: what is 65520 or more becomes infinity, what is 2^-25 or
- * less becomes 0; NaN becomes the quiet NaN. The two cases: normal results, where the carry of the rounding
- * may run into the exponent, as it should; and subnormal ones, where adding 0.5 puts the unit of 2^-24 at the
- * end of the float's significand, so that the addition itself rounds. */
+/* Rounds to nearest, ties to even, as IEEE 754 has it: what is 65520 or more becomes infinity, what is
+ * 2^-25 or less becomes 0; NaN becomes the quiet NaN. The two cases: normal results, where the carry of
+ * the rounding may run into the exponent, as it should; and subnormal ones, where adding 0.5 puts the unit
+ * of 2^-24 at the end of the float's significand, so that the addition itself rounds. */
 static inline uint16_t half_from_float(float x)
 {
     uint32_t bits = float_bits(x);

@@ -64,7 +64,8 @@ static void srgb_codes_come_back(void **state)
     assert_int_equal(srgb_encode_u8(&tables, INFINITY), 255);
 }
 
-/* Against the formula in double, over all magnitudes; where the formula is within 1e-5 of a rounding, either. */
+/* Against the formula in double, over all magnitudes; where the formula is within 1e-5 of a rounding,
+ * either. */
 static void srgb_encoding_is_nearest(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* inflate.c - see inflate.h. One table look-up decodes a literal or a length with its extra bits; input is taken
- * eight bytes at a time and matches are copied so, as long as there is room to write too far. */
+/* inflate.c - see inflate.h. One table look-up decodes a literal or a length with its extra bits; input is
+ * taken eight bytes at a time and matches are copied so, as long as there is room to write too far. */
 #include "image/inflate.h"
 
 #include <string.h>
@@ -23,8 +23,9 @@ enum {
     OUTPUT_ROOM = LONGEST_MATCH + 40 /* .. and write, in one round */
 };
 
-/* A table entry: bits of the code in bits 0-3, of code and extra bits in 4-9, its kind, and in 16-31 a literal, the
- * base of a length or distance, or where the second table begins (whose index has as many bits as bits 4-9 say). */
+/* A table entry: bits of the code in bits 0-3, of code and extra bits in 4-9, its kind, and in 16-31 a
+ * literal, the base of a length or distance, or where the second table begins (whose index has as many
+ * bits as bits 4-9 say). */
 enum { KIND_LITERAL = 1 << 10, KIND_TABLE = 1 << 11, KIND_END = 1 << 12, KIND_INVALID = 1 << 13 };
 
 static inline uint32_t code_bits(uint32_t entry)
@@ -93,8 +94,8 @@ static uint32_t reverse_bits(uint32_t code, uint32_t count)
     return reversed;
 }
 
-/* Builds the table of a canonical code from the lengths of its symbols. Codes that leave room are allowed where
- * there is at most one symbol, as zlib does; what has no code is KIND_INVALID. */
+/* Builds the table of a canonical code from the lengths of its symbols. Codes that leave room are allowed
+ * where there is at most one symbol, as zlib does; what has no code is KIND_INVALID. */
 static bool build_table(const uint8_t *lengths, uint32_t symbol_count, uint32_t root,
                         uint32_t (*make)(uint32_t), uint32_t *table)
 {
@@ -298,8 +299,8 @@ static inline uint32_t with_extra(uint32_t entry, uint64_t bits)
 
 typedef enum outcome { BLOCK_GOES_ON, BLOCK_ENDS, BLOCK_IS_DAMAGED } outcome;
 
-/* Decodes while there is room on both sides. A refill leaves at least 56 bits: three literals of 11 bits or less
- * and a length of 20, then after another refill a distance of 28. */
+/* Decodes while there is room on both sides. A refill leaves at least 56 bits: three literals of 11 bits
+ * or less and a length of 20, then after another refill a distance of 28. */
 static outcome inflate_fast(state *s)
 {
     const unsigned char *in = s->in;

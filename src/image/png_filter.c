@@ -48,7 +48,8 @@ void png_filter_row(png_filter filter, const unsigned char *row, const unsigned 
 typedef int16_t lanes __attribute__((vector_size(16)));
 typedef uint8_t narrow_lanes __attribute__((vector_size(8)));
 
-/* texel (3 or 4) bytes to lanes, through a register: partial writes to memory would stall the read that follows. */
+/* texel (3 or 4) bytes to lanes, through a register: partial writes to memory would stall the read that
+ * follows. */
 static inline lanes load_texel(const unsigned char *p, size_t texel)
 {
     uint64_t bits =

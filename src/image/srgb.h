@@ -20,7 +20,8 @@ typedef struct srgb_tables {
 
 void srgb_tables_prepare(srgb_tables *tables);
 
-/* The nearest 8-bit code: that of srgb_encode() rounded, for every float. Below 0 and NaN: 0; above 1: 255. */
+/* The nearest 8-bit code: that of srgb_encode() rounded, for every float. Below 0 and NaN: 0; above 1:
+ * 255. */
 static inline uint8_t srgb_encode_u8(const srgb_tables *tables, float linear)
 {
     const uint32_t lowest = (uint32_t)(127 - SRGB_OCTAVES) << 23;

@@ -1,4 +1,5 @@
-/* fuzz_image.c - all decoders on arbitrary bytes, with little memory: no fault, no leak, probe and decode agree. */
+/* fuzz_image.c - all decoders on arbitrary bytes, with little memory: no fault, no leak, probe and decode
+ * agree. */
 #include <stdlib.h>
 
 #include "image/image.h"
