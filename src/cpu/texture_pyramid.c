@@ -1,5 +1,5 @@
 /* texture_pyramid.c - see texture_pyramid.h. */
-#include "cpu/texture_pyramid.h"
+#include "cpu/texture_reduce.h"
 
 #include <string.h>
 
@@ -23,11 +23,6 @@ void texture_tables_fill(texture_tables *tables)
         tables->color_from_16[v] = srgb_encode_u8(&srgb, (float)v / 65535.0f);
 }
 
-static unsigned char data_from_16(uint32_t v)
-{
-    return (unsigned char)((v + 128) / 257);
-}
-
 /* Makes a 16-bit image linear, in place. */
 static facet_result decode_16(image *i, const facet_allocator *allocator, facet_error *error)
 {
@@ -46,131 +41,6 @@ static facet_result decode_16(image *i, const facet_allocator *allocator, facet_
     return FACET_OK;
 }
 
-/* ---- one level from the next finer one ---- */
-
-/* The texels of an edge of size that texel i of the edge of the next level (max(1, size / 2)) covers: count of
- * them, from begin on; weights sum to total. An odd size = 2 n + 1 gives n texels, each of which covers 2 + 1 / n:
- * (n - i) / n of the first one, all of the second and (i + 1) / n of the third. */
-typedef struct coverage {
-    uint32_t begin, count, weights[3], total;
-} coverage;
-
-static coverage cover(uint32_t size, uint32_t i)
-{
-    if (size == 1)
-        return (coverage){.begin = 0, .count = 1, .weights = {1}, .total = 1};
-    if (size % 2 == 0)
-        return (coverage){.begin = 2 * i, .count = 2, .weights = {1, 1}, .total = 2};
-    uint32_t n = size / 2;
-    return (coverage){.begin = 2 * i, .count = 3, .weights = {n - i, n, i + 1}, .total = size};
-}
-
-/* A level on its way: linear, 16 bits; or the 8-bit image that it starts from. */
-typedef struct plane {
-    const void *texels;
-    uint32_t width, height, channel_count;
-    const uint16_t *color16, *alpha16; /* 8 bits: what the codes stand for; NULL: 16 bits */
-} plane;
-
-/* Row y of source in 16 bits; in room where it has to be decoded. */
-static const uint16_t *get_row(const plane *source, uint32_t y, uint16_t *room)
-{
-    size_t count = (size_t)source->width * source->channel_count;
-    if (!source->color16)
-        return (const uint16_t *)source->texels + y * count;
-    const unsigned char *codes = (const unsigned char *)source->texels + y * count;
-    const uint16_t *color = source->color16;
-    const uint16_t *alpha = source->alpha16;
-    if (color == alpha) { /* data: as data16 has it, but this vectorises */
-        for (size_t i = 0; i < count; i++)
-            room[i] = (uint16_t)(257 * codes[i]);
-    } else if (source->channel_count % 2 == 1) {
-        for (size_t i = 0; i < count; i++)
-            room[i] = color[codes[i]];
-    } else if (source->channel_count == 2) {
-        for (size_t i = 0; i < count; i += 2) {
-            room[i] = color[codes[i]];
-            room[i + 1] = alpha[codes[i + 1]];
-        }
-    } else {
-        for (size_t i = 0; i < count; i += 4) {
-            room[i] = color[codes[i]];
-            room[i + 1] = color[codes[i + 1]];
-            room[i + 2] = color[codes[i + 2]];
-            room[i + 3] = alpha[codes[i + 3]];
-        }
-    }
-    return room;
-}
-
-/* Means of 2 x 2 texels. */
-static inline __attribute__((always_inline)) void
-halve_row_of(const uint16_t *a, const uint16_t *b, uint32_t width, uint32_t channel_count, uint16_t *out)
-{
-    for (uint32_t x = 0; x < width; x++)
-        for (uint32_t c = 0; c < channel_count; c++) {
-            size_t i = (size_t)2 * x * channel_count + c;
-            uint32_t sum = (uint32_t)a[i] + a[i + channel_count] + b[i] + b[i + channel_count];
-            out[(size_t)x * channel_count + c] = (uint16_t)((sum + 2) >> 2);
-        }
-}
-
-static void halve_row(const uint16_t *a, const uint16_t *b, uint32_t width, uint32_t channel_count,
-                      uint16_t *out)
-{
-    switch (channel_count) { /* constants let the loops unroll */
-    case 1:
-        halve_row_of(a, b, width, 1, out);
-        break;
-    case 2:
-        halve_row_of(a, b, width, 2, out);
-        break;
-    case 3:
-        halve_row_of(a, b, width, 3, out);
-        break;
-    default:
-        halve_row_of(a, b, width, 4, out);
-    }
-}
-
-/* Weighted means for edges of any size. Sums stay below 2^16 (2^32)^2: sizes are below 2^24. */
-static void reduce_row(const uint16_t *const rows[3], coverage vertical, const plane *source, uint32_t width,
-                       uint16_t *out)
-{
-    for (uint32_t x = 0; x < width; x++) {
-        coverage horizontal = cover(source->width, x);
-        uint64_t total = (uint64_t)horizontal.total * vertical.total;
-        for (uint32_t c = 0; c < source->channel_count; c++) {
-            uint64_t sum = total / 2;
-            for (uint32_t j = 0; j < vertical.count; j++) {
-                uint64_t row_sum = 0;
-                for (uint32_t i = 0; i < horizontal.count; i++)
-                    row_sum += (uint64_t)horizontal.weights[i] *
-                               rows[j][(size_t)(horizontal.begin + i) * source->channel_count + c];
-                sum += vertical.weights[j] * row_sum;
-            }
-            out[(size_t)x * source->channel_count + c] = (uint16_t)(sum / total);
-        }
-    }
-}
-
-/* The next coarser level of source, 16 bits. room: three rows of source. */
-static void reduce(const plane *source, uint16_t *room, uint16_t *out, uint32_t width, uint32_t height)
-{
-    size_t row_size = (size_t)source->width * source->channel_count;
-    for (uint32_t y = 0; y < height; y++) {
-        coverage vertical = cover(source->height, y);
-        const uint16_t *rows[3] = {NULL, NULL, NULL};
-        for (uint32_t j = 0; j < vertical.count; j++)
-            rows[j] = get_row(source, vertical.begin + j, room + j * row_size);
-        uint16_t *out_row = out + (size_t)y * width * source->channel_count;
-        if (vertical.count == 2 && source->width % 2 == 0)
-            halve_row(rows[0], rows[1], width, source->channel_count, out_row);
-        else
-            reduce_row(rows, vertical, source, width, out_row);
-    }
-}
-
 /* ---- the pyramid ---- */
 
 static uint32_t level_size(uint32_t size, uint32_t level)
@@ -184,26 +54,6 @@ uint32_t texture_level_count(uint32_t width, uint32_t height)
     for (uint32_t size = width > height ? width : height; size > 1; size >>= 1)
         count++;
     return count;
-}
-
-/* Stores a level that has come out in 16 bits. */
-static void store(const texture_pyramid *p, const texture_tables *tables, bool as_color,
-                  const uint16_t *texels, size_t texel_count, unsigned char *out)
-{
-    size_t count = texel_count * p->channel_count;
-    if (p->type == IMAGE_U16) {
-        memcpy(out, texels, count * sizeof *texels);
-        return;
-    }
-    uint32_t alpha = p->channel_count % 2 == 0 ? p->channel_count - 1 : UINT32_MAX;
-    if (!as_color) {
-        for (size_t i = 0; i < count; i++)
-            out[i] = data_from_16(texels[i]);
-        return;
-    }
-    for (size_t i = 0; i < count; i += p->channel_count)
-        for (uint32_t c = 0; c < p->channel_count; c++)
-            out[i + c] = c == alpha ? data_from_16(texels[i + c]) : tables->color_from_16[texels[i + c]];
 }
 
 /* Bytes of the levels from first on. */
@@ -228,38 +78,137 @@ static unsigned char *place_level(texture_pyramid *p, uint32_t level, unsigned c
     return texels;
 }
 
-/* Makes and stores all levels below source, which is level number source_level; frees source once it is not
- * needed where it is not kept. work: two levels of 16 bits and three rows of source. */
-static void build_levels(texture_pyramid *p, image *source, uint32_t source_level, bool as_color,
-                         const texture_tables *tables, uint16_t *work)
+/* ---- all levels at once ---- */
+
+enum { WINDOW_ROWS = 3 };
+
+/* A level while its rows come, from above. Three rows of 16 bits are all that is ever held of it. */
+typedef struct growing_level {
+    uint32_t width, height;
+    uint16_t *rows[WINDOW_ROWS]; /* row y is rows[y % WINDOW_ROWS] */
+    uint32_t next_row;           /* of the level below, which is not made yet */
+    unsigned char *out;          /* where its texels are kept; NULL: they are not */
+} growing_level;
+
+/* Levels are made row by row, all of them at once: as soon as a row has all that it covers of the level above, it
+ * is there. So nothing but the result leaves the cache. */
+typedef struct growth {
+    const texture_pyramid *pyramid;
+    const image *source;
+    uint32_t source_level;
+    bool as_color;
+    const texture_tables *tables;
+    uint16_t *room; /* a row of the source */
+    growing_level levels[TEXTURE_MAX_LEVELS];
+} growth;
+
+/* Values of a row of a level, with what texture_reduce_rows() writes behind it. */
+static size_t row_room(const texture_pyramid *p, uint32_t level)
 {
-    plane current = {.texels = source->pixels,
-                     .width = source->width,
-                     .height = source->height,
-                     .channel_count = p->channel_count};
-    if (p->type == IMAGE_U8) {
-        current.color16 = as_color ? tables->color16 : tables->data16;
-        current.alpha16 = tables->data16;
+    return (size_t)level_size(p->width, level) * p->channel_count + TEXTURE_ROW_TAIL;
+}
+
+/* Values that a growth works in. */
+static size_t growth_room(const texture_pyramid *p, uint32_t source_level)
+{
+    size_t count = (1 + WINDOW_ROWS) * row_room(p, source_level);
+    for (uint32_t level = source_level + 1; level < p->level_count; level++)
+        count += WINDOW_ROWS * row_room(p, level);
+    return count;
+}
+
+/* Keeps row y of a level that has come out in 16 bits. */
+static void store_row(const growth *g, const growing_level *level, uint32_t y)
+{
+    const texture_pyramid *p = g->pyramid;
+    const uint16_t *row = level->rows[y % WINDOW_ROWS];
+    size_t count = (size_t)level->width * p->channel_count;
+    if (!level->out)
+        return;
+    if (p->type == IMAGE_U16)
+        memcpy(level->out + y * count * sizeof *row, row, count * sizeof *row);
+    else
+        texture_row_to_8(g->tables, g->as_color, row, level->width, p->channel_count, level->out + y * count);
+}
+
+/* Row y of level number has come: stores it and makes the rows below that now can be made. */
+static void add_row(growth *g, uint32_t number, uint32_t y)
+{
+    for (;;) {
+        growing_level *here = &g->levels[number];
+        store_row(g, here, y);
+        if (number + 1 == g->pyramid->level_count)
+            return;
+        texture_coverage covered = texture_cover(here->height, here->next_row);
+        if (y + 1 != covered.begin + covered.count)
+            return;
+        const uint16_t *rows[3] = {NULL, NULL, NULL};
+        for (uint32_t j = 0; j < covered.count; j++)
+            rows[j] = here->rows[(covered.begin + j) % WINDOW_ROWS];
+        y = here->next_row++;
+        number++;
+        growing_level *below = &g->levels[number];
+        texture_reduce_rows(rows, covered, here->width, below->width, g->pyramid->channel_count, g->room,
+                            below->rows[y % WINDOW_ROWS]);
     }
-    size_t row_size = (size_t)source->width * p->channel_count;
-    uint16_t *room = work;
-    uint16_t *here = room + 3 * row_size;
-    uint16_t *there = here + (size_t)level_size(p->width, source_level + 1) *
-                                 level_size(p->height, source_level + 1) * p->channel_count;
+}
+
+/* Makes row y of the level below the source. */
+static void make_first_row(growth *g, uint32_t y)
+{
+    const texture_pyramid *p = g->pyramid;
+    const image *source = g->source;
+    growing_level *above = &g->levels[g->source_level];
+    growing_level *below = above + 1;
+    uint16_t *out = below->rows[y % WINDOW_ROWS];
+    texture_coverage covered = texture_cover(source->height, y);
+    size_t row_count = (size_t)source->width * p->channel_count;
+    if (p->type == IMAGE_U8 && covered.count == 2 && source->width % 2 == 0) {
+        const unsigned char *codes = source->pixels;
+        const unsigned char *const rows[2] = {codes + covered.begin * row_count,
+                                              codes + (covered.begin + 1) * row_count};
+        texture_halve_codes(g->tables, g->as_color, rows, source->width, p->channel_count, g->room, out);
+        return;
+    }
+    const uint16_t *rows[3] = {NULL, NULL, NULL};
+    for (uint32_t j = 0; j < covered.count; j++) {
+        size_t first = (covered.begin + j) * row_count;
+        if (p->type == IMAGE_U16) {
+            rows[j] = (const uint16_t *)source->pixels + first;
+            continue;
+        }
+        texture_row_from_8(g->tables, g->as_color, (const unsigned char *)source->pixels + first,
+                           source->width, p->channel_count, above->rows[j]);
+        rows[j] = above->rows[j];
+    }
+    texture_reduce_rows(rows, covered, source->width, below->width, p->channel_count, g->room, out);
+}
+
+/* Makes and stores all levels below source, which is level number source_level and there is one below.
+ * work: growth_room() values. */
+static void grow_levels(texture_pyramid *p, const image *source, uint32_t source_level, bool as_color,
+                        const texture_tables *tables, uint16_t *work)
+{
+    growth g = {.pyramid = p,
+                .source = source,
+                .source_level = source_level,
+                .as_color = as_color,
+                .tables = tables,
+                .room = work};
+    work += row_room(p, source_level);
     unsigned char *at = p->blocks[1];
-    for (uint32_t level = source_level + 1; level < p->level_count; level++) {
-        uint32_t width = level_size(p->width, level);
-        uint32_t height = level_size(p->height, level);
-        reduce(&current, room, here, width, height);
-        if (level == source_level + 1 && source_level < p->first_level)
-            image_destroy(source);
-        if (level >= p->first_level)
-            store(p, tables, as_color, here, (size_t)width * height, place_level(p, level, &at));
-        current =
-            (plane){.texels = here, .width = width, .height = height, .channel_count = p->channel_count};
-        uint16_t *swap = here;
-        here = there;
-        there = swap;
+    for (uint32_t number = source_level; number < p->level_count; number++) {
+        growing_level *level = &g.levels[number];
+        level->width = level_size(p->width, number);
+        level->height = level_size(p->height, number);
+        for (int i = 0; i < WINDOW_ROWS; i++, work += row_room(p, number))
+            level->rows[i] = work;
+        if (number > source_level && number >= p->first_level)
+            level->out = place_level(p, number, &at);
+    }
+    for (uint32_t y = 0; y < g.levels[source_level + 1].height; y++) {
+        make_first_row(&g, y);
+        add_row(&g, source_level + 1, y);
     }
 }
 
@@ -288,14 +237,13 @@ facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32
     if (source_level + 1 < out->level_count) {
         size_t size = levels_size(out, keeps_source ? source_level + 1 : first_level);
         out->blocks[1] = mem_alloc(allocator, size, 1);
-        size_t level_1 = (size_t)level_size(width, source_level + 1) * level_size(height, source_level + 1);
-        size_t work_size = (level_1 + level_1 / 2 + 1 + 3 * (size_t)source->width) * source->channel_count;
+        size_t work_size = growth_room(out, source_level);
         work = mem_alloc(allocator, work_size, sizeof *work);
         if (!out->blocks[1] || !work) {
             result = fail_memory(error, "texture mips", size + work_size * sizeof *work);
             goto done;
         }
-        build_levels(out, source, source_level, as_color, tables, work);
+        grow_levels(out, source, source_level, as_color, tables, work);
     }
     if (keeps_source) {
         unsigned char *at = source->pixels;

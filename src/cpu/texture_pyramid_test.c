@@ -194,6 +194,46 @@ static void means_are_preserved(void **state)
     }
 }
 
+static image take_channel(const image *from, uint32_t channel)
+{
+    image i = make_image(from->width, from->height, 1, from->type);
+    size_t size = image_type_size(from->type);
+    for (size_t k = 0; k < (size_t)from->width * from->height; k++)
+        memcpy((uint8_t *)i.pixels + k * size,
+               (const uint8_t *)from->pixels + (k * from->channel_count + channel) * size, size);
+    return i;
+}
+
+/* Each channel is reduced as if it were alone, alpha as data, whatever loops a format and a size have. */
+static void channels_are_independent(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[][2] = {{64, 32}, {2, 16}, {48, 20}, {33, 64}, {64, 31}, {1, 8}};
+    for (uint32_t n = 0; n < 6 * 3 * 2 * 2; n++) {
+        const uint32_t *size = sizes[n % 6];
+        uint32_t channel_count = 2 + n / 6 % 3;
+        image_type type = n / 18 % 2 ? IMAGE_U16 : IMAGE_U8;
+        bool as_color = n / 36 > 0;
+        image all = make_noise(size[0], size[1], channel_count, type);
+        texture_pyramid one[4];
+        for (uint32_t c = 0; c < channel_count; c++) {
+            bool is_alpha = c == 3 || (c == 1 && channel_count == 2);
+            one[c] = make_pyramid(take_channel(&all, c), 0, as_color && !is_alpha);
+        }
+        texture_pyramid p = make_pyramid(all, 0, as_color);
+        size_t value = image_type_size(type);
+        for (uint32_t level = 1; level < p.level_count; level++)
+            for (size_t k = 0; k < (size_t)p.levels[level].width * p.levels[level].height * channel_count;
+                 k++)
+                assert_memory_equal(p.levels[level].texels + k * value,
+                                    one[k % channel_count].levels[level].texels + k / channel_count * value,
+                                    value);
+        for (uint32_t c = 0; c < channel_count; c++)
+            texture_pyramid_destroy(&one[c]);
+        texture_pyramid_destroy(&p);
+    }
+}
+
 /* What is left out changes nothing about what is kept. */
 static void levels_do_not_depend_on_the_first(void **state)
 {
@@ -284,6 +324,7 @@ int main(void)
         cmocka_unit_test(sixteen_bits_stay),
         cmocka_unit_test(texels_are_means_of_what_they_cover),
         cmocka_unit_test(means_are_preserved),
+        cmocka_unit_test(channels_are_independent),
         cmocka_unit_test(levels_do_not_depend_on_the_first),
         cmocka_unit_test(pyramids_start_at_any_level),
         cmocka_unit_test(every_refused_block_is_an_error),
