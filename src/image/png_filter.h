@@ -11,8 +11,5 @@ enum { PNG_FILTER_COUNT = 5 };
  * before row and above. */
 void png_filter_row(png_filter filter, const unsigned char *row, const unsigned char *above, size_t size,
                     size_t texel, unsigned char *restrict out);
-/* The way back; nothing stands before the rows. out may be filtered, and not above. */
-void png_unfilter(png_filter filter, const unsigned char *filtered, const unsigned char *above, size_t size,
-                  size_t texel, unsigned char *out);
 
 #endif
