@@ -1,0 +1,147 @@
+// khronos.mjs - draws models with the Khronos glTF Sample Renderer in headless Chromium and with facet, with the same
+// light, camera and tone mapping, and prints how far the pictures are apart.
+// usage: node khronos.mjs FACET MODELS LIGHT.hdr OUT     FACET: the command; MODELS: the folder that holds core,
+// materials, lights; OUT: a folder for NAME-khronos.png and NAME-facet.png. CHROMIUM names the browser.
+//
+// The renderer turns an environment by 90 degrees of its own and encodes with a power of 1/2.2 in place of the sRGB
+// function; facet is told the turn (--env-rotation -90), and its codes are re-encoded before they are compared.
+import { createServer } from 'node:http';
+import { execFileSync } from 'node:child_process';
+import { readFile, writeFile } from 'node:fs/promises';
+import { fileURLToPath } from 'node:url';
+import path from 'node:path';
+import { chromium } from 'playwright-core';
+
+const [facet, models, light, out] = process.argv.slice(2);
+if (!out) {
+    console.error('usage: node khronos.mjs FACET MODELS LIGHT.hdr OUT');
+    process.exit(2);
+}
+const size = 512;
+// Model, eye, target (m). Vertical field of view: 30 degrees.
+const jobs = [
+    ['core/WaterBottle', [0.2, 0.2, 0.6], [0, 0, 0]],
+    ['core/Avocado', [0, 0.05, 0.15], [0, 0.03, 0]],
+    ['core/NormalTangentTest', [0, 0, 8], [0, 0, 0]],
+    ['core/AlphaBlendModeTest', [0, 3, 12], [0, 1.5, 0]],
+    ['core/NegativeScaleTest', [0, 0, 20], [0, 0, 0]],
+    ['core/VertexColorTest', [0, 0, 8], [0, 0, 0]],
+    ['core/TextureSettingsTest', [0, 0, 25], [0, 0, 0]],
+    ['materials/SpecularTest', [0, 0, 2], [0, 0, 0]],
+    ['materials/CompareMetallic', [0, 0.3, 2], [0, 0.1, 0]],
+    ['materials/CompareRoughness', [0, 0.3, 2], [0, 0.1, 0]],
+    ['lights/PointLightIntensityTest', [0, 2, 12], [0, 1, 0]],
+    ['lights/LightsPunctualLamp', [0.3, 0.3, 1.2], [0, 0.2, 0]],
+].map(([model, eye, target]) => ({ model: path.join(models, model + '.glb'), name: path.basename(model), eye, target }));
+const here = path.dirname(fileURLToPath(import.meta.url));
+const page_text = `<!doctype html><canvas id="c" width="${size}" height="${size}"></canvas>
+<script src="/node_modules/@khronosgroup/gltf-viewer/dist/libs/libktx.js"></script><script>window.DracoDecoderModule=async()=>({})</script><script type="module">
+try {
+const { GltfView } = await import('/node_modules/@khronosgroup/gltf-viewer/dist/gltf-viewer.module.js');
+const canvas = document.getElementById('c');
+const gl = canvas.getContext('webgl2', { alpha: false, antialias: true, preserveDrawingBuffer: true });
+const view = new GltfView(gl);
+const state = view.createState();
+const loader = view.createResourceLoader(undefined, undefined, "/node_modules/@khronosgroup/gltf-viewer/dist/libs/");
+const one = document.createElement('canvas');
+one.width = one.height = 1;
+const lut = one.toDataURL('image/png');
+state.environment = await loader.loadEnvironment('/light.hdr', { lut_sheen_E_file: lut });
+window.draw = async (job, eye, target, z) => {
+state.gltf = await loader.loadGltf('/model' + job + '.glb');
+state.sceneIndex = state.gltf.scene === undefined ? 0 : state.gltf.scene;
+state.cameraIndex = undefined;
+const camera = state.userCamera;
+camera.perspective.aspectRatio = 1;
+camera.perspective.yfov = 30 * Math.PI / 180;
+camera.perspective.znear = z * 0.01;
+camera.perspective.zfar = z * 100;
+const sub = (a, b) => a.map((x, i) => x - b[i]);
+const norm = (a) => { const l = Math.hypot(...a); return a.map((x) => x / l); };
+const cross = (a, b) => [a[1]*b[2]-a[2]*b[1], a[2]*b[0]-a[0]*b[2], a[0]*b[1]-a[1]*b[0]];
+const back = norm(sub(eye, target)), right = norm(cross([0,1,0], back)), up = cross(back, right);
+camera.transform = new Float32Array([...right, 0, ...up, 0, ...back, 0, ...eye, 1]);
+const p = state.renderingParameters;
+p.renderEnvironmentMap = false;
+p.clearColor = [255, 255, 255, 255];
+for (let i = 0; i < 4; i++) { view.renderFrame(state, canvas.width, canvas.height); await new Promise(requestAnimationFrame); }
+return canvas.toDataURL('image/png');
+};
+// Mean, median and 95th percentile of the largest channel's difference, in codes of 8 bits, over pixels that either picture
+// has something on.
+window.compare = async (a, b) => {
+    const read = async (url) => {
+        const image = new Image();
+        image.src = url;
+        await image.decode();
+        const copy = document.createElement('canvas');
+        copy.width = copy.height = ${size};
+        const context = copy.getContext('2d');
+        context.drawImage(image, 0, 0);
+        return context.getImageData(0, 0, ${size}, ${size}).data;
+    };
+    const [x, y] = [await read(a), await read(b)];
+    const encoded = [...Array(256).keys()].map((code) => {
+        const v = code / 255;
+        return 255 * (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4) ** (1 / 2.2);
+    });
+    const differences = [];
+    for (let i = 0; i < x.length; i += 4) {
+        const white = (p) => p[i] > 252 && p[i + 1] > 252 && p[i + 2] > 252;
+        if (white(x) && white(y)) continue;
+        differences.push(Math.max(...[0, 1, 2].map((k) => Math.abs(x[i + k] - encoded[y[i + k]]))));
+    }
+    differences.sort((p, q) => p - q);
+    const sum = differences.reduce((p, q) => p + q, 0);
+    return [sum / differences.length, differences[Math.floor(0.5 * differences.length)],
+        differences[Math.floor(0.95 * differences.length)]];
+};
+window.ready = true;
+} catch (e) { window.failure = String(e.stack ?? e); }
+</script>`;
+const server = createServer(async (request, response) => {
+    try {
+        const url = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
+        if (url === '/') {
+            response.setHeader('content-type', 'text/html');
+            return response.end(page_text);
+        }
+        const file = url.startsWith('/model') ? jobs[parseInt(url.slice(6))].model : url === '/light.hdr' ? light : path.join(here, path.normalize(url));
+        if (url.endsWith('.js')) response.setHeader('content-type', 'text/javascript');
+        if (url.endsWith('.wasm')) response.setHeader('content-type', 'application/wasm');
+        response.end(await readFile(file));
+    } catch {
+        response.statusCode = 404;
+        response.end();
+    }
+});
+await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+        '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run'],
+});
+try {
+    const page = await browser.newPage();
+    page.on('console', (message) => { if (message.type() === 'error') console.error(message.text()); });
+    await page.goto(`http://127.0.0.1:${server.address().port}/`);
+    await page.waitForFunction('window.ready || window.failure', null, { timeout: 300000 });
+    const failure = await page.evaluate('window.failure');
+    if (failure) throw new Error(failure);
+    console.log('| model | mean | median | 95 % |\n| --- | --- | --- | --- |');
+    for (let i = 0; i < jobs.length; i++) {
+        const { model, name, eye, target } = jobs[i];
+        const z = Math.hypot(...eye.map((x, k) => x - target[k]));
+        const theirs = await page.evaluate(([i, eye, target, z]) => window.draw(i, eye, target, z), [i, eye, target, z]);
+        await writeFile(path.join(out, `${name}-khronos.png`), Buffer.from(theirs.split(',')[1], 'base64'));
+        const ours = path.join(out, `${name}-facet.png`);
+        execFileSync(facet, ['render', '-q', '-s', String(size), '-e', light, '--env-rotation=-90', `--eye=${eye}`,
+            `--target=${target}`, '--fov=30', model, '-o', ours]);
+        const our_url = 'data:image/png;base64,' + (await readFile(ours)).toString('base64');
+        const [mean, median, p95] = await page.evaluate(([a, b]) => window.compare(a, b), [theirs, our_url]);
+        console.log(`| ${name} | ${mean.toFixed(2)} | ${median.toFixed(1)} | ${p95.toFixed(1)} |`);
+    }
+} finally {
+    await browser.close();
+    server.close();
+}
