@@ -173,7 +173,9 @@ typedef struct facet_orbit {
     bool has_target;    /* false: the middle of the bounds */
     bool orthographic;
     float fov_y_rad;
-    bool is_z_up; /* the model has +Z up; the camera rises along it */
+    bool is_z_up;           /* the model has +Z up; the camera rises along it */
+    bool fits_all_azimuths; /* radius 0: frames the model from every azimuth at once, for turntables that keep
+                               the model's size */
 } facet_orbit;
 FACET_API facet_orbit facet_orbit_default(void); /* azimuth 0, polar 75 deg, 105 %, fov 30 deg */
 

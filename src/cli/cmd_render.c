@@ -88,14 +88,13 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
 /* ---- pictures ---- */
 
 static facet_result render_frame(render_run *run, const facet_scene *scene, uint32_t scene_index,
-                                 const turntable_fit *fit, uint32_t frame, picture_report *report,
-                                 facet_error *error)
+                                 uint32_t frame, picture_report *report, facet_error *error)
 {
     const render_options *o = &run->options;
     double start = interrupt_clock();
     uint32_t frame_count = o->turntable ? o->turntable : 1;
     facet_camera camera;
-    facet_result result = render_camera(scene, scene_index, o, fit, frame, &camera, error);
+    facet_result result = render_camera(scene, scene_index, o, frame, &camera, error);
     if (result != FACET_OK)
         return result;
     progress shown = {.mode = run->progress,
@@ -152,9 +151,6 @@ static facet_result render_frames(render_run *run, const char *model, const face
     facet_result result = FACET_OK;
     if (o->scene)
         result = facet_scene_find_scene(scene, o->scene, &scene_index, error);
-    turntable_fit fit = {0};
-    if (result == FACET_OK && o->turntable)
-        result = render_turntable_fit(scene, scene_index, o, &fit, error);
     for (uint32_t frame = 0; frame < (o->turntable ? o->turntable : 1) && result == FACET_OK; frame++) {
         char name[RENDER_NAME_SIZE];
         result = render_name(&run->options, model, frame, name, sizeof name, error);
@@ -165,7 +161,7 @@ static facet_result render_frames(render_run *run, const char *model, const face
             return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
         report.is_kept = o->keeps_existing && !o->is_stdout && output_exists(name);
         if (!report.is_kept)
-            result = render_frame(run, scene, scene_index, &fit, frame, &report, error);
+            result = render_frame(run, scene, scene_index, frame, &report, error);
         messages_flush(&run->messages);
         if (result == FACET_OK)
             report_frame(run, &report);

@@ -94,7 +94,7 @@ bool orbit_parse(const char *text, facet_orbit *orbit)
         if (i < 2 && !to_radians(&p))
             return false;
         if (i == 0)
-            parsed.azimuth_rad = (float)p.number;
+            parsed.azimuth_rad = (float)remainder(p.number, 360.0 * DEGREE); /* 390deg is 30deg, to the bit */
         else if (i == 1 && p.number >= 0.0 && p.number <= 180.0 * DEGREE)
             parsed.polar_rad = (float)p.number;
         else if (i == 1 || !set_radius(&p, &parsed))

@@ -27,37 +27,20 @@ static facet_orbit orbit_of_frame(const facet_scene *scene, uint32_t scene_index
 {
     facet_orbit orbit = options->orbit;
     bool is_partly_given = options->has_target[0] || options->has_target[1] || options->has_target[2];
-    if (options->turntable || is_partly_given) {
+    if (is_partly_given) {
         resolve_target(scene, scene_index, options, orbit.target);
         orbit.has_target = true;
     }
-    if (options->turntable)
+    if (options->turntable) {
         orbit.azimuth_rad += (float)(TWO_PI * frame / options->turntable);
+        orbit.fits_all_azimuths = true;
+    }
     return orbit;
 }
 
 static float distance(const float a[3], const float b[3])
 {
     return hypotf(hypotf(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-}
-
-facet_result render_turntable_fit(const facet_scene *scene, uint32_t scene_index,
-                                  const render_options *options, turntable_fit *fit, facet_error *error)
-{
-    *fit = (turntable_fit){0};
-    if (options->orbit.radius > 0.0f && !options->orbit.orthographic)
-        return FACET_OK;
-    for (uint32_t frame = 0; frame < options->turntable; frame++) {
-        facet_orbit orbit = orbit_of_frame(scene, scene_index, options, frame);
-        facet_camera camera;
-        facet_result result =
-            facet_camera_from_orbit(scene, scene_index, &orbit, aspect_of(options), &camera, error);
-        if (result != FACET_OK)
-            return result;
-        fit->radius = fmaxf(fit->radius, distance(camera.eye, orbit.target));
-        fit->ortho_height = fmaxf(fit->ortho_height, camera.ortho_height);
-    }
-    return FACET_OK;
 }
 
 /* A camera at --eye that looks at --target. */
@@ -85,7 +68,7 @@ static facet_result camera_from_eye(const facet_scene *scene, uint32_t scene_ind
 }
 
 facet_result render_camera(const facet_scene *scene, uint32_t scene_index, const render_options *options,
-                           const turntable_fit *fit, uint32_t frame, facet_camera *camera, facet_error *error)
+                           uint32_t frame, facet_camera *camera, facet_error *error)
 {
     if (options->camera) {
         uint32_t index;
@@ -97,11 +80,5 @@ facet_result render_camera(const facet_scene *scene, uint32_t scene_index, const
     if (options->has_eye)
         return camera_from_eye(scene, scene_index, options, camera, error);
     facet_orbit orbit = orbit_of_frame(scene, scene_index, options, frame);
-    if (fit->radius > 0.0f)
-        orbit.radius = fit->radius;
-    facet_result result =
-        facet_camera_from_orbit(scene, scene_index, &orbit, aspect_of(options), camera, error);
-    if (result == FACET_OK && fit->ortho_height > 0.0f)
-        camera->ortho_height = fit->ortho_height;
-    return result;
+    return facet_camera_from_orbit(scene, scene_index, &orbit, aspect_of(options), camera, error);
 }

@@ -124,7 +124,7 @@ static void test_orbits(void **state)
         {"10,20,400mm", 10, 20, 0.4, 1.05},
         {"10deg, 0deg, 50%", 10, 0, 0, 0.5},
         {"0.5rad 180deg 80%", 0.5 / DEGREE, 180, 0, 0.8},
-        {"370,20", 370, 20, 0, 1.05},
+        {"370,20", 10, 20, 0, 1.05},
     };
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
         facet_orbit o = start;

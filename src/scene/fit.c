@@ -14,7 +14,7 @@ typedef struct view {
     double sin_polar, cos_polar;
     double tan_x, tan_y; /* orthographic: the proportion aspect : 1 */
     bool orthographic;
-    scene_fit fit;
+    bool fits_all_azimuths;
 } view;
 
 static double dot(const double a[3], const double b[3])
@@ -101,7 +101,7 @@ static void add_vertex(const view *v, const float world[3], extent *e)
     double p[3];
     for (int axis = 0; axis < 3; axis++)
         p[axis] = (double)world[axis] - v->target[axis];
-    if (v->fit == SCENE_FIT_ALL_AZIMUTHS)
+    if (v->fits_all_azimuths)
         add_circle(v, p, e);
     else
         add_point(v, p, e);
@@ -199,14 +199,14 @@ static facet_result check(const facet_orbit *orbit, float aspect, facet_error *e
     return FACET_OK;
 }
 
-facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect, scene_fit fit,
+facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect,
                             uint32_t thread_count, facet_camera *camera, facet_error *error)
 {
     *camera = (facet_camera){0};
     facet_result result = check(orbit, aspect, error);
     if (result != FACET_OK)
         return result;
-    view v = {.fit = fit};
+    view v = {.fits_all_azimuths = orbit->fits_all_azimuths};
     aim(&v, orbit, aspect);
     for (int i = 0; i < 3; i++)
         v.target[i] = orbit->has_target ? (double)orbit->target[i]
@@ -255,7 +255,7 @@ facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, con
     scene_pose pose;
     facet_result result = scene_pose_create(scene, scene_index, &scene->allocator, 0, &pose, error);
     if (result == FACET_OK)
-        result = scene_fit_pose(&pose, orbit, aspect, SCENE_FIT_VIEW, 0, camera, error);
+        result = scene_fit_pose(&pose, orbit, aspect, 0, camera, error);
     scene_pose_destroy(&pose);
     return result;
 }

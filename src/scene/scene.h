@@ -241,16 +241,10 @@ void scene_pose_destroy(scene_pose *pose); /* {0} is allowed */
 
 /* ---- cameras ---- */
 
-typedef enum scene_fit {
-    SCENE_FIT_VIEW,        /* as near as this one picture allows */
-    SCENE_FIT_ALL_AZIMUTHS /* as near as all pictures of a turn around the vertical through the target allow: the
-                              same distance for each */
-} scene_fit;
-
 /* facet_camera_from_orbit() for a pose that is there (it may draw nothing). The distance is exact: at radius_scale 1
  * the outermost vertex is on the border of the picture. Fails with FACET_ERROR_ARGUMENT for numbers that are no
  * camera. */
-facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect, scene_fit fit,
+facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect,
                             uint32_t thread_count, facet_camera *camera, facet_error *error);
 /* facet_camera_from_orbit(). */
 facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit,

@@ -13,7 +13,8 @@ int main(int argc, char **argv)
     if (result == FACET_OK)
         result = facet_environment_create_studio(NULL, &studio, &error);
     if (result == FACET_OK) {
-        facet_render_desc desc = {.width = 64, .height = 48, .environment = studio, .tonemap = FACET_TONEMAP_NEUTRAL};
+        facet_render_desc desc = {
+            .width = 64, .height = 48, .environment = studio, .tonemap = FACET_TONEMAP_NEUTRAL};
         result = facet_render(scene, &desc, &image, &error);
     }
     if (result == FACET_OK)
