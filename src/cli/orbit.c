@@ -3,6 +3,7 @@
 
 #include "cli/value.h"
 
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 
