@@ -2,6 +2,9 @@
  * reflection is in shade/. */
 #include "cpu/shading.h"
 
+#include <stddef.h>
+#include <string.h>
+
 #include "shade/shade.h"
 
 /* ---- interpolation ---- */
@@ -161,18 +164,80 @@ static void transform_coordinates(const float m[6], texture_coordinates *c)
     }
 }
 
-/* RGBA of the texture that ref names, white where it names none. */
-static void read_texture(const shading_scene *scene, const hit_frame *f, const scene_texture_ref *ref,
-                         bool as_color, float out[4])
+/* What a material's textures are for; their texels in this order. */
+enum material_texture {
+    BASE_COLOR,
+    EMISSIVE,
+    METALLIC_ROUGHNESS,
+    NORMAL,
+    OCCLUSION,
+    SPECULAR,
+    SPECULAR_COLOR,
+    MATERIAL_TEXTURE_COUNT
+};
+_Static_assert((int)MATERIAL_TEXTURE_COUNT <= (int)TEXTURE_GROUP, "all textures of a material are one group");
+
+enum { ALL_TEXTURES = (1 << MATERIAL_TEXTURE_COUNT) - 1 };
+
+static const struct {
+    size_t ref; /* offset in scene_material */
+    bool is_color;
+} MATERIAL_TEXTURES[MATERIAL_TEXTURE_COUNT] = {
+    [BASE_COLOR] = {offsetof(scene_material, base_color_texture), true},
+    [EMISSIVE] = {offsetof(scene_material, emissive_texture), true},
+    [METALLIC_ROUGHNESS] = {offsetof(scene_material, metallic_roughness_texture), false},
+    [NORMAL] = {offsetof(scene_material, normal_texture), false},
+    [OCCLUSION] = {offsetof(scene_material, occlusion_texture), false},
+    [SPECULAR] = {offsetof(scene_material, specular_texture), false},
+    [SPECULAR_COLOR] = {offsetof(scene_material, specular_color_texture), true},
+};
+
+/* RGBA of each texture, white where there is none. */
+typedef float material_texels[MATERIAL_TEXTURE_COUNT][4];
+
+static const scene_texture_ref *texture_ref(const scene_material *material, int number)
 {
-    if (ref->texture == SCENE_NONE) {
-        out[0] = out[1] = out[2] = out[3] = 1.0f;
-        return;
+    return (const scene_texture_ref *)(const void *)((const char *)material + MATERIAL_TEXTURES[number].ref);
+}
+
+static bool has_same_coordinates(const scene_texture_ref *a, const scene_texture_ref *b)
+{
+    return a->texcoord == b->texcoord && a->has_transform == b->has_transform &&
+           (!a->has_transform || memcmp(a->transform, b->transform, sizeof a->transform) == 0);
+}
+
+/* Reads the textures of the material whose bits are set in wanted; those with the same coordinates together. */
+static void read_textures(const shading_scene *scene, const hit_frame *f, uint32_t wanted,
+                          material_texels texels)
+{
+    const scene_material *material = f->geometry->material;
+    for (int i = 0; i < MATERIAL_TEXTURE_COUNT; i++) {
+        for (int c = 0; c < 4; c++)
+            texels[i][c] = 1.0f;
+        if (texture_ref(material, i)->texture == SCENE_NONE)
+            wanted &= ~(1u << i);
     }
-    texture_coordinates c = coordinates_of_set(f, ref->texcoord);
-    if (ref->has_transform)
-        transform_coordinates(ref->transform, &c);
-    texture_sample(scene->textures, ref->texture, as_color, c.uv, c.dx, c.dy, out);
+    while (wanted) {
+        texture_request requests[MATERIAL_TEXTURE_COUNT];
+        int numbers[MATERIAL_TEXTURE_COUNT];
+        uint32_t count = 0;
+        const scene_texture_ref *first = texture_ref(material, __builtin_ctz(wanted));
+        for (int i = 0; i < MATERIAL_TEXTURE_COUNT; i++) {
+            const scene_texture_ref *ref = texture_ref(material, i);
+            if (!(wanted >> i & 1) || !has_same_coordinates(first, ref))
+                continue;
+            wanted &= ~(1u << i);
+            requests[count].texture = ref->texture;
+            requests[count].as_color = MATERIAL_TEXTURES[i].is_color;
+            numbers[count++] = i;
+        }
+        texture_coordinates c = coordinates_of_set(f, first->texcoord);
+        if (first->has_transform)
+            transform_coordinates(first->transform, &c);
+        texture_sample_group(scene->textures, requests, count, c.uv, c.dx, c.dy);
+        for (uint32_t k = 0; k < count; k++)
+            memcpy(texels[numbers[k]], requests[k].texel, sizeof texels[0]);
+    }
 }
 
 /* ---- normals ---- */
@@ -182,15 +247,13 @@ static vec3 transform(const float rows[9], vec3 v)
     return vec3(dot(load3(rows), v), dot(load3(rows + 3), v), dot(load3(rows + 6), v));
 }
 
-/* The vector that a normal texture holds, with its scale; false: nothing that is a normal (a texture that could not
- * be decoded reads as white). glTF 2.0, 3.9.3. */
-static bool read_normal_texture(const shading_scene *scene, const hit_frame *f, vec3 *n)
+/* The vector that a texel of the normal texture holds, with its scale; false: nothing that is a normal (there is no
+ * texture, or it could not be decoded and reads as white). glTF 2.0, 3.9.3. */
+static bool normal_from_texel(const hit_frame *f, const float texel[4], vec3 *n)
 {
     const scene_material *material = f->geometry->material;
     if (material->normal_texture.texture == SCENE_NONE || !f->geometry->tangents)
         return false;
-    float texel[4];
-    read_texture(scene, f, &material->normal_texture, false, texel);
     if (texel[0] >= 1.0f && texel[1] >= 1.0f && texel[2] >= 1.0f)
         return false;
     vec3 c = load3(texel) * 2.0f - 1.0f;
@@ -206,14 +269,14 @@ static vec3 normalize_or(vec3 v, vec3 otherwise)
 
 /* Unit shading normal on the side that is seen. T, B and N are used as they are interpolated, not normalised, which
  * is what MikkTSpace (2008) and the tools that bake for it do. */
-static vec3 shading_normal(const shading_scene *scene, const hit_frame *f, bool is_front)
+static vec3 shading_normal(const hit_frame *f, const float normal_texel[4], bool is_front)
 {
     const render_geometry *g = f->geometry;
     float side = is_front ? 1.0f : -1.0f;
     vec3 to_eye = normalize_or(-f->direction, vec3(0.0f, 0.0f, 1.0f));
     vec3 N = transform(g->normal_matrix, interpolate3(f, g->primitive->normals)) * side;
     vec3 n;
-    if (!read_normal_texture(scene, f, &n))
+    if (!normal_from_texel(f, normal_texel, &n))
         return normalize_or(N, to_eye);
 
     vec3 tangent = vec3(0.0f);
@@ -249,14 +312,12 @@ static bool is_front(const hit_frame *f, const visibility_hit *hit)
 }
 
 /* Factor, texture and vertex color multiplied. */
-static void read_base_color(const shading_scene *scene, const hit_frame *f, float out[4])
+static void multiply_base_color(const hit_frame *f, const float texel[4], float out[4])
 {
-    const scene_material *material = f->geometry->material;
     float color[4];
     interpolate_color(f, color);
-    read_texture(scene, f, &material->base_color_texture, true, out);
     for (int i = 0; i < 4; i++)
-        out[i] *= material->base_color[i] * color[i];
+        out[i] = texel[i] * (f->geometry->material->base_color[i] * color[i]);
 }
 
 static float opacity_from_alpha(const scene_material *material, float alpha)
@@ -278,28 +339,29 @@ float shading_opacity(const shading_scene *scene, const shading_point *point)
     if (!g->is_see_through)
         return 1.0f;
     hit_frame f = make_frame(scene, point);
+    material_texels texels;
     float base_color[4];
-    read_base_color(scene, &f, base_color);
+    read_textures(scene, &f, 1u << BASE_COLOR, texels);
+    multiply_base_color(&f, texels[BASE_COLOR], base_color);
     return opacity_from_alpha(g->material, base_color[3]);
 }
 
-static Surface make_surface(const shading_scene *scene, const hit_frame *f, vec3 N, vec3 base_color)
+static Surface make_surface(const scene_material *m, material_texels texels, vec3 N, vec3 base_color)
 {
-    const scene_material *m = f->geometry->material;
-    float rough_metal[4];
-    float occlusion[4];
-    float emissive[4];
-    float specular[4];
-    float specular_color[4];
-    read_texture(scene, f, &m->metallic_roughness_texture, false, rough_metal);
-    read_texture(scene, f, &m->occlusion_texture, false, occlusion);
-    read_texture(scene, f, &m->emissive_texture, true, emissive);
-    read_texture(scene, f, &m->specular_texture, false, specular);
-    read_texture(scene, f, &m->specular_color_texture, true, specular_color);
+    const float *rough_metal = texels[METALLIC_ROUGHNESS];
     return surface_from_gltf(
         N, base_color, m->metallic * rough_metal[2], m->perceptual_roughness * rough_metal[1], m->ior,
-        m->specular * specular[3], load3(m->specular_color) * load3(specular_color),
-        occlusion_from_texel(occlusion[0], m->occlusion_strength), load3(m->emissive) * load3(emissive));
+        m->specular * texels[SPECULAR][3], load3(m->specular_color) * load3(texels[SPECULAR_COLOR]),
+        occlusion_from_texel(texels[OCCLUSION][0], m->occlusion_strength),
+        load3(m->emissive) * load3(texels[EMISSIVE]));
+}
+
+/* The textures that a hit on g reads. */
+static uint32_t textures_read(const render_geometry *g)
+{
+    if (g->is_lit)
+        return ALL_TEXTURES & ~(g->tangents ? 0u : 1u << NORMAL);
+    return 1u << BASE_COLOR | (g->material->is_unlit ? 0u : 1u << EMISSIVE);
 }
 
 /* Radiance of a lit surface: emission, prefiltered environment and every light. */
@@ -332,23 +394,23 @@ void shading_shade(const shading_scene *scene, const shading_point *point, shadi
 {
     hit_frame f = make_frame(scene, point);
     const scene_material *material = f.geometry->material;
+    material_texels texels;
     float base_color[4];
-    read_base_color(scene, &f, base_color);
+    read_textures(scene, &f, textures_read(f.geometry), texels);
+    multiply_base_color(&f, texels[BASE_COLOR], base_color);
     vec3 V = normalize(-f.direction);
     vec3 N = V;
     vec3 radiance = load3(base_color);
     out->occlusion = 1.0f;
     if (f.geometry->primitive->normals)
-        N = shading_normal(scene, &f, is_front(&f, point->hit));
+        N = shading_normal(&f, texels[NORMAL], is_front(&f, point->hit));
     if (f.geometry->is_lit) {
-        Surface s = make_surface(scene, &f, N, load3(base_color));
+        Surface s = make_surface(material, texels, N, load3(base_color));
         radiance = lit_radiance(scene, s, f.position, V);
         out->occlusion = s.occlusion;
     } else if (!material->is_unlit) {
         /* Points and lines without normals: glTF 2.0, 3.7.2.1. */
-        float emissive[4];
-        read_texture(scene, &f, &material->emissive_texture, true, emissive);
-        radiance += load3(material->emissive) * load3(emissive);
+        radiance += load3(material->emissive) * load3(texels[EMISSIVE]);
     }
     store3(radiance, out->radiance);
     store3(N, out->normal);

@@ -27,9 +27,21 @@ uint64_t texture_set_decoded_texels(const texture_set *set);
  * header of the file says. */
 bool texture_full_size(const facet_scene *scene, uint32_t texture, float size[2]);
 
-/* Looks texture number index up at uv with the derivatives of uv along the pixel's x and y (per pixel). Wrap,
+/* One texture that is looked up; texture may be any number. */
+typedef struct texture_request {
+    uint32_t texture;
+    bool as_color;
+    float texel[4]; /* the answer: RGBA, color linear; white where there is no such texture */
+} texture_request;
+
+enum { TEXTURE_GROUP = 8 };
+
+/* Looks up to TEXTURE_GROUP textures up at uv with the derivatives of uv along the pixel's x and y (per pixel). Wrap,
  * magnification, minification and mip filter are the sampler's; trilinear minification is anisotropic, up to 16
- * probes along the longer axis. out: RGBA, color linear. */
+ * probes along the longer axis. Textures of one size and sampler cost little more than one of them. */
+void texture_sample_group(const texture_set *set, texture_request *requests, uint32_t count,
+                          const float uv[2], const float duv_dx[2], const float duv_dy[2]);
+/* The same for one texture. */
 void texture_sample(const texture_set *set, uint32_t index, bool as_color, const float uv[2],
                     const float duv_dx[2], const float duv_dy[2], float out[4]);
 

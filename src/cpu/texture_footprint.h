@@ -1,5 +1,5 @@
-/* texture_footprint.h - where a pixel lands in a texture: how large, how stretched, at which levels. Part of
- * texture_sample.c, inlined into each lookup. */
+/* texture_footprint.h - where a pixel lands in a texture: how large, how stretched, at which levels.
+ * Inlined into each lookup. */
 #ifndef CPU_TEXTURE_FOOTPRINT_H
 #define CPU_TEXTURE_FOOTPRINT_H
 

@@ -460,6 +460,41 @@ static void footprints_are_covered(void **state)
     tear_down(&f);
 }
 
+/* ---- groups ---- */
+
+/* A group gives the bits that its textures give one by one, whatever is alike among them. */
+static void groups_are_lookups_one_by_one(void **state)
+{
+    (void)state;
+    enum { COUNT = TEXTURE_GROUP };
+    fixture f[COUNT];
+    texture_binding bindings[COUNT];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        set_up(&f[i], make_noise(i == 5 ? 64 : 128, 32, 1 + (i + 2) % 4), i % 2);
+        bindings[i] = f[i].binding;
+    }
+    bindings[2].wrap_v = SCENE_WRAP_CLAMP;
+    bindings[6].mip_filter = SCENE_MIP_NEAREST;
+    texture_set set = {.binding_count = COUNT, .bindings = bindings};
+    for (int n = 0; n < 2000; n++) {
+        float uv[2] = {0.013f * (float)n - 9.0f, 0.7f - 0.029f * (float)n};
+        float size = exp2f((float)(n % 50) * 0.2f - 8.0f); /* magnified to minified */
+        float dx[2] = {size * cosf((float)n), size * sinf((float)n)};
+        float dy[2] = {-0.3f * size * sinf((float)n), 0.1f * size * (float)(n % 7)};
+        texture_request requests[COUNT];
+        for (uint32_t i = 0; i < COUNT; i++)
+            requests[i] = (texture_request){.texture = i == 7 ? 99 : i, .as_color = i % 2};
+        texture_sample_group(&set, requests, COUNT, uv, dx, dy);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            float single[4];
+            texture_sample(&set, requests[i].texture, requests[i].as_color, uv, dx, dy, single);
+            assert_memory_equal(requests[i].texel, single, sizeof single);
+        }
+    }
+    for (uint32_t i = 0; i < COUNT; i++)
+        tear_down(&f[i]);
+}
+
 static int prepare(void **state)
 {
     (void)state;
@@ -481,6 +516,7 @@ int main(void)
         cmocka_unit_test(stretched_footprints_keep_what_is_across),
         cmocka_unit_test(lookups_are_continuous_in_the_footprint),
         cmocka_unit_test(footprints_are_covered),
+        cmocka_unit_test(groups_are_lookups_one_by_one),
     };
     return cmocka_run_group_tests(tests, prepare, NULL);
 }
