@@ -2,7 +2,7 @@
 
 add_library(facet_flags INTERFACE)
 target_compile_options(facet_flags INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes>
     -fno-math-errno -fno-trapping-math -ffp-contract=off)
 if(FACET_WERROR)
     target_compile_options(facet_flags INTERFACE -Werror)

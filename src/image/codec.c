@@ -11,20 +11,25 @@ typedef struct codec {
     codec_probe *probe; /* NULL: this build has none */
     codec_decode *decode;
     codec_encode *encode; /* NULL: facet does not write it */
+    const char *library;  /* that this build lacks, where probe is NULL */
 } codec;
 
 static const codec codecs[] = {
     [IMAGE_CODEC_UNKNOWN] = {.name = "unknown"},
-    [IMAGE_CODEC_PNG] = {"PNG", png_probe, png_decode, png_encode},
-    [IMAGE_CODEC_JPEG] = {"JPEG", jpeg_probe, jpeg_decode, jpeg_encode},
+    [IMAGE_CODEC_PNG] = {"PNG", png_probe, png_decode, png_encode, NULL},
+    [IMAGE_CODEC_JPEG] = {"JPEG", jpeg_probe, jpeg_decode, jpeg_encode, NULL},
 #ifdef HAVE_WEBP
-    [IMAGE_CODEC_WEBP] = {"WebP", webp_probe, webp_decode, webp_encode},
+    [IMAGE_CODEC_WEBP] = {"WebP", webp_probe, webp_decode, webp_encode, NULL},
 #else
-    [IMAGE_CODEC_WEBP] = {.name = "WebP"},
+    [IMAGE_CODEC_WEBP] = {.name = "WebP", .library = "libwebp"},
 #endif
-    [IMAGE_CODEC_HDR] = {"Radiance HDR", hdr_probe, hdr_decode, hdr_encode},
-    [IMAGE_CODEC_EXR] = {"OpenEXR", exr_probe, exr_decode, NULL}, /* written by image_encode_exr() */
-    [IMAGE_CODEC_PFM] = {"PFM", pfm_probe, pfm_decode, pfm_encode},
+    [IMAGE_CODEC_HDR] = {"Radiance HDR", hdr_probe, hdr_decode, hdr_encode, NULL},
+#ifdef HAVE_OPENEXR
+    [IMAGE_CODEC_EXR] = {"OpenEXR", exr_probe, exr_decode, NULL, NULL}, /* written by image_encode_exr() */
+#else
+    [IMAGE_CODEC_EXR] = {.name = "OpenEXR", .library = "the OpenEXR library"},
+#endif
+    [IMAGE_CODEC_PFM] = {"PFM", pfm_probe, pfm_decode, pfm_encode, NULL},
     [IMAGE_CODEC_KTX2] = {.name = "KTX2"},
 };
 
@@ -142,8 +147,9 @@ static facet_result find_codec(const void *bytes, size_t size, const char *name,
         return fail(error, FACET_ERROR_UNSUPPORTED,
                     "%s: KTX2 pictures (glTF extension KHR_texture_basisu) are not read", name);
     if (!codecs[*id].decode)
-        return fail(error, FACET_ERROR_UNSUPPORTED, "%s: this build of facet does not read %s files", name,
-                    codecs[*id].name);
+        return fail(error, FACET_ERROR_UNSUPPORTED,
+                    "%s: this build of facet does not read %s files: %s was not there when it was made", name,
+                    codecs[*id].name, codecs[*id].library);
     return FACET_OK;
 }
 
@@ -195,3 +201,17 @@ facet_result image_encode(const image *i, image_codec codec_id, const image_enco
                     codecs[codec_id].name);
     return codecs[codec_id].encode(i, &d, bytes, size, error);
 }
+
+#ifndef HAVE_OPENEXR
+facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer *layers,
+                              uint32_t layer_count, bool as_half, const image_encode_desc *desc,
+                              unsigned char **bytes, size_t *size, facet_error *error)
+{
+    (void)width, (void)height, (void)layers, (void)layer_count, (void)as_half, (void)desc;
+    *bytes = NULL;
+    *size = 0;
+    return fail(error, FACET_ERROR_UNSUPPORTED,
+                "this build of facet does not write %s files: %s was not there when it was made",
+                codecs[IMAGE_CODEC_EXR].name, codecs[IMAGE_CODEC_EXR].library);
+}
+#endif

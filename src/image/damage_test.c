@@ -28,7 +28,11 @@ static void add_file(const char *name)
     file_bytes file = read_file(path);
     unsigned char *copy = mem_alloc(NULL, file.size, 1);
     memcpy(copy, file.data, file.size);
-    add_sample(name, copy, file.size);
+    image header;
+    if (image_probe(copy, file.size, name, &header, NULL, NULL) == FACET_ERROR_UNSUPPORTED)
+        mem_free(copy); /* this build has no OpenEXR */
+    else
+        add_sample(name, copy, file.size);
     file_close(&file);
 }
 
@@ -200,7 +204,8 @@ static void memory_that_runs_out_while_writing(void **state)
             mem_free(bytes);
             assert_int_equal(f.blocks, 0);
         }
-        assert_true(result == FACET_OK || cases[k].codec == IMAGE_CODEC_WEBP);
+        assert_true(result == FACET_OK || cases[k].codec == IMAGE_CODEC_WEBP ||
+                    (cases[k].codec == IMAGE_CODEC_EXR && result == FACET_ERROR_UNSUPPORTED));
         image_destroy(&i);
     }
 }

@@ -22,7 +22,7 @@ allowed() {
     esac
 }
 
-for file in $(git ls-files 'src/*.c' 'src/*.h' 2>/dev/null || find src -name '*.[ch]'); do
+for file in $(git ls-files 'src/*.c' 'src/*.cc' 'src/*.h' 2>/dev/null || find src -name '*.[ch]' -o -name '*.cc'); do
     module=$(echo "$file" | cut -d/ -f2)
     may=$(allowed "$module")
     if [ -z "$may" ]; then
@@ -60,7 +60,7 @@ seen_only() {
 seen_only 'embree' cpu
 seen_only 'jansson' io cli
 seen_only '(EGL|GL|GLES[0-9]?|epoxy)/' gl
-seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|zlib)' image
+seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zlib)' image
 
 # shade/ includes nothing but itself.
 found=$(grep -nE '^#include' shade/*.h | grep -vE '^shade/shade\.h:' || true)

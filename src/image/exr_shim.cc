@@ -1,0 +1,426 @@
+/* exr_shim.cc - see exr_shim.h: the one file in C++, since OpenEXR's C interface cannot decode DWA. The library's
+ * global settings (threads, largest sizes) are the program's and left alone. */
+#include "image/exr_shim.h"
+
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include <strings.h>
+
+#include <Iex.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfIO.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfTileDescription.h>
+#include <ImfVersion.h>
+#include <half.h>
+
+extern "C" {
+#include "base/memory.h"
+}
+
+namespace
+{
+
+const char *const STREAM_NAME = "memory";
+
+/* ---- streams ---- */
+
+class memory_input : public Imf::IStream
+{
+  public:
+    memory_input(const unsigned char *bytes, size_t size)
+        : IStream(STREAM_NAME), bytes_(bytes), size_(size), at_(0)
+    {
+    }
+    bool read(char out[], int count) override
+    {
+        if (count < 0 || at_ > size_ || static_cast<size_t>(count) > size_ - at_)
+            throw Iex::InputExc("the file ends too early");
+        std::memcpy(out, bytes_ + at_, static_cast<size_t>(count));
+        at_ += static_cast<size_t>(count);
+        return at_ < size_;
+    }
+    uint64_t tellg() override
+    {
+        return at_;
+    }
+    void seekg(uint64_t position) override
+    {
+        at_ = position;
+    }
+
+  private:
+    const unsigned char *bytes_;
+    uint64_t size_, at_;
+};
+
+class memory_output : public Imf::OStream
+{
+  public:
+    explicit memory_output(const facet_allocator *allocator) : OStream(STREAM_NAME), allocator_(allocator)
+    {
+    }
+    ~memory_output() override
+    {
+        mem_free(block_);
+    }
+    void write(const char bytes[], int count) override
+    {
+        const size_t end = at_ + static_cast<size_t>(count);
+        if (!mem_reserve(allocator_, &block_, &capacity_, end, 1))
+            throw std::bad_alloc();
+        std::memcpy(static_cast<char *>(block_) + at_, bytes, static_cast<size_t>(count));
+        at_ = end;
+        size_ = size_ > end ? size_ : end;
+    }
+    uint64_t tellp() override
+    {
+        return at_;
+    }
+    void seekp(uint64_t position) override
+    {
+        at_ = position;
+    }
+    unsigned char *take(size_t *size)
+    {
+        void *block = block_;
+        block_ = nullptr;
+        *size = size_;
+        return static_cast<unsigned char *>(block);
+    }
+
+  private:
+    const facet_allocator *allocator_;
+    void *block_ = nullptr;
+    size_t capacity_ = 0, size_ = 0, at_ = 0;
+};
+
+/* ---- failures ---- */
+
+facet_result say(char *message, facet_result result, const char *text)
+{
+    std::snprintf(message, EXR_MESSAGE, "%s", text);
+    return result;
+}
+
+/* What the exception that is being handled comes to. Must be called in a catch block. */
+facet_result say_exception(char *message, facet_result result)
+{
+    try {
+        throw;
+    } catch (const std::bad_alloc &) {
+        return say(message, FACET_ERROR_MEMORY, "out of memory");
+    } catch (const std::exception &e) {
+        /* "Cannot read image file "memory". What is wrong": the first half says nothing here */
+        const std::string prefix = std::string("file \"") + STREAM_NAME + "\". ";
+        const char *text = e.what();
+        const char *found = std::strstr(text, prefix.c_str());
+        return say(message, result, found ? found + prefix.size() : text);
+    } catch (...) {
+        return say(message, result, "the library failed");
+    }
+}
+
+/* ---- which channels make the picture ---- */
+
+using channel_iterator = Imf::ChannelList::ConstIterator;
+
+/* The channel named prefix and then suffix, whatever the case of suffix. */
+channel_iterator find_channel(const Imf::ChannelList &list, const std::string &prefix, const char *suffix)
+{
+    channel_iterator c = list.begin();
+    while (c != list.end() && (std::strncmp(c.name(), prefix.c_str(), prefix.size()) != 0 ||
+                               strcasecmp(c.name() + prefix.size(), suffix) != 0))
+        ++c;
+    return c;
+}
+
+facet_result set_source(const channel_iterator &c, exr_source *source, char *message)
+{
+    std::snprintf(source->name, EXR_NAME, "%s", c.name());
+    source->is_half = c.channel().type == Imf::HALF;
+    if (c.channel().xSampling == 1 && c.channel().ySampling == 1)
+        return FACET_OK;
+    std::snprintf(message, EXR_MESSAGE, "channel %s is not sampled at every texel", c.name());
+    return FACET_ERROR_UNSUPPORTED;
+}
+
+/* R, G, B and perhaps A of the layer prefix. *is_there: whether it has the three. */
+facet_result choose_rgb(const Imf::ChannelList &list, const std::string &prefix, exr_info *info,
+                        bool *is_there, char *message)
+{
+    static const char *const names[] = {"R", "G", "B", "A"};
+    facet_result result = FACET_OK;
+    info->channel_count = 3;
+    *is_there = true;
+    for (int k = 0; k < 4; k++) {
+        const channel_iterator c = find_channel(list, prefix, names[k]);
+        if (c == list.end()) {
+            *is_there = *is_there && k == 3;
+            continue;
+        }
+        info->channel_count = k == 3 ? 4 : 3;
+        if (result == FACET_OK)
+            result = set_source(c, &info->sources[k], message);
+    }
+    return *is_there ? result : FACET_OK;
+}
+
+/* In this order: R, G, B; Y; R, G, B of the first layer that has them; the only channel. */
+facet_result choose_channels(const Imf::ChannelList &list, exr_info *info, char *message)
+{
+    bool is_there;
+    facet_result result = choose_rgb(list, "", info, &is_there, message);
+    if (is_there)
+        return result;
+    size_t count = 0;
+    for (channel_iterator c = list.begin(); c != list.end(); ++c)
+        count++;
+    if (count == 0)
+        return say(message, FACET_ERROR_INVALID, "there are no channels");
+    channel_iterator grey = find_channel(list, "", "Y");
+    if (grey == list.end() && count == 1)
+        grey = list.begin();
+    if (grey != list.end()) {
+        if (find_channel(list, "", "RY") != list.end())
+            return say(message, FACET_ERROR_UNSUPPORTED, "luminance and chroma (Y, RY, BY) are not read");
+        const channel_iterator alpha = find_channel(list, "", "A");
+        result = set_source(grey, &info->sources[0], message);
+        info->sources[1] = info->sources[2] = info->sources[0];
+        info->channel_count = alpha == list.end() || alpha == grey ? 3 : 4;
+        return result == FACET_OK && info->channel_count == 4 ? set_source(alpha, &info->sources[3], message)
+                                                              : result;
+    }
+    for (channel_iterator c = list.begin(); c != list.end(); ++c) {
+        const char *point = std::strrchr(c.name(), '.');
+        if (!point || strcasecmp(point, ".R") != 0)
+            continue;
+        result = choose_rgb(list, std::string(c.name(), point + 1), info, &is_there, message);
+        if (is_there)
+            return result;
+    }
+    std::snprintf(message, EXR_MESSAGE, "none of %zu channels is named R, G, B or Y", count);
+    return FACET_ERROR_UNSUPPORTED;
+}
+
+/* ---- the header ---- */
+
+exr_window window(const Imath::Box2i &box)
+{
+    return {box.min.x, box.min.y, box.max.x, box.max.y};
+}
+
+uint32_t rows_of(Imf::Compression compression)
+{
+    switch (compression) {
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+        return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+        return 32;
+    case Imf::DWAB_COMPRESSION:
+        return 256;
+    default:
+        return 1;
+    }
+}
+
+facet_result fill_info(const unsigned char *bytes, size_t size, exr_info *out, char *message)
+{
+    memory_input stream(bytes, size);
+    int version = bytes[4] | bytes[5] << 8 | bytes[6] << 16;
+    Imf::Header header;
+    *out = exr_info{};
+    stream.seekg(8);
+    header.readFrom(stream, version);
+    if (Imf::isNonImage(version) || (header.hasType() && Imf::isDeepData(header.type())))
+        return say(message, FACET_ERROR_UNSUPPORTED, "deep pictures are not read");
+    out->data = window(header.dataWindow());
+    out->display = window(header.displayWindow());
+    out->is_tiled =
+        Imf::isMultiPart(version) ? header.hasType() && Imf::isTiled(header.type()) : Imf::isTiled(version);
+    const Imf::Compression compression = header.compression();
+    if (compression < 0 || compression >= Imf::NUM_COMPRESSION_METHODS)
+        return say(message, FACET_ERROR_UNSUPPORTED, "the compression is not known");
+    out->is_dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+    out->chunk_rows = rows_of(compression);
+    if (out->is_tiled) {
+        if (!header.hasTileDescription())
+            return say(message, FACET_ERROR_INVALID, "tiles is missing");
+        out->tile_width = header.tileDescription().xSize;
+        out->tile_height = out->chunk_rows = header.tileDescription().ySize;
+    }
+    for (channel_iterator c = header.channels().begin(); c != header.channels().end(); ++c)
+        out->texel_size += c.channel().type == Imf::HALF ? 2 : 4;
+    return choose_channels(header.channels(), out, message);
+}
+
+} // namespace
+
+facet_result exr_shim_info(const unsigned char *bytes, size_t size, exr_info *out, char message[EXR_MESSAGE])
+{
+    try {
+        return fill_info(bytes, size, out, message);
+    } catch (...) {
+        return say_exception(message, FACET_ERROR_INVALID);
+    }
+}
+
+/* ---- reading ---- */
+
+struct exr_reader {
+    memory_input stream;
+    Imf::MultiPartInputFile file;
+    Imf::InputPart part;
+
+    exr_reader(const unsigned char *bytes, size_t size)
+        : stream(bytes, size), file(stream, 0, false /* a table with holes is not mended */), part(file, 0)
+    {
+    }
+};
+
+facet_result exr_shim_open(const unsigned char *bytes, size_t size, exr_reader **out,
+                           char message[EXR_MESSAGE])
+{
+    *out = nullptr;
+    try {
+        *out = new exr_reader(bytes, size);
+        return FACET_OK;
+    } catch (...) {
+        return say_exception(message, FACET_ERROR_INVALID);
+    }
+}
+
+void exr_shim_close(exr_reader *reader)
+{
+    delete reader;
+}
+
+facet_result exr_shim_read(exr_reader *reader, const exr_info *info, uint32_t row, uint32_t row_end,
+                           float *texels, char message[EXR_MESSAGE])
+{
+    try {
+        /* The library adds x and y of the file to the base, which need not be inside the block. */
+        const size_t texel_size = info->channel_count * sizeof(float);
+        const size_t width = static_cast<size_t>(int64_t{info->data.max_x} - info->data.min_x + 1);
+        const int64_t first = int64_t{info->data.min_y} + row;
+        const intptr_t before =
+            static_cast<intptr_t>(texel_size) * (first * static_cast<intptr_t>(width) + info->data.min_x);
+        Imf::FrameBuffer buffer;
+        const bool is_grey = std::strcmp(info->sources[0].name, info->sources[1].name) == 0;
+        for (uint32_t k = 0; k < info->channel_count; k++) {
+            if (is_grey && (k == 1 || k == 2))
+                continue;
+            char *base = reinterpret_cast<char *>(reinterpret_cast<intptr_t>(texels + k) - before);
+            buffer.insert(info->sources[k].name,
+                          Imf::Slice(Imf::FLOAT, base, texel_size, texel_size * width));
+        }
+        reader->part.setFrameBuffer(buffer);
+        reader->part.readPixels(static_cast<int>(first), info->data.min_y + static_cast<int>(row_end - 1));
+        const size_t count = width * (row_end - row);
+        for (size_t t = 0; is_grey && t < count; t++)
+            texels[t * info->channel_count + 1] = texels[t * info->channel_count + 2] =
+                texels[t * info->channel_count];
+        return FACET_OK;
+    } catch (...) {
+        return say_exception(message, FACET_ERROR_INVALID);
+    }
+}
+
+/* ---- writing ---- */
+
+namespace
+{
+
+enum { STRIP_ROWS = 16 /* of a ZIP chunk */ };
+
+struct block_deleter {
+    void operator()(uint16_t *block) const
+    {
+        mem_free(block);
+    }
+};
+
+void write_halves(Imf::OutputFile &file, uint32_t width, uint32_t height, const exr_channel *channels,
+                  uint32_t channel_count, const facet_allocator *allocator)
+{
+    const size_t row_size = width * sizeof(uint16_t);
+    std::unique_ptr<uint16_t, block_deleter> strip(static_cast<uint16_t *>(
+        mem_alloc(allocator, static_cast<size_t>(STRIP_ROWS) * channel_count, row_size)));
+    if (!strip)
+        throw std::bad_alloc();
+    for (uint32_t y = 0; y < height; y += STRIP_ROWS) {
+        const uint32_t y_end = height - y > STRIP_ROWS ? y + STRIP_ROWS : height;
+        Imf::FrameBuffer buffer;
+        uint16_t *to = strip.get();
+        for (uint32_t c = 0; c < channel_count; c++) {
+            const intptr_t base = reinterpret_cast<intptr_t>(to) - static_cast<intptr_t>(y * row_size);
+            buffer.insert(channels[c].name,
+                          Imf::Slice(Imf::HALF, reinterpret_cast<char *>(base), sizeof(uint16_t), row_size));
+            for (uint32_t row = y; row < y_end; row++, to += width) {
+                const char *from =
+                    reinterpret_cast<const char *>(channels[c].first) + row * channels[c].row_stride;
+                for (uint32_t x = 0; x < width; x++, from += channels[c].texel_stride) {
+                    float sample;
+                    std::memcpy(&sample, from, sizeof sample);
+                    to[x] = half(sample).bits();
+                }
+            }
+        }
+        file.setFrameBuffer(buffer);
+        file.writePixels(static_cast<int>(y_end - y));
+    }
+}
+
+void write_floats(Imf::OutputFile &file, uint32_t height, const exr_channel *channels, uint32_t channel_count)
+{
+    Imf::FrameBuffer buffer;
+    for (uint32_t c = 0; c < channel_count; c++) /* the library only reads */
+        buffer.insert(channels[c].name,
+                      Imf::Slice(Imf::FLOAT,
+                                 const_cast<char *>(reinterpret_cast<const char *>(channels[c].first)),
+                                 channels[c].texel_stride, channels[c].row_stride));
+    file.setFrameBuffer(buffer);
+    file.writePixels(static_cast<int>(height));
+}
+
+} // namespace
+
+facet_result exr_shim_write(uint32_t width, uint32_t height, const exr_channel *channels,
+                            uint32_t channel_count, bool as_half, uint32_t level,
+                            const facet_allocator *allocator, unsigned char **bytes, size_t *size,
+                            char message[EXR_MESSAGE])
+{
+    try {
+        memory_output stream(allocator);
+        Imf::Header header(static_cast<int>(width), static_cast<int>(height));
+        header.compression() = Imf::ZIP_COMPRESSION;
+        header.zipCompressionLevel() = static_cast<int>(level);
+        for (uint32_t c = 0; c < channel_count; c++)
+            header.channels().insert(channels[c].name, Imf::Channel(as_half ? Imf::HALF : Imf::FLOAT));
+        {
+            Imf::OutputFile file(stream, header, 0);
+            if (as_half)
+                write_halves(file, width, height, channels, channel_count, allocator);
+            else
+                write_floats(file, height, channels, channel_count);
+        } /* writes its table of chunks here */
+        *bytes = stream.take(size);
+        return FACET_OK;
+    } catch (...) {
+        return say_exception(message, FACET_ERROR_ARGUMENT);
+    }
+}

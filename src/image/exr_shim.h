@@ -1,0 +1,64 @@
+/* exr_shim.h - the OpenEXR library, which is C++, behind C functions: no exception leaves them. They fail with
+ * FACET_ERROR_MEMORY where the library has none, else as they say, and then fill message. */
+#ifndef IMAGE_EXR_SHIM_H
+#define IMAGE_EXR_SHIM_H
+
+#include "facet/facet.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { EXR_NAME = 256 /* bytes of a channel's name with its closing 0 */, EXR_MESSAGE = 512 };
+
+typedef struct exr_window {
+    int32_t min_x, min_y, max_x, max_y; /* both ends belong to it */
+} exr_window;
+
+/* A channel that the picture is made of. */
+typedef struct exr_source {
+    char name[EXR_NAME];
+    bool is_half;
+} exr_source;
+
+/* What the header of the first part says. Nothing of it has been checked. */
+typedef struct exr_info {
+    exr_window data, display;
+    bool is_tiled, is_dwa;
+    uint32_t tile_width, tile_height; /* where is_tiled */
+    uint32_t chunk_rows;              /* rows that are coded together */
+    uint32_t texel_size;              /* bytes of the samples of all channels */
+    uint32_t channel_count;           /* of the picture: 3 or 4 */
+    exr_source sources[4];            /* R, G, B, A; the same one three times where it is grey */
+} exr_info;
+
+/* Reads the first header of a file whose headers are whole (see check_headers() of codec_exr.c). Fails with
+ * FACET_ERROR_INVALID and, where the picture is of a kind that is not read, FACET_ERROR_UNSUPPORTED. */
+facet_result exr_shim_info(const unsigned char *bytes, size_t size, exr_info *out, char message[EXR_MESSAGE]);
+
+/* A file that is open; used by one thread at a time. Several may read the same bytes, which stay. */
+typedef struct exr_reader exr_reader;
+facet_result exr_shim_open(const unsigned char *bytes, size_t size, exr_reader **out,
+                           char message[EXR_MESSAGE]);
+void exr_shim_close(exr_reader *reader); /* NULL is allowed */
+/* Rows [row, row_end) of the data window as floats, channels interleaved. FACET_ERROR_INVALID: damaged. */
+facet_result exr_shim_read(exr_reader *reader, const exr_info *info, uint32_t row, uint32_t row_end,
+                           float *texels, char message[EXR_MESSAGE]);
+
+/* A channel to be written: the sample at (x, y) is first[y * row_stride + x * texel_stride], in bytes. */
+typedef struct exr_channel {
+    const char *name;
+    const float *first;
+    size_t texel_stride, row_stride;
+} exr_channel;
+
+/* Writes scanlines, ZIP at the zlib level. *bytes: a block of mem_alloc(). Fails with FACET_ERROR_ARGUMENT. */
+facet_result exr_shim_write(uint32_t width, uint32_t height, const exr_channel *channels,
+                            uint32_t channel_count, bool as_half, uint32_t level,
+                            const facet_allocator *allocator, unsigned char **bytes, size_t *size,
+                            char message[EXR_MESSAGE]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
