@@ -246,6 +246,36 @@ static void dwa_environments(void **state)
     }
 }
 
+/* Attributes are walked over before the library takes memory for them. */
+static void attributes_stay_inside_the_file(void **state)
+{
+    (void)state;
+    file_bytes file = read_file(TEST_DATA "zip.exr");
+    unsigned char *copy = malloc(file.size);
+    static const char *const names[] = {"channels", "compression", "dataWindow", "displayWindow"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        for (int change = 0; change < 3; change++) {
+            memcpy(copy, file.data, file.size);
+            unsigned char *at = copy + 8;
+            while (memcmp(at, names[k], strlen(names[k]) + 1) != 0)
+                at++;
+            unsigned char *size_at = at + strlen(names[k]) + 1;
+            size_at += strlen((char *)size_at) + 1;
+            if (change == 0)
+                memcpy(size_at, "\0\0\0\x7f", 4);
+            else if (change == 1)
+                *size_at = (unsigned char)(*size_at + 1);
+            else
+                *at = '_'; /* missing */
+            image i;
+            facet_error error;
+            assert_int_equal(image_decode(copy, file.size, "p", NULL, &i, &error), FACET_ERROR_INVALID);
+            assert_int_equal(strncmp(error.message, "p: OpenEXR: ", 12), 0);
+        }
+    free(copy);
+    file_close(&file);
+}
+
 static void damaged_files_do_no_harm(void **state)
 {
     (void)state;
@@ -270,11 +300,17 @@ static void damaged_files_do_no_harm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lossless_codings),        cmocka_unit_test(lossy_codings),
-        cmocka_unit_test(windows_tiles_and_parts), cmocka_unit_test(written_layers_come_back),
-        cmocka_unit_test(channels_are_chosen),     cmocka_unit_test(odd_numbers),
-        cmocka_unit_test(what_cannot_be_written),  cmocka_unit_test(environments_agree),
-        cmocka_unit_test(dwa_environments),        cmocka_unit_test(damaged_files_do_no_harm),
+        cmocka_unit_test(lossless_codings),
+        cmocka_unit_test(lossy_codings),
+        cmocka_unit_test(windows_tiles_and_parts),
+        cmocka_unit_test(written_layers_come_back),
+        cmocka_unit_test(channels_are_chosen),
+        cmocka_unit_test(odd_numbers),
+        cmocka_unit_test(what_cannot_be_written),
+        cmocka_unit_test(environments_agree),
+        cmocka_unit_test(attributes_stay_inside_the_file),
+        cmocka_unit_test(dwa_environments),
+        cmocka_unit_test(damaged_files_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

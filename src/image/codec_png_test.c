@@ -245,6 +245,31 @@ static void every_changed_byte_is_noticed(void **state)
     image_destroy(&i);
 }
 
+/* What does not count is not read: a text with a wrong CRC and a profile that is none do not refuse a picture. */
+static void other_chunks_are_passed_over(void **state)
+{
+    (void)state;
+    static const unsigned char others[] = "\0\0\0\4tEXt\1\2\3\4wxyz\0\0\0\3iCCPabc\0\0\0\0";
+    enum { BEFORE = 8 + 25 /* signature and IHDR */, OTHERS = sizeof others - 1 };
+    image i = make_picture(12, 9, 3, IMAGE_U8);
+    unsigned char *bytes;
+    size_t size;
+    encode(&i, 1, 4, &bytes, &size);
+    unsigned char *longer = malloc(size + OTHERS);
+    memcpy(longer, bytes, BEFORE);
+    memcpy(longer + BEFORE, others, OTHERS);
+    memcpy(longer + BEFORE + OTHERS, bytes + BEFORE, size - BEFORE);
+    image back;
+    assert_int_equal(image_decode(longer, size + OTHERS, "p", NULL, &back, NULL), FACET_OK);
+    assert_same_texels(&i, &back);
+    image_destroy(&back);
+    longer[BEFORE + 4] = 'T'; /* critical, and unknown */
+    assert_int_equal(image_decode(longer, size + OTHERS, "p", NULL, &back, NULL), FACET_ERROR_INVALID);
+    free(longer);
+    mem_free(bytes);
+    image_destroy(&i);
+}
+
 static void limits_hold(void **state)
 {
     (void)state;
@@ -268,15 +293,11 @@ static void limits_hold(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_layouts_come_back),
-        cmocka_unit_test(all_levels_come_back),
-        cmocka_unit_test(extremes_come_back),
-        cmocka_unit_test(bytes_do_not_depend_on_threads),
-        cmocka_unit_test(channel_counts_as_asked),
-        cmocka_unit_test(pngsuite_is_read),
-        cmocka_unit_test(corrupt_files_are_refused),
-        cmocka_unit_test(every_changed_byte_is_noticed),
-        cmocka_unit_test(limits_hold),
+        cmocka_unit_test(all_layouts_come_back),        cmocka_unit_test(all_levels_come_back),
+        cmocka_unit_test(extremes_come_back),           cmocka_unit_test(bytes_do_not_depend_on_threads),
+        cmocka_unit_test(channel_counts_as_asked),      cmocka_unit_test(pngsuite_is_read),
+        cmocka_unit_test(corrupt_files_are_refused),    cmocka_unit_test(every_changed_byte_is_noticed),
+        cmocka_unit_test(other_chunks_are_passed_over), cmocka_unit_test(limits_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
