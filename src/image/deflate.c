@@ -26,7 +26,7 @@ size_t deflate_piece(const facet_allocator *allocator, uint32_t level, const uns
                      size_t size, size_t history_size, bool is_last, unsigned char *out)
 {
     z_stream z = {.zalloc = zlib_alloc, .zfree = zlib_free, .opaque = (void *)allocator};
-    if (deflateInit2(&z, (int)level, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    if (deflateInit2(&z, (int)level, Z_DEFLATED, -15, 8, Z_FILTERED) != Z_OK)
         return 0;
     if (history_size)
         deflateSetDictionary(&z, bytes - history_size, (unsigned)history_size);
