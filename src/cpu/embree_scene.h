@@ -21,10 +21,11 @@ typedef struct embree_scene {
     embree_memory memory;
 } embree_scene;
 
-/* Builds over the geometries, which have their vertices and outlive it. The hierarchy does not depend on
- * thread_count. Fails with FACET_ERROR_MEMORY, FACET_ERROR_ENVIRONMENT where Embree does not run. */
+/* Builds over the geometries, which have their vertices and outlive it, as well as ray_count rays are worth it. The
+ * hierarchy does not depend on thread_count. Fails with FACET_ERROR_MEMORY, FACET_ERROR_ENVIRONMENT where Embree does not run. */
 facet_result embree_scene_create(const render_geometry_set *set, const facet_allocator *allocator,
-                                 uint32_t thread_count, embree_scene *out, facet_error *error);
+                                 uint64_t ray_count, uint32_t thread_count, embree_scene *out,
+                                 facet_error *error);
 void embree_scene_destroy(embree_scene *scene); /* {0} is allowed */
 
 #endif

@@ -52,8 +52,11 @@ static facet_result prepare_textures(preview *p, facet_error *error)
 static facet_result prepare_hierarchy(preview *p, facet_error *error)
 {
     double start = clock_seconds();
-    facet_result result =
-        embree_scene_create(&p->geometries, &p->desc->allocator, p->desc->thread_count, &p->embree, error);
+    const facet_render_desc *desc = p->desc;
+    /* Of the whole picture: a crop sees what the whole sees. */
+    uint64_t ray_count = (uint64_t)desc->width * desc->height * desc->samples;
+    facet_result result = embree_scene_create(&p->geometries, &desc->allocator, ray_count, desc->thread_count,
+                                              &p->embree, error);
     p->hierarchy_s = clock_seconds() - start;
     return result;
 }

@@ -312,6 +312,37 @@ static void pictures_do_not_depend_on_threads(void **state)
     fixture_destroy(&f);
 }
 
+/* Built another way: see choose_quality() of embree_scene.c. Thirty triangles in each place, that shade alike but
+ * for rounding. */
+static void large_meshes_do_not_depend_on_threads(void **state)
+{
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 3, 8, 2};
+    fixture f = fixture_create();
+    f.desc.width = f.desc.height = 100;
+    f.desc.aovs = FACET_AOV_NORMAL;
+    uint32_t mesh = fixture_add_sphere(&f, 300, SCENE_NONE);
+    scene_primitive *primitive = &f.scene->meshes[mesh].primitives[0];
+    uint32_t *indices = (uint32_t *)(uintptr_t)primitive->indices;
+    for (size_t i = 0; i < primitive->index_count / 3; i++)
+        for (size_t k = 0; k < 3; k++)
+            indices[3 * i + k] = indices[3 * (i / 30 * 30) + (k + i) % 3];
+    fixture_place(&f, mesh, 0, 0, 0, 1.0f);
+    film first = {0};
+    for (int i = 0; i < 5; i++) {
+        f.desc.thread_count = threads[i];
+        film picture = fixture_render(&f);
+        if (i == 0) {
+            first = picture;
+            continue;
+        }
+        assert_same_film(&first, &picture);
+        film_destroy(&picture);
+    }
+    film_destroy(&first);
+    fixture_destroy(&f);
+}
+
 static void a_crop_is_a_part_of_the_whole(void **state)
 {
     (void)state;
@@ -474,6 +505,7 @@ int main(void)
         cmocka_unit_test(coincident_backs_hide_nothing),
         cmocka_unit_test(points_and_lines_are_a_pixel_wide),
         cmocka_unit_test(pictures_do_not_depend_on_threads),
+        cmocka_unit_test(large_meshes_do_not_depend_on_threads),
         cmocka_unit_test(a_crop_is_a_part_of_the_whole),
         cmocka_unit_test(progress_is_told_in_order_and_cancels),
         cmocka_unit_test(a_time_limit_is_kept),
