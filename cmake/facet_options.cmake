@@ -54,7 +54,7 @@ function(facet_add_test name)
     endif()
     add_test(NAME ${FACET_TEST_PREFIX}${name} COMMAND ${T_COMMAND} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
-        ENVIRONMENT "FACET_TEST_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
+        ENVIRONMENT "FACET_TEST_DATA=${PROJECT_SOURCE_DIR}/../shared/data;TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp")
     if(T_LABELS)
         set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES LABELS "${T_LABELS}")
     endif()

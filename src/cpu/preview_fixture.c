@@ -11,20 +11,6 @@
 
 #include "image/image.h"
 
-/* Embree and TBB are not instrumented: ThreadSanitizer sees their threads, but not how they hand over. What is left
- * is facet's own code on facet's own threads. */
-const char *__tsan_default_suppressions(void);
-__attribute__((visibility("default"))) const char *__tsan_default_suppressions(void)
-{
-    return "race:libembree\n"
-           "race:libtbb\n"
-           "race:libstdc++\n"
-           "race:prepare_hierarchy\n"
-           "race:count_memory\n"
-           "called_from_lib:libembree3.so\n"
-           "called_from_lib:libtbb.so\n";
-}
-
 static const double PI_DOUBLE = 3.14159265358979323846;
 
 static void *take(fixture *f, size_t count, size_t size)
