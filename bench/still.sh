@@ -17,12 +17,12 @@ trap 'rm -rf "$work"' EXIT
 line() {
     name=$1
     shift
-    printf '%-34s' "$name"
+    printf '%-36s' "$name"
     "$measure" "$runs" "$@" 2>"$work/errors" || { tail -n 1 "$work/errors"; }
 }
 
 echo
-echo "facet $("$facet" version), 512 x 512, 4 samples per pixel, $(nproc) cores"
+echo "$("$facet" version), 512 x 512, 4 samples per pixel, $(nproc) cores"
 line "built-in scene" "$facet" render -q -s 512 -o "$work/a.png"
 for model in small textured heavy; do
     line "$model" "$facet" render -q -s 512 -o "$work/$model.png" "$work/$model.glb"
