@@ -43,7 +43,7 @@ float prefilter_lod_of(float perceptual_roughness)
 
 void prefilter_kernel(float perceptual_roughness, uint32_t degree, float *kernel)
 {
-    /* nodes and weights of 8 points on [-1, 1] */
+    /* Gauss and Legendre's nodes and weights of 8 points on [-1, 1], mirrored at 0 */
     static const double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                    0.9602898564975363};
     static const double node_weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
@@ -55,7 +55,7 @@ void prefilter_kernel(float perceptual_roughness, uint32_t degree, float *kernel
     double width = 0.125 * (double)alpha;
     const double end = 0.7853981633974483;
     while (from < end) {
-        /* P_128(cos 2 t) swings once in 0.025 */
+        /* P_160(cos 2 t) swings once in 0.02: at most one swing and a half for 8 points */
         double to = fmin(from + fmin(width, 0.03), end);
         for (int i = 0; i < 8; i++) {
             double x = i < 4 ? -node[i] : node[i - 4];
