@@ -77,7 +77,7 @@ static facet_result find(const facet_scene *scene, const char *what, const char 
                     scene->source, what, name);
     text names = {0};
     for (uint32_t i = 0; i < count && i < 12; i++)
-        text_addf(&names, "%s%u \"%s\"", i ? ", " : "", i, name_at(scene, i));
+        text_addf(&names, name_at(scene, i)[0] ? "%s%u \"%s\"" : "%s%u", i ? ", " : "", i, name_at(scene, i));
     if (count > 12)
         text_add(&names, ", ...");
     facet_result result = fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\"; there are %s",
