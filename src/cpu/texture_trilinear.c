@@ -3,7 +3,7 @@
 #include "cpu/texture_trilinear.h"
 
 #include "cpu/texture_texel.h"
-#include "ibl/simd.h" /* float8 and dispatch */
+#include "base/simd.h"
 
 typedef uint32_t uint8 __attribute__((vector_size(32)));
 typedef int32_t int8 __attribute__((vector_size(32)));
@@ -177,8 +177,8 @@ INLINE float4 sample(const texture_pyramid *p, level_pair levels, const probe_ta
     }
 }
 
-IBL_DISPATCH static void sample_all(const texture_binding *b, const texture_pyramid *const *pyramids,
-                                    uint32_t count, const float uv[2], const footprint *f, float (*out)[4])
+DISPATCH_AVX2 static void sample_all(const texture_binding *b, const texture_pyramid *const *pyramids,
+                                     uint32_t count, const float uv[2], const footprint *f, float (*out)[4])
 {
     probe_row probes = place_probes(pyramids[0], f);
     level_pair levels = get_levels(pyramids[0], probes.width_2);

@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "facet/facet.h"
-#include "ibl/simd.h"
+#include "ibl/rgbx.h"
 
 /* Six faces of size x size texels, each with a border of one texel that repeats what is across the edge: bilinear
  * lookup needs no care at edges and is continuous there. */

@@ -81,7 +81,7 @@ void facet_environment_destroy(facet_environment *environment)
 /* ---- what is kept of a decoded picture ---- */
 
 /* Brings values into [0, ENVIRONMENT_MAX_RADIANCE]; a file may hold what no light is. */
-IBL_DISPATCH static void limit_rows(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void limit_rows(void *context, size_t begin, size_t end)
 {
     const image *i = context;
     size_t row = (size_t)i->width * 3;

@@ -6,7 +6,7 @@
 #define IBL_EQUIRECT_H
 
 #include "facet/facet.h"
-#include "ibl/simd.h"
+#include "ibl/rgbx.h"
 #include "image/image.h"
 
 /* Solid angle of a texel of row y, sr: (2 pi / width) (cos(top) - cos(bottom)). All of them add up to 4 pi. */

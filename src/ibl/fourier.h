@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "ibl/simd.h"
+#include "ibl/rgbx.h"
 
 enum { FOURIER_MAX = 512 }; /* samples in a row */
 

@@ -105,7 +105,7 @@ typedef struct analysis {
 } analysis;
 
 /* Rows j and their mirrors: waves, not yet less the mean. */
-IBL_DISPATCH static void analyse_rows(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void analyse_rows(void *context, size_t begin, size_t end)
 {
     const analysis *job = context;
     uint32_t pair_count = HARMONICS_DEGREE;
@@ -151,7 +151,7 @@ static void remove_mean(harmonics *h)
     }
 }
 
-IBL_DISPATCH static void analyse_orders(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void analyse_orders(void *context, size_t begin, size_t end)
 {
     const harmonics *h = context;
     for (size_t order = begin; order < end; order++) {
@@ -253,7 +253,7 @@ static rgbx *grid_texel(const synthesis *job, int x, int y)
     return job->in->grid + (size_t)(y + PAD) * (job->width + 2 * PAD) + (size_t)(x + PAD);
 }
 
-IBL_DISPATCH static void synthesise_orders(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void synthesise_orders(void *context, size_t begin, size_t end)
 {
     const synthesis *job = context;
     uint32_t pair_count = job->degree;
@@ -298,7 +298,7 @@ IBL_DISPATCH static void synthesise_orders(void *context, size_t begin, size_t e
     }
 }
 
-IBL_DISPATCH static void synthesise_rows(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void synthesise_rows(void *context, size_t begin, size_t end)
 {
     const synthesis *job = context;
     uint32_t pair_count = job->degree;
@@ -359,7 +359,7 @@ static inline void cubic_weights(float f, float w[4])
 
 enum { MAX_CUBE_SIZE = 256 };
 
-IBL_DISPATCH static void fill_cube_rows(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void fill_cube_rows(void *context, size_t begin, size_t end)
 {
     const synthesis *job = context;
     uint32_t size = job->out->size;

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "ibl/simd.h"
+#include "ibl/rgbx.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -50,7 +50,7 @@ typedef struct projection {
     double (*row_sums)[WAVE_COUNT][3]; /* [height] */
 } projection;
 
-IBL_DISPATCH static void sum_rows(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void sum_rows(void *context, size_t begin, size_t end)
 {
     const projection *p = context;
     size_t count = 3 * (size_t)p->picture->width;

@@ -83,7 +83,7 @@ static inline float box_radiance(const soft_box *b, const placed_box *p, float x
     return depth > 0.05f ? edge * b->radiance : 0.0f;
 }
 
-IBL_DISPATCH static void draw_rows(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void draw_rows(void *context, size_t begin, size_t end)
 {
     const studio *s = context;
     for (size_t row = begin; row < end; row++) {

@@ -1,0 +1,26 @@
+/* simd.h - vectors of floats for bulk loops, and functions that are compiled for wider instructions and chosen when
+ * the program starts. */
+#ifndef BASE_SIMD_H
+#define BASE_SIMD_H
+
+/* Eight values of a loop over an array. */
+typedef float float8 __attribute__((vector_size(32), may_alias));
+
+/* Before a function: compiles it twice, for AVX2 and for plain x86-64. Without fused multiply-adds, so both give the
+ * same bits. Nothing elsewhere, and nothing under sanitizers, which run before the choice can be made. */
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define DISPATCH_AVX2
+#endif
+#endif
+#if !defined(DISPATCH_AVX2) && (defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__))
+#define DISPATCH_AVX2
+#endif
+#if !defined(DISPATCH_AVX2) && defined(__x86_64__) && defined(__linux__)
+#define DISPATCH_AVX2 __attribute__((target_clones("avx2", "default")))
+#endif
+#ifndef DISPATCH_AVX2
+#define DISPATCH_AVX2
+#endif
+
+#endif
