@@ -4,11 +4,13 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/memory.h"
@@ -24,7 +26,7 @@ static facet_result read_stream(int fd, const char *path, uint64_t max_bytes,
     for (;;) {
         if (!mem_reserve(allocator, (void **)&data, &capacity, size + 64 * 1024 + 1, 1)) {
             mem_free(data);
-            return fail_memory(error, path, size);
+            return fail(error, FACET_ERROR_MEMORY, "%s: out of memory after %zu bytes", path, size);
         }
         ssize_t got = read(fd, data + size, capacity - size - 1);
         if (got < 0 && errno == EINTR)
@@ -106,7 +108,7 @@ static bool write_all(int fd, const unsigned char *data, size_t size)
 
 static facet_result write_directly(const char *path, const void *data, size_t size, facet_error *error)
 {
-    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    int fd = open(path, O_WRONLY | O_TRUNC | O_CLOEXEC);
     if (fd < 0)
         return fail(error, FACET_ERROR_WRITE, "%s: cannot be opened for writing: %s", path, strerror(errno));
     bool written = write_all(fd, data, size);
@@ -119,32 +121,72 @@ static facet_result write_directly(const char *path, const void *data, size_t si
                    : fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
 }
 
-facet_result file_write(const char *path, const void *data, size_t size, facet_error *error)
+/* Whether path is a name of an open descriptor of this process: such as /dev/stdout, which is a link that root could
+ * replace. */
+static bool is_descriptor(const char *path)
 {
-    struct stat status;
-    bool exists = stat(path, &status) == 0;
-    if (exists && S_ISDIR(status.st_mode))
-        return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
-    if (exists && !S_ISREG(status.st_mode))
-        return write_directly(path, data, size, error);
+    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        size_t length = strlen(folders[i]);
+        const char *number = path + length;
+        if (strncmp(path, folders[i], length) == 0 && *number &&
+            strspn(number, "0123456789") == strlen(number))
+            return true;
+    }
+    return strcmp(path, "/dev/stdout") == 0 || strcmp(path, "/dev/stderr") == 0;
+}
 
-    char *temporary = NULL;
+/* Whether path is that, or a link to it. */
+static bool leads_to_descriptor(const char *path)
+{
+    char target[64];
+    ssize_t length = readlink(path, target, sizeof target - 1);
+    target[length > 0 ? length : 0] = 0;
+    return is_descriptor(path) || is_descriptor(target);
+}
+
+/* Creates a file of its own beside path, with what the umask leaves of mode 666. *name, for free(), is what it is
+ * called. Negative: errno says why. */
+static int create_temporary(const char *path, char **name)
+{
+    enum { LONGEST = 240, ATTEMPTS = 100 }; /* of the 255 bytes that names may have */
+    const char *base = path_base_name(path);
     int fd = -1;
-    facet_result result = FACET_OK;
-    if (asprintf(&temporary, "%s.XXXXXX", path) < 0) {
-        temporary = NULL;
-        return fail_memory(error, "name of a temporary file", strlen(path) + 8);
+    *name = NULL;
+    for (int i = 0; i < ATTEMPTS && fd < 0; i++) {
+        struct timespec now;
+        clock_gettime(CLOCK_MONOTONIC, &now);
+        uint32_t number = (uint32_t)now.tv_nsec * 2654435761u ^ (uint32_t)getpid() * 40503u ^
+                          (uint32_t)((uintptr_t)&now >> 4) ^ (uint32_t)i;
+        free(*name);
+        if (asprintf(name, "%.*s%.*s.%08x", (int)(base - path), path, LONGEST, base, number) < 0) {
+            *name = NULL;
+            errno = ENOMEM;
+            return -1;
+        }
+        fd = open(*name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd < 0 && errno != EEXIST)
+            return -1;
     }
-    fd = mkostemp(temporary, O_CLOEXEC);
+    return fd;
+}
+
+facet_result file_replace(const char *path, const void *data, size_t size, facet_error *error)
+{
+    struct stat old;
+    bool exists = lstat(path, &old) == 0;
+    if (exists && S_ISDIR(old.st_mode))
+        return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
+    char *temporary;
+    int fd = create_temporary(path, &temporary);
     if (fd < 0) {
-        result = fail(error, FACET_ERROR_WRITE, "%s: cannot be created: %s", path, strerror(errno));
-        goto done;
+        int code = errno;
+        free(temporary);
+        return fail(error, FACET_ERROR_WRITE, "%s: cannot be created: %s", path, strerror(code));
     }
-    /* mkostemp makes it private; a new file gets what the umask allows, an old one keeps its mode. */
-    mode_t mask = umask(0);
-    umask(mask);
-    bool written = fchmod(fd, exists ? status.st_mode & 07777 : 0666 & ~mask) == 0 &&
-                   write_all(fd, data, size) && fsync(fd) == 0;
+    bool keeps_mode = exists && S_ISREG(old.st_mode);
+    bool written =
+        (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) && write_all(fd, data, size) && fsync(fd) == 0;
     int code = errno;
     if (close(fd) != 0 && written) {
         written = false;
@@ -154,13 +196,22 @@ facet_result file_write(const char *path, const void *data, size_t size, facet_e
         written = false;
         code = errno;
     }
-    if (!written) {
+    if (!written)
         unlink(temporary);
-        result = fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
-    }
-done:
     free(temporary);
-    return result;
+    return written ? FACET_OK
+                   : fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
+}
+
+facet_result file_write(const char *path, const void *data, size_t size, facet_error *error)
+{
+    struct stat status;
+    bool exists = stat(path, &status) == 0;
+    if (exists && S_ISDIR(status.st_mode))
+        return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
+    bool is_stream = lstat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode);
+    return is_stream || leads_to_descriptor(path) ? write_directly(path, data, size, error)
+                                                  : file_replace(path, data, size, error);
 }
 
 char *path_join(const facet_allocator *allocator, const char *folder, const char *name)

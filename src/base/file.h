@@ -20,8 +20,11 @@ void file_close(file_bytes *file); /* {0} is allowed; leaves {0} */
 
 /* Writes size bytes to path: a temporary beside it, flushed to the disk, then renamed; on failure
  * (FACET_ERROR_WRITE) path is as it was and no temporary stays. A path that exists and is no regular file (a
- * device, a pipe) is written to directly. */
+ * device, a pipe) is written to directly, and so is /dev/stdout. Any other link is replaced, not followed: who can
+ * put links into a folder must not choose what is overwritten. */
 facet_result file_write(const char *path, const void *data, size_t size, facet_error *error);
+/* The same, but whatever stands at path and is no folder is replaced: for files of our own. */
+facet_result file_replace(const char *path, const void *data, size_t size, facet_error *error);
 
 /* Joins folder and the relative path name into a block of mem_alloc(); NULL: no memory. */
 char *path_join(const facet_allocator *allocator, const char *folder, const char *name);

@@ -1,5 +1,6 @@
 /* Tests of file.h: whole files or nothing, and names. */
 #define _GNU_SOURCE
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -54,6 +55,76 @@ static void what_is_written_is_read(void **state)
         assert_int_equal(file.data[file.size], 0);
         file_close(&file);
     }
+    mem_free(path);
+}
+
+static void links_are_replaced_but_those_to_descriptors(void **state)
+{
+    (void)state;
+    char *target = in_folder("target.bin");
+    char *link = in_folder("link.bin");
+    facet_error error;
+    struct stat status;
+    assert_int_equal(file_write(target, "kept", 4, &error), FACET_OK);
+    assert_int_equal(symlink("target.bin", link), 0);
+    assert_int_equal(file_write(link, "new", 3, &error), FACET_OK);
+    assert_int_equal(lstat(link, &status), 0);
+    assert_true(S_ISREG(status.st_mode));
+    assert_int_equal(stat(target, &status), 0);
+    assert_int_equal(status.st_size, 4);
+    unlink(link);
+
+    /* as /dev/stdout is, with a file behind it: one that has lost its name, even */
+    int fd = open(target, O_RDWR);
+    char name[64];
+    snprintf(name, sizeof name, "/proc/self/fd/%d", fd);
+    assert_int_equal(symlink(name, link), 0);
+    unlink(target);
+    if (access(name, F_OK) == 0) {
+        assert_int_equal(file_write(link, "de", 2, &error), FACET_OK);
+        assert_int_equal(lseek(fd, 0, SEEK_END), 2);
+        assert_int_equal(lstat(link, &status), 0);
+        assert_true(S_ISLNK(status.st_mode));
+    }
+    close(fd);
+    unlink(link);
+    mem_free(target);
+    mem_free(link);
+}
+
+static void a_file_of_our_own_follows_no_link(void **state)
+{
+    (void)state;
+    char *victim = in_folder("victim.bin");
+    char *link = in_folder("entry.bin");
+    facet_error error;
+    assert_int_equal(file_write(victim, "kept", 4, &error), FACET_OK);
+    assert_int_equal(symlink("victim.bin", link), 0);
+    assert_int_equal(file_replace(link, "new", 3, &error), FACET_OK);
+    struct stat status;
+    assert_int_equal(lstat(link, &status), 0);
+    assert_true(S_ISREG(status.st_mode));
+    assert_int_equal(stat(victim, &status), 0);
+    assert_int_equal(status.st_size, 4);
+    unlink(link);
+    assert_int_equal(mkfifo(link, 0600), 0);
+    assert_int_equal(file_replace(link, "new", 3, &error), FACET_OK);
+    unlink(link);
+    unlink(victim);
+    mem_free(victim);
+    mem_free(link);
+}
+
+static void the_longest_name_can_be_written(void **state)
+{
+    (void)state;
+    char name[256];
+    memset(name, 'n', sizeof name - 1);
+    name[sizeof name - 1] = 0;
+    char *path = in_folder(name);
+    facet_error error;
+    assert_int_equal(file_write(path, "abc", 3, &error), FACET_OK);
+    assert_int_equal(unlink(path), 0);
     mem_free(path);
 }
 
@@ -148,9 +219,15 @@ static void links_do_not_lead_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_is_read), cmocka_unit_test(modes_follow_umask_and_stay),
-        cmocka_unit_test(failures_name_the_file),  cmocka_unit_test(a_full_device_is_an_error),
-        cmocka_unit_test(names_are_taken_apart),   cmocka_unit_test(links_do_not_lead_out),
+        cmocka_unit_test(what_is_written_is_read),
+        cmocka_unit_test(links_are_replaced_but_those_to_descriptors),
+        cmocka_unit_test(a_file_of_our_own_follows_no_link),
+        cmocka_unit_test(the_longest_name_can_be_written),
+        cmocka_unit_test(modes_follow_umask_and_stay),
+        cmocka_unit_test(failures_name_the_file),
+        cmocka_unit_test(a_full_device_is_an_error),
+        cmocka_unit_test(names_are_taken_apart),
+        cmocka_unit_test(links_do_not_lead_out),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

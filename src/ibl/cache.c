@@ -68,7 +68,8 @@ bool cache_read(const facet_environment *environment, const char *part, uint64_t
     char *path = entry_path(environment, part, key);
     file_bytes file = {0};
     bool is_good = false;
-    if (path &&
+    struct stat status; /* of a pipe nobody may write to, a read would not return */
+    if (path && stat(path, &status) == 0 && S_ISREG(status.st_mode) &&
         file_open(path, sizeof(entry_header) + size, &environment->allocator, &file, NULL) == FACET_OK &&
         file.size == sizeof(entry_header) + size) {
         entry_header header;
@@ -150,7 +151,7 @@ void cache_write(const facet_environment *environment, const char *part, uint64_
             fail(&error, FACET_ERROR_WRITE, "%s: cannot be made: %s", environment->cache_folder,
                  strerror(errno));
         else
-            is_written = file_write(path, entry, sizeof header + size, &error) == FACET_OK;
+            is_written = file_replace(path, entry, sizeof header + size, &error) == FACET_OK;
     }
     if (is_written)
         remove_oldest(environment);
