@@ -38,6 +38,10 @@ void parallel_for(uint32_t thread_count, size_t count, size_t grain,
     if (grain == 0)
         grain = 1;
     size_t ranges = (count + grain - 1) / grain;
+    if (ranges == 1) { /* often: to ask the system how many CPUs there are would take longer */
+        body(context, 0, count);
+        return;
+    }
     size_t threads = thread_count ? thread_count : facet_thread_count();
     if (threads > ranges)
         threads = ranges;
