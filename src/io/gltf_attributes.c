@@ -84,8 +84,9 @@ const float *get_positions(reader *r, const json_place *at, uint32_t index, cons
         for (size_t k = 0; k < 3; k++)
             out[3 * i + k] = flags[i] ? 0.0f : in[3 * i + k];
     }
-    reader_warn(r, at, NULL, "accessor %u has positions that are not finite; what uses them is not drawn",
-                index);
+    reader_warn(r, at, NULL,
+                "accessor %u has positions that are not finite or beyond %g m; what uses them is not drawn",
+                index, (double)FARTHEST);
     *is_lost = a->is_lost = flags;
     return a->positions = out;
 }

@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include "io/gltf_reader.h"
 
@@ -159,8 +159,11 @@ static bool open_below(reader *r, const char *name, const char *uri, uri_bytes *
     bool done = false;
     file_bytes file = {0};
     facet_error error;
-    if (access(path, F_OK) != 0)
+    struct stat status;
+    if (stat(path, &status) != 0)
         uri_fail(out, FACET_ERROR_READ, "there is no file \"%.200s\"", name);
+    else if (!S_ISREG(status.st_mode)) /* a pipe could keep us waiting for ever */
+        uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is no regular file", name);
     else if (!path_is_inside(path, allowed))
         uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the folder that the model may read", uri);
     else if (file_open(path, r->max_file_bytes, r->allocator, &file, &error) != FACET_OK)
