@@ -180,7 +180,7 @@ static bool is_in(float value, float minimum, float maximum)
 static facet_result check(const facet_orbit *orbit, float aspect, facet_error *error)
 {
     const float most = 1e18f;
-    if (!is_in(aspect, 1e-4f, 1e4f))
+    if (!is_in(aspect, 1e-6f, 1e6f))
         return fail(error, FACET_ERROR_ARGUMENT, "orbit: an aspect of %g is no picture", (double)aspect);
     if (!is_in(orbit->azimuth_rad, -most, most) || !is_in(orbit->polar_rad, -most, most))
         return fail(error, FACET_ERROR_ARGUMENT, "orbit: azimuth and polar angle must be finite");
