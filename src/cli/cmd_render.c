@@ -205,7 +205,9 @@ static void report_failure(render_run *run, const char *model, facet_error *erro
     const char *name = input_name(model);
     char sentence[sizeof error->message + 256];
     size_t length = strlen(name);
-    bool is_about_model = strncmp(error->message, name, length) == 0 && error->message[length] == ':';
+    const char *environment = run->options.environment_path;
+    bool is_about_model = (strncmp(error->message, name, length) == 0 && error->message[length] == ':') ||
+                          (environment && strncmp(error->message, environment, strlen(environment)) == 0);
     bool is_general = error->result == FACET_ERROR_MEMORY || error->result == FACET_ERROR_LIMIT;
     uint64_t limit = run->options.limits.max_memory_bytes;
     int n = snprintf(sentence, sizeof sentence, "%s%s%s", is_general && !is_about_model ? name : "",

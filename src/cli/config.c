@@ -108,17 +108,44 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
     return command_line_set(c, o, kept, SOURCE_CONFIG, error);
 }
 
+/* The whole file in *text, for free(). */
+static facet_result read_config(const char *path, char **text, size_t *size, facet_error *error)
+{
+    enum { MOST_BYTES = 1 << 20 };
+    FILE *file = fopen(path, "re");
+    if (!file)
+        return fail_with(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
+    *text = malloc(MOST_BYTES + 1);
+    *size = *text ? fread(*text, 1, MOST_BYTES + 1, file) : 0;
+    facet_result result = FACET_OK;
+    if (!*text)
+        result = fail_with(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
+    else if (ferror(file))
+        result = fail_with(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
+    else if (*size > MOST_BYTES)
+        result =
+            fail_with(error, FACET_ERROR_LIMIT, "%s: it is larger than 1 MiB; options were expected", path);
+    fclose(file);
+    if (result != FACET_OK) {
+        free(*text);
+        *text = NULL;
+    }
+    return result;
+}
+
 facet_result config_apply(command_line *c, config *storage, facet_error *error)
 {
     const char *path = option_text(c, OPT_CONFIG, NULL);
     if (!path)
         return FACET_OK;
-    FILE *file = fopen(path, "re");
-    if (!file)
-        return fail_with(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
+    char *text = NULL;
+    size_t size = 0;
+    facet_result read = read_config(path, &text, &size, error);
+    if (read != FACET_OK)
+        return read;
     json_error_t problem;
-    json_t *root = json_loadf(file, JSON_REJECT_DUPLICATES, &problem);
-    fclose(file);
+    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &problem);
+    free(text);
     if (!root)
         return fail_with(error, FACET_ERROR_INVALID, "%s: line %d: %s", path, problem.line, problem.text);
     facet_result result = FACET_OK;

@@ -16,47 +16,67 @@ const char *input_name(const char *path)
     return !path ? "built-in scene" : strcmp(path, "-") == 0 ? "stdin" : path;
 }
 
-facet_result input_read_stdin(uint64_t max_bytes, unsigned char **bytes, size_t *size, facet_error *error)
+/* Bytes that grow in memory of allocator. */
+typedef struct growing {
+    const facet_allocator *allocator;
+    unsigned char *data;
+    size_t used, capacity;
+} growing;
+
+static void release(growing *g)
 {
-    *bytes = NULL;
-    *size = 0;
+    if (g->data)
+        g->allocator->release(g->allocator->user, g->data, g->capacity);
+    *g = (growing){.allocator = g->allocator};
+}
+
+static bool grow(growing *g)
+{
+    size_t capacity = g->capacity ? g->capacity + g->capacity / 2 : (size_t)1 << 20;
+    unsigned char *grown = g->allocator->allocate(g->allocator->user, capacity);
+    if (!grown)
+        return false;
+    growing larger = {.allocator = g->allocator, .data = grown, .used = g->used, .capacity = capacity};
+    if (g->used)
+        memcpy(grown, g->data, g->used);
+    release(g);
+    *g = larger;
+    return true;
+}
+
+/* All of standard input. Fails with FACET_ERROR_READ, _LIMIT (more than max_bytes), _MEMORY, and _ARGUMENT where it is
+ * a terminal. */
+static facet_result read_stdin(uint64_t max_bytes, growing *out, facet_error *error)
+{
     if (terminal_is(stdin))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "stdin: - is standard input, which is a terminal; send a file into it");
-    if (!max_bytes)
-        max_bytes = (uint64_t)4 << 30;
-    unsigned char *data = NULL;
-    size_t used = 0, capacity = 0;
-    facet_result result = FACET_OK;
-    while (result == FACET_OK) {
-        if (used == capacity) {
-            capacity = capacity ? 2 * capacity : (size_t)1 << 18;
-            unsigned char *grown = realloc(data, capacity);
-            if (!grown) {
-                result = fail_with(error, FACET_ERROR_MEMORY, "stdin: out of memory: %zu bytes", capacity);
-                break;
-            }
-            data = grown;
-        }
-        ssize_t n = read(STDIN_FILENO, data + used, capacity - used);
+    for (;;) {
+        if (out->used == out->capacity && !grow(out))
+            return fail_with(error, FACET_ERROR_MEMORY, "stdin: out of memory after %zu bytes", out->used);
+        ssize_t n = read(STDIN_FILENO, out->data + out->used, out->capacity - out->used);
         if (n == 0)
             break;
         if (n > 0)
-            used += (size_t)n;
+            out->used += (size_t)n;
         else if (errno != EINTR)
-            result = fail_with(error, FACET_ERROR_READ, "stdin: %s", strerror(errno));
-        if (used > max_bytes)
-            result = fail_with(error, FACET_ERROR_LIMIT, "stdin: it is larger than %llu bytes",
-                               (unsigned long long)max_bytes);
+            return fail_with(error, FACET_ERROR_READ, "stdin: %s", strerror(errno));
+        if (out->used > max_bytes)
+            return fail_with(error, FACET_ERROR_LIMIT, "stdin: it is larger than %llu bytes",
+                             (unsigned long long)max_bytes);
     }
-    if (result == FACET_OK && used == 0)
-        result = fail_with(error, FACET_ERROR_READ, "stdin: it is empty; a model was expected");
-    if (result != FACET_OK) {
-        free(data);
-        return result;
-    }
-    *bytes = data;
-    *size = used;
+    return out->used ? FACET_OK
+                     : fail_with(error, FACET_ERROR_READ, "stdin: it is empty; a model was expected");
+}
+
+/* What can be known to be wrong before anything is read. */
+static facet_result check(const char *path, const char *root, facet_error *error)
+{
+    struct stat info;
+    if (path && !path[0])
+        return fail_with(error, FACET_ERROR_ARGUMENT, "facet: the name of a model is empty");
+    if (root && (stat(root, &info) != 0 || !S_ISDIR(info.st_mode)))
+        return fail_with(error, FACET_ERROR_READ, "%s: there is no such folder (--root)", root);
     return FACET_OK;
 }
 
@@ -64,16 +84,18 @@ facet_result input_load(const char *path, const facet_scene_desc *desc, facet_sc
                         facet_error *error)
 {
     *scene = NULL;
+    if (check(path, desc->root, error) != FACET_OK)
+        return error->result;
     if (!path)
         return facet_scene_create_builtin(desc, scene, error);
     if (strcmp(path, "-") != 0)
         return facet_scene_load(path, desc, scene, error);
-    unsigned char *bytes;
-    size_t size;
-    facet_result result = input_read_stdin(desc->max_file_bytes, &bytes, &size, error);
+    growing bytes = {.allocator = &desc->allocator};
+    facet_result result =
+        read_stdin(desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)4 << 30, &bytes, error);
     if (result == FACET_OK)
-        result = facet_scene_load_memory(bytes, size, input_name(path), desc, scene, error);
-    free(bytes);
+        result = facet_scene_load_memory(bytes.data, bytes.used, input_name(path), desc, scene, error);
+    release(&bytes);
     return result;
 }
 

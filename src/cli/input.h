@@ -7,13 +7,11 @@
 /* How messages call an input: its path, "stdin" for -, "built-in scene" for NULL. */
 const char *input_name(const char *path);
 
-/* Loads the model path; - is standard input, NULL the built-in scene. Fails as facet_scene_load(). */
+/* Loads the model path; - is standard input, NULL the built-in scene. Memory for standard input
+ * comes from desc->allocator, which must be one. Fails as facet_scene_load(), and with FACET_ERROR_ARGUMENT for a name
+ * that is empty. */
 facet_result input_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                         facet_error *error);
-
-/* All of standard input in a block of malloc(); max_bytes 0: 4 GiB. Fails with FACET_ERROR_READ, _LIMIT, _MEMORY, and
- * _ARGUMENT where it is a terminal. */
-facet_result input_read_stdin(uint64_t max_bytes, unsigned char **bytes, size_t *size, facet_error *error);
 
 /* Whether both paths are there and are the same file. */
 bool input_is_same_file(const char *a, const char *b);

@@ -14,8 +14,12 @@
 #define YELLOW "1;33"
 
 /* Prints text as one line; control characters of files must not reach the terminal. */
-static void print_line(const char *text, const char *color)
+static void print_line(const char *said, const char *color)
 {
+    char disarmed[2048];
+    snprintf(disarmed, sizeof disarmed, "%s", said);
+    terminal_disarm(disarmed);
+    const char *text = disarmed;
     progress_clear();
     const char *colon = strstr(text, ": ");
     bool has_color = color && colon && terminal_has_color(stderr);
@@ -26,7 +30,7 @@ static void print_line(const char *text, const char *color)
             n = (size_t)snprintf(line, sizeof line, "\033[%sm", color);
         if (has_color && text == colon)
             n += (size_t)snprintf(line + n, sizeof line - n, "\033[0m");
-        line[n++] = (unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text;
+        line[n++] = *text;
     }
     line[n++] = '\n';
     fwrite(line, 1, n, stderr);

@@ -44,6 +44,8 @@ bool model_has_file(const char *model, const char *path)
     if (input_is_same_file(model, path))
         return true;
     const char *dot = strrchr(model, '.');
+    if (!input_is_same_file(model, model)) /* no regular file: to read a pipe twice would be once too often */
+        return false;
     if (!dot || strcmp(dot, ".gltf") != 0)
         return false;
     json_t *root = json_load_file(model, 0, NULL);

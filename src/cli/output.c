@@ -3,6 +3,7 @@
 #include "cli/output.h"
 
 #include "cli/failure.h"
+#include "cli/interrupt.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -48,15 +49,25 @@ facet_result output_check(const char *path, facet_error *error)
 facet_result output_write(const facet_image *image, const char *path, const facet_save_desc *desc,
                           facet_error *error)
 {
-    if (strcmp(path, "-") != 0)
-        return facet_image_save(image, path, desc, error);
+    static const char late[] = "facet: the time limit (--time-limit) was reached while writing\n";
+    if (strcmp(path, "-") != 0) {
+        struct stat info;
+        bool is_stream = lstat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISLNK(info.st_mode);
+        if (is_stream) /* nothing need be cleaned up, and who reads a pipe may never come */
+            interrupt_set_safe(late);
+        facet_result saved = facet_image_save(image, path, desc, error);
+        interrupt_set_safe(NULL);
+        return saved;
+    }
     unsigned char *bytes;
     size_t size;
     facet_result result = facet_image_encode(image, desc, &bytes, &size, error);
     if (result != FACET_OK)
         return result;
+    interrupt_set_safe(late);
     if (fwrite(bytes, 1, size, stdout) != size || fflush(stdout) != 0)
         result = fail_with(error, FACET_ERROR_WRITE, "stdout: %s", strerror(errno));
+    interrupt_set_safe(NULL);
     facet_bytes_destroy(bytes);
     return result;
 }

@@ -1,6 +1,8 @@
 /* table.c - text in columns. */
 #include "cli/table.h"
 
+#include "cli/terminal.h"
+
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,9 +24,7 @@ void table_add(table *t, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?';
+    terminal_disarm(text);
     size_t size = strlen(text) + 1;
     char *cell = malloc(size);
     if (cell)

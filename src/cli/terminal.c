@@ -20,6 +20,35 @@ bool terminal_has_color(FILE *stream)
     return terminal_is(stream) && !(no_color && *no_color) && term && strcmp(term, "dumb") != 0;
 }
 
+/* Bytes of the UTF-8 sequence that begins at c; 1 for ASCII and for what begins none. */
+static size_t sequence_length(const unsigned char *c)
+{
+    size_t length = *c >= 0xf0 && *c < 0xf8 ? 4 : *c >= 0xe0 ? 3 : *c >= 0xc2 ? 2 : 1;
+    if (*c >= 0xf8)
+        return 1;
+    for (size_t i = 1; i < length; i++)
+        if ((c[i] & 0xc0) != 0x80)
+            return 1;
+    return length;
+}
+
+void terminal_disarm(char *text)
+{
+    const unsigned char *in = (const unsigned char *)text;
+    char *out = text;
+    while (*in) {
+        size_t length = sequence_length(in);
+        bool is_control = *in < 0x20 || *in == 0x7f || (length == 1 && *in >= 0x80 && *in < 0xa0) ||
+                          (length == 2 && in[0] == 0xc2 && in[1] < 0xa0);
+        if (is_control)
+            *out++ = '?';
+        for (size_t i = 0; i < length && !is_control; i++)
+            *out++ = (char)in[i];
+        in += length;
+    }
+    *out = 0;
+}
+
 int terminal_width(FILE *stream)
 {
     const char *columns = getenv("COLUMNS");

@@ -8,6 +8,9 @@
 bool terminal_is(FILE *stream);
 /* Whether escape sequences for color are welcome there: a terminal, not a dumb one, and NO_COLOR is not set. */
 bool terminal_has_color(FILE *stream);
+/* Replaces what a terminal would act on by "?": control characters of ASCII, those from U+0080 to U+009F (U+009B begins
+ * an escape sequence as ESC [ does), and such bytes outside of UTF-8. */
+void terminal_disarm(char *text);
 /* Columns to write text in: COLUMNS or the terminal's, at most 100; 100 where neither is known. */
 int terminal_width(FILE *stream);
 

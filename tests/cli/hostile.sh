@@ -1,0 +1,138 @@
+#!/bin/sh
+# hostile.sh - names, links, pipes and numbers that are meant to hang, crash or mislead the command.
+set -eu
+. "$(dirname "$0")/lib.sh"
+write_triangle tri.gltf
+
+# within SECONDS CODE WORD...: expect, and an end by itself in that time.
+within() {
+    seconds=$1
+    wanted=$2
+    shift 2
+    code=0
+    timeout -s KILL "$seconds" "$facet" "$@" >out 2>err || code=$?
+    [ "$code" = "$wanted" ] || failed "exit code $code, not $wanted: facet $*"
+}
+
+# one sentence for each
+one_sentence() {
+    [ "$(wc -l <err)" = 1 ] || failed "not one sentence but $(wc -l <err): $1"
+}
+
+# what a model names: only regular files in its folder
+mkdir models
+sed 's/"uri":"[^"]*"/"uri":"NAME"/' tri.gltf >models/pattern
+head -c 36 /dev/zero >secret.bin
+head -c 36 /dev/zero >models/in.bin
+mkfifo models/pipe.bin
+ln -s ../secret.bin models/link.bin
+ln -s loop.bin models/loop.bin
+names_file() {
+    sed "s|NAME|$2|" models/pattern >models/m.gltf
+    within 10 "$1" render $small models/m.gltf -o x.png
+    [ "$1" = 0 ] || one_sentence "$2"
+    rm -f x.png
+}
+names_file 0 in.bin
+for name in pipe.bin link.bin loop.bin ../secret.bin %2e%2e%2fsecret.bin in.bin/../../secret.bin . /dev/zero \
+    file:///etc/passwd http://localhost/in.bin "$work/secret.bin"; do
+    names_file 3 "$name"
+done
+for name in '' data: 'data:;base64,A' in.bin%00.png; do
+    names_file 4 "$name"
+done
+within 10 3 render $small models/m.gltf --root nowhere -o x.png
+says "nowhere: there is no such folder"
+rm -r models secret.bin
+
+# inputs that are no files, or have no end
+within 10 2 render $small '' -o x.png
+one_sentence "an empty name"
+for input in /dev/zero "$work"; do
+    for option in '' --env --config; do
+        code=0
+        timeout -s KILL 20 "$facet" render $small $option "$input" -o x.png --max-memory 64M >out 2>err || code=$?
+        case $code in 3 | 4 | 7) ;; *) failed "exit code $code for $option $input" ;; esac
+        one_sentence "$option $input"
+        grep -qF "$input: " err || failed "$input is not named"
+    done
+done
+code=0
+timeout -s KILL 20 "$facet" render - --json -o x.png --max-memory 64M </dev/zero >out 2>err || code=$?
+[ $code = 7 ] || failed "exit code $code, not 7, for a standard input without end"
+one_sentence "standard input without end"
+if command -v jq >/dev/null; then
+    [ "$(jq '.peak_memory_bytes < 256000000' out)" = true ] || failed "--max-memory does not hold for standard input"
+fi
+
+# cameras beyond all measure, pictures as narrow as they can be
+within 10 2 render $small tri.gltf --eye 1e38,0,0 -o x.png
+one_sentence "--eye 1e38"
+within 10 0 render $small tri.gltf --eye 1e18,0,0 -o x.png
+within 60 0 render tri.gltf --quality draft --size 65536x1 -o x.png
+within 60 0 render tri.gltf --quality draft --size 1x65536 -o x.png
+rm x.png
+
+# links as outputs are replaced, never followed; but those to descriptors, as /dev/stdout is one
+echo kept >target.png
+ln -s target.png link.png
+expect 0 render $small tri.gltf -o link.png
+is_type link.png "PNG image data"
+[ "$(cat target.png)" = kept ] || failed "a link led to another file"
+rm link.png target.png
+ln -s /proc/self/fd/1 stdout.png
+if [ -e /proc/self/fd/1 ]; then
+    "$facet" render $small tri.gltf -o stdout.png >target.png
+    [ -L stdout.png ] && is_type target.png "PNG image data" || failed "a link to standard output was replaced"
+fi
+rm -f stdout.png target.png
+ln -s tri.gltf link.png
+expect 2 render $small tri.gltf -o link.png
+rm link.png
+long=$(printf '%0251d' 0)
+expect 0 render $small tri.gltf -o "$long.png"
+rm "$long.png"
+
+# who reads a pipe may never come: the time limit and SIGTERM end that
+mkfifo pipe.png
+within 10 7 render $small tri.gltf -o pipe.png --time-limit 300ms
+says "time limit"
+"$facet" render $small tri.gltf -o pipe.png 2>err &
+process=$!
+sleep 0.5
+kill $process
+code=0
+wait $process || code=$?
+[ $code = 75 ] || failed "exit code $code, not 75, after SIGTERM while waiting for a reader"
+rm pipe.png
+
+# what stands in the cache of lights in the place of an entry is neither followed nor waited for
+printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n' >sky.hdr
+head -c 32 tri.gltf >>sky.hdr
+expect 0 render $small tri.gltf --env sky.hdr --env-cache cache -o a.png
+echo kept >victim
+for entry in cache/*.light; do
+    rm "$entry"
+    ln -s ../victim "$entry"
+done
+within 10 0 render $small tri.gltf --env sky.hdr --env-cache cache -o b.png
+[ "$(cat victim)" = kept ] || failed "the cache wrote through a link"
+for entry in cache/*.light; do
+    rm "$entry"
+    mkfifo "$entry"
+done
+within 10 0 render $small tri.gltf --env sky.hdr --env-cache cache -o b.png
+cmp -s a.png b.png || failed "the picture depends on what is in the cache"
+rm -r cache sky.hdr victim a.png b.png
+
+# control characters of C1 act on terminals as those of ASCII do
+csi=$(printf '\302\233')
+expect 3 render "a${csi}31m.glb"
+! grep -qF "$csi" err || failed "U+009B reaches the terminal"
+printf '{"asset":{"version":"2.0"},"materials":[{"name":"\\u009b31m"}],"extensionsUsed":["X\\u009b1m"]}' >odd.gltf
+expect 0 inspect odd.gltf
+! grep -qF "$csi" out || failed "U+009B comes out of inspect"
+rm odd.gltf
+
+only tri.gltf
+finish
