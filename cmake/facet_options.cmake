@@ -42,6 +42,14 @@ endfunction()
 set(FACET_TEST_PREFIX "" CACHE STRING "Stands before the names of tests: several builds in one ctest")
 set(FACET_TEST_LABEL "" CACHE STRING "Declare only the tests with this label; empty: all")
 
+# The folder of real models, environments and pictures that some tests read.
+if(DEFINED ENV{FACET_TEST_DATA})
+    set(data $ENV{FACET_TEST_DATA})
+else()
+    set(data ${PROJECT_SOURCE_DIR}/../shared/data)
+endif()
+set(FACET_TEST_DATA ${data} CACHE PATH "Test data; tests that need it skip where it is not there")
+
 # facet_add_test(NAME [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test. It finds shared test data through
 # the environment variable FACET_TEST_DATA and skips (exit code 77) where it needs it and has none.
 function(facet_add_test name)
@@ -54,7 +62,7 @@ function(facet_add_test name)
     endif()
     add_test(NAME ${FACET_TEST_PREFIX}${name} COMMAND ${T_COMMAND} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
-        ENVIRONMENT "FACET_TEST_DATA=${PROJECT_SOURCE_DIR}/../shared/data;TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp")
+        ENVIRONMENT "FACET_TEST_DATA=${FACET_TEST_DATA};TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp")
     if(T_LABELS)
         set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES LABELS "${T_LABELS}")
     endif()
