@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "base/failing_allocator.h"
 #include "cpu/texture_pyramid.h"
 
 static texture_tables tables;
@@ -276,29 +277,18 @@ static void pyramids_start_at_any_level(void **state)
     texture_pyramid_destroy(&all);
 }
 
-static void *refuse_at_zero(void *user, size_t size)
-{
-    int *left = user;
-    return (*left)-- == 0 ? NULL : malloc(size);
-}
-static void release(void *user, void *memory, size_t size)
-{
-    (void)user;
-    (void)size;
-    free(memory);
-}
-
 static void every_refused_block_is_an_error(void **state)
 {
     (void)state;
     for (int count = 0;; count++) {
         image i = make_noise(9, 9, 4, IMAGE_U16);
-        int left = count;
-        facet_allocator allocator = {.user = &left, .allocate = refuse_at_zero, .release = release};
+        failing_allocator memory = {.fail_at = count};
+        facet_allocator allocator = failing_allocator_get(&memory);
         texture_pyramid p;
         facet_result result = texture_pyramid_create(&i, 0, 9, 9, 0, true, &tables, &allocator, &p, NULL);
         assert_null(i.pixels);
         texture_pyramid_destroy(&p);
+        assert_int_equal(memory.blocks, 0);
         if (result == FACET_OK) {
             assert_int_equal(count, 3);
             break;

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "base/failing_allocator.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "cpu/texture_set.h"
@@ -392,18 +393,6 @@ static void sizes_are_those_of_the_full_image(void **state)
     tear_down(&f);
 }
 
-static void *refuse_at_zero(void *user, size_t size)
-{
-    int *left = user;
-    return (*left)-- == 0 ? NULL : malloc(size);
-}
-static void release(void *user, void *memory, size_t size)
-{
-    (void)user;
-    (void)size;
-    free(memory);
-}
-
 static void every_refused_block_is_an_error(void **state)
 {
     (void)state;
@@ -413,13 +402,14 @@ static void every_refused_block_is_an_error(void **state)
     add(&f, draw(32, 32, 3, 1), IMAGE_CODEC_JPEG);
     f.uses[0].is_read_as_data = true;
     for (int count = 0;; count++) {
-        int left = count;
-        facet_allocator allocator = {.user = &left, .allocate = refuse_at_zero, .release = release};
+        failing_allocator memory = {.fail_at = count};
+        facet_allocator allocator = failing_allocator_get(&memory);
         texture_set *set;
         facet_error error;
         facet_result result = texture_set_create(&f.scene, f.uses, &allocator, &f.log, 1, &set, &error);
         assert_int_equal(result == FACET_OK, set != NULL);
         texture_set_destroy(set);
+        assert_int_equal(memory.blocks, 0);
         if (result == FACET_OK && f.warning_count == 0) {
             assert_true(count > 12);
             break;

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "base/failing_allocator.h"
 #include "film/film.h"
 
 static film make_film(uint32_t width, uint32_t height)
@@ -79,27 +80,16 @@ static void bad_sizes_are_errors(void **state)
     assert_int_equal(f.layer_count, 0);
 }
 
-static void *refuse_at_zero(void *user, size_t size)
-{
-    int *left = user;
-    return (*left)-- == 0 ? NULL : malloc(size);
-}
-static void release(void *user, void *memory, size_t size)
-{
-    (void)user;
-    (void)size;
-    free(memory);
-}
-
 static void every_refused_block_is_an_error(void **state)
 {
     (void)state;
     for (int count = 0;; count++) {
-        int left = count;
-        facet_allocator allocator = {.user = &left, .allocate = refuse_at_zero, .release = release};
+        failing_allocator memory = {.fail_at = count};
+        facet_allocator allocator = failing_allocator_get(&memory);
         film f;
         facet_result result = film_create(&allocator, 8, 8, 63, &f, NULL);
         film_destroy(&f);
+        assert_int_equal(memory.blocks, 0);
         if (result == FACET_OK) {
             assert_int_equal(count, 7);
             break;
