@@ -5,12 +5,10 @@
 //
 // The renderer turns an environment by 90 degrees of its own and encodes with a power of 1/2.2 in place of the sRGB
 // function; facet is told the turn (--env-rotation -90), and its codes are re-encoded before they are compared.
-import { createServer } from 'node:http';
 import { execFileSync } from 'node:child_process';
 import { readFile, writeFile } from 'node:fs/promises';
-import { fileURLToPath } from 'node:url';
 import path from 'node:path';
-import { chromium } from 'playwright-core';
+import { open_page } from './browser.mjs';
 
 const [facet, models, light, out] = process.argv.slice(2);
 if (!out) {
@@ -33,7 +31,6 @@ const jobs = [
     ['lights/PointLightIntensityTest', [0, 2, 12], [0, 1, 0]],
     ['lights/LightsPunctualLamp', [0.3, 0.3, 1.2], [0, 0.2, 0]],
 ].map(([model, eye, target]) => ({ model: path.join(models, model + '.glb'), name: path.basename(model), eye, target }));
-const here = path.dirname(fileURLToPath(import.meta.url));
 const page_text = `<!doctype html><canvas id="c" width="${size}" height="${size}"></canvas>
 <script src="/node_modules/@khronosgroup/gltf-viewer/dist/libs/libktx.js"></script><script>window.DracoDecoderModule=async()=>({})</script><script type="module">
 try {
@@ -99,32 +96,9 @@ window.compare = async (a, b) => {
 window.ready = true;
 } catch (e) { window.failure = String(e.stack ?? e); }
 </script>`;
-const server = createServer(async (request, response) => {
-    try {
-        const url = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
-        if (url === '/') {
-            response.setHeader('content-type', 'text/html');
-            return response.end(page_text);
-        }
-        const file = url.startsWith('/model') ? jobs[parseInt(url.slice(6))].model : url === '/light.hdr' ? light : path.join(here, path.normalize(url));
-        if (url.endsWith('.js')) response.setHeader('content-type', 'text/javascript');
-        if (url.endsWith('.wasm')) response.setHeader('content-type', 'application/wasm');
-        response.end(await readFile(file));
-    } catch {
-        response.statusCode = 404;
-        response.end();
-    }
-});
-await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-        '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run'],
-});
+const { page, close } = await open_page(page_text, (url) =>
+    url.startsWith('/model') ? jobs[parseInt(url.slice(6))].model : url === '/light.hdr' ? light : undefined);
 try {
-    const page = await browser.newPage();
-    page.on('console', (message) => { if (message.type() === 'error') console.error(message.text()); });
-    await page.goto(`http://127.0.0.1:${server.address().port}/`);
     await page.waitForFunction('window.ready || window.failure', null, { timeout: 300000 });
     const failure = await page.evaluate('window.failure');
     if (failure) throw new Error(failure);
@@ -142,6 +116,5 @@ try {
         console.log(`| ${name} | ${mean.toFixed(2)} | ${median.toFixed(1)} | ${p95.toFixed(1)} |`);
     }
 } finally {
-    await browser.close();
-    server.close();
+    await close();
 }

@@ -1,17 +1,13 @@
 // threejs.mjs - draws a glTF model with three.js in headless Chromium and writes the PNG: what a server does today.
 // usage: node threejs.mjs MODEL.glb LIGHT.hdr OUT.png [SIZE]     CHROMIUM names the browser (/usr/bin/chromium)
-import { createServer } from 'node:http';
-import { readFile, writeFile } from 'node:fs/promises';
-import { fileURLToPath } from 'node:url';
-import path from 'node:path';
-import { chromium } from 'playwright-core';
+import { writeFile } from 'node:fs/promises';
+import { open_page } from './browser.mjs';
 
 const [model, light, out, size = '512'] = process.argv.slice(2);
 if (!out) {
     console.error('usage: node threejs.mjs MODEL.glb LIGHT.hdr OUT.png [SIZE]');
     process.exit(2);
 }
-const here = path.dirname(fileURLToPath(import.meta.url));
 const page_text = `<!doctype html><canvas id="c" width="${size}" height="${size}"></canvas>
 <script type="importmap">{"imports":{"three":"/node_modules/three/build/three.module.js",
 "three/addons/":"/node_modules/three/examples/jsm/"}}</script>
@@ -39,35 +35,11 @@ renderer.render(scene, camera);
 window.picture = canvas.toDataURL('image/png');
 </script>`;
 
-const server = createServer(async (request, response) => {
-    try {
-        const url = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
-        if (url === '/') {
-            response.setHeader('content-type', 'text/html');
-            return response.end(page_text);
-        }
-        const file = url === '/model' ? model : url === '/light' ? light : path.join(here, path.normalize(url));
-        if (url.endsWith('.js')) response.setHeader('content-type', 'text/javascript');
-        response.end(await readFile(file));
-    } catch {
-        response.statusCode = 404;
-        response.end();
-    }
-});
-await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-        '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run'],
-});
+const { page, close } = await open_page(page_text, (url) => ({ '/model': model, '/light': light })[url]);
 try {
-    const page = await browser.newPage();
-    page.on('pageerror', (error) => { console.error(String(error)); process.exitCode = 1; });
-    await page.goto(`http://127.0.0.1:${server.address().port}/`);
     await page.waitForFunction('window.picture', null, { timeout: 120000 });
     const picture = await page.evaluate('window.picture');
     await writeFile(out, Buffer.from(picture.split(',')[1], 'base64'));
 } finally {
-    await browser.close();
-    server.close();
+    await close();
 }
