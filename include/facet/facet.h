@@ -257,7 +257,7 @@ typedef enum facet_aov {
     FACET_AOV_OCCLUSION = 1u << 5    /* occlusion texture, 1: open; 1 channel "occlusion.A" */
 } facet_aov;
 
-/* How facet_render() draws. {0}: 1024 x 768, the whole model, the built-in studio, transparent, linear. */
+/* How facet_render() draws. {0}: 1024 x 768, the whole model in its own lights only, transparent, linear. */
 typedef struct facet_render_desc {
     facet_allocator allocator;
     facet_log log;
@@ -290,7 +290,7 @@ typedef struct facet_image facet_image;
 FACET_API facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
 
-/* Seconds that the stages of the last facet_render() of an image took, and the work done. */
+/* Seconds that the stages of the facet_render() that made an image took, and the work done. */
 typedef struct facet_render_stats {
     double textures_s, geometry_s, light_s, shade_s, total_s; /* geometry: tangents and BVH; stages overlap */
     uint64_t rays, shades, decoded_texels;
@@ -316,11 +316,11 @@ typedef enum facet_file_format {
     FACET_FORMAT_FROM_NAME, /* by the extension of the path */
     FACET_FORMAT_PNG,       /* 8 bits, sRGB, straight alpha */
     FACET_FORMAT_PNG16,
-    FACET_FORMAT_JPEG, /* over background_color; no alpha */
+    FACET_FORMAT_JPEG, /* no alpha: over white */
     FACET_FORMAT_WEBP,
     FACET_FORMAT_EXR, /* half; all layers, premultiplied alpha */
     FACET_FORMAT_EXR_FLOAT,
-    FACET_FORMAT_HDR, /* Radiance RGBE, no alpha */
+    FACET_FORMAT_HDR, /* Radiance RGBE; no alpha: over black, as in PFM */
     FACET_FORMAT_PFM
 } facet_file_format;
 
