@@ -58,6 +58,36 @@ void parallel_for(uint32_t thread_count, size_t count, size_t grain,
         pthread_join(started[i], NULL);
 }
 
+/* Threads wait here until all of them have been started. */
+typedef struct gate {
+    pthread_mutex_t lock;
+} gate;
+
+static void *wait_at_gate(void *argument)
+{
+    gate *g = argument;
+    pthread_mutex_lock(&g->lock);
+    pthread_mutex_unlock(&g->lock);
+    return NULL;
+}
+
+uint32_t parallel_startable(uint32_t wanted)
+{
+    pthread_t started[MAX_THREADS];
+    uint32_t count = 0;
+    gate g = {.lock = PTHREAD_MUTEX_INITIALIZER};
+    if (wanted > MAX_THREADS)
+        wanted = MAX_THREADS;
+    pthread_mutex_lock(&g.lock);
+    while (count < wanted && pthread_create(&started[count], NULL, wait_at_gate, &g) == 0)
+        count++;
+    pthread_mutex_unlock(&g.lock);
+    for (uint32_t i = 0; i < count; i++)
+        pthread_join(started[i], NULL);
+    pthread_mutex_destroy(&g.lock);
+    return count;
+}
+
 /* CPUs' worth of time that the cgroup (version 2, then 1) allows, rounded up; 0: no limit. */
 static uint32_t cgroup_cpus(void)
 {

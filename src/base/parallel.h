@@ -11,4 +11,8 @@
 void parallel_for(uint32_t thread_count, size_t count, size_t grain,
                   void (*body)(void *context, size_t begin, size_t end), void *context);
 
+/* How many of wanted threads (at most 256 are tried) can be started beside one another now: for libraries that end the
+ * process where a thread is refused. A limit on processes refuses them (ulimit -u). */
+uint32_t parallel_startable(uint32_t wanted);
+
 #endif

@@ -53,9 +53,17 @@ static void thread_count_is_sane(void **state)
     assert_in_range(facet_thread_count(), 1, 256);
 }
 
+static void threads_that_can_be_started_are_counted(void **state)
+{
+    (void)state;
+    assert_int_equal(parallel_startable(0), 0);
+    assert_in_range(parallel_startable(3), 1, 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_that_can_be_started_are_counted),
         cmocka_unit_test(each_item_is_visited_once),
         cmocka_unit_test(loops_nest),
         cmocka_unit_test(thread_count_is_sane),

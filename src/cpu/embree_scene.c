@@ -2,7 +2,9 @@
 #include "cpu/embree_scene.h"
 
 #include <stdio.h>
+#include <sys/resource.h>
 
+#include "base/parallel.h"
 #include "base/result.h"
 
 /* Embree frees more than it told of when an allocation was refused: what is given back is bounded. */
@@ -94,6 +96,20 @@ static uint32_t native_packet_width(RTCDevice device)
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? 8 : 4;
 }
 
+/* The number of threads that Embree may use; 0: it cannot be used. TBB, which it builds with, ends the process where
+ * it is refused a thread: where few processes are allowed it is found out before whether that could happen, with
+ * room for the threads that decode textures meanwhile. */
+static uint32_t choose_threads(uint32_t thread_count)
+{
+    enum { PLENTY = 4096, LEAST = 4 };
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_NPROC, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= PLENTY)
+        return thread_count;
+    uint32_t wanted = 3 * thread_count + LEAST;
+    uint32_t startable = parallel_startable(wanted);
+    return startable >= wanted ? thread_count : startable >= LEAST ? 1 : 0;
+}
+
 facet_result embree_scene_create(const render_geometry_set *set, const facet_allocator *allocator,
                                  uint64_t ray_count, uint32_t thread_count, embree_scene *out,
                                  facet_error *error)
@@ -102,6 +118,10 @@ facet_result embree_scene_create(const render_geometry_set *set, const facet_all
     out->scene = NULL;
     out->memory.allocator = *allocator;
     atomic_init(&out->memory.used, 0);
+    thread_count = choose_threads(thread_count);
+    if (thread_count == 0)
+        return fail(error, FACET_ERROR_ENVIRONMENT,
+                    "threads: the system allows too few; Embree needs some (ulimit -u)");
     char config[64];
     snprintf(config, sizeof config, "threads=%u", thread_count);
     out->device = rtcNewDevice(config);

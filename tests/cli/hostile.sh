@@ -73,6 +73,15 @@ within 60 0 render tri.gltf --quality draft --size 65536x1 -o x.png
 within 60 0 render tri.gltf --quality draft --size 1x65536 -o x.png
 rm x.png
 
+# few processes: threads cannot be started, which must not end the process. Only for who is not root and may enter.
+for limit in 1 2 4 16; do
+    code=0
+    (ulimit -u $limit 2>/dev/null || exit 0
+        exec "$facet" render $small -j 4 -o few.png >out 2>err) || code=$?
+    case $code in 0 | 8) ;; *) failed "exit code $code with ulimit -u $limit" ;; esac
+done
+rm -f few.png
+
 # links as outputs are replaced, never followed; but those to descriptors, as /dev/stdout is one
 echo kept >target.png
 ln -s target.png link.png
