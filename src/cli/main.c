@@ -103,7 +103,7 @@ int main(int argc, char **argv)
 {
     int exit_code = run(argc, argv);
     facet_error error;
-    if (output_close_stdout(&error) != FACET_OK) {
+    if (output_close_stdout(&error) != FACET_OK && exit_code != EXIT_WRITE) { /* which was told already */
         message_error("%s", error.message);
         if (exit_code == EXIT_DONE)
             exit_code = EXIT_WRITE;
