@@ -40,11 +40,20 @@ facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_in
                                  .aspect = c->is_orthographic ? c->ortho_width / c->ortho_height : c->aspect,
                                  .near_m = c->near_m,
                                  .far_m = c->far_m};
+        double length =
+            sqrt((double)m[8] * (double)m[8] + (double)m[9] * (double)m[9] + (double)m[10] * (double)m[10]);
+        /* far from the origin a target 1 m away would be the eye, rounded */
+        double distance =
+            fmax(1.0, fmax(fabs((double)m[12]), fmax(fabs((double)m[13]), fabs((double)m[14]))));
         for (int k = 0; k < 3; k++) {
             camera->eye[k] = m[12 + k];
-            camera->target[k] = m[12 + k] - m[8 + k];
+            camera->target[k] = (float)((double)m[12 + k] - distance * (double)m[8 + k] / length);
             camera->up[k] = m[4 + k];
         }
+        if (!(length > 0.0))
+            result = fail(error, FACET_ERROR_INVALID,
+                          "%s: camera %u \"%s\": the matrix of its node gives it no direction", scene->source,
+                          index, c->name);
     } else {
         result =
             fail(error, FACET_ERROR_ARGUMENT, "%s: camera %u \"%s\" is not attached to a node of the scene",

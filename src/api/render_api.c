@@ -22,13 +22,6 @@ static uint32_t samples_of(facet_quality quality)
     }
 }
 
-/* Beyond 1e18 m, as far as positions of a model may be, squares of distances are no floats any more. */
-static bool is_within_reach(const float place[3])
-{
-    const float farthest = 1e18f;
-    return fabsf(place[0]) <= farthest && fabsf(place[1]) <= farthest && fabsf(place[2]) <= farthest;
-}
-
 /* The desc with every default filled in, or what is wrong with it. *camera holds a default camera. */
 static facet_result resolve(const facet_scene *scene, const facet_render_desc *desc, facet_render_desc *out,
                             facet_camera *camera, facet_error *error)
@@ -70,9 +63,6 @@ static facet_result resolve(const facet_scene *scene, const facet_render_desc *d
             return result;
         out->camera = camera;
     }
-    if (!is_within_reach(out->camera->eye) || !is_within_reach(out->camera->target))
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "camera: eye and target must be finite and within 1e18 m of the origin");
     return FACET_OK;
 }
 

@@ -54,6 +54,19 @@ static bool camera_basis(const facet_camera *camera, basis *b)
     return true;
 }
 
+/* Whether vectors that vary over the picture as middle + x dx + y dy stay where Embree takes them: it ends the process
+ * for what is beyond 1.8e18. */
+static bool is_within_reach(const float middle[3], const float dx[3], const float dy[3], uint32_t width,
+                            uint32_t height)
+{
+    for (int i = 0; i < 3; i++) {
+        double most = fabs((double)middle[i]) + fabs((double)dx[i]) * width + fabs((double)dy[i]) * height;
+        if (!(most <= 1e18))
+            return false;
+    }
+    return true;
+}
+
 facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint32_t height,
                                 camera_rays *rays, facet_error *error)
 {
@@ -86,5 +99,9 @@ facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint
         dx[i] = (float)(b.right[i] * pixel);
         dy[i] = (float)(-b.up[i] * pixel);
     }
+    if (!is_within_reach(rays->origin, rays->origin_dx, rays->origin_dy, width, height) ||
+        !is_within_reach(rays->direction, rays->direction_dx, rays->direction_dy, width, height))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "camera: the picture is too wide or too far away; its corners must be within 1e18 m");
     return FACET_OK;
 }

@@ -46,6 +46,21 @@ static void up_is_made_where_it_is_missing(void **state)
     assert_int_equal(camera_rays_create(&flat, 10, 10, &rays, NULL), FACET_ERROR_ARGUMENT);
 }
 
+/* Embree ends the process for rays beyond 1.8e18. */
+static void what_is_out_of_reach_is_refused(void **state)
+{
+    (void)state;
+    const facet_camera cameras[] = {
+        {.eye = {1e38f, 0, 0}, .fov_y_rad = 1.0f},
+        {.eye = {NAN, 0, 0}, .fov_y_rad = 1.0f},
+        {.eye = {0, 0, 5}, .ortho_height = 1e30f},
+        {.eye = {0, 0, 5}, .fov_y_rad = 1.0f, .aspect = 1e30f},
+    };
+    camera_rays rays;
+    for (size_t i = 0; i < sizeof cameras / sizeof *cameras; i++)
+        assert_int_equal(camera_rays_create(&cameras[i], 10, 10, &rays, NULL), FACET_ERROR_ARGUMENT);
+}
+
 /* Each column and each row of the pixel holds one sample; none are close together. */
 static void patterns_are_stratified(void **state)
 {
@@ -87,6 +102,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(directions_have_unit_depth),
         cmocka_unit_test(up_is_made_where_it_is_missing),
+        cmocka_unit_test(what_is_out_of_reach_is_refused),
         cmocka_unit_test(patterns_are_stratified),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

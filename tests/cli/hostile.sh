@@ -72,6 +72,21 @@ within 10 0 render $small tri.gltf --eye 1e18,0,0 -o x.png
 within 60 0 render tri.gltf --quality draft --size 65536x1 -o x.png
 within 60 0 render tri.gltf --quality draft --size 1x65536 -o x.png
 rm x.png
+# cameras of files: a lens of any size, a place far out, a matrix without direction
+camera() {
+    wanted=$1
+    sed "s|\"type\":\"perspective\".*|$2}],|;s|\"translation\":[^}]*|$3|" tri.gltf >camera.gltf
+    within 10 "$wanted" render $small camera.gltf --camera 0 -o x.png
+    [ "$wanted" = 0 ] || one_sentence "$2 $3"
+    rm -f x.png
+}
+lens='"type":"perspective","perspective":{"yfov":0.6,"znear":0.1}'
+camera 0 "$lens" '"translation":[0.3,0.3,3]'
+camera 0 "$lens" '"translation":[0,0,100000000]'
+camera 4 "$lens" '"matrix":[1,0,0,0,0,1,0,0,0,0,0,0,0,0,3,1]'
+camera 2 '"type":"perspective","perspective":{"yfov":0.6,"znear":0.1,"aspectRatio":1e30}' '"translation":[0,0,3]'
+camera 2 '"type":"orthographic","orthographic":{"xmag":1e30,"ymag":1e30,"znear":0,"zfar":9}' '"translation":[0,0,3]'
+rm camera.gltf
 
 # few processes: threads cannot be started, which must not end the process. Only for who is not root and may enter.
 for limit in 1 2 4 16; do
