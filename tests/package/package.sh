@@ -22,6 +22,10 @@ if grep -rl "$PWD/src\|$build" "$pc" "$lib/cmake" >"$prefix/leaks" 2>/dev/null; 
     exit 1
 fi
 
+# The build tool that built facet is there; another may not be.
+CMAKE_GENERATOR=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+export CMAKE_GENERATOR
+
 cd "$prefix"
 cc -std=c11 "$sources/consumer.c" $(pkg-config --cflags --libs facet) -o shared
 LD_LIBRARY_PATH=$lib ./shared shared.png
