@@ -265,7 +265,8 @@ typedef struct facet_render_desc {
     uint32_t thread_count;          /* 0: facet_thread_count(); the picture does not depend on it */
     uint32_t width, height;         /* pixels; 0: 1024 x 768 */
     uint32_t crop[4];               /* x, y, width, height of the part to draw; {0}: all */
-    uint32_t scene_index;           /* 0: the first; FACET_DEFAULT: the file's */
+    bool has_scene_index;           /* false: the file's default scene */
+    uint32_t scene_index;           /* which of the file's scenes, where has_scene_index */
     const facet_camera *camera;     /* NULL: facet_orbit_default() */
     facet_environment *environment; /* NULL: none, black */
     float environment_rotation_rad; /* around +Y, positive turns the light from +Z towards +X */
@@ -311,6 +312,9 @@ typedef struct facet_image_view {
 FACET_API uint32_t facet_image_get_layer_count(const facet_image *image);
 FACET_API facet_image_view facet_image_get_layer(const facet_image *image, uint32_t layer);
 FACET_API void facet_image_destroy(facet_image *image); /* NULL is allowed */
+
+/* One channel of a color as files and style sheets write it (sRGB, [0, 1]) to linear light: IEC 61966-2-1. */
+FACET_API float facet_linear_from_srgb(float encoded);
 
 typedef enum facet_file_format {
     FACET_FORMAT_FROM_NAME, /* by the extension of the path */

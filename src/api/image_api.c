@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "film/film_image.h"
 #include "image/image.h"
+#include "image/srgb.h"
 
 #include <string.h>
 #include <strings.h>
@@ -32,6 +33,11 @@ void facet_image_destroy(facet_image *picture)
         return;
     film_destroy(&picture->film);
     mem_free(picture);
+}
+
+float facet_linear_from_srgb(float encoded)
+{
+    return (float)srgb_decode((double)encoded);
 }
 
 /* ---- formats ---- */

@@ -27,6 +27,8 @@ static facet_result resolve(const facet_scene *scene, const facet_render_desc *d
                             facet_camera *camera, facet_error *error)
 {
     *out = *desc;
+    if (!desc->has_scene_index)
+        out->scene_index = FACET_DEFAULT;
     if (!out->width && !out->height) {
         out->width = 1024;
         out->height = 768;

@@ -111,6 +111,7 @@ static facet_result render_frame(render_run *run, const facet_scene *scene, uint
     desc.allocator = run->allocator;
     desc.log = messages_log(&run->messages);
     desc.progress = progress_callback(&shown);
+    desc.has_scene_index = true;
     desc.scene_index = scene_index;
     desc.camera = &camera;
     desc.environment = run->environment;

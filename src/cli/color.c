@@ -1,7 +1,8 @@
 /* color.c - colors as CSS writes them: CSS Color Module Level 4, sections 5.2 and 6.1. */
 #include "cli/color.h"
 
-#include <math.h>
+#include "facet/facet.h"
+
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -179,11 +180,6 @@ static bool parse_hexadecimal(const char *digits, uint32_t *rgb)
     return true;
 }
 
-float color_srgb_to_linear(float encoded)
-{
-    return encoded <= 0.04045f ? encoded / 12.92f : powf((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 bool color_parse(const char *text, float linear[3])
 {
     uint32_t rgb;
@@ -198,6 +194,6 @@ bool color_parse(const char *text, float linear[3])
         rgb = found->rgb;
     }
     for (int i = 0; i < 3; i++)
-        linear[i] = color_srgb_to_linear((float)(rgb >> (16 - 8 * i) & 0xff) / 255.0f);
+        linear[i] = facet_linear_from_srgb((float)(rgb >> (16 - 8 * i) & 0xff) / 255.0f);
     return true;
 }

@@ -8,7 +8,4 @@
  * is untouched. */
 bool color_parse(const char *text, float linear[3]);
 
-/* The inverse of the sRGB transfer function (IEC 61966-2-1) for encoded in [0, 1]. */
-float color_srgb_to_linear(float encoded);
-
 #endif

@@ -177,7 +177,6 @@ static void test_colors(void **state)
     expect_near((double)c[0], 0.215861, 1e-5); /* IEC 61966-2-1 for 128 / 255 */
     assert_true(color_parse("aliceblue", c) && color_parse("yellowgreen", c)); /* both ends of the table */
     assert_true(color_parse("green", c) && c[0] == 0.0f && c[1] < 0.25f);      /* CSS, not X11 */
-    expect_near((double)color_srgb_to_linear(0.04045f), 0.04045 / 12.92, 1e-7);
     static const char *const bad[] = {"", "#", "#12", "#1234", "#12345g", "#+12345", "notacolor", "#1234567"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         assert_false(color_parse(bad[i], c));

@@ -1,4 +1,5 @@
-/* srgb.h - the sRGB transfer function (IEC 61966-2-1) between light and codes of 8 or 16 bits, tabulated. */
+/* srgb.h - the sRGB transfer function (IEC 61966-2-1) between light and codes of 8 or 16 bits, tabulated. In double,
+ * so that every code comes out right; shade/color.h has it in float, for shaders. */
 #ifndef IMAGE_SRGB_H
 #define IMAGE_SRGB_H
 
