@@ -114,6 +114,13 @@ static facet_result take_picture(facet_environment *e, image *decoded, const cha
     return FACET_OK;
 }
 
+/* What entries of the cache are told apart by. */
+static void identify(facet_environment *e, const void *bytes, size_t size)
+{
+    if (e->cache_folder)
+        e->hash = cache_hash(0, bytes, size);
+}
+
 /* ---- the functions of facet.h ---- */
 
 facet_result facet_environment_load_memory(const void *bytes, size_t size, const char *name,
@@ -145,7 +152,7 @@ facet_result facet_environment_load_memory(const void *bytes, size_t size, const
         environment_release(e);
         return result;
     }
-    e->hash = cache_hash(0, bytes, size);
+    identify(e, bytes, size);
     *environment = e;
     return FACET_OK;
 }
@@ -182,7 +189,7 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
         environment_release(e);
         return result;
     }
-    e->hash = cache_hash(0, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }
@@ -206,7 +213,7 @@ facet_result facet_environment_create_constant(const float radiance[3], const fa
     for (int i = 0; i < 6; i++)
         p[i] = radiance[i % 3];
     limit_rows(&e->picture, 0, 1);
-    e->hash = cache_hash(0, e->picture.pixels, image_row_size(&e->picture));
+    identify(e, e->picture.pixels, image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }

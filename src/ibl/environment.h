@@ -24,7 +24,7 @@ struct facet_environment {
     facet_allocator allocator;
     facet_log log;
     image picture;      /* equirectangular, F32 RGB, in [0, ENVIRONMENT_MAX_RADIANCE] */
-    uint64_t hash;      /* of what the picture was made from */
+    uint64_t hash;      /* of what the picture was made from, where there is a cache_folder */
     char *cache_folder; /* NULL: none */
     uint64_t cache_bytes;
     uint32_t reference_count; /* the caller's and one per light */
