@@ -136,7 +136,7 @@ static facet_result check_limits(const facet_render_desc *desc, const char *stag
     if (desc->progress.report && !desc->progress.report(desc->progress.user, stage, fraction))
         return fail(error, FACET_ERROR_CANCELLED, "cancelled (%s)", stage);
     if (deadline_s > 0.0 && clock_seconds() > deadline_s)
-        return fail(error, FACET_ERROR_LIMIT, "time limit: %g s were over (%s)", desc->time_limit_s, stage);
+        return fail(error, FACET_ERROR_LIMIT, "the time limit was reached (%s)", stage);
     return FACET_OK;
 }
 

@@ -173,8 +173,8 @@ static facet_result explain(const picture *p, facet_error *error)
     case FACET_OK:
         return FACET_OK;
     case FACET_ERROR_LIMIT:
-        return fail(error, FACET_ERROR_LIMIT, "time limit: %g s were over after %.0f %% of the picture",
-                    p->desc->render->time_limit_s, 100.0 * atomic_load(&p->done) / p->tile_count);
+        return fail(error, FACET_ERROR_LIMIT, "the time limit was reached after %.0f %% of the picture",
+                    100.0 * atomic_load(&p->done) / p->tile_count);
     case FACET_ERROR_CANCELLED:
         return fail(error, FACET_ERROR_CANCELLED, "cancelled while drawing");
     default:
