@@ -1,8 +1,7 @@
-/* gltf_accessors.c - typed arrays in the binary data (glTF 2.0 section 3.6.2): checked when the table is read, made
- * into plain arrays when something asks. min and max are not read: they are often wrong and never needed. */
+/* gltf_accessors.c - the table of typed arrays in the binary data (glTF 2.0 section 3.6.2), checked when it is read;
+ * gltf_elements.c then trusts it. min and max are not read: they are often wrong and never needed. */
 #include <string.h>
 
-#include "base/parallel.h"
 #include "io/gltf_reader.h"
 
 const uint32_t gltf_component_counts[GLTF_TYPE_COUNT] = {1, 2, 3, 4, 4, 9, 16};
@@ -10,24 +9,39 @@ const uint32_t gltf_component_counts[GLTF_TYPE_COUNT] = {1, 2, 3, 4, 4, 9, 16};
 static const char *const TYPE_NAMES[GLTF_TYPE_COUNT] = {"SCALAR", "VEC2", "VEC3", "VEC4",
                                                         "MAT2",   "MAT3", "MAT4"};
 
-enum { GRAIN = 1 << 15 }; /* elements that one thread converts at once */
+/* ---- sizes ---- */
 
-/* ---- the table ---- */
-
-static size_t component_size(gltf_component component)
+size_t gltf_component_size(gltf_component component)
 {
     return component == GLTF_I8 || component == GLTF_U8     ? 1
            : component == GLTF_I16 || component == GLTF_U16 ? 2
                                                             : 4;
 }
 
-/* Bytes of an element. Columns of matrices begin at multiples of 4 (section 3.6.2.4). */
-static size_t element_size(gltf_component component, gltf_type type)
+size_t gltf_column_count(gltf_type type)
 {
-    size_t size = component_size(component);
-    size_t rows = type == GLTF_MAT2 ? 2 : type == GLTF_MAT3 ? 3 : type == GLTF_MAT4 ? 4 : 0;
-    return rows ? rows * ((rows * size + 3) / 4 * 4) : gltf_component_counts[type] * size;
+    return type == GLTF_MAT2 ? 2 : type == GLTF_MAT3 ? 3 : type == GLTF_MAT4 ? 4 : 1;
 }
+
+size_t gltf_column_size(gltf_component component, gltf_type type)
+{
+    size_t columns = gltf_column_count(type);
+    size_t size = gltf_component_counts[type] / columns * gltf_component_size(component);
+    return columns == 1 ? size : (size + 3) / 4 * 4; /* section 3.6.2.4 */
+}
+
+size_t gltf_element_size(gltf_component component, gltf_type type)
+{
+    return gltf_column_count(type) * gltf_column_size(component, type);
+}
+
+size_t gltf_accessor_stride(const reader *r, const gltf_accessor *a)
+{
+    size_t stride = a->view == SCENE_NONE ? 0 : r->views[a->view].stride;
+    return stride ? stride : gltf_element_size(a->component, a->type);
+}
+
+/* ---- the table ---- */
 
 static gltf_component get_component(reader *r, const json_place *at)
 {
@@ -72,12 +86,6 @@ static bool check_extent(reader *r, const json_place *at, uint32_t index, size_t
     return true;
 }
 
-static size_t view_stride(const reader *r, const gltf_accessor *a)
-{
-    size_t stride = a->view == SCENE_NONE ? 0 : r->views[a->view].stride;
-    return stride ? stride : element_size(a->component, a->type);
-}
-
 static void read_sparse(reader *r, const json_place *accessor, gltf_accessor *a)
 {
     json_place at = get_object(r, accessor, "sparse");
@@ -108,9 +116,9 @@ static void read_sparse(reader *r, const json_place *accessor, gltf_accessor *a)
     }
     if (r->views[a->sparse_index_view].stride || r->views[a->sparse_value_view].stride)
         reader_warn(r, &at, NULL, "uses a buffer view with byteStride, which is ignored");
-    size_t size = component_size(c);
+    size_t size = gltf_component_size(c);
     check_extent(r, &indices, a->sparse_index_view, a->sparse_index_offset, a->sparse_count, size, size);
-    size = element_size(a->component, a->type);
+    size = gltf_element_size(a->component, a->type);
     check_extent(r, &values, a->sparse_value_view, a->sparse_value_offset, a->sparse_count, size, size);
 }
 
@@ -132,15 +140,15 @@ static void read_accessor(reader *r, const json_place *at, gltf_accessor *a)
     }
     if (a->view != SCENE_NONE) {
         const gltf_view *view = &r->views[a->view];
-        size_t size = element_size(a->component, a->type);
+        size_t size = gltf_element_size(a->component, a->type);
         if (view->stride && view->stride < size)
             reader_fail(r, at, NULL, FACET_ERROR_INVALID,
                         "elements of %zu bytes overlap at the byteStride %zu of "
                         "buffer view %u",
                         size, view->stride, a->view);
-        check_extent(r, at, a->view, a->offset, a->count, view_stride(r, a), size);
-        if (reader_is_ok(r) && (a->offset % component_size(a->component) ||
-                                (a->offset + view->offset) % component_size(a->component)))
+        check_extent(r, at, a->view, a->offset, a->count, gltf_accessor_stride(r, a), size);
+        if (reader_is_ok(r) && (a->offset % gltf_component_size(a->component) ||
+                                (a->offset + view->offset) % gltf_component_size(a->component)))
             reader_warn(r, at, "byteOffset", "%zu is not aligned to its components", a->offset);
     }
     read_sparse(r, at, a);
@@ -156,273 +164,4 @@ void read_accessors(reader *r, const json_place *root)
         read_accessor(r, &at, &r->accessors[i]);
         r->accessor_count = (uint32_t)(i + 1);
     }
-}
-
-/* ---- elements ---- */
-
-/* Little-endian loads from any address. */
-static uint16_t load_u16(const unsigned char *p)
-{
-    return (uint16_t)(p[0] | p[1] << 8);
-}
-
-static uint32_t load_u32(const unsigned char *p)
-{
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
-/* One row of components (section 3.6.2.2 and, for normalised ones, 3.11). The compiler makes each case a loop. */
-static void convert_row(const unsigned char *in, gltf_component component, bool is_normalized, size_t count,
-                        float *out)
-{
-    switch (component) {
-    case GLTF_I8:
-        for (size_t i = 0; i < count; i++) {
-            float value = (float)(int8_t)in[i];
-            out[i] = !is_normalized ? value : value < -127.0f ? -1.0f : value / 127.0f;
-        }
-        break;
-    case GLTF_U8:
-        for (size_t i = 0; i < count; i++)
-            out[i] = is_normalized ? (float)in[i] / 255.0f : (float)in[i];
-        break;
-    case GLTF_I16:
-        for (size_t i = 0; i < count; i++) {
-            float value = (float)(int16_t)load_u16(in + 2 * i);
-            out[i] = !is_normalized ? value : value < -32767.0f ? -1.0f : value / 32767.0f;
-        }
-        break;
-    case GLTF_U16:
-        for (size_t i = 0; i < count; i++) {
-            float value = (float)load_u16(in + 2 * i);
-            out[i] = is_normalized ? value / 65535.0f : value;
-        }
-        break;
-    case GLTF_U32:
-        for (size_t i = 0; i < count; i++)
-            out[i] = (float)load_u32(in + 4 * i);
-        break;
-    case GLTF_F32:
-        for (size_t i = 0; i < count; i++) {
-            uint32_t bits = load_u32(in + 4 * i);
-            memcpy(&out[i], &bits, sizeof bits);
-        }
-        break;
-    }
-}
-
-typedef struct conversion {
-    const unsigned char *bytes;
-    size_t stride;
-    gltf_component component;
-    bool is_normalized;
-    size_t component_count;
-    size_t row_length, row_stride; /* components, bytes; matrices have several rows (columns) in an element */
-    float *floats;
-    uint32_t *indices;
-    uint32_t *largest; /* per GRAIN */
-} conversion;
-
-static void convert_element(const conversion *c, const unsigned char *in, float *out)
-{
-    for (size_t done = 0; done < c->component_count; done += c->row_length, in += c->row_stride)
-        convert_row(in, c->component, c->is_normalized, c->row_length, out + done);
-}
-
-static void convert_floats(void *context, size_t begin, size_t end)
-{
-    const conversion *c = context;
-    size_t size = component_size(c->component) * c->component_count;
-    if (c->stride == size && c->row_length == c->component_count) { /* tight: one long row */
-        convert_row(c->bytes + begin * size, c->component, c->is_normalized,
-                    (end - begin) * c->component_count, c->floats + begin * c->component_count);
-        return;
-    }
-    for (size_t i = begin; i < end; i++)
-        convert_element(c, c->bytes + i * c->stride, c->floats + i * c->component_count);
-}
-
-static conversion make_conversion(const reader *r, const gltf_accessor *a, const unsigned char *bytes)
-{
-    size_t rows = a->type == GLTF_MAT2 ? 2 : a->type == GLTF_MAT3 ? 3 : a->type == GLTF_MAT4 ? 4 : 1;
-    conversion c = {.bytes = bytes,
-                    .stride = view_stride(r, a),
-                    .component = a->component,
-                    .is_normalized = a->is_normalized,
-                    .component_count = gltf_component_counts[a->type]};
-    c.row_length = c.component_count / rows;
-    c.row_stride = rows == 1 ? 0 : (c.row_length * component_size(a->component) + 3) / 4 * 4;
-    return c;
-}
-
-/* Index number i of the sparse elements. */
-static uint32_t sparse_index(const gltf_accessor *a, const unsigned char *bytes, size_t i)
-{
-    return a->sparse_index_component == GLTF_U8    ? bytes[i]
-           : a->sparse_index_component == GLTF_U16 ? load_u16(bytes + 2 * i)
-                                                   : load_u32(bytes + 4 * i);
-}
-
-/* Puts the sparse elements over what is there: into floats, or into indices. */
-static bool apply_sparse(reader *r, const json_place *at, const gltf_accessor *a, float *floats,
-                         uint32_t *indices)
-{
-    if (a->sparse_count == 0)
-        return true;
-    const unsigned char *places = get_view_bytes(r, at, a->sparse_index_view);
-    const unsigned char *values = get_view_bytes(r, at, a->sparse_value_view);
-    if (!places || !values)
-        return false;
-    places += a->sparse_index_offset;
-    values += a->sparse_value_offset;
-    conversion c = make_conversion(r, a, values);
-    c.stride = element_size(a->component, a->type);
-    for (size_t i = 0; i < a->sparse_count; i++) {
-        uint32_t place = sparse_index(a, places, i);
-        if (place >= a->count)
-            return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                               "sparse index %zu is %u, but the accessor has %u elements", i, place,
-                               a->count);
-        const unsigned char *value = values + i * c.stride;
-        if (floats)
-            convert_element(&c, value, floats + place * c.component_count);
-        else
-            indices[place] = a->component == GLTF_U8    ? value[0]
-                             : a->component == GLTF_U16 ? load_u16(value)
-                                                        : load_u32(value);
-    }
-    return true;
-}
-
-/* The place of an accessor, for messages. */
-#define ACCESSOR_PLACE(name, number)                                                                         \
-    const json_place name##_root = {0};                                                                      \
-    const json_place name##_array = {.parent = &name##_root, .key = "accessors"};                            \
-    const json_place name = {.parent = &name##_array, .index = (number)}
-
-static bool is_little_endian(void)
-{
-    const uint16_t one = 1;
-    unsigned char first;
-    memcpy(&first, &one, 1);
-    return first == 1;
-}
-
-const float *get_accessor_floats(reader *r, const json_place *at, uint32_t index)
-{
-    gltf_accessor *a = &r->accessors[index];
-    if (a->floats || !reader_is_ok(r))
-        return a->floats;
-    size_t components = gltf_component_counts[a->type];
-    if (!reader_spend(r, at, (uint64_t)a->count * components / 3))
-        return NULL;
-    ACCESSOR_PLACE(place, index);
-    const unsigned char *bytes = NULL;
-    if (a->view != SCENE_NONE) {
-        bytes = get_view_bytes(r, &place, a->view);
-        if (!bytes)
-            return NULL;
-        bytes += a->offset;
-    }
-    bool is_plain = bytes && a->component == GLTF_F32 && a->sparse_count == 0 && a->count > 0 &&
-                    view_stride(r, a) == components * sizeof(float) && (uintptr_t)bytes % sizeof(float) == 0;
-    if (is_plain && is_little_endian()) {
-        a->floats = (const float *)(const void *)bytes;
-        return a->floats;
-    }
-    size_t count = (size_t)a->count * components;
-    float *floats = bytes ? reader_alloc_raw(r, "accessor", count, sizeof *floats)
-                          : reader_alloc(r, "accessor", count, sizeof *floats);
-    if (!floats)
-        return NULL;
-    if (bytes) {
-        conversion c = make_conversion(r, a, bytes);
-        c.floats = floats;
-        parallel_for(r->thread_count, a->count, GRAIN, convert_floats, &c);
-    }
-    if (!apply_sparse(r, &place, a, floats, NULL))
-        return NULL;
-    a->floats = floats;
-    return floats;
-}
-
-/* ---- indices ---- */
-
-static void convert_indices(void *context, size_t begin, size_t end)
-{
-    const conversion *c = context;
-    uint32_t *out = c->indices;
-    if (c->component == GLTF_U8)
-        for (size_t i = begin; i < end; i++)
-            out[i] = c->bytes[i * c->stride];
-    else if (c->component == GLTF_U16)
-        for (size_t i = begin; i < end; i++)
-            out[i] = load_u16(c->bytes + i * c->stride);
-    else
-        for (size_t i = begin; i < end; i++)
-            out[i] = load_u32(c->bytes + i * c->stride);
-}
-
-static void find_largest(void *context, size_t begin, size_t end)
-{
-    const conversion *c = context;
-    uint32_t largest = 0;
-    for (size_t i = begin; i < end; i++)
-        largest = c->indices[i] > largest ? c->indices[i] : largest;
-    c->largest[begin / GRAIN] = largest;
-}
-
-const uint32_t *get_accessor_indices(reader *r, const json_place *at, uint32_t index, uint32_t *largest)
-{
-    gltf_accessor *a = &r->accessors[index];
-    *largest = a->largest_index;
-    if (a->indices || !reader_is_ok(r))
-        return a->indices;
-    ACCESSOR_PLACE(place, index);
-    if (a->type != GLTF_SCALAR ||
-        (a->component != GLTF_U8 && a->component != GLTF_U16 && a->component != GLTF_U32)) {
-        reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                    "accessor %u must have SCALAR elements of an unsigned type to be indices", index);
-        return NULL;
-    }
-    if (!reader_spend(r, at, a->count))
-        return NULL;
-    const unsigned char *bytes = NULL;
-    if (a->view != SCENE_NONE) {
-        bytes = get_view_bytes(r, &place, a->view);
-        if (!bytes)
-            return NULL;
-        bytes += a->offset;
-        if (r->views[a->view].stride)
-            reader_warn(r, &place, NULL, "holds indices, but its buffer view has a byteStride");
-    }
-    conversion c = make_conversion(r, a, bytes);
-    const uint32_t *indices;
-    if (bytes && a->component == GLTF_U32 && c.stride == 4 && a->sparse_count == 0 &&
-        (uintptr_t)bytes % 4 == 0 && is_little_endian()) {
-        indices = (const uint32_t *)(const void *)bytes;
-        c.indices = (uint32_t *)(uintptr_t)bytes; /* find_largest only reads */
-    } else {
-        c.indices = reader_alloc(r, "indices", a->count, sizeof *c.indices);
-        if (!c.indices)
-            return NULL;
-        if (bytes)
-            parallel_for(r->thread_count, a->count, GRAIN, convert_indices, &c);
-        if (!apply_sparse(r, &place, a, NULL, c.indices))
-            return NULL;
-        indices = c.indices;
-    }
-    size_t ranges = a->count / GRAIN + 1;
-    c.largest = mem_zalloc(r->allocator, ranges, sizeof *c.largest);
-    if (!c.largest) {
-        reader_fail_memory(r, "indices", ranges * sizeof *c.largest);
-        return NULL;
-    }
-    parallel_for(r->thread_count, a->count, GRAIN, find_largest, &c);
-    for (size_t i = 0; i < ranges; i++)
-        a->largest_index = c.largest[i] > a->largest_index ? c.largest[i] : a->largest_index;
-    mem_free(c.largest);
-    *largest = a->largest_index;
-    a->indices = indices;
-    return indices;
 }

@@ -175,9 +175,18 @@ bool has_accessor_source(const reader *r, uint32_t accessor);
 /* Warns about the URIs of buffers that nothing used and that could not have been read. */
 void check_unused_buffers(reader *r);
 
-/* gltf_accessors.c */
+/* gltf_accessors.c: the table. */
 void read_accessors(reader *r, const json_place *root);
 extern const uint32_t gltf_component_counts[GLTF_TYPE_COUNT];
+size_t gltf_component_size(gltf_component component); /* bytes */
+size_t gltf_column_count(gltf_type type);             /* of a matrix; 1 for all else */
+/* Bytes from one column of a matrix to the next, which begin at multiples of 4; of all else the whole element. */
+size_t gltf_column_size(gltf_component component, gltf_type type);
+size_t gltf_element_size(gltf_component component, gltf_type type);
+/* Bytes from one dense element to the next. */
+size_t gltf_accessor_stride(const reader *r, const gltf_accessor *accessor);
+
+/* gltf_elements.c: the arrays, made once for each accessor. */
 /* All elements as floats, gltf_component_counts[type] each, normalised integers in [-1, 1] or [0, 1]. Points into
  * the file where the bytes are such floats already. NULL: an error is recorded. */
 const float *get_accessor_floats(reader *r, const json_place *at, uint32_t accessor);
