@@ -9,9 +9,6 @@
 
 enum { GRAIN = 1 << 15 };
 
-/* Beyond this squared lengths overflow a float. */
-static const float FARTHEST = 1e18f;
-
 /* A check of all elements: ranges count their offenders by themselves. */
 typedef struct check {
     const float *in;
@@ -41,7 +38,7 @@ static bool run_check(reader *r, check *c, size_t count, void (*body)(void *, si
 
 static bool is_sane(float x)
 {
-    return fabsf(x) <= FARTHEST; /* false for NaN */
+    return fabsf(x) <= SCENE_FARTHEST; /* false for NaN */
 }
 
 /* ---- positions ---- */
@@ -56,7 +53,7 @@ static void check_positions(void *context, size_t begin, size_t end)
     check *c = context;
     size_t lost = 0;
     for (size_t i = 3 * begin; i < 3 * end; i++)
-        lost += fabsf(c->in[i]) <= FARTHEST ? 0u : 1u;
+        lost += fabsf(c->in[i]) <= SCENE_FARTHEST ? 0u : 1u;
     c->counts[begin / GRAIN] = lost;
 }
 
@@ -86,7 +83,7 @@ const float *get_positions(reader *r, const json_place *at, uint32_t index, cons
     }
     reader_warn(r, at, NULL,
                 "accessor %u has positions that are not finite or beyond %g m; what uses them is not drawn",
-                index, (double)FARTHEST);
+                index, (double)SCENE_FARTHEST);
     *is_lost = a->is_lost = flags;
     return a->positions = out;
 }
@@ -211,7 +208,7 @@ static void check_texcoords(void *context, size_t begin, size_t end)
     check *c = context;
     size_t repairs = 0;
     for (size_t i = 2 * begin; i < 2 * end; i++)
-        repairs += fabsf(c->in[i]) <= FARTHEST ? 0u : 1u;
+        repairs += fabsf(c->in[i]) <= SCENE_FARTHEST ? 0u : 1u;
     c->counts[begin / GRAIN] = repairs;
 }
 

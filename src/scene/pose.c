@@ -10,9 +10,6 @@
 
 enum { MAX_INSTANCES = 1 << 22, BOUNDS_GRAIN = 1 << 15 /* indices that one thread takes at once */ };
 
-/* Beyond this squared lengths overflow a float. */
-static const float FARTHEST = 1e18f;
-
 static mat4 local_matrix(const scene_node *node)
 {
     return node->has_matrix ? node->matrix : mat4_from_trs(node->translation, node->rotation, node->scale);
@@ -21,7 +18,7 @@ static mat4 local_matrix(const scene_node *node)
 static bool is_finite_matrix(const mat4 *m)
 {
     for (int i = 0; i < 16; i++)
-        if (!(fabsf(m->m[i]) <= FARTHEST))
+        if (!(fabsf(m->m[i]) <= SCENE_FARTHEST))
             return false;
     return true;
 }
@@ -160,7 +157,7 @@ static box instance_bounds(const scene_instance *instance, box *boxes, uint32_t 
 static bool is_finite_box(const box *b)
 {
     for (int axis = 0; axis < 3; axis++)
-        if (!(fabsf(b->minimum[axis]) <= FARTHEST && fabsf(b->maximum[axis]) <= FARTHEST))
+        if (!(fabsf(b->minimum[axis]) <= SCENE_FARTHEST && fabsf(b->maximum[axis]) <= SCENE_FARTHEST))
             return false;
     return true;
 }

@@ -12,6 +12,10 @@
 
 #define SCENE_NONE UINT32_MAX
 
+/* Coordinates beyond this, m, are not drawn. A camera that frames what lies within stands within 1e18 m, and the
+ * squares of all these lengths are finite floats. */
+#define SCENE_FARTHEST 1e17f
+
 struct text; /* base/text.h */
 
 /* ---- geometry ---- */
@@ -233,7 +237,7 @@ typedef struct scene_pose {
 } scene_pose;
 
 /* Evaluates scene number index (FACET_DEFAULT: the default one). A file without scenes has one, number 0, of all
- * its roots. Singular node matrices draw nothing, and what they would put farther out than 1e18 m. Fails with
+ * its roots. Singular node matrices draw nothing, and what they would put farther out than SCENE_FARTHEST. Fails with
  * FACET_ERROR_ARGUMENT for an index that is not there, FACET_ERROR_LIMIT above 2^22 instances. */
 facet_result scene_pose_create(const facet_scene *scene, uint32_t index, const facet_allocator *allocator,
                                uint32_t thread_count, scene_pose *pose, facet_error *error);

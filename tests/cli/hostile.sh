@@ -72,6 +72,13 @@ within 10 0 render $small tri.gltf --eye 1e18,0,0 -o x.png
 within 60 0 render tri.gltf --quality draft --size 65536x1 -o x.png
 within 60 0 render tri.gltf --quality draft --size 1x65536 -o x.png
 rm x.png
+# models beyond all measure: framed, or left out
+for size in 9e16 6e17 2e18; do
+    sed "s/{\"mesh\":0}/{\"mesh\":0,\"scale\":[$size,$size,1]}/" tri.gltf >far.gltf
+    grep -q "$size" far.gltf || failed "far.gltf is not what it should be"
+    within 10 0 render $small far.gltf -o x.png
+    rm x.png
+done
 # cameras of files: a lens of any size, a place far out, a matrix without direction
 camera() {
     wanted=$1
