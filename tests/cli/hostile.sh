@@ -77,7 +77,7 @@ for size in 9e16 6e17 2e18; do
     sed "s/{\"mesh\":0}/{\"mesh\":0,\"scale\":[$size,$size,1]}/" tri.gltf >far.gltf
     grep -q "$size" far.gltf || failed "far.gltf is not what it should be"
     within 10 0 render $small far.gltf -o x.png
-    rm x.png
+    rm x.png far.gltf
 done
 # cameras of files: a lens of any size, a place far out, a matrix without direction
 camera() {
