@@ -68,7 +68,7 @@ FACET_API facet_allocator facet_budget_allocator(facet_budget *budget);
 FACET_API uint64_t facet_budget_used_bytes(const facet_budget *budget);
 FACET_API uint64_t facet_budget_peak_bytes(const facet_budget *budget);
 
-typedef enum facet_log_level { FACET_LOG_WARNING, FACET_LOG_INFO, FACET_LOG_DEBUG } facet_log_level;
+typedef enum facet_log_level { FACET_LOG_WARNING } facet_log_level; /* others may come */
 
 /* Receives messages about what is lost but survivable. {0}: silent. May be called from any thread, one call at
  * a time per operation. */

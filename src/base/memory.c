@@ -128,7 +128,6 @@ enum { CHUNK_HEADER = 64, CHUNK_SIZE = 64 * 1024 - 256, ARENA_ALIGNMENT = 16 };
 struct arena {
     facet_allocator allocator;
     chunk *chunks; /* the first one has room */
-    size_t total;
 };
 
 arena *arena_create(const facet_allocator *allocator)
@@ -164,7 +163,6 @@ void *arena_alloc(arena *a, size_t count, size_t size)
             return NULL;
         c->used = 0;
         c->capacity = capacity;
-        a->total += CHUNK_HEADER + capacity;
         if (a->chunks && capacity == wanted) { /* a large block of its own goes behind the one with room */
             c->next = a->chunks->next;
             a->chunks->next = c;
@@ -193,11 +191,6 @@ char *arena_strdup(arena *a, const char *text)
     if (copy)
         memcpy(copy, text, size);
     return copy;
-}
-
-size_t arena_size(const arena *a)
-{
-    return a->total;
 }
 
 /* ---- budget ---- */

@@ -32,7 +32,6 @@ void arena_destroy(arena *a);                            /* NULL is allowed */
 void *arena_alloc(arena *a, size_t count, size_t size);  /* aligned to 16, undefined; NULL as mem_alloc() */
 void *arena_zalloc(arena *a, size_t count, size_t size); /* zero */
 char *arena_strdup(arena *a, const char *text);
-size_t arena_size(const arena *a); /* bytes that it took from the allocator */
 
 /* a * b and a + b; false: the result does not fit, *out is undefined. */
 static inline bool checked_mul(size_t a, size_t b, size_t *out)

@@ -5,6 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Whatever a hostile file put into a name, a sentence stays one line. */
+static void make_one_line(char *text)
+{
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
+}
+
 facet_result fail(facet_error *error, facet_result result, const char *format, ...)
 {
     if (error) {
@@ -15,10 +23,7 @@ facet_result fail(facet_error *error, facet_result result, const char *format, .
         va_end(arguments);
         if (length < 0)
             error->message[0] = 0;
-        /* A sentence is one line, whatever a hostile file put into a name. */
-        for (char *c = error->message; *c; c++)
-            if ((unsigned char)*c < 0x20 || *c == 0x7f)
-                *c = '?';
+        make_one_line(error->message);
     }
     return result;
 }
@@ -28,38 +33,17 @@ facet_result fail_memory(facet_error *error, const char *what, size_t size)
     return fail(error, FACET_ERROR_MEMORY, "out of memory: %s (%zu bytes)", what, size);
 }
 
-static void send(const facet_log *log, facet_log_level level, const char *format, va_list arguments)
-{
-    char text[1024];
-    if (vsnprintf(text, sizeof text, format, arguments) < 0)
-        return;
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?';
-    log->message(log->user, level, text);
-}
-
-#define SEND(level)                                                                                          \
-    do {                                                                                                     \
-        if (!log || !log->message)                                                                           \
-            return;                                                                                          \
-        va_list arguments;                                                                                   \
-        va_start(arguments, format);                                                                         \
-        send(log, level, format, arguments);                                                                 \
-        va_end(arguments);                                                                                   \
-    } while (0)
-
 void log_warning(const facet_log *log, const char *format, ...)
 {
-    SEND(FACET_LOG_WARNING);
-}
-
-void log_info(const facet_log *log, const char *format, ...)
-{
-    SEND(FACET_LOG_INFO);
-}
-
-void log_debug(const facet_log *log, const char *format, ...)
-{
-    SEND(FACET_LOG_DEBUG);
+    if (!log || !log->message)
+        return;
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (length < 0)
+        return;
+    make_one_line(text);
+    log->message(log->user, FACET_LOG_WARNING, text);
 }

@@ -14,9 +14,7 @@ facet_result fail(facet_error *error, facet_result result, const char *format, .
 /* fail() for memory that was not there: "out of memory: WHAT (SIZE bytes)". */
 facet_result fail_memory(facet_error *error, const char *what, size_t size);
 
-/* Sends one formatted message to log, if there is one. */
+/* Sends one formatted warning to log, if there is one. */
 void log_warning(const facet_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void log_info(const facet_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void log_debug(const facet_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

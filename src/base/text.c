@@ -157,22 +157,6 @@ void text_json_integer(text *t, const char *key, int64_t value)
     text_addf(t, "%lld", (long long)value);
 }
 
-void text_json_number(text *t, const char *key, double value)
-{
-    begin_value(t, key);
-    if (!isfinite(value)) {
-        text_add(t, "null");
-        return;
-    }
-    char digits[40];
-    for (int precision = 6; precision <= 17; precision++) {
-        snprintf(digits, sizeof digits, "%.*g", precision, value);
-        if (strtod(digits, NULL) == value)
-            break;
-    }
-    text_add(t, digits);
-}
-
 void text_json_float(text *t, const char *key, float value)
 {
     begin_value(t, key);

@@ -20,7 +20,7 @@ void text_addf(text *t, const char *format, ...) __attribute__((format(printf, 2
 void text_destroy(text *t); /* {0} is allowed */
 
 /* JSON: keys are NULL inside arrays and at the top. Numbers print the shortest decimal that reads back as the
- * same float or double; NaN and infinities, which JSON lacks, become null. Strings are UTF-8; bytes that are not
+ * same float; NaN and infinities, which JSON lacks, become null. Strings are UTF-8; bytes that are not
  * become U+FFFD. */
 void text_json_begin_object(text *t, const char *key);
 void text_json_end_object(text *t);
@@ -29,7 +29,6 @@ void text_json_end_array(text *t);
 void text_json_string(text *t, const char *key, const char *value); /* NULL: null */
 void text_json_bool(text *t, const char *key, bool value);
 void text_json_integer(text *t, const char *key, int64_t value);
-void text_json_number(text *t, const char *key, double value);
 void text_json_float(text *t, const char *key, float value);
 void text_json_floats(text *t, const char *key, const float *values, size_t count);
 

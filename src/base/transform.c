@@ -1,8 +1,6 @@
 /* transform.c - see transform.h. */
 #include "base/transform.h"
 
-#include <math.h>
-
 mat4 mat4_identity(void)
 {
     return (mat4){{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
@@ -42,45 +40,6 @@ mat4 mat4_from_trs(const float translation[3], const float rotation[4], const fl
         translation[2],
         1.0f,
     }};
-}
-
-bool mat4_invert(mat4 a, mat4 *inverse)
-{
-    /* Gauss-Jordan with partial pivoting, in double: node matrices with scales of 1e-6 stay invertible. */
-    double work[4][8] = {{0}};
-    for (int row = 0; row < 4; row++) {
-        for (int column = 0; column < 4; column++)
-            work[row][column] = (double)a.m[4 * column + row];
-        work[row][4 + row] = 1.0;
-    }
-    *inverse = mat4_identity();
-    for (int column = 0; column < 4; column++) {
-        int pivot = column;
-        for (int row = column + 1; row < 4; row++)
-            if (fabs(work[row][column]) > fabs(work[pivot][column]))
-                pivot = row;
-        if (!(fabs(work[pivot][column]) > 0.0) || !isfinite(work[pivot][column]))
-            return false;
-        for (int k = 0; k < 8; k++) {
-            double swap = work[column][k];
-            work[column][k] = work[pivot][k];
-            work[pivot][k] = swap;
-        }
-        double scale = 1.0 / work[column][column];
-        for (int k = 0; k < 8; k++)
-            work[column][k] *= scale;
-        for (int row = 0; row < 4; row++) {
-            double factor = work[row][column];
-            if (row == column)
-                continue;
-            for (int k = 0; k < 8; k++)
-                work[row][k] -= factor * work[column][k];
-        }
-    }
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            inverse->m[4 * column + row] = (float)work[row][4 + column];
-    return true;
 }
 
 float mat4_determinant3(mat4 a)

@@ -2,8 +2,6 @@
 #ifndef BASE_TRANSFORM_H
 #define BASE_TRANSFORM_H
 
-#include <stdbool.h>
-
 typedef struct mat4 {
     float m[16];
 } mat4;
@@ -12,8 +10,6 @@ mat4 mat4_identity(void);
 mat4 mat4_multiply(mat4 a, mat4 b); /* a b: first b, then a */
 /* Translation, then rotation (unit quaternion x y z w), then scale, as glTF: T R S. */
 mat4 mat4_from_trs(const float translation[3], const float rotation[4], const float scale[3]);
-/* Computed in double. False: singular; *inverse is then the identity. */
-bool mat4_invert(mat4 a, mat4 *inverse);
 /* Determinant of the upper left 3x3: negative where the handedness flips. */
 float mat4_determinant3(mat4 a);
 void mat4_transform_point(const mat4 *a, const float p[3], float out[3]); /* w taken as 1, last row ignored */

@@ -89,7 +89,7 @@ static void receive(void *user, facet_log_level level, const char *text)
     if (level == FACET_LOG_WARNING)
         add_warning(m, text);
     else
-        message_at(m, level == FACET_LOG_INFO ? VERBOSITY_DETAILS : VERBOSITY_TIMINGS, "%s", text);
+        message_at(m, VERBOSITY_DETAILS, "%s", text);
 }
 
 facet_log messages_log(messages *m)
