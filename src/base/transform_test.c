@@ -7,13 +7,8 @@
 
 #include <cmocka.h>
 
+#include "base/near_test.h"
 #include "base/transform.h"
-
-static void assert_near(float a, float b, float tolerance)
-{
-    if (!(fabsf(a - b) <= tolerance))
-        fail_msg("%.9g is not %.9g", (double)a, (double)b);
-}
 
 /* 90 degrees around +Z, scale 2 along X, then translate. */
 static mat4 example(void)

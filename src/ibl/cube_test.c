@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "ibl/near_test.h"
+#include "base/near_test.h"
 
 #include "ibl/cube.h"
 

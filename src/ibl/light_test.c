@@ -14,7 +14,7 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
-#include "ibl/near_test.h"
+#include "base/near_test.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "ibl/near_test.h"
+#include "base/near_test.h"
 
 #include "base/memory.h"
 #include "ibl/equirect.h"

@@ -106,11 +106,3 @@ facet_result try_load_text(const char *json, facet_scene **scene, facet_error *e
     free(copy);
     return result;
 }
-
-void check_near(double actual, double expected, double tolerance, const char *file, int line)
-{
-    if (fabs(actual - expected) <= tolerance)
-        return;
-    print_error("%.9g is not %.9g (tolerance %g)\n", actual, expected, tolerance);
-    _fail(file, line);
-}

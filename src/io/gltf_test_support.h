@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "base/near_test.h"
 #include "io/gltf.h"
 
 /* Bytes of a binary chunk that grow. */
@@ -33,10 +34,7 @@ const scene_primitive *first_primitive(const facet_scene *scene);
 /* Loads JSON text as it is, ' for ", as a .gltf. */
 facet_result try_load_text(const char *json, facet_scene **scene, facet_error *error);
 
-/* |actual - expected| <= tolerance. */
-#define assert_near(actual, expected, tolerance)                                                             \
-    check_near((double)(actual), (double)(expected), (double)(tolerance), __FILE__, __LINE__)
-void check_near(double actual, double expected, double tolerance, const char *file, int line);
+/* Each of count pairs. */
 #define assert_floats(actual, expected, count, tolerance)                                                    \
     do {                                                                                                     \
         for (size_t i_ = 0; i_ < (count); i_++)                                                              \

@@ -2,7 +2,6 @@
 #ifndef SCENE_SCENE_TEST_SUPPORT_H
 #define SCENE_SCENE_TEST_SUPPORT_H
 
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,19 +9,8 @@
 
 #include <cmocka.h>
 
+#include "base/near_test.h"
 #include "scene/scene.h"
-
-/* |actual - expected| <= tolerance */
-#define assert_near(actual, expected, tolerance)                                                             \
-    check_near((double)(actual), (double)(expected), (double)(tolerance), __FILE__, __LINE__)
-
-static inline void check_near(double actual, double expected, double tolerance, const char *file, int line)
-{
-    if (fabs(actual - expected) <= tolerance)
-        return;
-    print_error("%.9g is not %.9g (tolerance %g)\n", actual, expected, tolerance);
-    _fail(file, line);
-}
 
 /* count nodes that are roots of the one scene, each with a mesh of one primitive, which is empty. */
 static inline facet_scene *test_scene(uint32_t count)

@@ -1,10 +1,10 @@
-/* near_test.h - what the tests of this folder share. Include after cmocka.h. */
-#ifndef IBL_NEAR_TEST_H
-#define IBL_NEAR_TEST_H
+/* near_test.h - for tests: numbers that are close. Include after cmocka.h. */
+#ifndef BASE_NEAR_TEST_H
+#define BASE_NEAR_TEST_H
 
 #include <math.h>
 
-/* cmocka compares floats only. */
+/* |a - b| <= tolerance, in double (cmocka compares floats only). */
 #define assert_near(a, b, tolerance)                                                                         \
     assert_near_((double)(a), (double)(b), (double)(tolerance), __FILE__, __LINE__)
 static inline void assert_near_(double a, double b, double tolerance, const char *file, int line)
