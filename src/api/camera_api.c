@@ -25,7 +25,8 @@ facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_in
         return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no camera %u; the file has %u", scene->source,
                     index, scene->camera_count);
     scene_pose pose;
-    facet_result result = scene_pose_create(scene, scene_index, &scene->allocator, 0, &pose, error);
+    facet_result result =
+        scene_pose_create(scene, scene_index, &scene->allocator, scene->thread_count, &pose, error);
     if (result != FACET_OK)
         return result;
     const scene_posed_camera *found = NULL;

@@ -115,7 +115,8 @@ bool facet_scene_get_bounds(const facet_scene *scene, uint32_t scene_index, floa
     bool has_bounds = false;
     memset(minimum, 0, 3 * sizeof *minimum);
     memset(maximum, 0, 3 * sizeof *maximum);
-    if (scene_pose_create(scene, scene_index, &scene->allocator, 0, &pose, NULL) == FACET_OK) {
+    if (scene_pose_create(scene, scene_index, &scene->allocator, scene->thread_count, &pose, NULL) ==
+        FACET_OK) {
         has_bounds = pose.has_bounds;
         memcpy(minimum, pose.bounds_min, sizeof pose.bounds_min);
         memcpy(maximum, pose.bounds_max, sizeof pose.bounds_max);

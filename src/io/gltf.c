@@ -153,6 +153,7 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
     if (result != FACET_OK)
         return result;
     scene->max_texture_size = desc->max_texture_size;
+    scene->thread_count = desc->thread_count;
     const unsigned char *bytes = file->data;
     size_t size = file->size;
     if (!scene_keep_file(scene, file)) {

@@ -356,6 +356,7 @@ static void threads_do_not_change_a_scene(void **state)
     for (uint32_t i = 0; i < 2; i++) {
         facet_scene_desc desc = {.thread_count = i == 0 ? 1 : 7};
         assert_int_equal(gltf_load(path, &desc, &scenes[i], NULL), FACET_OK);
+        assert_int_equal(scenes[i]->thread_count, desc.thread_count);
     }
     for (uint32_t i = 0; i < scenes[0]->mesh_count; i++) {
         const scene_primitive *a = &scenes[0]->meshes[i].primitives[0];

@@ -285,6 +285,7 @@ facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **ou
     scene->default_scene = 0;
     scene->material_count = scene->mesh_count = scene->node_count = MATERIALS;
     scene->max_texture_size = desc->max_texture_size;
+    scene->thread_count = desc->thread_count;
     *out = scene;
     return FACET_OK;
 }

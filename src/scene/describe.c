@@ -32,7 +32,8 @@ facet_scene_counts scene_count(const facet_scene *scene)
             counts.points += p->mode == SCENE_POINTS ? element_count(p) : 0;
         }
     scene_pose pose;
-    if (scene_pose_create(scene, FACET_DEFAULT, &scene->allocator, 0, &pose, NULL) == FACET_OK) {
+    if (scene_pose_create(scene, FACET_DEFAULT, &scene->allocator, scene->thread_count, &pose, NULL) ==
+        FACET_OK) {
         counts.instances = pose.instance_count;
         for (uint32_t i = 0; i < pose.instance_count; i++)
             if (pose.instances[i].primitive->mode == SCENE_TRIANGLES)
@@ -98,7 +99,8 @@ static void write_counts(text *t, const facet_scene *scene)
 static void write_bounds(text *t, const facet_scene *scene, uint32_t index)
 {
     scene_pose pose;
-    facet_result result = scene_pose_create(scene, index, &scene->allocator, 0, &pose, NULL);
+    facet_result result =
+        scene_pose_create(scene, index, &scene->allocator, scene->thread_count, &pose, NULL);
     if (result != FACET_OK || !pose.has_bounds) {
         text_json_string(t, "bounds", NULL);
     } else {

@@ -253,9 +253,10 @@ facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, con
 {
     *camera = (facet_camera){0};
     scene_pose pose;
-    facet_result result = scene_pose_create(scene, scene_index, &scene->allocator, 0, &pose, error);
+    facet_result result =
+        scene_pose_create(scene, scene_index, &scene->allocator, scene->thread_count, &pose, error);
     if (result == FACET_OK)
-        result = scene_fit_pose(&pose, orbit, aspect, 0, camera, error);
+        result = scene_fit_pose(&pose, orbit, aspect, scene->thread_count, camera, error);
     scene_pose_destroy(&pose);
     return result;
 }

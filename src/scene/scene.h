@@ -181,6 +181,7 @@ typedef struct facet_scene {
     const char **warnings; /* what log got while reading */
 
     uint32_t max_texture_size; /* from the desc, for the decoding to come */
+    uint32_t thread_count;     /* from the desc, for questions about the scene; 0: facet_thread_count() */
     uint32_t file_count;       /* files that arrays and images point into */
     file_bytes *files;
 } facet_scene;

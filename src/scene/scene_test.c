@@ -35,9 +35,10 @@ static void warnings_are_kept_once_and_have_an_end(void **state)
 
 static facet_scene *make_builtin(void)
 {
-    const facet_scene_desc desc = {0};
+    const facet_scene_desc desc = {.thread_count = 3};
     facet_scene *scene = NULL;
     assert_int_equal(scene_create_builtin(&desc, &scene, NULL), FACET_OK);
+    assert_int_equal(scene->thread_count, 3); /* questions about it keep to that */
     return scene;
 }
 
