@@ -258,6 +258,8 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
     if (json_object_size(attributes.value) == 0)
         reader_warn(r, &attributes, NULL, "is empty, which glTF does not allow");
     check_names(r, &attributes);
+    if (!prepare_draco(r, at))
+        return;
     if (!has_sources(r, at, &attributes)) {
         reader_warn(r, at, NULL, "is in a buffer without bytes and is not drawn");
         make_empty(p);

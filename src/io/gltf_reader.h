@@ -186,6 +186,10 @@ size_t gltf_element_size(gltf_component component, gltf_type type);
 /* Bytes from one dense element to the next. */
 size_t gltf_accessor_stride(const reader *r, const gltf_accessor *accessor);
 
+/* gltf_draco.c: KHR_draco_mesh_compression. Before a primitive's attributes and indices are read: its accessors get
+ * what its bitstream holds. True also where it has none; false: an error is recorded. */
+bool prepare_draco(reader *r, const json_place *primitive);
+
 /* gltf_elements.c: the arrays, made once for each accessor. */
 /* All elements as floats, gltf_component_counts[type] each, normalised integers in [-1, 1] or [0, 1]. Points into
  * the file where the bytes are such floats already. NULL: an error is recorded. */
