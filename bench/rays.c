@@ -89,7 +89,7 @@ static void load_model(setup *s, const char *path)
     facet_error error;
     facet_allocator allocator = {0};
     if (gltf_load(path, &(facet_scene_desc){0}, &s->scene, &error) != FACET_OK ||
-        scene_pose_create(s->scene, FACET_DEFAULT, &allocator, 1, &s->pose, &error) != FACET_OK)
+        scene_pose_create(s->scene, NULL, &allocator, 1, &s->pose, &error) != FACET_OK)
         die(&error);
     look_at(s, s->pose.bounds_min, s->pose.bounds_max);
     if (render_geometry_create(s->scene, &s->pose, &allocator, &s->set, &error) != FACET_OK ||

@@ -123,7 +123,7 @@ FACET_API void facet_scene_destroy(facet_scene *scene); /* NULL is allowed */
 /* How many of each there are. */
 typedef struct facet_scene_counts {
     uint32_t scenes, nodes, meshes, primitives, materials, textures, images, cameras, lights, skins,
-        animations;
+        animations, variants, image_lights;
     uint32_t instances; /* primitives as drawn in the default scene, a mesh under two nodes counted twice */
     uint64_t vertices, triangles, lines, points; /* as stored, instances not counted */
     uint64_t drawn_triangles;                    /* in the default scene, instances counted */
@@ -145,9 +145,46 @@ FACET_API facet_result facet_scene_find_scene(const facet_scene *scene, const ch
 FACET_API facet_result facet_scene_find_camera(const facet_scene *scene, const char *name, uint32_t *index,
                                                facet_error *error);
 
-/* Axis-aligned bounds in world space of what scene_index draws, m. False: it draws nothing, both are 0. */
-FACET_API bool facet_scene_get_bounds(const facet_scene *scene, uint32_t scene_index, float minimum[3],
+/* The same for animations, and variants of materials (KHR_materials_variants). */
+FACET_API facet_result facet_scene_find_animation(const facet_scene *scene, const char *name, uint32_t *index,
+                                                  facet_error *error);
+FACET_API facet_result facet_scene_find_variant(const facet_scene *scene, const char *name, uint32_t *index,
+                                                facet_error *error);
+
+/* One animation of a scene. */
+typedef struct facet_animation {
+    const char *name;      /* "" where it has none; as long as the scene lives */
+    double begin_s, end_s; /* first and last key */
+} facet_animation;
+FACET_API facet_animation facet_scene_get_animation(const facet_scene *scene,
+                                                    uint32_t index); /* {0}: no such */
+
+/* What of a scene is shown, and when. {0}: the default scene with the materials that the file gives, at rest: as the
+ * nodes stand. */
+typedef struct facet_pose_desc {
+    bool has_scene_index; /* false: the file's default scene */
+    uint32_t scene_index;
+    bool has_variant;
+    uint32_t variant;
+    uint32_t animation_count; /* played together; later ones win where two move the same */
+    const uint32_t *animations;
+    double time_s; /* of the animations; they rest before their first and after their last key */
+} facet_pose_desc;
+
+/* Axis-aligned bounds in world space of what is drawn, m; pose NULL: {0}. False: nothing, both are 0. */
+FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *pose, float minimum[3],
                                       float maximum[3]);
+
+/* How a model is written. {0}. */
+typedef struct facet_scene_save_desc {
+    facet_allocator allocator;
+    facet_log log;
+    uint32_t thread_count; /* 0: facet_thread_count() */
+} facet_scene_save_desc;
+/* Writes the whole scene as glTF 2.0: one .glb file, or by the name's end a .gltf file with a .bin and the images
+ * beside it. All that facet reads is written; reading it again gives an equal scene. Whole or nothing. */
+FACET_API facet_result facet_scene_save(const facet_scene *scene, const char *path,
+                                        const facet_scene_save_desc *desc, facet_error *error);
 
 /* ---- cameras ---- */
 
@@ -176,17 +213,20 @@ typedef struct facet_orbit {
     bool is_z_up;           /* the model has +Z up; the camera rises along it */
     bool fits_all_azimuths; /* radius 0: frames the model from every azimuth at once, for turntables that keep
                                the model's size */
+    bool
+        fits_all_times; /* frames (and aims at the middle of) all that the pose's animations move through, not
+                               only time_s */
 } facet_orbit;
 FACET_API facet_orbit facet_orbit_default(void); /* azimuth 0, polar 75 deg, 105 %, fov 30 deg */
 
-/* The camera that orbit describes, such that the whole of scene_index is in a picture of that aspect (width /
- * height): every vertex is tried, not only the corners of the bounds. */
-FACET_API facet_result facet_camera_from_orbit(const facet_scene *scene, uint32_t scene_index,
+/* The camera that orbit describes, such that the whole of what pose (NULL: {0}) shows is in a picture of that aspect
+ * (width / height): every vertex is tried, not only the corners of the bounds. */
+FACET_API facet_result facet_camera_from_orbit(const facet_scene *scene, const facet_pose_desc *pose,
                                                const facet_orbit *orbit, float aspect, facet_camera *camera,
                                                facet_error *error);
-/* Camera number index of the file, where its first node of scene_index puts it. */
-FACET_API facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_index, uint32_t index,
-                                               facet_camera *camera, facet_error *error);
+/* Camera number index of the file, where its first node of the pose's scene puts it. */
+FACET_API facet_result facet_camera_from_scene(const facet_scene *scene, const facet_pose_desc *pose,
+                                               uint32_t index, facet_camera *camera, facet_error *error);
 
 /* ---- environments ---- */
 
@@ -218,6 +258,14 @@ FACET_API facet_result facet_environment_create_studio(const facet_environment_d
 FACET_API facet_result facet_environment_create_constant(const float radiance[3],
                                                          const facet_environment_desc *desc,
                                                          facet_environment **environment, facet_error *error);
+/* The light that the model brings for the pose's scene (EXT_lights_image_based). FACET_ERROR_ARGUMENT: it brings none;
+ * see facet_scene_has_environment(). */
+FACET_API facet_result facet_environment_create_from_scene(const facet_scene *scene,
+                                                           const facet_pose_desc *pose,
+                                                           const facet_environment_desc *desc,
+                                                           facet_environment **environment,
+                                                           facet_error *error);
+FACET_API bool facet_scene_has_environment(const facet_scene *scene, const facet_pose_desc *pose);
 FACET_API void facet_environment_destroy(facet_environment *environment); /* NULL is allowed */
 
 /* ---- rendering ---- */
@@ -265,8 +313,7 @@ typedef struct facet_render_desc {
     uint32_t thread_count;          /* 0: facet_thread_count(); the picture does not depend on it */
     uint32_t width, height;         /* pixels; 0: 1024 x 768 */
     uint32_t crop[4];               /* x, y, width, height of the part to draw; {0}: all */
-    bool has_scene_index;           /* false: the file's default scene */
-    uint32_t scene_index;           /* which of the file's scenes, where has_scene_index */
+    facet_pose_desc pose;           /* what of the scene, and when */
     const facet_camera *camera;     /* NULL: facet_orbit_default() */
     facet_environment *environment; /* NULL: none, black */
     float environment_rotation_rad; /* around +Y, positive turns the light from +Z towards +X */
@@ -278,7 +325,10 @@ typedef struct facet_render_desc {
     facet_quality quality;
     uint32_t samples; /* visibility samples per pixel; 0: as quality has it (draft 1, normal 4, final 16) */
     facet_energy energy;
-    float exposure_ev; /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
+    bool
+        specular_antialiasing; /* widen highlights by how much normals turn within a pixel (Kaplanyan and Tokuyoshi
+                                   2019): fewer sparkles, and no longer what real-time viewers show */
+    float exposure_ev;         /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
     facet_tonemap tonemap;
     uint32_t aovs;       /* facet_aov or-ed */
     double time_limit_s; /* 0: none; past it FACET_ERROR_LIMIT */
@@ -290,6 +340,18 @@ typedef struct facet_image facet_image;
  * float, linear, premultiplied) and one layer per AOV. */
 FACET_API facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
+
+/* Renders several pictures of one scene: frames, views. What stays the same from one to the next (textures, tangents,
+ * hierarchies of what does not move) is kept. Each picture is that of facet_render(), to the last bit. The scene must
+ * outlive the renderer; one picture at a time. */
+typedef struct facet_renderer facet_renderer;
+FACET_API facet_result facet_renderer_create(const facet_scene *scene,
+                                             const facet_allocator *allocator /* NULL: {0} */,
+                                             facet_renderer **renderer, facet_error *error);
+/* desc->allocator serves the picture only. */
+FACET_API facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_desc *desc,
+                                             facet_image **image, facet_error *error);
+FACET_API void facet_renderer_destroy(facet_renderer *renderer); /* NULL is allowed */
 
 /* Seconds that the stages of the facet_render() that made an image took, and the work done. */
 typedef struct facet_render_stats {

@@ -59,12 +59,13 @@ static void zero_desc_draws_the_default_scene(void **state)
     sum_of(image, sum);
     assert_true(sum[0] == 0.0 && sum[1] > 50.0 && sum[3] > 50.0);
     facet_image_destroy(image);
-    facet_render_desc first = {.width = 32, .height = 32, .has_scene_index = true};
+    facet_render_desc first = {.width = 32, .height = 32, .pose = {.has_scene_index = true}};
     assert_int_equal(facet_render(scene, &first, &image, NULL), FACET_OK);
     sum_of(image, sum);
     assert_true(sum[0] > 50.0 && sum[1] == 0.0);
     facet_image_destroy(image);
-    facet_render_desc missing = {.width = 32, .height = 32, .has_scene_index = true, .scene_index = 2};
+    facet_render_desc missing = {
+        .width = 32, .height = 32, .pose = {.has_scene_index = true, .scene_index = 2}};
     assert_int_equal(facet_render(scene, &missing, &image, NULL), FACET_ERROR_ARGUMENT);
     assert_null(image);
     facet_scene_destroy(scene);

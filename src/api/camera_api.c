@@ -11,14 +11,15 @@ facet_orbit facet_orbit_default(void)
     return (facet_orbit){.polar_rad = 75.0f * degree, .radius_scale = 1.05f, .fov_y_rad = 30.0f * degree};
 }
 
-facet_result facet_camera_from_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit,
-                                     float aspect, facet_camera *camera, facet_error *error)
+facet_result facet_camera_from_orbit(const facet_scene *scene, const facet_pose_desc *pose_desc,
+                                     const facet_orbit *orbit, float aspect, facet_camera *camera,
+                                     facet_error *error)
 {
-    return scene_fit_orbit(scene, scene_index, orbit, aspect, camera, error);
+    return scene_fit_orbit(scene, pose_desc, orbit, aspect, camera, error);
 }
 
-facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_index, uint32_t index,
-                                     facet_camera *camera, facet_error *error)
+facet_result facet_camera_from_scene(const facet_scene *scene, const facet_pose_desc *pose_desc,
+                                     uint32_t index, facet_camera *camera, facet_error *error)
 {
     *camera = (facet_camera){0};
     if (index >= scene->camera_count)
@@ -26,15 +27,15 @@ facet_result facet_camera_from_scene(const facet_scene *scene, uint32_t scene_in
                     index, scene->camera_count);
     scene_pose pose;
     facet_result result =
-        scene_pose_create(scene, scene_index, &scene->allocator, scene->thread_count, &pose, error);
+        scene_pose_create(scene, pose_desc, &scene->allocator, scene->thread_count, &pose, error);
     if (result != FACET_OK)
         return result;
     const scene_posed_camera *found = NULL;
     for (uint32_t i = 0; i < pose.camera_count && !found; i++)
-        if (pose.cameras[i].camera == index)
+        if (pose.cameras[i].index == index)
             found = &pose.cameras[i];
     if (found) {
-        const scene_camera *c = &scene->cameras[index];
+        const scene_camera *c = &found->camera;
         const float *m = found->world.m;
         *camera = (facet_camera){.fov_y_rad = c->is_orthographic ? 0.0f : c->fov_y_rad,
                                  .ortho_height = c->ortho_height,

@@ -27,8 +27,6 @@ static facet_result resolve(const facet_scene *scene, const facet_render_desc *d
                             facet_camera *camera, facet_error *error)
 {
     *out = *desc;
-    if (!desc->has_scene_index)
-        out->scene_index = FACET_DEFAULT;
     if (!out->width && !out->height) {
         out->width = 1024;
         out->height = 768;
@@ -59,7 +57,7 @@ static facet_result resolve(const facet_scene *scene, const facet_render_desc *d
         out->thread_count = facet_thread_count();
     if (!out->camera) {
         facet_orbit orbit = facet_orbit_default();
-        facet_result result = facet_camera_from_orbit(scene, out->scene_index, &orbit,
+        facet_result result = facet_camera_from_orbit(scene, &out->pose, &orbit,
                                                       (float)out->width / (float)out->height, camera, error);
         if (result != FACET_OK)
             return result;
@@ -98,6 +96,31 @@ facet_result facet_render(const facet_scene *scene, const facet_render_desc *des
     made->stats.total_s = clock_seconds() - start;
     *image = made;
     return FACET_OK;
+}
+
+struct facet_renderer {
+    const facet_scene *scene;
+};
+
+facet_result facet_renderer_create(const facet_scene *scene, const facet_allocator *allocator,
+                                   facet_renderer **renderer, facet_error *error)
+{
+    *renderer = mem_zalloc(allocator, 1, sizeof **renderer);
+    if (!*renderer)
+        return fail_memory(error, "renderer", sizeof **renderer);
+    (*renderer)->scene = scene;
+    return FACET_OK;
+}
+
+facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_desc *desc,
+                                   facet_image **image, facet_error *error)
+{
+    return facet_render(renderer->scene, desc, image, error);
+}
+
+void facet_renderer_destroy(facet_renderer *renderer)
+{
+    mem_free(renderer);
 }
 
 facet_render_stats facet_image_get_render_stats(const facet_image *image)

@@ -108,15 +108,53 @@ facet_result facet_scene_find_camera(const facet_scene *scene, const char *name,
     return find(scene, "camera", name, scene->camera_count, camera_name, index, error);
 }
 
-bool facet_scene_get_bounds(const facet_scene *scene, uint32_t scene_index, float minimum[3],
+static const char *animation_name(const facet_scene *scene, uint32_t index)
+{
+    return scene->animations[index].name;
+}
+
+static const char *variant_name(const facet_scene *scene, uint32_t index)
+{
+    return scene->variants[index];
+}
+
+facet_result facet_scene_find_animation(const facet_scene *scene, const char *name, uint32_t *index,
+                                        facet_error *error)
+{
+    return find(scene, "animation", name, scene->animation_count, animation_name, index, error);
+}
+
+facet_result facet_scene_find_variant(const facet_scene *scene, const char *name, uint32_t *index,
+                                      facet_error *error)
+{
+    return find(scene, "variant", name, scene->variant_count, variant_name, index, error);
+}
+
+facet_animation facet_scene_get_animation(const facet_scene *scene, uint32_t index)
+{
+    if (index >= scene->animation_count)
+        return (facet_animation){.name = ""};
+    const scene_animation *animation = &scene->animations[index];
+    return (facet_animation){
+        .name = animation->name, .begin_s = (double)animation->begin_s, .end_s = (double)animation->end_s};
+}
+
+facet_result facet_scene_save(const facet_scene *scene, const char *path, const facet_scene_save_desc *desc,
+                              facet_error *error)
+{
+    (void)desc;
+    return fail(error, FACET_ERROR_UNSUPPORTED, "%s: writing %s: glTF is not written yet", path,
+                scene->source);
+}
+
+bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *desc, float minimum[3],
                             float maximum[3])
 {
     scene_pose pose;
     bool has_bounds = false;
     memset(minimum, 0, 3 * sizeof *minimum);
     memset(maximum, 0, 3 * sizeof *maximum);
-    if (scene_pose_create(scene, scene_index, &scene->allocator, scene->thread_count, &pose, NULL) ==
-        FACET_OK) {
+    if (scene_pose_create(scene, desc, &scene->allocator, scene->thread_count, &pose, NULL) == FACET_OK) {
         has_bounds = pose.has_bounds;
         memcpy(minimum, pose.bounds_min, sizeof pose.bounds_min);
         memcpy(maximum, pose.bounds_max, sizeof pose.bounds_max);

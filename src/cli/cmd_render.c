@@ -87,14 +87,14 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
 
 /* ---- pictures ---- */
 
-static facet_result render_frame(render_run *run, const facet_scene *scene, uint32_t scene_index,
+static facet_result render_frame(render_run *run, const facet_scene *scene, const facet_pose_desc *pose,
                                  uint32_t frame, picture_report *report, facet_error *error)
 {
     const render_options *o = &run->options;
     double start = interrupt_clock();
     uint32_t frame_count = o->turntable ? o->turntable : 1;
     facet_camera camera;
-    facet_result result = render_camera(scene, scene_index, o, frame, &camera, error);
+    facet_result result = render_camera(scene, pose, o, frame, &camera, error);
     if (result != FACET_OK)
         return result;
     progress shown = {.mode = run->progress,
@@ -111,8 +111,7 @@ static facet_result render_frame(render_run *run, const facet_scene *scene, uint
     desc.allocator = run->allocator;
     desc.log = messages_log(&run->messages);
     desc.progress = progress_callback(&shown);
-    desc.has_scene_index = true;
-    desc.scene_index = scene_index;
+    desc.pose = *pose;
     desc.camera = &camera;
     desc.environment = run->environment;
     desc.time_limit_s = left < 1e29 ? left : 0.0;
@@ -148,10 +147,11 @@ static facet_result render_frames(render_run *run, const char *model, const face
                                   facet_error *error)
 {
     const render_options *o = &run->options;
-    uint32_t scene_index = FACET_DEFAULT;
+    facet_pose_desc pose = {0};
     facet_result result = FACET_OK;
+    pose.has_scene_index = o->scene != NULL;
     if (o->scene)
-        result = facet_scene_find_scene(scene, o->scene, &scene_index, error);
+        result = facet_scene_find_scene(scene, o->scene, &pose.scene_index, error);
     for (uint32_t frame = 0; frame < (o->turntable ? o->turntable : 1) && result == FACET_OK; frame++) {
         char name[RENDER_NAME_SIZE];
         result = render_name(&run->options, model, frame, name, sizeof name, error);
@@ -162,7 +162,7 @@ static facet_result render_frames(render_run *run, const char *model, const face
             return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
         report.is_kept = o->keeps_existing && !o->is_stdout && output_exists(name);
         if (!report.is_kept)
-            result = render_frame(run, scene, scene_index, frame, &report, error);
+            result = render_frame(run, scene, &pose, frame, &report, error);
         messages_flush(&run->messages);
         if (result == FACET_OK)
             report_frame(run, &report);

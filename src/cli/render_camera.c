@@ -8,11 +8,11 @@
 #define TWO_PI 6.283185307179586
 
 /* orbit->target in full: what is not given is the middle of the model. */
-static void resolve_target(const facet_scene *scene, uint32_t scene_index, const render_options *options,
-                           float target[3])
+static void resolve_target(const facet_scene *scene, const facet_pose_desc *pose,
+                           const render_options *options, float target[3])
 {
     float low[3], high[3];
-    facet_scene_get_bounds(scene, scene_index, low, high);
+    facet_scene_get_bounds(scene, pose, low, high);
     for (int i = 0; i < 3; i++)
         target[i] = options->has_target[i] ? options->orbit.target[i] : 0.5f * low[i] + 0.5f * high[i];
 }
@@ -22,13 +22,13 @@ static float aspect_of(const render_options *options)
     return (float)options->desc.width / (float)options->desc.height;
 }
 
-static facet_orbit orbit_of_frame(const facet_scene *scene, uint32_t scene_index,
+static facet_orbit orbit_of_frame(const facet_scene *scene, const facet_pose_desc *pose,
                                   const render_options *options, uint32_t frame)
 {
     facet_orbit orbit = options->orbit;
     bool is_partly_given = options->has_target[0] || options->has_target[1] || options->has_target[2];
     if (is_partly_given) {
-        resolve_target(scene, scene_index, options, orbit.target);
+        resolve_target(scene, pose, options, orbit.target);
         orbit.has_target = true;
     }
     if (options->turntable) {
@@ -44,11 +44,11 @@ static float distance(const float a[3], const float b[3])
 }
 
 /* A camera at --eye that looks at --target. */
-static facet_result camera_from_eye(const facet_scene *scene, uint32_t scene_index,
+static facet_result camera_from_eye(const facet_scene *scene, const facet_pose_desc *pose,
                                     const render_options *options, facet_camera *camera, facet_error *error)
 {
     *camera = (facet_camera){.fov_y_rad = options->orbit.fov_y_rad};
-    resolve_target(scene, scene_index, options, camera->target);
+    resolve_target(scene, pose, options, camera->target);
     for (int i = 0; i < 3; i++)
         camera->eye[i] = options->eye[i];
     float far_away = distance(camera->eye, camera->target);
@@ -67,18 +67,19 @@ static facet_result camera_from_eye(const facet_scene *scene, uint32_t scene_ind
     return FACET_OK;
 }
 
-facet_result render_camera(const facet_scene *scene, uint32_t scene_index, const render_options *options,
-                           uint32_t frame, facet_camera *camera, facet_error *error)
+facet_result render_camera(const facet_scene *scene, const facet_pose_desc *pose,
+                           const render_options *options, uint32_t frame, facet_camera *camera,
+                           facet_error *error)
 {
     if (options->camera) {
         uint32_t index;
         facet_result result = facet_scene_find_camera(scene, options->camera, &index, error);
         if (result != FACET_OK)
             return result;
-        return facet_camera_from_scene(scene, scene_index, index, camera, error);
+        return facet_camera_from_scene(scene, pose, index, camera, error);
     }
     if (options->has_eye)
-        return camera_from_eye(scene, scene_index, options, camera, error);
-    facet_orbit orbit = orbit_of_frame(scene, scene_index, options, frame);
-    return facet_camera_from_orbit(scene, scene_index, &orbit, aspect_of(options), camera, error);
+        return camera_from_eye(scene, pose, options, camera, error);
+    facet_orbit orbit = orbit_of_frame(scene, pose, options, frame);
+    return facet_camera_from_orbit(scene, pose, &orbit, aspect_of(options), camera, error);
 }

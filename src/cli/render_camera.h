@@ -5,7 +5,8 @@
 #include "cli/render_options.h"
 
 /* The camera of one frame (from 0) of a turntable, or of the one picture. */
-facet_result render_camera(const facet_scene *scene, uint32_t scene_index, const render_options *options,
-                           uint32_t frame, facet_camera *camera, facet_error *error);
+facet_result render_camera(const facet_scene *scene, const facet_pose_desc *pose,
+                           const render_options *options, uint32_t frame, facet_camera *camera,
+                           facet_error *error);
 
 #endif

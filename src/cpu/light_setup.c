@@ -11,14 +11,15 @@
 
 static bool is_entirely_metallic(const scene_material *material)
 {
-    return material->metallic >= 1.0f && material->metallic_roughness_texture.texture == SCENE_NONE;
+    return material->metallic >= 1.0f &&
+           material->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE].texture == SCENE_NONE;
 }
 
 /* Texels scale the factor down: a textured roughness may be anything up to it. */
 static void add_material(ibl_light_desc *needs, const scene_material *material, facet_energy energy)
 {
     float roughness = clamp(material->perceptual_roughness, 0.0f, 1.0f);
-    bool is_textured = material->metallic_roughness_texture.texture != SCENE_NONE;
+    bool is_textured = material->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE].texture != SCENE_NONE;
     needs->min_roughness = min(needs->min_roughness, is_textured ? 0.0f : roughness);
     needs->max_roughness = max(needs->max_roughness, roughness);
     needs->needs_specular = true;
@@ -57,7 +58,7 @@ static vec3 load3(const float v[3])
 
 static Light posed_light(const scene_posed_light *posed)
 {
-    const scene_light *l = posed->light;
+    const scene_light *l = &posed->light;
     vec3 intensity = load3(l->color) * l->intensity;
     vec3 position = load3(posed->position);
     vec3 direction = load3(posed->direction);

@@ -1,5 +1,4 @@
 /* material_texels.c - see material_texels.h. Textures with the same coordinates are looked up together. */
-#include <stddef.h>
 #include <string.h>
 
 #include "cpu/material_texels.h"
@@ -7,21 +6,21 @@
 _Static_assert((int)MATERIAL_TEXTURE_COUNT <= (int)TEXTURE_GROUP, "all textures of a material are one group");
 
 static const struct {
-    size_t ref; /* offset in scene_material */
+    scene_texture_slot slot;
     bool is_color;
 } MATERIAL_TEXTURES[MATERIAL_TEXTURE_COUNT] = {
-    [BASE_COLOR] = {offsetof(scene_material, base_color_texture), true},
-    [EMISSIVE] = {offsetof(scene_material, emissive_texture), true},
-    [METALLIC_ROUGHNESS] = {offsetof(scene_material, metallic_roughness_texture), false},
-    [NORMAL] = {offsetof(scene_material, normal_texture), false},
-    [OCCLUSION] = {offsetof(scene_material, occlusion_texture), false},
-    [SPECULAR] = {offsetof(scene_material, specular_texture), false},
-    [SPECULAR_COLOR] = {offsetof(scene_material, specular_color_texture), true},
+    [BASE_COLOR] = {SCENE_BASE_COLOR_TEXTURE, true},
+    [EMISSIVE] = {SCENE_EMISSIVE_TEXTURE, true},
+    [METALLIC_ROUGHNESS] = {SCENE_METALLIC_ROUGHNESS_TEXTURE, false},
+    [NORMAL] = {SCENE_NORMAL_TEXTURE, false},
+    [OCCLUSION] = {SCENE_OCCLUSION_TEXTURE, false},
+    [SPECULAR] = {SCENE_SPECULAR_TEXTURE, false},
+    [SPECULAR_COLOR] = {SCENE_SPECULAR_COLOR_TEXTURE, true},
 };
 
 static const scene_texture_ref *texture_ref(const scene_material *material, int number)
 {
-    return (const scene_texture_ref *)(const void *)((const char *)material + MATERIAL_TEXTURES[number].ref);
+    return &material->textures[MATERIAL_TEXTURES[number].slot];
 }
 
 static bool has_same_coordinates(const scene_texture_ref *a, const scene_texture_ref *b)

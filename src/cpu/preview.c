@@ -101,7 +101,7 @@ static facet_result prepare(preview *p, facet_error *error)
     const facet_render_desc *desc = p->desc;
     double start = clock_seconds();
     facet_result result =
-        scene_pose_create(p->scene, desc->scene_index, &desc->allocator, desc->thread_count, &p->pose, error);
+        scene_pose_create(p->scene, &desc->pose, &desc->allocator, desc->thread_count, &p->pose, error);
     if (result == FACET_OK)
         result = camera_rays_create(desc->camera, desc->width, desc->height, &p->camera, error);
     if (result == FACET_OK)

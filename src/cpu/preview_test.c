@@ -193,7 +193,7 @@ static void coincident_backs_hide_nothing(void **state)
         fixture f = fixture_create();
         for (int i = 0; i < 2; i++) {
             scene_material material = scene_material_default();
-            material.is_unlit = true;
+            material.extensions = SCENE_UNLIT;
             material.base_color[0] = (float)i;
             scene_node *node =
                 fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, material)), 0, 0, 0, 1.0f);
@@ -262,11 +262,11 @@ static fixture busy_scene(void)
     scene_material glass = scene_material_default();
     glass.alpha_mode = SCENE_ALPHA_BLEND;
     glass.base_color[3] = 0.4f;
-    glass.base_color_texture.texture = texture;
+    glass.textures[SCENE_BASE_COLOR_TEXTURE].texture = texture;
     scene_material leaf = scene_material_default();
     leaf.alpha_mode = SCENE_ALPHA_MASK;
     leaf.alpha_cutoff = 0.5f;
-    leaf.base_color_texture.texture = texture;
+    leaf.textures[SCENE_BASE_COLOR_TEXTURE].texture = texture;
     scene_material solid = scene_material_default();
     solid.metallic = 0.0f;
     solid.base_color[1] = 0.3f;

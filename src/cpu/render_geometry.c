@@ -30,8 +30,8 @@ static bool may_see_through(const scene_primitive *primitive, const scene_materi
 {
     if (material->alpha_mode == SCENE_ALPHA_OPAQUE)
         return false;
-    return material->base_color_texture.texture != SCENE_NONE || material->base_color[3] < 1.0f ||
-           has_vertex_alpha(primitive);
+    return material->textures[SCENE_BASE_COLOR_TEXTURE].texture != SCENE_NONE ||
+           material->base_color[3] < 1.0f || has_vertex_alpha(primitive);
 }
 
 static void set_transform(render_geometry *g, const scene_instance *instance)
@@ -65,12 +65,13 @@ facet_result render_geometry_create(const facet_scene *scene, const scene_pose *
         const scene_primitive *primitive = instance->primitive;
         render_geometry *g = &set->items[i];
         g->primitive = primitive;
-        g->material = scene_get_material(scene, primitive->material);
-        g->material_id = primitive->material == SCENE_NONE ? 0 : primitive->material + 1;
+        g->material = scene_pose_material(scene, pose, instance);
+        g->material_id = instance->material == SCENE_NONE ? 0 : instance->material + 1;
         g->is_double_sided = g->material->is_double_sided || primitive->mode != SCENE_TRIANGLES;
-        g->is_lit = !g->material->is_unlit && primitive->normals;
+        g->is_lit = !(g->material->extensions & SCENE_UNLIT) && instance->normals;
         g->is_see_through = may_see_through(primitive, g->material);
-        g->tangents = primitive->tangents;
+        g->normals = instance->normals;
+        g->tangents = instance->tangents;
         set_transform(g, instance);
     }
     return FACET_OK;
@@ -99,7 +100,7 @@ typedef struct transform_job {
 static void transform_vertices(void *context, size_t begin, size_t end)
 {
     const transform_job *job = context;
-    const float *positions = job->instance->primitive->positions;
+    const float *positions = job->instance->positions;
     for (size_t i = begin; i < end; i++)
         mat4_transform_point(&job->instance->world, positions + 3 * i, job->out + 3 * i);
 }
@@ -113,8 +114,8 @@ static void place_sprites(void *context, size_t begin, size_t end)
     float radius = primitive->mode == SCENE_POINTS ? POINT_RADIUS : LINE_RADIUS;
     for (size_t i = begin; i < end; i++) {
         float *p = job->out + 4 * i;
-        mat4_transform_point(&job->instance->world, primitive->positions + 3 * (size_t)primitive->indices[i],
-                             p);
+        mat4_transform_point(&job->instance->world,
+                             job->instance->positions + 3 * (size_t)primitive->indices[i], p);
         float depth = 0.0f;
         for (int axis = 0; axis < 3; axis++)
             depth += (p[axis] - camera->origin[axis]) * camera->direction[axis];
@@ -124,7 +125,7 @@ static void place_sprites(void *context, size_t begin, size_t end)
 
 static bool shares_vertices(const scene_instance *a, const scene_instance *b)
 {
-    return a->node == b->node && a->primitive->positions == b->primitive->positions &&
+    return a->node == b->node && a->positions == b->positions &&
            a->primitive->vertex_count == b->primitive->vertex_count &&
            a->primitive->mode == SCENE_TRIANGLES && b->primitive->mode == SCENE_TRIANGLES;
 }
@@ -159,9 +160,9 @@ facet_result render_geometry_transform(render_geometry_set *set, const scene_pos
 static bool needs_tangents(const render_geometry *g)
 {
     const scene_material *material = g->material;
-    return g->primitive->mode == SCENE_TRIANGLES && g->is_lit && !g->primitive->tangents &&
-           material->normal_texture.texture != SCENE_NONE &&
-           material->normal_texture.texcoord < g->primitive->texcoord_count;
+    return g->primitive->mode == SCENE_TRIANGLES && g->is_lit && !g->tangents &&
+           material->textures[SCENE_NORMAL_TEXTURE].texture != SCENE_NONE &&
+           material->textures[SCENE_NORMAL_TEXTURE].texcoord < g->primitive->texcoord_count;
 }
 
 typedef struct tangent_jobs {
@@ -180,7 +181,8 @@ static void make_tangents(void *context, size_t begin, size_t end)
         float *tangents = mem_alloc(jobs->allocator, primitive->index_count, 4 * sizeof(float));
         facet_result result = FACET_ERROR_MEMORY;
         if (tangents)
-            result = scene_generate_tangents(primitive, jobs->materials[i]->normal_texture.texcoord,
+            result = scene_generate_tangents(primitive,
+                                             jobs->materials[i]->textures[SCENE_NORMAL_TEXTURE].texcoord,
                                              jobs->allocator, tangents, NULL);
         if (result == FACET_OK) {
             jobs->tangents[i] = tangents;

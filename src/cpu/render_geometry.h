@@ -13,6 +13,7 @@ typedef struct render_geometry {
     const float
         *vertices; /* world space, m. Triangles: 3 per vertex. Points, lines: 4 per index, x y z radius, such
                               that they are a pixel wide where they are */
+    const float *normals; /* object space (of the pose), 3 per vertex; NULL: none */
     const float
         *tangents; /* object space, 4 per vertex, or per index where has_corner_tangents; NULL: none */
     bool has_corner_tangents;

@@ -18,7 +18,7 @@ static vec3 transform(const float rows[9], vec3 v)
 static bool normal_from_texel(const shading_hit *h, const float texel[4], vec3 *n)
 {
     const scene_material *material = h->geometry->material;
-    if (material->normal_texture.texture == SCENE_NONE || !h->geometry->tangents)
+    if (material->textures[SCENE_NORMAL_TEXTURE].texture == SCENE_NONE || !h->geometry->tangents)
         return false;
     if (texel[0] >= 1.0f && texel[1] >= 1.0f && texel[2] >= 1.0f)
         return false;
@@ -40,7 +40,7 @@ static vec3 shading_normal(const shading_hit *h, const float normal_texel[4], bo
     const render_geometry *g = h->geometry;
     float side = is_front ? 1.0f : -1.0f;
     vec3 to_eye = normalize_or(-h->direction, vec3(0.0f, 0.0f, 1.0f));
-    vec3 N = transform(g->normal_matrix, shading_hit_vec3(h, g->primitive->normals)) * side;
+    vec3 N = transform(g->normal_matrix, shading_hit_vec3(h, g->normals)) * side;
     vec3 n;
     if (!normal_from_texel(h, normal_texel, &n))
         return normalize_or(N, to_eye);
@@ -115,7 +115,7 @@ static Surface make_surface(const scene_material *m, material_texels texels, vec
         N, base_color, m->metallic * rough_metal[2], m->perceptual_roughness * rough_metal[1], m->ior,
         m->specular * texels[SPECULAR][3], load3(m->specular_color) * load3(texels[SPECULAR_COLOR]),
         occlusion_from_texel(texels[OCCLUSION][0], m->occlusion_strength),
-        load3(m->emissive) * load3(texels[EMISSIVE]));
+        load3(m->emissive) * m->emissive_strength * load3(texels[EMISSIVE]));
 }
 
 /* The textures that a hit on g reads. */
@@ -123,7 +123,7 @@ static uint32_t textures_read(const render_geometry *g)
 {
     if (g->is_lit)
         return ALL_TEXTURES & ~(g->tangents ? 0u : 1u << NORMAL);
-    return 1u << BASE_COLOR | (g->material->is_unlit ? 0u : 1u << EMISSIVE);
+    return 1u << BASE_COLOR | (g->material->extensions & SCENE_UNLIT ? 0u : 1u << EMISSIVE);
 }
 
 /* Radiance of a lit surface: emission, prefiltered environment and every light. */
@@ -164,7 +164,7 @@ void shading_shade(const shading_scene *scene, const shading_point *point, shadi
     vec3 N = V;
     vec3 radiance = load3(base_color);
     out->occlusion = 1.0f;
-    if (h.geometry->primitive->normals)
+    if (h.geometry->normals)
         N = shading_normal(&h, texels[NORMAL],
                            h.geometry->primitive->mode != SCENE_TRIANGLES ||
                                sees_front(h.geometry, point->hit, h.direction));
@@ -172,9 +172,9 @@ void shading_shade(const shading_scene *scene, const shading_point *point, shadi
         Surface s = make_surface(material, texels, N, load3(base_color));
         radiance = lit_radiance(scene, s, h.position, V);
         out->occlusion = s.occlusion;
-    } else if (!material->is_unlit) {
+    } else if (!(material->extensions & SCENE_UNLIT)) {
         /* Points and lines without normals: glTF 2.0, 3.7.2.1. */
-        radiance += load3(material->emissive) * load3(texels[EMISSIVE]);
+        radiance += load3(material->emissive) * material->emissive_strength * load3(texels[EMISSIVE]);
     }
     store3(radiance, out->radiance);
     store3(N, out->normal);

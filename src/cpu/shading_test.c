@@ -149,10 +149,10 @@ static void an_unlit_surface_is_its_texture(void **state)
     (void)state;
     fixture f = fixture_create();
     scene_material material = scene_material_default();
-    material.is_unlit = true;
+    material.extensions = SCENE_UNLIT;
     material.emissive[0] = 5.0f; /* not used */
     material.base_color[1] = 0.5f;
-    material.base_color_texture.texture = fixture_add_texture(&f, 2, 2, CHECKER);
+    material.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 2, 2, CHECKER);
     f.scene->textures[0].mag_filter = SCENE_FILTER_NEAREST;
     film picture = render_quad(&f, material);
     assert_color(fixture_pixel(&picture, "", 10, 10), 1, 0, 0, 1e-6f);
@@ -168,10 +168,10 @@ static void texture_coordinates_are_transformed(void **state)
     (void)state;
     fixture f = fixture_create();
     scene_material material = scene_material_default();
-    material.is_unlit = true;
-    material.base_color_texture.texture = fixture_add_texture(&f, 2, 2, CHECKER);
-    material.base_color_texture.has_transform = true;
-    memcpy(material.base_color_texture.transform, (float[6]){0, 1, 0, 1, 0, 0},
+    material.extensions = SCENE_UNLIT;
+    material.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 2, 2, CHECKER);
+    material.textures[SCENE_BASE_COLOR_TEXTURE].has_transform = true;
+    memcpy(material.textures[SCENE_BASE_COLOR_TEXTURE].transform, (float[6]){0, 1, 0, 1, 0, 0},
            6 * sizeof(float)); /* u and v swapped */
     f.scene->textures[0].mag_filter = SCENE_FILTER_NEAREST;
     film picture = render_quad(&f, material);
@@ -186,7 +186,7 @@ static void vertex_colors_multiply(void **state)
     (void)state;
     fixture f = fixture_create();
     scene_material material = scene_material_default();
-    material.is_unlit = true;
+    material.extensions = SCENE_UNLIT;
     material.base_color[0] = 0.5f;
     uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, material));
     static const float colors[16] = {1, 0, 0, 1, 1, 0, 0, 1,
@@ -213,8 +213,8 @@ static void distant_textures_are_averaged(void **state)
     f.camera.ortho_height = 20.0f; /* the quad is 6.4 pixels wide */
     f.desc.aovs = FACET_AOV_ALBEDO;
     scene_material material = scene_material_default();
-    material.is_unlit = true;
-    material.base_color_texture.texture = fixture_add_texture(&f, 256, 256, texels);
+    material.extensions = SCENE_UNLIT;
+    material.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 256, 256, texels);
     film picture = render_quad(&f, material);
     assert_color(fixture_pixel(&picture, "albedo", 31, 32), 0.5f, 0.5f, 0.5f, 0.01f);
     film_destroy(&picture);
@@ -235,7 +235,7 @@ static void emission_is_added_and_occlusion_dims_the_environment_only(void **sta
         material.emissive[2] = 10.0f;
         uint32_t texture = fixture_add_texture(&f, 1, 1, grey);
         if (is_occluded)
-            material.occlusion_texture.texture = texture;
+            material.textures[SCENE_OCCLUSION_TEXTURE].texture = texture;
         film picture = render_quad(&f, material);
         float open = is_occluded ? 128.0f / 255.0f : 1.0f;
         assert_color(fixture_pixel(&picture, "", 5, 5), 1.0f + open, 1.0f + open, 11.0f + open, 5e-3f);
@@ -252,7 +252,8 @@ static void map_normals(fixture *f, uint32_t mesh, const unsigned char texel[4])
     static const float tangents[16] = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
     scene_primitive *p = fixture_primitive(f, mesh);
     p->tangents = tangents;
-    f->scene->materials[p->material].normal_texture.texture = fixture_add_texture(f, 1, 1, texel);
+    f->scene->materials[p->material].textures[SCENE_NORMAL_TEXTURE].texture =
+        fixture_add_texture(f, 1, 1, texel);
 }
 
 /* N for a texel of (x, y, z), of a quad that is mirrored or seen from behind or neither. */
@@ -330,7 +331,7 @@ static void layers_blend_in_any_order(void **state)
         uint32_t meshes[3];
         for (int k = 0; k < 3; k++) {
             scene_material material = scene_material_default();
-            material.is_unlit = true;
+            material.extensions = SCENE_UNLIT;
             material.alpha_mode = SCENE_ALPHA_BLEND;
             for (int c = 0; c < 3; c++)
                 material.base_color[c] = c == k ? 1.0f : 0.0f;
@@ -358,7 +359,7 @@ static void coincident_layers_all_count(void **state)
     for (int count = 1; count <= 80; count += 13) {
         fixture f = fixture_create();
         scene_material material = scene_material_default();
-        material.is_unlit = true;
+        material.extensions = SCENE_UNLIT;
         material.alpha_mode = SCENE_ALPHA_BLEND;
         material.base_color[3] = 0.01f;
         uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, material));
@@ -381,12 +382,12 @@ static void an_opaque_surface_hides_layers_behind_it(void **state)
     for (int is_behind = 0; is_behind < 2; is_behind++) {
         fixture f = fixture_create();
         scene_material glass = scene_material_default();
-        glass.is_unlit = true;
+        glass.extensions = SCENE_UNLIT;
         glass.alpha_mode = SCENE_ALPHA_BLEND;
         glass.base_color[0] = 0.0f;
         glass.base_color[3] = 0.5f;
         scene_material wall = scene_material_default();
-        wall.is_unlit = true;
+        wall.extensions = SCENE_UNLIT;
         wall.base_color[3] = 0.1f; /* of no meaning */
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, glass)), 0, 0,
                       is_behind ? -1.0f : 1.0f, 1.0f);
@@ -431,7 +432,7 @@ static void edges_are_premultiplied(void **state)
     (void)state;
     fixture f = fixture_create();
     scene_material material = scene_material_default();
-    material.is_unlit = true;
+    material.extensions = SCENE_UNLIT;
     material.base_color[1] = 0.5f;
     material.base_color[2] = 0.125f;
     fixture_place(&f, fixture_add_sphere(&f, 100, fixture_add_material(&f, material)), 0, 0, 0, 0.9f);

@@ -204,17 +204,17 @@ static void add_readers(reader_list *list, const texture_need_desc *desc)
     const render_geometry *g = list->job->geometry;
     const scene_material *m = g->material;
     list->job->reader_count = 0;
-    add_reader(list, &m->base_color_texture, true,
+    add_reader(list, &m->textures[SCENE_BASE_COLOR_TEXTURE], true,
                g->is_see_through ? desc->opacity_footprint : desc->footprint);
-    if (!m->is_unlit)
-        add_reader(list, &m->emissive_texture, true, desc->footprint);
+    if (!(m->extensions & SCENE_UNLIT))
+        add_reader(list, &m->textures[SCENE_EMISSIVE_TEXTURE], true, desc->footprint);
     if (!g->is_lit)
         return;
-    add_reader(list, &m->metallic_roughness_texture, false, desc->footprint);
-    add_reader(list, &m->normal_texture, false, desc->footprint);
-    add_reader(list, &m->occlusion_texture, false, desc->footprint);
-    add_reader(list, &m->specular_texture, false, desc->footprint);
-    add_reader(list, &m->specular_color_texture, true, desc->footprint);
+    add_reader(list, &m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE], false, desc->footprint);
+    add_reader(list, &m->textures[SCENE_NORMAL_TEXTURE], false, desc->footprint);
+    add_reader(list, &m->textures[SCENE_OCCLUSION_TEXTURE], false, desc->footprint);
+    add_reader(list, &m->textures[SCENE_SPECULAR_TEXTURE], false, desc->footprint);
+    add_reader(list, &m->textures[SCENE_SPECULAR_COLOR_TEXTURE], true, desc->footprint);
 }
 
 /* The finest lod that matters. */

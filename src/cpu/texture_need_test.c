@@ -21,7 +21,7 @@ static setup setup_create(void)
     static const unsigned char texels[4 * 256 * 256];
     setup s = {.f = fixture_create()};
     scene_material material = scene_material_default();
-    material.base_color_texture.texture = fixture_add_texture(&s.f, 256, 256, texels);
+    material.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&s.f, 256, 256, texels);
     uint32_t index = fixture_add_material(&s.f, material);
     s.node = fixture_place(&s.f, fixture_add_quad(&s.f, index), 0, 0, 0, 1.0f);
     s.material = &s.f.scene->materials[index];
@@ -37,7 +37,7 @@ static float lod_of(setup *s, float footprint)
     texture_use use;
     texture_need_desc desc = {
         .width = 64, .height = 64, .footprint = footprint, .opacity_footprint = footprint, .thread_count = 2};
-    assert_int_equal(scene_pose_create(s->f.scene, 0, &allocator, 1, &pose, NULL), FACET_OK);
+    assert_int_equal(scene_pose_create(s->f.scene, NULL, &allocator, 1, &pose, NULL), FACET_OK);
     assert_int_equal(camera_rays_create(&s->f.camera, 64, 64, &camera, NULL), FACET_OK);
     assert_int_equal(render_geometry_create(s->f.scene, &pose, &allocator, &set, NULL), FACET_OK);
     assert_int_equal(render_geometry_transform(&set, &pose, &camera, &allocator, 1, NULL), FACET_OK);
@@ -64,8 +64,9 @@ static void the_lod_is_that_of_the_pixel(void **state)
     assert_true(fabsf(lod_of(&s, 0.5f) - 1.0f) < 0.26f);
     s.f.camera.ortho_height = 8.0f;
     assert_lod(&s, 4.0f);
-    s.material->base_color_texture.has_transform = true; /* twice as many repeats */
-    memcpy(s.material->base_color_texture.transform, (float[6]){2, 0, 0, 0, 2, 0}, 6 * sizeof(float));
+    s.material->textures[SCENE_BASE_COLOR_TEXTURE].has_transform = true; /* twice as many repeats */
+    memcpy(s.material->textures[SCENE_BASE_COLOR_TEXTURE].transform, (float[6]){2, 0, 0, 0, 2, 0},
+           6 * sizeof(float));
     assert_lod(&s, 5.0f);
     fixture_destroy(&s.f);
 }

@@ -88,7 +88,7 @@ static void use(const facet_scene *scene)
     assert_true(sum == sum);
     facet_camera camera;
     const facet_orbit orbit = {.polar_rad = 1.3f, .radius_scale = 1.05f, .fov_y_rad = 0.5f};
-    assert_int_equal(scene_fit_orbit(scene, FACET_DEFAULT, &orbit, 1.0f, &camera, NULL), FACET_OK);
+    assert_int_equal(scene_fit_orbit(scene, NULL, &orbit, 1.0f, &camera, NULL), FACET_OK);
     text t = {0};
     scene_describe_json(scene, &t);
     assert_false(t.has_failed);

@@ -7,35 +7,22 @@
 
 /* ---- textureInfo ---- */
 
-/* KHR_texture_transform: uv' = translation rotation scale uv. A positive angle turns counter-clockwise on the
- * screen, where v points down; the matrix in the extension's README, read as GLSL, would be the inverse of what its
- * own example shows. */
 static void read_transform(reader *r, const json_place *info, scene_texture_ref *out)
 {
     json_place at = get_extension(r, info, "KHR_texture_transform");
     if (!at.value)
         return;
-    float offset[2] = {0, 0};
-    float scale[2] = {1, 1};
-    get_floats(r, &at, "offset", offset, 2);
-    get_floats(r, &at, "scale", scale, 2);
-    float rotation = get_float(r, &at, "rotation", 0.0f);
+    get_floats(r, &at, "offset", out->offset, 2);
+    get_floats(r, &at, "scale", out->scale, 2);
+    out->rotation_rad = get_float(r, &at, "rotation", 0.0f);
     out->texcoord = (uint32_t)get_uint(r, &at, "texCoord", SCENE_NONE - 1, out->texcoord);
-    float c = (float)cos((double)rotation);
-    float s = (float)sin((double)rotation);
-    const float transform[6] = {c * scale[0],  s * scale[1], offset[0],
-                                -s * scale[0], c * scale[1], offset[1]};
-    const float identity[6] = {1, 0, 0, 0, 1, 0};
-    for (int i = 0; i < 6; i++) {
-        out->transform[i] = fabsf(transform[i]) <= FLT_MAX ? transform[i] : identity[i];
-        out->has_transform |= out->transform[i] != identity[i];
-    }
+    scene_texture_ref_update(out);
 }
 
 /* The texture of a parameter; *info is its textureInfo, for members that come with it. */
 static scene_texture_ref get_texture(reader *r, const json_place *object, const char *key)
 {
-    scene_texture_ref out = {.texture = SCENE_NONE, .transform = {1, 0, 0, 0, 1, 0}};
+    scene_texture_ref out = {.texture = SCENE_NONE, .scale = {1, 1}, .transform = {1, 0, 0, 0, 1, 0}};
     json_place at = get_object(r, object, key);
     if (!at.value)
         return out;
@@ -51,14 +38,13 @@ static void read_unlit(reader *r, const json_place *at, scene_material *m)
 {
     (void)r;
     (void)at;
-    m->is_unlit = true;
+    m->extensions |= SCENE_UNLIT;
 }
 
 static void read_emissive_strength(reader *r, const json_place *at, scene_material *m)
 {
-    float strength = get_float_in(r, at, "emissiveStrength", 0.0f, FLT_MAX, 1.0f);
-    for (int i = 0; i < 3; i++)
-        m->emissive[i] = fminf(m->emissive[i] * strength, FLT_MAX);
+    m->extensions |= SCENE_EMISSIVE_STRENGTH;
+    m->emissive_strength = get_float_in(r, at, "emissiveStrength", 0.0f, FLT_MAX, 1.0f);
 }
 
 static void read_ior(reader *r, const json_place *at, scene_material *m)
@@ -74,8 +60,8 @@ static void read_specular(reader *r, const json_place *at, scene_material *m)
 {
     m->specular = get_float_in(r, at, "specularFactor", 0.0f, 1.0f, 1.0f);
     get_floats_in(r, at, "specularColorFactor", 0.0f, FLT_MAX, m->specular_color, 3);
-    m->specular_texture = get_texture(r, at, "specularTexture");
-    m->specular_color_texture = get_texture(r, at, "specularColorTexture");
+    m->textures[SCENE_SPECULAR_TEXTURE] = get_texture(r, at, "specularTexture");
+    m->textures[SCENE_SPECULAR_COLOR_TEXTURE] = get_texture(r, at, "specularColorTexture");
 }
 
 /* A new material extension: its members in scene_material, a function here, a line in this table and one in
@@ -98,8 +84,8 @@ static void read_metallic_roughness(reader *r, const json_place *material, scene
     get_floats_in(r, &at, "baseColorFactor", 0.0f, 1.0f, m->base_color, 4);
     m->metallic = get_float_in(r, &at, "metallicFactor", 0.0f, 1.0f, 1.0f);
     m->perceptual_roughness = get_float_in(r, &at, "roughnessFactor", 0.0f, 1.0f, 1.0f);
-    m->base_color_texture = get_texture(r, &at, "baseColorTexture");
-    m->metallic_roughness_texture = get_texture(r, &at, "metallicRoughnessTexture");
+    m->textures[SCENE_BASE_COLOR_TEXTURE] = get_texture(r, &at, "baseColorTexture");
+    m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE] = get_texture(r, &at, "metallicRoughnessTexture");
 }
 
 static scene_alpha_mode get_alpha_mode(reader *r, const json_place *at)
@@ -120,10 +106,10 @@ static void read_material(reader *r, const json_place *at, scene_material *m)
     m->name = get_name(r, at);
     read_metallic_roughness(r, at, m);
 
-    m->normal_texture = get_texture(r, at, "normalTexture");
+    m->textures[SCENE_NORMAL_TEXTURE] = get_texture(r, at, "normalTexture");
     json_place normal = get_object(r, at, "normalTexture");
     m->normal_scale = get_float(r, &normal, "scale", 1.0f);
-    m->occlusion_texture = get_texture(r, at, "occlusionTexture");
+    m->textures[SCENE_OCCLUSION_TEXTURE] = get_texture(r, at, "occlusionTexture");
     json_place occlusion = get_object(r, at, "occlusionTexture");
     m->occlusion_strength = get_float_in(r, &occlusion, "strength", 0.0f, 1.0f, 1.0f);
 
@@ -132,7 +118,7 @@ static void read_material(reader *r, const json_place *at, scene_material *m)
     for (int i = 0; i < 3; i++)
         if (m->emissive[i] > 1.0f)
             reader_warn(r, at, "emissiveFactor", "is above 1, which needs KHR_materials_emissive_strength");
-    m->emissive_texture = get_texture(r, at, "emissiveTexture");
+    m->textures[SCENE_EMISSIVE_TEXTURE] = get_texture(r, at, "emissiveTexture");
 
     m->alpha_mode = get_alpha_mode(r, at);
     m->alpha_cutoff = get_float_in(r, at, "alphaCutoff", 0.0f, FLT_MAX, 0.5f);

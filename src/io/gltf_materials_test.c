@@ -27,9 +27,9 @@ static void an_empty_material_has_the_defaults(void **state)
     assert_floats(m->specular_color, expected.specular_color, 3, 0);
     assert_floats(m->emissive, expected.emissive, 3, 0);
     assert_int_equal(m->alpha_mode, SCENE_ALPHA_OPAQUE);
-    assert_false(m->is_double_sided || m->is_unlit);
-    assert_int_equal(m->base_color_texture.texture, SCENE_NONE);
-    assert_int_equal(m->specular_color_texture.texture, SCENE_NONE);
+    assert_false(m->is_double_sided || m->extensions);
+    assert_int_equal(m->textures[SCENE_BASE_COLOR_TEXTURE].texture, SCENE_NONE);
+    assert_int_equal(m->textures[SCENE_SPECULAR_COLOR_TEXTURE].texture, SCENE_NONE);
     const scene_material *none = scene_get_material(scene, SCENE_NONE);
     assert_near(none->metallic, 1, 0);
     assert_ptr_equal(scene_get_material(scene, 0), m);
@@ -55,13 +55,13 @@ static void all_members_arrive(void **state)
     assert_floats(m->base_color, base_color, 4, 0);
     assert_near(m->metallic, 0.5, 0);
     assert_near(m->perceptual_roughness, 0.6f, 0);
-    assert_int_equal(m->base_color_texture.texture, 1);
-    assert_int_equal(m->base_color_texture.texcoord, 2);
-    assert_false(m->base_color_texture.has_transform);
-    assert_int_equal(m->metallic_roughness_texture.texture, 0);
-    assert_int_equal(m->normal_texture.texture, 1);
+    assert_int_equal(m->textures[SCENE_BASE_COLOR_TEXTURE].texture, 1);
+    assert_int_equal(m->textures[SCENE_BASE_COLOR_TEXTURE].texcoord, 2);
+    assert_false(m->textures[SCENE_BASE_COLOR_TEXTURE].has_transform);
+    assert_int_equal(m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE].texture, 0);
+    assert_int_equal(m->textures[SCENE_NORMAL_TEXTURE].texture, 1);
     assert_near(m->normal_scale, -2, 0);
-    assert_int_equal(m->occlusion_texture.texture, 0);
+    assert_int_equal(m->textures[SCENE_OCCLUSION_TEXTURE].texture, 0);
     assert_near(m->occlusion_strength, 0.25, 0);
     assert_floats(m->emissive, emissive, 3, 0);
     assert_int_equal(m->alpha_mode, SCENE_ALPHA_MASK);
@@ -85,15 +85,16 @@ static void extensions_arrive(void **state)
              ",'specularColorTexture':{'index':0}}}}]",
              NULL);
     const scene_material *m = &scene->materials[0];
-    const float emissive[3] = {8, 4, 0};
+    const float emissive[3] = {1, 0.5f, 0};
     const float specular_color[3] = {1, 2, 3};
-    assert_true(m->is_unlit);
+    assert_true(m->extensions & SCENE_UNLIT);
     assert_floats(m->emissive, emissive, 3, 0);
+    assert_near(m->emissive_strength, 8, 0);
     assert_near(m->ior, 0, 0);
     assert_near(m->specular, 0.25, 0);
     assert_floats(m->specular_color, specular_color, 3, 0);
-    assert_int_equal(m->specular_texture.texture, 1);
-    assert_int_equal(m->specular_color_texture.texture, 0);
+    assert_int_equal(m->textures[SCENE_SPECULAR_TEXTURE].texture, 1);
+    assert_int_equal(m->textures[SCENE_SPECULAR_COLOR_TEXTURE].texture, 0);
     assert_int_equal(scene->warning_count, 0);
     scene_destroy(scene);
 }
@@ -108,7 +109,7 @@ static void texture_transform_turns_as_its_example_says(void **state)
         "'extensions':{'KHR_texture_transform':{'offset':[0,1],'rotation':1.57079632679,'scale':[0.5,0.5],"
         "'texCoord':1}}}}]",
         NULL);
-    const scene_texture_ref *ref = &scene->materials[0].normal_texture;
+    const scene_texture_ref *ref = &scene->materials[0].textures[SCENE_NORMAL_TEXTURE];
     static const float cases[4][4] = {{0, 0, 0, 1}, {1, 0, 0, 0.5f}, {0, 1, 0.5f, 1}, {1, 1, 0.5f, 0.5f}};
     assert_true(ref->has_transform);
     assert_int_equal(ref->texcoord, 1);
@@ -129,7 +130,7 @@ static void a_transform_that_does_nothing_is_none(void **state)
         load(TEXTURES "'extensionsUsed':['KHR_texture_transform'],'materials':[{'normalTexture':{'index':0,"
                       "'extensions':{'KHR_texture_transform':{}}}}]",
              NULL);
-    assert_false(scene->materials[0].normal_texture.has_transform);
+    assert_false(scene->materials[0].textures[SCENE_NORMAL_TEXTURE].has_transform);
     scene_destroy(scene);
 }
 

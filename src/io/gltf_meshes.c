@@ -237,14 +237,10 @@ static void check_texcoords(reader *r, const json_place *at, const scene_primiti
     if (p->material == SCENE_NONE)
         return;
     const scene_material *m = &r->scene->materials[p->material];
-    const scene_texture_ref *const refs[] = {&m->base_color_texture,    &m->metallic_roughness_texture,
-                                             &m->normal_texture,        &m->occlusion_texture,
-                                             &m->emissive_texture,      &m->specular_texture,
-                                             &m->specular_color_texture};
-    for (size_t i = 0; i < sizeof refs / sizeof *refs; i++)
-        if (refs[i]->texture != SCENE_NONE && refs[i]->texcoord >= p->texcoord_count)
+    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
+        if (m->textures[i].texture != SCENE_NONE && m->textures[i].texcoord >= p->texcoord_count)
             reader_warn(r, at, NULL, "has no TEXCOORD_%u, which material %u reads; it is taken as 0",
-                        refs[i]->texcoord, p->material);
+                        m->textures[i].texcoord, p->material);
 }
 
 static void read_primitive(reader *r, const json_place *at, scene_primitive *p)

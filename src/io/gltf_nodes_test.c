@@ -8,7 +8,8 @@ static scene_pose pose_of(const facet_scene *scene, uint32_t index)
 {
     scene_pose pose;
     facet_error error = {0};
-    if (scene_pose_create(scene, index, NULL, 1, &pose, &error) != FACET_OK)
+    const facet_pose_desc desc = {.has_scene_index = index != FACET_DEFAULT, .scene_index = index};
+    if (scene_pose_create(scene, &desc, NULL, 1, &pose, &error) != FACET_OK)
         fail_msg("%s", error.message);
     return pose;
 }
@@ -84,7 +85,9 @@ static void scenes_and_hidden_nodes(void **state)
     assert_int_equal(pose.camera_count, 1);
     scene_pose_destroy(&pose);
     facet_error error;
-    assert_int_equal(scene_pose_create(scene, 2, NULL, 1, &pose, &error), FACET_ERROR_ARGUMENT);
+    assert_int_equal(scene_pose_create(scene, &(facet_pose_desc){.has_scene_index = true, .scene_index = 2},
+                                       NULL, 1, &pose, &error),
+                     FACET_ERROR_ARGUMENT);
     scene_destroy(scene);
     scene = load("'nodes':[{},{'children':[2]},{}]", NULL);
     assert_int_equal(scene->default_scene, SCENE_NONE);

@@ -21,7 +21,9 @@ facet_scene_counts scene_count(const facet_scene *scene)
                                  .cameras = scene->camera_count,
                                  .lights = scene->light_count,
                                  .skins = scene->skin_count,
-                                 .animations = scene->animation_count};
+                                 .animations = scene->animation_count,
+                                 .variants = scene->variant_count,
+                                 .image_lights = scene->image_light_count};
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++) {
             const scene_primitive *p = &scene->meshes[i].primitives[k];
@@ -32,8 +34,7 @@ facet_scene_counts scene_count(const facet_scene *scene)
             counts.points += p->mode == SCENE_POINTS ? element_count(p) : 0;
         }
     scene_pose pose;
-    if (scene_pose_create(scene, FACET_DEFAULT, &scene->allocator, scene->thread_count, &pose, NULL) ==
-        FACET_OK) {
+    if (scene_pose_create(scene, NULL, &scene->allocator, scene->thread_count, &pose, NULL) == FACET_OK) {
         counts.instances = pose.instance_count;
         for (uint32_t i = 0; i < pose.instance_count; i++)
             if (pose.instances[i].primitive->mode == SCENE_TRIANGLES)
@@ -96,11 +97,10 @@ static void write_counts(text *t, const facet_scene *scene)
 }
 
 /* Of what one scene draws; null for nothing. */
-static void write_bounds(text *t, const facet_scene *scene, uint32_t index)
+static void write_bounds(text *t, const facet_scene *scene, const facet_pose_desc *desc)
 {
     scene_pose pose;
-    facet_result result =
-        scene_pose_create(scene, index, &scene->allocator, scene->thread_count, &pose, NULL);
+    facet_result result = scene_pose_create(scene, desc, &scene->allocator, scene->thread_count, &pose, NULL);
     if (result != FACET_OK || !pose.has_bounds) {
         text_json_string(t, "bounds", NULL);
     } else {
@@ -121,7 +121,8 @@ static void write_scenes(text *t, const facet_scene *scene)
         text_json_begin_object(t, NULL);
         text_json_string(t, "name", scene->scenes[i].name);
         write_indices(t, "nodes", scene->scenes[i].nodes, scene->scenes[i].node_count);
-        write_bounds(t, scene, i);
+        const facet_pose_desc desc = {.has_scene_index = true, .scene_index = i};
+        write_bounds(t, scene, &desc);
         text_json_end_object(t);
     }
     text_json_end_array(t);
@@ -226,21 +227,24 @@ static void write_material(text *t, const scene_material *m)
     text_json_float(t, "roughness", m->perceptual_roughness);
     text_json_float(t, "normal_scale", m->normal_scale);
     text_json_float(t, "occlusion_strength", m->occlusion_strength);
-    text_json_floats(t, "emissive", m->emissive, 3);
+    float emissive[3];
+    for (int i = 0; i < 3; i++)
+        emissive[i] = m->emissive[i] * m->emissive_strength;
+    text_json_floats(t, "emissive", emissive, 3);
     text_json_string(t, "alpha_mode", alpha_modes[m->alpha_mode]);
     text_json_float(t, "alpha_cutoff", m->alpha_cutoff);
     text_json_bool(t, "double_sided", m->is_double_sided);
-    text_json_bool(t, "unlit", m->is_unlit);
+    text_json_bool(t, "unlit", (m->extensions & SCENE_UNLIT) != 0);
     text_json_float(t, "ior", m->ior);
     text_json_float(t, "specular", m->specular);
     text_json_floats(t, "specular_color", m->specular_color, 3);
-    write_texture_ref(t, "base_color_texture", &m->base_color_texture);
-    write_texture_ref(t, "metallic_roughness_texture", &m->metallic_roughness_texture);
-    write_texture_ref(t, "normal_texture", &m->normal_texture);
-    write_texture_ref(t, "occlusion_texture", &m->occlusion_texture);
-    write_texture_ref(t, "emissive_texture", &m->emissive_texture);
-    write_texture_ref(t, "specular_texture", &m->specular_texture);
-    write_texture_ref(t, "specular_color_texture", &m->specular_color_texture);
+    write_texture_ref(t, "base_color_texture", &m->textures[SCENE_BASE_COLOR_TEXTURE]);
+    write_texture_ref(t, "metallic_roughness_texture", &m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE]);
+    write_texture_ref(t, "normal_texture", &m->textures[SCENE_NORMAL_TEXTURE]);
+    write_texture_ref(t, "occlusion_texture", &m->textures[SCENE_OCCLUSION_TEXTURE]);
+    write_texture_ref(t, "emissive_texture", &m->textures[SCENE_EMISSIVE_TEXTURE]);
+    write_texture_ref(t, "specular_texture", &m->textures[SCENE_SPECULAR_TEXTURE]);
+    write_texture_ref(t, "specular_color_texture", &m->textures[SCENE_SPECULAR_COLOR_TEXTURE]);
     text_json_end_object(t);
 }
 
@@ -342,7 +346,7 @@ void scene_describe_json(const facet_scene *scene, struct text *t)
     text_json_string(t, "source", scene->source);
     write_asset(t, scene);
     write_counts(t, scene);
-    write_bounds(t, scene, FACET_DEFAULT);
+    write_bounds(t, scene, NULL);
     write_index(t, "default_scene", scene->default_scene);
     write_scenes(t, scene);
     WRITE_ARRAY("nodes", scene->nodes, scene->node_count, write_node);

@@ -123,8 +123,8 @@ static void fit_body(void *context, size_t begin, size_t end)
     extent e = {-HUGE_VAL, -HUGE_VAL};
     for (size_t i = begin; i < end; i++) {
         float world[3];
-        mat4_transform_point(&job->instance->world, primitive->positions + 3 * (size_t)primitive->indices[i],
-                             world);
+        mat4_transform_point(&job->instance->world,
+                             job->instance->positions + 3 * (size_t)primitive->indices[i], world);
         add_vertex(v, world, &e);
     }
     job->extents[begin / GRAIN] = e;
@@ -248,13 +248,13 @@ facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, fl
     return FACET_OK;
 }
 
-facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit,
+facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *desc, const facet_orbit *orbit,
                              float aspect, facet_camera *camera, facet_error *error)
 {
     *camera = (facet_camera){0};
     scene_pose pose;
     facet_result result =
-        scene_pose_create(scene, scene_index, &scene->allocator, scene->thread_count, &pose, error);
+        scene_pose_create(scene, desc, &scene->allocator, scene->thread_count, &pose, error);
     if (result == FACET_OK)
         result = scene_fit_pose(&pose, orbit, aspect, scene->thread_count, camera, error);
     scene_pose_destroy(&pose);

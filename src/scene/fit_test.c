@@ -98,7 +98,7 @@ static void the_outermost_vertex_touches_the_border(void **state)
                              .is_z_up = i / ANGLE_COUNT / 2 % 2 != 0};
         float aspect = aspects[i / ANGLE_COUNT / 4];
         facet_camera camera;
-        assert_int_equal(scene_fit_orbit(scene, 0, &orbit, aspect, &camera, NULL), FACET_OK);
+        assert_int_equal(scene_fit_orbit(scene, NULL, &orbit, aspect, &camera, NULL), FACET_OK);
         assert_near(farthest_reach(&camera, (double)aspect), 1.0, 1e-5);
     }
     scene_destroy(scene);
@@ -109,7 +109,7 @@ static void a_turntable_keeps_its_distance_and_cuts_nothing(void **state)
     (void)state;
     facet_scene *scene = make_scene();
     scene_pose pose;
-    assert_int_equal(scene_pose_create(scene, 0, NULL, 1, &pose, NULL), FACET_OK);
+    assert_int_equal(scene_pose_create(scene, NULL, NULL, 1, &pose, NULL), FACET_OK);
     for (int i = 0; i < ANGLE_COUNT * 2; i++) {
         double most = 0.0;
         double distance = 0.0;
@@ -159,7 +159,7 @@ static void angles_are_those_of_model_viewer(void **state)
                              .has_target = true,
                              .is_z_up = cases[i].is_z_up};
         facet_camera camera;
-        assert_int_equal(scene_fit_orbit(scene, 0, &orbit, 1, &camera, NULL), FACET_OK);
+        assert_int_equal(scene_fit_orbit(scene, NULL, &orbit, 1, &camera, NULL), FACET_OK);
         for (int k = 0; k < 3; k++)
             assert_near(camera.eye[k], orbit.target[k] + 7 * cases[i].direction[k], 1e-5);
     }
@@ -177,7 +177,7 @@ static void every_size_is_framed_alike(void **state)
             scene->nodes[0].scale[k] = scales[i];
         facet_orbit orbit = {.polar_rad = 1.3f, .radius_scale = 1.05f, .fov_y_rad = 0.5f};
         facet_camera camera;
-        assert_int_equal(scene_fit_orbit(scene, 0, &orbit, 1.5f, &camera, NULL), FACET_OK);
+        assert_int_equal(scene_fit_orbit(scene, NULL, &orbit, 1.5f, &camera, NULL), FACET_OK);
         distances[i] = ((double)camera.eye[2] - (double)camera.target[2]) / (double)scales[i];
     }
     assert_near(distances[0], distances[1], 1e-4 * distances[1]);
@@ -200,7 +200,7 @@ static void nothing_and_a_single_point_have_a_camera(void **state)
                                  .fov_y_rad = 0.5f,
                                  .orthographic = orthographic != 0};
             facet_camera camera;
-            assert_int_equal(scene_fit_orbit(scene, 0, &orbit, 1, &camera, NULL), FACET_OK);
+            assert_int_equal(scene_fit_orbit(scene, NULL, &orbit, 1, &camera, NULL), FACET_OK);
             double distance = 0.0;
             for (int k = 0; k < 3; k++)
                 distance += fabs((double)camera.eye[k] - (double)camera.target[k]);
@@ -227,9 +227,11 @@ static void numbers_that_are_no_camera_are_refused(void **state)
     facet_camera camera;
     facet_error error;
     for (int i = 0; i < 6; i++)
-        assert_int_equal(scene_fit_orbit(scene, 0, &bad[i], 1, &camera, &error), FACET_ERROR_ARGUMENT);
-    assert_int_equal(scene_fit_orbit(scene, 0, &good, 0, &camera, &error), FACET_ERROR_ARGUMENT);
-    assert_int_equal(scene_fit_orbit(scene, 9, &good, 1, &camera, &error), FACET_ERROR_ARGUMENT);
+        assert_int_equal(scene_fit_orbit(scene, NULL, &bad[i], 1, &camera, &error), FACET_ERROR_ARGUMENT);
+    assert_int_equal(scene_fit_orbit(scene, NULL, &good, 0, &camera, &error), FACET_ERROR_ARGUMENT);
+    assert_int_equal(scene_fit_orbit(scene, &(facet_pose_desc){.has_scene_index = true, .scene_index = 9},
+                                     &good, 1, &camera, &error),
+                     FACET_ERROR_ARGUMENT);
     scene_destroy(scene);
 }
 

@@ -122,8 +122,8 @@ static void bounds_body(void *context, size_t begin, size_t end)
     box b = EMPTY_BOX;
     for (size_t i = begin; i < end; i++) {
         float p[3];
-        mat4_transform_point(&job->instance->world, primitive->positions + 3 * (size_t)primitive->indices[i],
-                             p);
+        mat4_transform_point(&job->instance->world,
+                             job->instance->positions + 3 * (size_t)primitive->indices[i], p);
         box_add(&b, p);
     }
     job->boxes[begin / BOUNDS_GRAIN] = b;
@@ -168,8 +168,13 @@ static void add_instance(scene_pose *pose, const facet_scene *scene, uint32_t no
                          const mat4 *world)
 {
     uint32_t mesh = scene->nodes[node].mesh;
+    const scene_primitive *primitive = &scene->meshes[mesh].primitives[index];
     scene_instance *instance = &pose->instances[pose->instance_count++];
-    *instance = (scene_instance){.primitive = &scene->meshes[mesh].primitives[index],
+    *instance = (scene_instance){.primitive = primitive,
+                                 .positions = primitive->positions,
+                                 .normals = primitive->normals,
+                                 .tangents = primitive->tangents,
+                                 .material = primitive->material,
                                  .world = *world,
                                  .is_mirrored = mat4_determinant3(*world) < 0.0f,
                                  .node = node,
@@ -203,7 +208,7 @@ static bool normalise(float v[3])
 
 static void add_light(scene_pose *pose, const facet_scene *scene, uint32_t node, const mat4 *world)
 {
-    scene_posed_light light = {.light = &scene->lights[scene->nodes[node].light], .node = node};
+    scene_posed_light light = {.light = scene->lights[scene->nodes[node].light], .node = node};
     const float forward[3] = {0, 0, -1};
     memcpy(light.position, world->m + 12, sizeof light.position);
     mat4_transform_vector(world, forward, light.direction);
@@ -247,8 +252,10 @@ static void fill(scene_pose *pose, const facet_scene *scene, const visit *v)
         if (node->light != SCENE_NONE)
             add_light(pose, scene, index, world);
         if (node->camera != SCENE_NONE)
-            pose->cameras[pose->camera_count++] =
-                (scene_posed_camera){.camera = node->camera, .world = *world, .node = index};
+            pose->cameras[pose->camera_count++] = (scene_posed_camera){.camera = scene->cameras[node->camera],
+                                                                       .index = node->camera,
+                                                                       .world = *world,
+                                                                       .node = index};
         if (node->mesh != SCENE_NONE && is_regular(world))
             for (uint32_t k = 0; k < scene->meshes[node->mesh].primitive_count; k++)
                 if (scene->meshes[node->mesh].primitives[k].index_count)
@@ -288,11 +295,20 @@ static facet_result bound(scene_pose *pose, const facet_allocator *allocator, ui
     return FACET_OK;
 }
 
-facet_result scene_pose_create(const facet_scene *scene, uint32_t index, const facet_allocator *allocator,
-                               uint32_t thread_count, scene_pose *pose, facet_error *error)
+const scene_material *scene_pose_material(const facet_scene *scene, const scene_pose *pose,
+                                          const scene_instance *instance)
 {
-    *pose = (scene_pose){0};
-    if (index == FACET_DEFAULT)
+    return instance->material == SCENE_NONE ? scene_get_material(scene, SCENE_NONE)
+                                            : &pose->materials[instance->material];
+}
+
+facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *desc,
+                               const facet_allocator *allocator, uint32_t thread_count, scene_pose *pose,
+                               facet_error *error)
+{
+    *pose = (scene_pose){.materials = scene->materials};
+    uint32_t index = desc ? desc->scene_index : 0;
+    if (!desc || !desc->has_scene_index)
         index = scene->default_scene == SCENE_NONE ? 0 : scene->default_scene;
     uint32_t scene_count = scene->scene_count ? scene->scene_count : 1;
     if (index >= scene_count)

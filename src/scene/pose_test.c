@@ -29,7 +29,7 @@ static facet_scene *make_scene(mat4 matrix)
 static scene_pose make_pose(const facet_scene *scene)
 {
     scene_pose pose;
-    assert_int_equal(scene_pose_create(scene, FACET_DEFAULT, NULL, 2, &pose, NULL), FACET_OK);
+    assert_int_equal(scene_pose_create(scene, NULL, NULL, 2, &pose, NULL), FACET_OK);
     return pose;
 }
 

@@ -1,6 +1,8 @@
 /* scene.c - a scene as an object: making, warnings, lookups. What it draws is in pose.c. */
 #include "scene/scene.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,26 +11,45 @@
 
 scene_material scene_material_default(void)
 {
-    const scene_texture_ref none = {.texture = SCENE_NONE};
-    return (scene_material){
+    scene_material m = {
         .name = "",
         .base_color = {1, 1, 1, 1},
         .metallic = 1.0f,
         .perceptual_roughness = 1.0f,
         .normal_scale = 1.0f,
         .occlusion_strength = 1.0f,
+        .emissive_strength = 1.0f,
         .alpha_cutoff = 0.5f,
         .ior = 1.5f,
         .specular = 1.0f,
         .specular_color = {1, 1, 1},
-        .base_color_texture = none,
-        .metallic_roughness_texture = none,
-        .normal_texture = none,
-        .occlusion_texture = none,
-        .emissive_texture = none,
-        .specular_texture = none,
-        .specular_color_texture = none,
+        .glossiness = 1.0f,
+        .clearcoat_normal_scale = 1.0f,
+        .attenuation_distance = INFINITY,
+        .attenuation_color = {1, 1, 1},
+        .iridescence_ior = 1.3f,
+        .iridescence_thickness_minimum = 100.0f,
+        .iridescence_thickness_maximum = 400.0f,
+        .diffuse_transmission_color = {1, 1, 1},
     };
+    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
+        m.textures[i] =
+            (scene_texture_ref){.texture = SCENE_NONE, .scale = {1, 1}, .transform = {1, 0, 0, 0, 1, 0}};
+    return m;
+}
+
+void scene_texture_ref_update(scene_texture_ref *ref)
+{
+    float c = (float)cos((double)ref->rotation_rad);
+    float s = (float)sin((double)ref->rotation_rad);
+    const float transform[6] = {c * ref->scale[0],  s * ref->scale[1], ref->offset[0],
+                                -s * ref->scale[0], c * ref->scale[1], ref->offset[1]};
+    const float identity[6] = {1, 0, 0, 0, 1, 0};
+    ref->has_transform = false;
+    for (int i = 0; i < 6; i++) {
+        ref->transform[i] = fabsf(transform[i]) <= FLT_MAX ? transform[i] : identity[i];
+        ref->has_transform |= ref->transform[i] != identity[i];
+    }
 }
 
 /* The scene and what must not move while it grows: lists of warnings and files, and the default material. */

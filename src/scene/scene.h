@@ -18,9 +18,20 @@
 
 struct text; /* base/text.h */
 
+/* What a file says beside what is drawn: JSON text as it stands there, NULL: nothing. */
+typedef struct scene_meta {
+    const char *extras;     /* the value of "extras" */
+    const char *extensions; /* an object of those extensions that are metadata (KHR_xmp_json_ld, ..) */
+} scene_meta;
+
 /* ---- geometry ---- */
 
 typedef enum scene_mode { SCENE_POINTS, SCENE_LINES, SCENE_TRIANGLES } scene_mode;
+
+/* Changes of a primitive's vertices at weight 1; NULL: none of that attribute. Normals and tangents are not unit. */
+typedef struct scene_morph_target {
+    const float *positions, *normals, *tangents; /* 3 per vertex, m, finite */
+} scene_morph_target;
 
 /* Vertices of one material. Strips, fans and loops are lists here. */
 typedef struct scene_primitive {
@@ -37,12 +48,23 @@ typedef struct scene_primitive {
     uint32_t material;                  /* SCENE_NONE: the default material */
     float bounds_min[3], bounds_max[3]; /* of the positions that indices use; 0 where there are none */
     bool has_flat_normals;              /* the file had none: vertices are not shared between triangles */
+    uint32_t influence_count;           /* joints that move a vertex: a multiple of 4; 0: no skin */
+    const uint16_t *joints;             /* influence_count per vertex: numbers in the node's skin */
+    const float *weights;               /* the same; >= 0, finite, their sum 1 */
+    uint32_t target_count;
+    const scene_morph_target *targets;
+    const uint32_t
+        *variant_materials; /* per variant of the scene; SCENE_NONE: material as above. NULL: none */
+    scene_meta meta;
 } scene_primitive;
 
 typedef struct scene_mesh {
     const char *name; /* never NULL, may be "" (as all names here); UTF-8 */
     uint32_t primitive_count;
     scene_primitive *primitives;
+    uint32_t weight_count; /* of morph targets: that of the primitive that has the most */
+    const float *weights;  /* as the file stores them, 0 where it does not */
+    scene_meta meta;
 } scene_mesh;
 
 /* ---- materials ---- */
@@ -58,6 +80,8 @@ typedef struct scene_image {
     const unsigned char *bytes; /* NULL: it could not be read; a warning said so */
     size_t size;
     uint32_t width, height; /* 0: unknown */
+    const char *uri;        /* as in the file; NULL: from a buffer or a data URI */
+    scene_meta meta;
 } scene_image;
 
 typedef struct scene_texture {
@@ -66,44 +90,108 @@ typedef struct scene_texture {
     scene_wrap wrap_u, wrap_v;
     scene_filter mag_filter, min_filter;
     scene_mip_filter mip_filter;
+    scene_meta meta;
 } scene_texture;
 
-/* Where a parameter reads a texture (glTF textureInfo). */
+/* Where a parameter reads a texture (glTF textureInfo, KHR_texture_transform). */
 typedef struct scene_texture_ref {
     uint32_t texture;  /* SCENE_NONE: no texture, the parameter is its factor */
     uint32_t texcoord; /* set */
-    bool has_transform;
-    float transform[6]; /* KHR_texture_transform: u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5 */
+    float offset[2], rotation_rad, scale[2];
+    bool has_transform; /* by scene_texture_ref_update(): not the identity */
+    float transform[6]; /* u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5 */
 } scene_texture_ref;
+
+/* Sets has_transform and transform from offset, rotation and scale: uv' = translation rotation scale uv. A positive
+ * angle turns counter-clockwise on the screen, where v points down. What is not finite is left out. */
+void scene_texture_ref_update(scene_texture_ref *ref);
+
+/* What the textures of a material are for. scene/material_table.h says what each is called, and in which channels it
+ * holds what. */
+typedef enum scene_texture_slot {
+    SCENE_BASE_COLOR_TEXTURE, /* of pbrSpecularGlossiness: the diffuse color */
+    SCENE_METALLIC_ROUGHNESS_TEXTURE,
+    SCENE_NORMAL_TEXTURE,
+    SCENE_OCCLUSION_TEXTURE,
+    SCENE_EMISSIVE_TEXTURE,
+    SCENE_SPECULAR_TEXTURE,
+    SCENE_SPECULAR_COLOR_TEXTURE,
+    SCENE_CLEARCOAT_TEXTURE,
+    SCENE_CLEARCOAT_ROUGHNESS_TEXTURE,
+    SCENE_CLEARCOAT_NORMAL_TEXTURE,
+    SCENE_SHEEN_COLOR_TEXTURE,
+    SCENE_SHEEN_ROUGHNESS_TEXTURE,
+    SCENE_TRANSMISSION_TEXTURE,
+    SCENE_THICKNESS_TEXTURE,
+    SCENE_IRIDESCENCE_TEXTURE,
+    SCENE_IRIDESCENCE_THICKNESS_TEXTURE,
+    SCENE_ANISOTROPY_TEXTURE,
+    SCENE_DIFFUSE_TRANSMISSION_TEXTURE,
+    SCENE_DIFFUSE_TRANSMISSION_COLOR_TEXTURE,
+    SCENE_SPECULAR_GLOSSINESS_TEXTURE, /* sRGB RGB specular color, linear A glossiness */
+    SCENE_TEXTURE_SLOT_COUNT
+} scene_texture_slot;
+
+/* Extensions that a material has, whatever their values; or-ed. */
+typedef enum scene_material_extension {
+    SCENE_UNLIT = 1 << 0,                 /* KHR_materials_unlit */
+    SCENE_EMISSIVE_STRENGTH = 1 << 1,     /* KHR_materials_emissive_strength */
+    SCENE_IOR = 1 << 2,                   /* KHR_materials_ior */
+    SCENE_SPECULAR = 1 << 3,              /* KHR_materials_specular */
+    SCENE_CLEARCOAT = 1 << 4,             /* KHR_materials_clearcoat */
+    SCENE_SHEEN = 1 << 5,                 /* KHR_materials_sheen */
+    SCENE_TRANSMISSION = 1 << 6,          /* KHR_materials_transmission */
+    SCENE_VOLUME = 1 << 7,                /* KHR_materials_volume */
+    SCENE_IRIDESCENCE = 1 << 8,           /* KHR_materials_iridescence */
+    SCENE_ANISOTROPY = 1 << 9,            /* KHR_materials_anisotropy */
+    SCENE_DISPERSION = 1 << 10,           /* KHR_materials_dispersion */
+    SCENE_DIFFUSE_TRANSMISSION = 1 << 11, /* KHR_materials_diffuse_transmission */
+    SCENE_VOLUME_SCATTER = 1 << 12,       /* KHR_materials_volume_scatter */
+    SCENE_SPECULAR_GLOSSINESS =
+        1 << 13 /* KHR_materials_pbrSpecularGlossiness: in place of metallic-roughness */
+} scene_material_extension;
 
 typedef enum scene_alpha_mode { SCENE_ALPHA_OPAQUE, SCENE_ALPHA_MASK, SCENE_ALPHA_BLEND } scene_alpha_mode;
 
-/* glTF 2.0 material with the extensions that shade/ knows. Colors linear Rec.709. scene_material_default() gives
- * the specification's defaults. Extensions to come add members behind these. */
+/* glTF 2.0 material with every extension. Colors linear Rec.709; units those of the extensions: thickness and
+ * attenuation distance in m, film thickness in nm, angles in rad. scene_material_default() gives the defaults. */
 typedef struct scene_material {
     const char *name;
-    float base_color[4];
+    uint32_t extensions; /* SCENE_UNLIT .. */
+    float base_color[4]; /* diffuseFactor where SCENE_SPECULAR_GLOSSINESS */
     float metallic, perceptual_roughness;
     float normal_scale, occlusion_strength;
-    float emissive[3]; /* cd/m^2 with emissive_strength multiplied in */
+    float emissive[3], emissive_strength; /* radiance: their product, cd/m^2 */
     scene_alpha_mode alpha_mode;
     float alpha_cutoff;
     bool is_double_sided;
-    bool is_unlit;           /* KHR_materials_unlit */
-    float ior;               /* KHR_materials_ior; 1.5; 0: F0 = 1 */
-    float specular;          /* KHR_materials_specular: specularFactor, 1 */
-    float specular_color[3]; /* specularColorFactor, 1 */
 
-    scene_texture_ref base_color_texture;         /* sRGB RGBA */
-    scene_texture_ref metallic_roughness_texture; /* linear G roughness, B metallic */
-    scene_texture_ref normal_texture;             /* linear RGB, +Y up */
-    scene_texture_ref occlusion_texture;          /* linear R */
-    scene_texture_ref emissive_texture;           /* sRGB RGB */
-    scene_texture_ref specular_texture;           /* linear A */
-    scene_texture_ref specular_color_texture;     /* sRGB RGB */
+    float ior;                            /* 1.5; 0: F0 = 1 */
+    float specular, specular_color[3];    /* 1; specularFactor of SCENE_SPECULAR_GLOSSINESS: specular_color */
+    float glossiness;                     /* SCENE_SPECULAR_GLOSSINESS only; 1 */
+    float clearcoat, clearcoat_roughness; /* 0 */
+    float clearcoat_normal_scale;         /* 1 */
+    float sheen_color[3], sheen_roughness;                              /* 0 */
+    float transmission;                                                 /* 0 */
+    float thickness;                                                    /* 0: thin-walled */
+    float attenuation_distance;                                         /* INFINITY */
+    float attenuation_color[3];                                         /* 1 */
+    float iridescence, iridescence_ior;                                 /* 0, 1.3 */
+    float iridescence_thickness_minimum, iridescence_thickness_maximum; /* 100, 400 */
+    float anisotropy, anisotropy_rotation;                              /* 0 */
+    float dispersion;                                                   /* 0; 20 / Abbe number */
+    float diffuse_transmission, diffuse_transmission_color[3];          /* 0, 1 */
+    float multiscatter_color[3], scatter_anisotropy;                    /* 0 */
+
+    scene_texture_ref textures[SCENE_TEXTURE_SLOT_COUNT];
+    scene_meta meta;
 } scene_material;
 
 scene_material scene_material_default(void);
+static inline bool scene_material_has(const scene_material *m, scene_texture_slot slot)
+{
+    return m->textures[slot].texture != SCENE_NONE;
+}
 
 /* ---- nodes, cameras, lights ---- */
 
@@ -113,6 +201,7 @@ typedef struct scene_camera {
     float fov_y_rad, aspect;         /* perspective; aspect 0: the picture's */
     float ortho_height, ortho_width; /* full extent (twice ymag, xmag) */
     float near_m, far_m;             /* far 0: infinite */
+    scene_meta meta;
 } scene_camera;
 
 typedef enum scene_light_type {
@@ -129,7 +218,26 @@ typedef struct scene_light {
     float intensity;                      /* cd, or lx for a directional one */
     float range;                          /* m; 0: no limit */
     float inner_cone_rad, outer_cone_rad; /* spot */
+    scene_meta meta;
 } scene_light;
+
+/* EXT_lights_image_based: a cube map with its GGX mips, and irradiance as spherical harmonics. */
+typedef struct scene_image_light {
+    const char *name;
+    float rotation[4]; /* unit quaternion x y z w */
+    float intensity;
+    float irradiance[9][3]; /* l = 0 .. 2, as the file has them */
+    uint32_t specular_size; /* texels along an edge of a face of mip 0 */
+    uint32_t mip_count;
+    const uint32_t *images; /* 6 per mip, +X -X +Y -Y +Z -Z: indices of scene images */
+    scene_meta meta;
+} scene_image_light;
+
+/* EXT_mesh_gpu_instancing: where a node's mesh is drawn, in the node's space. NULL: 0, identity, 1. */
+typedef struct scene_instancing {
+    uint32_t count;
+    const float *translations, *rotations, *scales; /* 3, 4 (unit x y z w), 3 per instance */
+} scene_instancing;
 
 typedef struct scene_node {
     const char *name;
@@ -141,6 +249,9 @@ typedef struct scene_node {
     mat4 matrix;
     float translation[3], rotation[4], scale[3]; /* rotation a unit quaternion x y z w */
     uint32_t mesh, camera, light, skin;
+    const float *weights;               /* of morph targets, as many as the mesh has; NULL: the mesh's */
+    const scene_instancing *instancing; /* NULL: drawn once */
+    scene_meta meta;
 } scene_node;
 
 /* One of the file's scenes. */
@@ -148,7 +259,60 @@ typedef struct scene_root {
     const char *name;
     uint32_t node_count;
     const uint32_t *nodes;
+    uint32_t image_light; /* SCENE_NONE: none */
+    scene_meta meta;
 } scene_root;
+
+/* ---- motion ---- */
+
+typedef struct scene_skin {
+    const char *name;
+    uint32_t joint_count;
+    const uint32_t *joints;   /* nodes */
+    const mat4 *inverse_bind; /* per joint; NULL: identities */
+    uint32_t skeleton;        /* a node, or SCENE_NONE; moves nothing */
+    scene_meta meta;
+} scene_skin;
+
+typedef enum scene_interpolation { SCENE_STEP, SCENE_LINEAR, SCENE_CUBIC_SPLINE } scene_interpolation;
+
+/* Keys over time. SCENE_CUBIC_SPLINE: an in-tangent, the value and an out-tangent per key. */
+typedef struct scene_sampler {
+    scene_interpolation interpolation;
+    uint32_t key_count;  /* at least 1 */
+    const float *times;  /* s, finite, strictly increasing */
+    uint32_t width;      /* floats per value */
+    const float *values; /* width per key, three times as many where SCENE_CUBIC_SPLINE; finite */
+} scene_sampler;
+
+/* What of a scene a channel moves. */
+typedef enum scene_target_kind {
+    SCENE_TARGET_NODE,     /* floats of a scene_node: translation, rotation, scale */
+    SCENE_TARGET_VISIBLE,  /* is_hidden of a node: hidden where the value is below 0.5 */
+    SCENE_TARGET_WEIGHTS,  /* weights of a node's mesh, from weight number offset on */
+    SCENE_TARGET_MATERIAL, /* floats of a scene_material, of its texture refs too */
+    SCENE_TARGET_LIGHT,    /* floats of a scene_light */
+    SCENE_TARGET_CAMERA    /* floats of a scene_camera */
+} scene_target_kind;
+
+typedef struct scene_channel {
+    scene_target_kind kind;
+    uint32_t index; /* of the node, material, light, camera */
+    size_t offset;  /* bytes from the start of the struct to the first float; WEIGHTS: a number of a weight */
+    float scale;    /* the values are multiplied with it (a camera's ymag is half the height); 1 */
+    bool is_rotation;    /* a unit quaternion: linear keys go along the great circle */
+    uint32_t sampler;    /* of the animation */
+    const char *pointer; /* JSON pointer of KHR_animation_pointer; NULL: a target of the core */
+} scene_channel;
+
+typedef struct scene_animation {
+    const char *name;
+    uint32_t channel_count, sampler_count;
+    const scene_channel *channels; /* later ones win where two move the same */
+    const scene_sampler *samplers;
+    float begin_s, end_s; /* first and last key of all */
+    scene_meta meta;
+} scene_animation;
 
 typedef enum scene_support { SCENE_SUPPORTED, SCENE_APPROXIMATED, SCENE_IGNORED } scene_support;
 
@@ -167,7 +331,8 @@ typedef struct facet_scene {
     const char *copyright;
 
     uint32_t mesh_count, material_count, texture_count, image_count, node_count, camera_count, light_count;
-    uint32_t scene_count, extension_count, warning_count, skin_count, animation_count;
+    uint32_t scene_count, extension_count, warning_count, skin_count, animation_count, variant_count;
+    uint32_t image_light_count;
     scene_mesh *meshes;
     scene_material *materials;
     scene_texture *textures;
@@ -175,8 +340,13 @@ typedef struct facet_scene {
     scene_node *nodes;
     scene_camera *cameras;
     scene_light *lights;
+    scene_image_light *image_lights;
+    scene_skin *skins;
+    scene_animation *animations;
+    const char **variants; /* KHR_materials_variants: names */
     scene_root *scenes;
-    uint32_t default_scene; /* 0 where the file names none; SCENE_NONE: the file has no scene */
+    scene_meta meta, asset_meta; /* of the root object: xmp packets; of "asset" */
+    uint32_t default_scene;      /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
     const char **warnings; /* what log got while reading */
 
@@ -203,10 +373,18 @@ facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **ou
 facet_scene_counts scene_count(const facet_scene *scene);
 void scene_describe_json(const facet_scene *scene, struct text *out);
 
-/* ---- a scene at rest in world space ---- */
+/* ---- a scene at one moment, in world space ---- */
 
+/* One primitive where it is drawn. */
 typedef struct scene_instance {
     const scene_primitive *primitive;
+    const float *positions, *normals,
+        *tangents; /* the primitive's, or the pose's own where is_deformed; before world */
+    bool
+        is_deformed; /* by morph targets or a skin; a skin's vertices are in world space, and world is the identity */
+    bool
+        is_copy; /* EXT_mesh_gpu_instancing: of the instance before it that has the same node and primitive */
+    uint32_t material; /* with the variant; SCENE_NONE: the default material */
     mat4 world;
     float normal_matrix[9]; /* cofactor matrix, rows; normalise after use; sign already such that a mirrored
                                 instance keeps outward normals */
@@ -215,34 +393,41 @@ typedef struct scene_instance {
 } scene_instance;
 
 typedef struct scene_posed_light {
-    const scene_light *light;
+    scene_light light;
     float position[3];  /* m */
     float direction[3]; /* unit, the way it shines */
     uint32_t node;
 } scene_posed_light;
 
 typedef struct scene_posed_camera {
-    uint32_t camera; /* index into scene->cameras */
+    scene_camera camera;
+    uint32_t index; /* into scene->cameras */
     mat4 world;
     uint32_t node;
 } scene_posed_camera;
 
-/* What one scene of the file draws. */
+/* What one scene of the file shows at one moment. */
 typedef struct scene_pose {
     uint32_t instance_count, light_count, camera_count;
     scene_instance *instances;
     scene_posed_light *lights;
     scene_posed_camera *cameras;
+    const scene_material *materials;    /* the scene's, or copies where an animation changes some */
     float bounds_min[3], bounds_max[3]; /* of all instances, world space, from every used vertex; 0: none */
     bool has_bounds;
+    void *deformed, *material_copies; /* what the pose owns */
 } scene_pose;
 
-/* Evaluates scene number index (FACET_DEFAULT: the default one). A file without scenes has one, number 0, of all
- * its roots. Singular node matrices draw nothing, and what they would put farther out than SCENE_FARTHEST. Fails with
- * FACET_ERROR_ARGUMENT for an index that is not there, FACET_ERROR_LIMIT above 2^22 instances. */
-facet_result scene_pose_create(const facet_scene *scene, uint32_t index, const facet_allocator *allocator,
-                               uint32_t thread_count, scene_pose *pose, facet_error *error);
+/* Evaluates what desc asks for (NULL: {0}). A file without scenes has one, number 0, of all its roots. Singular node
+ * matrices draw nothing, and what they would put farther out than SCENE_FARTHEST. Fails with FACET_ERROR_ARGUMENT for
+ * a scene, variant or animation that is not there, FACET_ERROR_LIMIT above 2^22 instances, FACET_ERROR_MEMORY. */
+facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *desc,
+                               const facet_allocator *allocator, uint32_t thread_count, scene_pose *pose,
+                               facet_error *error);
 void scene_pose_destroy(scene_pose *pose); /* {0} is allowed */
+/* The material of an instance, as it is at that moment. */
+const scene_material *scene_pose_material(const facet_scene *scene, const scene_pose *pose,
+                                          const scene_instance *instance);
 
 /* ---- cameras ---- */
 
@@ -252,7 +437,7 @@ void scene_pose_destroy(scene_pose *pose); /* {0} is allowed */
 facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect,
                             uint32_t thread_count, facet_camera *camera, facet_error *error);
 /* facet_camera_from_orbit(). */
-facet_result scene_fit_orbit(const facet_scene *scene, uint32_t scene_index, const facet_orbit *orbit,
+facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *desc, const facet_orbit *orbit,
                              float aspect, facet_camera *camera, facet_error *error);
 
 /* ---- derived attributes ---- */

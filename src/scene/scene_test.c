@@ -84,7 +84,7 @@ static void the_builtin_scene_stands_on_its_plate(void **state)
     (void)state;
     facet_scene *scene = make_builtin();
     scene_pose pose;
-    assert_int_equal(scene_pose_create(scene, FACET_DEFAULT, NULL, 1, &pose, NULL), FACET_OK);
+    assert_int_equal(scene_pose_create(scene, NULL, NULL, 1, &pose, NULL), FACET_OK);
     assert_true(pose.bounds_min[1] < 0.0f && pose.bounds_min[1] > -1.0f);
     for (uint32_t i = 0; i + 1 < pose.instance_count; i++) { /* the plate is the last one */
         float lowest[3];

@@ -47,7 +47,7 @@ static void use_scene(const facet_scene *scene, const facet_allocator *allocator
     text_destroy(&t);
     const facet_orbit orbit = {.polar_rad = 1.3f, .radius_scale = 1.05f, .fov_y_rad = 0.5f};
     facet_camera camera;
-    scene_fit_orbit(scene, FACET_DEFAULT, &orbit, 1.5f, &camera, NULL);
+    scene_fit_orbit(scene, NULL, &orbit, 1.5f, &camera, NULL);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -72,9 +72,8 @@ static void compare(const char *name, const facet_render_desc *desc)
         orbit.azimuth_rad = 40.0f * 0.0174532925f;
         orbit.polar_rad = 60.0f * 0.0174532925f;
     }
-    assert_int_equal(
-        facet_camera_from_orbit(scene, FACET_DEFAULT, &orbit, (float)WIDTH / HEIGHT, &camera, NULL),
-        FACET_OK);
+    assert_int_equal(facet_camera_from_orbit(scene, NULL, &orbit, (float)WIDTH / HEIGHT, &camera, NULL),
+                     FACET_OK);
     filled.camera = &camera;
     assert_int_equal(facet_render(scene, &filled, &image, NULL), FACET_OK);
 
