@@ -2,6 +2,8 @@
 #ifndef CPU_RENDER_GEOMETRY_H
 #define CPU_RENDER_GEOMETRY_H
 
+#include <string.h>
+
 #include "cpu/camera_rays.h"
 #include "scene/scene.h"
 
@@ -10,9 +12,10 @@ typedef struct render_geometry {
     const scene_primitive *primitive;
     const scene_material *material;
     uint32_t material_id; /* index plus 1; 0: the default material */
-    const float
-        *vertices; /* world space, m. Triangles: 3 per vertex. Points, lines: 4 per index, x y z radius, such
-                              that they are a pixel wide where they are */
+    /* m. Triangles: 3 per vertex, in world space, or before world where that is not NULL. Points, lines: in world
+     * space, 4 per index, x y z radius, such that they are a pixel wide where they are. */
+    const float *vertices;
+    const mat4 *world;    /* NULL: vertices are in world space; render_geometry_corner() knows */
     const float *normals; /* object space (of the pose), 3 per vertex; NULL: none */
     const float
         *tangents; /* object space, 4 per vertex, or per index where has_corner_tangents; NULL: none */
@@ -52,6 +55,15 @@ void render_geometry_destroy(render_geometry_set *set); /* {0} is allowed */
 static inline const uint32_t *render_geometry_triangle(const render_geometry *g, uint32_t triangle)
 {
     return g->primitive->indices + 3 * (size_t)triangle;
+}
+/* A vertex of triangles in world space, m. */
+static inline void render_geometry_corner(const render_geometry *g, size_t vertex, float out[3])
+{
+    const float *p = g->vertices + 3 * vertex;
+    if (g->world)
+        mat4_transform_point(g->world, p, out);
+    else
+        memcpy(out, p, 3 * sizeof *out);
 }
 
 #endif

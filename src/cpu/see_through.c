@@ -105,12 +105,7 @@ static void filter(const struct RTCFilterFunctionNArguments *arguments)
     walk *w = (walk *)(void *)arguments->context;
     const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
     const struct RTCHit *h = (const struct RTCHit *)(const void *)arguments->hit;
-    visibility_hit hit = {.t = ray->tfar,
-                          .u = h->u,
-                          .v = h->v,
-                          .geometry = h->geomID,
-                          .primitive = h->primID,
-                          .normal = {h->Ng_x, h->Ng_y, h->Ng_z}};
+    visibility_hit hit = visibility_hit_read(w->scene->geometries, ray->tfar, h);
     if (!consider(w, &hit))
         arguments->valid[0] = 0;
 }
