@@ -3,8 +3,6 @@
 
 #include "io/gltf_reader.h"
 
-static const char *const MESHOPT[2] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
-
 void read_buffers(reader *r, const json_place *root)
 {
     json_place array = get_array(r, root, "buffers");
@@ -15,8 +13,7 @@ void read_buffers(reader *r, const json_place *root)
         gltf_buffer *buffer = &r->buffers[i];
         buffer->byte_length = get_uint(r, &at, "byteLength", (uint64_t)1 << 53, REQUIRED_UINT);
         buffer->uri = get_string(r, &at, "uri", NULL);
-        for (int k = 0; k < 2; k++)
-            buffer->is_fallback |= get_extension(r, &at, MESHOPT[k]).value != NULL;
+        buffer->is_fallback = is_meshopt_fallback(r, &at);
         if (reader_is_ok(r) && buffer->byte_length == 0)
             reader_warn(r, &at, "byteLength", "must be at least 1, but is 0");
         r->buffer_count = (uint32_t)(i + 1);
@@ -50,17 +47,20 @@ void read_views(reader *r, const json_place *root)
             reader_warn(r, &at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
         if (view->stride && target == 34963)
             reader_warn(r, &at, "byteStride", "means nothing for indices");
-        for (int k = 0; k < 2; k++)
-            view->is_compressed |= r->buffers[view->buffer].is_fallback && !r->buffers[view->buffer].uri &&
-                                   get_extension(r, &at, MESHOPT[k]).value != NULL;
+        read_meshopt(r, &at, view);
         r->view_count = (uint32_t)(i + 1);
     }
 }
 
+bool has_buffer_source(const reader *r, uint32_t buffer)
+{
+    return r->buffers[buffer].uri || (buffer == 0 && r->bin);
+}
+
 bool has_view_source(const reader *r, uint32_t view)
 {
-    uint32_t buffer = r->views[view].buffer;
-    return r->buffers[buffer].uri || r->buffers[buffer].is_fallback || (buffer == 0 && r->bin);
+    const gltf_view *v = &r->views[view];
+    return has_buffer_source(r, v->compressed ? get_meshopt_buffer(v->compressed) : v->buffer);
 }
 
 bool has_accessor_source(const reader *r, uint32_t accessor)
@@ -104,17 +104,20 @@ static bool load_buffer(reader *r, uint32_t index)
     return true;
 }
 
+const unsigned char *get_buffer_bytes(reader *r, uint32_t index)
+{
+    return reader_is_ok(r) && load_buffer(r, index) ? r->buffers[index].data : NULL;
+}
+
 const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t index)
 {
     const gltf_view *view = &r->views[index];
     if (!reader_is_ok(r))
         return NULL;
-    if (view->is_compressed) {
-        reader_fail(r, at, NULL, FACET_ERROR_UNSUPPORTED,
-                    "bufferViews[%u] is there with meshopt compression only, which is not read yet", index);
-        return NULL;
-    }
-    return load_buffer(r, view->buffer) ? r->buffers[view->buffer].data + view->offset : NULL;
+    if (view->compressed)
+        return get_meshopt_bytes(r, at, index);
+    const unsigned char *bytes = get_buffer_bytes(r, view->buffer);
+    return bytes ? bytes + view->offset : NULL;
 }
 
 void check_unused_buffers(reader *r)
@@ -124,7 +127,8 @@ void check_unused_buffers(reader *r)
     for (uint32_t i = 0; i < r->buffer_count; i++) {
         const json_place at = {.parent = &array, .index = i};
         uri_bytes bytes;
-        if (!r->buffers[i].data && r->buffers[i].uri && !load_uri(r, r->buffers[i].uri, &bytes))
+        if (!r->buffers[i].data && r->buffers[i].uri && !r->buffers[i].is_fallback &&
+            !load_uri(r, r->buffers[i].uri, &bytes))
             reader_warn(r, &at, "uri", "%s; nothing uses it", bytes.message);
     }
 }

@@ -16,14 +16,16 @@ typedef struct gltf_buffer {
     size_t byte_length;
     const char *uri;           /* NULL: the binary chunk of a .glb, or nothing */
     const unsigned char *data; /* NULL: not asked for yet */
-    bool is_fallback;          /* of a compression extension: has no bytes by design */
+    bool is_fallback;          /* of a compression extension: for readers without it */
 } gltf_buffer;
+
+typedef struct compressed_view compressed_view; /* gltf_meshopt.c */
 
 typedef struct gltf_view {
     uint32_t buffer;
     size_t offset, length;
-    size_t stride;      /* 0: tight */
-    bool is_compressed; /* meshopt, with no other bytes */
+    size_t stride;               /* 0: tight */
+    compressed_view *compressed; /* NULL: bytes are in buffer; else they are decoded from elsewhere */
 } gltf_view;
 
 typedef enum gltf_component {
@@ -94,6 +96,7 @@ typedef struct reader {
     uint32_t iota_count;
     uint64_t work; /* elements read so far; see reader_spend() */
     bool has_quantization;
+    bool has_decoded_views; /* compressed ones */
 } reader;
 
 /* ---- places ---- */
@@ -165,15 +168,26 @@ const char *get_name(reader *r, const json_place *object);
 /* gltf_buffers.c: tables of buffers and views; bytes come when asked for. */
 void read_buffers(reader *r, const json_place *root);
 void read_views(reader *r, const json_place *root);
-/* The bytes of a view; NULL, with the error recorded, where they cannot be had. */
+/* The bytes of a view or a whole buffer; NULL, with the error recorded, where they cannot be had. */
 const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t view);
+const unsigned char *get_buffer_bytes(reader *r, uint32_t buffer);
 
-/* Whether there is something that a view or an accessor (with its sparse parts) could be read from. A buffer with
- * neither a uri nor the binary chunk behind it is valid, but empty. */
+/* Whether there is something that a buffer, a view or an accessor (with its sparse parts) could be read from. A buffer
+ * with neither a uri nor the binary chunk behind it is valid, but empty. */
+bool has_buffer_source(const reader *r, uint32_t buffer);
 bool has_view_source(const reader *r, uint32_t view);
 bool has_accessor_source(const reader *r, uint32_t accessor);
 /* Warns about the URIs of buffers that nothing used and that could not have been read. */
 void check_unused_buffers(reader *r);
+
+/* gltf_meshopt.c: EXT_meshopt_compression and KHR_meshopt_compression. */
+bool is_meshopt_fallback(reader *r, const json_place *buffer);
+/* Sets view->compressed where the view has the extension. Needs its length and the table of buffers. */
+void read_meshopt(reader *r, const json_place *place, gltf_view *view);
+/* Where the stream is. */
+uint32_t get_meshopt_buffer(const compressed_view *view);
+/* get_view_bytes() of a compressed view. */
+const unsigned char *get_meshopt_bytes(reader *r, const json_place *at, uint32_t view);
 
 /* gltf_accessors.c: the table. */
 void read_accessors(reader *r, const json_place *root);

@@ -31,15 +31,21 @@ static layout make_layout(bool is_v1, size_t stride)
                     .block = fitting < MAX_BLOCK ? fitting : MAX_BLOCK};
 }
 
+/* The least bytes of a block. Version 1: a control byte for 4 planes; version 0: 2 bits for each group of each plane. */
+static size_t block_size(const layout *l, size_t count, size_t stride)
+{
+    const size_t groups = (count + GROUP - 1) / GROUP;
+    return count == 0 ? 0 : l->is_v1 ? stride / 4 : stride * ((groups + 3) / 4);
+}
+
 static size_t smallest_attributes(const meshopt_stream *s)
 {
     const layout l = make_layout(s->size == 0 || s->bytes[0] != 0xa0, s->stride);
-    size_t whole = s->count / l.block;
-    size_t rest_groups = (s->count % l.block + GROUP - 1) / GROUP;
-    /* version 1: a control byte for 4 planes; version 0: 2 bits for each group of each plane */
-    size_t block_size = l.is_v1 ? s->stride / 4 : s->stride * (l.block / GROUP / 4);
-    size_t rest_size = l.is_v1 ? (rest_groups ? s->stride / 4 : 0) : s->stride * ((rest_groups + 3) / 4);
-    return whole > (SIZE_MAX >> 16) / block_size ? SIZE_MAX : 1 + whole * block_size + rest_size + l.tail;
+    const size_t whole = s->count / l.block;
+    const size_t size = block_size(&l, l.block, s->stride);
+    if (whole > (SIZE_MAX >> 1) / size)
+        return SIZE_MAX;
+    return 1 + whole * size + block_size(&l, s->count % l.block, s->stride) + l.tail;
 }
 
 size_t meshopt_smallest_size(const meshopt_stream *s)
@@ -216,9 +222,9 @@ static inline uint32_t add_lanes(uint32_t a, uint32_t b, uint32_t high)
     return ((a & ~high) + (b & ~high)) ^ ((a ^ b) & high);
 }
 
-static uint32_t rotate_left(uint32_t v, unsigned by)
+static uint32_t rotate_right(uint32_t v, unsigned by)
 {
-    return v << by | v >> ((32 - by) & 31);
+    return v >> by | v << ((32 - by) & 31);
 }
 
 /* Undoes the deltas of one channel: *last is its word in the element before the block, and then in the last one. mode:
@@ -243,7 +249,7 @@ static void decode_channel(planes_of_channel planes, unsigned mode, size_t count
             store_u32(out + i * stride, value = add_lanes(value, deltas[i], 0x80008000));
     } else {
         for (size_t i = 0; i < count; i++)
-            deltas[i] = rotate_left(deltas[i], mode >> 4);
+            deltas[i] = rotate_right(deltas[i], mode >> 4);
         for (size_t i = 0; i < count; i++)
             store_u32(out + i * stride, value ^= deltas[i]);
     }

@@ -124,8 +124,8 @@ static inline void decode_free(triangle_state *t, unsigned code, const uint8_t *
 }
 
 /* A code takes at most 16 bytes of data, as many as the tail has: so one comparison for each is enough. */
-static inline __attribute__((always_inline)) const char *
-decode_triangles(const meshopt_stream *s, size_t size, uint8_t *out)
+static inline __attribute__((always_inline)) const char *decode_triangles(const meshopt_stream *s,
+                                                                          size_t size, uint8_t *out)
 {
     const size_t triangle_count = s->count / 3;
     const uint8_t *table = s->bytes + s->size - TRIANGLES_TAIL;
