@@ -387,7 +387,8 @@ typedef enum facet_file_format {
     FACET_FORMAT_EXR, /* half; all layers, premultiplied alpha */
     FACET_FORMAT_EXR_FLOAT,
     FACET_FORMAT_HDR, /* Radiance RGBE; no alpha: over black, as in PFM */
-    FACET_FORMAT_PFM
+    FACET_FORMAT_PFM,
+    FACET_FORMAT_RAW /* bare RGBA of 8 bits, sRGB, straight alpha: rows from the top, no header */
 } facet_file_format;
 
 typedef struct facet_save_desc {

@@ -91,6 +91,22 @@ static facet_result encode_exr(const film *f, bool as_half, const image_encode_d
     return image_encode_exr(f->width, f->height, layers, f->layer_count, as_half, desc, bytes, size, error);
 }
 
+static facet_result encode_raw(const film *f, const image_encode_desc *desc, unsigned char **bytes,
+                               size_t *size, facet_error *error)
+{
+    image converted = {0};
+    image rgba = {0};
+    facet_result result =
+        film_to_display_image(f, IMAGE_U8, true, &desc->allocator, desc->thread_count, &converted, error);
+    if (result == FACET_OK) /* without alpha where all of it is opaque */
+        result =
+            image_convert(&converted, &desc->allocator, desc->thread_count, 4, IMAGE_U8, true, &rgba, error);
+    image_destroy(&converted);
+    *bytes = rgba.pixels;
+    *size = result == FACET_OK ? image_row_size(&rgba) * rgba.height : 0;
+    return result;
+}
+
 facet_result facet_image_encode(const facet_image *picture, const facet_save_desc *desc,
                                 unsigned char **bytes, size_t *size, facet_error *error)
 {
@@ -105,6 +121,8 @@ facet_result facet_image_encode(const facet_image *picture, const facet_save_des
     image converted = {0};
     facet_result result;
     switch (desc->format) {
+    case FACET_FORMAT_RAW:
+        return encode_raw(f, &encode, bytes, size, error);
     case FACET_FORMAT_EXR:
     case FACET_FORMAT_EXR_FLOAT:
         return encode_exr(f, desc->format == FACET_FORMAT_EXR, &encode, bytes, size, error);

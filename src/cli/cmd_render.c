@@ -12,6 +12,7 @@
 #include "cli/render_names.h"
 #include "cli/render_options.h"
 #include "cli/render_report.h"
+#include "cli/sequence.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -43,13 +44,18 @@ static void begin_reading(const char *name)
     interrupt_set_safe(sentence);
 }
 
+static facet_environment_desc environment_desc(render_run *run)
+{
+    return (facet_environment_desc){.allocator = run->allocator,
+                                    .log = messages_log(&run->messages),
+                                    .thread_count = run->options.limits.thread_count,
+                                    .cache_folder = run->options.environment_cache};
+}
+
 static facet_result load_environment(render_run *run, facet_error *error)
 {
     const render_options *o = &run->options;
-    const facet_environment_desc desc = {.allocator = run->allocator,
-                                         .log = messages_log(&run->messages),
-                                         .thread_count = o->limits.thread_count,
-                                         .cache_folder = o->environment_cache};
+    const facet_environment_desc desc = environment_desc(run);
     facet_result result = FACET_OK;
     switch (o->environment) {
     case ENVIRONMENT_NONE:
@@ -87,20 +93,60 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
 
 /* ---- pictures ---- */
 
-static facet_result render_frame(render_run *run, const facet_scene *scene, const facet_pose_desc *pose,
-                                 uint32_t frame, picture_report *report, facet_error *error)
+/* One model on its way to its pictures. */
+typedef struct model_run {
+    render_run *run;
+    render_options options; /* the framing of a sequence is found with its first picture */
+    const char *model;
+    const facet_scene *scene;
+    facet_renderer *renderer;
+    facet_environment *environment, *own_environment; /* what lights it; NULL, or the one that it brings */
+    sequence sequence;
+    video *video; /* NULL: files */
+    double load_s;
+} model_run;
+
+static facet_result write_picture(model_run *m, const facet_image *image, const char *name,
+                                  facet_error *error)
 {
-    const render_options *o = &run->options;
+    const render_run *run = m->run;
+    if (m->video)
+        return video_add(m->video, image, &run->allocator, m->options.limits.thread_count, error);
+    facet_save_desc save = m->options.save;
+    save.allocator = run->allocator;
+    return output_write(image, name, &save, error);
+}
+
+static facet_result frame_camera(model_run *m, uint32_t index, const sequence_frame *frame,
+                                 facet_camera *camera, facet_error *error)
+{
+    const sequence *s = &m->sequence;
+    bool is_sequence = s->frames.frame_count > 1;
+    const render_view view = {.pose = &s->pose,
+                              .turn = frame->turn,
+                              .turns = is_sequence && s->turns,
+                              .moves = is_sequence && s->moves};
+    facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
+    if (result == FACET_OK && index == 0 && is_sequence)
+        render_keep_framing(&m->options, camera);
+    return result;
+}
+
+static facet_result render_frame(model_run *m, uint32_t index, const sequence_frame *frame,
+                                 picture_report *report, facet_error *error)
+{
+    render_run *run = m->run;
+    const render_options *o = &m->options;
     double start = interrupt_clock();
-    uint32_t frame_count = o->turntable ? o->turntable : 1;
+    uint32_t frame_count = m->sequence.frames.frame_count;
     facet_camera camera;
-    facet_result result = render_camera(scene, pose, o, frame, &camera, error);
+    facet_result result = frame_camera(m, index, frame, &camera, error);
     if (result != FACET_OK)
         return result;
     progress shown = {.mode = run->progress,
                       .subject = report->output,
                       .start = start,
-                      .done_before = (double)frame / frame_count,
+                      .done_before = (double)index / frame_count,
                       .share = 1.0 / frame_count,
                       .last_percent = -10};
     double left = interrupt_seconds_left();
@@ -111,19 +157,17 @@ static facet_result render_frame(render_run *run, const facet_scene *scene, cons
     desc.allocator = run->allocator;
     desc.log = messages_log(&run->messages);
     desc.progress = progress_callback(&shown);
-    desc.pose = *pose;
+    desc.pose = m->sequence.pose;
     desc.camera = &camera;
-    desc.environment = run->environment;
+    desc.environment = m->environment;
     desc.time_limit_s = left < 1e29 ? left : 0.0;
     facet_image *image = NULL;
-    result = facet_render(scene, &desc, &image, error);
+    result = facet_renderer_render(m->renderer, &desc, &image, error);
     progress_clear();
     if (result != FACET_OK)
         return result;
     double rendered = interrupt_clock();
-    facet_save_desc save = o->save;
-    save.allocator = run->allocator;
-    result = output_write(image, report->output, &save, error);
+    result = write_picture(m, image, report->output, error);
     facet_image_view view = facet_image_get_layer(image, 0);
     report->width = view.width;
     report->height = view.height;
@@ -142,41 +186,88 @@ static void report_frame(render_run *run, const picture_report *report)
         json_array_append_new(run->pictures, report_picture_json(report));
 }
 
-/* All pictures of a model that is loaded. */
-static facet_result render_frames(render_run *run, const char *model, const facet_scene *scene, double load_s,
-                                  facet_error *error)
+static facet_result render_frames(model_run *m, facet_error *error)
 {
-    const render_options *o = &run->options;
-    facet_pose_desc pose = {0};
+    const render_options *o = &m->options;
     facet_result result = FACET_OK;
-    pose.has_scene_index = o->scene != NULL;
-    if (o->scene)
-        result = facet_scene_find_scene(scene, o->scene, &pose.scene_index, error);
-    for (uint32_t frame = 0; frame < (o->turntable ? o->turntable : 1) && result == FACET_OK; frame++) {
+    for (uint32_t i = 0; i < m->sequence.frames.frame_count && result == FACET_OK; i++) {
         char name[RENDER_NAME_SIZE];
-        result = render_name(&run->options, model, frame, name, sizeof name, error);
+        sequence_frame frame = sequence_at(&m->sequence, i);
+        result = render_name(o, m->model, frame.number, name, sizeof name, error);
         if (result != FACET_OK)
             break;
-        picture_report report = {.model = input_name(model), .output = name, .load_s = frame ? 0.0 : load_s};
+        picture_report report = {
+            .model = input_name(m->model), .output = name, .load_s = i ? 0.0 : m->load_s};
         if (interrupt_signal())
             return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
-        report.is_kept = o->keeps_existing && !o->is_stdout && output_exists(name);
+        report.is_kept = o->keeps_existing && !m->video && !o->is_stdout && output_exists(name);
         if (!report.is_kept)
-            result = render_frame(run, scene, &pose, frame, &report, error);
-        messages_flush(&run->messages);
+            result = render_frame(m, i, &frame, &report, error);
+        messages_flush(&m->run->messages);
         if (result == FACET_OK)
-            report_frame(run, &report);
+            report_frame(m->run, &report);
     }
     return result;
 }
 
-/* --no-clobber for a still: nothing need be read. True: the picture was there, and that is reported. */
+/* What lights the model: what was asked for, else what it brings, else the studio. */
+static facet_result choose_environment(model_run *m, facet_error *error)
+{
+    render_run *run = m->run;
+    const render_options *o = &m->options;
+    facet_result result = FACET_OK;
+    if (!o->has_environment && o->environment != ENVIRONMENT_NONE && !o->desc.ignore_scene_lights &&
+        facet_scene_has_environment(m->scene, &m->sequence.pose)) {
+        const facet_environment_desc desc = environment_desc(run);
+        result = facet_environment_create_from_scene(m->scene, &m->sequence.pose, &desc, &m->own_environment,
+                                                     error);
+        m->environment = m->own_environment;
+        return result;
+    }
+    if (!run->has_environment)
+        result = load_environment(run, error);
+    m->environment = run->environment;
+    return result;
+}
+
+static facet_result open_video(model_run *m, facet_error *error)
+{
+    char name[RENDER_NAME_SIZE];
+    facet_result result = render_name(&m->options, m->model, 1, name, sizeof name, error);
+    return result == FACET_OK ? video_open(name, m->options.video, m->options.fps, &m->video, error) : result;
+}
+
+/* All pictures of a model that is loaded. */
+static facet_result render_scene(render_run *run, const char *model, const facet_scene *scene, double start,
+                                 facet_error *error)
+{
+    model_run m = {.run = run, .options = run->options, .model = model, .scene = scene};
+    facet_result result = sequence_create(scene, input_name(model), &m.options, &m.sequence, error);
+    if (result == FACET_OK)
+        result = choose_environment(&m, error);
+    messages_flush(&run->messages);
+    m.load_s = interrupt_clock() - start;
+    if (result == FACET_OK)
+        result = facet_renderer_create(scene, &run->allocator, &m.renderer, error);
+    if (result == FACET_OK && m.options.video)
+        result = open_video(&m, error);
+    if (result == FACET_OK)
+        result = render_frames(&m, error);
+    facet_result closed = video_close(m.video, result == FACET_OK, error);
+    facet_renderer_destroy(m.renderer);
+    facet_environment_destroy(m.own_environment);
+    sequence_destroy(&m.sequence);
+    return result == FACET_OK ? closed : result;
+}
+
+/* --no-clobber for a file of its own: nothing need be read. True: the picture was there, and that is reported. */
 static bool is_kept(render_run *run, const char *model)
 {
     char name[RENDER_NAME_SIZE];
     facet_error ignored;
-    if (!run->options.keeps_existing || run->options.is_stdout || run->options.turntable ||
-        render_name(&run->options, model, 0, name, sizeof name, &ignored) != FACET_OK || !output_exists(name))
+    if (!run->options.keeps_existing || run->options.is_stdout ||
+        (run->options.is_sequence && !run->options.video) ||
+        render_name(&run->options, model, 1, name, sizeof name, &ignored) != FACET_OK || !output_exists(name))
         return false;
     report_frame(run, &(picture_report){.model = input_name(model), .output = name, .is_kept = true});
     return true;
@@ -189,11 +280,9 @@ static facet_result render_model(render_run *run, const char *model, facet_error
     double start = interrupt_clock();
     facet_scene *scene = NULL;
     facet_result result = load_model(run, model, &scene, error);
-    if (result == FACET_OK && !run->has_environment)
-        result = load_environment(run, error);
     messages_flush(&run->messages);
     if (result == FACET_OK)
-        result = render_frames(run, model, scene, interrupt_clock() - start, error);
+        result = render_scene(run, model, scene, start, error);
     facet_scene_destroy(scene);
     return result;
 }

@@ -96,9 +96,9 @@ static const option image_options[] = {
      .kind = OPTION_FILE,
      .argument = "FILE",
      .default_text = "the model's name with .png, in the current folder",
-     .help =
-         "the picture: .png .jpg .webp .exr .hdr .pfm, or - for standard output. {stem} becomes the model's "
-         "name, #### or %04d the frame's number"},
+     .help = "the picture: .png .jpg .webp .exr .hdr .pfm, .y4m for a video, or - for standard output. "
+             "{stem} becomes the model's "
+             "name, #### or %04d the frame's number"},
     {.id = OPT_NO_CLOBBER,
      .name = "no-clobber",
      .kind = OPTION_FLAG,
@@ -108,8 +108,10 @@ static const option image_options[] = {
      .kind = OPTION_CHOICE,
      .argument = "FORMAT",
      .default_text = "by the name of the output",
-     .help = "png16 has 16 bits a channel; exr is half, exr32 full float",
-     .choices = WORDS("png", "png16", "jpg", "webp", "exr", "exr32", "hdr", "pfm")},
+     .help =
+         "png16 has 16 bits a channel; exr is half, exr32 full float; y4m and raw (RGBA of 8 bits) hold all "
+         "frames one after the other, for programs that make videos",
+     .choices = WORDS("png", "png16", "jpg", "webp", "exr", "exr32", "hdr", "pfm", "y4m", "raw")},
     {.id = OPT_SIZE,
      .name = "size",
      .letter = 's',
@@ -204,7 +206,9 @@ static const option camera_options[] = {
      .name = "turntable",
      .kind = OPTION_INTEGER,
      .argument = "N",
-     .help = "N pictures once around the model; an output that is named needs #### or %04d",
+     .help =
+         "N pictures once around the model, which moves meanwhile if --animation is given; an output that is "
+         "named needs #### or %04d",
      .minimum = 1,
      .maximum = 100000},
 };
@@ -244,7 +248,9 @@ static const option light_options[] = {
      .kind = OPTION_CHOICE,
      .argument = "WHICH",
      .default_text = "scene",
-     .help = "the file's own lights (KHR_lights_punctual), or none of them",
+     .help = "the file's own lights (KHR_lights_punctual, and EXT_lights_image_based unless --env is given), "
+             "or none "
+             "of them",
      .choices = WORDS("scene", "none")},
 };
 
@@ -298,6 +304,44 @@ static const option quality_options[] = {
          "gltf: the formulas of the specification; conserving: with light scattered several times on rough "
          "surfaces",
      .choices = WORDS("gltf", "conserving")},
+    {.id = OPT_SPECULAR_AA,
+     .name = "specular-aa",
+     .kind = OPTION_FLAG,
+     .help =
+         "fewer sparkles on fine bumps: highlights are widened by how much the surface bends within a pixel"},
+};
+
+static const option motion_options[] = {
+    {.id = OPT_ANIMATION,
+     .name = "animation",
+     .kind = OPTION_TEXT,
+     .argument = "NAME",
+     .default_text = "none; the first with --time, --frames or --fps",
+     .help =
+         "which animation of the file, by name or number from 0; all at once; none. Without --time all its "
+         "frames are drawn, and an output that is named needs #### or %04d",
+     .choices = WORDS("all", "none")},
+    {.id = OPT_TIME,
+     .name = "time",
+     .kind = OPTION_NUMBER,
+     .argument = "S",
+     .help = "one picture, of the animation at this time in s",
+     .minimum = -1e9,
+     .maximum = 1e9},
+    {.id = OPT_FRAMES,
+     .name = "frames",
+     .kind = OPTION_TEXT,
+     .argument = "LIST",
+     .default_text = "all",
+     .help = "which frames, from 1: 1-48, 1-48x2, 1,3,5..10; frame n is (n - 1) / fps after the begin"},
+    {.id = OPT_FPS,
+     .name = "fps",
+     .kind = OPTION_NUMBER,
+     .argument = "N",
+     .default_text = "24",
+     .help = "frames per second",
+     .minimum = 0.001,
+     .maximum = 1e5},
 };
 
 static const option scene_options[] = {
@@ -307,6 +351,11 @@ static const option scene_options[] = {
      .argument = "NAME",
      .default_text = "the one that the file names",
      .help = "which scene of the file, by name or number from 0"},
+    {.id = OPT_VARIANT,
+     .name = "variant",
+     .kind = OPTION_TEXT,
+     .argument = "NAME",
+     .help = "which variant of the materials (KHR_materials_variants), by name or number from 0"},
 };
 
 static const option model_options[] = {
@@ -323,6 +372,7 @@ static const option_group camera_group = {"Camera", camera_options, COUNT(camera
 static const option_group light_group = {"Light", light_options, COUNT(light_options)};
 static const option_group color_group = {"Color", color_options, COUNT(color_options)};
 static const option_group quality_group = {"Quality", quality_options, COUNT(quality_options)};
+static const option_group motion_group = {"Motion", motion_options, COUNT(motion_options)};
 static const option_group scene_group = {"Scene", scene_options, COUNT(scene_options)};
 static const option_group model_group = {"Files", model_options, COUNT(model_options)};
 
@@ -350,13 +400,16 @@ static const verb render_verb = {
             {"facet render scene.gltf -o beauty.exr --aov depth,normal --camera Hero",
              "linear light and layers from a camera of the file"},
             {"facet render shoe.glb -o 'turn_####.png' --turntable 72", "once around the model"},
+            {"facet render walk.glb -o 'walk_####.png' --animation Walk", "the frames of an animation"},
+            {"facet render fox.glb -o - --format y4m --animation Run --turntable 120 | ffmpeg -i - fox.mp4",
+             "a video of it, seen from all around"},
             {"facet render *.glb -o 'thumbs/{stem}.png' --preset thumbnail",
              "small pictures of many models, into a folder that exists"},
             {"curl -s URL | facet render - -o - --format png > out.png", "without files"},
             {NULL, NULL}},
     .groups = (const option_group *const[]){&image_group, &camera_group, &light_group, &color_group,
-                                            &quality_group, &scene_group, &model_group, &machine_group,
-                                            &message_group, &running_group, NULL},
+                                            &quality_group, &motion_group, &scene_group, &model_group,
+                                            &machine_group, &message_group, &running_group, NULL},
 };
 
 /* ---- inspect, version, help ---- */
@@ -445,8 +498,8 @@ bool verb_is_planned(const char *name)
 
 bool option_is_planned(const char *name)
 {
-    return is_among(name, WORDS("animation", "time", "frames", "fps", "sun", "ground", "bounces", "noise",
-                                "denoise", "seed", "variant", "material-override", "shard"));
+    return is_among(
+        name, WORDS("sun", "ground", "bounces", "noise", "denoise", "seed", "material-override", "shard"));
 }
 
 const option *option_find(const verb *v, const char *name, size_t length)

@@ -22,19 +22,18 @@ static float aspect_of(const render_options *options)
     return (float)options->desc.width / (float)options->desc.height;
 }
 
-static facet_orbit orbit_of_frame(const facet_scene *scene, const facet_pose_desc *pose,
-                                  const render_options *options, uint32_t frame)
+static facet_orbit orbit_of_view(const facet_scene *scene, const render_view *view,
+                                 const render_options *options)
 {
     facet_orbit orbit = options->orbit;
     bool is_partly_given = options->has_target[0] || options->has_target[1] || options->has_target[2];
     if (is_partly_given) {
-        resolve_target(scene, pose, options, orbit.target);
+        resolve_target(scene, view->pose, options, orbit.target);
         orbit.has_target = true;
     }
-    if (options->turntable) {
-        orbit.azimuth_rad += (float)(TWO_PI * frame / options->turntable);
-        orbit.fits_all_azimuths = true;
-    }
+    orbit.azimuth_rad += (float)(TWO_PI * view->turn);
+    orbit.fits_all_azimuths = view->turns;
+    orbit.fits_all_times = view->moves;
     return orbit;
 }
 
@@ -67,19 +66,32 @@ static facet_result camera_from_eye(const facet_scene *scene, const facet_pose_d
     return FACET_OK;
 }
 
-facet_result render_camera(const facet_scene *scene, const facet_pose_desc *pose,
-                           const render_options *options, uint32_t frame, facet_camera *camera,
-                           facet_error *error)
+facet_result render_camera(const facet_scene *scene, const render_view *view, const render_options *options,
+                           facet_camera *camera, facet_error *error)
 {
     if (options->camera) {
         uint32_t index;
         facet_result result = facet_scene_find_camera(scene, options->camera, &index, error);
         if (result != FACET_OK)
             return result;
-        return facet_camera_from_scene(scene, pose, index, camera, error);
+        return facet_camera_from_scene(scene, view->pose, index, camera, error);
     }
     if (options->has_eye)
-        return camera_from_eye(scene, pose, options, camera, error);
-    facet_orbit orbit = orbit_of_frame(scene, pose, options, frame);
-    return facet_camera_from_orbit(scene, pose, &orbit, aspect_of(options), camera, error);
+        return camera_from_eye(scene, view->pose, options, camera, error);
+    facet_orbit orbit = orbit_of_view(scene, view, options);
+    return facet_camera_from_orbit(scene, view->pose, &orbit, aspect_of(options), camera, error);
+}
+
+void render_keep_framing(render_options *options, const facet_camera *camera)
+{
+    facet_orbit *orbit = &options->orbit;
+    if (options->camera || options->has_eye)
+        return;
+    for (int i = 0; i < 3; i++) {
+        orbit->target[i] = camera->target[i];
+        options->has_target[i] = true;
+    }
+    orbit->has_target = true;
+    orbit->radius = orbit->orthographic ? 0.5f * camera->ortho_height / tanf(0.5f * orbit->fov_y_rad)
+                                        : distance(camera->eye, camera->target);
 }

@@ -4,9 +4,17 @@
 
 #include "cli/render_options.h"
 
-/* The camera of one frame (from 0) of a turntable, or of the one picture. */
-facet_result render_camera(const facet_scene *scene, const facet_pose_desc *pose,
-                           const render_options *options, uint32_t frame, facet_camera *camera,
-                           facet_error *error);
+/* The camera of a picture: what shows pose, turned by turn (of a whole turn) around the model. moves: the same camera
+ * frames the whole motion. */
+typedef struct render_view {
+    const facet_pose_desc *pose;
+    double turn;
+    bool turns, moves;
+} render_view;
+facet_result render_camera(const facet_scene *scene, const render_view *view, const render_options *options,
+                           facet_camera *camera, facet_error *error);
+
+/* For the pictures that follow: the target and distance of a camera that frames all of them, found once. */
+void render_keep_framing(render_options *options, const facet_camera *camera);
 
 #endif

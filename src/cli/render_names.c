@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-facet_result render_name(const render_options *o, const char *model, uint32_t frame, char *name, size_t size,
+facet_result render_name(const render_options *o, const char *model, uint32_t number, char *name, size_t size,
                          facet_error *error)
 {
     if (o->is_stdout) {
@@ -25,12 +25,12 @@ facet_result render_name(const render_options *o, const char *model, uint32_t fr
                                                            : model,
                                  stem, sizeof stem);
     if (!used) {
-        snprintf(pattern, sizeof pattern, o->turntable ? "{stem}_####.%s" : "{stem}.%s",
-                 render_extension(o->save.format));
+        snprintf(pattern, sizeof pattern, o->is_sequence && !o->video ? "{stem}_####.%s" : "{stem}.%s",
+                 o->video == VIDEO_Y4M ? "y4m" : render_extension(o->save.format));
         used = pattern;
     }
     if (fits)
-        fits = output_name_expand(used, stem, frame + 1, name, size); /* numbered from 1, as Blender does */
+        fits = output_name_expand(used, stem, number, name, size);
     if (!fits)
         return fail_with(error, FACET_ERROR_ARGUMENT, "--output: the name for %s is too long",
                          input_name(model));
@@ -61,7 +61,7 @@ facet_result render_names_check(const command_line *c, const render_options *o, 
     for (size_t i = 0; i < count && result == FACET_OK; i++) {
         const char *model = c->argument_count ? c->arguments[i] : NULL;
         char name[RENDER_NAME_SIZE];
-        result = render_name(o, model, 0, name, sizeof name, error);
+        result = render_name(o, model, 1, name, sizeof name, error);
         if (result == FACET_OK)
             result = output_check(name, error);
         if (result == FACET_OK && is_an_input(c, o, model, name))

@@ -6,9 +6,9 @@
 
 enum { RENDER_NAME_SIZE = 4096 };
 
-/* The name of picture number frame (from 0) of model (NULL: the built-in scene), "-" for standard output. Fails with
+/* The name of the picture with that number (of a sequence) of model (NULL: the built-in scene), "-" for standard output. Fails with
  * FACET_ERROR_ARGUMENT where it is longer than size bytes. */
-facet_result render_name(const render_options *o, const char *model, uint32_t frame, char *name, size_t size,
+facet_result render_name(const render_options *o, const char *model, uint32_t number, char *name, size_t size,
                          facet_error *error);
 
 /* Checks before any work that the first pictures of all models can be written, have different names and replace

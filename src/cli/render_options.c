@@ -22,7 +22,9 @@ static const struct {
     facet_file_format format;
 } formats[] = {{"png", FACET_FORMAT_PNG},   {"png", FACET_FORMAT_PNG16}, {"jpg", FACET_FORMAT_JPEG},
                {"webp", FACET_FORMAT_WEBP}, {"exr", FACET_FORMAT_EXR},   {"exr", FACET_FORMAT_EXR_FLOAT},
-               {"hdr", FACET_FORMAT_HDR},   {"pfm", FACET_FORMAT_PFM},   {"jpeg", FACET_FORMAT_JPEG}};
+               {"hdr", FACET_FORMAT_HDR},   {"pfm", FACET_FORMAT_PFM},   {"y4m", FACET_FORMAT_RAW},
+               {"raw", FACET_FORMAT_RAW},   {"jpeg", FACET_FORMAT_JPEG}};
+enum { Y4M = 8, RAW = 9 }; /* in formats */
 
 const char *render_extension(facet_file_format format)
 {
@@ -30,6 +32,12 @@ const char *render_extension(facet_file_format format)
         if (formats[i].format == format)
             return formats[i].extension;
     return "png";
+}
+
+static void set_format(render_options *out, size_t number)
+{
+    out->save.format = formats[number].format;
+    out->video = number == Y4M ? VIDEO_Y4M : number == RAW ? VIDEO_RAW : VIDEO_NONE;
 }
 
 static bool is_linear(facet_file_format format)
@@ -42,7 +50,7 @@ static facet_result read_format(const command_line *c, render_options *out, face
 {
     int choice = option_choice(c, OPT_FORMAT, -1);
     if (choice >= 0) {
-        out->save.format = formats[choice].format;
+        set_format(out, (size_t)choice);
         return FACET_OK;
     }
     if (!out->output) {
@@ -56,12 +64,13 @@ static facet_result read_format(const command_line *c, render_options *out, face
     const char *slash = strrchr(out->output, '/'), *dot = strrchr(slash ? slash : out->output, '.');
     for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++)
         if (strcasecmp(dot + 1, formats[i].extension) == 0) {
-            out->save.format = formats[i].format;
+            set_format(out, i);
             return FACET_OK;
         }
     return option_fail(
         c, OPT_OUTPUT,
-        "a name that ends in .png, .jpg, .webp, .exr, .hdr or .pfm; --format writes under any name", error);
+        "a name that ends in .png, .jpg, .webp, .exr, .hdr, .pfm or .y4m; --format writes under any name",
+        error);
 }
 
 static facet_result read_size(const command_line *c, render_options *out, facet_error *error)
@@ -141,6 +150,7 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
     d->quality = qualities[quality];
     d->samples = (uint32_t)option_number(c, OPT_SAMPLES, samples[quality]);
     d->energy = option_choice(c, OPT_ENERGY, 0) ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF;
+    d->specular_antialiasing = is_given(c, OPT_SPECULAR_AA);
     d->ignore_scene_lights = option_choice(c, OPT_LIGHTS, 0) == 1;
     out->save.jpeg_quality = (uint32_t)option_number(c, OPT_JPEG_QUALITY, 0.0);
     out->save.png_compression = (uint32_t)option_number(c, OPT_PNG_COMPRESSION, 0.0);
@@ -209,11 +219,32 @@ static facet_result read_camera(const command_line *c, render_options *out, face
     return FACET_OK;
 }
 
+/* ---- motion ---- */
+
+static facet_result read_motion(const command_line *c, render_options *out, facet_error *error)
+{
+    out->animation = option_text(c, OPT_ANIMATION, NULL);
+    out->has_time = is_given(c, OPT_TIME);
+    out->has_frames = is_given(c, OPT_FRAMES);
+    out->has_fps = is_given(c, OPT_FPS);
+    out->time_s = option_number(c, OPT_TIME, 0.0);
+    out->fps = option_number(c, OPT_FPS, 24.0);
+    if (out->has_frames && !frame_list_parse(option_text(c, OPT_FRAMES, ""), &out->frames))
+        return option_fail(c, OPT_FRAMES, "a list of frames such as 1-48, 1-48x2 or 1,3,5..10", error);
+    if (out->has_time && out->has_frames)
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--time: it is one moment and does not go together with --frames; give one of them");
+    bool is_still = out->has_time || (out->animation && strcmp(out->animation, "none") == 0);
+    out->is_sequence = out->turntable || out->has_frames || (!is_still && (out->animation || out->has_fps));
+    return FACET_OK;
+}
+
 /* ---- light ---- */
 
 static facet_result read_environment(const command_line *c, render_options *out, facet_error *error)
 {
     const char *text = option_text(c, OPT_ENV, "neutral");
+    out->has_environment = is_given(c, OPT_ENV);
     out->environment_cache = option_text(c, OPT_ENV_CACHE, NULL);
     if (strcmp(text, "neutral") == 0) {
         out->environment = ENVIRONMENT_STUDIO;
@@ -266,21 +297,47 @@ static facet_result read_output(const command_line *c, render_options *out, face
     return FACET_OK;
 }
 
+/* Whether all pictures have a place to go. */
+static facet_result check_sequence(const command_line *c, const render_options *o, facet_error *error)
+{
+    bool has_mark = o->output && output_name_has_frame(o->output);
+    if (o->video && has_mark)
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--output: \"%s\" has a place for a number, but a video holds all frames",
+                         o->output);
+    if (o->video && o->keeps_existing)
+        return FACET_OK;
+    if (o->video && o->is_stdout && c->argument_count > 1)
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--output: standard output takes the video of one model");
+    if (!o->is_sequence || o->video || !o->output || o->is_stdout || has_mark)
+        return FACET_OK;
+    if (o->turntable)
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--output: \"%s\" is one name for %u pictures; put #### in it, as in turn_####.png",
+                         o->output, o->turntable);
+    return fail_with(error, FACET_ERROR_ARGUMENT,
+                     "--output: \"%s\" is one name for the frames of an animation; put #### in it, as in "
+                     "walk_####.png, or give --time for one picture",
+                     o->output);
+}
+
 facet_result render_options_read(const command_line *c, render_options *out, facet_error *error)
 {
-    *out = (render_options){.scene = option_text(c, OPT_SCENE, NULL), .root = option_text(c, OPT_ROOT, NULL)};
+    *out = (render_options){.scene = option_text(c, OPT_SCENE, NULL),
+                            .variant = option_text(c, OPT_VARIANT, NULL),
+                            .root = option_text(c, OPT_ROOT, NULL)};
     facet_result (*const readers[])(const command_line *, render_options *, facet_error *) = {
-        read_output, read_format, read_size,   read_background,
-        read_aovs,   read_look,   read_camera, read_environment};
+        read_output, read_format, read_size,   read_background, read_aovs,
+        read_look,   read_camera, read_motion, read_environment};
     facet_result result = limits_read(c, &out->limits, error);
     for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
         result = readers[i](c, out, error);
     if (result != FACET_OK)
         return result;
-    if (out->turntable && out->output && !out->is_stdout && !output_name_has_frame(out->output))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--output: \"%s\" is one name for %u pictures; put #### in it, as in turn_####.png",
-                         out->output, out->turntable);
+    result = check_sequence(c, out, error);
+    if (result != FACET_OK)
+        return result;
     out->desc.thread_count = out->save.thread_count = out->limits.thread_count;
     return FACET_OK;
 }

@@ -3,7 +3,9 @@
 #define CLI_RENDER_OPTIONS_H
 
 #include "cli/command_line.h"
+#include "cli/frame_list.h"
 #include "cli/limits.h"
+#include "cli/video.h"
 #include "facet/facet.h"
 
 typedef enum environment_kind {
@@ -17,9 +19,11 @@ typedef struct render_options {
     /* picture */
     const char *output; /* pattern; NULL: named after the model */
     bool is_stdout;
+    bool is_sequence;       /* several pictures of a model, as far as the options tell */
+    video_format video;     /* all of them in one file */
     bool keeps_existing;    /* --no-clobber */
     facet_save_desc save;   /* format is always named */
-    facet_render_desc desc; /* without allocator, log, progress, scene, camera, environment */
+    facet_render_desc desc; /* without allocator, log, progress, pose, camera, environment */
 
     /* camera */
     const char *camera; /* NULL: orbit or eye */
@@ -29,14 +33,22 @@ typedef struct render_options {
     float eye[3];
     uint32_t turntable; /* frames; 0: none */
 
+    /* motion */
+    const char *animation; /* NULL: see choose_animations() */
+    bool has_time, has_frames, has_fps;
+    double time_s, fps;
+    frame_list frames;
+
     /* light */
+    bool has_environment; /* false: nobody asked for one, and a model may bring its own */
     environment_kind environment;
     const char *environment_path;
     float environment_radiance[3];
     const char *environment_cache;
 
     /* model and limits */
-    const char *scene; /* NULL: the file's */
+    const char *scene;   /* NULL: the file's */
+    const char *variant; /* NULL: none */
     const char *root;
     limits limits;
 } render_options;

@@ -50,7 +50,7 @@ expect 2 render --eye 0,0,1 --turntable 3
 expect 2 render --renderer path
 says "does not have path yet"
 expect 2 render -o x.bmp
-says ".png, .jpg, .webp, .exr, .hdr or .pfm"
+says ".png, .jpg, .webp, .exr, .hdr, .pfm or .y4m"
 expect 2 render --aov depth -o x.png
 says "only .exr files have layers"
 expect 2 render --max-memory lots
