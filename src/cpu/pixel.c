@@ -56,7 +56,8 @@ static bool collect_fragments(pixel_resolver *r, uint32_t x, uint32_t y, const v
             continue;
         }
         visibility_hit layers[SEE_THROUGH_LAYERS + 1];
-        uint32_t count = see_through(r->embree, r->scene, px, py, footprint, layers);
+        shading_ray ray = shading_ray_of_camera(r->scene->camera, px, py, footprint);
+        uint32_t count = see_through(r->scene, &ray, layers);
         r->rays++;
         for (uint32_t i = 0; i < count; i++)
             if (!add_fragment(r, &layers[i], sample))
@@ -170,10 +171,9 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
     hit.t = sum[0] / count;
     hit.u = sum[1] / count;
     hit.v = sum[2] / count;
-    shading_point point = {.hit = &hit,
-                           .x = (float)x + sum[3] / count,
-                           .y = (float)y + sum[4] / count,
-                           .footprint = r->splits_quarters ? 0.5f : 1.0f};
+    shading_ray ray = shading_ray_of_camera(r->scene->camera, (float)x + sum[3] / count,
+                                            (float)y + sum[4] / count, r->splits_quarters ? 0.5f : 1.0f);
+    shading_point point = {.hit = &hit, .ray = &ray};
     shading_result result;
     shading_shade(r->scene, &point, &result);
     r->shades++;
@@ -259,13 +259,14 @@ bool pixel_nearest_surface(pixel_resolver *r, uint32_t x, uint32_t y, const visi
     float px = (float)x + 0.5f;
     float py = (float)y + 0.5f;
     visibility_hit layers[SEE_THROUGH_LAYERS + 1];
+    shading_ray ray = shading_ray_of_camera(r->scene->camera, px, py, 1.0f);
     if (!is_simple(r, hit, px, py)) {
         r->rays++;
-        if (see_through(r->embree, r->scene, px, py, 1.0f, layers) == 0)
+        if (see_through(r->scene, &ray, layers) == 0)
             return false;
         hit = &layers[0];
     }
-    shading_point point = {.hit = hit, .x = px, .y = py, .footprint = 1.0f};
+    shading_point point = {.hit = hit, .ray = &ray};
     shading_shade(r->scene, &point, result);
     r->shades++;
     *depth_m = hit->t;

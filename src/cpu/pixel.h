@@ -23,7 +23,6 @@ typedef struct pixel_surface {
 /* What one thread needs to resolve pixels one after the other. */
 typedef struct pixel_resolver {
     const facet_allocator *allocator;
-    const embree_scene *embree;
     const shading_scene *scene;
     const visibility_pattern *pattern;
     bool splits_quarters; /* surfaces are shaded for each quarter of a pixel */

@@ -143,11 +143,12 @@ static facet_result check_limits(const facet_render_desc *desc, const char *stag
 static facet_result draw(preview *p, double deadline_s, film *target, facet_error *error)
 {
     shading_scene shading = {.geometries = &p->geometries,
+                             .embree = &p->embree,
                              .textures = p->textures,
                              .light = &p->light,
                              .camera = &p->camera,
                              .energy = p->desc->energy};
-    tiles_desc tiles = {.render = p->desc, .embree = &p->embree, .scene = &shading, .deadline_s = deadline_s};
+    tiles_desc tiles = {.render = p->desc, .scene = &shading, .deadline_s = deadline_s};
     double start = clock_seconds();
     facet_result result = tiles_draw(&tiles, target, p->stats, error);
     p->stats->shade_s = clock_seconds() - start;

@@ -15,8 +15,7 @@ static const float ON_EDGE = 1e-4f;
 typedef struct walk {
     embree_context context; /* first: what Embree hands to the filter */
     const shading_scene *scene;
-    float x, y, footprint;
-    float direction[3];
+    const shading_ray *ray;
     bool has_opaque;
     visibility_hit opaque;
     uint32_t count;
@@ -83,9 +82,9 @@ static void insert(walk *w, const visibility_hit *hit)
 /* Whether the candidate ends the ray. */
 static bool consider(walk *w, const visibility_hit *hit)
 {
-    if (!shading_is_visible_side(w->scene, hit, w->direction))
+    if (!shading_is_visible_side(w->scene, hit, w->ray->direction))
         return false;
-    shading_point point = {.hit = hit, .x = w->x, .y = w->y, .footprint = w->footprint};
+    shading_point point = {.hit = hit, .ray = w->ray};
     float opacity = shading_opacity(w->scene, &point);
     if (opacity >= OPAQUE) {
         if (!w->has_opaque || is_nearer(hit, &w->opaque))
@@ -132,23 +131,22 @@ static void tidy(walk *w)
     w->count = kept;
 }
 
-uint32_t see_through(const embree_scene *embree, const shading_scene *scene, float x, float y,
-                     float footprint, visibility_hit hits[SEE_THROUGH_LAYERS + 1])
+uint32_t see_through(const shading_scene *scene, const shading_ray *ray,
+                     visibility_hit hits[SEE_THROUGH_LAYERS + 1])
 {
-    walk w = {.scene = scene, .x = x, .y = y, .footprint = footprint};
-    float origin[3];
-    camera_rays_at(scene->camera, x, y, origin, w.direction);
-    struct RTCRayHit ray = {.ray = {.org_x = origin[0],
-                                    .org_y = origin[1],
-                                    .org_z = origin[2],
-                                    .tnear = scene->camera->near_m,
-                                    .dir_x = w.direction[0],
-                                    .dir_y = w.direction[1],
-                                    .dir_z = w.direction[2],
-                                    .tfar = scene->camera->far_m,
-                                    .mask = UINT32_MAX},
-                            .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
-    embree_intersect1_filtered(embree->scene, &ray, &w.context, filter);
+    walk w = {.scene = scene, .ray = ray};
+    struct RTCRayHit rayhit = {
+        .ray = {.org_x = ray->origin[0],
+                .org_y = ray->origin[1],
+                .org_z = ray->origin[2],
+                .tnear = ray->near_t,
+                .dir_x = ray->direction[0],
+                .dir_y = ray->direction[1],
+                .dir_z = ray->direction[2],
+                .tfar = ray->far_t,
+                .mask = UINT32_MAX},
+        .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
+    embree_intersect1_filtered(scene->embree->scene, &rayhit, &w.context, filter);
 
     /* An opaque surface may have been found after layers behind it. */
     while (w.has_opaque && w.count > 0 && is_nearer(&w.opaque, &w.layers[w.count - 1]))

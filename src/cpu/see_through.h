@@ -8,11 +8,10 @@
  * what is farther is left out. */
 enum { SEE_THROUGH_LAYERS = 64 };
 
-/* Writes the hits of the ray through picture position (x, y), nearest first, and returns their number: surfaces
- * with opacity between 0 and 1, and behind them the nearest opaque one. Culled sides and masked texels are not
- * among them. Hits at the same distance are ordered by geometry and primitive; the result does not depend on the
- * order in which Embree finds them. footprint as in shading_point. */
-uint32_t see_through(const embree_scene *embree, const shading_scene *scene, float x, float y,
-                     float footprint, visibility_hit hits[SEE_THROUGH_LAYERS + 1]);
+/* Writes the hits of the ray, nearest first, and returns their number: surfaces with opacity between 0 and 1, and
+ * behind them the nearest opaque one. Culled sides and masked texels are not among them. Hits at the same distance
+ * are ordered by geometry and primitive; the result does not depend on the order in which Embree finds them. */
+uint32_t see_through(const shading_scene *scene, const shading_ray *ray,
+                     visibility_hit hits[SEE_THROUGH_LAYERS + 1]);
 
 #endif

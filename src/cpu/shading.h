@@ -3,23 +3,24 @@
 #define CPU_SHADING_H
 
 #include "cpu/light_setup.h"
+#include "cpu/shading_ray.h"
 #include "cpu/texture.h"
 #include "cpu/visibility.h"
 
 /* All that shading reads; nothing of it changes while a picture is drawn. */
 typedef struct shading_scene {
     const render_geometry_set *geometries;
+    const embree_scene *embree;
     const texture_set *textures;
     const light_setup *light;
     const camera_rays *camera;
     facet_energy energy;
 } shading_scene;
 
-/* A hit and the picture position whose ray made it. */
+/* A hit and the ray that made it. */
 typedef struct shading_point {
     const visibility_hit *hit;
-    float x, y;      /* pixels */
-    float footprint; /* side of the square that the shade stands for, pixels */
+    const shading_ray *ray;
 } shading_point;
 
 typedef struct shading_result {

@@ -3,49 +3,49 @@
 
 /* Weights of a ray o + t d by Moeller and Trumbore 1997, with s = o - p0:
  *     w1 = A.d / C.d,  w2 = B.d / C.d,   A = e2 x s,  B = s x e1,  C = e2 x e1
- * which are ratios of linear functions of the picture position, so the derivatives are exact:
- * perspective (d changes): dw1 = (A.dd - w1 C.dd) / C.d; orthographic (o changes): dw1 = (e2 x do).d / C.d. */
-static void weight_derivatives(const camera_rays *camera, vec3 p0, vec3 e1, vec3 e2, float footprint,
-                               shading_hit *h)
+ * so that with changes do of the origin and dd of the direction
+ *     dw1 = (A.dd - w1 C.dd + (e2 x do).d) / C.d,  dw2 = (B.dd - w2 C.dd + (do x e1).d) / C.d */
+static void weight_derivatives(const shading_ray *ray, vec3 p0, vec3 e1, vec3 e2, shading_hit *h)
 {
     vec3 d = h->direction;
-    vec3 s = h->origin - p0;
     vec3 C = cross(e2, e1);
     float Cd = dot(C, d);
     if (!(Cd < 0.0f || Cd > 0.0f))
         return;
-    float scale = footprint / Cd;
-    vec3 steps[2];
+    float scale = 1.0f / Cd;
     float *out[2] = {h->dx, h->dy};
-    if (camera->is_orthographic) {
-        steps[0] = load3(camera->origin_dx);
-        steps[1] = load3(camera->origin_dy);
+    if (ray->turns) {
+        vec3 s = load3(ray->origin) - p0;
+        vec3 A = cross(e2, s);
+        vec3 B = cross(s, e1);
         for (int i = 0; i < 2; i++) {
-            out[i][0] = dot(cross(e2, steps[i]), d) * scale;
-            out[i][1] = dot(cross(steps[i], e1), d) * scale;
+            vec3 step = load3(i ? ray->direction_dy : ray->direction_dx);
+            float C_step = dot(C, step);
+            out[i][0] = (dot(A, step) - h->weight[1] * C_step) * scale;
+            out[i][1] = (dot(B, step) - h->weight[2] * C_step) * scale;
         }
-        return;
     }
-    vec3 A = cross(e2, s);
-    vec3 B = cross(s, e1);
-    steps[0] = load3(camera->direction_dx);
-    steps[1] = load3(camera->direction_dy);
-    for (int i = 0; i < 2; i++) {
-        float C_step = dot(C, steps[i]);
-        out[i][0] = (dot(A, steps[i]) - h->weight[1] * C_step) * scale;
-        out[i][1] = (dot(B, steps[i]) - h->weight[2] * C_step) * scale;
-    }
+    if (ray->moves)
+        for (int i = 0; i < 2; i++) {
+            vec3 step = load3(i ? ray->origin_dy : ray->origin_dx);
+            out[i][0] += dot(cross(e2, step), d) * scale;
+            out[i][1] += dot(cross(step, e1), d) * scale;
+        }
+}
+
+static vec3 corner(const render_geometry *g, size_t vertex)
+{
+    float p[3];
+    render_geometry_corner(g, vertex, p);
+    return load3(p);
 }
 
 shading_hit shading_hit_make(const shading_scene *scene, const shading_point *point)
 {
     const visibility_hit *hit = point->hit;
     shading_hit h = {.geometry = &scene->geometries->items[hit->geometry]};
-    float origin[3];
-    float direction[3];
-    camera_rays_at(scene->camera, point->x, point->y, origin, direction);
-    h.origin = load3(origin);
-    h.direction = load3(direction);
+    vec3 origin = load3(point->ray->origin);
+    h.direction = load3(point->ray->direction);
     const uint32_t *indices = h.geometry->primitive->indices;
     switch (h.geometry->primitive->mode) {
     case SCENE_TRIANGLES: {
@@ -56,11 +56,11 @@ shading_hit shading_hit_make(const shading_scene *scene, const shading_point *po
         h.weight[0] = 1.0f - hit->u - hit->v;
         h.weight[1] = hit->u;
         h.weight[2] = hit->v;
-        vec3 p0 = load3(h.geometry->vertices + 3 * h.corner[0]);
-        vec3 e1 = load3(h.geometry->vertices + 3 * h.corner[1]) - p0;
-        vec3 e2 = load3(h.geometry->vertices + 3 * h.corner[2]) - p0;
+        vec3 p0 = corner(h.geometry, h.corner[0]);
+        vec3 e1 = corner(h.geometry, h.corner[1]) - p0;
+        vec3 e2 = corner(h.geometry, h.corner[2]) - p0;
         h.position = p0 + e1 * hit->u + e2 * hit->v;
-        weight_derivatives(scene->camera, p0, e1, e2, point->footprint, &h);
+        weight_derivatives(point->ray, p0, e1, e2, &h);
         break;
     }
     case SCENE_LINES:
@@ -69,12 +69,12 @@ shading_hit shading_hit_make(const shading_scene *scene, const shading_point *po
         h.corner[1] = h.corner[2] = indices[1];
         h.weight[1] = clamp(hit->u, 0.0f, 1.0f);
         h.weight[0] = 1.0f - h.weight[1];
-        h.position = h.origin + h.direction * hit->t;
+        h.position = origin + h.direction * hit->t;
         break;
     case SCENE_POINTS:
         h.corner[0] = h.corner[1] = h.corner[2] = indices[hit->primitive];
         h.weight[0] = 1.0f;
-        h.position = h.origin + h.direction * hit->t;
+        h.position = origin + h.direction * hit->t;
         break;
     }
     return h;

@@ -12,9 +12,9 @@ typedef struct shading_hit {
     size_t first_index;
     size_t corner[3]; /* vertex numbers */
     float weight[3];
-    float dx[2], dy[2];     /* of weight[1], weight[2] */
-    vec3 origin, direction; /* of the ray */
-    vec3 position;          /* world, m */
+    float dx[2], dy[2]; /* of weight[1], weight[2] over the ray's footprint */
+    vec3 direction;     /* of the ray */
+    vec3 position;      /* world, m */
 } shading_hit;
 
 /* TEXCOORD_n, and its change over the footprint along the picture's x and y. */

@@ -71,10 +71,10 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
 {
     const camera_rays *camera = p->desc->scene->camera;
     uint32_t n = p->pattern.sample_count;
-    visibility_trace_block(p->desc->embree, camera, x, y, &p->pattern, w->hits);
+    visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->pattern, w->hits);
     w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * n;
     if (p->wants_aovs) {
-        visibility_trace_block(p->desc->embree, camera, x, y, &p->middle, w->middle_hits);
+        visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->middle, w->middle_hits);
         w->resolver.rays += VISIBILITY_BLOCK_PIXELS;
     }
     for (uint32_t i = 0; i < VISIBILITY_BLOCK_PIXELS; i++) {
@@ -124,7 +124,6 @@ static void draw_tile(picture *p, uint32_t tile)
                        mem_alloc(&render->allocator,
                                  (size_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count, sizeof *w.hits),
                    .resolver = {.allocator = &render->allocator,
-                                .embree = p->desc->embree,
                                 .scene = p->desc->scene,
                                 .pattern = &p->pattern,
                                 .splits_quarters = render->quality == FACET_QUALITY_FINAL,

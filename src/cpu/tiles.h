@@ -8,7 +8,6 @@
 /* What is drawn; {0} members as in facet_render_desc. */
 typedef struct tiles_desc {
     const facet_render_desc *render;
-    const embree_scene *embree;
     const shading_scene *scene;
     double deadline_s; /* of clock_seconds(); 0: none */
 } tiles_desc;

@@ -1,0 +1,35 @@
+/* shading_ray.h - a ray through the scene and the bundle of directions that it stands for: a camera's, or one that a
+ * surface let through. */
+#ifndef CPU_SHADING_RAY_H
+#define CPU_SHADING_RAY_H
+
+#include "cpu/camera_rays.h"
+
+/* origin + t direction. The changes are those over what the ray stands for, along two axes (a camera ray's: the
+ * picture's x and y), after Igehy 1999, "Tracing Ray Differentials". */
+typedef struct shading_ray {
+    float origin[3], direction[3]; /* m; direction of any length, t counts in it */
+    float near_t, far_t;
+    float origin_dx[3], origin_dy[3];       /* m; not read unless moves */
+    float direction_dx[3], direction_dy[3]; /* not read unless turns */
+    bool moves, turns;
+} shading_ray;
+
+/* The ray through (x, y) of the picture for a square of footprint pixels. */
+static inline shading_ray shading_ray_of_camera(const camera_rays *camera, float x, float y, float footprint)
+{
+    shading_ray ray = {.near_t = camera->near_m,
+                       .far_t = camera->far_m,
+                       .moves = camera->is_orthographic,
+                       .turns = !camera->is_orthographic};
+    camera_rays_at(camera, x, y, ray.origin, ray.direction);
+    for (int i = 0; i < 3; i++) {
+        ray.origin_dx[i] = camera->origin_dx[i] * footprint;
+        ray.origin_dy[i] = camera->origin_dy[i] * footprint;
+        ray.direction_dx[i] = camera->direction_dx[i] * footprint;
+        ray.direction_dy[i] = camera->direction_dy[i] * footprint;
+    }
+    return ray;
+}
+
+#endif
