@@ -1,6 +1,9 @@
 /* transform.c - see transform.h. */
 #include "base/transform.h"
 
+#include <math.h>
+#include <string.h>
+
 mat4 mat4_identity(void)
 {
     return (mat4){{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
@@ -40,6 +43,109 @@ mat4 mat4_from_trs(const float translation[3], const float rotation[4], const fl
         translation[2],
         1.0f,
     }};
+}
+
+typedef struct axis3 {
+    double v[3];
+} axis3;
+
+static double dot3(axis3 a, axis3 b)
+{
+    return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2];
+}
+
+static axis3 cross3(axis3 a, axis3 b)
+{
+    return (axis3){{a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2],
+                    a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
+}
+
+static axis3 unit3(axis3 a)
+{
+    double length = sqrt(dot3(a, a));
+    for (int i = 0; i < 3 && length > 0.0; i++)
+        a.v[i] /= length;
+    return a;
+}
+
+/* A unit vector perpendicular to a; +X if that is 0. */
+static axis3 perpendicular(axis3 a)
+{
+    int smallest = 0;
+    for (int i = 1; i < 3; i++)
+        if (fabs(a.v[i]) < fabs(a.v[smallest]))
+            smallest = i;
+    axis3 b = {{smallest == 0, smallest == 1, smallest == 2}};
+    return dot3(a, a) > 0.0 ? unit3(cross3(a, b)) : (axis3){{1, 0, 0}};
+}
+
+/* Fills in unit axes of length 0 such that they go with the others. */
+static void complete_axes(axis3 axes[3])
+{
+    for (int i = 0; i < 3; i++) {
+        axis3 *next = &axes[(i + 1) % 3];
+        axis3 *last = &axes[(i + 2) % 3];
+        if (dot3(axes[i], axes[i]) > 0.0)
+            continue;
+        axes[i] = unit3(cross3(*next, *last));
+        if (dot3(axes[i], axes[i]) == 0.0)
+            axes[i] = perpendicular(dot3(*next, *next) > 0.0 ? *next : *last);
+    }
+}
+
+/* Shepperd 1978: the largest of the four components first, so that nothing cancels. */
+static void quaternion_from_axes(const axis3 axes[3], float rotation[4])
+{
+    double q[4];
+    double trace = axes[0].v[0] + axes[1].v[1] + axes[2].v[2];
+    int largest = 3;
+    double most = trace;
+    for (int i = 0; i < 3; i++)
+        if (axes[i].v[i] > most) {
+            largest = i;
+            most = axes[i].v[i];
+        }
+    if (largest == 3) {
+        double s = 2.0 * sqrt(1.0 + trace); /* 4 w */
+        q[3] = 0.25 * s;
+        for (int i = 0; i < 3; i++)
+            q[i] = (axes[(i + 1) % 3].v[(i + 2) % 3] - axes[(i + 2) % 3].v[(i + 1) % 3]) / s;
+    } else {
+        int i = largest;
+        int j = (i + 1) % 3;
+        int k = (i + 2) % 3;
+        double s = 2.0 * sqrt(1.0 + axes[i].v[i] - axes[j].v[j] - axes[k].v[k]);
+        q[i] = 0.25 * s;
+        q[j] = (axes[i].v[j] + axes[j].v[i]) / s;
+        q[k] = (axes[i].v[k] + axes[k].v[i]) / s;
+        q[3] = (axes[j].v[k] - axes[k].v[j]) / s;
+    }
+    for (int i = 0; i < 4; i++)
+        rotation[i] = (float)q[i];
+}
+
+void mat4_to_trs(const mat4 *a, float translation[3], float rotation[4], float scale[3])
+{
+    axis3 axes[3];
+    for (int column = 0; column < 3; column++) {
+        for (int row = 0; row < 3; row++)
+            axes[column].v[row] = (double)a->m[4 * column + row];
+        scale[column] = (float)sqrt(dot3(axes[column], axes[column]));
+        axes[column] = unit3(axes[column]);
+    }
+    complete_axes(axes);
+    if (dot3(cross3(axes[0], axes[1]), axes[2]) < 0.0) {
+        scale[0] = -scale[0];
+        for (int row = 0; row < 3; row++)
+            axes[0].v[row] = -axes[0].v[row];
+    }
+    double along = dot3(axes[0], axes[1]);
+    for (int row = 0; row < 3; row++)
+        axes[1].v[row] -= along * axes[0].v[row];
+    axes[1] = dot3(axes[1], axes[1]) > 1e-12 ? unit3(axes[1]) : perpendicular(axes[0]);
+    axes[2] = cross3(axes[0], axes[1]);
+    quaternion_from_axes(axes, rotation);
+    memcpy(translation, a->m + 12, 3 * sizeof *translation);
 }
 
 float mat4_determinant3(mat4 a)

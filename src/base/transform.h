@@ -10,6 +10,9 @@ mat4 mat4_identity(void);
 mat4 mat4_multiply(mat4 a, mat4 b); /* a b: first b, then a */
 /* Translation, then rotation (unit quaternion x y z w), then scale, as glTF: T R S. */
 mat4 mat4_from_trs(const float translation[3], const float rotation[4], const float scale[3]);
+/* Translation, rotation and scale whose mat4_from_trs() is a, where a has no shear (else the axes keep their lengths
+ * and X its direction). A mirror is in the scale of X. */
+void mat4_to_trs(const mat4 *a, float translation[3], float rotation[4], float scale[3]);
 /* Determinant of the upper left 3x3: negative where the handedness flips. */
 float mat4_determinant3(mat4 a);
 void mat4_transform_point(const mat4 *a, const float p[3], float out[3]); /* w taken as 1, last row ignored */

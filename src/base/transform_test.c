@@ -47,9 +47,55 @@ static void normals_stay_perpendicular(void **state)
     assert_near(dot, 0.0f, 1e-5f);
 }
 
+static void matrices_without_shear_come_apart_and_together(void **state)
+{
+    (void)state;
+    static const float rotations[][4] = {{0, 0, 0, 1},
+                                         {1, 0, 0, 0},
+                                         {0, 1, 0, 0},
+                                         {0, 0, 1, 0},
+                                         {0.5f, -0.5f, 0.5f, 0.5f},
+                                         {0.1f, 0.7f, -0.1f, 0.7f},
+                                         {0.48f, 0.6f, 0.64f, 0}};
+    static const float scales[][3] = {{1, 1, 1},  {2, 3, 4},          {-1, 1, 1}, {1, -2, 1},
+                                      {1, 1, -3}, {-1e-9f, 1e9f, -1}, {0, 1, 2},  {1, 0, -2},
+                                      {1, -2, 0}, {0, 0, -1},         {0, 0, 0}};
+    const float translation[3] = {1, -2, 3};
+    for (size_t i = 0; i < 7 * 11; i++) {
+        mat4 m = mat4_from_trs(translation, rotations[i % 7], scales[i / 7]);
+        float t[3], r[4], s[3];
+        mat4_to_trs(&m, t, r, s);
+        mat4 again = mat4_from_trs(t, r, s);
+        double length = 0.0;
+        for (int k = 0; k < 4; k++)
+            length += (double)r[k] * (double)r[k];
+        assert_near(length, 1.0, 1e-6);
+        for (int k = 0; k < 16; k++)
+            assert_near(again.m[k], m.m[k],
+                        2e-6 * fmax(1.0, (double)fabsf(scales[i / 7][k < 12 ? k / 4 : 0])));
+    }
+}
+
+static void sheared_matrices_keep_lengths_and_the_first_axis(void **state)
+{
+    (void)state;
+    const mat4 m = {{0, 2, 0, 0, 1, 1, 0, 0, 0, 1, 3, 0, 0, 0, 0, 1}};
+    float t[3], r[4], s[3], x[3];
+    mat4_to_trs(&m, t, r, s);
+    assert_near(fabsf(s[0]), 2.0, 1e-6);
+    assert_near(s[1], sqrt(2.0), 1e-6);
+    assert_near(s[2], sqrt(10.0), 1e-6);
+    mat4 again = mat4_from_trs(t, r, s);
+    mat4_transform_vector(&again, (float[3]){1, 0, 0}, x);
+    assert_near(x[1], 2.0, 1e-6);
+    assert_true(mat4_determinant3(again) * mat4_determinant3(m) > 0.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(matrices_without_shear_come_apart_and_together),
+        cmocka_unit_test(sheared_matrices_keep_lengths_and_the_first_axis),
         cmocka_unit_test(trs_scales_then_rotates_then_moves),
         cmocka_unit_test(normals_stay_perpendicular),
     };
