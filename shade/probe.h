@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 42
+#define PROBE_COUNT 45
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -205,6 +205,43 @@ FN vec3 probe_color(int which, vec2 u)
            agx_contrast(vec3(u[0], u[1], 0.5f)) + tonemap_agx(hdr);
 }
 
+/* Every layer at once, or the subset whose bits come with u. */
+FN Layers probe_layers(vec2 u)
+{
+    Layers m = layers_from_surface(probe_surface(u));
+    m.layers = uint(u[0] * 512.0f);
+    return m;
+}
+
+FN vec3 probe_layered(int which, vec2 u)
+{
+    Layers m = probe_layers(u);
+    vec3 V = probe_V(u);
+    int energy = ENERGY_GLTF;
+    if (u[1] > 0.5f)
+        energy = ENERGY_CONSERVING;
+    LayerTables t = layer_tables(m, V, vec2(0.6f, 0.2f * u[0]), 0.9f, 0.8f, 0.3f);
+    if (which == 42)
+        return layers_brdf_cos(m, V, probe_L(u), energy, t, 0.2f) + vec3(layers_dfg_roughness(m, V, energy),
+                                                                         layers_transmission_roughness(m),
+                                                                         layers_clearcoat_NdotV(m, V));
+    if (which == 43)
+        return layers_punctual(m, probe_L(u), V, light_point(vec3(3.0f, 1.0f, 2.0f), vec3(100.0f), 0.0f),
+                               energy, t, 0.2f) +
+               layers_reflection(m, V) + layers_clearcoat_reflection(m, V);
+    LayerLight light;
+    light.specular = vec3(3.0f, 1.0f, 0.2f);
+    light.irradiance_over_pi = vec3(0.5f, 0.7f, 1.0f);
+    light.irradiance_back_over_pi = vec3(0.2f, 0.1f, 0.3f);
+    light.clearcoat = vec3(1.0f, 2.0f, 3.0f);
+    light.sheen = vec3(0.3f, 0.2f, 0.1f);
+    light.transmitted = vec3(1.0f, 0.5f, 0.7f);
+    vec3 radiance = layers_ibl(m, V, t, light, energy) + layers_emission(m, V);
+    if (has_layer(m, LAYER_SHEEN))
+        radiance += 1.0f;
+    return radiance;
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -221,5 +258,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_area_light(which, u);
     if (which < 38)
         return probe_ibl(which, u);
-    return probe_color(which, u);
+    if (which < 42)
+        return probe_color(which, u);
+    return probe_layered(which, u);
 }

@@ -1,0 +1,205 @@
+/* layers.h - the glTF surface with its material extensions, outermost first:
+ *
+ *   clearcoat > sheen > mix(metallic) of
+ *     metal:      specular                                iridescence replaces F, anisotropy D and V
+ *     dielectric: specular over mix(transmission) of
+ *       specular transmission                             a thin wall, or the boundary of a volume
+ *       mix(diffuse transmission) of diffuse reflection and diffuse transmission
+ *
+ * Values are passed in; no texture is read here. Both energy modes are those of surface.h: ENERGY_GLTF mixes as the
+ * extensions' texts do, ENERGY_CONSERVING never returns more than it received. */
+#ifndef SHADE_LAYERS_H
+#define SHADE_LAYERS_H
+
+#define LAYER_CLEARCOAT 1u
+#define LAYER_SHEEN 2u
+#define LAYER_ANISOTROPY 4u
+#define LAYER_IRIDESCENCE 8u
+#define LAYER_TRANSMISSION 16u
+#define LAYER_DIFFUSE_TRANSMISSION 32u
+#define LAYER_VOLUME 64u
+#define LAYER_DISPERSION 128u
+#define LAYER_SCATTER 256u
+
+/* A shaded point. Members of a layer whose bit is not in `layers` are not read. Start from layers_from_surface(). */
+STRUCT(Layers)
+{
+    Surface base;
+    uint layers; /* LAYER_* that are active: their factor, after textures, is above 0 */
+    float ior;   /* of the dielectric, >= 1; 0: infinite, F = 1 */
+    float
+        eta; /* ior beyond the surface / ior on the eye's side: ior seen from outside, 1 / ior from inside */
+    /* LAYER_CLEARCOAT */
+    float clearcoat;           /* [0, 1] */
+    float clearcoat_roughness; /* [0, 1], perceptual */
+    vec3 clearcoat_N;          /* unit, on the side of the eye */
+    /* LAYER_SHEEN */
+    vec3 sheen_color;      /* [0, 1] */
+    float sheen_roughness; /* [0, 1], perceptual */
+    /* LAYER_ANISOTROPY */
+    float anisotropy;  /* strength, [0, 1] */
+    vec3 anisotropy_T; /* unit, perpendicular to N: the direction in which highlights are stretched */
+    vec3 anisotropy_B; /* unit, cross(N, T) or its opposite */
+    /* LAYER_IRIDESCENCE */
+    float iridescence;              /* [0, 1] */
+    float iridescence_ior;          /* of the film, >= 1 */
+    float iridescence_thickness_nm; /* >= 0 */
+    /* LAYER_TRANSMISSION */
+    float transmission; /* [0, 1]: share of what enters the dielectric */
+    /* LAYER_DIFFUSE_TRANSMISSION */
+    float diffuse_transmission;      /* [0, 1]: share of what is neither reflected nor transmitted */
+    vec3 diffuse_transmission_color; /* [0, 1] */
+    /* LAYER_VOLUME: set where the thickness is above 0; without it a wall is thin */
+    float thickness;            /* m, node scale in it: for diffuse transmission; rays have real distances */
+    vec3 attenuation_color;     /* [0, 1] */
+    float attenuation_distance; /* m; infinity: nothing is absorbed */
+    /* LAYER_DISPERSION */
+    float dispersion; /* 20 / Abbe number; for volume.h's users, the lobes here do not read it */
+    /* LAYER_SCATTER */
+    vec3 multiscatter_color;  /* [0, 1]: what a deep layer of the volume returns */
+    float scatter_anisotropy; /* g of Henyey and Greenstein, (-1, 1) */
+};
+
+/* What depends on the eye alone: once per point, for all lights. Make it with layer_tables(). */
+STRUCT(LayerTables)
+{
+    vec2 dfg;             /* (A, B) of the split sum at surface_NdotV() and layers_dfg_roughness() */
+    float clearcoat_E;    /* A + B at layers_clearcoat_NdotV() and clearcoat_roughness */
+    float transmission_E; /* A + B at surface_NdotV() and layers_transmission_roughness() */
+    float sheen_E;    /* Charlie's directional albedo at surface_NdotV() and sheen_roughness; not clamped */
+    vec3 film_F_base; /* reflectance of the film over the dielectric and over the metal, at N.V */
+    vec3 film_F_metal;
+};
+
+/* What the surroundings send, cd/m^2. Members of inactive layers are not read. */
+STRUCT(LayerLight)
+{
+    vec3 specular;                /* prefiltered for layers_reflection() and the base's roughness */
+    vec3 irradiance_over_pi;      /* around N */
+    vec3 irradiance_back_over_pi; /* around -N */
+    vec3 clearcoat;               /* prefiltered for layers_clearcoat_reflection() and its roughness */
+    vec3 sheen;                   /* prefiltered with Charlie for reflect(-V, N) and its roughness */
+    vec3 transmitted; /* along the refracted rays, attenuation in it; the boundary's tint and 1 - F not */
+};
+
+/* The surface without layers, every member neutral. */
+FN Layers layers_from_surface(Surface s)
+{
+    Layers m;
+    m.base = s;
+    m.layers = 0u;
+    m.ior = 1.5f;
+    m.eta = 1.5f;
+    m.clearcoat = 0.0f;
+    m.clearcoat_roughness = 0.0f;
+    m.clearcoat_N = s.N;
+    m.sheen_color = vec3(0.0f);
+    m.sheen_roughness = 0.0f;
+    m.anisotropy = 0.0f;
+    m.anisotropy_T = vec3(1.0f, 0.0f, 0.0f);
+    m.anisotropy_B = vec3(0.0f, 1.0f, 0.0f);
+    m.iridescence = 0.0f;
+    m.iridescence_ior = 1.3f;
+    m.iridescence_thickness_nm = 0.0f;
+    m.transmission = 0.0f;
+    m.diffuse_transmission = 0.0f;
+    m.diffuse_transmission_color = vec3(1.0f);
+    m.thickness = 0.0f;
+    m.attenuation_color = vec3(1.0f);
+    m.attenuation_distance = 1e30f;
+    m.dispersion = 0.0f;
+    m.multiscatter_color = vec3(0.0f);
+    m.scatter_anisotropy = 0.0f;
+    return m;
+}
+
+FN bool has_layer(Layers m, uint layer)
+{
+    return (m.layers & layer) != 0u;
+}
+
+/* ---- where to look: directions and table coordinates ---- */
+
+/* Perceptual roughness at which dfg is read: the base's, or that of the isotropic lobe that an anisotropic one is
+ * compensated like. */
+FN float layers_dfg_roughness(Layers m, vec3 V, int energy)
+{
+    return sel(energy == ENERGY_CONSERVING && dot(m.base.N, V) > 2.0f, 1.0f, m.base.perceptual_roughness);
+}
+
+/* Perceptual roughness of the lobe of a thin wall, where transmission_E is read. */
+FN float layers_transmission_roughness(Layers m)
+{
+    return m.base.perceptual_roughness;
+}
+
+/* N.V of the coat. */
+FN float layers_clearcoat_NdotV(Layers m, vec3 V)
+{
+    return clamp(dot(m.clearcoat_N, V), NDOTV_MIN, 1.0f);
+}
+
+/* Unit direction in which LayerLight.specular is read: reflect(-V, N), bent for anisotropy. */
+FN vec3 layers_reflection(Layers m, vec3 V)
+{
+    return normalize(reflect(-V, m.base.N));
+}
+
+FN vec3 layers_clearcoat_reflection(Layers m, vec3 V)
+{
+    return normalize(reflect(-V, m.clearcoat_N));
+}
+
+/* dfg as LayerTables says; clearcoat_E, transmission_E, sheen_E are not read where their layer is off. */
+FN LayerTables layer_tables(Layers m, vec3 V, vec2 dfg, float clearcoat_E, float transmission_E,
+                            float sheen_E)
+{
+    LayerTables t;
+    t.dfg = dfg;
+    t.clearcoat_E = clearcoat_E;
+    t.transmission_E = transmission_E;
+    t.sheen_E = sheen_E;
+    float w = schlick_weight(surface_NdotV(m.base, V));
+    t.film_F_base = m.base.F0 + (1.0f - m.base.F0) * w;
+    t.film_F_metal = m.base.base_color + (1.0f - m.base.base_color) * w;
+    return t;
+}
+
+/* ---- direct light ---- */
+
+/* BSDF times |N.L|, in 1/sr, of light from either side. energy is one of ENERGY_*; sheen_E_L is the directional albedo
+ * of the sheen at N.L, read by LAYER_SHEEN for light from the eye's side. */
+FN vec3 layers_brdf_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L)
+{
+    vec3 f = surface_brdf_cos_energy(m.base, V, L, energy, t.dfg);
+    if (has_layer(m, LAYER_SHEEN))
+        f *= clamp(1.0f - max3(m.sheen_color) * max(t.sheen_E, sheen_E_L), 0.0f, 1.0f);
+    return f;
+}
+
+/* ---- image based light ---- */
+
+/* Radiance (cd/m^2) towards V of all surroundings, occlusion included, emission not. */
+FN vec3 layers_ibl(Layers m, vec3 V, LayerTables t, LayerLight light, int energy)
+{
+    return surface_ibl(m.base, surface_NdotV(m.base, V), t.dfg, light.specular, light.irradiance_over_pi,
+                       energy);
+}
+
+/* Emission in cd/m^2, seen through the coat. */
+FN vec3 layers_emission(Layers m, vec3 V)
+{
+    if (!has_layer(m, LAYER_CLEARCOAT))
+        return m.base.emissive;
+    return m.base.emissive * (1.0f - m.clearcoat * F_Schlick1(0.04f, 1.0f, layers_clearcoat_NdotV(m, V)));
+}
+
+/* Radiance (cd/m^2 per channel) that leaves P (m) towards the unit vector V because of one light, not shadowed. */
+FN vec3 layers_punctual(Layers m, vec3 P, vec3 V, Light l, int energy, LayerTables t, float sheen_E_L)
+{
+    LightSample light = light_illuminate(l, P);
+    m.base.alpha = max(m.base.alpha, ALPHA_MIN);
+    return layers_brdf_cos(m, V, light.L, energy, t, sheen_E_L) * light.E;
+}
+
+#endif
