@@ -1,193 +1,49 @@
-/* texture_set.c - decodes the images that a render reads, each once, and builds their mips. See texture.h. */
+/* texture_set.c - which images a picture's textures show, and how. See texture.h. */
 #include "cpu/texture_set.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/memory.h"
-#include "base/parallel.h"
 #include "base/result.h"
 
-/* An image to be decoded. */
-typedef struct job {
-    uint32_t image;
-    bool is_read_as_color, is_read_as_data;
-    float min_lod;        /* of all textures that show it */
-    uint64_t texel_count; /* of the full image, as its header says */
-    uint64_t decoded_texels;
-    facet_result result;
-    facet_error error;
-} job;
-
-typedef struct batch {
-    const facet_scene *scene;
-    const facet_allocator *allocator;
-    texture_set *set;
-    job *jobs;
-} batch;
-
-/* ---- one image ---- */
-
-static void name_image(const facet_scene *scene, uint32_t index, char *text, size_t size)
-{
-    const char *name = scene->images[index].name;
-    if (name && name[0])
-        snprintf(text, size, "%s: image %u \"%s\"", scene->source, index, name);
-    else
-        snprintf(text, size, "%s: image %u", scene->source, index);
-}
-
-/* The reduction that the decoder chose: full and decoded sizes differ by a power of two. False: they do not. */
-static bool find_reduction(const image *header, const image *decoded, uint32_t *reduction)
-{
-    for (uint32_t r = 0; r < 4; r++)
-        if (header->width >> r == decoded->width && header->height >> r == decoded->height) {
-            *reduction = r;
-            return true;
-        }
-    return false;
-}
-
-/* The largest reduction up to wanted that divides both edges: only then the reduced picture shows the same part
- * of the plane as the full one, and its texels stand where the mips' texels stand. */
-static uint32_t get_exact_reduction(const image *header, uint32_t wanted)
-{
-    uint32_t r = 0;
-    while (r < wanted && r < 31 && ((header->width | header->height) & ((2u << r) - 1)) == 0)
-        r++;
-    return r;
-}
-
-static facet_result copy_image(const image *in, const facet_allocator *allocator, image *out,
-                               facet_error *error)
-{
-    facet_result result =
-        image_create(allocator, in->width, in->height, in->channel_count, in->type, out, error);
-    if (result != FACET_OK)
-        return result;
-    out->is_srgb = in->is_srgb;
-    memcpy(out->pixels, in->pixels, image_row_size(in) * in->height);
-    return FACET_OK;
-}
-
-static facet_result decode(const batch *b, job *j, const char *name, image *header, image *out,
-                           uint32_t *level)
-{
-    const scene_image *i = &b->scene->images[j->image];
-    image_codec codec;
-    facet_result result = image_probe(i->bytes, i->size, name, header, &codec, &j->error);
-    if (result != FACET_OK)
-        return result;
-    uint32_t last_level = texture_level_count(header->width, header->height) - 1;
-    uint32_t first_level = j->min_lod >= (float)last_level ? last_level : (uint32_t)j->min_lod;
-    image_decode_desc desc = {.allocator = b->allocator ? *b->allocator : (facet_allocator){0},
-                              .thread_count = 1,
-                              .max_size = b->scene->max_texture_size,
-                              .max_reduction = get_exact_reduction(header, first_level)};
-    result = image_decode(i->bytes, i->size, name, &desc, out, &j->error);
-    if (result != FACET_OK)
-        return result;
-    j->decoded_texels = (uint64_t)out->width * out->height;
-    *level = first_level;
-    if (out->type == IMAGE_U8 || out->type == IMAGE_U16)
-        return FACET_OK;
-    return fail(&j->error, FACET_ERROR_UNSUPPORTED, "%s: expected a PNG, JPEG or WebP picture, this is %s",
-                name, image_codec_name(codec));
-}
-
-static void run_job(batch *b, job *j)
-{
-    char name[512];
-    name_image(b->scene, j->image, name, sizeof name);
-    image header = {0};
-    image color = {0};
-    image data = {0};
-    uint32_t first_level = 0;
-    uint32_t source_level = 0;
-    texture_pyramid *pyramids = &b->set->pyramids[2 * (size_t)j->image];
-    j->result = decode(b, j, name, &header, &color, &first_level);
-    if (j->result == FACET_OK && !find_reduction(&header, &color, &source_level))
-        j->result = fail(&j->error, FACET_ERROR_INVALID, "%s: expected %u x %u texels, decoded %u x %u", name,
-                         header.width, header.height, color.width, color.height);
-    if (j->result == FACET_OK && j->is_read_as_data) {
-        if (j->is_read_as_color) {
-            j->result = copy_image(&color, b->allocator, &data, &j->error);
-        } else {
-            data = color;
-            color = (image){0};
-        }
-    }
-    if (j->result == FACET_OK && j->is_read_as_data)
-        j->result = texture_pyramid_create(&data, source_level, header.width, header.height, first_level,
-                                           false, b->set->tables, b->allocator, &pyramids[1], &j->error);
-    if (j->result == FACET_OK && j->is_read_as_color)
-        j->result = texture_pyramid_create(&color, source_level, header.width, header.height, first_level,
-                                           true, b->set->tables, b->allocator, &pyramids[0], &j->error);
-    image_destroy(&color);
-    image_destroy(&data);
-}
-
-static void run_jobs(void *context, size_t begin, size_t end)
-{
-    batch *b = context;
-    for (size_t i = begin; i < end; i++)
-        run_job(b, &b->jobs[i]);
-}
-
-/* ---- all images ---- */
-
-static int compare_jobs(const void *a, const void *b) /* the largest first: it must not come last */
-{
-    const job *first = a;
-    const job *second = b;
-    if (first->texel_count != second->texel_count)
-        return first->texel_count > second->texel_count ? -1 : 1;
-    return first->image < second->image ? -1 : 1;
-}
-
-static int compare_images(const void *a, const void *b)
-{
-    return ((const job *)a)->image < ((const job *)b)->image ? -1 : 1;
-}
-
-/* Collects what textures want of their images; returns the number of jobs, one per image that is read. jobs:
+/* Collects what textures want of their images; returns the number of images that are read. wants:
  * scene->image_count of them, zero. */
-static size_t collect_jobs(const facet_scene *scene, const texture_use *uses, job *jobs)
+static size_t collect_wants(const facet_scene *scene, const texture_use *uses, texture_want *wants)
 {
     for (uint32_t t = 0; t < scene->texture_count; t++) {
         const scene_texture *texture = &scene->textures[t];
         if (!(uses[t].is_read_as_color || uses[t].is_read_as_data) || texture->image >= scene->image_count ||
             !scene->images[texture->image].bytes)
             continue;
-        job *j = &jobs[texture->image];
-        bool is_new = !j->is_read_as_color && !j->is_read_as_data;
+        texture_want *want = &wants[texture->image];
+        bool is_new = !want->is_read[0] && !want->is_read[1];
         /* Without mips the full image is looked up, however small it is seen. */
         float min_lod = texture->mip_filter == SCENE_MIP_NONE ? 0.0f : uses[t].min_lod;
         if (!(min_lod > 0.0f))
             min_lod = 0.0f;
-        j->min_lod = is_new || min_lod < j->min_lod ? min_lod : j->min_lod;
-        j->is_read_as_color |= uses[t].is_read_as_color;
-        j->is_read_as_data |= uses[t].is_read_as_data;
+        want->min_lod = is_new || min_lod < want->min_lod ? min_lod : want->min_lod;
+        want->is_read[0] |= uses[t].is_read_as_data;
+        want->is_read[1] |= uses[t].is_read_as_color;
     }
     size_t count = 0;
-    for (uint32_t i = 0; i < scene->image_count; i++) {
-        if (!jobs[i].is_read_as_color && !jobs[i].is_read_as_data)
-            continue;
-        job j = jobs[i];
-        j.image = i;
-        image header;
-        image_codec codec;
-        if (image_probe(scene->images[i].bytes, scene->images[i].size, "", &header, &codec, NULL) == FACET_OK)
-            j.texel_count = (uint64_t)header.width * header.height;
-        jobs[count++] = j;
-    }
+    for (uint32_t i = 0; i < scene->image_count; i++)
+        if (wants[i].is_read[0] || wants[i].is_read[1]) {
+            wants[count] = wants[i];
+            wants[count++].image = i;
+        }
     return count;
 }
 
-/* Connects textures with what was built. */
-static void bind(texture_set *set, const facet_scene *scene)
+/* Connects textures with the pyramids. A finer level than this picture asked for is not looked at. */
+static void bind(texture_set *set, const facet_scene *scene, const texture_want *wants, size_t count)
 {
+    for (size_t i = 0; i < count; i++)
+        for (int as_color = 0; as_color < 2; as_color++) {
+            texture_pyramid *p = &set->pyramids[2 * (size_t)wants[i].image + !as_color];
+            if (!wants[i].pyramid[as_color])
+                continue;
+            *p = *wants[i].pyramid[as_color];
+            p->blocks[0] = p->blocks[1] = NULL;
+            p->first_level = wants[i].first_level;
+        }
     for (uint32_t t = 0; t < scene->texture_count; t++) {
         const scene_texture *texture = &scene->textures[t];
         texture_binding *b = &set->bindings[t];
@@ -204,21 +60,36 @@ static void bind(texture_set *set, const facet_scene *scene)
     }
 }
 
-/* Warns of images that cannot be decoded; fails for those that say more of the machine than of the image. */
-static facet_result judge(const job *jobs, size_t job_count, const facet_log *log, facet_error *error)
+/* From a store; owned: it goes with the set. */
+static facet_result create(texture_store *store, const facet_scene *scene, const texture_use *uses,
+                           const facet_allocator *allocator, const facet_log *log, uint32_t thread_count,
+                           texture_set **out, facet_error *error)
 {
-    for (size_t i = 0; i < job_count; i++) {
-        const job *j = &jobs[i];
-        if (j->result == FACET_ERROR_LIMIT || j->result == FACET_ERROR_MEMORY) {
-            if (error)
-                *error = j->error;
-            return j->result;
-        }
+    facet_result result = FACET_OK;
+    texture_want *wants = mem_zalloc(allocator, scene->image_count, sizeof *wants);
+    texture_set *set = mem_zalloc(allocator, 1, sizeof *set);
+    if (set) {
+        set->binding_count = scene->texture_count;
+        set->image_count = scene->image_count;
+        set->bindings = mem_zalloc(allocator, scene->texture_count, sizeof *set->bindings);
+        set->pyramids = mem_zalloc(allocator, scene->image_count, 2 * sizeof *set->pyramids);
     }
-    for (size_t i = 0; i < job_count; i++)
-        if (jobs[i].result != FACET_OK)
-            log_warning(log, "%s; it reads as white", jobs[i].error.message);
-    return FACET_OK;
+    if (!wants || !set || !set->bindings || !set->pyramids) {
+        result = fail_memory(error, "textures", scene->image_count * 2 * sizeof *set->pyramids);
+        goto done;
+    }
+    size_t count = collect_wants(scene, uses, wants);
+    result = texture_store_get(store, wants, count, log, thread_count, &set->decoded_texels, error);
+    if (result != FACET_OK)
+        goto done;
+    bind(set, scene, wants, count);
+    *out = set;
+    set = NULL;
+
+done:
+    texture_set_destroy(set);
+    mem_free(wants);
+    return result;
 }
 
 facet_result texture_set_create(const facet_scene *scene, const texture_use *uses,
@@ -226,52 +97,32 @@ facet_result texture_set_create(const facet_scene *scene, const texture_use *use
                                 texture_set **out, facet_error *error)
 {
     *out = NULL;
-    facet_result result = FACET_OK;
-    job *jobs = mem_zalloc(allocator, scene->image_count, sizeof *jobs);
-    texture_set *set = mem_zalloc(allocator, 1, sizeof *set);
-    if (set) {
-        set->binding_count = scene->texture_count;
-        set->image_count = scene->image_count;
-        set->bindings = mem_zalloc(allocator, scene->texture_count, sizeof *set->bindings);
-        set->pyramids = mem_zalloc(allocator, scene->image_count, 2 * sizeof *set->pyramids);
-        set->tables = mem_alloc(allocator, 1, sizeof *set->tables);
-    }
-    if (!jobs || !set || !set->bindings || !set->pyramids || !set->tables) {
-        result = fail_memory(error, "textures", sizeof *set->tables);
-        goto done;
-    }
-    size_t job_count = collect_jobs(scene, uses, jobs);
-    if (job_count)
-        texture_tables_fill(set->tables);
-    qsort(jobs, job_count, sizeof *jobs, compare_jobs);
-    batch b = {.scene = scene, .allocator = allocator, .set = set, .jobs = jobs};
-    parallel_for(thread_count, job_count, 1, run_jobs, &b);
-    qsort(jobs, job_count, sizeof *jobs, compare_images);
-    for (size_t i = 0; i < job_count; i++)
-        set->decoded_texels += jobs[i].decoded_texels;
-    result = judge(jobs, job_count, log, error);
-    if (result != FACET_OK)
-        goto done;
-    bind(set, scene);
-    *out = set;
-    set = NULL;
-
-done:
-    texture_set_destroy(set);
-    mem_free(jobs);
+    texture_store *store;
+    facet_result result = texture_store_create(scene, allocator, &store, error);
+    if (result == FACET_OK)
+        result = create(store, scene, uses, allocator, log, thread_count, out, error);
+    if (result == FACET_OK)
+        (*out)->own_store = store;
+    else
+        texture_store_destroy(store);
     return result;
+}
+
+facet_result texture_set_create_from(texture_store *store, const facet_scene *scene, const texture_use *uses,
+                                     const facet_allocator *allocator, const facet_log *log,
+                                     uint32_t thread_count, texture_set **out, facet_error *error)
+{
+    *out = NULL;
+    return create(store, scene, uses, allocator, log, thread_count, out, error);
 }
 
 void texture_set_destroy(texture_set *set)
 {
     if (!set)
         return;
-    if (set->pyramids)
-        for (size_t i = 0; i < 2 * (size_t)set->image_count; i++)
-            texture_pyramid_destroy(&set->pyramids[i]);
+    texture_store_destroy(set->own_store);
     mem_free(set->pyramids);
     mem_free(set->bindings);
-    mem_free(set->tables);
     mem_free(set);
 }
 

@@ -3,7 +3,7 @@
 #define CPU_TEXTURE_SET_H
 
 #include "cpu/texture.h"
-#include "cpu/texture_pyramid.h"
+#include "cpu/texture_store.h"
 
 /* A texture of the scene: its sampler, and its image in the ways in which it is read (NULL: white). */
 typedef struct texture_binding {
@@ -16,9 +16,15 @@ typedef struct texture_binding {
 struct texture_set {
     uint32_t binding_count, image_count;
     texture_binding *bindings; /* one per scene texture */
-    texture_pyramid *pyramids; /* two per scene image: color, data; level_count 0: not there */
-    texture_tables *tables;
+    texture_pyramid
+        *pyramids; /* two per scene image: color, data; level_count 0: not there. Texels are the store's */
+    texture_store *own_store; /* NULL: it stays behind */
     uint64_t decoded_texels;
 };
+
+/* texture_set_create() out of a store of the same scene, which outlives the set; one set at a time. */
+facet_result texture_set_create_from(texture_store *store, const facet_scene *scene, const texture_use *uses,
+                                     const facet_allocator *allocator, const facet_log *log,
+                                     uint32_t thread_count, texture_set **out, facet_error *error);
 
 #endif
