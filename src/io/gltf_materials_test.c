@@ -1,6 +1,7 @@
 /* gltf_materials_test.c - materials, their extensions, textures and samplers. */
 #include "io/gltf_test_support.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -71,31 +72,197 @@ static void all_members_arrive(void **state)
     scene_destroy(scene);
 }
 
+/* Every number and texture of every extension, beside one that each can stand with. */
 static void extensions_arrive(void **state)
 {
     (void)state;
-    facet_scene *scene =
-        load(TEXTURES
-             "'extensionsUsed':['KHR_materials_unlit','KHR_materials_emissive_strength','KHR_materials_ior',"
-             "'KHR_materials_specular'],'materials':[{'emissiveFactor':[1,0.5,0],'extensions':{'KHR_"
-             "materials_unlit':{},"
-             "'KHR_materials_emissive_strength':{'emissiveStrength':8},'KHR_materials_ior':{'ior':0},"
-             "'KHR_materials_specular':{'specularFactor':0.25,'specularColorFactor':[1,2,3],'specularTexture'"
-             ":{'index':1}"
-             ",'specularColorTexture':{'index':0}}}}]",
-             NULL);
+    facet_scene *scene = load(
+        TEXTURES
+        "'extensionsUsed':['KHR_materials_emissive_strength','KHR_materials_ior','KHR_materials_specular',"
+        "'KHR_materials_clearcoat','KHR_materials_sheen','KHR_materials_transmission','KHR_materials_volume',"
+        "'KHR_materials_iridescence','KHR_materials_anisotropy','KHR_materials_dispersion',"
+        "'KHR_materials_diffuse_transmission','KHR_materials_volume_scatter'],"
+        "'materials':[{'emissiveFactor':[1,0.5,0],'extensions':{"
+        "'KHR_materials_emissive_strength':{'emissiveStrength':8},'KHR_materials_ior':{'ior':1.25},"
+        "'KHR_materials_specular':{'specularFactor':0.25,'specularColorFactor':[1,2,3],"
+        "'specularTexture':{'index':1},'specularColorTexture':{'index':0}},"
+        "'KHR_materials_clearcoat':{'clearcoatFactor':0.5,'clearcoatTexture':{'index':1},"
+        "'clearcoatRoughnessFactor':0.125,'clearcoatRoughnessTexture':{'index':0,'texCoord':3},"
+        "'clearcoatNormalTexture':{'index':1,'scale':-0.5}},"
+        "'KHR_materials_sheen':{'sheenColorFactor':[0.25,0.5,0.75],'sheenColorTexture':{'index':0},"
+        "'sheenRoughnessFactor':0.75,'sheenRoughnessTexture':{'index':1}},"
+        "'KHR_materials_transmission':{'transmissionFactor':0.5,'transmissionTexture':{'index':0}},"
+        "'KHR_materials_volume':{'thicknessFactor':2,'thicknessTexture':{'index':1},"
+        "'attenuationDistance':0.5,'attenuationColor':[0.5,0.25,1]},"
+        "'KHR_materials_iridescence':{'iridescenceFactor':0.25,'iridescenceTexture':{'index':0},"
+        "'iridescenceIor':1.75,'iridescenceThicknessMinimum':500,'iridescenceThicknessMaximum':200,"
+        "'iridescenceThicknessTexture':{'index':1}},"
+        "'KHR_materials_anisotropy':{'anisotropyStrength':0.5,'anisotropyRotation':-1.5,"
+        "'anisotropyTexture':{'index':0}},"
+        "'KHR_materials_dispersion':{'dispersion':4},"
+        "'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':0.5,"
+        "'diffuseTransmissionTexture':{'index':1},'diffuseTransmissionColorFactor':[0.5,1,0],"
+        "'diffuseTransmissionColorTexture':{'index':0}},"
+        "'KHR_materials_volume_scatter':{'multiscatterColor':[1,0.5,0.25],'scatterAnisotropy':-0.5}}}]",
+        NULL);
     const scene_material *m = &scene->materials[0];
     const float emissive[3] = {1, 0.5f, 0};
     const float specular_color[3] = {1, 2, 3};
-    assert_true(m->extensions & SCENE_UNLIT);
+    const float sheen_color[3] = {0.25f, 0.5f, 0.75f};
+    const float attenuation_color[3] = {0.5f, 0.25f, 1};
+    const float diffuse_transmission_color[3] = {0.5f, 1, 0};
+    const float multiscatter_color[3] = {1, 0.5f, 0.25f};
+    const uint32_t apart = SCENE_UNLIT | SCENE_SPECULAR_GLOSSINESS;
+    assert_int_equal(m->extensions, ((1 << 14) - 1) & ~(int)apart);
     assert_floats(m->emissive, emissive, 3, 0);
     assert_near(m->emissive_strength, 8, 0);
-    assert_near(m->ior, 0, 0);
+    assert_near(m->ior, 1.25, 0);
     assert_near(m->specular, 0.25, 0);
     assert_floats(m->specular_color, specular_color, 3, 0);
-    assert_int_equal(m->textures[SCENE_SPECULAR_TEXTURE].texture, 1);
-    assert_int_equal(m->textures[SCENE_SPECULAR_COLOR_TEXTURE].texture, 0);
+    assert_near(m->clearcoat, 0.5, 0);
+    assert_near(m->clearcoat_roughness, 0.125, 0);
+    assert_near(m->clearcoat_normal_scale, -0.5, 0);
+    assert_floats(m->sheen_color, sheen_color, 3, 0);
+    assert_near(m->sheen_roughness, 0.75, 0);
+    assert_near(m->transmission, 0.5, 0);
+    assert_near(m->thickness, 2, 0);
+    assert_near(m->attenuation_distance, 0.5, 0);
+    assert_floats(m->attenuation_color, attenuation_color, 3, 0);
+    assert_near(m->iridescence, 0.25, 0);
+    assert_near(m->iridescence_ior, 1.75, 0);
+    assert_near(m->iridescence_thickness_minimum, 500, 0); /* may be the larger one */
+    assert_near(m->iridescence_thickness_maximum, 200, 0);
+    assert_near(m->anisotropy, 0.5, 0);
+    assert_near(m->anisotropy_rotation, -1.5, 0);
+    assert_near(m->dispersion, 4, 0);
+    assert_near(m->diffuse_transmission, 0.5, 0);
+    assert_floats(m->diffuse_transmission_color, diffuse_transmission_color, 3, 0);
+    assert_floats(m->multiscatter_color, multiscatter_color, 3, 0);
+    assert_near(m->scatter_anisotropy, -0.5, 0);
+    static const struct {
+        scene_texture_slot slot;
+        uint32_t texture;
+    } textures[] = {
+        {SCENE_SPECULAR_TEXTURE, 1},
+        {SCENE_SPECULAR_COLOR_TEXTURE, 0},
+        {SCENE_CLEARCOAT_TEXTURE, 1},
+        {SCENE_CLEARCOAT_ROUGHNESS_TEXTURE, 0},
+        {SCENE_CLEARCOAT_NORMAL_TEXTURE, 1},
+        {SCENE_SHEEN_COLOR_TEXTURE, 0},
+        {SCENE_SHEEN_ROUGHNESS_TEXTURE, 1},
+        {SCENE_TRANSMISSION_TEXTURE, 0},
+        {SCENE_THICKNESS_TEXTURE, 1},
+        {SCENE_IRIDESCENCE_TEXTURE, 0},
+        {SCENE_IRIDESCENCE_THICKNESS_TEXTURE, 1},
+        {SCENE_ANISOTROPY_TEXTURE, 0},
+        {SCENE_DIFFUSE_TRANSMISSION_TEXTURE, 1},
+        {SCENE_DIFFUSE_TRANSMISSION_COLOR_TEXTURE, 0},
+    };
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
+        assert_int_equal(m->textures[textures[i].slot].texture, textures[i].texture);
+    assert_int_equal(m->textures[SCENE_CLEARCOAT_ROUGHNESS_TEXTURE].texcoord, 3);
     assert_int_equal(scene->warning_count, 0);
+    scene_destroy(scene);
+}
+
+/* What an empty extension object means: the bit, and the defaults of the specification. */
+static void empty_extensions_have_their_defaults(void **state)
+{
+    (void)state;
+    facet_scene *scene =
+        load("'extensionsUsed':['KHR_materials_volume','KHR_materials_iridescence','KHR_materials_ior'],"
+             "'materials':[{'extensions':{'KHR_materials_volume':{},'KHR_materials_iridescence':{},"
+             "'KHR_materials_ior':{}}}]",
+             NULL);
+    const scene_material *m = &scene->materials[0];
+    const float white[3] = {1, 1, 1};
+    assert_int_equal(m->extensions, SCENE_VOLUME | SCENE_IRIDESCENCE | SCENE_IOR);
+    assert_true(m->attenuation_distance == INFINITY);
+    assert_floats(m->attenuation_color, white, 3, 0);
+    assert_near(m->iridescence_ior, 1.3f, 0);
+    assert_near(m->iridescence_thickness_minimum, 100, 0);
+    assert_near(m->iridescence_thickness_maximum, 400, 0);
+    assert_near(m->ior, 1.5, 0);
+    assert_int_equal(scene->warning_count, 0);
+    scene_destroy(scene);
+}
+
+/* It replaces metallic-roughness, of which nothing is left. */
+static void specular_glossiness_takes_the_place_of_the_fallback(void **state)
+{
+    (void)state;
+    facet_scene *scene = load(
+        TEXTURES "'extensionsUsed':['KHR_materials_pbrSpecularGlossiness'],'materials':[{"
+                 "'pbrMetallicRoughness':{'baseColorFactor':[0,0,0,0],'metallicFactor':0,'roughnessFactor':0,"
+                 "'baseColorTexture':{'index':1},'metallicRoughnessTexture':{'index':1}},'extensions':{"
+                 "'KHR_materials_pbrSpecularGlossiness':{'diffuseFactor':[0.5,0.25,1,0.75],"
+                 "'specularFactor':[0.25,0.5,0.75],'glossinessFactor':0.5,'diffuseTexture':{'index':0},"
+                 "'specularGlossinessTexture':{'index':1,'texCoord':1}}}},{'pbrMetallicRoughness':{"
+                 "'baseColorFactor':[0,0,0,0],'baseColorTexture':{'index':1}},"
+                 "'extensions':{'KHR_materials_pbrSpecularGlossiness':{}}}]",
+        NULL);
+    const scene_material *m = &scene->materials[0];
+    const float diffuse[4] = {0.5f, 0.25f, 1, 0.75f};
+    const float specular[3] = {0.25f, 0.5f, 0.75f};
+    const float white[4] = {1, 1, 1, 1};
+    assert_int_equal(m->extensions, SCENE_SPECULAR_GLOSSINESS);
+    assert_floats(m->base_color, diffuse, 4, 0);
+    assert_floats(m->specular_color, specular, 3, 0);
+    assert_near(m->glossiness, 0.5, 0);
+    assert_int_equal(m->textures[SCENE_BASE_COLOR_TEXTURE].texture, 0);
+    assert_int_equal(m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE].texture, SCENE_NONE);
+    assert_int_equal(m->textures[SCENE_SPECULAR_GLOSSINESS_TEXTURE].texture, 1);
+    assert_floats(scene->materials[1].base_color, white, 4, 0);
+    assert_near(scene->materials[1].glossiness, 1, 0);
+    assert_int_equal(scene->materials[1].textures[SCENE_BASE_COLOR_TEXTURE].texture, SCENE_NONE);
+    assert_int_equal(scene->warning_count, 0);
+    scene_destroy(scene);
+}
+
+static void extensions_that_exclude_others_win(void **state)
+{
+    (void)state;
+    facet_scene *scene =
+        load("'extensionsUsed':['KHR_materials_unlit','KHR_materials_pbrSpecularGlossiness',"
+             "'KHR_materials_emissive_strength','KHR_materials_specular'],'materials':[{"
+             "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1]},'extensions':{"
+             "'KHR_materials_unlit':{},'KHR_materials_pbrSpecularGlossiness':{'diffuseFactor':[1,0,0,1]}}},"
+             "{'extensions':{'KHR_materials_pbrSpecularGlossiness':{'specularFactor':[0.5,0.5,0.5]},"
+             "'KHR_materials_emissive_strength':{'emissiveStrength':2},"
+             "'KHR_materials_specular':{'specularColorFactor':[1,0,0]}}}]",
+             NULL);
+    const scene_material *m = scene->materials;
+    assert_int_equal(m[0].extensions, SCENE_UNLIT);
+    assert_near(m[0].base_color[1], 0.5, 0);
+    assert_int_equal(m[1].extensions, SCENE_SPECULAR_GLOSSINESS | SCENE_EMISSIVE_STRENGTH);
+    assert_near(m[1].specular_color[1], 0.5, 0);
+    assert_true(has_warning(scene, "materials[0]: has KHR_materials_unlit, which excludes "
+                                   "KHR_materials_pbrSpecularGlossiness; that one is ignored"));
+    assert_true(has_warning(scene, "materials[1]: has KHR_materials_pbrSpecularGlossiness, which excludes "
+                                   "KHR_materials_specular; that one is ignored"));
+    assert_int_equal(scene->warning_count, 2);
+    scene_destroy(scene);
+}
+
+static void numbers_of_extensions_have_their_domains(void **state)
+{
+    (void)state;
+    facet_scene *scene =
+        load("'extensionsUsed':['KHR_materials_ior','KHR_materials_volume','KHR_materials_volume_scatter',"
+             "'KHR_materials_iridescence'],'materials':[{'extensions':{'KHR_materials_ior':{'ior':0},"
+             "'KHR_materials_volume':{'attenuationDistance':0,'thicknessFactor':-1},"
+             "'KHR_materials_volume_scatter':{'scatterAnisotropy':-1},"
+             "'KHR_materials_iridescence':{'iridescenceIor':0.5}}}]",
+             NULL);
+    const scene_material *m = &scene->materials[0];
+    assert_near(m->ior, 0, 0);
+    assert_true(m->attenuation_distance == INFINITY);
+    assert_near(m->thickness, 0, 0);
+    assert_true(m->scatter_anisotropy > -1 && m->scatter_anisotropy < -0.99f);
+    assert_near(m->iridescence_ior, 1, 0);
+    assert_true(has_warning(scene, "attenuationDistance: must be above 0; it is taken as infinite"));
+    assert_true(has_warning(scene, "scatterAnisotropy: must be between -1 and 1"));
+    assert_int_equal(scene->warning_count, 4);
     scene_destroy(scene);
 }
 
@@ -248,6 +415,10 @@ int main(void)
         cmocka_unit_test(an_empty_material_has_the_defaults),
         cmocka_unit_test(all_members_arrive),
         cmocka_unit_test(extensions_arrive),
+        cmocka_unit_test(empty_extensions_have_their_defaults),
+        cmocka_unit_test(specular_glossiness_takes_the_place_of_the_fallback),
+        cmocka_unit_test(extensions_that_exclude_others_win),
+        cmocka_unit_test(numbers_of_extensions_have_their_domains),
         cmocka_unit_test(texture_transform_turns_as_its_example_says),
         cmocka_unit_test(a_transform_that_does_nothing_is_none),
         cmocka_unit_test(values_out_of_range_are_clamped_with_a_warning),
