@@ -30,7 +30,12 @@ static const codec codecs[] = {
     [IMAGE_CODEC_EXR] = {.name = "OpenEXR", .library = "the OpenEXR library"},
 #endif
     [IMAGE_CODEC_PFM] = {"PFM", pfm_probe, pfm_decode, pfm_encode, NULL},
-    [IMAGE_CODEC_KTX2] = {.name = "KTX2"},
+    [IMAGE_CODEC_KTX2] = {"KTX2", ktx2_probe, ktx2_decode_file, NULL, NULL},
+#ifdef HAVE_AVIF
+    [IMAGE_CODEC_AVIF] = {"AVIF", avif_probe, avif_decode, NULL, NULL},
+#else
+    [IMAGE_CODEC_AVIF] = {.name = "AVIF", .library = "libavif"},
+#endif
 };
 
 image_codec image_codec_detect(const void *bytes, size_t size)
@@ -55,6 +60,8 @@ image_codec image_codec_detect(const void *bytes, size_t size)
         {IMAGE_CODEC_PFM, 0, 3, "PF\r"},
         {IMAGE_CODEC_PFM, 0, 3, "Pf\r"},
         {IMAGE_CODEC_KTX2, 0, 12, "\xabKTX 20\xbb\r\n\x1a\n"},
+        {IMAGE_CODEC_AVIF, 4, 8, "ftypavif"},
+        {IMAGE_CODEC_AVIF, 4, 8, "ftypavis"},
     };
     const unsigned char *b = bytes;
     for (size_t i = 0; i < sizeof magics / sizeof *magics; i++) {
@@ -142,10 +149,8 @@ static facet_result find_codec(const void *bytes, size_t size, const char *name,
     if (*id == IMAGE_CODEC_UNKNOWN)
         return fail(
             error, FACET_ERROR_INVALID,
-            "%s: first bytes: a PNG, JPEG, WebP, Radiance HDR, OpenEXR, PFM or KTX2 file was expected", name);
-    if (*id == IMAGE_CODEC_KTX2)
-        return fail(error, FACET_ERROR_UNSUPPORTED,
-                    "%s: KTX2 pictures (glTF extension KHR_texture_basisu) are not read", name);
+            "%s: first bytes: a PNG, JPEG, WebP, AVIF, KTX2, Radiance HDR, OpenEXR or PFM file was expected",
+            name);
     if (!codecs[*id].decode)
         return fail(error, FACET_ERROR_UNSUPPORTED,
                     "%s: this build of facet does not read %s files: %s was not there when it was made", name,

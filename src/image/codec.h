@@ -17,8 +17,9 @@ typedef facet_result codec_decode(const unsigned char *bytes, size_t size, const
 typedef facet_result codec_encode(const image *i, const image_encode_desc *desc, unsigned char **bytes,
                                   size_t *size, facet_error *error);
 
-codec_probe png_probe, jpeg_probe, webp_probe, hdr_probe, exr_probe, pfm_probe;
-codec_decode png_decode, jpeg_decode, webp_decode, hdr_decode, exr_decode, pfm_decode;
+codec_probe png_probe, jpeg_probe, webp_probe, hdr_probe, exr_probe, pfm_probe, ktx2_probe, avif_probe;
+codec_decode png_decode, jpeg_decode, webp_decode, hdr_decode, exr_decode, pfm_decode, ktx2_decode_file,
+    avif_decode;
 codec_encode png_encode, jpeg_encode, webp_encode, hdr_encode, pfm_encode;
 
 /* FACET_ERROR_LIMIT where an edge is longer than max_size, FACET_ERROR_INVALID where one is 0. */

@@ -46,7 +46,8 @@ typedef enum image_codec {
     IMAGE_CODEC_HDR,
     IMAGE_CODEC_EXR,
     IMAGE_CODEC_PFM,
-    IMAGE_CODEC_KTX2
+    IMAGE_CODEC_KTX2,
+    IMAGE_CODEC_AVIF
 } image_codec;
 
 image_codec image_codec_detect(const void *bytes, size_t size); /* by the first bytes */
@@ -59,17 +60,19 @@ typedef struct image_decode_desc {
     uint32_t max_size; /* texels along an edge, 0: 16384; a larger picture fails with FACET_ERROR_LIMIT before
                               memory is taken for it */
     uint32_t max_reduction; /* 0: none. The picture may come reduced by 2^k with k <= max_reduction in both
-                               directions (rounded up) where the codec does that cheaply (JPEG: k <= 3) */
+                               directions (rounded up) where the codec does that cheaply (JPEG: k <= 3; KTX2: the
+                               levels in the file that are of that size) */
     uint32_t channel_count; /* 0: the file's own; 3 or 4: as asked, 8-bit formats only */
 } image_decode_desc;
 
 /* What the header says; nothing else is read. width and height are those of the whole picture. */
 facet_result image_probe(const void *bytes, size_t size, const char *name, image *header /* pixels NULL */,
                          image_codec *codec, facet_error *error);
-/* Decodes. name stands first in messages. PNG: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits; all
- * of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2). HDR, EXR, PFM: F32 RGB
- * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where an EXR
- * file holds half). KTX2 fails with FACET_ERROR_UNSUPPORTED for now. */
+/* Decodes. name stands first in messages. PNG, AVIF: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits;
+ * all of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2). HDR, EXR, PFM: F32 RGB
+ * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where a file holds
+ * half). KTX2: the first layer and face (ktx2.h has them all), of the type that holds the format's values, is_srgb
+ * as the file says; channels that its format lacks are 0, as samplers read them. */
 facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
                           image *out, facet_error *error);
 

@@ -195,13 +195,17 @@ static void detection(void **state)
     assert_int_equal(image_codec_detect("\x76\x2f\x31\x01", 4), IMAGE_CODEC_EXR);
     assert_int_equal(image_codec_detect("PF\n", 3), IMAGE_CODEC_PFM);
     assert_int_equal(image_codec_detect("\xabKTX 20\xbb\r\n\x1a\n", 12), IMAGE_CODEC_KTX2);
+    assert_int_equal(image_codec_detect("\0\0\0\x20"
+                                        "ftypavif",
+                                        12),
+                     IMAGE_CODEC_AVIF);
+    assert_int_equal(image_codec_detect("\0\0\0\x20"
+                                        "ftypmp42",
+                                        12),
+                     IMAGE_CODEC_UNKNOWN);
     assert_int_equal(image_codec_detect(NULL, 0), IMAGE_CODEC_UNKNOWN);
     image i;
     facet_error error;
-    assert_int_equal(image_decode("\xabKTX 20\xbb\r\n\x1a\n", 12, "a.ktx2", NULL, &i, &error),
-                     FACET_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(error.message, "a.ktx2: "));
-    assert_non_null(strstr(error.message, "KHR_texture_basisu"));
     assert_int_equal(image_decode("", 0, "empty", NULL, &i, &error), FACET_ERROR_INVALID);
     assert_int_equal(image_probe("hello", 5, "text", &i, NULL, &error), FACET_ERROR_INVALID);
 }
