@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "io/gltf.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -142,9 +143,9 @@ facet_animation facet_scene_get_animation(const facet_scene *scene, uint32_t ind
 facet_result facet_scene_save(const facet_scene *scene, const char *path, const facet_scene_save_desc *desc,
                               facet_error *error)
 {
-    (void)desc;
-    return fail(error, FACET_ERROR_UNSUPPORTED, "%s: writing %s: glTF is not written yet", path,
-                scene->source);
+    char generator[64];
+    snprintf(generator, sizeof generator, "facet %s", facet_version());
+    return gltf_save(scene, path, generator, desc, error);
 }
 
 bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *desc, float minimum[3],

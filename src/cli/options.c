@@ -412,6 +412,42 @@ static const verb render_verb = {
                                             &machine_group, &message_group, &running_group, NULL},
 };
 
+/* ---- convert ---- */
+
+static const option convert_options[] = {
+    {.id = OPT_OUTPUT,
+     .name = "output",
+     .letter = 'o',
+     .kind = OPTION_FILE,
+     .argument = "FILE",
+     .help = "the new model, instead of a second name: .glb, or .gltf with a .bin and the images beside it"},
+    {.id = OPT_NO_CLOBBER,
+     .name = "no-clobber",
+     .kind = OPTION_FLAG,
+     .help = "keep a file that exists already, and say so (exit 0)"},
+};
+static const option_group convert_group = {"Output", convert_options, COUNT(convert_options)};
+
+static const verb convert_verb = {
+    .name = "convert",
+    .summary = "write a glTF model anew, as one file or as several",
+    .arguments = "MODEL NEW",
+    .max_arguments = 2,
+    .file_types = "glb gltf",
+    .description = "Reads MODEL (.glb or .gltf; - is standard input) and writes it as NEW (.glb or .gltf): "
+                   "meshes, materials "
+                   "with all their extensions, textures as they are, motion, cameras, lights, variants, "
+                   "metadata. What was "
+                   "compressed (Draco, meshopt, quantised) is written plainly.\n\n"
+                   "The output appears whole or not at all; of a .gltf file the other files come first.",
+    .examples = (const example[]){{"facet convert scene.gltf scene.glb", "many files into one"},
+                                  {"facet convert scene.glb scene.gltf", "to look at the JSON"},
+                                  {"facet convert packed.glb plain.glb", "for a program that reads no Draco"},
+                                  {NULL, NULL}},
+    .groups =
+        (const option_group *const[]){&convert_group, &model_group, &machine_group, &message_group, NULL},
+};
+
 /* ---- inspect, version, help ---- */
 
 static const verb inspect_verb = {
@@ -462,7 +498,7 @@ static const verb help_verb = {
     .summary = "explain facet or one of its commands",
     .arguments = "[COMMAND]",
     .max_arguments = 1,
-    .words = WORDS("render", "inspect", "version", "help", "exit-codes"),
+    .words = WORDS("render", "convert", "inspect", "version", "help", "exit-codes"),
     .description = "Prints what facet --help or facet COMMAND --help print; exit-codes explains those.",
     .examples = (const example[]){{"facet help render", "all options of render"},
                                   {"facet help exit-codes", "what 0 to 75 mean"},
@@ -470,7 +506,7 @@ static const verb help_verb = {
     .groups = (const option_group *const[]){&help_group, NULL},
 };
 
-const verb *const verbs[] = {&render_verb, &inspect_verb, &version_verb, &help_verb, NULL};
+const verb *const verbs[] = {&render_verb, &convert_verb, &inspect_verb, &version_verb, &help_verb, NULL};
 
 /* ---- looking up ---- */
 
@@ -492,8 +528,7 @@ static bool is_among(const char *name, const char *const *words)
 
 bool verb_is_planned(const char *name)
 {
-    return is_among(name,
-                    WORDS("bake", "convert", "ocean", "view", "plot", "compare", "batch", "serve", "merge"));
+    return is_among(name, WORDS("bake", "ocean", "view", "plot", "compare", "batch", "serve", "merge"));
 }
 
 bool option_is_planned(const char *name)

@@ -1,4 +1,4 @@
-/* gltf.h - reads glTF 2.0 (.gltf with its files, and .glb) into a scene. */
+/* gltf.h - reads glTF 2.0 (.gltf with its files, and .glb) into a scene, and writes it. */
 #ifndef IO_GLTF_H
 #define IO_GLTF_H
 
@@ -10,5 +10,11 @@ facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_sce
 /* The same from bytes, which are copied where the scene needs them. */
 facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
                               facet_scene **scene, facet_error *error);
+
+/* facet_scene_save(). Numbers of objects stay; what facet does not read is lost, as are the compression of geometry and
+ * the metallic-roughness fallback of specular-glossiness materials. */
+facet_result gltf_save(const facet_scene *scene, const char *path,
+                       const char *generator /* asset.generator */, const facet_scene_save_desc *desc,
+                       facet_error *error);
 
 #endif

@@ -1,0 +1,133 @@
+/* gltf_write_textures.c - images, as their files are, and textures with their samplers. */
+#include <string.h>
+
+#include "image/image.h"
+#include "io/gltf_writer.h"
+
+/* ---- images ---- */
+
+static const struct {
+    const char *mime_type, *extension; /* of the file's name */
+    const char *texture_extension;     /* what makes glTF textures of them; NULL: the core */
+} KINDS[] = {{"image/png", "png", NULL},
+             {"image/jpeg", "jpg", NULL},
+             {"image/webp", "webp", "EXT_texture_webp"},
+             {"image/avif", "avif", "EXT_texture_avif"},
+             {"image/ktx2", "ktx2", "KHR_texture_basisu"}};
+enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS, UNKNOWN = KIND_COUNT };
+
+static int kind_of(const scene_image *source)
+{
+    int i = 0;
+    while (i < KIND_COUNT && !(source->bytes && strcmp(source->mime_type, KINDS[i].mime_type) == 0))
+        i++;
+    return i;
+}
+
+/* One white texel as a PNG file: what an image that could not be read stands for. */
+static const unsigned char WHITE[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+    0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
+    0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0xf8, 0x0f, 0x00, 0x01, 0x01, 0x01, 0x00,
+    0x1c, 0xb0, 0x8c, 0x99, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+static void add_file(writer *w, json_t *object, uint32_t index, const char *extension,
+                     const unsigned char *bytes, size_t size)
+{
+    char number[48];
+    snprintf(number, sizeof number, "_image%u.%s", index, extension);
+    size_t length = strlen(w->stem) + strlen(number) + 1;
+    char *name = mem_alloc(w->allocator, length, 1);
+    if (!name || !mem_reserve(w->allocator, (void **)&w->files, &w->file_capacity, w->file_count + 1,
+                              sizeof *w->files)) {
+        mem_free(name);
+        writer_fail_memory(w);
+        return;
+    }
+    snprintf(name, length, "%s%s", w->stem, number);
+    w->files[w->file_count++] = (written_file){.name = name, .bytes = bytes, .size = size};
+    put_uri(w, object, name);
+}
+
+void write_images(writer *w)
+{
+    const facet_scene *scene = w->scene;
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        const scene_image *source = &scene->images[i];
+        int kind = kind_of(source);
+        const unsigned char *bytes = kind == UNKNOWN ? WHITE : source->bytes;
+        size_t size = kind == UNKNOWN ? sizeof WHITE : source->size;
+        kind = kind == UNKNOWN ? 0 : kind;
+        json_t *out = json_object();
+        put_name(w, out, source->name);
+        if (w->stem) {
+            add_file(w, out, i, KINDS[kind].extension, bytes, size);
+        } else {
+            put(w, out, "bufferView", json_integer(write_view(w, bytes, size, WRITE_NO_TARGET)));
+            put(w, out, "mimeType", json_string(KINDS[kind].mime_type));
+        }
+        put_meta(w, out, &source->meta);
+        append(w, put_array(w, w->root, "images"), out);
+    }
+}
+
+/* ---- samplers: the numbers are OpenGL's ---- */
+
+static int wrap_number(scene_wrap wrap)
+{
+    return wrap == SCENE_WRAP_CLAMP ? 33071 : wrap == SCENE_WRAP_MIRROR ? 33648 : 10497;
+}
+
+static int min_filter_number(const scene_texture *t)
+{
+    bool is_nearest = t->min_filter == SCENE_FILTER_NEAREST;
+    switch (t->mip_filter) {
+    case SCENE_MIP_NONE:
+        return is_nearest ? 9728 : 9729;
+    case SCENE_MIP_NEAREST:
+        return is_nearest ? 9984 : 9985;
+    case SCENE_MIP_LINEAR:
+        break;
+    }
+    return is_nearest ? 9986 : 9987;
+}
+
+static uint32_t write_sampler(writer *w, const scene_texture *t)
+{
+    json_t *sampler = json_object();
+    json_t *samplers = put_array(w, w->root, "samplers");
+    put(w, sampler, "magFilter", json_integer(t->mag_filter == SCENE_FILTER_NEAREST ? 9728 : 9729));
+    put(w, sampler, "minFilter", json_integer(min_filter_number(t)));
+    put(w, sampler, "wrapS", json_integer(wrap_number(t->wrap_u)));
+    put(w, sampler, "wrapT", json_integer(wrap_number(t->wrap_v)));
+    for (size_t i = 0; i < json_array_size(samplers); i++)
+        if (json_equal(json_array_get(samplers, i), sampler)) {
+            json_decref(sampler);
+            return (uint32_t)i;
+        }
+    append(w, samplers, sampler);
+    return (uint32_t)json_array_size(samplers) - 1;
+}
+
+/* ---- textures ---- */
+
+void write_textures(writer *w)
+{
+    const facet_scene *scene = w->scene;
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        const scene_texture *texture = &scene->textures[i];
+        json_t *out = json_object();
+        put_name(w, out, texture->name);
+        put(w, out, "sampler", json_integer(write_sampler(w, texture)));
+        int kind = texture->image == SCENE_NONE ? UNKNOWN : kind_of(&scene->images[texture->image]);
+        if (kind < UNKNOWN && KINDS[kind].texture_extension) {
+            json_t *extension = put_extension(w, out, KINDS[kind].texture_extension);
+            put_index(w, extension, "source", texture->image);
+            require_extension(w, KINDS[kind].texture_extension);
+        } else {
+            put_index(w, out, "source", texture->image);
+        }
+        put_meta(w, out, &texture->meta);
+        append(w, put_array(w, w->root, "textures"), out);
+    }
+}

@@ -1,0 +1,114 @@
+/* gltf_writer.h - what the files of the glTF writer share: its state, and JSON with glTF's defaults left out.
+ *
+ * Errors are sticky: running out of memory sets has_failed, after which everything may be called and does nothing of
+ * use. Objects of the scene keep their numbers, so that indices in metadata stay true. */
+#ifndef IO_GLTF_WRITER_H
+#define IO_GLTF_WRITER_H
+
+#include <jansson.h>
+
+#include "scene/scene.h"
+
+/* OpenGL's numbers, as glTF has them. */
+enum { WRITE_NO_TARGET = 0, WRITE_VERTICES = 34962, WRITE_INDICES = 34963 };
+
+/* An array of the scene that was written already. */
+typedef struct written_array {
+    const void *data; /* NULL: a free place of the table */
+    size_t size;
+    uint32_t kind; /* of accessor: type, component, target */
+    uint32_t accessor;
+} written_array;
+
+typedef struct writer {
+    const facet_scene *scene;
+    const char *generator;
+    const facet_allocator *allocator;
+    const facet_log *log;
+    facet_error *error;
+    facet_result result; /* FACET_OK, or the first error */
+    uint32_t thread_count;
+
+    json_t *root, *accessors, *views;
+    json_t *extensions_used; /* an object: names in the order of their first use; true: required */
+    bool needs_all_digits;   /* some number of the metadata has more than 15 */
+    unsigned char *bin;
+    size_t bin_size, bin_capacity;
+
+    written_array *written; /* hash table, capacity a power of two */
+    size_t written_count, written_capacity;
+
+    const char *stem; /* images become files STEM_image0.png ..; NULL: they go into the binary chunk */
+    struct written_file *files;
+    size_t file_count, file_capacity;
+} writer;
+
+/* A file beside a .gltf file. */
+typedef struct written_file {
+    char *name; /* block of mem_alloc() */
+    const unsigned char *bytes;
+    size_t size;
+} written_file;
+
+bool writer_is_ok(const writer *w);
+void writer_fail_memory(writer *w);
+
+/* ---- JSON: value is taken over; NULL means out of memory ---- */
+
+void put(writer *w, json_t *object, const char *key, json_t *value);
+void append(writer *w, json_t *array, json_t *value);
+json_t *put_object(writer *w, json_t *object, const char *key); /* borrowed; made where it is not there */
+json_t *put_array(writer *w, json_t *object, const char *key);
+/* A number that reads back as the same float and prints as short as can be. */
+json_t *json_float(float value);
+json_t *json_floats(const float *values, size_t count);
+json_t *json_indices(const uint32_t *indices, size_t count);
+void put_name(writer *w, json_t *object, const char *name); /* unless it is "" */
+void put_index(writer *w, json_t *object, const char *key, uint32_t index);
+/* Unless all values are those of defaults (NULL: 0). */
+void put_floats(writer *w, json_t *object, const char *key, const float *values, const float *defaults,
+                size_t count);
+void put_float(writer *w, json_t *object, const char *key, float value, float default_value);
+/* extensions.NAME of object, noted in extensionsUsed; borrowed. */
+json_t *put_extension(writer *w, json_t *object, const char *name);
+/* Names it in extensionsRequired as well. */
+void require_extension(writer *w, const char *name);
+void put_uri(writer *w, json_t *object, const char *name); /* "uri": a file's name, percent-encoded */
+/* extras and the extensions that are metadata. */
+void put_meta(writer *w, json_t *object, const scene_meta *meta);
+
+/* ---- binary data ---- */
+
+typedef enum write_type { WRITE_SCALAR, WRITE_VEC2, WRITE_VEC3, WRITE_VEC4, WRITE_MAT4 } write_type;
+
+/* Index of an accessor with count elements of floats; arrays that were written before are shared. bounds: with min and
+ * max. */
+uint32_t write_floats(writer *w, const float *values, size_t count, write_type type, int target, bool bounds);
+/* Of 32-bit values, stored in as many bytes as the largest needs, but for 8 bits where they are indices. */
+uint32_t write_indices(writer *w, const uint32_t *values, size_t count);
+/* count elements of 4 joints; of 8 bits where all fit. stride: values from one element to the next. */
+uint32_t write_joints(writer *w, const uint16_t *joints, size_t count, size_t stride);
+uint32_t write_weights(writer *w, const float *weights, size_t count, size_t stride); /* the same, floats */
+uint32_t write_bytes(writer *w, const unsigned char *values, size_t count); /* SCALAR UNSIGNED_BYTE */
+/* Bytes that no accessor describes; index of their buffer view. */
+uint32_t write_view(writer *w, const void *bytes, size_t size, int target);
+
+/* ---- the concerns, one file each ---- */
+
+/* gltf_write_textures.c */
+void write_images(writer *w);
+void write_textures(writer *w);
+/* gltf_write_materials.c */
+void write_materials(writer *w);
+/* gltf_write_meshes.c */
+void write_meshes(writer *w);
+/* gltf_write_nodes.c: cameras, lights, nodes, scenes. */
+void write_cameras(writer *w);
+void write_lights(writer *w);
+void write_nodes(writer *w);
+void write_scenes(writer *w);
+/* gltf_write_motion.c */
+void write_skins(writer *w);
+void write_animations(writer *w);
+
+#endif
