@@ -139,6 +139,7 @@ static void read_bytes(reader *r, const unsigned char *bytes, size_t size)
     r->json = parse(r, json, json_size);
     if (reader_is_ok(r))
         read_document(r);
+    release_draco(r);
     json_decref(r->json);
     r->json = NULL;
     mem_free(reserve);

@@ -37,7 +37,7 @@ size_t gltf_element_size(gltf_component component, gltf_type type)
 
 size_t gltf_accessor_stride(const reader *r, const gltf_accessor *a)
 {
-    size_t stride = a->view == SCENE_NONE ? 0 : r->views[a->view].stride;
+    size_t stride = a->decoded || a->view == SCENE_NONE ? 0 : r->views[a->view].stride;
     return stride ? stride : gltf_element_size(a->component, a->type);
 }
 

@@ -162,8 +162,8 @@ static bool is_little_endian(void)
 static bool get_dense_bytes(reader *r, const json_place *at, const gltf_accessor *a,
                             const unsigned char **bytes)
 {
-    *bytes = NULL;
-    if (a->view == SCENE_NONE)
+    *bytes = a->decoded;
+    if (a->decoded || a->view == SCENE_NONE)
         return true;
     const unsigned char *view = get_view_bytes(r, at, a->view);
     if (!view)
@@ -257,7 +257,7 @@ const uint32_t *get_accessor_indices(reader *r, const json_place *at, uint32_t i
     const unsigned char *bytes;
     if (!get_dense_bytes(r, &place, a, &bytes))
         return NULL;
-    if (bytes && r->views[a->view].stride)
+    if (bytes && !a->decoded && r->views[a->view].stride)
         reader_warn(r, &place, NULL, "holds indices, but its buffer view has a byteStride");
     conversion c = make_conversion(r, a, bytes);
     const uint32_t *indices;

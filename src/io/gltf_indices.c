@@ -107,7 +107,11 @@ bool read_primitive_indices(reader *r, const json_place *at, scene_primitive *p,
         return false;
     uint32_t in_count = p->vertex_count;
     const uint32_t *in;
-    if (accessor == SCENE_NONE) {
+    if (r->faces) { /* a list, whatever mode they were stored in; each corner is a vertex */
+        in = r->faces;
+        in_count = 3 * r->face_count;
+        mode = TRIANGLES;
+    } else if (accessor == SCENE_NONE) {
         in = get_iota(r, in_count);
     } else {
         uint32_t largest;

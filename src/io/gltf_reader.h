@@ -59,6 +59,10 @@ typedef struct gltf_accessor {
     uint32_t sparse_index_view, sparse_value_view;
     size_t sparse_index_offset, sparse_value_offset;
     gltf_component sparse_index_component;
+    /* Elements without gaps, in the accessor's own type, that stand for those of the view; NULL: none. gltf_draco.c
+     * sets it, and which attribute of which bitstream they are. */
+    const unsigned char *decoded;
+    uint32_t draco_view, draco_attribute;
 
     /* What was made of it, so that primitives that share it share that too; NULL: not yet. */
     const float *floats;
@@ -72,6 +76,8 @@ typedef struct gltf_accessor {
 } gltf_accessor;
 
 /* ---- state ---- */
+
+typedef struct draco_state draco_state; /* gltf_draco.c */
 
 typedef struct reader {
     facet_scene *scene;
@@ -97,6 +103,10 @@ typedef struct reader {
     uint64_t work; /* elements read so far; see reader_spend() */
     bool has_quantization;
     bool has_decoded_views; /* compressed ones */
+    draco_state *draco;     /* NULL: no primitive has asked for it yet */
+    const uint32_t
+        *faces; /* of the primitive that is being read, from its bitstream: corners; NULL: it has none */
+    uint32_t face_count;
 } reader;
 
 /* ---- places ---- */
@@ -200,9 +210,12 @@ size_t gltf_element_size(gltf_component component, gltf_type type);
 /* Bytes from one dense element to the next. */
 size_t gltf_accessor_stride(const reader *r, const gltf_accessor *accessor);
 
-/* gltf_draco.c: KHR_draco_mesh_compression. Before a primitive's attributes and indices are read: its accessors get
- * what its bitstream holds. True also where it has none; false: an error is recorded. */
+/* gltf_draco.c, or gltf_draco_none.c where the Draco library is missing: KHR_draco_mesh_compression. Before a
+ * primitive's attributes and indices are read: its accessors get what its bitstream holds, and r->faces is set. True
+ * also where it has none; false: an error is recorded. */
 bool prepare_draco(reader *r, const json_place *primitive);
+/* When all primitives are read. */
+void release_draco(reader *r);
 
 /* gltf_elements.c: the arrays, made once for each accessor. */
 /* All elements as floats, gltf_component_counts[type] each, normalised integers in [-1, 1] or [0, 1]. Points into
