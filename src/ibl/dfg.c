@@ -1,26 +1,55 @@
-/* dfg.c - the split-sum table and its lookup. The numbers are computed by dfg_generate.c when facet is built. */
+/* dfg.c - tables of directional albedo and their lookup. The numbers are computed by dfg_generate.c and sheen_generate.c
+ * when facet is built. */
 #include <math.h>
 
 #include "ibl/dfg.h"
 #include "ibl/ibl.h"
 
-static const float table[DFG_SIZE][DFG_SIZE][2] = {
+#include "shade/shade.h"
+
+static const float dfg_table[DFG_SIZE][DFG_SIZE][2] = {
 #include "ibl_dfg_table.h"
 };
 
+static const float sheen_table[SHEEN_SIZE][SHEEN_SIZE] = {
+#include "ibl_sheen_table.h"
+};
+
+/* Between which nodes of a table of size nodes x in [0, 1] lies: the first one, and how far it is from there. */
+typedef struct table_place {
+    int first;
+    float weight;
+} table_place;
+
+static inline table_place find_place(float x, int size)
+{
+    float node = (x > 0.0f ? x : 0.0f) * (float)(size - 1);
+    node = node < (float)(size - 1) ? node : (float)(size - 1);
+    int first = node < (float)(size - 2) ? (int)node : size - 2;
+    return (table_place){first, node - (float)first};
+}
+
 void ibl_dfg(float NdotV, float perceptual_roughness, float out[2])
 {
-    float x = sqrtf(NdotV > 0.0f ? NdotV : 0.0f) * (DFG_SIZE - 1);
-    float y = (perceptual_roughness > 0.0f ? perceptual_roughness : 0.0f) * (DFG_SIZE - 1);
-    x = x < DFG_SIZE - 1 ? x : DFG_SIZE - 1;
-    y = y < DFG_SIZE - 1 ? y : DFG_SIZE - 1;
-    int x0 = x < DFG_SIZE - 2 ? (int)x : DFG_SIZE - 2;
-    int y0 = y < DFG_SIZE - 2 ? (int)y : DFG_SIZE - 2;
-    float wx = x - (float)x0;
-    float wy = y - (float)y0;
+    table_place x = find_place(sqrtf(NdotV > 0.0f ? NdotV : 0.0f), DFG_SIZE);
+    table_place y = find_place(perceptual_roughness, DFG_SIZE);
+    const float(*low)[2] = dfg_table[y.first] + x.first;
+    const float(*high)[2] = dfg_table[y.first + 1] + x.first;
     for (int i = 0; i < 2; i++) {
-        float a = table[y0][x0][i] + (table[y0][x0 + 1][i] - table[y0][x0][i]) * wx;
-        float b = table[y0 + 1][x0][i] + (table[y0 + 1][x0 + 1][i] - table[y0 + 1][x0][i]) * wx;
-        out[i] = a + (b - a) * wy;
+        float a = low[0][i] + (low[1][i] - low[0][i]) * x.weight;
+        float b = high[0][i] + (high[1][i] - high[0][i]) * x.weight;
+        out[i] = a + (b - a) * y.weight;
     }
+}
+
+float ibl_sheen_albedo(float NdotV, float sheen_roughness)
+{
+    float mu = NdotV > NDOTV_MIN ? NdotV : NDOTV_MIN;
+    table_place x = find_place(sqrtf(mu), SHEEN_SIZE);
+    table_place y = find_place(sheen_roughness, SHEEN_SIZE);
+    const float *low = sheen_table[y.first] + x.first;
+    const float *high = sheen_table[y.first + 1] + x.first;
+    float a = low[0] + (low[1] - low[0]) * x.weight;
+    float b = high[0] + (high[1] - high[0]) * x.weight;
+    return (a + (b - a) * y.weight) / mu;
 }

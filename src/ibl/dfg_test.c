@@ -85,6 +85,27 @@ static void test_energy_and_range(void **state)
     assert_memory_equal(inside, outside, sizeof inside);
 }
 
+/* 16.5, of the visibility term with Lambda. */
+static const double golden_sheen[5][5] = {
+    {1.032847540, 0.06662283901, 7.902655155e-04, 5.420908046e-07, 5.159165020e-18},
+    {0.7476768301, 0.2442339209, 0.05993452933, 0.009518274947, 1.279496138e-04},
+    {0.6798274764, 0.3668602622, 0.1878539311, 0.08897543866, 0.02698202441},
+    {0.7819239627, 0.4815967431, 0.2980103504, 0.1844342457, 0.1008732237},
+    {0.8272474977, 0.5342260461, 0.3562892487, 0.2454791415, 0.1637639667}};
+
+static void test_sheen_golden_numbers(void **state)
+{
+    (void)state;
+    double worst = 0.0;
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) {
+            double E = (double)ibl_sheen_albedo((float)NdotV[j], (float)roughness[i]);
+            worst = fmax(worst, fabs(E - golden_sheen[i][j]));
+        }
+    print_message("largest deviation of sheen, interpolated: %.2e\n", worst);
+    assert_true(worst < 2e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -92,6 +113,7 @@ int main(void)
         cmocka_unit_test(test_node),
         cmocka_unit_test(test_mirror),
         cmocka_unit_test(test_energy_and_range),
+        cmocka_unit_test(test_sheen_golden_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

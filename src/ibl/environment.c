@@ -61,8 +61,9 @@ void environment_release(facet_environment *environment)
     if (!is_last)
         return;
     light_parts *parts = &environment->parts;
-    for (int i = 0; i < PREFILTER_LEVEL_COUNT; i++)
-        cube_destroy(&parts->levels[i]);
+    for (int lobe = 0; lobe < PREFILTER_LOBE_COUNT; lobe++)
+        for (int i = 0; i < PREFILTER_LEVEL_COUNT; i++)
+            cube_destroy(&parts->levels[lobe][i]);
     for (int i = 0; i < PICTURE_COUNT; i++)
         image_destroy(&parts->pictures[i]);
     harmonics_destroy(&parts->harmonics);

@@ -15,9 +15,9 @@ enum { PICTURE_COUNT = 4 }; /* in full size, half, quarter, eighth */
 /* Parts are prepared when a light first asks for them, under the mutex; from then on they never change, so that lights
  * read them without it. */
 typedef struct light_parts {
-    image pictures[PICTURE_COUNT];      /* [0] is not used: that is the picture itself */
-    cube levels[PREFILTER_LEVEL_COUNT]; /* [0] is not used */
-    harmonics harmonics;                /* what levels are made of */
+    image pictures[PICTURE_COUNT]; /* [0] is not used: that is the picture itself */
+    cube levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* [][0] is not used */
+    harmonics harmonics;                                      /* what levels are made of */
 } light_parts;
 
 struct facet_environment {

@@ -164,10 +164,10 @@ static void test_real_files(void **state)
         const ibl_light *light = NULL;
         assert_int_equal(ibl_light_prepare(e, &everything, &light, NULL), FACET_OK);
         double whole[3];
-        cube_mean(&e->parts.levels[PREFILTER_LEVEL_COUNT - 1], whole);
+        cube_mean(&e->parts.levels[PREFILTER_GGX][PREFILTER_LEVEL_COUNT - 1], whole);
         for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
             double mean[3];
-            cube_mean(&e->parts.levels[level], mean);
+            cube_mean(&e->parts.levels[PREFILTER_GGX][level], mean);
             for (int k = 0; k < 3; k++) {
                 assert_near(mean[k] / (double)e->parts.harmonics.mean[k], 1.0, 0.01);
                 assert_near(mean[k] / whole[k], 1.0, 0.01);
@@ -269,8 +269,9 @@ static facet_environment *open_cached(const char *folder, uint64_t cache_bytes, 
 static void check_equal(facet_environment *a, facet_environment *b)
 {
     for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++)
-        assert_memory_equal(a->parts.levels[level].texels, b->parts.levels[level].texels,
-                            mem_size(a->parts.levels[level].texels));
+        assert_memory_equal(a->parts.levels[PREFILTER_GGX][level].texels,
+                            b->parts.levels[PREFILTER_GGX][level].texels,
+                            mem_size(a->parts.levels[PREFILTER_GGX][level].texels));
 }
 
 static void test_cache(void **state)

@@ -14,7 +14,9 @@ typedef struct ibl_light_desc {
     bool needs_irradiance;
     bool needs_specular;
     float min_roughness,
-        max_roughness;        /* perceptual roughness of the surfaces; only these mips are filtered */
+        max_roughness; /* perceptual roughness of the surfaces; only these mips are filtered */
+    bool needs_sheen;  /* ibl_sheen() */
+    float min_sheen_roughness, max_sheen_roughness;
     bool needs_background;    /* sharp environment, ibl_background() */
     uint32_t background_size; /* height of the picture in pixels divided by its field of view in rad: how fine
                                   the background has to be; 0: as fine as the source */
@@ -32,6 +34,9 @@ void ibl_light_release(const ibl_light *light); /* NULL is allowed */
 void ibl_irradiance_over_pi(const ibl_light *light, const float N[3], float out[3]);
 /* Radiance around R filtered with the GGX lobe of that perceptual roughness (cd/m^2 per channel). */
 void ibl_specular(const ibl_light *light, const float R[3], float perceptual_roughness, float out[3]);
+/* Radiance around R filtered with Charlie's lobe (KHR_materials_sheen) of that perceptual roughness in [0, 1] (cd/m^2 per
+ * channel). The lobe is a ring on the horizon of R; below 0.1, where it would be a circle, it is that of 0.1. */
+void ibl_sheen(const ibl_light *light, const float R[3], float sheen_roughness, float out[3]);
 /* Radiance from direction d (cd/m^2 per channel), from the picture reduced to background_size texels per rad, or up to
  * twice as many. footprint_rad is what the caller samples; with several samples a pixel it needs no more filtering
  * and is not read. */
@@ -40,5 +45,10 @@ void ibl_background(const ibl_light *light, const float d[3], float footprint_ra
 /* Split-sum terms of the height-correlated GGX (Karis 2013): reflectance = F0 out[0] + F90 out[1]. NdotV in
  * [0, 1], perceptual_roughness in [0, 1]; bilinear in a table that is computed when facet is built. */
 void ibl_dfg(float NdotV, float perceptual_roughness, float out[2]);
+
+/* Directional albedo of sheen of color 1: integral of D_charlie V_charlie N.L (Estevez and Kulla 2017), both arguments in
+ * [0, 1], from a table that is computed when facet is built. The model sends out more than it receives at grazing angles
+ * and roughness below 0.2, where this is above 1: callers limit it as their energy mode asks. */
+float ibl_sheen_albedo(float NdotV, float sheen_roughness);
 
 #endif

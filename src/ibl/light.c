@@ -21,22 +21,27 @@ static const double sharp_rows = 512.0;
  * darkness that nine harmonics leave on the far side of a sun. */
 enum { LAMBERT_LEVEL = PREFILTER_LEVEL_COUNT - 1 };
 
+/* Levels of a lobe that were prepared; last < first: none. */
+typedef struct level_range {
+    uint32_t first, last;
+} level_range;
+
 /* What a light looks up in, shared with the environment, which it keeps. */
 struct ibl_light {
     facet_environment *environment;
-    cube irradiance_over_pi;            /* not owned */
-    uint32_t first_level, last_level;   /* prepared; last_level < first_level: none */
-    cube levels[PREFILTER_LEVEL_COUNT]; /* not owned; [0] is not used */
-    image sharp, background;            /* not owned */
+    cube irradiance_over_pi; /* not owned */
+    level_range ranges[PREFILTER_LOBE_COUNT];
+    cube levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* not owned; [][0] is not used */
+    image sharp, background;                                  /* not owned */
 };
 
 /* ---- preparing; the environment's mutex is held ---- */
 
 /* Reads a level from the cache; false: not there, or no memory. */
-static bool read_level(const facet_environment *e, const char *part, uint64_t recipe, uint32_t level,
+static bool read_level(const facet_environment *e, const char *part, uint64_t recipe, uint32_t size,
                        cube *out)
 {
-    if (!e->cache_folder || cube_create(prefilter_size(level), &e->allocator, out, NULL) != FACET_OK)
+    if (!e->cache_folder || cube_create(size, &e->allocator, out, NULL) != FACET_OK)
         return false;
     if (cache_read(e, part, recipe, out->texels, mem_size(out->texels)))
         return true;
@@ -44,23 +49,24 @@ static bool read_level(const facet_environment *e, const char *part, uint64_t re
     return false;
 }
 
-static facet_result prepare_level(facet_environment *e, uint32_t level, uint32_t thread_count,
-                                  facet_error *error)
+static facet_result prepare_level(facet_environment *e, prefilter_lobe lobe, uint32_t level,
+                                  uint32_t thread_count, facet_error *error)
 {
+    static const char *const names[PREFILTER_LOBE_COUNT] = {"level", "sheen"};
     light_parts *parts = &e->parts;
-    cube *out = &parts->levels[level];
+    cube *out = &parts->levels[lobe][level];
     if (out->texels)
         return FACET_OK;
     char part[16];
-    snprintf(part, sizeof part, "level%u", level);
-    uint64_t recipe = prefilter_recipe(level) ^ recipe_version;
-    if (read_level(e, part, recipe, level, out))
+    snprintf(part, sizeof part, "%s%u", names[lobe], level);
+    uint64_t recipe = prefilter_recipe(lobe, level) ^ recipe_version;
+    if (read_level(e, part, recipe, prefilter_size(lobe, level), out))
         return FACET_OK;
     facet_result result = FACET_OK;
     if (!parts->harmonics.coefficients)
         result = harmonics_create(&e->picture, &e->allocator, thread_count, &parts->harmonics, error);
     if (result == FACET_OK)
-        result = prefilter_level(&parts->harmonics, level, &e->allocator, thread_count, out, error);
+        result = prefilter_level(&parts->harmonics, lobe, level, &e->allocator, thread_count, out, error);
     if (result == FACET_OK)
         cache_write(e, part, recipe, out->texels, mem_size(out->texels));
     return result;
@@ -91,22 +97,24 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
 {
     facet_result result = FACET_OK;
     if (desc->needs_irradiance) {
-        result = prepare_level(e, LAMBERT_LEVEL, desc->thread_count, error);
+        result = prepare_level(e, PREFILTER_GGX, LAMBERT_LEVEL, desc->thread_count, error);
         if (result != FACET_OK)
             return result;
-        light->irradiance_over_pi = e->parts.levels[LAMBERT_LEVEL];
+        light->irradiance_over_pi = e->parts.levels[PREFILTER_GGX][LAMBERT_LEVEL];
     }
-    if (desc->needs_specular && light->first_level == 0) {
+    if (desc->needs_specular && light->ranges[PREFILTER_GGX].first == 0) {
         result = prepare_picture(e, sharp_rows, desc->thread_count, &light->sharp, error);
         if (result != FACET_OK)
             return result;
     }
-    uint32_t first = light->first_level ? light->first_level : 1;
-    for (uint32_t level = first; level <= light->last_level; level++) {
-        result = prepare_level(e, level, desc->thread_count, error);
-        if (result != FACET_OK)
-            return result;
-        light->levels[level] = e->parts.levels[level];
+    for (int lobe = 0; lobe < PREFILTER_LOBE_COUNT; lobe++) {
+        level_range range = light->ranges[lobe];
+        for (uint32_t level = range.first ? range.first : 1; level <= range.last; level++) {
+            result = prepare_level(e, (prefilter_lobe)lobe, level, desc->thread_count, error);
+            if (result != FACET_OK)
+                return result;
+            light->levels[lobe][level] = e->parts.levels[lobe][level];
+        }
     }
     harmonics_trim(&e->parts.harmonics);
     /* texels smaller than pixels */
@@ -121,6 +129,14 @@ static float clamp01(float x)
     return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; /* NaN is 0 */
 }
 
+/* Levels between which all of the roughness from a to b lies. */
+static level_range find_range(prefilter_lobe lobe, float a, float b)
+{
+    float low = prefilter_lod_of(lobe, clamp01(a));
+    float high = prefilter_lod_of(lobe, clamp01(b));
+    return (level_range){(uint32_t)(low < high ? low : high), (uint32_t)ceilf(low < high ? high : low)};
+}
+
 facet_result ibl_light_prepare(facet_environment *environment, const ibl_light_desc *desc,
                                const ibl_light **light, facet_error *error)
 {
@@ -130,13 +146,13 @@ facet_result ibl_light_prepare(facet_environment *environment, const ibl_light_d
     if (!l)
         return fail_memory(error, "light", sizeof *l);
     l->environment = environment;
-    l->first_level = 1;
-    if (desc->needs_specular) {
-        float low = prefilter_lod_of(clamp01(desc->min_roughness));
-        float high = prefilter_lod_of(clamp01(desc->max_roughness));
-        l->first_level = (uint32_t)(low < high ? low : high);
-        l->last_level = (uint32_t)ceilf(low < high ? high : low);
-    }
+    const level_range none = {1, 0};
+    l->ranges[PREFILTER_GGX] =
+        desc->needs_specular ? find_range(PREFILTER_GGX, desc->min_roughness, desc->max_roughness) : none;
+    l->ranges[PREFILTER_CHARLIE] =
+        desc->needs_sheen
+            ? find_range(PREFILTER_CHARLIE, desc->min_sheen_roughness, desc->max_sheen_roughness)
+            : none;
     pthread_mutex_lock(&environment->mutex);
     facet_result result = prepare_parts(environment, desc, l, error);
     environment->reference_count += result == FACET_OK;
@@ -169,13 +185,20 @@ void ibl_irradiance_over_pi(const ibl_light *light, const float N[3], float out[
         out[i] = c[i];
 }
 
+/* The level, with fraction, limited to those that were prepared. */
+static float find_lod(const ibl_light *light, prefilter_lobe lobe, float perceptual_roughness)
+{
+    assert(light->ranges[lobe].first <= light->ranges[lobe].last);
+    float lod = prefilter_lod_of(lobe, clamp01(perceptual_roughness));
+    float first = (float)light->ranges[lobe].first;
+    float last = (float)light->ranges[lobe].last;
+    return lod < first ? first : lod > last ? last : lod;
+}
+
 void ibl_specular(const ibl_light *light, const float R[3], float perceptual_roughness, float out[3])
 {
-    assert(light->first_level <= light->last_level);
-    float lod = prefilter_lod_of(clamp01(perceptual_roughness));
-    float first = (float)light->first_level;
-    float last = (float)light->last_level;
-    lod = lod < first ? first : lod > last ? last : lod;
+    const cube *levels = light->levels[PREFILTER_GGX];
+    float lod = find_lod(light, PREFILTER_GGX, perceptual_roughness);
     uint32_t level = (uint32_t)lod;
     float fraction = lod - (float)level;
     if (level == 0) {
@@ -186,9 +209,23 @@ void ibl_specular(const ibl_light *light, const float R[3], float perceptual_rou
     cube_point p = cube_locate(R[0], R[1], R[2]);
     rgbx rough = {0};
     if (fraction > 0.0f)
-        rough = cube_fetch(&light->levels[level + 1], p);
-    rgbx smooth = level ? cube_fetch(&light->levels[level], p) : (rgbx){out[0], out[1], out[2], 0.0f};
+        rough = cube_fetch(&levels[level + 1], p);
+    rgbx smooth = level ? cube_fetch(&levels[level], p) : (rgbx){out[0], out[1], out[2], 0.0f};
     rgbx c = smooth + (rough - smooth) * fraction;
+    for (int i = 0; i < 3; i++)
+        out[i] = c[i];
+}
+
+void ibl_sheen(const ibl_light *light, const float R[3], float sheen_roughness, float out[3])
+{
+    const cube *levels = light->levels[PREFILTER_CHARLIE];
+    float lod = find_lod(light, PREFILTER_CHARLIE, sheen_roughness);
+    uint32_t level = (uint32_t)lod;
+    float fraction = lod - (float)level;
+    cube_point p = cube_locate(R[0], R[1], R[2]);
+    rgbx c = cube_fetch(&levels[level], p);
+    if (fraction > 0.0f)
+        c += (cube_fetch(&levels[level + 1], p) - c) * fraction;
     for (int i = 0; i < 3; i++)
         out[i] = c[i];
 }

@@ -126,7 +126,7 @@ static void test_kernel_golden_numbers(void **state)
         {1.00, 0.666666666667, 0.25, 0.0, -0.041666666667}};
     for (int i = 0; i < 5; i++) {
         float kernel[HARMONICS_DEGREE + 1];
-        prefilter_kernel((float)golden[i][0], HARMONICS_DEGREE, kernel);
+        prefilter_kernel(PREFILTER_GGX, (float)golden[i][0], HARMONICS_DEGREE, kernel);
         assert_near(kernel[0], 1.0, 0.0);
         for (int l = 1; l <= 4; l++)
             assert_near(kernel[l], golden[i][l], 1e-6);
@@ -141,9 +141,9 @@ static void check_bands(facet_environment *e, int first_band, int band_step)
     double worst = 0.0;
     double worst_between = 0.0;
     for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
-        const cube *c = &e->parts.levels[level];
+        const cube *c = &e->parts.levels[PREFILTER_GGX][level];
         float kernel[5];
-        prefilter_kernel(prefilter_roughness(level), 4, kernel);
+        prefilter_kernel(PREFILTER_GGX, prefilter_roughness(PREFILTER_GGX, level), 4, kernel);
         for (uint32_t i = 0; i < 6 * c->size * c->size; i++) {
             double d[3], p;
             uint32_t x = i % c->size;
@@ -163,7 +163,7 @@ static void check_bands(facet_environment *e, int first_band, int band_step)
             float d[3], out[3];
             double p;
             test_direction(i, 300, d);
-            ibl_specular(light, d, prefilter_roughness(level), out);
+            ibl_specular(light, d, prefilter_roughness(PREFILTER_GGX, level), out);
             for (int k = 0; k < 3; k++) {
                 tilted_band(d, first_band + k * band_step, &p);
                 double expected = 1.0 + (double)kernel[first_band + k * band_step] * p;
@@ -232,11 +232,11 @@ static void check_sun(uint32_t sun_x, uint32_t sun_y)
     double omega = equirect_texel_solid_angle(width, 512, sun_y);
     double expected = 1e5 * omega / (4.0 * pi) + 0.3;
     for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
-        const cube *c = &e->parts.levels[level];
+        const cube *c = &e->parts.levels[PREFILTER_GGX][level];
         double mean[3];
         cube_mean(c, mean);
         assert_near(mean[1] / expected, 1.0, 0.01);
-        double a2 = pow((double)prefilter_roughness(level), 4.0);
+        double a2 = pow((double)prefilter_roughness(PREFILTER_GGX, level), 4.0);
         /* peak of D N.l / (4 m0): D(1) = 1 / (pi a^2); m0 >= 1/4 is the mean of N.l */
         double peak = 0.55 + 1e5 * omega / (pi * a2 * 4.0) * (level < 5 ? 1.4 : 4.0);
         for (uint32_t face = 0; face < 6; face++)
@@ -342,8 +342,8 @@ static void test_seams(void **state)
                     a[v] = b[v] = corner & 2 ? 1.0f : -1.0f;
                     a[u] *= 1.00001f;
                     b[v] *= 1.00001f;
-                    ibl_specular(light, a, prefilter_roughness(level), p);
-                    ibl_specular(light, b, prefilter_roughness(level), q);
+                    ibl_specular(light, a, prefilter_roughness(PREFILTER_GGX, level), p);
+                    ibl_specular(light, b, prefilter_roughness(PREFILTER_GGX, level), q);
                     for (int k = 0; k < 3; k++)
                         assert_near(p[k], q[k], 0.005);
                 }
@@ -378,8 +378,8 @@ static void test_roughness_is_continuous(void **state)
     for (uint32_t level = 1; level + 1 < PREFILTER_LEVEL_COUNT; level++) {
         float d[3] = {0.6f, 0.64f, 0.48f};
         float below[3], above[3];
-        ibl_specular(light, d, prefilter_roughness(level) - 1e-6f, below);
-        ibl_specular(light, d, prefilter_roughness(level) + 1e-6f, above);
+        ibl_specular(light, d, prefilter_roughness(PREFILTER_GGX, level) - 1e-6f, below);
+        ibl_specular(light, d, prefilter_roughness(PREFILTER_GGX, level) + 1e-6f, above);
         for (int k = 0; k < 3; k++)
             assert_near(below[k], above[k], 1e-4);
     }
@@ -396,7 +396,8 @@ static void test_parts_are_lazy(void **state)
     const ibl_light *light = prepare(e, (ibl_light_desc){.needs_irradiance = true});
     ibl_light_release(light);
     for (uint32_t level = 0; level < PREFILTER_LEVEL_COUNT; level++)
-        assert_int_equal(e->parts.levels[level].texels != NULL, level == PREFILTER_LEVEL_COUNT - 1);
+        assert_int_equal(e->parts.levels[PREFILTER_GGX][level].texels != NULL,
+                         level == PREFILTER_LEVEL_COUNT - 1);
     facet_environment_destroy(e);
 
     e = make(64, 32, sky);
@@ -407,16 +408,16 @@ static void test_parts_are_lazy(void **state)
     light =
         prepare(e, (ibl_light_desc){.needs_specular = true, .min_roughness = 0.45f, .max_roughness = 0.5f});
     for (uint32_t level = 0; level < PREFILTER_LEVEL_COUNT; level++)
-        assert_int_equal(e->parts.levels[level].texels != NULL, level > 0 &&
-                                                                    prefilter_roughness(level) >= 0.4f &&
-                                                                    prefilter_roughness(level) <= 0.52f);
-    rgbx *texels = e->parts.levels[4].texels;
+        assert_int_equal(e->parts.levels[PREFILTER_GGX][level].texels != NULL,
+                         level > 0 && prefilter_roughness(PREFILTER_GGX, level) >= 0.4f &&
+                             prefilter_roughness(PREFILTER_GGX, level) <= 0.52f);
+    rgbx *texels = e->parts.levels[PREFILTER_GGX][4].texels;
     assert_non_null(texels);
     assert_null(e->parts.harmonics.waves); /* scratch memory is not kept */
     ibl_light_release(light);
 
     light = prepare(e, everything); /* keeps what there is */
-    assert_ptr_equal(e->parts.levels[4].texels, texels);
+    assert_ptr_equal(e->parts.levels[PREFILTER_GGX][4].texels, texels);
     facet_environment_destroy(e); /* the light keeps it */
     float d[3] = {0.0f, 1.0f, 0.0f};
     float out[3];
@@ -442,10 +443,11 @@ static void test_levels_are_equal(void **state)
         ibl_light_release(prepare(b, desc));
     }
     for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
-        size_t edge = a->parts.levels[level].size + 2;
-        assert_int_equal(a->parts.levels[level].size, b->parts.levels[level].size);
-        assert_memory_equal(a->parts.levels[level].texels, b->parts.levels[level].texels,
-                            6 * edge * edge * sizeof(rgbx));
+        size_t edge = a->parts.levels[PREFILTER_GGX][level].size + 2;
+        assert_int_equal(a->parts.levels[PREFILTER_GGX][level].size,
+                         b->parts.levels[PREFILTER_GGX][level].size);
+        assert_memory_equal(a->parts.levels[PREFILTER_GGX][level].texels,
+                            b->parts.levels[PREFILTER_GGX][level].texels, 6 * edge * edge * sizeof(rgbx));
     }
     ibl_light_release(one);
     facet_environment_destroy(a);

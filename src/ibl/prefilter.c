@@ -7,50 +7,81 @@
 #include "shade/shade.h"
 
 /* How a level is made. Sizes give the half width of a lobe four texels and more, so that bilinear lookup keeps its
- * shape; degrees are such that what is cut off of a lobe is below 0.3 % of its peak. */
+ * shape; degrees are such that what is cut off of a lobe is below 0.3 % of its peak for GGX, 2 % for Charlie, whose ring
+ * has a sharp outer edge. */
 static const struct {
     float roughness;
     uint16_t size, degree;
-} levels[PREFILTER_LEVEL_COUNT] = {{0.0f, 0, 0},    {0.16f, 128, 160}, {0.22f, 80, 160},
-                                   {0.3f, 64, 128}, {0.4f, 48, 64},    {0.52f, 40, 64},
-                                   {0.68f, 32, 64}, {0.84f, 32, 64},   {1.0f, 32, 64}};
+} levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT] = {
+    {{0.0f, 0, 0},
+     {0.16f, 128, 160},
+     {0.22f, 80, 160},
+     {0.3f, 64, 128},
+     {0.4f, 48, 64},
+     {0.52f, 40, 64},
+     {0.68f, 32, 64},
+     {0.84f, 32, 64},
+     {1.0f, 32, 64}},
+    {{0.0f, 0, 0},
+     {0.1f, 128, 160},
+     {0.14f, 80, 160},
+     {0.2f, 64, 128},
+     {0.28f, 48, 96},
+     {0.4f, 40, 64},
+     {0.58f, 32, 64},
+     {0.78f, 32, 64},
+     {1.0f, 32, 64}},
+};
 
-float prefilter_roughness(uint32_t level)
+float prefilter_roughness(prefilter_lobe lobe, uint32_t level)
 {
-    return levels[level].roughness;
+    return levels[lobe][level].roughness;
 }
 
-uint32_t prefilter_size(uint32_t level)
+uint32_t prefilter_size(prefilter_lobe lobe, uint32_t level)
 {
-    return levels[level].size;
+    return levels[lobe][level].size;
 }
 
-uint64_t prefilter_recipe(uint32_t level)
+uint64_t prefilter_recipe(prefilter_lobe lobe, uint32_t level)
 {
-    uint32_t roughness = floatBitsToUint(levels[level].roughness);
-    return (uint64_t)roughness << 32 | (uint64_t)levels[level].size << 16 | levels[level].degree;
+    uint32_t roughness = floatBitsToUint(levels[lobe][level].roughness);
+    return (uint64_t)roughness << 32 | (uint64_t)levels[lobe][level].size << 16 | (uint64_t)lobe << 12 |
+           levels[lobe][level].degree;
 }
 
-float prefilter_lod_of(float perceptual_roughness)
+float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness)
 {
-    uint32_t level = 0;
-    while (level + 2 < PREFILTER_LEVEL_COUNT && perceptual_roughness > levels[level + 1].roughness)
+    uint32_t level = lobe == PREFILTER_GGX ? 0 : 1;
+    while (level + 2 < PREFILTER_LEVEL_COUNT && perceptual_roughness > levels[lobe][level + 1].roughness)
         level++;
-    float low = levels[level].roughness;
-    float high = levels[level + 1].roughness;
-    return (float)level + (perceptual_roughness - low) / (high - low);
+    float low = levels[lobe][level].roughness;
+    float high = levels[lobe][level + 1].roughness;
+    float fraction = (perceptual_roughness - low) / (high - low);
+    return (float)level + (fraction > 0.0f ? fraction : 0.0f);
 }
 
-void prefilter_kernel(float perceptual_roughness, uint32_t degree, float *kernel)
+/* Gauss and Legendre's nodes and weights of 8 points on [-1, 1], mirrored at 0. */
+static const double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                               0.9602898564975363};
+static const double node_weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                      0.1012285362903763};
+
+/* D at half angle t, times any constant. */
+static double distribution(prefilter_lobe lobe, double t, float alpha)
 {
-    /* Gauss and Legendre's nodes and weights of 8 points on [-1, 1], mirrored at 0 */
-    static const double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                                   0.9602898564975363};
-    static const double node_weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                          0.1012285362903763};
+    if (lobe == PREFILTER_GGX)
+        return (double)D_GGX_stable((float)(cos)(t), vec3((float)(sin)(t), 0.0f, 0.0f), alpha);
+    /* D_charlie over its value on the horizon, t = pi / 4: both are below any float at low roughness */
+    return (exp)(0.5 / (double)alpha * (log)(2.0 * (sin)(t) * (sin)(t)));
+}
+
+void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t degree, float *kernel)
+{
     double sum[HARMONICS_DEGREE + 1] = {0.0};
     float alpha = alpha_from_roughness(perceptual_roughness);
-    /* The half angle t runs to pi / 4, where l reaches the horizon, in panels that double in width from alpha / 8. */
+    /* The half angle t runs to pi / 4, where l reaches the horizon, in panels that double in width from alpha / 8; from
+     * where the lobe is. */
     double from = 0.0;
     double width = 0.125 * (double)alpha;
     const double end = 0.7853981633974483;
@@ -59,12 +90,11 @@ void prefilter_kernel(float perceptual_roughness, uint32_t degree, float *kernel
         double to = fmin(from + fmin(width, 0.03), end);
         for (int i = 0; i < 8; i++) {
             double x = i < 4 ? -node[i] : node[i - 4];
-            double t = 0.5 * (from + to) + 0.5 * (to - from) * x;
+            double s = 0.5 * (from + to) + 0.5 * (to - from) * x;
+            double t = lobe == PREFILTER_GGX ? s : end - s;
             double w = 0.5 * (to - from) * node_weight[i & 3];
             double NdotL = (cos)(2.0 * t);
-            /* dl = 2 pi sin(2 t) d(2 t) */
-            float D = D_GGX_stable((float)(cos)(t), vec3((float)(sin)(t), 0.0f, 0.0f), alpha);
-            w *= (double)D * NdotL * (sin)(2.0 * t);
+            w *= distribution(lobe, t, alpha) * NdotL * (sin)(2.0 * t); /* dl = 2 pi sin(2 t) d(2 t) */
             double p = 1.0;
             double before = 0.0;
             for (uint32_t l = 0; l <= degree; l++) {
@@ -90,12 +120,13 @@ static void taper(uint32_t degree, float *kernel)
         kernel[l] *= 0.5f + 0.5f * cos(PI * (float)(l - first) / (float)(degree + 1 - first));
 }
 
-facet_result prefilter_level(harmonics *h, uint32_t level, const facet_allocator *allocator,
-                             uint32_t thread_count, cube *out, facet_error *error)
+facet_result prefilter_level(harmonics *h, prefilter_lobe lobe, uint32_t level,
+                             const facet_allocator *allocator, uint32_t thread_count, cube *out,
+                             facet_error *error)
 {
     float kernel[HARMONICS_DEGREE + 1];
-    prefilter_kernel(levels[level].roughness, levels[level].degree, kernel);
-    taper(levels[level].degree, kernel);
-    return harmonics_filter(h, kernel, levels[level].degree, levels[level].size, allocator, thread_count, out,
-                            error);
+    uint32_t degree = levels[lobe][level].degree;
+    prefilter_kernel(lobe, levels[lobe][level].roughness, degree, kernel);
+    taper(degree, kernel);
+    return harmonics_filter(h, kernel, degree, levels[lobe][level].size, allocator, thread_count, out, error);
 }
