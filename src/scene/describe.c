@@ -1,9 +1,7 @@
 /* describe.c - a scene in numbers and as JSON; docs/inspect.md lists the members. */
-#include "scene/scene.h"
+#include "scene/describe.h"
 
 #include <stdio.h>
-
-#include "base/text.h"
 
 static uint64_t element_count(const scene_primitive *p)
 {
@@ -46,8 +44,7 @@ facet_scene_counts scene_count(const facet_scene *scene)
 
 /* ---- small things ---- */
 
-/* An index, null where there is none. */
-static void write_index(text *t, const char *key, uint32_t index)
+void describe_index(text *t, const char *key, uint32_t index)
 {
     if (index == SCENE_NONE)
         text_json_string(t, key, NULL);
@@ -55,12 +52,20 @@ static void write_index(text *t, const char *key, uint32_t index)
         text_json_integer(t, key, index);
 }
 
-static void write_indices(text *t, const char *key, const uint32_t *indices, uint32_t count)
+void describe_indices(text *t, const char *key, const uint32_t *indices, uint32_t count)
 {
     text_json_begin_array(t, key);
     for (uint32_t i = 0; i < count; i++)
         text_json_integer(t, NULL, indices[i]);
     text_json_end_array(t);
+}
+
+void describe_meta(text *t, const scene_meta *meta)
+{
+    if (meta->extras)
+        text_json_raw(t, "extras", meta->extras);
+    if (meta->extensions)
+        text_json_raw(t, "metadata", meta->extensions);
 }
 
 static void write_asset(text *t, const facet_scene *scene)
@@ -69,6 +74,7 @@ static void write_asset(text *t, const facet_scene *scene)
     text_json_string(t, "version", scene->version);
     text_json_string(t, "generator", scene->generator);
     text_json_string(t, "copyright", scene->copyright);
+    describe_meta(t, &scene->asset_meta);
     text_json_end_object(t);
 }
 
@@ -87,6 +93,8 @@ static void write_counts(text *t, const facet_scene *scene)
     text_json_integer(t, "lights", c.lights);
     text_json_integer(t, "skins", c.skins);
     text_json_integer(t, "animations", c.animations);
+    text_json_integer(t, "variants", c.variants);
+    text_json_integer(t, "image_lights", c.image_lights);
     text_json_integer(t, "instances", c.instances);
     text_json_integer(t, "vertices", (int64_t)c.vertices);
     text_json_integer(t, "triangles", (int64_t)c.triangles);
@@ -120,9 +128,12 @@ static void write_scenes(text *t, const facet_scene *scene)
     for (uint32_t i = 0; i < scene->scene_count; i++) {
         text_json_begin_object(t, NULL);
         text_json_string(t, "name", scene->scenes[i].name);
-        write_indices(t, "nodes", scene->scenes[i].nodes, scene->scenes[i].node_count);
+        describe_indices(t, "nodes", scene->scenes[i].nodes, scene->scenes[i].node_count);
         const facet_pose_desc desc = {.has_scene_index = true, .scene_index = i};
         write_bounds(t, scene, &desc);
+        if (scene->image_light_count)
+            describe_index(t, "image_light", scene->scenes[i].image_light);
+        describe_meta(t, &scene->scenes[i].meta);
         text_json_end_object(t);
     }
     text_json_end_array(t);
@@ -132,8 +143,8 @@ static void write_node(text *t, const scene_node *node)
 {
     text_json_begin_object(t, NULL);
     text_json_string(t, "name", node->name);
-    write_index(t, "parent", node->parent);
-    write_indices(t, "children", node->children, node->child_count);
+    describe_index(t, "parent", node->parent);
+    describe_indices(t, "children", node->children, node->child_count);
     if (node->has_matrix) {
         text_json_floats(t, "matrix", node->matrix.m, 16);
     } else {
@@ -141,11 +152,14 @@ static void write_node(text *t, const scene_node *node)
         text_json_floats(t, "rotation", node->rotation, 4);
         text_json_floats(t, "scale", node->scale, 3);
     }
-    write_index(t, "mesh", node->mesh);
-    write_index(t, "camera", node->camera);
-    write_index(t, "light", node->light);
-    write_index(t, "skin", node->skin);
+    describe_index(t, "mesh", node->mesh);
+    describe_index(t, "camera", node->camera);
+    describe_index(t, "light", node->light);
+    describe_index(t, "skin", node->skin);
     text_json_bool(t, "visible", !node->is_hidden);
+    if (node->instancing)
+        text_json_integer(t, "instances", node->instancing->count);
+    describe_meta(t, &node->meta);
     text_json_end_object(t);
 }
 
@@ -165,18 +179,32 @@ static void write_attributes(text *t, const scene_primitive *p)
         snprintf(name, sizeof name, "TEXCOORD_%u", set);
         text_json_string(t, NULL, name);
     }
+    for (uint32_t set = 0; 4 * set < p->influence_count; set++) {
+        char name[24];
+        snprintf(name, sizeof name, "JOINTS_%u", set);
+        text_json_string(t, NULL, name);
+        snprintf(name, sizeof name, "WEIGHTS_%u", set);
+        text_json_string(t, NULL, name);
+    }
     text_json_end_array(t);
 }
 
-static void write_primitive(text *t, const scene_primitive *p)
+static void write_primitive(text *t, const facet_scene *scene, const scene_primitive *p)
 {
     static const char *const modes[] = {"points", "lines", "triangles"};
     text_json_begin_object(t, NULL);
     text_json_string(t, "mode", modes[p->mode]);
     text_json_integer(t, "vertices", p->vertex_count);
     text_json_integer(t, "indices", p->index_count);
-    write_index(t, "material", p->material);
+    describe_index(t, "material", p->material);
+    if (p->variant_materials) {
+        text_json_begin_array(t, "variant_materials");
+        for (uint32_t i = 0; i < scene->variant_count; i++)
+            describe_index(t, NULL, p->variant_materials[i]);
+        text_json_end_array(t);
+    }
     write_attributes(t, p);
+    text_json_integer(t, "morph_targets", p->target_count);
     text_json_bool(t, "flat_normals", p->has_flat_normals);
     if (p->index_count) {
         text_json_begin_object(t, "bounds");
@@ -186,6 +214,7 @@ static void write_primitive(text *t, const scene_primitive *p)
     } else {
         text_json_string(t, "bounds", NULL);
     }
+    describe_meta(t, &p->meta);
     text_json_end_object(t);
 }
 
@@ -198,54 +227,14 @@ static void write_meshes(text *t, const facet_scene *scene)
         text_json_string(t, "name", mesh->name);
         text_json_begin_array(t, "primitives");
         for (uint32_t k = 0; k < mesh->primitive_count; k++)
-            write_primitive(t, &mesh->primitives[k]);
+            write_primitive(t, scene, &mesh->primitives[k]);
         text_json_end_array(t);
+        if (mesh->weight_count)
+            text_json_floats(t, "weights", mesh->weights, mesh->weight_count);
+        describe_meta(t, &mesh->meta);
         text_json_end_object(t);
     }
     text_json_end_array(t);
-}
-
-static void write_texture_ref(text *t, const char *key, const scene_texture_ref *ref)
-{
-    if (ref->texture == SCENE_NONE)
-        return;
-    text_json_begin_object(t, key);
-    text_json_integer(t, "texture", ref->texture);
-    text_json_integer(t, "texcoord", ref->texcoord);
-    if (ref->has_transform)
-        text_json_floats(t, "transform", ref->transform, 6);
-    text_json_end_object(t);
-}
-
-static void write_material(text *t, const scene_material *m)
-{
-    static const char *const alpha_modes[] = {"OPAQUE", "MASK", "BLEND"};
-    text_json_begin_object(t, NULL);
-    text_json_string(t, "name", m->name);
-    text_json_floats(t, "base_color", m->base_color, 4);
-    text_json_float(t, "metallic", m->metallic);
-    text_json_float(t, "roughness", m->perceptual_roughness);
-    text_json_float(t, "normal_scale", m->normal_scale);
-    text_json_float(t, "occlusion_strength", m->occlusion_strength);
-    float emissive[3];
-    for (int i = 0; i < 3; i++)
-        emissive[i] = m->emissive[i] * m->emissive_strength;
-    text_json_floats(t, "emissive", emissive, 3);
-    text_json_string(t, "alpha_mode", alpha_modes[m->alpha_mode]);
-    text_json_float(t, "alpha_cutoff", m->alpha_cutoff);
-    text_json_bool(t, "double_sided", m->is_double_sided);
-    text_json_bool(t, "unlit", (m->extensions & SCENE_UNLIT) != 0);
-    text_json_float(t, "ior", m->ior);
-    text_json_float(t, "specular", m->specular);
-    text_json_floats(t, "specular_color", m->specular_color, 3);
-    write_texture_ref(t, "base_color_texture", &m->textures[SCENE_BASE_COLOR_TEXTURE]);
-    write_texture_ref(t, "metallic_roughness_texture", &m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE]);
-    write_texture_ref(t, "normal_texture", &m->textures[SCENE_NORMAL_TEXTURE]);
-    write_texture_ref(t, "occlusion_texture", &m->textures[SCENE_OCCLUSION_TEXTURE]);
-    write_texture_ref(t, "emissive_texture", &m->textures[SCENE_EMISSIVE_TEXTURE]);
-    write_texture_ref(t, "specular_texture", &m->textures[SCENE_SPECULAR_TEXTURE]);
-    write_texture_ref(t, "specular_color_texture", &m->textures[SCENE_SPECULAR_COLOR_TEXTURE]);
-    text_json_end_object(t);
 }
 
 static void write_texture(text *t, const scene_texture *texture)
@@ -255,12 +244,13 @@ static void write_texture(text *t, const scene_texture *texture)
     static const char *const mips[] = {"linear", "nearest", "none"};
     text_json_begin_object(t, NULL);
     text_json_string(t, "name", texture->name);
-    write_index(t, "image", texture->image);
+    describe_index(t, "image", texture->image);
     text_json_string(t, "wrap_u", wraps[texture->wrap_u]);
     text_json_string(t, "wrap_v", wraps[texture->wrap_v]);
     text_json_string(t, "mag_filter", filters[texture->mag_filter]);
     text_json_string(t, "min_filter", filters[texture->min_filter]);
     text_json_string(t, "mip_filter", mips[texture->mip_filter]);
+    describe_meta(t, &texture->meta);
     text_json_end_object(t);
 }
 
@@ -273,6 +263,7 @@ static void write_image(text *t, const scene_image *image)
     text_json_integer(t, "width", image->width);
     text_json_integer(t, "height", image->height);
     text_json_bool(t, "readable", image->bytes != NULL);
+    describe_meta(t, &image->meta);
     text_json_end_object(t);
 }
 
@@ -296,6 +287,7 @@ static void write_camera(text *t, const scene_camera *camera)
         text_json_float(t, "far", camera->far_m);
     else
         text_json_string(t, "far", NULL);
+    describe_meta(t, &camera->meta);
     text_json_end_object(t);
 }
 
@@ -315,6 +307,59 @@ static void write_light(text *t, const scene_light *light)
         text_json_float(t, "inner_cone_rad", light->inner_cone_rad);
         text_json_float(t, "outer_cone_rad", light->outer_cone_rad);
     }
+    describe_meta(t, &light->meta);
+    text_json_end_object(t);
+}
+
+static void write_image_light(text *t, const scene_image_light *light)
+{
+    text_json_begin_object(t, NULL);
+    text_json_string(t, "name", light->name);
+    text_json_float(t, "intensity", light->intensity);
+    text_json_floats(t, "rotation", light->rotation, 4);
+    text_json_integer(t, "size", light->specular_size);
+    text_json_integer(t, "mips", light->mip_count);
+    describe_meta(t, &light->meta);
+    text_json_end_object(t);
+}
+
+static void write_variants(text *t, const facet_scene *scene)
+{
+    text_json_begin_array(t, "variants");
+    for (uint32_t i = 0; i < scene->variant_count; i++)
+        text_json_string(t, NULL, scene->variants[i]);
+    text_json_end_array(t);
+}
+
+/* ---- memory ---- */
+
+/* Bytes of a primitive's arrays as the renderer reads them. */
+static uint64_t primitive_bytes(const scene_primitive *p)
+{
+    uint64_t floats = 3u + (p->normals ? 3u : 0u) + (p->tangents ? 4u : 0u) + (p->colors ? 4u : 0u) +
+                      2u * (uint64_t)p->texcoord_count + p->influence_count;
+    for (uint32_t i = 0; i < p->target_count; i++)
+        floats += (p->targets[i].positions ? 3u : 0u) + (p->targets[i].normals ? 3u : 0u) +
+                  (p->targets[i].tangents ? 3u : 0u);
+    return p->vertex_count * (4u * floats + 2u * p->influence_count) + 4u * (uint64_t)p->index_count;
+}
+
+static void write_memory(text *t, const facet_scene *scene)
+{
+    uint64_t geometry = 0;
+    uint64_t images = 0;
+    uint64_t texels = 0;
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++)
+            geometry += primitive_bytes(&scene->meshes[i].primitives[k]);
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        images += scene->images[i].size;
+        texels += (uint64_t)scene->images[i].width * scene->images[i].height;
+    }
+    text_json_begin_object(t, "memory");
+    text_json_integer(t, "geometry_bytes", (int64_t)geometry);
+    text_json_integer(t, "image_file_bytes", (int64_t)images);
+    text_json_integer(t, "image_texel_bytes", (int64_t)(4 * texels));
     text_json_end_object(t);
 }
 
@@ -347,16 +392,21 @@ void scene_describe_json(const facet_scene *scene, struct text *t)
     write_asset(t, scene);
     write_counts(t, scene);
     write_bounds(t, scene, NULL);
-    write_index(t, "default_scene", scene->default_scene);
+    describe_index(t, "default_scene", scene->default_scene);
     write_scenes(t, scene);
     WRITE_ARRAY("nodes", scene->nodes, scene->node_count, write_node);
     write_meshes(t, scene);
-    WRITE_ARRAY("materials", scene->materials, scene->material_count, write_material);
+    describe_materials(t, scene);
     WRITE_ARRAY("textures", scene->textures, scene->texture_count, write_texture);
     WRITE_ARRAY("images", scene->images, scene->image_count, write_image);
     WRITE_ARRAY("cameras", scene->cameras, scene->camera_count, write_camera);
     WRITE_ARRAY("lights", scene->lights, scene->light_count, write_light);
+    WRITE_ARRAY("image_lights", scene->image_lights, scene->image_light_count, write_image_light);
+    describe_motion(t, scene);
+    write_variants(t, scene);
     write_extensions(t, scene);
+    write_memory(t, scene);
+    describe_meta(t, &scene->meta);
     text_json_begin_array(t, "warnings");
     for (uint32_t i = 0; i < scene->warning_count; i++)
         text_json_string(t, NULL, scene->warnings[i]);

@@ -378,12 +378,14 @@ void scene_describe_json(const facet_scene *scene, struct text *out);
 /* One primitive where it is drawn. */
 typedef struct scene_instance {
     const scene_primitive *primitive;
-    const float *positions, *normals,
-        *tangents; /* the primitive's, or the pose's own where is_deformed; before world */
-    bool
-        is_deformed; /* by morph targets or a skin; a skin's vertices are in world space, and world is the identity */
-    bool
-        is_copy; /* EXT_mesh_gpu_instancing: of the instance before it that has the same node and primitive */
+    /* Before world: the primitive's, or the pose's own where is_deformed. */
+    const float *positions, *normals, *tangents;
+    float bounds_min[3], bounds_max[3]; /* of the positions that indices use */
+    /* By morph targets or a skin. A skin's vertices are in world space, and world is the identity, or a mirror in x
+     * where most of the joints mirror. */
+    bool is_deformed;
+    /* EXT_mesh_gpu_instancing: of the instance before it, which has the same node and primitive. */
+    bool is_copy;
     uint32_t material; /* with the variant; SCENE_NONE: the default material */
     mat4 world;
     float normal_matrix[9]; /* cofactor matrix, rows; normalise after use; sign already such that a mirrored
@@ -420,7 +422,8 @@ typedef struct scene_pose {
 
 /* Evaluates what desc asks for (NULL: {0}). A file without scenes has one, number 0, of all its roots. Singular node
  * matrices draw nothing, and what they would put farther out than SCENE_FARTHEST. Fails with FACET_ERROR_ARGUMENT for
- * a scene, variant or animation that is not there, FACET_ERROR_LIMIT above 2^22 instances, FACET_ERROR_MEMORY. */
+ * a scene, variant or animation that is not there and a time that is not finite, FACET_ERROR_LIMIT above 2^22
+ * instances or 2^27 vertices that are deformed, FACET_ERROR_MEMORY. */
 facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *desc,
                                const facet_allocator *allocator, uint32_t thread_count, scene_pose *pose,
                                facet_error *error);
@@ -431,12 +434,14 @@ const scene_material *scene_pose_material(const facet_scene *scene, const scene_
 
 /* ---- cameras ---- */
 
-/* facet_camera_from_orbit() for a pose that is there (it may draw nothing). The distance is exact: at radius_scale 1
- * the outermost vertex is on the border of the picture. Fails with FACET_ERROR_ARGUMENT for numbers that are no
- * camera. */
+/* facet_camera_from_orbit() for a pose that is there (it may draw nothing): for that one, whatever fits_all_times says.
+ * The distance is exact: at radius_scale 1 the outermost vertex is on the border of the picture. Fails with
+ * FACET_ERROR_ARGUMENT for numbers that are no camera. */
 facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect,
                             uint32_t thread_count, facet_camera *camera, facet_error *error);
-/* facet_camera_from_orbit(). */
+/* facet_camera_from_orbit(). Where the orbit fits all times, the motion is looked at at every key of the animations
+ * and 24 times per second, or at SCENE_FIT_TIMES even steps where that would be more. */
+enum { SCENE_FIT_TIMES = 256 };
 facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *desc, const facet_orbit *orbit,
                              float aspect, facet_camera *camera, facet_error *error);
 

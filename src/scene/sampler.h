@@ -1,0 +1,31 @@
+/* sampler.h - what an animation's keys say at a time. */
+#ifndef SCENE_SAMPLER_H
+#define SCENE_SAMPLER_H
+
+#include "scene/scene.h"
+
+/* The value at one time is the sum of factors times values of keys (pointers to sampler->width floats). */
+typedef struct sampler_blend {
+    uint32_t count; /* 1 to 4; 1: a key's value as it is, its factor is 1 */
+    const float *values[4];
+    double factors[4];
+} sampler_blend;
+
+/* At time_s, finite: the first key's value before it, the last one's after it. is_rotation: values are unit
+ * quaternions (width 4), and linear keys are joined along the shorter great circle; the blend of cubic ones is not
+ * unit. */
+sampler_blend sampler_at(const scene_sampler *sampler, double time_s, bool is_rotation);
+
+/* Number i of the value, [0, sampler->width). */
+static inline double sampler_blend_value(const sampler_blend *blend, size_t i)
+{
+    double value = blend->factors[0] * (double)blend->values[0][i];
+    for (uint32_t k = 1; k < blend->count; k++)
+        value += blend->factors[k] * (double)blend->values[k][i];
+    return value;
+}
+
+/* A rotation at time_s: a unit quaternion x y z w. False: the keys cancel, no rotation. */
+bool sampler_rotation_at(const scene_sampler *sampler, double time_s, float out[4]);
+
+#endif
