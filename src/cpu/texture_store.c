@@ -150,8 +150,17 @@ static facet_result decode(const texture_store *store, job *j, const char *name,
     j->decoded_texels = (uint64_t)out->width * out->height;
     if (out->type == IMAGE_U8 || out->type == IMAGE_U16)
         return FACET_OK;
-    return fail(&j->error, FACET_ERROR_UNSUPPORTED, "%s: expected a PNG, JPEG or WebP picture, this is %s",
-                name, image_codec_name(record->codec));
+    if (record->codec != IMAGE_CODEC_KTX2)
+        return fail(&j->error, FACET_ERROR_UNSUPPORTED,
+                    "%s: expected a PNG, JPEG, WebP, AVIF or KTX2 picture, this is %s", name,
+                    image_codec_name(record->codec));
+    /* Floats, which glTF does not have: in [0, 1], coded as what reads them expects. */
+    image codes;
+    result = image_convert(out, &store->allocator, 1, out->channel_count, IMAGE_U16, !j->want->is_read[0],
+                           &codes, &j->error);
+    image_destroy(out);
+    *out = codes;
+    return result;
 }
 
 /* Pyramids from first_level on of those ways of reading that is_read asks for. */

@@ -1,27 +1,34 @@
 /* gltf_textures.c - images, found but not decoded, and textures with their samplers (glTF 2.0 sections 3.8, 5.18,
- * 5.29). A picture that cannot be had costs a warning and is white, as viewers do it. */
+ * 5.29; KHR_texture_basisu, EXT_texture_webp, EXT_texture_avif). A picture that cannot be had costs a warning and is
+ * white, as viewers do it. */
 #include <string.h>
 
-#include "image/image.h"
+#include "image/ktx2.h"
 #include "io/gltf_reader.h"
 
 /* ---- images ---- */
 
-/* What facet can decode, and "image/ktx2" to be able to say what it is. */
-static const char *mime_type_of(image_codec codec)
+/* Kinds of image files, and the extension that lets a texture use one (NULL: the core). */
+typedef struct image_kind {
+    image_codec codec;
+    const char *mime_type, *name, *extension;
+} image_kind;
+
+static const image_kind KINDS[] = {{IMAGE_CODEC_PNG, "image/png", "PNG", NULL},
+                                   {IMAGE_CODEC_JPEG, "image/jpeg", "JPEG", NULL},
+                                   {IMAGE_CODEC_KTX2, "image/ktx2", "KTX2", "KHR_texture_basisu"},
+                                   {IMAGE_CODEC_WEBP, "image/webp", "WebP", "EXT_texture_webp"},
+                                   {IMAGE_CODEC_AVIF, "image/avif", "AVIF", "EXT_texture_avif"}};
+enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
+static const char DDS_TYPE[] = "image/vnd-ms.dds"; /* known by name only */
+
+static const image_kind *find_kind(const scene_image *i)
 {
-    switch (codec) {
-    case IMAGE_CODEC_PNG:
-        return "image/png";
-    case IMAGE_CODEC_JPEG:
-        return "image/jpeg";
-    case IMAGE_CODEC_WEBP:
-        return "image/webp";
-    case IMAGE_CODEC_KTX2:
-        return "image/ktx2";
-    default:
-        return "";
-    }
+    image_codec codec = image_codec_detect(i->bytes, i->size);
+    for (size_t k = 0; k < KIND_COUNT; k++)
+        if (KINDS[k].codec == codec)
+            return &KINDS[k];
+    return NULL;
 }
 
 static bool find_bytes(reader *r, const json_place *at, scene_image *out)
@@ -61,38 +68,79 @@ static bool find_bytes(reader *r, const json_place *at, scene_image *out)
     return out->bytes != NULL;
 }
 
+/* What KHR_texture_basisu asks of a file, and what is made of one that is otherwise. */
+static void check_ktx2(reader *r, const json_place *at, const scene_image *i)
+{
+    ktx2 k;
+    if (ktx2_open(i->bytes, i->size, "", &k, NULL) != FACET_OK)
+        return; /* read_size() tells */
+    if (k.format->kind != KTX2_ETC1S && k.format->decode != uastc_decode)
+        reader_warn(r, at, NULL, "holds %s, where KHR_texture_basisu has ETC1S or UASTC", k.format->name);
+    if (k.is_cube)
+        reader_warn(r, at, NULL, "is a cube; its first face is used");
+    else if (k.is_array)
+        reader_warn(r, at, NULL, "is an array; its first layer is used");
+    if (k.is_right_to_left || k.is_bottom_up)
+        reader_warn(r, at, NULL, "has a KTXorientation other than \"rd\"; it is turned");
+    if (memcmp(k.swizzle, "rgba", 4) != 0)
+        reader_warn(r, at, NULL, "has a KTXswizzle other than \"rgba\"; it is applied");
+    if (k.is_premultiplied)
+        reader_warn(r, at, NULL, "has colors that are multiplied by alpha, which glTF does not know");
+}
+
+/* From the header of the file. Where that of an extension's file cannot be read, neither can the rest, and a texture
+ * takes another source. */
+static void read_size(reader *r, const json_place *at, const image_kind *kind, scene_image *out)
+{
+    image header;
+    facet_error error;
+    facet_result result = image_probe(out->bytes, out->size, "the picture", &header, NULL, &error);
+    if (result == FACET_OK) {
+        out->width = header.width;
+        out->height = header.height;
+    } else if (result == FACET_ERROR_MEMORY) {
+        reader_fail(r, at, NULL, result, "%s", error.message);
+    } else if (kind->extension) {
+        reader_warn(r, at, NULL, "%s", error.message);
+    }
+}
+
 static void read_image(reader *r, const json_place *at, scene_image *out)
 {
     const char *name = get_name(r, at);
     const char *uri = get_string(r, at, "uri", NULL);
     *out = (scene_image){.name = name, .mime_type = ""};
-    if (name[0] == 0 && uri && strncmp(uri, "data:", 5) != 0) {
-        out->name = arena_strdup(r->scene->arena, uri);
-        if (!out->name) {
+    if (uri && strncmp(uri, "data:", 5) != 0) {
+        out->uri = arena_strdup(r->scene->arena, uri);
+        if (!out->uri) {
             reader_fail_memory(r, "image", strlen(uri));
             return;
         }
+        if (name[0] == 0)
+            out->name = out->uri;
     }
     if (!find_bytes(r, at, out)) {
         out->bytes = NULL;
         out->size = 0;
         return;
     }
-    image_codec codec = image_codec_detect(out->bytes, out->size);
-    out->mime_type = mime_type_of(codec);
+    const image_kind *kind = find_kind(out);
+    if (kind)
+        out->mime_type = kind->mime_type;
+    else if (out->size >= 4 && memcmp(out->bytes, "DDS ", 4) == 0)
+        out->mime_type = DDS_TYPE;
     const char *said = get_string(r, at, "mimeType", NULL);
     if (out->mime_type[0] == 0)
-        reader_warn(r, at, NULL, "is no PNG, JPEG or WebP file; white is used");
+        reader_warn(r, at, NULL, "is no PNG, JPEG, WebP, AVIF or KTX2 file; white is used");
     else if (said && strcmp(said, out->mime_type) != 0)
         reader_warn(r, at, "mimeType", "says \"%.40s\", but the image is %s", said, out->mime_type);
-    if (codec == IMAGE_CODEC_WEBP && !is_extension_listed(r, "EXT_texture_webp"))
-        reader_warn(r, at, NULL, "is a WebP file, which needs EXT_texture_webp");
-    image header;
-    if (out->mime_type[0] && codec != IMAGE_CODEC_KTX2 &&
-        image_probe(out->bytes, out->size, out->name, &header, &codec, NULL) == FACET_OK) {
-        out->width = header.width;
-        out->height = header.height;
-    }
+    if (!kind)
+        return;
+    if (kind->extension && !is_extension_listed(r, kind->extension))
+        reader_warn(r, at, NULL, "is a %s file, which needs %s", kind->name, kind->extension);
+    if (kind->codec == IMAGE_CODEC_KTX2)
+        check_ktx2(r, at, out);
+    read_size(r, at, kind, out);
 }
 
 void read_images(reader *r, const json_place *root)
@@ -143,7 +191,40 @@ static void read_sampler(reader *r, const json_place *sampler, scene_texture *ou
 
 static bool is_readable(const scene_image *source)
 {
-    return source->bytes && source->mime_type[0] && strcmp(source->mime_type, "image/ktx2") != 0;
+    return source->width > 0 || strcmp(source->mime_type, "image/png") == 0 ||
+           strcmp(source->mime_type, "image/jpeg") == 0;
+}
+
+/* The source of an extension of a texture, or, name NULL, of the texture itself. */
+static uint32_t get_source(reader *r, const json_place *at, const char *name)
+{
+    json_place extension = name ? get_extension(r, at, name) : *at;
+    return get_index(r, &extension, "source", r->scene->image_count, "image");
+}
+
+/* The first source that can be read wins; those of extensions come before the fallback. */
+static void find_source(reader *r, const json_place *at, scene_texture *out)
+{
+    static const char *const names[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", NULL,
+                                        "MSFT_texture_dds"};
+    bool has_source = false;
+    bool has_dds = false;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        uint32_t source = get_source(r, at, names[i]); /* all of them: each is checked */
+        if (source == SCENE_NONE)
+            continue;
+        has_source = true;
+        has_dds |= strcmp(r->scene->images[source].mime_type, DDS_TYPE) == 0;
+        if (out->image == SCENE_NONE && is_readable(&r->scene->images[source]))
+            out->image = source;
+    }
+    if (!reader_is_ok(r) || out->image != SCENE_NONE)
+        return;
+    if (has_dds)
+        reader_warn(r, at, NULL,
+                    "has only a DDS image (MSFT_texture_dds), which facet does not read; white is used");
+    else if (!has_source)
+        reader_warn(r, at, NULL, "has no source; white is used");
 }
 
 static void read_texture(reader *r, const json_place *root, const json_place *at, scene_texture *out)
@@ -154,30 +235,7 @@ static void read_texture(reader *r, const json_place *root, const json_place *at
     uint32_t sampler = get_index(r, at, "sampler", (uint32_t)get_count(&samplers), "sampler");
     json_place element = sampler == SCENE_NONE ? none : get_element_object(r, &samplers, sampler);
     read_sampler(r, &element, out);
-
-    /* The first source that can be read wins, the extension's before the fallback. */
-    json_place webp = get_extension(r, at, "EXT_texture_webp");
-    json_place basisu = get_extension(r, at, "KHR_texture_basisu");
-    uint32_t sources[3] = {get_index(r, &webp, "source", r->scene->image_count, "image"),
-                           get_index(r, at, "source", r->scene->image_count, "image"),
-                           get_index(r, &basisu, "source", r->scene->image_count, "image")};
-    bool has_source = false;
-    bool has_ktx2 = false;
-    for (int i = 0; i < 3 && out->image == SCENE_NONE; i++) {
-        if (sources[i] == SCENE_NONE)
-            continue;
-        const scene_image *source = &r->scene->images[sources[i]];
-        has_source = true;
-        has_ktx2 |= strcmp(source->mime_type, "image/ktx2") == 0;
-        if (is_readable(source))
-            out->image = sources[i];
-    }
-    if (!reader_is_ok(r) || out->image != SCENE_NONE)
-        return;
-    if (has_ktx2)
-        reader_warn(r, at, NULL, "has only a KTX2 image, which is not read yet; white is used");
-    else if (!has_source)
-        reader_warn(r, at, NULL, "has no source; white is used");
+    find_source(r, at, out);
 }
 
 void read_textures(reader *r, const json_place *root)
