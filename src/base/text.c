@@ -180,3 +180,9 @@ void text_json_floats(text *t, const char *key, const float *values, size_t coun
         text_json_float(t, NULL, values[i]);
     text_json_end_array(t);
 }
+
+void text_json_raw(text *t, const char *key, const char *json)
+{
+    begin_value(t, key);
+    text_add(t, json ? json : "null");
+}

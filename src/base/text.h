@@ -30,6 +30,7 @@ void text_json_string(text *t, const char *key, const char *value); /* NULL: nul
 void text_json_bool(text *t, const char *key, bool value);
 void text_json_integer(text *t, const char *key, int64_t value);
 void text_json_float(text *t, const char *key, float value);
+void text_json_raw(text *t, const char *key, const char *json); /* a value as JSON text; NULL: null */
 void text_json_floats(text *t, const char *key, const float *values, size_t count);
 
 #endif

@@ -95,21 +95,39 @@ static void print_bounds(FILE *stream, const json_t *bounds)
             b[0] - a[0], b[1] - a[1], b[2] - a[2], a[0], a[1], a[2], b[0], b[1], b[2]);
 }
 
-/* "base_color 0, normal 2": what ends in _texture, with the number of the texture. */
-static void list_textures(const json_t *material, char *text, size_t size)
+/* "base_color 0, normal 2": the members that are texture infos, with the number of the texture. */
+static void list_textures(const json_t *object, char *text, size_t size)
 {
-    text[0] = 0;
     const char *key;
     json_t *value;
-    json_object_foreach((json_t *)material, key, value)
+    json_object_foreach((json_t *)object, key, value)
     {
-        static const char suffix[] = "_texture";
+        static const char *const suffixes[] = {"_texture", "Texture"};
         size_t length = strlen(key), used = strlen(text);
-        if (length < sizeof suffix || strcmp(key + length - (sizeof suffix - 1), suffix) != 0 ||
-            !json_is_object(value))
+        if (!json_object_get(value, "texture"))
             continue;
-        snprintf(text + used, size - used, "%s%.*s %lld", used ? ", " : "",
-                 (int)(length - (sizeof suffix - 1)), key, integer_of(value, "texture"));
+        for (int i = 0; i < 2; i++) {
+            size_t end = strlen(suffixes[i]);
+            if (length > end && strcmp(key + length - end, suffixes[i]) == 0)
+                length -= end;
+        }
+        snprintf(text + used, size - used, "%s%.*s %lld", used ? ", " : "", (int)length, key,
+                 integer_of(value, "texture"));
+    }
+}
+
+/* ", clearcoat, sheen": what the material has beyond the core. */
+static void list_extensions(const json_t *material, char *text, size_t size)
+{
+    static const char prefix[] = "KHR_materials_";
+    const char *key;
+    json_t *value;
+    text[0] = 0;
+    json_object_foreach(json_object_get(material, "extensions"), key, value)
+    {
+        size_t used = strlen(text);
+        bool has_prefix = strncmp(key, prefix, sizeof prefix - 1) == 0;
+        snprintf(text + used, size - used, ", %s", key + (has_prefix ? sizeof prefix - 1 : 0));
     }
 }
 
@@ -126,8 +144,13 @@ static void print_materials(FILE *stream, const json_t *materials, bool all)
         table_add(&t, "%s", titles[i]);
     for (size_t i = 0; i < count && (all || i < FEW); i++) {
         const json_t *m = json_array_get(materials, i), *color = json_object_get(m, "base_color");
-        char textures[256];
+        char textures[512] = "", extensions[256];
+        const char *key;
+        json_t *extension;
         list_textures(m, textures, sizeof textures);
+        json_object_foreach(json_object_get(m, "extensions"), key, extension)
+            list_textures(extension, textures, sizeof textures);
+        list_extensions(m, extensions, sizeof extensions);
         table_add(&t, "%zu", i);
         table_add(&t, "%s", text_of(m, "name"));
         table_add(&t, "%.3g %.3g %.3g %.3g", element_of(color, 0), element_of(color, 1), element_of(color, 2),
@@ -135,8 +158,7 @@ static void print_materials(FILE *stream, const json_t *materials, bool all)
         table_add(&t, "%.3g", number_of(m, "metallic"));
         table_add(&t, "%.3g", number_of(m, "roughness"));
         table_add(&t, "%s%s%s", text_of(m, "alpha_mode"),
-                  json_is_true(json_object_get(m, "double_sided")) ? ", double sided" : "",
-                  json_is_true(json_object_get(m, "unlit")) ? ", unlit" : "");
+                  json_is_true(json_object_get(m, "double_sided")) ? ", double sided" : "", extensions);
         table_add(&t, "%s", textures);
     }
     table_print(&t, stream, 2);
@@ -206,6 +228,60 @@ static void print_named(FILE *stream, const json_t *list, const char *title, boo
     print_rest(stream, count, all);
 }
 
+static void print_animations(FILE *stream, const json_t *animations, bool all)
+{
+    size_t count = json_array_size(animations);
+    if (!count)
+        return;
+    print_heading(stream, "Animations", count);
+    table t = {.column_count = 4};
+    for (size_t i = 0; i < count && (all || i < FEW); i++) {
+        const json_t *animation = json_array_get(animations, i);
+        table_add(&t, "%zu", i);
+        table_add(&t, "%.4g s to %.4g s", number_of(animation, "begin"), number_of(animation, "end"));
+        table_add(&t, "%zu channels", json_array_size(json_object_get(animation, "channels")));
+        table_add(&t, "%s", text_of(animation, "name"));
+    }
+    table_print(&t, stream, 2);
+    print_rest(stream, count, all);
+}
+
+static void print_variants(FILE *stream, const json_t *variants)
+{
+    size_t count = json_array_size(variants);
+    if (!count)
+        return;
+    print_heading(stream, "Variants", count);
+    table t = {.column_count = 2};
+    for (size_t i = 0; i < count; i++) {
+        table_add(&t, "%zu", i);
+        table_add(&t, "%s", json_string_value(json_array_get(variants, i)));
+    }
+    table_print(&t, stream, 2);
+}
+
+/* "memory     1.2 MiB geometry, .." */
+static void print_memory(FILE *stream, const json_t *memory)
+{
+    const double mib = 1048576.0;
+    fprintf(stream, "  memory     geometry %.1f MiB, images %.1f MiB in files, %.1f MiB as texels\n",
+            number_of(memory, "geometry_bytes") / mib, number_of(memory, "image_file_bytes") / mib,
+            number_of(memory, "image_texel_bytes") / mib);
+}
+
+static bool has_metadata(const json_t *value)
+{
+    const char *key;
+    json_t *element;
+    size_t index;
+    bool found = json_object_get(value, "extras") || json_object_get(value, "metadata");
+    if (json_is_array(value))
+        json_array_foreach(value, index, element) found = found || has_metadata(element);
+    else
+        json_object_foreach((json_t *)value, key, element) found = found || has_metadata(element);
+    return found;
+}
+
 static void print_extensions(FILE *stream, const json_t *extensions)
 {
     size_t count = json_array_size(extensions);
@@ -248,6 +324,9 @@ void inspect_print_text(FILE *stream, const char *name, const json_t *model, boo
     table_print(&t, stream, 2);
     print_counts(stream, json_object_get(model, "counts"));
     print_bounds(stream, json_object_get(model, "bounds"));
+    print_memory(stream, json_object_get(model, "memory"));
+    if (has_metadata(model))
+        fprintf(stream, "  metadata   extras or XMP; --json shows them\n");
     if (json_array_size(json_object_get(model, "scenes")) > 1)
         print_named(stream, json_object_get(model, "scenes"), "Scenes", all);
     print_materials(stream, json_object_get(model, "materials"), all);
@@ -255,6 +334,8 @@ void inspect_print_text(FILE *stream, const char *name, const json_t *model, boo
     print_images(stream, json_object_get(model, "images"), all);
     print_named(stream, json_object_get(model, "cameras"), "Cameras", all);
     print_named(stream, json_object_get(model, "lights"), "Lights", all);
+    print_animations(stream, json_object_get(model, "animations"), all);
+    print_variants(stream, json_object_get(model, "variants"));
     print_extensions(stream, json_object_get(model, "extensions"));
     print_warnings(stream, json_object_get(model, "warnings"));
 }

@@ -404,9 +404,9 @@ void scene_describe_json(const facet_scene *scene, struct text *t)
     WRITE_ARRAY("image_lights", scene->image_lights, scene->image_light_count, write_image_light);
     describe_motion(t, scene);
     write_variants(t, scene);
-    write_extensions(t, scene);
     write_memory(t, scene);
     describe_meta(t, &scene->meta);
+    write_extensions(t, scene);
     text_json_begin_array(t, "warnings");
     for (uint32_t i = 0; i < scene->warning_count; i++)
         text_json_string(t, NULL, scene->warnings[i]);

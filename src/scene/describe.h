@@ -1,0 +1,16 @@
+/* describe.h - what the files that describe a scene as JSON share; docs/inspect.md lists the members. */
+#ifndef SCENE_DESCRIBE_H
+#define SCENE_DESCRIBE_H
+
+#include "base/text.h"
+#include "scene/scene.h"
+
+void describe_index(text *t, const char *key, uint32_t index); /* SCENE_NONE: null */
+void describe_indices(text *t, const char *key, const uint32_t *indices, uint32_t count);
+/* "extras" and "metadata", where there are any. */
+void describe_meta(text *t, const scene_meta *meta);
+
+void describe_materials(text *t, const facet_scene *scene); /* "materials" */
+void describe_motion(text *t, const facet_scene *scene);    /* "skins", "animations" */
+
+#endif

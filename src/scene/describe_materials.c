@@ -1,0 +1,82 @@
+/* describe_materials.c - materials as JSON: the core by facet's names, extensions by glTF's. */
+#include "scene/describe.h"
+#include "scene/material_table.h"
+
+static void write_texture_ref(text *t, const char *key, const scene_texture_ref *ref)
+{
+    if (ref->texture == SCENE_NONE)
+        return;
+    text_json_begin_object(t, key);
+    text_json_integer(t, "texture", ref->texture);
+    text_json_integer(t, "texcoord", ref->texcoord);
+    if (ref->has_transform)
+        text_json_floats(t, "transform", ref->transform, 6);
+    text_json_end_object(t);
+}
+
+/* All numbers and textures of one extension. */
+static void write_extension(text *t, const scene_material *m, const material_extension *extension)
+{
+    text_json_begin_object(t, extension->name);
+    for (int i = 0; i < MATERIAL_PARAMETER_COUNT; i++) {
+        const material_parameter *row = &material_parameters[i];
+        const float *values = material_floats_const(m, row);
+        if (row->extension != extension->bit || row->texture)
+            continue;
+        if (row->count == 1)
+            text_json_float(t, row->key, values[0]); /* null: infinite */
+        else
+            text_json_floats(t, row->key, values, row->count);
+    }
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+        if (material_textures[slot].extension == extension->bit)
+            write_texture_ref(t, material_textures[slot].key, &m->textures[slot]);
+    if (extension->bit == SCENE_CLEARCOAT)
+        text_json_float(t, "normal_scale", m->clearcoat_normal_scale);
+    text_json_end_object(t);
+}
+
+static void write_material(text *t, const scene_material *m)
+{
+    static const char *const alpha_modes[] = {"OPAQUE", "MASK", "BLEND"};
+    float emissive[3];
+    for (int i = 0; i < 3; i++)
+        emissive[i] = m->emissive[i] * m->emissive_strength;
+    text_json_begin_object(t, NULL);
+    text_json_string(t, "name", m->name);
+    text_json_floats(t, "base_color", m->base_color, 4);
+    text_json_float(t, "metallic", m->metallic);
+    text_json_float(t, "roughness", m->perceptual_roughness);
+    text_json_float(t, "normal_scale", m->normal_scale);
+    text_json_float(t, "occlusion_strength", m->occlusion_strength);
+    text_json_floats(t, "emissive", emissive, 3);
+    text_json_string(t, "alpha_mode", alpha_modes[m->alpha_mode]);
+    text_json_float(t, "alpha_cutoff", m->alpha_cutoff);
+    text_json_bool(t, "double_sided", m->is_double_sided);
+    text_json_bool(t, "unlit", (m->extensions & SCENE_UNLIT) != 0);
+    text_json_float(t, "ior", m->ior);
+    text_json_float(t, "specular", m->specular);
+    text_json_floats(t, "specular_color", m->specular_color, 3);
+    write_texture_ref(t, "base_color_texture", &m->textures[SCENE_BASE_COLOR_TEXTURE]);
+    write_texture_ref(t, "metallic_roughness_texture", &m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE]);
+    write_texture_ref(t, "normal_texture", &m->textures[SCENE_NORMAL_TEXTURE]);
+    write_texture_ref(t, "occlusion_texture", &m->textures[SCENE_OCCLUSION_TEXTURE]);
+    write_texture_ref(t, "emissive_texture", &m->textures[SCENE_EMISSIVE_TEXTURE]);
+    write_texture_ref(t, "specular_texture", &m->textures[SCENE_SPECULAR_TEXTURE]);
+    write_texture_ref(t, "specular_color_texture", &m->textures[SCENE_SPECULAR_COLOR_TEXTURE]);
+    text_json_begin_object(t, "extensions");
+    for (int i = 0; i < MATERIAL_EXTENSION_COUNT; i++)
+        if (m->extensions & material_extensions[i].bit)
+            write_extension(t, m, &material_extensions[i]);
+    text_json_end_object(t);
+    describe_meta(t, &m->meta);
+    text_json_end_object(t);
+}
+
+void describe_materials(text *t, const facet_scene *scene)
+{
+    text_json_begin_array(t, "materials");
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        write_material(t, &scene->materials[i]);
+    text_json_end_array(t);
+}
