@@ -46,9 +46,8 @@ void ibl_background(const ibl_light *light, const float d[3], float footprint_ra
  * [0, 1], perceptual_roughness in [0, 1]; bilinear in a table that is computed when facet is built. */
 void ibl_dfg(float NdotV, float perceptual_roughness, float out[2]);
 
-/* Directional albedo of sheen of color 1: integral of D_charlie V_charlie N.L (Estevez and Kulla 2017), both arguments in
- * [0, 1], from a table that is computed when facet is built. The model sends out more than it receives at grazing angles
- * and roughness below 0.2, where this is above 1: callers limit it as their energy mode asks. */
+/* Directional albedo of sheen of color 1: integral of D_Charlie V_Charlie N.L (Estevez and Kulla 2017), both arguments in
+ * [0, 1], from a table that is computed when facet is built. At most 1, which the model exceeds at N.V below 0.05. */
 float ibl_sheen_albedo(float NdotV, float sheen_roughness);
 
 #endif

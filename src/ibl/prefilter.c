@@ -72,7 +72,7 @@ static double distribution(prefilter_lobe lobe, double t, float alpha)
 {
     if (lobe == PREFILTER_GGX)
         return (double)D_GGX_stable((float)(cos)(t), vec3((float)(sin)(t), 0.0f, 0.0f), alpha);
-    /* D_charlie over its value on the horizon, t = pi / 4: both are below any float at low roughness */
+    /* D_Charlie over its value on the horizon, t = pi / 4: both are below any float at low roughness */
     return (exp)(0.5 / (double)alpha * (log)(2.0 * (sin)(t) * (sin)(t)));
 }
 

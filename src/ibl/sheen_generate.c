@@ -1,7 +1,7 @@
 /* sheen_generate.c - computes the table of sheen's directional albedo; runs when facet is built.
  * usage: sheen_generate OUTPUT
  *
- *   E N.V = integral of D / (4 (1 + Lambda(N.V) + Lambda(N.L))) dL,  as V_charlie = 1 / (4 N.L N.V (1 + Lambda + Lambda))
+ *   E N.V = integral of D / (4 (1 + Lambda(N.V) + Lambda(N.L))) dL,  as V_Charlie = 1 / (4 N.L N.V (1 + Lambda + Lambda))
  *
  * over the hemisphere of L, by Gauss and Legendre's rule: panels of N.L that triple in width from 1e-5, because Lambda
  * rises like a small power of it; 24 points of longitude. E itself has a pole at N.V = 0. */
@@ -15,17 +15,17 @@
 static const double pi = 3.14159265358979323846;
 
 /* Charlie's distribution and shadowing; Estevez and Kulla 2017, equations 2 and 3. */
-static float sheen_alpha(float sheen_roughness)
+static float table_alpha(float sheen_roughness)
 {
     float r = sheen_roughness > 1e-6f ? sheen_roughness : 1e-6f;
     return r * r;
 }
-static float D_charlie(float NdotH, float alpha)
+static float table_D(float NdotH, float alpha)
 {
     float p = 1.0f / alpha;
     return (2.0f + p) * (powf)((1.0f - NdotH) * (1.0f + NdotH), 0.5f * p) * (0.5f * INV_PI);
 }
-static float charlie_L(float x, float alpha)
+static float table_L(float x, float alpha)
 {
     float q = (1.0f - alpha) * (1.0f - alpha);
     float a = 21.5473f * (1.0f - q) + 25.3245f * q;
@@ -35,10 +35,10 @@ static float charlie_L(float x, float alpha)
     float e = -4.32054f * (1.0f - q) - 4.85967f * q;
     return a / (1.0f + b * (powf)(x, c)) + d * x + e;
 }
-static float Lambda_charlie(float mu, float alpha)
+static float table_Lambda(float mu, float alpha)
 {
-    return mu < 0.5f ? (expf)(charlie_L(mu, alpha))
-                     : (expf)(2.0f * charlie_L(0.5f, alpha) - charlie_L(1.0f - mu, alpha));
+    return mu < 0.5f ? (expf)(table_L(mu, alpha))
+                     : (expf)(2.0f * table_L(0.5f, alpha) - table_L(1.0f - mu, alpha));
 }
 
 /* Gauss and Legendre's nodes in (0, 1) of 8 points, mirrored at 0, and their weights. */
@@ -66,22 +66,22 @@ static double ring(double NdotV, double NdotL, float alpha)
             double p = point(i, panel * pi / LONGITUDE_PANELS, (panel + 1) * pi / LONGITUDE_PANELS, &w);
             double VdotL = NdotV * NdotL + sines * (cos)(p);
             double NdotH = (NdotV + NdotL) / (sqrt)(2.0 + 2.0 * VdotL);
-            sum += 2.0 * w * (double)D_charlie((float)fmin(NdotH, 1.0), alpha); /* 2: p and -p */
+            sum += 2.0 * w * (double)table_D((float)fmin(NdotH, 1.0), alpha); /* 2: p and -p */
         }
     return sum;
 }
 
 static double integrate(float sheen_roughness, double NdotV)
 {
-    float alpha = sheen_alpha(sheen_roughness);
-    double Lambda_V = (double)Lambda_charlie((float)NdotV, alpha);
+    float alpha = table_alpha(sheen_roughness);
+    double Lambda_V = (double)table_Lambda((float)NdotV, alpha);
     double sum = 0.0;
     double to = 1e-5;
     for (double from = 0.0; from < 1.0; from = to, to = fmin(3.0 * to, 1.0))
         for (int i = 0; i < POINTS; i++) {
             double w;
             double NdotL = point(i, from, to, &w);
-            double Lambda_L = (double)Lambda_charlie((float)NdotL, alpha);
+            double Lambda_L = (double)table_Lambda((float)NdotL, alpha);
             sum += w * ring(NdotV, NdotL, alpha) / (4.0 * (1.0 + Lambda_V + Lambda_L));
         }
     return sum;
