@@ -13,19 +13,42 @@ typedef struct embree_memory {
     _Atomic ptrdiff_t used;
 } embree_memory;
 
+/* Triangles that are instances of what is traced, in a scene of their own. */
+typedef struct embree_part {
+    RTCScene scene; /* NULL: not built */
+    enum RTCBuildQuality quality;
+} embree_part;
+
 /* Stays where it is between create and destroy: Embree keeps its address. */
 typedef struct embree_scene {
     RTCDevice device;
     RTCScene scene;
-    uint32_t packet_width; /* 16, 8 or 4: what this machine traces at once */
+    enum RTCBuildQuality quality;          /* of scene */
+    const render_geometry_set *geometries; /* what hits are numbers of */
+    embree_part still, *shapes;            /* of RENDER_STILL; per shape of the set */
+    uint32_t shape_count;
+    bool has_instances;
+    ptrdiff_t instance_bytes; /* counted for Embree's own objects */
+    uint32_t packet_width;    /* 16, 8 or 4: what this machine traces at once */
     embree_memory memory;
 } embree_scene;
+
+/* The number of the instance that holds all of RENDER_STILL; what is hit inside of it has a number of its own. */
+static inline uint32_t embree_still_number(const render_geometry_set *set)
+{
+    return set->count;
+}
 
 /* Builds over the geometries, which have their vertices and outlive it, as well as ray_count rays are worth it. The
  * hierarchy does not depend on thread_count. Fails with FACET_ERROR_MEMORY, FACET_ERROR_ENVIRONMENT where Embree does not run. */
 facet_result embree_scene_create(const render_geometry_set *set, const facet_allocator *allocator,
                                  uint64_t ray_count, uint32_t thread_count, embree_scene *out,
                                  facet_error *error);
+/* Builds anew what is not as the set is now, which has taken the place of the one before at the same address. likeness:
+ * RENDER_SAME, but has_moved_sprites, where only the points and lines are elsewhere. The hierarchy is that of
+ * embree_scene_create(). On failure nothing is left: as after embree_scene_destroy(). */
+facet_result embree_scene_update(embree_scene *scene, render_likeness likeness, bool has_moved_sprites,
+                                 uint64_t ray_count, facet_error *error);
 void embree_scene_destroy(embree_scene *scene); /* {0} is allowed */
 
 #endif

@@ -6,19 +6,17 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "cpu/texture_need.h"
+#include "cpu/texture_set.h"
 #include "cpu/tiles.h"
 
 #include <math.h>
 
 /* All that is made for one picture. */
 typedef struct preview {
-    const facet_scene *scene;
+    prepared_scene *prepared;
     const facet_render_desc *desc;
     facet_render_stats *stats;
-    scene_pose pose;
     camera_rays camera;
-    render_geometry_set geometries;
-    embree_scene embree;
     texture_use *uses;
     texture_set *textures;
     light_setup light;
@@ -30,6 +28,7 @@ typedef struct preview {
 static facet_result prepare_textures(preview *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
+    const facet_scene *scene = p->prepared->scene;
     double start = clock_seconds();
     float footprint = desc->quality == FACET_QUALITY_FINAL ? 0.5f : 1.0f;
     float opacity_footprint = 1.0f / sqrtf((float)desc->samples);
@@ -39,10 +38,12 @@ static facet_result prepare_textures(preview *p, facet_error *error)
                               .opacity_footprint = fminf(footprint, opacity_footprint),
                               .thread_count = desc->thread_count};
     facet_result result =
-        texture_need(p->scene, &p->geometries, &p->camera, &need, &desc->allocator, p->uses, error);
+        texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error);
     if (result == FACET_OK)
-        result = texture_set_create(p->scene, p->uses, &desc->allocator, &desc->log, desc->thread_count,
-                                    &p->textures, error);
+        result = prepared_scene_textures(p->prepared, error);
+    if (result == FACET_OK)
+        result = texture_set_create_from(p->prepared->textures, scene, p->uses, &desc->allocator, &desc->log,
+                                         desc->thread_count, &p->textures, error);
     if (result == FACET_OK)
         p->stats->decoded_texels = texture_set_decoded_texels(p->textures);
     p->stats->textures_s = clock_seconds() - start;
@@ -52,11 +53,7 @@ static facet_result prepare_textures(preview *p, facet_error *error)
 static facet_result prepare_hierarchy(preview *p, facet_error *error)
 {
     double start = clock_seconds();
-    const facet_render_desc *desc = p->desc;
-    /* Of the whole picture: a crop sees what the whole sees. */
-    uint64_t ray_count = (uint64_t)desc->width * desc->height * desc->samples;
-    facet_result result = embree_scene_create(&p->geometries, &desc->allocator, ray_count, desc->thread_count,
-                                              &p->embree, error);
+    facet_result result = prepared_scene_hierarchy(p->prepared, p->desc, error);
     p->hierarchy_s = clock_seconds() - start;
     return result;
 }
@@ -64,8 +61,7 @@ static facet_result prepare_hierarchy(preview *p, facet_error *error)
 static facet_result prepare_tangents(preview *p, facet_error *error)
 {
     double start = clock_seconds();
-    facet_result result =
-        render_geometry_make_tangents(&p->geometries, &p->desc->allocator, p->desc->thread_count, error);
+    facet_result result = prepared_scene_tangents(p->prepared, p->desc, error);
     p->tangents_s = clock_seconds() - start;
     return result;
 }
@@ -73,7 +69,8 @@ static facet_result prepare_tangents(preview *p, facet_error *error)
 static facet_result prepare_light(preview *p, facet_error *error)
 {
     double start = clock_seconds();
-    facet_result result = light_setup_create(&p->geometries, &p->pose, &p->camera, p->desc, &p->light, error);
+    facet_result result = light_setup_create(&p->prepared->geometries, &p->prepared->pose, &p->camera,
+                                             p->desc, &p->light, error);
     p->stats->light_s = clock_seconds() - start;
     return result;
 }
@@ -100,20 +97,17 @@ static facet_result prepare(preview *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
     double start = clock_seconds();
-    facet_result result =
-        scene_pose_create(p->scene, &desc->pose, &desc->allocator, desc->thread_count, &p->pose, error);
+    facet_result result = prepared_scene_pose(p->prepared, desc, error);
     if (result == FACET_OK)
         result = camera_rays_create(desc->camera, desc->width, desc->height, &p->camera, error);
     if (result == FACET_OK)
-        result = render_geometry_create(p->scene, &p->pose, &desc->allocator, &p->geometries, error);
-    if (result == FACET_OK)
-        result = render_geometry_transform(&p->geometries, &p->pose, &p->camera, &desc->allocator,
-                                           desc->thread_count, error);
+        result = prepared_scene_geometry(p->prepared, desc, &p->camera, error);
     if (result != FACET_OK)
         return result;
-    p->uses = mem_zalloc(&desc->allocator, p->scene->texture_count, sizeof *p->uses);
+    size_t texture_count = p->prepared->scene->texture_count;
+    p->uses = mem_zalloc(&desc->allocator, texture_count, sizeof *p->uses);
     if (!p->uses)
-        return fail_memory(error, "textures", p->scene->texture_count * sizeof *p->uses);
+        return fail_memory(error, "textures", texture_count * sizeof *p->uses);
     p->stats->geometry_s = clock_seconds() - start;
 
     stage_run run = {.p = p};
@@ -142,8 +136,8 @@ static facet_result check_limits(const facet_render_desc *desc, const char *stag
 
 static facet_result draw(preview *p, double deadline_s, film *target, facet_error *error)
 {
-    shading_scene shading = {.geometries = &p->geometries,
-                             .embree = &p->embree,
+    shading_scene shading = {.geometries = &p->prepared->geometries,
+                             .embree = &p->prepared->embree,
                              .textures = p->textures,
                              .light = &p->light,
                              .camera = &p->camera,
@@ -155,29 +149,55 @@ static facet_result draw(preview *p, double deadline_s, film *target, facet_erro
     return result;
 }
 
-facet_result preview_render(const facet_scene *scene, const facet_render_desc *desc, film *target,
-                            facet_render_stats *stats, facet_error *error)
+/* One attempt; *is_drawing: all was prepared. */
+static facet_result render(prepared_scene *prepared, const facet_render_desc *desc, double deadline_s,
+                           film *target, facet_render_stats *stats, bool *is_drawing, facet_error *error)
 {
-    double start = clock_seconds();
-    double deadline_s = desc->time_limit_s > 0.0 ? start + desc->time_limit_s : 0.0;
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
-    preview p = {.scene = scene, .desc = desc, .stats = stats};
+    *is_drawing = false;
+    preview p = {.prepared = prepared, .desc = desc, .stats = stats};
     facet_result result = check_limits(desc, "prepare", 0.0, deadline_s, error);
     if (result == FACET_OK)
         result = prepare(&p, error);
+    *is_drawing = result == FACET_OK;
     if (result == FACET_OK)
         result = check_limits(desc, "shade", 0.0, deadline_s, error);
     if (result == FACET_OK)
         result = draw(&p, deadline_s, target, error);
     if (result == FACET_OK)
         result = check_limits(desc, "shade", 1.0, 0.0, error);
-
     light_setup_destroy(&p.light);
     texture_set_destroy(p.textures);
-    embree_scene_destroy(&p.embree);
-    render_geometry_destroy(&p.geometries);
-    scene_pose_destroy(&p.pose);
     mem_free(p.uses);
+    return result;
+}
+
+facet_result preview_render_prepared(prepared_scene *p, const facet_render_desc *desc, film *target,
+                                     facet_render_stats *stats, facet_error *error)
+{
+    double start = clock_seconds();
+    double deadline_s = desc->time_limit_s > 0.0 ? start + desc->time_limit_s : 0.0;
+    bool was_empty = !p->has_pose;
+    bool is_drawing;
+    facet_result result = render(p, desc, deadline_s, target, stats, &is_drawing, error);
+    if (!is_drawing && result != FACET_OK)
+        prepared_scene_clear(p);
+    if (result == FACET_ERROR_MEMORY && !was_empty) {
+        prepared_scene_clear(p);
+        result = render(p, desc, deadline_s, target, stats, &is_drawing, error);
+        if (!is_drawing && result != FACET_OK)
+            prepared_scene_clear(p);
+    }
     stats->total_s = clock_seconds() - start;
+    return result;
+}
+
+facet_result preview_render(const facet_scene *scene, const facet_render_desc *desc, film *target,
+                            facet_render_stats *stats, facet_error *error)
+{
+    prepared_scene p;
+    prepared_scene_init(&p, scene, &desc->allocator);
+    facet_result result = preview_render_prepared(&p, desc, target, stats, error);
+    prepared_scene_clear(&p);
     return result;
 }

@@ -1,10 +1,7 @@
-/* render_geometry.c - see render_geometry.h. All is flattened into world space: one level of BVH is traversed
- * quicker than two, and a model whose meshes are drawn often is rare. */
+/* render_geometry.c - see render_geometry.h. */
 #include "cpu/render_geometry.h"
 
 #include <math.h>
-#include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -54,10 +51,8 @@ facet_result render_geometry_create(const facet_scene *scene, const scene_pose *
 {
     *set = (render_geometry_set){.count = pose->instance_count};
     set->items = mem_zalloc(allocator, set->count, sizeof *set->items);
-    set->vertex_blocks = mem_alloc(allocator, set->count, sizeof *set->vertex_blocks);
-    set->tangent_blocks = mem_alloc(allocator, set->count, sizeof *set->tangent_blocks);
-    if (!set->items || !set->vertex_blocks || !set->tangent_blocks) {
-        render_geometry_destroy(set);
+    if (!set->items) {
+        *set = (render_geometry_set){0};
         return fail_memory(error, "instances", pose->instance_count * sizeof *set->items);
     }
     for (uint32_t i = 0; i < set->count; i++) {
@@ -70,21 +65,30 @@ facet_result render_geometry_create(const facet_scene *scene, const scene_pose *
         g->is_double_sided = g->material->is_double_sided || primitive->mode != SCENE_TRIANGLES;
         g->is_lit = !(g->material->extensions & SCENE_UNLIT) && instance->normals;
         g->is_see_through = may_see_through(primitive, g->material);
+        g->positions = instance->positions;
         g->normals = instance->normals;
         g->tangents = instance->tangents;
+        set->has_sprites = set->has_sprites || primitive->mode != SCENE_TRIANGLES;
         set_transform(g, instance);
     }
     return FACET_OK;
 }
 
+static void free_blocks(render_blocks *blocks)
+{
+    for (uint32_t i = 0; i < blocks->count; i++)
+        mem_free(blocks->items[i]);
+    mem_free(blocks->items);
+    *blocks = (render_blocks){0};
+}
+
 void render_geometry_destroy(render_geometry_set *set)
 {
-    for (uint32_t i = 0; i < set->vertex_block_count; i++)
-        mem_free(set->vertex_blocks[i]);
-    for (uint32_t i = 0; i < set->tangent_block_count; i++)
-        mem_free(set->tangent_blocks[i]);
-    mem_free(set->vertex_blocks);
-    mem_free(set->tangent_blocks);
+    free_blocks(&set->blocks);
+    free_blocks(&set->still_blocks);
+    for (uint32_t i = 0; i < set->shape_count; i++)
+        mem_free(set->shapes[i].vertices);
+    mem_free(set->shapes);
     mem_free(set->items);
     *set = (render_geometry_set){0};
 }
@@ -130,126 +134,149 @@ static bool shares_vertices(const scene_instance *a, const scene_instance *b)
            a->primitive->mode == SCENE_TRIANGLES && b->primitive->mode == SCENE_TRIANGLES;
 }
 
-facet_result render_geometry_transform(render_geometry_set *set, const scene_pose *pose,
-                                       const camera_rays *camera, const facet_allocator *allocator,
-                                       uint32_t thread_count, facet_error *error)
+static float *make_vertices(const scene_instance *instance, const camera_rays *camera,
+                            const facet_allocator *allocator, uint32_t thread_count)
 {
-    for (uint32_t i = 0; i < set->count; i++) {
-        const scene_instance *instance = &pose->instances[i];
-        render_geometry *g = &set->items[i];
-        if (i > 0 && shares_vertices(instance, instance - 1)) {
-            g->vertices = g[-1].vertices;
-            continue;
-        }
-        bool is_mesh = g->primitive->mode == SCENE_TRIANGLES;
-        size_t count = is_mesh ? g->primitive->vertex_count : g->primitive->index_count;
-        /* One vertex more: Embree reads 16 bytes for the last three floats. */
-        float *vertices = mem_alloc(allocator, count + 1, (is_mesh ? 3 : 4) * sizeof(float));
-        if (!vertices)
-            return fail_memory(error, "vertices in world space", count * 3 * sizeof(float));
-        set->vertex_blocks[set->vertex_block_count++] = vertices;
-        g->vertices = vertices;
-        transform_job job = {.instance = instance, .camera = camera, .out = vertices};
+    const scene_primitive *primitive = instance->primitive;
+    bool is_mesh = primitive->mode == SCENE_TRIANGLES;
+    size_t count = is_mesh ? primitive->vertex_count : primitive->index_count;
+    /* One vertex more: Embree reads 16 bytes for the last three floats. */
+    transform_job job = {.instance = instance,
+                         .camera = camera,
+                         .out = mem_alloc(allocator, count + 1, (is_mesh ? 3 : 4) * sizeof(float))};
+    if (job.out)
         parallel_for(thread_count, count, VERTEX_GRAIN, is_mesh ? transform_vertices : place_sprites, &job);
+    return job.out;
+}
+
+static facet_result copy_shapes(render_geometry_set *set, const facet_allocator *allocator,
+                                facet_error *error)
+{
+    for (uint32_t i = 0; i < set->shape_count; i++) {
+        render_shape *shape = &set->shapes[i];
+        size_t size = shape->primitive->vertex_count * (3 * sizeof(float));
+        if (shape->vertices)
+            continue;
+        shape->vertices = mem_alloc(allocator, shape->primitive->vertex_count + (size_t)1, 3 * sizeof(float));
+        if (!shape->vertices)
+            return fail_memory(error, "vertices of instances", size);
+        memcpy(shape->vertices, shape->positions, size);
     }
     return FACET_OK;
 }
 
-/* ---- tangents ---- */
-
-static bool needs_tangents(const render_geometry *g)
+/* Room for as many blocks as will be made. */
+static facet_result reserve_blocks(render_geometry_set *set, const facet_allocator *allocator,
+                                   facet_error *error)
 {
-    const scene_material *material = g->material;
-    return g->primitive->mode == SCENE_TRIANGLES && g->is_lit && !g->tangents &&
-           material->textures[SCENE_NORMAL_TEXTURE].texture != SCENE_NONE &&
-           material->textures[SCENE_NORMAL_TEXTURE].texcoord < g->primitive->texcoord_count;
-}
-
-typedef struct tangent_jobs {
-    const facet_allocator *allocator;
-    const scene_primitive **primitives; /* sorted, each once */
-    const scene_material **materials;
-    float **tangents;
-    _Atomic int result; /* the first facet_result that was not FACET_OK */
-} tangent_jobs;
-
-static void make_tangents(void *context, size_t begin, size_t end)
-{
-    tangent_jobs *jobs = context;
-    for (size_t i = begin; i < end; i++) {
-        const scene_primitive *primitive = jobs->primitives[i];
-        float *tangents = mem_alloc(jobs->allocator, primitive->index_count, 4 * sizeof(float));
-        facet_result result = FACET_ERROR_MEMORY;
-        if (tangents)
-            result = scene_generate_tangents(primitive,
-                                             jobs->materials[i]->textures[SCENE_NORMAL_TEXTURE].texcoord,
-                                             jobs->allocator, tangents, NULL);
-        if (result == FACET_OK) {
-            jobs->tangents[i] = tangents;
-        } else {
-            mem_free(tangents);
-            atomic_store(&jobs->result, result);
-        }
-    }
-}
-
-/* A primitive has one material, so it needs one set of tangents. */
-static int compare_geometries(const void *a, const void *b)
-{
-    uintptr_t x = (uintptr_t)(*(render_geometry *const *)a)->primitive;
-    uintptr_t y = (uintptr_t)(*(render_geometry *const *)b)->primitive;
-    return (x > y) - (x < y);
-}
-
-facet_result render_geometry_make_tangents(render_geometry_set *set, const facet_allocator *allocator,
-                                           uint32_t thread_count, facet_error *error)
-{
-    uint32_t count = 0;
+    size_t counts[2] = {0, 0};
+    render_blocks *const blocks[2] = {&set->blocks, &set->still_blocks};
     for (uint32_t i = 0; i < set->count; i++)
-        count += needs_tangents(&set->items[i]);
-    if (count == 0)
-        return FACET_OK;
-
-    render_geometry **users = mem_alloc(allocator, count, sizeof *users);
-    tangent_jobs jobs = {.allocator = allocator,
-                         .primitives = mem_alloc(allocator, count, sizeof *jobs.primitives),
-                         .materials = mem_alloc(allocator, count, sizeof *jobs.materials),
-                         .tangents = mem_zalloc(allocator, count, sizeof *jobs.tangents),
-                         .result = FACET_OK};
-    facet_result result = FACET_OK;
-    if (!users || !jobs.primitives || !jobs.materials || !jobs.tangents) {
-        result = fail_memory(error, "tangents", count * sizeof *users);
-        goto done;
+        if (!set->items[i].vertices && set->items[i].role != RENDER_INSTANCED)
+            counts[set->items[i].role == RENDER_STILL]++;
+    for (int i = 0; i < 2; i++) {
+        if (blocks[i]->items || counts[i] == 0)
+            continue;
+        blocks[i]->items = mem_alloc(allocator, counts[i], sizeof *blocks[i]->items);
+        if (!blocks[i]->items)
+            return fail_memory(error, "vertices in world space", counts[i] * sizeof *blocks[i]->items);
     }
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < set->count; i++)
-        if (needs_tangents(&set->items[i]))
-            users[n++] = &set->items[i];
-    qsort(users, count, sizeof *users, compare_geometries);
-    uint32_t unique = 0;
-    for (uint32_t i = 0; i < count; i++)
-        if (i == 0 || users[i]->primitive != users[i - 1]->primitive) {
-            jobs.primitives[unique] = users[i]->primitive;
-            jobs.materials[unique++] = users[i]->material;
+    return FACET_OK;
+}
+
+facet_result render_geometry_transform(render_geometry_set *set, const scene_pose *pose,
+                                       const camera_rays *camera, const facet_allocator *allocator,
+                                       uint32_t thread_count, facet_error *error)
+{
+    facet_result result = copy_shapes(set, allocator, error);
+    if (result == FACET_OK)
+        result = reserve_blocks(set, allocator, error);
+    for (uint32_t i = 0; i < set->count && result == FACET_OK; i++) {
+        const scene_instance *instance = &pose->instances[i];
+        render_geometry *g = &set->items[i];
+        if (g->role == RENDER_INSTANCED) {
+            g->vertices = set->shapes[g->shape].vertices;
+            g->world = &instance->world;
+            continue;
         }
-
-    parallel_for(thread_count, unique, 1, make_tangents, &jobs);
-
-    uint32_t k = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        k += i > 0 && users[i]->primitive != users[i - 1]->primitive;
-        users[i]->tangents = jobs.tangents[k];
-        users[i]->has_corner_tangents = true;
+        if (g->vertices)
+            continue;
+        if (i > 0 && g->role == g[-1].role && shares_vertices(instance, instance - 1)) {
+            g->vertices = g[-1].vertices;
+            continue;
+        }
+        g->vertices = make_vertices(instance, camera, allocator, thread_count);
+        if (!g->vertices)
+            return fail_memory(error, "vertices in world space",
+                               g->primitive->vertex_count * (3 * sizeof(float)));
+        render_blocks *blocks = g->role == RENDER_STILL ? &set->still_blocks : &set->blocks;
+        blocks->items[blocks->count++] = g->vertices;
     }
-    for (k = 0; k < unique; k++)
-        set->tangent_blocks[set->tangent_block_count++] = jobs.tangents[k];
-    result = (facet_result)atomic_load(&jobs.result);
-    if (result != FACET_OK)
-        result = fail_memory(error, "tangents", (size_t)unique * sizeof(float));
-done:
-    mem_free(users);
-    mem_free(jobs.primitives);
-    mem_free(jobs.materials);
-    mem_free(jobs.tangents);
     return result;
+}
+
+void render_geometry_place_sprites(render_geometry_set *set, const scene_pose *pose,
+                                   const camera_rays *camera, uint32_t thread_count)
+{
+    for (uint32_t i = 0; i < set->count; i++) {
+        transform_job job = {
+            .instance = &pose->instances[i], .camera = camera, .out = set->items[i].vertices};
+        if (set->items[i].primitive->mode != SCENE_TRIANGLES)
+            parallel_for(thread_count, set->items[i].primitive->index_count, VERTEX_GRAIN, place_sprites,
+                         &job);
+    }
+}
+
+/* ---- from pose to pose ---- */
+
+static bool is_deformed(const scene_primitive *primitive, const float *positions)
+{
+    return positions != primitive->positions;
+}
+
+render_likeness render_geometry_compare(const render_geometry_set *set, const scene_pose *pose,
+                                        const render_geometry_set *old, const scene_pose *old_pose)
+{
+    if (set->count != old->count || set->shape_count != old->shape_count ||
+        set->is_animated != old->is_animated)
+        return RENDER_OTHER;
+    render_likeness likeness = RENDER_SAME;
+    for (uint32_t i = 0; i < set->count; i++) {
+        const render_geometry *g = &set->items[i];
+        const render_geometry *h = &old->items[i];
+        if (g->primitive != h->primitive || g->role != h->role || g->shape != h->shape)
+            return RENDER_OTHER;
+        bool is_same = !is_deformed(g->primitive, g->positions) && !is_deformed(h->primitive, h->positions) &&
+                       memcmp(&pose->instances[i].world, &old_pose->instances[i].world, sizeof(mat4)) == 0;
+        if (!is_same && g->role == RENDER_STILL)
+            return RENDER_OTHER;
+        if (!is_same)
+            likeness = RENDER_SAME_STILL;
+    }
+    for (uint32_t i = 0; i < set->shape_count; i++)
+        if (set->shapes[i].primitive != old->shapes[i].primitive ||
+            is_deformed(set->shapes[i].primitive, set->shapes[i].positions) !=
+                is_deformed(old->shapes[i].primitive, old->shapes[i].positions))
+            return RENDER_OTHER;
+    return likeness;
+}
+
+void render_geometry_adopt(render_geometry_set *set, render_geometry_set *old, render_likeness likeness)
+{
+    if (likeness == RENDER_OTHER)
+        return;
+    for (uint32_t i = 0; i < set->count; i++)
+        if (set->items[i].role == RENDER_STILL || likeness == RENDER_SAME)
+            set->items[i].vertices = old->items[i].vertices;
+    set->still_blocks = old->still_blocks;
+    old->still_blocks = (render_blocks){0};
+    if (likeness == RENDER_SAME) {
+        set->blocks = old->blocks;
+        old->blocks = (render_blocks){0};
+    }
+    for (uint32_t i = 0; i < set->shape_count; i++)
+        if (!is_deformed(set->shapes[i].primitive, set->shapes[i].positions)) {
+            set->shapes[i].vertices = old->shapes[i].vertices;
+            old->shapes[i].vertices = NULL;
+        }
 }

@@ -85,6 +85,14 @@ static inline __attribute__((always_inline)) void read_packet(const packet *p, i
     }
 }
 
+static void leave_instances(const render_geometry_set *geometries, const packet *p, uint32_t n,
+                            visibility_hit *hits)
+{
+    for (uint32_t i = 0; i < n; i++)
+        if (hits[i].geometry != VISIBILITY_NONE && p->u[INSTANCE * n + i] != RTC_INVALID_GEOMETRY_ID)
+            visibility_leave_instance(geometries, p->u[INSTANCE * n + i], &hits[i]);
+}
+
 void visibility_trace_block(const embree_scene *scene, const camera_rays *camera, uint32_t x, uint32_t y,
                             const visibility_pattern *pattern, visibility_hit *hits)
 {
@@ -115,6 +123,8 @@ void visibility_trace_block(const embree_scene *scene, const camera_rays *camera
             read_packet(&p, 4, hits + first);
             break;
         }
+        if (scene->has_instances)
+            leave_instances(scene->geometries, &p, width, hits + first);
     }
 }
 

@@ -19,31 +19,35 @@ typedef struct visibility_hit {
     float normal[3]; /* geometric, of any length, outward for counter-clockwise triangles */
 } visibility_hit;
 
-/* Geometric normal in world space of an Embree hit on g: inside of an instance Embree gives it before world. The
- * matrix of normals keeps them outward; that of a mirrored instance has to be turned back to follow the winding. */
-static inline void visibility_hit_turn_normal(const render_geometry *g, float normal[3])
+/* Makes the number and the normal of a hit inside of an instance those of its geometry: Embree gives the normal before
+ * world. The matrix of normals keeps them outward; that of a mirrored instance has to be turned back to follow the
+ * winding. */
+static inline void visibility_leave_instance(const render_geometry_set *geometries, uint32_t instance,
+                                             visibility_hit *hit)
 {
+    if (instance == embree_still_number(geometries))
+        return;
+    hit->geometry = instance;
+    const render_geometry *g = &geometries->items[instance];
     const float *m = g->normal_matrix;
     const float sign = g->is_mirrored ? -1.0f : 1.0f;
-    const float n[3] = {normal[0] * sign, normal[1] * sign, normal[2] * sign};
+    const float n[3] = {hit->normal[0] * sign, hit->normal[1] * sign, hit->normal[2] * sign};
     for (int i = 0; i < 3; i++)
-        normal[i] = m[3 * i] * n[0] + m[3 * i + 1] * n[1] + m[3 * i + 2] * n[2];
+        hit->normal[i] = m[3 * i] * n[0] + m[3 * i + 1] * n[1] + m[3 * i + 2] * n[2];
 }
 
-/* A hit of a single ray at distance t, as a filter or rtcIntersect1() gives it; not RTC_INVALID_GEOMETRY_ID. An
- * instance is attached by the number of its geometry. */
+/* A hit of a single ray at distance t, as a filter or rtcIntersect1() gives it; not RTC_INVALID_GEOMETRY_ID. */
 static inline visibility_hit visibility_hit_read(const render_geometry_set *geometries, float t,
                                                  const struct RTCHit *h)
 {
-    bool is_instanced = h->instID[0] != RTC_INVALID_GEOMETRY_ID;
     visibility_hit hit = {.t = t,
                           .u = h->u,
                           .v = h->v,
-                          .geometry = is_instanced ? h->instID[0] : h->geomID,
+                          .geometry = h->geomID,
                           .primitive = h->primID,
                           .normal = {h->Ng_x, h->Ng_y, h->Ng_z}};
-    if (is_instanced)
-        visibility_hit_turn_normal(&geometries->items[hit.geometry], hit.normal);
+    if (h->instID[0] != RTC_INVALID_GEOMETRY_ID)
+        visibility_leave_instance(geometries, h->instID[0], &hit);
     return hit;
 }
 

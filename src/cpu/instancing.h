@@ -1,0 +1,24 @@
+/* instancing.h - what of a pose is instanced in the bounding volume hierarchy, and what is flattened into it. */
+#ifndef CPU_INSTANCING_H
+#define CPU_INSTANCING_H
+
+#include "cpu/render_geometry.h"
+
+typedef struct instancing_desc {
+    const facet_pose_desc *pose;
+    uint64_t ray_count;   /* of the picture: what a hierarchy that is traversed more slowly costs */
+    bool is_within_reach; /* instancing_is_within_reach() */
+} instancing_desc;
+
+/* Whether rays of that camera, and from any surface of the pose, can be turned into the space of instances: Embree ends
+ * the process for coordinates beyond 1.8e18. */
+bool instancing_is_within_reach(const scene_pose *pose, const camera_rays *camera);
+
+/* Chooses the roles of the set's geometries, and makes the shapes of those that are instanced. Depends on nothing but
+ * the arguments: pictures are the same whether something was kept from the picture before or not. Fails with
+ * FACET_ERROR_MEMORY. */
+facet_result instancing_choose(const facet_scene *scene, const scene_pose *pose, const instancing_desc *desc,
+                               const facet_allocator *allocator, render_geometry_set *set,
+                               facet_error *error);
+
+#endif

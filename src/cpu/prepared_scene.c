@@ -1,0 +1,179 @@
+/* prepared_scene.c - see prepared_scene.h. */
+#include "cpu/prepared_scene.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "cpu/instancing.h"
+#include "cpu/texture_store.h"
+
+void prepared_scene_init(prepared_scene *p, const facet_scene *scene, const facet_allocator *allocator)
+{
+    memset(p, 0, sizeof *p);
+    p->scene = scene;
+    p->allocator = allocator ? *allocator : (facet_allocator){0};
+}
+
+void prepared_scene_clear(prepared_scene *p)
+{
+    const facet_scene *scene = p->scene;
+    facet_allocator allocator = p->allocator;
+    embree_scene_destroy(&p->embree);
+    render_geometry_destroy(&p->geometries);
+    scene_pose_destroy(&p->geometry_pose);
+    scene_pose_destroy(&p->pose);
+    tangent_store_destroy(&p->tangents);
+    texture_store_destroy(p->textures);
+    mem_free(p->key.animations);
+    prepared_scene_init(p, scene, &allocator);
+}
+
+/* ---- the pose ---- */
+
+static bool is_same_pose(const facet_pose_desc *a, const facet_pose_desc *b)
+{
+    if (a->has_scene_index != b->has_scene_index || a->has_variant != b->has_variant ||
+        a->animation_count != b->animation_count)
+        return false;
+    if ((a->has_scene_index && a->scene_index != b->scene_index) ||
+        (a->has_variant && a->variant != b->variant))
+        return false;
+    if (a->animation_count == 0)
+        return true;
+    return memcmp(&a->time_s, &b->time_s, sizeof a->time_s) == 0 &&
+           memcmp(a->animations, b->animations, a->animation_count * sizeof *a->animations) == 0;
+}
+
+static bool copy_key(const prepared_scene *p, const facet_pose_desc *desc, prepared_key *key)
+{
+    *key = (prepared_key){.desc = *desc};
+    if (desc->animation_count == 0)
+        return true;
+    key->animations = mem_alloc(&p->allocator, desc->animation_count, sizeof *key->animations);
+    if (!key->animations)
+        return false;
+    memcpy(key->animations, desc->animations, desc->animation_count * sizeof *key->animations);
+    key->desc.animations = key->animations;
+    return true;
+}
+
+facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
+{
+    if (p->has_pose && is_same_pose(&p->key.desc, &desc->pose))
+        return FACET_OK;
+    scene_pose pose;
+    facet_result result =
+        scene_pose_create(p->scene, &desc->pose, &p->allocator, desc->thread_count, &pose, error);
+    if (result != FACET_OK)
+        return result;
+    prepared_key key;
+    if (!copy_key(p, &desc->pose, &key)) {
+        scene_pose_destroy(&pose);
+        return fail_memory(error, "animations", desc->pose.animation_count * sizeof *key.animations);
+    }
+    /* The geometries point into their pose until there are others. */
+    if (p->has_geometry && !p->geometry_pose.instances)
+        p->geometry_pose = p->pose;
+    else
+        scene_pose_destroy(&p->pose);
+    mem_free(p->key.animations);
+    p->pose = pose;
+    p->key = key;
+    p->has_pose = true;
+    return FACET_OK;
+}
+
+/* ---- geometry ---- */
+
+/* Puts the geometries of the pose into the place of those that are there, with their vertices where they are the same. */
+static facet_result make_geometry(prepared_scene *p, const facet_render_desc *desc, const camera_rays *camera,
+                                  facet_error *error)
+{
+    const scene_pose *old_pose = p->geometry_pose.instances ? &p->geometry_pose : &p->pose;
+    instancing_desc instancing = {
+        .pose = &p->key.desc, .ray_count = p->ray_count, .is_within_reach = p->is_within_reach};
+    render_geometry_set set;
+    facet_result result = render_geometry_create(p->scene, &p->pose, &p->allocator, &set, error);
+    if (result == FACET_OK)
+        result = instancing_choose(p->scene, &p->pose, &instancing, &p->allocator, &set, error);
+    if (result == FACET_OK) {
+        p->likeness = RENDER_OTHER;
+        if (p->has_geometry)
+            p->likeness = render_geometry_compare(&set, &p->pose, &p->geometries, old_pose);
+        render_geometry_adopt(&set, &p->geometries, p->likeness);
+        /* What is left of the old ones goes before the new ones are made: they need not fit beside each other. */
+        render_geometry_destroy(&p->geometries);
+        scene_pose_destroy(&p->geometry_pose);
+        tangent_store_forget_deformed(&p->tangents);
+        result = render_geometry_transform(&set, &p->pose, camera, &p->allocator, desc->thread_count, error);
+    }
+    if (result != FACET_OK) {
+        render_geometry_destroy(&set);
+        return result;
+    }
+    p->geometries = set;
+    p->has_geometry = true;
+    p->has_tangents = false;
+    return FACET_OK;
+}
+
+/* Whether points and lines are as wide for one camera as for the other. */
+static bool is_same_place(const camera_rays *a, const camera_rays *b)
+{
+    return memcmp(a->origin, b->origin, sizeof a->origin) == 0 &&
+           memcmp(a->direction, b->direction, sizeof a->direction) == 0 &&
+           memcmp(&a->pixel_size, &b->pixel_size, sizeof a->pixel_size) == 0 &&
+           a->is_orthographic == b->is_orthographic;
+}
+
+facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc *desc,
+                                     const camera_rays *camera, facet_error *error)
+{
+    /* Of the whole picture: a crop sees what the whole sees. */
+    uint64_t ray_count = (uint64_t)desc->width * desc->height * desc->samples;
+    bool is_within_reach = instancing_is_within_reach(&p->pose, camera);
+    bool is_same = p->has_geometry && !p->geometry_pose.instances && p->ray_count == ray_count &&
+                   p->is_within_reach == is_within_reach;
+    p->ray_count = ray_count;
+    p->is_within_reach = is_within_reach;
+    p->likeness = RENDER_SAME;
+    if (!is_same) {
+        facet_result result = make_geometry(p, desc, camera, error);
+        if (result != FACET_OK)
+            return result;
+    }
+    p->has_moved_sprites =
+        p->likeness == RENDER_SAME && p->geometries.has_sprites && !is_same_place(&p->camera, camera);
+    if (p->has_moved_sprites)
+        render_geometry_place_sprites(&p->geometries, &p->pose, camera, desc->thread_count);
+    p->camera = *camera;
+    return FACET_OK;
+}
+
+/* ---- what is made of the geometry ---- */
+
+facet_result prepared_scene_hierarchy(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
+{
+    if (p->embree.scene && p->thread_count == desc->thread_count)
+        return embree_scene_update(&p->embree, p->likeness, p->has_moved_sprites, p->ray_count, error);
+    embree_scene_destroy(&p->embree);
+    p->thread_count = desc->thread_count;
+    return embree_scene_create(&p->geometries, &p->allocator, p->ray_count, desc->thread_count, &p->embree,
+                               error);
+}
+
+facet_result prepared_scene_tangents(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
+{
+    if (p->has_tangents)
+        return FACET_OK;
+    facet_result result =
+        tangent_store_fill(&p->tangents, &p->geometries, &p->allocator, desc->thread_count, error);
+    p->has_tangents = result == FACET_OK;
+    return result;
+}
+
+facet_result prepared_scene_textures(prepared_scene *p, facet_error *error)
+{
+    return p->textures ? FACET_OK : texture_store_create(p->scene, &p->allocator, &p->textures, error);
+}
