@@ -22,9 +22,8 @@ static uint32_t samples_of(facet_quality quality)
     }
 }
 
-/* The desc with every default filled in, or what is wrong with it. *camera holds a default camera. */
-static facet_result resolve(const facet_scene *scene, const facet_render_desc *desc, facet_render_desc *out,
-                            facet_camera *camera, facet_error *error)
+/* The desc with every default but the camera filled in, or what is wrong with it. */
+static facet_result resolve(const facet_render_desc *desc, facet_render_desc *out, facet_error *error)
 {
     *out = *desc;
     if (!out->width && !out->height) {
@@ -55,71 +54,112 @@ static facet_result resolve(const facet_scene *scene, const facet_render_desc *d
         return fail(error, FACET_ERROR_ARGUMENT, "exposure, light: a value is not a finite number");
     if (!out->thread_count)
         out->thread_count = facet_thread_count();
-    if (!out->camera) {
-        facet_orbit orbit = facet_orbit_default();
-        facet_result result = facet_camera_from_orbit(scene, &out->pose, &orbit,
-                                                      (float)out->width / (float)out->height, camera, error);
-        if (result != FACET_OK)
-            return result;
-        out->camera = camera;
-    }
     return FACET_OK;
 }
 
-facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc, facet_image **image,
-                          facet_error *error)
+/* The default camera for what the desc shows; the pose is kept for the picture. */
+static facet_result fit_camera(prepared_scene *prepared, const facet_render_desc *desc, facet_camera *camera,
+                               facet_error *error)
 {
-    static const facet_render_desc default_desc = {0};
-    *image = NULL;
-    double start = clock_seconds();
-    facet_render_desc resolved;
-    facet_camera camera;
-    facet_result result = resolve(scene, desc ? desc : &default_desc, &resolved, &camera, error);
+    facet_orbit orbit = facet_orbit_default();
+    facet_result result = prepared_scene_pose(prepared, desc, error);
+    if (result == FACET_ERROR_MEMORY) {
+        prepared_scene_clear(prepared);
+        result = prepared_scene_pose(prepared, desc, error);
+    }
     if (result != FACET_OK)
         return result;
+    return scene_fit_pose(&prepared->pose, &orbit, (float)desc->width / (float)desc->height,
+                          desc->thread_count, camera, error);
+}
 
-    facet_image *made = mem_zalloc(&resolved.allocator, 1, sizeof *made);
+static facet_result render(prepared_scene *prepared, const facet_render_desc *resolved, facet_image *image,
+                           facet_error *error)
+{
+    facet_render_desc desc = *resolved;
+    facet_camera camera;
+    facet_result result = FACET_OK;
+    if (!desc.camera)
+        result = fit_camera(prepared, &desc, &camera, error);
+    if (result != FACET_OK)
+        return result;
+    if (!desc.camera)
+        desc.camera = &camera;
+    result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &image->film, error);
+    if (result == FACET_OK)
+        result = preview_render_prepared(prepared, &desc, &image->film, &image->stats, error);
+    if (result == FACET_OK)
+        film_develop(&image->film, desc.tonemap,
+                     desc.background == FACET_BACKGROUND_COLOR ? desc.background_color : NULL,
+                     desc.thread_count);
+    return result;
+}
+
+static facet_result render_image(prepared_scene *prepared, const facet_render_desc *resolved,
+                                 facet_image **image, facet_error *error)
+{
+    double start = clock_seconds();
+    facet_image *made = mem_zalloc(&resolved->allocator, 1, sizeof *made);
     if (!made)
         return fail_memory(error, "image", sizeof *made);
-    result = film_create(&resolved.allocator, resolved.crop[2], resolved.crop[3], resolved.aovs, &made->film,
-                         error);
-    if (result == FACET_OK)
-        result = preview_render(scene, &resolved, &made->film, &made->stats, error);
+    facet_result result = render(prepared, resolved, made, error);
     if (result != FACET_OK) {
         facet_image_destroy(made);
         return result;
     }
-    film_develop(&made->film, resolved.tonemap,
-                 resolved.background == FACET_BACKGROUND_COLOR ? resolved.background_color : NULL,
-                 resolved.thread_count);
-    made->stats.thread_count = resolved.thread_count;
+    made->stats.thread_count = resolved->thread_count;
     made->stats.total_s = clock_seconds() - start;
     *image = made;
     return FACET_OK;
 }
 
+static const facet_render_desc default_desc = {0};
+
+facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc, facet_image **image,
+                          facet_error *error)
+{
+    *image = NULL;
+    facet_render_desc resolved;
+    facet_result result = resolve(desc ? desc : &default_desc, &resolved, error);
+    if (result != FACET_OK)
+        return result;
+    prepared_scene prepared;
+    prepared_scene_init(&prepared, scene, &resolved.allocator);
+    result = render_image(&prepared, &resolved, image, error);
+    prepared_scene_clear(&prepared);
+    return result;
+}
+
+/* ---- several pictures ---- */
+
 struct facet_renderer {
-    const facet_scene *scene;
+    prepared_scene prepared;
 };
 
 facet_result facet_renderer_create(const facet_scene *scene, const facet_allocator *allocator,
                                    facet_renderer **renderer, facet_error *error)
 {
-    *renderer = mem_zalloc(allocator, 1, sizeof **renderer);
+    *renderer = mem_alloc(allocator, 1, sizeof **renderer);
     if (!*renderer)
         return fail_memory(error, "renderer", sizeof **renderer);
-    (*renderer)->scene = scene;
+    prepared_scene_init(&(*renderer)->prepared, scene, allocator);
     return FACET_OK;
 }
 
 facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_desc *desc,
                                    facet_image **image, facet_error *error)
 {
-    return facet_render(renderer->scene, desc, image, error);
+    *image = NULL;
+    facet_render_desc resolved;
+    facet_result result = resolve(desc ? desc : &default_desc, &resolved, error);
+    return result == FACET_OK ? render_image(&renderer->prepared, &resolved, image, error) : result;
 }
 
 void facet_renderer_destroy(facet_renderer *renderer)
 {
+    if (!renderer)
+        return;
+    prepared_scene_clear(&renderer->prepared);
     mem_free(renderer);
 }
 
