@@ -22,7 +22,17 @@ FN vec3 F_Schlick(vec3 F0, vec3 F90, float VdotH)
     return F0 + (F90 - F0) * schlick_weight(VdotH);
 }
 
-/* The same for one channel. */
+/* The same seen from either side of a volume's boundary; eta is the ior of the far side over that of the near one.
+ * From the denser side (eta < 1) the cosine is that of the rarer side, the larger angle, and beyond the critical angle
+ * all is reflected: 1, whatever F90. KHR_materials_volume, "Fresnel". */
+FN vec3 F_Schlick_boundary(vec3 F0, vec3 F90, float VdotH, float eta)
+{
+    float sin2 = (1.0f - VdotH * VdotH) / (eta * eta);
+    float cosine = sel(eta < 1.0f, sqrt(max(1.0f - sin2, 0.0f)), VdotH);
+    return sel(eta < 1.0f && sin2 >= 1.0f, vec3(1.0f), F_Schlick(F0, F90, cosine));
+}
+
+/* F_Schlick for one channel. */
 FN float F_Schlick1(float F0, float F90, float VdotH)
 {
     return F0 + (F90 - F0) * schlick_weight(VdotH);

@@ -1,4 +1,5 @@
-/* layers.h - the glTF surface with its material extensions, outermost first:
+/* layers.h - the glTF surface with its material extensions: what it is, and where its lobes ask for light. The light
+ * itself is in layers_direct.h (lamps) and layers_ibl.h (surroundings). Outermost first:
  *
  *   clearcoat > sheen > mix(metallic) of
  *     metal:      specular                                iridescence replaces F, anisotropy D and V
@@ -118,19 +119,67 @@ FN bool has_layer(Layers m, uint layer)
     return (m.layers & layer) != 0u;
 }
 
-/* ---- where to look: directions and table coordinates ---- */
+/* ---- the base's lobe ---- */
 
-/* Perceptual roughness at which dfg is read: the base's, or that of the isotropic lobe that an anisotropic one is
- * compensated like. */
-FN float layers_dfg_roughness(Layers m, vec3 V, int energy)
+/* V or L in the frame in which the base's lobe is axis-aligned; without anisotropy any tangent will do. */
+FN vec3 layers_to_frame(Layers m, vec3 v)
 {
-    return sel(energy == ENERGY_CONSERVING && dot(m.base.N, V) > 2.0f, 1.0f, m.base.perceptual_roughness);
+    return to_frame(v, m.anisotropy_T, m.anisotropy_B, m.base.N);
 }
 
-/* Perceptual roughness of the lobe of a thin wall, where transmission_E is read. */
-FN float layers_transmission_roughness(Layers m)
+/* GGX widths (along T, along B) of reflection at the base, of a given width without anisotropy. */
+FN vec2 layers_alpha(Layers m, float alpha)
 {
-    return m.base.perceptual_roughness;
+    float strength = sel(has_layer(m, LAYER_ANISOTROPY), m.anisotropy, 0.0f);
+    return max(anisotropic_alpha(alpha, strength), ALPHA_MIRROR);
+}
+
+/* Width of the specular transmission without anisotropy: a volume's boundary is as rough as it reflects, a thin wall
+ * blurs by its ior. */
+FN float layers_transmission_alpha(Layers m)
+{
+    return sel(has_layer(m, LAYER_VOLUME), m.base.alpha, thin_wall_alpha(m.base.alpha, m.ior));
+}
+
+/* ior beyond the surface over that on the eye's side, of the middle of a channel (0 red, 1 green, 2 blue). */
+FN float layers_eta(Layers m, int channel)
+{
+    if (!has_layer(m, LAYER_DISPERSION))
+        return m.eta;
+    float far_ior = dispersed_ior(m.eta, m.dispersion, channel);
+    float near_ior = dispersed_ior(1.0f / m.eta, m.dispersion, channel);
+    return sel(m.eta < 1.0f, 1.0f / near_ior, far_ior);
+}
+
+/* Whether the eye is in the denser medium of a volume. */
+FN bool layers_is_inside(Layers m)
+{
+    return has_layer(m, LAYER_VOLUME) && m.eta < 1.0f;
+}
+
+/* ---- where to look: directions and table coordinates ---- */
+
+/* Whether tables are read for the albedo that an anisotropic lobe has. Khronos' renderer reads as if it had none. */
+FN bool layers_reads_anisotropic(Layers m, int energy)
+{
+    return energy == ENERGY_CONSERVING && has_layer(m, LAYER_ANISOTROPY);
+}
+
+/* (N.V, perceptual roughness) at which LayerTables.dfg is read. */
+FN vec2 layers_dfg_point(Layers m, vec3 V, int energy)
+{
+    if (layers_reads_anisotropic(m, energy))
+        return anisotropic_table_point(layers_to_frame(m, V), layers_alpha(m, m.base.alpha));
+    return vec2(surface_NdotV(m.base, V), m.base.perceptual_roughness);
+}
+
+/* The same for LayerTables.transmission_E. */
+FN vec2 layers_transmission_point(Layers m, vec3 V, int energy)
+{
+    float alpha = layers_transmission_alpha(m);
+    if (layers_reads_anisotropic(m, energy))
+        return anisotropic_table_point(layers_to_frame(m, V), layers_alpha(m, alpha));
+    return vec2(surface_NdotV(m.base, V), sqrt(alpha));
 }
 
 /* N.V of the coat. */
@@ -142,6 +191,8 @@ FN float layers_clearcoat_NdotV(Layers m, vec3 V)
 /* Unit direction in which LayerLight.specular is read: reflect(-V, N), bent for anisotropy. */
 FN vec3 layers_reflection(Layers m, vec3 V)
 {
+    if (has_layer(m, LAYER_ANISOTROPY))
+        return anisotropic_reflection(m.base.N, m.anisotropy_B, V, m.anisotropy, m.base.perceptual_roughness);
     return normalize(reflect(-V, m.base.N));
 }
 
@@ -150,8 +201,9 @@ FN vec3 layers_clearcoat_reflection(Layers m, vec3 V)
     return normalize(reflect(-V, m.clearcoat_N));
 }
 
-/* dfg as LayerTables says; clearcoat_E, transmission_E, sheen_E are not read where their layer is off. */
-FN LayerTables layer_tables(Layers m, vec3 V, vec2 dfg, float clearcoat_E, float transmission_E,
+/* dfg, clearcoat_E, transmission_E, sheen_E as LayerTables says; the last three are not read where their layer is
+ * off. */
+FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearcoat_E, float transmission_E,
                             float sheen_E)
 {
     LayerTables t;
@@ -159,47 +211,29 @@ FN LayerTables layer_tables(Layers m, vec3 V, vec2 dfg, float clearcoat_E, float
     t.clearcoat_E = clearcoat_E;
     t.transmission_E = transmission_E;
     t.sheen_E = sheen_E;
-    float w = schlick_weight(surface_NdotV(m.base, V));
-    t.film_F_base = m.base.F0 + (1.0f - m.base.F0) * w;
-    t.film_F_metal = m.base.base_color + (1.0f - m.base.base_color) * w;
+    t.film_F_base = m.base.F0;
+    t.film_F_metal = m.base.base_color;
+    if (layers_reads_anisotropic(m, energy)) {
+        t.dfg = anisotropic_table_bound(dfg, layers_alpha(m, m.base.alpha));
+        vec2 E = anisotropic_table_bound(vec2(transmission_E, 0.0f),
+                                         layers_alpha(m, layers_transmission_alpha(m)));
+        t.transmission_E = E[0];
+    }
+    if (has_layer(m, LAYER_IRIDESCENCE)) {
+        float NdotV = surface_NdotV(m.base, V);
+        t.film_F_base = F_iridescent(m.iridescence_ior, m.iridescence_thickness_nm, m.base.F0, NdotV);
+        t.film_F_metal =
+            F_iridescent(m.iridescence_ior, m.iridescence_thickness_nm, m.base.base_color, NdotV);
+    }
     return t;
 }
 
-/* ---- direct light ---- */
-
-/* BSDF times |N.L|, in 1/sr, of light from either side. energy is one of ENERGY_*; sheen_E_L is the directional albedo
- * of the sheen at N.L, read by LAYER_SHEEN for light from the eye's side. */
-FN vec3 layers_brdf_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L)
-{
-    vec3 f = surface_brdf_cos_energy(m.base, V, L, energy, t.dfg);
-    if (has_layer(m, LAYER_SHEEN))
-        f *= clamp(1.0f - max3(m.sheen_color) * max(t.sheen_E, sheen_E_L), 0.0f, 1.0f);
-    return f;
-}
-
-/* ---- image based light ---- */
-
-/* Radiance (cd/m^2) towards V of all surroundings, occlusion included, emission not. */
-FN vec3 layers_ibl(Layers m, vec3 V, LayerTables t, LayerLight light, int energy)
-{
-    return surface_ibl(m.base, surface_NdotV(m.base, V), t.dfg, light.specular, light.irradiance_over_pi,
-                       energy);
-}
-
-/* Emission in cd/m^2, seen through the coat. */
+/* Emission in cd/m^2, seen through the coat. Sheen does not dim it: Khronos' renderer; fibres that glow below. */
 FN vec3 layers_emission(Layers m, vec3 V)
 {
     if (!has_layer(m, LAYER_CLEARCOAT))
         return m.base.emissive;
-    return m.base.emissive * (1.0f - m.clearcoat * F_Schlick1(0.04f, 1.0f, layers_clearcoat_NdotV(m, V)));
-}
-
-/* Radiance (cd/m^2 per channel) that leaves P (m) towards the unit vector V because of one light, not shadowed. */
-FN vec3 layers_punctual(Layers m, vec3 P, vec3 V, Light l, int energy, LayerTables t, float sheen_E_L)
-{
-    LightSample light = light_illuminate(l, P);
-    m.base.alpha = max(m.base.alpha, ALPHA_MIN);
-    return layers_brdf_cos(m, V, light.L, energy, t, sheen_E_L) * light.E;
+    return m.base.emissive * (1.0f - m.clearcoat * F_clearcoat(layers_clearcoat_NdotV(m, V)));
 }
 
 #endif

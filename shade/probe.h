@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 45
+#define PROBE_COUNT 63
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -205,12 +205,158 @@ FN vec3 probe_color(int which, vec2 u)
            agx_contrast(vec3(u[0], u[1], 0.5f)) + tonemap_agx(hdr);
 }
 
-/* Every layer at once, or the subset whose bits come with u. */
+FN vec3 probe_sheen(int which, vec2 u)
+{
+    vec3 V = normalize(vec3(0.6f, 0.0f, 0.2f + u[0]));
+    vec3 L = probe_L(u);
+    float r = 0.3f + 0.7f * u[1];
+    float alpha = sheen_alpha(r);
+    if (which == 42)
+        return vec3(D_Charlie(u[0], alpha), Lambda_Charlie(u[0], alpha) * 0.01f,
+                    V_Charlie(u[0], 0.4f, alpha)) +
+               vec3(brdf_sheen(u[0], 0.3f, 0.4f, alpha), V_Neubelt(u[0], 0.3f), pdf_D_Charlie(u[0], alpha)) +
+               sheen_lambda_curve(u[0], alpha) * 0.1f;
+    if (which == 43)
+        return 0.1f + vec3(sheen_albedo_sample(uint(u[0] * 64.0f), 64u, r, u[1]),
+                           integrate_sheen_albedo(r, u[0], 16u),
+                           sheen_scaling(vec3(0.3f, 0.7f, 0.1f), u[0] * 2.0f));
+    if (which == 44)
+        return 0.5f + sample_D_Charlie(u, alpha) + clearcoat_lobe_cos(probe_V(u), u[0], V, L, alpha) +
+               F_clearcoat(u[0]);
+    vec2 t = sheen_ltc_transform(u[0], r);
+    PrefilterSample p = prefilter_sheen_sample(uint(u[0] * 64.0f), 64u, alpha, normalize(L));
+    return 3.0f + sample_sheen_ltc(u, V, r) + p.L * p.weight + p.pdf +
+           vec3(pdf_sheen_ltc(V, L, r), sheen_ltc_albedo(u[0], r), t[0] + t[1]);
+}
+
+FN vec3 probe_films(int which, vec2 u)
+{
+    vec3 V = probe_V(u);
+    vec3 L = probe_L(u);
+    vec3 N = vec3(0.0f, 0.0f, 1.0f);
+    if (which == 46)
+        return F_iridescent(1.1f + u[1], 800.0f * u[0], vec3(0.04f, 0.3f, 1.0f), 0.2f + 0.7f * u[1]) + 0.01f;
+    if (which == 47)
+        return 5.0f + film_sensitivity(800.0f * u[0], vec3(0.0f, PI, 2.0f)) +
+               film_base_ior(vec3(0.04f, u[0], 0.5f)) +
+               film_base_reflectance(1.3f, vec3(1.5f, 2.0f, 1.1f), u[1]) +
+               film_series(0.1f, vec3(u[0], u[1], 0.5f), 100.0f, vec3(1.0f)) +
+               film_gaussian(5e-13f, 1.6e6f, 4.3e9f, u[0] * 1e-6f, u[1]);
+    vec2 a = anisotropic_alpha(0.1f + 0.4f * u[0], u[1]);
+    vec2 d = anisotropy_direction(u + 0.1f, u[0]);
+    if (which == 48)
+        return anisotropic_reflection(N, vec3(d[0], d[1], 0.0f), V, u[0], u[1]) +
+               to_frame(L, vec3(d[0], d[1], 0.0f), vec3(-d[1], d[0], 0.0f), N);
+    vec2 p = anisotropic_table_point(V, a);
+    vec2 q = anisotropic_table_bound(vec2(0.5f, 0.2f * u[0]), a);
+    if (which == 49)
+        return vec3(p[0] + q[0], p[1] + q[1], alpha_specular_aa(u[0], V * 0.1f, L * u[1]));
+    Surface s = surface_from_specular_glossiness(N, vec3(u[0], 0.5f, 0.2f), vec3(0.2f, u[1], 0.3f), u[0],
+                                                 1.0f, vec3(0.1f));
+    return s.base_color + s.F0 + s.alpha + s.emissive;
+}
+
+FN vec3 probe_transmission(int which, vec2 u)
+{
+    vec3 V = probe_V(u);
+    vec3 L = mirror_through(probe_L(u), vec3(0.0f, 0.0f, 1.0f));
+    float alpha = 0.2f + 0.6f * u[1];
+    float eta = sel(u[0] < 0.5f, 1.5f, 0.7f);
+    if (which == 51)
+        return refract_or_zero(-V, vec3(0.0f, 0.0f, 1.0f), 1.2f + u[1]) +
+               half_vector_transmission(V, L, eta) +
+               F_Schlick_boundary(vec3(0.04f), vec3(1.0f), 0.8f + 0.2f * u[0], 1.0f / 1.3f);
+    if (which == 52)
+        return vec3(btdf_GGX_cos(V, L, alpha, 0.5f, 1.5f), pdf_transmission(V, L, alpha, 0.5f, 1.5f),
+                    transmission_jacobian(u[0], -u[1], 1.7f));
+    if (which == 53) {
+        TransmissionSample t = sample_transmission(u, V, alpha, 0.5f, 1.5f);
+        return 2.0f + t.L + vec3(t.VdotH, t.weight, t.pdf * 0.1f);
+    }
+    if (which == 54)
+        return vec3(thin_wall_cos(V, L, alpha, 0.5f), pdf_thin_wall(V, L, alpha, 0.5f),
+                    thin_wall_alpha(alpha, 1.0f + u[0]) + weight_VNDF_GGX(V, L, alpha, 0.5f));
+    if (which == 55) {
+        TransmissionSample t = sample_thin_wall(u, V, alpha, 0.5f);
+        return 2.0f + t.L + vec3(t.VdotH, t.weight, t.pdf * 0.1f);
+    }
+    if (which == 56)
+        return volume_transmittance(vec3(0.5f, 0.9f, 0.0f), 2.0f, 5.0f * u[0]) +
+               volume_extinction(vec3(0.5f, u[0], u[1]), 3.0f) +
+               single_scatter_albedo(vec3(u[0], u[1], 0.3f)) + single_scatter_albedo1(u[0]);
+    return sample_phase_HG(u, V, 0.7f) + vec3(phase_HG(2.0f * u[0] - 1.0f, 0.6f),
+                                              dispersed_ior(1.5f, u[0], 0),
+                                              dispersed_ior_at(1.5f, u[0], 400.0f + 300.0f * u[1]));
+}
+
+/* A subset of the layers that comes with u. */
 FN Layers probe_layers(vec2 u)
 {
     Layers m = layers_from_surface(probe_surface(u));
+    mat3 basis = basis_from_normal(m.base.N);
     m.layers = uint(u[0] * 512.0f);
+    m.ior = 1.3f + u[0];
+    m.eta = sel(u[1] < 0.7f, m.ior, 1.0f / m.ior);
+    m.clearcoat = 0.8f;
+    m.clearcoat_roughness = 0.3f;
+    m.clearcoat_N = vec3(0.0f, 0.0f, 1.0f);
+    m.sheen_color = vec3(0.6f, 0.2f, 0.8f);
+    m.sheen_roughness = 0.3f + 0.5f * u[1];
+    m.anisotropy = 0.7f;
+    m.anisotropy_T = COL(basis, 0);
+    m.anisotropy_B = COL(basis, 1);
+    m.iridescence = 0.6f;
+    m.iridescence_thickness_nm = 100.0f + 500.0f * u[1];
+    m.transmission = 0.5f;
+    m.diffuse_transmission = 0.4f;
+    m.diffuse_transmission_color = vec3(0.3f, 0.6f, 0.9f);
+    m.thickness = 0.1f;
+    m.attenuation_color = vec3(0.5f, 0.6f, 0.7f);
+    m.attenuation_distance = 0.2f;
+    m.dispersion = 2.0f;
+    m.multiscatter_color = vec3(0.2f, 0.4f, 0.6f);
     return m;
+}
+FN LayerTables probe_layer_tables(Layers m, vec3 V, int energy, vec2 u)
+{
+    return layer_tables(m, V, energy, vec2(0.6f, 0.2f * u[0]), 0.9f, 0.8f, 0.3f + u[1]);
+}
+
+/* The parts of layers_brdf_cos(). */
+FN vec3 probe_layer_parts(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+{
+    vec3 N = m.base.N;
+    float NdotV = surface_NdotV(m.base, V);
+    vec3 V_local = layers_to_any_frame(m, V);
+    vec3 L_below = layers_to_any_frame(m, mirror_through(sel(dot(N, L) > 0.0f, L, mirror_through(L, N)), N));
+    BoundaryWeights w = boundary_weights(m, NdotV, 0.7f, energy, t);
+    BoundaryWeights g = boundary_weights_gltf(m, 0.6f, t);
+    BoundaryWeights c = boundary_weights_conserving(m, NdotV, 0.5f, t);
+    BelowShares b = below_shares(m);
+    return w.specular * w.below + g.specular * g.below + c.specular * c.below + b.diffuse + b.diffuse_back +
+           b.specular + layers_F_base(m, 0.6f) + compensation(m.base.F0, vec3(1.0f), t.dfg) +
+           vec3(layers_DV(m, V, N, normalize(V + N), 1.0f, NdotV),
+                layers_thin_wall_cos(m, V_local, L_below, energy, t),
+                transmission_VdotH(V_local, L_below, layers_eta(m, 0))) +
+           layers_volume_cos(m, V_local, L_below, energy, t) + layers_to_frame(m, L) +
+           layers_base_front_cos(m, V, N, energy, t) + layers_base_back_cos(m, V, -N, energy, t) +
+           layers_sheen_cos(m, V, N, energy, t, 0.3f, vec3(1.0f)) +
+           layers_clearcoat_cos(m, V, N, energy, t, layers_base_cos(m, V, N, energy, t));
+}
+
+/* The parts of layers_ibl(). */
+FN vec3 probe_layer_ibl_parts(Layers m, vec3 V, int energy, LayerTables t, LayerLight light)
+{
+    float NdotV = surface_NdotV(m.base, V);
+    BoundaryIbl base = boundary_ibl_base(m, NdotV, t, energy);
+    BoundaryIbl metal = boundary_ibl_metal(m, NdotV, t, energy);
+    BoundaryIbl film = boundary_ibl_film(t.film_F_base, t, energy);
+    BoundaryIbl mixed = mix_boundary(mix_boundary(base, metal, 0.3f), film, 0.4f);
+    BoundaryIbl whole = boundary_ibl(m, NdotV, t, energy);
+    LayeredRadiance r = layers_base_ibl(m, NdotV, t, light, energy);
+    r = layers_sheen_ibl(m, t, light.sheen, energy, r);
+    r = layers_clearcoat_ibl(m, V, light.clearcoat, r);
+    return mixed.single + mixed.multiple + whole.single + whole.multiple + whole.below + r.front + r.back;
 }
 
 FN vec3 probe_layered(int which, vec2 u)
@@ -218,17 +364,25 @@ FN vec3 probe_layered(int which, vec2 u)
     Layers m = probe_layers(u);
     vec3 V = probe_V(u);
     int energy = ENERGY_GLTF;
-    if (u[1] > 0.5f)
+    if (fract(u[1] * 8.0f) > 0.5f)
         energy = ENERGY_CONSERVING;
-    LayerTables t = layer_tables(m, V, vec2(0.6f, 0.2f * u[0]), 0.9f, 0.8f, 0.3f);
-    if (which == 42)
-        return layers_brdf_cos(m, V, probe_L(u), energy, t, 0.2f) + vec3(layers_dfg_roughness(m, V, energy),
-                                                                         layers_transmission_roughness(m),
-                                                                         layers_clearcoat_NdotV(m, V));
-    if (which == 43)
+    LayerTables t = probe_layer_tables(m, V, energy, u);
+    if (which == 58)
+        return layers_brdf_cos(m, V, probe_L(u), energy, t, 0.2f) +
+               layers_brdf_cos(m, V, -probe_L(u), energy, t, 0.2f);
+    if (which == 59)
+        return probe_layer_parts(m, V, probe_L(u), energy, t);
+    if (which == 60) {
+        vec2 p = layers_dfg_point(m, V, energy) + layers_transmission_point(m, V, energy) +
+                 layers_alpha(m, layers_transmission_alpha(m));
+        vec3 r = layers_reflection(m, V) + layers_clearcoat_reflection(m, V) + layers_emission(m, V);
+        if (has_layer(m, LAYER_SHEEN) || layers_is_inside(m) || layers_reads_anisotropic(m, energy))
+            r += 1.0f;
+        return r + vec3(p[0], p[1], layers_clearcoat_NdotV(m, V));
+    }
+    if (which == 61)
         return layers_punctual(m, probe_L(u), V, light_point(vec3(3.0f, 1.0f, 2.0f), vec3(100.0f), 0.0f),
-                               energy, t, 0.2f) +
-               layers_reflection(m, V) + layers_clearcoat_reflection(m, V);
+                               energy, t, 0.2f);
     LayerLight light;
     light.specular = vec3(3.0f, 1.0f, 0.2f);
     light.irradiance_over_pi = vec3(0.5f, 0.7f, 1.0f);
@@ -236,10 +390,7 @@ FN vec3 probe_layered(int which, vec2 u)
     light.clearcoat = vec3(1.0f, 2.0f, 3.0f);
     light.sheen = vec3(0.3f, 0.2f, 0.1f);
     light.transmitted = vec3(1.0f, 0.5f, 0.7f);
-    vec3 radiance = layers_ibl(m, V, t, light, energy) + layers_emission(m, V);
-    if (has_layer(m, LAYER_SHEEN))
-        radiance += 1.0f;
-    return radiance;
+    return layers_ibl(m, V, t, light, energy) + probe_layer_ibl_parts(m, V, energy, t, light);
 }
 
 FN vec3 probe(int which, vec2 u)
@@ -260,5 +411,11 @@ FN vec3 probe(int which, vec2 u)
         return probe_ibl(which, u);
     if (which < 42)
         return probe_color(which, u);
+    if (which < 46)
+        return probe_sheen(which, u);
+    if (which < 51)
+        return probe_films(which, u);
+    if (which < 58)
+        return probe_transmission(which, u);
     return probe_layered(which, u);
 }

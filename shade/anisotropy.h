@@ -1,0 +1,72 @@
+/* anisotropy.h - brushed metal, hair, records (KHR_materials_anisotropy): a lobe stretched along one tangent. D and V
+ * of it are in brdf.h. */
+#ifndef SHADE_ANISOTROPY_H
+#define SHADE_ANISOTROPY_H
+
+/* GGX widths along the tangent in which highlights are stretched and along the bitangent:
+ * (mix(alpha, 1, strength^2), alpha). KHR_materials_anisotropy. */
+FN vec2 anisotropic_alpha(float alpha, float strength)
+{
+    return vec2(mix(alpha, 1.0f, strength * strength), alpha);
+}
+
+/* Unit direction of stretching in tangent space: the texture's direction, or (1, 0), turned counter-clockwise by
+ * rotation (rad). direction is the texel's (2 r - 1, 2 g - 1), not 0. */
+FN vec2 anisotropy_direction(vec2 direction, float rotation)
+{
+    float c = cos(rotation);
+    float s = sin(rotation);
+    float scale = inversesqrt(max(dot(direction, direction), 1e-20f));
+    return vec2(c * direction[0] - s * direction[1], s * direction[0] + c * direction[1]) * scale;
+}
+
+/* v in the frame T, B, N, orthonormal: what the anisotropic terms take. */
+FN vec3 to_frame(vec3 v, vec3 T, vec3 B, vec3 N)
+{
+    return vec3(dot(T, v), dot(B, v), dot(N, v));
+}
+
+/* Where to read light prefiltered for an isotropic lobe: the normal is bent in the plane of B and V, as far as the
+ * surface is anisotropic and smooth, the reflection of it brought back for rough ones. B is the bitangent, across the
+ * stretching. KHR_materials_anisotropy, "Image based lighting", with its last line, which Khronos' renderer leaves
+ * out:
+ *   a = (1 - strength (1 - r))^4,  N' = mix((B x V) x B, N, a),  R = mix(reflect(-V, N'), N', r^2) */
+FN vec3 anisotropic_reflection(vec3 N, vec3 B, vec3 V, float strength, float perceptual_roughness)
+{
+    vec3 grain_N = cross(cross(B, V), B); /* V without its part along B; 0 where V = B */
+    float bend = 1.0f - strength * (1.0f - perceptual_roughness);
+    float bend2 = bend * bend;
+    vec3 bent = mix(grain_N, N, bend2 * bend2);
+    float length2 = dot(bent, bent);
+    bent = sel(length2 > 1e-12f, bent * inversesqrt(max(length2, 1e-12f)), N);
+    vec3 R = reflect(-V, bent);
+    return normalize(mix(R, bent, perceptual_roughness * perceptual_roughness));
+}
+
+/* The isotropic lobe whose directional albedo is that of an anisotropic one: (N.V, perceptual roughness) at which a
+ * table of split-sum terms is read. Width is the root mean square of the two, and V is tilted until it sees the
+ * slopes as steep as it does here:
+ *   a^2 = (ax^2 + ay^2) / 2,   a tan' = |(ax V.x, ay V.y)| / V.z
+ * V in the frame of the lobe. Found by comparing quadratures: within 0.04 of E over all strengths, azimuths and
+ * elevations down to N.V = 0.05, 0.012 in the mean; reading at (N.V, r) itself is wrong by up to 0.35. */
+FN vec2 anisotropic_table_point(vec3 V, vec2 alpha)
+{
+    float a2 = 0.5f * dot(alpha, alpha);
+    float x = alpha[0] * V[0];
+    float y = alpha[1] * V[1];
+    float slope2 = (x * x + y * y) / max(a2, 1e-12f);
+    float z = max(V[2], NDOTV_MIN);
+    return vec2(clamp(z * inversesqrt(z * z + slope2), NDOTV_MIN, 1.0f), sqrt(sqrt(a2)));
+}
+
+/* The terms read there, made an upper bound: E towards 1 by 0.15 (1 - E) |ax^2 - ay^2| / (ax^2 + ay^2). What an
+ * albedo that is too small compensates would return more than it received. */
+FN vec2 anisotropic_table_bound(vec2 dfg, vec2 alpha)
+{
+    vec2 a2 = alpha * alpha;
+    float E = dfg[0] + dfg[1];
+    float ratio = abs(a2[0] - a2[1]) / max(a2[0] + a2[1], 1e-12f);
+    return dfg * (1.0f + 0.15f * ratio * max(1.0f - E, 0.0f) / max(E, 1e-3f));
+}
+
+#endif

@@ -1,0 +1,266 @@
+/* layers_direct.h - the layered surface under lamps: one BSDF of all lobes, light from either side. */
+#ifndef SHADE_LAYERS_DIRECT_H
+#define SHADE_LAYERS_DIRECT_H
+
+/* How a boundary divides light: factors of the lobe D V, metallic mixed in, and of what is below the dielectric. */
+STRUCT(BoundaryWeights)
+{
+    vec3 specular;
+    float below;
+};
+
+/* The dielectric's reflectance for the microfacet's cosine. */
+FN vec3 layers_F_base(Layers m, float VdotH)
+{
+    vec3 F90 = vec3(m.base.F90);
+    if (has_layer(m, LAYER_VOLUME))
+        return F_Schlick_boundary(m.base.F0, F90, VdotH, m.eta);
+    return F_Schlick(m.base.F0, F90, VdotH);
+}
+
+/* glTF's weights: the base gets what the microfacet with V.H does not reflect. The film's reflectance is that of N.V,
+ * as in Khronos' renderer, and mixed with the plain one, not its thickness (KHR_materials_iridescence). */
+FN BoundaryWeights boundary_weights_gltf(Layers m, float VdotH, LayerTables t)
+{
+    vec3 F_base = layers_F_base(m, VdotH);
+    vec3 F_metal = F_Schlick(m.base.base_color, vec3(1.0f), VdotH);
+    float below = 1.0f - max3(F_base);
+    if (has_layer(m, LAYER_IRIDESCENCE)) {
+        F_base = mix(F_base, t.film_F_base, m.iridescence);
+        F_metal = mix(F_metal, t.film_F_metal, m.iridescence);
+        below = mix(below, 1.0f - max3(t.film_F_base), m.iridescence);
+    }
+    BoundaryWeights w;
+    w.specular = mix(F_base, F_metal, m.base.metallic);
+    w.below = (1.0f - m.base.metallic) * below;
+    return w;
+}
+
+/* Factor on D V that compensates multiple scattering, and the albedo of the lobe with it, for F0 and F90. */
+FN vec3 compensation(vec3 F0, vec3 F90, vec2 dfg)
+{
+    return multiscatter_scale(F_avg(F0, F90), dfg[0] + dfg[1]);
+}
+
+/* Weights of which nothing is returned twice: the base gets one minus the albedo that the specular lobe has towards V,
+ * so the sum over all L is at most 1. In the denser medium of a volume tables do not hold, F being that of the rarer
+ * side; there V takes the microfacet's place and the albedo is F(N.V), the lobe scaled to it. */
+FN BoundaryWeights boundary_weights_conserving(Layers m, float NdotV, float VdotH, LayerTables t)
+{
+    vec3 F90 = vec3(m.base.F90);
+    vec3 one = vec3(1.0f);
+    float E = t.dfg[0] + t.dfg[1];
+    vec3 F_base = F_Schlick(m.base.F0, F90, VdotH) * compensation(m.base.F0, F90, t.dfg);
+    vec3 F_metal = F_Schlick(m.base.base_color, one, VdotH) * compensation(m.base.base_color, one, t.dfg);
+    float below = 1.0f - max3(specular_albedo(m.base.F0, F90, t.dfg));
+    if (layers_is_inside(m)) {
+        F_base = layers_F_base(m, NdotV);
+        below = 1.0f - max3(F_base);
+        F_base *= multiscatter_scale(one, E);
+    }
+    if (has_layer(m, LAYER_IRIDESCENCE)) {
+        vec3 film_base = t.film_F_base * multiscatter_scale(t.film_F_base, E);
+        vec3 film_metal = t.film_F_metal * multiscatter_scale(t.film_F_metal, E);
+        F_base = mix(F_base, film_base, m.iridescence);
+        F_metal = mix(F_metal, film_metal, m.iridescence);
+        below = mix(below, 1.0f - max3(film_base) * E, m.iridescence);
+    }
+    BoundaryWeights w;
+    w.specular = mix(F_base, F_metal, m.base.metallic);
+    w.below = (1.0f - m.base.metallic) * below;
+    return w;
+}
+
+FN BoundaryWeights boundary_weights(Layers m, float NdotV, float VdotH, int energy, LayerTables t)
+{
+    if (energy == ENERGY_CONSERVING)
+        return boundary_weights_conserving(m, NdotV, VdotH, t);
+    return boundary_weights_gltf(m, VdotH, t);
+}
+
+/* How what is below the boundary is shared out, per channel; together at most 1. */
+STRUCT(BelowShares)
+{
+    vec3 diffuse;      /* scattered back to the eye's side */
+    vec3 diffuse_back; /* scattered through, without a volume's attenuation */
+    vec3 specular;     /* transmitted by the boundary, tinted */
+};
+
+/* mix(mix(diffuse, diffuse transmission), specular transmission); transmission goes first, the rest is divided again.
+ * In a volume that scatters, light that enters diffusely comes back as if the volume were deep and dense, in the share
+ * of its multiscatter color: the limit of a mean free path of 0, of which rays or diffusion are the better account. */
+FN BelowShares below_shares(Layers m)
+{
+    BelowShares s;
+    s.diffuse = m.base.base_color;
+    s.diffuse_back = vec3(0.0f);
+    s.specular = vec3(0.0f);
+    if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION)) {
+        vec3 through = m.diffuse_transmission_color * m.diffuse_transmission;
+        s.diffuse *= 1.0f - m.diffuse_transmission;
+        s.diffuse_back = through;
+        if (has_layer(m, LAYER_SCATTER)) {
+            s.diffuse += through * m.multiscatter_color;
+            s.diffuse_back = through * (1.0f - m.multiscatter_color);
+        }
+    }
+    if (has_layer(m, LAYER_TRANSMISSION)) {
+        s.diffuse *= 1.0f - m.transmission;
+        s.diffuse_back *= 1.0f - m.transmission;
+        s.specular = m.base.base_color * m.transmission;
+    }
+    return s;
+}
+
+/* D V of the base's reflection, with L on the side of the eye; H and cosines given. */
+FN float layers_DV(Layers m, vec3 V, vec3 L, vec3 H, float NdotL, float NdotV)
+{
+    if (has_layer(m, LAYER_ANISOTROPY)) {
+        vec2 a = layers_alpha(m, m.base.alpha);
+        vec3 V_local = layers_to_frame(m, V);
+        V_local[2] = NdotV;
+        return D_GGX_anisotropic(layers_to_frame(m, H), a[0], a[1]) *
+               V_SmithGGX_anisotropic(layers_to_frame(m, L), V_local, a[0], a[1]);
+    }
+    float alpha = max(m.base.alpha, ALPHA_MIRROR);
+    return D_GGX_stable(clamp(dot(m.base.N, H), 0.0f, 1.0f), cross(m.base.N, H), alpha) *
+           V_SmithGGX(NdotL, NdotV, alpha);
+}
+
+/* The base for light from the eye's side. */
+FN vec3 layers_base_front_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+{
+    float NdotL = min(dot(m.base.N, L), 1.0f);
+    float NdotV = surface_NdotV(m.base, V);
+    vec3 sum = V + L;
+    float sum2 = dot(sum, sum);
+    if (sum2 < 1e-12f)
+        return vec3(0.0f);
+    float inverse = inversesqrt(sum2);
+    float VdotH = min(0.5f * sum2 * inverse, 1.0f);
+    BoundaryWeights w = boundary_weights(m, NdotV, VdotH, energy, t);
+    vec3 specular = w.specular * layers_DV(m, V, L, sum * inverse, NdotL, NdotV);
+    return (specular + brdf_lambert(below_shares(m).diffuse) * w.below) * NdotL;
+}
+
+/* A frame of N with the base's tangents, or any where there is no anisotropy. */
+FN vec3 layers_to_any_frame(Layers m, vec3 v)
+{
+    if (has_layer(m, LAYER_ANISOTROPY))
+        return layers_to_frame(m, v);
+    return mul(transpose(basis_from_normal(m.base.N)), v);
+}
+
+/* Specular transmission through a thin wall for light from behind, without boundary_weights() and tint. */
+FN float layers_thin_wall_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+{
+    vec2 a = layers_alpha(m, layers_transmission_alpha(m));
+    float f = thin_wall_cos(V, L, a[0], a[1]);
+    return sel(energy == ENERGY_CONSERVING, f / max(t.transmission_E, 1e-3f), f);
+}
+
+/* Cosine at the microfacet that transmits L through a volume's boundary; N.V where there is none. */
+FN float transmission_VdotH(vec3 V, vec3 L, float eta)
+{
+    float VdotH = dot(V, half_vector_transmission(V, L, eta));
+    return sel(VdotH > 0.0f, min(VdotH, 1.0f), V[2]);
+}
+
+/* The same through a volume's boundary, weighted; each channel with its own ior. V and L in the base's frame. */
+FN vec3 layers_volume_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+{
+    vec2 a = layers_alpha(m, m.base.alpha);
+    vec3 f = vec3(0.0f);
+    for (int c = 0; c < 3; ++c) {
+        float eta = layers_eta(m, c);
+        float VdotH = transmission_VdotH(V, L, eta);
+        f[c] = btdf_GGX_cos(V, L, a[0], a[1], eta) * boundary_weights(m, V[2], VdotH, energy, t).below;
+    }
+    return f;
+}
+
+/* The base for light from behind. The microfacet of what goes straight through is that of L mirrored to V's side. */
+FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, LayerTables t)
+{
+    vec3 V = layers_to_any_frame(m, V_world);
+    vec3 L = layers_to_any_frame(m, L_world);
+    V[2] = surface_NdotV(m.base, V_world);
+    vec3 sum = V + vec3(L[0], L[1], -L[2]);
+    float VdotH = min(0.5f * length(sum), 1.0f);
+    BelowShares share = below_shares(m);
+    float below = boundary_weights(m, V[2], VdotH, energy, t).below;
+    vec3 f = brdf_lambert(share.diffuse_back) * (below * -L[2]);
+    if (has_layer(m, LAYER_VOLUME)) {
+        f *= volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
+        return f + share.specular * layers_volume_cos(m, V, L, energy, t);
+    }
+    return f + share.specular * (below * layers_thin_wall_cos(m, V, L, energy, t));
+}
+
+/* What is below sheen and coat. */
+FN vec3 layers_base_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+{
+    float NdotL = dot(m.base.N, L);
+    if ((m.layers & ~(LAYER_CLEARCOAT | LAYER_SHEEN)) == 0u)
+        return surface_brdf_cos_energy(m.base, V, L, energy, t.dfg);
+    if (NdotL > 0.0f)
+        return layers_base_front_cos(m, V, L, energy, t);
+    if (NdotL < 0.0f && (has_layer(m, LAYER_TRANSMISSION) || has_layer(m, LAYER_DIFFUSE_TRANSMISSION)))
+        return layers_base_back_cos(m, V, L, energy, t);
+    return vec3(0.0f);
+}
+
+/* Sheen over f, which is what is below it. glTF dims by the larger albedo of both directions, which is reciprocal;
+ * ENERGY_CONSERVING by that at V, with which lobe and base add up, and keeps the lobe's own albedo at 1. Light from
+ * behind has no second direction on the fibres' side. KHR_materials_sheen. */
+FN vec3 layers_sheen_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L, vec3 f)
+{
+    float NdotL = min(dot(m.base.N, L), 1.0f);
+    vec3 sum = V + L;
+    float sum2 = dot(sum, sum);
+    float E = t.sheen_E;
+    if (NdotL <= 0.0f || sum2 < 1e-12f)
+        return f * sheen_scaling(m.sheen_color, E);
+    float lobe = 1.0f;
+    if (energy == ENERGY_CONSERVING)
+        lobe = 1.0f / max(max3(m.sheen_color) * E, 1.0f);
+    else
+        E = max(E, sheen_E_L);
+    float NdotH = clamp(dot(m.base.N, sum) * inversesqrt(sum2), 0.0f, 1.0f);
+    lobe *= brdf_sheen(NdotL, surface_NdotV(m.base, V), NdotH, sheen_alpha(m.sheen_roughness)) * NdotL;
+    return m.sheen_color * lobe + f * sheen_scaling(m.sheen_color, E);
+}
+
+/* The coat over f: mix(f, coat, clearcoat F(N.V)). glTF's lobe loses what scatters twice in it; ENERGY_CONSERVING's
+ * does not. KHR_materials_clearcoat. */
+FN vec3 layers_clearcoat_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, vec3 f)
+{
+    float NdotV = layers_clearcoat_NdotV(m, V);
+    float coat = clearcoat_lobe_cos(m.clearcoat_N, NdotV, V, L, alpha_from_roughness(m.clearcoat_roughness));
+    if (energy == ENERGY_CONSERVING)
+        coat /= max(t.clearcoat_E, 1e-3f);
+    return mix(f, vec3(coat), m.clearcoat * F_clearcoat(NdotV));
+}
+
+/* BSDF times |N.L|, in 1/sr, of light from either side. energy is one of ENERGY_*; sheen_E_L is the directional albedo
+ * of the sheen at N.L, read by LAYER_SHEEN for light from the eye's side. */
+FN vec3 layers_brdf_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L)
+{
+    vec3 f = layers_base_cos(m, V, L, energy, t);
+    if (has_layer(m, LAYER_SHEEN))
+        f = layers_sheen_cos(m, V, L, energy, t, sheen_E_L, f);
+    if (has_layer(m, LAYER_CLEARCOAT))
+        f = layers_clearcoat_cos(m, V, L, energy, t, f);
+    return f;
+}
+
+/* Radiance (cd/m^2 per channel) that leaves P (m) towards the unit vector V because of one light, not shadowed. */
+FN vec3 layers_punctual(Layers m, vec3 P, vec3 V, Light l, int energy, LayerTables t, float sheen_E_L)
+{
+    LightSample light = light_illuminate(l, P);
+    m.base.alpha = max(m.base.alpha, ALPHA_MIN);
+    m.clearcoat_roughness = max(m.clearcoat_roughness, ROUGHNESS_MIN);
+    return layers_brdf_cos(m, V, light.L, energy, t, sheen_E_L) * light.E;
+}
+
+#endif

@@ -1,0 +1,149 @@
+/* layers_ibl.h - the layered surface under its surroundings: what arrives prefiltered, weighted and added up. */
+#ifndef SHADE_LAYERS_IBL_H
+#define SHADE_LAYERS_IBL_H
+
+/* A boundary in uniform light: shares that multiply prefiltered radiance and irradiance / pi. */
+STRUCT(BoundaryIbl)
+{
+    vec3 single;
+    vec3 multiple;
+    float below;
+};
+
+/* The dielectric's. From inside a volume F is that of N.V; a rough boundary there has no table. */
+FN BoundaryIbl boundary_ibl_base(Layers m, float NdotV, LayerTables t, int energy)
+{
+    vec3 F90 = vec3(m.base.F90);
+    BoundaryIbl b;
+    if (layers_is_inside(m)) {
+        b.single = layers_F_base(m, NdotV);
+        b.multiple = vec3(0.0f);
+    } else {
+        vec3 k = m.base.F0;
+        if (energy == ENERGY_GLTF)
+            k = F_Schlick_roughness(m.base.F0, F90, m.base.perceptual_roughness, NdotV);
+        MultiScatter s = multiscatter_ibl(k, m.base.F0, F90, t.dfg);
+        b.single = s.single;
+        b.multiple = s.multiple;
+    }
+    b.below = 1.0f - max3(b.single + b.multiple);
+    return b;
+}
+
+FN BoundaryIbl boundary_ibl_metal(Layers m, float NdotV, LayerTables t, int energy)
+{
+    vec3 one = vec3(1.0f);
+    vec3 k = m.base.base_color;
+    if (energy == ENERGY_GLTF)
+        k = F_Schlick_roughness(k, one, m.base.perceptual_roughness, NdotV);
+    MultiScatter s = multiscatter_ibl(k, m.base.base_color, one, t.dfg);
+    BoundaryIbl b;
+    b.single = s.single;
+    b.multiple = s.multiple;
+    b.below = 0.0f;
+    return b;
+}
+
+/* A film's, of reflectance F: glTF's, as in Khronos' renderer, multiplies the radiance as it is; the conserving one
+ * has the lobe's albedo and what scatters on. */
+FN BoundaryIbl boundary_ibl_film(vec3 F, LayerTables t, int energy)
+{
+    BoundaryIbl b;
+    b.single = F;
+    b.multiple = vec3(0.0f);
+    if (energy == ENERGY_CONSERVING) {
+        MultiScatter s = multiscatter_ibl(F, F, F, t.dfg);
+        b.single = s.single;
+        b.multiple = s.multiple;
+    }
+    b.below = 1.0f - max3(b.single + b.multiple);
+    return b;
+}
+
+FN BoundaryIbl mix_boundary(BoundaryIbl a, BoundaryIbl b, float weight)
+{
+    BoundaryIbl r;
+    r.single = mix(a.single, b.single, weight);
+    r.multiple = mix(a.multiple, b.multiple, weight);
+    r.below = mix(a.below, b.below, weight);
+    return r;
+}
+
+/* Dielectric and metal, each with its film, mixed. */
+FN BoundaryIbl boundary_ibl(Layers m, float NdotV, LayerTables t, int energy)
+{
+    BoundaryIbl base = boundary_ibl_base(m, NdotV, t, energy);
+    BoundaryIbl metal = boundary_ibl_metal(m, NdotV, t, energy);
+    if (has_layer(m, LAYER_IRIDESCENCE)) {
+        base = mix_boundary(base, boundary_ibl_film(t.film_F_base, t, energy), m.iridescence);
+        metal = mix_boundary(metal, boundary_ibl_film(t.film_F_metal, t, energy), m.iridescence);
+        metal.below = 0.0f;
+    }
+    return mix_boundary(base, metal, m.base.metallic);
+}
+
+/* Radiance from the eye's side and from behind, which occlusion treats differently. */
+STRUCT(LayeredRadiance)
+{
+    vec3 front;
+    vec3 back;
+};
+
+/* What is below sheen and coat. */
+FN LayeredRadiance layers_base_ibl(Layers m, float NdotV, LayerTables t, LayerLight light, int energy)
+{
+    BoundaryIbl b = boundary_ibl(m, NdotV, t, energy);
+    BelowShares share = below_shares(m);
+    vec3 multiple_radiance = sel(energy == ENERGY_GLTF, light.specular, light.irradiance_over_pi);
+    LayeredRadiance r;
+    r.front = b.single * light.specular + b.multiple * multiple_radiance +
+              share.diffuse * light.irradiance_over_pi * b.below;
+    r.back = vec3(0.0f);
+    if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION))
+        r.back += share.diffuse_back * light.irradiance_back_over_pi * b.below;
+    if (has_layer(m, LAYER_TRANSMISSION))
+        r.back += share.specular * light.transmitted * b.below;
+    return r;
+}
+
+/* The lobe of the sheen returns color E of uniform light, at most 1 where energy is conserved, and leaves
+ * sheen_scaling() to what is below. */
+FN LayeredRadiance layers_sheen_ibl(Layers m, LayerTables t, vec3 sheen, int energy, LayeredRadiance r)
+{
+    float E = t.sheen_E;
+    float lobe = E;
+    if (energy == ENERGY_CONSERVING)
+        lobe = E / max(max3(m.sheen_color) * E, 1.0f);
+    float left = sheen_scaling(m.sheen_color, E);
+    r.front = m.sheen_color * sheen * lobe + r.front * left;
+    r.back *= left;
+    return r;
+}
+
+/* mix(r, coat, clearcoat F(N.V)). */
+FN LayeredRadiance layers_clearcoat_ibl(Layers m, vec3 V, vec3 coat, LayeredRadiance r)
+{
+    float w = m.clearcoat * F_clearcoat(layers_clearcoat_NdotV(m, V));
+    r.front = mix(r.front, coat, w);
+    r.back *= 1.0f - w;
+    return r;
+}
+
+/* Radiance (cd/m^2) towards V of all surroundings, occlusion included, emission not.
+ *
+ * Occlusion dims what the hemisphere above sends, sheen and coat included, as Khronos' renderer does; what comes from
+ * behind it does not: rays found that light behind whatever stands in its way. */
+FN vec3 layers_ibl(Layers m, vec3 V, LayerTables t, LayerLight light, int energy)
+{
+    float NdotV = surface_NdotV(m.base, V);
+    if (m.layers == 0u)
+        return surface_ibl(m.base, NdotV, t.dfg, light.specular, light.irradiance_over_pi, energy);
+    LayeredRadiance r = layers_base_ibl(m, NdotV, t, light, energy);
+    if (has_layer(m, LAYER_SHEEN))
+        r = layers_sheen_ibl(m, t, light.sheen, energy, r);
+    if (has_layer(m, LAYER_CLEARCOAT))
+        r = layers_clearcoat_ibl(m, V, light.clearcoat, r);
+    return r.front * m.base.occlusion + r.back;
+}
+
+#endif
