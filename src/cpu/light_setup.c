@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/result.h"
+#include "cpu/material_plan.h"
 
 #include "shade/shade.h"
 
@@ -15,17 +16,64 @@ static bool is_entirely_metallic(const scene_material *material)
            material->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE].texture == SCENE_NONE;
 }
 
-/* Texels scale the factor down: a textured roughness may be anything up to it. */
-static void add_material(ibl_light_desc *needs, const scene_material *material, facet_energy energy)
+static void add_range(ibl_light_desc *needs, float lowest, float highest)
 {
-    float roughness = clamp(material->perceptual_roughness, 0.0f, 1.0f);
-    bool is_textured = material->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE].texture != SCENE_NONE;
-    needs->min_roughness = min(needs->min_roughness, is_textured ? 0.0f : roughness);
-    needs->max_roughness = max(needs->max_roughness, roughness);
+    needs->min_roughness = min(needs->min_roughness, clamp(lowest, 0.0f, 1.0f));
+    needs->max_roughness = max(needs->max_roughness, clamp(highest, 0.0f, 1.0f));
     needs->needs_specular = true;
-    /* A metal scatters no light below its surface; the conserving mode takes multiple scattering from it. */
-    if (!is_entirely_metallic(material) || energy == FACET_ENERGY_CONSERVING)
+}
+
+/* Texels scale the factor down: a textured roughness may be anything up to it. Anti-aliasing widens it. */
+static void add_lobe(ibl_light_desc *needs, float roughness, bool is_textured, bool is_widened)
+{
+    float most = roughness;
+    if (is_widened) {
+        float alpha = alpha_from_roughness(clamp(roughness, 0.0f, 1.0f));
+        most = sqrt(alpha_specular_aa(alpha, vec3(1.0f), vec3(1.0f)));
+    }
+    add_range(needs, is_textured ? 0.0f : roughness, most);
+}
+
+/* Layers look up with their own roughness; rays that passed a surface with anything up to what several of them make of
+ * a lobe, and see what a camera sees. */
+static void add_layers(ibl_light_desc *needs, const scene_material *m, const facet_render_desc *desc)
+{
+    uint32_t layers = material_plan_layers(m);
+    if (layers & LAYER_CLEARCOAT)
+        add_lobe(needs, m->clearcoat_roughness, scene_material_has(m, SCENE_CLEARCOAT_ROUGHNESS_TEXTURE),
+                 desc->specular_antialiasing);
+    if (layers & LAYER_SHEEN) {
+        bool is_textured = scene_material_has(m, SCENE_SHEEN_ROUGHNESS_TEXTURE);
+        float lowest = is_textured ? 0.0f : m->sheen_roughness;
+        needs->min_sheen_roughness = needs->needs_sheen ? min(needs->min_sheen_roughness, lowest) : lowest;
+        needs->max_sheen_roughness = max(needs->max_sheen_roughness, m->sheen_roughness);
+        needs->needs_sheen = true;
+    }
+    if (layers & LAYER_DIFFUSE_TRANSMISSION)
         needs->needs_irradiance = true;
+    if (layers & LAYER_TRANSMISSION) {
+        float alpha = alpha_from_roughness(clamp(m->perceptual_roughness, 0.0f, 1.0f));
+        add_range(needs, 0.0f, sqrt(2.0f * alpha));
+        needs->needs_irradiance = true;
+        needs->needs_background = true;
+    }
+}
+
+static void add_material(ibl_light_desc *needs, const scene_material *material, const facet_render_desc *desc)
+{
+    bool is_glossy = (material->extensions & SCENE_SPECULAR_GLOSSINESS) != 0;
+    bool is_textured = scene_material_has(material, is_glossy ? SCENE_SPECULAR_GLOSSINESS_TEXTURE
+                                                              : SCENE_METALLIC_ROUGHNESS_TEXTURE);
+    if (is_glossy) /* texels scale glossiness down */
+        add_range(needs, 1.0f - material->glossiness, is_textured ? 1.0f : 1.0f - material->glossiness);
+    else
+        add_lobe(needs, material->perceptual_roughness, is_textured, false);
+    if (desc->specular_antialiasing)
+        add_lobe(needs, needs->max_roughness, false, true);
+    /* A metal scatters no light below its surface; the conserving mode takes multiple scattering from it. */
+    if (is_glossy || !is_entirely_metallic(material) || desc->energy == FACET_ENERGY_CONSERVING)
+        needs->needs_irradiance = true;
+    add_layers(needs, material, desc);
 }
 
 static ibl_light_desc light_needs(const render_geometry_set *set, const camera_rays *camera,
@@ -34,18 +82,15 @@ static ibl_light_desc light_needs(const render_geometry_set *set, const camera_r
     ibl_light_desc needs = {.thread_count = desc->thread_count, .min_roughness = 1.0f};
     for (uint32_t i = 0; i < set->count; i++)
         if (set->items[i].is_lit)
-            add_material(&needs, set->items[i].material, desc->energy);
+            add_material(&needs, set->items[i].material, desc);
     if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
-        if (desc->background_blur > 0.0f) {
-            needs.needs_specular = true;
-            needs.min_roughness = min(needs.min_roughness, desc->background_blur);
-            needs.max_roughness = max(needs.max_roughness, desc->background_blur);
-        } else {
+        if (desc->background_blur > 0.0f)
+            add_range(&needs, desc->background_blur, desc->background_blur);
+        else
             needs.needs_background = true;
-            needs.background_size =
-                camera->is_orthographic ? 0 : (uint32_t)min(1.0f / camera->pixel_size, 1e6f);
-        }
     }
+    if (needs.needs_background)
+        needs.background_size = camera->is_orthographic ? 0 : (uint32_t)min(1.0f / camera->pixel_size, 1e6f);
     return needs;
 }
 
@@ -87,9 +132,16 @@ facet_result light_setup_create(const render_geometry_set *set, const scene_pose
         out->punctual_count = pose->light_count;
         for (uint32_t i = 0; i < pose->light_count; i++)
             out->punctual[i] = posed_light(&pose->lights[i]);
+        facet_result result =
+            light_grid_create(out->punctual, out->punctual_count, &desc->allocator, &out->grid, error);
+        if (result != FACET_OK) {
+            light_setup_destroy(out);
+            return result;
+        }
     }
     ibl_light_desc needs = light_needs(set, camera, desc);
-    if (!desc->environment || !(needs.needs_irradiance || needs.needs_specular || needs.needs_background))
+    if (!desc->environment ||
+        !(needs.needs_irradiance || needs.needs_specular || needs.needs_sheen || needs.needs_background))
         return FACET_OK;
     facet_result result = ibl_light_prepare(desc->environment, &needs, &out->ibl, error);
     if (result != FACET_OK) {
@@ -98,6 +150,7 @@ facet_result light_setup_create(const render_geometry_set *set, const scene_pose
     }
     out->has_irradiance = needs.needs_irradiance;
     out->has_specular = needs.needs_specular;
+    out->has_sheen = needs.needs_sheen;
     out->has_background = needs.needs_background;
     return FACET_OK;
 }
@@ -106,6 +159,7 @@ void light_setup_destroy(light_setup *light)
 {
     ibl_light_release(light->ibl);
     mem_free(light->punctual);
+    light_grid_destroy(&light->grid);
     *light = (light_setup){0};
 }
 
@@ -144,6 +198,17 @@ void light_specular(const light_setup *light, const float R[3], float perceptual
         return;
     to_environment(light, R, d);
     ibl_specular(light->ibl, d, perceptual_roughness, out);
+    scale3(out, light->scale);
+}
+
+void light_sheen(const light_setup *light, const float R[3], float sheen_roughness, float out[3])
+{
+    float d[3];
+    out[0] = out[1] = out[2] = 0.0f;
+    if (!light->has_sheen)
+        return;
+    to_environment(light, R, d);
+    ibl_sheen(light->ibl, d, sheen_roughness, out);
     scale3(out, light->scale);
 }
 

@@ -2,6 +2,7 @@
 #ifndef CPU_LIGHT_SETUP_H
 #define CPU_LIGHT_SETUP_H
 
+#include "cpu/light_grid.h"
 #include "cpu/render_geometry.h"
 #include "ibl/ibl.h"
 
@@ -9,11 +10,12 @@ struct Light; /* shade/light.h */
 
 typedef struct light_setup {
     const ibl_light *ibl; /* NULL: black */
-    bool has_irradiance, has_specular, has_background;
+    bool has_irradiance, has_specular, has_sheen, has_background;
     float scale; /* 2^environment_ev */
     float rotation_cos, rotation_sin;
     uint32_t punctual_count;
     struct Light *punctual;
+    light_grid grid; /* which of them reach a point */
 } light_setup;
 
 /* Prepares what the materials of the drawn geometries and the background read. Fails as ibl_light_prepare(). */
@@ -26,6 +28,7 @@ void light_setup_destroy(light_setup *light); /* {0} is allowed */
  * none was prepared because no material reads it. */
 void light_irradiance_over_pi(const light_setup *light, const float N[3], float out[3]);
 void light_specular(const light_setup *light, const float R[3], float perceptual_roughness, float out[3]);
+void light_sheen(const light_setup *light, const float R[3], float sheen_roughness, float out[3]);
 void light_background(const light_setup *light, const float d[3], float footprint_rad, float out[3]);
 
 #endif

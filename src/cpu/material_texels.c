@@ -1,27 +1,9 @@
 /* material_texels.c - see material_texels.h. Textures with the same coordinates are looked up together. */
 #include <string.h>
 
+#include "scene/material_table.h"
+
 #include "cpu/material_texels.h"
-
-_Static_assert((int)MATERIAL_TEXTURE_COUNT <= (int)TEXTURE_GROUP, "all textures of a material are one group");
-
-static const struct {
-    scene_texture_slot slot;
-    bool is_color;
-} MATERIAL_TEXTURES[MATERIAL_TEXTURE_COUNT] = {
-    [BASE_COLOR] = {SCENE_BASE_COLOR_TEXTURE, true},
-    [EMISSIVE] = {SCENE_EMISSIVE_TEXTURE, true},
-    [METALLIC_ROUGHNESS] = {SCENE_METALLIC_ROUGHNESS_TEXTURE, false},
-    [NORMAL] = {SCENE_NORMAL_TEXTURE, false},
-    [OCCLUSION] = {SCENE_OCCLUSION_TEXTURE, false},
-    [SPECULAR] = {SCENE_SPECULAR_TEXTURE, false},
-    [SPECULAR_COLOR] = {SCENE_SPECULAR_COLOR_TEXTURE, true},
-};
-
-static const scene_texture_ref *texture_ref(const scene_material *material, int number)
-{
-    return &material->textures[MATERIAL_TEXTURES[number].slot];
-}
 
 static bool has_same_coordinates(const scene_texture_ref *a, const scene_texture_ref *b)
 {
@@ -29,46 +11,55 @@ static bool has_same_coordinates(const scene_texture_ref *a, const scene_texture
            (!a->has_transform || memcmp(a->transform, b->transform, sizeof a->transform) == 0);
 }
 
-static void transform_coordinates(const float m[6], shading_texcoord *c)
+static shading_texcoord texture_coordinates(const shading_hit *h, const scene_texture_ref *ref)
 {
-    shading_texcoord o = *c;
+    shading_texcoord o = shading_hit_texcoord(h, ref->texcoord);
+    if (!ref->has_transform)
+        return o;
+    shading_texcoord c;
     for (int i = 0; i < 2; i++) {
-        const float *row = m + 3 * i;
-        c->uv[i] = row[0] * o.uv[0] + row[1] * o.uv[1] + row[2];
-        c->dx[i] = row[0] * o.dx[0] + row[1] * o.dx[1];
-        c->dy[i] = row[0] * o.dy[0] + row[1] * o.dy[1];
+        const float *row = ref->transform + 3 * i;
+        c.uv[i] = row[0] * o.uv[0] + row[1] * o.uv[1] + row[2];
+        c.dx[i] = row[0] * o.dx[0] + row[1] * o.dx[1];
+        c.dy[i] = row[0] * o.dy[0] + row[1] * o.dy[1];
     }
+    return c;
 }
 
 void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted,
                           material_texels texels)
 {
-    const scene_material *material = h->geometry->material;
-    for (int i = 0; i < MATERIAL_TEXTURE_COUNT; i++) {
+    const scene_texture_ref *refs = h->geometry->material->textures;
+    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
         for (int c = 0; c < 4; c++)
             texels[i][c] = 1.0f;
-        if (texture_ref(material, i)->texture == SCENE_NONE)
-            wanted &= ~(1u << i);
-    }
     while (wanted) {
-        texture_request requests[MATERIAL_TEXTURE_COUNT];
-        int numbers[MATERIAL_TEXTURE_COUNT];
+        texture_request requests[TEXTURE_GROUP];
+        int slots[TEXTURE_GROUP];
         uint32_t count = 0;
-        const scene_texture_ref *first = texture_ref(material, __builtin_ctz(wanted));
-        for (int i = 0; i < MATERIAL_TEXTURE_COUNT; i++) {
-            const scene_texture_ref *ref = texture_ref(material, i);
-            if (!(wanted >> i & 1) || !has_same_coordinates(first, ref))
+        const scene_texture_ref *first = &refs[__builtin_ctz(wanted)];
+        for (uint32_t left = wanted; left && count < TEXTURE_GROUP; left &= left - 1) {
+            int slot = __builtin_ctz(left);
+            if (!has_same_coordinates(first, &refs[slot]))
                 continue;
-            wanted &= ~(1u << i);
-            requests[count].texture = ref->texture;
-            requests[count].as_color = MATERIAL_TEXTURES[i].is_color;
-            numbers[count++] = i;
+            wanted &= ~(1u << slot);
+            requests[count].texture = refs[slot].texture;
+            requests[count].as_color = material_textures[slot].is_color;
+            slots[count++] = slot;
         }
-        shading_texcoord c = shading_hit_texcoord(h, first->texcoord);
-        if (first->has_transform)
-            transform_coordinates(first->transform, &c);
+        shading_texcoord c = texture_coordinates(h, first);
         texture_sample_group(scene->textures, requests, count, c.uv, c.dx, c.dy);
         for (uint32_t k = 0; k < count; k++)
-            memcpy(texels[numbers[k]], requests[k].texel, sizeof texels[0]);
+            memcpy(texels[slots[k]], requests[k].texel, sizeof texels[0]);
     }
+}
+
+void material_texel_beside(const shading_scene *scene, const shading_hit *h, scene_texture_slot slot,
+                           int axis, float texel[4])
+{
+    const scene_texture_ref *ref = &h->geometry->material->textures[slot];
+    shading_texcoord c = texture_coordinates(h, ref);
+    for (int i = 0; i < 2; i++)
+        c.uv[i] += axis ? c.dy[i] : c.dx[i];
+    texture_sample(scene->textures, ref->texture, material_textures[slot].is_color, c.uv, c.dx, c.dy, texel);
 }

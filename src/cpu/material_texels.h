@@ -4,25 +4,14 @@
 
 #include "cpu/shading_hit.h"
 
-/* What a material's textures are for; their texels in this order. */
-enum material_texture {
-    BASE_COLOR,
-    EMISSIVE,
-    METALLIC_ROUGHNESS,
-    NORMAL,
-    OCCLUSION,
-    SPECULAR,
-    SPECULAR_COLOR,
-    MATERIAL_TEXTURE_COUNT
-};
+/* RGBA by scene_texture_slot, white where there is no texture. */
+typedef float material_texels[SCENE_TEXTURE_SLOT_COUNT][4];
 
-enum { ALL_TEXTURES = (1 << MATERIAL_TEXTURE_COUNT) - 1 };
-
-/* RGBA of each texture, white where there is none. */
-typedef float material_texels[MATERIAL_TEXTURE_COUNT][4];
-
-/* Reads the textures of the hit's material whose bits are set in wanted; the others are white. */
+/* Reads the textures whose bits are set in wanted, all of which the hit's material has; the others are white. */
 void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted,
                           material_texels texels);
+/* Reads one texture one footprint along its x (axis 0) or y (axis 1) away from the hit. */
+void material_texel_beside(const shading_scene *scene, const shading_hit *h, scene_texture_slot slot,
+                           int axis, float texel[4]);
 
 #endif

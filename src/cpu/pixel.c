@@ -32,7 +32,7 @@ static bool is_simple(const pixel_resolver *r, const visibility_hit *hit, float 
     const render_geometry *g = &r->scene->geometries->items[hit->geometry];
     if (g->is_see_through)
         return false;
-    if (g->is_double_sided)
+    if (g->is_double_sided || r->scene->plans->items[hit->geometry].is_volume)
         return true;
     float origin[3];
     float direction[3];
@@ -77,10 +77,15 @@ static vec3 hit_position(const pixel_resolver *r, uint32_t x, uint32_t y, const 
     return load3(origin) + load3(direction) * f->hit.t;
 }
 
+/* x, y from the pixel's top left. */
+static uint32_t quarter_at(float x, float y)
+{
+    return (uint32_t)(x >= 0.5f) + 2 * (uint32_t)(y >= 0.5f);
+}
+
 static uint32_t quarter_of(const pixel_resolver *r, uint32_t sample)
 {
-    const float *point = r->pattern->points + 2 * sample;
-    return (uint32_t)(point[0] >= 0.5f) + 2 * (uint32_t)(point[1] >= 0.5f);
+    return quarter_at(r->pattern->points[2 * sample], r->pattern->points[2 * sample + 1]);
 }
 
 static bool is_one_surface(const pixel_resolver *r, uint32_t x, uint32_t y, const pixel_fragment *a,
@@ -173,10 +178,15 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
     hit.v = sum[2] / count;
     shading_ray ray = shading_ray_of_camera(r->scene->camera, (float)x + sum[3] / count,
                                             (float)y + sum[4] / count, r->splits_quarters ? 0.5f : 1.0f);
-    shading_point point = {.hit = &hit, .ray = &ray};
+    shading_point point = {.hit = &hit,
+                           .ray = &ray,
+                           .x = x,
+                           .y = y,
+                           .part = r->splits_quarters ? quarter_at(sum[3] / count, sum[4] / count) : 0};
     shading_result result;
     shading_shade(r->scene, &point, &result);
     r->shades++;
+    r->rays += result.rays;
     for (int i = 0; i < 3; i++)
         s->radiance[i] = result.radiance[i];
     /* Whether a masked texel is there was decided for each sample. */
@@ -267,7 +277,7 @@ bool pixel_nearest_surface(pixel_resolver *r, uint32_t x, uint32_t y, const visi
         hit = &layers[0];
     }
     shading_point point = {.hit = hit, .ray = &ray};
-    shading_shade(r->scene, &point, result);
+    shading_describe(r->scene, &point, result);
     r->shades++;
     *depth_m = hit->t;
     *geometry = hit->geometry;

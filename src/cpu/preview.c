@@ -136,15 +136,21 @@ static facet_result check_limits(const facet_render_desc *desc, const char *stag
 
 static facet_result draw(preview *p, double deadline_s, film *target, facet_error *error)
 {
+    double start = clock_seconds();
+    material_plan_set plans;
+    facet_result result = material_plans_create(&p->prepared->geometries, &p->desc->allocator, &plans, error);
+    if (result != FACET_OK)
+        return result;
     shading_scene shading = {.geometries = &p->prepared->geometries,
                              .embree = &p->prepared->embree,
+                             .plans = &plans,
                              .textures = p->textures,
                              .light = &p->light,
-                             .camera = &p->camera,
-                             .energy = p->desc->energy};
+                             .camera = &p->camera};
+    shading_scene_set_options(&shading, p->desc);
     tiles_desc tiles = {.render = p->desc, .scene = &shading, .deadline_s = deadline_s};
-    double start = clock_seconds();
-    facet_result result = tiles_draw(&tiles, target, p->stats, error);
+    result = tiles_draw(&tiles, target, p->stats, error);
+    material_plans_destroy(&plans);
     p->stats->shade_s = clock_seconds() - start;
     return result;
 }

@@ -3,6 +3,7 @@
 #define CPU_SHADING_H
 
 #include "cpu/light_setup.h"
+#include "cpu/material_plan.h"
 #include "cpu/shading_ray.h"
 #include "cpu/texture.h"
 #include "cpu/visibility.h"
@@ -11,16 +12,25 @@
 typedef struct shading_scene {
     const render_geometry_set *geometries;
     const embree_scene *embree;
+    const material_plan_set *plans;
     const texture_set *textures;
     const light_setup *light;
     const camera_rays *camera;
     facet_energy energy;
+    facet_quality quality;
+    bool specular_antialiasing;
+    float
+        background_blur; /* perceptual roughness of the environment where it is drawn; 0: sharp, or not drawn */
 } shading_scene;
+
+/* Sets energy and all members behind it. */
+void shading_scene_set_options(shading_scene *scene, const facet_render_desc *desc);
 
 /* A hit and the ray that made it. */
 typedef struct shading_point {
     const visibility_hit *hit;
     const shading_ray *ray;
+    uint32_t x, y, part; /* pixel, and number of the shade in it: what is drawn at random depends on them */
 } shading_point;
 
 typedef struct shading_result {
@@ -29,7 +39,8 @@ typedef struct shading_result {
     float normal[3];   /* unit shading normal, world space, on the side of the camera */
     float base_color[3];
     float occlusion;
-    float uv[2]; /* TEXCOORD_0 */
+    float uv[2];   /* TEXCOORD_0 */
+    uint64_t rays; /* that were traced for it */
 } shading_result;
 
 /* Whether the hit shows a side that is drawn: the front, or any of a double-sided surface. direction is the ray's. */
@@ -37,5 +48,7 @@ bool shading_is_visible_side(const shading_scene *scene, const visibility_hit *h
 /* Whether light passes the surface: 0 not there, 1 opaque. MASK gives 0 or 1. Cheaper than a shade. */
 float shading_opacity(const shading_scene *scene, const shading_point *point);
 void shading_shade(const shading_scene *scene, const shading_point *point, shading_result *out);
+/* All but the radiance, which is 0. */
+void shading_describe(const shading_scene *scene, const shading_point *point, shading_result *out);
 
 #endif

@@ -1,12 +1,15 @@
 /* texture_need.c - see texture_need.h. */
 #include "cpu/texture_need.h"
 
+#include "cpu/material_plan.h"
+
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
 
 #include "base/parallel.h"
 #include "base/result.h"
+#include "scene/material_table.h"
 
 #include "shade/shade.h"
 
@@ -15,9 +18,11 @@ enum {
     BINS_PER_LOD = 4,
     BIN_COUNT = 17 * BINS_PER_LOD, /* lod 0 to 16; a texture has 15 mips */
     AREA_UNIT = 256,               /* per pixel: areas are added as integers, in any order */
-    IGNORED_PIXELS = 4,
-    MAX_REFS = 7
+    IGNORED_PIXELS = 4
 };
+
+/* Glass may show what is behind it this much larger, in mip levels. */
+static const float MAGNIFIED_LODS = 1.0f;
 
 /* Area in the picture (pixels times AREA_UNIT) of the triangles that read a texture at a lod. */
 typedef struct lod_histogram {
@@ -35,7 +40,8 @@ typedef struct need_job {
     const camera_rays *camera;
     const texture_need_desc *desc;
     const render_geometry *geometry;
-    texture_reader readers[MAX_REFS];
+    bool is_seen_anywhere; /* by rays that other surfaces bend */
+    texture_reader readers[SCENE_TEXTURE_SLOT_COUNT];
     uint32_t reader_count;
     lod_histogram *histograms; /* per texture */
 } need_job;
@@ -82,10 +88,12 @@ static bool is_outside(const float v[3], float extent)
 /* Area in pixels; 0: not in the picture, or its back is culled. */
 static float visible_area(const need_job *job, const projection *p)
 {
-    if (is_outside(p->x, (float)job->desc->width) || is_outside(p->y, (float)job->desc->height))
-        return 0.0f;
     float area =
         0.5f * ((p->x[1] - p->x[0]) * (p->y[2] - p->y[0]) - (p->x[2] - p->x[0]) * (p->y[1] - p->y[0]));
+    if (job->is_seen_anywhere)
+        return fabsf(area);
+    if (is_outside(p->x, (float)job->desc->width) || is_outside(p->y, (float)job->desc->height))
+        return 0.0f;
     /* y points down: the front, counter-clockwise, has negative area. */
     float facing = job->geometry->is_mirrored ? area : -area;
     return job->geometry->is_double_sided ? fabsf(area) : max(facing, 0.0f);
@@ -128,7 +136,7 @@ static void count_triangles(void *context, size_t begin, size_t end)
 {
     const need_job *job = context;
     const render_geometry *g = job->geometry;
-    uint64_t areas[MAX_REFS][BIN_COUNT] = {{0}};
+    uint64_t areas[SCENE_TEXTURE_SLOT_COUNT][BIN_COUNT] = {{0}};
     for (size_t i = begin; i < end; i++) {
         const uint32_t *corner = render_geometry_triangle(g, (uint32_t)i);
         vec3 p[3];
@@ -178,14 +186,13 @@ typedef struct reader_list {
 
 static void add_reader(reader_list *list, const scene_texture_ref *ref, bool as_color, float footprint)
 {
-    if (ref->texture == SCENE_NONE)
-        return;
     texture_use *use = &list->uses[ref->texture];
     const scene_texture *texture = &list->scene->textures[ref->texture];
     const render_geometry *g = list->job->geometry;
     use->is_read_as_color = use->is_read_as_color || as_color;
     use->is_read_as_data = use->is_read_as_data || !as_color;
-    texture_reader reader = {.ref = ref, .lod_bias = log2f(footprint)};
+    texture_reader reader = {
+        .ref = ref, .lod_bias = log2f(footprint) - (list->job->is_seen_anywhere ? MAGNIFIED_LODS : 0.0f)};
     if (!texture_full_size(list->scene, ref->texture, reader.size))
         return;
     /* Points and lines have no footprint; a sampler may ignore it. */
@@ -204,17 +211,12 @@ static void add_readers(reader_list *list, const texture_need_desc *desc)
     const render_geometry *g = list->job->geometry;
     const scene_material *m = g->material;
     list->job->reader_count = 0;
-    add_reader(list, &m->textures[SCENE_BASE_COLOR_TEXTURE], true,
-               g->is_see_through ? desc->opacity_footprint : desc->footprint);
-    if (!(m->extensions & SCENE_UNLIT))
-        add_reader(list, &m->textures[SCENE_EMISSIVE_TEXTURE], true, desc->footprint);
-    if (!g->is_lit)
-        return;
-    add_reader(list, &m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE], false, desc->footprint);
-    add_reader(list, &m->textures[SCENE_NORMAL_TEXTURE], false, desc->footprint);
-    add_reader(list, &m->textures[SCENE_OCCLUSION_TEXTURE], false, desc->footprint);
-    add_reader(list, &m->textures[SCENE_SPECULAR_TEXTURE], false, desc->footprint);
-    add_reader(list, &m->textures[SCENE_SPECULAR_COLOR_TEXTURE], true, desc->footprint);
+    uint32_t textures = material_plan_textures(g);
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+        if (textures >> slot & 1)
+            add_reader(list, &m->textures[slot], material_textures[slot].is_color,
+                       slot == SCENE_BASE_COLOR_TEXTURE && g->is_see_through ? desc->opacity_footprint
+                                                                             : desc->footprint);
 }
 
 /* The finest lod that matters. */
@@ -241,8 +243,16 @@ facet_result texture_need(const facet_scene *scene, const render_geometry_set *s
         goto done;
     }
     memset(uses, 0, scene->texture_count * sizeof *uses);
+    bool is_seen_anywhere = false;
+    for (uint32_t i = 0; i < set->count; i++)
+        is_seen_anywhere =
+            is_seen_anywhere || (material_plan_layers(set->items[i].material) & LAYER_TRANSMISSION);
     for (uint32_t i = 0; i < set->count; i++) {
-        need_job job = {.camera = camera, .desc = desc, .geometry = &set->items[i], .histograms = histograms};
+        need_job job = {.camera = camera,
+                        .desc = desc,
+                        .geometry = &set->items[i],
+                        .is_seen_anywhere = is_seen_anywhere,
+                        .histograms = histograms};
         reader_list list = {.scene = scene, .job = &job, .uses = uses, .must_be_whole = must_be_whole};
         add_readers(&list, desc);
         if (job.reader_count)

@@ -13,6 +13,7 @@
 #include "cpu/pixel.h"
 
 enum { TILE = 32 };
+static const double REPORT_SECONDS = 0.1;
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
 
 /* The layers of the film; NULL: not asked for. */
@@ -33,6 +34,7 @@ typedef struct picture {
     _Atomic uint64_t rays, shades;
     atomic_flag is_reporting;
     double reported;
+    _Atomic double reported_s;
 } picture;
 
 /* ---- one block ---- */
@@ -102,19 +104,34 @@ static void stop(picture *p, facet_result result)
     atomic_compare_exchange_strong(&p->result, &none, result);
 }
 
-/* Tells how far the picture is. A thread that finds another one telling goes on drawing. */
+/* Tells how far the picture is: where it is 1 % farther, and within a tile that takes long. A thread that finds another one telling goes on drawing. */
 static void report(picture *p)
 {
     const facet_progress *progress = &p->desc->render->progress;
     if (!progress->report || atomic_flag_test_and_set(&p->is_reporting))
         return;
     double fraction = (double)atomic_load(&p->done) / (double)p->tile_count;
-    if (fraction >= p->reported + 0.01) {
+    double now = clock_seconds();
+    if (fraction >= p->reported + 0.01 || now >= p->reported_s + REPORT_SECONDS) {
         p->reported = fraction;
+        p->reported_s = now;
         if (!progress->report(progress->user, "shade", fraction))
             stop(p, FACET_ERROR_CANCELLED);
     }
     atomic_flag_clear(&p->is_reporting);
+}
+
+/* After each block: one of glass may take a hundred times what others do. */
+static void check_limits(picture *p)
+{
+    bool is_limited = p->desc->deadline_s > 0.0;
+    if (!is_limited && !p->desc->render->progress.report)
+        return;
+    double now = clock_seconds();
+    if (is_limited && now > p->desc->deadline_s)
+        stop(p, FACET_ERROR_LIMIT);
+    if (now >= p->reported_s + REPORT_SECONDS)
+        report(p);
 }
 
 static void draw_tile(picture *p, uint32_t tile)
@@ -143,6 +160,7 @@ static void draw_tile(picture *p, uint32_t tile)
         if (atomic_load_explicit(&p->result, memory_order_relaxed) != FACET_OK)
             break;
         has_memory = draw_block(p, &w, x, y);
+        check_limits(p);
     }
     if (!has_memory)
         stop(p, FACET_ERROR_MEMORY);

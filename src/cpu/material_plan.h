@@ -1,0 +1,30 @@
+/* material_plan.h - what shading a geometry takes, found once per render from its material. */
+#ifndef CPU_MATERIAL_PLAN_H
+#define CPU_MATERIAL_PLAN_H
+
+#include "cpu/render_geometry.h"
+
+/* Of one geometry. */
+typedef struct material_plan {
+    uint32_t textures; /* bits of scene_texture_slot: what a full shade looks up */
+    uint32_t layers;   /* LAYER_* of shade/layers.h that some of its points may have; 0: a plain surface */
+    bool lets_rays_through; /* LAYER_TRANSMISSION */
+    bool is_volume; /* the boundary of a body that rays go through, not a thin wall: both sides are seen */
+} material_plan;
+
+typedef struct material_plan_set {
+    material_plan *items;   /* per geometry; block of mem_alloc() */
+    bool lets_rays_through; /* some geometry */
+    bool has_several_volumes;
+} material_plan_set;
+
+/* Bits of the textures that a shade of the geometry may look up, whether there are tangents or not. */
+uint32_t material_plan_textures(const render_geometry *g);
+/* LAYER_* that points of a lit geometry of that material may have. */
+uint32_t material_plan_layers(const scene_material *m);
+/* Needs the tangents of set. Fails with FACET_ERROR_MEMORY. */
+facet_result material_plans_create(const render_geometry_set *set, const facet_allocator *allocator,
+                                   material_plan_set *out, facet_error *error);
+void material_plans_destroy(material_plan_set *plans); /* {0} is allowed */
+
+#endif

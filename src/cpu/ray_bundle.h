@@ -1,0 +1,29 @@
+/* ray_bundle.h - how a bundle of rays goes on after a surface: direction, and its changes over the footprint. Holds
+ * shared shading text: include it last. */
+#ifndef CPU_RAY_BUNDLE_H
+#define CPU_RAY_BUNDLE_H
+
+#include "cpu/surface_point.h"
+
+/* A surface as a bundle meets it. */
+typedef struct bundle_hit {
+    vec3 P;            /* m */
+    vec3 D;            /* unit, the way the bundle goes */
+    vec3 dP_dx, dP_dy; /* m, in the plane of the surface */
+    vec3 dD_dx, dD_dy;
+    vec3 dN_dx, dN_dy; /* of the shading normal */
+} bundle_hit;
+
+bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, vec3 Ng);
+
+/* Goes on straight. N below: a unit normal on the side from which the bundle comes. */
+shading_ray ray_bundle_pass(const bundle_hit *hit);
+/* Refracted; eta: ior before / ior behind. False: all is reflected. */
+bool ray_bundle_refract(const bundle_hit *hit, vec3 N, float eta, shading_ray *out);
+shading_ray ray_bundle_reflect(const bundle_hit *hit, vec3 N);
+/* Goes on in another unit direction, as wide as before. */
+void ray_bundle_turn(shading_ray *ray, vec3 direction);
+/* Makes the bundle at least as wide as a cone of that half angle, rad. */
+void ray_bundle_widen(shading_ray *ray, float angle_rad);
+
+#endif

@@ -1,0 +1,448 @@
+/* refraction.c - see refraction.h. */
+#include "cpu/media.h"
+#include "cpu/see_through.h"
+
+#include "cpu/ray_bundle.h"
+#include "cpu/ray_samples.h"
+#include "cpu/refraction.h"
+#include "cpu/surface_light.h"
+#include "cpu/volume_rays.h"
+
+enum {
+    WAITING = 24, /* rays that branched off and were not followed yet */
+    DEPTH = 16,   /* surfaces on a ray's way */
+    COLORS = 3    /* rays of a white one that meets a dispersive body behind another surface */
+};
+
+/* What carries less of a shade is not followed. */
+static const float LEAST_WEIGHT = 0.004f;
+/* GGX widths below which a boundary does not blur what is seen through it. */
+static const float SMOOTH = 1e-3f;
+/* Squared width of a lobe that the sharp environment is as good for. */
+static const float SHARP2 = 1e-9f;
+
+/* A ray that is to be followed, and what it stands for. */
+typedef struct branch {
+    shading_ray ray;
+    vec3 weight;  /* of the radiance that it brings */
+    media media;  /* where it starts */
+    float alpha2; /* squared GGX width of the lobe of directions around it */
+    float
+        shift; /* of the indices of refraction: -1 red, 0 green, 1 blue (dispersion.h), and between and beyond */
+    bool is_white;
+    uint32_t depth; /* surfaces before it */
+} branch;
+
+typedef struct tracer {
+    const shading_scene *scene;
+    ray_sample sample;
+    float share; /* of a lobe that one of the samples stands for; 1: lobes are not sampled */
+    uint32_t budget;
+    uint64_t rays;
+    vec3 radiance;
+    uint32_t waiting_count;
+    branch waiting[WAITING];
+} tracer;
+
+/* ---- between surfaces ---- */
+
+static vec3 lookup(void (*light)(const light_setup *, const float[3], float, float[3]),
+                   const light_setup *setup, const float d[3], float argument)
+{
+    float out[3];
+    light(setup, d, argument, out);
+    return load3(out);
+}
+
+/* What the ray sees of the environment. A background that is drawn blurred is seen blurred. */
+static vec3 environment_seen(const shading_scene *scene, const branch *b)
+{
+    float roughness = max(sqrt(sqrt(b->alpha2)), scene->background_blur);
+    if (!scene->light->ibl)
+        return vec3(0.0f);
+    if (b->alpha2 <= SHARP2 && scene->light->has_background && !(scene->background_blur > 0.0f))
+        return lookup(light_background, scene->light, b->ray.direction, 0.0f);
+    return lookup(light_specular, scene->light, b->ray.direction, min(roughness, 1.0f));
+}
+
+/* Light that a scattering body sends along a ray: that of the surroundings ahead of it and behind it. */
+static vec3 ambient(const shading_scene *scene, vec3 D, float anisotropy)
+{
+    float ahead[3];
+    float behind[3];
+    float a[3];
+    float b[3];
+    store3(D, ahead);
+    store3(-D, behind);
+    if (!scene->light->ibl)
+        return vec3(0.0f);
+    light_irradiance_over_pi(scene->light, ahead, a);
+    light_irradiance_over_pi(scene->light, behind, b);
+    return mix(load3(b), load3(a), 0.5f + 0.5f * anisotropy);
+}
+
+/* Attenuates the ray over a length of the body that it is in. What a scattering body takes it gives back as far as its
+ * color says, evenly lit by the surroundings: a white one loses nothing. */
+static void travel(tracer *t, branch *b, float length_m)
+{
+    const scene_material *m = media_here(&b->media);
+    if (!m || !(m->attenuation_distance < INFINITY))
+        return;
+    vec3 T = volume_transmittance(load3(m->attenuation_color), m->attenuation_distance, length_m);
+    if (m->extensions & SCENE_VOLUME_SCATTER)
+        t->radiance += b->weight * (1.0f - T) * load3(m->multiscatter_color) *
+                       ambient(t->scene, load3(b->ray.direction), m->scatter_anisotropy);
+    b->weight *= T;
+}
+
+/* Ends the ray. In a body it has found no way out: as thick as its material says. */
+static void end(tracer *t, branch *b)
+{
+    const scene_material *m = media_here(&b->media);
+    if (m)
+        travel(t, b, m->thickness);
+    t->radiance += b->weight * environment_seen(t->scene, b);
+}
+
+static void follow_later(tracer *t, const branch *b)
+{
+    if (t->waiting_count < WAITING) {
+        t->waiting[t->waiting_count++] = *b;
+        return;
+    }
+    branch last = *b;
+    end(t, &last);
+}
+
+/* ---- the boundary ---- */
+
+/* A surface that lets rays through, as one of them meets it. */
+typedef struct boundary {
+    const surface_point *s;
+    vec3 N;            /* shading normal with N.V > 0 */
+    vec3 Ng;           /* unit geometric normal, the same */
+    float alpha;       /* what blurs the rays */
+    vec3 H;            /* the microfacet of this sample */
+    bundle_hit bundle; /* with N's change for that of H */
+} boundary;
+
+static mat3 frame_of(const Layers *m, vec3 N)
+{
+    if (m->layers & LAYER_ANISOTROPY && dot(N, m->base.N) > 0.999f)
+        return mat3(m->anisotropy_T, m->anisotropy_B, N);
+    return basis_from_normal(N);
+}
+
+static vec3 microfacet(const tracer *t, const branch *b, const Layers *m, vec3 N, vec3 V, float alpha)
+{
+    if (t->share >= 1.0f || alpha < SMOOTH)
+        return N;
+    mat3 frame = frame_of(m, N);
+    vec2 widths = layers_alpha(*m, alpha);
+    vec2 u = ray_samples_at(t->sample, b->depth);
+    return normalize(mul(frame, sample_VNDF_GGX(u, mul(transpose(frame), V), widths[0], widths[1])));
+}
+
+static boundary boundary_of(const tracer *t, const branch *b, const visibility_hit *hit,
+                            const surface_point *s)
+{
+    boundary y = {.s = s};
+    vec3 Ng = normalize(load3(hit->normal));
+    y.Ng = dot(Ng, s->V) < 0.0f ? -Ng : Ng;
+    y.N = dot(s->m.base.N, s->V) > 1e-3f ? s->m.base.N : y.Ng;
+    y.alpha = layers_transmission_alpha(s->m);
+    y.H = microfacet(t, b, &s->m, y.N, s->V, y.alpha);
+    y.bundle = ray_bundle_meet(&b->ray, s, y.Ng);
+    return y;
+}
+
+/* A direction that rounding, or a normal that is not the geometry's, put on the wrong side is mirrored to the other. */
+static void keep_side(shading_ray *ray, vec3 Ng, float side)
+{
+    vec3 D = load3(ray->direction);
+    float c = dot(D, Ng);
+    if (c * side <= 0.0f)
+        ray_bundle_turn(ray, normalize(D - Ng * (2.0f * c - side * 1e-4f)));
+}
+
+static branch child_of(const branch *b, shading_ray ray, vec3 weight, float alpha2)
+{
+    branch c = *b;
+    c.ray = ray;
+    c.weight = weight;
+    c.alpha2 = min(alpha2, 1.0f);
+    c.depth = b->depth + 1;
+    if (alpha2 > SHARP2)
+        ray_bundle_widen(&c.ray, sqrt(c.alpha2));
+    return c;
+}
+
+/* Straight on through a thin wall; roughness mirrors what it does to the reflection. */
+static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight)
+{
+    shading_ray ray = ray_bundle_pass(&y->bundle);
+    if (dot(y->H, y->N) < 1.0f)
+        ray_bundle_turn(&ray, mirror_through(reflect(-y->s->V, y->H), y->N));
+    keep_side(&ray, y->Ng, -1.0f);
+    branch c = child_of(b, ray, weight, b->alpha2 + y->alpha * y->alpha * t->share);
+    follow_later(t, &c);
+}
+
+/* A microfacet that is turned by d turns a refracted direction by |1 - eta| d and a reflected one by 2 d, which is what
+ * a GGX width means to the prefiltered environment; what the ray stood for before turns with eta. */
+static void refract_into(tracer *t, const branch *b, const boundary *y, const media *behind, float eta,
+                         vec3 weight)
+{
+    shading_ray ray;
+    if (abs(eta - 1.0f) < 1e-6f)
+        ray = ray_bundle_pass(&y->bundle);
+    else if (!ray_bundle_refract(&y->bundle, y->H, eta, &ray) &&
+             !ray_bundle_refract(&y->bundle, y->N, eta, &ray))
+        ray = ray_bundle_pass(&y->bundle);
+    keep_side(&ray, y->Ng, -1.0f);
+    float own = 0.5f * abs(1.0f - eta) * y->alpha;
+    branch c = child_of(b, ray, weight, b->alpha2 * eta * eta + own * own * t->share);
+    c.media = *behind;
+    follow_later(t, &c);
+}
+
+static void reflect_back(tracer *t, const branch *b, const boundary *y, vec3 weight)
+{
+    shading_ray ray = ray_bundle_reflect(&y->bundle, y->H);
+    keep_side(&ray, y->Ng, 1.0f);
+    branch c = child_of(b, ray, weight, b->alpha2 + y->alpha * y->alpha * t->share);
+    follow_later(t, &c);
+}
+
+/* ---- media ---- */
+
+static bool is_dispersive(const scene_material *m)
+{
+    return m && m->extensions & SCENE_DISPERSION && m->dispersion > 0.0f && m->ior > 1.0f;
+}
+
+static float ior_of(const scene_material *m, float shift)
+{
+    if (!m || !(m->ior > 0.0f))
+        return 1.0f;
+    if (!is_dispersive(m))
+        return m->ior;
+    float spread = dispersed_ior(m->ior, m->dispersion, 2) - m->ior;
+    return max(m->ior + spread * shift, 1.0f);
+}
+
+/* ---- what a ray meets ---- */
+
+/* The boundary between two bodies, or of one as seen from inside: Fresnel's equations, the reflection followed as well.
+ * What goes neither way is scattered by the base color, lit by the surroundings. */
+static void cross_inside(tracer *t, const branch *b, const boundary *y, const media *behind, vec3 weight)
+{
+    const Layers *m = &y->s->m;
+    float eta = ior_of(media_here(&b->media), b->shift) / ior_of(media_here(behind), b->shift);
+    float F =
+        abs(eta - 1.0f) < 1e-6f ? 0.0f : F_dielectric(clamp(dot(y->s->V, y->H), 0.0f, 1.0f), 1.0f / eta);
+    vec3 base_color = m->base.base_color;
+    float dielectric = 1.0f - m->base.metallic;
+    vec3 reflected = mix(vec3(F), base_color, m->base.metallic);
+    vec3 passed = base_color * ((1.0f - F) * dielectric);
+    float transmission = m->transmission;
+    if (y->s->is_front)
+        t->radiance += weight * layers_emission(*m, y->s->V);
+    if (transmission < 1.0f && t->scene->light->ibl) {
+        float N[3];
+        float irradiance[3];
+        store3(y->N, N);
+        light_irradiance_over_pi(t->scene->light, N, irradiance);
+        t->radiance += weight * passed * load3(irradiance) * (1.0f - transmission);
+    }
+    if (max3(reflected) > 0.0f)
+        reflect_back(t, b, y, weight * reflected);
+    if (F < 1.0f)
+        refract_into(t, b, y, behind, eta, weight * passed * transmission);
+}
+
+/* A body in air as seen from outside, or a thin wall: a surface like others, but for what comes through it. */
+static bool is_outer_surface(const branch *b, const surface_point *s)
+{
+    return !s->plan->is_volume || (b->media.count == 0 && s->is_front);
+}
+
+/* Goes on behind the surface with weight; that of an outer surface is without what the surface reflects. */
+static void let_through(tracer *t, const branch *b, const visibility_hit *hit, const surface_point *s,
+                        vec3 weight)
+{
+    boundary y = boundary_of(t, b, hit, s);
+    if (!s->plan->is_volume) {
+        pass_wall(t, b, &y, weight);
+        return;
+    }
+    media behind = b->media;
+    volume_rays_cross(t->scene, hit, s, &behind);
+    if (is_outer_surface(b, s))
+        refract_into(t, b, &y, &behind, ior_of(NULL, b->shift) / ior_of(media_here(&behind), b->shift),
+                     weight);
+    else
+        cross_inside(t, b, &y, &behind, weight);
+}
+
+static bool is_dispersed_by(const branch *b, const surface_point *s)
+{
+    return b->is_white && s->plan->is_volume &&
+           (is_dispersive(s->hit.geometry->material) || is_dispersive(media_here(&b->media)));
+}
+
+/* A surface on the way of a ray, which brings `weight` of what it sends. A white ray that meets a dispersive body goes
+ * on as one of each color. */
+static void meet(tracer *t, const branch *b, const visibility_hit *hit, const surface_point *s, vec3 weight)
+{
+    bool passes = (s->m.layers & LAYER_TRANSMISSION) != 0;
+    if (!passes || is_outer_surface(b, s)) {
+        surface_light light = surface_light_at(t->scene, s);
+        t->radiance += weight * light.radiance;
+        t->rays += light.rays;
+        weight *= light.through;
+    }
+    if (!passes)
+        return;
+    if (!is_dispersed_by(b, s)) {
+        let_through(t, b, hit, s, weight);
+        return;
+    }
+    for (int channel = 0; channel < COLORS; channel++) {
+        branch c = *b;
+        c.is_white = false;
+        c.shift = (float)(channel - 1);
+        vec3 share = vec3(0.0f);
+        share[channel] = weight[channel];
+        let_through(t, &c, hit, s, share);
+    }
+}
+
+/* Along a ray to what is opaque, or lets it through to become another. */
+static void follow(tracer *t, branch *b)
+{
+    visibility_hit hits[SEE_THROUGH_LAYERS + 1];
+    uint32_t count = see_through(t->scene, &b->ray, hits);
+    float from = 0.0f;
+    t->rays++;
+    for (uint32_t i = 0; i < count; i++) {
+        travel(t, b, hits[i].t - from);
+        from = hits[i].t;
+        shading_point point = {.hit = &hits[i], .ray = &b->ray};
+        surface_point s;
+        surface_point_make(t->scene, &point, &s);
+        const scene_material *material = s.hit.geometry->material;
+        /* Whether a masked texel is there has been decided. */
+        float opacity =
+            material->alpha_mode == SCENE_ALPHA_BLEND ? surface_opacity(material, s.base_color[3]) : 1.0f;
+        meet(t, b, &hits[i], &s, b->weight * opacity);
+        b->weight *= 1.0f - opacity;
+        if (opacity >= 1.0f)
+            return;
+    }
+    end(t, b);
+}
+
+static void follow_all(tracer *t)
+{
+    while (t->waiting_count) {
+        uint32_t heaviest = 0;
+        for (uint32_t i = 1; i < t->waiting_count; i++)
+            if (max3(t->waiting[i].weight) > max3(t->waiting[heaviest].weight))
+                heaviest = i;
+        branch b = t->waiting[heaviest];
+        t->waiting[heaviest] = t->waiting[--t->waiting_count];
+        if (t->budget == 0 || b.depth > DEPTH || max3(b.weight) < LEAST_WEIGHT * t->share) {
+            end(t, &b);
+        } else {
+            t->budget--;
+            follow(t, &b);
+        }
+    }
+}
+
+/* ---- the first surface ---- */
+
+/* How a shade is split. */
+typedef struct split {
+    uint32_t count;  /* rays */
+    uint32_t budget; /* of each, with those that branch off */
+    bool is_rough, is_dispersed;
+} split;
+
+static split choose_split(const shading_scene *scene, const surface_point *s)
+{
+    static const uint32_t rough_counts[] = {
+        [FACET_QUALITY_NORMAL] = 16, [FACET_QUALITY_DRAFT] = 1, [FACET_QUALITY_FINAL] = 16};
+    static const uint32_t color_counts[] = {
+        [FACET_QUALITY_NORMAL] = 6, [FACET_QUALITY_DRAFT] = 3, [FACET_QUALITY_FINAL] = 12};
+    static const uint32_t budgets[] = {
+        [FACET_QUALITY_NORMAL] = 24, [FACET_QUALITY_DRAFT] = 8, [FACET_QUALITY_FINAL] = 48};
+    split p = {.count = 1,
+               .budget = budgets[scene->quality],
+               .is_rough = s->m.base.alpha >= SMOOTH,
+               .is_dispersed = s->plan->is_volume && is_dispersive(s->hit.geometry->material)};
+    if (p.is_rough)
+        p.count = rough_counts[scene->quality];
+    if (p.is_dispersed && p.count < color_counts[scene->quality])
+        p.count = color_counts[scene->quality];
+    if (p.count > 1)
+        p.budget = p.budget > 24 ? p.budget / 4 : 6;
+    return p;
+}
+
+/* Shift of color k of n, and its unscaled weights: tents of half width 1 around red, green and blue, so that neighbouring
+ * colors run into each other; three are the channels themselves. */
+static float color_shift(uint32_t k, uint32_t n)
+{
+    return n == 3 ? (float)k - 1.0f : 4.0f * ((float)k + 0.5f) / (float)n - 2.0f;
+}
+
+static vec3 color_weight(float shift)
+{
+    return max(1.0f - abs(vec3(shift + 1.0f, shift, shift - 1.0f)), 0.0f);
+}
+
+static vec3 color_sum(uint32_t n)
+{
+    vec3 sum = vec3(0.0f);
+    for (uint32_t k = 0; k < n; k++)
+        sum += color_weight(color_shift(k, n));
+    return sum;
+}
+
+uint64_t refraction_shade(const shading_scene *scene, const shading_point *point, const surface_point *s,
+                          float radiance[3])
+{
+    split p = choose_split(scene, s);
+    branch first = {.ray = *point->ray, .is_white = true};
+    tracer t = {.scene = scene, .radiance = vec3(0.0f)};
+    vec3 weight = vec3(1.0f);
+    if (is_outer_surface(&first, s)) {
+        surface_light light = surface_light_at(scene, s);
+        t.radiance = light.radiance;
+        t.rays = light.rays;
+        weight = light.through;
+    } else { /* the eye is in the body */
+        media_enter(&first.media, s->hit.geometry->material);
+    }
+    vec3 colors = p.is_dispersed ? color_sum(p.count) : vec3((float)p.count);
+    t.share = p.is_rough ? 1.0f / (float)p.count : 1.0f;
+    for (uint32_t i = 0; i < p.count; i++) {
+        branch b = first;
+        vec3 share = weight / colors;
+        if (p.is_dispersed) {
+            b.is_white = false;
+            b.shift = color_shift(i, p.count);
+            share *= color_weight(b.shift);
+        }
+        t.sample = (ray_sample){point->x, point->y, point->part * p.count + i};
+        t.budget = p.budget;
+        b.weight = share;
+        travel(&t, &b, length(s->P - load3(point->ray->origin)));
+        let_through(&t, &b, point->hit, s, b.weight);
+        follow_all(&t);
+    }
+    store3(t.radiance, radiance);
+    return t.rays;
+}

@@ -1,0 +1,29 @@
+/* volume_rays.h - where a ray meets the boundaries of bodies. Holds shared shading text: include it last. */
+#ifndef CPU_VOLUME_RAYS_H
+#define CPU_VOLUME_RAYS_H
+
+#include "cpu/media.h"
+#include "cpu/surface_point.h"
+
+/* Lengths at a point, m, below which positions are the same: a few times what rounding of the intersection is. */
+static inline float volume_rays_tolerance(vec3 P)
+{
+    vec3 a = abs(P);
+    return 2e-6f * max(a[0], max(a[1], a[2])) + 1e-12f;
+}
+
+typedef struct volume_exit {
+    float distance_m;
+    vec3 normal; /* unit, geometric, out of the body */
+} volume_exit;
+
+/* Where the body behind s, which is a boundary of it, ends along a unit direction into it. False: nowhere. */
+bool volume_rays_find_exit(const shading_scene *scene, const surface_point *s, vec3 direction,
+                           volume_exit *out);
+
+/* Takes the ray that meets s across the boundary there, and across those of other bodies in the same place (a liquid
+ * that touches its glass). */
+void volume_rays_cross(const shading_scene *scene, const visibility_hit *hit, const surface_point *s,
+                       media *m);
+
+#endif
