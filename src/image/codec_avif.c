@@ -67,7 +67,8 @@ static avifResult convert(const avifImage *from, image *out)
     avifRGBImage rgb;
     avifRGBImageSetDefaults(&rgb, from);
     rgb.depth = out->type == IMAGE_U16 ? 16 : 8;
-    rgb.format = out->channel_count == 4 ? AVIF_RGB_FORMAT_RGBA : AVIF_RGB_FORMAT_RGB;
+    rgb.format =
+        out->channel_count == 4 ? AVIF_RGB_FORMAT_RGBA : AVIF_RGB_FORMAT_RGB; /* as the file has it */
     rgb.pixels = out->pixels;
     rgb.rowBytes = (uint32_t)image_row_size(out);
     return avifImageYUVToRGB(from, &rgb);
@@ -88,14 +89,23 @@ static facet_result decode(avifDecoder *decoder, const char *name, const image_d
     if (decoded.width != header.width || decoded.height != header.height || decoded.type != header.type)
         return fail(error, FACET_ERROR_INVALID, "%s: AVIF: %u x %u texels were expected, decoded %u x %u",
                     name, header.width, header.height, decoded.width, decoded.height);
-    const bool is_asked = desc->channel_count && header.type == IMAGE_U8;
-    result = image_create(&desc->allocator, header.width, header.height,
-                          is_asked ? desc->channel_count : header.channel_count, header.type, out, error);
+    result = image_create(&desc->allocator, header.width, header.height, header.channel_count, header.type,
+                          out, error);
     if (result != FACET_OK)
         return result;
     out->is_srgb = true;
     status = convert(decoder->image, out);
-    return status == AVIF_RESULT_OK ? FACET_OK : fail_avif(error, name, status);
+    if (status != AVIF_RESULT_OK)
+        return fail_avif(error, name, status);
+    if (desc->channel_count == 0 || desc->channel_count == header.channel_count || header.type != IMAGE_U8)
+        return FACET_OK;
+    /* libavif would multiply colors by an alpha that it leaves out */
+    image asked;
+    result = image_convert(out, &desc->allocator, desc->thread_count, desc->channel_count, IMAGE_U8, true,
+                           &asked, error);
+    image_destroy(out);
+    *out = asked;
+    return result;
 }
 
 facet_result avif_decode(const unsigned char *bytes, size_t size, const char *name,
