@@ -1,10 +1,10 @@
 /* fit.c - cameras on an orbit, at the distance that frames the model exactly. */
-#include "scene/scene.h"
-
 #include <math.h>
 
 #include "base/parallel.h"
 #include "base/result.h"
+#include "scene/bounds.h"
+#include "scene/fit_times.h"
 
 /* Where an orbit looks from: unit vectors in world space, and the tangents of half the angles of view. */
 typedef struct view {
@@ -134,24 +134,22 @@ static void fit_body(void *context, size_t begin, size_t end)
  * corner. The margin covers the rounding of corners. Most instances of a scene of many are inside. */
 static bool is_inside(const view *v, const scene_instance *instance, const extent *e)
 {
-    const scene_primitive *primitive = instance->primitive;
-    extent box = {-HUGE_VAL, -HUGE_VAL};
+    extent corners = {-HUGE_VAL, -HUGE_VAL};
     for (unsigned corner = 0; corner < 8; corner++) {
         float local[3];
         float world[3];
         for (unsigned axis = 0; axis < 3; axis++)
-            local[axis] = corner >> axis & 1 ? primitive->bounds_max[axis] : primitive->bounds_min[axis];
+            local[axis] = corner >> axis & 1 ? instance->bounds_max[axis] : instance->bounds_min[axis];
         mat4_transform_point(&instance->world, local, world);
-        add_vertex(v, world, &box);
+        add_vertex(v, world, &corners);
     }
-    double margin = 1e-5 * (fabs(box.extent) + fabs(box.nearest));
-    return box.extent + margin < e->extent && box.nearest + margin < e->nearest;
+    double margin = 1e-5 * (fabs(corners.extent) + fabs(corners.nearest));
+    return corners.extent + margin < e->extent && corners.nearest + margin < e->nearest;
 }
 
-/* False: no memory. */
+/* Widens *out by what the pose shows. False: no memory. */
 static bool measure(const scene_pose *pose, const view *v, uint32_t thread_count, extent *out)
 {
-    *out = (extent){-HUGE_VAL, -HUGE_VAL};
     size_t most = 0;
     for (uint32_t i = 0; i < pose->instance_count; i++)
         if (pose->instances[i].primitive->index_count > most)
@@ -199,32 +197,56 @@ static facet_result check(const facet_orbit *orbit, float aspect, facet_error *e
     return FACET_OK;
 }
 
-facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect,
-                            uint32_t thread_count, facet_camera *camera, facet_error *error)
+/* ---- the camera ---- */
+
+/* What is to be framed: at one time or at several. */
+typedef struct subject {
+    box bounds;
+    bool has_bounds;
+    extent extent;
+} subject;
+
+static subject empty_subject(void)
 {
-    *camera = (facet_camera){0};
-    facet_result result = check(orbit, aspect, error);
-    if (result != FACET_OK)
-        return result;
+    return (subject){.bounds = box_empty(), .extent = {-HUGE_VAL, -HUGE_VAL}};
+}
+
+static void add_bounds(subject *s, const scene_pose *pose)
+{
+    if (!pose->has_bounds)
+        return;
+    box_add(&s->bounds, pose->bounds_min);
+    box_add(&s->bounds, pose->bounds_max);
+    s->has_bounds = true;
+}
+
+static view make_view(const facet_orbit *orbit, float aspect, const subject *s)
+{
     view v = {.fits_all_azimuths = orbit->fits_all_azimuths};
     aim(&v, orbit, aspect);
-    for (int i = 0; i < 3; i++)
-        v.target[i] = orbit->has_target ? (double)orbit->target[i]
-                                        : 0.5 * ((double)pose->bounds_min[i] + (double)pose->bounds_max[i]);
+    for (int i = 0; i < 3; i++) {
+        double middle =
+            s->has_bounds ? 0.5 * ((double)s->bounds.minimum[i] + (double)s->bounds.maximum[i]) : 0.0;
+        v.target[i] = orbit->has_target ? (double)orbit->target[i] : middle;
+    }
+    return v;
+}
+
+static facet_result stand(const view *v, const subject *s, const facet_orbit *orbit, float aspect,
+                          facet_camera *camera, facet_error *error)
+{
     /* Nothing to see is framed as a ball of 1 m would be, a single point (extent 0) as well. */
-    extent e = {-HUGE_VAL, -HUGE_VAL};
-    if (pose->has_bounds && !measure(pose, &v, thread_count, &e))
-        return fail_memory(error, "camera", sizeof e);
+    extent e = s->extent;
     double narrow = fmin(1.0, (double)aspect);
-    double smallest = v.orthographic ? 1.0 / narrow : 1.0 / sin(atan(v.tan_y * narrow));
+    double smallest = v->orthographic ? 1.0 / narrow : 1.0 / sin(atan(v->tan_y * narrow));
     double diagonal = 0.0;
-    for (int i = 0; i < 3; i++)
-        diagonal = fmax(diagonal, (double)pose->bounds_max[i] - (double)pose->bounds_min[i]);
+    for (int i = 0; i < 3 && s->has_bounds; i++)
+        diagonal = fmax(diagonal, (double)s->bounds.maximum[i] - (double)s->bounds.minimum[i]);
     if (!(e.extent > 1e-7 * diagonal))
         e = (extent){smallest, 1.0};
 
     double distance = e.extent * (double)orbit->radius_scale;
-    if (v.orthographic) {
+    if (v->orthographic) {
         double half =
             orbit->radius > 0.0f ? (double)orbit->radius * tan(0.5 * (double)orbit->fov_y_rad) : distance;
         if (!(half > 0.0))
@@ -240,18 +262,79 @@ facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, fl
             distance = (double)orbit->radius;
     }
     for (int i = 0; i < 3; i++) {
-        camera->target[i] = (float)v.target[i];
-        camera->eye[i] = (float)(v.target[i] + distance * v.back[i]);
-        camera->up[i] = (float)v.up[i];
+        camera->target[i] = (float)v->target[i];
+        camera->eye[i] = (float)(v->target[i] + distance * v->back[i]);
+        camera->up[i] = (float)v->up[i];
     }
     camera->aspect = aspect;
     return FACET_OK;
+}
+
+facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect,
+                            uint32_t thread_count, facet_camera *camera, facet_error *error)
+{
+    *camera = (facet_camera){0};
+    facet_result result = check(orbit, aspect, error);
+    if (result != FACET_OK)
+        return result;
+    subject s = empty_subject();
+    add_bounds(&s, pose);
+    view v = make_view(orbit, aspect, &s);
+    if (s.has_bounds && !measure(pose, &v, thread_count, &s.extent))
+        return fail_memory(error, "camera", sizeof s.extent);
+    return stand(&v, &s, orbit, aspect, camera, error);
+}
+
+/* ---- all times ---- */
+
+/* Bounds of the scene at all times, and with a view what it takes to frame them. */
+static facet_result look_at_times(const facet_scene *scene, const facet_pose_desc *desc,
+                                  const fit_times *list, const view *v, subject *s, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    facet_pose_desc at = *desc;
+    for (uint32_t i = 0; result == FACET_OK && i < list->count; i++) {
+        scene_pose pose;
+        at.time_s = list->times[i];
+        result = scene_pose_create(scene, &at, &scene->allocator, scene->thread_count, &pose, error);
+        if (result != FACET_OK)
+            return result;
+        add_bounds(s, &pose);
+        if (v && pose.has_bounds && !measure(&pose, v, scene->thread_count, &s->extent))
+            result = fail_memory(error, "camera", sizeof s->extent);
+        scene_pose_destroy(&pose);
+    }
+    return result;
+}
+
+static facet_result fit_motion(const facet_scene *scene, const facet_pose_desc *desc,
+                               const facet_orbit *orbit, float aspect, facet_camera *camera,
+                               facet_error *error)
+{
+    facet_result result = check(orbit, aspect, error);
+    for (uint32_t i = 0; result == FACET_OK && i < desc->animation_count; i++)
+        if (desc->animations[i] >= scene->animation_count)
+            result = fail(error, FACET_ERROR_ARGUMENT, "%s: has no animation %u", scene->source,
+                          desc->animations[i]);
+    if (result != FACET_OK)
+        return result;
+    fit_times list;
+    fit_times_list(scene, desc, &list);
+    subject s = empty_subject();
+    if (!orbit->has_target)
+        result = look_at_times(scene, desc, &list, NULL, &s, error);
+    view v = make_view(orbit, aspect, &s);
+    if (result == FACET_OK)
+        result = look_at_times(scene, desc, &list, &v, &s, error);
+    return result == FACET_OK ? stand(&v, &s, orbit, aspect, camera, error) : result;
 }
 
 facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *desc, const facet_orbit *orbit,
                              float aspect, facet_camera *camera, facet_error *error)
 {
     *camera = (facet_camera){0};
+    if (orbit->fits_all_times && desc && desc->animation_count > 0)
+        return fit_motion(scene, desc, orbit, aspect, camera, error);
     scene_pose pose;
     facet_result result =
         scene_pose_create(scene, desc, &scene->allocator, scene->thread_count, &pose, error);

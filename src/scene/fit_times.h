@@ -1,0 +1,17 @@
+/* fit_times.h - when to look at a motion, to see all of it. */
+#ifndef SCENE_FIT_TIMES_H
+#define SCENE_FIT_TIMES_H
+
+#include "scene/scene.h"
+
+/* Times in ascending order. */
+typedef struct fit_times {
+    uint32_t count;
+    double times[SCENE_FIT_TIMES];
+} fit_times;
+
+/* Every key of desc's animations (at least one, all of them there) and 24 even steps per second; SCENE_FIT_TIMES even
+ * steps from the first to the last key where that would be more. */
+void fit_times_list(const facet_scene *scene, const facet_pose_desc *desc, fit_times *list);
+
+#endif
