@@ -1,5 +1,6 @@
-/* fit_test.c - framing: everything is in the picture, and something touches its border. */
-#include "scene/scene_test_support.h"
+/* fit_test.c - framing: everything is in the picture, and something touches its border, also of what moves. */
+#include "scene/fit_times.h"
+#include "scene/motion_test_support.h"
 
 #include <math.h>
 #include <string.h>
@@ -235,6 +236,171 @@ static void numbers_that_are_no_camera_are_refused(void **state)
     scene_destroy(scene);
 }
 
+/* ---- motion ---- */
+
+/* The cloud of points rises, comes back and turns, in 2 s, with keys off the even steps. */
+static facet_scene *make_moving(void)
+{
+    static const float times[3] = {0, 0.61f, 2};
+    static const float translations[9] = {0, 0, 0, 4, 9, -3, -2, 0, 0};
+    static const float rotations[12] = {0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0.6f, 0, 0.8f, 0};
+    const test_channel channels[2] = {
+        {{.offset = offsetof(scene_node, translation)}, {SCENE_LINEAR, 3, times, 3, translations}},
+        {{.offset = offsetof(scene_node, rotation), .is_rotation = true},
+         {SCENE_LINEAR, 3, times, 4, rotations}}};
+    facet_scene *scene = make_scene();
+    test_animation(scene, channels, 2);
+    return scene;
+}
+
+static const uint32_t FIRST_ANIMATION[1] = {0};
+
+/* The farthest reach of all points at all times that the camera was made for. */
+static double farthest_ever(const facet_scene *scene, const facet_camera *camera, double aspect)
+{
+    facet_pose_desc desc = {.animation_count = 1, .animations = FIRST_ANIMATION};
+    fit_times list;
+    double most = 0.0;
+    fit_times_list(scene, &desc, &list);
+    for (uint32_t i = 0; i < list.count; i++) {
+        scene_pose pose = test_pose_at(scene, 1, list.times[i], 1);
+        for (int k = 0; k < COUNT; k++) {
+            float world[3];
+            mat4_transform_point(&pose.instances[0].world, positions + 3 * k, world);
+            most = fmax(most, reach(camera, aspect, world));
+        }
+        scene_pose_destroy(&pose);
+    }
+    return most;
+}
+
+static void a_whole_motion_touches_the_border(void **state)
+{
+    (void)state;
+    facet_scene *scene = make_moving();
+    facet_pose_desc desc = {.animation_count = 1, .animations = FIRST_ANIMATION, .time_s = 0.4};
+    for (int i = 0; i < ANGLE_COUNT * 4; i++) {
+        facet_orbit orbit = {.azimuth_rad = ANGLES[i % ANGLE_COUNT][0],
+                             .polar_rad = ANGLES[i % ANGLE_COUNT][1],
+                             .radius_scale = 1.0f,
+                             .fov_y_rad = 0.6f,
+                             .orthographic = i / ANGLE_COUNT % 2 != 0,
+                             .has_target = i / ANGLE_COUNT / 2 != 0,
+                             .target = {3, 2, 1},
+                             .fits_all_times = true};
+        facet_camera camera, later, still;
+        assert_int_equal(scene_fit_orbit(scene, &desc, &orbit, 1.5f, &camera, NULL), FACET_OK);
+        assert_near(farthest_ever(scene, &camera, 1.5), 1.0, 1e-5);
+        /* Whatever the time; and one time alone is framed closer. */
+        desc.time_s = 1.7;
+        assert_int_equal(scene_fit_orbit(scene, &desc, &orbit, 1.5f, &later, NULL), FACET_OK);
+        assert_memory_equal(&camera, &later, sizeof camera);
+        orbit.fits_all_times = false;
+        assert_int_equal(scene_fit_orbit(scene, &desc, &orbit, 1.5f, &still, NULL), FACET_OK);
+        assert_true(farthest_ever(scene, &still, 1.5) > 1.1);
+    }
+    scene_destroy(scene);
+}
+
+static void the_target_is_the_middle_of_the_motion(void **state)
+{
+    (void)state;
+    /* One point that goes from (0, 0, 0) over (8, 2, 0) to (4, 0, -6). */
+    static const float times[3] = {1, 2, 4};
+    static const float translations[9] = {0, 0, 0, 8, 2, 0, 4, 0, -6};
+    static const float origin[3] = {0, 0, 0};
+    static const uint32_t index[1] = {0};
+    facet_scene *scene = test_scene(1);
+    scene->meshes[0].primitives[0] = (scene_primitive){.mode = SCENE_POINTS,
+                                                       .vertex_count = 1,
+                                                       .index_count = 1,
+                                                       .indices = index,
+                                                       .positions = origin,
+                                                       .material = SCENE_NONE};
+    const test_channel channel = {{.offset = offsetof(scene_node, translation)},
+                                  {SCENE_LINEAR, 3, times, 3, translations}};
+    test_animation(scene, &channel, 1);
+    facet_pose_desc desc = {.animation_count = 1, .animations = FIRST_ANIMATION};
+    facet_orbit orbit = {
+        .polar_rad = 1.57079633f, .radius_scale = 1, .fov_y_rad = 0.5f, .fits_all_times = true};
+    facet_camera camera;
+    assert_int_equal(scene_fit_orbit(scene, &desc, &orbit, 1, &camera, NULL), FACET_OK);
+    const float middle[3] = {4, 1, -3};
+    for (int k = 0; k < 3; k++)
+        assert_near(camera.target[k], middle[k], 1e-6);
+    /* The nearest that frames x in [-4, 4] at z = 0 is 4 / tan(0.25) from the point there, 3 m before the target. */
+    assert_near(camera.eye[2] - camera.target[2], 3.0 + 4.0 / tan(0.25), 1e-4);
+    scene_destroy(scene);
+}
+
+static void a_turntable_of_a_motion_cuts_nothing(void **state)
+{
+    (void)state;
+    facet_scene *scene = make_moving();
+    facet_pose_desc desc = {.animation_count = 1, .animations = FIRST_ANIMATION};
+    double most = 0.0;
+    for (int step = 0; step < 60; step++) {
+        facet_orbit orbit = {.azimuth_rad = (float)step * 0.104719755f,
+                             .polar_rad = 1.2f,
+                             .radius_scale = 1.0f,
+                             .fov_y_rad = 0.6f,
+                             .fits_all_azimuths = true,
+                             .fits_all_times = true};
+        facet_camera camera;
+        assert_int_equal(scene_fit_orbit(scene, &desc, &orbit, 1.5f, &camera, NULL), FACET_OK);
+        most = fmax(most, farthest_ever(scene, &camera, 1.5));
+    }
+    assert_true(most <= 1.0 + 1e-5 && most > 0.98); /* steps of 6 degrees */
+    scene_destroy(scene);
+}
+
+static void times_are_the_keys_and_24_per_second(void **state)
+{
+    (void)state;
+    enum { KEYS = 300 };
+    static float times[KEYS], values[3 * KEYS];
+    facet_pose_desc desc = {.animation_count = 1, .animations = FIRST_ANIMATION};
+    static const struct {
+        float begin, step;
+        uint32_t keys, expected;
+    } cases[] = {
+        {3, 1, 1, 1},           /* one key: one time */
+        {0, 1, 2, 25},          /* 0, 1/24 .. 1 */
+        {0, 1.0f / 24, 25, 25}, /* keys on the even steps */
+        {0, 0.37f, 2, 10},      /* 8.88 steps: 9 */
+        {0, 0.01f, 100, 121}, /* keys, and 24 steps of 0.04125 s between, of which 0.33 and 0.66 s are keys */
+        {0, 0.001f, KEYS, SCENE_FIT_TIMES},
+        {-5, 20, 2, SCENE_FIT_TIMES},
+        {0, 1e36f, 2, SCENE_FIT_TIMES}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        facet_scene *scene = make_scene();
+        for (uint32_t k = 0; k < cases[i].keys; k++)
+            times[k] = cases[i].begin + cases[i].step * (float)k;
+        const test_channel channel = {{.offset = offsetof(scene_node, translation)},
+                                      {SCENE_LINEAR, cases[i].keys, times, 3, values}};
+        test_animation(scene, &channel, 1);
+        fit_times list;
+        fit_times_list(scene, &desc, &list);
+        assert_int_equal(list.count, cases[i].expected);
+        assert_true(list.times[0] == (double)times[0]);
+        assert_near(list.times[list.count - 1], times[cases[i].keys - 1],
+                    1e-6 * fabs((double)times[cases[i].keys - 1]));
+        double span = (double)times[cases[i].keys - 1] - (double)times[0];
+        for (uint32_t k = 1; k < list.count; k++) {
+            double gap = list.times[k] - list.times[k - 1];
+            assert_true(gap > 0.0 && gap <= fmax(1.0 / 24.0 + 1e-3, span / 255.0 * 1.001));
+        }
+        /* Every key, where there is room for all. */
+        for (uint32_t k = 0; k < cases[i].keys && list.count < SCENE_FIT_TIMES; k++) {
+            bool is_there = false;
+            for (uint32_t n = 0; n < list.count; n++)
+                is_there |= list.times[n] == (double)times[k];
+            assert_true(is_there);
+        }
+        scene_destroy(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -244,6 +410,10 @@ int main(void)
         cmocka_unit_test(every_size_is_framed_alike),
         cmocka_unit_test(nothing_and_a_single_point_have_a_camera),
         cmocka_unit_test(numbers_that_are_no_camera_are_refused),
+        cmocka_unit_test(a_whole_motion_touches_the_border),
+        cmocka_unit_test(the_target_is_the_middle_of_the_motion),
+        cmocka_unit_test(a_turntable_of_a_motion_cuts_nothing),
+        cmocka_unit_test(times_are_the_keys_and_24_per_second),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
