@@ -70,12 +70,11 @@ static bool get_pattern(unsigned mode, unsigned number, uint32_t *subsets)
 static uint32_t get_anchors(uint32_t subsets, unsigned subset_count)
 {
     uint32_t anchors = 0;
-    for (unsigned s = 0; s < subset_count; s++)
-        for (unsigned i = 0; i < TILE_TEXELS; i++)
-            if ((subsets >> 2 * i & 3) == s) {
-                anchors |= 1u << i;
-                break;
-            }
+    for (unsigned s = 0; s < subset_count; s++) {
+        uint32_t other = subsets ^ s * 0x55555555u;
+        uint32_t is_in = ~(other | other >> 1) & 0x55555555u; /* bit 2 i for texel i */
+        anchors |= 1u << (unsigned)__builtin_ctz(is_in) / 2;  /* every subset of a pattern has texels */
+    }
     return anchors;
 }
 
@@ -167,19 +166,23 @@ static unsigned char mix(unsigned a, unsigned b, unsigned weight, bool is_srgb)
     return (unsigned char)((a * (64 - weight) + b * weight + 32) >> 14);
 }
 
-/* The four ends of a channel pair become RGBA texels. ends: low and high of each channel. */
-static void mix_texel(const unsigned char *ends, unsigned channel_count, const unsigned weights[2],
-                      unsigned second_plane, bool is_srgb, unsigned char *texel)
+/* The colors that the weights of a subset stand for. ends: low and high of each channel. */
+static void make_palette(const unsigned char *ends, const uastc_mode *m, bool is_srgb,
+                         unsigned char palette[32][4])
 {
-    unsigned char mixed[4] = {0, 0, 0, 255};
-    for (unsigned c = 0; c < channel_count; c++) {
-        const unsigned channel = channel_count == 2 && c == 1 ? 3 : c;
-        mixed[channel] =
-            mix(ends[2 * c], ends[2 * c + 1], weights[channel == second_plane], is_srgb && channel < 3);
+    for (unsigned i = 0; i < 1u << m->weight_bits; i++) {
+        const unsigned weight = get_weight(i, m->weight_bits);
+        unsigned char *color = palette[i];
+        for (unsigned c = 0; c < 3 && c < m->channel_count; c++)
+            color[c] = mix(ends[2 * c], ends[2 * c + 1], weight, is_srgb);
+        color[3] = 255;
+        if (m->channel_count == 4)
+            color[3] = mix(ends[6], ends[7], weight, false);
+        if (m->channel_count == 2) {
+            color[3] = mix(ends[2], ends[3], weight, false);
+            color[1] = color[2] = color[0];
+        }
     }
-    if (channel_count == 2)
-        mixed[1] = mixed[2] = mixed[0];
-    memcpy(texel, mixed, 4);
 }
 
 static void fill(unsigned char *texels, const unsigned char color[4])
@@ -214,15 +217,15 @@ static void decode(const unsigned char *block, bool is_srgb, unsigned char *texe
     unsigned char ends[MAX_ENDS];
     const unsigned ends_per_subset = 2u * m->channel_count;
     read_ends(&b, &ranges[m->range], ends_per_subset * m->subset_count, ends);
+    unsigned char palettes[3][32][4];
+    for (unsigned s = 0; s < m->subset_count; s++)
+        make_palette(ends + (size_t)s * ends_per_subset, m, is_srgb, palettes[s]);
     const uint32_t anchors = get_anchors(subsets, m->subset_count);
-    for (unsigned i = 0; i < TILE_TEXELS; i++) {
+    for (unsigned i = 0; i < TILE_TEXELS; i++, texels += 4, subsets >>= 2) {
         const unsigned bits = m->weight_bits - (anchors >> i & 1);
-        unsigned weights[2];
-        weights[0] = weights[1] = get_weight(take_bits(&b, bits), m->weight_bits);
-        if (m->plane_count == 2)
-            weights[1] = get_weight(take_bits(&b, bits), m->weight_bits);
-        mix_texel(ends + ends_per_subset * (subsets >> 2 * i & 3), m->channel_count, weights, second_plane,
-                  is_srgb, texels + (size_t)4 * i);
+        memcpy(texels, palettes[subsets & 3][take_bits(&b, bits)], 4);
+        if (second_plane < 4)
+            texels[second_plane] = palettes[0][take_bits(&b, bits)][second_plane];
     }
 }
 

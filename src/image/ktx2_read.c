@@ -186,12 +186,17 @@ static void unpack_rows(void *context, size_t begin, size_t end)
 {
     const job *j = context;
     const uint32_t width = j->out->width;
+    const unsigned count_in = j->format->component_count;
     float rgba[4 * CHUNK_TEXELS]; /* the largest type */
+    if (j->store.is_identity && j->out->channel_count == 4) {
+        j->format->unpack(j->bytes + begin * width * j->format->block_size, (end - begin) * width, count_in,
+                          get_texel(j->out, 0, (uint32_t)begin));
+        return;
+    }
     for (size_t y = begin; y < end; y++)
         for (uint32_t x = 0; x < width; x += CHUNK_TEXELS) {
             const size_t count = width - x < CHUNK_TEXELS ? width - x : CHUNK_TEXELS;
-            j->format->unpack(j->bytes + (y * width + x) * j->format->block_size, count,
-                              j->format->component_count, rgba);
+            j->format->unpack(j->bytes + (y * width + x) * j->format->block_size, count, count_in, rgba);
             store_texels(&j->store, rgba, count, get_texel(j->out, x, (uint32_t)y));
         }
 }
