@@ -78,6 +78,11 @@ const char *image_codec_name(image_codec codec_id)
     return codecs[codec_id].name;
 }
 
+bool image_codec_is_built(image_codec codec_id)
+{
+    return codecs[codec_id].decode != NULL;
+}
+
 facet_result codec_check_size(const char *name, uint64_t width, uint64_t height, uint32_t max_size,
                               facet_error *error)
 {

@@ -52,6 +52,7 @@ typedef enum image_codec {
 
 image_codec image_codec_detect(const void *bytes, size_t size); /* by the first bytes */
 const char *image_codec_name(image_codec codec);                /* "PNG" .. */
+bool image_codec_is_built(image_codec codec);                   /* whether this build can decode such files */
 
 /* How a file is decoded. {0}: as it is, largest edge 16384. */
 typedef struct image_decode_desc {
