@@ -15,6 +15,7 @@ typedef struct check {
     float *out;
     size_t *counts;   /* per range: elements to repair */
     size_t *warnings; /* per range: those of them worth a word */
+    size_t width;     /* of an element, where that is not fixed */
 } check;
 
 /* Sums what body counts over count elements. False: no memory. */
@@ -201,37 +202,37 @@ const float *get_tangents(reader *r, const json_place *at, uint32_t index)
     return a->has_tangents ? out : NULL;
 }
 
-/* ---- texture coordinates ---- */
+/* ---- finite numbers ---- */
 
-static void check_texcoords(void *context, size_t begin, size_t end)
+static void check_finite(void *context, size_t begin, size_t end)
 {
     check *c = context;
     size_t repairs = 0;
-    for (size_t i = 2 * begin; i < 2 * end; i++)
+    for (size_t i = c->width * begin; i < c->width * end; i++)
         repairs += fabsf(c->in[i]) <= SCENE_FARTHEST ? 0u : 1u;
     c->counts[begin / GRAIN] = repairs;
 }
 
-const float *get_texcoords(reader *r, const json_place *at, uint32_t index)
+const float *get_finite(reader *r, const json_place *at, uint32_t index, const char *what)
 {
     gltf_accessor *a = &r->accessors[index];
-    if (a->texcoords)
-        return a->texcoords;
+    if (a->finite)
+        return a->finite;
     const float *in = get_accessor_floats(r, at, index);
-    check c = {.in = in};
+    check c = {.in = in, .width = gltf_component_counts[a->type]};
     size_t repairs;
     size_t unused;
-    if (!in || !run_check(r, &c, a->count, check_texcoords, &repairs, &unused))
+    if (!in || !run_check(r, &c, a->count, check_finite, &repairs, &unused))
         return NULL;
     if (repairs == 0)
-        return a->texcoords = in;
-    float *out = reader_alloc_raw(r, "texture coordinates", a->count, 2 * sizeof *out);
+        return a->finite = in;
+    float *out = reader_alloc_raw(r, what, a->count, c.width * sizeof *out);
     if (!out)
         return NULL;
-    for (size_t i = 0; i < 2 * (size_t)a->count; i++)
+    for (size_t i = 0; i < c.width * a->count; i++)
         out[i] = is_sane(in[i]) ? in[i] : 0.0f;
-    reader_warn(r, at, NULL, "accessor %u has texture coordinates that are not finite; they are 0", index);
-    return a->texcoords = out;
+    reader_warn(r, at, NULL, "accessor %u has %s that are not finite; they are 0", index, what);
+    return a->finite = out;
 }
 
 /* ---- colors ---- */

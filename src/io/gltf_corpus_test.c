@@ -97,24 +97,6 @@ static void use(const facet_scene *scene)
 
 /* ---- good models ---- */
 
-static const struct {
-    const char *name, *extension;
-} LACKING[] = {
-    {"BoxMeshopt.glb", "EXT_meshopt_compression"},
-    {"Box_Draco.glb", "KHR_draco_mesh_compression"},
-    {"14_emission_strength.glb", "KHR_materials_pbrSpecularGlossiness"},
-    {"SheenTestGrid.glb", "KHR_materials_sheen"},
-    {"04_sphere_specular_glossiness.glb", "KHR_materials_pbrSpecularGlossiness"},
-};
-
-static const char *lacking_extension(const char *path)
-{
-    for (size_t i = 0; i < sizeof LACKING / sizeof *LACKING; i++)
-        if (strcmp(path_base_name(path), LACKING[i].name) == 0)
-            return LACKING[i].extension;
-    return NULL;
-}
-
 static void every_model_loads(void **state)
 {
     (void)state;
@@ -125,17 +107,17 @@ static void every_model_loads(void **state)
         facet_scene *scene = NULL;
         facet_error error = {0};
         facet_result result = gltf_load(files->paths[i], NULL, &scene, &error);
-        const char *lacking = lacking_extension(files->paths[i]);
-        if (lacking || strstr(files->paths[i], "/gltf1/")) {
+        if (strstr(files->paths[i], "/gltf1/")) {
             assert_int_equal(result, FACET_ERROR_UNSUPPORTED);
-            assert_non_null(strstr(error.message, lacking ? lacking : "is glTF 1.0"));
+            assert_non_null(strstr(error.message, "is glTF 1.0"));
             continue;
         }
         if (result != FACET_OK)
             fail_msg("%s", error.message);
         use(scene);
         for (uint32_t k = 0; k < scene->warning_count; k++)
-            if (!strstr(scene->warnings[k], "yet"))
+            /* AnisotropyBarnLamp names KTX2 files as the source of its textures. */
+            if (!strstr(scene->warnings[k], "is a KTX2 file, which needs KHR_texture_basisu"))
                 fail_msg("a valid file has the warning \"%s\"", scene->warnings[k]);
         scene_destroy(scene);
     }

@@ -1,58 +1,85 @@
 /* gltf_extensions.c - what the file says it uses, and what facet makes of each: the one table of extensions. */
 #include <string.h>
 
+#include "image/image.h"
 #include "io/gltf_reader.h"
 
 /* Kinds of objects that an extension may extend; or-ed. */
-enum { ROOT = 1, NODE = 2, MATERIAL = 4, INSIDE_MATERIAL = 8, TEXTURE = 16, ELSEWHERE = 32, ANYWHERE = 63 };
+enum {
+    ROOT = 1 << 0,
+    NODE = 1 << 1,
+    MATERIAL = 1 << 2,
+    TEXTURE_INFO = 1 << 3, /* anything inside of a material */
+    TEXTURE = 1 << 4,
+    PRIMITIVE = 1 << 5,
+    SCENE = 1 << 6,
+    BUFFER = 1 << 7,
+    VIEW = 1 << 8,
+    TARGET = 1 << 9, /* of a channel of an animation */
+    ELSEWHERE = 1 << 10,
+    ANYWHERE = (1 << 11) - 1
+};
 
 typedef struct known_extension {
     const char *name;
     scene_support support;
     int places;         /* where facet reads it; in others it means nothing */
     const char *effect; /* of ignoring it, for the warning; NULL: none, no warning */
+    image_codec codec;  /* supported where this is built in */
 } known_extension;
 
 static const known_extension KNOWN[] = {
-    {"EXT_texture_webp", SCENE_SUPPORTED, TEXTURE, NULL},
-    {"KHR_lights_punctual", SCENE_SUPPORTED, ROOT | NODE, NULL},
-    {"KHR_materials_anisotropy", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_clearcoat", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_diffuse_transmission", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_dispersion", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_emissive_strength", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_ior", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_iridescence", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_pbrSpecularGlossiness", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_sheen", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_specular", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_transmission", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_unlit", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_volume", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_materials_volume_scatter", SCENE_SUPPORTED, MATERIAL, NULL},
-    {"KHR_mesh_quantization", SCENE_SUPPORTED, ANYWHERE, NULL},
-    {"KHR_node_visibility", SCENE_SUPPORTED, NODE, NULL},
-    {"KHR_texture_transform", SCENE_SUPPORTED, INSIDE_MATERIAL, NULL},
-    /* Metadata, and hints for editors: nothing to see. */
-    {"FB_ngon_encoding", SCENE_IGNORED, ANYWHERE, NULL},
-    {"KHR_xmp", SCENE_IGNORED, ANYWHERE, NULL},
-    {"KHR_xmp_json_ld", SCENE_IGNORED, ANYWHERE, NULL},
-    {"EXT_structural_metadata", SCENE_IGNORED, ANYWHERE, NULL},
-    {"EXT_mesh_features", SCENE_IGNORED, ANYWHERE, NULL},
-    {"MSFT_lod", SCENE_IGNORED, ANYWHERE, NULL}, /* the finest level is the node itself */
-    /* Not yet. */
-    {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "light profiles are left out"},
-    {"EXT_lights_image_based", SCENE_IGNORED, ANYWHERE, "the light of the file is left out"},
-    {"EXT_mesh_gpu_instancing", SCENE_IGNORED, ANYWHERE, "each mesh is drawn once"},
-    {"EXT_meshopt_compression", SCENE_IGNORED, ANYWHERE, "uncompressed data is used where there is any"},
-    {"EXT_texture_avif", SCENE_IGNORED, ANYWHERE, "other images are used where there are any"},
-    {"KHR_animation_pointer", SCENE_IGNORED, ANYWHERE, "nothing moves"},
-    {"KHR_draco_mesh_compression", SCENE_IGNORED, ANYWHERE, "uncompressed data is used where there is any"},
-    {"KHR_materials_variants", SCENE_IGNORED, ANYWHERE, "the default materials are drawn"},
-    {"KHR_meshopt_compression", SCENE_IGNORED, ANYWHERE, "uncompressed data is used where there is any"},
-    {"KHR_texture_basisu", SCENE_IGNORED, ANYWHERE, "other images are used where there are any"},
-    {"MSFT_texture_dds", SCENE_IGNORED, ANYWHERE, "other images are used where there are any"},
+    {"EXT_lights_image_based", SCENE_SUPPORTED, ROOT | SCENE, NULL, 0},
+    {"EXT_mesh_gpu_instancing", SCENE_SUPPORTED, NODE, NULL, 0},
+    {"EXT_meshopt_compression", SCENE_SUPPORTED, BUFFER | VIEW, NULL, 0},
+    {"EXT_texture_avif", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
+     IMAGE_CODEC_AVIF},
+    {"EXT_texture_webp", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
+     IMAGE_CODEC_WEBP},
+    {"KHR_animation_pointer", SCENE_SUPPORTED, TARGET, NULL, 0},
+#ifdef HAVE_DRACO
+    {"KHR_draco_mesh_compression", SCENE_SUPPORTED, PRIMITIVE, NULL, 0},
+#else
+    {"KHR_draco_mesh_compression", SCENE_IGNORED, PRIMITIVE, "uncompressed data is used where there is any",
+     0},
+#endif
+    {"KHR_lights_punctual", SCENE_SUPPORTED, ROOT | NODE, NULL, 0},
+    {"KHR_materials_anisotropy", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_clearcoat", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_diffuse_transmission", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_dispersion", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_emissive_strength", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_ior", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_iridescence", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_pbrSpecularGlossiness", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_sheen", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_specular", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_transmission", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_unlit", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_variants", SCENE_SUPPORTED, ROOT | PRIMITIVE, NULL, 0},
+    {"KHR_materials_volume", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_volume_scatter", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_mesh_quantization", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
+    {"KHR_meshopt_compression", SCENE_SUPPORTED, BUFFER | VIEW, NULL, 0},
+    {"KHR_node_visibility", SCENE_SUPPORTED, NODE, NULL, 0},
+    {"KHR_texture_basisu", SCENE_SUPPORTED, TEXTURE, NULL, 0},
+    {"KHR_texture_transform", SCENE_SUPPORTED, TEXTURE_INFO, NULL, 0},
+    {"KHR_xmp", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
+    {"KHR_xmp_json_ld", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
+    /* Metadata and hints for editors that do not outlive another order of vertices: nothing to see. */
+    {"EXT_mesh_features", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"EXT_structural_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"FB_ngon_encoding", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"MSFT_lod", SCENE_IGNORED, ANYWHERE, NULL, 0}, /* the finest level is the node itself */
+    /* Left out; docs/gltf-support.md says why. */
+    {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "its lights are left out", 0},
+    {"MSFT_texture_dds", SCENE_IGNORED, ANYWHERE, "other images are used where there are any", 0},
 };
+
+static bool is_built(const known_extension *known)
+{
+    return !known->codec || image_codec_is_built(known->codec);
+}
 
 static const known_extension *find_known(const char *name)
 {
@@ -93,21 +120,30 @@ static scene_extension *list(reader *r, const json_place *at)
         return NULL;
     }
     listed = &r->scene->extensions[r->scene->extension_count++];
-    *listed = (scene_extension){.name = copy, .support = known ? known->support : SCENE_IGNORED};
+    *listed =
+        (scene_extension){.name = copy, .support = known && is_built(known) ? known->support : SCENE_IGNORED};
     return listed;
 }
 
 /* What an object at a member of a parent at place is. */
 static int place_below(int place, const char *key)
 {
-    if (place == MATERIAL || place == INSIDE_MATERIAL)
-        return INSIDE_MATERIAL;
-    if (place != ROOT)
-        return ELSEWHERE;
-    return strcmp(key, "nodes") == 0       ? NODE
-           : strcmp(key, "materials") == 0 ? MATERIAL
-           : strcmp(key, "textures") == 0  ? TEXTURE
-                                           : ELSEWHERE;
+    static const struct {
+        const char *key;
+        int place;
+    } below_root[] = {{"nodes", NODE},   {"materials", MATERIAL}, {"textures", TEXTURE},
+                      {"scenes", SCENE}, {"buffers", BUFFER},     {"bufferViews", VIEW}};
+    if (place == MATERIAL || place == TEXTURE_INFO)
+        return TEXTURE_INFO;
+    /* These names stand for nothing else anywhere in glTF. */
+    if (strcmp(key, "primitives") == 0)
+        return PRIMITIVE;
+    if (strcmp(key, "target") == 0)
+        return TARGET;
+    for (size_t i = 0; place == ROOT && i < sizeof below_root / sizeof *below_root; i++)
+        if (strcmp(key, below_root[i].key) == 0)
+            return below_root[i].place;
+    return ELSEWHERE;
 }
 
 static void check_extensions_of(reader *r, json_t *extensions, int place)
@@ -178,7 +214,7 @@ void read_extensions(reader *r, const json_place *root)
             reader_warn(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
         extension->is_required = true;
         const known_extension *known = find_known(extension->name);
-        if (!known || (known->support == SCENE_IGNORED && known->effect))
+        if (!known || !is_built(known) || (known->support == SCENE_IGNORED && known->effect))
             reader_fail(r, NULL, NULL, FACET_ERROR_UNSUPPORTED,
                         "requires the extension %.100s, which facet lacks", extension->name);
     }
@@ -188,8 +224,8 @@ void read_extensions(reader *r, const json_place *root)
         if (!known)
             reader_warn(r, NULL, NULL, "uses the extension %.100s, which facet does not know",
                         extension->name);
-        else if (known->effect)
-            reader_warn(r, NULL, NULL, "uses %s, which is not drawn yet: %s", extension->name, known->effect);
+        else if (extension->support == SCENE_IGNORED && known->effect)
+            reader_warn(r, NULL, NULL, "uses %s, which is not drawn: %s", extension->name, known->effect);
     }
     scene_extension *quantization = find_listed(r, "KHR_mesh_quantization");
     r->has_quantization = quantization != NULL;

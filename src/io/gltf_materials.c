@@ -193,6 +193,7 @@ static void read_material(reader *r, const json_place *at, scene_material *m)
         read_rows(r, at, bit, m);
         apply_rules(r, &extension, bit, false, m);
     }
+    m->meta = get_meta(r, at);
 }
 
 void read_materials(reader *r, const json_place *root)

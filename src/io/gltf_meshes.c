@@ -6,134 +6,24 @@
 #include "base/parallel.h"
 #include "io/gltf_reader.h"
 
-enum { GRAIN = 1 << 15, MAX_TEXCOORDS = 64 };
-
-/* ---- which formats an attribute may have (section 3.7.2.1, and KHR_mesh_quantization) ---- */
-
-enum { /* or-ed: component types, each plain or normalised */
-       F32 = 1,
-       NORMALIZED_UNSIGNED = 2,
-       NORMALIZED_SIGNED = 4,
-       PLAIN_UNSIGNED = 8,
-       PLAIN_SIGNED = 16,
-       ANY_INTEGER = NORMALIZED_UNSIGNED | NORMALIZED_SIGNED | PLAIN_UNSIGNED | PLAIN_SIGNED
-};
-
-typedef struct attribute_rule {
-    gltf_type type, other_type;
-    unsigned formats, quantized_formats;
-} attribute_rule;
-
-static const attribute_rule POSITION = {GLTF_VEC3, GLTF_VEC3, F32, ANY_INTEGER};
-static const attribute_rule NORMAL = {GLTF_VEC3, GLTF_VEC3, F32, NORMALIZED_SIGNED};
-static const attribute_rule TANGENT = {GLTF_VEC4, GLTF_VEC4, F32, NORMALIZED_SIGNED};
-static const attribute_rule TEXCOORD = {GLTF_VEC2, GLTF_VEC2, F32 | NORMALIZED_UNSIGNED, ANY_INTEGER};
-static const attribute_rule COLOR = {GLTF_VEC3, GLTF_VEC4, F32 | NORMALIZED_UNSIGNED, 0};
-
-static unsigned format_of(const gltf_accessor *a)
-{
-    switch (a->component) {
-    case GLTF_F32:
-        return F32;
-    case GLTF_U8:
-    case GLTF_U16:
-        return a->is_normalized ? NORMALIZED_UNSIGNED : PLAIN_UNSIGNED;
-    case GLTF_I8:
-    case GLTF_I16:
-        return a->is_normalized ? NORMALIZED_SIGNED : PLAIN_SIGNED;
-    default:
-        return 0;
-    }
-}
-
-/* The accessor of an attribute, checked; SCENE_NONE: it has none, or an error is recorded. */
-static uint32_t get_attribute(reader *r, const json_place *attributes, const char *name, attribute_rule rule,
-                              uint32_t vertex_count)
-{
-    uint32_t index = get_index(r, attributes, name, r->accessor_count, "accessor");
-    if (index == SCENE_NONE)
-        return SCENE_NONE;
-    gltf_accessor *a = &r->accessors[index];
-    /* Colors as plain integers are a common slip; normalised is the only thing they can mean. */
-    if (strncmp(name, "COLOR_", 6) == 0 && format_of(a) == PLAIN_UNSIGNED && !a->floats) {
-        reader_warn(r, attributes, name, "accessor %u must be normalized; it is taken as if", index);
-        a->is_normalized = true;
-    }
-    unsigned format = format_of(a);
-    if ((a->type != rule.type && a->type != rule.other_type) ||
-        !(format & (rule.formats | rule.quantized_formats))) {
-        reader_fail(r, attributes, name, FACET_ERROR_INVALID,
-                    "accessor %u has a type and componentType that %s cannot have", index, name);
-        return SCENE_NONE;
-    }
-    if (!(format & rule.formats) && !r->has_quantization)
-        reader_warn(
-            r, attributes, name,
-            "accessor %u has a componentType that needs KHR_mesh_quantization, which the file does not "
-            "declare",
-            index);
-    if (a->count != vertex_count) {
-        reader_fail(r, attributes, name, FACET_ERROR_INVALID,
-                    "accessor %u has %u elements, but POSITION has %u", index, a->count, vertex_count);
-        return SCENE_NONE;
-    }
-    return index;
-}
+enum { GRAIN = 1 << 15 };
 
 static bool read_texcoords(reader *r, const json_place *attributes, scene_primitive *p)
 {
-    char name[24];
-    uint32_t count = 0;
-    while (count < MAX_TEXCOORDS) {
-        snprintf(name, sizeof name, "TEXCOORD_%u", count);
-        if (!has_member(attributes, name))
-            break;
-        count++;
-    }
+    uint32_t count = count_sets(attributes, "TEXCOORD_");
     const float **sets = reader_alloc(r, "texture coordinates", count, sizeof *sets);
     if (!sets)
         return false;
     for (uint32_t i = 0; i < count; i++) {
+        char name[24];
         snprintf(name, sizeof name, "TEXCOORD_%u", i);
-        uint32_t accessor = get_attribute(r, attributes, name, TEXCOORD, p->vertex_count);
-        if (accessor == SCENE_NONE || !(sets[i] = get_texcoords(r, attributes, accessor)))
+        uint32_t accessor = get_attribute(r, attributes, name, GLTF_TEXCOORD, p->vertex_count);
+        if (accessor == SCENE_NONE || !(sets[i] = get_finite(r, attributes, accessor, "texture coordinates")))
             return false;
     }
     p->texcoords = sets;
     p->texcoord_count = count;
     return true;
-}
-
-/* Names that glTF reserves must be ones it knows, without gaps in their numbers, and all must name accessors. */
-static void check_names(reader *r, const json_place *attributes)
-{
-    static const char *const numbered[] = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
-    const char *name;
-    json_t *value;
-    json_object_foreach((json_t *)(uintptr_t)attributes->value, name, value)
-    {
-        bool is_known = name[0] == '_' || strcmp(name, "POSITION") == 0 || strcmp(name, "NORMAL") == 0 ||
-                        strcmp(name, "TANGENT") == 0;
-        for (size_t i = 0; i < sizeof numbered / sizeof *numbered; i++) {
-            size_t length = strlen(numbered[i]);
-            if (strncmp(name, numbered[i], length) != 0)
-                continue;
-            unsigned number = 0;
-            int used = 0;
-            is_known = sscanf(name + length, "%3u%n", &number, &used) == 1 &&
-                       name[length + (size_t)used] == 0 && (name[length] != '0' || used == 1);
-            char previous[32];
-            snprintf(previous, sizeof previous, "%s%u", numbered[i], number - 1);
-            if (is_known && number > 0 && !has_member(attributes, previous))
-                reader_warn(r, attributes, name, "is there without %s", previous);
-        }
-        if (!is_known)
-            reader_warn(r, attributes, name, "is no attribute of glTF and is ignored");
-        uint32_t accessor = get_index(r, attributes, name, r->accessor_count, "accessor");
-        if (accessor != SCENE_NONE && r->accessors[accessor].component == GLTF_U32)
-            reader_warn(r, attributes, name,
-                        "accessor %u has componentType 5125, which attributes cannot have", accessor);
-    }
 }
 
 /* Whether all that the primitive reads has bytes somewhere. */
@@ -158,19 +48,19 @@ static bool read_attributes(reader *r, const json_place *attributes, scene_primi
     if (position == SCENE_NONE)
         return false;
     p->vertex_count = r->accessors[position].count;
-    uint32_t accessor = get_attribute(r, attributes, "POSITION", POSITION, p->vertex_count);
+    uint32_t accessor = get_attribute(r, attributes, "POSITION", GLTF_POSITION, p->vertex_count);
     if (accessor == SCENE_NONE || !(p->positions = get_positions(r, attributes, accessor, is_lost)))
         return false;
-    accessor = get_attribute(r, attributes, "NORMAL", NORMAL, p->vertex_count);
+    accessor = get_attribute(r, attributes, "NORMAL", GLTF_NORMAL, p->vertex_count);
     if (accessor != SCENE_NONE && !(p->normals = get_normals(r, attributes, accessor, has_missing_normals)))
         return false;
-    accessor = get_attribute(r, attributes, "TANGENT", TANGENT, p->vertex_count);
+    accessor = get_attribute(r, attributes, "TANGENT", GLTF_TANGENT, p->vertex_count);
     if (accessor != SCENE_NONE && p->normals)
         p->tangents = get_tangents(r, attributes, accessor);
-    accessor = get_attribute(r, attributes, "COLOR_0", COLOR, p->vertex_count);
+    accessor = get_attribute(r, attributes, "COLOR_0", GLTF_COLOR, p->vertex_count);
     if (accessor != SCENE_NONE && !(p->colors = get_colors(r, attributes, accessor)))
         return false;
-    return reader_is_ok(r) && read_texcoords(r, attributes, p);
+    return reader_is_ok(r) && read_texcoords(r, attributes, p) && read_influences(r, attributes, p);
 }
 
 /* ---- bounds ---- */
@@ -253,7 +143,7 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
     }
     if (json_object_size(attributes.value) == 0)
         reader_warn(r, &attributes, NULL, "is empty, which glTF does not allow");
-    check_names(r, &attributes);
+    check_attribute_names(r, &attributes);
     if (!prepare_draco(r, at))
         return;
     if (!has_sources(r, at, &attributes)) {
@@ -270,7 +160,7 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
         make_empty(p);
         return;
     }
-    if (!read_primitive_indices(r, at, p, is_lost))
+    if (!read_targets(r, at, p) || !read_primitive_indices(r, at, p, is_lost))
         return;
     if (p->index_count == 0) {
         make_empty(p);
@@ -285,31 +175,6 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
         bound_primitive(r, p);
 }
 
-/* Shapes that blend are not drawn yet; that they hang together is checked all the same. */
-static void check_targets(reader *r, const json_place *at)
-{
-    json_place targets = get_array(r, at, "targets");
-    for (size_t i = 0; i < get_count(&targets) && reader_is_ok(r); i++) {
-        json_place target = get_element_object(r, &targets, i);
-        json_place attributes = get_object(r, at, "attributes");
-        const char *name;
-        json_t *value;
-        json_object_foreach((json_t *)(uintptr_t)target.value, name, value)
-        {
-            uint32_t accessor = get_index(r, &target, name, r->accessor_count, "accessor");
-            uint32_t base = get_index(r, &attributes, name, r->accessor_count, "accessor");
-            if (accessor == SCENE_NONE)
-                return;
-            if (base == SCENE_NONE)
-                reader_warn(r, &target, name, "is not among the attributes of the primitive");
-            else if (r->accessors[accessor].count != r->accessors[base].count)
-                reader_fail(r, &target, name, FACET_ERROR_INVALID,
-                            "accessor %u has %u elements, but that of the primitive has %u", accessor,
-                            r->accessors[accessor].count, r->accessors[base].count);
-        }
-    }
-}
-
 static void read_mesh(reader *r, const json_place *at, scene_mesh *mesh)
 {
     mesh->name = get_name(r, at);
@@ -319,18 +184,24 @@ static void read_mesh(reader *r, const json_place *at, scene_mesh *mesh)
         return;
     }
     size_t count = get_count(&array);
-    size_t target_count = 0;
     mesh->primitives = reader_alloc(r, "primitives", count, sizeof *mesh->primitives);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place primitive = get_element_object(r, &array, i);
-        read_primitive(r, &primitive, &mesh->primitives[i]);
-        check_targets(r, &primitive);
-        json_place targets = get_array(r, &primitive, "targets");
-        if (i > 0 && get_count(&targets) != target_count)
+        json_place at_primitive = get_element_object(r, &array, i);
+        scene_primitive *primitive = &mesh->primitives[i];
+        read_primitive(r, &at_primitive, primitive);
+        primitive->variant_materials = read_mappings(r, &at_primitive);
+        primitive->meta = get_meta(r, &at_primitive);
+        json_place targets = get_array(r, &at_primitive, "targets");
+        uint32_t target_count = (uint32_t)get_count(&targets);
+        if (i > 0 && target_count != mesh->weight_count)
             reader_warn(r, &targets, NULL, "must be as many as those of the other primitives of the mesh");
-        target_count = get_count(&targets);
+        mesh->weight_count = target_count > mesh->weight_count ? target_count : mesh->weight_count;
         mesh->primitive_count = (uint32_t)(i + 1);
     }
+    mesh->weights = read_weights(r, at, mesh->weight_count);
+    if (!mesh->weights)
+        mesh->weights = reader_alloc(r, "weights", mesh->weight_count, sizeof *mesh->weights);
+    mesh->meta = get_meta(r, at);
 }
 
 void read_meshes(reader *r, const json_place *root)

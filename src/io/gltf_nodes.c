@@ -74,6 +74,7 @@ void read_cameras(reader *r, const json_place *root)
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
         read_camera(r, &at, &r->scene->cameras[i]);
+        r->scene->cameras[i].meta = get_meta(r, &at);
         r->scene->camera_count = (uint32_t)(i + 1);
     }
 }
@@ -128,24 +129,28 @@ void read_lights(reader *r, const json_place *root)
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
         read_light(r, &at, &r->scene->lights[i]);
+        r->scene->lights[i].meta = get_meta(r, &at);
         r->scene->light_count = (uint32_t)(i + 1);
     }
 }
 
 /* ---- nodes ---- */
 
-static void read_rotation(reader *r, const json_place *at, float rotation[4])
+double normalise_rotation(float rotation[4])
 {
     double length = 0.0;
-    if (!get_floats(r, at, "rotation", rotation, 4))
-        return;
     for (int i = 0; i < 4; i++)
         length += (double)rotation[i] * (double)rotation[i];
     length = sqrt(length);
-    if (!(fabs(length - 1.0) < 0.001))
-        reader_warn(r, at, "rotation", "is not a quaternion of length 1");
     for (int i = 0; i < 4; i++)
         rotation[i] = length > 0.0 ? (float)((double)rotation[i] / length) : i == 3 ? 1.0f : 0.0f;
+    return length;
+}
+
+static void read_rotation(reader *r, const json_place *at, float rotation[4])
+{
+    if (get_floats(r, at, "rotation", rotation, 4) && !(fabs(normalise_rotation(rotation) - 1.0) < 0.001))
+        reader_warn(r, at, "rotation", "is not a quaternion of length 1");
 }
 
 static void read_transform(reader *r, const json_place *at, scene_node *out)
@@ -204,8 +209,14 @@ static void read_node(reader *r, const json_place *at, scene_node *out, uint32_t
     out->is_hidden = !get_bool(r, &visibility, "visible", true);
     if (out->mesh == SCENE_NONE && out->skin != SCENE_NONE)
         reader_warn(r, at, "skin", "is there without a mesh");
-    if (out->mesh == SCENE_NONE && has_member(at, "weights"))
+    out->instancing = read_instancing(r, at);
+    if (out->mesh == SCENE_NONE && out->instancing)
+        reader_warn(r, at, NULL, "has instances, but no mesh");
+    if (out->mesh != SCENE_NONE)
+        out->weights = read_weights(r, at, r->scene->meshes[out->mesh].weight_count);
+    else if (has_member(at, "weights"))
         reader_warn(r, at, "weights", "are there without a mesh");
+    out->meta = get_meta(r, at);
 }
 
 /* Every node has one parent at most, so what no root reaches is in a loop. */
@@ -284,6 +295,9 @@ static void read_scene(reader *r, const json_place *at, scene_root *out, bool *i
         is_listed[node] = true;
         nodes[out->node_count++] = node;
     }
+    json_place light = get_extension(r, at, "EXT_lights_image_based");
+    out->image_light = get_required_index(r, &light, "light", r->scene->image_light_count, "light");
+    out->meta = get_meta(r, at);
 }
 
 void read_scenes(reader *r, const json_place *root)

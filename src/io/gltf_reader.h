@@ -70,7 +70,8 @@ typedef struct gltf_accessor {
     uint32_t largest_index;
     const float *positions; /* finite ones */
     const uint8_t *is_lost; /* per vertex: its position was not finite; NULL: none */
-    const float *normals, *tangents, *colors, *texcoords;
+    const float *normals, *tangents, *colors;
+    const float *finite;      /* of texture coordinates, and of changes of positions, normals and tangents */
     bool has_tangents;        /* false: tangents were looked at and are of no use */
     bool has_missing_normals; /* some have no direction and are 0 here */
 } gltf_accessor;
@@ -165,6 +166,8 @@ float get_float_in(reader *r, const json_place *object, const char *key, float m
                    float fallback);
 /* Fills out with exactly count numbers. False: absent (out stays) or (recorded) wrong. */
 bool get_floats(reader *r, const json_place *object, const char *key, float *out, size_t count);
+/* The same of a place itself, which must be an array. */
+bool get_floats_value(reader *r, const json_place *at, float *out, size_t count);
 void get_floats_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
                    float *out, size_t count);
 bool get_bool(reader *r, const json_place *object, const char *key, bool fallback);
@@ -224,38 +227,100 @@ const float *get_accessor_floats(reader *r, const json_place *at, uint32_t acces
 /* A scalar accessor of unsigned integers; *largest: the largest one. */
 const uint32_t *get_accessor_indices(reader *r, const json_place *at, uint32_t accessor, uint32_t *largest);
 
+/* gltf_formats.c */
+typedef enum gltf_attribute {
+    GLTF_POSITION,
+    GLTF_NORMAL,
+    GLTF_TANGENT,
+    GLTF_TEXCOORD,
+    GLTF_COLOR,
+    GLTF_JOINTS,
+    GLTF_WEIGHTS,
+    GLTF_POSITION_DELTA, /* of a morph target */
+    GLTF_NORMAL_DELTA,
+    GLTF_TANGENT_DELTA
+} gltf_attribute;
+/* The accessor of an attribute, checked to have a format that it may have and vertex_count elements; SCENE_NONE: it has
+ * none, or an error is recorded. */
+uint32_t get_attribute(reader *r, const json_place *attributes, const char *name, gltf_attribute attribute,
+                       uint32_t vertex_count);
+/* How many of PREFIX0, PREFIX1, .. are there; at most 64. */
+uint32_t count_sets(const json_place *attributes, const char *prefix);
+/* Names that glTF reserves must be ones it knows, without gaps in their numbers, and all must name accessors. */
+void check_attribute_names(reader *r, const json_place *attributes);
+
 /* gltf_attributes.c: vertex attributes as scene_primitive wants them; NULL: an error is recorded, or (tangents)
  * there are none of use. */
 const float *get_positions(reader *r, const json_place *at, uint32_t accessor, const uint8_t **is_lost);
 const float *get_normals(reader *r, const json_place *at, uint32_t accessor, bool *has_missing);
 const float *get_tangents(reader *r, const json_place *at, uint32_t accessor);
-const float *get_texcoords(reader *r, const json_place *at, uint32_t accessor);
 const float *get_colors(reader *r, const json_place *at, uint32_t accessor);
+/* Texture coordinates, or changes of a morph target: what is not finite is 0. what: their name, for a warning. */
+const float *get_finite(reader *r, const json_place *at, uint32_t accessor, const char *what);
+
+/* gltf_influences.c: joints and their weights, of any number of sets JOINTS_n, WEIGHTS_n. */
+bool read_influences(reader *r, const json_place *attributes, scene_primitive *primitive);
+
+/* gltf_morph.c: the targets of a primitive whose attributes are read, and the weights of a mesh or a node. */
+bool read_targets(reader *r, const json_place *at, scene_primitive *primitive);
+/* count numbers, 0 where the file has fewer; NULL: it has none, or count is 0. */
+const float *read_weights(reader *r, const json_place *object, uint32_t count);
 
 /* gltf_indices.c: the index list of a primitive, modes unrolled. */
 bool read_primitive_indices(reader *r, const json_place *at, scene_primitive *primitive,
                             const uint8_t *is_lost);
 
 /* gltf_flat.c */
-/* Gives every triangle vertices of its own with the triangle's normal; drops tangents. */
+/* Gives every triangle vertices of its own with the triangle's normal; drops tangents, also those of morph targets. */
 bool make_flat(reader *r, const json_place *at, scene_primitive *primitive);
 /* Fills in normals of length 0 with those of the triangles around, in a copy. */
 bool fill_missing_normals(reader *r, const json_place *at, scene_primitive *primitive);
 
-/* gltf_meshes.c, gltf_materials.c, gltf_textures.c, gltf_nodes.c: arrays of the scene. Order: images, textures,
- * materials, meshes, lights, cameras, nodes, scenes. */
+/* gltf_variants.c: KHR_materials_variants. */
+void read_variants(reader *r, const json_place *root);
+/* The materials of a primitive, by variant; NULL: it has its own in all of them, or an error is recorded. */
+const uint32_t *read_mappings(reader *r, const json_place *primitive);
+
+/* gltf_meshes.c, gltf_materials.c, gltf_textures.c, gltf_nodes.c, ..: arrays of the scene, in this order. */
 void read_images(reader *r, const json_place *root);
 void read_textures(reader *r, const json_place *root);
 void read_materials(reader *r, const json_place *root);
 void read_meshes(reader *r, const json_place *root);
 void read_cameras(reader *r, const json_place *root);
 void read_lights(reader *r, const json_place *root);
+void read_image_lights(reader *r, const json_place *root); /* gltf_image_lights.c: EXT_lights_image_based */
 void read_nodes(reader *r, const json_place *root);
 void read_scenes(reader *r, const json_place *root);
-
-/* gltf_motion.c: checks and counts skins and animations; they are not evaluated yet. */
-void read_skins(reader *r, const json_place *root);
+void read_skins(reader *r, const json_place *root); /* also checks the meshes that use them */
 void read_animations(reader *r, const json_place *root);
+
+/* gltf_instancing.c: EXT_mesh_gpu_instancing of a node; NULL: it has none, or an error is recorded. */
+const scene_instancing *read_instancing(reader *r, const json_place *node);
+
+/* Makes a quaternion unit, in double; one without direction becomes the identity. Returns the length that it had. */
+double normalise_rotation(float rotation[4]);
+
+/* gltf_animation_samplers.c */
+/* What does not depend on what the sampler moves; for those that nothing asks for too. */
+void check_animation_sampler(reader *r, const json_place *at);
+/* Keys as scene_sampler wants them; is_rotation: values of 4 floats become unit. False: an error is recorded, or a
+ * warning says why nothing can move by them. */
+bool read_animation_sampler(reader *r, const json_place *at, bool is_rotation, scene_sampler *out);
+
+/* gltf_animation_pointer.c: what a JSON pointer of KHR_animation_pointer moves. */
+typedef struct gltf_target {
+    scene_channel channel; /* kind, index, offset, scale, is_rotation, pointer */
+    uint32_t width;        /* floats of a value that it takes */
+    bool needs_steps;      /* of truth values */
+    bool is_of_mesh;       /* weights of mesh number channel.index: of all nodes that have it */
+} gltf_target;
+/* NULL: *out is set, with a copy of the pointer. Else what is wrong with it, as the end of a sentence. */
+const char *resolve_pointer(reader *r, const char *pointer, gltf_target *out);
+
+/* gltf_meta.c: extras and metadata of an object. */
+scene_meta get_meta(reader *r, const json_place *object);
+/* Of the root, the asset, images and textures. */
+void read_meta(reader *r, const json_place *root);
 
 /* gltf_extensions.c: what the file says it uses; fails on a required one that facet lacks. */
 void read_extensions(reader *r, const json_place *root);

@@ -306,20 +306,27 @@ float get_float_in(reader *r, const json_place *object, const char *key, float m
     return clamp_with_warning(r, &at, out, minimum, maximum);
 }
 
-bool get_floats(reader *r, const json_place *object, const char *key, float *out, size_t count)
+bool get_floats_value(reader *r, const json_place *at, float *out, size_t count)
 {
-    json_place at = get_array(r, object, key);
-    if (!at.value)
+    if (!json_is_array(at->value)) {
+        fail_type(r, at, "an array");
         return false;
-    if (get_count(&at) != count)
-        return reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "must have %zu numbers, but has %zu", count,
-                           get_count(&at));
+    }
+    if (get_count(at) != count)
+        return reader_fail(r, at, NULL, FACET_ERROR_INVALID, "must have %zu numbers, but has %zu", count,
+                           get_count(at));
     for (size_t i = 0; i < count; i++) {
-        json_place element = get_element(&at, i);
+        json_place element = get_element(at, i);
         if (!to_float(r, &element, &out[i]))
             return false;
     }
     return true;
+}
+
+bool get_floats(reader *r, const json_place *object, const char *key, float *out, size_t count)
+{
+    json_place at = get_array(r, object, key);
+    return at.value && get_floats_value(r, &at, out, count);
 }
 
 void get_floats_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
