@@ -21,8 +21,12 @@
 #include "ibl/ibl.h"
 #include "base/near_test.h"
 
-static const ibl_light_desc everything = {
-    .needs_irradiance = true, .needs_specular = true, .max_roughness = 1.0f, .needs_background = true};
+static const ibl_light_desc everything = {.needs_irradiance = true,
+                                          .needs_specular = true,
+                                          .max_roughness = 1.0f,
+                                          .needs_sheen = true,
+                                          .max_sheen_roughness = 1.0f,
+                                          .needs_background = true};
 
 typedef struct messages {
     int count;
@@ -164,8 +168,8 @@ static void test_real_files(void **state)
         const ibl_light *light = NULL;
         assert_int_equal(ibl_light_prepare(e, &everything, &light, NULL), FACET_OK);
         double whole[3];
-        cube_mean(&e->parts.levels[PREFILTER_GGX][PREFILTER_LEVEL_COUNT - 1], whole);
-        for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+        cube_mean(&e->parts.levels[PREFILTER_GGX][prefilter_level_count(PREFILTER_GGX) - 1], whole);
+        for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
             double mean[3];
             cube_mean(&e->parts.levels[PREFILTER_GGX][level], mean);
             for (int k = 0; k < 3; k++) {
@@ -268,10 +272,10 @@ static facet_environment *open_cached(const char *folder, uint64_t cache_bytes, 
 
 static void check_equal(facet_environment *a, facet_environment *b)
 {
-    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++)
-        assert_memory_equal(a->parts.levels[PREFILTER_GGX][level].texels,
-                            b->parts.levels[PREFILTER_GGX][level].texels,
-                            mem_size(a->parts.levels[PREFILTER_GGX][level].texels));
+    for (int lobe = 0; lobe < PREFILTER_LOBE_COUNT; lobe++)
+        for (uint32_t level = 1; level < prefilter_level_count((prefilter_lobe)lobe); level++)
+            assert_memory_equal(a->parts.levels[lobe][level].texels, b->parts.levels[lobe][level].texels,
+                                mem_size(a->parts.levels[lobe][level].texels));
 }
 
 static void test_cache(void **state)
@@ -279,6 +283,8 @@ static void test_cache(void **state)
     (void)state;
     char folder[] = "/tmp/facet-cache-XXXXXX";
     assert_non_null(mkdtemp(folder));
+    int entry_count =
+        (int)prefilter_level_count(PREFILTER_GGX) + (int)prefilter_level_count(PREFILTER_CHARLIE) - 2;
     messages m = {0};
     facet_environment *fresh = open_cached(NULL, 0, &m);
     facet_environment *first = open_cached(folder, 0, &m);
@@ -288,7 +294,7 @@ static void test_cache(void **state)
     const ibl_light *c = NULL;
     assert_int_equal(ibl_light_prepare(fresh, &everything, &a, NULL), FACET_OK);
     assert_int_equal(ibl_light_prepare(first, &everything, &b, NULL), FACET_OK);
-    assert_int_equal(count_entries(folder, NULL), PREFILTER_LEVEL_COUNT - 1); /* levels 1 .. */
+    assert_int_equal(count_entries(folder, NULL), entry_count);
     assert_int_equal(ibl_light_prepare(second, &everything, &c, NULL), FACET_OK);
     assert_null(second->parts.harmonics.coefficients); /* nothing was prepared */
     check_equal(fresh, first);
@@ -333,7 +339,7 @@ static void test_cache(void **state)
     assert_int_equal(ibl_light_prepare(small, &everything, &c, NULL), FACET_OK);
     check_equal(fresh, small);
     int left = count_entries(folder, NULL);
-    assert_true(left >= 2 && left < PREFILTER_LEVEL_COUNT);
+    assert_true(left >= 2 && left < entry_count);
     assert_int_equal(access(other, F_OK), 0);
     ibl_light_release(c);
     facet_environment_destroy(small);

@@ -17,10 +17,6 @@ static const uint64_t recipe_version = 1;
 /* Rows of the picture that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
 static const double sharp_rows = 512.0;
 
-/* At roughness 1, D is constant and the lobe is the cosine: what a white Lambertian surface sends out, and without the
- * darkness that nine harmonics leave on the far side of a sun. */
-enum { LAMBERT_LEVEL = PREFILTER_LEVEL_COUNT - 1 };
-
 /* Levels of a lobe that were prepared; last < first: none. */
 typedef struct level_range {
     uint32_t first, last;
@@ -97,10 +93,13 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
 {
     facet_result result = FACET_OK;
     if (desc->needs_irradiance) {
-        result = prepare_level(e, PREFILTER_GGX, LAMBERT_LEVEL, desc->thread_count, error);
+        /* At roughness 1, D is constant and the lobe is the cosine: what a white Lambertian surface sends out, and
+         * without the darkness that nine harmonics leave on the far side of a sun. */
+        uint32_t lambert = prefilter_level_count(PREFILTER_GGX) - 1;
+        result = prepare_level(e, PREFILTER_GGX, lambert, desc->thread_count, error);
         if (result != FACET_OK)
             return result;
-        light->irradiance_over_pi = e->parts.levels[PREFILTER_GGX][LAMBERT_LEVEL];
+        light->irradiance_over_pi = e->parts.levels[PREFILTER_GGX][lambert];
     }
     if (desc->needs_specular && light->ranges[PREFILTER_GGX].first == 0) {
         result = prepare_picture(e, sharp_rows, desc->thread_count, &light->sharp, error);

@@ -14,52 +14,13 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
+#include "ibl/making_test.h"
 #include "base/near_test.h"
 
 static const double pi = 3.14159265358979323846;
 
-/* An environment of width x height whose texels come from radiance(direction). */
-static facet_environment *make(uint32_t width, uint32_t height,
-                               void (*radiance)(const float d[3], float out[3]))
-{
-    facet_environment *e = NULL;
-    assert_int_equal(facet_environment_create_constant((float[3]){0.0f, 0.0f, 0.0f}, NULL, &e, NULL),
-                     FACET_OK);
-    image_destroy(&e->picture);
-    assert_int_equal(image_create(NULL, width, height, 3, IMAGE_F32, &e->picture, NULL), FACET_OK);
-    for (uint32_t y = 0; y < height; y++)
-        for (uint32_t x = 0; x < width; x++) {
-            float d[3];
-            equirect_direction(width, height, x, y, d);
-            radiance(d, (float *)e->picture.pixels + 3 * ((size_t)y * width + x));
-        }
-    return e;
-}
-
-static const ibl_light *prepare(facet_environment *e, ibl_light_desc desc)
-{
-    const ibl_light *light = NULL;
-    facet_error error = {0};
-    facet_result result = ibl_light_prepare(e, &desc, &light, &error);
-    if (result != FACET_OK)
-        print_error("%s\n", error.message);
-    assert_int_equal(result, FACET_OK);
-    return light;
-}
-
 static const ibl_light_desc everything = {
     .needs_irradiance = true, .needs_specular = true, .max_roughness = 1.0f, .needs_background = true};
-
-static void test_direction(int i, int count, float d[3])
-{
-    /* a spiral (Fibonacci lattice) */
-    double y = 1.0 - (2.0 * i + 1.0) / count;
-    double phi = i * 2.399963229728653;
-    double across = sqrt(1.0 - y * y);
-    d[0] = (float)(across * cos(phi));
-    d[1] = (float)y;
-    d[2] = (float)(across * sin(phi));
-}
 
 static void test_constant(void **state)
 {
@@ -140,7 +101,7 @@ static void check_bands(facet_environment *e, int first_band, int band_step)
     const ibl_light *light = prepare(e, everything);
     double worst = 0.0;
     double worst_between = 0.0;
-    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+    for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
         const cube *c = &e->parts.levels[PREFILTER_GGX][level];
         float kernel[5];
         prefilter_kernel(PREFILTER_GGX, prefilter_roughness(PREFILTER_GGX, level), 4, kernel);
@@ -181,8 +142,8 @@ static void check_bands(facet_environment *e, int first_band, int band_step)
 static void test_bands(void **state)
 {
     (void)state;
-    check_bands(make(1024, 512, bands_1_2_3), 1, 1);
-    check_bands(make(1024, 512, band_4), 4, 0);
+    check_bands(make_environment(1024, 512, bands_1_2_3), 1, 1);
+    check_bands(make_environment(1024, 512, band_4), 4, 0);
 }
 
 /* ---- irradiance ---- */
@@ -196,7 +157,7 @@ static void upper_half(const float d[3], float out[3])
 static void test_irradiance(void **state)
 {
     (void)state;
-    facet_environment *e = make(512, 256, upper_half);
+    facet_environment *e = make_environment(512, 256, upper_half);
     const ibl_light *light = prepare(e, (ibl_light_desc){.needs_irradiance = true});
     for (int i = 0; i < 400; i++) {
         float N[3], out[3];
@@ -225,13 +186,13 @@ static void sky(const float d[3], float out[3])
 static void check_sun(uint32_t sun_x, uint32_t sun_y)
 {
     const uint32_t width = 1024;
-    facet_environment *e = make(width, 512, sky);
+    facet_environment *e = make_environment(width, 512, sky);
     float *p = (float *)e->picture.pixels + 3 * ((size_t)sun_y * width + sun_x);
     p[0] = p[1] = p[2] = 1e5f;
     const ibl_light *light = prepare(e, everything);
     double omega = equirect_texel_solid_angle(width, 512, sun_y);
     double expected = 1e5 * omega / (4.0 * pi) + 0.3;
-    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+    for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
         const cube *c = &e->parts.levels[PREFILTER_GGX][level];
         double mean[3];
         cube_mean(c, mean);
@@ -287,9 +248,9 @@ static void pattern(const float d[3], float out[3])
 static void check_rotation(float phase, double tolerance)
 {
     rotation_phase = 0.0f;
-    facet_environment *straight = make(512, 256, pattern);
+    facet_environment *straight = make_environment(512, 256, pattern);
     rotation_phase = phase;
-    facet_environment *turned = make(512, 256, pattern);
+    facet_environment *turned = make_environment(512, 256, pattern);
     const ibl_light *a = prepare(straight, everything);
     const ibl_light *b = prepare(turned, everything);
     float c = cosf(phase);
@@ -328,12 +289,12 @@ static void test_seams(void **state)
 {
     (void)state;
     rotation_phase = 0.3f;
-    facet_environment *e = make(512, 256, pattern);
+    facet_environment *e = make_environment(512, 256, pattern);
     const ibl_light *light = prepare(e, everything);
     for (int axis = 0; axis < 3; axis++)
         for (int corner = 0; corner < 4; corner++)
             for (int i = 0; i <= 100; i++)
-                for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+                for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
                     float a[3], b[3], p[3], q[3];
                     int u = (axis + 1) % 3;
                     int v = (axis + 2) % 3;
@@ -355,7 +316,7 @@ static void test_seams(void **state)
 static void test_mirror(void **state)
 {
     (void)state;
-    facet_environment *e = make(256, 128, pattern);
+    facet_environment *e = make_environment(256, 128, pattern);
     const ibl_light *light = prepare(e, everything);
     const float *pixels = e->picture.pixels;
     for (uint32_t i = 0; i < 256 * 128; i += 37) {
@@ -373,9 +334,9 @@ static void test_mirror(void **state)
 static void test_roughness_is_continuous(void **state)
 {
     (void)state;
-    facet_environment *e = make(256, 128, sky);
+    facet_environment *e = make_environment(256, 128, sky);
     const ibl_light *light = prepare(e, everything);
-    for (uint32_t level = 1; level + 1 < PREFILTER_LEVEL_COUNT; level++) {
+    for (uint32_t level = 1; level + 1 < prefilter_level_count(PREFILTER_GGX); level++) {
         float d[3] = {0.6f, 0.64f, 0.48f};
         float below[3], above[3];
         ibl_specular(light, d, prefilter_roughness(PREFILTER_GGX, level) - 1e-6f, below);
@@ -392,22 +353,22 @@ static void test_roughness_is_continuous(void **state)
 static void test_parts_are_lazy(void **state)
 {
     (void)state;
-    facet_environment *e = make(64, 32, sky);
+    facet_environment *e = make_environment(64, 32, sky);
     const ibl_light *light = prepare(e, (ibl_light_desc){.needs_irradiance = true});
     ibl_light_release(light);
-    for (uint32_t level = 0; level < PREFILTER_LEVEL_COUNT; level++)
+    for (uint32_t level = 0; level < prefilter_level_count(PREFILTER_GGX); level++)
         assert_int_equal(e->parts.levels[PREFILTER_GGX][level].texels != NULL,
-                         level == PREFILTER_LEVEL_COUNT - 1);
+                         level == prefilter_level_count(PREFILTER_GGX) - 1);
     facet_environment_destroy(e);
 
-    e = make(64, 32, sky);
+    e = make_environment(64, 32, sky);
     light = prepare(e, (ibl_light_desc){.needs_specular = true}); /* mirrors only */
     assert_null(e->parts.harmonics.coefficients);
     ibl_light_release(light);
 
     light =
         prepare(e, (ibl_light_desc){.needs_specular = true, .min_roughness = 0.45f, .max_roughness = 0.5f});
-    for (uint32_t level = 0; level < PREFILTER_LEVEL_COUNT; level++)
+    for (uint32_t level = 0; level < prefilter_level_count(PREFILTER_GGX); level++)
         assert_int_equal(e->parts.levels[PREFILTER_GGX][level].texels != NULL,
                          level > 0 && prefilter_roughness(PREFILTER_GGX, level) >= 0.4f &&
                              prefilter_roughness(PREFILTER_GGX, level) <= 0.52f);
@@ -431,8 +392,8 @@ static void test_levels_are_equal(void **state)
 {
     (void)state;
     rotation_phase = 0.1f;
-    facet_environment *a = make(333, 150, pattern);
-    facet_environment *b = make(333, 150, pattern);
+    facet_environment *a = make_environment(333, 150, pattern);
+    facet_environment *b = make_environment(333, 150, pattern);
     ibl_light_desc desc = everything;
     desc.thread_count = 1;
     const ibl_light *one = prepare(a, desc);
@@ -442,7 +403,7 @@ static void test_levels_are_equal(void **state)
         desc.max_roughness = desc.min_roughness;
         ibl_light_release(prepare(b, desc));
     }
-    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+    for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
         size_t edge = a->parts.levels[PREFILTER_GGX][level].size + 2;
         assert_int_equal(a->parts.levels[PREFILTER_GGX][level].size,
                          b->parts.levels[PREFILTER_GGX][level].size);
@@ -467,7 +428,7 @@ static void *prepare_in_thread(void *argument)
 static void test_threads_share(void **state)
 {
     (void)state;
-    facet_environment *e = make(256, 128, sky);
+    facet_environment *e = make_environment(256, 128, sky);
     pthread_t threads[4];
     const ibl_light *lights[4];
     for (int i = 0; i < 4; i++)

@@ -7,56 +7,59 @@
 #include "shade/shade.h"
 
 /* How a level is made. Sizes give the half width of a lobe four texels and more, so that bilinear lookup keeps its
- * shape; degrees are such that what is cut off of a lobe is below 0.3 % of its peak for GGX, 2 % for Charlie, whose ring
- * has a sharp outer edge. */
-static const struct {
+ * shape; degrees are such that what is cut off of a lobe is below 0.3 % of its peak for GGX. Charlie's ring has a sharp
+ * outer edge, which 160 degrees round off over 0.02 rad. */
+typedef struct level_recipe {
     float roughness;
     uint16_t size, degree;
-} levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT] = {
-    {{0.0f, 0, 0},
-     {0.16f, 128, 160},
-     {0.22f, 80, 160},
-     {0.3f, 64, 128},
-     {0.4f, 48, 64},
-     {0.52f, 40, 64},
-     {0.68f, 32, 64},
-     {0.84f, 32, 64},
-     {1.0f, 32, 64}},
-    {{0.0f, 0, 0},
-     {0.1f, 128, 160},
-     {0.14f, 80, 160},
-     {0.2f, 64, 128},
-     {0.28f, 48, 96},
-     {0.4f, 40, 64},
-     {0.58f, 32, 64},
-     {0.78f, 32, 64},
-     {1.0f, 32, 64}},
-};
+} level_recipe;
+
+static const level_recipe ggx_levels[] = {{0.0f, 0, 0},    {0.16f, 128, 160}, {0.22f, 80, 160},
+                                          {0.3f, 64, 128}, {0.4f, 48, 64},    {0.52f, 40, 64},
+                                          {0.68f, 32, 64}, {0.84f, 32, 64},   {1.0f, 32, 64}};
+/* Closer than those of GGX: two thin rings are less like the one between them than two spots are. */
+static const level_recipe charlie_levels[] = {
+    {0.0f, 0, 0},      {0.1f, 128, 160},  {0.115f, 112, 160}, {0.132f, 96, 160},
+    {0.152f, 88, 160}, {0.175f, 80, 160}, {0.2f, 64, 128},    {0.23f, 64, 128},
+    {0.265f, 48, 96},  {0.31f, 48, 96},   {0.36f, 40, 64},    {0.43f, 32, 64},
+    {0.52f, 32, 64},   {0.65f, 32, 64},   {0.81f, 32, 64},    {1.0f, 32, 64}};
+
+static const struct {
+    const level_recipe *levels;
+    uint32_t level_count, first;
+} lobes[PREFILTER_LOBE_COUNT] = {{ggx_levels, sizeof ggx_levels / sizeof *ggx_levels, 0},
+                                 {charlie_levels, sizeof charlie_levels / sizeof *charlie_levels, 1}};
+
+uint32_t prefilter_level_count(prefilter_lobe lobe)
+{
+    return lobes[lobe].level_count;
+}
 
 float prefilter_roughness(prefilter_lobe lobe, uint32_t level)
 {
-    return levels[lobe][level].roughness;
+    return lobes[lobe].levels[level].roughness;
 }
 
 uint32_t prefilter_size(prefilter_lobe lobe, uint32_t level)
 {
-    return levels[lobe][level].size;
+    return lobes[lobe].levels[level].size;
 }
 
 uint64_t prefilter_recipe(prefilter_lobe lobe, uint32_t level)
 {
-    uint32_t roughness = floatBitsToUint(levels[lobe][level].roughness);
-    return (uint64_t)roughness << 32 | (uint64_t)levels[lobe][level].size << 16 | (uint64_t)lobe << 12 |
-           levels[lobe][level].degree;
+    uint32_t roughness = floatBitsToUint(lobes[lobe].levels[level].roughness);
+    return (uint64_t)roughness << 32 | (uint64_t)lobes[lobe].levels[level].size << 16 | (uint64_t)lobe << 12 |
+           lobes[lobe].levels[level].degree;
 }
 
 float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness)
 {
-    uint32_t level = lobe == PREFILTER_GGX ? 0 : 1;
-    while (level + 2 < PREFILTER_LEVEL_COUNT && perceptual_roughness > levels[lobe][level + 1].roughness)
+    const level_recipe *levels = lobes[lobe].levels;
+    uint32_t level = lobes[lobe].first;
+    while (level + 2 < lobes[lobe].level_count && perceptual_roughness > levels[level + 1].roughness)
         level++;
-    float low = levels[lobe][level].roughness;
-    float high = levels[lobe][level + 1].roughness;
+    float low = levels[level].roughness;
+    float high = levels[level + 1].roughness;
     float fraction = (perceptual_roughness - low) / (high - low);
     return (float)level + (fraction > 0.0f ? fraction : 0.0f);
 }
@@ -125,8 +128,9 @@ facet_result prefilter_level(harmonics *h, prefilter_lobe lobe, uint32_t level,
                              facet_error *error)
 {
     float kernel[HARMONICS_DEGREE + 1];
-    uint32_t degree = levels[lobe][level].degree;
-    prefilter_kernel(lobe, levels[lobe][level].roughness, degree, kernel);
+    uint32_t degree = lobes[lobe].levels[level].degree;
+    prefilter_kernel(lobe, lobes[lobe].levels[level].roughness, degree, kernel);
     taper(degree, kernel);
-    return harmonics_filter(h, kernel, degree, levels[lobe][level].size, allocator, thread_count, out, error);
+    return harmonics_filter(h, kernel, degree, lobes[lobe].levels[level].size, allocator, thread_count, out,
+                            error);
 }

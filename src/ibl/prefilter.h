@@ -17,9 +17,10 @@
 typedef enum prefilter_lobe { PREFILTER_GGX, PREFILTER_CHARLIE, PREFILTER_LOBE_COUNT } prefilter_lobe;
 
 /* Levels of a lobe, from smooth to rough. Level 0 is no cube map: for GGX it is a mirror, the picture itself. */
-enum { PREFILTER_LEVEL_COUNT = 9 };
+enum { PREFILTER_LEVEL_COUNT = 16 }; /* of the lobe that has the most */
+uint32_t prefilter_level_count(prefilter_lobe lobe);
 
-/* Perceptual roughness of a level. Each lobe is 1.4 to 2 times as wide as the one before, so that the mean of two
+/* Perceptual roughness of a level. Each lobe is 1.3 to 1.9 times as wide as the one before, so that the mean of two
  * stays near the lobe between them; equal steps of roughness would make it 4 times at the smooth end. */
 float prefilter_roughness(prefilter_lobe lobe, uint32_t level);
 /* Texels along an edge of its faces. */

@@ -14,33 +14,6 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Charlie's distribution and shadowing; Estevez and Kulla 2017, equations 2 and 3. */
-static float table_alpha(float sheen_roughness)
-{
-    float r = sheen_roughness > 1e-6f ? sheen_roughness : 1e-6f;
-    return r * r;
-}
-static float table_D(float NdotH, float alpha)
-{
-    float p = 1.0f / alpha;
-    return (2.0f + p) * (powf)((1.0f - NdotH) * (1.0f + NdotH), 0.5f * p) * (0.5f * INV_PI);
-}
-static float table_L(float x, float alpha)
-{
-    float q = (1.0f - alpha) * (1.0f - alpha);
-    float a = 21.5473f * (1.0f - q) + 25.3245f * q;
-    float b = 3.82987f * (1.0f - q) + 3.32435f * q;
-    float c = 0.19823f * (1.0f - q) + 0.16801f * q;
-    float d = -1.97760f * (1.0f - q) - 1.27393f * q;
-    float e = -4.32054f * (1.0f - q) - 4.85967f * q;
-    return a / (1.0f + b * (powf)(x, c)) + d * x + e;
-}
-static float table_Lambda(float mu, float alpha)
-{
-    return mu < 0.5f ? (expf)(table_L(mu, alpha))
-                     : (expf)(2.0f * table_L(0.5f, alpha) - table_L(1.0f - mu, alpha));
-}
-
 /* Gauss and Legendre's nodes in (0, 1) of 8 points, mirrored at 0, and their weights. */
 static const double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                0.9602898564975363};
@@ -66,22 +39,22 @@ static double ring(double NdotV, double NdotL, float alpha)
             double p = point(i, panel * pi / LONGITUDE_PANELS, (panel + 1) * pi / LONGITUDE_PANELS, &w);
             double VdotL = NdotV * NdotL + sines * (cos)(p);
             double NdotH = (NdotV + NdotL) / (sqrt)(2.0 + 2.0 * VdotL);
-            sum += 2.0 * w * (double)table_D((float)fmin(NdotH, 1.0), alpha); /* 2: p and -p */
+            sum += 2.0 * w * (double)D_Charlie((float)fmin(NdotH, 1.0), alpha); /* 2: p and -p */
         }
     return sum;
 }
 
 static double integrate(float sheen_roughness, double NdotV)
 {
-    float alpha = table_alpha(sheen_roughness);
-    double Lambda_V = (double)table_Lambda((float)NdotV, alpha);
+    float alpha = sheen_alpha(sheen_roughness);
+    double Lambda_V = (double)Lambda_Charlie((float)NdotV, alpha);
     double sum = 0.0;
     double to = 1e-5;
     for (double from = 0.0; from < 1.0; from = to, to = fmin(3.0 * to, 1.0))
         for (int i = 0; i < POINTS; i++) {
             double w;
             double NdotL = point(i, from, to, &w);
-            double Lambda_L = (double)table_Lambda((float)NdotL, alpha);
+            double Lambda_L = (double)Lambda_Charlie((float)NdotL, alpha);
             sum += w * ring(NdotV, NdotL, alpha) / (4.0 * (1.0 + Lambda_V + Lambda_L));
         }
     return sum;

@@ -1,0 +1,295 @@
+/* sheen_test.c - light filtered with Charlie's lobe: against closed forms and against sums over all texels. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "base/near_test.h"
+#include "ibl/making_test.h"
+
+static const double pi = 3.14159265358979323846;
+
+static const ibl_light_desc all_sheen = {.needs_sheen = true, .max_sheen_roughness = 1.0f};
+
+/* The lobe at x = N.L, of integral 1 over the hemisphere: (1 - x)^q x with q = 1 / (2 alpha), as D is a power of
+ * sin(h) = sqrt((1 - x) / 2) and the integral of (1 - x)^q x over x is 1 / ((q + 1)(q + 2)). */
+static double lobe(double x, double roughness)
+{
+    double q = 0.5 / (roughness * roughness);
+    return x > 0.0 ? (q + 1.0) * (q + 2.0) * pow(1.0 - x, q) * x / (2.0 * pi) : 0.0;
+}
+
+/* k_l of shading-model.md 16.4. */
+static void test_kernel_golden_numbers(void **state)
+{
+    (void)state;
+    static const double golden[5][5] = {
+        {0.10, 0.037735849057, -0.496855345912, -0.056222603392, 0.367197922622},
+        {0.25, 0.181818181818, -0.431818181818, -0.237762237762, 0.226398601399},
+        {0.50, 0.4, -0.2, -0.314285714286, -0.0625},
+        {0.75, 0.514285714286, -0.026623376623, -0.235530507229, -0.127764581736},
+        {1.00, 0.571428571429, 0.071428571429, -0.164502164502, -0.121170496170}};
+    for (int i = 0; i < 5; i++) {
+        float kernel[HARMONICS_DEGREE + 1];
+        prefilter_kernel(PREFILTER_CHARLIE, (float)golden[i][0], HARMONICS_DEGREE, kernel);
+        assert_near(kernel[0], 1.0, 0.0);
+        for (int l = 1; l <= 4; l++)
+            assert_near(kernel[l], golden[i][l], 1e-6);
+    }
+}
+
+/* High degrees, down to roughness where D is below any float, against many midpoints of the lobe in x. */
+static void test_kernel_of_high_degrees(void **state)
+{
+    (void)state;
+    for (int r = 1; r <= 20; r++) {
+        double roughness = 0.05 * r;
+        float kernel[HARMONICS_DEGREE + 1];
+        prefilter_kernel(PREFILTER_CHARLIE, (float)roughness, HARMONICS_DEGREE, kernel);
+        double sum[HARMONICS_DEGREE + 1] = {0.0};
+        const int count = 40000;
+        for (int i = 0; i < count; i++) {
+            double x = (i + 0.5) / count;
+            double p = 1.0;
+            double before = 0.0;
+            for (int l = 0; l <= HARMONICS_DEGREE; l++) {
+                sum[l] += 2.0 * pi * lobe(x, roughness) * p / count;
+                double next = ((2.0 * l + 1.0) * x * p - l * before) / (l + 1.0);
+                before = p;
+                p = next;
+            }
+        }
+        for (int l = 0; l <= HARMONICS_DEGREE; l++)
+            assert_near(kernel[l], sum[l], 2e-5);
+    }
+}
+
+static void test_constant(void **state)
+{
+    (void)state;
+    static const float radiance[3] = {0.3f, 1.0f, 1234.5f};
+    facet_environment *e = NULL;
+    assert_int_equal(facet_environment_create_constant(radiance, NULL, &e, NULL), FACET_OK);
+    const ibl_light *light = prepare(e, all_sheen);
+    for (int i = 0; i < 200; i++)
+        for (int r = 0; r <= 50; r++) {
+            float d[3], out[3];
+            test_direction(i, 200, d);
+            ibl_sheen(light, d, (float)r / 50.0f, out);
+            for (int k = 0; k < 3; k++)
+                assert_near(out[k] / radiance[k], 1.0, 1e-6);
+        }
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+/* ---- a sun: the lobe itself ---- */
+
+static void nothing(const float d[3], float out[3])
+{
+    (void)d;
+    out[0] = out[1] = out[2] = 0.0f;
+}
+
+/* At each level, around a sun of one texel: the ring, no light behind its edge, none negative. */
+static void test_sun_is_the_lobe(void **state)
+{
+    (void)state;
+    const uint32_t width = 1024, height = 512, sun_x = 614, sun_y = 139;
+    facet_environment *e = make_environment(width, height, nothing);
+    double omega = equirect_texel_solid_angle(width, height, sun_y);
+    float *sun = (float *)e->picture.pixels + 3 * ((size_t)sun_y * width + sun_x);
+    sun[0] = sun[1] = sun[2] = (float)(1.0 / omega);
+    float L[3];
+    equirect_direction(width, height, sun_x, sun_y, L);
+    const ibl_light *light = prepare(e, all_sheen);
+    for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_CHARLIE); level++) {
+        double roughness = (double)prefilter_roughness(PREFILTER_CHARLIE, level);
+        double peak = 0.0;
+        for (int i = 0; i < 1000; i++)
+            peak = fmax(peak, lobe(i / 1000.0, roughness));
+        double worst = 0.0, square = 0.0, energy = 0.0;
+        const int count = 20000;
+        for (int i = 0; i < count; i++) {
+            float R[3], out[3];
+            test_direction(i, count, R);
+            ibl_sheen(light, R, (float)roughness, out);
+            assert_true(out[0] >= 0.0f && out[1] == out[0]);
+            double expected = lobe((double)(L[0] * R[0] + L[1] * R[1] + L[2] * R[2]), roughness);
+            worst = fmax(worst, fabs((double)out[0] - expected) / peak);
+            square += pow(((double)out[0] - expected) / peak, 2.0);
+            energy += 4.0 * pi / count * (double)out[0];
+        }
+        print_message("roughness %.2f: peak %.3f, largest error %.2f %% of it, RMS %.2f %%, energy %.4f\n",
+                      roughness, peak, 100.0 * worst, 100.0 * sqrt(square / count), energy);
+        /* the largest at the horizon, where a ring ends in an edge; energy: what was not below 0 */
+        assert_true(worst < 0.05 + 0.035 / roughness && sqrt(square / count) < 0.02);
+        assert_near(energy, 1.0, 0.003 / roughness);
+    }
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+/* ---- brute force ---- */
+
+/* The sum over all texels, the lobe in the middle of each. */
+static void filter_by_sum(const image *picture, const float R[3], double roughness, double out[3])
+{
+    double whole = 0.0;
+    out[0] = out[1] = out[2] = 0.0;
+    for (uint32_t y = 0; y < picture->height; y++) {
+        double omega = equirect_texel_solid_angle(picture->width, picture->height, y);
+        for (uint32_t x = 0; x < picture->width; x++) {
+            float d[3];
+            equirect_direction(picture->width, picture->height, x, y, d);
+            double w = omega * lobe((double)(d[0] * R[0] + d[1] * R[1] + d[2] * R[2]), roughness);
+            const float *texel = (const float *)picture->pixels + 3 * ((size_t)y * picture->width + x);
+            whole += w;
+            for (int k = 0; k < 3; k++)
+                out[k] += w * (double)texel[k];
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        out[k] /= whole;
+}
+
+/* RMS over directions of the error, relative to the mean of what is expected. */
+static double compare(facet_environment *e, const char *name, double roughness, int count)
+{
+    const ibl_light *light = prepare(e, all_sheen);
+    double square = 0.0, worst = 0.0, mean = 0.0;
+    for (int i = 0; i < count; i++) {
+        float R[3], out[3];
+        double expected[3];
+        test_direction(i, count, R);
+        ibl_sheen(light, R, (float)roughness, out);
+        filter_by_sum(&e->picture, R, roughness, expected);
+        for (int k = 0; k < 3; k++) {
+            double error = (double)out[k] - expected[k];
+            mean += expected[k] / (3.0 * count);
+            square += error * error / (3.0 * count);
+            worst = fmax(worst, fabs(error));
+        }
+    }
+    print_message("%s, sheen roughness %.2f: error relative to the mean: RMS %.2f %%, largest %.2f %%\n",
+                  name, roughness, 100.0 * sqrt(square) / mean, 100.0 * worst / mean);
+    ibl_light_release(light);
+    return sqrt(square) / mean;
+}
+
+static void room(const float d[3], float out[3])
+{
+    bool is_lamp = d[1] > 0.9f && d[0] > 0.0f;
+    out[0] = is_lamp ? 30.0f : 0.6f + 0.4f * d[0];
+    out[1] = 1.0f + sinf(5.0f * d[2]) * sinf(3.0f * d[0]) * 0.8f;
+    out[2] = d[2] > 0.2f ? 4.0f : 0.5f;
+}
+
+static void test_analytic_environment(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(512, 256, room);
+    static const double roughness[8] = {0.1, 0.12, 0.17, 0.25, 0.34, 0.5, 0.7, 0.95};
+    for (int i = 0; i < 8; i++)
+        assert_true(compare(e, "room", roughness[i], 60) < 0.02);
+    facet_environment_destroy(e);
+}
+
+static void test_real_environments(void **state)
+{
+    (void)state;
+    /* two rings stand for the one between them: a sun shows both */
+    static const struct {
+        const char *name;
+        double at_level, between;
+    } environments[3] = {{"leadenhall_market_1k", 0.01, 0.015},
+                         {"qwantani_afternoon_puresky_1k", 0.08, 0.05},
+                         {"studio_small_03_1k", 0.01, 0.03}};
+    const char *folder = getenv("FACET_TEST_DATA");
+    if (!folder) {
+        print_message("FACET_TEST_DATA is not set: real environments are left out\n");
+        skip();
+    }
+    for (int i = 0; i < 3; i++) {
+        const char *name = environments[i].name;
+        char path[1024];
+        snprintf(path, sizeof path, "%s/env/%s.hdr", folder, name);
+        facet_environment *e = NULL;
+        assert_int_equal(facet_environment_load(path, NULL, &e, NULL), FACET_OK);
+        for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_CHARLIE); level += 4)
+            assert_true(compare(e, name, (double)prefilter_roughness(PREFILTER_CHARLIE, level), 12) <
+                        environments[i].at_level);
+        static const double roughness[4] = {0.107, 0.187, 0.33, 0.47};
+        for (int k = 0; k < 4; k++)
+            assert_true(compare(e, name, roughness[k], 12) < environments[i].between);
+        facet_environment_destroy(e);
+    }
+}
+
+/* ---- parts ---- */
+
+/* What needs no sheen prepares none; a range of roughness prepares the levels around it. */
+static void test_parts_are_lazy(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(64, 32, room);
+    ibl_light_release(prepare(
+        e, (ibl_light_desc){.needs_irradiance = true, .needs_specular = true, .max_roughness = 1.0f}));
+    for (uint32_t level = 0; level < prefilter_level_count(PREFILTER_CHARLIE); level++)
+        assert_null(e->parts.levels[PREFILTER_CHARLIE][level].texels);
+    const ibl_light *light = prepare(
+        e, (ibl_light_desc){.needs_sheen = true, .min_sheen_roughness = 0.32f, .max_sheen_roughness = 0.35f});
+    for (uint32_t level = 0; level < prefilter_level_count(PREFILTER_CHARLIE); level++) {
+        float roughness = prefilter_roughness(PREFILTER_CHARLIE, level);
+        assert_int_equal(e->parts.levels[PREFILTER_CHARLIE][level].texels != NULL,
+                         roughness >= 0.31f && roughness <= 0.36f);
+    }
+    float d[3] = {0.0f, 0.6f, 0.8f};
+    float inside[3], outside[3];
+    ibl_sheen(light, d, 0.36f, inside); /* past what was asked for: the nearest that there is */
+    ibl_sheen(light, d, 1.0f, outside);
+    assert_memory_equal(inside, outside, sizeof inside);
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
+/* Below the first level, and at no roughness at all, the lobe is that of the first level. */
+static void test_low_roughness(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(64, 32, room);
+    const ibl_light *light = prepare(e, (ibl_light_desc){.needs_sheen = true});
+    const ibl_light *whole = prepare(e, all_sheen);
+    float d[3] = {0.36f, -0.48f, 0.8f};
+    float first[3], out[3];
+    ibl_sheen(whole, d, prefilter_roughness(PREFILTER_CHARLIE, 1), first);
+    for (int i = 0; i < 10; i++) {
+        ibl_sheen(i & 1 ? light : whole, d, 0.01f * (float)i, out);
+        assert_memory_equal(first, out, sizeof out);
+    }
+    ibl_sheen(light, d, NAN, out);
+    assert_memory_equal(first, out, sizeof out);
+    ibl_light_release(light);
+    ibl_light_release(whole);
+    facet_environment_destroy(e);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_kernel_golden_numbers),
+        cmocka_unit_test(test_kernel_of_high_degrees),
+        cmocka_unit_test(test_constant),
+        cmocka_unit_test(test_sun_is_the_lobe),
+        cmocka_unit_test(test_analytic_environment),
+        cmocka_unit_test(test_real_environments),
+        cmocka_unit_test(test_parts_are_lazy),
+        cmocka_unit_test(test_low_roughness),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
