@@ -280,7 +280,8 @@ facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **ou
     }
     for (uint32_t i = 0; i < MATERIALS; i++)
         roots[i] = i;
-    scene->scenes[0] = (scene_root){.name = "materials", .node_count = MATERIALS, .nodes = roots};
+    scene->scenes[0] =
+        (scene_root){.name = "materials", .node_count = MATERIALS, .nodes = roots, .image_light = SCENE_NONE};
     scene->scene_count = 1;
     scene->default_scene = 0;
     scene->material_count = scene->mesh_count = scene->node_count = MATERIALS;
