@@ -116,8 +116,8 @@ static void every_model_loads(void **state)
             fail_msg("%s", error.message);
         use(scene);
         for (uint32_t k = 0; k < scene->warning_count; k++)
-            /* AnisotropyBarnLamp names KTX2 files as the source of its textures. */
-            if (!strstr(scene->warnings[k], "is a KTX2 file, which needs KHR_texture_basisu"))
+            /* AnisotropyBarnLamp names uncompressed KTX2 files as the source of its textures. */
+            if (!strstr(scene->warnings[k], "KHR_texture_basisu"))
                 fail_msg("a valid file has the warning \"%s\"", scene->warnings[k]);
         scene_destroy(scene);
     }
