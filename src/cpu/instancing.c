@@ -63,6 +63,20 @@ static bool is_moderate(const mat4 *world)
     return largest <= STRONGEST_SCALE && largest_cofactor <= STRONGEST_SCALE * fabs(determinant);
 }
 
+/* Whether a mesh is near its own origin: far from it, the rounding of where rays meet it would be large beside it, and
+ * other than that of flat vertices, from which reflected rays start. */
+static bool is_centered(const scene_primitive *primitive)
+{
+    const float most = 256.0f; /* times its size: an error of 3e-5 of it */
+    float size = 0.0f;
+    float farthest = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        size = fmaxf(size, primitive->bounds_max[i] - primitive->bounds_min[i]);
+        farthest = fmaxf(farthest, fmaxf(fabsf(primitive->bounds_min[i]), fabsf(primitive->bounds_max[i])));
+    }
+    return farthest <= most * size;
+}
+
 /* ---- what moves ---- */
 
 enum { UNKNOWN, AT_REST, MOVES };
@@ -134,7 +148,8 @@ static void find_shapes(chooser *c)
         const scene_instance *instance = &c->pose->instances[i];
         render_geometry *g = &set->items[i];
         g->shape = SCENE_NONE;
-        if (triangle_count(g) < LEAST_TRIANGLES || !is_moderate(&instance->world))
+        if (triangle_count(g) < LEAST_TRIANGLES || !is_centered(g->primitive) ||
+            !is_moderate(&instance->world))
             continue;
         uint32_t *slot = &c->slots[c->first_slots[instance->mesh] + instance->primitive_index];
         if (*slot == SCENE_NONE || set->shapes[*slot].positions != g->positions) {

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "cpu/instancing.h"
+#include "cpu/nearest_copies.h"
 #include "cpu/texture_store.h"
 
 void prepared_scene_init(prepared_scene *p, const facet_scene *scene, const facet_allocator *allocator)
@@ -148,7 +149,7 @@ facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc 
     if (p->has_moved_sprites)
         render_geometry_place_sprites(&p->geometries, &p->pose, camera, desc->thread_count);
     p->camera = *camera;
-    return FACET_OK;
+    return nearest_copies_choose(&p->geometries, camera, desc->width, desc->height, &p->allocator, error);
 }
 
 /* ---- what is made of the geometry ---- */

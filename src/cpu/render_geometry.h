@@ -37,6 +37,7 @@ typedef struct render_geometry {
     bool is_double_sided;
     bool is_lit;
     bool is_see_through; /* a hit may be no hit: alpha mask or blend */
+    bool is_far_copy;    /* RENDER_INSTANCED: others need its textures as finely; nearest_copies_choose() */
 } render_geometry;
 
 /* Triangles that instances share. */

@@ -43,6 +43,8 @@ static int compare_entries(const void *a, const void *b)
         return (uintptr_t)x->primitive < (uintptr_t)y->primitive ? -1 : 1;
     if (x->positions != y->positions)
         return (uintptr_t)x->positions < (uintptr_t)y->positions ? -1 : 1;
+    if (x->normals != y->normals)
+        return (uintptr_t)x->normals < (uintptr_t)y->normals ? -1 : 1;
     return (x->texcoord > y->texcoord) - (x->texcoord < y->texcoord);
 }
 
@@ -142,10 +144,11 @@ void tangent_store_forget_deformed(tangent_store *store)
 {
     size_t kept = 0;
     for (size_t i = 0; i < store->count; i++) {
-        if (store->entries[i].positions == store->entries[i].primitive->positions)
-            store->entries[kept++] = store->entries[i];
+        const tangent_entry *e = &store->entries[i];
+        if (e->positions == e->primitive->positions && e->normals == e->primitive->normals)
+            store->entries[kept++] = *e;
         else
-            mem_free(store->entries[i].tangents);
+            mem_free(e->tangents);
     }
     store->count = kept;
 }

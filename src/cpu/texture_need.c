@@ -140,8 +140,11 @@ static void count_triangles(void *context, size_t begin, size_t end)
     for (size_t i = begin; i < end; i++) {
         const uint32_t *corner = render_geometry_triangle(g, (uint32_t)i);
         vec3 p[3];
-        for (int k = 0; k < 3; k++)
-            p[k] = load3(g->vertices + 3 * (size_t)corner[k]);
+        for (int k = 0; k < 3; k++) {
+            float v[3];
+            render_geometry_corner(g, corner[k], v);
+            p[k] = load3(v);
+        }
         vec3 e1 = p[1] - p[0];
         vec3 e2 = p[2] - p[0];
         float G[3] = {dot(e1, e1), dot(e1, e2), dot(e2, e2)};
@@ -255,7 +258,7 @@ facet_result texture_need(const facet_scene *scene, const render_geometry_set *s
                         .histograms = histograms};
         reader_list list = {.scene = scene, .job = &job, .uses = uses, .must_be_whole = must_be_whole};
         add_readers(&list, desc);
-        if (job.reader_count)
+        if (job.reader_count && !job.geometry->is_far_copy)
             parallel_for(desc->thread_count, job.geometry->primitive->index_count / 3, TRIANGLE_GRAIN,
                          count_triangles, &job);
     }
