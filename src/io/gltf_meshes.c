@@ -199,7 +199,7 @@ static void read_mesh(reader *r, const json_place *at, scene_mesh *mesh)
         mesh->primitive_count = (uint32_t)(i + 1);
     }
     mesh->weights = read_weights(r, at, mesh->weight_count);
-    if (!mesh->weights)
+    if (!mesh->weights && mesh->weight_count)
         mesh->weights = reader_alloc(r, "weights", mesh->weight_count, sizeof *mesh->weights);
     mesh->meta = get_meta(r, at);
 }

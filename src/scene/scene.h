@@ -63,7 +63,7 @@ typedef struct scene_mesh {
     uint32_t primitive_count;
     scene_primitive *primitives;
     uint32_t weight_count; /* of morph targets: that of the primitive that has the most */
-    const float *weights;  /* as the file stores them, 0 where it does not */
+    const float *weights;  /* as the file stores them, 0 where it does not; NULL: there are none */
     scene_meta meta;
 } scene_mesh;
 
