@@ -59,14 +59,14 @@ FN vec2 anisotropic_table_point(vec3 V, vec2 alpha)
     return vec2(clamp(z * inversesqrt(z * z + slope2), NDOTV_MIN, 1.0f), sqrt(sqrt(a2)));
 }
 
-/* The terms read there, made an upper bound: E towards 1 by 0.15 (1 - E) |ax^2 - ay^2| / (ax^2 + ay^2). What an
+/* The terms read there, made an upper bound: E towards 1 by 0.2 (1 - E) |ax^2 - ay^2| / (ax^2 + ay^2). What an
  * albedo that is too small compensates would return more than it received. */
 FN vec2 anisotropic_table_bound(vec2 dfg, vec2 alpha)
 {
     vec2 a2 = alpha * alpha;
     float E = dfg[0] + dfg[1];
     float ratio = abs(a2[0] - a2[1]) / max(a2[0] + a2[1], 1e-12f);
-    return dfg * (1.0f + 0.15f * ratio * max(1.0f - E, 0.0f) / max(E, 1e-3f));
+    return dfg * (1.0f + 0.2f * ratio * max(1.0f - E, 0.0f) / max(E, 1e-3f));
 }
 
 #endif

@@ -56,14 +56,16 @@ FN vec3 film_series(float R12, vec3 R23, float path_nm, vec3 shift)
 }
 
 /* Reflectance in [0, 1] of a film of the given index and thickness (nm) over a base of reflectance F0, in air, for
- * light at cos_air to the normal. Below 0.03 nm the film fades: thickness 0, film index 1 and the base's own index
- * give F_Schlick(F0, 1, cos_air).
+ * light at cos_air to the normal. Below 0.03 nm the film fades into F_Schlick(F0, 1, cos_air); head on, so does a film
+ * whose index is that of air or of the base. (At other angles Schlick's curve reflects at a boundary that is none.)
  *
- * The text keeps the product of both reflectances above 1e-5, with which a film that is not there would still add
- * 0.006; here it may be 0. And its sum exceeds 1 by 3e-5 at places; here it does not. */
+ * From the text this differs where there is no film: it fades the index alone and keeps the product of both
+ * reflectances above 1e-5, with which a thickness of 0 would still add 0.006 and more. And its sum exceeds 1 by 3e-5 at
+ * places; here it does not. */
 FN vec3 F_iridescent(float film_ior, float thickness_nm, vec3 F0, float cos_air)
 {
-    float ior = mix(1.0f, film_ior, smoothstep(0.0f, 0.03f, thickness_nm));
+    float fade = smoothstep(0.0f, 0.03f, thickness_nm);
+    float ior = mix(1.0f, film_ior, fade);
     float cos2 = 1.0f - (1.0f - cos_air * cos_air) / (ior * ior);
     if (cos2 < 0.0f)
         return vec3(1.0f); /* a film thinner than air: total reflection */
@@ -77,7 +79,8 @@ FN vec3 F_iridescent(float film_ior, float thickness_nm, vec3 F0, float cos_air)
     float near = sel(ior < 1.0f, 0.0f, PI);
     vec3 shift = vec3(near) + vec3(sel(base_ior[0] < ior, PI, 0.0f), sel(base_ior[1] < ior, PI, 0.0f),
                                    sel(base_ior[2] < ior, PI, 0.0f));
-    return film_series(R12, R23, 2.0f * ior * thickness_nm * cos_film, shift);
+    vec3 F = film_series(R12, R23, 2.0f * ior * thickness_nm * cos_film, shift);
+    return mix(F_Schlick(F0, vec3(1.0f), cos_air), F, fade);
 }
 
 #endif

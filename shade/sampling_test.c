@@ -1,5 +1,5 @@
 /* sampling_test.c - samplers against their densities. */
-#include "testing/test_support.h"
+#include "testing/chi_square.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -110,13 +110,6 @@ static float lobe_pdf(const lobe *l, vec3 d)
         return 0.0f;
     vec3 H = normalize(sum);
     return H[2] <= 0.0f ? 0.0f : pdf_VNDF_GGX(l->V, H, l->alpha_x, l->alpha_y) / (4.0f * dot(l->V, H));
-}
-
-/* Probability that X of that many degrees of freedom is at least chi2 (Wilson and Hilferty 1931). */
-static double chi2_p_value(double chi2, double freedom)
-{
-    double t = 2.0 / (9.0 * freedom);
-    return 0.5 * erfc(((cbrt)(chi2 / freedom) - (1.0 - t)) / (sqrt)(2.0 * t));
 }
 
 /* p-value of draws from one lobe against the density of another, which should be the same: histogram over phi x z

@@ -166,7 +166,7 @@ FN float sheen_ltc_albedo(float NdotV, float perceptual_roughness)
 {
     float y = max(perceptual_roughness, 0.01f);
     float s = y * (0.0206607f + 1.58491f * y) / (0.0379424f + y * (1.32227f + y));
-    float m = y * (-0.193854f + y * (-1.14885f + y * (1.7932f - 0.95943f * y))) / (0.046391f + y);
+    float m = y * (-0.193854f + y * (-1.14885f + y * (1.7932f - 0.95943f * y * y))) / (0.046391f + y);
     float o = y * (0.000654023f + (-0.0207818f + 0.119681f * y) * y) / (1.26264f + y * (-1.92021f + y));
     float t = (NdotV - m) / s;
     return clamp(exp(-0.5f * t * t) / (s * 2.50662827f) + o, 0.0f, 1.0f);
