@@ -85,7 +85,8 @@ static void same_meshes(const facet_scene *a, const facet_scene *b)
         const scene_mesh *n = &b->meshes[i];
         same_text(m->name, n->name, "name of mesh", i);
         same(m->primitive_count == n->primitive_count && m->weight_count == n->weight_count, "mesh", i);
-        same_floats(m->weights, n->weights, m->weight_count, "weights of mesh", i);
+        if (m->weight_count)
+            same_floats(m->weights, n->weights, m->weight_count, "weights of mesh", i);
         for (uint32_t k = 0; k < m->primitive_count; k++)
             same_primitive(&m->primitives[k], &n->primitives[k], a->variant_count, i);
         same_meta(&m->meta, &n->meta, "metadata of mesh", i);
