@@ -297,6 +297,45 @@ static void supercompression(void **state)
     image_destroy(&picture);
 }
 
+/* Blocks of one color (KDF, "ASTC void-extent blocks") in all sizes, clipped at the edges. */
+static void astc_of_all_block_sizes(void **state)
+{
+    (void)state;
+    static const unsigned char block[16] = {0xfc, 0xfd, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff,
+                                            51,   51,   102,  102,  255,  255,  128,  128};
+    static const unsigned char sizes[14][2] = {{4, 4},  {5, 4},   {5, 5},   {6, 5},  {6, 6},
+                                               {8, 5},  {8, 6},   {8, 8},   {10, 5}, {10, 6},
+                                               {10, 8}, {10, 10}, {12, 10}, {12, 12}};
+    enum { WIDTH = 300, HEIGHT = 301 };
+    unsigned char *blocks = malloc((size_t)75 * 76 * sizeof block);
+    for (size_t i = 0; i < 75 * 76; i++)
+        memcpy(blocks + i * sizeof block, block, sizeof block);
+    for (uint32_t k = 0; k < 28; k++) {
+        const unsigned width = sizes[k / 2][0], height = sizes[k / 2][1];
+        ktx2_test_file f = {
+            .vk_format = 157 + k, .width = WIDTH, .height = HEIGHT, .faces = 1, .levels = 1, .transfer = 1};
+        f.bytes[0] = blocks;
+        f.sizes[0] = (size_t)16 * ((WIDTH + width - 1) / width) * ((HEIGHT + height - 1) / height);
+        size_t size;
+        unsigned char *bytes = ktx2_test_write(&f, &size);
+        image i;
+        facet_error error;
+        facet_result result =
+            image_decode(bytes, size, "astc", &(image_decode_desc){.thread_count = 1 + k % 3}, &i, &error);
+        free(bytes);
+        if (result == FACET_ERROR_UNSUPPORTED) {
+            assert_non_null(strstr(error.message, "libastcenc"));
+            continue;
+        }
+        assert_int_equal(result, FACET_OK);
+        assert_int_equal(i.is_srgb, k % 2);
+        for (size_t t = 0; t < (size_t)WIDTH * HEIGHT; t++)
+            assert_memory_equal((const unsigned char *)i.pixels + 4 * t, "\x33\x66\xff\x80", 4);
+        image_destroy(&i);
+    }
+    free(blocks);
+}
+
 static void what_is_refused(void **state)
 {
     (void)state;
@@ -400,13 +439,10 @@ static void what_is_refused_besides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texels_without_compression),
-        cmocka_unit_test(transfer_functions_are_told),
-        cmocka_unit_test(levels_are_reductions),
-        cmocka_unit_test(layers_and_faces),
-        cmocka_unit_test(orientation_and_swizzle),
-        cmocka_unit_test(supercompression),
-        cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(texels_without_compression), cmocka_unit_test(transfer_functions_are_told),
+        cmocka_unit_test(levels_are_reductions),      cmocka_unit_test(layers_and_faces),
+        cmocka_unit_test(orientation_and_swizzle),    cmocka_unit_test(supercompression),
+        cmocka_unit_test(astc_of_all_block_sizes),    cmocka_unit_test(what_is_refused),
         cmocka_unit_test(what_is_refused_besides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
