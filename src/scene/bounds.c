@@ -1,32 +1,15 @@
 /* bounds.c - see bounds.h. */
 #include "scene/bounds.h"
 
-#include <float.h>
 #include <math.h>
 
 #include "base/parallel.h"
 #include "base/result.h"
 
-enum { BOUNDS_GRAIN = 1 << 15 /* indices that one thread takes at once */ };
-
-box box_empty(void)
-{
-    return (box){{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
-}
-
-void box_join(box *b, const box *other)
-{
-    box_add(b, other->minimum);
-    box_add(b, other->maximum);
-}
-
-bool box_is_near(const box *b)
-{
-    for (int axis = 0; axis < 3; axis++)
-        if (!(fabsf(b->minimum[axis]) <= SCENE_FARTHEST && fabsf(b->maximum[axis]) <= SCENE_FARTHEST))
-            return false;
-    return true;
-}
+enum {
+    BOUNDS_GRAIN = 1 << 15, /* indices that one thread takes at once */
+    FEW_INDICES = 24        /* as quick to go through as the box around them */
+};
 
 /* Whether each world axis depends on one local axis only. Then the transform is monotone along each axis, and the
  * box of the transformed vertices is the transformed box, to the last bit. */
@@ -119,7 +102,8 @@ facet_result bound_instances(scene_pose *pose, const facet_allocator *allocator,
     box all = box_empty();
     uint32_t kept = 0;
     for (uint32_t i = 0; i < pose->instance_count; i++) {
-        if (!is_inside(&pose->instances[i], &all)) {
+        bool is_small = pose->instances[i].primitive->index_count <= FEW_INDICES;
+        if (is_small || !is_inside(&pose->instances[i], &all)) {
             box b = instance_bounds(&pose->instances[i], boxes, thread_count);
             if (!box_is_near(&b))
                 continue;

@@ -2,13 +2,20 @@
 #ifndef SCENE_BOUNDS_H
 #define SCENE_BOUNDS_H
 
+#include <float.h>
+#include <math.h>
+
 #include "scene/scene.h"
 
 typedef struct box {
     float minimum[3], maximum[3];
 } box;
 
-box box_empty(void); /* minimum above maximum */
+/* Minimum above maximum: what is added is the box. */
+static inline box box_empty(void)
+{
+    return (box){{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
+}
 static inline void box_add(box *b, const float p[3])
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -16,8 +23,19 @@ static inline void box_add(box *b, const float p[3])
         b->maximum[axis] = p[axis] > b->maximum[axis] ? p[axis] : b->maximum[axis];
     }
 }
-void box_join(box *b, const box *other);
-bool box_is_near(const box *b); /* all of it within SCENE_FARTHEST; false where it is empty */
+static inline void box_join(box *b, const box *other)
+{
+    box_add(b, other->minimum);
+    box_add(b, other->maximum);
+}
+/* Whether all of it is within SCENE_FARTHEST; an empty one is not. */
+static inline bool box_is_near(const box *b)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (!(fabsf(b->minimum[axis]) <= SCENE_FARTHEST && fabsf(b->maximum[axis]) <= SCENE_FARTHEST))
+            return false;
+    return true;
+}
 
 /* Finds the world bounds of the pose's instances, exactly, and drops those that leave the space where floats can be
  * squared. Fails with FACET_ERROR_MEMORY. */

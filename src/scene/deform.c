@@ -14,6 +14,15 @@ static bool has_skin(const facet_scene *scene, const scene_node *node)
     return node->skin != SCENE_NONE && node->skin < scene->skin_count && scene->skins;
 }
 
+/* Whether anything in the scene could: most scenes are done with this question. */
+static bool can_move(const facet_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->mesh_count && scene->skin_count == 0; i++)
+        if (scene->meshes[i].weight_count > 0)
+            return true;
+    return scene->skin_count > 0;
+}
+
 static bool moves(const facet_scene *scene, const scene_state *state, uint32_t index)
 {
     const scene_node *node = &state->nodes[index];
@@ -161,6 +170,8 @@ facet_result deform_create(const facet_scene *scene, const scene_state *state, h
                            facet_error *error)
 {
     *set = (deform_set){0};
+    if (!can_move(scene))
+        return FACET_OK;
     bool is_limit = false;
     facet_result result = FACET_OK;
     if (!plan(set, scene, state, h, allocator, &is_limit) || !pose_skins(set, scene, h, allocator))

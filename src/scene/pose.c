@@ -63,45 +63,37 @@ static void set_normal_matrix(scene_instance *instance)
         instance->normal_matrix[i] = -instance->normal_matrix[i];
 }
 
-/* A primitive as it is in the mesh's space. */
-static scene_instance make_instance(const pose_parts *parts, uint32_t shown, uint32_t index)
-{
-    uint32_t node = parts->nodes.shown[shown];
-    uint32_t mesh = parts->state.nodes[node].mesh;
-    const scene_primitive *p = &parts->scene->meshes[mesh].primitives[index];
-    scene_instance instance = {.primitive = p,
-                               .positions = p->positions,
-                               .normals = p->normals,
-                               .tangents = p->tangents,
-                               .material = p->material,
-                               .node = node,
-                               .mesh = mesh,
-                               .primitive_index = index};
-    if (parts->variant != SCENE_NONE && p->variant_materials &&
-        p->variant_materials[parts->variant] != SCENE_NONE)
-        instance.material = p->variant_materials[parts->variant];
-    memcpy(instance.bounds_min, p->bounds_min, sizeof instance.bounds_min);
-    memcpy(instance.bounds_max, p->bounds_max, sizeof instance.bounds_max);
-    const deformed *moved = deform_get(&parts->deformed, shown, index);
-    if (!moved)
-        return instance;
-    instance.is_deformed = true;
-    instance.positions = moved->arrays.positions ? moved->arrays.positions : p->positions;
-    instance.normals = moved->arrays.normals ? moved->arrays.normals : p->normals;
-    instance.tangents = moved->arrays.tangents ? moved->arrays.tangents : p->tangents;
-    memcpy(instance.bounds_min, moved->bounds.minimum, sizeof instance.bounds_min);
-    memcpy(instance.bounds_max, moved->bounds.maximum, sizeof instance.bounds_max);
-    return instance;
-}
-
-static void add_instance(scene_pose *pose, const scene_instance *instance, const mat4 *world)
+/* Draws a primitive at world, if it can be drawn there. moved: its vertices, NULL: the file's. */
+static void add_instance(scene_pose *pose, const pose_parts *parts, uint32_t shown, uint32_t index,
+                         const deformed *moved, const mat4 *world)
 {
     if (!is_finite_matrix(world) || !is_regular(world))
         return;
-    scene_instance *added = &pose->instances[pose->instance_count++];
-    *added = *instance;
-    added->world = *world;
-    set_normal_matrix(added);
+    uint32_t node = parts->nodes.shown[shown];
+    uint32_t mesh = parts->state.nodes[node].mesh;
+    const scene_primitive *p = &parts->scene->meshes[mesh].primitives[index];
+    scene_instance *instance = &pose->instances[pose->instance_count++];
+    *instance = (scene_instance){.primitive = p,
+                                 .positions = p->positions,
+                                 .normals = p->normals,
+                                 .tangents = p->tangents,
+                                 .material = p->material,
+                                 .world = *world,
+                                 .node = node,
+                                 .mesh = mesh,
+                                 .primitive_index = index};
+    set_normal_matrix(instance);
+    if (parts->variant != SCENE_NONE && p->variant_materials &&
+        p->variant_materials[parts->variant] != SCENE_NONE)
+        instance->material = p->variant_materials[parts->variant];
+    memcpy(instance->bounds_min, moved ? moved->bounds.minimum : p->bounds_min, sizeof p->bounds_min);
+    memcpy(instance->bounds_max, moved ? moved->bounds.maximum : p->bounds_max, sizeof p->bounds_max);
+    if (!moved)
+        return;
+    instance->is_deformed = true;
+    instance->positions = moved->arrays.positions ? moved->arrays.positions : p->positions;
+    instance->normals = moved->arrays.normals ? moved->arrays.normals : p->normals;
+    instance->tangents = moved->arrays.tangents ? moved->arrays.tangents : p->tangents;
 }
 
 /* Where EXT_mesh_gpu_instancing puts copy number i in the node's space. */
@@ -117,22 +109,22 @@ static mat4 copy_matrix(const scene_instancing *instancing, uint32_t i)
 
 static void add_primitive(scene_pose *pose, const pose_parts *parts, uint32_t shown, uint32_t index)
 {
-    scene_instance instance = make_instance(parts, shown, index);
-    const scene_instancing *instancing = parts->state.nodes[instance.node].instancing;
-    const mat4 *world = &parts->nodes.worlds[instance.node];
     const deformed *moved = deform_get(&parts->deformed, shown, index);
-    if (instance.primitive->index_count == 0 || (moved && moved->is_endless))
+    uint32_t node = parts->nodes.shown[shown];
+    const scene_node *at = &parts->state.nodes[node];
+    const mat4 *world = &parts->nodes.worlds[node];
+    if (parts->scene->meshes[at->mesh].primitives[index].index_count == 0 || (moved && moved->is_endless))
         return;
     if (moved && moved->skin) {
         mat4 mirror = mat4_identity();
         mirror.m[0] = moved->skin->is_mirrored ? -1.0f : 1.0f;
-        add_instance(pose, &instance, &mirror);
-    } else if (!instancing) {
-        add_instance(pose, &instance, world);
+        add_instance(pose, parts, shown, index, moved, &mirror);
+    } else if (!at->instancing) {
+        add_instance(pose, parts, shown, index, moved, world);
     } else {
-        for (uint32_t i = 0; i < instancing->count; i++) {
-            mat4 copy = mat4_multiply(*world, copy_matrix(instancing, i));
-            add_instance(pose, &instance, &copy);
+        for (uint32_t i = 0; i < at->instancing->count; i++) {
+            mat4 copy = mat4_multiply(*world, copy_matrix(at->instancing, i));
+            add_instance(pose, parts, shown, index, moved, &copy);
         }
     }
 }
