@@ -18,8 +18,8 @@ static const uint64_t default_cache_bytes = 256ull << 20;
 
 static const facet_environment_desc default_desc;
 
-static facet_result create_empty(const facet_environment_desc *desc, facet_environment **environment,
-                                 facet_error *error)
+facet_result environment_create(const facet_environment_desc *desc, facet_environment **environment,
+                                facet_error *error)
 {
     facet_environment *e = mem_zalloc(&desc->allocator, 1, sizeof *e);
     if (!e)
@@ -68,6 +68,7 @@ void environment_release(facet_environment *environment)
         image_destroy(&parts->pictures[i]);
     harmonics_destroy(&parts->harmonics);
     image_destroy(&environment->picture);
+    cube_destroy(&environment->irradiance_over_pi);
     mem_free(environment->cache_folder);
     pthread_mutex_destroy(&environment->mutex);
     mem_free(environment);
@@ -81,7 +82,6 @@ void facet_environment_destroy(facet_environment *environment)
 
 /* ---- what is kept of a decoded picture ---- */
 
-/* Brings values into [0, ENVIRONMENT_MAX_RADIANCE]; a file may hold what no light is. */
 DISPATCH_AVX2 static void limit_rows(void *context, size_t begin, size_t end)
 {
     const image *i = context;
@@ -92,6 +92,11 @@ DISPATCH_AVX2 static void limit_rows(void *context, size_t begin, size_t end)
         x = x > 0.0f ? x : 0.0f;
         p[k] = x < ENVIRONMENT_MAX_RADIANCE ? x : ENVIRONMENT_MAX_RADIANCE;
     }
+}
+
+void environment_limit(facet_environment *environment, uint32_t thread_count)
+{
+    parallel_for(thread_count, environment->picture.height, 16, limit_rows, &environment->picture);
 }
 
 static facet_result take_picture(facet_environment *e, image *decoded, const char *name,
@@ -111,15 +116,14 @@ static facet_result take_picture(facet_environment *e, image *decoded, const cha
         if (result != FACET_OK)
             return result;
     }
-    parallel_for(thread_count, e->picture.height, 16, limit_rows, &e->picture);
+    environment_limit(e, thread_count);
     return FACET_OK;
 }
 
-/* What entries of the cache are told apart by. */
-static void identify(facet_environment *e, const void *bytes, size_t size)
+void environment_identify(facet_environment *environment, const void *bytes, size_t size)
 {
-    if (e->cache_folder)
-        e->hash = cache_hash(0, bytes, size);
+    if (environment->cache_folder)
+        environment->hash = cache_hash(0, bytes, size);
 }
 
 /* ---- the functions of facet.h ---- */
@@ -138,7 +142,7 @@ facet_result facet_environment_load_memory(const void *bytes, size_t size, const
                     (unsigned long long)max_bytes);
     facet_environment *e = NULL;
     image decoded = {0};
-    facet_result result = create_empty(desc, &e, error);
+    facet_result result = environment_create(desc, &e, error);
     if (result != FACET_OK)
         return result;
     image_decode_desc decode = {.allocator = desc->allocator,
@@ -153,7 +157,7 @@ facet_result facet_environment_load_memory(const void *bytes, size_t size, const
         environment_release(e);
         return result;
     }
-    identify(e, bytes, size);
+    environment_identify(e, bytes, size);
     *environment = e;
     return FACET_OK;
 }
@@ -182,7 +186,7 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
-    facet_result result = create_empty(desc, &e, error);
+    facet_result result = environment_create(desc, &e, error);
     if (result != FACET_OK)
         return result;
     result = studio_create(&e->allocator, desc->thread_count, &e->picture, error);
@@ -190,7 +194,7 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
         environment_release(e);
         return result;
     }
-    identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    environment_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }
@@ -202,7 +206,7 @@ facet_result facet_environment_create_constant(const float radiance[3], const fa
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
-    facet_result result = create_empty(desc, &e, error);
+    facet_result result = environment_create(desc, &e, error);
     if (result != FACET_OK)
         return result;
     result = image_create(&e->allocator, 2, 1, 3, IMAGE_F32, &e->picture, error);
@@ -213,8 +217,8 @@ facet_result facet_environment_create_constant(const float radiance[3], const fa
     float *p = e->picture.pixels;
     for (int i = 0; i < 6; i++)
         p[i] = radiance[i % 3];
-    limit_rows(&e->picture, 0, 1);
-    identify(e, e->picture.pixels, image_row_size(&e->picture));
+    environment_limit(e, 1);
+    environment_identify(e, e->picture.pixels, image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }

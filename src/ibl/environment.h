@@ -23,9 +23,10 @@ typedef struct light_parts {
 struct facet_environment {
     facet_allocator allocator;
     facet_log log;
-    image picture;      /* equirectangular, F32 RGB, in [0, ENVIRONMENT_MAX_RADIANCE] */
-    uint64_t hash;      /* of what the picture was made from, where there is a cache_folder */
-    char *cache_folder; /* NULL: none */
+    cube irradiance_over_pi; /* where the source says what it is; else {0}, and it is that of the picture */
+    image picture;           /* equirectangular, F32 RGB, in [0, ENVIRONMENT_MAX_RADIANCE] */
+    uint64_t hash;           /* of what the picture was made from, where there is a cache_folder */
+    char *cache_folder;      /* NULL: none */
     uint64_t cache_bytes;
     uint32_t reference_count; /* the caller's and one per light */
     pthread_mutex_t mutex;    /* guards the two below and the one above */
@@ -34,6 +35,14 @@ struct facet_environment {
 
 /* Above the sun's 2e9 cd/m^2 and such that sums over a sphere stay finite. */
 #define ENVIRONMENT_MAX_RADIANCE 1e12f
+
+/* For what makes environments: one without a picture, as desc says and with one reference. FACET_ERROR_MEMORY. */
+facet_result environment_create(const facet_environment_desc *desc, facet_environment **environment,
+                                facet_error *error);
+/* Brings the picture's values into [0, ENVIRONMENT_MAX_RADIANCE]; a file may hold what no light is. */
+void environment_limit(facet_environment *environment, uint32_t thread_count);
+/* Entries of the cache are told apart by these bytes. */
+void environment_identify(facet_environment *environment, const void *bytes, size_t size);
 
 /* Another reference, and one less: the last one releases everything. */
 void environment_retain(facet_environment *environment);

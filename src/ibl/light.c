@@ -92,7 +92,9 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
                                   facet_error *error)
 {
     facet_result result = FACET_OK;
-    if (desc->needs_irradiance) {
+    if (desc->needs_irradiance && e->irradiance_over_pi.texels) {
+        light->irradiance_over_pi = e->irradiance_over_pi;
+    } else if (desc->needs_irradiance) {
         /* At roughness 1, D is constant and the lobe is the cosine: what a white Lambertian surface sends out, and
          * without the darkness that nine harmonics leave on the far side of a sun. */
         uint32_t lambert = prefilter_level_count(PREFILTER_GGX) - 1;

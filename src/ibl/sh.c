@@ -160,13 +160,18 @@ done:
     return result;
 }
 
-void sh_irradiance_over_pi(const double radiance[SH_COUNT][3], float c[SH_COUNT][3])
+void sh_irradiance(const double radiance[SH_COUNT][3], double irradiance[SH_COUNT][3])
 {
-    for (int k = 0; k < SH_COUNT; k++) {
-        double band = k == 0 ? 1.0 : k < 4 ? 2.0 / 3.0 : 0.25; /* A_l / pi */
+    for (int k = 0; k < SH_COUNT; k++)
         for (int i = 0; i < 3; i++)
-            c[k][i] = (float)(band * sh_constants[k] * radiance[k][i]);
-    }
+            irradiance[k][i] = pi * (k == 0 ? 1.0 : k < 4 ? 2.0 / 3.0 : 0.25) * radiance[k][i];
+}
+
+void sh_fold_over_pi(const double irradiance[SH_COUNT][3], float c[SH_COUNT][3])
+{
+    for (int k = 0; k < SH_COUNT; k++)
+        for (int i = 0; i < 3; i++)
+            c[k][i] = (float)(sh_constants[k] / pi * irradiance[k][i]);
 }
 
 void sh_evaluate(const float c[SH_COUNT][3], const float N[3], float out[3])

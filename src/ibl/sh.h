@@ -21,9 +21,11 @@ void sh_basis(const double d[3], double y[SH_COUNT]);
 facet_result sh_project(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
                         double radiance[SH_COUNT][3], facet_error *error);
 
-/* Coefficients c of irradiance / pi in the order 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2: basis, clamped cosine
- * (A_l = pi, 2 pi / 3, pi / 4) and 1 / pi folded in. */
-void sh_irradiance_over_pi(const double radiance[SH_COUNT][3], float c[SH_COUNT][3]);
+/* Coefficients of irradiance, E_lm = A_l L_lm: A_l = pi, 2 pi / 3, pi / 4 are those of the clamped cosine. */
+void sh_irradiance(const double radiance[SH_COUNT][3], double irradiance[SH_COUNT][3]);
+/* Coefficients c of irradiance / pi in the order 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2: basis and 1 / pi folded
+ * in. */
+void sh_fold_over_pi(const double irradiance[SH_COUNT][3], float c[SH_COUNT][3]);
 /* Their sum at the unit direction N, at least 0: nine bands ring around a small sun. */
 void sh_evaluate(const float c[SH_COUNT][3], const float N[3], float out[3]);
 
