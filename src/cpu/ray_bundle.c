@@ -23,9 +23,9 @@ static vec3 change_of_position(vec3 dO, vec3 dD, float t, vec3 D, vec3 Ng)
     return cos_D < -1e-4f ? off - D * (dot(off, Ng) / cos_D) : off;
 }
 
-bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, vec3 Ng)
+bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, const boundary_normal *normal)
 {
-    bundle_hit hit = {.P = s->P, .D = -s->V, .dN_dx = s->dN_dx, .dN_dy = s->dN_dy};
+    bundle_hit hit = {.P = s->P, .D = -s->V, .dN_dx = normal->dN_dx, .dN_dy = normal->dN_dy};
     vec3 d = load3(ray->direction);
     float inverse = inversesqrt(dot(d, d));
     float t = dot(s->P - load3(ray->origin), hit.D); /* m */
@@ -41,8 +41,8 @@ bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, vec3 
     }
     hit.dD_dx = dD[0];
     hit.dD_dy = dD[1];
-    hit.dP_dx = change_of_position(dO[0], dD[0], t, hit.D, Ng);
-    hit.dP_dy = change_of_position(dO[1], dD[1], t, hit.D, Ng);
+    hit.dP_dx = change_of_position(dO[0], dD[0], t, hit.D, normal->Ng);
+    hit.dP_dy = change_of_position(dO[1], dD[1], t, hit.D, normal->Ng);
     return hit;
 }
 

@@ -3,7 +3,7 @@
 #ifndef CPU_RAY_BUNDLE_H
 #define CPU_RAY_BUNDLE_H
 
-#include "cpu/surface_point.h"
+#include "cpu/boundary_normal.h"
 
 /* A surface as a bundle meets it. */
 typedef struct bundle_hit {
@@ -14,7 +14,7 @@ typedef struct bundle_hit {
     vec3 dN_dx, dN_dy; /* of the shading normal */
 } bundle_hit;
 
-bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, vec3 Ng);
+bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, const boundary_normal *normal);
 
 /* Goes on straight. N below: a unit normal on the side from which the bundle comes. */
 shading_ray ray_bundle_pass(const bundle_hit *hit);

@@ -1,17 +1,12 @@
-/* ray_samples.h - numbers in [0, 1) for the rays that one shade splits into: well spread over the rays, unlike from one
- * pixel to the next, the same for every order in which pixels are drawn. Holds shared shading text: include it last. */
+/* ray_samples.h - numbers in [0, 1) for the rays that one shade splits into: spread evenly over the rays of a pixel, and
+ * over those of pixels next to each other, so that what error is left is as fine-grained as it can be. Holds shared
+ * shading text: include it last. */
 #ifndef CPU_RAY_SAMPLES_H
 #define CPU_RAY_SAMPLES_H
 
 #include "shade/shade.h"
 
-/* Which of the rays of which shade. */
-typedef struct ray_sample {
-    uint32_t x, y;  /* pixel */
-    uint32_t index; /* of the ray in the pixel */
-} ray_sample;
-
-/* Bits of every input bit (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg). */
+/* Bits that depend on every bit of x. Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg. */
 static inline uint32_t ray_samples_hash(uint32_t x)
 {
     uint32_t state = x * 747796405u + 2891336453u;
@@ -19,8 +14,28 @@ static inline uint32_t ray_samples_hash(uint32_t x)
     return (word >> 22u) ^ word;
 }
 
-/* Second coordinate of Sobol's sequence, as 32 bits behind the binary point; with the mirrored bits of i as the first one
- * it is a (0, 2)-sequence: every 2^k points from a multiple of 2^k on are a stratum each of every 2^a x 2^(k - a) grid. */
+static inline uint32_t ray_samples_mirror(uint32_t b)
+{
+    b = (b << 16) | (b >> 16);
+    b = ((b & 0x00FF00FFu) << 8) | ((b & 0xFF00FF00u) >> 8);
+    b = ((b & 0x0F0F0F0Fu) << 4) | ((b & 0xF0F0F0F0u) >> 4);
+    b = ((b & 0x33333333u) << 2) | ((b & 0xCCCCCCCCu) >> 2);
+    return ((b & 0x55555555u) << 1) | ((b & 0xAAAAAAAAu) >> 1);
+}
+
+/* Flips each bit depending on those below it only: of mirrored digits, Owen's scrambling. Laine and Karras 2011,
+ * "Stratified Sampling for Stochastic Transparency". */
+static inline uint32_t ray_samples_scramble(uint32_t x, uint32_t seed)
+{
+    x += seed;
+    x ^= x * 0x6c50b47cu;
+    x ^= x * 0xb82f1e52u;
+    x ^= x * 0xc7afe638u;
+    return x ^ x * 0x8d22f6e6u;
+}
+
+/* Second coordinate of Sobol's sequence, as 32 bits behind the binary point. With the mirrored bits of i as the first one
+ * it is a (0, 2)-sequence: 2^k points from a multiple of 2^k on are one in each cell of every 2^a x 2^(k - a) grid. */
 static inline uint32_t ray_samples_sobol2(uint32_t i)
 {
     uint32_t r = 0;
@@ -30,20 +45,29 @@ static inline uint32_t ray_samples_sobol2(uint32_t i)
     return r;
 }
 
-/* Two numbers for the bounce-th surface on the ray's way. The digits are exchanged at random per pixel and bounce, which
- * keeps the strata, and the points are taken in another order at each bounce (Kollig and Keller 2002). */
-static inline vec2 ray_samples_at(ray_sample s, uint32_t bounce)
+/* Place of a pixel on a curve that fills squares of 2^k pixels one after the other, in an order that is random at every
+ * level: with it pixels take blocks of the sequence such that all squares together are spread evenly as well. Ahmed and
+ * Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels". */
+static inline uint32_t ray_samples_place(uint32_t x, uint32_t y)
 {
-    uint32_t seed = ray_samples_hash(s.x ^ ray_samples_hash(s.y ^ ray_samples_hash(bounce)));
-    uint32_t i = bounce ? s.index ^ (ray_samples_hash(seed) & 63u) : s.index;
-    uint32_t bits = i;
-    bits = (bits << 16) | (bits >> 16);
-    bits = ((bits & 0x00FF00FFu) << 8) | ((bits & 0xFF00FF00u) >> 8);
-    bits = ((bits & 0x0F0F0F0Fu) << 4) | ((bits & 0xF0F0F0F0u) >> 4);
-    bits = ((bits & 0x33333333u) << 2) | ((bits & 0xCCCCCCCCu) >> 2);
-    bits = ((bits & 0x55555555u) << 1) | ((bits & 0xAAAAAAAAu) >> 1);
-    uint32_t u = bits ^ seed;
-    uint32_t v = ray_samples_sobol2(i) ^ ray_samples_hash(seed + 1);
+    enum { LEVELS = 12 };
+    uint32_t place = 1;
+    for (int level = LEVELS - 1; level >= 0; level--) {
+        uint32_t quarter = (x >> level & 1) | (y >> level & 1) << 1;
+        place = place << 2 | (quarter ^ (ray_samples_hash(place) >> 30));
+    }
+    return place & ((1u << 2 * LEVELS) - 1);
+}
+
+/* Two numbers for ray `index` of all (ray_samples_place() times the rays of a pixel, plus the ray's number in it) at the
+ * bounce-th surface on its way. */
+static inline vec2 ray_samples_at(uint32_t index, uint32_t bounce)
+{
+    uint32_t seed = ray_samples_hash(bounce);
+    uint32_t i = ray_samples_scramble(index, seed); /* another order of the same blocks for each bounce */
+    uint32_t u = ray_samples_mirror(ray_samples_scramble(i, ray_samples_hash(seed + 1)));
+    uint32_t v = ray_samples_mirror(
+        ray_samples_scramble(ray_samples_mirror(ray_samples_sobol2(i)), ray_samples_hash(seed + 2)));
     return vec2((float)(u >> 8) * 0x1p-24f, (float)(v >> 8) * 0x1p-24f);
 }
 

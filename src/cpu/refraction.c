@@ -2,6 +2,7 @@
 #include "cpu/media.h"
 #include "cpu/see_through.h"
 
+#include "cpu/boundary_normal.h"
 #include "cpu/ray_bundle.h"
 #include "cpu/ray_samples.h"
 #include "cpu/refraction.h"
@@ -11,15 +12,18 @@
 enum {
     WAITING = 24, /* rays that branched off and were not followed yet */
     DEPTH = 16,   /* surfaces on a ray's way */
-    COLORS = 3    /* rays of a white one that meets a dispersive body behind another surface */
+    COLORS = 3,   /* rays of a white one that meets a dispersive body behind another surface */
+    PARTS = 4     /* shades of a pixel that draw different numbers */
 };
 
 /* What carries less of a shade is not followed. */
-static const float LEAST_WEIGHT = 0.004f;
-/* GGX widths below which a boundary does not blur what is seen through it. */
-static const float SMOOTH = 1e-3f;
-/* Squared width of a lobe that the sharp environment is as good for. */
-static const float SHARP2 = 1e-9f;
+static const float LEAST_WEIGHT[] = {
+    [FACET_QUALITY_NORMAL] = 0.01f, [FACET_QUALITY_DRAFT] = 0.02f, [FACET_QUALITY_FINAL] = 0.003f};
+/* GGX width up to which one ray in the middle of the lobe does: what it meets is filtered for the lobe, which blurs
+ * textures and the environment but no edges. */
+static const float SMOOTH = 0.0125f;
+/* Squared GGX width of lobes that are seen in the sharp environment: about a degree. */
+static const float SHARP2 = 1e-5f;
 
 /* A ray that is to be followed, and what it stands for. */
 typedef struct branch {
@@ -35,8 +39,9 @@ typedef struct branch {
 
 typedef struct tracer {
     const shading_scene *scene;
-    ray_sample sample;
-    float share; /* of a lobe that one of the samples stands for; 1: lobes are not sampled */
+    uint32_t sample; /* number of ray_samples.h */
+    float share;     /* of a lobe that one of the samples stands for; 1: lobes are not sampled */
+    float least_weight;
     uint32_t budget;
     uint64_t rays;
     vec3 radiance;
@@ -54,14 +59,25 @@ static vec3 lookup(void (*light)(const light_setup *, const float[3], float, flo
     return load3(out);
 }
 
+/* Squared GGX width whose lobe is about as wide as the bundle: where glass spreads a pixel over much of the surroundings,
+ * their mean is what it shows. */
+static float bundle_alpha2(const shading_ray *ray)
+{
+    if (!ray->turns)
+        return 0.0f;
+    float width = 0.125f * (length(load3(ray->direction_dx)) + length(load3(ray->direction_dy)));
+    return width * width;
+}
+
 /* What the ray sees of the environment. A background that is drawn blurred is seen blurred. */
 static vec3 environment_seen(const shading_scene *scene, const branch *b)
 {
-    float roughness = max(sqrt(sqrt(b->alpha2)), scene->background_blur);
     if (!scene->light->ibl)
         return vec3(0.0f);
-    if (b->alpha2 <= SHARP2 && scene->light->has_background && !(scene->background_blur > 0.0f))
+    float alpha2 = max(b->alpha2, bundle_alpha2(&b->ray));
+    if (alpha2 <= SHARP2 && scene->light->has_background && !(scene->background_blur > 0.0f))
         return lookup(light_background, scene->light, b->ray.direction, 0.0f);
+    float roughness = max(sqrt(sqrt(alpha2)), scene->background_blur);
     return lookup(light_specular, scene->light, b->ray.direction, min(roughness, 1.0f));
 }
 
@@ -119,11 +135,10 @@ static void follow_later(tracer *t, const branch *b)
 /* A surface that lets rays through, as one of them meets it. */
 typedef struct boundary {
     const surface_point *s;
-    vec3 N;            /* shading normal with N.V > 0 */
-    vec3 Ng;           /* unit geometric normal, the same */
+    boundary_normal normal;
     float alpha;       /* what blurs the rays */
     vec3 H;            /* the microfacet of this sample */
-    bundle_hit bundle; /* with N's change for that of H */
+    bundle_hit bundle; /* with the normal's change for that of H */
 } boundary;
 
 static mat3 frame_of(const Layers *m, vec3 N)
@@ -146,13 +161,9 @@ static vec3 microfacet(const tracer *t, const branch *b, const Layers *m, vec3 N
 static boundary boundary_of(const tracer *t, const branch *b, const visibility_hit *hit,
                             const surface_point *s)
 {
-    boundary y = {.s = s};
-    vec3 Ng = normalize(load3(hit->normal));
-    y.Ng = dot(Ng, s->V) < 0.0f ? -Ng : Ng;
-    y.N = dot(s->m.base.N, s->V) > 1e-3f ? s->m.base.N : y.Ng;
-    y.alpha = layers_transmission_alpha(s->m);
-    y.H = microfacet(t, b, &s->m, y.N, s->V, y.alpha);
-    y.bundle = ray_bundle_meet(&b->ray, s, y.Ng);
+    boundary y = {.s = s, .normal = boundary_normal_at(s, hit), .alpha = layers_transmission_alpha(s->m)};
+    y.H = microfacet(t, b, &s->m, y.normal.N, s->V, y.alpha);
+    y.bundle = ray_bundle_meet(&b->ray, s, &y.normal);
     return y;
 }
 
@@ -172,7 +183,7 @@ static branch child_of(const branch *b, shading_ray ray, vec3 weight, float alph
     c.weight = weight;
     c.alpha2 = min(alpha2, 1.0f);
     c.depth = b->depth + 1;
-    if (alpha2 > SHARP2)
+    if (alpha2 > 0.0f)
         ray_bundle_widen(&c.ray, sqrt(c.alpha2));
     return c;
 }
@@ -181,9 +192,9 @@ static branch child_of(const branch *b, shading_ray ray, vec3 weight, float alph
 static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     shading_ray ray = ray_bundle_pass(&y->bundle);
-    if (dot(y->H, y->N) < 1.0f)
-        ray_bundle_turn(&ray, mirror_through(reflect(-y->s->V, y->H), y->N));
-    keep_side(&ray, y->Ng, -1.0f);
+    if (dot(y->H, y->normal.N) < 1.0f)
+        ray_bundle_turn(&ray, mirror_through(reflect(-y->s->V, y->H), y->normal.N));
+    keep_side(&ray, y->normal.Ng, -1.0f);
     branch c = child_of(b, ray, weight, b->alpha2 + y->alpha * y->alpha * t->share);
     follow_later(t, &c);
 }
@@ -197,9 +208,9 @@ static void refract_into(tracer *t, const branch *b, const boundary *y, const me
     if (abs(eta - 1.0f) < 1e-6f)
         ray = ray_bundle_pass(&y->bundle);
     else if (!ray_bundle_refract(&y->bundle, y->H, eta, &ray) &&
-             !ray_bundle_refract(&y->bundle, y->N, eta, &ray))
+             !ray_bundle_refract(&y->bundle, y->normal.N, eta, &ray))
         ray = ray_bundle_pass(&y->bundle);
-    keep_side(&ray, y->Ng, -1.0f);
+    keep_side(&ray, y->normal.Ng, -1.0f);
     float own = 0.5f * abs(1.0f - eta) * y->alpha;
     branch c = child_of(b, ray, weight, b->alpha2 * eta * eta + own * own * t->share);
     c.media = *behind;
@@ -209,7 +220,7 @@ static void refract_into(tracer *t, const branch *b, const boundary *y, const me
 static void reflect_back(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     shading_ray ray = ray_bundle_reflect(&y->bundle, y->H);
-    keep_side(&ray, y->Ng, 1.0f);
+    keep_side(&ray, y->normal.Ng, 1.0f);
     branch c = child_of(b, ray, weight, b->alpha2 + y->alpha * y->alpha * t->share);
     follow_later(t, &c);
 }
@@ -251,7 +262,7 @@ static void cross_inside(tracer *t, const branch *b, const boundary *y, const me
     if (transmission < 1.0f && t->scene->light->ibl) {
         float N[3];
         float irradiance[3];
-        store3(y->N, N);
+        store3(y->normal.N, N);
         light_irradiance_over_pi(t->scene->light, N, irradiance);
         t->radiance += weight * passed * load3(irradiance) * (1.0f - transmission);
     }
@@ -352,7 +363,7 @@ static void follow_all(tracer *t)
                 heaviest = i;
         branch b = t->waiting[heaviest];
         t->waiting[heaviest] = t->waiting[--t->waiting_count];
-        if (t->budget == 0 || b.depth > DEPTH || max3(b.weight) < LEAST_WEIGHT * t->share) {
+        if (t->budget == 0 || b.depth > DEPTH || max3(b.weight) < t->least_weight) {
             end(t, &b);
         } else {
             t->budget--;
@@ -375,7 +386,7 @@ static split choose_split(const shading_scene *scene, const surface_point *s)
     static const uint32_t rough_counts[] = {
         [FACET_QUALITY_NORMAL] = 16, [FACET_QUALITY_DRAFT] = 1, [FACET_QUALITY_FINAL] = 16};
     static const uint32_t color_counts[] = {
-        [FACET_QUALITY_NORMAL] = 6, [FACET_QUALITY_DRAFT] = 3, [FACET_QUALITY_FINAL] = 12};
+        [FACET_QUALITY_NORMAL] = 8, [FACET_QUALITY_DRAFT] = 3, [FACET_QUALITY_FINAL] = 16};
     static const uint32_t budgets[] = {
         [FACET_QUALITY_NORMAL] = 24, [FACET_QUALITY_DRAFT] = 8, [FACET_QUALITY_FINAL] = 48};
     split p = {.count = 1,
@@ -396,6 +407,13 @@ static split choose_split(const shading_scene *scene, const surface_point *s)
 static float color_shift(uint32_t k, uint32_t n)
 {
     return n == 3 ? (float)k - 1.0f : 4.0f * ((float)k + 0.5f) / (float)n - 2.0f;
+}
+
+/* Colors in another order than rays, and another one for each pixel: what is drawn for a ray's direction goes with its
+ * number. */
+static uint32_t color_of_ray(uint32_t pixel, uint32_t ray, uint32_t n)
+{
+    return n == 3 ? ray : (ray * 5 + ray_samples_hash(pixel)) % n;
 }
 
 static vec3 color_weight(float shift)
@@ -427,16 +445,19 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
         media_enter(&first.media, s->hit.geometry->material);
     }
     vec3 colors = p.is_dispersed ? color_sum(p.count) : vec3((float)p.count);
-    t.share = p.is_rough ? 1.0f / (float)p.count : 1.0f;
+    /* Twice its part of the lobe: what neighbours share is smooth. */
+    t.share = p.is_rough ? min(2.0f / (float)p.count, 1.0f) : 1.0f;
+    t.least_weight = LEAST_WEIGHT[scene->quality] / (float)p.count;
+    uint32_t pixel = ray_samples_place(point->x, point->y) * p.count * PARTS;
     for (uint32_t i = 0; i < p.count; i++) {
         branch b = first;
         vec3 share = weight / colors;
         if (p.is_dispersed) {
             b.is_white = false;
-            b.shift = color_shift(i, p.count);
+            b.shift = color_shift(color_of_ray(pixel, i, p.count), p.count);
             share *= color_weight(b.shift);
         }
-        t.sample = (ray_sample){point->x, point->y, point->part * p.count + i};
+        t.sample = pixel + point->part * p.count + i;
         t.budget = p.budget;
         b.weight = share;
         travel(&t, &b, length(s->P - load3(point->ray->origin)));

@@ -61,14 +61,13 @@ static shading_hit beside(const shading_hit *h, int axis)
     return b;
 }
 
-/* How the shading normal changes over the footprint along axis, by the difference to the hit beside; that of the
- * normal texture as well where reads_texture. */
+/* How the shading normal changes over the footprint along axis: the difference to that of the hit beside. */
 static vec3 normal_change(const shading_scene *scene, const surface_point *s, material_texels texels,
-                          int axis, bool reads_texture)
+                          int axis)
 {
     float texel[4];
     memcpy(texel, texels[SCENE_NORMAL_TEXTURE], sizeof texel);
-    if (reads_texture && s->plan->textures & 1u << SCENE_NORMAL_TEXTURE)
+    if (s->plan->textures & 1u << SCENE_NORMAL_TEXTURE)
         material_texel_beside(scene, &s->hit, SCENE_NORMAL_TEXTURE, axis, texel);
     shading_hit h = beside(&s->hit, axis);
     return shading_normal(&h, s->plan, texel, s->is_front) - s->m.base.N;
@@ -272,10 +271,9 @@ void surface_point_make(const shading_scene *scene, const shading_point *point, 
         return;
     if (s->plan->layers)
         add_layers(s, texels, &s->m);
-    if (scene->specular_antialiasing || s->plan->lets_rays_through) {
-        s->dN_dx = normal_change(scene, s, texels, 0, scene->specular_antialiasing);
-        s->dN_dy = normal_change(scene, s, texels, 1, scene->specular_antialiasing);
-    }
-    if (scene->specular_antialiasing)
+    if (scene->specular_antialiasing) {
+        s->dN_dx = normal_change(scene, s, texels, 0);
+        s->dN_dy = normal_change(scene, s, texels, 1);
         antialias(s);
+    }
 }
