@@ -106,3 +106,99 @@ facet_result try_load_text(const char *json, facet_scene **scene, facet_error *e
     free(copy);
     return result;
 }
+
+/* ---- models with arrays ---- */
+
+static size_t element_size(const char *type, unsigned component)
+{
+    static const struct {
+        const char *type;
+        size_t count;
+    } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+    size_t size = component < 5122 ? 1 : component < 5124 ? 2 : 4;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (strcmp(types[i].type, type) == 0)
+            return types[i].count * size;
+    fail_msg("%s is no type", type);
+    return 0;
+}
+
+static void append(char *text, size_t room, const char *format, ...)
+{
+    size_t length = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    int written = vsnprintf(text + length, room - length, format, arguments);
+    va_end(arguments);
+    assert_true(written >= 0 && (size_t)written < room - length);
+}
+
+uint32_t model_add(test_model *model, const void *elements, size_t count, const char *type,
+                   unsigned component, const char *members)
+{
+    size_t size = count * element_size(type, component);
+    size_t at = bin_add(&model->bin, elements, size);
+    const char *comma = model->count ? "," : "";
+    append(model->views, sizeof model->views, "%s{'buffer':0,'byteOffset':%zu,'byteLength':%zu}", comma, at,
+           size);
+    append(model->accessors, sizeof model->accessors,
+           "%s{'bufferView':%u,'componentType':%u,'count':%zu,'type':'%s'%s}", comma, model->count, component,
+           count, type, members);
+    return model->count++;
+}
+
+uint32_t model_add_floats(test_model *model, const float *floats, size_t count, const char *type)
+{
+    return model_add(model, floats, count, type, 5126, "");
+}
+
+/* The whole body: a block of malloc(). */
+static char *model_body(const test_model *model, const char *format, va_list arguments)
+{
+    enum { ROOM = 1 << 16 };
+    char *body = calloc(ROOM, 1);
+    assert_non_null(body);
+    append(body, ROOM, "'bufferViews':[%s],'accessors':[%s],", model->views, model->accessors);
+    size_t length = strlen(body);
+    int written = vsnprintf(body + length, ROOM - length, format, arguments);
+    assert_true(written >= 0 && (size_t)written < ROOM - length);
+    return body;
+}
+
+facet_scene *model_load(const test_model *model, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *body = model_body(model, format, arguments);
+    va_end(arguments);
+    facet_scene *scene = load(body, &model->bin);
+    free(body);
+    return scene;
+}
+
+void model_assert_refused(const test_model *model, const char *text, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *body = model_body(model, format, arguments);
+    va_end(arguments);
+    assert_refused(body, &model->bin, FACET_ERROR_INVALID, text);
+    free(body);
+}
+
+facet_scene *load_shared(const char *path)
+{
+    char whole[1024];
+    const char *folder = getenv("FACET_TEST_DATA");
+    if (!folder) {
+        print_message("no test data: FACET_TEST_DATA is not set\n");
+        skip();
+    }
+    snprintf(whole, sizeof whole, "%s/models/%s", folder, path);
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    if (gltf_load(whole, NULL, &scene, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    assert_non_null(scene);
+    return scene;
+}

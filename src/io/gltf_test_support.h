@@ -34,6 +34,28 @@ const scene_primitive *first_primitive(const facet_scene *scene);
 /* Loads JSON text as it is, ' for ", as a .gltf. */
 facet_result try_load_text(const char *json, facet_scene **scene, facet_error *error);
 
+/* ---- models with arrays ---- */
+
+/* Arrays that become accessors, each with a buffer view of its own. */
+typedef struct test_model {
+    test_bin bin;
+    char views[4096], accessors[4096];
+    uint32_t count;
+} test_model;
+
+/* Adds count elements of a type ("VEC3") whose components are of size bytes and number component (5126: float);
+ * members: more members of the accessor (",'normalized':true"). Returns its number. */
+uint32_t model_add(test_model *model, const void *elements, size_t count, const char *type,
+                   unsigned component, const char *members);
+uint32_t model_add_floats(test_model *model, const float *floats, size_t count, const char *type);
+/* load() and try_load() of BODY (a format) with the model's buffer views and accessors. */
+facet_scene *model_load(const test_model *model, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void model_assert_refused(const test_model *model, const char *text, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* A model from the shared test data, "animation/Fox.glb"; skips the test where there is none. */
+facet_scene *load_shared(const char *path);
+
 /* Each of count pairs. */
 #define assert_floats(actual, expected, count, tolerance)                                                    \
     do {                                                                                                     \
