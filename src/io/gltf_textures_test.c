@@ -8,12 +8,12 @@
 #include "image/ktx2_test_file.h"
 
 /* A model of images, one per file, each a view of the binary chunk. */
-typedef struct test_model {
+typedef struct image_files {
     test_bin bin;
     char views[2048], images[2048];
-} test_model;
+} image_files;
 
-static void add_bytes(test_model *m, const char *mime_type, const void *bytes, size_t size)
+static void add_bytes(image_files *m, const char *mime_type, const void *bytes, size_t size)
 {
     const size_t at = bin_add(&m->bin, bytes, size);
     char *views = m->views + strlen(m->views), *images = m->images + strlen(m->images);
@@ -25,7 +25,7 @@ static void add_bytes(test_model *m, const char *mime_type, const void *bytes, s
     snprintf(images, 256, "%s{'bufferView':%d,'mimeType':'%s'}", comma, number, mime_type);
 }
 
-static void add_file(test_model *m, const char *mime_type, const char *name)
+static void add_file(image_files *m, const char *mime_type, const char *name)
 {
     char path[256];
     snprintf(path, sizeof path, "src/image/testdata/%s", name);
@@ -35,7 +35,7 @@ static void add_file(test_model *m, const char *mime_type, const char *name)
     file_close(&file);
 }
 
-static facet_scene *load_model(const test_model *m, const char *used, const char *textures)
+static facet_scene *load_model(const image_files *m, const char *used, const char *textures)
 {
     char body[8192];
     snprintf(body, sizeof body, "'extensionsUsed':[%s],'bufferViews':[%s],'images':[%s],'textures':[%s]",
@@ -64,7 +64,7 @@ static bool has_avif(void)
 static void the_first_source_that_can_be_read_wins(void **state)
 {
     (void)state;
-    test_model m = {0};
+    image_files m = {0};
     unsigned char dds[128] = "DDS |";
     add_bytes(&m, "image/png", white_png, sizeof white_png);     /* 0 */
     add_file(&m, "image/ktx2", "etc1s_alpha.ktx2");              /* 1 */
@@ -136,7 +136,7 @@ static void ktx2_files_beside_the_extension(void **state)
         f.sizes[0] = (size_t)4 * f.faces * (f.layers ? f.layers : 1);
         size_t size;
         unsigned char *bytes = ktx2_test_write(&f, &size);
-        test_model m = {0};
+        image_files m = {0};
         add_bytes(&m, "image/ktx2", bytes, size);
         free(bytes);
         facet_scene *scene = load_model(&m, k ? "'KHR_texture_basisu'" : "'KHR_texture_transform'",
