@@ -134,7 +134,7 @@ facet_result facet_scene_find_variant(const facet_scene *scene, const char *name
 facet_animation facet_scene_get_animation(const facet_scene *scene, uint32_t index)
 {
     if (index >= scene->animation_count)
-        return (facet_animation){.name = ""};
+        return (facet_animation){0};
     const scene_animation *animation = &scene->animations[index];
     return (facet_animation){
         .name = animation->name, .begin_s = (double)animation->begin_s, .end_s = (double)animation->end_s};
