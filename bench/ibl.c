@@ -147,11 +147,11 @@ static void print_errors(const settings *s)
     facet_environment *e = open_environment(s);
     const ibl_light *light = prepare(
         e, &(ibl_light_desc){.thread_count = s->thread_count, .needs_specular = true, .max_roughness = 1.0f});
-    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++) {
+    for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
         probing p = {.picture = &e->picture,
                      .light = light,
-                     .roughness = prefilter_roughness(level),
-                     .size = e->parts.levels[level].size};
+                     .roughness = prefilter_roughness(PREFILTER_GGX, level),
+                     .size = e->parts.levels[PREFILTER_GGX][level].size};
         parallel_for(s->thread_count, PROBE_COUNT, 1, probe_one, &p);
         double square = 0.0;
         double reference = 0.0;
@@ -162,10 +162,10 @@ static void print_errors(const settings *s)
             relative += p.square[i] / (p.reference[i] + 1e-12);
         }
         double mean[3];
-        cube_mean(&e->parts.levels[level], mean);
+        cube_mean(&e->parts.levels[PREFILTER_GGX][level], mean);
         printf("roughness %.2f  size %3u  RMS error / RMS %.5f  RMS of relative error %.5f  mean G %.5f "
                "(picture %.5f)\n",
-               (double)p.roughness, e->parts.levels[level].size, (sqrt)(square / reference),
+               (double)p.roughness, e->parts.levels[PREFILTER_GGX][level].size, (sqrt)(square / reference),
                (sqrt)(relative / PROBE_COUNT), mean[1], (double)e->parts.harmonics.mean[1]);
     }
     ibl_light_release(light);
@@ -213,8 +213,8 @@ static void write_pictures(const settings *s, const char *folder)
     facet_environment *e = open_environment(s);
     const ibl_light *light = prepare(
         e, &(ibl_light_desc){.thread_count = s->thread_count, .needs_specular = true, .max_roughness = 1.0f});
-    for (uint32_t level = 1; level < PREFILTER_LEVEL_COUNT; level++)
-        write_faces(&e->parts.levels[level], 0.5f / e->parts.harmonics.mean[1], folder, level);
+    for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++)
+        write_faces(&e->parts.levels[PREFILTER_GGX][level], 0.5f / e->parts.harmonics.mean[1], folder, level);
     ibl_light_release(light);
     facet_environment_destroy(e);
 }
@@ -248,6 +248,17 @@ int main(int argc, char **argv)
     time_stage(&s, "roughness 0 to 1", (ibl_light_desc){.needs_specular = true, .max_roughness = 1.0f});
     time_stage(&s, "all with irradiance",
                (ibl_light_desc){.needs_irradiance = true, .needs_specular = true, .max_roughness = 1.0f});
+    time_stage(
+        &s, "sheen 0.3",
+        (ibl_light_desc){.needs_sheen = true, .min_sheen_roughness = 0.3f, .max_sheen_roughness = 0.3f});
+    time_stage(&s, "sheen 0 to 1", (ibl_light_desc){.needs_sheen = true, .max_sheen_roughness = 1.0f});
+    time_stage(&s, "all with irradiance and sheen 0.3",
+               (ibl_light_desc){.needs_irradiance = true,
+                                .needs_specular = true,
+                                .max_roughness = 1.0f,
+                                .needs_sheen = true,
+                                .min_sheen_roughness = 0.3f,
+                                .max_sheen_roughness = 0.3f});
     time_stage(&s, "background", (ibl_light_desc){.needs_background = true});
     if (has_errors)
         print_errors(&s);
