@@ -1,6 +1,4 @@
 /* ray_bundle.c - see ray_bundle.h. Igehy 1999, "Tracing Ray Differentials". */
-#include "cpu/volume_rays.h"
-
 #include "cpu/ray_bundle.h"
 
 /* A bundle does not open wider than this, in rad per footprint: beyond it (at the rim of a sphere) the linear changes
@@ -48,8 +46,7 @@ bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, const
 
 static shading_ray make_ray(const bundle_hit *hit, vec3 D, vec3 dD_dx, vec3 dD_dy)
 {
-    shading_ray ray = {
-        .near_t = volume_rays_tolerance(hit->P), .far_t = INFINITY, .moves = true, .turns = true};
+    shading_ray ray = {.far_t = INFINITY, .moves = true, .turns = true};
     store3(hit->P, ray.origin);
     store3(D, ray.direction);
     store3(hit->dP_dx, ray.origin_dx);

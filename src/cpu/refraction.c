@@ -137,6 +137,7 @@ typedef struct boundary {
     const surface_point *s;
     boundary_normal normal;
     float alpha;       /* what blurs the rays */
+    float tolerance;   /* m */
     vec3 H;            /* the microfacet of this sample */
     bundle_hit bundle; /* with the normal's change for that of H */
 } boundary;
@@ -161,19 +162,25 @@ static vec3 microfacet(const tracer *t, const branch *b, const Layers *m, vec3 N
 static boundary boundary_of(const tracer *t, const branch *b, const visibility_hit *hit,
                             const surface_point *s)
 {
-    boundary y = {.s = s, .normal = boundary_normal_at(s, hit), .alpha = layers_transmission_alpha(s->m)};
+    boundary y = {.s = s,
+                  .normal = boundary_normal_at(s, hit),
+                  .alpha = layers_transmission_alpha(s->m),
+                  .tolerance = volume_rays_tolerance(s)};
     y.H = microfacet(t, b, &s->m, y.normal.N, s->V, y.alpha);
     y.bundle = ray_bundle_meet(&b->ray, s, &y.normal);
     return y;
 }
 
-/* A direction that rounding, or a normal that is not the geometry's, put on the wrong side is mirrored to the other. */
-static void keep_side(shading_ray *ray, vec3 Ng, float side)
+/* Puts a ray onto its side of the surface (1: where it came from, -1 behind): a direction that a normal which is not the
+ * geometry's turned to the other is mirrored, and it starts where rounding does not make it meet the surface again. */
+static void keep_side(shading_ray *ray, const boundary *y, float side)
 {
+    vec3 Ng = y->normal.Ng;
     vec3 D = load3(ray->direction);
     float c = dot(D, Ng);
     if (c * side <= 0.0f)
         ray_bundle_turn(ray, normalize(D - Ng * (2.0f * c - side * 1e-4f)));
+    store3(y->s->P + Ng * (side * y->tolerance), ray->origin);
 }
 
 static branch child_of(const branch *b, shading_ray ray, vec3 weight, float alpha2)
@@ -194,7 +201,7 @@ static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight
     shading_ray ray = ray_bundle_pass(&y->bundle);
     if (dot(y->H, y->normal.N) < 1.0f)
         ray_bundle_turn(&ray, mirror_through(reflect(-y->s->V, y->H), y->normal.N));
-    keep_side(&ray, y->normal.Ng, -1.0f);
+    keep_side(&ray, y, -1.0f);
     branch c = child_of(b, ray, weight, b->alpha2 + y->alpha * y->alpha * t->share);
     follow_later(t, &c);
 }
@@ -210,7 +217,7 @@ static void refract_into(tracer *t, const branch *b, const boundary *y, const me
     else if (!ray_bundle_refract(&y->bundle, y->H, eta, &ray) &&
              !ray_bundle_refract(&y->bundle, y->normal.N, eta, &ray))
         ray = ray_bundle_pass(&y->bundle);
-    keep_side(&ray, y->normal.Ng, -1.0f);
+    keep_side(&ray, y, -1.0f);
     float own = 0.5f * abs(1.0f - eta) * y->alpha;
     branch c = child_of(b, ray, weight, b->alpha2 * eta * eta + own * own * t->share);
     c.media = *behind;
@@ -220,7 +227,7 @@ static void refract_into(tracer *t, const branch *b, const boundary *y, const me
 static void reflect_back(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     shading_ray ray = ray_bundle_reflect(&y->bundle, y->H);
-    keep_side(&ray, y->normal.Ng, 1.0f);
+    keep_side(&ray, y, 1.0f);
     branch c = child_of(b, ray, weight, b->alpha2 + y->alpha * y->alpha * t->share);
     follow_later(t, &c);
 }

@@ -5,12 +5,9 @@
 #include "cpu/media.h"
 #include "cpu/surface_point.h"
 
-/* Lengths at a point, m, below which positions are the same: a few times what rounding of the intersection is. */
-static inline float volume_rays_tolerance(vec3 P)
-{
-    vec3 a = abs(P);
-    return 2e-6f * max(a[0], max(a[1], a[2])) + 1e-12f;
-}
+/* Lengths at a hit, m, below which positions are the same: several times what rounding of the intersection is, which goes
+ * with the coordinates of the triangle. */
+float volume_rays_tolerance(const surface_point *s);
 
 typedef struct volume_exit {
     float distance_m;
