@@ -22,6 +22,10 @@ namespace
 
 /* What the library takes, roughly and rather more: corner tables and the marks of their traversal; each component as
  * it is coded, as it is stored and as a prediction. */
+/* In libdraco 1.5.5 an attribute of texture coordinates can claim 2^31 bits of orientations, which are made (20 s, 512
+ * MB) before it is seen that they are not there; nothing outside the library can see the claim. So few are allowed. */
+enum { MAX_ATTRIBUTES = 32 };
+
 enum { BYTES_PER_FACE = 160, BYTES_PER_COMPONENT = 16 };
 
 /* Compares counts with limits and takes the memory from the budget. */
@@ -61,6 +65,9 @@ class guard
     bool allow_attributes(const draco::PointCloud &cloud)
     {
         uint64_t components = 0;
+        if (cloud.num_attributes() > MAX_ATTRIBUTES)
+            return refuse(FACET_ERROR_LIMIT, "has %d attributes, more than %d", cloud.num_attributes(),
+                          static_cast<int>(MAX_ATTRIBUTES));
         for (int i = 0; i < cloud.num_attributes(); i++)
             components += cloud.attribute(i)->num_components();
         values_ += components * cloud.num_points();
