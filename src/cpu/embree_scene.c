@@ -51,8 +51,9 @@ static void set_lines(RTCGeometry geometry, const render_geometry *g)
 
 /* How well to build one hierarchy of triangles for ray_count rays. One by the surface area heuristic takes 250 to
  * 400 ns more for each triangle than one by Morton codes, whose rays take up to 30 ns longer (heavy.glb of
- * bench/make_models: 5 ns). What they hit is the same. Of several geometries the latter is a tree of trees that grows in
- * any order, so that what is hit first of surfaces in one place would depend on the threads. */
+ * bench/make_models: 5 ns). What they hit is the same, but for which of two triangles it is where a ray meets their edge.
+ * Of several geometries the latter is a tree of trees that grows in any order, so that what is hit first of surfaces in
+ * one place would depend on the threads. */
 static enum RTCBuildQuality choose_quality(const scene_primitive *only, uint64_t ray_count)
 {
     enum { RAYS_PER_TRIANGLE = 8 };

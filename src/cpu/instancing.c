@@ -54,8 +54,10 @@ static bool is_moderate(const mat4 *world)
         const float *b = m + 4 * ((column + 2) % 3);
         cofactors[i] = (double)a[(row + 1) % 3] * (double)b[(row + 2) % 3] -
                        (double)a[(row + 2) % 3] * (double)b[(row + 1) % 3];
-        largest = fmax(largest, fabs((double)m[4 * column + row]));
-        largest_cofactor = fmax(largest_cofactor, fabs(cofactors[i]));
+        double value = fabs((double)m[4 * column + row]);
+        largest = value > largest ? value : largest;
+        value = fabs(cofactors[i]);
+        largest_cofactor = value > largest_cofactor ? value : largest_cofactor;
     }
     double determinant = 0.0;
     for (int row = 0; row < 3; row++)
