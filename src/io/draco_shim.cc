@@ -22,11 +22,11 @@ namespace
 
 /* What the library takes, roughly and rather more: corner tables and the marks of their traversal; each component as
  * it is coded, as it is stored and as a prediction. */
+enum { BYTES_PER_FACE = 160, BYTES_PER_COMPONENT = 16 };
+
 /* In libdraco 1.5.5 an attribute of texture coordinates can claim 2^31 bits of orientations, which are made (20 s, 512
  * MB) before it is seen that they are not there; nothing outside the library can see the claim. So few are allowed. */
 enum { MAX_ATTRIBUTES = 32 };
-
-enum { BYTES_PER_FACE = 160, BYTES_PER_COMPONENT = 16 };
 
 /* Compares counts with limits and takes the memory from the budget. */
 class guard
