@@ -1,4 +1,5 @@
 /* fuzz_gltf.c - the glTF reader, and what is made of a scene before it is drawn, over any bytes. */
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -12,6 +13,29 @@ static void ignore(void *user, facet_log_level level, const char *message)
     (void)user;
     (void)level;
     (void)message;
+}
+
+/* What scene_primitive promises of joints and morph targets. */
+static void use_deformation(const scene_primitive *p)
+{
+    for (size_t vertex = 0; p->influence_count && vertex < p->vertex_count; vertex++) {
+        double sum = 0.0;
+        for (size_t i = vertex * p->influence_count; i < (vertex + 1) * p->influence_count; i++) {
+            if (!(p->weights[i] >= 0.0f) || (p->weights[i] == 0.0f && p->joints[i] != 0))
+                abort();
+            sum += (double)p->weights[i];
+        }
+        if (!(fabs(sum - 1.0) < 0.001))
+            abort();
+    }
+    for (uint32_t i = 0; i < p->target_count; i++) {
+        const float *const arrays[3] = {p->targets[i].positions, p->targets[i].normals,
+                                        p->targets[i].tangents};
+        for (int k = 0; k < 3; k++)
+            for (size_t j = 0; arrays[k] && j < 3 * (size_t)p->vertex_count; j++)
+                if (!(fabsf(arrays[k][j]) <= SCENE_FARTHEST))
+                    abort();
+    }
 }
 
 /* What a renderer asks of each primitive. Also reads every vertex that an index names. */
@@ -29,6 +53,7 @@ static void use_primitive(const scene_primitive *p, const facet_allocator *alloc
     }
     if (!(sum < 1e30)) /* positions are finite and at most 1e18; normals and colors at most 1 */
         abort();
+    use_deformation(p);
     if (p->mode != SCENE_TRIANGLES || p->texcoord_count == 0 || p->index_count == 0)
         return;
     float *tangents = mem_alloc(allocator, p->index_count, 4 * sizeof *tangents);
@@ -37,8 +62,34 @@ static void use_primitive(const scene_primitive *p, const facet_allocator *alloc
     mem_free(tangents);
 }
 
+/* What scene_animation promises, and the scene as it stands in the middle of it. */
+static void use_animation(const facet_scene *scene, uint32_t number, const facet_allocator *allocator)
+{
+    const scene_animation *a = &scene->animations[number];
+    for (uint32_t i = 0; i < a->channel_count; i++)
+        if (a->channels[i].sampler >= a->sampler_count)
+            abort();
+    for (uint32_t i = 0; i < a->sampler_count; i++) {
+        const scene_sampler *s = &a->samplers[i];
+        size_t count = (size_t)s->key_count * s->width * (s->interpolation == SCENE_CUBIC_SPLINE ? 3 : 1);
+        for (size_t k = 0; k < count; k++)
+            if (!isfinite(s->values[k]))
+                abort();
+        for (size_t k = 0; k < s->key_count; k++)
+            if (!isfinite(s->times[k]) || (k > 0 && !(s->times[k] > s->times[k - 1])))
+                abort();
+    }
+    const facet_pose_desc desc = {
+        .animation_count = 1, .animations = &number, .time_s = 0.5 * ((double)a->begin_s + (double)a->end_s)};
+    scene_pose pose = {0};
+    if (scene_pose_create(scene, &desc, allocator, 1, &pose, NULL) == FACET_OK)
+        scene_pose_destroy(&pose);
+}
+
 static void use_scene(const facet_scene *scene, const facet_allocator *allocator)
 {
+    for (uint32_t i = 0; i < scene->animation_count && i < 4; i++)
+        use_animation(scene, i, allocator);
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++)
             use_primitive(&scene->meshes[i].primitives[k], allocator);
