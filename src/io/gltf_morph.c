@@ -1,6 +1,6 @@
 /* gltf_morph.c - morph targets (glTF 2.0 section 3.7.2.2): how much each moves positions, normals and tangents, and
- * with what weights. Targets may also move texture coordinates and colors, which no viewer asks for: they are named
- * in a warning. */
+ * with what weights. Targets may also move texture coordinates and colors, which viewers need not draw: a warning
+ * names them. */
 #include <string.h>
 
 #include "io/gltf_reader.h"
