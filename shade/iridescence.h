@@ -55,6 +55,12 @@ FN vec3 film_series(float R12, vec3 R23, float path_nm, vec3 shift)
     return clamp(I, 0.0f, 1.0f);
 }
 
+/* Below 0.03 nm, a tenth of an atom, there is no film: from 0 to 1. KHR_materials_iridescence. */
+FN float film_fade(float thickness_nm)
+{
+    return smoothstep(0.0f, 0.03f, thickness_nm);
+}
+
 /* Reflectance in [0, 1] of a film of the given index and thickness (nm) over a base of reflectance F0, in air, for
  * light at cos_air to the normal. Below 0.03 nm the film fades into F_Schlick(F0, 1, cos_air); head on, so does a film
  * whose index is that of air or of the base. (At other angles Schlick's curve reflects at a boundary that is none.)
@@ -64,7 +70,7 @@ FN vec3 film_series(float R12, vec3 R23, float path_nm, vec3 shift)
  * places; here it does not. */
 FN vec3 F_iridescent(float film_ior, float thickness_nm, vec3 F0, float cos_air)
 {
-    float fade = smoothstep(0.0f, 0.03f, thickness_nm);
+    float fade = film_fade(thickness_nm);
     float ior = mix(1.0f, film_ior, fade);
     float cos2 = 1.0f - (1.0f - cos_air * cos_air) / (ior * ior);
     if (cos2 < 0.0f)

@@ -64,11 +64,12 @@ STRUCT(Layers)
 /* What depends on the eye alone: once per point, for all lights. Make it with layer_tables(). */
 STRUCT(LayerTables)
 {
-    vec2 dfg;             /* (A, B) of the split sum at surface_NdotV() and layers_dfg_roughness() */
+    vec2 dfg;             /* (A, B) of the split sum at layers_dfg_point() */
     float clearcoat_E;    /* A + B at layers_clearcoat_NdotV() and clearcoat_roughness */
-    float transmission_E; /* A + B at surface_NdotV() and layers_transmission_roughness() */
-    float sheen_E;    /* Charlie's directional albedo at surface_NdotV() and sheen_roughness; not clamped */
-    vec3 film_F_base; /* reflectance of the film over the dielectric and over the metal, at N.V */
+    float transmission_E; /* A + B at layers_transmission_point() */
+    float sheen_E;     /* Charlie's directional albedo at surface_NdotV() and sheen_roughness; not clamped */
+    float film_weight; /* iridescence, faded out where the film has no thickness: there it changes nothing */
+    vec3 film_F_base;  /* reflectance of the film over the dielectric and over the metal, at N.V */
     vec3 film_F_metal;
 };
 
@@ -211,16 +212,19 @@ FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearc
     t.clearcoat_E = clearcoat_E;
     t.transmission_E = transmission_E;
     t.sheen_E = sheen_E;
+    t.film_weight = 0.0f;
     t.film_F_base = m.base.F0;
     t.film_F_metal = m.base.base_color;
     if (layers_reads_anisotropic(m, energy)) {
-        t.dfg = anisotropic_table_bound(dfg, layers_alpha(m, m.base.alpha));
-        vec2 E = anisotropic_table_bound(vec2(transmission_E, 0.0f),
-                                         layers_alpha(m, layers_transmission_alpha(m)));
-        t.transmission_E = E[0];
+        vec3 V_local = layers_to_frame(m, V);
+        t.dfg = anisotropic_table_bound(dfg, V_local, layers_alpha(m, m.base.alpha));
+        vec2 wall = layers_alpha(m, layers_transmission_alpha(m));
+        vec2 E = anisotropic_table_bound(vec2(transmission_E, 0.0f), V_local, wall);
+        t.transmission_E = E[0] + E[1];
     }
     if (has_layer(m, LAYER_IRIDESCENCE)) {
         float NdotV = surface_NdotV(m.base, V);
+        t.film_weight = m.iridescence * film_fade(m.iridescence_thickness_nm);
         t.film_F_base = F_iridescent(m.iridescence_ior, m.iridescence_thickness_nm, m.base.F0, NdotV);
         t.film_F_metal =
             F_iridescent(m.iridescence_ior, m.iridescence_thickness_nm, m.base.base_color, NdotV);

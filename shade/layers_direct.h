@@ -26,13 +26,13 @@ FN BoundaryWeights boundary_weights_gltf(Layers m, float VdotH, LayerTables t)
     vec3 F_metal = F_Schlick(m.base.base_color, vec3(1.0f), VdotH);
     float below = 1.0f - max3(F_base);
     if (has_layer(m, LAYER_IRIDESCENCE)) {
-        F_base = mix(F_base, t.film_F_base, m.iridescence);
-        F_metal = mix(F_metal, t.film_F_metal, m.iridescence);
-        below = mix(below, 1.0f - max3(t.film_F_base), m.iridescence);
+        F_base = mix(F_base, t.film_F_base, t.film_weight);
+        F_metal = mix(F_metal, t.film_F_metal, t.film_weight);
+        below = mix(below, 1.0f - max3(t.film_F_base), t.film_weight);
     }
     BoundaryWeights w;
     w.specular = mix(F_base, F_metal, m.base.metallic);
-    w.below = (1.0f - m.base.metallic) * below;
+    w.below = (1.0f - m.base.metallic) * max(below, 0.0f); /* rounding, where all is reflected */
     return w;
 }
 
@@ -61,13 +61,13 @@ FN BoundaryWeights boundary_weights_conserving(Layers m, float NdotV, float Vdot
     if (has_layer(m, LAYER_IRIDESCENCE)) {
         vec3 film_base = t.film_F_base * multiscatter_scale(t.film_F_base, E);
         vec3 film_metal = t.film_F_metal * multiscatter_scale(t.film_F_metal, E);
-        F_base = mix(F_base, film_base, m.iridescence);
-        F_metal = mix(F_metal, film_metal, m.iridescence);
-        below = mix(below, 1.0f - max3(film_base) * E, m.iridescence);
+        F_base = mix(F_base, film_base, t.film_weight);
+        F_metal = mix(F_metal, film_metal, t.film_weight);
+        below = mix(below, 1.0f - max3(film_base) * E, t.film_weight);
     }
     BoundaryWeights w;
     w.specular = mix(F_base, F_metal, m.base.metallic);
-    w.below = (1.0f - m.base.metallic) * below;
+    w.below = (1.0f - m.base.metallic) * max(below, 0.0f);
     return w;
 }
 

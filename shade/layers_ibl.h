@@ -75,8 +75,8 @@ FN BoundaryIbl boundary_ibl(Layers m, float NdotV, LayerTables t, int energy)
     BoundaryIbl base = boundary_ibl_base(m, NdotV, t, energy);
     BoundaryIbl metal = boundary_ibl_metal(m, NdotV, t, energy);
     if (has_layer(m, LAYER_IRIDESCENCE)) {
-        base = mix_boundary(base, boundary_ibl_film(t.film_F_base, t, energy), m.iridescence);
-        metal = mix_boundary(metal, boundary_ibl_film(t.film_F_metal, t, energy), m.iridescence);
+        base = mix_boundary(base, boundary_ibl_film(t.film_F_base, t, energy), t.film_weight);
+        metal = mix_boundary(metal, boundary_ibl_film(t.film_F_metal, t, energy), t.film_weight);
         metal.below = 0.0f;
     }
     return mix_boundary(base, metal, m.base.metallic);

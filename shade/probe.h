@@ -235,7 +235,8 @@ FN vec3 probe_films(int which, vec2 u)
     vec3 L = probe_L(u);
     vec3 N = vec3(0.0f, 0.0f, 1.0f);
     if (which == 46)
-        return F_iridescent(1.1f + u[1], 800.0f * u[0], vec3(0.04f, 0.3f, 1.0f), 0.2f + 0.7f * u[1]) + 0.01f;
+        return F_iridescent(1.1f + u[1], 800.0f * u[0], vec3(0.04f, 0.3f, 1.0f), 0.2f + 0.7f * u[1]) + 0.01f +
+               film_fade(0.03f * u[0]);
     if (which == 47)
         return 5.0f + film_sensitivity(800.0f * u[0], vec3(0.0f, PI, 2.0f)) +
                film_base_ior(vec3(0.04f, u[0], 0.5f)) +
@@ -248,9 +249,10 @@ FN vec3 probe_films(int which, vec2 u)
         return anisotropic_reflection(N, vec3(d[0], d[1], 0.0f), V, u[0], u[1]) +
                to_frame(L, vec3(d[0], d[1], 0.0f), vec3(-d[1], d[0], 0.0f), N);
     vec2 p = anisotropic_table_point(V, a);
-    vec2 q = anisotropic_table_bound(vec2(0.5f, 0.2f * u[0]), a);
+    vec2 q = anisotropic_table_bound(vec2(0.5f, 0.2f * u[0]), V, a);
     if (which == 49)
-        return vec3(p[0] + q[0], p[1] + q[1], alpha_specular_aa(u[0], V * 0.1f, L * u[1]));
+        return vec3(p[0] + q[0] + anisotropic_grazing_share(V, a), p[1] + q[1],
+                    alpha_specular_aa(u[0], V * 0.1f, L * u[1]));
     Surface s = surface_from_specular_glossiness(N, vec3(u[0], 0.5f, 0.2f), vec3(0.2f, u[1], 0.3f), u[0],
                                                  1.0f, vec3(0.1f));
     return s.base_color + s.F0 + s.alpha + s.emissive;
