@@ -9,11 +9,6 @@ enum { MAX_VERTICES = 1 << 27, MAX_ITEMS = 1 << 22 };
 
 /* ---- what moves ---- */
 
-static bool has_skin(const facet_scene *scene, const scene_node *node)
-{
-    return node->skin != SCENE_NONE && node->skin < scene->skin_count && scene->skins;
-}
-
 /* Whether anything in the scene could: most scenes are done with this question. */
 static bool can_move(const facet_scene *scene)
 {
@@ -28,7 +23,7 @@ static bool moves(const facet_scene *scene, const scene_state *state, uint32_t i
     const scene_node *node = &state->nodes[index];
     if (node->mesh == SCENE_NONE)
         return false;
-    if (has_skin(scene, node))
+    if (node->skin != SCENE_NONE)
         return true;
     uint32_t count = scene->meshes[node->mesh].weight_count;
     const float *weights = count ? scene_state_weights(scene, state, index) : NULL;
@@ -64,7 +59,7 @@ static void add_items(deform_set *set, const facet_scene *scene, const scene_sta
         const scene_primitive *primitive = &mesh->primitives[k];
         deformed *item = &set->items[set->count++];
         *item = (deformed){.primitive = primitive, .weights = weights, .weight_count = mesh->weight_count};
-        if (has_skin(scene, node) && primitive->influence_count > 0)
+        if (node->skin != SCENE_NONE && primitive->influence_count > 0)
             item->skin = &set->skins[node->skin];
         morph_use use = morph_get_use(primitive, weights, mesh->weight_count);
         item->is_moved =

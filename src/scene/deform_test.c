@@ -539,14 +539,47 @@ static void huge_weights_draw_nothing(void **state)
     scene_destroy(scene);
 }
 
+static void one_vertex_without_a_place_draws_nothing(void **state)
+{
+    (void)state;
+    /* Both changes are infinite at one vertex, and their sum is no number, which no comparison of bounds would see. */
+    enum { COUNT = 9 };
+    static float up[3 * COUNT], down[3 * COUNT];
+    static const float weights[2] = {FLT_MAX, FLT_MAX};
+    up[12] = 10;
+    down[12] = -10;
+    const scene_morph_target targets[2] = {{.positions = up}, {.positions = down}};
+    facet_scene *scene = test_scene(1);
+    scene_primitive *p = &scene->meshes[0].primitives[0];
+    test_fill_primitive(scene, p, COUNT);
+    p->targets = targets;
+    p->target_count = scene->meshes[0].weight_count = 2;
+    scene->meshes[0].weights = weights;
+    scene_pose pose = rest(scene);
+    assert_int_equal(pose.instance_count, 0);
+    scene_pose_destroy(&pose);
+    scene_destroy(scene);
+    scene = make_skinned(30, 4);
+    float *w = (float *)(uintptr_t)scene->meshes[0].primitives[0].weights;
+    float *x = (float *)(uintptr_t)scene->meshes[0].primitives[0].positions;
+    w[0] = w[1] = INFINITY; /* nothing that a reader lets through */
+    x[0] = 1;
+    pose = rest(scene);
+    assert_int_equal(pose.instance_count, 0);
+    scene_pose_destroy(&pose);
+    scene_destroy(scene);
+}
+
 /* ---- flat normals, bounds, threads, memory ---- */
 
 static void flat_normals_follow_their_triangles(void **state)
 {
     (void)state;
-    for (int is_skinned = 0; is_skinned < 2; is_skinned++) {
-        facet_scene *scene = is_skinned ? make_skinned(VERTICES, 4) : make_morphed(VERTICES);
+    for (int kind = 0; kind < 3; kind++) {
+        facet_scene *scene = kind == 2 ? make_skinned(VERTICES, 4) : make_morphed(VERTICES);
         scene_primitive *p = &scene->meshes[0].primitives[0];
+        for (uint32_t t = 0; t < p->target_count && kind == 1; t++) /* positions alone */
+            ((scene_morph_target *)(uintptr_t)p->targets)[t].normals = NULL;
         p->has_flat_normals = true;
         p->tangents = NULL;
         scene_pose pose = rest(scene);
@@ -632,6 +665,7 @@ int main(void)
         cmocka_unit_test(only_what_targets_move_is_new),
         cmocka_unit_test(skins_move_what_targets_made),
         cmocka_unit_test(huge_weights_draw_nothing),
+        cmocka_unit_test(one_vertex_without_a_place_draws_nothing),
         cmocka_unit_test(flat_normals_follow_their_triangles),
         cmocka_unit_test(bounds_are_those_of_moved_vertices),
         cmocka_unit_test(thread_counts_give_the_same_bits),

@@ -123,6 +123,39 @@ static void singular_and_endless_matrices_draw_nothing(void **state)
     }
 }
 
+static void what_lies_too_far_out_is_left_out(void **state)
+{
+    (void)state;
+    /* A matrix that is near enough, and a corner at 1.4e17 m; turned or not. */
+    for (int is_turned = 0; is_turned < 2; is_turned++) {
+        mat4 m = mat4_identity();
+        m.m[0] = m.m[5] = m.m[10] = 5e16f;
+        m.m[12] = 9e16f;
+        m.m[4] = is_turned ? 1e16f : 0.0f;
+        facet_scene *scene = make_scene(m);
+        scene_pose pose = make_pose(scene);
+        assert_int_equal(pose.instance_count, 0);
+        assert_false(pose.has_bounds);
+        scene_pose_destroy(&pose);
+        scene_destroy(scene);
+    }
+}
+
+static void a_node_that_is_named_twice_is_drawn_once(void **state)
+{
+    (void)state;
+    static const uint32_t roots[3] = {0, 1, 0};
+    facet_scene *scene = test_scene(2);
+    for (uint32_t i = 0; i < 2; i++)
+        test_fill_primitive(scene, &scene->meshes[i].primitives[0], 3);
+    scene->scenes[0].nodes = roots;
+    scene->scenes[0].node_count = 3;
+    scene_pose pose = make_pose(scene);
+    assert_int_equal(pose.instance_count, 2);
+    scene_pose_destroy(&pose);
+    scene_destroy(scene);
+}
+
 static void small_models_are_regular(void **state)
 {
     (void)state;
@@ -444,6 +477,8 @@ int main(void)
         cmocka_unit_test(mirrored_instances_keep_outward_normals),
         cmocka_unit_test(singular_and_endless_matrices_draw_nothing),
         cmocka_unit_test(small_models_are_regular),
+        cmocka_unit_test(what_lies_too_far_out_is_left_out),
+        cmocka_unit_test(a_node_that_is_named_twice_is_drawn_once),
         cmocka_unit_test(copies_stand_where_node_and_instance_put_them),
         cmocka_unit_test(too_many_copies_are_refused),
         cmocka_unit_test(copies_share_what_targets_made),
