@@ -44,12 +44,11 @@ void ibl_dfg(float NdotV, float perceptual_roughness, float out[2])
 
 float ibl_sheen_albedo(float NdotV, float sheen_roughness)
 {
-    float mu = NdotV > NDOTV_MIN ? NdotV : NDOTV_MIN;
-    table_place x = find_place(sqrtf(mu), SHEEN_SIZE);
+    table_place x = find_place(sqrtf(NdotV > 0.0f ? NdotV : 0.0f), SHEEN_SIZE);
     table_place y = find_place(sheen_roughness, SHEEN_SIZE);
     const float *low = sheen_table[y.first] + x.first;
     const float *high = sheen_table[y.first + 1] + x.first;
     float a = low[0] + (low[1] - low[0]) * x.weight;
     float b = high[0] + (high[1] - high[0]) * x.weight;
-    return fminf((a + (b - a) * y.weight) / mu, 1.0f);
+    return fminf(a + (b - a) * y.weight, 1.0f);
 }

@@ -6,7 +6,7 @@
  * square root spreads the grazing angles, where the terms change fastest. */
 enum {
     DFG_SIZE = 128,  /* the split sum's terms */
-    SHEEN_SIZE = 128 /* N.V times sheen's albedo */
+    SHEEN_SIZE = 128 /* sheen's albedo */
 };
 
 #endif

@@ -12,6 +12,8 @@
 #include "ibl/dfg.h"
 #include "ibl/ibl.h"
 
+#include "shade/shade.h"
+
 /* reference/shading-model.md 16.2: A and B by tanh-sinh quadrature in long double. */
 static const double roughness[5] = {0.1, 0.25, 0.5, 0.75, 1.0};
 static const double NdotV[5] = {0.05, 0.25, 0.5, 0.75, 1.0};
@@ -61,7 +63,7 @@ static void test_mirror(void **state)
         float dfg[2];
         double root = (double)x / (DFG_SIZE - 1);
         ibl_dfg((float)(root * root), 0.0f, dfg);
-        double Fc = pow(1.0 - root * root, 5.0);
+        double Fc = (pow)(1.0 - root * root, 5.0);
         assert_near(dfg[0], 1.0 - Fc, 1e-5);
         assert_near(dfg[1], Fc, 1e-5);
     }
@@ -106,6 +108,55 @@ static void test_sheen_golden_numbers(void **state)
     assert_true(worst < 2e-3);
 }
 
+/* The sampled integral of the shared text: another method, the same D and V. */
+static void test_sheen_is_that_of_the_shared_text(void **state)
+{
+    (void)state;
+    double worst = 0.0;
+    for (int i = 0; i < 60; i++) {
+        float mu = 0.01f + 0.98f * (float)((i * 37) % 60) / 60.0f * (float)((i * 37) % 60) / 60.0f;
+        float r = 0.05f + 0.95f * (float)i / 60.0f;
+        float expected = fminf(integrate_sheen_albedo(r, mu, 16384u), 1.0f);
+        worst = fmax(worst, fabs((double)ibl_sheen_albedo(mu, r) - (double)expected));
+    }
+    print_message("largest deviation from sampling: %.2e\n", worst);
+    assert_true(worst < 5e-3);
+}
+
+/* In [0, 1], falling with N.V from its peak on, which is nearer to the horizon than 0.03, and 0 where the rim has no
+ * width. */
+static void test_sheen_range(void **state)
+{
+    (void)state;
+    for (int y = 0; y <= 300; y++) {
+        float before = 1.0f;
+        for (int x = 0; x <= 300; x++) {
+            float E = ibl_sheen_albedo((float)x / 300.0f, (float)y / 300.0f);
+            assert_true(E >= 0.0f && E <= (x < 9 ? 1.0f : before));
+            assert_true(y > 0 || E == 0.0f);
+            before = E;
+        }
+    }
+    assert_true(ibl_sheen_albedo(-1.0f, 0.5f) == ibl_sheen_albedo(0.0f, 0.5f));
+    assert_true(ibl_sheen_albedo(2.0f, 7.0f) == ibl_sheen_albedo(1.0f, 1.0f));
+}
+
+/* The mean over a hemisphere of uniform light, 2 E N.V dN.V: golden numbers 16.4. */
+static void test_sheen_average(void **state)
+{
+    (void)state;
+    static const double golden[5] = {0.021510382484, 0.058355778644, 0.142676851913, 0.240117050939,
+                                     0.299591942160};
+    for (int i = 0; i < 5; i++) {
+        double sum = 0.0;
+        for (int k = 0; k < 20000; k++) {
+            double mu = (k + 0.5) / 20000.0;
+            sum += 2.0 * mu * (double)ibl_sheen_albedo((float)mu, (float)roughness[i]) / 20000.0;
+        }
+        assert_near(sum, golden[i], 2e-3); /* less what is above 1 */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -114,6 +165,9 @@ int main(void)
         cmocka_unit_test(test_mirror),
         cmocka_unit_test(test_energy_and_range),
         cmocka_unit_test(test_sheen_golden_numbers),
+        cmocka_unit_test(test_sheen_is_that_of_the_shared_text),
+        cmocka_unit_test(test_sheen_range),
+        cmocka_unit_test(test_sheen_average),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,10 @@
 /* sheen_generate.c - computes the table of sheen's directional albedo; runs when facet is built.
  * usage: sheen_generate OUTPUT
  *
- *   E N.V = integral of D / (4 (1 + Lambda(N.V) + Lambda(N.L))) dL,  as V_Charlie = 1 / (4 N.L N.V (1 + Lambda + Lambda))
+ *   E = integral of D / (4 N.V (1 + Lambda(N.V) + Lambda(N.L))) dL,  as V_Charlie = 1 / (4 N.L N.V (1 + Lambda + Lambda))
  *
  * over the hemisphere of L, by Gauss and Legendre's rule: panels of N.L that triple in width from 1e-5, because Lambda
- * rises like a small power of it; 24 points of longitude. E itself has a pole at N.V = 0. */
+ * rises like a small power of it; 24 points of longitude. Not clamped. */
 #include <math.h>
 #include <stdio.h>
 
@@ -46,6 +46,8 @@ static double ring(double NdotV, double NdotL, float alpha)
 
 static double integrate(float sheen_roughness, double NdotV)
 {
+    if (sheen_roughness == 0.0f) /* a rim without width; that of the least alpha would sparkle */
+        return 0.0;
     float alpha = sheen_alpha(sheen_roughness);
     double Lambda_V = (double)Lambda_Charlie((float)NdotV, alpha);
     double sum = 0.0;
@@ -55,7 +57,7 @@ static double integrate(float sheen_roughness, double NdotV)
             double w;
             double NdotL = point(i, from, to, &w);
             double Lambda_L = (double)Lambda_Charlie((float)NdotL, alpha);
-            sum += w * ring(NdotV, NdotL, alpha) / (4.0 * (1.0 + Lambda_V + Lambda_L));
+            sum += w * ring(NdotV, NdotL, alpha) / (4.0 * NdotV * (1.0 + Lambda_V + Lambda_L));
         }
     return sum;
 }
