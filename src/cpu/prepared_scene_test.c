@@ -195,6 +195,37 @@ static void settings_may_change_between_pictures(void **state)
     fixture_destroy(&f);
 }
 
+/* A plain of squares, each seen by a ray that meets its diagonal: which triangle it hits depends on how well the
+ * hierarchy is built, and that on the number of rays. */
+static void hierarchies_are_as_good_as_each_picture_wants_them(void **state)
+{
+    (void)state;
+    enum { SIDE = 64 };
+    fixture f = fixture_create();
+    uint32_t mesh = fixture_add_sphere(&f, SIDE, SCENE_NONE);
+    scene_primitive *p = fixture_primitive(&f, mesh);
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        float *position = (float *)(uintptr_t)p->positions + 3 * i;
+        position[0] = (float)(i % (SIDE + 1)) / (SIDE / 2) - 1.0f;
+        position[1] = (float)(i / (SIDE + 1)) / (SIDE / 2) - 0.5f;
+        position[2] = 0.0f;
+    }
+    scene_material material = scene_material_default();
+    material.is_double_sided = true;
+    p->material = fixture_add_material(&f, material);
+    fixture_place(&f, mesh, 0, 0, 0, 1.0f);
+    f.desc.aovs = FACET_AOV_UV | FACET_AOV_NORMAL;
+    prepared_scene prepared;
+    prepared_scene_init(&prepared, f.scene, NULL);
+    for (int i = 0; i < 4; i++) {
+        f.desc.samples = i % 2 ? 16 : 4;
+        compare(&f, &prepared);
+        assert_int_equal(prepared.embree.quality, i % 2 ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW);
+    }
+    prepared_scene_clear(&prepared);
+    fixture_destroy(&f);
+}
+
 static void scenes_and_variants_may_change(void **state)
 {
     (void)state;
@@ -554,6 +585,7 @@ int main(void)
         cmocka_unit_test(turntables_keep_all_but_the_camera),
         cmocka_unit_test(textures_are_as_fine_as_each_picture_wants_them),
         cmocka_unit_test(settings_may_change_between_pictures),
+        cmocka_unit_test(hierarchies_are_as_good_as_each_picture_wants_them),
         cmocka_unit_test(scenes_and_variants_may_change),
         cmocka_unit_test(rigid_parts_move_in_a_hierarchy_that_stays),
         cmocka_unit_test(frames_show_what_stands_there),
