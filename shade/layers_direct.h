@@ -166,17 +166,22 @@ FN float transmission_VdotH(vec3 V, vec3 L, float eta)
     return sel(VdotH > 0.0f, min(VdotH, 1.0f), V[2]);
 }
 
-/* The same through a volume's boundary, weighted; each channel with its own ior. V and L in the base's frame. */
-FN vec3 layers_volume_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+/* The same through a volume's boundary of one ior, weighted. V and L in the base's frame. */
+FN float layers_volume_cos1(Layers m, vec3 V, vec3 L, float eta, int energy, LayerTables t)
 {
     vec2 a = layers_alpha(m, m.base.alpha);
-    vec3 f = vec3(0.0f);
-    for (int c = 0; c < 3; ++c) {
-        float eta = layers_eta(m, c);
-        float VdotH = transmission_VdotH(V, L, eta);
-        f[c] = btdf_GGX_cos(V, L, a[0], a[1], eta) * boundary_weights(m, V[2], VdotH, energy, t).below;
-    }
-    return f;
+    float VdotH = transmission_VdotH(V, L, eta);
+    return btdf_GGX_cos(V, L, a[0], a[1], eta) * boundary_weights(m, V[2], VdotH, energy, t).below;
+}
+
+/* Per channel, each with its own ior where the volume disperses. */
+FN vec3 layers_volume_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+{
+    if (!has_layer(m, LAYER_DISPERSION))
+        return vec3(layers_volume_cos1(m, V, L, m.eta, energy, t));
+    return vec3(layers_volume_cos1(m, V, L, layers_eta(m, 0), energy, t),
+                layers_volume_cos1(m, V, L, layers_eta(m, 1), energy, t),
+                layers_volume_cos1(m, V, L, layers_eta(m, 2), energy, t));
 }
 
 /* The base for light from behind. The microfacet of what goes straight through is that of L mirrored to V's side. */

@@ -340,7 +340,8 @@ FN vec3 probe_layer_parts(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
            vec3(layers_DV(m, V, N, normalize(V + N), 1.0f, NdotV),
                 layers_thin_wall_cos(m, V_local, L_below, energy, t),
                 transmission_VdotH(V_local, L_below, layers_eta(m, 0))) +
-           layers_volume_cos(m, V_local, L_below, energy, t) + layers_to_frame(m, L) +
+           layers_volume_cos(m, V_local, L_below, energy, t) +
+           layers_volume_cos1(m, V_local, L_below, 1.4f, energy, t) + layers_to_frame(m, L) +
            layers_base_front_cos(m, V, N, energy, t) + layers_base_back_cos(m, V, -N, energy, t) +
            layers_sheen_cos(m, V, N, energy, t, 0.3f, vec3(1.0f)) +
            layers_clearcoat_cos(m, V, N, energy, t, layers_base_cos(m, V, N, energy, t));
