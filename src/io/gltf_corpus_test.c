@@ -81,11 +81,22 @@ static void use(const facet_scene *scene)
                        (p->colors ? (double)p->colors[4 * vertex + 3] : 0.0);
                 for (uint32_t set = 0; set < p->texcoord_count; set++)
                     sum += (double)p->texcoords[set][2 * vertex + 1];
+                for (uint32_t n = 0; n < p->influence_count; n++)
+                    sum += (double)p->weights[p->influence_count * vertex + n];
+                for (uint32_t n = 0; n < p->target_count; n++)
+                    sum += p->targets[n].positions ? (double)p->targets[n].positions[3 * vertex] : 0.0;
             }
             if (p->mode == SCENE_TRIANGLES && p->index_count)
                 assert_non_null(p->normals);
         }
     assert_true(sum == sum);
+    for (uint32_t i = 0; i < scene->animation_count; i++) {
+        const facet_pose_desc desc = {
+            .animation_count = 1, .animations = &i, .time_s = 0.3 * (double)scene->animations[i].end_s};
+        scene_pose pose = {0};
+        assert_int_equal(scene_pose_create(scene, &desc, NULL, 1, &pose, NULL), FACET_OK);
+        scene_pose_destroy(&pose);
+    }
     facet_camera camera;
     const facet_orbit orbit = {.polar_rad = 1.3f, .radius_scale = 1.05f, .fov_y_rad = 0.5f};
     assert_int_equal(scene_fit_orbit(scene, NULL, &orbit, 1.0f, &camera, NULL), FACET_OK);
@@ -164,6 +175,49 @@ static void counts_are_those_of_the_files(void **state)
         assert_int_equal(counts.triangles, expected[i].triangles);
         assert_int_equal(counts.lines, expected[i].lines);
         assert_int_equal(counts.points, expected[i].points);
+        scene_destroy(scene);
+    }
+}
+
+/* How many materials have each extension, by the order of their bits, and how many textures all of them name; counted
+ * in the files' JSON by a script. */
+static void materials_are_those_of_the_files(void **state)
+{
+    (void)state;
+    if (!data_folder())
+        skip();
+    enum { EXTENSIONS = 14 };
+    static const struct {
+        const char *path;
+        uint32_t counts[EXTENSIONS], textures;
+    } expected[] = {
+        {"materials/AnisotropyStrengthTest.glb", {[9] = 49}, 1},
+        {"materials/AttenuationTest.glb", {[6] = 16, [7] = 11}, 3},
+        {"materials/ClearCoatTest.glb", {[4] = 6}, 13},
+        {"materials/CompareDispersion.glb", {[2] = 2, [6] = 2, [7] = 2, [10] = 1}, 3},
+        {"materials/CompareEmissiveStrength.glb", {[1] = 1}, 2},
+        {"materials/DiffuseTransmissionTest.glb", {[0] = 8, [11] = 20}, 18},
+        {"materials/IridescenceMetallicSpheres.glb", {[8] = 343}, 1},
+        {"materials/SheenChair.glb", {[5] = 2}, 15},
+        {"materials/SpecularTest.glb", {[3] = 23}, 4},
+        {"materials/SunglassesKhronos.glb", {[2] = 1, [6] = 3, [7] = 1, [8] = 1}, 1},
+        {"materials/ToyCar.glb", {[4] = 1, [5] = 1, [6] = 1}, 9},
+        {"materials/TransmissionRoughnessTest.glb", {[2] = 4, [6] = 5, [7] = 5}, 9},
+        {"specgloss/Avocado-specgloss.glb", {[13] = 1}, 3}, /* without the two of the fallback */
+    };
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        facet_scene *scene = load_shared(expected[i].path);
+        uint32_t counts[EXTENSIONS] = {0};
+        uint32_t textures = 0;
+        for (uint32_t k = 0; k < scene->material_count; k++) {
+            const scene_material *m = &scene->materials[k];
+            for (int bit = 0; bit < EXTENSIONS; bit++)
+                counts[bit] += m->extensions >> bit & 1;
+            for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+                textures += scene_material_has(m, (scene_texture_slot)slot);
+        }
+        assert_memory_equal(counts, expected[i].counts, sizeof counts);
+        assert_int_equal(textures, expected[i].textures);
         scene_destroy(scene);
     }
 }
@@ -300,10 +354,14 @@ static void every_failed_allocation_is_survived(void **state)
     (void)state;
     if (!data_folder())
         skip();
-    static const char *const models[] = {"core/MeshPrimitiveModes.glb", "core/SimpleSparseAccessor.glb",
+    static const char *const models[] = {"core/MeshPrimitiveModes.glb",
+                                         "core/SimpleSparseAccessor.glb",
                                          "gltf/Box With Spaces/Box With Spaces.gltf",
                                          "gltf/TextureSettingsTest-embedded.gltf",
-                                         "animation/SimpleSkin.glb"};
+                                         "animation/SimpleSkin.glb",
+                                         "animation/SimpleMorph.glb",
+                                         "animation/AnimatedColorsCube.glb",
+                                         "extensions/SimpleInstancing.glb"};
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/models/%s", data_folder(), models[i]);
@@ -358,6 +416,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_model_loads),
         cmocka_unit_test(counts_are_those_of_the_files),
+        cmocka_unit_test(materials_are_those_of_the_files),
         cmocka_unit_test(what_the_validator_finds_is_refused_or_mentioned),
         cmocka_unit_test(broken_models_never_fault),
         cmocka_unit_test(truncations_are_refused),
