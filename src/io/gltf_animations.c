@@ -12,8 +12,8 @@
 /* The animation that is being read. */
 typedef struct animation_reader {
     json_place samplers; /* of the file */
-    uint32_t (*numbers)
-        [2]; /* per sampler of the file, as it is and as rotations: that of the scene; NOT_YET, USELESS */
+    /* Per sampler of the file, as it is and as rotations: its number in the scene, NOT_YET or USELESS. */
+    uint32_t (*numbers)[2];
     scene_sampler *made;
     uint32_t made_count;
     scene_channel *channels;
