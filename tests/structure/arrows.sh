@@ -59,6 +59,7 @@ seen_only() {
 }
 seen_only 'embree' cpu
 seen_only 'jansson' io cli
+seen_only 'draco/' io
 seen_only '(EGL|GL|GLES[0-9]?|epoxy)/' gl
 seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zlib|zstd|avif/|astcenc)' image
 
