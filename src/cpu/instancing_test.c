@@ -423,6 +423,15 @@ static void near_copies_are_those_that_are_seen_largest(void **state)
     }
     assert_true(near_count >= NEAREST_COPIES && near_count < NEAREST_COPIES + 20); /* rows are equally far */
     assert_true(nearest_far >= farthest_near - 0.01f);
+    /* Where none is in the picture, one still tells which textures there are. */
+    f.camera.target[2] = 1.0f;
+    f.camera.target[1] = f.camera.eye[1] = 100.0f;
+    assert_int_equal(camera_rays_create(&f.camera, 64, 64, &camera, NULL), FACET_OK);
+    assert_int_equal(nearest_copies_choose(&c.set, &camera, 64, 64, &allocator, NULL), FACET_OK);
+    near_count = 0;
+    for (uint32_t i = 0; i < c.set.count; i++)
+        near_count += !c.set.items[i].is_far_copy;
+    assert_int_equal(near_count, 1);
     release(&c);
     fixture_destroy(&f);
 }

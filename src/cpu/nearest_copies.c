@@ -103,9 +103,14 @@ facet_result nearest_copies_choose(render_geometry_set *set, const camera_rays *
     }
     for (uint32_t i = 0; has_memory && i < set->count; i++) {
         render_geometry *g = &set->items[i];
-        g->is_far_copy =
-            has_many(set, g) &&
-            !(sizes[i] <= smallest[(size_t)(g->shape + 1) * NEAREST_COPIES - 1] && sizes[i] < INFINITY);
+        if (!has_many(set, g))
+            continue;
+        float *of_shape = smallest + (size_t)g->shape * NEAREST_COPIES;
+        g->is_far_copy = !(sizes[i] <= of_shape[NEAREST_COPIES - 1] && sizes[i] < INFINITY);
+        if (of_shape[0] == INFINITY) { /* none is in the picture: the first stands for all */
+            g->is_far_copy = false;
+            of_shape[0] = 0.0f;
+        }
     }
     mem_free(smallest);
     mem_free(sizes);

@@ -149,6 +149,8 @@ facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc 
     if (p->has_moved_sprites)
         render_geometry_place_sprites(&p->geometries, &p->pose, camera, desc->thread_count);
     p->camera = *camera;
+    if (p->scene->texture_count == 0)
+        return FACET_OK;
     return nearest_copies_choose(&p->geometries, camera, desc->width, desc->height, &p->allocator, error);
 }
 

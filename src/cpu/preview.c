@@ -37,8 +37,10 @@ static facet_result prepare_textures(preview *p, facet_error *error)
                               .footprint = footprint,
                               .opacity_footprint = fminf(footprint, opacity_footprint),
                               .thread_count = desc->thread_count};
-    facet_result result =
-        texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error);
+    facet_result result = FACET_OK;
+    if (scene->texture_count)
+        result = texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses,
+                              error);
     if (result == FACET_OK)
         result = prepared_scene_textures(p->prepared, error);
     if (result == FACET_OK)

@@ -251,6 +251,8 @@ facet_result texture_need(const facet_scene *scene, const render_geometry_set *s
         is_seen_anywhere =
             is_seen_anywhere || (material_plan_layers(set->items[i].material) & LAYER_TRANSMISSION);
     for (uint32_t i = 0; i < set->count; i++) {
+        if (set->items[i].is_far_copy) /* there are nearer ones with the same material */
+            continue;
         need_job job = {.camera = camera,
                         .desc = desc,
                         .geometry = &set->items[i],
@@ -258,7 +260,7 @@ facet_result texture_need(const facet_scene *scene, const render_geometry_set *s
                         .histograms = histograms};
         reader_list list = {.scene = scene, .job = &job, .uses = uses, .must_be_whole = must_be_whole};
         add_readers(&list, desc);
-        if (job.reader_count && !job.geometry->is_far_copy)
+        if (job.reader_count)
             parallel_for(desc->thread_count, job.geometry->primitive->index_count / 3, TRIANGLE_GRAIN,
                          count_triangles, &job);
     }
