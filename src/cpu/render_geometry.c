@@ -129,8 +129,8 @@ static void place_sprites(void *context, size_t begin, size_t end)
 
 static bool shares_vertices(const scene_instance *a, const scene_instance *b)
 {
-    return a->node == b->node && a->positions == b->positions &&
-           a->primitive->vertex_count == b->primitive->vertex_count &&
+    return a->node == b->node && memcmp(&a->world, &b->world, sizeof a->world) == 0 &&
+           a->positions == b->positions && a->primitive->vertex_count == b->primitive->vertex_count &&
            a->primitive->mode == SCENE_TRIANGLES && b->primitive->mode == SCENE_TRIANGLES;
 }
 
