@@ -25,8 +25,7 @@ bool prepare_draco(reader *r, const json_place *primitive)
     }
     if (!has_all)
         reader_fail(r, primitive, NULL, FACET_ERROR_UNSUPPORTED,
-                    "is compressed with Draco, which this build of facet reads no more than its fallback: "
-                    "libdraco was not there when it was built");
+                    "is compressed with Draco and has no other data; this facet was built without libdraco");
     return reader_is_ok(r);
 }
 
