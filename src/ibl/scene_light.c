@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
 #include "ibl/environment.h"
@@ -47,6 +48,7 @@ typedef struct unrolling {
     const cube *from;
     light_frame frame;
     float intensity;
+    const float (*longitudes)[2]; /* x and z on the horizon, of both halves of each column */
     image *to;
 } unrolling;
 
@@ -57,12 +59,17 @@ static void unroll_rows(void *context, size_t begin, size_t end)
     uint32_t width = job->to->width;
     for (size_t y = begin; y < end; y++) {
         float *out = (float *)job->to->pixels + 3 * y * width;
+        float meridian[2][3]; /* phi = 0, in both halves of the row: how far out a circle is, how high, 0 */
+        for (int k = 0; k < 2; k++)
+            equirect_direction(width, job->to->height, 0.5 * width - 0.5, (double)y + (k ? 0.25 : -0.25),
+                               meridian[k]);
         for (uint32_t x = 0; x < width; x++, out += 3) {
             rgbx sum = {0};
             for (int k = 0; k < 4; k++) {
-                float d[3], p[3];
-                equirect_direction(width, job->to->height, x + (k & 1 ? 0.25 : -0.25),
-                                   (double)y + (k & 2 ? 0.25 : -0.25), d);
+                const float *at = job->longitudes[2 * x + (k & 1)];
+                const float *m = meridian[k >> 1];
+                float d[3] = {at[0] * m[0], m[1], at[1] * m[0]};
+                float p[3];
                 to_light(&job->frame, d, p);
                 sum += cube_fetch(job->from, cube_locate(p[0], p[1], p[2]));
             }
@@ -76,14 +83,26 @@ static void unroll_rows(void *context, size_t begin, size_t end)
 static facet_result unroll(facet_environment *e, const scene_cube *c, const scene_image_light *light,
                            const facet_environment_desc *desc, facet_error *error)
 {
-    facet_result result =
-        image_create(&e->allocator, 4 * c->texels.size, 2 * c->texels.size, 3, IMAGE_F32, &e->picture, error);
-    if (result != FACET_OK)
-        return result;
-    unrolling job = {&c->texels, make_frame(light->rotation, c->is_mirrored), light->intensity, &e->picture};
-    parallel_for(desc->thread_count, e->picture.height, 4, unroll_rows, &job);
-    environment_limit(e, desc->thread_count);
-    return FACET_OK;
+    uint32_t width = 4 * c->texels.size;
+    uint32_t height = 2 * c->texels.size;
+    float(*longitudes)[2] = mem_alloc(&e->allocator, 2 * (size_t)width, sizeof *longitudes);
+    if (!longitudes)
+        return fail_memory(error, "environment", 2 * (size_t)width * sizeof *longitudes);
+    for (uint32_t i = 0; i < 2 * width; i++) {
+        float d[3];
+        equirect_direction(2 * width, 1, i, 0.0, d);
+        longitudes[i][0] = d[0];
+        longitudes[i][1] = d[2];
+    }
+    facet_result result = image_create(&e->allocator, width, height, 3, IMAGE_F32, &e->picture, error);
+    if (result == FACET_OK) {
+        unrolling job = {&c->texels, make_frame(light->rotation, c->is_mirrored), light->intensity,
+                         (const float(*)[2])longitudes, &e->picture};
+        parallel_for(desc->thread_count, height, 4, unroll_rows, &job);
+        environment_limit(e, desc->thread_count);
+    }
+    mem_free(longitudes);
+    return result;
 }
 
 /* ---- irradiance ---- */
