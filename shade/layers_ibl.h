@@ -106,12 +106,13 @@ FN LayeredRadiance layers_base_ibl(Layers m, float NdotV, LayerTables t, LayerLi
     return r;
 }
 
-/* The lobe of the sheen returns color E of uniform light, at most 1 where energy is conserved, and leaves
- * sheen_scaling() to what is below. */
+/* The lobe of the sheen returns color E of uniform light, and leaves sheen_scaling() to what is below. Where E exceeds 1,
+ * light that is blurred over the rim no longer says how much of it comes from there: E counts as 1, as in the 8 bits of
+ * Khronos' table; where energy is conserved, color E as 1. */
 FN LayeredRadiance layers_sheen_ibl(Layers m, LayerTables t, vec3 sheen, int energy, LayeredRadiance r)
 {
     float E = t.sheen_E;
-    float lobe = E;
+    float lobe = min(E, 1.0f);
     if (energy == ENERGY_CONSERVING)
         lobe = E / max(max3(m.sheen_color) * E, 1.0f);
     float left = sheen_scaling(m.sheen_color, E);

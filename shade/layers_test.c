@@ -217,6 +217,23 @@ static void test_sheen_furnace(void **state)
     }
 }
 
+/* At grazing views of low roughness the lobe's own albedo is above 1; conserving mode divides it away. */
+static void test_sheen_above_one(void **state)
+{
+    (void)state;
+    Layers m = layers_from_surface(surface_from_metallic_roughness(up, vec3(1.0f), 0.0f, 0.5f));
+    m.layers = LAYER_SHEEN;
+    m.sheen_color = vec3(1.0f, 0.9f, 0.2f);
+    m.sheen_roughness = 0.14f;
+    double rgb[3];
+    assert_true(integrate_sheen_albedo(0.14f, 0.02f, 4096u) > 1.3f);
+    layered_albedo(m, view_at(0.02f), ENERGY_GLTF, 1u << 15u, rgb);
+    assert_true(rgb[0] > 1.25); /* glTF's lobe is not touched */
+    layered_albedo(m, view_at(0.02f), ENERGY_CONSERVING, 1u << 15u, rgb);
+    expect_near(rgb[0], 1.0, 1e-2, "conserving");
+    assert_true(rgb[1] < 1.0 && rgb[2] < 1.0);
+}
+
 /* ---- film ---- */
 
 /* Reflection and what passes to the base by the film's reflectance at N.V: mix(plain, film, factor). */
@@ -509,6 +526,7 @@ int main(void)
         cmocka_unit_test(test_clearcoat_dims_what_is_below),
         cmocka_unit_test(test_sheen_formula),
         cmocka_unit_test(test_sheen_furnace),
+        cmocka_unit_test(test_sheen_above_one),
         cmocka_unit_test(test_iridescence_formula),
         cmocka_unit_test(test_opaque),
         cmocka_unit_test(test_shares),
