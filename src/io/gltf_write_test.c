@@ -1,4 +1,5 @@
 /* gltf_write_test.c - what is written reads back equal. */
+#define _DEFAULT_SOURCE
 #include "io/gltf.h"
 #include "io/gltf_test_support.h"
 
@@ -13,7 +14,12 @@
 
 /* ---- equality; the first difference fails the test with its name ---- */
 
-static const char *model = ""; /* for messages */
+static char model[1024]; /* for messages */
+
+static void set_model(const char *name)
+{
+    snprintf(model, sizeof model, "%.1000s", name);
+}
 
 static void same(bool is_same, const char *what, uint32_t index)
 {
@@ -367,7 +373,7 @@ static void small_scenes_survive(void **state)
     };
     for (size_t i = 0; i < sizeof documents / sizeof *documents; i++) {
         facet_scene *scene = load(documents[i], NULL);
-        model = documents[i];
+        set_model(documents[i]);
         assert_round_trip(scene, "a.glb");
         assert_round_trip(scene, "b.gltf");
         scene_destroy(scene);
@@ -380,7 +386,7 @@ static void the_builtin_scene_survives(void **state)
     facet_scene *scene = NULL;
     const facet_scene_desc desc = {0};
     assert_int_equal(scene_create_builtin(&desc, &scene, NULL), FACET_OK);
-    model = "the built-in scene";
+    set_model("the built-in scene");
     assert_round_trip(scene, "a.glb");
     assert_round_trip(scene, "name with spaces & %.gltf");
     scene_destroy(scene);
@@ -416,7 +422,7 @@ static size_t check_models(const char *path)
         }
         facet_error error = {0};
         facet_result result = gltf_load(file, NULL, &scene, &error);
-        model = file;
+        set_model(file);
         if (result == FACET_ERROR_UNSUPPORTED) /* this build lacks a codec */
             continue;
         if (result != FACET_OK)
