@@ -2,7 +2,7 @@
 #ifndef SHADE_CHI_SQUARE_H
 #define SHADE_CHI_SQUARE_H
 
-#include "testing/test_support.h"
+#include "test_support.h"
 
 /* Probability that X of that many degrees of freedom is at least chi2 (Wilson and Hilferty 1931). */
 static inline double chi2_p_value(double chi2, double freedom)

@@ -3,7 +3,7 @@
 #ifndef SHADE_LAYER_ALBEDO_H
 #define SHADE_LAYER_ALBEDO_H
 
-#include "testing/test_support.h"
+#include "test_support.h"
 
 static inline vec2 table_dfg(vec2 point)
 {
