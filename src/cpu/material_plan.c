@@ -6,6 +6,9 @@
 
 #include "shade/shade.h"
 
+_Static_assert((int)SCENE_SPECULAR_COLOR_TEXTURE + 1 == (int)SCENE_CLEARCOAT_TEXTURE,
+               "slots of plain surfaces are the first ones");
+
 static bool has(const scene_material *m, uint32_t extension)
 {
     return (m->extensions & extension) != 0;
@@ -116,7 +119,10 @@ facet_result material_plans_create(const render_geometry_set *set, const facet_a
         if (!g->tangents)
             plan->textures &= ~BIT(SCENE_NORMAL_TEXTURE);
         plan->layers = g->is_lit ? material_plan_layers(g->material) : 0;
+        bool is_plain = !plan->layers && !has(g->material, SCENE_SPECULAR_GLOSSINESS);
+        plan->slot_count = is_plain ? SCENE_CLEARCOAT_TEXTURE : SCENE_TEXTURE_SLOT_COUNT;
         plan->lets_rays_through = (plan->layers & LAYER_TRANSMISSION) != 0;
+        plan->reads_changes = plan->textures || plan->lets_rays_through;
         plan->is_volume =
             plan->lets_rays_through && (plan->layers & LAYER_VOLUME) && g->primitive->mode == SCENE_TRIANGLES;
         out->lets_rays_through = out->lets_rays_through || plan->lets_rays_through;

@@ -7,8 +7,10 @@
 /* Of one geometry. */
 typedef struct material_plan {
     uint32_t textures; /* bits of scene_texture_slot: what a full shade looks up */
+    int slot_count;    /* slots that are read, with or without a texture */
     uint32_t layers;   /* LAYER_* of shade/layers.h that some of its points may have; 0: a plain surface */
     bool lets_rays_through; /* LAYER_TRANSMISSION */
+    bool reads_changes;     /* over the footprint: of textures, or of what rays refract by */
     bool is_volume; /* the boundary of a body that rays go through, not a thin wall: both sides are seen */
 } material_plan;
 

@@ -26,11 +26,11 @@ static shading_texcoord texture_coordinates(const shading_hit *h, const scene_te
     return c;
 }
 
-void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted,
+void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted, int slot_count,
                           material_texels texels)
 {
     const scene_texture_ref *refs = h->geometry->material->textures;
-    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
+    for (int i = 0; i < slot_count; i++)
         for (int c = 0; c < 4; c++)
             texels[i][c] = 1.0f;
     while (wanted) {

@@ -7,8 +7,9 @@
 /* RGBA by scene_texture_slot, white where there is no texture. */
 typedef float material_texels[SCENE_TEXTURE_SLOT_COUNT][4];
 
-/* Reads the textures whose bits are set in wanted, all of which the hit's material has; the others are white. */
-void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted,
+/* Reads the textures whose bits are set in wanted, all of which the hit's material has; the
+ * others of the first slot_count are white. */
+void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted, int slot_count,
                           material_texels texels);
 /* Reads one texture one footprint along its x (axis 0) or y (axis 1) away from the hit. */
 void material_texel_beside(const shading_scene *scene, const shading_hit *h, scene_texture_slot slot,

@@ -32,11 +32,14 @@ static bool is_simple(const pixel_resolver *r, const visibility_hit *hit, float 
     const render_geometry *g = &r->scene->geometries->items[hit->geometry];
     if (g->is_see_through)
         return false;
-    if (g->is_double_sided || r->scene->plans->items[hit->geometry].is_volume)
+    if (g->is_double_sided)
         return true;
-    float origin[3];
+    const camera_rays *camera = r->scene->camera;
+    float X = x - camera->middle[0];
+    float Y = y - camera->middle[1];
     float direction[3];
-    camera_rays_at(r->scene->camera, x, y, origin, direction);
+    for (int i = 0; i < 3; i++)
+        direction[i] = camera->direction[i] + X * camera->direction_dx[i] + Y * camera->direction_dy[i];
     return shading_is_visible_side(r->scene, hit, direction);
 }
 
@@ -56,7 +59,8 @@ static bool collect_fragments(pixel_resolver *r, uint32_t x, uint32_t y, const v
             continue;
         }
         visibility_hit layers[SEE_THROUGH_LAYERS + 1];
-        shading_ray ray = shading_ray_of_camera(r->scene->camera, px, py, footprint);
+        shading_ray ray =
+            shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, px, py, footprint);
         uint32_t count = see_through(r->scene, &ray, layers);
         r->rays++;
         for (uint32_t i = 0; i < count; i++)
@@ -176,8 +180,9 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
     hit.t = sum[0] / count;
     hit.u = sum[1] / count;
     hit.v = sum[2] / count;
-    shading_ray ray = shading_ray_of_camera(r->scene->camera, (float)x + sum[3] / count,
-                                            (float)y + sum[4] / count, r->splits_quarters ? 0.5f : 1.0f);
+    shading_ray ray =
+        shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, (float)x + sum[3] / count,
+                              (float)y + sum[4] / count, r->splits_quarters ? 0.5f : 1.0f);
     shading_point point = {.hit = &hit,
                            .ray = &ray,
                            .x = x,
@@ -262,14 +267,14 @@ bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_h
 }
 
 bool pixel_nearest_surface(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hit,
-                           shading_result *result, float *depth_m, uint32_t *geometry)
+                           shading_description *result, float *depth_m, uint32_t *geometry)
 {
     if (hit->geometry == VISIBILITY_NONE)
         return false;
     float px = (float)x + 0.5f;
     float py = (float)y + 0.5f;
     visibility_hit layers[SEE_THROUGH_LAYERS + 1];
-    shading_ray ray = shading_ray_of_camera(r->scene->camera, px, py, 1.0f);
+    shading_ray ray = shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, px, py, 1.0f);
     if (!is_simple(r, hit, px, py)) {
         r->rays++;
         if (see_through(r->scene, &ray, layers) == 0)

@@ -42,7 +42,7 @@ bool pixel_resolve(pixel_resolver *resolver, uint32_t x, uint32_t y, const visib
                    float rgba[4]);
 /* The nearest surface under the middle of the pixel; false: there is none. depth_m along the camera's axis. */
 bool pixel_nearest_surface(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hit,
-                           shading_result *result, float *depth_m, uint32_t *geometry);
+                           shading_description *result, float *depth_m, uint32_t *geometry);
 void pixel_resolver_destroy(pixel_resolver *resolver);
 
 #endif

@@ -24,18 +24,20 @@ static vec3 change_of_position(vec3 dO, vec3 dD, float t, vec3 D, vec3 Ng)
 bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, const boundary_normal *normal)
 {
     bundle_hit hit = {.P = s->P, .D = -s->V, .dN_dx = normal->dN_dx, .dN_dy = normal->dN_dy};
+    const ray_spread *spread = ray->spread;
     vec3 d = load3(ray->direction);
     float inverse = inversesqrt(dot(d, d));
     float t = dot(s->P - load3(ray->origin), hit.D); /* m */
     vec3 dD[2] = {vec3(0.0f), vec3(0.0f)};
     vec3 dO[2] = {vec3(0.0f), vec3(0.0f)};
     for (int axis = 0; axis < 2; axis++) {
-        if (ray->turns) {
-            vec3 change = load3(axis ? ray->direction_dy : ray->direction_dx) * inverse;
+        if (spread->turns) {
+            vec3 change =
+                load3(axis ? spread->direction_dy : spread->direction_dx) * (ray->footprint * inverse);
             dD[axis] = change - hit.D * dot(hit.D, change);
         }
-        if (ray->moves)
-            dO[axis] = load3(axis ? ray->origin_dy : ray->origin_dx);
+        if (spread->moves)
+            dO[axis] = load3(axis ? spread->origin_dy : spread->origin_dx) * ray->footprint;
     }
     hit.dD_dx = dD[0];
     hit.dD_dy = dD[1];
@@ -44,26 +46,27 @@ bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, const
     return hit;
 }
 
-static shading_ray make_ray(const bundle_hit *hit, vec3 D, vec3 dD_dx, vec3 dD_dy)
+static bundle_ray make_ray(const bundle_hit *hit, vec3 D, vec3 dD_dx, vec3 dD_dy)
 {
-    shading_ray ray = {.far_t = INFINITY, .moves = true, .turns = true};
-    store3(hit->P, ray.origin);
-    store3(D, ray.direction);
-    store3(hit->dP_dx, ray.origin_dx);
-    store3(hit->dP_dy, ray.origin_dy);
-    store3(bounded(dD_dx), ray.direction_dx);
-    store3(bounded(dD_dy), ray.direction_dy);
-    return ray;
+    bundle_ray out = {.ray = {.far_t = INFINITY, .footprint = 1.0f},
+                      .spread = {.moves = true, .turns = true}};
+    store3(hit->P, out.ray.origin);
+    store3(D, out.ray.direction);
+    store3(hit->dP_dx, out.spread.origin_dx);
+    store3(hit->dP_dy, out.spread.origin_dy);
+    store3(bounded(dD_dx), out.spread.direction_dx);
+    store3(bounded(dD_dy), out.spread.direction_dy);
+    return out;
 }
 
-shading_ray ray_bundle_pass(const bundle_hit *hit)
+bundle_ray ray_bundle_pass(const bundle_hit *hit)
 {
     return make_ray(hit, hit->D, hit->dD_dx, hit->dD_dy);
 }
 
 /* D' = eta D + m N with c = -D.N, c' = sqrt(1 - eta^2 (1 - c^2)) and m = eta c - c'; hence
  * dD' = eta dD + m dN + dm N,  dm = (eta - eta^2 c / c') dc,  dc = -(dD.N + D.dN). */
-bool ray_bundle_refract(const bundle_hit *hit, vec3 N, float eta, shading_ray *out)
+bool ray_bundle_refract(const bundle_hit *hit, vec3 N, float eta, bundle_ray *out)
 {
     float c = -dot(hit->D, N);
     float k = 1.0f - eta * eta * (1.0f - c * c);
@@ -79,7 +82,7 @@ bool ray_bundle_refract(const bundle_hit *hit, vec3 N, float eta, shading_ray *o
 }
 
 /* D' = D + 2 c N. */
-shading_ray ray_bundle_reflect(const bundle_hit *hit, vec3 N)
+bundle_ray ray_bundle_reflect(const bundle_hit *hit, vec3 N)
 {
     float c = -dot(hit->D, N);
     vec3 x = hit->dD_dx + (hit->dN_dx * c - N * (dot(hit->dD_dx, N) + dot(hit->D, hit->dN_dx))) * 2.0f;
@@ -87,19 +90,15 @@ shading_ray ray_bundle_reflect(const bundle_hit *hit, vec3 N)
     return make_ray(hit, normalize(hit->D + N * (2.0f * c)), x, y);
 }
 
-void ray_bundle_turn(shading_ray *ray, vec3 direction)
+void ray_bundle_widen(bundle_ray *bundle, float angle_rad)
 {
-    store3(direction, ray->direction);
-}
-
-void ray_bundle_widen(shading_ray *ray, float angle_rad)
-{
-    vec3 x = load3(ray->direction_dx);
-    vec3 y = load3(ray->direction_dy);
+    ray_spread *spread = &bundle->spread;
+    vec3 x = load3(spread->direction_dx);
+    vec3 y = load3(spread->direction_dy);
     float least2 = angle_rad * angle_rad;
     if (dot(x, x) >= least2 && dot(y, y) >= least2)
         return;
-    mat3 basis = basis_from_normal(load3(ray->direction));
-    store3(COL(basis, 0) * max(sqrt(dot(x, x)), angle_rad), ray->direction_dx);
-    store3(COL(basis, 1) * max(sqrt(dot(y, y)), angle_rad), ray->direction_dy);
+    mat3 basis = basis_from_normal(load3(bundle->ray.direction));
+    store3(COL(basis, 0) * max(sqrt(dot(x, x)), angle_rad), spread->direction_dx);
+    store3(COL(basis, 1) * max(sqrt(dot(y, y)), angle_rad), spread->direction_dy);
 }

@@ -16,14 +16,18 @@ typedef struct bundle_hit {
 
 bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, const boundary_normal *normal);
 
+/* A ray with a spread of its own, which becomes that of the ray where it is followed. */
+typedef struct bundle_ray {
+    shading_ray ray;
+    ray_spread spread;
+} bundle_ray;
+
 /* Goes on straight. N below: a unit normal on the side from which the bundle comes. */
-shading_ray ray_bundle_pass(const bundle_hit *hit);
+bundle_ray ray_bundle_pass(const bundle_hit *hit);
 /* Refracted; eta: ior before / ior behind. False: all is reflected. */
-bool ray_bundle_refract(const bundle_hit *hit, vec3 N, float eta, shading_ray *out);
-shading_ray ray_bundle_reflect(const bundle_hit *hit, vec3 N);
-/* Goes on in another unit direction, as wide as before. */
-void ray_bundle_turn(shading_ray *ray, vec3 direction);
+bool ray_bundle_refract(const bundle_hit *hit, vec3 N, float eta, bundle_ray *out);
+bundle_ray ray_bundle_reflect(const bundle_hit *hit, vec3 N);
 /* Makes the bundle at least as wide as a cone of that half angle, rad. */
-void ray_bundle_widen(shading_ray *ray, float angle_rad);
+void ray_bundle_widen(bundle_ray *bundle, float angle_rad);
 
 #endif

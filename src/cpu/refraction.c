@@ -27,7 +27,8 @@ static const float SHARP2 = 1e-5f;
 
 /* A ray that is to be followed, and what it stands for. */
 typedef struct branch {
-    shading_ray ray;
+    shading_ray ray; /* its spread is another's where it is the camera's, else spread */
+    ray_spread spread;
     vec3 weight;  /* of the radiance that it brings */
     media media;  /* where it starts */
     float alpha2; /* squared GGX width of the lobe of directions around it */
@@ -63,9 +64,10 @@ static vec3 lookup(void (*light)(const light_setup *, const float[3], float, flo
  * their mean is what it shows. */
 static float bundle_alpha2(const shading_ray *ray)
 {
-    if (!ray->turns)
+    const ray_spread *spread = ray->spread;
+    if (!spread->turns)
         return 0.0f;
-    float width = 0.125f * (length(load3(ray->direction_dx)) + length(load3(ray->direction_dy)));
+    float width = 0.125f * (length(load3(spread->direction_dx)) + length(load3(spread->direction_dy)));
     return width * width;
 }
 
@@ -127,6 +129,7 @@ static void follow_later(tracer *t, const branch *b)
         return;
     }
     branch last = *b;
+    last.ray.spread = &last.spread;
     end(t, &last);
 }
 
@@ -179,30 +182,33 @@ static void keep_side(shading_ray *ray, const boundary *y, float side)
     vec3 D = load3(ray->direction);
     float c = dot(D, Ng);
     if (c * side <= 0.0f)
-        ray_bundle_turn(ray, normalize(D - Ng * (2.0f * c - side * 1e-4f)));
+        store3(normalize(D - Ng * (2.0f * c - side * 1e-4f)), ray->direction);
     store3(y->s->P + Ng * (side * y->tolerance), ray->origin);
 }
 
-static branch child_of(const branch *b, shading_ray ray, vec3 weight, float alpha2)
+/* Goes on from b's surface on a side of it. */
+static branch child_of(const branch *b, const boundary *y, float side, bundle_ray bundle, vec3 weight,
+                       float alpha2)
 {
     branch c = *b;
-    c.ray = ray;
-    c.weight = weight;
+    keep_side(&bundle.ray, y, side);
     c.alpha2 = min(alpha2, 1.0f);
-    c.depth = b->depth + 1;
     if (alpha2 > 0.0f)
-        ray_bundle_widen(&c.ray, sqrt(c.alpha2));
+        ray_bundle_widen(&bundle, sqrt(c.alpha2));
+    c.ray = bundle.ray;
+    c.spread = bundle.spread;
+    c.weight = weight;
+    c.depth = b->depth + 1;
     return c;
 }
 
 /* Straight on through a thin wall; roughness mirrors what it does to the reflection. */
 static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
-    shading_ray ray = ray_bundle_pass(&y->bundle);
+    bundle_ray bundle = ray_bundle_pass(&y->bundle);
     if (dot(y->H, y->normal.N) < 1.0f)
-        ray_bundle_turn(&ray, mirror_through(reflect(-y->s->V, y->H), y->normal.N));
-    keep_side(&ray, y, -1.0f);
-    branch c = child_of(b, ray, weight, b->alpha2 + y->alpha * y->alpha * t->share);
+        store3(mirror_through(reflect(-y->s->V, y->H), y->normal.N), bundle.ray.direction);
+    branch c = child_of(b, y, -1.0f, bundle, weight, b->alpha2 + y->alpha * y->alpha * t->share);
     follow_later(t, &c);
 }
 
@@ -211,24 +217,22 @@ static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight
 static void refract_into(tracer *t, const branch *b, const boundary *y, const media *behind, float eta,
                          vec3 weight)
 {
-    shading_ray ray;
+    bundle_ray bundle;
     if (abs(eta - 1.0f) < 1e-6f)
-        ray = ray_bundle_pass(&y->bundle);
-    else if (!ray_bundle_refract(&y->bundle, y->H, eta, &ray) &&
-             !ray_bundle_refract(&y->bundle, y->normal.N, eta, &ray))
-        ray = ray_bundle_pass(&y->bundle);
-    keep_side(&ray, y, -1.0f);
+        bundle = ray_bundle_pass(&y->bundle);
+    else if (!ray_bundle_refract(&y->bundle, y->H, eta, &bundle) &&
+             !ray_bundle_refract(&y->bundle, y->normal.N, eta, &bundle))
+        bundle = ray_bundle_pass(&y->bundle);
     float own = 0.5f * abs(1.0f - eta) * y->alpha;
-    branch c = child_of(b, ray, weight, b->alpha2 * eta * eta + own * own * t->share);
+    branch c = child_of(b, y, -1.0f, bundle, weight, b->alpha2 * eta * eta + own * own * t->share);
     c.media = *behind;
     follow_later(t, &c);
 }
 
 static void reflect_back(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
-    shading_ray ray = ray_bundle_reflect(&y->bundle, y->H);
-    keep_side(&ray, y, 1.0f);
-    branch c = child_of(b, ray, weight, b->alpha2 + y->alpha * y->alpha * t->share);
+    bundle_ray bundle = ray_bundle_reflect(&y->bundle, y->H);
+    branch c = child_of(b, y, 1.0f, bundle, weight, b->alpha2 + y->alpha * y->alpha * t->share);
     follow_later(t, &c);
 }
 
@@ -370,6 +374,7 @@ static void follow_all(tracer *t)
                 heaviest = i;
         branch b = t->waiting[heaviest];
         t->waiting[heaviest] = t->waiting[--t->waiting_count];
+        b.ray.spread = &b.spread;
         if (t->budget == 0 || b.depth > DEPTH || max3(b.weight) < t->least_weight) {
             end(t, &b);
         } else {

@@ -7,6 +7,7 @@
 
 void shading_scene_set_options(shading_scene *scene, const facet_render_desc *desc)
 {
+    scene->camera_spread = ray_spread_of_camera(scene->camera);
     scene->energy = desc->energy;
     scene->quality = desc->quality;
     scene->specular_antialiasing = desc->specular_antialiasing;
@@ -16,8 +17,8 @@ void shading_scene_set_options(shading_scene *scene, const facet_render_desc *de
 bool shading_is_visible_side(const shading_scene *scene, const visibility_hit *hit, const float direction[3])
 {
     const render_geometry *g = &scene->geometries->items[hit->geometry];
-    return g->is_double_sided || scene->plans->items[hit->geometry].is_volume ||
-           surface_sees_front(g, hit, load3(direction));
+    return g->is_double_sided || surface_sees_front(g, hit, load3(direction)) ||
+           scene->plans->items[hit->geometry].is_volume;
 }
 
 float shading_opacity(const shading_scene *scene, const shading_point *point)
@@ -31,30 +32,23 @@ float shading_opacity(const shading_scene *scene, const shading_point *point)
     return surface_opacity(g->material, base_color[3]);
 }
 
-static void describe(const surface_point *s, shading_result *out)
-{
-    store3(s->m.base.N, out->normal);
-    store3(load3(s->base_color), out->base_color);
-    out->occlusion = s->is_lit ? s->m.base.occlusion : 1.0f;
-    out->opacity = surface_opacity(s->hit.geometry->material, s->base_color[3]);
-    shading_texcoord uv = shading_hit_texcoord(&s->hit, 0);
-    out->uv[0] = uv.uv[0];
-    out->uv[1] = uv.uv[1];
-}
-
-void shading_describe(const shading_scene *scene, const shading_point *point, shading_result *out)
+void shading_describe(const shading_scene *scene, const shading_point *point, shading_description *out)
 {
     surface_point s;
     surface_point_make(scene, point, &s);
-    *out = (shading_result){.opacity = 1.0f};
-    describe(&s, out);
+    store3(s.m.base.N, out->normal);
+    store3(load3(s.base_color), out->base_color);
+    out->occlusion = s.is_lit ? s.m.base.occlusion : 1.0f;
+    shading_texcoord uv = shading_hit_texcoord(&s.hit, 0);
+    out->uv[0] = uv.uv[0];
+    out->uv[1] = uv.uv[1];
 }
 
 void shading_shade(const shading_scene *scene, const shading_point *point, shading_result *out)
 {
     surface_point s;
     surface_point_make(scene, point, &s);
-    describe(&s, out);
+    out->opacity = surface_opacity(s.hit.geometry->material, s.base_color[3]);
     if (s.m.layers & LAYER_TRANSMISSION) {
         out->rays = refraction_shade(scene, point, &s, out->radiance);
         return;

@@ -16,6 +16,7 @@ typedef struct shading_scene {
     const texture_set *textures;
     const light_setup *light;
     const camera_rays *camera;
+    ray_spread camera_spread;
     facet_energy energy;
     facet_quality quality;
     bool specular_antialiasing;
@@ -23,7 +24,7 @@ typedef struct shading_scene {
         background_blur; /* perceptual roughness of the environment where it is drawn; 0: sharp, or not drawn */
 } shading_scene;
 
-/* Sets energy and all members behind it. */
+/* Sets camera_spread, from camera, and all members behind it. */
 void shading_scene_set_options(shading_scene *scene, const facet_render_desc *desc);
 
 /* A hit and the ray that made it. */
@@ -36,19 +37,22 @@ typedef struct shading_point {
 typedef struct shading_result {
     float radiance[3]; /* cd/m^2 towards the camera */
     float opacity;     /* [0, 1] */
-    float normal[3];   /* unit shading normal, world space, on the side of the camera */
+    uint64_t rays;     /* that were traced for it */
+} shading_result;
+
+/* What is known of a surface without light. */
+typedef struct shading_description {
+    float normal[3]; /* unit shading normal, world space, on the side of the camera */
     float base_color[3];
     float occlusion;
-    float uv[2];   /* TEXCOORD_0 */
-    uint64_t rays; /* that were traced for it */
-} shading_result;
+    float uv[2]; /* TEXCOORD_0 */
+} shading_description;
 
 /* Whether the hit shows a side that is drawn: the front, or any of a double-sided surface. direction is the ray's. */
 bool shading_is_visible_side(const shading_scene *scene, const visibility_hit *hit, const float direction[3]);
 /* Whether light passes the surface: 0 not there, 1 opaque. MASK gives 0 or 1. Cheaper than a shade. */
 float shading_opacity(const shading_scene *scene, const shading_point *point);
 void shading_shade(const shading_scene *scene, const shading_point *point, shading_result *out);
-/* All but the radiance, which is 0. */
-void shading_describe(const shading_scene *scene, const shading_point *point, shading_result *out);
+void shading_describe(const shading_scene *scene, const shading_point *point, shading_description *out);
 
 #endif

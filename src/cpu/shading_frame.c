@@ -6,12 +6,6 @@ static vec3 transform(const float rows[9], vec3 v)
     return vec3(dot(load3(rows), v), dot(load3(rows + 3), v), dot(load3(rows + 6), v));
 }
 
-vec3 shading_frame_normal(const shading_hit *h, bool is_front)
-{
-    return transform(h->geometry->normal_matrix, shading_hit_vec3(h, h->geometry->normals)) *
-           (is_front ? 1.0f : -1.0f);
-}
-
 shading_frame shading_frame_of_tangents(const shading_hit *h, bool is_front)
 {
     const render_geometry *g = h->geometry;

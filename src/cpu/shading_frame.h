@@ -22,7 +22,12 @@ shading_frame shading_frame_of_tangents(const shading_hit *h, bool is_front);
 /* With the directions in which TEXCOORD_set grows on the triangle; false: it does not grow. */
 bool shading_frame_of_texcoord(const shading_hit *h, bool is_front, uint32_t set, shading_frame *frame);
 /* The interpolated normal, not unit; the geometry has some. */
-vec3 shading_frame_normal(const shading_hit *h, bool is_front);
+static inline vec3 shading_frame_normal(const shading_hit *h, bool is_front)
+{
+    const float *m = h->geometry->normal_matrix;
+    vec3 n = shading_hit_vec3(h, h->geometry->normals);
+    return vec3(dot(load3(m), n), dot(load3(m + 3), n), dot(load3(m + 6), n)) * (is_front ? 1.0f : -1.0f);
+}
 /* The vector that a texel of a normal texture holds, with its scale; false: nothing that is a normal (it could not be
  * decoded and reads as white). glTF 2.0, 3.9.3. */
 bool shading_frame_decode(const float texel[4], float scale, vec3 *n);

@@ -12,22 +12,23 @@ static void weight_derivatives(const shading_ray *ray, vec3 p0, vec3 e1, vec3 e2
     float Cd = dot(C, d);
     if (!(Cd < 0.0f || Cd > 0.0f))
         return;
-    float scale = 1.0f / Cd;
+    float scale = ray->footprint / Cd;
+    const ray_spread *spread = ray->spread;
     float *out[2] = {h->dx, h->dy};
-    if (ray->turns) {
+    if (spread->turns) {
         vec3 s = load3(ray->origin) - p0;
         vec3 A = cross(e2, s);
         vec3 B = cross(s, e1);
         for (int i = 0; i < 2; i++) {
-            vec3 step = load3(i ? ray->direction_dy : ray->direction_dx);
+            vec3 step = load3(i ? spread->direction_dy : spread->direction_dx);
             float C_step = dot(C, step);
             out[i][0] = (dot(A, step) - h->weight[1] * C_step) * scale;
             out[i][1] = (dot(B, step) - h->weight[2] * C_step) * scale;
         }
     }
-    if (ray->moves)
+    if (spread->moves)
         for (int i = 0; i < 2; i++) {
-            vec3 step = load3(i ? ray->origin_dy : ray->origin_dx);
+            vec3 step = load3(i ? spread->origin_dy : spread->origin_dx);
             out[i][0] += dot(cross(e2, step), d) * scale;
             out[i][1] += dot(cross(step, e1), d) * scale;
         }
@@ -60,7 +61,8 @@ shading_hit shading_hit_make(const shading_scene *scene, const shading_point *po
         vec3 e1 = corner(h.geometry, h.corner[1]) - p0;
         vec3 e2 = corner(h.geometry, h.corner[2]) - p0;
         h.position = p0 + e1 * hit->u + e2 * hit->v;
-        weight_derivatives(point->ray, p0, e1, e2, &h);
+        if (scene->plans->items[hit->geometry].reads_changes || scene->specular_antialiasing)
+            weight_derivatives(point->ray, p0, e1, e2, &h);
         break;
     }
     case SCENE_LINES:

@@ -5,30 +5,42 @@
 
 #include "cpu/camera_rays.h"
 
-/* origin + t direction. The changes are those over what the ray stands for, along two axes (a camera ray's: the
- * picture's x and y), after Igehy 1999, "Tracing Ray Differentials". */
-typedef struct shading_ray {
-    float origin[3], direction[3]; /* m; direction of any length, t counts in it */
-    float near_t, far_t;
+/* How a ray changes over what it stands for, along two axes (a camera ray's: the picture's x and y), after Igehy 1999,
+ * "Tracing Ray Differentials". */
+typedef struct ray_spread {
     float origin_dx[3], origin_dy[3];       /* m; not read unless moves */
     float direction_dx[3], direction_dy[3]; /* not read unless turns */
     bool moves, turns;
+} ray_spread;
+
+/* origin + t direction. */
+typedef struct shading_ray {
+    float origin[3], direction[3]; /* m; direction of any length, t counts in it */
+    float near_t, far_t;
+    const ray_spread *spread;
+    float footprint; /* of the spread that the ray stands for */
 } shading_ray;
 
-/* The ray through (x, y) of the picture for a square of footprint pixels. */
-static inline shading_ray shading_ray_of_camera(const camera_rays *camera, float x, float y, float footprint)
+/* The spread of a camera's rays for a pixel. */
+static inline ray_spread ray_spread_of_camera(const camera_rays *camera)
 {
-    shading_ray ray = {.near_t = camera->near_m,
-                       .far_t = camera->far_m,
-                       .moves = camera->is_orthographic,
-                       .turns = !camera->is_orthographic};
-    camera_rays_at(camera, x, y, ray.origin, ray.direction);
+    ray_spread spread = {.moves = camera->is_orthographic, .turns = !camera->is_orthographic};
     for (int i = 0; i < 3; i++) {
-        ray.origin_dx[i] = camera->origin_dx[i] * footprint;
-        ray.origin_dy[i] = camera->origin_dy[i] * footprint;
-        ray.direction_dx[i] = camera->direction_dx[i] * footprint;
-        ray.direction_dy[i] = camera->direction_dy[i] * footprint;
+        spread.origin_dx[i] = camera->origin_dx[i];
+        spread.origin_dy[i] = camera->origin_dy[i];
+        spread.direction_dx[i] = camera->direction_dx[i];
+        spread.direction_dy[i] = camera->direction_dy[i];
     }
+    return spread;
+}
+
+/* The ray through (x, y) of the picture for a square of footprint pixels. */
+static inline shading_ray shading_ray_of_camera(const camera_rays *camera, const ray_spread *spread, float x,
+                                                float y, float footprint)
+{
+    shading_ray ray = {
+        .near_t = camera->near_m, .far_t = camera->far_m, .spread = spread, .footprint = footprint};
+    camera_rays_at(camera, x, y, ray.origin, ray.direction);
     return ray;
 }
 

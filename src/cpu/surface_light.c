@@ -67,6 +67,8 @@ static vec3 plain_radiance(const shading_scene *scene, const surface_point *poin
         vec3 specular = specular_light(scene, normalize(reflect(-V, s.N)), s.perceptual_roughness);
         radiance += surface_ibl(s, NdotV, dfg, specular, irradiance(scene, s.N), energy);
     }
+    if (scene->light->punctual_count == 0)
+        return radiance;
     light_cursor lights = lights_at(scene, point->P);
     for (uint32_t i; light_cursor_next(&lights, &i);)
         radiance += shade_punctual(s, point->P, V, scene->light->punctual[i], energy, dfg);

@@ -18,7 +18,7 @@ void surface_base_color(const shading_scene *scene, const shading_hit *h, const 
                         float out[4])
 {
     material_texels texels;
-    material_texels_read(scene, h, plan->textures & 1u << SCENE_BASE_COLOR_TEXTURE, texels);
+    material_texels_read(scene, h, plan->textures & 1u << SCENE_BASE_COLOR_TEXTURE, 1, texels);
     multiply_base_color(h, texels[SCENE_BASE_COLOR_TEXTURE], out);
 }
 
@@ -263,7 +263,7 @@ void surface_point_make(const shading_scene *scene, const shading_point *point, 
     s->m.layers = 0u;
 
     material_texels texels;
-    material_texels_read(scene, &s->hit, s->plan->textures, texels);
+    material_texels_read(scene, &s->hit, s->plan->textures, s->plan->slot_count, texels);
     multiply_base_color(&s->hit, texels[SCENE_BASE_COLOR_TEXTURE], s->base_color);
     vec3 N = g->normals ? shading_normal(&s->hit, s->plan, texels[SCENE_NORMAL_TEXTURE], s->is_front) : s->V;
     s->m.base = make_surface(g->material, texels, N, load3(s->base_color));

@@ -55,7 +55,7 @@ static void store(const film_layer *layer, size_t pixel, const float *values)
 static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, const visibility_hit *hit,
                        size_t pixel)
 {
-    shading_result surface;
+    shading_description surface;
     float depth_m;
     uint32_t geometry;
     if (!pixel_nearest_surface(&w->resolver, x, y, hit, &surface, &depth_m, &geometry))
