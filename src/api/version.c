@@ -43,6 +43,7 @@ size_t facet_build_report(char *out, size_t size)
               FACET_SPNG_VERSION, FACET_TURBOJPEG_VERSION, FACET_WEBP_VERSION, FACET_OPENEXR_VERSION);
     text_addf(&t, "textures  ktx2 (%s, %s), avif (%s)\n", FACET_ZSTD_VERSION, FACET_ASTC_VERSION,
               FACET_AVIF_VERSION);
+    text_addf(&t, "geometry  meshopt, draco (%s)\n", FACET_DRACO_VERSION);
     text_addf(&t, "json      jansson %s\n", FACET_JANSSON_VERSION);
     text_addf(&t, "opengl    not in this version\n");
     size_t length = t.length;

@@ -123,6 +123,8 @@ static void every_model_loads(void **state)
             assert_non_null(strstr(error.message, "is glTF 1.0"));
             continue;
         }
+        if (result == FACET_ERROR_UNSUPPORTED && strstr(error.message, "draco")) /* not built in */
+            continue;
         if (result != FACET_OK)
             fail_msg("%s", error.message);
         use(scene);
