@@ -50,5 +50,5 @@ float ibl_sheen_albedo(float NdotV, float sheen_roughness)
     const float *high = sheen_table[y.first + 1] + x.first;
     float a = low[0] + (low[1] - low[0]) * x.weight;
     float b = high[0] + (high[1] - high[0]) * x.weight;
-    return fminf(a + (b - a) * y.weight, 1.0f);
+    return a + (b - a) * y.weight;
 }

@@ -102,7 +102,7 @@ static void test_sheen_golden_numbers(void **state)
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) {
             double E = (double)ibl_sheen_albedo((float)NdotV[j], (float)roughness[i]);
-            worst = fmax(worst, fabs(E - fmin(golden_sheen[i][j], 1.0)));
+            worst = fmax(worst, fabs(E - golden_sheen[i][j]));
         }
     print_message("largest deviation of sheen, interpolated: %.2e\n", worst);
     assert_true(worst < 2e-3);
@@ -116,23 +116,25 @@ static void test_sheen_is_that_of_the_shared_text(void **state)
     for (int i = 0; i < 60; i++) {
         float mu = 0.01f + 0.98f * (float)((i * 37) % 60) / 60.0f * (float)((i * 37) % 60) / 60.0f;
         float r = 0.05f + 0.95f * (float)i / 60.0f;
-        float expected = fminf(integrate_sheen_albedo(r, mu, 16384u), 1.0f);
-        worst = fmax(worst, fabs((double)ibl_sheen_albedo(mu, r) - (double)expected));
+        float expected = integrate_sheen_albedo(r, mu, 16384u);
+        worst = fmax(worst,
+                     fabs((double)ibl_sheen_albedo(mu, r) - (double)expected) / fmax((double)expected, 1.0));
     }
     print_message("largest deviation from sampling: %.2e\n", worst);
     assert_true(worst < 5e-3);
 }
 
-/* In [0, 1], falling with N.V from its peak on, which is nearer to the horizon than 0.03, and 0 where the rim has no
- * width. */
+/* Falling with N.V from its peak on, which is nearer to the horizon than 0.03; above 1 only at the rim of smooth sheen,
+ * and 0 where the rim has no width. */
 static void test_sheen_range(void **state)
 {
     (void)state;
     for (int y = 0; y <= 300; y++) {
-        float before = 1.0f;
+        float before = INFINITY;
         for (int x = 0; x <= 300; x++) {
             float E = ibl_sheen_albedo((float)x / 300.0f, (float)y / 300.0f);
-            assert_true(E >= 0.0f && E <= (x < 9 ? 1.0f : before));
+            assert_true(E >= 0.0f && (x < 9 || E <= before));
+            assert_true(E <= 1.0f || (x < 18 && y < 80));
             assert_true(y > 0 || E == 0.0f);
             before = E;
         }

@@ -47,8 +47,8 @@ void ibl_background(const ibl_light *light, const float d[3], float footprint_ra
 void ibl_dfg(float NdotV, float perceptual_roughness, float out[2]);
 
 /* Directional albedo of sheen of color 1: integral of D_Charlie V_Charlie N.L (Estevez and Kulla 2017), both arguments in
- * [0, 1], from a table that is computed when facet is built. At most 1, which the model exceeds at N.V below 0.05;
- * at roughness 0 the rim has no width, and it is 0. */
+ * [0, 1], from a table that is computed when facet is built. Above 1 where the model is, at roughness below
+ * 0.27 and N.V below 0.06; at roughness 0 the rim has no width, and it is 0. */
 float ibl_sheen_albedo(float NdotV, float sheen_roughness);
 
 #endif
