@@ -55,11 +55,11 @@ void material_texels_read(const shading_scene *scene, const shading_hit *h, uint
 }
 
 void material_texel_beside(const shading_scene *scene, const shading_hit *h, scene_texture_slot slot,
-                           int axis, float texel[4])
+                           int axis, float step, float texel[4])
 {
     const scene_texture_ref *ref = &h->geometry->material->textures[slot];
     shading_texcoord c = texture_coordinates(h, ref);
     for (int i = 0; i < 2; i++)
-        c.uv[i] += axis ? c.dy[i] : c.dx[i];
+        c.uv[i] += (axis ? c.dy[i] : c.dx[i]) * step;
     texture_sample(scene->textures, ref->texture, material_textures[slot].is_color, c.uv, c.dx, c.dy, texel);
 }

@@ -11,8 +11,8 @@ typedef float material_texels[SCENE_TEXTURE_SLOT_COUNT][4];
  * others of the first slot_count are white. */
 void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted, int slot_count,
                           material_texels texels);
-/* Reads one texture one footprint along its x (axis 0) or y (axis 1) away from the hit. */
+/* Reads one texture `step` footprints along their x (axis 0) or y (axis 1) away from the hit. */
 void material_texel_beside(const shading_scene *scene, const shading_hit *h, scene_texture_slot slot,
-                           int axis, float texel[4]);
+                           int axis, float step, float texel[4]);
 
 #endif

@@ -50,27 +50,24 @@ static vec3 shading_normal(const shading_hit *h, const material_plan *plan, cons
     return normalize_or(f.T * n[0] + f.B * n[1] + f.N * n[2], normalize_or(f.N, to_eye));
 }
 
-/* A hit one footprint along its x (axis 0) or y away, on the plane of the triangle. */
-static shading_hit beside(const shading_hit *h, int axis)
+/* The normal `step` footprints along their x (axis 0) or y from the hit, on the plane of the triangle. */
+static vec3 normal_beside(const shading_scene *scene, const surface_point *s, int axis, float step)
 {
-    shading_hit b = *h;
-    const float *step = axis ? h->dy : h->dx;
-    b.weight[1] += step[0];
-    b.weight[2] += step[1];
-    b.weight[0] = 1.0f - b.weight[1] - b.weight[2];
-    return b;
+    shading_hit h = s->hit;
+    const float *change = axis ? h.dy : h.dx;
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    if (s->plan->textures & 1u << SCENE_NORMAL_TEXTURE)
+        material_texel_beside(scene, &s->hit, SCENE_NORMAL_TEXTURE, axis, step, texel);
+    h.weight[1] += change[0] * step;
+    h.weight[2] += change[1] * step;
+    h.weight[0] = 1.0f - h.weight[1] - h.weight[2];
+    return shading_normal(&h, s->plan, texel, s->is_front);
 }
 
-/* How the shading normal changes over the footprint along axis: the difference to that of the hit beside. */
-static vec3 normal_change(const shading_scene *scene, const surface_point *s, material_texels texels,
-                          int axis)
+/* How the shading normal changes from one side of the footprint to the other. */
+static vec3 normal_change(const shading_scene *scene, const surface_point *s, int axis)
 {
-    float texel[4];
-    memcpy(texel, texels[SCENE_NORMAL_TEXTURE], sizeof texel);
-    if (s->plan->textures & 1u << SCENE_NORMAL_TEXTURE)
-        material_texel_beside(scene, &s->hit, SCENE_NORMAL_TEXTURE, axis, texel);
-    shading_hit h = beside(&s->hit, axis);
-    return shading_normal(&h, s->plan, texel, s->is_front) - s->m.base.N;
+    return normal_beside(scene, s, axis, 0.5f) - normal_beside(scene, s, axis, -0.5f);
 }
 
 /* ---- the surface ---- */
@@ -272,8 +269,8 @@ void surface_point_make(const shading_scene *scene, const shading_point *point, 
     if (s->plan->layers)
         add_layers(s, texels, &s->m);
     if (scene->specular_antialiasing) {
-        s->dN_dx = normal_change(scene, s, texels, 0);
-        s->dN_dy = normal_change(scene, s, texels, 1);
+        s->dN_dx = normal_change(scene, s, 0);
+        s->dN_dy = normal_change(scene, s, 1);
         antialias(s);
     }
 }
