@@ -183,11 +183,12 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
     shading_ray ray =
         shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, (float)x + sum[3] / count,
                               (float)y + sum[4] / count, r->splits_quarters ? 0.5f : 1.0f);
-    shading_point point = {.hit = &hit,
-                           .ray = &ray,
-                           .x = x,
-                           .y = y,
-                           .part = r->splits_quarters ? quarter_at(sum[3] / count, sum[4] / count) : 0};
+    shading_point point = {.hit = &hit, .ray = &ray, .x = x, .y = y};
+    if (r->splits_quarters) {
+        uint32_t quarter = quarter_at(sum[3] / count, sum[4] / count);
+        point.x = 2 * x + (quarter & 1);
+        point.y = 2 * y + (quarter >> 1);
+    }
     shading_result result;
     shading_shade(r->scene, &point, &result);
     r->shades++;

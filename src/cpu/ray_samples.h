@@ -64,7 +64,8 @@ static inline uint32_t ray_samples_place(uint32_t x, uint32_t y)
 static inline vec2 ray_samples_at(uint32_t index, uint32_t bounce)
 {
     uint32_t seed = ray_samples_hash(bounce);
-    uint32_t i = ray_samples_scramble(index, seed); /* another order of the same blocks for each bounce */
+    /* Another order for each bounce, of the numbers in a block and of the blocks: what is below a digit follows it. */
+    uint32_t i = ray_samples_mirror(ray_samples_scramble(ray_samples_mirror(index), seed));
     uint32_t u = ray_samples_mirror(ray_samples_scramble(i, ray_samples_hash(seed + 1)));
     uint32_t v = ray_samples_mirror(
         ray_samples_scramble(ray_samples_mirror(ray_samples_sobol2(i)), ray_samples_hash(seed + 2)));

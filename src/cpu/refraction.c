@@ -12,8 +12,7 @@
 enum {
     WAITING = 24, /* rays that branched off and were not followed yet */
     DEPTH = 16,   /* surfaces on a ray's way */
-    COLORS = 3,   /* rays of a white one that meets a dispersive body behind another surface */
-    PARTS = 4     /* shades of a pixel that draw different numbers */
+    COLORS = 3    /* rays of a white one that meets a dispersive body behind another surface */
 };
 
 /* What carries less of a shade is not followed. */
@@ -423,9 +422,9 @@ static float color_shift(uint32_t k, uint32_t n)
 
 /* Colors in another order than rays, and another one for each pixel: what is drawn for a ray's direction goes with its
  * number. */
-static uint32_t color_of_ray(uint32_t pixel, uint32_t ray, uint32_t n)
+static uint32_t color_of_ray(uint32_t place, uint32_t ray, uint32_t n)
 {
-    return n == 3 ? ray : (ray * 5 + ray_samples_hash(pixel)) % n;
+    return n == 3 ? ray : (ray * 5 + ray_samples_hash(place)) % n;
 }
 
 static vec3 color_weight(float shift)
@@ -460,16 +459,16 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
     /* Twice its part of the lobe: what neighbours share is smooth. */
     t.share = p.is_rough ? min(2.0f / (float)p.count, 1.0f) : 1.0f;
     t.least_weight = LEAST_WEIGHT[scene->quality] / (float)p.count;
-    uint32_t pixel = ray_samples_place(point->x, point->y) * p.count * PARTS;
+    uint32_t place = ray_samples_place(point->x, point->y);
     for (uint32_t i = 0; i < p.count; i++) {
         branch b = first;
         vec3 share = weight / colors;
         if (p.is_dispersed) {
             b.is_white = false;
-            b.shift = color_shift(color_of_ray(pixel, i, p.count), p.count);
+            b.shift = color_shift(color_of_ray(place, i, p.count), p.count);
             share *= color_weight(b.shift);
         }
-        t.sample = pixel + point->part * p.count + i;
+        t.sample = place * p.count + i;
         t.budget = p.budget;
         b.weight = share;
         travel(&t, &b, length(s->P - load3(point->ray->origin)));

@@ -31,7 +31,8 @@ void shading_scene_set_options(shading_scene *scene, const facet_render_desc *de
 typedef struct shading_point {
     const visibility_hit *hit;
     const shading_ray *ray;
-    uint32_t x, y, part; /* pixel, and number of the shade in it: what is drawn at random depends on them */
+    uint32_t x,
+        y; /* where in the picture, in units of what is shaded once: what is drawn at random depends on it */
 } shading_point;
 
 typedef struct shading_result {
