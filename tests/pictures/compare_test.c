@@ -1,0 +1,342 @@
+/* compare_test.c - the Compare* models of Khronos' sample assets that are about the surface: two or three things side by
+ * side that differ by one property of the material. Each test says what physics makes of that property and looks for it.
+ * Pictures are without perspective, so that the pixels of both sides correspond; where the sides differ by more than
+ * the property, the one that has it is compared with itself without it. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "picture.h"
+
+static facet_environment *white; /* radiance 1 from everywhere */
+static facet_environment *black;
+
+static int create_environments(void **state)
+{
+    (void)state;
+    facet_result result = facet_environment_create_constant((float[3]){1, 1, 1}, NULL, &white, NULL);
+    return result || facet_environment_create_constant((float[3]){0, 0, 0}, NULL, &black, NULL);
+}
+
+static int destroy_environments(void **state)
+{
+    (void)state;
+    facet_environment_destroy(white);
+    facet_environment_destroy(black);
+    return 0;
+}
+
+static picture take(const char *path, float x, const char *text, const char *by, facet_environment *light)
+{
+    picture p = picture_of_sphere(path, x, &(facet_render_desc){.environment = light}, text, by);
+    if (p.count == 0)
+        skip();
+    return p;
+}
+
+/* A metal reflects all it gives off, a dielectric 4 %, and the rest is spread: reflections are many times stronger beside
+ * what lies between them. */
+static void metal_mirrors_its_surroundings(void **state)
+{
+    (void)state;
+    picture paint = take("materials/CompareMetallic.glb", -0.55f, NULL, NULL, NULL);
+    picture metal = take("materials/CompareMetallic.glb", 0.55f, NULL, NULL, NULL);
+    assert_true(picture_detail(&metal, 1) > 2.0 * picture_detail(&paint, 0));
+    assert_true(picture_percentile(&metal, 1, 0.99) > 2.0 * picture_percentile(&paint, 0, 0.99));
+    assert_true(picture_percentile(&metal, 1, 0.05) < picture_percentile(&paint, 0, 0.05));
+    picture_destroy(&paint);
+    picture_destroy(&metal);
+}
+
+/* Roughness spreads a highlight over more of the sphere: its peak and its edges go. In light that is the same from
+ * everywhere there is nothing to spread: only the rim, where a smooth surface reflects all, is darker. */
+static void roughness_spreads_highlights(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareRoughness.glb";
+    picture smooth = take(model, -0.55f, NULL, NULL, NULL), rough = take(model, 0.55f, NULL, NULL, NULL);
+    assert_true(picture_percentile(&rough, 1, 0.99) < 0.6 * picture_percentile(&smooth, 0, 0.99));
+    assert_true(picture_detail(&rough, 1) < 0.6 * picture_detail(&smooth, 0));
+    picture_destroy(&smooth);
+    picture_destroy(&rough);
+    smooth = take(model, -0.55f, NULL, NULL, white);
+    rough = take(model, 0.55f, NULL, NULL, white);
+    double inner[2] = {picture_ring(&smooth, 0, 0, 0, 0.6), picture_ring(&rough, 1, 0, 0, 0.6)};
+    assert_float_equal((float)inner[1], (float)inner[0], 0.02f);
+    assert_true(picture_ring(&rough, 1, 0, 0.97, 1) < picture_ring(&smooth, 0, 0, 0.97, 1) - 0.05);
+    picture_destroy(&smooth);
+    picture_destroy(&rough);
+}
+
+/* A factor, a texture, and that texture times the colors of the vertices, which go around the circle of hues. In white
+ * light a surface shows its color. */
+static void vertex_colors_tint_the_texture(void **state)
+{
+    (void)state;
+    facet_scene *scene = model_load("materials/CompareBaseColor.glb");
+    if (!scene)
+        skip();
+    float low[3], high[3];
+    assert_true(facet_scene_get_bounds(scene, NULL, low, high));
+    facet_scene_destroy(scene);
+    const char *model = "materials/CompareBaseColor.glb";
+    float x = high[0] - 0.5f;
+    picture factor = take(model, -x, NULL, NULL, white), texture = take(model, 0, NULL, NULL, white),
+            vertices = take(model, x, NULL, NULL, white);
+    assert_true(picture_hues(&vertices, 1) >= 8);
+    assert_true(picture_hues(&texture, 1) <= 4);
+    assert_true(picture_hues(&factor, 0) <= 4);
+    assert_true(picture_mean_luminance(&vertices, 1) < picture_mean_luminance(&texture, 1));
+    picture_destroy(&factor);
+    picture_destroy(&texture);
+    picture_destroy(&vertices);
+}
+
+/* A normal map turns the surface here and there, and adds neither light nor shadow: the light that comes back in total
+ * changes little, its detail much. */
+static void normals_make_relief(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareNormal.glb";
+    facet_scene *scene = model_load(model);
+    if (!scene)
+        skip();
+    float low[3], high[3];
+    assert_true(facet_scene_get_bounds(scene, NULL, low, high));
+    facet_scene_destroy(scene);
+    float x = high[0] - 0.5f;
+    picture plain = take(model, -x, NULL, NULL, NULL), relief = take(model, x, NULL, NULL, NULL);
+    assert_true(picture_detail(&relief, 1) > 1.5 * picture_detail(&plain, 0));
+    double ratio = picture_mean_luminance(&relief, 1) / picture_mean_luminance(&plain, 0);
+    assert_float_equal((float)ratio, 1.0f, 0.06f);
+    picture_destroy(&plain);
+    picture_destroy(&relief);
+}
+
+/* A coat of index 1.5 reflects Fc = 0.04 + 0.96 (1 - NdotV)^5 of what comes, sharply, and leaves 1 - Fc to what is
+ * below. In light of 1 from everywhere that is all there is to it: coated = Fc + (1 - Fc) bare, pixel by pixel; near the rim a pixel sees too many angles for that. */
+static void a_clearcoat_takes_its_fresnel_share(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareClearcoat.glb";
+    picture coated = take(model, 1.1f, NULL, NULL, white);
+    picture bare = take(model, 1.1f, "\"clearcoatFactor\":1", "\"clearcoatFactor\":0", white);
+    double worst = 0.0;
+    for (uint32_t i = 0; i < coated.count; i++) {
+        double cosine = picture_cosine(&coated, i), Fc = 0.04 + 0.96 * pow(1.0 - cosine, 5.0);
+        for (uint32_t c = 0; c < 3 && coated.material[i] == 2 && picture_radius(&coated, i) < 0.8; c++) {
+            double wanted = Fc + (1.0 - Fc) * (double)bare.rgba[4 * i + c];
+            worst = fmax(worst, fabs((double)coated.rgba[4 * i + c] - wanted));
+        }
+    }
+    print_message("clearcoat: off by %.2g at most\n", worst);
+    assert_true(worst < 0.003);
+    picture_destroy(&bare);
+    picture_destroy(&coated);
+}
+
+/* Of three spheres, smooth, rough, and rough with a smooth coat, the coated one has the sharp highlights of the first
+ * over the soft ones of the second. */
+static void a_clearcoat_has_sharp_highlights(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareClearcoat.glb";
+    picture smooth = take(model, -1.1f, NULL, NULL, NULL), rough = take(model, 0, NULL, NULL, NULL),
+            coated = take(model, 1.1f, NULL, NULL, NULL);
+    assert_true(picture_detail(&coated, 2) > 1.3 * picture_detail(&rough, 1));
+    assert_true(picture_percentile(&coated, 2, 0.995) > 1.1 * picture_percentile(&rough, 1, 0.995));
+    assert_true(picture_detail(&smooth, 0) > picture_detail(&rough, 1));
+    picture_destroy(&smooth);
+    picture_destroy(&rough);
+    picture_destroy(&coated);
+}
+
+/* Sheen of color (1, 0, 0) is laid over a base that gets 1 - E(NdotV) of the light: green and blue go down by the same
+ * factor, most at the rim, where fibers scatter most; red comes back there. */
+static void sheen_glows_at_the_rim(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareSheen.glb";
+    picture fabric = take(model, 0.55f, NULL, NULL, white);
+    picture plain = take(model, 0.55f, "\"sheenColorFactor\":[1,0,0]", "\"sheenColorFactor\":[0,0,0]", white);
+    double left[3] = {0}, count = 0.0; /* of the base, by green, at the middle, between, at the rim */
+    static const double edges[4] = {0.0, 0.5, 0.85, 0.98};
+    for (int r = 0; r < 3; r++)
+        left[r] = picture_ring(&fabric, 1, 1, edges[r], edges[r + 1]) /
+                  picture_ring(&plain, 1, 1, edges[r], edges[r + 1]);
+    for (uint32_t i = 0; i < plain.count; i++) {
+        const float *p = plain.rgba + 4 * i, *f = fabric.rgba + 4 * i;
+        if (plain.material[i] != 1 || picture_radius(&plain, i) > 0.98)
+            continue;
+        assert_float_equal(f[1] * p[2], f[2] * p[1], 1e-3f * p[1] * p[2] + 1e-6f);
+        assert_true(f[1] < p[1] && f[0] / p[0] > f[1] / p[1]);
+        count++;
+    }
+    print_message("sheen leaves %.3f, %.3f, %.3f of the base\n", left[0], left[1], left[2]);
+    assert_true(count > 1000.0 && left[2] < left[1] && left[1] < left[0]);
+    assert_true(picture_ring(&fabric, 1, 0, 0.85, 0.98) > 1.5 * picture_ring(&plain, 1, 0, 0.85, 0.98));
+    picture_destroy(&fabric);
+    picture_destroy(&plain);
+}
+
+/* A color factor of 10 takes F0 from 0.04 to 0.4 where the texture, of small specks, is white: highlights there are
+ * stronger; without specular there are none. */
+static void a_specular_color_strengthens_reflections(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareSpecular.glb", *ten = "\"specularColorFactor\":[10,10,10]";
+    picture strong = take(model, 0.525f, NULL, NULL, NULL);
+    picture weak = take(model, 0.525f, ten, "\"specularColorFactor\":[1,1,1]", NULL);
+    picture none = take(model, 0.525f, "\"specularFactor\":1", "\"specularFactor\":0", NULL);
+    assert_true(picture_percentile(&strong, 1, 0.9995) > 1.5 * picture_percentile(&weak, 1, 0.9995));
+    assert_true(picture_detail(&none, 1) < picture_detail(&weak, 1));
+    assert_true(picture_detail(&weak, 1) < picture_detail(&strong, 1));
+    picture_destroy(&strong);
+    picture_destroy(&weak);
+    picture_destroy(&none);
+}
+
+/* What a thin film reflects depends on the wavelength and on the angle: a grey surface shows many hues. Where the film's
+ * texture is 0, at the logo, all is as on the other side. */
+static void a_film_shows_many_hues(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareIridescence.glb";
+    picture plain = take(model, -0.55f, NULL, NULL, NULL), film = take(model, 0.55f, NULL, NULL, NULL);
+    assert_true(picture_hues(&plain, 0) <= 2);
+    assert_true(picture_hues(&film, 1) >= 5);
+    assert_true(picture_mean_chroma(&film, 1) > 2.0 * picture_mean_chroma(&plain, 0));
+    picture off =
+        take(model, 0.55f, "\"iridescenceFactor\":1", "\"iridescenceFactor\":0", NULL); /* the same rays */
+    double logo = 0.0, count = 0.0;
+    for (uint32_t i = 0; i < off.count; i++) {
+        const float *c = off.rgba + 4 * i;
+        if (off.material[i] == 1 && c[1] > 0.3f && c[1] > 1.5f * c[2] && picture_radius(&off, i) < 0.6) {
+            logo += fabs(picture_luminance(&film, i) - picture_luminance(&off, i));
+            count++;
+        }
+    }
+    assert_true(count > 50.0 && logo / count < 0.03);
+    picture_destroy(&plain);
+    picture_destroy(&film);
+    picture_destroy(&off);
+}
+
+/* In the dark only what the surface gives off is left, and a strength of 3 is three times as much of it. */
+static void emission_grows_with_its_strength(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareEmissiveStrength.glb";
+    picture one = take(model, -0.55f, NULL, NULL, black), three = take(model, 0.55f, NULL, NULL, black);
+    double most = 0.0;
+    for (uint32_t i = 0; i < one.count * 4; i++) {
+        most = fmax(most, (double)one.rgba[i]);
+        if (i % 4 < 3) /* a pixel at the rim may lose a sample */
+            assert_float_equal(three.rgba[i], 3.0f * one.rgba[i], 0.02f);
+    }
+    assert_true(most > 0.5);
+    picture_destroy(&one);
+    picture_destroy(&three);
+}
+
+/* Sum of the differences along x, over that along y. */
+static double across(const picture *p)
+{
+    double x = 0.0, y = 0.0;
+    for (uint32_t i = 0; i + p->width < p->count; i++) {
+        if (i % p->width + 1 == p->width || picture_radius(p, i) > 0.75 || p->material[i] < 0)
+            continue;
+        double here = picture_luminance(p, i);
+        x += fabs(picture_luminance(p, i + 1) - here);
+        y += fabs(picture_luminance(p, i + p->width) - here);
+    }
+    assert_true(y > 0.0);
+    return x / y;
+}
+
+/* Anisotropy draws highlights out along the tangent, here around the sphere's axis: half of what varies along x in a
+ * picture of the sphere goes, and what varies along y stays. */
+static void anisotropy_draws_highlights_out(void **state)
+{
+    (void)state;
+    facet_scene *scene = model_load("materials/AnisotropyStrengthTest.glb");
+    if (!scene)
+        skip();
+    double even = 0.0;
+    for (int row = 0; row < 7; row++) { /* strengths from 0 to 1 at roughness 1/6 */
+        picture p = picture_take(scene, &(view){.x = -2, .y = (float)row, .height = 0.816f}, NULL);
+        double ratio = across(&p);
+        even = row == 0 ? ratio : even;
+        assert_true(row == 0 || ratio < 0.6 * even);
+        picture_destroy(&p);
+    }
+    assert_float_equal((float)even, 1.0f, 0.2f);
+    facet_scene_destroy(scene);
+}
+
+/* The half without anisotropy is the other one with a strength of 0. The turned lid mirrors the lights in streaks from
+ * its middle outwards, wherever its grooves run by them, in place of spots: it is brighter in more places. */
+static void anisotropy_makes_streaks(void **state)
+{
+    (void)state;
+    const char *model = "materials/CompareAnisotropy.glb";
+    picture brushed = take(model, 0.5f, NULL, NULL, NULL), plain = take(model, -0.5f, NULL, NULL, NULL);
+    picture off = take(model, 0.5f, "\"anisotropyStrength\":0.5", "\"anisotropyStrength\":0", NULL);
+    assert_true(picture_distance(&plain, &off) < 0.001);
+    assert_true(picture_distance(&plain, &brushed) > 0.2);
+    assert_true(picture_percentile(&brushed, 1, 0.95) > 1.5 * picture_percentile(&plain, 3, 0.95));
+    picture_destroy(&brushed);
+    picture_destroy(&plain);
+    picture_destroy(&off);
+}
+
+/* The texture of occlusion dims what comes from all around, so nothing is brighter, and the gaps between the fruit are
+ * darker. */
+static void occlusion_only_darkens(void **state)
+{
+    (void)state;
+    facet_scene *scene = model_load("materials/CompareAmbientOcclusion.glb");
+    if (!scene)
+        skip();
+    picture open = picture_take(scene, &(view){.x = -0.16f, .height = 0.4f}, NULL);
+    picture closed = picture_take(scene, &(view){.x = 0.16f, .height = 0.4f}, NULL);
+    uint32_t brighter = 0, darker = 0, count = 0;
+    for (uint32_t i = 0; i < open.count; i++) {
+        if (open.material[i] < 3 || closed.material[i] != open.material[i] - 3)
+            continue;
+        double a = picture_luminance(&open, i), b = picture_luminance(&closed, i);
+        count++;
+        brighter += b > a * 1.02 + 0.002;
+        darker += b < 0.7 * a;
+    }
+    print_message("occlusion: of %u pixels %u are darker, %u brighter\n", count, darker, brighter);
+    assert_true(count > 1000 && darker * 10 > count && brighter * 50 < count);
+    picture_destroy(&open);
+    picture_destroy(&closed);
+    facet_scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(metal_mirrors_its_surroundings),
+        cmocka_unit_test(roughness_spreads_highlights),
+        cmocka_unit_test(vertex_colors_tint_the_texture),
+        cmocka_unit_test(normals_make_relief),
+        cmocka_unit_test(a_clearcoat_takes_its_fresnel_share),
+        cmocka_unit_test(a_clearcoat_has_sharp_highlights),
+        cmocka_unit_test(sheen_glows_at_the_rim),
+        cmocka_unit_test(a_specular_color_strengthens_reflections),
+        cmocka_unit_test(a_film_shows_many_hues),
+        cmocka_unit_test(emission_grows_with_its_strength),
+        cmocka_unit_test(anisotropy_draws_highlights_out),
+        cmocka_unit_test(anisotropy_makes_streaks),
+        cmocka_unit_test(occlusion_only_darkens),
+    };
+    return cmocka_run_group_tests(tests, create_environments, destroy_environments);
+}

@@ -1,0 +1,259 @@
+/* twins_test.c - models that should look alike: compressed and plain, instanced and spelled out, of one material model and
+ * the other, embedded and packed; and variants and times that should not. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "picture.h"
+
+static const view FRAMED = {0};
+
+static facet_scene *load(const char *path)
+{
+    facet_scene *scene = model_load(path);
+    if (!scene)
+        skip();
+    return scene;
+}
+
+static picture take_model(const char *path)
+{
+    facet_scene *scene = load(path);
+    picture p = picture_take(scene, &FRAMED, NULL);
+    facet_scene_destroy(scene);
+    return p;
+}
+
+static double distance_of(const char *a, const char *b)
+{
+    picture p = take_model(a), q = take_model(b);
+    double distance = picture_distance(&p, &q);
+    print_message("%s and %s: %.2g apart\n", a, b, distance);
+    picture_destroy(&p);
+    picture_destroy(&q);
+    return distance;
+}
+
+/* ---- the same, written otherwise ---- */
+
+/* The box has integers as coordinates of its vertices, which every quantisation keeps; normals along the axes too. */
+static void compressed_boxes_are_the_box(void **state)
+{
+    (void)state;
+    assert_true(distance_of("core/Box.glb", "extensions/Box_Draco.glb") < 1e-3);
+    assert_true(distance_of("core/Box.glb", "extensions/BoxMeshopt.glb") < 1e-3);
+}
+
+static void embedded_models_are_the_packed(void **state)
+{
+    (void)state;
+    assert_true(distance_of("animation/SimpleMorph.glb", "gltf/SimpleMorph-embedded.gltf") < 1e-6);
+    assert_true(distance_of("core/TextureSettingsTest.glb", "gltf/TextureSettingsTest-embedded.gltf") < 1e-6);
+}
+
+/* Rows of cubes, 4 m apart: the first as it is, the others compressed in four ways. The camera has no perspective, so a
+ * column's cubes are one picture; filters quantise colors and normals to 8 bits and fewer. */
+static void cubes_of_a_column_look_alike(void **state)
+{
+    (void)state;
+    facet_scene *scene = load("extensions/MeshoptCubeTest/MeshoptCubeTest.gltf");
+    static const float tilts[2] = {0.0f, 0.7f};
+    for (int column = 0; column < 5; column++)
+        for (int tilt = 0; tilt < 2; tilt++) {
+            picture first = {0};
+            for (int row = 0; row < 5; row++) {
+                float x = 4.0f * (float)column, y = 16.0f - 4.0f * (float)row, away = tilts[tilt];
+                facet_camera camera = {
+                    .eye = {x + 5 * away, y + 5 * away, 10}, .target = {x, y, 0}, .ortho_height = 2.4f};
+                picture p = picture_take(scene, &FRAMED, &(facet_render_desc){.camera = &camera});
+                if (row == 0)
+                    first = p;
+                else if (picture_distance(&first, &p) > 0.02)
+                    fail_msg("column %d, row %d: %g from the plain one", column, row,
+                             picture_distance(&first, &p));
+                if (row > 0)
+                    picture_destroy(&p);
+            }
+            picture_destroy(&first);
+        }
+    facet_scene_destroy(scene);
+}
+
+/* ---- instances ---- */
+
+/* SimpleInstancing's 125 copies as nodes: translations, rotations and scales stand at these places of its buffer. */
+static char *write_nodes(const unsigned char *glb)
+{
+    enum { COUNT = 125, ROOM = COUNT * 256 };
+    const unsigned char *bin = glb + 20 + (glb[12] | glb[13] << 8) + 8;
+    static const size_t offsets[3] = {720, 2220, 4220};
+    char *text = malloc(ROOM);
+    assert_non_null(text);
+    int n = snprintf(text, ROOM, "\"nodes\":[{\"children\":[");
+    for (int i = 1; i <= COUNT; i++)
+        n += snprintf(text + n, (size_t)(ROOM - n), "%d%s", i, i < COUNT ? "," : "]}");
+    for (size_t i = 0; i < COUNT; i++) {
+        float t[3], r[4], s[3];
+        memcpy(t, bin + offsets[0] + 12 * i, 12);
+        memcpy(r, bin + offsets[1] + 16 * i, 16);
+        memcpy(s, bin + offsets[2] + 12 * i, 12);
+        n += snprintf(text + n, (size_t)(ROOM - n),
+                      ",{\"mesh\":0,\"translation\":[%.9g,%.9g,%.9g],\"rotation\":[%.9g,%.9g,%.9g,%.9g],"
+                      "\"scale\":[%.9g,%.9g,%.9g]}",
+                      (double)t[0], (double)t[1], (double)t[2], (double)r[0], (double)r[1], (double)r[2],
+                      (double)r[3], (double)s[0], (double)s[1], (double)s[2]);
+    }
+    snprintf(text + n, (size_t)(ROOM - n), "]");
+    return text;
+}
+
+static void instances_are_nodes(void **state)
+{
+    (void)state;
+    const char *path = "extensions/SimpleInstancing.glb";
+    size_t size;
+    unsigned char *bytes = model_read(path, &size);
+    if (!bytes)
+        skip();
+    char *nodes = write_nodes(bytes);
+    facet_scene *instanced = load(path);
+    facet_scene *spelled =
+        model_load_edited(path,
+                          "\"nodes\":[{\"extensions\":{\"EXT_mesh_gpu_instancing\":{"
+                          "\"attributes\":{\"TRANSLATION\":3,\"ROTATION\":4,\"SCALE\":5}}},"
+                          "\"mesh\":0}]",
+                          nodes);
+    assert_int_equal(facet_scene_get_counts(spelled).instances, 125);
+    picture a = picture_take(instanced, &FRAMED, NULL), b = picture_take(spelled, &FRAMED, NULL);
+    uint32_t covered = 0;
+    for (uint32_t i = 0; i < a.count; i++)
+        covered += a.rgba[4 * i + 3] > 0.5f;
+    assert_true(covered > a.count / 3);
+    assert_true(picture_distance(&a, &b) < 1e-4);
+    picture_destroy(&a);
+    picture_destroy(&b);
+    facet_scene_destroy(instanced);
+    facet_scene_destroy(spelled);
+    free(nodes);
+    free(bytes);
+}
+
+/* ---- materials ---- */
+
+/* The same avocado for two models of materials. Its textures were made separately (the reflectance of one is not 0.04
+ * everywhere), so that they are alike, not equal. */
+static void an_avocado_is_an_avocado(void **state)
+{
+    (void)state;
+    double distance = distance_of("core/Avocado.glb", "specgloss/Avocado-specgloss.glb");
+    assert_true(distance > 1e-3 && distance < 0.15);
+}
+
+/* Every variant maps the shoe to another material; the fabric and the wood of the chair change, its metal and label do
+ * not. Without a variant the primitive's own material is drawn, here that of the first. */
+static void variants_change_what_they_map(void **state)
+{
+    (void)state;
+    facet_scene *shoe = load("materials/MaterialsVariantsShoe.glb");
+    picture shoes[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        facet_render_desc desc = {.pose = {.has_variant = i < 3, .variant = i}};
+        shoes[i] = picture_take(shoe, &FRAMED, &desc);
+        assert_int_equal(picture_pixels(&shoes[i], i < 3 ? (int)i : 0), picture_pixels(&shoes[i], -1));
+    }
+    for (int i = 0; i < 3; i++)
+        assert_true(picture_distance(&shoes[i], &shoes[(i + 1) % 3]) > 0.1);
+    assert_true(picture_distance(&shoes[0], &shoes[3]) == 0.0);
+    for (int i = 0; i < 4; i++)
+        picture_destroy(&shoes[i]);
+    facet_scene_destroy(shoe);
+
+    facet_scene *chair = load("materials/SheenChair.glb");
+    facet_render_desc desc = {.pose = {.has_variant = true, .variant = 0}};
+    picture mango = picture_take(chair, &FRAMED, &desc);
+    desc.pose.variant = 1;
+    picture peacock = picture_take(chair, &FRAMED, &desc);
+    assert_int_equal(picture_pixels(&mango, 0), picture_pixels(&peacock, 4));
+    assert_int_equal(picture_pixels(&mango, 1), picture_pixels(&peacock, 5));
+    assert_true(picture_pixels(&mango, 4) == 0 && picture_pixels(&peacock, 0) == 0);
+    assert_true(picture_mean(&mango, 0, 0) > 3.0 * picture_mean(&mango, 0, 2));
+    assert_true(picture_mean(&peacock, 4, 2) > 1.5 * picture_mean(&peacock, 4, 0));
+    picture_destroy(&mango);
+    picture_destroy(&peacock);
+    facet_scene_destroy(chair);
+}
+
+/* Copper, by a JPEG of its color; brushed and dented, by KTX2 files. */
+static void a_lamp_with_ktx2_textures(void **state)
+{
+    (void)state;
+    picture lamp = take_model("extensions/AnisotropyBarnLamp-ktx2/AnisotropyBarnLamp.gltf");
+    assert_true(picture_pixels(&lamp, -1) > lamp.count / 5);
+    assert_true(picture_mean(&lamp, -1, 0) > 1.3 * picture_mean(&lamp, -1, 2));
+    assert_true(picture_detail(&lamp, -1) > 0.03);
+    picture_destroy(&lamp);
+}
+
+/* ---- motion ---- */
+
+static picture take_at(const facet_scene *scene, uint32_t animation, double time_s)
+{
+    facet_orbit orbit = facet_orbit_default();
+    orbit.azimuth_rad = 0.9f;
+    facet_camera camera;
+    assert_int_equal(facet_camera_from_orbit(scene, NULL, &orbit, 1, &camera, NULL), FACET_OK);
+    facet_render_desc desc = {.camera = &camera,
+                              .pose = {.animation_count = 1, .animations = &animation, .time_s = time_s}};
+    return picture_take(scene, &FRAMED, &desc);
+}
+
+/* Models move, and these clips end as they began. */
+static void models_move_and_loops_close(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path;
+        uint32_t animation;
+    } cases[] = {
+        {"animation/Fox.glb", 0},          {"animation/Fox.glb", 1},
+        {"animation/Fox.glb", 2},          {"animation/AnimatedTriangle.glb", 0},
+        {"animation/BoxAnimated.glb", 0},  {"animation/AnimatedMorphCube.glb", 0},
+        {"animation/RiggedSimple.glb", 0}, {"animation/SimpleMorph.glb", 0},
+        {"animation/SimpleSkin.glb", 0},   {"animation/MorphStressTest.glb", 1},
+        {"lights/LightVisibility.glb", 0}, {"animation/AnimatedColorsCube.glb", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        facet_scene *scene = load(cases[i].path);
+        facet_animation a = facet_scene_get_animation(scene, cases[i].animation);
+        double length = a.end_s - a.begin_s;
+        assert_true(length > 0.0);
+        picture begin = take_at(scene, cases[i].animation, a.begin_s),
+                some = take_at(scene, cases[i].animation, a.begin_s + 0.31 * length),
+                end = take_at(scene, cases[i].animation, a.end_s);
+        if (!(picture_distance(&begin, &some) > 0.05) || !(picture_distance(&begin, &end) < 1e-4))
+            fail_msg("%s, animation %s: %g after 31 %%, %g at the end", cases[i].path, a.name,
+                     picture_distance(&begin, &some), picture_distance(&begin, &end));
+        picture_destroy(&begin);
+        picture_destroy(&some);
+        picture_destroy(&end);
+        facet_scene_destroy(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(compressed_boxes_are_the_box), cmocka_unit_test(embedded_models_are_the_packed),
+        cmocka_unit_test(cubes_of_a_column_look_alike), cmocka_unit_test(instances_are_nodes),
+        cmocka_unit_test(an_avocado_is_an_avocado),     cmocka_unit_test(variants_change_what_they_map),
+        cmocka_unit_test(a_lamp_with_ktx2_textures),    cmocka_unit_test(models_move_and_loops_close),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
