@@ -31,11 +31,25 @@ static bool may_see_through(const scene_primitive *primitive, const scene_materi
            material->base_color[3] < 1.0f || has_vertex_alpha(primitive);
 }
 
+static float determinant9(const float m[9])
+{
+    return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+           m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
+/* What a 3x3 matrix is scaled by so that its determinant becomes 1 or -1. */
+static float unit_volume(float determinant)
+{
+    float scale = cbrtf(fabsf(determinant));
+    return scale > 0.0f ? 1.0f / scale : 1.0f;
+}
+
+/* Normals and tangents are scaled alike, so that a normal map is as deep on a small node as on a large one; the normal
+ * matrix comes with a scale of its own. */
 static void set_transform(render_geometry *g, const scene_instance *instance)
 {
-    float scale = cbrtf(fabsf(mat4_determinant3(instance->world)));
-    float vector_scale = scale > 0.0f ? 1.0f / scale : 1.0f;
-    float normal_scale = vector_scale * vector_scale;
+    float vector_scale = unit_volume(mat4_determinant3(instance->world));
+    float normal_scale = unit_volume(determinant9(instance->normal_matrix));
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 3; column++) {
             g->normal_matrix[3 * row + column] = instance->normal_matrix[3 * row + column] * normal_scale;

@@ -86,6 +86,28 @@ static void cubes_of_a_column_look_alike(void **state)
     facet_scene_destroy(scene);
 }
 
+/* Brushed metal with a normal map whose node is scaled, seen from as much farther: its relief is as deep as before. */
+static void scaled_nodes_look_the_same(void **state)
+{
+    (void)state;
+    const char *path = "materials/CompareAnisotropy.glb", *name = "\"name\":\"Spheroid002\"";
+    facet_scene *plain = load(path);
+    facet_scene *large = model_load_edited(path, name, "\"scale\":[2,2,2]");
+    facet_scene *small = model_load_edited(path, name, "\"scale\":[0.1,0.1,0.1]");
+    picture one = picture_take(plain, &(view){.x = 0.5f, .height = 1}, NULL),
+            two = picture_take(large, &(view){.x = 0.5f, .height = 2}, NULL),
+            tenth = picture_take(small, &(view){.x = 0.5f, .height = 0.1f}, NULL);
+    assert_true(picture_pixels(&one, -1) > one.count / 5);
+    assert_true(picture_distance(&one, &two) < 1e-3);
+    assert_true(picture_distance(&one, &tenth) < 0.02); /* rounding at its edges */
+    picture_destroy(&one);
+    picture_destroy(&two);
+    picture_destroy(&tenth);
+    facet_scene_destroy(plain);
+    facet_scene_destroy(large);
+    facet_scene_destroy(small);
+}
+
 /* ---- instances ---- */
 
 /* SimpleInstancing's 125 copies as nodes: translations, rotations and scales stand at these places of its buffer. */
@@ -250,10 +272,11 @@ static void models_move_and_loops_close(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(compressed_boxes_are_the_box), cmocka_unit_test(embedded_models_are_the_packed),
-        cmocka_unit_test(cubes_of_a_column_look_alike), cmocka_unit_test(instances_are_nodes),
-        cmocka_unit_test(an_avocado_is_an_avocado),     cmocka_unit_test(variants_change_what_they_map),
-        cmocka_unit_test(a_lamp_with_ktx2_textures),    cmocka_unit_test(models_move_and_loops_close),
+        cmocka_unit_test(compressed_boxes_are_the_box),  cmocka_unit_test(embedded_models_are_the_packed),
+        cmocka_unit_test(cubes_of_a_column_look_alike),  cmocka_unit_test(scaled_nodes_look_the_same),
+        cmocka_unit_test(instances_are_nodes),           cmocka_unit_test(an_avocado_is_an_avocado),
+        cmocka_unit_test(variants_change_what_they_map), cmocka_unit_test(a_lamp_with_ktx2_textures),
+        cmocka_unit_test(models_move_and_loops_close),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
