@@ -94,9 +94,9 @@ static void scaled_nodes_look_the_same(void **state)
     facet_scene *plain = load(path);
     facet_scene *large = model_load_edited(path, name, "\"scale\":[2,2,2]");
     facet_scene *small = model_load_edited(path, name, "\"scale\":[0.1,0.1,0.1]");
-    picture one = picture_take(plain, &(view){.x = 0.5f, .height = 1}, NULL),
-            two = picture_take(large, &(view){.x = 0.5f, .height = 2}, NULL),
-            tenth = picture_take(small, &(view){.x = 0.5f, .height = 0.1f}, NULL);
+    picture one = picture_take(plain, &(view){.x = 0.5f, .height = 0.5f}, NULL),
+            two = picture_take(large, &(view){.x = 0.5f, .height = 1}, NULL),
+            tenth = picture_take(small, &(view){.x = 0.5f, .height = 0.05f}, NULL);
     assert_true(picture_pixels(&one, -1) > one.count / 5);
     assert_true(picture_distance(&one, &two) < 1e-3);
     assert_true(picture_distance(&one, &tenth) < 0.02); /* rounding at its edges */
