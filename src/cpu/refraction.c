@@ -18,6 +18,8 @@ enum {
 /* What carries less of a shade is not followed. */
 static const float LEAST_WEIGHT[] = {
     [FACET_QUALITY_NORMAL] = 0.01f, [FACET_QUALITY_DRAFT] = 0.02f, [FACET_QUALITY_FINAL] = 0.003f};
+/* Factor on it where what is seen is blurred: no inner reflection of one boundary, but total ones. */
+static const float BLURRED = 6.0f;
 /* GGX width up to which one ray in the middle of the lobe does: what it meets is filtered for the lobe, which blurs
  * textures and the environment but no edges. */
 static const float SMOOTH = 0.0125f;
@@ -201,13 +203,20 @@ static branch child_of(const branch *b, const boundary *y, float side, bundle_ra
     return c;
 }
 
+/* Share of the lobe of b's surface that one ray stands for: samples cover the ways through the first two surfaces; what
+ * comes after them they do not. */
+static float share_of(const tracer *t, const branch *b)
+{
+    return b->depth < 2 ? t->share : 1.0f;
+}
+
 /* Straight on through a thin wall; roughness mirrors what it does to the reflection. */
 static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     bundle_ray bundle = ray_bundle_pass(&y->bundle);
     if (dot(y->H, y->normal.N) < 1.0f)
         store3(mirror_through(reflect(-y->s->V, y->H), y->normal.N), bundle.ray.direction);
-    branch c = child_of(b, y, -1.0f, bundle, weight, b->alpha2 + y->alpha * y->alpha * t->share);
+    branch c = child_of(b, y, -1.0f, bundle, weight, b->alpha2 + y->alpha * y->alpha * share_of(t, b));
     follow_later(t, &c);
 }
 
@@ -223,7 +232,7 @@ static void refract_into(tracer *t, const branch *b, const boundary *y, const me
              !ray_bundle_refract(&y->bundle, y->normal.N, eta, &bundle))
         bundle = ray_bundle_pass(&y->bundle);
     float own = 0.5f * abs(1.0f - eta) * y->alpha;
-    branch c = child_of(b, y, -1.0f, bundle, weight, b->alpha2 * eta * eta + own * own * t->share);
+    branch c = child_of(b, y, -1.0f, bundle, weight, b->alpha2 * eta * eta + own * own * share_of(t, b));
     c.media = *behind;
     follow_later(t, &c);
 }
@@ -231,7 +240,7 @@ static void refract_into(tracer *t, const branch *b, const boundary *y, const me
 static void reflect_back(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     bundle_ray bundle = ray_bundle_reflect(&y->bundle, y->H);
-    branch c = child_of(b, y, 1.0f, bundle, weight, b->alpha2 + y->alpha * y->alpha * t->share);
+    branch c = child_of(b, y, 1.0f, bundle, weight, b->alpha2 + y->alpha * y->alpha * share_of(t, b));
     follow_later(t, &c);
 }
 
@@ -456,9 +465,9 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
         media_enter(&first.media, s->hit.geometry->material);
     }
     vec3 colors = p.is_dispersed ? color_sum(p.count) : vec3((float)p.count);
-    /* Twice its part of the lobe: what neighbours share is smooth. */
-    t.share = p.is_rough ? min(2.0f / (float)p.count, 1.0f) : 1.0f;
-    t.least_weight = LEAST_WEIGHT[scene->quality] / (float)p.count;
+    /* Four times its part of the lobe, which that widens by a tenth: bright lamps leave no specks. */
+    t.share = p.is_rough ? min(4.0f / (float)p.count, 1.0f) : 1.0f;
+    t.least_weight = LEAST_WEIGHT[scene->quality] * (p.is_rough ? BLURRED : 1.0f) / (float)p.count;
     uint32_t place = ray_samples_place(point->x, point->y);
     for (uint32_t i = 0; i < p.count; i++) {
         branch b = first;
