@@ -231,18 +231,18 @@ static void media_are_left_in_any_order(void **state)
     assert_null(media_here(&in));
     media_leave(&in, &m[0]); /* what was not entered */
     assert_null(media_here(&in));
-    media_enter(&in, &m[0]);
-    media_enter(&in, &m[1]);
+    media_enter(&in, &m[0], 1.0f);
+    media_enter(&in, &m[1], 1.0f);
     assert_ptr_equal(media_here(&in), &m[1]);
     media_leave(&in, &m[0]); /* the glass before the liquid that reaches into it */
     assert_ptr_equal(media_here(&in), &m[1]);
-    media_enter(&in, &m[1]);
+    media_enter(&in, &m[1], 1.0f);
     media_leave(&in, &m[1]); /* two bodies of one material */
     assert_ptr_equal(media_here(&in), &m[1]);
     media_leave(&in, &m[1]);
     assert_null(media_here(&in));
     for (int i = 0; i < MEDIA_DEPTH + 2; i++)
-        media_enter(&in, &m[i]);
+        media_enter(&in, &m[i], 1.0f);
     for (int i = MEDIA_DEPTH + 1; i >= 2; i--) {
         assert_ptr_equal(media_here(&in), &m[i]);
         media_leave(&in, &m[i]);

@@ -117,9 +117,8 @@ static void travel(tracer *t, branch *b, float length_m)
 /* Ends the ray. In a body it has found no way out: as thick as its material says. */
 static void end(tracer *t, branch *b)
 {
-    const scene_material *m = media_here(&b->media);
-    if (m)
-        travel(t, b, m->thickness);
+    if (b->media.count)
+        travel(t, b, b->media.bodies[b->media.count - 1].thickness_m);
     t->radiance += b->weight * environment_seen(t->scene, b);
 }
 
@@ -462,7 +461,7 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
         t.rays = light.rays;
         weight = light.through;
     } else { /* the eye is in the body */
-        media_enter(&first.media, s->hit.geometry->material);
+        media_enter(&first.media, s->hit.geometry->material, 0.0f);
     }
     vec3 colors = p.is_dispersed ? color_sum(p.count) : vec3((float)p.count);
     /* Four times its part of the lobe, which that widens by a tenth: bright lamps leave no specks. */

@@ -413,9 +413,10 @@ static void an_open_body_shows_the_environment(void **state)
     m.attenuation_distance = 0.2f;
     m.attenuation_color[0] = 0.5f;
     m.specular = 0.0f;
-    fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, m)), 0, 0, 0, 1.0f);
+    /* 0.4 m, with the scale of the node 0.2 m of the distance at which half is left */
+    fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, m)), 0, 0, 0, 0.5f);
     film picture = fixture_render(&f);
-    assert_near(pixel(&picture, 32, 32)[0], 0.25, 1e-3);
+    assert_near(pixel(&picture, 32, 32)[0], 0.5, 1e-3);
     assert_near(pixel(&picture, 32, 32)[1], 1.0, 1e-3);
     film_destroy(&picture);
     fixture_destroy(&f);

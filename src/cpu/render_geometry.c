@@ -55,6 +55,7 @@ static void set_transform(render_geometry *g, const scene_instance *instance)
             g->normal_matrix[3 * row + column] = instance->normal_matrix[3 * row + column] * normal_scale;
             g->tangent_matrix[3 * row + column] = instance->world.m[4 * column + row] * vector_scale;
         }
+    g->scale = 1.0f / vector_scale;
     g->is_mirrored = instance->is_mirrored;
     g->bitangent_sign = instance->is_mirrored ? -1.0f : 1.0f;
 }

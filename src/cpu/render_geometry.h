@@ -28,6 +28,7 @@ typedef struct render_geometry {
     const float *tangents;   /* the same, 4 per vertex, or per index where has_corner_tangents; NULL: none */
     float normal_matrix[9];  /* object to world, rows; keeps normals outward; scaled to about 1 */
     float tangent_matrix[9]; /* the same for vectors in the surface */
+    float scale;             /* of lengths, object to world: cube root of the volumes' ratio */
     float bitangent_sign;    /* -1 where the instance is mirrored: what cross(N, T) does not know */
     uint32_t material_id;    /* index plus 1; 0: the default material */
     uint32_t shape;          /* RENDER_INSTANCED: of the set */

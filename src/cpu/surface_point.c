@@ -201,7 +201,7 @@ static void add_transmission(const surface_point *s, material_texels texels, Lay
     if (!(m->layers & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION)) || !(possible & LAYER_VOLUME))
         return;
     m->layers |= LAYER_VOLUME | (possible & (LAYER_DISPERSION | LAYER_SCATTER));
-    m->thickness = material->thickness * texels[SCENE_THICKNESS_TEXTURE][1];
+    m->thickness = material->thickness * s->hit.geometry->scale * texels[SCENE_THICKNESS_TEXTURE][1];
     m->attenuation_color = load3(material->attenuation_color);
     m->attenuation_distance = material->attenuation_distance;
     m->dispersion = material->dispersion;

@@ -122,7 +122,7 @@ static void note_boundary(const struct RTCFilterFunctionNArguments *arguments)
 static void cross_one(const render_geometry *g, bool is_front, media *m)
 {
     if (is_front)
-        media_enter(m, g->material);
+        media_enter(m, g->material, g->material->thickness * g->scale);
     else
         media_leave(m, g->material);
 }
