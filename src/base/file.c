@@ -171,20 +171,21 @@ static int create_temporary(const char *path, char **name)
     return fd;
 }
 
-facet_result file_replace(const char *path, const void *data, size_t size, facet_error *error)
+/* Writes the temporary of a stage; what it will replace is no folder. */
+static facet_result stage_regular(const char *path, const void *data, size_t size, file_stage *stage,
+                                  facet_error *error)
 {
     struct stat old;
-    bool exists = lstat(path, &old) == 0;
-    if (exists && S_ISDIR(old.st_mode))
-        return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
-    char *temporary;
-    int fd = create_temporary(path, &temporary);
+    bool keeps_mode = lstat(path, &old) == 0 && S_ISREG(old.st_mode);
+    stage->path = strdup(path);
+    int fd = stage->path ? create_temporary(path, &stage->temporary) : -1;
     if (fd < 0) {
-        int code = errno;
-        free(temporary);
+        int code = stage->path ? errno : ENOMEM;
+        free(stage->temporary);
+        free(stage->path);
+        *stage = (file_stage){0};
         return fail(error, FACET_ERROR_WRITE, "%s: cannot be created: %s", path, strerror(code));
     }
-    bool keeps_mode = exists && S_ISREG(old.st_mode);
     bool written =
         (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) && write_all(fd, data, size) && fsync(fd) == 0;
     int code = errno;
@@ -192,26 +193,61 @@ facet_result file_replace(const char *path, const void *data, size_t size, facet
         written = false;
         code = errno;
     }
-    if (written && rename(temporary, path) != 0) {
-        written = false;
-        code = errno;
+    if (written)
+        return FACET_OK;
+    file_stage_discard(stage);
+    return fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
+}
+
+facet_result file_stage_write(const char *path, const void *data, size_t size, file_stage *stage,
+                              facet_error *error)
+{
+    struct stat status;
+    *stage = (file_stage){0};
+    if (stat(path, &status) == 0 && S_ISDIR(status.st_mode))
+        return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
+    bool is_stream = lstat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode);
+    return is_stream || leads_to_descriptor(path) ? write_directly(path, data, size, error)
+                                                  : stage_regular(path, data, size, stage, error);
+}
+
+facet_result file_stage_commit(file_stage *stage, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    if (stage->temporary && rename(stage->temporary, stage->path) != 0)
+        result = fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", stage->path, strerror(errno));
+    if (result == FACET_OK) { /* there is no temporary any longer */
+        free(stage->temporary);
+        stage->temporary = NULL;
     }
-    if (!written)
-        unlink(temporary);
-    free(temporary);
-    return written ? FACET_OK
-                   : fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
+    file_stage_discard(stage);
+    return result;
+}
+
+void file_stage_discard(file_stage *stage)
+{
+    if (stage->temporary)
+        unlink(stage->temporary);
+    free(stage->temporary);
+    free(stage->path);
+    *stage = (file_stage){0};
+}
+
+facet_result file_replace(const char *path, const void *data, size_t size, facet_error *error)
+{
+    struct stat old;
+    file_stage stage = {0};
+    if (lstat(path, &old) == 0 && S_ISDIR(old.st_mode))
+        return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
+    facet_result result = stage_regular(path, data, size, &stage, error);
+    return result == FACET_OK ? file_stage_commit(&stage, error) : result;
 }
 
 facet_result file_write(const char *path, const void *data, size_t size, facet_error *error)
 {
-    struct stat status;
-    bool exists = stat(path, &status) == 0;
-    if (exists && S_ISDIR(status.st_mode))
-        return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
-    bool is_stream = lstat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode);
-    return is_stream || leads_to_descriptor(path) ? write_directly(path, data, size, error)
-                                                  : file_replace(path, data, size, error);
+    file_stage stage;
+    facet_result result = file_stage_write(path, data, size, &stage, error);
+    return result == FACET_OK ? file_stage_commit(&stage, error) : result;
 }
 
 char *path_join(const facet_allocator *allocator, const char *folder, const char *name)

@@ -26,6 +26,18 @@ facet_result file_write(const char *path, const void *data, size_t size, facet_e
 /* The same, but whatever stands at path and is no folder is replaced: for files of our own. */
 facet_result file_replace(const char *path, const void *data, size_t size, facet_error *error);
 
+/* A file that is written and on the disk, but not yet in its place. {0}: none. */
+typedef struct file_stage {
+    char *path, *temporary; /* temporary NULL: a device or pipe, which was written directly */
+} file_stage;
+
+/* The two halves of file_write(), so that several files appear together or not at all: stage them all, then commit
+ * them. A commit can hardly fail, and leaves {0}; so does a discard, after which path is as it was. */
+facet_result file_stage_write(const char *path, const void *data, size_t size, file_stage *stage,
+                              facet_error *error);
+facet_result file_stage_commit(file_stage *stage, facet_error *error);
+void file_stage_discard(file_stage *stage); /* {0} is allowed */
+
 /* Joins folder and the relative path name into a block of mem_alloc(); NULL: no memory. */
 char *path_join(const facet_allocator *allocator, const char *folder, const char *name);
 /* The folder of path without trailing slash, "." where it has none; a block of mem_alloc(). */

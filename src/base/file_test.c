@@ -216,6 +216,32 @@ static void links_do_not_lead_out(void **state)
         mem_free(all[i]);
 }
 
+static void staged_files_wait(void **state)
+{
+    (void)state;
+    char path[300];
+    file_stage stage, other;
+    file_bytes file;
+    snprintf(path, sizeof path, "%s/staged", folder);
+    assert_int_equal(file_stage_write(path, "new", 3, &stage, NULL), FACET_OK);
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_int_equal(file_stage_write(path, "never", 5, &other, NULL), FACET_OK);
+    assert_int_equal(file_stage_commit(&stage, NULL), FACET_OK);
+    char temporary[600];
+    snprintf(temporary, sizeof temporary, "%s", other.temporary);
+    file_stage_discard(&other);
+    file_stage_discard(&other);
+    assert_int_not_equal(access(temporary, F_OK), 0);
+    assert_int_equal(file_open(path, 0, NULL, &file, NULL), FACET_OK);
+    assert_int_equal(file.size, 3);
+    file_close(&file);
+    unlink(path);
+    facet_error error = {0};
+    assert_int_equal(file_stage_write("/nowhere/at/all", "x", 1, &stage, &error), FACET_ERROR_WRITE);
+    assert_non_null(strstr(error.message, "/nowhere/at/all"));
+    file_stage_discard(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -226,6 +252,7 @@ int main(void)
         cmocka_unit_test(modes_follow_umask_and_stay),
         cmocka_unit_test(failures_name_the_file),
         cmocka_unit_test(a_full_device_is_an_error),
+        cmocka_unit_test(staged_files_wait),
         cmocka_unit_test(names_are_taken_apart),
         cmocka_unit_test(links_do_not_lead_out),
     };
