@@ -231,7 +231,8 @@ const float *get_finite(reader *r, const json_place *at, uint32_t index, const c
         return NULL;
     for (size_t i = 0; i < c.width * a->count; i++)
         out[i] = is_sane(in[i]) ? in[i] : 0.0f;
-    reader_warn(r, at, NULL, "accessor %u has %s that are not finite; they are 0", index, what);
+    reader_warn(r, at, NULL, "accessor %u has %s that are not finite or beyond %g; they are 0", index, what,
+                (double)SCENE_FARTHEST);
     return a->finite = out;
 }
 

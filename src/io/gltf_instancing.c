@@ -64,7 +64,9 @@ const scene_instancing *read_instancing(reader *r, const json_place *node)
     uint32_t translation = get_instances(r, &attributes, "TRANSLATION", GLTF_VEC3, &count);
     uint32_t rotation = get_instances(r, &attributes, "ROTATION", GLTF_VEC4, &count);
     uint32_t scale = get_instances(r, &attributes, "SCALE", GLTF_VEC3, &count);
-    if (count == SCENE_NONE || !reader_is_ok(r)) {
+    if (!reader_is_ok(r))
+        return NULL;
+    if (count == SCENE_NONE) {
         reader_warn(r, &extension, "attributes", "has no TRANSLATION, ROTATION or SCALE; it is ignored");
         return NULL;
     }

@@ -140,21 +140,43 @@ static facet_result save_glb(writer *w, const char *path)
     return w->result;
 }
 
-/* Writes a file into the folder of path. */
-static facet_result save_beside(writer *w, const char *path, const char *name, const void *bytes, size_t size)
+/* Stages a file in the folder of path. */
+static void stage_beside(writer *w, const char *path, const char *name, const void *bytes, size_t size,
+                         file_stage *stage)
 {
-    char *folder = path_folder(w->allocator, path);
+    char *folder = strchr(path, '/') ? path_folder(w->allocator, path) : NULL;
     char *file = folder ? path_join(w->allocator, folder, name) : NULL;
-    if (file)
-        w->result = file_write(file, bytes, size, w->error);
+    if (file || !strchr(path, '/'))
+        w->result = file_stage_write(file ? file : name, bytes, size, stage, w->error);
     else
         writer_fail_memory(w);
     mem_free(file);
     mem_free(folder);
-    return w->result;
 }
 
-/* The .gltf file comes last: where it is, all that it names is. */
+/* All files, or none where one cannot be written. The .gltf file comes last: where it is, all that it names is. */
+static void save_files(writer *w, const char *path, const char *text, const char *bin_name)
+{
+    size_t count = 0;
+    file_stage *stages = mem_zalloc(w->allocator, w->file_count + 2, sizeof *stages);
+    if (!stages) {
+        writer_fail_memory(w);
+        return;
+    }
+    for (; count < w->file_count && writer_is_ok(w); count++)
+        stage_beside(w, path, w->files[count].name, w->files[count].bytes, w->files[count].size,
+                     &stages[count]);
+    if (writer_is_ok(w) && w->bin_size)
+        stage_beside(w, path, bin_name, w->bin, w->bin_size, &stages[count++]);
+    if (writer_is_ok(w))
+        w->result = file_stage_write(path, text, strlen(text), &stages[count++], w->error);
+    for (size_t i = 0; i < count && writer_is_ok(w); i++)
+        w->result = file_stage_commit(&stages[i], w->error);
+    for (size_t i = 0; i < count; i++)
+        file_stage_discard(&stages[i]);
+    mem_free(stages);
+}
+
 static facet_result save_gltf(writer *w, const char *path)
 {
     const char *base = path_base_name(path);
@@ -172,12 +194,8 @@ static facet_result save_gltf(writer *w, const char *path)
     w->stem = stem;
     write_document(w, bin_name);
     text = writer_is_ok(w) ? dump(w) : NULL;
-    for (size_t i = 0; i < w->file_count && writer_is_ok(w); i++)
-        save_beside(w, path, w->files[i].name, w->files[i].bytes, w->files[i].size);
-    if (writer_is_ok(w) && w->bin_size)
-        save_beside(w, path, bin_name, w->bin, w->bin_size);
     if (writer_is_ok(w))
-        w->result = file_write(path, text, strlen(text), w->error);
+        save_files(w, path, text, bin_name);
 done:
     free(text);
     mem_free(stem);

@@ -57,10 +57,11 @@ uint32_t write_view(writer *w, const void *bytes, size_t size, int target)
     return add_view(w, offset, size, 0, target);
 }
 
+/* view: SCENE_NONE: zeros. */
 static json_t *add_accessor(writer *w, uint32_t view, int component, size_t count, write_type type)
 {
     json_t *accessor = json_object();
-    put(w, accessor, "bufferView", json_integer(view));
+    put_index(w, accessor, "bufferView", view);
     put(w, accessor, "componentType", json_integer(component));
     put(w, accessor, "count", json_integer((json_int_t)count));
     put(w, accessor, "type", json_string(type_names[type]));
@@ -151,6 +152,16 @@ uint32_t write_floats(writer *w, const float *values, size_t count, write_type t
     json_t *accessor = add_accessor(w, write_view(w, values, size, target), FLOAT, count, type);
     if (bounds)
         put_bounds(w, accessor, values, count, components);
+    return last_accessor(w);
+}
+
+uint32_t write_zeros(writer *w, size_t count, write_type type)
+{
+    static const float zeros[16] = {0};
+    uint32_t components = component_counts[type];
+    json_t *accessor = add_accessor(w, SCENE_NONE, FLOAT, count, type);
+    put(w, accessor, "min", json_floats(zeros, components));
+    put(w, accessor, "max", json_floats(zeros, components));
     return last_accessor(w);
 }
 

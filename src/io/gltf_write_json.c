@@ -150,16 +150,27 @@ static bool has_many_digits(const json_t *value)
 /* JSON text of the file that was read, whose nesting the reader bounded. */
 static json_t *parse(writer *w, const char *text)
 {
-    json_t *value = json_loads(text, JSON_DECODE_ANY, NULL);
-    if (!value)
+    json_t *value = json_loads(text, JSON_DECODE_ANY | JSON_ALLOW_NUL, NULL);
+    if (!value) {
         writer_fail_memory(w);
+        return NULL;
+    }
     w->needs_all_digits = w->needs_all_digits || has_many_digits(value);
     return value;
 }
 
-/* RFC 3986: what is neither unreserved nor a byte of UTF-8 is escaped. */
+static bool is_utf8(const char *text)
+{
+    json_t *string = json_string(text);
+    json_decref(string);
+    return string != NULL;
+}
+
+/* RFC 3986: what is neither unreserved nor a character of UTF-8 is escaped; of a name that is not UTF-8, which files
+ * may have, all bytes beyond ASCII. */
 void put_uri(writer *w, json_t *object, const char *name)
 {
+    const bool has_characters = is_utf8(name);
     char *uri = mem_alloc(w->allocator, 3 * strlen(name) + 1, 1);
     char *at = uri;
     if (!uri) {
@@ -169,7 +180,7 @@ void put_uri(writer *w, json_t *object, const char *name)
     for (; *name; name++) {
         unsigned char c = (unsigned char)*name;
         bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                        strchr("-._~", c) || c >= 0x80;
+                        strchr("-._~", c) || (c >= 0x80 && has_characters);
         if (is_plain)
             *at++ = (char)c;
         else

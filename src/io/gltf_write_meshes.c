@@ -20,14 +20,25 @@ static void put_floats_attribute(writer *w, json_t *attributes, const char *name
                       write_floats(w, values, count, type, WRITE_VERTICES, strcmp(name, "POSITION") == 0));
 }
 
-/* A primitive that draws nothing keeps its place in the mesh: a triangle without area. */
-static void write_empty(writer *w, json_t *out)
+/* A morph target that changes nothing: glTF wants it to name an attribute. */
+static void add_still_target(writer *w, json_t *targets, size_t vertex_count)
 {
-    static const float position[3] = {0, 0, 0};
-    static const uint32_t indices[3] = {0, 0, 0};
+    json_t *target = json_object();
+    put_attribute(w, target, "POSITION", 0, write_zeros(w, vertex_count, WRITE_VEC3));
+    append(w, targets, target);
+}
+
+/* A primitive that draws nothing keeps its place in the mesh: a triangle without area, with as many morph targets as
+ * the others have. */
+static void write_empty(writer *w, json_t *out, uint32_t target_count)
+{
+    static const float positions[9] = {0};
+    static const uint32_t indices[3] = {0, 1, 2};
     json_t *attributes = put_object(w, out, "attributes");
-    put_floats_attribute(w, attributes, "POSITION", 0, position, 1, WRITE_VEC3);
+    put_floats_attribute(w, attributes, "POSITION", 0, positions, 3, WRITE_VEC3);
     put(w, out, "indices", json_integer(write_indices(w, indices, 3)));
+    for (uint32_t i = 0; i < target_count; i++)
+        add_still_target(w, put_array(w, out, "targets"), 3);
 }
 
 /* Normals that facet made are made again by whoever reads the file. */
@@ -63,7 +74,12 @@ static void write_targets(writer *w, json_t *out, const scene_primitive *p)
             if (p->tangents)
                 put_floats_attribute(w, target, "TANGENT", 0, t->tangents, n, WRITE_VEC3);
         }
-        append(w, put_array(w, out, "targets"), target);
+        if (json_object_size(target)) {
+            append(w, put_array(w, out, "targets"), target);
+        } else {
+            json_decref(target);
+            add_still_target(w, put_array(w, out, "targets"), n);
+        }
     }
 }
 
@@ -88,11 +104,11 @@ static void write_variants(writer *w, json_t *out, const scene_primitive *p)
     }
 }
 
-static void write_primitive(writer *w, json_t *primitives, const scene_primitive *p)
+static void write_primitive(writer *w, json_t *primitives, const scene_primitive *p, uint32_t target_count)
 {
     json_t *out = json_object();
     if (p->index_count == 0) {
-        write_empty(w, out);
+        write_empty(w, out, target_count);
     } else {
         write_attributes(w, out, p);
         put(w, out, "indices", json_integer(write_indices(w, p->indices, p->index_count)));
@@ -114,7 +130,7 @@ void write_meshes(writer *w)
         put_name(w, out, mesh->name);
         json_t *primitives = put_array(w, out, "primitives");
         for (uint32_t k = 0; k < mesh->primitive_count; k++)
-            write_primitive(w, primitives, &mesh->primitives[k]);
+            write_primitive(w, primitives, &mesh->primitives[k], mesh->weight_count);
         if (mesh->weight_count && mesh->weights)
             put(w, out, "weights", json_floats(mesh->weights, mesh->weight_count));
         put_meta(w, out, &mesh->meta);

@@ -1,4 +1,7 @@
 /* gltf_write_nodes.c - cameras, lights, nodes and scenes. */
+#include <float.h>
+#include <math.h>
+
 #include "io/gltf_writer.h"
 
 static const float ZERO[4] = {0, 0, 0, 0};
@@ -21,8 +24,11 @@ static void write_camera(writer *w, const scene_camera *camera)
         put(w, lens, "yfov", json_float(camera->fov_y_rad));
         put_float(w, lens, "aspectRatio", camera->aspect, 0.0f);
     }
-    put(w, lens, "znear", json_float(camera->near_m));
-    put_float(w, lens, "zfar", camera->far_m, 0.0f);
+    /* The specification wants a zfar of the one and a znear above 0 of the other, where facet has no such plane. */
+    bool lacks_far = camera->is_orthographic && camera->far_m == 0.0f;
+    bool lacks_near = !camera->is_orthographic && camera->near_m == 0.0f;
+    put(w, lens, "znear", json_float(lacks_near ? FLT_MIN : camera->near_m));
+    put_float(w, lens, "zfar", lacks_far ? FLT_MAX : camera->far_m, 0.0f);
     put_meta(w, out, &camera->meta);
     append(w, put_array(w, w->root, "cameras"), out);
 }
@@ -44,8 +50,11 @@ static void write_light(writer *w, json_t *lights, const scene_light *light)
     put_float(w, out, "range", light->range, 0.0f);
     if (light->type == SCENE_LIGHT_SPOT) {
         json_t *spot = put_object(w, out, "spot");
-        put_float(w, spot, "innerConeAngle", light->inner_cone_rad, 0.0f);
-        put(w, spot, "outerConeAngle", json_float(light->outer_cone_rad));
+        /* A cone without a soft border, or without width: angles must be above 0, the inner one below the outer one. */
+        float outer = fmaxf(light->outer_cone_rad, FLT_MIN);
+        float inner = light->inner_cone_rad < outer ? light->inner_cone_rad : nextafterf(outer, 0.0f);
+        put_float(w, spot, "innerConeAngle", inner, 0.0f);
+        put(w, spot, "outerConeAngle", json_float(outer));
     }
     put_meta(w, out, &light->meta);
     append(w, lights, out);

@@ -8,8 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "scene/material_table.h"
 
 /* ---- equality; the first difference fails the test with its name ---- */
@@ -380,6 +382,103 @@ static void small_scenes_survive(void **state)
     }
 }
 
+/* Loads "{'asset':..., BODY}" of a model with one triangle as accessor 0, and writes and reads it; the second scene. */
+static facet_scene *rewrite(const char *body, const char *name)
+{
+    static const float triangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    test_model m = {0};
+    char path[256];
+    facet_error error = {0};
+    facet_scene *again = NULL;
+    model_add_floats(&m, triangle, 3, "VEC3");
+    facet_scene *scene = model_load(&m, "%s", body);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (gltf_save(scene, path, "a test", NULL, &error) != FACET_OK ||
+        gltf_load(path, NULL, &again, &error) != FACET_OK)
+        fail_msg("%s: %s", body, error.message);
+    scene_destroy(scene);
+    empty_folder();
+    return again;
+}
+
+static void what_glTF_forbids_is_not_written(void **state)
+{
+    (void)state;
+    facet_scene *s =
+        rewrite("'extensionsUsed':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':{'lights':["
+                "{'type':'spot','spot':{'innerConeAngle':0.7,'outerConeAngle':0.5}},"
+                "{'type':'spot','spot':{'outerConeAngle':0}}]}},'cameras':["
+                "{'type':'orthographic','orthographic':{'xmag':1,'ymag':1,'znear':1,'zfar':1}},"
+                "{'type':'perspective','perspective':{'yfov':1,'znear':0}}]",
+                "a.glb");
+    assert_int_equal(s->warning_count, 0);
+    assert_near(s->lights[0].inner_cone_rad, 0.5f, 1e-6f);
+    assert_true(s->lights[1].outer_cone_rad > 0.0f);
+    assert_true(s->cameras[0].far_m > 1e30f);
+    assert_true(s->cameras[1].near_m > 0.0f && s->cameras[1].near_m < 1e-30f);
+    scene_destroy(s);
+}
+
+static void targets_that_move_nothing_keep_their_place(void **state)
+{
+    (void)state;
+    /* The first primitive has no texture coordinates to be changed, the second no index that it could draw. */
+    facet_scene *s =
+        rewrite("'meshes':[{'primitives':[{'attributes':{'POSITION':0},'targets':[{'_X':0},{'POSITION':0}]},"
+                "{'attributes':{},'targets':[{},{}]}]}]",
+                "a.glb");
+    const scene_mesh *mesh = &s->meshes[0];
+    assert_int_equal(mesh->primitive_count, 2);
+    assert_int_equal(mesh->primitives[0].target_count, 2);
+    assert_int_equal(mesh->primitives[1].target_count, 2);
+    assert_null(mesh->primitives[0].targets[0].positions);
+    assert_non_null(mesh->primitives[0].targets[1].positions);
+    assert_null(mesh->primitives[1].targets[1].positions);
+    scene_destroy(s);
+}
+
+static void characters_0_in_extras_survive(void **state)
+{
+    (void)state;
+    facet_scene *s = rewrite("'extras':'a\\u0000b'", "a.gltf");
+    assert_string_equal(s->meta.extras, "\"a\\u0000b\"");
+    scene_destroy(s);
+}
+
+static void names_need_not_be_UTF_8(void **state)
+{
+    (void)state;
+    facet_scene *s = rewrite("'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]", "\xff \xc3.gltf");
+    assert_int_equal(first_primitive(s)->vertex_count, 3);
+    scene_destroy(s);
+}
+
+/* What is there stays as it was where one of the files cannot be written. */
+static void all_files_or_none(void **state)
+{
+    (void)state;
+    static const float triangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    test_model m = {0};
+    char bin[256], path[256];
+    facet_error error = {0};
+    file_bytes old;
+    model_add_floats(&m, triangle, 3, "VEC3");
+    facet_scene *scene = model_load(&m, "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]");
+    snprintf(bin, sizeof bin, "%s/a.bin", folder);
+    snprintf(path, sizeof path, "%s/a.gltf", folder);
+    assert_int_equal(file_write(bin, "old", 3, NULL), FACET_OK);
+    assert_int_equal(mkdir(path, 0777), 0);
+    assert_int_equal(gltf_save(scene, path, "a test", NULL, &error), FACET_ERROR_WRITE);
+    assert_int_equal(rmdir(path), 0);
+    assert_int_equal(file_open(bin, 0, NULL, &old, NULL), FACET_OK);
+    assert_int_equal(old.size, 3);
+    file_close(&old);
+    unlink(bin);
+    assert_int_equal(rmdir(folder), 0); /* no temporary is left */
+    assert_int_equal(mkdir(folder, 0700), 0);
+    scene_destroy(scene);
+}
+
 static void the_builtin_scene_survives(void **state)
 {
     (void)state;
@@ -455,6 +554,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_scenes_survive),
+        cmocka_unit_test(what_glTF_forbids_is_not_written),
+        cmocka_unit_test(targets_that_move_nothing_keep_their_place),
+        cmocka_unit_test(characters_0_in_extras_survive),
+        cmocka_unit_test(names_need_not_be_UTF_8),
+        cmocka_unit_test(all_files_or_none),
         cmocka_unit_test(the_builtin_scene_survives),
         cmocka_unit_test(what_cannot_be_written_is_said),
         cmocka_unit_test(real_models_survive),

@@ -84,6 +84,8 @@ typedef enum write_type { WRITE_SCALAR, WRITE_VEC2, WRITE_VEC3, WRITE_VEC4, WRIT
 /* Index of an accessor with count elements of floats; arrays that were written before are shared. bounds: with min and
  * max. */
 uint32_t write_floats(writer *w, const float *values, size_t count, write_type type, int target, bool bounds);
+/* The same of zeros, which take no bytes, with min and max. */
+uint32_t write_zeros(writer *w, size_t count, write_type type);
 /* Of 32-bit values, stored in as many bytes as the largest needs, but for 8 bits where they are indices. */
 uint32_t write_indices(writer *w, const uint32_t *values, size_t count);
 /* count elements of 4 joints; of 8 bits where all fit. stride: values from one element to the next. */
