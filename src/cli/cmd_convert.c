@@ -32,6 +32,12 @@ static facet_result find_names(const command_line *c, const char **in, const cha
         (input_is_same_file(*in, *out) || model_has_file(*in, *out)))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "%s: it is an input, too, and would be overwritten; name another output", *out);
+    char lost[4096];
+    if (strcasecmp(dot, ".gltf") == 0 && strcmp(*in, "-") != 0 &&
+        model_loses_file(*in, *out, lost, sizeof lost))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "%s: %s, which belongs to %s, would be overwritten; name another output", *out, lost,
+                         *in);
     return output_check(*out, error);
 }
 
@@ -73,8 +79,9 @@ static void print_json(const convert_run *run, facet_result result, const facet_
     json_t *failures = json_array();
     if (result != FACET_OK)
         json_array_append_new(failures, report_error_json(error, run->in, exit_code));
-    json_t *root = json_pack("{s:s, s:s?, s:s?, s:o, s:o, s:f, s:i}", "facet", facet_version(), "input",
-                             run->in, "output", result == FACET_OK ? run->out : NULL, "failures", failures,
+    json_t *root = json_pack("{s:s, s:o, s:o, s:o, s:o, s:f, s:i}", "facet", facet_version(), "input",
+                             report_string_json(run->in), "output",
+                             report_string_json(result == FACET_OK ? run->out : NULL), "failures", failures,
                              "warnings", report_warnings_json(&run->messages), "seconds",
                              interrupt_clock() - run->start, "exit_code", exit_code);
     report_print_json(root);
@@ -108,6 +115,10 @@ int cmd_convert(command_line *c)
     int exit_code = result != FACET_OK                                      ? exit_code_of(result)
                     : run.messages.warning_count && is_given(c, OPT_STRICT) ? EXIT_NEGATIVE
                                                                             : EXIT_DONE;
+    if (result != FACET_OK && run.in)
+        failure_complete(&error,
+                         strncmp(error.message, run.out, strlen(run.out)) == 0 ? run.out : input_name(run.in),
+                         run.limits.max_memory_bytes);
     if (result != FACET_OK)
         message_error("%s%s", strncmp(error.message, "convert:", 8) == 0 ? "facet: " : "", error.message);
     else

@@ -28,7 +28,7 @@ static facet_result print_description(const inspect_run *run, const char *model,
         return FACET_OK;
     }
     json_error_t problem;
-    json_t *root = json_loads(text, 0, &problem);
+    json_t *root = json_loads(text, JSON_ALLOW_NUL, &problem);
     if (!root)
         return fail_with(error, FACET_ERROR_BUG, "%s: its description is not valid JSON: %s",
                          input_name(model), problem.text);
@@ -70,6 +70,7 @@ static int inspect_all(inspect_run *run)
         interrupt_set_safe(NULL);
         if (result != FACET_OK) {
             fflush(stdout);
+            failure_complete(&error, input_name(c->arguments[i]), run->limits.max_memory_bytes);
             message_error("%s", error.message);
             run->failure_count++;
             exit_code = exit_code_of(result);

@@ -293,19 +293,9 @@ static facet_result render_model(render_run *run, const char *model, facet_error
 static void report_failure(render_run *run, const char *model, facet_error *error)
 {
     const char *name = input_name(model);
-    char sentence[sizeof error->message + 256];
-    size_t length = strlen(name);
     const char *environment = run->options.environment_path;
-    bool is_about_model = (strncmp(error->message, name, length) == 0 && error->message[length] == ':') ||
-                          (environment && strncmp(error->message, environment, strlen(environment)) == 0);
-    bool is_general = error->result == FACET_ERROR_MEMORY || error->result == FACET_ERROR_LIMIT;
-    uint64_t limit = run->options.limits.max_memory_bytes;
-    int n = snprintf(sentence, sizeof sentence, "%s%s%s", is_general && !is_about_model ? name : "",
-                     is_general && !is_about_model ? ": " : "", error->message);
-    if (error->result == FACET_ERROR_MEMORY && limit && n > 0 && (size_t)n < sizeof sentence)
-        snprintf(sentence + n, sizeof sentence - (size_t)n, "; the limit is %.3g MiB (--max-memory)",
-                 (double)limit / 1048576.0);
-    snprintf(error->message, sizeof error->message, "%.1000s", sentence);
+    bool is_of_environment = environment && strncmp(error->message, environment, strlen(environment)) == 0;
+    failure_complete(error, is_of_environment ? environment : name, run->options.limits.max_memory_bytes);
     message_error("%s", error->message);
     run->failure_count++;
     run->exit_code = exit_code_of(error->result);

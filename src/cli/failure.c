@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 const exit_meaning exit_meanings[] = {
     {"0", "done; the output is complete"},
@@ -58,4 +59,18 @@ facet_result fail_with(facet_error *error, facet_result result, const char *form
     vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
     return result;
+}
+
+void failure_complete(facet_error *error, const char *name, uint64_t limit)
+{
+    char sentence[sizeof error->message + 256];
+    size_t length = strlen(name);
+    bool is_named = strncmp(error->message, name, length) == 0 && error->message[length] == ':';
+    bool is_general = error->result == FACET_ERROR_MEMORY || error->result == FACET_ERROR_LIMIT;
+    int n = snprintf(sentence, sizeof sentence, "%s%s%s", is_general && !is_named ? name : "",
+                     is_general && !is_named ? ": " : "", error->message);
+    if (error->result == FACET_ERROR_MEMORY && limit && n > 0 && (size_t)n < sizeof sentence)
+        snprintf(sentence + n, sizeof sentence - (size_t)n, "; the limit is %.6g MiB (--max-memory)",
+                 (double)limit / 1048576.0);
+    snprintf(error->message, sizeof error->message, "%.1000s", sentence);
 }

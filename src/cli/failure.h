@@ -33,4 +33,8 @@ int exit_code_of(facet_result result);
 facet_result fail_with(facet_error *error, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Puts the name of the input before what went wrong with it unless the sentence begins with a name, and behind a lack
+ * of memory what --max-memory, limit bytes (0: none), has to do with it. */
+void failure_complete(facet_error *error, const char *name, uint64_t limit);
+
 #endif

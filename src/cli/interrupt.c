@@ -77,6 +77,7 @@ void interrupt_install(void)
     install_stop(SIGINT);
     install_stop(SIGTERM);
     install_stop(SIGHUP);
+    install_stop(SIGPIPE);    /* who reads the messages may go while a file is being written */
     signal(SIGXFSZ, SIG_IGN); /* a file beyond the user's limit is then a failed write, which cleans up */
 }
 

@@ -1,6 +1,6 @@
 /* interrupt.h - signals and the time limit: how the command is asked to stop, and how it then ends.
  *
- * SIGINT, SIGTERM and SIGHUP set a flag; whoever works on something long asks for it and cleans up. A second SIGINT
+ * SIGINT, SIGTERM, SIGHUP and SIGPIPE set a flag; whoever works on something long asks for it and cleans up. A second SIGINT
  * kills. While nothing that must be cleaned up is open (interrupt_set_safe()), the time limit ends the process from
  * the signal handler: reading a model cannot be cancelled in another way. */
 #ifndef CLI_INTERRUPT_H

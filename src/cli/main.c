@@ -3,6 +3,7 @@
 #include "cli/completion.h"
 #include "cli/failure.h"
 #include "cli/help.h"
+#include "cli/interrupt.h"
 #include "cli/man_page.h"
 #include "cli/messages.h"
 #include "cli/output.h"
@@ -106,7 +107,10 @@ int main(int argc, char **argv)
 {
     int exit_code = run(argc, argv);
     facet_error error;
-    if (output_close_stdout(&error) != FACET_OK && exit_code != EXIT_WRITE) { /* which was told already */
+    bool is_written = output_close_stdout(&error) == FACET_OK;
+    if (!is_written && interrupt_signal()) /* nobody reads it any longer */
+        return interrupt_exit();
+    if (!is_written && exit_code != EXIT_WRITE) { /* which was told already */
         message_error("%s", error.message);
         if (exit_code == EXIT_DONE)
             exit_code = EXIT_WRITE;

@@ -23,8 +23,8 @@ facet_result output_check(const char *path, facet_error *error)
     struct stat info;
     if (stat(path, &info) == 0) {
         if (S_ISDIR(info.st_mode))
-            return fail_with(error, FACET_ERROR_WRITE,
-                             "%s: it is a folder; the name of a picture was expected", path);
+            return fail_with(error, FACET_ERROR_WRITE, "%s: it is a folder; the name of a file was expected",
+                             path);
         if (!S_ISREG(info.st_mode)) /* a device, a pipe: written directly */
             return access(path, W_OK) == 0
                        ? FACET_OK

@@ -27,10 +27,9 @@ void report_picture(const messages *m, const picture_report *p, bool is_news)
         1e3 * s->total_s, 1e3 * p->save_s, s->thread_count);
 }
 
-/* A JSON string; null where text is not UTF-8. */
-static json_t *new_string(const char *text)
+json_t *report_string_json(const char *text)
 {
-    json_t *string = json_stringn(text, strlen(text));
+    json_t *string = text ? json_string(text) : NULL;
     return string ? string : json_null();
 }
 
@@ -38,23 +37,24 @@ json_t *report_picture_json(const picture_report *p)
 {
     const facet_render_stats *s = &p->stats;
     if (p->is_kept)
-        return json_pack("{s:o, s:o, s:b}", "model", new_string(p->model), "output", new_string(p->output),
-                         "kept", 1);
+        return json_pack("{s:o, s:o, s:b}", "model", report_string_json(p->model), "output",
+                         report_string_json(p->output), "kept", 1);
     return json_pack(
         "{s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}, s:I, s:I}", "model",
-        new_string(p->model), "output", new_string(p->output), "width", (json_int_t)p->width, "height",
-        (json_int_t)p->height, "samples", (json_int_t)p->samples, "rays", (json_int_t)s->rays, "shades",
-        (json_int_t)s->shades, "seconds", "total", p->total_s, "load", p->load_s, "textures", s->textures_s,
-        "geometry", s->geometry_s, "light", s->light_s, "shade", s->shade_s, "render", s->total_s, "save",
-        p->save_s, "decoded_texels", (json_int_t)s->decoded_texels, "threads", (json_int_t)s->thread_count);
+        report_string_json(p->model), "output", report_string_json(p->output), "width", (json_int_t)p->width,
+        "height", (json_int_t)p->height, "samples", (json_int_t)p->samples, "rays", (json_int_t)s->rays,
+        "shades", (json_int_t)s->shades, "seconds", "total", p->total_s, "load", p->load_s, "textures",
+        s->textures_s, "geometry", s->geometry_s, "light", s->light_s, "shade", s->shade_s, "render",
+        s->total_s, "save", p->save_s, "decoded_texels", (json_int_t)s->decoded_texels, "threads",
+        (json_int_t)s->thread_count);
 }
 
 json_t *report_warnings_json(const messages *m)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < m->warning_count; i++) {
-        json_array_append_new(list, json_pack("{s:o, s:I}", "text", new_string(m->warnings[i].text), "count",
-                                              (json_int_t)m->warnings[i].count));
+        json_array_append_new(list, json_pack("{s:o, s:I}", "text", report_string_json(m->warnings[i].text),
+                                              "count", (json_int_t)m->warnings[i].count));
     }
     return list;
 }
@@ -62,9 +62,9 @@ json_t *report_warnings_json(const messages *m)
 json_t *report_error_json(const facet_error *error, const char *model, int exit_code)
 {
     if (model)
-        return json_pack("{s:o, s:o, s:i}", "model", new_string(model), "message", new_string(error->message),
-                         "exit_code", exit_code);
-    return json_pack("{s:o, s:i}", "message", new_string(error->message), "exit_code", exit_code);
+        return json_pack("{s:o, s:o, s:i}", "model", report_string_json(model), "message",
+                         report_string_json(error->message), "exit_code", exit_code);
+    return json_pack("{s:o, s:i}", "message", report_string_json(error->message), "exit_code", exit_code);
 }
 
 void report_print_json(const json_t *root)

@@ -25,6 +25,9 @@ json_t *report_picture_json(const picture_report *p);
 json_t *report_warnings_json(const messages *m);
 json_t *report_error_json(const facet_error *error, const char *model /* NULL: none */, int exit_code);
 
+/* A JSON string; null where text is NULL or not UTF-8, as names of files need not be. */
+json_t *report_string_json(const char *text);
+
 /* Prints root as one line on standard output. */
 void report_print_json(const json_t *root);
 

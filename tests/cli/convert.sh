@@ -40,5 +40,54 @@ grep -qF '"exit_code": 4' out || grep -qF '"exit_code":4' out || failed "--json 
 rm broken.glb
 only in.gltf
 expect 7 convert in.gltf out.glb --max-memory 1K
+says "in.gltf: out of memory"
+says "(--max-memory)"
 only in.gltf
+expect 7 inspect in.gltf --max-memory 1K
+says "in.gltf: out of memory"
+
+# The files beside the new one, and those that a model without the name of one is made of, are inputs as well.
+cp in.gltf data.gltf
+expect 0 convert data.gltf shoe.gltf
+mv shoe.gltf old.gltf
+cp shoe.bin before.bin
+expect 2 convert old.gltf shoe.gltf
+says "shoe.gltf: shoe.bin, which belongs to old.gltf, would be overwritten"
+cmp -s shoe.bin before.bin || failed "an input was overwritten"
+cp old.gltf noname
+mv shoe.bin shoe.glb
+sed -i 's/shoe\.bin/shoe.glb/' noname
+expect 2 convert noname shoe.glb
+says "it is an input, too"
+# A .glb file may name files, too.
+printf '{"asset":{"version":"2.0"},"images":[{"uri":"pic.png"}]}    ' >text
+printf 'glTF\002\000\000\000\120\000\000\000\074\000\000\000JSON' | cat - text >pic.glb
+expect 0 render $small in.gltf -o pic.png
+expect 2 render $small pic.glb
+says "pic.png: it is an input, too"
+rm -f data.gltf old.gltf shoe.* before.bin noname text pic.*
+only in.gltf
+
+# Characters 0 and names that are not UTF-8
+printf '{"asset":{"version":"2.0"},"extras":{"x":"a\\u0000b"}}' >zero.gltf
+expect 0 convert zero.gltf zero2.gltf
+grep -qF '\u0000' zero2.gltf || failed "a character 0 is lost"
+expect 0 inspect zero2.gltf
+odd=$(printf 'odd\377')
+if cp in.gltf "$odd.gltf" 2>/dev/null; then
+    expect 0 convert "$odd.gltf" "new$odd.gltf" --json
+    grep -qF '"exit_code"' out || failed "no JSON for a name that is not UTF-8"
+    expect 0 inspect "new$odd.gltf"
+fi
+rm -f zero* *odd*
+
+# A full disk leaves nothing of several files.
+if command -v unshare >/dev/null && unshare -rm true 2>/dev/null; then
+    mkdir full
+    unshare -rm sh -c 'mount -t tmpfs -o size=4k tmpfs full 2>/dev/null || exit 9
+        "$1" convert in.gltf full/a.gltf 2>err; code=$?; ls -A full >left; exit $code' - "$facet" && code=0 || code=$?
+    [ "$code" = 9 ] || [ "$code" = 6 ] || failed "exit code $code on a full disk"
+    [ ! -s left ] || failed "a full disk keeps $(cat left)"
+    rm -rf full left
+fi
 finish

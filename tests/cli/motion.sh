@@ -77,6 +77,12 @@ expect 0 render walk.gltf -o - --format y4m $view --animation Walk --fps 2
 cmp -s out walk.y4m || failed "standard output gets another video than a file"
 expect 0 render walk.gltf -o - --format raw $view --frames 1-3
 [ "$(wc -c <out)" = $((3 * 4 * 48 * 32)) ] || failed "3 raw frames are $(wc -c <out) bytes"
+# Who reads the messages goes: the video is given up, and nothing of it stays.
+mkdir gone
+{ "$facet" render walk.gltf -o gone/w.y4m $view --animation Walk --fps 50 -v 2>&1 || echo $? >code; } | head -c 1 >/dev/null
+[ "$(cat code)" = 141 ] || failed "exit code $(cat code) without a reader of messages"
+[ -z "$(ls -A gone)" ] || failed "without a reader of messages there is $(ls -A gone)"
+rm -r gone code
 expect 0 render walk.gltf -o w.y4m --format raw $view --frames 1 --fps 29.97
 expect 6 render walk.gltf -o there/is/no.y4m $view --animation Walk
 
