@@ -165,9 +165,10 @@ void light_grid_destroy(light_grid *grid)
 
 light_cursor light_grid_at(const light_grid *grid, const float P[3])
 {
-    light_cursor c = {.everywhere = grid->everywhere,
-                      .everywhere_end = grid->everywhere + grid->everywhere_count};
+    light_cursor c = {.everywhere = grid->everywhere};
     size_t cell = 0;
+    if (grid->everywhere) /* C has no NULL + 0 */
+        c.everywhere_end = grid->everywhere + grid->everywhere_count;
     if (!grid->first)
         return c;
     for (int axis = 2; axis >= 0; axis--) {
