@@ -16,7 +16,7 @@ static facet_environment *white; /* radiance 1 from everywhere */
 static int create_environments(void **state)
 {
     (void)state;
-    return facet_environment_create_constant((float[3]){1, 1, 1}, NULL, &white, NULL);
+    return facet_environment_create_constant((float[3]){1, 1, 1}, NULL, &white, NULL) != FACET_OK;
 }
 
 static int destroy_environments(void **state)
