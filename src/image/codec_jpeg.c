@@ -23,9 +23,12 @@ static facet_result read_header(tjhandle handle, const unsigned char *bytes, siz
                                 int *width, int *height, int *color_space, facet_error *error)
 {
     int subsampling;
+    *width = *height = *color_space = 0;
     if (size > ULONG_MAX || tjDecompressHeader3(handle, bytes, (unsigned long)size, width, height,
                                                 &subsampling, color_space) != 0)
         return fail_jpeg(error, name, handle);
+    if (*width <= 0 || *height <= 0) /* libjpeg takes files of tables alone, and leaves the rest as it was */
+        return fail(error, FACET_ERROR_INVALID, "%s: JPEG: holds no picture", name);
     return FACET_OK;
 }
 

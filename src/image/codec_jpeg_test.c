@@ -162,6 +162,20 @@ static bool has_webp(void)
     return result == FACET_OK;
 }
 
+/* Tables alone, which libjpeg takes without a word on the picture. */
+static void jpeg_without_a_picture_is_refused(void **state)
+{
+    (void)state;
+    static const unsigned char files[2][20] = {{0xff, 0xd8, 0xff, 0xd9},
+                                               {0xff, 0xd8, 0xff, 0xe0, 0, 4, 'g', 'a', 0xff, 0xd9}};
+    for (int i = 0; i < 2; i++) {
+        image header = {0};
+        facet_error error = {0};
+        assert_int_equal(image_probe(files[i], sizeof files[i], "x", &header, &error), FACET_ERROR_INVALID);
+        assert_non_null(strstr(error.message, "x: JPEG: "));
+    }
+}
+
 static void webp_is_lossless_at_100(void **state)
 {
     (void)state;
@@ -198,10 +212,10 @@ static void webp_is_close(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(jpeg_is_close),          cmocka_unit_test(jpeg_keeps_chroma),
-        cmocka_unit_test(jpeg_is_reduced),        cmocka_unit_test(jpeg_color_spaces),
-        cmocka_unit_test(jpeg_takes_what_it_can), cmocka_unit_test(webp_is_lossless_at_100),
-        cmocka_unit_test(webp_is_close),
+        cmocka_unit_test(jpeg_is_close),           cmocka_unit_test(jpeg_keeps_chroma),
+        cmocka_unit_test(jpeg_is_reduced),         cmocka_unit_test(jpeg_color_spaces),
+        cmocka_unit_test(jpeg_takes_what_it_can),  cmocka_unit_test(jpeg_without_a_picture_is_refused),
+        cmocka_unit_test(webp_is_lossless_at_100), cmocka_unit_test(webp_is_close),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
