@@ -1,7 +1,7 @@
 // khronos.mjs - draws models with the Khronos glTF Sample Renderer in headless Chromium and with facet, with the same
 // light, camera and tone mapping, and prints how far the pictures are apart.
-// usage: node khronos.mjs FACET MODELS LIGHT.hdr OUT [NAME ..]     FACET: the command; MODELS: the folder that holds core,
-// materials, ..; OUT: a folder for NAME-khronos.png and NAME-facet.png; NAME: only these. CHROMIUM names the browser.
+// usage: node khronos.mjs FACET MODELS LIGHT.hdr OUT [NAME ..]     FACET: the command; MODELS: the folder that holds
+// core, materials, ..; OUT: a folder for NAME-khronos.png and NAME-facet.png; NAME: only these. CHROMIUM names the browser.
 //
 // The renderer turns an environment by 90 degrees of its own and encodes with a power of 1/2.2 in place of the sRGB
 // function; facet is told the turn (--env-rotation -90), and its codes are re-encoded before they are compared. Glass
@@ -17,8 +17,8 @@ if (!out) {
     process.exit(2);
 }
 const size = 512;
-// Model, eye, target (m), and of models that move the time (s) of their first animation. Vertical field of view: 30 degrees.
-// Without eye the whole model is seen from its front.
+// Model, eye, target (m), and of models that move the time (s) of their first animation. Vertical field of view: 30
+// degrees. Without eye the whole model is seen from its front.
 const jobs = [
     ['core/WaterBottle', [0.2, 0.2, 0.6], [0, 0, 0]],
     ['core/Avocado', [0, 0.05, 0.15], [0, 0.03, 0]],
@@ -41,7 +41,8 @@ const jobs = [
     ['materials/DiffuseTransmissionTest'], ['materials/SunglassesKhronos'], ['materials/ToyCar'],
     ['materials/TextureTransformTest'], ['materials/UnlitTest'], ['specgloss/Avocado-specgloss'],
     ['animation/Fox', [150, 90, 250], [0, 35, -10], 0.5], ['animation/SimpleSkin', [0, 1, 6], [0, 1, 0], 1.2],
-    ['animation/MorphStressTest', [0, 2, 9], [0, 0.6, 0], 0.8], ['animation/AnimatedColorsCube', undefined, undefined, 1],
+    ['animation/MorphStressTest', [0, 2, 9], [0, 0.6, 0], 0.8],
+    ['animation/AnimatedColorsCube', undefined, undefined, 1],
 ].map(([model, eye, target, time]) => ({ model: path.join(models, model + '.glb'), name: path.basename(model), time,
     ...(eye ? { eye, target } : from_the_front(path.join(models, model + '.glb'))) }))
     .filter(({ name }) => only.length === 0 || only.includes(name));
@@ -62,8 +63,8 @@ const gl = canvas.getContext('webgl2', { alpha: false, antialias: true, preserve
 const view = new GltfView(gl);
 const state = view.createState();
 const loader = view.createResourceLoader(undefined, undefined, "/node_modules/@khronosgroup/gltf-viewer/dist/libs/");
-// The albedo of the sheen's lobe, which the package comes without: red, over N.V and sheenRoughness. From the renderer's
-// own distribution (Estevez and Kulla 2017) and visibility, by the midpoint rule.
+// The albedo of the sheen's lobe, which the package comes without: red, over N.V and sheenRoughness. From the
+// renderer's own distribution (Estevez and Kulla 2017) and visibility, by the midpoint rule.
 const sheen_lambda = (x, alpha) => {
     const w = (1 - alpha) ** 2, at = (a, b) => a + (b - a) * w;
     const L = (x) => at(21.5473, 25.3245) / (1 + at(3.82987, 3.32435) * x ** at(0.19823, 0.16801)) +
