@@ -171,7 +171,8 @@ static void jpeg_without_a_picture_is_refused(void **state)
     for (int i = 0; i < 2; i++) {
         image header = {0};
         facet_error error = {0};
-        assert_int_equal(image_probe(files[i], sizeof files[i], "x", &header, &error), FACET_ERROR_INVALID);
+        assert_int_equal(image_probe(files[i], sizeof files[i], "x", &header, NULL, &error),
+                         FACET_ERROR_INVALID);
         assert_non_null(strstr(error.message, "x: JPEG: "));
     }
 }
