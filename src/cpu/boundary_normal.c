@@ -6,12 +6,14 @@
  * leans towards a sharp edge leans no more. */
 #include "cpu/boundary_normal.h"
 #include "cpu/shading_frame.h"
+#include "cpu/volume_rays.h"
 
 /* Normals that lean farther from the triangle count as this far. */
 static const float LEAST_COS = 0.2f;
 
 typedef struct corner_normals {
     vec3 Ng;       /* unit, outward */
+    vec3 farthest; /* coordinates of the corners */
     vec3 slope[3]; /* in the plane of the triangle: normal = Ng + slope */
 } corner_normals;
 
@@ -44,13 +46,14 @@ static vec3 unit_normal(const render_geometry *g, size_t vertex)
 
 static corner_normals corner_normals_of(const shading_hit *h, vec3 Ng)
 {
-    corner_normals c = {.Ng = Ng};
+    corner_normals c = {.Ng = Ng, .farthest = vec3(0.0f)};
     vec3 p[3];
     vec3 slope[3];
     for (int i = 0; i < 3; i++) {
         float corner[3];
         render_geometry_corner(h->geometry, h->corner[i], corner);
         p[i] = load3(corner);
+        c.farthest = max(c.farthest, abs(p[i]));
         vec3 n = unit_normal(h->geometry, h->corner[i]);
         float cos_n = dot(n, Ng);
         slope[i] = (n - Ng * cos_n) * (1.0f / max(cos_n, LEAST_COS));
@@ -91,8 +94,10 @@ boundary_normal boundary_normal_at(const surface_point *s, const visibility_hit 
     corner_normals c = corner_normals_of(h, Ng);
     vec3 n;
     vec3 N = interpolate(&c, h->weight, &n);
-    boundary_normal out = {
-        .Ng = Ng * side, .dN_dx = change(&c, h->dx, n, N) * side, .dN_dy = change(&c, h->dy, n, N) * side};
+    boundary_normal out = {.Ng = Ng * side,
+                           .tolerance = volume_rays_tolerance_of(max3(c.farthest)),
+                           .dN_dx = change(&c, h->dx, n, N) * side,
+                           .dN_dy = change(&c, h->dy, n, N) * side};
     /* What a normal texture adds is kept. */
     vec3 smooth = normalize_or(shading_frame_normal(h, s->is_front), out.Ng);
     out.N = normalize_or(N * side + (s->m.base.N - smooth), out.Ng);

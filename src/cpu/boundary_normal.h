@@ -10,6 +10,7 @@ typedef struct boundary_normal {
     vec3 N;            /* unit, on the side of V; with what the normal texture adds */
     vec3 dN_dx, dN_dy; /* its change over the ray's footprint */
     vec3 Ng;           /* unit, geometric, on the side of V */
+    float tolerance;   /* of volume_rays.h, m */
 } boundary_normal;
 
 boundary_normal boundary_normal_at(const surface_point *s, const visibility_hit *hit);

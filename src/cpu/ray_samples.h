@@ -34,15 +34,16 @@ static inline uint32_t ray_samples_scramble(uint32_t x, uint32_t seed)
     return x ^ x * 0x8d22f6e6u;
 }
 
-/* Second coordinate of Sobol's sequence, as 32 bits behind the binary point. With the mirrored bits of i as the first one
- * it is a (0, 2)-sequence: 2^k points from a multiple of 2^k on are one in each cell of every 2^a x 2^(k - a) grid. */
+/* Second coordinate of Sobol's sequence, its digits mirrored: first digit in bit 0. With those of i as the first one it is
+ * a (0, 2)-sequence: 2^k points from a multiple of 2^k on are one in each cell of every 2^a x 2^(k - a) grid. The matrix
+ * is Pascal's triangle modulo 2, a product of five of one band each. */
 static inline uint32_t ray_samples_sobol2(uint32_t i)
 {
-    uint32_t r = 0;
-    for (uint32_t v = 1u << 31; i; i >>= 1, v ^= v >> 1)
-        if (i & 1)
-            r ^= v;
-    return r;
+    i ^= (i & 0xAAAAAAAAu) >> 1;
+    i ^= (i & 0xCCCCCCCCu) >> 2;
+    i ^= (i & 0xF0F0F0F0u) >> 4;
+    i ^= (i & 0xFF00FF00u) >> 8;
+    return i ^ i >> 16;
 }
 
 /* Place of a pixel on a curve that fills squares of 2^k pixels one after the other, in an order that is random at every
@@ -67,8 +68,7 @@ static inline vec2 ray_samples_at(uint32_t index, uint32_t bounce)
     /* Another order for each bounce, of the numbers in a block and of the blocks: what is below a digit follows it. */
     uint32_t i = ray_samples_mirror(ray_samples_scramble(ray_samples_mirror(index), seed));
     uint32_t u = ray_samples_mirror(ray_samples_scramble(i, ray_samples_hash(seed + 1)));
-    uint32_t v = ray_samples_mirror(
-        ray_samples_scramble(ray_samples_mirror(ray_samples_sobol2(i)), ray_samples_hash(seed + 2)));
+    uint32_t v = ray_samples_mirror(ray_samples_scramble(ray_samples_sobol2(i), ray_samples_hash(seed + 2)));
     return vec2((float)(u >> 8) * 0x1p-24f, (float)(v >> 8) * 0x1p-24f);
 }
 

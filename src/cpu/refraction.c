@@ -140,7 +140,7 @@ typedef struct boundary {
     const surface_point *s;
     boundary_normal normal;
     float alpha;       /* what blurs the rays */
-    float tolerance;   /* m */
+    media behind;      /* what is on the other side */
     vec3 H;            /* the microfacet of this sample */
     bundle_hit bundle; /* with the normal's change for that of H */
 } boundary;
@@ -152,25 +152,29 @@ static mat3 frame_of(const Layers *m, vec3 N)
     return basis_from_normal(N);
 }
 
-static vec3 microfacet(const tracer *t, const branch *b, const Layers *m, vec3 N, vec3 V, float alpha)
+/* The microfacet of this sample. */
+static vec3 microfacet(const tracer *t, const branch *b, const boundary *y)
 {
-    if (t->share >= 1.0f || alpha < SMOOTH)
-        return N;
-    mat3 frame = frame_of(m, N);
-    vec2 widths = layers_alpha(*m, alpha);
+    if (t->share >= 1.0f || y->alpha < SMOOTH)
+        return y->normal.N;
+    const Layers *m = &y->s->m;
+    mat3 frame = frame_of(m, y->normal.N);
+    vec2 widths = layers_alpha(*m, y->alpha);
     vec2 u = ray_samples_at(t->sample, b->depth);
-    return normalize(mul(frame, sample_VNDF_GGX(u, mul(transpose(frame), V), widths[0], widths[1])));
+    return normalize(mul(frame, sample_VNDF_GGX(u, mul(transpose(frame), y->s->V), widths[0], widths[1])));
 }
 
-static boundary boundary_of(const tracer *t, const branch *b, const visibility_hit *hit,
+/* All that samples and colors have in common. */
+static boundary boundary_of(const shading_scene *scene, const branch *b, const visibility_hit *hit,
                             const surface_point *s)
 {
     boundary y = {.s = s,
                   .normal = boundary_normal_at(s, hit),
                   .alpha = layers_transmission_alpha(s->m),
-                  .tolerance = volume_rays_tolerance(s)};
-    y.H = microfacet(t, b, &s->m, y.normal.N, s->V, y.alpha);
+                  .behind = b->media};
     y.bundle = ray_bundle_meet(&b->ray, s, &y.normal);
+    if (s->plan->is_volume)
+        volume_rays_cross(scene, hit, s, y.normal.tolerance, &y.behind);
     return y;
 }
 
@@ -183,7 +187,7 @@ static void keep_side(shading_ray *ray, const boundary *y, float side)
     float c = dot(D, Ng);
     if (c * side <= 0.0f)
         store3(normalize(D - Ng * (2.0f * c - side * 1e-4f)), ray->direction);
-    store3(y->s->P + Ng * (side * y->tolerance), ray->origin);
+    store3(y->s->P + Ng * (side * y->normal.tolerance), ray->origin);
 }
 
 /* Goes on from b's surface on a side of it. */
@@ -221,8 +225,7 @@ static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight
 
 /* A microfacet that is turned by d turns a refracted direction by |1 - eta| d and a reflected one by 2 d, which is what
  * a GGX width means to the prefiltered environment; what the ray stood for before turns with eta. */
-static void refract_into(tracer *t, const branch *b, const boundary *y, const media *behind, float eta,
-                         vec3 weight)
+static void refract_into(tracer *t, const branch *b, const boundary *y, float eta, vec3 weight)
 {
     bundle_ray bundle;
     if (abs(eta - 1.0f) < 1e-6f)
@@ -232,7 +235,7 @@ static void refract_into(tracer *t, const branch *b, const boundary *y, const me
         bundle = ray_bundle_pass(&y->bundle);
     float own = 0.5f * abs(1.0f - eta) * y->alpha;
     branch c = child_of(b, y, -1.0f, bundle, weight, b->alpha2 * eta * eta + own * own * share_of(t, b));
-    c.media = *behind;
+    c.media = y->behind;
     follow_later(t, &c);
 }
 
@@ -264,10 +267,10 @@ static float ior_of(const scene_material *m, float shift)
 
 /* The boundary between two bodies, or of one as seen from inside: Fresnel's equations, the reflection followed as well.
  * What goes neither way is scattered by the base color, lit by the surroundings. */
-static void cross_inside(tracer *t, const branch *b, const boundary *y, const media *behind, vec3 weight)
+static void cross_inside(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     const Layers *m = &y->s->m;
-    float eta = ior_of(media_here(&b->media), b->shift) / ior_of(media_here(behind), b->shift);
+    float eta = ior_of(media_here(&b->media), b->shift) / ior_of(media_here(&y->behind), b->shift);
     float F =
         abs(eta - 1.0f) < 1e-6f ? 0.0f : F_dielectric(clamp(dot(y->s->V, y->H), 0.0f, 1.0f), 1.0f / eta);
     vec3 base_color = m->base.base_color;
@@ -287,7 +290,7 @@ static void cross_inside(tracer *t, const branch *b, const boundary *y, const me
     if (max3(reflected) > 0.0f)
         reflect_back(t, b, y, weight * reflected);
     if (F < 1.0f)
-        refract_into(t, b, y, behind, eta, weight * passed * transmission);
+        refract_into(t, b, y, eta, weight * passed * transmission);
 }
 
 /* A body in air as seen from outside, or a thin wall: a surface like others, but for what comes through it. */
@@ -297,21 +300,15 @@ static bool is_outer_surface(const branch *b, const surface_point *s)
 }
 
 /* Goes on behind the surface with weight; that of an outer surface is without what the surface reflects. */
-static void let_through(tracer *t, const branch *b, const visibility_hit *hit, const surface_point *s,
-                        vec3 weight)
+static void let_through(tracer *t, const branch *b, boundary *y, vec3 weight)
 {
-    boundary y = boundary_of(t, b, hit, s);
-    if (!s->plan->is_volume) {
-        pass_wall(t, b, &y, weight);
-        return;
-    }
-    media behind = b->media;
-    volume_rays_cross(t->scene, hit, s, &behind);
-    if (is_outer_surface(b, s))
-        refract_into(t, b, &y, &behind, ior_of(NULL, b->shift) / ior_of(media_here(&behind), b->shift),
-                     weight);
+    y->H = microfacet(t, b, y);
+    if (!y->s->plan->is_volume)
+        pass_wall(t, b, y, weight);
+    else if (is_outer_surface(b, y->s))
+        refract_into(t, b, y, ior_of(NULL, b->shift) / ior_of(media_here(&y->behind), b->shift), weight);
     else
-        cross_inside(t, b, &y, &behind, weight);
+        cross_inside(t, b, y, weight);
 }
 
 static bool is_dispersed_by(const branch *b, const surface_point *s)
@@ -333,8 +330,9 @@ static void meet(tracer *t, const branch *b, const visibility_hit *hit, const su
     }
     if (!passes)
         return;
+    boundary y = boundary_of(t->scene, b, hit, s);
     if (!is_dispersed_by(b, s)) {
-        let_through(t, b, hit, s, weight);
+        let_through(t, b, &y, weight);
         return;
     }
     for (int channel = 0; channel < COLORS; channel++) {
@@ -343,7 +341,7 @@ static void meet(tracer *t, const branch *b, const visibility_hit *hit, const su
         c.shift = (float)(channel - 1);
         vec3 share = vec3(0.0f);
         share[channel] = weight[channel];
-        let_through(t, &c, hit, s, share);
+        let_through(t, &c, &y, share);
     }
 }
 
@@ -463,6 +461,7 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
     } else { /* the eye is in the body */
         media_enter(&first.media, s->hit.geometry->material, 0.0f);
     }
+    boundary y = boundary_of(scene, &first, point->hit, s);
     vec3 colors = p.is_dispersed ? color_sum(p.count) : vec3((float)p.count);
     /* Four times its part of the lobe, which that widens by a tenth: bright lamps leave no specks. */
     t.share = p.is_rough ? min(4.0f / (float)p.count, 1.0f) : 1.0f;
@@ -480,7 +479,7 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
         t.budget = p.budget;
         b.weight = share;
         travel(&t, &b, length(s->P - load3(point->ray->origin)));
-        let_through(&t, &b, point->hit, s, b.weight);
+        let_through(&t, &b, &y, b.weight);
         follow_all(&t);
     }
     store3(t.radiance, radiance);

@@ -134,7 +134,11 @@ static void tidy(walk *w)
 uint32_t see_through(const shading_scene *scene, const shading_ray *ray,
                      visibility_hit hits[SEE_THROUGH_LAYERS + 1])
 {
-    walk w = {.scene = scene, .ray = ray};
+    walk w; /* 2 kB of layers that need no zeros */
+    w.scene = scene;
+    w.ray = ray;
+    w.has_opaque = false;
+    w.count = 0;
     struct RTCRayHit rayhit = {
         .ray = {.org_x = ray->origin[0],
                 .org_y = ray->origin[1],

@@ -22,7 +22,7 @@ typedef struct search {
     boundary boundaries[COINCIDENT]; /* by geometry */
 } search;
 
-float volume_rays_tolerance(const surface_point *s)
+static float tolerance_at(const surface_point *s)
 {
     vec3 most = abs(s->P);
     if (s->hit.geometry->primitive->mode == SCENE_TRIANGLES)
@@ -31,7 +31,7 @@ float volume_rays_tolerance(const surface_point *s)
             render_geometry_corner(s->hit.geometry, s->hit.corner[i], corner);
             most = max(most, abs(load3(corner)));
         }
-    return 1e-6f * max3(most) + 1e-12f;
+    return volume_rays_tolerance_of(max3(most));
 }
 
 static void trace(search *s, vec3 origin, vec3 direction, float near_t, float far_t,
@@ -81,7 +81,7 @@ bool volume_rays_find_exit(const shading_scene *scene, const surface_point *s, v
                            volume_exit *out)
 {
     search w = {.scene = scene, .material = s->hit.geometry->material};
-    trace(&w, s->P, direction, volume_rays_tolerance(s), INFINITY, take_exit);
+    trace(&w, s->P, direction, tolerance_at(s), INFINITY, take_exit);
     if (!w.has_exit)
         return false;
     vec3 n = load3(w.exit_normal);
@@ -128,14 +128,13 @@ static void cross_one(const render_geometry *g, bool is_front, media *m)
 }
 
 void volume_rays_cross(const shading_scene *scene, const visibility_hit *hit, const surface_point *s,
-                       media *m)
+                       float tolerance, media *m)
 {
     const render_geometry *g = &scene->geometries->items[hit->geometry];
     cross_one(g, s->is_front, m);
     if (!scene->plans->has_several_volumes)
         return;
     search w = {.scene = scene, .elsewhere = g};
-    float tolerance = volume_rays_tolerance(s);
     vec3 d = -s->V;
     trace(&w, s->P - d * tolerance, d, 0.0f, 2.0f * tolerance, note_boundary);
     for (uint32_t i = 0; i < w.count; i++)

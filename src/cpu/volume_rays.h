@@ -5,9 +5,12 @@
 #include "cpu/media.h"
 #include "cpu/surface_point.h"
 
-/* Lengths at a hit, m, below which positions are the same: several times what rounding of the intersection is, which goes
- * with the coordinates of the triangle. */
-float volume_rays_tolerance(const surface_point *s);
+/* Lengths, m, below which positions on a triangle are the same: several times what rounding of the intersection is, which
+ * goes with the largest of its corners' coordinates. */
+static inline float volume_rays_tolerance_of(float coordinate_m)
+{
+    return 1e-6f * coordinate_m + 1e-12f;
+}
 
 typedef struct volume_exit {
     float distance_m;
@@ -19,8 +22,8 @@ bool volume_rays_find_exit(const shading_scene *scene, const surface_point *s, v
                            volume_exit *out);
 
 /* Takes the ray that meets s across the boundary there, and across those of other bodies in the same place (a liquid
- * that touches its glass). */
+ * that touches its glass): within tolerance, m. */
 void volume_rays_cross(const shading_scene *scene, const visibility_hit *hit, const surface_point *s,
-                       media *m);
+                       float tolerance, media *m);
 
 #endif
