@@ -61,7 +61,7 @@ static facet_result convert(convert_run *run, facet_error *error)
                                         .log = messages_log(&run->messages),
                                         .thread_count = run->limits.thread_count};
     facet_scene *scene = NULL;
-    interrupt_set_safe("facet: the time limit (--time-limit) was reached while reading\n");
+    interrupt_begin_reading(input_name(run->in));
     facet_result result = input_load(run->in, &desc, &scene, error);
     interrupt_set_safe(NULL);
     messages_flush(&run->messages);

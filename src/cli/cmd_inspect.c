@@ -65,7 +65,7 @@ static int inspect_all(inspect_run *run)
         facet_error error = {0};
         if (i > 0 && !is_given(c, OPT_JSON))
             putchar('\n');
-        interrupt_set_safe("facet: the time limit (--time-limit) was reached\n");
+        interrupt_begin_reading(input_name(c->arguments[i]));
         facet_result result = inspect_model(run, c->arguments[i], &error);
         interrupt_set_safe(NULL);
         if (result != FACET_OK) {

@@ -35,15 +35,6 @@ typedef struct render_run {
 
 /* ---- reading ---- */
 
-/* Sets what the process says when the time limit ends it while name is read. */
-static void begin_reading(const char *name)
-{
-    static char sentence[512];
-    snprintf(sentence, sizeof sentence, "%.400s: the time limit (--time-limit) was reached while reading\n",
-             name);
-    interrupt_set_safe(sentence);
-}
-
 static facet_environment_desc environment_desc(render_run *run)
 {
     return (facet_environment_desc){.allocator = run->allocator,
@@ -68,7 +59,7 @@ static facet_result load_environment(render_run *run, facet_error *error)
         break;
     case ENVIRONMENT_FILE:
         if (!o->environment_cache) /* the cache writes files */
-            begin_reading(o->environment_path);
+            interrupt_begin_reading(o->environment_path);
         result = facet_environment_load(o->environment_path, &desc, &run->environment, error);
         interrupt_set_safe(NULL);
         break;
@@ -85,7 +76,7 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
                                    .thread_count = o->limits.thread_count,
                                    .root = o->root,
                                    .max_texture_size = o->limits.max_texture_size};
-    begin_reading(input_name(model));
+    interrupt_begin_reading(input_name(model));
     facet_result result = input_load(model, &desc, scene, error);
     interrupt_set_safe(NULL);
     return result;

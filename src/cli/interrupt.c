@@ -5,6 +5,7 @@
 #include "cli/failure.h"
 
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
@@ -110,6 +111,14 @@ void interrupt_set_safe(const char *message_at_deadline)
     safe_message = message_at_deadline;
     if (pending_signal && message_at_deadline)
         interrupt_exit();
+}
+
+void interrupt_begin_reading(const char *name)
+{
+    static char sentence[512];
+    snprintf(sentence, sizeof sentence, "%.400s: the time limit (--time-limit) was reached while reading\n",
+             name);
+    interrupt_set_safe(sentence);
 }
 
 int interrupt_exit(void)

@@ -21,6 +21,9 @@ double interrupt_seconds_left(void);
  * or the time limit says so; message NULL: no longer. */
 void interrupt_set_safe(const char *message_at_deadline);
 
+/* The same while name is read. */
+void interrupt_begin_reading(const char *name);
+
 /* The exit code after an interruption: EXIT_AGAIN for SIGTERM; for others the process ends here by that signal. */
 int interrupt_exit(void);
 

@@ -107,4 +107,11 @@ expect 4 inspect copies.gltf
 expect 4 render $small copies.gltf
 says "attributes.TRANSLATION: 9 is the number of no accessor"
 [ "$(wc -l <err)" = 1 ] || failed "more than one sentence about one cause"
+# A model that never comes
+for words in "convert - late.glb" "render - $small -o late.png" "inspect -"; do
+    code=0
+    sleep 3 | "$facet" $words --time-limit 200ms >out 2>err || code=$?
+    [ "$code" = 7 ] || failed "exit code $code, not 7: facet $words"
+    says "stdin: the time limit (--time-limit) was reached while reading"
+done
 finish
