@@ -98,7 +98,7 @@ static void die(const facet_error *error)
 /* Least seconds of the drawing of runs pictures. */
 static double draw(facet_scene *scene, const facet_render_desc *desc, int runs, facet_render_stats *stats)
 {
-    double least = INFINITY;
+    double least = HUGE_VAL;
     facet_error error;
     for (int i = 0; i < runs; i++) {
         film picture;
@@ -118,7 +118,7 @@ int main(int argc, char **argv)
     make_ball(&b);
     facet_error error;
     facet_scene *scene;
-    facet_environment *studio;
+    facet_environment *studio = NULL;
     if (scene_create(NULL, "ball", &scene, &error) != FACET_OK ||
         facet_environment_create_studio(NULL, &studio, &error) != FACET_OK)
         die(&error);
