@@ -47,7 +47,7 @@ static bool scan_range(const char **text, frame_range *out)
         return false;
     while (skip(text, " "))
         ;
-    return out->last >= out->first && out->step > 0;
+    return out->first >= 1 && out->last >= out->first && out->step > 0;
 }
 
 bool frame_list_parse(const char *text, frame_list *out)

@@ -18,7 +18,7 @@ typedef struct frame_list {
     frame_range ranges[FRAME_LIST_RANGES];
 } frame_list;
 
-/* False: text is no such list; *out is then untouched. */
+/* False: text is no such list, of numbers from 1, or has more than FRAME_LIST_FRAMES; *out is then untouched. */
 bool frame_list_parse(const char *text, frame_list *out);
 /* The frames first to last. */
 frame_list frame_list_all(uint32_t first, uint32_t last);

@@ -28,7 +28,7 @@ static void lists_are_read(void **state)
 {
     (void)state;
     assert_string_equal(numbers("7"), "7");
-    assert_string_equal(numbers("0-3"), "0 1 2 3");
+    assert_string_equal(numbers("1-3"), "1 2 3");
     assert_string_equal(numbers("1-10x4"), "1 5 9");
     assert_string_equal(numbers("1, 3,5..7"), "1 3 5 6 7");
     assert_string_equal(numbers("5,1-2,5"), "5 1 2 5");
@@ -47,6 +47,8 @@ static void what_is_no_list_is_refused(void **state)
                                  "1,,2",
                                  "1-5x",
                                  "-1",
+                                 "0",
+                                 "0-3",
                                  "1.5",
                                  "1-2000000",
                                  "1;2",

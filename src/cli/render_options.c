@@ -230,7 +230,9 @@ static facet_result read_motion(const command_line *c, render_options *out, face
     out->time_s = option_number(c, OPT_TIME, 0.0);
     out->fps = option_number(c, OPT_FPS, 24.0);
     if (out->has_frames && !frame_list_parse(option_text(c, OPT_FRAMES, ""), &out->frames))
-        return option_fail(c, OPT_FRAMES, "a list of frames such as 1-48, 1-48x2 or 1,3,5..10", error);
+        return option_fail(c, OPT_FRAMES,
+                           "a list of at most a million frames, from 1, such as 1-48, 1-48x2 or 1,3,5..10",
+                           error);
     if (out->has_time && out->has_frames)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--time: it is one moment and does not go together with --frames; give one of them");

@@ -104,7 +104,7 @@ void sequence_destroy(sequence *s)
 sequence_frame sequence_at(sequence *s, uint32_t index)
 {
     sequence_frame frame = {.number = frame_list_at(&s->frames, index)};
-    uint32_t passed = frame.number ? frame.number - 1 : 0;
+    uint32_t passed = frame.number - 1;
     if (s->moves) {
         double time = passed * s->frame_s;
         /* once around takes as long as it takes: the animation begins anew */

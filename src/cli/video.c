@@ -31,11 +31,14 @@ static facet_result fail_write(const video *v, facet_error *error)
 /* A file of its own beside path, with the modes that a new file has. */
 static FILE *open_beside(video *v)
 {
+    enum { LONGEST = 240 }; /* of the 255 bytes that names may have */
+    const char *slash = strrchr(v->path, '/');
+    const char *base = slash ? slash + 1 : v->path;
     size_t size = strlen(v->path) + 16;
     v->temporary = malloc(size);
     if (!v->temporary)
         return NULL;
-    snprintf(v->temporary, size, "%s.XXXXXX", v->path);
+    snprintf(v->temporary, size, "%.*s%.*s.XXXXXX", (int)(base - v->path), v->path, LONGEST, base);
     int fd = mkstemp(v->temporary);
     if (fd < 0)
         return NULL;

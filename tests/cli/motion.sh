@@ -91,7 +91,7 @@ expect 2 render walk.gltf -o a.png --animation Walk
 says 'one name for the frames of an animation'
 expect 2 render walk.gltf -o a.png --frames 1-3
 expect 2 render walk.gltf -o 'a_##.png' --frames 3-1
-says "--frames: \"3-1\" is not a list of frames"
+says "--frames: \"3-1\" is not a list of at most a million frames"
 expect 2 render walk.gltf -o 'a_##.png' --frames 1-3 --time 1
 expect 2 render walk.gltf -o 'a_##.png' --animation Run
 says 'there is no animation "Run"; there are 0 "Walk"'
