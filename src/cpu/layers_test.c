@@ -101,7 +101,7 @@ static void a_factor_of_0_is_the_base(void **state)
     film_destroy(&all);
 }
 
-/* Also a factor that a texel makes 0. */
+/* Also a factor that a texel makes 0; with one sample, because what may be glass is shaded for each. */
 static void a_texel_of_0_is_the_base(void **state)
 {
     (void)state;
@@ -109,8 +109,12 @@ static void a_texel_of_0_is_the_base(void **state)
     static const scene_texture_slot slots[] = {
         SCENE_CLEARCOAT_TEXTURE,   SCENE_SHEEN_COLOR_TEXTURE, SCENE_TRANSMISSION_TEXTURE,
         SCENE_IRIDESCENCE_TEXTURE, SCENE_ANISOTROPY_TEXTURE,  SCENE_DIFFUSE_TRANSMISSION_TEXTURE};
-    film plain = picture_of(base());
+    fixture g = fixture_create();
+    g.desc.samples = 1;
+    film plain = render_ball(base(), &g, false);
+    fixture_destroy(&g);
     fixture f = fixture_create();
+    f.desc.samples = 1;
     scene_material m = with_all(1.0f);
     uint32_t texture = fixture_add_texture(&f, 1, 1, black);
     for (size_t i = 0; i < sizeof slots / sizeof *slots; i++)
@@ -536,6 +540,40 @@ static void the_time_limit_holds_within_a_tile(void **state)
     fixture_destroy(&f);
 }
 
+/* Lets the picture begin, and asks to stop when it is told of it again. */
+static bool stop_soon(void *user, const char *stage, double fraction)
+{
+    double *last = user;
+    if (strcmp(stage, "shade") == 0)
+        *last = fraction;
+    return strcmp(stage, "shade") != 0 || ++last[1] < 2.0;
+}
+
+static void a_tile_can_be_cancelled(void **state)
+{
+    (void)state;
+    fixture f = fixture_create();
+    double told[2] = {-1.0, 0.0}; /* fraction, times */
+    f.desc.width = f.desc.height = 32;
+    f.desc.samples = 64;
+    f.desc.quality = FACET_QUALITY_FINAL;
+    f.desc.thread_count = 1;
+    f.desc.progress = (facet_progress){.report = stop_soon, .user = told};
+    scene_material m = with_all(1.0f);
+    m.metallic = 0.0f;
+    m.transmission = 1.0f;
+    for (int i = 0; i < 12; i++)
+        fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, m)), 0, 0, 0,
+                      0.95f - 0.07f * (float)i);
+    film picture;
+    facet_render_stats stats;
+    facet_error error;
+    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_CANCELLED);
+    assert_true(told[0] < 1.0); /* the only tile was not done */
+    film_destroy(&picture);
+    fixture_destroy(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -552,6 +590,7 @@ int main(void)
         cmocka_unit_test(flat_surfaces_stay_as_they_are),
         cmocka_unit_test(normal_textures_count),
         cmocka_unit_test(the_time_limit_holds_within_a_tile),
+        cmocka_unit_test(a_tile_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,21 +81,22 @@ static vec3 hit_position(const pixel_resolver *r, uint32_t x, uint32_t y, const 
     return load3(origin) + load3(direction) * f->hit.t;
 }
 
-/* x, y from the pixel's top left. */
-static uint32_t quarter_at(float x, float y)
-{
-    return (uint32_t)(x >= 0.5f) + 2 * (uint32_t)(y >= 0.5f);
-}
-
 static uint32_t quarter_of(const pixel_resolver *r, uint32_t sample)
 {
-    return quarter_at(r->pattern->points[2 * sample], r->pattern->points[2 * sample + 1]);
+    const float *point = r->pattern->points + 2 * sample;
+    return (uint32_t)(point[0] >= 0.5f) + 2 * (uint32_t)(point[1] >= 0.5f);
+}
+
+/* Surfaces that rays go through are shaded for each sample: what is behind them has edges too. */
+static bool is_glass(const pixel_resolver *r, const visibility_hit *hit)
+{
+    return r->scene->plans->items[hit->geometry].lets_rays_through;
 }
 
 static bool is_one_surface(const pixel_resolver *r, uint32_t x, uint32_t y, const pixel_fragment *a,
                            const pixel_fragment *b)
 {
-    if (a->hit.geometry != b->hit.geometry)
+    if (a->hit.geometry != b->hit.geometry || is_glass(r, &a->hit))
         return false;
     if (r->splits_quarters && quarter_of(r, a->sample) != quarter_of(r, b->sample))
         return false;
@@ -180,15 +181,16 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
     hit.t = sum[0] / count;
     hit.u = sum[1] / count;
     hit.v = sum[2] / count;
-    shading_ray ray =
-        shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, (float)x + sum[3] / count,
-                              (float)y + sum[4] / count, r->splits_quarters ? 0.5f : 1.0f);
-    shading_point point = {.hit = &hit, .ray = &ray, .x = x, .y = y};
-    if (r->splits_quarters) {
-        uint32_t quarter = quarter_at(sum[3] / count, sum[4] / count);
-        point.x = 2 * x + (quarter & 1);
-        point.y = 2 * y + (quarter >> 1);
+    float footprint = r->splits_quarters ? 0.5f : 1.0f;
+    shading_point point = {.hit = &hit, .x = x, .y = y, .shade_count = 1};
+    if (is_glass(r, &hit)) {
+        point.shade = r->fragments[s->first].sample;
+        point.shade_count = r->pattern->sample_count;
+        footprint = inversesqrt((float)point.shade_count);
     }
+    shading_ray ray = shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread,
+                                            (float)x + sum[3] / count, (float)y + sum[4] / count, footprint);
+    point.ray = &ray;
     shading_result result;
     shading_shade(r->scene, &point, &result);
     r->shades++;

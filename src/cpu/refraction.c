@@ -393,63 +393,66 @@ static void follow_all(tracer *t)
 
 /* How a shade is split. */
 typedef struct split {
-    uint32_t count;  /* rays */
+    uint32_t count;  /* rays of this shade */
+    uint32_t total;  /* of all of the pixel */
     uint32_t budget; /* of each, with those that branch off */
     bool is_rough, is_dispersed;
 } split;
 
-static split choose_split(const shading_scene *scene, const surface_point *s)
+static split choose_split(const shading_scene *scene, const surface_point *s, uint32_t shade_count)
 {
-    static const uint32_t rough_counts[] = {
-        [FACET_QUALITY_NORMAL] = 16, [FACET_QUALITY_DRAFT] = 1, [FACET_QUALITY_FINAL] = 16};
-    static const uint32_t color_counts[] = {
-        [FACET_QUALITY_NORMAL] = 8, [FACET_QUALITY_DRAFT] = 3, [FACET_QUALITY_FINAL] = 16};
+    static const uint32_t rough_totals[] = {
+        [FACET_QUALITY_NORMAL] = 16, [FACET_QUALITY_DRAFT] = 1, [FACET_QUALITY_FINAL] = 64};
+    static const uint32_t least_colors[] = {
+        [FACET_QUALITY_NORMAL] = 4, [FACET_QUALITY_DRAFT] = 3, [FACET_QUALITY_FINAL] = 4};
     static const uint32_t budgets[] = {
         [FACET_QUALITY_NORMAL] = 24, [FACET_QUALITY_DRAFT] = 8, [FACET_QUALITY_FINAL] = 48};
     split p = {.count = 1,
                .budget = budgets[scene->quality],
                .is_rough = s->m.base.alpha >= SMOOTH,
                .is_dispersed = s->plan->is_volume && is_dispersive(s->hit.geometry->material)};
-    if (p.is_rough)
-        p.count = rough_counts[scene->quality];
-    if (p.is_dispersed && p.count < color_counts[scene->quality])
-        p.count = color_counts[scene->quality];
+    if (p.is_rough && rough_totals[scene->quality] > shade_count)
+        p.count = rough_totals[scene->quality] / shade_count;
+    if (p.is_dispersed && p.count < least_colors[scene->quality])
+        p.count = least_colors[scene->quality];
     if (p.count > 1)
         p.budget = p.budget > 24 ? p.budget / 4 : 6;
+    p.total = p.count * shade_count;
     return p;
 }
 
-/* Shift of color k of n, and its unscaled weights: tents of half width 1 around red, green and blue, so that neighbouring
- * colors run into each other; three are the channels themselves. */
+/* Shift of color k of n: evenly over twice the distance from red to blue; three are the channels themselves. */
 static float color_shift(uint32_t k, uint32_t n)
 {
     return n == 3 ? (float)k - 1.0f : 4.0f * ((float)k + 0.5f) / (float)n - 2.0f;
 }
 
-/* Colors in another order than rays, and another one for each pixel: what is drawn for a ray's direction goes with its
- * number. */
-static uint32_t color_of_ray(uint32_t place, uint32_t ray, uint32_t n)
+/* The shift of a ray. Each shade has every shade_count-th color. They are in another order than rays, and another one for
+ * each pixel: what is drawn for a ray's direction goes with its number. */
+static float shift_of_ray(const split *p, const shading_point *point, uint32_t place, uint32_t ray)
 {
-    return n == 3 ? ray : (ray * 5 + ray_samples_hash(place)) % n;
+    uint32_t k = p->total == 3 ? ray : (ray * 5 + ray_samples_hash(place)) % p->count;
+    return color_shift(k * point->shade_count + point->shade, p->total);
 }
 
+/* Unscaled weights: tents of half width 1 around red, green and blue, so that neighbouring colors run into each other. */
 static vec3 color_weight(float shift)
 {
     return max(1.0f - abs(vec3(shift + 1.0f, shift, shift - 1.0f)), 0.0f);
 }
 
-static vec3 color_sum(uint32_t n)
+static vec3 color_sum(const split *p, const shading_point *point)
 {
     vec3 sum = vec3(0.0f);
-    for (uint32_t k = 0; k < n; k++)
-        sum += color_weight(color_shift(k, n));
+    for (uint32_t ray = 0; ray < p->count; ray++)
+        sum += color_weight(shift_of_ray(p, point, 0, ray));
     return sum;
 }
 
 uint64_t refraction_shade(const shading_scene *scene, const shading_point *point, const surface_point *s,
                           float radiance[3])
 {
-    split p = choose_split(scene, s);
+    split p = choose_split(scene, s, point->shade_count);
     branch first = {.ray = *point->ray, .is_white = true};
     tracer t = {.scene = scene, .radiance = vec3(0.0f)};
     vec3 weight = vec3(1.0f);
@@ -462,9 +465,9 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
         media_enter(&first.media, s->hit.geometry->material, 0.0f);
     }
     boundary y = boundary_of(scene, &first, point->hit, s);
-    vec3 colors = p.is_dispersed ? color_sum(p.count) : vec3((float)p.count);
+    vec3 colors = p.is_dispersed ? color_sum(&p, point) : vec3((float)p.count);
     /* Four times its part of the lobe, which that widens by a tenth: bright lamps leave no specks. */
-    t.share = p.is_rough ? min(4.0f / (float)p.count, 1.0f) : 1.0f;
+    t.share = p.is_rough ? min(4.0f / (float)p.total, 1.0f) : 1.0f;
     t.least_weight = LEAST_WEIGHT[scene->quality] * (p.is_rough ? BLURRED : 1.0f) / (float)p.count;
     uint32_t place = ray_samples_place(point->x, point->y);
     for (uint32_t i = 0; i < p.count; i++) {
@@ -472,10 +475,10 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
         vec3 share = weight / colors;
         if (p.is_dispersed) {
             b.is_white = false;
-            b.shift = color_shift(color_of_ray(place, i, p.count), p.count);
+            b.shift = shift_of_ray(&p, point, place, i);
             share *= color_weight(b.shift);
         }
-        t.sample = place * p.count + i;
+        t.sample = place * p.total + point->shade * p.count + i;
         t.budget = p.budget;
         b.weight = share;
         travel(&t, &b, length(s->P - load3(point->ray->origin)));

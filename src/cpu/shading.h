@@ -31,8 +31,9 @@ void shading_scene_set_options(shading_scene *scene, const facet_render_desc *de
 typedef struct shading_point {
     const visibility_hit *hit;
     const shading_ray *ray;
-    uint32_t x,
-        y; /* where in the picture, in units of what is shaded once: what is drawn at random depends on it */
+    uint32_t x, y; /* pixel */
+    /* Of glass: which of how many shades of the pixel. What is drawn at random depends on these and the pixel. */
+    uint32_t shade, shade_count;
 } shading_point;
 
 typedef struct shading_result {

@@ -108,7 +108,8 @@ static void stop(picture *p, facet_result result)
 static void report(picture *p)
 {
     const facet_progress *progress = &p->desc->render->progress;
-    if (!progress->report || atomic_flag_test_and_set(&p->is_reporting))
+    if (!progress->report || atomic_load(&p->result) != FACET_OK ||
+        atomic_flag_test_and_set(&p->is_reporting))
         return;
     double fraction = (double)atomic_load(&p->done) / (double)p->tile_count;
     double now = clock_seconds();
