@@ -50,6 +50,14 @@ else()
 endif()
 set(FACET_TEST_DATA ${data} CACHE PATH "Test data; tests that need it skip where it is not there")
 
+# A test asks only whether the variable is there.
+if(FACET_TEST_DATA AND IS_DIRECTORY ${FACET_TEST_DATA})
+    set(data_setting "set:${FACET_TEST_DATA}")
+else()
+    set(data_setting "unset:")
+    message(STATUS "There is no folder \"${FACET_TEST_DATA}\": tests on real models are skipped")
+endif()
+
 # facet_add_test(NAME [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test. It finds shared test data through
 # the environment variable FACET_TEST_DATA and skips (exit code 77) where it needs it and has none.
 function(facet_add_test name)
@@ -62,7 +70,8 @@ function(facet_add_test name)
     endif()
     add_test(NAME ${FACET_TEST_PREFIX}${name} COMMAND ${T_COMMAND} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
-        ENVIRONMENT "FACET_TEST_DATA=${FACET_TEST_DATA};TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp")
+        ENVIRONMENT "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp"
+        ENVIRONMENT_MODIFICATION "FACET_TEST_DATA=${data_setting}")
     if(T_LABELS)
         set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES LABELS "${T_LABELS}")
     endif()
