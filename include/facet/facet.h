@@ -136,10 +136,8 @@ FACET_API facet_scene_counts facet_scene_get_counts(const facet_scene *scene);
 FACET_API facet_result facet_scene_describe_json(const facet_scene *scene, char **text, facet_error *error);
 FACET_API void facet_text_destroy(char *text);
 
-#define FACET_DEFAULT UINT32_MAX /* as an index: the one that the file names, or the first */
-
-/* Number of the first scene, camera of that name; FACET_ERROR_ARGUMENT names those there are. A decimal number
- * is taken as the index where no name matches. */
+/* Number of the first scene, camera of that name; FACET_ERROR_ARGUMENT names those there are. Where no name
+ * matches, one that differs in the case of letters does, or a decimal number as the index. */
 FACET_API facet_result facet_scene_find_scene(const facet_scene *scene, const char *name, uint32_t *index,
                                               facet_error *error);
 FACET_API facet_result facet_scene_find_camera(const facet_scene *scene, const char *name, uint32_t *index,

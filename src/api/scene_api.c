@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const facet_scene_desc default_desc = {0};
 
@@ -67,6 +68,11 @@ static facet_result find(const facet_scene *scene, const char *what, const char 
             *index = i;
             return FACET_OK;
         }
+    for (uint32_t i = 0; i < count; i++)
+        if (strcasecmp(name_at(scene, i), name) == 0) {
+            *index = i;
+            return FACET_OK;
+        }
     char *end;
     unsigned long number = strtoul(name, &end, 10);
     if (end != name && *end == 0 && number < count && name[0] != '-') {
@@ -81,8 +87,9 @@ static facet_result find(const facet_scene *scene, const char *what, const char 
         text_addf(&names, name_at(scene, i)[0] ? "%s%u \"%s\"" : "%s%u", i ? ", " : "", i, name_at(scene, i));
     if (count > 12)
         text_add(&names, ", ...");
-    facet_result result = fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\"; there are %s",
-                               scene->source, what, name, names.data ? names.data : "others");
+    facet_result result =
+        fail(error, FACET_ERROR_ARGUMENT, "%s: there is no %s \"%s\"; there %s %s", scene->source, what, name,
+             count > 1 ? "are" : "is only", names.data ? names.data : "another");
     text_destroy(&names);
     return result;
 }

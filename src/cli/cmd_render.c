@@ -113,10 +113,8 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
 {
     const sequence *s = &m->sequence;
     bool is_sequence = s->frames.frame_count > 1;
-    const render_view view = {.pose = &s->pose,
-                              .turn = frame->turn,
-                              .turns = is_sequence && s->turns,
-                              .moves = is_sequence && s->moves};
+    const render_view view = {
+        .pose = &s->pose, .turn = frame->turn, .turns = s->turns > 0, .moves = s->moves};
     facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
     if (result == FACET_OK && index == 0 && is_sequence)
         render_keep_framing(&m->options, camera);
@@ -221,6 +219,19 @@ static facet_result choose_environment(model_run *m, facet_error *error)
     return result;
 }
 
+/* What is after the last key is its pose again and again, and hardly meant. */
+static void tell_late_frames(const model_run *m)
+{
+    const sequence *s = &m->sequence;
+    uint32_t last = 0;
+    for (uint32_t i = 0; i < s->frames.range_count; i++)
+        last = s->frames.ranges[i].last > last ? s->frames.ranges[i].last : last;
+    if (s->frame_count_there && last > s->frame_count_there + 1)
+        message_at(&m->run->messages, VERBOSITY_NORMAL,
+                   "%s: frame %u is after the end of the animation, which has %u frames at %g a second",
+                   input_name(m->model), last, s->frame_count_there, m->options.fps);
+}
+
 static facet_result open_video(model_run *m, facet_error *error)
 {
     char name[RENDER_NAME_SIZE];
@@ -234,6 +245,8 @@ static facet_result render_scene(render_run *run, const char *model, const facet
 {
     model_run m = {.run = run, .options = run->options, .model = model, .scene = scene};
     facet_result result = sequence_create(scene, input_name(model), &m.options, &m.sequence, error);
+    if (result == FACET_OK)
+        tell_late_frames(&m);
     if (result == FACET_OK)
         result = choose_environment(&m, error);
     messages_flush(&run->messages);

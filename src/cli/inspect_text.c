@@ -165,6 +165,17 @@ static void print_materials(FILE *stream, const json_t *materials, bool all)
     print_rest(stream, count, all);
 }
 
+/* "1.2 MiB", "26 KiB" */
+static const char *size_text(double bytes, char text[32])
+{
+    const double kib = 1024.0, mib = 1048576.0;
+    if (bytes >= mib)
+        snprintf(text, 32, "%.1f MiB", bytes / mib);
+    else
+        snprintf(text, 32, "%.0f KiB", bytes > 0.0 && bytes < kib ? 1.0 : bytes / kib);
+    return text;
+}
+
 static void print_images(FILE *stream, const json_t *images, bool all)
 {
     size_t count = json_array_size(images);
@@ -182,7 +193,8 @@ static void print_images(FILE *stream, const json_t *images, bool all)
             table_add(&t, "%lldx%lld", width, height);
         else
             table_add(&t, "unreadable");
-        table_add(&t, "%.1f KiB", number_of(image, "bytes") / 1024.0);
+        char size[32];
+        table_add(&t, "%s", size_text(number_of(image, "bytes"), size));
     }
     table_print(&t, stream, 2);
     print_rest(stream, count, all);
@@ -239,7 +251,8 @@ static void print_animations(FILE *stream, const json_t *animations, bool all)
         const json_t *animation = json_array_get(animations, i);
         table_add(&t, "%zu", i);
         table_add(&t, "%.4g s to %.4g s", number_of(animation, "begin"), number_of(animation, "end"));
-        table_add(&t, "%zu channels", json_array_size(json_object_get(animation, "channels")));
+        size_t channels = json_array_size(json_object_get(animation, "channels"));
+        table_add(&t, "%zu channel%s", channels, channels == 1 ? "" : "s");
         table_add(&t, "%s", text_of(animation, "name"));
     }
     table_print(&t, stream, 2);
@@ -260,25 +273,28 @@ static void print_variants(FILE *stream, const json_t *variants)
     table_print(&t, stream, 2);
 }
 
-/* "memory     1.2 MiB geometry, .." */
 static void print_memory(FILE *stream, const json_t *memory)
 {
-    const double mib = 1048576.0;
-    fprintf(stream, "  memory     geometry %.1f MiB, images %.1f MiB in files, %.1f MiB as texels\n",
-            number_of(memory, "geometry_bytes") / mib, number_of(memory, "image_file_bytes") / mib,
-            number_of(memory, "image_texel_bytes") / mib);
+    char a[32], b[32], c[32];
+    fprintf(stream, "  memory     geometry %s", size_text(number_of(memory, "geometry_bytes"), a));
+    if (integer_of(memory, "image_file_bytes"))
+        fprintf(stream, ", images %s in files, %s as texels",
+                size_text(number_of(memory, "image_file_bytes"), b),
+                size_text(number_of(memory, "image_texel_bytes"), c));
+    fputc('\n', stream);
 }
 
-static bool has_metadata(const json_t *value)
+/* Whether key ("extras", "metadata") stands anywhere in value. */
+static bool has_metadata(const json_t *value, const char *wanted)
 {
     const char *key;
     json_t *element;
     size_t index;
-    bool found = json_object_get(value, "extras") || json_object_get(value, "metadata");
+    bool found = json_object_get(value, wanted) != NULL;
     if (json_is_array(value))
-        json_array_foreach(value, index, element) found = found || has_metadata(element);
+        json_array_foreach(value, index, element) found = found || has_metadata(element, wanted);
     else
-        json_object_foreach((json_t *)value, key, element) found = found || has_metadata(element);
+        json_object_foreach((json_t *)value, key, element) found = found || has_metadata(element, wanted);
     return found;
 }
 
@@ -298,15 +314,19 @@ static void print_extensions(FILE *stream, const json_t *extensions)
     table_print(&t, stream, 2);
 }
 
-static void print_warnings(FILE *stream, const json_t *warnings)
+static void print_warnings(FILE *stream, const char *name, const json_t *warnings)
 {
     size_t count = json_array_size(warnings);
     if (!count)
         return;
     print_heading(stream, "Warnings", count);
     table t = {.column_count = 1};
-    for (size_t i = 0; i < count; i++)
-        table_add(&t, "%s", json_string_value(json_array_get(warnings, i)));
+    size_t length = strlen(name);
+    for (size_t i = 0; i < count; i++) {
+        const char *text = json_string_value(json_array_get(warnings, i));
+        bool has_name = strncmp(text, name, length) == 0 && strncmp(text + length, ": ", 2) == 0;
+        table_add(&t, "%s", text + (has_name ? length + 2 : 0));
+    }
     table_print(&t, stream, 2);
 }
 
@@ -325,8 +345,10 @@ void inspect_print_text(FILE *stream, const char *name, const json_t *model, boo
     print_counts(stream, json_object_get(model, "counts"));
     print_bounds(stream, json_object_get(model, "bounds"));
     print_memory(stream, json_object_get(model, "memory"));
-    if (has_metadata(model))
-        fprintf(stream, "  metadata   extras or XMP; --json shows them\n");
+    bool has_extras = has_metadata(model, "extras"), has_xmp = has_metadata(model, "metadata");
+    if (has_extras || has_xmp)
+        fprintf(stream, "  metadata   %s%s%s; --json shows it\n", has_extras ? "extras" : "",
+                has_extras && has_xmp ? ", " : "", has_xmp ? "XMP" : "");
     if (json_array_size(json_object_get(model, "scenes")) > 1)
         print_named(stream, json_object_get(model, "scenes"), "Scenes", all);
     print_materials(stream, json_object_get(model, "materials"), all);
@@ -337,5 +359,5 @@ void inspect_print_text(FILE *stream, const char *name, const json_t *model, boo
     print_animations(stream, json_object_get(model, "animations"), all);
     print_variants(stream, json_object_get(model, "variants"));
     print_extensions(stream, json_object_get(model, "extensions"));
-    print_warnings(stream, json_object_get(model, "warnings"));
+    print_warnings(stream, name, json_object_get(model, "warnings"));
 }

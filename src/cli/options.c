@@ -74,7 +74,7 @@ static const option running_options[] = {
      .argument = "NAME",
      .help =
          "options in one word; what is given beside it wins. thumbnail: --size 256 --background transparent "
-         "--time-limit 5s --max-memory 1G --quiet, and --threads 1 when niced",
+         "--time-limit 5s for each model --max-memory 1G --quiet, and --threads 1 when niced",
      .choices = WORDS("thumbnail")},
     {.id = OPT_CONFIG,
      .name = "config",
@@ -401,8 +401,8 @@ static const verb render_verb = {
              "linear light and layers from a camera of the file"},
             {"facet render shoe.glb -o 'turn_####.png' --turntable 72", "once around the model"},
             {"facet render walk.glb -o 'walk_####.png' --animation Walk", "the frames of an animation"},
-            {"facet render fox.glb -o - --format y4m --animation Run --turntable 120 | ffmpeg -i - fox.mp4",
-             "a video of it, seen from all around"},
+            {"facet render fox.glb -o - --format y4m --animation Run | ffmpeg -i - -pix_fmt yuv420p fox.mp4",
+             "a video; with --turntable 120 seen from all around"},
             {"facet render *.glb -o 'thumbs/{stem}.png' --preset thumbnail",
              "small pictures of many models, into a folder that exists"},
             {"curl -s URL | facet render - -o - --format png > out.png", "without files"},

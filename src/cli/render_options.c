@@ -67,18 +67,19 @@ static facet_result read_format(const command_line *c, render_options *out, face
             set_format(out, i);
             return FACET_OK;
         }
-    return option_fail(
-        c, OPT_OUTPUT,
-        "a name that ends in .png, .jpg, .webp, .exr, .hdr, .pfm or .y4m; --format writes under any name",
-        error);
+    return option_fail(c, OPT_OUTPUT,
+                       "a name that ends in .png, .jpg, .webp, .exr, .hdr, .pfm or .y4m (videos in other "
+                       "forms: send --format y4m to ffmpeg)",
+                       error);
 }
 
 static facet_result read_size(const command_line *c, render_options *out, facet_error *error)
 {
     facet_render_desc *d = &out->desc;
     if (!value_size(option_text(c, OPT_SIZE, "1024x768"), &d->width, &d->height))
-        return option_fail(c, OPT_SIZE, "WIDTHxHEIGHT in pixels such as 640x480, or one number for a square",
-                           error);
+        return option_fail(
+            c, OPT_SIZE,
+            "WIDTHxHEIGHT in pixels such as 640x480, or one number for a square; the most are 65536", error);
     if (!is_given(c, OPT_CROP))
         return FACET_OK;
     if (!value_rectangle(option_text(c, OPT_CROP, ""), d->crop))
@@ -236,7 +237,11 @@ static facet_result read_motion(const command_line *c, render_options *out, face
     if (out->has_time && out->has_frames)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--time: it is one moment and does not go together with --frames; give one of them");
-    bool is_still = out->has_time || (out->animation && strcmp(out->animation, "none") == 0);
+    bool plays_none = out->animation && strcmp(out->animation, "none") == 0;
+    if (plays_none && (out->has_time || out->has_frames))
+        return fail_with(error, FACET_ERROR_ARGUMENT, "--animation: none does not go together with --%s",
+                         out->has_time ? "time" : "frames");
+    bool is_still = out->has_time || plays_none;
     out->is_sequence = out->turntable || out->has_frames || (!is_still && (out->animation || out->has_fps));
     return FACET_OK;
 }
@@ -312,7 +317,8 @@ static facet_result check_sequence(const command_line *c, const render_options *
     if (o->video && o->is_stdout && c->argument_count > 1)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--output: standard output takes the video of one model");
-    if (!o->is_sequence || o->video || !o->output || o->is_stdout || has_mark)
+    bool is_one = o->has_frames ? o->frames.frame_count == 1 : !o->is_sequence;
+    if (is_one || o->video || !o->output || o->is_stdout || has_mark)
         return FACET_OK;
     if (o->turntable)
         return fail_with(error, FACET_ERROR_ARGUMENT,

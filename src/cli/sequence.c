@@ -58,18 +58,20 @@ static facet_result choose_frames(const char *name, const render_options *o, seq
     out->frame_s = 1.0 / o->fps;
     out->pose.time_s = o->has_time ? o->time_s : out->begin_s;
     out->moves = out->pose.animation_count && !o->has_time && o->is_sequence;
+    double count = ceil(out->duration_s * o->fps - 1e-6);
+    if (out->moves && !out->turns)
+        out->frame_count_there = count > 1.0 ? (uint32_t)fmin(count, 4e9) : 1;
     if (o->has_frames)
         out->frames = o->frames;
     else if (o->turntable)
         out->frames = frame_list_all(1, o->turntable);
     else if (out->moves) {
-        double count = ceil(out->duration_s * o->fps - 1e-6);
         if (count > FRAME_LIST_FRAMES)
             return fail_with(
                 error, FACET_ERROR_LIMIT,
                 "%s: its animation takes %g s, which is more than %d frames at --fps %g; give --frames", name,
                 out->duration_s, (int)FRAME_LIST_FRAMES, o->fps);
-        out->frames = frame_list_all(1, count > 1.0 ? (uint32_t)count : 1);
+        out->frames = frame_list_all(1, out->turns ? out->turns : out->frame_count_there);
     } else {
         out->frames = frame_list_all(1, 1);
     }

@@ -25,6 +25,7 @@ static const struct {
     {"out-file", OPT_OUTPUT, "--output FILE"},
     {"outfile", OPT_OUTPUT, "--output FILE"},
     {"output-file", OPT_OUTPUT, "--output FILE"},
+    {"output-format", OPT_FORMAT, "--format FORMAT"},
     {"render-output", OPT_OUTPUT, "--output FILE"},
     {"output-path", OPT_OUTPUT, "--output FILE"},
     {"render-format", OPT_FORMAT, "--format png"},

@@ -8,7 +8,7 @@ static scene_pose pose_of(const facet_scene *scene, uint32_t index)
 {
     scene_pose pose;
     facet_error error = {0};
-    const facet_pose_desc desc = {.has_scene_index = index != FACET_DEFAULT, .scene_index = index};
+    const facet_pose_desc desc = {.has_scene_index = index != SCENE_NONE, .scene_index = index};
     if (scene_pose_create(scene, &desc, NULL, 1, &pose, &error) != FACET_OK)
         fail_msg("%s", error.message);
     return pose;
@@ -38,7 +38,7 @@ static void worlds_are_products_down_the_tree(void **state)
              "'translation':[1,0,0]},{'children':[0],'scale':[2,2,2]},{'children':[1],'translation':[0,0,"
              "10]}],'scenes':[{'nodes':[2]}]",
              NULL);
-    scene_pose pose = pose_of(scene, FACET_DEFAULT);
+    scene_pose pose = pose_of(scene, SCENE_NONE);
     const float expected[3] = {2, 0, 10};
     assert_floats(pose.cameras[0].world.m + 12, expected, 3, 0);
     assert_int_equal(scene->nodes[0].parent, 1);
@@ -78,7 +78,7 @@ static void scenes_and_hidden_nodes(void **state)
     assert_int_equal(scene->scene_count, 2);
     assert_int_equal(scene->default_scene, 1);
     assert_true(has_warning(scene, "node 0 is listed twice"));
-    scene_pose pose = pose_of(scene, FACET_DEFAULT);
+    scene_pose pose = pose_of(scene, SCENE_NONE);
     assert_int_equal(pose.camera_count, 0);
     scene_pose_destroy(&pose);
     pose = pose_of(scene, 0);

@@ -94,7 +94,7 @@ expect 2 render walk.gltf -o 'a_##.png' --frames 3-1
 says "--frames: \"3-1\" is not a list of at most a million frames"
 expect 2 render walk.gltf -o 'a_##.png' --frames 1-3 --time 1
 expect 2 render walk.gltf -o 'a_##.png' --animation Run
-says 'there is no animation "Run"; there are 0 "Walk"'
+says 'there is no animation "Run"; there is only 0 "Walk"'
 expect 2 render walk.gltf -o 'a_##.y4m' --animation Walk
 expect 2 render -o a.png --time 1
 says "has no animation, which --time asks for"
