@@ -27,27 +27,9 @@ void equirect_direction(uint32_t width, uint32_t height, double x, double y, flo
 
 void equirect_lookup(const image *picture, const float d[3], float out[3])
 {
-    float width = (float)picture->width;
-    float height = (float)picture->height;
-    float x = equirect_atan2(d[2], d[0]) * (0.159154943f * width) + (0.5f * width - 0.5f);
-    float y = equirect_atan2(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) * (0.318309886f * height) - 0.5f;
-    x = x < 0.0f ? x + width : x;
-    y = y < 0.0f ? 0.0f : y > height - 1.0f ? height - 1.0f : y;
-    uint32_t x0 = (uint32_t)x;
-    uint32_t y0 = (uint32_t)y;
-    float wx = x - (float)x0;
-    float wy = y - (float)y0;
-    x0 = x0 < picture->width ? x0 : picture->width - 1; /* rounded up */
-    uint32_t x1 = x0 + 1 < picture->width ? x0 + 1 : 0;
-    uint32_t y1 = y0 + 1 < picture->height ? y0 + 1 : y0;
-    const float *pixels = picture->pixels;
-    const float *row0 = pixels + 3 * (size_t)picture->width * y0;
-    const float *row1 = pixels + 3 * (size_t)picture->width * y1;
-    for (size_t i = 0; i < 3; i++) {
-        float top = row0[3 * (size_t)x0 + i] + (row0[3 * (size_t)x1 + i] - row0[3 * (size_t)x0 + i]) * wx;
-        float bottom = row1[3 * (size_t)x0 + i] + (row1[3 * (size_t)x1 + i] - row1[3 * (size_t)x0 + i]) * wx;
-        out[i] = top + (bottom - top) * wy;
-    }
+    rgbx c = equirect_fetch(picture, equirect_locate(d));
+    for (int i = 0; i < 3; i++)
+        out[i] = c[i];
 }
 
 /* ---- resampling ---- */

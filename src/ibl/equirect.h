@@ -5,6 +5,8 @@
 #ifndef IBL_EQUIRECT_H
 #define IBL_EQUIRECT_H
 
+#include <math.h>
+
 #include "facet/facet.h"
 #include "ibl/rgbx.h"
 #include "image/image.h"
@@ -37,6 +39,48 @@ static inline float equirect_atan2(float y, float x)
     p = ay > ax ? 1.57079633f - p : p;
     p = x < 0.0f ? 3.14159265f - p : p;
     return y < 0.0f ? -p : p;
+}
+
+/* Where a direction is in any picture: turns from the middle column, half turns from the top. */
+typedef struct equirect_point {
+    float turns, half_turns;
+} equirect_point;
+
+/* Of the unit direction d. */
+static inline equirect_point equirect_locate(const float d[3])
+{
+    return (equirect_point){equirect_atan2(d[2], d[0]) * 0.159154943f,
+                            equirect_atan2(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) * 0.318309886f};
+}
+
+static inline rgbx equirect_texel(const float *p)
+{
+    return (rgbx){p[0], p[1], p[2], 0.0f};
+}
+
+/* Bilinear. */
+static inline rgbx equirect_fetch(const image *picture, equirect_point p)
+{
+    float width = (float)picture->width;
+    float height = (float)picture->height;
+    float x = p.turns * width + (0.5f * width - 0.5f);
+    float y = p.half_turns * height - 0.5f;
+    x = x < 0.0f ? x + width : x;
+    y = y < 0.0f ? 0.0f : y > height - 1.0f ? height - 1.0f : y;
+    uint32_t x0 = (uint32_t)x;
+    uint32_t y0 = (uint32_t)y;
+    float wx = x - (float)x0;
+    float wy = y - (float)y0;
+    x0 = x0 < picture->width ? x0 : picture->width - 1; /* rounded up */
+    uint32_t x1 = x0 + 1 < picture->width ? x0 + 1 : 0;
+    uint32_t y1 = y0 + 1 < picture->height ? y0 + 1 : y0;
+    const float *row0 = (const float *)picture->pixels + 3 * (size_t)picture->width * y0;
+    const float *row1 = (const float *)picture->pixels + 3 * (size_t)picture->width * y1;
+    rgbx a = equirect_texel(row0 + 3 * (size_t)x0);
+    rgbx b = equirect_texel(row1 + 3 * (size_t)x0);
+    a += (equirect_texel(row0 + 3 * (size_t)x1) - a) * wx;
+    b += (equirect_texel(row1 + 3 * (size_t)x1) - b) * wx;
+    return a + (b - a) * wy;
 }
 
 /* Radiance from the unit direction d, bilinear. */
