@@ -67,6 +67,7 @@ void environment_release(facet_environment *environment)
     for (int i = 0; i < PICTURE_COUNT; i++)
         image_destroy(&parts->pictures[i]);
     harmonics_destroy(&parts->harmonics);
+    narrow_destroy(&parts->narrow);
     image_destroy(&environment->picture);
     cube_destroy(&environment->irradiance_over_pi);
     mem_free(environment->cache_folder);

@@ -7,6 +7,7 @@
 #include "facet/facet.h"
 #include "ibl/cube.h"
 #include "ibl/harmonics.h"
+#include "ibl/narrow.h"
 #include "ibl/prefilter.h"
 #include "image/image.h"
 
@@ -18,6 +19,8 @@ typedef struct light_parts {
     image pictures[PICTURE_COUNT]; /* [0] is not used: that is the picture itself */
     cube levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* [][0] is not used */
     harmonics harmonics;                                      /* what levels are made of */
+    narrow narrow;                                            /* between mirrors and level 1 of GGX */
+    bool has_narrow;
 } light_parts;
 
 struct facet_environment {

@@ -29,6 +29,7 @@ struct ibl_light {
     level_range ranges[PREFILTER_LOBE_COUNT];
     cube levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* not owned; [][0] is not used */
     image sharp, background;                                  /* not owned */
+    const narrow *narrow; /* of the environment; NULL where nothing is between a mirror and level 1 */
 };
 
 /* ---- preparing; the environment's mutex is held ---- */
@@ -87,6 +88,19 @@ static facet_result prepare_picture(facet_environment *e, double rows, uint32_t 
     return FACET_OK;
 }
 
+/* Blurred pictures are made in less time than a cache takes to read them. */
+static facet_result prepare_narrow(facet_environment *e, uint32_t thread_count, ibl_light *light,
+                                   facet_error *error)
+{
+    light_parts *parts = &e->parts;
+    facet_result result = FACET_OK;
+    if (!parts->has_narrow)
+        result = narrow_create(&light->sharp, &e->allocator, thread_count, &parts->narrow, error);
+    parts->has_narrow = result == FACET_OK;
+    light->narrow = &parts->narrow;
+    return result;
+}
+
 /* Fills light with the parts that desc asks for. */
 static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *desc, ibl_light *light,
                                   facet_error *error)
@@ -105,6 +119,8 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
     }
     if (desc->needs_specular && light->ranges[PREFILTER_GGX].first == 0) {
         result = prepare_picture(e, sharp_rows, desc->thread_count, &light->sharp, error);
+        if (result == FACET_OK && light->ranges[PREFILTER_GGX].last > 0)
+            result = prepare_narrow(e, desc->thread_count, light, error);
         if (result != FACET_OK)
             return result;
     }
@@ -196,23 +212,39 @@ static float find_lod(const ibl_light *light, prefilter_lobe lobe, float percept
     return lod < first ? first : lod > last ? last : lod;
 }
 
+/* From a mirror up to level 1 of GGX. */
+static rgbx fetch_narrow(const ibl_light *light, const float R[3], float perceptual_roughness)
+{
+    equirect_point p = equirect_locate(R);
+    if (perceptual_roughness == 0.0f)
+        return equirect_fetch(&light->sharp, p);
+    float weights[NARROW_PARTS];
+    narrow_weights(light->narrow, perceptual_roughness, weights);
+    rgbx c =
+        cube_fetch(&light->levels[PREFILTER_GGX][1], cube_locate(R[0], R[1], R[2])) * weights[NARROW_LOBE];
+    if (weights[NARROW_MIRROR] > 0.0f)
+        c += equirect_fetch(&light->sharp, p) * weights[NARROW_MIRROR];
+    for (uint32_t i = 0; i < light->narrow->count; i++)
+        if (weights[1 + i] > 0.0f)
+            c += equirect_fetch(&light->narrow->pictures[i], p) * weights[1 + i];
+    return c;
+}
+
 void ibl_specular(const ibl_light *light, const float R[3], float perceptual_roughness, float out[3])
 {
     const cube *levels = light->levels[PREFILTER_GGX];
     float lod = find_lod(light, PREFILTER_GGX, perceptual_roughness);
     uint32_t level = (uint32_t)lod;
     float fraction = lod - (float)level;
+    rgbx c;
     if (level == 0) {
-        equirect_lookup(&light->sharp, R, out);
-        if (fraction == 0.0f)
-            return;
+        c = fetch_narrow(light, R, fraction * NARROW_END);
+    } else {
+        cube_point p = cube_locate(R[0], R[1], R[2]);
+        c = cube_fetch(&levels[level], p);
+        if (fraction > 0.0f)
+            c += (cube_fetch(&levels[level + 1], p) - c) * fraction;
     }
-    cube_point p = cube_locate(R[0], R[1], R[2]);
-    rgbx rough = {0};
-    if (fraction > 0.0f)
-        rough = cube_fetch(&levels[level + 1], p);
-    rgbx smooth = level ? cube_fetch(&levels[level], p) : (rgbx){out[0], out[1], out[2], 0.0f};
-    rgbx c = smooth + (rough - smooth) * fraction;
     for (int i = 0; i < 3; i++)
         out[i] = c[i];
 }

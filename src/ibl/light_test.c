@@ -364,6 +364,7 @@ static void test_parts_are_lazy(void **state)
     e = make_environment(64, 32, sky);
     light = prepare(e, (ibl_light_desc){.needs_specular = true}); /* mirrors only */
     assert_null(e->parts.harmonics.coefficients);
+    assert_false(e->parts.has_narrow);
     ibl_light_release(light);
 
     light =
@@ -375,6 +376,7 @@ static void test_parts_are_lazy(void **state)
     rgbx *texels = e->parts.levels[PREFILTER_GGX][4].texels;
     assert_non_null(texels);
     assert_null(e->parts.harmonics.waves); /* scratch memory is not kept */
+    assert_false(e->parts.has_narrow);
     ibl_light_release(light);
 
     light = prepare(e, everything); /* keeps what there is */

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "ibl/narrow.h"
+
 #include "shade/shade.h"
 
 /* How a level is made. Sizes give the half width of a lobe four texels and more, so that bilinear lookup keeps its
@@ -14,9 +16,9 @@ typedef struct level_recipe {
     uint16_t size, degree;
 } level_recipe;
 
-static const level_recipe ggx_levels[] = {{0.0f, 0, 0},    {0.16f, 128, 160}, {0.22f, 80, 160},
-                                          {0.3f, 64, 128}, {0.4f, 48, 64},    {0.52f, 40, 64},
-                                          {0.68f, 32, 64}, {0.84f, 32, 64},   {1.0f, 32, 64}};
+static const level_recipe ggx_levels[] = {{0.0f, 0, 0},    {NARROW_END, 128, 160}, {0.22f, 80, 160},
+                                          {0.3f, 64, 128}, {0.4f, 48, 64},         {0.52f, 40, 64},
+                                          {0.68f, 32, 64}, {0.84f, 32, 64},        {1.0f, 32, 64}};
 /* Closer than those of GGX: two thin rings are less like the one between them than two spots are. */
 static const level_recipe charlie_levels[] = {
     {0.0f, 0, 0},      {0.1f, 128, 160},  {0.115f, 112, 160}, {0.132f, 96, 160},
