@@ -11,9 +11,9 @@ typedef struct sequence {
     uint32_t *animations; /* block of malloc(), what pose refers to */
     bool moves;           /* pictures differ in time */
     double begin_s, duration_s;
-    double frame_s; /* from one frame to the next */
+    double frame_s;             /* from one frame to the next */
     uint32_t frame_count_there; /* frames that the animation has; 0: none that ends */
-    uint32_t turns; /* pictures once around the model; 0: the camera stands */
+    uint32_t turns;             /* pictures once around the model; 0: the camera stands */
 } sequence;
 
 /* One picture. */
