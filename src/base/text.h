@@ -19,6 +19,10 @@ void text_add_bytes(text *t, const void *bytes, size_t size);
 void text_addf(text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void text_destroy(text *t); /* {0} is allowed */
 
+enum { TEXT_FLOAT_SIZE = 40 };
+/* The shortest decimal that reads back as the same finite float. */
+void text_shortest_float(float value, char digits[TEXT_FLOAT_SIZE]);
+
 /* JSON: keys are NULL inside arrays and at the top. Numbers print the shortest decimal that reads back as the
  * same float; NaN and infinities, which JSON lacks, become null. Strings are UTF-8; bytes that are not
  * become U+FFFD. */

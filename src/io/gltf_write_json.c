@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "base/text.h"
 #include "io/gltf_writer.h"
 
 bool writer_is_ok(const writer *w)
@@ -49,12 +50,8 @@ json_t *put_array(writer *w, json_t *object, const char *key)
 /* The double that is nearest to the shortest decimal of the float, which is printed with 9 digits. */
 json_t *json_float(float value)
 {
-    char digits[40];
-    for (int precision = 6; precision <= 9; precision++) {
-        snprintf(digits, sizeof digits, "%.*g", precision, (double)value);
-        if (strtof(digits, NULL) == value)
-            break;
-    }
+    char digits[TEXT_FLOAT_SIZE];
+    text_shortest_float(value, digits);
     double number = strtod(digits, NULL);
     if (number >= -1e9 && number <= 1e9 && number == (double)(json_int_t)number &&
         !(number == 0.0 && digits[0] == '-'))
@@ -148,9 +145,9 @@ static bool has_many_digits(const json_t *value)
 }
 
 /* JSON text of the file that was read, whose nesting the reader bounded. */
-static json_t *parse(writer *w, const char *text)
+static json_t *parse(writer *w, const char *json)
 {
-    json_t *value = json_loads(text, JSON_DECODE_ANY | JSON_ALLOW_NUL, NULL);
+    json_t *value = json_loads(json, JSON_DECODE_ANY | JSON_ALLOW_NUL, NULL);
     if (!value) {
         writer_fail_memory(w);
         return NULL;
@@ -159,9 +156,9 @@ static json_t *parse(writer *w, const char *text)
     return value;
 }
 
-static bool is_utf8(const char *text)
+static bool is_utf8(const char *name)
 {
-    json_t *string = json_string(text);
+    json_t *string = json_string(name);
     json_decref(string);
     return string != NULL;
 }
