@@ -20,10 +20,9 @@ facet_result preset_apply(command_line *c, facet_error *error)
     if (!is_given(c, OPT_PRESET))
         return FACET_OK;
     static char limit[32]; /* 5 s for each model; a command line lives as long as the process */
-    facet_result result = FACET_OK;
     snprintf(limit, sizeof limit, "%zus", 5 * (c->argument_count ? c->argument_count : 1));
-    if (result == FACET_OK)
-        result = command_line_set(c, option_find_id(c->verb, OPT_TIME_LIMIT), limit, SOURCE_PRESET, error);
+    facet_result result =
+        command_line_set(c, option_find_id(c->verb, OPT_TIME_LIMIT), limit, SOURCE_PRESET, error);
     if (result == FACET_OK && !is_given(c, OPT_VERBOSE))
         result = command_line_set(c, option_find_id(c->verb, OPT_QUIET), NULL, SOURCE_PRESET, error);
     for (size_t i = 0; i < sizeof thumbnail / sizeof *thumbnail && result == FACET_OK; i++)
