@@ -1,4 +1,5 @@
-/* facet.h - the public interface of libfacet: read a glTF model, light it, render it on the CPU.
+/* facet.h - the public interface of libfacet: read a model (glTF; OBJ with MTL), light it, render it on the CPU, convert
+ * its materials between OpenGL 1 and PBR, plot reflectance.
  *
  * Conventions
  *   Units      m, rad, s, cd, lx, cd/m^2; +Y up, right-handed, cameras look along -Z, as in glTF
@@ -96,6 +97,83 @@ FACET_API uint32_t facet_thread_count(void);
 
 typedef struct facet_scene facet_scene;
 
+/* What the materials of a model are made of. */
+typedef enum facet_material_model {
+    FACET_MATERIALS_METALLIC_ROUGHNESS,  /* glTF 2.0, with its extensions */
+    FACET_MATERIALS_SPECULAR_GLOSSINESS, /* KHR_materials_pbrSpecularGlossiness */
+    FACET_MATERIALS_OGL1 /* OpenGL 1: Blinn-Phong as fixed-function programs, MTL and rgl have it */
+} facet_material_model;
+
+typedef enum facet_legacy_method {
+    FACET_LEGACY_CLOSED, /* tables and formulas: quick */
+    FACET_LEGACY_FIT     /* searched for the smallest error */
+} facet_legacy_method;
+
+typedef enum facet_legacy_profile {
+    FACET_LEGACY_SPECULAR_IOR, /* with KHR_materials_specular and KHR_materials_ior: nearest to the old look */
+    FACET_LEGACY_CORE          /* base color, metallic and roughness only */
+} facet_legacy_profile;
+
+typedef enum facet_legacy_target {
+    FACET_LEGACY_TARGET_LINEAR, /* the least error of radiance */
+    FACET_LEGACY_TARGET_DISPLAY /* the least error of radiance clamped to [0, 1], what a screen shows */
+} facet_legacy_target;
+
+/* What the colors of MTL and rgl files are. */
+typedef enum facet_legacy_colors {
+    FACET_LEGACY_COLORS_DEFAULT, /* sRGB */
+    FACET_LEGACY_COLORS_SRGB,
+    FACET_LEGACY_COLORS_LINEAR
+} facet_legacy_colors;
+
+/* Programs that wrote MTL files in ways of their own. */
+typedef enum facet_mtl_dialect {
+    FACET_MTL_AUTO,        /* by the file's first comment; else SPEC */
+    FACET_MTL_SPEC,        /* as Wavefront has it */
+    FACET_MTL_BLENDER27,   /* Ns = 1.96078 (hardness - 1) */
+    FACET_MTL_BLENDER28,   /* Ns = (30 (1 - r))^2 */
+    FACET_MTL_BLENDER3,    /* Ns = 1000 (1 - r)^2, metallic in Ka */
+    FACET_MTL_OBJ2GLTF_MR, /* obj2gltf --metallicRoughness: metallic in Ks, roughness in Ns */
+    FACET_MTL_OBJ2GLTF_SG  /* obj2gltf --specularGlossiness: glossiness in Ns */
+} facet_mtl_dialect;
+
+typedef enum facet_mtl_illum {
+    FACET_ILLUM_AUTO,  /* 0 and 1 count only where Ks is black or the program is known to mean them */
+    FACET_ILLUM_HONOR, /* always */
+    FACET_ILLUM_IGNORE /* never */
+} facet_mtl_illum;
+
+typedef enum facet_legacy_ambient {
+    FACET_AMBIENT_DROP,     /* ambient light is the scene's, not the material's */
+    FACET_AMBIENT_EMISSIVE, /* added to the emission, as under ambient light of 1 */
+    FACET_AMBIENT_OCCLUSION /* its map becomes the occlusion texture */
+} facet_legacy_ambient;
+
+/* Vertex normals of an OBJ file that has none. */
+typedef enum facet_obj_normals {
+    FACET_OBJ_NORMALS_AUTO, /* by its smoothing groups; where it has none either, across edges of less than 45 degrees */
+    FACET_OBJ_NORMALS_FLAT,  /* one per face */
+    FACET_OBJ_NORMALS_SMOOTH /* across all edges */
+} facet_obj_normals;
+
+/* How materials of OpenGL 1 become glTF's, and back; docs/legacy.md. {0}: closed form, specular and ior, least error of
+ * radiance, sRGB colors, lights times pi. */
+typedef struct facet_legacy_desc {
+    facet_legacy_method method;
+    facet_legacy_profile profile;
+    facet_legacy_target target; /* of FACET_LEGACY_FIT, and to FACET_MATERIALS_OGL1 */
+    facet_legacy_colors colors;
+    facet_mtl_dialect dialect;
+    facet_mtl_illum illum;
+    facet_legacy_ambient ambient;
+    bool has_glass; /* Ni, Tf and illum 4, 6, 7, 9 become transmission; false: opacity becomes alpha */
+    bool
+        keeps_light; /* legacy lights keep their numbers; false: times pi, which makes the two models agree */
+    bool bakes_occlusion; /* to OGL1: the occlusion texture darkens the diffuse one */
+    bool
+        ignores_source; /* to OGL1: fits anew even where a material still is what a conversion made of known values */
+} facet_legacy_desc;
+
 /* How a model is read. {0}: with malloc, silently, all threads, files only from the model's folder. */
 typedef struct facet_scene_desc {
     facet_allocator allocator;
@@ -104,10 +182,16 @@ typedef struct facet_scene_desc {
     const char *root;          /* folder that URIs in the model may reach; NULL: the folder of the model */
     uint64_t max_file_bytes;   /* 0: 4 GiB; larger files are refused */
     uint32_t max_texture_size; /* texels along an edge; 0: 16384; larger images are refused */
+    facet_legacy_desc legacy;  /* OBJ, MTL, rgl's parameters: how they are understood and converted */
+    facet_obj_normals obj_normals;
+    bool has_flipped_texcoords; /* OBJ: v points down already (the format says up) */
+    const char *
+        parameters; /* a JSON file of rgl's material parameters that take the place of the model's; NULL: none */
 } facet_scene_desc;
 
-/* Reads a .glb or .gltf file (told apart by content) and what it refers to. Texels are decoded when a
- * renderer asks for them. */
+/* Reads a .glb or .gltf file, an .obj file with its .mtl files, or a .json file of rgl's material and light parameters
+ * (one ball per material then); told apart by content. Legacy materials are converted as desc->legacy says, and kept
+ * beside. Texels are decoded when a renderer asks for them. */
 FACET_API facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                                         facet_error *error);
 /* The same from memory, which may go afterwards. name stands for the file in messages; external files need
@@ -135,6 +219,51 @@ FACET_API facet_scene_counts facet_scene_get_counts(const facet_scene *scene);
  * warnings of reading. docs/inspect.md lists the members. *text is released with facet_text_destroy(). */
 FACET_API facet_result facet_scene_describe_json(const facet_scene *scene, char **text, facet_error *error);
 FACET_API void facet_text_destroy(char *text);
+
+/* ---- materials of OpenGL 1 and of glTF ---- */
+
+typedef enum facet_conversion_grade {
+    FACET_GRADE_GOOD, /* E_display < 0.05 */
+    FACET_GRADE_FAIR, /* < 0.12 */
+    FACET_GRADE_POOR, /* < 0.30 */
+    FACET_GRADE_BAD
+} facet_conversion_grade;
+
+/* How one material was converted. Errors are relative RMS of radiance over lights from the hemisphere and views at 0, 30
+ * and 60 degrees (docs/legacy.md, "The error"); NAN where there is none to tell. */
+typedef struct facet_conversion {
+    const char *name;   /* of the material; as long as the scene lives, as all here */
+    const char *source; /* "mtl", "ogl1", "metallic-roughness", "specular-glossiness" */
+    const char
+        *method; /* "closed", "fit", "exact" (nothing is lost), "source" (known from where it came), "none" */
+    const char *profile;   /* "specular+ior", "core", "ogl1", .. */
+    double error;          /* E */
+    double error_display;  /* E of radiance clamped to [0, 1] */
+    double error_naive;    /* E of the formula that most converters use */
+    double error_core;     /* E of what viewers without the extensions show */
+    double error_views[3]; /* E of each view alone */
+    facet_conversion_grade grade;
+    uint32_t warning_count;
+} facet_conversion;
+
+/* Converts all materials of a scene that nothing else uses meanwhile. To FACET_MATERIALS_OGL1 the glTF materials stay
+ * and their counterparts are put beside them, for facet_scene_save() and FACET_SHADING_OGL1. Fails with _MEMORY; what
+ * is lost goes to log and into the report. */
+FACET_API facet_result facet_scene_convert_materials(facet_scene *scene, facet_material_model to,
+                                                     const facet_legacy_desc *desc /* NULL: {0} */,
+                                                     const facet_log *log /* NULL: {0} */,
+                                                     facet_error *error);
+FACET_API bool facet_scene_has_legacy_materials(const facet_scene *scene);
+/* What the last conversion did, that of reading counted in: one per material, in their order. 0: there was none. */
+FACET_API uint32_t facet_scene_get_conversion_count(const facet_scene *scene);
+FACET_API facet_conversion facet_scene_get_conversion(const facet_scene *scene,
+                                                      uint32_t index); /* {0}: no such */
+
+typedef enum facet_report_format { FACET_REPORT_JSON, FACET_REPORT_HTML } facet_report_format;
+/* The last conversion as text: values before and after, errors, warnings. HTML is one file without others, with a pair of
+ * spheres and the curves of both models for each material. *text is released with facet_text_destroy(). */
+FACET_API facet_result facet_scene_report_conversion(const facet_scene *scene, facet_report_format format,
+                                                     char **text, facet_error *error);
 
 /* Number of the first scene, camera of that name; FACET_ERROR_ARGUMENT names those there are. Where no name
  * matches, one that differs in the case of letters does, or a decimal number as the index. */
@@ -177,10 +306,18 @@ FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose
 typedef struct facet_scene_save_desc {
     facet_allocator allocator;
     facet_log log;
-    uint32_t thread_count; /* 0: facet_thread_count() */
+    uint32_t thread_count;      /* 0: facet_thread_count() */
+    bool has_flipped_texcoords; /* OBJ: v stays as in glTF, pointing down (the format says up) */
+    bool without_mtl_pbr;       /* MTL: only what Wavefront defined, no Pr, Pm, .. and no glTF comment */
+    float mtl_shininess_scale;  /* MTL: Ns is shininess times this; 0: 1 */
 } facet_scene_save_desc;
-/* Writes the whole scene as glTF 2.0: one .glb file, or by the name's end a .gltf file with a .bin and the images
- * beside it. All that facet reads is written; reading it again gives an equal scene. Whole or nothing. */
+/* Writes the whole scene, by the end of the name:
+ *   .glb   glTF 2.0 in one file          .gltf  with a .bin and the images beside it. All that facet reads is written;
+ *                                               reading it again gives an equal scene
+ *   .obj   what the scene shows at rest, with a .mtl and the images beside it
+ *   .json  rgl's parameters of materials and lights
+ * The latter two need a scene with legacy materials (facet_scene_convert_materials()); FACET_ERROR_ARGUMENT without.
+ * Whole or nothing. */
 FACET_API facet_result facet_scene_save(const facet_scene *scene, const char *path,
                                         const facet_scene_save_desc *desc, facet_error *error);
 
@@ -286,6 +423,28 @@ typedef enum facet_energy {
     FACET_ENERGY_CONSERVING /* multiple scattering compensated, no surface returns more than it received */
 } facet_energy;
 
+/* The model of light and surfaces that a picture follows. */
+typedef enum facet_shading {
+    FACET_SHADING_GLTF, /* physically based, as glTF defines it */
+    FACET_SHADING_OGL1 /* as OpenGL 1 did: the scene's legacy materials under its lights, without an environment */
+} facet_shading;
+
+/* Variants of FACET_SHADING_OGL1; docs/legacy.md. */
+typedef enum facet_ogl1_variant {
+    FACET_OGL1_VIGNETTE, /* per pixel, normals turned towards the eye, highlights without a gate */
+    FACET_OGL1_WEBGL, /* rgl's present WebGL shader: normals turned where they point away from the view plane */
+    FACET_OGL1_FIXED /* fixed-function OpenGL 1: light at the vertices, infinite viewer, highlight only where light
+                            falls, global ambient light of 0.2 */
+} facet_ogl1_variant;
+
+/* {0}: vignette, as the display's numbers. */
+typedef struct facet_ogl1_desc {
+    facet_ogl1_variant variant;
+    bool
+        is_linear; /* light is computed with linear light; false: with the display's encoded numbers, as then */
+    bool ignores_fog;
+} facet_ogl1_desc;
+
 typedef enum facet_background {
     FACET_BACKGROUND_TRANSPARENT,
     FACET_BACKGROUND_COLOR,      /* background_color, as display-linear color behind the tone-mapped model */
@@ -323,6 +482,10 @@ typedef struct facet_render_desc {
     facet_quality quality;
     uint32_t samples; /* visibility samples per pixel; 0: as quality has it (draft 1, normal 4, final 16) */
     facet_energy energy;
+    facet_shading
+        shading; /* FACET_SHADING_OGL1: FACET_ERROR_ARGUMENT without legacy materials; its picture is made for
+                              FACET_TONEMAP_NONE */
+    facet_ogl1_desc ogl1;
     bool
         specular_antialiasing; /* widen highlights by how much normals turn within a pixel (Kaplanyan and Tokuyoshi
                                    2019): fewer sparkles, and no longer what real-time viewers show */
@@ -405,6 +568,84 @@ FACET_API facet_result facet_image_save(const facet_image *image, const char *pa
 FACET_API facet_result facet_image_encode(const facet_image *image, const facet_save_desc *desc,
                                           unsigned char **bytes, size_t *size, facet_error *error);
 FACET_API void facet_bytes_destroy(unsigned char *bytes);
+
+/* ---- plots ---- */
+
+typedef enum facet_plot_kind {
+    FACET_PLOT_LEGACY, /* PBR and OpenGL 1 over the angle of the light, the best fit, their difference (Murdoch's
+                              vignette "Shininess in OpenGL 1 versus glTF PBR", and what it lacked) */
+    FACET_PLOT_BRDF,       /* the lobes in the plane of incidence, as polar slices */
+    FACET_PLOT_SLICE,      /* the same over the angle of the light, as curves */
+    FACET_PLOT_HEMISPHERE, /* over all directions of the light, in false color */
+    FACET_PLOT_LOBE,       /* over all directions, as a surface in space */
+    FACET_PLOT_TERMS,      /* D, V and F over their cosines */
+    FACET_PLOT_ALBEDO,     /* directional albedo over the angle of the view */
+    FACET_PLOT_FURNACE,    /* what a surface returns of light from everywhere, over roughness */
+    FACET_PLOT_DFG,        /* the tables of split-sum light */
+    FACET_PLOT_TONE,       /* tone mapping: display over scene light */
+    FACET_PLOT_FRESNEL,    /* of water and other media over the angle, exact beside Schlick's */
+    FACET_PLOT_ERROR       /* error of the fits between the models over roughness */
+} facet_plot_kind;
+
+typedef enum facet_plot_model { FACET_PLOT_PBR, FACET_PLOT_OGL1, FACET_PLOT_MERL } facet_plot_model;
+
+/* A material to plot; start from facet_plot_material_default(). Colors linear, [0, 1]. */
+typedef struct facet_plot_material {
+    const char *label; /* NULL: made of what it is */
+    facet_plot_model model;
+    /* FACET_PLOT_PBR, the parameters of glTF */
+    float base_color[3], metallic, perceptual_roughness;          /* 1; 0; 0.5 */
+    float ior, specular, specular_color[3];                       /* 1.5; 1; 1 */
+    float clearcoat, clearcoat_roughness;                         /* 0 */
+    float sheen_color[3], sheen_roughness;                        /* 0 */
+    float anisotropy, anisotropy_rotation_rad;                    /* 0 */
+    float iridescence, iridescence_ior, iridescence_thickness_nm; /* 0; 1.3; 400 */
+    /* FACET_PLOT_OGL1 */
+    float diffuse[3], ogl1_specular[3], shininess; /* 0.8; 1; 50 */
+    const char *path; /* FACET_PLOT_MERL: a measured BRDF in the format of Matusik et al. 2003 */
+} facet_plot_material;
+FACET_API facet_plot_material facet_plot_material_default(void);
+/* A material of a scene, as far as it is one number for the whole surface: its factors, without textures. The legacy
+ * one where model is FACET_PLOT_OGL1. */
+FACET_API facet_result facet_plot_material_from_scene(const facet_scene *scene, uint32_t material,
+                                                      facet_plot_model model, facet_plot_material *out,
+                                                      facet_error *error);
+
+typedef enum facet_plot_format {
+    FACET_PLOT_SVG,
+    FACET_PLOT_PDF,
+    FACET_PLOT_PNG,
+    FACET_PLOT_CSV /* the numbers that are drawn; needs no graphics library */
+} facet_plot_format;
+
+enum { FACET_PLOT_MAX_MATERIALS = 16, FACET_PLOT_MAX_ANGLES = 8 };
+
+/* What is plotted, and how. {0}: the vignette with its own values. */
+typedef struct facet_plot_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* 0: facet_thread_count() */
+    facet_plot_kind kind;
+    uint32_t material_count; /* at most FACET_PLOT_MAX_MATERIALS; 0: what suits the kind */
+    const facet_plot_material *materials;
+    uint32_t
+        angle_count; /* of the view; at most FACET_PLOT_MAX_ANGLES; 0: 30 degrees, or what suits the kind */
+    const float *angles_rad; /* from the normal, [0, pi/2) */
+    bool has_heaviside_ramp; /* FACET_PLOT_LEGACY: the vignette's max(x, 0) where glTF has a step */
+    bool
+        has_separable_smith; /* masking and shadowing independent, as the vignette has it; false: height-correlated */
+    bool has_fit;            /* the best fit of the other model beside each material; MERL: of PBR */
+    bool is_logarithmic; /* the axis of values */
+    bool has_cosine;     /* BRDF times the light's cosine, where a kind shows a BRDF */
+    facet_energy energy;
+    const char *title;      /* NULL: of the kind; "": none */
+    uint32_t width, height; /* pixels, or 1/96 inch; 0: 960 x 640 or what suits the kind */
+    bool is_dark;           /* light lines on dark */
+} facet_plot_desc;
+
+/* The file's bytes; facet_bytes_destroy(). FACET_ERROR_ENVIRONMENT: the graphics library is not there (CSV does without).
+ * FACET_ERROR_READ, _INVALID: of a measured BRDF. */
+FACET_API facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format format,
+                                         unsigned char **bytes, size_t *size, facet_error *error);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,9 @@
 /* scene_api.c - the scene part of facet.h: reading, counting, finding, describing. */
 #include "base/result.h"
 #include "base/text.h"
-#include "io/gltf.h"
+#include "io/model.h"
+#include "io/ogl1_json.h"
+#include "legacy/convert.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,18 +12,37 @@
 
 static const facet_scene_desc default_desc = {0};
 
+/* Parameters of the caller over those of the file, and glTF materials for those that came as OpenGL 1 has them. */
+static facet_result complete(facet_scene **scene, const facet_scene_desc *desc, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    if (desc->parameters)
+        result = ogl1_json_overlay(*scene, desc->parameters, desc, error);
+    if (result == FACET_OK && (*scene)->legacy && (*scene)->legacy->is_source)
+        result = legacy_convert(*scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &desc->legacy, &desc->log, error);
+    if (result != FACET_OK) {
+        facet_scene_destroy(*scene);
+        *scene = NULL;
+    }
+    return result;
+}
+
 facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                               facet_error *error)
 {
     *scene = NULL;
-    return gltf_load(path, desc ? desc : &default_desc, scene, error);
+    desc = desc ? desc : &default_desc;
+    facet_result result = model_load(path, desc, scene, error);
+    return result == FACET_OK ? complete(scene, desc, error) : result;
 }
 
 facet_result facet_scene_load_memory(const void *bytes, size_t size, const char *name,
                                      const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
 {
     *scene = NULL;
-    return gltf_load_memory(bytes, size, name ? name : "(memory)", desc ? desc : &default_desc, scene, error);
+    desc = desc ? desc : &default_desc;
+    facet_result result = model_load_memory(bytes, size, name ? name : "(memory)", desc, scene, error);
+    return result == FACET_OK ? complete(scene, desc, error) : result;
 }
 
 facet_result facet_scene_create_builtin(const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
@@ -152,7 +173,7 @@ facet_result facet_scene_save(const facet_scene *scene, const char *path, const 
 {
     char generator[64];
     snprintf(generator, sizeof generator, "facet %s", facet_version());
-    return gltf_save(scene, path, generator, desc, error);
+    return model_save(scene, path, generator, desc, error);
 }
 
 bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *desc, float minimum[3],

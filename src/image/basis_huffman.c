@@ -153,7 +153,7 @@ bool huffman_read_table(bit_reader *b, huffman *h)
 {
     static const unsigned char order[LENGTH_SYMBOLS] = {17, 18, 19, 20, 0,  8, 7,  9, 6,  10, 5,
                                                         11, 4,  12, 3,  13, 2, 14, 1, 15, 16};
-    unsigned char lengths[HUFFMAN_MAX_SYMBOLS + 1];
+    unsigned char lengths[HUFFMAN_MAX_SYMBOLS + 1] = {0};
     const uint32_t count = bits_read(b, 14);
     if (count == 0)
         return build(h, lengths, 0);

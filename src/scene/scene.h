@@ -1,6 +1,7 @@
 /* scene.h - a model as plain arrays: what every renderer reads, and nothing that only one needs.
  *
- * Everything in a scene lives in its arena and does not change after it was loaded. Indices are into the arrays
+ * Everything in a scene lives in its arena and does not change after it was loaded, but for the conversion of its
+ * materials (legacy/convert.h), which puts new arrays in the place of old ones. Indices are into the arrays
  * of the scene; SCENE_NONE: absent. */
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
@@ -349,6 +350,9 @@ typedef struct facet_scene {
     uint32_t default_scene;      /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
     const char **warnings; /* what log got while reading */
+
+    struct scene_legacy *legacy;         /* scene/legacy.h; NULL: materials of glTF only */
+    struct scene_conversion *conversion; /* the last one; NULL: none */
 
     uint32_t max_texture_size; /* from the desc, for the decoding to come */
     uint32_t thread_count;     /* from the desc, for questions about the scene; 0: facet_thread_count() */

@@ -16,7 +16,10 @@ allowed() {
     ibl) echo ibl scene image base shade facet ;;
     film) echo film image base shade facet ;;
     cpu) echo cpu film ibl scene image base shade facet ;;
-    api) echo api io cpu ibl film scene image base facet ;;
+    legacy) echo legacy scene image base shade facet ;;
+    plot) echo plot legacy ibl scene image base shade facet ;;
+    report) echo report plot legacy cpu film ibl scene image base facet ;;
+    api) echo api report plot legacy io cpu ibl film scene image base facet ;;
     cli) echo cli facet ;;
     *) echo "" ;;
     esac
@@ -59,6 +62,8 @@ seen_only() {
 }
 seen_only 'embree' cpu
 seen_only 'jansson' io cli
+seen_only 'cminpack' legacy
+seen_only 'cairo' plot
 seen_only 'draco/' io
 seen_only '(EGL|GL|GLES[0-9]?|epoxy)/' gl
 seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zlib|zstd|avif/|astcenc)' image

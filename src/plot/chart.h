@@ -1,0 +1,93 @@
+/* chart.h - a drawing of curves and fields as data: what plots make and what is drawn by cairo or written as CSV. Knows
+ * nothing of light.
+ *
+ * A chart is a grid of panels. All memory is in an arena; strings are UTF-8. */
+#ifndef PLOT_CHART_H
+#define PLOT_CHART_H
+
+#include "base/memory.h"
+#include "facet/facet.h"
+
+typedef enum chart_scale { CHART_LINEAR, CHART_LOG10 } chart_scale;
+
+typedef struct chart_axis {
+    const char *label; /* with its unit: "angle of the light, degrees"; "" none */
+    chart_scale scale;
+    bool has_range; /* false: of the data, widened to round numbers */
+    double minimum, maximum;
+} chart_axis;
+
+/* Color blind safe, told apart by dash as well; or a color of its own. */
+typedef struct chart_style {
+    int color;        /* number in the palette (Okabe and Ito 2008), taken modulo its length; -1: rgb */
+    float rgb[3];     /* sRGB, [0, 1] */
+    int dash;         /* 0 solid, 1 dashed, 2 dotted, 3 dash-dotted */
+    float width;      /* px; 0: 1.75 */
+    bool has_markers; /* a dot at each point */
+} chart_style;
+
+typedef struct chart_curve {
+    const char *name; /* in the legend and the head of CSV columns; "": in neither */
+    size_t count;
+    const double *x, *y; /* polar: angle in rad, 0 up, positive to the right; radius. NaN breaks the line */
+    chart_style style;
+} chart_curve;
+
+/* Values on a regular grid, in false color (viridis) with a bar. */
+typedef struct chart_field {
+    uint32_t width, height;
+    const double *values;  /* rows from the top; NaN: outside, not drawn */
+    double x0, x1, y0, y1; /* the extent in axis units; y0 at the bottom */
+    const char *label;     /* of the bar */
+    chart_scale scale;
+    double minimum, maximum; /* of the bar; equal: of the data */
+} chart_field;
+
+/* A surface in space over a grid of points, seen from an azimuth and a height, hidden parts hidden, shaded by value. */
+typedef struct chart_surface {
+    uint32_t width, height;  /* points */
+    const double *x, *y, *z; /* right-handed, z up */
+    const double *values;    /* color */
+    const char *label;
+    double azimuth_rad, elevation_rad;
+} chart_surface;
+
+typedef enum chart_panel_kind {
+    CHART_XY,
+    CHART_POLAR, /* a half disc: angles -90 to 90 degrees */
+    CHART_FIELD, /* of field, with axes */
+    CHART_DISC,  /* of field, as seen from above a hemisphere: rings at 30, 60, 90 degrees, no axes */
+    CHART_SURFACE
+} chart_panel_kind;
+
+typedef struct chart_panel {
+    chart_panel_kind kind;
+    const char *title; /* "" none */
+    chart_axis x, y;   /* polar: y is the radius */
+    size_t curve_count;
+    const chart_curve *curves;
+    const chart_field *field;
+    const chart_surface *surface;
+    bool has_legend;
+    const char *note; /* small, under the title; "" none */
+} chart_panel;
+
+typedef struct chart {
+    arena *memory;
+    const char *title;
+    uint32_t width, height; /* px */
+    bool is_dark;
+    uint32_t columns;
+    uint32_t panel_count;
+    const chart_panel *panels; /* row by row */
+} chart;
+
+/* Draws a chart: SVG, PDF, PNG. Fails with FACET_ERROR_ENVIRONMENT where cairo is not there. Same chart, same bytes. */
+facet_result chart_draw(const chart *c, facet_plot_format format, const facet_allocator *allocator,
+                        unsigned char **bytes, size_t *size, facet_error *error);
+/* Its numbers: a header line, then one row per x; curves of a panel share x where they have the same one. Panels are
+ * blocks with a comment line before each. */
+facet_result chart_write_csv(const chart *c, const facet_allocator *allocator, unsigned char **bytes,
+                             size_t *size, facet_error *error);
+
+#endif

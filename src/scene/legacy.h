@@ -1,0 +1,187 @@
+/* legacy.h - materials, lights and fog as OpenGL 1 programs and MTL files state them, kept beside a scene's glTF
+ * materials: what was read, or what they were converted to.
+ *
+ * Colors are as the file has them: numbers that a legacy program shows on an 8-bit screen without further ado.
+ * scene_legacy.colors says whether they count as sRGB-encoded or as linear light where they become physical. */
+#ifndef SCENE_LEGACY_H
+#define SCENE_LEGACY_H
+
+#include "scene/scene.h"
+
+/* What a file states; or-ed. What is not stated has the value of legacy_material_default(). */
+typedef enum legacy_field {
+    LEGACY_AMBIENT = 1 << 0,
+    LEGACY_DIFFUSE = 1 << 1,
+    LEGACY_SPECULAR = 1 << 2,
+    LEGACY_EMISSION = 1 << 3,
+    LEGACY_SHININESS = 1 << 4,
+    LEGACY_OPACITY = 1 << 5,
+    LEGACY_ILLUM = 1 << 6,
+    LEGACY_IOR = 1 << 7,                 /* Ni */
+    LEGACY_TRANSMISSION_FILTER = 1 << 8, /* Tf */
+    LEGACY_SHARPNESS = 1 << 9,
+    LEGACY_ROUGHNESS = 1 << 10, /* Pr, and the rest of MTL's PBR extension */
+    LEGACY_METALLIC = 1 << 11,
+    LEGACY_SHEEN = 1 << 12,
+    LEGACY_CLEARCOAT = 1 << 13,
+    LEGACY_CLEARCOAT_ROUGHNESS = 1 << 14,
+    LEGACY_ANISOTROPY = 1 << 15,
+    LEGACY_ANISOTROPY_ROTATION = 1 << 16
+} legacy_field;
+
+/* The maps of a material, and the MTL statement of each. */
+typedef enum legacy_map_slot {
+    LEGACY_AMBIENT_MAP,      /* map_Ka */
+    LEGACY_DIFFUSE_MAP,      /* map_Kd; rgl's one texture */
+    LEGACY_SPECULAR_MAP,     /* map_Ks */
+    LEGACY_EMISSION_MAP,     /* map_Ke */
+    LEGACY_SHININESS_MAP,    /* map_Ns: [0, 1], times shininess */
+    LEGACY_OPACITY_MAP,      /* map_d */
+    LEGACY_BUMP_MAP,         /* bump, map_Bump */
+    LEGACY_DISPLACEMENT_MAP, /* disp */
+    LEGACY_DECAL_MAP,        /* decal */
+    LEGACY_REFLECTION_MAP,   /* refl; the first of them */
+    LEGACY_NORMAL_MAP,       /* norm */
+    LEGACY_ROUGHNESS_MAP,    /* map_Pr */
+    LEGACY_METALLIC_MAP,     /* map_Pm */
+    LEGACY_SHEEN_MAP,        /* map_Ps */
+    LEGACY_ORM_MAP,          /* map_ORM, map_RMA (channels as named) */
+    LEGACY_MAP_COUNT
+} legacy_map_slot;
+
+/* A texture of a legacy material, with the options of its MTL statement. legacy_map_default(). */
+typedef struct legacy_map {
+    scene_texture_ref
+        ref; /* texture SCENE_NONE: no map. Offset and scale (-o, -s) are those of glTF's uv, whose v points
+                              down */
+    const char
+        *path; /* as written; NULL: no such statement. Stated without ref.texture: the file is missing */
+    float base, gain;      /* -mm: value' = base + gain value; 0, 1 */
+    char channel;          /* -imfchan: r g b m l z; 0: the default of the statement */
+    float bump_multiplier; /* -bm; 1 */
+    const char *dropped; /* options that nothing here holds, as written: "-t 1 1 1 -texres 512"; NULL: none */
+    const char *options; /* all options as written, to write them again; NULL: none */
+} legacy_map;
+
+/* rgl's textype and texmode (glTexEnv). */
+typedef enum legacy_texture_type {
+    LEGACY_RGB,
+    LEGACY_RGBA,
+    LEGACY_ALPHA,
+    LEGACY_LUMINANCE,
+    LEGACY_LUMINANCE_ALPHA
+} legacy_texture_type;
+typedef enum legacy_texture_mode {
+    LEGACY_MODULATE,
+    LEGACY_REPLACE,
+    LEGACY_DECAL,
+    LEGACY_BLEND,
+    LEGACY_ADD
+} legacy_texture_mode;
+
+typedef struct legacy_material {
+    const char *name;
+    uint32_t fields;   /* LEGACY_AMBIENT .. */
+    float ambient[3];  /* 0 */
+    float diffuse[3];  /* 0.8; rgl's color, which vertex colors take the place of */
+    float specular[3]; /* 0 */
+    float emission[3]; /* 0 */
+    float shininess;   /* 0; exponent of Blinn-Phong, [0, 128] in OpenGL, to 1000 and beyond in MTL */
+    float opacity;     /* 1: d, 1 - Tr, alpha */
+    bool is_halo;      /* d -halo */
+    bool is_transparency_ambiguous; /* only Tr was stated, or it contradicts d */
+    int illum;                      /* -1: not stated */
+    bool is_lit;                    /* true; false: diffuse is shown as it is */
+    bool is_smooth;                 /* true; false: one normal per face */
+    bool has_fog;                   /* true */
+    bool is_culled;                 /* false: both sides are shown */
+    bool has_environment_map;       /* rgl's texenvmap: the texture is a sphere map */
+    float ior;                      /* 1 */
+    float transmission_filter[3];   /* 1 */
+    float sharpness;                /* 60 */
+    float roughness, metallic, sheen, clearcoat, clearcoat_roughness;
+    float anisotropy, anisotropy_rotation; /* aniso; anisor in turns [0, 1] */
+    legacy_texture_type texture_type;
+    legacy_texture_mode texture_mode;
+    legacy_map maps[LEGACY_MAP_COUNT];
+    const char *unknown; /* statements that facet does not know, as lines; NULL: none */
+    const char
+        *gltf_json; /* of a comment "#facet-gltf": the glTF material that these values were made of; NULL */
+} legacy_material;
+
+legacy_material legacy_material_default(void);
+legacy_map legacy_map_default(void);
+static inline bool legacy_has(const legacy_material *m, uint32_t field)
+{
+    return (m->fields & field) == field;
+}
+static inline bool legacy_has_map(const legacy_material *m, legacy_map_slot slot)
+{
+    return m->maps[slot].ref.texture != SCENE_NONE;
+}
+
+/* A light of OpenGL 1 as rgl has them: without attenuation, without spots. */
+typedef struct legacy_light {
+    bool is_point;
+    bool is_viewpoint_relative; /* position is in the camera's space: moves with it */
+    float position[3];          /* m; of a directional light: unit, from the surface to the light */
+    float ambient[3], diffuse[3], specular[3]; /* as materials' colors; 1 */
+} legacy_light;
+
+/* rgl's default: directional, viewpoint-relative, theta 0, phi 15 degrees, all white. */
+legacy_light legacy_light_default(void);
+/* The direction of angles as rgl gives them: (0, 0, 1), turned by -phi about x, then by theta about y. */
+void legacy_light_direction(float theta_rad, float phi_rad, float out[3]);
+
+typedef enum legacy_fog_mode {
+    LEGACY_FOG_NONE,
+    LEGACY_FOG_LINEAR,
+    LEGACY_FOG_EXP,
+    LEGACY_FOG_EXP2
+} legacy_fog_mode;
+typedef struct legacy_fog {
+    legacy_fog_mode mode;
+    float color[3];
+    float scale; /* 1 */
+} legacy_fog;
+
+/* All that a scene knows of the old model. */
+typedef struct scene_legacy {
+    legacy_material *materials; /* one per material of the scene */
+    uint32_t light_count;       /* 0: legacy_light_default() shines where the scene has no lights either */
+    legacy_light *lights;
+    legacy_fog fog;
+    facet_legacy_colors colors; /* how they were read; never FACET_LEGACY_COLORS_DEFAULT */
+    facet_mtl_dialect dialect;  /* never FACET_MTL_AUTO */
+    bool is_dialect_guessed;    /* by the file's first comment */
+    bool is_source;             /* read from a file; false: made from the glTF materials */
+} scene_legacy;
+
+/* ---- what a conversion did ---- */
+
+/* A remark on one material or on all; docs/legacy.md lists the codes. */
+typedef struct conversion_warning {
+    const char *code; /* "energy-gain" */
+    const char *text; /* a sentence */
+} conversion_warning;
+
+/* How one material was converted. Both sides with the numbers that the error was found with. */
+typedef struct material_conversion {
+    facet_conversion summary; /* facet.h; its strings live in the scene */
+    legacy_material legacy;
+    scene_material pbr;
+    uint32_t warning_count;
+    const conversion_warning *warnings;
+} material_conversion;
+
+typedef struct scene_conversion {
+    facet_material_model to;
+    uint32_t material_count; /* one per material of the scene, in its order */
+    material_conversion *materials;
+    uint32_t warning_count; /* of the whole scene: lights, fog */
+    const conversion_warning *warnings;
+    double
+        light_scale; /* what legacy lights were, or are to be, multiplied with: pi, or 1 where not asked for */
+} scene_conversion;
+
+#endif
