@@ -1,7 +1,7 @@
 /* scene_api.c - the scene part of facet.h: reading, counting, finding, describing. */
 #include "base/result.h"
 #include "base/text.h"
-#include "io/model.h"
+#include "io/model_file.h"
 #include "io/ogl1_json.h"
 #include "legacy/convert.h"
 
@@ -32,7 +32,7 @@ facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, fa
 {
     *scene = NULL;
     desc = desc ? desc : &default_desc;
-    facet_result result = model_load(path, desc, scene, error);
+    facet_result result = model_file_load(path, desc, scene, error);
     return result == FACET_OK ? complete(scene, desc, error) : result;
 }
 
@@ -41,7 +41,7 @@ facet_result facet_scene_load_memory(const void *bytes, size_t size, const char 
 {
     *scene = NULL;
     desc = desc ? desc : &default_desc;
-    facet_result result = model_load_memory(bytes, size, name ? name : "(memory)", desc, scene, error);
+    facet_result result = model_file_load_memory(bytes, size, name ? name : "(memory)", desc, scene, error);
     return result == FACET_OK ? complete(scene, desc, error) : result;
 }
 
@@ -173,7 +173,7 @@ facet_result facet_scene_save(const facet_scene *scene, const char *path, const 
 {
     char generator[64];
     snprintf(generator, sizeof generator, "facet %s", facet_version());
-    return model_save(scene, path, generator, desc, error);
+    return model_file_save(scene, path, generator, desc, error);
 }
 
 bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *desc, float minimum[3],

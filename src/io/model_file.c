@@ -1,5 +1,5 @@
-/* model.c - see model.h. */
-#include "io/model.h"
+/* model_file.c - see model_file.h. */
+#include "io/model_file.h"
 
 #include <strings.h>
 
@@ -18,8 +18,8 @@ static model_kind detect(const void *bytes, size_t size)
     return obj_detect(bytes, size) ? MODEL_OBJ : MODEL_GLTF;
 }
 
-facet_result model_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
-                        facet_error *error)
+facet_result model_file_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
+                             facet_error *error)
 {
     file_bytes file = {0};
     facet_result result = file_open(path, desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
@@ -33,8 +33,8 @@ facet_result model_load(const char *path, const facet_scene_desc *desc, facet_sc
                                       : gltf_load(path, desc, scene, error);
 }
 
-facet_result model_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
-                               facet_scene **scene, facet_error *error)
+facet_result model_file_load_memory(const void *bytes, size_t size, const char *name,
+                                    const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
 {
     model_kind kind = detect(bytes, size);
     return kind == MODEL_OBJ          ? obj_load_memory(bytes, size, name, desc, scene, error)
@@ -42,8 +42,8 @@ facet_result model_load_memory(const void *bytes, size_t size, const char *name,
                                       : gltf_load_memory(bytes, size, name, desc, scene, error);
 }
 
-facet_result model_save(const facet_scene *scene, const char *path, const char *generator,
-                        const facet_scene_save_desc *desc, facet_error *error)
+facet_result model_file_save(const facet_scene *scene, const char *path, const char *generator,
+                             const facet_scene_save_desc *desc, facet_error *error)
 {
     const facet_scene_save_desc defaults = {0};
     desc = desc ? desc : &defaults;
