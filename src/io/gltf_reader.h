@@ -8,6 +8,7 @@
 
 #include <jansson.h>
 
+#include "io/uri.h"
 #include "scene/scene.h"
 
 /* ---- parsed tables of the binary data ---- */
@@ -326,15 +327,8 @@ void read_meta(reader *r, const json_place *root);
 void read_extensions(reader *r, const json_place *root);
 bool is_extension_listed(const reader *r, const char *name);
 
-/* uri.c */
-/* The bytes that a URI stands for: decoded into the arena (data:) or mapped (a file; closed with the scene). what:
- * "buffer", .. for messages. False: *message says why, and *result. Never touches the network. */
-typedef struct uri_bytes {
-    const unsigned char *data;
-    size_t size;
-    facet_result result;
-    char message[512]; /* without the place */
-} uri_bytes;
+/* uri.c: the bytes that a URI stands for: decoded into the arena (data:) or mapped (a file; closed with the scene).
+ * False: *message says why, and *result. Never touches the network. */
 bool load_uri(reader *r, const char *uri, uri_bytes *out);
 
 /* glb.c: splits a .glb; json and bin point into bytes. False: an error is recorded. */

@@ -5,31 +5,11 @@
 
 #include "image/ktx2.h"
 #include "io/gltf_reader.h"
+#include "io/image_kind.h"
 
 /* ---- images ---- */
 
-/* Kinds of image files, and the extension that lets a texture use one (NULL: the core). */
-typedef struct image_kind {
-    image_codec codec;
-    const char *mime_type, *name, *extension;
-} image_kind;
-
-static const image_kind KINDS[] = {{IMAGE_CODEC_PNG, "image/png", "PNG", NULL},
-                                   {IMAGE_CODEC_JPEG, "image/jpeg", "JPEG", NULL},
-                                   {IMAGE_CODEC_KTX2, "image/ktx2", "KTX2", "KHR_texture_basisu"},
-                                   {IMAGE_CODEC_WEBP, "image/webp", "WebP", "EXT_texture_webp"},
-                                   {IMAGE_CODEC_AVIF, "image/avif", "AVIF", "EXT_texture_avif"}};
-enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 static const char DDS_TYPE[] = "image/vnd-ms.dds"; /* known by name only */
-
-static const image_kind *find_kind(const scene_image *i)
-{
-    image_codec codec = image_codec_detect(i->bytes, i->size);
-    for (size_t k = 0; k < KIND_COUNT; k++)
-        if (KINDS[k].codec == codec)
-            return &KINDS[k];
-    return NULL;
-}
 
 static bool find_bytes(reader *r, const json_place *at, scene_image *out)
 {
@@ -100,7 +80,7 @@ static void read_size(reader *r, const json_place *at, const image_kind *kind, s
         out->height = header.height;
     } else if (result == FACET_ERROR_MEMORY) {
         reader_fail(r, at, NULL, result, "%s", error.message);
-    } else if (kind->extension) {
+    } else if (kind->gltf_extension) {
         reader_warn(r, at, NULL, "%s", error.message);
     }
 }
@@ -124,7 +104,7 @@ static void read_image(reader *r, const json_place *at, scene_image *out)
         out->size = 0;
         return;
     }
-    const image_kind *kind = find_kind(out);
+    const image_kind *kind = image_kind_of_bytes(out->bytes, out->size);
     if (kind)
         out->mime_type = kind->mime_type;
     else if (out->size >= 4 && memcmp(out->bytes, "DDS ", 4) == 0)
@@ -136,8 +116,8 @@ static void read_image(reader *r, const json_place *at, scene_image *out)
         reader_warn(r, at, "mimeType", "says \"%.40s\", but the image is %s", said, out->mime_type);
     if (!kind)
         return;
-    if (kind->extension && !is_extension_listed(r, kind->extension))
-        reader_warn(r, at, NULL, "is a %s file, which needs %s", kind->name, kind->extension);
+    if (kind->gltf_extension && !is_extension_listed(r, kind->gltf_extension))
+        reader_warn(r, at, NULL, "is a %s file, which needs %s", kind->name, kind->gltf_extension);
     if (kind->codec == IMAGE_CODEC_KTX2)
         check_ktx2(r, at, out);
     read_size(r, at, kind, out);

@@ -1,27 +1,15 @@
 /* gltf_write_textures.c - images, as their files are, and textures with their samplers. */
 #include <string.h>
 
-#include "image/image.h"
 #include "io/gltf_writer.h"
+#include "io/image_kind.h"
 
 /* ---- images ---- */
 
-static const struct {
-    const char *mime_type, *extension; /* of the file's name */
-    const char *texture_extension;     /* what makes glTF textures of them; NULL: the core */
-} KINDS[] = {{"image/png", "png", NULL},
-             {"image/jpeg", "jpg", NULL},
-             {"image/webp", "webp", "EXT_texture_webp"},
-             {"image/avif", "avif", "EXT_texture_avif"},
-             {"image/ktx2", "ktx2", "KHR_texture_basisu"}};
-enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS, UNKNOWN = KIND_COUNT };
-
-static int kind_of(const scene_image *source)
+/* NULL: an image that could not be read. */
+static const image_kind *kind_of(const scene_image *source)
 {
-    int i = 0;
-    while (i < KIND_COUNT && !(source->bytes && strcmp(source->mime_type, KINDS[i].mime_type) == 0))
-        i++;
-    return i;
+    return source->bytes ? image_kind_of_mime_type(source->mime_type) : NULL;
 }
 
 /* One white texel as a PNG file: what an image that could not be read stands for. */
@@ -54,17 +42,17 @@ void write_images(writer *w)
     const facet_scene *scene = w->scene;
     for (uint32_t i = 0; i < scene->image_count; i++) {
         const scene_image *source = &scene->images[i];
-        int kind = kind_of(source);
-        const unsigned char *bytes = kind == UNKNOWN ? WHITE : source->bytes;
-        size_t size = kind == UNKNOWN ? sizeof WHITE : source->size;
-        kind = kind == UNKNOWN ? 0 : kind;
+        const image_kind *kind = kind_of(source);
+        const unsigned char *bytes = kind ? source->bytes : WHITE;
+        size_t size = kind ? source->size : sizeof WHITE;
+        kind = kind ? kind : image_kind_of_bytes(WHITE, sizeof WHITE);
         json_t *out = json_object();
         put_name(w, out, source->name);
         if (w->stem) {
-            add_file(w, out, i, KINDS[kind].extension, bytes, size);
+            add_file(w, out, i, kind->file_extension, bytes, size);
         } else {
             put(w, out, "bufferView", json_integer(write_view(w, bytes, size, WRITE_NO_TARGET)));
-            put(w, out, "mimeType", json_string(KINDS[kind].mime_type));
+            put(w, out, "mimeType", json_string(kind->mime_type));
         }
         put_meta(w, out, &source->meta);
         append(w, put_array(w, w->root, "images"), out);
@@ -119,11 +107,12 @@ void write_textures(writer *w)
         json_t *out = json_object();
         put_name(w, out, texture->name);
         put(w, out, "sampler", json_integer(write_sampler(w, texture)));
-        int kind = texture->image == SCENE_NONE ? UNKNOWN : kind_of(&scene->images[texture->image]);
-        if (kind < UNKNOWN && KINDS[kind].texture_extension) {
-            json_t *extension = put_extension(w, out, KINDS[kind].texture_extension);
+        const image_kind *kind =
+            texture->image == SCENE_NONE ? NULL : kind_of(&scene->images[texture->image]);
+        if (kind && kind->gltf_extension) {
+            json_t *extension = put_extension(w, out, kind->gltf_extension);
             put_index(w, extension, "source", texture->image);
-            require_extension(w, KINDS[kind].texture_extension);
+            require_extension(w, kind->gltf_extension);
         } else {
             put_index(w, out, "source", texture->image);
         }

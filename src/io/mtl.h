@@ -17,6 +17,9 @@ void mtl_reader_destroy(mtl_reader *reader); /* NULL is allowed */
  * literal reading finds no file. A library that is missing is a warning; one that was read already is not read again.
  * Fails with FACET_ERROR_MEMORY only. */
 facet_result mtl_reader_load(mtl_reader *reader, const char *names, size_t length, facet_error *error);
+/* A comment of the OBJ file, without its #: the first ones name the program that wrote it. Libraries that name one
+ * themselves count more. */
+void mtl_reader_hint(mtl_reader *reader, const char *comment, size_t length);
 /* A material of that name: the first; SCENE_NONE: none. */
 uint32_t mtl_reader_find(mtl_reader *reader, const char *name, size_t length);
 /* A material that no library has: appended with the defaults. SCENE_NONE: no memory. */
@@ -25,6 +28,9 @@ uint32_t mtl_reader_add(mtl_reader *reader, const char *name, size_t length);
  * a warning. */
 facet_result mtl_reader_finish(mtl_reader *reader, facet_error *error);
 
+/* What usemtl and newmtl call the materials of a scene: their names where those are plain and no other has them. One
+ * block of mem_alloc(); NULL: no memory. */
+const char **mtl_names_create(const facet_scene *scene, const facet_allocator *allocator);
 /* Text of an MTL file of scene->legacy. image_names: file name per image of the scene, NULL: it is not written. */
 void mtl_write(const facet_scene *scene, const char *generator, const char *const *image_names,
                const facet_scene_save_desc *desc, text *out);

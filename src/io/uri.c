@@ -146,14 +146,20 @@ static bool climbs_out(const char *path)
     return false;
 }
 
-static bool open_below(reader *r, const char *name, const char *uri, uri_bytes *out)
+bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
-    const char *allowed = r->root ? r->root : r->folder;
+    const char *folder = scope->folder ? scope->folder : scope->root;
+    const char *allowed = scope->root ? scope->root : scope->folder;
+    bool is_absolute = name[0] == '/';
+    *out = (uri_bytes){0};
+    if (!folder)
+        return uri_fail(out, FACET_ERROR_READ,
+                        "\"%.200s\" cannot be found: the model was not read from a folder", shown);
     if (name[0] == 0)
         return uri_fail(out, FACET_ERROR_INVALID, "names no file");
-    if (name[0] == '/' || (!r->root && climbs_out(name)))
-        return uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the model's folder", uri);
-    char *path = path_join(r->allocator, r->folder ? r->folder : r->root, name);
+    if (is_absolute ? !scope->allows_absolute : !scope->root && climbs_out(name))
+        return uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the model's folder", shown);
+    char *path = path_join(scope->allocator, is_absolute ? "" : folder, name);
     if (!path)
         return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
     bool done = false;
@@ -165,18 +171,28 @@ static bool open_below(reader *r, const char *name, const char *uri, uri_bytes *
     else if (!S_ISREG(status.st_mode)) /* a pipe could keep us waiting for ever */
         uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is no regular file", name);
     else if (!path_is_inside(path, allowed))
-        uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the folder that the model may read", uri);
-    else if (file_open(path, r->max_file_bytes, r->allocator, &file, &error) != FACET_OK)
+        uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the folder that the model may read", shown);
+    else if (file_open(path, scope->max_file_bytes, scope->allocator, &file, &error) != FACET_OK)
         uri_fail(out, error.result, "%.400s", error.message);
     else {
         out->data = file.data;
         out->size = file.size;
-        done =
-            scene_keep_file(r->scene, &file) || uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a file");
+        done = scene_keep_file(scope->scene, &file) ||
+               uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a file");
     }
     file_close(&file);
     mem_free(path);
     return done;
+}
+
+static bool open_below(reader *r, const char *name, const char *uri, uri_bytes *out)
+{
+    const file_scope scope = {.scene = r->scene,
+                              .allocator = r->allocator,
+                              .folder = r->folder,
+                              .root = r->root,
+                              .max_file_bytes = r->max_file_bytes};
+    return file_scope_open(&scope, name, uri, out);
 }
 
 bool load_uri(reader *r, const char *uri, uri_bytes *out)
@@ -187,9 +203,6 @@ bool load_uri(reader *r, const char *uri, uri_bytes *out)
     if (has_scheme(uri))
         return uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is no file beside the model; only those are read",
                         uri);
-    if (!r->folder && !r->root)
-        return uri_fail(out, FACET_ERROR_READ,
-                        "\"%.200s\" cannot be found: the model was not read from a folder", uri);
     size_t length = strlen(uri);
     char *name = mem_alloc(r->allocator, length + 1, 1);
     if (!name)

@@ -104,9 +104,11 @@ typedef struct legacy_material {
     legacy_texture_type texture_type;
     legacy_texture_mode texture_mode;
     legacy_map maps[LEGACY_MAP_COUNT];
+    bool is_rma;         /* LEGACY_ORM_MAP: red holds roughness, green metallic, blue occlusion (map_RMA) */
     const char *unknown; /* statements that facet does not know, as lines; NULL: none */
     const char
         *gltf_json; /* of a comment "#facet-gltf": the glTF material that these values were made of; NULL */
+    bool is_gltf_restored; /* the scene's glTF material is that one, exactly: there is nothing to convert */
 } legacy_material;
 
 legacy_material legacy_material_default(void);

@@ -1,0 +1,29 @@
+/* uri.h - which files a model may open. */
+#ifndef IO_URI_H
+#define IO_URI_H
+
+#include "scene/scene.h"
+
+/* Where names of files in a model start, and how far they reach. */
+typedef struct file_scope {
+    facet_scene *scene; /* keeps what is opened */
+    const facet_allocator *allocator;
+    const char *folder;      /* of the model; NULL: read from memory, there is none */
+    const char *root;        /* folder that names may reach; NULL: folder */
+    uint64_t max_file_bytes; /* larger files are refused */
+    bool allows_absolute;    /* names that begin with a slash are looked at: they may lead below the root */
+} file_scope;
+
+/* The bytes that a name stands for. */
+typedef struct uri_bytes {
+    const unsigned char *data;
+    size_t size;
+    facet_result result;
+    char message[512]; /* without the place */
+} uri_bytes;
+
+/* Maps a regular file below the root; it is closed with the scene. shown: the name for messages. False: *message says
+ * why, and *result. */
+bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out);
+
+#endif
