@@ -1,6 +1,7 @@
 /* builtin.c - the scene that facet draws when it is given no model: spheres over roughness and metallic, and in front
  * of them a few materials by name, on a checkered plate. All of it is made here, no file is needed. */
 #include "scene/scene.h"
+#include "scene/sphere.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -96,41 +97,6 @@ static vertices allocate_vertices(builder *b, uint32_t vertex_count, uint32_t in
                       .uvs = take(b, vertex_count, 2 * sizeof(float)),
                       .colors = has_colors ? take(b, vertex_count, 4 * sizeof(float)) : NULL,
                       .indices = take(b, index_count, sizeof(uint32_t))};
-}
-
-/* Radius 1 around the origin; u goes around from -Z, v from the top to the bottom. Triangles at the poles have one
- * corner there, so none is degenerate. */
-static scene_primitive make_sphere(builder *b)
-{
-    const double pi = 3.14159265358979323846;
-    vertices v = allocate_vertices(b, (SEGMENTS + 1) * (RINGS + 1), 6 * SEGMENTS * (RINGS - 1), false);
-    if (b->has_failed)
-        return (scene_primitive){0};
-    for (uint32_t ring = 0; ring <= RINGS; ring++)
-        for (uint32_t segment = 0; segment <= SEGMENTS; segment++) {
-            double polar = pi * ring / RINGS;
-            double azimuth = 2.0 * pi * (segment % SEGMENTS) / SEGMENTS;
-            double radius = ring == 0 || ring == RINGS ? 0.0 : sin(polar);
-            float *normal = v.normals + 3 * (size_t)v.vertex_count;
-            normal[0] = (float)(-radius * sin(azimuth));
-            normal[1] = (float)cos(polar);
-            normal[2] = (float)(-radius * cos(azimuth));
-            memcpy(v.positions + 3 * (size_t)v.vertex_count, normal, 3 * sizeof *normal);
-            v.uvs[2 * (size_t)v.vertex_count] = (float)segment / SEGMENTS;
-            v.uvs[2 * (size_t)v.vertex_count + 1] = (float)ring / RINGS;
-            v.vertex_count++;
-        }
-    for (uint32_t ring = 0; ring < RINGS; ring++)
-        for (uint32_t segment = 0; segment < SEGMENTS; segment++) {
-            uint32_t above = ring * (SEGMENTS + 1) + segment;
-            uint32_t below = above + SEGMENTS + 1;
-            const uint32_t quad[6] = {above, below, below + 1, above, below + 1, above + 1};
-            uint32_t begin = ring == RINGS - 1 ? 3 : 0;
-            uint32_t end = ring == 0 ? 3 : 6;
-            for (uint32_t k = begin; k < end; k++)
-                v.indices[v.index_count++] = quad[k];
-        }
-    return finish(b, &v, SCENE_NONE);
 }
 
 /* A quad with corners a, a + s, a + s + t, a + t, facing s x t, of one grey. */
@@ -244,7 +210,9 @@ static void place(builder *b, scene_primitive primitive, uint32_t material, floa
 
 static void make_nodes(builder *b)
 {
-    scene_primitive sphere = make_sphere(b);
+    scene_primitive sphere = {0};
+    if (!scene_make_sphere(b->scene->arena, SEGMENTS, RINGS, &sphere))
+        b->has_failed = true;
     for (uint32_t i = 0; i < GRID && !b->has_failed; i++)
         place(b, sphere, i, 2.2f * ((float)(i % COLUMNS) - 0.5f * (COLUMNS - 1)),
               2.25f + 2.15f * (float)(i / COLUMNS), -1.6f, 1.0f);
