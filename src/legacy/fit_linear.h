@@ -1,0 +1,47 @@
+/* fit_linear.h - the linear part of a fit: with roughness or shininess given, both models are sums of shapes whose
+ * factors are the colors. For fit*.c only.
+ *
+ * Channel k is to be M = factor[0] shape[0] + factor[1] shape[1] + rest, factors within bounds. The search for the few
+ * numbers that are not linear sees only the least error over those that are (Golub and Pereyra 1973, "variable
+ * projection"). */
+#ifndef LEGACY_FIT_LINEAR_H
+#define LEGACY_FIT_LINEAR_H
+
+#include "legacy/fit_metric.h"
+
+/* Sums over all nodes with their weights. */
+typedef struct fit_moments {
+    double shapes[3]; /* of shape 0 0, 0 1, 1 1 */
+    double wanted[2]; /* of shape i times (source - rest) */
+    double square;    /* of source - rest */
+} fit_moments;
+
+typedef struct fit_bounds {
+    double low[2], high[2];
+} fit_bounds;
+
+/* The factors of the least square, and that square. */
+double fit_box(const fit_moments *moments, const fit_bounds *bounds, double factor[2]);
+
+/* A source and the shapes that are to imitate it. */
+typedef struct fit_problem {
+    const fit_metric *metric;
+    facet_legacy_target target;
+    double source_square;           /* of all channels */
+    float source[3][FIT_MAX_NODES]; /* clamped where target is the display */
+    bool is_same[3];                /* as the channel before it */
+    float lobe[FIT_MAX_NODES];
+    float shape[2][FIT_MAX_NODES];
+    float rest[FIT_MAX_NODES];
+} fit_problem;
+
+void fit_problem_from_ogl1(fit_problem *p, const fit_metric *metric, facet_legacy_target target,
+                           const ogl1_surface *source);
+void fit_problem_from_pbr(fit_problem *p, const fit_metric *metric, facet_legacy_target target,
+                          const pbr_surface *source);
+
+/* Fills all channels' factors with those of least error for the present shapes; returns E^2. Factors of equal channels
+ * with equal bounds are equal. */
+double fit_factors(const fit_problem *p, const fit_bounds bounds[3], double factor[3][2]);
+
+#endif

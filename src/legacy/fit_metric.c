@@ -1,0 +1,195 @@
+/* fit_metric.c - how far apart two models are: their radiance at the nodes of fit_quadrature.c, and the error of it.
+ *
+ * The formulas are shade/'s; here they are arranged as loops over arrays, which the compiler vectorises. Sums have
+ * FIT_LANES partial sums, so their order does not depend on how wide the instructions are. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "base/simd.h"
+#include "legacy/fit_metric.h"
+
+#include "shade/shade.h"
+
+facet_result fit_metric_create(const facet_allocator *allocator, pbr_masking masking, fit_metric **out,
+                               facet_error *error)
+{
+    *out = NULL;
+    fit_metric *metric = mem_zalloc(allocator, 1, sizeof *metric);
+    if (!metric)
+        return fail_memory(error, "nodes of the error of materials", sizeof *metric);
+    metric->masking = masking;
+    fit_quadrature(metric);
+    for (size_t i = 0; i < metric->node_begin[FIT_VIEWS]; i++)
+        metric->fresnel[i] = schlick_weight(metric->VdotH[i]);
+    *out = metric;
+    return FACET_OK;
+}
+
+void fit_metric_destroy(fit_metric *metric)
+{
+    mem_free(metric);
+}
+
+/* ---- the shapes of lobes ---- */
+
+DISPATCH_AVX2 static void smith_correlated(size_t count, const float *NdotL, float NdotV, float alpha,
+                                           float *out)
+{
+    for (size_t i = 0; i < count; i++)
+        out[i] *= PI * V_SmithGGX(NdotL[i], NdotV, alpha) * NdotL[i];
+}
+
+DISPATCH_AVX2 static void smith_separable(size_t count, const float *NdotL, float NdotV, float alpha,
+                                          float *out)
+{
+    for (size_t i = 0; i < count; i++)
+        out[i] *= PI * V_SmithGGX_separable(NdotL[i], NdotV, alpha) * NdotL[i];
+}
+
+void fit_specular_lobe(const fit_metric *metric, float perceptual_roughness, float *out)
+{
+    float alpha = max(alpha_from_roughness(clamp(perceptual_roughness, 0.0f, 1.0f)), ALPHA_MIRROR);
+    float D[FIT_MAX_RINGS];
+    for (size_t i = 0; i < metric->ring_begin[FIT_VIEWS]; i++)
+        D[i] = D_GGX_stable(metric->cos_h[i], vec3(metric->sin_h[i], 0.0f, 0.0f), alpha);
+    for (size_t i = 0; i < metric->node_begin[FIT_VIEWS]; i++)
+        out[i] = D[metric->ring[i]];
+    for (int v = 0; v < FIT_VIEWS; v++) {
+        size_t begin = metric->node_begin[v];
+        size_t count = metric->node_begin[v + 1] - begin;
+        if (metric->masking == PBR_CORRELATED)
+            smith_correlated(count, metric->NdotL + begin, metric->NdotV[v], alpha, out + begin);
+        else
+            smith_separable(count, metric->NdotL + begin, metric->NdotV[v], alpha, out + begin);
+    }
+}
+
+/* (N.H)^s as exp(s log N.H) with log N.H from double: powf() of a rounded cosine would be off by 6 % at s = 10^6. */
+void fit_highlight(const fit_metric *metric, float shininess, float *out)
+{
+    float power[FIT_MAX_RINGS];
+    for (size_t i = 0; i < metric->ring_begin[FIT_VIEWS]; i++)
+        power[i] = expf(shininess * metric->log_cos_h[i]);
+    for (size_t i = 0; i < metric->node_begin[FIT_VIEWS]; i++)
+        out[i] = power[metric->ring[i]];
+}
+
+/* ---- radiance ---- */
+
+fit_lobes fit_lobes_of(const pbr_surface *p)
+{
+    Surface s = surface_from_gltf(
+        vec3(0.0f, 0.0f, 1.0f), vec3(p->base_color[0], p->base_color[1], p->base_color[2]), p->metallic,
+        p->perceptual_roughness, p->ior, p->specular,
+        vec3(p->specular_color[0], p->specular_color[1], p->specular_color[2]), 1.0f, vec3(0.0f));
+    fit_lobes lobes = {.shade = {max3(s.F0), s.F90}};
+    for (int k = 0; k < 3; k++) {
+        lobes.diffuse[k] = s.base_color[k] * (1.0f - s.metallic);
+        lobes.F0[k] = mix(s.F0[k], s.base_color[k], s.metallic);
+        lobes.F90[k] = mix(s.F90, 1.0f, s.metallic);
+    }
+    return lobes;
+}
+
+DISPATCH_AVX2 void fit_radiance_ogl1(const fit_metric *metric, const ogl1_surface *surface,
+                                     const float *highlight, int k, float *out)
+{
+    float Cd = surface->diffuse[k];
+    float Cs = surface->specular[k];
+    size_t count = metric->node_begin[FIT_VIEWS];
+    for (size_t i = 0; i < count; i++)
+        out[i] = metric->NdotL[i] * Cd + highlight[i] * Cs;
+}
+
+DISPATCH_AVX2 void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const float *lobe,
+                                    int k, float *out)
+{
+    float diffuse = lobes->diffuse[k];
+    float shade0 = lobes->shade[0];
+    float shade90 = lobes->shade[1];
+    float F0 = lobes->F0[k];
+    float F90 = lobes->F90[k];
+    size_t count = metric->node_begin[FIT_VIEWS];
+    for (size_t i = 0; i < count; i++) {
+        float w = metric->fresnel[i];
+        out[i] = metric->NdotL[i] * (diffuse * (1.0f - mix(shade0, shade90, w))) + lobe[i] * mix(F0, F90, w);
+    }
+}
+
+/* ---- errors ---- */
+
+/* Sums of squares with the weights of nodes: of the difference and of the source, as they are and clamped. */
+typedef struct squares {
+    double difference, source, difference_display, source_display;
+} squares;
+
+DISPATCH_AVX2 static void add_squares(size_t count, const float *weight, const float *source,
+                                      const float *model, squares *sum)
+{
+    double lane[4][FIT_LANES] = {{0.0}};
+    for (size_t i = 0; i < count; i += FIT_LANES) {
+        for (size_t j = 0; j < FIT_LANES; j++) {
+            float T = source[i + j];
+            float d = model[i + j] - T;
+            float T_display = clamp(T, 0.0f, 1.0f);
+            float d_display = clamp(model[i + j], 0.0f, 1.0f) - T_display;
+            double w = (double)weight[i + j];
+            lane[0][j] += w * (double)d * (double)d;
+            lane[1][j] += w * (double)T * (double)T;
+            lane[2][j] += w * (double)d_display * (double)d_display;
+            lane[3][j] += w * (double)T_display * (double)T_display;
+        }
+    }
+    for (size_t j = 0; j < FIT_LANES; j++) {
+        sum->difference += lane[0][j];
+        sum->source += lane[1][j];
+        sum->difference_display += lane[2][j];
+        sum->source_display += lane[3][j];
+    }
+}
+
+/* A view of white integrates to 3 pi / 2 over three channels. */
+static double relative(double difference, double source, double view_count)
+{
+    double least = FIT_DARKEST * FIT_DARKEST * 1.5 * (double)PI * view_count;
+    return (sqrt)(difference / fmax(source, least));
+}
+
+fit_error fit_compare(const fit_metric *metric, const ogl1_surface *ogl1, const pbr_surface *pbr,
+                      fit_source source)
+{
+    float highlight[FIT_MAX_NODES];
+    float lobe[FIT_MAX_NODES];
+    float old[FIT_MAX_NODES];
+    float new[FIT_MAX_NODES];
+    fit_lobes lobes = fit_lobes_of(pbr);
+    squares view[FIT_VIEWS];
+    memset(view, 0, sizeof view);
+    fit_highlight(metric, ogl1->shininess, highlight);
+    fit_specular_lobe(metric, pbr->perceptual_roughness, lobe);
+    for (int k = 0; k < 3; k++) {
+        fit_radiance_ogl1(metric, ogl1, highlight, k, old);
+        fit_radiance_pbr(metric, &lobes, lobe, k, new);
+        const float *T = source == FIT_FROM_OGL1 ? old : new;
+        const float *M = source == FIT_FROM_OGL1 ? new : old;
+        for (int v = 0; v < FIT_VIEWS; v++) {
+            size_t begin = metric->node_begin[v];
+            add_squares(metric->node_begin[v + 1] - begin, metric->weight + begin, T + begin, M + begin,
+                        &view[v]);
+        }
+    }
+    fit_error error;
+    squares all = {0.0, 0.0, 0.0, 0.0};
+    for (int v = 0; v < FIT_VIEWS; v++) {
+        error.views[v] = relative(view[v].difference, view[v].source, 1.0);
+        all.difference += view[v].difference;
+        all.source += view[v].source;
+        all.difference_display += view[v].difference_display;
+        all.source_display += view[v].source_display;
+    }
+    error.E = relative(all.difference, all.source, FIT_VIEWS);
+    error.E_display = relative(all.difference_display, all.source_display, FIT_VIEWS);
+    return error;
+}

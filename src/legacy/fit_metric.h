@@ -1,0 +1,53 @@
+/* fit_metric.h - inside the fits: directions of light that the error is integrated over, and the shapes of both models
+ * there. For fit*.c only. */
+#ifndef LEGACY_FIT_METRIC_H
+#define LEGACY_FIT_METRIC_H
+
+#include "legacy/fit.h"
+
+enum {
+    FIT_VIEWS = 3,
+    FIT_LANES = 8,       /* nodes of a view are a multiple of this, so that sums have a fixed order */
+    FIT_MAX_RINGS = 448, /* angles between N and H */
+    FIT_MAX_NODES = 4096
+};
+
+/* Nodes of a quadrature over half vectors, view by view. A ring is one angle between N and H; D and the highlight of
+ * OpenGL 1 depend on nothing else. */
+struct fit_metric {
+    pbr_masking masking;
+    size_t ring_begin[FIT_VIEWS + 1];
+    size_t node_begin[FIT_VIEWS + 1];
+    float NdotV[FIT_VIEWS];
+    float cos_h[FIT_MAX_RINGS], sin_h[FIT_MAX_RINGS], log_cos_h[FIT_MAX_RINGS];
+    uint16_t ring[FIT_MAX_NODES];
+    float NdotL[FIT_MAX_NODES];
+    float VdotH[FIT_MAX_NODES];
+    float fresnel[FIT_MAX_NODES]; /* Schlick's weight */
+    float weight[FIT_MAX_NODES];  /* N.L dL; 0 of the nodes that fill up a view */
+};
+
+/* Fills in the nodes: all but masking and fresnel. */
+void fit_quadrature(fit_metric *metric);
+
+/* pi D V N.L at every node, and N.H^s. */
+void fit_specular_lobe(const fit_metric *metric, float perceptual_roughness, float *out);
+void fit_highlight(const fit_metric *metric, float shininess, float *out);
+
+/* A surface as its two lobes: pi f N.L = N.L diffuse[k] (1 - mix(shade[0], shade[1], w)) + lobe mix(F0[k], F90[k], w) with
+ * Schlick's weight w. */
+typedef struct fit_lobes {
+    float diffuse[3], shade[2];
+    float F0[3], F90[3];
+} fit_lobes;
+fit_lobes fit_lobes_of(const pbr_surface *surface);
+
+/* Radiance of channel k at every node. */
+void fit_radiance_ogl1(const fit_metric *metric, const ogl1_surface *surface, const float *highlight, int k,
+                       float *out);
+void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const float *lobe, int k, float *out);
+
+/* The least mean square that errors are relative to: a source that is darker than this share of white counts as that. */
+#define FIT_DARKEST 1e-3
+
+#endif

@@ -1,0 +1,187 @@
+/* fit_to_pbr.c - OpenGL 1 to PBR by search, with KHR_materials_specular and KHR_materials_ior and without.
+ *
+ * With ior 0, F0 is the specular color times specular and F90 is specular: Fresnel is flat for a white one, as Blinn's
+ * highlight is. With roughness, F90 and the largest F0 given, radiance is linear in base color and in the other F0; the
+ * search is along those three, from the best of the flat ones along roughness. Without the extensions it is along
+ * roughness and metallic, and linear in base color. */
+#include <math.h>
+#include <string.h>
+
+#include "legacy/fit_linear.h"
+#include "legacy/fit_minimize.h"
+
+#include "shade/shade.h"
+
+typedef struct search {
+    fit_problem problem;
+    bool is_brightest[3]; /* channels of the largest Cs: theirs is the largest F0 */
+    double roughness;     /* of problem.lobe */
+    double F90;
+    double factor[3][2]; /* base color, F0 */
+} search;
+
+static void set_roughness(search *s, double roughness)
+{
+    if (roughness != s->roughness)
+        fit_specular_lobe(s->problem.metric, (float)roughness, s->problem.lobe);
+    s->roughness = roughness;
+}
+
+/* ---- with extensions ---- */
+
+static void specular_shapes(fit_problem *p, float F0, float F90)
+{
+    const fit_metric *m = p->metric;
+    for (size_t i = 0; i < m->node_begin[FIT_VIEWS]; i++) {
+        float w = m->fresnel[i];
+        p->shape[0][i] = m->NdotL[i] * (1.0f - mix(F0, F90, w));
+        p->shape[1][i] = p->lobe[i] * mix(1.0f, 0.0f, w);
+        p->rest[i] = p->lobe[i] * mix(0.0f, F90, w);
+    }
+}
+
+/* x: roughness, F90, largest F0 / F90. */
+static double specular_error(void *context, const double *x)
+{
+    search *s = context;
+    double F0 = x[1] * x[2];
+    fit_bounds bounds[3];
+    for (int k = 0; k < 3; k++)
+        bounds[k] = (fit_bounds){{0.0, s->is_brightest[k] ? F0 : 0.0}, {1.0, F0}};
+    set_roughness(s, x[0]);
+    s->F90 = x[1];
+    specular_shapes(&s->problem, (float)F0, (float)x[1]);
+    return fit_factors(&s->problem, bounds, s->factor);
+}
+
+/* x: roughness. F90 is the largest factor that the lobe would have beside Lambert's without any coupling. */
+static double flat_error(void *context, const double *x)
+{
+    search *s = context;
+    fit_problem *p = &s->problem;
+    static const fit_bounds bounds[3] = {
+        {{0.0, 0.0}, {1.0, 1.0}}, {{0.0, 0.0}, {1.0, 1.0}}, {{0.0, 0.0}, {1.0, 1.0}}};
+    set_roughness(s, x[0]);
+    memcpy(p->shape[0], p->metric->NdotL, sizeof p->shape[0]);
+    memcpy(p->shape[1], p->lobe, sizeof p->shape[1]);
+    memset(p->rest, 0, sizeof p->rest);
+    fit_factors(p, bounds, s->factor);
+    double F90 = 0.0;
+    for (int k = 0; k < 3; k++)
+        F90 = fmax(F90, s->factor[k][1]);
+    return specular_error(s, (const double[3]){x[0], F90, 1.0});
+}
+
+static uint32_t remarks_of(const ogl1_surface *in, const pbr_surface *out)
+{
+    uint32_t remarks = 0;
+    for (int k = 0; k < 3; k++) {
+        bool has_highlight = in->specular[k] > 0.02f;
+        remarks |= in->diffuse[k] > 1.0f || (out->base_color[k] >= 1.0f && has_highlight)
+                       ? (uint32_t)FIT_BASE_CLAMPED
+                       : 0u;
+        remarks |= has_highlight && in->shininess < 4.0f ? (uint32_t)FIT_LOW_EXPONENT : 0u;
+        remarks |= in->diffuse[k] + in->specular[k] > 1.0f ? (uint32_t)FIT_ENERGY_GAIN : 0u;
+    }
+    return remarks;
+}
+
+static void start(search *s, const fit_metric *metric, const ogl1_surface *in)
+{
+    float brightest = max(in->specular[0], max(in->specular[1], in->specular[2]));
+    fit_problem_from_ogl1(&s->problem, metric, FACET_LEGACY_TARGET_LINEAR, in);
+    for (int k = 0; k < 3; k++)
+        s->is_brightest[k] = in->specular[k] == brightest;
+    s->roughness = -1.0;
+}
+
+uint32_t ogl1_to_pbr_fit(const fit_metric *metric, const ogl1_surface *in, facet_legacy_target target,
+                         pbr_surface *out)
+{
+    search s;
+    start(&s, metric, in);
+    double x[3];
+    fit_minimize_1(flat_error, &s, 0.0, 1.0, 21, 1e-3, x);
+    x[1] = s.F90;
+    x[2] = 1.0;
+    static const double step[3] = {0.05, 0.05, 0.1};
+    fit_minimize_n(specular_error, &s, 3, x, step, 1e-5, 120);
+    if (target == FACET_LEGACY_TARGET_DISPLAY) {
+        fit_problem_from_ogl1(&s.problem, metric, target, in);
+        s.roughness = -1.0;
+        fit_minimize_n(specular_error, &s, 3, x, step, 1e-5, 120);
+    }
+    *out = pbr_surface_default();
+    out->perceptual_roughness = (float)x[0];
+    out->ior = 0.0f;
+    out->specular = (float)x[1];
+    for (int k = 0; k < 3; k++) {
+        out->base_color[k] = (float)s.factor[k][0];
+        out->specular_color[k] = x[1] > 0.0 ? clamp((float)(s.factor[k][1] / x[1]), 0.0f, 1.0f) : 1.0f;
+    }
+    return remarks_of(in, out);
+}
+
+/* ---- without ---- */
+
+/* x: roughness, metallic. */
+static double core_error(void *context, const double *x)
+{
+    static const fit_bounds bounds[3] = {
+        {{0.0, 0.0}, {1.0, 0.0}}, {{0.0, 0.0}, {1.0, 0.0}}, {{0.0, 0.0}, {1.0, 0.0}}};
+    search *s = context;
+    fit_problem *p = &s->problem;
+    const fit_metric *m = p->metric;
+    float F0 = dielectric_F0(1.5f, 1.0f, vec3(1.0f))[0];
+    float metallic = (float)x[1];
+    set_roughness(s, x[0]);
+    for (size_t i = 0; i < m->node_begin[FIT_VIEWS]; i++) {
+        float F = mix(F0, 1.0f, m->fresnel[i]);
+        p->shape[0][i] = mix(m->NdotL[i] * (1.0f - F), p->lobe[i] * mix(1.0f, 0.0f, m->fresnel[i]), metallic);
+        p->rest[i] = p->lobe[i] * mix(F, m->fresnel[i], metallic);
+    }
+    return fit_factors(p, bounds, s->factor);
+}
+
+typedef struct line {
+    search *search;
+    double roughness, metallic;
+} line;
+
+static double core_error_along_metallic(void *context, const double *x)
+{
+    line *l = context;
+    return core_error(l->search, (const double[2]){l->roughness, *x});
+}
+
+static double core_error_along_roughness(void *context, const double *x)
+{
+    line *l = context;
+    l->roughness = *x;
+    return fit_minimize_1(core_error_along_metallic, l, 0.0, 1.0, 7, 0.1, &l->metallic);
+}
+
+uint32_t ogl1_to_pbr_core_fit(const fit_metric *metric, const ogl1_surface *in, facet_legacy_target target,
+                              pbr_surface *out)
+{
+    search s;
+    line l = {.search = &s};
+    start(&s, metric, in);
+    memset(s.problem.shape[1], 0, sizeof s.problem.shape[1]);
+    double x[2];
+    fit_minimize_1(core_error_along_roughness, &l, 0.0, 1.0, 15, 0.05, x);
+    x[1] = l.metallic;
+    static const double step[2] = {0.05, 0.05};
+    fit_minimize_n(core_error, &s, 2, x, step, 1e-5, 100);
+    if (target == FACET_LEGACY_TARGET_DISPLAY) {
+        fit_problem_from_ogl1(&s.problem, metric, target, in);
+        s.roughness = -1.0;
+        fit_minimize_n(core_error, &s, 2, x, step, 1e-5, 100);
+    }
+    *out = pbr_surface_default();
+    out->perceptual_roughness = (float)x[0];
+    out->metallic = (float)x[1];
+    for (int k = 0; k < 3; k++)
+        out->base_color[k] = (float)s.factor[k][0];
+    return remarks_of(in, out);
+}
