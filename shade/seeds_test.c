@@ -188,6 +188,93 @@ static void test_parameters_mixed(void **state)
     expect_relative(lobes.specular[0], F * DV * L[2], 1e-5, "the specular part is the same");
 }
 
+/* ---- "Shininess in OpenGL 1 versus glTF PBR" ---- */
+
+/* The sum that the vignette plots, phi in degrees, for roughness and metallic 1 and white, separable masking: with the
+ * step that glTF's chi is, and with max(x, 0), which is what its R code has. */
+static double vignette_pbr(double phi, bool is_ramp)
+{
+    const double to_rad = 3.14159265358979323846 / 180.0;
+    vec3 V = vec3((float)(sin)(30.0 * to_rad), 0.0f, (float)(cos)(30.0 * to_rad));
+    vec3 L = vec3((float)(sin)(phi * to_rad), 0.0f, (float)(cos)(phi * to_rad));
+    vec3 H = normalize(V + L);
+    float f = D_GGX(H[2], 1.0f) * V_SmithGGX_separable(L[2], V[2], 1.0f) * L[2];
+    float ramp = H[2] * dot(H, L) * dot(H, V);
+    return (double)(is_ramp ? f * ramp : f);
+}
+static void test_ramp_for_step(void **state)
+{
+    (void)state;
+    static const struct {
+        double phi, ramp, step;
+    } values[] = {{-80, 0.007525289, 0.025238578}, {-60, 0.027461554, 0.056860585},
+                  {-30, 0.059375451, 0.079167267}, {0, 0.076865935, 0.085290877},
+                  {30, 0.068560865, 0.079167267},  {60, 0.037513180, 0.056860585},
+                  {80, 0.011890705, 0.025238578}};
+    for (size_t i = 0; i < COUNT_OF(values); ++i) {
+        expect_relative(vignette_pbr(values[i].phi, true), values[i].ramp, 2e-6, "ramp, %g", values[i].phi);
+        expect_relative(vignette_pbr(values[i].phi, false), values[i].step, 2e-6, "step, %g", values[i].phi);
+    }
+    assert_true(vignette_pbr(-80.0, false) > 3.3 * vignette_pbr(-80.0, true));
+}
+
+/* A light of 1 in both models: the white surface that OpenGL 1 shows as 1 is 1 / pi. */
+static void test_light_without_pi(void **state)
+{
+    (void)state;
+    float old = phong_reflection(up, up, up, vec3(1.0f), vec3(0.0f), 1.0f)[0];
+    float lambert = brdf_lambert(vec3(1.0f))[0];
+    expect_relative(old, 1.0, 1e-7, "old");
+    expect_relative(lambert, 0.318309886, 1e-6, "the same light");
+    expect_relative(lambert * PI, old, 1e-6, "pi times the light");
+}
+
+/* "mvMatrix * vec4(lightdir, 1.)" for a direction: the light from +Y on a floor that faces it goes out as the eye goes
+ * away, though neither floor nor light moved. */
+static void test_direction_with_w_1(void **state)
+{
+    (void)state;
+    mat3 view = mat3(vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 0.6f, 0.8f), vec3(0.0f, -0.8f, 0.6f));
+    vec3 N = mul(view, vec3(0.0f, 1.0f, 0.0f));
+    PhongMaterial m = {vec3(0.0f), vec3(1.0f), vec3(0.0f), vec3(0.0f), 1.0f};
+    PhongRules printed = phong_rules(PHONG_VIGNETTE);
+    for (int i = 0; i < 3; ++i) {
+        vec3 translation = vec3(0.0f, 0.0f, -1.0f - 2.0f * (float)i);
+        vec3 L = phong_to_eye(view, translation, vec3(0.0f, 1.0f, 0.0f), 0.0f);
+        vec3 leaking = phong_to_eye(view, translation, vec3(0.0f, 1.0f, 0.0f), printed.direction_w);
+        PhongLight right = phong_light_directional(L, vec3(0.0f), vec3(1.0f), vec3(1.0f));
+        PhongLight wrong = phong_light_directional(leaking, vec3(0.0f), vec3(1.0f), vec3(1.0f));
+        vec3 P = translation;
+        expect_near((double)phong_light_part(printed, m, right, P, N, normalize(-P)).color[0], 1.0, 1e-6,
+                    "w 0");
+        expect_near((double)phong_light_part(printed, m, wrong, P, N, normalize(-P)).color[0],
+                    i == 0 ? 0.2 : 0.0, 1e-6, "w 1, %d", i);
+    }
+}
+
+/* "lighteffect + vec4(col, colDiff.a)" in the loop over lights, as rgl's WebGL shader has it: 0.4 is opaque under three
+ * lights. phong_texture() takes the opacity once. */
+static void test_alpha_per_light(void **state)
+{
+    (void)state;
+    float alpha = 0.4f, summed = 0.0f;
+    for (int light = 0; light < 3; ++light)
+        summed += alpha;
+    PhongColor e = {vec3(1.0f), alpha}, white = {vec3(1.0f), 1.0f};
+    assert_true(summed > 1.0f);
+    assert_true(phong_texture(PHONG_RGB, PHONG_MODULATE, e, white).opacity == alpha);
+}
+
+/* alpha = sqrt(2 / (s + 2)) is glTF's alpha, the square of its roughness: taken as roughness, the highlight of s = 50
+ * is that of s = 1350. */
+static void test_one_square_root(void **state)
+{
+    (void)state;
+    float alpha = alpha_from_shininess(50.0f);
+    expect_relative(alpha_from_roughness(sqrt(alpha)), alpha, 1e-6, "two roots");
+    expect_relative(shininess_from_alpha(alpha_from_roughness(alpha)), 1350.0, 1e-4, "one root");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_k_of_analytic_lights_in_image_based_light),
@@ -200,6 +287,11 @@ int main(void)
                                        cmocka_unit_test(test_division_at_the_horizon),
                                        cmocka_unit_test(test_falloff_in_metres),
                                        cmocka_unit_test(test_widened_lobe_alone),
-                                       cmocka_unit_test(test_parameters_mixed)};
+                                       cmocka_unit_test(test_parameters_mixed),
+                                       cmocka_unit_test(test_ramp_for_step),
+                                       cmocka_unit_test(test_light_without_pi),
+                                       cmocka_unit_test(test_direction_with_w_1),
+                                       cmocka_unit_test(test_alpha_per_light),
+                                       cmocka_unit_test(test_one_square_root)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

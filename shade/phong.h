@@ -1,0 +1,401 @@
+/* phong.h - the light model of OpenGL 1: ambient, diffuse and Blinn-Phong's highlight, texture environments, fog; in the
+ * variants in which programs have it. Numbers are what the old programs computed with, the display's; nothing here
+ * knows whether they are encoded.
+ *
+ * Eye space: the eye at the origin, +X right, +Y up, +Z towards the viewer; a point that is seen has a negative z.
+ * Sources: OpenGL 2.1 specification, 2.14 (lighting), 2.11.4 (sphere maps), 3.8.13 (texture environments), 3.9 (color
+ * sum), 3.10 (fog); the shaders of rgl 0.111 to 1.3 (D. Adler, D. Murdoch), one of which the vignette "Shininess in
+ * OpenGL 1 versus glTF PBR" of rgl2gltf prints. */
+#ifndef SHADE_PHONG_H
+#define SHADE_PHONG_H
+
+/* ---- variants ---- */
+
+#define PHONG_VIGNETTE 0    /* the shader that the vignette prints */
+#define PHONG_WEBGL 1       /* rgl's present WebGL shader */
+#define PHONG_FIXED 2       /* fixed-function OpenGL 1 with its defaults */
+#define PHONG_RGL_DESKTOP 3 /* the same as rgl's desktop program sets it up */
+
+/* Which side of a surface the normal is turned to before it is lit. */
+#define PHONG_SIDE_OF_EYE 0        /* where the eye is: N.V >= 0 */
+#define PHONG_SIDE_OF_VIEW_PLANE 1 /* N.z >= 0: not the same towards the border of a picture */
+#define PHONG_SIDE_OF_FACE 2       /* the face's that is seen (GL_LIGHT_MODEL_TWO_SIDE) */
+#define PHONG_SIDE_AS_GIVEN 3      /* none: backs are lit as the fronts are, from the front */
+
+STRUCT(PhongRules)
+{
+    int side;
+    bool gates_highlight;     /* no highlight where N.L <= 0 */
+    bool is_viewer_infinite;  /* V is (0, 0, 1) for the highlight, whatever the point */
+    bool separates_highlight; /* added after the texture: GL_SEPARATE_SPECULAR_COLOR */
+    bool has_attenuation;     /* lights have attenuation and spots */
+    bool is_lit_at_vertices;  /* colors are interpolated (Gouraud), and clamped to [0, 1] before */
+    bool has_fixed_fog;       /* glFog's curves, not the shaders' */
+    float
+        direction_w; /* of the world's directions as they go to eye space; 1 is an error: see seeds_test.c */
+    vec3 global_ambient; /* times the material's ambient color */
+};
+
+/* A material's colors; shininess >= 0, to 128 in OpenGL. */
+STRUCT(PhongMaterial)
+{
+    vec3 ambient;
+    vec3 diffuse;
+    vec3 specular;
+    vec3 emission;
+    float shininess;
+};
+
+/* A light in eye space. */
+STRUCT(PhongLight)
+{
+    vec3 position; /* m; of a directional light the unit vector towards it */
+    vec3 ambient;
+    vec3 diffuse;
+    vec3 specular;
+    vec3 attenuation;    /* 1 / (a0 + a1 d + a2 d^2); (1, 0, 0): none */
+    vec3 spot_direction; /* unit, the way it shines */
+    float spot_exponent;
+    float spot_cos; /* of the cone's half angle; -1: not a spot */
+    bool is_point;
+};
+
+/* A color with its coverage. */
+STRUCT(PhongColor)
+{
+    vec3 rgb;
+    float opacity;
+};
+
+/* Lit, before textures: all light, or all but the highlight and the highlight. */
+STRUCT(PhongLit)
+{
+    vec3 color;
+    vec3 highlight;
+};
+
+FN PhongRules phong_rules(int variant)
+{
+    bool is_fixed = variant == PHONG_FIXED || variant == PHONG_RGL_DESKTOP;
+    PhongRules r;
+    r.side = PHONG_SIDE_OF_EYE;
+    if (variant == PHONG_WEBGL)
+        r.side = PHONG_SIDE_OF_VIEW_PLANE;
+    if (variant == PHONG_FIXED)
+        r.side = PHONG_SIDE_AS_GIVEN;
+    if (variant == PHONG_RGL_DESKTOP)
+        r.side = PHONG_SIDE_OF_FACE;
+    r.gates_highlight = is_fixed;
+    r.is_viewer_infinite = variant == PHONG_FIXED;
+    r.separates_highlight = is_fixed;
+    r.has_attenuation = is_fixed;
+    r.is_lit_at_vertices = is_fixed;
+    r.has_fixed_fog = is_fixed;
+    r.direction_w = sel(variant == PHONG_VIGNETTE, 1.0f, 0.0f);
+    r.global_ambient = vec3(sel(variant == PHONG_FIXED, 0.2f, 0.0f));
+    return r;
+}
+
+/* ---- the equation ---- */
+
+/* cosine^shininess, with 0^0 = 1 as the limit of exponents has it (GLSL leaves it open, and log(0)). */
+FN float phong_power(float cosine, float shininess)
+{
+    float lobe = pow(max(cosine, 1e-7f), shininess);
+    return sel(cosine > 0.0f || shininess <= 0.0f, lobe, 0.0f);
+}
+
+/* N.H of the half vector between two directions; 0 where they are opposite. L need not be a unit vector: H is what the
+ * shaders make of it, normalize(L + V). */
+FN float phong_NdotH(vec3 N, vec3 V, vec3 L)
+{
+    vec3 H = L + V;
+    return max(dot(N, H) * inversesqrt(max(dot(H, H), 1e-20f)), 0.0f);
+}
+
+/* max(N.L, 0) Cd + max(N.H, 0)^s Cs under one white light. N, V, L unit. The highlight is not multiplied by N.L and not
+ * normalised: its peak is Cs for every s, and it shows where N.L <= 0. */
+FN vec3 phong_reflection(vec3 N, vec3 V, vec3 L, vec3 diffuse, vec3 specular, float shininess)
+{
+    return diffuse * max(dot(N, L), 0.0f) + specular * phong_power(phong_NdotH(N, V, L), shininess);
+}
+
+/* ---- normals and views ---- */
+
+/* The normal as it is lit. is_front: the face's counter-clockwise side is seen. */
+FN vec3 phong_normal(PhongRules r, vec3 N, vec3 V, bool is_front)
+{
+    bool is_turned = r.side == PHONG_SIDE_OF_EYE && dot(N, V) < 0.0f;
+    is_turned = is_turned || (r.side == PHONG_SIDE_OF_VIEW_PLANE && N[2] < 0.0f);
+    is_turned = is_turned || (r.side == PHONG_SIDE_OF_FACE && !is_front);
+    return sel(is_turned, -N, N);
+}
+
+/* The view of the highlight; V: the unit vector to the eye. */
+FN vec3 phong_view(PhongRules r, vec3 V)
+{
+    return sel(r.is_viewer_infinite, vec3(0.0f, 0.0f, 1.0f), V);
+}
+
+/* A position (w 1) or direction (w 0) of the world in eye space: rotation by the columns of view, then translation. */
+FN vec3 phong_to_eye(mat3 view, vec3 translation, vec3 p, float w)
+{
+    return mul(view, p) + translation * w;
+}
+
+/* ---- lights ---- */
+
+/* L: unit, towards the light, eye space. */
+FN PhongLight phong_light_directional(vec3 L, vec3 ambient, vec3 diffuse, vec3 specular)
+{
+    PhongLight l;
+    l.position = L;
+    l.ambient = ambient;
+    l.diffuse = diffuse;
+    l.specular = specular;
+    l.attenuation = vec3(1.0f, 0.0f, 0.0f);
+    l.spot_direction = vec3(0.0f, 0.0f, -1.0f);
+    l.spot_exponent = 0.0f;
+    l.spot_cos = -1.0f;
+    l.is_point = false;
+    return l;
+}
+FN PhongLight phong_light_point(vec3 position, vec3 ambient, vec3 diffuse, vec3 specular)
+{
+    PhongLight l = phong_light_directional(position, ambient, diffuse, specular);
+    l.is_point = true;
+    return l;
+}
+
+/* The vector towards the light at P: unit for a point light, position as it is for a directional one. */
+FN vec3 phong_light_vector(PhongLight l, vec3 P)
+{
+    vec3 d = l.position - P;
+    return sel(l.is_point, d * inversesqrt(max(dot(d, d), 1e-20f)), l.position);
+}
+
+/* Share of a point light's colors, the ambient one too, that arrives at P: attenuation times spot. Directional lights
+ * have neither. */
+FN float phong_light_share(PhongLight l, vec3 P)
+{
+    vec3 d = l.position - P;
+    float distance = length(d);
+    float attenuation =
+        1.0f / max(l.attenuation[0] + distance * (l.attenuation[1] + distance * l.attenuation[2]), 1e-20f);
+    float cosine = -dot(l.spot_direction, phong_light_vector(l, P));
+    float spot = sel(cosine >= l.spot_cos, phong_power(cosine, l.spot_exponent), 0.0f);
+    spot = sel(l.spot_cos <= -1.0f, 1.0f, spot);
+    return sel(l.is_point, attenuation * spot, 1.0f);
+}
+
+/* ---- lighting ---- */
+
+/* What a surface shows without lights: emission, and global ambient light. Once, however many lights there are. */
+FN PhongLit phong_unlit_part(PhongRules r, PhongMaterial m)
+{
+    PhongLit lit;
+    lit.color = m.emission + m.ambient * r.global_ambient;
+    lit.highlight = vec3(0.0f);
+    return lit;
+}
+
+/* What one light adds at P. N: of phong_normal(); V: unit, to the eye. Opacity is the material's whatever the lights:
+ * rgl's WebGL shader adds it once per light, so that two lights make 0.5 opaque; that is not copied. */
+FN PhongLit phong_light_part(PhongRules r, PhongMaterial m, PhongLight l, vec3 P, vec3 N, vec3 V)
+{
+    vec3 L = phong_light_vector(l, P);
+    float NdotL = dot(N, L);
+    float share = sel(r.has_attenuation, phong_light_share(l, P), 1.0f);
+    float lobe = phong_power(phong_NdotH(N, phong_view(r, V), L), m.shininess);
+    lobe = sel(r.gates_highlight && NdotL <= 0.0f, 0.0f, lobe);
+    PhongLit lit;
+    lit.color = (m.ambient * l.ambient + m.diffuse * l.diffuse * max(NdotL, 0.0f)) * share;
+    lit.highlight = m.specular * l.specular * (lobe * share);
+    return lit;
+}
+FN PhongLit phong_add(PhongLit a, PhongLit b)
+{
+    a.color += b.color;
+    a.highlight += b.highlight;
+    return a;
+}
+
+/* ---- textures ---- */
+
+/* rgl's textype and texmode. */
+#define PHONG_RGB 0
+#define PHONG_RGBA 1
+#define PHONG_ALPHA 2
+#define PHONG_LUMINANCE 3
+#define PHONG_LUMINANCE_ALPHA 4
+#define PHONG_MODULATE 0
+#define PHONG_REPLACE 1
+#define PHONG_DECAL 2
+#define PHONG_BLEND 3
+#define PHONG_ADD 4
+
+/* The texel as its type has it: colors that the type lacks are 1, luminance is the mean of the channels. */
+FN PhongColor phong_texel(int type, PhongColor t)
+{
+    float mean = (t.rgb[0] + t.rgb[1] + t.rgb[2]) * (1.0f / 3.0f);
+    if (type == PHONG_RGB || type == PHONG_LUMINANCE)
+        t.opacity = 1.0f;
+    if (type == PHONG_ALPHA)
+        t.opacity = mean;
+    if (type == PHONG_LUMINANCE || type == PHONG_LUMINANCE_ALPHA)
+        t.rgb = vec3(mean);
+    if (type == PHONG_ALPHA)
+        t.rgb = vec3(1.0f);
+    return t;
+}
+
+/* A lit color under a texel (0 where there is none of it, 1 full): rgl's table after glTexEnv, which OpenGL leaves open
+ * for DECAL of types other than RGB and RGBA (rgl: REPLACE) and has with a constant color of 0 for BLEND. ALPHA leaves
+ * the color alone; REPLACE by a luminance with alpha takes the texel's alpha, by RGB and luminance keeps the color's. */
+FN PhongColor phong_texture(int type, int mode, PhongColor e, PhongColor texel)
+{
+    PhongColor t = phong_texel(type, texel);
+    bool has_color = type != PHONG_ALPHA;
+    bool has_opacity = type != PHONG_RGB && type != PHONG_LUMINANCE;
+    PhongColor c;
+    c.opacity = e.opacity * t.opacity;
+    c.rgb = e.rgb * t.rgb;
+    if (mode == PHONG_DECAL && type == PHONG_RGBA) {
+        c.rgb = mix(e.rgb, t.rgb, t.opacity);
+        c.opacity = e.opacity;
+        return c;
+    }
+    if (mode == PHONG_REPLACE || mode == PHONG_DECAL) {
+        c.rgb = sel(has_color, t.rgb, e.rgb);
+        c.opacity = sel(has_opacity, t.opacity, e.opacity);
+    }
+    if (mode == PHONG_BLEND && has_color)
+        c.rgb = (1.0f - t.rgb) * e.rgb;
+    if (mode == PHONG_ADD && has_color)
+        c.rgb = e.rgb + t.rgb;
+    return c;
+}
+
+/* Texture coordinates of a sphere map, (0, 0) at its bottom left: r.xy / m + 1/2 with m = 2 sqrt(r.x^2 + r.y^2 +
+ * (r.z + 1)^2) and r the reflected direction from the eye. N unit, V the unit vector to the eye, eye space. N = V = +Z
+ * is the middle; the rim is what lies straight behind. OpenGL 2.1, 2.11.4. */
+FN vec2 phong_sphere_map(vec3 N, vec3 V)
+{
+    vec3 r = reflect(-V, N);
+    float z = r[2] + 1.0f;
+    float scale = 0.5f * inversesqrt(max(r[0] * r[0] + r[1] * r[1] + z * z, 1e-12f));
+    return vec2(r[0] * scale + 0.5f, r[1] * scale + 0.5f);
+}
+
+/* ---- fog ---- */
+
+#define PHONG_FOG_NONE 0
+#define PHONG_FOG_LINEAR 1
+#define PHONG_FOG_EXP 2
+#define PHONG_FOG_EXP2 3
+
+STRUCT(PhongFog)
+{
+    int mode;
+    vec3 color;
+    float near_m; /* of the frustum, along the axis of the view */
+    float far_m;  /* > near_m */
+    float scale;  /* rgl's fogScale, > 0; 1 */
+    float w;      /* phong_fog_w() */
+};
+
+/* near / far of a frustum that holds a sphere closely, as rgl's do: (1 - sin(FOV / 2)) / (1 + sin(FOV / 2)); FOV 0 is
+ * drawn as from two radii, which makes 1/3. */
+FN float phong_fog_w(float fov_rad)
+{
+    float s = sin(0.5f * fov_rad);
+    return sel(fov_rad > 0.0f, (1.0f - s) / (1.0f + s), 1.0f / 3.0f);
+}
+
+/* The fog's share of the color at distance_m along the axis, [0, 1], by rgl's shaders: with c from 0 at near to 1 at far
+ * and c' = mix(w, 1, c), scale c; 1 - exp(-scale c'); 1 - exp(-(scale c')^2). Where w is near / far, c' is
+ * distance / far. (The shaders write c as (y - z) / (y - x) with z < 0: x is -far, y is -near.) */
+FN float phong_fog_share(PhongFog f, float distance_m)
+{
+    float c = (distance_m - f.near_m) / max(f.far_m - f.near_m, 1e-20f);
+    float x = f.scale * sel(f.mode == PHONG_FOG_LINEAR, c, mix(f.w, 1.0f, c));
+    float share = sel(f.mode == PHONG_FOG_LINEAR, x, 1.0f - exp(-x));
+    share = sel(f.mode == PHONG_FOG_EXP2, 1.0f - exp(-x * x), share);
+    return sel(f.mode == PHONG_FOG_NONE, 0.0f, clamp(share, 0.0f, 1.0f));
+}
+
+/* The same by glFog as rgl's desktop program sets it: start = near, end = near + (far - near) / scale, density =
+ * scale / far. The specification gives the object's share: (end - z) / (end - start), exp(-density z),
+ * exp(-(density z)^2). Linear fog is the shaders'; the others are where w is near / far. */
+FN float phong_fog_share_fixed(PhongFog f, float distance_m)
+{
+    float density = f.scale / max(f.far_m, 1e-20f);
+    float x = density * distance_m;
+    float end = (f.far_m - f.near_m) / f.scale;
+    float object = (end - (distance_m - f.near_m)) / max(end, 1e-20f);
+    object = sel(f.mode == PHONG_FOG_EXP, exp(-x), object);
+    object = sel(f.mode == PHONG_FOG_EXP2, exp(-x * x), object);
+    return sel(f.mode == PHONG_FOG_NONE, 0.0f, 1.0f - clamp(object, 0.0f, 1.0f));
+}
+
+FN vec3 phong_fogged(PhongRules r, PhongFog f, vec3 color, float distance_m)
+{
+    float share = sel(r.has_fixed_fog, phong_fog_share_fixed(f, distance_m), phong_fog_share(f, distance_m));
+    return mix(color, f.color, share);
+}
+
+/* ---- opacity ---- */
+
+/* MTL's "d -halo": 1 - (N.V) (1 - d): a body that is thinnest where it faces the eye. */
+FN float phong_halo(float dissolve, float NdotV)
+{
+    return 1.0f - clamp(NdotV, 0.0f, 1.0f) * (1.0f - dissolve);
+}
+
+/* ---- the exponent as a distribution of microfacets ---- */
+
+/* The width of Beckmann's distribution with the slopes of cos^s: sqrt(2 / (s + 2)). Walter et al. 2007, section 5.2 (s =
+ * 2 / alpha^2 - 2). glTF's alpha is perceptual_roughness^2, so that takes a second square root. */
+FN float alpha_from_shininess(float shininess)
+{
+    return sqrt(2.0f / (shininess + 2.0f));
+}
+FN float shininess_from_alpha(float alpha)
+{
+    return 2.0f / (alpha * alpha) - 2.0f;
+}
+
+/* Blinn-Phong's distribution of microfacet normals, in 1/sr: D = (s + 2) / (2 pi) (N.H)^s, = (N.H)^s / (pi alpha^2). The
+ * integral of D (N.H) over the hemisphere is 1. Blinn 1977; Walter et al. 2007, equation 30. */
+FN float D_BlinnPhong(float NdotH, float shininess)
+{
+    return (shininess + 2.0f) * (0.5f * INV_PI) * phong_power(NdotH, shininess);
+}
+
+/* Microfacet BRDF, in 1/sr, with D_BlinnPhong and the implicit G = N.L N.V: F0 (s + 2) / (8 pi) (N.H)^s. */
+FN vec3 brdf_blinn_phong(vec3 F0, float NdotH, float shininess)
+{
+    return F0 * (0.25f * D_BlinnPhong(NdotH, shininess));
+}
+
+/* What c (N.H)^s is multiplied with so that it returns c of the light that a surface seen head on receives, in 1/sr:
+ * (s + 2) (s + 4) / (8 pi (2^(-s/2) + s)). The usual (s + 8) / (8 pi) is up to 7.5 % more (s = 9), 2.7 % at s = 64.
+ * Giesen 2009, "Phong and Blinn-Phong Normalization Factors". */
+FN float blinn_phong_normalisation(float shininess)
+{
+    return (shininess + 2.0f) * (shininess + 4.0f) * (0.125f * INV_PI) /
+           (exp2(-0.5f * shininess) + shininess);
+}
+FN float blinn_phong_normalisation_linear(float shininess)
+{
+    return (shininess + 8.0f) * (0.125f * INV_PI);
+}
+
+/* Cs of OpenGL 1 with the peak of brdf_blinn_phong() under a light of irradiance pi: F0 (s + 2) / 8, which the old model
+ * shows for every N.L. */
+FN vec3 phong_specular_from_F0(vec3 F0, float shininess)
+{
+    return F0 * (0.125f * (shininess + 2.0f));
+}
+
+#endif
