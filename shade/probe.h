@@ -468,7 +468,7 @@ FN vec3 probe_phong(int which, vec2 u)
     if (which == 63)
         return probe_phong_lit(u);
     if (which == 64) /* 1: with a driver's log2 near 1 a lobe is exact to 3e-6, absolutely */
-        return 0.1f +
+        return 1.0f +
                phong_reflection(N, V, L, vec3(0.3f, 0.5f, 0.8f), vec3(1.0f, 0.5f, 0.2f), 128.0f * u[1]) +
                phong_view(phong_rules(PHONG_VIGNETTE), V) +
                vec3(phong_NdotH(N, V, L), phong_power(u[0] - 0.5f, 10.0f * u[1]), phong_halo(0.3f, u[0]));
