@@ -371,6 +371,7 @@ void scene_describe_json(const facet_scene *scene, struct text *t)
     WRITE_ARRAY("nodes", scene->nodes, scene->node_count, write_node);
     write_meshes(t, scene);
     describe_materials(t, scene);
+    describe_legacy(t, scene);
     WRITE_ARRAY("textures", scene->textures, scene->texture_count, write_texture);
     WRITE_ARRAY("images", scene->images, scene->image_count, write_image);
     WRITE_ARRAY("cameras", scene->cameras, scene->camera_count, write_camera);

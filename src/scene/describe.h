@@ -11,6 +11,7 @@ void describe_indices(text *t, const char *key, const uint32_t *indices, uint32_
 void describe_meta(text *t, const scene_meta *meta);
 
 void describe_materials(text *t, const facet_scene *scene); /* "materials" */
+void describe_legacy(text *t, const facet_scene *scene);    /* "legacy", where there is one */
 void describe_motion(text *t, const facet_scene *scene);    /* "skins", "animations" */
 
 #endif
