@@ -157,6 +157,9 @@ typedef struct scene_legacy {
     facet_mtl_dialect dialect;  /* never FACET_MTL_AUTO */
     bool is_dialect_guessed;    /* by the file's first comment */
     bool is_source;             /* read from a file; false: made from the glTF materials */
+    /* rgl's rules: vertex colors take the place of diffuse ones, the texture is laid over all of the light. False: those
+     * of MTL and glTF: vertex colors and the diffuse map multiply the diffuse color. */
+    bool is_rgl;
 } scene_legacy;
 
 /* ---- what a conversion did ---- */
