@@ -15,6 +15,7 @@ typedef struct chart_axis {
     chart_scale scale;
     bool has_range; /* false: of the data, widened to round numbers */
     double minimum, maximum;
+    bool is_degrees; /* ticks at 15, 30, 45 .. with a degree sign */
 } chart_axis;
 
 /* Color blind safe, told apart by dash as well; or a color of its own. */
@@ -36,11 +37,12 @@ typedef struct chart_curve {
 /* Values on a regular grid, in false color (viridis) with a bar. */
 typedef struct chart_field {
     uint32_t width, height;
-    const double *values;  /* rows from the top; NaN: outside, not drawn */
-    double x0, x1, y0, y1; /* the extent in axis units; y0 at the bottom */
+    const double *values;  /* at the middles of the cells, rows from the top; NaN: outside, not drawn */
+    double x0, x1, y0, y1; /* the extent of the cells in axis units, x0 < x1; y0 at the bottom, y0 < y1 */
     const char *label;     /* of the bar */
     chart_scale scale;
     double minimum, maximum; /* of the bar; equal: of the data */
+    bool is_equidistant;     /* CHART_DISC: the radius is the angle from the normal; false: its sine */
 } chart_field;
 
 /* A surface in space over a grid of points, seen from an azimuth and a height, hidden parts hidden, shaded by value. */
@@ -56,7 +58,8 @@ typedef enum chart_panel_kind {
     CHART_XY,
     CHART_POLAR, /* a half disc: angles -90 to 90 degrees */
     CHART_FIELD, /* of field, with axes */
-    CHART_DISC,  /* of field, as seen from above a hemisphere: rings at 30, 60, 90 degrees, no axes */
+    CHART_DISC,  /* of field, as seen from above a hemisphere: rings at 30, 60, 90 degrees, no axes. x and y are the
+                    direction's, so that the horizon is at radius 1; azimuth 0 is at the right */
     CHART_SURFACE
 } chart_panel_kind;
 
