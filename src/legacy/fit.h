@@ -76,8 +76,10 @@ typedef enum fit_range { FIT_DISPLAYABLE, FIT_UNLIMITED } fit_range;
 uint32_t pbr_to_ogl1_naive(const pbr_surface *in, ogl1_surface *out);
 uint32_t pbr_to_ogl1_fit(const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
                          fit_range range, ogl1_surface *out);
-/* By interpolation in a table of fits, for textures; within a few percent of the fit. */
+/* The same within the box by a table of integrals, and for textures, whose exponent is one for all texels: the best
+ * colors for a given one. Linear target; within a few percent of the fit. */
 uint32_t pbr_to_ogl1_closed(const pbr_surface *in, ogl1_surface *out);
+uint32_t pbr_to_ogl1_closed_at(const pbr_surface *in, float shininess, ogl1_surface *out);
 
 /* Radiance under light of intensity 1 (PBR: times pi), linear; N = +Z, V and L unit, for plots and pictures. */
 void ogl1_radiance(const ogl1_surface *s, const float V[3], const float L[3], float out[3]);

@@ -1,93 +1,184 @@
-/* fit_closed.c - conversions without a search: roughness and strength from tables over the exponent. */
+/* fit_closed.c - OpenGL 1 to PBR without a quadrature: the roughness whose lobe comes nearest to Blinn's, and linear least
+ * squares with integrals from a table (fit_gram.h). */
 #include <math.h>
 
-#include "legacy/fit.h"
+#include "legacy/fit_gram.h"
+#include "legacy/fit_linear.h"
+#include "legacy/fit_minimize.h"
 
 #include "shade/shade.h"
 
-enum { NODES = 20 };
-static const float node_s[NODES] = {2,  3,  4,  6,  8,  10,  12,  16,  20,  24,
-                                    32, 40, 50, 64, 80, 100, 128, 200, 400, 1000};
-static const float node_r[NODES] = {.816f, .764f, .734f, .696f, .668f, .646f, .626f, .596f, .570f, .548f,
-                                    .514f, .488f, .464f, .436f, .412f, .390f, .366f, .328f, .276f, .218f};
-static const float node_share[NODES] = {1.0f,  .98f,  .951f, .833f, .733f, .652f, .579f,
-                                        .476f, .396f, .337f, .259f, .209f, .169f, .131f,
-                                        .105f, .084f, .065f, .042f, .021f, .0082f};
-
-/* Between nodes both axes are logarithmic; beyond the last the slope continues. */
-static float interpolate(const float *x, const float *y, float at)
-{
-    int i = 0;
-    while (i < NODES - 2 && at > x[i + 1])
-        i++;
-    float t = logf(at / x[i]) / logf(x[i + 1] / x[i]);
-    return y[i] * powf(y[i + 1] / y[i], t);
-}
-
+/* The best roughness for exponents from 0 to 10^8 is near alpha = 1.5 / sqrt(s), and the best strength near 8.5 / (s + 2);
+ * neither depends on the colors as long as these need no clamping. */
 float perceptual_roughness_from_shininess(float shininess)
 {
-    float s = max(shininess, 0.0f);
-    return s < node_s[0] ? mix(1.0f, node_r[0], s / node_s[0]) : interpolate(node_s, node_r, s);
+    return (float)fit_gram_nearest((double)shininess).perceptual_roughness;
 }
 
 float shininess_from_perceptual_roughness(float perceptual_roughness)
 {
-    float r = clamp(perceptual_roughness, 0.0f, 1.0f);
-    float low = 0.0f;
-    float high = 1e5f;
-    if (r <= perceptual_roughness_from_shininess(high))
-        return high;
-    for (int i = 0; i < 64; i++) {
-        float middle = 0.5f * (low + high);
-        if (perceptual_roughness_from_shininess(middle) > r)
-            low = middle;
-        else
-            high = middle;
-    }
-    return 0.5f * (low + high);
+    return (float)fit_gram_nearest_shininess((double)perceptual_roughness);
 }
 
 float reflectance_share_from_shininess(float shininess)
 {
-    return shininess <= node_s[0] ? 1.0f : interpolate(node_s, node_share, shininess);
+    return (float)fit_gram_nearest((double)shininess).g;
 }
 
-uint32_t ogl1_to_pbr_closed(const ogl1_surface *in, pbr_surface *out)
+uint32_t fit_remarks_to_pbr(const ogl1_surface *in, const pbr_surface *out)
 {
-    float brightest = max(in->specular[0], max(in->specular[1], in->specular[2]));
-    *out = pbr_surface_default();
-    out->perceptual_roughness = perceptual_roughness_from_shininess(in->shininess);
-    out->ior = 0.0f;
-    out->specular = min(1.0f, brightest * reflectance_share_from_shininess(in->shininess));
     uint32_t remarks = 0;
     for (int k = 0; k < 3; k++) {
-        out->specular_color[k] = brightest > 0.0f ? in->specular[k] / brightest : 1.0f;
-        out->base_color[k] = min(1.0f, in->diffuse[k] / max(1.0f - out->specular, 1e-3f));
-        remarks |= in->diffuse[k] > 1.0f - out->specular ? (uint32_t)FIT_BASE_CLAMPED : 0u;
-        remarks |= in->specular[k] > 0.02f && in->shininess < 4.0f ? (uint32_t)FIT_LOW_EXPONENT : 0u;
+        bool has_highlight = in->specular[k] > 0.02f;
+        bool is_clamped = in->diffuse[k] > 1.0f || (out->base_color[k] >= 1.0f && has_highlight);
+        remarks |= is_clamped ? (uint32_t)FIT_BASE_CLAMPED : 0u;
+        remarks |= has_highlight && in->shininess < 4.0f ? (uint32_t)FIT_LOW_EXPONENT : 0u;
         remarks |= in->diffuse[k] + in->specular[k] > 1.0f ? (uint32_t)FIT_ENERGY_GAIN : 0u;
     }
     return remarks;
 }
 
-uint32_t ogl1_to_pbr_core_closed(const ogl1_surface *in, pbr_surface *out)
+static fit_gram gram_of(double perceptual_roughness, double shininess)
 {
-    pbr_surface full;
-    uint32_t remarks = ogl1_to_pbr_closed(in, &full);
-    *out = pbr_surface_default();
-    out->perceptual_roughness = full.perceptual_roughness;
-    out->metallic = clamp((full.specular - 0.04f) / 0.96f, 0.0f, 1.0f);
-    for (int k = 0; k < 3; k++)
-        out->base_color[k] = clamp(in->diffuse[k] / max(0.96f * (1.0f - out->metallic), 0.1f), 0.0f, 1.0f);
-    return remarks;
+    fit_gram gram;
+    gram_place r = fit_gram_roughness(&gram, perceptual_roughness);
+    gram_place s = fit_gram_shininess(&gram, shininess);
+    fit_gram_both(&gram, &r, &s);
+    return gram;
 }
 
-uint32_t pbr_to_ogl1_closed(const pbr_surface *in, ogl1_surface *out)
+/* ---- with extensions ---- */
+
+/* Products of the source's channel k with n and S. */
+static void wanted_of(const fit_gram *g, const ogl1_surface *in, int k, double wanted[2])
 {
-    uint32_t remarks = pbr_to_ogl1_naive(in, out);
-    float alpha = max(alpha_from_roughness(in->perceptual_roughness), ALPHA_MIRROR);
-    out->shininess = min(2.3f / (alpha * alpha), 128.0f);
+    double Cd = (double)in->diffuse[k];
+    double Cs = (double)in->specular[k];
+    wanted[0] = Cd * g->nn[0] + Cs * g->nP[0];
+    wanted[1] = Cd * g->nS[0] + Cs * g->SP[0];
+}
+
+/* The strength of the lobe: F = F90 at all angles, of channel k share[k] F90, beside A n with the best A in [0, 1 - F90],
+ * where base is 1. The square is convex in F90: its derivative, which has one root, is halved down. */
+static double flat_reflectance(const fit_gram *g, const ogl1_surface *in, const double share[3])
+{
+    double low = 0.0;
+    double high = 1.0;
+    for (int step = 0; step < 24; step++) {
+        double F90 = 0.5 * (low + high);
+        double slope = 0.0;
+        for (int k = 0; k < 3; k++) {
+            double wanted[2];
+            double B = share[k] * F90;
+            wanted_of(g, in, k, wanted);
+            double A = fmax((wanted[0] - B * g->nS[0]) / g->nn[0], 0.0);
+            bool is_clamped = A > 1.0 - F90;
+            A = is_clamped ? 1.0 - F90 : A;
+            slope += share[k] * (B * g->SS[0] + A * g->nS[0] - wanted[1]);
+            slope -= is_clamped ? B * g->nS[0] + A * g->nn[0] - wanted[0] : 0.0;
+        }
+        if (slope < 0.0)
+            low = F90;
+        else
+            high = F90;
+    }
+    return 0.5 * (low + high);
+}
+
+uint32_t ogl1_to_pbr_closed(const ogl1_surface *in, pbr_surface *out)
+{
+    double r = (double)perceptual_roughness_from_shininess(in->shininess);
+    fit_gram g = gram_of(r, (double)in->shininess);
+    float brightest = max(in->specular[0], max(in->specular[1], in->specular[2]));
+    double factor[3][2];
+    double share[3];
+    static const fit_bounds unbounded = {{0.0, 0.0}, {1e12, 1e12}};
+    for (int k = 0; k < 3; k++) {
+        fit_moments m = {.shapes = {g.nn[0], g.nS[0], g.SS[0]}};
+        wanted_of(&g, in, k, m.wanted);
+        fit_box(&m, &unbounded, factor[k]);
+    }
+    double most = fmax(factor[0][1], fmax(factor[1][1], factor[2][1]));
     for (int k = 0; k < 3; k++)
-        out->specular[k] = min(1.0f, out->specular[k] * 0.27f / alpha);
-    return remarks;
+        share[k] = most > 0.0 ? factor[k][1] / most : 0.0;
+    double F90 = brightest > 0.0f ? flat_reflectance(&g, in, share) : 0.0;
+    double a = 1.0 - F90;
+    *out = pbr_surface_default();
+    out->perceptual_roughness = (float)r;
+    out->ior = 0.0f;
+    out->specular = (float)F90;
+    for (int k = 0; k < 3; k++) { /* once more, with the Fresnel that a color brings */
+        double Cd = (double)in->diffuse[k];
+        double Cs = (double)in->specular[k];
+        fit_bounds bounds = {{0.0, in->specular[k] == brightest ? F90 : 0.0}, {1.0, F90}};
+        fit_moments m = {{a * a * g.nn[0], a * (g.nS[0] - g.nS[1]), g.SS[0] - 2.0 * g.SS[1] + g.SS[2]},
+                         {a * (Cd * g.nn[0] + Cs * g.nP[0] - F90 * g.nS[1]),
+                          Cd * (g.nS[0] - g.nS[1]) + Cs * (g.SP[0] - g.SP[1]) - F90 * (g.SS[1] - g.SS[2])},
+                         0.0};
+        fit_box(&m, &bounds, factor[k]);
+        out->base_color[k] = (float)factor[k][0];
+        out->specular_color[k] = F90 > 0.0 ? clamp((float)(factor[k][1] / F90), 0.0f, 1.0f) : 1.0f;
+    }
+    return fit_remarks_to_pbr(in, out);
+}
+
+/* ---- without ---- */
+
+typedef struct core_search {
+    const ogl1_surface *in;
+    fit_gram gram;
+    gram_place shininess;
+    double roughness;
+    double base[3];
+} core_search;
+
+/* Square of the difference, less what the source alone has; x: roughness, metallic. The lobe's Fresnel is
+ * mix(F0 + (1 - F0) w, base (1 - w) + w, metallic). */
+static double core_square(void *context, const double *x)
+{
+    core_search *s = context;
+    fit_gram *g = &s->gram;
+    double F0 = (double)dielectric_F0(1.5f, 1.0f, vec3(1.0f))[0];
+    double m = x[1];
+    if (x[0] != s->roughness) {
+        gram_place r = fit_gram_roughness(g, x[0]);
+        fit_gram_both(g, &r, &s->shininess);
+        s->roughness = x[0];
+    }
+    double a = (1.0 - m) * (1.0 - F0); /* base: a n (1 - w) + m S (1 - w) */
+    double f0 = (1.0 - m) * F0;        /* rest: S (f0 + f1 w) */
+    double f1 = 1.0 - f0;
+    double nn = g->nn[0] - 2.0 * g->nn[1] + g->nn[2];
+    double nS = g->nS[0] - 2.0 * g->nS[1] + g->nS[2];
+    double SS = g->SS[0] - 2.0 * g->SS[1] + g->SS[2];
+    double square = a * a * nn + 2.0 * a * m * nS + m * m * SS;
+    double with_rest = a * (f0 * g->nS[0] + (f1 - f0) * g->nS[1] - f1 * g->nS[2]) +
+                       m * (f0 * g->SS[0] + (f1 - f0) * g->SS[1] - f1 * g->SS[2]);
+    double rest = f0 * f0 * g->SS[0] + 2.0 * f0 * f1 * g->SS[1] + f1 * f1 * g->SS[2];
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double Cd = (double)s->in->diffuse[k];
+        double Cs = (double)s->in->specular[k];
+        double source = a * (Cd * (g->nn[0] - g->nn[1]) + Cs * (g->nP[0] - g->nP[1])) +
+                        m * (Cd * (g->nS[0] - g->nS[1]) + Cs * (g->SP[0] - g->SP[1]));
+        double source_rest = Cd * (f0 * g->nS[0] + f1 * g->nS[1]) + Cs * (f0 * g->SP[0] + f1 * g->SP[1]);
+        double base = fmin(fmax((source - with_rest) / square, 0.0), 1.0);
+        s->base[k] = base;
+        sum += base * (base * square - 2.0 * (source - with_rest)) + rest - 2.0 * source_rest;
+    }
+    return sum;
+}
+
+uint32_t ogl1_to_pbr_core_closed(const ogl1_surface *in, pbr_surface *out)
+{
+    core_search s = {.in = in, .roughness = -1.0};
+    s.shininess = fit_gram_shininess(&s.gram, (double)in->shininess);
+    double x[2] = {(double)perceptual_roughness_from_shininess(in->shininess), 0.1};
+    fit_minimize_n(core_square, &s, 2, x, (const double[2]){0.1, 0.2}, 1e-4, 60);
+    *out = pbr_surface_default();
+    out->perceptual_roughness = (float)x[0];
+    out->metallic = (float)x[1];
+    for (int k = 0; k < 3; k++)
+        out->base_color[k] = (float)s.base[k];
+    return fit_remarks_to_pbr(in, out);
 }

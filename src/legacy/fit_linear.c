@@ -33,7 +33,7 @@ double fit_box(const fit_moments *m, const fit_bounds *bounds, double factor[2])
         if (a >= low[0] && a <= high[0] && b >= low[1] && b <= high[1]) {
             factor[0] = a;
             factor[1] = b;
-            return fmax(square_at(m, a, b), 0.0);
+            return square_at(m, a, b);
         }
     }
     double best = INFINITY;
@@ -51,7 +51,7 @@ double fit_box(const fit_moments *m, const fit_bounds *bounds, double factor[2])
             factor[1] = at[1];
         }
     }
-    return fmax(best, 0.0);
+    return best;
 }
 
 /* ---- sums ---- */
@@ -188,7 +188,7 @@ double fit_factors(const fit_problem *p, const fit_bounds bounds[3], double fact
         }
         sum += square;
     }
-    return sum / p->source_square;
+    return fmax(sum, 0.0) / p->source_square; /* rounding may have left less */
 }
 
 /* ---- sources ---- */

@@ -20,7 +20,7 @@ typedef struct fit_bounds {
     double low[2], high[2];
 } fit_bounds;
 
-/* The factors of the least square, and that square. */
+/* The factors of the least square, and that square; rounding may leave it below 0. */
 double fit_box(const fit_moments *moments, const fit_bounds *bounds, double factor[2]);
 
 /* A source and the shapes that are to imitate it. */

@@ -47,6 +47,12 @@ void fit_radiance_ogl1(const fit_metric *metric, const ogl1_surface *surface, co
                        float *out);
 void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const float *lobe, int k, float *out);
 
+/* What conversions tell, by comparing what went in with what came out. */
+uint32_t fit_remarks_to_pbr(const ogl1_surface *in, const pbr_surface *out);
+uint32_t fit_remarks_to_ogl1(const pbr_surface *in, const ogl1_surface *out);
+
+#define OGL1_MOST_SHININESS 128.0f
+
 /* The least mean square that errors are relative to: a source that is darker than this share of white counts as that. */
 #define FIT_DARKEST 1e-3
 

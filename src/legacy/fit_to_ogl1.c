@@ -8,7 +8,6 @@
 
 #include "shade/shade.h"
 
-static const double most_shininess = 128.0;    /* of OpenGL 1 */
 static const double unlimited_shininess = 1e9; /* beyond that of the smoothest GGX lobe that is drawn */
 
 typedef struct search {
@@ -25,18 +24,16 @@ static double error_at(void *context, const double *x)
     return fit_factors(&s->problem, s->bounds, s->factor);
 }
 
-/* Reads both sides, as they went in and came out. */
-static uint32_t remarks_of(const pbr_surface *in, const ogl1_surface *out, fit_range range)
+uint32_t fit_remarks_to_ogl1(const pbr_surface *in, const ogl1_surface *out)
 {
     uint32_t remarks = 0;
-    for (int k = 0; k < 3 && range == FIT_DISPLAYABLE; k++) {
+    for (int k = 0; k < 3; k++) {
         remarks |= out->specular[k] >= 1.0f ? (uint32_t)FIT_SPECULAR_CLAMPED : 0u;
         remarks |= out->diffuse[k] > 0.02f && in->metallic > 0.5f ? (uint32_t)FIT_METAL_WITH_DIFFUSE : 0u;
         remarks |= out->specular[k] > 0.02f && out->shininess < 4.0f ? (uint32_t)FIT_LOW_EXPONENT : 0u;
     }
-    if (range == FIT_DISPLAYABLE && (double)out->shininess > 0.999 * most_shininess)
-        remarks |= FIT_SHININESS_CLAMPED;
-    return remarks;
+    /* the search ends a little before the bound */
+    return remarks | (out->shininess > 0.998f * OGL1_MOST_SHININESS ? (uint32_t)FIT_SHININESS_CLAMPED : 0u);
 }
 
 uint32_t pbr_to_ogl1_fit(const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
@@ -46,7 +43,7 @@ uint32_t pbr_to_ogl1_fit(const fit_metric *metric, const pbr_surface *in, facet_
     fit_problem_from_pbr(&s.problem, metric, target, in);
     memcpy(s.problem.shape[0], metric->NdotL, sizeof metric->NdotL);
     memset(s.problem.rest, 0, sizeof s.problem.rest);
-    double most = range == FIT_DISPLAYABLE ? most_shininess : unlimited_shininess;
+    double most = range == FIT_DISPLAYABLE ? (double)OGL1_MOST_SHININESS : unlimited_shininess;
     double highest = range == FIT_DISPLAYABLE ? 1.0 : 1e12;
     for (int k = 0; k < 3; k++)
         s.bounds[k] = (fit_bounds){{0.0, 0.0}, {highest, highest}};
@@ -59,6 +56,6 @@ uint32_t pbr_to_ogl1_fit(const fit_metric *metric, const pbr_surface *in, facet_
         out->specular[k] = (float)s.factor[k][1];
         has_highlight = has_highlight || out->specular[k] > 0.0f;
     }
-    out->shininess = has_highlight ? (float)expm1(x) : 0.0f;
-    return remarks_of(in, out, range);
+    out->shininess = has_highlight ? (float)fmin(expm1(x), most) : 0.0f;
+    return range == FIT_DISPLAYABLE ? fit_remarks_to_ogl1(in, out) : 0u;
 }

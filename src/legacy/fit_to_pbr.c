@@ -72,20 +72,6 @@ static double flat_error(void *context, const double *x)
     return specular_error(s, (const double[3]){x[0], F90, 1.0});
 }
 
-static uint32_t remarks_of(const ogl1_surface *in, const pbr_surface *out)
-{
-    uint32_t remarks = 0;
-    for (int k = 0; k < 3; k++) {
-        bool has_highlight = in->specular[k] > 0.02f;
-        remarks |= in->diffuse[k] > 1.0f || (out->base_color[k] >= 1.0f && has_highlight)
-                       ? (uint32_t)FIT_BASE_CLAMPED
-                       : 0u;
-        remarks |= has_highlight && in->shininess < 4.0f ? (uint32_t)FIT_LOW_EXPONENT : 0u;
-        remarks |= in->diffuse[k] + in->specular[k] > 1.0f ? (uint32_t)FIT_ENERGY_GAIN : 0u;
-    }
-    return remarks;
-}
-
 static void start(search *s, const fit_metric *metric, const ogl1_surface *in)
 {
     float brightest = max(in->specular[0], max(in->specular[1], in->specular[2]));
@@ -119,7 +105,7 @@ uint32_t ogl1_to_pbr_fit(const fit_metric *metric, const ogl1_surface *in, facet
         out->base_color[k] = (float)s.factor[k][0];
         out->specular_color[k] = x[1] > 0.0 ? clamp((float)(s.factor[k][1] / x[1]), 0.0f, 1.0f) : 1.0f;
     }
-    return remarks_of(in, out);
+    return fit_remarks_to_pbr(in, out);
 }
 
 /* ---- without ---- */
@@ -183,5 +169,5 @@ uint32_t ogl1_to_pbr_core_fit(const fit_metric *metric, const ogl1_surface *in, 
     out->metallic = (float)x[1];
     for (int k = 0; k < 3; k++)
         out->base_color[k] = (float)s.factor[k][0];
-    return remarks_of(in, out);
+    return fit_remarks_to_pbr(in, out);
 }

@@ -1,0 +1,107 @@
+/* fit_table_generate.c - computes the table of fit_gram.h; runs when facet is built.
+ * usage: fit_table_generate OUTPUT
+ *
+ * Logarithms of the integrals, and for each shininess the roughness and the strength of the GGX lobe that comes nearest to
+ * Blinn's together with Lambert's. */
+#include <math.h>
+#include <stdio.h>
+
+#include "legacy/fit_gram.h"
+#include "legacy/fit_metric.h"
+#include "legacy/fit_minimize.h"
+
+typedef struct shapes {
+    const fit_metric *metric;
+    float S[FIT_MAX_NODES], P[FIT_MAX_NODES];
+    double g;
+} shapes;
+
+/* Integral of a b w^power. */
+static double product(const fit_metric *m, const float *a, const float *b, int power)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < m->node_begin[FIT_VIEWS]; i++) {
+        double term = (double)m->weight[i] * (double)a[i] * (double)b[i];
+        for (int k = 0; k < power; k++)
+            term *= (double)m->fresnel[i];
+        sum += term;
+    }
+    return sum;
+}
+
+/* What is left of P beside the best factors of n and S, and the latter in g. */
+static double distance(void *context, const double *log_r)
+{
+    shapes *s = context;
+    const fit_metric *m = s->metric;
+    fit_specular_lobe(m, (float)exp(*log_r), s->S);
+    double nn = product(m, m->NdotL, m->NdotL, 0);
+    double nS = product(m, m->NdotL, s->S, 0);
+    double SS = product(m, s->S, s->S, 0);
+    double nP = product(m, m->NdotL, s->P, 0);
+    double SP = product(m, s->S, s->P, 0);
+    double det = nn * SS - nS * nS;
+    double u = (nP * SS - SP * nS) / det;
+    s->g = (SP * nn - nP * nS) / det;
+    return -(u * nP + s->g * SP) / product(m, s->P, s->P, 0);
+}
+
+static void add_numbers(FILE *file, const char *name, int count, const double *numbers)
+{
+    fprintf(file, "static const float %s[%d] = {", name, count);
+    for (int i = 0; i < count; i++)
+        fprintf(file, "%s%.8ef,", i % 6 ? " " : "\n", numbers[i]);
+    fprintf(file, "};\n");
+}
+
+int main(int argc, char **argv)
+{
+    static shapes s;
+    static double SP[2][GRAM_R * GRAM_S];
+    double nn[3];
+    double of_r[6][GRAM_R]; /* nS, SS by power */
+    double of_s[5][GRAM_S]; /* nP by power, PP; nearest roughness, its factor */
+    fit_metric *m = NULL;
+    FILE *file = argc == 2 ? fopen(argv[1], "w") : NULL;
+    if (!file || fit_metric_create(NULL, PBR_CORRELATED, &m, NULL) != FACET_OK) {
+        fprintf(stderr, "usage: fit_table_generate OUTPUT\n");
+        return 1;
+    }
+    s.metric = m;
+    for (int k = 0; k < 3; k++)
+        nn[k] = product(m, m->NdotL, m->NdotL, k);
+    for (int j = 0; j < GRAM_S; j++) {
+        double log_r;
+        fit_highlight(m, (float)expm1(j * GRAM_STEP_S), s.P);
+        fit_minimize_1(distance, &s, GRAM_LOG_R, 0.0, 47, 1e-5, &log_r);
+        for (int k = 0; k < 2; k++)
+            of_s[k][j] = log(product(m, m->NdotL, s.P, k));
+        of_s[2][j] = log(product(m, s.P, s.P, 0));
+        of_s[3][j] = j ? log_r : 0.0; /* constant light: as rough as can be (0.999) */
+        of_s[4][j] = log(s.g);
+    }
+    for (int i = 0; i < GRAM_R; i++) {
+        fit_specular_lobe(m, (float)exp(GRAM_LOG_R + i * GRAM_STEP_R), s.S);
+        for (int k = 0; k < 3; k++) {
+            of_r[k][i] = log(product(m, m->NdotL, s.S, k));
+            of_r[3 + k][i] = log(product(m, s.S, s.S, k));
+        }
+        for (int j = 0; j < GRAM_S; j++) {
+            fit_highlight(m, (float)expm1(j * GRAM_STEP_S), s.P);
+            for (int k = 0; k < 2; k++)
+                SP[k][i * GRAM_S + j] = log(product(m, s.S, s.P, k));
+        }
+    }
+    static const char *const names_r[6] = {"log_nS0", "log_nS1", "log_nS2", "log_SS0", "log_SS1", "log_SS2"};
+    static const char *const names_s[5] = {"log_nP0", "log_nP1", "log_PP", "log_nearest_r", "log_nearest_g"};
+    fprintf(file, "/* By fit_table_generate.c. */\n");
+    add_numbers(file, "table_nn", 3, nn);
+    for (int i = 0; i < 6; i++)
+        add_numbers(file, names_r[i], GRAM_R, of_r[i]);
+    for (int i = 0; i < 5; i++)
+        add_numbers(file, names_s[i], GRAM_S, of_s[i]);
+    add_numbers(file, "log_SP0", GRAM_R * GRAM_S, SP[0]);
+    add_numbers(file, "log_SP1", GRAM_R * GRAM_S, SP[1]);
+    fit_metric_destroy(m);
+    return fclose(file) == 0 ? 0 : 1;
+}
