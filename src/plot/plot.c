@@ -1,12 +1,135 @@
-/* plot.c - see plot.h. */
-#include "plot/plot.h"
-
+/* plot.c - from a desc to a chart: materials made ready, then the function of the kind. See plot.h. */
 #include "base/result.h"
+#include "plot/merl.h"
+#include "plot/plot.h"
+#include "plot/plot_build.h"
+#include "plot/plot_check.h"
+
+/* ---- what a kind shows by default ---- */
+
+typedef struct plot_kind {
+    facet_result (*make)(plot *p);
+    bool shows_reflectance; /* of materials: has defaults, and fits beside them */
+    uint32_t angle_count;
+    float degrees[3];
+} plot_kind;
+
+static const plot_kind kinds[] = {
+    [FACET_PLOT_LEGACY] = {plot_make_legacy, false, 3, {0.0f, 30.0f, 60.0f}},
+    [FACET_PLOT_BRDF] = {plot_make_slices, true, 2, {30.0f, 60.0f}},
+    [FACET_PLOT_SLICE] = {plot_make_slices, true, 1, {30.0f}},
+    [FACET_PLOT_HEMISPHERE] = {plot_make_hemisphere, true, 1, {45.0f}},
+    [FACET_PLOT_LOBE] = {plot_make_hemisphere, true, 1, {45.0f}},
+    [FACET_PLOT_TERMS] = {plot_make_terms, false, 1, {45.0f}},
+    [FACET_PLOT_ALBEDO] = {plot_make_albedo, true, 1, {0.0f}},
+    [FACET_PLOT_FURNACE] = {plot_make_furnace, false, 2, {30.0f, 75.0f}},
+    [FACET_PLOT_DFG] = {plot_make_dfg, false, 1, {0.0f}},
+    [FACET_PLOT_TONE] = {plot_make_tone, false, 1, {0.0f}},
+    [FACET_PLOT_FRESNEL] = {plot_make_fresnel, false, 1, {0.0f}},
+    [FACET_PLOT_ERROR] = {plot_make_error, false, 1, {0.0f}},
+};
+
+enum { DEFAULT_MATERIALS = 6 };
+
+/* Gold and plastic, smooth to rough. */
+static void default_materials(facet_plot_material out[DEFAULT_MATERIALS])
+{
+    static const struct {
+        const char *label;
+        float metallic, roughness;
+    } list[DEFAULT_MATERIALS] = {
+        {"gold, roughness 0.2", 1.0f, 0.2f},    {"gold, roughness 0.4", 1.0f, 0.4f},
+        {"gold, roughness 0.7", 1.0f, 0.7f},    {"plastic, roughness 0.2", 0.0f, 0.2f},
+        {"plastic, roughness 0.4", 0.0f, 0.4f}, {"plastic, roughness 0.7", 0.0f, 0.7f}};
+    static const float colors[2][3] = {{0.05f, 0.2f, 0.6f}, {1.0f, 0.766f, 0.336f}};
+    for (int i = 0; i < DEFAULT_MATERIALS; i++) {
+        out[i] = material_default();
+        out[i].label = list[i].label;
+        out[i].metallic = list[i].metallic;
+        out[i].perceptual_roughness = list[i].roughness;
+        for (int c = 0; c < 3; c++)
+            out[i].base_color[c] = colors[list[i].metallic > 0.0f][c];
+    }
+}
+
+/* ---- subjects ---- */
+
+static facet_result open_material(plot *p, const facet_plot_material *from, merl **file, material *out)
+{
+    const facet_plot_desc *desc = p->desc;
+    *out = (material){
+        .parameters = *from, .energy = desc->energy, .has_separable_smith = desc->has_separable_smith};
+    out->label = from->label ? arena_strdup(p->memory, from->label)
+                             : material_describe(from, &desc->allocator, p->memory);
+    if (!out->label)
+        return fail_memory(p->error, "plot", 0);
+    if (from->model != FACET_PLOT_MERL)
+        return FACET_OK;
+    facet_result result = merl_open(from->path, &desc->allocator, file, p->error);
+    out->measured = *file;
+    return result;
+}
+
+/* The materials, each with its fit behind it where those are asked for. */
+static facet_result open_subjects(plot *p, const plot_kind *kind, merl *files[FACET_PLOT_MAX_MATERIALS])
+{
+    facet_plot_material defaults[DEFAULT_MATERIALS];
+    const facet_plot_material *list = p->desc->materials;
+    uint32_t count = p->desc->material_count;
+    if (count == 0 && kind->shows_reflectance) {
+        default_materials(defaults);
+        list = defaults;
+        count = DEFAULT_MATERIALS;
+    }
+    plot_subject *subjects = plot_alloc(p, 2 * FACET_PLOT_MAX_MATERIALS, sizeof *subjects);
+    if (!subjects)
+        return fail_memory(p->error, "plot", 0);
+    p->subjects = subjects;
+    p->has_channels = count == 1;
+    for (uint32_t i = 0; i < count; i++) {
+        plot_subject *subject = &subjects[p->subject_count++];
+        *subject = (plot_subject){.number = i};
+        facet_result result = open_material(p, &list[i], &files[i], &subject->material);
+        if (result == FACET_OK && p->desc->has_fit && kind->shows_reflectance) {
+            facet_plot_model to = list[i].model == FACET_PLOT_PBR ? FACET_PLOT_OGL1 : FACET_PLOT_PBR;
+            plot_conversion conversion;
+            result = plot_convert(p, &subject->material, to, true, &conversion);
+            subjects[p->subject_count++] =
+                (plot_subject){.material = conversion.material, .number = i, .is_fit = true};
+        }
+        if (result != FACET_OK)
+            return result;
+    }
+    p->has_cosine = p->desc->has_cosine;
+    for (uint32_t i = 0; i < p->subject_count; i++)
+        p->has_cosine = p->has_cosine || subjects[i].material.parameters.model == FACET_PLOT_OGL1;
+    return FACET_OK;
+}
 
 facet_result plot_create(const facet_plot_desc *desc, arena *memory, chart *out, facet_error *error)
 {
-    (void)desc;
-    (void)memory;
-    (void)out;
-    return fail(error, FACET_ERROR_UNSUPPORTED, "plot: not built yet");
+    *out = (chart){0};
+    facet_result result = plot_check(desc, error);
+    if (result != FACET_OK)
+        return result;
+    const plot_kind *kind = &kinds[desc->kind];
+    merl *files[FACET_PLOT_MAX_MATERIALS] = {NULL};
+    float angles[3];
+    for (uint32_t i = 0; i < kind->angle_count; i++)
+        angles[i] = kind->degrees[i] * (float)PLOT_DEGREE;
+    plot p = {.desc = desc,
+              .memory = memory,
+              .out = out,
+              .error = error,
+              .angle_count = desc->angle_count ? desc->angle_count : kind->angle_count,
+              .angles = desc->angle_count ? desc->angles_rad : angles,
+              .has_default_materials = desc->material_count == 0,
+              .has_default_angles = desc->angle_count == 0};
+    result = open_subjects(&p, kind, files);
+    if (result == FACET_OK)
+        result = kind->make(&p);
+    fit_metric_destroy(p.metric);
+    for (uint32_t i = 0; i < FACET_PLOT_MAX_MATERIALS; i++)
+        merl_close(files[i]);
+    return result;
 }

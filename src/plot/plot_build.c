@@ -1,0 +1,174 @@
+/* plot_build.c - panels, curves and text of a plot in the making. See plot_build.h. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "base/result.h"
+#include "plot/plot_build.h"
+
+/* ---- memory and text ---- */
+
+void *plot_alloc(plot *p, size_t count, size_t size)
+{
+    void *block = p->has_failed ? NULL : arena_zalloc(p->memory, count, size);
+    p->has_failed |= !block;
+    return block;
+}
+
+double *plot_numbers(plot *p, size_t count)
+{
+    return plot_alloc(p, count, sizeof(double));
+}
+
+const char *plot_text(plot *p, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    int length = vsnprintf(NULL, 0, format, list);
+    va_end(list);
+    char *text = length < 0 ? NULL : plot_alloc(p, (size_t)length + 1, 1);
+    if (!text)
+        return "";
+    va_start(list, format);
+    vsnprintf(text, (size_t)length + 1, format, list);
+    va_end(list);
+    return text;
+}
+
+/* ---- panels ---- */
+
+plot_panel *plot_add_panel(plot *p, chart_panel_kind kind, const char *title, const char *label_x,
+                           const char *label_y)
+{
+    if (!p->panels)
+        p->panels = plot_alloc(p, PLOT_MAX_PANELS, sizeof *p->panels);
+    if (p->has_failed || p->panel_count == PLOT_MAX_PANELS)
+        return NULL;
+    plot_panel *panel = &p->panels[p->panel_count++];
+    panel->panel = (chart_panel){
+        .kind = kind, .title = title, .x.label = label_x, .y.label = label_y, .has_legend = true, .note = ""};
+    return panel;
+}
+
+void plot_set_range(chart_axis *axis, double minimum, double maximum)
+{
+    axis->has_range = true;
+    axis->minimum = minimum;
+    axis->maximum = maximum;
+}
+
+static bool make_room(plot *p, plot_panel *panel)
+{
+    if (panel->panel.curve_count < panel->capacity)
+        return true;
+    size_t capacity = panel->capacity ? 2 * panel->capacity : 8;
+    chart_curve *curves = plot_alloc(p, capacity, sizeof *curves);
+    if (!curves)
+        return false;
+    for (size_t i = 0; i < panel->panel.curve_count; i++)
+        curves[i] = panel->curves[i];
+    panel->curves = curves;
+    panel->capacity = capacity;
+    return true;
+}
+
+void plot_add_line(plot *p, plot_panel *panel, const char *name, chart_style style, size_t count,
+                   const double *x, const double *y)
+{
+    if (panel && x && y && make_room(p, panel))
+        panel->curves[panel->panel.curve_count++] =
+            (chart_curve){.name = name, .count = count, .x = x, .y = y, .style = style};
+}
+
+double *plot_add_curve(plot *p, plot_panel *panel, const char *name, chart_style style, size_t count,
+                       const double *x)
+{
+    double *y = plot_numbers(p, count);
+    plot_add_line(p, panel, name, style, count, x, y);
+    return p->has_failed ? NULL : y;
+}
+
+chart_field *plot_add_field(plot *p, plot_panel *panel, uint32_t width, uint32_t height, chart_scale scale,
+                            const char *label, double **values)
+{
+    chart_field *field = plot_alloc(p, 1, sizeof *field);
+    *values = plot_numbers(p, (size_t)width * height);
+    if (!field || !*values || !panel)
+        return NULL;
+    *field = (chart_field){.width = width,
+                           .height = height,
+                           .values = *values,
+                           .x0 = -1.0,
+                           .x1 = 1.0,
+                           .y0 = -1.0,
+                           .y1 = 1.0,
+                           .label = label,
+                           .scale = scale};
+    panel->panel.field = field;
+    return field;
+}
+
+facet_result plot_finish(plot *p, const char *title, uint32_t columns, uint32_t width, uint32_t height)
+{
+    chart_panel *panels = plot_alloc(p, p->panel_count, sizeof *panels);
+    if (p->has_failed)
+        return fail_memory(p->error, "plot", 0);
+    for (uint32_t i = 0; i < p->panel_count; i++) {
+        panels[i] = p->panels[i].panel;
+        panels[i].curves = p->panels[i].curves;
+    }
+    const facet_plot_desc *desc = p->desc;
+    *p->out = (chart){.memory = p->memory,
+                      .title = desc->title ? arena_strdup(p->memory, desc->title) : title,
+                      .width = desc->width ? desc->width : width,
+                      .height = desc->height ? desc->height : height,
+                      .is_dark = desc->is_dark,
+                      .columns = columns,
+                      .panel_count = p->panel_count,
+                      .panels = panels};
+    return p->out->title ? FACET_OK : fail_memory(p->error, "plot", 0);
+}
+
+/* ---- styles ---- */
+
+chart_style plot_color(uint32_t number, int dash)
+{
+    return (chart_style){.color = (int)number, .dash = dash};
+}
+
+chart_style plot_channel(int channel, int dash)
+{
+    static const float rgb[4][3] = {
+        {0.84f, 0.15f, 0.16f}, {0.10f, 0.60f, 0.18f}, {0.12f, 0.35f, 0.85f}, {0.5f, 0.5f, 0.5f}};
+    chart_style style = {.color = -1, .dash = dash};
+    for (int c = 0; c < 3; c++)
+        style.rgb[c] = rgb[channel][c];
+    return style;
+}
+
+chart_style plot_faint(int dash)
+{
+    chart_style style = plot_channel(3, dash);
+    style.width = 1.0f;
+    return style;
+}
+
+chart_scale plot_scale(const plot *p)
+{
+    return p->desc->is_logarithmic ? CHART_LOG10 : CHART_LINEAR;
+}
+
+/* ---- numbers ---- */
+
+double *plot_steps(plot *p, size_t count, double first, double last)
+{
+    double *x = plot_numbers(p, count);
+    for (size_t i = 0; x && i < count; i++)
+        x[i] = first + (last - first) * (double)i / (double)(count - 1);
+    return x;
+}
+
+const char *plot_degrees(plot *p, double rad)
+{
+    return plot_text(p, "%.4g", round(rad / PLOT_DEGREE * 1e4) / 1e4);
+}

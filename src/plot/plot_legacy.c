@@ -1,0 +1,237 @@
+/* plot_legacy.c - PBR and OpenGL 1 over the angle of the light: Murdoch's vignette "Shininess in OpenGL 1 versus glTF
+ * PBR" as it stands, and what it lacked: the factor pi, the fit, the difference; and the same for any material and its
+ * conversion. Radiance under light of OpenGL 1 intensity 1: PBR times pi (legacy/fit.h). */
+#include <math.h>
+
+#include "plot/plot_build.h"
+#include "plot/plot_vignette.h"
+
+static const char *const channels[3] = {"red", "green", "blue"};
+
+/* ---- the vignette ---- */
+
+/* Its parameters: roughness 1, metallic 1, all white; rgl's defaults. */
+#define ROUGHNESS 1.0
+#define METALLIC 1.0
+#define SHININESS 50.0
+
+typedef struct experiment {
+    double theta;
+    double phi[VIGNETTE_POINTS], pbr[VIGNETTE_POINTS], pbr_pi[VIGNETTE_POINTS], ogl1[VIGNETTE_POINTS];
+    double fit[VIGNETTE_POINTS], difference[VIGNETTE_POINTS];
+    vignette_parameters fitted;
+} experiment;
+
+static const experiment *run_experiment(plot *p)
+{
+    experiment *e = plot_alloc(p, 1, sizeof *e);
+    if (!e)
+        return NULL;
+    e->theta = p->has_default_angles ? 30.0 * PLOT_DEGREE : (double)p->angles[0];
+    for (int i = 0; i < VIGNETTE_POINTS; i++) {
+        e->phi[i] = vignette_phi(i);
+        e->pbr[i] = vignette_pbr(e->theta, e->phi[i], ROUGHNESS, METALLIC, 1.0, p->desc->has_heaviside_ramp);
+        e->pbr_pi[i] = PLOT_PI * e->pbr[i];
+        e->ogl1[i] = vignette_ogl1(e->theta, e->phi[i], SHININESS, 1.0, 1.0);
+    }
+    e->fitted = vignette_fit(e->theta, e->pbr_pi);
+    for (int i = 0; i < VIGNETTE_POINTS; i++) {
+        e->fit[i] =
+            vignette_ogl1(e->theta, e->phi[i], e->fitted.shininess, e->fitted.diffuse, e->fitted.specular);
+        e->difference[i] = e->fit[i] - e->pbr_pi[i];
+    }
+    return e;
+}
+
+/* Three curves that coincide, blue on top, as the vignette draws them. */
+static void add_vignette_panel(plot *p, const experiment *e, const double *y, const char *label,
+                               const char *note)
+{
+    plot_panel *panel = plot_add_panel(p, CHART_XY, "", "phi", label);
+    for (int c = 0; c < 3; c++)
+        plot_add_line(p, panel, channels[c], plot_channel(c, 0), VIGNETTE_POINTS, e->phi, y);
+    if (panel)
+        panel->panel.note = note;
+}
+
+static void add_vignette_fit(plot *p, const experiment *e)
+{
+    plot_panel *panel =
+        plot_add_panel(p, CHART_XY, "OpenGL 1 fitted to the 33 points", "phi", "radiance, light of 1");
+    chart_style points = plot_color(1, 1);
+    points.has_markers = true;
+    plot_add_line(p, panel, "PBR times pi", plot_color(0, 0), VIGNETTE_POINTS, e->phi, e->pbr_pi);
+    plot_add_line(p, panel, "OpenGL 1, fitted", points, VIGNETTE_POINTS, e->phi, e->fit);
+    if (panel)
+        panel->panel.note =
+            plot_text(p, "relative RMS %.3f: shininess %.2f, diffuse %.3f, specular %.3f", e->fitted.error,
+                      e->fitted.shininess, e->fitted.diffuse, e->fitted.specular);
+}
+
+/* ---- sources and their conversions ---- */
+
+/* A material and what it becomes, for one view. */
+typedef struct pair {
+    size_t count;
+    const double *phi;
+    double (*source)[3], (*converted)[3];
+    bool is_colored;
+} pair;
+
+static pair make_pair(plot *p, const material *source, const material *converted, double view)
+{
+    pair r = {0};
+    r.phi = plot_light_angles(p, view, &r.count);
+    r.source = plot_slice(p, source, view, r.count, r.phi, true);
+    r.converted = plot_slice(p, converted, view, r.count, r.phi, true);
+    for (size_t i = 0; r.source && r.converted && i < r.count; i++)
+        for (int c = 0; c < 3; c++) {
+            r.is_colored = r.is_colored || fabs(r.source[i][c] - r.source[i][0]) > 1e-5;
+            r.source[i][c] *= PLOT_PI;
+            r.converted[i][c] *= PLOT_PI;
+        }
+    return r;
+}
+
+/* One curve, or one per channel where they differ, of the source, the conversion, or their difference. */
+static void add_pair_curves(plot *p, plot_panel *panel, const pair *r, int what, const char *name,
+                            uint32_t color, int dash)
+{
+    for (int c = 0; r->source && r->converted && c < (r->is_colored ? 3 : 1); c++) {
+        double *y =
+            plot_add_curve(p, panel, r->is_colored ? plot_text(p, "%s, %s", name, channels[c]) : name,
+                           r->is_colored ? plot_channel(c, dash) : plot_color(color, dash), r->count, r->phi);
+        for (size_t i = 0; y && i < r->count; i++) {
+            double source = r->source[i][c], converted = r->converted[i][c];
+            y[i] = what == 0 ? source : what == 1 ? converted : converted - source;
+        }
+    }
+}
+
+static const char *describe_error(plot *p, const plot_conversion *conversion)
+{
+    if (!conversion->has_error)
+        return plot_text(p, "RMS of log(1 + f cos) %.3f of the measured", conversion->rms);
+    return plot_text(p, "E %.3f, E_display %.3f", conversion->error.E, conversion->error.E_display);
+}
+
+static const char *scaled(const material *m)
+{
+    return m->parameters.model == FACET_PLOT_PBR ? "PBR times pi"
+           : m->measured                         ? "measured times pi"
+                                                 : "OpenGL 1";
+}
+
+static void add_pair(plot *p, const material *source, const plot_conversion *conversion, double view,
+                     const char *title)
+{
+    pair r = make_pair(p, source, &conversion->material, view);
+    plot_panel *panel = plot_add_panel(p, CHART_XY, title, "phi, rad", "radiance, light of 1");
+    add_pair_curves(p, panel, &r, 0, scaled(source), 0, 0);
+    add_pair_curves(p, panel, &r, 1, scaled(&conversion->material), 1, 1);
+    if (!panel)
+        return;
+    panel->panel.y.scale = plot_scale(p);
+    panel->panel.note = conversion->material.label;
+}
+
+/* The curves of all views less their sources', in one panel. */
+static plot_panel *add_differences(plot *p, const material *source, const plot_conversion *conversion,
+                                   const char *title)
+{
+    plot_panel *panel = plot_add_panel(p, CHART_XY, title, "phi, rad", "conversion less source");
+    for (uint32_t a = 0; a < p->angle_count; a++) {
+        double view = (double)p->angles[a];
+        pair r = make_pair(p, source, &conversion->material, view);
+        add_pair_curves(p, panel, &r, 2, plot_text(p, "eye at %s degrees", plot_degrees(p, view)), a,
+                        (int)(a % 4));
+    }
+    if (panel)
+        panel->panel.note = describe_error(p, conversion);
+    return panel;
+}
+
+/* ---- the two layouts ---- */
+
+static void add_polar(plot *p, const experiment *e, const material *source, const plot_conversion *conversion)
+{
+    pair r = make_pair(p, source, &conversion->material, e->theta);
+    plot_panel *panel =
+        plot_add_panel(p, CHART_POLAR, plot_text(p, "eye at %s degrees, polar", plot_degrees(p, e->theta)),
+                       "", "radiance, light of 1");
+    add_pair_curves(p, panel, &r, 0, "PBR times pi", 0, 0);
+    add_pair_curves(p, panel, &r, 1, "OpenGL 1, fitted", 1, 1);
+    double *ray = plot_numbers(p, 2), *radius = plot_numbers(p, 2);
+    if (!ray || !radius || !r.source)
+        return;
+    double highest = 0.0;
+    for (size_t i = 0; i < r.count; i++)
+        highest = fmax(highest, fmax(r.source[i][0], r.converted[i][0]));
+    ray[0] = ray[1] = e->theta;
+    radius[1] = ceil(highest * 20.0) / 20.0;
+    plot_set_range(&panel->panel.y, 0.0, radius[1]);
+    plot_add_line(p, panel, "", plot_faint(2), 2, ray, radius);
+    panel->panel.note = "angle: of the light; dotted: the eye";
+}
+
+static facet_result make_vignette(plot *p)
+{
+    const experiment *e = run_experiment(p);
+    if (!e)
+        return plot_finish(p, "", 1, 0, 0);
+    facet_plot_material white = material_default();
+    white.metallic = (float)METALLIC;
+    white.perceptual_roughness = (float)ROUGHNESS;
+    material source = {.parameters = white, .label = "the vignette's PBR", .has_separable_smith = true};
+    plot_conversion conversion;
+    facet_result result = plot_convert(p, &source, FACET_PLOT_OGL1, true, &conversion);
+    if (result != FACET_OK)
+        return result;
+
+    const char *eye = plot_degrees(p, e->theta);
+    add_vignette_panel(p, e, e->pbr, "PBR",
+                       plot_text(p, "theta %s degrees, roughness 1, metalness 1, white%s", eye,
+                                 p->desc->has_heaviside_ramp ? "; chi(x) = max(x, 0)" : ""));
+    add_vignette_panel(p, e, e->ogl1, "OGL1[, 1]",
+                       plot_text(p, "shininess 50, all white; without the fit \"hopeless\""));
+    add_vignette_fit(p, e);
+    for (uint32_t a = 0; a < p->angle_count; a++)
+        add_pair(p, &source, &conversion, (double)p->angles[a],
+                 plot_text(p, "fit over the hemisphere, eye at %s degrees",
+                           plot_degrees(p, (double)p->angles[a])));
+    plot_panel *differences = add_differences(p, &source, &conversion, "what is left");
+    plot_add_line(p, differences, "the 33 points' fit", plot_faint(1), VIGNETTE_POINTS, e->phi,
+                  e->difference);
+    add_polar(p, e, &source, &conversion);
+    plot_add_errors(p, &source.parameters, "white metals of other roughness", 10);
+    uint32_t rows = (p->panel_count + 2) / 3;
+    return plot_finish(p, "Shininess in OpenGL 1 versus glTF PBR", 3, 1500, 400 * rows + 60);
+}
+
+static facet_result make_conversions(plot *p)
+{
+    for (uint32_t k = 0; k < p->subject_count; k++) {
+        const material *source = &p->subjects[k].material;
+        facet_plot_model to = source->parameters.model == FACET_PLOT_OGL1 ? FACET_PLOT_PBR : FACET_PLOT_OGL1;
+        plot_conversion conversion;
+        facet_result result = plot_convert(p, source, to, p->desc->has_fit, &conversion);
+        if (result != FACET_OK)
+            return result;
+        for (uint32_t a = 0; a < p->angle_count; a++)
+            add_pair(
+                p, source, &conversion, (double)p->angles[a],
+                plot_text(p, "%s, eye at %s degrees", source->label, plot_degrees(p, (double)p->angles[a])));
+        plot_panel *panel = add_differences(p, source, &conversion, "what is left");
+        if (panel && source->parameters.model == FACET_PLOT_PBR && material_has_layers(&source->parameters))
+            panel->panel.note = plot_text(
+                p, "%s of the base; coat, sheen, film and grain have no counterpart", panel->panel.note);
+    }
+    uint32_t columns = p->angle_count + 1;
+    return plot_finish(p, "Materials and their conversions", columns, 440 * columns,
+                       380 * p->subject_count + 60);
+}
+
+facet_result plot_make_legacy(plot *p)
+{
+    return p->has_default_materials ? make_vignette(p) : make_conversions(p);
+}
