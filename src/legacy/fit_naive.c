@@ -1,7 +1,7 @@
 /* fit_naive.c - the conversions that most programs make: what the others are measured against. Each takes Blinn's
- * exponent and GGX of equal slope variance (Walter et al. 2007, section 5.2), s = 2 / alpha^2 - 2, and leaves all colors
- * where they are. */
+ * exponent and GGX of equal slope variance and leaves all colors where they are. */
 #include <math.h>
+#include <string.h>
 
 #include "legacy/fit.h"
 
@@ -25,7 +25,7 @@ uint32_t ogl1_to_pbr_naive(const ogl1_surface *in, pbr_surface *out)
         out->base_color[k] = clamp(in->diffuse[k], 0.0f, 1.0f);
         remarks |= in->diffuse[k] > 1.0f ? (uint32_t)FIT_BASE_CLAMPED : 0u;
     }
-    out->perceptual_roughness = powf(2.0f / (max(in->shininess, 0.0f) + 2.0f), 0.25f);
+    out->perceptual_roughness = sqrt(alpha_from_shininess(in->shininess));
     return remarks;
 }
 
@@ -34,7 +34,7 @@ uint32_t pbr_to_ogl1_naive(const pbr_surface *in, ogl1_surface *out)
     vec3 color = vec3(in->specular_color[0], in->specular_color[1], in->specular_color[2]);
     vec3 F0 = dielectric_F0(in->ior, in->specular, color);
     float alpha = max(alpha_from_roughness(in->perceptual_roughness), ALPHA_MIRROR);
-    float shininess = 2.0f / (alpha * alpha) - 2.0f;
+    float shininess = shininess_from_alpha(alpha);
     for (int k = 0; k < 3; k++) {
         out->diffuse[k] = in->base_color[k] * (1.0f - in->metallic);
         out->specular[k] = mix(F0[k], in->base_color[k], in->metallic);

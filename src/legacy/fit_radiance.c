@@ -8,10 +8,11 @@
 
 void ogl1_radiance(const ogl1_surface *s, const float V[3], const float L[3], float out[3])
 {
-    vec3 H = normalize(vec3(V[0], V[1], V[2]) + vec3(L[0], L[1], L[2]));
-    float highlight = powf(max(H[2], 0.0f), s->shininess);
+    vec3 radiance = phong_reflection(vec3(0.0f, 0.0f, 1.0f), vec3(V[0], V[1], V[2]), vec3(L[0], L[1], L[2]),
+                                     vec3(s->diffuse[0], s->diffuse[1], s->diffuse[2]),
+                                     vec3(s->specular[0], s->specular[1], s->specular[2]), s->shininess);
     for (int k = 0; k < 3; k++)
-        out[k] = max(L[2], 0.0f) * s->diffuse[k] + highlight * s->specular[k];
+        out[k] = radiance[k];
 }
 
 /* The renderer's own function; separable masking by the ratio of the two visibilities. */
