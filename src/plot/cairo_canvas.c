@@ -1,0 +1,283 @@
+/* cairo_canvas.c - see cairo_canvas.h. */
+#include "plot/cairo_canvas.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "base/text.h"
+#include "image/image.h"
+#include "plot/cairo_library.h"
+#include "plot/cairo_svg.h"
+
+struct canvas {
+    cairo_library cairo;
+    canvas_desc desc;
+    cairo_surface_t *surface;
+    cairo_t *context;
+    uint32_t *pixels; /* PNG */
+    text file;        /* SVG, PDF: what cairo has written */
+    bool has_failed;  /* out of memory in a function that cannot say so */
+};
+
+/* Points are 1/72 inch, pixels 1/96. */
+static const double POINTS_PER_PIXEL = 0.75;
+
+static cairo_status_t write_bytes(void *user, const unsigned char *bytes, unsigned size)
+{
+    text *file = user;
+    text_add_bytes(file, bytes, size);
+    return file->has_failed ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
+}
+
+/* The surface of the format; false: no memory for it. */
+static bool create_surface(canvas *c)
+{
+    const double width = c->desc.width, height = c->desc.height;
+    switch (c->desc.format) {
+    case FACET_PLOT_SVG:
+        c->surface = c->cairo.svg_surface_create_for_stream(write_bytes, &c->file, width, height);
+        c->cairo.svg_surface_set_document_unit(c->surface, CAIRO_SVG_UNIT_PX);
+        return true;
+    case FACET_PLOT_PDF:
+        c->surface = c->cairo.pdf_surface_create_for_stream(write_bytes, &c->file, width * POINTS_PER_PIXEL,
+                                                            height * POINTS_PER_PIXEL);
+        /* the time of writing would make each file another one */
+        c->cairo.pdf_surface_set_metadata(c->surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
+        c->cairo.pdf_surface_set_metadata(c->surface, CAIRO_PDF_METADATA_CREATOR, "facet");
+        if (c->desc.title && *c->desc.title)
+            c->cairo.pdf_surface_set_metadata(c->surface, CAIRO_PDF_METADATA_TITLE, c->desc.title);
+        return true;
+    default:
+        c->pixels = mem_zalloc(&c->desc.allocator, (size_t)c->desc.width * c->desc.height, 4);
+        if (c->pixels)
+            c->surface = c->cairo.image_surface_create_for_data(
+                (unsigned char *)c->pixels, CAIRO_FORMAT_ARGB32, (int)c->desc.width, (int)c->desc.height,
+                (int)(4 * c->desc.width));
+        return c->pixels != NULL;
+    }
+}
+
+/* Text that is the same at every size and in every format, whatever the desktop is set to. */
+static void set_font(canvas *c)
+{
+    cairo_font_options_t *options = c->cairo.font_options_create();
+    c->cairo.font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    c->cairo.font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    c->cairo.font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    c->cairo.set_font_options(c->context, options);
+    c->cairo.font_options_destroy(options);
+}
+
+facet_result canvas_create(const canvas_desc *desc, canvas **out, facet_error *error)
+{
+    *out = NULL;
+    if (desc->width < 1 || desc->height < 1 || desc->width > CANVAS_MAX_SIZE ||
+        desc->height > CANVAS_MAX_SIZE)
+        return fail(error, FACET_ERROR_ARGUMENT, "plot: %u x %u pixels; 1 to %d were expected each way",
+                    desc->width, desc->height, CANVAS_MAX_SIZE);
+    canvas *c = mem_zalloc(&desc->allocator, 1, sizeof *c);
+    if (!c)
+        return fail_memory(error, "canvas", sizeof *c);
+    c->desc = *desc;
+    c->file.allocator = desc->allocator;
+    facet_result result =
+        cairo_library_open(desc->library ? desc->library : FACET_CAIRO_SONAME, &c->cairo, error);
+    if (result != FACET_OK) {
+        mem_free(c);
+        return result;
+    }
+    if (!create_surface(c)) {
+        canvas_destroy(c);
+        return fail_memory(error, "pixels of a plot", (size_t)desc->width * desc->height * 4);
+    }
+    c->context = c->cairo.create(c->surface); /* never NULL; errors stay in it until the end */
+    if (desc->format == FACET_PLOT_PDF)
+        c->cairo.scale(c->context, POINTS_PER_PIXEL, POINTS_PER_PIXEL);
+    c->cairo.set_line_join(c->context, CAIRO_LINE_JOIN_ROUND);
+    set_font(c);
+    *out = c;
+    return FACET_OK;
+}
+
+void canvas_destroy(canvas *c)
+{
+    if (!c)
+        return;
+    if (c->context)
+        c->cairo.destroy(c->context);
+    if (c->surface)
+        c->cairo.surface_destroy(c->surface);
+    mem_free(c->pixels);
+    text_destroy(&c->file);
+    cairo_library_close(&c->cairo);
+    mem_free(c);
+}
+
+/* cairo's premultiplied 0xAARRGGBB, opaque everywhere, as PNG. */
+static facet_result encode_png(canvas *c, unsigned char **bytes, size_t *size, facet_error *error)
+{
+    image picture;
+    facet_result result =
+        image_create(&c->desc.allocator, c->desc.width, c->desc.height, 3, IMAGE_U8, &picture, error);
+    if (result != FACET_OK)
+        return result;
+    picture.is_srgb = true;
+    const size_t count = (size_t)c->desc.width * c->desc.height;
+    unsigned char *out = picture.pixels;
+    for (size_t i = 0; i < count; i++, out += 3) {
+        out[0] = (unsigned char)(c->pixels[i] >> 16);
+        out[1] = (unsigned char)(c->pixels[i] >> 8);
+        out[2] = (unsigned char)c->pixels[i];
+    }
+    result = image_encode(&picture, IMAGE_CODEC_PNG,
+                          &(image_encode_desc){.allocator = c->desc.allocator, .compression = 9}, bytes, size,
+                          error);
+    image_destroy(&picture);
+    return result;
+}
+
+static facet_result take_file(canvas *c, unsigned char **bytes, size_t *size, facet_error *error)
+{
+    if (c->desc.format == FACET_PLOT_SVG && !cairo_svg_tidy(&c->file, c->desc.title))
+        return fail_memory(error, "SVG", c->file.length);
+    *bytes = (unsigned char *)c->file.data;
+    *size = c->file.length;
+    c->file = (text){.allocator = c->desc.allocator};
+    return FACET_OK;
+}
+
+facet_result canvas_finish(canvas *c, unsigned char **bytes, size_t *size, facet_error *error)
+{
+    *bytes = NULL;
+    *size = 0;
+    cairo_status_t status = c->cairo.status(c->context);
+    if (status == CAIRO_STATUS_SUCCESS && c->pixels)
+        c->cairo.surface_flush(c->surface);
+    else
+        c->cairo.surface_finish(c->surface);
+    if (status == CAIRO_STATUS_SUCCESS)
+        status = c->cairo.surface_status(c->surface);
+    if (c->has_failed || c->file.has_failed || status == CAIRO_STATUS_NO_MEMORY)
+        return fail_memory(error, "plot", c->file.length);
+    if (status != CAIRO_STATUS_SUCCESS)
+        return fail(error, FACET_ERROR_ENVIRONMENT, "plot: cairo: %s", c->cairo.status_to_string(status));
+    return c->pixels ? encode_png(c, bytes, size, error) : take_file(c, bytes, size, error);
+}
+
+bool canvas_is_raster(const canvas *c)
+{
+    return c->pixels != NULL;
+}
+
+void canvas_save(canvas *c)
+{
+    c->cairo.save(c->context);
+}
+
+void canvas_restore(canvas *c)
+{
+    c->cairo.restore(c->context);
+}
+
+void canvas_move_to(canvas *c, double x, double y)
+{
+    c->cairo.move_to(c->context, x, y);
+}
+
+void canvas_line_to(canvas *c, double x, double y)
+{
+    c->cairo.line_to(c->context, x, y);
+}
+
+void canvas_rectangle(canvas *c, double x, double y, double width, double height)
+{
+    c->cairo.rectangle(c->context, x, y, width, height);
+}
+
+void canvas_arc(canvas *c, double x, double y, double radius, double from_rad, double to_rad)
+{
+    c->cairo.arc(c->context, x, y, radius, from_rad, to_rad);
+}
+
+void canvas_close(canvas *c)
+{
+    c->cairo.close_path(c->context);
+}
+
+void canvas_clip(canvas *c)
+{
+    c->cairo.clip(c->context);
+}
+
+static void set_color(canvas *c, canvas_color color)
+{
+    c->cairo.set_source_rgba(c->context, color.r, color.g, color.b, color.a);
+}
+
+void canvas_fill(canvas *c, canvas_color color)
+{
+    set_color(c, color);
+    c->cairo.fill(c->context);
+}
+
+void canvas_draw(canvas *c, const canvas_stroke *stroke)
+{
+    set_color(c, stroke->color);
+    c->cairo.set_line_width(c->context, stroke->width);
+    c->cairo.set_line_cap(c->context, stroke->is_butt ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
+    c->cairo.set_dash(c->context, stroke->dash, stroke->dash_count, stroke->dash_offset);
+    c->cairo.stroke(c->context);
+}
+
+static void select_font(canvas *c, canvas_font font)
+{
+    /* where this family is missing, fontconfig takes its sans-serif */
+    c->cairo.select_font_face(c->context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                              font.is_bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    c->cairo.set_font_size(c->context, font.size);
+}
+
+double canvas_text_width(canvas *c, canvas_font font, const char *string)
+{
+    cairo_text_extents_t extents = {0};
+    select_font(c, font);
+    c->cairo.text_extents(c->context, string, &extents);
+    return extents.x_advance;
+}
+
+void canvas_text(canvas *c, double x, double y, double angle_rad, canvas_font font, canvas_color color,
+                 const char *string)
+{
+    c->cairo.save(c->context);
+    c->cairo.translate(c->context, x, y);
+    if (angle_rad != 0.0)
+        c->cairo.rotate(c->context, angle_rad);
+    select_font(c, font);
+    set_color(c, color);
+    c->cairo.move_to(c->context, 0.0, 0.0);
+    c->cairo.show_text(c->context, string);
+    c->cairo.new_path(c->context);
+    c->cairo.restore(c->context);
+}
+
+void canvas_image(canvas *c, double x, double y, double width, double height, uint32_t *pixels,
+                  uint32_t pixel_width, uint32_t pixel_height)
+{
+    cairo_surface_t *picture =
+        c->cairo.image_surface_create_for_data((unsigned char *)pixels, CAIRO_FORMAT_ARGB32, (int)pixel_width,
+                                               (int)pixel_height, (int)(4 * pixel_width));
+    c->cairo.save(c->context);
+    c->cairo.translate(c->context, x, y);
+    c->cairo.scale(c->context, width / pixel_width, height / pixel_height);
+    c->cairo.set_source_surface(c->context, picture, 0.0, 0.0);
+    /* for PNG pixels fall on pixels */
+    c->cairo.pattern_set_filter(c->cairo.get_source(c->context),
+                                c->pixels ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
+    c->cairo.paint(c->context);
+    c->cairo.restore(c->context);
+    c->has_failed = c->has_failed || c->cairo.surface_status(picture) == CAIRO_STATUS_NO_MEMORY;
+    c->cairo.surface_finish(picture); /* pixels are the caller's: a copy is taken where they are kept */
+    c->cairo.surface_destroy(picture);
+}

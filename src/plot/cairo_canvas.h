@@ -1,0 +1,73 @@
+/* cairo_canvas.h - what a chart is drawn on: paths, text and pictures in pixels, y down, kept as SVG, PDF or PNG. The
+ * only place that knows of cairo.
+ *
+ * What cannot be drawn is remembered and reported by canvas_finish(). Coordinates beyond 1e6 px overflow in cairo:
+ * clip before. */
+#ifndef PLOT_CAIRO_CANVAS_H
+#define PLOT_CAIRO_CANVAS_H
+
+#include "base/memory.h"
+#include "facet/facet.h"
+
+typedef struct canvas canvas;
+
+typedef struct canvas_color {
+    double r, g, b, a; /* sRGB, straight, [0, 1] */
+} canvas_color;
+
+typedef struct canvas_stroke {
+    canvas_color color;
+    double width;
+    double dash[4]; /* on, off, on, off */
+    int dash_count; /* 0: solid */
+    double dash_offset;
+    bool is_butt; /* ends are cut at the last point; else round */
+} canvas_stroke;
+
+typedef struct canvas_font {
+    double size; /* px */
+    bool is_bold;
+} canvas_font;
+
+typedef struct canvas_desc {
+    facet_allocator allocator;
+    facet_plot_format format; /* not CSV */
+    uint32_t width, height;   /* px, at most CANVAS_MAX_SIZE */
+    const char *title;        /* in the file's properties; UTF-8 */
+    const char *library;      /* NULL: libcairo as it was when facet was built; tests name another */
+} canvas_desc;
+
+enum { CANVAS_MAX_SIZE = 16384 };
+
+/* FACET_ERROR_ENVIRONMENT, FACET_ERROR_UNSUPPORTED: there is no cairo; FACET_ERROR_MEMORY. */
+facet_result canvas_create(const canvas_desc *desc, canvas **out, facet_error *error);
+void canvas_destroy(canvas *c); /* NULL is allowed */
+/* The file: a block of mem_alloc() and its used size. Nothing can be drawn after it. */
+facet_result canvas_finish(canvas *c, unsigned char **bytes, size_t *size, facet_error *error);
+
+bool canvas_is_raster(const canvas *c); /* pixels of the canvas are those of the file */
+
+/* A path, then one of fill, stroke, clip, which end it. Clips hold until the matching canvas_restore(). */
+void canvas_save(canvas *c);
+void canvas_restore(canvas *c);
+void canvas_move_to(canvas *c, double x, double y);
+void canvas_line_to(canvas *c, double x, double y);
+void canvas_rectangle(canvas *c, double x, double y, double width, double height);
+/* Around (x, y), from angle to angle in rad, clockwise from the right, as y points down. */
+void canvas_arc(canvas *c, double x, double y, double radius, double from_rad, double to_rad);
+void canvas_close(canvas *c);
+void canvas_clip(canvas *c);
+void canvas_fill(canvas *c, canvas_color color);
+void canvas_draw(canvas *c, const canvas_stroke *stroke);
+
+/* text is valid UTF-8 without control characters (chart_text.h makes such). From (x, y) along the base line, turned
+ * by angle_rad, clockwise. */
+double canvas_text_width(canvas *c, canvas_font font, const char *text);
+void canvas_text(canvas *c, double x, double y, double angle_rad, canvas_font font, canvas_color color,
+                 const char *text);
+
+/* A picture over a rectangle; pixels: width * height of premultiplied 0xAARRGGBB. */
+void canvas_image(canvas *c, double x, double y, double width, double height, uint32_t *pixels,
+                  uint32_t pixel_width, uint32_t pixel_height);
+
+#endif
