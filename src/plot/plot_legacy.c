@@ -84,12 +84,14 @@ static pair make_pair(plot *p, const material *source, const material *converted
     r.phi = plot_light_angles(p, view, &r.count);
     r.source = plot_slice(p, source, view, r.count, r.phi, true);
     r.converted = plot_slice(p, converted, view, r.count, r.phi, true);
-    for (size_t i = 0; r.source && r.converted && i < r.count; i++)
+    for (size_t i = 0; r.source && r.converted && i < r.count; i++) {
+        const double *f = r.source[i];
+        r.is_colored = r.is_colored || fabs(f[1] - f[0]) + fabs(f[2] - f[0]) > 1e-5;
         for (int c = 0; c < 3; c++) {
-            r.is_colored = r.is_colored || fabs(r.source[i][c] - r.source[i][0]) > 1e-5;
             r.source[i][c] *= PLOT_PI;
             r.converted[i][c] *= PLOT_PI;
         }
+    }
     return r;
 }
 
