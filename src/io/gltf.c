@@ -9,10 +9,7 @@
 
 /* ---- JSON ---- */
 
-/* jansson takes its memory from malloc. So that the caller's allocator decides about that memory too, a block as
- * large as the parsed document is taken from it while the document lives; untouched, it costs address space only.
- * Bytes per kind of token measured with jansson 2.14 on x86-64, rounded up. */
-static size_t estimate_json_memory(const char *text, size_t size)
+size_t json_memory_estimate(const char *text, size_t size)
 {
     size_t memory = size;
     for (size_t i = 0; i < size; i++)
@@ -104,7 +101,7 @@ static void read_document(reader *r)
     void (*const concerns[])(reader *, const json_place *) = {
         read_buffers,  read_views,  read_accessors,  read_images,       read_textures, read_materials,
         read_variants, read_meshes, read_lights,     read_image_lights, read_cameras,  read_nodes,
-        read_scenes,   read_skins,  read_animations, read_meta,
+        read_scenes,   read_skins,  read_animations, read_meta,         read_legacy_extras,
     };
     for (size_t i = 0; i < sizeof concerns / sizeof *concerns && reader_is_ok(r); i++)
         concerns[i](r, &root);
@@ -131,7 +128,7 @@ static void read_bytes(reader *r, const unsigned char *bytes, size_t size)
                     "is neither a .glb file nor the JSON of a .gltf file");
         return;
     }
-    size_t estimate = estimate_json_memory(json, json_size);
+    size_t estimate = json_memory_estimate(json, json_size);
     void *reserve = mem_alloc(r->allocator, estimate, 1);
     if (!reserve) {
         reader_fail_memory(r, "JSON", estimate);

@@ -172,7 +172,7 @@ static scene_alpha_mode get_alpha_mode(reader *r, const json_place *at)
     return SCENE_ALPHA_OPAQUE;
 }
 
-static void read_material(reader *r, const json_place *at, scene_material *m)
+void read_material(reader *r, const json_place *at, scene_material *m)
 {
     *m = scene_material_default();
     m->name = get_name(r, at);

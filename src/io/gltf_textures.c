@@ -150,7 +150,7 @@ static scene_wrap get_wrap(reader *r, const json_place *sampler, const char *key
     return SCENE_WRAP_REPEAT;
 }
 
-static void read_sampler(reader *r, const json_place *sampler, scene_texture *out)
+void read_texture_sampler(reader *r, const json_place *sampler, scene_texture *out)
 {
     out->wrap_u = get_wrap(r, sampler, "wrapS");
     out->wrap_v = get_wrap(r, sampler, "wrapT");
@@ -214,7 +214,7 @@ static void read_texture(reader *r, const json_place *root, const json_place *at
     json_place none = {0};
     uint32_t sampler = get_index(r, at, "sampler", (uint32_t)get_count(&samplers), "sampler");
     json_place element = sampler == SCENE_NONE ? none : get_element_object(r, &samplers, sampler);
-    read_sampler(r, &element, out);
+    read_texture_sampler(r, &element, out);
     find_source(r, at, out);
 }
 

@@ -23,10 +23,23 @@ static bool is_of_kind(const scene_material *m, uint32_t extension, const char *
     return true;
 }
 
+/* In place of the texture's number: its image by the name of the file, its sampler and its name. */
+static void put_named_texture(writer *w, json_t *info, uint32_t texture)
+{
+    const scene_texture *t = &w->scene->textures[texture];
+    const char *file = t->image == SCENE_NONE ? NULL : w->image_names[t->image];
+    put(w, info, "image", file ? json_string(file) : json_null());
+    put(w, info, "sampler", new_sampler(w, t));
+    put_name(w, info, t->name);
+}
+
 static json_t *new_texture_info(writer *w, const scene_texture_ref *ref)
 {
     json_t *info = json_object();
-    put_index(w, info, "index", ref->texture);
+    if (w->image_names)
+        put_named_texture(w, info, ref->texture);
+    else
+        put_index(w, info, "index", ref->texture);
     if (ref->texcoord)
         put(w, info, "texCoord", json_integer(ref->texcoord));
     const float one[2] = {1, 1};
@@ -80,7 +93,7 @@ static void write_parameters(writer *w, json_t *out, const scene_material *m)
     }
 }
 
-static void write_material(writer *w, const scene_material *m)
+json_t *new_material(writer *w, const scene_material *m)
 {
     static const char *const alpha_modes[] = {"OPAQUE", "MASK", "BLEND"};
     json_t *out = json_object();
@@ -97,11 +110,11 @@ static void write_material(writer *w, const scene_material *m)
     if (m->is_double_sided)
         put(w, out, "doubleSided", json_true());
     put_meta(w, out, &m->meta);
-    append(w, put_array(w, w->root, "materials"), out);
+    return out;
 }
 
 void write_materials(writer *w)
 {
     for (uint32_t i = 0; i < w->scene->material_count; i++)
-        write_material(w, &w->scene->materials[i]);
+        append(w, put_array(w, w->root, "materials"), new_material(w, &w->scene->materials[i]));
 }

@@ -80,14 +80,20 @@ static int min_filter_number(const scene_texture *t)
     return is_nearest ? 9986 : 9987;
 }
 
-static uint32_t write_sampler(writer *w, const scene_texture *t)
+json_t *new_sampler(writer *w, const scene_texture *t)
 {
     json_t *sampler = json_object();
-    json_t *samplers = put_array(w, w->root, "samplers");
     put(w, sampler, "magFilter", json_integer(t->mag_filter == SCENE_FILTER_NEAREST ? 9728 : 9729));
     put(w, sampler, "minFilter", json_integer(min_filter_number(t)));
     put(w, sampler, "wrapS", json_integer(wrap_number(t->wrap_u)));
     put(w, sampler, "wrapT", json_integer(wrap_number(t->wrap_v)));
+    return sampler;
+}
+
+static uint32_t write_sampler(writer *w, const scene_texture *t)
+{
+    json_t *sampler = new_sampler(w, t);
+    json_t *samplers = put_array(w, w->root, "samplers");
     for (size_t i = 0; i < json_array_size(samplers); i++)
         if (json_equal(json_array_get(samplers, i), sampler)) {
             json_decref(sampler);

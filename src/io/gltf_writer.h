@@ -25,6 +25,7 @@ typedef struct writer {
     const char *generator;
     const facet_allocator *allocator;
     const facet_log *log;
+    const facet_scene *inputs; /* whose files are not to be replaced; NULL: any may be */
     facet_error *error;
     facet_result result; /* FACET_OK, or the first error */
     uint32_t thread_count;
@@ -38,6 +39,8 @@ typedef struct writer {
     written_array *written; /* hash table, capacity a power of two */
     size_t written_count, written_capacity;
 
+    const char *const
+        *image_names; /* textures are told by the names of their images' files; NULL: by number */
     const char *stem; /* images become files STEM_image0.png ..; NULL: they go into the binary chunk */
     struct written_file *files;
     size_t file_count, file_capacity;
@@ -100,8 +103,10 @@ uint32_t write_view(writer *w, const void *bytes, size_t size, int target);
 /* gltf_write_textures.c */
 void write_images(writer *w);
 void write_textures(writer *w);
+json_t *new_sampler(writer *w, const scene_texture *texture); /* NULL: no memory */
 /* gltf_write_materials.c */
 void write_materials(writer *w);
+json_t *new_material(writer *w, const scene_material *material); /* NULL: no memory */
 /* gltf_write_meshes.c */
 void write_meshes(writer *w);
 /* gltf_write_nodes.c: cameras, lights, nodes, scenes. */
