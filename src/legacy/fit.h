@@ -37,10 +37,10 @@ facet_result fit_metric_create(const facet_allocator *allocator, pbr_masking mas
 void fit_metric_destroy(fit_metric *metric); /* NULL is allowed */
 
 typedef struct fit_error {
-    double E;         /* relative to the source's RMS */
-    double E_display; /* the same with both clamped to [0, 1] */
+    double E;         /* relative to the source's RMS; to 1e-4 */
+    double E_display; /* the same with both clamped to [0, 1]; to 1e-3 */
     double views[3];  /* E of 0, 30, 60 degrees alone */
-} fit_error;
+} fit_error;          /* finite: a source darker than a thousandth of white counts as that */
 
 /* Which of the two is the source: errors are relative to it. */
 typedef enum fit_source { FIT_FROM_OGL1, FIT_FROM_PBR } fit_source;
