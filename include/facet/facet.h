@@ -204,6 +204,10 @@ FACET_API facet_result facet_scene_create_builtin(const facet_scene_desc *desc, 
                                                   facet_error *error);
 FACET_API void facet_scene_destroy(facet_scene *scene); /* NULL is allowed */
 
+/* Whether path is one of the files that the scene was read from, under whatever name: writing there would replace an
+ * input. */
+FACET_API bool facet_scene_has_file(const facet_scene *scene, const char *path);
+
 /* How many of each there are. */
 typedef struct facet_scene_counts {
     uint32_t scenes, nodes, meshes, primitives, materials, textures, images, cameras, lights, skins,
@@ -306,7 +310,8 @@ FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose
 typedef struct facet_scene_save_desc {
     facet_allocator allocator;
     facet_log log;
-    uint32_t thread_count;      /* 0: facet_thread_count() */
+    uint32_t thread_count; /* 0: facet_thread_count() */
+    bool keeps_inputs;     /* fails with _ARGUMENT rather than replace a file that the scene was read from */
     bool has_flipped_texcoords; /* OBJ: v stays as in glTF, pointing down (the format says up) */
     bool without_mtl_pbr;       /* MTL: only what Wavefront defined, no Pr, Pm, .. and no glTF comment */
     float mtl_shininess_scale;  /* MTL: Ns is shininess times this; 0: 1 */
@@ -429,20 +434,25 @@ typedef enum facet_shading {
     FACET_SHADING_OGL1 /* as OpenGL 1 did: the scene's legacy materials under its lights, without an environment */
 } facet_shading;
 
-/* Variants of FACET_SHADING_OGL1; docs/legacy.md. */
+/* Variants of FACET_SHADING_OGL1; docs/shading-model.md, "OpenGL 1". */
 typedef enum facet_ogl1_variant {
     FACET_OGL1_VIGNETTE, /* per pixel, normals turned towards the eye, highlights without a gate */
     FACET_OGL1_WEBGL, /* rgl's present WebGL shader: normals turned where they point away from the view plane */
-    FACET_OGL1_FIXED /* fixed-function OpenGL 1: light at the vertices, infinite viewer, highlight only where light
-                            falls, global ambient light of 0.2 */
+    FACET_OGL1_FIXED, /* fixed-function OpenGL 1: light at the vertices, on the side that the normals show, infinite
+                            viewer, highlight only where light falls, global ambient light of 0.2 */
+    FACET_OGL1_RGL_DESKTOP /* the same as rgl's windows set it up: both sides, local viewer, no global ambient light */
 } facet_ogl1_variant;
 
 /* {0}: vignette, as the display's numbers. */
 typedef struct facet_ogl1_desc {
     facet_ogl1_variant variant;
     bool
-        is_linear; /* light is computed with linear light; false: with the display's encoded numbers, as then */
+        is_linear; /* light is computed and surfaces are blended as linear light, without clamping; false: with the
+                       display's encoded numbers, as then */
     bool ignores_fog;
+    bool
+        translates_directions; /* FACET_OGL1_VIGNETTE: directional lights of the world are transformed as the vignette
+                                   prints it, with w = 1, which adds the camera's position; false: as is meant */
 } facet_ogl1_desc;
 
 typedef enum facet_background {
@@ -475,7 +485,7 @@ typedef struct facet_render_desc {
     facet_environment *environment; /* NULL: none, black */
     float environment_rotation_rad; /* around +Y, positive turns the light from +Z towards +X */
     float environment_ev;           /* stops; the environment is scaled by 2^environment_ev */
-    bool ignore_scene_lights;       /* true: no KHR_lights_punctual */
+    bool ignore_scene_lights;       /* true: no KHR_lights_punctual, nor lights of legacy materials' files */
     facet_background background;
     float background_color[3]; /* linear Rec.709, [0, 1] */
     float background_blur;     /* perceptual roughness of the environment seen as background, [0, 1] */
@@ -483,8 +493,8 @@ typedef struct facet_render_desc {
     uint32_t samples; /* visibility samples per pixel; 0: as quality has it (draft 1, normal 4, final 16) */
     facet_energy energy;
     facet_shading
-        shading; /* FACET_SHADING_OGL1: FACET_ERROR_ARGUMENT without legacy materials; its picture is made for
-                              FACET_TONEMAP_NONE */
+        shading; /* FACET_SHADING_OGL1: FACET_ERROR_ARGUMENT without legacy materials, and for the environment as
+                    background; its picture is made for FACET_TONEMAP_NONE */
     facet_ogl1_desc ogl1;
     bool
         specular_antialiasing; /* widen highlights by how much normals turn within a pixel (Kaplanyan and Tokuyoshi
@@ -568,6 +578,8 @@ FACET_API facet_result facet_image_save(const facet_image *image, const char *pa
 FACET_API facet_result facet_image_encode(const facet_image *image, const facet_save_desc *desc,
                                           unsigned char **bytes, size_t *size, facet_error *error);
 FACET_API void facet_bytes_destroy(unsigned char *bytes);
+/* Writes bytes to path as facet_image_save() does: the whole file or nothing. */
+FACET_API facet_result facet_bytes_save(const void *bytes, size_t size, const char *path, facet_error *error);
 
 /* ---- plots ---- */
 

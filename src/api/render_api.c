@@ -49,6 +49,9 @@ static facet_result resolve(const facet_render_desc *desc, facet_render_desc *ou
     if (out->samples > MAX_SAMPLES)
         return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %d", out->samples,
                     MAX_SAMPLES);
+    if ((unsigned)out->shading > FACET_SHADING_OGL1 || (unsigned)out->ogl1.variant > FACET_OGL1_RGL_DESKTOP)
+        return fail(error, FACET_ERROR_ARGUMENT, "shading: %d, variant %d; there is no such",
+                    (int)out->shading, (int)out->ogl1.variant);
     if (!isfinite(out->exposure_ev) || !isfinite(out->environment_ev) ||
         !isfinite(out->environment_rotation_rad))
         return fail(error, FACET_ERROR_ARGUMENT, "exposure, light: a value is not a finite number");
@@ -73,6 +76,16 @@ static facet_result fit_camera(prepared_scene *prepared, const facet_render_desc
                           desc->thread_count, camera, error);
 }
 
+/* Puts the background behind the picture: as light, or, where the model was drawn with the display's numbers, as such. */
+static void develop(const facet_render_desc *desc, film *picture)
+{
+    const float *behind = desc->background == FACET_BACKGROUND_COLOR ? desc->background_color : NULL;
+    bool is_encoded = desc->shading == FACET_SHADING_OGL1 && !desc->ogl1.is_linear;
+    film_develop(picture, desc->tonemap, is_encoded ? NULL : behind, desc->thread_count);
+    if (is_encoded && behind)
+        film_blend_encoded(picture, behind, desc->thread_count);
+}
+
 static facet_result render(prepared_scene *prepared, const facet_render_desc *resolved, facet_image *image,
                            facet_error *error)
 {
@@ -89,9 +102,7 @@ static facet_result render(prepared_scene *prepared, const facet_render_desc *re
     if (result == FACET_OK)
         result = preview_render_prepared(prepared, &desc, &image->film, &image->stats, error);
     if (result == FACET_OK)
-        film_develop(&image->film, desc.tonemap,
-                     desc.background == FACET_BACKGROUND_COLOR ? desc.background_color : NULL,
-                     desc.thread_count);
+        develop(&desc, &image->film);
     return result;
 }
 

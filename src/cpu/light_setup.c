@@ -139,9 +139,10 @@ facet_result light_setup_create(const render_geometry_set *set, const scene_pose
             return result;
         }
     }
+    if (!desc->environment || desc->shading == FACET_SHADING_OGL1)
+        return FACET_OK;
     ibl_light_desc needs = light_needs(set, camera, desc);
-    if (!desc->environment ||
-        !(needs.needs_irradiance || needs.needs_specular || needs.needs_sheen || needs.needs_background))
+    if (!(needs.needs_irradiance || needs.needs_specular || needs.needs_sheen || needs.needs_background))
         return FACET_OK;
     facet_result result = ibl_light_prepare(desc->environment, &needs, &out->ibl, error);
     if (result != FACET_OK) {

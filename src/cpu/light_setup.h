@@ -18,7 +18,8 @@ typedef struct light_setup {
     light_grid grid; /* which of them reach a point */
 } light_setup;
 
-/* Prepares what the materials of the drawn geometries and the background read. Fails as ibl_light_prepare(). */
+/* Prepares what the materials of the drawn geometries and the background read; with FACET_SHADING_OGL1 the punctual
+ * lights only. Fails as ibl_light_prepare(). */
 facet_result light_setup_create(const render_geometry_set *set, const scene_pose *pose,
                                 const camera_rays *camera, const facet_render_desc *desc, light_setup *out,
                                 facet_error *error);

@@ -115,6 +115,8 @@ facet_result material_plans_create(const render_geometry_set *set, const facet_a
     for (uint32_t i = 0; i < set->count; i++) {
         const render_geometry *g = &set->items[i];
         material_plan *plan = &out->items[i];
+        if (g->legacy)
+            continue;
         plan->textures = material_plan_textures(g);
         if (!g->tangents)
             plan->textures &= ~BIT(SCENE_NORMAL_TEXTURE);

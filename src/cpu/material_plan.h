@@ -11,7 +11,9 @@ typedef struct material_plan {
     uint32_t layers;   /* LAYER_* of shade/layers.h that some of its points may have; 0: a plain surface */
     bool lets_rays_through; /* LAYER_TRANSMISSION */
     bool reads_changes;     /* over the footprint: of textures, or of what rays refract by */
-    bool is_volume; /* the boundary of a body that rays go through, not a thin wall: both sides are seen */
+    uint32_t
+        legacy_maps; /* bits of legacy_map_slot: what a shade of a legacy material looks up; ogl1_setup.h */
+    bool is_volume;  /* the boundary of a body that rays go through, not a thin wall: both sides are seen */
 } material_plan;
 
 typedef struct material_plan_set {
@@ -24,7 +26,7 @@ typedef struct material_plan_set {
 uint32_t material_plan_textures(const render_geometry *g);
 /* LAYER_* that points of a lit geometry of that material may have. */
 uint32_t material_plan_layers(const scene_material *m);
-/* Needs the tangents of set. Fails with FACET_ERROR_MEMORY. */
+/* Needs the tangents of set. Those of geometries that are drawn with legacy materials are 0. Fails with FACET_ERROR_MEMORY. */
 facet_result material_plans_create(const render_geometry_set *set, const facet_allocator *allocator,
                                    material_plan_set *out, facet_error *error);
 void material_plans_destroy(material_plan_set *plans); /* {0} is allowed */

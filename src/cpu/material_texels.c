@@ -11,7 +11,7 @@ static bool has_same_coordinates(const scene_texture_ref *a, const scene_texture
            (!a->has_transform || memcmp(a->transform, b->transform, sizeof a->transform) == 0);
 }
 
-static shading_texcoord texture_coordinates(const shading_hit *h, const scene_texture_ref *ref)
+shading_texcoord material_texture_coordinates(const shading_hit *h, const scene_texture_ref *ref)
 {
     shading_texcoord o = shading_hit_texcoord(h, ref->texcoord);
     if (!ref->has_transform)
@@ -47,7 +47,7 @@ void material_texels_read(const shading_scene *scene, const shading_hit *h, uint
             requests[count].as_color = material_textures[slot].is_color;
             slots[count++] = slot;
         }
-        shading_texcoord c = texture_coordinates(h, first);
+        shading_texcoord c = material_texture_coordinates(h, first);
         texture_sample_group(scene->textures, requests, count, c.uv, c.dx, c.dy);
         for (uint32_t k = 0; k < count; k++)
             memcpy(texels[slots[k]], requests[k].texel, sizeof texels[0]);
@@ -58,7 +58,7 @@ void material_texel_beside(const shading_scene *scene, const shading_hit *h, sce
                            int axis, float step, float texel[4])
 {
     const scene_texture_ref *ref = &h->geometry->material->textures[slot];
-    shading_texcoord c = texture_coordinates(h, ref);
+    shading_texcoord c = material_texture_coordinates(h, ref);
     for (int i = 0; i < 2; i++)
         c.uv[i] += (axis ? c.dy[i] : c.dx[i]) * step;
     texture_sample(scene->textures, ref->texture, material_textures[slot].is_color, c.uv, c.dx, c.dy, texel);

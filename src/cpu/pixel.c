@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "cpu/ogl1_shade.h"
+
 #include "shade/shade.h"
 
 /* Two hits on one mesh are one surface when their faces differ by less than 14 degrees and lie in one plane, within
@@ -198,7 +200,8 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
     for (int i = 0; i < 3; i++)
         s->radiance[i] = result.radiance[i];
     /* Whether a masked texel is there was decided for each sample. */
-    bool is_blended = r->scene->geometries->items[hit.geometry].material->alpha_mode == SCENE_ALPHA_BLEND;
+    bool is_blended =
+        r->scene->ogl1 || r->scene->geometries->items[hit.geometry].material->alpha_mode == SCENE_ALPHA_BLEND;
     s->opacity = is_blended ? result.opacity : 1.0f;
 }
 
@@ -262,6 +265,8 @@ bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_h
         for (uint32_t i = 0; i < r->surface_count; i++)
             shade_surface(r, x, y, i);
         composite(r, rgba);
+        if (r->scene->ogl1)
+            ogl1_develop(r->scene, rgba);
     }
     add_background(r, x, y, rgba);
     for (int c = 0; c < 3; c++)

@@ -14,6 +14,7 @@ void prepared_scene_init(prepared_scene *p, const facet_scene *scene, const face
     memset(p, 0, sizeof *p);
     p->scene = scene;
     p->allocator = allocator ? *allocator : (facet_allocator){0};
+    p->default_legacy = legacy_material_default();
 }
 
 void prepared_scene_clear(prepared_scene *p)
@@ -114,6 +115,7 @@ static facet_result make_geometry(prepared_scene *p, const facet_render_desc *de
         return result;
     }
     p->geometries = set;
+    p->shading = FACET_SHADING_GLTF;
     p->has_geometry = true;
     p->has_tangents = false;
     return FACET_OK;
@@ -143,6 +145,13 @@ facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc 
         facet_result result = make_geometry(p, desc, camera, error);
         if (result != FACET_OK)
             return result;
+    }
+    if (p->shading != desc->shading) {
+        bool is_legacy = desc->shading == FACET_SHADING_OGL1;
+        render_geometry_choose_materials(&p->geometries, p->scene, &p->pose,
+                                         is_legacy ? &p->default_legacy : NULL);
+        p->shading = desc->shading;
+        p->has_tangents = false;
     }
     p->has_moved_sprites =
         p->likeness == RENDER_SAME && p->geometries.has_sprites && !is_same_place(&p->camera, camera);

@@ -33,7 +33,9 @@ typedef struct prepared_scene {
     uint64_t ray_count;       /* that roles were chosen for */
     bool is_within_reach;
     render_geometry_set geometries;
-    render_likeness likeness; /* of geometries to what the hierarchy was built over */
+    facet_shading shading;          /* that geometries are drawn with */
+    legacy_material default_legacy; /* of primitives without a material */
+    render_likeness likeness;       /* of geometries to what the hierarchy was built over */
     bool has_moved_sprites;
     embree_scene embree;
     uint32_t thread_count; /* of embree */

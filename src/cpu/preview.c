@@ -11,6 +11,8 @@
 
 #include <math.h>
 
+#include "cpu/ogl1_setup.h"
+
 /* All that is made for one picture. */
 typedef struct preview {
     prepared_scene *prepared;
@@ -35,6 +37,7 @@ static facet_result prepare_textures(preview *p, facet_error *error)
     texture_need_desc need = {.width = desc->width,
                               .height = desc->height,
                               .footprint = footprint,
+                              .ogl1 = &desc->ogl1,
                               .opacity_footprint = fminf(footprint, opacity_footprint),
                               .thread_count = desc->thread_count};
     facet_result result = FACET_OK;
@@ -99,7 +102,9 @@ static facet_result prepare(preview *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
     double start = clock_seconds();
-    facet_result result = prepared_scene_pose(p->prepared, desc, error);
+    facet_result result = ogl1_check(p->prepared->scene, desc, error);
+    if (result == FACET_OK)
+        result = prepared_scene_pose(p->prepared, desc, error);
     if (result == FACET_OK)
         result = camera_rays_create(desc->camera, desc->width, desc->height, &p->camera, error);
     if (result == FACET_OK)
@@ -150,8 +155,15 @@ static facet_result draw(preview *p, double deadline_s, film *target, facet_erro
                              .light = &p->light,
                              .camera = &p->camera};
     shading_scene_set_options(&shading, p->desc);
+    ogl1_setup ogl1 = {.light_count = 0};
+    if (p->desc->shading == FACET_SHADING_OGL1) {
+        result = ogl1_setup_create(p->prepared, &p->camera, p->desc, &p->light, &plans, &ogl1, error);
+        shading.ogl1 = &ogl1;
+    }
     tiles_desc tiles = {.render = p->desc, .scene = &shading, .deadline_s = deadline_s};
-    result = tiles_draw(&tiles, target, p->stats, error);
+    if (result == FACET_OK)
+        result = tiles_draw(&tiles, target, p->stats, error);
+    ogl1_setup_destroy(&ogl1);
     material_plans_destroy(&plans);
     p->stats->shade_s = clock_seconds() - start;
     return result;

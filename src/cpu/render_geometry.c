@@ -31,6 +31,31 @@ static bool may_see_through(const scene_primitive *primitive, const scene_materi
            material->base_color[3] < 1.0f || has_vertex_alpha(primitive);
 }
 
+/* The same of a material of OpenGL 1: what its opacity is multiplied with. */
+static bool may_see_through_legacy(const scene_primitive *primitive, const legacy_material *m)
+{
+    bool has_texture_opacity = legacy_has_map(m, LEGACY_DIFFUSE_MAP) && m->texture_type != LEGACY_RGB &&
+                               m->texture_type != LEGACY_LUMINANCE;
+    return m->opacity < 1.0f || has_texture_opacity || legacy_has_map(m, LEGACY_OPACITY_MAP) ||
+           has_vertex_alpha(primitive);
+}
+
+static void choose_gltf(render_geometry *g)
+{
+    g->legacy = NULL;
+    g->is_double_sided = g->material->is_double_sided || g->primitive->mode != SCENE_TRIANGLES;
+    g->is_lit = !(g->material->extensions & SCENE_UNLIT) && g->normals;
+    g->is_see_through = may_see_through(g->primitive, g->material);
+}
+
+static void choose_legacy(render_geometry *g, const legacy_material *legacy)
+{
+    g->legacy = legacy;
+    g->is_double_sided = !legacy->is_culled || g->primitive->mode != SCENE_TRIANGLES;
+    g->is_lit = legacy->is_lit && g->normals;
+    g->is_see_through = may_see_through_legacy(g->primitive, legacy);
+}
+
 static float determinant9(const float m[9])
 {
     return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
@@ -77,16 +102,28 @@ facet_result render_geometry_create(const facet_scene *scene, const scene_pose *
         g->primitive = primitive;
         g->material = scene_pose_material(scene, pose, instance);
         g->material_id = instance->material == SCENE_NONE ? 0 : instance->material + 1;
-        g->is_double_sided = g->material->is_double_sided || primitive->mode != SCENE_TRIANGLES;
-        g->is_lit = !(g->material->extensions & SCENE_UNLIT) && instance->normals;
-        g->is_see_through = may_see_through(primitive, g->material);
-        g->positions = instance->positions;
         g->normals = instance->normals;
+        choose_gltf(g);
+        g->positions = instance->positions;
         g->tangents = instance->tangents;
         set->has_sprites = set->has_sprites || primitive->mode != SCENE_TRIANGLES;
         set_transform(g, instance);
     }
     return FACET_OK;
+}
+
+void render_geometry_choose_materials(render_geometry_set *set, const facet_scene *scene,
+                                      const scene_pose *pose, const legacy_material *fallback)
+{
+    for (uint32_t i = 0; i < set->count; i++) {
+        render_geometry *g = &set->items[i];
+        g->tangents = pose->instances[i].tangents;
+        g->has_corner_tangents = false;
+        if (fallback)
+            choose_legacy(g, g->material_id ? &scene->legacy->materials[g->material_id - 1] : fallback);
+        else
+            choose_gltf(g);
+    }
 }
 
 static void free_blocks(render_blocks *blocks)

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cpu/camera_rays.h"
-#include "scene/scene.h"
+#include "scene/legacy.h"
 
 /* How a geometry gets into the bounding volume hierarchy. instancing.h chooses; flat is the quickest for rays. */
 typedef enum render_role {
@@ -18,6 +18,7 @@ typedef enum render_role {
 typedef struct render_geometry {
     const scene_primitive *primitive;
     const scene_material *material;
+    const legacy_material *legacy; /* what it is drawn with in place of material; NULL: material */
     /* m. Triangles: 3 per vertex, in world space, or before world where that is not NULL. Points, lines: in world
      * space, 4 per index, x y z radius, such that they are a pixel wide where they are. */
     float *vertices;
@@ -76,6 +77,12 @@ facet_result render_geometry_transform(render_geometry_set *set, const scene_pos
 void render_geometry_place_sprites(render_geometry_set *set, const scene_pose *pose,
                                    const camera_rays *camera, uint32_t thread_count);
 void render_geometry_destroy(render_geometry_set *set); /* {0} is allowed */
+
+/* Makes set one that is drawn with the scene's legacy materials, which it has (fallback: where a primitive has no
+ * material), or, where fallback is NULL, with those of glTF, which is how render_geometry_create() leaves it. Tangents
+ * are those of the pose again. */
+void render_geometry_choose_materials(render_geometry_set *set, const facet_scene *scene,
+                                      const scene_pose *pose, const legacy_material *fallback);
 
 /* What of a set is that of another one. */
 typedef enum render_likeness {

@@ -1,6 +1,7 @@
 /* shading.c - see shading.h. */
 #include "cpu/shading.h"
 
+#include "cpu/ogl1_shade.h"
 #include "cpu/refraction.h"
 #include "cpu/surface_light.h"
 #include "cpu/surface_point.h"
@@ -23,6 +24,8 @@ bool shading_is_visible_side(const shading_scene *scene, const visibility_hit *h
 
 float shading_opacity(const shading_scene *scene, const shading_point *point)
 {
+    if (scene->ogl1)
+        return ogl1_opacity(scene, point);
     const render_geometry *g = &scene->geometries->items[point->hit->geometry];
     if (!g->is_see_through)
         return 1.0f;
@@ -34,6 +37,10 @@ float shading_opacity(const shading_scene *scene, const shading_point *point)
 
 void shading_describe(const shading_scene *scene, const shading_point *point, shading_description *out)
 {
+    if (scene->ogl1) {
+        ogl1_describe(scene, point, out);
+        return;
+    }
     surface_point s;
     surface_point_make(scene, point, &s);
     store3(s.m.base.N, out->normal);
@@ -46,6 +53,10 @@ void shading_describe(const shading_scene *scene, const shading_point *point, sh
 
 void shading_shade(const shading_scene *scene, const shading_point *point, shading_result *out)
 {
+    if (scene->ogl1) {
+        ogl1_shade(scene, point, out);
+        return;
+    }
     surface_point s;
     surface_point_make(scene, point, &s);
     out->opacity = surface_opacity(s.hit.geometry->material, s.base_color[3]);

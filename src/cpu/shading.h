@@ -8,6 +8,8 @@
 #include "cpu/texture.h"
 #include "cpu/visibility.h"
 
+struct ogl1_setup; /* cpu/ogl1_setup.h */
+
 /* All that shading reads; nothing of it changes while a picture is drawn. */
 typedef struct shading_scene {
     const render_geometry_set *geometries;
@@ -15,6 +17,7 @@ typedef struct shading_scene {
     const material_plan_set *plans;
     const texture_set *textures;
     const light_setup *light;
+    const struct ogl1_setup *ogl1; /* NULL: shaded as glTF */
     const camera_rays *camera;
     ray_spread camera_spread;
     facet_energy energy;
@@ -37,7 +40,7 @@ typedef struct shading_point {
 } shading_point;
 
 typedef struct shading_result {
-    float radiance[3]; /* cd/m^2 towards the camera */
+    float radiance[3]; /* cd/m^2 towards the camera; with ogl1 what it computes with */
     float opacity;     /* [0, 1] */
     uint64_t rays;     /* that were traced for it */
 } shading_result;

@@ -9,8 +9,12 @@
 
 /* The set of texture coordinates along which tangents go; SCENE_NONE: none are needed. That of the normal texture
  * counts for all (KHR_materials_anisotropy, KHR_materials_clearcoat: one tangent space for a material). */
-static uint32_t tangent_texcoord(const scene_material *m)
+static uint32_t tangent_texcoord(const render_geometry *g)
 {
+    if (g->legacy)
+        return legacy_has_map(g->legacy, LEGACY_NORMAL_MAP) ? g->legacy->maps[LEGACY_NORMAL_MAP].ref.texcoord
+                                                            : SCENE_NONE;
+    const scene_material *m = g->material;
     if (scene_material_has(m, SCENE_NORMAL_TEXTURE))
         return m->textures[SCENE_NORMAL_TEXTURE].texcoord;
     if (scene_material_has(m, SCENE_CLEARCOAT_NORMAL_TEXTURE))
@@ -24,7 +28,7 @@ static uint32_t tangent_texcoord(const scene_material *m)
 static bool needs_tangents(const render_geometry *g)
 {
     return g->primitive->mode == SCENE_TRIANGLES && g->is_lit && (!g->tangents || g->has_corner_tangents) &&
-           tangent_texcoord(g->material) < g->primitive->texcoord_count;
+           tangent_texcoord(g) < g->primitive->texcoord_count;
 }
 
 static tangent_entry key_of(const render_geometry *g)
@@ -32,7 +36,7 @@ static tangent_entry key_of(const render_geometry *g)
     return (tangent_entry){.primitive = g->primitive,
                            .positions = g->positions,
                            .normals = g->normals,
-                           .texcoord = tangent_texcoord(g->material)};
+                           .texcoord = tangent_texcoord(g)};
 }
 
 static int compare_entries(const void *a, const void *b)

@@ -2,6 +2,7 @@
 #include "cpu/texture_need.h"
 
 #include "cpu/material_plan.h"
+#include "cpu/ogl1_maps.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -209,11 +210,32 @@ static void add_reader(reader_list *list, const scene_texture_ref *ref, bool as_
     list->job->readers[list->job->reader_count++] = reader;
 }
 
+static void add_legacy_readers(reader_list *list, const texture_need_desc *desc)
+{
+    const render_geometry *g = list->job->geometry;
+    const legacy_material *m = g->legacy;
+    uint32_t maps = ogl1_maps(g, desc->ogl1->variant);
+    for (int i = 0; i < LEGACY_MAP_COUNT; i++) {
+        legacy_map_slot slot = (legacy_map_slot)i;
+        if (!(maps >> slot & 1))
+            continue;
+        bool is_opacity = slot == LEGACY_OPACITY_MAP || slot == LEGACY_DIFFUSE_MAP;
+        add_reader(list, &m->maps[slot].ref, ogl1_map_is_color(m, slot, desc->ogl1->is_linear),
+                   is_opacity && g->is_see_through ? desc->opacity_footprint : desc->footprint);
+        if (ogl1_map_is_spherical(m, slot))
+            list->must_be_whole[m->maps[slot].ref.texture] = true;
+    }
+}
+
 static void add_readers(reader_list *list, const texture_need_desc *desc)
 {
     const render_geometry *g = list->job->geometry;
     const scene_material *m = g->material;
     list->job->reader_count = 0;
+    if (g->legacy) {
+        add_legacy_readers(list, desc);
+        return;
+    }
     uint32_t textures = material_plan_textures(g);
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
         if (textures >> slot & 1)
@@ -249,7 +271,8 @@ facet_result texture_need(const facet_scene *scene, const render_geometry_set *s
     bool is_seen_anywhere = false;
     for (uint32_t i = 0; i < set->count; i++)
         is_seen_anywhere =
-            is_seen_anywhere || (material_plan_layers(set->items[i].material) & LAYER_TRANSMISSION);
+            is_seen_anywhere ||
+            (!set->items[i].legacy && (material_plan_layers(set->items[i].material) & LAYER_TRANSMISSION));
     for (uint32_t i = 0; i < set->count; i++) {
         if (set->items[i].is_far_copy) /* there are nearer ones with the same material */
             continue;

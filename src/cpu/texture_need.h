@@ -7,9 +7,10 @@
 
 /* How a picture is drawn, as far as it matters to texture footprints. */
 typedef struct texture_need_desc {
-    uint32_t width, height;  /* of the whole picture: a crop reads the same mips */
-    float footprint;         /* side of the square that a shade stands for, pixels */
-    float opacity_footprint; /* of what is read to find whether a surface is there */
+    uint32_t width, height;      /* of the whole picture: a crop reads the same mips */
+    float footprint;             /* side of the square that a shade stands for, pixels */
+    const facet_ogl1_desc *ogl1; /* how legacy materials are drawn; NULL: there are none */
+    float opacity_footprint;     /* of what is read to find whether a surface is there */
     uint32_t thread_count;
 } texture_need_desc;
 

@@ -166,3 +166,36 @@ void film_develop(film *f, facet_tonemap operator_, const float color[3], uint32
         d.behind = vec3(color[0], color[1], color[2]);
     parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, develop_range, &d);
 }
+
+/* ---- blending of encoded numbers ---- */
+
+typedef struct encoded_blend {
+    film *film;
+    vec3 behind; /* encoded */
+} encoded_blend;
+
+static void blend_range(void *context, size_t begin, size_t end)
+{
+    const encoded_blend *b = context;
+    float *pixel = b->film->layers[0].pixels + 4 * begin;
+    for (size_t i = begin; i < end; i++, pixel += 4) {
+        float opacity = pixel[3];
+        if (opacity >= 1.0f)
+            continue;
+        vec3 color = b->behind;
+        if (opacity > 0.0f) {
+            vec3 straight = vec3(pixel[0], pixel[1], pixel[2]) / opacity;
+            color = mix(b->behind, srgb_from_linear(straight), opacity);
+        }
+        color = linear_from_srgb(color);
+        for (int c = 0; c < 3; c++)
+            pixel[c] = color[c];
+        pixel[3] = 1.0f;
+    }
+}
+
+void film_blend_encoded(film *f, const float color[3], uint32_t thread_count)
+{
+    encoded_blend b = {.film = f, .behind = srgb_from_linear(vec3(color[0], color[1], color[2]))};
+    parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, blend_range, &b);
+}

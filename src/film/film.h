@@ -29,5 +29,8 @@ film_layer *film_find(film *f, const char *name); /* NULL: not asked for */
 /* Tone-maps the picture in place: un-premultiplies, applies operator, clamps negative values to 0, premultiplies
  * again, and lays it over color (display-linear RGB; NULL: stays transparent). */
 void film_develop(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count);
+/* Lays a developed picture over color (display-linear RGB) as programs did that knew nothing of light: by mixing the
+ * display's sRGB-encoded numbers. */
+void film_blend_encoded(film *f, const float color[3], uint32_t thread_count);
 
 #endif

@@ -1,0 +1,184 @@
+/* ogl1_setup.c - see ogl1_setup.h. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "cpu/ogl1_maps.h"
+
+#include "cpu/ogl1_setup.h"
+
+_Static_assert(PHONG_VIGNETTE == (int)FACET_OGL1_VIGNETTE && PHONG_WEBGL == (int)FACET_OGL1_WEBGL &&
+                   PHONG_FIXED == (int)FACET_OGL1_FIXED && PHONG_RGL_DESKTOP == (int)FACET_OGL1_RGL_DESKTOP,
+               "the shared text numbers variants as the interface does");
+_Static_assert(PHONG_FOG_NONE == (int)LEGACY_FOG_NONE && PHONG_FOG_LINEAR == (int)LEGACY_FOG_LINEAR &&
+                   PHONG_FOG_EXP == (int)LEGACY_FOG_EXP && PHONG_FOG_EXP2 == (int)LEGACY_FOG_EXP2,
+               "and fog as scenes do");
+
+static vec3 load3(const float v[3])
+{
+    return vec3(v[0], v[1], v[2]);
+}
+
+facet_result ogl1_check(const facet_scene *scene, const facet_render_desc *desc, facet_error *error)
+{
+    if (desc->shading != FACET_SHADING_OGL1)
+        return FACET_OK;
+    const scene_legacy *legacy = scene->legacy;
+    if (!legacy || (scene->material_count && !legacy->materials))
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "shading: the scene has no materials of OpenGL 1; convert it with "
+            "facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, ..) before, or draw it as glTF");
+    if (desc->background == FACET_BACKGROUND_ENVIRONMENT)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "background: OpenGL 1 has no environment to show behind the model; expected a color or "
+                    "transparent");
+    return FACET_OK;
+}
+
+/* ---- colors ---- */
+
+/* A color of the file as it is computed with. */
+static vec3 computed(const ogl1_setup *s, const float color[3])
+{
+    vec3 c = load3(color);
+    return !s->is_encoded && s->are_colors_srgb ? linear_from_srgb(c) : c;
+}
+
+/* A color beside its map: what is not stated counts as 1, so that the map is seen; so does a diffuse color of black,
+ * which most programs write for one that is all texture. */
+static vec3 color_beside_map(const ogl1_setup *s, const legacy_material *m, legacy_map_slot slot,
+                             uint32_t field, const float color[3])
+{
+    vec3 c = load3(color);
+    bool is_absent = !legacy_has(m, field) || (slot == LEGACY_DIFFUSE_MAP && !(max3(c) > 0.0f));
+    return legacy_has_map(m, slot) && is_absent ? vec3(1.0f) : computed(s, color);
+}
+
+static ogl1_material make_material(const ogl1_setup *s, const legacy_material *m)
+{
+    ogl1_material out = {.legacy = m};
+    bool has_mode = m->texture_mode != LEGACY_MODULATE;
+    out.has_texture_over_light =
+        s->has_rgl_colors || has_mode || s->rules.is_lit_at_vertices || m->has_environment_map;
+    out.phong.ambient = color_beside_map(s, m, LEGACY_AMBIENT_MAP, LEGACY_AMBIENT, m->ambient);
+    out.phong.diffuse = s->has_rgl_colors
+                            ? computed(s, m->diffuse)
+                            : color_beside_map(s, m, LEGACY_DIFFUSE_MAP, LEGACY_DIFFUSE, m->diffuse);
+    out.phong.specular = color_beside_map(s, m, LEGACY_SPECULAR_MAP, LEGACY_SPECULAR, m->specular);
+    out.phong.emission = color_beside_map(s, m, LEGACY_EMISSION_MAP, LEGACY_EMISSION, m->emission);
+    out.phong.shininess = max(m->shininess, 0.0f);
+    return out;
+}
+
+/* ---- the view ---- */
+
+/* The rows of view are the picture's right, up and backward. */
+static void set_view(ogl1_setup *s, const camera_rays *camera)
+{
+    const float *dx = camera->is_orthographic ? camera->origin_dx : camera->direction_dx;
+    const float *dy = camera->is_orthographic ? camera->origin_dy : camera->direction_dy;
+    s->view = transpose(mat3(normalize(load3(dx)), normalize(-load3(dy)), -load3(camera->direction)));
+    s->translation = -mul(s->view, load3(camera->origin));
+}
+
+/* ---- lights ---- */
+
+static PhongLight make_light(const ogl1_setup *s, const legacy_light *l)
+{
+    float w = l->is_point ? 1.0f : s->rules.direction_w;
+    vec3 position = load3(l->position);
+    if (!l->is_viewpoint_relative)
+        position = phong_to_eye(s->view, s->translation, position, w);
+    vec3 ambient = computed(s, l->ambient);
+    vec3 diffuse = computed(s, l->diffuse);
+    vec3 specular = computed(s, l->specular);
+    return l->is_point ? phong_light_point(position, ambient, diffuse, specular)
+                       : phong_light_directional(position, ambient, diffuse, specular);
+}
+
+static facet_result make_lights(ogl1_setup *s, const scene_legacy *legacy, const facet_render_desc *desc,
+                                const light_setup *light, facet_error *error)
+{
+    legacy_light default_light = legacy_light_default();
+    const legacy_light *lights = legacy->lights;
+    uint32_t count = desc->ignore_scene_lights ? 0 : legacy->light_count;
+    if (count == 0 && light->punctual_count)
+        return FACET_OK;
+    if (count == 0) {
+        lights = &default_light;
+        count = 1;
+    }
+    s->lights = mem_alloc(&desc->allocator, count, sizeof *s->lights);
+    if (!s->lights)
+        return fail_memory(error, "lights", count * sizeof *s->lights);
+    s->light_count = count;
+    for (uint32_t i = 0; i < count; i++)
+        s->lights[i] = make_light(s, &lights[i]);
+    return FACET_OK;
+}
+
+/* ---- fog ---- */
+
+/* Where the camera has no clipping distances they are rgl's, which touch the sphere around what is drawn. */
+static PhongFog make_fog(const ogl1_setup *s, const legacy_fog *fog, const scene_pose *pose,
+                         const camera_rays *camera, const facet_render_desc *desc)
+{
+    PhongFog out = {.mode = desc->ogl1.ignores_fog ? PHONG_FOG_NONE : (int)fog->mode,
+                    .color = computed(s, fog->color),
+                    .scale = fog->scale > 0.0f ? fog->scale : 1.0f,
+                    .w = phong_fog_w(camera->is_orthographic ? 0.0f : desc->camera->fov_y_rad)};
+    vec3 low = load3(pose->bounds_min);
+    vec3 high = load3(pose->bounds_max);
+    vec3 middle = phong_to_eye(s->view, s->translation, (low + high) * 0.5f, 1.0f);
+    float radius = 0.5f * length(high - low);
+    out.near_m = camera->near_m > 0.0f ? camera->near_m : max(-middle[2] - radius, 0.0f);
+    out.far_m = isfinite(camera->far_m) ? camera->far_m : -middle[2] + radius;
+    out.far_m = max(out.far_m, out.near_m * 1.000001f + 1e-6f);
+    return out;
+}
+
+/* ---- all ---- */
+
+facet_result ogl1_setup_create(const prepared_scene *prepared, const camera_rays *camera,
+                               const facet_render_desc *desc, const light_setup *light,
+                               material_plan_set *plans, ogl1_setup *out, facet_error *error)
+{
+    const facet_scene *scene = prepared->scene;
+    const scene_legacy *legacy = scene->legacy;
+    *out = (ogl1_setup){.rules = phong_rules((int)desc->ogl1.variant),
+                        .is_encoded = !desc->ogl1.is_linear,
+                        .are_colors_srgb = legacy->colors != FACET_LEGACY_COLORS_LINEAR,
+                        .has_rgl_colors = legacy->is_rgl};
+    if (!desc->ogl1.translates_directions)
+        out->rules.direction_w = 0.0f;
+    if (!out->is_encoded && out->are_colors_srgb)
+        out->rules.global_ambient = linear_from_srgb(out->rules.global_ambient);
+    set_view(out, camera);
+    out->fog = make_fog(out, &legacy->fog, &prepared->pose, camera, desc);
+    size_t count = (size_t)scene->material_count + 1;
+    out->materials = mem_alloc(&desc->allocator, count, sizeof *out->materials);
+    if (!out->materials)
+        return fail_memory(error, "materials", count * sizeof *out->materials);
+    for (size_t i = 0; i < count; i++)
+        out->materials[i] = make_material(out, i ? &legacy->materials[i - 1] : &prepared->default_legacy);
+    for (uint32_t i = 0; i < prepared->geometries.count; i++) {
+        const render_geometry *g = &prepared->geometries.items[i];
+        uint32_t maps = ogl1_maps(g, desc->ogl1.variant);
+        if (!g->tangents)
+            maps &= ~(1u << LEGACY_NORMAL_MAP);
+        plans->items[i].legacy_maps = maps;
+        plans->items[i].reads_changes = maps != 0;
+    }
+    facet_result result = make_lights(out, legacy, desc, light, error);
+    if (result != FACET_OK)
+        ogl1_setup_destroy(out);
+    return result;
+}
+
+void ogl1_setup_destroy(ogl1_setup *setup)
+{
+    mem_free(setup->lights);
+    mem_free(setup->materials);
+    *setup = (ogl1_setup){0};
+}

@@ -1,0 +1,214 @@
+/* ogl1_shade.c - see ogl1_shade.h. The order of OpenGL: light, texture, the highlight where it is separate, fog, clamp.
+ * Every formula is in shade/phong.h. */
+#include "cpu/ogl1_maps.h"
+#include "cpu/ogl1_shade.h"
+
+#include "cpu/ogl1_point.h"
+
+_Static_assert(PHONG_RGB == (int)LEGACY_RGB && PHONG_RGBA == (int)LEGACY_RGBA &&
+                   PHONG_ALPHA == (int)LEGACY_ALPHA && PHONG_LUMINANCE == (int)LEGACY_LUMINANCE &&
+                   PHONG_LUMINANCE_ALPHA == (int)LEGACY_LUMINANCE_ALPHA &&
+                   PHONG_MODULATE == (int)LEGACY_MODULATE && PHONG_REPLACE == (int)LEGACY_REPLACE &&
+                   PHONG_DECAL == (int)LEGACY_DECAL && PHONG_BLEND == (int)LEGACY_BLEND &&
+                   PHONG_ADD == (int)LEGACY_ADD,
+               "the shared text numbers texture types and modes as legacy materials do");
+
+/* ---- light at a point ---- */
+
+/* A lamp of glTF as a light that shines on P only: legacy light 1 is the irradiance pi. */
+static PhongLight punctual_at(const ogl1_setup *s, Light light, vec3 P_world)
+{
+    LightSample l = light_illuminate(light, P_world);
+    vec3 color = ogl1_from_linear(s, l.E * INV_PI);
+    return phong_light_directional(mul(s->view, l.L), vec3(0.0f), color, color);
+}
+
+/* P, N, V in eye space; N as it is lit. */
+static PhongLit light_at(const shading_scene *scene, const PhongMaterial *m, vec3 P_world, vec3 P, vec3 N,
+                         vec3 V)
+{
+    const ogl1_setup *s = scene->ogl1;
+    PhongLit lit = phong_unlit_part(s->rules, *m);
+    for (uint32_t i = 0; i < s->light_count; i++)
+        lit = phong_add(lit, phong_light_part(s->rules, *m, s->lights[i], P, N, V));
+    if (s->light_count)
+        return lit;
+    float point[3];
+    store3(P_world, point);
+    light_cursor lights = light_grid_at(&scene->light->grid, point);
+    for (uint32_t i; light_cursor_next(&lights, &i);) {
+        PhongLight l = punctual_at(s, scene->light->punctual[i], P_world);
+        lit = phong_add(lit, phong_light_part(s->rules, *m, l, P, N, V));
+    }
+    return lit;
+}
+
+/* ---- light of a fragment ---- */
+
+static PhongLit with_highlight(PhongLit lit)
+{
+    lit.color += lit.highlight;
+    lit.highlight = vec3(0.0f);
+    return lit;
+}
+
+/* Maps of the light's terms, each times its constant. */
+static PhongMaterial mapped_material(const shading_scene *scene, const ogl1_point *p, vec3 diffuse)
+{
+    PhongMaterial m = p->material->phong;
+    m.diffuse = diffuse;
+    if (p->maps & 1u << LEGACY_AMBIENT_MAP)
+        m.ambient *= ogl1_point_map(scene, p, LEGACY_AMBIENT_MAP).rgb;
+    if (p->maps & 1u << LEGACY_SPECULAR_MAP)
+        m.specular *= ogl1_point_map(scene, p, LEGACY_SPECULAR_MAP).rgb;
+    if (p->maps & 1u << LEGACY_EMISSION_MAP)
+        m.emission *= ogl1_point_map(scene, p, LEGACY_EMISSION_MAP).rgb;
+    if (p->maps & 1u << LEGACY_SHININESS_MAP) {
+        float texel[4];
+        ogl1_point_texel(scene, p, LEGACY_SHININESS_MAP, texel);
+        float value = ogl1_map_scalar(&p->material->legacy->maps[LEGACY_SHININESS_MAP], texel);
+        m.shininess = max(m.shininess * value, 0.0f);
+    }
+    return m;
+}
+
+static PhongLit light_fragment(const shading_scene *scene, const ogl1_point *p, vec3 diffuse)
+{
+    PhongMaterial m = mapped_material(scene, p, diffuse);
+    vec3 N = phong_normal(p->setup->rules, ogl1_point_mapped_normal(scene, p), p->V, p->is_front);
+    return with_highlight(light_at(scene, &m, p->hit.position, p->P, N, p->V));
+}
+
+/* One corner of the triangle, as it is interpolated: clamped to what a color register holds. */
+static PhongLit light_corner(const shading_scene *scene, const ogl1_point *p, int corner, bool is_separate)
+{
+    const ogl1_setup *s = p->setup;
+    float weight[3] = {0.0f, 0.0f, 0.0f};
+    float position[3];
+    weight[corner] = 1.0f;
+    render_geometry_corner(p->hit.geometry, p->hit.corner[corner], position);
+    vec3 P = phong_to_eye(s->view, s->translation, load3(position), 1.0f);
+    vec3 V = scene->camera->is_orthographic ? vec3(0.0f, 0.0f, 1.0f) : normalize(-P);
+    vec3 N = phong_normal(s->rules, ogl1_point_normal(p, weight), V, p->is_front);
+    PhongMaterial m = p->material->phong;
+    m.diffuse = ogl1_point_color(p, weight).rgb;
+    PhongLit lit = light_at(scene, &m, load3(position), P, N, V);
+    if (!is_separate)
+        lit = with_highlight(lit);
+    if (s->is_encoded) {
+        lit.color = clamp(lit.color, 0.0f, 1.0f);
+        lit.highlight = clamp(lit.highlight, 0.0f, 1.0f);
+    }
+    return lit;
+}
+
+/* Gouraud 1971; flat surfaces have the color of the last corner (OpenGL 2.1, 2.14.7). */
+static PhongLit light_triangle(const shading_scene *scene, const ogl1_point *p)
+{
+    bool is_separate =
+        p->setup->rules.separates_highlight && legacy_has_map(p->material->legacy, LEGACY_DIFFUSE_MAP);
+    if (!p->material->legacy->is_smooth)
+        return light_corner(scene, p, 2, is_separate);
+    PhongLit sum = {vec3(0.0f), vec3(0.0f)};
+    for (int i = 0; i < 3; i++) {
+        PhongLit lit = light_corner(scene, p, i, is_separate);
+        sum.color += lit.color * p->hit.weight[i];
+        sum.highlight += lit.highlight * p->hit.weight[i];
+    }
+    return sum;
+}
+
+/* ---- color and opacity ---- */
+
+static PhongColor with_texture(const shading_scene *scene, const ogl1_point *p, PhongColor c)
+{
+    const legacy_material *m = p->material->legacy;
+    if (!(p->maps & 1u << LEGACY_DIFFUSE_MAP))
+        return c;
+    return phong_texture((int)m->texture_type, (int)m->texture_mode, c,
+                         ogl1_point_map(scene, p, LEGACY_DIFFUSE_MAP));
+}
+
+/* Diffuse color and opacity, vertex colors and the map of opacity counted in, without the diffuse map. */
+static PhongColor base_color(const shading_scene *scene, const ogl1_point *p)
+{
+    static const float last[3] = {0.0f, 0.0f, 1.0f};
+    const legacy_material *m = p->material->legacy;
+    bool is_flat = p->setup->rules.is_lit_at_vertices && !m->is_smooth;
+    PhongColor c = ogl1_point_color(p, is_flat ? last : p->hit.weight);
+    if (m->is_halo)
+        c.opacity = phong_halo(c.opacity, fabsf(dot(ogl1_point_normal(p, p->hit.weight), p->V)));
+    if (p->maps & 1u << LEGACY_OPACITY_MAP) {
+        float texel[4];
+        ogl1_point_texel(scene, p, LEGACY_OPACITY_MAP, texel);
+        c.opacity *= ogl1_map_scalar(&m->maps[LEGACY_OPACITY_MAP], texel);
+    }
+    return c;
+}
+
+/* The lit fragment before fog. */
+static PhongColor lit_color(const shading_scene *scene, const ogl1_point *p)
+{
+    PhongColor base = base_color(scene, p);
+    bool is_over = p->material->has_texture_over_light;
+    PhongColor c = is_over ? base : with_texture(scene, p, base);
+    PhongLit lit = {c.rgb, vec3(0.0f)};
+    if (p->hit.geometry->is_lit)
+        lit = p->setup->rules.is_lit_at_vertices ? light_triangle(scene, p) : light_fragment(scene, p, c.rgb);
+    c.rgb = lit.color;
+    if (is_over)
+        c = with_texture(scene, p, c);
+    c.rgb += lit.highlight;
+    return c;
+}
+
+float ogl1_opacity(const shading_scene *scene, const shading_point *point)
+{
+    if (!scene->geometries->items[point->hit->geometry].is_see_through)
+        return 1.0f;
+    ogl1_point p = ogl1_point_make(scene, point);
+    return clamp(with_texture(scene, &p, base_color(scene, &p)).opacity, 0.0f, 1.0f);
+}
+
+void ogl1_shade(const shading_scene *scene, const shading_point *point, shading_result *out)
+{
+    ogl1_point p = ogl1_point_make(scene, point);
+    const ogl1_setup *s = p.setup;
+    PhongColor c = lit_color(scene, &p);
+    if (s->is_encoded && s->rules.is_lit_at_vertices)
+        c.rgb = clamp(c.rgb, 0.0f, 1.0f); /* the color sum, before fog */
+    if (p.material->legacy->has_fog)
+        c.rgb = phong_fogged(s->rules, s->fog, c.rgb, -p.P[2]);
+    if (s->is_encoded)
+        c.rgb = clamp(c.rgb, 0.0f, 1.0f);
+    store3(c.rgb, out->radiance);
+    out->opacity = p.hit.geometry->is_see_through ? clamp(c.opacity, 0.0f, 1.0f) : 1.0f;
+    out->rays = 0;
+}
+
+/* ---- without light ---- */
+
+/* Of a vector in eye space: view is a rotation. */
+static vec3 to_world(const ogl1_setup *s, vec3 v)
+{
+    return mul(transpose(s->view), v);
+}
+
+void ogl1_describe(const shading_scene *scene, const shading_point *point, shading_description *out)
+{
+    ogl1_point p = ogl1_point_make(scene, point);
+    vec3 N = p.hit.geometry->normals ? ogl1_point_mapped_normal(scene, &p) : p.V;
+    store3(to_world(p.setup, p.is_front ? N : -N), out->normal);
+    store3(ogl1_to_linear(p.setup, with_texture(scene, &p, base_color(scene, &p)).rgb), out->base_color);
+    out->occlusion = 1.0f;
+    shading_texcoord uv = shading_hit_texcoord(&p.hit, 0);
+    out->uv[0] = uv.uv[0];
+    out->uv[1] = uv.uv[1];
+}
+
+void ogl1_develop(const shading_scene *scene, float rgba[4])
+{
+    if (!scene->ogl1->is_encoded || !(rgba[3] > 0.0f))
+        return;
+    store3(ogl1_displayed(scene->ogl1, load3(rgba) / rgba[3]) * rgba[3], rgba);
+}
