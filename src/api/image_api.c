@@ -152,6 +152,11 @@ void facet_bytes_destroy(unsigned char *bytes)
     mem_free(bytes);
 }
 
+facet_result facet_bytes_save(const void *bytes, size_t size, const char *path, facet_error *error)
+{
+    return file_write(path, bytes, size, error);
+}
+
 facet_result facet_image_save(const facet_image *picture, const char *path, const facet_save_desc *desc,
                               facet_error *error)
 {

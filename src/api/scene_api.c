@@ -56,6 +56,11 @@ void facet_scene_destroy(facet_scene *scene)
     scene_destroy(scene);
 }
 
+bool facet_scene_has_file(const facet_scene *scene, const char *path)
+{
+    return scene_has_file(scene, path);
+}
+
 facet_scene_counts facet_scene_get_counts(const facet_scene *scene)
 {
     return scene_count(scene);

@@ -79,8 +79,19 @@ facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocat
             result = read_stream(fd, path, max_bytes, allocator, file, error);
         }
     }
+    if (result == FACET_OK && S_ISREG(status.st_mode)) {
+        file->device = (uint64_t)status.st_dev;
+        file->number = (uint64_t)status.st_ino;
+    }
     close(fd);
     return result;
+}
+
+bool file_is_at(const file_bytes *file, const char *path)
+{
+    struct stat status;
+    return file->number && stat(path, &status) == 0 && (uint64_t)status.st_dev == file->device &&
+           (uint64_t)status.st_ino == file->number;
 }
 
 void file_close(file_bytes *file)

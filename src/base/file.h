@@ -10,6 +10,7 @@ typedef struct file_bytes {
     size_t size;
     void *mapping; /* what file_close() needs */
     size_t mapping_size;
+    uint64_t device, number; /* of a regular file: what it is known by under any name; number 0: none */
 } file_bytes;
 
 /* Opens path for reading as a whole. Fails with FACET_ERROR_READ (missing, a folder, no permission), _LIMIT
@@ -17,6 +18,8 @@ typedef struct file_bytes {
 facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,
                        file_bytes *file, facet_error *error);
 void file_close(file_bytes *file); /* {0} is allowed; leaves {0} */
+/* Whether the file at path is the one that file was opened from: path may be another name of it. */
+bool file_is_at(const file_bytes *file, const char *path);
 
 /* Writes size bytes to path: a temporary beside it, flushed to the disk, then renamed; on failure
  * (FACET_ERROR_WRITE) path is as it was and no temporary stays. A path that exists and is no regular file (a

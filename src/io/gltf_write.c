@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include "base/result.h"
+#include "io/file_set.h"
 #include "io/gltf.h"
 #include "io/gltf_writer.h"
 
@@ -133,48 +134,30 @@ static facet_result save_glb(writer *w, const char *path)
         add_chunk(&at, GLB_JSON, text, length, ' ');
         if (w->bin_size)
             add_chunk(&at, GLB_BIN, w->bin, w->bin_size, 0);
-        w->result = file_write(path, file, size, w->error);
+        file_set set = {.allocator = w->allocator, .main = path, .inputs = w->inputs};
+        w->result = file_set_add(&set, NULL, file, size, w->error);
+        if (writer_is_ok(w))
+            w->result = file_set_commit(&set, w->error);
+        file_set_destroy(&set);
     }
     mem_free(file);
     free(text);
     return w->result;
 }
 
-/* Stages a file in the folder of path. */
-static void stage_beside(writer *w, const char *path, const char *name, const void *bytes, size_t size,
-                         file_stage *stage)
-{
-    char *folder = strchr(path, '/') ? path_folder(w->allocator, path) : NULL;
-    char *file = folder ? path_join(w->allocator, folder, name) : NULL;
-    if (file || !strchr(path, '/'))
-        w->result = file_stage_write(file ? file : name, bytes, size, stage, w->error);
-    else
-        writer_fail_memory(w);
-    mem_free(file);
-    mem_free(folder);
-}
-
-/* All files, or none where one cannot be written. The .gltf file comes last: where it is, all that it names is. */
+/* All files, or none where one cannot be written. */
 static void save_files(writer *w, const char *path, const char *text, const char *bin_name)
 {
-    size_t count = 0;
-    file_stage *stages = mem_zalloc(w->allocator, w->file_count + 2, sizeof *stages);
-    if (!stages) {
-        writer_fail_memory(w);
-        return;
-    }
-    for (; count < w->file_count && writer_is_ok(w); count++)
-        stage_beside(w, path, w->files[count].name, w->files[count].bytes, w->files[count].size,
-                     &stages[count]);
+    file_set set = {.allocator = w->allocator, .main = path, .inputs = w->inputs};
+    for (size_t i = 0; i < w->file_count && writer_is_ok(w); i++)
+        w->result = file_set_add(&set, w->files[i].name, w->files[i].bytes, w->files[i].size, w->error);
     if (writer_is_ok(w) && w->bin_size)
-        stage_beside(w, path, bin_name, w->bin, w->bin_size, &stages[count++]);
+        w->result = file_set_add(&set, bin_name, w->bin, w->bin_size, w->error);
     if (writer_is_ok(w))
-        w->result = file_stage_write(path, text, strlen(text), &stages[count++], w->error);
-    for (size_t i = 0; i < count && writer_is_ok(w); i++)
-        w->result = file_stage_commit(&stages[i], w->error);
-    for (size_t i = 0; i < count; i++)
-        file_stage_discard(&stages[i]);
-    mem_free(stages);
+        w->result = file_set_add(&set, NULL, text, strlen(text), w->error);
+    if (writer_is_ok(w))
+        w->result = file_set_commit(&set, w->error);
+    file_set_destroy(&set);
 }
 
 static facet_result save_gltf(writer *w, const char *path)
@@ -215,6 +198,7 @@ facet_result gltf_save(const facet_scene *scene, const char *path, const char *g
                 .generator = generator,
                 .allocator = &desc->allocator,
                 .log = &desc->log,
+                .inputs = desc->keeps_inputs ? scene : NULL,
                 .error = error,
                 .result = FACET_OK,
                 .thread_count = desc->thread_count,

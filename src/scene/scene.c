@@ -106,6 +106,14 @@ bool scene_keep_file(facet_scene *scene, file_bytes *file)
     return true;
 }
 
+bool scene_has_file(const facet_scene *scene, const char *path)
+{
+    for (uint32_t i = 0; i < scene->file_count; i++)
+        if (file_is_at(&scene->files[i], path))
+            return true;
+    return false;
+}
+
 void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ...)
 {
     char message[1024];

@@ -1,0 +1,24 @@
+/* file_set.h - the files of one model: they appear together or not at all. */
+#ifndef IO_FILE_SET_H
+#define IO_FILE_SET_H
+
+#include "scene/scene.h"
+
+/* Files that are written but not yet in their places. {.main} starts it. */
+typedef struct file_set {
+    const facet_allocator *allocator;
+    const char *main;          /* path of the file that names the others; they go into its folder */
+    const facet_scene *inputs; /* whose files must not be replaced; NULL: any may be */
+    file_stage *stages;        /* block of mem_alloc() */
+    size_t count, capacity;
+} file_set;
+
+/* Stages a file beside main (name NULL: main itself, which should come last: where it is, all that it names is). Fails as
+ * file_stage_write(), with FACET_ERROR_MEMORY, and with _ARGUMENT where an input would be replaced. */
+facet_result file_set_add(file_set *set, const char *name, const void *bytes, size_t size,
+                          facet_error *error);
+/* Puts all in their places, in the order in which they were added. */
+facet_result file_set_commit(file_set *set, facet_error *error);
+void file_set_destroy(file_set *set); /* removes what was not committed */
+
+#endif
