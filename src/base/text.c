@@ -157,15 +157,6 @@ void text_json_integer(text *t, const char *key, int64_t value)
     text_addf(t, "%lld", (long long)value);
 }
 
-void text_shortest_float(float value, char digits[TEXT_FLOAT_SIZE])
-{
-    for (int precision = 6; precision <= 9; precision++) {
-        snprintf(digits, TEXT_FLOAT_SIZE, "%.*g", precision, (double)value);
-        if (strtof(digits, NULL) == value)
-            break;
-    }
-}
-
 void text_json_float(text *t, const char *key, float value)
 {
     begin_value(t, key);

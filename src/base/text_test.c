@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -79,12 +81,54 @@ static void long_text_grows_and_failure_sticks(void **state)
     facet_budget_destroy(budget);
 }
 
+/* What text_shortest_float() promises, by the C library alone. */
+static void assert_shortest(uint32_t bits)
+{
+    float value;
+    char expected[TEXT_FLOAT_SIZE];
+    char actual[TEXT_FLOAT_SIZE];
+    memcpy(&value, &bits, sizeof value);
+    if (!isfinite(value))
+        return;
+    for (int precision = 6; precision <= 9; precision++) {
+        snprintf(expected, sizeof expected, "%.*g", precision, (double)value);
+        if (strtof(expected, NULL) == value)
+            break;
+    }
+    text_shortest_float(value, actual);
+    assert_string_equal(actual, expected);
+}
+
+static void shortest_floats_are_those_of_printf(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    for (int i = 0; i < 300000; i++) { /* any bits; then sizes that models have */
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        assert_shortest((uint32_t)(random >> 32));
+        assert_shortest((uint32_t)(random >> 32) % 0x1a000000 + 0x2f000000);
+    }
+    for (uint32_t exponent = 0; exponent < 256; exponent++) /* powers of two and what is beside them */
+        for (uint32_t k = 0; k < 5; k++)
+            assert_shortest((exponent << 23) + k - 2);
+    for (int digits = 1; digits < 100000; digits++) { /* short decimals, ties and carries among them */
+        float value = (float)digits / 64.0f;
+        float decimal = (float)digits / 1000.0f;
+        uint32_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        assert_shortest(bits);
+        memcpy(&bits, &decimal, sizeof bits);
+        assert_shortest(bits);
+        assert_shortest(bits - 1);
+        assert_shortest(bits + 1 + 0x80000000u);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(json_has_commas_where_they_belong),
-        cmocka_unit_test(numbers_read_back),
-        cmocka_unit_test(strings_are_valid_utf8),
+        cmocka_unit_test(json_has_commas_where_they_belong),   cmocka_unit_test(numbers_read_back),
+        cmocka_unit_test(shortest_floats_are_those_of_printf), cmocka_unit_test(strings_are_valid_utf8),
         cmocka_unit_test(long_text_grows_and_failure_sticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
