@@ -1,0 +1,40 @@
+/* chart_ticks.h - where an axis has its ticks, and what stands beside them. */
+#ifndef PLOT_CHART_TICKS_H
+#define PLOT_CHART_TICKS_H
+
+#include "plot/chart.h"
+#include "plot/chart_number.h"
+
+enum { TICKS_MAX = 24, TICKS_MINOR_MAX = 128, TICKS_EXPONENT_SIZE = 16 };
+
+/* "0.25", or "10" with "-3" above. */
+typedef struct tick_label {
+    char text[NUMBER_SIZE];
+    char exponent[TICKS_EXPONENT_SIZE];
+} tick_label;
+
+/* All in units of the axis; ticks rise, and lie within the range. */
+typedef struct ticks {
+    double minimum, maximum;
+    int count, minor_count;
+    double values[TICKS_MAX], minor[TICKS_MINOR_MAX];
+    tick_label labels[TICKS_MAX];
+    int power; /* the labels say values / 10^power */
+} ticks;
+
+/* What an axis has to show, and how many ticks at most look well. */
+typedef struct ticks_desc {
+    chart_scale scale;
+    bool is_fixed; /* the range is taken as it is; else widened to round numbers */
+    bool is_degrees;
+    double minimum, maximum; /* finite, minimum < maximum; logarithmic: positive */
+    int target;              /* wanted count, 2 to TICKS_MAX */
+} ticks_desc;
+
+void ticks_create(const ticks_desc *desc, ticks *out);
+
+/* A range for values from minimum to maximum that ticks_create() takes: not empty, with 0 where that is near, within
+ * +-1e300; of no values (minimum > maximum): 0 to 1, logarithmic 0.1 to 1. */
+void ticks_range(chart_scale scale, double *minimum, double *maximum);
+
+#endif
