@@ -58,7 +58,7 @@ typedef enum chart_panel_kind {
     CHART_XY,
     CHART_POLAR, /* a half disc: angles -90 to 90 degrees */
     CHART_FIELD, /* of field, with axes */
-    CHART_DISC,  /* of field, as seen from above a hemisphere: rings at 30, 60, 90 degrees, no axes. x and y are the
+    CHART_DISC, /* of field, as seen from above a hemisphere: rings at 30, 60, 90 degrees, no axes. x and y are the
                     direction's, so that the horizon is at radius 1; azimuth 0 is at the right */
     CHART_SURFACE
 } chart_panel_kind;

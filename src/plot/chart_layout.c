@@ -1,0 +1,265 @@
+/* chart_layout.c - see chart_layout.h. */
+#include "plot/chart_layout.h"
+
+#include <math.h>
+
+#include "base/result.h"
+
+static uint32_t column_count(const chart *c)
+{
+    const uint32_t columns = c->columns > 0 ? c->columns : 1;
+    return columns < c->panel_count ? columns : c->panel_count > 0 ? c->panel_count : 1;
+}
+
+static uint32_t row_count(const chart *c)
+{
+    const uint32_t columns = column_count(c), rows = (c->panel_count + columns - 1) / columns;
+    return rows > 0 ? rows : 1;
+}
+
+double layout_scale(const chart *c)
+{
+    const double size =
+        fmin(sqrt((double)c->width * c->height / (960.0 * 640.0)), fmin(c->width, c->height) / 300.0);
+    const double whole = size < 1.0 ? sqrt(size) : size;
+    const double shared = whole * pow((double)column_count(c) * row_count(c), -0.18);
+    return fmax(shared, fmin(whole, 0.72)); /* text of 8 px is the smallest that is read */
+}
+
+static bool is_cartesian(const panel_view *v)
+{
+    return v->panel->kind == CHART_XY || v->panel->kind == CHART_FIELD;
+}
+
+/* Where a legend below begins, and its width: under the plot. */
+static chart_box room_below(const panel_view *v)
+{
+    const double x = is_cartesian(v) ? v->plot.x - 0.55 * v->legend.font.size : v->cell.x;
+    return (chart_box){.x = x, .width = v->cell.x + v->cell.width - x};
+}
+
+static void measure(const drawing *d, panel_view *v)
+{
+    switch (v->panel->kind) {
+    case CHART_POLAR:
+        view_polar_measure(d, v);
+        break;
+    case CHART_DISC:
+        view_disc_measure(d, v);
+        break;
+    case CHART_SURFACE:
+        view_surface_measure(d, v);
+        break;
+    default:
+        view_xy_measure(d, v);
+    }
+    const double gap = 0.8 * v->legend.font.size;
+    if (v->legend.place == LEGEND_RIGHT)
+        v->margins.right += v->legend.width + gap;
+    if (v->legend.place == LEGEND_BELOW)
+        v->margins.bottom += legend_rows_height(&v->legend, room_below(v).width) + gap;
+}
+
+/* ---- panels in their grid ---- */
+
+/* The chart's title; returns the px below which panels begin. */
+static double draw_title(const drawing *d, double margin)
+{
+    const canvas_font font = {.size = 16.0 * d->scale, .is_bold = true};
+    label_line lines[2];
+    const int count = label_wrap(d->canvas, font, d->chart->title, d->chart->width - 2.0 * margin, 2, lines);
+    if (1.3 * count * font.size > 0.3 * d->chart->height)
+        return margin;
+    for (int i = 0; i < count; i++)
+        label_draw(d->canvas, &lines[i], font, d->theme->text, LABEL_LEFT, margin,
+                   margin + font.size * (0.8 + 1.25 * i));
+    return margin + (count > 0 ? font.size * (1.25 * count + 0.55) : 0.0);
+}
+
+static void make_header(const drawing *d, panel_view *v)
+{
+    const canvas_font title = view_title_font(d), note = view_tick_font(d);
+    v->title_lines = label_wrap(d->canvas, title, v->panel->title, v->cell.width, 2, v->title);
+    v->note_lines = label_wrap(d->canvas, note, v->panel->note, v->cell.width, 2, v->note);
+    v->header = 1.25 * title.size * v->title_lines + 1.35 * note.size * v->note_lines;
+    if (v->header > 0.0)
+        v->header += 0.5 * title.size;
+    if (v->header > 0.3 * v->cell.height && v->note_lines + v->title_lines > 1) { /* the plot comes first */
+        v->note_lines = 0;
+        v->title_lines = v->title_lines > 0;
+        label_fit(d->canvas, title, v->panel->title, v->cell.width, &v->title[0]);
+        v->header = 1.75 * title.size * v->title_lines;
+    }
+}
+
+static view_detail choose_detail(const drawing *d, const chart_box *cell)
+{
+    const double size = view_tick_font(d).size;
+    if (cell->width < 7.0 * size || cell->height < 6.0 * size)
+        return VIEW_FRAME;
+    return cell->width < 14.0 * size || cell->height < 11.0 * size ? VIEW_TICKS : VIEW_ALL;
+}
+
+static void place_cells(const drawing *d, panel_view *views)
+{
+    const chart *c = d->chart;
+    const uint32_t columns = column_count(c), rows = row_count(c);
+    const double margin = fmin(14.0 * d->scale, 0.06 * fmin(c->width, c->height));
+    const double top = draw_title(d, margin);
+    const double gap_x = fmin(22.0 * d->scale, 0.1 * c->width / columns);
+    const double gap_y = fmin(20.0 * d->scale, 0.1 * c->height / rows);
+    const double width = (c->width - 2.0 * margin - gap_x * (columns - 1)) / columns;
+    const double height = (c->height - margin - top - gap_y * (rows - 1)) / rows;
+    for (uint32_t i = 0; i < c->panel_count; i++) {
+        panel_view *v = &views[i];
+        v->cell = (chart_box){.x = margin + (i % columns) * (width + gap_x),
+                              .y = top + (i / columns) * (height + gap_y),
+                              .width = fmax(width, 1.0),
+                              .height = fmax(height, 1.0)};
+        v->detail = choose_detail(d, &v->cell);
+        if (v->detail >= VIEW_TICKS)
+            make_header(d, v);
+        v->plot = v->cell;
+    }
+}
+
+/* The plot is what margins leave of the cell. */
+static void place_plot(panel_view *v)
+{
+    const view_margins *m = &v->margins;
+    const double left = rint(v->cell.x + m->left), top = rint(v->cell.y + v->header + m->top);
+    v->plot = (chart_box){.x = left,
+                          .y = top,
+                          .width = fmax(rint(v->cell.x + v->cell.width - m->right) - left, 4.0),
+                          .height = fmax(rint(v->cell.y + v->cell.height - m->bottom) - top, 4.0)};
+}
+
+/* Axes above one another begin and end at the same place, and so do those beside one another. */
+static void align(const chart *c, panel_view *views)
+{
+    const uint32_t columns = column_count(c);
+    for (uint32_t i = 0; i < c->panel_count; i++)
+        for (uint32_t k = 0; k < i; k++) {
+            panel_view *a = &views[i], *b = &views[k];
+            if (i / columns == k / columns)
+                a->header = b->header = fmax(a->header, b->header);
+            if (!is_cartesian(a) || !is_cartesian(b))
+                continue;
+            if (i / columns == k / columns) {
+                a->margins.top = b->margins.top = fmax(a->margins.top, b->margins.top);
+                a->margins.bottom = b->margins.bottom = fmax(a->margins.bottom, b->margins.bottom);
+            } else if (i % columns == k % columns) {
+                a->margins.left = b->margins.left = fmax(a->margins.left, b->margins.left);
+                a->margins.right = b->margins.right = fmax(a->margins.right, b->margins.right);
+            }
+        }
+}
+
+static void measure_all(const drawing *d, panel_view *views)
+{
+    const chart *c = d->chart;
+    /* the number of ticks depends on the plot's size, and that on the width of their labels */
+    for (int pass = 0; pass < 2; pass++) {
+        for (uint32_t i = 0; i < c->panel_count; i++)
+            measure(d, &views[i]);
+        align(c, views);
+        for (uint32_t i = 0; i < c->panel_count; i++)
+            place_plot(&views[i]);
+    }
+}
+
+/* ---- legends ---- */
+
+facet_result layout_trace(const drawing *d, panel_view *v, facet_error *error)
+{
+    if (!trace_list_create(&d->allocator, v->panel, &v->traces))
+        return fail_memory(error, "curves of a plot", 0);
+    if (v->panel->kind == CHART_POLAR)
+        view_polar_trace(d, v);
+    else if (is_cartesian(v))
+        view_xy_trace(d, v);
+    return FACET_OK;
+}
+
+/* The least that a legend inside covers; its place. */
+static double fit_inside(const drawing *d, panel_view *v)
+{
+    if (v->panel->kind != CHART_POLAR)
+        return legend_fit_inside(&v->legend, &v->plot, &v->traces, 0.0, 0.0, 0.0);
+    /* the corners outside of the half disc */
+    const double radius = fmin(0.5 * v->plot.width, v->plot.height);
+    const double bottom = v->plot.y + 0.5 * (v->plot.height + radius), top = v->cell.y + v->header;
+    const chart_box free = {v->cell.x, top, v->cell.width, bottom - top};
+    return legend_fit_inside(&v->legend, &free, &v->traces, v->plot.x + 0.5 * v->plot.width, bottom,
+                             radius + 2.2 * view_tick_font(d).size);
+}
+
+/* Inside where nothing is covered; else where it takes the smaller part of the plot. */
+static void choose_place(const drawing *d, panel_view *v)
+{
+    const canvas_font font = view_tick_font(d);
+    legend right, below;
+    legend_create(d->canvas, v->panel, font, d->scale, 0.55 * v->plot.width, &v->legend);
+    if (v->legend.place == LEGEND_NONE)
+        return;
+    const double covered = fit_inside(d, v);
+    if (covered == 0.0)
+        return;
+    legend_create(d->canvas, v->panel, font, d->scale, 0.36 * v->cell.width, &right);
+    legend_create(d->canvas, v->panel, font, d->scale, room_below(v).width, &below);
+    right.place = LEGEND_RIGHT;
+    below.place = LEGEND_BELOW;
+    /* names that are cut say little */
+    const bool is_whole = right.height <= v->plot.height && right.name_width >= below.name_width - 0.5;
+    const double lost_right = is_whole ? right.width / v->plot.width : 1.0;
+    const double lost_below = legend_rows_height(&below, room_below(v).width) / v->plot.height;
+    if (fmin(lost_right, lost_below) < 0.45)
+        v->legend = lost_right < lost_below ? right : below;
+    else if (!isfinite(covered))
+        v->legend.place = LEGEND_NONE; /* too small a panel */
+}
+
+static void place_legend(const drawing *d, panel_view *v)
+{
+    legend *l = &v->legend;
+    const chart_box *cell = &v->cell;
+    if (l->place == LEGEND_RIGHT) {
+        l->box = (chart_box){cell->x + cell->width - l->width, v->plot.y, l->width, l->height};
+    } else if (l->place == LEGEND_BELOW) {
+        l->box = room_below(v);
+        l->box.height = legend_rows_height(l, l->box.width);
+        l->box.y = cell->y + cell->height - l->box.height;
+    } else if (l->place == LEGEND_INSIDE && !isfinite(fit_inside(d, v))) {
+        l->place = LEGEND_NONE;
+    }
+}
+
+static facet_result make_legends(const drawing *d, panel_view *views, bool is_choice, facet_error *error)
+{
+    for (uint32_t i = 0; i < d->chart->panel_count; i++) {
+        panel_view *v = &views[i];
+        if (v->detail != VIEW_ALL || !v->panel->has_legend || v->panel->curve_count == 0 ||
+            !(is_cartesian(v) || v->panel->kind == CHART_POLAR))
+            continue;
+        const facet_result result = layout_trace(d, v, error);
+        if (result != FACET_OK)
+            return result;
+        if (is_choice)
+            choose_place(d, v);
+        else
+            place_legend(d, v);
+        trace_list_destroy(&v->traces);
+    }
+    return FACET_OK;
+}
+
+facet_result layout_create(const drawing *d, panel_view *views, facet_error *error)
+{
+    place_cells(d, views);
+    measure_all(d, views);
+    facet_result result = make_legends(d, views, true, error);
+    if (result != FACET_OK)
+        return result;
+    measure_all(d, views);
+    return make_legends(d, views, false, error);
+}

@@ -1,0 +1,426 @@
+/* chart_surface.c - panels of a surface in space: seen without perspective, lit a little, in false color, over a disc
+ * with the directions of x and y. */
+#include "plot/chart_view.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/result.h"
+#include "plot/chart_solid.h"
+
+static const double DEGREE = 0.017453292519943295;
+
+/* From the surface's space to the canvas. */
+typedef struct surface_view {
+    double right[3], up[3], toward[3]; /* unit vectors */
+    double base_radius;                /* of the disc, a round number */
+    double low[2], high[2];            /* of all that is drawn, along right and up */
+    double top;                        /* the largest z */
+    double x, y, scale;                /* px of the origin; px per unit */
+    chart_box box;                     /* of the picture, px */
+    double fine;                       /* pixels of the picture per px */
+} surface_view;
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static bool get_point(const chart_surface *s, size_t i, double p[3])
+{
+    p[0] = s->x[i];
+    p[1] = s->y[i];
+    p[2] = s->z[i];
+    return fabs(p[0]) < 1e100 && fabs(p[1]) < 1e100 && fabs(p[2]) < 1e100; /* false for NaN */
+}
+
+static void include(surface_view *w, const double p[3])
+{
+    const double at[2] = {dot(p, w->right), dot(p, w->up)};
+    for (int i = 0; i < 2; i++) {
+        w->low[i] = fmin(w->low[i], at[i]);
+        w->high[i] = fmax(w->high[i], at[i]);
+    }
+}
+
+static surface_view look_at(const chart_surface *s)
+{
+    const double azimuth = isfinite(s->azimuth_rad) ? s->azimuth_rad : 0.0;
+    const double elevation = isfinite(s->elevation_rad)
+                                 ? fmin(fmax(s->elevation_rad, -90.0 * DEGREE), 90.0 * DEGREE)
+                                 : 30.0 * DEGREE;
+    const double ca = cos(azimuth), sa = sin(azimuth), ce = cos(elevation), se = sin(elevation);
+    surface_view w = {
+        .right = {-sa, ca, 0.0}, .up = {-se * ca, -se * sa, ce}, .toward = {ce * ca, ce * sa, se}};
+    double reach = 0.0;
+    for (size_t i = 0; i < (size_t)s->width * s->height; i++) {
+        double p[3];
+        if (!get_point(s, i, p))
+            continue;
+        include(&w, p);
+        reach = fmax(reach, hypot(p[0], p[1]));
+        w.top = fmax(w.top, p[2]);
+    }
+    axis_extent extent = {0.0, reach};
+    ticks_range(CHART_LINEAR, &extent.minimum, &extent.maximum);
+    ticks t;
+    ticks_create(&(ticks_desc){.minimum = 0.0, .maximum = extent.maximum, .target = 4}, &t);
+    w.base_radius = t.maximum;
+    for (int degrees = 0; degrees < 360; degrees += 10) {
+        const double p[3] = {w.base_radius * cos(degrees * DEGREE), w.base_radius * sin(degrees * DEGREE),
+                             0.0};
+        include(&w, p);
+    }
+    const double tip[3] = {0.0, 0.0, 1.1 * w.top};
+    include(&w, tip);
+    return w;
+}
+
+static void place(surface_view *w, const chart_box *plot)
+{
+    const double width = w->high[0] - w->low[0], height = w->high[1] - w->low[1];
+    w->scale = fmin(plot->width / width, plot->height / height);
+    w->x = plot->x + 0.5 * (plot->width - w->scale * (w->low[0] + w->high[0]));
+    w->y = plot->y + 0.5 * (plot->height + w->scale * (w->low[1] + w->high[1]));
+}
+
+static void project(const surface_view *w, const double p[3], double *x, double *y)
+{
+    *x = w->x + w->scale * dot(p, w->right);
+    *y = w->y - w->scale * dot(p, w->up);
+}
+
+/* ---- light ---- */
+
+/* Adds the normals of the triangles around each vertex, weighted by their areas. */
+static void add_normals(const chart_surface *s, double (*normals)[3])
+{
+    for (uint32_t row = 0; row + 1 < s->height; row++)
+        for (uint32_t column = 0; column + 1 < s->width; column++) {
+            const size_t i = (size_t)row * s->width + column;
+            const size_t corners[4] = {i, i + 1, i + s->width, i + s->width + 1};
+            static const int TRIANGLES[2][3] = {{0, 1, 2}, {1, 3, 2}};
+            for (int t = 0; t < 2; t++) {
+                double p[3][3], a[3], b[3], n[3];
+                bool is_there = true;
+                for (int k = 0; k < 3; k++)
+                    is_there = get_point(s, corners[TRIANGLES[t][k]], p[k]) && is_there;
+                for (int k = 0; k < 3; k++) {
+                    a[k] = p[1][k] - p[0][k];
+                    b[k] = p[2][k] - p[0][k];
+                }
+                cross(a, b, n);
+                for (int k = 0; k < 3 && is_there; k++)
+                    for (int c = 0; c < 3; c++)
+                        normals[corners[TRIANGLES[t][k]]][c] += n[c];
+            }
+        }
+}
+
+static bool is_same_point(const chart_surface *s, size_t i, size_t k)
+{
+    const double size = fabs(s->x[i]) + fabs(s->y[i]) + fabs(s->z[i]);
+    return fabs(s->x[i] - s->x[k]) + fabs(s->y[i] - s->y[k]) + fabs(s->z[i] - s->z[k]) <= 1e-6 * size;
+}
+
+/* Points that are one in space have one normal: count of them from first, stride apart. */
+static void join_normals(const chart_surface *s, double (*normals)[3], size_t first, size_t stride,
+                         size_t count)
+{
+    double sum[3] = {0.0};
+    for (size_t i = 0; i < count; i++) {
+        if (!is_same_point(s, first, first + i * stride))
+            return;
+        for (int c = 0; c < 3; c++)
+            sum[c] += normals[first + i * stride][c];
+    }
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            normals[first + i * stride][c] = sum[c];
+}
+
+/* Where a grid goes round (its first and last column are one), and at its poles (all points of a row are one). */
+static void join_seams(const chart_surface *s, double (*normals)[3])
+{
+    const size_t columns = s->width, rows = s->height;
+    for (size_t row = 0; row < rows; row++)
+        join_normals(s, normals, row * columns, columns - 1, 2);
+    for (size_t column = 0; column < columns; column++)
+        join_normals(s, normals, column, (rows - 1) * columns, 2);
+    join_normals(s, normals, 0, 1, columns);
+    join_normals(s, normals, (rows - 1) * columns, 1, columns);
+}
+
+/* Light from above the viewer's left shoulder; both sides are lit. */
+static double shade_of(const surface_view *w, const double normal[3])
+{
+    static const double LIGHT[3] = {-0.42, 0.52, 0.743};
+    const double length = sqrt(dot(normal, normal));
+    if (!(length > 0.0) || !isfinite(length))
+        return 1.0;
+    double n[3] = {dot(normal, w->right) / length, dot(normal, w->up) / length,
+                   dot(normal, w->toward) / length};
+    const double side = n[2] < 0.0 ? -1.0 : 1.0;
+    return 0.58 + 0.42 * fmax(side * dot(n, LIGHT), 0.0);
+}
+
+/* ---- drawing ---- */
+
+static solid_vertex make_vertex(const surface_view *w, const chart_surface *s, const axis_view *bar, size_t i,
+                                const double normal[3])
+{
+    double p[3], x, y;
+    if (!get_point(s, i, p))
+        return (solid_vertex){.x = NAN};
+    project(w, p, &x, &y);
+    const double value = axis_fraction(bar, s->values ? s->values[i] : s->z[i]);
+    return (solid_vertex){.x = (float)((x - w->box.x) * w->fine),
+                          .y = (float)((y - w->box.y) * w->fine),
+                          .depth = (float)(w->scale * dot(p, w->toward)),
+                          .value = (float)fmin(fmax(value, 0.0), 1.0), /* fmax: 0 for NaN */
+                          .shade = (float)shade_of(w, normal)};
+}
+
+static facet_result make_solid(const drawing *d, const surface_view *w, const panel_view *v, solid *out,
+                               facet_error *error)
+{
+    const chart_surface *s = v->panel->surface;
+    const size_t count = (size_t)s->width * s->height;
+    const axis_view unit = {.ticks = {.minimum = 0.0, .maximum = 255.0}};
+    uint32_t colors[256];
+    for (int i = 0; i < 256; i++)
+        colors[i] = view_bar_color(&unit, i);
+    double(*normals)[3] = mem_zalloc(&d->allocator, count, sizeof *normals);
+    solid_vertex *vertices = mem_alloc(&d->allocator, count, sizeof *vertices);
+    facet_result result;
+    if (normals && vertices) {
+        add_normals(s, normals);
+        join_seams(s, normals);
+        for (size_t i = 0; i < count; i++)
+            vertices[i] = make_vertex(w, s, &v->bar, i, normals[i]);
+        result = solid_create(&d->allocator, (uint32_t)(w->box.width * w->fine),
+                              (uint32_t)(w->box.height * w->fine), vertices, s->width, s->height, colors, out,
+                              error);
+    } else {
+        result = fail_memory(error, "surface", count * sizeof *vertices);
+    }
+    mem_free(normals);
+    mem_free(vertices);
+    return result;
+}
+
+/* How a line in space is drawn: all of it (solid NULL), or what lies in front of the surface or on it. */
+typedef struct space_line {
+    canvas_stroke stroke;
+    const solid *solid;
+    double slack; /* px of depth that a line on the surface may seem to lie behind it */
+    bool is_over; /* only where the surface is behind */
+    int around;   /* pixels to look around: the next one of a steep surface is much nearer */
+} space_line;
+
+static bool is_visible(const surface_view *w, const space_line *line, double x, double y, double depth)
+{
+    if (!line->solid)
+        return true;
+    const double px = (x - w->box.x) * w->fine, py = (y - w->box.y) * w->fine;
+    double farthest = INFINITY;
+    for (int dy = -line->around; dy <= line->around; dy++)
+        for (int dx = -line->around; dx <= line->around; dx++) {
+            const double here = (double)solid_depth_at(line->solid, px + dx, py + dy);
+            if (isfinite(here))
+                farthest = fmin(farthest, here);
+        }
+    if (!isfinite(farthest))
+        return !line->is_over;
+    return depth >= farthest - line->slack;
+}
+
+/* From a to b in steps of about two pixels. */
+static void draw_segment(const drawing *d, const surface_view *w, const space_line *line, const double a[3],
+                         const double b[3], bool *is_open)
+{
+    double x0, y0, x1, y1;
+    project(w, a, &x0, &y0);
+    project(w, b, &x1, &y1);
+    const int steps = line->solid ? (int)fmin(ceil(hypot(x1 - x0, y1 - y0) / 2.0) + 1.0, 1000.0) : 1;
+    const double za = w->scale * dot(a, w->toward), zb = w->scale * dot(b, w->toward);
+    for (int i = 1; i <= steps; i++) {
+        const double t0 = (i - 1.0) / steps, t1 = (double)i / steps, t = 0.5 * (t0 + t1);
+        if (!is_visible(w, line, x0 + t * (x1 - x0), y0 + t * (y1 - y0), za + t * (zb - za))) {
+            *is_open = false;
+            continue;
+        }
+        if (!*is_open)
+            canvas_move_to(d->canvas, x0 + t0 * (x1 - x0), y0 + t0 * (y1 - y0));
+        canvas_line_to(d->canvas, x0 + t1 * (x1 - x0), y0 + t1 * (y1 - y0));
+        *is_open = true;
+    }
+}
+
+/* The line of the grid along points first, first + stride .. */
+static void draw_mesh_line(const drawing *d, const surface_view *w, const chart_surface *s,
+                           const space_line *line, size_t first, size_t stride, size_t count)
+{
+    bool is_open = false;
+    for (size_t i = 0; i + 1 < count; i++) {
+        double a[3], b[3];
+        if (get_point(s, first + i * stride, a) && get_point(s, first + (i + 1) * stride, b))
+            draw_segment(d, w, line, a, b, &is_open);
+        else
+            is_open = false;
+    }
+    canvas_draw(d->canvas, &line->stroke);
+}
+
+static void draw_mesh(const drawing *d, const surface_view *w, const chart_surface *s, const solid *picture)
+{
+    enum { LINES = 12 }; /* about so many each way */
+    const space_line line = {.stroke = {.color = {1.0, 1.0, 1.0, 0.3}, .width = fmax(0.7 * d->scale, 0.6)},
+                             .solid = picture,
+                             .slack = 0.012 * w->scale * w->base_radius,
+                             .is_over = true,
+                             .around = 1};
+    const size_t row_step = (s->height + LINES - 1) / LINES, column_step = (s->width + LINES - 1) / LINES;
+    for (size_t row = 0; row < s->height; row += row_step)
+        draw_mesh_line(d, w, s, &line, row * s->width, 1, s->width);
+    for (size_t column = 0; column < s->width; column += column_step)
+        draw_mesh_line(d, w, s, &line, column, s->width, s->height);
+}
+
+static void draw_ring(const drawing *d, const surface_view *w, const space_line *line, double radius)
+{
+    bool is_open = false;
+    for (int degrees = 0; degrees < 360; degrees += 3) {
+        const double a[3] = {radius * cos(degrees * DEGREE), radius * sin(degrees * DEGREE), 0.0};
+        const double b[3] = {radius * cos((degrees + 3) * DEGREE), radius * sin((degrees + 3) * DEGREE), 0.0};
+        draw_segment(d, w, line, a, b, &is_open);
+    }
+    canvas_draw(d->canvas, &line->stroke);
+}
+
+/* The disc at z = 0 and the axis of z; under the surface all of it, then what is before it. */
+static void draw_base(const drawing *d, const surface_view *w, const solid *picture)
+{
+    space_line line = {.stroke = {.color = d->theme->grid, .width = 1.0},
+                       .solid = picture,
+                       .slack = 0.001 * w->scale * w->base_radius,
+                       .is_over = true};
+    for (int degrees = 0; degrees < 360; degrees += 30) {
+        const double center[3] = {0.0};
+        const double rim[3] = {w->base_radius * cos(degrees * DEGREE), w->base_radius * sin(degrees * DEGREE),
+                               0.0};
+        bool is_open = false;
+        draw_segment(d, w, &line, center, rim, &is_open);
+        canvas_draw(d->canvas, &line.stroke);
+    }
+    draw_ring(d, w, &line, 0.5 * w->base_radius);
+    line.stroke.color = d->theme->axis;
+    draw_ring(d, w, &line, w->base_radius);
+    const double foot[3] = {0.0}, tip[3] = {0.0, 0.0, 1.1 * w->top};
+    bool is_open = false;
+    draw_segment(d, w, &line, foot, tip, &is_open);
+    canvas_draw(d->canvas, &line.stroke);
+}
+
+/* Whether the surface covers nothing of a box. */
+static bool is_free(const surface_view *w, const solid *picture, const chart_box *box)
+{
+    for (int row = 0; row <= 4; row++)
+        for (int column = 0; column <= 4; column++) {
+            const double x = box->x + 0.25 * column * box->width, y = box->y + 0.25 * row * box->height;
+            if (isfinite(solid_depth_at(picture, (x - w->box.x) * w->fine, (y - w->box.y) * w->fine)))
+                return false;
+        }
+    return true;
+}
+
+/* Azimuths around the disc, where the surface leaves room for them. */
+static void draw_compass(const drawing *d, const surface_view *w, const solid *picture)
+{
+    const canvas_font font = view_tick_font(d);
+    for (int degrees = 0; degrees < 360; degrees += 90) {
+        const double direction[3] = {cos(degrees * DEGREE), sin(degrees * DEGREE), 0.0};
+        const double rim[3] = {w->base_radius * direction[0], w->base_radius * direction[1], 0.0};
+        char text[16];
+        double x, y;
+        label_line l;
+        project(w, rim, &x, &y);
+        snprintf(text, sizeof text, "%d\xc2\xb0", degrees);
+        label_fit(d->canvas, font, text, 1e4, &l);
+        double dx = dot(direction, w->right), dy = -dot(direction, w->up);
+        const double length = fmax(hypot(dx, dy), 1e-9);
+        dx /= length;
+        dy /= length;
+        x += dx * (0.5 * font.size + 0.5 * l.width);
+        y += dy * 0.95 * font.size;
+        const chart_box box = {x - 0.5 * l.width, y - 0.5 * font.size, l.width, font.size};
+        if (is_free(w, picture, &box))
+            label_draw(d->canvas, &l, font, d->theme->muted_text, LABEL_CENTER, x, y + label_middle(font));
+    }
+}
+
+void view_surface_measure(const drawing *d, panel_view *v)
+{
+    const chart_surface *s = v->panel->surface;
+    const canvas_font tick = view_tick_font(d);
+    v->margins = (view_margins){.left = 2.0, .right = 2.0, .top = 2.0, .bottom = 2.0};
+    if (v->detail >= VIEW_TICKS) {
+        v->margins.left = v->margins.right =
+            canvas_text_width(d->canvas, tick, "180\xc2\xb0") + 0.7 * tick.size;
+        v->margins.top = v->margins.bottom = 1.6 * tick.size;
+    }
+    if (!s)
+        return;
+    axis_extent values = AXIS_EXTENT_NONE;
+    axis_extent_add(&values, CHART_LINEAR, (size_t)s->width * s->height, s->values ? s->values : s->z);
+    const double width =
+        view_bar_measure(d, s->label, CHART_LINEAR, values, false, 0.8 * v->plot.height, &v->bar);
+    if (v->detail == VIEW_ALL)
+        v->margins.right += width;
+}
+
+/* What the surface covers, in whole px. */
+static chart_box picture_box(const surface_view *w)
+{
+    const double x0 = floor(w->x + w->scale * w->low[0]) - 1.0, x1 = ceil(w->x + w->scale * w->high[0]) + 1.0;
+    const double y0 = floor(w->y - w->scale * w->high[1]) - 1.0, y1 = ceil(w->y - w->scale * w->low[1]) + 1.0;
+    return (chart_box){x0, y0, x1 - x0, y1 - y0};
+}
+
+facet_result view_surface_draw(const drawing *d, panel_view *v, facet_error *error)
+{
+    const chart_surface *s = v->panel->surface;
+    if (!s || s->width == 0 || s->height == 0)
+        return FACET_OK;
+    surface_view w = look_at(s);
+    place(&w, &v->plot);
+    w.box = picture_box(&w);
+    w.fine = canvas_is_raster(d->canvas) ? 1.0 : 2.0;
+    w.fine = fmin(w.fine, CANVAS_MAX_SIZE / fmax(w.box.width, w.box.height));
+    solid picture;
+    const facet_result result = make_solid(d, &w, v, &picture, error);
+    if (result != FACET_OK)
+        return result;
+    draw_base(d, &w, NULL);
+    canvas_image(d->canvas, w.box.x, w.box.y, w.box.width, w.box.height, picture.pixels, picture.width,
+                 picture.height);
+    draw_mesh(d, &w, s, &picture);
+    draw_base(d, &w, &picture);
+    if (v->detail >= VIEW_TICKS)
+        draw_compass(d, &w, &picture);
+    solid_destroy(&picture);
+    if (v->detail >= VIEW_ALL) {
+        const double height = 0.8 * v->plot.height;
+        const double side = v->margins.left - 2.0; /* of the labels on the right */
+        const chart_box box = {v->plot.x, v->plot.y + 0.1 * v->plot.height, v->plot.width + side, height};
+        view_bar_draw(d, s->label, &v->bar, &box);
+    }
+    return FACET_OK;
+}
