@@ -58,6 +58,31 @@ static void what_is_written_is_read(void **state)
     mem_free(path);
 }
 
+static void a_file_is_known_by_other_names(void **state)
+{
+    (void)state;
+    char *path = in_folder("known.bin");
+    char *other = in_folder("other.bin");
+    char *name = in_folder("name.bin");
+    facet_error error;
+    assert_int_equal(file_write(path, "abc", 3, &error), FACET_OK);
+    assert_int_equal(file_write(other, "abc", 3, &error), FACET_OK);
+    assert_int_equal(symlink("known.bin", name), 0);
+    file_bytes file;
+    assert_int_equal(file_open(path, 0, NULL, &file, &error), FACET_OK);
+    assert_true(file_is_at(&file, path));
+    assert_true(file_is_at(&file, name));
+    assert_false(file_is_at(&file, other));
+    assert_false(file_is_at(&file, "/nowhere"));
+    assert_int_equal(file_write(path, "abd", 3, &error), FACET_OK); /* another file in its place */
+    assert_false(file_is_at(&file, path));
+    file_close(&file);
+    assert_false(file_is_at(&file, other));
+    mem_free(path);
+    mem_free(other);
+    mem_free(name);
+}
+
 static void links_are_replaced_but_those_to_descriptors(void **state)
 {
     (void)state;
@@ -246,6 +271,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_written_is_read),
+        cmocka_unit_test(a_file_is_known_by_other_names),
         cmocka_unit_test(links_are_replaced_but_those_to_descriptors),
         cmocka_unit_test(a_file_of_our_own_follows_no_link),
         cmocka_unit_test(the_longest_name_can_be_written),

@@ -1,0 +1,104 @@
+/* Tests of file_set.h: all files or none, and inputs stay. */
+#define _GNU_SOURCE
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "io/file_set.h"
+
+static char folder[] = "/tmp/facet_file_set_test_XXXXXX";
+static char path[256];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    return system(command);
+}
+
+static const char *in_folder(const char *name)
+{
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static bool is_there(const char *name)
+{
+    return access(in_folder(name), F_OK) == 0;
+}
+
+static void files_appear_together(void **state)
+{
+    (void)state;
+    facet_error error;
+    char main_path[256];
+    snprintf(main_path, sizeof main_path, "%s/a.obj", folder);
+    file_set set = {.main = main_path};
+    assert_int_equal(file_set_add(&set, "a.mtl", "m", 1, &error), FACET_OK);
+    assert_int_equal(file_set_add(&set, NULL, "o", 1, &error), FACET_OK);
+    assert_false(is_there("a.mtl"));
+    assert_false(is_there("a.obj"));
+    assert_int_equal(file_set_commit(&set, &error), FACET_OK);
+    file_set_destroy(&set);
+    assert_true(is_there("a.mtl"));
+    assert_true(is_there("a.obj"));
+}
+
+static void what_is_not_committed_is_gone(void **state)
+{
+    (void)state;
+    facet_error error;
+    char main_path[256];
+    snprintf(main_path, sizeof main_path, "%s/b.obj", folder);
+    file_set set = {.main = main_path};
+    assert_int_equal(file_set_add(&set, "b.mtl", "m", 1, &error), FACET_OK);
+    assert_int_equal(file_set_add(&set, "no/such/folder", "m", 1, &error), FACET_ERROR_WRITE);
+    file_set_destroy(&set);
+    assert_false(is_there("b.mtl"));
+}
+
+static void inputs_are_not_replaced(void **state)
+{
+    (void)state;
+    facet_error error;
+    facet_scene *scene = NULL;
+    char main_path[256];
+    assert_int_equal(file_write(in_folder("input.mtl"), "old", 3, &error), FACET_OK);
+    assert_int_equal(scene_create(NULL, "source.obj", &scene, &error), FACET_OK);
+    file_bytes file;
+    assert_int_equal(file_open(in_folder("input.mtl"), 0, NULL, &file, &error), FACET_OK);
+    assert_true(scene_keep_file(scene, &file));
+    snprintf(main_path, sizeof main_path, "%s/input.obj", folder);
+    file_set set = {.main = main_path, .inputs = scene};
+    assert_int_equal(file_set_add(&set, "input.mtl", "new", 3, &error), FACET_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "which belongs to source.obj"));
+    file_set_destroy(&set);
+    set = (file_set){.main = main_path};
+    assert_int_equal(file_set_add(&set, "input.mtl", "new", 3, &error), FACET_OK);
+    file_set_destroy(&set);
+    scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_appear_together),
+        cmocka_unit_test(what_is_not_committed_is_gone),
+        cmocka_unit_test(inputs_are_not_replaced),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
