@@ -1,0 +1,99 @@
+/* fuzz_ogl1_json.c - the reader of rgl's parameters over any bytes; and what it read, written and read again. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/ogl1_json.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void ignore(void *user, facet_log_level level, const char *message)
+{
+    (void)user;
+    (void)level;
+    (void)message;
+}
+
+static void check_numbers(const float *values, size_t count, float minimum, float maximum)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!(values[i] >= minimum && values[i] <= maximum))
+            abort();
+}
+
+/* What scene/legacy.h promises. */
+static void check_legacy(const facet_scene *scene)
+{
+    const scene_legacy *legacy = scene->legacy;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const legacy_material *m = &legacy->materials[i];
+        check_numbers(m->ambient, 3, 0.0f, 1e6f);
+        check_numbers(m->diffuse, 3, 0.0f, 1e6f);
+        check_numbers(m->specular, 3, 0.0f, 1e6f);
+        check_numbers(m->emission, 3, 0.0f, 1e6f);
+        check_numbers(&m->shininess, 1, 0.0f, 1e6f);
+        check_numbers(&m->opacity, 1, 0.0f, 1.0f);
+        if (!m->name || m->name[0] == 0 || (m->unknown && m->unknown[0] == 0))
+            abort();
+    }
+    for (uint32_t i = 0; i < legacy->light_count; i++) {
+        const legacy_light *l = &legacy->lights[i];
+        const float *p = l->position;
+        double length =
+            sqrt((double)p[0] * (double)p[0] + (double)p[1] * (double)p[1] + (double)p[2] * (double)p[2]);
+        check_numbers(p, 3, -SCENE_FARTHEST, SCENE_FARTHEST);
+        if (!l->is_point && !(fabs(length - 1.0) < 1e-5))
+            abort();
+    }
+    check_numbers(&legacy->fog.scale, 1, 1e-7f, 1e6f);
+}
+
+static text write(const facet_scene *scene, const facet_allocator *allocator)
+{
+    text t = {.allocator = *allocator};
+    ogl1_json_write(scene, "fuzz", NULL, &t);
+    return t;
+}
+
+static void use_scene(const facet_scene *scene, const facet_scene_desc *desc)
+{
+    check_legacy(scene);
+    text first = write(scene, &desc->allocator);
+    facet_scene *back = NULL;
+    facet_error error;
+    if (!first.has_failed) {
+        facet_result result = ogl1_json_load_memory(first.data, first.length, "back", desc, &back, &error);
+        if (result != FACET_OK && result != FACET_ERROR_MEMORY)
+            abort();
+    }
+    if (back) {
+        text second = write(back, &desc->allocator);
+        if (!second.has_failed && strcmp(first.data, second.data) != 0)
+            abort();
+        text_destroy(&second);
+    }
+    text_destroy(&first);
+    scene_destroy(back);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    facet_budget *budget = NULL;
+    if (facet_budget_create((uint64_t)64 << 20, &budget, NULL) != FACET_OK)
+        return 0;
+    facet_scene_desc desc = {
+        .allocator = facet_budget_allocator(budget), .log = {.message = ignore}, .thread_count = 1};
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    ogl1_json_detect(data, size);
+    if (ogl1_json_load_memory(data, size, "fuzz", &desc, &scene, &error) == FACET_OK)
+        use_scene(scene, &desc);
+    else if (scene || error.message[0] == 0)
+        abort();
+    scene_destroy(scene);
+    if (facet_budget_used_bytes(budget) != 0)
+        abort();
+    facet_budget_destroy(budget);
+    return 0;
+}
