@@ -223,6 +223,39 @@ static void threads_change_nothing(void **state)
     }
 }
 
+/* ---- blending of encoded numbers ---- */
+
+static double encode(double x)
+{
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+}
+
+/* Half of 0.8 over 0.2 is 0.5 on the display; blended as light it would be 0.6. Opaque pixels keep their bits. */
+static void encoded_numbers_are_mixed_as_they_are(void **state)
+{
+    (void)state;
+    const float linear[3] = {0.60382734f, 0.03310477f, 0.21404114f}; /* of 0.8, 0.2, 0.5 */
+    const float color[3] = {linear[1], linear[0], linear[2]};
+    static const float opacities[] = {0.0f, 0.25f, 0.5f, 1.0f};
+    static const double numbers[3] = {0.8, 0.2, 0.5}, behind[3] = {0.2, 0.8, 0.5};
+    for (int i = 0; i < 4; i++) {
+        film f = make_film(1, 1);
+        float *pixel = f.layers[0].pixels;
+        for (int c = 0; c < 3; c++)
+            pixel[c] = linear[c] * opacities[i];
+        pixel[3] = opacities[i];
+        film_blend_encoded(&f, color, 1);
+        for (int c = 0; c < 3; c++) {
+            double a = (double)opacities[i];
+            assert_true(fabs(encode((double)pixel[c]) - (a * numbers[c] + (1.0 - a) * behind[c])) < 1e-6);
+            if (i == 3)
+                assert_memory_equal(pixel, linear, sizeof linear);
+        }
+        assert_true(pixel[3] == 1.0f);
+        film_destroy(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +268,7 @@ int main(void)
         cmocka_unit_test(edges_have_no_fringe),
         cmocka_unit_test(what_is_not_finite_is_made_so),
         cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(encoded_numbers_are_mixed_as_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
