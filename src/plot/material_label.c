@@ -51,7 +51,7 @@ const char *material_describe(const facet_plot_material *p, const facet_allocato
     if (p->model == FACET_PLOT_PBR)
         describe_pbr(p, &t);
     else if (p->model == FACET_PLOT_OGL1) {
-        add_color(&t, "OpenGL 1 ", p->diffuse);
+        add_color(&t, "OpenGL 1, diffuse ", p->diffuse);
         add_color(&t, ", specular ", p->ogl1_specular);
         add_number(&t, ", shininess ", p->shininess);
     } else

@@ -194,7 +194,8 @@ static void labels_say_what_matters(void **state)
     assert_string_equal(material_describe(&m, &malloc_, memory),
                         "metal (1, 1, 0.25), roughness 0.5, clearcoat 1");
     m.model = FACET_PLOT_OGL1;
-    assert_string_equal(material_describe(&m, &malloc_, memory), "OpenGL 1 0.8, specular 1, shininess 50");
+    assert_string_equal(material_describe(&m, &malloc_, memory),
+                        "OpenGL 1, diffuse 0.8, specular 1, shininess 50");
     m.model = FACET_PLOT_MERL;
     m.path = "brdfs/gold-metallic-paint.binary";
     assert_string_equal(material_describe(&m, &malloc_, memory), "gold-metallic-paint.binary");

@@ -38,9 +38,9 @@ static void default_materials(facet_plot_material out[DEFAULT_MATERIALS])
         const char *label;
         float metallic, roughness;
     } list[DEFAULT_MATERIALS] = {
-        {"gold, roughness 0.2", 1.0f, 0.2f},    {"gold, roughness 0.4", 1.0f, 0.4f},
-        {"gold, roughness 0.7", 1.0f, 0.7f},    {"plastic, roughness 0.2", 0.0f, 0.2f},
-        {"plastic, roughness 0.4", 0.0f, 0.4f}, {"plastic, roughness 0.7", 0.0f, 0.7f}};
+        {"gold, roughness 0.35", 1.0f, 0.35f},  {"gold, roughness 0.5", 1.0f, 0.5f},
+        {"gold, roughness 0.7", 1.0f, 0.7f},    {"plastic, roughness 0.35", 0.0f, 0.35f},
+        {"plastic, roughness 0.5", 0.0f, 0.5f}, {"plastic, roughness 0.7", 0.0f, 0.7f}};
     static const float colors[2][3] = {{0.05f, 0.2f, 0.6f}, {1.0f, 0.766f, 0.336f}};
     for (int i = 0; i < DEFAULT_MATERIALS; i++) {
         out[i] = material_default();

@@ -62,16 +62,17 @@ facet_result plot_make_albedo(plot *p)
     if (p->has_failed || !panel)
         return plot_finish(p, "", 1, 0, 0);
     parallel_for(p->desc->thread_count, count, 1, integrate, &work);
-    double highest = 0.0;
-    for (size_t i = 0; i < count; i++)
-        highest = fmax(highest, fmax(work.albedo[i][0], fmax(work.albedo[i][1], work.albedo[i][2])));
     for (uint32_t k = 0; k < p->subject_count; k++)
         add_subject(p, panel, &p->subjects[k], x, (const double(*)[3])work.albedo + (size_t)k * POINTS);
+    double highest = 0.0;
+    for (size_t c = 0; c < panel->panel.curve_count; c++)
+        for (int i = 0; i < POINTS; i++)
+            highest = fmax(highest, panel->curves[c].y[i]);
     plot_set_range(&panel->panel.x, 0.0, 90.0);
     panel->panel.x.is_degrees = true;
     panel->panel.y.scale = plot_scale(p);
     if (!p->desc->is_logarithmic)
-        plot_set_range(&panel->panel.y, 0.0, highest > 1.0 ? ceil(highest * 5.0) / 5.0 : 1.0);
+        plot_set_range(&panel->panel.y, 0.0, highest > 1.005 ? ceil(highest * 5.0) / 5.0 : 1.0);
     panel->panel.note = plot_text(p, "integral of BRDF times N.L over the light, within 0.001%s; %s",
                                   p->has_channels ? "" : "; luminance",
                                   p->desc->energy == FACET_ENERGY_CONSERVING

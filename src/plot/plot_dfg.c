@@ -45,6 +45,6 @@ facet_result plot_make_dfg(plot *p)
     add_table(p, DFG_LOST, "light that scatters more than once", "1 - (A + B)",
               "returned by the compensation of Fdez-Aguera 2019", 0.0);
     add_table(p, DFG_SHEEN, "albedo of sheen", "E",
-              "Charlie, Estevez and Kulla 2017; above 1 at grazing smooth rims", 0.0);
+              "Charlie, Estevez and Kulla 2017; more than 1 at smooth grazing rims is shown as 1", 1.0);
     return plot_finish(p, "Tables of split-sum light", 2, 1060, 960);
 }

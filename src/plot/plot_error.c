@@ -8,7 +8,7 @@
 enum { METHODS = 5 };
 
 static const char *const names_to_ogl1[METHODS] = {"naive", "closed", "fit, displayable", "fit, unlimited",
-                                                   "fit for display, E_display"};
+                                                   "display fit, E_display"};
 static const char *const names_to_pbr[METHODS] = {"naive", "closed, core glTF", "fit, core glTF",
                                                   "closed, specular and ior", "fit, specular and ior"};
 

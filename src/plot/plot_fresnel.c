@@ -74,6 +74,8 @@ static void add_dielectrics(plot *p, const dielectric *media, uint32_t count, co
         }
     }
     set_reflectance(p, panel);
+    if (panel && is_inside) /* that of the panel before */
+        panel->panel.has_legend = false;
 }
 
 static void add_differences(plot *p, const dielectric *media, uint32_t count, const double *x)
@@ -107,6 +109,8 @@ static void add_conductor(plot *p, const conductor *c, const double *x)
         }
     }
     set_reflectance(p, panel);
+    if (panel) /* the last one has the most room */
+        panel->panel.has_legend = c == &conductors[sizeof conductors / sizeof *conductors - 1];
 }
 
 /* Those of the materials. */
@@ -114,12 +118,13 @@ static facet_result media_of(plot *p, dielectric *media, uint32_t *count)
 {
     for (uint32_t k = 0; k < p->subject_count; k++) {
         const material *m = &p->subjects[k].material;
-        if (m->parameters.model != FACET_PLOT_PBR || !(m->parameters.ior >= 1.0f))
+        const facet_plot_material *q = &m->parameters;
+        if (q->model != FACET_PLOT_PBR || !(q->ior >= 1.0f) || q->metallic >= 1.0f)
             return fail(
                 p->error, FACET_ERROR_ARGUMENT,
-                "plot: material %u (%s) has no index of refraction; PBR materials of ior 1 or more expected",
+                "plot: material %u (%s) has no index of refraction; dielectrics of ior 1 or more expected",
                 k + 1, m->label);
-        media[(*count)++] = (dielectric){.name = m->label, .ior = m->parameters.ior};
+        media[(*count)++] = (dielectric){.name = m->label, .ior = q->ior};
     }
     return FACET_OK;
 }

@@ -102,13 +102,13 @@ static void add_panel(plot *p, const furnace_subject *subject, const double *x, 
         for (uint32_t series = 0; series < (is_pbr ? MODES * WAYS : 1); series++) {
             const char *name = is_pbr ? names[series / WAYS][series % WAYS] : "OpenGL 1";
             if (p->angle_count > 1)
-                name = plot_text(p, "%s, eye at %s", name, plot_degrees(p, (double)p->angles[a]));
+                name = plot_text(p, "%s, %s\u00b0", name, plot_degrees(p, (double)p->angles[a]));
             plot_add_line(p, panel, name, plot_color(series, (int)(a % 4)), POINTS, x,
                           albedo + ((size_t)a * MODES * WAYS + series) * POINTS);
         }
     plot_set_range(&panel->panel.x, 0.0, 1.0);
-    panel->panel.note =
-        is_pbr ? "1: nothing lost, nothing gained" : "times pi less light than PBR's: radiance over pi";
+    panel->panel.note = is_pbr ? "1: nothing lost, nothing gained"
+                               : "radiance over pi; OpenGL 1 may return more than it receives";
 }
 
 facet_result plot_make_furnace(plot *p)

@@ -12,7 +12,7 @@ static const char *quantity(const plot *p)
 
 static const char *title_of(plot *p, const plot_subject *subject, double view)
 {
-    return plot_text(p, "%s, eye at %s degrees", subject->material.label, plot_degrees(p, view));
+    return plot_text(p, "%s, eye at %s\u00b0", subject->material.label, plot_degrees(p, view));
 }
 
 /* Luminance of the BRDF for all L; below the horizon NAN. */
@@ -154,6 +154,7 @@ facet_result plot_make_hemisphere(plot *p)
                 add_lobe(p, &p->subjects[k], (double)p->angles[a]);
     uint32_t count = p->subject_count * p->angle_count;
     uint32_t columns = p->angle_count > 1 ? p->angle_count
+                       : p->desc->has_fit ? (count < 7 ? 2 : 4) /* fits beside what they fit */
                        : count < 4        ? count
                        : count == 4       ? 2
                        : count < 13       ? 3

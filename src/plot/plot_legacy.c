@@ -43,15 +43,29 @@ static const experiment *run_experiment(plot *p)
     return e;
 }
 
-/* Three curves that coincide, blue on top, as the vignette draws them. */
-static void add_vignette_panel(plot *p, const experiment *e, const double *y, const char *label,
-                               const char *note)
+/* An axis as R draws it: the range of the data and 4 % more at either end. */
+static void set_range_as_R(chart_axis *axis, const double *values)
 {
-    plot_panel *panel = plot_add_panel(p, CHART_XY, "", "phi", label);
+    double low = values[0], high = values[0];
+    for (int i = 1; i < VIGNETTE_POINTS; i++) {
+        low = fmin(low, values[i]);
+        high = fmax(high, values[i]);
+    }
+    plot_set_range(axis, low - 0.04 * (high - low), high + 0.04 * (high - low));
+}
+
+/* Three curves that coincide, blue on top, as the vignette draws them. */
+static void add_vignette_panel(plot *p, const experiment *e, const double *y, const char *title,
+                               const char *label, const char *note)
+{
+    plot_panel *panel = plot_add_panel(p, CHART_XY, title, "phi", label);
     for (int c = 0; c < 3; c++)
         plot_add_line(p, panel, channels[c], plot_channel(c, 0), VIGNETTE_POINTS, e->phi, y);
-    if (panel)
-        panel->panel.note = note;
+    if (!panel)
+        return;
+    set_range_as_R(&panel->panel.x, e->phi);
+    set_range_as_R(&panel->panel.y, y);
+    panel->panel.note = note;
 }
 
 static void add_vignette_fit(plot *p, const experiment *e)
@@ -110,11 +124,13 @@ static void add_pair_curves(plot *p, plot_panel *panel, const pair *r, int what,
     }
 }
 
-static const char *describe_error(plot *p, const plot_conversion *conversion)
+static const char *describe_error(plot *p, const material *source, const plot_conversion *conversion)
 {
     if (!conversion->has_error)
         return plot_text(p, "RMS of log(1 + f cos) %.3f of the measured", conversion->rms);
-    return plot_text(p, "E %.3f, E_display %.3f", conversion->error.E, conversion->error.E_display);
+    bool has_layers = source->parameters.model == FACET_PLOT_PBR && material_has_layers(&source->parameters);
+    return plot_text(p, "E %.3f, E_display %.3f%s", conversion->error.E, conversion->error.E_display,
+                     has_layers ? " of the base: coat, sheen, film and grain have no counterpart" : "");
 }
 
 static const char *scaled(const material *m)
@@ -134,7 +150,12 @@ static void add_pair(plot *p, const material *source, const plot_conversion *con
     if (!panel)
         return;
     panel->panel.y.scale = plot_scale(p);
+    panel->panel.has_legend = !r.is_colored; /* six names of what color and dash say */
     panel->panel.note = conversion->material.label;
+    for (int i = 0; conversion->has_error && i < 3; i++) /* the views that errors are found for */
+        if (fabs(view - 30.0 * i * PLOT_DEGREE) < 1e-4)
+            panel->panel.note =
+                plot_text(p, "dashed: %s; E %.3f", conversion->material.label, conversion->error.views[i]);
 }
 
 /* The curves of all views less their sources', in one panel. */
@@ -142,14 +163,19 @@ static plot_panel *add_differences(plot *p, const material *source, const plot_c
                                    const char *title)
 {
     plot_panel *panel = plot_add_panel(p, CHART_XY, title, "phi, rad", "conversion less source");
+    bool is_colored = false;
     for (uint32_t a = 0; a < p->angle_count; a++) {
         double view = (double)p->angles[a];
         pair r = make_pair(p, source, &conversion->material, view);
         add_pair_curves(p, panel, &r, 2, plot_text(p, "eye at %s degrees", plot_degrees(p, view)), a,
                         (int)(a % 4));
+        is_colored = is_colored || r.is_colored;
     }
-    if (panel)
-        panel->panel.note = describe_error(p, conversion);
+    if (panel) {
+        panel->panel.has_legend = !is_colored;
+        panel->panel.note = plot_text(p, "%s%s", describe_error(p, source, conversion),
+                                      is_colored ? "; views in order: solid, dashed, dotted" : "");
+    }
     return panel;
 }
 
@@ -191,11 +217,12 @@ static facet_result make_vignette(plot *p)
         return result;
 
     const char *eye = plot_degrees(p, e->theta);
-    add_vignette_panel(p, e, e->pbr, "PBR",
+    add_vignette_panel(p, e, e->pbr, "the vignette's PBR", "PBR",
                        plot_text(p, "theta %s degrees, roughness 1, metalness 1, white%s", eye,
                                  p->desc->has_heaviside_ramp ? "; chi(x) = max(x, 0)" : ""));
-    add_vignette_panel(p, e, e->ogl1, "OGL1[, 1]",
-                       plot_text(p, "shininess 50, all white; without the fit \"hopeless\""));
+    add_vignette_panel(p, e, e->ogl1, "the vignette's OpenGL 1", "OGL1[, 1]",
+                       plot_text(p, "shininess 50, white; %.1f times the PBR's RMS away from it",
+                                 vignette_error(e->theta, e->pbr, SHININESS, 1.0, 1.0)));
     add_vignette_fit(p, e);
     for (uint32_t a = 0; a < p->angle_count; a++)
         add_pair(p, &source, &conversion, (double)p->angles[a],
@@ -205,7 +232,9 @@ static facet_result make_vignette(plot *p)
     plot_add_line(p, differences, "the 33 points' fit", plot_faint(1), VIGNETTE_POINTS, e->phi,
                   e->difference);
     add_polar(p, e, &source, &conversion);
-    plot_add_errors(p, &source.parameters, "white metals of other roughness", 10);
+    plot_panel *errors = plot_add_errors(p, &source.parameters, "white metals of other roughness", 10);
+    if (errors)
+        errors->panel.y.scale = CHART_LOG10;
     uint32_t rows = (p->panel_count + 2) / 3;
     return plot_finish(p, "Shininess in OpenGL 1 versus glTF PBR", 3, 1500, 400 * rows + 60);
 }
@@ -223,10 +252,7 @@ static facet_result make_conversions(plot *p)
             add_pair(
                 p, source, &conversion, (double)p->angles[a],
                 plot_text(p, "%s, eye at %s degrees", source->label, plot_degrees(p, (double)p->angles[a])));
-        plot_panel *panel = add_differences(p, source, &conversion, "what is left");
-        if (panel && source->parameters.model == FACET_PLOT_PBR && material_has_layers(&source->parameters))
-            panel->panel.note = plot_text(
-                p, "%s of the base; coat, sheen, film and grain have no counterpart", panel->panel.note);
+        add_differences(p, source, &conversion, "what is left");
     }
     uint32_t columns = p->angle_count + 1;
     return plot_finish(p, "Materials and their conversions", columns, 440 * columns,

@@ -48,6 +48,17 @@ static double *cosines(plot *p)
     return x;
 }
 
+/* From nearly 0 on, where visibility has no bound, closer together there. */
+static double *cosines_from_horizon(plot *p)
+{
+    double *x = plot_numbers(p, POINTS);
+    for (int i = 0; x && i < POINTS; i++) {
+        double u = (i + 1.0) / POINTS;
+        x[i] = u * u;
+    }
+    return x;
+}
+
 static plot_panel *panel_over(plot *p, const char *title, const char *over, const char *label,
                               const char *note)
 {
@@ -119,8 +130,8 @@ static void add_visibility(plot *p, const roughness_list *list, const double *x,
     for (uint32_t k = 0; k < list->count; k++)
         for (int form = 0; form <= (last == CHARLIE ? 0 : (int)last); form++) {
             const char *name = plot_text(p, "%s%s", label_of(p, list->values[k]), forms[form]);
-            double *y = plot_add_curve(p, panel, name, plot_color(k, form), POINTS - 1, x);
-            for (int i = 0; y && i < POINTS - 1; i++) { /* not at 0: V has no bound there */
+            double *y = plot_add_curve(p, panel, name, plot_color(k, form), POINTS, x);
+            for (int i = 0; y && i < POINTS; i++) {
                 float NdotL = (float)x[i];
                 float v = visibility(last == CHARLIE ? CHARLIE : (visibility_kind)form, NdotL, NdotV,
                                      list->values[k]);
@@ -161,12 +172,15 @@ facet_result plot_make_terms(plot *p)
 {
     roughness_list list = roughness_of(p);
     const double *x = cosines(p);
+    const double *from_horizon = cosines_from_horizon(p);
     if (x) {
         add_distributions(p, &list, x);
         add_fresnel(p, x);
-        add_visibility(p, &list, x, SCHLICK_DIRECT, true);
-        add_visibility(p, &list, x, SCHLICK_DIRECT, false);
-        add_visibility(p, &list, x, CHARLIE, false);
+    }
+    if (from_horizon) {
+        add_visibility(p, &list, from_horizon, SCHLICK_DIRECT, true);
+        add_visibility(p, &list, from_horizon, SCHLICK_DIRECT, false);
+        add_visibility(p, &list, from_horizon, CHARLIE, false);
     }
     return plot_finish(p, "The factors of microfacet reflection", 3, 1440, 900);
 }

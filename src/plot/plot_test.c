@@ -78,7 +78,6 @@ static void every_kind_shows_several_materials(void **state)
     facet_plot_material m[4];
     for (int i = 0; i < 4; i++)
         m[i] = material_default();
-    m[0].metallic = 1.0f;
     m[0].perceptual_roughness = 0.0f;
     m[1].clearcoat = m[1].sheen_color[0] = m[1].iridescence = m[1].anisotropy = 1.0f;
     m[2].model = m[3].model = FACET_PLOT_OGL1;
@@ -87,6 +86,7 @@ static void every_kind_shows_several_materials(void **state)
         bool only_pbr = all_kinds[k] == FACET_PLOT_TERMS || all_kinds[k] == FACET_PLOT_FRESNEL;
         if (all_kinds[k] == FACET_PLOT_TONE || all_kinds[k] == FACET_PLOT_DFG)
             continue;
+        m[0].metallic = all_kinds[k] == FACET_PLOT_FRESNEL ? 0.5f : 1.0f;
         plot_fixture f = make_plot(&(facet_plot_desc){.kind = all_kinds[k],
                                                       .material_count = only_pbr ? 2 : 4,
                                                       .materials = m,
@@ -300,6 +300,7 @@ static void terms_are_shades(void **state)
         float x = (float)D->x[i], NdotV = cos(view);
         assert_near(D->y[i] / (double)D_GGX(x, 0.16f), 1.0, 1e-5);
         assert_near(charlie->y[i], D_Charlie(x, 0.16f), 1e-5);
+        x = (float)G[0]->x[i];
         assert_near(G[0]->y[i], 4.0f * x * NdotV * V_SmithGGX(x, NdotV, 0.16f), 1e-5);
         assert_near(G[1]->y[i], G1_SmithGGX(x, 0.16f) * G1_SmithGGX(NdotV, 0.16f), 1e-5);
         assert_true(G[0]->y[i] <= 1.0 + 1e-6 && G[1]->y[i] <= G[0]->y[i] + 1e-6);
@@ -335,9 +336,8 @@ static void furnace_conserves_where_it_says_so(void **state)
     assert_int_equal(f.drawing.panel_count, 4);
     for (uint32_t i = 0; i < 4; i++) {
         const chart_panel *panel = &f.drawing.panels[i];
-        static const char *const conserving[] = {"conserving, lamps, eye at 30",
-                                                 "conserving, lamps, eye at 75",
-                                                 "conserving, environment, eye at 30"};
+        static const char *const conserving[] = {"conserving, lamps, 30", "conserving, lamps, 75",
+                                                 "conserving, environment, 30"};
         for (int k = 0; k < 3; k++) {
             const chart_curve *c = find_curve(panel, conserving[k]);
             for (size_t j = 0; j < c->count; j++)
@@ -345,7 +345,7 @@ static void furnace_conserves_where_it_says_so(void **state)
         }
     }
     /* smooth metal loses nothing, rough metal two thirds */
-    const chart_curve *metal = find_curve(&f.drawing.panels[0], "glTF, lamps, eye at 30");
+    const chart_curve *metal = find_curve(&f.drawing.panels[0], "glTF, lamps, 30");
     assert_near(metal->y[0], 1.0, 1e-3);
     assert_true(metal->y[metal->count - 1] < 0.45);
     free_plot(&f);
@@ -537,6 +537,9 @@ static void wrong_descs_are_refused(void **state)
     plot_fixture f = make_plot(&desc);
     free_plot(&f);
     desc.kind = FACET_PLOT_FRESNEL;
+    plot_failure(&desc, FACET_ERROR_ARGUMENT);
+    m[1].ior = 1.5f;
+    m[1].metallic = 1.0f;
     plot_failure(&desc, FACET_ERROR_ARGUMENT);
     desc.kind = FACET_PLOT_TONE;
     plot_failure(&desc, FACET_ERROR_ARGUMENT);
