@@ -1,0 +1,328 @@
+/* texture_bench.c - see texture_bench.h: surveys and bakes; texture_relief.c has normal maps. */
+#include "legacy/texture_bench_state.h"
+
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/result.h"
+
+facet_result texture_bench_create(facet_scene *scene, texture_bench **out, facet_error *error)
+{
+    *out = NULL;
+    texture_bench *bench = mem_zalloc(&scene->allocator, 1, sizeof *bench);
+    if (!bench)
+        return fail_memory(error, "textures", sizeof *bench);
+    bench->scene = scene;
+    bench->cache = texels_cache_create(scene);
+    bench->statistics =
+        mem_zalloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *bench->statistics);
+    if (!bench->cache || !bench->statistics) {
+        texture_bench_destroy(bench);
+        return fail_memory(error, "textures", sizeof *bench);
+    }
+    srgb_tables_prepare(&bench->srgb);
+    *out = bench;
+    return FACET_OK;
+}
+
+void texture_bench_destroy(texture_bench *bench)
+{
+    if (!bench)
+        return;
+    for (uint32_t i = 0; bench->statistics && i < bench->scene->image_count; i++)
+        mem_free(bench->statistics[i]);
+    for (uint32_t i = 0; i < bench->made_count; i++) {
+        mem_free(bench->made[i].bytes);
+        mem_free(bench->made[i].key);
+    }
+    mem_free(bench->statistics);
+    mem_free(bench->made);
+    texels_cache_destroy(bench->cache);
+    mem_free(bench);
+}
+
+const srgb_tables *texture_bench_srgb(const texture_bench *bench)
+{
+    return &bench->srgb;
+}
+
+uint32_t texture_bench_made(const texture_bench *bench)
+{
+    return bench->made_count;
+}
+
+uint32_t texture_bench_shared(const texture_bench *bench)
+{
+    return bench->shared_count;
+}
+
+/* ---- survey ---- */
+
+static uint32_t image_of(const texture_bench *bench, uint32_t texture)
+{
+    if (texture >= bench->scene->texture_count)
+        return SCENE_NONE;
+    return bench->scene->textures[texture].image;
+}
+
+typedef struct survey {
+    const texture_bench *bench;
+    const uint32_t *images;
+    facet_result *results;
+} survey;
+
+/* One thread per image: decoders differ in what they make of several. An image that is no image is not a failure. */
+static void survey_images(void *context, size_t begin, size_t end)
+{
+    const survey *s = context;
+    for (size_t i = begin; i < end; i++) {
+        image texels;
+        texture_statistics *out = s->bench->statistics[s->images[i]];
+        facet_result result = texels_decode(s->bench->scene, s->images[i], 3, 1, &texels, NULL);
+        s->results[i] = result == FACET_ERROR_MEMORY ? result : FACET_OK;
+        if (result != FACET_OK)
+            continue;
+        texels_count(&texels, out);
+        out->width = texels.width;
+        out->height = texels.height;
+        image_destroy(&texels);
+    }
+}
+
+facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, facet_error *error)
+{
+    facet_scene *scene = bench->scene;
+    size_t count = 0;
+    facet_result result = FACET_OK;
+    uint32_t *images = mem_alloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *images);
+    facet_result *results = mem_zalloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *results);
+    if (!images || !results)
+        result = FACET_ERROR_MEMORY;
+    for (uint32_t i = 0; i < scene->texture_count && result == FACET_OK; i++) {
+        uint32_t index = is_wanted[i] ? image_of(bench, i) : SCENE_NONE;
+        if (index >= scene->image_count || bench->statistics[index])
+            continue;
+        bench->statistics[index] = mem_zalloc(&scene->allocator, 1, sizeof **bench->statistics);
+        if (!bench->statistics[index])
+            result = FACET_ERROR_MEMORY;
+        else
+            images[count++] = index;
+    }
+    if (result == FACET_OK) {
+        survey s = {.bench = bench, .images = images, .results = results};
+        parallel_for(scene->thread_count, count, 1, survey_images, &s);
+        for (size_t i = 0; i < count && result == FACET_OK; i++)
+            result = results[i];
+    }
+    mem_free(images);
+    mem_free(results);
+    return result == FACET_OK ? result : fail_memory(error, "textures", sizeof(texture_statistics));
+}
+
+const texture_statistics *texture_bench_statistics(const texture_bench *bench, uint32_t texture)
+{
+    uint32_t index = image_of(bench, texture);
+    const texture_statistics *s = index < bench->scene->image_count ? bench->statistics[index] : NULL;
+    return s && s->is_readable ? s : NULL;
+}
+
+/* ---- what was made ---- */
+
+uint32_t bench_find(texture_bench *bench, const void *key, size_t size)
+{
+    for (uint32_t i = 0; i < bench->made_count; i++)
+        if (bench->made[i].key_size == size && memcmp(bench->made[i].key, key, size) == 0) {
+            bench->shared_count++;
+            return bench->scene->texture_count + i;
+        }
+    return SCENE_NONE;
+}
+
+facet_result bench_keep(texture_bench *bench, const struct image *picture, const char *name, uint32_t like,
+                        void *key, size_t key_size, uint32_t *texture, facet_error *error)
+{
+    facet_scene *scene = bench->scene;
+    made_texture made = {.like = like, .key = key, .key_size = key_size};
+    image_encode_desc desc = {.allocator = scene->allocator, .thread_count = scene->thread_count};
+    if (!mem_reserve(&scene->allocator, (void **)&bench->made, &bench->made_capacity,
+                     (size_t)bench->made_count + 1, sizeof *bench->made))
+        return fail_memory(error, "textures", sizeof *bench->made);
+    made.name = arena_strdup(scene->arena, name);
+    if (!made.name)
+        return fail_memory(error, "textures", strlen(name));
+    facet_result result = image_encode(picture, IMAGE_CODEC_PNG, &desc, &made.bytes, &made.byte_count, error);
+    if (result != FACET_OK)
+        return result;
+    made.width = picture->width;
+    made.height = picture->height;
+    *texture = scene->texture_count + bench->made_count;
+    bench->made[bench->made_count++] = made;
+    return FACET_OK;
+}
+
+facet_result texture_bench_finish(texture_bench *bench, facet_error *error)
+{
+    facet_scene *scene = bench->scene;
+    uint32_t count = bench->made_count;
+    if (count == 0)
+        return FACET_OK;
+    scene_image *images = arena_alloc(scene->arena, (size_t)scene->image_count + count, sizeof *images);
+    scene_texture *textures =
+        arena_alloc(scene->arena, (size_t)scene->texture_count + count, sizeof *textures);
+    if (!images || !textures)
+        return fail_memory(error, "textures", count * sizeof *textures);
+    if (scene->image_count > 0)
+        memcpy(images, scene->images, scene->image_count * sizeof *images);
+    if (scene->texture_count > 0)
+        memcpy(textures, scene->textures, scene->texture_count * sizeof *textures);
+    for (uint32_t i = 0; i < count; i++) {
+        made_texture *made = &bench->made[i];
+        unsigned char *bytes = arena_alloc(scene->arena, made->byte_count, 1);
+        if (!bytes)
+            return fail_memory(error, "textures", made->byte_count);
+        memcpy(bytes, made->bytes, made->byte_count);
+        mem_free(made->bytes);
+        made->bytes = NULL;
+        images[scene->image_count + i] = (scene_image){.name = made->name,
+                                                       .mime_type = "image/png",
+                                                       .bytes = bytes,
+                                                       .size = made->byte_count,
+                                                       .width = made->width,
+                                                       .height = made->height};
+        scene_texture *texture = &textures[scene->texture_count + i];
+        *texture = scene->textures[made->like];
+        texture->name = made->name;
+        texture->image = scene->image_count + i;
+        texture->meta = (scene_meta){0};
+    }
+    scene->images = images;
+    scene->textures = textures;
+    scene->image_count += count;
+    scene->texture_count += count;
+    return FACET_OK;
+}
+
+/* ---- bakes ---- */
+
+/* The texels of a bake's inputs, all of one size. */
+typedef struct bake_inputs {
+    uint32_t count, width, height;
+    const image *texels[TEXTURE_INPUTS]; /* NULL: none */
+    image resized[TEXTURE_INPUTS];
+} bake_inputs;
+
+static facet_result gather(texture_bench *bench, const texture_bake *bake, bake_inputs *in,
+                           facet_error *error)
+{
+    const facet_scene *scene = bench->scene;
+    in->count = bake->input_count;
+    for (uint32_t i = 0; i < bake->input_count; i++) {
+        uint32_t index = image_of(bench, bake->inputs[i]);
+        if (index == SCENE_NONE)
+            continue;
+        facet_result result = texels_cache_get(bench->cache, index, &in->texels[i], error);
+        if (result != FACET_OK)
+            return result;
+        in->width = in->texels[i]->width > in->width ? in->texels[i]->width : in->width;
+        in->height = in->texels[i]->height > in->height ? in->texels[i]->height : in->height;
+    }
+    for (uint32_t i = 0; i < bake->input_count; i++) {
+        const image *texels = in->texels[i];
+        if (!texels || (texels->width == in->width && texels->height == in->height))
+            continue;
+        facet_result result = texels_resize(texels, &scene->textures[bake->inputs[i]], in->width, in->height,
+                                            scene->thread_count, &scene->allocator, &in->resized[i], error);
+        if (result != FACET_OK)
+            return result;
+        in->texels[i] = &in->resized[i];
+    }
+    return FACET_OK;
+}
+
+typedef struct bake_job {
+    const texture_bake *bake;
+    const bake_inputs *in;
+    const image *out;
+} bake_job;
+
+static void bake_rows(void *context, size_t begin, size_t end)
+{
+    const bake_job *job = context;
+    const uint8_t *rows[TEXTURE_INPUTS] = {NULL};
+    for (size_t y = begin; y < end; y++) {
+        for (uint32_t i = 0; i < job->in->count; i++)
+            if (job->in->texels[i])
+                rows[i] = (const uint8_t *)job->in->texels[i]->pixels + y * job->in->width * 4;
+        job->bake->row(job->bake->parameters, job->in->width, rows,
+                       (uint8_t *)job->out->pixels + y * image_row_size(job->out));
+    }
+}
+
+/* What makes two bakes the same: their inputs, what is done, and with which numbers. */
+static void *key_of(const texture_bench *bench, const texture_bake *bake, size_t *size)
+{
+    struct {
+        uint32_t inputs[TEXTURE_INPUTS];
+        uint32_t input_count, channel_count;
+        texture_row *row;
+    } head;
+    memset(&head, 0, sizeof head);
+    for (uint32_t i = 0; i < bake->input_count; i++)
+        head.inputs[i] = bake->inputs[i];
+    head.input_count = bake->input_count;
+    head.channel_count = bake->channel_count;
+    head.row = bake->row;
+    *size = sizeof head + bake->parameter_size;
+    unsigned char *key = mem_alloc(&bench->scene->allocator, *size, 1);
+    if (!key)
+        return NULL;
+    memcpy(key, &head, sizeof head);
+    if (bake->parameter_size > 0)
+        memcpy(key + sizeof head, bake->parameters, bake->parameter_size);
+    return key;
+}
+
+static uint32_t first_input(const texture_bench *bench, const texture_bake *bake)
+{
+    for (uint32_t i = 0; i < bake->input_count; i++)
+        if (image_of(bench, bake->inputs[i]) != SCENE_NONE)
+            return bake->inputs[i];
+    return SCENE_NONE;
+}
+
+facet_result texture_bench_bake(texture_bench *bench, const texture_bake *bake, uint32_t *texture,
+                                facet_error *error)
+{
+    *texture = SCENE_NONE;
+    uint32_t like = first_input(bench, bake);
+    if (like == SCENE_NONE)
+        return FACET_OK;
+    size_t key_size;
+    void *key = key_of(bench, bake, &key_size);
+    if (!key)
+        return fail_memory(error, "textures", bake->parameter_size);
+    *texture = bench_find(bench, key, key_size);
+    if (*texture != SCENE_NONE) {
+        mem_free(key);
+        return FACET_OK;
+    }
+    bake_inputs in = {0};
+    image out = {0};
+    facet_result result = gather(bench, bake, &in, error);
+    if (result == FACET_OK)
+        result = image_create(&bench->scene->allocator, in.width, in.height, bake->channel_count, IMAGE_U8,
+                              &out, error);
+    if (result == FACET_OK) {
+        out.is_srgb = true;
+        bake_job job = {.bake = bake, .in = &in, .out = &out};
+        parallel_for(bench->scene->thread_count, in.height, 8, bake_rows, &job);
+        result = bench_keep(bench, &out, bake->name, like, key, key_size, texture, error);
+        key = result == FACET_OK ? NULL : key;
+    }
+    for (int i = 0; i < TEXTURE_INPUTS; i++)
+        image_destroy(&in.resized[i]);
+    image_destroy(&out);
+    mem_free(key);
+    /* Only memory ends a conversion; what cannot be decoded counts as absent. */
+    return result == FACET_ERROR_MEMORY ? result : FACET_OK;
+}

@@ -1,0 +1,32 @@
+/* texture_texels.h - a scene's image as RGBA texels of 8 bits, decoded when asked for, a few kept. */
+#ifndef LEGACY_TEXTURE_TEXELS_H
+#define LEGACY_TEXTURE_TEXELS_H
+
+#include "image/image.h"
+#include "legacy/texture_bench.h"
+
+/* Decodes an image of the scene as RGBA of 8 bits: codes as they are in the file, floats sRGB-encoded. Fails as
+ * image_decode() does. */
+facet_result texels_decode(const facet_scene *scene, uint32_t image, uint32_t max_reduction,
+                           uint32_t thread_count, struct image *out, facet_error *error);
+
+/* The same with its own type and channel count. */
+facet_result texels_decode_raw(const facet_scene *scene, uint32_t index, uint32_t max_reduction,
+                               uint32_t thread_count, struct image *out, facet_error *error);
+
+/* RGBA of 8 bits in another size: bilinear, wrapping as the texture does. */
+facet_result texels_resize(const struct image *in, const scene_texture *texture, uint32_t width,
+                           uint32_t height, uint32_t thread_count, const facet_allocator *allocator,
+                           struct image *out, facet_error *error);
+
+void texels_count(const struct image *texels, texture_statistics *out);
+
+/* Decoded images, the last used of which are kept, up to a number of bytes. */
+typedef struct texels_cache texels_cache;
+texels_cache *texels_cache_create(const facet_scene *scene); /* NULL: no memory */
+void texels_cache_destroy(texels_cache *cache);
+/* As long as four others have not been asked for. */
+facet_result texels_cache_get(texels_cache *cache, uint32_t image, const struct image **out,
+                              facet_error *error);
+
+#endif
