@@ -175,6 +175,7 @@ typedef struct material_conversion {
     facet_conversion summary; /* facet.h; its strings live in the scene */
     legacy_material legacy;
     scene_material pbr;
+    const scene_material *before; /* between glTF's own models: what pbr was made of; NULL */
     uint32_t warning_count;
     const conversion_warning *warnings;
 } material_conversion;

@@ -1,0 +1,422 @@
+/* convert_read.c - what a legacy material means: its dialect, its illum, rgl's switches and what exporters get wrong.
+ * docs/legacy.md, "What becomes of each statement". Numbers and textures are made of it elsewhere. */
+#include "legacy/convert_state.h"
+#include "scene/legacy_extras.h"
+
+#include <math.h>
+#include <string.h>
+
+static void remove_map(legacy_map *map)
+{
+    map->ref.texture = SCENE_NONE;
+}
+
+/* ---- what is not there, and what has no counterpart ---- */
+
+static bool is_surveyed(legacy_map_slot slot)
+{
+    return slot != LEGACY_DISPLACEMENT_MAP && slot != LEGACY_DECAL_MAP && slot != LEGACY_REFLECTION_MAP;
+}
+
+static void check_maps(conversion *c, uint32_t material, legacy_material *m)
+{
+    for (int slot = 0; slot < LEGACY_MAP_COUNT; slot++) {
+        legacy_map *map = &m->maps[slot];
+        const char *statement = legacy_map_keys[slot];
+        if (!is_surveyed((legacy_map_slot)slot)) {
+            if (map->path || map->ref.texture != SCENE_NONE)
+                note_add(&c->notes, material, NOTE_MAP_DROPPED,
+                         "%s has no counterpart in glTF; it is kept in extras", statement);
+            remove_map(map);
+            continue;
+        }
+        bool is_stated = map->path || map->ref.texture != SCENE_NONE;
+        if (is_stated && !texture_bench_statistics(c->bench, map->ref.texture)) {
+            note_add(&c->notes, material, NOTE_TEXTURE_MISSING,
+                     "the picture of %s, %s, cannot be read; the material is converted without it", statement,
+                     map->path ? map->path : "of a texture");
+            remove_map(map);
+        }
+        if (is_stated && map->dropped)
+            note_add(&c->notes, material, NOTE_TEXTURE_OPTION_DROPPED,
+                     "the options %s of %s have no counterpart in glTF; they are kept in extras",
+                     map->dropped, statement);
+    }
+}
+
+static void note_losses(conversion *c, uint32_t material, const legacy_material *m)
+{
+    if (legacy_has(m, LEGACY_SHARPNESS) && m->sharpness != 60.0f)
+        note_add(&c->notes, material, NOTE_SHARPNESS_DROPPED,
+                 "the sharpness of reflections has no counterpart in glTF; it is kept in extras");
+    if (m->unknown)
+        note_add(&c->notes, material, NOTE_UNKNOWN_KEY, "statements that facet does not know: %.*s%s",
+                 (int)strcspn(m->unknown, "\n"), m->unknown,
+                 m->unknown[strcspn(m->unknown, "\n")] && m->unknown[strcspn(m->unknown, "\n") + 1] ? ", .."
+                                                                                                    : "");
+    if (m->is_halo)
+        note_add(&c->notes, material, NOTE_HALO_DROPPED,
+                 "d -halo, which is opaque towards the silhouette, becomes the same opacity everywhere");
+}
+
+/* ---- factors that exporters leave black ---- */
+
+static const float WHITE[3] = {1, 1, 1};
+
+static void read_diffuse(conversion *c, uint32_t material, legacy_reading *r, facet_legacy_colors colors)
+{
+    legacy_material *m = &r->m;
+    legacy_color_to_linear(m->diffuse, colors, r->surface.diffuse);
+    if (c->has_vertex_colors && c->has_vertex_colors[material]) /* which take its place */
+        memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
+    if (!legacy_has_map(m, LEGACY_DIFFUSE_MAP))
+        return;
+    if (!legacy_has(m, LEGACY_DIFFUSE)) {
+        memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
+    } else if (is_black(r->surface.diffuse)) {
+        memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
+        note_add(&c->notes, material, NOTE_BLACK_KD_WITH_MAP,
+                 "a black Kd would make its map black; it counts as white");
+    }
+}
+
+static void read_specular(conversion *c, uint32_t material, legacy_reading *r, facet_legacy_colors colors)
+{
+    legacy_material *m = &r->m;
+    legacy_color_to_linear(m->specular, colors, r->surface.specular);
+    if (!legacy_has_map(m, LEGACY_SPECULAR_MAP))
+        return;
+    if (!legacy_has(m, LEGACY_SPECULAR))
+        memcpy(r->surface.specular, WHITE, sizeof WHITE);
+    if (!c->scene->legacy->is_rgl)
+        note_add(&c->notes, material, NOTE_KS_MAP_USED_AS_SPECULAR,
+                 "map_Ks is taken as the specular color that it is, not as metallic");
+}
+
+static void read_emission(conversion *c, uint32_t material, legacy_reading *r, facet_legacy_colors colors)
+{
+    legacy_material *m = &r->m;
+    legacy_color_to_linear(m->emission, colors, r->emission);
+    if (!legacy_has_map(m, LEGACY_EMISSION_MAP) || !is_black(r->emission))
+        return;
+    memcpy(r->emission, WHITE, sizeof WHITE);
+    if (legacy_has(m, LEGACY_EMISSION))
+        note_add(&c->notes, material, NOTE_BLACK_KE_WITH_MAP,
+                 "a black Ke would make its map black; it counts as white");
+}
+
+static void read_opacity(conversion *c, uint32_t material, legacy_reading *r)
+{
+    legacy_material *m = &r->m;
+    r->opacity = unit_of(m->opacity);
+    if (m->is_transparency_ambiguous)
+        note_add(
+            &c->notes, material, NOTE_TR_AMBIGUOUS,
+            "Tr means transparency to most programs and opacity to some; it is read such that opacity is %g",
+            (double)r->opacity);
+    bool has_picture = legacy_has_map(m, LEGACY_OPACITY_MAP) || legacy_has_map(m, LEGACY_DIFFUSE_MAP);
+    if (r->opacity == 0.0f && has_picture) {
+        r->opacity = 1.0f;
+        note_add(&c->notes, material, NOTE_ZERO_ALPHA,
+                 "an opacity of 0 would hide its texture; it counts as 1, as some exporters meant it");
+    }
+}
+
+/* ---- ambient color ---- */
+
+static bool is_same_color(const float a[3], const float b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static void read_ambient(conversion *c, uint32_t material, legacy_reading *r, facet_legacy_colors colors)
+{
+    legacy_material *m = &r->m;
+    bool has_map = legacy_has_map(m, LEGACY_AMBIENT_MAP);
+    float ambient[3];
+    legacy_color_to_linear(m->ambient, colors, ambient);
+    if (has_map && !legacy_has(m, LEGACY_AMBIENT))
+        memcpy(ambient, WHITE, sizeof WHITE);
+    if (c->desc.ambient == FACET_AMBIENT_OCCLUSION && has_map)
+        return;
+    if (is_black(ambient)) {
+        remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
+        return;
+    }
+    if (c->desc.ambient == FACET_AMBIENT_EMISSIVE) {
+        /* One emissive texture: the ambient map takes it where there is no other. */
+        if (has_map && !legacy_has_map(m, LEGACY_EMISSION_MAP) && is_black(r->emission)) {
+            m->maps[LEGACY_EMISSION_MAP] = m->maps[LEGACY_AMBIENT_MAP];
+        } else if (has_map || legacy_has_map(m, LEGACY_EMISSION_MAP)) {
+            note_add(&c->notes, material, NOTE_AMBIENT_DROPPED,
+                     "Ka and Ke have maps of their own, of which glTF's emission holds one: Ka is dropped");
+            remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
+            return;
+        }
+        for (int k = 0; k < 3; k++)
+            r->emission[k] += ambient[k];
+    } else if (!is_same_color(m->ambient, m->diffuse)) {
+        note_add(
+            &c->notes, material, NOTE_AMBIENT_DROPPED,
+            "the ambient color has no counterpart in glTF, where ambient light is the scene's; it is kept "
+            "in extras");
+    }
+    remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
+}
+
+/* ---- illum ---- */
+
+static bool is_known_good(facet_mtl_dialect dialect)
+{
+    return dialect == FACET_MTL_BLENDER27 || dialect == FACET_MTL_BLENDER28 || dialect == FACET_MTL_BLENDER3;
+}
+
+/* Exporters write illum 0 and 1 for materials that shine, so that these count where nothing speaks against them. */
+static void read_illum(conversion *c, uint32_t material, legacy_reading *r, facet_mtl_dialect dialect)
+{
+    legacy_material *m = &r->m;
+    bool has_highlight = !is_black(r->surface.specular);
+    if (m->illum == 10)
+        note_add(&c->notes, material, NOTE_ILLUM_IGNORED,
+                 "illum 10, which only catches shadows, has no counterpart in glTF");
+    if (m->illum != 0 && m->illum != 1)
+        return;
+    bool is_honoured = c->desc.illum == FACET_ILLUM_HONOR ||
+                       (c->desc.illum == FACET_ILLUM_AUTO && (!has_highlight || is_known_good(dialect)));
+    if (!is_honoured) {
+        if (has_highlight || m->illum == 0)
+            note_add(&c->notes, material, NOTE_ILLUM_IGNORED, "illum %d would %s, but %s: it is ignored",
+                     m->illum, m->illum == 0 ? "switch light off" : "switch the highlight off",
+                     has_highlight ? "Ks is not black" : "that was asked for");
+        return;
+    }
+    if (m->illum == 0) {
+        m->is_lit = false;
+        note_add(&c->notes, material, NOTE_ILLUM_HONOURED, "illum 0: the color is shown without light");
+    } else if (has_highlight) {
+        memset(r->surface.specular, 0, sizeof r->surface.specular);
+        remove_map(&m->maps[LEGACY_SPECULAR_MAP]);
+        remove_map(&m->maps[LEGACY_SHININESS_MAP]);
+        note_add(&c->notes, material, NOTE_ILLUM_HONOURED, "illum 1: Ks and Ns do not count");
+    }
+}
+
+/* ---- rgl's kinds of textures and their modes: docs/legacy.md, "Textures of rgl" ---- */
+
+/* rgl lays its texture over highlight and emission too. */
+static void lay_over_all(const conversion *c, legacy_reading *r)
+{
+    legacy_material *m = &r->m;
+    if (!c->scene->legacy->is_rgl)
+        return;
+    if (!is_black(m->specular))
+        m->maps[LEGACY_SPECULAR_MAP] = m->maps[LEGACY_DIFFUSE_MAP];
+    if (!is_black(m->emission))
+        m->maps[LEGACY_EMISSION_MAP] = m->maps[LEGACY_DIFFUSE_MAP];
+}
+
+static void read_texture_mode(conversion *c, uint32_t material, legacy_reading *r)
+{
+    legacy_material *m = &r->m;
+    legacy_map *map = &m->maps[LEGACY_DIFFUSE_MAP];
+    legacy_texture_type type = m->texture_type;
+    legacy_texture_mode mode = m->texture_mode;
+    if (map->ref.texture == SCENE_NONE)
+        return;
+    if (m->has_environment_map) {
+        note_add(&c->notes, material, NOTE_MAP_DROPPED,
+                 "a texture as environment map has no counterpart in glTF; it is kept in extras");
+        remove_map(map);
+        return;
+    }
+    if (type == LEGACY_ALPHA) { /* E.rgb, E.a lum in all modes */
+        m->maps[LEGACY_OPACITY_MAP] = *map;
+        m->maps[LEGACY_OPACITY_MAP].channel = 'l';
+        remove_map(map);
+        return;
+    }
+    if (type == LEGACY_LUMINANCE || type == LEGACY_LUMINANCE_ALPHA)
+        map->channel = 'l';
+    r->has_diffuse_alpha = type == LEGACY_RGBA || type == LEGACY_LUMINANCE_ALPHA;
+    switch (mode) {
+    case LEGACY_MODULATE:
+        lay_over_all(c, r);
+        break;
+    case LEGACY_DECAL:
+        if (r->has_diffuse_alpha)
+            note_add(
+                &c->notes, material, NOTE_TEXTURE_MODE_DROPPED,
+                "the texture mode decal, which mixes by alpha, has no counterpart in glTF: it is drawn as "
+                "replace");
+        r->has_diffuse_alpha = false;
+        /* fall through */
+    case LEGACY_REPLACE:
+        m->is_lit = false;
+        memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
+        break;
+    case LEGACY_BLEND: /* (1 - T) E */
+        map->base = 1.0f - map->base;
+        map->gain = -map->gain;
+        lay_over_all(c, r);
+        break;
+    case LEGACY_ADD: /* E + T */
+        if (r->has_diffuse_alpha) {
+            m->maps[LEGACY_OPACITY_MAP] = *map;
+            m->maps[LEGACY_OPACITY_MAP].channel = 'm';
+        }
+        if (is_black(r->emission)) {
+            m->maps[LEGACY_EMISSION_MAP] = *map;
+            memcpy(r->emission, WHITE, sizeof WHITE);
+        } else {
+            note_add(
+                &c->notes, material, NOTE_TEXTURE_MODE_DROPPED,
+                "a texture that is added, beside an emission, has no counterpart in glTF: it is dropped");
+        }
+        remove_map(map);
+        r->has_diffuse_alpha = false;
+        break;
+    }
+}
+
+/* ---- programs that put other things into the statements ---- */
+
+static void read_blender_principled(legacy_reading *r, facet_mtl_dialect dialect)
+{
+    const legacy_material *m = &r->m;
+    float shininess = r->surface.shininess;
+    r->kind = READING_METALLIC;
+    r->perceptual_roughness = dialect == FACET_MTL_BLENDER28 ? unit_of(1.0f - sqrtf(shininess) / 30.0f)
+                                                             : unit_of(1.0f - sqrtf(shininess / 1000.0f));
+    /* Ka is metallic only where illum says that there is a mirror; else it is 1, and says nothing. */
+    r->metallic = m->illum == 3 || m->illum == 6 || m->illum == 7 ? unit_of(m->ambient[0]) : 0.0f;
+    /* Ks is the level of the principled shader: F0 = 0.08 level. */
+    r->specular_level = legacy_has(m, LEGACY_SPECULAR) ? 2.0f * unit_of(m->specular[0]) : 1.0f;
+}
+
+static void read_dialect(legacy_reading *r, facet_mtl_dialect dialect)
+{
+    legacy_material *m = &r->m;
+    switch (dialect) {
+    case FACET_MTL_AUTO:
+    case FACET_MTL_SPEC:
+        break;
+    case FACET_MTL_BLENDER27: /* the exponent is the hardness, of which Ns is 1.96078 times one less */
+        if (legacy_has(m, LEGACY_SHININESS))
+            r->surface.shininess = r->surface.shininess / 1.9607843f + 1.0f;
+        break;
+    case FACET_MTL_BLENDER28:
+    case FACET_MTL_BLENDER3:
+        read_blender_principled(r, dialect);
+        break;
+    case FACET_MTL_OBJ2GLTF_MR:
+        r->kind = READING_METALLIC;
+        r->metallic = unit_of(m->specular[0]);
+        r->perceptual_roughness = unit_of(m->shininess);
+        r->has_shininess_as_roughness = true;
+        break;
+    case FACET_MTL_OBJ2GLTF_SG:
+        r->kind = READING_GLOSSY;
+        r->glossiness = unit_of(m->shininess);
+        r->has_shininess_as_roughness = true;
+        break;
+    }
+    if (r->has_shininess_as_roughness && !legacy_has(m, LEGACY_SHININESS) &&
+        legacy_has_map(m, LEGACY_SHININESS_MAP))
+        r->glossiness = r->perceptual_roughness = 1.0f;
+    if (dialect == FACET_MTL_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SPECULAR) &&
+        legacy_has_map(m, LEGACY_SPECULAR_MAP))
+        r->metallic = 1.0f;
+}
+
+/* Pr and Pm win over Ns and Ks. */
+static void read_pbr_statements(legacy_reading *r)
+{
+    const legacy_material *m = &r->m;
+    bool has_orm = legacy_has_map(m, LEGACY_ORM_MAP);
+    bool has_roughness =
+        has_orm || legacy_has(m, LEGACY_ROUGHNESS) || legacy_has_map(m, LEGACY_ROUGHNESS_MAP);
+    bool has_metallic = has_orm || legacy_has(m, LEGACY_METALLIC) || legacy_has_map(m, LEGACY_METALLIC_MAP);
+    if (!has_roughness && !has_metallic)
+        return;
+    if (r->kind != READING_METALLIC) {
+        r->metallic = 0.0f;
+        r->perceptual_roughness = perceptual_roughness_from_shininess(r->surface.shininess);
+        r->specular_level = 1.0f;
+    }
+    r->kind = READING_METALLIC;
+    r->has_shininess_as_roughness = false;
+    /* Where a map stands alone its factor is 1. */
+    if (has_roughness)
+        r->perceptual_roughness = legacy_has(m, LEGACY_ROUGHNESS) ? unit_of(m->roughness) : 1.0f;
+    if (has_metallic)
+        r->metallic = legacy_has(m, LEGACY_METALLIC) ? unit_of(m->metallic) : 1.0f;
+}
+
+/* ---- glass ---- */
+
+/* illum 4 and 9: glass that light passes straight; 6 and 7: refraction, tinted by Tf. */
+static void read_glass(conversion *c, legacy_reading *r, facet_legacy_colors colors)
+{
+    const legacy_material *m = &r->m;
+    bool is_glass = m->illum == 4 || m->illum == 6 || m->illum == 7 || m->illum == 9;
+    float filter[3];
+    legacy_color_to_linear(m->transmission_filter, colors, filter);
+    bool has_filter = legacy_has(m, LEGACY_TRANSMISSION_FILTER) && !is_black(filter);
+    if (!c->desc.has_glass || r->kind == READING_UNLIT || (!is_glass && r->opacity >= 1.0f))
+        return;
+    float transmission = 1.0f - r->opacity;
+    r->is_refracting = m->illum == 6 || m->illum == 7;
+    if (transmission == 0.0f && r->is_refracting && has_filter)
+        transmission = unit_of(highest_of(filter));
+    if (transmission == 0.0f)
+        return;
+    /* What passes is tinted with the base color, which is that of the diffuse part too: their mix. */
+    float most = highest_of(filter);
+    for (int k = 0; k < 3; k++) {
+        float tint = has_filter ? filter[k] / most : 1.0f;
+        r->surface.diffuse[k] += transmission * (tint - r->surface.diffuse[k]);
+    }
+    r->transmission = transmission;
+    r->opacity = 1.0f;
+    r->ior = legacy_has(m, LEGACY_IOR) && m->ior > 1.0f && m->ior <= 10.0f ? m->ior : 1.5f;
+    if (r->kind == READING_OGL1) {
+        r->kind = READING_METALLIC;
+        r->metallic = 0.0f;
+        r->perceptual_roughness = perceptual_roughness_from_shininess(r->surface.shininess);
+        if (is_black(r->surface.specular))
+            r->perceptual_roughness = 0.0f; /* nothing is said of how it shines: clear */
+        r->has_roughness_from_shininess = true;
+    }
+}
+
+void legacy_read(conversion *c, uint32_t material, legacy_reading *out)
+{
+    const struct scene_legacy *legacy = c->scene->legacy;
+    facet_legacy_colors colors = legacy->colors;
+    *out = (legacy_reading){.m = legacy->materials[material], .specular_level = 1.0f};
+    legacy_material *m = &out->m;
+    if (m->is_gltf_restored) {
+        out->kind = READING_KEPT;
+        return;
+    }
+    check_maps(c, material, m);
+    note_losses(c, material, m);
+    read_diffuse(c, material, out, colors);
+    read_emission(c, material, out, colors);
+    read_texture_mode(c, material, out);
+    read_opacity(c, material, out);
+    out->surface.shininess = m->shininess > 0.0f && m->shininess < INFINITY ? m->shininess : 0.0f;
+    read_dialect(out, legacy->dialect);
+    read_pbr_statements(out);
+    if (out->kind != READING_METALLIC)
+        read_specular(c, material, out, colors);
+    /* Ka is metallic to the programs that write a principled material. */
+    if (legacy->dialect != FACET_MTL_BLENDER28 && legacy->dialect != FACET_MTL_BLENDER3)
+        read_ambient(c, material, out, colors);
+    else
+        remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
+    read_illum(c, material, out, legacy->dialect);
+    if (!m->is_lit)
+        out->kind = READING_UNLIT;
+    read_glass(c, out, colors);
+}

@@ -1,0 +1,484 @@
+/* convert_read_test.c - every row of the reference's mapping (section 9) and every warning of one material. */
+#include "legacy/convert_test_support.h"
+
+static const facet_legacy_desc PLAIN = {0};
+
+#define ALL_BLINN_PHONG (LEGACY_DIFFUSE | LEGACY_SPECULAR | LEGACY_SHININESS)
+
+static legacy_material gold(void)
+{
+    legacy_material m = legacy_material_default();
+    m.name = "gold";
+    m.fields = ALL_BLINN_PHONG;
+    set_color(m.diffuse, .75164f, .60648f, .22648f);
+    set_color(m.specular, .628281f, .555802f, .366065f);
+    m.shininess = 51.2f;
+    return m;
+}
+
+/* One material converted; the scene stays for a look at the rest. */
+static facet_scene *one(legacy_material m, const facet_legacy_desc *desc)
+{
+    facet_scene *scene = legacy_scene(1);
+    scene->legacy->materials[0] = m;
+    convert(scene, desc);
+    return scene;
+}
+
+/* ---- Kd, Ks, Ns ---- */
+
+static void blinn_phong_becomes_specular_and_ior(void **state)
+{
+    (void)state;
+    facet_scene *scene = one(gold(), &PLAIN);
+    const scene_material *m = &scene->materials[0];
+    ogl1_surface in = {{.75164f, .60648f, .22648f}, {.628281f, .555802f, .366065f}, 51.2f};
+    pbr_surface wanted;
+    ogl1_to_pbr_closed(&in, &wanted);
+    assert_int_equal(m->extensions, SCENE_SPECULAR | SCENE_IOR);
+    assert_color(m->base_color, wanted.base_color[0], wanted.base_color[1], wanted.base_color[2], 0);
+    assert_near(m->base_color[3], 1, 0);
+    assert_near(m->metallic, 0, 0);
+    assert_near(m->perceptual_roughness, wanted.perceptual_roughness, 0);
+    assert_near(m->ior, 0, 0);
+    assert_near(m->specular, wanted.specular, 0);
+    assert_true(m->is_double_sided); /* OpenGL 1 lights both sides */
+    assert_int_equal(m->alpha_mode, SCENE_ALPHA_OPAQUE);
+    const facet_conversion *c = &scene->conversion->materials[0].summary;
+    assert_string_equal(c->method, "closed");
+    assert_string_equal(c->profile, "specular+ior");
+    assert_string_equal(c->source, "mtl");
+    assert_near(c->error, .070, .0075); /* reference, section 11 */
+    assert_near(c->error_naive, .160, .005);
+    assert_true(c->error_core > c->error && c->error_core < 1);
+    assert_int_equal(c->grade, c->error_display < .05 ? FACET_GRADE_GOOD : FACET_GRADE_FAIR);
+    assert_near(scene->conversion->light_scale, 3.14159265, 1e-8);
+    scene_destroy(scene);
+}
+
+static void fit_and_core_are_options(void **state)
+{
+    (void)state;
+    facet_scene *fit = one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_FIT});
+    assert_string_equal(fit->conversion->materials[0].summary.method, "fit");
+    assert_near(fit->conversion->materials[0].summary.error, .068, .0064);
+    facet_scene *core =
+        one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_FIT, .profile = FACET_LEGACY_CORE});
+    const facet_conversion *c = &core->conversion->materials[0].summary;
+    assert_int_equal(core->materials[0].extensions, 0);
+    assert_string_equal(c->profile, "core");
+    assert_near(c->error, .093, .0077);
+    assert_near(c->error_core, c->error, 0);
+    scene_destroy(fit);
+    scene_destroy(core);
+}
+
+static void colors_are_srgb_or_linear(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    set_color(m.specular, 0, 0, 0);
+    set_color(m.diffuse, .5f, .5f, .5f);
+    facet_scene *linear = one(m, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_LINEAR});
+    facet_scene *srgb = one(m, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_SRGB});
+    assert_near(linear->materials[0].base_color[0], .5, 1e-6);
+    assert_near(srgb->materials[0].base_color[0], .21404, 1e-4);
+    assert_int_equal(srgb->legacy->colors, FACET_LEGACY_COLORS_SRGB);
+    assert_false(has_warning(srgb, SCENE_NONE, "color-space-assumed"));
+    facet_scene *unsaid = one(m, &PLAIN);
+    assert_true(has_warning(unsaid, SCENE_NONE, "color-space-assumed"));
+    scene_destroy(linear);
+    scene_destroy(srgb);
+    scene_destroy(unsaid);
+}
+
+static void remarks_of_the_fit_are_told(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    set_color(m.diffuse, 1, 1, 1);
+    set_color(m.specular, 1, 1, 1);
+    m.shininess = 2;
+    facet_scene *scene = one(m, &PLAIN);
+    assert_true(has_warning(scene, 0, "energy-gain"));
+    assert_true(has_warning(scene, 0, "base-clamped"));
+    assert_true(has_warning(scene, 0, "low-exponent"));
+    scene_destroy(scene);
+    m = gold();
+    set_color(m.specular, .1f, .1f, .1f);
+    scene = one(m, &PLAIN);
+    assert_false(has_warning(scene, 0, "energy-gain"));
+    assert_false(has_warning(scene, 0, "low-exponent"));
+    scene_destroy(scene);
+}
+
+/* ---- Ke, Ka ---- */
+
+static void emission_above_one_becomes_strength(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    m.fields |= LEGACY_EMISSION;
+    set_color(m.emission, 17, 12, 4);
+    facet_scene *scene = one(m, &PLAIN);
+    const scene_material *out = &scene->materials[0];
+    assert_true(out->extensions & SCENE_EMISSIVE_STRENGTH);
+    assert_near(out->emissive_strength, 17, 1e-5);
+    for (int k = 0; k < 3; k++)
+        assert_near(out->emissive[k] * out->emissive_strength, m.emission[k], 1e-5);
+    scene_destroy(scene);
+    set_color(m.emission, .5f, 0, 0);
+    scene = one(m, &PLAIN);
+    assert_false(scene->materials[0].extensions & SCENE_EMISSIVE_STRENGTH);
+    assert_near(scene->materials[0].emissive[0], .5, 1e-6);
+    scene_destroy(scene);
+}
+
+static void ambient_is_dropped_or_emitted(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    m.fields |= LEGACY_AMBIENT;
+    set_color(m.ambient, .2f, .1f, 0);
+    facet_scene *dropped = one(m, &PLAIN);
+    assert_true(has_warning(dropped, 0, "ambient-dropped"));
+    assert_near(dropped->materials[0].emissive[0], 0, 0);
+    facet_scene *emitted = one(m, &(facet_legacy_desc){.ambient = FACET_AMBIENT_EMISSIVE});
+    assert_false(has_warning(emitted, 0, "ambient-dropped"));
+    assert_color(emitted->materials[0].emissive, .2f, .1f, 0, 1e-6);
+    /* Ka of 0, or equal to Kd, is what exporters write who mean nothing by it. */
+    memcpy(m.ambient, m.diffuse, sizeof m.ambient);
+    facet_scene *equal = one(m, &PLAIN);
+    assert_false(has_warning(equal, 0, "ambient-dropped"));
+    scene_destroy(dropped);
+    scene_destroy(emitted);
+    scene_destroy(equal);
+}
+
+/* ---- opacity ---- */
+
+static void opacity_becomes_alpha(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    m.fields |= LEGACY_OPACITY;
+    m.opacity = .25f;
+    facet_scene *scene = one(m, &PLAIN);
+    assert_int_equal(scene->materials[0].alpha_mode, SCENE_ALPHA_BLEND);
+    assert_near(scene->materials[0].base_color[3], .25, 1e-6);
+    scene_destroy(scene);
+    m.opacity = 0; /* nothing to see, and nothing says that this is a mistake */
+    scene = one(m, &PLAIN);
+    assert_near(scene->materials[0].base_color[3], 0, 0);
+    assert_false(has_warning(scene, 0, "zero-alpha"));
+    scene_destroy(scene);
+    m.is_transparency_ambiguous = true;
+    m.is_halo = true;
+    m.opacity = .5f;
+    scene = one(m, &PLAIN);
+    assert_true(has_warning(scene, 0, "tr-ambiguous"));
+    assert_true(has_warning(scene, 0, "halo-dropped"));
+    scene_destroy(scene);
+}
+
+static void glass_becomes_transmission_where_asked_for(void **state)
+{
+    (void)state;
+    const facet_legacy_desc glass = {.has_glass = true};
+    legacy_material m = gold();
+    m.fields |= LEGACY_OPACITY | LEGACY_ILLUM | LEGACY_IOR | LEGACY_TRANSMISSION_FILTER;
+    m.opacity = .2f;
+    m.illum = 4;
+    m.ior = 1.33f;
+    facet_scene *scene = one(m, &glass);
+    const scene_material *out = &scene->materials[0];
+    assert_true(out->extensions & SCENE_TRANSMISSION && out->extensions & SCENE_IOR);
+    assert_false(out->extensions & (SCENE_SPECULAR | SCENE_VOLUME));
+    assert_near(out->transmission, .8, 1e-6);
+    assert_near(out->ior, 1.33, 1e-6);
+    assert_near(out->base_color[3], 1, 0);
+    assert_int_equal(out->alpha_mode, SCENE_ALPHA_OPAQUE);
+    scene_destroy(scene);
+    scene = one(m, &PLAIN); /* not asked for */
+    assert_false(scene->materials[0].extensions & SCENE_TRANSMISSION);
+    assert_near(scene->materials[0].base_color[3], .2, 1e-6);
+    scene_destroy(scene);
+    /* illum 7: refraction, its strength and tint from Tf; a volume needs a thing with a size. */
+    m.opacity = 1;
+    m.illum = 7;
+    set_color(m.transmission_filter, .5f, 1, .5f);
+    set_color(m.diffuse, 0, 0, 0);
+    scene = legacy_scene(1);
+    scene->legacy->materials[0] = m;
+    scene_primitive primitive = {.bounds_min = {-1, -2, -3}, .bounds_max = {1, 2, 3}, .material = 0};
+    scene_mesh mesh = {.name = "", .primitive_count = 1, .primitives = &primitive};
+    scene->meshes = &mesh;
+    scene->mesh_count = 1;
+    convert(scene, &glass);
+    out = &scene->materials[0];
+    assert_near(out->transmission, 1, 1e-6);
+    assert_color(out->base_color, .5f, 1, .5f, 1e-6);
+    assert_true(out->extensions & SCENE_VOLUME);
+    assert_near(out->thickness, 2, 1e-6);
+    assert_true(isnan(scene->conversion->materials[0].summary.error));
+    scene_destroy(scene);
+}
+
+/* ---- illum, lit, sides ---- */
+
+static void illum_counts_where_nothing_speaks_against_it(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    m.fields |= LEGACY_ILLUM;
+    m.illum = 0;
+    facet_scene *scene = one(m, &PLAIN); /* Ks is not black */
+    assert_true(has_warning(scene, 0, "illum-ignored"));
+    assert_false(scene->materials[0].extensions & SCENE_UNLIT);
+    scene_destroy(scene);
+    scene = one(m, &(facet_legacy_desc){.illum = FACET_ILLUM_HONOR});
+    assert_true(has_warning(scene, 0, "illum-honoured"));
+    assert_int_equal(scene->materials[0].extensions, SCENE_UNLIT);
+    assert_near(scene->materials[0].base_color[0], .75164, 1e-6);
+    assert_string_equal(scene->conversion->materials[0].summary.method, "exact");
+    scene_destroy(scene);
+    m.illum = 1;
+    scene = one(m, &(facet_legacy_desc){.illum = FACET_ILLUM_HONOR});
+    assert_true(has_warning(scene, 0, "illum-honoured"));
+    assert_near(scene->materials[0].specular, 0, 0);
+    scene_destroy(scene);
+    scene = one(m, &(facet_legacy_desc){.dialect = FACET_MTL_BLENDER27}); /* known to mean it */
+    assert_true(has_warning(scene, 0, "illum-honoured"));
+    scene_destroy(scene);
+    set_color(m.specular, 0, 0, 0);
+    m.illum = 0;
+    scene = one(m, &PLAIN);
+    assert_true(scene->materials[0].extensions & SCENE_UNLIT);
+    scene_destroy(scene);
+    scene = one(m, &(facet_legacy_desc){.illum = FACET_ILLUM_IGNORE});
+    assert_false(scene->materials[0].extensions & SCENE_UNLIT);
+    assert_true(has_warning(scene, 0, "illum-ignored"));
+    scene_destroy(scene);
+    m.illum = 10;
+    scene = one(m, &PLAIN);
+    assert_true(has_warning(scene, 0, "illum-ignored"));
+    scene_destroy(scene);
+}
+
+static void what_is_not_lit_is_unlit(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    m.is_lit = false;
+    m.is_culled = true;
+    facet_scene *scene = one(m, &PLAIN);
+    assert_int_equal(scene->materials[0].extensions, SCENE_UNLIT);
+    assert_false(scene->materials[0].is_double_sided);
+    assert_color(scene->materials[0].base_color, .75164f, .60648f, .22648f, 1e-6);
+    scene_destroy(scene);
+}
+
+/* ---- MTL's extension for physically based materials ---- */
+
+static void pbr_statements_win(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    m.fields |= LEGACY_ROUGHNESS | LEGACY_METALLIC | LEGACY_SHEEN | LEGACY_CLEARCOAT |
+                LEGACY_CLEARCOAT_ROUGHNESS | LEGACY_ANISOTROPY | LEGACY_ANISOTROPY_ROTATION;
+    m.roughness = .3f;
+    m.metallic = .9f;
+    m.sheen = .2f;
+    m.clearcoat = .8f;
+    m.clearcoat_roughness = .1f;
+    m.anisotropy = .6f;
+    m.anisotropy_rotation = .25f;
+    facet_scene *scene = one(m, &PLAIN);
+    const scene_material *out = &scene->materials[0];
+    assert_int_equal(out->extensions, SCENE_SHEEN | SCENE_CLEARCOAT | SCENE_ANISOTROPY);
+    assert_color(out->base_color, .75164f, .60648f, .22648f, 1e-6);
+    assert_near(out->perceptual_roughness, .3, 1e-6);
+    assert_near(out->metallic, .9, 1e-6);
+    assert_near(out->sheen_color[1], .2, 1e-6);
+    assert_near(out->clearcoat, .8, 1e-6);
+    assert_near(out->clearcoat_roughness, .1, 1e-6);
+    assert_near(out->anisotropy, .6, 1e-6);
+    assert_near(out->anisotropy_rotation, 1.5707963, 1e-6);
+    assert_string_equal(scene->conversion->materials[0].summary.method, "exact");
+    scene_destroy(scene);
+    m.fields = ALL_BLINN_PHONG | LEGACY_METALLIC; /* the other is still Ns's */
+    scene = one(m, &PLAIN);
+    assert_near(scene->materials[0].perceptual_roughness, perceptual_roughness_from_shininess(51.2f), 1e-6);
+    scene_destroy(scene);
+}
+
+/* ---- dialects ---- */
+
+static facet_scene *in_dialect(legacy_material m, facet_mtl_dialect dialect)
+{
+    return one(m, &(facet_legacy_desc){.dialect = dialect});
+}
+
+static void dialects_put_roughness_elsewhere(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    m.fields |= LEGACY_AMBIENT | LEGACY_ILLUM;
+    set_color(m.specular, .5f, .5f, .5f);
+    set_color(m.ambient, .7f, .7f, .7f);
+    m.illum = 3;
+    m.shininess = 225; /* roughness .5 of Blender 2.8 */
+    facet_scene *scene = in_dialect(m, FACET_MTL_BLENDER28);
+    assert_near(scene->materials[0].perceptual_roughness, .5, 1e-5);
+    assert_near(scene->materials[0].metallic, .7, 1e-6);
+    assert_false(scene->materials[0].extensions & SCENE_SPECULAR); /* a level of .5 is glTF's 0.04 */
+    assert_false(has_warning(scene, 0, "ambient-dropped"));
+    scene_destroy(scene);
+    m.shininess = 250; /* the same of Blender 3 */
+    m.illum = 2;       /* no mirror: Ka says nothing */
+    set_color(m.specular, .25f, .25f, .25f);
+    m.fields |= LEGACY_CLEARCOAT;
+    m.clearcoat = 1;
+    scene = in_dialect(m, FACET_MTL_BLENDER3);
+    assert_near(scene->materials[0].perceptual_roughness, .5, 1e-5);
+    assert_near(scene->materials[0].metallic, 0, 0);
+    assert_true(scene->materials[0].extensions & SCENE_SPECULAR);
+    assert_near(scene->materials[0].specular, .5, 1e-6);
+    assert_near(scene->materials[0].clearcoat, .25, 1e-6);
+    scene_destroy(scene);
+    m = gold();
+    m.shininess = 96.078431f; /* hardness 50 */
+    scene = in_dialect(m, FACET_MTL_BLENDER27);
+    assert_near(scene->materials[0].perceptual_roughness, perceptual_roughness_from_shininess(50), 1e-4);
+    scene_destroy(scene);
+    m.shininess = .3f;
+    set_color(m.specular, .9f, .9f, .9f);
+    scene = in_dialect(m, FACET_MTL_OBJ2GLTF_MR);
+    assert_near(scene->materials[0].perceptual_roughness, .3, 1e-6);
+    assert_near(scene->materials[0].metallic, .9, 1e-6);
+    scene_destroy(scene);
+    scene = in_dialect(m, FACET_MTL_OBJ2GLTF_SG);
+    assert_int_equal(scene->materials[0].extensions, SCENE_SPECULAR | SCENE_IOR);
+    assert_near(scene->materials[0].perceptual_roughness, .7, 1e-6);
+    assert_near(scene->materials[0].ior, 0, 0);
+    assert_color(scene->materials[0].specular_color, .9f, .9f, .9f, 1e-6);
+    scene_destroy(scene);
+}
+
+static void guessed_dialects_are_told(void **state)
+{
+    (void)state;
+    facet_scene *scene = legacy_scene(1);
+    scene->legacy->dialect = FACET_MTL_BLENDER3;
+    scene->legacy->is_dialect_guessed = true;
+    convert(scene, &PLAIN);
+    assert_true(has_warning(scene, SCENE_NONE, "dialect-guessed"));
+    scene_destroy(scene);
+}
+
+/* ---- what has no counterpart ---- */
+
+static void losses_are_told_and_kept(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    m.fields |= LEGACY_SHARPNESS;
+    m.sharpness = 100;
+    m.unknown = "alpha_test 1\nfoo 2";
+    set_map(&m, LEGACY_REFLECTION_MAP, SCENE_NONE);
+    facet_scene *scene = one(m, &PLAIN);
+    assert_true(has_warning(scene, 0, "map-dropped"));
+    assert_true(has_warning(scene, 0, "sharpness-dropped"));
+    assert_true(has_warning(scene, 0, "unknown-key"));
+    assert_non_null(strstr(scene->materials[0].meta.extras, "facet_legacy"));
+    assert_non_null(strstr(scene->materials[0].meta.extras, "alpha_test"));
+    scene_destroy(scene);
+    m = gold();
+    m.maps[LEGACY_DIFFUSE_MAP].path = "gone.png";
+    m.maps[LEGACY_DIFFUSE_MAP].dropped = "-t 1 1 1";
+    scene = one(m, &PLAIN);
+    assert_true(has_warning(scene, 0, "texture-missing"));
+    assert_true(has_warning(scene, 0, "texture-option-dropped"));
+    assert_near(scene->materials[0].base_color[0], scene->materials[0].base_color[0], 0);
+    assert_false(scene_material_has(&scene->materials[0], SCENE_BASE_COLOR_TEXTURE));
+    scene_destroy(scene);
+    scene = legacy_scene(1);
+    scene->legacy->fog.mode = LEGACY_FOG_LINEAR;
+    convert(scene, &PLAIN);
+    assert_true(has_warning(scene, SCENE_NONE, "fog-dropped"));
+    assert_non_null(strstr(scene->meta.extras, "fog"));
+    scene_destroy(scene);
+}
+
+static void restored_materials_are_left_alone(void **state)
+{
+    (void)state;
+    facet_scene *scene = legacy_scene(1);
+    scene->legacy->materials[0] = gold();
+    scene->legacy->materials[0].is_gltf_restored = true;
+    scene->materials[0].metallic = .77f;
+    scene->materials[0].base_color[0] = .123f;
+    convert(scene, &PLAIN);
+    assert_near(scene->materials[0].metallic, .77, 1e-6);
+    assert_near(scene->materials[0].base_color[0], .123, 1e-6);
+    assert_null(scene->materials[0].meta.extras);
+    assert_string_equal(scene->conversion->materials[0].summary.method, "source");
+    scene_destroy(scene);
+}
+
+static void logged(void *user, facet_log_level level, const char *message)
+{
+    (void)level;
+    strncat(user, message, 4000 - strlen(user));
+    strcat(user, "\n");
+}
+
+/* What every conversion has is in the report only; a loss is told once for all materials. */
+static void the_log_is_short(void **state)
+{
+    (void)state;
+    char log[8000] = "";
+    facet_scene *scene = legacy_scene(50);
+    for (int i = 0; i < 50; i++) {
+        scene->legacy->materials[i] = gold();
+        scene->legacy->materials[i].fields |= LEGACY_AMBIENT;
+        set_color(scene->legacy->materials[i].ambient, .1f, .1f, .1f);
+    }
+    assert_int_equal(
+        legacy_convert(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &PLAIN, &(facet_log){log, logged}, NULL),
+        FACET_OK);
+    assert_true(has_warning(scene, SCENE_NONE, "legacy-light-pi"));
+    assert_null(strstr(log, "pi"));
+    assert_null(strstr(log, "sRGB"));
+    assert_non_null(strstr(log, "material \"stuff\" and 49 more: the ambient color"));
+    size_t lines = 0;
+    for (const char *c = log; *c; c++)
+        lines += *c == '\n';
+    assert_int_equal(lines, 1);
+    for (uint32_t i = 0; i < 50; i++)
+        assert_true(has_warning(scene, i, "ambient-dropped"));
+    scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blinn_phong_becomes_specular_and_ior),
+        cmocka_unit_test(fit_and_core_are_options),
+        cmocka_unit_test(colors_are_srgb_or_linear),
+        cmocka_unit_test(remarks_of_the_fit_are_told),
+        cmocka_unit_test(emission_above_one_becomes_strength),
+        cmocka_unit_test(ambient_is_dropped_or_emitted),
+        cmocka_unit_test(opacity_becomes_alpha),
+        cmocka_unit_test(glass_becomes_transmission_where_asked_for),
+        cmocka_unit_test(illum_counts_where_nothing_speaks_against_it),
+        cmocka_unit_test(what_is_not_lit_is_unlit),
+        cmocka_unit_test(pbr_statements_win),
+        cmocka_unit_test(dialects_put_roughness_elsewhere),
+        cmocka_unit_test(guessed_dialects_are_told),
+        cmocka_unit_test(losses_are_told_and_kept),
+        cmocka_unit_test(restored_materials_are_left_alone),
+        cmocka_unit_test(the_log_is_short),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,189 @@
+/* convert_solve.c - the numbers of all materials: distinct questions are sorted out, answered in parallel and handed back
+ * to everybody who asked. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/result.h"
+#include "legacy/convert_state.h"
+
+typedef struct solve_question solve_question;
+
+/* One distinct question, with a material that asks it. */
+typedef struct asked {
+    const solve_question *question;
+    uint32_t item;
+    uint32_t answer; /* the item that has the answer */
+} asked;
+
+static int by_question(const void *a, const void *b)
+{
+    const asked *x = a;
+    const asked *y = b;
+    int order = memcmp(x->question, y->question, sizeof *x->question);
+    return order ? order : (x->item > y->item) - (x->item < y->item);
+}
+
+typedef struct solver {
+    const facet_legacy_desc *desc;
+    const fit_metric *metric;
+    facet_material_model to;
+    solve_item *items;
+    const asked *distinct;
+} solver;
+
+static void solve_from_ogl1(const solver *s, solve_item *item)
+{
+    const ogl1_surface *in = &item->question.ogl1;
+    bool is_closed = s->desc->method == FACET_LEGACY_CLOSED || item->question.is_closed > 0.0f;
+    bool is_core = s->desc->profile == FACET_LEGACY_CORE;
+    if (is_closed)
+        item->remarks =
+            is_core ? ogl1_to_pbr_core_closed(in, &item->pbr) : ogl1_to_pbr_closed(in, &item->pbr);
+    else
+        item->remarks = is_core ? ogl1_to_pbr_core_fit(s->metric, in, s->desc->target, &item->pbr)
+                                : ogl1_to_pbr_fit(s->metric, in, s->desc->target, &item->pbr);
+    item->ogl1 = *in;
+    item->error = fit_compare(s->metric, in, &item->pbr, FIT_FROM_OGL1);
+    pbr_surface naive;
+    ogl1_to_pbr_naive(in, &naive);
+    item->naive = fit_compare(s->metric, in, &naive, FIT_FROM_OGL1).E;
+    /* A viewer without the extensions sees the core values with glTF's dielectric. */
+    pbr_surface core = pbr_surface_default();
+    memcpy(core.base_color, item->pbr.base_color, sizeof core.base_color);
+    core.metallic = item->pbr.metallic;
+    core.perceptual_roughness = item->pbr.perceptual_roughness;
+    item->core = is_core ? item->error.E : fit_compare(s->metric, in, &core, FIT_FROM_OGL1).E;
+}
+
+static void solve_to_ogl1(const solver *s, solve_item *item)
+{
+    const pbr_surface *in = &item->question.pbr;
+    item->pbr = *in;
+    if (item->question.known_ogl1 > 0.0f)
+        item->ogl1 = item->question.ogl1;
+    else if (item->question.is_closed > 0.0f)
+        item->remarks = pbr_to_ogl1_closed(in, &item->ogl1);
+    else
+        item->remarks = pbr_to_ogl1_fit(s->metric, in, s->desc->target, FIT_DISPLAYABLE, &item->ogl1);
+    item->error = fit_compare(s->metric, &item->ogl1, in, FIT_FROM_PBR);
+    ogl1_surface naive;
+    pbr_to_ogl1_naive(in, &naive);
+    item->naive = fit_compare(s->metric, &naive, in, FIT_FROM_PBR).E;
+    item->core = (double)NAN;
+}
+
+static void solve_range(void *context, size_t begin, size_t end)
+{
+    const solver *s = context;
+    for (size_t i = begin; i < end; i++) {
+        solve_item *item = &s->items[s->distinct[i].item];
+        if (s->to == FACET_MATERIALS_OGL1)
+            solve_to_ogl1(s, item);
+        else
+            solve_from_ogl1(s, item);
+    }
+}
+
+/* Puts the first of each kind to the front, in order, and notes for all who has their answer. */
+static size_t sort_out(asked *all, size_t count, uint32_t *answers)
+{
+    qsort(all, count, sizeof *all, by_question);
+    size_t distinct = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (distinct == 0 || memcmp(all[i].question, all[distinct - 1].question, sizeof *all->question) != 0)
+            all[distinct++] = all[i];
+        answers[all[i].item] = all[distinct - 1].item;
+    }
+    return distinct;
+}
+
+facet_result solve_all(conversion *c, facet_material_model to, solve_item *items, uint32_t count,
+                       facet_error *error)
+{
+    const facet_allocator *allocator = &c->scene->allocator;
+    fit_metric *metric = NULL;
+    facet_result result = FACET_OK;
+    asked *all = mem_alloc(allocator, (size_t)count + 1, sizeof *all);
+    uint32_t *answers = mem_alloc(allocator, (size_t)count + 1, sizeof *answers);
+    size_t asked_count = 0;
+    if (!all || !answers)
+        result = fail_memory(error, "materials", count * sizeof *all);
+    for (uint32_t i = 0; i < count && result == FACET_OK; i++)
+        if (items[i].is_asked)
+            all[asked_count++] = (asked){.question = &items[i].question, .item = i};
+    if (result == FACET_OK && asked_count > 0)
+        result = fit_metric_create(allocator, PBR_CORRELATED, &metric, error);
+    if (result == FACET_OK && asked_count > 0) {
+        size_t distinct = sort_out(all, asked_count, answers);
+        solver s = {.desc = &c->desc, .metric = metric, .to = to, .items = items, .distinct = all};
+        parallel_for(c->scene->thread_count, distinct, 1, solve_range, &s);
+        for (uint32_t i = 0; i < count; i++)
+            if (items[i].is_asked)
+                items[i] = items[answers[i]];
+    }
+    mem_free(all);
+    mem_free(answers);
+    fit_metric_destroy(metric);
+    return result;
+}
+
+void solve_note(conversion *c, uint32_t material, const solve_item *item)
+{
+    note_list *notes = &c->notes;
+    const ogl1_surface *s = &item->ogl1;
+    if (item->remarks & FIT_BASE_CLAMPED)
+        note_add(notes, material, NOTE_BASE_CLAMPED, "a base color above 1 would be needed; it is clamped");
+    if (item->remarks & FIT_SPECULAR_CLAMPED)
+        note_add(notes, material, NOTE_SPECULAR_CLAMPED,
+                 "a specular color above 1 would be needed; it is clamped");
+    if (item->remarks & FIT_SHININESS_CLAMPED)
+        note_add(notes, material, NOTE_SHININESS_CLAMPED,
+                 "a shininess above 128 would be needed; it is clamped");
+    if (item->remarks & FIT_LOW_EXPONENT)
+        note_add(notes, material, NOTE_LOW_EXPONENT,
+                 "a shininess of %g is no highlight but a second diffuse term", (double)s->shininess);
+    if (item->remarks & FIT_ENERGY_GAIN) {
+        double most = 0;
+        for (int k = 0; k < 3; k++)
+            most = fmax(most, (double)s->diffuse[k] + (double)s->specular[k]);
+        note_add(notes, material, NOTE_ENERGY_GAIN,
+                 "diffuse and specular color add up to %.3g: the material returns more light than it gets",
+                 most);
+    }
+    if (item->remarks & FIT_METAL_WITH_DIFFUSE)
+        note_add(
+            notes, material, NOTE_METAL_WITHOUT_DIFFUSE,
+            "a metal has no diffuse part; it is given one, which stands for the wide part of its highlight");
+}
+
+facet_conversion_grade grade_of(double error_display)
+{
+    return error_display < 0.05   ? FACET_GRADE_GOOD
+           : error_display < 0.12 ? FACET_GRADE_FAIR
+           : error_display < 0.30 ? FACET_GRADE_POOR
+                                  : FACET_GRADE_BAD;
+}
+
+void summary_solved(facet_conversion *summary, const solve_item *item)
+{
+    summary->error = item->error.E;
+    summary->error_display = item->error.E_display;
+    summary->error_naive = item->naive;
+    summary->error_core = item->core;
+    for (int i = 0; i < 3; i++)
+        summary->error_views[i] = item->error.views[i];
+    summary->grade = grade_of(item->error.E_display);
+}
+
+void summary_exact(facet_conversion *summary, const char *method)
+{
+    double error = strcmp(method, "exact") == 0 ? 0.0 : (double)NAN;
+    summary->method = method;
+    summary->error = summary->error_display = error;
+    summary->error_naive = summary->error_core = (double)NAN;
+    for (int i = 0; i < 3; i++)
+        summary->error_views[i] = error;
+    summary->grade = FACET_GRADE_GOOD;
+}

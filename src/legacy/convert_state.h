@@ -1,0 +1,111 @@
+/* convert_state.h - what the stages of a conversion share:
+ *   convert_read.c       a legacy material, its dialect, illum and switches understood
+ *   convert_solve.c      the numbers of all materials, in parallel, each distinct one once, with their errors
+ *   convert_build.c      a glTF material of numbers and maps; convert_build_maps.c its textures
+ *   convert_ogl1.c       legacy materials of glTF's; convert_ogl1_maps.c their textures
+ *   specular_glossiness.c, lights.c */
+#ifndef LEGACY_CONVERT_STATE_H
+#define LEGACY_CONVERT_STATE_H
+
+#include "legacy/convert.h"
+#include "legacy/convert_maps.h"
+#include "legacy/convert_notes.h"
+#include "legacy/convert_surface.h"
+#include "legacy/fit.h"
+#include "legacy/texture_bench.h"
+
+typedef struct conversion {
+    facet_scene *scene;
+    facet_legacy_desc desc;
+    texture_bench *bench;
+    note_list notes;
+    scene_conversion *out;       /* in the scene's arena; becomes the scene's where all went well */
+    scene_material *materials;   /* the new ones, in the scene's arena; NULL: the scene's stay */
+    struct scene_legacy *legacy; /* the same */
+    bool *has_vertex_colors;     /* per material, of a scene with rgl's rules; NULL: vertex colors multiply */
+} conversion;
+
+/* ---- legacy materials, understood ---- */
+
+typedef enum reading_kind {
+    READING_OGL1,     /* diffuse, specular, shininess: fitted */
+    READING_METALLIC, /* base color, metallic, roughness, as stated */
+    READING_GLOSSY,   /* diffuse, specular, glossiness, as stated */
+    READING_UNLIT,
+    READING_KEPT /* the glTF material is right already */
+} reading_kind;
+
+typedef struct legacy_reading {
+    reading_kind kind;
+    legacy_material m;    /* maps that cannot be read or do not count are SCENE_NONE */
+    ogl1_surface surface; /* factors, linear; diffuse: base color, specular: of READING_GLOSSY */
+    float emission[3];    /* linear, its map's factor */
+    float opacity;
+    float metallic,
+        perceptual_roughness;          /* READING_METALLIC; READING_GLOSSY: roughness where there is no map */
+    float glossiness;                  /* READING_GLOSSY: factor of its map */
+    float specular_level;              /* F0 in units of glTF's 0.04; 1 */
+    bool has_shininess_as_roughness;   /* map_Ns is a roughness or glossiness map, map_Ks metallic */
+    bool has_roughness_from_shininess; /* perceptual_roughness is the closed form's */
+    bool has_diffuse_alpha;            /* alpha of map_Kd counts */
+    float transmission;                /* 0: none */
+    float ior;                         /* of glass; 0: not stated */
+    bool is_refracting;
+} legacy_reading;
+
+void legacy_read(conversion *c, uint32_t material, legacy_reading *out);
+
+/* ---- numbers ---- */
+
+/* One material's worth of numbers. What is asked stands first and is compared byte by byte. */
+typedef struct solve_item {
+    struct solve_question {
+        ogl1_surface ogl1; /* from OpenGL 1 */
+        pbr_surface pbr;   /* to OpenGL 1 */
+        float known_ogl1;  /* 1: both are given, only their error is asked for */
+        float is_closed;   /* 1: whatever the desc says, tables */
+    } question;
+    bool is_asked;
+    pbr_surface pbr;   /* the answer */
+    ogl1_surface ogl1; /* the answer */
+    uint32_t remarks;  /* fit_remark */
+    fit_error error;
+    double naive, core;
+} solve_item;
+
+/* Answers those that are asked. to: FACET_MATERIALS_METALLIC_ROUGHNESS or _OGL1. */
+facet_result solve_all(conversion *c, facet_material_model to, solve_item *items, uint32_t count,
+                       facet_error *error);
+/* Remarks of a fit as notes. */
+void solve_note(conversion *c, uint32_t material, const solve_item *item);
+
+/* Fills in a report's line from an answer. */
+void summary_solved(facet_conversion *summary, const solve_item *item);
+/* Nothing is lost, or nothing is to be told. */
+void summary_exact(facet_conversion *summary, const char *method);
+facet_conversion_grade grade_of(double error_display);
+
+/* ---- glTF materials of legacy ones ---- */
+
+/* The surface whose numbers a reading is converted by: maps at their means. */
+ogl1_surface build_representative(const conversion *c, const legacy_reading *reading);
+/* Textures and factors; fails with FACET_ERROR_MEMORY. */
+facet_result build_material(conversion *c, uint32_t material, legacy_reading *reading, const solve_item *item,
+                            scene_material *out, facet_error *error);
+facet_result build_surface_maps(conversion *c, uint32_t material, legacy_reading *reading,
+                                const solve_item *item, scene_material *out, facet_error *error);
+
+/* ---- the directions of a conversion ---- */
+
+facet_result convert_from_ogl1(conversion *c, facet_error *error);
+facet_result convert_to_ogl1(conversion *c, facet_error *error);
+facet_result convert_from_glossiness(conversion *c, facet_error *error);
+facet_result convert_to_glossiness(conversion *c, facet_error *error);
+
+/* extras.facet_legacy of the new materials and of the scene. */
+facet_result convert_extras(conversion *c, facet_error *error);
+
+/* "wood_specular" for a texture made of map; in the arena, "" without memory. */
+const char *made_name(conversion *c, uint32_t texture, const char *purpose);
+
+#endif
