@@ -4,23 +4,56 @@
 #include "base/result.h"
 #include "legacy/convert.h"
 #include "legacy/fit.h"
+#include "plot/material.h"
 #include "plot/plot.h"
+#include "scene/legacy.h"
 
 facet_plot_material facet_plot_material_default(void)
 {
-    return (facet_plot_material){
-        .model = FACET_PLOT_PBR,
-        .base_color = {1, 1, 1},
-        .perceptual_roughness = 0.5f,
-        .ior = 1.5f,
-        .specular = 1.0f,
-        .specular_color = {1, 1, 1},
-        .iridescence_ior = 1.3f,
-        .iridescence_thickness_nm = 400.0f,
-        .diffuse = {0.8f, 0.8f, 0.8f},
-        .ogl1_specular = {1, 1, 1},
-        .shininess = 50.0f,
-    };
+    return material_default();
+}
+
+/* What is beside the base that the fits know. glTF takes the film's maximum where it has no texture. */
+static void add_layers(const scene_material *from, facet_plot_material *to)
+{
+    to->clearcoat = from->clearcoat;
+    to->clearcoat_roughness = from->clearcoat_roughness;
+    memcpy(to->sheen_color, from->sheen_color, sizeof to->sheen_color);
+    to->sheen_roughness = from->sheen_roughness;
+    to->anisotropy = from->anisotropy;
+    to->anisotropy_rotation_rad = from->anisotropy_rotation;
+    to->iridescence = from->iridescence;
+    to->iridescence_ior = from->iridescence_ior;
+    to->iridescence_thickness_nm = from->iridescence_thickness_maximum;
+}
+
+facet_result facet_plot_material_from_scene(const facet_scene *scene, uint32_t index, facet_plot_model model,
+                                            facet_plot_material *out, facet_error *error)
+{
+    *out = material_default();
+    if (index >= scene->material_count)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: there is no material %u; the model has %u, counted from 0", scene->source, index,
+                    scene->material_count);
+    const scene_material *gltf = &scene->materials[index];
+    if (model == FACET_PLOT_PBR) {
+        pbr_surface surface;
+        legacy_surface_of_pbr(gltf, &surface);
+        *out = material_from_pbr(&surface);
+        add_layers(gltf, out);
+    } else if (model == FACET_PLOT_OGL1 && scene->legacy) {
+        ogl1_surface surface;
+        legacy_surface_of_ogl1(&scene->legacy->materials[index], scene->legacy->colors, &surface);
+        *out = material_from_ogl1(&surface);
+    } else if (model == FACET_PLOT_OGL1)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: the model has no materials of OpenGL 1; they come with OBJ files or by a conversion",
+                    scene->source);
+    else
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: a model has no measured materials; PBR or OpenGL 1 expected", scene->source);
+    out->label = gltf->name[0] ? gltf->name : NULL;
+    return FACET_OK;
 }
 
 facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format format, unsigned char **bytes,
@@ -30,6 +63,9 @@ facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format fo
     desc = desc ? desc : &defaults;
     *bytes = NULL;
     *size = 0;
+    if ((int)format < 0 || format > FACET_PLOT_CSV)
+        return fail(error, FACET_ERROR_ARGUMENT, "plot: there is no format %d; 0 to %d expected", (int)format,
+                    (int)FACET_PLOT_CSV);
     arena *memory = arena_create(&desc->allocator);
     if (!memory)
         return fail_memory(error, "plot", 0);
