@@ -1,133 +1,244 @@
-/* cmd_convert.c - facet convert: a model in another form. */
+/* cmd_convert.c - facet convert: models in another form, one after the other. */
 #include "cli/commands.h"
 
+#include "cli/convert_names.h"
+#include "cli/convert_report.h"
 #include "cli/failure.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
+#include "cli/legacy_options.h"
 #include "cli/limits.h"
-#include "cli/messages.h"
-#include "cli/model_files.h"
 #include "cli/output.h"
 #include "cli/render_report.h"
 
-#include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
-/* IN OUT, or IN with --output. */
-static facet_result find_names(const command_line *c, const char **in, const char **out, facet_error *error)
-{
-    *out = option_text(c, OPT_OUTPUT, NULL);
-    size_t wanted = *out ? 1 : 2;
-    if (c->argument_count != wanted)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "convert: one model and the name of the new one were expected, as in facet convert "
-                         "old.gltf new.glb");
-    *in = c->arguments[0];
-    *out = *out ? *out : c->arguments[1];
-    const char *dot = strrchr(*out, '.');
-    if (!dot || (strcasecmp(dot, ".glb") != 0 && strcasecmp(dot, ".gltf") != 0))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "convert: \"%s\" does not end in .glb or .gltf", *out);
-    if (output_exists(*out) && strcmp(*in, "-") != 0 &&
-        (input_is_same_file(*in, *out) || model_has_file(*in, *out)))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: it is an input, too, and would be overwritten; name another output", *out);
-    char lost[4096];
-    if (strcasecmp(dot, ".gltf") == 0 && strcmp(*in, "-") != 0 &&
-        model_loses_file(*in, *out, lost, sizeof lost))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: %s, which belongs to %s, would be overwritten; name another output", *out, lost,
-                         *in);
-    return output_check(*out, error);
-}
-
+/* All that a run shares. */
 typedef struct convert_run {
     const command_line *line;
+    convert_names names;
     limits limits;
     messages messages;
+    facet_budget *budget;
     facet_allocator allocator;
-    const char *in, *out;
-    double start;
+    facet_scene_desc scene_desc; /* without log */
+    json_t *models, *failures;   /* NULL: nobody asked for JSON */
+    json_t *warnings;
+    size_t warning_count, failure_count;
+    uint32_t large_error_count; /* materials beyond --max-error */
+    int exit_code;              /* of the last failure */
 } convert_run;
 
-static facet_result convert(convert_run *run, facet_error *error)
+/* ---- one model ---- */
+
+/* Materials in the form that the output has, or that was asked for. */
+static facet_result convert_materials(convert_run *run, facet_scene *scene, facet_error *error)
 {
-    const facet_scene_desc desc = {.allocator = run->allocator,
-                                   .log = messages_log(&run->messages),
-                                   .thread_count = run->limits.thread_count,
-                                   .root = option_text(run->line, OPT_ROOT, NULL),
-                                   .max_texture_size = run->limits.max_texture_size};
-    const facet_scene_save_desc save = {.allocator = run->allocator,
+    const facet_log log = messages_log(&run->messages);
+    const facet_legacy_desc *desc = &run->scene_desc.legacy;
+    int asked = option_choice(run->line, OPT_MATERIALS, 0);
+    if (format_is_legacy(run->names.format))
+        return facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, desc, &log, error);
+    if (asked == 0)
+        return FACET_OK;
+    return facet_scene_convert_materials(
+        scene, asked == 1 ? FACET_MATERIALS_METALLIC_ROUGHNESS : FACET_MATERIALS_SPECULAR_GLOSSINESS, desc,
+        &log, error);
+}
+
+static facet_result save(convert_run *run, const char *model, const facet_scene *scene, const char *output,
+                         facet_error *error)
+{
+    const command_line *c = run->line;
+    const facet_scene_save_desc desc = {.allocator = run->allocator,
                                         .log = messages_log(&run->messages),
-                                        .thread_count = run->limits.thread_count};
-    facet_scene *scene = NULL;
-    interrupt_begin_reading(input_name(run->in));
-    facet_result result = input_load(run->in, &desc, &scene, error);
-    interrupt_set_safe(NULL);
-    messages_flush(&run->messages);
-    if (result == FACET_OK && interrupt_signal())
-        result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", run->out);
+                                        .thread_count = run->limits.thread_count,
+                                        .keeps_inputs = true,
+                                        .has_flipped_texcoords = is_given(c, OPT_FLIP_TEXTURES),
+                                        .without_mtl_pbr = option_choice(c, OPT_MTL_PBR, 0) == 1,
+                                        .mtl_shininess_scale =
+                                            (float)option_number(c, OPT_MTL_SHININESS_SCALE, 0.0)};
+    char report[CONVERT_NAME_SIZE];
+    facet_result result = FACET_OK;
+    if (run->names.report) {
+        result = convert_name(&run->names, model, true, report, error);
+        if (result == FACET_OK && facet_scene_get_conversion_count(scene) == 0)
+            result = fail_with(error, FACET_ERROR_ARGUMENT,
+                               "%s: no material was converted, so there is nothing to report (--report)",
+                               input_name(model));
+    }
+    if (result == FACET_OK && run->names.report && facet_scene_has_file(scene, report))
+        result = fail_with(error, FACET_ERROR_ARGUMENT,
+                           "%s: it is an input, too, and would be overwritten; name another report", report);
     if (result == FACET_OK)
-        result = facet_scene_save(scene, run->out, &save, error);
-    messages_flush(&run->messages);
-    facet_scene_destroy(scene);
+        result = facet_scene_save(scene, output, &desc, error);
+    if (result == FACET_OK && run->names.report)
+        result = convert_report_write(scene, run->names.is_html, report, error);
     return result;
 }
 
-static void print_json(const convert_run *run, facet_result result, const facet_error *error, int exit_code)
+/* Materials whose error on a screen is larger than --max-error. */
+static uint32_t count_large_errors(const convert_run *run, const facet_scene *scene)
 {
-    json_t *failures = json_array();
+    uint32_t count = 0;
+    double limit = option_number(run->line, OPT_MAX_ERROR, 0.0);
+    if (!is_given(run->line, OPT_MAX_ERROR))
+        return 0;
+    for (uint32_t i = 0; i < facet_scene_get_conversion_count(scene); i++)
+        count += facet_scene_get_conversion(scene, i).error_display > limit;
+    return count;
+}
+
+static void tell_model(convert_run *run, const char *model, const char *output, const facet_scene *scene,
+                       double start)
+{
+    uint32_t large = count_large_errors(run, scene);
+    convert_report_print(&run->messages, output, scene);
+    if (large)
+        message_error("%s: %u material%s a larger error than --max-error %g", output, large,
+                      large == 1 ? " has" : "s have", option_number(run->line, OPT_MAX_ERROR, 0.0));
+    run->large_error_count += large;
+    message_at(&run->messages, VERBOSITY_DETAILS, "%s: %.2f s", output, interrupt_clock() - start);
+    if (run->models) {
+        json_t *one = json_pack("{s:o, s:o, s:o, s:f}", "input", report_string_json(model), "output",
+                                report_string_json(output), "materials", convert_report_json(scene),
+                                "seconds", interrupt_clock() - start);
+        json_array_append_new(run->models, one);
+    }
+}
+
+static facet_result convert_model(convert_run *run, const char *model, facet_error *error)
+{
+    char output[CONVERT_NAME_SIZE];
+    double start = interrupt_clock();
+    facet_result result = convert_name(&run->names, model, false, output, error);
     if (result != FACET_OK)
-        json_array_append_new(failures, report_error_json(error, run->in, exit_code));
-    json_t *root = json_pack("{s:s, s:o, s:o, s:o, s:o, s:f, s:i}", "facet", facet_version(), "input",
-                             report_string_json(run->in), "output",
-                             report_string_json(result == FACET_OK ? run->out : NULL), "failures", failures,
-                             "warnings", report_warnings_json(&run->messages), "seconds",
-                             interrupt_clock() - run->start, "exit_code", exit_code);
+        return result;
+    if (run->names.keeps_existing && output_exists(output)) {
+        message_at(&run->messages, VERBOSITY_NORMAL, "%s: kept; it was there already", output);
+        return FACET_OK;
+    }
+    facet_scene *scene = NULL;
+    facet_scene_desc desc = run->scene_desc;
+    desc.log = messages_log(&run->messages);
+    interrupt_begin_reading(input_name(model));
+    result = input_load(model, &desc, &scene, error);
+    if (result == FACET_OK)
+        result = convert_materials(run, scene, error);
+    interrupt_set_safe(NULL);
+    messages_flush(&run->messages);
+    if (result == FACET_OK && interrupt_signal())
+        result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", output);
+    if (result == FACET_OK)
+        result = save(run, model, scene, output, error);
+    messages_flush(&run->messages);
+    if (result == FACET_OK)
+        tell_model(run, model, output, scene, start);
+    facet_scene_destroy(scene);
+    if (result != FACET_OK)
+        failure_complete(error,
+                         strncmp(error->message, output, strlen(output)) == 0 ? output : input_name(model),
+                         run->limits.max_memory_bytes);
+    return result;
+}
+
+/* ---- the run ---- */
+
+static void end_model(convert_run *run)
+{
+    messages_flush(&run->messages);
+    run->warning_count += run->messages.warning_count;
+    if (run->warnings) {
+        json_t *warnings = report_warnings_json(&run->messages);
+        json_array_extend(run->warnings, warnings);
+        json_decref(warnings);
+    }
+    messages_clear(&run->messages);
+}
+
+static int convert_all(convert_run *run)
+{
+    for (size_t i = 0; i < run->names.model_count; i++) {
+        const char *model = run->names.models[i];
+        facet_error error = {0};
+        facet_result result = convert_model(run, model, &error);
+        end_model(run);
+        if (result == FACET_ERROR_CANCELLED || (result != FACET_OK && interrupt_signal()))
+            return interrupt_exit();
+        if (result == FACET_OK)
+            continue;
+        message_error("%s", error.message);
+        run->failure_count++;
+        run->exit_code = exit_code_of(result);
+        if (run->failures)
+            json_array_append_new(run->failures,
+                                  report_error_json(&error, input_name(model), run->exit_code));
+    }
+    if (run->failure_count)
+        return run->names.model_count == 1 ? run->exit_code : EXIT_NEGATIVE;
+    return run->large_error_count || (run->warning_count && is_given(run->line, OPT_STRICT)) ? EXIT_NEGATIVE
+                                                                                             : EXIT_DONE;
+}
+
+static void print_json(const convert_run *run, double start, int exit_code)
+{
+    json_t *root = json_pack("{s:s, s:O, s:O, s:O, s:f, s:i}", "facet", facet_version(), "models",
+                             run->models, "failures", run->failures, "warnings", run->warnings, "seconds",
+                             interrupt_clock() - start, "exit_code", exit_code);
     report_print_json(root);
     json_decref(root);
 }
 
+static facet_result begin(convert_run *run, command_line *c, facet_error *error)
+{
+    facet_result result = convert_names_read(c, &run->names, error);
+    if (result == FACET_OK)
+        result = limits_read(c, &run->limits, error);
+    if (result == FACET_OK)
+        result = facet_budget_create(run->limits.max_memory_bytes, &run->budget, error);
+    if (result != FACET_OK)
+        return result;
+    run->allocator = facet_budget_allocator(run->budget);
+    run->scene_desc = (facet_scene_desc){.allocator = run->allocator,
+                                         .thread_count = run->limits.thread_count,
+                                         .root = option_text(c, OPT_ROOT, NULL),
+                                         .max_texture_size = run->limits.max_texture_size};
+    legacy_options_read(c, &run->scene_desc);
+    return FACET_OK;
+}
+
 int cmd_convert(command_line *c)
 {
+    double start = interrupt_clock();
     convert_run run = {.line = c,
                        .messages = {.verbosity = is_given(c, OPT_QUIET)     ? VERBOSITY_QUIET
                                                  : is_given(c, OPT_VERBOSE) ? VERBOSITY_DETAILS
-                                                                            : VERBOSITY_NORMAL},
-                       .start = interrupt_clock()};
+                                                                            : VERBOSITY_NORMAL}};
     facet_error error = {0};
-    facet_budget *budget = NULL;
     interrupt_install();
-    facet_result result = find_names(c, &run.in, &run.out, &error);
-    if (result == FACET_OK && is_given(c, OPT_NO_CLOBBER) && output_exists(run.out)) {
-        message_at(&run.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run.out);
-        return EXIT_DONE;
+    if (is_given(c, OPT_JSON)) {
+        run.models = json_array();
+        run.failures = json_array();
+        run.warnings = json_array();
     }
-    if (result == FACET_OK)
-        result = limits_read(c, &run.limits, &error);
-    if (result == FACET_OK)
-        result = facet_budget_create(run.limits.max_memory_bytes, &budget, &error);
+    facet_result result = begin(&run, c, &error);
+    int exit_code;
     if (result == FACET_OK) {
         interrupt_set_deadline(run.limits.time_limit_s);
-        run.allocator = facet_budget_allocator(budget);
-        result = convert(&run, &error);
+        exit_code = convert_all(&run);
+    } else {
+        exit_code = exit_code_of(result);
+        message_error("%s%s",
+                      error.message[0] == '-' || strncmp(error.message, "convert:", 8) == 0 ? "facet: " : "",
+                      error.message);
+        if (run.failures)
+            json_array_append_new(run.failures, report_error_json(&error, NULL, exit_code));
     }
-    int exit_code = result != FACET_OK                                      ? exit_code_of(result)
-                    : run.messages.warning_count && is_given(c, OPT_STRICT) ? EXIT_NEGATIVE
-                                                                            : EXIT_DONE;
-    if (result != FACET_OK && run.in)
-        failure_complete(&error,
-                         strncmp(error.message, run.out, strlen(run.out)) == 0 ? run.out : input_name(run.in),
-                         run.limits.max_memory_bytes);
-    if (result != FACET_OK)
-        message_error("%s%s", strncmp(error.message, "convert:", 8) == 0 ? "facet: " : "", error.message);
-    else
-        message_at(&run.messages, VERBOSITY_DETAILS, "%s: %.2f s", run.out, interrupt_clock() - run.start);
-    if (is_given(c, OPT_JSON))
-        print_json(&run, result, &error, exit_code);
-    messages_clear(&run.messages);
-    facet_budget_destroy(budget);
-    if (result == FACET_ERROR_CANCELLED)
-        return interrupt_exit();
+    if (run.models)
+        print_json(&run, start, exit_code);
+    json_decref(run.models);
+    json_decref(run.failures);
+    json_decref(run.warnings);
+    facet_budget_destroy(run.budget);
     return exit_code;
 }

@@ -5,6 +5,7 @@
 #include "cli/input.h"
 #include "cli/inspect_text.h"
 #include "cli/interrupt.h"
+#include "cli/legacy_options.h"
 #include "cli/limits.h"
 #include "cli/messages.h"
 
@@ -39,11 +40,12 @@ static facet_result print_description(const inspect_run *run, const char *model,
 
 static facet_result inspect_model(inspect_run *run, const char *model, facet_error *error)
 {
-    const facet_scene_desc desc = {.allocator = run->allocator,
-                                   .log = messages_log(&run->messages),
-                                   .thread_count = run->limits.thread_count,
-                                   .root = option_text(run->line, OPT_ROOT, NULL),
-                                   .max_texture_size = run->limits.max_texture_size};
+    facet_scene_desc desc = {.allocator = run->allocator,
+                             .log = messages_log(&run->messages),
+                             .thread_count = run->limits.thread_count,
+                             .root = option_text(run->line, OPT_ROOT, NULL),
+                             .max_texture_size = run->limits.max_texture_size};
+    legacy_options_read(run->line, &desc);
     facet_scene *scene = NULL;
     char *text = NULL;
     facet_result result = input_load(model, &desc, &scene, error);

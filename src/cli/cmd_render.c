@@ -70,14 +70,13 @@ static facet_result load_environment(render_run *run, facet_error *error)
 
 static facet_result load_model(render_run *run, const char *model, facet_scene **scene, facet_error *error)
 {
-    const render_options *o = &run->options;
-    const facet_scene_desc desc = {.allocator = run->allocator,
-                                   .log = messages_log(&run->messages),
-                                   .thread_count = o->limits.thread_count,
-                                   .root = o->root,
-                                   .max_texture_size = o->limits.max_texture_size};
+    facet_scene_desc desc = run->options.scene_desc;
+    desc.allocator = run->allocator;
+    desc.log = messages_log(&run->messages);
     interrupt_begin_reading(input_name(model));
     facet_result result = input_load(model, &desc, scene, error);
+    if (result == FACET_OK && run->options.desc.shading == FACET_SHADING_OGL1)
+        result = facet_scene_convert_materials(*scene, FACET_MATERIALS_OGL1, &desc.legacy, &desc.log, error);
     interrupt_set_safe(NULL);
     return result;
 }
@@ -119,6 +118,16 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
     if (result == FACET_OK && index == 0 && is_sequence)
         render_keep_framing(&m->options, camera);
     return result;
+}
+
+/* helmet.gltf with a texture helmet.png beside it is common, and helmet.png is what the picture would be called. */
+static facet_result check_inputs(const model_run *m, const char *name, facet_error *error)
+{
+    const render_options *o = &m->options;
+    if (o->is_stdout || o->keeps_existing || !facet_scene_has_file(m->scene, name))
+        return FACET_OK;
+    return fail_with(error, FACET_ERROR_ARGUMENT,
+                     "%s: it is an input, too, and would be overwritten; name another output with -o", name);
 }
 
 static facet_result render_frame(model_run *m, uint32_t index, const sequence_frame *frame,
@@ -189,6 +198,9 @@ static facet_result render_frames(model_run *m, facet_error *error)
             .model = input_name(m->model), .output = name, .load_s = i ? 0.0 : m->load_s};
         if (interrupt_signal())
             return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
+        result = check_inputs(m, name, error);
+        if (result != FACET_OK)
+            return result;
         report.is_kept = o->keeps_existing && !m->video && !o->is_stdout && output_exists(name);
         if (!report.is_kept)
             result = render_frame(m, i, &frame, &report, error);
@@ -205,6 +217,8 @@ static facet_result choose_environment(model_run *m, facet_error *error)
     render_run *run = m->run;
     const render_options *o = &m->options;
     facet_result result = FACET_OK;
+    if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
+        return FACET_OK;
     if (!o->has_environment && o->environment != ENVIRONMENT_NONE && !o->desc.ignore_scene_lights &&
         facet_scene_has_environment(m->scene, &m->sequence.pose)) {
         const facet_environment_desc desc = environment_desc(run);
@@ -236,6 +250,8 @@ static facet_result open_video(model_run *m, facet_error *error)
 {
     char name[RENDER_NAME_SIZE];
     facet_result result = render_name(&m->options, m->model, 1, name, sizeof name, error);
+    if (result == FACET_OK)
+        result = check_inputs(m, name, error);
     return result == FACET_OK ? video_open(name, m->options.video, m->options.fps, &m->video, error) : result;
 }
 

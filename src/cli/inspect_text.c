@@ -165,6 +165,58 @@ static void print_materials(FILE *stream, const json_t *materials, bool all)
     print_rest(stream, count, all);
 }
 
+/* "0.8 0.8 0.8"; "-" where it is not stated. */
+static void add_legacy_color(table *t, const json_t *m, const char *key)
+{
+    const json_t *color = json_object_get(m, key);
+    if (json_array_size(color) == 3)
+        table_add(t, "%.3g %.3g %.3g", element_of(color, 0), element_of(color, 1), element_of(color, 2));
+    else
+        table_add(t, "-");
+}
+
+static void add_legacy_number(table *t, const json_t *m, const char *key)
+{
+    if (json_is_number(json_object_get(m, key)))
+        table_add(t, "%.4g", number_of(m, key));
+    else
+        table_add(t, "-");
+}
+
+/* Materials of OpenGL 1 and MTL, as the file has them. */
+static void print_legacy(FILE *stream, const json_t *legacy, bool all)
+{
+    const json_t *materials = json_object_get(legacy, "materials");
+    size_t count = json_array_size(materials);
+    if (!count)
+        return;
+    print_heading(stream, "OpenGL 1 materials", count);
+    table t = {.column_count = 7};
+    static const char *const titles[] = {"#", "name", "diffuse", "specular", "shininess", "illum", "maps"};
+    for (size_t i = 0; i < 7; i++)
+        table_add(&t, "%s", titles[i]);
+    for (size_t i = 0; i < count && (all || i < FEW); i++) {
+        const json_t *m = json_array_get(materials, i);
+        char maps[512] = "";
+        const char *key;
+        json_t *map;
+        json_object_foreach(json_object_get(m, "maps"), key, map)
+        {
+            size_t used = strlen(maps);
+            snprintf(maps + used, sizeof maps - used, "%s%s", used ? ", " : "", key);
+        }
+        table_add(&t, "%zu", i);
+        table_add(&t, "%s", text_of(m, "name"));
+        add_legacy_color(&t, m, "diffuse");
+        add_legacy_color(&t, m, "specular");
+        add_legacy_number(&t, m, "shininess");
+        add_legacy_number(&t, m, "illum");
+        table_add(&t, "%s", maps);
+    }
+    table_print(&t, stream, 2);
+    print_rest(stream, count, all);
+}
+
 /* "1.2 MiB", "26 KiB" */
 static const char *size_text(double bytes, char text[32])
 {
@@ -352,6 +404,7 @@ void inspect_print_text(FILE *stream, const char *name, const json_t *model, boo
     if (json_array_size(json_object_get(model, "scenes")) > 1)
         print_named(stream, json_object_get(model, "scenes"), "Scenes", all);
     print_materials(stream, json_object_get(model, "materials"), all);
+    print_legacy(stream, json_object_get(model, "legacy"), all);
     print_textures(stream, json_object_get(model, "textures"), all);
     print_images(stream, json_object_get(model, "images"), all);
     print_named(stream, json_object_get(model, "cameras"), "Cameras", all);

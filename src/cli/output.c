@@ -1,4 +1,4 @@
-/* output.c - pictures to files and standard output. */
+/* output.c - see output.h. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/output.h"
 
@@ -46,14 +46,34 @@ facet_result output_check(const char *path, facet_error *error)
     return FACET_OK;
 }
 
+static const char late[] = "facet: the time limit (--time-limit) was reached while writing\n";
+
+/* A stream: nothing need be cleaned up, and who reads a pipe may never come. */
+static bool is_stream(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISLNK(info.st_mode);
+}
+
+facet_result output_write_bytes(const void *bytes, size_t size, const char *path, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    bool is_stdout = strcmp(path, "-") == 0;
+    if (is_stdout || is_stream(path))
+        interrupt_set_safe(late);
+    if (!is_stdout)
+        result = facet_bytes_save(bytes, size, path, error);
+    else if (fwrite(bytes, 1, size, stdout) != size || fflush(stdout) != 0)
+        result = fail_with(error, FACET_ERROR_WRITE, "stdout: %s", strerror(errno));
+    interrupt_set_safe(NULL);
+    return result;
+}
+
 facet_result output_write(const facet_image *image, const char *path, const facet_save_desc *desc,
                           facet_error *error)
 {
-    static const char late[] = "facet: the time limit (--time-limit) was reached while writing\n";
     if (strcmp(path, "-") != 0) {
-        struct stat info;
-        bool is_stream = lstat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISLNK(info.st_mode);
-        if (is_stream) /* nothing need be cleaned up, and who reads a pipe may never come */
+        if (is_stream(path))
             interrupt_set_safe(late);
         facet_result saved = facet_image_save(image, path, desc, error);
         interrupt_set_safe(NULL);
@@ -62,12 +82,8 @@ facet_result output_write(const facet_image *image, const char *path, const face
     unsigned char *bytes;
     size_t size;
     facet_result result = facet_image_encode(image, desc, &bytes, &size, error);
-    if (result != FACET_OK)
-        return result;
-    interrupt_set_safe(late);
-    if (fwrite(bytes, 1, size, stdout) != size || fflush(stdout) != 0)
-        result = fail_with(error, FACET_ERROR_WRITE, "stdout: %s", strerror(errno));
-    interrupt_set_safe(NULL);
+    if (result == FACET_OK)
+        result = output_write_bytes(bytes, size, path, error);
     facet_bytes_destroy(bytes);
     return result;
 }

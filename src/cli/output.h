@@ -1,4 +1,4 @@
-/* output.h - pictures to files and standard output. */
+/* output.h - pictures and other results to files and standard output. */
 #ifndef CLI_OUTPUT_H
 #define CLI_OUTPUT_H
 
@@ -11,6 +11,9 @@ facet_result output_check(const char *path, facet_error *error);
 /* Writes image to path ("-": standard output). */
 facet_result output_write(const facet_image *image, const char *path, const facet_save_desc *desc,
                           facet_error *error);
+
+/* Writes bytes to path ("-": standard output). */
+facet_result output_write_bytes(const void *bytes, size_t size, const char *path, facet_error *error);
 
 /* Whether something is there already. */
 bool output_exists(const char *path);

@@ -3,7 +3,6 @@
 
 #include "cli/failure.h"
 #include "cli/input.h"
-#include "cli/model_files.h"
 #include "cli/output.h"
 #include "cli/output_name.h"
 
@@ -48,7 +47,7 @@ static bool is_an_input(const command_line *c, const render_options *o, const ch
     const char *config_path = option_text(c, OPT_CONFIG, NULL);
     if (o->is_stdout || o->keeps_existing || !output_exists(name))
         return false;
-    return (model && strcmp(model, "-") != 0 && model_has_file(model, name)) ||
+    return (model && strcmp(model, "-") != 0 && input_is_same_file(model, name)) ||
            (o->environment_path && input_is_same_file(name, o->environment_path)) ||
            (config_path && input_is_same_file(name, config_path));
 }

@@ -1,6 +1,8 @@
 /* render_options.c - the options of facet render become descs. */
 #include "cli/render_options.h"
 
+#include "cli/legacy_options.h"
+
 #include "cli/color.h"
 #include "cli/failure.h"
 #include "cli/orbit.h"
@@ -143,10 +145,13 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
     if (is_given(c, OPT_EXPOSURE) && !value_exposure(option_text(c, OPT_EXPOSURE, ""), &stops))
         return option_fail(c, OPT_EXPOSURE, "stops such as +0.5, or a factor such as 2x", error);
     d->exposure_ev = (float)stops;
+    d->shading = (facet_shading)option_choice(c, OPT_SHADING, FACET_SHADING_GLTF);
     int tonemap = option_choice(c, OPT_TONE_MAPPING, -1);
-    d->tonemap = tonemap >= 0                  ? tonemaps[tonemap]
-                 : is_linear(out->save.format) ? FACET_TONEMAP_NONE
-                                               : FACET_TONEMAP_NEUTRAL;
+    bool is_plain = is_linear(out->save.format) || d->shading == FACET_SHADING_OGL1;
+    d->tonemap = tonemap >= 0 ? tonemaps[tonemap] : is_plain ? FACET_TONEMAP_NONE : FACET_TONEMAP_NEUTRAL;
+    d->ogl1 = (facet_ogl1_desc){.variant = (facet_ogl1_variant)option_choice(c, OPT_OGL1_VARIANT, 0),
+                                .is_linear = option_choice(c, OPT_OGL1_SPACE, 0) == 1,
+                                .ignores_fog = option_choice(c, OPT_FOG, 0) == 1};
     int quality = option_choice(c, OPT_QUALITY, 1);
     d->quality = qualities[quality];
     d->samples = (uint32_t)option_number(c, OPT_SAMPLES, samples[quality]);
@@ -333,8 +338,7 @@ static facet_result check_sequence(const command_line *c, const render_options *
 facet_result render_options_read(const command_line *c, render_options *out, facet_error *error)
 {
     *out = (render_options){.scene = option_text(c, OPT_SCENE, NULL),
-                            .variant = option_text(c, OPT_VARIANT, NULL),
-                            .root = option_text(c, OPT_ROOT, NULL)};
+                            .variant = option_text(c, OPT_VARIANT, NULL)};
     facet_result (*const readers[])(const command_line *, render_options *, facet_error *) = {
         read_output, read_format, read_size,   read_background, read_aovs,
         read_look,   read_camera, read_motion, read_environment};
@@ -347,5 +351,9 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
     if (result != FACET_OK)
         return result;
     out->desc.thread_count = out->save.thread_count = out->limits.thread_count;
+    out->scene_desc = (facet_scene_desc){.thread_count = out->limits.thread_count,
+                                         .root = option_text(c, OPT_ROOT, NULL),
+                                         .max_texture_size = out->limits.max_texture_size};
+    legacy_options_read(c, &out->scene_desc);
     return FACET_OK;
 }

@@ -47,9 +47,9 @@ typedef struct render_options {
     const char *environment_cache;
 
     /* model and limits */
-    const char *scene;   /* NULL: the file's */
-    const char *variant; /* NULL: none */
-    const char *root;
+    const char *scene;           /* NULL: the file's */
+    const char *variant;         /* NULL: none */
+    facet_scene_desc scene_desc; /* without allocator and log */
     limits limits;
 } render_options;
 

@@ -1,0 +1,216 @@
+/* cmd_plot.c - facet plot: reflectance as curves, lobes and tables. */
+#include "cli/commands.h"
+
+#include "cli/failure.h"
+#include "cli/interrupt.h"
+#include "cli/limits.h"
+#include "cli/messages.h"
+#include "cli/output.h"
+#include "cli/plot_material.h"
+#include "cli/render_report.h"
+#include "cli/suggest.h"
+#include "cli/value.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+/* In the order of facet_plot_kind; so are the words of the option table. */
+static const char *const kind_names[] = {"legacy", "brdf",    "slice", "hemisphere", "lobe",    "terms",
+                                         "albedo", "furnace", "dfg",   "tone",       "fresnel", "error"};
+enum { KIND_COUNT = sizeof kind_names / sizeof *kind_names };
+static const char *const format_names[] = {"svg", "pdf", "png", "csv"}; /* of facet_plot_format */
+
+typedef struct plot_run {
+    const command_line *line;
+    limits limits;
+    messages messages;
+    facet_budget *budget;
+    facet_plot_desc desc;
+    plot_materials materials;
+    float angles[FACET_PLOT_MAX_ANGLES];
+    facet_plot_format format;
+    char output[64]; /* where none is named */
+    const char *path;
+} plot_run;
+
+/* ---- what is asked for ---- */
+
+static facet_result read_kind(plot_run *run, facet_error *error)
+{
+    const command_line *c = run->line;
+    if (c->argument_count)
+        for (int i = 0; i < KIND_COUNT; i++)
+            if (strcmp(c->arguments[0], kind_names[i]) == 0) {
+                run->desc.kind = (facet_plot_kind)i;
+                return FACET_OK;
+            }
+    char names[256] = "";
+    for (int i = 0; i < KIND_COUNT; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", kind_names[i]);
+    return c->argument_count
+               ? fail_with(error, FACET_ERROR_ARGUMENT, "plot: there is no plot \"%.60s\"; those are %s",
+                           c->arguments[0], names)
+               : fail_with(error, FACET_ERROR_ARGUMENT, "plot: which plot? One of %s", names);
+}
+
+static facet_result read_output(plot_run *run, facet_error *error)
+{
+    const command_line *c = run->line;
+    int format = option_choice(c, OPT_FORMAT, -1);
+    run->path = option_text(c, OPT_OUTPUT, NULL);
+    if (!run->path) {
+        snprintf(run->output, sizeof run->output, "%s.%s", kind_names[run->desc.kind],
+                 format_names[format < 0 ? FACET_PLOT_SVG : format]);
+        run->path = run->output;
+    }
+    const char *dot = strrchr(run->path, '.');
+    for (int i = 0; format < 0 && dot && i < 4; i++)
+        if (strcasecmp(dot + 1, format_names[i]) == 0)
+            format = i;
+    if (format < 0)
+        return strcmp(run->path, "-") == 0
+                   ? fail_with(error, FACET_ERROR_ARGUMENT,
+                               "--output: standard output needs --format svg, pdf, png "
+                               "or csv")
+                   : fail_with(
+                         error, FACET_ERROR_ARGUMENT,
+                         "--output: \"%s\" does not end in .svg, .pdf, .png or .csv; say which with --format",
+                         run->path);
+    run->format = (facet_plot_format)format;
+    return output_check(run->path, error);
+}
+
+static facet_result read_angles(plot_run *run, facet_error *error)
+{
+    const char *at = option_text(run->line, OPT_ANGLE, NULL);
+    run->desc.angles_rad = run->angles;
+    for (; at && *at; at += *at == ',') {
+        double degrees;
+        if (run->desc.angle_count == FACET_PLOT_MAX_ANGLES || !scan_number(&at, &degrees) || degrees < 0.0 ||
+            degrees >= 90.0 || (*at && *at != ','))
+            return option_fail(run->line, OPT_ANGLE,
+                               "a list of at most 8 angles from 0 to below 90, as 0,30,60", error);
+        run->angles[run->desc.angle_count++] = (float)(degrees * 0.017453292519943295);
+    }
+    return FACET_OK;
+}
+
+static facet_result read_materials(plot_run *run, facet_error *error)
+{
+    const command_line *c = run->line;
+    const facet_scene_desc desc = {.allocator = run->desc.allocator,
+                                   .log = messages_log(&run->messages),
+                                   .thread_count = run->limits.thread_count};
+    facet_result result = FACET_OK;
+    for (size_t i = 1; i < c->argument_count && result == FACET_OK; i++)
+        result = plot_materials_add(&run->materials, c->arguments[i], &desc, error);
+    if (result == FACET_OK)
+        result = plot_materials_add_options(&run->materials, c, error);
+    run->desc.materials = run->materials.items;
+    run->desc.material_count = run->materials.count;
+    return result;
+}
+
+static facet_result read_desc(plot_run *run, facet_error *error)
+{
+    const command_line *c = run->line;
+    facet_plot_desc *d = &run->desc;
+    d->thread_count = run->limits.thread_count;
+    d->has_heaviside_ramp = option_choice(c, OPT_HEAVISIDE, 0) == 1;
+    d->has_separable_smith = option_choice(c, OPT_SMITH, d->kind == FACET_PLOT_LEGACY) == 1;
+    d->has_fit = is_given(c, OPT_FIT);
+    d->is_logarithmic = is_given(c, OPT_LOG);
+    d->has_cosine = is_given(c, OPT_COSINE);
+    d->energy = (facet_energy)option_choice(c, OPT_ENERGY, FACET_ENERGY_GLTF);
+    d->title = option_text(c, OPT_TITLE, NULL);
+    d->is_dark = is_given(c, OPT_DARK);
+    const char *size = option_text(c, OPT_SIZE, NULL);
+    if (size && !value_size(size, &d->width, &d->height))
+        return option_fail(c, OPT_SIZE, "a size: 960x640 or 512", error);
+    facet_result result = read_angles(run, error);
+    return result == FACET_OK ? read_materials(run, error) : result;
+}
+
+/* ---- the run ---- */
+
+static facet_result plot(plot_run *run, facet_error *error)
+{
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    facet_result result = facet_plot_encode(&run->desc, run->format, &bytes, &size, error);
+    if (result == FACET_OK && interrupt_signal())
+        result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", run->path);
+    if (result == FACET_OK)
+        result = output_write_bytes(bytes, size, run->path, error);
+    if (result == FACET_OK)
+        message_at(&run->messages, is_given(run->line, OPT_OUTPUT) ? VERBOSITY_DETAILS : VERBOSITY_NORMAL,
+                   "%s: %zu bytes", run->path, size);
+    facet_bytes_destroy(bytes);
+    return result;
+}
+
+static void print_json(const plot_run *run, double start, facet_result result, const facet_error *error,
+                       int exit_code)
+{
+    json_t *failures = json_array();
+    if (result != FACET_OK)
+        json_array_append_new(failures, report_error_json(error, NULL, exit_code));
+    json_t *root = json_pack(
+        "{s:s, s:s, s:o, s:o, s:o, s:f, s:i}", "facet", facet_version(), "kind", kind_names[run->desc.kind],
+        "output", report_string_json(result == FACET_OK ? run->path : NULL), "failures", failures, "warnings",
+        report_warnings_json(&run->messages), "seconds", interrupt_clock() - start, "exit_code", exit_code);
+    report_print_json(root);
+    json_decref(root);
+}
+
+static facet_result begin(plot_run *run, facet_error *error)
+{
+    facet_result result = read_kind(run, error);
+    if (result == FACET_OK)
+        result = read_output(run, error);
+    if (result == FACET_OK)
+        result = limits_read(run->line, &run->limits, error);
+    if (result == FACET_OK)
+        result = facet_budget_create(run->limits.max_memory_bytes, &run->budget, error);
+    if (result != FACET_OK)
+        return result;
+    run->desc.allocator = facet_budget_allocator(run->budget);
+    interrupt_set_deadline(run->limits.time_limit_s);
+    interrupt_set_safe("facet: the time limit (--time-limit) was reached\n");
+    result = read_desc(run, error);
+    return result;
+}
+
+int cmd_plot(command_line *c)
+{
+    double start = interrupt_clock();
+    plot_run run = {.line = c,
+                    .messages = {.verbosity = is_given(c, OPT_QUIET)     ? VERBOSITY_QUIET
+                                              : is_given(c, OPT_VERBOSE) ? VERBOSITY_DETAILS
+                                                                         : VERBOSITY_NORMAL}};
+    facet_error error = {0};
+    interrupt_install();
+    facet_result result = begin(&run, &error);
+    bool is_kept = result == FACET_OK && is_given(c, OPT_NO_CLOBBER) && output_exists(run.path);
+    if (is_kept)
+        message_at(&run.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run.path);
+    else if (result == FACET_OK)
+        result = plot(&run, &error);
+    interrupt_set_safe(NULL);
+    messages_flush(&run.messages);
+    int exit_code = result != FACET_OK                                      ? exit_code_of(result)
+                    : run.messages.warning_count && is_given(c, OPT_STRICT) ? EXIT_NEGATIVE
+                                                                            : EXIT_DONE;
+    if (result != FACET_OK) {
+        bool is_ours = error.message[0] == '-' || strncmp(error.message, "plot:", 5) == 0;
+        failure_complete(&error, "plot", run.limits.max_memory_bytes);
+        message_error("%s%s", is_ours ? "facet: " : "", error.message);
+    }
+    if (is_given(c, OPT_JSON))
+        print_json(&run, start, result, &error, exit_code);
+    plot_materials_destroy(&run.materials);
+    messages_clear(&run.messages);
+    facet_budget_destroy(run.budget);
+    return result == FACET_ERROR_CANCELLED ? interrupt_exit() : exit_code;
+}

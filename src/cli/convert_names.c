@@ -1,0 +1,152 @@
+/* convert_names.c - see convert_names.h. */
+#include "cli/convert_names.h"
+
+#include "cli/failure.h"
+#include "cli/input.h"
+#include "cli/output.h"
+#include "cli/output_name.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+static const struct {
+    const char *extension;
+    model_format format;
+} extensions[] = {{".glb", MODEL_GLB}, {".gltf", MODEL_GLTF}, {".obj", MODEL_OBJ}, {".json", MODEL_OGL1}};
+
+/* ---- formats ---- */
+
+static bool find_format(const char *name, model_format *format)
+{
+    const char *dot = strrchr(name, '.');
+    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++)
+        if (strcasecmp(dot, extensions[i].extension) == 0) {
+            *format = extensions[i].format;
+            return true;
+        }
+    return false;
+}
+
+static facet_result read_format(const command_line *c, convert_names *out, facet_error *error)
+{
+    /* the order of the choices of --to */
+    static const model_format choices[] = {MODEL_GLB, MODEL_GLTF, MODEL_OBJ, MODEL_OBJ, MODEL_OGL1};
+    int to = option_choice(c, OPT_TO, -1);
+    if (!find_format(out->output, &out->format))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "convert: \"%s\" does not end in .glb, .gltf, .obj or .json", out->output);
+    if (to >= 0 && choices[to] != out->format)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "--to: %s was asked for, but the output is \"%s\"",
+                         option_text(c, OPT_TO, ""), out->output);
+    return FACET_OK;
+}
+
+static facet_result read_report(const command_line *c, convert_names *out, facet_error *error)
+{
+    out->report = option_text(c, OPT_REPORT, NULL);
+    if (!out->report)
+        return FACET_OK;
+    const char *dot = strrchr(out->report, '.');
+    out->is_html = dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0);
+    if (!out->is_html && !(dot && strcasecmp(dot, ".json") == 0))
+        return option_fail(c, OPT_REPORT, "a name that ends in .html or .json", error);
+    if (out->model_count > 1 && !output_name_has_stem(out->report))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--report: several models need a name with {stem}, as in 'reports/{stem}.html'");
+    return FACET_OK;
+}
+
+/* ---- names ---- */
+
+facet_result convert_name(const convert_names *n, const char *model, bool report,
+                          char name[CONVERT_NAME_SIZE], facet_error *error)
+{
+    char stem[1024];
+    const char *pattern = report ? n->report : n->output;
+    bool fits = output_name_stem(strcmp(model, "-") == 0 ? "stdin" : model, stem, sizeof stem);
+    const char *mark = "{stem}";
+    size_t used = 0;
+    while (fits && *pattern) {
+        bool is_mark = strncmp(pattern, mark, strlen(mark)) == 0;
+        size_t length = is_mark ? strlen(stem) : 1;
+        fits = used + length < CONVERT_NAME_SIZE;
+        if (fits)
+            memcpy(name + used, is_mark ? stem : pattern, length);
+        used += length;
+        pattern += is_mark ? strlen(mark) : 1;
+    }
+    if (!fits)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: the name for %s is too long",
+                         report ? "--report" : "--output", input_name(model));
+    name[used] = 0;
+    return FACET_OK;
+}
+
+static facet_result check_name(const convert_names *n, const char *model, bool report, char **copy,
+                               facet_error *error)
+{
+    char name[CONVERT_NAME_SIZE];
+    facet_result result = convert_name(n, model, report, name, error);
+    if (result == FACET_OK && input_is_same_file(model, name) && !(n->keeps_existing && !report))
+        result = fail_with(error, FACET_ERROR_ARGUMENT,
+                           "%s: it is an input, too, and would be overwritten; name another output", name);
+    if (result == FACET_OK)
+        result = output_check(name, error);
+    if (result != FACET_OK)
+        return result;
+    *copy = malloc(strlen(name) + 1);
+    if (!*copy)
+        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    memcpy(*copy, name, strlen(name) + 1);
+    return FACET_OK;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static facet_result check_names(const convert_names *n, facet_error *error)
+{
+    size_t count = n->model_count * (n->report ? 2 : 1), done = 0;
+    char **names = calloc(count, sizeof *names);
+    facet_result result = names ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    for (; done < count && result == FACET_OK; done += result == FACET_OK)
+        result = check_name(n, n->models[done % n->model_count], done >= n->model_count, &names[done], error);
+    if (result == FACET_OK)
+        qsort(names, count, sizeof *names, compare_names);
+    for (size_t i = 1; i < count && result == FACET_OK; i++)
+        if (strcmp(names[i - 1], names[i]) == 0)
+            result = fail_with(error, FACET_ERROR_ARGUMENT, "convert: two files would both be written to %s",
+                               names[i]);
+    for (size_t i = 0; i < done; i++)
+        free(names[i]);
+    free(names);
+    return result;
+}
+
+facet_result convert_names_read(const command_line *c, convert_names *out, facet_error *error)
+{
+    *out = (convert_names){.models = c->arguments,
+                           .model_count = c->argument_count,
+                           .output = option_text(c, OPT_OUTPUT, NULL),
+                           .keeps_existing = is_given(c, OPT_NO_CLOBBER)};
+    bool is_pair = !out->output && c->argument_count == 2;
+    if (is_pair) {
+        out->output = c->arguments[1];
+        out->model_count = 1;
+    }
+    if (!out->output || out->model_count == 0)
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "convert: one model and the name of the new one were expected, as in facet convert "
+                         "old.gltf new.glb; several go with -o '{stem}.glb'");
+    if (out->model_count > 1 && !output_name_has_stem(out->output))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--output: several models need a name with {stem}, as in -o 'new/{stem}.glb'");
+    facet_result result = read_format(c, out, error);
+    if (result == FACET_OK)
+        result = read_report(c, out, error);
+    return result == FACET_OK ? check_names(out, error) : result;
+}

@@ -1,0 +1,116 @@
+/* convert_report.c - see convert_report.h. */
+#include "cli/convert_report.h"
+
+#include "cli/failure.h"
+#include "cli/output.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const grade_names[] = {"good", "fair", "poor", "bad"};
+
+conversion_totals conversion_sum(const facet_scene *scene)
+{
+    conversion_totals t = {.count = facet_scene_get_conversion_count(scene)};
+    for (uint32_t i = 0; i < t.count; i++) {
+        facet_conversion one = facet_scene_get_conversion(scene, i);
+        if (isnan(one.error_display))
+            continue;
+        t.grades[one.grade]++;
+        t.mean_error += one.error;
+        if (t.told == 0 || one.error_display > t.worst_display) {
+            t.worst_display = one.error_display;
+            t.worst = one;
+        }
+        t.told++;
+    }
+    if (t.told)
+        t.mean_error /= t.told;
+    return t;
+}
+
+/* ---- for people ---- */
+
+static int compare_errors(const void *a, const void *b)
+{
+    const facet_conversion *x = a, *y = b;
+    double p = isnan(x->error_display) ? -1.0 : x->error_display;
+    double q = isnan(y->error_display) ? -1.0 : y->error_display;
+    return p > q ? -1 : p < q ? 1 : strcmp(x->name, y->name);
+}
+
+static void print_material(const messages *m, verbosity least, const char *model, const facet_conversion *one)
+{
+    if (isnan(one->error))
+        message_at(m, least, "%s: material \"%s\": %s", model, one->name, one->method);
+    else
+        message_at(m, least, "%s: material \"%s\": %s, E %.3f, on a screen %.3f (%s, %s)", model, one->name,
+                   grade_names[one->grade], one->error, one->error_display, one->method, one->profile);
+}
+
+static void print_materials(const messages *m, const char *model, const facet_scene *scene, uint32_t count)
+{
+    enum { MOST_LINES = 8 }; /* without -v */
+    facet_conversion *all = malloc(count * sizeof *all);
+    if (!all)
+        return;
+    for (uint32_t i = 0; i < count; i++)
+        all[i] = facet_scene_get_conversion(scene, i);
+    qsort(all, count, sizeof *all, compare_errors);
+    for (uint32_t i = 0; i < count; i++) {
+        bool is_news = i < MOST_LINES && !isnan(all[i].error) && all[i].grade >= FACET_GRADE_POOR;
+        print_material(m, is_news ? VERBOSITY_NORMAL : VERBOSITY_DETAILS, model, &all[i]);
+    }
+    free(all);
+}
+
+void convert_report_print(const messages *m, const char *model, const facet_scene *scene)
+{
+    conversion_totals t = conversion_sum(scene);
+    if (t.count == 0)
+        return;
+    print_materials(m, model, scene, t.count);
+    if (t.told == 0)
+        return;
+    char grades[128] = "";
+    for (int i = 0; i <= FACET_GRADE_BAD; i++)
+        if (t.grades[i]) {
+            size_t used = strlen(grades);
+            snprintf(grades + used, sizeof grades - used, "%s%u %s", used ? ", " : "", t.grades[i],
+                     grade_names[i]);
+        }
+    message_at(m, VERBOSITY_NORMAL,
+               "%s: %u material%s converted: %s; mean error E %.3f, worst \"%s\" with %.3f", model, t.told,
+               t.told == 1 ? "" : "s", grades, t.mean_error, t.worst.name, t.worst.error);
+}
+
+/* ---- for programs ---- */
+
+json_t *convert_report_json(const facet_scene *scene)
+{
+    conversion_totals t = conversion_sum(scene);
+    if (t.count == 0)
+        return json_null();
+    json_t *root = json_object();
+    json_object_set_new(root, "count", json_integer(t.count));
+    for (int i = 0; i <= FACET_GRADE_BAD; i++)
+        json_object_set_new(root, grade_names[i], json_integer(t.grades[i]));
+    json_object_set_new(root, "mean_E", t.told ? json_real(t.mean_error) : json_null());
+    json_object_set_new(root, "worst", t.told ? json_string(t.worst.name) : json_null());
+    json_object_set_new(root, "worst_E", t.told ? json_real(t.worst.error) : json_null());
+    json_object_set_new(root, "worst_E_display", t.told ? json_real(t.worst_display) : json_null());
+    return root;
+}
+
+facet_result convert_report_write(const facet_scene *scene, bool is_html, const char *path,
+                                  facet_error *error)
+{
+    char *text = NULL;
+    facet_result result =
+        facet_scene_report_conversion(scene, is_html ? FACET_REPORT_HTML : FACET_REPORT_JSON, &text, error);
+    if (result == FACET_OK)
+        result = output_write_bytes(text, strlen(text), path, error);
+    facet_text_destroy(text);
+    return result;
+}

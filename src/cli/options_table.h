@@ -1,0 +1,20 @@
+/* options_table.h - what the files of the option table share: one file per verb, options_shared.c for what several have.
+ * options.h is what all others read. */
+#ifndef CLI_OPTIONS_TABLE_H
+#define CLI_OPTIONS_TABLE_H
+
+#include "cli/options.h"
+
+#include <stdint.h>
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+#define WORDS(...)                                                                                           \
+    (const char *const[])                                                                                    \
+    {                                                                                                        \
+        __VA_ARGS__, NULL                                                                                    \
+    }
+
+extern const option_group machine_group, message_group, running_group, model_group, legacy_group;
+extern const verb render_verb, convert_verb, plot_verb;
+
+#endif
