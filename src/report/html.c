@@ -1,0 +1,116 @@
+/* html.c - see html.h. */
+#include "report/html.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- text ---- */
+
+/* Bytes of the UTF-8 sequence at s; 0: it is none. */
+static size_t sequence_length(const unsigned char *s)
+{
+    size_t length = s[0] < 0x80   ? 1
+                    : s[0] < 0xc2 ? 0
+                    : s[0] < 0xe0 ? 2
+                    : s[0] < 0xf0 ? 3
+                    : s[0] < 0xf5 ? 4
+                                  : 0;
+    for (size_t i = 1; i < length; i++)
+        if ((s[i] & 0xc0) != 0x80)
+            return 0;
+    if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] >= 0xa0) || (s[0] == 0xf0 && s[1] < 0x90) ||
+        (s[0] == 0xf4 && s[1] >= 0x90))
+        return 0;
+    return length;
+}
+
+void html_text(text *out, const char *string)
+{
+    for (const unsigned char *s = (const unsigned char *)string; *s;) {
+        size_t length = sequence_length(s);
+        const char *entity = *s == '&'                                                ? "&amp;"
+                             : *s == '<'                                              ? "&lt;"
+                             : *s == '>'                                              ? "&gt;"
+                             : *s == '"'                                              ? "&quot;"
+                             : length == 0 || (*s < 0x20 && *s != '\n' && *s != '\t') ? "\xef\xbf\xbd"
+                                                                                      : NULL;
+        if (entity)
+            text_add(out, entity);
+        else
+            text_add_bytes(out, s, length);
+        s += length ? length : 1;
+    }
+}
+
+void html_number(text *out, double value)
+{
+    if (isnan(value))
+        text_add(out, "&ndash;");
+    else
+        text_addf(out, "%.3g", value);
+}
+
+/* ---- pictures ---- */
+
+static void add_base64(text *out, const unsigned char *bytes, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        size_t count = size - i < 3 ? size - i : 3;
+        uint32_t bits = (uint32_t)bytes[i] << 16 | (uint32_t)(count > 1 ? bytes[i + 1] : 0) << 8 |
+                        (uint32_t)(count > 2 ? bytes[i + 2] : 0);
+        const char group[4] = {digits[bits >> 18], digits[bits >> 12 & 63],
+                               count > 1 ? digits[bits >> 6 & 63] : '=', count > 2 ? digits[bits & 63] : '='};
+        text_add_bytes(out, group, sizeof group);
+    }
+}
+
+void html_image(text *out, const char *mime_type, const unsigned char *bytes, size_t size, uint32_t width,
+                uint32_t height, const char *alternative)
+{
+    text_addf(out, "<img width=\"%u\" height=\"%u\" alt=\"", width, height);
+    html_text(out, alternative);
+    text_addf(out, "\" src=\"data:%s;base64,", mime_type);
+    add_base64(out, bytes, size);
+    text_add(out, "\">");
+}
+
+/* ---- the page ---- */
+
+static const char style[] =
+    ":root{color-scheme:light dark;--ink:#1c1f24;--dim:#5c6570;--paper:#fff;--card:#f5f6f8;--line:#d9dde3;"
+    "--good:#1b7f4b;--fair:#7a6a00;--poor:#b35900;--bad:#b3261e}"
+    "@media(prefers-color-scheme:dark){:root{--ink:#e6e9ee;--dim:#9aa4b0;--paper:#14171b;--card:#1d2127;"
+    "--line:#343b45;--good:#5ecf95;--fair:#d9c34a;--poor:#ff9f4a;--bad:#ff7a70}}"
+    "body{font:15px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);margin:0 auto;"
+    "padding:2rem 1.25rem;max-width:62rem}"
+    "h1{font-size:1.5rem;margin:0 0 .25rem}h2{font-size:1.15rem;margin:0 0 .5rem}p{margin:.5rem 0}"
+    ".dim{color:var(--dim)}.card{background:var(--card);border:1px solid var(--line);border-radius:8px;"
+    "padding:1rem 1.25rem;margin:1rem 0;break-inside:avoid}"
+    ".good{color:var(--good)}.fair{color:var(--fair)}.poor{color:var(--poor)}.bad{color:var(--bad)}"
+    ".grade{font-weight:600;margin-left:.5rem}"
+    "table{border-collapse:collapse;font-variant-numeric:tabular-nums;margin:.5rem 0}"
+    "th,td{padding:.15rem .9rem .15rem 0;text-align:left;vertical-align:top}"
+    "th{font-weight:600;color:var(--dim)}td.n,th.n{text-align:right}"
+    ".row{display:flex;flex-wrap:wrap;gap:1.5rem;align-items:flex-start}"
+    "figure{margin:0;text-align:center}figcaption{font-size:.85rem;color:var(--dim)}"
+    ".curves img{background:#fff;border-radius:6px;max-width:100%;height:auto}"
+    ".swatch{display:inline-block;width:.9em;height:.9em;border:1px solid var(--line);border-radius:3px;"
+    "vertical-align:-.1em;margin-right:.35em}"
+    "ul{margin:.25rem 0;padding-left:1.2rem}code{font-size:.92em}"
+    "@media print{body{max-width:none;padding:0}.card{border-color:#999}}";
+
+void html_begin(text *out, const char *title)
+{
+    text_add(out, "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                  "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>");
+    html_text(out, title);
+    text_add(out, "</title>\n<style>");
+    text_add(out, style);
+    text_add(out, "</style>\n</head>\n<body>\n");
+}
+
+void html_end(text *out)
+{
+    text_add(out, "</body>\n</html>\n");
+}

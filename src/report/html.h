@@ -1,0 +1,18 @@
+/* html.h - pieces of an HTML page. */
+#ifndef REPORT_HTML_H
+#define REPORT_HTML_H
+
+#include "base/text.h"
+
+/* With &, <, > and quotes as entities; bytes that are no UTF-8 and control characters become U+FFFD. */
+void html_text(text *out, const char *string);
+/* An img element whose file is in the page. */
+void html_image(text *out, const char *mime_type, const unsigned char *bytes, size_t size, uint32_t width,
+                uint32_t height, const char *alternative);
+/* Three significant digits; "-" for NaN. */
+void html_number(text *out, double value);
+/* Head of the page with its style sheet; html_end() closes it. */
+void html_begin(text *out, const char *title);
+void html_end(text *out);
+
+#endif
