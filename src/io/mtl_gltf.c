@@ -57,6 +57,10 @@ static uint32_t find_texture(mtl_parser *p, mtl_files *f, const char *folder, js
     if (json_is_string(name))
         texture.name = mtl_keep(
             p, (mtl_span){json_string_value(name), json_string_value(name) + json_string_length(name)});
+    if (r.result == FACET_ERROR_MEMORY)
+        p->has_failed = true;
+    else if (!reader_is_ok(&r))
+        mtl_warn(p, "#facet-gltf: %.400s; the texture is left out", error.message);
     if (!reader_is_ok(&r) || !json_is_string(image))
         return json_is_null(image) && reader_is_ok(&r) ? mtl_files_texture(f, &texture) : SCENE_NONE;
     const char *file = json_string_value(image);

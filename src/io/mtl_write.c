@@ -52,7 +52,9 @@ const char **mtl_names_create(const facet_scene *scene, const facet_allocator *a
     const char **table = mem_zalloc(allocator, table_size, sizeof *table);
     const char **names = mem_alloc(allocator, count * sizeof *names + characters, 1);
     char *at = (char *)(names + count);
-    text name = {.allocator = *allocator};
+    text name = {0};
+    if (allocator)
+        name.allocator = *allocator;
     for (size_t i = 0; i < count && table && names && !name.has_failed; i++) {
         name.length = 0;
         text_add(&name, "");
