@@ -89,29 +89,28 @@ static double score(const ticks_desc *d, const candidate *c, double roundness)
     return 0.25 * roundness + 0.2 * coverage + 0.5 * fit;
 }
 
-static candidate choose_step(const ticks_desc *d)
+/* The best of those with at most limit ticks; digit 0: there is none. */
+static candidate choose_step(const ticks_desc *d, double limit)
 {
     /* the order is that of preference */
     static const double DIGITS[] = {1.0, 5.0, 2.0, 2.5, 3.0};
     static const double DEGREES[] = {30.0, 10.0, 15.0, 45.0, 20.0, 90.0, 5.0, 60.0, 180.0, 2.0, 1.0};
-    const bool has_angles =
-        d->is_degrees && d->maximum - d->minimum >= 5.0 && d->maximum - d->minimum <= 3600.0;
+    const double range = d->maximum - d->minimum;
+    const bool has_angles = d->is_degrees && range >= 5.0 && range <= 3600.0;
     const double *digits = has_angles ? DEGREES : DIGITS;
-    const int digit_count = has_angles ? 11 : 5;
-    const int power = (int)floor(log10((d->maximum - d->minimum) / d->target));
+    const int digit_count = has_angles ? 11 : 5, power = (int)floor(log10(range / d->target));
     candidate best = {.digit = 0.0};
     double best_score = -INFINITY;
     for (int p = has_angles ? 0 : power - 1; p <= (has_angles ? 0 : power + 2); p++)
         for (int i = 0; i < digit_count; i++) {
             const candidate c = make_candidate(d, digits[i], p);
             const double count = c.last - c.first + 1.0;
-            if (!(count >= 2.0 && count <= TICKS_MAX))
+            if (!(count >= 2.0 && count <= limit))
                 continue;
             const double s = score(d, &c, 1.0 - (double)i / (digit_count - 1));
-            /* more than wanted would touch one another */
-            if (s - (count > d->target + 1 ? 10.0 : 0.0) > best_score) {
+            if (s > best_score) {
                 best = c;
-                best_score = s - (count > d->target + 1 ? 10.0 : 0.0);
+                best_score = s;
             }
         }
     return best;
@@ -166,7 +165,10 @@ static void add_minor(const candidate *c, ticks *out)
 
 static void create_linear(const ticks_desc *desc, ticks *out)
 {
-    const candidate c = choose_step(desc);
+    /* a fixed range has no more than look well; one that is widened for few of them would be mostly empty */
+    candidate c = choose_step(desc, desc->is_fixed ? desc->target + 1 : fmin(2 * desc->target, TICKS_MAX));
+    if (c.digit == 0.0)
+        c = choose_step(desc, TICKS_MAX);
     if (c.digit == 0.0) /* nothing fits between: no ticks are better than wrong ones */
         return;
     if (!desc->is_fixed) {
@@ -222,7 +224,7 @@ static void create_mantissas(bool is_one_decade, ticks *out)
                 if (i > 0)
                     snprintf(label->text, sizeof label->text, "%.0f\xc2\xb7%s", digits[i], "10");
             }
-            out->values[out->count++] = value;
+            out->values[out->count++] = fmin(fmax(value, out->minimum), out->maximum);
         }
 }
 
@@ -243,7 +245,7 @@ static void create_decades(int target, ticks *out)
     }
     for (int e = first; step > 1 && last - first <= 40 && e <= last; e++)
         if (e % step != 0)
-            out->minor[out->minor_count++] = power_of_ten(e, 1.0);
+            out->minor[out->minor_count++] = fmin(fmax(power_of_ten(e, 1.0), out->minimum), out->maximum);
 }
 
 static void create_logarithmic(const ticks_desc *desc, ticks *out)
