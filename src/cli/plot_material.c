@@ -204,6 +204,14 @@ static bool ends_with(const char *text, const char *end)
     return length >= end_length && strcasecmp(text + length - end_length, end) == 0;
 }
 
+/* "ogl1", "pbr,...". */
+static bool begins_with_model(const char *text)
+{
+    size_t length = strcspn(text, ",");
+    return (length == 4 && strncasecmp(text, "ogl1", 4) == 0) ||
+           (length == 3 && strncasecmp(text, "pbr", 3) == 0);
+}
+
 facet_result plot_materials_add(plot_materials *m, const char *text, const facet_scene_desc *desc,
                                 facet_error *error)
 {
@@ -213,7 +221,7 @@ facet_result plot_materials_add(plot_materials *m, const char *text, const facet
         one.path = text;
         return append(m, &one, error);
     }
-    if (!strchr(text, '=') && strcasecmp(text, "ogl1") != 0 && strcasecmp(text, "pbr") != 0)
+    if (!strchr(text, '=') && !begins_with_model(text))
         return add_file(m, text, desc, error);
     facet_result result = read_parameters(text, &one, error);
     return result == FACET_OK ? append(m, &one, error) : result;
