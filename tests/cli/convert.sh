@@ -26,8 +26,14 @@ cmp -s piped.glb fourth.glb || failed "standard input gives another file"
 rm -f *.glb *.png again.*
 expect 2 convert in.gltf
 says "one model and the name of the new one were expected"
-expect 2 convert in.gltf out.obj
-says '"out.obj" does not end in .glb or .gltf'
+expect 2 convert in.gltf out.stl
+says '"out.stl" does not end in .glb, .gltf, .obj or .json'
+expect 2 convert in.gltf out.glb --to gltf
+says '--to: gltf was asked for, but the output is "out.glb"'
+expect 2 convert in.gltf in.gltf -o out.glb
+says "several models need a name with {stem}"
+expect 2 convert in.gltf out.glb --report report.txt
+says "--report"
 expect 2 convert in.gltf in.gltf
 says "it is an input, too"
 expect 3 convert missing.glb out.glb

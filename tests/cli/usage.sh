@@ -18,7 +18,7 @@ grep -q '75' out || failed "help exit-codes lacks 75"
 
 expect 2 model.glb
 says "facet: which command? For a picture: facet render model.glb -o model.png"
-for verb in bake ocean view plot compare batch serve merge; do
+for verb in bake ocean view compare batch serve merge; do
     expect 2 $verb
     says "this version does not have the command $verb yet"
     [ "$(wc -l <err)" = 1 ] || failed "more than one line on $verb"
@@ -77,7 +77,7 @@ for verb in render inspect version help; do
     [ "$(awk '{ if (length($0) > w) w = length($0) } END { print w }' out)" -le 104 ] || failed "help $verb is wide"
     rm help.$verb
 done
-"$facet" --generate-completion bash | awk '/^    render\)/, /^        ;;/' | grep -oE -- '--[a-z-]+' | sort -u >names
+"$facet" --generate-completion bash | awk '/^    render\)/, /^        ;;/' | grep -oE -- '--[a-z0-9-]+' | sort -u >names
 [ "$(wc -l <names)" -gt 30 ] || failed "few options in the completion"
 expect 0 help render
 while read -r name; do

@@ -1,0 +1,77 @@
+#!/bin/sh
+# plot.sh - plots: kinds, formats, materials, and what is wrong with them.
+set -eu
+. "$(dirname "$0")/lib.sh"
+
+kinds="legacy brdf slice hemisphere lobe terms albedo furnace dfg tone fresnel error"
+
+# Numbers need no graphics library.
+for kind in $kinds; do
+    expect 0 plot "$kind" -o "$kind.csv"
+    [ -s "$kind.csv" ] || failed "$kind.csv is empty"
+    [ "$(wc -l <"$kind.csv")" -gt 3 ] || failed "$kind.csv has no numbers"
+    grep -qiE '(^|,)-?(nan|inf)' "$kind.csv" && failed "$kind.csv has numbers that are none"
+done
+expect 0 plot tone -o - --format csv
+cmp -s out tone.csv || failed "standard output has other numbers than the file"
+expect 0 plot legacy -o again.csv -j 1
+cmp -s again.csv legacy.csv || failed "the numbers depend on the threads"
+expect 0 plot legacy -o ramp.csv --heaviside ramp
+cmp -s ramp.csv legacy.csv && failed "--heaviside ramp changes nothing"
+rm -f ./*.csv
+
+# Pictures, where cairo is there.
+if "$facet" plot tone -o tone.svg 2>err; then
+    head -c 5 tone.svg | grep -q '<?xml' || failed "tone.svg is no SVG file"
+    expect 0 plot tone -o tone.pdf
+    [ "$(head -c 4 tone.pdf)" = %PDF ] || failed "tone.pdf is no PDF file"
+    expect 0 plot tone -o tone.png --size 400x300
+    for format in svg pdf png; do
+        expect 0 plot slice --roughness 0.2,0.5 --angle 0,60 -o "a.$format"
+        expect 0 plot slice --roughness 0.2,0.5 --angle 0,60 -o "b.$format"
+        cmp -s "a.$format" "b.$format" || failed "two runs give different $format files"
+    done
+    expect 0 plot tone --no-clobber -o tone.svg
+    says "tone.svg: kept"
+    expect 0 plot dfg
+    [ -s dfg.svg ] || failed "without a name there is no dfg.svg"
+else
+    [ $? = 8 ] || failed "without cairo the exit code is another than 8"
+    says "csv"
+fi
+rm -f ./*.svg ./*.pdf ./*.png
+
+# Materials
+write_triangle in.gltf
+expect 0 plot slice roughness=0.3,metallic=1,color=gold ogl1,diffuse=0.5,specular=1,shininess=20 -o a.csv
+expect 0 plot slice ogl1,diffuse=#808080,specular=0.1/0.2/0.3 --fit -o b.csv
+expect 2 plot slice roughness=2 -o c.csv
+says 'roughness: "2" is not a number in its range'
+expect 2 plot slice rougness=.2 -o c.csv
+says 'there is no parameter "rougness"'
+expect 2 plot slice color=nocolor -o c.csv
+says "is not a color"
+expect 2 plot slice ogl1,shiny -o c.csv
+says "NAME=VALUE was expected"
+expect 3 plot slice missing.glb -o c.csv
+expect 3 plot slice missing.binary -o c.csv
+printf 'abc' >short.binary
+expect 4 plot slice short.binary -o c.csv
+says "short.binary"
+expect 2 plot slice --angle 95 -o c.csv
+expect 2 plot slice --roughness 0.1,x -o c.csv
+expect 2 plot slice --size 0x1 -o c.csv
+
+# What is asked for
+expect 2 plot
+says "which plot? One of legacy, brdf"
+expect 2 plot pie -o a.svg
+says 'there is no plot "pie"'
+expect 2 plot tone -o tone.gif
+says "does not end in .svg, .pdf, .png or .csv"
+expect 2 plot tone -o -
+says "needs --format"
+expect 6 plot tone -o nowhere/tone.csv
+expect 0 plot tone -o t.csv --json
+grep -qE '"kind": ?"tone"' out || failed "--json does not name the kind"
+finish
