@@ -79,7 +79,7 @@ bool ogl1_number(reader *r, const json_place *object, const char *key, double *o
         return false;
     if (!json_is_number(at.value))
         return fail_type(r, &at, "a number");
-    *out = json_number_value(at.value);
+    *out = json_number_value(at.value) + 0.0; /* no -0: written, it is an integer, which has none */
     return true;
 }
 
@@ -157,7 +157,7 @@ bool ogl1_vector(reader *r, const json_place *object, const char *key, float out
             return fail_type(r, &element, "a number");
         if (!(fabs(number) <= (double)SCENE_FARTHEST))
             return reader_fail(r, &element, NULL, FACET_ERROR_INVALID, "%g is too far out", number);
-        out[i] = (float)number + 0.0f; /* no -0, which JSON's integers do not have either */
+        out[i] = (float)number + 0.0f; /* no -0, as above */
     }
     return true;
 }

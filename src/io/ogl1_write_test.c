@@ -90,7 +90,7 @@ static const char DOCUMENT[] =
     "{'name':'c','front':'lines','back':'points','texture':'gone.png',"
     "'mtl':{'illum':7,'Tf':[0.5,0.25,1],'Ni':1.45,'sharpness':3,'Pr':0.1,'Pm':0.2,'Ps':0.3,'Pc':0.4,'Pcr':0."
     "5,"
-    "'aniso':-0.6,'anisor':0.7}},{'name':'d','front':'culled'}],"
+    "'aniso':-0.0,'anisor':0.7}},{'name':'d','front':'culled'}],"
     "'lights':[{},{'theta':30,'phi':40},{'theta':-123.4,'phi':5e-3},{'direction':[1,2,3],'ambient':'gray10'},"
     "{'x':0.1,'y':-2,'z':1e9,'viewpoint.rel':false,'specular':[0.3,0.3,2]},{'theta':0,'phi':90}],"
     "'fog':{'fogtype':'exp2','fogScale':0.7,'color':'gray90'}}";
