@@ -19,7 +19,7 @@ typedef struct band {
 static uint32_t shaded(const uint32_t colors[256], float value, float shade)
 {
     const uint32_t color = colors[(int)(fminf(fmaxf(value, 0.0f), 1.0f) * 255.0f + 0.5f)];
-    const uint32_t s = (uint32_t)(fminf(fmaxf(shade, 0.0f), 1.0f) * 256.0f);
+    const uint32_t s = (uint32_t)(fminf(fmaxf(shade, 0.0f), 1.0f) * 256.0f + 0.5f);
     const uint32_t red = (color >> 16 & 0xff) * s >> 8, green = (color >> 8 & 0xff) * s >> 8;
     return 0xff000000u | red << 16 | green << 8 | ((color & 0xff) * s >> 8);
 }

@@ -7,188 +7,26 @@
 
 #include "base/result.h"
 #include "plot/chart_solid.h"
+#include "plot/chart_space.h"
 
 static const double DEGREE = 0.017453292519943295;
 
-/* From the surface's space to the canvas. */
-typedef struct surface_view {
-    double right[3], up[3], toward[3]; /* unit vectors */
-    double base_radius;                /* of the disc, a round number */
-    double low[2], high[2];            /* of all that is drawn, along right and up */
-    double top;                        /* the largest z */
-    double x, y, scale;                /* px of the origin; px per unit */
-    chart_box box;                     /* of the picture, px */
-    double fine;                       /* pixels of the picture per px */
-} surface_view;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static bool get_point(const chart_surface *s, size_t i, double p[3])
-{
-    p[0] = s->x[i];
-    p[1] = s->y[i];
-    p[2] = s->z[i];
-    return fabs(p[0]) < 1e100 && fabs(p[1]) < 1e100 && fabs(p[2]) < 1e100; /* false for NaN */
-}
-
-static void include(surface_view *w, const double p[3])
-{
-    const double at[2] = {dot(p, w->right), dot(p, w->up)};
-    for (int i = 0; i < 2; i++) {
-        w->low[i] = fmin(w->low[i], at[i]);
-        w->high[i] = fmax(w->high[i], at[i]);
-    }
-}
-
-static surface_view look_at(const chart_surface *s)
-{
-    const double azimuth = isfinite(s->azimuth_rad) ? s->azimuth_rad : 0.0;
-    const double elevation = isfinite(s->elevation_rad)
-                                 ? fmin(fmax(s->elevation_rad, -90.0 * DEGREE), 90.0 * DEGREE)
-                                 : 30.0 * DEGREE;
-    const double ca = cos(azimuth), sa = sin(azimuth), ce = cos(elevation), se = sin(elevation);
-    surface_view w = {
-        .right = {-sa, ca, 0.0}, .up = {-se * ca, -se * sa, ce}, .toward = {ce * ca, ce * sa, se}};
-    double reach = 0.0;
-    for (size_t i = 0; i < (size_t)s->width * s->height; i++) {
-        double p[3];
-        if (!get_point(s, i, p))
-            continue;
-        include(&w, p);
-        reach = fmax(reach, hypot(p[0], p[1]));
-        w.top = fmax(w.top, p[2]);
-    }
-    axis_extent extent = {0.0, reach};
-    ticks_range(CHART_LINEAR, &extent.minimum, &extent.maximum);
-    ticks t;
-    ticks_create(&(ticks_desc){.minimum = 0.0, .maximum = extent.maximum, .target = 4}, &t);
-    w.base_radius = t.maximum;
-    for (int degrees = 0; degrees < 360; degrees += 10) {
-        const double p[3] = {w.base_radius * cos(degrees * DEGREE), w.base_radius * sin(degrees * DEGREE),
-                             0.0};
-        include(&w, p);
-    }
-    const double tip[3] = {0.0, 0.0, 1.1 * w.top};
-    include(&w, tip);
-    return w;
-}
-
-static void place(surface_view *w, const chart_box *plot)
-{
-    const double width = w->high[0] - w->low[0], height = w->high[1] - w->low[1];
-    w->scale = fmin(plot->width / width, plot->height / height);
-    w->x = plot->x + 0.5 * (plot->width - w->scale * (w->low[0] + w->high[0]));
-    w->y = plot->y + 0.5 * (plot->height + w->scale * (w->low[1] + w->high[1]));
-}
-
-static void project(const surface_view *w, const double p[3], double *x, double *y)
-{
-    *x = w->x + w->scale * dot(p, w->right);
-    *y = w->y - w->scale * dot(p, w->up);
-}
-
-/* ---- light ---- */
-
-/* Adds the normals of the triangles around each vertex, weighted by their areas. */
-static void add_normals(const chart_surface *s, double (*normals)[3])
-{
-    for (uint32_t row = 0; row + 1 < s->height; row++)
-        for (uint32_t column = 0; column + 1 < s->width; column++) {
-            const size_t i = (size_t)row * s->width + column;
-            const size_t corners[4] = {i, i + 1, i + s->width, i + s->width + 1};
-            static const int TRIANGLES[2][3] = {{0, 1, 2}, {1, 3, 2}};
-            for (int t = 0; t < 2; t++) {
-                double p[3][3], a[3], b[3], n[3];
-                bool is_there = true;
-                for (int k = 0; k < 3; k++)
-                    is_there = get_point(s, corners[TRIANGLES[t][k]], p[k]) && is_there;
-                for (int k = 0; k < 3; k++) {
-                    a[k] = p[1][k] - p[0][k];
-                    b[k] = p[2][k] - p[0][k];
-                }
-                cross(a, b, n);
-                for (int k = 0; k < 3 && is_there; k++)
-                    for (int c = 0; c < 3; c++)
-                        normals[corners[TRIANGLES[t][k]]][c] += n[c];
-            }
-        }
-}
-
-static bool is_same_point(const chart_surface *s, size_t i, size_t k)
-{
-    const double size = fabs(s->x[i]) + fabs(s->y[i]) + fabs(s->z[i]);
-    return fabs(s->x[i] - s->x[k]) + fabs(s->y[i] - s->y[k]) + fabs(s->z[i] - s->z[k]) <= 1e-6 * size;
-}
-
-/* Points that are one in space have one normal: count of them from first, stride apart. */
-static void join_normals(const chart_surface *s, double (*normals)[3], size_t first, size_t stride,
-                         size_t count)
-{
-    double sum[3] = {0.0};
-    for (size_t i = 0; i < count; i++) {
-        if (!is_same_point(s, first, first + i * stride))
-            return;
-        for (int c = 0; c < 3; c++)
-            sum[c] += normals[first + i * stride][c];
-    }
-    for (size_t i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++)
-            normals[first + i * stride][c] = sum[c];
-}
-
-/* Where a grid goes round (its first and last column are one), and at its poles (all points of a row are one). */
-static void join_seams(const chart_surface *s, double (*normals)[3])
-{
-    const size_t columns = s->width, rows = s->height;
-    for (size_t row = 0; row < rows; row++)
-        join_normals(s, normals, row * columns, columns - 1, 2);
-    for (size_t column = 0; column < columns; column++)
-        join_normals(s, normals, column, (rows - 1) * columns, 2);
-    join_normals(s, normals, 0, 1, columns);
-    join_normals(s, normals, (rows - 1) * columns, 1, columns);
-}
-
-/* Light from above the viewer's left shoulder; both sides are lit. */
-static double shade_of(const surface_view *w, const double normal[3])
-{
-    static const double LIGHT[3] = {-0.42, 0.52, 0.743};
-    const double length = sqrt(dot(normal, normal));
-    if (!(length > 0.0) || !isfinite(length))
-        return 1.0;
-    double n[3] = {dot(normal, w->right) / length, dot(normal, w->up) / length,
-                   dot(normal, w->toward) / length};
-    const double side = n[2] < 0.0 ? -1.0 : 1.0;
-    return 0.58 + 0.42 * fmax(side * dot(n, LIGHT), 0.0);
-}
-
-/* ---- drawing ---- */
-
-static solid_vertex make_vertex(const surface_view *w, const chart_surface *s, const axis_view *bar, size_t i,
+static solid_vertex make_vertex(const space_view *w, const chart_surface *s, const axis_view *bar, size_t i,
                                 const double normal[3])
 {
     double p[3], x, y;
-    if (!get_point(s, i, p))
+    if (!space_point(s, i, p))
         return (solid_vertex){.x = NAN};
-    project(w, p, &x, &y);
+    space_project(w, p, &x, &y);
     const double value = axis_fraction(bar, s->values ? s->values[i] : s->z[i]);
     return (solid_vertex){.x = (float)((x - w->box.x) * w->fine),
                           .y = (float)((y - w->box.y) * w->fine),
-                          .depth = (float)(w->scale * dot(p, w->toward)),
+                          .depth = (float)(w->scale * space_dot(p, w->toward)),
                           .value = (float)fmin(fmax(value, 0.0), 1.0), /* fmax: 0 for NaN */
-                          .shade = (float)shade_of(w, normal)};
+                          .shade = (float)space_shade(w, normal)};
 }
 
-static facet_result make_solid(const drawing *d, const surface_view *w, const panel_view *v, solid *out,
+static facet_result make_solid(const drawing *d, const space_view *w, const panel_view *v, solid *out,
                                facet_error *error)
 {
     const chart_surface *s = v->panel->surface;
@@ -201,8 +39,7 @@ static facet_result make_solid(const drawing *d, const surface_view *w, const pa
     solid_vertex *vertices = mem_alloc(&d->allocator, count, sizeof *vertices);
     facet_result result;
     if (normals && vertices) {
-        add_normals(s, normals);
-        join_seams(s, normals);
+        space_add_normals(s, normals);
         for (size_t i = 0; i < count; i++)
             vertices[i] = make_vertex(w, s, &v->bar, i, normals[i]);
         result = solid_create(&d->allocator, (uint32_t)(w->box.width * w->fine),
@@ -225,7 +62,7 @@ typedef struct space_line {
     int around;   /* pixels to look around: the next one of a steep surface is much nearer */
 } space_line;
 
-static bool is_visible(const surface_view *w, const space_line *line, double x, double y, double depth)
+static bool is_visible(const space_view *w, const space_line *line, double x, double y, double depth)
 {
     if (!line->solid)
         return true;
@@ -243,14 +80,14 @@ static bool is_visible(const surface_view *w, const space_line *line, double x, 
 }
 
 /* From a to b in steps of about two pixels. */
-static void draw_segment(const drawing *d, const surface_view *w, const space_line *line, const double a[3],
+static void draw_segment(const drawing *d, const space_view *w, const space_line *line, const double a[3],
                          const double b[3], bool *is_open)
 {
     double x0, y0, x1, y1;
-    project(w, a, &x0, &y0);
-    project(w, b, &x1, &y1);
+    space_project(w, a, &x0, &y0);
+    space_project(w, b, &x1, &y1);
     const int steps = line->solid ? (int)fmin(ceil(hypot(x1 - x0, y1 - y0) / 2.0) + 1.0, 1000.0) : 1;
-    const double za = w->scale * dot(a, w->toward), zb = w->scale * dot(b, w->toward);
+    const double za = w->scale * space_dot(a, w->toward), zb = w->scale * space_dot(b, w->toward);
     for (int i = 1; i <= steps; i++) {
         const double t0 = (i - 1.0) / steps, t1 = (double)i / steps, t = 0.5 * (t0 + t1);
         if (!is_visible(w, line, x0 + t * (x1 - x0), y0 + t * (y1 - y0), za + t * (zb - za))) {
@@ -265,13 +102,13 @@ static void draw_segment(const drawing *d, const surface_view *w, const space_li
 }
 
 /* The line of the grid along points first, first + stride .. */
-static void draw_mesh_line(const drawing *d, const surface_view *w, const chart_surface *s,
+static void draw_mesh_line(const drawing *d, const space_view *w, const chart_surface *s,
                            const space_line *line, size_t first, size_t stride, size_t count)
 {
     bool is_open = false;
     for (size_t i = 0; i + 1 < count; i++) {
         double a[3], b[3];
-        if (get_point(s, first + i * stride, a) && get_point(s, first + (i + 1) * stride, b))
+        if (space_point(s, first + i * stride, a) && space_point(s, first + (i + 1) * stride, b))
             draw_segment(d, w, line, a, b, &is_open);
         else
             is_open = false;
@@ -279,7 +116,7 @@ static void draw_mesh_line(const drawing *d, const surface_view *w, const chart_
     canvas_draw(d->canvas, &line->stroke);
 }
 
-static void draw_mesh(const drawing *d, const surface_view *w, const chart_surface *s, const solid *picture)
+static void draw_mesh(const drawing *d, const space_view *w, const chart_surface *s, const solid *picture)
 {
     enum { LINES = 12 }; /* about so many each way */
     const space_line line = {.stroke = {.color = {1.0, 1.0, 1.0, 0.3}, .width = fmax(0.7 * d->scale, 0.6)},
@@ -294,7 +131,7 @@ static void draw_mesh(const drawing *d, const surface_view *w, const chart_surfa
         draw_mesh_line(d, w, s, &line, column, s->width, s->height);
 }
 
-static void draw_ring(const drawing *d, const surface_view *w, const space_line *line, double radius)
+static void draw_ring(const drawing *d, const space_view *w, const space_line *line, double radius)
 {
     bool is_open = false;
     for (int degrees = 0; degrees < 360; degrees += 3) {
@@ -306,7 +143,7 @@ static void draw_ring(const drawing *d, const surface_view *w, const space_line 
 }
 
 /* The disc at z = 0 and the axis of z; under the surface all of it, then what is before it. */
-static void draw_base(const drawing *d, const surface_view *w, const solid *picture)
+static void draw_base(const drawing *d, const space_view *w, const solid *picture)
 {
     space_line line = {.stroke = {.color = d->theme->grid, .width = 1.0},
                        .solid = picture,
@@ -330,7 +167,7 @@ static void draw_base(const drawing *d, const surface_view *w, const solid *pict
 }
 
 /* Whether the surface covers nothing of a box. */
-static bool is_free(const surface_view *w, const solid *picture, const chart_box *box)
+static bool is_free(const space_view *w, const solid *picture, const chart_box *box)
 {
     for (int row = 0; row <= 4; row++)
         for (int column = 0; column <= 4; column++) {
@@ -342,7 +179,7 @@ static bool is_free(const surface_view *w, const solid *picture, const chart_box
 }
 
 /* Azimuths around the disc, where the surface leaves room for them. */
-static void draw_compass(const drawing *d, const surface_view *w, const solid *picture)
+static void draw_compass(const drawing *d, const space_view *w, const solid *picture)
 {
     const canvas_font font = view_tick_font(d);
     for (int degrees = 0; degrees < 360; degrees += 90) {
@@ -351,10 +188,10 @@ static void draw_compass(const drawing *d, const surface_view *w, const solid *p
         char text[16];
         double x, y;
         label_line l;
-        project(w, rim, &x, &y);
+        space_project(w, rim, &x, &y);
         snprintf(text, sizeof text, "%d\xc2\xb0", degrees);
         label_fit(d->canvas, font, text, 1e4, &l);
-        double dx = dot(direction, w->right), dy = -dot(direction, w->up);
+        double dx = space_dot(direction, w->right), dy = -space_dot(direction, w->up);
         const double length = fmax(hypot(dx, dy), 1e-9);
         dx /= length;
         dy /= length;
@@ -387,7 +224,7 @@ void view_surface_measure(const drawing *d, panel_view *v)
 }
 
 /* What the surface covers, in whole px. */
-static chart_box picture_box(const surface_view *w)
+static chart_box picture_box(const space_view *w)
 {
     const double x0 = floor(w->x + w->scale * w->low[0]) - 1.0, x1 = ceil(w->x + w->scale * w->high[0]) + 1.0;
     const double y0 = floor(w->y - w->scale * w->high[1]) - 1.0, y1 = ceil(w->y - w->scale * w->low[1]) + 1.0;
@@ -399,8 +236,8 @@ facet_result view_surface_draw(const drawing *d, panel_view *v, facet_error *err
     const chart_surface *s = v->panel->surface;
     if (!s || s->width == 0 || s->height == 0)
         return FACET_OK;
-    surface_view w = look_at(s);
-    place(&w, &v->plot);
+    space_view w = space_look_at(s);
+    space_place(&w, &v->plot);
     w.box = picture_box(&w);
     w.fine = canvas_is_raster(d->canvas) ? 1.0 : 2.0;
     w.fine = fmin(w.fine, CANVAS_MAX_SIZE / fmax(w.box.width, w.box.height));

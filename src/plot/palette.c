@@ -77,7 +77,7 @@ canvas_color palette_color(const chart_style *style, bool is_dark)
 canvas_stroke palette_stroke(const chart_style *style, bool is_dark, double scale)
 {
     /* in widths of the line; the round ends make strokes one width longer, gaps one shorter */
-    static const double DASHES[4][4] = {{0.0}, {3.2, 3.0}, {0.01, 2.2}, {5.0, 2.6, 0.01, 2.6}};
+    static const double DASHES[4][4] = {{0.0}, {3.0, 3.6}, {0.01, 2.2}, {5.0, 2.6, 0.01, 2.6}};
     static const int COUNTS[4] = {0, 2, 2, 4};
     const int dash = (int)((unsigned)style->dash % 4);
     const double width =

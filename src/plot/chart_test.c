@@ -1,0 +1,347 @@
+/* chart_test.c - charts as files: SVG that is well-formed, the same bytes each time, whatever the data and the labels;
+ * what happens without cairo and without memory. */
+#include "plot/chart_test_scene.h"
+
+#include "base/failing_allocator.h"
+#include "plot/chart_test_xml.h"
+
+static scene_data data;
+
+static void expect_svg(const chart *c)
+{
+    const drawn d = draw(c, FACET_PLOT_SVG);
+    char head[80];
+    assert_int_equal(strlen((const char *)d.bytes), d.size);
+    expect_well_formed((const char *)d.bytes);
+    snprintf(head, sizeof head, "width=\"%upx\" height=\"%upx\" viewBox=\"0 0 %u %u\"", c->width, c->height,
+             c->width, c->height);
+    assert_non_null(strstr((const char *)d.bytes, head));
+    mem_free(d.bytes);
+}
+
+static void svg_is_well_formed(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < SCENE_KINDS; kind++) {
+        const chart c = scene_chart(&data.panels[kind]);
+        expect_svg(&c);
+        const drawn d = draw(&c, FACET_PLOT_SVG);
+        assert_non_null(strstr((const char *)d.bytes, "<title>A chart</title>"));
+        if (kind == CHART_XY)
+            expect_references((const char *)d.bytes);
+        mem_free(d.bytes);
+    }
+}
+
+/* ---- the same chart, the same bytes ---- */
+
+static void same_chart_same_bytes(void **state)
+{
+    (void)state;
+    static const facet_plot_format FORMATS[3] = {FACET_PLOT_SVG, FACET_PLOT_PDF, FACET_PLOT_PNG};
+    drawn first[SCENE_KINDS][3];
+    for (int round = 0; round < 2; round++)
+        for (int kind = 0; kind < SCENE_KINDS; kind++)
+            for (int f = 0; f < 3; f++) {
+                chart c = scene_chart(&data.panels[kind]);
+                const drawn d = draw(&c, FORMATS[f]);
+                if (round == 0) {
+                    first[kind][f] = d;
+                    continue;
+                }
+                assert_int_equal(d.size, first[kind][f].size);
+                assert_memory_equal(d.bytes, first[kind][f].bytes, d.size);
+                mem_free(d.bytes);
+                mem_free(first[kind][f].bytes);
+            }
+}
+
+static bool contains(const drawn *d, const char *string)
+{
+    const size_t length = strlen(string);
+    for (size_t i = 0; i + length <= d->size; i++)
+        if (memcmp(d->bytes + i, string, length) == 0)
+            return true;
+    return false;
+}
+
+static void pdf_has_a_title_and_no_date(void **state)
+{
+    (void)state;
+    const chart c = scene_chart(&data.panels[CHART_XY]);
+    const drawn d = draw(&c, FACET_PLOT_PDF);
+    assert_memory_equal(d.bytes, "%PDF-", 5);
+    assert_true(contains(&d, "/Title (A chart)"));
+    assert_true(contains(&d, "/MediaBox [ 0 0 300 225 ]")); /* 400 x 300 px of 1/96 inch */
+    assert_false(contains(&d, "Date"));
+    assert_true(contains(&d, "/ToUnicode")); /* text is text */
+    mem_free(d.bytes);
+}
+
+/* ---- hostile data ---- */
+
+static void all_labels_are_survived(void **state)
+{
+    (void)state;
+    char *endless = malloc(100001);
+    assert_non_null(endless);
+    memset(endless, 'w', 100000);
+    endless[100000] = 0;
+    const char *const labels[] = {"<b>&amp;\"'</b>]]>",
+                                  "two\nlines\r\n\tand a tab",
+                                  "\x01\x7f\xff\xfe\xc3(\xed\xa0\x80",
+                                  "\xf0\x9f\x98\x80 \xd7\xa9 \xe6\xbc\xa2",
+                                  "%s%n",
+                                  "",
+                                  "\xe2\x80",
+                                  endless};
+    for (size_t i = 0; i < sizeof labels / sizeof *labels; i++) {
+        chart_curve curves[2] = {data.lines[0], data.lines[1]};
+        curves[0].name = labels[i];
+        const chart_panel panel = {.title = labels[i],
+                                   .note = labels[i],
+                                   .x = {.label = labels[i]},
+                                   .y = {.label = labels[i]},
+                                   .curve_count = 2,
+                                   .curves = curves,
+                                   .has_legend = true};
+        chart c = scene_chart(&panel);
+        c.title = labels[i];
+        expect_svg(&c);
+        image picture = draw_picture(&c);
+        image_destroy(&picture);
+        const drawn pdf = draw(&c, FACET_PLOT_PDF);
+        mem_free(pdf.bytes);
+    }
+    chart c = scene_chart(&(chart_panel){.kind = CHART_XY}); /* NULL wherever there may be a label */
+    c.title = labels[0];
+    const drawn d = draw(&c, FACET_PLOT_SVG);
+    assert_non_null(strstr((const char *)d.bytes, "<title>&lt;b&gt;&amp;amp;\"'&lt;/b&gt;]]&gt;</title>"));
+    mem_free(d.bytes);
+    free(endless);
+}
+
+static void draw_all_kinds(const double *x, const double *y, size_t count, chart_scale scale)
+{
+    const chart_curve curve = {
+        .name = "curve", .count = count, .x = x, .y = y, .style = {.has_markers = true}};
+    const chart_field field = {.width = (uint32_t)count,
+                               .height = 1,
+                               .values = y,
+                               .x1 = 1.0,
+                               .y1 = 1.0,
+                               .scale = scale,
+                               .label = "values"};
+    const chart_surface surface = {
+        .width = 2, .height = (uint32_t)count / 2, .x = x, .y = y, .z = y, .label = "z"};
+    for (int kind = 0; kind < SCENE_KINDS; kind++) {
+        const chart_panel panel = {.kind = (chart_panel_kind)kind,
+                                   .x = {.label = "x"},
+                                   .y = {.label = "y", .scale = scale},
+                                   .curve_count = 1,
+                                   .curves = &curve,
+                                   .field = &field,
+                                   .surface = &surface,
+                                   .has_legend = true};
+        chart c = scene_chart(&panel);
+        expect_svg(&c);
+        image picture = draw_picture(&c);
+        image_destroy(&picture);
+    }
+}
+
+static void all_data_are_survived(void **state)
+{
+    (void)state;
+    static const double N = (double)NAN, I = (double)INFINITY;
+    static const double X[6] = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
+    const double cases[][6] = {{N, N, N, N, N, N},
+                               {I, -I, I, -I, N, I},
+                               {1.0, N, 2.0, N, 3.0, N},
+                               {0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+                               {7.25, 7.25, 7.25, 7.25, 7.25, 7.25},
+                               {-1.0, -2.0, -3.0, -4.0, -5.0, 0.0},
+                               {1.7e308, -1.7e308, 0.0, 1e-320, -1e-320, 1.0},
+                               {1e-300, 1e300, 1.0, -1e300, 1e100, 1e-100},
+                               {1e15, 1e15 + 1.0, 1e15 + 2.0, 1e15 + 3.0, 1e15, 1e15},
+                               {1e-310, 2e-310, 3e-310, 0.0, 1e-310, 5e-324},
+                               {0.0, 1e-9, 1e-6, 1e-3, 1.0, 1e3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int scale = 0; scale < 2; scale++) {
+            draw_all_kinds(X, cases[i], 6, (chart_scale)scale);
+            draw_all_kinds(cases[i], X, 6, (chart_scale)scale);
+            draw_all_kinds(cases[i], cases[i], 1, (chart_scale)scale);
+        }
+    draw_all_kinds(X, X, 0, CHART_LINEAR);
+}
+
+static void all_ranges_are_survived(void **state)
+{
+    (void)state;
+    const double values[] = {0.0,     -1.0,     1.0,         1e-300,           1e300,
+                             1.7e308, -1.7e308, (double)NAN, (double)INFINITY, 1.0 + 1e-15};
+    const size_t count = sizeof values / sizeof *values;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < count; k++)
+            for (int scale = 0; scale < 2; scale++) {
+                const chart_axis axis = {.scale = (chart_scale)scale,
+                                         .has_range = true,
+                                         .minimum = values[i],
+                                         .maximum = values[k]};
+                chart_field field = data.field;
+                field.minimum = values[i];
+                field.maximum = values[k];
+                field.x0 = values[i];
+                field.y1 = values[k];
+                chart_panel panels[3] = {data.panels[CHART_XY], data.panels[CHART_POLAR],
+                                         data.panels[CHART_FIELD]};
+                for (int p = 0; p < 3; p++) {
+                    panels[p].x = panels[p].y = axis;
+                    panels[p].field = p == 2 ? &field : NULL;
+                }
+                chart c = scene_chart(panels);
+                c.panel_count = 3;
+                c.columns = 2;
+                const drawn d = draw(&c, FACET_PLOT_SVG);
+                mem_free(d.bytes);
+            }
+}
+
+static void all_sizes_are_survived(void **state)
+{
+    (void)state;
+    static const uint32_t SIZES[][2] = {{1, 1},   {1, 600},  {600, 1},   {20, 20},
+                                        {60, 45}, {130, 90}, {5000, 100}};
+    for (size_t i = 0; i < sizeof SIZES / sizeof *SIZES; i++) {
+        chart c = scene_chart(data.panels);
+        c.panel_count = SCENE_KINDS;
+        c.columns = i % 2 ? 0 : 2;
+        c.width = SIZES[i][0];
+        c.height = SIZES[i][1];
+        image picture = draw_picture(&c);
+        image_destroy(&picture);
+        expect_svg(&c);
+    }
+    chart c = scene_chart(data.panels);
+    const uint32_t wrong[] = {0, CANVAS_MAX_SIZE + 1, UINT32_MAX};
+    for (int i = 0; i < 3; i++) {
+        drawn d;
+        facet_error error;
+        c.width = wrong[i];
+        assert_int_equal(chart_draw(&c, FACET_PLOT_PNG, NULL, &d.bytes, &d.size, &error),
+                         FACET_ERROR_ARGUMENT);
+        assert_null(d.bytes);
+        assert_non_null(strstr(error.message, "pixels"));
+    }
+    c.width = 300;
+    c.panel_count = 0; /* a title on its ground */
+    expect_svg(&c);
+}
+
+static void many_panels_and_points_are_drawn(void **state)
+{
+    (void)state;
+    enum { PANELS = 288, POINTS = 100000 };
+    chart_panel *panels = malloc(PANELS * sizeof *panels);
+    double *x = malloc(2 * POINTS * sizeof *x);
+    assert_true(panels && x);
+    for (int i = 0; i < PANELS; i++)
+        panels[i] = data.panels[i % SCENE_KINDS];
+    chart c = scene_chart(panels);
+    c.panel_count = PANELS;
+    c.columns = 18;
+    c.width = 1600;
+    c.height = 1200;
+    image picture = draw_picture(&c);
+    image_destroy(&picture);
+    for (int i = 0; i < POINTS; i++) {
+        x[i] = i;
+        x[POINTS + i] = sin(i * 1e-3) + 0.1 * sin(i * 0.37);
+    }
+    const chart_curve curve = {.name = "many points", .count = POINTS, .x = x, .y = x + POINTS};
+    const chart_panel panel = {.curve_count = 1, .curves = &curve, .has_legend = true};
+    c = scene_chart(&panel);
+    picture = draw_picture(&c);
+    image_destroy(&picture);
+    free(panels);
+    free(x);
+}
+
+/* ---- what may be missing ---- */
+
+static void without_cairo_it_says_what_to_do(void **state)
+{
+    (void)state;
+    const chart c = scene_chart(&data.panels[CHART_XY]);
+    drawn d;
+    facet_error error;
+    assert_int_equal(
+        chart_draw_with(&c, FACET_PLOT_SVG, "libcairo-is-missing.so.2", NULL, &d.bytes, &d.size, &error),
+        FACET_ERROR_ENVIRONMENT);
+    assert_null(d.bytes);
+    assert_int_equal(d.size, 0);
+    assert_non_null(strstr(error.message, "libcairo-is-missing.so.2"));
+    assert_non_null(strstr(error.message, "libcairo2"));
+    assert_non_null(strstr(error.message, "CSV"));
+    /* a library, but not this one */
+    assert_int_equal(chart_draw_with(&c, FACET_PLOT_PNG, "libm.so.6", NULL, &d.bytes, &d.size, &error),
+                     FACET_ERROR_ENVIRONMENT);
+    assert_non_null(strstr(error.message, "cairo_"));
+    assert_int_equal(
+        chart_draw_with(&c, FACET_PLOT_CSV, "libcairo-is-missing.so.2", NULL, &d.bytes, &d.size, &error),
+        FACET_OK);
+    assert_true(contains(&d, "# Slices\n"));
+    mem_free(d.bytes);
+}
+
+static void memory_may_run_out_anywhere(void **state)
+{
+    (void)state;
+    static const facet_plot_format FORMATS[3] = {FACET_PLOT_SVG, FACET_PLOT_PDF, FACET_PLOT_PNG};
+    for (int f = 0; f < 3; f++)
+        for (int kind = 0; kind < SCENE_KINDS; kind++) {
+            chart c = scene_chart(&data.panels[kind]);
+            c.width = 200;
+            c.height = 150;
+            for (long i = 0;; i++) {
+                failing_allocator failing = {.fail_at = i};
+                const facet_allocator allocator = failing_allocator_get(&failing);
+                drawn d;
+                facet_error error;
+                const facet_result result = chart_draw(&c, FORMATS[f], &allocator, &d.bytes, &d.size, &error);
+                mem_free(d.bytes);
+                assert_int_equal(failing.blocks, 0);
+                if (failing.calls <= i) {
+                    assert_int_equal(result, FACET_OK);
+                    assert_true(i > 4);
+                    break;
+                }
+                assert_int_equal(result, FACET_ERROR_MEMORY);
+                assert_null(d.bytes);
+            }
+        }
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    scene_make(&data);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(svg_is_well_formed),
+        cmocka_unit_test(same_chart_same_bytes),
+        cmocka_unit_test(pdf_has_a_title_and_no_date),
+        cmocka_unit_test(all_labels_are_survived),
+        cmocka_unit_test(all_data_are_survived),
+        cmocka_unit_test(all_ranges_are_survived),
+        cmocka_unit_test(all_sizes_are_survived),
+        cmocka_unit_test(many_panels_and_points_are_drawn),
+        cmocka_unit_test(without_cairo_it_says_what_to_do),
+        cmocka_unit_test(memory_may_run_out_anywhere),
+    };
+    return cmocka_run_group_tests(tests, set_up, NULL);
+}
