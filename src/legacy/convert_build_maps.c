@@ -4,6 +4,7 @@
  * others count with their means. */
 #include <string.h>
 
+#include "base/result.h"
 #include "legacy/convert_state.h"
 #include "legacy/convert_texels.h"
 
@@ -136,7 +137,7 @@ static texture_bake bake_of(surface_job *job, const char *purpose, uint32_t chan
                          .channel_count = channel_count,
                          .row = row,
                          .parameters = &job->p,
-                         .parameter_size = sizeof job->p};
+                         .parameter_size = TEXEL_KEY_SIZE};
     uint32_t first = SCENE_NONE;
     for (int i = 0; i < TEXEL_INPUTS; i++) {
         bake.inputs[i] = inputs[i];
@@ -383,14 +384,23 @@ facet_result build_surface_maps(conversion *c, uint32_t material, legacy_reading
     job.opacity = read_opacity(c, r, out);
     align(&job, r);
     make_tables(&job);
+    core_grid *core = NULL;
+    if (job.p.is_core) {
+        core = mem_alloc(&c->scene->allocator, 1, sizeof *core);
+        if (!core)
+            return fail_memory(error, "textures", sizeof *core);
+        core_grid_make(core, scalar_table_lowest(&job.p.shininess, c->bench, &job.shininess),
+                       scalar_table_highest(&job.p.shininess, c->bench, &job.shininess),
+                       c->scene->thread_count);
+        job.p.core = core;
+    }
     facet_result result = build_base(&job, error);
-    if (result != FACET_OK || r->kind == READING_UNLIT)
-        return result;
-    if (!is_fitted)
-        return build_stated(c, material, r, out, error);
-    if (!is_varying(&job))
-        return FACET_OK;
-    if (!job.p.is_core)
+    if (result == FACET_OK && !is_fitted && r->kind != READING_UNLIT)
+        result = build_stated(c, material, r, out, error);
+    if (result == FACET_OK && is_fitted && is_varying(&job) && !job.p.is_core)
         result = build_specular(&job, error);
-    return result == FACET_OK ? build_roughness(&job, error) : result;
+    if (result == FACET_OK && is_fitted && is_varying(&job))
+        result = build_roughness(&job, error);
+    mem_free(core);
+    return result;
 }

@@ -1,8 +1,5 @@
-/* convert_ogl1_maps.c - see convert_ogl1_maps.h.
- *
- * A legacy material has one exponent s. A texel that by itself would have exponent t keeps its place in the picture, and its
- * highlight takes the strength at which it is nearest to its own: of the least squares
- *   INT (a x^s - x^t)^2 dx over x = N.H in [0, 1],  a = INT x^(s+t) / INT x^(2s) = (2 s + 1) / (s + t + 1). */
+/* convert_ogl1_maps.c - see convert_ogl1_maps.h. A legacy material has one exponent: the one that its mean asks for. Each
+ * texel takes the colors that come nearest to it with that exponent. */
 #include "legacy/convert_ogl1_maps.h"
 
 #include <math.h>
@@ -60,9 +57,8 @@ static pbr_surface surface_of(const pbr_parameters *p, const uint8_t *const texe
 static void pbr_row(const void *parameters, uint32_t width, const uint8_t *const *in, uint8_t *out)
 {
     const pbr_parameters *p = parameters;
-    pbr_surface last = pbr_surface_default();
-    ogl1_surface answer;
-    pbr_to_ogl1_closed(&last, &answer);
+    pbr_surface last = {.ior = -1.0f};
+    ogl1_surface answer = {.shininess = 0.0f};
     for (uint32_t x = 0; x < width; x++, out += 3) {
         const uint8_t *texels[PBR_INPUTS];
         for (int i = 0; i < PBR_INPUTS; i++)
@@ -70,12 +66,10 @@ static void pbr_row(const void *parameters, uint32_t width, const uint8_t *const
         pbr_surface s = surface_of(p, texels);
         if (memcmp(&s, &last, sizeof s) != 0) { /* neighbours are often equal */
             last = s;
-            pbr_to_ogl1_closed(&s, &answer);
+            pbr_to_ogl1_closed_at(&s, p->shininess, &answer);
         }
         float scale = 1.0f;
-        if (p->is_specular)
-            scale = (2.0f * p->shininess + 1.0f) / (p->shininess + answer.shininess + 1.0f);
-        else if (p->occlusion_strength > 0.0f && texels[PBR_SPECULAR])
+        if (!p->is_specular && p->occlusion_strength > 0.0f && texels[PBR_SPECULAR])
             scale = 1.0f + p->occlusion_strength * ((float)texels[PBR_SPECULAR][0] / 255.0f - 1.0f);
         const float *color = p->is_specular ? answer.specular : answer.diffuse;
         for (int k = 0; k < 3; k++)

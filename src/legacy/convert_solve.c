@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "legacy/convert_state.h"
+#include "legacy/convert_texels.h"
 
 typedef struct solve_question solve_question;
 
@@ -44,6 +45,8 @@ static void solve_from_ogl1(const solver *s, solve_item *item)
     else
         item->remarks = is_core ? ogl1_to_pbr_core_fit(s->metric, in, s->desc->target, &item->pbr)
                                 : ogl1_to_pbr_fit(s->metric, in, s->desc->target, &item->pbr);
+    if (item->question.is_closed > 0.0f && !is_core)
+        item->pbr = texel_surface(in); /* as its textures will have it */
     item->ogl1 = *in;
     item->error = fit_compare(s->metric, in, &item->pbr, FIT_FROM_OGL1);
     pbr_surface naive;

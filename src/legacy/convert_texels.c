@@ -11,9 +11,30 @@ uint8_t texel_code(float value)
     return (uint8_t)(unit_of(value) * 255.0f + 0.5f);
 }
 
+/* The base is weighted with 1 - F, and F is the same at all angles. */
+static float under_highlight(float diffuse, float strength)
+{
+    float rest = 1.0f - strength;
+    return diffuse < rest ? diffuse / rest : diffuse > 0.0f ? 1.0f : 0.0f;
+}
+
 static const uint8_t *texel_of(const uint8_t *const *in, int input, uint32_t x)
 {
     return in[input] ? in[input] + (size_t)x * 4 : NULL;
+}
+
+pbr_surface texel_surface(const ogl1_surface *in)
+{
+    pbr_surface s = pbr_surface_default();
+    float most = highest_of(in->specular);
+    s.perceptual_roughness = perceptual_roughness_from_shininess(in->shininess);
+    s.ior = 0.0f;
+    s.specular = unit_of(most * reflectance_share_from_shininess(in->shininess));
+    for (int k = 0; k < 3; k++) {
+        s.specular_color[k] = most > 0.0f ? in->specular[k] / most : 1.0f;
+        s.base_color[k] = under_highlight(in->diffuse[k], s.specular);
+    }
+    return s;
 }
 
 static float strength_of(const texel_parameters *p, const float specular[3], const uint8_t *shininess)
@@ -21,50 +42,36 @@ static float strength_of(const texel_parameters *p, const float specular[3], con
     return unit_of(highest_of(specular) * table_scalar(&p->share, shininess));
 }
 
-/* A pixel of the core profile, whose search for metallic has no closed form per channel. Neighbours are often equal. */
-typedef struct core_texel {
-    ogl1_surface in;
-    pbr_surface out;
-    bool is_known;
-} core_texel;
-
-static const pbr_surface *core_of(const texel_parameters *p, const uint8_t *const *in, uint32_t x,
-                                  core_texel *last)
+static pbr_surface core_of(const texel_parameters *p, const uint8_t *const *in, uint32_t x)
 {
     ogl1_surface s;
     table_color(&p->diffuse, texel_of(in, TEXEL_DIFFUSE, x), s.diffuse);
     table_color(&p->specular, texel_of(in, TEXEL_SPECULAR, x), s.specular);
     s.shininess = table_scalar(&p->shininess, texel_of(in, TEXEL_SHININESS, x));
-    if (!last->is_known || memcmp(&s, &last->in, sizeof s) != 0) {
-        last->in = s;
-        last->is_known = true;
-        ogl1_to_pbr_core_closed(&s, &last->out);
-    }
-    return &last->out;
+    return core_grid_look_up(p->core, &s);
 }
 
-static void base_of(const texel_parameters *p, const uint8_t *const *in, uint32_t x, core_texel *last,
-                    float base[3])
+static void base_of(const texel_parameters *p, const uint8_t *const *in, uint32_t x, float base[3])
 {
     if (p->is_core) {
-        memcpy(base, core_of(p, in, x, last)->base_color, 3 * sizeof *base);
+        pbr_surface core = core_of(p, in, x);
+        memcpy(base, core.base_color, sizeof core.base_color);
         return;
     }
     float specular[3];
     table_color(&p->specular, texel_of(in, TEXEL_SPECULAR, x), specular);
     table_color(&p->diffuse, texel_of(in, TEXEL_DIFFUSE, x), base);
-    float rest = 1.0f - strength_of(p, specular, texel_of(in, TEXEL_SHININESS, x));
+    float strength = strength_of(p, specular, texel_of(in, TEXEL_SHININESS, x));
     for (int k = 0; k < 3; k++)
-        base[k] = base[k] < rest ? base[k] / rest : base[k] > 0.0f ? 1.0f : 0.0f;
+        base[k] = under_highlight(base[k], strength);
 }
 
 void texel_base_row(const void *parameters, uint32_t width, const uint8_t *const *in, uint8_t *out)
 {
     const texel_parameters *p = parameters;
-    core_texel last = {.is_known = false};
     for (uint32_t x = 0; x < width; x++, out += p->channel_count) {
         float base[3];
-        base_of(p, in, x, &last, base);
+        base_of(p, in, x, base);
         for (int k = 0; k < 3; k++)
             out[k] = srgb_encode_u8(p->srgb, base[k] / p->base_scale[k]);
         if (p->channel_count == 4)
@@ -88,13 +95,15 @@ void texel_specular_row(const void *parameters, uint32_t width, const uint8_t *c
 void texel_roughness_row(const void *parameters, uint32_t width, const uint8_t *const *in, uint8_t *out)
 {
     const texel_parameters *p = parameters;
-    core_texel last = {.is_known = false};
     for (uint32_t x = 0; x < width; x++, out += 3) {
-        const pbr_surface *core = p->is_core ? core_of(p, in, x, &last) : NULL;
         out[0] = 255;
-        out[1] = texel_code(core ? core->perceptual_roughness
-                                 : table_scalar(&p->roughness, texel_of(in, TEXEL_SHININESS, x)));
-        out[2] = core ? texel_code(core->metallic) : 0;
+        out[1] = texel_code(table_scalar(&p->roughness, texel_of(in, TEXEL_SHININESS, x)));
+        out[2] = 0;
+        if (p->is_core) {
+            pbr_surface core = core_of(p, in, x);
+            out[1] = texel_code(core.perceptual_roughness);
+            out[2] = texel_code(core.metallic);
+        }
     }
 }
 

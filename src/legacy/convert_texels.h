@@ -8,6 +8,22 @@
 /* The order of a bake's inputs. */
 enum { TEXEL_DIFFUSE, TEXEL_SPECULAR, TEXEL_SHININESS, TEXEL_OPACITY, TEXEL_INPUTS };
 
+/* Specular and ior of one texel: what ogl1_to_pbr_closed() comes near to, quick. */
+pbr_surface texel_surface(const ogl1_surface *in);
+
+/* The core profile, whose search for metallic is slow: a grid of its answers for grey materials over Cd, Cs and s.
+ * Nodes of Cd and Cs lie at (i / last)^2, those of s evenly in log(1 + s). */
+enum { CORE_COLORS = 17, CORE_EXPONENTS = 9 };
+typedef struct core_grid {
+    float exponents[2];                                   /* log(1 + s) of the first and last */
+    float base[CORE_EXPONENTS][CORE_COLORS][CORE_COLORS]; /* by s, Cs, Cd */
+    float metallic[CORE_EXPONENTS][CORE_COLORS][CORE_COLORS];
+    float perceptual_roughness[CORE_EXPONENTS][CORE_COLORS][CORE_COLORS];
+} core_grid;
+void core_grid_make(core_grid *grid, float least_shininess, float most_shininess, uint32_t thread_count);
+/* Metallic and roughness of the mean channel, a base color for each. */
+pbr_surface core_grid_look_up(const core_grid *grid, const ogl1_surface *in);
+
 /* Tables of the four maps, and what comes out is divided by. Part of a bake's key: memset() before it is filled in. */
 typedef struct texel_parameters {
     color_table diffuse, specular;
@@ -19,7 +35,9 @@ typedef struct texel_parameters {
     int is_core;
     int channel_count; /* of the base color: 3, or 4 with opacity */
     const srgb_tables *srgb;
+    const core_grid *core; /* last: of the shininess table, and so no part of the key */
 } texel_parameters;
+#define TEXEL_KEY_SIZE offsetof(texel_parameters, core)
 
 texture_row texel_base_row;      /* RGB or RGBA: base color, opacity */
 texture_row texel_specular_row;  /* RGBA: color of F0, its strength */

@@ -13,6 +13,7 @@ facet_result texture_bench_create(facet_scene *scene, texture_bench **out, facet
     if (!bench)
         return fail_memory(error, "textures", sizeof *bench);
     bench->scene = scene;
+    bench->image_count = scene->image_count;
     bench->cache = texels_cache_create(scene);
     bench->statistics =
         mem_zalloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *bench->statistics);
@@ -29,7 +30,7 @@ void texture_bench_destroy(texture_bench *bench)
 {
     if (!bench)
         return;
-    for (uint32_t i = 0; bench->statistics && i < bench->scene->image_count; i++)
+    for (uint32_t i = 0; bench->statistics && i < bench->image_count; i++)
         mem_free(bench->statistics[i]);
     for (uint32_t i = 0; i < bench->made_count; i++) {
         mem_free(bench->made[i].bytes);
@@ -122,7 +123,7 @@ facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, f
 const texture_statistics *texture_bench_statistics(const texture_bench *bench, uint32_t texture)
 {
     uint32_t index = image_of(bench, texture);
-    const texture_statistics *s = index < bench->scene->image_count ? bench->statistics[index] : NULL;
+    const texture_statistics *s = index < bench->image_count ? bench->statistics[index] : NULL;
     return s && s->is_readable ? s : NULL;
 }
 

@@ -21,6 +21,7 @@ struct texture_bench {
     facet_scene *scene;
     srgb_tables srgb;
     texels_cache *cache;
+    uint32_t image_count;            /* of the scene, before anything is made */
     texture_statistics **statistics; /* per image; NULL: not looked at */
     made_texture *made;
     uint32_t made_count, shared_count;
