@@ -27,7 +27,7 @@ static bool is_of_kind(const scene_material *m, uint32_t extension, const char *
 static void put_named_texture(writer *w, json_t *info, uint32_t texture)
 {
     const scene_texture *t = &w->scene->textures[texture];
-    const char *file = t->image == SCENE_NONE ? NULL : w->image_names[t->image];
+    const char *file = t->image == SCENE_NONE || !w->image_names ? NULL : w->image_names[t->image];
     put(w, info, "image", file ? json_string(file) : json_null());
     put(w, info, "sampler", new_sampler(w, t));
     put_name(w, info, t->name);
@@ -36,7 +36,7 @@ static void put_named_texture(writer *w, json_t *info, uint32_t texture)
 static json_t *new_texture_info(writer *w, const scene_texture_ref *ref)
 {
     json_t *info = json_object();
-    if (w->image_names)
+    if (w->names_images)
         put_named_texture(w, info, ref->texture);
     else
         put_index(w, info, "index", ref->texture);

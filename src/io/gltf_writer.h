@@ -39,8 +39,8 @@ typedef struct writer {
     written_array *written; /* hash table, capacity a power of two */
     size_t written_count, written_capacity;
 
-    const char *const
-        *image_names; /* textures are told by the names of their images' files; NULL: by number */
+    bool names_images;              /* textures are told by the names of their images' files, not by number */
+    const char *const *image_names; /* by image; NULL, or a NULL in it: the file is not written */
     const char *stem; /* images become files STEM_image0.png ..; NULL: they go into the binary chunk */
     struct written_file *files;
     size_t file_count, file_capacity;

@@ -80,11 +80,12 @@ static void resolve_textures(mtl_parser *p, mtl_files *f, const char *folder, js
         if (!json_is_object(member) || depth >= DEEPEST || strcmp(key, "extras") == 0 ||
             strcmp(key, "facet") == 0)
             continue;
-        if (!json_object_get(member, "image")) {
+        if (!json_object_get(member, "image") && !json_object_get(member, "index")) {
             resolve_textures(p, f, folder, member, depth + 1);
             continue;
         }
-        uint32_t texture = find_texture(p, f, folder, member);
+        /* A number is that of another scene's texture. */
+        uint32_t texture = json_object_get(member, "image") ? find_texture(p, f, folder, member) : SCENE_NONE;
         if (texture == SCENE_NONE)
             json_object_del(object, key);
         else if (json_object_set_new(member, "index", json_integer(texture)) != 0)
@@ -206,6 +207,7 @@ void mtl_gltf_write(const facet_scene *scene, uint32_t material, const char *nam
                 .log = &desc->log,
                 .root = json_object(),
                 .extensions_used = json_object(),
+                .names_images = true,
                 .image_names = image_names};
     json_t *facet = parse_back(statements, name, desc);
     json_t *json = w.root && w.extensions_used ? new_material(&w, &scene->materials[material]) : NULL;

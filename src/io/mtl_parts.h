@@ -119,6 +119,10 @@ uint32_t mtl_files_texture(mtl_files *f, const scene_texture *texture);
 bool mtl_files_finish(mtl_files *f);
 void mtl_files_destroy(mtl_files *f);
 
+/* mtl_reader.c: a library from memory, as if it stood in a file of that name beside the OBJ file. */
+facet_result mtl_reader_load_bytes(mtl_reader *reader, const char *name, const void *bytes, size_t size,
+                                   facet_error *error);
+
 /* mtl_gltf.c: comments "#facet-gltf". */
 typedef struct mtl_gltf mtl_gltf; /* a parsed one */
 /* Parsed and compared with what the statements say; its images become textures. NULL: of no use (p warns where it is

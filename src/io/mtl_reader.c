@@ -263,6 +263,13 @@ static void read_library(mtl_reader *r, const char *path, const uri_bytes *bytes
     text_destroy(&lines.joined);
 }
 
+facet_result mtl_reader_load_bytes(mtl_reader *r, const char *name, const void *bytes, size_t size,
+                                   facet_error *error)
+{
+    read_library(r, name, &(uri_bytes){.data = bytes, .size = size});
+    return r->has_failed ? fail_memory(error, "materials", r->count * sizeof *r->drafts) : FACET_OK;
+}
+
 /* ---- mtllib ---- */
 
 /* Reads the library of a name unless it was read already. False: there is none; *why is filled. */

@@ -256,6 +256,21 @@ static void write_maps(mtl_writer *w, const legacy_material *m)
             write_map(w, &m->maps[i], i == LEGACY_ORM_MAP && m->is_rma ? "map_RMA" : legacy_map_keys[i]);
 }
 
+/* Lines that were kept. A backslash at the end of one would join the next to it. */
+static void write_unknown(const char *lines, text *out)
+{
+    while (*lines) {
+        mtl_span line = {lines, lines + strcspn(lines, "\r\n")};
+        lines = *line.end ? line.end + 1 : line.end;
+        for (line = mtl_trim(line); mtl_length(line) > 0 && line.end[-1] == '\\'; line = mtl_trim(line))
+            line.end--;
+        if (mtl_length(line) > 0) {
+            text_add_bytes(out, line.begin, mtl_length(line));
+            text_add(out, "\n");
+        }
+    }
+}
+
 /* ---- the file ---- */
 
 /* What the glTF material of a scene is written for: it came from glTF, or was restored from such a comment. */
@@ -274,9 +289,7 @@ static void write_material(mtl_writer *w, uint32_t index)
     text_addf(out, "illum %d\n", illum_of(m));
     write_maps(w, m);
     if (m->unknown)
-        text_add(out, m->unknown);
-    if (m->unknown && m->unknown[0] && m->unknown[strlen(m->unknown) - 1] != '\n')
-        text_add(out, "\n");
+        write_unknown(m->unknown, out);
     if (!has_gltf(w, m) || out->has_failed)
         return;
     text comment = {.allocator = w->desc->allocator};
