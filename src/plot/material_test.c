@@ -160,8 +160,7 @@ static void grain_is_sampled_where_it_is(void **state)
         for (int i = 0; i < N; i++)
             for (int j = 0; j < N; j++) {
                 double z = (i + 0.5) / N;
-                sum +=
-                    brdf_cos(&m, 0.6, (acos)((float)z), (j + 0.5) / N * 2 * PLOT_PI) * 2 * PLOT_PI / (N * N);
+                sum += brdf_cos(&m, 0.6, (acos)(z), (j + 0.5) / N * 2 * PLOT_PI) * 2 * PLOT_PI / (N * N);
             }
         assert_near(albedo(&m, 0.6 / PLOT_DEGREE), sum, 2e-3);
     }

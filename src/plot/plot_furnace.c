@@ -52,7 +52,9 @@ static void integrate(void *context, size_t begin, size_t end)
         float V[3];
         double albedo[3];
         plot_direction((double)work->plot->angles[angle], 0.0, V);
-        if (is_image_based && m.parameters.model == FACET_PLOT_PBR)
+        if (m.parameters.model != FACET_PLOT_PBR && series % (WAYS * MODES) > 0)
+            continue; /* OpenGL 1 has one way and one mode */
+        if (is_image_based)
             material_albedo_image_based(&m, V, albedo);
         else
             material_albedo(&m, V, albedo);

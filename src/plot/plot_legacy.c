@@ -124,13 +124,15 @@ static void add_pair_curves(plot *p, plot_panel *panel, const pair *r, int what,
     }
 }
 
-static const char *describe_error(plot *p, const material *source, const plot_conversion *conversion)
+static const char *describe_error(plot *p, const material *source, const plot_conversion *conversion,
+                                  bool has_dashes)
 {
     if (!conversion->has_error)
         return plot_text(p, "RMS of log(1 + f cos) %.3f of the measured", conversion->rms);
     bool has_layers = source->parameters.model == FACET_PLOT_PBR && material_has_layers(&source->parameters);
-    return plot_text(p, "E %.3f, E_display %.3f%s", conversion->error.E, conversion->error.E_display,
-                     has_layers ? " of the base: coat, sheen, film and grain have no counterpart" : "");
+    return plot_text(p, "E %.3f, E_display %.3f%s%s", conversion->error.E, conversion->error.E_display,
+                     has_dashes ? "; views in order: solid, dashed, dotted" : "",
+                     has_layers ? "; of the base: coat, sheen, film and grain have no counterpart" : "");
 }
 
 static const char *scaled(const material *m)
@@ -155,7 +157,7 @@ static void add_pair(plot *p, const material *source, const plot_conversion *con
     for (int i = 0; conversion->has_error && i < 3; i++) /* the views that errors are found for */
         if (fabs(view - 30.0 * i * PLOT_DEGREE) < 1e-4)
             panel->panel.note =
-                plot_text(p, "dashed: %s; E %.3f", conversion->material.label, conversion->error.views[i]);
+                plot_text(p, "E %.3f; dashed, %s", conversion->error.views[i], conversion->material.label);
 }
 
 /* The curves of all views less their sources', in one panel. */
@@ -173,8 +175,7 @@ static plot_panel *add_differences(plot *p, const material *source, const plot_c
     }
     if (panel) {
         panel->panel.has_legend = !is_colored;
-        panel->panel.note = plot_text(p, "%s%s", describe_error(p, source, conversion),
-                                      is_colored ? "; views in order: solid, dashed, dotted" : "");
+        panel->panel.note = describe_error(p, source, conversion, is_colored);
     }
     return panel;
 }
