@@ -8,7 +8,7 @@
 #include "legacy/fit.h"
 #include "plot/chart.h"
 
-enum { VIEWS = 3, STEPS = 721 }; /* a quarter of a degree: the narrowest lobes are wider */
+enum { VIEWS = 3, STEPS = 361 }; /* half a degree: a lobe of shininess 1000 is 8 wide */
 static const double PI = 3.14159265358979323846;
 static const double VIEW_ANGLES[VIEWS] = {0.0, 30.0, 60.0};
 static const char *const VIEW_TITLES[VIEWS] = {"seen at 0\xc2\xb0", "seen at 30\xc2\xb0",

@@ -247,6 +247,7 @@ static facet_result add_material(page *p, uint32_t material, bool has_pictures, 
     text_add(p->out, "</h2>\n<div class=\"row\">\n");
     if (has_pictures && p->stage)
         result = add_spheres(p, material, error);
+    text_add(p->out, "</div>\n<div class=\"row\">\n");
     if (p->scene->legacy)
         add_legacy_values(p->out, &m->legacy, p->scene->legacy->colors);
     add_pbr_values(p->out, &m->pbr);
