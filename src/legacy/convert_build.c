@@ -28,6 +28,9 @@ ogl1_surface build_representative(const conversion *c, const legacy_reading *r)
 {
     ogl1_surface s = r->surface;
     const legacy_map *maps = r->m.maps;
+    if (!legacy_has_map(&r->m, LEGACY_DIFFUSE_MAP) && !legacy_has_map(&r->m, LEGACY_SPECULAR_MAP) &&
+        !legacy_has_map(&r->m, LEGACY_SHININESS_MAP))
+        return s;
     color_table diffuse = color_table_make(c->bench, &maps[LEGACY_DIFFUSE_MAP], r->surface.diffuse);
     color_table specular = color_table_make(c->bench, &maps[LEGACY_SPECULAR_MAP], r->surface.specular);
     scalar_table shininess =

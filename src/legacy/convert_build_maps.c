@@ -48,6 +48,11 @@ static opacity_source read_opacity(const conversion *c, const legacy_reading *r,
         o.map.base = 0.0f;
         o.map.gain = 1.0f;
     }
+    if (o.map.ref.texture == SCENE_NONE) {
+        out->alpha_mode = r->opacity < 1.0f ? SCENE_ALPHA_BLEND : SCENE_ALPHA_OPAQUE;
+        out->base_color[3] = r->opacity;
+        return o;
+    }
     int channel = map_opacity_channel(c->bench, &o.map);
     o.table = scalar_table_make(c->bench, &o.map, r->opacity, channel);
     if (scalar_table_lowest(&o.table, c->bench, &o.map) >= 1.0f) {
@@ -380,10 +385,11 @@ facet_result build_surface_maps(conversion *c, uint32_t material, legacy_reading
                        .specular = is_fitted ? r->m.maps[LEGACY_SPECULAR_MAP] : none,
                        .shininess = is_fitted ? r->m.maps[LEGACY_SHININESS_MAP] : none,
                        .out = out};
-    memset(&job.p, 0, sizeof job.p);
+    memset(&job.p, 0, sizeof job.p); /* its padding is part of a key */
     job.opacity = read_opacity(c, r, out);
     align(&job, r);
-    make_tables(&job);
+    if (has_map(r, LEGACY_DIFFUSE_MAP) || is_varying(&job) || job.opacity.map.ref.texture != SCENE_NONE)
+        make_tables(&job);
     core_grid *core = NULL;
     if (job.p.is_core) {
         core = mem_alloc(&c->scene->allocator, 1, sizeof *core);

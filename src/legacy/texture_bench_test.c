@@ -1,0 +1,171 @@
+/* texture_bench_test.c - statistics of pictures, bakes and what they share. */
+#include "legacy/convert_test_support.h"
+#include "legacy/texture_bench.h"
+
+static const uint8_t TEXELS[] = {10, 20, 30, 255, 10, 20, 30, 0, 250, 20, 30, 255, 255, 255, 0, 0};
+
+static texture_bench *bench_of(facet_scene *scene)
+{
+    texture_bench *bench = NULL;
+    const bool wanted[TEST_MOST] = {true, true, true, true};
+    assert_int_equal(texture_bench_create(scene, &bench, NULL), FACET_OK);
+    assert_int_equal(texture_bench_survey(bench, wanted, NULL), FACET_OK);
+    return bench;
+}
+
+static void statistics_count_codes(void **state)
+{
+    (void)state;
+    facet_scene *scene = gltf_scene(0);
+    uint32_t texture = add_texels(scene, 2, 2, 4, TEXELS);
+    uint32_t broken = add_texels(scene, 2, 2, 4, TEXELS);
+    scene->images[1].size = 20;
+    texture_bench *bench = bench_of(scene);
+    const texture_statistics *s = texture_bench_statistics(bench, texture);
+    assert_non_null(s);
+    assert_null(texture_bench_statistics(bench, broken));
+    assert_null(texture_bench_statistics(bench, SCENE_NONE));
+    assert_int_equal(s->texel_count, 4);
+    assert_true(s->has_alpha);
+    assert_int_equal(s->histogram[TEXTURE_RED][10], 2);
+    assert_int_equal(s->histogram[TEXTURE_GREY][20], 2);
+    assert_int_equal(s->histogram[TEXTURE_GREY][170], 1); /* (255 + 255 + 0) / 3 */
+    assert_true(texture_is_two_valued(s, TEXTURE_ALPHA));
+    assert_false(texture_is_two_valued(s, TEXTURE_RED));
+    assert_int_equal(texture_lowest(s, TEXTURE_RED), 10);
+    assert_int_equal(texture_highest(s, TEXTURE_BLUE), 30);
+    assert_int_equal(texture_percentile(s, TEXTURE_RED, .5), 10);
+    assert_int_equal(texture_percentile(s, TEXTURE_RED, .7), 250);
+    assert_int_equal(texture_percentile(s, TEXTURE_RED, .9), 255);
+    float codes[256];
+    for (int i = 0; i < 256; i++)
+        codes[i] = (float)i;
+    assert_near(texture_mean(s, TEXTURE_RED, codes), (10 + 10 + 250 + 255) / 4.0, 1e-9);
+    texture_bench_destroy(bench);
+    scene_destroy(scene);
+}
+
+/* Inputs side by side, plus what the parameter says. */
+static void add_row(const void *parameters, uint32_t width, const uint8_t *const *in, uint8_t *out)
+{
+    int plus = *(const int *)parameters;
+    for (uint32_t x = 0; x < width; x++) {
+        out[x * 3] = (uint8_t)(in[0][x * 4] + plus);
+        out[x * 3 + 1] = in[1] ? in[1][x * 4] : 7;
+        out[x * 3 + 2] = 0;
+    }
+}
+
+static uint32_t bake(texture_bench *bench, uint32_t first, uint32_t second, int plus)
+{
+    uint32_t out = SCENE_NONE;
+    texture_bake job = {.name = "made",
+                        .inputs = {first, second},
+                        .input_count = 2,
+                        .channel_count = 3,
+                        .row = add_row,
+                        .parameters = &plus,
+                        .parameter_size = sizeof plus};
+    assert_int_equal(texture_bench_bake(bench, &job, &out, NULL), FACET_OK);
+    return out;
+}
+
+static void bakes_are_shared_and_sized(void **state)
+{
+    (void)state;
+    const uint8_t small[] = {0, 100};
+    facet_scene *scene = gltf_scene(0);
+    uint32_t large = add_texels(scene, 2, 2, 4, TEXELS);
+    uint32_t pair = add_texels(scene, 2, 1, 1, small);
+    scene->textures[large].wrap_u = SCENE_WRAP_MIRROR;
+    texture_bench *bench = bench_of(scene);
+    uint32_t a = bake(bench, large, pair, 3);
+    uint32_t b = bake(bench, large, pair, 3);
+    uint32_t c = bake(bench, large, pair, 4);
+    uint32_t d = bake(bench, large, SCENE_NONE, 3);
+    assert_int_equal(a, 2);
+    assert_int_equal(b, a);
+    assert_int_equal(c, 3);
+    assert_int_equal(d, 4);
+    assert_int_equal(texture_bench_made(bench), 3);
+    assert_int_equal(texture_bench_shared(bench), 1);
+    assert_int_equal(bake(bench, SCENE_NONE, SCENE_NONE, 3), SCENE_NONE);
+    assert_int_equal(scene->texture_count, 2); /* not before the end */
+    assert_int_equal(texture_bench_finish(bench, NULL), FACET_OK);
+    assert_int_equal(scene->texture_count, 5);
+    assert_int_equal(scene->image_count, 5);
+    assert_string_equal(scene->images[2].mime_type, "image/png");
+    assert_int_equal(scene->images[2].width, 2);
+    assert_int_equal(scene->textures[a].wrap_u, SCENE_WRAP_MIRROR);
+    uint8_t t[4];
+    texel_at(scene, a, 2, t);
+    assert_int_equal(t[0], 253);
+    assert_int_equal(t[1], 0);
+    texel_at(scene, d, 3, t);
+    assert_int_equal(t[1], 7);
+    texture_bench_destroy(bench);
+    scene_destroy(scene);
+}
+
+static void resizing_wraps(void **state)
+{
+    (void)state;
+    const uint8_t pair[] = {0, 200};
+    const uint8_t wide[] = {0, 0, 0, 0};
+    facet_scene *scene = gltf_scene(0);
+    uint32_t large = add_texels(scene, 4, 1, 1, wide);
+    uint32_t repeats = add_texels(scene, 2, 1, 1, pair);
+    uint32_t clamps = add_texels(scene, 2, 1, 1, pair);
+    scene->textures[clamps].wrap_u = SCENE_WRAP_CLAMP;
+    texture_bench *bench = bench_of(scene);
+    uint32_t a = bake(bench, large, repeats, 0);
+    uint32_t b = bake(bench, large, clamps, 0);
+    assert_int_equal(texture_bench_finish(bench, NULL), FACET_OK);
+    /* Centers of four texels lie at -1/4, 1/4, 3/4, 5/4 of two. */
+    const uint8_t repeated[] = {50, 50, 150, 150};
+    const uint8_t clamped[] = {0, 50, 150, 200};
+    for (size_t i = 0; i < 4; i++) {
+        uint8_t t[4];
+        texel_at(scene, a, i, t);
+        assert_int_equal(t[1], repeated[i]);
+        texel_at(scene, b, i, t);
+        assert_int_equal(t[1], clamped[i]);
+    }
+    texture_bench_destroy(bench);
+    scene_destroy(scene);
+}
+
+static void flat_heights_point_up_and_edges_wrap(void **state)
+{
+    (void)state;
+    const uint8_t step[] = {0, 255, 255, 255};
+    facet_scene *scene = gltf_scene(0);
+    uint32_t texture = add_texels(scene, 4, 1, 1, step);
+    texture_bench *bench = bench_of(scene);
+    uint32_t made;
+    texture_relief relief = {
+        .name = "n", .texture = texture, .weights = {1, 0, 0, 0}, .gain = 1, .slope = .5f};
+    assert_int_equal(texture_bench_relief(bench, &relief, &made, NULL), FACET_OK);
+    assert_int_equal(texture_bench_finish(bench, NULL), FACET_OK);
+    uint8_t t[4];
+    texel_at(scene, made, 2, t);
+    assert_int_equal(t[0], 128); /* flat */
+    assert_int_equal(t[2], 255);
+    texel_at(scene, made, 1, t); /* rises to the right: the normal leans to the left, 45 degrees */
+    assert_near(t[0] / 255.0 * 2 - 1, -sqrt(.5), 1.0 / 255);
+    texel_at(scene, made, 3, t); /* falls to the first texel, behind the edge */
+    assert_near(t[0] / 255.0 * 2 - 1, sqrt(.5), 1.0 / 255);
+    texture_bench_destroy(bench);
+    scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(statistics_count_codes),
+        cmocka_unit_test(bakes_are_shared_and_sized),
+        cmocka_unit_test(resizing_wraps),
+        cmocka_unit_test(flat_heights_point_up_and_edges_wrap),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
