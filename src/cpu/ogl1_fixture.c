@@ -37,6 +37,22 @@ void ogl1_fixture_camera(fixture *f)
     f->desc.shading = FACET_SHADING_OGL1;
 }
 
+fixture ogl1_fixture_head_on(scene_legacy **legacy)
+{
+    fixture f = fixture_create();
+    ogl1_fixture_camera(&f);
+    f.camera = (facet_camera){.eye = {0.0f, 0.0f, 10.0f}, .ortho_height = 2.0f};
+    f.desc.width = f.desc.height = 8;
+    *legacy = ogl1_fixture_legacy(&f);
+    (*legacy)->light_count = 1;
+    (*legacy)->lights[0] = (legacy_light){.is_viewpoint_relative = true,
+                                          .position = {0, 0, 1},
+                                          .ambient = {1, 1, 1},
+                                          .diffuse = {1, 1, 1},
+                                          .specular = {1, 1, 1}};
+    return f;
+}
+
 /* ---- vectors ---- */
 
 static double dot3(const double a[3], const double b[3])

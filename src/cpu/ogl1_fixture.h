@@ -11,6 +11,9 @@ scene_legacy *ogl1_fixture_legacy(fixture *f);
 /* One sample per pixel, without environment, FACET_SHADING_OGL1, perspective from (1.5, 1, 3) to the origin. */
 void ogl1_fixture_camera(fixture *f);
 
+/* 8 x 8 pixels of 2 m, seen head on from afar, under a white light at the eye: N = V = L for what faces +Z. */
+fixture ogl1_fixture_head_on(scene_legacy **legacy);
+
 /* The fixture's quad with one material: everything that its color depends on. Numbers are those computed with. */
 typedef struct ogl1_quad {
     facet_ogl1_variant variant;

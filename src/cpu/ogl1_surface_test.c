@@ -1,15 +1,12 @@
-/* Tests of FACET_SHADING_OGL1: surfaces. Textures and maps, opacity and blending, sides, what stays the same from picture to
- * picture, and what cannot be drawn. */
+/* Tests of FACET_SHADING_OGL1: surfaces. Textures and maps, opacity and blending, sides, AOVs. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
 #include "cpu/ogl1_fixture.h"
 #include "film/film_image.h"
 
@@ -28,23 +25,6 @@ static void assert_numbers(const film *picture, uint32_t x, uint32_t y, const do
 static double cut(double x)
 {
     return fmin(fmax(x, 0.0), 1.0);
-}
-
-/* Seen head on from afar, under a light at the eye: N = V = L. */
-static fixture head_on(scene_legacy **legacy)
-{
-    fixture f = fixture_create();
-    ogl1_fixture_camera(&f);
-    f.camera = (facet_camera){.eye = {0.0f, 0.0f, 10.0f}, .ortho_height = 2.0f};
-    f.desc.width = f.desc.height = 8;
-    *legacy = ogl1_fixture_legacy(&f);
-    (*legacy)->light_count = 1;
-    (*legacy)->lights[0] = (legacy_light){.is_viewpoint_relative = true,
-                                          .position = {0, 0, 1},
-                                          .ambient = {1, 1, 1},
-                                          .diffuse = {1, 1, 1},
-                                          .specular = {1, 1, 1}};
-    return f;
 }
 
 static void set3(float out[3], float a, float b, float c)
@@ -118,7 +98,7 @@ static void every_texture_type_and_mode(void **state)
         for (int type = 0; type < 5; type++)
             for (int mode = 0; mode < 5; mode++) {
                 scene_legacy *legacy;
-                fixture f = head_on(&legacy);
+                fixture f = ogl1_fixture_head_on(&legacy);
                 legacy->is_rgl = true;
                 legacy_material *m = add_quad(&f, 0.0f);
                 set3(m->diffuse, 0.3f, 0.2f, 0.1f);
@@ -153,7 +133,7 @@ static void the_diffuse_map_of_mtl(void **state)
     static const unsigned char texel[4] = {51, 204, 102, 153};
     for (int kind = 0; kind < 3; kind++) {
         scene_legacy *legacy;
-        fixture f = head_on(&legacy);
+        fixture f = ogl1_fixture_head_on(&legacy);
         legacy_material *m = add_quad(&f, 0.0f);
         set3(m->diffuse, 0.5f, 0.25f, 0.5f);
         if (kind == 1)
@@ -176,7 +156,7 @@ static void textures_in_linear_light(void **state)
     (void)state;
     static const unsigned char texel[4] = {51, 204, 102, 153};
     scene_legacy *legacy;
-    fixture f = head_on(&legacy);
+    fixture f = ogl1_fixture_head_on(&legacy);
     f.desc.ogl1.is_linear = true;
     legacy_material *m = add_quad(&f, 0.0f);
     set3(m->diffuse, 0.5f, 0.25f, 0.5f);
@@ -206,7 +186,7 @@ static void maps_of_the_terms(void **state)
                               0.2126 * 0.2 + 0.7152 * 0.8 + 0.0722 * 0.4};
     for (int channel = 0; channel < 6; channel++) {
         scene_legacy *legacy;
-        fixture f = head_on(&legacy);
+        fixture f = ogl1_fixture_head_on(&legacy);
         legacy_light_direction(0.0f, 40.0f * 0.017453292f, legacy->lights[0].position);
         legacy_material *m = add_quad(&f, 0.0f);
         set3(m->ambient, 0.5f, 0.25f, 0.0f);
@@ -242,7 +222,7 @@ static void normal_maps(void **state)
     static const unsigned char texel[4] = {218, 128, 218, 255};
     for (int side = 0; side < 2; side++) {
         scene_legacy *legacy;
-        fixture f = head_on(&legacy);
+        fixture f = ogl1_fixture_head_on(&legacy);
         if (side)
             f.camera.eye[2] = -10.0f;
         set3(legacy->lights[0].position, 0.6f, 0.0f, 0.8f);
@@ -274,7 +254,7 @@ static void sphere_maps(void **state)
     (void)state;
     enum { SIZE = 128 };
     scene_legacy *legacy;
-    fixture f = head_on(&legacy);
+    fixture f = ogl1_fixture_head_on(&legacy);
     f.desc.width = f.desc.height = 64;
     static unsigned char texels[SIZE * SIZE * 4];
     for (int y = 0; y < SIZE; y++)
@@ -330,7 +310,7 @@ static void alpha_over_alpha(void **state)
 {
     (void)state;
     scene_legacy *legacy;
-    fixture f = head_on(&legacy);
+    fixture f = ogl1_fixture_head_on(&legacy);
     legacy_material *front = add_quad(&f, 1.0f), *back = add_quad(&f, -1.0f);
     set3(front->diffuse, 0.875f, 0.25f, 0.5f);
     set3(back->diffuse, 0.125f, 0.625f, 1.0f);
@@ -371,7 +351,7 @@ static void opacities(void **state)
     (void)state;
     static const unsigned char half[4] = {128, 128, 128, 255};
     scene_legacy *legacy;
-    fixture f = head_on(&legacy);
+    fixture f = ogl1_fixture_head_on(&legacy);
     legacy_material *m = add_quad(&f, 0.0f);
     m->opacity = 0.0f;
     film picture = fixture_render(&f);
@@ -404,7 +384,7 @@ static void opacity_does_not_count_lights(void **state)
     (void)state;
     for (int variant = 0; variant < 4; variant++) {
         scene_legacy *legacy;
-        fixture f = head_on(&legacy);
+        fixture f = ogl1_fixture_head_on(&legacy);
         f.desc.ogl1.variant = (facet_ogl1_variant)variant;
         legacy->lights[1] = legacy->lights[0];
         legacy->light_count = 2;
@@ -425,7 +405,7 @@ static void unlit_surfaces(void **state)
     static const unsigned char texel[4] = {51, 204, 102, 153};
     for (int variant = 0; variant < 4; variant++) {
         scene_legacy *legacy;
-        fixture f = head_on(&legacy);
+        fixture f = ogl1_fixture_head_on(&legacy);
         f.desc.ogl1.variant = (facet_ogl1_variant)variant;
         legacy_material *m = add_quad(&f, 0.0f);
         m->is_lit = false;
@@ -451,7 +431,7 @@ static void lines_show_their_color(void **state)
     (void)state;
     static const float line[6] = {-1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f};
     scene_legacy *legacy;
-    fixture f = head_on(&legacy);
+    fixture f = ogl1_fixture_head_on(&legacy);
     f.desc.width = f.desc.height = 9;
     uint32_t material = fixture_add_material(&f, scene_material_default());
     fixture_place(&f, fixture_add_sprites(&f, SCENE_LINES, line, 2, material), 0, 0, 0, 1.0f);
@@ -470,7 +450,7 @@ static void sides_and_defaults(void **state)
     for (int is_culled = 0; is_culled < 2; is_culled++)
         for (int side = 0; side < 2; side++) {
             scene_legacy *legacy;
-            fixture f = head_on(&legacy);
+            fixture f = ogl1_fixture_head_on(&legacy);
             f.camera.eye[2] = side ? -10.0f : 10.0f;
             add_quad(&f, 0.0f)->is_culled = is_culled;
             film picture = fixture_render(&f);
@@ -479,7 +459,7 @@ static void sides_and_defaults(void **state)
             fixture_destroy(&f);
         }
     scene_legacy *legacy;
-    fixture f = head_on(&legacy);
+    fixture f = ogl1_fixture_head_on(&legacy);
     fixture_place(&f, fixture_add_quad(&f, SCENE_NONE), 0, 0, 0, 1.0f);
     film picture = fixture_render(&f);
     const double expected[3] = {(double)0.8f, (double)0.8f, (double)0.8f};
@@ -493,7 +473,7 @@ static void aovs(void **state)
     (void)state;
     static const unsigned char texel[4] = {51, 204, 102, 255};
     scene_legacy *legacy;
-    fixture f = head_on(&legacy);
+    fixture f = ogl1_fixture_head_on(&legacy);
     legacy_material *m = add_quad(&f, 0.0f);
     set3(m->diffuse, 0.5f, 0.5f, 0.5f);
     set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
@@ -513,182 +493,6 @@ static void aovs(void **state)
     fixture_destroy(&f);
 }
 
-/* ---- sameness ---- */
-
-/* Transparent, textured, mapped, foggy, under all kinds of light. */
-static fixture busy_scene(void)
-{
-    scene_legacy *legacy;
-    fixture f = head_on(&legacy);
-    f.camera = (facet_camera){.eye = {1.0f, 2.0f, 9.0f}, .fov_y_rad = 0.4f};
-    f.desc.width = 90;
-    f.desc.height = 70;
-    f.desc.samples = 4;
-    f.desc.aovs = FACET_AOV_NORMAL | FACET_AOV_ALBEDO;
-    unsigned char texels[4 * 64];
-    for (uint32_t i = 0; i < sizeof texels; i++)
-        texels[i] = (unsigned char)(i * 37 % 251);
-    uint32_t texture = fixture_add_texture(&f, 8, 8, texels);
-    for (uint32_t i = 0; i < 4; i++) {
-        scene_material gltf = scene_material_default();
-        gltf.alpha_mode = SCENE_ALPHA_BLEND;
-        gltf.base_color[3] = 0.5f;
-        gltf.textures[SCENE_NORMAL_TEXTURE].texture = texture;
-        fixture_add_material(&f, gltf);
-        legacy_material *m = &legacy->materials[i];
-        m->specular[i % 3] = 1.0f;
-        m->shininess = 30.0f;
-        m->opacity = i ? 1.0f : 0.5f;
-        m->texture_type = i == 1 ? LEGACY_RGBA : LEGACY_RGB;
-        m->has_environment_map = i == 2;
-        if (i)
-            m->maps[LEGACY_DIFFUSE_MAP].ref.texture = texture;
-        if (i == 3)
-            m->maps[LEGACY_NORMAL_MAP].ref.texture = texture;
-    }
-    legacy->light_count = 2;
-    legacy->lights[1] = legacy_light_default();
-    legacy->lights[1].is_point = true;
-    legacy->fog = (legacy_fog){.mode = LEGACY_FOG_EXP, .color = {0.5f, 0.6f, 0.7f}, .scale = 1.0f};
-    for (uint32_t i = 0; i < 4; i++) {
-        fixture_place(&f, fixture_add_sphere(&f, 48, i), (float)i - 1.5f, 0.0f, 0.3f * (float)i, 0.8f);
-        fixture_place(&f, fixture_add_quad(&f, i), (float)i - 1.5f, 0.2f, 0.5f, 0.7f);
-    }
-    return f;
-}
-
-static void assert_same_film(const film *a, const film *b)
-{
-    assert_int_equal(a->layer_count, b->layer_count);
-    for (uint32_t i = 0; i < a->layer_count; i++)
-        assert_memory_equal(a->layers[i].pixels, b->layers[i].pixels,
-                            (size_t)a->width * a->height * a->layers[i].channel_count * sizeof(float));
-}
-
-static void pictures_do_not_depend_on_threads(void **state)
-{
-    (void)state;
-    for (int variant = 0; variant < 4; variant++) {
-        static const uint32_t threads[] = {2, 3, 8};
-        fixture f = busy_scene();
-        f.desc.ogl1.variant = (facet_ogl1_variant)variant;
-        f.desc.thread_count = 1;
-        film first = fixture_render(&f);
-        for (int i = 0; i < 3; i++) {
-            f.desc.thread_count = threads[i];
-            film picture = fixture_render(&f);
-            assert_same_film(&first, &picture);
-            film_destroy(&picture);
-        }
-        film_destroy(&first);
-        fixture_destroy(&f);
-    }
-}
-
-/* One prepared scene drawn in both models by turns gives the pictures of fresh ones. */
-static void models_take_turns(void **state)
-{
-    (void)state;
-    fixture f = busy_scene();
-    prepared_scene prepared;
-    prepared_scene_init(&prepared, f.scene, NULL);
-    for (int i = 0; i < 6; i++) {
-        f.desc.shading = i % 3 == 1 ? FACET_SHADING_GLTF : FACET_SHADING_OGL1;
-        f.desc.ogl1.is_linear = i == 3;
-        film fresh = fixture_render(&f), kept;
-        facet_render_desc desc = f.desc;
-        facet_render_stats stats;
-        desc.camera = &f.camera;
-        desc.crop[2] = desc.width;
-        desc.crop[3] = desc.height;
-        assert_int_equal(film_create(NULL, desc.width, desc.height, desc.aovs, &kept, NULL), FACET_OK);
-        assert_int_equal(preview_render_prepared(&prepared, &desc, &kept, &stats, NULL), FACET_OK);
-        assert_same_film(&fresh, &kept);
-        film_destroy(&fresh);
-        film_destroy(&kept);
-    }
-    prepared_scene_clear(&prepared);
-    fixture_destroy(&f);
-}
-
-/* An environment is not prepared, which glTF would. */
-static void environments_are_left_alone(void **state)
-{
-    (void)state;
-    uint64_t used[3];
-    facet_budget *budget;
-    assert_int_equal(facet_budget_create(0, &budget, NULL), FACET_OK);
-    fixture f = busy_scene();
-    const float radiance[3] = {1.0f, 1.0f, 1.0f};
-    facet_environment_desc desc = {.allocator = facet_budget_allocator(budget)};
-    assert_int_equal(facet_environment_create_constant(radiance, &desc, &f.environment, NULL), FACET_OK);
-    used[0] = facet_budget_used_bytes(budget);
-    film with = fixture_render(&f);
-    used[1] = facet_budget_used_bytes(budget);
-    f.desc.shading = FACET_SHADING_GLTF;
-    film gltf = fixture_render(&f);
-    used[2] = facet_budget_used_bytes(budget);
-    assert_true(used[1] == used[0] && used[2] > used[0]);
-    f.desc.shading = FACET_SHADING_OGL1;
-    facet_environment_destroy(f.environment);
-    f.environment = NULL;
-    film without = fixture_render(&f);
-    assert_same_film(&with, &without);
-    film_destroy(&with);
-    film_destroy(&without);
-    film_destroy(&gltf);
-    fixture_destroy(&f);
-    facet_budget_destroy(budget);
-}
-
-/* ---- what cannot be drawn ---- */
-
-static void errors_say_what_to_do(void **state)
-{
-    (void)state;
-    fixture f = busy_scene();
-    film picture;
-    facet_render_stats stats;
-    facet_error error;
-    f.desc.background = FACET_BACKGROUND_ENVIRONMENT;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_ARGUMENT);
-    assert_non_null(strstr(error.message, "background: OpenGL 1"));
-    film_destroy(&picture);
-    f.desc.background = FACET_BACKGROUND_TRANSPARENT;
-    f.scene->legacy = NULL;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_ARGUMENT);
-    assert_non_null(strstr(error.message, "facet_scene_convert_materials"));
-    film_destroy(&picture);
-    f.desc.shading = FACET_SHADING_GLTF;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_OK);
-    film_destroy(&picture);
-    fixture_destroy(&f);
-}
-
-static void running_out_of_memory_leaks_nothing(void **state)
-{
-    (void)state;
-    fixture f = busy_scene();
-    f.desc.width = f.desc.height = 24;
-    f.desc.thread_count = 1;
-    for (long fail_at = 0;; fail_at++) {
-        failing_allocator memory = {.fail_at = fail_at};
-        f.desc.allocator = failing_allocator_get(&memory);
-        film picture = {0};
-        facet_render_stats stats;
-        facet_error error;
-        facet_result result = fixture_try_render(&f, &picture, &stats, &error);
-        film_destroy(&picture);
-        assert_int_equal(memory.blocks, 0);
-        assert_true(result == FACET_OK || result == FACET_ERROR_MEMORY);
-        if (memory.calls <= fail_at) {
-            assert_int_equal(result, FACET_OK);
-            break;
-        }
-    }
-    fixture_destroy(&f);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -705,11 +509,6 @@ int main(void)
         cmocka_unit_test(lines_show_their_color),
         cmocka_unit_test(sides_and_defaults),
         cmocka_unit_test(aovs),
-        cmocka_unit_test(pictures_do_not_depend_on_threads),
-        cmocka_unit_test(models_take_turns),
-        cmocka_unit_test(environments_are_left_alone),
-        cmocka_unit_test(errors_say_what_to_do),
-        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
