@@ -206,19 +206,23 @@ static void directions_as_the_vignette_prints_them(void **state)
 
 /* ---- which lights ---- */
 
+/* Its ambient part is 1 for rgl's materials; for others it is OpenGL's global ambient light, which FIXED has anyway. */
 static void without_lights_there_is_rgls_default(void **state)
 {
     (void)state;
-    for (int ignores = 0; ignores < 2; ignores++) {
-        ogl1_quad q = make_quad(FACET_OGL1_VIGNETTE);
+    for (int i = 0; i < 8; i++) {
+        bool ignores = i & 1, is_rgl = i & 2, is_fixed = i & 4;
+        ogl1_quad q = make_quad(is_fixed ? FACET_OGL1_FIXED : FACET_OGL1_VIGNETTE);
+        float ambient = is_rgl ? 1.0f : is_fixed ? 0.0f : 0.2f;
         if (ignores)
             q.lights[q.light_count++] = directional(false, 0.3f, 0.2f);
         fixture f = show(&q);
+        f.scene->legacy->is_rgl = is_rgl;
         f.desc.ignore_scene_lights = ignores;
         q.light_count = 1;
         q.lights[0] = (legacy_light){.is_viewpoint_relative = true,
                                      .position = {0.0f, (float)sin(15.0 * DEGREE), (float)cos(15.0 * DEGREE)},
-                                     .ambient = {1, 1, 1},
+                                     .ambient = {ambient, ambient, ambient},
                                      .diffuse = {1, 1, 1},
                                      .specular = {1, 1, 1}};
         ogl1_quad_check(&f, &q, 1000, "default light");

@@ -97,10 +97,21 @@ static PhongLight make_light(const ogl1_setup *s, const legacy_light *l)
                        : phong_light_directional(position, ambient, diffuse, specular);
 }
 
+/* Where nothing shines: rgl's light. Its ambient part of 1 is meant for rgl's materials, which are black there; exporters
+ * of MTL state a Ka of 1 or that of Kd, for the ambient light of 0.2 that OpenGL has by itself. */
+static legacy_light fallback_light(const ogl1_setup *s)
+{
+    legacy_light light = legacy_light_default();
+    float ambient = max3(s->rules.global_ambient) > 0.0f ? 0.0f : 0.2f;
+    for (int c = 0; c < 3 && !s->has_rgl_colors; c++)
+        light.ambient[c] = ambient;
+    return light;
+}
+
 static facet_result make_lights(ogl1_setup *s, const scene_legacy *legacy, const facet_render_desc *desc,
                                 const light_setup *light, facet_error *error)
 {
-    legacy_light default_light = legacy_light_default();
+    legacy_light default_light = fallback_light(s);
     const legacy_light *lights = legacy->lights;
     uint32_t count = desc->ignore_scene_lights ? 0 : legacy->light_count;
     if (count == 0 && light->punctual_count)
