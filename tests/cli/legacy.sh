@@ -1,0 +1,166 @@
+#!/bin/sh
+# legacy.sh - OBJ files, rgl's parameters, and materials of OpenGL 1, from and to glTF.
+set -eu
+. "$(dirname "$0")/lib.sh"
+
+write_old() { # write_old STEM
+    cat >"$1.mtl" <<'END'
+newmtl gold
+Kd 0.75164 0.60648 0.22648
+Ks 0.628281 0.555802 0.366065
+Ns 51.2
+illum 2
+newmtl matte
+Kd 0.8 0.2 0.2
+illum 1
+END
+    cat >"$1.obj" <<END
+mtllib $1.mtl
+o plate
+v -1 0 0
+v 1 0 0
+v 1 1 0
+v -1 1 0
+vn 0 0 1
+usemtl gold
+f 1//1 2//1 3//1 4//1
+o roof
+v -1 1 0
+v 1 1 0
+v 0 2 -1
+usemtl matte
+f 5 6 7
+END
+}
+
+write_old old
+expect 0 convert old.obj new.glb
+says "new.glb: 2 materials converted: "
+says "mean error E 0.0"
+[ "$(head -c 4 new.glb)" = glTF ] || failed "new.glb is no .glb file"
+expect 0 inspect new.glb
+grep -q gold out || failed "the material has lost its name"
+expect 0 inspect old.obj --json
+grep -q '"shininess": *51.2' out || failed "the description lacks the old values"
+expect 0 convert old.obj quiet.glb -q
+[ ! -s err ] || failed "messages in spite of --quiet"
+cmp -s new.glb quiet.glb || failed "the same command gives other bytes"
+expect 0 convert old.obj one.glb -j 1
+cmp -s new.glb one.glb || failed "the file depends on the threads"
+for how in "--method fit" "--profile core" "--mtl-colors linear" "--method fit --target display"; do
+    # shellcheck disable=SC2086
+    expect 0 convert old.obj other.glb $how
+    cmp -s new.glb other.glb && failed "$how changes nothing"
+done
+
+# There and back: what was known is known.
+expect 0 convert new.glb back.obj
+grep -q '^Ns 51.2$' back.mtl || failed "shininess did not come back"
+grep -q '^Ks 0.628281 0.555802 0.366065$' back.mtl || failed "the highlight did not come back"
+expect 0 convert back.obj again.glb
+expect 0 convert old.obj same.obj
+grep -q '^Kd 0.75164 0.60648 0.22648$' same.mtl || failed "OBJ to OBJ changes a color"
+expect 0 convert new.glb refit.obj --refit
+grep -q '^Ns 51.2$' refit.mtl && failed "--refit changes nothing"
+expect 0 convert new.glb plain.obj --mtl-pbr none
+grep -qE '^P[rm] ' plain.mtl && failed "--mtl-pbr none writes Pr or Pm"
+write_triangle pure.gltf
+expect 0 convert pure.gltf pure.obj
+expect 0 convert pure.obj pure.glb
+
+# Parameters of rgl
+expect 0 convert new.glb new.json --to ogl1
+grep -q '"shininess": *51.2' new.json || failed "the parameters lack the shininess"
+expect 0 convert new.json balls.glb
+expect 0 render new.json -o balls.png $small
+expect 0 render new.json -o balls1.png $small --shading ogl1
+printf '{"facet":"ogl1","version":1,"materials":[{"name":"matte","color":"steelblue","shininess":5}]}' >over.json
+expect 0 convert old.obj over.glb --parameters over.json
+cmp -s over.glb new.glb && failed "--parameters changes nothing"
+expect 3 convert old.obj over.glb --parameters missing.json
+
+# Pictures
+expect 0 render old.obj -o a.png $small
+expect 0 render new.glb -o b.png $small
+cmp -s a.png b.png || failed "OBJ and the glTF that was made of it look different"
+expect 0 render old.obj -o c.png $small --shading ogl1
+cmp -s a.png c.png && failed "--shading ogl1 changes nothing"
+expect 0 render new.glb -o d.png $small --shading ogl1
+cmp -s c.png d.png || failed "OBJ and the glTF that was made of it look different in OpenGL 1"
+expect 0 render pure.gltf -o e.png $small --shading ogl1
+for how in "--ogl1-variant webgl" "--ogl1-variant fixed" "--ogl1-space linear"; do
+    # shellcheck disable=SC2086
+    expect 0 render old.obj -o f.png $small --shading ogl1 $how
+done
+"$facet" render - -o g.png $small --root . <old.obj 2>err || failed "OBJ from standard input"
+cmp -s a.png g.png || failed "OBJ from standard input looks different"
+
+# Reports
+expect 0 convert old.obj r.glb --report r.json
+grep -q '"material": *"gold"' r.json || failed "the report lacks a material"
+expect 0 convert old.obj r.glb --report r.html
+grep -q '<h2>gold' r.html || failed "the page lacks a material"
+grep -q 'data:image/png' r.html || failed "the page lacks its spheres"
+expect 0 convert old.obj r2.glb --report r2.html
+cmp -s r.html r2.html || failed "two runs give different pages"
+expect 1 convert old.obj r.glb --max-error 0.0001
+says "a larger error than --max-error"
+expect 0 convert old.obj r.glb --json
+grep -qE '"count": ?2' out || failed "--json does not count the materials"
+expect 2 convert pure.gltf r.glb --report r.json
+says "nothing to report"
+
+# Several
+mkdir in made
+(cd in && write_old a && write_old b)
+expect 0 convert in/a.obj in/b.obj -o 'made/{stem}.glb' --report 'made/{stem}.json'
+[ -s made/a.glb ] && [ -s made/b.glb ] && [ -s made/a.json ] && [ -s made/b.json ] || failed "files are missing"
+rm in/b.mtl
+expect 0 convert in/b.obj -o 'made/{stem}.gltf'
+says "b.mtl"
+expect 1 convert in/b.obj --strict -o 'made/{stem}.gltf'
+expect 1 convert in/a.obj in/missing.obj -o 'made/{stem}.glb'
+rm -rf in made
+
+# Nothing that is read is overwritten.
+cp old.mtl keep.mtl
+expect 2 convert old.obj old.obj
+says "it is an input, too"
+sed 's/old.mtl/new.mtl/' old.obj >source.obj
+cp old.mtl new.mtl
+expect 2 convert source.obj new.obj
+says "new.mtl, which belongs to source.obj, would be overwritten"
+cmp -s new.mtl keep.mtl || failed "an input was overwritten"
+[ ! -e new.obj ] || failed "something half was written"
+printf 'newmtl t\nKd 1 1 1\nmap_Kd tex.png\n' >tex.mtl
+cp a.png tex.png
+printf 'mtllib tex.mtl\nusemtl t\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >tex.obj
+expect 2 render tex.obj
+says "tex.png: it is an input, too"
+cmp -s a.png tex.png || failed "a texture was overwritten"
+
+# Spec-gloss
+cat >sg.gltf <<'END'
+{"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],
+"materials":[{"name":"sg","extensions":{"KHR_materials_pbrSpecularGlossiness":
+{"diffuseFactor":[0.5,0.4,0.3,1],"specularFactor":[0.2,0.1,0.05],"glossinessFactor":0.7}}}]}
+END
+expect 0 convert sg.gltf mr.gltf --materials metallic-roughness
+grep -q pbrSpecularGlossiness mr.gltf && failed "the old extension is still there"
+grep -q KHR_materials_specular mr.gltf || failed "the highlight is lost"
+expect 0 convert mr.gltf sg2.gltf --materials specular-glossiness
+grep -q pbrSpecularGlossiness sg2.gltf || failed "the old extension was not written"
+expect 0 convert sg.gltf core.gltf --materials metallic-roughness --profile core
+grep -q KHR_materials_specular core.gltf && failed "the core profile has an extension"
+
+# What is broken is told in one sentence, and nothing is written.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1000000000\n' >bad.obj
+code=0
+"$facet" convert bad.obj bad.glb 2>err >out || code=$?
+[ $code = 0 ] || [ $code = 4 ] || failed "exit code $code for an index that is too large"
+says "line 4"
+printf 'v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >nan.obj
+code=0
+"$facet" convert nan.obj nan.glb 2>err >out || code=$?
+says "line 1"
+finish
