@@ -36,7 +36,7 @@ double fit_box(const fit_moments *m, const fit_bounds *bounds, double factor[2])
             return square_at(m, a, b);
         }
     }
-    double best = INFINITY;
+    double best = (double)INFINITY;
     for (int edge = 0; edge < 4; edge++) {
         double at[2];
         int held = edge / 2;
@@ -140,7 +140,7 @@ static void keep_best(double square, const double now[2], double *best, double f
 /* Newton's method on the convex square, then on the strict one with steps that are halved until it falls. */
 static double display_factors(const fit_problem *p, int k, const fit_bounds *bounds, double factor[2])
 {
-    double best = INFINITY;
+    double best = (double)INFINITY;
     double now[2] = {factor[0], factor[1]};
     fit_moments m;
     double square;
@@ -149,9 +149,9 @@ static double display_factors(const fit_problem *p, int k, const fit_bounds *bou
         display_moments_of(p, k, now, false, &m, &square);
         keep_best(square, now, &best, factor);
         fit_box(&m, bounds, next);
-        double moved = fmax(fabsf((float)(next[0] - now[0])), fabsf((float)(next[1] - now[1])));
+        float moved = max(abs((float)(next[0] - now[0])), abs((float)(next[1] - now[1])));
         memcpy(now, next, sizeof now);
-        if (moved < 1e-5)
+        if (moved < 1e-5f)
             break;
     }
     for (int step = 0; step < 4; step++) {

@@ -93,17 +93,15 @@ fit_lobes fit_lobes_of(const pbr_surface *p)
     return lobes;
 }
 
-DISPATCH_AVX2 void fit_radiance_ogl1(const fit_metric *metric, const ogl1_surface *surface,
-                                     const float *highlight, int k, float *out)
+/* Clones have to be static with clang. */
+DISPATCH_AVX2 static void add_lambert_and_highlight(size_t count, const float *NdotL, const float *highlight,
+                                                    float Cd, float Cs, float *out)
 {
-    float Cd = surface->diffuse[k];
-    float Cs = surface->specular[k];
-    size_t count = metric->node_begin[FIT_VIEWS];
     for (size_t i = 0; i < count; i++)
-        out[i] = metric->NdotL[i] * Cd + highlight[i] * Cs;
+        out[i] = NdotL[i] * Cd + highlight[i] * Cs;
 }
 
-DISPATCH_AVX2 void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const float *lobe,
+DISPATCH_AVX2 static void add_lobes(const fit_metric *metric, const fit_lobes *lobes, const float *lobe,
                                     int k, float *out)
 {
     float diffuse = lobes->diffuse[k];
@@ -118,6 +116,18 @@ DISPATCH_AVX2 void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *l
     }
 }
 
+void fit_radiance_ogl1(const fit_metric *metric, const ogl1_surface *surface, const float *highlight, int k,
+                       float *out)
+{
+    add_lambert_and_highlight(metric->node_begin[FIT_VIEWS], metric->NdotL, highlight, surface->diffuse[k],
+                              surface->specular[k], out);
+}
+
+void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const float *lobe, int k, float *out)
+{
+    add_lobes(metric, lobes, lobe, k, out);
+}
+
 /* ---- errors ---- */
 
 /* Sums of squares with the weights of nodes: of the difference and of the source, as they are and clamped. */
@@ -125,28 +135,44 @@ typedef struct squares {
     double difference, source, difference_display, source_display;
 } squares;
 
+/* FIT_LANES partial sums in double. */
+static inline double sum_of(size_t count, const float *values)
+{
+    double lane[FIT_LANES] = {0.0};
+    double sum = 0.0;
+    for (size_t i = 0; i < count; i += FIT_LANES)
+        for (size_t j = 0; j < FIT_LANES; j++)
+            lane[j] += (double)values[i + j];
+    for (size_t j = 0; j < FIT_LANES; j++)
+        sum += lane[j];
+    return sum;
+}
+
+/* Products in float, sums in double: no product is a difference of others, so a rounding of 6e-8 of each stays that.
+ * Block by block, because a loop that does both is not vectorised well. */
 DISPATCH_AVX2 static void add_squares(size_t count, const float *weight, const float *source,
                                       const float *model, squares *sum)
 {
-    double lane[4][FIT_LANES] = {{0.0}};
-    for (size_t i = 0; i < count; i += FIT_LANES) {
-        for (size_t j = 0; j < FIT_LANES; j++) {
-            float T = source[i + j];
-            float d = model[i + j] - T;
-            float T_display = clamp(T, 0.0f, 1.0f);
-            float d_display = clamp(model[i + j], 0.0f, 1.0f) - T_display;
-            double w = (double)weight[i + j];
-            lane[0][j] += w * (double)d * (double)d;
-            lane[1][j] += w * (double)T * (double)T;
-            lane[2][j] += w * (double)d_display * (double)d_display;
-            lane[3][j] += w * (double)T_display * (double)T_display;
+    enum { BLOCK = 128 };
+    float difference[BLOCK], wanted[BLOCK], difference_shown[BLOCK], wanted_shown[BLOCK];
+    for (size_t begin = 0; begin < count; begin += BLOCK) {
+        size_t n = count - begin < BLOCK ? count - begin : BLOCK;
+        for (size_t i = 0; i < n; i++) {
+            float w = weight[begin + i];
+            float T = source[begin + i];
+            float M = model[begin + i];
+            float T_shown = min(T, 1.0f); /* never negative */
+            float d = M - T;
+            float d_shown = min(M, 1.0f) - T_shown;
+            difference[i] = w * d * d;
+            wanted[i] = w * T * T;
+            difference_shown[i] = w * d_shown * d_shown;
+            wanted_shown[i] = w * T_shown * T_shown;
         }
-    }
-    for (size_t j = 0; j < FIT_LANES; j++) {
-        sum->difference += lane[0][j];
-        sum->source += lane[1][j];
-        sum->difference_display += lane[2][j];
-        sum->source_display += lane[3][j];
+        sum->difference += sum_of(n, difference);
+        sum->source += sum_of(n, wanted);
+        sum->difference_display += sum_of(n, difference_shown);
+        sum->source_display += sum_of(n, wanted_shown);
     }
 }
 

@@ -7,7 +7,7 @@
 
 enum {
     FIT_VIEWS = 3,
-    FIT_LANES = 8,       /* nodes of a view are a multiple of this, so that sums have a fixed order */
+    FIT_LANES = 16,      /* nodes of a view are a multiple of this, so that sums have a fixed order */
     FIT_MAX_RINGS = 448, /* angles between N and H */
     FIT_MAX_NODES = 4096
 };

@@ -9,7 +9,7 @@ double fit_minimize_1(fit_function f, void *context, double low, double high, in
 {
     static const double golden = 0.61803398874989484820;
     double step = (high - low) / (count - 1);
-    double best = INFINITY;
+    double best = (double)INFINITY;
     double best_x = low;
     for (int i = 0; i < count; i++) {
         double at = i == count - 1 ? high : low + step * i;

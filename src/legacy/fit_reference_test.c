@@ -396,7 +396,7 @@ static void test_ogl1_emissive(void **state)
             f.square += (double)separable->weight[n] * (double)f.source[n] * (double)f.source[n];
         pbr_surface start;
         ogl1_to_pbr_closed(&ogl1, &start);
-        double least = INFINITY;
+        double least = (double)INFINITY;
         for (int emissive = 0; emissive < 2; emissive++) {
             double x[3] = {(double)start.perceptual_roughness, (double)start.specular, 0.6 * emissive};
             static const double step[3] = {0.1, 0.1, 0.1};

@@ -163,26 +163,33 @@ static double core_error_along_roughness(void *context, const double *x)
     return fit_minimize_1(core_error_along_metallic, l, 0.0, 1.0, 7, 0.1, &l->metallic);
 }
 
+/* From x on, and from another start where that is better already or asked for. */
+static void search_core(search *s, const double other[2], bool is_other_tried, double x[2])
+{
+    static const double step[2] = {0.05, 0.05};
+    double error = fit_minimize_n(core_error, s, 2, x, step, 1e-5, 100);
+    double start[2] = {other[0], other[1]};
+    if ((is_other_tried || core_error(s, start) < error) &&
+        fit_minimize_n(core_error, s, 2, start, step, 1e-5, 100) < error)
+        memcpy(x, start, sizeof start);
+    core_error(s, x); /* its factors */
+}
+
 uint32_t ogl1_to_pbr_core_fit(const fit_metric *metric, const ogl1_surface *in, facet_legacy_target target,
                               pbr_surface *out)
 {
     search s;
     line l = {.search = &s};
+    double x[2];
     set_target(&s, metric, in, FACET_LEGACY_TARGET_LINEAR);
     memset(s.problem.shape[1], 0, sizeof s.problem.shape[1]);
-    double x[2];
     fit_minimize_1(core_error_along_roughness, &l, 0.0, 1.0, 15, 0.05, x);
     x[1] = l.metallic;
-    static const double step[2] = {0.05, 0.05};
-    fit_minimize_n(core_error, &s, 2, x, step, 1e-5, 100);
-    if (target == FACET_LEGACY_TARGET_DISPLAY) { /* what is clamped often is a narrower lobe's peak */
-        double narrower[2] = {0.75 * x[0], x[1]};
+    ogl1_to_pbr_core_closed(in, out);
+    search_core(&s, (const double[2]){(double)out->perceptual_roughness, (double)out->metallic}, false, x);
+    if (target == FACET_LEGACY_TARGET_DISPLAY) { /* where the peak is clamped a narrower lobe may be better */
         set_target(&s, metric, in, target);
-        double error = fit_minimize_n(core_error, &s, 2, x, step, 1e-5, 100);
-        if (fit_minimize_n(core_error, &s, 2, narrower, step, 1e-5, 100) < error)
-            memcpy(x, narrower, sizeof narrower);
-        else
-            core_error(&s, x); /* its factors */
+        search_core(&s, (const double[2]){0.75 * x[0], x[1]}, true, x);
     }
     *out = pbr_surface_default();
     out->perceptual_roughness = (float)x[0];
