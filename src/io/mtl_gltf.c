@@ -215,7 +215,8 @@ void mtl_gltf_write(const facet_scene *scene, uint32_t material, const char *nam
     if (facet && json)
         put(&w, json, "facet", json_incref(facet));
     if (facet && json && writer_is_ok(&w))
-        dumped = json_dumps(json, JSON_COMPACT | JSON_REAL_PRECISION(w.needs_all_digits ? 17 : 15));
+        dumped = json_dumps(json, w.needs_all_digits ? JSON_COMPACT | JSON_REAL_PRECISION(17)
+                                                     : JSON_COMPACT | JSON_REAL_PRECISION(15));
     if (dumped)
         text_add(out, dumped);
     else

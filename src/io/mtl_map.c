@@ -197,19 +197,38 @@ static mtl_span cut_comment(mtl_span s)
     return s;
 }
 
+enum { MOST_TRIES = 16 }; /* each may look at the whole rest of the line */
+
+/* A name in quotes, which may itself have quotes in it: up to one behind which nothing but options or a comment follows.
+ * False: there is none. */
+static bool take_quoted(const mtl_parser *p, mtl_span *s, mtl_span *name)
+{
+    mtl_span all = mtl_trim(*s);
+    if (mtl_length(all) < 2 || *all.begin != '"')
+        return false;
+    int tries = 0;
+    for (const char *c = all.begin + 1; c < all.end && tries < MOST_TRIES; c++) {
+        if (*c != '"')
+            continue;
+        mtl_span rest = mtl_trim((mtl_span){c + 1, all.end});
+        if (mtl_length(rest) == 0 || *rest.begin == '#' || is_all_options(p, rest)) {
+            *name = (mtl_span){all.begin + 1, c};
+            *s = rest;
+            return true;
+        }
+        tries++;
+    }
+    return false;
+}
+
 /* The name at the front of s: what quotes enclose, or all up to where only options follow. Moves *s behind it. */
 static mtl_span take_name(const mtl_parser *p, mtl_span *s)
 {
-    enum { MOST_TRIES = 16 }; /* each may look at the whole rest of the line */
+    mtl_span name;
+    if (take_quoted(p, s, &name))
+        return name;
     mtl_span all = cut_comment(mtl_trim(*s));
     int tries = 0;
-    if (mtl_length(all) >= 2 && *all.begin == '"') {
-        const char *quote = memchr(all.begin + 1, '"', mtl_length(all) - 1);
-        if (quote) {
-            *s = (mtl_span){quote + 1, all.end};
-            return (mtl_span){all.begin + 1, quote};
-        }
-    }
     mtl_span rest = all;
     while (mtl_length(mtl_trim(rest)) > 0 && tries < MOST_TRIES) {
         mtl_span before = mtl_trim(rest);
@@ -243,7 +262,7 @@ bool mtl_parse_map(mtl_parser *p, const char *keyword, mtl_span arguments, legac
         }
         rest = mtl_trim(rest);
     }
-    mtl_span name = take_name(p, &rest);
+    mtl_span name = mtl_trim(take_name(p, &rest));
     while (take_option(&rest, &o))
         continue;
     if (mtl_length(name) == 0)

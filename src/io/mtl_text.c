@@ -8,7 +8,7 @@
 
 static bool is_blank(char c)
 {
-    return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == 0;
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
 mtl_span mtl_trim(mtl_span s)
@@ -55,11 +55,11 @@ mtl_lines mtl_lines_begin(const facet_allocator *allocator, const void *bytes, s
     return lines;
 }
 
-/* The next line of the file without its end, which is LF, CR or both. */
+/* The next line of the file without its end, which is LF, CR or both; or 0, which no line may hold. */
 static mtl_span take_line(mtl_lines *lines)
 {
     mtl_span line = {lines->at, lines->at};
-    while (line.end < lines->end && *line.end != '\n' && *line.end != '\r')
+    while (line.end < lines->end && *line.end != '\n' && *line.end != '\r' && *line.end != 0)
         line.end++;
     lines->at = line.end;
     if (lines->at < lines->end)

@@ -51,7 +51,7 @@ const char **mtl_names_create(const facet_scene *scene, const facet_allocator *a
         table_size *= 2;
     const char **table = mem_zalloc(allocator, table_size, sizeof *table);
     const char **names = mem_alloc(allocator, count * sizeof *names + characters, 1);
-    char *at = (char *)(names + count);
+    char *at = names ? (char *)(names + count) : NULL;
     text name = {0};
     if (allocator)
         name.allocator = *allocator;
@@ -223,13 +223,27 @@ static void warn_of_map(const mtl_writer *w, const legacy_map *map, const char *
                     w->name, key, "this one is written as repeating");
 }
 
-/* Names that others would read as options or comments are quoted. */
+/* Names that others would read as options, their numbers or comments are quoted, and have no quotes in them then; nor do
+ * names begin with one. */
 static void add_path(text *out, const char *path)
 {
-    bool is_quoted = path[0] == '-' || strstr(path, " -") || strstr(path, " #");
-    text_add(out, is_quoted ? " \"" : " ");
-    add_line_text(out, path);
-    text_add(out, is_quoted ? "\"" : "");
+    text name = {.allocator = out->allocator};
+    add_line_text(&name, path);
+    out->has_failed = out->has_failed || name.has_failed;
+    if (!out->has_failed) {
+        mtl_span rest = {name.data, name.data + name.length};
+        mtl_span word = mtl_next_word(&rest);
+        double number;
+        bool is_quoted = name.data[0] == '-' || mtl_to_number(word, &number) || strstr(name.data, " -") ||
+                         strstr(name.data, " #");
+        for (size_t i = 0; i < name.length; i++)
+            if (name.data[i] == '"' && (is_quoted || i == 0))
+                name.data[i] = '_';
+        text_add(out, is_quoted ? " \"" : " ");
+        text_add(out, name.data);
+        text_add(out, is_quoted ? "\"" : "");
+    }
+    text_destroy(&name);
 }
 
 static void write_map(mtl_writer *w, const legacy_map *map, const char *key)
@@ -256,18 +270,17 @@ static void write_maps(mtl_writer *w, const legacy_material *m)
             write_map(w, &m->maps[i], i == LEGACY_ORM_MAP && m->is_rma ? "map_RMA" : legacy_map_keys[i]);
 }
 
-/* Lines that were kept. A backslash at the end of one would join the next to it. */
+/* Lines that were kept. A backslash at the end of one would join the next to it, but for the blank. */
 static void write_unknown(const char *lines, text *out)
 {
     while (*lines) {
         mtl_span line = {lines, lines + strcspn(lines, "\r\n")};
         lines = *line.end ? line.end + 1 : line.end;
-        for (line = mtl_trim(line); mtl_length(line) > 0 && line.end[-1] == '\\'; line = mtl_trim(line))
-            line.end--;
-        if (mtl_length(line) > 0) {
-            text_add_bytes(out, line.begin, mtl_length(line));
-            text_add(out, "\n");
-        }
+        line = mtl_trim(line);
+        if (mtl_length(line) == 0)
+            continue;
+        text_add_bytes(out, line.begin, mtl_length(line));
+        text_add(out, line.end[-1] == '\\' ? " \n" : "\n");
     }
 }
 
