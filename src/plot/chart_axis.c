@@ -50,7 +50,7 @@ static ticks_desc describe(const chart_axis *axis, axis_extent data)
 /* Whether neighboring labels in a row keep apart. */
 static bool labels_fit(canvas *c, canvas_font font, const axis_view *a)
 {
-    double end = -INFINITY;
+    double end = -HUGE_VAL;
     for (int i = 0; i < a->ticks.count; i++) {
         const double middle = axis_place(a, a->ticks.values[i]);
         const double half = 0.5 * label_tick_width(c, font, &a->ticks.labels[i]);

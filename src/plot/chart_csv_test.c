@@ -23,7 +23,7 @@ static void expect_csv(const chart *c, const char *expected)
     mem_free(bytes);
 }
 
-static const double X[3] = {0.0, 0.5, 1.0}, Y[3] = {0.1, NAN, 1.0 / 3.0}, Z[3] = {1e-5, 2.0, -3.0};
+static const double X[3] = {0.0, 0.5, 1.0}, Y[3] = {0.1, (double)NAN, 1.0 / 3.0}, Z[3] = {1e-5, 2.0, -3.0};
 static const double X_EQUAL[3] = {0.0, 0.5, 1.0}, X_OTHER[2] = {7.0, 8.0};
 
 static void curves_share_an_equal_x(void **state)
@@ -61,7 +61,7 @@ static void fields_are_quoted_as_rfc_4180_has_it(void **state)
 static void grids_are_rows_of_x_y_value(void **state)
 {
     (void)state;
-    static const double VALUES[4] = {1.0, 2.0, NAN, 4.0}, ONES[4] = {1.0, 1.0, 1.0, 1.0};
+    static const double VALUES[4] = {1.0, 2.0, (double)NAN, 4.0}, ONES[4] = {1.0, 1.0, 1.0, 1.0};
     const chart_field field = {.width = 2,
                                .height = 2,
                                .values = VALUES,

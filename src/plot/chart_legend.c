@@ -73,7 +73,7 @@ double legend_fit_inside(legend *l, const chart_box *plot, const trace_list *tra
     const double inset = 0.7 * l->font.size;
     const double room_x = plot->width - l->width - 2.0 * inset,
                  room_y = plot->height - l->height - 2.0 * inset;
-    double best = INFINITY;
+    double best = HUGE_VAL;
     if (room_x < 0.0 || room_y < 0.0)
         return best;
     for (size_t i = 0; i < sizeof PLACES / sizeof *PLACES; i++) {

@@ -96,7 +96,7 @@ static void draw_grid(const drawing *d, const panel_view *v, const half_disc *di
 static void draw_angles(const drawing *d, const half_disc *disc)
 {
     const canvas_font font = view_tick_font(d);
-    double end = -INFINITY;
+    double end = -HUGE_VAL;
     for (int degrees = -90; degrees <= 90; degrees += 30) {
         const double x = sin(degrees * DEGREE), y = -cos(degrees * DEGREE);
         const double reach = disc->radius + ANGLE_GAP * font.size;

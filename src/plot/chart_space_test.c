@@ -56,7 +56,7 @@ static void all_points_are_inside_the_plot(void **state)
     sphere.elevation_rad = 0.4;
     space_view w = space_look_at(&sphere);
     space_place(&w, &plot);
-    double low = INFINITY, high = -INFINITY;
+    double low = HUGE_VAL, high = -HUGE_VAL;
     for (size_t i = 0; i < ROWS * COLUMNS; i++) {
         double p[3], px, py;
         assert_true(space_point(&sphere, i, p));

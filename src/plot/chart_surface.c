@@ -67,7 +67,7 @@ static bool is_visible(const space_view *w, const space_line *line, double x, do
     if (!line->solid)
         return true;
     const double px = (x - w->box.x) * w->fine, py = (y - w->box.y) * w->fine;
-    double farthest = INFINITY;
+    double farthest = HUGE_VAL;
     for (int dy = -line->around; dy <= line->around; dy++)
         for (int dx = -line->around; dx <= line->around; dx++) {
             const double here = (double)solid_depth_at(line->solid, px + dx, py + dy);

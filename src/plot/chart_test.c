@@ -153,7 +153,7 @@ static void draw_all_kinds(const double *x, const double *y, size_t count, chart
 static void all_data_are_survived(void **state)
 {
     (void)state;
-    static const double N = (double)NAN, I = (double)INFINITY;
+    static const double N = (double)NAN, I = HUGE_VAL;
     static const double X[6] = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
     const double cases[][6] = {{N, N, N, N, N, N},
                                {I, -I, I, -I, N, I},
@@ -178,8 +178,8 @@ static void all_data_are_survived(void **state)
 static void all_ranges_are_survived(void **state)
 {
     (void)state;
-    const double values[] = {0.0,     -1.0,     1.0,         1e-300,           1e300,
-                             1.7e308, -1.7e308, (double)NAN, (double)INFINITY, 1.0 + 1e-15};
+    const double values[] = {0.0,     -1.0,     1.0,         1e-300,   1e300,
+                             1.7e308, -1.7e308, (double)NAN, HUGE_VAL, 1.0 + 1e-15};
     const size_t count = sizeof values / sizeof *values;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < count; k++)

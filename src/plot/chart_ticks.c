@@ -100,7 +100,7 @@ static candidate choose_step(const ticks_desc *d, double limit)
     const double *digits = has_angles ? DEGREES : DIGITS;
     const int digit_count = has_angles ? 11 : 5, power = (int)floor(log10(range / d->target));
     candidate best = {.digit = 0.0};
-    double best_score = -INFINITY;
+    double best_score = -HUGE_VAL;
     for (int p = has_angles ? 0 : power - 1; p <= (has_angles ? 0 : power + 2); p++)
         for (int i = 0; i < digit_count; i++) {
             const candidate c = make_candidate(d, digits[i], p);

@@ -165,7 +165,7 @@ static void draw_ticks(const drawing *d, const panel_view *v)
         const double y = view_snap(axis_place(&v->y, v->y.ticks.minor[i]));
         view_line(d, left - 0.5 * length, y, left, y, d->theme->axis, 1.0);
     }
-    double end = -INFINITY;
+    double end = -HUGE_VAL;
     for (int i = 0; i < v->x.ticks.count; i++) {
         const double x = axis_place(&v->x, v->x.ticks.values[i]);
         const double half = 0.5 * label_tick_width(d->canvas, font, &v->x.ticks.labels[i]);
@@ -176,7 +176,7 @@ static void draw_ticks(const drawing *d, const panel_view *v)
         label_draw_tick(d->canvas, &v->x.ticks.labels[i], font, d->theme->muted_text, LABEL_CENTER, x,
                         bottom + font.size * (TICK + 1.1));
     }
-    end = INFINITY;
+    end = HUGE_VAL;
     for (int i = 0; i < v->y.ticks.count; i++) {
         const double y = axis_place(&v->y, v->y.ticks.values[i]);
         view_line(d, left - length, view_snap(y), left, view_snap(y), d->theme->axis, 1.0);
