@@ -70,7 +70,7 @@ function(facet_add_test name)
     endif()
     add_test(NAME ${FACET_TEST_PREFIX}${name} COMMAND ${T_COMMAND} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
-        ENVIRONMENT "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp"
+        ENVIRONMENT "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp;LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0"
         ENVIRONMENT_MODIFICATION "FACET_TEST_DATA=${data_setting}")
     if(T_LABELS)
         set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES LABELS "${T_LABELS}")
