@@ -153,7 +153,7 @@ static void equal_materials_are_solved_once(void **state)
 static void many_different_materials(void **state)
 {
     (void)state;
-    enum { COUNT = 10000 };
+    enum { COUNT = 3000 };
     facet_scene *scene = legacy_scene(COUNT);
     for (uint32_t i = 0; i < COUNT; i++) {
         legacy_material *m = &scene->legacy->materials[i];

@@ -39,16 +39,17 @@ void legacy_surface_of_ogl1(const legacy_material *m, facet_legacy_colors colors
     out->shininess = m->shininess > 0.0f ? m->shininess : 0.0f;
 }
 
+/* Within the ranges of the format, which files overstep. */
 void legacy_surface_of_pbr(const scene_material *m, struct pbr_surface *out)
 {
     bool is_glossy = (m->extensions & SCENE_SPECULAR_GLOSSINESS) != 0;
     for (int k = 0; k < 3; k++) {
-        out->base_color[k] = m->base_color[k];
-        out->specular_color[k] = m->specular_color[k];
+        out->base_color[k] = unit_of(m->base_color[k]);
+        out->specular_color[k] = is_glossy ? unit_of(m->specular_color[k]) : m->specular_color[k];
     }
     /* shade/specular_glossiness.h: ior 0 makes F0 the specular color. */
-    out->metallic = is_glossy ? 0.0f : m->metallic;
-    out->perceptual_roughness = is_glossy ? 1.0f - m->glossiness : m->perceptual_roughness;
+    out->metallic = is_glossy ? 0.0f : unit_of(m->metallic);
+    out->perceptual_roughness = is_glossy ? 1.0f - unit_of(m->glossiness) : unit_of(m->perceptual_roughness);
     out->ior = is_glossy ? 0.0f : m->ior;
-    out->specular = is_glossy ? 1.0f : m->specular;
+    out->specular = is_glossy ? 1.0f : unit_of(m->specular);
 }
