@@ -139,7 +139,7 @@ static void join_colors(const joining *j, const obj_chunk *c)
             continue;
         for (size_t k = 0; k < 3; k++)
             out[4 * i + k] = to_linear(in[k], j->scale);
-        out[4 * i + 3] = j->scale.is_8bit && in[3] > 1.0f ? in[3] / 255.0f : fminf(in[3], 1.0f);
+        out[4 * i + 3] = fminf(j->scale.is_8bit && in[3] > 1.0f ? in[3] / 255.0f : in[3], 1.0f);
     }
 }
 

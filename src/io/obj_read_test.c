@@ -198,6 +198,11 @@ static void test_colors(void **state)
     assert_near(obj_only_primitive(scene)->colors[5], 0.2f, 1e-7f);
     scene_destroy(scene);
 
+    scene = obj_load_text("v 0 0 0 inf 1e9 -1 1e30\nv 1 0 0 nan 0 0 -1\nv 0 1 0\nf 1 2 3\n",
+                          &linear); /* of nothing */
+    assert_true(obj_only_primitive(scene)->colors[3] == 1.0f && obj_only_primitive(scene)->colors[7] == 0.0f);
+    scene_destroy(scene);
+
     scene = obj_load_text(SQUARE "#MRGB ff80FF00ff000000ffffffff\n#MRGB 00000033\nf 1 2 3\n", &linear);
     const float *colors = obj_only_primitive(scene)->colors;
     assert_near(colors[0], 128.0f / 255.0f, 1e-7f);
