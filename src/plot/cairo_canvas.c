@@ -132,7 +132,7 @@ static facet_result encode_png(canvas *c, unsigned char **bytes, size_t *size, f
         out[2] = (unsigned char)c->pixels[i];
     }
     result = image_encode(&picture, IMAGE_CODEC_PNG,
-                          &(image_encode_desc){.allocator = c->desc.allocator, .compression = 9}, bytes, size,
+                          &(image_encode_desc){.allocator = c->desc.allocator, .compression = 6}, bytes, size,
                           error);
     image_destroy(&picture);
     return result;
