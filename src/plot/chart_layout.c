@@ -134,25 +134,37 @@ static void place_plot(panel_view *v)
                           .height = fmax(rint(v->cell.y + v->cell.height - m->bottom) - top, 4.0)};
 }
 
-/* Axes above one another begin and end at the same place, and so do those beside one another. */
+static void align_rows(panel_view *a, panel_view *b)
+{
+    a->margins.top = b->margins.top = fmax(a->margins.top, b->margins.top);
+    a->margins.bottom = b->margins.bottom = fmax(a->margins.bottom, b->margins.bottom);
+}
+
+static void align_columns(panel_view *a, panel_view *b)
+{
+    a->margins.left = b->margins.left = fmax(a->margins.left, b->margins.left);
+    a->margins.right = b->margins.right = fmax(a->margins.right, b->margins.right);
+}
+
+/* Axes above one another begin and end at the same place, and so do those beside one another; discs, half discs and
+ * surfaces of a chart are of one size. */
 static void align(const chart *c, panel_view *views)
 {
     const uint32_t columns = column_count(c);
-    for (uint32_t i = 0; i < c->panel_count; i++)
-        for (uint32_t k = 0; k < i; k++) {
-            panel_view *a = &views[i], *b = &views[k];
-            if (i / columns == k / columns)
-                a->header = b->header = fmax(a->header, b->header);
-            if (!is_cartesian(a) || !is_cartesian(b))
-                continue;
-            if (i / columns == k / columns) {
-                a->margins.top = b->margins.top = fmax(a->margins.top, b->margins.top);
-                a->margins.bottom = b->margins.bottom = fmax(a->margins.bottom, b->margins.bottom);
-            } else if (i % columns == k % columns) {
-                a->margins.left = b->margins.left = fmax(a->margins.left, b->margins.left);
-                a->margins.right = b->margins.right = fmax(a->margins.right, b->margins.right);
+    for (int pass = 0; pass < 2; pass++) /* the second hands on what the first has found late */
+        for (uint32_t i = 0; i < c->panel_count; i++)
+            for (uint32_t k = 0; k < i; k++) {
+                panel_view *a = &views[i], *b = &views[k];
+                const bool is_row = i / columns == k / columns, is_column = i % columns == k % columns;
+                const bool is_same = !is_cartesian(a) && a->panel->kind == b->panel->kind;
+                const bool are_axes = is_cartesian(a) && is_cartesian(b);
+                if (is_row)
+                    a->header = b->header = fmax(a->header, b->header);
+                if (is_same || (are_axes && is_row))
+                    align_rows(a, b);
+                if (is_same || (are_axes && is_column))
+                    align_columns(a, b);
             }
-        }
 }
 
 static void measure_all(const drawing *d, panel_view *views)
@@ -213,7 +225,8 @@ static void choose_place(const drawing *d, panel_view *v)
     const bool is_whole = right.height <= v->plot.height && right.name_width >= below.name_width - 0.5;
     const double lost_right = is_whole ? right.width / v->plot.width : 1.0;
     const double lost_below = legend_rows_height(&below, room_below(v).width) / v->plot.height;
-    if (fmin(lost_right, lost_below) < 0.45)
+    /* names that are not there at all are worse than a small plot */
+    if (fmin(lost_right, lost_below) < (isfinite(covered) ? 0.45 : 0.7))
         v->legend = lost_right < lost_below ? right : below;
     else if (!isfinite(covered))
         v->legend.place = LEGEND_NONE; /* too small a panel */

@@ -92,26 +92,40 @@ double legend_fit_inside(legend *l, const chart_box *plot, const trace_list *tra
     return best;
 }
 
-/* Where entry i stands in rows of that width, from (0, 0); returns the px of height so far. */
-static double place_in_rows(const legend *l, double width, int last, double *x, double *y)
+/* Columns of equal width in which the entries are set; 0: all of them fit in one row, one behind the other. */
+static int column_count(const legend *l, double width)
 {
-    double next = 0.0;
+    const double gap = l->font.size * ENTRY_GAP,
+                 widest = l->font.size * (SAMPLE + SAMPLE_GAP) + l->name_width;
+    double sum = -gap;
+    for (int i = 0; i < row_count(l); i++)
+        sum += entry_width(l, i) + gap;
+    return sum <= width ? 0 : (int)fmax(floor((width + gap) / (widest + gap)), 1.0);
+}
+
+/* Where entry i stands in rows of that width, from (0, 0). */
+static void place_in_rows(const legend *l, double width, int i, double *x, double *y)
+{
+    const double gap = l->font.size * ENTRY_GAP,
+                 widest = l->font.size * (SAMPLE + SAMPLE_GAP) + l->name_width;
+    const int columns = column_count(l, width);
     *x = *y = 0.0;
-    for (int i = 0; i <= last; i++) {
-        if (next > 0.0 && next + entry_width(l, i) > width) {
-            next = 0.0;
-            *y += l->font.size * LINE_HEIGHT;
-        }
-        *x = next;
-        next += entry_width(l, i) + l->font.size * ENTRY_GAP;
+    if (columns > 0) {
+        *x = (i % columns) * (widest + gap);
+        *y = (double)(i / columns) * l->font.size * LINE_HEIGHT;
+        return;
     }
-    return *y + l->font.size * LINE_HEIGHT;
+    for (int k = 0; k < i; k++)
+        *x += entry_width(l, k) + gap;
 }
 
 double legend_rows_height(const legend *l, double width)
 {
+    if (l->place == LEGEND_NONE)
+        return 0.0;
     double x, y;
-    return l->place == LEGEND_NONE ? 0.0 : place_in_rows(l, width, row_count(l) - 1, &x, &y);
+    place_in_rows(l, width, row_count(l) - 1, &x, &y);
+    return y + l->font.size * LINE_HEIGHT;
 }
 
 static void draw_entry(canvas *c, const legend *l, int i, bool is_dark, double x, double y)
