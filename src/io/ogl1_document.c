@@ -131,15 +131,19 @@ static void read_header(ogl1_document *d, const json_place *root)
         reader_fail_memory(r, "generator", strlen(generator));
 }
 
-/* "materials", then "material3d"; or the root itself, where toJSON() was given a bare material3d(). */
+/* What toJSON() makes of a bare material3d(): the root itself is the material. */
+static bool is_bare(const json_place *root)
+{
+    return !has_member(root, "materials") && !has_member(root, "material3d") && is_material(root->value);
+}
+
+/* "materials", then "material3d". */
 static void read_entries(ogl1_document *d, const json_place *root)
 {
     reader *r = &d->r;
     json_place at;
     ogl1_list list = ogl1_list_begin(r, root, "materials", is_material);
-    json_place bare = ogl1_object(r, root, "material3d");
-    if (!bare.value && !has_member(root, "materials") && is_material(root->value))
-        bare = *root;
+    json_place bare = is_bare(root) ? *root : ogl1_object(r, root, "material3d");
     if (list.count > MOST_MATERIALS)
         reader_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu materials, more than %d", list.count,
                     MOST_MATERIALS);
@@ -147,7 +151,7 @@ static void read_entries(ogl1_document *d, const json_place *root)
     while (ogl1_list_next(r, &list, &at)) {
         ogl1_entry *entry = &d->entries[d->entry_count++];
         ogl1_read_material(r, &at, entry);
-        if (!entry->name && at.key && !list.is_single) { /* of a named list */
+        if (!entry->name && at.key && at.key[0] && !list.is_single) { /* of a named list */
             entry->name = arena_strdup(r->scene->arena, at.key);
             if (!entry->name)
                 reader_fail_memory(r, "name", strlen(at.key));
@@ -165,8 +169,7 @@ static void report_unknown(reader *r, const json_place *root)
     json_t *value;
     json_object_foreach((json_t *)root->value, key, value)
     {
-        bool is_known =
-            !has_member(root, "materials") && !has_member(root, "material3d") && is_material(root->value);
+        bool is_known = false;
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
             is_known |= strcmp(key, known[i]) == 0;
         if (!is_known)
@@ -179,6 +182,8 @@ static void read_root(ogl1_document *d, const json_place *root)
     reader *r = &d->r;
     read_header(d, root);
     read_entries(d, root);
+    if (is_bare(root)) /* its "fog" is a switch */
+        return;
     if (reader_is_ok(r))
         ogl1_read_lights(d, root);
     if (reader_is_ok(r))

@@ -36,7 +36,6 @@ static void read_scene(ogl1_document *d, const facet_scene_desc *desc)
     if (!reader_is_ok(r))
         return;
     r->scene->generator = d->generator;
-    r->scene->version = "2.0";
     r->scene->legacy->fog.scale = 1.0f;
     ogl1_set_surroundings(d, &desc->legacy);
 }

@@ -104,8 +104,9 @@ static void test_bare_parameters(void **state)
     ogl1_assert_color(scene->legacy->materials[0].diffuse, 0x4682B4);
     scene_destroy(scene);
     /* toJSON(material3d()) alone, and one material where a list was meant */
-    scene = ogl1_load("{'color':'tomato','alpha':1}");
+    scene = ogl1_load("{'color':'tomato','alpha':1,'fog':false,'size':3}");
     ogl1_assert_color(scene->legacy->materials[0].diffuse, 0xFF6347);
+    assert_false(scene->legacy->materials[0].has_fog);
     assert_int_equal(scene->warning_count, 0);
     scene_destroy(scene);
     scene = ogl1_load("{'materials':{'color':'tomato','texture':{}},'lights':{'theta':90,'phi':0}}");
