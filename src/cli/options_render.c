@@ -238,8 +238,8 @@ static const option shading_options[] = {
      .argument = "NAME",
      .default_text = "vignette",
      .help = "vignette: light per pixel, both sides lit; webgl: rgl's present shader; fixed: fixed-function "
-             "OpenGL, light at the vertices",
-     .choices = WORDS("vignette", "webgl", "fixed")},
+             "OpenGL, light at the vertices; rgl-desktop: the same as rgl's windows set it up",
+     .choices = WORDS("vignette", "webgl", "fixed", "rgl-desktop")},
     {.id = OPT_OGL1_SPACE,
      .name = "ogl1-space",
      .kind = OPTION_CHOICE,
