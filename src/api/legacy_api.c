@@ -14,7 +14,7 @@ facet_result facet_scene_convert_materials(facet_scene *scene, facet_material_mo
 
 bool facet_scene_has_legacy_materials(const facet_scene *scene)
 {
-    return scene->legacy != NULL;
+    return scene_has_legacy_materials(scene);
 }
 
 uint32_t facet_scene_get_conversion_count(const facet_scene *scene)

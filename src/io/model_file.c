@@ -7,6 +7,7 @@
 #include "io/gltf.h"
 #include "io/obj.h"
 #include "io/ogl1_json.h"
+#include "scene/legacy.h"
 
 typedef enum model_kind { MODEL_GLTF, MODEL_OBJ, MODEL_PARAMETERS } model_kind;
 
@@ -50,7 +51,7 @@ facet_result model_file_save(const facet_scene *scene, const char *path, const c
     const char *extension = path_extension(path);
     bool is_obj = strcasecmp(extension, "obj") == 0;
     bool is_parameters = strcasecmp(extension, "json") == 0;
-    if ((is_obj || is_parameters) && !scene->legacy)
+    if ((is_obj || is_parameters) && !scene_has_legacy_materials(scene))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "%s: the scene has no materials of OpenGL 1; facet_scene_convert_materials() makes them",
                     path);

@@ -214,6 +214,11 @@ facet_result obj_load(const char *path, const facet_scene_desc *desc, facet_scen
     char *folder = path_folder(&desc->allocator, path);
     result = folder ? load((const char *)file.data, file.size, path, folder, desc, scene, error)
                     : fail_memory(error, "path", strlen(path));
+    if (result == FACET_OK && !scene_note_file(*scene, &file)) {
+        scene_destroy(*scene);
+        *scene = NULL;
+        result = fail_memory(error, "files", sizeof file);
+    }
     mem_free(folder);
     file_close(&file);
     return result;

@@ -76,6 +76,11 @@ facet_result ogl1_json_load(const char *path, const facet_scene_desc *desc, face
         result = load((const char *)file.data, file.size, path, folder, desc, scene, error);
     else
         result = fail_memory(error, "path", strlen(path));
+    if (result == FACET_OK && !scene_note_file(*scene, &file)) {
+        scene_destroy(*scene);
+        *scene = NULL;
+        result = fail_memory(error, "files", sizeof file);
+    }
     mem_free(folder);
     file_close(&file);
     return result;

@@ -327,6 +327,8 @@ facet_result ogl1_json_overlay(facet_scene *scene, const char *path, const facet
     } else {
         result = fail_memory(error, "path", strlen(path));
     }
+    if (result == FACET_OK && !scene_note_file(scene, &file))
+        result = fail_memory(error, "files", sizeof file);
     mem_free(folder);
     file_close(&file);
     return result;

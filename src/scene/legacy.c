@@ -48,3 +48,9 @@ legacy_light legacy_light_default(void)
     legacy_light_direction(0.0f, 15.0f * 0.017453292f, light.position);
     return light;
 }
+
+bool scene_has_legacy_materials(const facet_scene *scene)
+{
+    return scene->legacy &&
+           (scene->legacy->is_source || (scene->conversion && scene->conversion->to == FACET_MATERIALS_OGL1));
+}

@@ -162,6 +162,10 @@ typedef struct scene_legacy {
     bool is_rgl;
 } scene_legacy;
 
+/* Whether every material of the scene has its legacy one: read, or made by a conversion. Extras of a glTF file alone
+ * have those of some. */
+bool scene_has_legacy_materials(const facet_scene *scene);
+
 /* ---- what a conversion did ---- */
 
 /* A remark on one material or on all; docs/legacy.md lists the codes. */

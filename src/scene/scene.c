@@ -106,6 +106,12 @@ bool scene_keep_file(facet_scene *scene, file_bytes *file)
     return true;
 }
 
+bool scene_note_file(facet_scene *scene, const file_bytes *file)
+{
+    file_bytes known = {.device = file->device, .number = file->number};
+    return scene_keep_file(scene, &known);
+}
+
 bool scene_has_file(const facet_scene *scene, const char *path)
 {
     for (uint32_t i = 0; i < scene->file_count; i++)

@@ -139,6 +139,14 @@ expect 2 render tex.obj
 says "tex.png: it is an input, too"
 cmp -s a.png tex.png || failed "a texture was overwritten"
 
+cp old.obj link.obj
+ln -s link.obj other.obj
+expect 2 convert link.obj other.obj
+says "it is an input, too"
+cp new.json params.json
+expect 2 convert old.obj params.json --parameters params.json
+says "it is an input, too"
+
 # Spec-gloss
 cat >sg.gltf <<'END'
 {"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],
