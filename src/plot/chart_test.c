@@ -2,6 +2,8 @@
  * what happens without cairo and without memory. */
 #include "plot/chart_test_scene.h"
 
+#include <pthread.h>
+
 #include "base/failing_allocator.h"
 #include "plot/chart_test_xml.h"
 
@@ -54,6 +56,38 @@ static void same_chart_same_bytes(void **state)
                 mem_free(d.bytes);
                 mem_free(first[kind][f].bytes);
             }
+}
+
+static void *draw_in_thread(void *result)
+{
+    const chart c = scene_chart(&data.panels[CHART_DISC]);
+    facet_error error;
+    drawn *d = result;
+    if (chart_draw(&c, FACET_PLOT_SVG, NULL, &d->bytes, &d->size, &error) != FACET_OK)
+        d->bytes = NULL;
+    return NULL;
+}
+
+/* cairo counts pictures through all threads of a process. */
+static void threads_draw_the_same_bytes(void **state)
+{
+    (void)state;
+    enum { THREADS = 4 };
+    for (int round = 0; round < 5; round++) {
+        pthread_t threads[THREADS];
+        drawn results[THREADS];
+        for (int i = 0; i < THREADS; i++)
+            assert_int_equal(pthread_create(&threads[i], NULL, draw_in_thread, &results[i]), 0);
+        for (int i = 0; i < THREADS; i++)
+            pthread_join(threads[i], NULL);
+        for (int i = 0; i < THREADS; i++) {
+            assert_non_null(results[i].bytes);
+            assert_int_equal(results[i].size, results[0].size);
+            assert_memory_equal(results[i].bytes, results[0].bytes, results[0].size);
+        }
+        for (int i = 0; i < THREADS; i++)
+            mem_free(results[i].bytes);
+    }
 }
 
 static bool contains(const drawn *d, const char *string)
@@ -334,6 +368,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(svg_is_well_formed),
         cmocka_unit_test(same_chart_same_bytes),
+        cmocka_unit_test(threads_draw_the_same_bytes),
         cmocka_unit_test(pdf_has_a_title_and_no_date),
         cmocka_unit_test(all_labels_are_survived),
         cmocka_unit_test(all_data_are_survived),
