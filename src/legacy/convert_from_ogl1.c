@@ -56,6 +56,9 @@ static void report(const conversion *c, uint32_t material, const legacy_reading 
     out->summary.profile = profile_of(out->pbr.extensions);
     if (item->is_asked) {
         summary_solved(&out->summary, item);
+        out->has_surfaces = true;
+        out->ogl1_surface = item->question.ogl1;
+        out->pbr_surface = item->pbr;
         bool is_closed = c->desc.method == FACET_LEGACY_CLOSED || item->question.is_closed > 0.0f;
         out->summary.method = is_closed ? "closed" : "fit";
     } else if (r->has_roughness_from_shininess) {

@@ -44,7 +44,6 @@ static const struct {
     [NOTE_SHARPNESS_DROPPED] = {"sharpness-dropped", false},
     [NOTE_UNKNOWN_KEY] = {"unknown-key", false},
     [NOTE_EXTENSION_NOT_WRITTEN] = {"extension-not-written", true},
-    [NOTE_VALUES_RESTORED] = {"values-restored", false},
 };
 
 const char *note_name(note_code code)

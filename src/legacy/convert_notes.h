@@ -39,7 +39,6 @@ typedef enum note_code {
     NOTE_SHARPNESS_DROPPED,
     NOTE_UNKNOWN_KEY,
     NOTE_EXTENSION_NOT_WRITTEN,
-    NOTE_VALUES_RESTORED,
     NOTE_COUNT
 } note_code;
 

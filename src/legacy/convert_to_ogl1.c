@@ -250,6 +250,9 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
         summary_solved(&report->summary, item);
     else
         summary_exact(&report->summary, known ? "source" : "exact");
+    report->has_surfaces = item->is_asked;
+    report->ogl1_surface = known ? item->question.ogl1 : item->ogl1;
+    report->pbr_surface = item->question.pbr;
     if (item->is_asked)
         report->summary.method = known ? "source" : item->question.is_closed > 0.0f ? "closed" : "fit";
     return result;

@@ -5,21 +5,7 @@
 #ifndef LEGACY_FIT_H
 #define LEGACY_FIT_H
 
-#include "facet/facet.h"
-
-/* Blinn-Phong as OpenGL 1 has it: not normalised, its highlight not multiplied with N.L. */
-typedef struct ogl1_surface {
-    float diffuse[3], specular[3]; /* [0, 1] to be displayable; more is allowed */
-    float shininess;               /* >= 0; OpenGL allows up to 128 */
-} ogl1_surface;
-
-/* glTF's dielectric-metal mix with KHR_materials_specular and KHR_materials_ior. */
-typedef struct pbr_surface {
-    float base_color[3], metallic, perceptual_roughness;
-    float ior;      /* 1.5; 0: F0 is specular_color */
-    float specular; /* 1 */
-    float specular_color[3];
-} pbr_surface;
+#include "scene/legacy.h"
 
 pbr_surface pbr_surface_default(void); /* glTF's defaults but for metallic 0 */
 

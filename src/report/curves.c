@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "base/result.h"
-#include "legacy/convert.h"
 #include "legacy/fit.h"
 #include "plot/chart.h"
 
@@ -75,8 +74,8 @@ facet_result curves_draw(const facet_scene *scene, uint32_t material, unsigned c
 {
     const material_conversion *m = &scene->conversion->materials[material];
     pair p = {.is_from_ogl1 = scene->conversion->to != FACET_MATERIALS_OGL1};
-    legacy_surface_of_ogl1(&m->legacy, scene->legacy->colors, &p.ogl1);
-    legacy_surface_of_pbr(&m->pbr, &p.pbr);
+    p.ogl1 = m->ogl1_surface;
+    p.pbr = m->pbr_surface;
     *bytes = NULL;
     *size = 0;
     arena *memory = arena_create(&scene->allocator);

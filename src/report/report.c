@@ -253,7 +253,7 @@ static facet_result add_material(page *p, uint32_t material, bool has_pictures, 
     add_pbr_values(p->out, &m->pbr);
     add_errors(p->out, &m->summary);
     text_add(p->out, "</div>\n");
-    if (result == FACET_OK && has_pictures && p->stage && has_error(&m->summary))
+    if (result == FACET_OK && has_pictures && m->has_surfaces)
         result = add_curves(p, material, error);
     add_warnings(p->out, m->warnings, m->warning_count);
     text_add(p->out, "</section>\n");

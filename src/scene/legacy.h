@@ -166,6 +166,22 @@ typedef struct scene_legacy {
  * have those of some. */
 bool scene_has_legacy_materials(const facet_scene *scene);
 
+/* ---- surfaces as numbers: no textures, linear colors ---- */
+
+/* Blinn-Phong as OpenGL 1 has it: not normalised, its highlight not multiplied with N.L. */
+typedef struct ogl1_surface {
+    float diffuse[3], specular[3]; /* [0, 1] to be displayable; more is allowed */
+    float shininess;               /* >= 0; OpenGL allows up to 128 */
+} ogl1_surface;
+
+/* glTF's dielectric-metal mix with KHR_materials_specular and KHR_materials_ior. */
+typedef struct pbr_surface {
+    float base_color[3], metallic, perceptual_roughness;
+    float ior;      /* 1.5; 0: F0 is specular_color */
+    float specular; /* 1 */
+    float specular_color[3];
+} pbr_surface;
+
 /* ---- what a conversion did ---- */
 
 /* A remark on one material or on all; docs/legacy.md lists the codes. */
@@ -180,6 +196,9 @@ typedef struct material_conversion {
     legacy_material legacy;
     scene_material pbr;
     const scene_material *before; /* between glTF's own models: what pbr was made of; NULL */
+    bool has_surfaces;            /* the numbers that the error was found with, textures at their means */
+    ogl1_surface ogl1_surface;
+    pbr_surface pbr_surface;
     uint32_t warning_count;
     const conversion_warning *warnings;
 } material_conversion;
