@@ -12,7 +12,7 @@
 static const double CREASE_COSINE = 0.70710678118654752;
 /* Triangles along one edge that are compared with each other; more than 2 are rare. */
 enum { MOST_ALONG_EDGE = 8 };
-enum { BLOCK_GRAIN = 4 };
+enum { BLOCK_GRAIN = 4, FEW_KEYS = 64 };
 
 typedef enum smoothing { SMOOTH_ALL, SMOOTH_GROUPS, SMOOTH_ANGLES } smoothing;
 
@@ -43,7 +43,7 @@ typedef struct workspace {
     uint32_t *begins;  /* per position of the block: its spokes */
     uint32_t *corners; /* sorted by position */
     spoke *spokes;     /* of one position */
-    uint64_t *keys;    /* two per spoke: what sorts, and its number */
+    uint64_t *keys;    /* two per spoke: what sorts, and its number; and as many more to sort them */
     size_t begin_room, corner_room, spoke_room, key_room;
 } workspace;
 
@@ -110,38 +110,34 @@ static void unite(spoke *spokes, uint32_t a, uint32_t b)
         spokes[a].next = b;
 }
 
-static void sift_down(uint64_t *keys, size_t i, size_t count)
+/* Sorts by the upper halves of the keys; equal ones stay as they are. spare: as large, where there are more than
+ * FEW_KEYS. */
+static void sort_keys(uint64_t *keys, uint64_t *spare, size_t count)
 {
-    for (size_t child; (child = 2 * i + 1) < count; i = child) {
-        child += child + 1 < count && keys[child + 1] > keys[child];
-        if (keys[i] >= keys[child])
-            return;
-        uint64_t swapped = keys[i];
-        keys[i] = keys[child];
-        keys[child] = swapped;
-    }
-}
-
-/* By insertion where there are few, as nearly always; else by heap. Keys differ. */
-static void sort_keys(uint64_t *keys, size_t count)
-{
-    if (count <= 32) {
+    if (count <= FEW_KEYS) { /* nearly always: a position has six triangles */
         for (size_t i = 1; i < count; i++) {
             uint64_t key = keys[i];
             size_t k = i;
-            for (; k > 0 && keys[k - 1] > key; k--)
+            for (; k > 0 && keys[k - 1] >> 32 > key >> 32; k--)
                 keys[k] = keys[k - 1];
             keys[k] = key;
         }
         return;
     }
-    for (size_t i = count / 2; i-- > 0;)
-        sift_down(keys, i, count);
-    for (size_t end = count; end-- > 1;) {
-        uint64_t swapped = keys[0];
-        keys[0] = keys[end];
-        keys[end] = swapped;
-        sift_down(keys, 0, end);
+    for (int shift = 32; shift < 64; shift += 8) { /* four passes: they end where they began */
+        size_t places[256] = {0};
+        for (size_t i = 0; i < count; i++)
+            places[keys[i] >> shift & 0xffu]++;
+        for (size_t digit = 0, sum = 0; digit < 256; digit++) {
+            size_t in_digit = places[digit];
+            places[digit] = sum;
+            sum += in_digit;
+        }
+        for (size_t i = 0; i < count; i++)
+            spare[places[keys[i] >> shift & 0xffu]++] = keys[i];
+        uint64_t *swapped = keys;
+        keys = spare;
+        spare = swapped;
     }
 }
 
@@ -149,7 +145,7 @@ static void unite_groups(const obj_reader *r, workspace *w, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
         w->keys[i] = (uint64_t)r->groups[w->spokes[i].corner / 3] << 32 | i;
-    sort_keys(w->keys, count);
+    sort_keys(w->keys, w->keys + count, count);
     for (uint32_t i = 1; i < count; i++)
         if (w->keys[i] >> 32 == w->keys[i - 1] >> 32)
             unite(w->spokes, (uint32_t)w->keys[i - 1], (uint32_t)w->keys[i]);
@@ -172,7 +168,7 @@ static void unite_smooth_edges(const obj_reader *r, workspace *w, uint32_t count
         w->keys[2 * i] = (uint64_t)r->v[first + (corner + 1 - first) % 3] << 32 | i;
         w->keys[2 * i + 1] = (uint64_t)r->v[first + (corner + 2 - first) % 3] << 32 | i;
     }
-    sort_keys(w->keys, 2 * (size_t)count);
+    sort_keys(w->keys, w->keys + 2 * (size_t)count, 2 * (size_t)count);
     for (size_t i = 1; i < 2 * (size_t)count; i++)
         for (size_t k = i; k-- > 0 && i - k < MOST_ALONG_EDGE && w->keys[k] >> 32 == w->keys[i] >> 32;) {
             uint32_t a = (uint32_t)w->keys[k];
@@ -279,7 +275,7 @@ static bool do_block(const making *m, workspace *w, uint32_t number)
         return false;
     uint32_t most = sort_corners(m, w, begin, end, p->v_minimum + (number << p->shift));
     if (!mem_reserve(allocator, (void **)&w->spokes, &w->spoke_room, most, sizeof *w->spokes) ||
-        !mem_reserve(allocator, (void **)&w->keys, &w->key_room, most, 2 * sizeof *w->keys))
+        !mem_reserve(allocator, (void **)&w->keys, &w->key_room, most, 4 * sizeof *w->keys))
         return false;
     for (size_t v = 0; v < width; v++) {
         uint32_t count = w->begins[v + 1] - w->begins[v];

@@ -396,9 +396,18 @@ static void cut_fan(cutting *c, uint32_t i)
         i = c->p->previous[cut(c, c->p->next[i])];
 }
 
+/* How many corners may be looked at: all by all up to 1000 corners; up to some 60 000, 1000 for each; beyond, 64. With the
+ * grid, polygons that do not cross themselves take fewer than 10, combs of many teeth 300. */
+static size_t find_budget(uint32_t count)
+{
+    size_t all = (size_t)1024 * count + ((size_t)1 << 16);
+    size_t most = (size_t)64 * count + ((size_t)1 << 26);
+    return all < most ? all : most;
+}
+
 void obj_triangulate(obj_polygon *p, uint32_t count, uint32_t *triangles)
 {
-    cutting c = {.p = p, .left = count, .out = triangles, .budget = (size_t)1024 * count + ((size_t)1 << 16)};
+    cutting c = {.p = p, .left = count, .out = triangles, .budget = find_budget(count)};
     p->is_rough = false;
     project(p, count);
     for (uint32_t i = 0; i < count; i++) {

@@ -27,7 +27,7 @@ void obj_polygon_release(obj_polygon *p); /* {0} is allowed */
 /* Cuts the polygon of the first count >= 3 points into count - 2 triangles, 3 corner numbers each, wound as the polygon.
  * It may be concave, not quite flat (seen along its Newell normal then), repeat points and edges, as the bridge to a hole
  * does; one that crosses itself becomes triangles whose signed areas sum up to its own. Ears are cut (Meisters 1975; Held
- * 2001, "FIST", for what to do where there is none), at most about 1000 corners are looked at for each. */
+ * 2001, "FIST", for what to do where there is none), a bounded number of corners is looked at for each. */
 void obj_triangulate(obj_polygon *p, uint32_t count, uint32_t *triangles);
 
 #endif

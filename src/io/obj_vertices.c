@@ -189,19 +189,15 @@ static void shift_corners(void *context, size_t begin, size_t end)
         r->indices[c] += k->s->parts[p->part + ((r->v[c] - p->v_minimum) >> p->shift)].vertex;
 }
 
-/* From vertices of the part to vertices of the primitive. */
-static void shift_indices(const sharing *s)
+/* From vertices of the part to vertices of the primitive, for corners that are sorted; fill_part() does the others. */
+static void shift_sorted(const sharing *s)
 {
     const obj_reader *r = s->r;
-    for (size_t i = 0; i < s->part_count; i++) {
-        const part *p = &s->parts[i];
-        for (size_t c = p->begin; c < p->end && !p->is_sorted && p->vertex; c++)
-            r->indices[c] += p->vertex;
-        if (p->is_sorted && (i == 0 || s->parts[i - 1].primitive != p->primitive)) {
-            shifting k = {.s = s, .primitive = &r->primitives[p->primitive]};
+    for (size_t i = 0; i < s->part_count; i++)
+        if (s->parts[i].is_sorted && (i == 0 || s->parts[i - 1].primitive != s->parts[i].primitive)) {
+            shifting k = {.s = s, .primitive = &r->primitives[s->parts[i].primitive]};
             parallel_for(r->thread_count, k.primitive->count, PART_CORNERS, shift_corners, &k);
         }
-    }
 }
 
 /* ---- arrays ---- */
@@ -258,6 +254,8 @@ static void fill_part(const sharing *s, part *p)
     const obj_primitive *primitive = &r->primitives[p->primitive];
     const uint32_t *corners = s->order + p->begin;
     p->bounds = box_empty();
+    for (size_t c = p->begin; c < p->end && !p->is_sorted && p->vertex > 0; c++)
+        r->indices[c] += p->vertex;
     for (size_t i = 0; i < p->vertex_count; i++) {
         size_t vertex = p->vertex + i;
         const float *position = r->positions + 3 * (size_t)r->v[corners[i]];
@@ -350,7 +348,7 @@ static bool share(sharing *s)
     if (!obj_check_memory(r, "vertices"))
         return false;
     sum_up(s);
-    shift_indices(s);
+    shift_sorted(s);
     return true;
 }
 
