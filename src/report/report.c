@@ -89,6 +89,12 @@ static void begin_row(text *out, const char *name)
     text_addf(out, "<tr><th>%s</th><td>", name);
 }
 
+/* A row that says that the values above it are factors. */
+static void add_texture_row(text *out)
+{
+    text_add(out, "<tr><th></th><td class=\"dim\">times a texture</td></tr>\n");
+}
+
 static void add_color(text *out, const char *name, const float color[3], bool is_linear)
 {
     begin_row(out, name);
@@ -141,16 +147,22 @@ static void add_pbr_values(text *out, const scene_material *m)
 {
     text_add(out, "<table><tr><th colspan=\"2\">glTF</th></tr>\n");
     add_color(out, "base color", m->base_color, true);
+    if (scene_material_has(m, SCENE_BASE_COLOR_TEXTURE))
+        add_texture_row(out);
     if (m->extensions & SCENE_SPECULAR_GLOSSINESS) {
         add_number(out, "glossiness", m->glossiness);
     } else {
         add_number(out, "metallic", m->metallic);
         add_number(out, "roughness", m->perceptual_roughness);
+        if (scene_material_has(m, SCENE_METALLIC_ROUGHNESS_TEXTURE))
+            add_texture_row(out);
     }
     if (m->extensions & SCENE_SPECULAR)
         add_number(out, "specular factor", m->specular);
     if (m->extensions & (SCENE_SPECULAR | SCENE_SPECULAR_GLOSSINESS))
         add_color(out, "specular color", m->specular_color, true);
+    if (scene_material_has(m, SCENE_SPECULAR_TEXTURE) || scene_material_has(m, SCENE_SPECULAR_COLOR_TEXTURE))
+        add_texture_row(out);
     if (m->extensions & SCENE_IOR)
         add_number(out, "ior", m->ior);
     if (!is_black(m->emissive))
