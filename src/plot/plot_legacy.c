@@ -227,8 +227,9 @@ static facet_result make_vignette(plot *p)
     add_vignette_fit(p, e);
     for (uint32_t a = 0; a < p->angle_count; a++)
         add_pair(p, &source, &conversion, (double)p->angles[a],
-                 plot_text(p, "fit over the hemisphere, eye at %s degrees",
-                           plot_degrees(p, (double)p->angles[a])));
+                 plot_text(p, "fit over the hemisphere, eye at %s degrees%s",
+                           plot_degrees(p, (double)p->angles[a]),
+                           p->desc->has_heaviside_ramp ? ", with the step" : ""));
     plot_panel *differences = add_differences(p, &source, &conversion, "what is left");
     plot_add_line(p, differences, "the 33 points' fit", plot_faint(1), VIGNETTE_POINTS, e->phi,
                   e->difference);
