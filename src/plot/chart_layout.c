@@ -247,7 +247,20 @@ static void place_legend(const drawing *d, panel_view *v)
     }
 }
 
-static facet_result make_legends(const drawing *d, panel_view *views, bool is_choice, facet_error *error)
+/* A legend that the plot has become too small for, as its neighbor has one below, goes below as well. */
+static void settle_place(const drawing *d, panel_view *v)
+{
+    if (v->legend.place != LEGEND_INSIDE || isfinite(fit_inside(d, v)))
+        return;
+    const double width = room_below(v).width;
+    legend_create(d->canvas, v->panel, view_tick_font(d), d->scale, width, &v->legend);
+    if (legend_rows_height(&v->legend, width) < 0.42 * v->cell.height)
+        v->legend.place = LEGEND_BELOW;
+}
+
+typedef void legend_step(const drawing *d, panel_view *v);
+
+static facet_result for_legends(const drawing *d, panel_view *views, legend_step *step, facet_error *error)
 {
     for (uint32_t i = 0; i < d->chart->panel_count; i++) {
         panel_view *v = &views[i];
@@ -257,10 +270,7 @@ static facet_result make_legends(const drawing *d, panel_view *views, bool is_ch
         const facet_result result = layout_trace(d, v, error);
         if (result != FACET_OK)
             return result;
-        if (is_choice)
-            choose_place(d, v);
-        else
-            place_legend(d, v);
+        step(d, v);
         trace_list_destroy(&v->traces);
     }
     return FACET_OK;
@@ -268,11 +278,13 @@ static facet_result make_legends(const drawing *d, panel_view *views, bool is_ch
 
 facet_result layout_create(const drawing *d, panel_view *views, facet_error *error)
 {
+    static legend_step *const STEPS[] = {choose_place, settle_place, place_legend};
     place_cells(d, views);
-    measure_all(d, views);
-    facet_result result = make_legends(d, views, true, error);
-    if (result != FACET_OK)
-        return result;
-    measure_all(d, views);
-    return make_legends(d, views, false, error);
+    for (int i = 0; i < 3; i++) { /* legends outside make plots smaller */
+        measure_all(d, views);
+        const facet_result result = for_legends(d, views, STEPS[i], error);
+        if (result != FACET_OK)
+            return result;
+    }
+    return FACET_OK;
 }
