@@ -144,25 +144,13 @@ static facet_result convert_model(convert_run *run, const char *model, facet_err
 
 /* ---- the run ---- */
 
-static void end_model(convert_run *run)
-{
-    messages_flush(&run->messages);
-    run->warning_count += run->messages.warning_count;
-    if (run->warnings) {
-        json_t *warnings = report_warnings_json(&run->messages);
-        json_array_extend(run->warnings, warnings);
-        json_decref(warnings);
-    }
-    messages_clear(&run->messages);
-}
-
 static int convert_all(convert_run *run)
 {
     for (size_t i = 0; i < run->names.model_count; i++) {
         const char *model = run->names.models[i];
         facet_error error = {0};
         facet_result result = convert_model(run, model, &error);
-        end_model(run);
+        run->warning_count += report_end_model(&run->messages, run->warnings);
         if (result == FACET_ERROR_CANCELLED || (result != FACET_OK && interrupt_signal()))
             return interrupt_exit();
         if (result == FACET_OK)

@@ -323,19 +323,6 @@ static void report_failure(render_run *run, const char *model, facet_error *erro
         json_array_append_new(run->failures, report_error_json(error, name, run->exit_code));
 }
 
-/* Adds the warnings of a model to the totals and forgets them. */
-static void end_model(render_run *run)
-{
-    messages_flush(&run->messages);
-    run->warning_count += run->messages.warning_count;
-    if (run->warnings) {
-        json_t *warnings = report_warnings_json(&run->messages);
-        json_array_extend(run->warnings, warnings);
-        json_decref(warnings);
-    }
-    messages_clear(&run->messages);
-}
-
 static int render_all(render_run *run)
 {
     const command_line *c = run->line;
@@ -345,12 +332,12 @@ static int render_all(render_run *run)
         facet_error error = {0};
         facet_result result = render_model(run, model, &error);
         if (result == FACET_ERROR_CANCELLED || interrupt_signal()) {
-            end_model(run);
+            run->warning_count += report_end_model(&run->messages, run->warnings);
             return result == FACET_OK && i + 1 == count ? EXIT_DONE : interrupt_exit();
         }
         if (result != FACET_OK)
             report_failure(run, model, &error);
-        end_model(run);
+        run->warning_count += report_end_model(&run->messages, run->warnings);
         if (result == FACET_ERROR_WRITE && run->options.is_stdout)
             break;
     }

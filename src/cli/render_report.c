@@ -59,6 +59,19 @@ json_t *report_warnings_json(const messages *m)
     return list;
 }
 
+size_t report_end_model(messages *m, json_t *all)
+{
+    messages_flush(m);
+    size_t count = m->warning_count;
+    if (all) {
+        json_t *warnings = report_warnings_json(m);
+        json_array_extend(all, warnings);
+        json_decref(warnings);
+    }
+    messages_clear(m);
+    return count;
+}
+
 json_t *report_error_json(const facet_error *error, const char *model, int exit_code)
 {
     if (model)

@@ -25,6 +25,10 @@ json_t *report_picture_json(const picture_report *p);
 json_t *report_warnings_json(const messages *m);
 json_t *report_error_json(const facet_error *error, const char *model /* NULL: none */, int exit_code);
 
+/* Prints the warnings of a model that were not yet, appends them to all (NULL: nobody asked for JSON) and forgets them.
+ * Returns how many there were. */
+size_t report_end_model(messages *m, json_t *all);
+
 /* A JSON string; null where text is NULL or not UTF-8, as names of files need not be. */
 json_t *report_string_json(const char *text);
 
