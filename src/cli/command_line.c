@@ -193,7 +193,7 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
     }
     if (out->argument_count > v->max_arguments)
         return fail_with(error, FACET_ERROR_ARGUMENT, "%s: it takes %s, but got \"%s\"", v->name,
-                         v->max_arguments > 1 ? "two words"
+                         v->max_arguments > 1 ? "fewer words"
                          : v->max_arguments   ? "one word"
                                               : "no words",
                          out->arguments[v->max_arguments]);

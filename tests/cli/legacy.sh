@@ -47,7 +47,7 @@ expect 0 convert old.obj quiet.glb -q
 cmp -s new.glb quiet.glb || failed "the same command gives other bytes"
 expect 0 convert old.obj one.glb -j 1
 cmp -s new.glb one.glb || failed "the file depends on the threads"
-for how in "--method fit" "--profile core" "--mtl-colors linear" "--method fit --target display"; do
+for how in "--method fit" "--profile core" "--mtl-colors linear" "--method fit --fit-target display"; do
     # shellcheck disable=SC2086
     expect 0 convert old.obj other.glb $how
     cmp -s new.glb other.glb && failed "$how changes nothing"
