@@ -33,9 +33,6 @@ facet_result facet_scene_report_conversion(const facet_scene *scene, facet_repor
                                            facet_error *error)
 {
     *out = NULL;
-    if (!scene->conversion)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: no materials were converted, so there is no report",
-                    scene->source);
     text t = {.allocator = scene->allocator};
     facet_result result = FACET_OK;
     if (format == FACET_REPORT_HTML)

@@ -75,7 +75,7 @@ static facet_result set(command_line *c, const option *o, const char *text, opti
     char label[512];
     label_of(c, o, source, label, sizeof label);
     facet_result result = FACET_OK;
-    if (option_takes_value(o) && !*text)
+    if (option_takes_value(o) && !*text && o->id != OPT_TITLE)
         result = fail_with(error, FACET_ERROR_ARGUMENT, "%s: the %s is empty", label, o->argument);
     else if (o->kind == OPTION_CHOICE && find_choice(o, text, strlen(text)) < 0)
         result = fail_choice(label, o, text, error);
@@ -192,10 +192,8 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
             return FACET_OK;
     }
     if (out->argument_count > v->max_arguments)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: it takes %s, but got \"%s\"", v->name,
-                         v->max_arguments > 1 ? "fewer words"
-                         : v->max_arguments   ? "one word"
-                                              : "no words",
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: it takes at most %zu word%s, but got \"%s\"",
+                         v->name, v->max_arguments, v->max_arguments == 1 ? "" : "s",
                          out->arguments[v->max_arguments]);
     return FACET_OK;
 }

@@ -19,14 +19,17 @@ conversion_totals conversion_sum(const facet_scene *scene)
             continue;
         t.grades[one.grade]++;
         t.mean_error += one.error;
+        t.mean_display += one.error_display;
         if (t.told == 0 || one.error_display > t.worst_display) {
             t.worst_display = one.error_display;
             t.worst = one;
         }
         t.told++;
     }
-    if (t.told)
+    if (t.told) {
         t.mean_error /= t.told;
+        t.mean_display /= t.told;
+    }
     return t;
 }
 
@@ -80,9 +83,11 @@ void convert_report_print(const messages *m, const char *model, const facet_scen
             snprintf(grades + used, sizeof grades - used, "%s%u %s", used ? ", " : "", t.grades[i],
                      grade_names[i]);
         }
-    message_at(m, VERBOSITY_NORMAL,
-               "%s: %u material%s converted: %s; mean error E %.3f, worst \"%s\" with %.3f", model, t.told,
-               t.told == 1 ? "" : "s", grades, t.mean_error, t.worst.name, t.worst.error);
+    char worst[256] = "";
+    if (t.worst_display > 0.005)
+        snprintf(worst, sizeof worst, "; worst \"%.200s\" with %.3f", t.worst.name, t.worst_display);
+    message_at(m, VERBOSITY_NORMAL, "%s: %u material%s converted: %s; mean error E %.3f, on a screen %.3f%s",
+               model, t.count, t.count == 1 ? "" : "s", grades, t.mean_error, t.mean_display, worst);
 }
 
 /* ---- for programs ---- */

@@ -11,7 +11,7 @@
 typedef struct conversion_totals {
     uint32_t count, grades[FACET_GRADE_BAD + 1];
     uint32_t told; /* materials that have an error to tell */
-    double mean_error, worst_display;
+    double mean_error, mean_display, worst_display;
     facet_conversion worst; /* by E_display */
 } conversion_totals;
 

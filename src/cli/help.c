@@ -8,7 +8,7 @@
 
 enum { TEXT_COLUMN = 31, OPTION_COLUMN = 2, VERB_COLUMN = 12 };
 
-const char help_summary[] = "physically based pictures of glTF models, on any CPU";
+const char help_summary[] = "physically based pictures of models on any CPU, conversions, plots";
 const char help_first_use[] = "facet render helmet.glb -o helmet.png";
 
 /* A paragraph, or several, each wrapped. */

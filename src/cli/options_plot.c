@@ -121,7 +121,14 @@ const verb plot_verb = {
         "A MATERIAL is a list of parameters (roughness=0.3,metallic=1,color=gold; or "
         "ogl1,diffuse=#808080,specular=white,shininess=50), a model file, optionally with #NAME of one of "
         "its "
-        "materials, or a measured BRDF in MERL's format (.binary). Several are drawn over one another.",
+        "materials, or a measured BRDF in MERL's format (.binary). Several are drawn over one another.\n\n"
+        "Parameters are color, metallic, roughness, ior, specular, specular-color, clearcoat, "
+        "clearcoat-roughness, sheen-color, sheen-roughness, anisotropy, anisotropy-rotation (degrees), "
+        "iridescence, iridescence-ior, iridescence-thickness (nm); after ogl1, diffuse, specular, shininess. "
+        "A "
+        "color is #rrggbb or a CSS name, one linear number for a grey, or three as r/g/b; the others are "
+        "those of "
+        "glTF, mostly from 0 to 1.",
     .examples =
         (const example[]){
             {"facet plot legacy -o vignette.svg",

@@ -110,8 +110,12 @@ static facet_result set_parameter(const char *text, const char *key, const char 
                 "plot: \"%.200s\": %s: \"%.60s\" is not a color: #rrggbb, a CSS name, a grey or r/g/b "
                 "from 0 to 1",
                 text, p->name, value);
-        return fail_with(error, FACET_ERROR_ARGUMENT, "plot: \"%.200s\": %s: \"%.60s\" is not %s", text,
-                         p->name, value, p->is_angle ? "an angle" : "a number in its range");
+        if (p->is_angle)
+            return fail_with(error, FACET_ERROR_ARGUMENT, "plot: \"%.200s\": %s: \"%.60s\" is not an angle",
+                             text, p->name, value);
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "plot: \"%.200s\": %s: \"%.60s\" is not a number from %g to %g", text, p->name,
+                         value, p->minimum, p->maximum);
     }
     return fail_parameter(text, key, out->model, error);
 }

@@ -66,7 +66,8 @@ bool ogl1_json_detect(const void *bytes, size_t size)
         for (size_t i = 0; i < sizeof gltf / sizeof *gltf; i++)
             if (is_key(at, end, gltf[i]))
                 return false;
-        is_ours |= is_key(at, end, "materials") || is_key(at, end, "material3d") || is_key(at, end, "facet");
+        is_ours |= is_key(at, end, "materials") || is_key(at, end, "material3d") ||
+                   is_key(at, end, "shininess") || is_key(at, end, "facet");
         at = skip_space(skip_string(at, end), end);
         if (at < end && *at == ':')
             at = skip_value(at + 1, end);

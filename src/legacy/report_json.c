@@ -225,7 +225,8 @@ static void add_summary(const scene_conversion *c, const ranked *order, text *t)
 void legacy_report_json(const facet_scene *scene, text *out)
 {
     static const char *const models[] = {"metallic-roughness", "specular-glossiness", "ogl1"};
-    const scene_conversion *c = scene->conversion;
+    static const scene_conversion none = {.light_scale = 1.0};
+    const scene_conversion *c = scene->conversion ? scene->conversion : &none;
     ranked *order = mem_alloc(&scene->allocator, (size_t)c->material_count + 1, sizeof *order);
     if (!order) {
         out->has_failed = true;
@@ -237,6 +238,7 @@ void legacy_report_json(const facet_scene *scene, text *out)
     }
     qsort(order, c->material_count, sizeof *order, by_error);
     text_json_begin_object(out, NULL);
+    text_json_string(out, "model", scene->source);
     text_json_string(out, "to", models[c->to]);
     add_double(out, "light_scale", c->light_scale);
     text_json_begin_array(out, "materials");

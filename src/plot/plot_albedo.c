@@ -73,10 +73,11 @@ facet_result plot_make_albedo(plot *p)
     panel->panel.y.scale = plot_scale(p);
     if (!p->desc->is_logarithmic)
         plot_set_range(&panel->panel.y, 0.0, highest > 1.005 ? ceil(highest * 5.0) / 5.0 : 1.0);
-    panel->panel.note = plot_text(p, "integral of BRDF times N.L over the light, within 0.001%s; %s",
-                                  p->has_channels ? "" : "; luminance",
-                                  p->desc->energy == FACET_ENERGY_CONSERVING
-                                      ? "energy-conserving"
-                                      : "the formulas of glTF: what scatters twice is lost");
+    panel->panel.note =
+        plot_text(p, "integral of BRDF times N.L over the light, within 0.001%s; %s",
+                  p->has_channels ? "" : "; luminance",
+                  p->desc->energy == FACET_ENERGY_CONSERVING
+                      ? "energy-conserving"
+                      : "the formulas of glTF, which lose what scatters twice and gain at grazing views");
     return plot_finish(p, "Directional albedo", 1, 960, 640);
 }

@@ -133,7 +133,8 @@ facet_result plot_finish(plot *p, const char *title, uint32_t columns, uint32_t 
 
 chart_style plot_color(uint32_t number, int dash)
 {
-    return (chart_style){.color = (int)number, .dash = dash};
+    /* the palette begins anew after eight: then with other dashes */
+    return (chart_style){.color = (int)number, .dash = dash + (int)(number / 8u)};
 }
 
 chart_style plot_channel(int channel, int dash)

@@ -53,8 +53,8 @@ static const char *note_of(plot *p, double view)
 {
     const char *degrees = plot_degrees(p, view);
     bool is_forced = p->has_cosine && !p->desc->has_cosine;
-    return plot_text(p, "mirror direction at -%s, the eye at %s degrees%s%s", degrees, degrees,
-                     p->has_channels ? "" : "; luminance",
+    return plot_text(p, "mirror direction at %s%s, the eye at %s degrees%s%s", view > 0.0 ? "-" : "", degrees,
+                     degrees, p->has_channels ? "" : "; luminance",
                      is_forced ? "; times N.L, which OpenGL 1's highlight lacks" : "");
 }
 

@@ -64,7 +64,11 @@ static void add_summary(const page *p)
         "the "
         "source (root mean square over lights from the hemisphere and views at 0&deg;, 30&deg; and 60&deg;). "
         "E on a screen is the same with both clamped to what a screen shows; it gives the grade: below 0.05 "
-        "good, 0.12 fair, 0.30 poor.</p>\n");
+        "good, 0.12 fair, 0.30 poor. \"Without extensions\" is what a viewer shows that does not know them, "
+        "\"usual formula\" what most converters write. The error compares glTF with OpenGL 1 in linear "
+        "light; "
+        "an old program adds light in its screen's numbers instead, which darkens the shadow side of its "
+        "ball.</p>\n");
 }
 
 static void add_warnings(text *out, const conversion_warning *warnings, uint32_t count)
@@ -126,12 +130,19 @@ static bool is_black(const float color[3])
 static void add_legacy_values(text *out, const legacy_material *m, facet_legacy_colors colors)
 {
     bool is_linear = colors == FACET_LEGACY_COLORS_LINEAR;
-    text_add(out, "<table><tr><th colspan=\"2\">OpenGL 1</th></tr>\n");
+    text_addf(out, "<table><tr><th colspan=\"2\">OpenGL 1, %s numbers</th></tr>\n",
+              is_linear ? "linear" : "sRGB");
     if (!is_black(m->ambient))
         add_color(out, "ambient", m->ambient, is_linear);
     add_color(out, "diffuse", m->diffuse, is_linear);
+    if (legacy_has_map(m, LEGACY_DIFFUSE_MAP))
+        add_texture_row(out);
     add_color(out, "specular", m->specular, is_linear);
+    if (legacy_has_map(m, LEGACY_SPECULAR_MAP))
+        add_texture_row(out);
     add_number(out, "shininess", m->shininess);
+    if (legacy_has_map(m, LEGACY_SHININESS_MAP))
+        add_texture_row(out);
     if (!is_black(m->emission))
         add_color(out, "emission", m->emission, is_linear);
     if (m->opacity != 1.0f)
@@ -143,9 +154,9 @@ static void add_legacy_values(text *out, const legacy_material *m, facet_legacy_
     text_add(out, "</table>\n");
 }
 
-static void add_pbr_values(text *out, const scene_material *m)
+static void add_pbr_values(text *out, const char *title, const scene_material *m)
 {
-    text_add(out, "<table><tr><th colspan=\"2\">glTF</th></tr>\n");
+    text_addf(out, "<table><tr><th colspan=\"2\">%s</th></tr>\n", title);
     add_color(out, "base color", m->base_color, true);
     if (scene_material_has(m, SCENE_BASE_COLOR_TEXTURE))
         add_texture_row(out);
@@ -178,6 +189,20 @@ static void add_pbr_values(text *out, const scene_material *m)
     text_add(out, "</table>\n");
 }
 
+/* Source and result, in this order. */
+static void add_values(const page *p, const material_conversion *m)
+{
+    bool has_legacy = scene_has_legacy_materials(p->scene) && !m->before;
+    bool is_back = p->conversion->to == FACET_MATERIALS_OGL1;
+    if (m->before)
+        add_pbr_values(p->out, "glTF, before", m->before);
+    if (has_legacy && !is_back)
+        add_legacy_values(p->out, &m->legacy, p->scene->legacy->colors);
+    add_pbr_values(p->out, "glTF, linear numbers", &m->pbr);
+    if (has_legacy && is_back)
+        add_legacy_values(p->out, &m->legacy, p->scene->legacy->colors);
+}
+
 static void add_errors(text *out, const facet_conversion *c)
 {
     const struct {
@@ -204,9 +229,11 @@ static void add_errors(text *out, const facet_conversion *c)
 
 static facet_result add_spheres(page *p, uint32_t material, facet_error *error)
 {
-    static const char *const captions[SPHERE_LOOK_COUNT] = {"as it looked", "its light added as light",
-                                                            "glTF"};
-    for (int look = 0; look < SPHERE_LOOK_COUNT; look++) {
+    static const char *const captions[SPHERE_LOOK_COUNT] = {"OpenGL 1, on its screen",
+                                                            "OpenGL 1, in linear light", "glTF"};
+    bool is_back = p->conversion->to == FACET_MATERIALS_OGL1; /* the source stands first */
+    for (int i = 0; i < SPHERE_LOOK_COUNT; i++) {
+        int look = is_back ? SPHERE_LOOK_COUNT - 1 - i : i;
         unsigned char *bytes = NULL;
         size_t size = 0;
         facet_result result =
@@ -260,9 +287,7 @@ static facet_result add_material(page *p, uint32_t material, bool has_pictures, 
     if (has_pictures && p->stage)
         result = add_spheres(p, material, error);
     text_add(p->out, "</div>\n<div class=\"row\">\n");
-    if (p->scene->legacy)
-        add_legacy_values(p->out, &m->legacy, p->scene->legacy->colors);
-    add_pbr_values(p->out, &m->pbr);
+    add_values(p, m);
     add_errors(p->out, &m->summary);
     text_add(p->out, "</div>\n");
     if (result == FACET_OK && has_pictures && m->has_surfaces)
@@ -310,9 +335,13 @@ static facet_result add_materials(page *p, facet_error *error)
 
 facet_result report_html(const facet_scene *scene, text *out, facet_error *error)
 {
-    page p = {.scene = scene, .conversion = scene->conversion, .out = out, .has_curves = true};
+    static const scene_conversion none = {0};
+    page p = {.scene = scene,
+              .conversion = scene->conversion ? scene->conversion : &none,
+              .out = out,
+              .has_curves = true};
     facet_result result = FACET_OK;
-    if (scene->legacy)
+    if (scene_has_legacy_materials(scene))
         result = sphere_stage_create(scene, &p.stage, error);
     html_begin(out, "Converted materials");
     add_summary(&p);

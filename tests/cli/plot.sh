@@ -14,6 +14,7 @@ for kind in $kinds; do
 done
 expect 0 plot tone -o - --format csv
 cmp -s out tone.csv || failed "standard output has other numbers than the file"
+expect 0 plot tone -o none.csv --title ''
 expect 0 plot legacy -o again.csv -j 1
 cmp -s again.csv legacy.csv || failed "the numbers depend on the threads"
 expect 0 plot legacy -o ramp.csv --heaviside ramp
@@ -46,7 +47,7 @@ write_triangle in.gltf
 expect 0 plot slice roughness=0.3,metallic=1,color=gold ogl1,diffuse=0.5,specular=1,shininess=20 -o a.csv
 expect 0 plot slice ogl1,diffuse=#808080,specular=0.1/0.2/0.3 --fit -o b.csv
 expect 2 plot slice roughness=2 -o c.csv
-says 'roughness: "2" is not a number in its range'
+says 'roughness: "2" is not a number from 0 to 1'
 expect 2 plot slice rougness=.2 -o c.csv
 says 'there is no parameter "rougness"'
 expect 2 plot slice color=nocolor -o c.csv
