@@ -7,8 +7,7 @@
 
 facet_orbit facet_orbit_default(void)
 {
-    const float degree = 3.14159265f / 180.0f;
-    return (facet_orbit){.polar_rad = 75.0f * degree, .radius_scale = 1.05f, .fov_y_rad = 30.0f * degree};
+    return scene_orbit_default();
 }
 
 facet_result facet_camera_from_orbit(const facet_scene *scene, const facet_pose_desc *pose_desc,

@@ -63,8 +63,7 @@ static facet_result set_stage(const facet_scene *scene, stage *s, facet_error *e
 {
     *s = (stage){.radius = 1};
     facet_camera camera = {.eye = {0, 0, 1}};
-    /* facet_orbit_default(), which stands above this module. */
-    const facet_orbit orbit = {.polar_rad = 1.30899694f, .radius_scale = 1.05f, .fov_y_rad = 0.523598776f};
+    const facet_orbit orbit = scene_orbit_default();
     scene_pose pose;
     facet_result result =
         scene_pose_create(scene, NULL, &scene->allocator, scene->thread_count, &pose, error);

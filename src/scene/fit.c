@@ -6,6 +6,12 @@
 #include "scene/bounds.h"
 #include "scene/fit_times.h"
 
+facet_orbit scene_orbit_default(void)
+{
+    const float degree = 3.14159265f / 180.0f;
+    return (facet_orbit){.polar_rad = 75.0f * degree, .radius_scale = 1.05f, .fov_y_rad = 30.0f * degree};
+}
+
 /* Where an orbit looks from: unit vectors in world space, and the tangents of half the angles of view. */
 typedef struct view {
     double target[3];

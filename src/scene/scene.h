@@ -442,6 +442,9 @@ const scene_material *scene_pose_material(const facet_scene *scene, const scene_
 
 /* ---- cameras ---- */
 
+/* facet_orbit_default(). */
+facet_orbit scene_orbit_default(void);
+
 /* facet_camera_from_orbit() for a pose that is there (it may draw nothing): for that one, whatever fits_all_times says.
  * The distance is exact: at radius_scale 1 the outermost vertex is on the border of the picture. Fails with
  * FACET_ERROR_ARGUMENT for numbers that are no camera. */
