@@ -168,6 +168,11 @@ typedef struct facet_legacy_desc {
     facet_legacy_ambient ambient;
     bool has_glass; /* Ni, Tf and illum 4, 6, 7, 9 become transmission; false: opacity becomes alpha */
     bool
+        has_mirrors; /* illum 3, 5, 7, 8: Ks is a reflectance, and the surroundings are reflected; false: a highlight */
+    /* Textures that only the old materials use leave the scene; the way back is then fitted for them. Once some have
+     * left, FACET_MATERIALS_METALLIC_ROUGHNESS leaves the materials as they are. */
+    bool drops_sources;
+    bool
         keeps_light; /* legacy lights keep their numbers; false: times pi, which makes the two models agree */
     bool bakes_occlusion; /* to OGL1: the occlusion texture darkens the diffuse one */
     bool

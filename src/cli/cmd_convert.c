@@ -60,13 +60,8 @@ static facet_result save(convert_run *run, const char *model, const facet_scene 
                                             (float)option_number(c, OPT_MTL_SHININESS_SCALE, 0.0)};
     char report[CONVERT_NAME_SIZE];
     facet_result result = FACET_OK;
-    if (run->names.report) {
+    if (run->names.report)
         result = convert_name(&run->names, model, true, report, error);
-        if (result == FACET_OK && facet_scene_get_conversion_count(scene) == 0)
-            result = fail_with(error, FACET_ERROR_ARGUMENT,
-                               "%s: no material was converted, so there is nothing to report (--report)",
-                               input_name(model));
-    }
     if (result == FACET_OK && run->names.report && facet_scene_has_file(scene, report))
         result = fail_with(error, FACET_ERROR_ARGUMENT,
                            "%s: it is an input, too, and would be overwritten; name another report", report);
@@ -192,6 +187,8 @@ static facet_result begin(convert_run *run, command_line *c, facet_error *error)
                                          .root = option_text(c, OPT_ROOT, NULL),
                                          .max_texture_size = run->limits.max_texture_size};
     legacy_options_read(c, &run->scene_desc);
+    run->scene_desc.legacy.drops_sources =
+        !format_is_legacy(run->names.format) && !is_given(c, OPT_KEEP_SOURCES);
     return FACET_OK;
 }
 

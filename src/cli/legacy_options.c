@@ -12,6 +12,7 @@ void legacy_options_read(const command_line *c, facet_scene_desc *out)
     l->illum = (facet_mtl_illum)option_choice(c, OPT_ILLUM, FACET_ILLUM_AUTO);
     l->ambient = (facet_legacy_ambient)option_choice(c, OPT_AMBIENT, FACET_AMBIENT_DROP);
     l->has_glass = is_given(c, OPT_GLASS);
+    l->has_mirrors = is_given(c, OPT_MIRRORS);
     l->keeps_light = option_choice(c, OPT_LIGHT_SCALE, 0) == 1;
     l->bakes_occlusion = is_given(c, OPT_BAKE_OCCLUSION);
     l->ignores_source = is_given(c, OPT_REFIT);

@@ -30,6 +30,10 @@ static const option convert_options[] = {
      .help = "keep: as they are (those of OBJ become metallic-roughness in glTF); specular-glossiness is "
              "KHR_materials_pbrSpecularGlossiness",
      .choices = WORDS("keep", "metallic-roughness", "specular-glossiness")},
+    {.id = OPT_KEEP_SOURCES,
+     .name = "keep-sources",
+     .kind = OPTION_FLAG,
+     .help = "pictures that only the old materials read stay in the file, for the way back"},
 };
 
 static const option to_legacy_options[] = {

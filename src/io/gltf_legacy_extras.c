@@ -1,7 +1,7 @@
 /* gltf_legacy_extras.c - extras.facet_legacy: what glTF materials were converted from (scene/legacy_extras.h writes it).
  *
  * A material's values count while its factors still are those of the member "pbr", to 1e-6: once an editor has changed
- * them, the glTF material is the truth. Extras belong to whoever writes them: what is not as expected is left out
+ * them, the glTF material is the truth. So it is where a picture of the old material is not there. Extras belong to whoever writes them: what is not as expected is left out
  * silently. */
 #include <math.h>
 #include <string.h>
@@ -58,13 +58,16 @@ static const char *get_text(reader *r, const json_t *value)
 
 /* ---- materials ---- */
 
-static void get_ref(const reader *r, const json_t *object, scene_texture_ref *ref)
+static void get_ref(const reader *r, const json_t *object, legacy_map *map)
 {
+    scene_texture_ref *ref = &map->ref;
     const json_t *texture = json_object_get(object, "texture");
     const json_t *set = json_object_get(object, "texCoord");
     json_int_t index = json_is_integer(texture) ? json_integer_value(texture) : -1;
     if (index >= 0 && (uint64_t)index < r->scene->texture_count)
         ref->texture = (uint32_t)index;
+    get_flag(json_object_get(object, "left_out"), &map->is_left_out);
+    map->is_left_out |= index >= 0 && ref->texture == SCENE_NONE;
     if (json_is_integer(set) && json_integer_value(set) >= 0 && json_integer_value(set) < SCENE_NONE)
         ref->texcoord = (uint32_t)json_integer_value(set);
     const float most = 1e9f;
@@ -80,7 +83,7 @@ static void get_map(reader *r, const json_t *object, legacy_map *map)
     const float most = 1e9f;
     if (!json_is_object(object))
         return;
-    get_ref(r, object, &map->ref);
+    get_ref(r, object, map);
     map->path = get_text(r, json_object_get(object, "path"));
     map->options = get_text(r, json_object_get(object, "options"));
     map->dropped = get_text(r, json_object_get(object, "dropped"));
@@ -209,8 +212,12 @@ void read_legacy_extras(reader *r, const json_place *root)
         const json_t *member = find_member(json_array_get(materials, i));
         legacy->materials[i] = legacy_material_default();
         legacy->materials[i].name = scene->materials[i].name;
-        if (member && is_unchanged(json_object_get(member, "pbr"), &scene->materials[i]))
-            get_material(r, member, &legacy->materials[i]);
+        if (!member || !is_unchanged(json_object_get(member, "pbr"), &scene->materials[i]))
+            continue;
+        legacy_material known = legacy->materials[i];
+        get_material(r, member, &known);
+        if (!legacy_lacks_pictures(&known))
+            legacy->materials[i] = known;
     }
     if (reader_is_ok(r))
         scene->legacy = legacy;

@@ -125,6 +125,35 @@ static void edited_materials_do_not_count(void **state)
     scene_destroy(scene);
 }
 
+/* A picture that is not there, by the mark of who left it out or by its number, leaves the glTF material as the truth. One
+ * that never was there is the old material's own affair, and so is one that no surface shows. */
+static void materials_without_their_pictures_do_not_count(void **state)
+{
+    (void)state;
+    legacy_material m = make_material();
+    m.maps[LEGACY_BUMP_MAP].is_left_out = true;
+    facet_scene *scene = load_with(&m, "0.37", ",\"extras\":{\"facet_legacy\":{\"colors\":\"linear\"}}");
+    assert_non_null(scene->legacy);
+    assert_int_equal(scene->legacy->colors, FACET_LEGACY_COLORS_LINEAR);
+    assert_int_equal(scene->legacy->materials[1].fields, 0);
+    assert_string_equal(scene->legacy->materials[1].name, "m");
+    assert_null(scene->legacy->materials[1].maps[LEGACY_BUMP_MAP].path);
+    scene_destroy(scene);
+    m = make_material();
+    m.maps[LEGACY_SPECULAR_MAP].ref.texture = 2; /* of two */
+    scene = load_with(&m, "0.37", "");
+    assert_int_equal(scene->legacy->materials[1].fields, 0);
+    scene_destroy(scene);
+    m = make_material();
+    m.maps[LEGACY_DISPLACEMENT_MAP].is_left_out = true;
+    m.maps[LEGACY_DISPLACEMENT_MAP].path = NULL;
+    scene = load_with(&m, "0.37", "");
+    assert_same(&m, &scene->legacy->materials[1]);
+    assert_true(scene->legacy->materials[1].maps[LEGACY_DISPLACEMENT_MAP].is_left_out);
+    assert_true(scene->legacy->materials[1].fields != 0);
+    scene_destroy(scene);
+}
+
 static void lights_and_fog_come_back(void **state)
 {
     (void)state;
@@ -191,7 +220,7 @@ static void strange_extras_are_left_alone(void **state)
              "'roughnessFactor':1,'specularFactor':1,'specularColorFactor':[1,1,1],'ior':1.5,'emissiveFactor'"
              ":[0,0,0]},"
              "'Kd':[1,2],'Ks':'red','Ns':-1,'d':[0.5],'illum':11,'lit':0,'texture_type':'cmyk','map_Kd':"
-             "{'texture':9,'texCoord':-1,'offset':7,'imfchan':'rg','path':3},'map_Ks':[]}}}],"
+             "{'texture':-9,'texCoord':-1,'offset':7,'imfchan':'rg','path':3},'map_Ks':[]}}}],"
              "'extras':{'facet_legacy':{'lights':[7,{'position':[1,2]}],'fog':9,'colors':'default','dialect':"
              "'auto'}}",
              NULL);
@@ -240,8 +269,11 @@ static void extras_are_merged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_come_back),         cmocka_unit_test(edited_materials_do_not_count),
-        cmocka_unit_test(lights_and_fog_come_back), cmocka_unit_test(strange_extras_are_left_alone),
+        cmocka_unit_test(values_come_back),
+        cmocka_unit_test(edited_materials_do_not_count),
+        cmocka_unit_test(materials_without_their_pictures_do_not_count),
+        cmocka_unit_test(lights_and_fog_come_back),
+        cmocka_unit_test(strange_extras_are_left_alone),
         cmocka_unit_test(extras_are_merged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

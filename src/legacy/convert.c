@@ -46,9 +46,22 @@ static facet_result convert_all(conversion *c, facet_material_model to, facet_er
     return is_source ? convert_from_ogl1(c, error) : convert_from_glossiness(c, error);
 }
 
+/* Whether the old materials cannot be converted once more: pictures of theirs have left, with the first time. */
+static bool has_lost_pictures(const facet_scene *scene)
+{
+    if (!scene->legacy || !scene->legacy->is_source || !scene->conversion)
+        return false;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        if (legacy_lacks_pictures(&scene->legacy->materials[i]))
+            return true;
+    return false;
+}
+
 facet_result legacy_convert(facet_scene *scene, facet_material_model to, const facet_legacy_desc *desc,
                             const facet_log *log, facet_error *error)
 {
+    if (to == FACET_MATERIALS_METALLIC_ROUGHNESS && has_lost_pictures(scene))
+        return FACET_OK;
     conversion c = {.scene = scene, .desc = *desc, .notes = {.scene = scene}};
     facet_result result = begin(&c, to, error);
     if (result == FACET_OK)
@@ -57,6 +70,8 @@ facet_result legacy_convert(facet_scene *scene, facet_material_model to, const f
         note_light(&c, to);
     /* Nothing of the scene is touched before all is there. */
     bool has_legacy = c.materials && scene->legacy && scene->legacy->is_source;
+    if (result == FACET_OK && has_legacy && desc->drops_sources && to == FACET_MATERIALS_METALLIC_ROUGHNESS)
+        result = drop_plan_make(&c, error);
     if (result == FACET_OK && has_legacy)
         result = convert_extras(&c, error);
     if (result == FACET_OK && !note_list_finish(&c.notes, log, c.out))
@@ -64,6 +79,7 @@ facet_result legacy_convert(facet_scene *scene, facet_material_model to, const f
     if (result == FACET_OK)
         result = texture_bench_finish(c.bench, error);
     if (result == FACET_OK) {
+        drop_plan_carry_out(&c);
         scene->conversion = c.out;
         scene->materials = c.materials ? c.materials : scene->materials;
         scene->legacy = c.legacy ? c.legacy : scene->legacy;

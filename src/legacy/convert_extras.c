@@ -20,14 +20,15 @@ static const char *merged(const facet_scene *scene, const char *extras, const te
 facet_result convert_extras(conversion *c, facet_error *error)
 {
     facet_scene *scene = c->scene;
+    const struct scene_legacy *legacy = c->legacy ? c->legacy : scene->legacy;
     text member = {.allocator = scene->allocator};
     for (uint32_t i = 0; i < scene->material_count; i++) {
         scene_material *material = &c->materials[i];
-        if (scene->legacy->materials[i].is_gltf_restored)
+        if (legacy->materials[i].is_gltf_restored)
             continue;
         text_destroy(&member);
         member = (text){.allocator = scene->allocator};
-        legacy_extras_write(scene->legacy, i, material, &member);
+        legacy_extras_write(legacy, i, material, &member);
         material->meta.extras = merged(scene, material->meta.extras, &member);
         if (!material->meta.extras)
             break;
@@ -35,10 +36,10 @@ facet_result convert_extras(conversion *c, facet_error *error)
     }
     bool is_complete = true;
     for (uint32_t i = 0; i < scene->material_count; i++)
-        is_complete &= scene->legacy->materials[i].is_gltf_restored || c->materials[i].meta.extras != NULL;
+        is_complete &= legacy->materials[i].is_gltf_restored || c->materials[i].meta.extras != NULL;
     text_destroy(&member);
     member = (text){.allocator = scene->allocator};
-    legacy_extras_write_scene(scene->legacy, &member);
+    legacy_extras_write_scene(legacy, &member);
     const char *extras = is_complete ? merged(scene, scene->meta.extras, &member) : NULL;
     text_destroy(&member);
     if (!extras)

@@ -3,6 +3,7 @@
  *   convert_solve.c      the numbers of all materials, in parallel, each distinct one once, with their errors
  *   convert_build.c      a glTF material of numbers and maps; convert_build_maps.c its textures
  *   convert_ogl1.c       legacy materials of glTF's; convert_ogl1_maps.c their textures
+ *   convert_drop.c       textures that only the old materials read leave
  *   specular_glossiness.c, lights.c */
 #ifndef LEGACY_CONVERT_STATE_H
 #define LEGACY_CONVERT_STATE_H
@@ -14,6 +15,16 @@
 #include "legacy/fit.h"
 #include "legacy/texture_bench.h"
 
+/* Which textures leave a scene, and where the others come to stand. Everything in the scene's arena. */
+typedef struct drop_plan {
+    bool is_needed;                      /* some leave */
+    uint32_t texture_count, image_count; /* as texture_bench_finish() leaves them */
+    uint32_t *textures, *images;         /* new place of each; SCENE_NONE: it leaves */
+    scene_texture *new_textures;
+    scene_image *new_images;
+    struct scene_conversion_source *before;
+} drop_plan;
+
 typedef struct conversion {
     facet_scene *scene;
     facet_legacy_desc desc;
@@ -23,6 +34,7 @@ typedef struct conversion {
     scene_material *materials;   /* the new ones, in the scene's arena; NULL: the scene's stay */
     struct scene_legacy *legacy; /* the same */
     bool *has_vertex_colors;     /* per material, of a scene with rgl's rules; NULL: vertex colors multiply */
+    drop_plan drop;              /* of desc.drops_sources */
 } conversion;
 
 /* ---- legacy materials, understood ---- */
@@ -44,6 +56,7 @@ typedef struct legacy_reading {
     float metallic,
         perceptual_roughness;          /* READING_METALLIC; READING_GLOSSY: roughness where there is no map */
     float glossiness;                  /* READING_GLOSSY: factor of its map */
+    float F90;                         /* READING_GLOSSY: of light that grazes; 1 */
     float specular_level;              /* F0 in units of glTF's 0.04; 1 */
     bool has_shininess_as_roughness;   /* map_Ns is a roughness or glossiness map, map_Ks metallic */
     bool has_roughness_from_shininess; /* perceptual_roughness is the closed form's */
@@ -101,6 +114,10 @@ facet_result convert_from_ogl1(conversion *c, facet_error *error);
 facet_result convert_to_ogl1(conversion *c, facet_error *error);
 facet_result convert_from_glossiness(conversion *c, facet_error *error);
 facet_result convert_to_glossiness(conversion *c, facet_error *error);
+
+/* What leaves, and new materials that say so; then that it has left, which cannot fail. */
+facet_result drop_plan_make(conversion *c, facet_error *error);
+void drop_plan_carry_out(conversion *c);
 
 /* extras.facet_legacy of the new materials and of the scene. */
 facet_result convert_extras(conversion *c, facet_error *error);

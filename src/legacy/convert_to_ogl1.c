@@ -19,6 +19,8 @@ static bool is_known(const conversion *c, uint32_t material)
     if (!scene->legacy || c->desc.ignores_source)
         return false;
     const legacy_material *m = &scene->legacy->materials[material];
+    if (legacy_lacks_pictures(m))
+        return false;
     if (scene->legacy->is_source)
         return !m->is_gltf_restored || m->fields != 0;
     if (last && last->to == FACET_MATERIALS_OGL1 && material < last->material_count &&
@@ -27,12 +29,24 @@ static bool is_known(const conversion *c, uint32_t material)
     return m->fields != 0;
 }
 
+/* Whether the glTF material reflects about as much as Ks says: made of it with facet_legacy_desc.has_mirrors. */
+static bool is_mirror(const conversion *c, uint32_t material)
+{
+    const scene_material *m = &c->scene->materials[material];
+    float Ks[3];
+    legacy_color_to_linear(c->scene->legacy->materials[material].specular, c->scene->legacy->colors, Ks);
+    float F0 = m->ior == 0.0f ? m->specular * highest_of(m->specular_color) : 0.04f;
+    F0 += m->metallic * (highest_of(m->base_color) - F0);
+    return F0 > 0.5f * highest_of(Ks);
+}
+
 /* The surface that known values stand for; false: they are not Blinn-Phong. Remarks were made when they were read. */
 static bool known_surface(conversion *c, uint32_t material, ogl1_surface *out)
 {
     conversion quiet = *c;
     legacy_reading reading;
     quiet.notes = (note_list){.scene = c->scene};
+    quiet.desc.has_mirrors = is_mirror(c, material);
     legacy_read(&quiet, material, &reading);
     bool has_failed = quiet.notes.has_failed;
     note_list_destroy(&quiet.notes);

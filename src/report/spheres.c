@@ -75,6 +75,19 @@ static bool fill_scene(sphere_stage *stage)
     return true;
 }
 
+/* Where pictures of the old materials have left the scene, they are shown with them. */
+static void share_source(const facet_scene *scene, facet_scene *s)
+{
+    const scene_conversion_source *before = scene->conversion ? scene->conversion->before : NULL;
+    if (!before)
+        return;
+    s->materials = before->materials;
+    s->texture_count = before->texture_count;
+    s->textures = before->textures;
+    s->image_count = before->image_count;
+    s->images = before->images;
+}
+
 facet_result sphere_stage_create(const facet_scene *scene, sphere_stage **out, facet_error *error)
 {
     *out = NULL;
@@ -95,6 +108,7 @@ facet_result sphere_stage_create(const facet_scene *scene, sphere_stage **out, f
     s->textures = scene->textures;
     s->image_count = scene->image_count;
     s->images = scene->images;
+    share_source(scene, s);
     s->max_texture_size = scene->max_texture_size;
     s->thread_count = scene->thread_count;
     if (scene->legacy) {
@@ -104,6 +118,8 @@ facet_result sphere_stage_create(const facet_scene *scene, sphere_stage **out, f
         stage->legacy.lights = &stage->light;
         stage->legacy.light_count = 1;
         stage->legacy.fog = (legacy_fog){0};
+        if (scene->conversion && scene->conversion->before)
+            stage->legacy.materials = scene->conversion->before->legacy;
         s->legacy = &stage->legacy;
     }
     *out = stage;

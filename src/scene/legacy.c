@@ -49,6 +49,17 @@ legacy_light legacy_light_default(void)
     return light;
 }
 
+bool legacy_lacks_pictures(const legacy_material *m)
+{
+    for (int slot = 0; slot < LEGACY_MAP_COUNT; slot++) {
+        bool has_counterpart = slot != LEGACY_AMBIENT_MAP && slot != LEGACY_DISPLACEMENT_MAP &&
+                               slot != LEGACY_DECAL_MAP && slot != LEGACY_REFLECTION_MAP;
+        if (has_counterpart && m->maps[slot].is_left_out)
+            return true;
+    }
+    return false;
+}
+
 bool scene_has_legacy_materials(const facet_scene *scene)
 {
     return scene->legacy &&

@@ -61,6 +61,7 @@ typedef struct legacy_map {
     float bump_multiplier; /* -bm; 1 */
     const char *dropped; /* options that nothing here holds, as written: "-t 1 1 1 -texres 512"; NULL: none */
     const char *options; /* all options as written, to write them again; NULL: none */
+    bool is_left_out;    /* its picture was there, and left the scene: facet_legacy_desc.drops_sources */
 } legacy_map;
 
 /* rgl's textype and texmode (glTexEnv). */
@@ -105,7 +106,9 @@ typedef struct legacy_material {
     legacy_texture_mode texture_mode;
     legacy_map maps[LEGACY_MAP_COUNT];
     bool is_rma;         /* LEGACY_ORM_MAP: red holds roughness, green metallic, blue occlusion (map_RMA) */
-    const char *unknown; /* statements that facet does not know, as lines; NULL: none */
+    const char *unknown; /* statements that mean nothing to facet, as lines; NULL: none */
+    const char
+        *kept; /* where in unknown those begin that the format knows: rgl's size, lwd, ..; NULL: none */
     const char
         *gltf_json; /* of a comment "#facet-gltf": the glTF material that these values were made of; NULL */
     bool is_gltf_restored; /* the scene's glTF material is that one, exactly: there is nothing to convert */
@@ -121,6 +124,9 @@ static inline bool legacy_has_map(const legacy_material *m, legacy_map_slot slot
 {
     return m->maps[slot].ref.texture != SCENE_NONE;
 }
+
+/* Whether the picture of a map that becomes something in glTF left the scene: what the material was is not known whole. */
+bool legacy_lacks_pictures(const legacy_material *m);
 
 /* A light of OpenGL 1 as rgl has them: without attenuation, without spots. */
 typedef struct legacy_light {
@@ -203,12 +209,22 @@ typedef struct material_conversion {
     const conversion_warning *warnings;
 } material_conversion;
 
+/* A scene's materials and pictures before some left it: facet_legacy_desc.drops_sources. */
+typedef struct scene_conversion_source {
+    scene_material *materials;
+    legacy_material *legacy;
+    uint32_t texture_count, image_count;
+    scene_texture *textures;
+    scene_image *images;
+} scene_conversion_source;
+
 typedef struct scene_conversion {
     facet_material_model to;
     uint32_t material_count; /* one per material of the scene, in its order */
     material_conversion *materials;
     uint32_t warning_count; /* of the whole scene: lights, fog */
     const conversion_warning *warnings;
+    const scene_conversion_source *before; /* NULL: no picture left */
     double
         light_scale; /* what legacy lights were, or are to be, multiplied with: pi, or 1 where not asked for */
 } scene_conversion;

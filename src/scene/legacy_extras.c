@@ -99,6 +99,8 @@ static void write_map(const legacy_map *map, const char *key, text *out)
         text_json_string(out, "dropped", map->dropped);
     if (ref->texture != SCENE_NONE)
         text_json_integer(out, "texture", ref->texture);
+    if (map->is_left_out)
+        text_json_bool(out, "left_out", true);
     if (ref->texcoord)
         text_json_integer(out, "texCoord", ref->texcoord);
     if (ref->offset[0] != 0.0f || ref->offset[1] != 0.0f)
@@ -148,7 +150,7 @@ void legacy_extras_write_material(const legacy_material *m, const scene_material
     if (m->texture_mode != LEGACY_MODULATE)
         text_json_string(out, "texture_mode", legacy_texture_mode_names[m->texture_mode]);
     for (int i = 0; i < LEGACY_MAP_COUNT; i++)
-        if (m->maps[i].path || m->maps[i].ref.texture != SCENE_NONE)
+        if (m->maps[i].path || m->maps[i].ref.texture != SCENE_NONE || m->maps[i].is_left_out)
             write_map(&m->maps[i], legacy_map_keys[i], out);
     if (m->unknown)
         text_json_string(out, "unknown", m->unknown);
