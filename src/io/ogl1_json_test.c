@@ -196,7 +196,8 @@ static void test_parameters(void **state)
     assert_int_equal(m->texture_mode, LEGACY_DECAL);
     ogl1_assert_color(m->emission, 0x333333);
     assert_true(m->ambient[0] == 0.25f && m->ambient[2] == 1.0f && m->shininess == 128.0f);
-    assert_string_equal(m->unknown, "front \"lines\"\nfoo {\"bar\":[1,2.5,\"x\"]}");
+    assert_string_equal(m->unknown, "foo {\"bar\":[1,2.5,\"x\"]}\nfront \"lines\"");
+    assert_string_equal(m->kept, "front \"lines\"");
     assert_true(legacy_has(m, LEGACY_ILLUM | LEGACY_IOR | LEGACY_TRANSMISSION_FILTER | LEGACY_ROUGHNESS |
                                   LEGACY_ANISOTROPY_ROTATION));
     assert_false(legacy_has(m, LEGACY_METALLIC));
@@ -229,6 +230,7 @@ static void test_unknown_is_told_once(void **state)
         ogl1_load("{'materials':[{'foo':1},{'foo':2},{'foo':[]}],'lights':[{'baz':1},{'baz':2}],"
                   "'extra':1}");
     assert_string_equal(scene->legacy->materials[1].unknown, "foo 2");
+    assert_null(scene->legacy->materials[1].kept);
     assert_null(scene->legacy->materials[2].unknown);
     assert_int_equal(scene->warning_count, 3);
     assert_true(has_warning(scene, "\"foo\""));

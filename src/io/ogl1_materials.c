@@ -129,33 +129,62 @@ static bool is_word(const char *key)
     return key[0] != 0;
 }
 
-/* Keeps what nothing here reads: a line "KEY VALUE" each, the value as JSON. */
+/* A line "KEY VALUE", the value as JSON. */
+static void add_line(const char *key, const json_t *value, text *lines)
+{
+    char *json = json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(15));
+    if (json)
+        text_addf(lines, "%s%s %s", lines->length ? "\n" : "", key, json);
+    else
+        lines->has_failed = true;
+    free(json);
+}
+
+/* The lines of both, what is foreign to rgl first. */
+static void join_unknown(reader *r, const text *foreign, const text *kept, legacy_material *m)
+{
+    size_t at = foreign->length + (foreign->length && kept->length);
+    size_t size = at + kept->length + 1;
+    if (size == 1 && !foreign->has_failed && !kept->has_failed)
+        return;
+    char *all = arena_zalloc(r->scene->arena, size, 1);
+    if (!all || foreign->has_failed || kept->has_failed) {
+        reader_fail_memory(r, "parameters", size);
+        return;
+    }
+    if (foreign->length)
+        memcpy(all, foreign->data, foreign->length);
+    if (at > foreign->length)
+        all[foreign->length] = '\n';
+    if (kept->length)
+        memcpy(all + at, kept->data, kept->length);
+    m->unknown = all;
+    m->kept = kept->length ? all + at : NULL;
+}
+
+/* Keeps what nothing here reads. */
 static void keep_unknown(reader *r, const json_place *at, legacy_material *m)
 {
     const char *key;
     json_t *value;
-    text lines = {.allocator = *r->allocator};
+    text foreign = {.allocator = *r->allocator};
+    text kept = {.allocator = *r->allocator};
     json_object_foreach((json_t *)at->value, key, value)
     {
         if (is_read(key, value) || ogl1_member(at, key).value == NULL)
             continue;
-        if (!ogl1_is_parameter(key) && !ogl1_is_kept(key))
+        bool is_rgls = ogl1_is_parameter(key) || ogl1_is_kept(key);
+        if (!is_rgls)
             reader_warn(r, NULL, NULL,
                         is_word(key) ? "\"%.60s\" is no parameter of material3d(); it is kept"
                                      : "\"%.60s\" is no parameter of material3d(); it is dropped",
                         key);
-        char *json =
-            is_word(key) ? json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(15)) : NULL;
-        if (json)
-            text_addf(&lines, "%s%s %s", lines.length ? "\n" : "", key, json);
-        else if (is_word(key))
-            lines.has_failed = true;
-        free(json);
+        if (is_word(key))
+            add_line(key, value, is_rgls ? &kept : &foreign);
     }
-    m->unknown = lines.length ? arena_strdup(r->scene->arena, lines.data) : NULL;
-    if (lines.has_failed || (lines.length && !m->unknown))
-        reader_fail_memory(r, "parameters", lines.capacity);
-    text_destroy(&lines);
+    join_unknown(r, &foreign, &kept, m);
+    text_destroy(&foreign);
+    text_destroy(&kept);
 }
 
 static void read_objects(reader *r, const json_place *at, ogl1_entry *out)
