@@ -280,7 +280,9 @@ static void build_factors(const conversion *c, const legacy_reading *r, const so
         out->extensions |= SCENE_SPECULAR | SCENE_IOR;
         out->ior = 0.0f;
         out->perceptual_roughness = 1.0f - r->glossiness;
-        memcpy(out->specular_color, r->surface.specular, sizeof out->specular_color);
+        out->specular = r->F90;
+        for (int k = 0; k < 3; k++)
+            out->specular_color[k] = r->surface.specular[k] / r->F90;
         break;
     case READING_OGL1:
         out->metallic = item->pbr.metallic;

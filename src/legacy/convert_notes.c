@@ -28,6 +28,8 @@ static const struct {
     [NOTE_AMBIENT_DROPPED] = {"ambient-dropped", true},
     [NOTE_ILLUM_IGNORED] = {"illum-ignored", true},
     [NOTE_ILLUM_HONOURED] = {"illum-honoured", false},
+    [NOTE_MIRROR_IGNORED] = {"mirror-ignored", true},
+    [NOTE_MIRROR_IGNORED_QUIETLY] = {"mirror-ignored", false},
     [NOTE_KS_MAP_USED_AS_SPECULAR] = {"ks-map-used-as-specular", false},
     [NOTE_BLACK_KD_WITH_MAP] = {"black-kd-with-map", true},
     [NOTE_BLACK_KE_WITH_MAP] = {"black-ke-with-map", true},

@@ -23,6 +23,8 @@ typedef enum note_code {
     NOTE_AMBIENT_DROPPED,
     NOTE_ILLUM_IGNORED,
     NOTE_ILLUM_HONOURED,
+    NOTE_MIRROR_IGNORED,
+    NOTE_MIRROR_IGNORED_QUIETLY, /* the same code, in the report only */
     NOTE_KS_MAP_USED_AS_SPECULAR,
     NOTE_BLACK_KD_WITH_MAP,
     NOTE_BLACK_KE_WITH_MAP,

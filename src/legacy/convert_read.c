@@ -1,6 +1,7 @@
 /* convert_read.c - what a legacy material means: its dialect, its illum, rgl's switches and what exporters get wrong.
  * docs/legacy.md, "What becomes of each statement". Numbers and textures are made of it elsewhere. */
 #include "legacy/convert_state.h"
+#include "legacy/specular_glossiness.h"
 #include "scene/legacy_extras.h"
 
 #include <math.h>
@@ -49,11 +50,13 @@ static void note_losses(conversion *c, uint32_t material, const legacy_material 
     if (legacy_has(m, LEGACY_SHARPNESS) && m->sharpness != 60.0f)
         note_add(&c->notes, material, NOTE_SHARPNESS_DROPPED,
                  "the sharpness of reflections has no counterpart in glTF; it is kept in extras");
-    if (m->unknown)
+    /* Up to the parameters that the format knows and a surface under light does not need. */
+    size_t length = m->kept ? (size_t)(m->kept - m->unknown) : m->unknown ? strlen(m->unknown) : 0;
+    if (length > 0) {
+        size_t first = strcspn(m->unknown, "\n");
         note_add(&c->notes, material, NOTE_UNKNOWN_KEY, "statements that facet does not know: %.*s%s",
-                 (int)strcspn(m->unknown, "\n"), m->unknown,
-                 m->unknown[strcspn(m->unknown, "\n")] && m->unknown[strcspn(m->unknown, "\n") + 1] ? ", .."
-                                                                                                    : "");
+                 (int)(first < 400 ? first : 400), m->unknown, first + 1 < length ? ", .." : "");
+    }
     if (m->is_halo)
         note_add(&c->notes, material, NOTE_HALO_DROPPED,
                  "d -halo, which is opaque towards the silhouette, becomes the same opacity everywhere");
@@ -389,11 +392,110 @@ static void read_glass(conversion *c, legacy_reading *r, facet_legacy_colors col
     }
 }
 
+/* ---- mirrors ---- */
+
+/* A diffuse color (linear) that nobody sees beside a mirror: with it the mirror is a metal, in viewers without extensions
+ * too. */
+#define MIRROR_BLACK 0.02f
+
+static bool reflects_surroundings(int illum)
+{
+    return illum == 3 || illum == 5 || illum == 7 || illum == 8;
+}
+
+static void note_mirror(conversion *c, uint32_t material, const legacy_material *m)
+{
+    bool is_bright = legacy_has(m, LEGACY_SPECULAR) ? highest_of(m->specular) > 0.5f : true;
+    /* illum 7 is glass first of all, and a dim mirror hardly one. */
+    note_add(&c->notes, material,
+             is_bright && m->illum != 7 ? NOTE_MIRROR_IGNORED : NOTE_MIRROR_IGNORED_QUIETLY,
+             "illum %d has Ks reflect the surroundings like a mirror; that was not asked for, and only the "
+             "highlight is converted",
+             m->illum);
+}
+
+/* Programs that trace rays reflect the surroundings sharply, whatever Ns, which is the highlight's; for large ones this is
+ * taken at its word. Between 100, where a highlight is as wide as that of brushed metal, and 500 the two are mixed. */
+static float mirror_roughness(const legacy_material *m, float shininess)
+{
+    if (!legacy_has(m, LEGACY_SHININESS))
+        return 0.0f;
+    return perceptual_roughness_from_shininess(shininess) * unit_of((500.0f - shininess) / 400.0f);
+}
+
+/* A metal of that color: its maps become those of the base color. */
+static void read_metal_mirror(legacy_reading *r)
+{
+    r->kind = READING_METALLIC;
+    r->metallic = 1.0f;
+    memcpy(r->surface.diffuse, r->surface.specular, sizeof r->surface.diffuse);
+    r->m.maps[LEGACY_DIFFUSE_MAP] = r->m.maps[LEGACY_SPECULAR_MAP];
+    r->has_diffuse_alpha = false;
+}
+
+/* Without extensions: a base color and a metallic whose mix is near to both colors. Of maps their means count. */
+static void read_core_mirror(conversion *c, uint32_t material, legacy_reading *r)
+{
+    ogl1_surface mean = build_representative(c, r);
+    float base[3];
+    r->kind = READING_METALLIC;
+    core_from_glossiness(mean.diffuse, mean.specular, base, &r->metallic);
+    for (int k = 0; k < 3; k++)
+        r->surface.diffuse[k] =
+            mean.diffuse[k] > 0.0f ? r->surface.diffuse[k] * base[k] / mean.diffuse[k] : base[k];
+    if (legacy_has_map(&r->m, LEGACY_SPECULAR_MAP))
+        note_add(&c->notes, material, NOTE_TEXTURE_AVERAGED,
+                 "without extensions a mirror reflects the same everywhere; the mean of map_Ks is used");
+}
+
+/* Ks is a reflectance: what it leaves is for Kd. glTF weights the base color with 1 - max(F0). */
+static void read_mirror(conversion *c, uint32_t material, legacy_reading *r)
+{
+    legacy_material *m = &r->m;
+    if (r->kind != READING_OGL1 || !reflects_surroundings(m->illum) || is_black(r->surface.specular))
+        return;
+    if (!c->desc.has_mirrors) {
+        note_mirror(c, material, m);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        r->surface.specular[k] = unit_of(r->surface.specular[k]);
+    if (legacy_has_map(m, LEGACY_SHININESS_MAP))
+        note_add(&c->notes, material, NOTE_MAP_DROPPED, "map_Ns does not count where illum %d is a mirror",
+                 m->illum);
+    remove_map(&m->maps[LEGACY_SHININESS_MAP]);
+    r->has_roughness_from_shininess = true;
+    r->perceptual_roughness = mirror_roughness(m, r->surface.shininess);
+    r->glossiness = 1.0f - r->perceptual_roughness;
+    bool has_map = legacy_has_map(m, LEGACY_DIFFUSE_MAP);
+    if (!has_map && highest_of(r->surface.diffuse) <= MIRROR_BLACK) {
+        read_metal_mirror(r);
+        return;
+    }
+    float most = highest_of(r->surface.specular);
+    float brightest = highest_of(r->surface.diffuse);
+    float rest = fmaxf(1.0f - most, 0.05f); /* of a base under a perfect mirror nothing is seen */
+    if (brightest + most > 1.0f && !has_map) {
+        rest = fmaxf(rest, brightest);
+        note_add(
+            &c->notes, material, NOTE_ENERGY_GAIN,
+            "diffuse and specular color add up to more than 1, which no mirror returns; the diffuse color "
+            "gives way");
+    }
+    for (int k = 0; k < 3; k++)
+        r->surface.diffuse[k] /= rest;
+    /* With Fresnel, illum 5 and 7, all light that grazes is reflected; without, as much as elsewhere. */
+    r->F90 = m->illum == 5 || m->illum == 7 ? 1.0f : most;
+    r->kind = READING_GLOSSY;
+    if (c->desc.profile == FACET_LEGACY_CORE)
+        read_core_mirror(c, material, r);
+}
+
 void legacy_read(conversion *c, uint32_t material, legacy_reading *out)
 {
     const struct scene_legacy *legacy = c->scene->legacy;
     facet_legacy_colors colors = legacy->colors;
-    *out = (legacy_reading){.m = legacy->materials[material], .specular_level = 1.0f};
+    *out = (legacy_reading){.m = legacy->materials[material], .F90 = 1.0f, .specular_level = 1.0f};
     legacy_material *m = &out->m;
     if (m->is_gltf_restored) {
         out->kind = READING_KEPT;
@@ -419,4 +521,5 @@ void legacy_read(conversion *c, uint32_t material, legacy_reading *out)
     if (!m->is_lit)
         out->kind = READING_UNLIT;
     read_glass(c, out, colors);
+    read_mirror(c, material, out);
 }

@@ -73,6 +73,34 @@ static void fit_and_core_are_options(void **state)
     scene_destroy(core);
 }
 
+/* Without extensions nothing is black: what is left is the darkest that the core can say, a rough black metal. */
+static void black_becomes_the_darkest_of_the_core(void **state)
+{
+    (void)state;
+    legacy_material m = gold();
+    set_color(m.diffuse, 0, 0, 0);
+    set_color(m.specular, 0, 0, 0);
+    facet_scene *scene = one(m, &(facet_legacy_desc){.profile = FACET_LEGACY_CORE});
+    const scene_material *out = &scene->materials[0];
+    double E = scene->conversion->materials[0].summary.error;
+    fit_metric *metric;
+    ogl1_surface black = {{0, 0, 0}, {0, 0, 0}, 51.2f};
+    assert_near(out->metallic, 1, .01);
+    assert_near(out->perceptual_roughness, 1, .01);
+    assert_color(out->base_color, 0, 0, 0, 1e-4);
+    assert_int_equal(fit_metric_create(NULL, PBR_CORRELATED, &metric, NULL), FACET_OK);
+    for (int i = 0; i <= 10; i++)
+        for (int j = 0; j <= 10; j++) {
+            pbr_surface other = pbr_surface_default();
+            set_color(other.base_color, 0, 0, 0);
+            other.metallic = .1f * (float)i;
+            other.perceptual_roughness = .1f * (float)j;
+            assert_true(fit_compare(metric, &black, &other, FIT_FROM_OGL1).E >= E * .999);
+        }
+    fit_metric_destroy(metric);
+    scene_destroy(scene);
+}
+
 static void colors_are_srgb_or_linear(void **state)
 {
     (void)state;
@@ -374,6 +402,11 @@ static void guessed_dialects_are_told(void **state)
     convert(scene, &PLAIN);
     assert_true(has_warning(scene, SCENE_NONE, "dialect-guessed"));
     scene_destroy(scene);
+    scene = legacy_scene(1); /* as the format has it: nothing to tell */
+    scene->legacy->is_dialect_guessed = true;
+    convert(scene, &PLAIN);
+    assert_false(has_warning(scene, SCENE_NONE, "dialect-guessed"));
+    scene_destroy(scene);
 }
 
 /* ---- what has no counterpart ---- */
@@ -392,6 +425,22 @@ static void losses_are_told_and_kept(void **state)
     assert_true(has_warning(scene, 0, "unknown-key"));
     assert_non_null(strstr(scene->materials[0].meta.extras, "facet_legacy"));
     assert_non_null(strstr(scene->materials[0].meta.extras, "alpha_test"));
+    scene_destroy(scene);
+    m = gold(); /* rgl's own: kept, but known */
+    m.unknown = m.kept = "size 3\nlwd 2";
+    scene = one(m, &PLAIN);
+    assert_false(has_warning(scene, 0, "unknown-key"));
+    assert_non_null(strstr(scene->materials[0].meta.extras, "lwd 2"));
+    scene_destroy(scene);
+    m.unknown = "foo 1\nsize 3";
+    m.kept = m.unknown + 6;
+    scene = one(m, &PLAIN);
+    assert_true(has_warning(scene, 0, "unknown-key"));
+    const conversion_warning *warnings = scene->conversion->materials[0].warnings;
+    bool is_alone = false;
+    for (uint32_t i = 0; i < scene->conversion->materials[0].warning_count; i++)
+        is_alone |= strstr(warnings[i].text, "facet does not know: foo 1") && !strstr(warnings[i].text, "..");
+    assert_true(is_alone);
     scene_destroy(scene);
     m = gold();
     m.maps[LEGACY_DIFFUSE_MAP].path = "gone.png";
@@ -465,6 +514,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blinn_phong_becomes_specular_and_ior),
         cmocka_unit_test(fit_and_core_are_options),
+        cmocka_unit_test(black_becomes_the_darkest_of_the_core),
         cmocka_unit_test(colors_are_srgb_or_linear),
         cmocka_unit_test(remarks_of_the_fit_are_told),
         cmocka_unit_test(emission_above_one_becomes_strength),
