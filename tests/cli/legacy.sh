@@ -95,6 +95,49 @@ done
 "$facet" render - -o g.png $small --root . <old.obj 2>err || failed "OBJ from standard input"
 cmp -s a.png g.png || failed "OBJ from standard input looks different"
 
+# Pictures that only old materials read
+cp a.png map.png
+cat >mapped.mtl <<'END'
+newmtl mapped
+Kd 0.5 0.4 0.3
+Ks 0.5 0.5 0.5
+Ns 60
+map_Ks map.png
+map_Ns map.png
+END
+cat >mapped.obj <<'END'
+mtllib mapped.mtl
+v 0 0 0
+v 1 0 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 0 1
+usemtl mapped
+f 1/1 2/2 3/3
+END
+expect 0 convert mapped.obj mapped.glb
+expect 0 convert mapped.obj kept.glb --keep-sources
+[ "$(($(wc -c <kept.glb) - $(wc -c <mapped.glb)))" -gt "$(wc -c <map.png)" ] || failed "the picture of the map stayed"
+expect 0 convert mapped.obj same.glb --materials metallic-roughness
+cmp -s mapped.glb same.glb || failed "--materials metallic-roughness converts twice"
+expect 0 convert kept.glb way.obj -v
+says "(source, ogl1)"
+expect 0 convert mapped.glb way.obj -v
+says "(closed, ogl1)"
+expect 0 render mapped.obj -o h.png $small --shading ogl1
+expect 0 render kept.glb -o i.png $small --shading ogl1
+cmp -s h.png i.png || failed "a kept picture is not drawn in OpenGL 1"
+
+# Mirrors
+sed 's/^illum 2/illum 5/' old.mtl >shiny.mtl
+sed 's/old.mtl/shiny.mtl/' old.obj >shiny.obj
+expect 0 convert shiny.obj shiny.glb
+says "illum 5 has Ks reflect the surroundings"
+expect 0 convert shiny.obj mirror.glb --mirrors
+grep -q "illum 5" err && failed "--mirrors is not heard"
+cmp -s shiny.glb mirror.glb && failed "--mirrors changes nothing"
+
 # Reports
 expect 0 convert old.obj r.glb --report r.json
 grep -q '"material": *"gold"' r.json || failed "the report lacks a material"
@@ -107,8 +150,9 @@ expect 1 convert old.obj r.glb --max-error 0.0001
 says "a larger error than --max-error"
 expect 0 convert old.obj r.glb --json
 grep -qE '"count": ?2' out || failed "--json does not count the materials"
-expect 2 convert pure.gltf r.glb --report r.json
-says "nothing to report"
+expect 0 convert pure.gltf r.glb --report r.json
+grep -qE '"materials": ?\[\]' r.json || failed "a report of nothing is not empty"
+expect 0 convert pure.gltf r.glb --report r.html
 
 # Several
 mkdir in made
