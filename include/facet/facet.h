@@ -166,6 +166,8 @@ typedef struct facet_legacy_desc {
     facet_mtl_dialect dialect;
     facet_mtl_illum illum;
     facet_legacy_ambient ambient;
+    bool
+        keeps_materials; /* of reading: legacy materials are not converted, glTF's are defaults: for OpenGL 1 only */
     bool has_glass; /* Ni, Tf and illum 4, 6, 7, 9 become transmission; false: opacity becomes alpha */
     bool
         has_mirrors; /* illum 3, 5, 7, 8: Ks is a reflectance, and the surroundings are reflected; false: a highlight */
@@ -316,6 +318,7 @@ typedef struct facet_scene_save_desc {
     facet_allocator allocator;
     facet_log log;
     uint32_t thread_count; /* 0: facet_thread_count() */
+    bool is_glb;           /* a .glb file whatever the name is: for /dev/stdout and the like */
     bool keeps_inputs;     /* fails with _ARGUMENT rather than replace a file that the scene was read from */
     bool has_flipped_texcoords; /* OBJ: v stays as in glTF, pointing down (the format says up) */
     bool without_mtl_pbr;       /* MTL: only what Wavefront defined, no Pr, Pm, .. and no glTF comment */

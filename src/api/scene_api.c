@@ -18,7 +18,8 @@ static facet_result complete(facet_scene **scene, const facet_scene_desc *desc, 
     facet_result result = FACET_OK;
     if (desc->parameters)
         result = ogl1_json_overlay(*scene, desc->parameters, desc, error);
-    if (result == FACET_OK && (*scene)->legacy && (*scene)->legacy->is_source)
+    if (result == FACET_OK && (*scene)->legacy && (*scene)->legacy->is_source &&
+        !desc->legacy.keeps_materials)
         result = legacy_convert(*scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &desc->legacy, &desc->log, error);
     if (result != FACET_OK) {
         facet_scene_destroy(*scene);

@@ -50,14 +50,14 @@ static facet_result save(convert_run *run, const char *model, const facet_scene 
                          facet_error *error)
 {
     const command_line *c = run->line;
-    const facet_scene_save_desc desc = {.allocator = run->allocator,
-                                        .log = messages_log(&run->messages),
-                                        .thread_count = run->limits.thread_count,
-                                        .keeps_inputs = true,
-                                        .has_flipped_texcoords = is_given(c, OPT_FLIP_TEXTURES),
-                                        .without_mtl_pbr = option_choice(c, OPT_MTL_PBR, 0) == 1,
-                                        .mtl_shininess_scale =
-                                            (float)option_number(c, OPT_MTL_SHININESS_SCALE, 0.0)};
+    facet_scene_save_desc desc = {.allocator = run->allocator,
+                                  .log = messages_log(&run->messages),
+                                  .thread_count = run->limits.thread_count,
+                                  .keeps_inputs = true,
+                                  .has_flipped_texcoords = is_given(c, OPT_FLIP_TEXTURES),
+                                  .without_mtl_pbr = option_choice(c, OPT_MTL_PBR, 0) == 1,
+                                  .mtl_shininess_scale =
+                                      (float)option_number(c, OPT_MTL_SHININESS_SCALE, 0.0)};
     char report[CONVERT_NAME_SIZE];
     facet_result result = FACET_OK;
     if (run->names.report)
@@ -65,8 +65,10 @@ static facet_result save(convert_run *run, const char *model, const facet_scene 
     if (result == FACET_OK && run->names.report && facet_scene_has_file(scene, report))
         result = fail_with(error, FACET_ERROR_ARGUMENT,
                            "%s: it is an input, too, and would be overwritten; name another report", report);
+    bool is_stdout = strcmp(output, "-") == 0;
+    desc.is_glb = is_stdout;
     if (result == FACET_OK)
-        result = facet_scene_save(scene, output, &desc, error);
+        result = facet_scene_save(scene, is_stdout ? "/dev/stdout" : output, &desc, error);
     if (result == FACET_OK && run->names.report)
         result = convert_report_write(scene, run->names.is_html, report, error);
     return result;
@@ -88,6 +90,8 @@ static void tell_model(convert_run *run, const char *model, const char *output, 
                        double start)
 {
     uint32_t large = count_large_errors(run, scene);
+    if (strcmp(output, "-") == 0)
+        output = "stdout";
     convert_report_print(&run->messages, output, scene);
     if (large)
         message_error("%s: %u material%s a larger error than --max-error %g", output, large,
@@ -187,6 +191,7 @@ static facet_result begin(convert_run *run, command_line *c, facet_error *error)
                                          .root = option_text(c, OPT_ROOT, NULL),
                                          .max_texture_size = run->limits.max_texture_size};
     legacy_options_read(c, &run->scene_desc);
+    run->scene_desc.legacy.keeps_materials = format_is_legacy(run->names.format);
     run->scene_desc.legacy.drops_sources =
         !format_is_legacy(run->names.format) && !is_given(c, OPT_KEEP_SOURCES);
     return FACET_OK;

@@ -73,6 +73,7 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
     facet_scene_desc desc = run->options.scene_desc;
     desc.allocator = run->allocator;
     desc.log = messages_log(&run->messages);
+    desc.legacy.keeps_materials = run->options.desc.shading == FACET_SHADING_OGL1;
     interrupt_begin_reading(input_name(model));
     facet_result result = input_load(model, &desc, scene, error);
     if (result == FACET_OK && run->options.desc.shading == FACET_SHADING_OGL1)

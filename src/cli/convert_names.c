@@ -5,6 +5,7 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/output_name.h"
+#include "cli/terminal.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,6 +35,21 @@ static facet_result read_format(const command_line *c, convert_names *out, facet
     /* the order of the choices of --to */
     static const model_format choices[] = {MODEL_GLB, MODEL_GLTF, MODEL_OBJ, MODEL_OBJ, MODEL_OGL1};
     int to = option_choice(c, OPT_TO, -1);
+    if (strcmp(out->output, "-") == 0) {
+        out->format = MODEL_GLB;
+        if (terminal_is(stdout))
+            return fail_with(
+                error, FACET_ERROR_ARGUMENT,
+                "--output: standard output is a terminal; send the model into a file or a program");
+        if (is_given(c, OPT_JSON))
+            return fail_with(error, FACET_ERROR_ARGUMENT,
+                             "--json: standard output holds the model already; name a file with -o");
+        return to < 0 || choices[to] == MODEL_GLB
+                   ? FACET_OK
+                   : fail_with(
+                         error, FACET_ERROR_ARGUMENT,
+                         "--to: standard output takes a .glb file; the other formats are several files");
+    }
     if (!find_format(out->output, &out->format))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "convert: \"%s\" does not end in .glb, .gltf, .obj or .json", out->output);

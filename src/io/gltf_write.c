@@ -191,7 +191,7 @@ facet_result gltf_save(const facet_scene *scene, const char *path, const char *g
 {
     const facet_scene_save_desc defaults = {0};
     desc = desc ? desc : &defaults;
-    bool is_glb = strcasecmp(path_extension(path), "glb") == 0;
+    bool is_glb = desc->is_glb || strcasecmp(path_extension(path), "glb") == 0;
     if (!is_glb && strcasecmp(path_extension(path), "gltf") != 0)
         return fail(error, FACET_ERROR_ARGUMENT, "%s: the name does not end in .glb or .gltf", path);
     writer w = {.scene = scene,

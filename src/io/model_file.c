@@ -49,8 +49,8 @@ facet_result model_file_save(const facet_scene *scene, const char *path, const c
     const facet_scene_save_desc defaults = {0};
     desc = desc ? desc : &defaults;
     const char *extension = path_extension(path);
-    bool is_obj = strcasecmp(extension, "obj") == 0;
-    bool is_parameters = strcasecmp(extension, "json") == 0;
+    bool is_obj = !desc->is_glb && strcasecmp(extension, "obj") == 0;
+    bool is_parameters = !desc->is_glb && strcasecmp(extension, "json") == 0;
     if ((is_obj || is_parameters) && !scene_has_legacy_materials(scene))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "%s: the scene has no materials of OpenGL 1; facet_scene_convert_materials() makes them",

@@ -64,9 +64,7 @@ static void solve_to_ogl1(const solver *s, solve_item *item)
 {
     const pbr_surface *in = &item->question.pbr;
     item->pbr = *in;
-    if (item->question.known_ogl1 > 0.0f)
-        item->ogl1 = item->question.ogl1;
-    else if (item->question.is_closed > 0.0f)
+    if (item->question.is_closed > 0.0f)
         item->remarks = pbr_to_ogl1_closed(in, &item->ogl1);
     else
         item->remarks = pbr_to_ogl1_fit(s->metric, in, s->desc->target, FIT_DISPLAYABLE, &item->ogl1);
@@ -182,7 +180,8 @@ void summary_solved(facet_conversion *summary, const solve_item *item)
 
 void summary_exact(facet_conversion *summary, const char *method)
 {
-    double error = strcmp(method, "exact") == 0 ? 0.0 : (double)NAN;
+    bool is_exact = strcmp(method, "exact") == 0 || strcmp(method, "source") == 0;
+    double error = is_exact ? 0.0 : (double)NAN;
     summary->method = method;
     summary->error = summary->error_display = error;
     summary->error_naive = summary->error_core = (double)NAN;

@@ -75,7 +75,6 @@ typedef struct solve_item {
     struct solve_question {
         ogl1_surface ogl1; /* from OpenGL 1 */
         pbr_surface pbr;   /* to OpenGL 1 */
-        float known_ogl1;  /* 1: both are given, only their error is asked for */
         float is_closed;   /* 1: whatever the desc says, tables */
     } question;
     bool is_asked;

@@ -29,34 +29,6 @@ static bool is_known(const conversion *c, uint32_t material)
     return m->fields != 0;
 }
 
-/* Whether the glTF material reflects about as much as Ks says: made of it with facet_legacy_desc.has_mirrors. */
-static bool is_mirror(const conversion *c, uint32_t material)
-{
-    const scene_material *m = &c->scene->materials[material];
-    float Ks[3];
-    legacy_color_to_linear(c->scene->legacy->materials[material].specular, c->scene->legacy->colors, Ks);
-    float F0 = m->ior == 0.0f ? m->specular * highest_of(m->specular_color) : 0.04f;
-    F0 += m->metallic * (highest_of(m->base_color) - F0);
-    return F0 > 0.5f * highest_of(Ks);
-}
-
-/* The surface that known values stand for; false: they are not Blinn-Phong. Remarks were made when they were read. */
-static bool known_surface(conversion *c, uint32_t material, ogl1_surface *out)
-{
-    conversion quiet = *c;
-    legacy_reading reading;
-    quiet.notes = (note_list){.scene = c->scene};
-    quiet.desc.has_mirrors = is_mirror(c, material);
-    legacy_read(&quiet, material, &reading);
-    bool has_failed = quiet.notes.has_failed;
-    note_list_destroy(&quiet.notes);
-    c->notes.has_failed |= has_failed;
-    if (reading.kind != READING_OGL1)
-        return false;
-    *out = build_representative(c, &reading);
-    return true;
-}
-
 static facet_result survey(conversion *c, facet_error *error)
 {
     const facet_scene *scene = c->scene;
@@ -85,16 +57,11 @@ static void ask(conversion *c, uint32_t i, bool *known, solve_item *item)
     const scene_material *m = &c->scene->materials[i];
     memset(&item->question, 0, sizeof item->question);
     *known = is_known(c, i);
-    item->is_asked = !(m->extensions & SCENE_UNLIT);
+    item->is_asked = !*known && !(m->extensions & SCENE_UNLIT);
     if (!item->is_asked)
         return;
     item->question.pbr = ogl1_representative(c, m);
-    if (*known) {
-        item->question.known_ogl1 = 1.0f;
-        item->is_asked = known_surface(c, i, &item->question.ogl1);
-    } else {
-        item->question.is_closed = ogl1_needs_texels(c, m) ? 1.0f : 0.0f;
-    }
+    item->question.is_closed = ogl1_needs_texels(c, m) ? 1.0f : 0.0f;
 }
 
 /* ---- factors ---- */
@@ -265,10 +232,10 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
     else
         summary_exact(&report->summary, known ? "source" : "exact");
     report->has_surfaces = item->is_asked;
-    report->ogl1_surface = known ? item->question.ogl1 : item->ogl1;
+    report->ogl1_surface = item->ogl1;
     report->pbr_surface = item->question.pbr;
     if (item->is_asked)
-        report->summary.method = known ? "source" : item->question.is_closed > 0.0f ? "closed" : "fit";
+        report->summary.method = item->question.is_closed > 0.0f ? "closed" : "fit";
     return result;
 }
 

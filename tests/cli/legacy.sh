@@ -58,7 +58,9 @@ expect 0 convert new.glb back.obj
 grep -q '^Ns 51.2$' back.mtl || failed "shininess did not come back"
 grep -q '^Ks 0.628281 0.555802 0.366065$' back.mtl || failed "the highlight did not come back"
 expect 0 convert back.obj again.glb
-expect 0 convert old.obj same.obj
+expect 0 convert old.obj same.obj --max-error 0
+grep -q "source\|clamped" err && failed "OBJ to OBJ speaks of glTF"
+expect 0 convert new.glb exact.obj --max-error 0
 grep -q '^Kd 0.75164 0.60648 0.22648$' same.mtl || failed "OBJ to OBJ changes a color"
 expect 0 convert new.glb refit.obj --refit
 grep -q '^Ns 51.2$' refit.mtl && failed "--refit changes nothing"
@@ -153,6 +155,14 @@ grep -qE '"count": ?2' out || failed "--json does not count the materials"
 expect 0 convert pure.gltf r.glb --report r.json
 grep -qE '"materials": ?\[\]' r.json || failed "a report of nothing is not empty"
 expect 0 convert pure.gltf r.glb --report r.html
+
+# To standard output
+"$facet" convert old.obj -o - 2>err | cat >piped.glb
+cmp -s piped.glb new.glb || failed "standard output has another model than the file"
+"$facet" convert old.obj -o - -q | "$facet" render - -o piped.png $small || failed "a model cannot be piped"
+cmp -s piped.png a.png || failed "a piped model looks different"
+expect 2 convert old.obj -o - --to obj
+says "standard output takes a .glb file"
 
 # Several
 mkdir in made
