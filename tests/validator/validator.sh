@@ -1,6 +1,6 @@
 #!/bin/sh
 # validator.sh - what facet convert writes has no error by Khronos' glTF validator: the built-in scene is not a file, so
-# the models of the shared data, as .glb and some as .gltf. Skipped without Node.js, the validator or the data.
+# the models of the shared data, OBJ files among them, as .glb and some as .gltf. Skipped without Node.js, the validator or the data.
 set -eu
 facet=$1
 here=$(cd "$(dirname "$0")" && pwd)
@@ -11,6 +11,7 @@ command -v node >/dev/null || { echo "skipped: there is no node"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 find "$data/models" \( -name '*.glb' -o -name '*.gltf' \) -not -path '*/gltf1/*' >"$work/list"
+[ ! -d "$data/obj" ] || find "$data/obj" -name '*.obj' >>"$work/list"
 sort -o "$work/list" "$work/list"
 number=0
 status=0
@@ -22,6 +23,10 @@ while read -r model; do
         echo "$model: $(cat "$work/err")"
         status=1
     fi
+    case $name in # once more with all that MTL may mean
+    *.obj) "$facet" convert -q "$model" "${out%.glb}-glass.glb" --glass --mirrors --ambient occlusion --profile core ||
+        status=1 ;;
+    esac
     [ $((number % 8)) != 0 ] || "$facet" convert -q "$model" "${out%.glb}.gltf" || status=1
 done <"$work/list"
 [ $number -gt 50 ] || { echo "only $number models were found"; status=1; }
