@@ -166,19 +166,25 @@ static facet_result add_scene(plot_materials *m, const facet_scene *scene, const
                               facet_error *error)
 {
     uint32_t count = facet_scene_get_counts(scene).materials, found = 0;
+    char names[512] = "";
     facet_result result = FACET_OK;
     facet_plot_model model = facet_scene_has_legacy_materials(scene) ? FACET_PLOT_OGL1 : FACET_PLOT_PBR;
     for (uint32_t i = 0; i < count && result == FACET_OK; i++) {
         facet_plot_material one;
         result = facet_plot_material_from_scene(scene, i, model, &one, error);
+        size_t used = strlen(names);
+        if (result == FACET_OK && one.label)
+            snprintf(names + used, sizeof names - used, "%s\"%s\"", used ? ", " : "", one.label);
         if (result != FACET_OK || (name && strcmp(one.label ? one.label : "", name) != 0))
             continue;
         result = append(m, &one, error);
         found++;
     }
     if (result == FACET_OK && found == 0)
-        result = name ? fail_with(error, FACET_ERROR_ARGUMENT, "%s: there is no material \"%s\"", file, name)
-                      : fail_with(error, FACET_ERROR_ARGUMENT, "%s: it has no materials", file);
+        result = name
+                     ? fail_with(error, FACET_ERROR_ARGUMENT, "%s: there is no material \"%s\"; there %s %s",
+                                 file, name, count == 1 ? "is" : "are", names[0] ? names : "none with a name")
+                     : fail_with(error, FACET_ERROR_ARGUMENT, "%s: it has no materials", file);
     return result;
 }
 

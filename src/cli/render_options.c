@@ -146,6 +146,11 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
         return option_fail(c, OPT_EXPOSURE, "stops such as +0.5, or a factor such as 2x", error);
     d->exposure_ev = (float)stops;
     d->shading = (facet_shading)option_choice(c, OPT_SHADING, FACET_SHADING_GLTF);
+    static const option_id ogl1_only[] = {OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG};
+    for (size_t i = 0; i < sizeof ogl1_only / sizeof *ogl1_only; i++)
+        if (is_given(c, ogl1_only[i]) && d->shading != FACET_SHADING_OGL1)
+            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says something only with --shading ogl1",
+                             option_find_id(c->verb, ogl1_only[i])->name);
     int tonemap = option_choice(c, OPT_TONE_MAPPING, -1);
     bool is_plain = is_linear(out->save.format) || d->shading == FACET_SHADING_OGL1;
     d->tonemap = tonemap >= 0 ? tonemaps[tonemap] : is_plain ? FACET_TONEMAP_NONE : FACET_TONEMAP_NEUTRAL;

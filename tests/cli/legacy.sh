@@ -140,6 +140,12 @@ expect 0 convert shiny.obj mirror.glb --mirrors
 grep -q "illum 5" err && failed "--mirrors is not heard"
 cmp -s shiny.glb mirror.glb && failed "--mirrors changes nothing"
 
+expect 2 render old.obj -o f.png --ogl1-variant fixed
+says "--ogl1-variant: it says something only with --shading ogl1"
+expect 2 plot slice old.obj#blue -o f.csv
+says 'there is no material "blue"; there are "gold", "matte"'
+expect 0 plot slice old.obj#gold new.glb#matte -o f.csv
+
 # Reports
 expect 0 convert old.obj r.glb --report r.json
 grep -q '"material": *"gold"' r.json || failed "the report lacks a material"
