@@ -128,6 +128,8 @@ static facet_result convert_model(convert_run *run, const char *model, facet_err
     messages_flush(&run->messages);
     if (result == FACET_OK && interrupt_signal())
         result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", output);
+    if (result == FACET_OK && interrupt_seconds_left() <= 0.0)
+        result = fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", output);
     if (result == FACET_OK)
         result = save(run, model, scene, output, error);
     messages_flush(&run->messages);

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 
 #include "cli/failure.h"
+#include "cli/input.h"
 #include "cli/interrupt.h"
 #include "cli/limits.h"
 #include "cli/messages.h"
@@ -134,8 +135,25 @@ static facet_result read_desc(plot_run *run, facet_error *error)
 
 /* ---- the run ---- */
 
+/* Whether the plot would replace what it is made of. */
+static bool is_an_input(const plot_run *run)
+{
+    const plot_materials *m = &run->materials;
+    for (uint32_t i = 0; i < m->scene_count; i++)
+        if (facet_scene_has_file(m->scenes[i], run->path))
+            return true;
+    for (uint32_t i = 0; i < m->count; i++)
+        if (m->items[i].path && input_is_same_file(m->items[i].path, run->path))
+            return true;
+    return false;
+}
+
 static facet_result plot(plot_run *run, facet_error *error)
 {
+    if (strcmp(run->path, "-") != 0 && is_an_input(run))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "%s: it is an input, too, and would be overwritten; name another output with -o",
+                         run->path);
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_result result = facet_plot_encode(&run->desc, run->format, &bytes, &size, error);

@@ -112,11 +112,8 @@ static facet_result check_name(const convert_names *n, const char *model, bool r
         result = output_check(name, error);
     if (result != FACET_OK)
         return result;
-    *copy = malloc(strlen(name) + 1);
-    if (!*copy)
-        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
-    memcpy(*copy, name, strlen(name) + 1);
-    return FACET_OK;
+    *copy = output_identity(name);
+    return *copy ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
 }
 
 static int compare_names(const void *a, const void *b)
@@ -136,7 +133,7 @@ static facet_result check_names(const convert_names *n, facet_error *error)
     for (size_t i = 1; i < count && result == FACET_OK; i++)
         if (strcmp(names[i - 1], names[i]) == 0)
             result = fail_with(error, FACET_ERROR_ARGUMENT, "convert: two files would both be written to %s",
-                               names[i]);
+                               strchr(names[i], '/') + 1);
     for (size_t i = 0; i < done; i++)
         free(names[i]);
     free(names);

@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,6 +15,27 @@
 bool output_exists(const char *path)
 {
     return access(path, F_OK) == 0;
+}
+
+char *output_identity(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *base = slash ? slash + 1 : path;
+    struct stat info = {0};
+    size_t size = strlen(path) + 64;
+    char *folder = malloc(size), *identity = malloc(size);
+    if (folder && identity) {
+        snprintf(folder, size, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+        if (stat(folder, &info) != 0) /* there is no such folder, which is said elsewhere */
+            info.st_ino = 0;
+        snprintf(identity, size, "%llx.%llx/%s", (unsigned long long)info.st_dev,
+                 (unsigned long long)info.st_ino, base);
+    } else {
+        free(identity);
+        identity = NULL;
+    }
+    free(folder);
+    return identity;
 }
 
 facet_result output_check(const char *path, facet_error *error)

@@ -15,6 +15,10 @@ facet_result output_write(const facet_image *image, const char *path, const face
 /* Writes bytes to path ("-": standard output). */
 facet_result output_write_bytes(const void *bytes, size_t size, const char *path, facet_error *error);
 
+/* "FOLDER/NAME" with the folder by device and number: equal for all paths that mean the same file. For free(); NULL: no
+ * memory. */
+char *output_identity(const char *path);
+
 /* Whether something is there already. */
 bool output_exists(const char *path);
 

@@ -180,8 +180,7 @@ void summary_solved(facet_conversion *summary, const solve_item *item)
 
 void summary_exact(facet_conversion *summary, const char *method)
 {
-    bool is_exact = strcmp(method, "exact") == 0 || strcmp(method, "source") == 0;
-    double error = is_exact ? 0.0 : (double)NAN;
+    double error = strcmp(method, "exact") == 0 ? 0.0 : (double)NAN;
     summary->method = method;
     summary->error = summary->error_display = error;
     summary->error_naive = summary->error_core = (double)NAN;

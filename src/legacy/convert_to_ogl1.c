@@ -230,7 +230,9 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
     if (item->is_asked)
         summary_solved(&report->summary, item);
     else
-        summary_exact(&report->summary, known ? "source" : "exact");
+        summary_exact(&report->summary, "exact");
+    if (known)
+        report->summary.method = "source";
     report->has_surfaces = item->is_asked;
     report->ogl1_surface = item->ogl1;
     report->pbr_surface = item->question.pbr;

@@ -63,6 +63,12 @@ expect 2 plot slice --angle 95 -o c.csv
 expect 2 plot slice --roughness 0.1,x -o c.csv
 expect 2 plot slice --size 0x1 -o c.csv
 
+printf '{"asset":{"version":"2.0"},"materials":[{"name":"m"}]}' >mat.gltf
+cp mat.gltf saved.gltf
+expect 2 plot slice mat.gltf roughness=0.5 -o mat.gltf --format csv
+says "it is an input, too"
+cmp -s mat.gltf saved.gltf || failed "an input was overwritten"
+
 # What is asked for
 expect 2 plot
 says "which plot? One of legacy, brdf"

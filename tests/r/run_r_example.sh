@@ -17,7 +17,7 @@ trap 'exit 1' HUP INT TERM
 cd "$folder"
 
 RGL_USE_NULL=TRUE Rscript "$examples/scene.R" .
-"$facet" convert scene.obj scene.glb --parameters scene.json --report report.html
+"$facet" convert scene.obj scene.glb --parameters scene.json --keep-sources --report report.html
 "$facet" convert scene.glb back.json --to ogl1
 "$facet" render scene.obj --parameters scene.json --shading ogl1 -s 128 -o as-rgl.png
 "$facet" render scene.glb -s 128 -o scene.png
