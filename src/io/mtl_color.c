@@ -110,6 +110,40 @@ static bool read_spectrum(mtl_parser *p, const uri_bytes *bytes, spectrum *out)
     return is_increasing && out->count > 0 && !p->has_failed;
 }
 
+/* What a file is the spectrum of. */
+struct mtl_spectrum {
+    double rgb[3];
+    bool is_valid; /* false: the file is none */
+};
+
+void mtl_spectra_destroy(mtl_spectra *spectra)
+{
+    mem_free(spectra->list);
+    index_table_release(&spectra->by_file);
+}
+
+/* The color of a file, parsed at most once. NULL: no memory. */
+static const struct mtl_spectrum *find_spectrum(mtl_parser *p, const uri_bytes *bytes)
+{
+    mtl_spectra *all = p->spectra;
+    uint32_t there = index_table_find(&all->by_file, bytes->file);
+    if (there != INDEX_TABLE_NONE)
+        return &all->list[there];
+    spectrum s = {0};
+    struct mtl_spectrum new = {.is_valid = read_spectrum(p, bytes, &s)};
+    if (new.is_valid)
+        color_of_reflectance(&s, new.rgb);
+    mem_free(s.samples);
+    p->has_failed =
+        p->has_failed ||
+        !mem_reserve(p->allocator, (void **)&all->list, &all->capacity, all->count + 1, sizeof *all->list) ||
+        !index_table_add(&all->by_file, p->allocator, bytes->file, (uint32_t)all->count);
+    if (p->has_failed)
+        return NULL;
+    all->list[all->count] = new;
+    return &all->list[all->count++];
+}
+
 /* spectral file.rfl [factor] */
 static bool parse_spectral(mtl_parser *p, const char *keyword, mtl_span arguments, double rgb[3])
 {
@@ -132,18 +166,15 @@ static bool parse_spectral(mtl_parser *p, const char *keyword, mtl_span argument
                  mtl_length(name) == 0 ? "names no file" : bytes.message);
         return false;
     }
-    spectrum s = {0};
-    bool is_read = read_spectrum(p, &bytes, &s);
-    if (is_read) {
-        color_of_reflectance(&s, rgb);
-        for (int i = 0; i < 3; i++)
-            rgb[i] *= factor;
-    } else {
+    const struct mtl_spectrum *found = find_spectrum(p, &bytes);
+    if (!found)
+        return false;
+    for (int i = 0; i < 3; i++)
+        rgb[i] = found->rgb[i] * factor;
+    if (!found->is_valid)
         mtl_warn(p, "%s: \"%.200s\" is no list of wavelengths and values; the statement is ignored", keyword,
                  file);
-    }
-    mem_free(s.samples);
-    return is_read;
+    return found->is_valid;
 }
 
 /* ---- statements ---- */

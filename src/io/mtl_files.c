@@ -7,8 +7,7 @@
 /* An image that was looked for. */
 typedef struct mtl_image {
     scene_image image;
-    const char *found; /* below the OBJ file's folder */
-    uint32_t index;    /* in the scene; SCENE_NONE: no picture that can be read */
+    uint32_t index; /* in the scene; SCENE_NONE: no picture that can be read */
 } mtl_image;
 
 /* ---- where a name may lead ---- */
@@ -79,12 +78,6 @@ static bool try_place(mtl_files *f, const char *folder, const char *name, bool i
     const char *path = join(f, folder, name, is_as_written);
     if (!path)
         return false;
-    for (size_t i = 0; i < f->image_count; i++)
-        if (strcmp(f->images[i].found, path) == 0) { /* open already */
-            *out = (uri_bytes){.data = f->images[i].image.bytes, .size = f->images[i].image.size};
-            *found = f->images[i].found;
-            return true;
-        }
     uri_bytes bytes;
     if (file_scope_open(&f->scope, path, shown, &bytes)) {
         *out = bytes;
@@ -119,14 +112,6 @@ bool mtl_files_open(mtl_files *f, const char *folder, const char *name, uri_byte
 }
 
 /* ---- images ---- */
-
-static const mtl_image *find_image(const mtl_files *f, const char *found)
-{
-    for (size_t i = 0; i < f->image_count; i++)
-        if (strcmp(f->images[i].found, found) == 0)
-            return &f->images[i];
-    return NULL;
-}
 
 static void warn_foreign(mtl_parser *p, const uri_bytes *bytes, const char *name)
 {
@@ -169,17 +154,17 @@ uint32_t mtl_files_image(mtl_files *f, mtl_parser *p, const char *folder, const 
             mtl_warn(p, "%s; the map is left out", bytes.message);
         return SCENE_NONE;
     }
-    const mtl_image *there = find_image(f, found);
-    if (there)
-        return there->index;
+    uint32_t there = index_table_find(&f->images_by_file, bytes.file);
+    if (there != INDEX_TABLE_NONE)
+        return f->images[there].index;
     mtl_image new = {
         .image = {.name = found, .mime_type = "", .bytes = bytes.data, .size = bytes.size, .uri = found},
-        .found = found,
         .index = SCENE_NONE};
     if (look_at(p, &bytes, name, &new.image))
         new.index = f->picture_count++;
     if (!mem_reserve(f->scope.allocator, (void **)&f->images, &f->image_capacity, f->image_count + 1,
-                     sizeof *f->images)) {
+                     sizeof *f->images) ||
+        !index_table_add(&f->images_by_file, f->scope.allocator, bytes.file, (uint32_t)f->image_count)) {
         f->has_failed = true;
         return SCENE_NONE;
     }
@@ -196,13 +181,28 @@ static bool is_same_texture(const scene_texture *a, const scene_texture *b)
            a->mip_filter == b->mip_filter && strcmp(a->name, b->name) == 0;
 }
 
+uint32_t mtl_hash_texture(const scene_texture *texture)
+{
+    const uint32_t numbers[6] = {texture->image,
+                                 (uint32_t)texture->wrap_u,
+                                 (uint32_t)texture->wrap_v,
+                                 (uint32_t)texture->mag_filter,
+                                 (uint32_t)texture->min_filter,
+                                 (uint32_t)texture->mip_filter};
+    uint32_t hash = index_table_hash(INDEX_TABLE_HASH, numbers, sizeof numbers);
+    return texture->name ? index_table_hash(hash, texture->name, strlen(texture->name)) : hash;
+}
+
 uint32_t mtl_files_texture(mtl_files *f, const scene_texture *texture)
 {
-    for (size_t i = 0; i < f->texture_count; i++)
+    uint32_t hash = mtl_hash_texture(texture);
+    size_t cursor = 0;
+    for (uint32_t i; (i = index_table_next(&f->textures_by_hash, hash, &cursor)) != INDEX_TABLE_NONE;)
         if (is_same_texture(&f->textures[i], texture))
-            return (uint32_t)i;
+            return i;
     if (!mem_reserve(f->scope.allocator, (void **)&f->textures, &f->texture_capacity, f->texture_count + 1,
-                     sizeof *f->textures)) {
+                     sizeof *f->textures) ||
+        !index_table_add(&f->textures_by_hash, f->scope.allocator, hash, (uint32_t)f->texture_count)) {
         f->has_failed = true;
         return SCENE_NONE;
     }
@@ -231,4 +231,6 @@ void mtl_files_destroy(mtl_files *f)
 {
     mem_free(f->images);
     mem_free(f->textures);
+    index_table_release(&f->images_by_file);
+    index_table_release(&f->textures_by_hash);
 }

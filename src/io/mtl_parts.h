@@ -2,6 +2,7 @@
 #ifndef IO_MTL_PARTS_H
 #define IO_MTL_PARTS_H
 
+#include "base/index_table.h"
 #include "io/mtl.h"
 #include "io/uri.h"
 
@@ -48,6 +49,14 @@ typedef struct mtl_draft {
     struct mtl_gltf *gltf;                  /* what it holds, where that is to be restored; NULL */
 } mtl_draft;
 
+/* Spectra that were read, so that a file of many materials is parsed once. {0}: none. */
+typedef struct mtl_spectra {
+    struct mtl_spectrum *list;
+    size_t count, capacity;
+    index_table by_file;
+} mtl_spectra;
+void mtl_spectra_destroy(mtl_spectra *spectra);
+
 /* What statements are read with. */
 typedef struct mtl_parser {
     arena *arena; /* strings */
@@ -58,7 +67,8 @@ typedef struct mtl_parser {
     size_t line;
     bool has_flipped_texcoords, has_srgb_colors;
     bool has_failed; /* no memory */
-    /* The bytes of a spectrum's file, as the library names it; NULL: no files. */
+    /* The bytes of a spectrum's file, as the library names it; NULL: no files. Goes with spectra. */
+    mtl_spectra *spectra;
     bool (*open)(void *user, const char *name, uri_bytes *out);
     void *user;
 } mtl_parser;
@@ -98,9 +108,11 @@ typedef struct mtl_files {
     file_scope scope;
     struct mtl_image *images; /* all that were opened */
     size_t image_count, image_capacity;
+    index_table images_by_file;
     uint32_t picture_count; /* those that can be read */
     scene_texture *textures;
     size_t texture_count, texture_capacity;
+    index_table textures_by_hash;
     bool has_failed;
 } mtl_files;
 
@@ -113,6 +125,7 @@ bool mtl_files_open_named(mtl_files *f, const char *folder, const char *name, ur
 bool mtl_files_open(mtl_files *f, const char *folder, const char *name, uri_bytes *out, const char **found);
 /* Index of the image of a name; SCENE_NONE: there is none that can be read, which p warns about. */
 uint32_t mtl_files_image(mtl_files *f, mtl_parser *p, const char *folder, const char *name);
+uint32_t mtl_hash_texture(const scene_texture *texture); /* equal for textures that sample the same alike */
 /* Index of the texture like that one; SCENE_NONE: no memory. */
 uint32_t mtl_files_texture(mtl_files *f, const scene_texture *texture);
 /* Puts images and textures into the scene. False: no memory. */

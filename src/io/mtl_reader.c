@@ -14,8 +14,8 @@ struct mtl_reader {
     size_t count, capacity;
     uint32_t *table; /* hash table of names; a power of two, 0 or at least twice count */
     size_t table_size;
-    const char **libraries; /* those read, below the OBJ file's folder */
-    size_t library_count, library_capacity;
+    index_table libraries; /* those read, by file */
+    mtl_spectra spectra;
     bool has_failed;
 };
 
@@ -50,7 +50,8 @@ void mtl_reader_destroy(mtl_reader *r)
     mtl_files_destroy(&r->files);
     mem_free(r->drafts);
     mem_free(r->table);
-    mem_free(r->libraries);
+    index_table_release(&r->libraries);
+    mtl_spectra_destroy(&r->spectra);
     mem_free(r);
 }
 
@@ -244,6 +245,7 @@ static void read_library(mtl_reader *r, const char *path, const uri_bytes *bytes
         .file = path,
         .has_flipped_texcoords = r->desc.has_flipped_texcoords,
         .has_srgb_colors = r->desc.legacy.colors != FACET_LEGACY_COLORS_LINEAR,
+        .spectra = &r->spectra,
         .open = open_beside,
         .user = &l,
     };
@@ -282,15 +284,12 @@ static bool load_library(mtl_reader *r, const char *name, bool is_base_enough, u
         r->has_failed = r->has_failed || r->files.has_failed;
         return false;
     }
-    for (size_t i = 0; i < r->library_count; i++)
-        if (strcmp(r->libraries[i], found) == 0)
-            return true;
-    if (!mem_reserve(&r->desc.allocator, (void **)&r->libraries, &r->library_capacity, r->library_count + 1,
-                     sizeof *r->libraries)) {
+    if (index_table_find(&r->libraries, why->file) != INDEX_TABLE_NONE)
+        return true;
+    if (!index_table_add(&r->libraries, &r->desc.allocator, why->file, 0)) {
         r->has_failed = true;
         return true;
     }
-    r->libraries[r->library_count++] = found;
     read_library(r, found, why);
     return true;
 }

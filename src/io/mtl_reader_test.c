@@ -1,4 +1,5 @@
 /* mtl_reader_test.c - what MTL files say, in all the ways that programs write them. */
+#define _XOPEN_SOURCE 700
 #include "io/mtl_test_support.h"
 
 #include <dirent.h>
@@ -6,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/failing_allocator.h"
 #include "image/srgb.h"
@@ -361,6 +363,50 @@ static void libraries_are_found(void **state)
     test_folder_remove(&folder);
 }
 
+/* However often a file is named, and by how many names, it is mapped and parsed once. */
+static void files_are_opened_once(void **state)
+{
+    (void)state;
+    test_folder folder = test_folder_make();
+    text library = {0};
+    text spectrum = {0};
+    for (int i = 0; i < 300; i++)
+        text_addf(&library, "newmtl %d\nKd spectral %s 0.%d\nmap_Kd a.png\nmap_Ks b.png\nmap_Ka c.png\n", i,
+                  i % 2 ? "s.rfl" : "./s.rfl", 1 + i % 9);
+    for (int i = 0; i < 20000; i++)
+        text_addf(&spectrum, "%.2f 0.5\n", 380.0 + 0.02 * i);
+    test_put(&folder, "a.mtl", library.data, library.length);
+    test_put(&folder, "s.rfl", spectrum.data, spectrum.length);
+    test_put_text(&folder, "c.png", "no picture");
+    test_put_png(&folder, "a.png");
+    assert_int_equal(link(test_path(&folder, "a.png"), test_path(&folder, "b.png")), 0);
+    assert_int_equal(symlink("a.mtl", test_path(&folder, "link.mtl")), 0);
+    failing_allocator f = {.fail_at = -1};
+    const facet_scene_desc desc = {.allocator = failing_allocator_get(&f)};
+    facet_scene *scene = NULL;
+    mtl_reader *reader = NULL;
+    assert_int_equal(scene_create(&desc.allocator, "test.obj", &scene, NULL), FACET_OK);
+    assert_int_equal(mtl_reader_create(scene, &desc, folder.path, &reader, NULL), FACET_OK);
+    for (int i = 0; i < 100; i++)
+        assert_int_equal(mtl_reader_load(reader, "a.mtl link.mtl ./a.mtl", 22, NULL), FACET_OK);
+    assert_int_equal(mtl_reader_finish(reader, NULL), FACET_OK);
+    mtl_reader_destroy(reader);
+    assert_int_equal(scene->file_count, 4);
+    assert_int_equal(scene->image_count, 1);
+    assert_int_equal(scene->texture_count, 1);
+    assert_int_equal(scene->material_count, 300);
+    assert_int_equal(mtl_count_warnings(scene, "already"), 0);
+    assert_near(mtl_get(scene, 1)->diffuse[0], srgb_encode(0.5 * 0.2), 1e-4);
+    assert_near(mtl_get(scene, 2)->diffuse[1], srgb_encode(0.5 * 0.3), 1e-4);
+    /* Samples of a spectrum grow by ten blocks and more each time that it is parsed. */
+    assert_true(atomic_load(&f.calls) < 3000);
+    scene_destroy(scene);
+    assert_int_equal(atomic_load(&f.blocks), 0);
+    text_destroy(&library);
+    text_destroy(&spectrum);
+    test_folder_remove(&folder);
+}
+
 static void materials_are_found_by_name(void **state)
 {
     (void)state;
@@ -559,6 +605,7 @@ int main(void)
         cmocka_unit_test(options_are_read),
         cmocka_unit_test(textures_are_found_and_shared),
         cmocka_unit_test(libraries_are_found),
+        cmocka_unit_test(files_are_opened_once),
         cmocka_unit_test(materials_are_found_by_name),
         cmocka_unit_test(dialects_are_known_by_comments),
         cmocka_unit_test(memory_may_run_out),

@@ -15,6 +15,7 @@ typedef struct findings {
     size_t image_count, image_capacity;
     scene_texture *textures;
     size_t texture_count, texture_capacity;
+    index_table images_by_file, textures_by_hash;
 } findings;
 
 static void warn(reader *r, const char *path, const char *what)
@@ -36,9 +37,9 @@ static uint32_t find_image(reader *r, findings *f, const char *path)
             warn(r, path, bytes.message);
         return SCENE_NONE;
     }
-    for (size_t i = 0; i < f->image_count; i++)
-        if (strcmp(f->images[i].uri, found) == 0)
-            return (uint32_t)i;
+    uint32_t there = index_table_find(&f->images_by_file, bytes.file);
+    if (there != INDEX_TABLE_NONE)
+        return there;
     const image_kind *kind = image_kind_of_bytes(bytes.data, bytes.size);
     if (!kind) {
         const char *foreign = image_foreign_kind(bytes.data, bytes.size, path);
@@ -52,7 +53,8 @@ static uint32_t find_image(reader *r, findings *f, const char *path)
         return SCENE_NONE;
     }
     if (!mem_reserve(r->allocator, (void **)&f->images, &f->image_capacity, f->image_count + 1,
-                     sizeof *f->images)) {
+                     sizeof *f->images) ||
+        !index_table_add(&f->images_by_file, r->allocator, bytes.file, (uint32_t)f->image_count)) {
         reader_fail_memory(r, "images", 0);
         return SCENE_NONE;
     }
@@ -69,12 +71,15 @@ static uint32_t find_image(reader *r, findings *f, const char *path)
 /* Number of the texture among those found. */
 static uint32_t find_texture(reader *r, findings *f, const scene_texture *like)
 {
-    for (size_t i = 0; i < f->texture_count; i++)
+    uint32_t hash = mtl_hash_texture(like);
+    size_t cursor = 0;
+    for (uint32_t i; (i = index_table_next(&f->textures_by_hash, hash, &cursor)) != INDEX_TABLE_NONE;)
         if (f->textures[i].image == like->image && f->textures[i].mag_filter == like->mag_filter &&
             f->textures[i].min_filter == like->min_filter && f->textures[i].mip_filter == like->mip_filter)
-            return (uint32_t)i;
+            return i;
     if (!mem_reserve(r->allocator, (void **)&f->textures, &f->texture_capacity, f->texture_count + 1,
-                     sizeof *f->textures)) {
+                     sizeof *f->textures) ||
+        !index_table_add(&f->textures_by_hash, r->allocator, hash, (uint32_t)f->texture_count)) {
         reader_fail_memory(r, "textures", 0);
         return SCENE_NONE;
     }
@@ -132,4 +137,6 @@ void ogl1_find_textures(ogl1_document *d)
     mtl_files_destroy(&f.files);
     mem_free(f.images);
     mem_free(f.textures);
+    index_table_release(&f.images_by_file);
+    index_table_release(&f.textures_by_hash);
 }

@@ -146,6 +146,27 @@ static bool climbs_out(const char *path)
     return false;
 }
 
+/* Maps the file at path unless the scene has it already. */
+static bool open_once(const file_scope *scope, const char *path, const struct stat *status, uri_bytes *out)
+{
+    facet_scene *scene = scope->scene;
+    facet_error error;
+    out->file = scene_find_file(scene, (uint64_t)status->st_dev, (uint64_t)status->st_ino);
+    if (out->file == SCENE_NONE) {
+        file_bytes file = {0};
+        if (file_open(path, scope->max_file_bytes, scope->allocator, &file, &error) != FACET_OK)
+            return uri_fail(out, error.result, "%.400s", error.message);
+        out->file = scene->file_count;
+        if (!scene_keep_file(scene, &file)) {
+            file_close(&file);
+            return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a file");
+        }
+    }
+    out->data = scene->files[out->file].data;
+    out->size = scene->files[out->file].size;
+    return true;
+}
+
 bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
     const char *folder = scope->folder ? scope->folder : scope->root;
@@ -163,8 +184,6 @@ bool file_scope_open(const file_scope *scope, const char *name, const char *show
     if (!path)
         return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
     bool done = false;
-    file_bytes file = {0};
-    facet_error error;
     struct stat status;
     if (stat(path, &status) != 0)
         uri_fail(out, FACET_ERROR_READ, "there is no file \"%.200s\"", name);
@@ -172,15 +191,8 @@ bool file_scope_open(const file_scope *scope, const char *name, const char *show
         uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is no regular file", name);
     else if (!path_is_inside(path, allowed))
         uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the folder that the model may read", shown);
-    else if (file_open(path, scope->max_file_bytes, scope->allocator, &file, &error) != FACET_OK)
-        uri_fail(out, error.result, "%.400s", error.message);
-    else {
-        out->data = file.data;
-        out->size = file.size;
-        done = scene_keep_file(scope->scene, &file) ||
-               uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a file");
-    }
-    file_close(&file);
+    else
+        done = open_once(scope, path, &status, out);
     mem_free(path);
     return done;
 }

@@ -18,11 +18,12 @@ typedef struct file_scope {
 typedef struct uri_bytes {
     const unsigned char *data;
     size_t size;
+    uint32_t file; /* of file_scope_open(): index in the scene's files, one for all names of a file */
     facet_result result;
     char message[512]; /* without the place */
 } uri_bytes;
 
-/* Maps a regular file below the root; it is closed with the scene. shown: the name for messages. False: *message says
+/* Maps a regular file below the root, once for all its names; it is closed with the scene. shown: the name for messages. False: *message says
  * why, and *result. */
 bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out);
 

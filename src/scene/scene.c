@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/index_table.h"
 #include "base/result.h"
 
 scene_material scene_material_default(void)
@@ -58,6 +59,7 @@ typedef struct scene_store {
     scene_material default_material;
     size_t warning_capacity;
     size_t file_capacity;
+    index_table kept_files; /* those of scene.files whose bytes are there, by device and number */
 } scene_store;
 
 facet_result scene_create(const facet_allocator *allocator, const char *source, facet_scene **out,
@@ -90,20 +92,41 @@ void scene_destroy(facet_scene *scene)
     for (uint32_t i = 0; i < scene->file_count; i++)
         file_close(&scene->files[i]);
     mem_free(scene->files);
+    index_table_release(&((scene_store *)scene)->kept_files);
     mem_free(scene->warnings);
     arena_destroy(scene->arena);
     mem_free(scene);
+}
+
+static uint32_t hash_file(uint64_t device, uint64_t number)
+{
+    const uint64_t known_by[2] = {device, number};
+    return index_table_hash(INDEX_TABLE_HASH, known_by, sizeof known_by);
 }
 
 bool scene_keep_file(facet_scene *scene, file_bytes *file)
 {
     scene_store *store = (scene_store *)scene;
     if (!mem_reserve(&scene->allocator, (void **)&scene->files, &store->file_capacity,
-                     (size_t)scene->file_count + 1, sizeof *scene->files))
+                     (size_t)scene->file_count + 1, sizeof *scene->files) ||
+        (file->number && file->data &&
+         !index_table_add(&store->kept_files, &scene->allocator, hash_file(file->device, file->number),
+                          scene->file_count)))
         return false;
     scene->files[scene->file_count++] = *file;
     *file = (file_bytes){0};
     return true;
+}
+
+uint32_t scene_find_file(const facet_scene *scene, uint64_t device, uint64_t number)
+{
+    const index_table *kept = &((const scene_store *)scene)->kept_files;
+    size_t cursor = 0;
+    uint32_t i;
+    do
+        i = index_table_next(kept, hash_file(device, number), &cursor);
+    while (i != SCENE_NONE && (scene->files[i].device != device || scene->files[i].number != number));
+    return i;
 }
 
 bool scene_note_file(facet_scene *scene, const file_bytes *file)

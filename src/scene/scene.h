@@ -366,6 +366,8 @@ facet_result scene_create(const facet_allocator *allocator, const char *source, 
 void scene_destroy(facet_scene *scene); /* NULL is allowed */
 /* Takes over an open file (leaves {0} in *file): closed with the scene. False: no memory, *file is as it was. */
 bool scene_keep_file(facet_scene *scene, file_bytes *file);
+/* Index in scene->files of a file that is kept, by what the system knows it by; SCENE_NONE: it is not there. */
+uint32_t scene_find_file(const facet_scene *scene, uint64_t device, uint64_t number);
 /* Remembers a file that will be closed, for scene_has_file(). False: no memory. */
 bool scene_note_file(facet_scene *scene, const file_bytes *file);
 /* facet_scene_has_file(): one of scene->files. */
