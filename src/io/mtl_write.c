@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "io/mtl_parts.h"
+#include "io/name_table.h"
 #include "scene/legacy_extras.h"
 
 /* ---- names ---- */
@@ -19,43 +20,20 @@ static void add_line_text(text *out, const char *s)
     }
 }
 
-/* FNV-1a. */
-static size_t hash_name(const char *name)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (; *name; name++)
-        hash = (hash ^ (unsigned char)*name) * 0x100000001b3u;
-    return (size_t)(hash ^ hash >> 32);
-}
-
-/* Adds name to a table of a power of two. False: it is there already. */
-static bool add_to_table(const char **table, size_t size, const char *name)
-{
-    size_t at = hash_name(name) & (size - 1);
-    for (; table[at]; at = (at + 1) & (size - 1))
-        if (strcmp(table[at], name) == 0)
-            return false;
-    table[at] = name;
-    return true;
-}
-
 const char **mtl_names_create(const facet_scene *scene, const facet_allocator *allocator)
 {
-    enum { NUMBER_SIZE = 16 };
     size_t count = scene->material_count;
     size_t characters = 0;
     for (size_t i = 0; i < count; i++)
-        characters += strlen(scene->legacy->materials[i].name) + sizeof "material" + NUMBER_SIZE;
-    size_t table_size = 16;
-    while (table_size < 2 * count)
-        table_size *= 2;
-    const char **table = mem_zalloc(allocator, table_size, sizeof *table);
+        characters += strlen(scene->legacy->materials[i].name) + sizeof "material" + NAME_NUMBER_ROOM;
+    name_table table;
+    bool has_table = name_table_create(&table, count, false, allocator);
     const char **names = mem_alloc(allocator, count * sizeof *names + characters, 1);
     char *at = names ? (char *)(names + count) : NULL;
     text name = {0};
     if (allocator)
         name.allocator = *allocator;
-    for (size_t i = 0; i < count && table && names && !name.has_failed; i++) {
+    for (size_t i = 0; i < count && has_table && names && !name.has_failed; i++) {
         name.length = 0;
         text_add(&name, "");
         add_line_text(&name, scene->legacy->materials[i].name);
@@ -65,16 +43,15 @@ const char **mtl_names_create(const facet_scene *scene, const facet_allocator *a
             break;
         names[i] = at;
         memcpy(at, name.data, name.length + 1);
-        for (size_t number = i + 1; !add_to_table(table, table_size, at); number++)
-            snprintf(at + name.length, NUMBER_SIZE, "_%zu", number);
+        name_table_add_numbered(&table, at, i + 1);
         at += strlen(at) + 1;
     }
-    if (!table || name.has_failed) {
+    if (!has_table || name.has_failed) {
         mem_free(names);
         names = NULL;
     }
     text_destroy(&name);
-    mem_free(table);
+    name_table_destroy(&table);
     return names;
 }
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/failing_allocator.h"
 #include "io/gltf.h"
@@ -161,6 +162,32 @@ static void names_are_made_unique(void **state)
     assert_string_equal(names[4], "x_2_5");
     mem_free(names);
     scene_destroy(scene);
+}
+
+/* Names whose numbers are taken already: with all of them tried for each, this takes minutes. */
+static void many_names_take_no_time(void **state)
+{
+    (void)state;
+    enum { HALF = 30000, ROOM = 24 };
+    char(*text_of)[ROOM] = malloc(HALF * sizeof *text_of);
+    legacy_material *materials = calloc(2 * HALF, sizeof *materials);
+    assert_true(text_of && materials);
+    for (size_t i = 0; i < HALF; i++) {
+        snprintf(text_of[i], ROOM, "a_%zu", HALF + i);
+        materials[i].name = text_of[i];
+        materials[HALF + i].name = "a";
+    }
+    scene_legacy legacy = {.materials = materials};
+    const facet_scene scene = {.material_count = 2 * HALF, .legacy = &legacy};
+    clock_t start = clock();
+    const char **names = mtl_names_create(&scene, NULL);
+    assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 5.0);
+    assert_string_equal(names[HALF], "a");
+    snprintf(text_of[0], ROOM, "a_%d", 3 * HALF - 2);
+    assert_string_equal(names[2 * HALF - 1], text_of[0]);
+    mem_free(names);
+    free(materials);
+    free(text_of);
 }
 
 /* ---- glTF materials ---- */
@@ -385,15 +412,11 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_statements_come_back),
-        cmocka_unit_test(offsets_are_short),
-        cmocka_unit_test(what_was_asked_for_is_left_out),
-        cmocka_unit_test(illum_says_what_is_on),
-        cmocka_unit_test(names_are_made_unique),
-        cmocka_unit_test(gltf_materials_come_back),
-        cmocka_unit_test(changed_statements_count),
-        cmocka_unit_test(broken_comments_are_warnings),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(all_statements_come_back),       cmocka_unit_test(offsets_are_short),
+        cmocka_unit_test(what_was_asked_for_is_left_out), cmocka_unit_test(illum_says_what_is_on),
+        cmocka_unit_test(names_are_made_unique),          cmocka_unit_test(many_names_take_no_time),
+        cmocka_unit_test(gltf_materials_come_back),       cmocka_unit_test(changed_statements_count),
+        cmocka_unit_test(broken_comments_are_warnings),   cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

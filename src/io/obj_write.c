@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "io/file_set.h"
 #include "io/mtl.h"
+#include "io/name_table.h"
 #include "io/obj_write.h"
 
 /* What is written, and what it is made of. */
@@ -14,52 +15,28 @@ typedef struct obj_writer {
     const char *path, *generator;
     char *stem; /* of the OBJ file's name */
     scene_pose pose;
-    obj_piece *pieces;         /* one per instance of the pose; those without a material come first */
-    text *headings;            /* the same: "o ..", "usemtl .." */
-    const char **names;        /* of materials */
-    const char **object_names; /* hash table of those written; a power of two */
-    size_t object_name_size;
+    obj_piece *pieces;       /* one per instance of the pose; those without a material come first */
+    text *headings;          /* the same: "o ..", "usemtl .." */
+    const char **names;      /* of materials */
+    name_table object_names; /* those written */
     arena *strings;
     obj_images images;
 } obj_writer;
 
 /* ---- names ---- */
 
-/* FNV-1a. */
-static size_t hash_name(const char *name)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (; *name; name++)
-        hash = (hash ^ (unsigned char)*name) * 0x100000001b3u;
-    return (size_t)(hash ^ hash >> 32);
-}
-
-/* Adds a name to the table. False: it is there already. */
-static bool take_name(obj_writer *w, const char *name)
-{
-    size_t at = hash_name(name) & (w->object_name_size - 1);
-    for (; w->object_names[at]; at = (at + 1) & (w->object_name_size - 1))
-        if (strcmp(w->object_names[at], name) == 0)
-            return false;
-    w->object_names[at] = name;
-    return true;
-}
-
 /* A name that no object has yet, of one line; NULL: no memory. */
 static const char *object_name(obj_writer *w, const char *wanted, size_t number)
 {
-    enum { NUMBER_ROOM = 24 };
     size_t length = strlen(wanted);
-    char *name = arena_alloc(w->strings, length + sizeof "object" + NUMBER_ROOM, 1);
+    char *name = arena_alloc(w->strings, length + sizeof "object" + NAME_NUMBER_ROOM, 1);
     if (!name)
         return NULL;
     strcpy(name, length ? wanted : "object");
     for (char *c = name; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f || (*c == '\\' && !c[1]))
             *c = '_';
-    length = strlen(name);
-    for (number++; !take_name(w, name); number++)
-        snprintf(name + length, NUMBER_ROOM, "_%zu", number);
+    name_table_add_numbered(&w->object_names, name, number + 1);
     return name;
 }
 
@@ -128,15 +105,12 @@ static bool prepare(obj_writer *w)
 {
     const facet_allocator *allocator = &w->desc->allocator;
     size_t count = w->pose.instance_count;
-    w->object_name_size = 16;
-    while (w->object_name_size < 2 * count)
-        w->object_name_size *= 2;
     w->pieces = mem_zalloc(allocator, count, sizeof *w->pieces);
     w->headings = mem_zalloc(allocator, count, sizeof *w->headings);
     w->names = mtl_names_create(w->scene, allocator);
-    w->object_names = mem_zalloc(allocator, w->object_name_size, sizeof *w->object_names);
     w->strings = arena_create(allocator);
-    if (!w->pieces || !w->headings || !w->names || !w->object_names || !w->strings ||
+    if (!w->pieces || !w->headings || !w->names || !w->strings ||
+        !name_table_create(&w->object_names, count, false, allocator) ||
         !obj_images_create(w->scene, w->path, w->stem, w->desc, &w->images))
         return false;
     order_pieces(w);
@@ -155,7 +129,7 @@ static void destroy(obj_writer *w)
     arena_destroy(w->strings);
     mem_free(w->headings);
     mem_free(w->names);
-    mem_free(w->object_names);
+    name_table_destroy(&w->object_names);
     mem_free(w->stem);
     scene_pose_destroy(&w->pose);
 }
@@ -218,7 +192,8 @@ static facet_result save(const obj_writer *w, facet_error *error)
     return result;
 }
 
-/* The file's name without its end, on one line. */
+/* The file's name without its end, as a statement can name it: on one line, and without blanks at its front, where a
+ * reader skips them, or quotes. */
 static char *make_stem(const char *path, const facet_allocator *allocator)
 {
     const char *base = path_base_name(path);
@@ -227,8 +202,11 @@ static char *make_stem(const char *path, const facet_allocator *allocator)
     char *stem = mem_alloc(allocator, length + 1, 1);
     if (!stem)
         return NULL;
-    for (size_t i = 0; i < length; i++)
-        stem[i] = (unsigned char)base[i] < 0x20 || base[i] == 0x7f ? '_' : base[i];
+    size_t blanks = strspn(base, " ");
+    for (size_t i = 0; i < length; i++) {
+        bool is_plain = (unsigned char)base[i] >= 0x20 && base[i] != 0x7f && base[i] != '"' && i >= blanks;
+        stem[i] = is_plain ? base[i] : '_';
+    }
     stem[length] = 0;
     return stem;
 }

@@ -1,10 +1,14 @@
 /* obj_write_images.c - the images of an OBJ file: beside it, by their own names where those are plain and nothing else
  * bears them there, else as STEM_image0.png. */
+#define _POSIX_C_SOURCE 200809L
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 #include "io/image_kind.h"
+#include "io/name_table.h"
 #include "io/obj_write.h"
 
 /* ---- which ones ---- */
@@ -42,60 +46,66 @@ static bool is_plain(const char *name, const image_kind *kind)
            name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-")] == 0;
 }
 
-static bool is_taken(const obj_images *images, uint32_t count, const char *name)
-{
-    for (uint32_t i = 0; i < count; i++)
-        if (images->names[i] && strcasecmp(images->names[i], name) == 0)
-            return true;
-    return false;
-}
-
 typedef enum presence { NOT_THERE, SAME, OTHER, NO_MEMORY } presence;
 
-/* Whether a file of that name stands beside path, and holds the image. */
+/* Whether the file at path holds the image. Only a regular file of its size is opened: a pipe would keep the reader waiting,
+ * a device might never end. */
+static presence look_at(const char *path, const scene_image *source, const facet_allocator *allocator)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        return lstat(path, &status) != 0 && (errno == ENOENT || errno == ENOTDIR) ? NOT_THERE : OTHER;
+    if (!S_ISREG(status.st_mode) || (uint64_t)status.st_size != source->size)
+        return OTHER;
+    file_bytes file = {0};
+    facet_result result = file_open(path, 0, allocator, &file, NULL);
+    bool is_same = result == FACET_OK && file.size == source->size &&
+                   memcmp(file.data, source->bytes, source->size) == 0;
+    file_close(&file);
+    return result == FACET_ERROR_MEMORY ? NO_MEMORY : is_same ? SAME : OTHER;
+}
+
+/* The same, by its name beside path. */
 static presence look_beside(const char *path, const char *name, const scene_image *source,
                             const facet_allocator *allocator)
 {
-    file_bytes file = {0};
     char *folder = path_folder(allocator, path);
     char *beside = folder ? path_join(allocator, folder, name) : NULL;
-    presence found = NO_MEMORY;
-    if (beside) {
-        facet_error error;
-        facet_result result = file_open(beside, 0, allocator, &file, &error);
-        found = result == FACET_ERROR_MEMORY                                                       ? NO_MEMORY
-                : result != FACET_OK                                                               ? NOT_THERE
-                : file.size == source->size && memcmp(file.data, source->bytes, source->size) == 0 ? SAME
-                                                                                                   : OTHER;
-    }
-    file_close(&file);
+    presence found = beside ? look_at(beside, source, allocator) : NO_MEMORY;
     mem_free(beside);
     mem_free(folder);
     return found;
 }
 
+/* What names are found with. */
+typedef struct image_namer {
+    const facet_scene *scene;
+    const char *path, *stem;
+    const facet_allocator *allocator;
+    name_table taken;
+    uint32_t next; /* numbers from that of the images on and below it are taken */
+} image_namer;
+
 /* Adds the name of an image to *at, which has room for it. False: no memory. */
-static bool name_image(const facet_scene *scene, uint32_t index, const char *path, const char *stem,
-                       const facet_allocator *allocator, obj_images *out, char *at)
+static bool name_image(image_namer *namer, uint32_t index, obj_images *out, char *at)
 {
-    const scene_image *source = &scene->images[index];
+    const scene_image *source = &namer->scene->images[index];
     const image_kind *kind = image_kind_of_mime_type(source->mime_type);
     const char *own = path_base_name(source->uri ? source->uri : source->name);
-    if (is_plain(own, kind) && !is_taken(out, index, own)) {
-        presence found = look_beside(path, own, source, allocator);
+    out->names[index] = at;
+    if (is_plain(own, kind) && !name_table_has(&namer->taken, own)) {
+        presence found = look_beside(namer->path, own, source, namer->allocator);
         if (found == NO_MEMORY)
             return false;
         if (found != OTHER) {
             strcpy(at, own);
             out->is_there[index] = found == SAME;
-            out->names[index] = at;
-            return true;
+            return name_table_add(&namer->taken, at);
         }
     }
-    sprintf(at, "%s_image%u.%s", stem, index, kind->file_extension);
-    for (uint32_t again = scene->image_count; is_taken(out, index, at); again++)
-        sprintf(at, "%s_image%u.%s", stem, again, kind->file_extension);
-    out->names[index] = at;
+    sprintf(at, "%s_image%u.%s", namer->stem, index, kind->file_extension);
+    while (!name_table_add(&namer->taken, at))
+        sprintf(at, "%s_image%u.%s", namer->stem, namer->next++, kind->file_extension);
     return true;
 }
 
@@ -110,14 +120,21 @@ bool obj_images_create(const facet_scene *scene, const char *path, const char *s
     out->names = mem_zalloc(&desc->allocator, scene->image_count, sizeof *out->names);
     out->is_there = mem_zalloc(&desc->allocator, scene->image_count, sizeof *out->is_there);
     out->storage = mem_alloc(&desc->allocator, scene->image_count, room);
-    bool is_done = is_used && out->names && out->is_there && out->storage;
+    image_namer namer = {.scene = scene,
+                         .path = path,
+                         .stem = stem,
+                         .allocator = &desc->allocator,
+                         .next = scene->image_count};
+    bool is_done = is_used && out->names && out->is_there && out->storage &&
+                   name_table_create(&namer.taken, scene->image_count, true, &desc->allocator);
     if (is_done)
         find_used(scene, desc, is_used);
     for (uint32_t i = 0; i < scene->image_count && is_done; i++) {
         const scene_image *source = &scene->images[i];
         if (is_used[i] && source->bytes && image_kind_of_mime_type(source->mime_type))
-            is_done = name_image(scene, i, path, stem, &desc->allocator, out, out->storage + i * room);
+            is_done = name_image(&namer, i, out, out->storage + i * room);
     }
+    name_table_destroy(&namer.taken);
     mem_free(is_used);
     if (!is_done)
         obj_images_destroy(out);

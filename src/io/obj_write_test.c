@@ -1,4 +1,5 @@
 /* obj_write_test.c - OBJ files as they are written, and scenes that come back from them. */
+#define _POSIX_C_SOURCE 200809L
 #include "io/mtl_test_support.h"
 
 #include <dirent.h>
@@ -6,11 +7,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
 
 #include "base/failing_allocator.h"
 #include "base/text.h"
 #include "image/srgb.h"
-#include "io/obj.h"
+#include "io/obj_write.h"
 
 /* ---- a scene by hand ---- */
 
@@ -203,6 +207,119 @@ static void images_are_beside(void **state)
     scene_destroy(again);
     scene_destroy(scene);
     test_folder_remove(&folder);
+}
+
+/* Images of one texel each, all of them used: one material per image. */
+static facet_scene *make_images(uint32_t count)
+{
+    static const unsigned char bytes[4] = {1, 2, 3, 4};
+    facet_scene *scene = make_scene(1, count);
+    add_quad(scene, 0, 0);
+    scene->images = add(scene, count, sizeof *scene->images);
+    scene->textures = add(scene, count, sizeof *scene->textures);
+    scene->image_count = scene->texture_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        scene->images[i] = (scene_image){
+            .name = "", .uri = "same.png", .mime_type = "image/png", .bytes = bytes, .size = sizeof bytes};
+        scene->textures[i].name = "";
+        scene->textures[i].image = i;
+        scene->legacy->materials[i].maps[LEGACY_DIFFUSE_MAP].ref.texture = i;
+    }
+    return scene;
+}
+
+/* Pipes, which would never be read to their end, folders, links that lead nowhere: files of others. */
+static void what_is_no_file_is_not_opened(void **state)
+{
+    (void)state;
+    test_folder folder = test_folder_make();
+    facet_scene *scene = make_images(3);
+    scene->images[0].uri = "pipe.png";
+    scene->images[1].uri = "link.png";
+    scene->images[2].uri = "device.png";
+    assert_int_equal(mkfifo(test_path(&folder, "pipe.png"), 0600), 0);
+    assert_int_equal(symlink("nowhere", test_path(&folder, "link.png")), 0);
+    assert_int_equal(symlink("/dev/zero", test_path(&folder, "device.png")), 0);
+    alarm(20); /* instead of waiting for ever */
+    free(save(&folder, scene, NULL));
+    alarm(0);
+    char *mtl = test_get(&folder, "out.mtl");
+    for (int i = 0; i < 3; i++) {
+        char expected[64];
+        snprintf(expected, sizeof expected, "map_Kd out_image%d.png\n", i);
+        assert_non_null(strstr(mtl, expected));
+    }
+    free(mtl);
+    scene_destroy(scene);
+    for (const char *const *name = (const char *const[]){"pipe.png", "link.png", "device.png", NULL}; *name;
+         name++)
+        unlink(test_path(&folder, *name));
+    test_folder_remove(&folder);
+}
+
+static char *make_name(facet_scene *scene, const char *format, uint32_t number)
+{
+    char *name = add(scene, 48, 1);
+    snprintf(name, 48, format, number);
+    return name;
+}
+
+/* Names whose numbers are taken already: with all of them tried for each, this takes minutes. */
+static void many_names_take_no_time(void **state)
+{
+    (void)state;
+    enum { HALF = 30000 };
+    test_folder folder = test_folder_make();
+    facet_scene *scene = make_scene(2 * HALF, 1);
+    for (uint32_t i = 0; i < 2 * HALF; i++) {
+        add_quad(scene, i, 0);
+        scene->nodes[i].name = i < HALF ? make_name(scene, "a_%u", HALF + i) : "a";
+    }
+    facet_scene *images = make_images(2 * HALF);
+    for (uint32_t i = 0; i < HALF; i++) /* "out_image0.png" .. and those that would take their place */
+        images->images[i].uri = make_name(images, "OUT_image%u.png", i + HALF);
+    clock_t start = clock();
+    free(save(&folder, scene, NULL));
+    obj_images named;
+    const facet_scene_save_desc desc = {0};
+    assert_true(obj_images_create(images, test_path(&folder, "out.obj"), "out", &desc, &named));
+    assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 15.0);
+    assert_string_equal(named.names[HALF], "same.png");
+    char expected[48];
+    snprintf(expected, sizeof expected, "out_image%d.png", 3 * HALF - 2);
+    assert_string_equal(named.names[2 * HALF - 1], expected);
+    obj_images_destroy(&named);
+    scene_destroy(images);
+    scene_destroy(scene);
+    test_folder_remove(&folder);
+}
+
+/* The libraries and images of files whose names a statement cannot hold as they are. */
+static void odd_names_are_found_again(void **state)
+{
+    (void)state;
+    static const char *const names[] = {" a.obj", "  .obj", "\"q\".obj", "\ta.obj", "a b.obj", ".obj"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        test_folder folder = test_folder_make();
+        test_put_png(&folder, "in.png");
+        char *bytes = test_get(&folder, "in.png");
+        struct stat status;
+        assert_int_equal(stat(test_path(&folder, "in.png"), &status), 0);
+        facet_scene *scene = make_images(1);
+        scene->images[0].uri = "not plain.png";
+        scene->images[0].bytes = (const unsigned char *)bytes;
+        scene->images[0].size = (size_t)status.st_size;
+        facet_scene *again = NULL;
+        assert_int_equal(obj_save(scene, test_path(&folder, names[i]), "a test", NULL, NULL), FACET_OK);
+        assert_int_equal(obj_load(test_path(&folder, names[i]), NULL, &again, NULL), FACET_OK);
+        if (again->warning_count)
+            fail_msg("%s: %s", names[i], again->warnings[0]);
+        assert_int_equal(again->image_count, 1);
+        scene_destroy(again);
+        scene_destroy(scene);
+        free(bytes);
+        test_folder_remove(&folder);
+    }
 }
 
 static void scenes_without_legacy_are_refused(void **state)
@@ -413,7 +530,8 @@ int main(void)
         cmocka_unit_test(a_quad_is_written),           cmocka_unit_test(objects_follow_one_another),
         cmocka_unit_test(images_are_beside),           cmocka_unit_test(scenes_without_legacy_are_refused),
         cmocka_unit_test(nothing_stays_of_what_fails), cmocka_unit_test(real_files_come_back),
-        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(threads_change_nothing),      cmocka_unit_test(what_is_no_file_is_not_opened),
+        cmocka_unit_test(many_names_take_no_time),     cmocka_unit_test(odd_names_are_found_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,25 @@
+/* name_table.h - names that a file has already, and numbers that make others different. */
+#ifndef IO_NAME_TABLE_H
+#define IO_NAME_TABLE_H
+
+#include "facet/facet.h"
+
+typedef struct name_table {
+    struct name_entry *entries; /* hash table; block of mem_alloc() */
+    size_t size;                /* a power of two */
+    bool ignores_case;          /* of ASCII letters */
+} name_table;
+
+enum { NAME_NUMBER_ROOM = 24 }; /* of "_NUMBER" with the 0 behind it */
+
+/* For up to count names, whose text must outlive the table. False: no memory. */
+bool name_table_create(name_table *table, size_t count, bool ignores_case, const facet_allocator *allocator);
+void name_table_destroy(name_table *table); /* {0} is allowed; leaves {0} */
+bool name_table_has(const name_table *table, const char *name);
+/* False: it is there already. */
+bool name_table_add(name_table *table, const char *name);
+/* Adds name, as it is or with the first free "_NUMBER" from number on, for which it has NAME_NUMBER_ROOM behind its end.
+ * Takes constant time on average: each name remembers the number that was tried last. */
+void name_table_add_numbered(name_table *table, char *name, size_t number);
+
+#endif
