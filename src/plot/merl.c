@@ -14,7 +14,7 @@ struct merl {
     const unsigned char *cells; /* doubles, at 12 bytes from the start: not aligned */
 };
 
-enum { HEADER_SIZE = 3 * 4 };
+enum { HEADER_SIZE = 3 * 4, LARGEST_FILE = 1 << 26 }; /* the format has one size, 35 MB */
 
 double merl_scale(int channel)
 {
@@ -89,7 +89,7 @@ facet_result merl_open(const char *path, const facet_allocator *allocator, merl 
     merl *m = mem_zalloc(allocator, 1, sizeof *m);
     if (!m)
         return fail_memory(error, "measured BRDF", sizeof *m);
-    facet_result result = file_open(path, 0, allocator, &m->file, error);
+    facet_result result = file_open(path, LARGEST_FILE, allocator, &m->file, error);
     if (result == FACET_OK) {
         m->cells = m->file.data + HEADER_SIZE;
         result = check(m, path, error);
