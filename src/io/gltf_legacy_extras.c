@@ -70,7 +70,7 @@ static void get_ref(const reader *r, const json_t *object, legacy_map *map)
     map->is_left_out |= index >= 0 && ref->texture == SCENE_NONE;
     if (json_is_integer(set) && json_integer_value(set) >= 0 && json_integer_value(set) < SCENE_NONE)
         ref->texcoord = (uint32_t)json_integer_value(set);
-    const float most = 1e9f;
+    const float most = LEGACY_LARGEST;
     get_numbers(json_object_get(object, "offset"), ref->offset, 2, -most, most);
     get_numbers(json_object_get(object, "scale"), ref->scale, 2, -most, most);
     get_numbers(json_object_get(object, "rotation"), &ref->rotation_rad, 1, -most, most);
@@ -80,7 +80,7 @@ static void get_ref(const reader *r, const json_t *object, legacy_map *map)
 static void get_map(reader *r, const json_t *object, legacy_map *map)
 {
     const json_t *channel = json_object_get(object, "imfchan");
-    const float most = 1e9f;
+    const float most = LEGACY_LARGEST;
     if (!json_is_object(object))
         return;
     get_ref(r, object, map);
@@ -147,9 +147,9 @@ static void get_light(const json_t *object, legacy_light *light)
     get_flag(json_object_get(object, "point"), &light->is_point);
     get_flag(json_object_get(object, "viewpoint_relative"), &light->is_viewpoint_relative);
     get_numbers(json_object_get(object, "position"), light->position, 3, -most, most);
-    get_numbers(json_object_get(object, "ambient"), light->ambient, 3, 0, 1e9f);
-    get_numbers(json_object_get(object, "diffuse"), light->diffuse, 3, 0, 1e9f);
-    get_numbers(json_object_get(object, "specular"), light->specular, 3, 0, 1e9f);
+    get_numbers(json_object_get(object, "ambient"), light->ambient, 3, 0, LEGACY_LARGEST);
+    get_numbers(json_object_get(object, "diffuse"), light->diffuse, 3, 0, LEGACY_LARGEST);
+    get_numbers(json_object_get(object, "specular"), light->specular, 3, 0, LEGACY_LARGEST);
 }
 
 static void get_lights(reader *r, const json_t *array, scene_legacy *legacy)
@@ -170,8 +170,8 @@ static void get_scene(reader *r, const json_t *object, scene_legacy *legacy)
     get_lights(r, json_object_get(object, "lights"), legacy);
     legacy->fog.mode =
         (legacy_fog_mode)get_choice(json_object_get(fog, "mode"), legacy_fog_names, LEGACY_FOG_NONE);
-    get_numbers(json_object_get(fog, "color"), legacy->fog.color, 3, 0, 1e9f);
-    get_numbers(json_object_get(fog, "scale"), &legacy->fog.scale, 1, 0, 1e9f);
+    get_numbers(json_object_get(fog, "color"), legacy->fog.color, 3, 0, LEGACY_LARGEST);
+    get_numbers(json_object_get(fog, "scale"), &legacy->fog.scale, 1, 0, LEGACY_LARGEST);
     legacy->colors = (facet_legacy_colors)get_choice(json_object_get(object, "colors"), legacy_color_names,
                                                      FACET_LEGACY_COLORS_SRGB);
     if (legacy->colors == FACET_LEGACY_COLORS_DEFAULT)

@@ -227,10 +227,11 @@ bool mtl_parse_color(mtl_parser *p, const char *keyword, mtl_span arguments, flo
     }
     bool is_clamped = false;
     for (int i = 0; i < 3; i++) {
-        is_clamped = is_clamped || values[i] < 0.0 || values[i] > MTL_LARGEST;
-        out[i] = (float)fmin(fmax(values[i], 0.0), MTL_LARGEST);
+        is_clamped = is_clamped || values[i] < 0.0 || values[i] > (double)LEGACY_LARGEST;
+        out[i] = (float)fmin(fmax(values[i], 0.0), (double)LEGACY_LARGEST);
     }
     if (is_clamped)
-        mtl_warn(p, "%s: has components below 0 or above %g; they are clamped", keyword, MTL_LARGEST);
+        mtl_warn(p, "%s: has components below 0 or above %g; they are clamped", keyword,
+                 (double)LEGACY_LARGEST);
     return true;
 }

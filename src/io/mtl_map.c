@@ -71,7 +71,7 @@ static bool take_numbers(const option_row *row, mtl_span *rest, map_options *out
     size_t count = 0;
     mtl_span ahead = *rest;
     while (count < row->most && mtl_to_number(mtl_next_word(&ahead), &values[count])) {
-        values[count] = fmax(-MTL_LARGEST, fmin(values[count], MTL_LARGEST));
+        values[count] = fmax(-(double)LEGACY_LARGEST, fmin(values[count], (double)LEGACY_LARGEST));
         count++;
         *rest = ahead;
     }

@@ -90,8 +90,6 @@ void mtl_parse_options(mtl_parser *p, const char *options, legacy_map *map, bool
 
 /* mtl_color.c: r [g b], spectral .., xyz ..; false: a warning said what is wrong. */
 bool mtl_parse_color(mtl_parser *p, const char *keyword, mtl_span arguments, float out[3]);
-/* The largest number that counts as light, as a color (scene/legacy_extras.h) or as an offset. */
-#define MTL_LARGEST 1e9
 
 /* mtl_dialect.c: what tells which program wrote a file. */
 typedef struct mtl_clues {

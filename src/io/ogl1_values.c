@@ -9,9 +9,6 @@
 
 enum { DEEPEST = 8 }; /* arrays around a value; R makes one or two */
 
-/* Brighter than any light that a screen shows, and its square is still a float. */
-#define BRIGHTEST 1e6
-
 static const char *type_name(const json_t *value)
 {
     return json_is_object(value)    ? "an object"
@@ -177,7 +174,7 @@ static bool color_of_numbers(reader *r, const json_place *at, float rgba[4])
         double number = json_number_value(element.value);
         if (!json_is_number(element.value))
             return fail_type(r, &element, "a number");
-        if (!(number >= 0.0 && number <= BRIGHTEST))
+        if (!(number >= 0.0 && number <= (double)LEGACY_LARGEST))
             return reader_fail(r, &element, NULL, FACET_ERROR_INVALID,
                                "%g is no part of a color, which is from 0 to 1", number);
         if (number > 1.0)

@@ -112,6 +112,29 @@ static void test_round_trip(void **state)
     scene_destroy(back);
 }
 
+/* What MTL and extras may state comes back: colors up to the largest that counts. */
+static void test_bright_colors(void **state)
+{
+    (void)state;
+    facet_scene *scene = ogl1_load("{'materials':[{'color':'red'}]}");
+    legacy_material *m = (legacy_material *)scene->legacy->materials;
+    m->fields |= LEGACY_EMISSION | LEGACY_SPECULAR;
+    for (int i = 0; i < 3; i++) {
+        m->emission[i] = i ? LEGACY_LARGEST : 2e6f;
+        m->specular[i] = LEGACY_LARGEST;
+    }
+    char *json = write(scene);
+    facet_scene *back = NULL;
+    facet_error error = {0};
+    if (ogl1_json_load_memory(json, strlen(json), "back.json", NULL, &back, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    assert_memory_equal(back->legacy->materials[0].emission, m->emission, sizeof m->emission);
+    assert_memory_equal(back->legacy->materials[0].specular, m->specular, sizeof m->specular);
+    mem_free(json);
+    scene_destroy(back);
+    scene_destroy(scene);
+}
+
 static void test_random_directions(void **state)
 {
     (void)state;
@@ -296,6 +319,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_bright_colors),
         cmocka_unit_test(test_random_directions),
         cmocka_unit_test(test_as_r_takes_it),
         cmocka_unit_test(test_unknown_of_mtl),

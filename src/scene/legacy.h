@@ -8,6 +8,10 @@
 
 #include "scene/scene.h"
 
+/* The largest number that counts as light, as a color or as an offset in any file of legacy materials: far brighter than
+ * what a screen shows, and its square is still a float. */
+#define LEGACY_LARGEST 1e9f
+
 /* What a file states; or-ed. What is not stated has the value of legacy_material_default(). */
 typedef enum legacy_field {
     LEGACY_AMBIENT = 1 << 0,

@@ -13,11 +13,11 @@
 
 /* Ns to 1000 by the letter of MTL; larger ones are written and mean what they say. Colors are light as well. */
 const legacy_parameter legacy_parameters[LEGACY_PARAMETER_COUNT] = {
-    ROW("Ka", LEGACY_AMBIENT, ambient, 3, 0, 1e9f),
-    ROW("Kd", LEGACY_DIFFUSE, diffuse, 3, 0, 1e9f),
-    ROW("Ks", LEGACY_SPECULAR, specular, 3, 0, 1e9f),
-    ROW("Ke", LEGACY_EMISSION, emission, 3, 0, 1e9f),
-    ROW("Tf", LEGACY_TRANSMISSION_FILTER, transmission_filter, 3, 0, 1e9f),
+    ROW("Ka", LEGACY_AMBIENT, ambient, 3, 0, LEGACY_LARGEST),
+    ROW("Kd", LEGACY_DIFFUSE, diffuse, 3, 0, LEGACY_LARGEST),
+    ROW("Ks", LEGACY_SPECULAR, specular, 3, 0, LEGACY_LARGEST),
+    ROW("Ke", LEGACY_EMISSION, emission, 3, 0, LEGACY_LARGEST),
+    ROW("Tf", LEGACY_TRANSMISSION_FILTER, transmission_filter, 3, 0, LEGACY_LARGEST),
     ROW("Ns", LEGACY_SHININESS, shininess, 1, 0, 1e6f),
     ROW("d", LEGACY_OPACITY, opacity, 1, 0, 1),
     ROW("Ni", LEGACY_IOR, ior, 1, 0, 1000),
