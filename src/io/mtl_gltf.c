@@ -2,7 +2,7 @@
  *
  * The JSON is a glTF material with the names of image files and samplers in the place of textures' numbers, and a member
  * "facet": what the statements said when it was written. As long as they still say that, the glTF material comes back
- * exactly; once somebody has changed them, they count. */
+ * exactly, but for textures that read a second set of coordinates; once somebody has changed them, they count. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +10,7 @@
 #include "io/gltf_writer.h"
 #include "io/mtl_parts.h"
 #include "scene/legacy_extras.h"
+#include "scene/material_table.h"
 
 struct mtl_gltf {
     json_t *json;
@@ -68,29 +69,51 @@ static uint32_t find_texture(mtl_parser *p, mtl_files *f, const char *folder, js
     return texture.image == SCENE_NONE ? SCENE_NONE : mtl_files_texture(f, &texture);
 }
 
-/* Puts numbers of textures where names of images are; takes infos out whose image is gone. */
-static void resolve_textures(mtl_parser *p, mtl_files *f, const char *folder, json_t *object, int depth)
+/* The set of texture coordinates that an info reads. */
+static double texcoord_of(const json_t *info)
 {
-    enum { DEEPEST = 8 }; /* extensions.NAME.texture needs 3 */
-    const char *key;
-    json_t *member;
-    void *next;
-    json_object_foreach_safe(object, next, key, member)
-    {
-        if (!json_is_object(member) || depth >= DEEPEST || strcmp(key, "extras") == 0 ||
-            strcmp(key, "facet") == 0)
-            continue;
-        if (!json_object_get(member, "image") && !json_object_get(member, "index")) {
-            resolve_textures(p, f, folder, member, depth + 1);
-            continue;
-        }
-        /* A number is that of another scene's texture. */
-        uint32_t texture = json_object_get(member, "image") ? find_texture(p, f, folder, member) : SCENE_NONE;
-        if (texture == SCENE_NONE)
-            json_object_del(object, key);
-        else if (json_object_set_new(member, "index", json_integer(texture)) != 0)
-            p->has_failed = true;
+    const json_t *transform = json_object_get(json_object_get(info, "extensions"), "KHR_texture_transform");
+    const json_t *set = json_object_get(transform, "texCoord");
+    return json_number_value(set ? set : json_object_get(info, "texCoord"));
+}
+
+/* Puts the number of a texture where the name of an image is; takes the info out where its image is gone. OBJ has one set
+ * of coordinates, which mtl_gltf_write() calls 0: what read another one cannot be drawn. */
+static void resolve_texture(mtl_parser *p, mtl_files *f, const char *folder, json_t *object, const char *key,
+                            const char *material)
+{
+    json_t *info = json_object_get(object, key);
+    if (!json_object_get(info, "image") && !json_object_get(info, "index"))
+        return;
+    uint32_t texture = SCENE_NONE; /* a number is that of another scene's texture */
+    if (texcoord_of(info) != 0.0)
+        mtl_warn(p,
+                 "#facet-gltf: material \"%.200s\": %s reads another set of texture coordinates than the one "
+                 "that OBJ has; it is left out",
+                 material, key);
+    else if (json_object_get(info, "image"))
+        texture = find_texture(p, f, folder, info);
+    if (texture == SCENE_NONE)
+        json_object_del(object, key);
+    else if (json_object_set_new(info, "index", json_integer(texture)) != 0)
+        p->has_failed = true;
+}
+
+/* All textures that read_material() knows; what else has images in it is nobody's. */
+static void resolve_textures(mtl_parser *p, mtl_files *f, const char *folder, json_t *json,
+                             const char *material)
+{
+    json_t *extensions = json_object_get(json, "extensions");
+    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT && !p->has_failed && !f->has_failed; i++) {
+        const material_texture *row = &material_textures[i];
+        json_t *object = row->extension ? json_object_get(extensions, row->object)
+                         : *row->object ? json_object_get(json, row->object)
+                                        : json;
+        resolve_texture(p, f, folder, object, row->key, material);
     }
+    /* The base color's place in the one extension that replaces its object. */
+    resolve_texture(p, f, folder, json_object_get(extensions, "KHR_materials_pbrSpecularGlossiness"),
+                    "diffuseTexture", material);
 }
 
 /* Whether the statements are those that the comment was written with. */
@@ -136,7 +159,7 @@ mtl_gltf *mtl_gltf_begin(mtl_parser *p, mtl_files *f, const char *folder, const 
         mtl_warn(p, "#facet-gltf: is no valid JSON object; the statements count");
     else if (is_unchanged(p, g->json, m)) {
         settle_name(p, g->json, m);
-        resolve_textures(p, f, folder, g->json, 0);
+        resolve_textures(p, f, folder, g->json, m->name);
         if (!p->has_failed)
             return g;
     }
@@ -199,6 +222,25 @@ static json_t *parse_back(const char *statements, const char *name, const facet_
     return json;
 }
 
+/* The material as it reads an OBJ file's coordinates, of which there is one set: that of the first map, as obj_write.c
+ * chooses it. It is 0 in the comment, and the set that was 0 takes its number. */
+static scene_material with_one_set(const facet_scene *scene, uint32_t material)
+{
+    scene_material m = scene->materials[material];
+    uint32_t written = SCENE_NONE;
+    for (int i = 0; scene->legacy && i < LEGACY_MAP_COUNT && written == SCENE_NONE; i++) {
+        int slot = i == 0 ? LEGACY_DIFFUSE_MAP : i == LEGACY_DIFFUSE_MAP ? 0 : i;
+        const scene_texture_ref *ref = &scene->legacy->materials[material].maps[slot].ref;
+        if (ref->texture != SCENE_NONE)
+            written = ref->texcoord;
+    }
+    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT && written != SCENE_NONE; i++) {
+        uint32_t *set = &m.textures[i].texcoord;
+        *set = *set == written ? 0 : *set == 0 ? written : *set;
+    }
+    return m;
+}
+
 void mtl_gltf_write(const facet_scene *scene, uint32_t material, const char *name, const char *statements,
                     const char *const *image_names, const facet_scene_save_desc *desc, text *out)
 {
@@ -210,7 +252,8 @@ void mtl_gltf_write(const facet_scene *scene, uint32_t material, const char *nam
                 .names_images = true,
                 .image_names = image_names};
     json_t *facet = parse_back(statements, name, desc);
-    json_t *json = w.root && w.extensions_used ? new_material(&w, &scene->materials[material]) : NULL;
+    const scene_material m = with_one_set(scene, material);
+    json_t *json = w.root && w.extensions_used ? new_material(&w, &m) : NULL;
     char *dumped = NULL;
     if (facet && json)
         put(&w, json, "facet", json_incref(facet));

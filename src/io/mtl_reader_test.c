@@ -11,6 +11,7 @@
 
 #include "base/failing_allocator.h"
 #include "image/srgb.h"
+#include "io/mtl_parts.h"
 
 #define FLOATS(actual, a, b, c)                                                                              \
     do {                                                                                                     \
@@ -327,6 +328,74 @@ static void textures_are_found_and_shared(void **state)
     test_folder_remove(&folder);
 }
 
+/* ---- comments ---- */
+
+/* Members that no material has are not looked at, whatever they hold. */
+static void unknown_textures_stay_alone(void **state)
+{
+    (void)state;
+    test_folder folder = test_folder_make();
+    test_put_png(&folder, "a.png");
+    text t = {0};
+    text_add(
+        &t,
+        "newmtl a\nillum 2\n#facet-gltf {\"facet\":{\"illum\":2},\"normalTexture\":{\"image\":\"a.png\"}");
+    for (int i = 0; i < 1000; i++)
+        text_addf(&t, ",\"t%d\":{\"image\":\"a.png\",\"name\":\"%d\"}", i, i);
+    text_add(&t, "}\n");
+    test_put(&folder, "a.mtl", t.data, t.length);
+    facet_scene *scene = mtl_load(folder.path, "a.mtl", NULL);
+    assert_true(mtl_get(scene, 0)->is_gltf_restored);
+    assert_true(scene_material_has(&scene->materials[0], SCENE_NORMAL_TEXTURE));
+    assert_int_equal(scene->texture_count, 1);
+    assert_int_equal(scene->warning_count, 0);
+    scene_destroy(scene);
+    text_destroy(&t);
+    test_folder_remove(&folder);
+}
+
+/* OBJ has one set of coordinates: what reads another one is left out, and the one that is written is called 0. */
+static void one_set_of_coordinates_comes_back(void **state)
+{
+    (void)state;
+    static const char statements[] = "map_Kd a.png\n";
+    test_folder folder = test_folder_make();
+    test_put_png(&folder, "a.png");
+    test_put_text(&folder, "a.mtl", "newmtl a\nmap_Kd a.png\n");
+    facet_scene *scene = mtl_load(folder.path, "a.mtl", NULL);
+    scene_texture_ref *refs = scene->materials[0].textures;
+    for (uint32_t written = 0; written < 2; written++) {
+        const facet_scene_save_desc desc = {0};
+        const char *const images[] = {"a.png"};
+        text t = {0};
+        refs[SCENE_BASE_COLOR_TEXTURE] = (scene_texture_ref){.texcoord = written, .scale = {1, 1}};
+        refs[SCENE_OCCLUSION_TEXTURE] = (scene_texture_ref){.texcoord = 1 - written, .scale = {1, 1}};
+        scene->legacy->materials[0].maps[LEGACY_DIFFUSE_MAP].ref.texcoord = written;
+        text_addf(&t, "newmtl a\n%s#facet-gltf ", statements);
+        mtl_gltf_write(scene, 0, "a", statements, images, &desc, &t);
+        test_put(&folder, "b.mtl", t.data, t.length);
+        facet_scene *again = mtl_load(folder.path, "b.mtl", NULL);
+        const scene_material *m = &again->materials[0];
+        assert_true(mtl_get(again, 0)->is_gltf_restored);
+        assert_true(scene_material_has(m, SCENE_BASE_COLOR_TEXTURE));
+        assert_int_equal(m->textures[SCENE_BASE_COLOR_TEXTURE].texcoord, 0);
+        assert_false(scene_material_has(m, SCENE_OCCLUSION_TEXTURE));
+        assert_int_equal(mtl_count_warnings(again, "material \"a\": occlusionTexture reads another set"), 1);
+        scene_destroy(again);
+        text_destroy(&t);
+    }
+    scene_destroy(scene);
+    scene =
+        mtl_load_text("newmtl t\n#facet-gltf {\"facet\":{\"illum\":2},\"normalTexture\":{\"image\":\"a.png\","
+                      "\"extensions\":{\"KHR_texture_transform\":{\"texCoord\":1}}}}\nillum 2\n",
+                      NULL);
+    assert_true(mtl_get(scene, 0)->is_gltf_restored);
+    assert_false(scene_material_has(&scene->materials[0], SCENE_NORMAL_TEXTURE));
+    assert_int_equal(mtl_count_warnings(scene, "material \"t\": normalTexture reads another set"), 1);
+    scene_destroy(scene);
+    test_folder_remove(&folder);
+}
+
 /* ---- libraries ---- */
 
 static void libraries_are_found(void **state)
@@ -604,6 +673,8 @@ int main(void)
         cmocka_unit_test(offset_and_scale_are_converted),
         cmocka_unit_test(options_are_read),
         cmocka_unit_test(textures_are_found_and_shared),
+        cmocka_unit_test(unknown_textures_stay_alone),
+        cmocka_unit_test(one_set_of_coordinates_comes_back),
         cmocka_unit_test(libraries_are_found),
         cmocka_unit_test(files_are_opened_once),
         cmocka_unit_test(materials_are_found_by_name),

@@ -208,7 +208,7 @@ static facet_scene *load_rich(test_folder *folder)
              "],\"materials\":[{\"name\":\"rich "
              "\\u00e4\",\"alphaMode\":\"MASK\",\"alphaCutoff\":0.3,\"doubleSided\":true,"
              "\"extras\":{\"image\":{\"image\":7},\"list\":[0.1,1e300]},\"emissiveFactor\":[0.1,0.2,0.3],"
-             "\"normalTexture\":{\"index\":1,\"scale\":0.7,\"texCoord\":1},"
+             "\"normalTexture\":{\"index\":1,\"scale\":0.7},"
              "\"occlusionTexture\":{\"index\":0,\"strength\":0.4},"
              "\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,0.2,0.30000001,0.4],\"metallicFactor\":0.25,"
              "\"roughnessFactor\":0.3333333,\"baseColorTexture\":{\"index\":1,\"extensions\":{"
