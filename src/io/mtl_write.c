@@ -63,8 +63,17 @@ typedef struct mtl_writer {
     const char *const *image_names;
     const facet_scene_save_desc *desc;
     const char *name; /* of the material */
+    arena *strings;
     text *out;
 } mtl_writer;
+
+/* Reads what is about to be written, without warnings. */
+static mtl_parser make_parser(const mtl_writer *w)
+{
+    return (mtl_parser){.arena = w->strings,
+                        .allocator = &w->desc->allocator,
+                        .has_flipped_texcoords = w->desc->has_flipped_texcoords};
+}
 
 static void add_numbers(text *out, const float *values, uint32_t count)
 {
@@ -118,24 +127,36 @@ static bool is_clamped(const mtl_writer *w, const legacy_map *map)
     return t->wrap_u == SCENE_WRAP_CLAMP && t->wrap_v == SCENE_WRAP_CLAMP;
 }
 
-/* Whether the options as they once were written still say what the map is. */
-static bool are_options_true(const mtl_writer *w, const legacy_map *map)
+/* What a reader takes for options of s, on one line: extras of a glTF file may hold anything there. said->options and
+ * said->dropped are the text of it. */
+static void read_options(const mtl_writer *w, const char *s, legacy_map *said, bool *is_said_clamped)
 {
-    mtl_parser p = {.arena = arena_create(&w->desc->allocator),
-                    .allocator = &w->desc->allocator,
-                    .has_flipped_texcoords = w->desc->has_flipped_texcoords};
-    legacy_map said = legacy_map_default();
-    bool clamped = false;
-    if (!p.arena)
-        return false;
-    mtl_parse_options(&p, map->options ? map->options : "", &said, &clamped);
-    bool is_true = !p.has_failed && memcmp(said.ref.offset, map->ref.offset, sizeof said.ref.offset) == 0 &&
+    mtl_parser p = make_parser(w);
+    text line = {.allocator = w->desc->allocator};
+    *said = legacy_map_default();
+    *is_said_clamped = false;
+    text_add(&line, "");
+    add_line_text(&line, s);
+    if (!line.has_failed)
+        mtl_parse_options(&p, line.data, said, is_said_clamped);
+    w->out->has_failed = w->out->has_failed || line.has_failed || p.has_failed;
+    text_destroy(&line);
+}
+
+/* The options as they once were written, where they still say what the map is; else NULL. */
+static const char *find_true_options(const mtl_writer *w, const legacy_map *map)
+{
+    legacy_map said;
+    bool clamped;
+    if (!map->options)
+        return NULL;
+    read_options(w, map->options, &said, &clamped);
+    bool is_true = memcmp(said.ref.offset, map->ref.offset, sizeof said.ref.offset) == 0 &&
                    memcmp(said.ref.scale, map->ref.scale, sizeof said.ref.scale) == 0 &&
                    said.base == map->base && said.gain == map->gain && said.channel == map->channel &&
                    said.bump_multiplier == map->bump_multiplier &&
                    (clamped == is_clamped(w, map) || map->ref.texture == SCENE_NONE);
-    arena_destroy(p.arena);
-    return is_true;
+    return is_true ? said.options : NULL;
 }
 
 /* The shortest decimal that becomes the offset again: mtl_map.c tells the formula. */
@@ -163,8 +184,13 @@ static void add_offset(const mtl_writer *w, const scene_texture_ref *ref)
 static void add_options(const mtl_writer *w, const legacy_map *map)
 {
     const scene_texture_ref *ref = &map->ref;
-    if (map->dropped)
-        text_addf(w->out, " %s", map->dropped);
+    if (map->dropped) {
+        legacy_map said;
+        bool clamped;
+        read_options(w, map->dropped, &said, &clamped);
+        if (said.dropped)
+            text_addf(w->out, " %s", said.dropped);
+    }
     if (is_clamped(w, map))
         text_add(w->out, " -clamp on");
     if (ref->offset[0] != 0.0f || ref->offset[1] != 0.0f || ref->scale[1] != 1.0f) {
@@ -223,18 +249,26 @@ static void add_path(text *out, const char *path)
     text_destroy(&name);
 }
 
-static void write_map(mtl_writer *w, const legacy_map *map, const char *key)
+/* The name of a map's file; NULL: the map is not written. */
+static const char *find_path(const mtl_writer *w, const legacy_map *map)
 {
     uint32_t image = map->ref.texture == SCENE_NONE ? SCENE_NONE : w->scene->textures[map->ref.texture].image;
     const char *file = image == SCENE_NONE || !w->image_names ? NULL : w->image_names[image];
     const char *path = file ? file : map->path;
-    if (!path || mtl_length(mtl_trim((mtl_span){path, path + strlen(path)})) == 0)
+    return path && mtl_length(mtl_trim((mtl_span){path, path + strlen(path)})) > 0 ? path : NULL;
+}
+
+static void write_map(mtl_writer *w, const legacy_map *map, const char *key)
+{
+    const char *path = find_path(w, map);
+    if (!path)
         return;
+    const char *options = find_true_options(w, map);
     text_add(w->out, key);
-    if (!map->options || !are_options_true(w, map))
-        add_options(w, map);
+    if (options)
+        text_addf(w->out, " %s", options);
     else
-        text_addf(w->out, " %s", map->options);
+        add_options(w, map);
     add_path(w->out, path);
     text_add(w->out, "\n");
     warn_of_map(w, map, key);
@@ -247,17 +281,34 @@ static void write_maps(mtl_writer *w, const legacy_material *m)
             write_map(w, &m->maps[i], i == LEGACY_ORM_MAP && m->is_rma ? "map_RMA" : legacy_map_keys[i]);
 }
 
-/* Lines that were kept. A backslash at the end of one would join the next to it, but for the blank. */
-static void write_unknown(const char *lines, text *out)
+/* Whether a reader would keep the line once more. Extras of a glTF file may hold statements and comments that mean
+ * something: they would begin another material, or change this one. */
+static bool is_unknown(const mtl_writer *w, const legacy_material *m, mtl_span line)
 {
-    while (*lines) {
+    mtl_span rest = line;
+    if (*line.begin == '#' || mtl_is_word(mtl_next_word(&rest), "newmtl"))
+        return false;
+    mtl_parser p = make_parser(w);
+    mtl_draft draft = mtl_draft_begin(&w->desc->allocator);
+    draft.m.maps[LEGACY_REFLECTION_MAP].path = find_path(w, &m->maps[LEGACY_REFLECTION_MAP]);
+    mtl_parse_statement(&p, line, &draft);
+    bool is_kept = draft.unknown.length > 0;
+    w->out->has_failed = w->out->has_failed || p.has_failed || draft.unknown.has_failed;
+    text_destroy(&draft.unknown);
+    return is_kept;
+}
+
+/* Lines that were kept. A backslash at the end of one would join the next to it, but for the blank. */
+static void write_unknown(const mtl_writer *w, const legacy_material *m)
+{
+    for (const char *lines = m->unknown; *lines && !w->out->has_failed;) {
         mtl_span line = {lines, lines + strcspn(lines, "\r\n")};
         lines = *line.end ? line.end + 1 : line.end;
         line = mtl_trim(line);
-        if (mtl_length(line) == 0)
+        if (mtl_length(line) == 0 || !is_unknown(w, m, line))
             continue;
-        text_add_bytes(out, line.begin, mtl_length(line));
-        text_add(out, line.end[-1] == '\\' ? " \n" : "\n");
+        text_add_bytes(w->out, line.begin, mtl_length(line));
+        text_add(w->out, line.end[-1] == '\\' ? " \n" : "\n");
     }
 }
 
@@ -279,7 +330,7 @@ static void write_material(mtl_writer *w, uint32_t index)
     text_addf(out, "illum %d\n", illum_of(m));
     write_maps(w, m);
     if (m->unknown)
-        write_unknown(m->unknown, out);
+        write_unknown(w, m);
     if (!has_gltf(w, m) || out->has_failed)
         return;
     text comment = {.allocator = w->desc->allocator};
@@ -296,13 +347,18 @@ void mtl_write(const facet_scene *scene, const char *generator, const char *cons
     const facet_scene_save_desc defaults = {0};
     desc = desc ? desc : &defaults;
     const char **names = mtl_names_create(scene, &desc->allocator);
-    mtl_writer w = {.scene = scene, .image_names = image_names, .desc = desc, .out = out};
-    out->has_failed = out->has_failed || !names;
+    mtl_writer w = {.scene = scene,
+                    .image_names = image_names,
+                    .desc = desc,
+                    .strings = arena_create(&desc->allocator),
+                    .out = out};
+    out->has_failed = out->has_failed || !names || !w.strings;
     text_addf(out, "# MTL file written by %s\n# %u material%s\n", generator, scene->material_count,
               scene->material_count == 1 ? "" : "s");
     for (uint32_t i = 0; i < scene->material_count && !out->has_failed; i++) {
         w.name = names[i];
         write_material(&w, i);
     }
+    arena_destroy(w.strings);
     mem_free(names);
 }

@@ -190,6 +190,50 @@ static void many_names_take_no_time(void **state)
     free(text_of);
 }
 
+/* Text that extras of a glTF file may hold begins no statements. */
+static void foreign_text_stays_text(void **state)
+{
+    (void)state;
+    facet_scene *scene = mtl_load_text("newmtl a\nKd 0.5 0.5 0.5\nmap_Kd -o 1 2 a.png\nrefl b.png\n"
+                                       "newmtl b\nmap_Kd c.png\n",
+                                       NULL);
+    legacy_material *m = scene->legacy->materials;
+    m[0].unknown =
+        "key 1\nnewmtl evil\n  NEWMTL\tevil\rKd 0 1 0\n\tmap_Bump evil.png\nTr 0.5\nd 0.1\nillum 9\n"
+        "#facet-gltf {}\n# Blender 2.70 MTL File\nmtllib evil.mtl\nKd spectral evil.rfl\n"
+        "refl -type cube_top b.png\nlast \\";
+    m[0].maps[LEGACY_DIFFUSE_MAP].options = "-o 1 2\nnewmtl evil\nKd 0 1 0";
+    m[0].maps[LEGACY_REFLECTION_MAP].options = NULL;
+    m[0].maps[LEGACY_REFLECTION_MAP].dropped = "-type sphere\nKd 0 1 0 -o 5 5";
+    m[0].maps[LEGACY_REFLECTION_MAP].path = "b.png\nnewmtl evil";
+    m[1].unknown = "refl evil.png\nkey 2\n";
+    m[1].maps[LEGACY_DIFFUSE_MAP].options = "evil.png";
+    m[1].maps[LEGACY_DIFFUSE_MAP].dropped = "evil.png\n-cc on";
+    m[1].maps[LEGACY_DIFFUSE_MAP].path = "c.png";
+    char *written = write_mtl(scene, NULL, NULL);
+    facet_scene *again = mtl_load_text(written, NULL);
+    assert_int_equal(again->material_count, 2);
+    const legacy_material *a = mtl_get(again, 0);
+    const legacy_material *b = mtl_get(again, 1);
+    assert_near(a->diffuse[0], 0.5, 0);
+    assert_near(a->opacity, 1, 0);
+    assert_int_equal(a->illum, 1);
+    assert_null(a->maps[LEGACY_BUMP_MAP].path);
+    assert_string_equal(a->unknown, "key 1\nrefl -type cube_top b.png\nlast \\\n");
+    assert_string_equal(a->maps[LEGACY_DIFFUSE_MAP].path, "a.png");
+    assert_string_equal(a->maps[LEGACY_REFLECTION_MAP].path, "b.png_newmtl evil");
+    assert_string_equal(b->unknown, "key 2\n");
+    assert_string_equal(b->maps[LEGACY_DIFFUSE_MAP].path, "c.png");
+    assert_null(b->maps[LEGACY_REFLECTION_MAP].path);
+    assert_null(strstr(written, "\nnewmtl evil"));
+    assert_null(strstr(written, "#facet-gltf"));
+    assert_null(strstr(written, "Blender"));
+    assert_null(strstr(written, "evil.png"));
+    free(written);
+    scene_destroy(again);
+    scene_destroy(scene);
+}
+
 /* ---- glTF materials ---- */
 
 /* A glTF model with every parameter and texture that a material can have, at values that are not the defaults. */
@@ -412,11 +456,17 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_statements_come_back),       cmocka_unit_test(offsets_are_short),
-        cmocka_unit_test(what_was_asked_for_is_left_out), cmocka_unit_test(illum_says_what_is_on),
-        cmocka_unit_test(names_are_made_unique),          cmocka_unit_test(many_names_take_no_time),
-        cmocka_unit_test(gltf_materials_come_back),       cmocka_unit_test(changed_statements_count),
-        cmocka_unit_test(broken_comments_are_warnings),   cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(all_statements_come_back),
+        cmocka_unit_test(offsets_are_short),
+        cmocka_unit_test(what_was_asked_for_is_left_out),
+        cmocka_unit_test(illum_says_what_is_on),
+        cmocka_unit_test(names_are_made_unique),
+        cmocka_unit_test(many_names_take_no_time),
+        cmocka_unit_test(foreign_text_stays_text),
+        cmocka_unit_test(gltf_materials_come_back),
+        cmocka_unit_test(changed_statements_count),
+        cmocka_unit_test(broken_comments_are_warnings),
+        cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
