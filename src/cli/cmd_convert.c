@@ -202,10 +202,7 @@ static facet_result begin(convert_run *run, command_line *c, facet_error *error)
 int cmd_convert(command_line *c)
 {
     double start = interrupt_clock();
-    convert_run run = {.line = c,
-                       .messages = {.verbosity = is_given(c, OPT_QUIET)     ? VERBOSITY_QUIET
-                                                 : is_given(c, OPT_VERBOSE) ? VERBOSITY_DETAILS
-                                                                            : VERBOSITY_NORMAL}};
+    convert_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
     facet_error error = {0};
     interrupt_install();
     if (is_given(c, OPT_JSON)) {

@@ -203,10 +203,7 @@ static facet_result begin(plot_run *run, facet_error *error)
 int cmd_plot(command_line *c)
 {
     double start = interrupt_clock();
-    plot_run run = {.line = c,
-                    .messages = {.verbosity = is_given(c, OPT_QUIET)     ? VERBOSITY_QUIET
-                                              : is_given(c, OPT_VERBOSE) ? VERBOSITY_DETAILS
-                                                                         : VERBOSITY_NORMAL}};
+    plot_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
     facet_error error = {0};
     interrupt_install();
     facet_result result = begin(&run, &error);

@@ -372,10 +372,7 @@ static facet_result begin(render_run *run, command_line *c, config *storage, fac
     if (result != FACET_OK)
         return result;
     run->allocator = facet_budget_allocator(run->budget);
-    run->messages.verbosity = is_given(c, OPT_QUIET)             ? VERBOSITY_QUIET
-                              : c->values[OPT_VERBOSE].count > 1 ? VERBOSITY_TIMINGS
-                              : is_given(c, OPT_VERBOSE)         ? VERBOSITY_DETAILS
-                                                                 : VERBOSITY_NORMAL;
+    run->messages.verbosity = messages_verbosity(c);
     run->progress = progress_choose(option_choice(c, OPT_PROGRESS, 0), is_given(c, OPT_QUIET));
     return FACET_OK;
 }

@@ -82,21 +82,11 @@ facet_result convert_name(const convert_names *n, const char *model, bool report
     char stem[1024];
     const char *pattern = report ? n->report : n->output;
     bool fits = output_name_stem(strcmp(model, "-") == 0 ? "stdin" : model, stem, sizeof stem);
-    const char *mark = "{stem}";
-    size_t used = 0;
-    while (fits && *pattern) {
-        bool is_mark = strncmp(pattern, mark, strlen(mark)) == 0;
-        size_t length = is_mark ? strlen(stem) : 1;
-        fits = used + length < CONVERT_NAME_SIZE;
-        if (fits)
-            memcpy(name + used, is_mark ? stem : pattern, length);
-        used += length;
-        pattern += is_mark ? strlen(mark) : 1;
-    }
+    if (fits)
+        fits = output_name_expand_stem(pattern, stem, name, CONVERT_NAME_SIZE);
     if (!fits)
         return fail_with(error, FACET_ERROR_ARGUMENT, "%s: the name for %s is too long",
                          report ? "--report" : "--output", input_name(model));
-    name[used] = 0;
     return FACET_OK;
 }
 

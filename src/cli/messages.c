@@ -92,6 +92,14 @@ static void receive(void *user, facet_log_level level, const char *text)
         message_at(m, VERBOSITY_DETAILS, "%s", text);
 }
 
+verbosity messages_verbosity(const command_line *c)
+{
+    return is_given(c, OPT_QUIET)             ? VERBOSITY_QUIET
+           : c->values[OPT_VERBOSE].count > 1 ? VERBOSITY_TIMINGS
+           : is_given(c, OPT_VERBOSE)         ? VERBOSITY_DETAILS
+                                              : VERBOSITY_NORMAL;
+}
+
 facet_log messages_log(messages *m)
 {
     return (facet_log){.user = m, .message = receive};

@@ -2,6 +2,7 @@
 #ifndef CLI_MESSAGES_H
 #define CLI_MESSAGES_H
 
+#include "cli/command_line.h"
 #include "facet/facet.h"
 
 typedef enum verbosity { VERBOSITY_QUIET, VERBOSITY_NORMAL, VERBOSITY_DETAILS, VERBOSITY_TIMINGS } verbosity;
@@ -19,6 +20,8 @@ typedef struct messages {
     size_t warning_count, warning_capacity;
 } messages;
 
+/* What --quiet and --verbose ask for. */
+verbosity messages_verbosity(const command_line *c);
 /* A log that keeps warnings and prints details as the verbosity says. */
 facet_log messages_log(messages *m);
 /* Prints the warnings that were not yet, each with how often it came. */

@@ -39,7 +39,8 @@ bool output_name_has_stem(const char *pattern)
     return strstr(pattern, stem_mark) != NULL;
 }
 
-bool output_name_expand(const char *pattern, const char *stem, uint32_t frame, char *name, size_t size)
+/* frame NULL: marks of a frame number are part of the name. */
+static bool expand(const char *pattern, const char *stem, const uint32_t *frame, char *name, size_t size)
 {
     size_t used = 0;
     while (*pattern) {
@@ -47,9 +48,9 @@ bool output_name_expand(const char *pattern, const char *stem, uint32_t frame, c
         const char *piece = pattern;
         size_t length = 1, consumed = 1;
         int width;
-        size_t mark = frame_mark(pattern, &width);
+        size_t mark = frame ? frame_mark(pattern, &width) : 0;
         if (mark) {
-            length = (size_t)snprintf(number, sizeof number, "%0*u", width, frame);
+            length = (size_t)snprintf(number, sizeof number, "%0*u", width, *frame);
             piece = number;
             consumed = mark;
         } else if (strncmp(pattern, stem_mark, sizeof stem_mark - 1) == 0) {
@@ -67,6 +68,16 @@ bool output_name_expand(const char *pattern, const char *stem, uint32_t frame, c
         return false;
     name[used] = 0;
     return true;
+}
+
+bool output_name_expand(const char *pattern, const char *stem, uint32_t frame, char *name, size_t size)
+{
+    return expand(pattern, stem, &frame, name, size);
+}
+
+bool output_name_expand_stem(const char *pattern, const char *stem, char *name, size_t size)
+{
+    return expand(pattern, stem, NULL, name, size);
 }
 
 bool output_name_stem(const char *path, char *stem, size_t size)

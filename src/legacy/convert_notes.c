@@ -48,11 +48,6 @@ static const struct {
     [NOTE_EXTENSION_NOT_WRITTEN] = {"extension-not-written", true},
 };
 
-const char *note_name(note_code code)
-{
-    return CODES[code].name;
-}
-
 void note_add(note_list *list, uint32_t material, note_code code, const char *format, ...)
 {
     char text[512];

@@ -44,8 +44,6 @@ typedef enum note_code {
     NOTE_COUNT
 } note_code;
 
-const char *note_name(note_code code); /* "legacy-light-pi" */
-
 typedef struct note {
     uint32_t material; /* SCENE_NONE: the scene's */
     note_code code;
