@@ -2,11 +2,7 @@
 #include "cpu/volume_rays.h"
 
 #include "cpu/surface_light.h"
-
-static int energy_of(const shading_scene *scene)
-{
-    return scene->energy == FACET_ENERGY_CONSERVING ? ENERGY_CONSERVING : ENERGY_GLTF;
-}
+#include "cpu/surface_tables.h"
 
 static light_cursor lights_at(const shading_scene *scene, vec3 P)
 {
@@ -44,23 +40,15 @@ static vec3 irradiance(const shading_scene *scene, vec3 normal)
     return load3(out);
 }
 
-/* point: (N.V, perceptual roughness). */
-static vec2 dfg_at(vec2 point)
-{
-    float terms[2];
-    ibl_dfg(point[0], point[1], terms);
-    return vec2(terms[0], terms[1]);
-}
-
 /* ---- a surface without layers ---- */
 
 static vec3 plain_radiance(const shading_scene *scene, const surface_point *point)
 {
     Surface s = point->m.base;
     vec3 V = point->V;
-    int energy = energy_of(scene);
+    int energy = surface_energy(scene);
     float NdotV = surface_NdotV(s, V);
-    vec2 dfg = dfg_at(vec2(NdotV, s.perceptual_roughness));
+    vec2 dfg = surface_dfg(vec2(NdotV, s.perceptual_roughness));
 
     vec3 radiance = s.emissive;
     if (scene->light->ibl) {
@@ -76,21 +64,6 @@ static vec3 plain_radiance(const shading_scene *scene, const surface_point *poin
 }
 
 /* ---- layers ---- */
-
-static LayerTables tables_of(const Layers *m, vec3 V, int energy)
-{
-    vec2 coat = vec2(0.0f);
-    vec2 transmission = vec2(0.0f);
-    float sheen_E = 0.0f;
-    if (m->layers & LAYER_CLEARCOAT)
-        coat = dfg_at(vec2(layers_clearcoat_NdotV(*m, V), m->clearcoat_roughness));
-    if (m->layers & LAYER_TRANSMISSION)
-        transmission = dfg_at(layers_transmission_point(*m, V, energy));
-    if (m->layers & LAYER_SHEEN)
-        sheen_E = ibl_sheen_albedo(surface_NdotV(m->base, V), m->sheen_roughness);
-    return layer_tables(*m, V, energy, dfg_at(layers_dfg_point(*m, V, energy)), coat[0] + coat[1],
-                        transmission[0] + transmission[1], sheen_E);
-}
 
 /* Light on the back of a diffusely transmitting surface, as it arrives there. That on a body comes in on the far side,
  * straight behind the surface, through the real distance; a body without far side is as thick as its material says. */
@@ -126,7 +99,7 @@ static LayerLight surroundings_of(const shading_scene *scene, const surface_poin
 
 static vec3 punctual_radiance(const shading_scene *scene, const Layers *m, vec3 P, vec3 V, LayerTables tables)
 {
-    int energy = energy_of(scene);
+    int energy = surface_energy(scene);
     vec3 radiance = vec3(0.0f);
     light_cursor lights = lights_at(scene, P);
     for (uint32_t i; light_cursor_next(&lights, &i);) {
@@ -144,9 +117,9 @@ static vec3 punctual_radiance(const shading_scene *scene, const Layers *m, vec3 
 static surface_light layered_light(const shading_scene *scene, const surface_point *s)
 {
     surface_light out = {.through = vec3(0.0f)};
-    int energy = energy_of(scene);
+    int energy = surface_energy(scene);
     Layers m = s->m;
-    LayerTables tables = tables_of(&m, s->V, energy);
+    LayerTables tables = surface_tables(&m, s->V, energy);
     LayerLight light = {.specular = vec3(0.0f)};
     if (scene->light->ibl)
         light = surroundings_of(scene, s, &m, &out.rays);

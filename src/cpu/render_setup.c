@@ -1,0 +1,185 @@
+/* render_setup.c - see render_setup.h: the stages and which of them run at the same time. */
+#include "cpu/render_setup.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "cpu/texture_need.h"
+#include "cpu/texture_set.h"
+
+#include <math.h>
+
+/* ---- stages that need the geometry only, and not each other ---- */
+
+static void read_everywhere(const facet_scene *scene, texture_use *uses)
+{
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        uses[i].min_lod = 0.0f;
+}
+
+static facet_result find_texture_need(render_setup *p, facet_error *error)
+{
+    const facet_render_desc *desc = p->desc;
+    const facet_scene *scene = p->prepared->scene;
+    if (scene->texture_count == 0)
+        return FACET_OK;
+    float footprint = desc->quality == FACET_QUALITY_FINAL ? 0.5f : 1.0f;
+    float opacity_footprint = 1.0f / sqrtf((float)desc->samples);
+    texture_need_desc need = {.width = desc->width,
+                              .height = desc->height,
+                              .footprint = footprint,
+                              .ogl1 = &desc->ogl1,
+                              .opacity_footprint = fminf(footprint, opacity_footprint),
+                              .thread_count = desc->thread_count};
+    facet_result result =
+        texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error);
+    if (result == FACET_OK && p->reads_everywhere)
+        read_everywhere(scene, p->uses);
+    return result;
+}
+
+static facet_result prepare_textures(render_setup *p, facet_error *error)
+{
+    const facet_render_desc *desc = p->desc;
+    double start = clock_seconds();
+    facet_result result = find_texture_need(p, error);
+    if (result == FACET_OK)
+        result = prepared_scene_textures(p->prepared, error);
+    if (result == FACET_OK)
+        result = texture_set_create_from(p->prepared->textures, p->prepared->scene, p->uses, &desc->allocator,
+                                         &desc->log, desc->thread_count, &p->textures, error);
+    if (result == FACET_OK)
+        p->stats->decoded_texels += texture_set_decoded_texels(p->textures);
+    p->stats->textures_s += clock_seconds() - start;
+    return result;
+}
+
+static facet_result prepare_hierarchy(render_setup *p, facet_error *error)
+{
+    double start = clock_seconds();
+    facet_result result = prepared_scene_hierarchy(p->prepared, p->desc, error);
+    p->hierarchy_s = clock_seconds() - start;
+    return result;
+}
+
+static facet_result prepare_tangents(render_setup *p, facet_error *error)
+{
+    double start = clock_seconds();
+    facet_result result = prepared_scene_tangents(p->prepared, p->desc, error);
+    p->tangents_s = clock_seconds() - start;
+    return result;
+}
+
+static facet_result prepare_light(render_setup *p, facet_error *error)
+{
+    double start = clock_seconds();
+    facet_result result = light_setup_create(&p->prepared->geometries, &p->prepared->pose, &p->camera,
+                                             p->desc, &p->light, error);
+    p->stats->light_s += clock_seconds() - start;
+    return result;
+}
+
+/* The longest first, so that the others fill the threads beside it. */
+enum { STAGE_COUNT = 4 };
+static facet_result (*const STAGES[STAGE_COUNT])(render_setup *p, facet_error *error) = {
+    prepare_textures, prepare_light, prepare_tangents, prepare_hierarchy};
+
+typedef struct stage_run {
+    render_setup *p;
+    facet_result results[STAGE_COUNT];
+    facet_error errors[STAGE_COUNT];
+} stage_run;
+
+static void run_stages(void *context, size_t begin, size_t end)
+{
+    stage_run *run = context;
+    for (size_t i = begin; i < end; i++)
+        run->results[i] = STAGES[i](run->p, &run->errors[i]);
+}
+
+static facet_result run_all_stages(render_setup *p, facet_error *error)
+{
+    stage_run run = {.p = p};
+    parallel_for(p->desc->thread_count, STAGE_COUNT, 1, run_stages, &run);
+    p->stats->geometry_s += p->hierarchy_s + p->tangents_s;
+    for (int i = 0; i < STAGE_COUNT; i++)
+        if (run.results[i] != FACET_OK) {
+            if (error)
+                *error = run.errors[i];
+            return run.results[i];
+        }
+    return FACET_OK;
+}
+
+/* ---- all ---- */
+
+facet_result render_setup_create(render_setup *p, facet_error *error)
+{
+    const facet_render_desc *desc = p->desc;
+    double start = clock_seconds();
+    facet_result result = prepared_scene_pose(p->prepared, desc, error);
+    if (result == FACET_OK)
+        result = camera_rays_create(desc->camera, desc->width, desc->height, &p->camera, error);
+    if (result == FACET_OK)
+        result = prepared_scene_geometry(p->prepared, desc, &p->camera, error);
+    if (result != FACET_OK)
+        return result;
+    size_t texture_count = p->prepared->scene->texture_count;
+    p->uses = mem_zalloc(&desc->allocator, texture_count, sizeof *p->uses);
+    if (!p->uses)
+        return fail_memory(error, "textures", texture_count * sizeof *p->uses);
+    p->stats->geometry_s += clock_seconds() - start;
+
+    result = run_all_stages(p, error);
+    if (result == FACET_OK)
+        result = material_plans_create(&p->prepared->geometries, &desc->allocator, &p->plans, error);
+    p->shading = (shading_scene){.geometries = &p->prepared->geometries,
+                                 .embree = &p->prepared->embree,
+                                 .plans = &p->plans,
+                                 .textures = p->textures,
+                                 .light = &p->light,
+                                 .camera = &p->camera};
+    shading_scene_set_options(&p->shading, desc);
+    return result;
+}
+
+void render_setup_destroy(render_setup *p)
+{
+    material_plans_destroy(&p->plans);
+    light_setup_destroy(&p->light);
+    texture_set_destroy(p->textures);
+    mem_free(p->uses);
+    p->textures = NULL;
+    p->uses = NULL;
+}
+
+facet_result render_check_limits(const facet_render_desc *desc, const char *stage, double fraction,
+                                 double deadline_s, facet_error *error)
+{
+    if (desc->progress.report && !desc->progress.report(desc->progress.user, stage, fraction))
+        return fail(error, FACET_ERROR_CANCELLED, "cancelled (%s)", stage);
+    if (deadline_s > 0.0 && clock_seconds() > deadline_s)
+        return fail(error, FACET_ERROR_LIMIT, "the time limit was reached (%s)", stage);
+    return FACET_OK;
+}
+
+facet_result render_with_prepared(render_attempt *attempt, prepared_scene *p, const facet_render_desc *desc,
+                                  film *target, facet_render_stats *stats, facet_error *error)
+{
+    double start = clock_seconds();
+    double deadline_s = desc->time_limit_s > 0.0 ? start + desc->time_limit_s : 0.0;
+    bool was_empty = !p->has_pose;
+    bool has_setup;
+    facet_result result = attempt(p, desc, deadline_s, target, stats, &has_setup, error);
+    if (!has_setup && result != FACET_OK)
+        prepared_scene_clear(p);
+    if (result == FACET_ERROR_MEMORY && !was_empty) {
+        prepared_scene_clear(p);
+        result = attempt(p, desc, deadline_s, target, stats, &has_setup, error);
+        if (!has_setup && result != FACET_OK)
+            prepared_scene_clear(p);
+    }
+    stats->total_s = clock_seconds() - start;
+    return result;
+}
