@@ -345,6 +345,8 @@ typedef struct facet_camera {
     float ortho_height;  /* m, the full height of the picture at any distance */
     float aspect;        /* width / height for which the camera was made; 0: the picture's */
     float near_m, far_m; /* clipping distances along the axis; 0: none */
+    float lens_radius_m; /* of a thin lens, FACET_INTEGRATOR_PATH only; 0: a pinhole, all is sharp */
+    float focus_m;       /* distance along the axis that is sharp; 0: that of target */
 } facet_camera;
 
 /* A camera on a sphere around a target, in the convention of <model-viewer>. Start from
@@ -463,6 +465,67 @@ typedef struct facet_ogl1_desc {
                                    prints it, with w = 1, which adds the camera's position; false: as is meant */
 } facet_ogl1_desc;
 
+/* How light is carried to the camera. */
+typedef enum facet_integrator {
+    FACET_INTEGRATOR_PREVIEW, /* one bounce of prefiltered light, no shadows: what real-time viewers show */
+    FACET_INTEGRATOR_PATH     /* path tracing: unbiased but for what facet_path_desc says is not */
+} facet_integrator;
+
+/* Reconstruction filter of a pixel, sampled by importance: a sample belongs to one pixel. */
+typedef enum facet_filter {
+    FACET_FILTER_BLACKMAN_HARRIS, /* radius 1.5 px */
+    FACET_FILTER_BOX,             /* 1 px wide: pixels share no samples */
+    FACET_FILTER_MITCHELL         /* B = C = 1/3, radius 2 px; has negative lobes */
+} facet_filter;
+
+/* Which of the two ways to find light are taken; both are right alone, and noisy in different places. */
+typedef enum facet_light_sampling {
+    FACET_LIGHT_SAMPLING_MIS,  /* both, weighted by multiple importance sampling */
+    FACET_LIGHT_SAMPLING_BSDF, /* light is met by chance; lights without size are never met and stay sampled */
+    FACET_LIGHT_SAMPLING_LIGHTS /* light is aimed at, but for what mirrors show, which cannot be */
+} facet_light_sampling;
+
+/* What stands below the model. */
+typedef enum facet_ground {
+    FACET_GROUND_NONE,
+    FACET_GROUND_SHADOW /* an unseen plane under the lowest point, of which only what the model takes from its light is
+                           drawn: dark with opacity over what is behind. FACET_INTEGRATOR_PATH only */
+} facet_ground;
+
+/* A disc of uniform radiance at infinite distance. {0}: none. */
+typedef struct facet_sun {
+    float azimuth_rad;        /* around +Y; 0: from +Z, positive: towards +X, as facet_orbit's */
+    float elevation_rad;      /* above the horizon */
+    float illuminance_lux[3]; /* on a surface that faces it, linear Rec.709; 0: no sun */
+    float diameter_rad;       /* 0: 0.53 deg, the real one's */
+} facet_sun;
+
+/* What FACET_INTEGRATOR_PATH reads beside facet_render_desc. {0}: unbiased. */
+typedef struct facet_path_desc {
+    uint32_t
+        max_depth; /* surfaces and scattering events that a path may have; 1: direct light only; 0: 64. What a
+                           longer path would bring is missing */
+    uint32_t seed; /* another one gives other noise */
+    facet_filter filter;
+    facet_light_sampling light_sampling;
+    float
+        noise; /* adaptive: a region is done when its standard error, relative to what a display shows of it, is below
+                    this; samples is then the most. 0: all get as many */
+    float clamp; /* biased: no indirect contribution to a sample above this (cd/m^2); 0: none */
+    bool
+        straight_shadows; /* biased: light that is aimed at passes transmissive surfaces straight on, tinted; else only
+                              real paths find light through them */
+    bool denoises;   /* biased: noise is filtered out under guidance of albedo and normal */
+    float shutter_s; /* the picture is the mean over pose.time_s to time_s + shutter_s; 0: an instant */
+    const char *
+        checkpoint_path; /* an .exr: what is drawn so far is kept there every checkpoint_interval_s, at the time
+                                    limit, when cancelled, at the end. NULL: none */
+    double checkpoint_interval_s; /* 0: 60 */
+    bool
+        resumes; /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there
+                     is none it starts */
+} facet_path_desc;
+
 typedef enum facet_background {
     FACET_BACKGROUND_TRANSPARENT,
     FACET_BACKGROUND_COLOR,      /* background_color, as display-linear color behind the tone-mapped model */
@@ -470,14 +533,20 @@ typedef enum facet_background {
 } facet_background;
 
 /* Arbitrary output variables: layers beside the picture; or them. Each is that of the nearest surface under
- * the pixel's middle, not filtered; 0 where there is none (depth: infinity). */
+ * the pixel's middle, not filtered; 0 where there is none (depth: infinity). With FACET_INTEGRATOR_PATH normal and albedo
+ * are the means over the pixel's samples, as denoisers want them: of what is behind mirrors and clear glass. */
 typedef enum facet_aov {
     FACET_AOV_DEPTH = 1u << 0,       /* m along the camera's axis; 1 channel "Z" */
     FACET_AOV_NORMAL = 1u << 1,      /* unit shading normal in world space; 3 channels "normal.X" .. */
     FACET_AOV_ALBEDO = 1u << 2,      /* base color, linear; 3 channels "albedo.R" .. */
     FACET_AOV_MATERIAL_ID = 1u << 3, /* index of the material plus 1; 1 channel "material.id" */
     FACET_AOV_UV = 1u << 4,          /* TEXCOORD_0; 2 channels "uv.U", "uv.V" */
-    FACET_AOV_OCCLUSION = 1u << 5    /* occlusion texture, 1: open; 1 channel "occlusion.A" */
+    FACET_AOV_OCCLUSION = 1u << 5,   /* occlusion texture, 1: open; 1 channel "occlusion.A" */
+    /* FACET_INTEGRATOR_PATH only: */
+    FACET_AOV_VARIANCE =
+        1u << 6, /* of the mean that a pixel is, estimated per channel, in the picture's unit squared; 3
+                                     channels "variance.R" .. */
+    FACET_AOV_SAMPLES = 1u << 7 /* light samples in the pixel; 1 channel "samples.N" */
 } facet_aov;
 
 /* How facet_render() draws. {0}: 1024 x 768, the whole model in its own lights only, transparent, linear. */
@@ -497,8 +566,14 @@ typedef struct facet_render_desc {
     facet_background background;
     float background_color[3]; /* linear Rec.709, [0, 1] */
     float background_blur;     /* perceptual roughness of the environment seen as background, [0, 1] */
+    facet_sun sun;
+    facet_ground ground;
+    facet_integrator integrator;
+    facet_path_desc path;
     facet_quality quality;
-    uint32_t samples; /* visibility samples per pixel; 0: as quality has it (draft 1, normal 4, final 16) */
+    uint32_t
+        samples; /* per pixel; 0: as quality has it. Preview: of visibility, draft 1, normal 4, final 16, at most
+                         4096. Path: of light, draft 16, normal 64, final 512, at most 2^24 */
     facet_energy energy;
     facet_shading
         shading; /* FACET_SHADING_OGL1: FACET_ERROR_ARGUMENT without legacy materials, and for the environment as
@@ -509,8 +584,10 @@ typedef struct facet_render_desc {
                                    2019): fewer sparkles, and no longer what real-time viewers show */
     float exposure_ev;         /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
     facet_tonemap tonemap;
-    uint32_t aovs;       /* facet_aov or-ed */
-    double time_limit_s; /* 0: none; past it FACET_ERROR_LIMIT */
+    uint32_t aovs; /* facet_aov or-ed */
+    double
+        time_limit_s; /* 0: none; past it FACET_ERROR_LIMIT. FACET_INTEGRATOR_PATH gives what it has, unless that is
+                            not a sample for each pixel */
 } facet_render_desc;
 
 typedef struct facet_image facet_image;
@@ -537,6 +614,11 @@ typedef struct facet_render_stats {
     double textures_s, geometry_s, light_s, shade_s, total_s; /* geometry: tangents and BVH; stages overlap */
     uint64_t rays, shades, decoded_texels;
     uint32_t thread_count;
+    /* FACET_INTEGRATOR_PATH: */
+    uint64_t samples;         /* light samples that the picture is the mean of, over all pixels */
+    uint64_t dropped_samples; /* not finite, counted as black: a NaN in the model, or a fault */
+    bool is_partial;          /* the time limit came before the samples, or the noise, that were asked for */
+    double denoise_s;
 } facet_render_stats;
 FACET_API facet_render_stats facet_image_get_render_stats(const facet_image *image);
 

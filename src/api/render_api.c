@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "cpu/preview.h"
+#include "path/path_render.h"
 
 #include <math.h>
 #include <string.h>
@@ -99,7 +100,9 @@ static facet_result render(prepared_scene *prepared, const facet_render_desc *re
     if (!desc.camera)
         desc.camera = &camera;
     result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &image->film, error);
-    if (result == FACET_OK)
+    if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_PATH)
+        result = path_render_prepared(prepared, &desc, &image->film, &image->stats, error);
+    else if (result == FACET_OK)
         result = preview_render_prepared(prepared, &desc, &image->film, &image->stats, error);
     if (result == FACET_OK)
         develop(&desc, &image->film);

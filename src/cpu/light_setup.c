@@ -80,13 +80,14 @@ static ibl_light_desc light_needs(const render_geometry_set *set, const camera_r
                                   const facet_render_desc *desc)
 {
     ibl_light_desc needs = {.thread_count = desc->thread_count, .min_roughness = 1.0f};
-    for (uint32_t i = 0; i < set->count; i++)
+    bool is_path = desc->integrator == FACET_INTEGRATOR_PATH; /* whose paths meet the picture itself */
+    for (uint32_t i = 0; i < set->count && !is_path; i++)
         if (set->items[i].is_lit)
             add_material(&needs, set->items[i].material, desc);
     if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
         if (desc->background_blur > 0.0f)
             add_range(&needs, desc->background_blur, desc->background_blur);
-        else
+        else if (!is_path)
             needs.needs_background = true;
     }
     if (needs.needs_background)

@@ -19,7 +19,9 @@ allowed() {
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;
     report) echo report plot legacy cpu film ibl scene image base facet ;;
-    api) echo api report plot legacy io cpu ibl film scene image base facet ;;
+    path) echo path cpu film ibl scene image base shade facet ;;
+    compare) echo compare image base facet ;;
+    api) echo api path compare report plot legacy io cpu ibl film scene image base facet ;;
     cli) echo cli facet ;;
     *) echo "" ;;
     esac

@@ -1,0 +1,46 @@
+/* path_film.h - what is known of each pixel while samples come in: sums that keep their digits over millions of samples,
+ * how noisy they are, which pixels need more, and the file in which all that waits for the next run. */
+#ifndef PATH_FILM_H
+#define PATH_FILM_H
+
+#include "film/film.h"
+#include "path/path_trace.h"
+
+typedef struct path_film path_film;
+
+/* Of the crop's size, no samples. has_ground: keeps the two sums of the ground as well. FACET_ERROR_MEMORY. */
+facet_result path_film_create(const facet_allocator *allocator, uint32_t width, uint32_t height,
+                              bool has_ground, path_film **out, facet_error *error);
+void path_film_destroy(path_film *f); /* NULL is allowed */
+
+/* Adds a sample to pixel number `pixel` (rows from the top left). A sample with a number that is not finite counts as
+ * black and is counted in path_film_dropped(). Different pixels may be added to at the same time. */
+void path_film_add(path_film *f, size_t pixel, const path_sample *sample);
+uint32_t path_film_samples(const path_film *f, size_t pixel);
+uint64_t path_film_total_samples(const path_film *f);
+uint64_t path_film_dropped(const path_film *f);
+
+/* Adaptive sampling: whether the region that pixel lies in is still noisier than noise (facet_path_desc), by the state that
+ * path_film_update() saw. Regions are blocks of 8 x 8 pixels with their neighbours' noise; one is never done before it has
+ * 32 samples a pixel. Call path_film_update() between passes. */
+void path_film_update(path_film *f, float noise, uint32_t thread_count);
+bool path_film_needs_more(const path_film *f, size_t pixel);
+/* The share of the pixels that are done. */
+float path_film_share_done(const path_film *f);
+
+/* Fills the layers that target has of: the picture (means times scale, premultiplied; the ground laid under it as black
+ * with the opacity that its light is short of), albedo, normal, variance, samples. */
+void path_film_resolve(const path_film *f, float scale, film *target, uint32_t thread_count);
+
+/* ---- checkpoints ---- */
+
+/* Writes all of it into an OpenEXR file, whole or nothing, bit for bit, that other programs can look at: the layers "" (RGBA,
+ * means), albedo, normal, and what is needed beside. key: describes the picture (64 hex digits, path_checkpoint_key()). */
+facet_result path_film_save(const path_film *f, const char *key, const char *path, uint32_t thread_count,
+                            facet_error *error);
+/* Reads it into a film of the same size. FACET_ERROR_ARGUMENT: another picture's key or size, FACET_ERROR_INVALID: no
+ * checkpoint, damaged. *exists: false, and FACET_OK, where there is no such file. */
+facet_result path_film_load(path_film *f, const char *key, const char *path, bool *exists,
+                            facet_error *error);
+
+#endif

@@ -1,0 +1,32 @@
+/* path_trace.h - one light path: from a point of the picture through the scene, and what it brings back. */
+#ifndef PATH_TRACE_H
+#define PATH_TRACE_H
+
+#include "cpu/render_setup.h"
+
+struct path_lights; /* path_lights.h */
+
+/* What paths go through; nothing of it changes while a pass is drawn. */
+typedef struct path_scene {
+    const render_setup *setup; /* its desc says what is wanted */
+    const struct path_lights *lights;
+    bool has_ground;
+    float ground_y; /* m: the plane of FACET_GROUND_SHADOW (along the up axis of the scene: +Y) */
+    bool draws_background;
+} path_scene;
+
+/* One sample of a pixel. */
+typedef struct path_sample {
+    float radiance[3]; /* cd/m^2, premultiplied with opacity; not yet checked for being finite */
+    float opacity;     /* [0, 1]: 0: the background, where it is not drawn */
+    float albedo[3]; /* of the first surface that is no mirror and no clear glass, [0, 1]; 0: there is none */
+    float normal[3]; /* its unit shading normal, world space */
+    /* On the shadow-catching ground: illuminance / pi that comes, and that would come without the model. 0: not there */
+    float ground_lit[3], ground_open[3];
+    uint64_t rays; /* traced for it */
+} path_sample;
+
+/* Sample number `index` of pixel (x, y) of the whole picture. Thread-safe. */
+void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index, path_sample *out);
+
+#endif
