@@ -6,14 +6,13 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
 #include "cpu/pixel.h"
+#include "cpu/render_watch.h"
 
 enum { TILE = 32 };
-static const double REPORT_SECONDS = 0.1;
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
 
 /* The layers of the film; NULL: not asked for. */
@@ -27,14 +26,10 @@ typedef struct picture {
     uint32_t tile_columns, tile_count;
     visibility_pattern pattern, middle;
     layers layers;
-    bool wants_aovs;
+    bool has_picture, wants_aovs;
     /* shared by the threads */
-    _Atomic int result; /* the first that was not FACET_OK */
-    _Atomic uint32_t done;
+    render_watch watch;
     _Atomic uint64_t rays, shades;
-    atomic_flag is_reporting;
-    double reported;
-    _Atomic double reported_s;
 } picture;
 
 /* ---- one block ---- */
@@ -72,9 +67,10 @@ static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, c
 static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
 {
     const camera_rays *camera = p->desc->scene->camera;
-    uint32_t n = p->pattern.sample_count;
-    visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->pattern, w->hits);
-    w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * n;
+    if (p->has_picture) {
+        visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->pattern, w->hits);
+        w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count;
+    }
     if (p->wants_aovs) {
         visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->middle, w->middle_hits);
         w->resolver.rays += VISIBILITY_BLOCK_PIXELS;
@@ -86,10 +82,10 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
             py - p->crop[1] >= p->crop[3])
             continue;
         size_t pixel = (size_t)(py - p->crop[1]) * p->crop[2] + (px - p->crop[0]);
-        float rgba[4];
-        if (!pixel_resolve(&w->resolver, px, py, w->hits + visibility_first_hit(&p->pattern, i), rgba))
+        float *rgba = p->layers.color->pixels + 4 * pixel;
+        if (p->has_picture &&
+            !pixel_resolve(&w->resolver, px, py, w->hits + visibility_first_hit(&p->pattern, i), rgba))
             return false;
-        memcpy(p->layers.color->pixels + 4 * pixel, rgba, sizeof rgba);
         if (p->wants_aovs)
             write_aovs(p, w, px, py, &w->middle_hits[visibility_first_hit(&p->middle, i)], pixel);
     }
@@ -97,43 +93,6 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
 }
 
 /* ---- tiles ---- */
-
-static void stop(picture *p, facet_result result)
-{
-    int none = FACET_OK;
-    atomic_compare_exchange_strong(&p->result, &none, result);
-}
-
-/* Tells how far the picture is: where it is 1 % farther, and within a tile that takes long. A thread that finds another one telling goes on drawing. */
-static void report(picture *p)
-{
-    const facet_progress *progress = &p->desc->render->progress;
-    if (!progress->report || atomic_load(&p->result) != FACET_OK ||
-        atomic_flag_test_and_set(&p->is_reporting))
-        return;
-    double fraction = (double)atomic_load(&p->done) / (double)p->tile_count;
-    double now = clock_seconds();
-    if (fraction >= p->reported + 0.01 || now >= p->reported_s + REPORT_SECONDS) {
-        p->reported = fraction;
-        p->reported_s = now;
-        if (!progress->report(progress->user, "shade", fraction))
-            stop(p, FACET_ERROR_CANCELLED);
-    }
-    atomic_flag_clear(&p->is_reporting);
-}
-
-/* After each block: one of glass may take a hundred times what others do. */
-static void check_limits(picture *p)
-{
-    bool is_limited = p->desc->deadline_s > 0.0;
-    if (!is_limited && !p->desc->render->progress.report)
-        return;
-    double now = clock_seconds();
-    if (is_limited && now > p->desc->deadline_s)
-        stop(p, FACET_ERROR_LIMIT);
-    if (now >= p->reported_s + REPORT_SECONDS)
-        report(p);
-}
 
 static void draw_tile(picture *p, uint32_t tile)
 {
@@ -158,13 +117,13 @@ static void draw_tile(picture *p, uint32_t tile)
         if (x + VISIBILITY_BLOCK <= p->crop[0] || y + VISIBILITY_BLOCK <= p->crop[1] ||
             x >= p->crop[0] + p->crop[2] || y >= p->crop[1] + p->crop[3])
             continue;
-        if (atomic_load_explicit(&p->result, memory_order_relaxed) != FACET_OK)
+        if (render_watch_is_stopped(&p->watch))
             break;
         has_memory = draw_block(p, &w, x, y);
-        check_limits(p);
+        render_watch_look(&p->watch); /* a block of glass may take a hundred times what others do */
     }
     if (!has_memory)
-        stop(p, FACET_ERROR_MEMORY);
+        render_watch_stop(&p->watch, FACET_ERROR_MEMORY);
     atomic_fetch_add(&p->rays, w.resolver.rays);
     atomic_fetch_add(&p->shades, w.resolver.shades);
     pixel_resolver_destroy(&w.resolver);
@@ -175,32 +134,16 @@ static void draw_tiles(void *context, size_t begin, size_t end)
 {
     picture *p = context;
     for (size_t tile = begin; tile < end; tile++) {
-        if (atomic_load(&p->result) != FACET_OK)
+        render_watch_look(&p->watch);
+        if (render_watch_is_stopped(&p->watch))
             return;
-        if (p->desc->deadline_s > 0.0 && clock_seconds() > p->desc->deadline_s)
-            stop(p, FACET_ERROR_LIMIT);
         draw_tile(p, (uint32_t)tile);
-        atomic_fetch_add(&p->done, 1);
-        report(p);
+        render_watch_add(&p->watch, 1);
     }
 }
 
-static facet_result explain(const picture *p, facet_error *error)
-{
-    switch (atomic_load(&p->result)) {
-    case FACET_OK:
-        return FACET_OK;
-    case FACET_ERROR_LIMIT:
-        return fail(error, FACET_ERROR_LIMIT, "the time limit was reached after %.0f %% of the picture",
-                    100.0 * atomic_load(&p->done) / p->tile_count);
-    case FACET_ERROR_CANCELLED:
-        return fail(error, FACET_ERROR_CANCELLED, "cancelled while drawing");
-    default:
-        return fail(error, FACET_ERROR_MEMORY, "out of memory: drawing a tile");
-    }
-}
-
-facet_result tiles_draw(const tiles_desc *desc, film *target, facet_render_stats *stats, facet_error *error)
+static facet_result draw(const tiles_desc *desc, bool has_picture, film *target, facet_render_stats *stats,
+                         facet_error *error)
 {
     const facet_render_desc *render = desc->render;
     const uint32_t *crop = render->crop;
@@ -210,11 +153,13 @@ facet_result tiles_draw(const tiles_desc *desc, film *target, facet_render_stats
                  .layers = {film_find(target, ""), film_find(target, "depth"), film_find(target, "normal"),
                             film_find(target, "albedo"), film_find(target, "material"),
                             film_find(target, "uv"), film_find(target, "occlusion")},
-                 .wants_aovs = render->aovs != 0,
-                 .is_reporting = ATOMIC_FLAG_INIT};
+                 .has_picture = has_picture,
+                 .wants_aovs = render->aovs != 0};
     p.tile_count = p.tile_columns * ((crop[1] + target->height - 1) / TILE - crop[1] / TILE + 1);
-    bool has_memory = visibility_pattern_create(&render->allocator, render->samples, &p.pattern) &&
-                      visibility_pattern_create(&render->allocator, 1, &p.middle);
+    render_watch_init(&p.watch, &render->progress, "shade", desc->deadline_s, p.tile_count);
+    bool has_memory =
+        visibility_pattern_create(&render->allocator, has_picture ? render->samples : 1, &p.pattern) &&
+        visibility_pattern_create(&render->allocator, 1, &p.middle);
     if (has_memory)
         parallel_for(render->thread_count, p.tile_count, 1, draw_tiles, &p);
     visibility_pattern_destroy(&p.pattern);
@@ -223,5 +168,16 @@ facet_result tiles_draw(const tiles_desc *desc, film *target, facet_render_stats
         return fail_memory(error, "sample pattern", render->samples * sizeof(float));
     stats->rays += atomic_load(&p.rays);
     stats->shades += atomic_load(&p.shades);
-    return explain(&p, error);
+    return render_watch_explain(&p.watch, error);
+}
+
+facet_result tiles_draw(const tiles_desc *desc, film *target, facet_render_stats *stats, facet_error *error)
+{
+    return draw(desc, true, target, stats, error);
+}
+
+facet_result tiles_draw_aovs(const tiles_desc *desc, film *target, facet_render_stats *stats,
+                             facet_error *error)
+{
+    return draw(desc, false, target, stats, error);
 }

@@ -15,5 +15,8 @@ typedef struct tiles_desc {
 /* Fills every layer of film. Adds to stats->rays and ->shades. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past
  * the deadline, FACET_ERROR_CANCELLED. */
 facet_result tiles_draw(const tiles_desc *desc, film *film, facet_render_stats *stats, facet_error *error);
+/* All layers but the picture, layer "". */
+facet_result tiles_draw_aovs(const tiles_desc *desc, film *film, facet_render_stats *stats,
+                             facet_error *error);
 
 #endif

@@ -29,6 +29,8 @@ static const layer_kind layer_kinds[] = {
     {FACET_AOV_MATERIAL_ID, "material", 1, {"material.id"}, 0.0f},
     {FACET_AOV_UV, "uv", 2, {"uv.U", "uv.V"}, 0.0f},
     {FACET_AOV_OCCLUSION, "occlusion", 1, {"occlusion.A"}, 0.0f},
+    {FACET_AOV_VARIANCE, "variance", 3, {"variance.R", "variance.G", "variance.B"}, 0.0f},
+    {FACET_AOV_SAMPLES, "samples", 1, {"samples.N"}, 0.0f},
 };
 enum { LAYER_KIND_COUNT = sizeof layer_kinds / sizeof *layer_kinds };
 _Static_assert((int)LAYER_KIND_COUNT <= (int)FILM_MAX_LAYERS, "a film has room for every layer");

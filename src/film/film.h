@@ -4,7 +4,7 @@
 
 #include "facet/facet.h"
 
-enum { FILM_MAX_LAYERS = 8 };
+enum { FILM_MAX_LAYERS = 9 };
 
 typedef struct film_layer {
     const char *name;                 /* "", "normal" .. */
