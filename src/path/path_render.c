@@ -1,59 +1,353 @@
-/* path_render.c - see path_render.h. */
+/* path_render.c - see path_render.h. Pixels are independent of each other: a pixel's samples are numbered, and a pass
+ * takes each pixel to a number. What a picture is depends on these numbers alone. */
 #include "path/path_render.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "cpu/render_watch.h"
+#include "cpu/tiles.h"
+#include "film/denoise.h"
 #include "path/path_film.h"
+#include "path/path_key.h"
 #include "path/path_lights.h"
 
-typedef struct pass {
-    path_scene scene;
-    path_film *film;
-    const uint32_t *crop;
-    uint32_t width, first, count;
-} pass;
+enum {
+    TILE = 16,          /* pixels along a side */
+    LARGEST_PASS = 16,  /* samples per pixel */
+    SHUTTER_SAMPLES = 4 /* per pixel and instant: preparing one costs about as much as these */
+};
 
-static void draw_rows(void *context, size_t begin, size_t end)
+/* All of one picture. */
+typedef struct path_picture {
+    const facet_render_desc *desc;
+    prepared_scene *prepared;
+    film *target;
+    facet_render_stats *stats;
+    double deadline_s;
+    path_film *sums;
+    path_key key;
+    double saved_s; /* when the checkpoint was written, or the picture begun */
+    float ground_y;
+    /* of one instant */
+    facet_render_desc instant; /* desc at its time */
+    render_setup setup;
+    path_lights *lights;
+    path_scene scene;
+    /* of one pass */
+    uint32_t goal; /* samples that a pixel has behind it */
+    uint32_t tile_columns;
+    render_watch watch;
+    _Atomic uint64_t rays;
+} path_picture;
+
+/* ---- a pass ---- */
+
+/* Brings one pixel to the goal; the rays that took. */
+static uint64_t draw_pixel(path_picture *p, uint32_t x, uint32_t y, size_t pixel)
 {
-    pass *p = context;
-    for (size_t row = begin; row < end; row++)
-        for (uint32_t x = 0; x < p->width; x++)
-            for (uint32_t i = p->first; i < p->first + p->count; i++) {
-                path_sample sample;
-                path_trace(&p->scene, p->crop[0] + x, p->crop[1] + (uint32_t)row, i, &sample);
-                path_film_add(p->film, row * p->width + x, &sample);
-            }
+    uint64_t rays = 0;
+    const uint32_t *crop = p->desc->crop;
+    for (uint32_t i = path_film_samples(p->sums, pixel); i < p->goal; i++) {
+        path_sample sample;
+        path_trace(&p->scene, crop[0] + x, crop[1] + y, i, &sample);
+        path_film_add(p->sums, pixel, &sample);
+        rays += sample.rays;
+    }
+    return rays;
+}
+
+static void draw_tile(path_picture *p, uint32_t tile)
+{
+    uint32_t left = tile % p->tile_columns * TILE;
+    uint32_t top = tile / p->tile_columns * TILE;
+    uint32_t right = left + TILE < p->target->width ? left + TILE : p->target->width;
+    uint32_t bottom = top + TILE < p->target->height ? top + TILE : p->target->height;
+    uint64_t rays = 0;
+    uint64_t done = 0;
+    for (uint32_t y = top; y < bottom; y++) {
+        render_watch_look(&p->watch);
+        if (render_watch_is_stopped(&p->watch))
+            break;
+        for (uint32_t x = left; x < right; x++) {
+            size_t pixel = (size_t)y * p->target->width + x;
+            uint32_t before = path_film_samples(p->sums, pixel);
+            if (path_film_needs_more(p->sums, pixel))
+                rays += draw_pixel(p, x, y, pixel);
+            done += p->goal > before ? p->goal - before : 0;
+        }
+    }
+    atomic_fetch_add(&p->rays, rays);
+    render_watch_add(&p->watch, done);
+}
+
+static void draw_tiles(void *context, size_t begin, size_t end)
+{
+    path_picture *p = context;
+    for (size_t tile = begin; tile < end; tile++) {
+        if (render_watch_is_stopped(&p->watch))
+            return;
+        draw_tile(p, (uint32_t)tile);
+    }
+}
+
+static void draw_pass(path_picture *p, uint32_t goal)
+{
+    p->goal = goal;
+    uint32_t rows = (p->target->height + TILE - 1) / TILE;
+    p->tile_columns = (p->target->width + TILE - 1) / TILE;
+    parallel_for(p->desc->thread_count, (size_t)rows * p->tile_columns, 1, draw_tiles, p);
+}
+
+/* ---- an instant ---- */
+
+static void end_instant(path_picture *p)
+{
+    path_lights_destroy(p->lights);
+    p->lights = NULL;
+    render_setup_destroy(&p->setup);
+    p->setup = (render_setup){0};
+}
+
+static facet_result begin_instant(path_picture *p, facet_error *error)
+{
+    const facet_render_desc *desc = &p->instant;
+    end_instant(p);
+    p->setup =
+        (render_setup){.prepared = p->prepared, .desc = desc, .stats = p->stats, .reads_everywhere = true};
+    facet_result result = render_setup_create(&p->setup, error);
+    if (result == FACET_OK)
+        result = path_lights_create(&p->setup, &p->lights, error);
+    p->scene = (path_scene){.setup = &p->setup,
+                            .lights = p->lights,
+                            .has_ground = desc->ground == FACET_GROUND_SHADOW,
+                            .ground_y = p->ground_y,
+                            .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT};
+    return result;
+}
+
+/* The part of the shutter's time that instant number i stands for: the sequence 0.5, 0.25, 0.75, .. fills it evenly
+ * however many there are. */
+static double shutter_share(uint32_t i)
+{
+    double share = 0.0;
+    double bit = 0.5;
+    for (uint32_t n = i + 1; n; n >>= 1, bit *= 0.5)
+        share += n & 1 ? bit : 0.0;
+    return share;
+}
+
+/* The number of samples at which the next pass ends. */
+static uint32_t next_goal(const path_picture *p, uint32_t goal)
+{
+    uint64_t next = goal + (uint64_t)(goal < LARGEST_PASS ? (goal ? goal : 1) : LARGEST_PASS);
+    if (p->desc->path.shutter_s > 0.0f)
+        next = goal / SHUTTER_SAMPLES * SHUTTER_SAMPLES + (uint64_t)SHUTTER_SAMPLES;
+    return next < p->desc->samples ? (uint32_t)next : p->desc->samples;
+}
+
+static facet_result next_instant(path_picture *p, uint32_t goal, facet_error *error)
+{
+    bool is_moving = p->desc->path.shutter_s > 0.0f;
+    if (p->lights && !(is_moving && goal % SHUTTER_SAMPLES == 0))
+        return FACET_OK;
+    if (is_moving)
+        desc->pose.time_s =
+            p->desc->pose.time_s + (double)p->desc->path.shutter_s * shutter_share(goal / SHUTTER_SAMPLES);
+    return begin_instant(p, error);
+}
+
+/* ---- checkpoints ---- */
+
+static facet_result save(path_picture *p, facet_error *error)
+{
+    const char *path = p->desc->path.checkpoint_path;
+    p->saved_s = clock_seconds();
+    return path ? path_film_save(p->sums, p->key.hex, path, p->desc->thread_count, error) : FACET_OK;
+}
+
+static facet_result save_from_time_to_time(path_picture *p, facet_error *error)
+{
+    double interval = p->desc->path.checkpoint_interval_s;
+    bool is_time = clock_seconds() - p->saved_s > (interval > 0.0 ? interval : 60.0);
+    return p->desc->path.checkpoint_path && is_time ? save(p, error) : FACET_OK;
+}
+
+static facet_result resume(path_picture *p, facet_error *error)
+{
+    p->saved_s = clock_seconds();
+    if (!p->desc->path.checkpoint_path)
+        return FACET_OK;
+    facet_result result = path_key_create(p->prepared, p->desc, &p->key, error);
+    bool exists = false;
+    if (result == FACET_OK && p->desc->path.resumes)
+        result = path_film_load(p->sums, p->key.hex, p->desc->path.checkpoint_path, &exists, error);
+    return result;
+}
+
+/* ---- the picture ---- */
+
+static uint32_t fewest_samples(const path_picture *p)
+{
+    uint32_t fewest = UINT32_MAX;
+    for (size_t i = 0; i < (size_t)p->target->width * p->target->height; i++) {
+        uint32_t n = path_film_samples(p->sums, i);
+        fewest = n < fewest ? n : fewest;
+    }
+    return fewest;
+}
+
+/* Pass after pass until all is done, or the watch stops it. A checkpoint may have pixels with more samples than others:
+ * passes begin at the fewest. */
+static facet_result draw_passes(path_picture *p, facet_error *error)
+{
+    uint32_t goal = fewest_samples(p);
+    facet_result result = FACET_OK;
+    while (goal < p->desc->samples && result == FACET_OK && !render_watch_is_stopped(&p->watch)) {
+        path_film_update(p->sums, p->desc->path.noise, p->desc->thread_count);
+        if (path_film_share_done(p->sums) >= 1.0f)
+            break;
+        if (p->desc->path.shutter_s > 0.0f)
+            goal = goal / SHUTTER_SAMPLES * SHUTTER_SAMPLES;
+        result = next_instant(p, goal, error);
+        if (result != FACET_OK)
+            break;
+        goal = next_goal(p, goal);
+        draw_pass(p, goal);
+        if (!render_watch_is_stopped(&p->watch))
+            result = save_from_time_to_time(p, error);
+    }
+    return result;
+}
+
+/* What ended the passes. The time limit leaves a picture where each pixel has a sample. */
+static facet_result conclude(path_picture *p, facet_error *error)
+{
+    int ended = atomic_load(&p->watch.result);
+    facet_result result = save(p, error);
+    if (result != FACET_OK || ended == FACET_OK)
+        return result;
+    if (ended == FACET_ERROR_LIMIT && fewest_samples(p) > 0) {
+        p->stats->is_partial = true;
+        return FACET_OK;
+    }
+    return render_watch_explain(&p->watch, error);
+}
+
+static facet_result draw(path_picture *p, facet_error *error)
+{
+    double start = clock_seconds();
+    const facet_render_desc *desc = p->desc;
+    facet_result result = resume(p, error);
+    if (result != FACET_OK)
+        return result;
+    uint64_t pixel_count = (uint64_t)p->target->width * p->target->height;
+    render_watch_init(&p->watch, &desc->progress, "sample", p->deadline_s,
+                      (double)pixel_count * (double)desc->samples);
+    atomic_store(&p->watch.done, path_film_total_samples(p->sums));
+    result = draw_passes(p, error);
+    if (result == FACET_OK)
+        result = conclude(p, error);
+    p->stats->shade_s = clock_seconds() - start;
+    return result;
+}
+
+/* ---- from sums to the film ---- */
+
+enum { GUIDES = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE };
+
+static facet_result denoise(path_picture *p, float scale, facet_error *error)
+{
+    double start = clock_seconds();
+    const facet_render_desc *desc = p->desc;
+    film guided;
+    facet_result result =
+        film_create(&desc->allocator, p->target->width, p->target->height, GUIDES, &guided, error);
+    if (result != FACET_OK)
+        return result;
+    path_film_resolve(p->sums, scale, &guided, desc->thread_count);
+    result = film_denoise(&guided, &desc->allocator, desc->thread_count, error);
+    if (result == FACET_OK)
+        memcpy(p->target->layers[0].pixels, guided.layers[0].pixels,
+               (size_t)p->target->width * p->target->height * 4 * sizeof(float));
+    film_destroy(&guided);
+    p->stats->denoise_s = clock_seconds() - start;
+    return result;
+}
+
+/* The layers that are not means over samples: those of the first instant. */
+static facet_result draw_aovs(path_picture *p, facet_error *error)
+{
+    facet_render_desc desc = *p->desc;
+    desc.aovs &= ~(uint32_t)(GUIDES | FACET_AOV_SAMPLES);
+    if (!desc.aovs)
+        return FACET_OK;
+    tiles_desc tiles = {.render = &desc, .scene = &p->setup.shading};
+    return tiles_draw_aovs(&tiles, p->target, p->stats, error);
+}
+
+static void tell_dropped(const path_picture *p)
+{
+    const facet_log *log = &p->desc->log;
+    if (p->stats->dropped_samples == 0 || !log->message)
+        return;
+    char message[256];
+    snprintf(
+        message, sizeof message,
+        "%llu of %llu light samples were not finite and count as black: the model or a light holds numbers "
+        "that are none",
+        (unsigned long long)p->stats->dropped_samples, (unsigned long long)p->stats->samples);
+    log->message(log->user, FACET_LOG_WARNING, message);
+}
+
+static facet_result develop(path_picture *p, facet_error *error)
+{
+    const facet_render_desc *desc = p->desc;
+    float scale = exp2f(desc->exposure_ev);
+    path_film_resolve(p->sums, scale, p->target, desc->thread_count);
+    p->stats->samples = path_film_total_samples(p->sums);
+    p->stats->dropped_samples = path_film_dropped(p->sums);
+    p->stats->rays += atomic_load(&p->rays);
+    tell_dropped(p);
+    return desc->path.denoises ? denoise(p, scale, error) : FACET_OK;
 }
 
 static facet_result attempt(prepared_scene *prepared, const facet_render_desc *desc, double deadline_s,
                             film *target, facet_render_stats *stats, bool *has_setup, facet_error *error)
 {
-    (void)deadline_s;
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
-    render_setup setup = {.prepared = prepared, .desc = desc, .stats = stats, .reads_everywhere = true};
-    facet_result result = render_setup_create(&setup, error);
+    *has_setup = false;
+    path_picture p = {.desc = desc,
+                      .instant = *desc,
+                      .prepared = prepared,
+                      .target = target,
+                      .stats = stats,
+                      .deadline_s = deadline_s};
+    facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
+    if (result == FACET_OK)
+        result = prepared_scene_pose(prepared, desc, error);
+    p.ground_y = result == FACET_OK ? prepared->pose.bounds_min[1] : 0.0f;
+    if (result == FACET_OK)
+        result = begin_instant(&p, error);
     *has_setup = result == FACET_OK;
-    path_lights *lights = NULL;
-    path_film *sums = NULL;
     if (result == FACET_OK)
-        result = path_lights_create(&setup, &lights, error);
+        result = path_film_create(&desc->allocator, target->width, target->height, p.scene.has_ground,
+                                  &p.sums, error);
     if (result == FACET_OK)
-        result = path_film_create(&desc->allocator, target->width, target->height, false, &sums, error);
-    if (result == FACET_OK) {
-        pass p = {.scene = {.setup = &setup,
-                            .lights = lights,
-                            .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT},
-                  .film = sums,
-                  .crop = desc->crop,
-                  .width = target->width,
-                  .count = desc->samples};
-        parallel_for(desc->thread_count, target->height, 1, draw_rows, &p);
-        path_film_resolve(sums, exp2f(desc->exposure_ev), target, desc->thread_count);
-    }
-    path_film_destroy(sums);
-    path_lights_destroy(lights);
-    render_setup_destroy(&setup);
+        result = draw_aovs(&p, error);
+    if (result == FACET_OK)
+        result = draw(&p, error);
+    if (result == FACET_OK)
+        result = develop(&p, error);
+    if (result == FACET_OK)
+        result = render_check_limits(desc, "sample", 1.0, 0.0, error);
+    path_film_destroy(p.sums);
+    end_instant(&p);
     return result;
 }
 
