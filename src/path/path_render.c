@@ -157,7 +157,7 @@ static facet_result next_instant(path_picture *p, uint32_t goal, facet_error *er
     if (p->lights && !(is_moving && goal % SHUTTER_SAMPLES == 0))
         return FACET_OK;
     if (is_moving)
-        desc->pose.time_s =
+        p->instant.pose.time_s =
             p->desc->pose.time_s + (double)p->desc->path.shutter_s * shutter_share(goal / SHUTTER_SAMPLES);
     return begin_instant(p, error);
 }
