@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 69
+#define PROBE_COUNT 73
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -485,6 +485,21 @@ FN vec3 probe_phong(int which, vec2 u)
            vec3(blinn_phong_normalisation(s), blinn_phong_normalisation_linear(s), 0.0f);
 }
 
+FN vec3 probe_pixel(int which, vec2 u)
+{
+    if (which == 69) {
+        vec2 p = sobol_point(uint(u[0] * 4096.0f), hash_uint(uint(u[1] * 4096.0f)));
+        return vec3(p[0], p[1], 0.0f);
+    }
+    int kind = which - 70;
+    FilterSample s = sample_pixel_filter(kind, u);
+    return vec3(s.offset[0], s.offset[1], s.weight) + pixel_filter(kind, 3.0f * u - 1.5f) +
+           vec3(blackman_harris(2.0f * u[0]), blackman_harris_step(0.5f * u[0], 0.5f * u[1]),
+                mitchell(2.0f * u[1])) +
+           vec3(sample_blackman_harris(u[1]), sample_mitchell(u[0])[1], sample_mitchell_positive(u[1])) +
+           vec3(sample_mitchell_negative(u[0]), 0.0f, 0.0f);
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -511,5 +526,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_transmission(which, u);
     if (which < 63)
         return probe_layered(which, u);
-    return probe_phong(which, u);
+    if (which < 69)
+        return probe_phong(which, u);
+    return probe_pixel(which, u);
 }
