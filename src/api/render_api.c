@@ -9,18 +9,70 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_IMAGE_SIZE = 65536, MAX_SAMPLES = 4096 };
+enum { MAX_IMAGE_SIZE = 65536, MAX_PREVIEW_SAMPLES = 4096, MAX_PATH_SAMPLES = 1 << 24, DEFAULT_DEPTH = 64 };
 
-static uint32_t samples_of(facet_quality quality)
+static uint32_t samples_of(facet_quality quality, bool is_path)
 {
     switch (quality) {
     case FACET_QUALITY_DRAFT:
-        return 1;
+        return is_path ? 16 : 1;
     case FACET_QUALITY_FINAL:
-        return 16;
+        return is_path ? 512 : 16;
     default:
-        return 4;
+        return is_path ? 64 : 4;
     }
+}
+
+static bool are_finite(const float *x, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(x[i]))
+            return false;
+    return true;
+}
+
+/* What the two integrators ask of a desc, its numbers being finite. */
+static facet_result resolve_integrator(facet_render_desc *d, facet_error *error)
+{
+    bool is_path = d->integrator == FACET_INTEGRATOR_PATH;
+    uint32_t most = is_path ? MAX_PATH_SAMPLES : MAX_PREVIEW_SAMPLES;
+    if (!d->samples)
+        d->samples = samples_of(d->quality, is_path);
+    if (d->samples > most)
+        return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %u", d->samples, most);
+    if (!is_path && d->ground != FACET_GROUND_NONE)
+        return fail(error, FACET_ERROR_ARGUMENT, "ground: only path tracing finds its shadow");
+    if (!is_path && d->aovs & (FACET_AOV_VARIANCE | FACET_AOV_SAMPLES))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "layers: variance and samples are known to path tracing only");
+    if (is_path && d->shading != FACET_SHADING_GLTF)
+        return fail(error, FACET_ERROR_ARGUMENT, "shading: path tracing knows that of glTF only");
+    if (!d->path.max_depth)
+        d->path.max_depth = DEFAULT_DEPTH;
+    return FACET_OK;
+}
+
+static facet_result check_numbers(const facet_render_desc *d, facet_error *error)
+{
+    const float light[] = {
+        d->exposure_ev,           d->environment_ev,   d->environment_rotation_rad, d->sun.azimuth_rad,
+        d->sun.elevation_rad,     d->sun.diameter_rad, d->sun.illuminance_lux[0],   d->sun.illuminance_lux[1],
+        d->sun.illuminance_lux[2]};
+    if (!are_finite(light, sizeof light / sizeof *light))
+        return fail(error, FACET_ERROR_ARGUMENT, "exposure, light: a value is not a finite number");
+    const float path[] = {d->path.noise, d->path.clamp, d->path.shutter_s,
+                          d->camera ? d->camera->lens_radius_m : 0.0f, d->camera ? d->camera->focus_m : 0.0f};
+    for (size_t i = 0; i < sizeof path / sizeof *path; i++)
+        if (!isfinite(path[i]) || path[i] < 0.0f)
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "noise, clamp, shutter, lens: a value is negative or not a finite number");
+    if ((unsigned)d->integrator > FACET_INTEGRATOR_PATH || (unsigned)d->ground > FACET_GROUND_SHADOW ||
+        (unsigned)d->path.filter > FACET_FILTER_MITCHELL ||
+        (unsigned)d->path.light_sampling > FACET_LIGHT_SAMPLING_LIGHTS)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "integrator %d, ground %d, filter %d, light sampling %d; there is no such",
+                    (int)d->integrator, (int)d->ground, (int)d->path.filter, (int)d->path.light_sampling);
+    return FACET_OK;
 }
 
 /* The desc with every default but the camera filled in, or what is wrong with it. */
@@ -45,20 +97,15 @@ static facet_result resolve(const facet_render_desc *desc, facet_render_desc *ou
         out->crop[2] = out->width;
         out->crop[3] = out->height;
     }
-    if (!out->samples)
-        out->samples = samples_of(out->quality);
-    if (out->samples > MAX_SAMPLES)
-        return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %d", out->samples,
-                    MAX_SAMPLES);
     if ((unsigned)out->shading > FACET_SHADING_OGL1 || (unsigned)out->ogl1.variant > FACET_OGL1_RGL_DESKTOP)
         return fail(error, FACET_ERROR_ARGUMENT, "shading: %d, variant %d; there is no such",
                     (int)out->shading, (int)out->ogl1.variant);
-    if (!isfinite(out->exposure_ev) || !isfinite(out->environment_ev) ||
-        !isfinite(out->environment_rotation_rad))
-        return fail(error, FACET_ERROR_ARGUMENT, "exposure, light: a value is not a finite number");
+    facet_result result = check_numbers(out, error);
+    if (result == FACET_OK)
+        result = resolve_integrator(out, error);
     if (!out->thread_count)
         out->thread_count = facet_thread_count();
-    return FACET_OK;
+    return result;
 }
 
 /* The default camera for what the desc shows; the pose is kept for the picture. */

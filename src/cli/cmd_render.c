@@ -6,6 +6,7 @@
 #include "cli/interrupt.h"
 #include "cli/memory_limit.h"
 #include "cli/output.h"
+#include "cli/path_options.h"
 #include "cli/preset.h"
 #include "cli/progress.h"
 #include "cli/render_camera.h"
@@ -118,6 +119,8 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
     facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
     if (result == FACET_OK && index == 0 && is_sequence)
         render_keep_framing(&m->options, camera);
+    if (result == FACET_OK)
+        path_options_set_lens(&m->options, m->scene, &s->pose, camera);
     return result;
 }
 
@@ -160,6 +163,11 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     desc.camera = &camera;
     desc.environment = m->environment;
     desc.time_limit_s = left < 1e29 ? left : 0.0;
+    char checkpoint[RENDER_NAME_SIZE];
+    result = render_checkpoint_name(o, m->model, frame->number, checkpoint, sizeof checkpoint, error);
+    if (result != FACET_OK)
+        return result;
+    desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
     facet_image *image = NULL;
     result = facet_renderer_render(m->renderer, &desc, &image, error);
     progress_clear();

@@ -93,7 +93,7 @@ bool verb_is_planned(const char *name)
 bool option_is_planned(const char *name)
 {
     return is_among(
-        name, WORDS("sun", "ground", "bounces", "noise", "denoise", "seed", "material-override", "shard"));
+        name, WORDS("material-override", "shard"));
 }
 
 const option *option_find(const verb *v, const char *name, size_t length)

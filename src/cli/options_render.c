@@ -56,7 +56,7 @@ static const option image_options[] = {
      .kind = OPTION_CHOICES,
      .argument = "LIST",
      .help = "further layers of an .exr file, separated by commas",
-     .choices = WORDS("depth", "normal", "albedo", "material", "uv", "occlusion")},
+     .choices = WORDS("depth", "normal", "albedo", "material", "uv", "occlusion", "variance", "samples")},
     {.id = OPT_JPEG_QUALITY,
      .name = "jpeg-quality",
      .kind = OPTION_INTEGER,
@@ -164,6 +164,22 @@ static const option light_options[] = {
              "or none "
              "of them",
      .choices = WORDS("scene", "none")},
+    {.id = OPT_SUN,
+     .name = "sun",
+     .kind = OPTION_TEXT,
+     .argument = "AZ,EL,LUX",
+     .default_text = "none; LUX 3.14, as a white sky",
+     .help = "a sun: degrees around the model as --orbit's, degrees above the horizon, illuminance of what "
+             "faces it; "
+             "a fourth number is its diameter in degrees (0.53)"},
+    {.id = OPT_GROUND,
+     .name = "ground",
+     .kind = OPTION_CHOICE,
+     .argument = "WHAT",
+     .default_text = "none",
+     .help = "shadow: the model casts a shadow on a plane below it that is not seen itself; needs --renderer "
+             "path",
+     .choices = WORDS("none", "shadow")},
 };
 
 static const option color_options[] = {
@@ -189,7 +205,7 @@ static const option quality_options[] = {
      .kind = OPTION_CHOICE,
      .argument = "LEVEL",
      .default_text = "normal",
-     .help = "draft takes 1, normal 4, final 16 samples per pixel",
+     .help = "draft takes 1, normal 4, final 16 samples per pixel; with --renderer path 16, 64, 512",
      .choices = WORDS("draft", "normal", "final")},
     {.id = OPT_SAMPLES,
      .name = "samples",
@@ -197,21 +213,22 @@ static const option quality_options[] = {
      .kind = OPTION_INTEGER,
      .argument = "N",
      .default_text = "as --quality says",
-     .help = "samples per pixel",
+     .help = "samples per pixel, of the preview at most 4096",
      .minimum = 1,
-     .maximum = 4096},
+     .maximum = 16777216},
     {.id = OPT_RENDERER,
      .name = "renderer",
      .kind = OPTION_TEXT,
      .argument = "NAME",
      .default_text = "preview",
-     .help = "preview: prefiltered light, what real-time viewers show",
-     .choices = WORDS("preview")},
+     .help = "preview: prefiltered light, what real-time viewers show; path: path tracing, with shadows, "
+             "reflections and glass as light makes them",
+     .choices = WORDS("preview", "path")},
     {.id = OPT_ENERGY,
      .name = "energy",
      .kind = OPTION_CHOICE,
      .argument = "MODE",
-     .default_text = "gltf",
+     .default_text = "gltf; conserving with --renderer path",
      .help =
          "gltf: the formulas of the specification; conserving: with light scattered several times on rough "
          "surfaces",
@@ -342,11 +359,13 @@ const verb render_verb = {
              "a video; with --turntable 120 seen from all around"},
             {"facet render *.glb -o 'thumbs/{stem}.png' --preset thumbnail",
              "small pictures of many models, into a folder that exists"},
+            {"facet render ring.glb -o ring.png --renderer path --samples 256 --ground shadow --denoise",
+             "path traced, with its shadow"},
             {"facet render old.obj -o old.png --shading ogl1", "as an OpenGL 1 program showed it"},
             {"curl -s URL | facet render - -o - --format png > out.png", "without files"},
             {NULL, NULL}},
     .groups =
         (const option_group *const[]){&image_group, &camera_group, &light_group, &color_group, &quality_group,
-                                      &shading_group, &motion_group, &scene_group, &model_group,
+                                      &path_group, &shading_group, &motion_group, &scene_group, &model_group,
                                       &legacy_group, &machine_group, &message_group, &running_group, NULL},
 };

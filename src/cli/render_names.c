@@ -10,6 +10,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool find_stem(const char *model, char *stem, size_t size)
+{
+    const char *path = !model ? "facet" : strcmp(model, "-") == 0 ? "stdin" : model;
+    return output_name_stem(path, stem, size);
+}
+
+facet_result render_checkpoint_name(const render_options *o, const char *model, uint32_t number, char *name,
+                                    size_t size, facet_error *error)
+{
+    char stem[1024];
+    *name = 0;
+    if (!o->checkpoint ||
+        (find_stem(model, stem, sizeof stem) && output_name_expand(o->checkpoint, stem, number, name, size)))
+        return FACET_OK;
+    return fail_with(error, FACET_ERROR_ARGUMENT, "--checkpoint: the name for %s is too long",
+                     input_name(model));
+}
+
 facet_result render_name(const render_options *o, const char *model, uint32_t number, char *name, size_t size,
                          facet_error *error)
 {
@@ -19,10 +37,7 @@ facet_result render_name(const render_options *o, const char *model, uint32_t nu
     }
     char stem[1024], pattern[64];
     const char *used = o->output;
-    bool fits = output_name_stem(!model                    ? "facet"
-                                 : strcmp(model, "-") == 0 ? "stdin"
-                                                           : model,
-                                 stem, sizeof stem);
+    bool fits = find_stem(model, stem, sizeof stem);
     if (!used) {
         snprintf(pattern, sizeof pattern, o->is_sequence && !o->video ? "{stem}_####.%s" : "{stem}.%s",
                  o->video == VIDEO_Y4M ? "y4m" : render_extension(o->save.format));

@@ -11,6 +11,10 @@ enum { RENDER_NAME_SIZE = 4096 };
 facet_result render_name(const render_options *o, const char *model, uint32_t number, char *name, size_t size,
                          facet_error *error);
 
+/* The same for its checkpoint; "" where there is none. */
+facet_result render_checkpoint_name(const render_options *o, const char *model, uint32_t number, char *name,
+                                    size_t size, facet_error *error);
+
 /* Checks before any work that the first pictures of all models can be written, have different names and are no model,
  * environment or file of options. What a model is made of beside is known once it is read. */
 facet_result render_names_check(const command_line *c, const render_options *o, facet_error *error);

@@ -7,6 +7,7 @@
 #include "cli/failure.h"
 #include "cli/orbit.h"
 #include "cli/output_name.h"
+#include "cli/path_options.h"
 #include "cli/terminal.h"
 #include "cli/value.h"
 
@@ -112,9 +113,14 @@ static facet_result read_aovs(const command_line *c, render_options *out, facet_
     static const struct {
         const char *name;
         facet_aov bit;
-    } aovs[] = {{"depth", FACET_AOV_DEPTH},   {"normal", FACET_AOV_NORMAL},
-                {"albedo", FACET_AOV_ALBEDO}, {"material", FACET_AOV_MATERIAL_ID},
-                {"uv", FACET_AOV_UV},         {"occlusion", FACET_AOV_OCCLUSION}};
+    } aovs[] = {{"depth", FACET_AOV_DEPTH},
+                {"normal", FACET_AOV_NORMAL},
+                {"albedo", FACET_AOV_ALBEDO},
+                {"material", FACET_AOV_MATERIAL_ID},
+                {"uv", FACET_AOV_UV},
+                {"occlusion", FACET_AOV_OCCLUSION},
+                {"variance", FACET_AOV_VARIANCE},
+                {"samples", FACET_AOV_SAMPLES}};
     const char *text = option_text(c, OPT_AOV, "");
     while (*text) {
         size_t length = strcspn(text, ",");
@@ -139,7 +145,6 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
                                              FACET_TONEMAP_REINHARD,       FACET_TONEMAP_REINHARD_EXTENDED,
                                              FACET_TONEMAP_HABLE,          FACET_TONEMAP_NONE};
     static const facet_quality qualities[] = {FACET_QUALITY_DRAFT, FACET_QUALITY_NORMAL, FACET_QUALITY_FINAL};
-    static const uint32_t samples[] = {1, 4, 16}; /* as facet_render() has it; told in reports */
     facet_render_desc *d = &out->desc;
     double stops = 0.0;
     if (is_given(c, OPT_EXPOSURE) && !value_exposure(option_text(c, OPT_EXPOSURE, ""), &stops))
@@ -157,21 +162,12 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
     d->ogl1 = (facet_ogl1_desc){.variant = (facet_ogl1_variant)option_choice(c, OPT_OGL1_VARIANT, 0),
                                 .is_linear = option_choice(c, OPT_OGL1_SPACE, 0) == 1,
                                 .ignores_fog = option_choice(c, OPT_FOG, 0) == 1};
-    int quality = option_choice(c, OPT_QUALITY, 1);
-    d->quality = qualities[quality];
-    d->samples = (uint32_t)option_number(c, OPT_SAMPLES, samples[quality]);
-    d->energy = option_choice(c, OPT_ENERGY, 0) ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF;
+    d->quality = qualities[option_choice(c, OPT_QUALITY, 1)];
     d->specular_antialiasing = is_given(c, OPT_SPECULAR_AA);
     d->ignore_scene_lights = option_choice(c, OPT_LIGHTS, 0) == 1;
     out->save.jpeg_quality = (uint32_t)option_number(c, OPT_JPEG_QUALITY, 0.0);
     out->save.png_compression = (uint32_t)option_number(c, OPT_PNG_COMPRESSION, 0.0);
-    const char *renderer = option_text(c, OPT_RENDERER, "preview");
-    if (strcmp(renderer, "preview") == 0)
-        return FACET_OK;
-    if (strcmp(renderer, "path") == 0 || strcmp(renderer, "raster") == 0 || strcmp(renderer, "gl") == 0)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--renderer: this version of facet does not have %s yet, only preview", renderer);
-    return option_fail(c, OPT_RENDERER, "a renderer; there is preview", error);
+    return FACET_OK;
 }
 
 /* ---- camera ---- */
@@ -345,8 +341,8 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
     *out = (render_options){.scene = option_text(c, OPT_SCENE, NULL),
                             .variant = option_text(c, OPT_VARIANT, NULL)};
     facet_result (*const readers[])(const command_line *, render_options *, facet_error *) = {
-        read_output, read_format, read_size,   read_background, read_aovs,
-        read_look,   read_camera, read_motion, read_environment};
+        read_output, read_format, read_size,   read_background,  read_aovs,
+        read_look,   read_camera, read_motion, read_environment, path_options_read};
     facet_result result = limits_read(c, &out->limits, error);
     for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
         result = readers[i](c, out, error);

@@ -22,6 +22,7 @@ typedef struct render_options {
     bool is_sequence;       /* several pictures of a model, as far as the options tell */
     video_format video;     /* all of them in one file */
     bool keeps_existing;    /* --no-clobber */
+    const char *checkpoint; /* pattern; NULL: none */
     facet_save_desc save;   /* format is always named */
     facet_render_desc desc; /* without allocator, log, progress, pose, camera, environment */
 
@@ -32,6 +33,9 @@ typedef struct render_options {
     bool has_eye;
     float eye[3];
     uint32_t turntable; /* frames; 0: none */
+    float aperture;     /* diameter of the lens: m, or a share of the focus distance; 0: a pinhole */
+    bool aperture_is_relative;
+    float focus_m; /* 0: the point looked at */
 
     /* motion */
     const char *animation; /* NULL: see choose_animations() */

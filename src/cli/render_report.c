@@ -19,6 +19,14 @@ void report_picture(const messages *m, const picture_report *p, bool is_news)
     message_at(m, least, "%s: %ux%u, %u %s, %.2f s", name, p->width, p->height, p->samples,
                p->samples == 1 ? "sample" : "samples", p->total_s);
     const facet_render_stats *s = &p->stats;
+    if (s->is_partial)
+        message_at(m, VERBOSITY_NORMAL, "%s: the time limit came after %.1f of %u samples per pixel", name,
+                   (double)s->samples / ((double)p->width * p->height), p->samples);
+    if (s->samples)
+        message_at(m, VERBOSITY_DETAILS,
+                   "%s: %.1f samples per pixel on average, %.2f M rays/s, %.2f M paths/s", name,
+                   (double)s->samples / ((double)p->width * p->height), 1e-6 * (double)s->rays / s->shade_s,
+                   1e-6 * (double)s->samples / s->shade_s);
     message_at(
         m, VERBOSITY_TIMINGS,
         "%s: load %.1f ms, textures %.1f ms, geometry %.1f ms, light %.1f ms, shade %.1f ms, render %.1f ms, "
@@ -39,14 +47,16 @@ json_t *report_picture_json(const picture_report *p)
     if (p->is_kept)
         return json_pack("{s:o, s:o, s:b}", "model", report_string_json(p->model), "output",
                          report_string_json(p->output), "kept", 1);
-    return json_pack(
-        "{s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}, s:I, s:I}", "model",
-        report_string_json(p->model), "output", report_string_json(p->output), "width", (json_int_t)p->width,
-        "height", (json_int_t)p->height, "samples", (json_int_t)p->samples, "rays", (json_int_t)s->rays,
-        "shades", (json_int_t)s->shades, "seconds", "total", p->total_s, "load", p->load_s, "textures",
-        s->textures_s, "geometry", s->geometry_s, "light", s->light_s, "shade", s->shade_s, "render",
-        s->total_s, "save", p->save_s, "decoded_texels", (json_int_t)s->decoded_texels, "threads",
-        (json_int_t)s->thread_count);
+    return json_pack("{s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}, "
+                     "s:I, s:I, s:I, s:I, s:b}",
+                     "model", report_string_json(p->model), "output", report_string_json(p->output), "width",
+                     (json_int_t)p->width, "height", (json_int_t)p->height, "samples", (json_int_t)p->samples,
+                     "rays", (json_int_t)s->rays, "shades", (json_int_t)s->shades, "seconds", "total",
+                     p->total_s, "load", p->load_s, "textures", s->textures_s, "geometry", s->geometry_s,
+                     "light", s->light_s, "shade", s->shade_s, "render", s->total_s, "denoise", s->denoise_s,
+                     "save", p->save_s, "decoded_texels", (json_int_t)s->decoded_texels, "threads",
+                     (json_int_t)s->thread_count, "light_samples", (json_int_t)s->samples, "dropped_samples",
+                     (json_int_t)s->dropped_samples, "partial", (int)s->is_partial);
 }
 
 json_t *report_warnings_json(const messages *m)

@@ -119,6 +119,39 @@ static Light posed_light(const scene_posed_light *posed)
     return light_point(position, intensity, l->range);
 }
 
+/* A sun without size; false: there is none, or paths meet its disc. */
+static bool preview_sun(const facet_render_desc *desc, Light *out)
+{
+    const facet_sun *sun = &desc->sun;
+    vec3 E = load3(sun->illuminance_lux);
+    if (desc->integrator == FACET_INTEGRATOR_PATH || !(max3(E) > 0.0f))
+        return false;
+    float level = cos(sun->elevation_rad);
+    *out = light_directional(
+        -vec3(level * sin(sun->azimuth_rad), sin(sun->elevation_rad), level * cos(sun->azimuth_rad)), E);
+    return true;
+}
+
+static facet_result create_punctual(const scene_pose *pose, const facet_render_desc *desc, light_setup *out,
+                                    facet_error *error)
+{
+    Light sun;
+    bool has_sun = preview_sun(desc, &sun);
+    uint32_t of_scene = desc->ignore_scene_lights ? 0 : pose->light_count;
+    uint32_t count = of_scene + (has_sun ? 1 : 0);
+    if (count == 0)
+        return FACET_OK;
+    out->punctual = mem_alloc(&desc->allocator, count, sizeof *out->punctual);
+    if (!out->punctual)
+        return fail_memory(error, "lights", count * sizeof *out->punctual);
+    out->punctual_count = count;
+    for (uint32_t i = 0; i < of_scene; i++)
+        out->punctual[i] = posed_light(&pose->lights[i]);
+    if (has_sun)
+        out->punctual[of_scene] = sun;
+    return light_grid_create(out->punctual, out->punctual_count, &desc->allocator, &out->grid, error);
+}
+
 facet_result light_setup_create(const render_geometry_set *set, const scene_pose *pose,
                                 const camera_rays *camera, const facet_render_desc *desc, light_setup *out,
                                 facet_error *error)
@@ -126,26 +159,17 @@ facet_result light_setup_create(const render_geometry_set *set, const scene_pose
     *out = (light_setup){.scale = exp2f(desc->environment_ev),
                          .rotation_cos = cosf(desc->environment_rotation_rad),
                          .rotation_sin = sinf(desc->environment_rotation_rad)};
-    if (pose->light_count && !desc->ignore_scene_lights) {
-        out->punctual = mem_alloc(&desc->allocator, pose->light_count, sizeof *out->punctual);
-        if (!out->punctual)
-            return fail_memory(error, "lights", pose->light_count * sizeof *out->punctual);
-        out->punctual_count = pose->light_count;
-        for (uint32_t i = 0; i < pose->light_count; i++)
-            out->punctual[i] = posed_light(&pose->lights[i]);
-        facet_result result =
-            light_grid_create(out->punctual, out->punctual_count, &desc->allocator, &out->grid, error);
-        if (result != FACET_OK) {
-            light_setup_destroy(out);
-            return result;
-        }
+    facet_result result = create_punctual(pose, desc, out, error);
+    if (result != FACET_OK) {
+        light_setup_destroy(out);
+        return result;
     }
     if (!desc->environment || desc->shading == FACET_SHADING_OGL1)
         return FACET_OK;
     ibl_light_desc needs = light_needs(set, camera, desc);
     if (!(needs.needs_irradiance || needs.needs_specular || needs.needs_sheen || needs.needs_background))
         return FACET_OK;
-    facet_result result = ibl_light_prepare(desc->environment, &needs, &out->ibl, error);
+    result = ibl_light_prepare(desc->environment, &needs, &out->ibl, error);
     if (result != FACET_OK) {
         light_setup_destroy(out);
         return result;
