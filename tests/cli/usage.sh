@@ -37,7 +37,7 @@ for option in --hdri-file --output-file --width --environment-image --camera-orb
     expect 2 render $option x
     says "did you mean --"
 done
-expect 2 render --denoise
+expect 2 render --shard 1/2
 says "does not have it yet"
 expect 2 render --size 12y
 says "--size: \"12y\" is not WIDTHxHEIGHT"
