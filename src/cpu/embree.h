@@ -8,6 +8,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <stdbool.h>
+
 #if RTC_VERSION >= 40000
 
 typedef struct RTCRayQueryContext embree_context;
@@ -36,6 +38,33 @@ static inline void embree_intersect1_filtered(RTCScene scene, struct RTCRayHit *
     rtcIntersect1(scene, ray, &arguments);
 }
 
+/* Whether anything opaque is on one ray. */
+static inline bool embree_occluded1(RTCScene scene, struct RTCRay *ray)
+{
+    rtcOccluded1(scene, ray, NULL);
+    return ray->tfar < 0.0f;
+}
+
+/* The same, with a filter as above: what it refuses lets the ray pass. */
+static inline bool embree_occluded1_filtered(RTCScene scene, struct RTCRay *ray, embree_context *context,
+                                             RTCFilterFunctionN filter)
+{
+    struct RTCOccludedArguments arguments;
+    rtcInitRayQueryContext(context);
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    arguments.context = context;
+    arguments.filter = filter;
+    rtcOccluded1(scene, ray, &arguments);
+    return ray->tfar < 0.0f;
+}
+
+/* The nearest hit of one ray. */
+static inline void embree_intersect1(RTCScene scene, struct RTCRayHit *ray)
+{
+    rtcIntersect1(scene, ray, NULL);
+}
+
 #else
 
 typedef struct RTCIntersectContext embree_context;
@@ -58,6 +87,33 @@ static inline void embree_intersect1_filtered(RTCScene scene, struct RTCRayHit *
     rtcInitIntersectContext(context);
     context->filter = filter;
     rtcIntersect1(scene, context, ray);
+}
+
+/* Whether anything opaque is on one ray. */
+static inline bool embree_occluded1(RTCScene scene, struct RTCRay *ray)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, ray);
+    return ray->tfar < 0.0f;
+}
+
+/* The same, with a filter as above: what it refuses lets the ray pass. */
+static inline bool embree_occluded1_filtered(RTCScene scene, struct RTCRay *ray, embree_context *context,
+                                             RTCFilterFunctionN filter)
+{
+    rtcInitIntersectContext(context);
+    context->filter = filter;
+    rtcOccluded1(scene, context, ray);
+    return ray->tfar < 0.0f;
+}
+
+/* The nearest hit of one ray. */
+static inline void embree_intersect1(RTCScene scene, struct RTCRayHit *ray)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, ray);
 }
 
 #endif

@@ -1,0 +1,81 @@
+/* path_state.h - a path on its way: where it is, what it carries, and by which chance it got there. Holds shared shading
+ * text: include it last. */
+#ifndef PATH_STATE_H
+#define PATH_STATE_H
+
+#include "cpu/media.h"
+#include "path/path_lights.h"
+#include "path/path_trace.h"
+#include "path/sampler.h"
+
+/* The place from which the path went on by chance: light that it meets was within reach of path_lights_sample() there. */
+typedef struct path_origin {
+    vec3 P;    /* m */
+    vec3 N;    /* as path_lights_sample() was given */
+    float pdf; /* per sr, of the direction that was taken */
+    bool
+        is_chosen; /* false: by a mirror or from the camera: no light was, or could have been, aimed at that way */
+} path_origin;
+
+typedef struct path {
+    const path_scene *scene;
+    const shading_scene *shading;
+    path_sampler sampler;
+    vec3 throughput;      /* of the radiance that comes from ahead */
+    vec3 P, D;            /* where it goes on, m, and the way, unit */
+    float width_m, angle; /* of the cone of directions that it stands for: radius at P, half-angle in rad */
+    float passed_m;       /* since from.P, where the path went straight on through something */
+    path_origin from;
+    media media;     /* what P is in */
+    uint32_t depth;  /* surfaces and scattering events behind it */
+    uint32_t vertex; /* the same with those that light passes straight: number for the sampler */
+    bool
+        follows_mirrors; /* nothing but mirrors and clear glass so far: albedo and normal are still to come */
+    path_sample *out;
+    vec3 radiance;
+} path;
+
+/* Adds what came from ahead; indirect light is cut to desc->path.clamp where that is asked for. */
+static inline void path_add(path *p, vec3 contribution)
+{
+    float most = p->scene->setup->desc->path.clamp;
+    if (most > 0.0f && p->depth > 1) {
+        float value = max3(contribution);
+        contribution *= value > most ? most / value : 1.0f;
+    }
+    p->radiance += contribution;
+}
+
+/* The weight of one of two ways to find the same light; Veach 1997, the power heuristic. */
+static inline float path_power(float pdf, float other_pdf)
+{
+    float q = other_pdf / pdf;
+    return 1.0f / (1.0f + q * q);
+}
+
+/* Of light that was met; light_pdf: with which it would have been aimed at from p->from. */
+static inline float path_met_weight(const path *p, float light_pdf)
+{
+    if (!p->from.is_chosen || !(light_pdf > 0.0f))
+        return 1.0f;
+    switch (p->scene->setup->desc->path.light_sampling) {
+    case FACET_LIGHT_SAMPLING_BSDF:
+        return 1.0f;
+    case FACET_LIGHT_SAMPLING_LIGHTS:
+        return 0.0f;
+    case FACET_LIGHT_SAMPLING_MIS:
+        break;
+    }
+    return path_power(p->from.pdf, light_pdf);
+}
+
+/* Of light that was aimed at; pdf: with which the path would go that way. */
+static inline float path_aimed_weight(const path_scene *scene, const path_light_sample *light, float pdf)
+{
+    facet_light_sampling sampling = scene->setup->desc->path.light_sampling;
+    if (light->is_point || sampling == FACET_LIGHT_SAMPLING_LIGHTS)
+        return 1.0f;
+    return sampling == FACET_LIGHT_SAMPLING_BSDF ? 0.0f : path_power(light->pdf, pdf);
+}
+
+#endif
