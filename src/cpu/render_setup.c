@@ -112,6 +112,31 @@ static facet_result run_all_stages(render_setup *p, facet_error *error)
     return FACET_OK;
 }
 
+/* ---- a model in the dark ---- */
+
+static bool shines(const render_geometry *g)
+{
+    const float *e = g->material->emissive;
+    return !g->is_lit || (e[0] + e[1] + e[2]) * g->material->emissive_strength > 0.0f;
+}
+
+/* A picture that is black because nothing shines is rarely meant. */
+static void tell_dark(const render_setup *p)
+{
+    const facet_render_desc *desc = p->desc;
+    const float *sun = desc->sun.illuminance_lux;
+    if (desc->shading == FACET_SHADING_OGL1 || desc->environment || p->light.punctual_count ||
+        sun[0] + sun[1] + sun[2] > 0.0f || !desc->log.message)
+        return;
+    for (uint32_t i = 0; i < p->prepared->geometries.count; i++)
+        if (shines(&p->prepared->geometries.items[i]))
+            return;
+    if (p->prepared->geometries.count)
+        desc->log.message(
+            desc->log.user, FACET_LOG_WARNING,
+            "the picture is black: there is no environment, and the model has no light of its own");
+}
+
 /* ---- all ---- */
 
 facet_result render_setup_create(render_setup *p, facet_error *error)
@@ -141,6 +166,8 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
                                  .light = &p->light,
                                  .camera = &p->camera};
     shading_scene_set_options(&p->shading, desc);
+    if (result == FACET_OK)
+        tell_dark(p);
     return result;
 }
 
