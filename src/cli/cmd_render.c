@@ -31,7 +31,8 @@ typedef struct render_run {
     json_t *pictures, *failures; /* NULL: nobody asked for JSON */
     json_t *warnings;
     size_t warning_count, failure_count;
-    int exit_code; /* of the last failure */
+    size_t models_left; /* with the one that is drawn */
+    int exit_code;      /* of the last failure */
 } render_run;
 
 /* ---- reading ---- */
@@ -134,6 +135,18 @@ static facet_result check_inputs(const model_run *m, const char *name, facet_err
                      "%s: it is an input, too, and would be overwritten; name another output with -o", name);
 }
 
+/* Seconds that a picture may take; 0: as long as it wants. Path tracing takes all that it gets: its pictures share evenly
+ * what is left. */
+static double time_for_frame(const model_run *m, uint32_t index, double left)
+{
+    if (!(left < 1e29))
+        return 0.0;
+    if (m->options.desc.integrator != FACET_INTEGRATOR_PATH)
+        return left;
+    double frames_left = (double)(m->sequence.frames.frame_count - index);
+    return left / (frames_left * (double)m->run->models_left);
+}
+
 static facet_result render_frame(model_run *m, uint32_t index, const sequence_frame *frame,
                                  picture_report *report, facet_error *error)
 {
@@ -162,7 +175,7 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     desc.pose = m->sequence.pose;
     desc.camera = &camera;
     desc.environment = m->environment;
-    desc.time_limit_s = left < 1e29 ? left : 0.0;
+    desc.time_limit_s = time_for_frame(m, index, left);
     char checkpoint[RENDER_NAME_SIZE];
     result = render_checkpoint_name(o, m->model, frame->number, checkpoint, sizeof checkpoint, error);
     if (result != FACET_OK)
@@ -339,6 +352,7 @@ static int render_all(render_run *run)
     for (size_t i = 0; i < count; i++) {
         const char *model = c->argument_count ? c->arguments[i] : NULL;
         facet_error error = {0};
+        run->models_left = count - i;
         facet_result result = render_model(run, model, &error);
         if (result == FACET_ERROR_CANCELLED || interrupt_signal()) {
             run->warning_count += report_end_model(&run->messages, run->warnings);
