@@ -2,6 +2,12 @@
 #ifndef SHADE_LAYERS_DIRECT_H
 #define SHADE_LAYERS_DIRECT_H
 
+/* Lobes that may be left out of a sum: those that are mirrors where they are narrow. */
+#define LOBE_CLEARCOAT 1u
+#define LOBE_SPECULAR 2u
+#define LOBE_TRANSMISSION 4u
+#define LOBES_ALL 7u
+
 /* How a boundary divides light: factors of the lobe D V, metallic mixed in, and of what is below the dielectric. */
 STRUCT(BoundaryWeights)
 {
@@ -128,7 +134,7 @@ FN float layers_DV(Layers m, vec3 V, vec3 L, vec3 H, float NdotL, float NdotV)
 }
 
 /* The base for light from the eye's side. */
-FN vec3 layers_base_front_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+FN vec3 layers_base_front_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, uint lobes)
 {
     float NdotL = min(dot(m.base.N, L), 1.0f);
     float NdotV = surface_NdotV(m.base, V);
@@ -139,7 +145,9 @@ FN vec3 layers_base_front_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables 
     float inverse = inversesqrt(sum2);
     float VdotH = min(0.5f * sum2 * inverse, 1.0f);
     BoundaryWeights w = boundary_weights(m, NdotV, VdotH, energy, t);
-    vec3 specular = w.specular * layers_DV(m, V, L, sum * inverse, NdotL, NdotV);
+    vec3 specular = vec3(0.0f);
+    if ((lobes & LOBE_SPECULAR) != 0u)
+        specular = w.specular * layers_DV(m, V, L, sum * inverse, NdotL, NdotV);
     return (specular + brdf_lambert(below_shares(m).diffuse) * w.below) * NdotL;
 }
 
@@ -185,7 +193,7 @@ FN vec3 layers_volume_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
 }
 
 /* The base for light from behind. The microfacet of what goes straight through is that of L mirrored to V's side. */
-FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, LayerTables t)
+FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, LayerTables t, uint lobes)
 {
     vec3 V = layers_to_any_frame(m, V_world);
     vec3 L = layers_to_any_frame(m, L_world);
@@ -195,23 +203,30 @@ FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, L
     BelowShares share = below_shares(m);
     float below = boundary_weights(m, V[2], VdotH, energy, t).below;
     vec3 f = brdf_lambert(share.diffuse_back) * (below * -L[2]);
-    if (has_layer(m, LAYER_VOLUME)) {
+    bool is_volume = has_layer(m, LAYER_VOLUME);
+    if (is_volume)
         f *= volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
+    if ((lobes & LOBE_TRANSMISSION) == 0u)
+        return f;
+    if (is_volume)
         return f + share.specular * layers_volume_cos(m, V, L, energy, t);
-    }
     return f + share.specular * (below * layers_thin_wall_cos(m, V, L, energy, t));
 }
 
 /* What is below sheen and coat. */
-FN vec3 layers_base_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
+FN vec3 layers_base_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, uint lobes)
 {
     float NdotL = dot(m.base.N, L);
-    if ((m.layers & ~(LAYER_CLEARCOAT | LAYER_SHEEN)) == 0u)
-        return surface_brdf_cos_energy(m.base, V, L, energy, t.dfg);
+    if ((m.layers & ~(LAYER_CLEARCOAT | LAYER_SHEEN)) == 0u) {
+        SurfaceLobes plain = surface_lobes_cos(m.base, V, L, energy, t.dfg);
+        if ((lobes & LOBE_SPECULAR) == 0u)
+            return plain.diffuse;
+        return plain.specular + plain.diffuse;
+    }
     if (NdotL > 0.0f)
-        return layers_base_front_cos(m, V, L, energy, t);
+        return layers_base_front_cos(m, V, L, energy, t, lobes);
     if (NdotL < 0.0f && (has_layer(m, LAYER_TRANSMISSION) || has_layer(m, LAYER_DIFFUSE_TRANSMISSION)))
-        return layers_base_back_cos(m, V, L, energy, t);
+        return layers_base_back_cos(m, V, L, energy, t, lobes);
     return vec3(0.0f);
 }
 
@@ -238,10 +253,12 @@ FN vec3 layers_sheen_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, fl
 
 /* The coat over f: mix(f, coat, clearcoat F(N.V)). glTF's lobe loses what scatters twice in it; ENERGY_CONSERVING's
  * does not. KHR_materials_clearcoat. */
-FN vec3 layers_clearcoat_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, vec3 f)
+FN vec3 layers_clearcoat_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, vec3 f, uint lobes)
 {
     float NdotV = layers_clearcoat_NdotV(m, V);
-    float coat = clearcoat_lobe_cos(m.clearcoat_N, NdotV, V, L, alpha_from_roughness(m.clearcoat_roughness));
+    float coat = 0.0f;
+    if ((lobes & LOBE_CLEARCOAT) != 0u)
+        coat = clearcoat_lobe_cos(m.clearcoat_N, NdotV, V, L, alpha_from_roughness(m.clearcoat_roughness));
     if (energy == ENERGY_CONSERVING)
         coat /= max(t.clearcoat_E, 1e-3f);
     return mix(f, vec3(coat), m.clearcoat * F_clearcoat(NdotV));
@@ -251,11 +268,11 @@ FN vec3 layers_clearcoat_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t
  * of the sheen at N.L, read by LAYER_SHEEN for light from the eye's side. */
 FN vec3 layers_brdf_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L)
 {
-    vec3 f = layers_base_cos(m, V, L, energy, t);
+    vec3 f = layers_base_cos(m, V, L, energy, t, LOBES_ALL);
     if (has_layer(m, LAYER_SHEEN))
         f = layers_sheen_cos(m, V, L, energy, t, sheen_E_L, f);
     if (has_layer(m, LAYER_CLEARCOAT))
-        f = layers_clearcoat_cos(m, V, L, energy, t, f);
+        f = layers_clearcoat_cos(m, V, L, energy, t, f, LOBES_ALL);
     return f;
 }
 

@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 73
+#define PROBE_COUNT 80
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -342,9 +342,11 @@ FN vec3 probe_layer_parts(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
                 transmission_VdotH(V_local, L_below, layers_eta(m, 0))) +
            layers_volume_cos(m, V_local, L_below, energy, t) +
            layers_volume_cos1(m, V_local, L_below, 1.4f, energy, t) + layers_to_frame(m, L) +
-           layers_base_front_cos(m, V, N, energy, t) + layers_base_back_cos(m, V, -N, energy, t) +
+           layers_base_front_cos(m, V, N, energy, t, LOBES_ALL) +
+           layers_base_back_cos(m, V, -N, energy, t, LOBES_ALL) +
            layers_sheen_cos(m, V, N, energy, t, 0.3f, vec3(1.0f)) +
-           layers_clearcoat_cos(m, V, N, energy, t, layers_base_cos(m, V, N, energy, t));
+           layers_clearcoat_cos(m, V, N, energy, t, layers_base_cos(m, V, N, energy, t, LOBES_ALL),
+                                LOBES_ALL);
 }
 
 /* The parts of layers_ibl(). */
@@ -500,6 +502,92 @@ FN vec3 probe_pixel(int which, vec2 u)
            vec3(sample_mitchell_negative(u[0]), 0.0f, 0.0f);
 }
 
+/* Surfaces of which some lobes are mirrors. */
+FN Layers probe_path_layers(vec2 u)
+{
+    Layers m = probe_layers(u);
+    if (fract(u[1] * 16.0f) < 0.3f) {
+        m.base.alpha = 0.0f;
+        m.clearcoat_roughness = 0.0f;
+        m.anisotropy = 0.0f;
+    }
+    return layers_with_wavelength(m, 400.0f + 300.0f * u[0]);
+}
+FN vec3 probe_sampled(LayersSample s)
+{
+    float flags = sel(s.is_mirror, 1.0f, 0.0f) + sel(s.is_through, 2.0f, 0.0f) + sel(s.is_valid, 4.0f, 0.0f);
+    return 2.0f + s.L + s.weight + vec3(flags, s.pdf * 0.1f, 0.0f);
+}
+FN vec3 probe_lobes(LayersLobes p)
+{
+    return vec3(p.clearcoat + 2.0f * p.sheen, p.specular + 2.0f * p.diffuse,
+                p.transmission + 2.0f * p.diffuse_back);
+}
+
+/* The parts of layers_sample(). */
+FN vec3 probe_path_parts(Layers m, LayersLobes p, vec3 V, vec2 u, int energy, LayerTables t)
+{
+    mat3 frame = layers_any_frame(m);
+    vec3 L = normalize(probe_L(u));
+    vec3 below = mirror_through(L, m.base.N);
+    float mirrors =
+        sel(layers_specular_is_mirror(m), 1.0f, 0.0f) + sel(layers_transmission_is_mirror(m), 2.0f, 0.0f) +
+        sel(layers_clearcoat_is_mirror(m), 4.0f, 0.0f) + sel(is_mirror_alpha(vec2(u[0], 1e-5f)), 8.0f, 0.0f) +
+        sel(is_mirror_refraction(vec2(1e-3f, 1e-5f), 1.0f + u[0]), 16.0f, 0.0f);
+    BoundaryWeights b = layers_boundary_albedo(m, surface_NdotV(m.base, V), energy, t);
+    return mul(frame, L) + view_above(m.base.N, -V) + layers_V_local(m, V) + b.specular + b.below +
+           vec3(mirrors, float(layers_scattering_lobes(m)),
+                layers_below_coat(m, V) * layers_below_sheen(m, t)) +
+           vec3(layers_specular_pdf(m, V, m.base.N), layers_transmission_pdf(m, V, below),
+                layers_clearcoat_pdf(m, V, L)) *
+               0.1f +
+           probe_lobes(lobes_normalised(p)) + lobe_excess(u[0]) + lobe_probability(u[1], 0.8f) +
+           vec3(pdf_reflection(m.base.N, V, m.base.N, 0.3f),
+                pdf_reflection_anisotropic(layers_V_local(m, V), vec3(0.0f, 0.0f, 1.0f), vec2(0.3f, 0.6f)),
+                0.0f);
+}
+
+FN vec3 probe_paths(int which, vec2 u)
+{
+    vec3 V = probe_V(u);
+    float alpha = 0.2f + 0.6f * u[1];
+    if (which == 73) {
+        WavelengthSample w = sample_wavelength(u[0]);
+        return w.weight + vec3(w.wavelength_nm * 0.01f, float(w.channel), 0.0f);
+    }
+    if (which == 74)
+        return 1.0f + sample_bounded_VNDF_GGX(u, V, alpha, 0.5f) +
+               vec3(bounded_VNDF_k(V, alpha, 0.5f),
+                    pdf_bounded_reflection(V, normalize(V + probe_L(u)), alpha, 0.5f), 0.0f);
+    if (which == 75)
+        return 1.0f + sample_sheen_rim(u, u[0], alpha) +
+               vec3(sheen_rim_width(u[0], alpha), pdf_sheen_rim(u[1], u[0], alpha), 0.0f);
+    Layers m = probe_path_layers(u);
+    int energy = ENERGY_GLTF;
+    if (fract(u[1] * 8.0f) > 0.5f)
+        energy = ENERGY_CONSERVING;
+    LayerTables t = probe_layer_tables(m, V, energy, u);
+    LayersLobes p = layers_lobes(m, V, energy, t);
+    if (which == 76)
+        return probe_lobes(p) + layers_pdf(m, p, V, probe_L(u)) + layers_pdf(m, p, V, -probe_L(u));
+    if (which == 77)
+        return layers_scatter_cos(m, V, probe_L(u), energy, t, 0.2f) +
+               layers_scatter_cos(m, V, -probe_L(u), energy, t, 0.2f);
+    if (which == 78)
+        return probe_path_parts(m, p, V, u, energy, t);
+    vec2 turned = vec2(u[1], u[0]);
+    vec3 any = probe_sampled(layers_sample(m, p, V, fract(u[0] * 5.0f), turned, energy, t));
+    p.clearcoat = 0.3f; /* each lobe is there */
+    p.specular = 0.4f;
+    p.transmission = 0.2f;
+    return any + probe_sampled(layers_sample_clearcoat(m, p, V, turned)) +
+           probe_sampled(layers_sample_specular(m, p, V, turned, energy, t)) +
+           probe_sampled(layers_sample_transmission(m, p, V, turned, energy, t)) +
+           probe_sampled(layers_transmission_mirror(m, p, V, energy, t)) +
+           probe_sampled(mirror_sample(m, V, vec3(u[0]))) + probe_sampled(scattered_sample(m, p, V, V)) +
+           probe_sampled(no_sample(V));
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -528,5 +616,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_layered(which, u);
     if (which < 69)
         return probe_phong(which, u);
-    return probe_pixel(which, u);
+    if (which < 73)
+        return probe_pixel(which, u);
+    return probe_paths(which, u);
 }

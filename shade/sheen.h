@@ -71,7 +71,7 @@ FN float brdf_sheen(float NdotL, float NdotV, float NdotH, float alpha)
 }
 
 /* Fibre normal H with density D_Charlie (N.H): sin = u^(a / (2 a + 1)). For prefiltered light; a view sees few of
- * these normals, so a path tracer is better off with sample_cosine() or sample_sheen_ltc(). */
+ * these normals, so a path tracer is better off with sample_sheen_rim(). */
 FN vec3 sample_D_Charlie(vec2 u, float alpha)
 {
     float phi = 2.0f * PI * u[0];
@@ -82,6 +82,29 @@ FN vec3 sample_D_Charlie(vec2 u, float alpha)
 FN float pdf_D_Charlie(float NdotH, float alpha)
 {
     return D_Charlie(NdotH, alpha) * NdotH;
+}
+
+/* A direction for the lobe, denser towards the horizon the narrower the rim is, azimuth uniform: N.L = z with
+ *   p(z) = (1 + s) s / (s + z)^2 in [0, 1],   s = 1 / (N.V / (4 a) + 1 / sqrt(8 a))
+ * after D = exp(-(N.H)^2 / (2 a)) with N.H from (N.V + z) / 2 on: s is where that has fallen by a factor e, either by
+ * the linear or by the square term. Covers the hemisphere; uniform in the limit of large s. */
+FN float sheen_rim_width(float NdotV, float alpha)
+{
+    return 1.0f / (0.25f * NdotV / alpha + inversesqrt(8.0f * alpha));
+}
+FN vec3 sample_sheen_rim(vec2 u, float NdotV, float alpha)
+{
+    float s = sheen_rim_width(NdotV, alpha);
+    float z = min(s * u[1] / (1.0f + s - u[1]), 1.0f);
+    float r = sqrt(max((1.0f - z) * (1.0f + z), 0.0f));
+    float phi = 2.0f * PI * u[0];
+    return vec3(r * cos(phi), r * sin(phi), z);
+}
+FN float pdf_sheen_rim(float NdotL, float NdotV, float alpha)
+{
+    float s = sheen_rim_width(NdotV, alpha);
+    float d = s + NdotL;
+    return sel(NdotL > 0.0f, (1.0f + s) * s / (d * d) * (0.5f * INV_PI), 0.0f);
 }
 
 /* Term i of n of Charlie's directional albedo E(N.V) = int D V N.L dL; the mean of all n is E, 1e-3 accurate from

@@ -110,7 +110,7 @@ static vec3 base_cos_separable(Layers m, vec3 V, vec3 L, int energy, LayerTables
     float NdotV = surface_NdotV(m.base, V);
     BoundaryWeights w = boundary_weights(m, NdotV, VdotH, energy, t);
     vec3 specular = w.specular * (layers_DV(m, V, L, sum * inverse, L[2], NdotV) * L[2]);
-    return layers_base_cos(m, V, L, energy, t) + specular * (separable_ratio(m, V, L) - 1.0f);
+    return layers_base_cos(m, V, L, energy, t, LOBES_ALL) + specular * (separable_ratio(m, V, L) - 1.0f);
 }
 
 static vec3 pbr_brdf_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, bool is_separable)
@@ -122,7 +122,7 @@ static vec3 pbr_brdf_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, bo
     if (has_layer(m, LAYER_SHEEN))
         f = layers_sheen_cos(m, V, L, energy, t, sheen_E_L, f);
     if (has_layer(m, LAYER_CLEARCOAT))
-        f = layers_clearcoat_cos(m, V, L, energy, t, f);
+        f = layers_clearcoat_cos(m, V, L, energy, t, f, LOBES_ALL);
     return f;
 }
 
