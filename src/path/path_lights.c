@@ -1,73 +1,413 @@
-/* path_lights.c - see path_lights.h. */
+/* path_lights.c - see path_lights.h: which of the kinds of light is aimed at, and with which density in all.
+ *
+ * Environment, sun, directional lights and all that has a place (the tree) each say about which irradiance they give P
+ * when nothing is in between, and are chosen in proportion to that; but a quarter of the choices is shared evenly by those
+ * that give any, because something may be in between: a lamp in a room must be found though the sun shines on the roof. */
 #include "path/path_lights.h"
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "ibl/environment.h"
+
+#include "path/light_emitters.h"
+#include "path/light_environment.h"
+#include "path/light_sun.h"
+#include "path/light_tree.h"
+
+static const float EVEN_SHARE = 0.25f;
+static const float MOST_INTENSITY = 1e15f; /* cd or lx; above, sums might not be finite */
 
 struct path_lights {
     const render_setup *setup;
+    light_environment *environment; /* NULL: black */
+    light_sun sun;
+    light_emitters emitters;
+    light_tree *tree; /* over emitters and, behind them, placed; NULL: there are none */
+    Light *placed;    /* punctual lights with a position */
+    Light *directional;
+    uint32_t placed_count, directional_count;
+    uint64_t ignored;
 };
+
+/* ---- making ---- */
+
+static bool is_finite(vec3 v)
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+static float mean_of(vec3 channels)
+{
+    return (channels[0] + channels[1] + channels[2]) * (1.0f / 3.0f);
+}
+
+/* Whether it shines; channels below 0 are 0 from here on. */
+static bool is_light(const path_lights *lights, Light *l)
+{
+    (void)lights;
+    bool is_fit = is_finite(l->position) && is_finite(l->spot_direction) && is_finite(l->intensity) &&
+                  isfinite(l->spot_scale) && isfinite(l->spot_offset) && !isnan(l->range) &&
+                  max3(l->intensity) <= MOST_INTENSITY && max3(abs(l->position)) < 1e15f;
+    l->intensity = max(l->intensity, 0.0f);
+    return is_fit && max3(l->intensity) > 0.0f;
+}
+
+static facet_result take_punctual(path_lights *lights, const facet_allocator *allocator, facet_error *error)
+{
+    const light_setup *light = &lights->setup->light;
+    uint32_t count = light->punctual_count;
+    if (count == 0)
+        return FACET_OK;
+    lights->placed = mem_alloc(allocator, count, sizeof *lights->placed);
+    lights->directional = mem_alloc(allocator, count, sizeof *lights->directional);
+    if (!lights->placed || !lights->directional)
+        return fail_memory(error, "lights", count * sizeof *lights->placed);
+    for (uint32_t i = 0; i < count; i++) {
+        Light l = light->punctual[i];
+        if (!is_light(lights, &l))
+            lights->ignored++;
+        else if (l.directional)
+            lights->directional[lights->directional_count++] = l;
+        else
+            lights->placed[lights->placed_count++] = l;
+    }
+    return FACET_OK;
+}
+
+/* A punctual light is never nearer than 1 cm: shade/light.h. */
+static light_bounds bounds_of_placed(const Light *l)
+{
+    bool is_spot = l->spot_scale > 0.0f;
+    float dark =
+        is_spot ? -l->spot_offset / l->spot_scale : -2.0f; /* cosines of the outer and the inner cone */
+    float full = is_spot ? (1.0f - l->spot_offset) / l->spot_scale : -1.0f;
+    return (light_bounds){.center = l->position,
+                          .radius = sqrt(MIN_DISTANCE2),
+                          .axis = is_spot ? l->spot_direction : vec3(0.0f),
+                          .cos_spread = is_spot ? 1.0f : -1.0f,
+                          .dark = dark,
+                          .full = full,
+                          .slack = INFINITY,
+                          .reach = l->range > 0.0f ? l->range : INFINITY,
+                          .intensity = mean_of(l->intensity)};
+}
+
+static light_bounds bounds_of_emitter(const light_emitters *e, uint32_t item)
+{
+    light_triangle t = light_emitters_triangle(e, item);
+    vec3 center = t.corner + (t.edge1 + t.edge2) * (1.0f / 3.0f);
+    vec3 corners[3] = {t.corner, t.corner + t.edge1, t.corner + t.edge2};
+    float radius2 = 0.0f;
+    for (int i = 0; i < 3; i++)
+        radius2 = max(radius2, dot(corners[i] - center, corners[i] - center));
+    bool is_two_sided = light_emitters_shines_both_ways(e, item);
+    return (light_bounds){.center = center,
+                          .radius = sqrt(radius2),
+                          .axis = normalize(cross(t.edge1, t.edge2)) * light_emitters_normal_sign(e, item),
+                          .cos_spread = 1.0f,
+                          .dark = 0.0f,
+                          .full = 1.0f,
+                          .slack = is_two_sided ? INFINITY : 0.0f,
+                          .reach = INFINITY,
+                          .intensity = e->items[item].intensity,
+                          .is_two_sided = is_two_sided};
+}
+
+static facet_result make_tree(path_lights *lights, const facet_allocator *allocator, facet_error *error)
+{
+    size_t count = (size_t)lights->emitters.count + lights->placed_count;
+    if (count == 0)
+        return FACET_OK;
+    light_bounds *bounds = count < LIGHT_TREE_NONE / 2 ? mem_alloc(allocator, count, sizeof *bounds) : NULL;
+    if (!bounds)
+        return fail_memory(error, "light tree", count * sizeof *bounds);
+    for (uint32_t i = 0; i < lights->emitters.count; i++)
+        bounds[i] = bounds_of_emitter(&lights->emitters, i);
+    for (uint32_t i = 0; i < lights->placed_count; i++)
+        bounds[lights->emitters.count + i] = bounds_of_placed(&lights->placed[i]);
+    facet_result result = light_tree_create(bounds, (uint32_t)count, allocator, &lights->tree, error);
+    mem_free(bounds);
+    return result;
+}
 
 facet_result path_lights_create(const render_setup *setup, path_lights **out, facet_error *error)
 {
-    *out = mem_zalloc(&setup->desc->allocator, 1, sizeof **out);
-    if (!*out)
-        return fail_memory(error, "lights", sizeof **out);
-    (*out)->setup = setup;
+    const facet_render_desc *desc = setup->desc;
+    const facet_allocator *allocator = &desc->allocator;
+    *out = NULL;
+    path_lights *lights = mem_zalloc(allocator, 1, sizeof *lights);
+    if (!lights)
+        return fail_memory(error, "lights", sizeof *lights);
+    lights->setup = setup;
+    lights->sun = light_sun_create(&desc->sun);
+    facet_result result = take_punctual(lights, allocator, error);
+    if (result == FACET_OK && desc->environment)
+        result = light_environment_create(&desc->environment->picture, &setup->light, allocator,
+                                          desc->thread_count, &lights->environment, error);
+    if (result == FACET_OK)
+        result =
+            light_emitters_create(&setup->shading, allocator, desc->thread_count, &lights->emitters, error);
+    if (result == FACET_OK)
+        result = make_tree(lights, allocator, error);
+    if (result != FACET_OK) {
+        path_lights_destroy(lights);
+        return result;
+    }
+    lights->ignored += lights->emitters.ignored;
+    *out = lights;
     return FACET_OK;
 }
 
 void path_lights_destroy(path_lights *lights)
 {
+    if (!lights)
+        return;
+    light_environment_destroy(lights->environment);
+    light_emitters_destroy(&lights->emitters);
+    light_tree_destroy(lights->tree);
+    mem_free(lights->placed);
+    mem_free(lights->directional);
     mem_free(lights);
 }
 
 bool path_lights_has_any(const path_lights *lights)
 {
-    return lights->setup->desc->environment != NULL;
+    return lights->environment || lights->sun.pdf > 0.0f || lights->tree || lights->directional_count > 0;
 }
+
+uint64_t path_lights_ignored(const path_lights *lights)
+{
+    return lights->ignored;
+}
+
+/* ---- the choice ---- */
+
+enum { ENVIRONMENT, SUN, DIRECTIONAL, PLACED, KIND_COUNT };
+
+/* What lights give P, and with which probability each kind is aimed at. */
+typedef struct choice {
+    light_environment_view environment;
+    light_tree_view tree;
+    float directional; /* lx */
+    float probabilities[KIND_COUNT];
+} choice;
+
+/* Irradiance (mean of the channels) of a directional light. */
+static float directional_irradiance(const Light *l, vec3 N)
+{
+    float cosine = dot(N, N) > 0.0f ? max(dot(N, l->position), 0.0f) : 1.0f;
+    return mean_of(l->intensity) * cosine;
+}
+
+static void see(const path_lights *lights, vec3 P, vec3 N, choice *c)
+{
+    float *p = c->probabilities;
+    p[ENVIRONMENT] = p[SUN] = p[PLACED] = c->directional = 0.0f;
+    if (lights->environment) {
+        light_environment_see(lights->environment, N, &c->environment);
+        p[ENVIRONMENT] = c->environment.irradiance;
+    }
+    if (lights->sun.pdf > 0.0f)
+        p[SUN] = light_sun_irradiance(&lights->sun, N);
+    for (uint32_t i = 0; i < lights->directional_count; i++)
+        c->directional += directional_irradiance(&lights->directional[i], N);
+    p[DIRECTIONAL] = c->directional;
+    if (lights->tree) {
+        light_tree_see(lights->tree, P, N, &c->tree);
+        p[PLACED] = c->tree.irradiance;
+    }
+    float sum = 0.0f;
+    float kinds = 0.0f;
+    for (int i = 0; i < KIND_COUNT; i++) {
+        p[i] = p[i] > 0.0f && p[i] < INFINITY ? p[i] : 0.0f;
+        sum += p[i];
+        kinds += p[i] > 0.0f ? 1.0f : 0.0f;
+    }
+    for (int i = 0; i < KIND_COUNT; i++)
+        p[i] = p[i] > 0.0f ? (1.0f - EVEN_SHARE) * p[i] / sum + EVEN_SHARE / kinds : 0.0f;
+}
+
+/* ---- each kind ---- */
+
+/* Density per sr of a direction of the surroundings; environment_pdf: what the environment alone gives it. */
+static float mixed_pdf(const path_lights *lights, const choice *c, float environment_pdf, bool is_in_sun)
+{
+    return c->probabilities[ENVIRONMENT] * environment_pdf +
+           (is_in_sun ? c->probabilities[SUN] * lights->sun.pdf : 0.0f);
+}
+
+static vec3 environment_radiance(const path_lights *lights, vec3 d)
+{
+    return lights->environment ? light_environment_radiance(lights->environment, d) : vec3(0.0f);
+}
+
+static bool sample_environment(const path_lights *lights, const choice *c, const double u[2],
+                               path_light_sample *out)
+{
+    float pdf = light_environment_sample(lights->environment, &c->environment, u, &out->L);
+    bool is_in_sun = lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, out->L);
+    out->is_surroundings = true;
+    out->radiance = environment_radiance(lights, out->L) + (is_in_sun ? lights->sun.radiance : vec3(0.0f));
+    out->pdf = mixed_pdf(lights, c, pdf, is_in_sun);
+    return out->pdf > 0.0f;
+}
+
+static bool sample_sun(const path_lights *lights, const choice *c, vec2 u, path_light_sample *out)
+{
+    out->L = light_sun_sample(&lights->sun, u);
+    out->is_surroundings = true;
+    out->radiance = environment_radiance(lights, out->L) + lights->sun.radiance;
+    float environment_pdf = c->probabilities[ENVIRONMENT] > 0.0f
+                                ? light_environment_pdf(lights->environment, &c->environment, out->L)
+                                : 0.0f;
+    out->pdf = mixed_pdf(lights, c, environment_pdf, true);
+    return out->pdf > 0.0f;
+}
+
+static bool sample_directional(const path_lights *lights, const choice *c, vec3 N, double u,
+                               path_light_sample *out)
+{
+    double target = u * (double)c->directional;
+    const Light *found = NULL;
+    float irradiance = 0.0f;
+    for (uint32_t i = 0; i < lights->directional_count; i++) {
+        float each = directional_irradiance(&lights->directional[i], N);
+        if (!(each > 0.0f))
+            continue;
+        target -= (double)irradiance; /* of the one before */
+        found = &lights->directional[i];
+        irradiance = each;
+        if (target < (double)each)
+            break;
+    }
+    if (!found)
+        return false;
+    out->L = found->position;
+    out->is_point = true;
+    out->radiance = found->intensity;
+    out->pdf = c->probabilities[DIRECTIONAL] * (irradiance / c->directional);
+    return true;
+}
+
+static bool sample_placed_light(const Light *l, vec3 P, float probability, path_light_sample *out)
+{
+    LightSample s = light_illuminate(*l, P);
+    out->L = s.L;
+    out->distance_m = s.distance_m;
+    out->is_point = true;
+    out->radiance = s.E;
+    out->pdf = probability;
+    return max3(s.E) > 0.0f && s.distance_m > 0.0f && probability > 0.0f;
+}
+
+/* The density per sr of a uniformly chosen point of a triangle, seen from distance_m along the unit direction d:
+ * distance^2 / (area |cos|). */
+static float area_pdf(const light_triangle *t, vec3 d, float distance_m)
+{
+    return 2.0f * distance_m * distance_m / abs(dot(cross(t->edge1, t->edge2), d));
+}
+
+/* Heitz 2019, "A Low-Distortion Map Between Triangle and Square". */
+static vec2 uniform_point(vec2 u)
+{
+    if (u[1] > u[0])
+        return vec2(0.5f * u[0], u[1] - 0.5f * u[0]);
+    return vec2(u[0] - 0.5f * u[1], 0.5f * u[1]);
+}
+
+static bool sample_emitter(const path_lights *lights, uint32_t item, vec3 P, vec2 u, float probability,
+                           path_light_sample *out)
+{
+    light_triangle t = light_emitters_triangle(&lights->emitters, item);
+    vec2 weights = uniform_point(u);
+    vec3 to_light = t.corner + t.edge1 * weights[0] + t.edge2 * weights[1] - P;
+    out->distance_m = length(to_light);
+    if (!(out->distance_m > 0.0f))
+        return false;
+    out->L = to_light * (1.0f / out->distance_m);
+    out->radiance =
+        light_emitters_radiance(&lights->emitters, item, weights[0], weights[1], P, out->L, out->distance_m);
+    out->pdf = probability * area_pdf(&t, out->L, out->distance_m);
+    out->geometry = lights->emitters.items[item].geometry;
+    out->primitive = lights->emitters.items[item].primitive;
+    return max3(out->radiance) > 0.0f && out->pdf > 0.0f && out->pdf < INFINITY;
+}
+
+/* ---- all ---- */
 
 bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light, vec2 u,
                         path_light_sample *out)
 {
-    (void)P;
-    (void)N;
-    (void)u_light;
-    float z = 1.0f - 2.0f * u[0];
-    float r = sqrt(max(1.0f - z * z, 0.0f));
-    out->L = vec3(r * cos(2.0f * PI * u[1]), r * sin(2.0f * PI * u[1]), z);
-    out->distance_m = INFINITY;
-    out->radiance = path_lights_surroundings(lights, out->L);
-    out->pdf = 0.25f * INV_PI;
-    out->is_point = false;
-    out->is_surroundings = true;
-    out->geometry = out->primitive = VISIBILITY_NONE;
-    return true;
+    *out = (path_light_sample){
+        .distance_m = INFINITY, .geometry = VISIBILITY_NONE, .primitive = VISIBILITY_NONE};
+    choice c;
+    see(lights, P, N, &c);
+    /* 24 bits are few where a choice among 100 000 goes on from what the one before has left. */
+    uint hash = hash_uint(floatBitsToUint(u_light) ^
+                          hash_uint(floatBitsToUint(u[0]) ^ hash_uint(floatBitsToUint(u[1]))));
+    double fine = (double)u_light + (double)hash * 0x1p-56;
+    int kind = 0;
+    float probability = 0.0f;
+    for (int i = 0; i < KIND_COUNT; i++) {
+        if (!(c.probabilities[i] > 0.0f))
+            continue;
+        fine -= (double)probability; /* of the one before */
+        kind = i;
+        probability = c.probabilities[i];
+        if (fine < (double)probability)
+            break;
+    }
+    if (!(probability > 0.0f))
+        return false;
+    fine /= (double)probability;
+    fine = fine < 1.0 - 0x1p-53 ? fine : 1.0 - 0x1p-53;
+    if (kind == ENVIRONMENT)
+        return sample_environment(lights, &c, (double[2]){(double)u[0], (double)u[1]}, out);
+    if (kind == SUN)
+        return sample_sun(lights, &c, u, out);
+    if (kind == DIRECTIONAL)
+        return sample_directional(lights, &c, N, fine, out);
+    float share;
+    uint32_t light = light_tree_sample(lights->tree, &c.tree, fine, &share, &fine);
+    if (light == LIGHT_TREE_NONE)
+        return false;
+    if (light >= lights->emitters.count)
+        return sample_placed_light(&lights->placed[light - lights->emitters.count], P, probability * share,
+                                   out);
+    return sample_emitter(lights, light, P, u, probability * share, out);
 }
 
 vec3 path_lights_surroundings(const path_lights *lights, vec3 d)
 {
-    (void)d;
-    return vec3(lights->setup->desc->environment ? 1.0f : 0.0f);
+    vec3 radiance = environment_radiance(lights, d);
+    if (lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, d))
+        radiance += lights->sun.radiance;
+    return radiance;
 }
 
 float path_lights_surroundings_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d)
 {
-    (void)lights;
-    (void)P;
-    (void)N;
-    (void)d;
-    return 0.25f * INV_PI;
+    choice c;
+    see(lights, P, N, &c);
+    float environment_pdf = c.probabilities[ENVIRONMENT] > 0.0f
+                                ? light_environment_pdf(lights->environment, &c.environment, d)
+                                : 0.0f;
+    return mixed_pdf(lights, &c, environment_pdf,
+                     lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, d));
 }
 
 float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const visibility_hit *hit, vec3 d,
                               float distance_m)
 {
-    (void)lights;
-    (void)P;
-    (void)N;
-    (void)hit;
-    (void)d;
-    (void)distance_m;
-    return 0.0f;
+    uint32_t item = light_emitters_find(&lights->emitters, hit->geometry, hit->primitive);
+    if (item == LIGHT_EMITTERS_NONE)
+        return 0.0f;
+    choice c;
+    see(lights, P, N, &c);
+    if (!(c.probabilities[PLACED] > 0.0f))
+        return 0.0f;
+    light_triangle t = light_emitters_triangle(&lights->emitters, item);
+    float pdf = c.probabilities[PLACED] * light_tree_probability(lights->tree, &c.tree, item) *
+                area_pdf(&t, d, distance_m);
+    return pdf < INFINITY ? pdf : 0.0f;
 }

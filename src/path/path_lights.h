@@ -14,6 +14,8 @@ typedef struct path_lights path_lights;
 facet_result path_lights_create(const render_setup *setup, path_lights **out, facet_error *error);
 void path_lights_destroy(path_lights *lights); /* NULL is allowed */
 bool path_lights_has_any(const path_lights *lights);
+/* Lights and triangles that should shine but are ignored: not finite, without area. */
+uint64_t path_lights_ignored(const path_lights *lights);
 
 /* A light as seen from a point. */
 typedef struct path_light_sample {

@@ -1,0 +1,47 @@
+/* light_counts.h - discrete distributions as whole numbers: their probabilities are exact differences of what is stored,
+ * the same for the one who draws and for the one who asks, and nothing that shines rounds to 0. */
+#ifndef PATH_LIGHT_COUNTS_H
+#define PATH_LIGHT_COUNTS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The sum of all counts of a distribution. */
+#define LIGHT_COUNTS_TOTAL 4294967295u
+#define LIGHT_COUNTS_SHARE (1.0 / 4294967295.0)
+
+/* From the sum `before` of the weights in front of an item, its weight and the sum `all`: the sum of counts up to its end.
+ * Every item with a weight gets a count: positive_end of them up to here, positive_all in all. */
+static inline uint32_t light_counts_end(double end, double all, size_t positive_end, size_t positive_all)
+{
+    double share = end < all ? end / all : 1.0;
+    return (uint32_t)(share * (double)(LIGHT_COUNTS_TOTAL - positive_all)) + (uint32_t)positive_end;
+}
+
+/* The item that u in [0, 1) falls on: the first of ends[0 .. count - 1] above u. *probability: of that item; *rest: where in
+ * it u falls, in [0, 1). */
+static inline size_t light_counts_find(const uint32_t *ends, size_t count, double u, double *probability,
+                                       double *rest)
+{
+    double x = u * (double)LIGHT_COUNTS_TOTAL;
+    uint32_t wanted = (uint32_t)x;
+    size_t low = 0;
+    for (size_t left = count; left > 1;) { /* without branches: u is random */
+        size_t half = left / 2;
+        low += ends[low + half - 1] <= wanted ? half : 0;
+        left -= half;
+    }
+    uint32_t start = low ? ends[low - 1] : 0;
+    double width = (double)(ends[low] - start);
+    *probability = width * LIGHT_COUNTS_SHARE;
+    *rest = (x - (double)start) / width;
+    return low;
+}
+
+/* The probability of an item. */
+static inline double light_counts_probability(const uint32_t *ends, size_t item)
+{
+    return (double)(ends[item] - (item ? ends[item - 1] : 0)) * LIGHT_COUNTS_SHARE;
+}
+
+#endif

@@ -1,0 +1,236 @@
+/* light_emitters.c - see light_emitters.h. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "cpu/material_texels.h"
+
+#include "path/light_emitters.h"
+
+/* Of what a geometry emits on average, its triangles together keep this share by their area alone: that texels were read
+ * here and there does not prove that nothing shines between them. */
+static const float DEFENSIVE_SHARE = 0.01f;
+
+/* Radiance above this times the largest areas would not be finite. */
+static const float MOST_RADIANCE = 1e15f;
+
+/* ---- geometry ---- */
+
+static light_triangle triangle_of(const render_geometry *g, uint32_t primitive)
+{
+    const uint32_t *corners = render_geometry_triangle(g, primitive);
+    float p[3][3];
+    for (int i = 0; i < 3; i++)
+        render_geometry_corner(g, corners[i], p[i]);
+    vec3 corner = load3(p[0]); /* edges as in shading_hit_make(), to the bit */
+    return (light_triangle){corner, load3(p[1]) - corner, load3(p[2]) - corner};
+}
+
+light_triangle light_emitters_triangle(const light_emitters *e, uint32_t item)
+{
+    const light_emitter *l = &e->items[item];
+    return triangle_of(&e->scene->geometries->items[l->geometry], l->primitive);
+}
+
+bool light_emitters_shines_both_ways(const light_emitters *e, uint32_t item)
+{
+    uint32_t geometry = e->items[item].geometry;
+    return e->scene->geometries->items[geometry].is_double_sided ||
+           e->scene->plans->items[geometry].is_volume;
+}
+
+float light_emitters_normal_sign(const light_emitters *e, uint32_t item)
+{
+    return e->scene->geometries->items[e->items[item].geometry].is_mirrored ? -1.0f : 1.0f;
+}
+
+static float area_of(const light_triangle *t)
+{
+    return 0.5f * length(cross(t->edge1, t->edge2));
+}
+
+/* ---- radiance ---- */
+
+static bool is_finite(vec3 v)
+{
+    return isfinite(v[0] + v[1] + v[2]);
+}
+
+/* What all texels scale. */
+static vec3 emission_factor(const scene_material *m)
+{
+    return load3(m->emissive) * m->emissive_strength;
+}
+
+static bool emits(const render_geometry *g)
+{
+    if (g->primitive->mode != SCENE_TRIANGLES || !g->is_lit)
+        return false;
+    vec3 factor = emission_factor(g->material);
+    return is_finite(factor) && max3(factor) > 0.0f && max3(factor) <= MOST_RADIANCE;
+}
+
+vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, float v, vec3 P, vec3 d,
+                             float distance_m)
+{
+    const light_emitter *l = &e->items[item];
+    const render_geometry *g = &e->scene->geometries->items[l->geometry];
+    light_triangle t = light_emitters_triangle(e, item);
+    visibility_hit hit = {
+        .t = distance_m, .u = u, .v = v, .geometry = l->geometry, .primitive = l->primitive};
+    store3(cross(t.edge1, t.edge2), hit.normal);
+    ray_spread spread = {.moves = false, .turns = false};
+    shading_ray ray = {.far_t = INFINITY, .spread = &spread, .footprint = 0.0f};
+    store3(P, ray.origin);
+    store3(d, ray.direction);
+    if (!shading_is_visible_side(e->scene, &hit, ray.direction))
+        return vec3(0.0f);
+    shading_point point = {.hit = &hit, .ray = &ray, .shade_count = 1};
+    surface_point s;
+    surface_point_make(e->scene, &point, &s);
+    vec3 radiance = layers_emission(s.m, s.V) * surface_opacity(g->material, s.base_color[3]);
+    return is_finite(radiance) ? max(radiance, 0.0f) : vec3(0.0f);
+}
+
+/* ---- power ---- */
+
+/* Mean radiance over a triangle, mean of the channels: texels under the middles of its four similar quarters, each
+ * filtered over the quarter. Coverage counts; the coat's share does not. */
+static float mean_radiance(const shading_scene *scene, uint32_t geometry, uint32_t primitive)
+{
+    static const float middles[4][2] = {{1.0f / 3.0f, 1.0f / 3.0f},
+                                        {1.0f / 6.0f, 1.0f / 6.0f},
+                                        {2.0f / 3.0f, 1.0f / 6.0f},
+                                        {1.0f / 6.0f, 2.0f / 3.0f}};
+    const render_geometry *g = &scene->geometries->items[geometry];
+    const material_plan *plan = &scene->plans->items[geometry];
+    uint32_t wanted = 1u << SCENE_EMISSIVE_TEXTURE;
+    wanted |= g->is_see_through ? 1u << SCENE_BASE_COLOR_TEXTURE : 0u;
+    wanted &= plan->textures;
+    shading_hit h = {
+        .geometry = g, .first_index = 3 * (size_t)primitive, .dx = {0.5f, 0.0f}, .dy = {0.0f, 0.5f}};
+    for (int i = 0; i < 3; i++)
+        h.corner[i] = render_geometry_triangle(g, primitive)[i];
+    vec3 sum = vec3(0.0f);
+    int count = wanted || g->is_see_through ? 4 : 1;
+    for (int i = 0; i < count; i++) {
+        h.weight[1] = middles[i][0];
+        h.weight[2] = middles[i][1];
+        h.weight[0] = 1.0f - h.weight[1] - h.weight[2];
+        material_texels texels;
+        material_texels_read(scene, &h, wanted, SCENE_TEXTURE_SLOT_COUNT, texels);
+        float color[4];
+        shading_hit_color(&h, color);
+        float alpha = texels[SCENE_BASE_COLOR_TEXTURE][3] * (g->material->base_color[3] * color[3]);
+        sum += load3(texels[SCENE_EMISSIVE_TEXTURE]) * surface_opacity(g->material, alpha);
+    }
+    vec3 mean = max(emission_factor(g->material) * sum * (1.0f / (float)count), 0.0f);
+    return (mean[0] + mean[1] + mean[2]) * (1.0f / 3.0f);
+}
+
+typedef struct measuring {
+    light_emitters *e;
+    uint32_t geometry;
+    float *radiance, *area; /* per triangle */
+} measuring;
+
+static void measure_triangles(void *context, size_t begin, size_t end)
+{
+    const measuring *m = context;
+    const render_geometry *g = &m->e->scene->geometries->items[m->geometry];
+    for (size_t i = begin; i < end; i++) {
+        light_triangle t = triangle_of(g, (uint32_t)i);
+        float area = area_of(&t);
+        float farthest = max3(abs(t.corner)) + max3(abs(t.edge1)) + max3(abs(t.edge2));
+        bool is_any = area > 0.0f && isfinite(area) && farthest < 1e15f;
+        m->area[i] = is_any ? area : 0.0f;
+        m->radiance[i] = is_any ? mean_radiance(m->e->scene, m->geometry, (uint32_t)i) : 0.0f;
+        if (!isfinite(m->radiance[i]))
+            m->radiance[i] = 0.0f;
+    }
+}
+
+/* Adds the triangles of a geometry, in their order. */
+static void add_triangles(light_emitters *e, const measuring *m, uint32_t triangle_count)
+{
+    double area = 0.0;
+    double intensity = 0.0;
+    for (uint32_t i = 0; i < triangle_count; i++) {
+        area += (double)m->area[i];
+        intensity += (double)m->area[i] * (double)m->radiance[i];
+    }
+    vec3 factor = max(emission_factor(e->scene->geometries->items[m->geometry].material), 0.0f);
+    float most = (factor[0] + factor[1] + factor[2]) * (1.0f / 3.0f);
+    float mean = area > 0.0 ? (float)(intensity / area) : 0.0f;
+    float least = DEFENSIVE_SHARE * (mean > 0.0f ? mean : most);
+    for (uint32_t i = 0; i < triangle_count; i++) {
+        float each = m->area[i] * (m->radiance[i] + least);
+        bool is_light = each > 0.0f && isfinite(each);
+        e->numbers[e->first[m->geometry] + i] = is_light ? e->count : LIGHT_EMITTERS_NONE;
+        if (is_light)
+            e->items[e->count++] =
+                (light_emitter){.geometry = m->geometry, .primitive = i, .intensity = each};
+        else
+            e->ignored++;
+    }
+}
+
+/* ---- making ---- */
+
+static uint32_t triangle_count_of(const render_geometry *g)
+{
+    return g->primitive->index_count / 3;
+}
+
+facet_result light_emitters_create(const shading_scene *scene, const facet_allocator *allocator,
+                                   uint32_t thread_count, light_emitters *out, facet_error *error)
+{
+    const render_geometry_set *set = scene->geometries;
+    *out = (light_emitters){.scene = scene};
+    size_t all = 0;
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < set->count; i++)
+        if (emits(&set->items[i])) {
+            uint32_t triangles = triangle_count_of(&set->items[i]);
+            all += triangles;
+            most = triangles > most ? triangles : most;
+        }
+    if (all == 0)
+        return FACET_OK;
+    measuring m = {.e = out,
+                   .radiance = mem_alloc(allocator, most, sizeof *m.radiance),
+                   .area = mem_alloc(allocator, most, sizeof *m.area)};
+    out->items = mem_alloc(allocator, all, sizeof *out->items);
+    out->first = mem_alloc(allocator, set->count, sizeof *out->first);
+    out->numbers = mem_alloc(allocator, all, sizeof *out->numbers);
+    bool has_memory =
+        all < LIGHT_EMITTERS_NONE && m.radiance && m.area && out->items && out->first && out->numbers;
+    if (has_memory) {
+        uint32_t next = 0;
+        for (m.geometry = 0; m.geometry < set->count; m.geometry++) {
+            const render_geometry *g = &set->items[m.geometry];
+            out->first[m.geometry] = emits(g) ? next : LIGHT_EMITTERS_NONE;
+            if (!emits(g))
+                continue;
+            uint32_t triangles = triangle_count_of(g);
+            parallel_for(thread_count, triangles, 256, measure_triangles, &m);
+            add_triangles(out, &m, triangles);
+            next += triangles;
+        }
+    } else {
+        light_emitters_destroy(out);
+    }
+    mem_free(m.radiance);
+    mem_free(m.area);
+    return has_memory ? FACET_OK : fail_memory(error, "lights", all * sizeof *out->items);
+}
+
+void light_emitters_destroy(light_emitters *e)
+{
+    mem_free(e->items);
+    mem_free(e->first);
+    mem_free(e->numbers);
+    *e = (light_emitters){0};
+}

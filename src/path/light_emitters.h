@@ -1,0 +1,56 @@
+/* light_emitters.h - the triangles that shine, as points are chosen on them. Holds shared shading text: include it last.
+ *
+ * A light is a triangle of a lit geometry whose material emits. What has no light on it (KHR_materials_unlit, points,
+ * lines, triangles without normals) emits as well, but is only met: a path that does so counts all of it, as
+ * light_emitters_find() knows none. */
+#ifndef PATH_LIGHT_EMITTERS_H
+#define PATH_LIGHT_EMITTERS_H
+
+#include "cpu/surface_point.h"
+
+#define LIGHT_EMITTERS_NONE 0xffffffffu
+
+typedef struct light_emitter {
+    uint32_t geometry, primitive; /* as in hits */
+    float
+        intensity; /* cd along the normal, mean of the channels, of one side: radiance times area, above 0 */
+} light_emitter;
+
+typedef struct light_emitters {
+    const shading_scene *scene;
+    light_emitter *items;
+    uint32_t count;
+    uint64_t ignored;  /* triangles of emitting materials that are none: not finite, without area */
+    uint32_t *first;   /* per geometry: of the numbers below; LIGHT_EMITTERS_NONE: nothing of it emits */
+    uint32_t *numbers; /* per triangle of the geometries that emit: its item, LIGHT_EMITTERS_NONE: none */
+} light_emitters;
+
+/* Those of scene, which outlives them. Fails with FACET_ERROR_MEMORY. */
+facet_result light_emitters_create(const shading_scene *scene, const facet_allocator *allocator,
+                                   uint32_t thread_count, light_emitters *out, facet_error *error);
+void light_emitters_destroy(light_emitters *e); /* {0} is allowed */
+
+/* The item that is the triangle of a hit, or LIGHT_EMITTERS_NONE. */
+static inline uint32_t light_emitters_find(const light_emitters *e, uint32_t geometry, uint32_t primitive)
+{
+    return e->count && e->first[geometry] != LIGHT_EMITTERS_NONE ? e->numbers[e->first[geometry] + primitive]
+                                                                 : LIGHT_EMITTERS_NONE;
+}
+
+/* Corners in world space, m: one and the edges from it to the next ones, whose cross product is outward for
+ * counter-clockwise triangles of geometries that are not mirrored. */
+typedef struct light_triangle {
+    vec3 corner, edge1, edge2;
+} light_triangle;
+light_triangle light_emitters_triangle(const light_emitters *e, uint32_t item);
+/* Whether it shines on both sides; else on that of normal_sign times the cross product of its edges. */
+bool light_emitters_shines_both_ways(const light_emitters *e, uint32_t item);
+float light_emitters_normal_sign(const light_emitters *e, uint32_t item);
+
+/* Radiance (cd/m^2), times the share of the point that is there (alpha mask and blend), that a ray from P along the unit
+ * direction d sees of the point with the weights u, v of the second and third corner: what surface_point_make() and
+ * layers_emission() say with textures at full size. 0: from the side that does not shine; not finite counts as 0. */
+vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, float v, vec3 P, vec3 d,
+                             float distance_m);
+
+#endif

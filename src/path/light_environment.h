@@ -1,0 +1,50 @@
+/* light_environment.h - directions towards the light of an equirectangular picture, in proportion to what each of its
+ * texels gives a surface. Holds shared shading text: include it last.
+ *
+ * The density is piecewise constant per solid angle: that of a texel is the mean of the bilinearly interpolated radiance
+ * over it (of the three channels), so that it is above 0 wherever radiance is, and uniform where radiance is. On the way
+ * to a texel stand LIGHT_ENVIRONMENT_CELLS parts of the sphere, each weighted by its light and by the cosine that the
+ * surface sees it at (product sampling on the coarse levels: Clarberg et al. 2005, "Wavelet Importance Sampling"; Cline
+ * et al. 2006, "Two Stage Importance Sampling for Direct Lighting"). Nearby numbers give nearby directions, so that
+ * stratified numbers stay stratified. */
+#ifndef PATH_LIGHT_ENVIRONMENT_H
+#define PATH_LIGHT_ENVIRONMENT_H
+
+#include "cpu/light_setup.h"
+#include "image/image.h"
+#include "shade/shade.h"
+
+/* Bands of rows from the top, blocks of columns from the left. */
+enum {
+    LIGHT_ENVIRONMENT_BANDS = 8,
+    LIGHT_ENVIRONMENT_BLOCKS = 16,
+    LIGHT_ENVIRONMENT_CELLS = LIGHT_ENVIRONMENT_BANDS * LIGHT_ENVIRONMENT_BLOCKS
+};
+
+typedef struct light_environment light_environment;
+
+/* Of a picture (F32 RGB, finite, not negative) that outlives it, placed as light has it: turned and scaled. *out: NULL
+ * where it is black. Takes 4 bytes per texel. Fails with FACET_ERROR_MEMORY. */
+facet_result light_environment_create(const image *picture, const light_setup *light,
+                                      const facet_allocator *allocator, uint32_t thread_count,
+                                      light_environment **out, facet_error *error);
+void light_environment_destroy(light_environment *e); /* NULL is allowed */
+
+/* Radiance from the unit direction d, cd/m^2: bilinear. */
+vec3 light_environment_radiance(const light_environment *e, vec3 d);
+
+/* The environment as a surface with one normal sees it. */
+typedef struct light_environment_view {
+    float cells[LIGHT_ENVIRONMENT_CELLS]; /* about the irradiance that each gives, lx, mean of the channels */
+    float irradiance;                     /* their sum */
+} light_environment_view;
+
+/* N: unit, only directions above its horizon count; {0}: all count alike (irradiance is then the integral of radiance). */
+void light_environment_see(const light_environment *e, vec3 N, light_environment_view *view);
+/* A unit direction for uniform numbers in [0, 1); view->irradiance is above 0. Returns its pdf per sr, above 0. */
+float light_environment_sample(const light_environment *e, const light_environment_view *view,
+                               const double u[2], vec3 *d);
+/* The pdf that light_environment_sample() has at the unit direction d. */
+float light_environment_pdf(const light_environment *e, const light_environment_view *view, vec3 d);
+
+#endif

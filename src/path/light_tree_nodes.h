@@ -1,0 +1,31 @@
+/* light_tree_nodes.h - how a light tree lies in memory. For light_tree.c and light_tree_build.c. */
+#ifndef PATH_LIGHT_TREE_NODES_H
+#define PATH_LIGHT_TREE_NODES_H
+
+#include "path/light_tree.h"
+
+enum {
+    WIDTH = LIGHT_TREE_WIDTH,
+    MAX_DEPTH = 96 /* nodes from root to leaf; light_tree_build.c keeps below it */
+};
+#define LEAF 0x80000000u
+
+/* Bounds of eight children, member by member; children that are not there have intensity 0. */
+typedef struct light_tree_node {
+    float x[WIDTH], y[WIDTH], z[WIDTH], radius[WIDTH];
+    float axis_x[WIDTH], axis_y[WIDTH], axis_z[WIDTH];
+    float cos_spread[WIDTH], sin_spread[WIDTH];
+    float back[WIDTH]; /* -1: shines against the axis as well; 1 */
+    float dark[WIDTH], per_ramp[WIDTH];
+    float slack[WIDTH], reach[WIDTH], intensity[WIDTH];
+    uint32_t child[WIDTH]; /* LEAF | light, or a node */
+    uint32_t place;        /* WIDTH times the parent, plus which child of it; the root's: LIGHT_TREE_NONE */
+    uint32_t unused[7];    /* so that nodes fill cache lines */
+} light_tree_node;
+
+struct light_tree {
+    light_tree_node *nodes; /* the root first */
+    uint32_t *places;       /* per light: WIDTH times its node, plus which child of it */
+};
+
+#endif
