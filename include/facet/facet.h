@@ -636,6 +636,33 @@ FACET_API uint32_t facet_image_get_layer_count(const facet_image *image);
 FACET_API facet_image_view facet_image_get_layer(const facet_image *image, uint32_t layer);
 FACET_API void facet_image_destroy(facet_image *image); /* NULL is allowed */
 
+/* How a picture is read from a file. {0}: with malloc, all threads. */
+typedef struct facet_image_load_desc {
+    facet_allocator allocator;
+    uint32_t thread_count;   /* 0: facet_thread_count() */
+    uint64_t max_file_bytes; /* 0: 4 GiB; larger files are refused */
+    uint32_t max_size;       /* pixels along an edge; 0: 16384; larger pictures are refused */
+} facet_image_load_desc;
+
+/* Reads a PNG, JPEG, WebP, AVIF, KTX2, Radiance HDR, OpenEXR or PFM file, told apart by content, into layer "" as
+ * facet_render() makes it: RGBA, float, linear Rec.709, premultiplied, rows from the top. Numbers of files for displays
+ * are decoded from sRGB (profiles are ignored) and multiplied by alpha; those of HDR, EXR and PFM files stay, NaN and
+ * infinity among them. Alpha that a file lacks is 1. */
+FACET_API facet_result facet_image_load(const char *path, const facet_image_load_desc *desc /* NULL: {0} */,
+                                        facet_image **image, facet_error *error);
+/* The same from memory, which may go afterwards. name stands for the file in messages. */
+FACET_API facet_result facet_image_load_memory(const void *bytes, size_t size, const char *name,
+                                               const facet_image_load_desc *desc, facet_image **image,
+                                               facet_error *error);
+/* A picture from pixels of one's own, which are copied: linear Rec.709, RGBA premultiplied, or RGB, or grey; row stride 0:
+ * rows without padding. The view's name is ignored. */
+FACET_API facet_result facet_image_create(const facet_image_view *pixels,
+                                          const facet_allocator *allocator /* NULL: {0} */,
+                                          facet_image **image, facet_error *error);
+/* Whether the picture was read from a file for displays (integers, sRGB): its colors are those of a screen, [0, 1], rather
+ * than light. */
+FACET_API bool facet_image_is_for_display(const facet_image *image);
+
 /* One channel of a color as files and style sheets write it (sRGB, [0, 1]) to linear light: IEC 61966-2-1. */
 FACET_API float facet_linear_from_srgb(float encoded);
 
@@ -748,6 +775,93 @@ typedef struct facet_plot_desc {
  * FACET_ERROR_READ, _INVALID: of a measured BRDF. */
 FACET_API facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format format,
                                          unsigned char **bytes, size_t *size, facet_error *error);
+
+/* ---- comparison ---- */
+
+/* What the numbers of pictures are when they are compared. */
+typedef enum facet_compare_space {
+    FACET_COMPARE_AUTO,   /* display, unless both pictures are linear and there is no tone mapping */
+    FACET_COMPARE_LINEAR, /* linear Rec.709 */
+    FACET_COMPARE_DISPLAY /* tone-mapped, clamped to [0, 1], sRGB-encoded */
+} facet_compare_space;
+
+typedef enum facet_compare_alpha {
+    FACET_COMPARE_ALPHA_CHANNEL, /* colors over black, and opacity as a fourth channel unless all of both is opaque */
+    FACET_COMPARE_ALPHA_IGNORE,    /* colors over black alone */
+    FACET_COMPARE_ALPHA_BACKGROUND /* colors over background */
+} facet_compare_alpha;
+
+/* Metrics that take time; the others are always there. */
+enum { FACET_METRIC_SSIM = 1 << 0, FACET_METRIC_FLIP = 1 << 1 };
+
+typedef enum facet_difference {
+    FACET_DIFFERENCE_ABSOLUTE, /* |b - a| times gain, per channel; opacity's added to all three */
+    FACET_DIFFERENCE_HEAT_MAP, /* FLIP, or where it is skipped the largest |b - a| times gain: [0, 1] from black over red
+                                  to light yellow */
+} facet_difference;
+
+/* How pictures are compared; docs/compare.md has the formulas and when to use which. {0}: all of both, every metric. */
+typedef struct facet_compare_desc {
+    facet_allocator allocator;
+    uint32_t thread_count;    /* 0: facet_thread_count(); no number depends on it */
+    uint32_t skipped_metrics; /* FACET_METRIC_* or-ed */
+    facet_compare_space space;
+    facet_tonemap tonemap; /* of linear pictures, for the display; those of a display are left as they are */
+    float exposure_ev;     /* stops; linear pictures are scaled by 2^exposure_ev */
+    facet_compare_alpha alpha;
+    float background[3]; /* linear Rec.709, as a display shows it */
+    uint32_t crop[4];    /* x, y, width, height of the part that is compared; {0}: all */
+    const facet_image
+        *mask; /* of the same size; pixels count where it is at least half as bright as white is for an eye
+                                (sRGB 0.5). NULL: all */
+    float
+        pixels_per_degree;  /* FLIP: of the eye's field, [1, 1000]; 0: 67, a 4k display of 0.7 m from 0.7 m */
+    float relative_epsilon; /* mse_relative: added to a^2; 0: 0.01 */
+    float peak;             /* PSNR, SSIM: the largest value; 0: 1, in linear space the largest of a */
+    float threshold;        /* a pixel differs where a channel is farther apart than this */
+    double percentile;      /* (0, 100]: one of your own beside 50, 95, 99 and 99.9; 0: none */
+    facet_difference difference;
+    float gain;    /* of the difference picture; 0: 1 */
+    bool is_sheet; /* the difference picture shows a, b and the difference side by side */
+} facet_compare_desc;
+
+/* How far b is from the reference a. NAN: not measured. Errors are of channels, in the space's unit; means are over the
+ * channels of all pixels that count and are finite. */
+typedef struct facet_comparison {
+    uint32_t width, height;            /* of the part that was compared */
+    facet_compare_space space;         /* LINEAR or DISPLAY */
+    uint32_t channel_count;            /* 3; 4: with opacity */
+    uint64_t pixel_count;              /* that the mask lets count */
+    bool is_equal;                     /* to the last bit, as linear premultiplied floats */
+    uint64_t nonfinite_a, nonfinite_b; /* pixels with NaN or infinity */
+    uint64_t
+        invalid_count; /* pixels whose NaN or infinity is not the same in both: in no mean, but among those that
+                               differ, infinitely far, and with a FLIP of 1 */
+    double mse, rmse;
+    double mse_relative, rmse_relative; /* mean of (b - a)^2 / (a^2 + relative_epsilon), and its root */
+    double nrmse;                       /* rmse over the root mean square of a */
+    double mae, bias;                   /* mean of |b - a|, of b - a */
+    double max_error;                   /* of a channel */
+    uint32_t max_x, max_y;              /* where, in pixels of the whole picture */
+    double percentile_50, percentile_95, percentile_99, percentile_999,
+        percentile; /* of pixels' largest |b - a| */
+    uint64_t differing_count;
+    double differing_share; /* of pixel_count */
+    double peak, psnr;      /* dB; INFINITY where mse is 0 */
+    double ssim; /* of luminance (in display space luma), 1: the same; NAN also below 11 x 11 pixels */
+    double ssim_channels;  /* mean over the channels */
+    double flip, flip_max; /* [0, 1], mean and largest */
+    bool flip_is_hdr;      /* the largest over exposures: in linear space */
+    double flip_start_ev, flip_stop_ev;
+    uint32_t flip_exposure_count;
+} facet_comparison;
+
+/* Compares the pictures (layer 0) of a, the reference, and b. *difference (NULL: not wanted) shows where they differ: in
+ * display space with values that facet_image_save() writes as they are to files for displays. FACET_ERROR_ARGUMENT: sizes
+ * differ, the crop lies outside, the mask leaves nothing. */
+FACET_API facet_result facet_compare(const facet_image *a, const facet_image *b,
+                                     const facet_compare_desc *desc /* NULL: {0} */, facet_comparison *out,
+                                     facet_image **difference, facet_error *error);
 
 #ifdef __cplusplus
 }

@@ -20,7 +20,7 @@ allowed() {
     plot) echo plot legacy ibl scene image base shade facet ;;
     report) echo report plot legacy cpu film ibl scene image base facet ;;
     path) echo path cpu film ibl scene image base shade facet ;;
-    compare) echo compare image base facet ;;
+    compare) echo compare image base shade facet ;;
     api) echo api path compare report plot legacy io cpu ibl film scene image base facet ;;
     cli) echo cli facet ;;
     *) echo "" ;;

@@ -1,0 +1,265 @@
+/* compare_errors.c - see compare_errors.h. Each row has sums of its own, which are then added from top to bottom: the same
+ * for every number of threads. */
+#include "compare/compare_errors.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "base/simd.h"
+#include "image/half.h"
+
+enum { BLOCK = 256 /* pixels of a row at a time, on the stack */, GRAIN = 16 /* rows */ };
+
+/* Planes for a block. */
+typedef struct block {
+    float a[4][BLOCK], b[4][BLOCK];
+    unsigned char flags[BLOCK];
+    compare_row row;
+} block;
+
+static void block_init(block *k)
+{
+    for (int c = 0; c < 4; c++) {
+        k->row.a[c] = k->a[c];
+        k->row.b[c] = k->b[c];
+    }
+    k->row.flags = k->flags;
+}
+
+static uint32_t block_size(uint32_t x, uint32_t width)
+{
+    return width - x < BLOCK ? width - x : BLOCK;
+}
+
+/* ---- the survey ---- */
+
+typedef struct survey_job {
+    const compare_source *source;
+    float *luminance;
+    compare_survey *rows;
+} survey_job;
+
+static bool is_finite_pixel(const float *p)
+{
+    bool is_finite = true;
+    for (int k = 0; k < 4; k++)
+        is_finite = is_finite & ((float_bits(p[k]) & 0x7f800000u) != 0x7f800000u);
+    return is_finite;
+}
+
+/* What the pixels are before anything is done to them. */
+static void survey_raw(const compare_source *s, uint32_t y, compare_survey *row)
+{
+    const size_t first = (size_t)(s->y + y) * s->a.width + s->x;
+    for (uint32_t x = 0; x < s->width; x++) {
+        const float *a = s->a.rgba + 4 * (first + x), *b = s->b.rgba + 4 * (first + x);
+        if (s->mask && !compare_source_counts(s, x, y))
+            continue;
+        row->is_equal = row->is_equal && memcmp(a, b, 4 * sizeof *a) == 0;
+        row->has_opacity = row->has_opacity || a[3] < 1.0f || b[3] < 1.0f;
+        row->nonfinite_a += !is_finite_pixel(a);
+        row->nonfinite_b += !is_finite_pixel(b);
+    }
+}
+
+static void survey_rows(void *context, size_t begin, size_t end)
+{
+    const survey_job *job = context;
+    const compare_source *s = job->source;
+    block k;
+    block_init(&k);
+    for (size_t y = begin; y < end; y++) {
+        compare_survey *row = &job->rows[y];
+        *row = (compare_survey){.is_equal = true};
+        survey_raw(s, (uint32_t)y, row);
+        for (uint32_t x = 0; x < s->width; x += BLOCK) {
+            const uint32_t count = block_size(x, s->width);
+            compare_source_load(s, COMPARE_LIGHT, NULL, x, (int64_t)y, count, &k.row);
+            float *luminance = job->luminance ? job->luminance + y * s->width + x : NULL;
+            for (uint32_t i = 0; i < count; i++) {
+                const bool counts = k.flags[i] & COMPARE_COUNTS, is_invalid = k.flags[i] & COMPARE_INVALID;
+                const float r = k.a[0][i], g = k.a[1][i], b = k.a[2][i];
+                const float largest = r > g ? (r > b ? r : b) : (g > b ? g : b);
+                const float light = 0.2126f * r + 0.7152f * g + 0.0722f * b;
+                row->pixel_count += counts;
+                row->invalid_count += is_invalid;
+                if (counts && !is_invalid && largest > row->largest)
+                    row->largest = largest;
+                if (luminance)
+                    luminance[i] = !counts || is_invalid ? -1.0f : light > 0.0f ? light : 0.0f;
+            }
+        }
+    }
+}
+
+facet_result compare_survey_make(const compare_source *s, const facet_compare_desc *desc, float *luminance,
+                                 compare_survey *out, facet_error *error)
+{
+    survey_job job = {.source = s, .luminance = luminance};
+    job.rows = mem_alloc(&desc->allocator, s->height, sizeof *job.rows);
+    if (!job.rows)
+        return fail_memory(error, "sums of rows", s->height * sizeof *job.rows);
+    parallel_for(desc->thread_count, s->height, GRAIN, survey_rows, &job);
+    *out = (compare_survey){.is_equal = true};
+    for (uint32_t y = 0; y < s->height; y++) {
+        const compare_survey *row = &job.rows[y];
+        out->is_equal = out->is_equal && row->is_equal;
+        out->has_opacity = out->has_opacity || row->has_opacity;
+        out->pixel_count += row->pixel_count;
+        out->nonfinite_a += row->nonfinite_a;
+        out->nonfinite_b += row->nonfinite_b;
+        out->invalid_count += row->invalid_count;
+        out->largest = row->largest > out->largest ? row->largest : out->largest;
+    }
+    mem_free(job.rows);
+    return FACET_OK;
+}
+
+/* ---- errors ---- */
+
+typedef struct error_sums {
+    double squares, relative, absolute, difference, reference; /* over channels */
+    uint64_t finite, differing;                                /* pixels */
+    float largest;
+    uint32_t largest_x;
+} error_sums;
+
+typedef struct errors_job {
+    const compare_source *source;
+    uint32_t channel_count;
+    float epsilon, threshold;
+    float *errors;
+    error_sums *rows;
+} errors_job;
+
+/* The largest error of each pixel. */
+DISPATCH_AVX2 static void largest_errors(const block *k, uint32_t count, uint32_t channel_count,
+                                         float *errors)
+{
+    for (uint32_t i = 0; i < count; i++)
+        errors[i] = 0.0f;
+    for (uint32_t c = 0; c < channel_count; c++)
+        for (uint32_t i = 0; i < count; i++) {
+            float e = k->b[c][i] - k->a[c][i];
+            e = e < 0.0f ? -e : e;
+            errors[i] = e > errors[i] ? e : errors[i];
+        }
+}
+
+/* Sums of a channel, in double, eight beside one another so that they vectorise; which sum a pixel goes into depends on its
+ * place alone. Pixels that do not count are equal in both and 0 in the reference sums by their weight. */
+DISPATCH_AVX2 static void add_channel(const float *a, const float *b, const float *weight, uint32_t count,
+                                      double epsilon, error_sums *sums)
+{
+    enum { LANES = 8 };
+    double squares[LANES] = {0}, relative[LANES] = {0}, absolute[LANES] = {0}, difference[LANES] = {0},
+           reference[LANES] = {0};
+    for (uint32_t i = 0; i < count; i += LANES)
+        for (uint32_t l = 0; l < LANES; l++) {
+            const double w = (double)weight[i + l], value = (double)a[i + l];
+            const double d = ((double)b[i + l] - value) * w;
+            squares[l] += d * d;
+            relative[l] += d * d / (value * value + epsilon);
+            absolute[l] += d < 0.0 ? -d : d;
+            difference[l] += d;
+            reference[l] += value * value * w;
+        }
+    for (uint32_t l = 0; l < LANES; l++) {
+        sums->squares += squares[l];
+        sums->relative += relative[l];
+        sums->absolute += absolute[l];
+        sums->difference += difference[l];
+        sums->reference += reference[l];
+    }
+}
+
+static void errors_of_block(const errors_job *job, block *k, uint32_t x, uint32_t count, float *errors,
+                            error_sums *row)
+{
+    float weight[BLOCK];
+    largest_errors(k, count, job->channel_count, errors);
+    for (uint32_t i = 0; i < count; i++) {
+        const bool counts = k->flags[i] & COMPARE_COUNTS, is_invalid = k->flags[i] & COMPARE_INVALID;
+        errors[i] = !counts ? -1.0f : is_invalid ? INFINITY : errors[i];
+        weight[i] = counts && !is_invalid ? 1.0f : 0.0f;
+        row->finite += counts && !is_invalid;
+        row->differing += errors[i] > job->threshold;
+        if (errors[i] > row->largest) {
+            row->largest = errors[i];
+            row->largest_x = x + i;
+        }
+    }
+    for (uint32_t c = 0; c < 4; c++)
+        for (uint32_t i = count; i % 8 != 0; i++)
+            k->a[c][i] = k->b[c][i] = weight[i] = 0.0f;
+    for (uint32_t c = 0; c < job->channel_count; c++)
+        add_channel(k->a[c], k->b[c], weight, count, (double)job->epsilon, row);
+}
+
+static void error_rows(void *context, size_t begin, size_t end)
+{
+    const errors_job *job = context;
+    const compare_source *s = job->source;
+    block k;
+    block_init(&k);
+    for (size_t y = begin; y < end; y++) {
+        job->rows[y] = (error_sums){.largest = -1.0f};
+        for (uint32_t x = 0; x < s->width; x += BLOCK) {
+            const uint32_t count = block_size(x, s->width);
+            compare_source_load(s, COMPARE_CODES, NULL, x, (int64_t)y, count, &k.row);
+            errors_of_block(job, &k, x, count, job->errors + y * s->width + x, &job->rows[y]);
+        }
+    }
+}
+
+/* Sums to what they are of. */
+static void conclude(const error_sums *sums, uint32_t channel_count, facet_comparison *out)
+{
+    const double count = (double)sums->finite * channel_count; /* 0: all means are NAN */
+    out->mse = sums->squares / count;
+    out->rmse = sqrt(out->mse);
+    out->mse_relative = sums->relative / count;
+    out->rmse_relative = sqrt(out->mse_relative);
+    out->nrmse = sums->squares > 0.0 ? sqrt(sums->squares / sums->reference) : out->rmse;
+    out->mae = sums->absolute / count;
+    out->bias = sums->difference / count;
+    out->max_error = (double)sums->largest;
+    out->differing_count = sums->differing;
+    out->differing_share = (double)sums->differing / (double)out->pixel_count;
+}
+
+facet_result compare_errors_make(const compare_source *s, const facet_compare_desc *desc, float *errors,
+                                 facet_comparison *out, facet_error *error)
+{
+    errors_job job = {.source = s,
+                      .channel_count = out->channel_count,
+                      .epsilon = desc->relative_epsilon > 0.0f ? desc->relative_epsilon : 0.01f,
+                      .threshold = desc->threshold,
+                      .errors = errors};
+    job.rows = mem_alloc(&desc->allocator, s->height, sizeof *job.rows);
+    if (!job.rows)
+        return fail_memory(error, "sums of rows", s->height * sizeof *job.rows);
+    parallel_for(desc->thread_count, s->height, GRAIN, error_rows, &job);
+    error_sums sums = {.largest = -1.0f};
+    for (uint32_t y = 0; y < s->height; y++) {
+        const error_sums *row = &job.rows[y];
+        sums.squares += row->squares;
+        sums.relative += row->relative;
+        sums.absolute += row->absolute;
+        sums.difference += row->difference;
+        sums.reference += row->reference;
+        sums.finite += row->finite;
+        sums.differing += row->differing;
+        if (row->largest > sums.largest) {
+            sums.largest = row->largest;
+            out->max_x = s->x + row->largest_x;
+            out->max_y = s->y + y;
+        }
+    }
+    conclude(&sums, out->channel_count, out);
+    mem_free(job.rows);
+    return FACET_OK;
+}

@@ -1,0 +1,42 @@
+/* compare_filter.h - convolution of planes of floats with symmetric kernels, in one direction. The results are multiples of
+ * 32 floats, the rest of which is whatever lies behind. */
+#ifndef COMPARE_COMPARE_FILTER_H
+#define COMPARE_COMPARE_FILTER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/simd.h"
+
+enum { FILTER_LANES = 32 };
+
+typedef float filter_vector __attribute__((vector_size(32), may_alias, aligned(4)));
+
+/* out[i] = k[0] in[i] + sum over j from 1 to radius of k[j] (in[i + j step] + in[i - j step]), is_odd: the difference of
+ * these two. The four vectors stay in registers. */
+static inline __attribute__((always_inline)) void filter_line(const float *in, ptrdiff_t step, const float *k,
+                                                              int radius, bool is_odd, float *out,
+                                                              uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i += FILTER_LANES) {
+        const filter_vector *middle = (const filter_vector *)(in + i);
+        filter_vector s0 = middle[0] * k[0], s1 = middle[1] * k[0], s2 = middle[2] * k[0],
+                      s3 = middle[3] * k[0];
+        for (int j = 1; j <= radius; j++) {
+            const filter_vector *after = (const filter_vector *)(in + i + j * step);
+            const filter_vector *before = (const filter_vector *)(in + i - j * step);
+            const float weight = k[j];
+            s0 += (is_odd ? after[0] - before[0] : after[0] + before[0]) * weight;
+            s1 += (is_odd ? after[1] - before[1] : after[1] + before[1]) * weight;
+            s2 += (is_odd ? after[2] - before[2] : after[2] + before[2]) * weight;
+            s3 += (is_odd ? after[3] - before[3] : after[3] + before[3]) * weight;
+        }
+        filter_vector *to = (filter_vector *)(out + i);
+        to[0] = s0;
+        to[1] = s1;
+        to[2] = s2;
+        to[3] = s3;
+    }
+}
+
+#endif

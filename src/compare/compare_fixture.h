@@ -1,0 +1,82 @@
+/* compare_fixture.h - for tests: small pictures, and comparisons of them. Include after cmocka.h. */
+#ifndef COMPARE_COMPARE_FIXTURE_H
+#define COMPARE_COMPARE_FIXTURE_H
+
+#include <stdlib.h>
+
+#include "base/near_test.h"
+#include "compare/compare.h"
+#include "image/srgb.h"
+
+enum { FIXTURE_MAX = 320 * 200 };
+
+typedef struct fixture {
+    float rgba[FIXTURE_MAX * 4];
+    compare_picture picture;
+} fixture;
+
+static inline fixture *fixture_create(uint32_t width, uint32_t height, bool is_display)
+{
+    fixture *f = calloc(1, sizeof *f);
+    assert_non_null(f);
+    assert_true((size_t)width * height <= FIXTURE_MAX);
+    f->picture = (compare_picture){f->rgba, width, height, is_display};
+    for (size_t i = 0; i < (size_t)width * height; i++)
+        f->rgba[4 * i + 3] = 1.0f;
+    return f;
+}
+
+static inline float *fixture_at(fixture *f, uint32_t x, uint32_t y)
+{
+    return f->rgba + 4 * ((size_t)y * f->picture.width + x);
+}
+
+static inline void fixture_fill(fixture *f, float r, float g, float b, float opacity)
+{
+    for (uint32_t y = 0; y < f->picture.height; y++)
+        for (uint32_t x = 0; x < f->picture.width; x++) {
+            float *p = fixture_at(f, x, y);
+            p[0] = r;
+            p[1] = g;
+            p[2] = b;
+            p[3] = opacity;
+        }
+}
+
+/* A number in [0, 1) from the state: the same on every machine. */
+static inline float fixture_random(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (float)(*state >> 8) * 0x1p-24f;
+}
+
+/* Stripes, a disc, a ramp and noise: something for every filter. seed 0: without noise; amount: of it. */
+static inline void fixture_draw(fixture *f, uint32_t seed, float amount)
+{
+    uint32_t state = seed;
+    for (uint32_t y = 0; y < f->picture.height; y++)
+        for (uint32_t x = 0; x < f->picture.width; x++) {
+            float *p = fixture_at(f, x, y);
+            float dx = (float)x - 40.0f, dy = (float)y - 30.0f;
+            p[0] = (float)x / (float)f->picture.width;
+            p[1] = x / 5 % 2 ? 0.7f : 0.1f;
+            p[2] = dx * dx + dy * dy < 300.0f ? 0.9f : 0.2f;
+            for (int k = 0; k < 3 && seed; k++) {
+                p[k] += amount * (fixture_random(&state) - 0.5f);
+                p[k] = p[k] < 0.0f ? 0.0f : p[k] > 1.0f ? 1.0f : p[k];
+            }
+        }
+}
+
+/* A comparison that has to succeed. */
+static inline facet_comparison fixture_compare(const fixture *a, const fixture *b,
+                                               const facet_compare_desc *desc)
+{
+    facet_comparison c;
+    facet_error error = {0};
+    if (compare_pictures(&a->picture, &b->picture, NULL, desc, &c, NULL, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    return c;
+}
+
+#endif

@@ -1,0 +1,331 @@
+/* compare_flip.c - see compare_flip.h. Works on tiles; both pictures go through the filters one after the other, and what an
+ * eye makes of them is then compared. */
+#include "compare/compare_flip.h"
+
+#include <math.h>
+#include <stdatomic.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "base/simd.h"
+#include "compare/compare_filter.h"
+#include "compare/compare_flip_color.h"
+#include "compare/compare_flip_kernels.h"
+#include "compare/compare_select.h"
+#include "compare/compare_tile.h"
+
+enum {
+    MAX_EXPOSURES = 32,
+    LINES = 7 /* results of filters along rows: see filter_rows() */
+};
+
+typedef struct flip_sums {
+    double sum;
+    float largest;
+} flip_sums;
+
+typedef struct flip_job {
+    const compare_source *source;
+    flip_kernels kernels;
+    size_t stride, rows; /* of planes with their surroundings */
+    bool is_hdr, has_opacity;
+    uint32_t exposure_count;
+    float gains[MAX_EXPOSURES];
+    const facet_allocator *allocator;
+    float *map; /* NULL: not wanted */
+    flip_sums *tiles;
+    atomic_bool has_no_memory;
+} flip_job;
+
+/* What an eye makes of the tile. */
+typedef struct flip_view {
+    float l[TILE_HEIGHT][TILE_WIDTH], a[TILE_HEIGHT][TILE_WIDTH], b[TILE_HEIGHT][TILE_WIDTH];
+    float edges[TILE_HEIGHT][TILE_WIDTH], points[TILE_HEIGHT][TILE_WIDTH];
+} flip_view;
+
+/* What a tile is worked on in. */
+typedef struct flip_work {
+    float *light[2][3];  /* of both pictures, stride x rows */
+    float *opponent[3];  /* y, cx, cz of one of them */
+    float *lines[LINES]; /* TILE_WIDTH x rows */
+    float *opacity[2];   /* a row that nobody reads */
+    unsigned char *flags;
+    flip_view views[2];
+    float errors[TILE_HEIGHT][TILE_WIDTH];
+    float memory[]; /* the planes */
+} flip_work;
+
+static flip_work *create_work(const flip_job *job)
+{
+    const size_t plane = job->stride * job->rows, line = TILE_WIDTH * job->rows;
+    const size_t floats = 9 * plane + LINES * line + 2 * job->stride;
+    flip_work *w = mem_alloc(job->allocator, 1, sizeof *w + floats * sizeof(float) + plane);
+    if (!w)
+        return NULL;
+    float *next = w->memory;
+    for (int k = 0; k < 3; k++) {
+        w->light[0][k] = next;
+        w->light[1][k] = next + plane;
+        w->opponent[k] = next + 2 * plane;
+        next += 3 * plane;
+    }
+    for (int k = 0; k < LINES; k++, next += line)
+        w->lines[k] = next;
+    for (int k = 0; k < 2; k++, next += job->stride)
+        w->opacity[k] = next;
+    w->flags = (unsigned char *)next;
+    /* lanes behind the last pixel are read, and then not used */
+    for (size_t i = 0; i < floats; i++)
+        w->memory[i] = 0.0f;
+    return w;
+}
+
+/* ---- stages ---- */
+
+static void load_tile(const flip_job *job, const compare_tile *t, const float *background, flip_work *w)
+{
+    const int halo = job->kernels.halo;
+    const uint32_t width = t->width + 2 * (uint32_t)halo;
+    for (size_t row = 0; row < t->height + 2 * (size_t)halo; row++) {
+        const size_t at = row * job->stride;
+        compare_row out = {.flags = w->flags + at};
+        for (int k = 0; k < 3; k++) {
+            out.a[k] = w->light[0][k] + at;
+            out.b[k] = w->light[1][k] + at;
+        }
+        out.a[3] = w->opacity[0];
+        out.b[3] = w->opacity[1];
+        compare_source_load(job->source, COMPARE_LIGHT, background, (int64_t)t->x - halo,
+                            (int64_t)t->y + (int64_t)row - halo, width, &out);
+    }
+}
+
+/* The opponent colors of a picture as a display shows it: at an exposure, or as they are. */
+DISPATCH_AVX2 static void fill_opponent(const flip_job *job, flip_work *w, int picture, float gain,
+                                        size_t width, size_t height)
+{
+    for (size_t row = 0; row < height; row++) {
+        const size_t at = row * job->stride;
+        const float *red = w->light[picture][0] + at, *green = w->light[picture][1] + at,
+                    *blue = w->light[picture][2] + at;
+        float *restrict y = w->opponent[0] + at, *restrict cx = w->opponent[1] + at,
+                        *restrict cz = w->opponent[2] + at;
+        if (job->is_hdr)
+            for (size_t i = 0; i < width; i++) {
+                flip_opponent o = flip_opponent_from_rgb(
+                    flip_tonemap(red[i], gain), flip_tonemap(green[i], gain), flip_tonemap(blue[i], gain));
+                y[i] = o.y;
+                cx[i] = o.cx;
+                cz[i] = o.cz;
+            }
+        else
+            for (size_t i = 0; i < width; i++) {
+                flip_opponent o = flip_opponent_from_rgb(red[i], green[i], blue[i]);
+                y[i] = o.y;
+                cx[i] = o.cx;
+                cz[i] = o.cz;
+            }
+    }
+}
+
+/* Along rows: the opponent channels by what is resolved of them, and Y by what finds edges and points. */
+DISPATCH_AVX2 static void filter_rows(const flip_job *job, flip_work *w, uint32_t width, size_t height)
+{
+    const flip_kernels *k = &job->kernels;
+    for (size_t row = 0; row < height; row++) {
+        const size_t from = row * job->stride + (size_t)k->halo, to = row * TILE_WIDTH;
+        const float *y = w->opponent[0] + from, *cx = w->opponent[1] + from, *cz = w->opponent[2] + from;
+        filter_line(y, 1, k->achromatic.weights, k->achromatic.radius, false, w->lines[0] + to, width);
+        filter_line(cx, 1, k->red_green.weights, k->red_green.radius, false, w->lines[1] + to, width);
+        for (int term = 0; term < 2; term++)
+            filter_line(cz, 1, k->blue_yellow[term].weights, k->blue_yellow[term].radius, false,
+                        w->lines[2 + term] + to, width);
+        filter_line(y, 1, k->gaussian.weights, k->gaussian.radius, false, w->lines[4] + to, width);
+        filter_line(y, 1, k->first.weights, k->first.radius, true, w->lines[5] + to, width);
+        filter_line(y, 1, k->second.weights, k->second.radius, false, w->lines[6] + to, width);
+    }
+}
+
+static inline __attribute__((always_inline)) void along_column(const float *line, const flip_kernel *kernel,
+                                                               bool is_odd, float *out, uint32_t width)
+{
+    filter_line(line, TILE_WIDTH, kernel->weights, kernel->radius, is_odd, out, width);
+}
+
+/* Along columns; then what is seen of one row: colors as differences are perceived, and the strength of edges and
+ * points. */
+DISPATCH_AVX2 static void filter_columns(const flip_job *job, const flip_work *w, uint32_t row,
+                                         uint32_t width, flip_view *view)
+{
+    const flip_kernels *k = &job->kernels;
+    const size_t at = (row + (size_t)k->halo) * TILE_WIDTH;
+    float y[TILE_WIDTH], cx[TILE_WIDTH], cz[2][TILE_WIDTH], slope[2][TILE_WIDTH], curve[2][TILE_WIDTH];
+    along_column(w->lines[0] + at, &k->achromatic, false, y, width);
+    along_column(w->lines[1] + at, &k->red_green, false, cx, width);
+    along_column(w->lines[2] + at, &k->blue_yellow[0], false, cz[0], width);
+    along_column(w->lines[3] + at, &k->blue_yellow[1], false, cz[1], width);
+    along_column(w->lines[5] + at, &k->gaussian, false, slope[0], width);
+    along_column(w->lines[4] + at, &k->first, true, slope[1], width);
+    along_column(w->lines[6] + at, &k->gaussian, false, curve[0], width);
+    along_column(w->lines[4] + at, &k->second, false, curve[1], width);
+    for (uint32_t i = 0; i < width; i++) {
+        flip_lab lab = flip_lab_from_opponent((flip_opponent){y[i], cx[i], cz[0][i] + cz[1][i]});
+        view->l[row][i] = lab.l;
+        view->a[row][i] = lab.a;
+        view->b[row][i] = lab.b;
+        view->edges[row][i] = sqrtf(slope[0][i] * slope[0][i] + slope[1][i] * slope[1][i]);
+        view->points[row][i] = sqrtf(curve[0][i] * curve[0][i] + curve[1][i] * curve[1][i]);
+    }
+}
+
+/* The larger of what is there and the error between the views. */
+DISPATCH_AVX2 static void combine(flip_work *w, uint32_t row, uint32_t width)
+{
+    const flip_view *a = &w->views[0], *b = &w->views[1];
+    for (uint32_t i = 0; i < width; i++) {
+        float color = flip_color_difference(a->l[row][i] - b->l[row][i], a->a[row][i] - b->a[row][i],
+                                            a->b[row][i] - b->b[row][i]);
+        float error = flip_error(color, fabsf(a->edges[row][i] - b->edges[row][i]),
+                                 fabsf(a->points[row][i] - b->points[row][i]));
+        w->errors[row][i] = error > w->errors[row][i] ? error : w->errors[row][i];
+    }
+}
+
+/* ---- tiles ---- */
+
+static void compare_at(const flip_job *job, const compare_tile *t, float gain, flip_work *w)
+{
+    const size_t width = t->width + 2 * (size_t)job->kernels.halo,
+                 height = t->height + 2 * (size_t)job->kernels.halo;
+    for (int picture = 0; picture < 2; picture++) {
+        fill_opponent(job, w, picture, gain, width, height);
+        filter_rows(job, w, t->width, height);
+        for (uint32_t row = 0; row < t->height; row++)
+            filter_columns(job, w, row, t->width, &w->views[picture]);
+    }
+    for (uint32_t row = 0; row < t->height; row++)
+        combine(w, row, t->width);
+}
+
+static void finish_tile(const flip_job *job, const compare_tile *t, const flip_work *w, flip_sums *sums)
+{
+    const size_t halo = (size_t)job->kernels.halo;
+    for (uint32_t row = 0; row < t->height; row++)
+        for (uint32_t i = 0; i < t->width; i++) {
+            const unsigned flags = w->flags[(row + halo) * job->stride + halo + i];
+            const bool counts = flags & COMPARE_COUNTS;
+            const float error = flags & COMPARE_INVALID ? 1.0f : counts ? w->errors[row][i] : 0.0f;
+            sums->sum += (double)error;
+            sums->largest = error > sums->largest ? error : sums->largest;
+            if (job->map)
+                job->map[(size_t)(t->y + row) * job->source->width + t->x + i] = error;
+        }
+}
+
+static void flip_tiles(void *context, size_t begin, size_t end)
+{
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
+    flip_job *job = context;
+    flip_work *w = create_work(job);
+    if (!w) {
+        atomic_store(&job->has_no_memory, true);
+        return;
+    }
+    for (size_t i = begin; i < end; i++) {
+        const compare_tile t = compare_tile_at(job->source, i);
+        for (uint32_t row = 0; row < t.height; row++)
+            for (uint32_t x = 0; x < t.width; x++)
+                w->errors[row][x] = 0.0f;
+        for (int background = 0; background < (job->has_opacity ? 2 : 1); background++) {
+            load_tile(job, &t, background ? white : NULL, w);
+            for (uint32_t e = 0; e < job->exposure_count; e++)
+                compare_at(job, &t, job->gains[e], w);
+        }
+        job->tiles[i] = (flip_sums){0};
+        finish_tile(job, &t, w, &job->tiles[i]);
+    }
+    mem_free(w);
+}
+
+/* ---- exposures ---- */
+
+/* The median luminance and the largest. Where more than half is black, the median of what is not. */
+static facet_result find_levels(const float *luminance, size_t count, const facet_allocator *allocator,
+                                double levels[2], facet_error *error)
+{
+    double all = 0.0, black = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        all += luminance[i] >= 0.0f;
+        black += luminance[i] >= 0.0f && luminance[i] <= 0.0f;
+    }
+    double shares[2] = {50.0, 100.0};
+    if (black >= 0.5 * all && black < all)
+        shares[0] = 50.0 * (all + black) / all;
+    return compare_select(luminance, count, shares, 2, allocator, levels, error);
+}
+
+/* From the shortest, at which nothing is too bright, to the longest, at which half of the picture is. Andersson et al. 2021,
+ * section 4.2. */
+static facet_result choose_exposures(flip_job *job, const facet_compare_desc *desc, const float *luminance,
+                                     facet_comparison *out, facet_error *error)
+{
+    const size_t count = (size_t)job->source->width * job->source->height;
+    double levels[2]; /* median, largest */
+    facet_result result = find_levels(luminance, count, &desc->allocator, levels, error);
+    if (result != FACET_OK)
+        return result;
+    double start = 0.0, stop = 0.0;
+    if (levels[1] > 0.0) {
+        start = log2(FLIP_BRIGHT / levels[1]);
+        stop = log2(FLIP_BRIGHT / levels[0]);
+        stop = stop < start + MAX_EXPOSURES ? stop : start + MAX_EXPOSURES;
+    }
+    const double steps = ceil(stop - start);
+    job->exposure_count = steps < 2.0 ? 2 : (uint32_t)steps;
+    for (uint32_t e = 0; e < job->exposure_count; e++)
+        job->gains[e] = (float)exp2(start + (stop - start) * e / (job->exposure_count - 1));
+    out->flip_start_ev = start;
+    out->flip_stop_ev = stop;
+    out->flip_exposure_count = job->exposure_count;
+    return FACET_OK;
+}
+
+/* ---- pictures ---- */
+
+facet_result compare_flip_make(const compare_source *s, const facet_compare_desc *desc,
+                               const float *luminance, float *map, facet_comparison *out, facet_error *error)
+{
+    const size_t tile_count = compare_tile_count(s);
+    flip_job job = {.source = s,
+                    .is_hdr = !s->is_display,
+                    .has_opacity = out->channel_count == 4,
+                    .exposure_count = 1,
+                    .gains = {1.0f},
+                    .allocator = &desc->allocator,
+                    .map = map};
+    flip_kernels_make(desc->pixels_per_degree > 0.0f ? (double)desc->pixels_per_degree : 67.0, &job.kernels);
+    job.stride = (TILE_WIDTH + 2 * (size_t)job.kernels.halo + 31) / 32 * 32 + 32;
+    job.rows = TILE_HEIGHT + 2 * (size_t)job.kernels.halo;
+    if (job.is_hdr) {
+        facet_result result = choose_exposures(&job, desc, luminance, out, error);
+        if (result != FACET_OK)
+            return result;
+    }
+    job.tiles = mem_alloc(&desc->allocator, tile_count, sizeof *job.tiles);
+    if (!job.tiles)
+        return fail_memory(error, "sums of tiles", tile_count * sizeof *job.tiles);
+    parallel_for(desc->thread_count, tile_count, TILE_GRAIN, flip_tiles, &job);
+    flip_sums sums = {0};
+    for (size_t i = 0; i < tile_count; i++) {
+        sums.sum += job.tiles[i].sum;
+        sums.largest = job.tiles[i].largest > sums.largest ? job.tiles[i].largest : sums.largest;
+    }
+    mem_free(job.tiles);
+    if (atomic_load(&job.has_no_memory))
+        return fail_memory(error, "tile", sizeof(flip_work));
+    out->flip = sums.sum / (double)out->pixel_count;
+    out->flip_max = (double)sums.largest;
+    out->flip_is_hdr = job.is_hdr;
+    return FACET_OK;
+}

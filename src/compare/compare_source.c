@@ -1,0 +1,188 @@
+/* compare_source.c - see compare_source.h. */
+#include "compare/compare_source.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/result.h"
+#include "base/simd.h"
+#include "compare/compare_math.h"
+
+#include "shade/shade.h"
+
+_Static_assert(TONEMAP_NEUTRAL == (int)FACET_TONEMAP_NEUTRAL && TONEMAP_ACES == (int)FACET_TONEMAP_ACES &&
+                   TONEMAP_ACES_NARKOWICZ == (int)FACET_TONEMAP_ACES_NARKOWICZ &&
+                   TONEMAP_AGX == (int)FACET_TONEMAP_AGX && TONEMAP_REINHARD == (int)FACET_TONEMAP_REINHARD &&
+                   TONEMAP_REINHARD_EXTENDED == (int)FACET_TONEMAP_REINHARD_EXTENDED &&
+                   TONEMAP_HABLE == (int)FACET_TONEMAP_HABLE,
+               "the shared text numbers operators as the interface does");
+
+/* ---- opening ---- */
+
+static facet_result take_crop(const uint32_t crop[4], compare_source *s, facet_error *error)
+{
+    const uint32_t width = s->a.width, height = s->a.height;
+    if (!crop[0] && !crop[1] && !crop[2] && !crop[3]) {
+        s->width = width;
+        s->height = height;
+        return FACET_OK;
+    }
+    if (crop[2] == 0 || crop[3] == 0 || crop[0] >= width || crop[1] >= height || crop[2] > width - crop[0] ||
+        crop[3] > height - crop[1])
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "compare: the crop of %u x %u pixels at %u, %u is not inside of %u x %u", crop[2],
+                    crop[3], crop[0], crop[1], width, height);
+    s->x = crop[0];
+    s->y = crop[1];
+    s->width = crop[2];
+    s->height = crop[3];
+    return FACET_OK;
+}
+
+facet_result compare_source_open(const compare_picture *a, const compare_picture *b,
+                                 const compare_picture *mask, const facet_compare_desc *desc,
+                                 compare_source *out, facet_error *error)
+{
+    if (a->width != b->width || a->height != b->height)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "compare: the pictures are of different sizes, %u x %u and %u x %u pixels", a->width,
+                    a->height, b->width, b->height);
+    if (mask && (mask->width != a->width || mask->height != a->height))
+        return fail(error, FACET_ERROR_ARGUMENT, "compare: the mask has %u x %u pixels, the pictures %u x %u",
+                    mask->width, mask->height, a->width, a->height);
+    *out = (compare_source){.a = *a,
+                            .b = *b,
+                            .mask = mask,
+                            .has_opacity = desc->alpha == FACET_COMPARE_ALPHA_CHANNEL,
+                            .tonemap = desc->tonemap,
+                            .scale = exp2f(desc->exposure_ev)};
+    out->is_display = desc->space == FACET_COMPARE_DISPLAY ||
+                      (desc->space == FACET_COMPARE_AUTO &&
+                       (a->is_display || b->is_display || desc->tonemap != FACET_TONEMAP_NONE));
+    if (desc->alpha == FACET_COMPARE_ALPHA_BACKGROUND)
+        for (int k = 0; k < 3; k++)
+            out->background[k] = desc->background[k];
+    return take_crop(desc->crop, out, error);
+}
+
+/* ---- loading ---- */
+
+static bool is_finite(float x)
+{
+    return (float_bits(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+/* Both NaN, or both the same infinity. */
+static bool is_same(float a, float b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
+bool compare_source_counts(const compare_source *s, uint32_t x, uint32_t y)
+{
+    if (!s->mask)
+        return true;
+    const float *c = s->mask->rgba + 4 * ((size_t)(s->y + y) * s->mask->width + s->x + x);
+    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2] >= 0.21404114f; /* the light of sRGB 0.5 */
+}
+
+/* A pixel of which a channel is not finite: what of it is the same in both, or finite in both, can be compared. */
+static unsigned take_out(const float *a, const float *b, float pa[4], float pb[4])
+{
+    bool is_invalid = false;
+    for (int k = 0; k < 4; k++)
+        is_invalid = is_invalid || ((!is_finite(a[k]) || !is_finite(b[k])) && !is_same(a[k], b[k]));
+    for (int k = 0; k < 4; k++) {
+        bool is_kept = !is_invalid && is_finite(a[k]) && is_finite(b[k]);
+        pa[k] = is_kept ? a[k] : 0.0f;
+        pb[k] = is_kept ? b[k] : 0.0f;
+    }
+    return is_invalid ? COMPARE_INVALID : 0;
+}
+
+static uint32_t clamp_index(int64_t i, uint32_t count)
+{
+    return i < 0 ? 0 : i >= (int64_t)count ? count - 1 : (uint32_t)i;
+}
+
+static void gather(const compare_source *s, int64_t x, int64_t y, uint32_t count, const compare_row *out)
+{
+    const uint32_t row = clamp_index(y, s->height);
+    const size_t first = (size_t)(s->y + row) * s->a.width + s->x;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t column = clamp_index(x + i, s->width);
+        const float *a = s->a.rgba + 4 * (first + column);
+        const float *b = s->b.rgba + 4 * (first + column);
+        float pa[4], pb[4];
+        unsigned flags = COMPARE_COUNTS;
+        if (s->mask && !compare_source_counts(s, column, row)) {
+            b = a;
+            flags = 0;
+        }
+        bool is_good = true;
+        for (int k = 0; k < 4; k++)
+            is_good = is_good & is_finite(a[k]) & is_finite(b[k]);
+        if (!is_good) {
+            flags |= take_out(a, b, pa, pb);
+            a = pa;
+            b = pb;
+        }
+        for (int k = 0; k < 4; k++) {
+            out->a[k][i] = a[k];
+            out->b[k][i] = b[k];
+        }
+        if (out->flags)
+            out->flags[i] = (unsigned char)flags;
+    }
+}
+
+/* Linear pictures to what a display shows of them. The operator works on the color of what is there, not on what is left of
+ * it before black. */
+static void develop(const compare_source *s, float *const c[4], uint32_t count)
+{
+    for (int k = 0; k < 3 && s->scale != 1.0f; k++)
+        for (uint32_t i = 0; i < count; i++)
+            c[k][i] *= s->scale;
+    for (uint32_t i = 0; i < count && s->is_display && s->tonemap != FACET_TONEMAP_NONE; i++) {
+        const float opacity = clamp(c[3][i], 0.0f, 1.0f);
+        vec3 shown = vec3(0.0f); /* as film_develop() has it where nothing is covered */
+        if (opacity > 0.0f)
+            shown = tonemap((int)s->tonemap, vec3(c[0][i], c[1][i], c[2][i]) / opacity) * opacity;
+        for (int k = 0; k < 3; k++)
+            c[k][i] = shown[k];
+    }
+}
+
+DISPATCH_AVX2 static void finish(float *const c[4], uint32_t count, const float background[3],
+                                 bool is_display, bool is_encoded)
+{
+    for (int k = 0; k < 3; k++) {
+        float *channel = c[k];
+        const float *opacity = c[3];
+        if (background[k] != 0.0f)
+            for (uint32_t i = 0; i < count; i++)
+                channel[i] += background[k] * (1.0f - compare_clamp(opacity[i], 0.0f, 1.0f));
+        if (is_display)
+            for (uint32_t i = 0; i < count; i++)
+                channel[i] = compare_clamp(channel[i], 0.0f, 1.0f);
+        if (is_encoded)
+            for (uint32_t i = 0; i < count; i++)
+                channel[i] = compare_srgb_encode(channel[i]);
+    }
+    for (uint32_t i = 0; i < count && is_display; i++)
+        c[3][i] = compare_clamp(c[3][i], 0.0f, 1.0f);
+}
+
+void compare_source_load(const compare_source *s, compare_values values, const float background[3], int64_t x,
+                         int64_t y, uint32_t count, const compare_row *out)
+{
+    const bool is_encoded = s->is_display && values == COMPARE_CODES;
+    gather(s, x, y, count, out);
+    if (!s->a.is_display)
+        develop(s, out->a, count);
+    if (!s->b.is_display)
+        develop(s, out->b, count);
+    background = background ? background : s->background;
+    finish(out->a, count, background, s->is_display, is_encoded);
+    finish(out->b, count, background, s->is_display, is_encoded);
+}

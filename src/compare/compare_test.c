@@ -1,0 +1,541 @@
+/* compare_test.c - errors of pixels, percentiles, SSIM, crops, masks, alpha, what is no number, memory that runs out. FLIP is
+ * in compare_flip_test.c. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/failing_allocator.h"
+#include "base/memory.h"
+#include "compare/compare_fixture.h"
+#include "compare/compare_map.h"
+#include "compare/compare_math.h"
+#include "compare/compare_select.h"
+
+static const facet_compare_desc errors_only = {.skipped_metrics = FACET_METRIC_SSIM | FACET_METRIC_FLIP};
+
+/* ---- closed forms ---- */
+
+/* An offset d everywhere: MSE d^2, MAE and bias d, PSNR -20 log10 d, every percentile d. In linear space PSNR's peak is the
+ * largest value of a. */
+static void of_an_offset_everything_is_known(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(50, 40, false), *b = fixture_create(50, 40, false);
+    fixture_fill(a, 0.5f, 0.25f, 2.0f, 1.0f);
+    fixture_fill(b, 0.75f, 0.5f, 2.25f, 1.0f);
+    facet_comparison c = fixture_compare(a, b, &(facet_compare_desc){.percentile = 12.5});
+    assert_true(c.space == FACET_COMPARE_LINEAR && c.channel_count == 3 && c.pixel_count == 2000);
+    assert_near(c.mse, 0.0625, 1e-15);
+    assert_near(c.rmse, 0.25, 1e-15);
+    assert_near(c.mae, 0.25, 1e-15);
+    assert_near(c.bias, 0.25, 1e-15);
+    assert_near(c.mse_relative, 0.0625 / 3.0 * (1.0 / 0.26 + 1.0 / 0.0725 + 1.0 / 4.01),
+                1e-8); /* 0.01 as a float */
+    assert_near(c.rmse_relative, sqrt(c.mse_relative), 1e-15);
+    assert_near(c.nrmse, 0.25 / sqrt((0.25 + 0.0625 + 4.0) / 3.0), 1e-15);
+    assert_near(c.peak, 2.0, 0.0);
+    assert_near(c.psnr, 10.0 * log10(4.0 / 0.0625), 1e-12);
+    assert_near(c.max_error, 0.25, 0.0);
+    const double percentiles[] = {c.percentile_50, c.percentile_95, c.percentile_99, c.percentile_999,
+                                  c.percentile};
+    for (int i = 0; i < 5; i++)
+        assert_near(percentiles[i], 0.25, 0.0);
+    assert_true(c.differing_count == 2000 && c.differing_share == 1.0 && !c.is_equal);
+    c = fixture_compare(b, a,
+                        &(facet_compare_desc){.relative_epsilon = 1.0f, .peak = 1.0f, .threshold = 0.25f});
+    assert_near(c.bias, -0.25, 1e-15);
+    assert_near(c.mse_relative, 0.0625 / 3.0 * (1.0 / 1.5625 + 1.0 / 1.25 + 1.0 / 6.0625), 1e-12);
+    assert_near(c.psnr, 10.0 * log10(1.0 / 0.0625), 1e-12);
+    assert_true(c.differing_count == 0);
+    free(a);
+    free(b);
+}
+
+/* A code of 8 bits is 1/255 in display space: PSNR 48.13 dB. */
+static void codes_are_what_a_file_has(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(256, 16, true), *b = fixture_create(256, 16, true);
+    for (uint32_t y = 0; y < 16; y++)
+        for (uint32_t x = 0; x < 256; x++)
+            for (int k = 0; k < 3; k++) {
+                fixture_at(a, x, y)[k] = (float)srgb_decode(x / 255.0);
+                fixture_at(b, x, y)[k] = (float)srgb_decode((x < 255 ? x + 1 : x - 1) / 255.0);
+            }
+    facet_comparison c = fixture_compare(a, b, &errors_only);
+    assert_true(c.space == FACET_COMPARE_DISPLAY && c.peak == 1.0);
+    assert_near(c.rmse * 255.0, 1.0, 1e-4);
+    assert_near(c.max_error * 255.0, 1.0, 2e-4);
+    assert_near(c.percentile_50 * 255.0, 1.0, 2e-4);
+    assert_near(c.psnr, 20.0 * log10(255.0), 1e-3);
+    free(a);
+    free(b);
+}
+
+static void equal_pictures_have_no_error(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(300, 30, false), *b = fixture_create(300, 30, false);
+    fixture_draw(a, 3, 0.5f);
+    memcpy(b->rgba, a->rgba, sizeof a->rgba);
+    facet_comparison c = fixture_compare(a, b, &(facet_compare_desc){0});
+    assert_true(c.is_equal && c.mse == 0.0 && c.mae == 0.0 && c.max_error == 0.0 && c.differing_count == 0);
+    assert_true(isinf(c.psnr) && c.psnr > 0.0);
+    assert_true(c.ssim == 1.0 && c.ssim_channels == 1.0 && c.flip == 0.0 && c.nrmse == 0.0);
+    fixture_at(b, 299, 29)[2] = nextafterf(fixture_at(b, 299, 29)[2], 2.0f);
+    c = fixture_compare(a, b, &(facet_compare_desc){0});
+    assert_true(!c.is_equal && c.differing_count == 1 && c.max_x == 299 && c.max_y == 29 &&
+                c.max_error > 0.0);
+    free(a);
+    free(b);
+}
+
+/* Percentiles against sorting, of pixels in an order that tells nothing. */
+static int order(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static void percentiles_are_those_of_sorting(void **state)
+{
+    (void)state;
+    enum { COUNT = 4321 };
+    static float values[COUNT], sorted[COUNT];
+    uint32_t random = 9;
+    for (int i = 0; i < COUNT; i++)
+        values[i] = i % 10 == 0 ? -1.0f : ldexpf(fixture_random(&random), i % 40 - 20);
+    values[5] = INFINITY;
+    values[6] = 0.0f;
+    int count = 0;
+    for (int i = 0; i < COUNT; i++)
+        if (values[i] >= 0.0f)
+            sorted[count++] = values[i];
+    qsort(sorted, (size_t)count, sizeof *sorted, order);
+    static const double shares[] = {0.001, 10.0, 50.0, 95.0, 99.0, 99.9, 99.99, 100.0};
+    double got[8];
+    assert_int_equal(compare_select(values, COUNT, shares, 8, NULL, got, NULL), FACET_OK);
+    for (int i = 0; i < 8; i++) {
+        int rank = (int)ceil(shares[i] / 100.0 * count - 1e-9);
+        assert_true(got[i] == (double)sorted[rank < 1 ? 0 : rank - 1]);
+    }
+    assert_true(isinf(got[7]));
+    /* 1 to 100: the 95th percentile is 95 */
+    for (int i = 0; i < 100; i++)
+        values[i] = (float)((i * 37) % 100 + 1);
+    assert_int_equal(compare_select(values, 100, shares, 8, NULL, got, NULL), FACET_OK);
+    assert_true(got[2] == 50.0 && got[3] == 95.0 && got[4] == 99.0 && got[5] == 100.0);
+    assert_int_equal(compare_select(values, 0, shares, 8, NULL, got, NULL), FACET_OK);
+    assert_true(got[0] == 0.0);
+}
+
+/* ---- SSIM ---- */
+
+/* Equation 13 of Wang et al. 2004 window by window. */
+static double slow_ssim(const fixture *a, const fixture *b, int channel, double peak)
+{
+    const double luma[3] = {0.2126, 0.7152, 0.0722}, c1 = pow(0.01 * peak, 2.0), c2 = pow(0.03 * peak, 2.0);
+    const int width = (int)a->picture.width, height = (int)a->picture.height;
+    double total = 0.0, window[11][11], sum = 0.0;
+    for (int j = 0; j < 11; j++)
+        for (int i = 0; i < 11; i++)
+            sum += window[j][i] = exp(-((i - 5) * (i - 5) + (j - 5) * (j - 5)) / 4.5);
+    for (int y = 5; y < height - 5; y++)
+        for (int x = 5; x < width - 5; x++) {
+            double values[2][121], means[2] = {0, 0}, variances[2] = {0, 0}, covariance = 0.0;
+            for (int k = 0; k < 121; k++)
+                for (int p = 0; p < 2; p++) {
+                    const float *pixel = (p ? b : a)->rgba + 4 * ((y + k / 11 - 5) * width + x + k % 11 - 5);
+                    values[p][k] = 0.0;
+                    for (int c = 0; c < 3; c++)
+                        values[p][k] += (channel < 0 ? luma[c] : c == channel ? 1.0 : 0.0) * (double)pixel[c];
+                    means[p] += window[k / 11][k % 11] / sum * values[p][k];
+                }
+            for (int k = 0; k < 121; k++) {
+                double weight = window[k / 11][k % 11] / sum, da = values[0][k] - means[0],
+                       db = values[1][k] - means[1];
+                variances[0] += weight * da * da;
+                variances[1] += weight * db * db;
+                covariance += weight * da * db;
+            }
+            total += (2.0 * means[0] * means[1] + c1) * (2.0 * covariance + c2) /
+                     ((means[0] * means[0] + means[1] * means[1] + c1) * (variances[0] + variances[1] + c2));
+        }
+    return total / ((width - 10) * (height - 10));
+}
+
+static void ssim_is_that_of_every_window(void **state)
+{
+    (void)state;
+    const facet_compare_desc desc = {.skipped_metrics = FACET_METRIC_FLIP, .peak = 1.0f};
+    for (int i = 0; i < 3; i++) {
+        fixture *a = fixture_create(i == 2 ? 11 : 150, i == 2 ? 11 : 80, false),
+                *b = fixture_create(a->picture.width, a->picture.height, false);
+        fixture_draw(a, 0, 0.0f);
+        fixture_draw(b, 4, i ? 0.5f : 0.1f);
+        facet_comparison c = fixture_compare(a, b, &desc);
+        assert_near(c.ssim, slow_ssim(a, b, -1, 1.0), 1e-7); /* weights of luminance as floats or not */
+        double channels = 0.0;
+        for (int k = 0; k < 3; k++)
+            channels += slow_ssim(a, b, k, 1.0) / 3.0;
+        assert_near(c.ssim_channels, channels, 1e-11);
+        assert_true(c.ssim < 0.999);
+        c = fixture_compare(a, b, &(facet_compare_desc){.skipped_metrics = FACET_METRIC_FLIP, .peak = 3.0f});
+        assert_near(c.ssim, slow_ssim(a, b, -1, 3.0), 1e-7);
+        free(a);
+        free(b);
+    }
+}
+
+/* Of two constants only the means are compared: (2 m n + C1) / (m^2 + n^2 + C1). */
+static void ssim_of_constants_is_that_of_their_means(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(20, 20, false), *b = fixture_create(20, 20, false);
+    fixture_fill(a, 0.4f, 0.4f, 0.4f, 1.0f);
+    fixture_fill(b, 0.6f, 0.6f, 0.6f, 1.0f);
+    facet_comparison c = fixture_compare(a, b, &(facet_compare_desc){.peak = 1.0f});
+    assert_near(c.ssim, (2.0 * 0.24 + 1e-4) / (0.16 + 0.36 + 1e-4), 1e-6);
+    free(a);
+    free(b);
+    a = fixture_create(10, 30, false); /* too narrow for a window */
+    b = fixture_create(10, 30, false);
+    c = fixture_compare(a, b, &(facet_compare_desc){0});
+    assert_true(isnan(c.ssim) && isnan(c.ssim_channels) && c.flip == 0.0);
+    free(a);
+    free(b);
+}
+
+/* ---- what is compared ---- */
+
+static void only_the_crop_counts(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(60, 50, false), *b = fixture_create(60, 50, false);
+    fixture_draw(a, 0, 0.0f);
+    fixture_draw(b, 0, 0.0f);
+    fixture_at(b, 10, 12)[1] += 0.5f;
+    facet_compare_desc desc = {.crop = {11, 12, 20, 20}};
+    facet_comparison c = fixture_compare(a, b, &desc);
+    assert_true(c.is_equal && c.flip == 0.0 && c.ssim == 1.0 && c.width == 20 && c.pixel_count == 400);
+    desc.crop[0] = 10;
+    c = fixture_compare(a, b, &desc);
+    assert_true(!c.is_equal && c.flip > 0.0 && c.max_x == 10 && c.max_y == 12 && c.differing_count == 1);
+    static const uint32_t wrong[][4] = {
+        {0, 0, 61, 1}, {60, 0, 1, 1}, {5, 5, 0, 5}, {1, 45, 5, 6}, {2, 2, UINT32_MAX, 1}};
+    for (int i = 0; i < 5; i++) {
+        memcpy(desc.crop, wrong[i], sizeof desc.crop);
+        facet_error error;
+        assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, NULL, &error),
+                         FACET_ERROR_ARGUMENT);
+    }
+    free(a);
+    free(b);
+}
+
+/* What the mask hides is seen by no metric, not through filters either; what it lets count is divided by what counts. */
+static void only_what_the_mask_shows_counts(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(200, 90, false), *b = fixture_create(200, 90, false),
+            *m = fixture_create(200, 90, true);
+    fixture_draw(a, 0, 0.0f);
+    fixture_draw(b, 0, 0.0f);
+    for (uint32_t y = 0; y < 90; y++)
+        for (uint32_t x = 0; x < 200; x++) {
+            bool is_hidden = x >= 50 && x < 100;
+            for (int k = 0; k < 3; k++)
+                fixture_at(m, x, y)[k] = is_hidden ? 0.2f : 0.22f; /* sRGB 0.5 is 0.214 */
+            if (is_hidden)
+                fixture_at(b, x, y)[0] = NAN;
+        }
+    facet_comparison c;
+    facet_error error;
+    assert_int_equal(compare_pictures(&a->picture, &b->picture, &m->picture, NULL, &c, NULL, &error),
+                     FACET_OK);
+    assert_true(c.is_equal && c.mse == 0.0 && c.flip == 0.0 && c.ssim == 1.0 && c.nonfinite_b == 0);
+    assert_int_equal(c.pixel_count, 150 * 90);
+    fixture_at(b, 0, 0)[1] += 0.5f;
+    assert_int_equal(compare_pictures(&a->picture, &b->picture, &m->picture, NULL, &c, NULL, &error),
+                     FACET_OK);
+    assert_near(c.mse, 0.25 / (150 * 90 * 3), 1e-9);
+    assert_near(c.differing_share, 1.0 / (150 * 90), 1e-15);
+    fixture_fill(m, 0.0f, 0.0f, 0.0f, 1.0f);
+    assert_int_equal(compare_pictures(&a->picture, &b->picture, &m->picture, NULL, &c, NULL, &error),
+                     FACET_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "mask"));
+    m->picture.width = 199;
+    assert_int_equal(compare_pictures(&a->picture, &b->picture, &m->picture, NULL, &c, NULL, &error),
+                     FACET_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "199 x 90"));
+    free(a);
+    free(b);
+    free(m);
+}
+
+static void opacity_is_a_channel_where_there_is_some(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(20, 20, false), *b = fixture_create(20, 20, false);
+    fixture_fill(a, 0.2f, 0.2f, 0.2f, 0.5f);
+    fixture_fill(b, 0.2f, 0.2f, 0.2f, 0.75f);
+    facet_comparison c = fixture_compare(a, b, &errors_only);
+    assert_true(c.channel_count == 4);
+    assert_near(c.mse, 0.0625 / 4.0, 1e-12);
+    facet_compare_desc desc = errors_only;
+    desc.alpha = FACET_COMPARE_ALPHA_IGNORE;
+    c = fixture_compare(a, b, &desc);
+    assert_true(c.channel_count == 3 && c.mse == 0.0 && !c.is_equal);
+    desc.alpha = FACET_COMPARE_ALPHA_BACKGROUND; /* 0.2 + 0.5 * 0.8 and 0.2 + 0.25 * 0.8 */
+    desc.background[0] = desc.background[1] = desc.background[2] = 0.8f;
+    c = fixture_compare(a, b, &desc);
+    assert_near(c.rmse, 0.2, 1e-6);
+    free(a);
+    free(b);
+}
+
+/* Light is exposed and tone-mapped; what is a display's already is not. Both meet in the display's numbers. */
+static void light_meets_what_a_display_shows(void **state)
+{
+    (void)state;
+    fixture *light = fixture_create(20, 20, false), *shown = fixture_create(20, 20, true);
+    fixture_fill(light, 3.0f, 0.5f, 0.25f, 1.0f);
+    fixture_fill(shown, 0.75f, 0.3333333f, 0.2f, 1.0f); /* Reinhard's c / (1 + c) */
+    facet_compare_desc desc = {.tonemap = FACET_TONEMAP_REINHARD};
+    facet_comparison c = fixture_compare(light, shown, &desc);
+    assert_true(c.space == FACET_COMPARE_DISPLAY && !c.flip_is_hdr);
+    assert_near(c.max_error, 0.0, 1e-6);
+    fixture_fill(light, 1.5f, 0.25f, 0.125f, 1.0f);
+    desc.exposure_ev = 1.0f;
+    assert_near(fixture_compare(light, shown, &desc).max_error, 0.0, 1e-6);
+    assert_near(fixture_compare(shown, light, &desc).max_error, 0.0, 1e-6);
+    desc.tonemap = FACET_TONEMAP_NONE; /* clamped: 1, 0.5, 0.25 */
+    c = fixture_compare(light, shown, &desc);
+    assert_true(c.space == FACET_COMPARE_DISPLAY);
+    assert_near(c.max_error, srgb_encode(0.5) - srgb_encode(1.0 / 3.0), 1e-6);
+    fixture_fill(light, 0.75f, 0.3333333f, 0.2f, 1.0f); /* as it is, in linear space */
+    c = fixture_compare(light, shown, &(facet_compare_desc){.space = FACET_COMPARE_LINEAR});
+    assert_true(c.space == FACET_COMPARE_LINEAR && c.max_error == 0.0 && c.flip_is_hdr);
+    free(light);
+    free(shown);
+}
+
+/* ---- what is no number ---- */
+
+static void what_is_no_number_is_told_and_spoils_nothing(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(40, 40, false), *b = fixture_create(40, 40, false);
+    fixture_draw(a, 0, 0.0f);
+    fixture_draw(b, 0, 0.0f);
+    fixture_at(b, 20, 21)[1] = NAN;
+    fixture_at(b, 5, 5)[0] = INFINITY;
+    fixture_at(a, 30, 30)[0] = fixture_at(b, 30, 30)[0] = INFINITY; /* the same in both: equal */
+    facet_comparison c = fixture_compare(a, b, &(facet_compare_desc){0});
+    assert_true(c.nonfinite_a == 1 && c.nonfinite_b == 3 && c.invalid_count == 2);
+    assert_true(c.differing_count == 2 && isinf(c.max_error) && c.mse == 0.0 && c.ssim == 1.0);
+    assert_near(c.flip, 2.0 / 1600.0, 1e-9); /* and nothing around them */
+    assert_true(!c.is_equal && c.max_x == 5 && c.max_y == 5);
+    fixture_fill(b, NAN, NAN, NAN, NAN);
+    fixture_fill(a, 0.0f, 0.0f, 0.0f, 1.0f);
+    c = fixture_compare(a, b, &(facet_compare_desc){0});
+    assert_true(isnan(c.mse) && isnan(c.psnr) && c.flip == 1.0 && c.invalid_count == 1600);
+    fixture_fill(a, NAN, NAN, NAN, NAN);
+    c = fixture_compare(a, b, &(facet_compare_desc){0});
+    assert_true(c.is_equal && c.mse == 0.0 && c.flip == 0.0 && c.invalid_count == 0 && c.nonfinite_a == 1600);
+    free(a);
+    free(b);
+}
+
+/* ---- threads, memory, arguments ---- */
+
+static void threads_change_no_bit(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(310, 190, false), *b = fixture_create(310, 190, false);
+    fixture_draw(a, 0, 0.0f);
+    fixture_draw(b, 8, 0.7f);
+    fixture_at(b, 100, 100)[3] = 0.5f;
+    facet_comparison first, c;
+    compare_difference heat[2] = {{0}, {0}};
+    for (uint32_t threads = 1; threads < 6; threads++) {
+        facet_compare_desc desc = {.thread_count = threads,
+                                   .difference = FACET_DIFFERENCE_HEAT_MAP,
+                                   .is_sheet = true,
+                                   .percentile = 33.0};
+        assert_int_equal(
+            compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &heat[threads > 1], NULL), FACET_OK);
+        if (threads == 1) {
+            first = c;
+            continue;
+        }
+        assert_memory_equal(&c, &first, sizeof c);
+        assert_memory_equal(heat[0].rgba, heat[1].rgba, 3 * 310 * 190 * 4 * sizeof(float));
+        mem_free(heat[1].rgba);
+    }
+    mem_free(heat[0].rgba);
+    free(a);
+    free(b);
+}
+
+static void running_out_of_memory_is_a_result(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(40, 40, false), *b = fixture_create(40, 40, false);
+    fixture_draw(b, 8, 0.7f);
+    long calls = 1;
+    for (long at = -1; at < calls; at++) {
+        failing_allocator memory = {.fail_at = at};
+        facet_compare_desc desc = {.allocator = failing_allocator_get(&memory), .thread_count = 1};
+        facet_comparison c;
+        compare_difference difference;
+        facet_error error = {0};
+        facet_result result =
+            compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &difference, &error);
+        if (at < 0) {
+            calls = atomic_load(&memory.calls);
+            assert_true(calls > 6 && result == FACET_OK && c.flip > 0.0);
+        } else {
+            assert_int_equal(result, FACET_ERROR_MEMORY);
+            assert_non_null(strstr(error.message, "memory"));
+            assert_true(!difference.rgba && c.width == 0);
+        }
+        mem_free(difference.rgba);
+        assert_int_equal(atomic_load(&memory.blocks), 0);
+    }
+    free(a);
+    free(b);
+}
+
+static void what_cannot_be_is_refused(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(40, 40, false), *b = fixture_create(40, 41, false);
+    facet_comparison c;
+    facet_error error;
+    assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, NULL, &c, NULL, &error),
+                     FACET_ERROR_ARGUMENT);
+    assert_string_equal(error.message,
+                        "compare: the pictures are of different sizes, 40 x 40 and 40 x 41 pixels");
+    const facet_compare_desc wrong[] = {{.pixels_per_degree = 0.5f},
+                                        {.pixels_per_degree = NAN},
+                                        {.percentile = 101.0},
+                                        {.percentile = (double)NAN},
+                                        {.threshold = -1.0f},
+                                        {.threshold = NAN},
+                                        {.gain = INFINITY},
+                                        {.relative_epsilon = -1.0f},
+                                        {.peak = NAN},
+                                        {.space = (facet_compare_space)7},
+                                        {.exposure_ev = NAN},
+                                        {.space = FACET_COMPARE_LINEAR, .tonemap = FACET_TONEMAP_ACES},
+                                        {.alpha = (facet_compare_alpha)9}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        assert_int_equal(compare_pictures(&a->picture, &a->picture, NULL, &wrong[i], &c, NULL, &error),
+                         FACET_ERROR_ARGUMENT);
+    free(a);
+    free(b);
+}
+
+/* ---- pictures ---- */
+
+static void the_difference_picture_has_the_numbers(void **state)
+{
+    (void)state;
+    fixture *a = fixture_create(30, 20, true), *b = fixture_create(30, 20, true);
+    fixture_fill(a, (float)srgb_decode(0.5), 0.0f, 0.0f, 1.0f);
+    fixture_fill(b, (float)srgb_decode(0.4), 1.0f, 0.0f, 1.0f);
+    facet_comparison c;
+    compare_difference d;
+    facet_compare_desc desc = {.gain = 3.0f, .is_sheet = true};
+    assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &d, NULL), FACET_OK);
+    assert_true(d.width == 90 && d.height == 20);
+    const float *row = d.rgba + 4 * 90 * 7;
+    assert_near(row[4 * 3], srgb_decode(0.5), 1e-6); /* a */
+    assert_near(row[4 * 33 + 1], 1.0, 1e-6);         /* b */
+    assert_near(srgb_encode((double)row[4 * 63]), 0.3, 1e-5);
+    assert_near(row[4 * 63 + 1], 1.0, 0.0);
+    assert_true(row[4 * 63 + 2] == 0.0f && row[4 * 63 + 3] == 1.0f);
+    mem_free(d.rgba);
+    desc = (facet_compare_desc){.difference = FACET_DIFFERENCE_HEAT_MAP};
+    assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &d, NULL), FACET_OK);
+    float wanted[3];
+    compare_magma((float)c.flip_max, wanted);
+    double best = 1.0;
+    for (int i = 0; i < 600; i++)
+        best = fmin(best, fabs(srgb_encode((double)d.rgba[4 * i]) - (double)wanted[0]));
+    assert_near(best, 0.0, 1e-5);
+    mem_free(d.rgba);
+    a->picture.is_display = b->picture.is_display = false; /* linear: as they are, also above 1 */
+    fixture_at(b, 1, 0)[0] = 9.0f;
+    desc = (facet_compare_desc){.gain = 0.5f};
+    assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &d, NULL), FACET_OK);
+    assert_near(d.rgba[4], (9.0 - srgb_decode(0.5)) / 2.0, 1e-6);
+    mem_free(d.rgba);
+    free(a);
+    free(b);
+}
+
+/* From dark to light, each step brighter than the last. */
+static void heat_rises(void **state)
+{
+    (void)state;
+    float last = -1.0f, color[3];
+    for (int i = 0; i <= 1000; i++) {
+        compare_magma((float)i / 1000.0f, color);
+        float luma = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
+        assert_true(luma > last && luma <= 1.0f);
+        last = luma;
+    }
+    compare_magma(NAN, color);
+    assert_true(color[2] < 0.02f);
+    compare_magma(5.0f, color);
+    assert_near(color[1], 0.991, 1e-6);
+}
+
+static void powers_are_those_of_libm(void **state)
+{
+    (void)state;
+    for (double x = 1e-6; x < 1e6; x *= 1.00137)
+        for (int i = 0; i < 3; i++) {
+            const double y = i == 0 ? 1.0 / 3.0 : i == 1 ? 0.7 : 1.0 / 2.4;
+            const double wanted = pow((double)(float)x, (double)(float)y);
+            assert_near((double)compare_pow((float)x, (float)y) / wanted, 1.0, 1e-6);
+        }
+    for (int i = 0; i <= 65535; i++) {
+        const double x = i / 65535.0;
+        assert_near((double)compare_srgb_encode((float)x), srgb_encode((double)(float)x), 3e-7);
+        assert_near((double)compare_srgb_decode((float)x), srgb_decode((double)(float)x), 5e-7);
+    }
+    assert_true(compare_pow(0.0f, 0.5f) == 0.0f && compare_pow(1.0f, 0.7f) == 1.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_an_offset_everything_is_known),
+        cmocka_unit_test(codes_are_what_a_file_has),
+        cmocka_unit_test(equal_pictures_have_no_error),
+        cmocka_unit_test(percentiles_are_those_of_sorting),
+        cmocka_unit_test(ssim_is_that_of_every_window),
+        cmocka_unit_test(ssim_of_constants_is_that_of_their_means),
+        cmocka_unit_test(only_the_crop_counts),
+        cmocka_unit_test(only_what_the_mask_shows_counts),
+        cmocka_unit_test(opacity_is_a_channel_where_there_is_some),
+        cmocka_unit_test(light_meets_what_a_display_shows),
+        cmocka_unit_test(what_is_no_number_is_told_and_spoils_nothing),
+        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(running_out_of_memory_is_a_result),
+        cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(the_difference_picture_has_the_numbers),
+        cmocka_unit_test(heat_rises),
+        cmocka_unit_test(powers_are_those_of_libm),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
