@@ -491,7 +491,9 @@ FN vec3 probe_pixel(int which, vec2 u)
 {
     if (which == 69) {
         vec2 p = sobol_point(uint(u[0] * 4096.0f), hash_uint(uint(u[1] * 4096.0f)));
-        return vec3(p[0], p[1], 0.0f);
+        uint d =
+            owen_scramble(sobol_second(reverse_bits(uint(u[1] * 4096.0f))), hash_uint(uint(u[0] * 4096.0f)));
+        return vec3(p[0], p[1], float(d >> 8u) * (1.0f / 16777216.0f));
     }
     int kind = which - 70;
     FilterSample s = sample_pixel_filter(kind, u);
