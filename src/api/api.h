@@ -7,6 +7,7 @@
 struct facet_image {
     film film; /* developed: tone-mapped, background laid under it */
     facet_render_stats stats;
+    bool is_for_display; /* read from a file whose colors are a display's */
 };
 
 #endif

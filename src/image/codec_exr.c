@@ -249,6 +249,7 @@ typedef struct reading {
     const sizes *sizes;
     const facet_allocator *allocator;
     image *image;
+    bool keeps_nonfinite;
     _Atomic uint64_t failure; /* row << 8 | facet_result of the first strip that failed; UINT64_MAX: none */
 } reading;
 
@@ -281,7 +282,9 @@ static void store_rows(const reading *r, uint32_t row, uint32_t row_end, const f
             continue;
         float *to = (float *)r->image->pixels +
                     ((size_t)(y + row) * r->sizes->width + (size_t)(x + first)) * channels;
-        for (size_t k = 0; k < channels; k++)
+        if (r->keeps_nonfinite)
+            memcpy(to, texels + (size_t)first * channels, (size_t)(end - first) * channels * sizeof *to);
+        for (size_t k = 0; k < channels && !r->keeps_nonfinite; k++)
             store_samples(texels + (size_t)first * channels + k, info->sources[k].is_half,
                           (size_t)(end - first), channels, to + k);
     }
@@ -376,7 +379,8 @@ facet_result exr_decode(const unsigned char *bytes, size_t size, const char *nam
                  .info = &info,
                  .sizes = &s,
                  .allocator = &desc->allocator,
-                 .image = &made};
+                 .image = &made,
+                 .keeps_nonfinite = desc->keeps_nonfinite};
     atomic_init(&r.failure, UINT64_MAX);
     result = decode(&r, name, desc, error);
     if (result == FACET_OK)

@@ -85,7 +85,8 @@ facet_result pfm_decode(const unsigned char *bytes, size_t size, const char *nam
     for (uint32_t y = 0; y < h.height; y++) {
         const unsigned char *from = bytes + h.data_offset + row_size * (h.height - 1 - y);
         for (size_t k = 0; k < (size_t)h.width * h.channel_count; k++, from += 4) {
-            float x = codec_finite(float_from_bits(h.is_big_endian ? load_u32_be(from) : load_u32_le(from)));
+            float x = float_from_bits(h.is_big_endian ? load_u32_be(from) : load_u32_le(from));
+            x = desc->keeps_nonfinite ? x : codec_finite(x);
             *to++ = x;
             if (h.channel_count == 1) {
                 *to++ = x;

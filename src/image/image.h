@@ -64,6 +64,7 @@ typedef struct image_decode_desc {
                                directions (rounded up) where the codec does that cheaply (JPEG: k <= 3; KTX2: the
                                levels in the file that are of that size) */
     uint32_t channel_count; /* 0: the file's own; 3 or 4: as asked, 8-bit formats only */
+    bool keeps_nonfinite;   /* EXR, PFM: NaN and infinity stay: a picture to be looked at, not to be lit by */
 } image_decode_desc;
 
 /* What the header says; nothing else is read. width and height are those of the whole picture. */
@@ -72,7 +73,7 @@ facet_result image_probe(const void *bytes, size_t size, const char *name, image
 /* Decodes. name stands first in messages. PNG, AVIF: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits;
  * all of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2). HDR, EXR, PFM: F32 RGB
  * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where a file holds
- * half). KTX2: the first layer and face (ktx2.h has them all), of the type that holds the format's values, is_srgb
+ * half), unless desc says otherwise. KTX2: the first layer and face (ktx2.h has them all), of the type that holds the format's values, is_srgb
  * as the file says; channels that its format lacks are 0, as samplers read them. */
 facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
                           image *out, facet_error *error);

@@ -1,0 +1,127 @@
+/* image_load_api.c - images of facet.h that no renderer made: from files, from pixels. */
+#include "api/api.h"
+
+#include <string.h>
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "image/image.h"
+
+enum { GRAIN = 16384 }; /* pixels */
+static const uint64_t default_max_file_bytes = 4ull << 30;
+
+/* ---- pixels to images ---- */
+
+/* Makes rgba (F32, 4 channels) the picture; it is taken, also on failure. */
+static facet_result take_pixels(image *rgba, const facet_allocator *allocator, bool is_for_display,
+                                facet_image **out, facet_error *error)
+{
+    facet_image *made = mem_zalloc(allocator, 1, sizeof *made);
+    facet_result result = made ? FACET_OK : fail_memory(error, "image", sizeof *made);
+    if (result == FACET_OK) /* for its layer's names; the pixels are there already */
+        result = film_create(allocator, 1, 1, 0, &made->film, error);
+    if (result != FACET_OK) {
+        mem_free(made);
+        image_destroy(rgba);
+        return result;
+    }
+    mem_free(made->film.layers[0].pixels);
+    made->film.layers[0].pixels = rgba->pixels;
+    made->film.width = rgba->width;
+    made->film.height = rgba->height;
+    made->is_for_display = is_for_display;
+    *rgba = (image){0};
+    *out = made;
+    return FACET_OK;
+}
+
+static void premultiply(void *context, size_t begin, size_t end)
+{
+    float *pixel = (float *)((const image *)context)->pixels + 4 * begin;
+    for (size_t i = begin; i < end; i++, pixel += 4)
+        for (int k = 0; k < 3; k++)
+            pixel[k] *= pixel[3];
+}
+
+facet_result facet_image_create(const facet_image_view *pixels, const facet_allocator *allocator,
+                                facet_image **picture, facet_error *error)
+{
+    *picture = NULL;
+    const uint32_t channels = pixels->channel_count;
+    if (channels != 1 && channels != 3 && channels != 4)
+        return fail(error, FACET_ERROR_ARGUMENT, "image: %u channels; 1, 3 or 4 expected", channels);
+    image rgba;
+    facet_result result = image_create(allocator, pixels->width, pixels->height, 4, IMAGE_F32, &rgba, error);
+    if (result != FACET_OK)
+        return result;
+    const size_t stride = pixels->row_stride_bytes ? pixels->row_stride_bytes
+                                                   : (size_t)pixels->width * channels * sizeof(float);
+    float *to = rgba.pixels;
+    for (uint32_t y = 0; y < pixels->height; y++) {
+        const float *from = (const float *)(const void *)((const char *)pixels->pixels + y * stride);
+        for (uint32_t x = 0; x < pixels->width; x++, to += 4, from += channels) {
+            for (uint32_t k = 0; k < 3; k++)
+                to[k] = from[channels == 1 ? 0 : k];
+            to[3] = channels == 4 ? from[3] : 1.0f;
+        }
+    }
+    return take_pixels(&rgba, allocator, false, picture, error);
+}
+
+bool facet_image_is_for_display(const facet_image *picture)
+{
+    return picture->is_for_display;
+}
+
+/* ---- files ---- */
+
+facet_result facet_image_load_memory(const void *bytes, size_t size, const char *name,
+                                     const facet_image_load_desc *desc, facet_image **picture,
+                                     facet_error *error)
+{
+    const facet_image_load_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    *picture = NULL;
+    const uint32_t thread_count = desc->thread_count ? desc->thread_count : facet_thread_count();
+    const image_decode_desc decode = {.allocator = desc->allocator,
+                                      .thread_count = thread_count,
+                                      .max_size = desc->max_size,
+                                      .keeps_nonfinite = true};
+    image decoded = {0}, rgba = {0};
+    facet_result result = image_decode(bytes, size, name, &decode, &decoded, error);
+    if (result != FACET_OK)
+        return result;
+    const bool is_associated = image_codec_detect(bytes, size) == IMAGE_CODEC_EXR; /* the format says so */
+    const bool is_straight = decoded.channel_count % 2 == 0 && !is_associated;
+    const bool is_for_display = decoded.is_srgb;
+    if (decoded.type == IMAGE_F32 && decoded.channel_count == 4 && !decoded.is_srgb) {
+        rgba = decoded;
+        decoded = (image){0};
+    } else {
+        result = image_convert(&decoded, &desc->allocator, thread_count, 4, IMAGE_F32, false, &rgba, error);
+        image_destroy(&decoded);
+    }
+    if (result != FACET_OK)
+        return result;
+    if (is_straight)
+        parallel_for(thread_count, (size_t)rgba.width * rgba.height, GRAIN, premultiply, &rgba);
+    return take_pixels(&rgba, &desc->allocator, is_for_display, picture, error);
+}
+
+facet_result facet_image_load(const char *path, const facet_image_load_desc *desc, facet_image **picture,
+                              facet_error *error)
+{
+    const facet_image_load_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    *picture = NULL;
+    file_bytes file = {0};
+    facet_result result =
+        file_open(path, desc->max_file_bytes ? desc->max_file_bytes : default_max_file_bytes,
+                  &desc->allocator, &file, error);
+    if (result == FACET_OK)
+        result = facet_image_load_memory(file.data, file.size, path, desc, picture, error);
+    file_close(&file);
+    return result;
+}
