@@ -105,6 +105,20 @@ uint32_t material_plan_textures(const render_geometry *g)
 
 /* ---- all ---- */
 
+/* A thin wall that blurs nothing, a body's boundary with the same ior on both sides: of a body of ior 1, or where
+ * bodies overlap. */
+static bool may_pass_straight(const render_geometry *g, const material_plan *plan, bool has_several_volumes)
+{
+    const scene_material *m = g->material;
+    if (!plan->lets_rays_through)
+        return false;
+    if (plan->is_volume)
+        return !(m->ior > 1.0f) || has_several_volumes;
+    bool may_be_smooth = scene_material_has(m, SCENE_METALLIC_ROUGHNESS_TEXTURE);
+    return may_be_smooth ||
+           thin_wall_alpha(alpha_from_roughness(m->perceptual_roughness), m->ior) <= ALPHA_MIRROR;
+}
+
 facet_result material_plans_create(const render_geometry_set *set, const facet_allocator *allocator,
                                    material_plan_set *out, facet_error *error)
 {
@@ -135,6 +149,11 @@ facet_result material_plans_create(const render_geometry_set *set, const facet_a
             out->has_several_volumes = out->has_several_volumes || (volume && volume != g->material);
             volume = g->material;
         }
+    }
+    for (uint32_t i = 0; i < set->count; i++) {
+        out->items[i].may_pass_straight =
+            may_pass_straight(&set->items[i], &out->items[i], out->has_several_volumes);
+        out->may_pass_straight = out->may_pass_straight || out->items[i].may_pass_straight;
     }
     return FACET_OK;
 }

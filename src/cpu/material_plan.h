@@ -15,6 +15,7 @@ typedef struct material_plan {
         legacy_maps; /* bits of legacy_map_slot: what a shade of a legacy material looks up; ogl1_setup.h */
     bool is_volume;  /* the boundary of a body that rays go through, not a thin wall: both sides are seen */
     bool is_body;    /* the same, or of one that light enters diffusely */
+    bool may_pass_straight; /* light may go on through it without a change of direction */
 } material_plan;
 
 typedef struct material_plan_set {
@@ -23,6 +24,7 @@ typedef struct material_plan_set {
     bool has_several_volumes;
     bool has_see_through; /* some geometry is not met by every ray that reaches it: alpha mask or blend */
     bool has_bodies;
+    bool may_pass_straight; /* some geometry */
 } material_plan_set;
 
 /* Bits of the textures that a shade of the geometry may look up, whether there are tangents or not. */

@@ -3,6 +3,7 @@
 #ifndef CPU_RAY_TRACE_H
 #define CPU_RAY_TRACE_H
 
+#include "cpu/media.h"
 #include "cpu/surface_point.h"
 
 /* Rays of the camera do not meet the culled sides of single-sided surfaces (shading_is_visible_side()); all others meet
@@ -23,7 +24,22 @@ ray_first ray_trace_first(const shading_scene *scene, const shading_ray *ray, fl
 bool ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint32_t random,
                        visibility_hit *hit);
 
-/* The share of light that alpha lets pass along the ray, [0, 1]. */
-float ray_trace_opening(const shading_scene *scene, const shading_ray *ray);
+enum { RAY_CROSSINGS = 32 };
+
+/* Surfaces on a ray whose say in what passes is the caller's. */
+typedef struct ray_crossings {
+    bool takes_all; /* all that transmit; else those of which the plan says that light may go straight on */
+    bool is_cut;    /* there are more, farther away */
+    uint32_t count;
+    visibility_hit hits[RAY_CROSSINGS]; /* nearest first */
+} ray_crossings;
+
+/* The share of light that alpha lets pass along the ray, [0, 1]. crossings: comes with takes_all set, and gets the
+ * surfaces that are left out of that share; NULL: none are. */
+float ray_trace_opening(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings);
+
+/* Enters the bodies that P is in, the outermost first as far as that can be told: those that are left more often than
+ * entered on the way out, whichever way that is. Returns the number of rays. */
+uint32_t ray_trace_media_at(const shading_scene *scene, const float P[3], media *m);
 
 #endif

@@ -3,21 +3,87 @@
 #include "cpu/volume_rays.h"
 
 #include "path/path_shadow.h"
+#include "path/path_vertex.h"
+#include "path/path_volume.h"
 
 /* How far a ray goes towards the light. It ends before an emissive triangle, by what rounding does to both ends. */
 static float reach(vec3 P, const path_light_sample *light)
 {
-    if (light->is_surroundings || !(light->distance_m < INFINITY))
+    if (light->is_surroundings || !(light->distance_m < 1e30f))
         return INFINITY;
     vec3 end = P + light->L * light->distance_m;
     return light->distance_m * (1.0f - 4e-6f) - 4.0f * volume_rays_tolerance_of(max3(max(abs(P), abs(end))));
 }
 
-vec3 path_shadow(path *p, vec3 P, const path_light_sample *light)
+/* What a surface that transmits lets pass. straight_shadows: as if it did not refract, and looked at face to face. */
+static vec3 share_passed(const path *p, const path_vertex *v)
+{
+    const surface_point *s = &v->s;
+    vec3 share = vec3(1.0f);
+    if (!v->is_false) {
+        share = path_vertex_straight(v);
+        if (!v->is_straight && path_has_straight_shadows(p) && s->m.layers & LAYER_TRANSMISSION)
+            share = below_shares(s->m).specular * ((1.0f - s->m.base.metallic) * (1.0f - max3(s->m.base.F0)));
+    }
+    float opacity = surface_opacity(s->hit.geometry->material, s->base_color[3]);
+    return mix(vec3(1.0f), share, opacity);
+}
+
+/* Through all crossings, nearest first; w: a path that goes along the ray. False: nothing passes. */
+static bool go_through(path *w, const ray_crossings *c, const shading_ray *ray, float *from, vec3 *share)
+{
+    for (uint32_t i = 0; i < c->count; i++) {
+        path_vertex v;
+        const visibility_hit *hit = &c->hits[i];
+        media before = w->media;
+        path_vertex_make(w, hit, ray, &v);
+        /* Boundaries in one place were crossed together: volume_rays_cross(). */
+        bool is_crossed = i > 0 && hit->t - *from <= 2.0f * v.tolerance && v.s.plan->is_volume;
+        if (is_crossed) {
+            w->media = before;
+            continue;
+        }
+        *share *= path_media_transmittance(&w->media, hit->t - *from) * share_passed(w, &v);
+        *from = hit->t;
+        if (v.s.m.layers & LAYER_VOLUME)
+            w->media = v.behind;
+        if (!(max3(*share) > 0.0f))
+            return false;
+    }
+    return true;
+}
+
+static vec3 walk(path *p, shading_ray *ray, const media *at)
+{
+    static const ray_spread none = {.moves = false, .turns = false};
+    ray_crossings crossings = {.takes_all = path_has_straight_shadows(p)};
+    path w = *p;
+    w.media = *at;
+    ray->spread = &none;
+    float from = 0.0f;
+    vec3 share = vec3(ray_trace_opening(p->shading, ray, &crossings));
+    if (!(share[0] > 0.0f) || !go_through(&w, &crossings, ray, &from, &share))
+        return vec3(0.0f);
+    while (crossings.is_cut) {
+        ray->near_t = nextafterf(from, INFINITY);
+        p->out->rays++;
+        ray_trace_opening(p->shading, ray, &crossings);
+        if (!go_through(&w, &crossings, ray, &from, &share))
+            return vec3(0.0f);
+    }
+    return share * path_media_transmittance(&w.media, ray->far_t - from);
+}
+
+vec3 path_shadow(path *p, vec3 P, const media *at, const path_light_sample *light)
 {
     shading_ray ray = {.far_t = reach(P, light)};
     store3(P, ray.origin);
     store3(light->L, ray.direction);
+    if (!(ray.far_t > 0.0f))
+        return vec3(1.0f);
     p->out->rays++;
-    return ray.far_t > 0.0f ? vec3(ray_trace_opening(p->shading, &ray)) : vec3(1.0f);
+    if (p->shading->plans->may_pass_straight || path_has_straight_shadows(p))
+        return walk(p, &ray, at);
+    vec3 share = vec3(ray_trace_opening(p->shading, &ray, NULL));
+    return at->count && share[0] > 0.0f ? share * path_media_transmittance(at, ray.far_t) : share;
 }

@@ -4,7 +4,9 @@
 
 #include "path/path_state.h"
 
-/* The share that arrives at P (m), which is free of the surface that it lies on, of light. The ray is counted in p. */
-vec3 path_shadow(path *p, vec3 P, const path_light_sample *light);
+/* The share that arrives at P (m), which is free of the surface that it lies on and in what `at` says, of light. Alpha lets
+ * its share pass, and so does what light goes straight through; all else that transmits blocks it, but with
+ * facet_path_desc.straight_shadows. The ray is counted in p. */
+vec3 path_shadow(path *p, vec3 P, const media *at, const path_light_sample *light);
 
 #endif

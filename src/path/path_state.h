@@ -26,14 +26,23 @@ typedef struct path {
     float width_m, angle; /* of the cone of directions that it stands for: radius at P, half-angle in rad */
     float passed_m;       /* since from.P, where the path went straight on through something */
     path_origin from;
-    media media;     /* what P is in */
-    uint32_t depth;  /* surfaces and scattering events behind it */
-    uint32_t vertex; /* the same with those that light passes straight: number for the sampler */
-    bool
-        follows_mirrors; /* nothing but mirrors and clear glass so far: albedo and normal are still to come */
+    media media;          /* what P is in */
+    float wavelength_nm;  /* 0: all */
+    uint32_t depth;       /* surfaces and scattering events behind it */
+    uint32_t vertex;      /* the same with those that light passes straight: number for the sampler */
+    bool has_crossed;     /* what transmits, since from: straight shadows find the light behind it */
+    bool follows_mirrors; /* nothing but mirrors and clear glass so far: albedo, normal are to come */
     path_sample *out;
     vec3 radiance;
 } path;
+
+/* Whether shadow rays pass what transmits, and paths leave that light to them. */
+static inline bool path_has_straight_shadows(const path *p)
+{
+    const facet_path_desc *desc = &p->scene->setup->desc->path;
+    return desc->straight_shadows && desc->light_sampling != FACET_LIGHT_SAMPLING_BSDF &&
+           p->shading->plans->lets_rays_through;
+}
 
 /* Adds what came from ahead; indirect light is cut to desc->path.clamp where that is asked for. */
 static inline void path_add(path *p, vec3 contribution)
@@ -58,6 +67,8 @@ static inline float path_met_weight(const path *p, float light_pdf)
 {
     if (!p->from.is_chosen || !(light_pdf > 0.0f))
         return 1.0f;
+    if (p->has_crossed)
+        return 0.0f;
     switch (p->scene->setup->desc->path.light_sampling) {
     case FACET_LIGHT_SAMPLING_BSDF:
         return 1.0f;

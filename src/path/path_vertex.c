@@ -1,8 +1,11 @@
 /* path_vertex.c - see path_vertex.h. */
+#include "cpu/boundary_normal.h"
+#include "cpu/shading_frame.h"
 #include "cpu/surface_tables.h"
 #include "cpu/volume_rays.h"
 
 #include "path/path_vertex.h"
+#include "path/path_volume.h"
 
 /* ---- the surface ---- */
 
@@ -38,22 +41,88 @@ static vec3 seen_normal(vec3 N, vec3 V)
     return c >= NDOTV_MIN ? N : normalize(N + V * (1.01f * NDOTV_MIN - c));
 }
 
-void path_vertex_make(const path *p, const visibility_hit *hit, const shading_ray *ray, path_vertex *v)
+/* ---- boundaries of bodies ---- */
+
+/* Sets N, as refraction wants it: smooth normals of a mesh may lean away from what they stand for. */
+static void set_boundary_normal(const visibility_hit *hit, surface_point *s)
+{
+    Layers *m = &s->m;
+    m->base.N = boundary_normal_at(s, hit).N;
+    if (!(m->layers & LAYER_ANISOTROPY))
+        return;
+    vec3 T = m->anisotropy_T - m->base.N * dot(m->base.N, m->anisotropy_T);
+    m->anisotropy_T = normalize_or(T, COL(basis_from_normal(m->base.N), 0));
+    m->anisotropy_B = cross(m->base.N, m->anisotropy_T);
+}
+
+/* F0 and F90, which are those against air, for the ior of both sides. Where they are equal nothing is reflected. */
+static void set_reflectance(float ior, Layers *m)
+{
+    float F0 = F0_from_ior(max(ior, 1.0f));
+    float F0_here = F0_from_ior(m->eta);
+    if (!(F0_here > 0.0f))
+        m->base.F90 = 0.0f;
+    m->base.F0 = F0 > 0.0f ? min(m->base.F0 * (F0_here / F0), 1.0f) : vec3(F0_here * m->base.F90);
+}
+
+/* The surface as one between two media. What is in them is found by paths: nothing of it is counted in the surface. */
+static void meet_body(path *p, const visibility_hit *hit, path_vertex *v)
+{
+    surface_point *s = &v->s;
+    Layers *m = &s->m;
+    const render_geometry *g = s->hit.geometry;
+    if (m->layers & LAYER_TRANSMISSION)
+        set_boundary_normal(hit, s);
+    if (!s->is_front && !path_media_has(&p->media, g->material))
+        media_enter(&p->media, g->material, g->material->thickness * g->scale);
+    v->behind = p->media;
+    volume_rays_cross(p->shading, hit, s, v->tolerance, &v->behind);
+    const medium *here = path_media_here(&p->media);
+    const medium *there = path_media_here(&v->behind);
+    v->is_false = here && there && here->material == there->material;
+    v->disperses = !(p->wavelength_nm > 0.0f) && m->layers & LAYER_TRANSMISSION &&
+                   (path_media_disperses(&p->media) || path_media_disperses(&v->behind));
+    m->eta = path_media_ior(&v->behind, p->wavelength_nm) / path_media_ior(&p->media, p->wavelength_nm);
+    m->layers &= ~(LAYER_SCATTER | LAYER_DISPERSION);
+    m->attenuation_distance = INFINITY;
+    set_reflectance(g->material->ior, m);
+}
+
+void path_vertex_set_wavelength(const path *p, path_vertex *v)
+{
+    v->s.m.eta = path_media_ior(&v->behind, p->wavelength_nm) / path_media_ior(&p->media, p->wavelength_nm);
+    v->disperses = false;
+}
+
+/* Whether what is transmitted keeps its direction. */
+static bool goes_straight(const Layers *m)
+{
+    if (!(m->layers & LAYER_TRANSMISSION) || !layers_transmission_is_mirror(*m))
+        return false;
+    return !(m->layers & LAYER_VOLUME) || !(m->eta < 1.0f || m->eta > 1.0f);
+}
+
+/* ---- all ---- */
+
+void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray, path_vertex *v)
 {
     shading_point point = {.hit = hit, .ray = ray};
     surface_point *s = &v->s;
     surface_point_make(p->shading, &point, s);
-    v->lets_through = false;
+    v->lets_through = v->is_false = v->disperses = v->is_straight = false;
     if (!s->is_lit)
         return;
     v->Ng = geometric_normal(hit, s->V);
     v->tolerance = tolerance_at(s);
     v->energy = surface_energy(p->shading);
     Layers *m = &s->m;
+    if (s->plan->is_body && m->layers & LAYER_VOLUME)
+        meet_body(p, hit, v);
     m->base.N = seen_normal(m->base.N, s->V);
     if (m->layers & LAYER_CLEARCOAT)
         m->clearcoat_N = seen_normal(m->clearcoat_N, s->V);
     v->lets_through = (m->layers & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION)) != 0;
+    v->is_straight = s->plan->may_pass_straight && goes_straight(m);
     v->tables = surface_tables(m, s->V, v->energy);
     v->lobes = layers_lobes(*m, s->V, v->energy, v->tables);
 }
@@ -133,4 +202,13 @@ bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, path_directi
         return false;
     out->weight = layers_scatter_cos(*m, v->s.V, s.L, v->energy, v->tables, sheen_E(m, s.L)) * (1.0f / s.pdf);
     return true;
+}
+
+vec3 path_vertex_straight(const path_vertex *v)
+{
+    if (!v->is_straight)
+        return vec3(0.0f);
+    LayersLobes only = {.transmission = 1.0f};
+    LayersSample s = layers_transmission_mirror(v->s.m, only, v->s.V, v->energy, v->tables);
+    return s.is_valid ? s.weight : vec3(0.0f);
 }

@@ -11,12 +11,17 @@ typedef struct path_vertex {
     float tolerance; /* m: positions that are nearer are the same; volume_rays.h */
     int energy;
     bool lets_through; /* some lobe is on the other side */
+    bool is_false;     /* no boundary: the same is on both sides, another body displaces this one here */
+    bool is_straight;  /* path_vertex_straight() is not 0, and shadow rays know */
+    bool disperses;    /* light that goes through needs a wavelength first */
+    media behind;      /* what is on the other side */
     LayerTables tables;
     LayersLobes lobes;
 } path_vertex;
 
-/* The surface that p's ray met as hit. */
-void path_vertex_make(const path *p, const visibility_hit *hit, const shading_ray *ray, path_vertex *v);
+/* The surface that p's ray met as hit. The back of a body that p is not in (a mesh with a hole) is left as if it were:
+ * p->media is told. */
+void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray, path_vertex *v);
 
 /* cd/m^2 towards V. Single-sided surfaces shine on their front only; what is drawn in flat color shines with it. */
 vec3 path_vertex_emission(const path_vertex *v);
@@ -35,6 +40,12 @@ typedef struct path_direction {
 
 /* False: the path ends here. */
 bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, path_direction *out);
+/* Makes v that of one wavelength, for what goes through. */
+void path_vertex_set_wavelength(const path *p, path_vertex *v);
+
+/* The share of light that goes straight on through the surface: a thin wall without blur, a boundary that does not refract.
+ * Shadow rays pass it as paths do. 0: none does. */
+vec3 path_vertex_straight(const path_vertex *v);
 
 /* Where a ray into direction L starts, so that it does not meet the surface that it leaves. */
 static inline vec3 path_vertex_start(const path_vertex *v, vec3 L)
