@@ -46,7 +46,7 @@ static bool grow(growing *g)
 
 /* All of standard input. Fails with FACET_ERROR_READ, _LIMIT (more than max_bytes), _MEMORY, and _ARGUMENT where it is
  * a terminal. */
-static facet_result read_stdin(uint64_t max_bytes, growing *out, facet_error *error)
+static facet_result read_stdin(uint64_t max_bytes, const char *expected, growing *out, facet_error *error)
 {
     if (terminal_is(stdin))
         return fail_with(error, FACET_ERROR_ARGUMENT,
@@ -66,7 +66,7 @@ static facet_result read_stdin(uint64_t max_bytes, growing *out, facet_error *er
                              (unsigned long long)max_bytes);
     }
     return out->used ? FACET_OK
-                     : fail_with(error, FACET_ERROR_READ, "stdin: it is empty; a model was expected");
+                     : fail_with(error, FACET_ERROR_READ, "stdin: it is empty; a %s was expected", expected);
 }
 
 /* What can be known to be wrong before anything is read. */
@@ -92,9 +92,26 @@ facet_result input_load(const char *path, const facet_scene_desc *desc, facet_sc
         return facet_scene_load(path, desc, scene, error);
     growing bytes = {.allocator = &desc->allocator};
     facet_result result =
-        read_stdin(desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)4 << 30, &bytes, error);
+        read_stdin(desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)4 << 30, "model", &bytes, error);
     if (result == FACET_OK)
         result = facet_scene_load_memory(bytes.data, bytes.used, input_name(path), desc, scene, error);
+    release(&bytes);
+    return result;
+}
+
+facet_result input_load_image(const char *path, const facet_image_load_desc *desc, facet_image **image,
+                              facet_error *error)
+{
+    *image = NULL;
+    if (!path[0])
+        return fail_with(error, FACET_ERROR_ARGUMENT, "facet: the name of a picture is empty");
+    if (strcmp(path, "-") != 0)
+        return facet_image_load(path, desc, image, error);
+    growing bytes = {.allocator = &desc->allocator};
+    facet_result result =
+        read_stdin(desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)4 << 30, "picture", &bytes, error);
+    if (result == FACET_OK)
+        result = facet_image_load_memory(bytes.data, bytes.used, input_name(path), desc, image, error);
     release(&bytes);
     return result;
 }

@@ -15,6 +15,6 @@
     }
 
 extern const option_group machine_group, message_group, running_group, model_group, legacy_group, path_group;
-extern const verb render_verb, convert_verb, plot_verb;
+extern const verb render_verb, convert_verb, plot_verb, compare_verb;
 
 #endif

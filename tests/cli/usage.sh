@@ -18,7 +18,7 @@ grep -q '75' out || failed "help exit-codes lacks 75"
 
 expect 2 model.glb
 says "facet: which command? For a picture: facet render model.glb -o model.png"
-for verb in bake ocean view compare batch serve merge; do
+for verb in bake ocean view batch serve merge; do
     expect 2 $verb
     says "this version does not have the command $verb yet"
     [ "$(wc -l <err)" = 1 ] || failed "more than one line on $verb"
@@ -69,7 +69,7 @@ expect 2 inspect
 only
 
 # help of a verb mentions all its options, and fits its width
-for verb in render inspect version help; do
+for verb in render inspect compare version help; do
     expect 0 $verb --help
     cp out help.$verb
     expect 0 help $verb
