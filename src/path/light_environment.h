@@ -1,9 +1,9 @@
 /* light_environment.h - directions towards the light of an equirectangular picture, in proportion to what each of its
  * texels gives a surface. Holds shared shading text: include it last.
  *
- * The density is piecewise constant per solid angle: that of a texel is the mean of the bilinearly interpolated radiance
- * over it (of the three channels), so that it is above 0 wherever radiance is, and uniform where radiance is. On the way
- * to a texel stand LIGHT_ENVIRONMENT_CELLS parts of the sphere, each weighted by its light and by the cosine that the
+ * The density is bilinear between the middles of texels, as radiance is (the mean of its three channels), and differs from
+ * it only by how solid angle bends rows near the poles: it is above 0 wherever radiance is, and uniform where radiance
+ * is. On the way to a patch of four texels stand LIGHT_ENVIRONMENT_CELLS parts of the sphere, each weighted by its light and by the cosine that the
  * surface sees it at (product sampling on the coarse levels: Clarberg et al. 2005, "Wavelet Importance Sampling"; Cline
  * et al. 2006, "Two Stage Importance Sampling for Direct Lighting"). Nearby numbers give nearby directions, so that
  * stratified numbers stay stratified. */
@@ -41,7 +41,8 @@ typedef struct light_environment_view {
 
 /* N: unit, only directions above its horizon count; {0}: all count alike (irradiance is then the integral of radiance). */
 void light_environment_see(const light_environment *e, vec3 N, light_environment_view *view);
-/* A unit direction for uniform numbers in [0, 1); view->irradiance is above 0. Returns its pdf per sr, above 0. */
+/* A unit direction for uniform numbers in [0, 1); view->irradiance is above 0. Returns its pdf per sr; 0,
+ * for the very last numbers, where floats cannot tell it from 0. */
 float light_environment_sample(const light_environment *e, const light_environment_view *view,
                                const double u[2], vec3 *d);
 /* The pdf that light_environment_sample() has at the unit direction d. */

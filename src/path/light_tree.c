@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/simd.h"
 
 #include "path/light_tree_nodes.h"
 
@@ -10,52 +11,57 @@
  *     intensity f(theta') cos(theta_N') / max(d, radius)^2
  * where theta' is the angle from the axis less the spread and less the angle that the child's sphere is seen under,
  * theta_N' that from N less the latter, both at least 0. Conty Estevez and Kulla 2018, equation 3. */
-static float weigh(const light_tree_node *n, vec3 P, vec3 N, bool has_normal, float weights[WIDTH])
+DISPATCH_AVX2 static float weigh(const light_tree_node *restrict n, const float *restrict P,
+                                 const float *restrict N, float facing, float *restrict weights)
 {
-    float px = P[0];
-    float py = P[1];
-    float pz = P[2];
-    float nx = N[0];
-    float ny = N[1];
-    float nz = N[2];
-    float facing = has_normal ? 0.0f : 1.0f;
-    for (int i = 0; i < WIDTH; i++) {
+    const float px = P[0];
+    const float py = P[1];
+    const float pz = P[2];
+    const float nx = N[0];
+    const float ny = N[1];
+    const float nz = N[2];
+    for (int i = 0; i < WIDTH; i++) { /* no branches: it vectorises */
         float x = n->x[i] - px;
         float y = n->y[i] - py;
         float z = n->z[i] - pz;
         float d2 = x * x + y * y + z * z + 1e-30f;
-        float r2 = n->radius[i] * n->radius[i];
-        float per_d = 1.0f / sqrtf(d2);
-        float d = d2 * per_d;
-        float sin2_u = r2 < d2 ? r2 / d2 : 1.0f;
-        float sin_u = sqrtf(sin2_u);
-        float cos_u = r2 < d2 ? sqrtf(1.0f - sin2_u) : -1.0f; /* inside: it is seen all around */
+        float per_d2 = 1.0f / d2;
+        float per_d = sqrtf(per_d2);
+        float sin_u = n->radius[i] * per_d;
+        float outside = 1.0f - sin_u * sin_u;
+        float cos_outside = sqrtf(outside > 0.0f ? outside : 0.0f);
+        float cos_u = outside > 0.0f ? cos_outside : -1.0f; /* inside: it is seen all around */
 
         float front = -(n->axis_x[i] * x + n->axis_y[i] * y + n->axis_z[i] * z);
-        float cos_a = front * per_d;
-        float back = cos_a * n->back[i];
-        cos_a = cos_a > back ? cos_a : back;
-        cos_a = cos_a < 1.0f ? cos_a : 1.0f;
+        float ahead = front * per_d;
+        float back = ahead * n->back[i];
+        float nearer = ahead > back ? ahead : back;
+        float cos_a = nearer < 1.0f ? nearer : 1.0f;
         float sin2_a = 1.0f - cos_a * cos_a;
-        float sin_a = sqrtf(sin2_a > 0.0f ? sin2_a : 0.0f);
-        bool is_in_spread = cos_a >= n->cos_spread[i];
-        float cos_b = is_in_spread ? 1.0f : cos_a * n->cos_spread[i] + sin_a * n->sin_spread[i];
-        float sin_b = is_in_spread ? 0.0f : sin_a * n->cos_spread[i] - cos_a * n->sin_spread[i];
-        float cos_c = cos_b >= cos_u ? 1.0f : cos_b * cos_u + sin_b * sin_u;
-        float emission = (cos_c - n->dark[i]) * n->per_ramp[i];
-        emission = emission < 1.0f ? emission : 1.0f;
-        emission = emission > 0.0f && front > -n->slack[i] ? emission : 0.0f;
+        float sin_a = sqrtf(sin2_a);
+        float cos_less = cos_a * n->cos_spread[i] + sin_a * n->sin_spread[i];
+        float sin_less = sin_a * n->cos_spread[i] - cos_a * n->sin_spread[i];
+        float cos_b = cos_a >= n->cos_spread[i] ? 1.0f : cos_less;
+        float sin_b = cos_a >= n->cos_spread[i] ? 0.0f : sin_less;
+        float cos_still_less = cos_b * cos_u + sin_b * sin_u;
+        float cos_c = cos_b >= cos_u ? 1.0f : cos_still_less;
+        float ramp = (cos_c - n->dark[i]) * n->per_ramp[i];
+        float most = ramp < 1.0f ? ramp : 1.0f;
+        float emission = most > 0.0f ? most : 0.0f;
+        float shown = front > -n->slack[i] ? n->intensity[i] : 0.0f;
 
         float cos_n = (nx * x + ny * y + nz * z) * per_d;
         float sin2_n = 1.0f - cos_n * cos_n;
         float sin_n = sqrtf(sin2_n > 0.0f ? sin2_n : 0.0f);
-        float cosine = cos_n >= cos_u ? 1.0f : cos_n * cos_u + sin_n * sin_u;
-        cosine = cosine > facing ? cosine : facing;
+        float cos_n_less = cos_n * cos_u + sin_n * sin_u;
+        float bound = cos_n >= cos_u ? 1.0f : cos_n_less;
+        float cosine = bound > facing ? bound : facing;
 
-        float q = d / n->reach[i];
-        float window = 1.0f - q * q * (q * q);
-        window = window > 0.0f ? window : 0.0f;
-        weights[i] = n->intensity[i] * emission * cosine * window / (d2 > r2 ? d2 : r2);
+        float q2 = d2 * n->per_reach2[i];
+        float inside = 1.0f - q2 * q2;
+        float window = inside > 0.0f ? inside : 0.0f;
+        float falloff = per_d2 < n->per_radius2[i] ? per_d2 : n->per_radius2[i];
+        weights[i] = shown * emission * cosine * window * falloff;
     }
     float sum = 0.0f;
     for (int i = 0; i < WIDTH; i++)
@@ -63,17 +69,46 @@ static float weigh(const light_tree_node *n, vec3 P, vec3 N, bool has_normal, fl
     return sum;
 }
 
+/* As the view has it; returns the sum. */
+static float weigh_for(const light_tree_view *view, const light_tree_node *node, float weights[WIDTH])
+{
+    const float P[3] = {view->P[0], view->P[1], view->P[2]};
+    const float N[3] = {view->N[0], view->N[1], view->N[2]};
+    return weigh(node, P, N, dot(view->N, view->N) > 0.0f ? 0.0f : 1.0f, weights);
+}
+
 void light_tree_see(const light_tree *tree, vec3 P, vec3 N, light_tree_view *view)
 {
     view->P = P;
     view->N = N;
-    view->irradiance = weigh(&tree->nodes[0], P, N, dot(N, N) > 0.0f, view->root);
+    view->irradiance = weigh_for(view, &tree->nodes[0], view->root);
+}
+
+/* The child that u falls on; *u: where in its share. Without branches on weights, which are as random as u. */
+static int choose_child(const float weights[WIDTH], double *u)
+{
+    double ends[WIDTH];
+    double sum = 0.0;
+    for (int i = 0; i < WIDTH; i++) {
+        sum += (double)weights[i];
+        ends[i] = sum;
+    }
+    double target = *u * sum;
+    int found = 0;
+    for (int i = 0; i < WIDTH; i++)
+        found += ends[i] <= target;
+    if (found == WIDTH) /* u * sum was rounded up to it */
+        found--;
+    while (!(weights[found] > 0.0f))
+        found--;
+    double rest = (target - (ends[found] - (double)weights[found])) / (double)weights[found];
+    *u = rest < 0.0 ? 0.0 : rest < 1.0 ? rest : 1.0 - 0x1p-53;
+    return found;
 }
 
 uint32_t light_tree_sample(const light_tree *tree, const light_tree_view *view, double u, float *probability,
                            double *rest)
 {
-    bool has_normal = dot(view->N, view->N) > 0.0f;
     const light_tree_node *node = &tree->nodes[0];
     float own[WIDTH];
     const float *weights = view->root;
@@ -82,34 +117,21 @@ uint32_t light_tree_sample(const light_tree *tree, const light_tree_view *view, 
     for (;;) {
         if (!(sum > 0.0f))
             return LIGHT_TREE_NONE;
-        double target = u * (double)sum;
-        int found = -1;
-        for (int i = 0; i < WIDTH; i++) {
-            if (!(weights[i] > 0.0f))
-                continue;
-            if (found >= 0)
-                target -= (double)weights[found];
-            found = i;
-            if (target < (double)weights[i])
-                break;
-        }
-        u = target / (double)weights[found];
-        u = u < 1.0 - 0x1p-53 ? u : 1.0 - 0x1p-53; /* the sum of floats was rounded */
+        int found = choose_child(weights, &u);
         *probability *= weights[found] / sum;
         uint32_t child = node->child[found];
         if (child & LEAF) {
             *rest = u;
-            return child & ~LEAF;
+            return *probability > 0.0f ? child & ~LEAF : LIGHT_TREE_NONE;
         }
         node = &tree->nodes[child];
-        sum = weigh(node, view->P, view->N, has_normal, own);
+        sum = weigh_for(view, node, own);
         weights = own;
     }
 }
 
 float light_tree_probability(const light_tree *tree, const light_tree_view *view, uint32_t light)
 {
-    bool has_normal = dot(view->N, view->N) > 0.0f;
     uint32_t trail[MAX_DEPTH];
     int depth = 0;
     for (uint32_t place = tree->places[light]; place != LIGHT_TREE_NONE;
@@ -121,7 +143,7 @@ float light_tree_probability(const light_tree *tree, const light_tree_view *view
         const float *weights = view->root;
         float sum = view->irradiance;
         if (i < depth - 1) {
-            sum = weigh(&tree->nodes[trail[i] / WIDTH], view->P, view->N, has_normal, own);
+            sum = weigh_for(view, &tree->nodes[trail[i] / WIDTH], own);
             weights = own;
         }
         float weight = weights[trail[i] % WIDTH];

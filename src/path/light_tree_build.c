@@ -100,20 +100,10 @@ static int bin_of(const item *it, int axis, float origin, float bins_per_m)
     return bin < 0 ? 0 : bin < BINS ? bin : BINS - 1;
 }
 
-/* The best split along one axis, where it is better than *best. */
-static void try_axis(const builder *b, const range *r, int axis, const float low[3], const float high[3],
-                     split *best)
+/* The best split between the bins of one axis, where it is better than *best. thinness: how many times as long the longest
+ * axis is. */
+static void try_axis(int axis, const cluster bins[BINS], float thinness, split *best)
 {
-    float extent = high[axis] - low[axis];
-    float widest = max(max(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
-    float bins_per_m = (float)BINS / extent;
-    if (!(extent > 0.0f) || !isfinite(bins_per_m))
-        return;
-    cluster bins[BINS];
-    for (int i = 0; i < BINS; i++)
-        bins[i] = EMPTY;
-    for (uint32_t i = r->begin; i < r->end; i++)
-        add_item(&bins[bin_of(&b->items[i], axis, low[axis], bins_per_m)], &b->items[i]);
     float right_cost[BINS];
     cluster right = EMPTY;
     for (int i = BINS - 1; i > 0; i--) {
@@ -126,10 +116,49 @@ static void try_axis(const builder *b, const range *r, int axis, const float low
         if (!left.count || right_cost[i] < 0.0f)
             continue;
         float left_cost = cost_of(&left);
-        float cost = (left_cost + right_cost[i]) * widest / extent; /* thin boxes are bad neighbours */
-        if (cost < best->cost)
-            *best = (split){axis, low[axis], bins_per_m, i, cost, left_cost, right_cost[i]};
+        float cost = (left_cost + right_cost[i]) * thinness;
+        if (cost < best->cost) {
+            best->axis = axis;
+            best->bin = i;
+            best->cost = cost;
+            best->left_cost = left_cost;
+            best->right_cost = right_cost[i];
+        }
     }
+}
+
+/* Where the bins of an axis are; false: it has no extent. */
+static bool place_bins(float low, float high, float *bins_per_m)
+{
+    *bins_per_m = (float)BINS / (high - low);
+    return high > low && isfinite(*bins_per_m);
+}
+
+static split find_split(const builder *b, const range *r, const float low[3], const float high[3])
+{
+    cluster bins[3][BINS];
+    float bins_per_m[3];
+    bool has_bins[3];
+    float widest = 0.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        has_bins[axis] = place_bins(low[axis], high[axis], &bins_per_m[axis]);
+        widest = max(widest, high[axis] - low[axis]);
+        for (int i = 0; i < BINS; i++)
+            bins[axis][i] = EMPTY;
+    }
+    for (uint32_t i = r->begin; i < r->end; i++)
+        for (int axis = 0; axis < 3; axis++)
+            if (has_bins[axis])
+                add_item(&bins[axis][bin_of(&b->items[i], axis, low[axis], bins_per_m[axis])], &b->items[i]);
+    split best = {.axis = -1, .cost = INFINITY};
+    for (int axis = 0; axis < 3; axis++)
+        if (has_bins[axis]) /* thin boxes are bad neighbours */
+            try_axis(axis, bins[axis], widest / (high[axis] - low[axis]), &best);
+    if (best.axis >= 0) {
+        best.origin = low[best.axis];
+        best.bins_per_m = bins_per_m[best.axis];
+    }
+    return best;
 }
 
 static cluster cluster_of(const builder *b, uint32_t begin, uint32_t end)
@@ -152,8 +181,7 @@ static void split_range(builder *b, const range *r, range *left, range *right)
         }
     split best = {.axis = -1, .cost = INFINITY};
     if (r->depth < MAX_UNEVEN_DEPTH)
-        for (int axis = 0; axis < 3; axis++)
-            try_axis(b, r, axis, low, high, &best);
+        best = find_split(b, r, low, high);
     uint32_t middle = r->begin + (r->end - r->begin) / 2;
     if (best.axis >= 0) {
         uint32_t end = r->end;
@@ -218,16 +246,15 @@ static void bound_directions(const builder *b, const range *r, light_bounds *out
     if (!(length2 > 1e-30f) || !isfinite(length2))
         return;
     out->axis = sum * inversesqrt(length2);
-    float widest = 0.0f;
+    float least = 1.0f;
     for (uint32_t i = r->begin; i < r->end; i++) {
         const light_bounds *l = &b->lights[b->items[i].light];
-        if (!(dot(l->axis, l->axis) > 0.0f))
+        if (!(l->cos_spread > 0.0f))
             return;
-        float cosine = clamp(dot(out->axis, l->axis), -1.0f, 1.0f);
-        cosine = l->is_two_sided ? abs(cosine) : cosine;
-        widest = max(widest, acos(cosine) + acos(clamp(l->cos_spread, -1.0f, 1.0f)));
+        float cosine = dot(out->axis, l->axis);
+        least = min(least, l->is_two_sided ? abs(cosine) : cosine);
     }
-    widest += 1e-3f; /* acos of nearly 1 has few digits */
+    float widest = acos(max(least, -1.0f)) + 1e-3f; /* acos of nearly 1 has few digits */
     out->cos_spread = widest < PI ? cos(widest) : -1.0f;
 }
 
@@ -270,7 +297,8 @@ static void store_bounds(light_tree_node *node, int i, const light_bounds *l)
     node->dark[i] = l->dark;
     node->per_ramp[i] = 1.0f / max(l->full - l->dark, 1e-6f);
     node->slack[i] = l->slack;
-    node->reach[i] = l->reach;
+    node->per_radius2[i] = 1.0f / max(l->radius * l->radius, 1e-30f);
+    node->per_reach2[i] = 1.0f / (l->reach * l->reach);
     node->intensity[i] = l->intensity;
 }
 

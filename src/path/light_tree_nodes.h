@@ -12,15 +12,15 @@ enum {
 
 /* Bounds of eight children, member by member; children that are not there have intensity 0. */
 typedef struct light_tree_node {
-    float x[WIDTH], y[WIDTH], z[WIDTH], radius[WIDTH];
+    float x[WIDTH], y[WIDTH], z[WIDTH], radius[WIDTH], per_radius2[WIDTH];
     float axis_x[WIDTH], axis_y[WIDTH], axis_z[WIDTH];
     float cos_spread[WIDTH], sin_spread[WIDTH];
     float back[WIDTH]; /* -1: shines against the axis as well; 1 */
     float dark[WIDTH], per_ramp[WIDTH];
-    float slack[WIDTH], reach[WIDTH], intensity[WIDTH];
+    float slack[WIDTH], per_reach2[WIDTH], intensity[WIDTH];
     uint32_t child[WIDTH]; /* LEAF | light, or a node */
     uint32_t place;        /* WIDTH times the parent, plus which child of it; the root's: LIGHT_TREE_NONE */
-    uint32_t unused[7];    /* so that nodes fill cache lines */
+    uint32_t unused[15];   /* so that nodes fill cache lines */
 } light_tree_node;
 
 struct light_tree {

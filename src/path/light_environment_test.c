@@ -1,0 +1,419 @@
+/* Tests of light_environment.h: samples against densities, densities against radiance. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "ibl/environment.h"
+#include "ibl/equirect.h"
+
+#include "path/light_environment.h"
+
+static const double pi = 3.14159265358979323846;
+
+static uint64_t random_state = 1;
+static double random_number(void)
+{
+    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(random_state >> 11) * 0x1p-53;
+}
+
+/* ---- pictures ---- */
+
+static image make_picture(uint32_t width, uint32_t height)
+{
+    image picture;
+    assert_int_equal(image_create(NULL, width, height, 3, IMAGE_F32, &picture, NULL), FACET_OK);
+    memset(picture.pixels, 0, (size_t)width * height * 3 * sizeof(float));
+    return picture;
+}
+
+static float *texel(image *picture, uint32_t x, uint32_t y)
+{
+    return (float *)picture->pixels + 3 * ((size_t)picture->width * y + x);
+}
+
+/* Smooth, with bright_count bright texels and a black part. */
+static image make_sky(uint32_t width, uint32_t height, int bright_count)
+{
+    image picture = make_picture(width, height);
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++)
+            for (int c = 0; c < 3; c++) {
+                double v = (y + 0.5) / height;
+                double u = (x + 0.5) / width;
+                texel(&picture, x, y)[c] =
+                    v < 0.7 ? (float)(0.2 + 0.1 * c + (1.0 - v) * (1.0 + (cos)(2.0 * pi * u))) : 0.0f;
+            }
+    for (int i = 0; i < bright_count; i++)
+        texel(&picture, (uint32_t)(random_number() * width), (uint32_t)(random_number() * height))[i % 3] +=
+            (float)(30.0 * random_number());
+    return picture;
+}
+
+static light_setup placed(float rotation_rad, float scale)
+{
+    return (light_setup){
+        .scale = scale, .rotation_cos = cosf(rotation_rad), .rotation_sin = sinf(rotation_rad)};
+}
+
+static light_environment *make_environment(const image *picture, float rotation_rad, float scale)
+{
+    light_setup light = placed(rotation_rad, scale);
+    light_environment *e;
+    assert_int_equal(light_environment_create(picture, &light, NULL, 2, &e, NULL), FACET_OK);
+    return e;
+}
+
+static vec3 random_direction(void)
+{
+    double z = 1.0 - 2.0 * random_number();
+    double r = (sqrt)(1.0 - z * z);
+    double phi = 2.0 * pi * random_number();
+    return vec3((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
+}
+
+/* {0}, then three that look around. */
+static vec3 normal_number(int i)
+{
+    vec3 normals[4] = {vec3(0.0f), vec3(0.0f, 1.0f, 0.0f), normalize(vec3(0.9f, -0.1f, 0.3f)),
+                       normalize(vec3(-0.2f, -0.9f, 0.5f))};
+    return normals[i];
+}
+
+/* ---- constants ---- */
+
+static void a_constant_is_exact(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[5][2] = {{1, 1}, {2, 1}, {7, 5}, {64, 32}, {1000, 500}};
+    for (int i = 0; i < 5; i++) {
+        image picture = make_picture(sizes[i][0], sizes[i][1]);
+        for (size_t k = 0; k < (size_t)3 * sizes[i][0] * sizes[i][1]; k++)
+            ((float *)picture.pixels)[k] = 3.0f;
+        light_environment *e = make_environment(&picture, 0.7f, 2.0f);
+        light_environment_view view;
+        light_environment_see(e, vec3(0.0f), &view);
+        assert_true(fabs((double)view.irradiance / (24.0 * pi) - 1.0) < 4e-6);
+        for (int k = 0; k < 2000; k++) {
+            double u[2] = {random_number(), random_number()};
+            vec3 d;
+            float pdf = light_environment_sample(e, &view, u, &d);
+            assert_true(fabsf(length(d) - 1.0f) < 1e-6f);
+            vec3 radiance = light_environment_radiance(e, d);
+            for (int c = 0; c < 3; c++)
+                assert_true(fabs((double)(radiance[c] / pdf) / (24.0 * pi) - 1.0) < 2e-6);
+        }
+        light_environment_destroy(e);
+        image_destroy(&picture);
+    }
+}
+
+static void black_is_none(void **state)
+{
+    (void)state;
+    image picture = make_picture(16, 8);
+    assert_null(make_environment(&picture, 0.0f, 1.0f));
+    texel(&picture, 3, 3)[1] = 1.0f;
+    assert_null(make_environment(&picture, 0.0f, 0.0f));
+    light_environment_destroy(NULL);
+    image_destroy(&picture);
+}
+
+/* ---- densities ---- */
+
+/* Where radiance is above 0 above the horizon, so is the density, and it integrates to 1; so does that of one lit texel at the
+ * seam, at a pole, anywhere. */
+static void densities_integrate_to_one(void **state)
+{
+    (void)state;
+    for (int picture_number = 0; picture_number < 8; picture_number++) {
+        static const uint32_t single[5][2] = {{0, 8}, {31, 8}, {4, 0}, {17, 15}, {13, 6}};
+        image picture = picture_number < 5
+                            ? make_picture(32, 16)
+                            : make_sky(picture_number < 7 ? 40 : 331, picture_number < 7 ? 20 : 170, 20);
+        if (picture_number < 5)
+            texel(&picture, single[picture_number][0], single[picture_number][1])[picture_number % 3] = 1.0f;
+        light_environment *e = make_environment(&picture, (float)picture_number, 0.5f);
+        for (int i = 0; i < 4; i++) {
+            enum { SIDE = 1000 };
+            vec3 N = normal_number(i);
+            light_environment_view view;
+            light_environment_see(e, N, &view);
+            if (!(view.irradiance > 0.0f))
+                continue;
+            double sum = 0.0;
+            for (int k = 0; k < SIDE * SIDE; k++) {
+                double z = 1.0 - 2.0 * (k / SIDE + random_number()) / SIDE;
+                double phi = 2.0 * pi * (k % SIDE + random_number()) / SIDE;
+                double r = (sqrt)(1.0 - z * z);
+                vec3 d = vec3((float)(r * (cos)(phi)), (float)z, (float)(r * (sin)(phi)));
+                float pdf = light_environment_pdf(e, &view, d);
+                sum += (double)pdf;
+                vec3 radiance = light_environment_radiance(e, d);
+                if (max3(radiance) > 1e-5f && (i == 0 || dot(d, N) > 0.0f))
+                    assert_true(pdf > 0.0f);
+            }
+            double integral = sum * 4.0 * pi / (SIDE * SIDE);
+            if (fabs(integral - 1.0) > (picture_number < 5 ? 2e-2 : 2e-3)) /* few points meet one texel */
+                fail_msg("picture %d, normal %d: %.6f", picture_number, i, integral);
+        }
+        light_environment_destroy(e);
+        image_destroy(&picture);
+    }
+}
+
+/* Samples have the density that is told, as light_environment_pdf() gives it: chi-square over a grid of the sphere, whose
+ * cells' expectations are integrals of the density. */
+static void samples_have_their_density(void **state)
+{
+    (void)state;
+    enum { ROWS = 24, COLUMNS = 48, SAMPLES = 400000, INNER = 24 };
+    image picture = make_sky(96, 48, 20);
+    light_environment *e = make_environment(&picture, 0.4f, 3.0f);
+    for (int i = 0; i < 4; i++) {
+        static double counts[ROWS * COLUMNS];
+        light_environment_view view;
+        light_environment_see(e, normal_number(i), &view);
+        memset(counts, 0, sizeof counts);
+        int other = 0;
+        for (int k = 0; k < SAMPLES; k++) {
+            double u[2] = {random_number(), random_number()};
+            vec3 d;
+            float pdf = light_environment_sample(e, &view, u, &d);
+            assert_true(pdf > 0.0f && pdf < INFINITY);
+            other += fabsf(pdf / light_environment_pdf(e, &view, d) - 1.0f) > 2e-4f;
+            int row = (int)((1.0f - d[1]) * 0.5f * ROWS);
+            int column = (int)((atan2f(d[2], d[0]) / (2.0f * PI) + 0.5f) * COLUMNS);
+            row = row < ROWS ? row : ROWS - 1;
+            counts[row * COLUMNS + (column < COLUMNS ? column : COLUMNS - 1)] += 1.0;
+        }
+        assert_true(other < SAMPLES / 5000); /* rounding at the borders of texels */
+        double chi2 = 0.0;
+        int freedom = -1;
+        for (int cell = 0; cell < ROWS * COLUMNS; cell++) {
+            double expected = 0.0;
+            for (int k = 0; k < INNER * INNER; k++) {
+                double z = 1.0 - 2.0 * (cell / COLUMNS + (k / INNER + 0.5) / INNER) / ROWS;
+                double phi = 2.0 * pi * ((cell % COLUMNS + (k % INNER + 0.5) / INNER) / COLUMNS - 0.5);
+                double r = (sqrt)(1.0 - z * z);
+                expected += (double)light_environment_pdf(
+                    e, &view, vec3((float)(r * (cos)(phi)), (float)z, (float)(r * (sin)(phi))));
+            }
+            expected *= SAMPLES * 4.0 * pi / ((double)ROWS * COLUMNS * INNER * INNER);
+            if (expected < 20.0) {
+                assert_true(counts[cell] < 20.0 + 12.0 * (sqrt)(expected + 1.0));
+                continue;
+            }
+            /* the integral over texels that a cell cuts is off by up to half a percent */
+            double slack = 0.005 * expected;
+            double off = fmax(fabs(counts[cell] - expected) - slack, 0.0);
+            chi2 += off * off / expected;
+            freedom++;
+        }
+        assert_true(freedom > 100);
+        if (chi2 > freedom + 4.0 * (sqrt)(2.0 * freedom))
+            fail_msg("normal %d: chi2 %.1f with %d degrees of freedom", i, chi2, freedom);
+    }
+    light_environment_destroy(e);
+    image_destroy(&picture);
+}
+
+/* ---- estimates ---- */
+
+typedef struct estimate {
+    double mean, error;
+} estimate;
+
+static estimate irradiance(const light_environment *e, vec3 N, int count)
+{
+    light_environment_view view;
+    light_environment_see(e, N, &view);
+    double sum = 0.0;
+    double sum2 = 0.0;
+    for (int k = 0; k < count; k++) {
+        double u[2] = {random_number(), random_number()};
+        vec3 d;
+        float pdf = light_environment_sample(e, &view, u, &d);
+        double x = (double)(light_environment_radiance(e, d)[0] * max(dot(d, N), 0.0f) / pdf);
+        sum += x;
+        sum2 += x * x;
+    }
+    double mean = sum / count;
+    return (estimate){mean, (sqrt)(fmax(sum2 / count - mean * mean, 0.0) / count)};
+}
+
+/* By a sum over 64 points of each texel of a picture of 96 x 48. */
+static double irradiance_by_sum(const light_environment *e, vec3 N)
+{
+    enum { WIDTH = 96, HEIGHT = 48, FINE = 8 };
+    double sum = 0.0;
+    for (uint32_t y = 0; y < HEIGHT * FINE; y++)
+        for (uint32_t x = 0; x < WIDTH * FINE; x++) {
+            float d[3];
+            equirect_direction(WIDTH * FINE, HEIGHT * FINE, x, y, d);
+            vec3 direction = vec3(d[0], d[1], d[2]);
+            sum += (double)(light_environment_radiance(e, direction)[0] * max(dot(direction, N), 0.0f)) *
+                   equirect_texel_solid_angle(WIDTH * FINE, HEIGHT * FINE, y);
+        }
+    return sum;
+}
+
+/* A sun of 1e5 in the map costs no noise, and little where it is behind the surface: sampling the map alone would have
+ * deviations of hundreds there. */
+static void irradiance_is_right(void **state)
+{
+    (void)state;
+    for (int with_sun = 0; with_sun < 2; with_sun++) {
+        image picture = make_sky(96, 48, 20);
+        if (with_sun)
+            texel(&picture, 33, 15)[0] = texel(&picture, 33, 15)[1] = texel(&picture, 33, 15)[2] = 1e5f;
+        light_environment *e = make_environment(&picture, 1.1f, 0.25f);
+        double worst = 0.0;
+        for (int i = 0; i < 24; i++) {
+            vec3 N = random_direction();
+            double expected = irradiance_by_sum(e, N);
+            estimate found = irradiance(e, N, 20000);
+            if (fabs(found.mean - expected) > 4.0 * found.error + 2e-4 * expected)
+                fail_msg("%.6g +- %.2g, expected %.6g", found.mean, found.error, expected);
+            light_environment_view view;
+            light_environment_see(e, N, &view);
+            assert_true(view.irradiance > 0.0f);
+            worst = fmax(worst, found.error * (sqrt)(20000.0) / expected);
+        }
+        assert_true(worst < (with_sun ? 2.5 : 1.0));
+        light_environment_destroy(e);
+        image_destroy(&picture);
+    }
+}
+
+/* Nearby numbers, nearby directions: 32 x 32 stratified numbers leave much less noise than random ones. */
+static void strata_stay_strata(void **state)
+{
+    (void)state;
+    enum { SIDE = 32, REPEATS = 40 };
+    image picture = make_sky(96, 48, 0);
+    light_environment *e = make_environment(&picture, 0.0f, 1.0f);
+    vec3 N = vec3(0.0f, 1.0f, 0.0f);
+    light_environment_view view;
+    light_environment_see(e, vec3(0.0f), &view);
+    double variance[2] = {0.0, 0.0};
+    double expected = irradiance_by_sum(e, N);
+    for (int repeat = 0; repeat < REPEATS; repeat++)
+        for (int is_stratified = 0; is_stratified < 2; is_stratified++) {
+            double sum = 0.0;
+            for (int k = 0; k < SIDE * SIDE; k++) {
+                double u[2] = {random_number(), random_number()};
+                if (is_stratified) {
+                    u[0] = (k % SIDE + u[0]) / SIDE;
+                    u[1] = (k / SIDE + u[1]) / SIDE;
+                }
+                vec3 d;
+                float pdf = light_environment_sample(e, &view, u, &d);
+                sum += (double)(light_environment_radiance(e, d)[0] * max(d[1], 0.0f) / pdf);
+            }
+            double off = sum / (SIDE * SIDE) - expected;
+            variance[is_stratified] += off * off;
+        }
+    assert_true(variance[1] < 0.01 * variance[0]);
+    light_environment_destroy(e);
+    image_destroy(&picture);
+}
+
+/* ---- limits ---- */
+
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    image picture = make_sky(200, 100, 20);
+    light_setup light = placed(0.3f, 1.0f);
+    light_environment *e[2];
+    assert_int_equal(light_environment_create(&picture, &light, NULL, 1, &e[0], NULL), FACET_OK);
+    assert_int_equal(light_environment_create(&picture, &light, NULL, 7, &e[1], NULL), FACET_OK);
+    for (int i = 0; i < 1000; i++) {
+        double u[2] = {random_number(), random_number()};
+        vec3 N = normal_number(i % 4);
+        vec3 d[2];
+        float pdf[2];
+        for (int k = 0; k < 2; k++) {
+            light_environment_view view;
+            light_environment_see(e[k], N, &view);
+            pdf[k] = light_environment_sample(e[k], &view, u, &d[k]);
+        }
+        assert_memory_equal(&pdf[0], &pdf[1], sizeof pdf[0]);
+        assert_memory_equal(&d[0], &d[1], 3 * sizeof(float));
+    }
+    light_environment_destroy(e[0]);
+    light_environment_destroy(e[1]);
+    image_destroy(&picture);
+}
+
+static void memory_is_a_third_of_the_picture(void **state)
+{
+    (void)state;
+    image picture = make_sky(2048, 1024, 20);
+    light_setup light = placed(0.0f, 1.0f);
+    size_t bytes = (size_t)2048 * 1024 * 12;
+    for (uint64_t limit = bytes / 2;; limit /= 4) {
+        facet_budget *budget;
+        assert_int_equal(facet_budget_create(limit, &budget, NULL), FACET_OK);
+        facet_allocator allocator = facet_budget_allocator(budget);
+        light_environment *e;
+        facet_result result = light_environment_create(&picture, &light, &allocator, 2, &e, NULL);
+        assert_int_equal(result, limit == bytes / 2 ? FACET_OK : FACET_ERROR_MEMORY);
+        if (result != FACET_OK)
+            assert_null(e);
+        light_environment_destroy(e);
+        assert_int_equal(facet_budget_used_bytes(budget), 0);
+        facet_budget_destroy(budget);
+        if (limit < 1000)
+            break;
+    }
+    image_destroy(&picture);
+}
+
+/* Numbers at the very ends, and pictures of extremes. */
+static void extremes_are_finite(void **state)
+{
+    (void)state;
+    static const float values[4] = {1e-30f, 1.0f, 1e12f, 0.0f};
+    static const double ends[3] = {0.0, 0.5, 1.0 - 0x1p-53};
+    for (int picture_number = 0; picture_number < 6; picture_number++) {
+        image picture = make_picture(70, 33);
+        for (uint32_t i = 0; i < 70 * 33 * 3; i++)
+            ((float *)picture.pixels)[i] =
+                values[picture_number < 3 ? (uint32_t)picture_number : (uint32_t)(random_number() * 4.0)];
+        light_environment *e = make_environment(&picture, 0.3f, 1.0f);
+        assert_non_null(e);
+        for (int i = 0; i < 400; i++) {
+            light_environment_view view;
+            light_environment_see(e, normal_number(i % 4), &view);
+            double u[2] = {i < 200 ? ends[i % 3] : random_number(),
+                           i < 200 ? ends[i / 3 % 3] : random_number()};
+            vec3 d;
+            float pdf = light_environment_sample(e, &view, u, &d);
+            assert_true((picture_number < 3 ? pdf > 0.0f : pdf >= 0.0f) && isfinite(pdf));
+            assert_true(fabsf(dot(d, d) - 1.0f) < 1e-5f);
+            float asked = light_environment_pdf(e, &view, random_direction());
+            assert_true(asked >= 0.0f && isfinite(asked));
+        }
+        light_environment_destroy(e);
+        image_destroy(&picture);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_constant_is_exact),        cmocka_unit_test(black_is_none),
+        cmocka_unit_test(densities_integrate_to_one), cmocka_unit_test(samples_have_their_density),
+        cmocka_unit_test(irradiance_is_right),        cmocka_unit_test(strata_stay_strata),
+        cmocka_unit_test(threads_change_nothing),     cmocka_unit_test(memory_is_a_third_of_the_picture),
+        cmocka_unit_test(extremes_are_finite),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
