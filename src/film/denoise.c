@@ -1,13 +1,146 @@
-/* denoise.c - see denoise.h. */
+/* denoise.c - windows over the whole picture, each pixel the mean of what they say; see denoise.h. */
 #include "film/denoise.h"
 
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
 #include "base/result.h"
+#include "film/denoise_fit.h"
+
+enum {
+    TILE = 32,  /* px; two windows' reach apart and more: tiles that are not neighbours share no pixel */
+    STRIDE = 4, /* px from center to center */
+    PHASES = 8  /* four sets of tiles of which no two are neighbours, twice */
+};
+_Static_assert(TILE > 2 * DENOISE_RADIUS, "tiles of one phase do not meet");
+
+typedef struct denoising {
+    const denoise_planes *planes;
+    film *film;
+    float *sums; /* 4 channels and their weight per pixel */
+    uint32_t tiles_x, tiles_y;
+    int phase;
+} denoising;
+
+static void add_window(const denoising *d, uint32_t x, uint32_t y)
+{
+    const denoise_planes *p = d->planes;
+    denoise_fit fit;
+    denoise_fit_window(p, (ptrdiff_t)x, (ptrdiff_t)y, &fit);
+    for (uint32_t j = 0; j < DENOISE_SIDE; j++)
+        for (uint32_t i = 0; i < DENOISE_SIDE; i++) {
+            uint32_t k = j * DENOISE_ROW + i;
+            float weight = fit.weight[k];
+            if (weight <= 0.0f)
+                continue;
+            float *sum = d->sums + 5 * ((size_t)(y + j - DENOISE_RADIUS) * p->width + x + i - DENOISE_RADIUS);
+            for (int c = 0; c < 4; c++)
+                sum[c] += weight * fit.value[c][k];
+            sum[4] += weight;
+        }
+}
+
+/* No noise: nothing to do there. */
+static bool is_clean(const denoise_planes *p, uint32_t x, uint32_t y)
+{
+    size_t o = denoise_index(p, (ptrdiff_t)x, (ptrdiff_t)y);
+    return p->noise[0][o] == 0.0f && p->noise[1][o] == 0.0f && p->noise[2][o] == 0.0f;
+}
+
+/* First a window at every STRIDE-th pixel; then one at each pixel that has little in common with those. */
+static void filter_tile(const denoising *d, uint32_t tile_x, uint32_t tile_y)
+{
+    const float enough = 0.5f;
+    const denoise_planes *p = d->planes;
+    bool is_regular = d->phase < PHASES / 2;
+    uint32_t step = is_regular ? STRIDE : 1, first = is_regular ? STRIDE / 2 : 0;
+    for (uint32_t y = tile_y * TILE + first; y < (tile_y + 1) * TILE && y < p->height; y += step)
+        for (uint32_t x = tile_x * TILE + first; x < (tile_x + 1) * TILE && x < p->width; x += step) {
+            bool has_enough = !is_regular && d->sums[5 * ((size_t)y * p->width + x) + 4] >= enough;
+            if (!has_enough && !is_clean(p, x, y))
+                add_window(d, x, y);
+        }
+}
+
+/* Tiles of which no two are neighbours: what their windows add to meets nobody else's, and each pixel gets its sums in
+ * the same order whatever thread takes which tile. */
+static void filter_tiles(void *context, size_t begin, size_t end)
+{
+    const denoising *d = context;
+    uint32_t odd_x = (uint32_t)d->phase & 1, odd_y = (uint32_t)d->phase >> 1 & 1;
+    uint32_t row = (d->tiles_x + 1) / 2;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t tile_x = 2 * (uint32_t)(i % row) + odd_x, tile_y = 2 * (uint32_t)(i / row) + odd_y;
+        if (tile_x < d->tiles_x && tile_y < d->tiles_y)
+            filter_tile(d, tile_x, tile_y);
+    }
+}
+
+/* Whether the opacity around (x, y) is that of (x, y): then it is no edge, and stays. */
+static bool has_even_opacity(const denoise_planes *p, size_t o)
+{
+    for (ptrdiff_t v = -1; v <= 1; v++)
+        for (ptrdiff_t u = -1; u <= 1; u++)
+            if (p->opacity[(size_t)((ptrdiff_t)o + v * (ptrdiff_t)p->pitch + u)] != p->opacity[o])
+                return false;
+    return true;
+}
+
+static void write_rows(void *context, size_t begin, size_t end)
+{
+    const denoising *d = context;
+    const denoise_planes *p = d->planes;
+    const float most = 4.0f; /* standard deviations between a pixel and what is made of it */
+    for (size_t y = begin; y < end; y++)
+        for (uint32_t x = 0; x < p->width; x++) {
+            size_t i = y * p->width + x, o = denoise_index(p, (ptrdiff_t)x, (ptrdiff_t)y);
+            const float *sum = d->sums + 5 * i;
+            float *pixel = d->film->layers[0].pixels + 4 * i;
+            bool is_even = has_even_opacity(p, o);
+            bool is_nothing = is_even && p->opacity[o] == 0.0f;
+            for (int c = 0; c < 3; c++) {
+                float divisor = denoise_divisor(p->albedo[c][o]);
+                float range = most * sqrtf(p->noise[c][o]) * divisor;
+                float before = p->light[c][o] * divisor;
+                float value = sum[4] > 0.0f ? sum[c] / sum[4] : before;
+                value = value < before - range   ? before - range
+                        : value > before + range ? before + range
+                                                 : value;
+                if ((!is_clean(p, x, (uint32_t)y) && !is_nothing) || !isfinite(pixel[c]))
+                    pixel[c] = value * p->scale;
+            }
+            float opacity = sum[4] > 0.0f && !is_even ? sum[3] / sum[4] : p->opacity[o];
+            pixel[3] = opacity < 0.0f ? 0.0f : opacity > 1.0f ? 1.0f : opacity;
+        }
+}
 
 facet_result film_denoise(film *f, const facet_allocator *allocator, uint32_t thread_count,
                           facet_error *error)
 {
-    (void)f;
-    (void)allocator;
-    (void)thread_count;
-    return fail(error, FACET_ERROR_UNSUPPORTED, "denoising is not there yet");
+    static const char *const guides[] = {"albedo", "normal", "variance"};
+    for (size_t k = 0; k < sizeof guides / sizeof *guides; k++)
+        if (!film_find(f, guides[k]))
+            return fail(error, FACET_ERROR_ARGUMENT, "denoising: the film has no layer \"%s\"", guides[k]);
+    denoise_planes planes = {0};
+    size_t pixel_count = (size_t)f->width * f->height;
+    float *sums = mem_zalloc(allocator, pixel_count, 5 * sizeof *sums);
+    facet_result result = sums ? denoise_planes_create(f, allocator, thread_count, &planes, error)
+                               : fail_memory(error, "sums of the denoiser", pixel_count * 5 * sizeof *sums);
+    if (result != FACET_OK)
+        goto done;
+    denoising d = {.planes = &planes,
+                   .film = f,
+                   .sums = sums,
+                   .tiles_x = (f->width + TILE - 1) / TILE,
+                   .tiles_y = (f->height + TILE - 1) / TILE};
+    size_t tile_count = (size_t)((d.tiles_x + 1) / 2) * ((d.tiles_y + 1) / 2);
+    for (d.phase = 0; d.phase < PHASES; d.phase++)
+        parallel_for(thread_count, tile_count, 1, filter_tiles, &d);
+    parallel_for(thread_count, f->height, TILE, write_rows, &d);
+done:
+    denoise_planes_destroy(&planes);
+    mem_free(sums);
+    return result;
 }

@@ -1,0 +1,47 @@
+/* denoise_planes.h - the denoiser's picture: one plane of floats per quantity, with margins that repeat the border, so
+ * that windows can be read anywhere. */
+#ifndef FILM_DENOISE_PLANES_H
+#define FILM_DENOISE_PLANES_H
+
+#include "film/film.h"
+
+enum {
+    DENOISE_RADIUS = 7,                             /* of the window that a fit sees, px */
+    DENOISE_SIDE = 2 * DENOISE_RADIUS + 1,          /* its rows .. */
+    DENOISE_ROW = 16,                               /* .. which are stored with one more, whole vectors */
+    DENOISE_WINDOW = DENOISE_SIDE * DENOISE_ROW,    /* pixels of a window, the unused ones with them */
+    DENOISE_PATCH = 1,                              /* radius of the patches that are compared, px */
+    DENOISE_MARGIN = DENOISE_RADIUS + DENOISE_PATCH /* of a plane, px; one more on the right */
+};
+
+/* Light is what is left of the picture when the albedo is divided out, in units of about its mean; noise is the
+ * variance of that. radiance = light * denoise_divisor(albedo) * scale. */
+typedef struct denoise_planes {
+    uint32_t width, height;
+    size_t pitch; /* floats from row to row */
+    float scale;  /* a power of two */
+    float *light[3], *noise[3], *albedo[3], *normal[3], *opacity;
+    float *block; /* all of them; NULL: none */
+} denoise_planes;
+
+/* Where pixel (x, y) is in a plane; both may lie in the margin. */
+static inline size_t denoise_index(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y)
+{
+    return (size_t)(y + DENOISE_MARGIN) * p->pitch + (size_t)(x + DENOISE_MARGIN);
+}
+
+/* What light is multiplied with to be radiance: the albedo, but for dark surfaces, whose light is mostly reflected
+ * without it. */
+static inline float denoise_divisor(float albedo)
+{
+    const float least = 0.02f;
+    return albedo > least ? albedo : least;
+}
+
+/* Reads f, which has the layers: replaces what is not finite by its neighbours' mean, takes outliers of few samples
+ * down to their neighbours, estimates the noise. FACET_ERROR_MEMORY. */
+facet_result denoise_planes_create(const film *f, const facet_allocator *allocator, uint32_t thread_count,
+                                   denoise_planes *out, facet_error *error);
+void denoise_planes_destroy(denoise_planes *p);
+
+#endif
