@@ -101,31 +101,37 @@ static void load_tile(const flip_job *job, const compare_tile *t, const float *b
     }
 }
 
+static inline __attribute__((always_inline)) void
+opponent_row(const float *restrict red, const float *restrict green, const float *restrict blue, bool is_hdr,
+             float gain, uint32_t count, float *restrict y, float *restrict cx, float *restrict cz)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        float r = red[i], g = green[i], b = blue[i];
+        if (is_hdr) { /* a constant at each call */
+            r = flip_tonemap(r, gain);
+            g = flip_tonemap(g, gain);
+            b = flip_tonemap(b, gain);
+        }
+        flip_opponent o = flip_opponent_from_rgb(r, g, b);
+        y[i] = o.y;
+        cx[i] = o.cx;
+        cz[i] = o.cz;
+    }
+}
+
 /* The opponent colors of a picture as a display shows it: at an exposure, or as they are. */
 DISPATCH_AVX2 static void fill_opponent(const flip_job *job, flip_work *w, int picture, float gain,
-                                        size_t width, size_t height)
+                                        uint32_t width, size_t height)
 {
+    float *const *light = w->light[picture], *const *to = w->opponent;
     for (size_t row = 0; row < height; row++) {
         const size_t at = row * job->stride;
-        const float *red = w->light[picture][0] + at, *green = w->light[picture][1] + at,
-                    *blue = w->light[picture][2] + at;
-        float *restrict y = w->opponent[0] + at, *restrict cx = w->opponent[1] + at,
-                        *restrict cz = w->opponent[2] + at;
         if (job->is_hdr)
-            for (size_t i = 0; i < width; i++) {
-                flip_opponent o = flip_opponent_from_rgb(
-                    flip_tonemap(red[i], gain), flip_tonemap(green[i], gain), flip_tonemap(blue[i], gain));
-                y[i] = o.y;
-                cx[i] = o.cx;
-                cz[i] = o.cz;
-            }
+            opponent_row(light[0] + at, light[1] + at, light[2] + at, true, gain, width, to[0] + at,
+                         to[1] + at, to[2] + at);
         else
-            for (size_t i = 0; i < width; i++) {
-                flip_opponent o = flip_opponent_from_rgb(red[i], green[i], blue[i]);
-                y[i] = o.y;
-                cx[i] = o.cx;
-                cz[i] = o.cz;
-            }
+            opponent_row(light[0] + at, light[1] + at, light[2] + at, false, gain, width, to[0] + at,
+                         to[1] + at, to[2] + at);
     }
 }
 
@@ -188,7 +194,7 @@ DISPATCH_AVX2 static void combine(flip_work *w, uint32_t row, uint32_t width)
                                             a->b[row][i] - b->b[row][i]);
         float error = flip_error(color, fabsf(a->edges[row][i] - b->edges[row][i]),
                                  fabsf(a->points[row][i] - b->points[row][i]));
-        w->errors[row][i] = error > w->errors[row][i] ? error : w->errors[row][i];
+        w->errors[row][i] = compare_pick(error > w->errors[row][i], error, w->errors[row][i]);
     }
 }
 
@@ -196,8 +202,8 @@ DISPATCH_AVX2 static void combine(flip_work *w, uint32_t row, uint32_t width)
 
 static void compare_at(const flip_job *job, const compare_tile *t, float gain, flip_work *w)
 {
-    const size_t width = t->width + 2 * (size_t)job->kernels.halo,
-                 height = t->height + 2 * (size_t)job->kernels.halo;
+    const uint32_t width = t->width + 2 * (uint32_t)job->kernels.halo;
+    const size_t height = t->height + 2 * (size_t)job->kernels.halo;
     for (int picture = 0; picture < 2; picture++) {
         fill_opponent(job, w, picture, gain, width, height);
         filter_rows(job, w, t->width, height);

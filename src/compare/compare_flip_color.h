@@ -12,7 +12,7 @@ typedef struct flip_opponent {
 } flip_opponent;
 
 /* Of linear sRGB with white D65; the rows of the matrix add up to 1. */
-static inline flip_opponent flip_opponent_from_rgb(float r, float g, float b)
+static inline __attribute__((always_inline)) flip_opponent flip_opponent_from_rgb(float r, float g, float b)
 {
     float x = 0.433895389f * r + 0.376242373f * g + 0.189862239f * b;
     float y = 0.212636822f * r + 0.715182982f * g + 0.072180196f * b;
@@ -25,14 +25,14 @@ typedef struct flip_lab {
     float l, a, b;
 } flip_lab;
 
-static inline float flip_lab_curve(float t)
+static inline __attribute__((always_inline)) float flip_lab_curve(float t)
 {
     float root = compare_pow(t, 1.0f / 3.0f);
-    return t > 216.0f / 24389.0f ? root : t * (841.0f / 108.0f) + 4.0f / 29.0f;
+    return compare_pick(t > 216.0f / 24389.0f, root, t * (841.0f / 108.0f) + 4.0f / 29.0f);
 }
 
 /* Of what a display can show of the filtered color: clamped as linear sRGB. */
-static inline flip_lab flip_lab_from_opponent(flip_opponent o)
+static inline __attribute__((always_inline)) flip_lab flip_lab_from_opponent(flip_opponent o)
 {
     float x = o.y + o.cx, z = o.y - o.cz;
     float r = compare_clamp(3.080341988f * x - 1.537398969f * o.y - 0.542943019f * z, 0.0f, 1.0f);
@@ -48,24 +48,24 @@ static inline flip_lab flip_lab_from_opponent(flip_opponent o)
 #define FLIP_LARGEST 41.2760984f
 
 /* The color difference, [0, 1]: HyAB^0.7, of which the first 40 % are spread over [0, 0.95]. Equations 5 to 7. */
-static inline float flip_color_difference(float dl, float da, float db)
+static inline __attribute__((always_inline)) float flip_color_difference(float dl, float da, float db)
 {
     const float knee = 0.4f * FLIP_LARGEST;
     float hyab = fabsf(dl) + sqrtf(da * da + db * db);
     float power = compare_pow(hyab, 0.7f);
     float far_ = 0.95f + (power - knee) * (0.05f / (FLIP_LARGEST - knee));
-    return power < knee ? power * (0.95f / knee) : far_;
+    return compare_pick(power < knee, power * (0.95f / knee), far_);
 }
 
 /* Color and feature differences to the error. Equations 10 to 12. */
-static inline float flip_error(float color, float edges, float points)
+static inline __attribute__((always_inline)) float flip_error(float color, float edges, float points)
 {
-    float feature = sqrtf((edges > points ? edges : points) * 0.70710678f);
+    float feature = sqrtf(compare_pick(edges > points, edges, points) * 0.70710678f);
     return compare_pow(color, 1.0f - compare_clamp(feature, 0.0f, 1.0f));
 }
 
 /* Narkowicz's fit of ACES without its pre-exposure, of light times gain; [0, 1]. Andersson et al. 2021, section 4.1. */
-static inline float flip_tonemap(float light, float gain)
+static inline __attribute__((always_inline)) float flip_tonemap(float light, float gain)
 {
     float x = compare_clamp(light * gain, 0.0f, 1e9f);
     float shown = (0.9036f * x + 0.018f) * x / ((0.8748f * x + 0.354f) * x + 0.14f);

@@ -3,7 +3,22 @@
 #ifndef COMPARE_MATH_H
 #define COMPARE_MATH_H
 
+#include <stdbool.h>
+
 #include "image/half.h"
+
+/* is_first ? first : second, as a mask: of the operator, compilers make branches, which loops with them cannot be without. */
+static inline float compare_pick(bool is_first, float first, float second)
+{
+    uint32_t mask = 0u - (uint32_t)is_first;
+    return float_from_bits((float_bits(first) & mask) | (float_bits(second) & ~mask));
+}
+
+static inline float compare_clamp(float x, float least, float most)
+{
+    x = compare_pick(x > least, x, least); /* not a number: least */
+    return compare_pick(x < most, x, most);
+}
 
 /* log2(x) of a normal x > 0 to 2e-7 absolute, by log(m) = 2 artanh((m - 1) / (m + 1)) with m in [sqrt(1/2), sqrt(2)). */
 static inline float compare_log2(float x)
@@ -24,9 +39,8 @@ static inline float compare_log2(float x)
 /* 2^x to 1e-7 relative; x in [-126, 127]. The series of e^(f ln 2) with f in [-1/2, 1/2]. */
 static inline float compare_exp2(float x)
 {
-    x = x > -126.0f ? x : -126.0f;
-    x = x < 127.0f ? x : 127.0f;
-    int32_t whole = (int32_t)(x + (x >= 0.0f ? 0.5f : -0.5f));
+    x = compare_clamp(x, -126.0f, 127.0f);
+    int32_t whole = (int32_t)(x + 126.5f) - 126; /* to nearest: what is cast is not negative */
     float f = x - (float)whole;
     float series = 1.5403530e-4f + f * 1.5252734e-5f; /* ln(2)^k / k! for k = 6, 7 */
     series = 1.3333558e-3f + f * series;
@@ -41,26 +55,20 @@ static inline float compare_exp2(float x)
 /* x^y for 0 < y < 10, to 1e-6 relative for x from 1e-6 to 1e6; 0 where x is below 1e-30 or negative. */
 static inline float compare_pow(float x, float y)
 {
-    float power = compare_exp2(y * compare_log2(x > 1e-30f ? x : 1e-30f));
-    return x > 1e-30f ? power : 0.0f;
+    float power = compare_exp2(y * compare_log2(compare_pick(x > 1e-30f, x, 1e-30f)));
+    return compare_pick(x > 1e-30f, power, 0.0f);
 }
 
 /* The sRGB transfer function on [0, 1], and its inverse. IEC 61966-2-1. */
 static inline float compare_srgb_encode(float c)
 {
     float curve = 1.055f * compare_pow(c, 1.0f / 2.4f) - 0.055f;
-    return c <= 0.0031308f ? 12.92f * c : curve;
+    return compare_pick(c <= 0.0031308f, 12.92f * c, curve);
 }
 static inline float compare_srgb_decode(float c)
 {
     float curve = compare_pow((c + 0.055f) * (1.0f / 1.055f), 2.4f);
-    return c <= 0.04045f ? c * (1.0f / 12.92f) : curve;
-}
-
-static inline float compare_clamp(float x, float least, float most)
-{
-    x = x > least ? x : least; /* not a number: least */
-    return x < most ? x : most;
+    return compare_pick(c <= 0.04045f, c * (1.0f / 12.92f), curve);
 }
 
 #endif

@@ -157,11 +157,12 @@ DISPATCH_AVX2 static void finish(float *const c[4], uint32_t count, const float 
                                  bool is_display, bool is_encoded)
 {
     for (int k = 0; k < 3; k++) {
-        float *channel = c[k];
-        const float *opacity = c[3];
-        if (background[k] != 0.0f)
+        float *restrict channel = c[k];
+        const float *restrict opacity = c[3];
+        const float behind = background[k];
+        if (behind != 0.0f)
             for (uint32_t i = 0; i < count; i++)
-                channel[i] += background[k] * (1.0f - compare_clamp(opacity[i], 0.0f, 1.0f));
+                channel[i] += behind * (1.0f - compare_clamp(opacity[i], 0.0f, 1.0f));
         if (is_display)
             for (uint32_t i = 0; i < count; i++)
                 channel[i] = compare_clamp(channel[i], 0.0f, 1.0f);

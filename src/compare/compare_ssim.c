@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "base/simd.h"
+#include "compare/compare_filter.h"
 #include "compare/compare_tile.h"
 
 enum {
@@ -75,22 +76,22 @@ static void load_tile(const ssim_job *job, const compare_tile *t, ssim_work *w)
 static inline __attribute__((always_inline)) void take_products(const ssim_job *job, ssim_work *w, uint32_t p,
                                                                 uint32_t row, uint32_t width)
 {
-    const uint32_t channel = job->has_opacity ? (p == 1 ? 4 : p - 2) : p - 1;
+    const uint32_t channel = p == 0 ? 0 : job->has_opacity ? (p == 1 ? 4 : p - 2) : p - 1;
+    double *restrict a = w->products[0], *restrict b = w->products[1];
+    for (uint32_t i = 0; i < width && p != 0; i++) {
+        a[i] = (double)w->a[channel][row][i];
+        b[i] = (double)w->b[channel][row][i];
+    }
+    for (uint32_t i = 0; i < width && p == 0; i++) {
+        a[i] = 0.2126 * (double)w->a[0][row][i] + 0.7152 * (double)w->a[1][row][i] +
+               0.0722 * (double)w->a[2][row][i];
+        b[i] = 0.2126 * (double)w->b[0][row][i] + 0.7152 * (double)w->b[1][row][i] +
+               0.0722 * (double)w->b[2][row][i];
+    }
+    double *restrict squares = w->products[2], *restrict product = w->products[3];
     for (uint32_t i = 0; i < width; i++) {
-        double a, b;
-        if (p == 0) {
-            a = 0.2126 * (double)w->a[0][row][i] + 0.7152 * (double)w->a[1][row][i] +
-                0.0722 * (double)w->a[2][row][i];
-            b = 0.2126 * (double)w->b[0][row][i] + 0.7152 * (double)w->b[1][row][i] +
-                0.0722 * (double)w->b[2][row][i];
-        } else {
-            a = (double)w->a[channel][row][i];
-            b = (double)w->b[channel][row][i];
-        }
-        w->products[0][i] = a;
-        w->products[1][i] = b;
-        w->products[2][i] = a * a + b * b;
-        w->products[3][i] = a * b;
+        squares[i] = a[i] * a[i] + b[i] * b[i];
+        product[i] = a[i] * b[i];
     }
 }
 
@@ -98,34 +99,24 @@ DISPATCH_AVX2 static void filter_rows(const ssim_job *job, ssim_work *w, uint32_
 {
     for (uint32_t row = 0; row < t->height + 2 * RADIUS; row++) {
         take_products(job, w, p, row, t->width + 2 * RADIUS);
-        for (int m = 0; m < MOMENTS; m++) {
-            const double *in = w->products[m];
-            double *out = w->moments[m][row];
-            for (uint32_t i = 0; i < t->width; i++) {
-                double sum = job->kernel[0] * in[i + RADIUS];
-                for (uint32_t j = 1; j <= RADIUS; j++)
-                    sum += job->kernel[j] * (in[i + RADIUS - j] + in[i + RADIUS + j]);
-                out[i] = sum;
-            }
-        }
+        for (int m = 0; m < MOMENTS; m++)
+            filter_line_double(w->products[m] + RADIUS, 1, job->kernel, RADIUS, w->moments[m][row], t->width);
     }
 }
 
 /* The index of a row of windows. */
 DISPATCH_AVX2 static void filter_columns(const ssim_job *job, const ssim_work *w, uint32_t row,
-                                         uint32_t width, double *index)
+                                         uint32_t width, double *restrict index)
 {
+    double sums[MOMENTS][TILE_WIDTH];
+    const double c1 = job->c1, c2 = job->c2;
+    for (int m = 0; m < MOMENTS; m++)
+        filter_line_double(w->moments[m][row + RADIUS], TILE_WIDTH, job->kernel, RADIUS, sums[m], width);
     for (uint32_t i = 0; i < width; i++) {
-        double sums[MOMENTS];
-        for (int m = 0; m < MOMENTS; m++) {
-            sums[m] = job->kernel[0] * w->moments[m][row + RADIUS][i];
-            for (uint32_t j = 1; j <= RADIUS; j++)
-                sums[m] += job->kernel[j] *
-                           (w->moments[m][row + RADIUS - j][i] + w->moments[m][row + RADIUS + j][i]);
-        }
-        const double product = sums[0] * sums[1], squares = sums[0] * sums[0] + sums[1] * sums[1];
-        index[i] = (2.0 * product + job->c1) * (2.0 * (sums[3] - product) + job->c2) /
-                   ((squares + job->c1) * (sums[2] - squares + job->c2));
+        const double product = sums[0][i] * sums[1][i],
+                     squares = sums[0][i] * sums[0][i] + sums[1][i] * sums[1][i];
+        index[i] = (2.0 * product + c1) * (2.0 * (sums[3][i] - product) + c2) /
+                   ((squares + c1) * (sums[2][i] - squares + c2));
     }
 }
 
