@@ -4,6 +4,7 @@
 #include "cpu/ray_trace.h"
 
 #include "path/path_camera.h"
+#include "path/path_ground.h"
 #include "path/path_trace.h"
 #include "path/path_walk.h"
 
@@ -67,6 +68,10 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
         trace_inside(&p);
     else
         trace_outside(&p, &camera);
+    vec3 ground;
+    if (out->opacity < 1.0f &&
+        path_ground_is_met(scene, load3(camera.ray.origin), load3(camera.ray.direction), &ground))
+        path_ground_light(scene, sampler, ground, (1.0f - out->opacity) * camera.weight, out);
     if (scene->draws_background) {
         p.radiance += background(scene, load3(camera.ray.direction)) * (1.0f - out->opacity);
         out->opacity = 1.0f;

@@ -138,7 +138,7 @@ vec3 path_vertex_emission(const path_vertex *v)
         bool is_unlit = (g->material->extensions & SCENE_UNLIT) != 0;
         return load3(s->base_color) + (is_unlit ? vec3(0.0f) : s->m.base.emissive);
     }
-    if (!s->is_front && !g->is_double_sided)
+    if (!s->is_front && !g->is_double_sided && !s->plan->is_volume)
         return vec3(0.0f);
     return s->m.layers ? layers_emission(s->m, s->V) : s->m.base.emissive;
 }

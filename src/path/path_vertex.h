@@ -23,7 +23,8 @@ typedef struct path_vertex {
  * p->media is told. */
 void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray, path_vertex *v);
 
-/* cd/m^2 towards V. Single-sided surfaces shine on their front only; what is drawn in flat color shines with it. */
+/* cd/m^2 towards V. Single-sided surfaces that are no boundary of a body shine on their front only; what is drawn in flat
+ * color shines with it. */
 vec3 path_vertex_emission(const path_vertex *v);
 
 /* BSDF |N.L| in 1/sr for light from L, and the pdf with which path_vertex_sample() finds it; both without mirrors. */

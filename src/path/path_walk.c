@@ -77,12 +77,15 @@ static bool survives(path *p, float u)
 
 /* ---- between vertices ---- */
 
-/* The ray as the surface reads its textures by: a cone as wide as it is where it meets the surface. */
-static shading_ray ray_of(const path *p, float t, ray_spread *spread)
+/* The ray as the surface reads its textures by: a cone as wide as it is where it meets the surface. What textures let shine
+ * is read as finely as where it is aimed at. */
+static shading_ray ray_of(const path *p, const visibility_hit *hit, ray_spread *spread)
 {
+    const scene_material *m = p->shading->geometries->items[hit->geometry].material;
+    bool is_fine = scene_material_has(m, SCENE_EMISSIVE_TEXTURE) && max3(load3(m->emissive)) > 0.0f;
     shading_ray ray = {.far_t = INFINITY, .spread = spread, .footprint = 2.0f};
     mat3 frame = basis_from_normal(p->D);
-    float width = p->width_m + p->angle * t;
+    float width = is_fine ? 0.0f : p->width_m + p->angle * hit->t;
     *spread = (ray_spread){.moves = true};
     store3(COL(frame, 0) * width, spread->origin_dx);
     store3(COL(frame, 1) * width, spread->origin_dy);
@@ -292,7 +295,7 @@ static void walk(path *p, place where, visibility_hit hit, const shading_ray *fi
             return;
         where = advance(p, &hit);
         if (where == AT_SURFACE)
-            ray = ray_of(p, hit.t, &spread);
+            ray = ray_of(p, &hit, &spread);
     }
 }
 
@@ -300,8 +303,10 @@ void path_walk(path *p)
 {
     visibility_hit hit = {.geometry = VISIBILITY_NONE};
     ray_spread spread;
+    shading_ray ray = {.far_t = INFINITY};
     place where = advance(p, &hit);
-    shading_ray ray = ray_of(p, where == AT_SURFACE ? hit.t : 0.0f, &spread);
+    if (where == AT_SURFACE)
+        ray = ray_of(p, &hit, &spread);
     walk(p, where, hit, &ray);
 }
 
