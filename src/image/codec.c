@@ -213,6 +213,13 @@ facet_result image_encode(const image *i, image_codec codec_id, const image_enco
 }
 
 #ifndef HAVE_OPENEXR
+static facet_result fail_without_openexr(const char *what, facet_error *error)
+{
+    return fail(error, FACET_ERROR_UNSUPPORTED,
+                "this build of facet does not %s %s files: %s was not there when it was made", what,
+                codecs[IMAGE_CODEC_EXR].name, codecs[IMAGE_CODEC_EXR].library);
+}
+
 facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer *layers,
                               uint32_t layer_count, bool as_half, const image_encode_desc *desc,
                               unsigned char **bytes, size_t *size, facet_error *error)
@@ -220,8 +227,23 @@ facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer
     (void)width, (void)height, (void)layers, (void)layer_count, (void)as_half, (void)desc;
     *bytes = NULL;
     *size = 0;
-    return fail(error, FACET_ERROR_UNSUPPORTED,
-                "this build of facet does not write %s files: %s was not there when it was made",
-                codecs[IMAGE_CODEC_EXR].name, codecs[IMAGE_CODEC_EXR].library);
+    return fail_without_openexr("write", error);
+}
+
+facet_result image_read_exr_channels(const void *bytes, size_t size, const char *name,
+                                     const facet_allocator *allocator, uint32_t width, uint32_t height,
+                                     const image_channel *channels, uint32_t channel_count,
+                                     facet_error *error)
+{
+    (void)bytes, (void)size, (void)name, (void)allocator, (void)width, (void)height;
+    (void)channels, (void)channel_count;
+    return fail_without_openexr("read", error);
+}
+
+facet_result image_read_exr_text(const void *bytes, size_t size, const char *name, const char *text_name,
+                                 char *value, size_t value_size, facet_error *error)
+{
+    (void)bytes, (void)size, (void)name, (void)text_name, (void)value, (void)value_size;
+    return fail_without_openexr("read", error);
 }
 #endif

@@ -20,6 +20,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfStringAttribute.h>
 #include <ImfTileDescription.h>
 #include <ImfVersion.h>
 #include <half.h>
@@ -238,14 +239,40 @@ uint32_t rows_of(Imf::Compression compression)
     }
 }
 
-facet_result fill_info(const unsigned char *bytes, size_t size, exr_info *out, char *message)
+/* The first header; returns the version and the flags of the file. */
+int read_header(const unsigned char *bytes, size_t size, Imf::Header &header)
 {
     memory_input stream(bytes, size);
     int version = bytes[4] | bytes[5] << 8 | bytes[6] << 16;
-    Imf::Header header;
-    *out = exr_info{};
     stream.seekg(8);
     header.readFrom(stream, version);
+    return version;
+}
+
+/* Whether the file has these channels, as floats at every texel. */
+facet_result find_named(const Imf::ChannelList &list, const exr_channel *named, uint32_t count, char *message)
+{
+    for (uint32_t c = 0; c < count; c++) {
+        const Imf::Channel *channel = list.findChannel(named[c].name);
+        const char *fault = !channel                      ? "is missing"
+                            : channel->type != Imf::FLOAT ? "does not hold floats"
+                            : channel->xSampling != 1 || channel->ySampling != 1
+                                ? "is not sampled at every texel"
+                                : nullptr;
+        if (fault) {
+            std::snprintf(message, EXR_MESSAGE, "channel %s %s", named[c].name, fault);
+            return FACET_ERROR_INVALID;
+        }
+    }
+    return FACET_OK;
+}
+
+facet_result fill_info(const unsigned char *bytes, size_t size, const exr_channel *named,
+                       uint32_t named_count, exr_info *out, char *message)
+{
+    Imf::Header header;
+    *out = exr_info{};
+    const int version = read_header(bytes, size, header);
     if (Imf::isNonImage(version) || (header.hasType() && Imf::isDeepData(header.type())))
         return say(message, FACET_ERROR_UNSUPPORTED, "deep pictures are not read");
     out->data = window(header.dataWindow());
@@ -265,15 +292,38 @@ facet_result fill_info(const unsigned char *bytes, size_t size, exr_info *out, c
     }
     for (channel_iterator c = header.channels().begin(); c != header.channels().end(); ++c)
         out->texel_size += c.channel().type == Imf::HALF ? 2 : 4;
-    return choose_channels(header.channels(), out, message);
+    if (!named)
+        return choose_channels(header.channels(), out, message);
+    out->channel_count = named_count;
+    return find_named(header.channels(), named, named_count, message);
 }
 
 } // namespace
 
-facet_result exr_shim_info(const unsigned char *bytes, size_t size, exr_info *out, char message[EXR_MESSAGE])
+facet_result exr_shim_info(const unsigned char *bytes, size_t size, const exr_channel *named,
+                           uint32_t named_count, exr_info *out, char message[EXR_MESSAGE])
 {
     try {
-        return fill_info(bytes, size, out, message);
+        return fill_info(bytes, size, named, named_count, out, message);
+    } catch (...) {
+        return say_exception(message, FACET_ERROR_INVALID);
+    }
+}
+
+facet_result exr_shim_text(const unsigned char *bytes, size_t size, const char *attribute, char *value,
+                           size_t value_size, char message[EXR_MESSAGE])
+{
+    try {
+        Imf::Header header;
+        read_header(bytes, size, header);
+        const auto *found = header.findTypedAttribute<Imf::StringAttribute>(attribute);
+        if (!found || found->value().size() >= value_size) {
+            std::snprintf(message, EXR_MESSAGE, "the text %s is %s", attribute,
+                          found ? "too long" : "missing");
+            return FACET_ERROR_INVALID;
+        }
+        std::snprintf(value, value_size, "%s", found->value().c_str());
+        return FACET_OK;
     } catch (...) {
         return say_exception(message, FACET_ERROR_INVALID);
     }
@@ -340,6 +390,26 @@ facet_result exr_shim_read(exr_reader *reader, const exr_info *info, uint32_t ro
     }
 }
 
+facet_result exr_shim_read_named(exr_reader *reader, const exr_info *info, const exr_channel *channels,
+                                 uint32_t channel_count, char message[EXR_MESSAGE])
+{
+    try {
+        Imf::FrameBuffer buffer;
+        for (uint32_t c = 0; c < channel_count; c++) {
+            const intptr_t before = static_cast<intptr_t>(channels[c].texel_stride) * info->data.min_x +
+                                    static_cast<intptr_t>(channels[c].row_stride) * info->data.min_y;
+            char *base = reinterpret_cast<char *>(reinterpret_cast<intptr_t>(channels[c].first) - before);
+            buffer.insert(channels[c].name,
+                          Imf::Slice(Imf::FLOAT, base, channels[c].texel_stride, channels[c].row_stride));
+        }
+        reader->part.setFrameBuffer(buffer);
+        reader->part.readPixels(info->data.min_y, info->data.max_y);
+        return FACET_OK;
+    } catch (...) {
+        return say_exception(message, FACET_ERROR_INVALID);
+    }
+}
+
 /* ---- writing ---- */
 
 namespace
@@ -389,34 +459,33 @@ void write_floats(Imf::OutputFile &file, uint32_t height, const exr_channel *cha
 {
     Imf::FrameBuffer buffer;
     for (uint32_t c = 0; c < channel_count; c++) /* the library only reads */
-        buffer.insert(channels[c].name,
-                      Imf::Slice(Imf::FLOAT,
-                                 const_cast<char *>(reinterpret_cast<const char *>(channels[c].first)),
-                                 channels[c].texel_stride, channels[c].row_stride));
+        buffer.insert(channels[c].name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char *>(channels[c].first),
+                                                   channels[c].texel_stride, channels[c].row_stride));
     file.setFrameBuffer(buffer);
     file.writePixels(static_cast<int>(height));
 }
 
 } // namespace
 
-facet_result exr_shim_write(uint32_t width, uint32_t height, const exr_channel *channels,
-                            uint32_t channel_count, bool as_half, uint32_t level,
+facet_result exr_shim_write(const exr_writing *how, const exr_channel *channels, uint32_t channel_count,
                             const facet_allocator *allocator, unsigned char **bytes, size_t *size,
                             char message[EXR_MESSAGE])
 {
     try {
         memory_output stream(allocator);
-        Imf::Header header(static_cast<int>(width), static_cast<int>(height));
-        header.compression() = Imf::ZIP_COMPRESSION;
-        header.zipCompressionLevel() = static_cast<int>(level);
+        Imf::Header header(static_cast<int>(how->width), static_cast<int>(how->height));
+        header.compression() = how->is_stored ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
+        header.zipCompressionLevel() = static_cast<int>(how->level);
         for (uint32_t c = 0; c < channel_count; c++)
-            header.channels().insert(channels[c].name, Imf::Channel(as_half ? Imf::HALF : Imf::FLOAT));
+            header.channels().insert(channels[c].name, Imf::Channel(how->as_half ? Imf::HALF : Imf::FLOAT));
+        for (uint32_t t = 0; t < how->text_count; t++)
+            header.insert(how->texts[t].name, Imf::StringAttribute(how->texts[t].value));
         {
             Imf::OutputFile file(stream, header, 0);
-            if (as_half)
-                write_halves(file, width, height, channels, channel_count, allocator);
+            if (how->as_half)
+                write_halves(file, how->width, how->height, channels, channel_count, allocator);
             else
-                write_floats(file, height, channels, channel_count);
+                write_floats(file, how->height, channels, channel_count);
         } /* writes its table of chunks here */
         *bytes = stream.take(size);
         return FACET_OK;

@@ -3,7 +3,7 @@
 #ifndef IMAGE_EXR_SHIM_H
 #define IMAGE_EXR_SHIM_H
 
-#include "facet/facet.h"
+#include "image/image.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -21,6 +21,13 @@ typedef struct exr_source {
     bool is_half;
 } exr_source;
 
+/* A channel in memory: the sample at (x, y) is first[y * row_stride + x * texel_stride], in bytes. */
+typedef struct exr_channel {
+    const char *name;
+    float *first; /* what is written from is left alone */
+    size_t texel_stride, row_stride;
+} exr_channel;
+
 /* What the header of the first part says. Nothing of it has been checked. */
 typedef struct exr_info {
     exr_window data, display;
@@ -28,13 +35,18 @@ typedef struct exr_info {
     uint32_t tile_width, tile_height; /* where is_tiled */
     uint32_t chunk_rows;              /* rows that are coded together */
     uint32_t texel_size;              /* bytes of the samples of all channels */
-    uint32_t channel_count;           /* of the picture: 3 or 4 */
-    exr_source sources[4];            /* R, G, B, A; the same one three times where it is grey */
+    uint32_t channel_count;           /* of the picture: 3 or 4; of those that were named */
+    exr_source sources[4]; /* of a picture: R, G, B, A; the same one three times where it is grey */
 } exr_info;
 
-/* Reads the first header of a file whose headers are whole (see check_headers() of codec_exr.c). Fails with
- * FACET_ERROR_INVALID and, where the picture is of a kind that is not read, FACET_ERROR_UNSUPPORTED. */
-facet_result exr_shim_info(const unsigned char *bytes, size_t size, exr_info *out, char message[EXR_MESSAGE]);
+/* Reads the first header of a file whose headers are whole (see exr_check()). named: the channels that are wanted; NULL:
+ * those that the picture is made of. Fails with FACET_ERROR_INVALID, also where one of named is missing or does not hold
+ * floats, and, where the picture is of a kind that is not read, FACET_ERROR_UNSUPPORTED. */
+facet_result exr_shim_info(const unsigned char *bytes, size_t size, const exr_channel *named,
+                           uint32_t named_count, exr_info *out, char message[EXR_MESSAGE]);
+/* The text of an attribute of the type "string" of such a file. FACET_ERROR_INVALID: missing, or longer than value. */
+facet_result exr_shim_text(const unsigned char *bytes, size_t size, const char *attribute, char *value,
+                           size_t value_size, char message[EXR_MESSAGE]);
 
 /* A file that is open; used by one thread at a time. Several may read the same bytes, which stay. */
 typedef struct exr_reader exr_reader;
@@ -45,16 +57,22 @@ void exr_shim_close(exr_reader *reader); /* NULL is allowed */
 facet_result exr_shim_read(exr_reader *reader, const exr_info *info, uint32_t row, uint32_t row_end,
                            float *texels, char message[EXR_MESSAGE]);
 
-/* A channel to be written: the sample at (x, y) is first[y * row_stride + x * texel_stride], in bytes. */
-typedef struct exr_channel {
-    const char *name;
-    const float *first;
-    size_t texel_stride, row_stride;
-} exr_channel;
+/* All rows of named channels, into their memory. FACET_ERROR_INVALID: damaged. */
+facet_result exr_shim_read_named(exr_reader *reader, const exr_info *info, const exr_channel *channels,
+                                 uint32_t channel_count, char message[EXR_MESSAGE]);
 
-/* Writes scanlines, ZIP at the zlib level. *bytes: a block of mem_alloc(). Fails with FACET_ERROR_ARGUMENT. */
-facet_result exr_shim_write(uint32_t width, uint32_t height, const exr_channel *channels,
-                            uint32_t channel_count, bool as_half, uint32_t level,
+/* How a file is written. */
+typedef struct exr_writing {
+    uint32_t width, height;
+    bool as_half;
+    bool is_stored;          /* not compressed */
+    uint32_t level;          /* of zlib */
+    const image_text *texts; /* attributes */
+    uint32_t text_count;
+} exr_writing;
+
+/* Writes scanlines, ZIP. *bytes: a block of mem_alloc(). Fails with FACET_ERROR_ARGUMENT. */
+facet_result exr_shim_write(const exr_writing *how, const exr_channel *channels, uint32_t channel_count,
                             const facet_allocator *allocator, unsigned char **bytes, size_t *size,
                             char message[EXR_MESSAGE]);
 

@@ -73,8 +73,8 @@ facet_result image_probe(const void *bytes, size_t size, const char *name, image
 /* Decodes. name stands first in messages. PNG, AVIF: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits;
  * all of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2). HDR, EXR, PFM: F32 RGB
  * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where a file holds
- * half), unless desc says otherwise. KTX2: the first layer and face (ktx2.h has them all), of the type that holds the format's values, is_srgb
- * as the file says; channels that its format lacks are 0, as samplers read them. */
+ * half), unless desc says otherwise. KTX2: the first layer and face (ktx2.h has them all), of the type that holds
+ * the format's values, is_srgb as the file says; channels that its format lacks are 0, as samplers read them. */
 facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
                           image *out, facet_error *error);
 
@@ -86,20 +86,48 @@ typedef struct image_layer {
     size_t row_stride_bytes;
 } image_layer;
 
+/* A named text in an EXR file: an attribute of the type "string". */
+typedef struct image_text {
+    const char *name, *value;
+} image_text;
+
 typedef struct image_encode_desc {
     facet_allocator allocator;
-    uint32_t thread_count; /* 0: 1; the bytes do not depend on it */
-    uint32_t quality;      /* JPEG, WebP: 1 to 100, 0: 92; WebP 100 is lossless */
-    uint32_t compression;  /* PNG: zlib level 1 to 9; 0: 4 */
+    uint32_t thread_count;   /* 0: 1; the bytes do not depend on it */
+    uint32_t quality;        /* JPEG, WebP: 1 to 100, 0: 92; WebP 100 is lossless */
+    uint32_t compression;    /* PNG, EXR: zlib level 1 to 9; 0: 4 */
+    bool is_stored;          /* EXR: not compressed at all, which is quick */
+    const image_text *texts; /* EXR: beside the picture */
+    uint32_t text_count;
 } image_encode_desc;
 
 /* Encoded bytes: a block of mem_alloc() and its used size. PNG, JPEG and WebP take U8 (PNG also U16) and write
  * the samples as they are; HDR and PFM take F32 RGB. */
 facet_result image_encode(const image *i, image_codec codec, const image_encode_desc *desc,
                           unsigned char **bytes, size_t *size, facet_error *error);
-/* Scanline OpenEXR, ZIP, half or float. */
+/* Scanline OpenEXR, ZIP or stored, half or float. Floats are written bit for bit. */
 facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer *layers,
                               uint32_t layer_count, bool as_half, const image_encode_desc *desc,
                               unsigned char **bytes, size_t *size, facet_error *error);
+
+/* ---- numbers in EXR files, for who wrote them ---- */
+
+/* A channel in memory: the sample at (x, y) is first[y * row_stride_bytes + x * texel_stride_bytes], in bytes. */
+typedef struct image_channel {
+    const char *name; /* in the file, in full */
+    float *first;
+    size_t texel_stride_bytes, row_stride_bytes;
+} image_channel;
+
+/* Reads named float channels bit for bit; allocator (NULL: malloc) is asked for little. FACET_ERROR_INVALID where one is
+ * missing or holds no floats, the picture is not of this size, or the file is damaged: what is in the channels then is
+ * undefined. */
+facet_result image_read_exr_channels(const void *bytes, size_t size, const char *name,
+                                     const facet_allocator *allocator, uint32_t width, uint32_t height,
+                                     const image_channel *channels, uint32_t channel_count,
+                                     facet_error *error);
+/* Reads one of image_encode_desc's texts. FACET_ERROR_INVALID where it is missing or does not fit in value. */
+facet_result image_read_exr_text(const void *bytes, size_t size, const char *name, const char *text_name,
+                                 char *value, size_t value_size, facet_error *error);
 
 #endif
