@@ -439,9 +439,9 @@ static void sky_at(float u, float v, float out[3])
 
 static void studio_at(float u, float v, float out[3])
 {
-    float left = fabsf(u - 0.3f) < 0.06f && fabsf(v - 0.3f) < 0.12f ? 25.0f : 0.0f;
-    float right = fabsf(u - 0.8f) < 0.09f && fabsf(v - 0.22f) < 0.09f ? 14.0f : 0.0f;
-    float room = 0.25f + 0.35f * (1.0f - v);
+    float left = fabsf(u - 0.3f) < 0.06f && fabsf(v - 0.3f) < 0.12f ? 9.0f : 0.0f;
+    float right = fabsf(u - 0.8f) < 0.09f && fabsf(v - 0.22f) < 0.09f ? 5.0f : 0.0f;
+    float room = 0.15f + 0.25f * (1.0f - v);
     out[0] = room + left + 0.9f * right;
     out[1] = room + 0.93f * left + 0.95f * right;
     out[2] = room + 0.85f * left + right;
