@@ -91,6 +91,7 @@ static void meet_body(path *p, const visibility_hit *hit, path_vertex *v)
 void path_vertex_set_wavelength(const path *p, path_vertex *v)
 {
     v->s.m.eta = path_media_ior(&v->behind, p->wavelength_nm) / path_media_ior(&p->media, p->wavelength_nm);
+    v->tables = surface_tables(&v->s.m, v->s.V, v->energy);
     v->disperses = false;
 }
 
@@ -209,6 +210,6 @@ vec3 path_vertex_straight(const path_vertex *v)
     if (!v->is_straight)
         return vec3(0.0f);
     LayersLobes only = {.transmission = 1.0f};
-    LayersSample s = layers_transmission_mirror(v->s.m, only, v->s.V, v->energy, v->tables);
-    return s.is_valid ? s.weight : vec3(0.0f);
+    LayersSample s = layers_sample(v->s.m, only, v->s.V, 0.0f, vec2(0.0f, 0.0f), v->energy, v->tables);
+    return s.is_valid && s.is_mirror ? s.weight : vec3(0.0f);
 }

@@ -186,7 +186,7 @@ static bool disperse(path *p, path_vertex *v, const numbers *u, path_direction *
     p->wavelength_nm = w.wavelength_nm;
     p->throughput *= w.weight;
     path_vertex_set_wavelength(p, v);
-    return path_vertex_sample(v, u->which_lobe, u->direction, d);
+    return path_vertex_sample(v, u->which_lobe, u->direction, d) && d->is_through;
 }
 
 /* Goes on in a direction; false: the path ends. */
