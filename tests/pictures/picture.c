@@ -330,15 +330,26 @@ uint32_t picture_hues(const picture *p, int material)
     return used;
 }
 
+static facet_image *image_of(const picture *p)
+{
+    facet_image *image = NULL;
+    const facet_image_view pixels = {
+        .width = p->width, .height = p->height, .channel_count = 4, .pixels = p->rgba};
+    assert_int_equal(facet_image_create(&pixels, NULL, &image, NULL), FACET_OK);
+    return image;
+}
+
 double picture_distance(const picture *a, const picture *b)
 {
-    assert_true(a->width == b->width && a->height == b->height);
-    double squares = 0.0, error = 0.0;
-    for (uint32_t i = 0; i < a->count * 4; i++) {
-        double x = (double)a->rgba[i], y = (double)b->rgba[i];
-        squares += x * x;
-        error += (x - y) * (x - y);
-    }
-    assert_true(squares > 0.0);
-    return sqrt(error / squares);
+    facet_image *first = image_of(a), *second = image_of(b);
+    facet_comparison c;
+    facet_error error;
+    const facet_compare_desc desc = {.space = FACET_COMPARE_LINEAR,
+                                     .skipped_metrics = FACET_METRIC_SSIM | FACET_METRIC_FLIP};
+    if (facet_compare(first, second, &desc, &c, NULL, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    assert_true(c.invalid_count == 0);
+    facet_image_destroy(first);
+    facet_image_destroy(second);
+    return c.nrmse;
 }

@@ -57,7 +57,7 @@ double picture_ring(const picture *p, int material, int channel, double from, do
  * (chroma below 0.05) aside. */
 uint32_t picture_hues(const picture *p, int material);
 
-/* Root mean square of the difference over that of a; any material, all channels of RGBA. */
+/* Root mean square of the difference over that of a; any material, all channels of RGBA (facet_comparison's nrmse). */
 double picture_distance(const picture *a, const picture *b);
 
 #endif
