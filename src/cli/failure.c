@@ -7,7 +7,8 @@
 
 const exit_meaning exit_meanings[] = {
     {"0", "done; the output is complete"},
-    {"1", "done, with a negative answer: --strict and there were warnings, an error above --max-error, or "
+    {"1", "done, with a negative answer: --strict and there were warnings, an error above --max-error, "
+          "pictures beyond --max or --min, or "
           "some of several models failed"},
     {"2", "the command line, or the file of --config, is wrong"},
     {"3", "an input cannot be read: missing, no permission, I/O"},
