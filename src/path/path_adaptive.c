@@ -26,7 +26,7 @@ static double pixel_noise_square(const path_film *f, size_t i)
     const path_pixel *p = &f->pixels[i];
     double error = 0.0, value = 0.0;
     for (int c = 0; c < 3; c++) {
-        error += weights[c] * sqrt((double)p->spread[c] / (double)(p->samples - 1));
+        error += weights[c] * sqrt((double)p->spread[c] / ((double)p->samples - 1.0));
         value += weights[c] * (double)p->mean[c];
     }
     double noise = displayed(error * (double)f->scale, value * (double)f->scale);
@@ -59,7 +59,7 @@ static float block_noise_square(const path_film *f, uint32_t column, uint32_t ro
     for (uint32_t y = row * PATH_FILM_BLOCK; y < y_end; y++)
         for (uint32_t x = column * PATH_FILM_BLOCK; x < x_end; x++, count++) {
             size_t i = (size_t)y * f->width + x;
-            if (f->pixels[i].samples < PATH_FILM_FEWEST_SAMPLES)
+            if (f->pixels[i].samples < (float)PATH_FILM_FEWEST_SAMPLES)
                 return INFINITY;
             sum += pixel_noise_square(f, i);
         }

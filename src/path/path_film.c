@@ -27,8 +27,12 @@ facet_result path_film_create(const facet_allocator *allocator, uint32_t width, 
     *out = NULL;
     if (!f)
         return fail_memory(error, "light samples", sizeof *f);
-    *f = (path_film){
-        .width = width, .height = height, .block_columns = columns, .block_rows = rows, .scale = 1.0f};
+    *f = (path_film){.allocator = allocator ? *allocator : (facet_allocator){0},
+                     .width = width,
+                     .height = height,
+                     .block_columns = columns,
+                     .block_rows = rows,
+                     .scale = 1.0f};
     f->pixels = mem_zalloc(allocator, count, sizeof *f->pixels);
     f->ground = has_ground ? mem_zalloc(allocator, count, sizeof *f->ground) : NULL;
     f->block_noise = mem_zalloc(allocator, (size_t)columns * rows, sizeof *f->block_noise);
@@ -103,7 +107,7 @@ static void add_ground(path_ground *g, const path_sample *s)
         return;
     double open = (double)luminance_of(s->ground_open);
     double taken = open - (double)luminance_of(s->ground_lit);
-    double share = 1.0 / (double)++g->samples;
+    double share = 1.0 / (double)(g->samples += 1.0f);
     double distance = taken - (double)g->taken;
     g->open = mean_with(g->open, open, share);
     g->taken = mean_with(g->taken, taken, share);
@@ -114,13 +118,13 @@ void path_film_add(path_film *f, size_t pixel, const path_sample *sample)
 {
     static const path_sample black = {0};
     path_pixel *p = &f->pixels[pixel];
-    if (p->samples >= PATH_FILM_MOST_SAMPLES)
+    if (p->samples >= (float)PATH_FILM_MOST_SAMPLES)
         return;
     if (!is_finite(sample)) {
         atomic_fetch_add_explicit(&f->dropped, 1, memory_order_relaxed);
         sample = &black;
     }
-    double share = 1.0 / (double)++p->samples;
+    double share = 1.0 / (double)(p->samples += 1.0f);
     for (int c = 0; c < 3; c++) {
         add_color(p, c, (double)sample->radiance[c], share);
         p->albedo[c] = mean_with(p->albedo[c], (double)sample->albedo[c], share);
@@ -133,14 +137,14 @@ void path_film_add(path_film *f, size_t pixel, const path_sample *sample)
 
 uint32_t path_film_samples(const path_film *f, size_t pixel)
 {
-    return f->pixels[pixel].samples;
+    return (uint32_t)f->pixels[pixel].samples;
 }
 
 uint64_t path_film_total_samples(const path_film *f)
 {
     uint64_t total = 0;
     for (size_t i = 0; i < (size_t)f->width * f->height; i++)
-        total += f->pixels[i].samples;
+        total += path_film_samples(f, i);
     return total;
 }
 
@@ -154,7 +158,7 @@ uint64_t path_film_dropped(const path_film *f)
 /* The standard error of what is taken. One sample says nothing of it. */
 static double taken_error(const path_ground *g)
 {
-    return g->samples > 1 ? (sqrt)((double)g->spread / (double)(g->samples - 1)) : 0.0;
+    return g->samples > 1.0f ? (sqrt)((double)g->spread / ((double)g->samples - 1.0)) : 0.0;
 }
 
 float path_ground_error(const path_ground *g)
@@ -178,7 +182,7 @@ float path_ground_opacity(const path_ground *g)
 
 float path_ground_share(const path_ground *g, const path_pixel *p)
 {
-    float share = p->samples ? (float)((double)g->samples / (double)p->samples) : 0.0f;
+    float share = p->samples > 0.0f ? (float)((double)g->samples / (double)p->samples) : 0.0f;
     float left = 1.0f - f_clamp(p->mean[3], 0.0f, 1.0f);
     return share < left ? share : left;
 }
@@ -214,8 +218,8 @@ static void resolve_color(const resolving *r, size_t i, float out[4])
  * pixel evenly make better means than this says. One sample alone is taken to be as far off as it is large. */
 static float resolve_variance(const path_pixel *p, int c, float scale)
 {
-    double square = p->samples > 1 ? (double)p->spread[c] / (double)(p->samples - 1)
-                                   : (double)p->mean[c] * (double)p->mean[c];
+    double square = p->samples > 1.0f ? (double)p->spread[c] / ((double)p->samples - 1.0)
+                                      : (double)p->mean[c] * (double)p->mean[c];
     square *= (double)scale * (double)scale;
     return (float)(square < (double)FLT_MAX ? square : (double)FLT_MAX);
 }
@@ -240,7 +244,7 @@ static void resolve_pixels(void *context, size_t begin, size_t end)
         if (r->normal)
             resolve_normal(p, r->normal + 3 * i);
         if (r->samples)
-            r->samples[i] = (float)p->samples;
+            r->samples[i] = p->samples;
         for (size_t c = 0; c < 3; c++) {
             if (r->albedo)
                 r->albedo[3 * i + c] = p->albedo[c];

@@ -41,11 +41,12 @@ void path_film_resolve(const path_film *f, float scale, film *target, uint32_t t
 /* ---- checkpoints ---- */
 
 /* Writes all of it into an OpenEXR file, whole or nothing, bit for bit, that other programs can look at: the layers "" (RGBA,
- * means), albedo, normal, and what is needed beside. key: describes the picture (64 hex digits, path_checkpoint_key()). */
+ * means), albedo, normal, samples, and what is needed beside. key: describes the picture (64 hex digits, path_key.h). Fails
+ * with FACET_ERROR_WRITE, _MEMORY, and _UNSUPPORTED in a build without OpenEXR. */
 facet_result path_film_save(const path_film *f, const char *key, const char *path, uint32_t thread_count,
                             facet_error *error);
-/* Reads it into a film of the same size. FACET_ERROR_ARGUMENT: another picture's key or size, FACET_ERROR_INVALID: no
- * checkpoint, damaged. *exists: false, and FACET_OK, where there is no such file. */
+/* Reads it into a film of the same size, which stays as it is on failure. FACET_ERROR_ARGUMENT: another picture's key or size,
+ * FACET_ERROR_INVALID: no checkpoint, damaged. *exists: false, and FACET_OK, where there is no such file. */
 facet_result path_film_load(path_film *f, const char *key, const char *path, bool *exists,
                             facet_error *error);
 

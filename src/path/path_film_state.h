@@ -19,7 +19,7 @@ typedef struct path_pixel {
     float mean[4], rest[4]; /* red, green, blue, opacity */
     float spread[3]; /* mean square distance of the colors from their mean: the variance of one sample */
     float albedo[3], normal[3];
-    uint32_t samples;
+    float samples; /* whole: a file has it as it has the others */
 } path_pixel;
 
 /* Means over those samples of a pixel that met the ground, of luminance. */
@@ -27,10 +27,11 @@ typedef struct path_ground {
     float open;   /* that comes without the model */
     float taken;  /* of it, by the model; negative: it reflects more than it takes */
     float spread; /* mean square distance of what is taken from its mean */
-    uint32_t samples;
+    float samples;
 } path_ground;
 
 struct path_film {
+    facet_allocator allocator;
     uint32_t width, height;
     path_pixel *pixels;
     path_ground *ground; /* NULL: there is none */

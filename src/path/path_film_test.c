@@ -149,7 +149,7 @@ static void a_pixel_can_be_full(void **state)
     path_film *f = create(1, 1, false);
     path_sample s = grey(1.0f);
     path_film_add(f, 0, &s);
-    f->pixels[0].samples = PATH_FILM_MOST_SAMPLES - 1;
+    f->pixels[0].samples = (float)(PATH_FILM_MOST_SAMPLES - 1);
     path_film_add(f, 0, &s);
     assert_int_equal(path_film_samples(f, 0), 1 << 24);
     s = grey(100.0f);
@@ -187,7 +187,7 @@ static void what_is_not_finite_is_black(void **state)
     assert_near(at(&target, "", 3), 0.5, 1e-6);
     assert_near(at(&target, "albedo", 0), 0.5, 1e-6);
     assert_near(at(&target, "normal", 2), 1.0, 1e-6);
-    assert_int_equal(f->ground[0].samples, 0);
+    assert_true(f->ground[0].samples == 0.0f);
     film_destroy(&target);
     path_film_destroy(f);
 }
@@ -390,7 +390,7 @@ static double share_below(const path_film *f, float noise, float scale, double *
                         error * (double)scale / (2.0 * sqrt(true_mean(i) * (double)scale + 0.0025));
                     square += shown * shown;
                     sum += error;
-                    variance += true_deviation(i) * true_deviation(i) / f->pixels[i].samples;
+                    variance += true_deviation(i) * true_deviation(i) / (double)f->pixels[i].samples;
                 }
             *worst = fmax(*worst, sqrt(square / count) / (double)noise);
             below += square / count < (double)noise * (double)noise;

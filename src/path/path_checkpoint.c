@@ -1,0 +1,246 @@
+/* path_checkpoint.c - path_film_save() and path_film_load(): all of a film as an OpenEXR file. A pixel is floats, and each of
+ * them is a channel, so nothing is converted: the first are the means as R, G, B, A, which any viewer shows. Beside them are
+ * texts: what the file is, which picture it is of, and a digest of its numbers, since stored channels have no checksums. */
+#include "path/path_film_state.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "ibl/cache.h"
+#include "image/image.h"
+
+static const char VERSION[] = "1";
+enum { KEY_SIZE = 65, DIGEST_SIZE = 17, COUNT_SIZE = 21, VERSION_SIZE = 16 };
+
+/* ---- channels ---- */
+
+static const char *const pixel_names[] = {"R",        "G",        "B",        "A",        "rest.R",
+                                          "rest.G",   "rest.B",   "rest.A",   "spread.R", "spread.G",
+                                          "spread.B", "albedo.R", "albedo.G", "albedo.B", "normal.X",
+                                          "normal.Y", "normal.Z", "samples.N"};
+static const char *const ground_names[] = {"ground.open", "ground.taken", "ground.spread", "ground.samples"};
+enum {
+    PIXEL_CHANNELS = sizeof pixel_names / sizeof *pixel_names,
+    GROUND_CHANNELS = sizeof ground_names / sizeof *ground_names,
+    CHANNELS = PIXEL_CHANNELS + GROUND_CHANNELS
+};
+_Static_assert(sizeof(path_pixel) == PIXEL_CHANNELS * sizeof(float), "a pixel is its channels");
+_Static_assert(sizeof(path_ground) == GROUND_CHANNELS * sizeof(float), "and so is its ground");
+
+/* Where the channels of a film are in memory; their number. */
+static uint32_t list_channels(const path_film *f, image_channel channels[CHANNELS])
+{
+    uint32_t count = 0;
+    for (uint32_t c = 0; c < PIXEL_CHANNELS; c++)
+        channels[count++] = (image_channel){.name = pixel_names[c],
+                                            .first = (float *)f->pixels + c,
+                                            .texel_stride_bytes = sizeof *f->pixels,
+                                            .row_stride_bytes = f->width * sizeof *f->pixels};
+    for (uint32_t c = 0; f->ground && c < GROUND_CHANNELS; c++)
+        channels[count++] = (image_channel){.name = ground_names[c],
+                                            .first = (float *)f->ground + c,
+                                            .texel_stride_bytes = sizeof *f->ground,
+                                            .row_stride_bytes = f->width * sizeof *f->ground};
+    return count;
+}
+
+static uint64_t digest_of(const path_film *f, const char *key, uint64_t dropped)
+{
+    size_t count = (size_t)f->width * f->height;
+    uint64_t hash = cache_hash(dropped, key, strlen(key));
+    hash = cache_hash(hash, f->pixels, count * sizeof *f->pixels);
+    return f->ground ? cache_hash(hash, f->ground, count * sizeof *f->ground) : hash;
+}
+
+/* ---- writing ---- */
+
+facet_result path_film_save(const path_film *f, const char *key, const char *path, uint32_t thread_count,
+                            facet_error *error)
+{
+    char digest[DIGEST_SIZE], dropped[COUNT_SIZE];
+    snprintf(digest, sizeof digest, "%016" PRIx64, digest_of(f, key, path_film_dropped(f)));
+    snprintf(dropped, sizeof dropped, "%" PRIu64, path_film_dropped(f));
+    const image_text texts[] = {
+        {"facetCheckpoint", VERSION}, {"facetKey", key}, {"facetDropped", dropped}, {"facetDigest", digest}};
+    const image_layer layers[] = {
+        {pixel_names, PIXEL_CHANNELS, (const float *)f->pixels, f->width * sizeof *f->pixels},
+        {ground_names, GROUND_CHANNELS, (const float *)f->ground, f->width * sizeof *f->ground}};
+    const image_encode_desc desc = {.allocator = f->allocator,
+                                    .thread_count = thread_count,
+                                    .is_stored = true,
+                                    .texts = texts,
+                                    .text_count = sizeof texts / sizeof *texts};
+    unsigned char *bytes;
+    size_t size;
+    facet_result result =
+        image_encode_exr(f->width, f->height, layers, f->ground ? 2 : 1, false, &desc, &bytes, &size, error);
+    if (result == FACET_OK)
+        result = file_write(path, bytes, size, error);
+    mem_free(bytes);
+    return result;
+}
+
+/* ---- reading ---- */
+
+/* A file that is being read. */
+typedef struct checkpoint {
+    const char *path;
+    file_bytes file;
+} checkpoint;
+
+static facet_result read_text(const checkpoint *c, const char *name, char *value, size_t size,
+                              facet_error *error)
+{
+    return image_read_exr_text(c->file.data, c->file.size, c->path, name, value, size, error);
+}
+
+/* Whether the file is a checkpoint at all. Of an OpenEXR file that is damaged its codec says so. */
+static facet_result check_kind(const checkpoint *c, facet_error *error)
+{
+    char version[VERSION_SIZE] = "";
+    image header;
+    if (image_codec_detect(c->file.data, c->file.size) != IMAGE_CODEC_EXR)
+        return fail(error, FACET_ERROR_INVALID, "%s: is no checkpoint of a picture, which is an OpenEXR file",
+                    c->path);
+    facet_result result = image_probe(c->file.data, c->file.size, c->path, &header, NULL, error);
+    if (result != FACET_OK)
+        return result;
+    if (read_text(c, "facetCheckpoint", version, sizeof version, NULL) != FACET_OK)
+        return fail(error, FACET_ERROR_INVALID, "%s: is a picture, but no checkpoint of one", c->path);
+    if (strcmp(version, VERSION) != 0)
+        return fail(error, FACET_ERROR_INVALID,
+                    "%s: is a checkpoint of version %s; this build of facet goes on with version %s", c->path,
+                    version, VERSION);
+    return FACET_OK;
+}
+
+/* Whether it is one of this picture. */
+static facet_result check_picture(const checkpoint *c, const path_film *f, const char *key,
+                                  facet_error *error)
+{
+    char found[KEY_SIZE] = "";
+    image header;
+    facet_result result = image_probe(c->file.data, c->file.size, c->path, &header, NULL, error);
+    if (result == FACET_OK)
+        result = read_text(c, "facetKey", found, sizeof found, error);
+    if (result != FACET_OK)
+        return result;
+    if (header.width != f->width || header.height != f->height)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: is the checkpoint of a picture of %u x %u pixels, not %u x %u", c->path,
+                    header.width, header.height, f->width, f->height);
+    if (strcmp(found, key) != 0)
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "%s: is the checkpoint of another picture: model, view, light and what decides over samples have "
+            "to be the same",
+            c->path);
+    return FACET_OK;
+}
+
+static bool are_finite(const float *numbers, size_t count)
+{
+    float sum = 0.0f; /* 0 times anything finite stays 0 */
+    for (size_t i = 0; i < count; i++)
+        sum += 0.0f * numbers[i];
+    return sum == 0.0f;
+}
+
+static bool is_count(float samples)
+{
+    return samples >= 0.0f && samples <= (float)PATH_FILM_MOST_SAMPLES && floorf(samples) == samples;
+}
+
+/* Whether the numbers are those of a film, so that nothing that reads them has to doubt them. */
+static bool is_sound(const path_film *f)
+{
+    size_t count = (size_t)f->width * f->height;
+    bool is = are_finite((const float *)f->pixels, count * PIXEL_CHANNELS) &&
+              (!f->ground || are_finite((const float *)f->ground, count * GROUND_CHANNELS));
+    for (size_t i = 0; i < count; i++) {
+        const path_pixel *p = &f->pixels[i];
+        is = is && is_count(p->samples) && p->spread[0] >= 0.0f && p->spread[1] >= 0.0f &&
+             p->spread[2] >= 0.0f;
+        if (f->ground)
+            is = is && is_count(f->ground[i].samples) && f->ground[i].samples <= p->samples &&
+                 f->ground[i].spread >= 0.0f;
+    }
+    return is;
+}
+
+static facet_result read_numbers(const checkpoint *c, path_film *into, const char *key, facet_error *error)
+{
+    image_channel channels[CHANNELS];
+    uint32_t count = list_channels(into, channels);
+    char digest[DIGEST_SIZE] = "", dropped[COUNT_SIZE] = "", expected[DIGEST_SIZE];
+    facet_result result = read_text(c, "facetDigest", digest, sizeof digest, error);
+    if (result == FACET_OK)
+        result = read_text(c, "facetDropped", dropped, sizeof dropped, error);
+    if (result == FACET_OK)
+        result = image_read_exr_channels(c->file.data, c->file.size, c->path, &into->allocator, into->width,
+                                         into->height, channels, count, error);
+    if (result != FACET_OK)
+        return result;
+    uint64_t dropped_count = strtoull(dropped, NULL, 10);
+    snprintf(expected, sizeof expected, "%016" PRIx64, digest_of(into, key, dropped_count));
+    if (strcmp(digest, expected) != 0 || !is_sound(into))
+        return fail(error, FACET_ERROR_INVALID,
+                    "%s: the checkpoint is damaged: its numbers are not those that were written", c->path);
+    atomic_store(&into->dropped, dropped_count);
+    return FACET_OK;
+}
+
+/* Into a film of its own first, so that f stays as it is where the file is no good. */
+static facet_result read_film(const checkpoint *c, path_film *f, const char *key, facet_error *error)
+{
+    path_film *made;
+    facet_result result =
+        path_film_create(&f->allocator, f->width, f->height, f->ground != NULL, &made, error);
+    if (result == FACET_OK)
+        result = read_numbers(c, made, key, error);
+    if (result == FACET_OK) {
+        path_pixel *pixels = f->pixels;
+        path_ground *ground = f->ground;
+        f->pixels = made->pixels;
+        f->ground = made->ground;
+        made->pixels = pixels;
+        made->ground = ground;
+        atomic_store(&f->dropped, atomic_load(&made->dropped));
+    }
+    path_film_destroy(made);
+    return result;
+}
+
+static bool is_missing(const char *path)
+{
+    errno = 0;
+    FILE *file = fopen(path, "rb");
+    if (file)
+        fclose(file);
+    return !file && errno == ENOENT;
+}
+
+facet_result path_film_load(path_film *f, const char *key, const char *path, bool *exists, facet_error *error)
+{
+    checkpoint c = {.path = path};
+    *exists = !is_missing(path);
+    if (!*exists)
+        return FACET_OK;
+    facet_result result = file_open(path, 0, &f->allocator, &c.file, error);
+    if (result == FACET_OK)
+        result = check_kind(&c, error);
+    if (result == FACET_OK)
+        result = check_picture(&c, f, key, error);
+    if (result == FACET_OK)
+        result = read_film(&c, f, key, error);
+    file_close(&c.file);
+    return result;
+}
