@@ -44,10 +44,10 @@ typedef struct survey_job {
 
 static bool is_finite_pixel(const float *p)
 {
-    bool is_finite = true;
+    unsigned count = 0;
     for (int k = 0; k < 4; k++)
-        is_finite = is_finite & ((float_bits(p[k]) & 0x7f800000u) != 0x7f800000u);
-    return is_finite;
+        count += (float_bits(p[k]) & 0x7f800000u) != 0x7f800000u;
+    return count == 4;
 }
 
 /* What the pixels are before anything is done to them. */

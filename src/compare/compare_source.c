@@ -119,10 +119,10 @@ static void gather(const compare_source *s, int64_t x, int64_t y, uint32_t count
             b = a;
             flags = 0;
         }
-        bool is_good = true;
+        unsigned finite_count = 0;
         for (int k = 0; k < 4; k++)
-            is_good = is_good & is_finite(a[k]) & is_finite(b[k]);
-        if (!is_good) {
+            finite_count += (unsigned)is_finite(a[k]) + (unsigned)is_finite(b[k]);
+        if (finite_count < 8) {
             flags |= take_out(a, b, pa, pb);
             a = pa;
             b = pb;
