@@ -37,7 +37,7 @@ static ground_light aim(path *p, vec2 u, float u_light)
         return g;
     if (light.geometry == VISIBILITY_NONE)
         g.open = radiance;
-    g.lit = radiance * path_shadow(p, p->P, &p->media, &light);
+    g.lit = radiance * path_shadow(p, p->from.P, p->P, &p->media, &light);
     return g;
 }
 

@@ -25,6 +25,7 @@ typedef struct path {
     vec3 P, D;            /* where it goes on, m, and the way, unit */
     float width_m, angle; /* of the cone of directions that it stands for: radius at P, half-angle in rad */
     float passed_m;       /* since from.P, where the path went straight on through something */
+    float skipped_m;      /* of the way from the surface that it left, before P */
     path_origin from;
     media media;          /* what P is in */
     float wavelength_nm;  /* 0: all */
@@ -35,6 +36,14 @@ typedef struct path {
     path_sample *out;
     vec3 radiance;
 } path;
+
+/* A ray that starts beside a surface, by offset along the normal, gets to the next one that much sooner than one from the
+ * surface itself: what is absorbed on the way goes with the latter. D: unit. */
+static inline float path_skipped(vec3 offset, vec3 D)
+{
+    float length_m = length(offset);
+    return length_m > 0.0f ? length_m * length_m / max(abs(dot(offset, D)), 0.05f * length_m) : 0.0f;
+}
 
 /* Whether shadow rays pass what transmits, and paths leave that light to them. */
 static inline bool path_has_straight_shadows(const path *p)

@@ -111,7 +111,7 @@ bool path_fly(path *p, float distance_m, float u_channel, float u_distance)
     if (!here)
         return false;
     const scene_material *m = here->material;
-    float length_m = length_in(here, distance_m);
+    float length_m = length_in(here, distance_m + p->skipped_m);
     if (!scatters(m) || !(max3(p->throughput) > 0.0f)) {
         p->throughput *= transmittance(m, length_m);
         return false;
@@ -128,7 +128,7 @@ bool path_fly(path *p, float distance_m, float u_channel, float u_distance)
     vec3 passed = exp(extinction * -t);
     vec3 albedo = single_scatter_albedo(clamp(load3(m->multiscatter_color), 0.0f, 1.0f));
     p->throughput *= albedo * extinction * passed * (1.0f / dot(shares, extinction * passed));
-    p->P += p->D * t;
-    p->passed_m += t;
+    p->P += p->D * (t - p->skipped_m);
+    p->skipped_m = 0.0f;
     return true;
 }

@@ -24,8 +24,8 @@ bool path_media_has(const media *m, const scene_material *material);
  * body that ends nowhere, which counts as thick as its material says. */
 vec3 path_media_transmittance(const media *m, float distance_m);
 
-/* Takes p over distance_m (INFINITY: nothing is there) of what it is in, or to where it scatters before. u: three uniform
- * numbers. True: it scatters, p->P is there. */
+/* Takes p over distance_m from P (INFINITY: nothing is there) of what it is in, or to where it scatters before. u_*: uniform
+ * in [0, 1). True: it scatters, p->P is there. */
 bool path_fly(path *p, float distance_m, float u_channel, float u_distance);
 
 #endif

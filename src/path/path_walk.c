@@ -162,9 +162,16 @@ static void add_light(path *p, const path_vertex *v, const numbers *u)
         p->throughput * f * light.radiance * (path_aimed_weight(p->scene, &light, pdf) / light.pdf);
     if (!(max3(contribution) > 0.0f))
         return;
-    bool is_inside = is_through && v->s.m.layers & LAYER_VOLUME;
-    path_add(p, contribution * path_shadow(p, path_vertex_start(v, light.L),
-                                           is_inside ? &v->behind : &p->media, &light));
+    const media *in = is_through && v->s.m.layers & LAYER_VOLUME ? &v->behind : &p->media;
+    path_add(p, contribution * path_shadow(p, v->s.P, path_vertex_start(v, light.L), in, &light));
+}
+
+/* Goes on from a surface into L. */
+static void leave(path *p, const path_vertex *v, vec3 L)
+{
+    p->P = path_vertex_start(v, L);
+    p->D = L;
+    p->skipped_m = path_skipped(p->P - v->s.P, L);
 }
 
 /* Straight on. */
@@ -172,7 +179,7 @@ static bool pass(path *p, const path_vertex *v, const visibility_hit *hit, vec3 
 {
     p->throughput *= share;
     p->passed_m += hit->t;
-    p->P = path_vertex_start(v, p->D);
+    leave(p, v, p->D);
     if (v->s.m.layers & LAYER_VOLUME)
         p->media = v->behind;
     return max3(p->throughput) > 0.0f;
@@ -202,8 +209,7 @@ static bool scatter(path *p, path_vertex *v, const visibility_hit *hit, const nu
         return pass(p, v, hit, d.weight);
     }
     p->throughput *= d.weight;
-    p->P = path_vertex_start(v, d.L);
-    p->D = d.L;
+    leave(p, v, d.L);
     if (d.is_through && v->s.m.layers & LAYER_VOLUME)
         p->media = v->behind;
     p->has_crossed = d.is_through && p->from.is_chosen && v->s.m.layers & LAYER_TRANSMISSION &&
@@ -270,7 +276,7 @@ static bool meet_particle(path *p)
         vec3 contribution =
             p->throughput * light.radiance * (phase * path_aimed_weight(p->scene, &light, phase) / light.pdf);
         if (max3(contribution) > 0.0f)
-            path_add(p, contribution * path_shadow(p, p->P, &p->media, &light));
+            path_add(p, contribution * path_shadow(p, p->P, p->P, &p->media, &light));
     }
     vec3 L = sample_phase_HG(u.direction, p->D, g);
     float pdf = phase_HG(dot(p->D, L), g);
