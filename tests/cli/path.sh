@@ -1,0 +1,81 @@
+#!/bin/sh
+# path.sh - path tracing from the command line: samples, limits, checkpoints, the same bytes.
+set -eu
+. "$(dirname "$0")/lib.sh"
+
+path="render --renderer path --size 48x32 --samples 8"
+
+# The same bytes for any number of threads; another seed is another picture.
+for options in "" "--filter mitchell --ground shadow --background transparent" "--aperture 4% --sun 30,40" \
+    "--noise 0.05 --samples 64 --format exr32 --aov albedo,normal,variance,samples,depth"; do
+    for threads in 1 2 5; do
+        expect 0 $path $options -j $threads -o picture.$threads --format png $options
+    done
+    for other in 2 5; do
+        cmp -s picture.1 picture.$other || failed "-j $other differs from -j 1: $options"
+    done
+done
+expect 0 $path -o a.png
+expect 0 $path --seed 0 -o b.png
+expect 0 $path --seed 1 -o c.png
+cmp -s a.png b.png || failed "seed 0 is not the default"
+cmp -s a.png c.png && failed "another seed gives the same noise"
+
+# What one renderer knows is told to the other.
+expect 2 render --noise 0.1 -o x.png
+says "only with --renderer path"
+expect 2 render --ground shadow -o x.png
+expect 2 render --renderer path --specular-aa -o x.png
+says "says nothing to --renderer path"
+expect 2 render --aov variance -o x.exr
+expect 2 render --renderer path --sun 30 -o x.png
+says "AZIMUTH,ELEVATION"
+expect 2 render --renderer path --sun 30,100 -o x.png
+expect 2 render --renderer path --aperture -1 -o x.png
+expect 2 render --renderer path --focus 0 -o x.png
+expect 2 render --renderer path --shutter 1m -o x.png
+expect 2 render --renderer path --resume -o x.png
+says "--checkpoint FILE"
+expect 2 render --renderer path --checkpoint state.png -o x.png
+expect 2 render --renderer path --checkpoint x.exr -o x.exr
+expect 2 render --renderer path --checkpoint x.exr --turntable 3 -o 'x_##.png'
+expect 2 render --renderer path --ground shadow --up z -o x.png
+[ ! -e x.png ] || failed "x.png is there"
+
+# The time limit leaves a picture of what there is, and says so.
+expect 0 render --renderer path --size 64 --samples 10000000 --time-limit 2s -o late.png
+says "the time limit came after"
+expect 0 render --renderer path --size 64 --samples 10000000 --time-limit 2s --json -o late.png
+grep -q '"partial": true' out || failed "JSON does not say that it is partial"
+
+# Resumed is as if it had never stopped; more samples; another picture.
+if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
+    expect 0 $path --format exr32 -o whole.exr
+    expect 0 render --renderer path --size 48x32 --samples 3 --checkpoint state.exr -o part.exr
+    expect 0 $path --format exr32 --checkpoint state.exr --resume -o resumed.exr
+    cmp -s whole.exr resumed.exr || failed "a resumed picture differs"
+    cp state.exr before.exr
+    expect 0 $path --format exr32 --checkpoint state.exr --resume -o again.exr
+    cmp -s whole.exr again.exr || failed "a picture that is done differs"
+    expect 2 $path --seed 5 --checkpoint state.exr --resume -o other.exr
+    says "state.exr"
+    [ ! -e other.exr ] || failed "other.exr is there"
+    cmp -s state.exr before.exr || failed "the checkpoint of another picture was changed"
+    head -c 700 state.exr >cut.exr
+    expect 4 $path --checkpoint cut.exr --resume -o other.exr
+    says "cut.exr"
+    expect 6 $path --checkpoint no/such/folder/state.exr -o other.exr
+    expect 0 $path --checkpoint new.exr --resume -o first.exr
+
+    # What was drawn before an interruption is there afterwards.
+    "$facet" render --renderer path --size 48x32 --samples 10000000 --checkpoint cut_off.exr -o cut_off.png 2>err &
+    sleep 1
+    kill -TERM $!
+    code=0
+    wait $! || code=$?
+    [ $code = 75 ] || failed "exit code $code after SIGTERM, not 75"
+    [ ! -e cut_off.png ] || failed "an interrupted picture was written"
+    expect 0 render --renderer path --size 48x32 --samples 1 --checkpoint cut_off.exr --resume -o cut_off.png
+    is_type cut_off.png "PNG image data, 48 x 32"
+fi
+finish
