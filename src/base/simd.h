@@ -7,7 +7,8 @@
 typedef float float8 __attribute__((vector_size(32), may_alias));
 
 /* Before a function: compiles it twice, for AVX2 and for plain x86-64. Without fused multiply-adds, so both give the
- * same bits. Nothing elsewhere, and nothing under sanitizers, which run before the choice can be made. */
+ * same bits. Nothing elsewhere, and nothing under sanitizers, which run before the choice can be made. The function's name is
+ * to be the only one in the library, static or not: clang's choosers are global. */
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
 #define DISPATCH_AVX2

@@ -136,8 +136,8 @@ typedef struct errors_job {
 } errors_job;
 
 /* The largest error of each pixel. */
-DISPATCH_AVX2 static void largest_errors(const block *k, uint32_t count, uint32_t channel_count,
-                                         float *errors)
+DISPATCH_AVX2 static void compare_largest_errors(const block *k, uint32_t count, uint32_t channel_count,
+                                                 float *errors)
 {
     for (uint32_t i = 0; i < count; i++)
         errors[i] = 0.0f;
@@ -151,8 +151,8 @@ DISPATCH_AVX2 static void largest_errors(const block *k, uint32_t count, uint32_
 
 /* Sums of a channel, in double, eight beside one another so that they vectorise; which sum a pixel goes into depends on its
  * place alone. Pixels that do not count are equal in both and 0 in the reference sums by their weight. */
-DISPATCH_AVX2 static void add_channel(const float *a, const float *b, const float *weight, uint32_t count,
-                                      double epsilon, error_sums *sums)
+DISPATCH_AVX2 static void compare_add_channel(const float *a, const float *b, const float *weight,
+                                              uint32_t count, double epsilon, error_sums *sums)
 {
     enum { LANES = 8 };
     double squares[LANES] = {0}, relative[LANES] = {0}, absolute[LANES] = {0}, difference[LANES] = {0},
@@ -180,7 +180,7 @@ static void errors_of_block(const errors_job *job, block *k, uint32_t x, uint32_
                             error_sums *row)
 {
     float weight[BLOCK];
-    largest_errors(k, count, job->channel_count, errors);
+    compare_largest_errors(k, count, job->channel_count, errors);
     for (uint32_t i = 0; i < count; i++) {
         const bool counts = k->flags[i] & COMPARE_COUNTS, is_invalid = k->flags[i] & COMPARE_INVALID;
         errors[i] = !counts ? -1.0f : is_invalid ? INFINITY : errors[i];
@@ -196,7 +196,7 @@ static void errors_of_block(const errors_job *job, block *k, uint32_t x, uint32_
         for (uint32_t i = count; i % 8 != 0; i++)
             k->a[c][i] = k->b[c][i] = weight[i] = 0.0f;
     for (uint32_t c = 0; c < job->channel_count; c++)
-        add_channel(k->a[c], k->b[c], weight, count, (double)job->epsilon, row);
+        compare_add_channel(k->a[c], k->b[c], weight, count, (double)job->epsilon, row);
 }
 
 static void error_rows(void *context, size_t begin, size_t end)

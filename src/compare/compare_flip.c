@@ -17,7 +17,7 @@
 
 enum {
     MAX_EXPOSURES = 32,
-    LINES = 7 /* results of filters along rows: see filter_rows() */
+    LINES = 7 /* results of filters along rows: see flip_filter_rows() */
 };
 
 typedef struct flip_sums {
@@ -120,8 +120,8 @@ opponent_row(const float *restrict red, const float *restrict green, const float
 }
 
 /* The opponent colors of a picture as a display shows it: at an exposure, or as they are. */
-DISPATCH_AVX2 static void fill_opponent(const flip_job *job, flip_work *w, int picture, float gain,
-                                        uint32_t width, size_t height)
+DISPATCH_AVX2 static void flip_fill_opponent(const flip_job *job, flip_work *w, int picture, float gain,
+                                             uint32_t width, size_t height)
 {
     float *const *light = w->light[picture], *const *to = w->opponent;
     for (size_t row = 0; row < height; row++) {
@@ -136,7 +136,7 @@ DISPATCH_AVX2 static void fill_opponent(const flip_job *job, flip_work *w, int p
 }
 
 /* Along rows: the opponent channels by what is resolved of them, and Y by what finds edges and points. */
-DISPATCH_AVX2 static void filter_rows(const flip_job *job, flip_work *w, uint32_t width, size_t height)
+DISPATCH_AVX2 static void flip_filter_rows(const flip_job *job, flip_work *w, uint32_t width, size_t height)
 {
     const flip_kernels *k = &job->kernels;
     for (size_t row = 0; row < height; row++) {
@@ -161,8 +161,8 @@ static inline __attribute__((always_inline)) void along_column(const float *line
 
 /* Along columns; then what is seen of one row: colors as differences are perceived, and the strength of edges and
  * points. */
-DISPATCH_AVX2 static void filter_columns(const flip_job *job, const flip_work *w, uint32_t row,
-                                         uint32_t width, flip_view *view)
+DISPATCH_AVX2 static void flip_filter_columns(const flip_job *job, const flip_work *w, uint32_t row,
+                                              uint32_t width, flip_view *view)
 {
     const flip_kernels *k = &job->kernels;
     const size_t at = (row + (size_t)k->halo) * TILE_WIDTH;
@@ -186,7 +186,7 @@ DISPATCH_AVX2 static void filter_columns(const flip_job *job, const flip_work *w
 }
 
 /* The larger of what is there and the error between the views. */
-DISPATCH_AVX2 static void combine(flip_work *w, uint32_t row, uint32_t width)
+DISPATCH_AVX2 static void flip_combine(flip_work *w, uint32_t row, uint32_t width)
 {
     const flip_view *a = &w->views[0], *b = &w->views[1];
     for (uint32_t i = 0; i < width; i++) {
@@ -205,13 +205,13 @@ static void compare_at(const flip_job *job, const compare_tile *t, float gain, f
     const uint32_t width = t->width + 2 * (uint32_t)job->kernels.halo;
     const size_t height = t->height + 2 * (size_t)job->kernels.halo;
     for (int picture = 0; picture < 2; picture++) {
-        fill_opponent(job, w, picture, gain, width, height);
-        filter_rows(job, w, t->width, height);
+        flip_fill_opponent(job, w, picture, gain, width, height);
+        flip_filter_rows(job, w, t->width, height);
         for (uint32_t row = 0; row < t->height; row++)
-            filter_columns(job, w, row, t->width, &w->views[picture]);
+            flip_filter_columns(job, w, row, t->width, &w->views[picture]);
     }
     for (uint32_t row = 0; row < t->height; row++)
-        combine(w, row, t->width);
+        flip_combine(w, row, t->width);
 }
 
 static void finish_tile(const flip_job *job, const compare_tile *t, const flip_work *w, flip_sums *sums)

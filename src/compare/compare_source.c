@@ -153,8 +153,8 @@ static void develop(const compare_source *s, float *const c[4], uint32_t count)
     }
 }
 
-DISPATCH_AVX2 static void finish(float *const c[4], uint32_t count, const float background[3],
-                                 bool is_display, bool is_encoded)
+DISPATCH_AVX2 static void compare_finish(float *const c[4], uint32_t count, const float background[3],
+                                         bool is_display, bool is_encoded)
 {
     for (int k = 0; k < 3; k++) {
         float *restrict channel = c[k];
@@ -184,6 +184,6 @@ void compare_source_load(const compare_source *s, compare_values values, const f
     if (!s->b.is_display)
         develop(s, out->b, count);
     background = background ? background : s->background;
-    finish(out->a, count, background, s->is_display, is_encoded);
-    finish(out->b, count, background, s->is_display, is_encoded);
+    compare_finish(out->a, count, background, s->is_display, is_encoded);
+    compare_finish(out->b, count, background, s->is_display, is_encoded);
 }

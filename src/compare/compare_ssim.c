@@ -95,7 +95,8 @@ static inline __attribute__((always_inline)) void take_products(const ssim_job *
     }
 }
 
-DISPATCH_AVX2 static void filter_rows(const ssim_job *job, ssim_work *w, uint32_t p, const compare_tile *t)
+DISPATCH_AVX2 static void ssim_filter_rows(const ssim_job *job, ssim_work *w, uint32_t p,
+                                           const compare_tile *t)
 {
     for (uint32_t row = 0; row < t->height + 2 * RADIUS; row++) {
         take_products(job, w, p, row, t->width + 2 * RADIUS);
@@ -105,8 +106,8 @@ DISPATCH_AVX2 static void filter_rows(const ssim_job *job, ssim_work *w, uint32_
 }
 
 /* The index of a row of windows. */
-DISPATCH_AVX2 static void filter_columns(const ssim_job *job, const ssim_work *w, uint32_t row,
-                                         uint32_t width, double *restrict index)
+DISPATCH_AVX2 static void ssim_filter_columns(const ssim_job *job, const ssim_work *w, uint32_t row,
+                                              uint32_t width, double *restrict index)
 {
     double sums[MOMENTS][TILE_WIDTH];
     const double c1 = job->c1, c2 = job->c2;
@@ -125,12 +126,12 @@ static void tile_planes(const ssim_job *job, const compare_tile *t, ssim_work *w
     const compare_source *s = job->source;
     load_tile(job, t, w);
     for (uint32_t p = 0; p < job->plane_count; p++) {
-        filter_rows(job, w, p, t);
+        ssim_filter_rows(job, w, p, t);
         for (uint32_t row = 0; row < t->height; row++) {
             double index[TILE_WIDTH];
             if (t->y + row < RADIUS || t->y + row + RADIUS >= s->height)
                 continue;
-            filter_columns(job, w, row, t->width, index);
+            ssim_filter_columns(job, w, row, t->width, index);
             for (uint32_t i = 0; i < t->width; i++) {
                 const bool is_inside = t->x + i >= RADIUS && t->x + i + RADIUS < s->width;
                 if (!is_inside || !(w->flags[row + RADIUS][i + RADIUS] & COMPARE_COUNTS))
