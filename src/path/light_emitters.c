@@ -46,11 +46,6 @@ float light_emitters_normal_sign(const light_emitters *e, uint32_t item)
     return e->scene->geometries->items[e->items[item].geometry].is_mirrored ? -1.0f : 1.0f;
 }
 
-static float area_of(const light_triangle *t)
-{
-    return 0.5f * length(cross(t->edge1, t->edge2));
-}
-
 /* ---- radiance ---- */
 
 static bool is_finite(vec3 v)
@@ -142,7 +137,7 @@ static void measure_triangles(void *context, size_t begin, size_t end)
     const render_geometry *g = &m->e->scene->geometries->items[m->geometry];
     for (size_t i = begin; i < end; i++) {
         light_triangle t = triangle_of(g, (uint32_t)i);
-        float area = area_of(&t);
+        float area = light_triangle_area(&t);
         float farthest = max3(abs(t.corner)) + max3(abs(t.edge1)) + max3(abs(t.edge2));
         bool is_any = area > 0.0f && isfinite(area) && farthest < 1e15f;
         m->area[i] = is_any ? area : 0.0f;

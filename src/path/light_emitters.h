@@ -8,6 +8,8 @@
 
 #include "cpu/surface_point.h"
 
+#include "path/light_triangle.h"
+
 #define LIGHT_EMITTERS_NONE 0xffffffffu
 
 typedef struct light_emitter {
@@ -37,11 +39,8 @@ static inline uint32_t light_emitters_find(const light_emitters *e, uint32_t geo
                                                                  : LIGHT_EMITTERS_NONE;
 }
 
-/* Corners in world space, m: one and the edges from it to the next ones, whose cross product is outward for
- * counter-clockwise triangles of geometries that are not mirrored. */
-typedef struct light_triangle {
-    vec3 corner, edge1, edge2;
-} light_triangle;
+/* In world space; the cross product of its edges is outward for counter-clockwise triangles of geometries that are not
+ * mirrored. */
 light_triangle light_emitters_triangle(const light_emitters *e, uint32_t item);
 /* Whether it shines on both sides; else on that of normal_sign times the cross product of its edges. */
 bool light_emitters_shines_both_ways(const light_emitters *e, uint32_t item);

@@ -7,10 +7,15 @@
 
 #include "path/light_tree_nodes.h"
 
-/* The bounds of eight children on the irradiance at P; returns their sum. With d to the middle of a child:
- *     intensity f(theta') cos(theta_N') / max(d, radius)^2
- * where theta' is the angle from the axis less the spread and less the angle that the child's sphere is seen under,
- * theta_N' that from N less the latter, both at least 0. Conty Estevez and Kulla 2018, equation 3. */
+/* The weights of eight children at P; returns their sum. With d to the middle of a child and its radius r:
+ *     intensity f(theta) g(theta_N) / max(d, r)^2
+ * where theta is the angle from its axis, theta_N that from N. The bounds of f and g (Conty Estevez and Kulla 2018,
+ * equation 3) take the angles less the spread of its normals and less the angle that its sphere is seen under, both at least
+ * 0. They are certain where they are 0, but far too large for what is beside P, which takes all choices from what is in
+ * front of it. So they count for BOUND_SHARE only, and the means for the rest: of g the cosine to the middle, of f that with
+ * normals whose mean is R long and which therefore spread by about (1 - R^2) / 3: the mean of a clamped normal distribution,
+ * (m + sqrt(m^2 + (1 - R^2) / 4)) / 2 within 10 %. Where P is inside the sphere the middle says nothing, and the bounds
+ * count alone. */
 DISPATCH_AVX2 static float weigh(const light_tree_node *restrict n, const float *restrict P,
                                  const float *restrict N, float facing, float *restrict weights)
 {
@@ -47,7 +52,13 @@ DISPATCH_AVX2 static float weigh(const light_tree_node *restrict n, const float 
         float cos_c = cos_b >= cos_u ? 1.0f : cos_still_less;
         float ramp = (cos_c - n->dark[i]) * n->per_ramp[i];
         float most = ramp < 1.0f ? ramp : 1.0f;
-        float emission = most > 0.0f ? most : 0.0f;
+        float emission_most = most > 0.0f ? most : 0.0f;
+        float R = n->mean_normal[i];
+        float mean = R * cos_a;
+        float clamped = 0.5f * (mean + sqrtf(mean * mean + 0.25f * (1.0f - R * R)));
+        float known = outside > 0.0f ? emission_most : 0.0f;
+        float emission_mean = known > 0.0f ? clamped : emission_most;
+        float emission = emission_mean + (emission_most - emission_mean) * n->bound_share[i];
         float shown = front > -n->slack[i] ? n->intensity[i] : 0.0f;
 
         float cos_n = (nx * x + ny * y + nz * z) * per_d;
@@ -55,7 +66,10 @@ DISPATCH_AVX2 static float weigh(const light_tree_node *restrict n, const float 
         float sin_n = sqrtf(sin2_n > 0.0f ? sin2_n : 0.0f);
         float cos_n_less = cos_n * cos_u + sin_n * sin_u;
         float bound = cos_n >= cos_u ? 1.0f : cos_n_less;
-        float cosine = bound > facing ? bound : facing;
+        float above = cos_n > 0.0f ? cos_n : 0.0f;
+        float cosine_mean = outside > 0.0f ? above : bound;
+        float part = cosine_mean + (bound - cosine_mean) * BOUND_SHARE;
+        float cosine = part > facing ? part : facing;
 
         float q2 = d2 * n->per_reach2[i];
         float inside = 1.0f - q2 * q2;

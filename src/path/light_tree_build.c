@@ -227,9 +227,9 @@ static int split_into_children(builder *b, const range *r, range children[WIDTH]
 
 /* ---- bounds ---- */
 
-/* The cone of all normals: around their mean, as wide as the farthest. Against each other's: where both sides shine, the
- * axis goes to the nearer side. */
-static void bound_directions(const builder *b, const range *r, light_bounds *out)
+/* The cone of all normals: around their mean, as wide as the farthest; those of lights that shine to both sides count on the
+ * side of the first one's. Returns the length of the mean. */
+static float bound_directions(const builder *b, const range *r, light_bounds *out)
 {
     vec3 reference = b->lights[b->items[r->begin].light].axis;
     vec3 sum = vec3(0.0f);
@@ -244,23 +244,27 @@ static void bound_directions(const builder *b, const range *r, light_bounds *out
     out->axis = vec3(0.0f);
     out->cos_spread = -1.0f;
     if (!(length2 > 1e-30f) || !isfinite(length2))
-        return;
+        return 0.0f;
     out->axis = sum * inversesqrt(length2);
+    float mean = min(sqrt(length2) / out->intensity, 1.0f);
     float least = 1.0f;
     for (uint32_t i = r->begin; i < r->end; i++) {
         const light_bounds *l = &b->lights[b->items[i].light];
         if (!(l->cos_spread > 0.0f))
-            return;
+            return mean;
         float cosine = dot(out->axis, l->axis);
         least = min(least, l->is_two_sided ? abs(cosine) : cosine);
     }
     float widest = acos(max(least, -1.0f)) + 1e-3f; /* acos of nearly 1 has few digits */
     out->cos_spread = widest < PI ? cos(widest) : -1.0f;
+    return mean;
 }
 
-static light_bounds bounds_of(const builder *b, const range *r)
+/* mean_normal: as in nodes. */
+static light_bounds bounds_of(const builder *b, const range *r, float *mean_normal)
 {
     const light_bounds *first = &b->lights[b->items[r->begin].light];
+    *mean_normal = first->cos_spread > 0.0f ? 1.0f : 0.0f;
     if (r->end - r->begin == 1)
         return *first;
     cluster all = cluster_of(b, r->begin, r->end);
@@ -268,7 +272,7 @@ static light_bounds bounds_of(const builder *b, const range *r)
         .intensity = all.intensity, .dark = first->dark, .full = first->full, .slack = INFINITY};
     for (int axis = 0; axis < 3; axis++)
         out.center[axis] = 0.5f * all.low[axis] + 0.5f * all.high[axis];
-    bound_directions(b, r, &out);
+    *mean_normal = bound_directions(b, r, &out);
     for (uint32_t i = r->begin; i < r->end; i++) {
         const light_bounds *l = &b->lights[b->items[i].light];
         float distance = length(l->center - out.center) * 1.000001f;
@@ -282,8 +286,11 @@ static light_bounds bounds_of(const builder *b, const range *r)
 
 /* ---- nodes ---- */
 
-static void store_bounds(light_tree_node *node, int i, const light_bounds *l)
+static void store_bounds(light_tree_node *node, int i, const light_bounds *l, float mean_normal)
 {
+    bool shines_by_cosine = l->dark >= 0.0f && l->full >= 1.0f;
+    node->mean_normal[i] = mean_normal;
+    node->bound_share[i] = shines_by_cosine ? BOUND_SHARE : 1.0f;
     node->x[i] = l->center[0];
     node->y[i] = l->center[1];
     node->z[i] = l->center[2];
@@ -313,7 +320,7 @@ static light_tree_node *new_node(builder *b, uint32_t place)
     *node = (light_tree_node){.place = place};
     const light_bounds dark = {.dark = 0.0f, .full = 1.0f, .reach = INFINITY};
     for (int i = 0; i < WIDTH; i++)
-        store_bounds(node, i, &dark);
+        store_bounds(node, i, &dark, 0.0f);
     return node;
 }
 
@@ -326,8 +333,9 @@ static bool build(builder *b, const range *r, uint32_t place)
     range children[WIDTH];
     int count = split_into_children(b, r, children);
     for (int i = 0; i < count; i++) {
-        light_bounds bounds = bounds_of(b, &children[i]);
-        store_bounds(&b->tree->nodes[number], i, &bounds);
+        float mean_normal;
+        light_bounds bounds = bounds_of(b, &children[i], &mean_normal);
+        store_bounds(&b->tree->nodes[number], i, &bounds, mean_normal);
         uint32_t here = WIDTH * number + (uint32_t)i;
         if (children[i].end - children[i].begin == 1) {
             uint32_t light = b->items[children[i].begin].light;

@@ -300,37 +300,21 @@ static bool sample_placed_light(const Light *l, vec3 P, float probability, path_
     return max3(s.E) > 0.0f && s.distance_m > 0.0f && probability > 0.0f;
 }
 
-/* The density per sr of a uniformly chosen point of a triangle, seen from distance_m along the unit direction d:
- * distance^2 / (area |cos|). */
-static float area_pdf(const light_triangle *t, vec3 d, float distance_m)
-{
-    return 2.0f * distance_m * distance_m / abs(dot(cross(t->edge1, t->edge2), d));
-}
-
-/* Heitz 2019, "A Low-Distortion Map Between Triangle and Square". */
-static vec2 uniform_point(vec2 u)
-{
-    if (u[1] > u[0])
-        return vec2(0.5f * u[0], u[1] - 0.5f * u[0]);
-    return vec2(u[0] - 0.5f * u[1], 0.5f * u[1]);
-}
-
 static bool sample_emitter(const path_lights *lights, uint32_t item, vec3 P, vec2 u, float probability,
                            path_light_sample *out)
 {
     light_triangle t = light_emitters_triangle(&lights->emitters, item);
-    vec2 weights = uniform_point(u);
-    vec3 to_light = t.corner + t.edge1 * weights[0] + t.edge2 * weights[1] - P;
-    out->distance_m = length(to_light);
-    if (!(out->distance_m > 0.0f))
+    light_triangle_point point;
+    if (!light_triangle_sample(&t, P, u, &point))
         return false;
-    out->L = to_light * (1.0f / out->distance_m);
+    out->L = point.L;
+    out->distance_m = point.distance_m;
     out->radiance =
-        light_emitters_radiance(&lights->emitters, item, weights[0], weights[1], P, out->L, out->distance_m);
-    out->pdf = probability * area_pdf(&t, out->L, out->distance_m);
+        light_emitters_radiance(&lights->emitters, item, point.u, point.v, P, point.L, point.distance_m);
+    out->pdf = probability * point.pdf;
     out->geometry = lights->emitters.items[item].geometry;
     out->primitive = lights->emitters.items[item].primitive;
-    return max3(out->radiance) > 0.0f && out->pdf > 0.0f && out->pdf < INFINITY;
+    return max3(out->radiance) > 0.0f && out->pdf > 0.0f;
 }
 
 /* ---- all ---- */
@@ -408,6 +392,6 @@ float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const v
         return 0.0f;
     light_triangle t = light_emitters_triangle(&lights->emitters, item);
     float pdf = c.probabilities[PLACED] * light_tree_probability(lights->tree, &c.tree, item) *
-                area_pdf(&t, d, distance_m);
+                light_triangle_pdf(&t, P, d, distance_m);
     return pdf < INFINITY ? pdf : 0.0f;
 }
