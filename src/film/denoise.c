@@ -19,7 +19,7 @@ _Static_assert(TILE > 2 * DENOISE_RADIUS, "tiles of one phase do not meet");
 typedef struct denoising {
     const denoise_planes *planes;
     film *film;
-    float *sums; /* 4 channels and their weight per pixel */
+    float *sums; /* 3 channels and their weight per pixel */
     uint32_t tiles_x, tiles_y;
     int phase;
 } denoising;
@@ -35,10 +35,10 @@ static void add_window(const denoising *d, uint32_t x, uint32_t y)
             float weight = fit.weight[k];
             if (weight <= 0.0f)
                 continue;
-            float *sum = d->sums + 5 * ((size_t)(y + j - DENOISE_RADIUS) * p->width + x + i - DENOISE_RADIUS);
-            for (int c = 0; c < 4; c++)
+            float *sum = d->sums + 4 * ((size_t)(y + j - DENOISE_RADIUS) * p->width + x + i - DENOISE_RADIUS);
+            for (int c = 0; c < 3; c++)
                 sum[c] += weight * fit.value[c][k];
-            sum[4] += weight;
+            sum[3] += weight;
         }
 }
 
@@ -52,13 +52,13 @@ static bool is_clean(const denoise_planes *p, uint32_t x, uint32_t y)
 /* First a window at every STRIDE-th pixel; then one at each pixel that has little in common with those. */
 static void filter_tile(const denoising *d, uint32_t tile_x, uint32_t tile_y)
 {
-    const float enough = 0.5f;
+    const float enough = 1.0f;
     const denoise_planes *p = d->planes;
     bool is_regular = d->phase < PHASES / 2;
     uint32_t step = is_regular ? STRIDE : 1, first = is_regular ? STRIDE / 2 : 0;
     for (uint32_t y = tile_y * TILE + first; y < (tile_y + 1) * TILE && y < p->height; y += step)
         for (uint32_t x = tile_x * TILE + first; x < (tile_x + 1) * TILE && x < p->width; x += step) {
-            bool has_enough = !is_regular && d->sums[5 * ((size_t)y * p->width + x) + 4] >= enough;
+            bool has_enough = !is_regular && d->sums[4 * ((size_t)y * p->width + x) + 3] >= enough;
             if (!has_enough && !is_clean(p, x, y))
                 add_window(d, x, y);
         }
@@ -78,42 +78,42 @@ static void filter_tiles(void *context, size_t begin, size_t end)
     }
 }
 
-/* Whether the opacity around (x, y) is that of (x, y): then it is no edge, and stays. */
-static bool has_even_opacity(const denoise_planes *p, size_t o)
+/* value, no further from what the pixel was than noise explains, so that the filter fades out as samples come in; and
+ * not darker than black, unless the pixel was (filters of pixels may have negative lobes). */
+static float within_noise(float value, float before, float noise)
 {
-    for (ptrdiff_t v = -1; v <= 1; v++)
-        for (ptrdiff_t u = -1; u <= 1; u++)
-            if (p->opacity[(size_t)((ptrdiff_t)o + v * (ptrdiff_t)p->pitch + u)] != p->opacity[o])
-                return false;
-    return true;
+    const float most = 8.0f; /* standard deviations; the estimate of one pixel may be far too small */
+    float range = most * sqrtf(noise);
+    float least = before - range;
+    if (before >= 0.0f && least < 0.0f)
+        least = 0.0f;
+    return value < least ? least : value > before + range ? before + range : value;
+}
+
+static void write_pixel(const denoising *d, uint32_t x, uint32_t y)
+{
+    const denoise_planes *p = d->planes;
+    size_t i = (size_t)y * p->width + x, o = denoise_index(p, (ptrdiff_t)x, (ptrdiff_t)y);
+    const float *sum = d->sums + 4 * i;
+    float *pixel = d->film->layers[0].pixels + 4 * i;
+    bool stays = is_clean(p, x, y) || pixel[3] == 0.0f;
+    for (int c = 0; c < 3; c++) {
+        float divisor = denoise_divisor(p->albedo[c][o]);
+        float before = p->light[c][o] * divisor;
+        float value = sum[3] > 0.0f ? sum[c] / sum[3] : before;
+        if (!stays || !isfinite(pixel[c]))
+            pixel[c] = within_noise(value, before, p->noise[c][o] * divisor * divisor) * p->scale;
+    }
+    if (!isfinite(pixel[3]))
+        pixel[3] = p->opacity[o];
 }
 
 static void write_rows(void *context, size_t begin, size_t end)
 {
     const denoising *d = context;
-    const denoise_planes *p = d->planes;
-    const float most = 4.0f; /* standard deviations between a pixel and what is made of it */
     for (size_t y = begin; y < end; y++)
-        for (uint32_t x = 0; x < p->width; x++) {
-            size_t i = y * p->width + x, o = denoise_index(p, (ptrdiff_t)x, (ptrdiff_t)y);
-            const float *sum = d->sums + 5 * i;
-            float *pixel = d->film->layers[0].pixels + 4 * i;
-            bool is_even = has_even_opacity(p, o);
-            bool is_nothing = is_even && p->opacity[o] == 0.0f;
-            for (int c = 0; c < 3; c++) {
-                float divisor = denoise_divisor(p->albedo[c][o]);
-                float range = most * sqrtf(p->noise[c][o]) * divisor;
-                float before = p->light[c][o] * divisor;
-                float value = sum[4] > 0.0f ? sum[c] / sum[4] : before;
-                value = value < before - range   ? before - range
-                        : value > before + range ? before + range
-                                                 : value;
-                if ((!is_clean(p, x, (uint32_t)y) && !is_nothing) || !isfinite(pixel[c]))
-                    pixel[c] = value * p->scale;
-            }
-            float opacity = sum[4] > 0.0f && !is_even ? sum[3] / sum[4] : p->opacity[o];
-            pixel[3] = opacity < 0.0f ? 0.0f : opacity > 1.0f ? 1.0f : opacity;
-        }
+        for (uint32_t x = 0; x < d->film->width; x++)
+            write_pixel(d, x, (uint32_t)y);
 }
 
 facet_result film_denoise(film *f, const facet_allocator *allocator, uint32_t thread_count,
@@ -125,9 +125,9 @@ facet_result film_denoise(film *f, const facet_allocator *allocator, uint32_t th
             return fail(error, FACET_ERROR_ARGUMENT, "denoising: the film has no layer \"%s\"", guides[k]);
     denoise_planes planes = {0};
     size_t pixel_count = (size_t)f->width * f->height;
-    float *sums = mem_zalloc(allocator, pixel_count, 5 * sizeof *sums);
+    float *sums = mem_zalloc(allocator, pixel_count, 4 * sizeof *sums);
     facet_result result = sums ? denoise_planes_create(f, allocator, thread_count, &planes, error)
-                               : fail_memory(error, "sums of the denoiser", pixel_count * 5 * sizeof *sums);
+                               : fail_memory(error, "sums of the denoiser", pixel_count * 4 * sizeof *sums);
     if (result != FACET_OK)
         goto done;
     denoising d = {.planes = &planes,

@@ -2,7 +2,7 @@
  *
  * Weights are those of non-local means with the noise's own contribution to a distance taken off (Rousselle, Knaus,
  * Zwicker 2012, "Adaptive Rendering with Non-Local Means Filtering", section 4.1). With them radiance is fitted as a linear
- * function of albedo, normal and place (Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression for
+ * function of albedo, normal, opacity and place (Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression for
  * Denoising Monte Carlo Renderings"). How narrow the weights are is decided per window by Stein's unbiased estimate of
  * the error (Li, Wu, Chuang 2012, "SURE-based Optimization for Adaptive Sampling and Reconstruction"). */
 #include "film/denoise_fit.h"
@@ -13,8 +13,8 @@
 #include "base/simd.h"
 
 enum {
-    TERMS = 9,      /* 1, normal, albedo, place */
-    CANDIDATES = 3, /* widths of the weights */
+    TERMS = 10,     /* 1, normal, albedo, place, opacity */
+    CANDIDATES = 2, /* widths of the weights */
     JUDGED = 4      /* radius of the part of the window in which a candidate's error is estimated */
 };
 
@@ -22,11 +22,11 @@ typedef struct fit_work {
     float distance[DENOISE_WINDOW]; /* to the center, at a bandwidth of 1 */
     float weight[DENOISE_WINDOW];
     float term[TERMS][DENOISE_WINDOW], weighted[DENOISE_WINDOW];
-    float radiance[4][DENOISE_WINDOW], noise[3][DENOISE_WINDOW];
-    float value[4][DENOISE_WINDOW];
+    float radiance[3][DENOISE_WINDOW], noise[3][DENOISE_WINDOW];
+    float value[3][DENOISE_WINDOW];
     float level, light_level, noise_level; /* means over the window */
     float lower[TERMS][TERMS];             /* Cholesky factor of the normal equations */
-    float coefficient[4][TERMS];
+    float coefficient[3][TERMS];
 } fit_work;
 
 #define INLINE static inline __attribute__((always_inline))
@@ -50,7 +50,7 @@ INLINE void add_row_distance(const float *light, const float *noise, float light
 
 INLINE void measure_distances(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, fit_work *work)
 {
-    const float guide_weight = 10.0f;
+    const float guide_weight = 3.0f;
     const int side = 2 * DENOISE_PATCH + 1;
     size_t center = denoise_index(p, x, y);
     for (int j = 0; j < DENOISE_SIDE; j++) {
@@ -109,7 +109,7 @@ INLINE void read_window(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, fit_w
                 work->term[4 + c][first + i] = albedo - p->albedo[c][center];
             }
         for (int i = 0; i < DENOISE_ROW; i++) {
-            work->radiance[3][first + i] = p->opacity[row + (size_t)i];
+            work->term[9][first + i] = p->opacity[row + (size_t)i] - p->opacity[center];
             work->term[0][first + i] = 1.0f;
             work->term[7][first + i] = (float)(i - DENOISE_RADIUS) / (float)DENOISE_RADIUS;
             work->term[8][first + i] = (float)(j - DENOISE_RADIUS) / (float)DENOISE_RADIUS;
@@ -145,24 +145,24 @@ INLINE float sum_of(const float a[DENOISE_WINDOW])
 /* ---- the fit ---- */
 
 /* How much a coefficient may be without proof: that of a normal turns light off over its unit, that of the albedo is
- * the light, that of place doubles light over two windows. Their variance, for a ridge that is the noise over it. */
+ * the light, that of place doubles light over two windows, that of opacity is the light again. Their variance, for a ridge that is the noise over it. */
 INLINE float prior(const fit_work *work, int term)
 {
     const float trust = 3.0f;
-    float size = term < 4 ? work->level : term < 7 ? work->light_level : 0.5f * work->level;
+    float size = term < 4 || term > 8 ? work->level : term < 7 ? work->light_level : 0.5f * work->level;
     return trust * trust * size * size + 1e-20f;
 }
 
 /* Solves the normal equations of weight, for all channels. */
 INLINE void solve(fit_work *work)
 {
-    float right[4][TERMS];
+    float right[3][TERMS];
     for (int k = 0; k < TERMS; k++) {
         for (int i = 0; i < DENOISE_WINDOW; i++)
             work->weighted[i] = work->weight[i] * work->term[k][i];
         for (int l = k; l < TERMS; l++)
             work->lower[l][k] = product(work->weighted, work->term[l]);
-        for (int c = 0; c < 4; c++)
+        for (int c = 0; c < 3; c++)
             right[c][k] = product(work->weighted, work->radiance[c]);
     }
     float total = work->lower[0][0];
@@ -179,7 +179,7 @@ INLINE void solve(fit_work *work)
                 work->lower[k][k] = sqrtf(rest > 1e-12f * total ? rest : 1e-12f * total);
         }
     }
-    for (int c = 0; c < 4; c++) {
+    for (int c = 0; c < 3; c++) {
         float *x = work->coefficient[c];
         for (int k = 0; k < TERMS; k++) {
             float rest = right[c][k];
@@ -198,7 +198,7 @@ INLINE void solve(fit_work *work)
 
 INLINE void predict(fit_work *work)
 {
-    for (int c = 0; c < 4; c++)
+    for (int c = 0; c < 3; c++)
         for (int i = 0; i < DENOISE_WINDOW; i++) {
             float sum = work->coefficient[c][0];
             for (int k = 1; k < TERMS; k++)
@@ -265,7 +265,7 @@ INLINE void measure_levels(fit_work *work)
 
 DISPATCH_AVX2 void denoise_fit_window(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, denoise_fit *out)
 {
-    static const float bandwidths[CANDIDATES] = {1.0f, 0.6f, 0.36f};
+    static const float bandwidths[CANDIDATES] = {1.0f, 0.6f};
     fit_work work;
     size_t center = denoise_index(p, x, y);
     float albedo = (p->albedo[0][center] + p->albedo[1][center] + p->albedo[2][center]) * (1.0f / 3.0f);

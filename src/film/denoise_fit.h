@@ -7,7 +7,7 @@
 /* The pixels of the window around a center, DENOISE_ROW in a row, the last of which is unused. */
 typedef struct denoise_fit {
     float weight[DENOISE_WINDOW];   /* how much a pixel has in common with the center: (0, 1], 0: is none */
-    float value[4][DENOISE_WINDOW]; /* what its radiance over scale should be; its opacity */
+    float value[3][DENOISE_WINDOW]; /* what its radiance over scale should be */
 } denoise_fit;
 
 /* Fits the window around (x, y) of the picture. */

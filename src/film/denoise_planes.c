@@ -2,30 +2,26 @@
 #include "film/denoise_planes.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "film/denoise_noise.h"
 
 enum { ROW_GRAIN = 16 };
 
 typedef struct preparation {
     denoise_planes *planes;
     const float *radiance, *albedo, *normal, *variance; /* layers of the film */
-    uint32_t thread_count;
-    /* of a pass over planes */
-    float *from, *to;
-    int radius;
-    ptrdiff_t step; /* floats between neighbours */
 } preparation;
 
 /* ---- the layers, as they are read ---- */
 
-static float finite_or_zero(float x)
+/* x in [least, most], which not a number is not: 0. */
+static float bounded(float x, float least, float most)
 {
-    return isfinite(x) ? x : 0.0f;
+    return x >= most ? most : x > least ? x : x <= least ? least : 0.0f;
 }
 
 static bool is_known(const float rgba[4])
@@ -52,6 +48,7 @@ static void mean_around(const preparation *s, uint32_t x, uint32_t y, float out[
 /* Color relative to scale over albedo; the variance follows. */
 static void read_pixel(const preparation *s, uint32_t x, uint32_t y)
 {
+    const float most = 1e12f; /* times the mean: there are not so many pixels; its square is a number still */
     denoise_planes *p = s->planes;
     size_t i = (size_t)y * p->width + x;
     size_t o = denoise_index(p, (ptrdiff_t)x, (ptrdiff_t)y);
@@ -62,15 +59,15 @@ static void read_pixel(const preparation *s, uint32_t x, uint32_t y)
         rgba = mended;
     }
     for (size_t c = 0; c < 3; c++) {
-        float albedo = finite_or_zero(s->albedo[3 * i + c]);
+        float albedo = bounded(s->albedo[3 * i + c], 0.0f, 1.0f);
         float to_light = 1.0f / denoise_divisor(albedo);
-        float variance = finite_or_zero(s->variance[3 * i + c] / (p->scale * p->scale));
+        float variance = s->variance[3 * i + c] / p->scale / p->scale * to_light * to_light;
         p->albedo[c][o] = albedo;
-        p->normal[c][o] = finite_or_zero(s->normal[3 * i + c]);
-        p->light[c][o] = rgba[c] / p->scale * to_light;
-        p->noise[c][o] = (variance > 0.0f ? variance : 0.0f) * to_light * to_light;
+        p->normal[c][o] = bounded(s->normal[3 * i + c], -1.0f, 1.0f);
+        p->light[c][o] = bounded(rgba[c] / p->scale * to_light, -most, most);
+        p->noise[c][o] = bounded(variance, 0.0f, most);
     }
-    p->opacity[o] = rgba[3];
+    p->opacity[o] = bounded(rgba[3], 0.0f, 1.0f);
 }
 
 static void read_rows(void *context, size_t begin, size_t end)
@@ -96,8 +93,7 @@ static float picture_scale(const film *f)
 
 /* ---- planes ---- */
 
-/* Repeats the border of plane in its margins. */
-static void repeat_border(const denoise_planes *p, float *plane)
+void denoise_repeat_border(const denoise_planes *p, float *plane)
 {
     for (ptrdiff_t y = 0; y < (ptrdiff_t)p->height; y++) {
         float *row = plane + denoise_index(p, -DENOISE_MARGIN, y);
@@ -112,84 +108,6 @@ static void repeat_border(const denoise_planes *p, float *plane)
         memcpy(plane + denoise_index(p, -DENOISE_MARGIN, -k), first, p->pitch * sizeof *plane);
         memcpy(plane + denoise_index(p, -DENOISE_MARGIN, (ptrdiff_t)p->height - 1 + k), last,
                p->pitch * sizeof *plane);
-    }
-}
-
-/* Weighted mean over 2 radius + 1 pixels along one axis, triangular weights. */
-static void smooth(void *context, size_t begin, size_t end)
-{
-    const preparation *s = context;
-    int radius = s->radius;
-    for (size_t y = begin; y < end; y++) {
-        const float *from = s->from + denoise_index(s->planes, 0, (ptrdiff_t)y);
-        float *to = s->to + denoise_index(s->planes, 0, (ptrdiff_t)y);
-        memset(to, 0, s->planes->width * sizeof *to);
-        for (int k = -radius; k <= radius; k++) {
-            float weight = (float)(radius + 1 - abs(k)) / (float)((radius + 1) * (radius + 1));
-            const float *shifted = from + k * s->step;
-            for (size_t x = 0; x < s->planes->width; x++)
-                to[x] += weight * shifted[x];
-        }
-    }
-}
-
-/* Variance of the noise of `from` as each pixel alone tells it: the square of a second difference in both directions,
- * which no slope answers, over the sum of its squared coefficients. Immerkaer 1996, "Fast noise variance estimation". */
-static void measure_detail(void *context, size_t begin, size_t end)
-{
-    const preparation *s = context;
-    size_t pitch = s->planes->pitch;
-    for (size_t y = begin; y < end; y++) {
-        size_t row = denoise_index(s->planes, 0, (ptrdiff_t)y);
-        const float *above = s->from + row - pitch, *here = s->from + row, *below = s->from + row + pitch;
-        for (ptrdiff_t x = 0; x < (ptrdiff_t)s->planes->width; x++) {
-            float outer =
-                above[x - 1] - 2.0f * above[x] + above[x + 1] + below[x - 1] - 2.0f * below[x] + below[x + 1];
-            float difference = outer - 2.0f * (here[x - 1] - 2.0f * here[x] + here[x + 1]);
-            s->to[row + (size_t)x] = difference * difference * (1.0f / 36.0f);
-        }
-    }
-}
-
-static void take_smaller(void *context, size_t begin, size_t end)
-{
-    const preparation *s = context;
-    for (size_t y = begin; y < end; y++) {
-        const float *from = s->from + denoise_index(s->planes, 0, (ptrdiff_t)y);
-        float *to = s->to + denoise_index(s->planes, 0, (ptrdiff_t)y);
-        for (size_t x = 0; x < s->planes->width; x++)
-            to[x] = from[x] < to[x] ? from[x] : to[x];
-    }
-}
-
-static void run_pass(preparation *s, void (*body)(void *, size_t, size_t), float *from, float *to)
-{
-    s->from = from;
-    s->to = to;
-    parallel_for(s->thread_count, s->planes->height, ROW_GRAIN, body, s);
-    repeat_border(s->planes, to);
-}
-
-/* In place, in both directions; by way of other. */
-static void smooth_plane(preparation *s, float *plane, float *other, int radius)
-{
-    s->radius = radius;
-    s->step = 1;
-    run_pass(s, smooth, plane, other);
-    s->step = (ptrdiff_t)s->planes->pitch;
-    run_pass(s, smooth, other, plane);
-}
-
-/* The variance that samples have in a pixel is itself noisy, and too large where samples are stratified (all that
- * varies smoothly within a pixel, a sky for one, is integrated far better than by independent ones). So it is averaged
- * over neighbours, and then bounded by what differs between pixels: noise does not hide there, only more than noise. */
-static void estimate_noise(preparation *s, float *detail, float *other)
-{
-    for (int c = 0; c < 3; c++) {
-        smooth_plane(s, s->planes->noise[c], other, 2);
-        run_pass(s, measure_detail, s->planes->light[c], detail);
-        smooth_plane(s, detail, other, 3);
-        run_pass(s, take_smaller, detail, s->planes->noise[c]);
     }
 }
 
@@ -212,15 +130,15 @@ facet_result denoise_planes_create(const film *f, const facet_allocator *allocat
     p.opacity = p.block + 12 * plane_size;
     film *layers = (film *)f; /* film_find() changes nothing */
     preparation s = {.planes = &p,
-                     .thread_count = thread_count,
                      .radiance = f->layers[0].pixels,
                      .albedo = film_find(layers, "albedo")->pixels,
                      .normal = film_find(layers, "normal")->pixels,
                      .variance = film_find(layers, "variance")->pixels};
     parallel_for(thread_count, f->height, ROW_GRAIN, read_rows, &s);
     for (size_t k = 0; k < KEPT; k++)
-        repeat_border(&p, p.block + k * plane_size);
-    estimate_noise(&s, p.block + KEPT * plane_size, p.block + (KEPT + 1) * plane_size);
+        denoise_repeat_border(&p, p.block + k * plane_size);
+    denoise_find_noise(&p, (float *[2]){p.block + KEPT * plane_size, p.block + (KEPT + 1) * plane_size},
+                       thread_count);
     *out = p;
     return FACET_OK;
 }

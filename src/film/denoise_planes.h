@@ -38,8 +38,10 @@ static inline float denoise_divisor(float albedo)
     return albedo > least ? albedo : least;
 }
 
-/* Reads f, which has the layers: replaces what is not finite by its neighbours' mean, takes outliers of few samples
- * down to their neighbours, estimates the noise. FACET_ERROR_MEMORY. */
+/* Repeats the border of a plane in its margins. */
+void denoise_repeat_border(const denoise_planes *p, float *plane);
+
+/* Reads f, which has the layers. What is not finite is replaced by its neighbours' mean. FACET_ERROR_MEMORY. */
 facet_result denoise_planes_create(const film *f, const facet_allocator *allocator, uint32_t thread_count,
                                    denoise_planes *out, facet_error *error);
 void denoise_planes_destroy(denoise_planes *p);
