@@ -642,6 +642,9 @@ typedef struct facet_image_load_desc {
     uint32_t thread_count;   /* 0: facet_thread_count() */
     uint64_t max_file_bytes; /* 0: 4 GiB; larger files are refused */
     uint32_t max_size;       /* pixels along an edge; 0: 16384; larger pictures are refused */
+    const char *
+        layer; /* of an OpenEXR file: "albedo", "normal", "depth" ..; its channels become R, G, B, opacity, one all
+                          three, of two the third is 0. NULL: the picture */
 } facet_image_load_desc;
 
 /* Reads a PNG, JPEG, WebP, AVIF, KTX2, Radiance HDR, OpenEXR or PFM file, told apart by content, into layer "" as

@@ -77,6 +77,23 @@ bool facet_image_is_for_display(const facet_image *picture)
 
 /* ---- files ---- */
 
+/* A layer of two channels is no grey with opacity. */
+static facet_result expand_pair(const image *pair, const facet_allocator *allocator, image *rgba,
+                                facet_error *error)
+{
+    facet_result result = image_create(allocator, pair->width, pair->height, 4, IMAGE_F32, rgba, error);
+    const float *from = pair->pixels;
+    float *to = rgba->pixels;
+    for (size_t i = 0; result == FACET_OK && i < (size_t)pair->width * pair->height;
+         i++, from += 2, to += 4) {
+        to[0] = from[0];
+        to[1] = from[1];
+        to[2] = 0.0f;
+        to[3] = 1.0f;
+    }
+    return result;
+}
+
 facet_result facet_image_load_memory(const void *bytes, size_t size, const char *name,
                                      const facet_image_load_desc *desc, facet_image **picture,
                                      facet_error *error)
@@ -88,6 +105,7 @@ facet_result facet_image_load_memory(const void *bytes, size_t size, const char 
     const image_decode_desc decode = {.allocator = desc->allocator,
                                       .thread_count = thread_count,
                                       .max_size = desc->max_size,
+                                      .layer = desc->layer,
                                       .keeps_nonfinite = true};
     image decoded = {0}, rgba = {0};
     facet_result result = image_decode(bytes, size, name, &decode, &decoded, error);
@@ -99,6 +117,9 @@ facet_result facet_image_load_memory(const void *bytes, size_t size, const char 
     if (decoded.type == IMAGE_F32 && decoded.channel_count == 4 && !decoded.is_srgb) {
         rgba = decoded;
         decoded = (image){0};
+    } else if (desc->layer && decoded.channel_count == 2) {
+        result = expand_pair(&decoded, &desc->allocator, &rgba, error);
+        image_destroy(&decoded);
     } else {
         result = image_convert(&decoded, &desc->allocator, thread_count, 4, IMAGE_F32, false, &rgba, error);
         image_destroy(&decoded);

@@ -145,11 +145,13 @@ static facet_image_view picture(const facet_image *image)
 }
 
 /* Loads a picture; where it is not the first one it has to be as large. */
-static facet_result load(compare_run *run, const char *path, facet_image **image, facet_error *error)
+static facet_result load(compare_run *run, const char *path, const char *layer, facet_image **image,
+                         facet_error *error)
 {
     const facet_image_load_desc desc = {.allocator = run->desc.allocator,
                                         .thread_count = run->limits.thread_count,
-                                        .max_size = run->limits.max_texture_size};
+                                        .max_size = run->limits.max_texture_size,
+                                        .layer = layer};
     interrupt_begin_reading(input_name(path));
     facet_result result = input_load_image(path, &desc, image, error);
     if (result != FACET_OK) {
@@ -168,12 +170,12 @@ static facet_result load(compare_run *run, const char *path, facet_image **image
 static facet_result load_all(compare_run *run, facet_error *error)
 {
     const command_line *c = run->line;
-    const char *mask = option_text(c, OPT_MASK, NULL);
-    facet_result result = load(run, c->arguments[0], &run->a, error);
+    const char *mask = option_text(c, OPT_MASK, NULL), *layer = option_text(c, OPT_LAYER, NULL);
+    facet_result result = load(run, c->arguments[0], layer, &run->a, error);
     if (result == FACET_OK)
-        result = load(run, c->arguments[1], &run->b, error);
+        result = load(run, c->arguments[1], layer, &run->b, error);
     if (result == FACET_OK && mask)
-        result = load(run, mask, &run->mask, error);
+        result = load(run, mask, NULL, &run->mask, error);
     run->desc.mask = run->mask;
     return result;
 }

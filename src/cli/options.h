@@ -121,6 +121,7 @@ typedef enum option_id {
     OPT_SPACE,
     OPT_ALPHA,
     OPT_MASK,
+    OPT_LAYER,
     OPT_HEAT_MAP,
     OPT_GAIN,
     OPT_SHEET,

@@ -188,6 +188,8 @@ facet_result image_decode(const void *bytes, size_t size, const char *name, cons
         d.thread_count = 1;
     image_codec id;
     facet_result result = find_codec(bytes, size, name, &id, error);
+    if (result == FACET_OK && d.layer && id != IMAGE_CODEC_EXR)
+        return fail(error, FACET_ERROR_INVALID, "%s: only OpenEXR files have layers (\"%s\")", name, d.layer);
     return result == FACET_OK ? codecs[id].decode(bytes, size, name, &d, out, error) : result;
 }
 

@@ -159,7 +159,15 @@ facet_result exr_decode(const unsigned char *bytes, size_t size, const char *nam
     exr_info info;
     exr_sizes s;
     image made = {0};
-    facet_result result = exr_check(bytes, size, name, desc->max_size, NULL, 0, &info, &s, error);
+    char message[EXR_MESSAGE] = "";
+    const exr_channel none = {0};
+    facet_result result =
+        exr_check(bytes, size, name, desc->max_size, desc->layer ? &none : NULL, 0, &info, &s, error);
+    if (result == FACET_OK && desc->layer) {
+        result = exr_shim_layer(bytes, size, desc->layer, &info, message);
+        if (result != FACET_OK)
+            return exr_fail(error, result, name, message);
+    }
     if (result != FACET_OK)
         return result;
     reading r = {.bytes = bytes,

@@ -214,6 +214,63 @@ facet_result choose_channels(const Imf::ChannelList &list, exr_info *info, char 
     return FACET_ERROR_UNSUPPORTED;
 }
 
+/* Place of a channel in its layer by what stands behind the point; what has no known place comes behind. */
+int place_of(const char *suffix)
+{
+    static const char places[] = "RGBAXYZUV";
+    const char *found = suffix[0] && !suffix[1] ? std::strchr(places, suffix[0]) : nullptr;
+    return found ? static_cast<int>(found - places) : static_cast<int>(sizeof places);
+}
+
+/* "albedo, normal, Z": the names that layers can be asked for by. */
+facet_result say_layers(const Imf::ChannelList &list, const char *layer, char *message)
+{
+    std::string names, last;
+    for (channel_iterator c = list.begin(); c != list.end(); ++c) {
+        const char *point = std::strrchr(c.name(), '.');
+        const std::string name = point ? std::string(c.name(), point) : std::string(c.name());
+        if (name != last)
+            names += (names.empty() ? "" : ", ") + name;
+        last = name;
+    }
+    std::snprintf(message, EXR_MESSAGE, "there is no layer \"%.60s\"; it has %.300s", layer, names.c_str());
+    return FACET_ERROR_INVALID;
+}
+
+facet_result choose_layer(const Imf::ChannelList &list, const char *layer, exr_info *info, char *message)
+{
+    const std::string prefix = std::string(layer) + ".";
+    facet_result result = FACET_OK;
+    int places[4];
+    info->channel_count = 0;
+    for (channel_iterator c = list.begin(); c != list.end() && result == FACET_OK; ++c) {
+        const char *suffix = c.name() + prefix.size();
+        const bool is_whole = std::strcmp(c.name(), layer) == 0 ||
+                              (std::strcmp(layer, "depth") == 0 && std::strcmp(c.name(), "Z") == 0);
+        const bool is_part =
+            std::strncmp(c.name(), prefix.c_str(), prefix.size()) == 0 && !std::strchr(suffix, '.');
+        if (!is_whole && !is_part)
+            continue;
+        if (info->channel_count == 4)
+            return say(message, FACET_ERROR_UNSUPPORTED, "the layer has more than 4 channels");
+        const int place = is_whole ? 0 : place_of(suffix);
+        uint32_t k = info->channel_count++;
+        for (; k > 0 && places[k - 1] > place; k--) {
+            places[k] = places[k - 1];
+            info->sources[k] = info->sources[k - 1];
+        }
+        places[k] = place;
+        result = set_source(c, &info->sources[k], message);
+    }
+    if (result == FACET_OK && info->channel_count == 0)
+        return say_layers(list, layer, message);
+    if (info->channel_count == 1) {
+        info->sources[1] = info->sources[2] = info->sources[0];
+        info->channel_count = 3;
+    }
+    return result;
+}
+
 /* ---- the header ---- */
 
 exr_window window(const Imath::Box2i &box)
@@ -305,6 +362,18 @@ facet_result exr_shim_info(const unsigned char *bytes, size_t size, const exr_ch
 {
     try {
         return fill_info(bytes, size, named, named_count, out, message);
+    } catch (...) {
+        return say_exception(message, FACET_ERROR_INVALID);
+    }
+}
+
+facet_result exr_shim_layer(const unsigned char *bytes, size_t size, const char *layer, exr_info *info,
+                            char message[EXR_MESSAGE])
+{
+    try {
+        Imf::Header header;
+        read_header(bytes, size, header);
+        return choose_layer(header.channels(), layer, info, message);
     } catch (...) {
         return say_exception(message, FACET_ERROR_INVALID);
     }

@@ -44,6 +44,11 @@ typedef struct exr_info {
  * floats, and, where the picture is of a kind that is not read, FACET_ERROR_UNSUPPORTED. */
 facet_result exr_shim_info(const unsigned char *bytes, size_t size, const exr_channel *named,
                            uint32_t named_count, exr_info *out, char message[EXR_MESSAGE]);
+/* Makes the sources of info, which exr_shim_info() has filled, those of a layer: the channels LAYER.R .G .B .A, or .X .Y .Z,
+ * or .U .V, or whatever other names there are behind the point, at most 4; one is taken three times. Or the channel of that
+ * very name; "depth" is the channel Z. FACET_ERROR_INVALID: there is no such layer; message then names those there are. */
+facet_result exr_shim_layer(const unsigned char *bytes, size_t size, const char *layer, exr_info *info,
+                            char message[EXR_MESSAGE]);
 /* The text of an attribute of the type "string" of such a file. FACET_ERROR_INVALID: missing, or longer than value. */
 facet_result exr_shim_text(const unsigned char *bytes, size_t size, const char *attribute, char *value,
                            size_t value_size, char message[EXR_MESSAGE]);

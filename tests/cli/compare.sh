@@ -176,6 +176,20 @@ expect 0 compare light.exr a.png --space display --max differing=0 --threshold 1
 [ ! -s err ] || failed "--space display is asked for, and still explained"
 expect 2 compare light.pfm light.pfm --space linear --tone-mapping agx
 
+# ---- layers ----
+expect 0 render $small -o layers.exr --aov depth,normal,uv,albedo
+expect 0 render $small -o bright.exr --aov depth,normal,uv,albedo --exposure 1
+expect 0 render $small -o turned.exr --aov depth,normal,uv,albedo --orbit 60
+expect 1 compare layers.exr bright.exr --max max=0
+for layer in depth normal uv albedo Z normal.X albedo.R; do
+    expect 0 compare layers.exr bright.exr --layer $layer --max max=0,flip=0 # depth: infinity in both
+    expect 1 compare layers.exr turned.exr --layer $layer --max mae=0.001
+done
+expect 4 compare layers.exr bright.exr --layer albodo
+says 'there is no layer "albodo"; it has A, B, G, R, Z, albedo, normal, uv'
+expect 4 compare a.png a.png --layer albedo
+says "a.png: only OpenEXR files have layers"
+
 # ---- pictures of the difference ----
 expect 0 compare half.pfm spot.pfm -o d.pfm -q
 expect 0 compare none.pfm d.pfm --json
