@@ -82,14 +82,15 @@ FN float ior_from_F0(float F0)
 
 /* Reflectance of a dielectric. cos_i in [0, 1] against the normal on the side light comes from; eta = ior of the
  * far side / ior of the near side; below 1 there is total reflection (1) beyond the critical angle. Fresnel 1823
- * in the form of r_s and r_p with the refracted cosine. */
+ * in the form of r_s and r_p with the refracted cosine, eta cos_t = sqrt(g2) with g2 = eta^2 - 1 + cos_i^2, in which
+ * nothing cancels where eta is near 1. */
 FN float F_dielectric(float cos_i, float eta)
 {
-    float sin2_t = (1.0f - cos_i * cos_i) / (eta * eta);
-    float cos_t = sqrt(max(1.0f - sin2_t, 0.0f));
-    float r_s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    float r_p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    return sel(sin2_t >= 1.0f, 1.0f, 0.5f * (r_s * r_s + r_p * r_p));
+    float g2 = (eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i;
+    float g = sqrt(max(g2, 0.0f));
+    float r_s = (cos_i - g) / (cos_i + g);
+    float r_p = (eta * eta * cos_i - g) / (eta * eta * cos_i + g);
+    return sel(g2 <= 0.0f, 1.0f, 0.5f * (r_s * r_s + r_p * r_p));
 }
 
 /* Cosine-weighted mean of F_dielectric for eta >= 1, a fit (within 0.006 up to 2.5): Kulla and Conty 2017 as

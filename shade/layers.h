@@ -67,6 +67,7 @@ STRUCT(LayerTables)
     vec2 dfg;             /* (A, B) of the split sum at layers_dfg_point() */
     float clearcoat_E;    /* A + B at layers_clearcoat_NdotV() and clearcoat_roughness */
     float transmission_E; /* A + B at layers_transmission_point() */
+    vec3 glass;           /* integrate_glass() at layers_glass_point(), where layers_is_exact() */
     float sheen_E;     /* Charlie's directional albedo at surface_NdotV() and sheen_roughness; not clamped */
     float film_weight; /* iridescence, faded out where the film has no thickness: there it changes nothing */
     vec3 film_F_base;  /* reflectance of the film over the dielectric and over the metal, at N.V */
@@ -158,6 +159,20 @@ FN bool layers_is_inside(Layers m)
     return has_layer(m, LAYER_VOLUME) && m.eta < 1.0f;
 }
 
+/* Whether the dielectric reflects by Fresnel's equations (F_boundary()): where it lets light through and energy is
+ * conserved, so that what is reflected and what is not are both right. Else, and for an infinite ior, by Schlick's
+ * approximation. */
+FN bool layers_is_exact(Layers m, int energy)
+{
+    return energy == ENERGY_CONSERVING && has_layer(m, LAYER_TRANSMISSION) && m.ior >= 1.0f;
+}
+
+/* eta of F_boundary(). The two sides of a thin wall are one boundary, seen from outside. */
+FN float layers_fresnel_eta(Layers m)
+{
+    return sel(has_layer(m, LAYER_VOLUME), m.eta, m.ior);
+}
+
 /* ---- where to look: directions and table coordinates ---- */
 
 /* Whether tables are read for the albedo that an anisotropic lobe has. Khronos' renderer reads as if it had none. */
@@ -172,6 +187,13 @@ FN vec2 layers_dfg_point(Layers m, vec3 V, int energy)
     if (layers_reads_anisotropic(m, energy))
         return anisotropic_table_point(layers_to_frame(m, V), layers_alpha(m, m.base.alpha));
     return vec2(surface_NdotV(m.base, V), m.base.perceptual_roughness);
+}
+
+/* (N.V, perceptual roughness, eta) of LayerTables.glass. */
+FN vec3 layers_glass_point(Layers m, vec3 V, int energy)
+{
+    vec2 p = layers_dfg_point(m, V, energy);
+    return vec3(p[0], p[1], layers_fresnel_eta(m));
 }
 
 /* The same for LayerTables.transmission_E. */
@@ -202,13 +224,32 @@ FN vec3 layers_clearcoat_reflection(Layers m, vec3 V)
     return normalize(reflect(-V, m.clearcoat_N));
 }
 
-/* dfg, clearcoat_E, transmission_E, sheen_E as LayerTables says; the last three are not read where their layer is
- * off. */
+/* A boundary's terms for an anisotropic lobe, from those of the isotropic one and both lobes' split sums: the mean
+ * weight goes with that of Schlick's, losses are underestimated as those of E are. Seen from inside, where each width
+ * has its share of total reflection, both are bounds found by comparing quadratures. */
+FN vec3 layers_glass_bound(vec3 glass, vec2 dfg, vec2 bound, vec2 alpha, float eta)
+{
+    float share = dfg[1] * (bound[0] + bound[1]);
+    float w = clamp(glass[0] * bound[1] * (dfg[0] + dfg[1]) / max(share, 1e-6f), 0.0f, 1.0f);
+    float lost = clamp((1.0f - bound[0] - bound[1]) / max(1.0f - dfg[0] - dfg[1], 1e-6f), 0.0f, 1.0f);
+    if (eta < 1.0f) {
+        vec2 a2 = alpha * alpha;
+        float k = abs(a2[0] - a2[1]) / max(a2[0] + a2[1], 1e-12f);
+        w = glass[0] + (1.0f - glass[0]) * min(1.2f * k, 1.0f);
+        lost = 1.0f - k;
+    }
+    return vec3(w, 1.0f - (1.0f - glass[1]) * lost, 1.0f - (1.0f - glass[2]) * lost);
+}
+
+/* dfg, clearcoat_E, transmission_E, sheen_E, glass as LayerTables says; those after the first are not read where their
+ * layer is off. */
 FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearcoat_E, float transmission_E,
-                            float sheen_E)
+                            float sheen_E, vec3 glass)
 {
     LayerTables t;
     t.dfg = dfg;
+    t.glass = glass;
+    vec2 alpha = layers_alpha(m, m.base.alpha);
     t.clearcoat_E = clearcoat_E;
     t.transmission_E = transmission_E;
     t.sheen_E = sheen_E;
@@ -217,11 +258,14 @@ FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearc
     t.film_F_metal = m.base.base_color;
     if (layers_reads_anisotropic(m, energy)) {
         vec3 V_local = layers_to_frame(m, V);
-        t.dfg = anisotropic_table_bound(dfg, V_local, layers_alpha(m, m.base.alpha));
+        t.dfg = anisotropic_table_bound(dfg, V_local, alpha);
         vec2 wall = layers_alpha(m, layers_transmission_alpha(m));
         vec2 E = anisotropic_table_bound(vec2(transmission_E, 0.0f), V_local, wall);
         t.transmission_E = E[0] + E[1];
+        t.glass = layers_glass_bound(glass, dfg, t.dfg, alpha, layers_fresnel_eta(m));
     }
+    if (layers_is_exact(m, energy) && max(alpha[0], alpha[1]) <= ALPHA_MIRROR)
+        t.glass = smooth_glass(surface_NdotV(m.base, V), layers_fresnel_eta(m));
     if (has_layer(m, LAYER_IRIDESCENCE)) {
         float NdotV = surface_NdotV(m.base, V);
         t.film_weight = m.iridescence * film_fade(m.iridescence_thickness_nm);

@@ -8,11 +8,13 @@
 #define LOBE_TRANSMISSION 4u
 #define LOBES_ALL 7u
 
-/* How a boundary divides light: factors of the lobe D V, metallic mixed in, and of what is below the dielectric. */
+/* How a boundary divides light: factors of the lobe D V, metallic mixed in, of what is below the dielectric, and of the
+ * lobe that goes through it. */
 STRUCT(BoundaryWeights)
 {
     vec3 specular;
     float below;
+    float through;
 };
 
 /* The dielectric's reflectance for the microfacet's cosine. */
@@ -39,6 +41,7 @@ FN BoundaryWeights boundary_weights_gltf(Layers m, float VdotH, LayerTables t)
     BoundaryWeights w;
     w.specular = mix(F_base, F_metal, m.base.metallic);
     w.below = (1.0f - m.base.metallic) * max(below, 0.0f); /* rounding, where all is reflected */
+    w.through = w.below;
     return w;
 }
 
@@ -48,32 +51,85 @@ FN vec3 compensation(vec3 F0, vec3 F90, vec2 dfg)
     return multiscatter_scale(F_avg(F0, F90), dfg[0] + dfg[1]);
 }
 
+/* A dielectric by Fresnel's equations, film and metal aside. */
+STRUCT(ExactBoundary)
+{
+    vec3 R;        /* albedo towards V, with all scattering */
+    vec3 scale;    /* factor on F D V that gives it */
+    float through; /* factor on the transmitted lobe beside 1 - F; a volume's boundary alone */
+};
+
+/* F of layers_is_exact() for the microfacet's cosine. */
+FN vec3 layers_F_exact(Layers m, float VdotH)
+{
+    return F_boundary(m.base.F0, vec3(m.base.F90), VdotH, layers_fresnel_eta(m));
+}
+
+/* The two lobes of a volume's boundary lose together, and gain together. A thin wall lets through what it does not
+ * reflect, and its reflection is compensated as that of opaque surfaces is. */
+FN ExactBoundary exact_boundary(Layers m, LayerTables t)
+{
+    float eta = layers_fresnel_eta(m);
+    float E = t.dfg[0] + t.dfg[1];
+    vec3 F90 = vec3(m.base.F90);
+    ExactBoundary b;
+    if (has_layer(m, LAYER_VOLUME)) {
+        b.through = glass_compensation(glass_albedo(max3(m.base.F0), m.base.F90, eta, E, t.glass));
+        b.scale = vec3(b.through);
+        F90 = vec3(sel(eta < 1.0f, 1.0f, m.base.F90)); /* as in glass_albedo() */
+    } else {
+        float f0 = F0_from_ior(eta);
+        vec3 F_mean = m.base.F0 + (F90 - m.base.F0) * ((F_dielectric_avg(eta) - f0) / (1.0f - f0));
+        b.through = 1.0f;
+        b.scale = multiscatter_scale(F_mean, E);
+    }
+    b.R = min((m.base.F0 + (F90 - m.base.F0) * t.glass[0]) * b.scale * E, 1.0f);
+    return b;
+}
+
 /* Weights of which nothing is returned twice: the base gets one minus the albedo that the specular lobe has towards V,
- * so the sum over all L is at most 1. In the denser medium of a volume tables do not hold, F being that of the rarer
- * side; there V takes the microfacet's place and the albedo is F(N.V), the lobe scaled to it. */
+ * so the sum over all L is at most 1. Where light goes through, that is by Fresnel's equations, and microfacets of a
+ * volume's boundary each let through what they do not reflect. In the denser medium of a volume that lets none through
+ * tables do not hold, F being that of the rarer side; there V takes the microfacet's place and the albedo is F(N.V), the
+ * lobe scaled to it. */
 FN BoundaryWeights boundary_weights_conserving(Layers m, float NdotV, float VdotH, LayerTables t)
 {
     vec3 F90 = vec3(m.base.F90);
     vec3 one = vec3(1.0f);
     float E = t.dfg[0] + t.dfg[1];
+    bool is_exact = layers_is_exact(m, ENERGY_CONSERVING);
     vec3 F_base = F_Schlick(m.base.F0, F90, VdotH) * compensation(m.base.F0, F90, t.dfg);
     vec3 F_metal = F_Schlick(m.base.base_color, one, VdotH) * compensation(m.base.base_color, one, t.dfg);
     float below = 1.0f - max3(specular_albedo(m.base.F0, F90, t.dfg));
-    if (layers_is_inside(m)) {
+    float through = below;
+    if (is_exact) {
+        ExactBoundary b = exact_boundary(m, t);
+        vec3 F = layers_F_exact(m, VdotH);
+        F_base = F * b.scale;
+        below = 1.0f - max3(b.R);
+        through = sel(has_layer(m, LAYER_VOLUME), (1.0f - max3(F)) * b.through, below);
+    } else if (layers_is_inside(m)) {
         F_base = layers_F_base(m, NdotV);
         below = 1.0f - max3(F_base);
+        through = below;
         F_base *= multiscatter_scale(one, E);
     }
     if (has_layer(m, LAYER_IRIDESCENCE)) {
         vec3 film_base = t.film_F_base * multiscatter_scale(t.film_F_base, E);
         vec3 film_metal = t.film_F_metal * multiscatter_scale(t.film_F_metal, E);
+        float film_below = 1.0f - max3(film_base) * E;
+        float film_through = film_below;
+        if (is_exact && has_layer(m, LAYER_VOLUME))
+            film_through /= max(t.glass[2], 1.0f / 3.0f); /* the bound of glass_compensation() */
         F_base = mix(F_base, film_base, t.film_weight);
         F_metal = mix(F_metal, film_metal, t.film_weight);
-        below = mix(below, 1.0f - max3(film_base) * E, t.film_weight);
+        below = mix(below, film_below, t.film_weight);
+        through = mix(through, film_through, t.film_weight);
     }
     BoundaryWeights w;
     w.specular = mix(F_base, F_metal, m.base.metallic);
     w.below = (1.0f - m.base.metallic) * max(below, 0.0f);
+    w.through = (1.0f - m.base.metallic) * max(through, 0.0f);
     return w;
 }
 
@@ -179,7 +235,7 @@ FN float layers_volume_cos1(Layers m, vec3 V, vec3 L, float eta, int energy, Lay
 {
     vec2 a = layers_alpha(m, m.base.alpha);
     float VdotH = transmission_VdotH(V, L, eta);
-    return btdf_GGX_cos(V, L, a[0], a[1], eta) * boundary_weights(m, V[2], VdotH, energy, t).below;
+    return btdf_GGX_cos(V, L, a[0], a[1], eta) * boundary_weights(m, V[2], VdotH, energy, t).through;
 }
 
 /* Per channel, each with its own ior where the volume disperses. */
@@ -201,8 +257,8 @@ FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, L
     vec3 sum = V + vec3(L[0], L[1], -L[2]);
     float VdotH = min(0.5f * length(sum), 1.0f);
     BelowShares share = below_shares(m);
-    float below = boundary_weights(m, V[2], VdotH, energy, t).below;
-    vec3 f = brdf_lambert(share.diffuse_back) * (below * -L[2]);
+    BoundaryWeights w = boundary_weights(m, V[2], VdotH, energy, t);
+    vec3 f = brdf_lambert(share.diffuse_back) * (w.below * -L[2]);
     bool is_volume = has_layer(m, LAYER_VOLUME);
     if (is_volume)
         f *= volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
@@ -210,7 +266,7 @@ FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, L
         return f;
     if (is_volume)
         return f + share.specular * layers_volume_cos(m, V, L, energy, t);
-    return f + share.specular * (below * layers_thin_wall_cos(m, V, L, energy, t));
+    return f + share.specular * (w.through * layers_thin_wall_cos(m, V, L, energy, t));
 }
 
 /* What is below sheen and coat. */

@@ -10,12 +10,16 @@ STRUCT(BoundaryIbl)
     float below;
 };
 
-/* The dielectric's. From inside a volume F is that of N.V; a rough boundary there has no table. */
+/* The dielectric's. Where it is not exact, F is that of N.V from inside a volume: a rough boundary there has no table. */
 FN BoundaryIbl boundary_ibl_base(Layers m, float NdotV, LayerTables t, int energy)
 {
     vec3 F90 = vec3(m.base.F90);
     BoundaryIbl b;
-    if (layers_is_inside(m)) {
+    if (layers_is_exact(m, energy)) {
+        ExactBoundary exact = exact_boundary(m, t);
+        b.single = exact.R / exact.scale;
+        b.multiple = exact.R - b.single;
+    } else if (layers_is_inside(m)) {
         b.single = layers_F_base(m, NdotV);
         b.multiple = vec3(0.0f);
     } else {

@@ -91,6 +91,15 @@ FN bool layers_clearcoat_is_mirror(Layers m)
     return alpha_from_roughness(m.clearcoat_roughness) <= ALPHA_MIRROR;
 }
 
+/* Whether reflection and transmission start from one microfacet: both are lobes of a volume's boundary. Which of the two
+ * it is to be is then chosen by the microfacet's own Fresnel term, so that no weight is more than what the boundary
+ * returns; chosen before, a microfacet that reflects all would weigh 1 / R. */
+FN bool layers_is_coupled(Layers m)
+{
+    return has_layer(m, LAYER_VOLUME) && has_layer(m, LAYER_TRANSMISSION) && !layers_specular_is_mirror(m) &&
+           !layers_transmission_is_mirror(m);
+}
+
 /* LOBE_* of the lobes that are not mirrors. */
 FN uint layers_scattering_lobes(Layers m)
 {
@@ -120,30 +129,53 @@ FN float layers_below_sheen(Layers m, LayerTables t)
     return sheen_scaling(m.sheen_color, t.sheen_E);
 }
 
-/* Albedo estimates of the base's boundary towards V: what it reflects, and what goes below. Inside a volume, glTF's
- * weights are those of each microfacet: some that face V let light out where N.V is beyond the critical angle. */
-FN BoundaryWeights layers_boundary_albedo(Layers m, float NdotV, int energy, LayerTables t)
+/* What the base's boundary returns towards V and what goes below it, ENERGY_CONSERVING: the numbers with which its
+ * weights are made. */
+FN BoundaryWeights layers_boundary_albedo_conserving(Layers m, float NdotV, LayerTables t)
 {
-    BoundaryWeights w;
+    BoundaryWeights w = boundary_weights_conserving(m, NdotV, NdotV, t);
     float E = t.dfg[0] + t.dfg[1];
-    if (energy == ENERGY_CONSERVING) {
-        w = boundary_weights(m, NdotV, NdotV, energy, t);
-        w.specular *= E;
-        return w;
+    vec3 R_metal = specular_albedo(m.base.base_color, vec3(1.0f), t.dfg);
+    vec3 R_base = specular_albedo(m.base.F0, vec3(m.base.F90), t.dfg);
+    if (layers_is_exact(m, ENERGY_CONSERVING))
+        R_base = exact_boundary(m, t).R;
+    else if (layers_is_inside(m))
+        R_base = layers_F_base(m, NdotV);
+    if (has_layer(m, LAYER_IRIDESCENCE)) {
+        R_base = mix(R_base, t.film_F_base * multiscatter_scale(t.film_F_base, E) * E, t.film_weight);
+        R_metal = mix(R_metal, t.film_F_metal * multiscatter_scale(t.film_F_metal, E) * E, t.film_weight);
     }
-    if (layers_is_inside(m) || has_layer(m, LAYER_IRIDESCENCE)) {
-        w = boundary_weights(m, NdotV, NdotV, energy, t);
-        w.specular *= E;
-        if (!layers_transmission_is_mirror(m) || has_layer(m, LAYER_DIFFUSE_TRANSMISSION) ||
-            m.transmission < 1.0f)
-            w.below = max(w.below, boundary_weights(m, NdotV, 1.0f, energy, t).below * 0.3f);
+    w.specular = mix(R_base, R_metal, m.base.metallic);
+    if (!layers_transmission_is_mirror(m))
+        w.through = w.below;
+    return w;
+}
+
+/* The same of ENERGY_GLTF, by estimates. Inside a volume, its weights are those of each microfacet: some that face V
+ * let light out where N.V is beyond the critical angle. */
+FN BoundaryWeights layers_boundary_albedo_gltf(Layers m, float NdotV, LayerTables t)
+{
+    float E = t.dfg[0] + t.dfg[1];
+    BoundaryWeights w = boundary_weights_gltf(m, NdotV, t);
+    w.specular *= E;
+    if (layers_is_inside(m))
+        w.below = max(w.below, 0.3f * boundary_weights_gltf(m, 1.0f, t).below);
+    if (layers_is_inside(m) || has_layer(m, LAYER_IRIDESCENCE))
         return w;
-    }
     vec3 F_base = m.base.F0 * t.dfg[0] + vec3(m.base.F90) * t.dfg[1];
     vec3 F_metal = m.base.base_color * t.dfg[0] + t.dfg[1];
     w.specular = mix(F_base, F_metal, m.base.metallic);
     w.below = (1.0f - m.base.metallic) * (1.0f - max3(F_base));
+    if (!layers_transmission_is_mirror(m))
+        w.through = w.below;
     return w;
+}
+
+FN BoundaryWeights layers_boundary_albedo(Layers m, float NdotV, int energy, LayerTables t)
+{
+    if (energy == ENERGY_CONSERVING)
+        return layers_boundary_albedo_conserving(m, NdotV, t);
+    return layers_boundary_albedo_gltf(m, NdotV, t);
 }
 
 /* p in place of its share of a sum: at least 0.05 where it is above 0. */
@@ -207,7 +239,7 @@ FN LayersLobes layers_lobes(Layers m, vec3 V, int energy, LayerTables t)
     }
     BelowShares share = below_shares(m);
     w.diffuse = below * max3(share.diffuse);
-    w.transmission = below * max3(share.specular);
+    w.transmission = left * b.through * max3(share.specular);
     vec3 back = share.diffuse_back;
     if (has_layer(m, LAYER_VOLUME))
         back *= volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
@@ -241,6 +273,22 @@ FN float pdf_reflection_anisotropic(vec3 V, vec3 L, vec2 alpha)
     return pdf_bounded_reflection(V, sum * inversesqrt(sum2), alpha[0], alpha[1]);
 }
 
+/* Probability that the microfacet at V.H of a coupled boundary is used to reflect, the rest being to transmit: as the
+ * two are bright, by Fresnel's equations in either energy mode. A film may reflect any share. */
+FN float layers_reflection_share(Layers m, float VdotH)
+{
+    vec3 F = layers_F_base(m, VdotH);
+    if (m.ior >= 1.0f)
+        F = layers_F_exact(m, VdotH);
+    vec3 F_metal = F_Schlick(m.base.base_color, vec3(1.0f), VdotH);
+    float r = max3(mix(F, F_metal, m.base.metallic));
+    float s = (1.0f - m.base.metallic) * (1.0f - max3(F)) * m.transmission * max3(m.base.base_color);
+    float least = sel(has_layer(m, LAYER_IRIDESCENCE), 0.3f, 0.02f);
+    if (s <= 0.0f)
+        return 1.0f;
+    return clamp(r / (r + s), least, 1.0f - least);
+}
+
 /* V as the base's lobes see it, in their frame. */
 FN vec3 layers_V_local(Layers m, vec3 V)
 {
@@ -267,6 +315,25 @@ FN float layers_transmission_pdf(Layers m, vec3 V, vec3 L)
     return pdf_thin_wall(v, l, alpha[0], alpha[1]);
 }
 
+/* Of both lobes of a coupled boundary. */
+FN float layers_coupled_pdf(Layers m, vec3 V, vec3 L)
+{
+    vec3 v = layers_V_local(m, V);
+    vec3 l = layers_to_any_frame(m, L);
+    vec2 alpha = layers_alpha(m, m.base.alpha);
+    if (l[2] < 0.0f) {
+        float q = layers_reflection_share(m, transmission_VdotH(v, l, m.eta));
+        return pdf_transmission(v, l, alpha[0], alpha[1], m.eta) * (1.0f - q);
+    }
+    vec3 sum = v + l;
+    float sum2 = dot(sum, sum);
+    if (l[2] == 0.0f || sum2 < 1e-12f)
+        return 0.0f;
+    vec3 H = sum * inversesqrt(sum2);
+    float VdotH = dot(v, H);
+    return pdf_VNDF_GGX(v, H, alpha[0], alpha[1]) / (4.0f * VdotH) * layers_reflection_share(m, VdotH);
+}
+
 FN float layers_clearcoat_pdf(Layers m, vec3 V, vec3 L)
 {
     return pdf_reflection(m.clearcoat_N, view_above(m.clearcoat_N, V), L,
@@ -279,14 +346,17 @@ FN float layers_pdf(Layers m, LayersLobes p, vec3 V_eye, vec3 L)
     vec3 V = view_above(m.base.N, V_eye);
     float NdotL = dot(m.base.N, L);
     float pdf = p.diffuse * pdf_cosine(NdotL);
-    if (p.specular > 0.0f && NdotL > 0.0f && !layers_specular_is_mirror(m))
+    bool is_coupled = layers_is_coupled(m);
+    if (p.specular > 0.0f && NdotL > 0.0f && !is_coupled && !layers_specular_is_mirror(m))
         pdf += p.specular * layers_specular_pdf(m, V, L);
     if (m.layers == 0u)
         return pdf;
+    if (is_coupled)
+        pdf += (p.specular + p.transmission) * layers_coupled_pdf(m, V, L);
     pdf += p.diffuse_back * pdf_cosine(-NdotL);
     if (p.sheen > 0.0f)
         pdf += p.sheen * pdf_sheen_rim(NdotL, surface_NdotV(m.base, V), sheen_alpha(m.sheen_roughness));
-    if (p.transmission > 0.0f && NdotL < 0.0f && !layers_transmission_is_mirror(m))
+    if (p.transmission > 0.0f && NdotL < 0.0f && !is_coupled && !layers_transmission_is_mirror(m))
         pdf += p.transmission * layers_transmission_pdf(m, V, L);
     if (p.clearcoat > 0.0f && !layers_clearcoat_is_mirror(m))
         pdf += p.clearcoat * layers_clearcoat_pdf(m, V_eye, L);
@@ -322,29 +392,6 @@ FN LayersSample no_sample(vec3 L)
     return s;
 }
 
-/* Weight of a mirror and its direction; the zero vector: there is none. */
-FN LayersSample mirror_sample(Layers m, vec3 L, vec3 weight)
-{
-    LayersSample s = no_sample(L);
-    s.weight = weight;
-    s.is_mirror = true;
-    s.is_through = dot(m.base.N, L) < 0.0f;
-    s.is_valid = max3(weight) > 0.0f && dot(L, L) > 0.5f;
-    return s;
-}
-
-/* A direction of which the density is all that is left to say. */
-FN LayersSample scattered_sample(Layers m, LayersLobes p, vec3 V_eye, vec3 L)
-{
-    LayersSample s = no_sample(L);
-    if (dot(L, L) < 0.5f)
-        return s;
-    s.pdf = layers_pdf(m, p, V_eye, L);
-    s.is_through = dot(m.base.N, L) < 0.0f;
-    s.is_valid = s.pdf > 0.0f;
-    return s;
-}
-
 /* Columns: the axes of layers_to_any_frame(). */
 FN mat3 layers_any_frame(Layers m)
 {
@@ -353,103 +400,132 @@ FN mat3 layers_any_frame(Layers m)
     return basis_from_normal(m.base.N);
 }
 
-FN LayersSample layers_sample_clearcoat(Layers m, LayersLobes p, vec3 V_eye, vec2 u)
+/* Draws: directions L in world space; the zero vector where the lobe gives none. */
+
+FN vec3 layers_draw_clearcoat(Layers m, vec3 V, vec2 u)
 {
-    vec3 N = m.clearcoat_N;
-    vec3 V = view_above(N, V_eye);
-    if (layers_clearcoat_is_mirror(m))
-        return mirror_sample(m, normalize(reflect(-V, N)),
-                             vec3((1.0f - layers_below_coat(m, V)) / p.clearcoat));
     float alpha = alpha_from_roughness(m.clearcoat_roughness);
-    mat3 frame = basis_from_normal(N);
-    vec3 v = mul(transpose(frame), V);
+    mat3 frame = basis_from_normal(m.clearcoat_N);
+    vec3 v = mul(transpose(frame), view_above(m.clearcoat_N, V));
+    v[2] = max(v[2], NDOTV_MIN);
     vec3 L = reflect(-v, sample_bounded_VNDF_GGX(u, v, alpha, alpha));
-    return scattered_sample(m, p, V_eye, sel(L[2] > 0.0f, normalize(mul(frame, L)), vec3(0.0f)));
+    return sel(L[2] > 0.0f, normalize(mul(frame, L)), vec3(0.0f));
 }
 
-/* Mirrors: the boundary weights are those of N.V, the microfacet's cosine there. */
-FN LayersSample layers_sample_specular(Layers m, LayersLobes p, vec3 V_eye, vec2 u, int energy, LayerTables t)
+FN vec3 layers_draw_sheen(Layers m, vec3 V, vec2 u)
 {
-    vec3 V = view_above(m.base.N, V_eye);
-    if (layers_specular_is_mirror(m)) {
-        float NdotV = surface_NdotV(m.base, V);
-        vec3 F = boundary_weights(m, NdotV, NdotV, energy, t).specular;
-        float above = layers_below_coat(m, V_eye) * layers_below_sheen(m, t);
-        return mirror_sample(m, normalize(reflect(-V, m.base.N)), F * (above / p.specular));
-    }
-    vec2 alpha = layers_alpha(m, m.base.alpha);
+    vec3 L = sample_sheen_rim(u, surface_NdotV(m.base, V), sheen_alpha(m.sheen_roughness));
+    return mul(basis_from_normal(m.base.N), L);
+}
+
+/* One of the two lobes of the base's boundary that are not mirrors, transmission above u_side = p_specular; of a coupled
+ * boundary both, and the microfacet decides. V above N. */
+FN vec3 layers_draw_boundary(Layers m, vec3 V, float u_side, float p_specular, vec2 u)
+{
+    bool is_coupled = layers_is_coupled(m);
+    bool is_through = u_side >= p_specular;
     mat3 frame = layers_any_frame(m);
     vec3 v = mul(transpose(frame), V);
     v[2] = max(v[2], NDOTV_MIN);
-    vec3 L = reflect(-v, sample_bounded_VNDF_GGX(u, v, alpha[0], alpha[1]));
-    return scattered_sample(m, p, V_eye, sel(L[2] > 0.0f, normalize(mul(frame, L)), vec3(0.0f)));
+    vec2 alpha = layers_alpha(m, m.base.alpha);
+    if (is_through && !is_coupled)
+        alpha = layers_alpha(m, layers_transmission_alpha(m));
+    vec3 H;
+    if (is_through || is_coupled)
+        H = sample_VNDF_GGX(u, v, alpha[0], alpha[1]);
+    else
+        H = sample_bounded_VNDF_GGX(u, v, alpha[0], alpha[1]);
+    if (is_coupled)
+        is_through = u_side >= layers_reflection_share(m, clamp(dot(v, H), 0.0f, 1.0f));
+    vec3 L = reflect(-v, H);
+    if (!is_through)
+        return sel(L[2] > 0.0f, normalize(mul(frame, L)), vec3(0.0f));
+    if (has_layer(m, LAYER_VOLUME))
+        L = refract_or_zero(-v, H, m.eta);
+    else
+        L[2] = -L[2];
+    return sel(L[2] < 0.0f, normalize(mul(frame, L)), vec3(0.0f));
 }
 
-/* Straight on through a thin wall, refracted by a volume's boundary; the lobe's own loss where glTF's has one. */
-FN LayersSample layers_transmission_mirror(Layers m, LayersLobes p, vec3 V_eye, int energy, LayerTables t)
+/* Mirrors: their boundary weights are those of N.V, the microfacet's cosine there. */
+FN LayersSample layers_mirror(Layers m, LayersLobes p, vec3 V_eye, bool is_through, int energy, LayerTables t)
 {
     vec3 V = view_above(m.base.N, V_eye);
     float NdotV = surface_NdotV(m.base, V);
-    vec2 alpha = layers_alpha(m, layers_transmission_alpha(m));
-    vec3 L = -V_eye;
-    if (has_layer(m, LAYER_VOLUME) && m.eta != 1.0f)
-        L = refract_or_zero(-V, m.base.N, m.eta);
-    vec3 l = layers_to_any_frame(m, L);
-    l[2] = -max(abs(l[2]), NDOTV_MIN);
-    float lobe = 1.0f;
-    if (has_layer(m, LAYER_VOLUME))
-        lobe = weight_VNDF_GGX(layers_V_local(m, V), l, alpha[0], alpha[1]);
     float above = layers_below_coat(m, V_eye) * layers_below_sheen(m, t);
-    float below = boundary_weights(m, NdotV, NdotV, energy, t).below;
-    LayersSample s = mirror_sample(m, L, below_shares(m).specular * (below * lobe * above / p.transmission));
-    s.is_through = true;
+    BoundaryWeights b = boundary_weights(m, NdotV, NdotV, energy, t);
+    LayersSample s = no_sample(normalize(reflect(-V, m.base.N)));
+    s.is_mirror = true;
+    s.is_through = is_through;
+    if (!is_through) {
+        s.weight = b.specular * (above / p.specular);
+        s.is_valid = max3(s.weight) > 0.0f;
+        return s;
+    }
+    s.weight = below_shares(m).specular * (b.through * above / p.transmission);
+    s.L = -V_eye;
+    if (has_layer(m, LAYER_VOLUME)) {
+        if (m.eta != 1.0f)
+            s.L = refract_or_zero(-V, m.base.N, m.eta);
+        /* what the lobe that is so narrow because both sides are alike loses by its roughness */
+        vec2 alpha = layers_alpha(m, m.base.alpha);
+        vec3 l = layers_to_any_frame(m, s.L);
+        l[2] = max(abs(l[2]), NDOTV_MIN);
+        s.weight *= weight_VNDF_GGX(layers_V_local(m, V), l, alpha[0], alpha[1]);
+    }
+    s.is_valid = max3(s.weight) > 0.0f && dot(s.L, s.L) > 0.5f;
     return s;
 }
 
-FN LayersSample layers_sample_transmission(Layers m, LayersLobes p, vec3 V_eye, vec2 u, int energy,
-                                           LayerTables t)
+FN LayersSample layers_clearcoat_mirror(Layers m, LayersLobes p, vec3 V)
 {
-    if (layers_transmission_is_mirror(m))
-        return layers_transmission_mirror(m, p, V_eye, energy, t);
-    vec2 alpha = layers_alpha(m, layers_transmission_alpha(m));
-    mat3 frame = layers_any_frame(m);
-    vec3 v = mul(transpose(frame), view_above(m.base.N, V_eye));
-    v[2] = max(v[2], NDOTV_MIN);
-    TransmissionSample through;
-    if (has_layer(m, LAYER_VOLUME))
-        through = sample_transmission(u, v, alpha[0], alpha[1], m.eta);
-    else
-        through = sample_thin_wall(u, v, alpha[0], alpha[1]);
-    return scattered_sample(m, p, V_eye,
-                            sel(through.pdf > 0.0f, normalize(mul(frame, through.L)), vec3(0.0f)));
+    vec3 N = m.clearcoat_N;
+    LayersSample s = no_sample(normalize(reflect(-view_above(N, V), N)));
+    s.weight = vec3((1.0f - layers_below_coat(m, V)) / p.clearcoat);
+    s.is_mirror = true;
+    s.is_through = dot(m.base.N, s.L) < 0.0f;
+    s.is_valid = s.weight[0] > 0.0f;
+    return s;
 }
 
-/* L for u_lobe and u, uniform in [0, 1). A surface that disperses (LAYER_DISPERSION) is to be given one ior first:
- * layers_with_wavelength(). */
-FN LayersSample layers_sample(Layers m, LayersLobes p, vec3 V, float u_lobe, vec2 u, int energy,
+/* L for u_lobe and u, uniform in [0, 1). A surface that disperses (LAYER_DISPERSION) is to be given one ior first, and
+ * the tables for it: layers_with_wavelength(). */
+FN LayersSample layers_sample(Layers m, LayersLobes p, vec3 V_eye, float u_lobe, vec2 u, int energy,
                               LayerTables t)
 {
+    vec3 V = view_above(m.base.N, V_eye);
+    vec3 L = vec3(0.0f);
+    float boundary = p.specular + p.transmission;
     float x = u_lobe - p.diffuse;
-    if (x < 0.0f)
-        return scattered_sample(m, p, V, mul(basis_from_normal(m.base.N), sample_cosine(u)));
-    x -= p.specular;
-    if (x < 0.0f)
-        return layers_sample_specular(m, p, V, u, energy, t);
-    x -= p.transmission;
-    if (x < 0.0f)
-        return layers_sample_transmission(m, p, V, u, energy, t);
-    x -= p.clearcoat;
-    if (x < 0.0f)
-        return layers_sample_clearcoat(m, p, V, u);
-    x -= p.diffuse_back;
-    if (x < 0.0f)
-        return scattered_sample(m, p, V, mul(basis_from_normal(-m.base.N), sample_cosine(u)));
-    if (p.sheen > 0.0f)
-        return scattered_sample(
-            m, p, V,
-            mul(basis_from_normal(m.base.N),
-                sample_sheen_rim(u, surface_NdotV(m.base, V), sheen_alpha(m.sheen_roughness))));
-    return no_sample(m.base.N);
+    float y = x - boundary;
+    float z = y - p.diffuse_back;
+    if (x < 0.0f) {
+        L = mul(basis_from_normal(m.base.N), sample_cosine(u));
+    } else if (y < 0.0f) {
+        bool is_through = x >= p.specular;
+        if (layers_is_coupled(m))
+            L = layers_draw_boundary(m, V, x / boundary, 0.0f, u);
+        else if ((is_through && layers_transmission_is_mirror(m)) ||
+                 (!is_through && layers_specular_is_mirror(m)))
+            return layers_mirror(m, p, V_eye, is_through, energy, t);
+        else
+            L = layers_draw_boundary(m, V, x, p.specular, u);
+    } else if (z < 0.0f) {
+        L = -mul(basis_from_normal(m.base.N), sample_cosine(u));
+    } else if (z < p.clearcoat) {
+        if (layers_clearcoat_is_mirror(m))
+            return layers_clearcoat_mirror(m, p, V_eye);
+        L = layers_draw_clearcoat(m, V_eye, u);
+    } else if (p.sheen > 0.0f) {
+        L = layers_draw_sheen(m, V, u);
+    }
+    LayersSample s = no_sample(L);
+    if (dot(L, L) < 0.5f)
+        return s;
+    s.pdf = layers_pdf(m, p, V_eye, L);
+    s.is_through = dot(m.base.N, L) < 0.0f;
+    s.is_valid = s.pdf > 0.0f;
+    return s;
 }
 
 #endif

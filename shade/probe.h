@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 80
+#define PROBE_COUNT 83
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -321,7 +321,8 @@ FN Layers probe_layers(vec2 u)
 }
 FN LayerTables probe_layer_tables(Layers m, vec3 V, int energy, vec2 u)
 {
-    return layer_tables(m, V, energy, vec2(0.6f, 0.2f * u[0]), 0.9f, 0.8f, 0.3f + u[1]);
+    return layer_tables(m, V, energy, vec2(0.6f, 0.2f * u[0]), 0.9f, 0.8f, 0.3f + u[1],
+                        vec3(0.1f + 0.2f * u[0], 0.9f, 0.8f));
 }
 
 /* The parts of layers_brdf_cos(). */
@@ -549,10 +550,45 @@ FN vec3 probe_path_parts(Layers m, LayersLobes p, vec3 V, vec2 u, int energy, La
                 0.0f);
 }
 
+/* Both kinds of boundary of glass.h, in ENERGY_CONSERVING. */
+FN vec3 probe_glass(Layers m, vec3 V, vec2 u)
+{
+    m.layers = m.layers | LAYER_TRANSMISSION;
+    LayerTables t = probe_layer_tables(m, V, ENERGY_CONSERVING, u);
+    ExactBoundary b = exact_boundary(m, t);
+    vec3 point = layers_glass_point(m, V, ENERGY_CONSERVING);
+    float exact =
+        sel(layers_is_exact(m, ENERGY_CONSERVING), 1.0f, 0.0f) + sel(layers_is_coupled(m), 2.0f, 0.0f);
+    float NdotV = surface_NdotV(m.base, V);
+    BoundaryWeights w = layers_boundary_albedo_conserving(m, NdotV, t);
+    BoundaryWeights g = layers_boundary_albedo_gltf(m, NdotV, t);
+    return b.R + b.scale + b.through + point + layers_F_exact(m, 0.3f + 0.7f * u[0]) + w.specular +
+           g.specular +
+           vec3(exact + layers_fresnel_eta(m), w.through + g.through, layers_reflection_share(m, u[0])) +
+           layers_glass_bound(vec3(u[0], 0.9f, 0.8f), vec2(0.5f, 0.2f), vec2(0.6f, 0.2f), vec2(0.3f, 0.2f),
+                              m.eta) +
+           layers_coupled_pdf(m, V, sel(u[0] > 0.5f, m.base.N, -V)) * 0.1f;
+}
+FN vec3 probe_boundary(vec2 u)
+{
+    float eta = sel(u[0] < 0.5f, 1.2f + u[1], 1.0f / (1.2f + u[1]));
+    float c = 0.2f + 0.7f * u[1];
+    GlassAlbedo s = glass_albedo_sample(uint(u[0] * 64.0f), 64u, 0.3f, c, eta);
+    GlassAlbedo a = glass_albedo(0.1f, 0.8f, eta, 0.9f, vec3(0.1f + 0.3f * u[0], 0.95f, 0.8f));
+    return F_boundary(vec3(0.04f, 0.1f, 0.2f), vec3(0.9f), c, eta) +
+           integrate_glass(0.2f + 0.8f * u[0], 0.3f + 0.6f * u[1], 1.5f, 16u) +
+           vec3(dielectric_weight(c, eta) + s.E + s.R, s.T + s.through, glass_compensation(a) + a.R + a.T) +
+           smooth_glass(c, eta) + sel(is_total_reflection(c, eta), 1.0f, 0.0f);
+}
+
 FN vec3 probe_paths(int which, vec2 u)
 {
     vec3 V = probe_V(u);
     float alpha = 0.2f + 0.6f * u[1];
+    if (which == 80)
+        return probe_boundary(u);
+    if (which == 81)
+        return probe_glass(probe_layers(u), V, u);
     if (which == 73) {
         WavelengthSample w = sample_wavelength(u[0]);
         return w.weight + vec3(w.wavelength_nm * 0.01f, float(w.channel), 0.0f);
@@ -571,23 +607,20 @@ FN vec3 probe_paths(int which, vec2 u)
     LayerTables t = probe_layer_tables(m, V, energy, u);
     LayersLobes p = layers_lobes(m, V, energy, t);
     if (which == 76)
-        return probe_lobes(p) + layers_pdf(m, p, V, probe_L(u)) + layers_pdf(m, p, V, -probe_L(u));
+        return probe_lobes(p) + layers_pdf(m, p, V, sel(u[0] > 0.5f, probe_L(u), -probe_L(u)));
     if (which == 77)
-        return layers_scatter_cos(m, V, probe_L(u), energy, t, 0.2f) +
-               layers_scatter_cos(m, V, -probe_L(u), energy, t, 0.2f);
+        return layers_scatter_cos(m, V, sel(u[0] > 0.5f, probe_L(u), -probe_L(u)), energy, t, 0.2f);
     if (which == 78)
         return probe_path_parts(m, p, V, u, energy, t);
     vec2 turned = vec2(u[1], u[0]);
-    vec3 any = probe_sampled(layers_sample(m, p, V, fract(u[0] * 5.0f), turned, energy, t));
+    if (which == 79)
+        return probe_sampled(layers_sample(m, p, V, fract(u[0] * 5.0f), turned, energy, t));
     p.clearcoat = 0.3f; /* each lobe is there */
     p.specular = 0.4f;
     p.transmission = 0.2f;
-    return any + probe_sampled(layers_sample_clearcoat(m, p, V, turned)) +
-           probe_sampled(layers_sample_specular(m, p, V, turned, energy, t)) +
-           probe_sampled(layers_sample_transmission(m, p, V, turned, energy, t)) +
-           probe_sampled(layers_transmission_mirror(m, p, V, energy, t)) +
-           probe_sampled(mirror_sample(m, V, vec3(u[0]))) + probe_sampled(scattered_sample(m, p, V, V)) +
-           probe_sampled(no_sample(V));
+    return probe_sampled(layers_mirror(m, p, V, u[0] > 0.4f, energy, t)) + probe_sampled(no_sample(V)) +
+           probe_sampled(layers_clearcoat_mirror(m, p, V)) + layers_draw_clearcoat(m, V, u) +
+           layers_draw_sheen(m, V, u) + layers_draw_boundary(m, V, u[1], 0.5f, turned);
 }
 
 FN vec3 probe(int which, vec2 u)

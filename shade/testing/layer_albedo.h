@@ -20,7 +20,12 @@ static inline LayerTables exact_tables(Layers m, vec3 V, int energy)
         wall = table_dfg(layers_transmission_point(m, V, energy));
     if (has_layer(m, LAYER_SHEEN))
         sheen = integrate_sheen_albedo(m.sheen_roughness, surface_NdotV(m.base, V), 4096u);
-    return layer_tables(m, V, energy, dfg, coat[0] + coat[1], wall[0] + wall[1], sheen);
+    vec3 glass = vec3(0.0f);
+    if (layers_is_exact(m, energy)) {
+        vec3 p = layers_glass_point(m, V, energy);
+        glass = integrate_glass(p[1], p[0], p[2], 8192u);
+    }
+    return layer_tables(m, V, energy, dfg, coat[0] + coat[1], wall[0] + wall[1], sheen, glass);
 }
 
 /* E of the sheen over N.L, interpolated over its square root. */

@@ -32,8 +32,15 @@ static inline LayerTables surface_tables(const Layers *m, vec3 V, int energy)
         transmission = surface_dfg(layers_transmission_point(*m, V, energy));
     if (m->layers & LAYER_SHEEN)
         sheen_E = ibl_sheen_albedo(surface_NdotV(m->base, V), m->sheen_roughness);
+    vec3 glass = vec3(0.0f);
+    if (layers_is_exact(*m, energy)) {
+        vec3 point = layers_glass_point(*m, V, energy);
+        float terms[3];
+        ibl_glass(point[0], point[1], point[2], terms);
+        glass = vec3(terms[0], terms[1], terms[2]);
+    }
     return layer_tables(*m, V, energy, surface_dfg(layers_dfg_point(*m, V, energy)), coat[0] + coat[1],
-                        transmission[0] + transmission[1], sheen_E);
+                        transmission[0] + transmission[1], sheen_E, glass);
 }
 
 #endif

@@ -1,6 +1,8 @@
-/* dfg.c - tables of directional albedo and their lookup. The numbers are computed by dfg_generate.c and sheen_generate.c
- * when facet is built. */
+/* dfg.c - tables of directional albedo and their lookup. The numbers are computed by dfg_generate.c, sheen_generate.c
+ * and glass_generate.c when facet is built. */
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #include "ibl/dfg.h"
 #include "ibl/ibl.h"
@@ -13,6 +15,10 @@ static const float dfg_table[DFG_SIZE][DFG_SIZE][2] = {
 
 static const float sheen_table[SHEEN_SIZE][SHEEN_SIZE] = {
 #include "ibl_sheen_table.h"
+};
+
+static const uint16_t glass_table[2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE * 3] = {
+#include "ibl_glass_table.h"
 };
 
 /* Between which nodes of a table of size nodes x in [0, 1] lies: the first one, and how far it is from there. */
@@ -51,4 +57,31 @@ float ibl_sheen_albedo(float NdotV, float sheen_roughness)
     float a = low[0] + (low[1] - low[0]) * x.weight;
     float b = high[0] + (high[1] - high[0]) * x.weight;
     return a + (b - a) * y.weight;
+}
+
+/* Bilinear in one layer of the glass table. */
+static void glass_layer(int layer, table_place x, table_place y, float out[3])
+{
+    const uint16_t *low = glass_table + (size_t)(((layer * GLASS_SIZE + y.first) * GLASS_SIZE + x.first) * 3);
+    const uint16_t *high = low + (size_t)GLASS_SIZE * 3;
+    for (int i = 0; i < 3; i++) {
+        float a = (float)low[i] + (float)(low[i + 3] - low[i]) * x.weight;
+        float b = (float)high[i] + (float)(high[i + 3] - high[i]) * x.weight;
+        out[i] = (a + (b - a) * y.weight) * (1.0f / GLASS_UNIT);
+    }
+}
+
+void ibl_glass(float NdotV, float perceptual_roughness, float eta, float out[3])
+{
+    float root = fabsf(eta - 1.0f) / (eta + 1.0f);
+    table_place x = find_place(sqrtf(NdotV > 0.0f ? NdotV : 0.0f), GLASS_SIZE);
+    table_place y = find_place(perceptual_roughness, GLASS_SIZE);
+    table_place z = find_place(sqrtf(root / GLASS_ROOT_MAX), GLASS_IORS);
+    int layer = z.first + (eta < 1.0f ? GLASS_IORS : 0);
+    float near[3];
+    float far[3];
+    glass_layer(layer, x, y, near);
+    glass_layer(layer + 1, x, y, far);
+    for (int i = 0; i < 3; i++)
+        out[i] = near[i] + (far[i] - near[i]) * z.weight;
 }

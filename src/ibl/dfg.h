@@ -5,8 +5,15 @@
 /* Node (x, y) of a table of size SIZE is for sqrt(NdotV) = x / (SIZE - 1), perceptual roughness y / (SIZE - 1). The
  * square root spreads the grazing angles, where the terms change fastest. */
 enum {
-    DFG_SIZE = 128,  /* the split sum's terms */
-    SHEEN_SIZE = 128 /* sheen's albedo */
+    DFG_SIZE = 128,   /* the split sum's terms */
+    SHEEN_SIZE = 128, /* sheen's albedo */
+    GLASS_SIZE = 24,  /* a boundary's terms (glass.h), for each of GLASS_IORS from either side */
+    GLASS_IORS = 17
 };
+
+/* Node z of a boundary's terms is for ((ior - 1) / (ior + 1)) = GLASS_ROOT_MAX (z / (GLASS_IORS - 1))^2: close where ior
+ * is near 1 and the terms change fastest; the last is ior 9. Terms are stored times GLASS_UNIT. */
+#define GLASS_ROOT_MAX 0.8f
+#define GLASS_UNIT 65535.0f
 
 #endif

@@ -51,4 +51,8 @@ void ibl_dfg(float NdotV, float perceptual_roughness, float out[2]);
  * 0.27 and N.V below 0.06; at roughness 0 the rim has no width, and it is 0. */
 float ibl_sheen_albedo(float NdotV, float sheen_roughness);
 
+/* integrate_glass() of shade/glass.h, from a table that is computed when facet is built: for ior between 1 / 9 and 9,
+ * beyond as there. eta above 0. */
+void ibl_glass(float NdotV, float perceptual_roughness, float eta, float out[3]);
+
 #endif

@@ -85,7 +85,7 @@ static LayerTables tables_of(Layers m, vec3 V, int energy)
     if (has_layer(m, LAYER_SHEEN))
         sheen_E = ibl_sheen_albedo(surface_NdotV(m.base, V), m.sheen_roughness);
     return layer_tables(m, V, energy, dfg_at(layers_dfg_point(m, V, energy)), coat[0] + coat[1], 0.0f,
-                        sheen_E);
+                        sheen_E, vec3(0.0f));
 }
 
 /* Visibility with masking and shadowing independent over the height-correlated one. */
