@@ -197,8 +197,10 @@ static void tell(compare_run *run)
         char text[512];
         if (!nonfinite[i])
             continue;
-        snprintf(text, sizeof text, "%.400s: %llu pixels are not finite numbers", input_name(names[i]),
-                 (unsigned long long)nonfinite[i]);
+        snprintf(text, sizeof text,
+                 nonfinite[i] == 1 ? "%.400s: %llu pixel is not finite"
+                                   : "%.400s: %llu pixels are not finite",
+                 input_name(names[i]), (unsigned long long)nonfinite[i]);
         log.message(log.user, FACET_LOG_WARNING, text);
     }
 }

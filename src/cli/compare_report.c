@@ -41,6 +41,11 @@ void compare_report_table(FILE *stream, const compare_wish *wish, const facet_co
                 c->space == FACET_COMPARE_LINEAR ? "as light" : "as a display shows them",
                 c->is_equal ? "equal" : "different");
     table_print(&t, stream, wish->has_choice ? 0 : 2);
+    if (!wish->has_choice && c->space == FACET_COMPARE_LINEAR)
+        fprintf(stream, "psnr and ssim: of the largest value, %.6g\n", c->peak);
+    if (!wish->has_choice && c->flip_is_hdr)
+        fprintf(stream, "flip: the largest of %u exposures from %+.2f to %+.2f stops\n",
+                c->flip_exposure_count, c->flip_start_ev, c->flip_stop_ev);
     if (!wish->has_choice && c->differing_count)
         fprintf(stream, "the largest error is at %u,%u\n", c->max_x, c->max_y);
 }
@@ -57,7 +62,9 @@ void compare_report_failures(const compare_wish *wish, const facet_comparison *c
     size_t used = 0;
     text[0] = 0;
     if (wish->has_limits && c->invalid_count)
-        used += (size_t)snprintf(text, size, "%llu pixels are not finite numbers in one of them",
+        used += (size_t)snprintf(text, size,
+                                 c->invalid_count == 1 ? "%llu pixel is not finite in one of them"
+                                                       : "%llu pixels are not finite in one of them",
                                  (unsigned long long)c->invalid_count);
     for (int i = 0; i < COMPARE_METRIC_COUNT && used < size; i++) {
         const double value = compare_metric_value(c, i);

@@ -49,6 +49,8 @@ grep -q 'as light, equal' out || failed "equal pictures are not called equal"
 grep -qE '^  psnr +inf ' out || failed "psnr of equal pictures is not inf"
 expect 0 compare half.pfm ones.pfm
 grep -qE '^  rmse +0\.5 ' out || failed "rmse is not 0.5"
+grep -q '^psnr and ssim: of the largest value, 0.5$' out || failed "the peak is not told"
+grep -q '^flip: the largest of 2 exposures from +2.08 to +2.08 stops$' out || failed "exposures are not told: $(cat out)"
 grep -q 'different' out || failed "different pictures are not called so"
 expect 0 compare half.pfm ones.pfm --metric mse,max
 [ "$(tr -s ' ' <out | tr '\n' '|')" = "mse 0.25|max 0.5|" ] || failed "--metric mse,max prints $(cat out)"
@@ -135,10 +137,10 @@ is differing 1
 is mse 0.0
 valid_json
 expect 0 compare half.pfm nan.pfm
-says "nan.pfm: 1 pixels are not finite numbers"
+says "nan.pfm: 1 pixel is not finite"
 expect 1 compare half.pfm nan.pfm --strict
 expect 1 compare half.pfm nan.pfm --max mse=1 -q
-says "1 pixels are not finite numbers in one of them"
+says "1 pixel is not finite in one of them"
 expect 0 compare inf.pfm inf.pfm --max max=0 -q
 expect 1 compare inf.pfm nan.pfm --max max=9 -q
 
