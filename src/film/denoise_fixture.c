@@ -273,7 +273,7 @@ static scene make_scene(fixture_scene which, ball balls[MAX_BALLS])
         balls[n] = plain(0.2f, 2.7f, 1.8f, 0.5f, MATTE, vec3(0.0f));
         balls[n++].emission = vec3(8.0f, 7.0f, 5.5f);
     } else if (which == FIXTURE_LAMPS) {
-        for (uint32_t i = 0; i < 20; i++) {
+        for (uint32_t i = 0; i < 12; i++) {
             random_state r = {i * 77u};
             float x = 3.6f * random_number(&r) - 1.8f;
             float y = 0.1f + 2.3f * random_number(&r);

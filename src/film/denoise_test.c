@@ -210,7 +210,7 @@ static void errors_of_traced_pictures_fall(void **state)
         {FIXTURE_CUTOUT, 0.85, 0.95},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        film truth = fixture_render(cases[i].scene, 80, 60, 256, 77);
+        film truth = fixture_render(cases[i].scene, 80, 60, 160, 77);
         film f = fixture_render(cases[i].scene, 80, 60, 16, 1);
         double before = fixture_error(&f, &truth, false), relative = fixture_error(&f, &truth, true);
         denoise(&f);
@@ -282,7 +282,7 @@ static void the_filter_fades_out(void **state)
 static void opacity_is_kept(void **state)
 {
     (void)state;
-    film truth = fixture_render(FIXTURE_CUTOUT, 80, 60, 256, 7);
+    film truth = fixture_render(FIXTURE_CUTOUT, 80, 60, 160, 7);
     film f = fixture_render(FIXTURE_CUTOUT, 80, 60, 16, 2);
     film before = fixture_copy(&f);
     denoise(&f);
