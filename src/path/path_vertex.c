@@ -103,6 +103,11 @@ static bool goes_straight(const Layers *m)
     return !(m->layers & LAYER_VOLUME) || !(m->eta < 1.0f || m->eta > 1.0f);
 }
 
+static bool has_mirrors_only(const Layers *m, const LayersLobes *p)
+{
+    return !(p->diffuse + p->diffuse_back + p->sheen > 0.0f) && layers_scattering_lobes(*m) == 0u;
+}
+
 /* ---- all ---- */
 
 void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray, path_vertex *v)
@@ -110,7 +115,7 @@ void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray
     shading_point point = {.hit = hit, .ray = ray};
     surface_point *s = &v->s;
     surface_point_make(p->shading, &point, s);
-    v->lets_through = v->is_false = v->disperses = v->is_straight = false;
+    v->lets_through = v->is_mirror = v->is_false = v->disperses = v->is_straight = false;
     if (!s->is_lit)
         return;
     v->Ng = geometric_normal(hit, s->V);
@@ -126,6 +131,7 @@ void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray
     v->is_straight = s->plan->may_pass_straight && goes_straight(m);
     v->tables = surface_tables(m, s->V, v->energy);
     v->lobes = layers_lobes(*m, s->V, v->energy, v->tables);
+    v->is_mirror = has_mirrors_only(m, &v->lobes);
 }
 
 /* ---- light of its own ---- */

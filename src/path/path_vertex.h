@@ -12,6 +12,7 @@ typedef struct path_vertex {
     int energy;
     bool lets_through; /* some lobe is on the other side */
     bool is_false;     /* no boundary: the same is on both sides, another body displaces this one here */
+    bool is_mirror;    /* no other lobes */
     bool is_straight;  /* path_vertex_straight() is not 0, and shadow rays know */
     bool disperses;    /* light that goes through needs a wavelength first */
     media behind;      /* what is on the other side */

@@ -116,7 +116,8 @@ bool path_fly(path *p, float distance_m, float u_channel, float u_distance)
         p->throughput *= transmittance(m, length_m);
         return false;
     }
-    vec3 extinction = volume_extinction(load3(m->attenuation_color), m->attenuation_distance);
+    /* max: that of white is -0. */
+    vec3 extinction = max(volume_extinction(load3(m->attenuation_color), m->attenuation_distance), 0.0f);
     vec3 shares;
     int channel = choose_channel(p->throughput, u_channel, &shares);
     float t = -log(1.0f - u_distance) / extinction[channel];

@@ -140,29 +140,38 @@ static void add_emission(path *p, const path_vertex *v, const visibility_hit *hi
     path_add(p, p->throughput * radiance * path_met_weight(p, pdf));
 }
 
+/* BSDF |N.L| and its pdf for a light that was chosen. Light without size shows in mirrors as spots; but what light passes
+ * straight was passed by the shadow ray of the surface before already. */
+static vec3 value_for(const path *p, const path_vertex *v, const path_light_sample *light, float *pdf)
+{
+    bool is_through = dot(v->Ng, light->L) < 0.0f;
+    *pdf = 0.0f;
+    if (is_through && !v->lets_through)
+        return vec3(0.0f);
+    if (is_through && p->from.is_chosen && v->s.m.layers & LAYER_TRANSMISSION && path_has_straight_shadows(p))
+        return vec3(0.0f);
+    if (light->is_point && !(is_through && v->is_straight && p->from.is_chosen))
+        return path_vertex_scatter_punctual(v, light->L);
+    return path_vertex_scatter(v, light->L, pdf);
+}
+
 /* Aims at a light. */
 static void add_light(path *p, const path_vertex *v, const numbers *u)
 {
+    if (v->is_mirror && p->scene->setup->light.punctual_count == 0)
+        return;
     path_light_sample light;
     if (!path_lights_sample(p->scene->lights, v->s.P, path_vertex_light_normal(v), u->which_light, u->light,
                             &light))
         return;
-    bool is_through = dot(v->Ng, light.L) < 0.0f;
-    if (is_through && !v->lets_through)
-        return;
-    if (is_through && p->from.is_chosen && path_has_straight_shadows(p))
-        return; /* from has found it */
-    vec3 f;
-    float pdf = 0.0f;
-    if (light.is_point)
-        f = path_vertex_scatter_punctual(v, light.L);
-    else
-        f = path_vertex_scatter(v, light.L, &pdf);
+    float pdf;
+    vec3 f = value_for(p, v, &light, &pdf);
     vec3 contribution =
         p->throughput * f * light.radiance * (path_aimed_weight(p->scene, &light, pdf) / light.pdf);
     if (!(max3(contribution) > 0.0f))
         return;
-    const media *in = is_through && v->s.m.layers & LAYER_VOLUME ? &v->behind : &p->media;
+    bool is_inside = v->s.m.layers & LAYER_VOLUME && dot(v->Ng, light.L) < 0.0f;
+    const media *in = is_inside ? &v->behind : &p->media;
     path_add(p, contribution * path_shadow(p, v->s.P, path_vertex_start(v, light.L), in, &light));
 }
 
