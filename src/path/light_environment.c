@@ -5,7 +5,9 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "base/simd.h"
 #include "ibl/equirect.h"
+#include "path/light_choice.h"
 #include "path/light_counts.h"
 
 #include "path/light_environment.h"
@@ -311,7 +313,7 @@ static void make_cell(const building *b, uint32_t band, uint32_t block)
         positive += light > 0.0;
         ends[y] = light_counts_end(sum, all, positive, positive_all);
     }
-    uint32_t cell = band * BLOCKS + block;
+    uint32_t cell = block * BANDS + band;
     vec3 mean = vec3((float)(moment[0] / all), (float)(moment[1] / all), (float)(moment[2] / all));
     float length2 = min(dot(mean, mean), 1.0f);
     e->power[cell] = (float)all;
@@ -382,7 +384,7 @@ facet_result light_environment_create(const image *picture, const light_setup *l
         parallel_for(thread_count, e->height, 16, make_rows, &b);
         float all = 0.0f;
         for (uint32_t cell = 0; cell < CELLS; cell++) {
-            make_cell(&b, cell / BLOCKS, cell % BLOCKS);
+            make_cell(&b, cell % BANDS, cell / BANDS);
             all += e->power[cell];
         }
         if (all > 0.0f && all < INFINITY)
@@ -411,70 +413,51 @@ void light_environment_destroy(light_environment *e)
 
 /* ---- sampling ---- */
 
-/* Clamped cosine of a cell whose mean direction is at x and that spreads to both sides of it: the line from 0 at -spread
- * to the cosine itself, never below what any part of the cell is worth. */
-void light_environment_see(const light_environment *e, vec3 N, light_environment_view *view)
+/* Clamped cosine of a cell whose mean direction is at x and that spreads to both sides of it: the line from 0 at -spread to
+ * the cosine itself, and not less than the defensive share wherever the cell reaches above the horizon. */
+DISPATCH_AVX2 static void weigh_cells(const light_environment *restrict e, const float *restrict N,
+                                      float *restrict cells)
 {
-    vec3 n = to_picture(e, N);
-    if (!(dot(N, N) > 0.0f)) {
-        memcpy(view->cells, e->power, sizeof view->cells);
-    } else {
-        float nx = n[0];
-        float ny = n[1];
-        float nz = n[2];
-        for (int i = 0; i < CELLS; i++) {
-            float x = nx * e->mean_x[i] + ny * e->mean_y[i] + nz * e->mean_z[i];
-            float near = 0.5f * (x + e->spread[i]);
-            float cosine = x > near ? x : near;
-            cosine = cosine > 0.0f ? cosine : 0.0f;
-            float least = x + e->reach[i] > 0.0f ? DEFENSIVE_SHARE : 0.0f;
-            view->cells[i] = e->power[i] * (cosine + least);
-        }
+    const float nx = N[0];
+    const float ny = N[1];
+    const float nz = N[2];
+    for (int i = 0; i < CELLS; i++) {
+        float x = nx * e->mean_x[i] + ny * e->mean_y[i] + nz * e->mean_z[i];
+        float near = 0.5f * (x + e->spread[i]);
+        float cosine = x > near ? x : near;
+        float clamped = cosine > 0.0f ? cosine : 0.0f;
+        float least = x + e->reach[i] > 0.0f ? DEFENSIVE_SHARE : 0.0f;
+        cells[i] = e->power[i] * (clamped + least);
     }
-    float sum = 0.0f;
-    for (int i = 0; i < CELLS; i++)
-        sum += view->cells[i];
-    view->irradiance = sum;
 }
 
-/* The item of weights[0 .. count - 1] with the sum `all` that u falls on; *rest as light_counts_find(). Items of weight 0 are
- * never it. */
-static uint32_t find_item(const double *weights, uint32_t count, double all, double u, double *rest)
+void light_environment_see(const light_environment *e, vec3 N, light_environment_view *view)
 {
-    double target = u * all;
-    uint32_t found = count;
-    for (uint32_t i = 0; i < count; i++) {
-        if (!(weights[i] > 0.0))
-            continue;
-        if (found < count)
-            target -= weights[found];
-        found = i;
-        if (target < weights[i])
-            break;
-    }
-    target /= weights[found];
-    *rest = target < 1.0 - 0x1p-53 ? target : 1.0 - 0x1p-53;
-    return found;
+    vec3 turned = to_picture(e, N);
+    if (dot(N, N) > 0.0f)
+        weigh_cells(e, (float[3]){turned[0], turned[1], turned[2]}, view->cells);
+    else
+        memcpy(view->cells, e->power, sizeof view->cells);
+    for (int i = 0; i < BANDS; i++)
+        view->bands[i] = 0.0f;
+    for (int k = 0; k < BLOCKS; k++)
+        for (int i = 0; i < BANDS; i++)
+            view->bands[i] += view->cells[k * BANDS + i];
+    view->irradiance = 0.0f;
+    for (int i = 0; i < BANDS; i++)
+        view->irradiance += view->bands[i];
 }
 
 float light_environment_sample(const light_environment *e, const light_environment_view *view,
                                const double u[2], vec3 *d)
 {
-    double bands[BANDS];
-    double blocks[BLOCKS];
-    double all = 0.0;
-    for (int i = 0; i < BANDS; i++) {
-        bands[i] = 0.0;
-        for (int k = 0; k < BLOCKS; k++)
-            bands[i] += (double)view->cells[i * BLOCKS + k];
-        all += bands[i];
-    }
-    double down;
-    double across;
-    uint32_t band = find_item(bands, BANDS, all, u[1], &down);
+    double across = u[0];
+    double down = u[1];
+    uint32_t band = (uint32_t)light_choose(view->bands, BANDS, &down);
+    float blocks[BLOCKS];
     for (uint32_t k = 0; k < BLOCKS; k++)
-        blocks[k] = (double)view->cells[band * BLOCKS + k];
-    uint32_t block = find_item(blocks, BLOCKS, bands[band], u[0], &across);
+        blocks[k] = view->cells[k * BANDS + band];
+    uint32_t block = (uint32_t)light_choose(blocks, BLOCKS, &across);
 
     double row_probability;
     double column_probability;
@@ -491,7 +474,7 @@ float light_environment_sample(const light_environment *e, const light_environme
     float s = sample_linear((float)across, mix(p.upper_left, p.lower_left, t),
                             mix(p.upper_right, p.lower_right, t));
     *d = from_picture(e, direction_in_patch(e, x, y, s, t));
-    float cell_probability = view->cells[band * BLOCKS + block] / view->irradiance;
+    float cell_probability = view->cells[block * BANDS + band] / view->irradiance;
     return cell_probability * (float)row_probability * (float)column_probability * e->per_sr[y] *
            patch_density(&p, s, t);
 }
@@ -501,7 +484,7 @@ float light_environment_pdf(const light_environment *e, const light_environment_
     patch_point at = locate(e, to_picture(e, d));
     uint32_t band = division_of(at.y, e->height, BANDS);
     uint32_t block = division_of(at.x, e->width, BLOCKS);
-    float cell = view->cells[band * BLOCKS + block];
+    float cell = view->cells[block * BANDS + band];
     if (!(cell > 0.0f))
         return 0.0f;
     uint32_t top = band_begin(e, band);

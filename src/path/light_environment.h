@@ -35,8 +35,10 @@ vec3 light_environment_radiance(const light_environment *e, vec3 d);
 
 /* The environment as a surface with one normal sees it. */
 typedef struct light_environment_view {
-    float cells[LIGHT_ENVIRONMENT_CELLS]; /* about the irradiance that each gives, lx, mean of the channels */
-    float irradiance;                     /* their sum */
+    /* About the irradiance that each gives, lx, mean of the channels; by block and, within it, by band. */
+    float cells[LIGHT_ENVIRONMENT_CELLS];
+    float bands[LIGHT_ENVIRONMENT_BANDS]; /* their sums by band */
+    float irradiance;                     /* the sum of all */
 } light_environment_view;
 
 /* N: unit, only directions above its horizon count; {0}: all count alike (irradiance is then the integral of radiance). */

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/simd.h"
 
+#include "path/light_choice.h"
 #include "path/light_tree_nodes.h"
 
 /* The weights of eight children at P; returns their sum. With d to the middle of a child and its radius r:
@@ -98,28 +99,6 @@ void light_tree_see(const light_tree *tree, vec3 P, vec3 N, light_tree_view *vie
     view->irradiance = weigh_for(view, &tree->nodes[0], view->root);
 }
 
-/* The child that u falls on; *u: where in its share. Without branches on weights, which are as random as u. */
-static int choose_child(const float weights[WIDTH], double *u)
-{
-    double ends[WIDTH];
-    double sum = 0.0;
-    for (int i = 0; i < WIDTH; i++) {
-        sum += (double)weights[i];
-        ends[i] = sum;
-    }
-    double target = *u * sum;
-    int found = 0;
-    for (int i = 0; i < WIDTH; i++)
-        found += ends[i] <= target;
-    if (found == WIDTH) /* u * sum was rounded up to it */
-        found--;
-    while (!(weights[found] > 0.0f))
-        found--;
-    double rest = (target - (ends[found] - (double)weights[found])) / (double)weights[found];
-    *u = rest < 0.0 ? 0.0 : rest < 1.0 ? rest : 1.0 - 0x1p-53;
-    return found;
-}
-
 uint32_t light_tree_sample(const light_tree *tree, const light_tree_view *view, double u, float *probability,
                            double *rest)
 {
@@ -131,7 +110,7 @@ uint32_t light_tree_sample(const light_tree *tree, const light_tree_view *view, 
     for (;;) {
         if (!(sum > 0.0f))
             return LIGHT_TREE_NONE;
-        int found = choose_child(weights, &u);
+        int found = light_choose(weights, WIDTH, &u);
         *probability *= weights[found] / sum;
         uint32_t child = node->child[found];
         if (child & LEAF) {
