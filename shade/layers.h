@@ -264,8 +264,10 @@ FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearc
         t.transmission_E = E[0] + E[1];
         t.glass = layers_glass_bound(glass, dfg, t.dfg, alpha, layers_fresnel_eta(m));
     }
-    if (layers_is_exact(m, energy) && max(alpha[0], alpha[1]) <= ALPHA_MIRROR)
+    if (layers_is_exact(m, energy) && max(alpha[0], alpha[1]) <= ALPHA_MIRROR) {
+        t.dfg = t.dfg / (t.dfg[0] + t.dfg[1]); /* 1 but for the table's steps */
         t.glass = smooth_glass(surface_NdotV(m.base, V), layers_fresnel_eta(m));
+    }
     if (has_layer(m, LAYER_IRIDESCENCE)) {
         float NdotV = surface_NdotV(m.base, V);
         t.film_weight = m.iridescence * film_fade(m.iridescence_thickness_nm);

@@ -447,6 +447,24 @@ FN vec3 layers_draw_boundary(Layers m, vec3 V, float u_side, float p_specular, v
     return sel(L[2] < 0.0f, normalize(mul(frame, L)), vec3(0.0f));
 }
 
+/* What goes through a boundary whose refraction is a mirror. Where that is because the ior of both sides is nearly equal,
+ * all microfacets of a rough boundary let light go straight on: glTF's term is that of their mean, by the split sum, less
+ * what G2 takes; conserving it is all that is not reflected. V and L in the base's frame. */
+FN float layers_mirror_through(Layers m, BoundaryWeights b, vec3 V, vec3 L, int energy, LayerTables t)
+{
+    bool is_smooth = layers_specular_is_mirror(m);
+    if (energy == ENERGY_CONSERVING)
+        return sel(is_smooth, b.through, b.below);
+    if (!has_layer(m, LAYER_VOLUME))
+        return b.through;
+    vec2 alpha = layers_alpha(m, m.base.alpha);
+    float lobe = weight_VNDF_GGX(V, vec3(L[0], L[1], max(abs(L[2]), NDOTV_MIN)), alpha[0], alpha[1]);
+    if (is_smooth || has_layer(m, LAYER_IRIDESCENCE))
+        return b.through * lobe;
+    vec3 F = (m.base.F0 * t.dfg[0] + vec3(m.base.F90) * t.dfg[1]) / max(t.dfg[0] + t.dfg[1], 1e-3f);
+    return (1.0f - m.base.metallic) * max(1.0f - max3(F), 0.0f) * lobe;
+}
+
 /* Mirrors: their boundary weights are those of N.V, the microfacet's cosine there. */
 FN LayersSample layers_mirror(Layers m, LayersLobes p, vec3 V_eye, bool is_through, int energy, LayerTables t)
 {
@@ -462,17 +480,11 @@ FN LayersSample layers_mirror(Layers m, LayersLobes p, vec3 V_eye, bool is_throu
         s.is_valid = max3(s.weight) > 0.0f;
         return s;
     }
-    s.weight = below_shares(m).specular * (b.through * above / p.transmission);
     s.L = -V_eye;
-    if (has_layer(m, LAYER_VOLUME)) {
-        if (m.eta != 1.0f)
-            s.L = refract_or_zero(-V, m.base.N, m.eta);
-        /* what the lobe that is so narrow because both sides are alike loses by its roughness */
-        vec2 alpha = layers_alpha(m, m.base.alpha);
-        vec3 l = layers_to_any_frame(m, s.L);
-        l[2] = max(abs(l[2]), NDOTV_MIN);
-        s.weight *= weight_VNDF_GGX(layers_V_local(m, V), l, alpha[0], alpha[1]);
-    }
+    if (has_layer(m, LAYER_VOLUME) && m.eta != 1.0f)
+        s.L = refract_or_zero(-V, m.base.N, m.eta);
+    float through = layers_mirror_through(m, b, layers_V_local(m, V), layers_to_any_frame(m, s.L), energy, t);
+    s.weight = below_shares(m).specular * (through * above / p.transmission);
     s.is_valid = max3(s.weight) > 0.0f && dot(s.L, s.L) > 0.5f;
     return s;
 }

@@ -1,6 +1,7 @@
 /* layers_test.c - the layered surface: a layer whose factor is 0 is not there, and each layer against what its extension
  * says. */
 #include "testing/layer_albedo.h"
+#include "testing/nasty_layers.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
 
@@ -450,51 +451,6 @@ static void test_reciprocity(void **state)
 
 /* ---- robustness ---- */
 
-static vec3 nasty_direction(test_rng *rng)
-{
-    switch (rng_uint(rng) % 8u) {
-    case 0:
-        return vec3(0.0f, 0.0f, 1.0f);
-    case 1:
-        return vec3(0.0f, 0.0f, -1.0f);
-    case 2:
-        return vec3(1.0f, 0.0f, 0.0f);
-    case 3:
-        return normalize(vec3(-1.0f, 1e-20f, 1e-6f));
-    default:
-        return rng_direction(rng);
-    }
-}
-static float nasty_unit(test_rng *rng)
-{
-    const float values[] = {0.0f, 1.0f, 1e-40f, 1e-20f};
-    uint32_t k = rng_uint(rng) % 10u;
-    return k < COUNT_OF(values) ? values[k] : rng_float(rng);
-}
-static Layers nasty_layers(test_rng *rng, vec3 N)
-{
-    vec3 base = rng_color(rng);
-    float metallic = nasty_unit(rng), roughness = nasty_unit(rng), specular = nasty_unit(rng);
-    float ior = rng_uint(rng) % 4u ? 1.0f + nasty_unit(rng) : 0.0f;
-    Surface s = surface_from_gltf(N, base, metallic, roughness, ior, specular, vec3(1.0f), 1.0f, vec3(0.0f));
-    uint layers = rng_uint(rng) % ALL_LAYERS;
-    Layers m = random_layers(rng, layers, N, false);
-    mat3 basis = basis_from_normal(N);
-    m.base = s;
-    m.anisotropy_T = COL(basis, 0);
-    m.anisotropy_B = COL(basis, 1);
-    m.clearcoat_N = nasty_direction(rng);
-    m.clearcoat_roughness = nasty_unit(rng);
-    m.sheen_roughness = nasty_unit(rng);
-    m.anisotropy = nasty_unit(rng);
-    m.iridescence_thickness_nm = 2000.0f * nasty_unit(rng);
-    m.attenuation_distance = nasty_unit(rng);
-    if (rng_uint(rng) % 8u == 0)
-        m.eta = m.ior = 1.0f;
-    if (rng_uint(rng) % 16u == 0)
-        m.ior = 0.0f;
-    return m;
-}
 static void test_positive_and_finite(void **state)
 {
     (void)state;

@@ -494,7 +494,8 @@ FN vec3 probe_pixel(int which, vec2 u)
         vec2 p = sobol_point(uint(u[0] * 4096.0f), hash_uint(uint(u[1] * 4096.0f)));
         uint d =
             owen_scramble(sobol_second(reverse_bits(uint(u[1] * 4096.0f))), hash_uint(uint(u[0] * 4096.0f)));
-        return vec3(p[0], p[1], float(d >> 8u) * (1.0f / 16777216.0f));
+        vec2 q = sobol_scrambled(sobol_order(sobol_shuffle(d, 77u), 0x1f050301u), d);
+        return vec3(p[0] + q[0], p[1] + q[1], float(d >> 8u) * (1.0f / 16777216.0f));
     }
     int kind = which - 70;
     FilterSample s = sample_pixel_filter(kind, u);
@@ -564,7 +565,9 @@ FN vec3 probe_glass(Layers m, vec3 V, vec2 u)
     BoundaryWeights g = layers_boundary_albedo_gltf(m, NdotV, t);
     return b.R + b.scale + b.through + point + layers_F_exact(m, 0.3f + 0.7f * u[0]) + w.specular +
            g.specular +
-           vec3(exact + layers_fresnel_eta(m), w.through + g.through, layers_reflection_share(m, u[0])) +
+           vec3(exact + layers_fresnel_eta(m),
+                w.through + g.through + layers_mirror_through(m, w, layers_V_local(m, V), -V, ENERGY_GLTF, t),
+                layers_reflection_share(m, u[0])) +
            layers_glass_bound(vec3(u[0], 0.9f, 0.8f), vec2(0.5f, 0.2f), vec2(0.6f, 0.2f), vec2(0.3f, 0.2f),
                               m.eta) +
            layers_coupled_pdf(m, V, sel(u[0] > 0.5f, m.base.N, -V)) * 0.1f;
