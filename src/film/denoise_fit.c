@@ -263,7 +263,8 @@ INLINE void measure_levels(fit_work *work)
     work->light_level = albedo / (3.0f * total);
 }
 
-DISPATCH_AVX2 void denoise_fit_window(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, denoise_fit *out)
+DISPATCH_AVX2 static void denoise_fit_dispatched(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y,
+                                                 denoise_fit *out)
 {
     static const float bandwidths[CANDIDATES] = {1.0f, 0.6f};
     fit_work work;
@@ -290,4 +291,10 @@ DISPATCH_AVX2 void denoise_fit_window(const denoise_planes *p, ptrdiff_t x, ptrd
         memcpy(out->weight, work.weight, sizeof work.weight);
         memcpy(out->value, work.value, sizeof work.value);
     }
+}
+
+/* Other files see no dispatched function: clang gives it another name. */
+void denoise_fit_window(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, denoise_fit *out)
+{
+    denoise_fit_dispatched(p, x, y, out);
 }
