@@ -241,11 +241,11 @@ FN float layers_volume_cos1(Layers m, vec3 V, vec3 L, float eta, int energy, Lay
 /* Per channel, each with its own ior where the volume disperses. */
 FN vec3 layers_volume_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
 {
-    if (!has_layer(m, LAYER_DISPERSION))
-        return vec3(layers_volume_cos1(m, V, L, m.eta, energy, t));
-    return vec3(layers_volume_cos1(m, V, L, layers_eta(m, 0), energy, t),
-                layers_volume_cos1(m, V, L, layers_eta(m, 1), energy, t),
-                layers_volume_cos1(m, V, L, layers_eta(m, 2), energy, t));
+    int last = sel(has_layer(m, LAYER_DISPERSION), 2, 0);
+    vec3 f = vec3(0.0f);
+    for (int channel = 0; channel <= last; ++channel)
+        f[channel] = layers_volume_cos1(m, V, L, layers_eta(m, channel), energy, t);
+    return sel(last == 0, vec3(f[0]), f);
 }
 
 /* The base for light from behind. The microfacet of what goes straight through is that of L mirrored to V's side. */

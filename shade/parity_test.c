@@ -27,10 +27,10 @@ static int skip(const char *why)
     return 77;
 }
 
-static GLuint compile(GLenum stage, const char *text)
+static GLuint compile(GLenum stage, GLsizei count, const char *const *texts)
 {
     GLuint shader = glCreateShader(stage);
-    glShaderSource(shader, 1, &text, NULL);
+    glShaderSource(shader, count, texts, NULL);
     glCompileShader(shader);
     GLint ok = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
@@ -65,6 +65,58 @@ static bool create_context(void)
     const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
     EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     return context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
+}
+
+/* The functions that probe() chooses from, and the number of the probe after the last of each: its lines
+ *     if (which < END)
+ *         return NAME(which, u); */
+typedef struct probe_group {
+    char name[40];
+    int end;
+} probe_group;
+
+static int find_groups(const char *text, probe_group *groups, int most)
+{
+    const char *at = strstr(text, "vec3 probe(int which, vec2 u)");
+    int count = 0;
+    while (at && count < most && (at = strstr(at, "return "))) {
+        probe_group *g = &groups[count];
+        const char *bound = at;
+        while (bound > text && *bound != '(' && *bound != '{' && *bound != ';')
+            bound--;
+        if (sscanf(at, "return %39[a-z_](which, u);", g->name) != 1)
+            break;
+        if (sscanf(bound, "(which < %d)", &g->end) != 1)
+            g->end = PROBE_COUNT;
+        count++;
+        at++;
+    }
+    return count;
+}
+
+/* A program of one group: drivers inline all functions that a program calls, and take minutes for all of them. */
+static GLuint link_group(const char *text, const char *name)
+{
+    static const char *const vertex = "#version 300 es\n"
+                                      "void main()\n"
+                                      "{\n"
+                                      "    vec2 p = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n"
+                                      "    gl_Position = vec4(p * 4.0 - 1.0, 0.0, 1.0);\n"
+                                      "}\n";
+    static const char call[] = "probe(u_which";
+    static char head[TEXT_MAX];
+    const char *at = strstr(text, call);
+    if (!at) {
+        fprintf(stderr, "the shader does not call probe(u_which)\n");
+        exit(1);
+    }
+    snprintf(head, sizeof head, "%.*s%s", (int)(at - text), text, name);
+    const char *const fragment[2] = {head, at + strlen("probe")};
+    GLuint program = glCreateProgram();
+    glAttachShader(program, compile(GL_VERTEX_SHADER, 1, &vertex));
+    glAttachShader(program, compile(GL_FRAGMENT_SHADER, 2, fragment));
+    glLinkProgram(program);
+    return program;
 }
 
 static void draw_into_float_texture(void)
@@ -112,23 +164,24 @@ int main(int argc, char **argv)
         return skip("no EGL display without a surface, or no GLES 3 context");
     printf("%s\n", (const char *)glGetString(GL_RENDERER));
 
-    GLuint program = glCreateProgram();
-    glAttachShader(program,
-                   compile(GL_VERTEX_SHADER, "#version 300 es\n"
-                                             "void main()\n"
-                                             "{\n"
-                                             "    vec2 p = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n"
-                                             "    gl_Position = vec4(p * 4.0 - 1.0, 0.0, 1.0);\n"
-                                             "}\n"));
-    glAttachShader(program, compile(GL_FRAGMENT_SHADER, text));
-    glLinkProgram(program);
-    glUseProgram(program);
+    probe_group groups[32];
+    int group_count = find_groups(text, groups, 32);
+    if (group_count == 0 || groups[group_count - 1].end != PROBE_COUNT) {
+        fprintf(stderr, "the choices of probe() cannot be read\n");
+        return 2;
+    }
     draw_into_float_texture();
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return skip("no rendering into float textures");
 
     int failed = 0;
-    for (int which = 0; which < PROBE_COUNT; ++which) {
+    GLuint program = 0;
+    for (int which = 0, group = -1; which < PROBE_COUNT; ++which) {
+        while (group < 0 || which >= groups[group].end) {
+            glDeleteProgram(program);
+            program = link_group(text, groups[++group].name);
+            glUseProgram(program);
+        }
         glUniform1i(glGetUniformLocation(program, "u_which"), which);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glReadPixels(0, 0, SIZE, SIZE, GL_RGBA, GL_FLOAT, gpu);

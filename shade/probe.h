@@ -374,8 +374,8 @@ FN vec3 probe_layered(int which, vec2 u)
         energy = ENERGY_CONSERVING;
     LayerTables t = probe_layer_tables(m, V, energy, u);
     if (which == 58)
-        return layers_brdf_cos(m, V, probe_L(u), energy, t, 0.2f) +
-               layers_brdf_cos(m, V, -probe_L(u), energy, t, 0.2f);
+        return layers_brdf_cos(m, V, sel(fract(u[0] * 32.0f) > 0.5f, probe_L(u), -probe_L(u)), energy, t,
+                               0.2f);
     if (which == 59)
         return probe_layer_parts(m, V, probe_L(u), energy, t);
     if (which == 60) {
