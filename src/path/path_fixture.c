@@ -441,6 +441,44 @@ void truth_assert_same(const truth_value *a, const truth_value *b, double sigmas
     va_end(arguments);
 }
 
+/* ---- the white furnace ---- */
+
+static truth_value furnace(fixture *f, double polar)
+{
+    f->desc.samples = 4096;
+    f->desc.path.max_depth = 1000;
+    truth_set_constant_sky(f, 1.0f, 1.0f, 1.0f);
+    truth_look(f, polar, 0.0f, 0.0f, 0.1f);
+    truth_value v = truth_measure_pixels(f);
+    fixture_destroy(f);
+    return v;
+}
+
+truth_value truth_furnace(scene_material material, double polar, facet_energy energy)
+{
+    fixture f = truth_create();
+    f.desc.energy = energy;
+    material.is_double_sided = true;
+    truth_add_floor(&f, fixture_add_material(&f, material), 0.0f, 10.0f);
+    return furnace(&f, polar);
+}
+
+truth_value truth_furnace_body(scene_material material, double polar)
+{
+    fixture f = truth_create();
+    truth_add_box(&f, fixture_add_material(&f, material), 0.0f, 10.0f, 0.5f, 10.0f);
+    return furnace(&f, polar);
+}
+
+void truth_assert_white(truth_value v, double tables, const char *what, double roughness, double polar)
+{
+    for (int c = 0; c < 3; c++)
+        if (fabs(v.mean[c] - 1.0) > tables + TRUTH_SIGMAS * v.error[c] + TRUTH_ROUNDING)
+            fail_msg("%s, roughness %g, %g degrees: channel %d is %.6f, standard error %.2g; expected 1",
+                     what, roughness, polar, c, v.mean[c], v.error[c]);
+    truth_assert_at_most(&v, 1.0 + tables, "%s, roughness %g, %g degrees", what, roughness, polar);
+}
+
 /* ---- references ---- */
 
 double truth_refracted(double cosine, double n)

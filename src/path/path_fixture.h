@@ -79,6 +79,20 @@ void truth_assert_at_most(const truth_value *v, double bound, const char *format
 void truth_assert_same(const truth_value *a, const truth_value *b, double sigmas, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* ---- the white furnace ---- */
+
+/* Lobes that compensate what they lose read their albedo from tables, which are off by up to this: layers_furnace_test.c
+ * has the same number. */
+#define TRUTH_TABLES 2e-3
+
+/* What a double-sided floor of the material sends towards `polar` degrees in light of 1 from everywhere, above and below:
+ * 4096 samples a pixel. */
+truth_value truth_furnace(scene_material material, double polar, facet_energy energy);
+/* The same of a closed body, a slab of 1 m, conserving. */
+truth_value truth_furnace_body(scene_material material, double polar);
+/* Fails unless all of it is 1, within tables and four standard errors. */
+void truth_assert_white(truth_value v, double tables, const char *what, double roughness, double polar);
+
 /* ---- references, in double ---- */
 
 #define TRUTH_PI 3.14159265358979323846
