@@ -45,20 +45,40 @@ FN uint sobol_second(uint i)
     return d ^ (d >> 16u);
 }
 
-/* Point index of the sequence that belongs to seed, in [0, 1)^2. Points n 2^m to (n + 1) 2^m - 1 are a (0, m, 2)-net: each
- * box of area 2^-m that halving the square's edges leads to holds one of them. Sequences of different seeds are independent,
- * also in their order, and so may be paired to points of more dimensions. Burley 2020, "Practical Hash-based Owen
- * Scrambling". */
+/* Index i of a sequence moved to another place of it: digit j becomes the sum, modulo 2, of the digits j, j + t1, .. j + t4
+ * (binary digits of i from the last one on), with the four numbers t from 1 to 31 as bytes of taps; 31 is none for i below
+ * 2^31. A multiplication by the polynomial 1 + z^t1 + .. + z^t4. Blocks of 2^m indices stay blocks of 2^m, so each of these
+ * orders runs through nets as the plain one does; two orders side by side give points of four dimensions, which are as
+ * even as the quotient of their polynomials is irregular (Niederreiter 1987). */
+FN uint sobol_order(uint i, uint taps)
+{
+    return i ^ (i >> (taps & 31u)) ^ (i >> ((taps >> 8u) & 31u)) ^ (i >> ((taps >> 16u) & 31u)) ^
+           (i >> (taps >> 24u));
+}
+
+/* Index i of a sequence in an order of its own: scrambled, its largest digit first, which keeps blocks of 2^m together.
+ * seed as that of owen_scramble(). */
+FN uint sobol_shuffle(uint i, uint seed)
+{
+    return reverse_bits(owen_scramble(reverse_bits(i), seed));
+}
+
+/* Point i of the sequence whose digits are scrambled by seed, which is as that of owen_scramble(), in [0, 1)^2. Points n 2^m
+ * to (n + 1) 2^m - 1 are a (0, m, 2)-net: each box of area 2^-m that halving the square's edges leads to holds one of them. */
+FN vec2 sobol_scrambled(uint i, uint seed)
+{
+    /* turned by a third, the seed's bits play other parts in owen_scramble() */
+    uint x = reverse_bits(owen_scramble(i, (seed << 11u) | (seed >> 21u)));
+    uint y = reverse_bits(owen_scramble(sobol_second(i), (seed << 21u) | (seed >> 11u)));
+    return vec2(float(x >> 8u), float(y >> 8u)) * (1.0f / 16777216.0f); /* 24 bits: exact, never 1 */
+}
+
+/* Point index of the sequence that belongs to seed (any number). Sequences of different seeds are independent, also in
+ * their order, and so may be paired to points of more dimensions. Burley 2020, "Practical Hash-based Owen Scrambling". */
 FN vec2 sobol_point(uint index, uint seed)
 {
-    uint h = hash_uint(seed); /* turned by a third, its bits play other parts in owen_scramble() */
-    uint h_x = (h << 11u) | (h >> 21u);
-    uint h_y = (h << 21u) | (h >> 11u);
-    /* scrambling index, its largest digit first, keeps together what halves of the sequence hold */
-    uint i = reverse_bits(owen_scramble(reverse_bits(index), h));
-    uint x = reverse_bits(owen_scramble(i, h_x));
-    uint y = reverse_bits(owen_scramble(sobol_second(i), h_y));
-    return vec2(float(x >> 8u), float(y >> 8u)) * (1.0f / 16777216.0f); /* 24 bits: exact, never 1 */
+    uint h = hash_uint(seed);
+    return sobol_scrambled(sobol_shuffle(index, h), h);
 }
 
 #endif

@@ -29,15 +29,16 @@ static void test_sequence(void **state)
     }
 }
 
-/* Every box of area 2^-m that halving leads to holds one of points first to first + 2^m - 1. */
-static void expect_net(uint seed, uint first, int m)
+/* Every box of area 2^-m that halving leads to holds one of points first to first + 2^m - 1 in the order of taps; 0: in that
+ * of sobol_point(). */
+static void expect_net(uint seed, uint first, int m, uint taps)
 {
     static unsigned char hits[1 << 14];
     uint count = 1u << m;
     for (int wide = 0; wide <= m; ++wide) { /* 2^wide columns, 2^(m - wide) rows */
         memset(hits, 0, count);
         for (uint i = first; i < first + count; ++i) {
-            vec2 p = sobol_point(i, seed);
+            vec2 p = taps ? sobol_scrambled(sobol_order(i, taps), hash_uint(seed)) : sobol_point(i, seed);
             assert_true(p[0] >= 0.0f && p[0] < 1.0f && p[1] >= 0.0f && p[1] < 1.0f);
             uint x = (uint)(p[0] * (float)(1 << wide)), y = (uint)(p[1] * (float)(1 << (m - wide)));
             uint box = y << wide | x;
@@ -55,7 +56,9 @@ static void test_nets(void **state)
     for (int m = 0; m <= 14; ++m)
         for (int k = 0; k < (m < 11 ? 40 : 3); ++k) {
             uint block = k % 2 ? rng_uint(&rng) >> (8 + m) : 0u; /* within 2^24 samples */
-            expect_net(k < 4 ? (uint)k : rng_uint(&rng), block << m, m);
+            expect_net(k < 4 ? (uint)k : rng_uint(&rng), block << m, m, 0u);
+            uint taps = 0x01010101u + (rng_uint(&rng) & 0x1e0f0f07u); /* four from 1 to 31 */
+            expect_net(rng_uint(&rng), block << m, m, taps);
         }
     /* the largest number that there is */
     float largest = 0.0f;
@@ -64,6 +67,24 @@ static void test_nets(void **state)
         largest = max(largest, max(p[0], p[1]));
     }
     assert_true(largest < 1.0f && largest > 1.0f - 1e-6f);
+}
+
+static void test_order(void **state)
+{
+    (void)state;
+    test_rng rng = {8};
+    for (int k = 0; k < 2000; ++k) {
+        uint i = rng_uint(&rng) >> 1, taps = 0x01010101u + (rng_uint(&rng) & 0x1e0f0f07u), expected = i;
+        for (int t = 0; t < 4; ++t) /* digit by digit */
+            for (int j = 0; j + (int)(taps >> 8 * t & 255u) < 32; ++j)
+                expected ^= (i >> (j + (int)(taps >> 8 * t & 255u)) & 1u) << j;
+        assert_int_equal(sobol_order(i, taps), expected);
+        assert_int_equal(sobol_order(i, 0x1f1f1f1fu), i);
+        /* shuffling keeps blocks, and is no copy */
+        uint a = i & 0xffffff00u, seed = hash_uint(rng_uint(&rng));
+        for (uint b = 0; b < 256; b += 15)
+            assert_int_equal(sobol_shuffle(a | b, seed) >> 8, sobol_shuffle(a, seed) >> 8);
+    }
 }
 
 /* ---- the scrambling ---- */
@@ -277,6 +298,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sequence),
         cmocka_unit_test(test_nets),
+        cmocka_unit_test(test_order),
         cmocka_unit_test(test_digits_depend_on_earlier_ones),
         cmocka_unit_test(test_flips_are_independent),
         cmocka_unit_test(test_points_are_uniform),
