@@ -274,8 +274,8 @@ static void write_interior(const char *folder)
     uint32_t red = add_material(&m, 0.6f, 0.08f, 0.06f, 0.0f, 0.4f, "");
     uint32_t parquet = add_material(&m, 0.25f, 0.14f, 0.07f, 0.0f, 0.12f, "");
     uint32_t gold = add_material(&m, 1.0f, 0.76f, 0.33f, 1.0f, 0.25f, "");
-    uint32_t steel = add_material(&m, 0.8f, 0.82f, 0.85f, 1.0f, 0.08f, "");
-    uint32_t glaze = add_material(&m, 0.1f, 0.25f, 0.6f, 0.0f, 0.05f, "");
+    uint32_t steel = add_material(&m, 0.8f, 0.82f, 0.85f, 1.0f, 0.2f, "");
+    uint32_t glaze = add_material(&m, 0.1f, 0.25f, 0.6f, 0.0f, 0.12f, "");
     uint32_t light = add_light(&m, 1.0f, 0.9f, 0.75f, 18.0f);
     add_panel(&m, (float[]){0, 3, 0}, (float[]){3, 0, 0}, (float[]){0, 0, 3.5f});
     add_panel(&m, (float[]){0, 1.5f, -3.5f}, (float[]){3, 0, 0}, (float[]){0, 1.5f, 0});
@@ -373,7 +373,7 @@ static void write_lights(const char *folder)
         float hue = 2.0f * PI_F * (float)color / COLORS;
         uint32_t light =
             add_light(&m, 0.55f + 0.45f * sinf(hue), 0.55f + 0.45f * sinf(hue + 2.09f),
-                      0.55f + 0.45f * sinf(hue + 4.19f), 20.0f * powf(2.5f, (float)(color * 5 % COLORS)));
+                      0.55f + 0.45f * sinf(hue + 4.19f), 60.0f * powf(1.8f, (float)(color * 5 % COLORS)));
         for (uint32_t i = 0; i < COLUMNS * ROWS; i++) {
             uint32_t h = i * 0x9E3779B1u;
             h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
@@ -382,7 +382,7 @@ static void write_lights(const char *folder)
                 continue;
             float x = ((float)(i % COLUMNS) + 0.5f) * (20.0f / COLUMNS) - 10.0f;
             float z = ((float)(i / COLUMNS) + 0.5f) * (10.0f / ROWS) - 6.0f;
-            const float c[3] = {x, 0.6f + 2.2f * (float)(h >> 8 & 0xffff) / 65535.0f, z};
+            const float c[3] = {x, 3.6f + 1.4f * (float)(h >> 8 & 0xffff) / 65535.0f, z};
             float angle = 0.001f * (float)(h >> 12 & 0xfff);
             add_panel(&m, c, (float[]){0.012f * cosf(angle), 0.012f * sinf(angle), 0},
                       (float[]){0, 0, 0.012f});
@@ -395,7 +395,7 @@ static void write_lights(const char *folder)
     for (int i = 0; i < 4; i++)
         add_box(&m, 1.8f * (float)i - 2.7f, 0.4f, -2.5f + 0.8f * (float)(i % 2), 0.4f, 0.4f, 0.4f, 1.0f);
     end_mesh(&m, clay);
-    add_camera(&m, (float[]){0.0f, 2.2f, 6.5f}, (float[]){0.0f, 1.0f, -2.0f});
+    add_camera(&m, (float[]){0.0f, 3.5f, 6.5f}, (float[]){0.0f, 0.0f, -1.0f});
     write_model(&m, folder, "lights.glb");
 }
 
