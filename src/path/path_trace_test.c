@@ -413,6 +413,32 @@ static void cameras_may_be_in_a_body(void **state)
     fixture_destroy(&s.f);
 }
 
+/* A ball inside another one of the same material is none, and light that is met behind it counts whole. */
+static void overlapping_bodies_are_one(void **state)
+{
+    (void)state;
+    double means[2];
+    for (int has_inner = 0; has_inner < 2; has_inner++) {
+        stage s;
+        stage_begin(&s);
+        set_sky(&s, 1.0f);
+        scene_material fog = glass(1.0f, 0.2f);
+        fog.extensions |= SCENE_VOLUME_SCATTER;
+        for (int c = 0; c < 3; c++)
+            fog.multiscatter_color[c] = 0.1f;
+        uint32_t sphere = fixture_add_sphere(&s.f, 32, fixture_add_material(&s.f, fog));
+        fixture_place(&s.f, sphere, 0.0f, 0.0f, 0.0f, 1.0f);
+        if (has_inner)
+            fixture_place(&s.f, sphere, 0.1f, 0.0f, 0.0f, 0.6f);
+        s.f.camera.eye[2] = 3.0f;
+        s.f.desc.samples = 512;
+        means[has_inner] = measure(&s).radiance[0];
+        fixture_destroy(&s.f);
+    }
+    assert_true(means[0] > 0.1 && means[0] < 0.4);
+    assert_near(means[1], means[0], 0.003);
+}
+
 /* White light that a prism parts is white again in a white room. */
 static void dispersion_keeps_the_balance(void **state)
 {
@@ -432,6 +458,58 @@ static void dispersion_keeps_the_balance(void **state)
     for (int c = 0; c < 3; c++)
         assert_near(seen.radiance[c], 1.0, 0.01);
     fixture_destroy(&s.f);
+}
+
+/* ---- scale ---- */
+
+static const struct {
+    float scale, x;
+} SCALES[] = {{1.0f, 0.0f}, {1e-4f, 0.0f}, {1e5f, 0.0f}, {1.0f, 1e4f}, {1e-2f, 100.0f}};
+enum { SCALE_COUNT = sizeof SCALES / sizeof *SCALES };
+
+/* A closed ball keeps all light out. */
+static void nothing_leaks(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SCALE_COUNT; i++) {
+        stage s;
+        stage_begin(&s);
+        set_sky(&s, 1e6f);
+        scene_material m = scene_material_default();
+        m.is_double_sided = true;
+        m.perceptual_roughness = 0.3f;
+        float scale = SCALES[i].scale;
+        float x = SCALES[i].x;
+        fixture_place(&s.f, fixture_add_sphere(&s.f, 48, fixture_add_material(&s.f, m)), x, 0.0f, 0.0f,
+                      scale);
+        s.f.camera =
+            (facet_camera){.eye = {x, 0.0f, 0.0f}, .target = {x, 0.1f * scale, -scale}, .fov_y_rad = 2.0f};
+        s.f.desc.samples = 128;
+        mean seen = measure(&s);
+        assert_true(seen.radiance[0] == 0.0 && seen.opacity == 1.0);
+        fixture_destroy(&s.f);
+    }
+}
+
+/* A clear ball in a white room is not seen. */
+static void nothing_is_lost(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SCALE_COUNT; i++) {
+        stage s;
+        stage_begin(&s);
+        set_sky(&s, 1.0f);
+        float scale = SCALES[i].scale;
+        float x = SCALES[i].x;
+        fixture_place(&s.f, fixture_add_sphere(&s.f, 48, fixture_add_material(&s.f, glass(1.5f, 1.0f))), x,
+                      0.0f, 0.0f, scale);
+        s.f.camera = (facet_camera){
+            .eye = {x, 0.0f, 3.0f * scale}, .target = {x, 0.0f, 0.0f}, .ortho_height = 1.3f * scale};
+        s.f.desc.energy = FACET_ENERGY_CONSERVING;
+        s.f.desc.samples = 128;
+        assert_near(measure(&s).radiance[0], 1.0, 1e-3);
+        fixture_destroy(&s.f);
+    }
 }
 
 /* ---- the ground ---- */
@@ -592,7 +670,10 @@ int main(void)
         cmocka_unit_test(straight_shadows_are_tinted),
         cmocka_unit_test(media_around_a_point_are_found),
         cmocka_unit_test(cameras_may_be_in_a_body),
+        cmocka_unit_test(overlapping_bodies_are_one),
         cmocka_unit_test(dispersion_keeps_the_balance),
+        cmocka_unit_test(nothing_leaks),
+        cmocka_unit_test(nothing_is_lost),
         cmocka_unit_test(ground_is_as_bright_as_nothing_takes),
         cmocka_unit_test(ground_is_seen_from_above_only),
         cmocka_unit_test(lens_rays_meet_in_focus),

@@ -78,11 +78,12 @@ static bool survives(path *p, float u)
 /* ---- between vertices ---- */
 
 /* The ray as the surface reads its textures by: a cone as wide as it is where it meets the surface. What textures let shine
- * is read as finely as where it is aimed at. */
+ * is read as finely as where it is aimed at. Normals are smoothed for what the camera sees only, and mirrors. */
 static shading_ray ray_of(const path *p, const visibility_hit *hit, ray_spread *spread)
 {
     const scene_material *m = p->shading->geometries->items[hit->geometry].material;
-    bool is_fine = scene_material_has(m, SCENE_EMISSIVE_TEXTURE) && max3(load3(m->emissive)) > 0.0f;
+    bool shines = scene_material_has(m, SCENE_EMISSIVE_TEXTURE) && max3(load3(m->emissive)) > 0.0f;
+    bool is_fine = shines || (p->shading->specular_antialiasing && p->from.is_chosen);
     shading_ray ray = {.far_t = INFINITY, .spread = spread, .footprint = 2.0f};
     mat3 frame = basis_from_normal(p->D);
     float width = is_fine ? 0.0f : p->width_m + p->angle * hit->t;
@@ -183,11 +184,12 @@ static void leave(path *p, const path_vertex *v, vec3 L)
     p->skipped_m = path_skipped(p->P - v->s.P, L);
 }
 
-/* Straight on. */
+/* Straight on. Where shadow rays are stopped (bodies of one material that overlap), light is met only. */
 static bool pass(path *p, const path_vertex *v, const visibility_hit *hit, vec3 share)
 {
     p->throughput *= share;
     p->passed_m += hit->t;
+    p->from.is_chosen = p->from.is_chosen && v->s.plan->may_pass_straight;
     leave(p, v, p->D);
     if (v->s.m.layers & LAYER_VOLUME)
         p->media = v->behind;
