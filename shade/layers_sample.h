@@ -77,6 +77,8 @@ FN bool is_mirror_refraction(vec2 alpha, float eta)
 
 FN bool layers_specular_is_mirror(Layers m)
 {
+    if (!has_layer(m, LAYER_ANISOTROPY))
+        return m.base.alpha <= ALPHA_MIRROR;
     return is_mirror_alpha(layers_alpha(m, m.base.alpha));
 }
 FN bool layers_transmission_is_mirror(Layers m)
@@ -96,8 +98,9 @@ FN bool layers_clearcoat_is_mirror(Layers m)
  * returns; chosen before, a microfacet that reflects all would weigh 1 / R. */
 FN bool layers_is_coupled(Layers m)
 {
-    return has_layer(m, LAYER_VOLUME) && has_layer(m, LAYER_TRANSMISSION) && !layers_specular_is_mirror(m) &&
-           !layers_transmission_is_mirror(m);
+    if (!has_layer(m, LAYER_TRANSMISSION) || !has_layer(m, LAYER_VOLUME))
+        return false;
+    return !layers_specular_is_mirror(m) && !layers_transmission_is_mirror(m);
 }
 
 /* LOBE_* of the lobes that are not mirrors. */
@@ -216,10 +219,37 @@ FN LayersLobes lobes_normalised(LayersLobes w)
     return p;
 }
 
+/* lobes_normalised() for two lobes: a surface without layers. */
+FN LayersLobes layers_lobes_plain(Layers m, int energy, LayerTables t)
+{
+    vec3 R_base = m.base.F0 * t.dfg[0] + vec3(m.base.F90) * t.dfg[1];
+    vec3 R_metal = m.base.base_color * t.dfg[0] + t.dfg[1];
+    if (energy == ENERGY_CONSERVING) {
+        float E = t.dfg[0] + t.dfg[1];
+        R_base *= multiscatter_scale(F_avg(m.base.F0, vec3(m.base.F90)), E);
+        R_metal *= multiscatter_scale(F_avg(m.base.base_color, vec3(1.0f)), E);
+    }
+    float specular = max3(mix(R_base, R_metal, m.base.metallic));
+    float diffuse = (1.0f - m.base.metallic) * max(1.0f - max3(R_base), 0.0f) * max3(m.base.base_color);
+    float share = specular / max(specular + diffuse, 1e-30f);
+    if (specular > 0.0f && diffuse > 0.0f)
+        share = clamp(share, 0.05f, 0.95f);
+    LayersLobes p;
+    p.clearcoat = 0.0f;
+    p.sheen = 0.0f;
+    p.specular = share;
+    p.diffuse = sel(diffuse > 0.0f, 1.0f - share, 0.0f);
+    p.transmission = 0.0f;
+    p.diffuse_back = 0.0f;
+    return p;
+}
+
 /* The largest channel stands for the lobe: then no channel's weight exceeds what the lobe returns by much, whatever its
  * color. V unit, towards the eye. */
 FN LayersLobes layers_lobes(Layers m, vec3 V, int energy, LayerTables t)
 {
+    if (m.layers == 0u)
+        return layers_lobes_plain(m, energy, t);
     float NdotV = surface_NdotV(m.base, V);
     float coat_left = layers_below_coat(m, V);
     float left = coat_left * layers_below_sheen(m, t);
@@ -258,9 +288,8 @@ FN float pdf_reflection(vec3 N, vec3 V, vec3 L, float alpha)
         return 0.0f;
     vec3 H = sum * inversesqrt(sum2);
     float NdotV = clamp(dot(N, V), NDOTV_MIN, 1.0f);
-    vec3 V_local = vec3(sqrt((1.0f - NdotV) * (1.0f + NdotV)), 0.0f, NdotV);
     return D_GGX_stable(clamp(dot(N, H), 0.0f, 1.0f), cross(N, H), alpha) /
-           (2.0f * (bounded_VNDF_k(V_local, alpha, alpha) * NdotV + smith_root_GGX(NdotV, alpha)));
+           (2.0f * (bounded_VNDF_k(NdotV, alpha, alpha) * NdotV + smith_root_GGX(NdotV, alpha)));
 }
 
 /* The same of two widths, in the lobe's frame. */

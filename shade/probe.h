@@ -545,7 +545,8 @@ FN vec3 probe_path_parts(Layers m, LayersLobes p, vec3 V, vec2 u, int energy, La
            vec3(layers_specular_pdf(m, V, m.base.N), layers_transmission_pdf(m, V, below),
                 layers_clearcoat_pdf(m, V, L)) *
                0.1f +
-           probe_lobes(lobes_normalised(p)) + lobe_excess(u[0]) + lobe_probability(u[1], 0.8f) +
+           probe_lobes(lobes_normalised(p)) + probe_lobes(layers_lobes_plain(m, energy, t)) +
+           lobe_excess(u[0]) + lobe_probability(u[1], 0.8f) +
            vec3(pdf_reflection(m.base.N, V, m.base.N, 0.3f),
                 pdf_reflection_anisotropic(layers_V_local(m, V), vec3(0.0f, 0.0f, 1.0f), vec2(0.3f, 0.6f)),
                 0.0f);
@@ -598,7 +599,7 @@ FN vec3 probe_paths(int which, vec2 u)
     }
     if (which == 74)
         return 1.0f + sample_bounded_VNDF_GGX(u, V, alpha, 0.5f) +
-               vec3(bounded_VNDF_k(V, alpha, 0.5f),
+               vec3(bounded_VNDF_k(V[2], alpha, 0.5f),
                     pdf_bounded_reflection(V, normalize(V + probe_L(u)), alpha, 0.5f), 0.0f);
     if (which == 75)
         return 1.0f + sample_sheen_rim(u, u[0], alpha) +

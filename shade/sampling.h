@@ -96,20 +96,21 @@ FN float pdf_VNDF_GGX(vec3 V, vec3 H, float alpha_x, float alpha_y)
 /* The same for reflections alone: normals that turn V below the surface are left out, as far as a spherical cap can,
  * so fewer draws are lost and f cos / pdf is nearer to its mean. Of the bent hemisphere's cap, z > -V.z, what is
  * below -k V.z goes:
- *   k = (1 - a^2) s^2 / (s^2 + a^2 V.z^2),  s = 1 + sqrt(V.x^2 + V.y^2),  a = min(alpha_x, alpha_y, 1)
+ *   k = (1 - a^2) s^2 / (s^2 + a^2 V.z^2),  s = 1 + sqrt(1 - V.z^2),  a = min(alpha_x, alpha_y)
  * Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections". V.z > 0. */
-FN float bounded_VNDF_k(vec3 V, float alpha_x, float alpha_y)
+FN float bounded_VNDF_k(float NdotV, float alpha_x, float alpha_y)
 {
-    float a = min(min(alpha_x, alpha_y), 1.0f);
-    float s = 1.0f + sqrt(V[0] * V[0] + V[1] * V[1]);
+    float a = min(alpha_x, alpha_y);
+    float a2 = a * a;
+    float s = 1.0f + sqrt(max((1.0f - NdotV) * (1.0f + NdotV), 0.0f));
     float s2 = s * s;
-    return (1.0f - a * a) * s2 / (s2 + a * a * V[2] * V[2]);
+    return (1.0f - a2) * s2 / (s2 + a2 * NdotV * NdotV);
 }
 FN vec3 sample_bounded_VNDF_GGX(vec2 u, vec3 V, float alpha_x, float alpha_y)
 {
     vec3 V_hemi = normalize(vec3(alpha_x * V[0], alpha_y * V[1], V[2]));
     float phi = 2.0f * PI * u[0];
-    float b = bounded_VNDF_k(V, alpha_x, alpha_y) * V_hemi[2];
+    float b = bounded_VNDF_k(V[2], alpha_x, alpha_y) * V_hemi[2];
     float z = (1.0f - u[1]) * (1.0f + b) - b;
     float sin_theta = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
     vec3 h = vec3(sin_theta * cos(phi), sin_theta * sin(phi), z) + V_hemi;
@@ -121,7 +122,7 @@ FN float pdf_bounded_reflection(vec3 V, vec3 H, float alpha_x, float alpha_y)
 {
     float root = length(vec3(alpha_x * V[0], alpha_y * V[1], V[2]));
     return D_GGX_anisotropic(H, alpha_x, alpha_y) /
-           (2.0f * (bounded_VNDF_k(V, alpha_x, alpha_y) * V[2] + root));
+           (2.0f * (bounded_VNDF_k(V[2], alpha_x, alpha_y) * V[2] + root));
 }
 
 #endif
