@@ -379,7 +379,7 @@ static void threads_change_no_bit(void **state)
     fixture_draw(a, 0, 0.0f);
     fixture_draw(b, 8, 0.7f);
     fixture_at(b, 100, 100)[3] = 0.5f;
-    facet_comparison first, c;
+    facet_comparison first = {0}, c;
     compare_difference heat[2] = {{0}, {0}};
     for (uint32_t threads = 1; threads < 6; threads++) {
         facet_compare_desc desc = {.thread_count = threads,
