@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "film/denoise_energy.h"
 #include "film/denoise_fit.h"
 
 enum {
@@ -80,29 +81,44 @@ static void filter_tiles(void *context, size_t begin, size_t end)
 
 /* value, no further from what the pixel was than noise explains, so that the filter fades out as samples come in; and
  * not darker than black, unless the pixel was (filters of pixels may have negative lobes). */
-static float within_noise(float value, float before, float noise)
+static float within_noise(float value, float before, float standard_error)
 {
     const float most = 8.0f; /* standard deviations; the estimate of one pixel may be far too small */
-    float range = most * sqrtf(noise);
+    float range = most * standard_error;
     float least = before - range;
     if (before >= 0.0f && least < 0.0f)
         least = 0.0f;
     return value < least ? least : value > before + range ? before + range : value;
 }
 
+/* Turns the sums of a pixel into what they say of it; a weight of 0 where it stays as it is. */
+static void settle_rows(void *context, size_t begin, size_t end)
+{
+    const denoising *d = context;
+    const denoise_planes *p = d->planes;
+    for (size_t y = begin; y < end; y++)
+        for (uint32_t x = 0; x < p->width; x++) {
+            float *sum = d->sums + 4 * (y * p->width + x);
+            if (is_clean(p, x, (uint32_t)y) || d->film->layers[0].pixels[4 * (y * p->width + x) + 3] == 0.0f)
+                sum[3] = 0.0f;
+            for (int c = 0; c < 3; c++)
+                sum[c] = sum[3] > 0.0f ? sum[c] / sum[3] * p->scale : 0.0f;
+        }
+}
+
 static void write_pixel(const denoising *d, uint32_t x, uint32_t y)
 {
     const denoise_planes *p = d->planes;
     size_t i = (size_t)y * p->width + x, o = denoise_index(p, (ptrdiff_t)x, (ptrdiff_t)y);
-    const float *sum = d->sums + 4 * i;
+    const float *filtered = d->sums + 4 * i;
     float *pixel = d->film->layers[0].pixels + 4 * i;
-    bool stays = is_clean(p, x, y) || pixel[3] == 0.0f;
     for (int c = 0; c < 3; c++) {
         float divisor = denoise_divisor(p->albedo[c][o]);
-        float before = p->light[c][o] * divisor;
-        float value = sum[3] > 0.0f ? sum[c] / sum[3] : before;
-        if (!stays || !isfinite(pixel[c]))
-            pixel[c] = within_noise(value, before, p->noise[c][o] * divisor * divisor) * p->scale;
+        float before = p->light[c][o] * divisor * p->scale;
+        if (filtered[3] > 0.0f)
+            pixel[c] = within_noise(filtered[c], before, sqrtf(p->noise[c][o]) * divisor * p->scale);
+        else if (!isfinite(pixel[c]))
+            pixel[c] = before;
     }
     if (!isfinite(pixel[3]))
         pixel[3] = p->opacity[o];
@@ -138,7 +154,10 @@ facet_result film_denoise(film *f, const facet_allocator *allocator, uint32_t th
     size_t tile_count = (size_t)((d.tiles_x + 1) / 2) * ((d.tiles_y + 1) / 2);
     for (d.phase = 0; d.phase < PHASES; d.phase++)
         parallel_for(thread_count, tile_count, 1, filter_tiles, &d);
-    parallel_for(thread_count, f->height, TILE, write_rows, &d);
+    parallel_for(thread_count, f->height, TILE, settle_rows, &d);
+    result = denoise_restore_energy(f, sums, allocator, thread_count, error);
+    if (result == FACET_OK)
+        parallel_for(thread_count, f->height, TILE, write_rows, &d);
 done:
     denoise_planes_destroy(&planes);
     mem_free(sums);
