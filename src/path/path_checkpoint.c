@@ -22,10 +22,11 @@ enum { KEY_SIZE = 65, DIGEST_SIZE = 17, COUNT_SIZE = 21, VERSION_SIZE = 16 };
 
 /* ---- channels ---- */
 
-static const char *const pixel_names[] = {"R",        "G",        "B",        "A",        "rest.R",
-                                          "rest.G",   "rest.B",   "rest.A",   "spread.R", "spread.G",
-                                          "spread.B", "albedo.R", "albedo.G", "albedo.B", "normal.X",
-                                          "normal.Y", "normal.Z", "samples.N"};
+static const char *const pixel_names[] = {
+    "R",        "G",        "B",        "A",        "rest.R",   "rest.G",
+    "rest.B",   "rest.A",   "spread.R", "spread.G", "spread.B", "albedo.R",
+    "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "filter.excess",
+    "samples.N"};
 static const char *const ground_names[] = {"ground.open", "ground.taken", "ground.spread", "ground.samples"};
 enum {
     PIXEL_CHANNELS = sizeof pixel_names / sizeof *pixel_names,

@@ -66,7 +66,7 @@ static float luminance_of(const float color[3])
 
 static bool is_finite(const path_sample *s)
 {
-    bool is = isfinite(s->opacity);
+    bool is = isfinite(s->opacity) && isfinite(s->filter_excess);
     for (int c = 0; c < 3; c++)
         is = is && isfinite(s->radiance[c]) && isfinite(s->albedo[c]) && isfinite(s->normal[c]) &&
              isfinite(s->ground_lit[c]) && isfinite(s->ground_open[c]);
@@ -131,6 +131,7 @@ void path_film_add(path_film *f, size_t pixel, const path_sample *sample)
         p->normal[c] = mean_with(p->normal[c], (double)sample->normal[c], share);
     }
     add_color(p, 3, (double)sample->opacity, share);
+    p->filter_excess = mean_with(p->filter_excess, (double)sample->filter_excess, share);
     if (f->ground)
         add_ground(&f->ground[pixel], sample);
 }
@@ -183,11 +184,17 @@ float path_ground_opacity(const path_ground *g)
 float path_ground_share(const path_ground *g, const path_pixel *p)
 {
     float share = p->samples > 0.0f ? (float)((double)g->samples / (double)p->samples) : 0.0f;
-    float left = 1.0f - f_clamp(p->mean[3], 0.0f, 1.0f);
+    float left = 1.0f - f_clamp(p->mean[3] * path_pixel_scale(p), 0.0f, 1.0f);
     return share < left ? share : left;
 }
 
 /* ---- means to layers ---- */
+
+float path_pixel_scale(const path_pixel *p)
+{
+    float weight = 1.0f + p->filter_excess;
+    return fabsf(weight) > 0.25f ? 1.0f / weight : 1.0f; /* a few samples may all but cancel */
+}
 
 typedef struct resolving {
     const path_film *film;
@@ -204,9 +211,10 @@ static float *pixels_of(film *target, const char *name)
 static void resolve_color(const resolving *r, size_t i, float out[4])
 {
     const path_pixel *p = &r->film->pixels[i];
+    float scale = path_pixel_scale(p);
     for (int c = 0; c < 3; c++)
-        out[c] = f_clamp(p->mean[c] * r->scale, -FLT_MAX, FLT_MAX);
-    out[3] = f_clamp(p->mean[3], 0.0f, 1.0f);
+        out[c] = f_clamp(p->mean[c] * (r->scale * scale), -FLT_MAX, FLT_MAX);
+    out[3] = f_clamp(p->mean[3] * scale, 0.0f, 1.0f);
     if (r->film->ground) { /* black under the model, so its premultiplied color is none */
         const path_ground *g = &r->film->ground[i];
         out[3] += path_ground_share(g, p) * path_ground_opacity(g);
@@ -249,7 +257,7 @@ static void resolve_pixels(void *context, size_t begin, size_t end)
             if (r->albedo)
                 r->albedo[3 * i + c] = p->albedo[c];
             if (r->variance)
-                r->variance[3 * i + c] = resolve_variance(p, (int)c, r->scale);
+                r->variance[3 * i + c] = resolve_variance(p, (int)c, r->scale * path_pixel_scale(p));
         }
     }
 }

@@ -19,7 +19,8 @@ typedef struct path_pixel {
     float mean[4], rest[4]; /* red, green, blue, opacity */
     float spread[3]; /* mean square distance of the colors from their mean: the variance of one sample */
     float albedo[3], normal[3];
-    float samples; /* whole: a file has it as it has the others */
+    float filter_excess; /* of the filter's weights over 1 */
+    float samples;       /* whole: a file has it as it has the others */
 } path_pixel;
 
 /* Means over those samples of a pixel that met the ground, of luminance. */
@@ -43,6 +44,10 @@ struct path_film {
     bool *block_is_done;
     float share_done;
 };
+
+/* What the colors and the opacity of a pixel are to be multiplied with: one by the mean of its samples' weights, so that
+ * what is constant stays so however the samples fell into a filter's negative lobes. It is 1 for filters without. */
+float path_pixel_scale(const path_pixel *p);
 
 /* How dark the ground is in a pixel, [0, 1], and the standard error of that. */
 float path_ground_opacity(const path_ground *g);

@@ -233,6 +233,26 @@ static void negative_weights(void **state)
     path_film_destroy(f);
 }
 
+/* What is constant stays so, whatever weights the filter gave. */
+static void weights_divided_out(void **state)
+{
+    (void)state;
+    path_film *f = create(1, 1, false);
+    for (int i = 0; i < 20; i++) {
+        float weight = i % 7 == 3 ? -1.3f : 1.3f;
+        path_sample s = grey(0.7f * weight);
+        s.opacity = weight;
+        s.filter_excess = weight - 1.0f;
+        path_film_add(f, 0, &s);
+    }
+    film target = resolve(f, 1.0f, 1);
+    for (size_t c = 0; c < 3; c++)
+        assert_near(at(&target, "", c), 0.7, 1e-6);
+    assert_near(at(&target, "", 3), 1.0, 1e-6);
+    film_destroy(&target);
+    path_film_destroy(f);
+}
+
 static void guides(void **state)
 {
     (void)state;
@@ -535,6 +555,7 @@ int main(void)
         cmocka_unit_test(what_is_not_finite_is_black),
         cmocka_unit_test(huge_light_stays_finite),
         cmocka_unit_test(negative_weights),
+        cmocka_unit_test(weights_divided_out),
         cmocka_unit_test(guides),
         cmocka_unit_test(shadows_lie_under_the_picture),
         cmocka_unit_test(noise_does_not_darken_the_ground),

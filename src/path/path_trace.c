@@ -76,6 +76,7 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
         p.radiance += background(scene, load3(camera.ray.direction)) * (1.0f - out->opacity);
         out->opacity = 1.0f;
     }
+    out->filter_excess = camera.weight - 1.0f;
     out->opacity *= camera.weight;
     store3(p.radiance * camera.weight, out->radiance);
 }
