@@ -192,21 +192,35 @@ static facet_result resume(path_picture *p, facet_error *error)
 
 /* ---- the picture ---- */
 
-static uint32_t fewest_samples(const path_picture *p)
+typedef struct sample_range {
+    uint32_t fewest, most; /* of any pixel */
+} sample_range;
+
+static sample_range count_samples(const path_picture *p)
 {
-    uint32_t fewest = UINT32_MAX;
+    sample_range range = {.fewest = UINT32_MAX};
     for (size_t i = 0; i < (size_t)p->target->width * p->target->height; i++) {
         uint32_t n = path_film_samples(p->sums, i);
-        fewest = n < fewest ? n : fewest;
+        range.fewest = n < range.fewest ? n : range.fewest;
+        range.most = n > range.most ? n : range.most;
     }
-    return fewest;
+    return range;
 }
 
-/* Pass after pass until all is done, or the watch stops it. A checkpoint may have pixels with more samples than others:
- * passes begin at the fewest. */
+/* Where the passes of a checkpoint go on. Adaptive ones where the last of them ended, so that regions are judged at the
+ * same numbers as without the interruption; others at the fewest, since the samples of an open shutter belong to their
+ * instant. */
+static uint32_t first_goal(const path_picture *p)
+{
+    sample_range range = count_samples(p);
+    bool is_adaptive = p->desc->path.noise > 0.0f && !(p->desc->path.shutter_s > 0.0f);
+    return is_adaptive && range.most < p->desc->samples ? range.most : range.fewest;
+}
+
+/* Pass after pass until all is done, or the watch stops it. */
 static facet_result draw_passes(path_picture *p, facet_error *error)
 {
-    uint32_t goal = fewest_samples(p);
+    uint32_t goal = first_goal(p);
     facet_result result = FACET_OK;
     while (goal < p->desc->samples && result == FACET_OK && !render_watch_is_stopped(&p->watch)) {
         path_film_update(p->sums, p->desc->path.noise, p->desc->thread_count);
@@ -232,7 +246,7 @@ static facet_result conclude(path_picture *p, facet_error *error)
     facet_result result = save(p, error);
     if (result != FACET_OK || ended == FACET_OK)
         return result;
-    if (ended == FACET_ERROR_LIMIT && fewest_samples(p) > 0) {
+    if (ended == FACET_ERROR_LIMIT && count_samples(p).fewest > 0) {
         p->stats->is_partial = true;
         return FACET_OK;
     }
@@ -338,8 +352,10 @@ static facet_result attempt(prepared_scene *prepared, const facet_render_desc *d
     if (result == FACET_OK)
         result = path_film_create(&desc->allocator, target->width, target->height, p.scene.has_ground,
                                   &p.sums, error);
-    if (result == FACET_OK)
+    if (result == FACET_OK) {
+        path_film_set_scale(p.sums, exp2f(desc->exposure_ev));
         result = draw_aovs(&p, error);
+    }
     if (result == FACET_OK)
         result = draw(&p, error);
     if (result == FACET_OK)

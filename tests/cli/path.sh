@@ -54,6 +54,11 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     expect 0 render --renderer path --size 48x32 --samples 3 --checkpoint state.exr -o part.exr
     expect 0 $path --format exr32 --checkpoint state.exr --resume -o resumed.exr
     cmp -s whole.exr resumed.exr || failed "a resumed picture differs"
+    noisy="render --renderer path --size 48x32 --noise 0.02 --format exr32"
+    expect 0 $noisy --samples 128 -o whole_noise.exr
+    expect 0 $noisy --samples 64 --checkpoint noise.exr -o part.exr
+    expect 0 $noisy --samples 128 --checkpoint noise.exr --resume -o resumed_noise.exr
+    cmp -s whole_noise.exr resumed_noise.exr || failed "a resumed adaptive picture differs"
     cp state.exr before.exr
     expect 0 $path --format exr32 --checkpoint state.exr --resume -o again.exr
     cmp -s whole.exr again.exr || failed "a picture that is done differs"
