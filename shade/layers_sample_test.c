@@ -260,31 +260,45 @@ static void test_mirrors_continue_lobes(void **state)
     expect_continuous(coated, smooth, 2e-3, "coat");
 }
 
-/* What scatters has no part of the mirrors, and is all of the rest. */
+/* What scatters is all of a surface without mirrors, bit for bit; of one with mirrors it is all but for the directions of
+ * those, where the lobes that stand for them are hundreds high and what scatters is not. */
 static void test_scatter_leaves_out_mirrors(void **state)
 {
     (void)state;
     test_rng rng = {3};
-    for (int i = 0; i < 3000; ++i) {
-        vec3 V = random_view(&rng, 0.05f), L = rng_direction(&rng);
-        Layers m = random_layers(&rng, rng_uint(&rng) % 512u, V, false);
-        LayerTables t = layer_tables(m, V, i % 2, vec2(0.7f, 0.2f), 0.9f, 0.8f, 0.3f, vec3(0.2f, 0.9f, 0.8f));
-        vec3 whole = layers_brdf_cos(m, V, L, i % 2, t, 0.2f);
-        vec3 scattered = layers_scatter_cos(m, V, L, i % 2, t, 0.2f);
-        if (layers_scattering_lobes(m) ==
-            (LOBE_SPECULAR | (has_layer(m, LAYER_TRANSMISSION) ? LOBE_TRANSMISSION : 0u) |
-             (has_layer(m, LAYER_CLEARCOAT) ? LOBE_CLEARCOAT : 0u)))
+    int rough = 0, high = 0;
+    for (int i = 0; i < 6000; ++i) {
+        int energy = i % 2;
+        vec3 V = random_view(&rng, 0.1f), L = rng_direction(&rng);
+        Layers m = random_layers(&rng, rng_uint(&rng) % 512u & ~LAYER_DISPERSION, V, false);
+        LayerTables t =
+            layer_tables(m, V, energy, vec2(0.7f, 0.2f), 0.9f, 0.8f, 0.3f, vec3(0.2f, 0.9f, 0.8f));
+        vec3 whole = layers_brdf_cos(m, V, L, energy, t, 0.2f);
+        vec3 scattered = layers_scatter_cos(m, V, L, energy, t, 0.2f);
+        uint lobes = LOBE_SPECULAR;
+        lobes |= has_layer(m, LAYER_TRANSMISSION) ? LOBE_TRANSMISSION : 0u;
+        lobes |= has_layer(m, LAYER_CLEARCOAT) ? LOBE_CLEARCOAT : 0u;
+        if (layers_scattering_lobes(m) == lobes) {
             assert_memory_equal(&whole, &scattered, 3 * sizeof(float));
-        Layers smooth = m;
-        smooth.base.alpha = 0.0f;
-        smooth.anisotropy = smooth.clearcoat_roughness = 0.0f;
-        scattered = layers_scatter_cos(smooth, V, L, i % 2, t, 0.2f);
-        smooth.layers = m.layers & LAYER_SHEEN;
-        if (!(m.layers & ~(LAYER_SHEEN | LAYER_CLEARCOAT))) { /* below the coat: diffuse and sheen */
-            smooth.base.F0 = smooth.base.base_color * 0.0f;
-            assert_true(max3(scattered) <= 0.8f);
+            ++rough;
         }
+        m.base.alpha = m.anisotropy = m.clearcoat_roughness = 0.0f;
+        assert_true(layers_scattering_lobes(m) == 0u);
+        vec3 N = m.base.N, through = has_layer(m, LAYER_VOLUME) ? refract_or_zero(-V, N, m.eta) : -V;
+        vec3 mirrors[3] = {reflect(-V, N), through, reflect(-V, m.clearcoat_N)};
+        bool is_near = false;
+        for (int k = 0; k < 3; ++k)
+            is_near = is_near || length(L - mirrors[k]) < 0.1f;
+        whole = layers_brdf_cos(m, V, L, energy, t, 0.2f);
+        scattered = layers_scatter_cos(m, V, L, energy, t, 0.2f);
+        for (int c = 0; c < 3 && !is_near; ++c)
+            expect_near((double)scattered[c], (double)whole[c], 1e-3, "layers 0x%x", m.layers);
+        float there = max3(layers_brdf_cos(m, V, mirrors[0], energy, t, 0.2f));
+        float left = max3(layers_scatter_cos(m, V, mirrors[0], energy, t, 0.2f));
+        high += there > 100.0f;
+        assert_true(left < 20.0f); /* of what is left, sheen is the highest */
     }
+    assert_true(rough > 4000 && high > 5000);
 }
 
 /* ---- both ways ---- */
@@ -371,6 +385,9 @@ static void test_weights_are_bounded(void **state)
         print_message("energy %d: largest weight %.2f; above 2, 4, 8: %d, %d, %d of %d\n", energy,
                       (double)worst[energy], over[energy][0], over[energy][1], over[energy][2],
                       MATERIALS * EACH);
+    assert_true(worst[ENERGY_CONSERVING] < 6.0f && worst[ENERGY_GLTF] < 10.0f);
+    assert_true(over[ENERGY_CONSERVING][1] < MATERIALS * EACH / 10000);
+    assert_true(over[ENERGY_GLTF][1] < MATERIALS * EACH / 1000);
 }
 
 /* ---- robustness ---- */
