@@ -63,14 +63,14 @@ static void place_light(fixture *f, int number)
     fixture_add_light(f, light, -0.5f, 0.5f, 4.0f);
 }
 
-/* A body so finely divided that shading and geometric normals part by less than 0.007 rad. */
+/* A body so finely divided that shading and geometric normals part by less than 0.01 rad. */
 static fixture body(int material, facet_energy energy)
 {
     fixture f = truth_create();
     f.desc.energy = energy;
     f.desc.width = f.desc.height = SIZE;
     f.desc.background = FACET_BACKGROUND_TRANSPARENT;
-    fixture_place(&f, fixture_add_sphere(&f, 512, fixture_add_material(&f, material_number(material))), 0.0f,
+    fixture_place(&f, fixture_add_sphere(&f, 384, fixture_add_material(&f, material_number(material))), 0.0f,
                   0.0f, 0.0f, 1.0f);
     f.camera = (facet_camera){.eye = {0.0f, 0.0f, 10.0f}, .ortho_height = 2.1f};
     return f;
@@ -141,7 +141,7 @@ static void smooth_sky(const double d[3], float rgb[3])
 /* Means over the body: preview over path. */
 static void compare_means(fixture *f, int material, const char *what, double bound)
 {
-    f->desc.samples = 1024;
+    f->desc.samples = 256;
     film preview, path;
     draw_both(f, &preview, &path);
     double sum[2][3] = {{0.0}};
