@@ -519,7 +519,8 @@ typedef struct facet_path_desc {
     float shutter_s; /* the picture is the mean over pose.time_s to time_s + shutter_s; 0: an instant */
     const char *
         checkpoint_path; /* an .exr: what is drawn so far is kept there every checkpoint_interval_s, at the time
-                                    limit, when cancelled, at the end. NULL: none */
+                                    limit, when cancelled, at the end. NULL: none. FACET_ERROR_ARGUMENT: one is there
+                                    already, and resumes is false */
     double checkpoint_interval_s; /* 0: 60 */
     bool
         resumes; /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there

@@ -67,6 +67,23 @@ static bool is_an_input(const command_line *c, const render_options *o, const ch
            (config_path && input_is_same_file(name, config_path));
 }
 
+/* A checkpoint takes the place of nothing but an earlier one; that it is one is found when it is read. */
+static facet_result check_checkpoint(const command_line *c, const render_options *o, const char *model,
+                                     const char *picture, facet_error *error)
+{
+    char name[RENDER_NAME_SIZE];
+    facet_result result = render_checkpoint_name(o, model, 1, name, sizeof name, error);
+    if (result != FACET_OK || !o->checkpoint)
+        return result;
+    result = output_check(name, error);
+    if (result == FACET_OK && output_exists(name) &&
+        (is_an_input(c, o, model, name) || (output_exists(picture) && input_is_same_file(name, picture))))
+        result =
+            fail_with(error, FACET_ERROR_ARGUMENT,
+                      "--checkpoint: %s is an input or the picture, too, and would be overwritten", name);
+    return result;
+}
+
 facet_result render_names_check(const command_line *c, const render_options *o, facet_error *error)
 {
     size_t count = c->argument_count ? c->argument_count : 1, done = 0;
@@ -82,6 +99,8 @@ facet_result render_names_check(const command_line *c, const render_options *o, 
             result = fail_with(
                 error, FACET_ERROR_ARGUMENT,
                 "%s: it is an input, too, and would be overwritten; name another output with -o", name);
+        if (result == FACET_OK)
+            result = check_checkpoint(c, o, model, name, error);
         if (result == FACET_OK) {
             names[i] = malloc(strlen(name) + 1);
             if (names[i])

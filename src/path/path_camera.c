@@ -33,7 +33,9 @@ static void put_on_lens(const camera_rays *rays, const facet_camera *camera, vec
     vec3 down = normalize(load3(rays->is_orthographic ? rays->origin_dy : rays->direction_dy));
     vec3 offset = right * point[0] + down * point[1];
     store3(load3(ray->origin) + offset, ray->origin);
-    store3(load3(ray->direction) - offset * (1.0f / focus), ray->direction);
+    /* What is nearer than a millionth of the lens' radius is not told apart: the square of the direction stays finite. */
+    store3(load3(ray->direction) - offset * (1.0f / max(focus, 1e-6f * camera->lens_radius_m)),
+           ray->direction);
 }
 
 /* Makes the direction one of unit length; the planes near and far stay where they are. */

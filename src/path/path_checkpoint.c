@@ -3,12 +3,12 @@
  * texts: what the file is, which picture it is of, and a digest of its numbers, since stored channels have no checksums. */
 #include "path/path_film_state.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -59,6 +59,18 @@ static uint64_t digest_of(const path_film *f, const char *key, uint64_t dropped)
     uint64_t hash = cache_hash(dropped, key, strlen(key));
     hash = cache_hash(hash, f->pixels, count * sizeof *f->pixels);
     return f->ground ? cache_hash(hash, f->ground, count * sizeof *f->ground) : hash;
+}
+
+/* ---- the place ---- */
+
+/* What is there that is neither file nor folder (a pipe may never be read, nor written) is refused. */
+static facet_result check_place(const char *path, bool *exists, facet_error *error)
+{
+    struct stat info;
+    *exists = stat(path, &info) == 0;
+    if (*exists && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
+        return fail(error, FACET_ERROR_WRITE, "%s: a checkpoint is a file, and this is none", path);
+    return FACET_OK;
 }
 
 /* ---- writing ---- */
@@ -220,22 +232,13 @@ static facet_result read_film(const checkpoint *c, path_film *f, const char *key
     return result;
 }
 
-static bool is_missing(const char *path)
-{
-    errno = 0;
-    FILE *file = fopen(path, "rb");
-    if (file)
-        fclose(file);
-    return !file && errno == ENOENT;
-}
-
 facet_result path_film_load(path_film *f, const char *key, const char *path, bool *exists, facet_error *error)
 {
     checkpoint c = {.path = path};
-    *exists = !is_missing(path);
-    if (!*exists)
-        return FACET_OK;
-    facet_result result = file_open(path, 0, &f->allocator, &c.file, error);
+    facet_result result = check_place(path, exists, error);
+    if (result != FACET_OK || !*exists)
+        return result;
+    result = file_open(path, 0, &f->allocator, &c.file, error);
     if (result == FACET_OK)
         result = check_kind(&c, error);
     if (result == FACET_OK)
@@ -243,5 +246,16 @@ facet_result path_film_load(path_film *f, const char *key, const char *path, boo
     if (result == FACET_OK)
         result = read_film(&c, f, key, error);
     file_close(&c.file);
+    return result;
+}
+
+facet_result path_checkpoint_check(const char *path, facet_error *error)
+{
+    bool exists;
+    facet_result result = check_place(path, &exists, error);
+    if (result == FACET_OK && exists)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: it is there already and would be lost; resume it, remove it, or name another file",
+                    path);
     return result;
 }

@@ -45,6 +45,8 @@ void path_film_resolve(const path_film *f, float scale, film *target, uint32_t t
  * with FACET_ERROR_WRITE, _MEMORY, and _UNSUPPORTED in a build without OpenEXR. */
 facet_result path_film_save(const path_film *f, const char *key, const char *path, uint32_t thread_count,
                             facet_error *error);
+/* Whether a new checkpoint may be written there: nothing is. FACET_ERROR_ARGUMENT, FACET_ERROR_WRITE where it is no file. */
+facet_result path_checkpoint_check(const char *path, facet_error *error);
 /* Reads it into a film of the same size, which stays as it is on failure. FACET_ERROR_ARGUMENT: another picture's key or size,
  * FACET_ERROR_INVALID: no checkpoint, damaged. *exists: false, and FACET_OK, where there is no such file. */
 facet_result path_film_load(path_film *f, const char *key, const char *path, bool *exists,

@@ -41,6 +41,8 @@ typedef struct path_picture {
     path_scene scene;
     /* of one pass */
     uint32_t goal; /* samples that a pixel has behind it */
+    uint32_t
+        cut_off_at; /* samples of the pixels that are drawn; 0: those that path_film_needs_more() names */
     uint32_t tile_columns;
     render_watch watch;
     _Atomic uint64_t rays;
@@ -77,7 +79,7 @@ static void draw_tile(path_picture *p, uint32_t tile)
         for (uint32_t x = left; x < right; x++) {
             size_t pixel = (size_t)y * p->target->width + x;
             uint32_t before = path_film_samples(p->sums, pixel);
-            if (path_film_needs_more(p->sums, pixel))
+            if (p->cut_off_at ? before == p->cut_off_at : path_film_needs_more(p->sums, pixel))
                 rays += draw_pixel(p, x, y, pixel);
             done += p->goal > before ? p->goal - before : 0;
         }
@@ -142,19 +144,24 @@ static double shutter_share(uint32_t i)
     return share;
 }
 
-/* The number of samples at which the next pass ends. */
+/* The number of samples at which the pass ends that a pixel with `goal` is in: 1, 2, 4, .. LARGEST_PASS, and its
+ * multiples, whatever number a picture was begun or interrupted at. */
 static uint32_t next_goal(const path_picture *p, uint32_t goal)
 {
-    uint64_t next = goal + (uint64_t)(goal < LARGEST_PASS ? (goal ? goal : 1) : LARGEST_PASS);
+    uint32_t step = LARGEST_PASS;
     if (p->desc->path.shutter_s > 0.0f)
-        next = goal / SHUTTER_SAMPLES * SHUTTER_SAMPLES + (uint64_t)SHUTTER_SAMPLES;
+        step = SHUTTER_SAMPLES;
+    else if (goal < LARGEST_PASS)
+        for (step = 1; step <= goal;)
+            step *= 2;
+    uint64_t next = ((uint64_t)goal / step + 1) * step;
     return next < p->desc->samples ? (uint32_t)next : p->desc->samples;
 }
 
 static facet_result next_instant(path_picture *p, uint32_t goal, facet_error *error)
 {
     bool is_moving = p->desc->path.shutter_s > 0.0f;
-    if (p->lights && !(is_moving && goal % SHUTTER_SAMPLES == 0))
+    if (p->lights && !is_moving)
         return FACET_OK;
     if (is_moving)
         p->instant.pose.time_s =
@@ -164,18 +171,23 @@ static facet_result next_instant(path_picture *p, uint32_t goal, facet_error *er
 
 /* ---- checkpoints ---- */
 
-static facet_result save(path_picture *p, facet_error *error)
+/* A picture is not given up because its checkpoint cannot be written. */
+static void save(path_picture *p)
 {
     const char *path = p->desc->path.checkpoint_path;
+    facet_error error;
     p->saved_s = clock_seconds();
-    return path ? path_film_save(p->sums, p->key.hex, path, p->desc->thread_count, error) : FACET_OK;
+    if (!path || path_film_save(p->sums, p->key.hex, path, p->desc->thread_count, &error) == FACET_OK)
+        return;
+    if (p->desc->log.message)
+        p->desc->log.message(p->desc->log.user, FACET_LOG_WARNING, error.message);
 }
 
-static facet_result save_from_time_to_time(path_picture *p, facet_error *error)
+static void save_from_time_to_time(path_picture *p)
 {
     double interval = p->desc->path.checkpoint_interval_s;
-    bool is_time = clock_seconds() - p->saved_s > (interval > 0.0 ? interval : 60.0);
-    return p->desc->path.checkpoint_path && is_time ? save(p, error) : FACET_OK;
+    if (clock_seconds() - p->saved_s > (interval > 0.0 ? interval : 60.0))
+        save(p);
 }
 
 static facet_result resume(path_picture *p, facet_error *error)
@@ -183,10 +195,13 @@ static facet_result resume(path_picture *p, facet_error *error)
     p->saved_s = clock_seconds();
     if (!p->desc->path.checkpoint_path)
         return FACET_OK;
+    const char *path = p->desc->path.checkpoint_path;
     facet_result result = path_key_create(p->prepared, p->desc, &p->key, error);
     bool exists = false;
-    if (result == FACET_OK && p->desc->path.resumes)
-        result = path_film_load(p->sums, p->key.hex, p->desc->path.checkpoint_path, &exists, error);
+    if (result == FACET_OK && !p->desc->path.resumes)
+        return path_checkpoint_check(path, error);
+    if (result == FACET_OK)
+        result = path_film_load(p->sums, p->key.hex, path, &exists, error);
     return result;
 }
 
@@ -213,8 +228,29 @@ static sample_range count_samples(const path_picture *p)
 static uint32_t first_goal(const path_picture *p)
 {
     sample_range range = count_samples(p);
-    bool is_adaptive = p->desc->path.noise > 0.0f && !(p->desc->path.shutter_s > 0.0f);
-    return is_adaptive && range.most < p->desc->samples ? range.most : range.fewest;
+    bool is_adaptive = p->desc->path.noise > 0.0f && range.most < p->desc->samples;
+    return is_adaptive ? range.most : range.fewest;
+}
+
+/* Whether regions are judged before the pass that begins at goal. One that an earlier, shorter picture ended in is first
+ * brought to its end. */
+static bool judges_at(const path_picture *p, uint32_t goal)
+{
+    if (p->desc->path.shutter_s > 0.0f)
+        return goal % SHUTTER_SAMPLES == 0;
+    return goal % LARGEST_PASS == 0 || (goal < LARGEST_PASS && (goal & (goal - 1)) == 0);
+}
+
+/* What is still noisy goes on; of a pass that was cut off, the pixels that were in it. True: all is calm. */
+static bool judge(path_picture *p, uint32_t goal)
+{
+    p->cut_off_at = 0;
+    if (p->desc->path.noise > 0.0f && !judges_at(p, goal)) {
+        p->cut_off_at = goal;
+        return false;
+    }
+    path_film_update(p->sums, p->desc->path.noise, p->desc->thread_count);
+    return path_film_share_done(p->sums) >= 1.0f;
 }
 
 /* Pass after pass until all is done, or the watch stops it. */
@@ -223,18 +259,15 @@ static facet_result draw_passes(path_picture *p, facet_error *error)
     uint32_t goal = first_goal(p);
     facet_result result = FACET_OK;
     while (goal < p->desc->samples && result == FACET_OK && !render_watch_is_stopped(&p->watch)) {
-        path_film_update(p->sums, p->desc->path.noise, p->desc->thread_count);
-        if (path_film_share_done(p->sums) >= 1.0f)
+        if (judge(p, goal))
             break;
-        if (p->desc->path.shutter_s > 0.0f)
-            goal = goal / SHUTTER_SAMPLES * SHUTTER_SAMPLES;
         result = next_instant(p, goal, error);
         if (result != FACET_OK)
             break;
         goal = next_goal(p, goal);
         draw_pass(p, goal);
         if (!render_watch_is_stopped(&p->watch))
-            result = save_from_time_to_time(p, error);
+            save_from_time_to_time(p);
     }
     return result;
 }
@@ -243,9 +276,9 @@ static facet_result draw_passes(path_picture *p, facet_error *error)
 static facet_result conclude(path_picture *p, facet_error *error)
 {
     int ended = atomic_load(&p->watch.result);
-    facet_result result = save(p, error);
-    if (result != FACET_OK || ended == FACET_OK)
-        return result;
+    save(p);
+    if (ended == FACET_OK)
+        return FACET_OK;
     if (ended == FACET_ERROR_LIMIT && count_samples(p).fewest > 0) {
         p->stats->is_partial = true;
         return FACET_OK;

@@ -484,7 +484,7 @@ static void nothing_leaks(void **state)
                       scale);
         s.f.camera =
             (facet_camera){.eye = {x, 0.0f, 0.0f}, .target = {x, 0.1f * scale, -scale}, .fov_y_rad = 2.0f};
-        s.f.desc.samples = 128;
+        s.f.desc.samples = 16;
         mean seen = measure(&s);
         assert_true(seen.radiance[0] == 0.0 && seen.opacity == 1.0);
         fixture_destroy(&s.f);

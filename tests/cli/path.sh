@@ -34,6 +34,7 @@ expect 2 render --renderer path --sun 30,100 -o x.png
 expect 2 render --renderer path --aperture -1 -o x.png
 expect 2 render --renderer path --focus 0 -o x.png
 expect 2 render --renderer path --shutter 1m -o x.png
+expect 0 $path --samples 1 --aperture 0.1 --focus 1e-30 -o blurred.png
 expect 2 render --renderer path --resume -o x.png
 says "--checkpoint FILE"
 expect 2 render --renderer path --checkpoint state.png -o x.png
@@ -71,6 +72,21 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     says "cut.exr"
     expect 6 $path --checkpoint no/such/folder/state.exr -o other.exr
     expect 0 $path --checkpoint new.exr --resume -o first.exr
+    expect 2 $path --checkpoint new.exr -o first.exr
+    says "new.exr: it is there already"
+    cp first.exr light.exr
+    expect 2 $path --env light.exr --checkpoint ./light.exr --resume -o other.exr
+    expect 2 $path --checkpoint ./first.exr --resume -o first.exr
+    if command -v mkfifo >/dev/null; then
+        mkfifo pipe.exr
+        expect 6 $path --checkpoint pipe.exr --resume -o other.exr
+        says "pipe.exr"
+    fi
+    # A pass that a shorter picture ended in, and what was judged there.
+    expect 0 $noisy --samples 200 -o whole_noise.exr
+    expect 0 $noisy --samples 70 --checkpoint cut_pass.exr -o part.exr
+    expect 0 $noisy --samples 200 --checkpoint cut_pass.exr --resume -o resumed_noise.exr
+    cmp -s whole_noise.exr resumed_noise.exr || failed "an adaptive picture that a pass was cut off of differs"
 
     # What was drawn before an interruption is there afterwards.
     "$facet" render --renderer path --size 48x32 --samples 10000000 --checkpoint cut_off.exr -o cut_off.png 2>err &
