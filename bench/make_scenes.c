@@ -457,8 +457,8 @@ static void write_light(const char *folder, const char *name, uint32_t rows, lig
     for (uint32_t i = 0; i < 2 * rows * rows; i++)
         at(((float)(i % (2 * rows)) + 0.5f) / (float)(2 * rows),
            ((float)(i / (2 * rows)) + 0.5f) / (float)rows, pixels + 3 * i);
-    unsigned char *bytes;
-    size_t size;
+    unsigned char *bytes = NULL;
+    size_t size = 0;
     char *path = path_join(NULL, folder, name);
     if (!path ||
         image_encode(&picture, IMAGE_CODEC_HDR, &(image_encode_desc){0}, &bytes, &size, &error) != FACET_OK ||
