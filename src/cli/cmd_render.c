@@ -184,6 +184,9 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     facet_image *image = NULL;
     result = facet_renderer_render(m->renderer, &desc, &image, error);
     progress_clear();
+    if (result == FACET_ERROR_CANCELLED && o->checkpoint)
+        message_at(&run->messages, VERBOSITY_NORMAL, "%s: interrupted; --resume goes on with %s",
+                   report->output, checkpoint);
     if (result != FACET_OK)
         return result;
     double rendered = interrupt_clock();

@@ -29,7 +29,8 @@ static const option machine_options[] = {
      .name = "time-limit",
      .kind = OPTION_TEXT,
      .argument = "TIME",
-     .help = "give up (exit 7) after this time for the whole command: 500ms, 30s, 5m"},
+     .help = "for the whole command: 500ms, 30s, 5m; then exit 7, but path tracing gives the picture that it "
+             "has"},
 };
 
 static const option message_options[] = {

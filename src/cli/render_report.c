@@ -16,17 +16,16 @@ void report_picture(const messages *m, const picture_report *p, bool is_news)
         message_at(m, VERBOSITY_NORMAL, "%s: kept; it was there already", name);
         return;
     }
-    message_at(m, least, "%s: %ux%u, %u %s, %.2f s", name, p->width, p->height, p->samples,
-               p->samples == 1 ? "sample" : "samples", p->total_s);
     const facet_render_stats *s = &p->stats;
+    double drawn = s->samples ? (double)s->samples / ((double)p->width * p->height) : p->samples;
+    message_at(m, least, "%s: %ux%u, %.4g %s, %.2f s", name, p->width, p->height, drawn,
+               drawn < 1.5 ? "sample" : "samples", p->total_s);
     if (s->is_partial)
         message_at(m, VERBOSITY_NORMAL, "%s: the time limit came after %.1f of %u samples per pixel", name,
-                   (double)s->samples / ((double)p->width * p->height), p->samples);
+                   drawn, p->samples);
     if (s->samples)
-        message_at(m, VERBOSITY_DETAILS,
-                   "%s: %.1f samples per pixel on average, %.2f M rays/s, %.2f M paths/s", name,
-                   (double)s->samples / ((double)p->width * p->height), 1e-6 * (double)s->rays / s->shade_s,
-                   1e-6 * (double)s->samples / s->shade_s);
+        message_at(m, VERBOSITY_DETAILS, "%s: %.1f of %u samples per pixel on average, %.2f M rays/s", name,
+                   drawn, p->samples, 1e-6 * (double)s->rays / s->shade_s);
     message_at(
         m, VERBOSITY_TIMINGS,
         "%s: load %.1f ms, textures %.1f ms, geometry %.1f ms, light %.1f ms, shade %.1f ms, render %.1f ms, "
