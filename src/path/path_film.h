@@ -38,6 +38,10 @@ float path_film_share_done(const path_film *f);
  * of independent samples, which is the most that it can be), samples. */
 void path_film_resolve(const path_film *f, float scale, film *target, uint32_t thread_count);
 
+/* Filters the noise out of the shadow on the ground, in place: biased, for a film that gets no more samples and is not
+ * kept. FACET_ERROR_MEMORY. */
+facet_result path_film_calm_ground(path_film *f, uint32_t thread_count, facet_error *error);
+
 /* ---- checkpoints ---- */
 
 /* Writes all of it into an OpenEXR file, whole or nothing, bit for bit, that other programs can look at: the layers "" (RGBA,

@@ -253,6 +253,57 @@ static void weights_divided_out(void **state)
     path_film_destroy(f);
 }
 
+/* A shadow with an edge down the middle, of 16 noisy samples a pixel: calm on both sides, and still an edge. */
+static void a_shadow_becomes_calm(void **state)
+{
+    (void)state;
+    enum { SIDE = 48 };
+    path_film *f = create(SIDE, SIDE, true);
+    uint32_t random = 1;
+    double before = 0.0;
+    double after = 0.0;
+    for (uint32_t i = 0; i < SIDE * SIDE; i++)
+        for (int n = 0; n < 16; n++) {
+            random = random * 1664525u + 1013904223u;
+            bool is_lit = (double)(random >> 8) / 16777216.0 > (i % SIDE < SIDE / 2 ? 0.2 : 0.7);
+            path_sample s = {0};
+            for (int c = 0; c < 3; c++) {
+                s.ground_open[c] = 1.0f;
+                s.ground_lit[c] = is_lit ? 1.0f : 0.0f;
+            }
+            path_film_add(f, i, &s);
+        }
+    for (int is_calm = 0; is_calm < 2; is_calm++) {
+        if (is_calm)
+            assert_int_equal(path_film_calm_ground(f, 2, NULL), FACET_OK);
+        double *sum = is_calm ? &after : &before;
+        for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+            double expected = i % SIDE < SIDE / 2 ? 0.2 : 0.7;
+            *sum += ((double)f->ground[i].taken - expected) * ((double)f->ground[i].taken - expected);
+        }
+    }
+    assert_true(after * 25.0 < before); /* a fifth of the error, edge and all */
+    path_film_destroy(f);
+}
+
+/* What has no noise keeps its shape. */
+static void a_calm_shadow_stays(void **state)
+{
+    (void)state;
+    path_film *f = create(16, 4, true);
+    for (uint32_t i = 0; i < 64; i++)
+        for (int n = 0; n < 8 && i % 16 > 2; n++) { /* the first columns see no ground */
+            path_sample s = {.ground_open = {1.0f, 1.0f, 1.0f}, .ground_lit = {0.0f, 0.0f, 0.0f}};
+            for (int c = 0; c < 3; c++)
+                s.ground_lit[c] = i % 16 < 8 ? 0.25f : 0.75f;
+            path_film_add(f, i, &s);
+        }
+    assert_int_equal(path_film_calm_ground(f, 1, NULL), FACET_OK);
+    for (uint32_t i = 0; i < 64; i++)
+        assert_near(f->ground[i].taken, i % 16 > 2 ? (i % 16 < 8 ? 0.75 : 0.25) : 0.0, 1e-6);
+    path_film_destroy(f);
+}
+
 static void guides(void **state)
 {
     (void)state;
@@ -556,6 +607,8 @@ int main(void)
         cmocka_unit_test(huge_light_stays_finite),
         cmocka_unit_test(negative_weights),
         cmocka_unit_test(weights_divided_out),
+        cmocka_unit_test(a_shadow_becomes_calm),
+        cmocka_unit_test(a_calm_shadow_stays),
         cmocka_unit_test(guides),
         cmocka_unit_test(shadows_lie_under_the_picture),
         cmocka_unit_test(noise_does_not_darken_the_ground),

@@ -356,6 +356,11 @@ static facet_result develop(path_picture *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
     float scale = exp2f(desc->exposure_ev);
+    if (desc->path.denoises) {
+        facet_result result = path_film_calm_ground(p->sums, desc->thread_count, error);
+        if (result != FACET_OK)
+            return result;
+    }
     path_film_resolve(p->sums, scale, p->target, desc->thread_count);
     p->stats->samples = path_film_total_samples(p->sums);
     p->stats->dropped_samples = path_film_dropped(p->sums);

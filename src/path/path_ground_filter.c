@@ -1,0 +1,112 @@
+/* path_ground_filter.c - see path_film_calm_ground(). */
+#include "path/path_film_state.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+
+enum { LEVELS = 4, GRAIN_ROWS = 8 };
+
+/* What is known of the shadow in a pixel. */
+typedef struct shadow {
+    float taken;    /* share of the light, not limited to [0, 1]: its noise is to average out */
+    float variance; /* of that */
+    float weight;   /* samples of the ground; 0: none is seen */
+} shadow;
+
+typedef struct filtering {
+    uint32_t width, height, step;
+    const shadow *from;
+    shadow *to;
+} filtering;
+
+static float square(float x)
+{
+    return x * x;
+}
+
+/* One level of the a-trous wavelet: 5 x 5 taps, step pixels apart, of a B3 spline; less of what differs by more than its noise.
+ * Dammertz et al. 2010; the range weight by variance after Schied et al. 2017. */
+static shadow filter_pixel(const filtering *f, uint32_t x, uint32_t y)
+{
+    static const float spline[3] = {0.375f, 0.25f, 0.0625f};
+    const shadow *here = &f->from[(size_t)y * f->width + x];
+    float sum = 0.0f;
+    float taken = 0.0f;
+    float variance = 0.0f;
+    for (int dy = -2; dy <= 2; dy++)
+        for (int dx = -2; dx <= 2; dx++) {
+            int64_t px = (int64_t)x + dx * (int64_t)f->step;
+            int64_t py = (int64_t)y + dy * (int64_t)f->step;
+            if (px < 0 || py < 0 || px >= f->width || py >= f->height)
+                continue;
+            const shadow *there = &f->from[(size_t)py * f->width + (size_t)px];
+            float noise = here->variance + there->variance;
+            float difference = square(here->taken - there->taken);
+            float w = spline[abs(dx)] * spline[abs(dy)] * there->weight *
+                      expf(-0.25f * difference / (noise + 1e-6f));
+            sum += w;
+            taken += w * there->taken;
+            variance += w * w * there->variance;
+        }
+    if (!(sum > 0.0f))
+        return *here;
+    return (shadow){.taken = taken / sum, .variance = variance / square(sum), .weight = here->weight};
+}
+
+static void filter_rows(void *context, size_t begin, size_t end)
+{
+    const filtering *f = context;
+    for (size_t y = begin; y < end; y++)
+        for (uint32_t x = 0; x < f->width; x++) {
+            size_t i = y * f->width + x;
+            f->to[i] = f->from[i].weight > 0.0f ? filter_pixel(f, x, (uint32_t)y) : f->from[i];
+        }
+}
+
+/* A single sample has no variance of its own: it is as far off as a shadow can be. */
+static shadow shadow_of(const path_ground *g)
+{
+    if (!(g->samples > 0.0f && g->open > 0.0f))
+        return (shadow){.weight = 0.0f};
+    float variance = g->samples > 1.0f ? g->spread / (g->samples - 1.0f) / square(g->open) : 0.25f;
+    return (shadow){.taken = g->taken / g->open, .variance = fminf(variance, 1.0f), .weight = g->samples};
+}
+
+facet_result path_film_calm_ground(path_film *f, uint32_t thread_count, facet_error *error)
+{
+    size_t count = (size_t)f->width * f->height;
+    if (!f->ground)
+        return FACET_OK;
+    shadow *buffers[2] = {mem_alloc(&f->allocator, count, sizeof(shadow)),
+                          mem_alloc(&f->allocator, count, sizeof(shadow))};
+    if (!buffers[0] || !buffers[1]) {
+        mem_free(buffers[0]);
+        mem_free(buffers[1]);
+        return fail_memory(error, "the shadow on the ground", 2 * count * sizeof(shadow));
+    }
+    for (size_t i = 0; i < count; i++)
+        buffers[0][i] = shadow_of(&f->ground[i]);
+    for (uint32_t level = 0; level < LEVELS; level++) {
+        filtering pass = {.width = f->width,
+                          .height = f->height,
+                          .step = 1u << level,
+                          .from = buffers[level % 2],
+                          .to = buffers[(level + 1) % 2]};
+        parallel_for(thread_count, f->height, GRAIN_ROWS, filter_rows, &pass);
+    }
+    const shadow *calm = buffers[LEVELS % 2];
+    for (size_t i = 0; i < count; i++) {
+        path_ground *g = &f->ground[i];
+        if (!(calm[i].weight > 0.0f))
+            continue;
+        g->taken = calm[i].taken * g->open;
+        g->spread = calm[i].variance * square(g->open) * fmaxf(g->samples - 1.0f, 0.0f);
+    }
+    mem_free(buffers[0]);
+    mem_free(buffers[1]);
+    return FACET_OK;
+}
