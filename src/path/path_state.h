@@ -29,6 +29,7 @@ typedef struct path {
     path_origin from;
     media media;          /* what P is in */
     float wavelength_nm;  /* 0: all */
+    float at_first;       /* largest channel of throughput behind the first surface; 0: not there yet */
     uint32_t depth;       /* surfaces and scattering events behind it */
     uint32_t vertex;      /* the same with those that light passes straight: number for the sampler */
     bool has_crossed;     /* what transmits, since from: straight shadows find the light behind it */
