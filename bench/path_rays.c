@@ -1,6 +1,7 @@
 /* path_rays.c - see path_rays.h. */
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -23,7 +24,18 @@ typedef struct recorder {
 } recorder;
 
 static recorder recording;
+static bool counts_processors;
 static const ray_spread NO_SPREAD = {.moves = false, .turns = false};
+
+double rays_now(bool by_processors, uint32_t thread_count)
+{
+    return by_processors ? (double)clock() / CLOCKS_PER_SEC / thread_count : clock_seconds();
+}
+
+void rays_count_processors(bool by_processors)
+{
+    counts_processors = by_processors;
+}
 
 void rays_record(size_t capacity)
 {
@@ -134,9 +146,9 @@ rays_result rays_trace_facet(const shading_scene *scene, rays_kind kind, uint32_
     if (!p.hits)
         abort();
     memset(p.hits, 1, p.count * sizeof *p.hits); /* its pages are there */
-    double start = clock_seconds();
+    double start = rays_now(counts_processors, thread_count);
     parallel_for(thread_count, p.count, GRAIN, trace_facet, &p);
-    rays_result result = {.seconds = clock_seconds() - start};
+    rays_result result = {.seconds = rays_now(counts_processors, thread_count) - start};
     for (size_t i = 0; i < p.count; i++)
         result.hits += p.hits[i].geometry != VISIBILITY_NONE;
     mem_free(p.hits);
@@ -177,9 +189,9 @@ rays_result rays_trace_embree(const shading_scene *scene, rays_kind kind, uint32
         p.embree[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
         p.embree[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     }
-    double start = clock_seconds();
+    double start = rays_now(counts_processors, thread_count);
     parallel_for(thread_count, p.count, GRAIN, trace_embree, &p);
-    rays_result result = {.seconds = clock_seconds() - start};
+    rays_result result = {.seconds = rays_now(counts_processors, thread_count) - start};
     for (size_t i = 0; i < p.count; i++)
         result.hits += kind == RAYS_SHADOW ? p.embree[i].ray.tfar < 0.0f
                                            : p.embree[i].hit.geomID != RTC_INVALID_GEOMETRY_ID;
@@ -220,9 +232,9 @@ rays_result rays_trace_packets(const shading_scene *scene, rays_kind kind, uint3
             q->hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
     pass p = {.scene = scene, .kind = kind, .count = count, .packet = packets};
-    double start = clock_seconds();
+    double start = rays_now(counts_processors, thread_count);
     parallel_for(thread_count, count, GRAIN / 16, trace_packets, &p);
-    rays_result result = {.seconds = clock_seconds() - start};
+    rays_result result = {.seconds = rays_now(counts_processors, thread_count) - start};
     for (size_t i = 0; i < 16 * count; i++)
         result.hits += packets[i / 16].hit.geomID[i % 16] != RTC_INVALID_GEOMETRY_ID;
     free(packets);

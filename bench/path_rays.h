@@ -14,9 +14,16 @@ typedef struct rays_result {
     uint64_t hits; /* of shadow rays: those that something stops */
 } rays_result;
 
+/* Seconds since something, for differences: of the clock, or with by_processors of all processors that the process had,
+ * over thread_count. The latter hardly depends on what else the machine does. */
+double rays_now(bool by_processors, uint32_t thread_count);
+
 /* Keeps up to capacity rays of each kind from now on, of one thread; 0: no more. What was kept before is gone. */
 void rays_record(size_t capacity);
 size_t rays_count(rays_kind kind);
+
+/* Whether the seconds of what follows are those of processors. */
+void rays_count_processors(bool by_processors);
 
 /* All rays of a kind by the function of ray_trace.h that path_trace() called, results kept. */
 rays_result rays_trace_facet(const shading_scene *scene, rays_kind kind, uint32_t thread_count);
