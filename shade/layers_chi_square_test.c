@@ -136,10 +136,12 @@ static double p_value(Layers from, Layers m, vec3 V, int energy, uint64_t seed)
 static void expect_density(Layers m, vec3 V, const char *what)
 {
     static uint64_t seed = 1;
+    assert_true(++seed <= TESTS);
+    if (seed % CASE_STEP != 0)
+        return;
     double p = p_value(m, m, V, seed % 2u ? ENERGY_CONSERVING : ENERGY_GLTF, seed);
     if (p < sidak_level(TESTS))
         fail_msg("%s, N.V %g: p = %g", what, (double)dot(m.base.N, V), p);
-    assert_true(++seed <= TESTS);
 }
 
 static const float views[] = {0.05f, 0.4f, 0.9f};

@@ -15,7 +15,7 @@ static void test_conserving_never_gains(void **state)
     (void)state;
     const float NdotV[] = {0.05f, 0.4f, 0.95f};
     double worst = 0.0;
-    for (uint layers = 0; layers < ALL_LAYERS; ++layers) {
+    for (uint layers = 0; layers < ALL_LAYERS; layers += CASE_STEP) {
         test_rng rng = {layers + 1u};
         for (size_t v = 0; v < COUNT_OF(NdotV); ++v) {
             float across = sqrt(1.0f - NdotV[v] * NdotV[v]), phi = 2.0f * PI * rng_float(&rng);

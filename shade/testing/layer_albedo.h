@@ -5,27 +5,32 @@
 
 #include "test_support.h"
 
-static inline vec2 table_dfg(vec2 point)
+static inline vec2 table_dfg(vec2 point, uint n)
 {
-    return integrate_dfg(point[1], point[0], 8192u);
+    return integrate_dfg(point[1], point[0], n);
 }
-static inline LayerTables exact_tables(Layers m, vec3 V, int energy)
+/* By n terms each; sheen and glass, which are smoother, by half of them and a quarter. */
+static inline LayerTables tables_by(Layers m, vec3 V, int energy, uint n)
 {
-    vec2 dfg = table_dfg(layers_dfg_point(m, V, energy));
+    vec2 dfg = table_dfg(layers_dfg_point(m, V, energy), n);
     vec2 coat = vec2(1.0f, 0.0f), wall = vec2(1.0f, 0.0f);
     float sheen = 0.0f;
     if (has_layer(m, LAYER_CLEARCOAT))
-        coat = table_dfg(vec2(layers_clearcoat_NdotV(m, V), m.clearcoat_roughness));
+        coat = table_dfg(vec2(layers_clearcoat_NdotV(m, V), m.clearcoat_roughness), n);
     if (has_layer(m, LAYER_TRANSMISSION))
-        wall = table_dfg(layers_transmission_point(m, V, energy));
+        wall = table_dfg(layers_transmission_point(m, V, energy), n);
     if (has_layer(m, LAYER_SHEEN))
-        sheen = integrate_sheen_albedo(m.sheen_roughness, surface_NdotV(m.base, V), 4096u);
+        sheen = integrate_sheen_albedo(m.sheen_roughness, surface_NdotV(m.base, V), n / 2u);
     vec3 glass = vec3(0.0f);
     if (layers_is_exact(m, energy)) {
         vec3 p = layers_glass_point(m, V, energy);
-        glass = integrate_glass(p[1], p[0], p[2], 8192u);
+        glass = integrate_glass(p[1], p[0], p[2], n / 4u);
     }
     return layer_tables(m, V, energy, dfg, coat[0] + coat[1], wall[0] + wall[1], sheen, glass);
+}
+static inline LayerTables exact_tables(Layers m, vec3 V, int energy)
+{
+    return tables_by(m, V, energy, 8192u);
 }
 
 /* E of the sheen over N.L, interpolated over its square root. */
@@ -111,10 +116,9 @@ static inline float layer_pdf(const layer_sampler *s, vec3 L)
 }
 
 /* The integral of layers_brdf_cos over the sphere, per channel, by n draws of each strategy. */
-static inline __attribute__((unused)) void layered_albedo(Layers m, vec3 V, int energy, uint n, double out[3])
+static inline void layered_albedo_of(Layers m, vec3 V, int energy, LayerTables t, uint n, double out[3])
 {
     layer_sampler s = layer_sampler_make(m, V);
-    LayerTables t = exact_tables(m, V, energy);
     sheen_curve curve = {{0.0f}};
     if (energy == ENERGY_GLTF)
         curve = sheen_curve_of(m);
@@ -130,6 +134,11 @@ static inline __attribute__((unused)) void layered_albedo(Layers m, vec3 V, int 
             for (int c = 0; c < 3 && pdf > 0.0f; ++c)
                 out[c] += (double)f[c] / ((double)pdf * STRATEGIES * n);
         }
+}
+
+static inline __attribute__((unused)) void layered_albedo(Layers m, vec3 V, int energy, uint n, double out[3])
+{
+    layered_albedo_of(m, V, energy, exact_tables(m, V, energy), n, out);
 }
 
 /* A surface of random parameters with these layers, seen from V; N is +z, and V is above the coat too. Roughness from 0.15 on, so that the draws above suffice. */
