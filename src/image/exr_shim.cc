@@ -385,7 +385,10 @@ facet_result exr_shim_text(const unsigned char *bytes, size_t size, const char *
     try {
         Imf::Header header;
         read_header(bytes, size, header);
-        const auto *found = header.findTypedAttribute<Imf::StringAttribute>(attribute);
+        /* Not findTypedAttribute(), whose instance would be a name that the library exports. */
+        const auto place = header.find(attribute);
+        const auto *found =
+            place == header.end() ? nullptr : dynamic_cast<const Imf::StringAttribute *>(&place.attribute());
         if (!found || found->value().size() >= value_size) {
             std::snprintf(message, EXR_MESSAGE, "the text %s is %s", attribute,
                           found ? "too long" : "missing");
