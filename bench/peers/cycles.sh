@@ -4,7 +4,9 @@
 # differences of the models do not count; how far the two references are apart; and what facet has of Cycles' error when
 # both have had the same time, for an error that falls as 1 / time.
 #     bench/peers/cycles.sh [BUILD [SCENE...]]      BUILD: a build folder with benchmarks; textured glass interior
-# SIZE (256), SAMPLES ("16 64"), REFERENCE (1024); REFERENCES: a folder that keeps references from one run to the next.
+# SIZE (256), SAMPLES ("16 64"), REFERENCE (1024), SEEDS ("0 1 2"); REFERENCES: a folder that keeps references from one run to
+# the next. Seconds and errors are medians over the seeds: where a path that is met once in thousands lights one pixel up, a
+# single picture says little.
 # Seconds of the clock say the same on a machine with nothing else to do; SECONDS_OF=clock prints those.
 # Needs blender 3.4 and python3-numpy (Debian; both are for this alone).
 set -eu
@@ -55,6 +57,10 @@ facet() {
 error() {
     "$facet" compare "$1" "$2" --space linear --alpha ignore --metric mse-relative | awk '{ print $2 }'
 }
+# The middle one of the numbers in a file, one to a line.
+median() {
+    sort -g "$1" | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'
+}
 
 echo "$("$facet" version), $(blender --version | head -n 1), $size x $size, references of $reference samples"
 printf '%-10s %7s | %9s %12s | %9s %12s | %s\n' scene samples "Cycles s" error "facet s" error "at equal time"
@@ -66,10 +72,15 @@ for scene; do
     done
     for n in ${SAMPLES:-16 64}; do
         for renderer in cycles facet; do
-            $renderer "$scene" "$n" 0 "$work/$renderer.exr" >"$work/$renderer.s"
-            error "$references/${renderer}_$scene-$size-$reference.exr" "$work/$renderer.exr" >"$work/$renderer.e"
+            rm -f "$work/$renderer.s" "$work/$renderer.e"
+            for seed in ${SEEDS:-0 1 2}; do
+                $renderer "$scene" "$n" "$seed" "$work/$renderer.exr" >>"$work/$renderer.s"
+                error "$references/${renderer}_$scene-$size-$reference.exr" "$work/$renderer.exr" >>"$work/$renderer.e"
+            done
         done
-        cat "$work/cycles.s" "$work/cycles.e" "$work/facet.s" "$work/facet.e" |
+        for part in cycles.s cycles.e facet.s facet.e; do
+            median "$work/$part"
+        done |
             awk -v scene="$scene" -v n="$n" -v r="$reference" '
                 { v[NR] = $1 }
                 END {

@@ -382,6 +382,19 @@ FACET_API facet_result facet_camera_from_scene(const facet_scene *scene, const f
 
 typedef struct facet_environment facet_environment;
 
+/* How a picture holds the sphere of directions. Faces are those of cube maps in Direct3D and OpenGL, +X -X +Y -Y +Z -Z, their
+ * pictures as seen from inside with +Y up, except where said. */
+typedef enum facet_layout {
+    FACET_LAYOUT_AUTO,             /* by the ratio of the edges: 2:1, 4:3, 3:4, 6:1, 1:6 */
+    FACET_LAYOUT_EQUIRECTANGULAR,  /* 2:1, as facet_environment_load() says */
+    FACET_LAYOUT_CROSS_HORIZONTAL, /* 4:3, +Y above and -Y below the second of -X +Z +X -Z */
+    FACET_LAYOUT_CROSS_VERTICAL,   /* 3:4, +Y, then -X +Z +X, then -Y, then -Z turned by half a turn */
+    FACET_LAYOUT_STRIP_HORIZONTAL, /* 6:1, the faces from the left */
+    FACET_LAYOUT_STRIP_VERTICAL,   /* 1:6, the faces from the top */
+    FACET_LAYOUT_OCTAHEDRAL,       /* 1:1; +Y in the middle, -Y in the corners (Cigolle et al. 2014) */
+    FACET_LAYOUT_FACES             /* six pictures; only where a cube map is written */
+} facet_layout;
+
 /* How an environment is read. {0}: with malloc, silently. */
 typedef struct facet_environment_desc {
     facet_allocator allocator;
@@ -391,6 +404,7 @@ typedef struct facet_environment_desc {
     uint32_t max_size;        /* texels along an edge; 0: 32768 */
     const char *cache_folder; /* keep prepared lights there; NULL: no cache */
     uint64_t cache_bytes;     /* the most that the cache may hold; 0: 256 MiB */
+    facet_layout layout; /* of the picture; {0}: found out. Files of cube maps (KTX2) say it themselves */
 } facet_environment_desc;
 
 /* Reads an equirectangular picture (.hdr, .exr, or an 8-bit format, decoded from sRGB). The direction d (unit,
@@ -416,6 +430,53 @@ FACET_API facet_result facet_environment_create_from_scene(const facet_scene *sc
                                                            facet_environment **environment,
                                                            facet_error *error);
 FACET_API bool facet_scene_has_environment(const facet_scene *scene, const facet_pose_desc *pose);
+
+/* Six pictures, faces +X -X +Y -Y +Z -Z. FACET_ERROR_INVALID: not square, or not of one size. */
+FACET_API facet_result facet_environment_load_faces(const char *const paths[6],
+                                                    const facet_environment_desc *desc,
+                                                    facet_environment **environment, facet_error *error);
+/* Radiance (cd/m^2, linear Rec.709) from zenith, horizon and nadir; between them linear in the height d.y of a direction. */
+FACET_API facet_result facet_environment_create_gradient(const float zenith[3], const float horizon[3],
+                                                         const float nadir[3],
+                                                         const facet_environment_desc *desc,
+                                                         facet_environment **environment, facet_error *error);
+
+typedef enum facet_sky_model {
+    FACET_SKY_ATMOSPHERE, /* scattering of the Earth's atmosphere, all orders (Hillaire 2020) */
+    FACET_SKY_PREETHAM    /* the formula of Preetham, Shirley and Smits (1999) */
+} facet_sky_model;
+
+/* A clear sky by day. {0}: sun on the horizon towards +Z, standard air. */
+typedef struct facet_sky_desc {
+    facet_sky_model model;
+    float
+        sun_elevation_rad;  /* [-pi/2, pi/2]; Preetham's has no sun below the horizon: FACET_ERROR_ARGUMENT */
+    float sun_azimuth_rad;  /* from +Z towards +X, as facet_orbit has it */
+    float turbidity;        /* [1.7, 10]; 0: 2.5. Of the atmosphere: scales its haze */
+    float ground_albedo[3]; /* [0, 1], seen below the horizon and, by the atmosphere, in the sky */
+    float altitude_m;       /* of the eye above the ground, [0, 50 000]; the atmosphere only */
+    bool has_no_disc;       /* leaves the sun's disc out, not its light in the air */
+    uint32_t height;        /* texels; 0: 512 */
+} facet_sky_desc;
+
+/* Texels are cd/m^2: some 10^4 for a blue sky, 10^9 for the sun (exposure is the caller's). The disc's energy is that of the sun,
+ * spread over the texels that it touches. */
+FACET_API facet_result facet_environment_create_sky(const facet_sky_desc *sky,
+                                                    const facet_environment_desc *desc,
+                                                    facet_environment **environment, facet_error *error);
+
+/* What an environment was made of. */
+typedef struct facet_environment_info {
+    facet_layout layout;
+    uint32_t width, height; /* of the picture, or of a face where the layout is one of cube maps */
+    uint64_t
+        repaired_texels; /* that held NaN, infinity or less than 0: taken as 0, infinity as the largest number */
+    double mean[3];      /* radiance over the sphere, cd/m^2 */
+    float max_radiance; /* of any channel */
+} facet_environment_info;
+FACET_API facet_result facet_environment_get_info(const facet_environment *environment,
+                                                  facet_environment_info *info, facet_error *error);
+
 FACET_API void facet_environment_destroy(facet_environment *environment); /* NULL is allowed */
 
 /* ---- rendering ---- */
@@ -701,6 +762,181 @@ FACET_API facet_result facet_image_encode(const facet_image *image, const facet_
 FACET_API void facet_bytes_destroy(unsigned char *bytes);
 /* Writes bytes to path as facet_image_save() does: the whole file or nothing. */
 FACET_API facet_result facet_bytes_save(const void *bytes, size_t size, const char *path, facet_error *error);
+
+/* ---- baking: environments filtered for real-time renderers ---- */
+
+typedef enum facet_lobe {
+    FACET_LOBE_GGX,     /* reflections: the environment convolved with D N.l for N = V = R (Karis 2013) */
+    FACET_LOBE_CHARLIE, /* the same for sheen (Estevez and Kulla 2017) */
+    FACET_LOBE_LAMBERT, /* irradiance / pi: what a white diffuse surface sends out; one level */
+    FACET_LOBE_NONE     /* the environment itself; levels are means over texels */
+} facet_lobe;
+
+/* Which perceptual roughness level k of n is for. */
+typedef enum facet_roughness_mapping {
+    FACET_MAPPING_LINEAR,  /* k / (n - 1): Khronos' viewer */
+    FACET_MAPPING_FILAMENT /* 1 - sqrt(1 - k / (n - 1)), so that k = (n - 1) r (2 - r): Filament */
+} facet_roughness_mapping;
+
+typedef enum facet_bake_method {
+    FACET_BAKE_AUTO,     /* harmonics where the lobe is wide enough for them, sampling where it is narrower */
+    FACET_BAKE_SAMPLING, /* filtered importance sampling (Krivanek and Colbert 2008) */
+    FACET_BAKE_REFERENCE /* every texel of the environment weighted, which is slow: what the others are measured against */
+} facet_bake_method;
+
+enum { FACET_CUBE_MAX_LEVELS = 14 };
+
+/* {0}: GGX, 256 texels, all levels down to 16 texels or fewer if the environment's are. */
+typedef struct facet_bake_desc {
+    facet_allocator allocator;
+    facet_progress progress;
+    uint32_t thread_count; /* 0: facet_thread_count(); the texels do not depend on it */
+    facet_lobe lobe;
+    uint32_t size;        /* texels along an edge of level 0, [1, 8192], a power of two; 0: 256; Lambert 64 */
+    uint32_t level_count; /* 0: down to 16 texels, at least one; Lambert: 1. At most log2(size) + 1 */
+    facet_roughness_mapping mapping;
+    facet_bake_method method;
+    uint32_t samples;   /* per texel, of sampling; 0: 1024 */
+    float rotation_rad; /* of the environment around +Y, as facet_render_desc.environment_rotation_rad */
+    float ev;           /* stops: radiance is scaled by 2^ev */
+    float
+        clamp; /* radiance (before ev) is cut off here, which loses light: facet_bake_stats tells how much. 0: not */
+} facet_bake_desc;
+
+typedef struct facet_bake_stats {
+    double total_s;
+    uint64_t samples;     /* light looked up, all levels together */
+    double clamped_share; /* of the environment's mean radiance that desc->clamp took, [0, 1] */
+} facet_bake_stats;
+
+/* A cube map with levels: linear Rec.709 radiance, F32. */
+typedef struct facet_cube facet_cube;
+
+/* FACET_ERROR_ARGUMENT, _MEMORY, _LIMIT, _CANCELLED. */
+FACET_API facet_result facet_cube_bake(facet_environment *environment,
+                                       const facet_bake_desc *desc /* NULL: {0} */, facet_cube **cube,
+                                       facet_error *error);
+FACET_API void facet_cube_destroy(facet_cube *cube); /* NULL is allowed */
+FACET_API uint32_t facet_cube_get_level_count(const facet_cube *cube);
+FACET_API uint32_t facet_cube_get_size(const facet_cube *cube, uint32_t level);
+FACET_API float facet_cube_get_roughness(const facet_cube *cube,
+                                         uint32_t level); /* perceptual; Lambert 1, none 0 */
+/* RGBX: 4 floats per texel, the last one undefined. face: +X -X +Y -Y +Z -Z. */
+FACET_API facet_image_view facet_cube_get_face(const facet_cube *cube, uint32_t level, uint32_t face);
+FACET_API facet_bake_stats facet_cube_get_stats(const facet_cube *cube);
+
+/* How far a level is from the reference, over the texels that were looked at and their channels. */
+typedef struct facet_cube_error {
+    double rms, max; /* of |texel - reference|; relative to the root mean square of the reference */
+    double energy;   /* mean radiance of the level over that of the environment; 1 where nothing is lost */
+    uint32_t texels; /* that were looked at: all of small levels, a fixed choice of large ones */
+} facet_cube_error;
+/* errors: one per level. desc: as the cube was baked. */
+FACET_API facet_result facet_cube_verify(const facet_cube *cube, facet_environment *environment,
+                                         const facet_bake_desc *desc, facet_cube_error *errors,
+                                         facet_error *error);
+
+/* A level as one picture of RGBA with opacity 1, transparent where a cross has no face; not FACET_LAYOUT_FACES. height: of
+ * equirectangular and octahedral pictures; 0: twice the level's size. */
+FACET_API facet_result facet_cube_unfold(const facet_cube *cube, uint32_t level, facet_layout layout,
+                                         uint32_t height, const facet_allocator *allocator /* NULL: {0} */,
+                                         facet_image **image, facet_error *error);
+/* One face as a picture. */
+FACET_API facet_result facet_cube_copy_face(const facet_cube *cube, uint32_t level, uint32_t face,
+                                            const facet_allocator *allocator /* NULL: {0} */,
+                                            facet_image **image, facet_error *error);
+
+/* Texels of KTX2 files, by the names of Vulkan's formats. */
+typedef enum facet_texel_format {
+    FACET_TEXEL_RGBA16F,
+    FACET_TEXEL_RGBA32F,
+    FACET_TEXEL_RGB9E5,    /* E5B9G9R9_UFLOAT_PACK32 */
+    FACET_TEXEL_B10G11R11, /* B10G11R11_UFLOAT_PACK32 */
+    FACET_TEXEL_RG16F,
+    FACET_TEXEL_RG32F,
+    FACET_TEXEL_R16F,
+    FACET_TEXEL_R32F
+} facet_texel_format;
+
+typedef struct facet_ktx2_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
+    facet_texel_format format;
+    uint32_t
+        zstd_level; /* supercompression: 1 to 19; 0: none. FACET_ERROR_UNSUPPORTED where facet was built without Zstandard */
+} facet_ktx2_desc;
+
+/* A KTX 2.0 file; facet_bytes_destroy(). What a format cannot hold becomes its largest number. */
+FACET_API facet_result facet_cube_encode_ktx2(const facet_cube *cube, const facet_ktx2_desc *desc,
+                                              unsigned char **bytes, size_t *size, facet_error *error);
+/* Layer "" of a picture as a 2D texture of one level. */
+FACET_API facet_result facet_image_encode_ktx2(const facet_image *image, const facet_ktx2_desc *desc,
+                                               unsigned char **bytes, size_t *size, facet_error *error);
+/* Radiance in 8 bits: RGB = value / (M range), M = alpha, straight, no transfer function (RGBM; Karis 2009). For PNG files:
+ * facet_image_save() would apply sRGB, so this encodes by itself. range: the largest value, above 0. */
+FACET_API facet_result facet_image_encode_rgbm(const facet_image *image, float range,
+                                               const facet_save_desc *desc, unsigned char **bytes,
+                                               size_t *size, facet_error *error);
+
+/* Tables of reflectance over N.V (x) and perceptual roughness (y), both at texel middles (i + 0.5) / size, rows from
+ * roughness 0. */
+typedef enum facet_dfg_kind {
+    FACET_DFG_SCHLICK,    /* R, G: scale and bias of F0, Schlick's masking with k = alpha / 2 (Karis 2013) */
+    FACET_DFG_CORRELATED, /* R, G: the same, height-correlated Smith (Heitz 2014) */
+    FACET_DFG_MULTISCATTER, /* R: integral of Fc, G: of 1, height-correlated: Filament's layout for energy compensation */
+    FACET_DFG_CHARLIE,         /* R: albedo of sheen, Charlie with its own masking (Estevez and Kulla 2017) */
+    FACET_DFG_CHARLIE_NEUBELT, /* R: the same with Neubelt's masking, which Filament and Khronos' lookup have */
+    FACET_DFG_GGX_AVERAGE, /* R: albedo of GGX averaged over the cosine, of roughness alone: one column as wide as the table */
+    FACET_DFG_FILAMENT /* R, G: as MULTISCATTER, B: as CHARLIE_NEUBELT: what Filament loads */
+} facet_dfg_kind;
+
+typedef struct facet_dfg_desc {
+    facet_allocator allocator;
+    facet_progress progress;
+    uint32_t thread_count; /* 0: facet_thread_count() */
+    facet_dfg_kind kind;
+    uint32_t size; /* [16, 1024]; 0: 128 */
+} facet_dfg_desc;
+
+/* Layer "": RGBA, what the kind does not have is 0, alpha 1. By quadrature: errors below 1e-5. */
+FACET_API facet_result facet_dfg_bake(const facet_dfg_desc *desc, facet_image **image, facet_error *error);
+/* Channels that the kind has: 1, 2 or 3. */
+FACET_API uint32_t facet_dfg_get_channel_count(facet_dfg_kind kind);
+
+/* What nine spherical harmonics of an environment stand for; order 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22 of the real basis
+ * without Condon and Shortley's sign, +Y up. */
+typedef enum facet_sh_form {
+    FACET_SH_RADIANCE,   /* L_lm = integral of L Y_lm; three.js' LightProbe takes these */
+    FACET_SH_IRRADIANCE, /* E_lm = A_l L_lm, A = pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan 2001) */
+    FACET_SH_FOLDED /* irradiance / pi with the basis' constants folded in: sum of c times 1, y, z, x, xy, yz, 3z^2 - 1, zx,
+                            x^2 - y^2: Filament's "pre-scaled" */
+} facet_sh_form;
+
+typedef struct facet_sh_desc {
+    facet_allocator allocator;
+    uint32_t thread_count;
+    facet_sh_form form;
+    float rotation_rad, ev, clamp; /* as facet_bake_desc */
+    bool
+        is_windowed; /* lowers bands until irradiance is nowhere below 0 (Sloan 2017): rings around a sun go */
+} facet_sh_desc;
+FACET_API facet_result facet_environment_project_sh(const facet_environment *environment,
+                                                    const facet_sh_desc *desc, float coefficients[9][3],
+                                                    facet_error *error);
+
+/* A sheet to look at: levels unfolded, spheres of eight roughnesses lit by the cube beside the same lit by the reference, and the
+ * diffuse sphere by nine harmonics beside the exact one; tone-mapped, opaque. */
+typedef struct facet_sheet_desc {
+    facet_allocator allocator;
+    facet_progress progress;
+    uint32_t thread_count;
+    facet_bake_desc bake; /* as the cube was baked */
+    facet_tonemap tonemap;
+    float exposure_ev;
+} facet_sheet_desc;
+FACET_API facet_result facet_cube_draw_sheet(const facet_cube *cube, facet_environment *environment,
+                                             const facet_sheet_desc *desc, facet_image **image,
+                                             facet_error *error);
 
 /* ---- plots ---- */
 

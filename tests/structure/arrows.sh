@@ -15,13 +15,14 @@ allowed() {
     io) echo io scene image base facet ;;
     ibl) echo ibl scene image base shade facet ;;
     film) echo film image base shade facet ;;
+    bake) echo bake ibl scene image base shade facet ;;
     cpu) echo cpu film ibl scene image base shade facet ;;
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;
-    report) echo report plot legacy cpu film ibl scene image base facet ;;
+    report) echo report bake plot legacy cpu film ibl scene image base facet ;;
     path) echo path cpu film ibl scene image base shade facet ;;
     compare) echo compare image base shade facet ;;
-    api) echo api path compare report plot legacy io cpu ibl film scene image base facet ;;
+    api) echo api path bake compare report plot legacy io cpu ibl film scene image base facet ;;
     cli) echo cli facet ;;
     *) echo "" ;;
     esac

@@ -1,0 +1,100 @@
+/* bake_api.c - baked cube maps and tables as pictures. */
+#include "api/api.h"
+
+#include "bake/bake.h"
+#include "base/memory.h"
+#include "base/result.h"
+#include "ibl/cube_layout.h"
+
+static const facet_allocator default_allocator;
+
+/* Gives a picture of 1 to 4 floats per texel over as a facet_image. */
+static facet_result give(image *picture, const facet_allocator *allocator, facet_image **out,
+                         facet_error *error)
+{
+    image rgba = {0};
+    facet_result result = FACET_OK;
+    if (picture->channel_count != 4) {
+        result = image_create(allocator, picture->width, picture->height, 4, IMAGE_F32, &rgba, error);
+        const float *from = picture->pixels;
+        float *to = rgba.pixels;
+        uint32_t channels = picture->channel_count;
+        for (size_t i = 0; result == FACET_OK && i < (size_t)picture->width * picture->height; i++)
+            for (uint32_t c = 0; c < 4; c++)
+                to[4 * i + c] = c < channels ? from[channels * i + c] : c == 3 ? 1.0f : 0.0f;
+    }
+    const image *source = rgba.pixels ? &rgba : picture;
+    const facet_image_view view = {
+        .width = source->width, .height = source->height, .channel_count = 4, .pixels = source->pixels};
+    if (result == FACET_OK)
+        result = facet_image_create(&view, allocator, out, error);
+    image_destroy(&rgba);
+    image_destroy(picture);
+    return result;
+}
+
+facet_result facet_cube_unfold(const facet_cube *c, uint32_t level, facet_layout layout, uint32_t height,
+                               const facet_allocator *allocator, facet_image **out, facet_error *error)
+{
+    *out = NULL;
+    allocator = allocator ? allocator : &default_allocator;
+    image picture = {0};
+    facet_result result =
+        layout_write(&c->levels[level], layout, height, allocator, facet_thread_count(), &picture, error);
+    return result == FACET_OK ? give(&picture, allocator, out, error) : result;
+}
+
+facet_result facet_cube_copy_face(const facet_cube *c, uint32_t level, uint32_t face,
+                                  const facet_allocator *allocator, facet_image **out, facet_error *error)
+{
+    *out = NULL;
+    allocator = allocator ? allocator : &default_allocator;
+    uint32_t size = c->levels[level].size;
+    image picture = {0};
+    facet_result result = image_create(allocator, size, size, 4, IMAGE_F32, &picture, error);
+    if (result != FACET_OK)
+        return result;
+    rgbx *to = picture.pixels;
+    for (uint32_t y = 0; y < size; y++)
+        for (uint32_t x = 0; x < size; x++) {
+            rgbx texel = *cube_texel(&c->levels[level], face, (int)x, (int)y);
+            texel[3] = 1.0f;
+            to[(size_t)y * size + x] = texel;
+        }
+    return give(&picture, allocator, out, error);
+}
+
+facet_result facet_dfg_bake(const facet_dfg_desc *desc, facet_image **out, facet_error *error)
+{
+    *out = NULL;
+    image table = {0};
+    facet_result result = bake_dfg(desc, &table, error);
+    return result == FACET_OK ? give(&table, &desc->allocator, out, error) : result;
+}
+
+facet_result facet_image_encode_ktx2(const facet_image *picture, const facet_ktx2_desc *desc,
+                                     unsigned char **bytes, size_t *size, facet_error *error)
+{
+    const film *f = &picture->film;
+    const image rgba = {.pixels = f->layers[0].pixels,
+                        .width = f->width,
+                        .height = f->height,
+                        .channel_count = 4,
+                        .type = IMAGE_F32};
+    return bake_image_ktx2(&rgba, desc, bytes, size, error);
+}
+
+facet_result facet_image_encode_rgbm(const facet_image *picture, float range, const facet_save_desc *desc,
+                                     unsigned char **bytes, size_t *size, facet_error *error)
+{
+    (void)picture, (void)range, (void)desc, (void)bytes, (void)size;
+    return fail(error, FACET_ERROR_UNSUPPORTED, "bake: not there yet");
+}
+
+facet_result facet_cube_draw_sheet(const facet_cube *c, facet_environment *environment,
+                                   const facet_sheet_desc *desc, facet_image **out, facet_error *error)
+{
+    (void)c, (void)environment, (void)desc;
+    *out = NULL;
+    return fail(error, FACET_ERROR_UNSUPPORTED, "bake: not there yet");
+}
