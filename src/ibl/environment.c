@@ -69,6 +69,7 @@ void environment_release(facet_environment *environment)
     harmonics_destroy(&parts->harmonics);
     narrow_destroy(&parts->narrow);
     image_destroy(&environment->picture);
+    cube_destroy(&environment->faces);
     cube_destroy(&environment->irradiance_over_pi);
     mem_free(environment->cache_folder);
     pthread_mutex_destroy(&environment->mutex);

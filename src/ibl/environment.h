@@ -28,8 +28,9 @@ struct facet_environment {
     facet_log log;
     cube irradiance_over_pi; /* where the source says what it is; else {0}, and it is that of the picture */
     image picture;           /* equirectangular, F32 RGB, in [0, ENVIRONMENT_MAX_RADIANCE] */
-    uint64_t hash;           /* of what the picture was made from, where there is a cache_folder */
-    char *cache_folder;      /* NULL: none */
+    cube faces;         /* what picture was resampled from, in its range; {0}: the source was no cube map */
+    uint64_t hash;      /* of what the picture was made from, where there is a cache_folder */
+    char *cache_folder; /* NULL: none */
     uint64_t cache_bytes;
     uint32_t reference_count; /* the caller's and one per light */
     pthread_mutex_t mutex;    /* guards the two below and the one above */
