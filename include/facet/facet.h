@@ -452,15 +452,18 @@ typedef struct facet_sky_desc {
     float
         sun_elevation_rad;  /* [-pi/2, pi/2]; Preetham's has no sun below the horizon: FACET_ERROR_ARGUMENT */
     float sun_azimuth_rad;  /* from +Z towards +X, as facet_orbit has it */
-    float turbidity;        /* [1.7, 10]; 0: 2.5. Of the atmosphere: scales its haze */
+    float turbidity;        /* [1.7, 10], of the atmosphere from 1, no haze; 0: 2.5 */
     float ground_albedo[3]; /* [0, 1], seen below the horizon and, by the atmosphere, in the sky */
     float altitude_m;       /* of the eye above the ground, [0, 50 000]; the atmosphere only */
     bool has_no_disc;       /* leaves the sun's disc out, not its light in the air */
     uint32_t height;        /* texels; 0: 512 */
+    float
+        illuminance_lux; /* to which all is scaled, of the surface that gets most; less than 1 lx counts as 1. 0: units
+                            stay physical. pi: white in this light has 1 cd/m^2 */
 } facet_sky_desc;
 
-/* Texels are cd/m^2: some 10^4 for a blue sky, 10^9 for the sun (exposure is the caller's). The disc's energy is that of the sun,
- * spread over the texels that it touches. */
+/* Texels are cd/m^2: some 10^4 for a blue sky, 10^9 for the sun. The disc's energy is that of the sun, spread over the
+ * texels that it touches. */
 FACET_API facet_result facet_environment_create_sky(const facet_sky_desc *sky,
                                                     const facet_environment_desc *desc,
                                                     facet_environment **environment, facet_error *error);

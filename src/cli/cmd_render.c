@@ -27,7 +27,7 @@ typedef struct render_run {
     facet_budget *budget;
     facet_allocator allocator;
     facet_environment *environment; /* read once, for all models */
-    bool has_environment;
+    bool has_environment, environment_failed;
     json_t *pictures, *failures; /* NULL: nobody asked for JSON */
     json_t *warnings;
     size_t warning_count, failure_count;
@@ -49,24 +49,13 @@ static facet_result load_environment(render_run *run, facet_error *error)
 {
     const render_options *o = &run->options;
     const facet_environment_desc desc = environment_desc(run);
-    facet_result result = FACET_OK;
-    switch (o->environment) {
-    case ENVIRONMENT_NONE:
-        break;
-    case ENVIRONMENT_STUDIO:
-        result = facet_environment_create_studio(&desc, &run->environment, error);
-        break;
-    case ENVIRONMENT_CONSTANT:
-        result = facet_environment_create_constant(o->environment_radiance, &desc, &run->environment, error);
-        break;
-    case ENVIRONMENT_FILE:
-        if (!o->environment_cache) /* the cache writes files */
-            interrupt_begin_reading(o->environment_path);
-        result = facet_environment_load(o->environment_path, &desc, &run->environment, error);
-        interrupt_set_safe(NULL);
-        break;
-    }
+    const environment_input *input = &o->environment;
+    if (!o->environment_cache) /* the cache writes files */
+        interrupt_begin_reading(environment_input_name(input));
+    facet_result result = environment_input_load(input, &desc, &run->environment, error);
+    interrupt_set_safe(NULL);
     run->has_environment = result == FACET_OK;
+    run->environment_failed = result != FACET_OK;
     return result;
 }
 
@@ -244,7 +233,7 @@ static facet_result choose_environment(model_run *m, facet_error *error)
     facet_result result = FACET_OK;
     if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
         return FACET_OK;
-    if (!o->has_environment && o->environment != ENVIRONMENT_NONE && !o->desc.ignore_scene_lights &&
+    if (!o->has_environment && o->environment.kind != ENVIRONMENT_NONE && !o->desc.ignore_scene_lights &&
         facet_scene_has_environment(m->scene, &m->sequence.pose)) {
         const facet_environment_desc desc = environment_desc(run);
         result = facet_environment_create_from_scene(m->scene, &m->sequence.pose, &desc, &m->own_environment,
@@ -338,9 +327,9 @@ static facet_result render_model(render_run *run, const char *model, facet_error
 static void report_failure(render_run *run, const char *model, facet_error *error)
 {
     const char *name = input_name(model);
-    const char *environment = run->options.environment_path;
-    bool is_of_environment = environment && strncmp(error->message, environment, strlen(environment)) == 0;
-    failure_complete(error, is_of_environment ? environment : name, run->options.limits.max_memory_bytes);
+    const char *culprit = run->environment_failed ? environment_input_name(&run->options.environment) : name;
+    failure_complete(error, culprit, run->options.limits.max_memory_bytes);
+    run->environment_failed = false;
     message_error("%s", error->message);
     run->failure_count++;
     run->exit_code = exit_code_of(error->result);

@@ -116,6 +116,24 @@ facet_result input_load_image(const char *path, const facet_image_load_desc *des
     return result;
 }
 
+facet_result input_load_environment(const char *path, const facet_environment_desc *desc,
+                                    facet_environment **environment, facet_error *error)
+{
+    *environment = NULL;
+    if (!path[0])
+        return fail_with(error, FACET_ERROR_ARGUMENT, "facet: the name of an environment is empty");
+    if (strcmp(path, "-") != 0)
+        return facet_environment_load(path, desc, environment, error);
+    growing bytes = {.allocator = &desc->allocator};
+    facet_result result =
+        read_stdin(desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)4 << 30, "picture", &bytes, error);
+    if (result == FACET_OK)
+        result =
+            facet_environment_load_memory(bytes.data, bytes.used, input_name(path), desc, environment, error);
+    release(&bytes);
+    return result;
+}
+
 bool input_is_same_file(const char *a, const char *b)
 {
     struct stat x, y;

@@ -17,6 +17,10 @@ facet_result input_load(const char *path, const facet_scene_desc *desc, facet_sc
 facet_result input_load_image(const char *path, const facet_image_load_desc *desc, facet_image **image,
                               facet_error *error);
 
+/* Loads an environment; - is standard input. Memory and failures as above. */
+facet_result input_load_environment(const char *path, const facet_environment_desc *desc,
+                                    facet_environment **environment, facet_error *error);
+
 /* Whether both paths are there and are the same file. */
 bool input_is_same_file(const char *a, const char *b);
 

@@ -63,7 +63,7 @@ static bool is_an_input(const command_line *c, const render_options *o, const ch
     if (o->is_stdout || o->keeps_existing || !output_exists(name))
         return false;
     return (model && strcmp(model, "-") != 0 && input_is_same_file(model, name)) ||
-           (o->environment_path && input_is_same_file(name, o->environment_path)) ||
+           environment_input_is_file(&o->environment, name) ||
            (config_path && input_is_same_file(name, config_path));
 }
 

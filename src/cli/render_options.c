@@ -256,22 +256,12 @@ static facet_result read_motion(const command_line *c, render_options *out, face
 
 static facet_result read_environment(const command_line *c, render_options *out, facet_error *error)
 {
-    const char *text = option_text(c, OPT_ENV, "neutral");
     out->has_environment = is_given(c, OPT_ENV);
     out->environment_cache = option_text(c, OPT_ENV_CACHE, NULL);
-    if (strcmp(text, "neutral") == 0) {
-        out->environment = ENVIRONMENT_STUDIO;
-    } else if (strcmp(text, "none") == 0) {
-        out->environment = ENVIRONMENT_NONE;
-    } else if (strcmp(text, "white") == 0 || text[0] == '#') {
-        out->environment = ENVIRONMENT_CONSTANT;
-        if (!color_parse(text, out->environment_radiance))
-            return option_fail(
-                c, OPT_ENV, "neutral, white, #rrggbb, none or a file (./# for a name that begins so)", error);
-    } else {
-        out->environment = ENVIRONMENT_FILE;
-        out->environment_path = text;
-    }
+    facet_result result = environment_input_parse("--env", option_text(c, OPT_ENV, "neutral"),
+                                                  ENVIRONMENT_TAKES_NONE, &out->environment, error);
+    if (result != FACET_OK)
+        return result;
     double rotation = 0.0;
     if (is_given(c, OPT_ENV_ROTATION) && !value_angle(option_text(c, OPT_ENV_ROTATION, ""), &rotation))
         return option_fail(c, OPT_ENV_ROTATION, "an angle in degrees", error);
@@ -280,7 +270,7 @@ static facet_result read_environment(const command_line *c, render_options *out,
     if (intensity > 0.0)
         out->desc.environment_ev = (float)log2(intensity);
     else
-        out->environment = ENVIRONMENT_NONE;
+        out->environment.kind = ENVIRONMENT_NONE;
     return FACET_OK;
 }
 

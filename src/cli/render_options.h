@@ -3,17 +3,11 @@
 #define CLI_RENDER_OPTIONS_H
 
 #include "cli/command_line.h"
+#include "cli/environment_input.h"
 #include "cli/frame_list.h"
 #include "cli/limits.h"
 #include "cli/video.h"
 #include "facet/facet.h"
-
-typedef enum environment_kind {
-    ENVIRONMENT_STUDIO,
-    ENVIRONMENT_NONE,
-    ENVIRONMENT_CONSTANT,
-    ENVIRONMENT_FILE
-} environment_kind;
 
 typedef struct render_options {
     /* picture */
@@ -45,9 +39,7 @@ typedef struct render_options {
 
     /* light */
     bool has_environment; /* false: nobody asked for one, and a model may bring its own */
-    environment_kind environment;
-    const char *environment_path;
-    float environment_radiance[3];
+    environment_input environment;
     const char *environment_cache;
 
     /* model and limits */
