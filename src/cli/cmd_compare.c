@@ -214,6 +214,8 @@ static facet_result compare(compare_run *run, facet_error *error)
                                         is_drawn ? &run->difference : NULL, error);
     run->is_measured = result == FACET_OK;
     interrupt_set_safe(NULL);
+    if (result != FACET_OK)
+        failure_complete(error, "compare", run->limits.max_memory_bytes);
     if (result == FACET_OK && interrupt_signal())
         result = fail_with(error, FACET_ERROR_CANCELLED, "compare: interrupted");
     if (result == FACET_OK)
@@ -320,7 +322,6 @@ int cmd_compare(command_line *c)
     const int exit_code = result != FACET_OK ? exit_code_of(result) : is_negative ? EXIT_NEGATIVE : EXIT_DONE;
     if (result != FACET_OK) {
         const bool is_ours = error.message[0] == '-' || strncmp(error.message, "compare:", 8) == 0;
-        failure_complete(&error, "compare", run.limits.max_memory_bytes);
         message_error("%s%s", is_ours ? "facet: " : "", error.message);
     }
     if (is_given(c, OPT_JSON))

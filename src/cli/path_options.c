@@ -100,6 +100,9 @@ static facet_result read_lens(const command_line *c, render_options *out, facet_
         return option_fail(c, OPT_APERTURE, "a diameter in m, or in % of the distance that is sharp, as 2%",
                            error);
     out->aperture = (float)(out->aperture_is_relative ? 0.01 * diameter : diameter);
+    if (is_given(c, OPT_FOCUS) && !(out->aperture > 0.0f))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--focus: all is sharp without a lens; give its diameter, --aperture 2%%");
     text = option_text(c, OPT_FOCUS, "auto");
     double focus = 0.0;
     if (strcmp(text, "auto") != 0 && (!value_number(text, &focus) || !(focus > 0.0)))

@@ -255,4 +255,5 @@ expect 2 compare half.pfm ones.pfm --pixels-per-degree 0
 expect 7 compare a.png b.png --max-texture 40
 expect 7 compare a.png b.png --max-memory 20K
 says "--max-memory"
+[ "$(grep -o 'max-memory' err | wc -l)" = 1 ] || failed "the limit is told twice"
 finish

@@ -32,7 +32,9 @@ expect 2 render --renderer path --sun 30 -o x.png
 says "AZIMUTH,ELEVATION"
 expect 2 render --renderer path --sun 30,100 -o x.png
 expect 2 render --renderer path --aperture -1 -o x.png
-expect 2 render --renderer path --focus 0 -o x.png
+expect 2 render --renderer path --aperture 1% --focus 0 -o x.png
+expect 2 render --renderer path --focus 2 -o x.png
+says "--aperture"
 expect 2 render --renderer path --shutter 1m -o x.png
 expect 0 $path --samples 1 --aperture 0.1 --focus 1e-30 -o blurred.png
 expect 2 render --renderer path --resume -o x.png
