@@ -243,6 +243,7 @@ typedef struct synthesis {
     const harmonics *in;
     const float *kernel;
     uint32_t degree;
+    double rotation_rad;
     uint32_t width, height; /* of the grid, which has PAD more texels on all sides */
     fourier transform;
     cube *out;
@@ -262,7 +263,8 @@ DISPATCH_AVX2 static void synthesise_orders(void *context, size_t begin, size_t 
         legendre p;
         legendre_init(&p, m, job->degree, pair_count);
         /* middles of columns of the grid of the analysis and of this one lie half a column off phi = 0 */
-        double turn = m * pi * (1.0 / job->width - 1.0 / column_count(HARMONICS_DEGREE));
+        double turn =
+            m * (job->rotation_rad + pi * (1.0 / job->width - 1.0 / column_count(HARMONICS_DEGREE)));
         float c = (float)cos(turn);
         float s = (float)sin(turn);
         float scaled[HARMONICS_DEGREE + 1][PARTS];
@@ -357,7 +359,23 @@ static inline void cubic_weights(float f, float w[4])
     w[3] = f * f * (0.5f * f - 0.5f);
 }
 
-enum { MAX_CUBE_SIZE = 256 };
+/* The grid at (u, v) from its padded corner. */
+static inline __attribute__((always_inline)) rgbx interpolate(const synthesis *job, float u, float v)
+{
+    size_t stride = (size_t)job->width + 2 * PAD;
+    int u0 = (int)u;
+    int v0 = (int)v;
+    float wu[4], wv[4];
+    cubic_weights(u - (float)u0, wu);
+    cubic_weights(v - (float)v0, wv);
+    const rgbx *g = job->in->grid + (size_t)(v0 - 1) * stride + (size_t)(u0 - 1);
+    rgbx sum = {0};
+    for (int k = 0; k < 4; k++, g += stride)
+        sum += (g[0] * wu[0] + g[1] * wu[1] + g[2] * wu[2] + g[3] * wu[3]) * wv[k];
+    return rgbx_not_negative(sum);
+}
+
+enum { CHUNK = 256 }; /* texels of a row at a time */
 
 DISPATCH_AVX2 static void fill_cube_rows(void *context, size_t begin, size_t end)
 {
@@ -365,7 +383,6 @@ DISPATCH_AVX2 static void fill_cube_rows(void *context, size_t begin, size_t end
     uint32_t size = job->out->size;
     float columns_per_rad = (float)job->width * 0.159154943f;
     float rows_per_rad = (float)job->height * 0.318309886f;
-    size_t stride = (size_t)job->width + 2 * PAD;
     for (size_t i = begin; i < end; i++) {
         uint32_t face = (uint32_t)(i / size);
         uint32_t y = (uint32_t)(i % size);
@@ -377,33 +394,26 @@ DISPATCH_AVX2 static void fill_cube_rows(void *context, size_t begin, size_t end
             step[k] = (float)((d1[k] - d0[k]) / size);
             from[k] = (float)d0[k] + 0.5f * step[k];
         }
-        float u[MAX_CUBE_SIZE], v[MAX_CUBE_SIZE];
-        for (uint32_t x = 0; x < size; x++) {
-            float dx = from[0] + (float)x * step[0];
-            float dy = from[1] + (float)x * step[1];
-            float dz = from[2] + (float)x * step[2];
-            u[x] = (equirect_atan2(dz, dx) + 3.14159265f) * columns_per_rad + (PAD - 0.5f);
-            v[x] = equirect_atan2(sqrtf(dx * dx + dz * dz), dy) * rows_per_rad + (PAD - 0.5f);
-        }
-        rgbx *out = cube_texel(job->out, face, 0, (int)y);
-        for (uint32_t x = 0; x < size; x++) {
-            int u0 = (int)u[x];
-            int v0 = (int)v[x];
-            float wu[4], wv[4];
-            cubic_weights(u[x] - (float)u0, wu);
-            cubic_weights(v[x] - (float)v0, wv);
-            const rgbx *g = job->in->grid + (size_t)(v0 - 1) * stride + (size_t)(u0 - 1);
-            rgbx sum = {0};
-            for (int k = 0; k < 4; k++, g += stride)
-                sum += (g[0] * wu[0] + g[1] * wu[1] + g[2] * wu[2] + g[3] * wu[3]) * wv[k];
-            out[x] = rgbx_not_negative(sum);
+        for (uint32_t x0 = 0; x0 < size; x0 += CHUNK) {
+            uint32_t count = size - x0 < CHUNK ? size - x0 : CHUNK;
+            float u[CHUNK], v[CHUNK];
+            for (uint32_t x = 0; x < count; x++) {
+                float dx = from[0] + (float)(x0 + x) * step[0];
+                float dy = from[1] + (float)(x0 + x) * step[1];
+                float dz = from[2] + (float)(x0 + x) * step[2];
+                u[x] = (equirect_atan2(dz, dx) + 3.14159265f) * columns_per_rad + (PAD - 0.5f);
+                v[x] = equirect_atan2(sqrtf(dx * dx + dz * dz), dy) * rows_per_rad + (PAD - 0.5f);
+            }
+            rgbx *out = cube_texel(job->out, face, (int)x0, (int)y);
+            for (uint32_t x = 0; x < count; x++)
+                out[x] = interpolate(job, u[x], v[x]);
         }
     }
 }
 
-facet_result harmonics_filter(harmonics *h, const float *kernel, uint32_t degree, uint32_t size,
-                              const facet_allocator *allocator, uint32_t thread_count, cube *out,
-                              facet_error *error)
+facet_result harmonics_filter(harmonics *h, const float *kernel, uint32_t degree, double rotation_rad,
+                              uint32_t size, const facet_allocator *allocator, uint32_t thread_count,
+                              cube *out, facet_error *error)
 {
     facet_result result = create_scratch(h, error);
     if (result == FACET_OK)
@@ -413,6 +423,7 @@ facet_result harmonics_filter(harmonics *h, const float *kernel, uint32_t degree
     synthesis job = {.in = h,
                      .kernel = kernel,
                      .degree = degree,
+                     .rotation_rad = rotation_rad,
                      .width = column_count(degree),
                      .height = 2 * degree,
                      .out = out};

@@ -31,9 +31,10 @@ void harmonics_destroy(harmonics *h); /* {0} is allowed; leaves {0} */
 void harmonics_trim(harmonics *h);
 
 /* A cube map of the environment with degree l scaled by kernel[l], l up to degree (a multiple of 32, at most
- * HARMONICS_DEGREE); never negative. One filter at a time per h. FACET_ERROR_MEMORY. */
-facet_result harmonics_filter(harmonics *h, const float *kernel, uint32_t degree, uint32_t size,
-                              const facet_allocator *allocator, uint32_t thread_count, cube *out,
-                              facet_error *error);
+ * HARMONICS_DEGREE), turned by rotation_rad around +Y from +Z towards +X; never negative. One filter at a time per h.
+ * FACET_ERROR_MEMORY. */
+facet_result harmonics_filter(harmonics *h, const float *kernel, uint32_t degree, double rotation_rad,
+                              uint32_t size, const facet_allocator *allocator, uint32_t thread_count,
+                              cube *out, facet_error *error);
 
 #endif

@@ -116,9 +116,7 @@ void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t 
         kernel[l] = (float)(sum[l] / sum[0]);
 }
 
-/* Fades the last quarter of the degrees out, so that what is cut off a narrow lobe does not ring: around a sun, 3 % of
- * relative error in the sky become 0.4 %. */
-static void taper(uint32_t degree, float *kernel)
+void prefilter_taper(uint32_t degree, float *kernel)
 {
     uint32_t first = degree - degree / 4;
     for (uint32_t l = first; l <= degree; l++)
@@ -132,7 +130,7 @@ facet_result prefilter_level(harmonics *h, prefilter_lobe lobe, uint32_t level,
     float kernel[HARMONICS_DEGREE + 1];
     uint32_t degree = lobes[lobe].levels[level].degree;
     prefilter_kernel(lobe, lobes[lobe].levels[level].roughness, degree, kernel);
-    taper(degree, kernel);
-    return harmonics_filter(h, kernel, degree, lobes[lobe].levels[level].size, allocator, thread_count, out,
-                            error);
+    prefilter_taper(degree, kernel);
+    return harmonics_filter(h, kernel, degree, 0.0, lobes[lobe].levels[level].size, allocator, thread_count,
+                            out, error);
 }

@@ -36,6 +36,10 @@ float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness);
  * degree; kernel[0] is 1. Roughness above 0. By Gauss-Legendre quadrature over the half vector, in double. */
 void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t degree, float *kernel);
 
+/* Fades the last quarter of the degrees out, so that what is cut off a narrow lobe does not ring: around a sun, 3 % of
+ * relative error in the sky become 0.4 %. */
+void prefilter_taper(uint32_t degree, float *kernel);
+
 /* Cube map of a level from 1 on. FACET_ERROR_MEMORY. */
 facet_result prefilter_level(harmonics *h, prefilter_lobe lobe, uint32_t level,
                              const facet_allocator *allocator, uint32_t thread_count, cube *out,
