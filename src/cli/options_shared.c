@@ -21,7 +21,7 @@ static const option machine_options[] = {
      .name = "max-texture",
      .kind = OPTION_INTEGER,
      .argument = "N",
-     .default_text = "16384",
+     .default_text = "16384; environments 32768",
      .help = "refuse images with more texels than this along an edge",
      .minimum = 1,
      .maximum = 65536},
@@ -57,6 +57,11 @@ static const option running_options[] = {
      .help =
          "auto shows a bar on a terminal and nothing elsewhere; plain and json write lines to standard error",
      .choices = WORDS("auto", "plain", "json", "none")},
+    {.id = OPT_CONFIG,
+     .name = "config",
+     .kind = OPTION_FILE,
+     .argument = "FILE.json",
+     .help = "options from a JSON object with the long names as members; the command line wins"},
     {.id = OPT_PRESET,
      .name = "preset",
      .kind = OPTION_CHOICE,
@@ -65,16 +70,13 @@ static const option running_options[] = {
          "options in one word; what is given beside it wins. thumbnail: --size 256 --background transparent "
          "--time-limit 5s for each model --max-memory 1G --quiet, and --threads 1 when niced",
      .choices = WORDS("thumbnail")},
-    {.id = OPT_CONFIG,
-     .name = "config",
-     .kind = OPTION_FILE,
-     .argument = "FILE.json",
-     .help = "options from a JSON object with the long names as members; the command line wins"},
 };
 
 const option_group machine_group = {"Limits", machine_options, COUNT(machine_options)};
 const option_group message_group = {"Messages", message_options, COUNT(message_options)};
 const option_group running_group = {"Running", running_options, COUNT(running_options)};
+/* Without the last one, --preset. */
+const option_group working_group = {"Running", running_options, COUNT(running_options) - 1};
 
 static const option model_options[] = {
     {.id = OPT_ROOT,

@@ -18,7 +18,7 @@ grep -q '75' out || failed "help exit-codes lacks 75"
 
 expect 2 model.glb
 says "facet: which command? For a picture: facet render model.glb -o model.png"
-for verb in bake ocean view batch serve merge; do
+for verb in ocean view batch serve merge; do
     expect 2 $verb
     says "this version does not have the command $verb yet"
     [ "$(wc -l <err)" = 1 ] || failed "more than one line on $verb"
@@ -27,7 +27,7 @@ for verb in bake ocean view batch serve merge; do
 done
 expect 2 rendr
 says "did you mean render?"
-expect 2 help bake
+expect 2 help ocean
 expect 2 -v render
 says "the command comes first"
 

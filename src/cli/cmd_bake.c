@@ -1,0 +1,309 @@
+/* cmd_bake.c - facet bake: an environment filtered for real-time renderers. */
+#include "cli/commands.h"
+
+#include "cli/bake_layout.h"
+#include "cli/bake_make.h"
+#include "cli/bake_report.h"
+#include "cli/failure.h"
+#include "cli/interrupt.h"
+#include "cli/memory_limit.h"
+#include "cli/output.h"
+#include "cli/preset.h"
+#include "cli/progress.h"
+#include "cli/render_report.h"
+
+#include <string.h>
+
+typedef struct bake_run {
+    const command_line *line;
+    bake_options options;
+    bake_plan plan;
+    messages messages;
+    facet_budget *budget;
+    facet_allocator allocator;
+    facet_environment *environment;
+    facet_environment_info info; /* .width 0: nothing was read */
+    progress shown;
+    bool is_written;
+} bake_run;
+
+/* ---- reading ---- */
+
+static void tell_environment(bake_run *run)
+{
+    const char *name = bake_input_name(&run->options);
+    const facet_environment_info *info = &run->info;
+    message_at(&run->messages, VERBOSITY_DETAILS, "%s: %u x %u texels, mean %.4g %.4g %.4g, largest %.4g",
+               name, info->width, info->height, info->mean[0], info->mean[1], info->mean[2],
+               (double)info->max_radiance);
+}
+
+static facet_result load(bake_run *run, facet_error *error)
+{
+    const bake_options *o = &run->options;
+    const facet_environment_desc desc = {.allocator = run->allocator,
+                                         .log = messages_log(&run->messages),
+                                         .thread_count = o->limits.thread_count,
+                                         .max_size = o->limits.max_texture_size,
+                                         .layout = o->input_layout};
+    interrupt_begin_reading(bake_input_name(o));
+    facet_result result = o->has_faces
+                              ? facet_environment_load_faces(o->faces, &desc, &run->environment, error)
+                              : environment_input_load(&o->environment, &desc, &run->environment, error);
+    if (result == FACET_OK)
+        result = facet_environment_get_info(run->environment, &run->info, error);
+    if (result != FACET_OK) {
+        failure_complete(error, bake_input_name(o), o->limits.max_memory_bytes);
+        return result;
+    }
+    const float turn = bake_layout_turn(o, &run->info);
+    for (uint32_t i = 0; i < run->plan.cube_count; i++)
+        run->plan.cubes[i].desc.rotation_rad += turn;
+    run->options.harmonics.rotation_rad += turn;
+    tell_environment(run);
+    return FACET_OK;
+}
+
+/* ---- baking ---- */
+
+/* Seconds that steps take, roughly and in relation to each other, for the bar. */
+typedef enum bake_step { STEP_BAKE, STEP_VERIFY, STEP_TABLE, STEP_SHEET } bake_step;
+
+static double cost_of(bake_step step, const facet_bake_desc *desc)
+{
+    static const double costs[] = {
+        [STEP_BAKE] = 1.0, [STEP_VERIFY] = 3.0, [STEP_TABLE] = 0.5, [STEP_SHEET] = 4.0};
+    double cost = costs[step];
+    if (desc && (desc->lobe == FACET_LOBE_LAMBERT || desc->lobe == FACET_LOBE_NONE))
+        cost *= 0.1;
+    if (step == STEP_BAKE && desc && desc->method == FACET_BAKE_REFERENCE)
+        cost *= 100.0;
+    return cost;
+}
+
+static double whole_cost(const bake_plan *plan)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < plan->cube_count; i++)
+        if (plan->cubes[i].desc.size)
+            sum += cost_of(STEP_BAKE, &plan->cubes[i].desc) +
+                   (plan->cubes[i].is_verified ? cost_of(STEP_VERIFY, &plan->cubes[i].desc) : 0.0);
+    for (size_t i = 0; i < plan->file_count; i++)
+        if (!plan->files[i].is_kept && plan->files[i].content >= BAKE_TABLE)
+            sum += cost_of(plan->files[i].content == BAKE_TABLE ? STEP_TABLE : STEP_SHEET, NULL);
+    return sum > 0.0 ? sum : 1.0;
+}
+
+/* The part of the bar that the next step fills. */
+static facet_progress next_step(bake_run *run, bake_step step, const facet_bake_desc *desc)
+{
+    run->shown.done_before += run->shown.share;
+    run->shown.share = cost_of(step, desc) / whole_cost(&run->plan);
+    return progress_callback(&run->shown);
+}
+
+static void tell_clamped(bake_run *run, const bake_cube *baked)
+{
+    const facet_bake_stats stats = facet_cube_get_stats(baked->cube);
+    if (baked->desc.clamp > 0.0f)
+        message_at(&run->messages, VERBOSITY_NORMAL, "%s: --clamp %g takes %.3g %% of the light",
+                   bake_input_name(&run->options), (double)baked->desc.clamp, 100.0 * stats.clamped_share);
+}
+
+static facet_result bake_cubes(bake_run *run, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    bool has_told = false;
+    for (uint32_t i = 0; i < run->plan.cube_count && result == FACET_OK; i++) {
+        bake_cube *baked = &run->plan.cubes[i];
+        if (!baked->desc.size) /* its files are kept */
+            continue;
+        baked->desc.allocator = run->allocator;
+        baked->desc.progress = next_step(run, STEP_BAKE, &baked->desc);
+        result = facet_cube_bake(run->environment, &baked->desc, &baked->cube, error);
+        if (result == FACET_OK && !has_told)
+            tell_clamped(run, baked);
+        has_told = true;
+        if (result == FACET_OK && baked->is_verified) {
+            baked->desc.progress = next_step(run, STEP_VERIFY, &baked->desc);
+            result = facet_cube_verify(baked->cube, run->environment, &baked->desc, baked->errors, error);
+        }
+        baked->desc.progress = (facet_progress){0};
+    }
+    return result;
+}
+
+static facet_result project(bake_run *run, facet_error *error)
+{
+    facet_sh_desc desc = run->options.harmonics;
+    facet_result result = FACET_OK;
+    desc.allocator = run->allocator;
+    for (int form = 0; form < 3 && run->plan.has_sh && result == FACET_OK; form++) {
+        desc.form = (facet_sh_form)form;
+        result = facet_environment_project_sh(run->environment, &desc, run->plan.sh[form], error);
+    }
+    return result;
+}
+
+static facet_result make_files(bake_run *run, facet_error *error)
+{
+    bake_making making = {.options = &run->options,
+                          .plan = &run->plan,
+                          .environment = run->environment,
+                          .allocator = run->allocator};
+    facet_result result = FACET_OK;
+    for (size_t i = 0; i < run->plan.file_count && result == FACET_OK; i++) {
+        bake_file *file = &run->plan.files[i];
+        if (file->is_kept)
+            continue;
+        making.progress = (facet_progress){0};
+        if (file->content >= BAKE_TABLE)
+            making.progress = next_step(run, file->content == BAKE_TABLE ? STEP_TABLE : STEP_SHEET, NULL);
+        result = bake_file_make(&making, file, error);
+    }
+    return result;
+}
+
+/* All that is to be written, in memory: nothing is on the disk until all of it is there. */
+static facet_result bake(bake_run *run, facet_error *error)
+{
+    const bool has_bar = run->shown.mode == PROGRESS_BAR;
+    facet_result result = run->options.is_table ? FACET_OK : load(run, error);
+    messages_flush(&run->messages);
+    interrupt_set_safe(has_bar ? "\r\033[Kfacet: the time limit (--time-limit) was reached while baking\n"
+                               : "facet: the time limit (--time-limit) was reached while baking\n");
+    if (result == FACET_OK)
+        result = bake_cubes(run, error);
+    if (result == FACET_OK)
+        result = project(run, error);
+    if (result == FACET_OK)
+        result = make_files(run, error);
+    interrupt_set_safe(NULL);
+    progress_clear();
+    if (result != FACET_OK)
+        failure_complete(error, bake_plan_subject(&run->plan), run->options.limits.max_memory_bytes);
+    if (result == FACET_OK && interrupt_signal())
+        result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", bake_plan_subject(&run->plan));
+    if (result == FACET_OK && interrupt_seconds_left() <= 0.0)
+        result = fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached",
+                           bake_plan_subject(&run->plan));
+    return result;
+}
+
+/* ---- writing ---- */
+
+static facet_result write_files(bake_run *run, facet_error *error)
+{
+    facet_result result = bake_plan_make_folders(&run->plan, error);
+    for (size_t i = 0; i < run->plan.file_count && result == FACET_OK; i++) {
+        const bake_file *file = &run->plan.files[i];
+        if (!file->is_kept)
+            result = output_write_bytes(file->bytes, file->size, file->path, error);
+        if (result == FACET_OK && interrupt_signal() && i + 1 < run->plan.file_count)
+            result =
+                fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", bake_plan_subject(&run->plan));
+    }
+    run->is_written = result == FACET_OK;
+    return result;
+}
+
+static bool is_all_kept(const bake_plan *plan)
+{
+    for (size_t i = 0; i < plan->file_count; i++)
+        if (!plan->files[i].is_kept)
+            return false;
+    return true;
+}
+
+static facet_result begin(bake_run *run, command_line *c, config *storage, facet_error *error)
+{
+    facet_result result = config_apply(c, storage, error);
+    if (result == FACET_OK)
+        result = bake_options_read(c, &run->options, error);
+    run->messages.verbosity = messages_verbosity(c);
+    if (result == FACET_OK && run->options.layout == BAKE_LAYOUT_FILAMENT && !run->options.has_sh_window)
+        run->options.harmonics.is_windowed = true; /* as cmgen does */
+    if (result == FACET_OK)
+        result = bake_plan_make(&run->options, &run->plan, error);
+    if (result == FACET_OK)
+        result = bake_plan_check(c, &run->options, &run->plan, error);
+    if (result == FACET_OK)
+        result = facet_budget_create(run->options.limits.max_memory_bytes, &run->budget, error);
+    if (result != FACET_OK)
+        return result;
+    run->allocator = facet_budget_allocator(run->budget);
+    run->shown =
+        (progress){.mode = progress_choose(option_choice(c, OPT_PROGRESS, 0), is_given(c, OPT_QUIET)),
+                   .subject = bake_plan_subject(&run->plan),
+                   .start = interrupt_clock(),
+                   .last_percent = -10};
+    interrupt_set_deadline(run->options.limits.time_limit_s);
+    return FACET_OK;
+}
+
+static void print_json(const bake_run *run, double start, const facet_error *error, int exit_code)
+{
+    json_t *failures = json_array();
+    json_t *root = bake_report_json(&run->options, &run->plan, &run->info, run->is_written);
+    if (error->message[0])
+        json_array_append_new(failures, report_error_json(error, NULL, exit_code));
+    json_t *rest = json_pack(
+        "{s:s, s:o, s:o, s:f, s:I, s:I, s:i}", "facet", facet_version(), "failures", failures, "warnings",
+        report_warnings_json(&run->messages), "seconds", interrupt_clock() - start, "peak_memory_bytes",
+        (json_int_t)memory_peak(), "peak_data_bytes",
+        (json_int_t)(run->budget ? facet_budget_peak_bytes(run->budget) : 0), "exit_code", exit_code);
+    json_object_update(root, rest);
+    json_decref(rest);
+    report_print_json(root);
+    json_decref(root);
+}
+
+/* The table of --verify, and whether --max-error holds. */
+static bool tell_errors(const bake_run *run)
+{
+    const bake_options *o = &run->options;
+    const command_line *c = run->line;
+    char worst[128];
+    const bool is_wanted = is_given(c, OPT_VERIFY) || is_given(c, OPT_VERBOSE);
+    if (!o->is_verified || !run->is_written || is_all_kept(&run->plan))
+        return true;
+    if (is_wanted && !is_given(c, OPT_JSON) && !is_given(c, OPT_QUIET))
+        bake_report_errors(o->output && strcmp(o->output, "-") == 0 ? stderr : stdout, &run->plan);
+    bake_report_worst(&run->plan, o->has_max_error ? o->max_error : 1e300, worst, sizeof worst);
+    if (!worst[0])
+        return true;
+    message_error("%s: %s is more than --max-error %g", bake_plan_subject(&run->plan), worst, o->max_error);
+    return false;
+}
+
+int cmd_bake(command_line *c)
+{
+    double start = interrupt_clock();
+    bake_run run = {.line = c};
+    config storage = {0};
+    facet_error error = {0};
+    interrupt_install();
+    facet_result result = begin(&run, c, &storage, &error);
+    if (result == FACET_OK && !is_all_kept(&run.plan))
+        result = bake(&run, &error);
+    messages_flush(&run.messages);
+    if (result == FACET_OK)
+        result = write_files(&run, &error);
+    if (result == FACET_OK)
+        bake_report_files(&run.messages, &run.plan, run.plan.has_own_name, interrupt_clock() - start);
+    const bool is_within = tell_errors(&run);
+    const bool is_negative = !is_within || (run.messages.warning_count && is_given(c, OPT_STRICT));
+    const int exit_code = result != FACET_OK ? exit_code_of(result) : is_negative ? EXIT_NEGATIVE : EXIT_DONE;
+    if (result != FACET_OK) {
+        const bool is_ours = error.message[0] == '-' || strncmp(error.message, "bake:", 5) == 0;
+        message_error("%s%s", is_ours ? "facet: " : "", error.message);
+    }
+    if (is_given(c, OPT_JSON))
+        print_json(&run, start, &error, exit_code);
+    bake_plan_destroy(&run.plan);
+    facet_environment_destroy(run.environment);
+    messages_clear(&run.messages);
+    facet_budget_destroy(run.budget);
+    config_destroy(&storage);
+    return result == FACET_ERROR_CANCELLED ? interrupt_exit() : exit_code;
+}
