@@ -889,7 +889,7 @@ typedef enum facet_dfg_kind {
     FACET_DFG_MULTISCATTER, /* R: integral of Fc, G: of 1, height-correlated: Filament's layout for energy compensation */
     FACET_DFG_CHARLIE,         /* R: albedo of sheen, Charlie with its own masking (Estevez and Kulla 2017) */
     FACET_DFG_CHARLIE_NEUBELT, /* R: the same with Neubelt's masking, which Filament and Khronos' lookup have */
-    FACET_DFG_GGX_AVERAGE, /* R: albedo of GGX averaged over the cosine, of roughness alone: one column as wide as the table */
+    FACET_DFG_GGX_AVERAGE, /* R: albedo of GGX averaged over the cosine, of roughness alone: every column is the same */
     FACET_DFG_FILAMENT /* R, G: as MULTISCATTER, B: as CHARLIE_NEUBELT: what Filament loads */
 } facet_dfg_kind;
 
