@@ -907,12 +907,21 @@ FACET_API facet_result facet_dfg_bake(const facet_dfg_desc *desc, facet_image **
 FACET_API uint32_t facet_dfg_get_channel_count(facet_dfg_kind kind);
 
 /* What nine spherical harmonics of an environment stand for; order 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22 of the real basis
- * without Condon and Shortley's sign, +Y up. */
+ *   Y = 0.282095, 0.488603 (y, z, x), 1.092548 (x y, y z), 0.315392 (3 z^2 - 1), 1.092548 x z, 0.546274 (x^2 - y^2)
+ * without Condon and Shortley's sign; x, y, z of the direction in the world, right-handed, +Y up. Engines take them so:
+ *   three.js   RADIANCE as LightProbe.sh.coefficients: same basis, order, axes; its shaders apply A_l. An equirectangular
+ *              picture lies on the world as in scene.environment: no rotation. (Its LightProbeGenerator makes the same numbers.)
+ *   Filament   FOLDED as IndirectLight::Builder::irradiance(3, sh), which are what cmgen --sh-shader and --deploy print and
+ *              write. IndirectLight::Builder::radiance() and cmgen --sh without --sh-shader have Condon and Shortley's sign:
+ *              RADIANCE and IRRADIANCE with 1-1, 11, 2-1, 21 negated. cmgen puts a picture's middle column at +Z: rotation_rad
+ *              -pi / 2 gives its numbers. It windows unless told --sh-window no.
+ *   Khronos    IRRADIANCE as irradianceCoefficients of EXT_lights_image_based (Babylon.js reads 1-1, 11, 2-1, 21 negated).
+ *              Khronos' viewer takes no harmonics but a cube map: FACET_LOBE_LAMBERT. */
 typedef enum facet_sh_form {
-    FACET_SH_RADIANCE,   /* L_lm = integral of L Y_lm; three.js' LightProbe takes these */
+    FACET_SH_RADIANCE,   /* L_lm = integral of L Y_lm */
     FACET_SH_IRRADIANCE, /* E_lm = A_l L_lm, A = pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan 2001) */
-    FACET_SH_FOLDED /* irradiance / pi with the basis' constants folded in: sum of c times 1, y, z, x, xy, yz, 3z^2 - 1, zx,
-                            x^2 - y^2: Filament's "pre-scaled" */
+    FACET_SH_FOLDED /* irradiance / pi, the basis' constants folded in: sum of c times 1, y, z, x, xy, yz, 3z^2 - 1, zx,
+                       x^2 - y^2: Filament's "pre-scaled" */
 } facet_sh_form;
 
 typedef struct facet_sh_desc {
@@ -921,8 +930,10 @@ typedef struct facet_sh_desc {
     facet_sh_form form;
     float rotation_rad, ev, clamp; /* as facet_bake_desc */
     bool
-        is_windowed; /* lowers bands until irradiance is nowhere below 0 (Sloan 2017): rings around a sun go */
+        is_windowed; /* lowers bands 1 and 2, all channels alike, as little as leaves the irradiance nowhere below 0 (Sloan
+                        2017): rings around a sun go */
 } facet_sh_desc;
+/* desc NULL: {0}. FACET_ERROR_ARGUMENT, _MEMORY. */
 FACET_API facet_result facet_environment_project_sh(const facet_environment *environment,
                                                     const facet_sh_desc *desc, float coefficients[9][3],
                                                     facet_error *error);

@@ -46,14 +46,21 @@ void sh_basis(const double d[3], double y[SH_COUNT])
 
 typedef struct projection {
     const image *picture;
+    float limit;
     float *waves;                      /* [WAVE_COUNT][3 width]: each value three times, for R, G, B */
     double (*row_sums)[WAVE_COUNT][3]; /* [height] */
 } projection;
+
+static inline float least_of(float a, float b)
+{
+    return a < b ? a : b;
+}
 
 DISPATCH_AVX2 static void sum_rows(void *context, size_t begin, size_t end)
 {
     const projection *p = context;
     size_t count = 3 * (size_t)p->picture->width;
+    float limit = p->limit;
     for (size_t y = begin; y < end; y++) {
         const float *row = (const float *)p->picture->pixels + y * count;
         double(*sums)[3] = p->row_sums[y];
@@ -65,17 +72,17 @@ DISPATCH_AVX2 static void sum_rows(void *context, size_t begin, size_t end)
                 const float *wave = p->waves + (size_t)w * count + i;
                 float lanes[24];
                 for (int k = 0; k < 24; k++)
-                    lanes[k] = row[i + (size_t)k] * wave[k];
+                    lanes[k] = least_of(row[i + (size_t)k], limit) * wave[k];
                 for (size_t j = 24; j < 3 * SPAN; j += 24)
                     for (size_t k = 0; k < 24; k++)
-                        lanes[k] += row[i + j + k] * wave[j + k];
+                        lanes[k] += least_of(row[i + j + k], limit) * wave[j + k];
                 for (int k = 0; k < 24; k++)
                     sums[w][k % 3] += (double)lanes[k];
             }
         }
         for (; i < count; i++)
             for (int w = 0; w < WAVE_COUNT; w++)
-                sums[w][i % 3] += (double)row[i] * (double)p->waves[(size_t)w * count + i];
+                sums[w][i % 3] += (double)least_of(row[i], limit) * (double)p->waves[(size_t)w * count + i];
     }
 }
 
@@ -120,10 +127,16 @@ static void add_row(double sums[WAVE_COUNT][3], const double latitude[6], double
 facet_result sh_project(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
                         double radiance[SH_COUNT][3], facet_error *error)
 {
+    return sh_project_limited(picture, INFINITY, allocator, thread_count, radiance, error);
+}
+
+facet_result sh_project_limited(const image *picture, float limit, const facet_allocator *allocator,
+                                uint32_t thread_count, double radiance[SH_COUNT][3], facet_error *error)
+{
     uint32_t width = picture->width;
     uint32_t height = picture->height;
     facet_result result = FACET_OK;
-    projection p = {picture, mem_alloc(allocator, width, 3 * WAVE_COUNT * sizeof(float)),
+    projection p = {picture, limit, mem_alloc(allocator, width, 3 * WAVE_COUNT * sizeof(float)),
                     mem_alloc(allocator, height, sizeof *p.row_sums)};
     if (!p.waves || !p.row_sums) {
         result = fail_memory(error, "irradiance", width * sizeof(float) * 3 * WAVE_COUNT);

@@ -20,6 +20,9 @@ void sh_basis(const double d[3], double y[SH_COUNT]);
  * FACET_ERROR_MEMORY. */
 facet_result sh_project(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
                         double radiance[SH_COUNT][3], facet_error *error);
+/* The same of a picture whose channels are cut off at limit. */
+facet_result sh_project_limited(const image *picture, float limit, const facet_allocator *allocator,
+                                uint32_t thread_count, double radiance[SH_COUNT][3], facet_error *error);
 
 /* Coefficients of irradiance, E_lm = A_l L_lm: A_l = pi, 2 pi / 3, pi / 4 are those of the clamped cosine. */
 void sh_irradiance(const double radiance[SH_COUNT][3], double irradiance[SH_COUNT][3]);
