@@ -6,11 +6,17 @@
 #include "ibl/cube.h"
 #include "image/image.h"
 
-/* What a picture of these edges is; FACET_LAYOUT_AUTO: none of them. */
+/* What a picture of these edges is; FACET_LAYOUT_AUTO: none of them. Octahedral pictures are not told by their edges. */
 facet_layout layout_detect(uint32_t width, uint32_t height);
+/* Whether the layout holds the faces of a cube map, texel by texel. */
+bool layout_is_faces(facet_layout layout);
+/* FACET_ERROR_INVALID: a picture of these edges is not of the layout. Equirectangular ones may have any. */
+facet_result layout_check(facet_layout layout, uint32_t width, uint32_t height, const char *name,
+                          facet_error *error);
 
-/* The faces of a picture (F32 RGB) in a layout of cube maps, borders filled. name stands first in messages.
- * FACET_ERROR_INVALID: its edges do not fit the layout. */
+/* The faces of a picture (F32 RGB or RGBA), borders filled: texels as they are of crosses and strips; resampled to faces
+ * half as high as the picture where it is equirectangular or octahedral (sphere_resample.h). name stands first in messages.
+ * FACET_ERROR_INVALID: its edges do not fit the layout; _MEMORY. */
 facet_result layout_read(const image *picture, facet_layout layout, const char *name,
                          const facet_allocator *allocator, uint32_t thread_count, cube *out,
                          facet_error *error);

@@ -1,0 +1,66 @@
+/* sphere.h - radiance over the sphere, kept in one of three ways, and its texels by number. */
+#ifndef IBL_SPHERE_H
+#define IBL_SPHERE_H
+
+#include "facet/facet.h"
+#include "ibl/cube.h"
+#include "ibl/equirect.h"
+#include "ibl/octahedron.h"
+#include "image/image.h"
+
+typedef enum sphere_kind { SPHERE_CUBE, SPHERE_EQUIRECT, SPHERE_OCTAHEDRON } sphere_kind;
+
+/* Texels are numbered face by face, row by row. */
+typedef struct sphere {
+    sphere_kind kind;
+    uint32_t width, height; /* of a face or the picture */
+    cube *cube;             /* SPHERE_CUBE; borders filled where it is a source */
+    float *pixels;          /* else: channel_count (3 or 4) a texel, a fourth is not looked at */
+    uint32_t channel_count;
+} sphere;
+
+sphere sphere_of_cube(cube *c);
+sphere sphere_of_picture(sphere_kind kind, const image *picture /* F32 */);
+
+static inline size_t sphere_texel_count(const sphere *s)
+{
+    return (size_t)s->width * s->height * (s->kind == SPHERE_CUBE ? 6 : 1);
+}
+
+rgbx sphere_texel(const sphere *s, size_t texel);
+/* Of the middle of a texel, any length. */
+void sphere_direction(const sphere *s, size_t texel, float d[3]);
+/* Sr, relative error below 1e-5. */
+double sphere_solid_angle(const sphere *s, size_t texel);
+
+/* The number of the texel that direction d (any length but 0) is in. */
+static inline size_t sphere_locate(const sphere *s, const float d[3])
+{
+    float x, y;
+    uint32_t face = 0;
+    if (s->kind == SPHERE_CUBE) {
+        cube_point p = cube_locate(d[0], d[1], d[2]);
+        face = p.face;
+        x = 0.5f * p.s + 0.5f;
+        y = 0.5f * p.t + 0.5f;
+    } else if (s->kind == SPHERE_EQUIRECT) {
+        equirect_point p = equirect_locate(d);
+        x = p.turns + 0.5f;
+        y = p.half_turns;
+    } else {
+        float uv[2];
+        octahedron_locate(d, uv);
+        x = 0.5f * uv[0] + 0.5f;
+        y = 0.5f * uv[1] + 0.5f;
+    }
+    int column = (int)(x * (float)s->width);
+    int row = (int)(y * (float)s->height);
+    column = column < 0 ? 0 : column < (int)s->width ? column : (int)s->width - 1;
+    row = row < 0 ? 0 : row < (int)s->height ? row : (int)s->height - 1;
+    return ((size_t)face * s->height + (size_t)row) * s->width + (size_t)column;
+}
+
+/* Radiance from direction d (any length but 0), bilinear, seamless, of texels cut off at limit. */
+rgbx sphere_lookup(const sphere *s, const float d[3], float limit);
+
+#endif

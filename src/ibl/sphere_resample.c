@@ -1,0 +1,348 @@
+/* sphere_resample.c - see sphere_resample.h. */
+#include "ibl/sphere_resample.h"
+
+#include <stdatomic.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* What is brighter than so many times the mean is hot. */
+static const double hot_contrast = 16.0;
+
+/* Solid angles are counted in whole parts of so many to the steradian, so that sums of threads do not depend on order. */
+static const double parts_per_sr = 0x1p50;
+
+/* A texel of the source that is hot. */
+typedef struct hot_texel {
+    size_t texel;
+    _Atomic uint64_t covered; /* solid angle of lookups that hit it */
+    rgbx excess;              /* over the limit; once covered is known: as every lookup takes it */
+} hot_texel;
+
+typedef struct resampling {
+    const sphere *source, *target;
+    const sphere_turn *turn;
+    uint32_t parts;      /* a texel of the target is looked up parts x parts times */
+    float (*columns)[2]; /* equirectangular target: cosine and sine of the longitude of each part of a row */
+    float limit;         /* of what is not hot */
+    uint32_t *hot_numbers; /* of the source's texels, from 1 on; NULL: none is hot */
+    hot_texel *hot;
+    size_t hot_count;
+} resampling;
+
+static void turn_back(const sphere_turn *turn, float d[3])
+{
+    float x = d[0], y = d[1], z = d[2];
+    for (int i = 0; i < 3 && turn->is_turned; i++)
+        d[i] = turn->rows[i][0] * x + turn->rows[i][1] * y + turn->rows[i][2] * z;
+}
+
+/* ---- the parts of a target's texels ---- */
+
+/* A row of parts: what their directions have in common. */
+typedef struct part_row {
+    float base[3], right[3]; /* of a cube: d = base + s right */
+    float v, step;           /* of an octahedron */
+    float radius, height;    /* of latitudes */
+    float weight;            /* of a latitude, sr; of a cube: of 1 / |d|^3 */
+} part_row;
+
+static part_row start_row(const resampling *r, uint32_t face, uint32_t row)
+{
+    const sphere *t = r->target;
+    part_row p = {0};
+    uint32_t rows = t->height * r->parts;
+    if (t->kind == SPHERE_EQUIRECT) {
+        double theta = pi * (row + 0.5) / rows;
+        p.radius = (float)sin(theta);
+        p.height = (float)cos(theta);
+        p.weight = (float)equirect_texel_solid_angle(t->width * r->parts, rows, row);
+        return p;
+    }
+    double step = 2.0 / rows;
+    double v = (row + 0.5) * step - 1.0;
+    p.weight = (float)(step * step);
+    p.v = (float)v;
+    p.step = (float)step;
+    if (t->kind == SPHERE_CUBE) {
+        double base[3], end[3];
+        cube_direction(face, 0.0, v, base);
+        cube_direction(face, 1.0, v, end);
+        for (int i = 0; i < 3; i++) {
+            p.base[i] = (float)base[i];
+            p.right[i] = (float)(end[i] - base[i]);
+        }
+    }
+    return p;
+}
+
+/* The direction of a part, any length, and its solid angle. */
+static inline float get_part(const resampling *r, const part_row *p, uint32_t column, float d[3])
+{
+    const sphere *t = r->target;
+    if (t->kind == SPHERE_EQUIRECT) {
+        d[0] = r->columns[column][0] * p->radius;
+        d[1] = p->height;
+        d[2] = r->columns[column][1] * p->radius;
+        return p->weight;
+    }
+    float u = (2.0f * (float)column + 1.0f) / (float)(t->width * r->parts) - 1.0f;
+    if (t->kind == SPHERE_OCTAHEDRON) {
+        octahedron_direction(u, p->v, d);
+        return octahedron_solid_angle(u, p->v, p->step);
+    }
+    for (int i = 0; i < 3; i++)
+        d[i] = p->base[i] + u * p->right[i];
+    float q = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    return p->weight / (q * sqrtf(q));
+}
+
+static bool make_columns(resampling *r, const facet_allocator *allocator)
+{
+    uint32_t count = r->target->width * r->parts;
+    if (r->target->kind != SPHERE_EQUIRECT)
+        return true;
+    r->columns = mem_alloc(allocator, count, sizeof *r->columns);
+    for (uint32_t i = 0; r->columns && i < count; i++) {
+        double phi = 2.0 * pi * ((i + 0.5) / count - 0.5);
+        r->columns[i][0] = (float)cos(phi);
+        r->columns[i][1] = (float)sin(phi);
+    }
+    return r->columns != NULL;
+}
+
+/* The least angle that a texel is wide, rad, about. */
+static double finest_angle(const sphere *s)
+{
+    return s->kind == SPHERE_EQUIRECT ? pi / s->height
+           : s->kind == SPHERE_CUBE   ? 0.94 / s->width
+                                      : 1.4 / s->width;
+}
+
+static double coarsest_angle(const sphere *s)
+{
+    return s->kind == SPHERE_EQUIRECT ? pi / s->height
+           : s->kind == SPHERE_CUBE   ? 2.0 / s->width
+                                      : 3.5 / s->width;
+}
+
+/* Lookups 1.8 to a texel of the source, at least 2 in each direction; more in small targets, whose solid angles are sums
+ * over them. */
+static uint32_t choose_parts(const sphere *source, const sphere *target)
+{
+    double ratio = coarsest_angle(target) / finest_angle(source);
+    uint32_t parts = ratio < 1.0 ? 2 : (uint32_t)ceil(1.8 * ratio);
+    uint32_t rows = target->kind == SPHERE_EQUIRECT ? 128 : 512;
+    uint32_t least = (rows - 1 + target->height) / target->height;
+    parts = parts > least ? parts : least;
+    return target->kind == SPHERE_OCTAHEDRON ? parts + parts * target->width % 2
+                                             : parts; /* folds through corners */
+}
+
+/* ---- what is hot ---- */
+
+static bool is_hot(rgbx c, float limit)
+{
+    return c[0] > limit || c[1] > limit || c[2] > limit;
+}
+
+/* Of all numbers, each cut off at limit. Not weighted with solid angles: it decides nothing but how exact the sum is. */
+static double mean_below(const sphere *s, float limit)
+{
+    size_t count = sphere_texel_count(s);
+    double sum = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        rgbx c = sphere_texel(s, i);
+        for (int k = 0; k < 3; k++)
+            sum += (double)(c[k] < limit ? c[k] : limit);
+    }
+    return sum / (3.0 * (double)count);
+}
+
+/* hot_contrast times the mean of what is not hot, nearly: a sun that is most of the light counts little; infinite in the
+ * dark. No more than a part in hot_contrast of all texels is above. */
+static float choose_limit(const sphere *s)
+{
+    enum { ROUNDS = 4 };
+    double limit = INFINITY;
+    for (int round = 0; round < ROUNDS; round++) {
+        limit = hot_contrast * mean_below(s, (float)limit);
+        if (!(limit > 0.0))
+            return INFINITY;
+    }
+    return (float)limit;
+}
+
+/* Numbers what is hot. False: no memory. */
+static bool find_hot(resampling *r, const facet_allocator *allocator)
+{
+    size_t count = sphere_texel_count(r->source);
+    r->limit = choose_limit(r->source);
+    for (size_t i = 0; i < count; i++)
+        r->hot_count += is_hot(sphere_texel(r->source, i), r->limit);
+    if (r->hot_count == 0)
+        return true;
+    r->hot_numbers = mem_zalloc(allocator, count, sizeof *r->hot_numbers);
+    r->hot = mem_alloc(allocator, r->hot_count, sizeof *r->hot);
+    if (!r->hot_numbers || !r->hot)
+        return false;
+    uint32_t number = 0;
+    for (size_t i = 0; i < count; i++) {
+        rgbx c = sphere_texel(r->source, i);
+        if (!is_hot(c, r->limit))
+            continue;
+        hot_texel *h = &r->hot[number];
+        h->texel = i;
+        h->excess = rgbx_not_negative(c - rgbx_splat(r->limit));
+        atomic_init(&h->covered, 0);
+        r->hot_numbers[i] = ++number;
+    }
+    return true;
+}
+
+static hot_texel *find_hot_at(const resampling *r, const float d[3])
+{
+    uint32_t number = r->hot_numbers ? r->hot_numbers[sphere_locate(r->source, d)] : 0;
+    return number ? &r->hot[number - 1] : NULL;
+}
+
+/* Adds up what the target's parts cover of hot texels. */
+static void cover_rows(void *context, size_t begin, size_t end)
+{
+    const resampling *r = context;
+    const sphere *t = r->target;
+    for (size_t i = begin * r->parts; i < end * r->parts; i++) {
+        uint32_t rows = t->height * r->parts;
+        part_row p = start_row(r, (uint32_t)(i / rows), (uint32_t)(i % rows));
+        for (uint32_t x = 0; x < t->width * r->parts; x++) {
+            float d[3];
+            float weight = get_part(r, &p, x, d);
+            turn_back(r->turn, d);
+            hot_texel *h = find_hot_at(r, d);
+            if (h)
+                atomic_fetch_add_explicit(&h->covered, (uint64_t)((double)weight * parts_per_sr),
+                                          memory_order_relaxed);
+        }
+    }
+}
+
+/* From excess radiance to what a lookup takes: all of them together the texel's energy. */
+static void scale_hot(resampling *r)
+{
+    for (size_t i = 0; i < r->hot_count; i++) {
+        hot_texel *h = &r->hot[i];
+        double covered = (double)atomic_load(&h->covered) / parts_per_sr;
+        if (covered > 0.0)
+            h->excess *= rgbx_splat((float)(sphere_solid_angle(r->source, h->texel) / covered));
+    }
+}
+
+/* ---- texels ---- */
+
+static void store_texel(const sphere *t, uint32_t face, uint32_t x, uint32_t y, rgbx c)
+{
+    if (t->kind == SPHERE_CUBE) {
+        *cube_texel(t->cube, face, (int)x, (int)y) = c;
+        return;
+    }
+    float *to = t->pixels + ((size_t)y * t->width + x) * t->channel_count;
+    for (int i = 0; i < 3; i++)
+        to[i] = c[i];
+    if (t->channel_count == 4)
+        to[3] = 1.0f;
+}
+
+/* Adds a row of the parts of the texels in column x: a row by itself first, which keeps rounding small. */
+static inline void add_parts(const resampling *r, const part_row *p, uint32_t x, rgbx *sum, float *whole)
+{
+    rgbx row = {0};
+    float row_weight = 0.0f;
+    for (uint32_t k = 0; k < r->parts; k++) {
+        float d[3];
+        float weight = get_part(r, p, x * r->parts + k, d);
+        turn_back(r->turn, d);
+        rgbx c = sphere_lookup(r->source, d, r->limit);
+        const hot_texel *h = find_hot_at(r, d);
+        row += (h ? c + h->excess : c) * rgbx_splat(weight);
+        row_weight += weight;
+    }
+    *sum += row;
+    *whole += row_weight;
+}
+
+static void resample_rows(void *context, size_t begin, size_t end)
+{
+    enum { MAX_ROWS = 8 }; /* of parts whose rows are kept */
+    const resampling *r = context;
+    const sphere *t = r->target;
+    rgbx scale = rgbx_splat(r->turn->scale != 0.0f ? r->turn->scale : 1.0f);
+    for (size_t i = begin; i < end; i++) {
+        uint32_t face = (uint32_t)(i / t->height);
+        uint32_t y = (uint32_t)(i % t->height);
+        part_row kept[MAX_ROWS];
+        for (uint32_t k = 0; k < r->parts && k < MAX_ROWS; k++)
+            kept[k] = start_row(r, face, y * r->parts + k);
+        for (uint32_t x = 0; x < t->width; x++) {
+            rgbx sum = {0};
+            float whole = 0.0f;
+            for (uint32_t row = 0; row < r->parts; row++) {
+                part_row p = row < MAX_ROWS ? kept[row] : start_row(r, face, y * r->parts + row);
+                add_parts(r, &p, x, &sum, &whole);
+            }
+            store_texel(t, face, x, y, sum * rgbx_splat(1.0f / whole) * scale);
+        }
+    }
+}
+
+/* Where lookups have missed a hot texel altogether, the texel of the target at its middle takes it all. */
+static void add_missed(const resampling *r)
+{
+    for (size_t i = 0; i < r->hot_count; i++) {
+        const hot_texel *h = &r->hot[i];
+        if (atomic_load(&h->covered) > 0)
+            continue;
+        float d[3], e[3];
+        sphere_direction(r->source, h->texel, d);
+        for (int k = 0; k < 3; k++) /* the inverse of a rotation or reflection is its transpose */
+            e[k] = r->turn->is_turned
+                       ? r->turn->rows[0][k] * d[0] + r->turn->rows[1][k] * d[1] + r->turn->rows[2][k] * d[2]
+                       : d[k];
+        size_t texel = sphere_locate(r->target, e);
+        size_t row = texel / r->target->width;
+        float share =
+            (float)(sphere_solid_angle(r->source, h->texel) / sphere_solid_angle(r->target, texel)) *
+            (r->turn->scale != 0.0f ? r->turn->scale : 1.0f);
+        store_texel(r->target, (uint32_t)(row / r->target->height), (uint32_t)(texel % r->target->width),
+                    (uint32_t)(row % r->target->height),
+                    sphere_texel(r->target, texel) + h->excess * rgbx_splat(share));
+    }
+}
+
+facet_result sphere_resample(const sphere *source, const sphere_turn *turn, const facet_allocator *allocator,
+                             uint32_t thread_count, const sphere *target, facet_error *error)
+{
+    static const sphere_turn as_it_is;
+    resampling r = {.source = source,
+                    .target = target,
+                    .turn = turn ? turn : &as_it_is,
+                    .parts = choose_parts(source, target)};
+    size_t rows = (size_t)target->height * (target->kind == SPHERE_CUBE ? 6 : 1);
+    facet_result result = FACET_OK;
+    if (!make_columns(&r, allocator) || !find_hot(&r, allocator)) {
+        result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.hot_numbers);
+    } else {
+        if (r.hot) {
+            parallel_for(thread_count, rows, 2, cover_rows, &r);
+            scale_hot(&r);
+        }
+        parallel_for(thread_count, rows, 2, resample_rows, &r);
+        add_missed(&r);
+    }
+    mem_free(r.columns);
+    mem_free(r.hot_numbers);
+    mem_free(r.hot);
+    return result;
+}
