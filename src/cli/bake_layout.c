@@ -5,8 +5,8 @@
  *           --format hdr or exr the faces one by one, as cmgen names them.
  * khronos   lambertian/diffuse.ktx2, ggx/specular.ktx2, charlie/sheen.ktx2 and the tables beside them, as the folders of
  *           glTF-Sample-Environments; panorama.hdr for versions of the viewer that filter by themselves.
- * three     environment.hdr for HDRLoader; px.hdr .. nz.hdr for HDRCubeTextureLoader, which three.js looks up with x
- *           negated; sh.json for LightProbe. */
+ * three     environment.hdr for HDRLoader; pmrem.ktx2, levels as three.js' PMREMGenerator filters them since r182; px.hdr ..
+ *           nz.hdr for HDRCubeTextureLoader; sh.json for LightProbe. three.js looks up cube maps from files with x negated. */
 #define _DEFAULT_SOURCE
 #include "cli/bake_layout.h"
 
@@ -155,6 +155,12 @@ static void add_three(adding *a)
                     .container = CONTAINER_HDR,
                     .cube = cube_index,
                     .projection = FACET_LAYOUT_EQUIRECTANGULAR});
+    add(a, "pmrem.ktx2",
+        (bake_file){.content = BAKE_CUBE,
+                    .container = CONTAINER_KTX2,
+                    .cube = add_cube(a, FACET_LOBE_GGX, o->bake.size, o->bake.level_count),
+                    .texels = o->has_texels ? o->texels : FACET_TEXEL_RGBA16F,
+                    .is_mirrored = true});
     add_faces(a, cube_index, 0, false, CONTAINER_HDR, true);
     add(a, "sh.json", (bake_file){.content = BAKE_SH, .container = CONTAINER_JSON});
     a->plan->has_sh = true;

@@ -1,7 +1,7 @@
 /* bake_make.c - see bake_make.h. */
 #include "cli/bake_make.h"
 
-#include "cli/bake_ktx1.h"
+#include "cli/bake_ktx.h"
 #include "cli/bake_text.h"
 #include "cli/failure.h"
 
@@ -115,6 +115,13 @@ static facet_ktx2_desc ktx2_desc(const bake_making *m, const bake_file *file)
                              .zstd_level = m->options->zstd_level};
 }
 
+static size_t texel_size(facet_texel_format format)
+{
+    return format == FACET_TEXEL_RGBA32F   ? 16
+           : format == FACET_TEXEL_RGBA16F ? 8
+                                           : 4; /* those of cube maps */
+}
+
 static facet_result make_cube(const bake_making *m, bake_file *file, facet_error *error)
 {
     const bake_cube *baked = &m->plan->cubes[file->cube];
@@ -125,7 +132,9 @@ static facet_result make_cube(const bake_making *m, bake_file *file, facet_error
     if (result != FACET_OK || file->container == CONTAINER_KTX2) {
         file->bytes = ktx2;
         file->size = ktx2_size;
-        return result;
+        return result == FACET_OK && file->is_mirrored
+                   ? bake_ktx2_mirror(ktx2, ktx2_size, texel_size(file->texels), error)
+                   : result;
     }
     bake_text harmonics = {0};
     if (baked->desc.lobe == FACET_LOBE_GGX)

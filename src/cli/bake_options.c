@@ -9,10 +9,11 @@
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-uint32_t bake_default_level_count(uint32_t size)
+/* Levels down to least texels, at least one. */
+static uint32_t count_levels(uint32_t size, uint32_t least)
 {
     uint32_t count = 1;
-    while (size >> count >= 16)
+    while (size >> count >= least)
         count++;
     return count;
 }
@@ -106,8 +107,8 @@ static facet_result read_size(const command_line *c, bake_options *out, facet_er
     while (size >> most)
         most++;
     out->bake.size = size;
-    out->bake.level_count =
-        (uint32_t)option_number(c, OPT_MIPS, is_lambert ? 1.0 : bake_default_level_count(size));
+    out->bake.level_count = (uint32_t)option_number(
+        c, OPT_MIPS, is_lambert ? 1.0 : count_levels(size, out->layout == BAKE_LAYOUT_THREE ? 8 : 16));
     if (out->bake.level_count > most)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--mips: a cube map of %u texels has at most %u levels, not %u", size, most,
@@ -121,7 +122,9 @@ static facet_result read_filter(const command_line *c, bake_options *out, facet_
     facet_bake_desc *d = &out->bake;
     d->lobe = (facet_lobe)option_choice(c, OPT_LOBE, FACET_LOBE_GGX);
     d->mapping = (facet_roughness_mapping)option_choice(
-        c, OPT_MAPPING, out->layout == BAKE_LAYOUT_FILAMENT ? FACET_MAPPING_FILAMENT : FACET_MAPPING_LINEAR);
+        c, OPT_MAPPING,
+        out->layout == BAKE_LAYOUT_FILAMENT || out->layout == BAKE_LAYOUT_THREE ? FACET_MAPPING_FILAMENT
+                                                                                : FACET_MAPPING_LINEAR);
     d->method = (facet_bake_method)option_choice(c, OPT_METHOD, FACET_BAKE_AUTO);
     if (is_given(c, OPT_REFERENCE)) {
         if (is_given(c, OPT_METHOD) && d->method != FACET_BAKE_REFERENCE)
@@ -225,19 +228,19 @@ static facet_result check_layout(const command_line *c, const bake_options *o, f
                                       "with --layout three"};
     if (o->layout == BAKE_LAYOUT_NONE)
         return FACET_OK;
-    if (o->layout == BAKE_LAYOUT_FILAMENT && o->bake.mapping != FACET_MAPPING_FILAMENT)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--mapping: with --layout filament it is filament");
-    if (o->layout == BAKE_LAYOUT_KHRONOS && o->bake.mapping != FACET_MAPPING_LINEAR)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--mapping: with --layout khronos it is linear");
-    const bool takes_texels = o->layout == BAKE_LAYOUT_KHRONOS;
+    if (is_given(c, OPT_MAPPING) &&
+        (o->bake.mapping == FACET_MAPPING_LINEAR) != (o->layout == BAKE_LAYOUT_KHRONOS))
+        return fail_with(error, FACET_ERROR_ARGUMENT, "--mapping: %s it is %s", why[o->layout],
+                         o->layout == BAKE_LAYOUT_KHRONOS ? "linear" : "filament");
+    const bool takes_texels = o->layout != BAKE_LAYOUT_FILAMENT;
     const bool takes_pictures = o->layout == BAKE_LAYOUT_FILAMENT;
     const bool is_picture = o->container == CONTAINER_EXR || o->container == CONTAINER_HDR;
     if ((o->has_texels && !takes_texels) ||
         (o->container != CONTAINER_FROM_NAME && !(takes_pictures && is_picture)))
         return fail_with(error, FACET_ERROR_ARGUMENT, "--format: %s is not what is loaded %s",
                          option_text(c, OPT_FORMAT, ""), why[o->layout]);
-    if (o->zstd_level && !takes_texels)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--zstd: there is no .ktx2 file %s", why[o->layout]);
+    if (o->zstd_level && o->layout != BAKE_LAYOUT_KHRONOS)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "--zstd: no file is compressed %s", why[o->layout]);
     return refuse(c, idle, COUNT(idle), why[o->layout], error);
 }
 

@@ -68,9 +68,6 @@ typedef struct bake_options {
 /* Reads and checks the command line; strings stay with it. FACET_ERROR_ARGUMENT. */
 facet_result bake_options_read(const command_line *c, bake_options *out, facet_error *error);
 
-/* Levels down to 16 texels, at least one. */
-uint32_t bake_default_level_count(uint32_t size);
-
 /* How messages call the environment; "dfg" for a table. */
 const char *bake_input_name(const bake_options *o);
 

@@ -22,7 +22,8 @@ uint32_t bake_plan_add_cube(bake_plan *plan, const facet_bake_desc *desc, bool i
 {
     for (uint32_t i = 0; i < plan->cube_count; i++) {
         const facet_bake_desc *d = &plan->cubes[i].desc;
-        if (d->lobe == desc->lobe && d->size == desc->size && d->level_count == desc->level_count) {
+        if (d->lobe == desc->lobe && d->size == desc->size && d->level_count == desc->level_count &&
+            d->mapping == desc->mapping) {
             plan->cubes[i].is_verified = plan->cubes[i].is_verified || is_verified;
             return i;
         }

@@ -152,6 +152,9 @@ static facet_result parse_letters(command_line *c, int argc, char **argv, int *a
     size_t length = strcspn(word + 1, "=");
     if (length >= 3 && option_find(c->verb, word + 1, length)) /* -size is no -s with the value "ize" */
         return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option %s; did you mean -%s?", word, word);
+    const char *foreign = length >= 4 ? suggest_foreign(c->verb, word + 1, length) : NULL;
+    if (foreign) /* -outCubeMap is no -o with the value "utCubeMap" */
+        return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option %s; did you mean %s?", word, foreign);
     for (const char *letter = word + 1; *letter; letter++) {
         const option *o = option_find_letter(c->verb, *letter);
         if (!o)

@@ -109,7 +109,7 @@ static const option bake_filter_options[] = {
      .name = "mips",
      .kind = OPTION_INTEGER,
      .argument = "N",
-     .default_text = "down to 16 texels",
+     .default_text = "down to 16 texels; 8 for --layout three",
      .help = "number of levels, each half as large as the one before",
      .minimum = 1,
      .maximum = 14},
@@ -117,7 +117,7 @@ static const option bake_filter_options[] = {
      .name = "mapping",
      .kind = OPTION_CHOICE,
      .argument = "HOW",
-     .default_text = "linear",
+     .default_text = "linear; filament for --layout filament and three",
      .help =
          "which perceptual roughness r a level k of n is for: linear: k = (n - 1) r; filament: k = (n - 1) r "
          "(2 - r)",

@@ -9,12 +9,75 @@
 
 enum { LONGEST = 63 };
 
-/* Names in f3d, blender, <model-viewer>, screenshot-glb, cmgen, gltf-transform, ImageMagick, and what to write here. */
+/* Names in f3d, blender, <model-viewer>, screenshot-glb, cmgen, glTF-IBL-Sampler, cmft, ktx, gltf-transform, ImageMagick, and
+ * what to write here. The first of a name that the verb has an option for counts. */
 static const struct {
     const char *theirs;
     option_id id; /* offered only where the verb has it */
     const char *ours;
 } foreign_names[] = {
+    /* facet bake */
+    {"deploy", OPT_LAYOUT, "-o FOLDER --layout filament"},
+    {"extract", OPT_LAYOUT, "--lobe none -o '{face}.hdr'"},
+    {"extract-blur", OPT_LAYOUT, "--lobe ggx --level N -o '{face}.hdr'"},
+    {"ibl-ld", OPT_LAYOUT, "-o 'm{level}_{face}.hdr' --mapping filament"},
+    {"ibl-irradiance", OPT_DIFFUSE, "--diffuse FILE"},
+    {"irradiance", OPT_DIFFUSE, "--diffuse FILE"},
+    {"lambert", OPT_DIFFUSE, "--diffuse FILE"},
+    {"sh-output", OPT_SH, "--sh FILE.json, .h or .txt"},
+    {"sh-shader", OPT_SH, "--sh FILE.txt"},
+    {"sh-irradiance", OPT_SH, "--sh FILE.json, which has it"},
+    {"spherical-harmonics", OPT_SH, "--sh FILE.json"},
+    {"ibl-dfg", OPT_DFG, "--dfg -o FILE"},
+    {"ibl-dfg-multiscatter", OPT_DFG, "--dfg --distribution multiscatter"},
+    {"ibl-dfg-cloth", OPT_DFG, "--dfg --distribution filament"},
+    {"brdf", OPT_DFG, "--dfg -o FILE"},
+    {"lut", OPT_DFG, "--dfg -o FILE"},
+    {"outlut", OPT_DFG, "--dfg -o FILE, a command of its own"},
+    {"outcubemap", OPT_LOBE, "--output FILE.ktx2"},
+    {"output0", OPT_LOBE, "--output FILE.ktx2"},
+    {"outputnum", OPT_LOBE, "--output, --diffuse, --sheen, each with its file"},
+    {"output0params", OPT_PROJECTION, "--format and --projection"},
+    {"inputpath", OPT_LOBE, "nothing: the environment is given without an option"},
+    {"input", OPT_LOBE, "nothing: the environment is given without an option"},
+    {"env", OPT_LOBE, "nothing: the environment is given without an option"},
+    {"environment", OPT_LOBE, "nothing: the environment is given without an option"},
+    {"hdri", OPT_LOBE, "nothing: the environment is given without an option"},
+    {"src", OPT_LOBE, "nothing: the environment is given without an option"},
+    {"inputfacesize", OPT_SIZE, "--size N"},
+    {"srcfacesize", OPT_SIZE, "--size N"},
+    {"dstfacesize", OPT_LOBE, "--size N"},
+    {"cubemapresolution", OPT_LOBE, "--size N"},
+    {"face-size", OPT_LOBE, "--size N"},
+    {"resolution", OPT_LOBE, "--size N"},
+    {"width", OPT_LOBE, "--size N"},
+    {"height", OPT_LOBE, "--size N"},
+    {"samplecount", OPT_LOBE, "--samples N"},
+    {"no-mirror", OPT_PROJECTION, "--input-layout for how the picture is laid out; nothing is mirrored"},
+    {"ibl-min-lod-size", OPT_MIPS, "--mips N"},
+    {"miplevelcount", OPT_MIPS, "--mips N"},
+    {"mip-count", OPT_MIPS, "--mips N"},
+    {"mipcount", OPT_MIPS, "--mips N"},
+    {"levels", OPT_MIPS, "--mips N"},
+    {"mip-levels", OPT_MIPS, "--mips N"},
+    {"genmipmap", OPT_MIPS, "--mips N"},
+    {"generate-mipmap", OPT_MIPS, "--mips N"},
+    {"targetformat", OPT_ZSTD, "--format rgba16f"},
+    {"target-format", OPT_ZSTD, "--format rgba16f"},
+    {"lodbias", OPT_SAMPLES, "--samples N; samples are filtered by their density"},
+    {"filter", OPT_LOBE, "--lobe LOBE"},
+    {"lightingmodel", OPT_LOBE, "--lobe LOBE"},
+    {"type", OPT_PROJECTION, "--projection HOW"},
+    {"cube-layout", OPT_PROJECTION, "--projection HOW"},
+    {"env-layout", OPT_INPUT_LAYOUT, "--input-layout HOW"},
+    {"env-rotation", OPT_ROTATION, "--rotation DEG"},
+    {"environment-rotation", OPT_ROTATION, "--rotation DEG"},
+    {"env-intensity", OPT_ROTATION, "--exposure 2x"},
+    {"intensity", OPT_ROTATION, "--exposure 2x"},
+    {"zcmp", OPT_ZSTD, "--zstd LEVEL"},
+    {"numcpuprocessingthreads", OPT_LOBE, "--threads N"},
+    {"ibl-no-prefilter", OPT_METHOD, "--method reference"},
+    {"sheet", OPT_PREVIEW, "--preview FILE.png"},
     {"resolution", OPT_SIZE, "--size 640x480"},
     {"width", OPT_SIZE, "--size 640x480"},
     {"height", OPT_SIZE, "--size 640x480"},
@@ -113,11 +176,27 @@ static const struct {
     {"src", OPT_HELP, "nothing: the model is given without an option"},
 };
 
+/* Words that stand for a command elsewhere, or sound like one. */
+static const struct {
+    const char *theirs, *ours;
+} foreign_verbs[] = {
+    {"path", "render"},      {"pathtrace", "render"}, {"pathtracer", "render"}, {"trace", "render"},
+    {"raytrace", "render"},  {"thumbnail", "render"}, {"screenshot", "render"}, {"cmgen", "bake"},
+    {"ibl", "bake"},         {"prefilter", "bake"},   {"filter", "bake"},       {"envmap", "bake"},
+    {"cubemap", "bake"},     {"diff", "compare"},     {"flip", "compare"},      {"info", "inspect"},
+    {"describe", "inspect"}, {"export", "convert"},
+};
+
 static const struct {
     char theirs;
     option_id id;
     const char *ours;
 } foreign_letters[] = {
+    {'x', OPT_LAYOUT, "-o FOLDER --layout filament"},
+    {'f', OPT_LAYOUT, "the extension of --output, or --format FORMAT"},
+    {'i', OPT_LAYOUT, "nothing: the environment is given without an option"},
+    {'t', OPT_PROJECTION, "--projection HOW, or -j N for threads"},
+    {'w', OPT_SH_WINDOW, "--sh-window auto"},
     {'w', OPT_SIZE, "--size 640x480"},
     {'W', OPT_SIZE, "--size 640x480"},
     {'i', OPT_HELP, "nothing: the model is given without an option"},
@@ -196,6 +275,9 @@ const char *suggest_word(const char *text, const char *const *words)
 
 const char *suggest_verb(const char *text)
 {
+    for (size_t i = 0; i < sizeof foreign_verbs / sizeof *foreign_verbs; i++)
+        if (strcmp(text, foreign_verbs[i].theirs) == 0)
+            return foreign_verbs[i].ours;
     const char *names[16] = {0};
     for (size_t i = 0; i < 15 && verbs[i]; i++)
         names[i] = verbs[i]->name;
@@ -204,15 +286,31 @@ const char *suggest_verb(const char *text)
 
 /* ---- options ---- */
 
+/* What v has for an option of another tool (folded); NULL: no such name. */
+static const char *find_foreign(const verb *v, const char *folded)
+{
+    for (size_t i = 0; i < sizeof foreign_names / sizeof *foreign_names; i++)
+        if (strcmp(folded, foreign_names[i].theirs) == 0 && option_find_id(v, foreign_names[i].id))
+            return foreign_names[i].ours;
+    return NULL;
+}
+
+const char *suggest_foreign(const verb *v, const char *name, size_t length)
+{
+    char text[LONGEST + 1], folded[LONGEST + 1];
+    snprintf(text, sizeof text, "%.*s", (int)(length < LONGEST ? length : LONGEST), name);
+    fold(text, folded);
+    return find_foreign(v, folded);
+}
+
 facet_result suggest_option(const verb *v, const char *name, size_t length, facet_error *error)
 {
     char text[LONGEST + 1], folded[LONGEST + 1];
     snprintf(text, sizeof text, "%.*s", (int)(length < LONGEST ? length : LONGEST), name);
     fold(text, folded);
-    for (size_t i = 0; i < sizeof foreign_names / sizeof *foreign_names; i++)
-        if (strcmp(folded, foreign_names[i].theirs) == 0 && option_find_id(v, foreign_names[i].id))
-            return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean %s?", text,
-                             foreign_names[i].ours);
+    const char *ours = find_foreign(v, folded);
+    if (ours)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean %s?", text, ours);
     if (option_is_planned(folded))
         return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: this version of facet does not have it yet",
                          text);

@@ -19,5 +19,7 @@ const char *suggest_verb(const char *text);
 facet_result suggest_option(const verb *v, const char *name, size_t length, facet_error *error);
 /* The same for a letter. */
 facet_result suggest_letter(const verb *v, char letter, facet_error *error);
+/* What to write for name, an option of another tool; NULL: none is called so. */
+const char *suggest_foreign(const verb *v, const char *name, size_t length);
 
 #endif

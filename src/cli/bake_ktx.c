@@ -1,8 +1,8 @@
-/* bake_ktx1.c - see bake_ktx1.h. Khronos, "KTX File Format Specification" version 1.
+/* bake_ktx.c - see bake_ktx.h. Khronos, "KTX File Format Specification", versions 1 and 2.
  *
- * glType should be GL_UNSIGNED_INT_10F_11F_11F_REV (0x8C3B); cmgen writes GL_R11F_G11F_B10F (0x8C3A) and Filament's reader
- * takes nothing else, so that is what is written. It takes GL_RGB as glFormat, as the specification wants it. */
-#include "cli/bake_ktx1.h"
+ * KTX 1's glType should be GL_UNSIGNED_INT_10F_11F_11F_REV (0x8C3B); cmgen writes GL_R11F_G11F_B10F (0x8C3A) and Filament's
+ * reader takes nothing else, so that is what is written. As glFormat it takes GL_RGB, as the specification wants it. */
+#include "cli/bake_ktx.h"
 
 #include "cli/failure.h"
 
@@ -38,11 +38,21 @@ static size_t round_up(size_t size)
     return (size + 3) & ~(size_t)3;
 }
 
-/* Bytes of a face of a level. */
-static size_t face_size(uint32_t width, uint32_t level)
+static size_t edge_of(uint32_t width, uint32_t level)
 {
-    size_t edge = width >> level ? width >> level : 1;
-    return edge * edge * TEXEL_SIZE;
+    return width >> level ? width >> level : 1;
+}
+
+/* Six faces of a level in a KTX2 file, of length bytes each; NULL: they are not there, which is a bug. */
+static const unsigned char *find_level(const unsigned char *ktx2, size_t ktx2_size, uint32_t level,
+                                       size_t length, facet_error *error)
+{
+    /* the lower half of 64 bits: six faces of 8192 texels are less than 4 GiB */
+    const size_t offset = get(ktx2 + KTX2_LEVELS + (size_t)level * KTX2_LEVEL_SIZE);
+    if (offset <= ktx2_size && FACES * length <= ktx2_size - offset)
+        return ktx2 + offset;
+    fail_with(error, FACET_ERROR_BUG, "KTX2: level %u of a cube map is not where it was expected", level);
+    return NULL;
 }
 
 static void put_header(unsigned char **at, uint32_t width, uint32_t level_count, size_t pairs_size)
@@ -78,7 +88,7 @@ facet_result bake_ktx1_from_ktx2(const unsigned char *ktx2, size_t ktx2_size, co
     *bytes = NULL;
     *size = 0;
     for (uint32_t level = 0; level < level_count; level++)
-        total += 4 + FACES * face_size(width, level);
+        total += 4 + FACES * edge_of(width, level) * edge_of(width, level) * TEXEL_SIZE;
     unsigned char *file = calloc(1, total);
     if (!file)
         return fail_with(error, FACET_ERROR_MEMORY, "out of memory: a KTX file of %zu bytes", total);
@@ -91,19 +101,44 @@ facet_result bake_ktx1_from_ktx2(const unsigned char *ktx2, size_t ktx2_size, co
         at += round_up(pair);
     }
     for (uint32_t level = 0; level < level_count; level++) {
-        const size_t length = face_size(width, level), all = FACES * length;
-        const size_t offset =
-            get(ktx2 + KTX2_LEVELS + (size_t)level * KTX2_LEVEL_SIZE); /* below 4 GiB: 8192^2 */
-        if (offset > ktx2_size || all > ktx2_size - offset) {
+        const size_t length = edge_of(width, level) * edge_of(width, level) * TEXEL_SIZE;
+        const unsigned char *texels = find_level(ktx2, ktx2_size, level, length, error);
+        if (!texels) {
             free(file);
-            return fail_with(error, FACET_ERROR_BUG,
-                             "KTX: level %u of a cube map is not where it was expected", level);
+            return FACET_ERROR_BUG;
         }
         put(&at, (uint32_t)length);
-        memcpy(at, ktx2 + offset, all);
-        at += all;
+        memcpy(at, texels, FACES * length);
+        at += FACES * length;
     }
     *bytes = file;
     *size = total;
+    return FACET_OK;
+}
+
+static void swap_bytes(unsigned char *a, unsigned char *b, size_t size)
+{
+    for (size_t i = 0; i < size; i++) {
+        unsigned char byte = a[i];
+        a[i] = b[i];
+        b[i] = byte;
+    }
+}
+
+facet_result bake_ktx2_mirror(unsigned char *ktx2, size_t ktx2_size, size_t texel_size, facet_error *error)
+{
+    const uint32_t width = get(ktx2 + KTX2_WIDTH), level_count = get(ktx2 + KTX2_LEVEL_COUNT);
+    for (uint32_t level = 0; level < level_count; level++) {
+        const size_t edge = edge_of(width, level), row = edge * texel_size, length = edge * row;
+        const unsigned char *found = find_level(ktx2, ktx2_size, level, length, error);
+        if (!found)
+            return FACET_ERROR_BUG;
+        unsigned char *texels = ktx2 + (found - ktx2);
+        swap_bytes(texels, texels + length, length); /* +X and -X */
+        for (size_t y = 0; y < FACES * edge; y++)
+            for (size_t x = 0; x < edge / 2; x++)
+                swap_bytes(texels + y * row + x * texel_size, texels + y * row + (edge - 1 - x) * texel_size,
+                           texel_size);
+    }
     return FACET_OK;
 }
