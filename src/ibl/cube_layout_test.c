@@ -264,7 +264,8 @@ static sphere make_target(sphere_kind kind, uint32_t height, cube *c, image *pic
 }
 
 /* From each kind to each, finer, as fine and coarser. A smooth function stays what it is, to the second order of the
- * source's texels, which are bilinear, and a little of the target's; also across edges. */
+ * sources' texels, which are bilinear (most at the folds of octahedra), also across edges. A shift by a twentieth of a
+ * texel would be 1.5e-3. */
 static void smooth_functions_stay(void **state)
 {
     (void)state;
@@ -280,11 +281,10 @@ static void smooth_functions_stay(void **state)
         if (c1.texels)
             cube_fill_borders(&c1);
         assert_int_equal(sphere_resample(&source, NULL, NULL, 2, &target, NULL), FACET_OK);
-        const double fine = 3.0 / source.height, coarse = 3.0 / target.height; /* rad, more or less */
         const double error = direction_error(&target);
-        if (!(error < 0.2 * fine * fine + 0.04 * coarse * coarse))
-            fail_msg("%u of height %u to %u of height %u: %g, fine %g", source.kind, source.height,
-                     target.kind, target.height, error, fine);
+        if (!(error < 8e-4))
+            fail_msg("%u of height %u to %u of height %u: %g", source.kind, source.height, target.kind,
+                     target.height, error);
         cube_destroy(&c1);
         cube_destroy(&c2);
         image_destroy(&p1);
