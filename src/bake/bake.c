@@ -59,8 +59,8 @@ static facet_result fill_levels(const facet_environment *environment, const face
                                 facet_cube *c, facet_error *error)
 {
     harmonics h = {0};
-    facet_result result =
-        harmonics_create(&environment->picture, &desc->allocator, desc->thread_count, &h, error);
+    facet_result result = harmonics_create(&environment->picture, PREFILTER_DEGREE, &desc->allocator,
+                                           desc->thread_count, &h, error);
     for (uint32_t level = 0; result == FACET_OK && level < c->level_count; level++) {
         uint32_t size = desc->size >> level;
         float roughness = c->roughness[level];
@@ -70,13 +70,20 @@ static facet_result fill_levels(const facet_environment *environment, const face
                 fill_mirror(environment, (double)desc->rotation_rad, &c->levels[level]);
             continue;
         }
-        float kernel[HARMONICS_DEGREE + 1];
+        float kernel[PREFILTER_DEGREE + 1];
         prefilter_lobe lobe = desc->lobe == FACET_LOBE_CHARLIE ? PREFILTER_CHARLIE : PREFILTER_GGX;
         float least = lobe == PREFILTER_CHARLIE ? 0.1f : 0.05f;
-        prefilter_kernel(lobe, roughness > least ? roughness : least, HARMONICS_DEGREE, kernel);
-        prefilter_taper(HARMONICS_DEGREE, kernel);
-        result = harmonics_filter(&h, kernel, HARMONICS_DEGREE, (double)desc->rotation_rad, size,
-                                  &desc->allocator, desc->thread_count, &c->levels[level], error);
+        prefilter_kernel(lobe, roughness > least ? roughness : least, PREFILTER_DEGREE, kernel);
+        prefilter_taper(PREFILTER_DEGREE, kernel);
+        result = harmonics_filter(&h,
+                                  &(harmonics_filter_desc){.kernel = kernel,
+                                                           .degree = PREFILTER_DEGREE,
+                                                           .rotation_rad = (double)desc->rotation_rad,
+                                                           .scale = exp2f(desc->ev),
+                                                           .size = size,
+                                                           .allocator = &desc->allocator,
+                                                           .thread_count = desc->thread_count},
+                                  &c->levels[level], error);
     }
     harmonics_destroy(&h);
     return result;

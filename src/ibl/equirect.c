@@ -32,6 +32,52 @@ void equirect_lookup(const image *picture, const float d[3], float out[3])
         out[i] = c[i];
 }
 
+typedef struct averaging {
+    const image *picture;
+    double (*rows)[3]; /* sums */
+} averaging;
+
+enum { SUM_SPAN = 32 }; /* texels that are summed in float */
+
+DISPATCH_AVX2 static void average_rows(void *context, size_t begin, size_t end)
+{
+    const averaging *job = context;
+    size_t count = 3 * (size_t)job->picture->width;
+    for (size_t y = begin; y < end; y++) {
+        const float *row = (const float *)job->picture->pixels + y * count;
+        double *sum = job->rows[y];
+        sum[0] = sum[1] = sum[2] = 0.0;
+        size_t i = 0;
+        for (; i + 3 * SUM_SPAN <= count; i += 3 * SUM_SPAN) {
+            float lanes[24] = {0};
+            for (size_t j = 0; j < 3 * SUM_SPAN; j += 24)
+                for (size_t k = 0; k < 24; k++)
+                    lanes[k] += row[i + j + k];
+            for (int k = 0; k < 24; k++)
+                sum[k % 3] += (double)lanes[k];
+        }
+        for (; i < count; i++)
+            sum[i % 3] += (double)row[i];
+    }
+}
+
+facet_result equirect_mean(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
+                           double mean[3], facet_error *error)
+{
+    averaging job = {picture, mem_alloc(allocator, picture->height, sizeof *job.rows)};
+    if (!job.rows)
+        return fail_memory(error, "environment", picture->height * sizeof *job.rows);
+    parallel_for(thread_count, picture->height, 16, average_rows, &job);
+    mean[0] = mean[1] = mean[2] = 0.0;
+    for (uint32_t y = 0; y < picture->height; y++)
+        for (int k = 0; k < 3; k++)
+            mean[k] += job.rows[y][k] * equirect_texel_solid_angle(picture->width, picture->height, y);
+    for (int k = 0; k < 3; k++)
+        mean[k] /= 4.0 * pi;
+    mem_free(job.rows);
+    return FACET_OK;
+}
+
 /* ---- resampling ---- */
 
 /* Which input samples make an output sample, and how much of each. */
@@ -46,8 +92,8 @@ static double axis_measure(double a, double b, uint32_t in, bool is_latitude)
     return is_latitude ? cos(pi * a / in) - cos(pi * b / in) : b - a;
 }
 
-static bool axis_create(uint32_t in, uint32_t out, bool is_latitude, const facet_allocator *allocator,
-                        equirect_axis *axis)
+static bool axis_create(uint32_t in, uint32_t out, bool is_latitude, bool is_smooth,
+                        const facet_allocator *allocator, equirect_axis *axis)
 {
     double step = (double)in / out;
     size_t taps = (size_t)ceil(step) + 2;
@@ -59,7 +105,7 @@ static bool axis_create(uint32_t in, uint32_t out, bool is_latitude, const facet
         equirect_span *span = &axis->spans[o];
         float *w = axis->weights + o * taps;
         span->weight = o * taps;
-        if (in < out) { /* finer: between the two nearest */
+        if (in < out && is_smooth) { /* between the two nearest */
             double x = (o + 0.5) * step - 0.5;
             double x0 = floor(x);
             bool is_at_pole = is_latitude && (x0 < 0.0 || x0 + 1.0 >= in);
@@ -69,8 +115,8 @@ static bool axis_create(uint32_t in, uint32_t out, bool is_latitude, const facet
             w[1] = (float)(x - x0);
             continue;
         }
-        double a = o * step;
-        double b = o + 1 == out ? in : (o + 1) * step;
+        double a = (double)o * in / out; /* whole numbers stay whole */
+        double b = (double)(o + 1) * in / out;
         double whole = axis_measure(a, b, in, is_latitude);
         span->first = (uint32_t)a;
         span->count = (uint32_t)ceil(b) - span->first;
@@ -89,12 +135,12 @@ static void axis_destroy(equirect_axis *axis)
     mem_free(axis->weights);
 }
 
-bool equirect_view_create(const image *picture, uint32_t width, uint32_t height,
+bool equirect_view_create(const image *picture, uint32_t width, uint32_t height, bool is_smooth,
                           const facet_allocator *allocator, equirect_view *view)
 {
-    *view = (equirect_view){.picture = picture, .width = width, .height = height};
-    if (axis_create(picture->width, width, false, allocator, &view->columns) &&
-        axis_create(picture->height, height, true, allocator, &view->rows))
+    *view = (equirect_view){.picture = picture, .width = width, .height = height, .is_smooth = is_smooth};
+    if (axis_create(picture->width, width, false, is_smooth, allocator, &view->columns) &&
+        axis_create(picture->height, height, true, is_smooth, allocator, &view->rows))
         return true;
     equirect_view_destroy(view);
     return false;
@@ -113,7 +159,13 @@ static inline void add_row(const equirect_view *view, uint32_t y, uint32_t x0, u
 {
     uint32_t in_width = view->picture->width;
     const float *row = (const float *)view->picture->pixels + (size_t)y * in_width * 3;
-    if (in_width == 2 * view->width) { /* the common case, without the table */
+    if (in_width == view->width) { /* the common cases, without the table */
+        const float *p = row + 3 * (size_t)x0;
+        for (uint32_t x = 0; x < count; x++, p += 3)
+            out[x] += (rgbx){p[0], p[1], p[2], 0.0f} * weight;
+        return;
+    }
+    if (in_width == 2 * view->width) {
         const float *p = row + 6 * (size_t)x0;
         for (uint32_t x = 0; x < count; x++, p += 6)
             out[x] += (rgbx){p[0] + p[3], p[1] + p[4], p[2] + p[5], 0.0f} * (0.5f * weight);
@@ -171,7 +223,7 @@ facet_result equirect_resize(const image *picture, uint32_t width, uint32_t heig
 {
     *out = (image){0};
     equirect_view view;
-    if (!equirect_view_create(picture, width, height, allocator, &view))
+    if (!equirect_view_create(picture, width, height, true, allocator, &view))
         return fail_memory(error, "environment", (size_t)width * sizeof(float));
     facet_result result = image_create(allocator, width, height, 3, IMAGE_F32, out, error);
     if (result == FACET_OK) {

@@ -86,6 +86,10 @@ static inline rgbx equirect_fetch(const image *picture, equirect_point p)
 /* Radiance from the unit direction d, bilinear. */
 void equirect_lookup(const image *picture, const float d[3], float out[3]);
 
+/* Mean radiance over the sphere. Deterministic for every thread count. FACET_ERROR_MEMORY. */
+facet_result equirect_mean(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
+                           double mean[3], facet_error *error);
+
 /* ---- resampling ---- */
 
 /* How samples along an axis of a picture make those of another. */
@@ -94,22 +98,23 @@ typedef struct equirect_axis {
     float *weights;
 } equirect_axis;
 
-/* A picture seen at another resolution: the mean over each texel's solid angle where that is coarser, linear
- * interpolation along an axis where it is finer. */
+/* A picture seen at another resolution: the mean over each texel's solid angle where that is coarser; where it is finer,
+ * linear interpolation along an axis (smooth), or the mean there as well, which repeats texels. */
 typedef struct equirect_view {
     const image *picture;
     uint32_t width, height;
+    bool is_smooth;
     equirect_axis columns, rows;
 } equirect_view;
 
 /* False: no memory. */
-bool equirect_view_create(const image *picture, uint32_t width, uint32_t height,
+bool equirect_view_create(const image *picture, uint32_t width, uint32_t height, bool is_smooth,
                           const facet_allocator *allocator, equirect_view *view);
 void equirect_view_destroy(equirect_view *view); /* {0} is allowed */
 /* Texels x0 .. x0 + count - 1 of row y. */
 void equirect_view_texels(const equirect_view *view, uint32_t y, uint32_t x0, uint32_t count, rgbx *out);
 
-/* The view as a picture. FACET_ERROR_MEMORY. */
+/* The smooth view as a picture. FACET_ERROR_MEMORY. */
 facet_result equirect_resize(const image *picture, uint32_t width, uint32_t height,
                              const facet_allocator *allocator, uint32_t thread_count, image *out,
                              facet_error *error);

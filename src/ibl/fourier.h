@@ -6,7 +6,7 @@
 
 #include "ibl/rgbx.h"
 
-enum { FOURIER_MAX = 512 }; /* samples in a row */
+enum { FOURIER_MAX = 4096 }; /* samples in a row */
 
 /* Roots of unity for rows of size samples, a power of two from 16 to FOURIER_MAX. */
 typedef struct fourier {

@@ -12,7 +12,7 @@
 #include "ibl/ibl.h"
 
 /* Counts the changes to how parts are prepared: what a cache kept of another version is not used. */
-static const uint64_t recipe_version = 1;
+static const uint64_t recipe_version = 2;
 
 /* Rows of the picture that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
 static const double sharp_rows = 512.0;
@@ -61,7 +61,8 @@ static facet_result prepare_level(facet_environment *e, prefilter_lobe lobe, uin
         return FACET_OK;
     facet_result result = FACET_OK;
     if (!parts->harmonics.coefficients)
-        result = harmonics_create(&e->picture, &e->allocator, thread_count, &parts->harmonics, error);
+        result = harmonics_create(&e->picture, PREFILTER_DEGREE, &e->allocator, thread_count,
+                                  &parts->harmonics, error);
     if (result == FACET_OK)
         result = prefilter_level(&parts->harmonics, lobe, level, &e->allocator, thread_count, out, error);
     if (result == FACET_OK)

@@ -86,8 +86,8 @@ static void test_kernel_golden_numbers(void **state)
         {0.75, 0.745131342455, 0.398824737791, 0.140121157544, 0.028984607620},
         {1.00, 0.666666666667, 0.25, 0.0, -0.041666666667}};
     for (int i = 0; i < 5; i++) {
-        float kernel[HARMONICS_DEGREE + 1];
-        prefilter_kernel(PREFILTER_GGX, (float)golden[i][0], HARMONICS_DEGREE, kernel);
+        float kernel[PREFILTER_DEGREE + 1];
+        prefilter_kernel(PREFILTER_GGX, (float)golden[i][0], PREFILTER_DEGREE, kernel);
         assert_near(kernel[0], 1.0, 0.0);
         for (int l = 1; l <= 4; l++)
             assert_near(kernel[l], golden[i][l], 1e-6);

@@ -81,36 +81,49 @@ static double distribution(prefilter_lobe lobe, double t, float alpha)
     return (exp)(0.5 / (double)alpha * (log)(2.0 * (sin)(t) * (sin)(t)));
 }
 
+enum { NODES = 8 };
+
+/* Gauss and Legendre's nodes of panels of the half angle t, which runs to pi / 4, where l reaches the horizon: panels double
+ * in width from alpha / 8 on, from where the lobe is, until P_degree(cos 2 t) swings once and a half in 8 points. */
+static void add_panel(prefilter_lobe lobe, float alpha, double from, double to, uint32_t degree, double *sum)
+{
+    const double end = 0.7853981633974483;
+    double x[NODES], now[NODES], before[NODES];
+    for (int i = 0; i < NODES; i++) {
+        double at = i < 4 ? -node[i] : node[i - 4];
+        double s = 0.5 * (from + to) + 0.5 * (to - from) * at;
+        double t = lobe == PREFILTER_GGX ? s : end - s;
+        x[i] = (cos)(2.0 * t);
+        /* dl = 2 pi sin(2 t) d(2 t) */
+        now[i] =
+            0.5 * (to - from) * node_weight[i & 3] * distribution(lobe, t, alpha) * x[i] * (sin)(2.0 * t);
+        before[i] = 0.0;
+    }
+    for (uint32_t l = 0; l <= degree; l++) {
+        double a = (2.0 * l + 1.0) / (l + 1.0);
+        double b = l / (l + 1.0);
+        double total = 0.0;
+        for (int i = 0; i < NODES; i++) {
+            total += now[i];
+            double next = a * x[i] * now[i] - b * before[i];
+            before[i] = now[i];
+            now[i] = next;
+        }
+        sum[l] += total;
+    }
+}
+
 void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t degree, float *kernel)
 {
-    double sum[HARMONICS_DEGREE + 1] = {0.0};
+    double sum[HARMONICS_MAX_DEGREE + 1] = {0.0};
     float alpha = alpha_from_roughness(perceptual_roughness);
-    /* The half angle t runs to pi / 4, where l reaches the horizon, in panels that double in width from alpha / 8; from
-     * where the lobe is. */
-    double from = 0.0;
-    double width = 0.125 * (double)alpha;
     const double end = 0.7853981633974483;
-    while (from < end) {
-        /* P_160(cos 2 t) swings once in 0.02: at most one swing and a half for 8 points */
-        double to = fmin(from + fmin(width, 0.03), end);
-        for (int i = 0; i < 8; i++) {
-            double x = i < 4 ? -node[i] : node[i - 4];
-            double s = 0.5 * (from + to) + 0.5 * (to - from) * x;
-            double t = lobe == PREFILTER_GGX ? s : end - s;
-            double w = 0.5 * (to - from) * node_weight[i & 3];
-            double NdotL = (cos)(2.0 * t);
-            w *= distribution(lobe, t, alpha) * NdotL * (sin)(2.0 * t); /* dl = 2 pi sin(2 t) d(2 t) */
-            double p = 1.0;
-            double before = 0.0;
-            for (uint32_t l = 0; l <= degree; l++) {
-                sum[l] += w * p;
-                double next = ((2.0 * l + 1.0) * NdotL * p - l * before) / (l + 1.0);
-                before = p;
-                p = next;
-            }
-        }
+    double widest = fmin(0.03, 4.8 / degree);
+    double width = 0.125 * (double)alpha;
+    for (double from = 0.0; from < end; width *= 2.0) {
+        double to = fmin(from + fmin(width, widest), end);
+        add_panel(lobe, alpha, from, to, degree, sum);
         from = to;
-        width *= 2.0;
     }
     for (uint32_t l = 0; l <= degree; l++)
         kernel[l] = (float)(sum[l] / sum[0]);
@@ -127,10 +140,16 @@ facet_result prefilter_level(harmonics *h, prefilter_lobe lobe, uint32_t level,
                              const facet_allocator *allocator, uint32_t thread_count, cube *out,
                              facet_error *error)
 {
-    float kernel[HARMONICS_DEGREE + 1];
-    uint32_t degree = lobes[lobe].levels[level].degree;
-    prefilter_kernel(lobe, lobes[lobe].levels[level].roughness, degree, kernel);
-    prefilter_taper(degree, kernel);
-    return harmonics_filter(h, kernel, degree, 0.0, lobes[lobe].levels[level].size, allocator, thread_count,
+    float kernel[PREFILTER_DEGREE + 1];
+    const level_recipe *recipe = &lobes[lobe].levels[level];
+    prefilter_kernel(lobe, recipe->roughness, recipe->degree, kernel);
+    prefilter_taper(recipe->degree, kernel);
+    return harmonics_filter(h,
+                            &(harmonics_filter_desc){.kernel = kernel,
+                                                     .degree = recipe->degree,
+                                                     .scale = 1.0f,
+                                                     .size = recipe->size,
+                                                     .allocator = allocator,
+                                                     .thread_count = thread_count},
                             out, error);
 }

@@ -18,7 +18,10 @@ typedef enum prefilter_lobe { PREFILTER_GGX, PREFILTER_CHARLIE, PREFILTER_LOBE_C
 
 /* Levels of a lobe, from smooth to rough. Level 0 is no cube map: for GGX it is a mirror, the picture itself, and what
  * is between it and level 1 is made by narrow.h. */
-enum { PREFILTER_LEVEL_COUNT = 16 }; /* of the lobe that has the most */
+enum {
+    PREFILTER_LEVEL_COUNT = 16, /* of the lobe that has the most */
+    PREFILTER_DEGREE = 160      /* the highest that a level takes */
+};
 uint32_t prefilter_level_count(prefilter_lobe lobe);
 
 /* Perceptual roughness of a level. Each lobe is 1.3 to 1.9 times as wide as the one before, so that the mean of two
@@ -33,14 +36,14 @@ uint64_t prefilter_recipe(prefilter_lobe lobe, uint32_t level);
 float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness);
 
 /* Scale of degree l of the environment's harmonics, k_l = integral of D N.l P_l(N.l) / integral of D N.l, for l up to
- * degree; kernel[0] is 1. Roughness above 0. By Gauss-Legendre quadrature over the half vector, in double. */
+ * degree (at most HARMONICS_MAX_DEGREE); kernel[0] is 1. Roughness above 0. By Gauss-Legendre quadrature over the half vector,
+ * in double. */
 void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t degree, float *kernel);
-
 /* Fades the last quarter of the degrees out, so that what is cut off a narrow lobe does not ring: around a sun, 3 % of
  * relative error in the sky become 0.4 %. */
 void prefilter_taper(uint32_t degree, float *kernel);
 
-/* Cube map of a level from 1 on. FACET_ERROR_MEMORY. */
+/* Cube map of a level from 1 on; h has PREFILTER_DEGREE and more. FACET_ERROR_MEMORY. */
 facet_result prefilter_level(harmonics *h, prefilter_lobe lobe, uint32_t level,
                              const facet_allocator *allocator, uint32_t thread_count, cube *out,
                              facet_error *error);
