@@ -1,21 +1,153 @@
-/* sky.c - clear skies as environments. */
-#include "ibl/environment.h"
+/* sky.c - clear skies as environments: what is asked for, and to what it is exposed. The skies themselves: sky_picture.c, sky_sun.c. */
+#include <assert.h>
+#include <math.h>
 
+#include "base/parallel.h"
 #include "base/result.h"
+#include "ibl/environment.h"
+#include "ibl/sky_picture.h"
+
+enum { DEFAULT_HEIGHT = 512, DEFAULT_MAX_SIZE = 32768 };
+static const float default_turbidity = 2.5f, max_turbidity = 10.0f, min_preetham_turbidity = 1.7f;
+static const float max_altitude_m = 50000.0f;
+static const float right_angle = 1.57079637f;
+static const double darkest_lux = 1.0; /* as bright as a full moon's light twice; not to be made day of */
+
+/* ---- arguments ---- */
+
+static bool is_within(float x, float minimum, float maximum)
+{
+    return x >= minimum && x <= maximum; /* false for NaN */
+}
+
+static facet_result check(const facet_sky_desc *sky, uint32_t max_size, facet_error *error)
+{
+    bool is_preetham = sky->model == FACET_SKY_PREETHAM;
+    float least = is_preetham ? min_preetham_turbidity : 1.0f;
+    double degrees = (double)sky->sun_elevation_rad * 57.29577951308232;
+    if (!is_within(sky->sun_elevation_rad, -right_angle, right_angle) || !isfinite(sky->sun_azimuth_rad))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "sky: the sun is %g degrees above the horizon; -90 to 90 are", degrees);
+    if (is_preetham && sky->sun_elevation_rad < 0.0f)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "sky: the sun is %.4g degrees below the horizon; Preetham's formula has no twilight, the "
+                    "atmosphere has",
+                    -degrees);
+    if (sky->turbidity != 0.0f && !is_within(sky->turbidity, least, max_turbidity))
+        return fail(error, FACET_ERROR_ARGUMENT, "sky: the turbidity is %g; %g to %g are possible",
+                    (double)sky->turbidity, (double)least, (double)max_turbidity);
+    for (int i = 0; i < 3; i++)
+        if (!is_within(sky->ground_albedo[i], 0.0f, 1.0f))
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "sky: the albedo of the ground is %g; 0 to 1 are possible",
+                        (double)sky->ground_albedo[i]);
+    if (!is_within(sky->altitude_m, 0.0f, max_altitude_m))
+        return fail(error, FACET_ERROR_ARGUMENT, "sky: the altitude is %g m; 0 to %g are possible",
+                    (double)sky->altitude_m, (double)max_altitude_m);
+    if (!(sky->illuminance_lux >= 0.0f) || !isfinite(sky->illuminance_lux))
+        return fail(error, FACET_ERROR_ARGUMENT, "sky: the illuminance is %g lx; 0 or more is possible",
+                    (double)sky->illuminance_lux);
+    if (sky->height == 1 || sky->height > max_size / 2)
+        return fail(error, FACET_ERROR_ARGUMENT, "sky: a height of %u texels; 2 to %u are possible",
+                    (unsigned)sky->height, (unsigned)(max_size / 2));
+    return FACET_OK;
+}
+
+/* ---- drawing ---- */
+
+static facet_result draw_atmosphere(const facet_sky_desc *sky, const facet_environment_desc *desc,
+                                    image *picture, facet_error *error)
+{
+    Atmosphere air[SKY_HALVES];
+    sky_tables tables = {.columns = NULL};
+    sky_view view = {.rows = NULL};
+    float altitude_km = sky->altitude_m * 0.001f;
+    sky_atmosphere(sky->turbidity, sky->ground_albedo, air);
+    facet_result result = sky_tables_create(air, &desc->allocator, desc->thread_count, &tables, error);
+    if (result == FACET_OK)
+        result = sky_view_create(&tables, altitude_km, sky->sun_elevation_rad, &desc->allocator,
+                                 desc->thread_count, &view, error);
+    if (result == FACET_OK)
+        result = sky_picture_atmosphere(&view, sky->sun_azimuth_rad, &desc->allocator, desc->thread_count,
+                                        picture, error);
+    if (result == FACET_OK && !sky->has_no_disc) {
+        sky_sun_light sun =
+            sky_sun_through_air(air, altitude_km, sky->sun_elevation_rad, sky->sun_azimuth_rad);
+        sky_sun_draw(&sun, picture);
+    }
+    sky_view_destroy(&view);
+    sky_tables_destroy(&tables);
+    return result;
+}
+
+static facet_result draw_preetham(const facet_sky_desc *sky, const facet_environment_desc *desc,
+                                  image *picture, facet_error *error)
+{
+    sky_sun_light sun = sky_sun_preetham(sky->turbidity, sky->sun_elevation_rad, sky->sun_azimuth_rad);
+    facet_result result = sky_picture_preetham(sky->turbidity, &sun, sky->ground_albedo, &desc->allocator,
+                                               desc->thread_count, picture, error);
+    if (result == FACET_OK && !sky->has_no_disc)
+        sky_sun_draw(&sun, picture);
+    return result;
+}
+
+/* Scales the picture so that the surface that gets most light gets lux. */
+typedef struct scaling {
+    image *picture;
+    float factor;
+} scaling;
+
+static void scale_rows(void *context, size_t begin, size_t end)
+{
+    const scaling *s = context;
+    size_t row = (size_t)s->picture->width * 3;
+    float *p = s->picture->pixels;
+    for (size_t i = begin * row; i < end * row; i++)
+        p[i] *= s->factor;
+}
+
+static facet_result expose(const facet_sky_desc *sky, const facet_environment_desc *desc, image *picture,
+                           facet_error *error)
+{
+    double lux = 0.0;
+    if (sky->illuminance_lux == 0.0f)
+        return FACET_OK;
+    facet_result result = sky_picture_illuminance(picture, sky->sun_azimuth_rad, &desc->allocator,
+                                                  desc->thread_count, &lux, error);
+    scaling s = {picture, (float)((double)sky->illuminance_lux / fmax(lux, darkest_lux))};
+    if (result == FACET_OK)
+        parallel_for(desc->thread_count, picture->height, 16, scale_rows, &s);
+    return result;
+}
 
 facet_result facet_environment_create_sky(const facet_sky_desc *sky, const facet_environment_desc *desc,
                                           facet_environment **environment, facet_error *error)
 {
-    (void)sky, (void)desc;
+    assert(sky && environment);
+    static const facet_environment_desc default_desc;
     *environment = NULL;
-    return fail(error, FACET_ERROR_UNSUPPORTED, "sky: not there yet");
-}
-
-facet_result facet_environment_create_gradient(const float zenith[3], const float horizon[3],
-                                               const float nadir[3], const facet_environment_desc *desc,
-                                               facet_environment **environment, facet_error *error)
-{
-    (void)zenith, (void)horizon, (void)nadir, (void)desc;
-    *environment = NULL;
-    return fail(error, FACET_ERROR_UNSUPPORTED, "gradient: not there yet");
+    desc = desc ? desc : &default_desc;
+    facet_result result = check(sky, desc->max_size ? desc->max_size : DEFAULT_MAX_SIZE, error);
+    facet_environment *e = NULL;
+    if (result == FACET_OK)
+        result = environment_create(desc, &e, error);
+    if (result != FACET_OK)
+        return result;
+    facet_sky_desc s = *sky;
+    s.turbidity = s.turbidity != 0.0f ? s.turbidity : default_turbidity;
+    s.height = s.height ? s.height : DEFAULT_HEIGHT;
+    result = image_create(&e->allocator, 2 * s.height, s.height, 3, IMAGE_F32, &e->picture, error);
+    if (result == FACET_OK)
+        result =
+            (s.model == FACET_SKY_PREETHAM ? draw_preetham : draw_atmosphere)(&s, desc, &e->picture, error);
+    if (result == FACET_OK)
+        result = expose(&s, desc, &e->picture, error);
+    if (result != FACET_OK) {
+        environment_release(e);
+        return result;
+    }
+    environment_limit(e, desc->thread_count);
+    environment_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    *environment = e;
+    return FACET_OK;
 }

@@ -1,0 +1,205 @@
+/* sky_picture.c - see sky_picture.h. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+
+#include "ibl/equirect.h"
+#include "ibl/sky_picture.h"
+
+enum { FINE_SUB_ROWS = 16, BLOCK_ROWS = 32, BLOCK_COLUMNS = 64, CANDIDATES = 360 };
+
+static const double half_turn = 3.14159265358979323846;
+
+/* A picture, and one of the two skies. */
+typedef struct picture_job {
+    image *picture;
+    sky_azimuth *columns; /* from the sun */
+    double horizon;       /* angle from the zenith */
+    float mu_sun, across_sun;
+    const sky_view *view; /* NULL: Preetham's */
+    PreethamSky preetham;
+    const facet_allocator *allocator;
+} picture_job;
+
+/* ---- rows ---- */
+
+/* Adds the sky at an angle from the zenith to a row of the picture. */
+static void add_view_row(const picture_job *job, double angle, float weight, float *texels)
+{
+    sky_light row[SKY_VIEW_AZIMUTHS];
+    float mu = (float)(cos)(angle), across = (float)(sin)(angle)*job->across_sun;
+    sky_view_fetch_row(job->view, (float)angle, row);
+    for (uint32_t x = 0; x < job->picture->width; x++) {
+        float cos_angle = clamp(mu * job->mu_sun + across * job->columns[x].cosine, -1.0f, 1.0f);
+        vec3 L = sky_view_radiance(job->view, row, &job->columns[x], cos_angle);
+        for (int i = 0; i < 3; i++)
+            texels[3 * x + (uint32_t)i] += L[i] * weight;
+    }
+}
+
+static void add_preetham_row(const picture_job *job, double angle, float weight, float *texels)
+{
+    float mu = (float)(cos)(angle), across = (float)(sin)(angle)*job->across_sun;
+    for (uint32_t x = 0; x < job->picture->width && angle < job->horizon; x++) {
+        float cos_angle = clamp(mu * job->mu_sun + across * job->columns[x].cosine, -1.0f, 1.0f);
+        vec3 L = preetham_radiance(job->preetham, mu, cos_angle);
+        for (int i = 0; i < 3; i++)
+            texels[3 * x + (uint32_t)i] += L[i] * weight;
+    }
+}
+
+/* Rows are means over rows within them where the sky changes fast: at the horizon, and where there are few. */
+static void draw_rows(void *context, size_t begin, size_t end)
+{
+    const picture_job *job = context;
+    double row_angle = half_turn / job->picture->height;
+    size_t row_floats = (size_t)job->picture->width * 3;
+    for (size_t y = begin; y < end; y++) {
+        float *texels = (float *)job->picture->pixels + y * row_floats;
+        double top = (double)y * row_angle;
+        bool is_fine = fabs(top + 0.5 * row_angle - job->horizon) < 2.0 * row_angle;
+        int count = is_fine ? FINE_SUB_ROWS : (int)fmin(ceil(row_angle / 0.007), FINE_SUB_ROWS);
+        double whole = (cos)(top) - (cos)(top + row_angle);
+        memset(texels, 0, row_floats * sizeof *texels);
+        for (int i = 0; i < count; i++) {
+            double from = top + row_angle * i / count, to = top + row_angle * (i + 1) / count;
+            float weight = (float)(((cos)(from) - (cos)(to)) / whole);
+            if (job->view)
+                add_view_row(job, 0.5 * (from + to), weight, texels);
+            else
+                add_preetham_row(job, 0.5 * (from + to), weight, texels);
+        }
+    }
+}
+
+static facet_result draw(picture_job *job, float sun_azimuth_rad, uint32_t thread_count, facet_error *error)
+{
+    uint32_t width = job->picture->width;
+    job->columns = mem_alloc(job->allocator, width, sizeof *job->columns);
+    if (!job->columns)
+        return fail_memory(error, "sky", width * sizeof *job->columns);
+    double sun = 0.5 * half_turn - (double)sun_azimuth_rad; /* longitude, from +X towards +Z */
+    for (uint32_t x = 0; x < width; x++)
+        job->columns[x] = sky_view_azimuth(2.0 * half_turn * ((x + 0.5) / width - 0.5) - sun);
+    job->across_sun = sqrtf(max(1.0f - job->mu_sun * job->mu_sun, 0.0f));
+    parallel_for(thread_count, job->picture->height, 8, draw_rows, job);
+    mem_free(job->columns);
+    return FACET_OK;
+}
+
+facet_result sky_picture_atmosphere(const sky_view *view, float sun_azimuth_rad,
+                                    const facet_allocator *allocator, uint32_t thread_count, image *picture,
+                                    facet_error *error)
+{
+    picture_job job = {.picture = picture,
+                       .allocator = allocator,
+                       .horizon = (acos)((double)horizon_mu(view->height_km)),
+                       .mu_sun = view->mu_sun,
+                       .view = view};
+    return draw(&job, sun_azimuth_rad, thread_count, error);
+}
+
+/* ---- Preetham's ground ---- */
+
+/* Illuminance of level ground by the upper half of the picture. */
+static void sum_ground(const image *picture, double out[3])
+{
+    out[0] = out[1] = out[2] = 0.0;
+    for (uint32_t y = 0; y < picture->height / 2; y++) {
+        const float *row = (const float *)picture->pixels + (size_t)y * picture->width * 3;
+        double sums[3] = {0.0, 0.0, 0.0};
+        for (uint32_t x = 0; x < picture->width; x++)
+            for (int i = 0; i < 3; i++)
+                sums[i] += (double)row[3 * x + (uint32_t)i];
+        double cosine = (cos)((y + 0.5) * half_turn / picture->height);
+        for (int i = 0; i < 3; i++)
+            out[i] += sums[i] * cosine * equirect_texel_solid_angle(picture->width, picture->height, y);
+    }
+}
+
+facet_result sky_picture_preetham(float turbidity, const sky_sun_light *sun, const float ground_albedo[3],
+                                  const facet_allocator *allocator, uint32_t thread_count, image *picture,
+                                  facet_error *error)
+{
+    float zenith = 0.5f * PI - sun->elevation_rad;
+    picture_job job = {.picture = picture,
+                       .allocator = allocator,
+                       .horizon = 0.5 * half_turn,
+                       .mu_sun = cosf(zenith),
+                       .preetham = preetham_sky(turbidity, zenith)};
+    facet_result result = draw(&job, sun->azimuth_rad, thread_count, error);
+    if (result != FACET_OK)
+        return result;
+    double illuminance[3];
+    sum_ground(picture, illuminance);
+    vec3 direct = sky_sun_illuminance(sun);
+    float *texels = picture->pixels;
+    for (uint32_t y = picture->height / 2; y < picture->height; y++) {
+        bool is_half = 2 * y + 1 == picture->height; /* the horizon goes through its middle */
+        for (uint32_t x = 0; x < picture->width; x++)
+            for (uint32_t i = 0; i < 3; i++) {
+                double light = illuminance[i] + (double)direct[i] * (double)job.mu_sun;
+                texels[((size_t)y * picture->width + x) * 3 + i] +=
+                    (float)(light * (double)ground_albedo[i] / half_turn) * (is_half ? 0.5f : 1.0f);
+            }
+    }
+    return FACET_OK;
+}
+
+/* ---- exposure ---- */
+
+/* Luminous flux per area that comes through blocks of texels, as vectors to where it comes from. */
+typedef struct flux_blocks {
+    const image *picture;
+    double vectors[BLOCK_ROWS][BLOCK_COLUMNS][3];
+} flux_blocks;
+
+static void sum_blocks(void *context, size_t begin, size_t end)
+{
+    flux_blocks *b = context;
+    const image *p = b->picture;
+    for (size_t row = begin; row < end; row++)
+        for (uint32_t y = (uint32_t)(row * p->height / BLOCK_ROWS);
+             y < (uint32_t)((row + 1) * p->height / BLOCK_ROWS); y++) {
+            double solid_angle = equirect_texel_solid_angle(p->width, p->height, y);
+            const float *texel = (const float *)p->pixels + (size_t)y * p->width * 3;
+            for (uint32_t x = 0; x < p->width; x++, texel += 3) {
+                float d[3];
+                equirect_direction(p->width, p->height, x, y, d);
+                double flux = (double)luminance(vec3(texel[0], texel[1], texel[2])) * solid_angle;
+                double *sum = b->vectors[row][(uint64_t)x * BLOCK_COLUMNS / p->width];
+                for (int i = 0; i < 3; i++)
+                    sum[i] += flux * (double)d[i];
+            }
+        }
+}
+
+facet_result sky_picture_illuminance(const image *picture, float azimuth_rad,
+                                     const facet_allocator *allocator, uint32_t thread_count, double *out,
+                                     facet_error *error)
+{
+    flux_blocks *b = mem_zalloc(allocator, 1, sizeof *b);
+    if (!b)
+        return fail_memory(error, "sky", sizeof *b);
+    b->picture = picture;
+    parallel_for(thread_count, BLOCK_ROWS, 1, sum_blocks, b);
+    double largest = 0.0;
+    for (int c = 0; c < CANDIDATES; c++) {
+        double elevation = 2.0 * half_turn * c / CANDIDATES;
+        double n[3] = {(cos)(elevation) * (sin)((double)azimuth_rad), (sin)(elevation),
+                       (cos)(elevation) * (cos)((double)azimuth_rad)};
+        double sum = 0.0;
+        for (int row = 0; row < BLOCK_ROWS; row++)
+            for (int column = 0; column < BLOCK_COLUMNS; column++) {
+                const double *v = b->vectors[row][column];
+                sum += fmax(v[0] * n[0] + v[1] * n[1] + v[2] * n[2], 0.0);
+            }
+        largest = fmax(largest, sum);
+    }
+    mem_free(b);
+    *out = largest;
+    return FACET_OK;
+}

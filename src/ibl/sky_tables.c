@@ -1,0 +1,195 @@
+/* sky_tables.c - the loops around shade/sky.h: tables, and rays marched with them. */
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+
+#include "ibl/sky_tables.h"
+
+enum {
+    COLUMN_STEPS = 40,
+    BOUNCE_STEPS = 12,
+    BOUNCE_POLAR = 10,  /* directions from straight up down, closest at the horizon: mu = x |x| .. */
+    BOUNCE_AZIMUTH = 4, /* .. and in the half circle from the sun, closest there; the other half mirrors it */
+    IRRADIANCE_POLAR = 24,
+    IRRADIANCE_AZIMUTH = 12,
+    IRRADIANCE_STEPS = 32
+};
+
+/* Bilinear; texels as a GPU reads them, stride vectors apart. */
+static inline vec3 fetch(const vec3 *table, int stride, int width, int height, vec2 place)
+{
+    float x = place[0] * (float)width - 0.5f;
+    float y = place[1] * (float)height - 0.5f;
+    x = clamp(x, 0.0f, (float)(width - 1));
+    y = clamp(y, 0.0f, (float)(height - 1));
+    int x0 = (int)x < width - 2 ? (int)x : width - 2;
+    int y0 = (int)y < height - 2 ? (int)y : height - 2;
+    float wx = x - (float)x0;
+    float wy = y - (float)y0;
+    const vec3 *p = table + stride * (y0 * width + x0);
+    const vec3 *q = p + stride * width;
+    vec3 a = p[0] + (p[stride] - p[0]) * wx;
+    vec3 b = q[0] + (q[stride] - q[0]) * wx;
+    return a + (b - a) * wy;
+}
+
+static inline vec3 sun_column(const sky_tables *t, float height_km, float mu)
+{
+    return fetch(t->columns, 1, COLUMN_TABLE_WIDTH, COLUMN_TABLE_HEIGHT, column_table_place(height_km, mu));
+}
+
+void sky_sun(const sky_tables *t, float height_km, float mu_sun, vec3 out[SKY_HALVES])
+{
+    vec3 column = sun_column(t, height_km, mu_sun);
+    for (int half = 0; half < SKY_HALVES; half++)
+        out[half] = table_sun(t->air[half], column, height_km, mu_sun);
+}
+
+static AirField fetch_field(const AirField *table, vec2 place)
+{
+    return air_field(fetch(&table->mean, 2, BOUNCE_TABLE_SIZE, BOUNCE_TABLE_SIZE, place),
+                     fetch(&table->P2, 2, BOUNCE_TABLE_SIZE, BOUNCE_TABLE_SIZE, place));
+}
+
+/* bounces NULL: light that is scattered again comes with radiance 1 from everywhere. */
+static void march(const sky_tables *t, AirField *const *bounces, const sky_ray *ray, float length_km,
+                  int steps, AirLight out[SKY_HALVES])
+{
+    out[0] = out[1] = air_light_none();
+    for (int i = 0; i < steps; i++) {
+        float begin = ray_share((float)i, (float)steps) * length_km;
+        float end = ray_share((float)(i + 1), (float)steps) * length_km;
+        float middle = 0.5f * (begin + end);
+        float height = ray_height(ray->height_km, ray->mu, middle);
+        float mu_sun = ray_mu_sun(ray->height_km, middle, ray->mu_sun, ray->cos_angle, height);
+        float mu = ray_mu(ray->height_km, ray->mu, middle, height);
+        vec3 density = air_density(height);
+        vec2 place = bounce_table_place(height, mu_sun);
+        vec3 sun[SKY_HALVES];
+        sky_sun(t, height, mu_sun, sun);
+        for (int half = 0; half < SKY_HALVES; half++) {
+            AirField field = bounces ? fetch_field(bounces[half], place) : air_field(vec3(1.0f), vec3(0.0f));
+            out[half] = air_light_step(t->air[half], out[half], density, end - begin, sun[half], field, mu);
+        }
+    }
+}
+
+void sky_march(const sky_tables *t, const sky_ray *ray, float length_km, int steps, AirLight out[SKY_HALVES])
+{
+    march(t, t->bounces, ray, length_km, steps, out);
+}
+
+/* ---- filling ---- */
+
+static void fill_columns(void *context, size_t begin, size_t end)
+{
+    const sky_tables *t = context;
+    for (size_t y = begin; y < end; y++)
+        for (int x = 0; x < COLUMN_TABLE_WIDTH; x++) {
+            vec2 ray = column_table_ray(vec2(((float)x + 0.5f) / (float)COLUMN_TABLE_WIDTH,
+                                             ((float)y + 0.5f) / (float)COLUMN_TABLE_HEIGHT));
+            t->columns[y * COLUMN_TABLE_WIDTH + (size_t)x] = air_column(ray[0], ray[1], COLUMN_STEPS);
+        }
+}
+
+/* The ray from a height, polar angle and azimuth from the sun by their cosines. */
+static sky_ray make_ray(float height_km, float mu, float mu_sun, float cos_azimuth)
+{
+    float across = sqrt(max(1.0f - mu * mu, 0.0f) * max(1.0f - mu_sun * mu_sun, 0.0f));
+    return (sky_ray){height_km, mu, mu_sun, clamp(mu * mu_sun + across * cos_azimuth, -1.0f, 1.0f)};
+}
+
+static void add_bounce(const sky_tables *t, const sky_ray *ray, float share, AirBounce sums[SKY_HALVES])
+{
+    AirLight light[SKY_HALVES];
+    vec3 ground[SKY_HALVES] = {vec3(0.0f), vec3(0.0f)};
+    float to_ground = ray_to_ground(ray->height_km, ray->mu);
+    bool is_ground = to_ground >= 0.0f;
+    float length_km = is_ground ? to_ground : ray_to_top(ray->height_km, ray->mu);
+    march(t, NULL, ray, length_km, BOUNCE_STEPS, light);
+    if (is_ground) {
+        float mu_sun = ray_mu_sun(ray->height_km, length_km, ray->mu_sun, ray->cos_angle, 0.0f);
+        sky_sun(t, 0.0f, mu_sun, ground);
+        for (int half = 0; half < SKY_HALVES; half++)
+            ground[half] = ground[half] * max(mu_sun, 0.0f);
+    }
+    for (int half = 0; half < SKY_HALVES; half++)
+        sums[half] = air_bounce_add(t->air[half], sums[half], light[half], ray->mu, ray->cos_angle,
+                                    ground[half], is_ground ? 1.0f : 0.0f, share);
+}
+
+static void fill_bounces(void *context, size_t begin, size_t end)
+{
+    const sky_tables *t = context;
+    for (size_t i = begin; i < end; i++) {
+        vec2 place =
+            bounce_table_ray(vec2(((float)(i % BOUNCE_TABLE_SIZE) + 0.5f) / (float)BOUNCE_TABLE_SIZE,
+                                  ((float)(i / BOUNCE_TABLE_SIZE) + 0.5f) / (float)BOUNCE_TABLE_SIZE));
+        AirBounce sums[SKY_HALVES] = {air_bounce_none(), air_bounce_none()};
+        for (int p = 0; p < BOUNCE_POLAR; p++)
+            for (int a = 0; a < BOUNCE_AZIMUTH; a++) {
+                float x = 1.0f - 2.0f * ((float)p + 0.5f) / (float)BOUNCE_POLAR;
+                float y = ((float)a + 0.5f) / (float)BOUNCE_AZIMUTH;
+                float share = abs(x) * y * (4.0f / (float)(BOUNCE_POLAR * BOUNCE_AZIMUTH));
+                sky_ray ray = make_ray(place[0], x * abs(x), place[1], cos(PI * y * y));
+                add_bounce(t, &ray, share, sums);
+            }
+        for (int half = 0; half < SKY_HALVES; half++)
+            t->bounces[half][i] = air_bounce_field(sums[half]);
+    }
+}
+
+facet_result sky_tables_create(const Atmosphere air[SKY_HALVES], const facet_allocator *allocator,
+                               uint32_t thread_count, sky_tables *out, facet_error *error)
+{
+    const size_t column_count = (size_t)COLUMN_TABLE_WIDTH * COLUMN_TABLE_HEIGHT;
+    const size_t bounce_count = (size_t)BOUNCE_TABLE_SIZE * BOUNCE_TABLE_SIZE;
+    *out = (sky_tables){.air = {air[0], air[1]},
+                        .columns = mem_alloc(allocator, column_count, sizeof *out->columns),
+                        .bounces = {mem_alloc(allocator, SKY_HALVES * bounce_count, sizeof(AirField))}};
+    if (!out->columns || !out->bounces[0]) {
+        sky_tables_destroy(out);
+        return fail_memory(error, "sky", column_count * sizeof(vec3) + 2 * bounce_count * sizeof(AirField));
+    }
+    out->bounces[1] = out->bounces[0] + bounce_count;
+    parallel_for(thread_count, COLUMN_TABLE_HEIGHT, 4, fill_columns, out);
+    parallel_for(thread_count, bounce_count, 16, fill_bounces, out);
+    return FACET_OK;
+}
+
+void sky_tables_destroy(sky_tables *t)
+{
+    mem_free(t->columns);
+    mem_free(t->bounces[0]);
+    *t = (sky_tables){.columns = NULL};
+}
+
+/* ---- what they are asked for ---- */
+
+void sky_atmosphere(float turbidity, const float ground_albedo[3], Atmosphere air[SKY_HALVES])
+{
+    static const float angstrom = 0.6f, scattering_albedo = 0.98f, g = 0.76f; /* atmosphere_earth()'s */
+    for (int half = 0; half < SKY_HALVES; half++) {
+        Atmosphere a = atmosphere_earth(half == 0 ? SKY_BANDS_FIRST : SKY_BANDS_SECOND);
+        a = atmosphere_with_haze(a, haze_depth_from_turbidity(turbidity), angstrom, scattering_albedo, g);
+        a.ground_albedo = vec3(ground_albedo[0], ground_albedo[1], ground_albedo[2]);
+        air[half] = a;
+    }
+}
+
+/* E = integral of L mu d_omega; with w = mu^2 it is half that of L over w and azimuth. */
+void sky_irradiance(const sky_tables *t, float mu_sun, vec3 out[SKY_HALVES])
+{
+    out[0] = out[1] = vec3(0.0f);
+    for (int p = 0; p < IRRADIANCE_POLAR; p++)
+        for (int a = 0; a < IRRADIANCE_AZIMUTH; a++) {
+            AirLight light[SKY_HALVES];
+            float mu = sqrt(((float)p + 0.5f) / (float)IRRADIANCE_POLAR);
+            float azimuth = PI * ((float)a + 0.5f) / (float)IRRADIANCE_AZIMUTH;
+            sky_ray ray = make_ray(0.0f, mu, mu_sun, cos(azimuth));
+            sky_march(t, &ray, ray_to_top(0.0f, mu), IRRADIANCE_STEPS, light);
+            for (int half = 0; half < SKY_HALVES; half++)
+                out[half] = out[half] + air_radiance(t->air[half], light[half], ray.cos_angle) *
+                                            (PI / (float)(IRRADIANCE_POLAR * IRRADIANCE_AZIMUTH));
+        }
+}

@@ -1,0 +1,183 @@
+/* sky_view.c - see sky_view.h. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+
+#include "ibl/sky_view.h"
+
+enum { STEPS = 48, GROUND_NODES = 17 };
+
+/* Irradiance of the ground by the sky, for the angles of the sun from the zenith that are found within sight. */
+typedef struct ground_light {
+    float first, step; /* rad */
+    vec3 sky[GROUND_NODES][SKY_HALVES];
+    int count;
+} ground_light;
+
+typedef struct view_job {
+    const sky_tables *tables;
+    const sky_view *view;
+    ground_light ground;
+} view_job;
+
+/* ---- ground ---- */
+
+static void light_ground(const sky_tables *t, float height_km, float mu_sun, ground_light *g)
+{
+    float reach = acosf(EARTH_RADIUS_KM / (EARTH_RADIUS_KM + height_km));
+    float zenith = acosf(mu_sun);
+    g->first = max(zenith - reach, 0.0f);
+    float last = min(zenith + reach, PI);
+    g->count = reach > 1e-4f ? GROUND_NODES : 1;
+    g->step = g->count > 1 ? (last - g->first) / (float)(g->count - 1) : 1.0f;
+    for (int i = 0; i < g->count; i++)
+        sky_irradiance(t, cosf(g->count > 1 ? g->first + g->step * (float)i : zenith), g->sky[i]);
+}
+
+/* Light that the ground sends up where the sun has mu_sun, per half. */
+static void ground_radiance(const sky_tables *t, const ground_light *g, float mu_sun, vec3 out[SKY_HALVES])
+{
+    float x = clamp((acosf(mu_sun) - g->first) / g->step, 0.0f, (float)(g->count - 1));
+    int node = (int)x < g->count - 2 ? (int)x : g->count - 2;
+    node = node > 0 ? node : 0;
+    int next = g->count > 1 ? node + 1 : node;
+    vec3 sun[SKY_HALVES];
+    sky_sun(t, 0.0f, mu_sun, sun);
+    for (int half = 0; half < SKY_HALVES; half++) {
+        vec3 sky = mix(g->sky[node][half], g->sky[next][half], x - (float)node);
+        out[half] = (sun[half] * max(mu_sun, 0.0f) + sky) * t->air[half].ground_albedo * INV_PI;
+    }
+}
+
+/* ---- rows ---- */
+
+static sky_light light_along(const view_job *job, const sky_ray *ray, bool is_ground)
+{
+    const sky_tables *t = job->tables;
+    AirLight light[SKY_HALVES];
+    float to_ground = ray_to_ground(ray->height_km, ray->mu);
+    float length_km = is_ground ? max(to_ground, 0.0f) : ray_to_top(ray->height_km, ray->mu);
+    sky_march(t, ray, length_km, length_km > 1e-6f ? STEPS : 0, light);
+    vec3 ground[SKY_HALVES] = {vec3(0.0f), vec3(0.0f)};
+    if (is_ground)
+        ground_radiance(t, &job->ground,
+                        ray_mu_sun(ray->height_km, length_km, ray->mu_sun, ray->cos_angle, 0.0f), ground);
+    vec3 rayleigh[SKY_HALVES], haze[SKY_HALVES], rest[SKY_HALVES];
+    for (int half = 0; half < SKY_HALVES; half++) {
+        rayleigh[half] = light[half].rayleigh;
+        haze[half] = light[half].haze;
+        rest[half] = light[half].multiple + light[half].transmittance * ground[half];
+    }
+    return (sky_light){sky_color(t, rayleigh), sky_color(t, haze), sky_color(t, rest)};
+}
+
+static void fill_rows(void *context, size_t begin, size_t end)
+{
+    const view_job *job = context;
+    const sky_view *v = job->view;
+    float horizon = acosf(horizon_mu(v->height_km));
+    for (size_t i = begin; i < end; i++) {
+        bool is_ground = i >= SKY_VIEW_UP;
+        float row =
+            is_ground ? -(float)(i - SKY_VIEW_UP) / (SKY_VIEW_DOWN - 1) : (float)i / (SKY_VIEW_UP - 1);
+        float angle = sky_view_zenith_angle(v->height_km, row);
+        float mu = cosf(is_ground ? max(angle, horizon) : angle);
+        float across = sqrtf(max(1.0f - mu * mu, 0.0f) * max(1.0f - v->mu_sun * v->mu_sun, 0.0f));
+        for (int a = 0; a < SKY_VIEW_AZIMUTHS; a++) {
+            float cos_azimuth = cosf(PI * (float)a / (SKY_VIEW_AZIMUTHS - 1));
+            sky_ray ray = {v->height_km, mu, v->mu_sun,
+                           clamp(mu * v->mu_sun + across * cos_azimuth, -1.0f, 1.0f)};
+            v->rows[i * SKY_VIEW_AZIMUTHS + (size_t)a] = light_along(job, &ray, is_ground);
+        }
+    }
+}
+
+facet_result sky_view_create(const sky_tables *tables, float altitude_km, float sun_elevation_rad,
+                             const facet_allocator *allocator, uint32_t thread_count, sky_view *out,
+                             facet_error *error)
+{
+    const size_t count = (size_t)(SKY_VIEW_UP + SKY_VIEW_DOWN) * SKY_VIEW_AZIMUTHS;
+    *out = (sky_view){.height_km = altitude_km,
+                      .mu_sun = sinf(sun_elevation_rad),
+                      .haze_g = tables->air[0].haze_g,
+                      .rows = mem_alloc(allocator, count, sizeof *out->rows)};
+    if (!out->rows)
+        return fail_memory(error, "sky", count * sizeof *out->rows);
+    view_job job = {.tables = tables, .view = out};
+    light_ground(tables, altitude_km, out->mu_sun, &job.ground);
+    parallel_for(thread_count, SKY_VIEW_UP + SKY_VIEW_DOWN, 4, fill_rows, &job);
+    return FACET_OK;
+}
+
+void sky_view_destroy(sky_view *v)
+{
+    mem_free(v->rows);
+    *v = (sky_view){.rows = NULL};
+}
+
+/* ---- lookup ---- */
+
+/* Weights of the nodes -1, 0, 1, 2 at x in [0, 1]. Catmull and Rom 1974. */
+static void cubic_weights(float x, float weights[4])
+{
+    weights[0] = x * (-0.5f + x * (1.0f - 0.5f * x));
+    weights[1] = 1.0f + x * x * (-2.5f + 1.5f * x);
+    weights[2] = x * (0.5f + x * (2.0f - 1.5f * x));
+    weights[3] = x * x * (-0.5f + 0.5f * x);
+}
+
+void sky_view_fetch_row(const sky_view *v, float zenith_angle, sky_light out[SKY_VIEW_AZIMUTHS])
+{
+    float row = sky_view_row(v->height_km, zenith_angle);
+    int count = row >= 0.0f ? SKY_VIEW_UP : SKY_VIEW_DOWN;
+    const sky_light *rows = row >= 0.0f ? v->rows : v->rows + (size_t)SKY_VIEW_UP * SKY_VIEW_AZIMUTHS;
+    float x = fabsf(row) * (float)(count - 1);
+    int first = (int)x < count - 2 ? (int)x : count - 2;
+    float weights[4];
+    cubic_weights(x - (float)first, weights);
+    for (int a = 0; a < SKY_VIEW_AZIMUTHS; a++) {
+        sky_light sum = {vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+        for (int k = 0; k < 4; k++) {
+            int node = first - 1 + k;
+            node = node < 0 ? 0 : node > count - 1 ? count - 1 : node;
+            const sky_light *l = rows + (size_t)node * SKY_VIEW_AZIMUTHS + (size_t)a;
+            sum.rayleigh += l->rayleigh * weights[k];
+            sum.haze += l->haze * weights[k];
+            sum.rest += l->rest * weights[k];
+        }
+        out[a] = sum;
+    }
+}
+
+sky_azimuth sky_view_azimuth(double radians)
+{
+    const double turn = 6.283185307179586;
+    double a = fabs(radians - turn * (floor)(radians / turn + 0.5)); /* [0, pi] */
+    float x = (float)(a / (0.5 * turn) * (SKY_VIEW_AZIMUTHS - 1));
+    int first = (int)x < SKY_VIEW_AZIMUTHS - 2 ? (int)x : SKY_VIEW_AZIMUTHS - 2;
+    sky_azimuth out = {.cosine = cosf((float)a)};
+    cubic_weights(x - (float)first, out.weights);
+    for (int k = 0; k < 4; k++) { /* the other half is the mirror image */
+        int node = first - 1 + k < 0 ? 1 : first - 1 + k;
+        out.nodes[k] = node < SKY_VIEW_AZIMUTHS ? node : 2 * (SKY_VIEW_AZIMUTHS - 1) - node;
+    }
+    return out;
+}
+
+vec3 sky_view_radiance(const sky_view *v, const sky_light row[SKY_VIEW_AZIMUTHS], const sky_azimuth *azimuth,
+                       float cos_angle)
+{
+    sky_light sum = {vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+    for (int k = 0; k < 4; k++) {
+        const sky_light *l = row + azimuth->nodes[k];
+        sum.rayleigh += l->rayleigh * azimuth->weights[k];
+        sum.haze += l->haze * azimuth->weights[k];
+        sum.rest += l->rest * azimuth->weights[k];
+    }
+    return max(sum.rayleigh * phase_rayleigh(cos_angle) + sum.haze * phase_HG(cos_angle, v->haze_g) +
+                   sum.rest,
+               0.0f);
+}

@@ -1,0 +1,46 @@
+/* sky_view.h - the sky around an eye as a table: light of the atmosphere without the phase functions of single scattering, which
+ * are sharp, and without the sun's disc. What is left is smooth, but for the horizon, where rows come closest. */
+#ifndef IBL_SKY_VIEW_H
+#define IBL_SKY_VIEW_H
+
+#include "ibl/sky_tables.h"
+
+enum {
+    SKY_VIEW_UP = 128,     /* rows from the horizon to the zenith */
+    SKY_VIEW_DOWN = 48,    /* and to the nadir */
+    SKY_VIEW_AZIMUTHS = 33 /* from that of the sun to its opposite */
+};
+
+/* Linear Rec.709: cd/m^2, the first two per phase function. */
+typedef struct sky_light {
+    vec3 rayleigh, haze, rest;
+} sky_light;
+
+typedef struct sky_view {
+    float height_km, mu_sun;
+    float haze_g;
+    sky_light *rows; /* SKY_VIEW_UP, then SKY_VIEW_DOWN; the first of each is the horizon */
+} sky_view;
+
+/* For an eye altitude_km above the ground. FACET_ERROR_MEMORY. */
+facet_result sky_view_create(const sky_tables *tables, float altitude_km, float sun_elevation_rad,
+                             const facet_allocator *allocator, uint32_t thread_count, sky_view *out,
+                             facet_error *error);
+void sky_view_destroy(sky_view *v); /* {0} is allowed */
+
+/* The lights at an angle from the zenith, for all azimuths. Interpolated by Catmull and Rom's cubic; never below 0. */
+void sky_view_fetch_row(const sky_view *v, float zenith_angle, sky_light out[SKY_VIEW_AZIMUTHS]);
+
+/* Where an azimuth lies in a row. */
+typedef struct sky_azimuth {
+    int nodes[4];
+    float weights[4];
+    float cosine;
+} sky_azimuth;
+sky_azimuth sky_view_azimuth(double radians); /* from that of the sun, any */
+
+/* Radiance; cos_angle: between direction and sun. */
+vec3 sky_view_radiance(const sky_view *v, const sky_light row[SKY_VIEW_AZIMUTHS], const sky_azimuth *azimuth,
+                       float cos_angle);
+
+#endif
