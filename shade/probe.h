@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 83
+#define PROBE_COUNT 91
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -627,6 +627,85 @@ FN vec3 probe_paths(int which, vec2 u)
            layers_draw_sheen(m, V, u) + layers_draw_boundary(m, V, u[1], 0.5f, turned);
 }
 
+FN Atmosphere probe_air(vec2 u)
+{
+    Atmosphere a = atmosphere_earth(int(u[0] * 2.99f));
+    return atmosphere_with_haze(a, haze_depth_from_turbidity(1.0f + 4.0f * u[1]), 0.6f, 0.9f, 0.7f);
+}
+
+/* A place and directions in the air: height, mu, that of the sun. */
+FN vec3 probe_place(vec2 u)
+{
+    return vec3(0.1f + 60.0f * u[0] * u[0], 2.0f * u[1] - 1.0f, 1.8f * fract(7.0f * u[0]) - 0.9f);
+}
+
+FN vec3 probe_rays(vec2 u)
+{
+    vec3 p = probe_place(u);
+    float t = 5.0f + 30.0f * u[1];
+    float there = ray_height(p[0], p[1], t);
+    return vec3(there + ray_mu(p[0], p[1], t, there), ray_mu_sun(p[0], t, p[2], 0.3f, there) + 2.0f,
+                horizon_mu(p[0]) + 2.0f) +
+           vec3(ray_to_top(p[0], p[1]) * 0.01f + height_square(p[0]) * 1e-5f,
+                ray_share(3.0f, 8.0f) + sun_visibility(p[0], horizon_mu(p[0]) + 0.01f * (u[1] - 0.5f)),
+                sel(p[1] < horizon_mu(p[0]) - 0.01f, ray_to_ground(p[0], p[1]) * 0.01f, 0.0f));
+}
+
+FN vec3 probe_sky_tables(int which, vec2 u)
+{
+    vec3 p = probe_place(u);
+    vec2 column = column_table_place(p[0], p[1]);
+    vec2 bounce = bounce_table_place(p[0], p[2]);
+    if (which == 87)
+        return vec3(column[0], column[1], table_share(table_coordinate(u[0], 32.0f), 32.0f)) + 1.0f +
+               vec3(bounce[0], bounce[1], 0.0f);
+    vec2 ray = column_table_ray(u);
+    vec2 sun = bounce_table_ray(u);
+    float angle = sky_view_zenith_angle(p[0], 2.0f * u[1] - 1.0f);
+    return air_column(ray[0], 0.05f + 0.95f * u[1], 8) * 0.01f +
+           vec3(ray[0] * 0.01f, ray[1] + 2.0f, sun[0] * 0.01f) +
+           vec3(sun[1], angle + sky_view_row(p[0], 0.1f + 2.9f * u[0]), 3.0f);
+}
+
+FN vec3 probe_air_light(int which, vec2 u)
+{
+    Atmosphere a = probe_air(u);
+    vec3 p = probe_place(u);
+    vec3 density = air_density(p[0] * 0.3f);
+    vec3 sun = table_sun(a, vec3(10.0f, 2.0f, 20.0f) * u[1], p[0], p[2]);
+    AirField field = air_field(vec3(0.1f, 0.2f, 0.3f), vec3(-0.05f * u[0]));
+    AirLight s = air_light_step(a, air_light_none(), density, 2.0f, sun, field, p[1]);
+    s = air_light_step(a, s, density, 20.0f * u[0], sun, field, p[1]);
+    if (which == 89)
+        return air_radiance(a, s, p[1]) + s.transmittance + air_field_radiance(field, p[1]) +
+               air_path(air_extinction(a, density), 3.0f * u[1]) * 0.1f + air_path1(0.1f, u[0]) +
+               haze_forward_share(a);
+    AirBounce b = air_bounce_add(a, air_bounce_none(), s, p[1], p[2], sun, 1.0f, 0.5f);
+    AirField all = air_bounce_field(b);
+    return 1.0f + all.mean + all.P2 + legendre_P2(p[1]);
+}
+
+FN vec3 probe_sky(int which, vec2 u)
+{
+    Atmosphere a = probe_air(u);
+    float turbidity = 2.0f + 6.0f * u[1];
+    if (which >= 89)
+        return probe_air_light(which, u);
+    if (which >= 87)
+        return probe_sky_tables(which, u);
+    if (which == 86)
+        return probe_rays(u);
+    if (which == 85)
+        return atmosphere_color(a, air_transmittance(a, vec3(20.0f, 3.0f, 30.0f) * u[0])) * 1e-5f +
+               phase_rayleigh(u[1]) + 3.0f;
+    PreethamSky s = preetham_sky(turbidity, 1.4f * u[0]);
+    if (which == 84)
+        return preetham_Yxy(s, 0.05f + 0.9f * u[1], 0.9f - 1.8f * u[0]) * vec3(1e-4f, 1.0f, 1.0f) +
+               preetham_zenith(turbidity, 1.4f * u[0]) * vec3(1e-4f, 1.0f, 1.0f);
+    return preetham_sun(a, turbidity, 1.5f * u[0]) + preetham_radiance(s, 0.3f, 0.5f) * 1e-4f +
+           preetham_F(s, 0.5f, u[1]) + rec709_from_Yxy(vec3(1.0f, 0.3f + 0.1f * u[0], 0.33f));
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -657,5 +736,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_phong(which, u);
     if (which < 73)
         return probe_pixel(which, u);
-    return probe_paths(which, u);
+    if (which < 83)
+        return probe_paths(which, u);
+    return probe_sky(which, u);
 }
