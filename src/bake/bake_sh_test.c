@@ -10,28 +10,12 @@
 
 #include "base/near_test.h"
 #include "facet/facet.h"
-#include "ibl/environment.h"
-#include "ibl/equirect.h"
+#include "ibl/making_test.h"
 #include "ibl/sh.h"
 
 static const double pi = 3.14159265358979323846;
 
 enum { WIDTH = 512, HEIGHT = 256 };
-
-/* An environment whose texels are what function says of their middles. */
-static facet_environment *make(void (*function)(const float d[3], float out[3]))
-{
-    facet_environment *e = NULL;
-    assert_int_equal(environment_create(&(facet_environment_desc){0}, &e, NULL), FACET_OK);
-    assert_int_equal(image_create(NULL, WIDTH, HEIGHT, 3, IMAGE_F32, &e->picture, NULL), FACET_OK);
-    for (uint32_t y = 0; y < HEIGHT; y++)
-        for (uint32_t x = 0; x < WIDTH; x++) {
-            float d[3];
-            equirect_direction(WIDTH, HEIGHT, x, y, d);
-            function(d, (float *)e->picture.pixels + 3 * (y * WIDTH + x));
-        }
-    return e;
-}
 
 static void project(const facet_environment *e, facet_sh_desc desc, float c[9][3])
 {
@@ -77,7 +61,7 @@ static void test_constant(void **state)
     (void)state;
     static const float L[3] = {1.0f, 2.0f, 0.5f};
     static const double whole[3] = {3.5449077018, 11.1366559937, 1.0}; /* sqrt(4 pi), times pi, 1 */
-    facet_environment *e = make(constant);
+    facet_environment *e = make_environment(WIDTH, HEIGHT, constant);
     for (int form = 0; form < 3; form++) {
         float c[9][3];
         project(e, (facet_sh_desc){.form = (facet_sh_form)form}, c);
@@ -94,7 +78,7 @@ static void test_constant(void **state)
 static void test_cosine_lobe(void **state)
 {
     (void)state;
-    facet_environment *e = make(cosine_lobe);
+    facet_environment *e = make_environment(WIDTH, HEIGHT, cosine_lobe);
     float c[9][3], E[9][3];
     project(e, (facet_sh_desc){.form = FACET_SH_FOLDED}, c);
     project(e, (facet_sh_desc){.form = FACET_SH_IRRADIANCE}, E);
@@ -129,7 +113,7 @@ static void test_cosine_lobe(void **state)
 static void test_basis(void **state)
 {
     (void)state;
-    facet_environment *e = make(polynomial);
+    facet_environment *e = make_environment(WIDTH, HEIGHT, polynomial);
     float c[9][3];
     project(e, (facet_sh_desc){.form = FACET_SH_RADIANCE}, c);
     const double want[9] = {2.0 / 0.2820947918,
@@ -155,8 +139,8 @@ static void test_basis(void **state)
 static void test_rotation(void **state)
 {
     (void)state;
-    facet_environment *e = make(room);
-    facet_environment *moved = make(room);
+    facet_environment *e = make_environment(WIDTH, HEIGHT, room);
+    facet_environment *moved = make_environment(WIDTH, HEIGHT, room);
     static const uint32_t steps[4] = {1, 100, 256, 511};
     for (int n = 0; n < 4; n++) {
         for (uint32_t y = 0; y < HEIGHT; y++)
@@ -178,8 +162,8 @@ static void test_rotation(void **state)
 static void test_exposure_and_clamp(void **state)
 {
     (void)state;
-    facet_environment *e = make(room);
-    facet_environment *cut = make(room);
+    facet_environment *e = make_environment(WIDTH, HEIGHT, room);
+    facet_environment *cut = make_environment(WIDTH, HEIGHT, room);
     float *p = cut->picture.pixels;
     for (size_t k = 0; k < (size_t)WIDTH * HEIGHT * 3; k++)
         p[k] = fminf(p[k], 3.0f);
@@ -197,7 +181,7 @@ static void test_exposure_and_clamp(void **state)
 static void test_window_under_a_sun(void **state)
 {
     (void)state;
-    facet_environment *e = make(sun);
+    facet_environment *e = make_environment(WIDTH, HEIGHT, sun);
     float plain[9][3], c[9][3];
     project(e, (facet_sh_desc){.form = FACET_SH_FOLDED}, plain);
     project(e, (facet_sh_desc){.form = FACET_SH_FOLDED, .is_windowed = true}, c);
@@ -236,7 +220,7 @@ static void test_window_under_a_sun(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    facet_environment *e = make(constant);
+    facet_environment *e = make_environment(WIDTH, HEIGHT, constant);
     float c[9][3];
     facet_error error = {0};
     assert_int_equal(facet_environment_project_sh(e, NULL, c, NULL), FACET_OK);
