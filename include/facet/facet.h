@@ -872,6 +872,20 @@ typedef struct facet_ktx2_desc {
 /* A KTX 2.0 file; facet_bytes_destroy(). What a format cannot hold becomes its largest number. */
 FACET_API facet_result facet_cube_encode_ktx2(const facet_cube *cube, const facet_ktx2_desc *desc,
                                               unsigned char **bytes, size_t *size, facet_error *error);
+typedef struct facet_ktx1_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
+    const float (*harmonics)[3]; /* nine of FACET_SH_FOLDED, kept as text under the key "sh"; NULL: none */
+} facet_ktx1_desc;
+
+/* A KTX 1 file with texels R11F_G11F_B10F, as Filament's cmgen writes and its loaders of light want them; facet_bytes_destroy(). */
+FACET_API facet_result facet_cube_encode_ktx1(const facet_cube *cube, const facet_ktx1_desc *desc,
+                                              unsigned char **bytes, size_t *size, facet_error *error);
+/* The same with x turned around: what is at (x, y, z) is at (-x, y, z), where three.js looks up the cube maps that it did not
+ * render itself. */
+FACET_API facet_result facet_cube_create_mirrored(const facet_cube *cube,
+                                                  const facet_allocator *allocator /* NULL: {0} */,
+                                                  facet_cube **mirrored, facet_error *error);
 /* Layer "" of a picture as a 2D texture of one level. */
 FACET_API facet_result facet_image_encode_ktx2(const facet_image *image, const facet_ktx2_desc *desc,
                                                unsigned char **bytes, size_t *size, facet_error *error);

@@ -1,7 +1,6 @@
 /* bake_make.c - see bake_make.h. */
 #include "cli/bake_make.h"
 
-#include "cli/bake_ktx.h"
 #include "cli/bake_text.h"
 #include "cli/failure.h"
 
@@ -47,49 +46,19 @@ static facet_result encode_picture(const bake_making *m, const facet_image *pict
     return facet_image_encode(picture, &desc, &file->bytes, &file->size, error);
 }
 
-/* A copy of a picture's RGBA with texel(context, from, to) for each texel of a row, given the row from. */
-typedef void row_function(const void *context, const float *from, float *to, uint32_t width);
-
-static facet_result map_rows(const bake_making *m, const facet_image_view *view, row_function *map,
-                             const void *context, facet_image **out, facet_error *error)
+static const facet_cube *cube_of(const bake_making *m, const bake_file *file)
 {
-    const size_t row = (size_t)view->width * 4, size = row * view->height * sizeof(float);
-    float *pixels = m->allocator.allocate(m->allocator.user, size);
-    *out = NULL;
-    if (!pixels)
-        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: %zu bytes of a picture", size);
-    for (uint32_t y = 0; y < view->height; y++)
-        map(context, (const float *)((const char *)view->pixels + y * view->row_stride_bytes),
-            pixels + y * row, view->width);
-    const facet_image_view mapped = {
-        .width = view->width, .height = view->height, .channel_count = 4, .pixels = pixels};
-    facet_result result = facet_image_create(&mapped, &m->allocator, out, error);
-    m->allocator.release(m->allocator.user, pixels, size);
-    return result;
-}
-
-/* From right to left. */
-static void mirror_row(const void *context, const float *from, float *to, uint32_t width)
-{
-    (void)context;
-    for (uint32_t x = 0; x < width; x++)
-        memcpy(to + (size_t)x * 4, from + (size_t)(width - 1 - x) * 4, 4 * sizeof(float));
+    const bake_cube *baked = &m->plan->cubes[file->cube];
+    return file->is_mirrored ? baked->mirrored : baked->cube;
 }
 
 static facet_result make_face(const bake_making *m, bake_file *file, facet_error *error)
 {
-    /* three.js looks up (-x, y, z): what is at +X goes to -X, and each face is seen in a mirror. */
-    const uint32_t face = file->is_mirrored && file->face < 2 ? 1 - file->face : file->face;
-    facet_image *picture = NULL, *mirrored = NULL;
-    facet_result result = facet_cube_copy_face(m->plan->cubes[file->cube].cube, file->level, face,
-                                               &m->allocator, &picture, error);
-    if (result == FACET_OK && file->is_mirrored) {
-        const facet_image_view view = facet_image_get_layer(picture, 0);
-        result = map_rows(m, &view, mirror_row, NULL, &mirrored, error);
-    }
+    facet_image *picture = NULL;
+    facet_result result =
+        facet_cube_copy_face(cube_of(m, file), file->level, file->face, &m->allocator, &picture, error);
     if (result == FACET_OK)
-        result = encode_picture(m, mirrored ? mirrored : picture, file, error);
-    facet_image_destroy(mirrored);
+        result = encode_picture(m, picture, file, error);
     facet_image_destroy(picture);
     return result;
 }
@@ -97,8 +66,8 @@ static facet_result make_face(const bake_making *m, bake_file *file, facet_error
 static facet_result make_level(const bake_making *m, bake_file *file, facet_error *error)
 {
     facet_image *picture = NULL;
-    facet_result result = facet_cube_unfold(m->plan->cubes[file->cube].cube, file->level, file->projection, 0,
-                                            &m->allocator, &picture, error);
+    facet_result result =
+        facet_cube_unfold(cube_of(m, file), file->level, file->projection, 0, &m->allocator, &picture, error);
     if (result == FACET_OK)
         result = encode_picture(m, picture, file, error);
     facet_image_destroy(picture);
@@ -115,38 +84,17 @@ static facet_ktx2_desc ktx2_desc(const bake_making *m, const bake_file *file)
                              .zstd_level = m->options->zstd_level};
 }
 
-static size_t texel_size(facet_texel_format format)
-{
-    return format == FACET_TEXEL_RGBA32F   ? 16
-           : format == FACET_TEXEL_RGBA16F ? 8
-                                           : 4; /* those of cube maps */
-}
-
 static facet_result make_cube(const bake_making *m, bake_file *file, facet_error *error)
 {
-    const bake_cube *baked = &m->plan->cubes[file->cube];
-    const facet_ktx2_desc desc = ktx2_desc(m, file);
-    unsigned char *ktx2 = NULL;
-    size_t ktx2_size = 0;
-    facet_result result = facet_cube_encode_ktx2(baked->cube, &desc, &ktx2, &ktx2_size, error);
-    if (result != FACET_OK || file->container == CONTAINER_KTX2) {
-        file->bytes = ktx2;
-        file->size = ktx2_size;
-        return result == FACET_OK && file->is_mirrored
-                   ? bake_ktx2_mirror(ktx2, ktx2_size, texel_size(file->texels), error)
-                   : result;
+    if (file->container == CONTAINER_KTX1) {
+        const bool has_sh = m->plan->cubes[file->cube].desc.lobe == FACET_LOBE_GGX;
+        const facet_ktx1_desc desc = {.allocator = m->allocator,
+                                      .thread_count = m->options->limits.thread_count,
+                                      .harmonics = has_sh ? m->plan->sh[FACET_SH_FOLDED] : NULL};
+        return facet_cube_encode_ktx1(cube_of(m, file), &desc, &file->bytes, &file->size, error);
     }
-    bake_text harmonics = {0};
-    if (baked->desc.lobe == FACET_LOBE_GGX)
-        bake_text_sh_numbers(&harmonics, m->plan->sh[FACET_SH_FOLDED]);
-    if (harmonics.has_failed)
-        result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: harmonics");
-    if (result == FACET_OK)
-        result = bake_ktx1_from_ktx2(ktx2, ktx2_size, harmonics.data, &file->bytes, &file->size, error);
-    file->is_text = true;
-    free(harmonics.data);
-    facet_bytes_destroy(ktx2);
-    return result;
+    const facet_ktx2_desc desc = ktx2_desc(m, file);
+    return facet_cube_encode_ktx2(cube_of(m, file), &desc, &file->bytes, &file->size, error);
 }
 
 /* ---- text ---- */
@@ -193,9 +141,8 @@ static const char *table_meaning(facet_dfg_kind kind)
 }
 
 /* What PNG's sRGB encoding turns into the table's numbers, in the channels where they are wanted. */
-static void linear_row(const void *context, const float *from, float *to, uint32_t width)
+static void linear_row(int channel, const float *from, float *to, uint32_t width)
 {
-    const int channel = *(const int *)context;
     for (size_t i = 0; i < (size_t)width * 4; i += 4)
         for (int k = 0; k < 4; k++) {
             float number = channel < 0 ? from[i + (size_t)k] : k == channel ? from[i] : 0.0f;
@@ -208,8 +155,19 @@ static facet_result encode_linear_png(const bake_making *m, const facet_image_vi
                                       facet_error *error)
 {
     const facet_save_desc desc = save_desc(m, FACET_FORMAT_PNG16);
+    const size_t row = (size_t)view->width * 4, size = row * view->height * sizeof(float);
+    float *pixels = m->allocator.allocate(m->allocator.user, size);
     facet_image *picture = NULL;
-    facet_result result = map_rows(m, view, linear_row, &file->table_channel, &picture, error);
+    if (!pixels)
+        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: %zu bytes of a picture", size);
+    for (uint32_t y = 0; y < view->height; y++)
+        linear_row(file->table_channel,
+                   (const float *)((const char *)view->pixels + y * view->row_stride_bytes), pixels + y * row,
+                   view->width);
+    const facet_image_view linear = {
+        .width = view->width, .height = view->height, .channel_count = 4, .pixels = pixels};
+    facet_result result = facet_image_create(&linear, &m->allocator, &picture, error);
+    m->allocator.release(m->allocator.user, pixels, size);
     if (result == FACET_OK)
         result = facet_image_encode(picture, &desc, &file->bytes, &file->size, error);
     facet_image_destroy(picture);

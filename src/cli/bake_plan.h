@@ -10,7 +10,8 @@ enum { BAKE_MAX_CUBES = 5 };
 typedef struct bake_cube {
     facet_bake_desc desc;
     bool is_verified;
-    facet_cube *cube; /* NULL until it is baked */
+    facet_cube *cube;     /* NULL until it is baked */
+    facet_cube *mirrored; /* for files that are; NULL: there are none */
     facet_cube_error errors[FACET_CUBE_MAX_LEVELS];
     double seconds;
 } bake_cube;
@@ -31,7 +32,7 @@ typedef struct bake_file {
     uint32_t cube; /* index among the plan's; of BAKE_SHEET, too */
     uint32_t level, face;
     facet_layout projection;
-    bool is_mirrored; /* faces as three.js looks them up */
+    bool is_mirrored; /* of the mirrored cube map */
     facet_texel_format texels;
     facet_dfg_kind table;
     int table_channel; /* the one that has the table's first, the others being 0; -1: as they are */

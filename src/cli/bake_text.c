@@ -113,13 +113,6 @@ void bake_text_sh_filament(bake_text *t, const float folded[9][3])
                       (double)folded[i][0], (double)folded[i][1], (double)folded[i][2], orders[i]);
 }
 
-void bake_text_sh_numbers(bake_text *t, const float folded[9][3])
-{
-    for (int i = 0; i < 9; i++)
-        bake_text_add(t, "%.9g %.9g %.9g\n", (double)folded[i][0], (double)folded[i][1],
-                      (double)folded[i][2]);
-}
-
 /* ---- tables ---- */
 
 void bake_text_table(bake_text *t, const facet_image_view *table, uint32_t channel_count, const char *what,

@@ -110,6 +110,14 @@ static void tell_clamped(bake_run *run, const bake_cube *baked)
                    bake_input_name(&run->options), (double)baked->desc.clamp, 100.0 * stats.clamped_share);
 }
 
+static bool needs_mirrored(const bake_plan *plan, uint32_t cube_index)
+{
+    for (size_t i = 0; i < plan->file_count; i++)
+        if (plan->files[i].is_mirrored && plan->files[i].cube == cube_index && !plan->files[i].is_kept)
+            return true;
+    return false;
+}
+
 static facet_result bake_cubes(bake_run *run, facet_error *error)
 {
     facet_result result = FACET_OK;
@@ -129,6 +137,8 @@ static facet_result bake_cubes(bake_run *run, facet_error *error)
             result = facet_cube_verify(baked->cube, run->environment, &baked->desc, baked->errors, error);
         }
         baked->desc.progress = (facet_progress){0};
+        if (result == FACET_OK && needs_mirrored(&run->plan, i))
+            result = facet_cube_create_mirrored(baked->cube, &run->allocator, &baked->mirrored, error);
     }
     return result;
 }

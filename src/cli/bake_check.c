@@ -1,0 +1,136 @@
+/* bake_check.c - whether what is planned can be written, found out before anything is read. See bake_plan.h. */
+#define _DEFAULT_SOURCE
+#include "cli/bake_plan.h"
+
+#include "cli/bake_names.h"
+#include "cli/failure.h"
+#include "cli/input.h"
+#include "cli/output.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool is_planned_folder(const bake_plan *plan, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    for (size_t i = 0; slash && i < plan->folder_count; i++) {
+        size_t length = strlen(plan->folders[i]);
+        while (length > 1 && plan->folders[i][length - 1] == '/')
+            length--;
+        if (length == (size_t)(slash - path) && memcmp(plan->folders[i], path, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* A folder that is there and open, or one above it in which it can be made. */
+static facet_result check_folder(const char *folder, facet_error *error)
+{
+    struct stat info;
+    char above[BAKE_NAME_SIZE + 4];
+    if (stat(folder, &info) == 0) {
+        if (!S_ISDIR(info.st_mode))
+            return fail_with(error, FACET_ERROR_WRITE, "%s: it is not a folder, which --layout fills",
+                             folder);
+        return access(folder, W_OK | X_OK) == 0
+                   ? FACET_OK
+                   : fail_with(error, FACET_ERROR_WRITE, "%s: the folder cannot be written to: %s", folder,
+                               strerror(errno));
+    }
+    snprintf(above, sizeof above, "%s", folder);
+    size_t length = strlen(above);
+    while (length > 1 && above[length - 1] == '/')
+        above[--length] = 0;
+    return output_check(above, error); /* as if it were a file */
+}
+
+static bool is_read(const command_line *c, const bake_options *o, const char *path)
+{
+    const char *config_path = option_text(c, OPT_CONFIG, NULL);
+    if (config_path && input_is_same_file(path, config_path))
+        return true;
+    for (int i = 0; o->has_faces && i < 6; i++)
+        if (input_is_same_file(path, o->faces[i]))
+            return true;
+    return !o->has_faces && !o->is_table && environment_input_is_file(&o->environment, path);
+}
+
+static int compare_identities(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* No file under two names. */
+static facet_result check_twice(const bake_plan *plan, facet_error *error)
+{
+    char **identities = calloc(plan->file_count + 1, sizeof *identities);
+    facet_result result =
+        identities ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    for (size_t i = 0; i < plan->file_count && result == FACET_OK; i++) {
+        identities[i] = output_identity(plan->files[i].path);
+        if (!identities[i])
+            result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    }
+    if (result == FACET_OK)
+        qsort(identities, plan->file_count, sizeof *identities, compare_identities);
+    for (size_t i = 1; i < plan->file_count && result == FACET_OK; i++)
+        if (strcmp(identities[i - 1], identities[i]) == 0)
+            result = fail_with(error, FACET_ERROR_ARGUMENT, "bake: two outputs would both be written to %s",
+                               strchr(identities[i], '/') + 1);
+    for (size_t i = 0; identities && i < plan->file_count; i++)
+        free(identities[i]);
+    free(identities);
+    return result;
+}
+
+/* Cube maps of which all files are kept need not be baked. */
+static void drop_idle_cubes(bake_plan *plan)
+{
+    for (uint32_t i = 0; i < plan->cube_count; i++) {
+        bool is_needed = false;
+        for (size_t f = 0; f < plan->file_count; f++) {
+            const bake_file *file = &plan->files[f];
+            bool is_of_cube = file->content <= BAKE_FACE || file->content == BAKE_SHEET;
+            is_needed = is_needed || (is_of_cube && file->cube == i && !file->is_kept);
+        }
+        if (!is_needed)
+            plan->cubes[i].desc.size = 0;
+    }
+}
+
+facet_result bake_plan_check(const command_line *c, const bake_options *o, bake_plan *plan,
+                             facet_error *error)
+{
+    facet_result result = FACET_OK;
+    for (size_t i = 0; i < plan->folder_count && result == FACET_OK; i++)
+        if (i == 0 || access(plan->folders[0], F_OK) == 0)
+            result = check_folder(plan->folders[i], error);
+    for (size_t i = 0; i < plan->file_count && result == FACET_OK; i++) {
+        bake_file *file = &plan->files[i];
+        const bool exists = strcmp(file->path, "-") != 0 && output_exists(file->path);
+        if (exists || !is_planned_folder(plan, file->path))
+            result = output_check(file->path, error);
+        file->is_kept = result == FACET_OK && o->keeps_existing && exists;
+        if (result == FACET_OK && exists && !file->is_kept && is_read(c, o, file->path))
+            result = fail_with(error, FACET_ERROR_ARGUMENT,
+                               "%s: it is an input, too, and would be overwritten; name another output",
+                               file->path);
+    }
+    if (result == FACET_OK)
+        result = check_twice(plan, error);
+    drop_idle_cubes(plan);
+    return result;
+}
+
+facet_result bake_plan_make_folders(const bake_plan *plan, facet_error *error)
+{
+    for (size_t i = 0; i < plan->folder_count; i++)
+        if (mkdir(plan->folders[i], 0777) != 0 && errno != EEXIST)
+            return fail_with(error, FACET_ERROR_WRITE, "%s: the folder cannot be made: %s", plan->folders[i],
+                             strerror(errno));
+    return FACET_OK;
+}
