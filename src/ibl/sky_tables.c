@@ -6,7 +6,7 @@
 #include "ibl/sky_tables.h"
 
 enum {
-    COLUMN_STEPS = 40,
+    COLUMN_STEPS = 64,
     BOUNCE_STEPS = 12,
     BOUNCE_POLAR = 10,  /* directions from straight up down, closest at the horizon: mu = x |x| .. */
     BOUNCE_AZIMUTH = 4, /* .. and in the half circle from the sun, closest there; the other half mirrors it */
