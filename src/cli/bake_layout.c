@@ -169,8 +169,12 @@ static void add_three(adding *a)
 facet_result bake_layout_add(const bake_options *o, const char *stem, bake_plan *plan, facet_error *error)
 {
     static void (*const adders[])(adding *) = {NULL, add_filament, add_khronos, add_three};
-    adding a = {.options = o, .folder = o->output ? o->output : stem, .plan = plan};
-    adders[o->layout](&a);
+    char folder[BAKE_NAME_SIZE];
+    adding a = {.options = o, .folder = folder, .plan = plan};
+    if (bake_name_expand(o->output ? o->output : stem, stem, -1, false, -1, folder))
+        adders[o->layout](&a);
+    else
+        a.has_failed = true;
     return a.has_failed ? fail_with(error, FACET_ERROR_ARGUMENT,
                                     "--output: the name \"%.100s..\" is too long", a.folder)
                         : FACET_OK;

@@ -91,6 +91,7 @@ void help_print_overview(FILE *stream)
     fprintf(stream, "  facet render shoe.glb -o 'turn_####.png' --turntable 72 --size 512\n");
     fprintf(stream, "  facet render                    (no model: the built-in scene)\n");
     fprintf(stream, "  facet inspect helmet.glb\n");
+    fprintf(stream, "  facet bake studio.hdr -o studio.ktx2\n");
     print_heading(stream, "Commands");
     for (const verb *const *v = verbs; *v; v++) {
         int column = fprintf(stream, "  %s", (*v)->name);

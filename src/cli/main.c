@@ -12,6 +12,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 static const struct {
     const char *name;
@@ -24,6 +25,17 @@ static const struct {
 static bool looks_like_file(const char *word)
 {
     return strchr(word, '.') || strchr(word, '/') || output_exists(word);
+}
+
+/* Whether it is a picture of light rather than a model. */
+static bool looks_like_light(const char *word)
+{
+    static const char *const extensions[] = {"hdr", "exr", "ktx2", "pfm"};
+    const char *dot = strrchr(word, '.');
+    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++)
+        if (strcasecmp(dot + 1, extensions[i]) == 0)
+            return true;
+    return false;
 }
 
 /* One sentence, or two lines, for a first word that is no verb. */
@@ -40,8 +52,16 @@ static int explain_verb(const char *word)
         char stem[256];
         if (!output_name_stem(word, stem, sizeof stem))
             memcpy(stem, "model", 6);
-        message_error("facet: which command? For a picture: facet render %s -o %s.png", word, stem);
-        fprintf(stderr, "                  to see what is in it: facet inspect %s\n", word);
+        if (looks_like_light(word)) {
+            message_error(
+                "facet: which command? To filter it for real-time renderers: facet bake %s -o %s.ktx2", word,
+                stem);
+            fprintf(stderr, "                  as light for a model: facet render model.glb --env %s\n",
+                    word);
+        } else {
+            message_error("facet: which command? For a picture: facet render %s -o %s.png", word, stem);
+            fprintf(stderr, "                  to see what is in it: facet inspect %s\n", word);
+        }
     } else {
         message_error("facet: there is no command \"%s\"%s%s%s", word, near ? "; did you mean " : "",
                       near ? near : "; facet help lists those there are", near ? "?" : "");

@@ -18,6 +18,12 @@ grep -q '75' out || failed "help exit-codes lacks 75"
 
 expect 2 model.glb
 says "facet: which command? For a picture: facet render model.glb -o model.png"
+expect 2 studio.hdr
+says "facet bake studio.hdr -o studio.ktx2"
+expect 2 cmgen
+says "did you mean bake?"
+expect 2 help path
+says "did you mean facet help render?"
 for verb in ocean view batch serve merge; do
     expect 2 $verb
     says "this version does not have the command $verb yet"
