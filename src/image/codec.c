@@ -1,6 +1,7 @@
 /* codec.c - which codec a file needs, and the way to it. */
 #include "image/codec.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -186,6 +187,9 @@ facet_result image_decode(const void *bytes, size_t size, const char *name, cons
         d.max_size = CODEC_MAX_SIZE;
     if (d.thread_count == 0)
         d.thread_count = 1;
+    float largest;
+    d.largest = d.largest ? d.largest : &largest;
+    *d.largest = FLT_MAX;
     image_codec id;
     facet_result result = find_codec(bytes, size, name, &id, error);
     if (result == FACET_OK && d.layer && id != IMAGE_CODEC_EXR)

@@ -7,7 +7,8 @@
 
 enum { CODEC_MAX_SIZE = 16384 }; /* the default of image_decode_desc.max_size */
 
-/* bytes begin with the codec's magic, size counts them; desc has no zeros in max_size and thread_count.
+/* bytes begin with the codec's magic, size counts them; desc has no zeros in max_size and thread_count, and its largest is
+ * that of floats.
  * out and header come as {0}. On failure nothing is left in them. */
 typedef facet_result codec_probe(const unsigned char *bytes, size_t size, const char *name, image *header,
                                  facet_error *error);

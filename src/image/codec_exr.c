@@ -2,6 +2,7 @@
  * Read are the first part of a file, its scanlines or its tiles of the finest level; deep data is refused. */
 #include "image/codec.h"
 
+#include <float.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -177,6 +178,10 @@ facet_result exr_decode(const unsigned char *bytes, size_t size, const char *nam
                  .allocator = &desc->allocator,
                  .image = &made,
                  .keeps_nonfinite = desc->keeps_nonfinite};
+    bool is_half = true;
+    for (uint32_t k = 0; k < info.channel_count && k < 3; k++)
+        is_half &= info.sources[k].is_half;
+    *desc->largest = is_half ? 65504.0f : FLT_MAX;
     atomic_init(&r.failure, UINT64_MAX);
     result = decode(&r, name, desc, error);
     if (result == FACET_OK)

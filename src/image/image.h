@@ -67,7 +67,11 @@ typedef struct image_decode_desc {
     const char *
         layer; /* EXR: one of its layers by name, see exr_shim_layer(), of 2, 3 or 4 channels (one becomes 3);
                                NULL: the picture */
-    bool keeps_nonfinite; /* EXR, PFM: NaN and infinity stay: a picture to be looked at, not to be lit by */
+    bool
+        keeps_nonfinite; /* EXR, PFM, KTX2: NaN and infinity stay: for a picture to be looked at, not to be lit by,
+                               or where the caller counts them */
+    float *
+        largest; /* NULL: not wanted. What infinity becomes: 65504 where the file holds half, else the largest float */
 } image_decode_desc;
 
 /* What the header says; nothing else is read. width and height are those of the whole picture. */
@@ -76,7 +80,7 @@ facet_result image_probe(const void *bytes, size_t size, const char *name, image
 /* Decodes. name stands first in messages. PNG, AVIF: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits;
  * all of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2). HDR, EXR, PFM: F32 RGB
  * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where a file holds
- * half), unless desc says otherwise. KTX2: the first layer and face (ktx2.h has them all), of the type that holds
+ * half), unless desc says otherwise; so in KTX2. KTX2: the first layer and face (ktx2.h has them all), of the type that holds
  * the format's values, is_srgb as the file says; channels that its format lacks are 0, as samplers read them. */
 facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
                           image *out, facet_error *error);

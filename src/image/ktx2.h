@@ -51,7 +51,7 @@ void ktx2_data_destroy(ktx2_data *d); /* {0} is allowed */
 
 /* Decodes one picture of a loaded level: the type and channels of k->format (RGBA where a swizzle asks for alpha), or
  * desc->channel_count of them for U8. Blocks are decoded in parallel on desc->thread_count threads. Only allocator,
- * thread_count, max_size and channel_count of desc count. */
+ * thread_count, max_size, channel_count, keeps_nonfinite and largest of desc count. */
 facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, uint32_t layer, uint32_t face,
                          const image_decode_desc *desc, image *out, facet_error *error);
 /* Both. */

@@ -2,6 +2,7 @@
  * parallel, with their channels in order. See ktx2.h. */
 #include "image/ktx2.h"
 
+#include <float.h>
 #include <stdatomic.h>
 
 #include <zlib.h>
@@ -15,6 +16,7 @@
 #include "image/basis_etc1s.h"
 #include "image/codec.h"
 #include "image/ktx2_astc.h"
+#include "image/ktx2_texels.h"
 
 /* ---- supercompression ---- */
 
@@ -170,6 +172,7 @@ enum { CHUNK_TEXELS = 256, GRAIN_TEXELS = 16384 };
 typedef struct job {
     const ktx2_format *format;
     const unsigned char *bytes;
+    texel_unpack *unpack;
     block_decode *decode;
     store store;
     image *out;
@@ -189,14 +192,14 @@ static void unpack_rows(void *context, size_t begin, size_t end)
     const unsigned count_in = j->format->component_count;
     float rgba[4 * CHUNK_TEXELS]; /* the largest type */
     if (j->store.is_identity && j->out->channel_count == 4) {
-        j->format->unpack(j->bytes + begin * width * j->format->block_size, (end - begin) * width, count_in,
-                          get_texel(j->out, 0, (uint32_t)begin));
+        j->unpack(j->bytes + begin * width * j->format->block_size, (end - begin) * width, count_in,
+                  get_texel(j->out, 0, (uint32_t)begin));
         return;
     }
     for (size_t y = begin; y < end; y++)
         for (uint32_t x = 0; x < width; x += CHUNK_TEXELS) {
             const size_t count = width - x < CHUNK_TEXELS ? width - x : CHUNK_TEXELS;
-            j->format->unpack(j->bytes + (y * width + x) * j->format->block_size, count, count_in, rgba);
+            j->unpack(j->bytes + (y * width + x) * j->format->block_size, count, count_in, rgba);
             store_texels(&j->store, rgba, count, get_texel(j->out, x, (uint32_t)y));
         }
 }
@@ -404,6 +407,8 @@ facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, u
     if (result != FACET_OK)
         return result;
     made.is_srgb = k->is_srgb;
+    if (desc->largest)
+        *desc->largest = f->type == IMAGE_F16 ? 65504.0f : FLT_MAX;
     const uint64_t index = (uint64_t)layer * k->face_count + face;
     const size_t size = get_picture_size(k, level);
     job j = {.format = f, .store = make_store(k, &made), .out = &made};
@@ -415,6 +420,7 @@ facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, u
     } else {
         const bool is_blocks = f->kind == KTX2_BLOCKS;
         j.bytes = data->bytes + (size_t)index * size;
+        j.unpack = desc->keeps_nonfinite ? unpack_nonfinite(f->unpack) : f->unpack;
         j.decode = k->is_srgb && f->decode_srgb ? f->decode_srgb : f->decode;
         run_rows(&j, desc->thread_count, is_blocks ? decode_rows : unpack_rows, is_blocks ? TILE_EDGE : 1);
     }

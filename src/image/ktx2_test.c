@@ -109,6 +109,37 @@ static void texels_without_compression(void **state)
     }
 }
 
+/* What is no number, for who asks for it; and what infinity stands for otherwise. */
+static void what_is_not_finite_can_stay(void **state)
+{
+    (void)state;
+    static const struct {
+        uint32_t vk;
+        size_t size;
+        unsigned char bytes[16];
+        float largest;
+    } cases[] = {
+        {97, 8, {0, 0x7c, 1, 0x7e, 0, 0xfc, 0, 0xc0}, 65504.0f},
+        {109, 16, {0, 0, 0x80, 0x7f, 0, 0, 0xc0, 0x7f, 0, 0, 0x80, 0xff, 0, 0, 0, 0xc0}, 0x1.fffffep127f},
+        {122, 4, {0xc0, 0x07, 0x3f, 0xf8}, 65504.0f}, /* infinity, NaN, infinity */
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        ktx2_test_file f = {
+            .vk_format = cases[k].vk, .width = 1, .height = 1, .faces = 1, .levels = 1, .transfer = 1};
+        f.bytes[0] = cases[k].bytes;
+        f.sizes[0] = cases[k].size;
+        float largest = 0.0f;
+        image i = decode(&f, &(image_decode_desc){.keeps_nonfinite = true, .largest = &largest});
+        assert_true(isinf(get_channel(&i, 0, 0)) && get_channel(&i, 0, 0) > 0.0);
+        assert_true(isnan(get_channel(&i, 0, 1)));
+        assert_true(isinf(get_channel(&i, 0, 2)));
+        if (i.channel_count == 4)
+            assert_true(get_channel(&i, 0, 3) == -2.0);
+        assert_true(largest == cases[k].largest);
+        image_destroy(&i);
+    }
+}
+
 static void transfer_functions_are_told(void **state)
 {
     (void)state;
@@ -439,7 +470,7 @@ static void what_is_refused_besides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texels_without_compression), cmocka_unit_test(transfer_functions_are_told),
+        cmocka_unit_test(texels_without_compression), cmocka_unit_test(what_is_not_finite_can_stay), cmocka_unit_test(transfer_functions_are_told),
         cmocka_unit_test(levels_are_reductions),      cmocka_unit_test(layers_and_faces),
         cmocka_unit_test(orientation_and_swizzle),    cmocka_unit_test(supercompression),
         cmocka_unit_test(astc_of_all_block_sizes),    cmocka_unit_test(what_is_refused),

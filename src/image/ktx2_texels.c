@@ -1,5 +1,5 @@
 /* ktx2_texels.c - see ktx2_texels.h. Light has to be finite: NaN and negative infinity become 0, infinity the largest
- * value. */
+ * value, unless the names end in _as_is. */
 #include "image/ktx2_texels.h"
 
 #include "image/codec.h"
@@ -8,6 +8,13 @@
 static unsigned load_u16(const unsigned char *p)
 {
     return p[0] | (unsigned)p[1] << 8;
+}
+
+typedef uint16_t half_take(unsigned half);
+
+static uint16_t half_as_is(unsigned half)
+{
+    return (uint16_t)half;
 }
 
 static uint16_t half_finite(unsigned half)
@@ -69,24 +76,42 @@ void unpack_s16(const unsigned char *bytes, size_t count, unsigned component_cou
         }
 }
 
-void unpack_f16(const unsigned char *bytes, size_t count, unsigned component_count, void *rgba)
+static inline void unpack_halfs(const unsigned char *bytes, size_t count, unsigned component_count,
+                                half_take *take, uint16_t *to)
 {
-    uint16_t *to = rgba;
     for (size_t i = 0; i < count; i++, bytes += 2 * (size_t)component_count, to += 4)
         for (unsigned c = 0; c < 4; c++)
-            to[c] = c < component_count ? half_finite(load_u16(bytes + 2 * (size_t)c)) : c < 3 ? 0 : 0x3c00;
+            to[c] = c < component_count ? take(load_u16(bytes + 2 * (size_t)c)) : c < 3 ? 0 : 0x3c00;
 }
 
-void unpack_f32(const unsigned char *bytes, size_t count, unsigned component_count, void *rgba)
+void unpack_f16(const unsigned char *bytes, size_t count, unsigned component_count, void *rgba)
+{
+    unpack_halfs(bytes, count, component_count, half_finite, rgba);
+}
+
+static void unpack_f16_as_is(const unsigned char *bytes, size_t count, unsigned component_count, void *rgba)
+{
+    unpack_halfs(bytes, count, component_count, half_as_is, rgba);
+}
+
+static void unpack_f32_as_is(const unsigned char *bytes, size_t count, unsigned component_count, void *rgba)
 {
     float *to = rgba;
     for (size_t i = 0; i < count; i++, bytes += 4 * (size_t)component_count, to += 4)
         for (unsigned c = 0; c < 4; c++) {
             float x = c < 3 ? 0.0f : 1.0f;
             if (c < component_count)
-                x = codec_finite(float_from_bits(load_u32_le(bytes + 4 * (size_t)c)));
+                x = float_from_bits(load_u32_le(bytes + 4 * (size_t)c));
             to[c] = x;
         }
+}
+
+void unpack_f32(const unsigned char *bytes, size_t count, unsigned component_count, void *rgba)
+{
+    float *to = rgba;
+    unpack_f32_as_is(bytes, count, component_count, rgba);
+    for (size_t i = 0; i < 4 * count; i++)
+        to[i] = codec_finite(to[i]);
 }
 
 /* Three numbers of 9 bits with one exponent: value * 2^(exponent - 24). */
@@ -104,17 +129,28 @@ void unpack_e5b9g9r9(const unsigned char *bytes, size_t count, unsigned componen
 }
 
 /* Unsigned floats of 11, 11 and 10 bits with the exponents of halfs. */
+static inline void unpack_111110(const unsigned char *bytes, size_t count, half_take *take, uint16_t *to)
+{
+    for (size_t i = 0; i < count; i++, bytes += 4, to += 4) {
+        const uint32_t word = load_u32_le(bytes);
+        to[0] = take((word & 0x7ff) << 4);
+        to[1] = take((word >> 11 & 0x7ff) << 4);
+        to[2] = take(word >> 22 << 5);
+        to[3] = 0x3c00;
+    }
+}
+
 void unpack_b10g11r11(const unsigned char *bytes, size_t count, unsigned component_count, void *rgba)
 {
     (void)component_count;
-    uint16_t *to = rgba;
-    for (size_t i = 0; i < count; i++, bytes += 4, to += 4) {
-        const uint32_t word = load_u32_le(bytes);
-        to[0] = half_finite((word & 0x7ff) << 4);
-        to[1] = half_finite((word >> 11 & 0x7ff) << 4);
-        to[2] = half_finite(word >> 22 << 5);
-        to[3] = 0x3c00;
-    }
+    unpack_111110(bytes, count, half_finite, rgba);
+}
+
+static void unpack_b10g11r11_as_is(const unsigned char *bytes, size_t count, unsigned component_count,
+                                   void *rgba)
+{
+    (void)component_count;
+    unpack_111110(bytes, count, half_as_is, rgba);
 }
 
 static void unpack_1010102(uint32_t word, unsigned red_shift, unsigned blue_shift, uint16_t *to)
@@ -137,4 +173,12 @@ void unpack_a2r10g10b10(const unsigned char *bytes, size_t count, unsigned compo
     (void)component_count;
     for (size_t i = 0; i < count; i++)
         unpack_1010102(load_u32_le(bytes + 4 * i), 20, 0, (uint16_t *)rgba + 4 * i);
+}
+
+texel_unpack *unpack_nonfinite(texel_unpack *unpack)
+{
+    return unpack == unpack_f16         ? unpack_f16_as_is
+           : unpack == unpack_f32       ? unpack_f32_as_is
+           : unpack == unpack_b10g11r11 ? unpack_b10g11r11_as_is
+                                        : unpack;
 }

@@ -18,6 +18,10 @@ static void decode_pictures(const ktx2 *k, const image_decode_desc *desc)
             image i;
             ktx2_decode(k, &data, level, n / k->face_count, n % k->face_count, desc, &i, NULL);
             image_destroy(&i);
+            image_decode_desc as_is = *desc;
+            as_is.keeps_nonfinite = true;
+            ktx2_decode(k, &data, level, n / k->face_count, n % k->face_count, &as_is, &i, NULL);
+            image_destroy(&i);
         }
         ktx2_data_destroy(&data);
     }
