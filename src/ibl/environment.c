@@ -2,6 +2,7 @@
 #include "ibl/environment.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,10 +11,10 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "ibl/cache.h"
+#include "ibl/cube_layout.h"
+#include "ibl/environment_source.h"
 #include "ibl/studio.h"
 
-enum { DEFAULT_MAX_SIZE = 32768 };
-static const uint64_t default_max_file_bytes = 4ull << 30;
 static const uint64_t default_cache_bytes = 256ull << 20;
 
 static const facet_environment_desc default_desc;
@@ -101,31 +102,78 @@ void environment_limit(facet_environment *environment, uint32_t thread_count)
     parallel_for(thread_count, environment->picture.height, 16, limit_rows, &environment->picture);
 }
 
-static facet_result take_picture(facet_environment *e, image *decoded, const char *name,
-                                 uint32_t thread_count, facet_error *error)
+/* The layout of a picture: as desc says, or by its edges. */
+static facet_result choose_layout(const facet_environment_desc *desc, const image *picture, const char *name,
+                                  facet_layout *layout, facet_error *error)
 {
-    if ((uint64_t)decoded->width != 2 * (uint64_t)decoded->height)
-        log_warning(&e->log,
+    uint32_t width = picture->width, height = picture->height;
+    *layout = desc->layout ? desc->layout : layout_detect(width, height);
+    if (*layout == FACET_LAYOUT_FACES)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: six faces are six pictures, this is one", name);
+    double ratio = width / (2.0 * height);
+    if (*layout == FACET_LAYOUT_AUTO && fabs(ratio - 1.0) > 0.05)
+        return fail(
+            error, FACET_ERROR_INVALID,
+            "%s: %u x %u texels: an environment is 2:1 (equirectangular), 4:3 or 3:4 (cross), 6:1 or 1:6 "
+            "(strip of faces); what is one of them all the same, or octahedral, has to be said to be "
+            "(facet_environment_desc.layout; facet bake --input-layout)",
+            name, width, height);
+    if (*layout == FACET_LAYOUT_AUTO)
+        *layout = FACET_LAYOUT_EQUIRECTANGULAR;
+    if (*layout == FACET_LAYOUT_EQUIRECTANGULAR && width != 2 * (uint64_t)height)
+        log_warning(&desc->log,
                     "%s: %u x %u texels: an equirectangular picture is twice as wide as high; this one is "
                     "stretched over the sphere",
-                    name, decoded->width, decoded->height);
-    if (decoded->type == IMAGE_F32 && decoded->channel_count == 3 && !decoded->is_srgb) {
-        e->picture = *decoded;
-        *decoded = (image){0};
-    } else {
-        facet_result result =
-            image_convert(decoded, &e->allocator, thread_count, 3, IMAGE_F32, false, &e->picture, error);
-        if (result != FACET_OK)
-            return result;
+                    name, width, height);
+    return layout_check(*layout, width, height, name, error);
+}
+
+/* A picture of any layout. */
+static facet_result load_picture(facet_environment *e, const void *bytes, size_t size, const char *name,
+                                 const facet_environment_desc *desc, facet_error *error)
+{
+    float largest;
+    image header, decoded = {0}, rgb = {0};
+    environment_repairs repairs = {.first = UINT64_MAX};
+    facet_layout layout;
+    image_decode_desc how = environment_decode_desc(desc, &largest);
+    facet_result result = image_probe(bytes, size, name, &header, NULL, error);
+    if (result == FACET_OK) /* before memory is taken */
+        result = choose_layout(desc, &header, name, &layout, error);
+    if (result == FACET_OK)
+        result = image_decode(bytes, size, name, &how, &decoded, error);
+    if (result == FACET_OK)
+        result = environment_repair(&decoded, largest, 0, &e->allocator, desc->thread_count, &rgb, &repairs,
+                                    error);
+    if (result == FACET_OK) {
+        environment_report(e, &repairs, name, NULL, (uint32_t)(repairs.first % rgb.width),
+                           (uint32_t)(repairs.first / rgb.width));
+        result = environment_take_picture(e, &rgb, layout, name, desc->thread_count, error);
     }
-    environment_limit(e, thread_count);
-    return FACET_OK;
+    image_destroy(&decoded);
+    return result;
+}
+
+/* KTX2: a cube map, or a picture. */
+static facet_result load_ktx2(facet_environment *e, const void *bytes, size_t size, const char *name,
+                              const facet_environment_desc *desc, facet_error *error)
+{
+    ktx2 k;
+    facet_result result = ktx2_open(bytes, size, name, &k, error);
+    if (result != FACET_OK)
+        return result;
+    if (k.layer_count > 1)
+        return fail(error, FACET_ERROR_UNSUPPORTED,
+                    "%s: KTX2: an array of %u textures: one cube map or one picture was expected", name,
+                    k.layer_count);
+    return k.is_cube ? environment_load_ktx2(e, &k, desc, error)
+                     : load_picture(e, bytes, size, name, desc, error);
 }
 
 void environment_identify(facet_environment *environment, const void *bytes, size_t size)
 {
     if (environment->cache_folder)
-        environment->hash = cache_hash(0, bytes, size);
+        environment->hash = cache_hash(environment->hash + environment->layout, bytes, size);
 }
 
 /* ---- the functions of facet.h ---- */
@@ -138,23 +186,16 @@ facet_result facet_environment_load_memory(const void *bytes, size_t size, const
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     name = name ? name : "environment";
-    uint64_t max_bytes = desc->max_file_bytes ? desc->max_file_bytes : default_max_file_bytes;
+    uint64_t max_bytes = desc->max_file_bytes ? desc->max_file_bytes : environment_default_max_file_bytes;
     if (size > max_bytes)
         return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes: at most %llu are read", name, size,
                     (unsigned long long)max_bytes);
     facet_environment *e = NULL;
-    image decoded = {0};
     facet_result result = environment_create(desc, &e, error);
     if (result != FACET_OK)
         return result;
-    image_decode_desc decode = {.allocator = desc->allocator,
-                                .thread_count =
-                                    desc->thread_count ? desc->thread_count : facet_thread_count(),
-                                .max_size = desc->max_size ? desc->max_size : DEFAULT_MAX_SIZE};
-    result = image_decode(bytes, size, name, &decode, &decoded, error);
-    if (result == FACET_OK)
-        result = take_picture(e, &decoded, name, desc->thread_count, error);
-    image_destroy(&decoded);
+    bool is_ktx2 = image_codec_detect(bytes, size) == IMAGE_CODEC_KTX2;
+    result = (is_ktx2 ? load_ktx2 : load_picture)(e, bytes, size, name, desc, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;
@@ -172,7 +213,7 @@ facet_result facet_environment_load(const char *path, const facet_environment_de
     desc = desc ? desc : &default_desc;
     file_bytes file = {0};
     facet_result result =
-        file_open(path, desc->max_file_bytes ? desc->max_file_bytes : default_max_file_bytes,
+        file_open(path, desc->max_file_bytes ? desc->max_file_bytes : environment_default_max_file_bytes,
                   &desc->allocator, &file, error);
     if (result != FACET_OK)
         return result;

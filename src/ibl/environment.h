@@ -28,6 +28,9 @@ struct facet_environment {
     facet_log log;
     cube irradiance_over_pi; /* where the source says what it is; else {0}, and it is that of the picture */
     image picture;           /* equirectangular, F32 RGB, in [0, ENVIRONMENT_MAX_RADIANCE] */
+    facet_layout layout;     /* of the source; {0}: equirectangular, as picture is */
+    uint32_t source_width, source_height; /* as facet_environment_info has them; 0: those of picture */
+    uint64_t repaired_texels;
     cube faces;         /* what picture was resampled from, in its range; {0}: the source was no cube map */
     uint64_t hash;      /* of what the picture was made from, where there is a cache_folder */
     char *cache_folder; /* NULL: none */
@@ -45,7 +48,7 @@ facet_result environment_create(const facet_environment_desc *desc, facet_enviro
                                 facet_error *error);
 /* Brings the picture's values into [0, ENVIRONMENT_MAX_RADIANCE]; a file may hold what no light is. */
 void environment_limit(facet_environment *environment, uint32_t thread_count);
-/* Entries of the cache are told apart by these bytes. */
+/* Entries of the cache are told apart by these bytes (and the layout of the source). */
 void environment_identify(facet_environment *environment, const void *bytes, size_t size);
 
 /* Another reference, and one less: the last one releases everything. */

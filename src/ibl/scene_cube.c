@@ -3,99 +3,74 @@
 
 #include <stdio.h>
 
-#include "base/memory.h"
-#include "base/parallel.h"
 #include "base/result.h"
-#include "image/image.h"
 
-enum { FACE_COUNT = 6, DEFAULT_MAX_SIZE = 32768 };
-static const char *const face_names[FACE_COUNT] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+enum { FACE_COUNT = 6 };
 
-typedef struct decoding {
-    const facet_scene *scene;
-    const scene_image_light *light;
-    const facet_environment_desc *desc;
-    const char *place; /* of the light in messages */
-    image faces[FACE_COUNT];
-    facet_result results[FACE_COUNT];
-    facet_error errors[FACE_COUNT];
-} decoding;
-
-/* Linear RGBD to RGB, in place: RGBA becomes color over alpha. Alpha 0, of which no packer knows a color, is taken for
- * the least alpha of 8 bits. */
-static void unpack_rgbd(image *i)
+/* Linear RGBD to RGB: RGBA becomes color over alpha. Alpha 0, of which no packer knows a color, is taken for the least alpha
+ * of 8 bits. */
+static facet_result unpack_rgbd(image *i, const facet_allocator *allocator, facet_error *error)
 {
-    float *p = i->pixels;
-    for (size_t count = (size_t)i->width * i->height; count; count--, p += 4) {
+    image linear = {0};
+    facet_result result = image_convert(i, allocator, 1, 4, IMAGE_F32, false, &linear, error);
+    if (result != FACET_OK)
+        return result;
+    float *p = linear.pixels;
+    for (size_t count = (size_t)linear.width * linear.height; count; count--, p += 4) {
         float d = p[3] > 1.0f / 255.0f ? p[3] : 1.0f / 255.0f;
         for (int k = 0; k < 3; k++)
             p[k] /= d;
     }
-}
-
-static facet_result decode_face(decoding *job, size_t face, facet_error *error)
-{
-    uint32_t index = job->light->images[face];
-    const scene_image *source = index < job->scene->image_count ? &job->scene->images[index] : NULL;
-    if (!source || !source->bytes)
-        return fail(error, FACET_ERROR_READ, "%s: face %s: image %u cannot be read", job->place,
-                    face_names[face], index);
-    char name[512];
-    snprintf(name, sizeof name, "%s: face %s", job->place, face_names[face]);
-    image_decode_desc how = {.allocator = job->desc->allocator,
-                             .max_size = job->desc->max_size ? job->desc->max_size : DEFAULT_MAX_SIZE};
-    image decoded = {0};
-    facet_result result = image_decode(source->bytes, source->size, name, &how, &decoded, error);
-    if (result != FACET_OK)
-        return result;
-    if (decoded.width != decoded.height)
-        result = fail(error, FACET_ERROR_INVALID, "%s: %u x %u texels: faces of a cube are square", name,
-                      decoded.width, decoded.height);
-    bool is_rgbd = image_codec_detect(source->bytes, source->size) == IMAGE_CODEC_PNG &&
-                   (decoded.channel_count == 2 || decoded.channel_count == 4);
-    if (result == FACET_OK)
-        result =
-            image_convert(&decoded, &job->desc->allocator, 1, 4, IMAGE_F32, false, &job->faces[face], error);
-    if (result == FACET_OK && is_rgbd)
-        unpack_rgbd(&job->faces[face]);
-    image_destroy(&decoded);
-    return result;
-}
-
-static void decode_faces(void *context, size_t begin, size_t end)
-{
-    decoding *job = context;
-    for (size_t face = begin; face < end; face++)
-        job->results[face] = decode_face(job, face, &job->errors[face]);
-}
-
-static facet_result check_faces(const decoding *job, facet_error *error)
-{
-    for (int face = 0; face < FACE_COUNT; face++)
-        if (job->results[face] != FACET_OK)
-            return fail(error, job->results[face], "%s", job->errors[face].message);
-    uint32_t size = job->faces[0].width;
-    for (int face = 1; face < FACE_COUNT; face++)
-        if (job->faces[face].width != size)
-            return fail(error, FACET_ERROR_INVALID, "%s: face %s has %u texels along an edge, face +X has %u",
-                        job->place, face_names[face], job->faces[face].width, size);
-    if (size != job->light->specular_size)
-        log_warning(&job->desc->log,
-                    "%s: specularImageSize is %u, but the faces have %u texels along an edge", job->place,
-                    job->light->specular_size, size);
+    image_destroy(i);
+    *i = linear;
     return FACET_OK;
 }
 
-/* is_flipped: x runs the other way. */
-static void fill_cube(const decoding *job, bool is_flipped, cube *c)
+/* Names of faces in messages. */
+typedef struct face_names {
+    char names[FACE_COUNT][512];
+} face_names;
+
+static facet_result find_faces(const facet_scene *scene, const scene_image_light *light, const char *place,
+                               face_names *names, cube_face faces[FACE_COUNT], facet_error *error)
 {
-    int size = (int)c->size;
-    for (uint32_t face = 0; face < FACE_COUNT; face++) {
-        const float *p = job->faces[face].pixels;
-        for (int y = 0; y < size; y++)
-            for (int x = 0; x < size; x++, p += 4)
-                *cube_texel(c, face, is_flipped ? size - 1 - x : x, y) = (rgbx){p[0], p[1], p[2], 0.0f};
+    for (int face = 0; face < FACE_COUNT; face++) {
+        uint32_t index = light->images[face];
+        const scene_image *source = index < scene->image_count ? &scene->images[index] : NULL;
+        snprintf(names->names[face], sizeof names->names[face], "%s: face %s", place, cube_face_names[face]);
+        if (!source || !source->bytes)
+            return fail(error, FACET_ERROR_READ, "%s: image %u cannot be read", names->names[face], index);
+        faces[face] = (cube_face){.bytes = source->bytes, .size = source->size, .name = names->names[face]};
     }
+    return FACET_OK;
+}
+
+static facet_result decode_faces(cube_face faces[FACE_COUNT], const facet_environment_desc *desc,
+                                 facet_error *error)
+{
+    facet_result result = cube_faces_decode(faces, desc, error);
+    for (int face = 0; face < FACE_COUNT && result == FACET_OK; face++) {
+        image *p = &faces[face].picture;
+        if (image_codec_detect(faces[face].bytes, faces[face].size) == IMAGE_CODEC_PNG &&
+            (p->channel_count == 2 || p->channel_count == 4))
+            result = unpack_rgbd(p, &desc->allocator, error);
+    }
+    return result;
+}
+
+/* x runs the other way in all faces. */
+static void flip(cube *c)
+{
+    int last = (int)c->size - 1;
+    for (uint32_t face = 0; face < FACE_COUNT; face++)
+        for (int y = 0; y <= last; y++)
+            for (int x = 0; x < last - x; x++) {
+                rgbx *a = cube_texel(c, face, x, y);
+                rgbx *b = cube_texel(c, face, last - x, y);
+                rgbx t = *a;
+                *a = *b;
+                *b = t;
+            }
     cube_fill_borders(c);
 }
 
@@ -125,25 +100,30 @@ facet_result scene_cube_decode(const facet_scene *scene, uint32_t index, const f
     *out = (scene_cube){0};
     char place[400];
     snprintf(place, sizeof place, "%.300s: EXT_lights_image_based: light %u", scene->source, index);
-    decoding job = {.scene = scene, .light = &scene->image_lights[index], .desc = desc, .place = place};
-    facet_result result = FACET_OK;
-    if (job.light->mip_count == 0)
+    const scene_image_light *light = &scene->image_lights[index];
+    if (light->mip_count == 0)
         return fail(error, FACET_ERROR_INVALID, "%s: there are no images", place);
-    parallel_for(desc->thread_count, FACE_COUNT, 1, decode_faces, &job);
-    result = check_faces(&job, error);
+    cube_face faces[FACE_COUNT] = {0};
+    face_names names;
+    facet_result result = find_faces(scene, light, place, &names, faces, error);
     if (result == FACET_OK)
-        result = cube_create(job.faces[0].width, &desc->allocator, &out->texels, error);
+        result = decode_faces(faces, desc, error);
+    if (result == FACET_OK && faces[0].picture.width != light->specular_size)
+        log_warning(&desc->log, "%s: specularImageSize is %u, but the faces have %u texels along an edge",
+                    place, light->specular_size, faces[0].picture.width);
+    out->repairs = (environment_repairs){.first = UINT64_MAX};
+    if (result == FACET_OK)
+        result = cube_faces_assemble(faces, &desc->allocator, desc->thread_count, &out->texels, &out->repairs,
+                                     error);
     if (result == FACET_OK) {
-        fill_cube(&job, false, &out->texels);
+        cube_fill_borders(&out->texels);
         double as_they_are = scene_cube_seams(&out->texels);
-        fill_cube(&job, true, &out->texels);
-        double flipped = scene_cube_seams(&out->texels);
-        out->is_mirrored = as_they_are < 0.5 * flipped;
+        flip(&out->texels);
+        out->is_mirrored = as_they_are < 0.5 * scene_cube_seams(&out->texels);
         if (out->is_mirrored)
-            fill_cube(&job, false, &out->texels);
+            flip(&out->texels);
     }
-    for (int face = 0; face < FACE_COUNT; face++)
-        image_destroy(&job.faces[face]);
+    cube_faces_destroy(faces);
     return result;
 }
 

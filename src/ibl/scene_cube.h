@@ -12,12 +12,13 @@
 #ifndef IBL_SCENE_CUBE_H
 #define IBL_SCENE_CUBE_H
 
-#include "ibl/cube.h"
+#include "ibl/cube_faces.h"
 #include "scene/scene.h"
 
 typedef struct scene_cube {
-    cube texels;      /* faces of cube.h, in the frame of the file's light, intensity not in it */
-    bool is_mirrored; /* its X is the model's -X: Babylon.js' reading */
+    cube texels;                 /* faces of cube.h, in the frame of the file's light, intensity not in it */
+    environment_repairs repairs; /* places as in the files */
+    bool is_mirrored;            /* its X is the model's -X: Babylon.js' reading */
 } scene_cube;
 
 /* Mip 0 of scene->image_lights[index]. The lower mips are not looked at. FACET_ERROR_READ: an image that is not there;

@@ -6,12 +6,11 @@
  * the file's coefficients of irradiance say, also where they come from brighter surroundings than 8 bits hold. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/memory.h"
-#include "base/parallel.h"
 #include "base/result.h"
-#include "ibl/environment.h"
-#include "ibl/equirect.h"
+#include "ibl/environment_source.h"
 #include "ibl/scene_cube.h"
 #include "ibl/sh.h"
 #include "scene/scene.h"
@@ -40,69 +39,6 @@ static void to_light(const light_frame *f, const float d[3], float out[3])
 {
     for (int i = 0; i < 3; i++)
         out[i] = f->rows[i][0] * d[0] + f->rows[i][1] * d[1] + f->rows[i][2] * d[2];
-}
-
-/* ---- the picture ---- */
-
-typedef struct unrolling {
-    const cube *from;
-    light_frame frame;
-    float intensity;
-    const float (*longitudes)[2]; /* x and z on the horizon, of both halves of each column */
-    image *to;
-} unrolling;
-
-/* Each texel is the mean of four lookups, in the middles of its quarters. */
-static void unroll_rows(void *context, size_t begin, size_t end)
-{
-    const unrolling *job = context;
-    uint32_t width = job->to->width;
-    for (size_t y = begin; y < end; y++) {
-        float *out = (float *)job->to->pixels + 3 * y * width;
-        float meridian[2][3]; /* phi = 0, in both halves of the row: how far out a circle is, how high, 0 */
-        for (int k = 0; k < 2; k++)
-            equirect_direction(width, job->to->height, 0.5 * width - 0.5, (double)y + (k ? 0.25 : -0.25),
-                               meridian[k]);
-        for (uint32_t x = 0; x < width; x++, out += 3) {
-            rgbx sum = {0};
-            for (int k = 0; k < 4; k++) {
-                const float *at = job->longitudes[2 * x + (k & 1)];
-                const float *m = meridian[k >> 1];
-                float d[3] = {at[0] * m[0], m[1], at[1] * m[0]};
-                float p[3];
-                to_light(&job->frame, d, p);
-                sum += cube_fetch(job->from, cube_locate(p[0], p[1], p[2]));
-            }
-            for (int i = 0; i < 3; i++)
-                out[i] = 0.25f * job->intensity * sum[i];
-        }
-    }
-}
-
-/* As many texels around the horizon as the cube has: four faces. */
-static facet_result unroll(facet_environment *e, const scene_cube *c, const scene_image_light *light,
-                           const facet_environment_desc *desc, facet_error *error)
-{
-    uint32_t width = 4 * c->texels.size;
-    uint32_t height = 2 * c->texels.size;
-    float(*longitudes)[2] = mem_alloc(&e->allocator, 2 * (size_t)width, sizeof *longitudes);
-    if (!longitudes)
-        return fail_memory(error, "environment", 2 * (size_t)width * sizeof *longitudes);
-    for (uint32_t i = 0; i < 2 * width; i++) {
-        float d[3];
-        equirect_direction(2 * width, 1, i, 0.0, d);
-        longitudes[i][0] = d[0];
-        longitudes[i][1] = d[2];
-    }
-    facet_result result = image_create(&e->allocator, width, height, 3, IMAGE_F32, &e->picture, error);
-    if (result == FACET_OK) {
-        unrolling job = {&c->texels, make_frame(light->rotation, c->is_mirrored), light->intensity,
-                         (const float(*)[2])longitudes, &e->picture};
-        parallel_for(desc->thread_count, height, 4, unroll_rows, &job);
-        environment_limit(e, desc->thread_count);
-    }
-    mem_free(longitudes);
-    return result;
 }
 
 /* ---- irradiance ---- */
@@ -216,6 +152,25 @@ static facet_result keep_irradiance(facet_environment *e, const scene_cube *c, c
     return FACET_OK;
 }
 
+/* ---- the picture ---- */
+
+/* Its faces are not kept: they are turned and mirrored. */
+static facet_result take_cube(facet_environment *e, const scene_cube *c, const scene_image_light *light,
+                              const char *name, uint32_t thread_count, facet_error *error)
+{
+    uint32_t face, x, y;
+    char place[16];
+    cube_faces_place(&c->texels, c->repairs.count ? c->repairs.first : 0, &face, &x, &y);
+    snprintf(place, sizeof place, "face %s", cube_face_names[face]);
+    environment_report(e, &c->repairs, name, place, x, y);
+    e->layout = FACET_LAYOUT_FACES;
+    e->source_width = e->source_height = c->texels.size;
+    light_frame frame = make_frame(light->rotation, c->is_mirrored);
+    sphere_turn turn = {.is_turned = true, .scale = light->intensity};
+    memcpy(turn.rows, frame.rows, sizeof turn.rows);
+    return environment_unroll(e, &c->texels, &turn, thread_count, error);
+}
+
 /* ---- the functions of facet.h ---- */
 
 /* SCENE_NONE: the pose's scene has none. */
@@ -252,7 +207,7 @@ facet_result facet_environment_create_from_scene(const facet_scene *scene, const
         return result;
     result = scene_cube_decode(scene, index, desc, &c, error);
     if (result == FACET_OK)
-        result = unroll(e, &c, light, desc, error);
+        result = take_cube(e, &c, light, scene->source, desc->thread_count, error);
     if (result == FACET_OK)
         result = keep_irradiance(e, &c, light, desc->thread_count, error);
     scene_cube_destroy(&c);

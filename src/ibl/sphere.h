@@ -60,7 +60,16 @@ static inline size_t sphere_locate(const sphere *s, const float d[3])
     return ((size_t)face * s->height + (size_t)row) * s->width + (size_t)column;
 }
 
-/* Radiance from direction d (any length but 0), bilinear, seamless, of texels cut off at limit. */
-rgbx sphere_lookup(const sphere *s, const float d[3], float limit);
+/* Radiance from direction d (any length but 0), bilinear, seamless, of texels cut off at limit. *is_cut: one of them was, or
+ * may have been. */
+rgbx sphere_lookup(const sphere *s, const float d[3], float limit, bool *is_cut);
+
+/* The texels that a bilinear lookup takes, with weights that add up to 1. */
+typedef struct sphere_footprint {
+    size_t texels[8];
+    float weights[8];
+    uint32_t count;
+} sphere_footprint;
+void sphere_find(const sphere *s, const float d[3], sphere_footprint *out);
 
 #endif

@@ -18,7 +18,7 @@ static const double parts_per_sr = 0x1p50;
 /* A texel of the source that is hot. */
 typedef struct hot_texel {
     size_t texel;
-    _Atomic uint64_t covered; /* solid angle of lookups that hit it */
+    _Atomic uint64_t covered; /* solid angle that lookups take of it */
     rgbx excess;              /* over the limit; once covered is known: as every lookup takes it */
 } hot_texel;
 
@@ -203,9 +203,10 @@ static bool find_hot(resampling *r, const facet_allocator *allocator)
     return true;
 }
 
-static hot_texel *find_hot_at(const resampling *r, const float d[3])
+/* The hot texel of a number of the source; NULL: it is not hot. */
+static hot_texel *get_hot(const resampling *r, size_t texel)
 {
-    uint32_t number = r->hot_numbers ? r->hot_numbers[sphere_locate(r->source, d)] : 0;
+    uint32_t number = r->hot_numbers[texel];
     return number ? &r->hot[number - 1] : NULL;
 }
 
@@ -219,12 +220,20 @@ static void cover_rows(void *context, size_t begin, size_t end)
         part_row p = start_row(r, (uint32_t)(i / rows), (uint32_t)(i % rows));
         for (uint32_t x = 0; x < t->width * r->parts; x++) {
             float d[3];
-            float weight = get_part(r, &p, x, d);
+            bool is_cut;
+            sphere_footprint f = {.count = 0};
+            double weight = (double)get_part(r, &p, x, d);
             turn_back(r->turn, d);
-            hot_texel *h = find_hot_at(r, d);
-            if (h)
-                atomic_fetch_add_explicit(&h->covered, (uint64_t)((double)weight * parts_per_sr),
-                                          memory_order_relaxed);
+            sphere_lookup(r->source, d, r->limit, &is_cut);
+            if (is_cut)
+                sphere_find(r->source, d, &f);
+            for (uint32_t k = 0; k < f.count; k++) {
+                hot_texel *h = get_hot(r, f.texels[k]);
+                if (h)
+                    atomic_fetch_add_explicit(&h->covered,
+                                              (uint64_t)(weight * (double)f.weights[k] * parts_per_sr),
+                                              memory_order_relaxed);
+            }
         }
     }
 }
@@ -255,6 +264,22 @@ static void store_texel(const sphere *t, uint32_t face, uint32_t x, uint32_t y, 
         to[3] = 1.0f;
 }
 
+/* A lookup that touches what is hot. */
+static rgbx look_up_hot(const resampling *r, const float d[3])
+{
+    sphere_footprint f;
+    rgbx sum = {0};
+    sphere_find(r->source, d, &f);
+    for (uint32_t k = 0; k < f.count; k++) {
+        rgbx c = sphere_texel(r->source, f.texels[k]);
+        const hot_texel *h = get_hot(r, f.texels[k]);
+        if (h)
+            c = c - rgbx_not_negative(c - rgbx_splat(r->limit)) + h->excess;
+        sum += c * rgbx_splat(f.weights[k]);
+    }
+    return sum;
+}
+
 /* Adds a row of the parts of the texels in column x: a row by itself first, which keeps rounding small. */
 static inline void add_parts(const resampling *r, const part_row *p, uint32_t x, rgbx *sum, float *whole)
 {
@@ -264,9 +289,11 @@ static inline void add_parts(const resampling *r, const part_row *p, uint32_t x,
         float d[3];
         float weight = get_part(r, p, x * r->parts + k, d);
         turn_back(r->turn, d);
-        rgbx c = sphere_lookup(r->source, d, r->limit);
-        const hot_texel *h = find_hot_at(r, d);
-        row += (h ? c + h->excess : c) * rgbx_splat(weight);
+        bool is_cut;
+        rgbx c = sphere_lookup(r->source, d, r->limit, &is_cut);
+        if (is_cut && r->hot)
+            c = look_up_hot(r, d);
+        row += c * rgbx_splat(weight);
         row_weight += weight;
     }
     *sum += row;
@@ -278,7 +305,7 @@ static void resample_rows(void *context, size_t begin, size_t end)
     enum { MAX_ROWS = 8 }; /* of parts whose rows are kept */
     const resampling *r = context;
     const sphere *t = r->target;
-    rgbx scale = rgbx_splat(r->turn->scale != 0.0f ? r->turn->scale : 1.0f);
+    rgbx scale = rgbx_splat(r->turn->scale);
     for (size_t i = begin; i < end; i++) {
         uint32_t face = (uint32_t)(i / t->height);
         uint32_t y = (uint32_t)(i % t->height);
@@ -297,34 +324,10 @@ static void resample_rows(void *context, size_t begin, size_t end)
     }
 }
 
-/* Where lookups have missed a hot texel altogether, the texel of the target at its middle takes it all. */
-static void add_missed(const resampling *r)
-{
-    for (size_t i = 0; i < r->hot_count; i++) {
-        const hot_texel *h = &r->hot[i];
-        if (atomic_load(&h->covered) > 0)
-            continue;
-        float d[3], e[3];
-        sphere_direction(r->source, h->texel, d);
-        for (int k = 0; k < 3; k++) /* the inverse of a rotation or reflection is its transpose */
-            e[k] = r->turn->is_turned
-                       ? r->turn->rows[0][k] * d[0] + r->turn->rows[1][k] * d[1] + r->turn->rows[2][k] * d[2]
-                       : d[k];
-        size_t texel = sphere_locate(r->target, e);
-        size_t row = texel / r->target->width;
-        float share =
-            (float)(sphere_solid_angle(r->source, h->texel) / sphere_solid_angle(r->target, texel)) *
-            (r->turn->scale != 0.0f ? r->turn->scale : 1.0f);
-        store_texel(r->target, (uint32_t)(row / r->target->height), (uint32_t)(texel % r->target->width),
-                    (uint32_t)(row % r->target->height),
-                    sphere_texel(r->target, texel) + h->excess * rgbx_splat(share));
-    }
-}
-
 facet_result sphere_resample(const sphere *source, const sphere_turn *turn, const facet_allocator *allocator,
                              uint32_t thread_count, const sphere *target, facet_error *error)
 {
-    static const sphere_turn as_it_is;
+    static const sphere_turn as_it_is = {.scale = 1.0f};
     resampling r = {.source = source,
                     .target = target,
                     .turn = turn ? turn : &as_it_is,
@@ -339,7 +342,6 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
             scale_hot(&r);
         }
         parallel_for(thread_count, rows, 2, resample_rows, &r);
-        add_missed(&r);
     }
     mem_free(r.columns);
     mem_free(r.hot_numbers);

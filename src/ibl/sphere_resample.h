@@ -2,24 +2,24 @@
  *
  * A texel is the mean over its solid angle: of so many lookups, bilinear and seamless, that they are closer than the texels
  * of the source. That is a filter where the target is coarser and interpolation where it is finer; a constant stays
- * that, but for rounding. What is brighter than 16 times the mean, a sun of one texel maybe, would lose or gain what few lookups miss of it:
- * that part is taken without interpolation, and scaled such that the solid angles which its texels have in the target add up
- * to what they have in the source. So the mean over the sphere stays what it was, to 1e-5 and better. */
+ * that, but for rounding. What is brighter than 16 times the mean, a sun of one texel maybe, would lose or gain some
+ * thousandths, as few lookups weigh it: that part is scaled such that the solid angles which lookups take of it add up to
+ * what it has in the source. So the mean over the sphere stays what it was, to 1e-5. */
 #ifndef IBL_SPHERE_RESAMPLE_H
 #define IBL_SPHERE_RESAMPLE_H
 
 #include "ibl/sphere.h"
 
-/* How. {0}: as it is. */
 typedef struct sphere_turn {
     bool is_turned;
     float rows[3][3]; /* of a rotation or reflection: direction d of the target is rows d of the source */
-    float scale;      /* of radiance; 0: 1 */
+    float scale;      /* of radiance */
 } sphere_turn;
 
 /* Fills the texels of target (of a cube: not the borders; of pictures: the first three channels, a fourth becomes 1).
  * FACET_ERROR_MEMORY. */
-facet_result sphere_resample(const sphere *source, const sphere_turn *turn, const facet_allocator *allocator,
-                             uint32_t thread_count, const sphere *target, facet_error *error);
+facet_result sphere_resample(const sphere *source, const sphere_turn *turn /* NULL: as it is */,
+                             const facet_allocator *allocator, uint32_t thread_count, const sphere *target,
+                             facet_error *error);
 
 #endif

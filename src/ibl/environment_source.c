@@ -1,0 +1,154 @@
+/* environment_source.c - see environment_source.h. */
+#include "ibl/environment_source.h"
+
+#include <inttypes.h>
+#include <stdatomic.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "ibl/cube_layout.h"
+
+image_decode_desc environment_decode_desc(const facet_environment_desc *desc, float *largest)
+{
+    return (image_decode_desc){.allocator = desc->allocator,
+                               .thread_count = desc->thread_count ? desc->thread_count : facet_thread_count(),
+                               .max_size = desc->max_size ? desc->max_size : ENVIRONMENT_DEFAULT_MAX_SIZE,
+                               .keeps_nonfinite = true,
+                               .largest = largest};
+}
+
+/* ---- repairs ---- */
+
+typedef struct repairing {
+    image *picture;
+    float largest;
+    uint64_t first_place;
+    _Atomic uint64_t count, first;
+} repairing;
+
+/* Into [0, ENVIRONMENT_MAX_RADIANCE]; false: it was no radiance. */
+static inline bool repair(float *x, float largest)
+{
+    bool is_good = *x >= 0.0f && *x <= 0x1.fffffep127f;
+    float y = is_good ? *x : *x > 0.0f ? largest : 0.0f; /* NaN is not above 0 */
+    *x = y < ENVIRONMENT_MAX_RADIANCE ? y : ENVIRONMENT_MAX_RADIANCE;
+    return is_good;
+}
+
+static void repair_rows(void *context, size_t begin, size_t end)
+{
+    repairing *r = context;
+    uint64_t count = 0, first = UINT64_MAX;
+    float *p = (float *)r->picture->pixels + 3 * begin * r->picture->width;
+    for (size_t i = begin * r->picture->width; i < end * r->picture->width; i++, p += 3) {
+        bool is_good = repair(p, r->largest);
+        is_good &= repair(p + 1, r->largest);
+        is_good &= repair(p + 2, r->largest);
+        if (is_good)
+            continue;
+        first = count++ ? first : r->first_place + i;
+    }
+    atomic_fetch_add(&r->count, count);
+    uint64_t known = atomic_load(&r->first);
+    while (first < known && !atomic_compare_exchange_weak(&r->first, &known, first))
+        ;
+}
+
+facet_result environment_repair(image *decoded, float largest, uint64_t first_place,
+                                const facet_allocator *allocator, uint32_t thread_count, image *out,
+                                environment_repairs *repairs, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    if (decoded->type == IMAGE_F32 && decoded->channel_count == 3 && !decoded->is_srgb) {
+        *out = *decoded;
+        *decoded = (image){0};
+    } else {
+        result = image_convert(decoded, allocator, thread_count, 3, IMAGE_F32, false, out, error);
+        image_destroy(decoded);
+    }
+    if (result != FACET_OK)
+        return result;
+    repairing r = {.picture = out, .largest = largest, .first_place = first_place};
+    atomic_init(&r.count, 0);
+    atomic_init(&r.first, UINT64_MAX);
+    parallel_for(thread_count, out->height, 16, repair_rows, &r);
+    uint64_t first = atomic_load(&r.first);
+    repairs->count += atomic_load(&r.count);
+    repairs->first = first < repairs->first ? first : repairs->first;
+    return FACET_OK;
+}
+
+void environment_report(facet_environment *e, const environment_repairs *repairs, const char *name,
+                        const char *place, uint32_t x, uint32_t y)
+{
+    e->repaired_texels = repairs->count;
+    if (repairs->count)
+        log_warning(&e->log,
+                    "%s: %" PRIu64
+                    " texel%s NaN, infinity or less than 0, the first at (%u, %u)%s%s: taken as 0, "
+                    "infinity as the largest number of the file",
+                    name, repairs->count, repairs->count == 1 ? " is" : "s are", x, y, place ? " of " : "",
+                    place ? place : "");
+}
+
+/* ---- layouts ---- */
+
+/* Of pictures that are made of others. */
+enum { MIN_ROWS = 128, MAX_ROWS = 8192 };
+
+/* A texel of a cube is 2 / n wide in the middle of a face and 0.94 / n at its corners; so is a row at 3 n of them, nearly.
+ * Small cubes get more: between their texels radiance changes linearly in the cube, not in the picture. */
+facet_result environment_unroll(facet_environment *e, const cube *c, const sphere_turn *turn,
+                                uint32_t thread_count, facet_error *error)
+{
+    uint32_t rows = c->size > MAX_ROWS / 3 ? MAX_ROWS : 3 * c->size;
+    rows = rows < MIN_ROWS ? MIN_ROWS : rows;
+    facet_result result = image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, error);
+    if (result != FACET_OK)
+        return result;
+    cube from = *c;
+    sphere source = sphere_of_cube(&from);
+    sphere target = sphere_of_picture(SPHERE_EQUIRECT, &e->picture);
+    result = sphere_resample(&source, turn, &e->allocator, thread_count, &target, error);
+    environment_limit(e, thread_count);
+    return result;
+}
+
+/* As many rows as the octahedral picture, whose texels are no smaller. */
+static facet_result take_octahedron(facet_environment *e, const image *picture, uint32_t thread_count,
+                                    facet_error *error)
+{
+    uint32_t rows = picture->height < MAX_ROWS ? picture->height : MAX_ROWS;
+    facet_result result = image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, error);
+    if (result != FACET_OK)
+        return result;
+    sphere source = sphere_of_picture(SPHERE_OCTAHEDRON, picture);
+    sphere target = sphere_of_picture(SPHERE_EQUIRECT, &e->picture);
+    result = sphere_resample(&source, NULL, &e->allocator, thread_count, &target, error);
+    environment_limit(e, thread_count);
+    return result;
+}
+
+facet_result environment_take_picture(facet_environment *e, image *picture, facet_layout layout,
+                                      const char *name, uint32_t thread_count, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    e->layout = layout;
+    e->source_width = picture->width;
+    e->source_height = picture->height;
+    if (layout_is_faces(layout)) {
+        result = layout_read(picture, layout, name, &e->allocator, thread_count, &e->faces, error);
+        image_destroy(picture);
+        e->source_width = e->source_height = e->faces.size;
+        if (result == FACET_OK)
+            result = environment_unroll(e, &e->faces, NULL, thread_count, error);
+    } else if (layout == FACET_LAYOUT_OCTAHEDRAL) {
+        result = take_octahedron(e, picture, thread_count, error);
+    } else {
+        e->picture = *picture;
+        *picture = (image){0};
+    }
+    image_destroy(picture);
+    return result;
+}
