@@ -470,10 +470,15 @@ static void what_is_refused_besides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texels_without_compression), cmocka_unit_test(what_is_not_finite_can_stay), cmocka_unit_test(transfer_functions_are_told),
-        cmocka_unit_test(levels_are_reductions),      cmocka_unit_test(layers_and_faces),
-        cmocka_unit_test(orientation_and_swizzle),    cmocka_unit_test(supercompression),
-        cmocka_unit_test(astc_of_all_block_sizes),    cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(texels_without_compression),
+        cmocka_unit_test(what_is_not_finite_can_stay),
+        cmocka_unit_test(transfer_functions_are_told),
+        cmocka_unit_test(levels_are_reductions),
+        cmocka_unit_test(layers_and_faces),
+        cmocka_unit_test(orientation_and_swizzle),
+        cmocka_unit_test(supercompression),
+        cmocka_unit_test(astc_of_all_block_sizes),
+        cmocka_unit_test(what_is_refused),
         cmocka_unit_test(what_is_refused_besides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
