@@ -407,9 +407,10 @@ typedef struct facet_environment_desc {
     facet_layout layout; /* of the picture; {0}: found out. Files of cube maps (KTX2) say it themselves */
 } facet_environment_desc;
 
-/* Reads an equirectangular picture (.hdr, .exr, or an 8-bit format, decoded from sRGB). The direction d (unit,
- * +Y up) is at u = 0.5 + atan2(d.z, d.x) / 2pi from the left and v = acos(d.y) / pi from the top, before
- * rotation. Texels are cd/m^2. */
+/* Reads a picture (.hdr, .exr, or an 8-bit format, decoded from sRGB) in any of the layouts, or a cube map (.ktx2, level 0).
+ * Equirectangular: the direction d (unit, +Y up) is at u = 0.5 + atan2(d.z, d.x) / 2pi from the left and v = acos(d.y) / pi
+ * from the top, before rotation. Texels are cd/m^2. FACET_ERROR_INVALID: edges that are no layout; nearly 2:1 (to 5 %) is
+ * stretched, with a warning. */
 FACET_API facet_result facet_environment_load(const char *path, const facet_environment_desc *desc,
                                               facet_environment **environment, facet_error *error);
 FACET_API facet_result facet_environment_load_memory(const void *bytes, size_t size, const char *name,
@@ -714,8 +715,8 @@ typedef struct facet_image_load_desc {
 
 /* Reads a PNG, JPEG, WebP, AVIF, KTX2, Radiance HDR, OpenEXR or PFM file, told apart by content, into layer "" as
  * facet_render() makes it: RGBA, float, linear Rec.709, premultiplied, rows from the top. Numbers of files for displays
- * are decoded from sRGB (profiles are ignored) and multiplied by alpha; those of HDR, EXR and PFM files stay, NaN and
- * infinity among them. Alpha that a file lacks is 1. */
+ * are decoded from sRGB (profiles are ignored) and multiplied by alpha; those of HDR, EXR, PFM and float KTX2 files
+ * stay, NaN and infinity among them. Alpha that a file lacks is 1. */
 FACET_API facet_result facet_image_load(const char *path, const facet_image_load_desc *desc /* NULL: {0} */,
                                         facet_image **image, facet_error *error);
 /* The same from memory, which may go afterwards. name stands for the file in messages. */
@@ -889,8 +890,9 @@ FACET_API facet_result facet_cube_create_mirrored(const facet_cube *cube,
 /* Layer "" of a picture as a 2D texture of one level. */
 FACET_API facet_result facet_image_encode_ktx2(const facet_image *image, const facet_ktx2_desc *desc,
                                                unsigned char **bytes, size_t *size, facet_error *error);
-/* Radiance in 8 bits: RGB = value / (M range), M = alpha, straight, no transfer function (RGBM; Karis 2009). For PNG files:
- * facet_image_save() would apply sRGB, so this encodes by itself. range: the largest value, above 0. */
+/* Radiance in 8 bits: RGB = value / (M range), M = alpha = ceil(255 max / range) / 255, straight, no transfer function (RGBM;
+ * Karis 2009; three.js' RGBMToLinear()). A PNG file: facet_image_save() would apply sRGB, so this encodes by itself. range: the
+ * largest value, above 0; what is above becomes range. FACET_ERROR_ARGUMENT, _MEMORY. */
 FACET_API facet_result facet_image_encode_rgbm(const facet_image *image, float range,
                                                const facet_save_desc *desc, unsigned char **bytes,
                                                size_t *size, facet_error *error);

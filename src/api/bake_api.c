@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "ibl/cube_layout.h"
+#include "image/rgbm.h"
 
 static const facet_allocator default_allocator;
 
@@ -87,8 +88,29 @@ facet_result facet_image_encode_ktx2(const facet_image *picture, const facet_ktx
 facet_result facet_image_encode_rgbm(const facet_image *picture, float range, const facet_save_desc *desc,
                                      unsigned char **bytes, size_t *size, facet_error *error)
 {
-    (void)picture, (void)range, (void)desc, (void)bytes, (void)size;
-    return fail(error, FACET_ERROR_UNSUPPORTED, "bake: not there yet");
+    static const facet_save_desc default_save_desc;
+    desc = desc ? desc : &default_save_desc;
+    *bytes = NULL;
+    *size = 0;
+    if (!(range > 0.0f && range <= 0x1.fffffep127f))
+        return fail(error, FACET_ERROR_ARGUMENT, "RGBM: a range above 0 was expected, not %g", (double)range);
+    const film *f = &picture->film;
+    const image rgba = {.pixels = f->layers[0].pixels,
+                        .width = f->width,
+                        .height = f->height,
+                        .channel_count = f->layers[0].channel_count,
+                        .type = IMAGE_F32};
+    const uint32_t thread_count = desc->thread_count ? desc->thread_count : facet_thread_count();
+    image packed = {0};
+    facet_result result = rgbm_encode(&rgba, range, &desc->allocator, thread_count, &packed, error);
+    if (result == FACET_OK)
+        result = image_encode(&packed, IMAGE_CODEC_PNG,
+                              &(image_encode_desc){.allocator = desc->allocator,
+                                                   .thread_count = thread_count,
+                                                   .compression = desc->png_compression},
+                              bytes, size, error);
+    image_destroy(&packed);
+    return result;
 }
 
 facet_result facet_cube_draw_sheet(const facet_cube *c, facet_environment *environment,
