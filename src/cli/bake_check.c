@@ -102,10 +102,38 @@ static void drop_idle_cubes(bake_plan *plan)
     }
 }
 
+/* Options of a kind of file of which there is none. */
+static facet_result check_idle_options(const command_line *c, const bake_plan *plan, facet_error *error)
+{
+    bool has_picture = false, has_png = false, has_ktx2 = false, has_sh = false;
+    for (size_t i = 0; i < plan->file_count; i++) {
+        const bake_file *file = &plan->files[i];
+        const bool is_picture = file->content == BAKE_LEVEL || file->content == BAKE_FACE;
+        has_picture = has_picture || is_picture;
+        has_png = has_png || (is_picture && file->container == CONTAINER_PNG);
+        has_ktx2 = has_ktx2 || file->container == CONTAINER_KTX2;
+        has_sh = has_sh || file->content == BAKE_SH;
+    }
+    const struct {
+        option_id id;
+        bool is_of_use;
+        const char *what;
+    } rules[] = {{OPT_PROJECTION, has_picture, "a picture (.exr .hdr .pfm .png)"},
+                 {OPT_LEVEL, has_picture, "a picture (.exr .hdr .pfm .png)"},
+                 {OPT_RGBM, has_png, "a .png file"},
+                 {OPT_ZSTD, has_ktx2, "a .ktx2 file"},
+                 {OPT_SH_WINDOW, has_sh, "--sh"}};
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        if (is_given(c, rules[i].id) && !rules[i].is_of_use)
+            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing without %s",
+                             option_find_id(c->verb, rules[i].id)->name, rules[i].what);
+    return FACET_OK;
+}
+
 facet_result bake_plan_check(const command_line *c, const bake_options *o, bake_plan *plan,
                              facet_error *error)
 {
-    facet_result result = FACET_OK;
+    facet_result result = check_idle_options(c, plan, error);
     for (size_t i = 0; i < plan->folder_count && result == FACET_OK; i++)
         if (i == 0 || access(plan->folders[0], F_OK) == 0)
             result = check_folder(plan->folders[i], error);

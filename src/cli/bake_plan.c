@@ -195,6 +195,10 @@ static facet_result add_side_files(const bake_options *o, bake_plan *plan, const
     diffuse.desc.lobe = FACET_LOBE_LAMBERT;
     diffuse.desc.size = o->bake.size < 64 ? o->bake.size : 64;
     diffuse.desc.level_count = 1;
+    if (o->sheen && o->bake.lobe == FACET_LOBE_LAMBERT)
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--sheen: beside --lobe lambert it would have one level, too; write irradiance with "
+                         "--diffuse FILE");
     if (o->sheen)
         result = add_cube_files(o, plan, stem, &sheen, error);
     if (result == FACET_OK && o->diffuse)
