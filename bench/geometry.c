@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "io/gltf.h"
+#include "io/gltf/gltf.h"
 
 enum { RUNS = 7 };
 

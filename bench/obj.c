@@ -11,7 +11,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "io/obj.h"
+#include "io/obj/obj.h"
 
 enum { RUNS = 5 };
 

@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "cpu/visibility.h"
-#include "io/gltf.h"
+#include "io/gltf/gltf.h"
 
 enum { RUNS = 15, SAMPLES = 4, COLUMNS = 160, ROWS = 48, CHUNK = 64 };
 

@@ -2,7 +2,7 @@
 #include "base/result.h"
 #include "base/text.h"
 #include "io/model_file.h"
-#include "io/ogl1_json.h"
+#include "io/ogl1/ogl1_json.h"
 #include "legacy/convert.h"
 
 #include <stdio.h>

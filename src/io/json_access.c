@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "io/gltf_reader.h"
+#include "io/gltf/gltf_reader.h"
 
 /* ---- messages ---- */
 

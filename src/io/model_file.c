@@ -4,9 +4,9 @@
 #include <strings.h>
 
 #include "base/result.h"
-#include "io/gltf.h"
-#include "io/obj.h"
-#include "io/ogl1_json.h"
+#include "io/gltf/gltf.h"
+#include "io/obj/obj.h"
+#include "io/ogl1/ogl1_json.h"
 #include "scene/legacy.h"
 
 typedef enum model_kind { MODEL_GLTF, MODEL_OBJ, MODEL_PARAMETERS } model_kind;

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "io/gltf_reader.h"
+#include "io/gltf/gltf_reader.h"
 
 static bool uri_fail(uri_bytes *out, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

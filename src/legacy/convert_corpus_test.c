@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/gltf.h"
+#include "io/gltf/gltf.h"
 #include "io/model_file.h"
 #include "scene/material_table.h"
 

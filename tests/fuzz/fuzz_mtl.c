@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "io/mtl_parts.h"
+#include "io/obj/mtl_parts.h"
 #include "scene/legacy_extras.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/text.h"
-#include "io/obj.h"
+#include "io/obj/obj.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/ogl1_json.h"
+#include "io/ogl1/ogl1_json.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -8,7 +8,7 @@ if ! sh tests/structure/arrows.sh "$copy" >/dev/null; then
     echo "the copy should pass"
     exit 1
 fi
-for wrong in 'src/base/result.c:"image/image.h"' 'src/scene/scene.c:"shade/shade.h"' 'src/io/gltf.c:<embree3/rtcore.h>' \
+for wrong in 'src/base/result.c:"image/image.h"' 'src/scene/scene.c:"shade/shade.h"' 'src/io/gltf/gltf.c:<embree3/rtcore.h>' \
     'src/cli/main.c:"scene/scene.h"' 'shade/brdf.h:"shade/color.h"'; do
     file=$copy/${wrong%%:*}
     cp "$file" "$copy/saved"

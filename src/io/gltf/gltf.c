@@ -1,0 +1,220 @@
+/* gltf.c - the whole file: told apart, parsed, its version looked at, then one concern after the other. */
+#include "io/gltf/gltf.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "io/gltf/gltf_reader.h"
+
+/* ---- JSON ---- */
+
+size_t json_memory_estimate(const char *text, size_t size)
+{
+    size_t memory = size;
+    for (size_t i = 0; i < size; i++)
+        memory += text[i] == '{' ? 300 : text[i] == '[' ? 160 : text[i] == ':' ? 96 : text[i] == ',' ? 48 : 0;
+    return memory;
+}
+
+static json_t *parse(reader *r, const char *text, size_t size)
+{
+    if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) {
+        reader_warn(r, NULL, NULL, "begins with a byte order mark, which glTF does not allow");
+        text += 3;
+        size -= 3;
+    }
+    json_error_t error;
+    json_t *json = json_loadb(text, size, JSON_ALLOW_NUL, &error);
+    if (!json && json_error_code(&error) == json_error_out_of_memory)
+        reader_fail_memory(r, "JSON", size);
+    else if (!json)
+        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is not valid JSON: line %d, column %d: %s",
+                    error.line, error.column, error.text);
+    else if (!json_is_object(json))
+        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "must be a JSON object");
+    return json;
+}
+
+/* ---- asset ---- */
+
+static bool parse_version(const char *text, unsigned *major, unsigned *minor)
+{
+    int used = 0;
+    return text[0] >= '0' && text[0] <= '9' && sscanf(text, "%4u.%4u%n", major, minor, &used) == 2 &&
+           used > 0 && text[used] == 0 && strspn(text, "0123456789.") == strlen(text);
+}
+
+static const char *copy_string(reader *r, const json_place *object, const char *key)
+{
+    char *copy = arena_strdup(r->scene->arena, get_string(r, object, key, ""));
+    if (!copy)
+        reader_fail_memory(r, key, 0);
+    return copy ? copy : "";
+}
+
+static void read_asset(reader *r, const json_place *root)
+{
+    json_place asset = get_object(r, root, "asset");
+    const char *version = get_string(r, &asset, "version", NULL);
+    const char *minimum = get_string(r, &asset, "minVersion", NULL);
+    unsigned major = 0;
+    unsigned minor = 0;
+    if (!reader_is_ok(r))
+        return;
+    if (!version) {
+        reader_fail(r, &asset, "version", FACET_ERROR_INVALID, "is missing; this is no glTF 2.0 file");
+        return;
+    }
+    if (!parse_version(version, &major, &minor)) {
+        reader_fail(r, &asset, "version", FACET_ERROR_INVALID, "\"%.40s\" is no version, as \"2.0\" is",
+                    version);
+        return;
+    }
+    if (major != 2) {
+        reader_fail(r, &asset, "version", FACET_ERROR_UNSUPPORTED, "is glTF %u.%u; only glTF 2.0 is read",
+                    major, minor);
+        return;
+    }
+    if (minor != 0)
+        reader_warn(r, &asset, "version", "is glTF %u.%u; it is read as glTF 2.0", major, minor);
+    if (minimum && !parse_version(minimum, &major, &minor))
+        reader_fail(r, &asset, "minVersion", FACET_ERROR_INVALID, "\"%.40s\" is no version", minimum);
+    else if (minimum && (major > 2 || minor > 0))
+        reader_fail(r, &asset, "minVersion", FACET_ERROR_UNSUPPORTED,
+                    "asks for a reader of glTF %u.%u; facet "
+                    "reads 2.0",
+                    major, minor);
+    r->scene->version = copy_string(r, &asset, "version");
+    r->scene->generator = copy_string(r, &asset, "generator");
+    r->scene->copyright = copy_string(r, &asset, "copyright");
+}
+
+/* ---- the file ---- */
+
+static void read_document(reader *r)
+{
+    const json_place root = {.value = r->json};
+    read_asset(r, &root);
+    if (reader_is_ok(r))
+        read_extensions(r, &root);
+    void (*const concerns[])(reader *, const json_place *) = {
+        read_buffers,  read_views,  read_accessors,  read_images,       read_textures,      read_materials,
+        read_variants, read_meshes, read_lights,     read_image_lights, read_cameras,       read_nodes,
+        read_scenes,   read_skins,  read_animations, read_meta,         read_legacy_extras,
+    };
+    for (size_t i = 0; i < sizeof concerns / sizeof *concerns && reader_is_ok(r); i++)
+        concerns[i](r, &root);
+    if (reader_is_ok(r))
+        check_unused_buffers(r);
+}
+
+static void read_bytes(reader *r, const unsigned char *bytes, size_t size)
+{
+    const char *json = (const char *)bytes;
+    size_t json_size = size;
+    bool is_glb = size >= 4 && memcmp(bytes, "glTF", 4) == 0;
+    if (size == 0) {
+        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is empty");
+        return;
+    }
+    if (is_glb && !split_glb(r, bytes, size, &json, &json_size))
+        return;
+    size_t at = json_size >= 3 && memcmp(json, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    while (at < json_size && strchr(" \t\r\n", json[at]) && json[at])
+        at++;
+    if (!is_glb && (at == json_size || json[at] != '{')) {
+        reader_fail(
+            r, NULL, NULL, FACET_ERROR_INVALID,
+            "is neither a .glb file nor the JSON of a .gltf file, nor an .obj file nor rgl's parameters");
+        return;
+    }
+    size_t estimate = json_memory_estimate(json, json_size);
+    void *reserve = mem_alloc(r->allocator, estimate, 1);
+    if (!reserve) {
+        reader_fail_memory(r, "JSON", estimate);
+        return;
+    }
+    r->json = parse(r, json, json_size);
+    if (reader_is_ok(r))
+        read_document(r);
+    release_draco(r);
+    json_decref(r->json);
+    r->json = NULL;
+    mem_free(reserve);
+}
+
+/* Reads what file holds; the scene takes file over. folder as in reader. */
+static facet_result load(file_bytes *file, const char *source, const char *folder,
+                         const facet_scene_desc *desc, facet_scene **out, facet_error *error)
+{
+    facet_scene *scene = NULL;
+    facet_result result = scene_create(&desc->allocator, source, &scene, error);
+    if (result != FACET_OK)
+        return result;
+    scene->max_texture_size = desc->max_texture_size;
+    scene->thread_count = desc->thread_count;
+    const unsigned char *bytes = file->data;
+    size_t size = file->size;
+    if (!scene_keep_file(scene, file)) {
+        scene_destroy(scene);
+        return fail_memory(error, "files", sizeof *file);
+    }
+    reader r = {.scene = scene,
+                .allocator = &desc->allocator,
+                .log = &desc->log,
+                .error = error,
+                .thread_count = desc->thread_count,
+                .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
+                .folder = folder,
+                .root = desc->root};
+    read_bytes(&r, bytes, size);
+    if (r.result != FACET_OK) {
+        scene_destroy(scene);
+        return r.result;
+    }
+    *out = scene;
+    return FACET_OK;
+}
+
+facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
+                       facet_error *error)
+{
+    const facet_scene_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    *scene = NULL;
+    file_bytes file = {0};
+    uint64_t most = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32;
+    facet_result result = file_open(path, most, &desc->allocator, &file, error);
+    if (result != FACET_OK)
+        return result;
+    char *folder = path_folder(&desc->allocator, path);
+    if (folder)
+        result = load(&file, path, folder, desc, scene, error);
+    else
+        result = fail_memory(error, "path", strlen(path));
+    mem_free(folder);
+    file_close(&file);
+    return result;
+}
+
+facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
+                              facet_scene **scene, facet_error *error)
+{
+    const facet_scene_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    *scene = NULL;
+    uint64_t most = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32;
+    if (size > most)
+        return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes is larger than the limit of %llu", name, size,
+                    (unsigned long long)most);
+    unsigned char *copy = mem_alloc(&desc->allocator, size + 1, 1);
+    if (!copy)
+        return fail_memory(error, name, size);
+    memcpy(copy, bytes, size);
+    copy[size] = 0;
+    file_bytes file = {.data = copy, .size = size, .mapping = copy};
+    facet_result result = load(&file, name, NULL, desc, scene, error);
+    file_close(&file);
+    return result;
+}

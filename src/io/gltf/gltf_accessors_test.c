@@ -1,0 +1,286 @@
+/* gltf_accessors_test.c - every form of accessor, through the attributes of a primitive. */
+#include "io/gltf/gltf_test_support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define QUANTIZED "'extensionsUsed':['KHR_mesh_quantization'],'extensionsRequired':['KHR_mesh_quantization'],"
+
+/* One primitive of 3 points whose POSITION is an accessor of the given component type over values. */
+static facet_scene *load_positions(const void *values, size_t size, int component, const char *options)
+{
+    test_bin bin = {0};
+    bin_add(&bin, values, size);
+    char body[1024];
+    snprintf(
+        body, sizeof body,
+        QUANTIZED
+        "'bufferViews':[{'buffer':0,'byteLength':%zu%s}],'accessors':[{'bufferView':0,'componentType':%d,"
+        "'count':3,'type':'VEC3'%s}],'meshes':[{'primitives':[{'attributes':{'POSITION':0},'mode':0}]}]",
+        size, component == 5126 || component == 5120 || component == 5121 ? "" : ",'byteStride':8", component,
+        options);
+    return load(body, &bin);
+}
+
+static void component_types_convert_as_the_specification_says(void **state)
+{
+    (void)state;
+    const int8_t i8[9] = {-128, -127, 0, 1, 64, 127, 3, 4, 5};
+    const uint8_t u8[9] = {0, 1, 2, 127, 128, 255, 3, 4, 5};
+    const int16_t i16[12] = {-32768, -32767, 0, 0, 1, 16384, 32767, 0, 3, 4, 5, 0};
+    const uint16_t u16[12] = {0, 1, 2, 0, 32768, 65535, 3, 0, 4, 5, 6, 0};
+    const float f32[9] = {-1.5f, 2, 3, 4, 5, 6, 7, 8, 1e10f};
+
+    facet_scene *scene = load_positions(i8, sizeof i8, 5120, "");
+    for (int i = 0; i < 9; i++)
+        assert_near(first_primitive(scene)->positions[i], i8[i], 0);
+    scene_destroy(scene);
+    scene = load_positions(i8, sizeof i8, 5120, ",'normalized':true");
+    for (int i = 0; i < 9; i++)
+        assert_near(first_primitive(scene)->positions[i], fmax(i8[i] / 127.0, -1.0), 1e-7);
+    scene_destroy(scene);
+    scene = load_positions(u8, sizeof u8, 5121, ",'normalized':true");
+    for (int i = 0; i < 9; i++)
+        assert_near(first_primitive(scene)->positions[i], u8[i] / 255.0, 1e-7);
+    scene_destroy(scene);
+    scene = load_positions(i16, sizeof i16, 5122, ",'normalized':true");
+    for (int i = 0; i < 9; i++)
+        assert_near(first_primitive(scene)->positions[i], fmax(i16[i / 3 * 4 + i % 3] / 32767.0, -1.0), 1e-7);
+    scene_destroy(scene);
+    scene = load_positions(u16, sizeof u16, 5123, ",'normalized':true");
+    for (int i = 0; i < 9; i++)
+        assert_near(first_primitive(scene)->positions[i], u16[i / 3 * 4 + i % 3] / 65535.0, 1e-7);
+    scene_destroy(scene);
+    scene = load_positions(u16, sizeof u16, 5123, "");
+    for (int i = 0; i < 9; i++)
+        assert_near(first_primitive(scene)->positions[i], u16[i / 3 * 4 + i % 3], 0);
+    scene_destroy(scene);
+    scene = load_positions(f32, sizeof f32, 5126, "");
+    assert_memory_equal(first_primitive(scene)->positions, f32, sizeof f32);
+    scene_destroy(scene);
+}
+
+static void tight_floats_stay_in_the_file(void **state)
+{
+    (void)state;
+    const float values[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    facet_scene *scene = load_positions(values, sizeof values, 5126, "");
+    const unsigned char *at = (const unsigned char *)first_primitive(scene)->positions;
+    assert_true(at >= scene->files[0].data && at < scene->files[0].data + scene->files[0].size);
+    scene_destroy(scene);
+}
+
+static void interleaved_attributes_are_taken_apart(void **state)
+{
+    (void)state;
+    const float vertices[3][8] = {
+        {1, 2, 3, 0, 0, 1, 0.1f, 0.2f}, {4, 5, 6, 0, 1, 0, 0.3f, 0.4f}, {7, 8, 9, 1, 0, 0, 0.5f, 0.6f}};
+    test_bin bin = {0};
+    bin_add(&bin, vertices, sizeof vertices);
+    facet_scene *scene =
+        load("'bufferViews':[{'buffer':0,'byteLength':96,'byteStride':32}],'accessors':["
+             "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+             "{'bufferView':0,'byteOffset':12,'componentType':5126,'count':3,'type':'VEC3'},"
+             "{'bufferView':0,'byteOffset':24,'componentType':5126,'count':3,'type':'VEC2'}],"
+             "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2}}]}]",
+             &bin);
+    const scene_primitive *p = first_primitive(scene);
+    for (size_t i = 0; i < 3; i++) {
+        assert_floats(p->positions + 3 * i, vertices[i], 3, 0);
+        assert_floats(p->normals + 3 * i, vertices[i] + 3, 3, 0);
+        assert_floats(p->texcoords[0] + 2 * i, vertices[i] + 6, 2, 0);
+    }
+    assert_int_equal(scene->warning_count, 0);
+    scene_destroy(scene);
+}
+
+static void misaligned_floats_are_read_with_a_warning(void **state)
+{
+    (void)state;
+    const float values[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    test_bin bin = {.size = 1};
+    memcpy(bin.bytes + 1, values, sizeof values);
+    bin.size += sizeof values;
+    facet_scene *scene =
+        load("'bufferViews':[{'buffer':0,'byteOffset':1,'byteLength':36}],'accessors':[{'bufferView':0,"
+             "'componentType':5126,'count':3,'type':'VEC3'}],"
+             "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'mode':0}]}]",
+             &bin);
+    assert_floats(first_primitive(scene)->positions, values, 9, 0);
+    assert_true(has_warning(scene, "accessors[0].byteOffset: 0 is not aligned"));
+    scene_destroy(scene);
+}
+
+static void sparse_elements_replace(void **state)
+{
+    (void)state;
+    const float base[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    const float value[3] = {-1, -2, -3};
+    const struct {
+        int component;
+        size_t size;
+        unsigned char bytes[4];
+    } indices[3] = {{5121, 1, {1}}, {5123, 2, {1, 0}}, {5125, 4, {1, 0, 0, 0}}};
+    for (int with_view = 0; with_view < 2; with_view++)
+        for (int i = 0; i < 3; i++) {
+            test_bin bin = {0};
+            bin_add(&bin, base, sizeof base);
+            bin_add(&bin, value, sizeof value);
+            bin_add(&bin, indices[i].bytes, indices[i].size);
+            char body[1024];
+            snprintf(body, sizeof body,
+                     "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':"
+                     "12},{'buffer':0,"
+                     "'byteOffset':48,'byteLength':%zu}],'accessors':[{%s'componentType':5126,'count':3,'"
+                     "type':'VEC3',"
+                     "'sparse':{'count':1,'indices':{'bufferView':2,'componentType':%d},'values':{'"
+                     "bufferView':1}}}],"
+                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'mode':0}]}]",
+                     indices[i].size, with_view ? "'bufferView':0," : "", indices[i].component);
+            facet_scene *scene = load(body, &bin);
+            const float *p = first_primitive(scene)->positions;
+            assert_floats(p + 3, value, 3, 0);
+            for (int k = 0; k < 3; k++) {
+                assert_near(p[k], with_view ? base[k] : 0, 0);
+                assert_near(p[6 + k], with_view ? base[6 + k] : 0, 0);
+            }
+            scene_destroy(scene);
+        }
+}
+
+static void sparse_indices_are_checked(void **state)
+{
+    (void)state;
+    const float value[3] = {0};
+    const unsigned char index = 3;
+    test_bin bin = {0};
+    bin_add(&bin, value, sizeof value);
+    bin_add(&bin, &index, 1);
+    assert_refused(
+        "'bufferViews':[{'buffer':0,'byteLength':12},{'buffer':0,'byteOffset':12,'byteLength':1}],'accessors'"
+        ":"
+        "[{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':1,'indices':{'bufferView':1,"
+        "'componentType':5121},'values':{'bufferView':0}}}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'mode':0}]}]",
+        &bin, FACET_ERROR_INVALID, "accessors[0]: sparse index 0 is 3, but the accessor has 3 elements");
+}
+
+static void what_leaves_its_buffer_is_refused(void **state)
+{
+    (void)state;
+    test_bin bin = {.size = 64};
+    assert_refused(
+        "'bufferViews':[{'buffer':0,'byteLength':64}],'accessors':[{'bufferView':0,'byteOffset':65,"
+        "'componentType':5121,'count':1,'type':'SCALAR'}]",
+        &bin, FACET_ERROR_INVALID,
+        "test.glb: accessors[0].byteOffset: 65 is past the end of buffer view 0 (64 bytes)");
+    assert_refused(
+        "'bufferViews':[{'buffer':0,'byteLength':64}],'accessors':[{'bufferView':0,'componentType':5126,"
+        "'count':6,'type':'VEC3'}]",
+        &bin, FACET_ERROR_INVALID, "accessors[0].count: 6 elements of 12 bytes, 12 apart, from offset 0");
+    assert_refused(
+        "'bufferViews':[{'buffer':0,'byteLength':64,'byteStride':252}],'accessors':[{'bufferView':0,"
+        "'componentType':5126,'count':4294967294,'type':'VEC3'}]",
+        &bin, FACET_ERROR_INVALID, "go past the end");
+    assert_refused("'bufferViews':[{'buffer':0,'byteLength':65}]", &bin, FACET_ERROR_INVALID,
+                   "bufferViews[0].byteLength: 65 from offset 0 goes past the end of buffer 0 (64 bytes)");
+    assert_refused("'bufferViews':[{'buffer':0,'byteOffset':9007199254740992,'byteLength':9007199254740992}]",
+                   &bin, FACET_ERROR_INVALID, "bufferViews[0].byteOffset");
+    assert_refused("'bufferViews':[{'buffer':1,'byteLength':1}]", &bin, FACET_ERROR_INVALID,
+                   "bufferViews[0].buffer: 1 is the number of no buffer (there is 1)");
+    /* The last element may end with the view, its stride may not be there. */
+    facet_scene *scene =
+        load("'bufferViews':[{'buffer':0,'byteLength':64,'byteStride':52}],'accessors':[{'bufferView':0,"
+             "'componentType':5126,'count':2,'type':'VEC3'}]",
+             &bin);
+    scene_destroy(scene);
+}
+
+static void wrong_types_are_refused(void **state)
+{
+    (void)state;
+    test_bin bin = {.size = 64};
+    const char *views = "'bufferViews':[{'buffer':0,'byteLength':64}],'accessors':[{'bufferView':0,%s}]";
+    static const char *const cases[][2] = {
+        {"'componentType':5124,'count':1,'type':'SCALAR'", "5124 is none of"},
+        {"'componentType':'x','count':1,'type':'SCALAR'", "must be a number, but is a string"},
+        {"'count':1,'type':'SCALAR'", "componentType: is missing"},
+        {"'componentType':5121,'count':1,'type':'VEC5'", "\"VEC5\" is no type"},
+        {"'componentType':5121,'count':1", "type: is missing"},
+        {"'componentType':5121,'type':'SCALAR'", "count: is missing"},
+        {"'componentType':5121,'count':-1,'type':'SCALAR'", "-1 is not a whole number"},
+        {"'componentType':5121,'count':1.5,'type':'SCALAR'", "1.5 is not a whole number"},
+        {"'componentType':5121,'count':1e30,'type':'SCALAR'", "is not a whole number"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char body[512];
+        snprintf(body, sizeof body, views, cases[i][0]);
+        assert_refused(body, &bin, FACET_ERROR_INVALID, cases[i][1]);
+    }
+}
+
+static void claims_without_bytes_are_limited(void **state)
+{
+    (void)state;
+    assert_refused("'accessors':[{'componentType':5126,'count':4000000000,'type':'VEC3'}],"
+                   "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]",
+                   NULL, FACET_ERROR_LIMIT, "more than 268435456 elements");
+    /* Many small claims on the same accessor add up as well. */
+    static char body[400000];
+    size_t length = (size_t)snprintf(body, sizeof body,
+                                     "'accessors':[{'componentType':5126,'count':100000,'type':'VEC3'}],"
+                                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}");
+    for (int i = 0; i < 5000; i++)
+        length +=
+            (size_t)snprintf(body + length, sizeof body - length, ",{'attributes':{'POSITION':0},'mode':0}");
+    snprintf(body + length, sizeof body - length, "]}]");
+    assert_refused(body, NULL, FACET_ERROR_LIMIT, "more than 268435456 elements");
+}
+
+static void index_types_are_equal(void **state)
+{
+    (void)state;
+    const float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+    const unsigned char u8[6] = {0, 1, 2, 1, 3, 2};
+    const uint16_t u16[6] = {0, 1, 2, 1, 3, 2};
+    const uint32_t u32[6] = {0, 1, 2, 1, 3, 2};
+    const void *bytes[3] = {u8, u16, u32};
+    const size_t sizes[3] = {6, 12, 24};
+    const int components[3] = {5121, 5123, 5125};
+    for (int i = 0; i < 3; i++) {
+        test_bin bin = {0};
+        bin_add(&bin, positions, sizeof positions);
+        bin_add(&bin, bytes[i], sizes[i]);
+        char body[1024];
+        snprintf(body, sizeof body,
+                 "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,'byteLength':%zu}],"
+                 "'accessors':[{"
+                 "'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},{'bufferView':1,'"
+                 "componentType':%d,'count':6,"
+                 "'type':'SCALAR'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':0},'"
+                 "indices':1}]}]",
+                 sizes[i], components[i]);
+        facet_scene *scene = load(body, &bin);
+        assert_int_equal(first_primitive(scene)->index_count, 6);
+        assert_memory_equal(first_primitive(scene)->indices, u32, sizeof u32);
+        scene_destroy(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(component_types_convert_as_the_specification_says),
+        cmocka_unit_test(tight_floats_stay_in_the_file),
+        cmocka_unit_test(interleaved_attributes_are_taken_apart),
+        cmocka_unit_test(misaligned_floats_are_read_with_a_warning),
+        cmocka_unit_test(sparse_elements_replace),
+        cmocka_unit_test(sparse_indices_are_checked),
+        cmocka_unit_test(what_leaves_its_buffer_is_refused),
+        cmocka_unit_test(wrong_types_are_refused),
+        cmocka_unit_test(claims_without_bytes_are_limited),
+        cmocka_unit_test(index_types_are_equal),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,225 @@
+/* gltf_animations.c - animations (glTF 2.0 sections 3.11, 5.5): what channels move, and by which keys. What cannot be
+ * moved costs a warning and stands still.
+ *
+ * A sampler of the file becomes one of the scene when a channel asks for it, and a second one where it is both asked
+ * for as rotations, which are made unit, and as something else. */
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io/gltf/gltf_reader.h"
+
+/* The animation that is being read. */
+typedef struct animation_reader {
+    json_place samplers; /* of the file */
+    /* Per sampler of the file, as it is and as rotations: its number in the scene, NOT_YET or USELESS. */
+    uint32_t (*numbers)[2];
+    scene_sampler *made;
+    uint32_t made_count;
+    scene_channel *channels;
+    size_t channel_count, channel_capacity;
+} animation_reader;
+
+static const uint32_t NOT_YET = UINT32_MAX;
+static const uint32_t USELESS = UINT32_MAX - 1; /* a warning said why */
+
+/* ---- samplers ---- */
+
+/* The number in the scene of a sampler of the file, or USELESS. */
+static uint32_t get_sampler(reader *r, animation_reader *a, uint32_t index, bool is_rotation)
+{
+    uint32_t *number = &a->numbers[index][is_rotation];
+    if (*number != NOT_YET)
+        return *number;
+    json_place at = get_element_object(r, &a->samplers, index);
+    scene_sampler *out = &a->made[a->made_count];
+    *number = USELESS;
+    if (!read_animation_sampler(r, &at, is_rotation, out))
+        return USELESS;
+    *number = a->made_count++;
+    return *number;
+}
+
+/* ---- channels ---- */
+
+static void add_channel(reader *r, animation_reader *a, const scene_channel *channel)
+{
+    if (!mem_reserve(r->allocator, (void **)&a->channels, &a->channel_capacity, a->channel_count + 1,
+                     sizeof *a->channels)) {
+        reader_fail_memory(r, "animation", a->channel_count * sizeof *a->channels);
+        return;
+    }
+    a->channels[a->channel_count++] = *channel;
+}
+
+/* What node and path name. False: nothing that moves; a warning says so where it is not as the specification asks. */
+static bool find_core_target(reader *r, const json_place *target, const char *path, gltf_target *out)
+{
+    static const struct {
+        const char *path;
+        scene_target_kind kind;
+        uint32_t width;
+        size_t offset;
+    } paths[] = {{"translation", SCENE_TARGET_NODE, 3, offsetof(scene_node, translation)},
+                 {"rotation", SCENE_TARGET_NODE, 4, offsetof(scene_node, rotation)},
+                 {"scale", SCENE_TARGET_NODE, 3, offsetof(scene_node, scale)},
+                 {"weights", SCENE_TARGET_WEIGHTS, 0, 0}};
+    uint32_t node = get_index(r, target, "node", r->scene->node_count, "node");
+    size_t i = 0;
+    while (i < 4 && strcmp(path, paths[i].path) != 0)
+        i++;
+    if (i == 4)
+        reader_warn(r, target, "path", "\"%.40s\" is nothing that moves", path);
+    if (i == 4 || node == SCENE_NONE)
+        return false;
+    *out = (gltf_target){.channel = {.kind = paths[i].kind,
+                                     .index = node,
+                                     .offset = paths[i].offset,
+                                     .scale = 1.0f,
+                                     .is_rotation = i == 1},
+                         .width = paths[i].width};
+    if (paths[i].kind == SCENE_TARGET_NODE)
+        return true;
+    uint32_t mesh = r->scene->nodes[node].mesh;
+    out->width = mesh == SCENE_NONE ? 0 : r->scene->meshes[mesh].weight_count;
+    if (mesh == SCENE_NONE)
+        reader_warn(r, target, NULL, "asks for weights of node %u, which has no mesh", node);
+    else if (out->width == 0)
+        reader_warn(r, target, NULL, "asks for weights of node %u, whose mesh has no morph targets", node);
+    return out->width > 0;
+}
+
+static bool find_pointed_target(reader *r, const json_place *target, gltf_target *out)
+{
+    json_place extension = get_extension(r, target, "KHR_animation_pointer");
+    const char *pointer = get_string(r, &extension, "pointer", NULL);
+    if (!reader_is_ok(r))
+        return false;
+    if (!pointer) {
+        reader_warn(r, target, "path", "is \"pointer\", but there is none");
+        return false;
+    }
+    if (has_member(target, "node"))
+        reader_warn(r, target, "node", "is there beside a pointer; it is ignored");
+    const char *message = resolve_pointer(r, pointer, out);
+    if (message && reader_is_ok(r))
+        reader_warn(r, &extension, "pointer", "\"%.200s\" %s; it is ignored", pointer, message);
+    return !message;
+}
+
+/* Weights of a mesh are those of every node that has it and no weights of its own: a channel for each, as a file
+ * without pointers would have them. */
+static void add_mesh_channels(reader *r, animation_reader *a, const scene_channel *channel, uint32_t width)
+{
+    const facet_scene *scene = r->scene;
+    if (!reader_spend(r, NULL, scene->node_count))
+        return;
+    bool is_whole = channel->offset == 0 && width == scene->meshes[channel->index].weight_count;
+    for (uint32_t i = 0; i < scene->node_count && reader_is_ok(r); i++) {
+        if (scene->nodes[i].mesh != channel->index || scene->nodes[i].weights)
+            continue;
+        char pointer[64];
+        snprintf(pointer, sizeof pointer, "/nodes/%u/weights/%zu", i, channel->offset);
+        scene_channel own = *channel;
+        own.index = i;
+        own.pointer = is_whole ? NULL : arena_strdup(scene->arena, pointer);
+        if (!is_whole && !own.pointer)
+            reader_fail_memory(r, "animation", sizeof pointer);
+        add_channel(r, a, &own);
+    }
+}
+
+static void read_channel(reader *r, animation_reader *a, const json_place *at)
+{
+    uint32_t sampler = get_required_index(r, at, "sampler", (uint32_t)get_count(&a->samplers), "sampler");
+    json_place target = get_object(r, at, "target");
+    if (reader_is_ok(r) && !target.value)
+        reader_fail(r, at, "target", FACET_ERROR_INVALID, "is missing");
+    const char *path = get_string(r, &target, "path", "");
+    gltf_target found;
+    if (!reader_is_ok(r) || !(strcmp(path, "pointer") == 0 ? find_pointed_target(r, &target, &found)
+                                                           : find_core_target(r, &target, path, &found)))
+        return;
+    uint32_t number = get_sampler(r, a, sampler, found.channel.is_rotation);
+    if (number == USELESS)
+        return;
+    found.channel.sampler = number;
+    const scene_sampler *s = &a->made[number];
+    if (s->width != found.width) {
+        reader_warn(r, at, "sampler", "has %u numbers per key, but %u move; it is ignored", s->width,
+                    found.width);
+        return;
+    }
+    if (found.needs_steps && s->interpolation != SCENE_STEP) {
+        reader_warn(r, at, "sampler", "must be of interpolation STEP to move a truth value; it is ignored");
+        return;
+    }
+    if (found.channel.kind == SCENE_TARGET_NODE && r->scene->nodes[found.channel.index].has_matrix)
+        reader_warn(r, &target, NULL, "moves node %u, which has a matrix", found.channel.index);
+    if (found.is_of_mesh)
+        add_mesh_channels(r, a, &found.channel, s->width);
+    else
+        add_channel(r, a, &found.channel);
+}
+
+/* ---- animations ---- */
+
+static void finish_animation(reader *r, const animation_reader *a, scene_animation *out)
+{
+    scene_channel *channels = reader_alloc_raw(r, "animation", a->channel_count, sizeof *channels);
+    if (!channels)
+        return;
+    if (a->channel_count)
+        memcpy(channels, a->channels, a->channel_count * sizeof *channels);
+    out->channels = channels;
+    out->channel_count = (uint32_t)a->channel_count;
+    out->samplers = a->made;
+    out->sampler_count = a->made_count;
+    for (uint32_t i = 0; i < a->made_count; i++) {
+        const scene_sampler *s = &a->made[i];
+        float last = s->times[s->key_count - 1];
+        out->begin_s = i == 0 || s->times[0] < out->begin_s ? s->times[0] : out->begin_s;
+        out->end_s = i == 0 || last > out->end_s ? last : out->end_s;
+    }
+}
+
+static void read_animation(reader *r, const json_place *at, scene_animation *out)
+{
+    animation_reader a = {.samplers = get_array(r, at, "samplers")};
+    json_place channels = get_array(r, at, "channels");
+    out->name = get_name(r, at);
+    if (reader_is_ok(r) && (!a.samplers.value || !channels.value))
+        reader_fail(r, at, a.samplers.value ? "channels" : "samplers", FACET_ERROR_INVALID, "is missing");
+    size_t count = get_count(&a.samplers);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place sampler = get_element_object(r, &a.samplers, i);
+        check_animation_sampler(r, &sampler);
+    }
+    a.made = reader_alloc(r, "animation", count, 2 * sizeof *a.made);
+    a.numbers = mem_alloc(r->allocator, count, sizeof *a.numbers);
+    if (!a.numbers)
+        reader_fail_memory(r, "animation", count * sizeof *a.numbers);
+    else
+        memset(a.numbers, 0xff, count * sizeof *a.numbers); /* NOT_YET */
+    for (size_t i = 0; i < get_count(&channels) && reader_is_ok(r); i++) {
+        json_place channel = get_element_object(r, &channels, i);
+        read_channel(r, &a, &channel);
+    }
+    if (reader_is_ok(r))
+        finish_animation(r, &a, out);
+    out->meta = get_meta(r, at);
+    mem_free(a.numbers);
+    mem_free(a.channels);
+}
+
+void read_animations(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "animations");
+    size_t count = get_count(&array);
+    r->scene->animations = reader_alloc(r, "animations", count, sizeof *r->scene->animations);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_animation(r, &at, &r->scene->animations[i]);
+        r->scene->animation_count = (uint32_t)(i + 1);
+    }
+}

@@ -1,0 +1,134 @@
+/* gltf_buffers.c - buffers and buffer views: where bytes are. A buffer is read when something needs its bytes. */
+#include <string.h>
+
+#include "io/gltf/gltf_reader.h"
+
+void read_buffers(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "buffers");
+    size_t count = get_count(&array);
+    r->buffers = reader_alloc(r, "buffers", count, sizeof *r->buffers);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        gltf_buffer *buffer = &r->buffers[i];
+        buffer->byte_length = get_uint(r, &at, "byteLength", (uint64_t)1 << 53, REQUIRED_UINT);
+        buffer->uri = get_string(r, &at, "uri", NULL);
+        buffer->is_fallback = is_meshopt_fallback(r, &at);
+        if (reader_is_ok(r) && buffer->byte_length == 0)
+            reader_warn(r, &at, "byteLength", "must be at least 1, but is 0");
+        r->buffer_count = (uint32_t)(i + 1);
+    }
+}
+
+void read_views(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "bufferViews");
+    size_t count = get_count(&array);
+    r->views = reader_alloc(r, "buffer views", count, sizeof *r->views);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        gltf_view *view = &r->views[i];
+        view->buffer = get_required_index(r, &at, "buffer", r->buffer_count, "buffer");
+        view->offset = get_uint(r, &at, "byteOffset", (uint64_t)1 << 53, 0);
+        view->length = get_uint(r, &at, "byteLength", (uint64_t)1 << 53, REQUIRED_UINT);
+        view->stride = get_uint(r, &at, "byteStride", UINT32_MAX, 0);
+        uint64_t target = get_uint(r, &at, "target", UINT32_MAX, 0);
+        if (!reader_is_ok(r))
+            return;
+        size_t size = r->buffers[view->buffer].byte_length;
+        if (view->offset > size)
+            reader_fail(r, &at, "byteOffset", FACET_ERROR_INVALID,
+                        "%zu is past the end of buffer %u (%zu bytes)", view->offset, view->buffer, size);
+        else if (view->length > size - view->offset)
+            reader_fail(r, &at, "byteLength", FACET_ERROR_INVALID,
+                        "%zu from offset %zu goes past the end of buffer %u (%zu bytes)", view->length,
+                        view->offset, view->buffer, size);
+        if (view->stride && (view->stride < 4 || view->stride > 252 || view->stride % 4))
+            reader_warn(r, &at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
+        if (view->stride && target == 34963)
+            reader_warn(r, &at, "byteStride", "means nothing for indices");
+        read_meshopt(r, &at, view);
+        r->view_count = (uint32_t)(i + 1);
+    }
+}
+
+bool has_buffer_source(const reader *r, uint32_t buffer)
+{
+    return r->buffers[buffer].uri || (buffer == 0 && r->bin);
+}
+
+bool has_view_source(const reader *r, uint32_t view)
+{
+    const gltf_view *v = &r->views[view];
+    return has_buffer_source(r, v->compressed ? get_meshopt_buffer(v->compressed) : v->buffer);
+}
+
+bool has_accessor_source(const reader *r, uint32_t accessor)
+{
+    const gltf_accessor *a = &r->accessors[accessor];
+    return (a->decoded || a->indices || a->view == SCENE_NONE || has_view_source(r, a->view)) &&
+           (a->sparse_count == 0 ||
+            (has_view_source(r, a->sparse_index_view) && has_view_source(r, a->sparse_value_view)));
+}
+
+/* Makes the bytes of a buffer come to be. */
+static bool load_buffer(reader *r, uint32_t index)
+{
+    gltf_buffer *buffer = &r->buffers[index];
+    const json_place root = {.value = r->json};
+    const json_place array = {.parent = &root, .key = "buffers"};
+    const json_place at = {.parent = &array, .index = index};
+    if (buffer->data)
+        return true;
+    size_t size = 0;
+    if (buffer->uri) {
+        uri_bytes bytes;
+        if (!load_uri(r, buffer->uri, &bytes))
+            return reader_fail(r, &at, "uri", bytes.result, "%s", bytes.message);
+        buffer->data = bytes.data;
+        size = bytes.size;
+    } else if (index == 0 && r->bin) {
+        buffer->data = r->bin;
+        size = r->bin_size;
+    } else {
+        return reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "has neither a uri nor a binary chunk");
+    }
+    if (size < buffer->byte_length) {
+        buffer->data = NULL;
+        return reader_fail(r, &at, "byteLength", FACET_ERROR_INVALID, "says %zu bytes, but there are %zu",
+                           buffer->byte_length, size);
+    }
+    if (size - buffer->byte_length > (buffer->uri ? 0u : 3u))
+        reader_warn(r, &at, "byteLength", "says %zu bytes, but there are %zu; the rest is ignored",
+                    buffer->byte_length, size);
+    return true;
+}
+
+const unsigned char *get_buffer_bytes(reader *r, uint32_t index)
+{
+    return reader_is_ok(r) && load_buffer(r, index) ? r->buffers[index].data : NULL;
+}
+
+const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t index)
+{
+    const gltf_view *view = &r->views[index];
+    if (!reader_is_ok(r))
+        return NULL;
+    if (view->compressed)
+        return get_meshopt_bytes(r, at, index);
+    const unsigned char *bytes = get_buffer_bytes(r, view->buffer);
+    return bytes ? bytes + view->offset : NULL;
+}
+
+void check_unused_buffers(reader *r)
+{
+    const json_place root = {.value = r->json};
+    const json_place array = {.parent = &root, .key = "buffers"};
+    for (uint32_t i = 0; i < r->buffer_count; i++) {
+        const json_place at = {.parent = &array, .index = i};
+        uri_bytes bytes;
+        if (!r->buffers[i].data && r->buffers[i].uri && !r->buffers[i].is_fallback &&
+            !load_uri(r, r->buffers[i].uri, &bytes))
+            reader_warn(r, &at, "uri", "%s; nothing uses it", bytes.message);
+    }
+}

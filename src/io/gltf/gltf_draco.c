@@ -1,0 +1,310 @@
+/* gltf_draco.c - KHR_draco_mesh_compression: primitives whose attributes and faces are in a bitstream. All bitstreams
+ * of the file are decoded beside one another when the first such primitive is read. */
+#include <string.h>
+
+#include "base/parallel.h"
+#include "io/gltf/draco_shim.h"
+#include "io/gltf/gltf_reader.h"
+
+/* A buffer view with a bitstream; primitives may share it. */
+typedef struct bitstream {
+    const unsigned char *bytes; /* NULL: they cannot be had */
+    size_t size;
+    draco_limits limits;
+    uint32_t user_count; /* primitives that are still to be read */
+    draco_mesh *mesh;    /* NULL: not decoded, or result and message say why */
+    facet_result result;
+    char message[DRACO_MESSAGE];
+    const uint32_t *corners; /* of its faces; NULL: nobody asked yet */
+} bitstream;
+
+struct draco_state {
+    bitstream *streams; /* of the arena */
+    uint32_t stream_count;
+    uint32_t *stream_of_view; /* SCENE_NONE: the view is none */
+    const facet_allocator *allocator;
+};
+
+static const char NAME[] = "KHR_draco_mesh_compression";
+
+/* A bitstream may make so many values of each of its bytes, and so many of nothing. A flat grid, 2 million triangles in
+ * 50 kB with 20 constant components in each vertex, comes to 600. */
+enum { VALUES_PER_BYTE = 4096, VALUES_OF_NOTHING = 1 << 20 };
+
+/* ---- all bitstreams at once ---- */
+
+/* Calls visit for each primitive of the file that has the extension, until one is false. */
+static bool for_each_primitive(reader *r, bool (*visit)(reader *, const json_place *primitive,
+                                                        const json_place *extension))
+{
+    const json_place root = {.value = r->json};
+    json_place meshes = get_array(r, &root, "meshes");
+    for (size_t i = 0; i < get_count(&meshes) && reader_is_ok(r); i++) {
+        json_place mesh = get_element_object(r, &meshes, i);
+        json_place primitives = get_array(r, &mesh, "primitives");
+        for (size_t k = 0; k < get_count(&primitives) && reader_is_ok(r); k++) {
+            json_place primitive = get_element_object(r, &primitives, k);
+            json_place extension = get_extension(r, &primitive, NAME);
+            if (extension.value && !visit(r, &primitive, &extension))
+                return false;
+        }
+    }
+    return reader_is_ok(r);
+}
+
+/* The bitstream of a primitive; NULL: an error is recorded. */
+static bitstream *find_stream(reader *r, const json_place *extension)
+{
+    uint32_t view = get_required_index(r, extension, "bufferView", r->view_count, "buffer view");
+    return reader_is_ok(r) ? &r->draco->streams[r->draco->stream_of_view[view]] : NULL;
+}
+
+static bool list_stream(reader *r, const json_place *primitive, const json_place *extension)
+{
+    (void)primitive;
+    draco_state *d = r->draco;
+    uint32_t view = get_required_index(r, extension, "bufferView", r->view_count, "buffer view");
+    if (reader_is_ok(r) && d->stream_of_view[view] == SCENE_NONE)
+        d->stream_of_view[view] = d->stream_count++;
+    return reader_is_ok(r);
+}
+
+/* Counts a primitive among the users of its bitstream, and what its accessors say into the limits. */
+static bool note_user(reader *r, const json_place *primitive, const json_place *extension)
+{
+    bitstream *s = find_stream(r, extension);
+    json_place attributes = get_object(r, primitive, "attributes");
+    const char *name;
+    json_t *value;
+    uint32_t points = 0;
+    if (!s)
+        return false;
+    json_object_foreach((json_t *)(uintptr_t)attributes.value, name, value)
+    {
+        uint32_t accessor = get_index(r, &attributes, name, r->accessor_count, "accessor");
+        if (accessor != SCENE_NONE && r->accessors[accessor].count > points)
+            points = r->accessors[accessor].count;
+    }
+    uint32_t indices = get_index(r, primitive, "indices", r->accessor_count, "accessor");
+    uint64_t mode = get_uint(r, primitive, "mode", 6, 4);
+    /* of a strip each index may close a triangle; without indices the faces may be any */
+    uint32_t faces = indices == SCENE_NONE ? points : r->accessors[indices].count;
+    faces = mode == 5 || indices == SCENE_NONE ? faces : faces / 3;
+    s->limits.point_count = points > s->limits.point_count ? points : s->limits.point_count;
+    s->limits.face_count = faces > s->limits.face_count ? faces : s->limits.face_count;
+    s->user_count++;
+    return reader_is_ok(r);
+}
+
+/* Finds the bytes of all bitstreams; a missing buffer is an error of the primitives that use it. */
+static bool find_bytes(reader *r)
+{
+    const json_place root = {.value = r->json};
+    const json_place array = {.parent = &root, .key = "bufferViews"};
+    draco_state *d = r->draco;
+    for (uint32_t view = 0; view < r->view_count; view++) {
+        const json_place at = {.parent = &array, .index = view};
+        if (d->stream_of_view[view] == SCENE_NONE)
+            continue;
+        bitstream *s = &d->streams[d->stream_of_view[view]];
+        s->size = r->views[view].length;
+        s->limits.value_count = VALUES_OF_NOTHING + VALUES_PER_BYTE * (uint64_t)s->size;
+        if (!has_view_source(r, view))
+            continue;
+        if (!reader_spend(r, &at, (uint64_t)s->limits.point_count + s->limits.face_count) ||
+            !(s->bytes = get_view_bytes(r, &at, view)))
+            return false;
+    }
+    return true;
+}
+
+static void decode_streams(void *context, size_t begin, size_t end)
+{
+    const draco_state *d = context;
+    for (size_t i = begin; i < end; i++) {
+        bitstream *s = &d->streams[i];
+        if (s->bytes)
+            s->result = draco_shim_decode(s->bytes, s->size, &s->limits, d->allocator, &s->mesh, s->message);
+    }
+}
+
+/* Makes r->draco, with all bitstreams decoded that can be. */
+static bool decode_all(reader *r)
+{
+    draco_state *d = reader_alloc(r, NAME, 1, sizeof *d);
+    if (!d)
+        return false;
+    d->allocator = r->allocator;
+    d->stream_of_view = reader_alloc_raw(r, NAME, r->view_count, sizeof *d->stream_of_view);
+    if (!d->stream_of_view)
+        return false;
+    for (uint32_t i = 0; i < r->view_count; i++)
+        d->stream_of_view[i] = SCENE_NONE;
+    r->draco = d;
+    if (!for_each_primitive(r, list_stream))
+        return false;
+    d->streams = reader_alloc(r, NAME, d->stream_count, sizeof *d->streams);
+    if (!d->streams || !for_each_primitive(r, note_user) || !find_bytes(r))
+        return false;
+    parallel_for(r->thread_count, d->stream_count, 1, decode_streams, d);
+    return true;
+}
+
+void release_draco(reader *r)
+{
+    for (uint32_t i = 0; r->draco && r->draco->streams && i < r->draco->stream_count; i++)
+        draco_shim_destroy(r->draco->streams[i].mesh);
+    r->draco = NULL;
+}
+
+/* ---- one primitive ---- */
+
+static draco_type type_of(gltf_component component)
+{
+    switch (component) {
+    case GLTF_I8:
+        return DRACO_I8;
+    case GLTF_U8:
+        return DRACO_U8;
+    case GLTF_I16:
+        return DRACO_I16;
+    case GLTF_U16:
+        return DRACO_U16;
+    case GLTF_U32:
+        return DRACO_U32;
+    default:
+        return DRACO_F32;
+    }
+}
+
+/* What was made of an accessor's elements before, of another bitstream or of none, counts no more. */
+static void replace_elements(gltf_accessor *a, const unsigned char *elements, uint32_t view, uint32_t id)
+{
+    *a = (gltf_accessor){.view = a->view,
+                         .offset = a->offset,
+                         .component = a->component,
+                         .type = a->type,
+                         .is_normalized = a->is_normalized,
+                         .count = a->count,
+                         .decoded = elements,
+                         .draco_view = view,
+                         .draco_attribute = id};
+}
+
+/* Gives the accessor of an attribute what the bitstream has under id. at: the attribute in the extension. */
+static bool bind_attribute(reader *r, const json_place *at, const bitstream *s, uint32_t view, uint32_t id,
+                           uint32_t accessor)
+{
+    gltf_accessor *a = &r->accessors[accessor];
+    uint32_t points = draco_shim_point_count(s->mesh);
+    uint32_t components = draco_shim_component_count(s->mesh, id);
+    if (a->decoded && a->draco_view == view && a->draco_attribute == id)
+        return true;
+    if (components == 0)
+        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
+                           "%u is no attribute of the bitstream in buffer view %u", id, view);
+    if (a->count != points)
+        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
+                           "accessor %u has %u elements, but the bitstream in buffer view %u has %u vertices",
+                           accessor, a->count, view, points);
+    if (a->type > GLTF_VEC4 || gltf_component_counts[a->type] != components)
+        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
+                           "accessor %u has elements of %u components, but those in buffer view %u have %u",
+                           accessor, gltf_component_counts[a->type], view, components);
+    if (!reader_spend(r, at, (uint64_t)points * components / 3))
+        return false;
+    void *elements = reader_alloc_raw(r, "accessor", points, gltf_element_size(a->component, a->type));
+    if (!elements)
+        return false;
+    if (!draco_shim_copy_attribute(s->mesh, id, type_of(a->component), elements))
+        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
+                           "the values in buffer view %u do not have the componentType of accessor %u", view,
+                           accessor);
+    replace_elements(a, elements, view, id);
+    return true;
+}
+
+/* The faces become the indices of the primitive, and the number of those that its accessor claims is checked. */
+static bool bind_faces(reader *r, const json_place *primitive, bitstream *s, uint32_t view, uint64_t mode)
+{
+    uint32_t faces = draco_shim_face_count(s->mesh);
+    uint32_t accessor = get_index(r, primitive, "indices", r->accessor_count, "accessor");
+    if (accessor == SCENE_NONE)
+        reader_warn(r, primitive, NULL, "has no indices, but the bitstream in buffer view %u has", view);
+    else if (mode == 4 && r->accessors[accessor].count != (uint64_t)faces * 3)
+        return reader_fail(
+            r, primitive, "indices", FACET_ERROR_INVALID,
+            "accessor %u has %u elements, but the bitstream in buffer view %u has %u triangles", accessor,
+            r->accessors[accessor].count, view, faces);
+    if (!s->corners) {
+        uint32_t *corners = reader_alloc_raw(r, "indices", (size_t)faces * 3, sizeof *corners);
+        if (!corners || !reader_spend(r, primitive, (uint64_t)faces * 3))
+            return false;
+        draco_shim_copy_faces(s->mesh, corners);
+        s->corners = corners;
+    }
+    if (accessor != SCENE_NONE && mode == 4) {
+        r->accessors[accessor].indices = s->corners;
+        r->accessors[accessor].largest_index = draco_shim_point_count(s->mesh) - 1;
+    }
+    r->faces = s->corners;
+    r->face_count = faces;
+    return true;
+}
+
+static bool bind(reader *r, const json_place *primitive, const json_place *extension, bitstream *s,
+                 uint64_t mode)
+{
+    json_place ids = get_object(r, extension, "attributes");
+    json_place attributes = get_object(r, primitive, "attributes");
+    uint32_t view = get_index(r, extension, "bufferView", r->view_count, "buffer view");
+    const char *name;
+    json_t *value;
+    json_object_foreach((json_t *)(uintptr_t)ids.value, name, value)
+    {
+        json_place at = {.parent = &ids, .key = name, .value = value};
+        uint32_t id = (uint32_t)get_uint(r, &ids, name, UINT32_MAX, 0);
+        uint32_t accessor = get_index(r, &attributes, name, r->accessor_count, "accessor");
+        if (accessor == SCENE_NONE)
+            reader_warn(r, &at, NULL, "is not among the attributes of the primitive");
+        else if (!reader_is_ok(r) || !bind_attribute(r, &at, s, view, id, accessor))
+            return false;
+    }
+    uint32_t position = get_index(r, &attributes, "POSITION", r->accessor_count, "accessor");
+    if (position != SCENE_NONE && r->accessors[position].count != draco_shim_point_count(s->mesh))
+        return reader_fail(r, &attributes, "POSITION", FACET_ERROR_INVALID,
+                           "accessor %u has %u elements, but the bitstream in buffer view %u has %u vertices",
+                           position, r->accessors[position].count, view, draco_shim_point_count(s->mesh));
+    return reader_is_ok(r) && bind_faces(r, primitive, s, view, mode);
+}
+
+bool prepare_draco(reader *r, const json_place *primitive)
+{
+    r->faces = NULL;
+    json_place extension = get_extension(r, primitive, NAME);
+    if (!extension.value || !reader_is_ok(r))
+        return reader_is_ok(r);
+    uint64_t mode = get_uint(r, primitive, "mode", 6, 4);
+    if (mode != 4 && mode != 5)
+        return reader_fail(r, primitive, "mode", FACET_ERROR_INVALID,
+                           "must be 4 or 5, triangles or strips of them, with %s", NAME);
+    if (!r->draco && !decode_all(r))
+        return false;
+    bitstream *s = find_stream(r, &extension);
+    if (!s)
+        return false;
+    if (!s->bytes)
+        return reader_fail(r, &extension, "bufferView", FACET_ERROR_INVALID, "is in a buffer without bytes");
+    if (!s->mesh)
+        return s->result == FACET_ERROR_MEMORY
+                   ? reader_fail(r, &extension, NULL, s->result, "out of memory: its bitstream %s",
+                                 s->message)
+                   : reader_fail(r, &extension, NULL, s->result, "has a bitstream that %s", s->message);
+    if (!bind(r, primitive, &extension, s, mode))
+        return false;
+    if (--s->user_count == 0) {
+        draco_shim_destroy(s->mesh);
+        s->mesh = NULL;
+    }
+    return true;
+}

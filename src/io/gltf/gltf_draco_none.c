@@ -1,0 +1,35 @@
+/* gltf_draco_none.c - gltf_draco.c where facet is built without the Draco library: what is there uncompressed beside
+ * the bitstream is read, as the extension allows. */
+#include "io/gltf/gltf_reader.h"
+
+static bool has_elements(const reader *r, uint32_t accessor)
+{
+    const gltf_accessor *a = &r->accessors[accessor];
+    return a->view != SCENE_NONE || a->sparse_count > 0;
+}
+
+bool prepare_draco(reader *r, const json_place *primitive)
+{
+    json_place extension = get_extension(r, primitive, "KHR_draco_mesh_compression");
+    if (!extension.value)
+        return reader_is_ok(r);
+    json_place attributes = get_object(r, primitive, "attributes");
+    uint32_t indices = get_index(r, primitive, "indices", r->accessor_count, "accessor");
+    bool has_all = indices == SCENE_NONE || has_elements(r, indices);
+    const char *name;
+    json_t *value;
+    json_object_foreach((json_t *)(uintptr_t)attributes.value, name, value)
+    {
+        uint32_t accessor = get_index(r, &attributes, name, r->accessor_count, "accessor");
+        has_all = has_all && (accessor == SCENE_NONE || has_elements(r, accessor));
+    }
+    if (!has_all)
+        reader_fail(r, primitive, NULL, FACET_ERROR_UNSUPPORTED,
+                    "is compressed with Draco and has no other data; this facet was built without libdraco");
+    return reader_is_ok(r);
+}
+
+void release_draco(reader *r)
+{
+    (void)r;
+}

@@ -1,0 +1,236 @@
+/* gltf_extensions.c - what the file says it uses, and what facet makes of each: the one table of extensions. */
+#include <string.h>
+
+#include "image/image.h"
+#include "io/gltf/gltf_reader.h"
+
+/* Kinds of objects that an extension may extend; or-ed. */
+enum {
+    ROOT = 1 << 0,
+    NODE = 1 << 1,
+    MATERIAL = 1 << 2,
+    TEXTURE_INFO = 1 << 3, /* anything inside of a material */
+    TEXTURE = 1 << 4,
+    PRIMITIVE = 1 << 5,
+    SCENE = 1 << 6,
+    BUFFER = 1 << 7,
+    VIEW = 1 << 8,
+    TARGET = 1 << 9, /* of a channel of an animation */
+    ELSEWHERE = 1 << 10,
+    ANYWHERE = (1 << 11) - 1
+};
+
+typedef struct known_extension {
+    const char *name;
+    scene_support support;
+    int places;         /* where facet reads it; in others it means nothing */
+    const char *effect; /* of ignoring it, for the warning; NULL: none, no warning */
+    image_codec codec;  /* supported where this is built in */
+} known_extension;
+
+static const known_extension KNOWN[] = {
+    {"EXT_lights_image_based", SCENE_SUPPORTED, ROOT | SCENE, NULL, 0},
+    {"EXT_mesh_gpu_instancing", SCENE_SUPPORTED, NODE, NULL, 0},
+    {"EXT_meshopt_compression", SCENE_SUPPORTED, BUFFER | VIEW, NULL, 0},
+    {"EXT_texture_avif", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
+     IMAGE_CODEC_AVIF},
+    {"EXT_texture_webp", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
+     IMAGE_CODEC_WEBP},
+    {"KHR_animation_pointer", SCENE_SUPPORTED, TARGET, NULL, 0},
+#ifdef HAVE_DRACO
+    {"KHR_draco_mesh_compression", SCENE_SUPPORTED, PRIMITIVE, NULL, 0},
+#else
+    {"KHR_draco_mesh_compression", SCENE_IGNORED, PRIMITIVE, "uncompressed data is used where there is any",
+     0},
+#endif
+    {"KHR_lights_punctual", SCENE_SUPPORTED, ROOT | NODE, NULL, 0},
+    {"KHR_materials_anisotropy", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_clearcoat", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_diffuse_transmission", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_dispersion", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_emissive_strength", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_ior", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_iridescence", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_pbrSpecularGlossiness", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_sheen", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_specular", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_transmission", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_unlit", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_variants", SCENE_SUPPORTED, ROOT | PRIMITIVE, NULL, 0},
+    {"KHR_materials_volume", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_volume_scatter", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_mesh_quantization", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
+    {"KHR_meshopt_compression", SCENE_SUPPORTED, BUFFER | VIEW, NULL, 0},
+    {"KHR_node_visibility", SCENE_SUPPORTED, NODE, NULL, 0},
+    {"KHR_texture_basisu", SCENE_SUPPORTED, TEXTURE, NULL, 0},
+    {"KHR_texture_transform", SCENE_SUPPORTED, TEXTURE_INFO, NULL, 0},
+    {"KHR_xmp", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
+    {"KHR_xmp_json_ld", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
+    /* Metadata and hints for editors that do not outlive another order of vertices: nothing to see. */
+    {"EXT_mesh_features", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"EXT_structural_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"FB_ngon_encoding", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"MSFT_lod", SCENE_IGNORED, ANYWHERE, NULL, 0}, /* the finest level is the node itself */
+    /* Left out; docs/gltf-support.md says why. */
+    {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "its lights are left out", 0},
+    {"MSFT_texture_dds", SCENE_IGNORED, ANYWHERE, "other images are used where there are any", 0},
+};
+
+static bool is_built(const known_extension *known)
+{
+    return !known->codec || image_codec_is_built(known->codec);
+}
+
+static const known_extension *find_known(const char *name)
+{
+    for (size_t i = 0; i < sizeof KNOWN / sizeof *KNOWN; i++)
+        if (strcmp(KNOWN[i].name, name) == 0)
+            return &KNOWN[i];
+    return NULL;
+}
+
+static scene_extension *find_listed(const reader *r, const char *name)
+{
+    for (uint32_t i = 0; i < r->scene->extension_count; i++)
+        if (strcmp(r->scene->extensions[i].name, name) == 0)
+            return &r->scene->extensions[i];
+    return NULL;
+}
+
+bool is_extension_listed(const reader *r, const char *name)
+{
+    return find_listed(r, name) != NULL;
+}
+
+/* Takes a name from extensionsUsed or extensionsRequired into the list; NULL: an error is recorded. */
+static scene_extension *list(reader *r, const json_place *at)
+{
+    if (!json_is_string(at->value)) {
+        reader_fail(r, at, NULL, FACET_ERROR_INVALID, "must be a string");
+        return NULL;
+    }
+    const char *name = json_string_value(at->value);
+    scene_extension *listed = find_listed(r, name);
+    if (listed)
+        return listed;
+    const known_extension *known = find_known(name);
+    char *copy = arena_strdup(r->scene->arena, name);
+    if (!copy) {
+        reader_fail_memory(r, "extensions", strlen(name));
+        return NULL;
+    }
+    listed = &r->scene->extensions[r->scene->extension_count++];
+    *listed =
+        (scene_extension){.name = copy, .support = known && is_built(known) ? known->support : SCENE_IGNORED};
+    return listed;
+}
+
+/* What an object at a member of a parent at place is. */
+static int place_below(int place, const char *key)
+{
+    static const struct {
+        const char *key;
+        int place;
+    } below_root[] = {{"nodes", NODE},   {"materials", MATERIAL}, {"textures", TEXTURE},
+                      {"scenes", SCENE}, {"buffers", BUFFER},     {"bufferViews", VIEW}};
+    if (place == MATERIAL || place == TEXTURE_INFO)
+        return TEXTURE_INFO;
+    /* These names stand for nothing else anywhere in glTF. */
+    if (strcmp(key, "primitives") == 0)
+        return PRIMITIVE;
+    if (strcmp(key, "target") == 0)
+        return TARGET;
+    for (size_t i = 0; place == ROOT && i < sizeof below_root / sizeof *below_root; i++)
+        if (strcmp(key, below_root[i].key) == 0)
+            return below_root[i].place;
+    return ELSEWHERE;
+}
+
+static void check_extensions_of(reader *r, json_t *extensions, int place)
+{
+    const char *name;
+    json_t *extension;
+    json_object_foreach(extensions, name, extension)
+    {
+        const known_extension *known = find_known(name);
+        if (!find_listed(r, name))
+            reader_warn(r, NULL, NULL, "uses %.100s without naming it in extensionsUsed", name);
+        else if (known && !(known->places & place))
+            reader_warn(r, NULL, NULL, "has %.100s in an object that it does not extend", name);
+        if (!json_is_object(extension))
+            reader_warn(r, NULL, NULL, "has an extension %.100s that is no object", name);
+    }
+}
+
+/* Says, once per name, which extension objects stand below value, an object or array at place, without being listed
+ * or where they mean nothing. Bounded in depth: glTF's own objects nest no deeper. */
+static void check_objects(reader *r, json_t *value, int place, int depth)
+{
+    size_t index;
+    json_t *element;
+    const char *key;
+    if (depth == 0)
+        return;
+    if (json_is_array(value)) {
+        json_array_foreach(value, index, element) check_objects(r, element, place, depth - 1);
+        return;
+    }
+    json_object_foreach(value, key, element)
+    {
+        if (strcmp(key, "extensions") == 0)
+            check_extensions_of(r, element, place);
+        if (strcmp(key, "extras") != 0 && (json_is_object(element) || json_is_array(element)))
+            check_objects(r, element, place_below(place, key), depth - 1);
+    }
+}
+
+void read_extensions(reader *r, const json_place *root)
+{
+    json_place used = get_array(r, root, "extensionsUsed");
+    json_place required = get_array(r, root, "extensionsRequired");
+    size_t most = get_count(&used) + get_count(&required);
+    enum { MOST_EXTENSIONS = 1000 }; /* lookups are linear */
+    if (most > MOST_EXTENSIONS) {
+        reader_fail(r, &used, NULL, FACET_ERROR_LIMIT, "lists more than %d extensions", (int)MOST_EXTENSIONS);
+        return;
+    }
+    r->scene->extensions = reader_alloc(r, "extensions", most, sizeof *r->scene->extensions);
+    for (size_t i = 0; i < get_count(&used) && reader_is_ok(r); i++) {
+        json_place at = get_element(&used, i);
+        uint32_t before = r->scene->extension_count;
+        scene_extension *extension = list(r, &at);
+        if (extension && r->scene->extension_count == before)
+            reader_warn(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
+    }
+    for (size_t i = 0; i < get_count(&required) && reader_is_ok(r); i++) {
+        json_place at = get_element(&required, i);
+        uint32_t before = r->scene->extension_count;
+        scene_extension *extension = list(r, &at);
+        if (!extension)
+            return;
+        if (r->scene->extension_count != before)
+            reader_warn(r, &at, NULL, "\"%.100s\" is not in extensionsUsed", extension->name);
+        else if (extension->is_required)
+            reader_warn(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
+        extension->is_required = true;
+        const known_extension *known = find_known(extension->name);
+        if (!known || !is_built(known) || (known->support == SCENE_IGNORED && known->effect))
+            reader_fail(r, NULL, NULL, FACET_ERROR_UNSUPPORTED,
+                        "requires the extension %.100s, which facet lacks", extension->name);
+    }
+    for (uint32_t i = 0; i < r->scene->extension_count && reader_is_ok(r); i++) {
+        const scene_extension *extension = &r->scene->extensions[i];
+        const known_extension *known = find_known(extension->name);
+        if (!known)
+            reader_warn(r, NULL, NULL, "uses the extension %.100s, which facet does not know",
+                        extension->name);
+        else if (extension->support == SCENE_IGNORED && known->effect)
+            reader_warn(r, NULL, NULL, "uses %s, which is not drawn: %s", extension->name, known->effect);
+    }
+    scene_extension *quantization = find_listed(r, "KHR_mesh_quantization");
+    r->has_quantization = quantization != NULL;
+    if (quantization && !quantization->is_required)
+        reader_warn(r, NULL, NULL, "uses KHR_mesh_quantization, which must be among extensionsRequired");
+    if (reader_is_ok(r))
+        check_objects(r, (json_t *)(uintptr_t)root->value, ROOT, 12);
+}

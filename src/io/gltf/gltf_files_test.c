@@ -1,0 +1,359 @@
+/* gltf_files_test.c - containers, JSON, versions, extensions; and which files a model may reach. */
+#define _POSIX_C_SOURCE 200809L
+#include "io/gltf/gltf_test_support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- a folder of files ---- */
+
+typedef struct folder {
+    char path[64];
+} folder;
+
+static void write_text(const folder *f, const char *name, const void *bytes, size_t size)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", f->path, name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* outside.bin; model/ with inside.bin, "a b.bin", deep/inside.bin, link.bin -> ../outside.bin */
+static int make_folder(void **state)
+{
+    folder *f = calloc(1, sizeof *f);
+    assert_non_null(f);
+    strcpy(f->path, "/tmp/facet_gltf_XXXXXX");
+    assert_non_null(mkdtemp(f->path));
+    char path[256];
+    snprintf(path, sizeof path, "%s/model", f->path);
+    assert_int_equal(mkdir(path, 0700), 0);
+    snprintf(path, sizeof path, "%s/model/deep", f->path);
+    assert_int_equal(mkdir(path, 0700), 0);
+    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    write_text(f, "outside.bin", triangle, sizeof triangle);
+    write_text(f, "model/inside.bin", triangle, sizeof triangle);
+    write_text(f, "model/short.bin", triangle, 35);
+    write_text(f, "model/a b.bin", triangle, sizeof triangle);
+    write_text(f, "model/100%.bin", triangle, sizeof triangle);
+    write_text(f, "model/deep/inside.bin", triangle, sizeof triangle);
+    snprintf(path, sizeof path, "%s/model/link.bin", f->path);
+    assert_int_equal(symlink("../outside.bin", path), 0);
+    *state = f;
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    folder *f = *state;
+    static const char *const names[] = {"model/link.bin",
+                                        "model/deep/inside.bin",
+                                        "model/deep",
+                                        "model/100%.bin",
+                                        "model/a b.bin",
+                                        "model/short.bin",
+                                        "model/inside.bin",
+                                        "model/model.gltf",
+                                        "model",
+                                        "outside.bin",
+                                        ""};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char path[256];
+        snprintf(path, sizeof path, "%s/%s", f->path, names[i]);
+        if (unlink(path) != 0)
+            rmdir(path);
+    }
+    free(f);
+    return 0;
+}
+
+/* Loads a model of one triangle, whose buffer is uri. */
+static facet_result load_uri_model(const folder *f, const char *uri, const char *root, facet_scene **scene,
+                                   facet_error *error)
+{
+    char json[2048];
+    char path[256];
+    int size =
+        snprintf(json, sizeof json,
+                 "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}],"
+                 "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,"
+                 "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"meshes\":[{\"primitives\":[{"
+                 "\"attributes\":{\"POSITION\":0}}]}]}",
+                 uri);
+    write_text(f, "model/model.gltf", json, (size_t)size);
+    snprintf(path, sizeof path, "%s/model/model.gltf", f->path);
+    const facet_scene_desc desc = {.root = root};
+    return gltf_load(path, &desc, scene, error);
+}
+
+static void files_below_the_model_are_read(void **state)
+{
+    static const char *const uris[] = {
+        "inside.bin", "./inside.bin", "deep/inside.bin", "deep/../inside.bin", "deep/./inside.bin",
+        "a b.bin",    "a%20b.bin",    "100%.bin",        "100%25.bin",         "deep\\\\inside.bin"};
+    for (size_t i = 0; i < sizeof uris / sizeof *uris; i++) {
+        facet_scene *scene = NULL;
+        facet_error error = {0};
+        if (load_uri_model(*state, uris[i], NULL, &scene, &error) != FACET_OK)
+            fail_msg("%s: %s", uris[i], error.message);
+        assert_near(first_primitive(scene)->positions[3], 1, 0);
+        scene_destroy(scene);
+    }
+}
+
+static void files_elsewhere_are_not(void **state)
+{
+    const folder *f = *state;
+    char absolute[256];
+    snprintf(absolute, sizeof absolute, "%s/model/inside.bin", f->path);
+    const char *const uris[] = {"../outside.bin",
+                                "deep/../../outside.bin",
+                                "%2e%2e/outside.bin",
+                                "..%2Foutside.bin",
+                                "..\\\\outside.bin",
+                                "link.bin",
+                                absolute,
+                                "file:///etc/passwd",
+                                "http://example.com/a.bin",
+                                "C:/a.bin",
+                                "missing.bin",
+                                "deep",
+                                "."};
+    for (size_t i = 0; i < sizeof uris / sizeof *uris; i++) {
+        facet_scene *scene = (facet_scene *)1;
+        facet_error error = {0};
+        if (load_uri_model(f, uris[i], NULL, &scene, &error) != FACET_ERROR_READ)
+            fail_msg("%s: %s", uris[i], error.message);
+        assert_null(scene);
+        assert_non_null(strstr(error.message, "model.gltf: buffers[0].uri: "));
+    }
+}
+
+static void a_root_widens_what_may_be_read(void **state)
+{
+    const folder *f = *state;
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    static const char *const uris[] = {"../outside.bin", "link.bin", "inside.bin"};
+    for (size_t i = 0; i < sizeof uris / sizeof *uris; i++) {
+        if (load_uri_model(f, uris[i], f->path, &scene, &error) != FACET_OK)
+            fail_msg("%s: %s", uris[i], error.message);
+        scene_destroy(scene);
+    }
+    assert_int_equal(load_uri_model(f, "../../etc/passwd", f->path, &scene, &error), FACET_ERROR_READ);
+}
+
+static void files_that_are_too_short_are_refused(void **state)
+{
+    facet_scene *scene;
+    facet_error error = {0};
+    assert_int_equal(load_uri_model(*state, "short.bin", NULL, &scene, &error), FACET_ERROR_INVALID);
+    assert_non_null(strstr(error.message, "buffers[0].byteLength: says 36 bytes, but there are 35"));
+}
+
+static void data_uris_are_decoded(void **state)
+{
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    /* Three vertices; the same without padding, and with the URL-safe alphabet (no difference here). */
+    static const char *const good[] = {"data:application/octet-stream;base64,"
+                                       "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
+                                       "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"};
+    for (int i = 0; i < 2; i++) {
+        if (load_uri_model(*state, good[i], NULL, &scene, &error) != FACET_OK)
+            fail_msg("%s", error.message);
+        assert_near(first_primitive(scene)->positions[3], 1, 0);
+        scene_destroy(scene);
+    }
+    static const char *const bad[][2] = {{"data:", "is a data URI that is not base64"},
+                                         {"data:text/plain,hello", "is a data URI that is not base64"},
+                                         {"data:;base64,AAA!", "characters that are not base64"},
+                                         {"data:;base64,AAAAA", "characters that are not base64"},
+                                         {"data:;base64,", "says 36 bytes, but there are 0"}};
+    for (int i = 0; i < 5; i++) {
+        assert_int_equal(load_uri_model(*state, bad[i][0], NULL, &scene, &error), FACET_ERROR_INVALID);
+        if (!strstr(error.message, bad[i][1]))
+            fail_msg("%s", error.message);
+    }
+}
+
+static void missing_files_are_read_errors(void **state)
+{
+    (void)state;
+    facet_scene *scene = (facet_scene *)1;
+    facet_error error = {0};
+    assert_int_equal(gltf_load("/nonexistent/model.glb", NULL, &scene, &error), FACET_ERROR_READ);
+    assert_null(scene);
+    assert_int_equal(gltf_load("/tmp", NULL, &scene, &error), FACET_ERROR_READ);
+}
+
+/* ---- containers ---- */
+
+static void broken_containers_say_what_is_wrong(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *bytes;
+        size_t size;
+        facet_result result;
+        const char *message;
+    } cases[] = {
+        {"", 0, FACET_ERROR_INVALID, "test: is empty"},
+        {"hello", 5, FACET_ERROR_INVALID, "is neither a .glb file nor the JSON"},
+        {"   ", 3, FACET_ERROR_INVALID, "is neither a .glb file nor the JSON"},
+        {"glTF", 4, FACET_ERROR_INVALID, "is cut off: 4 bytes are less than the 12"},
+        {"glTF\1\0\0\0\14\0\0\0", 12, FACET_ERROR_UNSUPPORTED, "is binary glTF 1.0"},
+        {"glTF\3\0\0\0\14\0\0\0", 12, FACET_ERROR_UNSUPPORTED, "is GLB version 3"},
+        {"glTF\2\0\0\0\14\0\0\0", 12, FACET_ERROR_INVALID, "has no JSON chunk"},
+        {"glTF\2\0\0\0\15\0\0\0", 12, FACET_ERROR_INVALID, "its header says 13 bytes, but there are 12"},
+        {"glTF\2\0\0\0\20\0\0\0abcd", 16, FACET_ERROR_INVALID, "is cut off in the header of chunk 0"},
+        {"glTF\2\0\0\0\24\0\0\0\4\0\0\0JSON", 20, FACET_ERROR_INVALID, "chunk 0 says 4 bytes, but 0 follow"},
+        {"glTF\2\0\0\0\24\0\0\0\377\377\377\377JSON", 20, FACET_ERROR_INVALID,
+         "chunk 0 says 4294967295 bytes"},
+        {"glTF\2\0\0\0\24\0\0\0\0\0\0\0BIN\0", 20, FACET_ERROR_INVALID, "the first chunk must be JSON"},
+        {"{", 1, FACET_ERROR_INVALID, "is not valid JSON: line 1"},
+        {"{}", 2, FACET_ERROR_INVALID, "asset.version: is missing"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        facet_scene *scene = (facet_scene *)1;
+        facet_error error = {0};
+        assert_int_equal(gltf_load_memory(cases[i].bytes, cases[i].size, "test", NULL, &scene, &error),
+                         cases[i].result);
+        assert_null(scene);
+        if (!strstr(error.message, cases[i].message))
+            fail_msg("%s", error.message);
+    }
+}
+
+static void deep_json_is_refused(void **state)
+{
+    (void)state;
+    char *json = malloc(200001);
+    assert_non_null(json);
+    strcpy(json, "{\"a\":");
+    memset(json + 5, '[', 199990);
+    json[199995] = 0;
+    facet_scene *scene;
+    facet_error error = {0};
+    assert_int_equal(try_load_text(json, &scene, &error), FACET_ERROR_INVALID);
+    assert_non_null(strstr(error.message, "maximum parsing depth"));
+    free(json);
+}
+
+static void json_counts_against_a_budget(void **state)
+{
+    (void)state;
+    enum { COUNT = 100000 };
+    char *json = malloc(COUNT * 3 + 100);
+    assert_non_null(json);
+    strcpy(json, "{\"asset\":{\"version\":\"2.0\"},\"extras\":[0");
+    size_t length = strlen(json);
+    for (int i = 0; i < COUNT; i++, length += 2)
+        memcpy(json + length, ",0", 2);
+    strcpy(json + length, "]}");
+    facet_budget *budget = NULL;
+    assert_int_equal(facet_budget_create(1 << 20, &budget, NULL), FACET_OK);
+    facet_scene_desc desc = {.allocator = facet_budget_allocator(budget)};
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    assert_int_equal(gltf_load_memory(json, strlen(json), "test", &desc, &scene, &error), FACET_ERROR_MEMORY);
+    assert_int_equal(facet_budget_used_bytes(budget), 0);
+    facet_budget_destroy(budget);
+    free(json);
+}
+
+static void versions_are_looked_at(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *json;
+        facet_result result;
+        const char *message;
+    } cases[] = {
+        {"{'asset':{'version':'1.0'}}", FACET_ERROR_UNSUPPORTED,
+         "asset.version: is glTF 1.0; only glTF 2.0 is read"},
+        {"{'asset':{'version':'3.1'}}", FACET_ERROR_UNSUPPORTED, "is glTF 3.1"},
+        {"{'asset':{'version':'two'}}", FACET_ERROR_INVALID, "is no version"},
+        {"{'asset':{'version':2}}", FACET_ERROR_INVALID, "must be a string, but is a number"},
+        {"{'asset':{'version':'2.0','minVersion':'2.1'}}", FACET_ERROR_UNSUPPORTED,
+         "asks for a reader of glTF 2.1"},
+        {"{'asset':{'version':'2.1'}}", FACET_OK, "is glTF 2.1; it is read as glTF 2.0"},
+        {"{'asset':{'version':'2.1','minVersion':'2.0'}}", FACET_OK, "is glTF 2.1; it is read as glTF 2.0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        facet_scene *scene = NULL;
+        facet_error error = {0};
+        assert_int_equal(try_load_text(cases[i].json, &scene, &error), cases[i].result);
+        if (scene ? !has_warning(scene, cases[i].message) : !strstr(error.message, cases[i].message))
+            fail_msg("%s", error.message);
+        scene_destroy(scene);
+    }
+}
+
+static void extensions_are_named(void **state)
+{
+    (void)state;
+    assert_refused("'extensionsUsed':['VENDOR_x'],'extensionsRequired':['VENDOR_x']", NULL,
+                   FACET_ERROR_UNSUPPORTED, "requires the extension VENDOR_x, which facet lacks");
+    assert_refused("'extensionsUsed':['MSFT_texture_dds'],'extensionsRequired':['MSFT_texture_dds']", NULL,
+                   FACET_ERROR_UNSUPPORTED, "requires the extension MSFT_texture_dds");
+    facet_scene *scene =
+        load("'extensionsUsed':['VENDOR_x','EXT_lights_ies','KHR_xmp_json_ld','KHR_materials_ior'],"
+             "'extensionsRequired':['KHR_materials_ior'],'materials':[{'extensions':{'VENDOR_y':{}}}],"
+             "'nodes':[{'extensions':{'KHR_materials_ior':{}}}]",
+             NULL);
+    assert_true(has_warning(scene, "uses the extension VENDOR_x, which facet does not know"));
+    assert_true(has_warning(scene, "uses EXT_lights_ies, which is not drawn: its lights are left out"));
+    assert_true(has_warning(scene, "uses VENDOR_y without naming it in extensionsUsed"));
+    assert_true(has_warning(scene, "has KHR_materials_ior in an object that it does not extend"));
+    assert_false(has_warning(scene, "xmp"));
+    assert_int_equal(scene->extension_count, 4);
+    assert_int_equal(scene->extensions[1].support, SCENE_IGNORED);
+    assert_int_equal(scene->extensions[3].support, SCENE_SUPPORTED);
+    assert_true(scene->extensions[3].is_required);
+    scene_destroy(scene);
+}
+
+static void asset_and_names_are_kept(void **state)
+{
+    (void)state;
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    assert_int_equal(
+        try_load_text(
+            "{'asset':{'version':'2.0','generator':'g','copyright':'\xc2\xa9 c'},'materials':[{'name'"
+            ":'\xe2\x9d\xa4'},{'name':7}]}",
+            &scene, &error),
+        FACET_OK);
+    assert_string_equal(scene->generator, "g");
+    assert_string_equal(scene->copyright, "\xc2\xa9 c");
+    assert_string_equal(scene->materials[0].name, "\xe2\x9d\xa4");
+    assert_string_equal(scene->materials[1].name, "");
+    assert_true(has_warning(scene, "materials[1].name: must be a string, but is a number"));
+    scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_below_the_model_are_read),
+        cmocka_unit_test(files_elsewhere_are_not),
+        cmocka_unit_test(a_root_widens_what_may_be_read),
+        cmocka_unit_test(files_that_are_too_short_are_refused),
+        cmocka_unit_test(data_uris_are_decoded),
+        cmocka_unit_test(missing_files_are_read_errors),
+        cmocka_unit_test(broken_containers_say_what_is_wrong),
+        cmocka_unit_test(deep_json_is_refused),
+        cmocka_unit_test(json_counts_against_a_budget),
+        cmocka_unit_test(versions_are_looked_at),
+        cmocka_unit_test(extensions_are_named),
+        cmocka_unit_test(asset_and_names_are_kept),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

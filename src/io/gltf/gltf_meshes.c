@@ -1,0 +1,217 @@
+/* gltf_meshes.c - meshes and their primitives: which accessor is which attribute, and what a primitive lacks. */
+#include <float.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "io/gltf/gltf_reader.h"
+
+enum { GRAIN = 1 << 15 };
+
+static bool read_texcoords(reader *r, const json_place *attributes, scene_primitive *p)
+{
+    uint32_t count = count_sets(attributes, "TEXCOORD_");
+    const float **sets = reader_alloc(r, "texture coordinates", count, sizeof *sets);
+    if (!sets)
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        char name[24];
+        snprintf(name, sizeof name, "TEXCOORD_%u", i);
+        uint32_t accessor = get_attribute(r, attributes, name, GLTF_TEXCOORD, p->vertex_count);
+        if (accessor == SCENE_NONE || !(sets[i] = get_finite(r, attributes, accessor, "texture coordinates")))
+            return false;
+    }
+    p->texcoords = sets;
+    p->texcoord_count = count;
+    return true;
+}
+
+/* Whether all that the primitive reads has bytes somewhere. */
+static bool has_sources(reader *r, const json_place *at, const json_place *attributes)
+{
+    const char *name;
+    json_t *value;
+    uint32_t indices = get_index(r, at, "indices", r->accessor_count, "accessor");
+    bool has_all = indices == SCENE_NONE || has_accessor_source(r, indices);
+    json_object_foreach((json_t *)(uintptr_t)attributes->value, name, value)
+    {
+        uint32_t accessor = get_index(r, attributes, name, r->accessor_count, "accessor");
+        has_all = has_all && (accessor == SCENE_NONE || has_accessor_source(r, accessor));
+    }
+    return has_all;
+}
+
+static bool read_attributes(reader *r, const json_place *attributes, scene_primitive *p,
+                            const uint8_t **is_lost, bool *has_missing_normals)
+{
+    uint32_t position = get_index(r, attributes, "POSITION", r->accessor_count, "accessor");
+    if (position == SCENE_NONE)
+        return false;
+    p->vertex_count = r->accessors[position].count;
+    uint32_t accessor = get_attribute(r, attributes, "POSITION", GLTF_POSITION, p->vertex_count);
+    if (accessor == SCENE_NONE || !(p->positions = get_positions(r, attributes, accessor, is_lost)))
+        return false;
+    accessor = get_attribute(r, attributes, "NORMAL", GLTF_NORMAL, p->vertex_count);
+    if (accessor != SCENE_NONE && !(p->normals = get_normals(r, attributes, accessor, has_missing_normals)))
+        return false;
+    accessor = get_attribute(r, attributes, "TANGENT", GLTF_TANGENT, p->vertex_count);
+    if (accessor != SCENE_NONE && p->normals)
+        p->tangents = get_tangents(r, attributes, accessor);
+    accessor = get_attribute(r, attributes, "COLOR_0", GLTF_COLOR, p->vertex_count);
+    if (accessor != SCENE_NONE && !(p->colors = get_colors(r, attributes, accessor)))
+        return false;
+    return reader_is_ok(r) && read_texcoords(r, attributes, p) && read_influences(r, attributes, p);
+}
+
+/* ---- bounds ---- */
+
+typedef struct bounds_job {
+    const scene_primitive *primitive;
+    float (*boxes)[6]; /* per GRAIN indices: minimum, maximum */
+} bounds_job;
+
+static void bound_range(void *context, size_t begin, size_t end)
+{
+    bounds_job *job = context;
+    const scene_primitive *p = job->primitive;
+    float box[6] = {FLT_MAX, FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX, -FLT_MAX};
+    for (size_t i = begin; i < end; i++) {
+        const float *position = p->positions + 3 * (size_t)p->indices[i];
+        for (int k = 0; k < 3; k++) {
+            box[k] = position[k] < box[k] ? position[k] : box[k];
+            box[3 + k] = position[k] > box[3 + k] ? position[k] : box[3 + k];
+        }
+    }
+    memcpy(job->boxes[begin / GRAIN], box, sizeof box);
+}
+
+static bool bound_primitive(reader *r, scene_primitive *p)
+{
+    if (p->index_count == 0)
+        return true;
+    size_t ranges = (p->index_count + (size_t)GRAIN - 1) / GRAIN;
+    float small[6];
+    bounds_job job = {.primitive = p,
+                      .boxes = ranges > 1 ? mem_alloc(r->allocator, ranges, sizeof small) : &small};
+    if (!job.boxes)
+        return reader_fail_memory(r, "bounds", ranges * sizeof small);
+    parallel_for(r->thread_count, p->index_count, GRAIN, bound_range, &job);
+    for (int k = 0; k < 3; k++) {
+        p->bounds_min[k] = job.boxes[0][k];
+        p->bounds_max[k] = job.boxes[0][3 + k];
+        for (size_t i = 1; i < ranges; i++) {
+            p->bounds_min[k] = job.boxes[i][k] < p->bounds_min[k] ? job.boxes[i][k] : p->bounds_min[k];
+            p->bounds_max[k] =
+                job.boxes[i][3 + k] > p->bounds_max[k] ? job.boxes[i][3 + k] : p->bounds_max[k];
+        }
+    }
+    if (ranges > 1)
+        mem_free(job.boxes);
+    return true;
+}
+
+/* ---- primitives ---- */
+
+/* A primitive that draws nothing keeps its place in the mesh. */
+static void make_empty(scene_primitive *p)
+{
+    static const uint32_t no_index = 0;
+    static const float no_position[3] = {0, 0, 0};
+    *p = (scene_primitive){
+        .mode = p->mode, .indices = &no_index, .positions = no_position, .material = p->material};
+}
+
+/* Whether the texture coordinates that the material reads are there. */
+static void check_texcoords(reader *r, const json_place *at, const scene_primitive *p)
+{
+    if (p->material == SCENE_NONE)
+        return;
+    const scene_material *m = &r->scene->materials[p->material];
+    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
+        if (m->textures[i].texture != SCENE_NONE && m->textures[i].texcoord >= p->texcoord_count)
+            reader_warn(r, at, NULL, "has no TEXCOORD_%u, which material %u reads; it is taken as 0",
+                        m->textures[i].texcoord, p->material);
+}
+
+static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
+{
+    p->material = get_index(r, at, "material", r->scene->material_count, "material");
+    json_place attributes = get_object(r, at, "attributes");
+    if (!attributes.value) {
+        reader_fail(r, at, "attributes", FACET_ERROR_INVALID, "is missing");
+        return;
+    }
+    if (json_object_size(attributes.value) == 0)
+        reader_warn(r, &attributes, NULL, "is empty, which glTF does not allow");
+    check_attribute_names(r, &attributes);
+    if (!prepare_draco(r, at))
+        return;
+    if (!has_sources(r, at, &attributes)) {
+        reader_warn(r, at, NULL, "is in a buffer without bytes and is not drawn");
+        make_empty(p);
+        return;
+    }
+    const uint8_t *is_lost = NULL;
+    bool has_missing_normals = false;
+    if (!read_attributes(r, &attributes, p, &is_lost, &has_missing_normals)) {
+        if (reader_is_ok(r))
+            reader_warn(r, at, NULL, "has no POSITION and is not drawn");
+        get_index(r, at, "indices", r->accessor_count, "accessor");
+        make_empty(p);
+        return;
+    }
+    if (!read_targets(r, at, p) || !read_primitive_indices(r, at, p, is_lost))
+        return;
+    if (p->index_count == 0) {
+        make_empty(p);
+        return;
+    }
+    check_texcoords(r, at, p);
+    if (p->mode == SCENE_TRIANGLES && !p->normals)
+        make_flat(r, at, p);
+    else if (has_missing_normals)
+        fill_missing_normals(r, at, p);
+    if (reader_is_ok(r))
+        bound_primitive(r, p);
+}
+
+static void read_mesh(reader *r, const json_place *at, scene_mesh *mesh)
+{
+    mesh->name = get_name(r, at);
+    json_place array = get_array(r, at, "primitives");
+    if (!array.value) {
+        reader_fail(r, at, "primitives", FACET_ERROR_INVALID, "is missing");
+        return;
+    }
+    size_t count = get_count(&array);
+    mesh->primitives = reader_alloc(r, "primitives", count, sizeof *mesh->primitives);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at_primitive = get_element_object(r, &array, i);
+        scene_primitive *primitive = &mesh->primitives[i];
+        read_primitive(r, &at_primitive, primitive);
+        primitive->variant_materials = read_mappings(r, &at_primitive);
+        primitive->meta = get_meta(r, &at_primitive);
+        json_place targets = get_array(r, &at_primitive, "targets");
+        uint32_t target_count = (uint32_t)get_count(&targets);
+        if (i > 0 && target_count != mesh->weight_count)
+            reader_warn(r, &targets, NULL, "must be as many as those of the other primitives of the mesh");
+        mesh->weight_count = target_count > mesh->weight_count ? target_count : mesh->weight_count;
+        mesh->primitive_count = (uint32_t)(i + 1);
+    }
+    mesh->weights = read_weights(r, at, mesh->weight_count);
+    if (!mesh->weights && mesh->weight_count)
+        mesh->weights = reader_alloc(r, "weights", mesh->weight_count, sizeof *mesh->weights);
+    mesh->meta = get_meta(r, at);
+}
+
+void read_meshes(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "meshes");
+    size_t count = get_count(&array);
+    r->scene->meshes = reader_alloc(r, "meshes", count, sizeof *r->scene->meshes);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_mesh(r, &at, &r->scene->meshes[i]);
+        r->scene->mesh_count = (uint32_t)(i + 1);
+    }
+}

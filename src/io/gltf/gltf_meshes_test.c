@@ -1,0 +1,308 @@
+/* gltf_meshes_test.c - primitives: modes, indices, attributes that are missing, broken or in need of repair. */
+#include "io/gltf/gltf_test_support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A mesh over the vertices (i, i^2, 0) and what attributes and members are given; accessor 0 is POSITION, then come
+ * those of rest, over the views 1.. . */
+static facet_result try_mesh(uint32_t vertex_count, const char *attributes, const char *members,
+                             test_bin *bin, const char *views, const char *rest, facet_scene **scene,
+                             facet_error *error)
+{
+    test_bin all = {0};
+    for (uint32_t i = 0; i < vertex_count; i++) {
+        const float p[3] = {(float)i, (float)(i * i), 0};
+        bin_add(&all, p, sizeof p);
+    }
+    if (bin)
+        bin_add(&all, bin->bytes, bin->size);
+    char body[4096];
+    snprintf(body, sizeof body,
+             "'bufferViews':[{'buffer':0,'byteLength':%u}%s],'accessors':[{'bufferView':0,'componentType':"
+             "5126,'count':%u,"
+             "'type':'VEC3'}%s],'meshes':[{'primitives':[{'attributes':{'POSITION':0%s}%s}]}]",
+             12 * vertex_count, views, vertex_count, rest, attributes, members);
+    return try_load(body, &all, scene, error);
+}
+
+static facet_scene *load_mesh(uint32_t vertex_count, const char *attributes, const char *members,
+                              test_bin *bin, const char *views, const char *rest)
+{
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    if (try_mesh(vertex_count, attributes, members, bin, views, rest, &scene, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+static void modes_become_lists(void **state)
+{
+    (void)state;
+    static const uint32_t loop[] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 0};
+    static const uint32_t strip[] = {0, 1, 1, 2, 2, 3, 3, 4};
+    /* Section 3.7.2.1: strip p_i = v_i, v_(i + 1 + i%2), v_(i + 2 - i%2); fan p_i = v_(i+1), v_(i+2), v_0. */
+    static const uint32_t triangle_strip[] = {0, 1, 2, 1, 3, 2, 2, 3, 4};
+    static const uint32_t fan[] = {1, 2, 0, 2, 3, 0, 3, 4, 0};
+    static const uint32_t all[] = {0, 1, 2, 3, 4};
+    static const struct {
+        scene_mode mode;
+        uint32_t count;
+        const uint32_t *indices;
+    } expected[7] = {{SCENE_POINTS, 5, all},    {SCENE_LINES, 4, all},
+                     {SCENE_LINES, 10, loop},   {SCENE_LINES, 8, strip},
+                     {SCENE_TRIANGLES, 3, all}, {SCENE_TRIANGLES, 9, triangle_strip},
+                     {SCENE_TRIANGLES, 9, fan}};
+    for (int mode = 0; mode < 7; mode++) {
+        char members[32];
+        snprintf(members, sizeof members, ",'mode':%d", mode);
+        facet_scene *scene = load_mesh(5, ",'NORMAL':0", members, NULL, "", "");
+        const scene_primitive *p = first_primitive(scene);
+        assert_int_equal(p->mode, expected[mode].mode);
+        assert_int_equal(p->index_count, expected[mode].count);
+        assert_memory_equal(p->indices, expected[mode].indices, expected[mode].count * sizeof(uint32_t));
+        assert_int_equal(p->vertex_count, 5);
+        scene_destroy(scene);
+    }
+    facet_scene *scene = NULL;
+    facet_error error;
+    assert_int_equal(try_mesh(5, "", ",'mode':7", NULL, "", "", &scene, &error), FACET_ERROR_INVALID);
+    assert_non_null(
+        strstr(error.message, "meshes[0].primitives[0].mode: 7 is not a whole number from 0 to 6"));
+}
+
+static void too_few_vertices_draw_nothing(void **state)
+{
+    (void)state;
+    for (int mode = 1; mode < 7; mode++) {
+        char members[32];
+        snprintf(members, sizeof members, ",'mode':%d", mode);
+        facet_scene *scene = load_mesh(1, "", members, NULL, "", "");
+        assert_int_equal(first_primitive(scene)->index_count, 0);
+        assert_non_null(first_primitive(scene)->indices);
+        assert_true(has_warning(scene, "do not make whole"));
+        scene_destroy(scene);
+    }
+}
+
+static void indices_beyond_the_vertices_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        unsigned char indices[3];
+        const char *message;
+    } cases[] = {{{0, 1, 3}, "indices: index 2 is 3, but there are 3 vertices"},
+                 {{255, 1, 2}, "indices: uses the index 255, which is reserved for primitive restart"}};
+    for (int i = 0; i < 2; i++) {
+        test_bin bin = {0};
+        bin_add(&bin, cases[i].indices, 3);
+        facet_scene *scene = NULL;
+        facet_error error;
+        assert_int_equal(try_mesh(3, "", ",'indices':1", &bin, ",{'buffer':0,'byteOffset':36,'byteLength':3}",
+                                  ",{'bufferView':1,'componentType':5121,'count':3,'type':'SCALAR'}", &scene,
+                                  &error),
+                         FACET_ERROR_INVALID);
+        assert_non_null(strstr(error.message, cases[i].message));
+    }
+}
+
+static void missing_normals_become_flat(void **state)
+{
+    (void)state;
+    const unsigned char indices[6] = {0, 1, 2, 2, 1, 3};
+    test_bin bin = {0};
+    bin_add(&bin, indices, sizeof indices);
+    facet_scene *scene = load_mesh(4, ",'TANGENT':2,'COLOR_0':3,'TEXCOORD_0':4", ",'indices':1", &bin,
+                                   ",{'buffer':0,'byteOffset':48,'byteLength':6}",
+                                   ",{'bufferView':1,'componentType':5121,'count':6,'type':'SCALAR'}"
+                                   ",{'componentType':5126,'count':4,'type':'VEC4'}"
+                                   ",{'componentType':5126,'count':4,'type':'VEC3'}"
+                                   ",{'componentType':5126,'count':4,'type':'VEC2'}");
+    const scene_primitive *p = first_primitive(scene);
+    assert_true(p->has_flat_normals);
+    assert_int_equal(p->vertex_count, 6);
+    assert_null(p->tangents);
+    assert_non_null(p->colors);
+    assert_int_equal(p->texcoord_count, 1);
+    for (uint32_t i = 0; i < 6; i++) {
+        assert_int_equal(p->indices[i], i);
+        assert_near(p->positions[3 * i], indices[i], 0);
+        assert_near(p->colors[4 * i + 3], 1, 0);
+        assert_near(p->normals[3 * i + 2], i < 3 ? 1 : -1, 1e-6);
+    }
+    scene_destroy(scene);
+}
+
+static void points_and_lines_stay_without_normals(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_mesh(4, "", ",'mode':1", NULL, "", "");
+    assert_null(first_primitive(scene)->normals);
+    assert_false(first_primitive(scene)->has_flat_normals);
+    scene_destroy(scene);
+}
+
+static void normals_are_made_unit(void **state)
+{
+    (void)state;
+    const float normals[9] = {0, 0, 4, 0, 0, 0, 1e-20f, 0, 0};
+    test_bin bin = {0};
+    bin_add(&bin, normals, sizeof normals);
+    facet_scene *scene =
+        load_mesh(3, ",'NORMAL':1", "", &bin, ",{'buffer':0,'byteOffset':36,'byteLength':36}",
+                  ",{'bufferView':1,'componentType':5126,'count':3,'type':'VEC3'}");
+    /* The second one has no direction and takes that of the triangle, +Z. */
+    const float expected[9] = {0, 0, 1, 0, 0, 1, 1, 0, 0};
+    assert_floats(first_primitive(scene)->normals, expected, 9, 1e-6);
+    assert_true(has_warning(scene, "3 normals of accessor 1 are not of length 1"));
+    scene_destroy(scene);
+}
+
+static void quantized_normals_are_made_unit_silently(void **state)
+{
+    (void)state;
+    const int8_t normals[12] = {0, 0, 127, 0, 90, 90, 0, 0, -128, 0, 0, 0};
+    test_bin bin = {0};
+    bin_add(&bin, normals, sizeof normals);
+    facet_scene *scene = load_mesh(
+        3, ",'NORMAL':1", "", &bin, ",{'buffer':0,'byteOffset':36,'byteLength':12,'byteStride':4}",
+        ",{'bufferView':1,'componentType':5120,'normalized':true,'count':3,'type':'VEC3'}"
+        "],'extensionsUsed':['KHR_mesh_quantization'],'extensionsRequired':['KHR_mesh_quantization'");
+    const float half = 0.70710678f;
+    const float expected[9] = {0, 0, 1, half, half, 0, -1, 0, 0};
+    assert_floats(first_primitive(scene)->normals, expected, 9, 1e-6);
+    assert_int_equal(scene->warning_count, 0);
+    scene_destroy(scene);
+}
+
+static void lost_positions_take_their_triangles_along(void **state)
+{
+    (void)state;
+    float positions[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 6, 5, 5, 5, NAN, 5};
+    test_bin bin = {0};
+    bin_add(&bin, positions, sizeof positions);
+    facet_scene *scene =
+        load("'bufferViews':[{'buffer':0,'byteLength':72}],'accessors':[{'bufferView':0,'componentType':"
+             "5126,'count':6,'type':'VEC3'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]",
+             &bin);
+    const scene_primitive *p = first_primitive(scene);
+    assert_int_equal(p->index_count, 3);
+    assert_near(p->bounds_max[0], 1, 0);
+    assert_true(has_warning(scene, "not finite"));
+    scene_destroy(scene);
+}
+
+static void colors_come_as_linear_rgba_in_range(void **state)
+{
+    (void)state;
+    const uint8_t u8[12] = {255, 0, 51, 0, 0, 255, 0, 0, 1, 2, 3, 0};
+    const float f32[12] = {0.5f, 2, -1, NAN, 0, 0, 0, 0, 0.25f, 1, 1, 1};
+    test_bin bin = {0};
+    bin_add(&bin, u8, sizeof u8);
+    facet_scene *scene =
+        load_mesh(3, ",'COLOR_0':1,'NORMAL':0", "", &bin,
+                  ",{'buffer':0,'byteOffset':36,'byteLength':12,'byteStride':4}",
+                  ",{'bufferView':1,'componentType':5121,'normalized':true,'count':3,'type':'VEC3'}");
+    const float expected_u8[4] = {1, 0, 0.2f, 1};
+    assert_floats(first_primitive(scene)->colors, expected_u8, 4, 1e-7);
+    scene_destroy(scene);
+    bin.size = 0;
+    bin_add(&bin, f32, sizeof f32);
+    scene = load_mesh(3, ",'COLOR_0':1,'NORMAL':0", "", &bin, ",{'buffer':0,'byteOffset':36,'byteLength':48}",
+                      ",{'bufferView':1,'componentType':5126,'count':3,'type':'VEC4'}");
+    const float expected_f32[12] = {0.5f, 1, 0, 0, 0, 0, 0, 0, 0.25f, 1, 1, 1};
+    assert_floats(first_primitive(scene)->colors, expected_f32, 12, 0);
+    assert_true(has_warning(scene, "outside [0, 1]"));
+    scene_destroy(scene);
+}
+
+static void tangents_without_use_are_dropped(void **state)
+{
+    (void)state;
+    const float tangents[12] = {2, 0, 0, 1, 1, 0, 0, -0.5f, 1, 0, 0, 1};
+    test_bin bin = {0};
+    bin_add(&bin, tangents, sizeof tangents);
+    const char *views = ",{'buffer':0,'byteOffset':36,'byteLength':48}";
+    const char *accessor = ",{'bufferView':1,'componentType':5126,'count':3,'type':'VEC4'}"
+                           ",{'componentType':5126,'count':3,'type':'VEC3'}";
+    facet_scene *scene = load_mesh(3, ",'TANGENT':1,'NORMAL':2", "", &bin, views, accessor);
+    const float expected[8] = {1, 0, 0, 1, 1, 0, 0, -1};
+    assert_floats(first_primitive(scene)->tangents, expected, 8, 0);
+    scene_destroy(scene);
+    memset(bin.bytes, 0, 16);
+    scene = load_mesh(3, ",'TANGENT':1,'NORMAL':2", "", &bin, views, accessor);
+    assert_null(first_primitive(scene)->tangents);
+    assert_true(has_warning(scene, "computed instead"));
+    scene_destroy(scene);
+}
+
+static void bounds_are_those_of_used_vertices(void **state)
+{
+    (void)state;
+    const unsigned char indices[3] = {0, 1, 2};
+    test_bin bin = {0};
+    bin_add(&bin, indices, sizeof indices);
+    facet_scene *scene =
+        load_mesh(10, ",'NORMAL':0", ",'indices':1", &bin, ",{'buffer':0,'byteOffset':120,'byteLength':3}",
+                  ",{'bufferView':1,'componentType':5121,'count':3,'type':'SCALAR'}");
+    const float minimum[3] = {0, 0, 0};
+    const float maximum[3] = {2, 4, 0};
+    assert_floats(first_primitive(scene)->bounds_min, minimum, 3, 0);
+    assert_floats(first_primitive(scene)->bounds_max, maximum, 3, 0);
+    scene_destroy(scene);
+}
+
+static void attributes_must_fit_together(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *attributes, *rest, *message;
+    } cases[] = {
+        {",'TEXCOORD_0':1", ",{'componentType':5126,'count':2,'type':'VEC2'}",
+         "TEXCOORD_0: accessor 1 has 2 elements, but POSITION has 3"},
+        {",'TEXCOORD_0':1", ",{'componentType':5126,'count':3,'type':'VEC3'}",
+         "accessor 1 has a type and componentType that TEXCOORD_0 cannot have"},
+        {",'NORMAL':9", "", "attributes.NORMAL: 9 is the number of no accessor"},
+        {",'_X':9", "", "attributes._X: 9 is the number of no accessor"},
+        {",'NORMAL':1", ",{'componentType':5125,'count':3,'type':'VEC3'}", "that NORMAL cannot have"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        facet_scene *scene = NULL;
+        facet_error error;
+        assert_int_equal(try_mesh(3, cases[i].attributes, "", NULL, "", cases[i].rest, &scene, &error),
+                         FACET_ERROR_INVALID);
+        if (!strstr(error.message, cases[i].message))
+            fail_msg("%s", error.message);
+    }
+}
+
+static void texcoord_sets_are_all_there(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_mesh(3, ",'TEXCOORD_0':1,'TEXCOORD_1':1,'TEXCOORD_2':1,'TEXCOORD_4':1", "",
+                                   NULL, "", ",{'componentType':5126,'count':3,'type':'VEC2'}");
+    assert_int_equal(first_primitive(scene)->texcoord_count, 3);
+    assert_true(has_warning(scene, "TEXCOORD_4: is there without TEXCOORD_3"));
+    scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(modes_become_lists),
+        cmocka_unit_test(too_few_vertices_draw_nothing),
+        cmocka_unit_test(indices_beyond_the_vertices_are_refused),
+        cmocka_unit_test(missing_normals_become_flat),
+        cmocka_unit_test(points_and_lines_stay_without_normals),
+        cmocka_unit_test(normals_are_made_unit),
+        cmocka_unit_test(quantized_normals_are_made_unit_silently),
+        cmocka_unit_test(lost_positions_take_their_triangles_along),
+        cmocka_unit_test(colors_come_as_linear_rgba_in_range),
+        cmocka_unit_test(tangents_without_use_are_dropped),
+        cmocka_unit_test(bounds_are_those_of_used_vertices),
+        cmocka_unit_test(attributes_must_fit_together),
+        cmocka_unit_test(texcoord_sets_are_all_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

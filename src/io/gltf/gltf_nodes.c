@@ -1,0 +1,322 @@
+/* gltf_nodes.c - cameras, lights, nodes and scenes (glTF 2.0 sections 3.5, 3.10; KHR_lights_punctual). */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "io/gltf/gltf_reader.h"
+
+/* ---- cameras ---- */
+
+static float get_required_float(reader *r, const json_place *object, const char *key)
+{
+    if (object->value && !has_member(object, key))
+        reader_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
+    return get_float(r, object, key, 1.0f);
+}
+
+static void read_perspective(reader *r, const json_place *at, scene_camera *out)
+{
+    out->fov_y_rad = get_required_float(r, at, "yfov");
+    out->aspect = get_float_in(r, at, "aspectRatio", 0.0f, FLT_MAX, 0.0f);
+    if (out->fov_y_rad > 0.0f && out->fov_y_rad < 3.14f)
+        return;
+    reader_warn(r, at, "yfov", "%g is not between 0 and pi; 0.8 is used", (double)out->fov_y_rad);
+    out->fov_y_rad = 0.8f;
+}
+
+static float get_magnitude(reader *r, const json_place *at, const char *key)
+{
+    float magnitude = get_required_float(r, at, key);
+    if (magnitude > 0.0f)
+        return 2.0f * magnitude;
+    reader_warn(r, at, key, "%g must be above 0", (double)magnitude);
+    return magnitude < 0.0f ? -2.0f * magnitude : 2.0f;
+}
+
+static void read_camera(reader *r, const json_place *at, scene_camera *out)
+{
+    *out = (scene_camera){.name = get_name(r, at)};
+    const char *type = get_string(r, at, "type", "");
+    out->is_orthographic = strcmp(type, "orthographic") == 0;
+    if (!out->is_orthographic && strcmp(type, "perspective") != 0) {
+        reader_fail(r, at, "type", FACET_ERROR_INVALID, "must be perspective or orthographic");
+        return;
+    }
+    json_place lens = get_object(r, at, type);
+    if (!lens.value) {
+        reader_fail(r, at, type, FACET_ERROR_INVALID, "is missing");
+        return;
+    }
+    if (out->is_orthographic) {
+        out->ortho_width = get_magnitude(r, &lens, "xmag");
+        out->ortho_height = get_magnitude(r, &lens, "ymag");
+        out->far_m = get_required_float(r, &lens, "zfar");
+    } else {
+        read_perspective(r, &lens, out);
+        out->far_m = get_float(r, &lens, "zfar", 0.0f);
+    }
+    out->near_m = get_required_float(r, &lens, "znear");
+    if (out->near_m < 0.0f || (out->near_m == 0.0f && !out->is_orthographic)) {
+        reader_warn(r, &lens, "znear", "%g must be above 0", (double)out->near_m);
+        out->near_m = 0.0f;
+    }
+    if ((out->far_m != 0.0f || has_member(&lens, "zfar")) && !(out->far_m > out->near_m)) {
+        reader_warn(r, &lens, "zfar", "%g must be above znear; it is taken as infinite", (double)out->far_m);
+        out->far_m = 0.0f;
+    }
+}
+
+void read_cameras(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "cameras");
+    size_t count = get_count(&array);
+    r->scene->cameras = reader_alloc(r, "cameras", count, sizeof *r->scene->cameras);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_camera(r, &at, &r->scene->cameras[i]);
+        r->scene->cameras[i].meta = get_meta(r, &at);
+        r->scene->camera_count = (uint32_t)(i + 1);
+    }
+}
+
+/* ---- lights ---- */
+
+static void read_spot(reader *r, const json_place *light, scene_light *out)
+{
+    const float right_angle = 1.57079633f;
+    json_place at = get_object(r, light, "spot");
+    if (!at.value)
+        reader_warn(r, light, "spot", "is missing; an angle of 45 degrees is used");
+    out->outer_cone_rad = get_float_in(r, &at, "outerConeAngle", 0.0f, right_angle, 0.785398163f);
+    out->inner_cone_rad = get_float_in(r, &at, "innerConeAngle", 0.0f, right_angle, 0.0f);
+    if (out->inner_cone_rad < out->outer_cone_rad)
+        return;
+    reader_warn(r, &at, "innerConeAngle", "must be below outerConeAngle");
+    out->inner_cone_rad = out->outer_cone_rad;
+}
+
+static void read_light(reader *r, const json_place *at, scene_light *out)
+{
+    *out = (scene_light){.name = get_name(r, at), .color = {1, 1, 1}};
+    get_floats_in(r, at, "color", 0.0f, FLT_MAX, out->color, 3);
+    out->intensity = get_float_in(r, at, "intensity", 0.0f, FLT_MAX, 1.0f);
+    out->range = get_float_in(r, at, "range", 0.0f, FLT_MAX, 0.0f);
+    const char *type = get_string(r, at, "type", NULL);
+    if (!type) {
+        reader_fail(r, at, "type", FACET_ERROR_INVALID, "is missing");
+    } else if (strcmp(type, "directional") == 0) {
+        out->type = SCENE_LIGHT_DIRECTIONAL;
+    } else if (strcmp(type, "point") == 0) {
+        out->type = SCENE_LIGHT_POINT;
+    } else if (strcmp(type, "spot") == 0) {
+        out->type = SCENE_LIGHT_SPOT;
+        read_spot(r, at, out);
+    } else {
+        reader_warn(r, at, "type", "\"%.40s\" is none of directional, point, spot; the light is dark", type);
+        out->type = SCENE_LIGHT_POINT;
+        out->intensity = 0.0f;
+    }
+}
+
+void read_lights(reader *r, const json_place *root)
+{
+    json_place extension = get_extension(r, root, "KHR_lights_punctual");
+    json_place array = get_array(r, &extension, "lights");
+    size_t count = get_count(&array);
+    if (extension.value && !array.value)
+        reader_warn(r, &extension, "lights", "is missing");
+    r->scene->lights = reader_alloc(r, "lights", count, sizeof *r->scene->lights);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_light(r, &at, &r->scene->lights[i]);
+        r->scene->lights[i].meta = get_meta(r, &at);
+        r->scene->light_count = (uint32_t)(i + 1);
+    }
+}
+
+/* ---- nodes ---- */
+
+double normalise_rotation(float rotation[4])
+{
+    double length = 0.0;
+    for (int i = 0; i < 4; i++)
+        length += (double)rotation[i] * (double)rotation[i];
+    length = sqrt(length);
+    for (int i = 0; i < 4; i++)
+        rotation[i] = length > 0.0 ? (float)((double)rotation[i] / length) : i == 3 ? 1.0f : 0.0f;
+    return length;
+}
+
+static void read_rotation(reader *r, const json_place *at, float rotation[4])
+{
+    if (get_floats(r, at, "rotation", rotation, 4) && !(fabs(normalise_rotation(rotation) - 1.0) < 0.001))
+        reader_warn(r, at, "rotation", "is not a quaternion of length 1");
+}
+
+static void read_transform(reader *r, const json_place *at, scene_node *out)
+{
+    out->matrix = mat4_identity();
+    out->rotation[3] = out->scale[0] = out->scale[1] = out->scale[2] = 1.0f;
+    out->has_matrix = get_floats(r, at, "matrix", out->matrix.m, 16);
+    get_floats(r, at, "translation", out->translation, 3);
+    read_rotation(r, at, out->rotation);
+    get_floats(r, at, "scale", out->scale, 3);
+    if (!out->has_matrix)
+        return;
+    if (has_member(at, "translation") || has_member(at, "rotation") || has_member(at, "scale"))
+        reader_warn(r, at, NULL, "has a matrix beside translation, rotation or scale; the matrix is used");
+    const float *m = out->matrix.m;
+    if (m[3] != 0.0f || m[7] != 0.0f || m[11] != 0.0f || m[15] != 1.0f) {
+        reader_warn(r, at, "matrix", "has a last row other than 0 0 0 1, which is ignored");
+        out->matrix.m[3] = out->matrix.m[7] = out->matrix.m[11] = 0.0f;
+        out->matrix.m[15] = 1.0f;
+    }
+}
+
+static void read_children(reader *r, const json_place *at, uint32_t index, uint32_t node_count)
+{
+    json_place array = get_array(r, at, "children");
+    size_t count = get_count(&array);
+    uint32_t *children = reader_alloc(r, "nodes", count, sizeof *children);
+    scene_node *nodes = r->scene->nodes;
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place element = get_element(&array, i);
+        uint32_t child = get_index_value(r, &element, node_count, "node");
+        if (child == SCENE_NONE)
+            return;
+        if (nodes[child].parent != SCENE_NONE) {
+            reader_fail(r, &element, NULL, FACET_ERROR_INVALID, "node %u is a child of node %u already",
+                        child, nodes[child].parent);
+            return;
+        }
+        nodes[child].parent = index;
+        children[i] = child;
+    }
+    nodes[index].children = children;
+    nodes[index].child_count = (uint32_t)count;
+}
+
+static void read_node(reader *r, const json_place *at, scene_node *out, uint32_t skin_count)
+{
+    out->name = get_name(r, at);
+    read_transform(r, at, out);
+    out->mesh = get_index(r, at, "mesh", r->scene->mesh_count, "mesh");
+    out->camera = get_index(r, at, "camera", r->scene->camera_count, "camera");
+    out->skin = get_index(r, at, "skin", skin_count, "skin");
+    json_place light = get_extension(r, at, "KHR_lights_punctual");
+    out->light = get_required_index(r, &light, "light", r->scene->light_count, "light");
+    json_place visibility = get_extension(r, at, "KHR_node_visibility");
+    out->is_hidden = !get_bool(r, &visibility, "visible", true);
+    if (out->mesh == SCENE_NONE && out->skin != SCENE_NONE)
+        reader_warn(r, at, "skin", "is there without a mesh");
+    out->instancing = read_instancing(r, at);
+    if (out->mesh == SCENE_NONE && out->instancing)
+        reader_warn(r, at, NULL, "has instances, but no mesh");
+    if (out->mesh != SCENE_NONE)
+        out->weights = read_weights(r, at, r->scene->meshes[out->mesh].weight_count);
+    else if (has_member(at, "weights"))
+        reader_warn(r, at, "weights", "are there without a mesh");
+    out->meta = get_meta(r, at);
+}
+
+/* Every node has one parent at most, so what no root reaches is in a loop. */
+static void check_loops(reader *r, const json_place *array)
+{
+    uint32_t count = r->scene->node_count;
+    const scene_node *nodes = r->scene->nodes;
+    uint32_t *queue = mem_alloc(r->allocator, count, sizeof *queue);
+    bool *is_reached = mem_zalloc(r->allocator, count, sizeof *is_reached);
+    size_t queued = 0;
+    if (!queue || !is_reached) {
+        reader_fail_memory(r, "nodes", count * sizeof *queue);
+        goto done;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        if (nodes[i].parent == SCENE_NONE)
+            queue[queued++] = i;
+    for (size_t i = 0; i < queued; i++) {
+        is_reached[queue[i]] = true;
+        for (uint32_t k = 0; k < nodes[queue[i]].child_count; k++)
+            queue[queued++] = nodes[queue[i]].children[k];
+    }
+    for (uint32_t i = 0; queued < count && i < count; i++)
+        if (!is_reached[i]) {
+            json_place at = get_element(array, i);
+            reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "is its own ancestor");
+        }
+done:
+    mem_free(queue);
+    mem_free(is_reached);
+}
+
+void read_nodes(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "nodes");
+    json_place skins = get_array(r, root, "skins");
+    uint32_t skin_count = (uint32_t)get_count(&skins);
+    uint32_t count = (uint32_t)get_count(&array);
+    scene_node *nodes = reader_alloc(r, "nodes", count, sizeof *nodes);
+    r->scene->nodes = nodes;
+    for (uint32_t i = 0; i < count && reader_is_ok(r); i++)
+        nodes[i].parent = SCENE_NONE;
+    for (uint32_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_node(r, &at, &nodes[i], skin_count);
+        read_children(r, &at, i, count);
+        r->scene->node_count = i + 1;
+    }
+    if (reader_is_ok(r))
+        check_loops(r, &array);
+}
+
+/* ---- scenes ---- */
+
+static void read_scene(reader *r, const json_place *at, scene_root *out, bool *is_listed)
+{
+    out->name = get_name(r, at);
+    json_place array = get_array(r, at, "nodes");
+    size_t count = get_count(&array);
+    uint32_t *nodes = reader_alloc(r, "scenes", count, sizeof *nodes);
+    out->nodes = nodes;
+    memset(is_listed, 0, r->scene->node_count * sizeof *is_listed);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place element = get_element(&array, i);
+        uint32_t node = get_index_value(r, &element, r->scene->node_count, "node");
+        if (node == SCENE_NONE)
+            return;
+        if (r->scene->nodes[node].parent != SCENE_NONE) {
+            reader_warn(r, &element, NULL, "node %u is no root, but a child of node %u", node,
+                        r->scene->nodes[node].parent);
+        }
+        if (is_listed[node]) {
+            reader_warn(r, &element, NULL, "node %u is listed twice", node);
+            continue;
+        }
+        is_listed[node] = true;
+        nodes[out->node_count++] = node;
+    }
+    json_place light = get_extension(r, at, "EXT_lights_image_based");
+    out->image_light = get_required_index(r, &light, "light", r->scene->image_light_count, "light");
+    out->meta = get_meta(r, at);
+}
+
+void read_scenes(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "scenes");
+    size_t count = get_count(&array);
+    r->scene->scenes = reader_alloc(r, "scenes", count, sizeof *r->scene->scenes);
+    bool *is_listed = mem_alloc(r->allocator, r->scene->node_count, sizeof *is_listed);
+    if (!is_listed)
+        reader_fail_memory(r, "scenes", r->scene->node_count);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_scene(r, &at, &r->scene->scenes[i], is_listed);
+        r->scene->scene_count = (uint32_t)(i + 1);
+    }
+    mem_free(is_listed);
+    r->scene->default_scene = get_index(r, root, "scene", r->scene->scene_count, "scene");
+    if (r->scene->default_scene == SCENE_NONE && r->scene->scene_count)
+        r->scene->default_scene = 0;
+    if (reader_is_ok(r) && r->scene->scene_count == 0 && r->scene->node_count)
+        reader_warn(r, NULL, NULL, "has no scene; all its nodes are drawn");
+}

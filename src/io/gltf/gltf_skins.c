@@ -1,0 +1,187 @@
+/* gltf_skins.c - skins (glTF 2.0 sections 3.7.3, 5.28): joints and where they were when the mesh was bound to them. */
+#include <math.h>
+#include <string.h>
+
+#include "io/gltf/gltf_reader.h"
+
+/* ---- the nodes above joints ---- */
+
+/* For each node the outermost one above it; a block of mem_alloc(), NULL: an error is recorded. */
+static uint32_t *find_roots(reader *r)
+{
+    const facet_scene *scene = r->scene;
+    uint32_t *roots = mem_alloc(r->allocator, scene->node_count, sizeof *roots);
+    if (!roots) {
+        reader_fail_memory(r, "nodes", scene->node_count * sizeof *roots);
+        return NULL;
+    }
+    memset(roots, 0xff, scene->node_count * sizeof *roots);
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        uint32_t top = i;
+        while (roots[top] == SCENE_NONE && scene->nodes[top].parent != SCENE_NONE)
+            top = scene->nodes[top].parent;
+        uint32_t root = roots[top] == SCENE_NONE ? top : roots[top];
+        for (uint32_t node = i; node != SCENE_NONE && roots[node] == SCENE_NONE;
+             node = scene->nodes[node].parent)
+            roots[node] = root;
+    }
+    return roots;
+}
+
+/* ---- one skin ---- */
+
+static void read_joints(reader *r, const json_place *at, const uint32_t *roots, scene_skin *out)
+{
+    const facet_scene *scene = r->scene;
+    json_place array = get_array(r, at, "joints");
+    if (reader_is_ok(r) && !array.value)
+        reader_fail(r, at, "joints", FACET_ERROR_INVALID, "is missing");
+    size_t count = get_count(&array);
+    uint32_t *joints = reader_alloc(r, "joints", count, sizeof *joints);
+    bool has_several_roots = false;
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place element = get_element(&array, i);
+        joints[i] = get_index_value(r, &element, scene->node_count, "node");
+        if (joints[i] != SCENE_NONE)
+            has_several_roots |= roots[joints[i]] != roots[joints[0]];
+    }
+    if (has_several_roots)
+        reader_warn(r, &array, NULL, "have no common root");
+    out->joints = joints;
+    out->joint_count = (uint32_t)count;
+}
+
+/* A matrix that moves points; false: it is not finite. */
+static bool is_affine(const float m[16], bool *has_last_row)
+{
+    bool is_finite = true;
+    for (int i = 0; i < 16; i++)
+        is_finite &= fabsf(m[i]) <= SCENE_FARTHEST;
+    *has_last_row = m[3] == 0.0f && m[7] == 0.0f && m[11] == 0.0f && m[15] == 1.0f;
+    return is_finite;
+}
+
+/* Copies of the file's matrices, which are set right where they do not move points. */
+static const mat4 *get_matrices(reader *r, const json_place *skin, uint32_t accessor, uint32_t count)
+{
+    const float *in = get_accessor_floats(r, skin, accessor);
+    if (!in || !reader_spend(r, skin, count))
+        return NULL;
+    mat4 *out = reader_alloc_raw(r, "joints", count, sizeof *out);
+    if (!out)
+        return NULL;
+    size_t lost = 0;
+    size_t projecting = 0;
+    memcpy(out, in, count * sizeof *out);
+    for (size_t i = 0; i < count; i++) {
+        bool has_last_row;
+        bool is_finite = is_affine(out[i].m, &has_last_row);
+        lost += !is_finite;
+        projecting += is_finite && !has_last_row;
+        if (!is_finite)
+            out[i] = mat4_identity();
+        out[i].m[3] = out[i].m[7] = out[i].m[11] = 0.0f;
+        out[i].m[15] = 1.0f;
+    }
+    if (lost)
+        reader_warn(r, skin, "inverseBindMatrices", "%zu are not finite; the identity is used", lost);
+    if (projecting)
+        reader_warn(r, skin, "inverseBindMatrices",
+                    "%zu have a last row other than 0 0 0 1, which is ignored", projecting);
+    return out;
+}
+
+static void read_bind_matrices(reader *r, const json_place *skin, scene_skin *out)
+{
+    uint32_t index = get_index(r, skin, "inverseBindMatrices", r->accessor_count, "accessor");
+    if (index == SCENE_NONE)
+        return;
+    const gltf_accessor *a = &r->accessors[index];
+    if (a->type != GLTF_MAT4 || a->component != GLTF_F32)
+        reader_fail(r, skin, "inverseBindMatrices", FACET_ERROR_INVALID,
+                    "accessor %u must have MAT4 elements of floats", index);
+    else if (a->count < out->joint_count)
+        reader_fail(r, skin, "inverseBindMatrices", FACET_ERROR_INVALID,
+                    "accessor %u has %u elements, but there are %u joints", index, a->count,
+                    out->joint_count);
+    if (!reader_is_ok(r))
+        return;
+    if (a->view != SCENE_NONE && r->views[a->view].stride)
+        reader_warn(r, skin, "inverseBindMatrices", "is in a buffer view with byteStride");
+    if (has_accessor_source(r, index))
+        out->inverse_bind = get_matrices(r, skin, index, out->joint_count);
+    else
+        reader_warn(r, skin, "inverseBindMatrices", "is in a buffer without bytes; identities are used");
+}
+
+static void read_skin(reader *r, const json_place *at, const uint32_t *roots, scene_skin *out)
+{
+    out->name = get_name(r, at);
+    read_joints(r, at, roots, out);
+    out->skeleton = get_index(r, at, "skeleton", r->scene->node_count, "node");
+    if (reader_is_ok(r))
+        read_bind_matrices(r, at, out);
+    out->meta = get_meta(r, at);
+}
+
+/* ---- the meshes that skins move ---- */
+
+/* The largest joint that some vertex of a mesh names, plus 1; 0: it has none. */
+static uint32_t count_joints(const scene_mesh *mesh)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const scene_primitive *p = &mesh->primitives[i];
+        size_t joint_count = (size_t)p->vertex_count * p->influence_count;
+        for (size_t k = 0; k < joint_count; k++)
+            count = p->joints[k] >= count ? p->joints[k] + 1u : count;
+    }
+    return count;
+}
+
+/* Every vertex must name joints that the skins of its mesh have. */
+static void check_users(reader *r, const json_place *root)
+{
+    const facet_scene *scene = r->scene;
+    json_place array = get_array(r, root, "nodes");
+    uint32_t *joint_counts = mem_alloc(r->allocator, scene->mesh_count, sizeof *joint_counts);
+    if (!joint_counts) {
+        reader_fail_memory(r, "meshes", scene->mesh_count * sizeof *joint_counts);
+        return;
+    }
+    memset(joint_counts, 0xff, scene->mesh_count * sizeof *joint_counts);
+    for (uint32_t i = 0; i < scene->node_count && reader_is_ok(r); i++) {
+        const scene_node *node = &scene->nodes[i];
+        if (node->mesh == SCENE_NONE || node->skin == SCENE_NONE)
+            continue;
+        uint32_t *count = &joint_counts[node->mesh];
+        if (*count == SCENE_NONE)
+            *count = count_joints(&scene->meshes[node->mesh]);
+        json_place at = get_element(&array, i);
+        if (*count == 0)
+            reader_warn(r, &at, "skin", "moves nothing: mesh %u has no JOINTS_0 and WEIGHTS_0", node->mesh);
+        if (*count > scene->skins[node->skin].joint_count)
+            reader_fail(r, &at, "skin", FACET_ERROR_INVALID,
+                        "a vertex of mesh %u is moved by joint %u, but skin %u has %u joints", node->mesh,
+                        *count - 1, node->skin, scene->skins[node->skin].joint_count);
+    }
+    mem_free(joint_counts);
+}
+
+void read_skins(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "skins");
+    size_t count = get_count(&array);
+    if (count == 0)
+        return;
+    r->scene->skins = reader_alloc(r, "skins", count, sizeof *r->scene->skins);
+    uint32_t *roots = find_roots(r);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_skin(r, &at, roots, &r->scene->skins[i]);
+        r->scene->skin_count = (uint32_t)(i + 1);
+    }
+    mem_free(roots);
+    if (reader_is_ok(r))
+        check_users(r, root);
+}

@@ -1,0 +1,232 @@
+/* gltf_textures.c - images, found but not decoded, and textures with their samplers (glTF 2.0 sections 3.8, 5.18,
+ * 5.29; KHR_texture_basisu, EXT_texture_webp, EXT_texture_avif). A picture that cannot be had costs a warning and is
+ * white, as viewers do it. */
+#include <string.h>
+
+#include "image/ktx2.h"
+#include "io/gltf/gltf_reader.h"
+#include "io/image_kind.h"
+
+/* ---- images ---- */
+
+static const char DDS_TYPE[] = "image/vnd-ms.dds"; /* known by name only */
+
+static bool find_bytes(reader *r, const json_place *at, scene_image *out)
+{
+    const char *uri = get_string(r, at, "uri", NULL);
+    uint32_t view = get_index(r, at, "bufferView", r->view_count, "buffer view");
+    const char *mime_type = get_string(r, at, "mimeType", NULL);
+    if (!reader_is_ok(r))
+        return false;
+    if ((uri != NULL) == (view != SCENE_NONE)) {
+        reader_warn(r, at, NULL, "must have either a uri or a bufferView");
+        if (!uri)
+            return false;
+    }
+    if (view != SCENE_NONE && !mime_type)
+        reader_warn(r, at, "mimeType", "is missing beside the bufferView");
+    if (view != SCENE_NONE && r->views[view].stride)
+        reader_warn(r, at, "bufferView", "has a byteStride, which means nothing for an image");
+    if (!uri && !has_view_source(r, view)) {
+        reader_warn(r, at, "bufferView", "is in a buffer without bytes; white is used");
+        return false;
+    }
+    if (uri) {
+        uri_bytes bytes;
+        if (!load_uri(r, uri, &bytes)) {
+            if (bytes.result == FACET_ERROR_MEMORY)
+                return reader_fail(r, at, "uri", bytes.result, "%s", bytes.message);
+            reader_warn(r, at, "uri", "%s; white is used", bytes.message);
+            return false;
+        }
+        out->bytes = bytes.data;
+        out->size = bytes.size;
+    } else {
+        out->bytes = get_view_bytes(r, at, view);
+        out->size = r->views[view].length;
+    }
+    return out->bytes != NULL;
+}
+
+/* What KHR_texture_basisu asks of a file, and what is made of one that is otherwise. */
+static void check_ktx2(reader *r, const json_place *at, const scene_image *i)
+{
+    ktx2 k;
+    if (ktx2_open(i->bytes, i->size, "", &k, NULL) != FACET_OK)
+        return; /* read_size() tells */
+    if (k.format->kind != KTX2_ETC1S && k.format->decode != uastc_decode)
+        reader_warn(r, at, NULL, "holds %s, where KHR_texture_basisu has ETC1S or UASTC", k.format->name);
+    if (k.is_cube)
+        reader_warn(r, at, NULL, "is a cube; its first face is used");
+    else if (k.is_array)
+        reader_warn(r, at, NULL, "is an array; its first layer is used");
+    if (k.is_right_to_left || k.is_bottom_up)
+        reader_warn(r, at, NULL, "has a KTXorientation other than \"rd\"; it is turned");
+    if (memcmp(k.swizzle, "rgba", 4) != 0)
+        reader_warn(r, at, NULL, "has a KTXswizzle other than \"rgba\"; it is applied");
+    if (k.is_premultiplied)
+        reader_warn(r, at, NULL, "has colors that are multiplied by alpha, which glTF does not know");
+}
+
+/* From the header of the file. Where that of an extension's file cannot be read, neither can the rest, and a texture
+ * takes another source. */
+static void read_size(reader *r, const json_place *at, const image_kind *kind, scene_image *out)
+{
+    image header;
+    facet_error error;
+    facet_result result = image_probe(out->bytes, out->size, "the picture", &header, NULL, &error);
+    if (result == FACET_OK) {
+        out->width = header.width;
+        out->height = header.height;
+    } else if (result == FACET_ERROR_MEMORY) {
+        reader_fail(r, at, NULL, result, "%s", error.message);
+    } else if (kind->gltf_extension) {
+        reader_warn(r, at, NULL, "%s", error.message);
+    }
+}
+
+static void read_image(reader *r, const json_place *at, scene_image *out)
+{
+    const char *name = get_name(r, at);
+    const char *uri = get_string(r, at, "uri", NULL);
+    *out = (scene_image){.name = name, .mime_type = ""};
+    if (uri && strncmp(uri, "data:", 5) != 0) {
+        out->uri = arena_strdup(r->scene->arena, uri);
+        if (!out->uri) {
+            reader_fail_memory(r, "image", strlen(uri));
+            return;
+        }
+        if (name[0] == 0)
+            out->name = out->uri;
+    }
+    if (!find_bytes(r, at, out)) {
+        out->bytes = NULL;
+        out->size = 0;
+        return;
+    }
+    const image_kind *kind = image_kind_of_bytes(out->bytes, out->size);
+    if (kind)
+        out->mime_type = kind->mime_type;
+    else if (out->size >= 4 && memcmp(out->bytes, "DDS ", 4) == 0)
+        out->mime_type = DDS_TYPE;
+    const char *said = get_string(r, at, "mimeType", NULL);
+    if (out->mime_type[0] == 0)
+        reader_warn(r, at, NULL, "is no PNG, JPEG, WebP, AVIF or KTX2 file; white is used");
+    else if (said && strcmp(said, out->mime_type) != 0)
+        reader_warn(r, at, "mimeType", "says \"%.40s\", but the image is %s", said, out->mime_type);
+    if (!kind)
+        return;
+    if (kind->gltf_extension && !is_extension_listed(r, kind->gltf_extension))
+        reader_warn(r, at, NULL, "is a %s file, which needs %s", kind->name, kind->gltf_extension);
+    if (kind->codec == IMAGE_CODEC_KTX2)
+        check_ktx2(r, at, out);
+    read_size(r, at, kind, out);
+}
+
+void read_images(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "images");
+    size_t count = get_count(&array);
+    r->scene->images = reader_alloc(r, "images", count, sizeof *r->scene->images);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_image(r, &at, &r->scene->images[i]);
+        r->scene->image_count = (uint32_t)(i + 1);
+    }
+}
+
+/* ---- samplers: the numbers are OpenGL's ---- */
+
+static scene_wrap get_wrap(reader *r, const json_place *sampler, const char *key)
+{
+    uint64_t value = get_uint(r, sampler, key, UINT32_MAX, 10497);
+    if (value == 33071)
+        return SCENE_WRAP_CLAMP;
+    if (value == 33648)
+        return SCENE_WRAP_MIRROR;
+    if (value != 10497)
+        reader_warn(r, sampler, key, "%llu is none of 10497, 33071, 33648; textures repeat",
+                    (unsigned long long)value);
+    return SCENE_WRAP_REPEAT;
+}
+
+void read_texture_sampler(reader *r, const json_place *sampler, scene_texture *out)
+{
+    out->wrap_u = get_wrap(r, sampler, "wrapS");
+    out->wrap_v = get_wrap(r, sampler, "wrapT");
+    uint64_t mag = get_uint(r, sampler, "magFilter", UINT32_MAX, 9729);
+    uint64_t min = get_uint(r, sampler, "minFilter", UINT32_MAX, 9987);
+    if (mag != 9728 && mag != 9729)
+        reader_warn(r, sampler, "magFilter", "%llu is neither 9728 nor 9729", (unsigned long long)mag);
+    if (min != 9728 && min != 9729 && (min < 9984 || min > 9987)) {
+        reader_warn(r, sampler, "minFilter", "%llu is no filter", (unsigned long long)min);
+        min = 9987;
+    }
+    out->mag_filter = mag == 9728 ? SCENE_FILTER_NEAREST : SCENE_FILTER_LINEAR;
+    out->min_filter = min == 9728 || min == 9984 || min == 9986 ? SCENE_FILTER_NEAREST : SCENE_FILTER_LINEAR;
+    out->mip_filter = min < 9984 ? SCENE_MIP_NONE : min <= 9985 ? SCENE_MIP_NEAREST : SCENE_MIP_LINEAR;
+}
+
+/* ---- textures ---- */
+
+static bool is_readable(const scene_image *source)
+{
+    return source->width > 0 || strcmp(source->mime_type, "image/png") == 0 ||
+           strcmp(source->mime_type, "image/jpeg") == 0;
+}
+
+/* The source of an extension of a texture, or, name NULL, of the texture itself. */
+static uint32_t get_source(reader *r, const json_place *at, const char *name)
+{
+    json_place extension = name ? get_extension(r, at, name) : *at;
+    return get_index(r, &extension, "source", r->scene->image_count, "image");
+}
+
+/* The first source that can be read wins; those of extensions come before the fallback. */
+static void find_source(reader *r, const json_place *at, scene_texture *out)
+{
+    static const char *const names[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", NULL,
+                                        "MSFT_texture_dds"};
+    bool has_source = false;
+    bool has_dds = false;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        uint32_t source = get_source(r, at, names[i]); /* all of them: each is checked */
+        if (source == SCENE_NONE)
+            continue;
+        has_source = true;
+        has_dds |= strcmp(r->scene->images[source].mime_type, DDS_TYPE) == 0;
+        if (out->image == SCENE_NONE && is_readable(&r->scene->images[source]))
+            out->image = source;
+    }
+    if (!reader_is_ok(r) || out->image != SCENE_NONE)
+        return;
+    if (has_dds)
+        reader_warn(r, at, NULL,
+                    "has only a DDS image (MSFT_texture_dds), which facet does not read; white is used");
+    else if (!has_source)
+        reader_warn(r, at, NULL, "has no source; white is used");
+}
+
+static void read_texture(reader *r, const json_place *root, const json_place *at, scene_texture *out)
+{
+    *out = (scene_texture){.name = get_name(r, at), .image = SCENE_NONE};
+    json_place samplers = get_array(r, root, "samplers");
+    json_place none = {0};
+    uint32_t sampler = get_index(r, at, "sampler", (uint32_t)get_count(&samplers), "sampler");
+    json_place element = sampler == SCENE_NONE ? none : get_element_object(r, &samplers, sampler);
+    read_texture_sampler(r, &element, out);
+    find_source(r, at, out);
+}
+
+void read_textures(reader *r, const json_place *root)
+{
+    json_place array = get_array(r, root, "textures");
+    size_t count = get_count(&array);
+    get_array(r, root, "samplers"); /* checked even where nothing uses it */
+    r->scene->textures = reader_alloc(r, "textures", count, sizeof *r->scene->textures);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place at = get_element_object(r, &array, i);
+        read_texture(r, root, &at, &r->scene->textures[i]);
+        r->scene->texture_count = (uint32_t)(i + 1);
+    }
+}

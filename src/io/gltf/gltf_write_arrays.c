@@ -1,0 +1,231 @@
+/* gltf_write_arrays.c - accessors, buffer views and the bytes behind them. */
+#include <string.h>
+
+#include "base/result.h"
+#include "io/gltf/gltf_writer.h"
+
+/* Component types of glTF. */
+enum { UNSIGNED_BYTE = 5121, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT = 5126 };
+
+static const char *const type_names[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT4"};
+static const uint32_t component_counts[] = {1, 2, 3, 4, 16};
+
+/* Room for size bytes at a multiple of 4; NULL: no memory. */
+static unsigned char *add_bytes(writer *w, size_t size, size_t *offset)
+{
+    size_t begin = (w->bin_size + 3) & ~(size_t)3;
+    if (size > UINT32_MAX || begin + size > UINT32_MAX - 64) {
+        if (writer_is_ok(w))
+            w->result = fail(w->error, FACET_ERROR_LIMIT,
+                             "%s: has more than 4 GiB of data, the most that a glTF "
+                             "buffer of facet holds",
+                             w->scene->source);
+        return NULL;
+    }
+    if (!mem_reserve(w->allocator, (void **)&w->bin, &w->bin_capacity, begin + size + 4, 1)) {
+        writer_fail_memory(w);
+        return NULL;
+    }
+    memset(w->bin + w->bin_size, 0, begin - w->bin_size);
+    w->bin_size = begin + size;
+    *offset = begin;
+    return w->bin + begin;
+}
+
+static uint32_t add_view(writer *w, size_t offset, size_t size, size_t stride, int target)
+{
+    json_t *view = json_object();
+    put(w, view, "buffer", json_integer(0));
+    if (offset)
+        put(w, view, "byteOffset", json_integer((json_int_t)offset));
+    put(w, view, "byteLength", json_integer((json_int_t)size));
+    if (stride)
+        put(w, view, "byteStride", json_integer((json_int_t)stride));
+    if (target)
+        put(w, view, "target", json_integer(target));
+    append(w, w->views, view);
+    return (uint32_t)json_array_size(w->views) - 1;
+}
+
+uint32_t write_view(writer *w, const void *bytes, size_t size, int target)
+{
+    size_t offset;
+    unsigned char *at = add_bytes(w, size, &offset);
+    if (!at)
+        return 0;
+    memcpy(at, bytes, size);
+    return add_view(w, offset, size, 0, target);
+}
+
+/* view: SCENE_NONE: zeros. */
+static json_t *add_accessor(writer *w, uint32_t view, int component, size_t count, write_type type)
+{
+    json_t *accessor = json_object();
+    put_index(w, accessor, "bufferView", view);
+    put(w, accessor, "componentType", json_integer(component));
+    put(w, accessor, "count", json_integer((json_int_t)count));
+    put(w, accessor, "type", json_string(type_names[type]));
+    append(w, w->accessors, accessor);
+    return accessor;
+}
+
+static uint32_t last_accessor(const writer *w)
+{
+    return (uint32_t)json_array_size(w->accessors) - 1;
+}
+
+/* ---- what was written before ---- */
+
+static size_t hash(const written_array *a)
+{
+    uint64_t h = (uint64_t)(uintptr_t)a->data * 0x9e3779b97f4a7c15u ^
+                 (uint64_t)a->size * 0xc2b2ae3d27d4eb4fu ^ (uint64_t)a->kind * 0x165667b19e3779f9u;
+    return (size_t)(h ^ h >> 29);
+}
+
+/* The place of an array, or a free one. */
+static written_array *find(written_array *table, size_t capacity, const written_array *a)
+{
+    size_t i = hash(a) & (capacity - 1);
+    while (table[i].data &&
+           !(table[i].data == a->data && table[i].size == a->size && table[i].kind == a->kind))
+        i = (i + 1) & (capacity - 1);
+    return &table[i];
+}
+
+static bool grow(writer *w)
+{
+    if (w->written_count * 2 < w->written_capacity)
+        return true;
+    size_t capacity = w->written_capacity ? 2 * w->written_capacity : 256;
+    written_array *table = mem_zalloc(w->allocator, capacity, sizeof *table);
+    if (!table) {
+        writer_fail_memory(w);
+        return false;
+    }
+    for (size_t i = 0; i < w->written_capacity; i++)
+        if (w->written[i].data)
+            *find(table, capacity, &w->written[i]) = w->written[i];
+    mem_free(w->written);
+    w->written = table;
+    w->written_capacity = capacity;
+    return true;
+}
+
+/* The accessor of an array that was written, or SCENE_NONE; the next accessor will be noted as its own then. */
+static uint32_t find_or_note(writer *w, const void *data, size_t size, uint32_t kind)
+{
+    if (!grow(w))
+        return SCENE_NONE;
+    const written_array a = {.data = data, .size = size, .kind = kind, .accessor = last_accessor(w) + 1};
+    written_array *place = find(w->written, w->written_capacity, &a);
+    if (place->data)
+        return place->accessor;
+    *place = a;
+    w->written_count++;
+    return SCENE_NONE;
+}
+
+/* ---- arrays ---- */
+
+static void put_bounds(writer *w, json_t *accessor, const float *values, size_t count, uint32_t components)
+{
+    float low[16], high[16];
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t c = 0; c < components; c++) {
+            float value = values[components * i + c];
+            low[c] = i == 0 || value < low[c] ? value : low[c];
+            high[c] = i == 0 || value > high[c] ? value : high[c];
+        }
+    put(w, accessor, "min", json_floats(low, components));
+    put(w, accessor, "max", json_floats(high, components));
+}
+
+uint32_t write_floats(writer *w, const float *values, size_t count, write_type type, int target, bool bounds)
+{
+    uint32_t components = component_counts[type];
+    size_t size = count * components * sizeof(float);
+    uint32_t found = find_or_note(
+        w, values, size, (uint32_t)type | (uint32_t)(target != 0) << 4 | (uint32_t)bounds << 5 | 1u << 8);
+    if (found != SCENE_NONE)
+        return found;
+    json_t *accessor = add_accessor(w, write_view(w, values, size, target), FLOAT, count, type);
+    if (bounds)
+        put_bounds(w, accessor, values, count, components);
+    return last_accessor(w);
+}
+
+uint32_t write_zeros(writer *w, size_t count, write_type type)
+{
+    static const float zeros[16] = {0};
+    uint32_t components = component_counts[type];
+    json_t *accessor = add_accessor(w, SCENE_NONE, FLOAT, count, type);
+    put(w, accessor, "min", json_floats(zeros, components));
+    put(w, accessor, "max", json_floats(zeros, components));
+    return last_accessor(w);
+}
+
+uint32_t write_indices(writer *w, const uint32_t *values, size_t count)
+{
+    uint32_t found = find_or_note(w, values, count, 2u << 8);
+    if (found != SCENE_NONE)
+        return found;
+    uint32_t largest = 0;
+    for (size_t i = 0; i < count; i++)
+        largest = values[i] > largest ? values[i] : largest;
+    bool is_short = largest < UINT16_MAX; /* the largest one restarts primitives */
+    size_t size = count * (is_short ? sizeof(uint16_t) : sizeof(uint32_t));
+    size_t offset;
+    unsigned char *at = add_bytes(w, size, &offset);
+    for (size_t i = 0; at && i < count; i++) {
+        uint16_t narrow = (uint16_t)values[i];
+        memcpy(at + i * (is_short ? 2 : 4), is_short ? (const void *)&narrow : (const void *)&values[i],
+               is_short ? 2 : 4);
+    }
+    uint32_t view = at ? add_view(w, offset, size, 0, WRITE_INDICES) : 0;
+    add_accessor(w, view, is_short ? UNSIGNED_SHORT : UNSIGNED_INT, count, WRITE_SCALAR);
+    return last_accessor(w);
+}
+
+uint32_t write_joints(writer *w, const uint16_t *joints, size_t count, size_t stride)
+{
+    uint32_t found = find_or_note(w, joints, count, 3u << 8);
+    if (found != SCENE_NONE)
+        return found;
+    uint16_t largest = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < 4; k++)
+            largest = joints[stride * i + k] > largest ? joints[stride * i + k] : largest;
+    size_t width = largest > UINT8_MAX ? 2 : 1;
+    size_t offset;
+    unsigned char *at = add_bytes(w, 4 * width * count, &offset);
+    for (size_t i = 0; at && i < 4 * count; i++) {
+        uint16_t joint = joints[stride * (i / 4) + i % 4];
+        at[width * i] = (unsigned char)joint;
+        if (width == 2)
+            at[width * i + 1] = (unsigned char)(joint >> 8);
+    }
+    uint32_t view = at ? add_view(w, offset, 4 * width * count, 0, WRITE_VERTICES) : 0;
+    add_accessor(w, view, width == 2 ? UNSIGNED_SHORT : UNSIGNED_BYTE, count, WRITE_VEC4);
+    return last_accessor(w);
+}
+
+uint32_t write_weights(writer *w, const float *weights, size_t count, size_t stride)
+{
+    uint32_t found = find_or_note(w, weights, count, 4u << 8);
+    if (found != SCENE_NONE)
+        return found;
+    size_t size = 4 * sizeof(float) * count;
+    size_t offset;
+    unsigned char *at = add_bytes(w, size, &offset);
+    for (size_t i = 0; at && i < count; i++)
+        memcpy(at + 4 * sizeof(float) * i, weights + stride * i, 4 * sizeof(float));
+    add_accessor(w, at ? add_view(w, offset, size, 0, WRITE_VERTICES) : 0, FLOAT, count, WRITE_VEC4);
+    return last_accessor(w);
+}
+
+uint32_t write_bytes(writer *w, const unsigned char *values, size_t count)
+{
+    add_accessor(w, write_view(w, values, count, WRITE_NO_TARGET), UNSIGNED_BYTE, count, WRITE_SCALAR);
+    return last_accessor(w);
+}

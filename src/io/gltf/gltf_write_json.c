@@ -1,0 +1,206 @@
+/* gltf_write_json.c - JSON as the glTF writer needs it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "base/text.h"
+#include "io/gltf/gltf_writer.h"
+
+bool writer_is_ok(const writer *w)
+{
+    return w->result == FACET_OK;
+}
+
+void writer_fail_memory(writer *w)
+{
+    if (writer_is_ok(w))
+        w->result = fail_memory(w->error, "glTF", w->bin_size);
+}
+
+void put(writer *w, json_t *object, const char *key, json_t *value)
+{
+    if (json_object_set_new(object, key, value) != 0)
+        writer_fail_memory(w);
+}
+
+void append(writer *w, json_t *array, json_t *value)
+{
+    if (json_array_append_new(array, value) != 0)
+        writer_fail_memory(w);
+}
+
+json_t *put_object(writer *w, json_t *object, const char *key)
+{
+    json_t *there = json_object_get(object, key);
+    if (there)
+        return there;
+    put(w, object, key, json_object());
+    return json_object_get(object, key);
+}
+
+json_t *put_array(writer *w, json_t *object, const char *key)
+{
+    json_t *there = json_object_get(object, key);
+    if (there)
+        return there;
+    put(w, object, key, json_array());
+    return json_object_get(object, key);
+}
+
+/* The double that is nearest to the shortest decimal of the float, which is printed with 9 digits. */
+json_t *json_float(float value)
+{
+    char digits[TEXT_FLOAT_SIZE];
+    text_shortest_float(value, digits);
+    double number = strtod(digits, NULL);
+    if (number >= -1e9 && number <= 1e9 && number == (double)(json_int_t)number &&
+        !(number == 0.0 && digits[0] == '-'))
+        return json_integer((json_int_t)number);
+    return json_real(number);
+}
+
+json_t *json_floats(const float *values, size_t count)
+{
+    json_t *array = json_array();
+    for (size_t i = 0; i < count; i++)
+        if (json_array_append_new(array, json_float(values[i])) != 0) {
+            json_decref(array);
+            return NULL;
+        }
+    return array;
+}
+
+json_t *json_indices(const uint32_t *indices, size_t count)
+{
+    json_t *array = json_array();
+    for (size_t i = 0; i < count; i++)
+        if (json_array_append_new(array, json_integer(indices[i])) != 0) {
+            json_decref(array);
+            return NULL;
+        }
+    return array;
+}
+
+void put_name(writer *w, json_t *object, const char *name)
+{
+    if (name && name[0])
+        put(w, object, "name", json_string(name));
+}
+
+void put_index(writer *w, json_t *object, const char *key, uint32_t index)
+{
+    if (index != SCENE_NONE)
+        put(w, object, key, json_integer(index));
+}
+
+void put_floats(writer *w, json_t *object, const char *key, const float *values, const float *defaults,
+                size_t count)
+{
+    bool differs = false;
+    for (size_t i = 0; i < count; i++)
+        differs = differs || values[i] != (defaults ? defaults[i] : 0.0f);
+    if (differs)
+        put(w, object, key, count == 1 ? json_float(values[0]) : json_floats(values, count));
+}
+
+void put_float(writer *w, json_t *object, const char *key, float value, float default_value)
+{
+    put_floats(w, object, key, &value, &default_value, 1);
+}
+
+static void use_extension(writer *w, const char *name)
+{
+    if (!json_object_get(w->extensions_used, name))
+        put(w, w->extensions_used, name, json_false());
+}
+
+void require_extension(writer *w, const char *name)
+{
+    put(w, w->extensions_used, name, json_true());
+}
+
+json_t *put_extension(writer *w, json_t *object, const char *name)
+{
+    use_extension(w, name);
+    return put_object(w, put_object(w, object, "extensions"), name);
+}
+
+static bool has_many_digits(const json_t *value)
+{
+    size_t index;
+    const char *key;
+    json_t *element;
+    bool found = false;
+    if (json_is_real(value)) {
+        char digits[40];
+        snprintf(digits, sizeof digits, "%.15g", json_real_value(value));
+        return strtod(digits, NULL) != json_real_value(value);
+    }
+    if (json_is_array(value))
+        json_array_foreach(value, index, element) found = found || has_many_digits(element);
+    else
+        json_object_foreach((json_t *)(uintptr_t)value, key, element) found =
+            found || has_many_digits(element);
+    return found;
+}
+
+/* JSON text of the file that was read, whose nesting the reader bounded. */
+static json_t *parse(writer *w, const char *json)
+{
+    json_t *value = json_loads(json, JSON_DECODE_ANY | JSON_ALLOW_NUL, NULL);
+    if (!value) {
+        writer_fail_memory(w);
+        return NULL;
+    }
+    w->needs_all_digits = w->needs_all_digits || has_many_digits(value);
+    return value;
+}
+
+static bool is_utf8(const char *name)
+{
+    json_t *string = json_string(name);
+    json_decref(string);
+    return string != NULL;
+}
+
+/* RFC 3986: what is neither unreserved nor a character of UTF-8 is escaped; of a name that is not UTF-8, which files
+ * may have, all bytes beyond ASCII. */
+void put_uri(writer *w, json_t *object, const char *name)
+{
+    const bool has_characters = is_utf8(name);
+    char *uri = mem_alloc(w->allocator, 3 * strlen(name) + 1, 1);
+    char *at = uri;
+    if (!uri) {
+        writer_fail_memory(w);
+        return;
+    }
+    for (; *name; name++) {
+        unsigned char c = (unsigned char)*name;
+        bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                        strchr("-._~", c) || (c >= 0x80 && has_characters);
+        if (is_plain)
+            *at++ = (char)c;
+        else
+            at += snprintf(at, 4, "%%%02X", c);
+    }
+    *at = 0;
+    put(w, object, "uri", json_string(uri));
+    mem_free(uri);
+}
+
+void put_meta(writer *w, json_t *object, const scene_meta *meta)
+{
+    if (meta->extensions) {
+        json_t *extensions = parse(w, meta->extensions);
+        const char *name;
+        json_t *value;
+        json_object_foreach(extensions, name, value)
+        {
+            use_extension(w, name);
+            put(w, put_object(w, object, "extensions"), name, json_incref(value));
+        }
+        json_decref(extensions);
+    }
+    if (meta->extras)
+        put(w, object, "extras", parse(w, meta->extras));
+}

@@ -1,0 +1,128 @@
+/* gltf_write_textures.c - images, as their files are, and textures with their samplers. */
+#include <string.h>
+
+#include "io/gltf/gltf_writer.h"
+#include "io/image_kind.h"
+
+/* ---- images ---- */
+
+/* NULL: an image that could not be read. */
+static const image_kind *kind_of(const scene_image *source)
+{
+    return source->bytes ? image_kind_of_mime_type(source->mime_type) : NULL;
+}
+
+/* One white texel as a PNG file: what an image that could not be read stands for. */
+static const unsigned char WHITE[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+    0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
+    0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0xf8, 0x0f, 0x00, 0x01, 0x01, 0x01, 0x00,
+    0x1c, 0xb0, 0x8c, 0x99, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+static void add_file(writer *w, json_t *object, uint32_t index, const char *extension,
+                     const unsigned char *bytes, size_t size)
+{
+    char number[48];
+    snprintf(number, sizeof number, "_image%u.%s", index, extension);
+    size_t length = strlen(w->stem) + strlen(number) + 1;
+    char *name = mem_alloc(w->allocator, length, 1);
+    if (!name || !mem_reserve(w->allocator, (void **)&w->files, &w->file_capacity, w->file_count + 1,
+                              sizeof *w->files)) {
+        mem_free(name);
+        writer_fail_memory(w);
+        return;
+    }
+    snprintf(name, length, "%s%s", w->stem, number);
+    w->files[w->file_count++] = (written_file){.name = name, .bytes = bytes, .size = size};
+    put_uri(w, object, name);
+}
+
+void write_images(writer *w)
+{
+    const facet_scene *scene = w->scene;
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        const scene_image *source = &scene->images[i];
+        const image_kind *kind = kind_of(source);
+        const unsigned char *bytes = kind ? source->bytes : WHITE;
+        size_t size = kind ? source->size : sizeof WHITE;
+        kind = kind ? kind : image_kind_of_bytes(WHITE, sizeof WHITE);
+        json_t *out = json_object();
+        put_name(w, out, source->name);
+        if (w->stem) {
+            add_file(w, out, i, kind->file_extension, bytes, size);
+        } else {
+            put(w, out, "bufferView", json_integer(write_view(w, bytes, size, WRITE_NO_TARGET)));
+            put(w, out, "mimeType", json_string(kind->mime_type));
+        }
+        put_meta(w, out, &source->meta);
+        append(w, put_array(w, w->root, "images"), out);
+    }
+}
+
+/* ---- samplers: the numbers are OpenGL's ---- */
+
+static int wrap_number(scene_wrap wrap)
+{
+    return wrap == SCENE_WRAP_CLAMP ? 33071 : wrap == SCENE_WRAP_MIRROR ? 33648 : 10497;
+}
+
+static int min_filter_number(const scene_texture *t)
+{
+    bool is_nearest = t->min_filter == SCENE_FILTER_NEAREST;
+    switch (t->mip_filter) {
+    case SCENE_MIP_NONE:
+        return is_nearest ? 9728 : 9729;
+    case SCENE_MIP_NEAREST:
+        return is_nearest ? 9984 : 9985;
+    case SCENE_MIP_LINEAR:
+        break;
+    }
+    return is_nearest ? 9986 : 9987;
+}
+
+json_t *new_sampler(writer *w, const scene_texture *t)
+{
+    json_t *sampler = json_object();
+    put(w, sampler, "magFilter", json_integer(t->mag_filter == SCENE_FILTER_NEAREST ? 9728 : 9729));
+    put(w, sampler, "minFilter", json_integer(min_filter_number(t)));
+    put(w, sampler, "wrapS", json_integer(wrap_number(t->wrap_u)));
+    put(w, sampler, "wrapT", json_integer(wrap_number(t->wrap_v)));
+    return sampler;
+}
+
+static uint32_t write_sampler(writer *w, const scene_texture *t)
+{
+    json_t *sampler = new_sampler(w, t);
+    json_t *samplers = put_array(w, w->root, "samplers");
+    for (size_t i = 0; i < json_array_size(samplers); i++)
+        if (json_equal(json_array_get(samplers, i), sampler)) {
+            json_decref(sampler);
+            return (uint32_t)i;
+        }
+    append(w, samplers, sampler);
+    return (uint32_t)json_array_size(samplers) - 1;
+}
+
+/* ---- textures ---- */
+
+void write_textures(writer *w)
+{
+    const facet_scene *scene = w->scene;
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        const scene_texture *texture = &scene->textures[i];
+        json_t *out = json_object();
+        put_name(w, out, texture->name);
+        put(w, out, "sampler", json_integer(write_sampler(w, texture)));
+        const image_kind *kind =
+            texture->image == SCENE_NONE ? NULL : kind_of(&scene->images[texture->image]);
+        if (kind && kind->gltf_extension) {
+            json_t *extension = put_extension(w, out, kind->gltf_extension);
+            put_index(w, extension, "source", texture->image);
+            require_extension(w, kind->gltf_extension);
+        } else {
+            put_index(w, out, "source", texture->image);
+        }
+        put_meta(w, out, &texture->meta);
+        append(w, put_array(w, w->root, "textures"), out);
+    }
+}

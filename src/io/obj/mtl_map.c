@@ -1,0 +1,274 @@
+/* mtl_map.c - the arguments of a map: options and a name, which may have spaces in it and options behind it.
+ *
+ * -o and -s move and scale what is looked up, in MTL's coordinates, whose v points up:
+ *     u' = s_u u + o_u,  v' = s_v v + o_v
+ * glTF's v points down, w = 1 - v, so that
+ *     w' = 1 - v' = 1 - (s_v (1 - w) + o_v) = s_v w + (1 - s_v - o_v)
+ * and the offset along v becomes 1 - s_v - o_v, the scale stays. Where the file's own v points down already
+ * (has_flipped_texcoords), its formula is glTF's. */
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "io/obj/mtl_parts.h"
+
+/* What options say. */
+typedef struct map_options {
+    text all, dropped; /* dropped: what nothing here holds */
+    double offset[3], scale[3], turbulence[3];
+    double base_gain[2], bump_multiplier[1];
+    bool is_clamped;
+    char channel;
+} map_options;
+
+/* ---- the options ---- */
+
+typedef enum option_kind { OPTION_NUMBERS, OPTION_SWITCH, OPTION_WORD } option_kind;
+
+typedef struct option_row {
+    const char *name;
+    option_kind kind;
+    size_t least, most;  /* numbers */
+    size_t offset;       /* of the numbers in map_options; 0: the option is dropped */
+    const char *neutral; /* dropped without loss where it says this; NULL: never */
+} option_row;
+
+static const option_row OPTIONS[] = {
+    {"-o", OPTION_NUMBERS, 1, 3, offsetof(map_options, offset), NULL},
+    {"-s", OPTION_NUMBERS, 1, 3, offsetof(map_options, scale), NULL},
+    {"-t", OPTION_NUMBERS, 1, 3, offsetof(map_options, turbulence), NULL},
+    {"-mm", OPTION_NUMBERS, 2, 2, offsetof(map_options, base_gain), NULL},
+    {"-bm", OPTION_NUMBERS, 1, 1, offsetof(map_options, bump_multiplier), NULL},
+    {"-boost", OPTION_NUMBERS, 1, 1, 0, "0"},
+    {"-texres", OPTION_NUMBERS, 1, 1, 0, NULL},
+    {"-blendu", OPTION_SWITCH, 0, 0, 0, "on"},
+    {"-blendv", OPTION_SWITCH, 0, 0, 0, "on"},
+    {"-cc", OPTION_SWITCH, 0, 0, 0, "off"},
+    {"-clamp", OPTION_SWITCH, 0, 0, offsetof(map_options, is_clamped), NULL},
+    {"-imfchan", OPTION_WORD, 0, 0, offsetof(map_options, channel), NULL},
+    {"-type", OPTION_WORD, 0, 0, 0, NULL},
+};
+
+static const option_row *find_option(mtl_span word)
+{
+    for (size_t i = 0; i < sizeof OPTIONS / sizeof *OPTIONS; i++)
+        if (mtl_is_word(word, OPTIONS[i].name))
+            return &OPTIONS[i];
+    return NULL;
+}
+
+static void add_words(text *t, mtl_span s)
+{
+    if (t->length > 0)
+        text_add(t, " ");
+    text_add_bytes(t, s.begin, mtl_length(s));
+}
+
+/* Numbers behind an option: at least row->least. What is left out repeats nothing: it keeps its default. */
+static bool take_numbers(const option_row *row, mtl_span *rest, map_options *out)
+{
+    double values[3] = {0, 0, 0};
+    size_t count = 0;
+    mtl_span ahead = *rest;
+    while (count < row->most && mtl_to_number(mtl_next_word(&ahead), &values[count])) {
+        values[count] = fmax(-(double)LEGACY_LARGEST, fmin(values[count], (double)LEGACY_LARGEST));
+        count++;
+        *rest = ahead;
+    }
+    if (count < row->least)
+        return false;
+    if (row->offset)
+        memcpy((char *)out + row->offset, values, count * sizeof *values);
+    return true;
+}
+
+static bool take_switch(const option_row *row, mtl_span *rest, map_options *out)
+{
+    mtl_span ahead = *rest;
+    mtl_span word = mtl_next_word(&ahead);
+    bool is_on = mtl_is_word(word, "on");
+    if (!is_on && !mtl_is_word(word, "off"))
+        return false;
+    if (row->offset)
+        *(bool *)((char *)out + row->offset) = is_on;
+    *rest = ahead;
+    return true;
+}
+
+static bool take_word(const option_row *row, mtl_span *rest, map_options *out)
+{
+    mtl_span ahead = *rest;
+    mtl_span word = mtl_next_word(&ahead);
+    if (row->offset) {
+        if (mtl_length(word) != 1 || !strchr("rgbmlzRGBMLZ", *word.begin))
+            return false;
+        *((char *)out + row->offset) = (char)(*word.begin | 0x20);
+    } else if (mtl_length(word) == 0) {
+        return false;
+    }
+    *rest = ahead;
+    return true;
+}
+
+/* Takes one option with its values off the front. False: there is none, or it lacks its values. */
+static bool take_option(mtl_span *rest, map_options *out)
+{
+    mtl_span ahead = *rest;
+    mtl_span name = mtl_next_word(&ahead);
+    const option_row *row = find_option(name);
+    mtl_span before = ahead;
+    if (!row || !(row->kind == OPTION_NUMBERS  ? take_numbers(row, &ahead, out)
+                  : row->kind == OPTION_SWITCH ? take_switch(row, &ahead, out)
+                                               : take_word(row, &ahead, out)))
+        return false;
+    mtl_span values = mtl_trim((mtl_span){before.begin, ahead.begin});
+    mtl_span whole = {name.begin, values.end};
+    add_words(&out->all, whole);
+    bool is_turbulent = row->offset == offsetof(map_options, turbulence) &&
+                        (out->turbulence[0] != 0.0 || out->turbulence[1] != 0.0 || out->turbulence[2] != 0.0);
+    bool has_depth = (row->offset == offsetof(map_options, offset) && out->offset[2] != 0.0) ||
+                     (row->offset == offsetof(map_options, scale) && out->scale[2] != 1.0);
+    if (is_turbulent || has_depth || (!row->offset && !(row->neutral && mtl_is_word(values, row->neutral))))
+        add_words(&out->dropped, whole);
+    *rest = ahead;
+    return true;
+}
+
+static void map_options_begin(const mtl_parser *p, map_options *o)
+{
+    *o = (map_options){.scale = {1, 1, 1}, .base_gain = {0, 1}, .bump_multiplier = {1}};
+    if (p->allocator)
+        o->dropped.allocator = o->all.allocator = *p->allocator;
+}
+
+/* Turns what options say into the map. */
+static void map_options_end(mtl_parser *p, map_options *o, legacy_map *map, bool *is_clamped)
+{
+    scene_texture_ref *ref = &map->ref;
+    ref->offset[0] = (float)o->offset[0];
+    ref->scale[0] = (float)o->scale[0];
+    ref->scale[1] = (float)o->scale[1];
+    ref->offset[1] = (float)(p->has_flipped_texcoords ? o->offset[1] : 1.0 - o->scale[1] - o->offset[1]);
+    scene_texture_ref_update(ref);
+    map->base = (float)o->base_gain[0];
+    map->gain = (float)o->base_gain[1];
+    map->bump_multiplier = (float)o->bump_multiplier[0];
+    map->channel = o->channel;
+    *is_clamped = o->is_clamped;
+    p->has_failed = p->has_failed || o->all.has_failed || o->dropped.has_failed;
+    if (!p->has_failed && o->all.length)
+        map->options = mtl_keep(p, (mtl_span){o->all.data, o->all.data + o->all.length});
+    if (!p->has_failed && o->dropped.length)
+        map->dropped = mtl_keep(p, (mtl_span){o->dropped.data, o->dropped.data + o->dropped.length});
+    text_destroy(&o->all);
+    text_destroy(&o->dropped);
+}
+
+void mtl_parse_options(mtl_parser *p, const char *options, legacy_map *map, bool *is_clamped)
+{
+    map_options o;
+    mtl_span rest = {options, options + strlen(options)};
+    map_options_begin(p, &o);
+    while (take_option(&rest, &o))
+        continue;
+    map_options_end(p, &o, map, is_clamped);
+}
+
+/* ---- the name ---- */
+
+/* Whether s is nothing but options. */
+static bool is_all_options(const mtl_parser *p, mtl_span s)
+{
+    map_options scratch;
+    map_options_begin(p, &scratch);
+    while (take_option(&s, &scratch))
+        continue;
+    text_destroy(&scratch.all);
+    text_destroy(&scratch.dropped);
+    return mtl_length(mtl_trim(s)) == 0;
+}
+
+/* A comment behind a name starts with a blank: "a#1.png" is a name. */
+static mtl_span cut_comment(mtl_span s)
+{
+    for (const char *c = s.begin; c + 1 < s.end; c++)
+        if ((c[0] == ' ' || c[0] == '\t') && c[1] == '#')
+            return mtl_trim((mtl_span){s.begin, c});
+    return s;
+}
+
+enum { MOST_TRIES = 16 }; /* each may look at the whole rest of the line */
+
+/* A name in quotes, which may itself have quotes in it: up to one behind which nothing but options or a comment follows.
+ * False: there is none. */
+static bool take_quoted(const mtl_parser *p, mtl_span *s, mtl_span *name)
+{
+    mtl_span all = mtl_trim(*s);
+    if (mtl_length(all) < 2 || *all.begin != '"')
+        return false;
+    int tries = 0;
+    for (const char *c = all.begin + 1; c < all.end && tries < MOST_TRIES; c++) {
+        if (*c != '"')
+            continue;
+        mtl_span rest = mtl_trim((mtl_span){c + 1, all.end});
+        if (mtl_length(rest) == 0 || *rest.begin == '#' || is_all_options(p, rest)) {
+            *name = (mtl_span){all.begin + 1, c};
+            *s = rest;
+            return true;
+        }
+        tries++;
+    }
+    return false;
+}
+
+/* The name at the front of s: what quotes enclose, or all up to where only options follow. Moves *s behind it. */
+static mtl_span take_name(const mtl_parser *p, mtl_span *s)
+{
+    mtl_span name;
+    if (take_quoted(p, s, &name))
+        return name;
+    mtl_span all = cut_comment(mtl_trim(*s));
+    int tries = 0;
+    mtl_span rest = all;
+    while (mtl_length(mtl_trim(rest)) > 0 && tries < MOST_TRIES) {
+        mtl_span before = mtl_trim(rest);
+        mtl_span word = mtl_next_word(&rest);
+        bool is_option = word.begin > all.begin && find_option(word);
+        tries += is_option;
+        if (is_option && is_all_options(p, before)) {
+            *s = before;
+            return mtl_trim((mtl_span){all.begin, word.begin});
+        }
+    }
+    *s = (mtl_span){all.end, all.end};
+    return all;
+}
+
+bool mtl_parse_map(mtl_parser *p, const char *keyword, mtl_span arguments, legacy_map *map, bool *is_clamped)
+{
+    map_options o;
+    mtl_span rest = mtl_trim(arguments);
+    *map = legacy_map_default();
+    map_options_begin(p, &o);
+    while (mtl_length(rest) > 0 && *rest.begin == '-') {
+        mtl_span word = rest;
+        if (!take_option(&rest, &o)) {
+            mtl_span name = mtl_next_word(&word);
+            if (!find_option(name) || mtl_length(mtl_trim(word)) == 0)
+                break; /* a file may be called -something */
+            mtl_warn(p, "%s: %.*s lacks its value; it is ignored", keyword, (int)mtl_length(name),
+                     name.begin);
+            rest = word;
+        }
+        rest = mtl_trim(rest);
+    }
+    mtl_span name = mtl_trim(take_name(p, &rest));
+    while (take_option(&rest, &o))
+        continue;
+    if (mtl_length(name) == 0)
+        mtl_warn(p, "%s: names no file; the statement is ignored", keyword);
+    else
+        map->path = mtl_keep(p, name);
+    map_options_end(p, &o, map, is_clamped);
+    return map->path != NULL;
+}

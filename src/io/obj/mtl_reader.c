@@ -1,0 +1,413 @@
+/* mtl_reader.c - libraries of materials, and the scene's materials made of them. */
+#include <string.h>
+#include <strings.h>
+
+#include "base/result.h"
+#include "io/obj/mtl_parts.h"
+
+struct mtl_reader {
+    facet_scene *scene;
+    facet_scene_desc desc;
+    mtl_files files;
+    mtl_clues clues;
+    mtl_draft *drafts;
+    size_t count, capacity;
+    uint32_t *table; /* hash table of names; a power of two, 0 or at least twice count */
+    size_t table_size;
+    index_table libraries; /* those read, by file */
+    mtl_spectra spectra;
+    bool has_failed;
+};
+
+facet_result mtl_reader_create(facet_scene *scene, const facet_scene_desc *desc, const char *folder,
+                               mtl_reader **out, facet_error *error)
+{
+    *out = mem_zalloc(&desc->allocator, 1, sizeof **out);
+    if (!*out)
+        return fail_memory(error, "materials", sizeof **out);
+    mtl_reader *r = *out;
+    r->scene = scene;
+    r->desc = *desc;
+    r->files.scope = (file_scope){
+        .scene = scene,
+        .allocator = &r->desc.allocator,
+        .folder = folder,
+        .root = desc->root,
+        .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
+        .allows_absolute = true,
+    };
+    return FACET_OK;
+}
+
+void mtl_reader_destroy(mtl_reader *r)
+{
+    if (!r)
+        return;
+    for (size_t i = 0; i < r->count; i++) {
+        text_destroy(&r->drafts[i].unknown);
+        mtl_gltf_destroy(r->drafts[i].gltf);
+    }
+    mtl_files_destroy(&r->files);
+    mem_free(r->drafts);
+    mem_free(r->table);
+    index_table_release(&r->libraries);
+    mtl_spectra_destroy(&r->spectra);
+    mem_free(r);
+}
+
+/* ---- names ---- */
+
+/* FNV-1a. */
+static size_t hash_name(const char *name, size_t length)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < length; i++)
+        hash = (hash ^ (unsigned char)name[i]) * 0x100000001b3u;
+    return (size_t)(hash ^ hash >> 32);
+}
+
+/* Where a name is in the table, or the free place for it. */
+static size_t find_place(const mtl_reader *r, const char *name, size_t length)
+{
+    size_t at = hash_name(name, length) & (r->table_size - 1);
+    for (; r->table[at] != SCENE_NONE; at = (at + 1) & (r->table_size - 1)) {
+        const char *there = r->drafts[r->table[at]].m.name;
+        if (strlen(there) == length && memcmp(there, name, length) == 0)
+            break;
+    }
+    return at;
+}
+
+static bool grow_table(mtl_reader *r)
+{
+    size_t size = r->table_size ? 2 * r->table_size : 64;
+    uint32_t *table = mem_alloc(&r->desc.allocator, size, sizeof *table);
+    if (!table)
+        return false;
+    memset(table, 0xff, size * sizeof *table);
+    mem_free(r->table);
+    r->table = table;
+    r->table_size = size;
+    for (size_t i = 0; i < r->count; i++)
+        r->table[find_place(r, r->drafts[i].m.name, strlen(r->drafts[i].m.name))] = (uint32_t)i;
+    return true;
+}
+
+uint32_t mtl_reader_find(mtl_reader *r, const char *name, size_t length)
+{
+    return r->table_size ? r->table[find_place(r, name, length)] : SCENE_NONE;
+}
+
+uint32_t mtl_reader_add(mtl_reader *r, const char *name, size_t length)
+{
+    mtl_parser p = {.arena = r->scene->arena};
+    if ((2 * r->count >= r->table_size && !grow_table(r)) || r->count >= SCENE_NONE ||
+        !mem_reserve(&r->desc.allocator, (void **)&r->drafts, &r->capacity, r->count + 1, sizeof *r->drafts))
+        return SCENE_NONE;
+    mtl_draft draft = mtl_draft_begin(&r->desc.allocator);
+    draft.m.name = mtl_keep(&p, (mtl_span){name, name + length});
+    if (p.has_failed)
+        return SCENE_NONE;
+    size_t place = find_place(r, draft.m.name, strlen(draft.m.name));
+    r->drafts[r->count] = draft;
+    if (r->table[place] == SCENE_NONE)
+        r->table[place] = (uint32_t)r->count;
+    return (uint32_t)r->count++;
+}
+
+/* ---- one library ---- */
+
+/* A library while it is read. */
+typedef struct library {
+    mtl_reader *reader;
+    mtl_parser parser;
+    const char *folder; /* below the OBJ file's: "" or "materials/" */
+    uint32_t current;   /* material; SCENE_NONE: none */
+    bool is_ignored;    /* within a material whose name was there already */
+    bool has_begun;     /* some newmtl was there */
+} library;
+
+/* For the parser: a spectrum's file. */
+static bool open_beside(void *user, const char *name, uri_bytes *out)
+{
+    library *l = user;
+    const char *found;
+    bool is_open = mtl_files_open(&l->reader->files, l->folder, name, out, &found);
+    l->parser.has_failed = l->parser.has_failed || l->reader->files.has_failed;
+    return is_open;
+}
+
+/* Finds the textures of maps that are new. */
+static void resolve_maps(library *l, mtl_draft *draft)
+{
+    mtl_files *files = &l->reader->files;
+    for (int i = 0; i < LEGACY_MAP_COUNT; i++) {
+        legacy_map *map = &draft->m.maps[i];
+        if (map->path == draft->resolved[i])
+            continue;
+        draft->resolved[i] = map->path;
+        uint32_t found = mtl_files_image(files, &l->parser, l->folder, map->path);
+        scene_wrap wrap = draft->is_clamped[i] ? SCENE_WRAP_CLAMP : SCENE_WRAP_REPEAT;
+        if (found != SCENE_NONE)
+            map->ref.texture = mtl_files_texture(
+                files, &(scene_texture){.name = "", .image = found, .wrap_u = wrap, .wrap_v = wrap});
+    }
+    l->parser.has_failed = l->parser.has_failed || files->has_failed;
+}
+
+static void end_material(library *l)
+{
+    if (l->current == SCENE_NONE)
+        return;
+    mtl_draft *draft = &l->reader->drafts[l->current];
+    mtl_draft_end(&l->parser, draft);
+    if (legacy_has(&draft->m, LEGACY_SHININESS))
+        mtl_clues_shininess(&l->reader->clues, draft->m.shininess);
+    if (draft->m.gltf_json && !l->parser.has_failed) {
+        l->parser.line = draft->gltf_line;
+        draft->gltf = mtl_gltf_begin(&l->parser, &l->reader->files, l->folder, &draft->m);
+        l->parser.has_failed = l->parser.has_failed || l->reader->files.has_failed;
+    }
+    l->current = SCENE_NONE;
+}
+
+static void begin_material(library *l, mtl_span name)
+{
+    end_material(l);
+    l->has_begun = true;
+    l->is_ignored = mtl_reader_find(l->reader, name.begin, mtl_length(name)) != SCENE_NONE;
+    if (l->is_ignored) {
+        mtl_warn(&l->parser, "there is a material \"%.*s\" already; the first one counts",
+                 (int)(mtl_length(name) < 60 ? mtl_length(name) : 60), name.begin);
+        return;
+    }
+    l->current = mtl_reader_add(l->reader, name.begin, mtl_length(name));
+    l->parser.has_failed = l->parser.has_failed || l->current == SCENE_NONE;
+}
+
+static void read_comment(library *l, mtl_span line)
+{
+    static const char word[] = "#facet-gltf";
+    enum { MOST_JSON = 1 << 20 }; /* what a material needs is far less; jansson's memory is nobody's */
+    mtl_span rest = line;
+    if (!mtl_is_word(mtl_next_word(&rest), word)) {
+        line.begin++;
+        if (!l->has_begun)
+            mtl_clues_comment(&l->reader->clues, line, false);
+        return;
+    }
+    rest = mtl_trim(rest);
+    if (l->current == SCENE_NONE)
+        return;
+    if (mtl_length(rest) > MOST_JSON) {
+        mtl_warn(&l->parser, "#facet-gltf: is longer than %d bytes; it is ignored", (int)MOST_JSON);
+        return;
+    }
+    l->reader->drafts[l->current].m.gltf_json = mtl_keep(&l->parser, rest);
+    l->reader->drafts[l->current].gltf_line = l->parser.line;
+}
+
+static void read_line(library *l, mtl_span line, bool *has_warned)
+{
+    mtl_span rest = line;
+    mtl_span keyword = mtl_next_word(&rest);
+    if (*line.begin == '#') {
+        read_comment(l, line);
+    } else if (mtl_is_word(keyword, "newmtl")) {
+        begin_material(l, mtl_trim(rest));
+    } else if (l->current != SCENE_NONE) {
+        mtl_draft *draft = &l->reader->drafts[l->current];
+        mtl_parse_statement(&l->parser, line, draft);
+        if (!l->parser.has_failed)
+            resolve_maps(l, draft);
+    } else if (!l->is_ignored && !*has_warned) {
+        mtl_warn(&l->parser, "\"%.*s\" stands before the first newmtl; such statements are ignored",
+                 (int)(mtl_length(keyword) < 60 ? mtl_length(keyword) : 60), keyword.begin);
+        *has_warned = true;
+    }
+}
+
+/* Its folder, with the slash behind it. */
+static const char *folder_of(mtl_parser *p, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? mtl_keep(p, (mtl_span){path, slash + 1}) : "";
+}
+
+static void read_library(mtl_reader *r, const char *path, const uri_bytes *bytes)
+{
+    library l = {.reader = r, .current = SCENE_NONE};
+    l.parser = (mtl_parser){
+        .arena = r->scene->arena,
+        .allocator = &r->desc.allocator,
+        .scene = r->scene,
+        .log = &r->desc.log,
+        .file = path,
+        .has_flipped_texcoords = r->desc.has_flipped_texcoords,
+        .has_srgb_colors = r->desc.legacy.colors != FACET_LEGACY_COLORS_LINEAR,
+        .spectra = &r->spectra,
+        .open = open_beside,
+        .user = &l,
+    };
+    l.folder = folder_of(&l.parser, path);
+    mtl_lines lines = mtl_lines_begin(&r->desc.allocator, bytes->data, bytes->size);
+    mtl_span line;
+    bool has_warned = false;
+    if (bytes->size >= 2 &&
+        (memcmp(bytes->data, "\xff\xfe", 2) == 0 || memcmp(bytes->data, "\xfe\xff", 2) == 0))
+        scene_warn(r->scene, &r->desc.log, "%s: is UTF-16 text; UTF-8 was expected", path);
+    while (!l.parser.has_failed && mtl_next_line(&lines, &line)) {
+        l.parser.line = lines.line;
+        read_line(&l, line, &has_warned);
+    }
+    end_material(&l);
+    r->has_failed = r->has_failed || l.parser.has_failed || lines.joined.has_failed;
+    text_destroy(&lines.joined);
+}
+
+facet_result mtl_reader_load_bytes(mtl_reader *r, const char *name, const void *bytes, size_t size,
+                                   facet_error *error)
+{
+    read_library(r, name, &(uri_bytes){.data = bytes, .size = size});
+    return r->has_failed ? fail_memory(error, "materials", r->count * sizeof *r->drafts) : FACET_OK;
+}
+
+/* ---- mtllib ---- */
+
+/* Reads the library of a name unless it was read already. False: there is none; *why is filled. */
+static bool load_library(mtl_reader *r, const char *name, bool is_base_enough, uri_bytes *why)
+{
+    const char *found;
+    bool is_open = is_base_enough ? mtl_files_open(&r->files, "", name, why, &found)
+                                  : mtl_files_open_named(&r->files, "", name, why, &found);
+    if (!is_open) {
+        r->has_failed = r->has_failed || r->files.has_failed;
+        return false;
+    }
+    if (index_table_find(&r->libraries, why->file) != INDEX_TABLE_NONE)
+        return true;
+    if (!index_table_add(&r->libraries, &r->desc.allocator, why->file, 0)) {
+        r->has_failed = true;
+        return true;
+    }
+    read_library(r, found, why);
+    return true;
+}
+
+/* Loads the shortest name of up to MOST_WORDS words at the front of *rest that is a file's, and moves *rest behind it.
+ * Words are names by the letter of the format; names with spaces are common all the same. */
+static bool load_front(mtl_reader *r, mtl_span *rest, mtl_parser *p)
+{
+    enum { MOST_WORDS = 16 };
+    mtl_span all = mtl_trim(*rest);
+    mtl_span ahead = all;
+    for (int words = 0; words < MOST_WORDS && mtl_length(mtl_trim(ahead)) > 0; words++) {
+        mtl_next_word(&ahead);
+        mtl_span name = mtl_trim((mtl_span){all.begin, ahead.begin});
+        if (mtl_length(name) >= 2 && *name.begin == '"') {
+            if (name.end[-1] != '"')
+                continue;
+            name = (mtl_span){name.begin + 1, name.end - 1};
+        }
+        uri_bytes why;
+        const char *kept = mtl_keep(p, name);
+        if (!p->has_failed && load_library(r, kept, false, &why)) {
+            *rest = ahead;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The name of a library that is not there: up to the next word that ends in ".mtl", or the first word. */
+static mtl_span missing_name(mtl_span *rest)
+{
+    mtl_span all = mtl_trim(*rest);
+    mtl_span ahead = all;
+    mtl_span first = mtl_next_word(&ahead);
+    for (mtl_span word = first; mtl_length(word) > 0; word = mtl_next_word(&ahead))
+        if (mtl_length(word) > 4 && strncasecmp(word.end - 4, ".mtl", 4) == 0) {
+            *rest = ahead;
+            return (mtl_span){all.begin, word.end};
+        }
+    rest->begin = first.end;
+    return first;
+}
+
+facet_result mtl_reader_load(mtl_reader *r, const char *names, size_t length, facet_error *error)
+{
+    enum { MOST_LIBRARIES = 256 }; /* of one statement: each that is missing costs questions to the system */
+    mtl_span rest = {names, names + length};
+    mtl_parser p = {.arena = r->scene->arena};
+    for (int i = 0; i < MOST_LIBRARIES && mtl_length(mtl_trim(rest)) > 0 && !r->has_failed; i++) {
+        if (load_front(r, &rest, &p) || r->has_failed || p.has_failed)
+            continue;
+        mtl_span name = missing_name(&rest);
+        uri_bytes why;
+        const char *kept = mtl_keep(&p, name);
+        if (!load_library(r, kept, true, &why) && !r->has_failed)
+            scene_warn(r->scene, &r->desc.log, "%s: mtllib: %s; its materials are defaults", r->scene->source,
+                       why.message);
+    }
+    r->has_failed = r->has_failed || p.has_failed || r->files.has_failed;
+    return r->has_failed ? fail_memory(error, "materials", r->count * sizeof *r->drafts) : FACET_OK;
+}
+
+void mtl_reader_hint(mtl_reader *r, const char *comment, size_t length)
+{
+    mtl_clues_comment(&r->clues, (mtl_span){comment, comment + length}, true);
+}
+
+/* ---- the scene ---- */
+
+static scene_legacy *new_legacy(mtl_reader *r)
+{
+    scene_legacy *legacy = arena_zalloc(r->scene->arena, 1, sizeof *legacy);
+    if (!legacy)
+        return NULL;
+    legacy->materials = arena_alloc(r->scene->arena, r->count, sizeof *legacy->materials);
+    legacy->is_source = true;
+    legacy->fog.scale = 1.0f;
+    legacy->colors = r->desc.legacy.colors == FACET_LEGACY_COLORS_LINEAR ? FACET_LEGACY_COLORS_LINEAR
+                                                                         : FACET_LEGACY_COLORS_SRGB;
+    legacy->dialect = r->desc.legacy.dialect;
+    if (legacy->dialect == FACET_MTL_AUTO)
+        legacy->dialect = mtl_clues_decide(&r->clues, &legacy->is_dialect_guessed);
+    return legacy->materials ? legacy : NULL;
+}
+
+static void fill_material(mtl_reader *r, scene_legacy *legacy, size_t i)
+{
+    mtl_draft *draft = &r->drafts[i];
+    mtl_parser p = {.arena = r->scene->arena,
+                    .allocator = &r->desc.allocator,
+                    .scene = r->scene,
+                    .log = &r->desc.log,
+                    .file = r->scene->source,
+                    .line = draft->gltf_line};
+    scene_material *m = &r->scene->materials[i];
+    *m = scene_material_default();
+    m->name = draft->m.name;
+    if (draft->gltf) {
+        draft->m.is_gltf_restored = mtl_gltf_end(draft->gltf, &p, m);
+        draft->gltf = NULL;
+    }
+    r->has_failed = r->has_failed || p.has_failed;
+    legacy->materials[i] = draft->m;
+}
+
+facet_result mtl_reader_finish(mtl_reader *r, facet_error *error)
+{
+    facet_scene *scene = r->scene;
+    scene_legacy *legacy = new_legacy(r);
+    scene->materials = arena_alloc(scene->arena, r->count, sizeof *scene->materials);
+    if (!legacy || !scene->materials || r->has_failed || !mtl_files_finish(&r->files))
+        return fail_memory(error, "materials", r->count * sizeof *scene->materials);
+    for (size_t i = 0; i < r->count; i++)
+        fill_material(r, legacy, i);
+    if (r->has_failed)
+        return fail_memory(error, "materials", r->count * sizeof *scene->materials);
+    scene->material_count = (uint32_t)r->count;
+    scene->legacy = legacy;
+    return FACET_OK;
+}

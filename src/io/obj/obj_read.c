@@ -1,0 +1,233 @@
+/* obj_read.c - the whole file: the steps of obj_reader.h one after the other. */
+#include "io/obj/obj.h"
+
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/result.h"
+#include "io/obj/obj_parse.h"
+
+/* ---- failures ---- */
+
+bool obj_fail_memory(obj_reader *r, const char *what, size_t size)
+{
+    if (obj_is_ok(r))
+        r->result = fail_memory(r->error, what, size);
+    return false;
+}
+
+bool obj_fail_limit(obj_reader *r, const char *what)
+{
+    if (obj_is_ok(r))
+        r->result =
+            fail(r->error, FACET_ERROR_LIMIT, "%s: has more %s than can be numbered", r->scene->source, what);
+    return false;
+}
+
+bool obj_check_memory(obj_reader *r, const char *what)
+{
+    return !atomic_load(&r->has_failed) || obj_fail_memory(r, what, 0);
+}
+
+/* ---- steps ---- */
+
+static void parse_chunks(void *context, size_t begin, size_t end)
+{
+    obj_reader *r = context;
+    for (size_t i = begin; i < end && !atomic_load(&r->has_failed); i++) {
+        obj_parse_chunk(&r->chunks[i], r->allocator);
+        if (r->chunks[i].has_failed)
+            atomic_store(&r->has_failed, true);
+    }
+}
+
+static void check_chunks(void *context, size_t begin, size_t end)
+{
+    obj_reader *r = context;
+    for (size_t i = begin; i < end; i++)
+        obj_check_chunk(r, &r->chunks[i]);
+}
+
+/* Comments before the first statement: the first one that says something names the program that wrote the file. */
+static void read_head(obj_reader *r)
+{
+    enum { MOST_COMMENTS = 8, LONGEST = 200 };
+    const char *p = r->chunks[0].text;
+    const char *end = p + r->chunks[0].size;
+    for (int i = 0; i < MOST_COMMENTS && p < end;) {
+        while (p < end && (obj_is_blank(*p) || obj_is_line_end(*p)))
+            p++;
+        if (p == end || *p != '#')
+            return;
+        while (*p == '#' || obj_is_blank(*p))
+            p++;
+        const char *line = p;
+        while (!obj_is_line_end(*p))
+            p++;
+        size_t length = (size_t)(p - line) < LONGEST ? (size_t)(p - line) : LONGEST;
+        if (length == 0)
+            continue;
+        mtl_reader_hint(r->materials, line, length);
+        if (i++ == 0) {
+            r->scene->generator = obj_copy_name(r, line, length);
+            if (!r->scene->generator)
+                return;
+        }
+    }
+}
+
+/* Whether there is anything of an OBJ file in it, and elements. */
+static bool look_at_statements(obj_reader *r, bool *has_elements)
+{
+    bool has_statement = false;
+    *has_elements = false;
+    for (size_t i = 0; i < r->chunk_count; i++) {
+        const obj_chunk *c = &r->chunks[i];
+        *has_elements |= c->mode >= 0;
+        has_statement |=
+            c->has_statement || c->mode >= 0 || c->positions.count || c->texcoords.count || c->normals.count;
+    }
+    if (!has_statement)
+        r->result = fail(r->error, FACET_ERROR_INVALID,
+                         "%s: has no statement of an OBJ file; vertices (v) and faces (f) were expected",
+                         r->scene->source);
+    return has_statement;
+}
+
+static void make_geometry(obj_reader *r, bool has_elements)
+{
+    obj_join_chunks(r);
+    if (obj_is_ok(r) && has_elements)
+        parallel_for(r->thread_count, r->chunk_count, 1, check_chunks, r);
+    if (obj_is_ok(r))
+        obj_make_runs(r);
+    if (obj_is_ok(r) && has_elements)
+        obj_make_corners(r);
+    else if (obj_is_ok(r))
+        obj_make_cloud(r);
+    if (obj_is_ok(r)) { /* not before the chunks have given back theirs */
+        r->indices = arena_alloc(r->scene->arena, r->corner_count, sizeof *r->indices);
+        if (!r->indices)
+            obj_fail_memory(r, "indices", r->corner_count * sizeof *r->indices);
+    }
+    if (obj_is_ok(r))
+        obj_make_normals(r);
+    if (obj_is_ok(r))
+        obj_make_vertices(r);
+}
+
+/* What was left out of all that there was, and what was made up. */
+static void warn_all(obj_reader *r, bool has_elements, const char *bytes)
+{
+    for (uint32_t i = 0; i < r->primitive_count; i++)
+        if (r->primitives[i].has_texcoords)
+            r->chunks[0].remarks.counts[OBJ_TEXCOORD_MISSING] += r->primitives[i].missing_texcoords;
+    obj_warn_all(r, bytes);
+    if (r->primitive_count == 0)
+        scene_warn(r->scene, &r->desc->log, "%s: has no face, line or point that can be drawn",
+                   r->scene->source);
+    else if (!has_elements)
+        scene_warn(r->scene, &r->desc->log, "%s: has vertices only; they are shown as points",
+                   r->scene->source);
+}
+
+static void read_all(obj_reader *r, const char *bytes, size_t size)
+{
+    bool has_elements;
+    obj_cut_chunks(r, bytes, size);
+    if (!obj_is_ok(r))
+        return;
+    parallel_for(r->thread_count, r->chunk_count, 1, parse_chunks, r);
+    if (!obj_check_memory(r, "statements") || !look_at_statements(r, &has_elements))
+        return;
+    read_head(r);
+    make_geometry(r, has_elements);
+    if (obj_is_ok(r))
+        obj_make_scene(r);
+    if (obj_is_ok(r))
+        warn_all(r, has_elements, bytes);
+}
+
+/* ---- the file ---- */
+
+static void release(obj_reader *r)
+{
+    for (size_t i = 0; i < r->chunk_count; i++)
+        obj_chunk_release(&r->chunks[i]);
+    mem_free(r->chunks);
+    mem_free(r->tail);
+    mem_free(r->positions);
+    mem_free(r->texcoords);
+    mem_free(r->normals);
+    mem_free(r->colors);
+    mem_free(r->runs);
+    obj_names_release(&r->objects);
+    obj_names_release(&r->material_names);
+    mem_free(r->primitives);
+    mem_free(r->material_numbers);
+    mem_free(r->v);
+    mem_free(r->t);
+    mem_free(r->n);
+    mem_free(r->groups);
+    mem_free(r->more_normals);
+    mtl_reader_destroy(r->materials);
+}
+
+/* folder: NULL: from memory. */
+static facet_result load(const char *bytes, size_t size, const char *source, const char *folder,
+                         const facet_scene_desc *desc, facet_scene **out, facet_error *error)
+{
+    obj_reader r = {.desc = desc,
+                    .allocator = &desc->allocator,
+                    .error = error,
+                    .thread_count = desc->thread_count,
+                    .objects.allocator = desc->allocator,
+                    .material_names.allocator = desc->allocator};
+    r.result = scene_create(&desc->allocator, source, &r.scene, error);
+    if (obj_is_ok(&r)) {
+        r.scene->max_texture_size = desc->max_texture_size;
+        r.scene->thread_count = desc->thread_count;
+        r.result = mtl_reader_create(r.scene, desc, folder, &r.materials, error);
+    }
+    if (obj_is_ok(&r))
+        read_all(&r, bytes, size);
+    if (obj_is_ok(&r))
+        r.result = mtl_reader_finish(r.materials, error);
+    release(&r);
+    if (r.result == FACET_OK)
+        *out = r.scene;
+    else
+        scene_destroy(r.scene);
+    return r.result;
+}
+
+facet_result obj_load(const char *path, const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
+{
+    const facet_scene_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    *scene = NULL;
+    file_bytes file = {0};
+    facet_result result = file_open(path, desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
+                                    &desc->allocator, &file, error);
+    if (result != FACET_OK)
+        return result;
+    char *folder = path_folder(&desc->allocator, path);
+    result = folder ? load((const char *)file.data, file.size, path, folder, desc, scene, error)
+                    : fail_memory(error, "path", strlen(path));
+    if (result == FACET_OK && !scene_note_file(*scene, &file)) {
+        scene_destroy(*scene);
+        *scene = NULL;
+        result = fail_memory(error, "files", sizeof file);
+    }
+    mem_free(folder);
+    file_close(&file);
+    return result;
+}
+
+facet_result obj_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
+                             facet_scene **scene, facet_error *error)
+{
+    const facet_scene_desc defaults = {0};
+    *scene = NULL;
+    return load(bytes, size, name, NULL, desc ? desc : &defaults, scene, error);
+}

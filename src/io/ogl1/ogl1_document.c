@@ -1,0 +1,220 @@
+/* ogl1_document.c - a JSON document of rgl's parameters, from its text to an ogl1_document: told apart, parsed, and its
+ * members one after the other. */
+#include <string.h>
+
+#include "io/ogl1/ogl1_json.h"
+#include "io/ogl1/ogl1_parameters.h"
+#include "io/ogl1/ogl1_reader.h"
+
+enum { MOST_MATERIALS = 16384, VERSION = 1 };
+
+/* ---- telling it apart, without parsing ---- */
+
+static const unsigned char *skip_space(const unsigned char *at, const unsigned char *end)
+{
+    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r' || *at == '\n'))
+        at++;
+    return at;
+}
+
+/* Behind the string that begins at at with its quote; end where it has no end. */
+static const unsigned char *skip_string(const unsigned char *at, const unsigned char *end)
+{
+    for (at++; at < end && *at != '"'; at++)
+        at += *at == '\\';
+    return at < end ? at + 1 : end;
+}
+
+/* Behind the value that begins at at, at the comma or bracket that ends it. */
+static const unsigned char *skip_value(const unsigned char *at, const unsigned char *end)
+{
+    size_t depth = 0;
+    while (at < end) {
+        if (*at == '"') {
+            at = skip_string(at, end);
+            continue;
+        }
+        if (depth == 0 && (*at == ',' || *at == '}' || *at == ']'))
+            return at;
+        depth += *at == '{' || *at == '[';
+        depth -= *at == '}' || *at == ']';
+        at++;
+    }
+    return end;
+}
+
+static bool is_key(const unsigned char *at, const unsigned char *end, const char *key)
+{
+    size_t length = strlen(key);
+    return (size_t)(end - at) >= length + 2 && memcmp(at + 1, key, length) == 0 && at[length + 1] == '"';
+}
+
+bool ogl1_json_detect(const void *bytes, size_t size)
+{
+    static const char *const gltf[] = {"asset",   "meshes",      "nodes", "accessors",
+                                       "buffers", "bufferViews", "scenes"};
+    const unsigned char *at = bytes;
+    const unsigned char *end = at + size;
+    bool is_ours = false;
+    if (size >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0)
+        at += 3;
+    at = skip_space(at, end);
+    if (at == end || *at != '{')
+        return false;
+    at = skip_space(at + 1, end);
+    while (at < end && *at == '"') {
+        for (size_t i = 0; i < sizeof gltf / sizeof *gltf; i++)
+            if (is_key(at, end, gltf[i]))
+                return false;
+        is_ours |= is_key(at, end, "materials") || is_key(at, end, "material3d") ||
+                   is_key(at, end, "shininess") || is_key(at, end, "facet");
+        at = skip_space(skip_string(at, end), end);
+        if (at < end && *at == ':')
+            at = skip_value(at + 1, end);
+        if (at < end && *at == ',')
+            at = skip_space(at + 1, end);
+    }
+    return is_ours;
+}
+
+/* ---- reading ---- */
+
+static json_t *parse(reader *r, const char *bytes, size_t size)
+{
+    size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    json_error_t error;
+    json_t *json = json_loadb(bytes + mark, size - mark, JSON_ALLOW_NUL, &error);
+    if (!json && json_error_code(&error) == json_error_out_of_memory)
+        reader_fail_memory(r, "JSON", size);
+    else if (!json)
+        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is not valid JSON: line %d, column %d: %s",
+                    error.line, error.column, error.text);
+    else if (!json_is_object(json))
+        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID,
+                    "must be a JSON object with \"materials\" or \"material3d\"");
+    return json;
+}
+
+static bool is_material(const json_t *object)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (ogl1_is_parameter(key) && (!json_is_object(value) || json_object_size(value) == 0))
+            return true;
+    }
+    return false;
+}
+
+static void read_header(ogl1_document *d, const json_place *root)
+{
+    static const char *const spaces[] = {"srgb", "linear", NULL};
+    reader *r = &d->r;
+    const char *kind = "ogl1";
+    const char *generator = "";
+    double version = VERSION;
+    int space = -1;
+    ogl1_string(r, root, "facet", &kind);
+    ogl1_number(r, root, "version", &version);
+    ogl1_string(r, root, "generator", &generator);
+    ogl1_choice(r, root, "colors", spaces, &space);
+    d->colors = space < 0    ? FACET_LEGACY_COLORS_DEFAULT
+                : space == 0 ? FACET_LEGACY_COLORS_SRGB
+                             : FACET_LEGACY_COLORS_LINEAR;
+    if (strcmp(kind, "ogl1") != 0)
+        reader_fail(r, root, "facet", FACET_ERROR_UNSUPPORTED, "\"%.40s\" is not \"ogl1\"", kind);
+    if (version != VERSION)
+        reader_fail(r, root, "version", FACET_ERROR_UNSUPPORTED, "%g is not %d, the only one that is read",
+                    version, VERSION);
+    d->generator = arena_strdup(r->scene->arena, generator);
+    if (!d->generator)
+        reader_fail_memory(r, "generator", strlen(generator));
+}
+
+/* What toJSON() makes of a bare material3d(): the root itself is the material. */
+static bool is_bare(const json_place *root)
+{
+    return !has_member(root, "materials") && !has_member(root, "material3d") && is_material(root->value);
+}
+
+/* "materials", then "material3d". */
+static void read_entries(ogl1_document *d, const json_place *root)
+{
+    reader *r = &d->r;
+    json_place at;
+    ogl1_list list = ogl1_list_begin(r, root, "materials", is_material);
+    json_place bare = is_bare(root) ? *root : ogl1_object(r, root, "material3d");
+    if (list.count > MOST_MATERIALS)
+        reader_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu materials, more than %d", list.count,
+                    MOST_MATERIALS);
+    d->entries = reader_alloc(r, "materials", list.count + 1, sizeof *d->entries);
+    while (ogl1_list_next(r, &list, &at)) {
+        ogl1_entry *entry = &d->entries[d->entry_count++];
+        ogl1_read_material(r, &at, entry);
+        if (!entry->name && at.key && at.key[0] && !list.is_single) { /* of a named list */
+            entry->name = arena_strdup(r->scene->arena, at.key);
+            if (!entry->name)
+                reader_fail_memory(r, "name", strlen(at.key));
+        }
+    }
+    if (bare.value && reader_is_ok(r))
+        ogl1_read_material(r, &bare, &d->entries[d->entry_count++]);
+}
+
+static void report_unknown(reader *r, const json_place *root)
+{
+    static const char *const known[] = {"facet",      "version", "generator",  "colors", "materials",
+                                        "material3d", "lights",  "background", "fog"};
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)root->value, key, value)
+    {
+        bool is_known = false;
+        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+            is_known |= strcmp(key, known[i]) == 0;
+        if (!is_known)
+            reader_warn(r, NULL, NULL, "\"%.60s\" has no meaning here; it is dropped", key);
+    }
+}
+
+static void read_root(ogl1_document *d, const json_place *root)
+{
+    reader *r = &d->r;
+    read_header(d, root);
+    read_entries(d, root);
+    if (is_bare(root)) /* its "fog" is a switch */
+        return;
+    if (reader_is_ok(r))
+        ogl1_read_lights(d, root);
+    if (reader_is_ok(r))
+        ogl1_read_fog(d, root);
+    if (reader_is_ok(r))
+        report_unknown(r, root);
+}
+
+void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes, size_t size,
+                        const char *folder, const facet_scene_desc *desc, facet_error *error)
+{
+    *d = (ogl1_document){
+        .r = {.scene = scene,
+              .allocator = &desc->allocator,
+              .log = &desc->log,
+              .error = error,
+              .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
+              .folder = folder,
+              .root = desc->root},
+        .generator = ""};
+    size_t estimate = json_memory_estimate(bytes, size);
+    void *reserve = mem_alloc(&desc->allocator, estimate, 1);
+    if (!reserve) {
+        reader_fail_memory(&d->r, "JSON", estimate);
+        return;
+    }
+    json_t *json = parse(&d->r, bytes, size);
+    const json_place root = {.value = json};
+    if (reader_is_ok(&d->r))
+        read_root(d, &root);
+    json_decref(json);
+    mem_free(reserve);
+}

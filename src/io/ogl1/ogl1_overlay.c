@@ -1,0 +1,335 @@
+/* ogl1_overlay.c - parameters laid over a scene that was read. The more specific wins: objects before names of materials
+ * before all; of equals the last. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "io/ogl1/ogl1_json.h"
+#include "io/ogl1/ogl1_names.h"
+
+/* A node with a mesh, and the entry of its objects. */
+typedef struct use {
+    uint32_t node, mesh;
+    uint32_t entry; /* 0: none; else its number plus 1, so that none sorts first */
+} use;
+
+typedef struct overlay {
+    ogl1_document d;
+    ogl1_names materials, objects;
+    uint32_t all;            /* the entry for all; SCENE_NONE: none */
+    bool *is_set;            /* per material: an entry took its place */
+    uint32_t *numbers;       /* per entry: its material in the scene; SCENE_NONE: none yet */
+    bool *is_met, *is_named; /* per entry */
+    uint32_t *node_entries;  /* per node: as in use; UINT32_MAX: not known yet */
+    uint32_t *path;          /* node_count, for find_entry() */
+    size_t use_count;
+    use *uses;
+} overlay;
+
+static bool take_memory(overlay *o)
+{
+    const facet_scene *scene = o->d.r.scene;
+    const facet_allocator *allocator = o->d.r.allocator;
+    o->is_set = mem_zalloc(allocator, (size_t)scene->material_count + o->d.entry_count, sizeof *o->is_set);
+    o->numbers = mem_alloc(allocator, o->d.entry_count, sizeof *o->numbers);
+    o->is_met = mem_zalloc(allocator, o->d.entry_count, sizeof *o->is_met);
+    o->is_named = mem_zalloc(allocator, o->d.entry_count, sizeof *o->is_named);
+    o->node_entries = mem_alloc(allocator, scene->node_count, sizeof *o->node_entries);
+    o->path = mem_alloc(allocator, scene->node_count, sizeof *o->path);
+    o->uses = mem_alloc(allocator, scene->node_count, sizeof *o->uses);
+    if (!o->is_set || !o->numbers || !o->is_met || !o->is_named || !o->node_entries || !o->path || !o->uses ||
+        !ogl1_names_create(&o->d, false, &o->materials) || !ogl1_names_create(&o->d, true, &o->objects))
+        return reader_fail_memory(&o->d.r, "parameters", scene->node_count * sizeof *o->uses);
+    memset(o->numbers, 0xff, o->d.entry_count * sizeof *o->numbers);
+    memset(o->node_entries, 0xff, scene->node_count * sizeof *o->node_entries);
+    o->all = SCENE_NONE;
+    for (uint32_t i = 0; i < o->d.entry_count; i++)
+        if (!o->d.entries[i].name && !o->d.entries[i].object_count)
+            o->all = i;
+    return true;
+}
+
+static void release(overlay *o)
+{
+    ogl1_names_destroy(&o->materials);
+    ogl1_names_destroy(&o->objects);
+    mem_free(o->is_set);
+    mem_free(o->numbers);
+    mem_free(o->is_met);
+    mem_free(o->is_named);
+    mem_free(o->node_entries);
+    mem_free(o->path);
+    mem_free(o->uses);
+}
+
+/* ---- materials ---- */
+
+/* Room for those to come, in both models. A scene of glTF materials gets legacy ones: what is not met stays glTF's. */
+static void make_room(overlay *o)
+{
+    reader *r = &o->d.r;
+    facet_scene *scene = r->scene;
+    size_t count = (size_t)scene->material_count + o->d.entry_count + 1;
+    scene_material *materials = reader_alloc(r, "materials", count, sizeof *materials);
+    legacy_material *legacy = reader_alloc(r, "materials", count, sizeof *legacy);
+    scene_legacy *all = scene->legacy ? scene->legacy : reader_alloc(r, "materials", 1, sizeof *all);
+    if (!reader_is_ok(r))
+        return;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        materials[i] = scene->materials[i];
+        legacy[i] = scene->legacy ? scene->legacy->materials[i] : legacy_material_default();
+        if (!scene->legacy) {
+            legacy[i].name = materials[i].name;
+            legacy[i].is_gltf_restored = true;
+        }
+    }
+    if (!scene->legacy)
+        all->fog.scale = 1.0f;
+    all->materials = legacy;
+    scene->materials = materials;
+    scene->legacy = all;
+}
+
+static void set_material(overlay *o, uint32_t material, uint32_t entry)
+{
+    facet_scene *scene = o->d.r.scene;
+    const char *name = scene->materials[material].name;
+    scene_material plain = scene_material_default();
+    plain.name = name;
+    plain.meta = scene->materials[material].meta;
+    scene->materials[material] = plain;
+    scene->legacy->materials[material] = o->d.entries[entry].material;
+    scene->legacy->materials[material].name = name;
+    o->is_set[material] = o->is_met[entry] = true;
+}
+
+static uint32_t add_material(overlay *o, uint32_t entry, const char *name)
+{
+    facet_scene *scene = o->d.r.scene;
+    uint32_t number = scene->material_count++;
+    scene->materials[number] = (scene_material){.name = name};
+    set_material(o, number, entry);
+    return number;
+}
+
+static void replace_materials(overlay *o)
+{
+    facet_scene *scene = o->d.r.scene;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        uint32_t named = ogl1_names_find(&o->materials, scene->materials[i].name);
+        uint32_t entry = named != SCENE_NONE ? named : o->all;
+        if (entry != SCENE_NONE)
+            set_material(o, i, entry);
+        if (named == SCENE_NONE)
+            continue;
+        o->is_named[named] = true;
+        o->numbers[named] = o->numbers[named] == SCENE_NONE ? i : o->numbers[named];
+    }
+}
+
+/* The material of an entry, for the objects that it names. */
+static uint32_t material_of(overlay *o, uint32_t entry)
+{
+    const ogl1_entry *e = &o->d.entries[entry];
+    if (o->numbers[entry] == SCENE_NONE)
+        o->numbers[entry] = add_material(o, entry,
+                                         e->name           ? e->name
+                                         : e->object_count ? e->objects[0]
+                                                           : "material3d");
+    return o->numbers[entry];
+}
+
+/* ---- objects ---- */
+
+/* The entry of a node: of its own name, its mesh's, or that of the nearest node above it that has one. */
+static uint32_t find_entry(overlay *o, uint32_t node)
+{
+    const facet_scene *scene = o->d.r.scene;
+    uint32_t length = 0;
+    uint32_t entry = 0;
+    for (; node != SCENE_NONE && length < scene->node_count; node = scene->nodes[node].parent) {
+        if (o->node_entries[node] != UINT32_MAX) {
+            entry = o->node_entries[node];
+            break;
+        }
+        o->path[length++] = node;
+    }
+    while (length-- > 0) {
+        const scene_node *n = &scene->nodes[o->path[length]];
+        uint32_t own = ogl1_names_find(&o->objects, n->name);
+        uint32_t meshes =
+            n->mesh != SCENE_NONE ? ogl1_names_find(&o->objects, scene->meshes[n->mesh].name) : SCENE_NONE;
+        own = own != SCENE_NONE ? own : meshes;
+        entry = own != SCENE_NONE ? own + 1 : entry;
+        o->node_entries[o->path[length]] = entry;
+    }
+    return entry;
+}
+
+static int compare_uses(const void *a, const void *b)
+{
+    const use *x = a;
+    const use *y = b;
+    if (x->mesh != y->mesh)
+        return x->mesh < y->mesh ? -1 : 1;
+    if (x->entry != y->entry)
+        return x->entry < y->entry ? -1 : 1;
+    return (x->node > y->node) - (x->node < y->node);
+}
+
+static void find_uses(overlay *o)
+{
+    const facet_scene *scene = o->d.r.scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        uint32_t entry = find_entry(o, i); /* also where it has no mesh: its name is met */
+        if (scene->nodes[i].mesh != SCENE_NONE)
+            o->uses[o->use_count++] = (use){.node = i, .mesh = scene->nodes[i].mesh, .entry = entry};
+    }
+    qsort(o->uses, o->use_count, sizeof *o->uses, compare_uses);
+}
+
+static bool begins_group(const overlay *o, size_t i)
+{
+    return i == 0 || o->uses[i].mesh != o->uses[i - 1].mesh || o->uses[i].entry != o->uses[i - 1].entry;
+}
+
+static bool begins_mesh(const overlay *o, size_t i)
+{
+    return i == 0 || o->uses[i].mesh != o->uses[i - 1].mesh;
+}
+
+/* Room for the copies of meshes that several entries share, or an entry and none. */
+static void make_mesh_room(overlay *o)
+{
+    facet_scene *scene = o->d.r.scene;
+    size_t count = scene->mesh_count;
+    for (size_t i = 0; i < o->use_count; i++)
+        count += begins_group(o, i) && !begins_mesh(o, i);
+    if (count == scene->mesh_count)
+        return;
+    scene_mesh *meshes = reader_alloc(&o->d.r, "meshes", count, sizeof *meshes);
+    if (!meshes)
+        return;
+    memcpy(meshes, scene->meshes, scene->mesh_count * sizeof *meshes);
+    scene->meshes = meshes;
+}
+
+static uint32_t copy_mesh(overlay *o, uint32_t mesh)
+{
+    facet_scene *scene = o->d.r.scene;
+    const scene_mesh *from = &scene->meshes[mesh];
+    scene_primitive *primitives =
+        reader_alloc_raw(&o->d.r, "primitives", from->primitive_count, sizeof *primitives);
+    if (!primitives)
+        return mesh;
+    memcpy(primitives, from->primitives, from->primitive_count * sizeof *primitives);
+    scene->meshes[scene->mesh_count] = *from;
+    scene->meshes[scene->mesh_count].primitives = primitives;
+    return scene->mesh_count++;
+}
+
+/* The first group of a mesh has it, which is that of no entry where there is one; the others get copies. */
+static void assign_objects(overlay *o)
+{
+    facet_scene *scene = o->d.r.scene;
+    uint32_t mesh = SCENE_NONE;
+    for (size_t i = 0; i < o->use_count && reader_is_ok(&o->d.r); i++) {
+        const use *u = &o->uses[i];
+        if (begins_group(o, i)) {
+            mesh = begins_mesh(o, i) ? u->mesh : copy_mesh(o, u->mesh);
+            for (uint32_t k = 0; u->entry && k < scene->meshes[mesh].primitive_count; k++) {
+                scene->meshes[mesh].primitives[k].material = material_of(o, u->entry - 1);
+                scene->meshes[mesh].primitives[k].variant_materials = NULL;
+            }
+        }
+        scene->nodes[u->node].mesh = mesh;
+    }
+}
+
+/* Primitives without a material get that of the entry for all. */
+static void assign_rest(overlay *o)
+{
+    facet_scene *scene = o->d.r.scene;
+    for (uint32_t i = 0; o->all != SCENE_NONE && i < scene->mesh_count; i++)
+        for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++)
+            if (scene->meshes[i].primitives[k].material == SCENE_NONE)
+                scene->meshes[i].primitives[k].material = material_of(o, o->all);
+}
+
+/* rgl's rules for vertex colors and textures hold where all that is drawn has parameters of rgl. */
+static void decide_rules(overlay *o)
+{
+    facet_scene *scene = o->d.r.scene;
+    bool is_rgl = o->d.entry_count > 0;
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++) {
+            uint32_t material = scene->meshes[i].primitives[k].material;
+            is_rgl = is_rgl && material != SCENE_NONE && o->is_set[material];
+        }
+    scene->legacy->is_rgl |= is_rgl;
+}
+
+/* ---- what met nothing ---- */
+
+static void warn_unmet(overlay *o)
+{
+    reader *r = &o->d.r;
+    for (size_t i = 0; i < o->objects.count; i++)
+        if (o->objects.names[i].is_met)
+            o->is_met[o->objects.names[i].entry] = true;
+    for (size_t i = 0; i < o->objects.count; i++) {
+        const ogl1_name *n = &o->objects.names[i];
+        if (!n->is_met && !o->is_named[n->entry])
+            reader_warn(r, NULL, NULL, "object \"%.200s\" is not in the model", n->name);
+    }
+    for (size_t i = 0; i < o->materials.count; i++) {
+        const ogl1_name *n = &o->materials.names[i];
+        if (!n->is_met && !o->is_met[n->entry] && o->d.entries[n->entry].object_count == 0)
+            reader_warn(r, NULL, NULL, "material \"%.200s\" is not in the model", n->name);
+    }
+}
+
+static void lay(overlay *o, const facet_scene_desc *desc)
+{
+    reader *r = &o->d.r;
+    void (*const steps[])(overlay *) = {make_room,      replace_materials, find_uses,    make_mesh_room,
+                                        assign_objects, assign_rest,       decide_rules, warn_unmet};
+    ogl1_find_textures(&o->d);
+    if (reader_is_ok(r))
+        take_memory(o);
+    for (size_t i = 0; i < sizeof steps / sizeof *steps && reader_is_ok(r); i++)
+        steps[i](o);
+    if (reader_is_ok(r))
+        ogl1_set_surroundings(&o->d, &desc->legacy);
+    release(o);
+}
+
+facet_result ogl1_json_overlay(facet_scene *scene, const char *path, const facet_scene_desc *desc,
+                               facet_error *error)
+{
+    const facet_scene_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    file_bytes file = {0};
+    facet_result result = file_open(path, desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
+                                    &desc->allocator, &file, error);
+    if (result != FACET_OK)
+        return result;
+    overlay o = {0};
+    const char *source = scene->source;
+    char *folder = path_folder(&desc->allocator, path);
+    if (folder) {
+        scene->source = path; /* in messages: they are about this file */
+        ogl1_document_read(&o.d, scene, (const char *)file.data, file.size, folder, desc, error);
+        if (reader_is_ok(&o.d.r))
+            lay(&o, desc);
+        scene->source = source;
+        result = o.d.r.result;
+    } else {
+        result = fail_memory(error, "path", strlen(path));
+    }
+    if (result == FACET_OK && !scene_note_file(scene, &file))
+        result = fail_memory(error, "files", sizeof file);
+    mem_free(folder);
+    file_close(&file);
+    return result;
+}

@@ -1,0 +1,90 @@
+/* ogl1_reader.h - what the files of the reader of rgl's parameters share. Messages, places and memory are those of
+ * gltf_reader.h; the parameters of a document are first read into an ogl1_document, which then becomes a scene or is laid
+ * over one. */
+#ifndef IO_OGL1_READER_H
+#define IO_OGL1_READER_H
+
+#include "io/gltf/gltf_reader.h"
+#include "scene/legacy.h"
+
+/* One of "materials". The texture of its map is not found yet: ogl1_textures_find(). */
+typedef struct ogl1_entry {
+    const char *name; /* NULL: not stated */
+    uint32_t object_count;
+    const char **objects;
+    legacy_material material;
+    scene_texture sampler; /* of the texture; wraps around, as rgl's do */
+} ogl1_entry;
+
+typedef struct ogl1_document {
+    reader r;
+    uint32_t entry_count;
+    ogl1_entry *entries;
+    bool has_lights, has_fog; /* false: the document does not speak of them */
+    uint32_t light_count;
+    legacy_light *lights;
+    legacy_fog fog;
+    facet_legacy_colors colors; /* FACET_LEGACY_COLORS_DEFAULT: not stated */
+    const char *generator;      /* "" */
+} ogl1_document;
+
+/* ---- values as R's toJSON() writes them (ogl1_values.c) ----
+ * A value may stand in an array of its own. Absent, so that the fallback counts: no such member, null, [] and {} (R's
+ * empty vectors and NULL), "NA". Of longer vectors the first value counts, with a warning. Where a getter returns false,
+ * *out stays: the value is absent, or an error is recorded. */
+json_place ogl1_member(const json_place *object, const char *key);            /* value NULL: absent */
+json_place ogl1_object(reader *r, const json_place *object, const char *key); /* the same, or an error */
+bool ogl1_number(reader *r, const json_place *object, const char *key, double *out);
+/* Clamped, with a warning. */
+bool ogl1_number_in(reader *r, const json_place *object, const char *key, double minimum, double maximum,
+                    float *out);
+bool ogl1_bool(reader *r, const json_place *object, const char *key, bool *out); /* 0 and 1 are taken too */
+bool ogl1_string(reader *r, const json_place *object, const char *key, const char **out); /* the JSON's */
+bool ogl1_string_value(reader *r, const json_place *at, const char **out);
+/* Three numbers, at most SCENE_FARTHEST: an array, or a matrix of one row. */
+bool ogl1_vector(reader *r, const json_place *object, const char *key, float out[3]);
+/* A name of R, "#rrggbb", a number of R's palette, or 3 to 4 numbers >= 0. */
+bool ogl1_color(reader *r, const json_place *object, const char *key, float rgba[4]);
+bool ogl1_color_value(reader *r, const json_place *at, float rgba[4]);
+/* The number of one of names, which end with NULL. */
+bool ogl1_choice(reader *r, const json_place *object, const char *key, const char *const *names, int *out);
+
+/* What R writes for a list of lists: an array of objects, an object of objects where they had names, or the one object
+ * itself where the list was forgotten (is_element() tells). */
+typedef struct ogl1_list {
+    json_place at;
+    size_t count, next;
+    void *iterator;
+    bool is_single;
+} ogl1_list;
+/* count 0: absent, empty, or an error is recorded. */
+ogl1_list ogl1_list_begin(reader *r, const json_place *object, const char *key,
+                          bool (*is_element)(const json_t *));
+/* The next object, whose parent is list->at; false: there is none, or an error is recorded. */
+bool ogl1_list_next(reader *r, ogl1_list *list, json_place *element);
+
+/* ---- parts of a document ---- */
+
+/* ogl1_materials.c: one of "materials". */
+void ogl1_read_material(reader *r, const json_place *at, ogl1_entry *out);
+
+/* ogl1_lights.c: "lights", "fog", "background". */
+void ogl1_read_lights(ogl1_document *d, const json_place *root);
+void ogl1_read_fog(ogl1_document *d, const json_place *root);
+
+/* ogl1_document.c: parses the bytes and reads all of it into the arena of scene; d->r.result says how it went. folder: of the
+ * document; NULL: it came from memory. */
+void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes, size_t size,
+                        const char *folder, const facet_scene_desc *desc, facet_error *error);
+
+/* ogl1_textures.c: finds the images that the entries name, appends them and their textures to the scene and sets the
+ * maps of the entries. What cannot be had is a warning. */
+void ogl1_find_textures(ogl1_document *d);
+
+/* ogl1_balls.c: fills the scene with one ball per entry. */
+void ogl1_make_balls(ogl1_document *d);
+
+/* ogl1_json.c: lights, fog and the meaning of colors, into scene->legacy, which is there. */
+void ogl1_set_surroundings(const ogl1_document *d, const facet_legacy_desc *desc);
+
+#endif
