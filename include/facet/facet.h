@@ -968,6 +968,24 @@ FACET_API facet_result facet_cube_draw_sheet(const facet_cube *cube, facet_envir
                                              const facet_sheet_desc *desc, facet_image **image,
                                              facet_error *error);
 
+/* ---- the shading text ---- */
+
+/* GLSL of the functions that facet itself shades with (shade/): what other renderers put before their own shaders. */
+typedef struct facet_shader_desc {
+    facet_allocator allocator;
+    const char *
+        version; /* a line "#version ..": "300 es" to "320 es", "330" to "460", also "330 core"; NULL: no such line */
+    const char *const *parts; /* facet_shader_get_part_name()s; they come with all that they use */
+    uint32_t part_count;      /* 0: all parts */
+} facet_shader_desc;
+
+/* Functions, structures and macros without main(); one unit of text that any stage may begin with. Release with
+ * facet_bytes_destroy(); the 0 behind the bytes is not counted. FACET_ERROR_ARGUMENT, _MEMORY. */
+FACET_API facet_result facet_shader_text(const facet_shader_desc *desc /* NULL: {0} */, unsigned char **bytes,
+                                         size_t *size, facet_error *error);
+FACET_API uint32_t facet_shader_get_part_count(void);
+FACET_API const char *facet_shader_get_part_name(uint32_t index); /* "fresnel"; NULL: there is none */
+
 /* ---- plots ---- */
 
 typedef enum facet_plot_kind {

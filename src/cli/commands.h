@@ -10,6 +10,7 @@ int cmd_convert(command_line *c);
 int cmd_inspect(command_line *c);
 int cmd_plot(command_line *c);
 int cmd_compare(command_line *c);
+int cmd_shaders(command_line *c);
 int cmd_version(command_line *c);
 int cmd_help(command_line *c);
 

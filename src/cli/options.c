@@ -56,8 +56,8 @@ static const verb help_verb = {
     .summary = "explain facet or one of its commands",
     .arguments = "[COMMAND]",
     .max_arguments = 1,
-    .words =
-        WORDS("render", "bake", "convert", "inspect", "plot", "compare", "version", "help", "exit-codes"),
+    .words = WORDS("render", "bake", "convert", "inspect", "plot", "compare", "shaders", "version", "help",
+                   "exit-codes"),
     .description = "Prints what facet --help or facet COMMAND --help print; exit-codes explains those.",
     .examples = (const example[]){{"facet help render", "all options of render"},
                                   {"facet help exit-codes", "what 0 to 75 mean"},
@@ -66,7 +66,7 @@ static const verb help_verb = {
 };
 
 const verb *const verbs[] = {&render_verb,  &bake_verb,    &convert_verb, &inspect_verb, &plot_verb,
-                             &compare_verb, &version_verb, &help_verb,    NULL};
+                             &compare_verb, &shaders_verb, &version_verb, &help_verb,    NULL};
 
 /* ---- looking up ---- */
 

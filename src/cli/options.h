@@ -110,6 +110,8 @@ typedef enum option_id {
     OPT_COSINE,
     OPT_TITLE,
     OPT_DARK,
+    OPT_GLSL,
+    OPT_LIST,
     OPT_METRIC,
     OPT_MAX,
     OPT_MIN,

@@ -14,7 +14,8 @@
         __VA_ARGS__, NULL                                                                                    \
     }
 
-extern const option_group machine_group, message_group, running_group, working_group, model_group, legacy_group, path_group;
-extern const verb render_verb, convert_verb, plot_verb, compare_verb, bake_verb;
+extern const option_group machine_group, message_group, running_group, working_group, model_group,
+    legacy_group, path_group;
+extern const verb render_verb, convert_verb, plot_verb, compare_verb, bake_verb, shaders_verb;
 
 #endif

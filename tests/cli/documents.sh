@@ -3,7 +3,7 @@
 set -eu
 . "$(dirname "$0")/lib.sh"
 
-for name in facet render bake inspect compare version help; do
+for name in facet render bake inspect compare shaders version help; do
     expect 0 --generate-man $name
     mv out $name.1
     head -1 $name.1 | grep -q '^\.TH FACET' || failed "man page $name has no title"

@@ -16,6 +16,7 @@ allowed() {
     ibl) echo ibl scene image base shade facet ;;
     film) echo film image base shade facet ;;
     bake) echo bake ibl scene image base shade facet ;;
+    glsl) echo glsl base facet ;;
     cpu) echo cpu film ibl scene image base shade facet ;;
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;

@@ -1,0 +1,80 @@
+/* glsl_generate.c - puts the shared shading text into a C header; runs when facet is built.
+ * usage: glsl_generate OUTPUT SHADE_FOLDER
+ *
+ * OUTPUT gets the dialect of GLSL and, in the order of shade.h, the parts of the text as arrays of bytes: a string literal
+ * may hold 4095 only. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_LINE = 1024, MAX_PARTS = 64, MAX_NAME = 64 };
+
+static void stop(const char *path, const char *what)
+{
+    fprintf(stderr, "glsl_generate: %s: %s\n", path, what);
+    exit(1);
+}
+
+static FILE *open_text(const char *folder, const char *name)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        stop(path, "cannot be read");
+    return file;
+}
+
+/* The file's lines, without those for C alone, as the array text_INDEX. */
+static void put_text(FILE *out, const char *folder, const char *name, int index)
+{
+    FILE *file = open_text(folder, name);
+    char line[MAX_LINE];
+    fprintf(out, "static const unsigned char text_%d[] = {", index);
+    while (fgets(line, sizeof line, file)) {
+        if (!strchr(line, '\n'))
+            stop(name, "has a line that is too long");
+        if (strncmp(line, "#include", 8) == 0)
+            continue;
+        for (const char *c = line; *c; c++)
+            fprintf(out, "%d,", (unsigned char)*c);
+        fputc('\n', out);
+    }
+    fprintf(out, "0};\n");
+    fclose(file);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 3) {
+        fprintf(stderr, "usage: glsl_generate OUTPUT SHADE_FOLDER\n");
+        return 2;
+    }
+    FILE *out = fopen(argv[1], "w");
+    if (!out)
+        stop(argv[1], "cannot be written");
+    static char names[MAX_PARTS][MAX_NAME];
+    int count = 0;
+    FILE *order = open_text(argv[2], "shade.h");
+    char line[MAX_LINE];
+    put_text(out, argv[2], "lang/lang_glsl.glsl", 0);
+    while (fgets(line, sizeof line, order)) {
+        char *name = names[count];
+        int end = 0;
+        if (sscanf(line, "#include \"%63[a-z_0-9].h\"%n", name, &end) != 1 || end == 0)
+            continue; /* the dialect for C stands in a folder */
+        char file[MAX_NAME + 2];
+        snprintf(file, sizeof file, "%s.h", name);
+        if (++count == MAX_PARTS)
+            stop("shade.h", "has too many headers");
+        put_text(out, argv[2], file, count);
+    }
+    fclose(order);
+    fprintf(out, "static const glsl_part parts[] = {\n");
+    for (int i = 0; i < count; i++)
+        fprintf(out, "    {\"%s\", (const char *)text_%d},\n", names[i], i + 1);
+    fprintf(out, "};\n");
+    if (fclose(out) != 0)
+        stop(argv[1], "cannot be written");
+    return 0;
+}
