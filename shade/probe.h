@@ -673,16 +673,18 @@ FN vec3 probe_air_light(int which, vec2 u)
     vec3 p = probe_place(u);
     vec3 density = air_density(p[0] * 0.3f);
     vec3 sun = table_sun(a, vec3(10.0f, 2.0f, 20.0f) * u[1], p[0], p[2]);
-    AirField field = air_field(vec3(0.1f, 0.2f, 0.3f), vec3(-0.05f * u[0]));
-    AirLight s = air_light_step(a, air_light_none(), density, 2.0f, sun, field, p[1]);
-    s = air_light_step(a, s, density, 20.0f * u[0], sun, field, p[1]);
+    AirField field = air_field(vec3(0.1f, 0.2f, 0.3f), vec3(-0.05f * u[0]), vec3(0.02f), vec3(0.1f * u[1]));
+    float sunward = sunward_part(p[1], p[2], 0.9f * u[0]);
+    AirLight s = air_light_step(a, air_light_none(), density, 2.0f, sun, field, p[1], sunward);
+    s = air_light_step(a, s, density, 20.0f * u[0], sun, field, p[1], 0.5f);
     if (which == 89)
-        return air_radiance(a, s, p[1]) + s.transmittance + air_field_radiance(field, p[1]) +
+        return air_radiance(a, s, p[1]) + s.transmittance + air_field_rayleigh(field, p[1]) +
+               air_field_haze(air_field_even(vec3(0.3f)), p[1], sunward, 0.7f) +
                air_path(air_extinction(a, density), 3.0f * u[1]) * 0.1f + air_path1(0.1f, u[0]) +
                haze_forward_share(a);
-    AirBounce b = air_bounce_add(a, air_bounce_none(), s, p[1], p[2], sun, 1.0f, 0.5f);
+    AirBounce b = air_bounce_add(a, air_bounce_none(), s, p[1], sunward, p[2], sun, 0.5f);
     AirField all = air_bounce_field(b);
-    return 1.0f + all.mean + all.P2 + legendre_P2(p[1]);
+    return 1.0f + all.mean + all.P2 + all.up + all.sunward + legendre_P2(p[1]);
 }
 
 FN vec3 probe_sky(int which, vec2 u)

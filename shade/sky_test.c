@@ -98,7 +98,7 @@ static void test_phase(void **state)
         P2 += share * (double)legendre_P2((float)c);
     }
     expect_near(sum, 1.0, 1e-5, "integral");
-    expect_near(P2, 0.1, 1e-5, "the moment that air_field_radiance() builds on");
+    expect_near(P2, 0.1, 1e-5, "the moment that air_field_rayleigh() builds on");
 }
 
 /* Columns by 400 000 steps in double. */
@@ -193,12 +193,12 @@ static void test_steps(void **state)
                         "depth %g", x);
     }
     Atmosphere a = atmosphere_earth(SKY_BANDS_THREE);
-    AirField field = air_field(vec3(0.02f), vec3(-0.004f));
+    AirField field = air_field(vec3(0.02f), vec3(-0.004f), vec3(0.003f), vec3(0.006f));
     vec3 density = air_density(0.5f), sun = vec3(0.8f, 0.7f, 0.6f);
-    AirLight once = air_light_step(a, air_light_none(), density, 50.0f, sun, field, 0.2f);
+    AirLight once = air_light_step(a, air_light_none(), density, 50.0f, sun, field, 0.2f, 0.7f);
     AirLight often = air_light_none();
     for (int i = 0; i < 100; i++)
-        often = air_light_step(a, often, density, 0.5f, sun, field, 0.2f);
+        often = air_light_step(a, often, density, 0.5f, sun, field, 0.2f, 0.7f);
     for (int c = 0; c < 3; c++) {
         expect_relative(often.rayleigh[c], (double)once.rayleigh[c], 1e-4, "molecules");
         expect_relative(often.haze[c], (double)once.haze[c], 1e-4, "haze");
@@ -213,15 +213,15 @@ static void test_closed_box(void **state)
     (void)state;
     Atmosphere a = atmosphere_with_haze(atmosphere_earth(SKY_BANDS_THREE), 0.3f, 1.0f, 1.0f, 0.76f);
     a.ozone = vec3(0.0f);
-    AirField field = air_field(vec3(1.0f), vec3(0.0f));
+    AirField field = air_field_even(vec3(1.0f));
     AirLight s = air_light_none();
     for (int i = 0; i < 50; i++)
-        s = air_light_step(a, s, air_density(0.1f * (float)i), 3.0f, vec3(0.0f), field, 0.5f);
+        s = air_light_step(a, s, air_density(0.1f * (float)i), 3.0f, vec3(0.0f), field, 0.5f, 0.5f);
     for (int c = 0; c < 3; c++)
         expect_near((double)(s.multiple[c] + s.transmittance[c]), 1.0, 1e-5, "channel %d", c);
     AirBounce b = air_bounce_none();
     b.again = vec3(0.5f);
-    b.once = air_field(vec3(1.0f), vec3(0.25f));
+    b.once = air_field_even(vec3(1.0f));
     assert_true(air_bounce_field(b).mean[0] == 2.0f); /* 1 + 1/2 + 1/4 .. */
 }
 

@@ -7,15 +7,6 @@
 
 enum { WIDTH = 2, HEIGHT = 512 };
 
-/* Mean over a row of the ramp between two heights d.y, from low to high color. */
-static void add_ramp(const float low[3], const float high[3], double from, double to, double share,
-                     double sum[3])
-{
-    double t = 0.5 * (from + to);
-    for (int i = 0; i < 3; i++)
-        sum[i] += share * ((double)low[i] + ((double)high[i] - (double)low[i]) * t);
-}
-
 facet_result facet_environment_create_gradient(const float zenith[3], const float horizon[3],
                                                const float nadir[3], const facet_environment_desc *desc,
                                                facet_environment **environment, facet_error *error)
@@ -34,17 +25,15 @@ facet_result facet_environment_create_gradient(const float zenith[3], const floa
         return result;
     }
     float *p = e->picture.pixels;
-    for (int y = 0; y < HEIGHT;
-         y++) { /* equal heights have equal solid angles, so that the mean over a row is linear in them */
+    for (int y = 0; y < HEIGHT; y++) {
+        /* equal steps of d.y hold equal parts of the sphere: a row's mean is its middle's */
         double top = cos(3.14159265358979323846 * y / HEIGHT);
         double bottom = cos(3.14159265358979323846 * (y + 1) / HEIGHT);
-        double sum[3] = {0.0, 0.0, 0.0};
-        if (2 * y < HEIGHT)
-            add_ramp(horizon, zenith, bottom, top, 1.0, sum);
-        else
-            add_ramp(horizon, nadir, -top, -bottom, 1.0, sum);
+        double height = 0.5 * (top + bottom);
+        const float *end = height > 0.0 ? zenith : nadir;
         for (int i = 0; i < 3 * WIDTH; i++)
-            p[3 * WIDTH * y + i] = (float)sum[i % 3];
+            p[3 * WIDTH * y + i] = (float)((double)horizon[i % 3] +
+                                           ((double)end[i % 3] - (double)horizon[i % 3]) * fabs(height));
     }
     environment_limit(e, desc->thread_count);
     environment_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));

@@ -47,8 +47,10 @@ void sky_sun(const sky_tables *t, float height_km, float mu_sun, vec3 out[SKY_HA
 
 static AirField fetch_field(const AirField *table, vec2 place)
 {
-    return air_field(fetch(&table->mean, 2, BOUNCE_TABLE_SIZE, BOUNCE_TABLE_SIZE, place),
-                     fetch(&table->P2, 2, BOUNCE_TABLE_SIZE, BOUNCE_TABLE_SIZE, place));
+    const int stride = (int)(sizeof *table / sizeof(vec3)), size = BOUNCE_TABLE_SIZE;
+    return air_field(
+        fetch(&table->mean, stride, size, size, place), fetch(&table->P2, stride, size, size, place),
+        fetch(&table->up, stride, size, size, place), fetch(&table->sunward, stride, size, size, place));
 }
 
 /* bounces NULL: light that is scattered again comes with radiance 1 from everywhere. */
@@ -63,13 +65,15 @@ static void march(const sky_tables *t, AirField *const *bounces, const sky_ray *
         float height = ray_height(ray->height_km, ray->mu, middle);
         float mu_sun = ray_mu_sun(ray->height_km, middle, ray->mu_sun, ray->cos_angle, height);
         float mu = ray_mu(ray->height_km, ray->mu, middle, height);
+        float sunward = sunward_part(mu, mu_sun, ray->cos_angle);
         vec3 density = air_density(height);
         vec2 place = bounce_table_place(height, mu_sun);
         vec3 sun[SKY_HALVES];
         sky_sun(t, height, mu_sun, sun);
         for (int half = 0; half < SKY_HALVES; half++) {
-            AirField field = bounces ? fetch_field(bounces[half], place) : air_field(vec3(1.0f), vec3(0.0f));
-            out[half] = air_light_step(t->air[half], out[half], density, end - begin, sun[half], field, mu);
+            AirField field = bounces ? fetch_field(bounces[half], place) : air_field_even(vec3(1.0f));
+            out[half] =
+                air_light_step(t->air[half], out[half], density, end - begin, sun[half], field, mu, sunward);
         }
     }
 }
@@ -99,23 +103,53 @@ static sky_ray make_ray(float height_km, float mu, float mu_sun, float cos_azimu
     return (sky_ray){height_km, mu, mu_sun, clamp(mu * mu_sun + across * cos_azimuth, -1.0f, 1.0f)};
 }
 
+/* Light that the sky sends to the ground where the sun is as in column x of the table of bounces: scattered once, and more by
+ * a share that is right to a tenth of all light on the ground. */
+static void fill_sky(sky_tables *t, int x)
+{
+    const float scattered_again = 0.4f;
+    float mu_sun = bounce_table_ray(vec2(((float)x + 0.5f) / (float)BOUNCE_TABLE_SIZE, 0.0f))[1];
+    t->skies[0][x] = t->skies[1][x] = vec3(0.0f);
+    for (int p = 0; p < BOUNCE_POLAR; p++)
+        for (int a = 0; a < BOUNCE_AZIMUTH; a++) {
+            AirLight light[SKY_HALVES];
+            float mu = sqrt(((float)p + 0.5f) / (float)BOUNCE_POLAR);
+            float y = ((float)a + 0.5f) / (float)BOUNCE_AZIMUTH;
+            sky_ray ray = make_ray(0.0f, mu, mu_sun, cos(PI * y * y));
+            march(t, NULL, &ray, ray_to_top(0.0f, mu), BOUNCE_STEPS, light);
+            for (int half = 0; half < SKY_HALVES; half++) {
+                light[half].multiple = vec3(0.0f);
+                t->skies[half][x] +=
+                    air_radiance(t->air[half], light[half], ray.cos_angle) * y *
+                    (2.0f * PI * (1.0f + scattered_again) / (float)(BOUNCE_POLAR * BOUNCE_AZIMUTH));
+            }
+        }
+}
+
+static void light_ground(const sky_tables *t, float mu_sun, vec3 out[SKY_HALVES])
+{
+    float x = bounce_table_place(0.0f, mu_sun)[0] * (float)BOUNCE_TABLE_SIZE - 0.5f;
+    int first = (int)x < BOUNCE_TABLE_SIZE - 2 ? (int)x : BOUNCE_TABLE_SIZE - 2;
+    sky_sun(t, 0.0f, mu_sun, out);
+    for (int half = 0; half < SKY_HALVES; half++) {
+        const vec3 *sky = t->skies[half] + first;
+        out[half] = out[half] * max(mu_sun, 0.0f) + mix(sky[0], sky[1], x - (float)first);
+    }
+}
+
 static void add_bounce(const sky_tables *t, const sky_ray *ray, float share, AirBounce sums[SKY_HALVES])
 {
     AirLight light[SKY_HALVES];
     vec3 ground[SKY_HALVES] = {vec3(0.0f), vec3(0.0f)};
     float to_ground = ray_to_ground(ray->height_km, ray->mu);
-    bool is_ground = to_ground >= 0.0f;
-    float length_km = is_ground ? to_ground : ray_to_top(ray->height_km, ray->mu);
+    float length_km = to_ground >= 0.0f ? to_ground : ray_to_top(ray->height_km, ray->mu);
+    float sunward = sunward_part(ray->mu, ray->mu_sun, ray->cos_angle);
     march(t, NULL, ray, length_km, BOUNCE_STEPS, light);
-    if (is_ground) {
-        float mu_sun = ray_mu_sun(ray->height_km, length_km, ray->mu_sun, ray->cos_angle, 0.0f);
-        sky_sun(t, 0.0f, mu_sun, ground);
-        for (int half = 0; half < SKY_HALVES; half++)
-            ground[half] = ground[half] * max(mu_sun, 0.0f);
-    }
+    if (to_ground >= 0.0f)
+        light_ground(t, ray_mu_sun(ray->height_km, length_km, ray->mu_sun, ray->cos_angle, 0.0f), ground);
     for (int half = 0; half < SKY_HALVES; half++)
-        sums[half] = air_bounce_add(t->air[half], sums[half], light[half], ray->mu, ray->cos_angle,
-                                    ground[half], is_ground ? 1.0f : 0.0f, share);
+        sums[half] = air_bounce_add(t->air[half], sums[half], light[half], ray->mu, sunward, ray->cos_angle,
+                                    ground[half], share);
 }
 
 static void fill_bounces(void *context, size_t begin, size_t end)
@@ -153,6 +187,8 @@ facet_result sky_tables_create(const Atmosphere air[SKY_HALVES], const facet_all
     }
     out->bounces[1] = out->bounces[0] + bounce_count;
     parallel_for(thread_count, COLUMN_TABLE_HEIGHT, 4, fill_columns, out);
+    for (int x = 0; x < BOUNCE_TABLE_SIZE; x++)
+        fill_sky(out, x);
     parallel_for(thread_count, bounce_count, 16, fill_bounces, out);
     return FACET_OK;
 }

@@ -11,7 +11,10 @@ enum { SKY_HALVES = 2 };
 
 typedef struct sky_tables {
     Atmosphere air[SKY_HALVES];
-    vec3 *columns;                 /* COLUMN_TABLE_HEIGHT rows of COLUMN_TABLE_WIDTH: air_column() */
+    vec3 *columns; /* COLUMN_TABLE_HEIGHT rows of COLUMN_TABLE_WIDTH: air_column() */
+    vec3 skies
+        [SKY_HALVES]
+        [BOUNCE_TABLE_SIZE]; /* illuminance of the ground by the sky, about; over the sun as in bounces */
     AirField *bounces[SKY_HALVES]; /* BOUNCE_TABLE_SIZE rows of as many: air_bounce_field() */
 } sky_tables;
 
