@@ -24,11 +24,14 @@ configure() {
     echo "built $name"
 }
 
-# Khronos' glTF validator; its test is skipped where there is no npm, or no registry that it reaches.
-if command -v npm >/dev/null 2>&1 && [ ! -d "$here/tests/validator/node_modules" ]; then
-    (cd "$here/tests/validator" && npm ci --no-audit --no-fund >"$build/npm.log" 2>&1) ||
-        echo "npm ci failed in tests/validator: $(tail -n 1 "$build/npm.log")"
-fi
+# Khronos' glTF validator, and programs that read what facet bakes; their tests are skipped where there is no npm, or no
+# registry that it reaches. Some of tests/clients need a browser, too, which is left to you (.ci/run installs it).
+for folder in validator clients; do
+    if command -v npm >/dev/null 2>&1 && [ ! -d "$here/tests/$folder/node_modules" ]; then
+        (cd "$here/tests/$folder" && npm ci --no-audit --no-fund >"$build/npm.log" 2>&1) ||
+            echo "npm ci failed in tests/$folder: $(tail -n 1 "$build/npm.log")"
+    fi
+done
 
 configure gcc -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
 configure clang -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Release -DFACET_TRUTH=OFF
