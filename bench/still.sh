@@ -2,7 +2,7 @@
 # still.sh - from execve to the last byte of the PNG: wall time, CPU time and peak memory of whole processes, for
 # facet and for the peers that are installed (f3d; three.js in headless Chromium), on the same inputs.
 #     bench/still.sh [BUILD [RUNS]]        BUILD: a build folder with benchmarks (build/release); RUNS: 11
-# The peers in Chromium need `npm ci` in bench/peers once.
+# The peers in Chromium need `npm ci` in bench/peers and in tests/clients once.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 build=${1:-$here/build/release}

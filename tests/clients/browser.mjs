@@ -8,15 +8,15 @@ import { chromium } from 'playwright-core';
 const here = path.dirname(fileURLToPath(import.meta.url));
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm' };
 
-// Opens the page name of this folder. /work/.. are the files of the folder work, all else those of this folder. CHROMIUM
-// names the browser (/usr/bin/chromium). The page says window.ready, or window.failure. Returns { page, close }.
-export async function open_page(name, work) {
+// Opens the page at address. contents(url) is the path of the file behind a URL, or { text } of a page. CHROMIUM names the
+// browser (/usr/bin/chromium). Returns the page, what closes it, and what it said: warnings, and errors that on_error gets, too.
+export async function serve_page(address, contents, on_error = () => {}) {
     const server = createServer(async (request, response) => {
         try {
             const url = path.normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
-            const file = url.startsWith('/work/') ? path.join(work, url.slice(6)) : path.join(here, url);
-            const bytes = await readFile(file);
-            if (types[path.extname(url)]) response.setHeader('content-type', types[path.extname(url)]);
+            const what = contents(url), type = what.text === undefined ? types[path.extname(url)] : 'text/html';
+            const bytes = what.text ?? await readFile(what);
+            if (type) response.setHeader('content-type', type);
             response.end(bytes);
         } catch {
             response.statusCode = 404;
@@ -29,19 +29,24 @@ export async function open_page(name, work) {
         args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
             '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run'],
     });
-    const close = async () => { await browser.close(); server.close(); };
-    const page = await browser.newPage();
-    const messages = [];
-    page.on('pageerror', (error) => messages.push(String(error)));
+    const page = await browser.newPage(), messages = [];
+    page.on('pageerror', (error) => { messages.push(String(error)); on_error(error); });
     page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) messages.push(message.text()); });
-    await page.goto(`http://127.0.0.1:${server.address().port}/${name}`);
+    await page.goto(`http://127.0.0.1:${server.address().port}${address}`);
+    return { page, messages, close: async () => { await browser.close(); server.close(); } };
+}
+
+// Opens the page name of this folder, and waits until it says window.ready. /work/.. are the files of the folder work, all
+// else those of this folder. Throws window.failure.
+export async function open_page(name, work) {
+    const served = await serve_page(`/${name}`, (url) => url.startsWith('/work/') ? path.join(work, url.slice(6)) : path.join(here, url));
     try {
-        await page.waitForFunction('window.ready || window.failure', null, { timeout: 120000 });
-        const failure = await page.evaluate('window.failure');
+        await served.page.waitForFunction('window.ready || window.failure', null, { timeout: 120000 });
+        const failure = await served.page.evaluate('window.failure');
         if (failure) throw new Error(failure);
     } catch (error) {
-        await close();
-        throw new Error(`${name}: ${error.message}\n${messages.join('\n')}`);
+        await served.close();
+        throw new Error(`${name}: ${error.message}\n${served.messages.join('\n')}`);
     }
-    return { page, close, messages };
+    return served;
 }

@@ -5,9 +5,9 @@ const canvas = document.getElementById('canvas');
 
 // Draws count spheres in a row, size pixels each, seen from yaw (rad) around the middle one, in the light of ibl, a file of KTX;
 // has_harmonics: with what it says under "sh", else with what Filament takes in their place, the roughest level. With sky, a
-// file of KTX, instead that sky in a square of count x size pixels, 90 degrees wide. Linear radiance between 0 and 1 is
-// encoded as sRGB by Filament's own color grading. Returns the picture as RGBA bytes, rows from the top.
-window.draw = async ({ model, ibl, sky, has_harmonics, count, size, yaw, intensity }) => {
+// file of KTX, instead that sky in a square of count x size pixels, 90 degrees wide. turn: of the light around +Y (rad). Filament
+// maps tones and encodes as sRGB. Returns the picture as RGBA bytes, rows from the top.
+window.draw = async ({ model, ibl, sky, has_harmonics, count, size, yaw, intensity, tone_mapping = 'LINEAR', turn = 0, clear = 0 }) => {
     canvas.width = count * size;
     canvas.height = sky ? count * size : size;
     const fetched = async (name) => new Uint8Array(await (await fetch(`/work/${name}`)).arrayBuffer());
@@ -17,13 +17,14 @@ window.draw = async ({ model, ibl, sky, has_harmonics, count, size, yaw, intensi
     view.setScene(scene);
     view.setCamera(camera);
     view.setViewport([0, 0, canvas.width, canvas.height]);
-    view.setColorGrading(Filament.ColorGrading.Builder().toneMapping(Filament.ColorGrading$ToneMapping.LINEAR)
+    view.setColorGrading(Filament.ColorGrading.Builder().toneMapping(Filament.ColorGrading$ToneMapping[tone_mapping])
         .quality(Filament.ColorGrading$QualityLevel.ULTRA).build(engine));
     view.setAntiAliasing(Filament['View$AntiAliasing'].NONE);
-    renderer.setClearOptions({ clearColor: [0, 0, 0, 1], clear: true });
+    renderer.setClearOptions({ clearColor: [clear, clear, clear, 1], clear: true });
     const from_ktx = engine.createIblFromKtx1(await fetched(ibl));
     const texture = from_ktx.getReflectionsTexture();
     const builder = Filament.IndirectLight.Builder().reflections(texture).intensity(intensity);
+    builder.rotation([Math.cos(turn), 0, -Math.sin(turn), 0, 1, 0, Math.sin(turn), 0, Math.cos(turn)]);
     if (has_harmonics) builder.irradianceSh(3, from_ktx.shfloats);
     scene.setIndirectLight(builder.build(engine));
     if (sky) scene.setSkybox(engine.createSkyFromKtx1(await fetched(sky)));
