@@ -403,24 +403,24 @@ FN float sunward_part(float mu, float mu_sun, float cos_angle)
 }
 
 /* Radiance scattered towards an eye that looks along mu, per albedo, by molecules and by haze. A phase function of moments w1, w2
- * turns the field into mean + 3 w1 (up, sunward) . direction + 5 w2 P2(mu) P2 .. (Chandrasekhar 1960, chapter 6);
- * Rayleigh's has 0 and 1 / 10: more at the horizon, where most light comes from, and less at the zenith. Haze has g, more on
- * the sun's side and less of what comes from the ground; its second moment is taken to be Rayleigh's. Hillaire 2020 has
- * the mean alone. */
+ * turns the field into mean + 3 w1 (up, sunward) . direction + 5 w2 P2(mu) P2 .. (Chandrasekhar 1960, chapter 6).
+ * Rayleigh's has 0 and 1 / 10: more at the horizon, where most light comes from, and less at the zenith. Haze has g: more on
+ * the sun's side, and less of what comes from the ground. Half of that is taken, since light loses its direction from one
+ * scattering to the next, and Rayleigh's second moment. Hillaire 2020 has the mean alone. */
 FN vec3 air_field_rayleigh(AirField f, float mu)
 {
     return max(f.mean + f.P2 * (0.5f * legendre_P2(mu)), 0.0f);
 }
 FN vec3 air_field_haze(AirField f, float mu, float sunward, float g)
 {
-    return max(f.mean + f.P2 * (0.5f * legendre_P2(mu)) + (f.up * mu + f.sunward * sunward) * (3.0f * g),
+    return max(f.mean + f.P2 * (0.5f * legendre_P2(mu)) + (f.up * mu + f.sunward * sunward) * (1.5f * g),
                0.0f);
 }
 
 /* Share of what haze scatters that is counted as not scattered, on the way to the eye: most of it goes on nearly straight, and
  * the sky beside a direction sends there what goes astray. g^2 would be the share of Joseph, Wiscombe and Weinman 1976
  * (delta-Eddington) for a sky without edges; the horizon is one. 0.15 of that is fitted. With it and the moments above
- * all luminances of the reference (all orders by Monte Carlo, src/ibl/sky_test.c) are met to 9 %, with the mean alone to
+ * all luminances of the reference (all orders by Monte Carlo, src/ibl/sky_test.c) are met to 7 %, with the mean alone to
  * 12 %; haze of a depth of 0.16 to 20 % by day, and in twilight the glow at the horizon comes out a third too dark. */
 FN float haze_forward_share(Atmosphere a)
 {

@@ -111,7 +111,7 @@ static void test_sun(void **state)
     }
 }
 
-/* E_sky and luminances to 10 %, as the reference asks: measured, 9 % at most. Colors of E_sky per Y: the reference's own
+/* E_sky and luminances to 10 %, as the reference asks: measured, 7 % at most. Colors of E_sky per Y: the reference's own
  * are good to 3 % each, and differ by up to 5 % from a smooth curve over the sun's elevation: 7 %. */
 static void test_sky(void **state)
 {
