@@ -1,8 +1,6 @@
 /* sphere.c - see sphere.h. */
 #include "ibl/sphere.h"
 
-#include <string.h>
-
 sphere sphere_of_cube(cube *c)
 {
     return (sphere){.kind = SPHERE_CUBE, .width = c->size, .height = c->size, .cube = c};
@@ -75,39 +73,49 @@ double sphere_solid_angle(const sphere *s, size_t texel)
 
 /* Where a lookup is between texels: the first of four by column and row, which may be -1, and weights of the second. */
 typedef struct between {
-    uint32_t face;
-    int x, y;
+    int face, x, y;
     float wx, wy;
 } between;
 
-static between find_between(const sphere *s, const float d[3])
+/* Of position (u, v) on a face, both in [-1, 1]. */
+static inline between find_between(float width, float height, int face, float u, float v)
 {
-    float x, y;
-    between b = {0};
-    if (s->kind == SPHERE_CUBE) {
-        cube_point p = cube_locate(d[0], d[1], d[2]);
-        b.face = p.face;
-        x = p.s;
-        y = p.t;
-    } else if (s->kind == SPHERE_OCTAHEDRON) {
-        float uv[2];
+    float x = 0.5f * width * (u + 1.0f) + 0.5f; /* one more than the column, and positive */
+    float y = 0.5f * height * (v + 1.0f) + 0.5f;
+    int x1 = (int)x;
+    int y1 = (int)y;
+    return (between){face, x1 - 1, y1 - 1, x - (float)x1, y - (float)y1};
+}
+
+/* cube_locate() without branches, for loops that vectorise. */
+static inline between find_in_cube(float size, float x, float y, float z)
+{
+    float ax = fabsf(x), ay = fabsf(y), az = fabsf(z);
+    int is_x = (ax >= ay) & (ax >= az);
+    int is_y = !is_x & (ay >= az);
+    float major = is_x ? x : is_y ? y : z;
+    float u = is_x ? -z : x; /* of the positive face */
+    float v = is_y ? z : -y;
+    int is_negative = major < 0.0f;
+    float q = 1.0f / fabsf(major);
+    u = is_negative & !is_y ? -u : u;
+    v = is_negative & is_y ? -v : v;
+    int face = (is_x ? 0 : is_y ? 2 : 4) + is_negative;
+    return find_between(size, size, face, u * q, v * q);
+}
+
+static inline between find_in_picture(const sphere *s, float x, float y, float z)
+{
+    const float d[3] = {x, y, z};
+    float uv[2];
+    if (s->kind == SPHERE_OCTAHEDRON) {
         octahedron_locate(d, uv);
-        x = uv[0];
-        y = uv[1];
     } else {
         equirect_point p = equirect_locate(d);
-        x = 2.0f * p.turns;
-        y = 2.0f * p.half_turns - 1.0f;
+        uv[0] = 2.0f * p.turns;
+        uv[1] = 2.0f * p.half_turns - 1.0f;
     }
-    x = 0.5f * (float)s->width * (x + 1.0f) + 0.5f; /* one more than the column, and positive */
-    y = 0.5f * (float)s->height * (y + 1.0f) + 0.5f;
-    b.x = (int)x;
-    b.y = (int)y;
-    b.wx = x - (float)b.x;
-    b.wy = y - (float)b.y;
-    b.x--;
-    b.y--;
-    return b;
+    return find_between((float)s->width, (float)s->height, 0, uv[0], uv[1]);
 }
 
 /* The texel at column x in [-1, width], row y in [-1, height] of a picture: around the circle, at the pole the last row. */
@@ -121,35 +129,87 @@ static size_t wrap(const sphere *s, int x, int y)
     return (size_t)y * s->width + (size_t)x;
 }
 
-static inline rgbx cut_off(rgbx c, float limit, bool *is_cut)
+static inline rgbx interpolate(const rgbx c[4], float wx, float wy)
 {
-    *is_cut |= c[0] > limit || c[1] > limit || c[2] > limit;
-    return (rgbx){c[0] < limit ? c[0] : limit, c[1] < limit ? c[1] : limit, c[2] < limit ? c[2] : limit,
-                  0.0f};
+    rgbx top = c[0] + (c[1] - c[0]) * wx;
+    rgbx bottom = c[2] + (c[3] - c[2]) * wx;
+    return top + (bottom - top) * wy;
 }
 
-rgbx sphere_lookup(const sphere *s, const float d[3], float limit, bool *is_cut)
+typedef int32_t rgbx_mask __attribute__((vector_size(16)));
+
+/* Cuts four texels off at limit, whose fourth lane is infinite; whether there was need. */
+static inline bool cut_off(rgbx c[4], rgbx limit)
 {
-    between b = find_between(s, d);
-    rgbx c[4];
-    *is_cut = false;
-    if (s->kind == SPHERE_CUBE) {
-        int last = (int)s->width - 1;
-        const rgbx *row = cube_texel(s->cube, b.face, b.x, b.y);
-        memcpy(c, row, 2 * sizeof *c);
-        memcpy(c + 2, row + s->width + 2, 2 * sizeof *c);
-        /* the border's corner is a mean, which may be below the limit where one of three texels is not */
-        *is_cut = (b.x < 0 || b.x == last) && (b.y < 0 || b.y == last);
-    } else {
-        for (int i = 0; i < 4; i++)
-            c[i] = picture_texel(s, wrap(s, b.x + (i & 1), b.y + (i >> 1)));
+    rgbx_mask is_above = {0, 0, 0, 0};
+    for (int i = 0; i < 4; i++) {
+        rgbx_mask m = c[i] > limit;
+        c[i] = (rgbx)((m & (rgbx_mask)limit) | (~m & (rgbx_mask)c[i]));
+        is_above |= m;
     }
-    for (int i = 0; i < 4; i++)
-        c[i] = cut_off(c[i], limit, is_cut);
-    rgbx top = c[0] + (c[1] - c[0]) * b.wx;
-    rgbx bottom = c[2] + (c[3] - c[2]) * b.wx;
-    return top + (bottom - top) * b.wy;
+    return is_above[0] | is_above[1] | is_above[2];
 }
+
+/* The four texels of each lookup of a batch. */
+typedef struct places {
+    int face[SPHERE_BATCH], x[SPHERE_BATCH], y[SPHERE_BATCH];
+    float wx[SPHERE_BATCH], wy[SPHERE_BATCH];
+} places;
+
+DISPATCH_AVX2 static void sphere_find_places(float size, const sphere_batch *batch, uint32_t count, places *p)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        between b = find_in_cube(size, batch->x[i], batch->y[i], batch->z[i]);
+        p->face[i] = b.face;
+        p->x[i] = b.x;
+        p->y[i] = b.y;
+        p->wx[i] = b.wx;
+        p->wy[i] = b.wy;
+    }
+}
+
+static inline void look_up_cube(const sphere *s, sphere_batch *batch, uint32_t count, bool is_limited,
+                                rgbx limit)
+{
+    int last = (int)s->width - 1;
+    places p;
+    sphere_find_places((float)s->width, batch, count, &p);
+    for (uint32_t i = 0; i < count; i++) {
+        int x = p.x[i], y = p.y[i];
+        const rgbx *row = cube_texel(s->cube, (uint32_t)p.face[i], x, y);
+        const rgbx *next = row + s->width + 2;
+        rgbx c[4] = {row[0], row[1], next[0], next[1]};
+        batch->is_cut[i] = is_limited && cut_off(c, limit);
+        /* the border's corner is a mean, which may be below the limit where one of three texels is not */
+        batch->is_cut[i] |= is_limited && (x < 0 || x == last) && (y < 0 || y == last);
+        batch->radiance[i] = interpolate(c, p.wx[i], p.wy[i]);
+    }
+}
+
+static void look_up_picture(const sphere *s, sphere_batch *batch, uint32_t count, rgbx limit)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        between b = find_in_picture(s, batch->x[i], batch->y[i], batch->z[i]);
+        rgbx c[4];
+        for (int k = 0; k < 4; k++)
+            c[k] = picture_texel(s, wrap(s, b.x + (k & 1), b.y + (k >> 1)));
+        batch->is_cut[i] = cut_off(c, limit);
+        batch->radiance[i] = interpolate(c, b.wx, b.wy);
+    }
+}
+
+void sphere_look_up(const sphere *s, sphere_batch *batch, uint32_t count, float limit)
+{
+    const rgbx limits = {limit, limit, limit, INFINITY};
+    if (s->kind != SPHERE_CUBE)
+        look_up_picture(s, batch, count, limits);
+    else if (limit < INFINITY)
+        look_up_cube(s, batch, count, true, limits);
+    else
+        look_up_cube(s, batch, count, false, limits);
+}
+
+/* ---- footprints ---- */
 
 static void add_texel(sphere_footprint *f, size_t texel, float weight)
 {
@@ -161,6 +221,8 @@ static void add_texel(sphere_footprint *f, size_t texel, float weight)
 static size_t across(const sphere *s, uint32_t face, int x, int y)
 {
     int last = (int)s->width - 1;
+    if (x >= 0 && x <= last && y >= 0 && y <= last)
+        return ((size_t)face * s->height + (size_t)y) * s->width + (size_t)x;
     double step = 2.0 / s->width, outside = 1.0 + 0.125 * step;
     double u = x < 0 ? -outside : x > last ? outside : (x + 0.5) * step - 1.0;
     double v = y < 0 ? -outside : y > last ? outside : (y + 0.5) * step - 1.0;
@@ -187,13 +249,14 @@ static void add_bordered(const sphere *s, uint32_t face, int x, int y, float wei
 
 void sphere_find(const sphere *s, const float d[3], sphere_footprint *out)
 {
-    between b = find_between(s, d);
+    between b = s->kind == SPHERE_CUBE ? find_in_cube((float)s->width, d[0], d[1], d[2])
+                                       : find_in_picture(s, d[0], d[1], d[2]);
     out->count = 0;
     for (int i = 0; i < 4; i++) {
         int x = b.x + (i & 1), y = b.y + (i >> 1);
         float weight = (i & 1 ? b.wx : 1.0f - b.wx) * (i >> 1 ? b.wy : 1.0f - b.wy);
         if (s->kind == SPHERE_CUBE)
-            add_bordered(s, b.face, x, y, weight, out);
+            add_bordered(s, (uint32_t)b.face, x, y, weight, out);
         else
             add_texel(out, wrap(s, x, y), weight);
     }

@@ -60,9 +60,17 @@ static inline size_t sphere_locate(const sphere *s, const float d[3])
     return ((size_t)face * s->height + (size_t)row) * s->width + (size_t)column;
 }
 
-/* Radiance from direction d (any length but 0), bilinear, seamless, of texels cut off at limit. *is_cut: one of them was, or
- * may have been. */
-rgbx sphere_lookup(const sphere *s, const float d[3], float limit, bool *is_cut);
+/* Many lookups at a time. */
+enum { SPHERE_BATCH = 256 };
+typedef struct sphere_batch {
+    float x[SPHERE_BATCH], y[SPHERE_BATCH], z[SPHERE_BATCH]; /* directions, any length but 0 */
+    float weight[SPHERE_BATCH];                              /* for the caller */
+    rgbx radiance[SPHERE_BATCH];
+    bool is_cut[SPHERE_BATCH]; /* a texel was cut off, or may have been */
+} sphere_batch;
+
+/* Radiance from the first count directions, bilinear, seamless, of texels cut off at limit (INFINITY: none is). */
+void sphere_look_up(const sphere *s, sphere_batch *batch, uint32_t count, float limit);
 
 /* The texels that a bilinear lookup takes, with weights that add up to 1. */
 typedef struct sphere_footprint {

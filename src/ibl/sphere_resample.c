@@ -33,13 +33,6 @@ typedef struct resampling {
     size_t hot_count;
 } resampling;
 
-static void turn_back(const sphere_turn *turn, float d[3])
-{
-    float x = d[0], y = d[1], z = d[2];
-    for (int i = 0; i < 3 && turn->is_turned; i++)
-        d[i] = turn->rows[i][0] * x + turn->rows[i][1] * y + turn->rows[i][2] * z;
-}
-
 /* ---- the parts of a target's texels ---- */
 
 /* A row of parts: what their directions have in common. */
@@ -79,25 +72,78 @@ static part_row start_row(const resampling *r, uint32_t face, uint32_t row)
     return p;
 }
 
-/* The direction of a part, any length, and its solid angle. */
-static inline float get_part(const resampling *r, const part_row *p, uint32_t column, float d[3])
+static void get_latitude_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count,
+                               sphere_batch *out)
 {
-    const sphere *t = r->target;
-    if (t->kind == SPHERE_EQUIRECT) {
-        d[0] = r->columns[column][0] * p->radius;
-        d[1] = p->height;
-        d[2] = r->columns[column][1] * p->radius;
-        return p->weight;
+    for (uint32_t i = 0; i < count; i++) {
+        out->x[i] = r->columns[first + i][0] * p->radius;
+        out->y[i] = p->height;
+        out->z[i] = r->columns[first + i][1] * p->radius;
+        out->weight[i] = p->weight;
     }
-    float u = (2.0f * (float)column + 1.0f) / (float)(t->width * r->parts) - 1.0f;
-    if (t->kind == SPHERE_OCTAHEDRON) {
+}
+
+static void get_cube_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count,
+                           sphere_batch *out)
+{
+    float columns = (float)(r->target->width * r->parts);
+    for (uint32_t i = 0; i < count; i++) {
+        float u = (2.0f * (float)(first + i) + 1.0f) / columns - 1.0f;
+        float x = p->base[0] + u * p->right[0];
+        float y = p->base[1] + u * p->right[1];
+        float z = p->base[2] + u * p->right[2];
+        float q = x * x + y * y + z * z;
+        out->x[i] = x;
+        out->y[i] = y;
+        out->z[i] = z;
+        out->weight[i] = p->weight / (q * sqrtf(q));
+    }
+}
+
+static void get_octahedron_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count,
+                                 sphere_batch *out)
+{
+    float columns = (float)(r->target->width * r->parts);
+    for (uint32_t i = 0; i < count; i++) {
+        float u = (2.0f * (float)(first + i) + 1.0f) / columns - 1.0f;
+        float d[3];
         octahedron_direction(u, p->v, d);
-        return octahedron_solid_angle(u, p->v, p->step);
+        out->x[i] = d[0];
+        out->y[i] = d[1];
+        out->z[i] = d[2];
+        out->weight[i] = octahedron_solid_angle(u, p->v, p->step);
     }
-    for (int i = 0; i < 3; i++)
-        d[i] = p->base[i] + u * p->right[i];
-    float q = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    return p->weight / (q * sqrtf(q));
+}
+
+static void turn_back(const sphere_turn *turn, uint32_t count, sphere_batch *b)
+{
+    const float(*m)[3] = turn->rows;
+    for (uint32_t i = 0; i < count; i++) {
+        float x = b->x[i], y = b->y[i], z = b->z[i];
+        b->x[i] = m[0][0] * x + m[0][1] * y + m[0][2] * z;
+        b->y[i] = m[1][0] * x + m[1][1] * y + m[1][2] * z;
+        b->z[i] = m[2][0] * x + m[2][1] * y + m[2][2] * z;
+    }
+}
+
+/* Looks up count parts of a row from column first on: directions of the source, solid angles, radiance below the limit. */
+static void look_up_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count,
+                          sphere_batch *out)
+{
+    switch (r->target->kind) {
+    case SPHERE_EQUIRECT:
+        get_latitude_parts(r, p, first, count, out);
+        break;
+    case SPHERE_CUBE:
+        get_cube_parts(r, p, first, count, out);
+        break;
+    case SPHERE_OCTAHEDRON:
+        get_octahedron_parts(r, p, first, count, out);
+        break;
+    }
+    if (r->turn->is_turned)
+        turn_back(r->turn, count, out);
+    sphere_look_up(r->source, out, count, r->limit);
 }
 
 static bool make_columns(resampling *r, const facet_allocator *allocator)
@@ -210,29 +256,39 @@ static hot_texel *get_hot(const resampling *r, size_t texel)
     return number ? &r->hot[number - 1] : NULL;
 }
 
-/* Adds up what the target's parts cover of hot texels. */
+static void find_part(const resampling *r, const sphere_batch *b, uint32_t i, sphere_footprint *out)
+{
+    sphere_find(r->source, (const float[3]){b->x[i], b->y[i], b->z[i]}, out);
+}
+
+/* Adds what a part covers of hot texels. */
+static void cover(const resampling *r, const sphere_footprint *f, double solid_angle)
+{
+    for (uint32_t k = 0; k < f->count; k++) {
+        hot_texel *h = get_hot(r, f->texels[k]);
+        if (h)
+            atomic_fetch_add_explicit(&h->covered,
+                                      (uint64_t)(solid_angle * (double)f->weights[k] * parts_per_sr),
+                                      memory_order_relaxed);
+    }
+}
+
 static void cover_rows(void *context, size_t begin, size_t end)
 {
     const resampling *r = context;
-    const sphere *t = r->target;
+    uint32_t rows = r->target->height * r->parts, columns = r->target->width * r->parts;
     for (size_t i = begin * r->parts; i < end * r->parts; i++) {
-        uint32_t rows = t->height * r->parts;
         part_row p = start_row(r, (uint32_t)(i / rows), (uint32_t)(i % rows));
-        for (uint32_t x = 0; x < t->width * r->parts; x++) {
-            float d[3];
-            bool is_cut;
-            sphere_footprint f = {.count = 0};
-            double weight = (double)get_part(r, &p, x, d);
-            turn_back(r->turn, d);
-            sphere_lookup(r->source, d, r->limit, &is_cut);
-            if (is_cut)
-                sphere_find(r->source, d, &f);
-            for (uint32_t k = 0; k < f.count; k++) {
-                hot_texel *h = get_hot(r, f.texels[k]);
-                if (h)
-                    atomic_fetch_add_explicit(&h->covered,
-                                              (uint64_t)(weight * (double)f.weights[k] * parts_per_sr),
-                                              memory_order_relaxed);
+        for (uint32_t x = 0; x < columns; x += SPHERE_BATCH) {
+            sphere_batch b;
+            uint32_t count = columns - x < SPHERE_BATCH ? columns - x : SPHERE_BATCH;
+            look_up_parts(r, &p, x, count, &b);
+            for (uint32_t k = 0; k < count; k++) {
+                sphere_footprint f;
+                if (!b.is_cut[k])
+                    continue;
+                find_part(r, &b, k, &f);
+                cover(r, &f, (double)b.weight[k]);
             }
         }
     }
@@ -264,64 +320,79 @@ static void store_texel(const sphere *t, uint32_t face, uint32_t x, uint32_t y, 
         to[3] = 1.0f;
 }
 
-/* A lookup that touches what is hot. */
-static rgbx look_up_hot(const resampling *r, const float d[3])
+/* Radiance where something hot is near. */
+static rgbx look_up_hot(const resampling *r, const sphere_footprint *f)
 {
-    sphere_footprint f;
     rgbx sum = {0};
-    sphere_find(r->source, d, &f);
-    for (uint32_t k = 0; k < f.count; k++) {
-        rgbx c = sphere_texel(r->source, f.texels[k]);
-        const hot_texel *h = get_hot(r, f.texels[k]);
+    for (uint32_t k = 0; k < f->count; k++) {
+        rgbx c = sphere_texel(r->source, f->texels[k]);
+        const hot_texel *h = get_hot(r, f->texels[k]);
         if (h)
             c = c - rgbx_not_negative(c - rgbx_splat(r->limit)) + h->excess;
-        sum += c * rgbx_splat(f.weights[k]);
+        sum += c * rgbx_splat(f->weights[k]);
     }
     return sum;
 }
 
-/* Adds a row of the parts of the texels in column x: a row by itself first, which keeps rounding small. */
-static inline void add_parts(const resampling *r, const part_row *p, uint32_t x, rgbx *sum, float *whole)
+/* Radiance times solid angle, and solid angle, of a texel. */
+typedef struct texel_sum {
+    rgbx flux;
+    float solid_angle;
+} texel_sum;
+
+/* Adds a row of parts, from column first on, to the sums of their texels: a row by itself first, which keeps rounding
+ * small. */
+static void add_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count, texel_sum *sums)
 {
-    rgbx row = {0};
-    float row_weight = 0.0f;
-    for (uint32_t k = 0; k < r->parts; k++) {
-        float d[3];
-        float weight = get_part(r, p, x * r->parts + k, d);
-        turn_back(r->turn, d);
-        bool is_cut;
-        rgbx c = sphere_lookup(r->source, d, r->limit, &is_cut);
-        if (is_cut && r->hot)
-            c = look_up_hot(r, d);
-        row += c * rgbx_splat(weight);
-        row_weight += weight;
+    sphere_batch b;
+    look_up_parts(r, p, first, count, &b);
+    for (uint32_t k = 0; k < count && r->hot; k++) {
+        sphere_footprint f;
+        if (!b.is_cut[k])
+            continue;
+        find_part(r, &b, k, &f);
+        b.radiance[k] = look_up_hot(r, &f);
     }
-    *sum += row;
-    *whole += row_weight;
+    for (uint32_t k = 0; k < count;) {
+        uint32_t end = (first + k) / r->parts * r->parts + r->parts - first; /* of the texel */
+        rgbx flux = {0};
+        float solid_angle = 0.0f;
+        for (end = end < count ? end : count; k < end; k++) {
+            flux += b.radiance[k] * b.weight[k];
+            solid_angle += b.weight[k];
+        }
+        texel_sum *s = &sums[(first + k - 1) / r->parts - first / r->parts];
+        s->flux += flux;
+        s->solid_angle += solid_angle;
+    }
+}
+
+/* Texels x .. x + count - 1 of a row; all of their parts in a row are a batch, or one texel's are several. */
+static void resample_texels(const resampling *r, uint32_t face, uint32_t y, uint32_t x, uint32_t count)
+{
+    texel_sum sums[SPHERE_BATCH];
+    for (uint32_t i = 0; i < count; i++)
+        sums[i] = (texel_sum){{0.0f, 0.0f, 0.0f, 0.0f}, 0.0f};
+    for (uint32_t row = 0; row < r->parts; row++) {
+        part_row p = start_row(r, face, y * r->parts + row);
+        uint32_t parts = count * r->parts;
+        for (uint32_t k = 0; k < parts; k += SPHERE_BATCH)
+            add_parts(r, &p, x * r->parts + k, parts - k < SPHERE_BATCH ? parts - k : SPHERE_BATCH, sums);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        store_texel(r->target, face, x + i, y,
+                    sums[i].flux * rgbx_splat(r->turn->scale / sums[i].solid_angle));
 }
 
 static void resample_rows(void *context, size_t begin, size_t end)
 {
-    enum { MAX_ROWS = 8 }; /* of parts whose rows are kept */
     const resampling *r = context;
     const sphere *t = r->target;
-    rgbx scale = rgbx_splat(r->turn->scale);
-    for (size_t i = begin; i < end; i++) {
-        uint32_t face = (uint32_t)(i / t->height);
-        uint32_t y = (uint32_t)(i % t->height);
-        part_row kept[MAX_ROWS];
-        for (uint32_t k = 0; k < r->parts && k < MAX_ROWS; k++)
-            kept[k] = start_row(r, face, y * r->parts + k);
-        for (uint32_t x = 0; x < t->width; x++) {
-            rgbx sum = {0};
-            float whole = 0.0f;
-            for (uint32_t row = 0; row < r->parts; row++) {
-                part_row p = row < MAX_ROWS ? kept[row] : start_row(r, face, y * r->parts + row);
-                add_parts(r, &p, x, &sum, &whole);
-            }
-            store_texel(t, face, x, y, sum * rgbx_splat(1.0f / whole) * scale);
-        }
-    }
+    uint32_t step = r->parts < SPHERE_BATCH ? SPHERE_BATCH / r->parts : 1;
+    for (size_t i = begin; i < end; i++)
+        for (uint32_t x = 0; x < t->width; x += step)
+            resample_texels(r, (uint32_t)(i / t->height), (uint32_t)(i % t->height), x,
+                            t->width - x < step ? t->width - x : step);
 }
 
 facet_result sphere_resample(const sphere *source, const sphere_turn *turn, const facet_allocator *allocator,
