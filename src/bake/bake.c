@@ -1,15 +1,30 @@
-/* bake.c - cube maps of an environment for a lobe: which levels, and what makes them. */
+/* bake.c - cube maps of an environment for a lobe: which levels there are and what makes each of them. */
 #include "bake/bake.h"
 
 #include <assert.h>
 
+#include "bake/bake_reference.h"
+#include "bake/bake_sampling.h"
+#include "bake/bake_sharp.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/result.h"
-#include "ibl/environment.h"
-#include "ibl/equirect.h"
+#include "ibl/prefilter.h"
 
-enum { DEFAULT_SIZE = 256, LAMBERT_SIZE = 64, MIN_LEVEL_SIZE = 16, MAX_SIZE = 8192 };
+enum {
+    DEFAULT_SIZE = 256,
+    LAMBERT_SIZE = 64,
+    MIN_LEVEL_SIZE = 16,
+    MAX_SIZE = 8192,
+    DEFAULT_SAMPLES = 1024,
+    MAX_SAMPLES = 1 << 20,
+    LEAST_DEGREE = 256 /* of the analysis of a fine picture */
+};
+
+/* Shares of a lobe's root mean square that harmonics may cut off. Twice as much is still better than sampling. A sun alone in
+ * the dark is off by so much; the edge of a ring takes twice the degrees for every third of it. */
+static const double aimed_cut = 2e-3;
+static const double aimed_cut_of_ring = 6e-3;
 
 static const facet_bake_desc default_desc;
 
@@ -19,10 +34,19 @@ float bake_roughness(facet_roughness_mapping mapping, uint32_t level, uint32_t l
     return mapping == FACET_MAPPING_FILAMENT ? 1.0f - sqrtf(1.0f - x) : x;
 }
 
-/* desc with its defaults filled in. */
-static facet_result complete(facet_bake_desc *desc, facet_error *error)
+facet_result bake_complete(facet_bake_desc *desc, facet_error *error)
 {
     bool is_lambert = desc->lobe == FACET_LOBE_LAMBERT;
+    if ((uint32_t)desc->lobe > FACET_LOBE_NONE || (uint32_t)desc->mapping > FACET_MAPPING_FILAMENT ||
+        (uint32_t)desc->method > FACET_BAKE_REFERENCE)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "bake: lobe %u, mapping %u, method %u: one of facet.h's was expected",
+                    (uint32_t)desc->lobe, (uint32_t)desc->mapping, (uint32_t)desc->method);
+    if (!isfinite(desc->rotation_rad) || !isfinite(desc->ev) || !isfinite(desc->clamp) || desc->clamp < 0.0f)
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "bake: rotation %g, ev %g, clamp %g: finite numbers, and 0 or more to clamp at, were expected",
+            (double)desc->rotation_rad, (double)desc->ev, (double)desc->clamp);
     desc->size = desc->size ? desc->size : is_lambert ? LAMBERT_SIZE : DEFAULT_SIZE;
     if (desc->size > MAX_SIZE || (desc->size & (desc->size - 1)))
         return fail(error, FACET_ERROR_ARGUMENT,
@@ -33,59 +57,218 @@ static facet_result complete(facet_bake_desc *desc, facet_error *error)
                     desc->level_count, desc->size, most);
     if (desc->level_count == 0)
         desc->level_count = is_lambert || desc->size < MIN_LEVEL_SIZE ? 1 : most - 4;
-    desc->samples = desc->samples ? desc->samples : 1024;
+    desc->samples = desc->samples ? desc->samples : DEFAULT_SAMPLES;
+    if (desc->samples > MAX_SAMPLES)
+        return fail(error, FACET_ERROR_ARGUMENT, "bake: %u samples per texel: at most %d are taken",
+                    desc->samples, MAX_SAMPLES);
     return FACET_OK;
 }
 
-static void fill_mirror(const facet_environment *environment, double rotation, cube *out)
+bool bake_level_is_sharp(const facet_cube *c, uint32_t level)
 {
-    double c = cos(rotation);
-    double s = sin(rotation);
-    for (uint32_t face = 0; face < 6; face++)
-        for (uint32_t y = 0; y < out->size; y++)
-            for (uint32_t x = 0; x < out->size; x++) {
-                double d[3];
-                cube_direction(face, (2.0 * x + 1.0) / out->size - 1.0, (2.0 * y + 1.0) / out->size - 1.0, d);
-                double r = 1.0 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-                const float e[3] = {(float)((d[0] * c - d[2] * s) * r), (float)(d[1] * r),
-                                    (float)((d[0] * s + d[2] * c) * r)};
-                *cube_texel(out, face, (int)x, (int)y) =
-                    equirect_fetch(&environment->picture, equirect_locate(e));
-            }
-    cube_fill_borders(out);
+    return c->lobe == FACET_LOBE_NONE || (c->lobe == FACET_LOBE_GGX && c->roughness[level] == 0.0f);
+}
+
+/* ---- plans ---- */
+
+typedef enum level_kind { LEVEL_SHARP, LEVEL_HARMONICS, LEVEL_SAMPLED, LEVEL_REFERENCE } level_kind;
+
+typedef struct level_plan {
+    level_kind kind;
+    uint32_t degree;
+    float *kernel; /* of plans.kernels */
+    bake_lobe lobe;
+    double work; /* about ns */
+} level_plan;
+
+typedef struct bake_plans {
+    level_plan levels[FACET_CUBE_MAX_LEVELS];
+    float *kernels;
+    uint32_t degree;       /* of the analysis; 0: none */
+    uint32_t pyramid_size; /* 0: none */
+    bool needs_reference;
+    double analysis_work, pyramid_work;
+} bake_plans;
+
+/* How a level is made that is no mirror. */
+static void plan_lobe(const facet_bake_desc *desc, const bake_source *source, float roughness,
+                      bake_plans *plans, level_plan *plan)
+{
+    plan->lobe = bake_lobe_create(desc->lobe, roughness);
+    plan->kind = desc->method == FACET_BAKE_REFERENCE ? LEVEL_REFERENCE : LEVEL_SAMPLED;
+    if (desc->method == FACET_BAKE_AUTO) {
+        double cut;
+        bool is_ring = desc->lobe == FACET_LOBE_CHARLIE;
+        double aim = is_ring ? aimed_cut_of_ring : aimed_cut;
+        plan->degree = prefilter_choose_degree(is_ring ? PREFILTER_CHARLIE : PREFILTER_GGX,
+                                               (float)sqrt(plan->lobe.alpha), aim, plan->kernel, &cut);
+        if (cut <= 2.0 * aim) {
+            prefilter_taper(plan->degree, plan->kernel);
+            plan->kind = LEVEL_HARMONICS;
+            plans->degree = plan->degree > plans->degree ? plan->degree : plans->degree;
+        }
+    }
+    if (plan->kind == LEVEL_SAMPLED) {
+        uint32_t size = bake_pyramid_size(&plan->lobe, desc->samples, source->picture.height);
+        plans->pyramid_size = size > plans->pyramid_size ? size : plans->pyramid_size;
+    }
+    plans->needs_reference |= plan->kind == LEVEL_REFERENCE;
+}
+
+/* kernels: (HARMONICS_MAX_DEGREE + 1) floats for each level. */
+static double make_plans(const facet_bake_desc *desc, const facet_cube *c, const bake_source *source,
+                         bake_plans *plans)
+{
+    double texels = (double)source->picture.width * source->picture.height;
+    double total = 0.0;
+    for (uint32_t i = 0; i < c->level_count; i++) {
+        level_plan *plan = &plans->levels[i];
+        plan->kernel = plans->kernels + (size_t)i * (HARMONICS_MAX_DEGREE + 1);
+        if (!bake_level_is_sharp(c, i))
+            plan_lobe(desc, source, c->roughness[i], plans, plan);
+        double size = desc->size >> i;
+        double degree = plan->degree;
+        plan->work = plan->kind == LEVEL_SHARP       ? 300.0 * size * size
+                     : plan->kind == LEVEL_HARMONICS ? 0.3 * degree * degree * degree + 150.0 * size * size
+                     : plan->kind == LEVEL_SAMPLED   ? 6.0 * size * size * desc->samples
+                                                     : 6.0 * size * size * texels;
+        total += plan->work;
+    }
+    /* analyses of low degrees would take fine pictures as coarser than they are */
+    while (plans->degree > 0 && plans->degree < LEAST_DEGREE &&
+           (16 * plans->degree < source->picture.width || 8 * plans->degree < source->picture.height))
+        plans->degree += 32;
+    plans->analysis_work = 0.15 * plans->degree * plans->degree * source->picture.height;
+    plans->pyramid_work = 400.0 * plans->pyramid_size * plans->pyramid_size;
+    return total + plans->analysis_work + plans->pyramid_work;
+}
+
+/* ---- levels ---- */
+
+/* What levels are made of, as far as they need it. */
+typedef struct bake_materials {
+    bake_source source;
+    bake_plans plans;
+    harmonics harmonics;
+    bake_pyramid pyramid;
+    bake_reference reference;
+    bake_watch watch;
+} bake_materials;
+
+static facet_result create_pyramid(const facet_bake_desc *desc, bake_materials *m, facet_error *error)
+{
+    cube base = {0};
+    facet_result result = cube_create(m->plans.pyramid_size, &desc->allocator, &base, error);
+    if (result == FACET_OK)
+        result = bake_sharp(&m->source, m->source.scale, &desc->allocator, desc->thread_count, &base, error);
+    if (result != FACET_OK) {
+        cube_destroy(&base);
+        return result;
+    }
+    return bake_pyramid_create(&base, &desc->allocator, desc->thread_count, &m->pyramid, error);
+}
+
+static facet_result create_materials(const facet_environment *environment, const facet_bake_desc *desc,
+                                     const facet_cube *c, bake_materials *m, facet_error *error)
+{
+    size_t count = (size_t)c->level_count * (HARMONICS_MAX_DEGREE + 1);
+    m->plans.kernels = mem_alloc(&desc->allocator, count, sizeof(float));
+    facet_result result = m->plans.kernels ? FACET_OK : fail_memory(error, "cube map", count * sizeof(float));
+    if (result == FACET_OK)
+        result = bake_source_create(environment, desc, &m->source, error);
+    if (result != FACET_OK)
+        return result;
+    bake_watch_init(&m->watch, &desc->progress, "bake", make_plans(desc, c, &m->source, &m->plans));
+    bake_watch_add(&m->watch, 0.0);
+    if (m->plans.degree > 0) {
+        result = harmonics_create(&m->source.picture, m->plans.degree, &desc->allocator, desc->thread_count,
+                                  &m->harmonics, error);
+        bake_watch_add(&m->watch, m->plans.analysis_work);
+    }
+    if (result == FACET_OK && m->plans.pyramid_size > 0) {
+        result = create_pyramid(desc, m, error);
+        bake_watch_add(&m->watch, m->plans.pyramid_work);
+    }
+    if (result == FACET_OK && m->plans.needs_reference)
+        result = bake_reference_create(&m->source, &desc->allocator, &m->reference, error);
+    return result;
+}
+
+static void destroy_materials(bake_materials *m)
+{
+    harmonics_destroy(&m->harmonics);
+    bake_pyramid_destroy(&m->pyramid);
+    bake_reference_destroy(&m->reference);
+    bake_source_destroy(&m->source);
+    mem_free(m->plans.kernels);
+}
+
+static facet_result fill_sharp(const facet_bake_desc *desc, bake_materials *m, facet_cube *c, uint32_t level,
+                               facet_error *error)
+{
+    facet_result result = cube_create(desc->size >> level, &desc->allocator, &c->levels[level], error);
+    if (result != FACET_OK)
+        return result;
+    if (level == 0)
+        return bake_sharp(&m->source, m->source.scale, &desc->allocator, desc->thread_count, &c->levels[0],
+                          error);
+    bake_halve(&c->levels[level - 1], desc->thread_count, &c->levels[level]);
+    return FACET_OK;
+}
+
+static facet_result fill_level(const facet_bake_desc *desc, bake_materials *m, facet_cube *c, uint32_t level,
+                               facet_error *error)
+{
+    level_plan *plan = &m->plans.levels[level];
+    cube *out = &c->levels[level];
+    uint32_t size = desc->size >> level;
+    facet_result result = FACET_OK;
+    if (plan->kind == LEVEL_SHARP) {
+        result = fill_sharp(desc, m, c, level, error);
+        bake_watch_add(&m->watch, plan->work);
+        return result;
+    }
+    if (plan->kind == LEVEL_HARMONICS) {
+        result = harmonics_filter(&m->harmonics,
+                                  &(harmonics_filter_desc){.kernel = plan->kernel,
+                                                           .degree = plan->degree,
+                                                           .rotation_rad = m->source.rotation_rad,
+                                                           .scale = m->source.scale,
+                                                           .size = size,
+                                                           .allocator = &desc->allocator,
+                                                           .thread_count = desc->thread_count},
+                                  out, error);
+        bake_watch_add(&m->watch, plan->work);
+        return result;
+    }
+    result = cube_create(size, &desc->allocator, out, error);
+    if (result != FACET_OK)
+        return result;
+    double texels = 6.0 * size * size;
+    if (plan->kind == LEVEL_REFERENCE) {
+        bake_reference_fill(&m->reference, &plan->lobe, desc->thread_count, &m->watch, out);
+        c->stats.samples += (uint64_t)(texels * m->source.picture.width * m->source.picture.height);
+        return FACET_OK;
+    }
+    c->stats.samples += (uint64_t)(texels * desc->samples);
+    return bake_sample(&m->pyramid, &plan->lobe, desc->samples, &desc->allocator, desc->thread_count,
+                       &m->watch, out, error);
 }
 
 static facet_result fill_levels(const facet_environment *environment, const facet_bake_desc *desc,
                                 facet_cube *c, facet_error *error)
 {
-    harmonics h = {0};
-    facet_result result = harmonics_create(&environment->picture, PREFILTER_DEGREE, &desc->allocator,
-                                           desc->thread_count, &h, error);
+    bake_materials m = {.plans = {.degree = 0}};
+    facet_result result = create_materials(environment, desc, c, &m, error);
     for (uint32_t level = 0; result == FACET_OK && level < c->level_count; level++) {
-        uint32_t size = desc->size >> level;
-        float roughness = c->roughness[level];
-        if (roughness == 0.0f && desc->lobe != FACET_LOBE_CHARLIE) {
-            result = cube_create(size, &desc->allocator, &c->levels[level], error);
-            if (result == FACET_OK)
-                fill_mirror(environment, (double)desc->rotation_rad, &c->levels[level]);
-            continue;
-        }
-        float kernel[PREFILTER_DEGREE + 1];
-        prefilter_lobe lobe = desc->lobe == FACET_LOBE_CHARLIE ? PREFILTER_CHARLIE : PREFILTER_GGX;
-        float least = lobe == PREFILTER_CHARLIE ? 0.1f : 0.05f;
-        prefilter_kernel(lobe, roughness > least ? roughness : least, PREFILTER_DEGREE, kernel);
-        prefilter_taper(PREFILTER_DEGREE, kernel);
-        result = harmonics_filter(&h,
-                                  &(harmonics_filter_desc){.kernel = kernel,
-                                                           .degree = PREFILTER_DEGREE,
-                                                           .rotation_rad = (double)desc->rotation_rad,
-                                                           .scale = exp2f(desc->ev),
-                                                           .size = size,
-                                                           .allocator = &desc->allocator,
-                                                           .thread_count = desc->thread_count},
-                                  &c->levels[level], error);
+        if (bake_watch_is_cancelled(&m.watch))
+            break;
+        result = fill_level(desc, &m, c, level, error);
     }
-    harmonics_destroy(&h);
+    c->stats.clamped_share = m.source.cut_share;
+    if (result == FACET_OK)
+        result = bake_watch_explain(&m.watch, error);
+    destroy_materials(&m);
     return result;
 }
 
@@ -96,7 +279,7 @@ facet_result facet_cube_bake(facet_environment *environment, const facet_bake_de
     *out = NULL;
     facet_bake_desc desc = given ? *given : default_desc;
     double start_s = clock_seconds();
-    facet_result result = complete(&desc, error);
+    facet_result result = bake_complete(&desc, error);
     if (result != FACET_OK)
         return result;
     facet_cube *c = mem_zalloc(&desc.allocator, 1, sizeof *c);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "ibl/gauss.h"
 #include "ibl/narrow.h"
 
 #include "shade/shade.h"
@@ -66,12 +67,6 @@ float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness)
     return (float)level + (fraction > 0.0f ? fraction : 0.0f);
 }
 
-/* Gauss and Legendre's nodes and weights of 8 points on [-1, 1], mirrored at 0. */
-static const double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                               0.9602898564975363};
-static const double node_weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                      0.1012285362903763};
-
 /* D at half angle t, times any constant. */
 static double distribution(prefilter_lobe lobe, double t, float alpha)
 {
@@ -90,13 +85,12 @@ static void add_panel(prefilter_lobe lobe, float alpha, double from, double to, 
     const double end = 0.7853981633974483;
     double x[NODES], now[NODES], before[NODES];
     for (int i = 0; i < NODES; i++) {
-        double at = i < 4 ? -node[i] : node[i - 4];
-        double s = 0.5 * (from + to) + 0.5 * (to - from) * at;
+        double weight;
+        double s = gauss_8(i, from, to, &weight);
         double t = lobe == PREFILTER_GGX ? s : end - s;
         x[i] = (cos)(2.0 * t);
         /* dl = 2 pi sin(2 t) d(2 t) */
-        now[i] =
-            0.5 * (to - from) * node_weight[i & 3] * distribution(lobe, t, alpha) * x[i] * (sin)(2.0 * t);
+        now[i] = weight * distribution(lobe, t, alpha) * x[i] * (sin)(2.0 * t);
         before[i] = 0.0;
     }
     for (uint32_t l = 0; l <= degree; l++) {
@@ -127,6 +121,34 @@ void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t 
     }
     for (uint32_t l = 0; l <= degree; l++)
         kernel[l] = (float)(sum[l] / sum[0]);
+}
+
+/* Squares of a kernel from degree first to last: of the lobe's, by Parseval's theorem. */
+static double square(const float *kernel, uint32_t first, uint32_t last)
+{
+    double sum = 0.0;
+    for (uint32_t l = first; l <= last; l++)
+        sum += (2.0 * l + 1.0) * (double)kernel[l] * (double)kernel[l];
+    return sum;
+}
+
+uint32_t prefilter_choose_degree(prefilter_lobe lobe, float perceptual_roughness, double tolerance,
+                                 float *kernel, double *cut)
+{
+    uint32_t known = 96;
+    for (;; known = known < HARMONICS_MAX_DEGREE / 2 ? 2 * known : HARMONICS_MAX_DEGREE) {
+        prefilter_kernel(lobe, perceptual_roughness, known, kernel);
+        double whole = square(kernel, 0, known);
+        /* Those of a ring fall off with the third power of the degree: twice what the last eighth has is still to come. */
+        double beyond = 2.0 * square(kernel, known - known / 8 + 1, known);
+        double allowed = tolerance * tolerance * (whole + beyond);
+        uint32_t degree = 32;
+        while (degree < known && square(kernel, degree + 1, known) + beyond > allowed)
+            degree += 32;
+        *cut = (sqrt)((square(kernel, degree + 1, known) + beyond) / (whole + beyond));
+        if (degree < known || known == HARMONICS_MAX_DEGREE)
+            return degree;
+    }
 }
 
 void prefilter_taper(uint32_t degree, float *kernel)

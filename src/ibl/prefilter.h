@@ -39,6 +39,11 @@ float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness);
  * degree (at most HARMONICS_MAX_DEGREE); kernel[0] is 1. Roughness above 0. By Gauss-Legendre quadrature over the half vector,
  * in double. */
 void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t degree, float *kernel);
+/* The least degree (a multiple of 32) such that what is cut off of the lobe has tolerance of its root mean square, or
+ * HARMONICS_MAX_DEGREE; fills the kernel, which has HARMONICS_MAX_DEGREE + 1 places, up to there. *cut: the share that is cut
+ * off, which at the maximum may be more. */
+uint32_t prefilter_choose_degree(prefilter_lobe lobe, float perceptual_roughness, double tolerance,
+                                 float *kernel, double *cut);
 /* Fades the last quarter of the degrees out, so that what is cut off a narrow lobe does not ring: around a sun, 3 % of
  * relative error in the sky become 0.4 %. */
 void prefilter_taper(uint32_t degree, float *kernel);

@@ -1,0 +1,29 @@
+/* bake_lobe.h - the lobes of cube maps as functions of x = N.l, N = V = R: of the cosine alone, so that all there is to them is
+ * a density over [0, 1].
+ *
+ * With s^2 = sin^2 of half the angle = (1 - x) / 2 the weight of a direction, up to a constant, is
+ *   GGX      x / (alpha^2 + (1 - alpha^2) s^2)^2
+ *   Charlie  x (2 s^2)^(1 / (2 alpha))
+ *   Lambert  x */
+#ifndef BAKE_BAKE_LOBE_H
+#define BAKE_BAKE_LOBE_H
+
+#include "facet/facet.h"
+
+typedef struct bake_lobe {
+    facet_lobe kind; /* not FACET_LOBE_NONE */
+    double alpha;
+    double width; /* rad: over which the weight changes by half or more */
+} bake_lobe;
+
+/* Roughness above 0; that of Charlie is at least BAKE_CHARLIE_LEAST. */
+bake_lobe bake_lobe_create(facet_lobe kind, float perceptual_roughness);
+
+/* Weight of a direction, from s^2 in [0, 1/2]: without cancellation near the middle. */
+double bake_lobe_weight(const bake_lobe *lobe, double s2);
+
+/* count values of s^2 at which the share of the lobe's weight around them is (i + 0.5) / count, rising, and the density per sr
+ * there, normalised. */
+void bake_lobe_sample(const bake_lobe *lobe, uint32_t count, float *s2, float *pdf);
+
+#endif

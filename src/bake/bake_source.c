@@ -1,0 +1,89 @@
+/* bake_source.c - see bake_source.h. */
+#include "bake/bake_source.h"
+
+#include <math.h>
+#include <stdatomic.h>
+
+#include "base/parallel.h"
+#include "base/simd.h"
+#include "ibl/environment.h"
+#include "ibl/equirect.h"
+
+typedef struct cutting {
+    const image *from;
+    image *to; /* NULL: only looks whether there is anything to cut off */
+    float limit;
+    atomic_bool is_over;
+} cutting;
+
+DISPATCH_AVX2 static void cut_rows(void *context, size_t begin, size_t end)
+{
+    cutting *job = context;
+    size_t row = 3 * (size_t)job->from->width;
+    const float *from = job->from->pixels;
+    float limit = job->limit;
+    if (job->to) {
+        float *to = job->to->pixels;
+        for (size_t i = begin * row; i < end * row; i++)
+            to[i] = from[i] < limit ? from[i] : limit;
+        return;
+    }
+    int over = 0;
+    for (size_t i = begin * row; i < end * row; i++)
+        over |= from[i] > limit;
+    if (over)
+        atomic_store(&job->is_over, true);
+}
+
+facet_result bake_source_create(const facet_environment *environment, const facet_bake_desc *desc,
+                                bake_source *out, facet_error *error)
+{
+    const image *picture = &environment->picture;
+    bake_source s = {.picture = *picture,
+                     .faces = environment->faces.texels ? &environment->faces : NULL,
+                     .limit = desc->clamp > 0.0f ? desc->clamp : INFINITY,
+                     .rotation_rad = (double)desc->rotation_rad,
+                     .scale = exp2f(desc->ev)};
+    double whole[3];
+    facet_result result = equirect_mean(picture, &desc->allocator, desc->thread_count, whole, error);
+    cutting job = {.from = picture, .limit = s.limit};
+    atomic_init(&job.is_over, false);
+    if (result == FACET_OK && desc->clamp > 0.0f)
+        parallel_for(desc->thread_count, picture->height, 16, cut_rows, &job);
+    for (int k = 0; k < 3; k++)
+        s.mean[k] = whole[k];
+    if (result == FACET_OK && atomic_load(&job.is_over)) {
+        result = image_create(&desc->allocator, picture->width, picture->height, 3, IMAGE_F32, &s.cut, error);
+        if (result == FACET_OK) {
+            job.to = &s.cut;
+            parallel_for(desc->thread_count, picture->height, 16, cut_rows, &job);
+            s.picture = s.cut;
+            result = equirect_mean(&s.cut, &desc->allocator, desc->thread_count, s.mean, error);
+        }
+        double sum = whole[0] + whole[1] + whole[2];
+        s.cut_share = sum > 0.0 ? 1.0 - (s.mean[0] + s.mean[1] + s.mean[2]) / sum : 0.0;
+    }
+    if (result != FACET_OK) {
+        bake_source_destroy(&s);
+        return result;
+    }
+    *out = s;
+    return FACET_OK;
+}
+
+void bake_source_destroy(bake_source *s)
+{
+    image_destroy(&s->cut);
+    *s = (bake_source){0};
+}
+
+void bake_source_turn(const bake_source *s, const double d[3], double out[3])
+{
+    double c = cos(s->rotation_rad);
+    double sine = sin(s->rotation_rad);
+    double x = d[0];
+    double z = d[2];
+    out[0] = x * c - z * sine;
+    out[1] = d[1];
+    out[2] = x * sine + z * c;
+}
