@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "ibl/cube_layout.h"
 #include "image/rgbm.h"
+#include "report/ibl_sheet.h"
 
 static const facet_allocator default_allocator;
 
@@ -116,7 +117,10 @@ facet_result facet_image_encode_rgbm(const facet_image *picture, float range, co
 facet_result facet_cube_draw_sheet(const facet_cube *c, facet_environment *environment,
                                    const facet_sheet_desc *desc, facet_image **out, facet_error *error)
 {
-    (void)c, (void)environment, (void)desc;
+    static const facet_sheet_desc default_desc;
     *out = NULL;
-    return fail(error, FACET_ERROR_UNSUPPORTED, "bake: not there yet");
+    desc = desc ? desc : &default_desc;
+    image picture = {0};
+    facet_result result = ibl_sheet_draw(c, environment, desc, &picture, error);
+    return result == FACET_OK ? give(&picture, &desc->allocator, out, error) : result;
 }

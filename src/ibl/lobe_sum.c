@@ -22,6 +22,7 @@ typedef struct block_job {
     const image *picture; /* of which the first level is made */
     float limit;
     uint32_t step;            /* texels along an edge of its blocks */
+    uint32_t parts;           /* of a texel, each way, that count as texels */
     const lobe_blocks *below; /* of which another one is */
     lobe_blocks *to;
 } block_job;
@@ -44,15 +45,18 @@ static void add_part(block_sums *s, const float energy[3], const float direction
 static void add_texels(const block_job *job, uint32_t x, uint32_t y, block_sums *sums)
 {
     const image *picture = job->picture;
+    uint32_t width = picture->width * job->parts;
+    uint32_t height = picture->height * job->parts;
     uint32_t step = job->step;
-    for (uint32_t v = step * y; v < step * (y + 1) && v < picture->height; v++) {
-        double solid_angle = equirect_texel_solid_angle(picture->width, picture->height, v);
-        for (uint32_t u = step * x; u < step * (x + 1) && u < picture->width; u++) {
-            const float *texel = (const float *)picture->pixels + 3 * ((size_t)v * picture->width + u);
+    for (uint32_t v = step * y; v < step * (y + 1) && v < height; v++) {
+        double solid_angle = equirect_texel_solid_angle(width, height, v);
+        for (uint32_t u = step * x; u < step * (x + 1) && u < width; u++) {
+            const float *texel = (const float *)picture->pixels +
+                                 3 * ((size_t)(v / job->parts) * picture->width + u / job->parts);
             float energy[3], direction[3];
             for (int i = 0; i < 3; i++)
                 energy[i] = min(texel[i], job->limit) * (float)solid_angle;
-            equirect_direction(picture->width, picture->height, u, v, direction);
+            equirect_direction(width, height, u, v, direction);
             add_part(sums, energy, direction, solid_angle);
         }
     }
@@ -115,11 +119,14 @@ facet_result lobe_sum_create(const image *picture, float limit, const facet_allo
                              uint32_t thread_count, lobe_sum *out, facet_error *error)
 {
     uint32_t step = 1;
+    uint32_t parts = 1;
     while (picture->width / step > LOBE_SUM_MAX_WIDTH)
         step *= 2;
-    uint32_t width = (picture->width + step - 1) / step;
-    uint32_t height = (picture->height + step - 1) / step;
-    *out = (lobe_sum){0};
+    while (picture->width * parts < LOBE_SUM_MIN_WIDTH)
+        parts *= 2;
+    uint32_t width = (picture->width * parts + step - 1) / step;
+    uint32_t height = (picture->height * parts + step - 1) / step;
+    *out = (lobe_sum){.texel_rad = PI / (float)picture->height};
     for (uint32_t level = 0; level < LOBE_SUM_LEVELS; level++) {
         lobe_blocks *to = &out->levels[level];
         if (!allocate_blocks(width, height, allocator, to)) {
@@ -127,8 +134,12 @@ facet_result lobe_sum_create(const image *picture, float limit, const facet_allo
             return fail_memory(error, "blocks of texels", (size_t)width * height * 6 * sizeof(float));
         }
         out->level_count++;
-        block_job job = {
-            .picture = picture, .limit = limit, .step = step, .below = level ? to - 1 : NULL, .to = to};
+        block_job job = {.picture = picture,
+                         .limit = limit,
+                         .step = step,
+                         .parts = parts,
+                         .below = level ? to - 1 : NULL,
+                         .to = to};
         parallel_for(thread_count, height, 8, make_blocks, &job);
         width = (width + 1) / 2;
         height = (height + 1) / 2;
@@ -149,6 +160,14 @@ void lobe_sum_destroy(lobe_sum *s)
 static inline float weight_of_GGX(float x, float alpha)
 {
     return D_GGX(sqrt(0.5f + 0.5f * x), alpha) * x;
+}
+
+/* Charlie's, whose powers no loop of vectors has; linear between entries. */
+static inline float weight_of_table(const float table[LOBE_TABLE_SIZE + 2], float x)
+{
+    float place = x * (float)LOBE_TABLE_SIZE;
+    int i = (int)place;
+    return table[i] + (table[i + 1] - table[i]) * (place - (float)i);
 }
 
 static float weight_of(facet_lobe lobe, float alpha, float x)
@@ -187,8 +206,9 @@ void lobe_plan_make(const lobe_sum *sum, facet_lobe lobe, float perceptual_rough
 {
     float alpha = alpha_from_roughness(perceptual_roughness);
     /* of Charlie's ring, which has two sharp edges; all lobes end sharply at the horizon */
-    float largest = lobe == FACET_LOBE_CHARLIE ? alpha * (1.0f / 9.0f) : alpha * (1.0f / 6.0f);
-    largest = min(lobe == FACET_LOBE_LAMBERT ? 1.0f : largest, 0.026f);
+    float largest = lobe == FACET_LOBE_CHARLIE ? alpha * (1.0f / 5.0f) : alpha * (1.0f / 6.0f);
+    largest = lobe == FACET_LOBE_LAMBERT ? 1.0f : largest;
+    largest = min(largest, max(0.026f, 1.01f * sum->texel_rad)); /* no texel has anything smaller in it */
     uint32_t near = 0;
     while (near + 1 < sum->level_count && sum->levels[near + 1].texel_rad <= largest)
         near++;
@@ -224,10 +244,17 @@ typedef struct lane_sums {
     float rgb[3][LANES];
 } lane_sums;
 
-/* Adds count blocks from k on. The weights are made first, a run of LANES at a time, so that loops are plain. */
+static inline float fade(float x, float x_far, float scale)
+{
+    float t = clamp((x - x_far) * scale, 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/* Adds count blocks from k on, LANES at a time: weights, then sums, each a plain loop. */
 static inline __attribute__((always_inline)) void add_run(const lobe_plan *p, const lobe_blocks *b,
-                                                          lobe_part part, const float axis[3], size_t k,
-                                                          size_t count, lane_sums *sums)
+                                                          facet_lobe lobe, lobe_part part,
+                                                          const float axis[3], size_t k, size_t count,
+                                                          lane_sums *sums)
 {
     const float *dx = b->direction[0] + k;
     const float *dy = b->direction[1] + k;
@@ -237,17 +264,15 @@ static inline __attribute__((always_inline)) void add_run(const lobe_plan *p, co
     for (size_t i = 0; i < count; i += LANES) {
         size_t run = count - i < LANES ? count - i : LANES;
         float weights[LANES];
-        if (run < LANES)
-            for (size_t j = run; j < LANES; j++)
-                weights[j] = 0.0f;
         for (size_t j = 0; j < run; j++) {
             float x = max(axis[0] * dx[i + j] + axis[1] * dy[i + j] + axis[2] * dz[i + j], 0.0f);
-            float w = p->lobe == FACET_LOBE_GGX ? weight_of_GGX(x, alpha) : x;
-            if (part != PART_ALL) {
-                float t = clamp((x - p->x_far) * fade_scale, 0.0f, 1.0f);
-                float near = t * t * (3.0f - 2.0f * t);
-                w *= part == PART_NEAR ? near : 1.0f - near;
-            }
+            float w = lobe == FACET_LOBE_GGX       ? weight_of_GGX(x, alpha)
+                      : lobe == FACET_LOBE_CHARLIE ? weight_of_table(p->table, x)
+                                                   : x;
+            if (part == PART_NEAR)
+                w *= fade(x, p->x_far, fade_scale);
+            if (part == PART_FAR)
+                w *= 1.0f - fade(x, p->x_far, fade_scale);
             weights[j] = w;
         }
         for (int c = 0; c < 3; c++)
@@ -256,32 +281,20 @@ static inline __attribute__((always_inline)) void add_run(const lobe_plan *p, co
     }
 }
 
+/* Each lobe with each of its parts is a loop of its own. */
 DISPATCH_AVX2 static void lobe_add_run(const lobe_plan *p, const lobe_blocks *b, lobe_part part,
                                        const float axis[3], size_t k, size_t count, lane_sums *sums)
 {
-    if (part == PART_ALL)
-        add_run(p, b, PART_ALL, axis, k, count, sums);
+    if (p->lobe == FACET_LOBE_CHARLIE)
+        add_run(p, b, FACET_LOBE_CHARLIE, PART_ALL, axis, k, count, sums);
+    else if (p->lobe != FACET_LOBE_GGX)
+        add_run(p, b, FACET_LOBE_LAMBERT, PART_ALL, axis, k, count, sums);
+    else if (part == PART_ALL)
+        add_run(p, b, FACET_LOBE_GGX, PART_ALL, axis, k, count, sums);
     else if (part == PART_NEAR)
-        add_run(p, b, PART_NEAR, axis, k, count, sums);
+        add_run(p, b, FACET_LOBE_GGX, PART_NEAR, axis, k, count, sums);
     else
-        add_run(p, b, PART_FAR, axis, k, count, sums);
-}
-
-/* Charlie by its table, whose powers no loop of vectors has. */
-static void add_charlie(const lobe_plan *p, const lobe_blocks *b, const float axis[3], lane_sums *sums)
-{
-    size_t count = (size_t)b->width * b->height;
-    for (size_t k = 0; k < count; k++) {
-        float x = axis[0] * b->direction[0][k] + axis[1] * b->direction[1][k] + axis[2] * b->direction[2][k];
-        if (x <= 0.0f)
-            continue;
-        float place = x * (float)LOBE_TABLE_SIZE;
-        uint32_t i = (uint32_t)place;
-        i = i < LOBE_TABLE_SIZE ? i : LOBE_TABLE_SIZE;
-        float w = p->table[i] + (p->table[i + 1] - p->table[i]) * (place - (float)i);
-        for (int c = 0; c < 3; c++)
-            sums->rgb[c][k % LANES] += w * b->energy[c][k];
-    }
+        add_run(p, b, FACET_LOBE_GGX, PART_FAR, axis, k, count, sums);
 }
 
 /* The blocks less than an angle from the axis: in each row a stretch of columns, which may run over the seam. */
@@ -323,9 +336,7 @@ void lobe_plan_gather(const lobe_plan *p, const float axis[3], float out[3])
     lane_sums sums = {{{0.0f}}};
     const lobe_blocks *b = &p->sum->levels[p->far];
     size_t count = (size_t)b->width * b->height;
-    if (p->lobe == FACET_LOBE_CHARLIE) {
-        add_charlie(p, b, axis, &sums);
-    } else if (p->near == p->far) {
+    if (p->near == p->far) {
         lobe_add_run(p, b, PART_ALL, axis, 0, count, &sums);
     } else {
         lobe_add_run(p, b, PART_FAR, axis, 0, count, &sums);

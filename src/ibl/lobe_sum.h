@@ -6,10 +6,11 @@
 #include "facet/facet.h"
 #include "image/image.h"
 
-enum { LOBE_SUM_LEVELS = 6, LOBE_SUM_MAX_WIDTH = 2048 };
+enum { LOBE_SUM_LEVELS = 6, LOBE_SUM_MAX_WIDTH = 2048, LOBE_SUM_MIN_WIDTH = 1024 };
 
-/* Blocks of texels in rows, each number an array of its own; level 0 are texels, or the smallest blocks of which a row has no
- * more than LOBE_SUM_MAX_WIDTH; those of the next level are twice as wide and high. */
+/* Blocks of texels in rows, each number an array of its own. Level 0 are texels, the smallest blocks of which a row has no more
+ * than LOBE_SUM_MAX_WIDTH, or the largest parts of texels of which it has LOBE_SUM_MIN_WIDTH; blocks of the next level are
+ * twice as wide and high. */
 typedef struct lobe_blocks {
     uint32_t width, height;
     float texel_rad;     /* height of a block */
@@ -18,6 +19,7 @@ typedef struct lobe_blocks {
 } lobe_blocks;
 
 typedef struct lobe_sum {
+    float texel_rad; /* of the picture */
     uint32_t level_count;
     lobe_blocks levels[LOBE_SUM_LEVELS];
 } lobe_sum;
@@ -42,8 +44,8 @@ typedef struct lobe_plan {
 
 /* The lobe D N.l for N = V = R (GGX from perceptual roughness 0.1 on; Charlie from 0.25 on) or the cosine (Lambert). */
 void lobe_plan_make(const lobe_sum *sum, facet_lobe lobe, float perceptual_roughness, lobe_plan *out);
-/* The mean of radiance under it around the unit vector axis; of Lambert that is irradiance / pi. Within 0.2 % of summation over
- * all texels of pictures of up to LOBE_SUM_MAX_WIDTH. */
+/* The mean of radiance under it around the unit vector axis; of Lambert that is irradiance / pi. Texels are of one radiance
+ * each. Within 0.2 % of the sum over all of them in pictures of up to LOBE_SUM_MAX_WIDTH. */
 void lobe_plan_gather(const lobe_plan *p, const float axis[3], float out[3]);
 
 #endif

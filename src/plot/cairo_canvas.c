@@ -148,10 +148,9 @@ static facet_result take_file(canvas *c, unsigned char **bytes, size_t *size, fa
     return FACET_OK;
 }
 
-facet_result canvas_finish(canvas *c, unsigned char **bytes, size_t *size, facet_error *error)
+/* Ends the drawing; what went wrong. */
+static facet_result finish_drawing(canvas *c, facet_error *error)
 {
-    *bytes = NULL;
-    *size = 0;
     cairo_status_t status = c->cairo.status(c->context);
     if (status == CAIRO_STATUS_SUCCESS && c->pixels)
         c->cairo.surface_flush(c->surface);
@@ -163,7 +162,23 @@ facet_result canvas_finish(canvas *c, unsigned char **bytes, size_t *size, facet
         return fail_memory(error, "plot", c->file.length);
     if (status != CAIRO_STATUS_SUCCESS)
         return fail(error, FACET_ERROR_ENVIRONMENT, "plot: cairo: %s", c->cairo.status_to_string(status));
+    return FACET_OK;
+}
+
+facet_result canvas_finish(canvas *c, unsigned char **bytes, size_t *size, facet_error *error)
+{
+    *bytes = NULL;
+    *size = 0;
+    facet_result result = finish_drawing(c, error);
+    if (result != FACET_OK)
+        return result;
     return c->pixels ? encode_png(c, bytes, size, error) : take_file(c, bytes, size, error);
+}
+
+facet_result canvas_read(canvas *c, const uint32_t **pixels, facet_error *error)
+{
+    *pixels = c->pixels;
+    return finish_drawing(c, error);
 }
 
 bool canvas_is_raster(const canvas *c)

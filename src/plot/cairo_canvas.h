@@ -45,6 +45,9 @@ void canvas_destroy(canvas *c); /* NULL is allowed */
 /* The file: a block of mem_alloc() and its used size. Nothing can be drawn after it. */
 facet_result canvas_finish(canvas *c, unsigned char **bytes, size_t *size, facet_error *error);
 
+/* Of a raster canvas instead: its pixels, width * height of premultiplied 0xAARRGGBB, which are the canvas'. */
+facet_result canvas_read(canvas *c, const uint32_t **pixels, facet_error *error);
+
 bool canvas_is_raster(const canvas *c); /* pixels of the canvas are those of the file */
 
 /* A path, then one of fill, stroke, clip, which end it. Clips hold until the matching canvas_restore(). */

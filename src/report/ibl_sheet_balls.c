@@ -1,0 +1,215 @@
+/* ibl_sheet_balls.c - the balls of a sheet (ibl_sheet_state.h). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "ibl/sh_window.h"
+#include "report/ibl_sheet_state.h"
+
+/* value * 100 with as many decimals as say something. */
+static void percent(double value, char out[NUMBER_SIZE])
+{
+    value *= 100.0;
+    number_label(value, value < 0.1 ? 3 : value < 10.0 ? 2 : value < 100.0 ? 1 : 0, out);
+}
+
+static sheet_ball environment_ball(const sheet *s, ball_kind kind)
+{
+    double angle = (double)s->bake->rotation_rad;
+    return (sheet_ball){.kind = kind,
+                        .picture = s->picture,
+                        .rotation_cos = (float)cos(angle),
+                        .rotation_sin = (float)sin(angle),
+                        .environment_scale = exp2f(s->bake->ev)};
+}
+
+/* One above the other; the difference below. */
+static bool draw_pair(sheet *s, const sheet_ball *made, const sheet_ball *exact, uint32_t x,
+                      const char *label)
+{
+    sheet_place above = {x, s->y, BALL};
+    sheet_place below = {x, s->y + BALL_STEP, BALL};
+    float middle = (float)x + 0.5f * BALL;
+    sheet_shade_ball(made, BALL, s->canvas.thread_count, s->values);
+    sheet_draw_ball(&s->canvas, above, s->values);
+    if (!sheet_go_on(s))
+        return false;
+    sheet_shade_ball(exact, BALL, s->canvas.thread_count, s->reference);
+    sheet_draw_ball(&s->canvas, below, s->reference);
+    char rms[NUMBER_SIZE];
+    percent(sheet_compare_balls(s->values, s->reference, BALL), rms);
+    float y = (float)(s->y + BALL_STEP + BALL + 24);
+    sheet_write(s, (sheet_word){.size = 14, .strength = PLAIN, .align = WORD_CENTER}, middle, y, "%s", label);
+    sheet_write(s, (sheet_word){.size = 14, .strength = STRONG, .align = WORD_CENTER, .is_bold = true},
+                middle, y + 20.0f, "%s %%", rms);
+    return sheet_go_on(s);
+}
+
+static void write_rows(sheet *s, const char *above, const char *what)
+{
+    float y = (float)s->y + 0.5f * BALL + 5.0f;
+    sheet_word style = {.size = 14, .strength = PLAIN, .width = LABELS - 12};
+    sheet_write(s, style, MARGIN, y, "%s", above);
+    sheet_write(s, style, MARGIN, y + BALL_STEP, "reference");
+    y = (float)(s->y + BALL_STEP + BALL + 24);
+    style.strength = QUIET;
+    sheet_write(s, style, MARGIN, y, "%s", what);
+    sheet_write(s, style, MARGIN, y + 20.0f, "difference, RMS");
+}
+
+/* The roughness of ball i, from the smoothest to the roughest that there is. */
+static float ball_roughness(facet_lobe lobe, uint32_t i)
+{
+    return lobe == FACET_LOBE_GGX ? (float)i / 7.0f : 0.3f + 0.1f * (float)i;
+}
+
+static float lod_of(const sheet *s, float roughness)
+{
+    float last = (float)(s->cube_map->level_count - 1);
+    return last * (s->bake->mapping == FACET_MAPPING_FILAMENT ? roughness * (2.0f - roughness) : roughness);
+}
+
+/* Whether there is a ball for each of several roughnesses; else the one that there is stands beside those of harmonics. */
+static bool has_row(const facet_cube *c)
+{
+    return c->lobe == FACET_LOBE_GGX || c->lobe == FACET_LOBE_CHARLIE;
+}
+
+/* A ball lit by the cube map for a roughness, over the same lit by the environment. */
+static bool draw_cube_ball(sheet *s, float roughness, uint32_t x, const char *label)
+{
+    facet_lobe lobe = s->cube_map->lobe;
+    bool is_mirror = lobe == FACET_LOBE_NONE || (lobe == FACET_LOBE_GGX && roughness == 0.0f);
+    lobe_plan plan;
+    if (!is_mirror)
+        lobe_plan_make(&s->sums, lobe, roughness, &plan);
+    sheet_ball made = {.kind = BALL_CUBE,
+                       .cube_map = s->cube_map,
+                       .lod = has_row(s->cube_map) ? lod_of(s, roughness) : 0.0f,
+                       .is_diffuse = lobe == FACET_LOBE_LAMBERT,
+                       .samples = is_mirror ? 4 : 1};
+    sheet_ball exact = environment_ball(s, is_mirror ? BALL_PICTURE : BALL_LOBE);
+    exact.lobe = &plan;
+    exact.is_diffuse = made.is_diffuse;
+    exact.samples = made.samples;
+    return draw_pair(s, &made, &exact, x, label);
+}
+
+static bool draw_row(sheet *s)
+{
+    sheet_write_section(s, "Balls that reflect all light, for eight roughnesses",
+                        "read as a GPU does, between two levels; the reference sums up all texels of the "
+                        "environment for each pixel");
+    write_rows(s, "this cube map", "roughness");
+    for (uint32_t i = 0; i < ROW_BALLS; i++) {
+        float roughness = ball_roughness(s->cube_map->lobe, i);
+        char label[NUMBER_SIZE];
+        number_label((double)roughness, 2, label);
+        if (!draw_cube_ball(s, roughness, MARGIN + LABELS + i * BALL_STEP, label))
+            return false;
+    }
+    s->y += PAIR + SECTION_GAP;
+    return true;
+}
+
+/* ---- harmonics ---- */
+
+static void fold(const double radiance[SH_COUNT][3], float out[SH_COUNT][3])
+{
+    double irradiance[SH_COUNT][3];
+    sh_irradiance(radiance, irradiance);
+    sh_fold_over_pi((const double(*)[3])irradiance, out);
+}
+
+/* The coefficients that the balls are made of, beside them. */
+static void write_harmonics(sheet *s, uint32_t x, const float plain[SH_COUNT][3],
+                            const float windowed[SH_COUNT][3], double narrowness)
+{
+    static const char *const names[SH_COUNT] = {"1",
+                                                "y",
+                                                "z",
+                                                "x",
+                                                "xy",
+                                                "yz",
+                                                "3z\xc2\xb2 \xe2\x88\x92 1",
+                                                "zx",
+                                                "x\xc2\xb2 \xe2\x88\x92 y\xc2\xb2"};
+    static const char *const heads[3] = {"R", "G", "B"};
+    const float columns[2] = {(float)x + 36.0f, WIDTH - MARGIN - COLUMNS};
+    float y = (float)s->y + 18.0f;
+    double factors[2];
+    char a[NUMBER_SIZE], b[NUMBER_SIZE];
+    sh_window(narrowness, factors);
+    number_label(factors[0], 3, a);
+    number_label(factors[1], 3, b);
+    sheet_word head = {.size = 14, .strength = QUIET};
+    sheet_write(s, head, columns[0], y, "%s", "irradiance / \xcf\x80 = sum of");
+    if (narrowness > 0.0)
+        sheet_write(s, head, columns[1], y, "windowed: bands 1 and 2 times %s and %s", a, b);
+    else
+        sheet_write(s, head, columns[1], y, "windowed: the same, nothing is negative");
+    for (int table = 0; table < 2; table++)
+        for (int k = -1; k < SH_COUNT; k++) {
+            float row = y + 34.0f + 24.0f * (float)(k + 1);
+            sheet_word style = {.size = 14, .strength = k < 0 ? QUIET : PLAIN};
+            if (k >= 0)
+                sheet_write(s, style, columns[table], row, "%s", names[k]);
+            style.align = WORD_RIGHT;
+            for (int i = 0; i < 3; i++) {
+                number_label((double)(table ? windowed : plain)[k < 0 ? 0 : k][i], 4, a);
+                sheet_write(s, style, columns[table] + COLUMNS - 95.0f * (float)(2 - i), row, "%s",
+                            k < 0 ? heads[i] : a);
+            }
+        }
+}
+
+static bool draw_harmonics(sheet *s)
+{
+    sheet_write_section(s, has_row(s->cube_map) ? "Diffuse balls by nine spherical harmonics" : "Balls",
+                        "the reference sums up all texels of the environment for each pixel");
+    write_rows(s, "approximate", "by");
+    uint32_t x = MARGIN + LABELS;
+    if (!has_row(s->cube_map)) {
+        if (!draw_cube_ball(s, 0.0f, x, s->cube_map->lobe == FACET_LOBE_NONE ? "mirror" : "cube map"))
+            return false;
+        x += BALL_STEP;
+    }
+    double windowed[SH_COUNT][3];
+    memcpy(windowed, s->harmonics, sizeof windowed);
+    double narrowness = sh_dering(windowed);
+    float folded[2][SH_COUNT][3];
+    fold((const double(*)[3])s->harmonics, folded[0]);
+    fold((const double(*)[3])windowed, folded[1]);
+    lobe_plan plan;
+    lobe_plan_make(&s->sums, FACET_LOBE_LAMBERT, 1.0f, &plan);
+    sheet_ball exact = environment_ball(s, BALL_LOBE);
+    exact.is_diffuse = true;
+    exact.lobe = &plan;
+    static const char *const labels[2] = {"harmonics", "windowed"};
+    for (uint32_t i = 0; i < 2; i++, x += BALL_STEP) {
+        sheet_ball made = {
+            .kind = BALL_HARMONICS, .is_diffuse = true, .harmonics = (const float(*)[3])folded[i]};
+        if (!draw_pair(s, &made, &exact, x, labels[i]))
+            return false;
+    }
+    write_harmonics(s, x, (const float(*)[3])folded[0], (const float(*)[3])folded[1], narrowness);
+    s->y += PAIR;
+    return true;
+}
+
+/* ---- all of them ---- */
+
+bool sheet_draw_balls(sheet *s)
+{
+    return (!has_row(s->cube_map) || draw_row(s)) && draw_harmonics(s);
+}
+
+uint32_t sheet_balls_height(const facet_cube *c)
+{
+    return (has_row(c) ? SECTION + PAIR + SECTION_GAP : 0) + SECTION + PAIR;
+}
+
+uint32_t sheet_ball_steps(const facet_cube *c)
+{
+    return 2 * ((has_row(c) ? ROW_BALLS : 1) + 2);
+}

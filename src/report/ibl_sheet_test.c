@@ -1,0 +1,333 @@
+/* ibl_sheet_test.c - sheets of baked cube maps: what is where on them, and that it is what it says. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/failing_allocator.h"
+#include "base/memory.h"
+#include "base/near_test.h"
+#include "ibl/making_test.h"
+#include "report/ibl_sheet.h"
+#include "report/ibl_sheet_draw.h"
+#include "report/ibl_sheet_words.h"
+
+static const float LIGHT[3] = {0.2f, 0.5f, 0.8f};
+
+static void uniform(const float d[3], float out[3])
+{
+    (void)d;
+    memcpy(out, LIGHT, sizeof LIGHT);
+}
+
+/* A color for each face of a cube. */
+static void faces(const float d[3], float out[3])
+{
+    cube_point p = cube_locate(d[0], d[1], d[2]);
+    out[0] = 0.1f + 0.1f * (float)p.face;
+    out[1] = p.face & 1 ? 0.7f : 0.3f;
+    out[2] = 0.9f - 0.1f * (float)p.face;
+}
+
+static facet_cube *bake(facet_environment *e, const facet_bake_desc *desc)
+{
+    facet_cube *c = NULL;
+    facet_error error = {0};
+    if (facet_cube_bake(e, desc, &c, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    return c;
+}
+
+static image draw(const facet_cube *c, const facet_environment *e, const facet_sheet_desc *desc)
+{
+    image sheet = {0};
+    facet_error error = {0};
+    if (ibl_sheet_draw(c, e, desc, &sheet, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(sheet.channel_count, 4);
+    assert_int_equal(sheet.type, IMAGE_F32);
+    for (size_t i = 0; i < (size_t)sheet.width * sheet.height; i++) {
+        const float *p = (const float *)sheet.pixels + 4 * i;
+        assert_true(p[3] == 1.0f);
+        for (int k = 0; k < 3; k++)
+            assert_true(p[k] >= 0.0f && p[k] <= 1.0f + 1e-5f);
+    }
+    return sheet;
+}
+
+static const float *pixel(const image *i, uint32_t x, uint32_t y)
+{
+    return (const float *)i->pixels + 4 * ((size_t)y * i->width + x);
+}
+
+/* In uniform light crosses and balls, by whatever they are lit, are of that light: they cover what they should. */
+static void test_uniform_light(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(64, 32, uniform);
+    static const struct {
+        facet_lobe lobe;
+        double least, most; /* share of the sheet that is of the light's color */
+    } kinds[3] = {
+        {FACET_LOBE_GGX, 0.24, 0.32}, {FACET_LOBE_LAMBERT, 0.13, 0.17}, {FACET_LOBE_NONE, 0.18, 0.3}};
+    for (int k = 0; k < 3; k++) {
+        facet_bake_desc desc = {.lobe = kinds[k].lobe, .size = 64};
+        facet_cube *c = bake(e, &desc);
+        image sheet = draw(c, e, &(facet_sheet_desc){.bake = desc});
+        assert_int_equal(sheet.width, 1600);
+        size_t count = 0;
+        for (uint32_t y = 0; y < sheet.height; y++)
+            for (uint32_t x = 0; x < sheet.width; x++) {
+                const float *p = pixel(&sheet, x, y);
+                count += fabsf(p[0] - LIGHT[0]) < 2e-3f && fabsf(p[1] - LIGHT[1]) < 3e-3f &&
+                         fabsf(p[2] - LIGHT[2]) < 4e-3f;
+            }
+        double share = (double)count / ((double)sheet.width * sheet.height);
+        print_message("lobe %d: %u x %u, %.3f of it lit\n", (int)kinds[k].lobe, sheet.width, sheet.height,
+                      share);
+        assert_true(share > kinds[k].least && share < kinds[k].most);
+        image_destroy(&sheet);
+        facet_cube_destroy(c);
+    }
+    facet_environment_destroy(e);
+}
+
+/* The cross has the faces where crosses have them, upright. */
+static void test_cross(void **state)
+{
+    (void)state;
+    enum { EDGE = 42 }; /* pixels have their middles where texels have */
+    static const struct {
+        uint32_t face, column, row;
+    } places[6] = {{0, 2, 1}, {1, 0, 1}, {2, 1, 0}, {3, 1, 2}, {4, 1, 1}, {5, 3, 1}};
+    cube c;
+    assert_int_equal(cube_create(2, NULL, &c, NULL), FACET_OK);
+    for (uint32_t face = 0; face < 6; face++)
+        for (int y = 0; y < 2; y++)
+            for (int x = 0; x < 2; x++)
+                *cube_texel(&c, face, x, y) = (rgbx){(float)face, (float)x, (float)y, 0.0f};
+    cube_fill_borders(&c);
+    film f;
+    assert_int_equal(film_create(NULL, 4 * EDGE + 3, 3 * EDGE + 5, 0, &f, NULL), FACET_OK);
+    sheet_canvas canvas = {&f, 2.0f, 2};
+    sheet_draw_cross(&canvas, (sheet_place){3, 5, 4 * EDGE}, &c);
+    size_t covered = 0;
+    for (size_t i = 0; i < (size_t)f.width * f.height; i++)
+        covered += f.layers[0].pixels[4 * i + 3] == 1.0f;
+    assert_int_equal(covered, 6 * EDGE * EDGE);
+    for (int k = 0; k < 6; k++)
+        for (uint32_t y = 0; y < 2; y++)
+            for (uint32_t x = 0; x < 2; x++) {
+                uint32_t px = 3 + places[k].column * EDGE + 10 + x * EDGE / 2;
+                uint32_t py = 5 + places[k].row * EDGE + 10 + y * EDGE / 2;
+                const float *p = f.layers[0].pixels + 4 * ((size_t)py * f.width + px);
+                assert_near(p[0], 2.0f * (float)places[k].face, 1e-4);
+                assert_near(p[1], 2.0f * (float)x, 1e-4);
+                assert_near(p[2], 2.0f * (float)y, 1e-4);
+            }
+    film_destroy(&f);
+    cube_destroy(&c);
+}
+
+/* In the middle a ball mirrors +Z, beside it what is there, on the rim -Z; a diffuse one faces +Z. */
+static void test_ball_directions(void **state)
+{
+    (void)state;
+    enum { WIDTH = 101 };
+    facet_environment *e = make_environment(256, 128, faces);
+    facet_bake_desc desc = {.lobe = FACET_LOBE_NONE, .size = 64, .level_count = 1};
+    facet_cube *c = bake(e, &desc);
+    static float cube_values[WIDTH * WIDTH * 3], values[WIDTH * WIDTH * 3];
+    sheet_ball made = {.kind = BALL_CUBE, .cube_map = c};
+    sheet_ball exact = {
+        .kind = BALL_PICTURE, .picture = &e->picture, .rotation_cos = 1.0f, .environment_scale = 1.0f};
+    sheet_shade_ball(&made, WIDTH, 2, cube_values);
+    sheet_shade_ball(&exact, WIDTH, 2, values);
+    /* N = (u, v, ..): at 45 degrees the mirror direction is sideways */
+    static const struct {
+        double u, v;
+        uint32_t face;
+    } places[6] = {{0, 0, 4}, {0.7, 0, 0}, {-0.7, 0, 1}, {0, 0.7, 2}, {0, -0.7, 3}, {0.98, 0, 5}};
+    for (int k = 0; k < 6; k++) {
+        size_t x = (size_t)((places[k].u + 1.0) * 0.5 * WIDTH);
+        size_t y = (size_t)((1.0 - places[k].v) * 0.5 * WIDTH);
+        const float *p = values + 3 * (y * WIDTH + x);
+        assert_near(p[0], 0.1 + 0.1 * places[k].face, 1e-3);
+        assert_near(cube_values[3 * (y * WIDTH + x)], p[0], 0.02);
+    }
+    assert_true(values[0] == 0.0f && values[2] == 0.0f); /* outside */
+    /* a turn of the environment by a quarter brings what was at +Z to +X */
+    exact.rotation_cos = 0.0f;
+    exact.rotation_sin = 1.0f;
+    sheet_shade_ball(&exact, WIDTH, 1, values);
+    assert_near(values[3 * ((WIDTH / 2) * WIDTH + (size_t)(0.85 * WIDTH))], 0.5, 1e-3);
+    /* normals: the right side of a ball lit from +X alone */
+    static const float right[9][3] = {{0}, {0}, {0}, {1.0f, 1.0f, 1.0f}};
+    sheet_ball diffuse = {.kind = BALL_HARMONICS, .is_diffuse = true, .harmonics = right};
+    sheet_shade_ball(&diffuse, WIDTH, 1, values);
+    assert_near(values[3 * ((WIDTH / 2) * WIDTH + 3 * WIDTH / 4)], 0.5, 0.02);
+    assert_true(values[3 * ((WIDTH / 2) * WIDTH + WIDTH / 4)] == 0.0f);
+    facet_cube_destroy(c);
+    facet_environment_destroy(e);
+}
+
+static void test_levels_between(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(64, 32, faces);
+    facet_cube *c = bake(e, &(facet_bake_desc){.size = 32, .level_count = 3});
+    static float low[21 * 21 * 3], high[21 * 21 * 3], between[21 * 21 * 3], beyond[21 * 21 * 3];
+    sheet_shade_ball(&(sheet_ball){.cube_map = c, .lod = 1.0f}, 21, 1, low);
+    sheet_shade_ball(&(sheet_ball){.cube_map = c, .lod = 2.0f}, 21, 1, high);
+    sheet_shade_ball(&(sheet_ball){.cube_map = c, .lod = 1.25f}, 21, 1, between);
+    sheet_shade_ball(&(sheet_ball){.cube_map = c, .lod = 9.0f}, 21, 1, beyond);
+    for (int k = 0; k < 21 * 21 * 3; k++)
+        assert_near(between[k], 0.75f * low[k] + 0.25f * high[k], 1e-6);
+    assert_memory_equal(high, beyond, sizeof high);
+    facet_cube_destroy(c);
+    facet_environment_destroy(e);
+}
+
+static void test_difference(void **state)
+{
+    (void)state;
+    static float a[10 * 10 * 3], b[10 * 10 * 3];
+    for (int k = 0; k < 300; k++) {
+        a[k] = 1.1f;
+        b[k] = 1.0f;
+    }
+    assert_near(sheet_compare_balls(a, b, 10), 0.1, 1e-6);
+    assert_true(sheet_compare_balls(b, b, 10) == 0.0);
+    a[0] = 1e9f; /* a corner is not of the ball */
+    assert_near(sheet_compare_balls(a, b, 10), 0.1, 1e-6);
+}
+
+static void test_threads_do_not_matter(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(64, 32, faces);
+    facet_bake_desc desc = {
+        .lobe = FACET_LOBE_NONE, .size = 32, .rotation_rad = 0.5f, .ev = 1.0f, .clamp = 0.6f};
+    facet_cube *c = bake(e, &desc);
+    image a =
+        draw(c, e, &(facet_sheet_desc){.bake = desc, .thread_count = 1, .tonemap = FACET_TONEMAP_NEUTRAL});
+    image b =
+        draw(c, e, &(facet_sheet_desc){.bake = desc, .thread_count = 3, .tonemap = FACET_TONEMAP_NEUTRAL});
+    assert_int_equal(a.height, b.height);
+    assert_memory_equal(a.pixels, b.pixels, image_row_size(&a) * a.height);
+    image_destroy(&a);
+    image_destroy(&b);
+    facet_cube_destroy(c);
+    facet_environment_destroy(e);
+}
+
+/* Words are written where they belong, over what is there. */
+static void test_words(void **state)
+{
+    (void)state;
+    image i;
+    assert_int_equal(image_create(NULL, 200, 60, 4, IMAGE_F32, &i, NULL), FACET_OK);
+    for (size_t k = 0; k < 200 * 60 * 4; k++)
+        ((float *)i.pixels)[k] = k % 4 == 3 ? 1.0f : 0.25f;
+    const sheet_word words[2] = {
+        {.x = 100, .y = 40, .size = 20, .strength = 1, .align = WORD_CENTER, .text = "HI"},
+        {.x = 20, .y = 50, .width = 30, .strength = 0.5f}};
+    const facet_allocator allocator = {0};
+    facet_error error = {0};
+    facet_result result = sheet_write_words(words, 2, &allocator, &i, &error);
+    if (result == FACET_ERROR_UNSUPPORTED || result == FACET_ERROR_ENVIRONMENT) {
+        print_message("there is no cairo: %s\n", error.message);
+        image_destroy(&i);
+        skip();
+    }
+    assert_int_equal(result, FACET_OK);
+    float brightest = 0.0f;
+    for (uint32_t y = 0; y < 60; y++)
+        for (uint32_t x = 0; x < 200; x++) {
+            const float *p = pixel(&i, x, y);
+            bool may_change = (y == 50 && x >= 20 && x < 50) || (y > 22 && y <= 41 && x > 80 && x < 120);
+            assert_true(may_change || (p[0] == 0.25f && p[1] == 0.25f));
+            brightest = fmaxf(brightest, p[0]);
+        }
+    assert_near(brightest, 1.0, 1e-3);
+    assert_near(pixel(&i, 30, 50)[0], 0.5521, 2e-3); /* half-way to white in sRGB: 0.7686 */
+    image_destroy(&i);
+}
+
+typedef struct watch {
+    int calls, stops_at;
+    double last;
+} watch;
+
+static bool look(void *user, const char *stage, double fraction)
+{
+    watch *w = user;
+    assert_string_equal(stage, "sheet");
+    assert_true(fraction > w->last && fraction <= 1.0);
+    w->last = fraction;
+    return ++w->calls != w->stops_at;
+}
+
+static void test_progress(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(32, 16, uniform);
+    static const facet_lobe lobes[2] = {FACET_LOBE_GGX, FACET_LOBE_LAMBERT};
+    for (int k = 0; k < 2; k++) {
+        facet_bake_desc desc = {.lobe = lobes[k], .size = 16};
+        facet_cube *c = bake(e, &desc);
+        watch w = {0};
+        facet_sheet_desc sheet_desc = {.bake = desc, .progress = {&w, look}};
+        image sheet = {0};
+        if (lobes[k] == FACET_LOBE_LAMBERT) {
+            sheet = draw(c, e, &sheet_desc);
+            assert_true(w.last == 1.0);
+            image_destroy(&sheet);
+        }
+        w = (watch){.stops_at = 4};
+        facet_error error = {0};
+        assert_int_equal(ibl_sheet_draw(c, e, &sheet_desc, &sheet, &error), FACET_ERROR_CANCELLED);
+        assert_null(sheet.pixels);
+        assert_true(strstr(error.message, "sheet: cancelled after 4 of ") == error.message);
+        facet_cube_destroy(c);
+    }
+    facet_environment_destroy(e);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(32, 16, uniform);
+    facet_bake_desc desc = {.lobe = FACET_LOBE_NONE, .size = 16, .clamp = 1.0f};
+    facet_cube *c = bake(e, &desc);
+    facet_result result = FACET_ERROR_MEMORY;
+    for (long n = 0; result != FACET_OK && n < 40; n++) {
+        failing_allocator failing = {.fail_at = n};
+        image sheet = {0};
+        facet_sheet_desc sheet_desc = {.bake = desc, .allocator = failing_allocator_get(&failing)};
+        facet_error error = {0};
+        result = ibl_sheet_draw(c, e, &sheet_desc, &sheet, &error);
+        assert_true(result == FACET_OK || (result == FACET_ERROR_MEMORY && !sheet.pixels));
+        image_destroy(&sheet);
+        assert_int_equal(failing.blocks, 0);
+    }
+    assert_int_equal(result, FACET_OK);
+    facet_cube_destroy(c);
+    facet_environment_destroy(e);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_uniform_light),   cmocka_unit_test(test_cross),
+        cmocka_unit_test(test_ball_directions), cmocka_unit_test(test_levels_between),
+        cmocka_unit_test(test_difference),      cmocka_unit_test(test_threads_do_not_matter),
+        cmocka_unit_test(test_words),           cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,60 @@
+/* ibl_sheet_words.c - see ibl_sheet_words.h. cairo draws in white on nothing; what it covers is mixed with the picture in a
+ * display's numbers, which keeps the weight of letters. */
+#include "report/ibl_sheet_words.h"
+
+#include "image/srgb.h"
+#include "plot/chart_text.h"
+
+static void write_word(canvas *c, const sheet_word *w)
+{
+    const canvas_color color = {1.0, 1.0, 1.0, (double)w->strength};
+    double x = (double)w->x;
+    double y = (double)w->y;
+    if (!w->text[0]) {
+        canvas_rectangle(c, x, y, (double)w->width, 1.0);
+        canvas_fill(c, color);
+        return;
+    }
+    static const label_align aligns[] = {LABEL_LEFT, LABEL_CENTER, LABEL_RIGHT};
+    const canvas_font font = {(double)w->size, w->is_bold};
+    label_line line;
+    label_fit(c, font, w->text, w->width > 0.0f ? (double)w->width : 1e5, &line);
+    label_draw(c, &line, font, color, aligns[w->align], x, y);
+}
+
+/* Premultiplied white: its share is any of its channels. */
+static void lay_over(const uint32_t *pixels, image *picture)
+{
+    float *p = picture->pixels;
+    for (size_t i = 0; i < (size_t)picture->width * picture->height; i++, p += 4) {
+        double share = (double)(pixels[i] & 255u) / 255.0;
+        if (share == 0.0)
+            continue;
+        for (int c = 0; c < 3; c++) {
+            double below = srgb_encode(p[c] < 1.0f ? (double)p[c] : 1.0);
+            double encoded = below + (1.0 - below) * share;
+            p[c] = encoded < 1.0 ? (float)srgb_decode(encoded) : 1.0f;
+        }
+    }
+}
+
+facet_result sheet_write_words(const sheet_word *words, uint32_t count, const facet_allocator *allocator,
+                               image *picture, facet_error *error)
+{
+    canvas *c = NULL;
+    facet_result result = canvas_create(&(canvas_desc){.allocator = *allocator,
+                                                       .format = FACET_PLOT_PNG,
+                                                       .width = picture->width,
+                                                       .height = picture->height},
+                                        &c, error);
+    if (result != FACET_OK)
+        return result;
+    for (uint32_t i = 0; i < count; i++)
+        write_word(c, &words[i]);
+    const uint32_t *pixels = NULL;
+    result = canvas_read(c, &pixels, error);
+    if (result == FACET_OK)
+        lay_over(pixels, picture);
+    canvas_destroy(c);
+    return result;
+}
