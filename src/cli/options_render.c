@@ -132,9 +132,14 @@ static const option light_options[] = {
      .kind = OPTION_FILE,
      .argument = "FILE",
      .default_text = "neutral",
-     .help = "what lights the model: an equirectangular .hdr, .exr, .png or .jpg, neutral (a built-in "
-             "studio), white "
-             "or #rrggbb (the same from everywhere), none",
+     .help = "what lights the model: a picture (.hdr, .exr, .png, .jpg ..: equirectangular, or a cube map as "
+             "cross, strip or "
+             "six files NAME{face}.hdr) or a .ktx2, neutral (a built-in studio), white or #rrggbb (the same "
+             "from everywhere), "
+             "none, a clear sky sun:ELEVATION,AZIMUTH (degrees, elevation first; preetham:.. by another "
+             "formula), "
+             "constant:COLOR, gradient:ZENITH,HORIZON. Skies are exposed for a camera; see "
+             "docs/environments.md",
      .choices = WORDS("neutral", "white", "none")},
     {.id = OPT_ENV_ROTATION,
      .name = "env-rotation",
