@@ -95,7 +95,7 @@ void environment_report(facet_environment *e, const environment_repairs *repairs
 /* ---- layouts ---- */
 
 /* Of pictures that are made of others. */
-enum { MIN_ROWS = 128, MAX_ROWS = 8192 };
+enum { MIN_ROWS = 64, MAX_ROWS = 8192 };
 
 /* A texel of a cube is 2 / n wide in the middle of a face and 0.94 / n at its corners; so is a row at 3 n of them, nearly.
  * Small cubes get more: between their texels radiance changes linearly in the cube, not in the picture. */

@@ -98,8 +98,8 @@ static inline between find_in_cube(float size, float x, float y, float z)
     float v = is_y ? z : -y;
     int is_negative = major < 0.0f;
     float q = 1.0f / fabsf(major);
-    u = is_negative & !is_y ? -u : u;
-    v = is_negative & is_y ? -v : v;
+    u = (is_negative & !is_y) ? -u : u;
+    v = (is_negative & is_y) ? -v : v;
     int face = (is_x ? 0 : is_y ? 2 : 4) + is_negative;
     return find_between(size, size, face, u * q, v * q);
 }

@@ -181,7 +181,7 @@ static uint32_t choose_parts(const sphere *source, const sphere *target)
 {
     double ratio = coarsest_angle(target) / finest_angle(source);
     uint32_t parts = ratio < 1.0 ? 2 : (uint32_t)ceil(1.8 * ratio);
-    uint32_t rows = target->kind == SPHERE_EQUIRECT ? 128 : 512;
+    uint32_t rows = target->kind == SPHERE_EQUIRECT ? 64 : 256;
     uint32_t least = (rows - 1 + target->height) / target->height;
     parts = parts > least ? parts : least;
     return target->kind == SPHERE_OCTAHEDRON ? parts + parts * target->width % 2
@@ -213,7 +213,7 @@ static double mean_below(const sphere *s, float limit)
 static float choose_limit(const sphere *s)
 {
     enum { ROUNDS = 4 };
-    double limit = INFINITY;
+    double limit = (double)INFINITY;
     for (int round = 0; round < ROUNDS; round++) {
         limit = hot_contrast * mean_below(s, (float)limit);
         if (!(limit > 0.0))

@@ -4,7 +4,7 @@
  * of the source. That is a filter where the target is coarser and interpolation where it is finer; a constant stays
  * that, but for rounding. What is brighter than 16 times the mean, a sun of one texel maybe, would lose or gain some
  * thousandths, as few lookups weigh it: that part is scaled such that the solid angles which lookups take of it add up to
- * what it has in the source. So the mean over the sphere stays what it was, to 1e-5. */
+ * what it has in the source. So the mean over the sphere stays what it was, to 5e-5. */
 #ifndef IBL_SPHERE_RESAMPLE_H
 #define IBL_SPHERE_RESAMPLE_H
 
