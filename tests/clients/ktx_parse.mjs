@@ -78,13 +78,13 @@ function read_exr(name) {
 }
 
 // Texels are those of the closed form. Of the environment itself texels are means over their area: less than the direction
-// of their middle is long, by 1 / 3 to 1 / 6 of (edge / size)^2; of blurred levels they may be either.
+// of their middle is long, by 1 / 3 to 1 / 6 of (edge / size)^2. Narrow lobes are summed over such means, wide ones exact.
 function check_closed_form(name, cube, lobe, roughness_of) {
     cube.levels.forEach(({ width, texels }, level) => {
         const roughness = lobe === 'lambert' ? 1 : roughness_of(level, cube.levels.length);
         if (lobe === 'charlie' && level === 0) return; // a ring of no width
         const k = mean_cosine(lobe, roughness), tolerance = lobe === 'none' || roughness === 0
-            ? 1e-4 + SLOPE / width ** 2 : roughness < 0.25 ? 5e-4 : 1e-4;
+            ? 1e-4 + SLOPE / width ** 2 : roughness < 0.5 ? 3e-4 : 1e-4;
         const { worst, where } = distance_to_colors(texels, width, k);
         report.expect(worst <= tolerance, `${name}, level ${level} (roughness ${roughness}): off by ${worst} at ${where}`);
     });
