@@ -147,7 +147,7 @@ static void test_disc_sets(void **state)
 {
     (void)state;
     Atmosphere air[SKY_HALVES] = {atmosphere_earth(SKY_BANDS_FIRST), atmosphere_earth(SKY_BANDS_SECOND)};
-    double before = INFINITY;
+    double before = (double)INFINITY;
     for (int i = 4; i >= -4; i--) {
         sky_sun_light sun = sky_sun_through_air(air, 0.0f, (float)(0.07 * degree * i), 0.0f);
         double E = (double)luminance(sky_sun_illuminance(&sun));
