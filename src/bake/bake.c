@@ -155,19 +155,6 @@ typedef struct bake_materials {
     bake_watch watch;
 } bake_materials;
 
-static facet_result create_pyramid(const facet_bake_desc *desc, bake_materials *m, facet_error *error)
-{
-    cube base = {0};
-    facet_result result = cube_create(m->plans.pyramid_size, &desc->allocator, &base, error);
-    if (result == FACET_OK)
-        result = bake_sharp(&m->source, m->source.scale, &desc->allocator, desc->thread_count, &base, error);
-    if (result != FACET_OK) {
-        cube_destroy(&base);
-        return result;
-    }
-    return bake_pyramid_create(&base, &desc->allocator, desc->thread_count, &m->pyramid, error);
-}
-
 static facet_result create_materials(const facet_environment *environment, const facet_bake_desc *desc,
                                      const facet_cube *c, bake_materials *m, facet_error *error)
 {
@@ -186,7 +173,8 @@ static facet_result create_materials(const facet_environment *environment, const
         bake_watch_add(&m->watch, m->plans.analysis_work);
     }
     if (result == FACET_OK && m->plans.pyramid_size > 0) {
-        result = create_pyramid(desc, m, error);
+        result = bake_pyramid_create(&m->source, m->plans.pyramid_size, &desc->allocator, desc->thread_count,
+                                     &m->pyramid, error);
         bake_watch_add(&m->watch, m->plans.pyramid_work);
     }
     if (result == FACET_OK && m->plans.needs_reference)

@@ -252,6 +252,7 @@ static area_sum integrate(const bake_area *a, const area_line *l, bool is_above,
 
 typedef struct area_job {
     const bake_area *area;
+    bool is_equiangular;
     float scale;
     cube *out;
     uint32_t tiles_x, tiles_y;
@@ -263,6 +264,13 @@ typedef struct area_face {
     bool has_poles; /* its vertical lines are no meridians */
 } area_face;
 
+/* Where the edge before texel i is. */
+static double edge_at(const area_job *job, uint32_t i)
+{
+    double at = 2.0 * i / job->out->size - 1.0;
+    return !job->is_equiangular || fabs(at) == 1.0 ? at : tan(0.25 * pi * at);
+}
+
 static void point_of(const area_face *f, double s, double t, double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -273,7 +281,6 @@ static void point_of(const area_face *f, double s, double t, double out[3])
 static void integrate_row(const area_job *job, const area_face *f, double t, uint32_t x0, uint32_t count,
                           area_sum *out)
 {
-    double step = 2.0 / job->out->size;
     double base[3];
     point_of(f, 0.0, t, base);
     area_line l = make_line(job->area, base, f->right);
@@ -281,13 +288,13 @@ static void integrate_row(const area_job *job, const area_face *f, double t, uin
         memset(out, 0, count * sizeof *out);
         return;
     }
-    area_cursor c = start_at(job->area, &l, x0 * step - 1.0);
+    area_cursor c = start_at(job->area, &l, edge_at(job, x0));
     for (uint32_t x = 0; x < count; x++)
-        out[x] = integrate(job->area, &l, f->is_above, (x0 + x + 1) * step - 1.0, &c);
+        out[x] = integrate(job->area, &l, f->is_above, edge_at(job, x0 + x + 1), &c);
 }
 
-/* The edge at s between t and the next row. */
-static area_sum integrate_down(const area_job *job, const area_face *f, double s, double t)
+/* The edge at s from t to down_to. */
+static area_sum integrate_down(const area_job *job, const area_face *f, double s, double t, double down_to)
 {
     double base[3];
     point_of(f, s, 0.0, base);
@@ -295,25 +302,25 @@ static area_sum integrate_down(const area_job *job, const area_face *f, double s
     if (!f->has_poles || l.radius == 0.0)
         return (area_sum){{0.0}};
     area_cursor c = start_at(job->area, &l, t);
-    return integrate(job->area, &l, f->is_above, t + 2.0 / job->out->size, &c);
+    return integrate(job->area, &l, f->is_above, down_to, &c);
 }
 
 static void fill_tile(const area_job *job, const area_face *f, uint32_t face, uint32_t x0, uint32_t y0)
 {
     uint32_t size = job->out->size;
-    double step = 2.0 / size;
     uint32_t width = size - x0 < TILE_WIDTH ? size - x0 : TILE_WIDTH;
     uint32_t height = size - y0 < TILE_HEIGHT ? size - y0 : TILE_HEIGHT;
     area_sum memory[2][TILE_WIDTH];
     area_sum *above = memory[0];
     area_sum *below = memory[1];
-    integrate_row(job, f, y0 * step - 1.0, x0, width, above);
+    integrate_row(job, f, edge_at(job, y0), x0, width, above);
     for (uint32_t y = y0; y < y0 + height; y++) {
-        double t = y * step - 1.0;
-        integrate_row(job, f, (y + 1) * step - 1.0, x0, width, below);
-        area_sum left = integrate_down(job, f, x0 * step - 1.0, t);
+        double t = edge_at(job, y);
+        double next = edge_at(job, y + 1);
+        integrate_row(job, f, next, x0, width, below);
+        area_sum left = integrate_down(job, f, edge_at(job, x0), t, next);
         for (uint32_t x = 0; x < width; x++) {
-            area_sum right = integrate_down(job, f, (x0 + x + 1) * step - 1.0, t);
+            area_sum right = integrate_down(job, f, edge_at(job, x0 + x + 1), t, next);
             double sum[4];
             for (int k = 0; k < 4; k++)
                 sum[k] = above[x].of[k] + right.of[k] - below[x].of[k] - left.of[k];
@@ -348,9 +355,10 @@ static void fill_tiles(void *context, size_t begin, size_t end)
     }
 }
 
-void bake_area_fill(const bake_area *a, float scale, uint32_t thread_count, cube *out)
+void bake_area_fill(const bake_area *a, bool is_equiangular, float scale, uint32_t thread_count, cube *out)
 {
     area_job job = {.area = a,
+                    .is_equiangular = is_equiangular,
                     .scale = scale,
                     .out = out,
                     .tiles_x = (out->size + TILE_WIDTH - 1) / TILE_WIDTH,

@@ -28,7 +28,8 @@ facet_result bake_area_create(const image *picture, double rotation_rad, const f
                               uint32_t thread_count, bake_area *out, facet_error *error);
 void bake_area_destroy(bake_area *a); /* {0} is allowed; leaves {0} */
 
-/* Fills the faces of out and their borders. */
-void bake_area_fill(const bake_area *a, float scale, uint32_t thread_count, cube *out);
+/* Fills the faces of out and their borders. is_equiangular: edges of texels are at s = tan(pi / 4 (2 i / size - 1)), equal angles
+ * apart, rather than at s = 2 i / size - 1. */
+void bake_area_fill(const bake_area *a, bool is_equiangular, float scale, uint32_t thread_count, cube *out);
 
 #endif

@@ -28,27 +28,24 @@ double bake_lobe_weight(const bake_lobe *lobe, double s2)
     return x / (d * d);
 }
 
-/* ---- sampling ---- */
-
-enum { PANELS = 2048 };
+/* ---- shares ---- */
 
 /* Where panel i begins: s^2 in [0, 1/2], narrow where the lobe is. */
 static double panel_start(const bake_lobe *lobe, uint32_t i)
 {
-    double u = (double)i / PANELS;
+    double u = (double)i / BAKE_LOBE_PANELS;
+    double a2 = lobe->alpha * lobe->alpha;
     if (lobe->kind == FACET_LOBE_CHARLIE)
         return 0.5 * (1.0 - pow(1.0 - u, 3.0)); /* towards the horizon */
-    /* as the weight without its cosine is distributed: that of 1 / (a^2 + (1 - a^2) s^2)^2 */
-    double a2 = lobe->alpha * lobe->alpha;
     if (a2 > 0.5)
         return 0.5 * u;
-    double most = 0.5 / (a2 + (1.0 - a2) * 0.5);
-    double share = u * most; /* of s^2 / (a^2 + (1 - a^2) s^2) */
+    /* as the weight without its cosine is: shares of s^2 / (a^2 + (1 - a^2) s^2) */
+    double share = u * 0.5 / (a2 + (1.0 - a2) * 0.5);
     return a2 * share / (1.0 - (1.0 - a2) * share);
 }
 
 /* Integral of the weight over s^2; solid angle is 4 pi ds^2. */
-static double panel_weight(const bake_lobe *lobe, double from, double to)
+static double integrate(const bake_lobe *lobe, double from, double to)
 {
     double sum = 0.0;
     for (int i = 0; i < 8; i++) {
@@ -59,33 +56,36 @@ static double panel_weight(const bake_lobe *lobe, double from, double to)
     return sum;
 }
 
-void bake_lobe_sample(const bake_lobe *lobe, uint32_t count, float *s2, float *pdf)
+void bake_lobe_share_init(const bake_lobe *lobe, bake_lobe_shares *out)
 {
-    double whole = 0.0;
-    for (uint32_t i = 0; i < PANELS; i++)
-        whole += panel_weight(lobe, panel_start(lobe, i), panel_start(lobe, i + 1));
-    uint32_t panel = 0;
-    double before = 0.0; /* weight of the panels before */
-    double own = panel_weight(lobe, 0.0, panel_start(lobe, 1));
-    for (uint32_t i = 0; i < count; i++) {
-        double goal = (i + 0.5) / count * whole;
-        while (before + own < goal && panel + 1 < PANELS) {
-            before += own;
-            panel++;
-            own = panel_weight(lobe, panel_start(lobe, panel), panel_start(lobe, panel + 1));
-        }
-        double low = panel_start(lobe, panel);
-        double high = panel_start(lobe, panel + 1);
-        double from = low;
-        for (int step = 0; step < 30; step++) { /* bisection: the weight may be 0 at either end */
-            double middle = 0.5 * (low + high);
-            if (before + panel_weight(lobe, from, middle) < goal)
-                low = middle;
-            else
-                high = middle;
-        }
-        double at = 0.5 * (low + high);
-        s2[i] = (float)at;
-        pdf[i] = (float)(bake_lobe_weight(lobe, at) / (4.0 * pi * whole));
+    out->lobe = *lobe;
+    out->edges[0] = out->before[0] = 0.0;
+    for (uint32_t i = 0; i < BAKE_LOBE_PANELS; i++) {
+        out->edges[i + 1] = panel_start(lobe, i + 1);
+        out->before[i + 1] = out->before[i] + integrate(lobe, out->edges[i], out->edges[i + 1]);
     }
+}
+
+double bake_lobe_find(const bake_lobe_shares *shares, double share)
+{
+    double goal = share * shares->before[BAKE_LOBE_PANELS];
+    uint32_t panel = 0;
+    for (uint32_t step = BAKE_LOBE_PANELS / 2; step > 0; step /= 2)
+        if (shares->before[panel + step] <= goal)
+            panel += step;
+    double low = shares->edges[panel];
+    double high = shares->edges[panel + 1];
+    for (int step = 0; step < 26; step++) { /* bisection: the weight may be 0 at either end */
+        double middle = 0.5 * (low + high);
+        if (shares->before[panel] + integrate(&shares->lobe, shares->edges[panel], middle) < goal)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+double bake_lobe_pdf(const bake_lobe_shares *shares, double s2)
+{
+    return bake_lobe_weight(&shares->lobe, s2) / (4.0 * pi * shares->before[BAKE_LOBE_PANELS]);
 }

@@ -22,8 +22,17 @@ bake_lobe bake_lobe_create(facet_lobe kind, float perceptual_roughness);
 /* Weight of a direction, from s^2 in [0, 1/2]: without cancellation near the middle. */
 double bake_lobe_weight(const bake_lobe *lobe, double s2);
 
-/* count values of s^2 at which the share of the lobe's weight around them is (i + 0.5) / count, rising, and the density per sr
- * there, normalised. */
-void bake_lobe_sample(const bake_lobe *lobe, uint32_t count, float *s2, float *pdf);
+/* The lobe's weight from R outwards, to be looked up by its share. */
+enum { BAKE_LOBE_PANELS = 1024 };
+typedef struct bake_lobe_shares {
+    bake_lobe lobe;
+    double edges[BAKE_LOBE_PANELS + 1];  /* s^2 */
+    double before[BAKE_LOBE_PANELS + 1]; /* weight from 0 to there, over s^2; the last one is the whole */
+} bake_lobe_shares;
+void bake_lobe_share_init(const bake_lobe *lobe, bake_lobe_shares *out);
+/* s^2 within which the share in [0, 1] of the weight is. */
+double bake_lobe_find(const bake_lobe_shares *shares, double share);
+/* Density of the lobe, 1 / sr. */
+double bake_lobe_pdf(const bake_lobe_shares *shares, double s2);
 
 #endif

@@ -290,13 +290,14 @@ static void look_up(const bake_reference *r, bool is_interpolated, double u, dou
 void bake_reference_average(const bake_reference *r, bool is_interpolated, uint32_t size, uint32_t face,
                             uint32_t x, uint32_t y, double out[3])
 {
-    enum { POINTS = 64 };
     const image *picture = &r->source->picture;
+    uint32_t across = picture->height / (2 * size) + 1; /* texels of the picture */
+    uint32_t points = across < 8 ? 64 : across < 32 ? 8 * across : 256;
     double whole = 0.0;
     out[0] = out[1] = out[2] = 0.0;
-    for (int i = 0; i < POINTS * POINTS; i++) {
-        double s = 2.0 * (x + (i % POINTS + 0.5) / POINTS) / size - 1.0;
-        double t = 2.0 * (y + (i / POINTS + 0.5) / POINTS) / size - 1.0;
+    for (uint32_t i = 0; i < points * points; i++) {
+        double s = 2.0 * (x + (i % points + 0.5) / points) / size - 1.0;
+        double t = 2.0 * (y + (i / points + 0.5) / points) / size - 1.0;
         double r2 = 1.0 + s * s + t * t;
         double w = 1.0 / (r2 * sqrt(r2));
         double d[3], e[3];

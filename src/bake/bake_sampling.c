@@ -13,7 +13,7 @@ static const double pi = 3.14159265358979323846;
 enum { LANES = 8 };
 typedef int32_t int8 __attribute__((vector_size(32), may_alias));
 
-/* Samples that are looked up in the same level, LANES at a time; the last ones repeat a sample with weight 0. */
+/* Samples that are looked up in the same level, LANES at a time; the last ones may be of no account. */
 typedef struct sample_group {
     uint32_t first, block_count, count; /* blocks of LANES; samples */
 } sample_group;
@@ -21,6 +21,7 @@ typedef struct sample_group {
 typedef struct sample_set {
     uint32_t count;
     float8 *x, *y, *z; /* directions: z along R */
+    float8 *weight;
     sample_group groups[BAKE_PYRAMID_LEVELS];
 } sample_set;
 
@@ -31,57 +32,114 @@ typedef struct sampling {
     cube *out;
 } sampling;
 
-/* The level whose texels have about the solid angle that a sample of density pdf stands for. */
-static uint32_t level_of(const bake_pyramid *p, uint32_t count, double pdf)
+/* The level, with fraction, whose texels have the solid angle that a sample of density pdf stands for. */
+static double lod_of(const bake_pyramid *p, uint32_t count, double pdf)
 {
-    double solid_angle = 4.0 / (count * fmax(pdf, 1e-6));
+    double solid_angle = BAKE_OVERLAP / (count * fmax(pdf, 1e-6));
     double size = p->levels[0].size;
-    double lod = 0.5 * log2(solid_angle * 6.0 * size * size / (4.0 * pi)) + 0.5;
+    double lod = 0.5 * log2(solid_angle * 6.0 * size * size / (4.0 * pi));
     double last = p->level_count - 1;
-    return (uint32_t)(lod < 0.0 ? 0.0 : lod < last ? lod : last);
+    return lod < 0.0 ? 0.0 : lod < last ? lod : last;
 }
 
-static void make_directions(const bake_pyramid *p, const float *s2, const float *pdf, sample_set *set)
+/* Samples in a ring from the inner angle and the share of the lobe within it: as many as make a cell as wide as it is high. */
+static uint32_t ring_count(const bake_lobe_shares *shares, uint32_t count, uint32_t done, double inner)
 {
-    uint32_t block = 0;
+    uint32_t few = 0;
+    uint32_t many = count - done;
+    while (many - few > 1) {
+        uint32_t n = few + (many - few) / 2;
+        double outer = 2.0 * asin(sqrt(bake_lobe_find(shares, (double)(done + n) / count)));
+        if (n * (outer - inner) < 2.0 * pi * sin(0.5 * (inner + outer)))
+            few = n;
+        else
+            many = n;
+    }
+    return many;
+}
+
+/* Directions at equal angles around R, and the level they are looked up in. */
+typedef struct ring {
+    uint32_t count;
+    double lod;
+    double sine, cosine, turn;
+} ring;
+
+static uint32_t make_rings(const bake_pyramid *p, const bake_lobe_shares *shares, uint32_t count, ring *rings)
+{
+    uint32_t ring_number = 0;
+    double inner = 0.0;
+    for (uint32_t done = 0; done < count; ring_number++) {
+        uint32_t n = ring_count(shares, count, done, inner);
+        double s2 = bake_lobe_find(shares, (done + 0.5 * n) / count);
+        rings[ring_number] = (ring){.count = n,
+                                    .lod = lod_of(p, count, bake_lobe_pdf(shares, s2)),
+                                    .sine = 2.0 * sqrt(s2 * (1.0 - s2)),
+                                    .cosine = 1.0 - 2.0 * s2,
+                                    .turn = 2.399963229728653 * ring_number}; /* the golden angle */
+        done += n;
+        inner = 2.0 * asin(sqrt(bake_lobe_find(shares, (double)done / count)));
+    }
+    return ring_number;
+}
+
+/* Share of a level in what is looked up at a lod: all of it near its own, linear between, in a half of the way to the next. */
+static double share_of(double lod, uint32_t level)
+{
+    double distance = fabs(lod - level);
+    return distance <= 0.25 ? 1.0 : distance < 0.75 ? 1.5 - 2.0 * distance : 0.0;
+}
+
+/* Samples by level: some are in two, so that what they blur changes gradually from ring to ring. A step would leave a ring that
+ * counts too much beside one that counts too little. */
+static void place_samples(const bake_pyramid *p, const ring *rings, uint32_t ring_total, sample_set *set)
+{
+    float *x = (float *)set->x;
+    float *y = (float *)set->y;
+    float *z = (float *)set->z;
+    float *weight = (float *)set->weight;
+    size_t at = 0;
     for (uint32_t level = 0; level < p->level_count; level++) {
-        sample_group *g = &set->groups[level];
-        *g = (sample_group){.first = block};
-        for (uint32_t i = 0; i < set->count; i++) {
-            if (level_of(p, set->count, (double)pdf[i]) != level)
-                continue;
-            double sine = 2.0 * sqrt((double)s2[i] * (1.0 - (double)s2[i]));
-            double phi = 2.399963229728653 * i; /* the golden angle */
-            uint32_t to = g->count++;
-            set->x[block + to / LANES][to % LANES] = (float)(sine * cos(phi));
-            set->y[block + to / LANES][to % LANES] = (float)(sine * sin(phi));
-            set->z[block + to / LANES][to % LANES] = (float)(1.0 - 2.0 * (double)s2[i]);
+        size_t first = at;
+        for (uint32_t i = 0; i < ring_total; i++) {
+            double share = share_of(rings[i].lod, level);
+            for (uint32_t k = 0; share > 0.0 && k < rings[i].count; k++) {
+                double phi = rings[i].turn + 2.0 * pi * k / rings[i].count;
+                x[at] = (float)(rings[i].sine * cos(phi));
+                y[at] = (float)(rings[i].sine * sin(phi));
+                z[at] = (float)rings[i].cosine;
+                weight[at++] = (float)share;
+            }
         }
-        for (uint32_t to = g->count; to % LANES; to++) {
-            set->x[block + to / LANES][to % LANES] = set->y[block + to / LANES][to % LANES] = 0.0f;
-            set->z[block + to / LANES][to % LANES] = 1.0f;
+        set->groups[level] =
+            (sample_group){.first = (uint32_t)(first / LANES), .count = (uint32_t)(at - first)};
+        for (; at % LANES; at++) {
+            x[at] = y[at] = weight[at] = 0.0f;
+            z[at] = 1.0f;
         }
-        g->block_count = (g->count + LANES - 1) / LANES;
-        block += g->block_count;
+        set->groups[level].block_count = (uint32_t)((at - first) / LANES);
     }
 }
 
 static facet_result create_set(const bake_pyramid *p, const bake_lobe *lobe, uint32_t count,
                                const facet_allocator *allocator, sample_set *set, facet_error *error)
 {
-    size_t blocks = (size_t)count / LANES + 1 + BAKE_PYRAMID_LEVELS;
-    float *s2 = mem_alloc(allocator, count, 2 * sizeof *s2);
-    *set = (sample_set){.count = count, .x = mem_alloc(allocator, blocks, 3 * sizeof *set->x)};
+    size_t blocks = 2 * ((size_t)count / LANES + 1) + BAKE_PYRAMID_LEVELS;
+    bake_lobe_shares *shares = mem_alloc(allocator, 1, sizeof *shares);
+    ring *rings = mem_alloc(allocator, count, sizeof *rings);
+    *set = (sample_set){.count = count, .x = mem_alloc(allocator, blocks, 4 * sizeof *set->x)};
     facet_result result = FACET_OK;
-    if (s2 && set->x) {
+    if (shares && rings && set->x) {
         set->y = set->x + blocks;
         set->z = set->y + blocks;
-        bake_lobe_sample(lobe, count, s2, s2 + count);
-        make_directions(p, s2, s2 + count, set);
+        set->weight = set->z + blocks;
+        bake_lobe_share_init(lobe, shares);
+        place_samples(p, rings, make_rings(p, shares, count, rings), set);
     } else {
-        result = fail_memory(error, "samples", blocks * 3 * sizeof *set->x);
+        result = fail_memory(error, "samples", blocks * 4 * sizeof *set->x);
     }
-    mem_free(s2);
+    mem_free(shares);
+    mem_free(rings);
     return result;
 }
 
@@ -98,6 +156,13 @@ typedef struct sample_places {
     int8 texel;
     float8 right, down;
 } sample_places;
+
+/* 4 / pi atan(x) for x in [-1, 1], within 1.3e-5. Abramowitz and Stegun 1964, equation 4.4.47. */
+static inline __attribute__((always_inline)) void equal_angles(const float8 *x, float8 *out)
+{
+    float8 x2 = *x * *x;
+    *out = *x * (1.2730689f + x2 * (-0.4205504f + x2 * (0.2293626f + x2 * (-0.1083947f + x2 * 0.0265281f))));
+}
 
 /* cube_locate() and cube_fetch() of cube.h, without branches. */
 static inline __attribute__((always_inline)) void locate(const float8 *x, const float8 *y, const float8 *z,
@@ -126,9 +191,14 @@ static inline __attribute__((always_inline)) void locate(const float8 *x, const 
     int8 face =
         (~is_x & (2 + (2 & ~is_y))) + (int8)((__attribute__((vector_size(32))) uint32_t)negative >> 31);
     float half = 0.5f * (float)size;
-    float8 scale = half / most;
-    float8 u = s * scale + (half + 0.5f);
-    float8 v = t * scale + (half + 0.5f);
+    float8 q = 1.0f / most;
+    float8 u, v;
+    s *= q;
+    t *= q;
+    equal_angles(&s, &u);
+    equal_angles(&t, &v);
+    u = u * half + (half + 0.5f);
+    v = v * half + (half + 0.5f);
     int8 x0 = __builtin_convertvector(u, int8);
     int8 y0 = __builtin_convertvector(v, int8);
     out->right = u - __builtin_convertvector(x0, float8);
@@ -166,9 +236,10 @@ add_group(const sampling *job, const cube *level, const sample_group *g, float a
         memcpy(texel, &p.texel, sizeof texel);
         memcpy(right, &p.right, sizeof right);
         memcpy(down, &p.down, sizeof down);
+        const float *weight = (const float *)&job->set.weight[g->first + i];
         uint32_t count = g->count - i * LANES < LANES ? g->count - i * LANES : LANES;
         for (uint32_t k = 0; k < count; k++)
-            part += fetch(level->texels + texel[k], stride, &right[k], &down[k]);
+            part += fetch(level->texels + texel[k], stride, &right[k], &down[k]) * weight[k];
     }
     *sum += part;
 }

@@ -27,26 +27,27 @@ static void box_rows(void *context, size_t begin, size_t end)
     const boxing *job = context;
     uint32_t size = job->out->size;
     uint32_t box = job->from->size / size;
-    for (size_t i = begin; i < end; i++) {
-        uint32_t face = (uint32_t)(i / size);
-        uint32_t y = (uint32_t)(i % size);
+    for (uint32_t y = (uint32_t)begin; y < end; y++)
         for (uint32_t x = 0; x < size; x++) {
-            double sum[3] = {0.0, 0.0, 0.0};
+            double sums[6][3] = {{0.0}};
             double whole = 0.0;
             for (uint32_t k = 0; k < box * box; k++) {
                 uint32_t fx = x * box + k % box;
                 uint32_t fy = y * box + k / box;
                 double w = box > 1 ? cube_texel_solid_angle(job->from->size, fx, fy) : 1.0;
-                rgbx texel = *cube_texel(job->from, face, (int)fx, (int)fy);
                 whole += w;
-                for (int j = 0; j < 3; j++)
-                    sum[j] += w * (double)(texel[j] < job->limit ? texel[j] : job->limit);
+                for (uint32_t face = 0; face < 6; face++) {
+                    rgbx texel = *cube_texel(job->from, face, (int)fx, (int)fy);
+                    for (int j = 0; j < 3; j++)
+                        sums[face][j] += w * (double)(texel[j] < job->limit ? texel[j] : job->limit);
+                }
             }
             double scale = (double)job->scale / whole;
-            *cube_texel(job->out, face, (int)x, (int)y) =
-                (rgbx){(float)(sum[0] * scale), (float)(sum[1] * scale), (float)(sum[2] * scale), 0.0f};
+            for (uint32_t face = 0; face < 6; face++)
+                *cube_texel(job->out, face, (int)x, (int)y) =
+                    (rgbx){(float)(sums[face][0] * scale), (float)(sums[face][1] * scale),
+                           (float)(sums[face][2] * scale), 0.0f};
         }
-    }
 }
 
 /* ---- between texels ---- */
@@ -111,7 +112,7 @@ facet_result bake_sharp(const bake_source *source, float scale, const facet_allo
 {
     if (bake_sharp_is_of_faces(source, out->size)) {
         boxing job = {.from = source->faces, .limit = source->limit, .scale = scale, .out = out};
-        parallel_for(thread_count, 6 * (size_t)out->size, 16, box_rows, &job);
+        parallel_for(thread_count, out->size, 4, box_rows, &job);
         cube_fill_borders(out);
         return FACET_OK;
     }
@@ -126,7 +127,7 @@ facet_result bake_sharp(const bake_source *source, float scale, const facet_allo
     facet_result result =
         bake_area_create(&source->picture, source->rotation_rad, allocator, thread_count, &area, error);
     if (result == FACET_OK)
-        bake_area_fill(&area, scale, thread_count, out);
+        bake_area_fill(&area, false, scale, thread_count, out);
     bake_area_destroy(&area);
     return result;
 }
