@@ -875,7 +875,7 @@ FACET_API facet_result facet_cube_encode_ktx2(const facet_cube *cube, const face
                                               unsigned char **bytes, size_t *size, facet_error *error);
 typedef struct facet_ktx1_desc {
     facet_allocator allocator;
-    uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
+    uint32_t thread_count;       /* 0: facet_thread_count(); the bytes do not depend on it */
     const float (*harmonics)[3]; /* nine of FACET_SH_FOLDED, kept as text under the key "sh"; NULL: none */
 } facet_ktx1_desc;
 
