@@ -5,6 +5,7 @@
 // - A baked cube map taken as scene.environment as it is lights a scene as PMREMGenerator's does, and so does pmrem.ktx2 of
 //   --layout three.
 // - --sh has LightProbeGenerator's coefficients.
+// - The lines for three.js in docs/bake.md do that.
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { open_page } from './browser.mjs';
@@ -89,6 +90,17 @@ try {
     await call('load_environment', 'three/pmrem.ktx2', true);
     const [from_layout] = await call('draw_all', [{ is_facet: true }], 7, 64);
     report.expect(codes(from_layout, ours)[0] === 0, 'pmrem.ktx2 lights another way than room.ktx2');
+    // What docs/bake.md tells users to write does the same.
+    const lines = readFileSync(new URL('../../docs/bake.md', import.meta.url), 'utf8').split('\n');
+    const first = lines.findIndex((line) => /^    .*KTX2Loader/.test(line)), end = lines.findIndex((line, i) => i > first && /^\S/.test(line));
+    if (report.expect(first > 0, 'docs/bake.md has no lines for three.js')) {
+        const probes_of_docs = await call('run_documentation', lines.slice(first, end).join('\n'), 'three');
+        report.expect(Array.isArray(probes_of_docs), `docs/bake.md's lines for three.js: ${probes_of_docs}`);
+        const [from_docs] = await call('draw_all', [{ is_facet: true }], 7, 64);
+        report.expect(codes(from_docs, ours)[0] === 0, "docs/bake.md's lines light another way");
+        report.expect(probes_of_docs[0]?.every?.((rgb, i) => rgb.every((x, c) => Math.abs(x - sh[i][c]) < 1e-5)),
+            "docs/bake.md's probe is another one");
+    }
     const loud = messages.filter((text) => !text.includes('404') && !text.includes('GPU stall'));
     report.expect(loud.length === 0, `the browser said: ${loud.join('; ')}`);
 } finally {

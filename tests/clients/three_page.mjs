@@ -89,6 +89,20 @@ window.generate_probe = async (size) => {
     return probe.sh.coefficients.map((c) => [c.x, c.y, c.z]);
 };
 
+// Runs lines of documentation as they stand; files are those of the folder at /work/FOLDER. Returns the light
+// probes of the scene that they made, or the error.
+window.run_documentation = async (code, folder) => {
+    const scene = new THREE.Scene(), names = { ...THREE, KTX2Loader, renderer, scene };
+    const located = code.replaceAll(/'([a-z_]+\.(ktx2|json))'/g, `'/work/${folder}/$1'`);
+    try {
+        await new Function(...Object.keys(names), `return (async () => {${located}\n})();`)(...Object.values(names));
+    } catch (error) {
+        return String(error);
+    }
+    environment = scene.environment;
+    return scene.children.filter((child) => child.isLightProbe).map(({ sh }) => sh.coefficients.map((c) => [c.x, c.y, c.z]));
+};
+
 // ---- pictures: rows of spheres, metallic and rough from 0 to 1, and one of white plaster ----
 
 let environment;
