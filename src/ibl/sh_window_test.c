@@ -33,7 +33,7 @@ static double evaluate(const double c[SH_COUNT], const double d[3])
 static double search_least(const double c[SH_COUNT])
 {
     enum { ROWS = 60 };
-    double best = INFINITY;
+    double best = (double)INFINITY;
     double theta = 0.0;
     double phi = 0.0;
     for (int y = 0; y <= ROWS; y++)

@@ -122,7 +122,7 @@ static level_grid plan_levels(const facet_cube *c)
     const double half = 0.5 * room;
     uint32_t others = c->level_count - 1;
     level_grid best = {.columns = 1, .first = (uint32_t)half / 4 * 4};
-    double nearest = INFINITY;
+    double nearest = (double)INFINITY;
     for (uint32_t columns = 1; columns <= others; columns++) {
         double rows = (double)((others + columns - 1) / columns);
         double gaps = CROSS_GAP + (columns - 1.0) * LEVEL_GAP;

@@ -72,9 +72,14 @@ static void test_uniform_light(void **state)
     static const struct {
         facet_lobe lobe;
         double least, most; /* share of the sheet that is of the light's color */
-    } kinds[3] = {
-        {FACET_LOBE_GGX, 0.24, 0.32}, {FACET_LOBE_LAMBERT, 0.13, 0.17}, {FACET_LOBE_NONE, 0.18, 0.3}};
-    for (int k = 0; k < 3; k++) {
+    } kinds[] = {
+        {FACET_LOBE_LAMBERT, 0.13, 0.17},
+        {FACET_LOBE_NONE, 0.24, 0.28},
+#if defined(__OPTIMIZE__) /* a minute where nothing is */
+        {FACET_LOBE_GGX, 0.26, 0.3}
+#endif
+    };
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         facet_bake_desc desc = {.lobe = kinds[k].lobe, .size = 64};
         facet_cube *c = bake(e, &desc);
         image sheet = draw(c, e, &(facet_sheet_desc){.bake = desc});
@@ -209,7 +214,7 @@ static void test_difference(void **state)
 static void test_threads_do_not_matter(void **state)
 {
     (void)state;
-    facet_environment *e = make_environment(64, 32, faces);
+    facet_environment *e = make_environment(32, 16, faces);
     facet_bake_desc desc = {
         .lobe = FACET_LOBE_NONE, .size = 32, .rotation_rad = 0.5f, .ev = 1.0f, .clamp = 0.6f};
     facet_cube *c = bake(e, &desc);
@@ -288,11 +293,11 @@ static void test_progress(void **state)
             assert_true(w.last == 1.0);
             image_destroy(&sheet);
         }
-        w = (watch){.stops_at = 4};
+        w = (watch){.stops_at = 3};
         facet_error error = {0};
         assert_int_equal(ibl_sheet_draw(c, e, &sheet_desc, &sheet, &error), FACET_ERROR_CANCELLED);
         assert_null(sheet.pixels);
-        assert_true(strstr(error.message, "sheet: cancelled after 4 of ") == error.message);
+        assert_true(strstr(error.message, "sheet: cancelled after 3 of ") == error.message);
         facet_cube_destroy(c);
     }
     facet_environment_destroy(e);
