@@ -102,8 +102,13 @@ static void test_disc_shape(void **state)
                          (cos)(elevation) * (cos)(azimuth)};
     double mean = (double)luminance(sky_sun_illuminance(&sun)) / (double)SUN_SOLID_ANGLE;
     uint32_t top = (uint32_t)(0.95 * (0.5 * pi - elevation) / pi * SIZE);
+    uint32_t middle = (uint32_t)((0.5 + (0.5 * pi - azimuth) / (2.0 * pi)) * p.width);
+    for (uint32_t y = 0; y < p.height; y++) /* nothing far from it */
+        for (uint32_t x = 0; x < p.width; x += (y >= top && y < 2 * SIZE / 7 ? 1 : 61))
+            if (x < middle - 50 || x > middle + 50)
+                assert_true(*texel(&p, x, y) == 0.0f);
     for (uint32_t y = top; y < 2 * SIZE / 7; y++)
-        for (uint32_t x = 0; x < p.width; x++) {
+        for (uint32_t x = middle - 50; x <= middle + 50; x++) {
             float d[3];
             equirect_direction(p.width, p.height, x, y, d);
             double cosine = towards[0] * (double)d[0] + towards[1] * (double)d[1] + towards[2] * (double)d[2];
@@ -193,7 +198,7 @@ static void test_symmetry(void **state)
 static void test_smooth(void **state)
 {
     (void)state;
-    enum { SIZE = 256 };
+    enum { SIZE = 192 };
     facet_sky_desc sky = {.sun_elevation_rad = 0.2f,
                           .sun_azimuth_rad = 1.0f,
                           .ground_albedo = {0.2f, 0.2f, 0.2f},
@@ -228,7 +233,7 @@ static void test_smooth(void **state)
 static void test_numbers(void **state)
 {
     (void)state;
-    static const float elevations[] = {-90, -45, -18, -10, -6, -0.3f, 0, 0.3f, 3, 45, 89.99f, 90};
+    static const float elevations[] = {-90, -18, -6, -0.3f, 0, 3, 45, 90};
     static const float turbidities[] = {1, 2.5f, 10};
     static const float altitudes[] = {0, 1, 3000, 50000};
     for (size_t i = 0; i < sizeof elevations / sizeof *elevations; i++)
@@ -319,14 +324,14 @@ static void test_exposure(void **state)
         facet_environment *e = create((facet_sky_desc){.sun_elevation_rad = (float)s,
                                                        .sun_azimuth_rad = 0.5f,
                                                        .ground_albedo = {0.2f, 0.2f, 0.2f},
-                                                       .height = 64,
+                                                       .height = 48,
                                                        .illuminance_lux = 100.0f});
-        for (int k = 0; k < 90; k++) {
-            double a = k * 4.0 * degree;
+        for (int k = 0; k < 60; k++) {
+            double a = k * 6.0 * degree;
             double n[3] = {(cos)(a) * (sin)(0.5), (sin)(a), (cos)(a) * (cos)(0.5)};
             largest = fmax(largest, illuminance(&e->picture, n));
         }
-        assert_near(largest, 100.0, 0.5);
+        assert_near(largest, 100.0, 0.5); /* cos 3 degrees is 0.9986 */
         facet_environment_destroy(e);
     }
     facet_environment *night = create((facet_sky_desc){

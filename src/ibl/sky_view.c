@@ -25,16 +25,24 @@ typedef struct view_job {
 
 /* ---- ground ---- */
 
-static void light_ground(const sky_tables *t, float height_km, float mu_sun, ground_light *g)
+static void fill_ground(void *context, size_t begin, size_t end)
 {
-    float reach = acosf(EARTH_RADIUS_KM / (EARTH_RADIUS_KM + height_km));
-    float zenith = acosf(mu_sun);
-    g->first = max(zenith - reach, 0.0f);
-    float last = min(zenith + reach, PI);
-    g->count = reach > 1e-4f ? GROUND_NODES : 1;
-    g->step = g->count > 1 ? (last - g->first) / (float)(g->count - 1) : 1.0f;
-    for (int i = 0; i < g->count; i++)
-        sky_irradiance(t, cosf(g->count > 1 ? g->first + g->step * (float)i : zenith), g->sky[i]);
+    view_job *job = context;
+    ground_light *g = &job->ground;
+    for (size_t i = begin; i < end; i++)
+        sky_irradiance(job->tables, cosf(g->first + g->step * (float)i), g->sky[i]);
+}
+
+static void light_ground(view_job *job, uint32_t thread_count)
+{
+    ground_light *g = &job->ground;
+    float reach = acosf(EARTH_RADIUS_KM / (EARTH_RADIUS_KM + job->view->height_km));
+    float zenith = acosf(job->view->mu_sun);
+    bool is_one = reach < 1e-4f; /* all ground in sight has the same sun */
+    g->first = is_one ? zenith : max(zenith - reach, 0.0f);
+    g->count = is_one ? 1 : GROUND_NODES;
+    g->step = is_one ? 1.0f : (min(zenith + reach, PI) - g->first) / (float)(GROUND_NODES - 1);
+    parallel_for(thread_count, (size_t)g->count, 1, fill_ground, job);
 }
 
 /* Light that the ground sends up where the sun has mu_sun, per half. */
@@ -107,7 +115,7 @@ facet_result sky_view_create(const sky_tables *tables, float altitude_km, float 
     if (!out->rows)
         return fail_memory(error, "sky", count * sizeof *out->rows);
     view_job job = {.tables = tables, .view = out};
-    light_ground(tables, altitude_km, out->mu_sun, &job.ground);
+    light_ground(&job, thread_count);
     parallel_for(thread_count, SKY_VIEW_UP + SKY_VIEW_DOWN, 4, fill_rows, &job);
     return FACET_OK;
 }
