@@ -87,7 +87,7 @@ void environment_report(facet_environment *e, const environment_repairs *repairs
         log_warning(&e->log,
                     "%s: %" PRIu64
                     " texel%s NaN, infinity or less than 0, the first at (%u, %u)%s%s: taken as 0, "
-                    "infinity as the largest number of the file",
+                    "infinity as the largest number that its format has, at most 1e12",
                     name, repairs->count, repairs->count == 1 ? " is" : "s are", x, y, place ? " of " : "",
                     place ? place : "");
 }

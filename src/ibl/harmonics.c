@@ -7,6 +7,7 @@
  * times 1 - k^2 d^2 / 24. */
 #include "ibl/harmonics.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -207,6 +208,45 @@ static void choose_rows(const image *picture, uint32_t degree, analysis *job, ui
     *height = job->is_higher ? 8 * degree : parts * picture->height;
 }
 
+/* ---- the least radiance ---- */
+
+enum { LEAST_PARTS = 64 }; /* of the picture's rows */
+
+typedef struct least_search {
+    const image *picture;
+    float least[LEAST_PARTS][3];
+} least_search;
+
+static void search_rows(void *context, size_t begin, size_t end)
+{
+    least_search *job = context;
+    size_t row = (size_t)job->picture->width * 3;
+    for (size_t part = begin; part < end; part++) {
+        const float *texel =
+            (const float *)job->picture->pixels + job->picture->height * part / LEAST_PARTS * row;
+        const float *last =
+            (const float *)job->picture->pixels + job->picture->height * (part + 1) / LEAST_PARTS * row;
+        float *least = job->least[part];
+        least[0] = least[1] = least[2] = FLT_MAX;
+        for (; texel < last; texel += 3)
+            for (int i = 0; i < 3; i++)
+                least[i] = texel[i] < least[i] ? texel[i] : least[i];
+    }
+}
+
+static void find_least(const image *picture, uint32_t thread_count, float least[3])
+{
+    least_search job = {.picture = picture};
+    parallel_for(thread_count, LEAST_PARTS, 1, search_rows, &job);
+    for (int i = 0; i < 3; i++) {
+        least[i] = FLT_MAX;
+        for (int part = 0; part < LEAST_PARTS; part++)
+            least[i] = job.least[part][i] < least[i] ? job.least[part][i] : least[i];
+    }
+}
+
+/* ---- the functions of harmonics.h ---- */
+
 facet_result harmonics_create(const image *picture, uint32_t degree, const facet_allocator *allocator,
                               uint32_t thread_count, harmonics *out, facet_error *error)
 {
@@ -235,6 +275,7 @@ facet_result harmonics_create(const image *picture, uint32_t degree, const facet
         fourier_init(&job.transform, width / job.splits);
         for (int i = 0; i < 3; i++)
             h.mean[i] = (float)mean[i];
+        find_least(picture, thread_count, h.least);
         for (job.first = 0; job.first < pairs; job.first += job.count) {
             job.count = pairs - job.first < job.capacity ? pairs - job.first : job.capacity;
             legendre_place(&job.rows, job.first, job.count, height);

@@ -23,6 +23,7 @@ typedef struct harmonics {
     uint32_t
         column_count; /* of the grid of the analysis, whose middle of column 0 is phi = 0 of the coefficients */
     float mean[3];
+    float least[3];      /* of the picture, below which no mean of it can be */
     float *coefficients; /* of order m: [l - m][R G B][re im]; orders follow each other */
     float *waves; /* scratch memory of filters, the larger arrays of which would cost more to map than */
     rgbx *grid;   /* to compute */
@@ -37,7 +38,7 @@ void harmonics_destroy(harmonics *h); /* {0} is allowed; leaves {0} */
 void harmonics_trim(harmonics *h);
 
 /* A cube map of the environment with degree l scaled by kernel[l], l up to degree (a multiple of 32, at most h->degree), times
- * scale, turned by rotation_rad around +Y from +Z towards +X; never negative. One filter at a time per h. FACET_ERROR_MEMORY. */
+ * scale, turned by rotation_rad around +Y from +Z towards +X; nowhere below the least radiance of the picture, as rings around a sun would be. One filter at a time per h. FACET_ERROR_MEMORY. */
 typedef struct harmonics_filter_desc {
     const float *kernel;
     uint32_t degree;

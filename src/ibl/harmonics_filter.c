@@ -172,7 +172,7 @@ static inline __attribute__((always_inline)) rgbx interpolate(const synthesis *j
     rgbx sum = {0};
     for (int k = 0; k < 4; k++, g += stride)
         sum += (g[0] * wu[0] + g[1] * wu[1] + g[2] * wu[2] + g[3] * wu[3]) * wv[k];
-    return rgbx_not_negative(sum);
+    return sum;
 }
 
 enum { CHUNK = 256 }; /* texels of a row at a time */
@@ -183,6 +183,7 @@ DISPATCH_AVX2 static void fill_cube_rows(void *context, size_t begin, size_t end
     uint32_t size = job->out->size;
     float columns_per_rad = (float)job->width * 0.159154943f;
     float rows_per_rad = (float)job->height * 0.318309886f;
+    const rgbx least = {job->in->least[0], job->in->least[1], job->in->least[2], 0.0f};
     for (size_t i = begin; i < end; i++) {
         uint32_t face = (uint32_t)(i / size);
         uint32_t y = (uint32_t)(i % size);
@@ -206,7 +207,7 @@ DISPATCH_AVX2 static void fill_cube_rows(void *context, size_t begin, size_t end
             }
             rgbx *out = cube_texel(job->out, face, (int)x0, (int)y);
             for (uint32_t x = 0; x < count; x++)
-                out[x] = interpolate(job, u[x], v[x]) * job->desc->scale;
+                out[x] = rgbx_max(interpolate(job, u[x], v[x]), least) * job->desc->scale;
         }
     }
 }

@@ -12,7 +12,7 @@
 #include "ibl/ibl.h"
 
 /* Counts the changes to how parts are prepared: what a cache kept of another version is not used. */
-static const uint64_t recipe_version = 2;
+static const uint64_t recipe_version = 3;
 
 /* Rows of the picture that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
 static const double sharp_rows = 512.0;

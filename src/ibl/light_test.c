@@ -330,6 +330,37 @@ static void test_mirror(void **state)
     facet_environment_destroy(e);
 }
 
+/* No mean of a picture is below its darkest texel: next to a sun, harmonics alone would be. */
+static void sun_in_grey(const float d[3], float out[3])
+{
+    bool is_sun = d[0] > 0.5f && d[1] > 0.5f && d[2] > 0.5f && d[0] < 0.62f && d[1] < 0.62f && d[2] < 0.62f;
+    for (int k = 0; k < 3; k++)
+        out[k] = is_sun ? 1e5f : 1.0f + (float)k;
+}
+
+static void test_never_darker_than_the_picture(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(64, 32, sun_in_grey);
+    ibl_light_desc desc = everything;
+    desc.needs_sheen = true;
+    desc.max_sheen_roughness = 1.0f;
+    const ibl_light *light = prepare(e, desc);
+    for (int i = 0; i < 2000; i++)
+        for (float roughness = 0.0f; roughness <= 1.0f; roughness += 0.05f) {
+            float d[3], out[3], sheen[3];
+            test_direction(i, 2000, d);
+            ibl_specular(light, d, roughness, out);
+            ibl_sheen(light, d, roughness, sheen);
+            for (int k = 0; k < 3; k++) {
+                assert_true(out[k] >= (1.0f + (float)k) * 0.99999f);
+                assert_true(sheen[k] >= (1.0f + (float)k) * 0.99999f);
+            }
+        }
+    ibl_light_release(light);
+    facet_environment_destroy(e);
+}
+
 /* Continuous in roughness, too. */
 static void test_roughness_is_continuous(void **state)
 {
@@ -519,6 +550,7 @@ int main(void)
         cmocka_unit_test(test_rotation),
         cmocka_unit_test(test_seams),
         cmocka_unit_test(test_mirror),
+        cmocka_unit_test(test_never_darker_than_the_picture),
         cmocka_unit_test(test_roughness_is_continuous),
         cmocka_unit_test(test_parts_are_lazy),
         cmocka_unit_test(test_levels_are_equal),

@@ -12,6 +12,12 @@ static inline rgbx rgbx_splat(float x)
     return (rgbx){x, x, x, x};
 }
 
+/* The larger of each lane. */
+static inline rgbx rgbx_max(rgbx a, rgbx b)
+{
+    return (rgbx){a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1], a[2] > b[2] ? a[2] : b[2], 0.0f};
+}
+
 /* No lane below 0. */
 static inline rgbx rgbx_not_negative(rgbx c)
 {
