@@ -790,14 +790,15 @@ typedef enum facet_bake_method {
 
 enum { FACET_CUBE_MAX_LEVELS = 14 };
 
-/* {0}: GGX, 256 texels, all levels down to 16 texels or fewer if the environment's are. */
+/* {0}: GGX, 256 texels, levels down to 16 texels. */
 typedef struct facet_bake_desc {
     facet_allocator allocator;
     facet_progress progress;
     uint32_t thread_count; /* 0: facet_thread_count(); the texels do not depend on it */
     facet_lobe lobe;
-    uint32_t size;        /* texels along an edge of level 0, [1, 8192], a power of two; 0: 256; Lambert 64 */
-    uint32_t level_count; /* 0: down to 16 texels, at least one; Lambert: 1. At most log2(size) + 1 */
+    uint32_t size; /* texels along an edge of level 0, [1, 8192], a power of two; 0: 256; Lambert 64 */
+    uint32_t
+        level_count; /* 0: down to 16 texels, but five where there are as many; Lambert: 1. At most log2(size) + 1 */
     facet_roughness_mapping mapping;
     facet_bake_method method;
     uint32_t samples;   /* per texel, of sampling; 0: 1024 */

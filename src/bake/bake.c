@@ -14,7 +14,7 @@
 enum {
     DEFAULT_SIZE = 256,
     LAMBERT_SIZE = 64,
-    MIN_LEVEL_SIZE = 16,
+    MIN_LEVELS = 5, /* where the size has them: fewer steps of roughness are too coarse */
     MAX_SIZE = 8192,
     DEFAULT_SAMPLES = 1024,
     MAX_SAMPLES = 1 << 20,
@@ -56,7 +56,10 @@ facet_result bake_complete(facet_bake_desc *desc, facet_error *error)
         return fail(error, FACET_ERROR_ARGUMENT, "bake: %u levels: a cube map of %u texels has at most %u",
                     desc->level_count, desc->size, most);
     if (desc->level_count == 0)
-        desc->level_count = is_lambert || desc->size < MIN_LEVEL_SIZE ? 1 : most - 4;
+        desc->level_count = is_lambert              ? 1
+                            : most > MIN_LEVELS + 4 ? most - 4
+                            : most < MIN_LEVELS     ? most
+                                                    : MIN_LEVELS;
     desc->samples = desc->samples ? desc->samples : DEFAULT_SAMPLES;
     if (desc->samples > MAX_SAMPLES)
         return fail(error, FACET_ERROR_ARGUMENT, "bake: %u samples per texel: at most %d are taken",

@@ -10,10 +10,11 @@
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 /* Levels down to least texels, at least one. */
+/* Levels down to the size least, but five where there are as many. */
 static uint32_t count_levels(uint32_t size, uint32_t least)
 {
     uint32_t count = 1;
-    while (size >> count >= least)
+    while (size >> count && (size >> count >= least || count < 5))
         count++;
     return count;
 }

@@ -258,10 +258,30 @@ static bool find_stem(const bake_options *o, char *stem, size_t size)
     return output_name_stem(name, stem, size);
 }
 
+/* Outputs whose names say something that they do not mean. */
+static facet_result check_patterns(const bake_options *o, facet_error *error)
+{
+    const char *const patterns[] = {o->output, o->diffuse, o->sheen, o->sh, o->preview};
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
+        size_t length = 0;
+        const char *unknown = patterns[i] ? bake_name_find_unknown(patterns[i], &length) : NULL;
+        if (unknown)
+            return fail_with(error, FACET_ERROR_ARGUMENT,
+                             "bake: \"%.200s\": %.*s stands for nothing; {stem}, {level} and {face} do",
+                             patterns[i], (int)(length < 40 ? length : 40), unknown);
+    }
+    if (o->layout != BAKE_LAYOUT_NONE && o->output && bake_container_of(o->output) != CONTAINER_FROM_NAME)
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--layout: it fills a folder, and \"%.200s\" is the name of a file", o->output);
+    return FACET_OK;
+}
+
 facet_result bake_plan_make(const bake_options *o, bake_plan *out, facet_error *error)
 {
     char stem[1024], own_name[1100];
     *out = (bake_plan){0};
+    if (check_patterns(o, error) != FACET_OK)
+        return FACET_ERROR_ARGUMENT;
     if (!find_stem(o, stem, sizeof stem))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "bake: the name of the environment is too long; name outputs");

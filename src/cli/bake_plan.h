@@ -12,6 +12,7 @@ typedef struct bake_cube {
     bool is_verified;
     facet_cube *cube;     /* NULL until it is baked */
     facet_cube *mirrored; /* for files that are; NULL: there are none */
+    bool is_cut;          /* a warning told of light that a file cannot hold */
     facet_cube_error errors[FACET_CUBE_MAX_LEVELS];
     double seconds;
 } bake_cube;

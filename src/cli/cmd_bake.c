@@ -3,6 +3,7 @@
 
 #include "cli/bake_layout.h"
 #include "cli/bake_make.h"
+#include "cli/bake_range.h"
 #include "cli/bake_report.h"
 #include "cli/failure.h"
 #include "cli/interrupt.h"
@@ -12,6 +13,7 @@
 #include "cli/progress.h"
 #include "cli/render_report.h"
 
+#include <stdio.h>
 #include <string.h>
 
 typedef struct bake_run {
@@ -110,6 +112,26 @@ static void tell_clamped(bake_run *run, const bake_cube *baked)
                    bake_input_name(&run->options), (double)baked->desc.clamp, 100.0 * stats.clamped_share);
 }
 
+/* Light that a file cannot hold is lost; a sun in its own unit is most of the light there is. */
+static void warn_of_cut(bake_run *run, const bake_file *file)
+{
+    const float limit = bake_file_limit(file);
+    bake_cube *baked = &run->plan.cubes[file->cube];
+    if (file->content > BAKE_FACE || !(limit > 0.0f) || baked->is_cut)
+        return;
+    const double share = bake_cut_share(baked->cube, file->level, limit);
+    if (share < 0.0005)
+        return;
+    baked->is_cut = true;
+    char text[1024];
+    const facet_log log = messages_log(&run->messages);
+    snprintf(text, sizeof text,
+             "%.800s: its numbers end at %g, which cuts off %.3g %% of the light; full floats "
+             "(--format rgba32f or exr32) keep it, or lower it with --exposure",
+             file->path, (double)limit, 100.0 * share);
+    log.message(log.user, FACET_LOG_WARNING, text);
+}
+
 static bool needs_mirrored(const bake_plan *plan, uint32_t cube_index)
 {
     for (size_t i = 0; i < plan->file_count; i++)
@@ -170,6 +192,8 @@ static facet_result make_files(bake_run *run, facet_error *error)
         if (file->content >= BAKE_TABLE)
             making.progress = next_step(run, file->content == BAKE_TABLE ? STEP_TABLE : STEP_SHEET, NULL);
         result = bake_file_make(&making, file, error);
+        if (result == FACET_OK)
+            warn_of_cut(run, file);
     }
     return result;
 }

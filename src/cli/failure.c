@@ -71,6 +71,8 @@ void failure_complete(facet_error *error, const char *name, uint64_t limit)
     bool is_general = error->result == FACET_ERROR_MEMORY || error->result == FACET_ERROR_LIMIT;
     int n = snprintf(sentence, sizeof sentence, "%s%s%s", is_general && !is_named ? name : "",
                      is_general && !is_named ? ": " : "", error->message);
+    if (strstr(sentence, "(--max-memory)"))
+        return; /* it is complete */
     if (error->result == FACET_ERROR_MEMORY && limit && n > 0 && (size_t)n < sizeof sentence)
         snprintf(sentence + n, sizeof sentence - (size_t)n, "; the limit is %.6g MiB (--max-memory)",
                  (double)limit / 1048576.0);

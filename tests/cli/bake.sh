@@ -321,7 +321,27 @@ expect 0 bake small.pfm --size 16 --mips 2 --preview sheet.png -o x.ktx2
 is_type sheet.png "PNG image data"
 clean
 
+# ---- what a file cannot hold ----
+pfm bright.pfm 4 w w w w w w w w w w w w w w w w
+expect 0 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2
+says "cuts off"
+expect 1 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2 --strict
+expect 0 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2 --format rgba32f --strict
+expect 7 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm -o x.ktx2 --max-memory 1K
+[ "$(grep -o max-memory err | wc -l)" = 1 ] || failed "the limit is told twice"
+
+# ---- levels ----
+expect 0 bake white --size 32 -o x.ktx2
+[ "$(u32 x.ktx2 40)" = 5 ] || failed "32 texels have not five levels"
+expect 0 bake white --size 4 -o x.ktx2
+[ "$(u32 x.ktx2 40)" = 3 ] || failed "4 texels have not three levels"
+clean
+
 # ---- outputs that cannot be ----
+expect 2 bake white -o 'x_{lvl}.exr'
+says "{lvl} stands for nothing"
+expect 2 bake white --layout khronos -o x.ktx2
+says "fills a folder"
 expect 6 bake white -o nowhere/x.ktx2
 says "there is no folder nowhere"
 expect 6 bake white -o x.ktx2 --diffuse nowhere/x.ktx2
