@@ -49,7 +49,8 @@ facet_result bake_area_create(const image *picture, double rotation_rad, const f
     bake_area a = {.picture = picture, .rotation_rad = rotation_rad, .step = 4};
     while (width * (height / a.step + 1) > MAX_SUMS && a.step < 64)
         a.step *= 2;
-    a.sums = mem_alloc(allocator, width * (height / a.step + 1), sizeof *a.sums);
+    size_t count = width * (height / a.step + 1);
+    a.sums = mem_alloc(allocator, count, sizeof *a.sums);
     a.totals = mem_alloc(allocator, width, sizeof *a.totals);
     a.heights = mem_alloc(allocator, height + 1, sizeof *a.heights);
     a.tangents = mem_alloc(allocator, height + 1, sizeof *a.tangents);
@@ -58,7 +59,7 @@ facet_result bake_area_create(const image *picture, double rotation_rad, const f
     if (!a.sums || !a.totals || !a.heights || !a.tangents || !a.cosines || !a.sines) {
         bake_area_destroy(&a);
         *out = a;
-        return fail_memory(error, "environment", width * (height / a.step + 1) * sizeof *a.sums);
+        return fail_memory(error, "environment", count * sizeof *a.sums);
     }
     for (size_t y = 0; y <= height; y++) {
         double theta = pi * (double)y / (double)height;

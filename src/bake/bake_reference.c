@@ -15,7 +15,8 @@ static const double pi = 3.14159265358979323846;
 
 enum {
     SPAN = 64, /* texels that are summed in float */
-    NEAR = 24, /* texels around R that are integrated over */
+    NEAR = 24, /* texels around R that are integrated over, */
+    CLOSE = 6, /* and those of them that take more points */
     TABLE = 4096
 };
 
@@ -67,7 +68,7 @@ typedef struct gathering {
     const bake_reference *r;
     const bake_reference_lobe *lobe;
     double d[3];            /* unit, in the picture */
-    double from, to;        /* rad from R: where texels are integrated over */
+    double from, to, close; /* rad from R: texels are integrated over, and up to where with more points */
     uint32_t parts, points; /* of a texel's edge there, and in each of its parts */
     double sum[3], weight;
 } gathering;
@@ -196,10 +197,9 @@ static bool is_near(const gathering *g, double theta, size_t x)
     return angle - reach < g->to && angle + reach > g->from;
 }
 
-static bool is_texel_near(const gathering *g, double theta, size_t x)
+static double angle_to(const gathering *g, double theta, size_t x)
 {
-    double angle = acos(fmax(-1.0, fmin(1.0, cosine_at(g, theta, (double)x + 0.5))));
-    return angle < g->to && angle > g->from;
+    return acos(fmax(-1.0, fmin(1.0, cosine_at(g, theta, (double)x + 0.5))));
 }
 
 /* The texels of a span of which some are near: these integrated over, the others by their middles. */
@@ -208,7 +208,9 @@ static void add_near_span(gathering *g, uint32_t y, size_t x, double theta, doub
     const bake_reference *r = g->r;
     size_t width = r->source->picture.width;
     for (size_t i = x; i < x + SPAN && i < width; i++) {
-        if (is_texel_near(g, theta, i)) {
+        double angle = angle_to(g, theta, i);
+        if (angle < g->to && angle > g->from) {
+            g->points = angle < g->close ? 8 : 2;
             add_texel(g, y, i);
             continue;
         }
@@ -253,11 +255,11 @@ void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *l
     double texel = pi / fmin(r->source->picture.height, 0.5 * r->source->picture.width);
     double parts = ceil(texel / lobe->lobe.width);
     g.parts = parts < 32.0 ? (uint32_t)parts : 32;
-    g.points = 8;
     g.from = -1.0;
     g.to = NEAR * texel;
+    g.close = CLOSE * texel;
     if (lobe->lobe.kind == FACET_LOBE_CHARLIE) { /* the ring, 8 of its widths high */
-        g.points = 2;
+        g.close = 0.0;
         g.from = 0.5 * pi - 8.0 * lobe->lobe.width - texel;
         g.to = 0.5 * pi + texel;
     }

@@ -1,9 +1,9 @@
 /* bake_reference.h - what cube maps are measured against: for one direction, every texel of the picture weighed with the lobe.
  *
- * A texel counts with its radiance times the integral of the weight over its solid angle: the weight in its middle, or, within
- * 24 texels of R and on the ring of Charlie, by Gauss and Legendre's rule of 8 x 8 points (Charlie 2 x 2) for each texel or
- * width of the lobe, whichever is smaller. Weights are summed as light is, and divided by. Sums of up to 64 texels are in
- * float, of these in double. */
+ * A texel counts with its radiance times the integral of the weight over its solid angle: the weight in its middle or, within
+ * 24 texels of R and on the ring of Charlie, Gauss and Legendre's rule of 2 x 2 points, within 6 texels 8 x 8, in each
+ * texel or width of the lobe, whichever is smaller. Weights are summed as light is, and divided by. Sums of up to 64 texels
+ * are in float, of these in double. */
 #ifndef BAKE_BAKE_REFERENCE_H
 #define BAKE_BAKE_REFERENCE_H
 
