@@ -61,9 +61,9 @@ static facet_result read_environment(const command_line *c, bake_options *out, f
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "bake: it takes one environment, or the six faces +X -X +Y -Y +Z -Z, not %zu files",
                          c->argument_count);
+    out->word = c->arguments[0];
     if (c->argument_count == 1)
-        return environment_input_parse("bake", c->arguments[0], ENVIRONMENT_TAKES_STDIN, &out->environment,
-                                       error);
+        return environment_input_parse("bake", out->word, ENVIRONMENT_TAKES_STDIN, &out->environment, error);
     out->has_faces = true;
     for (int i = 0; i < 6; i++) {
         out->faces[i] = c->arguments[i];

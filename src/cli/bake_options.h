@@ -33,6 +33,7 @@ typedef enum bake_container {
 typedef struct bake_options {
     /* environment; nothing with --dfg */
     environment_input environment;
+    const char *word; /* that environment is, as it was given */
     const char *faces[6];
     bool has_faces; /* six INPUTs */
     facet_layout input_layout;

@@ -192,7 +192,7 @@ static json_t *inputs_json(const bake_options *o)
     json_t *list = json_array();
     if (!o->is_table)
         for (int i = 0; i < (o->has_faces ? 6 : 1); i++)
-            json_array_append_new(list, report_string_json(o->has_faces ? o->faces[i] : bake_input_name(o)));
+            json_array_append_new(list, report_string_json(o->has_faces ? o->faces[i] : o->word));
     return list;
 }
 

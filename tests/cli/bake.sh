@@ -299,6 +299,8 @@ if command -v jq >/dev/null; then
     expect 3 bake missing.hdr -o y.ktx2 --json
     json '.failures[0].exit_code' 3
     json '.outputs | length' 0
+    expect 0 bake neutral $tiny -o y.ktx2 --json
+    json '.inputs[0]' neutral
     expect 2 bake --json
     json '.exit_code' 2
 fi
