@@ -99,7 +99,7 @@ static double time_job(const char *name, const job *j, int runs)
     double wall_two = median(two.wall, runs);
     printf("%-34s %8.3f %8.3f %8.3f %8.3f %7.1f", name, wall, cpu, wall_two, median(two.cpu, runs),
            median(two.bytes, runs) / 1e6);
-    if (j->samples)
+    if (j->samples && *j->samples)
         printf(" %9.1f %9.1f", (double)*j->samples / cpu * 1e-6, (double)*j->samples / wall_two * 1e-6);
     if (j->bytes)
         printf("   %.2f MB", (double)*j->bytes * 1e-6);

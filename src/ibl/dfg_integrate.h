@@ -22,12 +22,14 @@ dfg_terms dfg_integrate(dfg_masking masking, float perceptual_roughness, double 
 /* The albedo for F = 1 averaged over the cosine, Eavg = 2 int E mu dmu. Within 1e-5. */
 double dfg_integrate_average(dfg_masking masking, float perceptual_roughness);
 
-/* What albedos of sheen of one roughness have in common: nodes of N.L. */
-enum { SHEEN_NODES = 72 };
+/* What albedos of sheen of one roughness have in common: nodes of N.L, and D as a table, because powers are most of the work. */
+enum { SHEEN_NODES = 72, SHEEN_TABLE = 4096 };
 typedef struct sheen_nodes {
     float alpha; /* 0: roughness 0, a rim without width, which reflects nothing */
     float NdotL[SHEEN_NODES], weight[SHEEN_NODES];
     float Lambda[SHEEN_NODES]; /* Lambda_Charlie() of NdotL */
+    float D_scale;             /* entry of the table over (N.H)^2 */
+    float D[SHEEN_TABLE + 2]; /* D_Charlie(); 0 from SHEEN_TABLE on, where it is below 1e-10 of its largest */
 } sheen_nodes;
 void sheen_prepare(float sheen_roughness, sheen_nodes *out);
 
@@ -37,7 +39,8 @@ typedef struct sheen_albedos {
     double neubelt; /* V_Neubelt */
 } sheen_albedos;
 
-/* NdotV as above. Not clamped: above 1 where the model is. Within 1e-5. */
+/* NdotV as above. Not clamped: above 1 where the model is. Within 1e-5, or 1e-4 of what is above 4, smooth rims at grazing
+ * views. */
 sheen_albedos sheen_integrate(const sheen_nodes *nodes, double NdotV);
 
 #endif
