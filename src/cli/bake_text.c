@@ -21,7 +21,7 @@ static const char *const orders[9] = {"L00", "L1-1", "L10", "L11", "L2-2", "L2-1
 static const char basis[] =
     "real spherical harmonics without the sign of Condon and Shortley, +Y up, linear Rec.709";
 
-void bake_text_add(bake_text *t, const char *format, ...)
+static __attribute__((format(printf, 2, 3))) void add(bake_text *t, const char *format, ...)
 {
     va_list arguments;
     for (int attempt = 0; attempt < 2 && !t->has_failed; attempt++) {
@@ -69,7 +69,7 @@ void bake_text_sh_json(bake_text *t, const float sh[3][9][3], const char *source
                              order, "windowed", (int)is_windowed, "forms", list);
     char *text = root ? json_dumps(root, JSON_INDENT(1) | JSON_REAL_PRECISION(9)) : NULL;
     if (text)
-        bake_text_add(t, "%s\n", text);
+        add(t, "%s\n", text);
     else
         t->has_failed = true;
     free(text);
@@ -82,35 +82,34 @@ static void add_in_comment(bake_text *t, const char *name)
     for (; *name; name++)
         if ((unsigned char)*name < ' ' || (name[0] == '*' && name[1] == '/') ||
             (name[0] == '?' && name[1] == '?'))
-            bake_text_add(t, "_");
+            add(t, "_");
         else
-            bake_text_add(t, "%c", *name);
+            add(t, "%c", *name);
 }
 
 void bake_text_sh_header(bake_text *t, const float sh[3][9][3], const char *source, const char *symbol)
 {
-    bake_text_add(t, "/* ");
+    add(t, "/* ");
     add_in_comment(t, source);
-    bake_text_add(t, " as nine spherical harmonics, by facet %s.\n *\n * Basis: %s. Order:", facet_version(),
-                  basis);
+    add(t, " as nine spherical harmonics, by facet %s.\n *\n * Basis: %s. Order:", facet_version(), basis);
     for (int i = 0; i < 9; i++)
-        bake_text_add(t, " %s", orders[i]);
-    bake_text_add(t, " */\n");
+        add(t, " %s", orders[i]);
+    add(t, " */\n");
     for (int form = 0; form < 3; form++) {
-        bake_text_add(t, "\n/* %s */\nstatic const float %s_%s[9][3] = {\n", forms[form].meaning, symbol,
-                      forms[form].name);
+        add(t, "\n/* %s */\nstatic const float %s_%s[9][3] = {\n", forms[form].meaning, symbol,
+            forms[form].name);
         for (int i = 0; i < 9; i++)
-            bake_text_add(t, "    {%.8ef, %.8ef, %.8ef}, /* %s */\n", (double)sh[form][i][0],
-                          (double)sh[form][i][1], (double)sh[form][i][2], orders[i]);
-        bake_text_add(t, "};\n");
+            add(t, "    {%.8ef, %.8ef, %.8ef}, /* %s */\n", (double)sh[form][i][0], (double)sh[form][i][1],
+                (double)sh[form][i][2], orders[i]);
+        add(t, "};\n");
     }
 }
 
 void bake_text_sh_filament(bake_text *t, const float folded[9][3])
 {
     for (int i = 0; i < 9; i++)
-        bake_text_add(t, "(%18.15f, %18.15f, %18.15f); // %s, irradiance, pre-scaled base\n",
-                      (double)folded[i][0], (double)folded[i][1], (double)folded[i][2], orders[i]);
+        add(t, "(%18.15f, %18.15f, %18.15f); // %s, irradiance, pre-scaled base\n", (double)folded[i][0],
+            (double)folded[i][1], (double)folded[i][2], orders[i]);
 }
 
 /* ---- tables ---- */
@@ -118,25 +117,22 @@ void bake_text_sh_filament(bake_text *t, const float folded[9][3])
 void bake_text_table(bake_text *t, const facet_image_view *table, uint32_t channel_count, const char *what,
                      const char *symbol)
 {
-    bake_text_add(
-        t,
+    add(t,
         "/* %s, by facet %s.\n *\n * [y][x][channel]: x is N.V and y perceptual roughness, both from 0, at "
         "texel middles:\n * N.V = (x + 0.5) / %u, perceptual roughness = (y + 0.5) / %u. */\n",
         what, facet_version(), table->width, table->height);
-    bake_text_add(t, "static const float %s[%u][%u][%u] = {\n", symbol, table->height, table->width,
-                  channel_count);
+    add(t, "static const float %s[%u][%u][%u] = {\n", symbol, table->height, table->width, channel_count);
     for (uint32_t y = 0; y < table->height; y++) {
         const float *row = (const float *)((const char *)table->pixels + y * table->row_stride_bytes);
-        bake_text_add(t, "    {");
+        add(t, "    {");
         for (uint32_t x = 0; x < table->width; x++) {
             const float *texel = row + (size_t)x * table->channel_count;
             for (uint32_t i = 0; i < channel_count; i++)
-                bake_text_add(t, "%s%.8ef%s", i ? ", " : "{", (double)texel[i],
-                              i + 1 == channel_count ? "}" : "");
-            bake_text_add(t, "%s", x + 1 == table->width ? "},\n" : x % 4 == 3 ? ",\n     " : ", ");
+                add(t, "%s%.8ef%s", i ? ", " : "{", (double)texel[i], i + 1 == channel_count ? "}" : "");
+            add(t, "%s", x + 1 == table->width ? "},\n" : x % 4 == 3 ? ",\n     " : ", ");
         }
     }
-    bake_text_add(t, "};\n");
+    add(t, "};\n");
 }
 
 void bake_text_symbol(const char *path, char *symbol, size_t size)

@@ -13,8 +13,6 @@ typedef struct bake_text {
     bool has_failed; /* out of memory */
 } bake_text;
 
-void bake_text_add(bake_text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
 /* Nine coefficients by facet_sh_form, with what they are said in the file. source: the environment's name. */
 void bake_text_sh_json(bake_text *t, const float sh[3][9][3], const char *source, bool is_windowed);
 void bake_text_sh_header(bake_text *t, const float sh[3][9][3], const char *source, const char *symbol);
