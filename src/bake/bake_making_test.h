@@ -15,6 +15,12 @@ enum { IS_SLOW = 0 };
 enum { IS_SLOW = 1 };
 #endif
 
+/* Rings take harmonics of a high degree, seconds where nothing is optimised: the tests of rings are enough there. */
+static inline bool is_slow_ring(int lobe, int method)
+{
+    return IS_SLOW && lobe == FACET_LOBE_CHARLIE && method == FACET_BAKE_AUTO;
+}
+
 static inline facet_cube *bake(facet_environment *e, facet_bake_desc desc)
 {
     facet_cube *c = NULL;

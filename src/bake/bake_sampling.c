@@ -13,9 +13,9 @@ static const double pi = 3.14159265358979323846;
 enum { LANES = 8 };
 typedef int32_t int8 __attribute__((vector_size(32), may_alias));
 
-/* Samples that are looked up in the same level, LANES at a time; the last ones may be of no account. */
+/* Samples that are looked up in the same level, LANES at a time; the last ones may have no weight. */
 typedef struct sample_group {
-    uint32_t first, block_count, count; /* blocks of LANES; samples */
+    uint32_t first, block_count; /* blocks of LANES */
 } sample_group;
 
 typedef struct sample_set {
@@ -111,13 +111,11 @@ static void place_samples(const bake_pyramid *p, const ring *rings, uint32_t rin
                 weight[at++] = (float)share;
             }
         }
-        set->groups[level] =
-            (sample_group){.first = (uint32_t)(first / LANES), .count = (uint32_t)(at - first)};
         for (; at % LANES; at++) {
             x[at] = y[at] = weight[at] = 0.0f;
             z[at] = 1.0f;
         }
-        set->groups[level].block_count = (uint32_t)((at - first) / LANES);
+        set->groups[level] = (sample_group){(uint32_t)(first / LANES), (uint32_t)((at - first) / LANES)};
     }
 }
 
@@ -207,21 +205,12 @@ static inline __attribute__((always_inline)) void locate(const float8 *x, const 
     out->texel = (face * stride + y0) * stride + x0;
 }
 
-static inline __attribute__((always_inline)) rgbx fetch(const rgbx *texels, size_t stride, const float *right,
-                                                        const float *down)
-{
-    const rgbx *below = texels + stride;
-    rgbx a = texels[0] + (texels[1] - texels[0]) * *right;
-    rgbx b = below[0] + (below[1] - below[0]) * *right;
-    return a + (b - a) * *down;
-}
-
 /* Sum over the samples of a level, turned to the axes right, up, out. */
 static inline __attribute__((always_inline)) void
 add_group(const sampling *job, const cube *level, const sample_group *g, float axes[3][3], rgbx *sum)
 {
     size_t stride = (size_t)level->size + 2;
-    rgbx part = {0};
+    float8 part = {0}; /* of the texels on the left and of those on the right */
     for (uint32_t i = 0; i < g->block_count; i++) {
         float8 x = job->set.x[g->first + i];
         float8 y = job->set.y[g->first + i];
@@ -231,17 +220,25 @@ add_group(const sampling *job, const cube *level, const sample_group *g, float a
         float8 dz = x * axes[0][2] + y * axes[1][2] + z * axes[2][2];
         sample_places p;
         locate(&dx, &dy, &dz, (int32_t)level->size, &p);
+        float8 weight = job->set.weight[g->first + i];
+        float8 weighted = p.right * weight;
+        float8 rest = weight - weighted;
         int32_t texel[LANES];
-        float right[LANES], down[LANES];
+        float right[LANES], left[LANES], down[LANES];
         memcpy(texel, &p.texel, sizeof texel);
-        memcpy(right, &p.right, sizeof right);
+        memcpy(right, &weighted, sizeof right);
+        memcpy(left, &rest, sizeof left);
         memcpy(down, &p.down, sizeof down);
-        const float *weight = (const float *)&job->set.weight[g->first + i];
-        uint32_t count = g->count - i * LANES < LANES ? g->count - i * LANES : LANES;
-        for (uint32_t k = 0; k < count; k++)
-            part += fetch(level->texels + texel[k], stride, &right[k], &down[k]) * weight[k];
+        for (uint32_t k = 0; k < LANES; k++) {
+            float8 above, below; /* two texels each */
+            memcpy(&above, level->texels + texel[k], sizeof above);
+            memcpy(&below, level->texels + texel[k] + stride, sizeof below);
+            float l = left[k];
+            float r = right[k];
+            part += (above + (below - above) * down[k]) * (float8){l, l, l, l, r, r, r, r};
+        }
     }
-    *sum += part;
+    *sum += (rgbx){part[0] + part[4], part[1] + part[5], part[2] + part[6], part[3] + part[7]};
 }
 
 DISPATCH_AVX2 static void sample_rows(void *context, size_t begin, size_t end)

@@ -29,6 +29,8 @@ static void test_constant(void **state)
     assert_int_equal(facet_environment_create_constant(radiance, NULL, &e, NULL), FACET_OK);
     for (int lobe = 0; lobe <= FACET_LOBE_NONE; lobe++)
         for (int method = 0; method <= FACET_BAKE_REFERENCE; method++) {
+            if (is_slow_ring(lobe, method))
+                continue;
             facet_cube *c = bake(e, (facet_bake_desc){.lobe = (facet_lobe)lobe,
                                                       .method = (facet_bake_method)method,
                                                       .size = 16,
@@ -116,7 +118,9 @@ static void test_bands(void **state)
     for (int lobe = 0; lobe < 2; lobe++)
         for (int method = 0; method < 2; method++) {
             double a = worst_of_bands(low, (facet_lobe)lobe, (facet_bake_method)method, false);
-            double b = worst_of_bands(high, (facet_lobe)lobe, (facet_bake_method)method, true);
+            double b = is_slow_ring(lobe, method)
+                           ? 0.0
+                           : worst_of_bands(high, (facet_lobe)lobe, (facet_bake_method)method, true);
             print_message("lobe %d, method %d: largest deviation %.1e, %.1e\n", lobe, method, a, b);
             assert_true(fmax(a, b) < tolerance[method]);
         }
@@ -251,9 +255,10 @@ static void check_sun(facet_lobe kind, facet_bake_method method, uint32_t x, uin
 static void test_sun(void **state)
 {
     (void)state;
-    if (!IS_SLOW)
-        check_sun(FACET_LOBE_GGX, FACET_BAKE_AUTO, 200, 154, 0.01, 5e-3);
     check_sun(FACET_LOBE_GGX, FACET_BAKE_AUTO, 768, 5, 0.01, 5e-3); /* at a pole */
+    if (IS_SLOW)
+        return;
+    check_sun(FACET_LOBE_GGX, FACET_BAKE_AUTO, 200, 154, 0.01, 5e-3);
     check_sun(FACET_LOBE_GGX, FACET_BAKE_SAMPLING, 200, 154, 0.2, 0.06);
     check_sun(FACET_LOBE_NONE, FACET_BAKE_AUTO, 666, 505, 0.0, 0.0);
 }
@@ -317,6 +322,8 @@ static void test_quarter_turn(void **state)
     (void)state;
     facet_environment *e = make_environment(256, 128, smooth);
     for (int lobe = 0; lobe <= FACET_LOBE_NONE; lobe++) {
+        if (is_slow_ring(lobe, FACET_BAKE_AUTO))
+            continue;
         facet_bake_desc desc = {.lobe = (facet_lobe)lobe, .size = 32, .level_count = 3};
         facet_cube *straight = bake(e, desc);
         desc.rotation_rad = (float)(0.5 * pi);
@@ -344,6 +351,8 @@ static void test_no_seams(void **state)
     facet_environment *e = make_environment(256, 128, smooth);
     for (int lobe = 0; lobe < 2; lobe++)
         for (int method = 0; method < 2; method++) {
+            if (is_slow_ring(lobe, method))
+                continue;
             facet_cube *c = bake(e, (facet_bake_desc){.lobe = (facet_lobe)lobe,
                                                       .method = (facet_bake_method)method,
                                                       .size = 32,
@@ -433,6 +442,8 @@ static void test_threads(void **state)
     facet_environment *e = make_environment(200, 100, smooth);
     for (int method = 0; method <= FACET_BAKE_REFERENCE; method++)
         for (int lobe = 0; lobe < 2; lobe++) {
+            if (is_slow_ring(lobe, method))
+                continue;
             facet_bake_desc desc = {.lobe = (facet_lobe)lobe,
                                     .method = (facet_bake_method)method,
                                     .size = method == FACET_BAKE_REFERENCE ? 8 : 32,
