@@ -18,7 +18,8 @@ enum {
     MAX_SIZE = 8192,
     DEFAULT_SAMPLES = 1024,
     MAX_SAMPLES = 1 << 20,
-    LEAST_DEGREE = 256 /* of the analysis of a fine picture */
+    MAX_PYRAMID = 1024, /* 134 MB; larger only beside larger results */
+    LEAST_DEGREE = 256  /* of the analysis of a fine picture */
 };
 
 /* Shares of a lobe's root mean square that harmonics may cut off. Twice as much is still better than sampling. A sun alone in
@@ -112,7 +113,8 @@ static void plan_lobe(const facet_bake_desc *desc, const bake_source *source, fl
         }
     }
     if (plan->kind == LEVEL_SAMPLED) {
-        uint32_t size = bake_pyramid_size(&plan->lobe, desc->samples, source->picture.height);
+        uint32_t most = desc->size > MAX_PYRAMID ? desc->size : MAX_PYRAMID;
+        uint32_t size = bake_pyramid_size(&plan->lobe, desc->samples, source->picture.height, most);
         plans->pyramid_size = size > plans->pyramid_size ? size : plans->pyramid_size;
     }
     plans->needs_reference |= plan->kind == LEVEL_REFERENCE;

@@ -10,8 +10,6 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { MAX_BASE = 2048 };
-
 /* ---- means ---- */
 
 typedef struct halving {
@@ -236,7 +234,8 @@ void bake_pyramid_destroy(bake_pyramid *p)
     *p = (bake_pyramid){0};
 }
 
-uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_t picture_height)
+uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_t picture_height,
+                           uint32_t most_texels)
 {
     bake_lobe_shares shares;
     bake_lobe_share_init(lobe, &shares);
@@ -246,7 +245,7 @@ uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_
     double solid = BAKE_OVERLAP / (sample_count * most);
     double wanted = sqrt(4.0 * pi / (6.0 * solid));
     uint32_t size = 1;
-    while (size < MAX_BASE &&
+    while (size < most_texels &&
            (size < picture_height / 2 || (size < picture_height * 2 && size < 2.0 * wanted)))
         size *= 2;
     return size;
