@@ -28,8 +28,8 @@ typedef struct sheen_nodes {
     float alpha; /* 0: roughness 0, a rim without width, which reflects nothing */
     float NdotL[SHEEN_NODES], weight[SHEEN_NODES];
     float Lambda[SHEEN_NODES]; /* Lambda_Charlie() of NdotL */
-    float D_scale;             /* entry of the table over (N.H)^2 */
-    float D[SHEEN_TABLE + 2]; /* D_Charlie(); 0 from SHEEN_TABLE on, where it is below 1e-10 of its largest */
+    float least_sine, D_scale; /* entry of the table: (sin(N, H) - least_sine) D_scale */
+    float D[SHEEN_TABLE + 2];  /* D_Charlie(); below entry 0 it is less than 1e-10 of its largest */
 } sheen_nodes;
 void sheen_prepare(float sheen_roughness, sheen_nodes *out);
 

@@ -19,15 +19,17 @@ enum { PANELS = SHEEN_NODES / 8, LONGITUDES = 16 };
 /* Of y; the last one ends at the root of 1/2. */
 static const double panel_ends[PANELS] = {0.0, 0.06, 0.12, 0.18, 0.23, 0.28, 0.35, 0.5, 0.79370052598409974};
 
-/* (1 - (N.H)^2)^(1 / 2 alpha) falls to 1e-10 at 1 - exp(-46 alpha) or before: steps are a 178th of what it falls by e over, and
- * what is read linearly between them is 4e-6 off at most. */
+/* D is as sin(N, H)^(1 / alpha), which has fallen to 1e-10 at exp(-23 alpha). A step is a 178th of what it falls by e over, or
+ * less, and what is read linearly between two entries is 4e-6 off at most. Over (N.H)^2 it would have a root at 1. */
 static void make_table(sheen_nodes *out)
 {
-    float end = 1.0f - exp(-46.0f * out->alpha);
-    out->D_scale = (float)SHEEN_TABLE / end;
-    for (int i = 0; i < SHEEN_TABLE; i++)
-        out->D[i] = D_Charlie(sqrt((float)i / out->D_scale), out->alpha);
-    out->D[SHEEN_TABLE] = out->D[SHEEN_TABLE + 1] = 0.0f;
+    out->least_sine = exp(-23.0f * out->alpha);
+    out->D_scale = (float)SHEEN_TABLE / (1.0f - out->least_sine);
+    for (int i = 0; i <= SHEEN_TABLE; i++) {
+        float sine = min(out->least_sine + (float)i / out->D_scale, 1.0f);
+        out->D[i] = D_Charlie(sqrt((1.0f - sine) * (1.0f + sine)), out->alpha);
+    }
+    out->D[SHEEN_TABLE + 1] = out->D[SHEEN_TABLE];
 }
 
 static inline float read_table(const sheen_nodes *nodes, float place)
@@ -77,12 +79,14 @@ sheen_albedos sheen_integrate(const sheen_nodes *nodes, double NdotV)
         /* (N.H)^2 = (N.V + N.L)^2 / |V + L|^2, and that is 2 + 2 V.L = level + swing cos p */
         float level = 2.0f + 2.0f * mu * NdotL;
         float swing = 2.0f * sin_v * sqrt((1.0f - NdotL) * (1.0f + NdotL));
-        float square = (mu + NdotL) * (mu + NdotL) * nodes->D_scale;
-        if (square / (level + swing) >= (float)SHEEN_TABLE)
+        float square = (mu + NdotL) * (mu + NdotL);
+        if (square / (level + swing) >= (1.0f - nodes->least_sine) * (1.0f + nodes->least_sine))
             break; /* nothing here, where the ring has most, nor on the next ones */
         float places[LONGITUDES];
-        for (int k = 0; k < LONGITUDES; k++)
-            places[k] = min(square / (level + swing * cosines[k]), (float)SHEEN_TABLE);
+        for (int k = 0; k < LONGITUDES; k++) {
+            float sine = sqrt(max(1.0f - square / (level + swing * cosines[k]), 0.0f));
+            places[k] = max((sine - nodes->least_sine) * nodes->D_scale, 0.0f);
+        }
         float D = 0.0f;
         for (int k = 0; k < LONGITUDES; k++)
             D += weights[k] * read_table(nodes, places[k]);

@@ -31,15 +31,14 @@ const schlick = (alpha, v, l) => {
     return part(v) * part(l) / 4;
 };
 
-// The albedo of sheen: D of Charlie (Estevez and Kulla 2017) over all half vectors.
+// The albedo of sheen: the integral of D V N.L over directions of light, D of Charlie (Estevez and Kulla 2017).
 function sheen_albedo(NdotV, perceptual_roughness, visibility) {
-    const alpha = perceptual_roughness ** 2, V = [Math.sqrt(1 - NdotV ** 2), 0, NdotV];
-    return grid(300, 200, (u, v) => {
-        const s = Math.sqrt(1 - u * u), phi = Math.PI * v, H = [s * Math.cos(phi), s * Math.sin(phi), u];
-        const VdotH = V[0] * H[0] + V[2] * H[2], NdotL = 2 * VdotH * u - NdotV;
-        if (NdotL <= 0 || VdotH <= 0) return [0];
-        const D = (2 + 1 / alpha) * s ** (1 / alpha) / (2 * Math.PI);
-        return [4 * 2 * Math.PI * D * visibility(alpha, NdotV, NdotL) * NdotL * VdotH];
+    const alpha = perceptual_roughness ** 2, sin_v = Math.sqrt(1 - NdotV ** 2);
+    return grid(400, 200, (u, v) => {
+        const NdotL = u * u, VdotL = sin_v * Math.sqrt(1 - NdotL ** 2) * Math.cos(Math.PI * v) + NdotV * NdotL;
+        const NdotH2 = (NdotV + NdotL) ** 2 / (2 + 2 * VdotL);
+        const D = (2 + 1 / alpha) * Math.max(1 - NdotH2, 0) ** (0.5 / alpha) / (2 * Math.PI);
+        return [D * visibility(alpha, NdotV, NdotL) * NdotL * 2 * Math.PI * 2 * u];
     });
 }
 const lambda = (x, alpha) => {
