@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "cpu/texture.h"
+#include "draw/texture.h"
 #include "image/image.h"
 
 enum { TEXTURE_COUNT = 5, JPEG_SIZE = 2048, LOOKUPS = 1 << 19, REPEATS = 9 };

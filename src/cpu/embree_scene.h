@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 
 #include "cpu/embree.h"
-#include "cpu/render_geometry.h"
+#include "draw/render_geometry.h"
 
 /* Embree's own memory, counted against the budget of the allocator where there is one. */
 typedef struct embree_memory {

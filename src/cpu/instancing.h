@@ -2,7 +2,7 @@
 #ifndef CPU_INSTANCING_H
 #define CPU_INSTANCING_H
 
-#include "cpu/render_geometry.h"
+#include "draw/render_geometry.h"
 
 typedef struct instancing_desc {
     const facet_pose_desc *pose;

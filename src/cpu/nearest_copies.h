@@ -2,7 +2,7 @@
 #ifndef CPU_NEAREST_COPIES_H
 #define CPU_NEAREST_COPIES_H
 
-#include "cpu/render_geometry.h"
+#include "draw/render_geometry.h"
 
 /* Enough to cover the pixels that count, also where some are hidden or turned away. */
 enum { NEAREST_COPIES = 64 };

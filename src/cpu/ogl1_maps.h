@@ -2,7 +2,7 @@
 #ifndef CPU_OGL1_MAPS_H
 #define CPU_OGL1_MAPS_H
 
-#include "cpu/render_geometry.h"
+#include "draw/render_geometry.h"
 
 /* Bits of legacy_map_slot that a shade of a geometry with a legacy material looks up, whether there are tangents or not.
  * Pipelines that light at vertices have textures of color and opacity only. */

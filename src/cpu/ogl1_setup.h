@@ -3,8 +3,8 @@
 #ifndef CPU_OGL1_SETUP_H
 #define CPU_OGL1_SETUP_H
 
-#include "cpu/light_setup.h"
-#include "cpu/material_plan.h"
+#include "draw/light_setup.h"
+#include "draw/material_plan.h"
 #include "cpu/prepared_scene.h"
 
 #include "shade/shade.h"

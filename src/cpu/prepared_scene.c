@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "cpu/instancing.h"
 #include "cpu/nearest_copies.h"
-#include "cpu/texture_store.h"
+#include "draw/texture_store.h"
 
 void prepared_scene_init(prepared_scene *p, const facet_scene *scene, const facet_allocator *allocator)
 {

@@ -11,9 +11,9 @@
 #define CPU_PREPARED_SCENE_H
 
 #include "cpu/embree_scene.h"
-#include "cpu/tangent_store.h"
+#include "draw/tangent_store.h"
 
-struct texture_store; /* cpu/texture_store.h */
+struct texture_store; /* draw/texture_store.h */
 
 /* A facet_pose_desc with its own list. */
 typedef struct prepared_key {

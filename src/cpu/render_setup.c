@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "cpu/texture_need.h"
-#include "cpu/texture_set.h"
+#include "draw/texture_set.h"
 
 #include <math.h>
 

@@ -2,10 +2,10 @@
 #ifndef CPU_SHADING_H
 #define CPU_SHADING_H
 
-#include "cpu/light_setup.h"
-#include "cpu/material_plan.h"
+#include "draw/light_setup.h"
+#include "draw/material_plan.h"
 #include "cpu/shading_ray.h"
-#include "cpu/texture.h"
+#include "draw/texture.h"
 #include "cpu/visibility.h"
 
 struct ogl1_setup; /* cpu/ogl1_setup.h */

@@ -3,7 +3,7 @@
 #ifndef CPU_SHADING_RAY_H
 #define CPU_SHADING_RAY_H
 
-#include "cpu/camera_rays.h"
+#include "draw/camera_rays.h"
 
 /* How a ray changes over what it stands for, along two axes (a camera ray's: the picture's x and y), after Igehy 1999,
  * "Tracing Ray Differentials". */

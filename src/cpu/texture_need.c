@@ -1,7 +1,7 @@
 /* texture_need.c - see texture_need.h. */
 #include "cpu/texture_need.h"
 
-#include "cpu/material_plan.h"
+#include "draw/material_plan.h"
 #include "cpu/ogl1_maps.h"
 
 #include <math.h>

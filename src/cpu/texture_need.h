@@ -2,8 +2,8 @@
 #ifndef CPU_TEXTURE_NEED_H
 #define CPU_TEXTURE_NEED_H
 
-#include "cpu/render_geometry.h"
-#include "cpu/texture.h"
+#include "draw/render_geometry.h"
+#include "draw/texture.h"
 
 /* How a picture is drawn, as far as it matters to texture footprints. */
 typedef struct texture_need_desc {

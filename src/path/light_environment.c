@@ -55,7 +55,7 @@ static float sample_linear(float u, float a, float b)
 
 /* ---- directions ---- */
 
-/* World to environment and back: cpu/light_setup.c. */
+/* World to environment and back: draw/light_setup.c. */
 static vec3 to_picture(const light_environment *e, vec3 d)
 {
     return vec3(d[0] * e->rotation_cos - d[2] * e->rotation_sin, d[1],

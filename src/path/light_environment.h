@@ -10,7 +10,7 @@
 #ifndef PATH_LIGHT_ENVIRONMENT_H
 #define PATH_LIGHT_ENVIRONMENT_H
 
-#include "cpu/light_setup.h"
+#include "draw/light_setup.h"
 #include "image/image.h"
 #include "shade/shade.h"
 

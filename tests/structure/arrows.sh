@@ -17,13 +17,14 @@ allowed() {
     film) echo film image base shade facet ;;
     bake) echo bake ibl scene image base shade facet ;;
     glsl) echo glsl base facet ;;
-    cpu) echo cpu film ibl scene image base shade facet ;;
+    draw) echo draw ibl scene image base shade facet ;;
+    cpu) echo cpu draw film ibl scene image base shade facet ;;
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;
-    report) echo report bake plot legacy cpu film ibl scene image base facet ;;
-    path) echo path cpu film ibl scene image base shade facet ;;
+    report) echo report bake plot legacy cpu draw film ibl scene image base facet ;;
+    path) echo path cpu draw film ibl scene image base shade facet ;;
     compare) echo compare image base shade facet ;;
-    api) echo api path bake compare report plot legacy io cpu ibl film scene image base facet ;;
+    api) echo api path bake compare report plot legacy io cpu draw ibl film scene image base facet ;;
     cli) echo cli facet ;;
     *) echo "" ;;
     esac

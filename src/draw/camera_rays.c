@@ -1,0 +1,107 @@
+/* camera_rays.c - see camera_rays.h. The basis is computed in double: what it costs is nothing, and the rays of a
+ * telephoto camera far from the origin differ in the last bits only. */
+#include "draw/camera_rays.h"
+
+#include <math.h>
+
+#include "base/result.h"
+
+typedef struct basis {
+    double right[3], up[3], forward[3];
+} basis;
+
+static double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross3(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static bool normalize3(double a[3])
+{
+    double length = sqrt(dot3(a, a));
+    if (!(length > 0.0) || !isfinite(length))
+        return false;
+    for (int i = 0; i < 3; i++)
+        a[i] /= length;
+    return true;
+}
+
+/* Right, up and forward of the camera; false: it looks nowhere. */
+static bool camera_basis(const facet_camera *camera, basis *b)
+{
+    for (int i = 0; i < 3; i++) {
+        b->forward[i] = (double)camera->target[i] - (double)camera->eye[i];
+        b->up[i] = (double)camera->up[i];
+    }
+    if (!normalize3(b->forward))
+        return false;
+    if (!normalize3(b->up)) {
+        bool looks_along_y = fabs(b->forward[1]) > 0.999999;
+        b->up[0] = 0.0;
+        b->up[1] = looks_along_y ? 0.0 : 1.0;
+        b->up[2] = looks_along_y ? -1.0 : 0.0;
+    }
+    cross3(b->forward, b->up, b->right);
+    if (dot3(b->right, b->right) < 1e-16 || !normalize3(b->right))
+        return false;
+    cross3(b->right, b->forward, b->up);
+    return true;
+}
+
+/* Whether vectors that vary over the picture as middle + x dx + y dy stay where Embree takes them: it ends the process
+ * for what is beyond 1.8e18. */
+static bool is_within_reach(const float middle[3], const float dx[3], const float dy[3], uint32_t width,
+                            uint32_t height)
+{
+    for (int i = 0; i < 3; i++) {
+        double most = fabs((double)middle[i]) + fabs((double)dx[i]) * width + fabs((double)dy[i]) * height;
+        if (!(most <= 1e18))
+            return false;
+    }
+    return true;
+}
+
+facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint32_t height,
+                                camera_rays *rays, facet_error *error)
+{
+    basis b;
+    if (!camera_basis(camera, &b))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "camera: eye and target must be two points, and up not along the line between them");
+    double aspect = (double)width / (double)height;
+    /* A picture narrower than the camera was made for: keep the width, show more above and below. */
+    double fit =
+        camera->aspect > 0.0f && aspect < (double)camera->aspect ? (double)camera->aspect / aspect : 1.0;
+    bool is_orthographic = !(camera->fov_y_rad > 0.0f);
+    double extent =
+        is_orthographic ? (double)camera->ortho_height : 2.0 * tan(0.5 * (double)camera->fov_y_rad);
+    double pixel = extent * fit / (double)height;
+    if (!(pixel > 0.0) || !isfinite(pixel) || camera->fov_y_rad >= 3.14159f)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "camera: the field of view must be between 0 and 180 degrees, or the height above 0");
+
+    *rays = (camera_rays){.middle = {0.5f * (float)width, 0.5f * (float)height},
+                          .near_m = camera->near_m > 0.0f ? camera->near_m : 0.0f,
+                          .far_m = camera->far_m > 0.0f ? camera->far_m : INFINITY,
+                          .pixel_size = (float)pixel,
+                          .is_orthographic = is_orthographic};
+    float *dx = is_orthographic ? rays->origin_dx : rays->direction_dx;
+    float *dy = is_orthographic ? rays->origin_dy : rays->direction_dy;
+    for (int i = 0; i < 3; i++) {
+        rays->origin[i] = camera->eye[i];
+        rays->direction[i] = (float)b.forward[i];
+        dx[i] = (float)(b.right[i] * pixel);
+        dy[i] = (float)(-b.up[i] * pixel);
+    }
+    if (!is_within_reach(rays->origin, rays->origin_dx, rays->origin_dy, width, height) ||
+        !is_within_reach(rays->direction, rays->direction_dx, rays->direction_dy, width, height))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "camera: the picture is too wide or too far away; its corners must be within 1e18 m");
+    return FACET_OK;
+}

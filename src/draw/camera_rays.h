@@ -1,0 +1,44 @@
+/* camera_rays.h - from a camera to the rays through a picture. */
+#ifndef DRAW_CAMERA_RAYS_H
+#define DRAW_CAMERA_RAYS_H
+
+#include "facet/facet.h"
+
+/* The ray through picture position (x, y) (pixels; (0, 0) is the top left corner, the middle of a pixel is at
+ * 0.5) is
+ *     origin + X origin_dx + Y origin_dy + t (direction + X direction_dx + Y direction_dy)
+ * with X = x - middle[0], Y = y - middle[1]. Directions are not of unit length: t is the depth along the camera's
+ * axis in m. A perspective camera has origin_d* = 0, an orthographic one direction_d* = 0. */
+typedef struct camera_rays {
+    float origin[3], origin_dx[3], origin_dy[3];
+    float direction[3], direction_dx[3], direction_dy[3];
+    float middle[2];
+    float near_m, far_m; /* far_m: infinity where there is no limit */
+    float pixel_size;    /* height of a pixel in m, at depth 1 m where the camera is perspective */
+    bool is_orthographic;
+} camera_rays;
+
+/* For the whole picture of width x height pixels. A camera made for another aspect shows all that it was made to
+ * show, and more on two sides. Fails with FACET_ERROR_ARGUMENT for a camera that looks nowhere. */
+facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint32_t height,
+                                camera_rays *rays, facet_error *error);
+
+/* One ray. */
+static inline void camera_rays_at(const camera_rays *rays, float x, float y, float origin[3],
+                                  float direction[3])
+{
+    float X = x - rays->middle[0];
+    float Y = y - rays->middle[1];
+    for (int i = 0; i < 3; i++) {
+        origin[i] = rays->origin[i] + X * rays->origin_dx[i] + Y * rays->origin_dy[i];
+        direction[i] = rays->direction[i] + X * rays->direction_dx[i] + Y * rays->direction_dy[i];
+    }
+}
+
+/* Height of a pixel in m at that depth, at least that of 0. */
+static inline float camera_rays_pixel_size(const camera_rays *rays, float depth_m)
+{
+    return rays->is_orthographic ? rays->pixel_size : rays->pixel_size * (depth_m > 0.0f ? depth_m : 0.0f);
+}
+
+#endif

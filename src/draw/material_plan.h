@@ -1,0 +1,39 @@
+/* material_plan.h - what shading a geometry takes, found once per render from its material. */
+#ifndef DRAW_MATERIAL_PLAN_H
+#define DRAW_MATERIAL_PLAN_H
+
+#include "draw/render_geometry.h"
+
+/* Of one geometry. */
+typedef struct material_plan {
+    uint32_t textures; /* bits of scene_texture_slot: what a full shade looks up */
+    int slot_count;    /* slots that are read, with or without a texture */
+    uint32_t layers;   /* LAYER_* of shade/layers.h that some of its points may have; 0: a plain surface */
+    bool lets_rays_through; /* LAYER_TRANSMISSION */
+    bool reads_changes;     /* over the footprint: of textures, or of what rays refract by */
+    uint32_t
+        legacy_maps; /* bits of legacy_map_slot: what a shade of a legacy material looks up; ogl1_setup.h */
+    bool is_volume;  /* the boundary of a body that rays go through, not a thin wall: both sides are seen */
+    bool is_body;    /* the same, or of one that light enters diffusely */
+    bool may_pass_straight; /* light may go on through it without a change of direction */
+} material_plan;
+
+typedef struct material_plan_set {
+    material_plan *items;   /* per geometry; block of mem_alloc() */
+    bool lets_rays_through; /* some geometry */
+    bool has_several_volumes;
+    bool has_see_through; /* some geometry is not met by every ray that reaches it: alpha mask or blend */
+    bool has_bodies;
+    bool may_pass_straight; /* some geometry */
+} material_plan_set;
+
+/* Bits of the textures that a shade of the geometry may look up, whether there are tangents or not. */
+uint32_t material_plan_textures(const render_geometry *g);
+/* LAYER_* that points of a lit geometry of that material may have. */
+uint32_t material_plan_layers(const scene_material *m);
+/* Needs the tangents of set. Those of geometries that are drawn with legacy materials are 0. Fails with FACET_ERROR_MEMORY. */
+facet_result material_plans_create(const render_geometry_set *set, const facet_allocator *allocator,
+                                   material_plan_set *out, facet_error *error);
+void material_plans_destroy(material_plan_set *plans); /* {0} is allowed */
+
+#endif
