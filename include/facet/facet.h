@@ -533,7 +533,8 @@ typedef struct facet_ogl1_desc {
 /* How light is carried to the camera. */
 typedef enum facet_integrator {
     FACET_INTEGRATOR_PREVIEW, /* one bounce of prefiltered light, no shadows: what real-time viewers show */
-    FACET_INTEGRATOR_PATH     /* path tracing: unbiased but for what facet_path_desc says is not */
+    FACET_INTEGRATOR_PATH,    /* path tracing: unbiased but for what facet_path_desc says is not */
+    FACET_INTEGRATOR_GL /* as the preview, drawn with OpenGL; FACET_ERROR_ENVIRONMENT where there is none */
 } facet_integrator;
 
 /* Reconstruction filter of a pixel, sampled by importance: a sample belongs to one pixel. */
@@ -554,7 +555,8 @@ typedef enum facet_light_sampling {
 typedef enum facet_ground {
     FACET_GROUND_NONE,
     FACET_GROUND_SHADOW /* an unseen plane under the lowest point, of which only what the model takes from its light is
-                           drawn: dark with opacity over what is behind. FACET_INTEGRATOR_PATH only */
+                           drawn: dark with opacity over what is behind. FACET_INTEGRATOR_PREVIEW has none; that of
+                           FACET_INTEGRATOR_GL is a soft contact shadow */
 } facet_ground;
 
 /* A disc of uniform radiance at infinite distance. {0}: none. */
@@ -591,6 +593,49 @@ typedef struct facet_path_desc {
         resumes; /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there
                      is none it starts */
 } facet_path_desc;
+
+/* What of a surface is drawn. Those that are not light are not tone-mapped, and drawn over black. */
+typedef enum facet_channel {
+    FACET_CHANNEL_LIGHT,      /* all of it */
+    FACET_CHANNEL_NORMAL,     /* unit shading normal in world space, (N + 1) / 2 */
+    FACET_CHANNEL_BASE_COLOR, /* linear */
+    FACET_CHANNEL_ROUGHNESS,  /* perceptual */
+    FACET_CHANNEL_METALLIC,
+    FACET_CHANNEL_OCCLUSION,
+    FACET_CHANNEL_OPACITY,
+    FACET_CHANNEL_NDOTV,
+    FACET_CHANNEL_DIFFUSE, /* light of one lobe alone, as it is in the whole */
+    FACET_CHANNEL_SPECULAR,
+    FACET_CHANNEL_CLEARCOAT,
+    FACET_CHANNEL_SHEEN,
+    FACET_CHANNEL_TRANSMISSION, /* diffuse transmission too */
+    FACET_CHANNEL_EMISSION,
+    FACET_CHANNEL_FURNACE, /* light of 1 from everywhere in place of all other: 1 where no energy is lost or made */
+    FACET_CHANNEL_COUNT
+} facet_channel;
+
+/* Formulas of the specular lobe, and of what is below it. */
+typedef enum facet_brdf {
+    FACET_BRDF_ENERGY,      /* as facet_energy has it: height-correlated Smith */
+    FACET_BRDF_SCHLICK_GGX, /* separable masking, k = alpha / 2 (Karis 2013) */
+    FACET_BRDF_MULTISCATTER /* height-correlated, with what is scattered several times, for FACET_ENERGY_GLTF too */
+} facet_brdf;
+
+/* In which order what light passes is laid over each other (Porter and Duff 1984). */
+typedef enum facet_transparency {
+    FACET_TRANSPARENCY_SORTED, /* triangles from back to front; wrong only where they cut through each other */
+    FACET_TRANSPARENCY_PEELED,  /* each pixel's own order, up to 8 layers (Everitt 2001) */
+    FACET_TRANSPARENCY_WEIGHTED /* no order (McGuire and Bavoil 2013): approximate, quickest */
+} facet_transparency;
+
+/* What FACET_INTEGRATOR_GL reads beside facet_render_desc. {0}: as the preview. */
+typedef struct facet_gl_desc {
+    facet_channel channel;
+    facet_brdf brdf;
+    facet_transparency transparency;
+    bool shadows; /* of punctual lights and the sun, by shadow maps; the preview has none */
+    float bloom;  /* share of the light that is spread as by a lens, [0, 1]; 0: none */
+} facet_gl_desc;
 
 typedef enum facet_background {
     FACET_BACKGROUND_TRANSPARENT,
@@ -636,6 +681,7 @@ typedef struct facet_render_desc {
     facet_ground ground;
     facet_integrator integrator;
     facet_path_desc path;
+    facet_gl_desc gl;
     facet_quality quality;
     uint32_t
         samples; /* per pixel; 0: as quality has it. Preview: of visibility, draft 1, normal 4, final 16, at most

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "api/gl_library.h"
 #include "cpu/preview.h"
 #include "path/path_render.h"
 
@@ -40,8 +41,9 @@ static facet_result resolve_integrator(facet_render_desc *d, facet_error *error)
         d->samples = samples_of(d->quality, is_path);
     if (d->samples > most)
         return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %u", d->samples, most);
-    if (!is_path && d->ground != FACET_GROUND_NONE)
-        return fail(error, FACET_ERROR_ARGUMENT, "ground: only path tracing finds its shadow");
+    if (d->integrator == FACET_INTEGRATOR_PREVIEW && d->ground != FACET_GROUND_NONE)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "ground: the preview finds no shadow; path tracing does, and OpenGL");
     if (!is_path && d->aovs & (FACET_AOV_VARIANCE | FACET_AOV_SAMPLES))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "layers: variance and samples are known to path tracing only");
@@ -66,7 +68,7 @@ static facet_result check_numbers(const facet_render_desc *d, facet_error *error
         if (!isfinite(path[i]) || path[i] < 0.0f)
             return fail(error, FACET_ERROR_ARGUMENT,
                         "noise, clamp, shutter, lens: a value is negative or not a finite number");
-    if ((unsigned)d->integrator > FACET_INTEGRATOR_PATH || (unsigned)d->ground > FACET_GROUND_SHADOW ||
+    if ((unsigned)d->integrator > FACET_INTEGRATOR_GL || (unsigned)d->ground > FACET_GROUND_SHADOW ||
         (unsigned)d->path.filter > FACET_FILTER_MITCHELL ||
         (unsigned)d->path.light_sampling > FACET_LIGHT_SAMPLING_LIGHTS)
         return fail(error, FACET_ERROR_ARGUMENT,
@@ -134,9 +136,25 @@ static void develop(const facet_render_desc *desc, film *picture)
         film_blend_encoded(picture, behind, desc->thread_count);
 }
 
-static facet_result render(prepared_scene *prepared, const facet_render_desc *resolved, facet_image *image,
+struct facet_renderer {
+    prepared_scene prepared;
+    gl_renderer *gl; /* NULL: not asked for yet */
+};
+
+static facet_result render_gl(facet_renderer *renderer, const facet_render_desc *desc, facet_image *image,
+                              facet_error *error)
+{
+    const gl_entry *gl;
+    facet_result result = gl_library_open(&gl, error);
+    if (result == FACET_OK && !renderer->gl)
+        result = gl->create(renderer->prepared.scene, &renderer->prepared.allocator, &renderer->gl, error);
+    return result == FACET_OK ? gl->render(renderer->gl, desc, &image->film, &image->stats, error) : result;
+}
+
+static facet_result render(facet_renderer *renderer, const facet_render_desc *resolved, facet_image *image,
                            facet_error *error)
 {
+    prepared_scene *prepared = &renderer->prepared;
     facet_render_desc desc = *resolved;
     facet_camera camera;
     facet_result result = FACET_OK;
@@ -147,7 +165,9 @@ static facet_result render(prepared_scene *prepared, const facet_render_desc *re
     if (!desc.camera)
         desc.camera = &camera;
     result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &image->film, error);
-    if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_PATH)
+    if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_GL)
+        result = render_gl(renderer, &desc, image, error);
+    else if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_PATH)
         result = path_render_prepared(prepared, &desc, &image->film, &image->stats, error);
     else if (result == FACET_OK)
         result = preview_render_prepared(prepared, &desc, &image->film, &image->stats, error);
@@ -156,14 +176,14 @@ static facet_result render(prepared_scene *prepared, const facet_render_desc *re
     return result;
 }
 
-static facet_result render_image(prepared_scene *prepared, const facet_render_desc *resolved,
+static facet_result render_image(facet_renderer *renderer, const facet_render_desc *resolved,
                                  facet_image **image, facet_error *error)
 {
     double start = clock_seconds();
     facet_image *made = mem_zalloc(&resolved->allocator, 1, sizeof *made);
     if (!made)
         return fail_memory(error, "image", sizeof *made);
-    facet_result result = render(prepared, resolved, made, error);
+    facet_result result = render(renderer, resolved, made, error);
     if (result != FACET_OK) {
         facet_image_destroy(made);
         return result;
@@ -176,6 +196,14 @@ static facet_result render_image(prepared_scene *prepared, const facet_render_de
 
 static const facet_render_desc default_desc = {0};
 
+static void clear(facet_renderer *renderer)
+{
+    const gl_entry *gl;
+    if (renderer->gl && gl_library_open(&gl, NULL) == FACET_OK)
+        gl->destroy(renderer->gl);
+    prepared_scene_clear(&renderer->prepared);
+}
+
 facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc, facet_image **image,
                           facet_error *error)
 {
@@ -184,23 +212,19 @@ facet_result facet_render(const facet_scene *scene, const facet_render_desc *des
     facet_result result = resolve(desc ? desc : &default_desc, &resolved, error);
     if (result != FACET_OK)
         return result;
-    prepared_scene prepared;
-    prepared_scene_init(&prepared, scene, &resolved.allocator);
-    result = render_image(&prepared, &resolved, image, error);
-    prepared_scene_clear(&prepared);
+    facet_renderer renderer = {.gl = NULL};
+    prepared_scene_init(&renderer.prepared, scene, &resolved.allocator);
+    result = render_image(&renderer, &resolved, image, error);
+    clear(&renderer);
     return result;
 }
 
 /* ---- several pictures ---- */
 
-struct facet_renderer {
-    prepared_scene prepared;
-};
-
 facet_result facet_renderer_create(const facet_scene *scene, const facet_allocator *allocator,
                                    facet_renderer **renderer, facet_error *error)
 {
-    *renderer = mem_alloc(allocator, 1, sizeof **renderer);
+    *renderer = mem_zalloc(allocator, 1, sizeof **renderer);
     if (!*renderer)
         return fail_memory(error, "renderer", sizeof **renderer);
     prepared_scene_init(&(*renderer)->prepared, scene, allocator);
@@ -213,14 +237,14 @@ facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_
     *image = NULL;
     facet_render_desc resolved;
     facet_result result = resolve(desc ? desc : &default_desc, &resolved, error);
-    return result == FACET_OK ? render_image(&renderer->prepared, &resolved, image, error) : result;
+    return result == FACET_OK ? render_image(renderer, &resolved, image, error) : result;
 }
 
 void facet_renderer_destroy(facet_renderer *renderer)
 {
     if (!renderer)
         return;
-    prepared_scene_clear(&renderer->prepared);
+    clear(renderer);
     mem_free(renderer);
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "api/gl_library.h"
 #include "build_config.h"
 #include "cpu/cpu_report.h"
 
@@ -26,6 +27,18 @@ static void add_cpu(text *t)
 #endif
 }
 
+static void add_opengl(text *t)
+{
+    const gl_entry *gl;
+    facet_error error = {0};
+    char line[256];
+    if (gl_library_open(&gl, &error) == FACET_OK)
+        gl->report(line, sizeof line);
+    else
+        snprintf(line, sizeof line, "%.250s", error.message);
+    text_addf(t, "opengl    %s\n", line);
+}
+
 size_t facet_build_report(char *out, size_t size)
 {
     text t = {0};
@@ -37,7 +50,7 @@ size_t facet_build_report(char *out, size_t size)
 #endif
     add_cpu(&t);
     text_addf(&t, "threads   %u\n", facet_thread_count());
-    text_addf(&t, "renderers preview\n");
+    text_addf(&t, "renderers preview, path, gl\n");
     text_addf(&t, "embree    %s\n", cpu_embree_version());
     text_addf(&t, "images    png (spng %s), jpeg (turbojpeg %s), webp (%s), exr (%s), hdr, pfm\n",
               FACET_SPNG_VERSION, FACET_TURBOJPEG_VERSION, FACET_WEBP_VERSION, FACET_OPENEXR_VERSION);
@@ -46,7 +59,7 @@ size_t facet_build_report(char *out, size_t size)
     text_addf(&t, "geometry  meshopt, draco (%s)\n", FACET_DRACO_VERSION);
     text_addf(&t, "json      jansson %s\n", FACET_JANSSON_VERSION);
     text_addf(&t, "plots     csv, svg, pdf, png (%s)\n", FACET_CAIRO_VERSION);
-    text_addf(&t, "opengl    not in this version\n");
+    add_opengl(&t);
     size_t length = t.length;
     if (size) {
         size_t copied = length < size ? length : size - 1;

@@ -227,8 +227,8 @@ static const option quality_options[] = {
      .argument = "NAME",
      .default_text = "preview",
      .help = "preview: prefiltered light, what real-time viewers show; path: path tracing, with shadows, "
-             "reflections and glass as light makes them",
-     .choices = WORDS("preview", "path")},
+             "reflections and glass as light makes them; gl: the preview, drawn with OpenGL",
+     .choices = WORDS("preview", "path", "gl")},
     {.id = OPT_ENERGY,
      .name = "energy",
      .kind = OPTION_CHOICE,

@@ -22,12 +22,10 @@ static facet_result read_renderer(const command_line *c, render_options *out, fa
         out->desc.integrator = FACET_INTEGRATOR_PREVIEW;
     else if (strcmp(renderer, "path") == 0)
         out->desc.integrator = FACET_INTEGRATOR_PATH;
-    else if (strcmp(renderer, "raster") == 0 || strcmp(renderer, "gl") == 0)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--renderer: this version of facet does not have %s yet, only preview and path",
-                         renderer);
+    else if (strcmp(renderer, "gl") == 0)
+        out->desc.integrator = FACET_INTEGRATOR_GL;
     else
-        return option_fail(c, OPT_RENDERER, "preview or path", error);
+        return option_fail(c, OPT_RENDERER, "preview, path or gl", error);
     return FACET_OK;
 }
 

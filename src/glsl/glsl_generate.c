@@ -1,5 +1,6 @@
-/* glsl_generate.c - puts the shared shading text into a C header; runs when facet is built.
- * usage: glsl_generate OUTPUT SHADE_FOLDER
+/* glsl_generate.c - puts texts of shaders into a C header; runs when facet is built.
+ * usage: glsl_generate OUTPUT SHADE_FOLDER       the shared shading text
+ *        glsl_generate OUTPUT FOLDER NAME...     files of a folder, as the array `parts`
  *
  * OUTPUT gets the dialect of GLSL and, in the order of shade.h, the parts of the text as arrays of bytes: a string literal
  * may hold 4095 only. */
@@ -44,20 +45,13 @@ static void put_text(FILE *out, const char *folder, const char *name, int index)
     fclose(file);
 }
 
-int main(int argc, char **argv)
+/* What puts the parts of shade.h; returns how many there are. */
+static int put_shared(FILE *out, const char *folder, char names[MAX_PARTS][MAX_NAME])
 {
-    if (argc != 3) {
-        fprintf(stderr, "usage: glsl_generate OUTPUT SHADE_FOLDER\n");
-        return 2;
-    }
-    FILE *out = fopen(argv[1], "w");
-    if (!out)
-        stop(argv[1], "cannot be written");
-    static char names[MAX_PARTS][MAX_NAME];
     int count = 0;
-    FILE *order = open_text(argv[2], "shade.h");
+    FILE *order = open_text(folder, "shade.h");
     char line[MAX_LINE];
-    put_text(out, argv[2], "lang/lang_glsl.glsl", 0);
+    put_text(out, folder, "lang/lang_glsl.glsl", 0);
     while (fgets(line, sizeof line, order)) {
         char *name = names[count];
         int end = 0;
@@ -67,9 +61,29 @@ int main(int argc, char **argv)
         snprintf(file, sizeof file, "%s.h", name);
         if (++count == MAX_PARTS)
             stop("shade.h", "has too many headers");
-        put_text(out, argv[2], file, count);
+        put_text(out, folder, file, count);
     }
     fclose(order);
+    return count;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 3 || argc > 3 + MAX_PARTS) {
+        fprintf(stderr, "usage: glsl_generate OUTPUT FOLDER [NAME...]\n");
+        return 2;
+    }
+    FILE *out = fopen(argv[1], "w");
+    if (!out)
+        stop(argv[1], "cannot be written");
+    static char names[MAX_PARTS][MAX_NAME];
+    int count = argc - 3;
+    for (int i = 0; i < count; i++) {
+        snprintf(names[i], sizeof names[i], "%s", argv[3 + i]);
+        put_text(out, argv[2], argv[3 + i], i + 1);
+    }
+    if (count == 0)
+        count = put_shared(out, argv[2], names);
     fprintf(out, "static const glsl_part parts[] = {\n");
     for (int i = 0; i < count; i++)
         fprintf(out, "    {\"%s\", (const char *)text_%d},\n", names[i], i + 1);

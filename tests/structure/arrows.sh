@@ -19,12 +19,13 @@ allowed() {
     glsl) echo glsl base facet ;;
     draw) echo draw ibl scene image base shade facet ;;
     cpu) echo cpu draw film ibl scene image base shade facet ;;
+    gl) echo gl draw glsl film ibl scene image base shade facet ;;
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;
     report) echo report bake plot legacy cpu draw film ibl scene image base facet ;;
     path) echo path cpu draw film ibl scene image base shade facet ;;
     compare) echo compare image base shade facet ;;
-    api) echo api path bake compare report plot legacy io cpu draw ibl film scene image base facet ;;
+    api) echo api gl path bake compare report plot legacy io cpu draw ibl film scene image base facet ;;
     cli) echo cli facet ;;
     *) echo "" ;;
     esac
@@ -75,7 +76,7 @@ seen_only 'jansson' io cli
 seen_only 'cminpack' legacy
 seen_only 'cairo' plot
 seen_only 'draco/' io
-seen_only '(EGL|GL|GLES[0-9]?|epoxy)/' gl
+seen_only '(EGL|GL|GLES[0-9]?|epoxy|GLFW)/' gl
 seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zlib|zstd|avif/|astcenc)' image
 
 # shade/ includes nothing but itself.

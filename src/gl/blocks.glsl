@@ -1,0 +1,18 @@
+/* blocks.glsl - uniform blocks as gl_blocks.h has them. */
+layout(std140) uniform Frame
+{
+    mat4 view_projection; /* of points relative to the eye */
+    vec4 eye;             /* m; w: 1 orthographic */
+    vec4 right;           /* of the camera, per pixel at depth 1 m (orthographic: m) */
+    vec4 up;
+    vec4 forward;    /* unit */
+    vec4 frame_size; /* pixels; z, w: the tile's corner */
+    vec4 frame_light; /* scale of the environment, cos and sin of its rotation, number of punctual lights */
+    float exposure;
+    int energy;
+    int channel;
+    int has_specular_antialiasing;
+    float background_blur;
+    float tonemap_operator;
+    vec2 frame_reserved;
+};

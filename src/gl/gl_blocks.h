@@ -1,0 +1,51 @@
+/* gl_blocks.h - uniform blocks and texture units, as C and the shaders (blocks.glsl) have them. std140: vec3 takes four
+ * floats. */
+#ifndef GL_GL_BLOCKS_H
+#define GL_GL_BLOCKS_H
+
+#include <stdint.h>
+
+enum { GL_BLOCK_FRAME, GL_BLOCK_MATERIAL, GL_BLOCK_COUNT }; /* binding points */
+
+/* Of a picture. */
+typedef struct gl_frame_block {
+    float view_projection[16]; /* columns; of points relative to the eye */
+    float eye[4];              /* m; w: 1 orthographic */
+    float right[4], up[4];     /* of the camera, per pixel at depth 1 m (orthographic: m) */
+    float forward[4];          /* unit */
+    float size[4];             /* picture in pixels; x, y of the tile's corner */
+    float light[4];  /* scale of the environment, cos and sin of its rotation, number of punctual lights */
+    float exposure;  /* scale of radiance */
+    int32_t energy;  /* ENERGY_* */
+    int32_t channel; /* facet_channel */
+    int32_t has_specular_antialiasing;
+    float background_blur; /* perceptual roughness */
+    float tonemap, reserved[2];
+} gl_frame_block;
+
+/* Texture units; those of materials come behind. */
+enum {
+    GL_UNIT_ENVIRONMENT, /* all that is filtered: gl_light.h */
+    GL_UNIT_SHARP,       /* the picture that mirrors show, or behind the model */
+    GL_UNIT_TABLES,      /* DFG and sheen's albedo */
+    GL_UNIT_GLASS,       /* 3D */
+    GL_UNIT_LIGHTS,      /* punctual ones */
+    GL_UNIT_SHADOWS,
+    GL_UNIT_OPAQUE, /* the opaque frame with its mips */
+    GL_UNIT_MATERIAL
+};
+
+/* Vertex attributes. */
+enum {
+    GL_ATTRIBUTE_POSITION,
+    GL_ATTRIBUTE_NORMAL,
+    GL_ATTRIBUTE_TANGENT, /* w: handedness */
+    GL_ATTRIBUTE_COLOR,
+    GL_ATTRIBUTE_TEXCOORD,                                  /* four sets */
+    GL_ATTRIBUTE_WORLD = GL_ATTRIBUTE_TEXCOORD + 4,         /* three rows; of an instance, as what follows */
+    GL_ATTRIBUTE_NORMAL_MATRIX = GL_ATTRIBUTE_WORLD + 3,    /* three rows */
+    GL_ATTRIBUTE_INSTANCE = GL_ATTRIBUTE_NORMAL_MATRIX + 3, /* scale, sign of bitangents, material id + 1 */
+    GL_ATTRIBUTE_COUNT
+};
+
+#endif

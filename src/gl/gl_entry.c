@@ -1,0 +1,34 @@
+/* gl_entry.c - the module's entry: gl_entry.h. */
+#include "gl/gl_entry.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "gl/gl_build.h"
+#include "gl/gl_renderer.h"
+
+static facet_result create(const facet_scene *scene, const facet_allocator *allocator, gl_renderer **out,
+                           facet_error *error)
+{
+    return gl_renderer_create(scene, NULL, allocator, out, error);
+}
+
+static void report(char *out, size_t size)
+{
+    gl_context context;
+    facet_error error = {0};
+    if (gl_context_create(&context, &error) != FACET_OK) {
+        snprintf(out, size, "%s", error.message);
+        return;
+    }
+    snprintf(out, size, "%s", context.name);
+    gl_context_destroy(&context);
+}
+
+const gl_entry *facet_gl_entry(const char *build, const gl_host *host)
+{
+    static const gl_entry entry = {
+        .create = create, .render = gl_renderer_render, .destroy = gl_renderer_destroy, .report = report};
+    (void)host;
+    return strcmp(build, GL_ENTRY_BUILD) == 0 ? &entry : NULL;
+}

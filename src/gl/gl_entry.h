@@ -1,0 +1,44 @@
+/* gl_entry.h - what libfacet knows of OpenGL: the functions of a module that is opened when a picture is to be drawn with
+ * it. Whoever only renders on the CPU never loads a driver. */
+#ifndef GL_GL_ENTRY_H
+#define GL_GL_ENTRY_H
+
+#include "facet/facet.h"
+#include "film/film.h"
+
+typedef struct gl_renderer gl_renderer;
+
+/* What the module wants of libfacet; the rest of what it uses it has a copy of. */
+typedef struct gl_host {
+    facet_result (*renderer_create)(const facet_scene *scene, const facet_allocator *allocator,
+                                    facet_renderer **renderer, facet_error *error);
+    facet_result (*renderer_render)(facet_renderer *renderer, const facet_render_desc *desc,
+                                    facet_image **image, facet_error *error);
+    void (*renderer_destroy)(facet_renderer *renderer);
+    uint32_t (*image_get_layer_count)(const facet_image *image);
+    facet_image_view (*image_get_layer)(const facet_image *image, uint32_t layer);
+    facet_result (*image_save)(const facet_image *image, const char *path, const facet_save_desc *desc,
+                               facet_error *error);
+    void (*image_destroy)(facet_image *image);
+} gl_host;
+
+typedef struct gl_entry {
+    /* A context without a window, and what is prepared of a scene for it. The scene outlives it. Fails with
+     * FACET_ERROR_ENVIRONMENT where there is no OpenGL, FACET_ERROR_MEMORY. */
+    facet_result (*create)(const facet_scene *scene, const facet_allocator *allocator, gl_renderer **out,
+                           facet_error *error);
+    /* As preview_render_prepared(): desc is resolved, its camera is not NULL. Calls may come from different threads,
+     * one at a time. */
+    facet_result (*render)(gl_renderer *renderer, const facet_render_desc *desc, film *target,
+                           facet_render_stats *stats, facet_error *error);
+    void (*destroy)(gl_renderer *renderer); /* NULL is allowed */
+    /* One line: version, driver, whether without a window; or why there is none. */
+    void (*report)(char *out, size_t size);
+} gl_entry;
+
+/* The module's only symbol, by this name. build: GL_ENTRY_BUILD of who asks; NULL where the module is of another build,
+ * whose structures may look different. host outlives all that comes of it. */
+FACET_API const gl_entry *facet_gl_entry(const char *build, const gl_host *host);
+typedef const gl_entry *gl_entry_function(const char *build, const gl_host *host);
+
+#endif

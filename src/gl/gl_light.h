@@ -1,0 +1,23 @@
+/* gl_light.h - the light of a picture as textures: what light_setup.h prepares for the CPU, the same texels.
+ *
+ * The environment's filtered cube maps with their borders lie in one texture of half floats, beside them the blurred
+ * pictures of narrow.h; shaders look them up as ibl.h does. Punctual lights are rows of a texture of floats. */
+#ifndef GL_GL_LIGHT_H
+#define GL_GL_LIGHT_H
+
+#include "draw/light_setup.h"
+#include "gl/gl_blocks.h"
+#include "gl/gl_context.h"
+
+typedef struct gl_light gl_light;
+
+facet_result gl_light_create(gl_context *context, const facet_allocator *allocator, gl_light **out,
+                             facet_error *error);
+void gl_light_destroy(gl_light *light); /* NULL is allowed */
+/* Uploads what is not there. Lights stand relative to eye, as the instances do. Fails with FACET_ERROR_MEMORY. */
+facet_result gl_light_update(gl_light *light, const light_setup *setup, const float eye[3],
+                             facet_error *error);
+/* Binds the textures to their units and fills in what the frame's block says of light. */
+void gl_light_bind(const gl_light *light, gl_frame_block *block);
+
+#endif

@@ -1,0 +1,24 @@
+/* gl_material.h - materials: which program draws one, its uniform block, its textures. */
+#ifndef GL_GL_MATERIAL_H
+#define GL_GL_MATERIAL_H
+
+#include "gl/gl_mesh.h"
+#include "gl/gl_program.h"
+
+typedef struct gl_material_set gl_material_set;
+
+facet_result gl_material_create(gl_context *context, const facet_scene *scene,
+                                const facet_allocator *allocator, gl_material_set **out, facet_error *error);
+void gl_material_destroy(gl_material_set *set); /* NULL is allowed */
+
+/* Blocks and textures of what the batches of all passes need; textures are decoded in parallel, once, and scaled down with
+ * a warning where OpenGL cannot hold them. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
+facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
+                                const facet_render_desc *desc, facet_error *error);
+/* The program of a batch, apart from what the picture adds (features of gl_program.c). */
+uint64_t gl_material_features(const gl_batch *batch);
+/* Binds block and textures, and sets culling. */
+void gl_material_bind(const gl_material_set *set, const gl_batch *batch);
+uint64_t gl_material_decoded_texels(const gl_material_set *set);
+
+#endif

@@ -1,0 +1,246 @@
+/* gl_program.c - see gl_program.h. */
+#include "gl/gl_program.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "gl/gl_blocks.h"
+
+typedef struct glsl_part {
+    const char *name, *text;
+} glsl_part;
+
+#include "gl_text.h"
+
+/* ---- what the mains are made of ---- */
+
+/* Names of features become #defines; bit 0 first. */
+static const char *const surface_features[] = {"HAS_TANGENTS", NULL};
+static const char *const no_features[] = {NULL};
+
+static const struct {
+    const char *name, *vertex, *fragment;
+    const char *parts[8];     /* of the shared text; those that they use come with them */
+    const char *fragments[8]; /* files of this folder before the fragment shader's own */
+    const char *const *features;
+} mains[GL_MAIN_COUNT] = {
+    [GL_MAIN_SURFACE] =
+        {"surface", "surface.vert", "surface.frag", {"surface", "layers_ibl"}, {0}, surface_features},
+    [GL_MAIN_BACKGROUND] = {"background", "screen.vert", "background.frag", {"surface"}, {0}, no_features},
+    [GL_MAIN_PRESENT] = {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, no_features},
+};
+
+/* Samplers and their units. */
+static const struct {
+    const char *name;
+    int unit;
+} samplers[] = {{"u_environment", GL_UNIT_ENVIRONMENT}, {"u_sharp", GL_UNIT_SHARP},
+                {"u_tables", GL_UNIT_TABLES},           {"u_glass", GL_UNIT_GLASS},
+                {"u_lights", GL_UNIT_LIGHTS},           {"u_shadows", GL_UNIT_SHADOWS},
+                {"u_opaque", GL_UNIT_OPAQUE},           {"u_picture", 0}};
+
+static const char *const attributes[GL_ATTRIBUTE_COUNT] = {
+    "position",  "normal",         "tangent",        "color",          "texcoord0",
+    "texcoord1", "texcoord2",      "texcoord3",      "world0",         "world1",
+    "world2",    "normal_matrix0", "normal_matrix1", "normal_matrix2", "instance"};
+
+const char *gl_program_main_name(gl_main main)
+{
+    return mains[main].name;
+}
+
+uint32_t gl_program_feature_count(gl_main main)
+{
+    uint32_t count = 0;
+    while (mains[main].features[count])
+        count++;
+    return count;
+}
+
+const char *gl_program_feature_name(gl_main main, uint32_t feature)
+{
+    return mains[main].features[feature];
+}
+
+static const char *file_text(const char *name)
+{
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (strcmp(parts[i].name, name) == 0)
+            return parts[i].text;
+    return "#error there is no such file\n";
+}
+
+facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint32_t stage, text *out,
+                             facet_error *error)
+{
+    facet_shader_desc desc = {
+        .allocator = out->allocator, .version = glsl_version, .parts = mains[key.main].parts};
+    while (desc.part_count < 8 && desc.parts[desc.part_count])
+        desc.part_count++;
+    unsigned char *shared;
+    size_t size;
+    facet_result result = facet_shader_text(&desc, &shared, &size, error);
+    if (result != FACET_OK)
+        return result;
+    text_add(out, (const char *)shared);
+    mem_free(shared);
+    for (uint32_t i = 0; i < gl_program_feature_count(key.main); i++)
+        if (key.features >> i & 1)
+            text_addf(out, "#define %s\n", gl_program_feature_name(key.main, i));
+    text_add(out, file_text("blocks.glsl"));
+    for (int i = 0; stage == GL_FRAGMENT_SHADER && i < 8 && mains[key.main].fragments[i]; i++)
+        text_add(out, file_text(mains[key.main].fragments[i]));
+    text_add(out, file_text(stage == GL_VERTEX_SHADER ? mains[key.main].vertex : mains[key.main].fragment));
+    return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;
+}
+
+/* ---- programs ---- */
+
+typedef struct gl_program {
+    gl_program_key key;
+    GLuint name, shaders[2];
+    bool is_linked;
+} gl_program;
+
+struct gl_programs {
+    gl_context *context;
+    facet_allocator allocator;
+    facet_log log;
+    gl_program *items;
+    size_t count, capacity;
+};
+
+facet_result gl_programs_create(gl_context *context, const facet_allocator *allocator, const facet_log *log,
+                                gl_programs **out, facet_error *error)
+{
+    *out = mem_zalloc(allocator, 1, sizeof **out);
+    if (!*out)
+        return fail_memory(error, "programs", sizeof **out);
+    (*out)->context = context;
+    (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
+    (*out)->log = log ? *log : (facet_log){0};
+    return FACET_OK;
+}
+
+void gl_programs_destroy(gl_programs *programs)
+{
+    if (!programs)
+        return;
+    for (size_t i = 0; i < programs->count; i++)
+        glDeleteProgram(programs->items[i].name);
+    mem_free(programs->items);
+    mem_free(programs);
+}
+
+static gl_program *find(gl_programs *programs, gl_program_key key)
+{
+    for (size_t i = 0; i < programs->count; i++)
+        if (programs->items[i].key.main == key.main && programs->items[i].key.features == key.features)
+            return &programs->items[i];
+    return NULL;
+}
+
+facet_result gl_programs_request(gl_programs *programs, gl_program_key key, facet_error *error)
+{
+    static const GLenum stages[2] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER};
+    if (find(programs, key))
+        return FACET_OK;
+    if (!mem_reserve(&programs->allocator, (void **)&programs->items, &programs->capacity,
+                     programs->count + 1, sizeof *programs->items))
+        return fail_memory(error, "programs", (programs->count + 1) * sizeof *programs->items);
+    gl_program *p = &programs->items[programs->count];
+    *p = (gl_program){.key = key, .name = glCreateProgram()};
+    facet_result result = FACET_OK;
+    for (int i = 0; i < 2 && result == FACET_OK; i++) {
+        text t = {.allocator = programs->allocator};
+        result = gl_program_text(programs->context->glsl_version, key, stages[i], &t, error);
+        if (result == FACET_OK) {
+            p->shaders[i] = glCreateShader(stages[i]);
+            const char *source = t.data;
+            glShaderSource(p->shaders[i], 1, &source, NULL);
+            glCompileShader(p->shaders[i]);
+            glAttachShader(p->name, p->shaders[i]);
+            glDeleteShader(p->shaders[i]); /* with the program */
+        }
+        text_destroy(&t);
+    }
+    for (GLuint i = 0; i < GL_ATTRIBUTE_COUNT; i++)
+        glBindAttribLocation(p->name, i, attributes[i]);
+    glLinkProgram(p->name);
+    programs->count += result == FACET_OK;
+    if (result != FACET_OK)
+        glDeleteProgram(p->name);
+    return result;
+}
+
+/* The text with numbers before its lines, a message for each hundred: people are to find line 812. */
+static void tell_source(const gl_programs *programs, const char *source)
+{
+    char line[320];
+    int number = 1;
+    for (const char *at = source; *at && programs->log.message; number++) {
+        int length = (int)strcspn(at, "\n");
+        snprintf(line, sizeof line, "%4d  %.*s", number, length < 300 ? length : 300, at);
+        programs->log.message(programs->log.user, FACET_LOG_WARNING, line);
+        at += length + (at[length] == '\n');
+    }
+}
+
+static facet_result fail_link(gl_programs *programs, const gl_program *p, facet_error *error)
+{
+    static const GLenum stages[2] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER};
+    char message[512] = "";
+    for (int i = 0; i < 2 && !message[0]; i++) {
+        GLint is_compiled = 0;
+        glGetShaderiv(p->shaders[i], GL_COMPILE_STATUS, &is_compiled);
+        if (is_compiled)
+            continue;
+        glGetShaderInfoLog(p->shaders[i], sizeof message, NULL, message);
+        text t = {.allocator = programs->allocator};
+        if (gl_program_text(programs->context->glsl_version, p->key, stages[i], &t, NULL) == FACET_OK)
+            tell_source(programs, t.data);
+        text_destroy(&t);
+    }
+    if (!message[0])
+        glGetProgramInfoLog(p->name, sizeof message, NULL, message);
+    message[strcspn(message, "\n")] = 0;
+    return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): the shader \"%s\" does not compile: %.300s",
+                programs->context->name, mains[p->key.main].name, message);
+}
+
+static void bind_names(const gl_program *p)
+{
+    static const char *const blocks[GL_BLOCK_COUNT] = {"Frame", "Material"};
+    for (GLuint i = 0; i < GL_BLOCK_COUNT; i++) {
+        GLuint index = glGetUniformBlockIndex(p->name, blocks[i]);
+        if (index != GL_INVALID_INDEX)
+            glUniformBlockBinding(p->name, index, i);
+    }
+    glUseProgram(p->name);
+    for (size_t i = 0; i < sizeof samplers / sizeof *samplers; i++) {
+        GLint location = glGetUniformLocation(p->name, samplers[i].name);
+        if (location >= 0)
+            glUniform1i(location, samplers[i].unit);
+    }
+}
+
+facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t *name, facet_error *error)
+{
+    facet_result result = gl_programs_request(programs, key, error);
+    if (result != FACET_OK)
+        return result;
+    gl_program *p = find(programs, key);
+    if (!p->is_linked) {
+        GLint is_linked = 0;
+        glGetProgramiv(p->name, GL_LINK_STATUS, &is_linked);
+        if (!is_linked)
+            return fail_link(programs, p, error);
+        bind_names(p);
+        p->is_linked = true;
+    }
+    *name = p->name;
+    return FACET_OK;
+}

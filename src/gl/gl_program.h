@@ -1,0 +1,43 @@
+/* gl_program.h - programs: version, shared shading text, the #defines of what is asked for, and a main of this folder.
+ * Each is made once, when it is first asked for. */
+#ifndef GL_GL_PROGRAM_H
+#define GL_GL_PROGRAM_H
+
+#include "base/text.h"
+#include "gl/gl_context.h"
+
+/* A pair of shaders: NAME.vert and NAME.frag of this folder, or screen.vert for what covers the picture. */
+typedef enum gl_main {
+    GL_MAIN_SURFACE,    /* a material */
+    GL_MAIN_BACKGROUND, /* the environment behind the model */
+    GL_MAIN_PRESENT,    /* radiance to a display's numbers */
+    GL_MAIN_COUNT
+} gl_main;
+
+/* features: bits of the main's list of names in gl_program.c, each of which becomes a #define. */
+typedef struct gl_program_key {
+    gl_main main;
+    uint64_t features;
+} gl_program_key;
+
+typedef struct gl_programs gl_programs;
+
+facet_result gl_programs_create(gl_context *context, const facet_allocator *allocator, const facet_log *log,
+                                gl_programs **out, facet_error *error);
+void gl_programs_destroy(gl_programs *programs); /* NULL is allowed; the context is current */
+
+/* Starts to compile, in the background where the driver does that, so that several programs compile at once. */
+facet_result gl_programs_request(gl_programs *programs, gl_program_key key, facet_error *error);
+/* Compiled and linked: its OpenGL name. Samplers are bound to the units of gl_units.h, blocks to those of gl_blocks.h. Fails
+ * with FACET_ERROR_ENVIRONMENT: what the compiler says; the assembled text, with line numbers, goes to the log. */
+facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t *name, facet_error *error);
+
+/* The whole text of a shader, as it is compiled. stage: GL_VERTEX_SHADER or GL_FRAGMENT_SHADER. FACET_ERROR_MEMORY. */
+facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint32_t stage, text *out,
+                             facet_error *error);
+/* Number of features of a main, and their names. */
+uint32_t gl_program_feature_count(gl_main main);
+const char *gl_program_feature_name(gl_main main, uint32_t feature);
+const char *gl_program_main_name(gl_main main);
+
+#endif

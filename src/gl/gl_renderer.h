@@ -1,0 +1,22 @@
+/* gl_renderer.h - a scene drawn by OpenGL: for gl_entry.h into a film, for a window into its framebuffer. */
+#ifndef GL_GL_RENDERER_H
+#define GL_GL_RENDERER_H
+
+#include "film/film.h"
+#include "gl/gl_context.h"
+#include "gl/gl_entry.h"
+
+/* With a context of its own, or the caller's (a window's), which outlives it. The context is current afterwards. */
+facet_result gl_renderer_create(const facet_scene *scene, gl_context *context /* NULL: its own */,
+                                const facet_allocator *allocator, gl_renderer **out, facet_error *error);
+void gl_renderer_destroy(gl_renderer *renderer); /* NULL is allowed */
+
+/* Into a film, which is linear radiance, as that of the preview. */
+facet_result gl_renderer_render(gl_renderer *renderer, const facet_render_desc *desc, film *target,
+                                facet_render_stats *stats, facet_error *error);
+/* As the display wants it (tone-mapped, sRGB-encoded, background behind) into a rectangle of a framebuffer: a frame of a
+ * window. desc as above, its size is the rectangle's. x, y: lower left corner. */
+facet_result gl_renderer_present(gl_renderer *renderer, const facet_render_desc *desc, uint32_t framebuffer,
+                                 int x, int y, facet_render_stats *stats, facet_error *error);
+
+#endif
