@@ -20,6 +20,7 @@ allowed() {
     draw) echo draw ibl scene image base shade facet ;;
     cpu) echo cpu draw film ibl scene image base shade facet ;;
     gl) echo gl draw glsl film ibl scene image base shade facet ;;
+    view) echo view gl draw film ibl scene image base shade facet ;;
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;
     report) echo report bake plot legacy cpu draw film ibl scene image base facet ;;
@@ -76,7 +77,8 @@ seen_only 'jansson' io cli
 seen_only 'cminpack' legacy
 seen_only 'cairo' plot
 seen_only 'draco/' io
-seen_only '(EGL|GL|GLES[0-9]?|epoxy|GLFW)/' gl
+seen_only '(EGL|GL|GLES[0-9]?|epoxy)/' gl view
+seen_only 'GLFW/' view
 seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zlib|zstd|avif/|astcenc)' image
 
 # shade/ includes nothing but itself.
