@@ -36,6 +36,18 @@ facet_result gl_light_update(gl_light *light, const light_setup *setup, const fl
     return FACET_OK;
 }
 
+uint64_t gl_light_features(const gl_light *light)
+{
+    (void)light;
+    return 0;
+}
+
+uint64_t gl_light_background_features(const gl_light *light, const facet_render_desc *desc)
+{
+    (void)light, (void)desc;
+    return 0;
+}
+
 void gl_light_bind(const gl_light *light, gl_frame_block *block)
 {
     block->light[0] = light->scale;

@@ -17,6 +17,9 @@ void gl_light_destroy(gl_light *light); /* NULL is allowed */
 /* Uploads what is not there. Lights stand relative to eye, as the instances do. Fails with FACET_ERROR_MEMORY. */
 facet_result gl_light_update(gl_light *light, const light_setup *setup, const float eye[3],
                              facet_error *error);
+/* What a picture's programs have because of its light: GL_SURFACE_HAS_ENVIRONMENT and so on. */
+uint64_t gl_light_features(const gl_light *light);
+uint64_t gl_light_background_features(const gl_light *light, const facet_render_desc *desc);
 /* Binds the textures to their units and fills in what the frame's block says of light. */
 void gl_light_bind(const gl_light *light, gl_frame_block *block);
 

@@ -17,8 +17,10 @@ typedef struct glsl_part {
 
 /* ---- what the mains are made of ---- */
 
-/* Names of features become #defines; bit 0 first. */
-static const char *const surface_features[] = {"HAS_TANGENTS", NULL};
+/* Names of features become #defines; bit 0 first: gl_program.h has the first ones as numbers. */
+static const char *const surface_features[] = {"HAS_TANGENTS", "HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS",
+                                               NULL};
+static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const no_features[] = {NULL};
 
 static const struct {
@@ -27,9 +29,18 @@ static const struct {
     const char *fragments[8]; /* files of this folder before the fragment shader's own */
     const char *const *features;
 } mains[GL_MAIN_COUNT] = {
-    [GL_MAIN_SURFACE] =
-        {"surface", "surface.vert", "surface.frag", {"surface", "layers_ibl"}, {0}, surface_features},
-    [GL_MAIN_BACKGROUND] = {"background", "screen.vert", "background.frag", {"surface"}, {0}, no_features},
+    [GL_MAIN_SURFACE] = {"surface",
+                         "surface.vert",
+                         "surface.frag",
+                         {"surface", "light", "layers_ibl"},
+                         {"environment.glsl", "lights.glsl"},
+                         surface_features},
+    [GL_MAIN_BACKGROUND] = {"background",
+                            "screen.vert",
+                            "background.frag",
+                            {"surface"},
+                            {"environment.glsl"},
+                            background_features},
     [GL_MAIN_PRESENT] = {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, no_features},
 };
 

@@ -14,6 +14,16 @@ typedef enum gl_main {
     GL_MAIN_COUNT
 } gl_main;
 
+/* Features of GL_MAIN_SURFACE that do not come of the material alone; and those of GL_MAIN_BACKGROUND. */
+enum {
+    GL_SURFACE_HAS_TANGENTS = 1u << 0,
+    GL_SURFACE_HAS_ENVIRONMENT = 1u << 1,
+    GL_SURFACE_HAS_LIGHTS = 1u << 2, /* punctual ones */
+    GL_SURFACE_HAS_SHADOWS = 1u << 3,
+    GL_BACKGROUND_HAS_ENVIRONMENT = 1u << 0,
+    GL_BACKGROUND_IS_BLURRED = 1u << 1
+};
+
 /* features: bits of the main's list of names in gl_program.c, each of which becomes a #define. */
 typedef struct gl_program_key {
     gl_main main;

@@ -163,9 +163,9 @@ static facet_result draw_batches(gl_renderer *r, gl_pass pass, facet_error *erro
     const gl_batch *batches = gl_mesh_batches(r->meshes, pass, &count);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t program;
-        facet_result result =
-            gl_programs_get(r->programs, (gl_program_key){GL_MAIN_SURFACE, gl_material_features(&batches[i])},
-                            &program, error);
+        gl_program_key key = {GL_MAIN_SURFACE,
+                              gl_material_features(&batches[i]) | gl_light_features(r->light)};
+        facet_result result = gl_programs_get(r->programs, key, &program, error);
         if (result != FACET_OK)
             return result;
         glUseProgram(program);
@@ -175,10 +175,10 @@ static facet_result draw_batches(gl_renderer *r, gl_pass pass, facet_error *erro
     return FACET_OK;
 }
 
-static facet_result draw_screen(gl_renderer *r, gl_main main, facet_error *error)
+static facet_result draw_screen(gl_renderer *r, gl_main main, uint64_t features, facet_error *error)
 {
     uint32_t program;
-    facet_result result = gl_programs_get(r->programs, (gl_program_key){main, 0}, &program, error);
+    facet_result result = gl_programs_get(r->programs, (gl_program_key){main, features}, &program, error);
     if (result != FACET_OK)
         return result;
     glUseProgram(program);
@@ -202,7 +202,7 @@ static facet_result draw(gl_renderer *r, const facet_render_desc *desc, const gl
     glDisable(GL_BLEND);
     facet_result result = draw_batches(r, GL_PASS_OPAQUE, error);
     if (result == FACET_OK && desc->background == FACET_BACKGROUND_ENVIRONMENT)
-        result = draw_screen(r, GL_MAIN_BACKGROUND, error);
+        result = draw_screen(r, GL_MAIN_BACKGROUND, gl_light_background_features(r->light, desc), error);
     if (result == FACET_OK)
         result = draw_batches(r, GL_PASS_TRANSMISSIVE, error);
     glEnable(GL_BLEND);
@@ -220,7 +220,9 @@ static facet_result draw_picture(gl_renderer *r, const facet_render_desc *desc, 
 {
     double start = clock_seconds();
     camera_rays camera;
-    gl_frame_block block = {.exposure = exp2f(desc->exposure_ev), .energy = (int32_t)desc->energy};
+    gl_frame_block block = {.exposure = exp2f(desc->exposure_ev),
+                            .energy = (int32_t)desc->energy,
+                            .background_blur = desc->background_blur};
     light_setup light = {0};
     facet_result result = gl_context_make_current(r->context, error);
     if (result == FACET_OK)
@@ -294,5 +296,5 @@ facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *desc, 
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, r->target.color);
     glDisable(GL_DEPTH_TEST);
-    return draw_screen(r, GL_MAIN_PRESENT, error);
+    return draw_screen(r, GL_MAIN_PRESENT, 0, error);
 }
