@@ -27,62 +27,31 @@ void prepared_scene_clear(prepared_scene *p)
     scene_pose_destroy(&p->pose);
     tangent_store_destroy(&p->tangents);
     texture_store_destroy(p->textures);
-    mem_free(p->key.animations);
+    pose_key_clear(&p->key);
     prepared_scene_init(p, scene, &allocator);
 }
 
 /* ---- the pose ---- */
 
-static bool is_same_pose(const facet_pose_desc *a, const facet_pose_desc *b)
-{
-    if (a->has_scene_index != b->has_scene_index || a->has_variant != b->has_variant ||
-        a->animation_count != b->animation_count)
-        return false;
-    if ((a->has_scene_index && a->scene_index != b->scene_index) ||
-        (a->has_variant && a->variant != b->variant))
-        return false;
-    if (a->animation_count == 0)
-        return true;
-    return memcmp(&a->time_s, &b->time_s, sizeof a->time_s) == 0 &&
-           memcmp(a->animations, b->animations, a->animation_count * sizeof *a->animations) == 0;
-}
-
-static bool copy_key(const prepared_scene *p, const facet_pose_desc *desc, prepared_key *key)
-{
-    *key = (prepared_key){.desc = *desc};
-    if (desc->animation_count == 0)
-        return true;
-    key->animations = mem_alloc(&p->allocator, desc->animation_count, sizeof *key->animations);
-    if (!key->animations)
-        return false;
-    memcpy(key->animations, desc->animations, desc->animation_count * sizeof *key->animations);
-    key->desc.animations = key->animations;
-    return true;
-}
-
 facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
 {
-    if (p->has_pose && is_same_pose(&p->key.desc, &desc->pose))
+    if (pose_key_matches(&p->key, &desc->pose))
         return FACET_OK;
     scene_pose pose;
     facet_result result =
         scene_pose_create(p->scene, &desc->pose, &p->allocator, desc->thread_count, &pose, error);
     if (result != FACET_OK)
         return result;
-    prepared_key key;
-    if (!copy_key(p, &desc->pose, &key)) {
+    if (!pose_key_set(&p->key, &desc->pose, &p->allocator)) {
         scene_pose_destroy(&pose);
-        return fail_memory(error, "animations", desc->pose.animation_count * sizeof *key.animations);
+        return fail_memory(error, "animations", desc->pose.animation_count * sizeof *p->key.animations);
     }
     /* The geometries point into their pose until there are others. */
     if (p->has_geometry && !p->geometry_pose.instances)
         p->geometry_pose = p->pose;
     else
         scene_pose_destroy(&p->pose);
-    mem_free(p->key.animations);
     p->pose = pose;
-    p->key = key;
-    p->has_pose = true;
     return FACET_OK;
 }
 

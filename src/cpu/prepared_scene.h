@@ -11,22 +11,17 @@
 #define CPU_PREPARED_SCENE_H
 
 #include "cpu/embree_scene.h"
+#include "draw/pose_key.h"
 #include "draw/tangent_store.h"
 
 struct texture_store; /* draw/texture_store.h */
-
-/* A facet_pose_desc with its own list. */
-typedef struct prepared_key {
-    facet_pose_desc desc;
-    uint32_t *animations; /* what desc points to */
-} prepared_key;
 
 /* Stays where it is between init and clear: Embree keeps its address. */
 typedef struct prepared_scene {
     const facet_scene *scene;
     facet_allocator allocator;
-    bool has_pose, has_geometry, has_tangents;
-    prepared_key key;
+    bool has_geometry, has_tangents;
+    pose_key key; /* of pose */
     scene_pose pose;
     scene_pose geometry_pose; /* of geometries, where that is not pose */
     camera_rays camera;       /* of points and lines */

@@ -196,7 +196,7 @@ facet_result render_with_prepared(render_attempt *attempt, prepared_scene *p, co
 {
     double start = clock_seconds();
     double deadline_s = desc->time_limit_s > 0.0 ? start + desc->time_limit_s : 0.0;
-    bool was_empty = !p->has_pose;
+    bool was_empty = !p->key.is_set;
     bool has_setup;
     facet_result result = attempt(p, desc, deadline_s, target, stats, &has_setup, error);
     if (!has_setup && result != FACET_OK)

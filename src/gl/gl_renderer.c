@@ -9,13 +9,12 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "draw/camera_rays.h"
-#include "draw/tangent_store.h"
 #include "gl/gl_light.h"
 #include "gl/gl_material.h"
+#include "gl/gl_scene.h"
 #include "gl/gl_target.h"
 
 struct gl_renderer {
-    const facet_scene *scene;
     facet_allocator allocator;
     gl_context own, *context;
     gl_programs *programs;
@@ -24,11 +23,7 @@ struct gl_renderer {
     gl_light *light;
     gl_target target;
     GLuint frame_buffer, empty_array;
-    /* of the last picture */
-    scene_pose pose;
-    render_geometry_set geometries;
-    tangent_store tangents;
-    material_plan_set plans;
+    gl_scene prepared;
 };
 
 /* ---- what is prepared ---- */
@@ -40,8 +35,8 @@ facet_result gl_renderer_create(const facet_scene *scene, gl_context *context,
     *out = NULL;
     if (!r)
         return fail_memory(error, "renderer", sizeof *r);
-    r->scene = scene;
     r->allocator = allocator ? *allocator : (facet_allocator){0};
+    gl_scene_init(&r->prepared, scene, &r->allocator);
     facet_result result = FACET_OK;
     r->context = context;
     if (!context) {
@@ -66,14 +61,6 @@ facet_result gl_renderer_create(const facet_scene *scene, gl_context *context,
     return FACET_OK;
 }
 
-static void clear_scene(gl_renderer *r)
-{
-    material_plans_destroy(&r->plans);
-    tangent_store_destroy(&r->tangents);
-    render_geometry_destroy(&r->geometries);
-    scene_pose_destroy(&r->pose);
-}
-
 void gl_renderer_destroy(gl_renderer *r)
 {
     if (!r)
@@ -87,25 +74,9 @@ void gl_renderer_destroy(gl_renderer *r)
         glDeleteBuffers(1, &r->frame_buffer);
         glDeleteVertexArrays(1, &r->empty_array);
     }
-    clear_scene(r);
+    gl_scene_clear(&r->prepared);
     gl_context_destroy(&r->own);
     mem_free(r);
-}
-
-static facet_result prepare_scene(gl_renderer *r, const facet_render_desc *desc, facet_error *error)
-{
-    clear_scene(r);
-    facet_result result =
-        scene_pose_create(r->scene, &desc->pose, &r->allocator, desc->thread_count, &r->pose, error);
-    if (result == FACET_OK)
-        result = render_geometry_create(r->scene, &r->pose, &r->allocator, &r->geometries, error);
-    for (uint32_t i = 0; result == FACET_OK && i < r->geometries.count; i++)
-        r->geometries.items[i].world = &r->pose.instances[i].world;
-    if (result == FACET_OK)
-        result = tangent_store_fill(&r->tangents, &r->geometries, &r->allocator, desc->thread_count, error);
-    if (result == FACET_OK)
-        result = material_plans_create(&r->geometries, &r->allocator, &r->plans, error);
-    return result;
 }
 
 /* ---- a picture ---- */
@@ -121,7 +92,7 @@ static void set_camera(const gl_renderer *r, const camera_rays *c, uint32_t widt
     for (int corner = 0; corner < 8; corner++) {
         double depth = 0.0;
         for (int i = 0; i < 3; i++) {
-            float at = corner >> i & 1 ? r->pose.bounds_max[i] : r->pose.bounds_min[i];
+            float at = corner >> i & 1 ? r->prepared.pose.bounds_max[i] : r->prepared.pose.bounds_min[i];
             depth += ((double)at - (double)c->origin[i]) * (double)c->direction[i];
         }
         low = fmin(low, depth);
@@ -228,19 +199,19 @@ static facet_result draw_picture(gl_renderer *r, const facet_render_desc *desc, 
     if (result == FACET_OK)
         result = camera_rays_create(desc->camera, desc->width, desc->height, &camera, error);
     if (result == FACET_OK)
-        result = prepare_scene(r, desc, error);
+        result = gl_scene_update(&r->prepared, desc, error);
     if (result != FACET_OK)
         return result;
     set_camera(r, &camera, desc->width, desc->height, &block);
     stats->geometry_s += clock_seconds() - start;
     start = clock_seconds();
-    result = light_setup_create(&r->geometries, &r->pose, &camera, desc, &light, error);
+    result = light_setup_create(&r->prepared.geometries, &r->prepared.pose, &camera, desc, &light, error);
     if (result == FACET_OK)
         result = gl_light_update(r->light, &light, camera.origin, error);
     stats->light_s += clock_seconds() - start;
     start = clock_seconds();
     if (result == FACET_OK)
-        result = gl_mesh_update(r->meshes, &r->geometries, &r->plans, camera.origin, error);
+        result = gl_mesh_update(r->meshes, &r->prepared.geometries, &r->prepared.plans, camera.origin, error);
     if (result == FACET_OK)
         result = gl_material_update(r->materials, r->meshes, desc, error);
     stats->textures_s += clock_seconds() - start;
