@@ -6,7 +6,7 @@ layout(std140) uniform Frame
     vec4 right;           /* of the camera, per pixel at depth 1 m (orthographic: m) */
     vec4 up;
     vec4 forward;    /* unit */
-    vec4 frame_size; /* pixels; z, w: the tile's corner */
+    vec4 frame_size; /* width, height of what is drawn, pixels; what gl_FragCoord lacks to be a place in it */
     vec4 frame_light; /* scale of the environment, cos and sin of its rotation, number of punctual lights */
     float exposure;
     int energy;
@@ -14,5 +14,6 @@ layout(std140) uniform Frame
     int has_specular_antialiasing;
     float background_blur;
     float tonemap_operator;
-    vec2 frame_reserved;
+    float far_depth;   /* gl_Position.z / w of what is infinitely far away: 1, or 0 where depth is reversed */
+    float pixel_scale; /* pixels that are drawn, in a row, for one of the picture */
 };

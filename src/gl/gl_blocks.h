@@ -13,14 +13,17 @@ typedef struct gl_frame_block {
     float eye[4];              /* m; w: 1 orthographic */
     float right[4], up[4];     /* of the camera, per pixel at depth 1 m (orthographic: m) */
     float forward[4];          /* unit */
-    float size[4];             /* picture in pixels; x, y of the tile's corner */
+    float size[4];   /* width, height of what is drawn, pixels; what gl_FragCoord lacks to be a place in it */
     float light[4];  /* scale of the environment, cos and sin of its rotation, number of punctual lights */
     float exposure;  /* scale of radiance */
     int32_t energy;  /* ENERGY_* */
     int32_t channel; /* facet_channel */
     int32_t has_specular_antialiasing;
     float background_blur; /* perceptual roughness */
-    float tonemap, reserved[2];
+    float tonemap;
+    float far_depth; /* gl_Position.z / w of what is infinitely far away: 1, or 0 where depth is reversed */
+    float
+        pixel_scale; /* pixels that are drawn, in a row, for one of the picture: 2 with FACET_QUALITY_FINAL */
 } gl_frame_block;
 
 /* Texture units; those of materials come behind. */

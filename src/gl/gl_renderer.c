@@ -9,6 +9,8 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "draw/camera_rays.h"
+#include "draw/tangent_store.h"
+#include "gl/gl_camera.h"
 #include "gl/gl_light.h"
 #include "gl/gl_material.h"
 #include "gl/gl_scene.h"
@@ -81,53 +83,6 @@ void gl_renderer_destroy(gl_renderer *r)
 
 /* ---- a picture ---- */
 
-/* Columns; of points relative to the eye. Depth is reversed nowhere: near and far follow the bounds of the scene. */
-static void set_camera(const gl_renderer *r, const camera_rays *c, uint32_t width, uint32_t height,
-                       gl_frame_block *b)
-{
-    const float *dx = c->is_orthographic ? c->origin_dx : c->direction_dx;
-    const float *dy = c->is_orthographic ? c->origin_dy : c->direction_dy;
-    double half_w = 0.5 * width, half_h = 0.5 * height;
-    double low = INFINITY, high = 0.0; /* depths of the scene */
-    for (int corner = 0; corner < 8; corner++) {
-        double depth = 0.0;
-        for (int i = 0; i < 3; i++) {
-            float at = corner >> i & 1 ? r->prepared.pose.bounds_max[i] : r->prepared.pose.bounds_min[i];
-            depth += ((double)at - (double)c->origin[i]) * (double)c->direction[i];
-        }
-        low = fmin(low, depth);
-        high = fmax(high, depth);
-    }
-    double size = fmax(high - low, 1e-6);
-    double far = fmin((double)c->far_m, high + 0.01 * size + 1e-6);
-    double near = fmax((double)c->near_m, low - 0.01 * size);
-    if (!c->is_orthographic)
-        near = fmax(near, fmax(far, 1e-6) * 1e-5);
-    if (!(far > near))
-        far = near + 1.0;
-    for (int i = 0; i < 3; i++) {
-        b->right[i] = dx[i];
-        b->up[i] = -dy[i];
-        b->forward[i] = c->direction[i];
-        b->eye[i] = c->origin[i];
-    }
-    b->eye[3] = c->is_orthographic ? 1.0f : 0.0f;
-    double pixel2 = (double)c->pixel_size * (double)c->pixel_size;
-    double depth_scale = c->is_orthographic ? 2.0 / (far - near) : (far + near) / (far - near);
-    double depth_offset =
-        c->is_orthographic ? -(far + near) / (far - near) : -2.0 * far * near / (far - near);
-    float *m = b->view_projection;
-    for (int i = 0; i < 3; i++) {
-        m[4 * i + 0] = (float)((double)dx[i] / (pixel2 * half_w));
-        m[4 * i + 1] = (float)((double)-dy[i] / (pixel2 * half_h));
-        m[4 * i + 2] = (float)((double)c->direction[i] * depth_scale);
-        m[4 * i + 3] = c->is_orthographic ? 0.0f : c->direction[i];
-    }
-    m[12] = m[13] = 0.0f;
-    m[14] = (float)depth_offset;
-    m[15] = c->is_orthographic ? 1.0f : 0.0f;
-}
-
 static facet_result draw_batches(gl_renderer *r, gl_pass pass, facet_error *error)
 {
     uint32_t count;
@@ -167,9 +122,9 @@ static facet_result draw(gl_renderer *r, const facet_render_desc *desc, const gl
     glBindFramebuffer(GL_FRAMEBUFFER, r->target.framebuffer);
     glViewport(0, 0, (GLsizei)r->target.width, (GLsizei)r->target.height);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    gl_camera_begin_depth(r->context);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
     glDisable(GL_BLEND);
     facet_result result = draw_batches(r, GL_PASS_OPAQUE, error);
     if (result == FACET_OK && desc->background == FACET_BACKGROUND_ENVIRONMENT)
@@ -181,6 +136,7 @@ static facet_result draw(gl_renderer *r, const facet_render_desc *desc, const gl
     if (result == FACET_OK)
         result = draw_batches(r, GL_PASS_BLENDED, error);
     glDisable(GL_BLEND);
+    gl_camera_end_depth(r->context);
     gl_target_resolve(&r->target);
     return result;
 }
@@ -202,7 +158,9 @@ static facet_result draw_picture(gl_renderer *r, const facet_render_desc *desc, 
         result = gl_scene_update(&r->prepared, desc, error);
     if (result != FACET_OK)
         return result;
-    set_camera(r, &camera, desc->width, desc->height, &block);
+    const gl_view all = {.scale = 1, .width = desc->width, .height = desc->height};
+    gl_camera_set(r->context, &camera, r->prepared.pose.bounds_min, r->prepared.pose.bounds_max, desc->width,
+                  desc->height, &all, &block);
     stats->geometry_s += clock_seconds() - start;
     start = clock_seconds();
     result = light_setup_create(&r->prepared.geometries, &r->prepared.pose, &camera, desc, &light, error);

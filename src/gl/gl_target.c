@@ -22,10 +22,10 @@ static GLuint make_texture(GLenum format, uint32_t width, uint32_t height)
     GLuint name;
     glGenTextures(1, &name);
     glBindTexture(GL_TEXTURE_2D, name);
-    GLenum layout = format == GL_DEPTH_COMPONENT24 ? GL_DEPTH_COMPONENT : GL_RGBA;
-    GLenum type = format == GL_DEPTH_COMPONENT24 ? GL_UNSIGNED_INT
-                  : format == GL_RGBA32F         ? GL_FLOAT
-                                                 : GL_HALF_FLOAT;
+    GLenum layout = format == GL_DEPTH_COMPONENT32F ? GL_DEPTH_COMPONENT : GL_RGBA;
+    GLenum type = format == GL_DEPTH_COMPONENT32F ? GL_FLOAT
+                  : format == GL_RGBA32F          ? GL_FLOAT
+                                                  : GL_HALF_FLOAT;
     glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, (GLsizei)width, (GLsizei)height, 0, layout, type, NULL);
     GLint filter = layout == GL_RGBA ? GL_LINEAR : GL_NEAREST;
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
@@ -51,14 +51,14 @@ static void make(gl_target *t, GLenum format)
     glGenFramebuffers(1, &t->framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
     if (t->samples == 1) {
-        t->depth = make_texture(GL_DEPTH_COMPONENT24, t->width, t->height);
+        t->depth = make_texture(GL_DEPTH_COMPONENT32F, t->width, t->height);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, t->color, 0);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, t->depth, 0);
         t->resolved_framebuffer = t->framebuffer;
         return;
     }
     t->renderbuffers[0] = make_renderbuffer(format, t->width, t->height, t->samples);
-    t->renderbuffers[1] = make_renderbuffer(GL_DEPTH_COMPONENT24, t->width, t->height, t->samples);
+    t->renderbuffers[1] = make_renderbuffer(GL_DEPTH_COMPONENT32F, t->width, t->height, t->samples);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, t->renderbuffers[0]);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t->renderbuffers[1]);
     glGenFramebuffers(1, &t->resolved_framebuffer);
