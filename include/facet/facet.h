@@ -485,6 +485,8 @@ FACET_API void facet_environment_destroy(facet_environment *environment); /* NUL
 
 /* ---- rendering ---- */
 
+typedef struct facet_image facet_image; /* what is drawn, and what files hold; see below */
+
 typedef enum facet_quality { FACET_QUALITY_NORMAL, FACET_QUALITY_DRAFT, FACET_QUALITY_FINAL } facet_quality;
 
 typedef enum facet_tonemap {
@@ -592,6 +594,10 @@ typedef struct facet_path_desc {
     bool
         resumes; /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there
                      is none it starts */
+    /* Told after a pass, while there are more to come: the picture so far, not denoised, which is gone when it returns.
+     * From a thread of the renderer's. NULL: nobody */
+    void (*pass)(void *pass_user, const facet_image *image, uint32_t samples);
+    void *pass_user;
 } facet_path_desc;
 
 /* What of a surface is drawn. Those that are not light are not tone-mapped, and drawn over black. */
@@ -701,8 +707,6 @@ typedef struct facet_render_desc {
         time_limit_s; /* 0: none; past it FACET_ERROR_LIMIT. FACET_INTEGRATOR_PATH gives what it has, unless that is
                             not a sample for each pixel */
 } facet_render_desc;
-
-typedef struct facet_image facet_image;
 
 /* Renders on the CPU with prefiltered light: what real-time viewers show. The image has the layer "" (RGBA,
  * float, linear, premultiplied) and one layer per AOV. */
@@ -1111,6 +1115,65 @@ typedef struct facet_plot_desc {
  * FACET_ERROR_READ, _INVALID: of a measured BRDF. */
 FACET_API facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format format,
                                          unsigned char **bytes, size_t *size, facet_error *error);
+
+/* ---- the viewer ---- */
+
+/* A model as a window begins to show it. */
+typedef struct facet_view_model {
+    facet_scene *scene;   /* the window's from now on */
+    facet_pose_desc pose; /* its animations are copied */
+    bool is_playing;
+    facet_orbit orbit;
+    bool has_camera; /* of the file, instead of the orbit */
+    uint32_t camera;
+} facet_view_model;
+
+/* What a window shows, as facet_render() is asked for the same picture. */
+typedef struct facet_view_picture {
+    const char *model;               /* its path; NULL: the built-in scene */
+    const char *environment;         /* as load_environment() got it */
+    const facet_render_desc *render; /* complete */
+    const facet_orbit *orbit;        /* with radius and target; NULL: a camera of the file */
+    uint32_t camera;                 /* of the file */
+} facet_view_picture;
+
+/* What a window asks of who opened it, which makes it show what they would render. load_model and load_environment are
+ * called from a thread of their own, one at a time, the others from that of facet_view(). NULL: what the library does
+ * by itself. */
+typedef struct facet_view_source {
+    void *user;
+    /* path NULL: the built-in scene */
+    facet_result (*load_model)(void *user, const char *path, facet_view_model *model, facet_error *error);
+    /* name NULL: the one that was asked for at the start, or the model's own. *environment NULL: there is no light */
+    facet_result (*load_environment)(void *user, const char *name, const facet_view_model *model,
+                                     facet_environment **environment, facet_error *error);
+    /* The command line that renders the picture; a block of malloc(), NULL: there is none */
+    char *(*describe)(void *user, const facet_view_picture *picture);
+    /* What was asked for to be printed: a line. */
+    void (*print)(void *user, const char *text);
+} facet_view_source;
+
+/* How a window opens. {0}: the built-in scene. */
+typedef struct facet_view_desc {
+    facet_allocator allocator;
+    facet_log log;
+    facet_view_source source;
+    const char *const *paths; /* models, and folders with some */
+    uint32_t path_count;
+    const char *const *environments; /* names to choose from beside those in a named file's folder */
+    uint32_t environment_count;
+    const char *environment; /* which is shown at first; NULL: as load_environment() has it */
+    /* As the window begins: size (0: 1024 x 768), background, exposure, .. Its integrator is _GL or _PATH; allocator, log,
+     * progress, pose, camera, environment and crop are not read. */
+    facet_render_desc render;
+    uint32_t path_samples; /* per pixel, at which path tracing ends; 0: 4096 */
+    const char
+        *script; /* a file of input that is played with a clock of its own (docs/view.md); NULL: none */
+} facet_view_desc;
+
+/* A window that shows models until it is closed. On the process' first thread. Fails with FACET_ERROR_ENVIRONMENT: there is
+ * no display, GLFW or OpenGL; FACET_ERROR_ARGUMENT: the script; or as the first model does. */
+FACET_API facet_result facet_view(const facet_view_desc *desc /* NULL: {0} */, facet_error *error);
 
 /* ---- comparison ---- */
 

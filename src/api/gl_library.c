@@ -22,7 +22,8 @@ static const gl_host host = {.renderer_create = facet_renderer_create,
                              .image_get_layer_count = facet_image_get_layer_count,
                              .image_get_layer = facet_image_get_layer,
                              .image_save = facet_image_save,
-                             .image_destroy = facet_image_destroy};
+                             .image_destroy = facet_image_destroy,
+                             .image_create = facet_image_create};
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static const gl_entry *opened;
@@ -68,4 +69,9 @@ facet_result gl_library_open(const gl_entry **entry, facet_error *error)
         return FACET_OK;
     return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL: facet's module %s cannot be opened%s%s%s", name,
                 why[0] ? " (" : ": it is not installed", why, why[0] ? ")" : "");
+}
+
+const gl_host *gl_library_host(void)
+{
+    return &host;
 }

@@ -7,5 +7,7 @@
 /* Its functions; it stays open until the process ends. Safe from several threads. Fails with FACET_ERROR_ENVIRONMENT: the
  * module is not there, or not this build's. */
 facet_result gl_library_open(const gl_entry **entry, facet_error *error);
+/* What the module was given of libfacet. */
+const gl_host *gl_library_host(void);
 
 #endif

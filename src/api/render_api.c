@@ -151,6 +151,33 @@ static facet_result render_gl(facet_renderer *renderer, const facet_render_desc 
     return result == FACET_OK ? gl->render(renderer->gl, desc, &image->film, &image->stats, error) : result;
 }
 
+/* A picture whose passes somebody wants to see. */
+typedef struct watched_picture {
+    const facet_render_desc *desc;
+    facet_image *image;
+} watched_picture;
+
+/* The next pass fills the film anew. */
+static void show_pass(void *user, const facet_image *unknown, uint32_t samples)
+{
+    const watched_picture *w = user;
+    (void)unknown;
+    develop(w->desc, &w->image->film);
+    w->desc->path.pass(w->desc->path.pass_user, w->image, samples);
+}
+
+static facet_result render_path(facet_renderer *renderer, const facet_render_desc *desc, facet_image *image,
+                                facet_error *error)
+{
+    watched_picture watched = {.desc = desc, .image = image};
+    facet_render_desc with_film = *desc;
+    if (desc->path.pass) {
+        with_film.path.pass = show_pass;
+        with_film.path.pass_user = &watched;
+    }
+    return path_render_prepared(&renderer->prepared, &with_film, &image->film, &image->stats, error);
+}
+
 static facet_result render(facet_renderer *renderer, const facet_render_desc *resolved, facet_image *image,
                            facet_error *error)
 {
@@ -168,7 +195,7 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
     if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_GL)
         result = render_gl(renderer, &desc, image, error);
     else if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_PATH)
-        result = path_render_prepared(prepared, &desc, &image->film, &image->stats, error);
+        result = render_path(renderer, &desc, image, error);
     else if (result == FACET_OK)
         result = preview_render_prepared(prepared, &desc, &image->film, &image->stats, error);
     if (result == FACET_OK)

@@ -27,8 +27,11 @@ static void report(char *out, size_t size)
 
 const gl_entry *facet_gl_entry(const char *build, const gl_host *host)
 {
-    static const gl_entry entry = {
-        .create = create, .render = gl_renderer_render, .destroy = gl_renderer_destroy, .report = report};
+    static const gl_entry entry = {.create = create,
+                                   .render = gl_renderer_render,
+                                   .destroy = gl_renderer_destroy,
+                                   .report = report,
+                                   .view = view_run};
     (void)host;
     return strcmp(build, GL_ENTRY_BUILD) == 0 ? &entry : NULL;
 }

@@ -20,6 +20,8 @@ typedef struct gl_host {
     facet_result (*image_save)(const facet_image *image, const char *path, const facet_save_desc *desc,
                                facet_error *error);
     void (*image_destroy)(facet_image *image);
+    facet_result (*image_create)(const facet_image_view *pixels, const facet_allocator *allocator,
+                                 facet_image **image, facet_error *error);
 } gl_host;
 
 typedef struct gl_entry {
@@ -34,7 +36,12 @@ typedef struct gl_entry {
     void (*destroy)(gl_renderer *renderer); /* NULL is allowed */
     /* One line: version, driver, whether without a window; or why there is none. */
     void (*report)(char *out, size_t size);
+    /* facet_view() with a desc whose functions are all there. */
+    facet_result (*view)(const gl_host *host, const facet_view_desc *desc, facet_error *error);
 } gl_entry;
+
+/* src/view's, which is linked into the module; view_none.c has it where there is no GLFW to build with. */
+facet_result view_run(const gl_host *host, const facet_view_desc *desc, facet_error *error);
 
 /* The module's only symbol, by this name. build: GL_ENTRY_BUILD of who asks; NULL where the module is of another build,
  * whose structures may look different. host outlives all that comes of it. */

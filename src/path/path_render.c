@@ -253,6 +253,16 @@ static bool judge(path_picture *p, uint32_t goal)
     return path_film_share_done(p->sums) >= 1.0f;
 }
 
+/* Whoever asked knows which film is drawn into; of images nothing is known here. */
+static void tell_pass(path_picture *p, uint32_t goal)
+{
+    const facet_path_desc *path = &p->desc->path;
+    if (!path->pass || goal >= p->desc->samples)
+        return;
+    path_film_resolve(p->sums, exp2f(p->desc->exposure_ev), p->target, p->desc->thread_count);
+    path->pass(path->pass_user, NULL, goal);
+}
+
 /* Pass after pass until all is done, or the watch stops it. */
 static facet_result draw_passes(path_picture *p, facet_error *error)
 {
@@ -266,8 +276,10 @@ static facet_result draw_passes(path_picture *p, facet_error *error)
             break;
         goal = next_goal(p, goal);
         draw_pass(p, goal);
-        if (!render_watch_is_stopped(&p->watch))
+        if (!render_watch_is_stopped(&p->watch)) {
             save_from_time_to_time(p);
+            tell_pass(p, goal);
+        }
     }
     return result;
 }

@@ -6,7 +6,8 @@
 
 /* As preview_render_prepared(), for desc->integrator FACET_INTEGRATOR_PATH. Past the time limit the film has what there is and
  * stats->is_partial is set; FACET_ERROR_LIMIT where that is not a sample for each pixel. Fails also as
- * path_film_load(), path_checkpoint_check(); a checkpoint that cannot be written is a warning. */
+ * path_film_load(), path_checkpoint_check(); a checkpoint that cannot be written is a warning. desc->path.pass is told of
+ * passes with NULL for the image: the picture so far is in the film. */
 facet_result path_render_prepared(prepared_scene *p, const facet_render_desc *desc, film *target,
                                   facet_render_stats *stats, facet_error *error);
 
