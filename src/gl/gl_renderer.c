@@ -9,7 +9,6 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "draw/camera_rays.h"
-#include "draw/tangent_store.h"
 #include "gl/gl_camera.h"
 #include "gl/gl_light.h"
 #include "gl/gl_material.h"
