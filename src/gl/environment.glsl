@@ -1,36 +1,178 @@
 /* environment.glsl - lookups of the surroundings and of the tables, as light_setup.h and ibl.h have them. Radiance in
- * cd/m^2 per channel, without exposure; directions are unit vectors of the world. 0 where no environment is. */
+ * cd/m^2 per channel, without exposure; directions are unit vectors of the world. 0 where there is no environment, or
+ * nothing was prepared of it because no material reads it. */
+uniform highp sampler2D u_tables; /* x, y: DFG; z: sheen's albedo */
+uniform highp sampler3D u_glass;
+#ifdef HAS_ENVIRONMENT
+uniform highp sampler2D u_environment; /* cube maps and pictures, each with a border of one texel */
+uniform highp sampler2D u_sharp;       /* the picture behind the model */
+
+/* World to environment. */
+vec3 to_environment(vec3 d)
+{
+    return vec3(d.x * frame_light.y - d.z * frame_light.z, d.y, d.x * frame_light.z + d.z * frame_light.y);
+}
+
+/* ---- cube maps (cube.h) ---- */
+
+/* Where d is: column and row of the face (axis, sign), then s and t on it. */
+vec4 cube_locate(vec3 d)
+{
+    vec3 a = abs(d);
+    if (a.x >= a.y && a.x >= a.z)
+        return vec4(0.0, d.x < 0.0 ? 1.0 : 0.0, vec2(d.x < 0.0 ? d.z : -d.z, -d.y) / a.x);
+    if (a.y >= a.z)
+        return vec4(1.0, d.y < 0.0 ? 1.0 : 0.0, vec2(d.x, d.y < 0.0 ? -d.z : d.z) / a.y);
+    return vec4(2.0, d.z < 0.0 ? 1.0 : 0.0, vec2(d.z < 0.0 ? -d.x : d.x, -d.y) / a.z);
+}
+
+/* place: column and row of the first texel, edge of a face in texels, scale. */
+vec3 cube_fetch(vec4 place, vec4 at)
+{
+    vec2 texel = place.xy + at.xy * (place.z + 2.0) + (at.zw * (0.5 * place.z) + (0.5 * place.z + 1.0));
+    return textureLod(u_environment, texel * light_atlas.xy, 0.0).xyz * place.w;
+}
+
+/* The level of a lobe (0: GGX, 1: Charlie), with fraction, between the first and last that were prepared. */
+float light_lod(int lobe, float roughness)
+{
+    int first = lobe == 0 ? light_ranges.x : light_ranges.z;
+    int last = lobe == 0 ? light_ranges.y : light_ranges.w;
+    float lod = float(first);
+    for (int i = first; i < last; i++) {
+        vec2 level = lobe == 0 ? light_steps[i].xy : light_steps[i].zw;
+        lod += clamp((roughness - level.x) * level.y, 0.0, 1.0);
+    }
+    return lod;
+}
+
+/* Between two levels. */
+vec3 light_levels(int lobe, float lod, vec3 d)
+{
+    int last = lobe == 0 ? light_ranges.y : light_ranges.w;
+    int level = min(int(lod), last);
+    vec4 at = cube_locate(d);
+    vec3 near = cube_fetch(light_places[LIGHT_LEVELS * lobe + level], at);
+    vec3 far = cube_fetch(light_places[LIGHT_LEVELS * lobe + min(level + 1, last)], at);
+    return near + (far - near) * (lod - float(level));
+}
+
+/* ---- pictures (equirect.h) ---- */
+
+/* Turns from the middle column, half turns from the top. */
+vec2 equirect_locate(vec3 d)
+{
+    return vec2(atan(d.z, d.x) * (0.5 * INV_PI), atan(length(d.xz), d.y) * INV_PI);
+}
+
+/* place: column and row of the first texel, width and height. */
+vec3 equirect_fetch(vec4 place, vec2 at)
+{
+    vec2 texel = at * place.zw + vec2(0.5 * place.z, 0.0);
+    texel.y = clamp(texel.y, 0.5, place.w - 0.5);
+    return textureLod(u_environment, (place.xy + texel + 1.0) * light_atlas.xy, 0.0).xyz;
+}
+
+/* From a mirror (0) up to level 1 of GGX (1): narrow.h. */
+vec3 light_narrow(float lod, vec3 d)
+{
+    float place = lod * float(LIGHT_STEPS - 1);
+    int i = min(int(place), LIGHT_STEPS - 2);
+    float fraction = place - float(i);
+    vec4 weights = mix(light_narrow_weights[i], light_narrow_weights[i + 1], fraction);
+    float lobe = mix(light_narrow_lobe[i / 4][i & 3], light_narrow_lobe[(i + 1) / 4][(i + 1) & 3], fraction);
+    vec2 at = equirect_locate(d);
+    vec3 c = vec3(0.0);
+    if (lobe > 0.0)
+        c = cube_fetch(light_places[1], cube_locate(d)) * lobe;
+    for (int k = 0; k < LIGHT_PICTURES; k++)
+        if (weights[k] > 0.0)
+            c += equirect_fetch(light_pictures[k], at) * weights[k];
+    return c;
+}
+
+/* ---- what surfaces look up ---- */
+
+/* Around R, filtered with the lobe of GGX. */
 vec3 light_specular(vec3 R, float perceptual_roughness)
 {
-    return vec3(0.5 + 0.5 * R.y);
+    vec3 d = to_environment(R);
+    float lod = light_lod(0, perceptual_roughness);
+    return frame_light.x * (lod < 1.0 ? light_narrow(lod, d) : light_levels(0, lod, d));
+}
+
+/* Around R, filtered with Charlie's lobe. */
+vec3 light_sheen(vec3 R, float sheen_roughness)
+{
+    return frame_light.x * light_levels(1, light_lod(1, sheen_roughness), to_environment(R));
+}
+
+/* What a white Lambertian surface sends out. */
+vec3 light_irradiance_over_pi(vec3 N)
+{
+    return frame_light.x * cube_fetch(light_irradiance, cube_locate(to_environment(N)));
+}
+
+/* From direction d. */
+vec3 light_background(vec3 d)
+{
+    vec2 at = equirect_locate(to_environment(d));
+    return textureLod(u_sharp, vec2(at.x + 0.5, at.y), 0.0).xyz * (light_atlas.z * frame_light.x);
+}
+#else
+vec3 light_specular(vec3 R, float perceptual_roughness)
+{
+    return vec3(0.0);
 }
 
 vec3 light_sheen(vec3 R, float sheen_roughness)
 {
-    return vec3(0.5 + 0.5 * R.y);
+    return vec3(0.0);
 }
 
 vec3 light_irradiance_over_pi(vec3 N)
 {
-    return vec3(0.5 + 0.5 * N.y);
+    return vec3(0.0);
 }
 
 vec3 light_background(vec3 d)
 {
-    return vec3(0.5 + 0.5 * d.y);
+    return vec3(0.0);
+}
+#endif
+
+/* ---- tables (dfg.h) ---- */
+
+/* Texture coordinate of x in [0, 1] between size nodes. */
+float table_place(float x, float size)
+{
+    return (clamp(x, 0.0, 1.0) * (size - 1.0) + 0.5) / size;
 }
 
+vec3 table_albedo(float NdotV, float roughness)
+{
+    float size = float(textureSize(u_tables, 0).x);
+    return textureLod(u_tables, vec2(table_place(sqrt(max(NdotV, 0.0)), size), table_place(roughness, size)), 0.0).xyz;
+}
+
+/* Split-sum terms of F0 and F90. */
 vec2 table_dfg(float NdotV, float perceptual_roughness)
 {
-    return vec2(0.9, 0.05);
+    return table_albedo(NdotV, perceptual_roughness).xy;
 }
 
+/* Directional albedo of sheen of color 1. */
 float table_sheen_albedo(float NdotV, float sheen_roughness)
 {
-    return 0.0;
+    return table_albedo(NdotV, sheen_roughness).z;
 }
 
+/* integrate_glass() of shade/glass.h. The layers for light from inside come behind the others. */
 vec3 table_glass(float NdotV, float perceptual_roughness, float eta)
 {
-    return vec3(0.0);
+    vec3 size = vec3(textureSize(u_glass, 0));
+    float half_size = 0.5 * size.z;
+    float root = abs(eta - 1.0) / (eta + 1.0);
+    float layer = clamp(sqrt(root / light_atlas.w), 0.0, 1.0) * (half_size - 1.0) + (eta < 1.0 ? half_size : 0.0);
+    return textureLod(u_glass, vec3(table_place(sqrt(max(NdotV, 0.0)), size.x), table_place(perceptual_roughness, size.y), (layer + 0.5) / size.z), 0.0).xyz;
 }

@@ -1,57 +1,133 @@
 /* gl_light.c - see gl_light.h. */
 #include "gl/gl_light.h"
 
+#include <epoxy/gl.h>
+
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/gl_light_atlas.h"
+#include "gl/gl_light_tables.h"
+#include "gl/gl_program.h"
+#include "gl/gl_punctual.h"
+#include "ibl/dfg.h"
+#include "ibl/environment.h"
 
 struct gl_light {
     gl_context *context;
     facet_allocator allocator;
+    gl_light_tables tables;
+    gl_light_atlas atlas;
+    gl_punctual punctual;
+    facet_environment
+        *environment; /* whose parts are in the atlas: as long as it lives they stay what they are */
+    bool has_environment;
+    uint32_t light_count;
     float scale, rotation_cos, rotation_sin;
+    GLuint block;
 };
 
 facet_result gl_light_create(gl_context *context, const facet_allocator *allocator, gl_light **out,
                              facet_error *error)
 {
-    *out = mem_zalloc(allocator, 1, sizeof **out);
-    if (!*out)
-        return fail_memory(error, "light", sizeof **out);
-    (*out)->context = context;
-    (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
+    gl_light *light = mem_zalloc(allocator, 1, sizeof *light);
+    *out = NULL;
+    if (!light)
+        return fail_memory(error, "light", sizeof *light);
+    light->context = context;
+    light->allocator = allocator ? *allocator : (facet_allocator){0};
+    glGenBuffers(1, &light->block);
+    facet_result result = gl_light_tables_create(&light->tables, context, &light->allocator, error);
+    if (result != FACET_OK) {
+        gl_light_destroy(light);
+        return result;
+    }
+    *out = light;
     return FACET_OK;
+}
+
+static void drop_environment(gl_light *light)
+{
+    gl_light_atlas_destroy(&light->atlas);
+    if (light->environment)
+        environment_release(light->environment);
+    light->environment = NULL;
 }
 
 void gl_light_destroy(gl_light *light)
 {
+    if (!light)
+        return;
+    drop_environment(light);
+    gl_light_tables_destroy(&light->tables);
+    gl_punctual_destroy(&light->punctual);
+    glDeleteBuffers(1, &light->block);
     mem_free(light);
 }
 
-facet_result gl_light_update(gl_light *light, const light_setup *setup, const float eye[3],
-                             facet_error *error)
+static facet_result update_environment(gl_light *light, const ibl_light *ibl, gl_light_block *block,
+                                       facet_error *error)
 {
-    (void)eye, (void)error;
+    light->has_environment = ibl != NULL;
+    if (!ibl || light->environment != ibl->environment)
+        drop_environment(light);
+    if (!ibl)
+        return FACET_OK;
+    if (!light->environment) {
+        light->environment = ibl->environment;
+        environment_retain(light->environment);
+    }
+    facet_result result = gl_light_atlas_update(&light->atlas, light->context, &light->allocator, ibl, error);
+    if (result == FACET_OK)
+        gl_light_atlas_describe(&light->atlas, ibl, block);
+    return result;
+}
+
+facet_result gl_light_update(gl_light *light, const light_setup *setup, facet_error *error)
+{
+    gl_light_block block = {.atlas = {0.0f, 0.0f, 0.0f, GLASS_ROOT_MAX}};
     light->scale = setup->scale;
     light->rotation_cos = setup->rotation_cos;
     light->rotation_sin = setup->rotation_sin;
-    return FACET_OK;
+    light->light_count = setup->punctual_count;
+    facet_result result = update_environment(light, setup->ibl, &block, error);
+    if (result == FACET_OK)
+        result =
+            gl_punctual_update(&light->punctual, light->context, &light->allocator, setup, &block, error);
+    if (result != FACET_OK)
+        return result;
+    glBindBuffer(GL_UNIFORM_BUFFER, light->block);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_DYNAMIC_DRAW);
+    return gl_context_check(light->context, "light", error);
 }
 
 uint64_t gl_light_features(const gl_light *light)
 {
-    (void)light;
-    return 0;
+    return (light->has_environment ? GL_SURFACE_HAS_ENVIRONMENT : 0u) |
+           (light->light_count ? GL_SURFACE_HAS_LIGHTS : 0u);
 }
 
 uint64_t gl_light_background_features(const gl_light *light, const facet_render_desc *desc)
 {
-    (void)light, (void)desc;
-    return 0;
+    return (light->has_environment ? GL_BACKGROUND_HAS_ENVIRONMENT : 0u) |
+           (desc->background_blur > 0.0f ? GL_BACKGROUND_IS_BLURRED : 0u);
+}
+
+static void bind(GLuint unit, GLenum target, GLuint texture)
+{
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(target, texture);
 }
 
 void gl_light_bind(const gl_light *light, gl_frame_block *block)
 {
+    bind(GL_UNIT_ENVIRONMENT, GL_TEXTURE_2D, light->atlas.texture);
+    bind(GL_UNIT_SHARP, GL_TEXTURE_2D, light->atlas.background);
+    bind(GL_UNIT_TABLES, GL_TEXTURE_2D, light->tables.albedo);
+    bind(GL_UNIT_GLASS, GL_TEXTURE_3D, light->tables.glass);
+    bind(GL_UNIT_LIGHTS, GL_TEXTURE_2D, light->punctual.texture);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, light->block);
     block->light[0] = light->scale;
     block->light[1] = light->rotation_cos;
     block->light[2] = light->rotation_sin;
-    block->light[3] = 0.0f;
+    block->light[3] = (float)light->light_count;
 }

@@ -1,7 +1,8 @@
 /* gl_light.h - the light of a picture as textures: what light_setup.h prepares for the CPU, the same texels.
  *
- * The environment's filtered cube maps with their borders lie in one texture of half floats, beside them the blurred
- * pictures of narrow.h; shaders look them up as ibl.h does. Punctual lights are rows of a texture of floats. */
+ * The environment's filtered cube maps and pictures lie in one texture of half floats (gl_light_atlas.h), punctual lights
+ * in one of 32-bit words (gl_punctual.h); shaders look them up as ibl.h and light_grid.h do: environment.glsl,
+ * lights.glsl. */
 #ifndef GL_GL_LIGHT_H
 #define GL_GL_LIGHT_H
 
@@ -14,13 +15,13 @@ typedef struct gl_light gl_light;
 facet_result gl_light_create(gl_context *context, const facet_allocator *allocator, gl_light **out,
                              facet_error *error);
 void gl_light_destroy(gl_light *light); /* NULL is allowed */
-/* Uploads what is not there. Lights stand relative to eye, as the instances do. Fails with FACET_ERROR_MEMORY. */
-facet_result gl_light_update(gl_light *light, const light_setup *setup, const float eye[3],
-                             facet_error *error);
+/* Uploads what is not there; keeps the environment until another one is shown, or none. Fails with FACET_ERROR_MEMORY,
+ * FACET_ERROR_LIMIT. */
+facet_result gl_light_update(gl_light *light, const light_setup *setup, facet_error *error);
 /* What a picture's programs have because of its light: GL_SURFACE_HAS_ENVIRONMENT and so on. */
 uint64_t gl_light_features(const gl_light *light);
 uint64_t gl_light_background_features(const gl_light *light, const facet_render_desc *desc);
-/* Binds the textures to their units and fills in what the frame's block says of light. */
+/* Binds the textures to their units and the block to its point, and fills in what the frame's block says of light. */
 void gl_light_bind(const gl_light *light, gl_frame_block *block);
 
 #endif

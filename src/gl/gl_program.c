@@ -33,13 +33,13 @@ static const struct {
                          "surface.vert",
                          "surface.frag",
                          {"surface", "light", "layers_ibl"},
-                         {"environment.glsl", "lights.glsl"},
+                         {"light_block.glsl", "environment.glsl", "lights.glsl"},
                          surface_features},
     [GL_MAIN_BACKGROUND] = {"background",
                             "screen.vert",
                             "background.frag",
                             {"surface"},
-                            {"environment.glsl"},
+                            {"light_block.glsl", "environment.glsl"},
                             background_features},
     [GL_MAIN_PRESENT] = {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, no_features},
 };
@@ -224,7 +224,7 @@ static facet_result fail_link(gl_programs *programs, const gl_program *p, facet_
 
 static void bind_names(const gl_program *p)
 {
-    static const char *const blocks[GL_BLOCK_COUNT] = {"Frame", "Material"};
+    static const char *const blocks[GL_BLOCK_COUNT] = {"Frame", "Material", "Lighting"};
     for (GLuint i = 0; i < GL_BLOCK_COUNT; i++) {
         GLuint index = glGetUniformBlockIndex(p->name, blocks[i]);
         if (index != GL_INVALID_INDEX)

@@ -164,7 +164,7 @@ static facet_result draw_picture(gl_renderer *r, const facet_render_desc *desc, 
     start = clock_seconds();
     result = light_setup_create(&r->prepared.geometries, &r->prepared.pose, &camera, desc, &light, error);
     if (result == FACET_OK)
-        result = gl_light_update(r->light, &light, camera.origin, error);
+        result = gl_light_update(r->light, &light, error);
     stats->light_s += clock_seconds() - start;
     start = clock_seconds();
     if (result == FACET_OK)

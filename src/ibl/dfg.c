@@ -21,6 +21,21 @@ static const uint16_t glass_table[2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE * 3] 
 #include "ibl_glass_table.h"
 };
 
+const float *ibl_dfg_nodes(void)
+{
+    return &dfg_table[0][0][0];
+}
+
+const float *ibl_sheen_nodes(void)
+{
+    return &sheen_table[0][0];
+}
+
+const uint16_t *ibl_glass_nodes(void)
+{
+    return glass_table;
+}
+
 /* Between which nodes of a table of size nodes x in [0, 1] lies: the first one, and how far it is from there. */
 typedef struct table_place {
     int first;

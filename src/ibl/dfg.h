@@ -2,6 +2,8 @@
 #ifndef IBL_DFG_H
 #define IBL_DFG_H
 
+#include <stdint.h>
+
 /* Node (x, y) of a table of size SIZE is for sqrt(NdotV) = x / (SIZE - 1), perceptual roughness y / (SIZE - 1). The
  * square root spreads the grazing angles, where the terms change fastest. */
 enum {
@@ -15,5 +17,12 @@ enum {
  * is near 1 and the terms change fastest; the last is ior 9. Terms are stored times GLASS_UNIT. */
 #define GLASS_ROOT_MAX 0.8f
 #define GLASS_UNIT 65535.0f
+
+/* The nodes themselves, which ibl_dfg(), ibl_sheen_albedo() and ibl_glass() look up in: rows of roughness, columns of
+ * sqrt(NdotV). Glass has a layer per ior for light from outside (eta above 1), then those for light from inside, times
+ * GLASS_UNIT. */
+const float *ibl_dfg_nodes(void);      /* DFG_SIZE x DFG_SIZE x 2 */
+const float *ibl_sheen_nodes(void);    /* SHEEN_SIZE x SHEEN_SIZE */
+const uint16_t *ibl_glass_nodes(void); /* 2 GLASS_IORS x GLASS_SIZE x GLASS_SIZE x 3 */
 
 #endif

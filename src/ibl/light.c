@@ -9,28 +9,13 @@
 #include "ibl/cache.h"
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
-#include "ibl/ibl.h"
+#include "ibl/light.h"
 
 /* Counts the changes to how parts are prepared: what a cache kept of another version is not used. */
 static const uint64_t recipe_version = 3;
 
 /* Rows of the picture that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
 static const double sharp_rows = 512.0;
-
-/* Levels of a lobe that were prepared; last < first: none. */
-typedef struct level_range {
-    uint32_t first, last;
-} level_range;
-
-/* What a light looks up in, shared with the environment, which it keeps. */
-struct ibl_light {
-    facet_environment *environment;
-    cube irradiance_over_pi; /* not owned */
-    level_range ranges[PREFILTER_LOBE_COUNT];
-    cube levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* not owned; [][0] is not used */
-    image sharp, background;                                  /* not owned */
-    const narrow *narrow; /* of the environment; NULL where nothing is between a mirror and level 1 */
-};
 
 /* ---- preparing; the environment's mutex is held ---- */
 
@@ -126,7 +111,7 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
             return result;
     }
     for (int lobe = 0; lobe < PREFILTER_LOBE_COUNT; lobe++) {
-        level_range range = light->ranges[lobe];
+        ibl_level_range range = light->ranges[lobe];
         for (uint32_t level = range.first ? range.first : 1; level <= range.last; level++) {
             result = prepare_level(e, (prefilter_lobe)lobe, level, desc->thread_count, error);
             if (result != FACET_OK)
@@ -148,11 +133,11 @@ static float clamp01(float x)
 }
 
 /* Levels between which all of the roughness from a to b lies. */
-static level_range find_range(prefilter_lobe lobe, float a, float b)
+static ibl_level_range find_range(prefilter_lobe lobe, float a, float b)
 {
     float low = prefilter_lod_of(lobe, clamp01(a));
     float high = prefilter_lod_of(lobe, clamp01(b));
-    return (level_range){(uint32_t)(low < high ? low : high), (uint32_t)ceilf(low < high ? high : low)};
+    return (ibl_level_range){(uint32_t)(low < high ? low : high), (uint32_t)ceilf(low < high ? high : low)};
 }
 
 facet_result ibl_light_prepare(facet_environment *environment, const ibl_light_desc *desc,
@@ -164,7 +149,7 @@ facet_result ibl_light_prepare(facet_environment *environment, const ibl_light_d
     if (!l)
         return fail_memory(error, "light", sizeof *l);
     l->environment = environment;
-    const level_range none = {1, 0};
+    const ibl_level_range none = {1, 0};
     l->ranges[PREFILTER_GGX] =
         desc->needs_specular ? find_range(PREFILTER_GGX, desc->min_roughness, desc->max_roughness) : none;
     l->ranges[PREFILTER_CHARLIE] =

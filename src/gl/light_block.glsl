@@ -1,0 +1,21 @@
+/* light_block.glsl - where a picture's light lies in textures, as gl_light_block.h has it. */
+#define LIGHT_LEVELS 16
+#define LIGHT_PICTURES 4
+#define LIGHT_STEPS 17
+#define LIGHT_ROW 1024
+
+layout(std140) uniform Lighting
+{
+    vec4 light_atlas;    /* 1 / width, 1 / height; scale of the background's texels; GLASS_ROOT_MAX of dfg.h */
+    ivec4 light_ranges;  /* first and last level of GGX, of Charlie */
+    vec4 light_places[2 * LIGHT_LEVELS]; /* of the levels of GGX, then of Charlie: column, row, edge, scale */
+    vec4 light_irradiance;               /* the same */
+    vec4 light_steps[LIGHT_LEVELS];      /* roughness of GGX, 1 over what is missing to the next one; Charlie's */
+    vec4 light_pictures[LIGHT_PICTURES]; /* mirror, blurred ones: column, row, width, height */
+    vec4 light_narrow_weights[LIGHT_STEPS];         /* of the pictures, with their scales */
+    vec4 light_narrow_lobe[(LIGHT_STEPS + 3) / 4];  /* of level 1 of GGX, four steps each */
+    vec4 light_grid_origin;                         /* m, world */
+    vec4 light_grid_cells;                          /* per m */
+    ivec4 light_grid_size;                          /* per axis; 0: all lights are looked at everywhere */
+    ivec4 light_lists; /* first texel of lists, of cells; number of lights that reach everywhere */
+};
