@@ -112,31 +112,6 @@ static facet_result run_all_stages(render_setup *p, facet_error *error)
     return FACET_OK;
 }
 
-/* ---- a model in the dark ---- */
-
-static bool shines(const render_geometry *g)
-{
-    const float *e = g->material->emissive;
-    return !g->is_lit || (e[0] + e[1] + e[2]) * g->material->emissive_strength > 0.0f;
-}
-
-/* A picture that is black because nothing shines is rarely meant. */
-static void tell_dark(const render_setup *p)
-{
-    const facet_render_desc *desc = p->desc;
-    const float *sun = desc->sun.illuminance_lux;
-    if (desc->shading == FACET_SHADING_OGL1 || desc->environment || p->light.punctual_count ||
-        sun[0] + sun[1] + sun[2] > 0.0f || !desc->log.message)
-        return;
-    for (uint32_t i = 0; i < p->prepared->geometries.count; i++)
-        if (shines(&p->prepared->geometries.items[i]))
-            return;
-    if (p->prepared->geometries.count)
-        desc->log.message(
-            desc->log.user, FACET_LOG_WARNING,
-            "the picture is black: there is no environment, and the model has no light of its own");
-}
-
 /* ---- all ---- */
 
 facet_result render_setup_create(render_setup *p, facet_error *error)
@@ -167,7 +142,7 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
                                  .camera = &p->camera};
     shading_scene_set_options(&p->shading, desc);
     if (result == FACET_OK)
-        tell_dark(p);
+        light_setup_tell_dark(&p->light, &p->prepared->geometries, desc);
     return result;
 }
 
@@ -179,16 +154,6 @@ void render_setup_destroy(render_setup *p)
     mem_free(p->uses);
     p->textures = NULL;
     p->uses = NULL;
-}
-
-facet_result render_check_limits(const facet_render_desc *desc, const char *stage, double fraction,
-                                 double deadline_s, facet_error *error)
-{
-    if (desc->progress.report && !desc->progress.report(desc->progress.user, stage, fraction))
-        return fail(error, FACET_ERROR_CANCELLED, "cancelled (%s)", stage);
-    if (deadline_s > 0.0 && clock_seconds() > deadline_s)
-        return fail(error, FACET_ERROR_LIMIT, "the time limit was reached (%s)", stage);
-    return FACET_OK;
 }
 
 facet_result render_with_prepared(render_attempt *attempt, prepared_scene *p, const facet_render_desc *desc,

@@ -5,6 +5,7 @@
 
 #include "cpu/prepared_scene.h"
 #include "cpu/shading.h"
+#include "draw/render_watch.h"
 #include "film/film.h"
 
 typedef struct render_setup {
@@ -26,11 +27,6 @@ typedef struct render_setup {
  * back, release it with render_setup_destroy(). Fails as preview_render(). */
 facet_result render_setup_create(render_setup *setup, facet_error *error);
 void render_setup_destroy(render_setup *setup);
-
-/* FACET_ERROR_CANCELLED where the caller's progress says so, FACET_ERROR_LIMIT past the deadline (of clock_seconds(),
- * 0: none). */
-facet_result render_check_limits(const facet_render_desc *desc, const char *stage, double fraction,
-                                 double deadline_s, facet_error *error);
 
 /* Draws once with what is prepared; where memory runs out it starts again with nothing prepared. draw: as
  * preview_render_prepared(); *has_setup tells whether all was prepared. Whatever comes back, p can be used on. */

@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "cpu/pixel.h"
-#include "cpu/render_watch.h"
+#include "draw/render_watch.h"
 
 enum { TILE = 32 };
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");

@@ -189,6 +189,31 @@ void light_setup_destroy(light_setup *light)
     *light = (light_setup){0};
 }
 
+/* ---- a model in the dark ---- */
+
+static bool shines(const render_geometry *g)
+{
+    const float *e = g->material->emissive;
+    return !g->is_lit || (e[0] + e[1] + e[2]) * g->material->emissive_strength > 0.0f;
+}
+
+/* A picture that is black because nothing shines is rarely meant. */
+void light_setup_tell_dark(const light_setup *light, const render_geometry_set *set,
+                           const facet_render_desc *desc)
+{
+    const float *sun = desc->sun.illuminance_lux;
+    if (desc->shading == FACET_SHADING_OGL1 || desc->environment || light->punctual_count ||
+        sun[0] + sun[1] + sun[2] > 0.0f || !desc->log.message)
+        return;
+    for (uint32_t i = 0; i < set->count; i++)
+        if (shines(&set->items[i]))
+            return;
+    if (set->count)
+        desc->log.message(
+            desc->log.user, FACET_LOG_WARNING,
+            "the picture is black: there is no environment, and the model has no light of its own");
+}
+
 /* ---- lookups ---- */
 
 /* World to environment: the environment is turned from +Z towards +X, so the direction is turned back. */

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "cpu/render_watch.h"
+#include "draw/render_watch.h"
 #include "cpu/tiles.h"
 #include "film/denoise.h"
 #include "path/path_film.h"

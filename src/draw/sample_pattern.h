@@ -1,6 +1,6 @@
 /* sample_pattern.h - where in a pixel visibility is sampled. */
-#ifndef CPU_SAMPLE_PATTERN_H
-#define CPU_SAMPLE_PATTERN_H
+#ifndef DRAW_SAMPLE_PATTERN_H
+#define DRAW_SAMPLE_PATTERN_H
 
 #include <stdint.h>
 

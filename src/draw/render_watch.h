@@ -1,7 +1,7 @@
 /* render_watch.h - how far a picture is, told to the caller from any thread, and what ends it early: the caller, the time
  * limit, memory. */
-#ifndef CPU_RENDER_WATCH_H
-#define CPU_RENDER_WATCH_H
+#ifndef DRAW_RENDER_WATCH_H
+#define DRAW_RENDER_WATCH_H
 
 #include <stdatomic.h>
 
@@ -36,5 +36,10 @@ void render_watch_look(render_watch *w);
 double render_watch_share(render_watch *w);
 /* What became of it, as a message. */
 facet_result render_watch_explain(render_watch *w, facet_error *error);
+
+/* Between stages of one thread: FACET_ERROR_CANCELLED where the caller's progress says so, FACET_ERROR_LIMIT past the
+ * deadline (of clock_seconds(), 0: none). */
+facet_result render_check_limits(const facet_render_desc *desc, const char *stage, double fraction,
+                                 double deadline_s, facet_error *error);
 
 #endif

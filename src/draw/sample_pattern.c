@@ -1,6 +1,6 @@
 /* sample_pattern.c - see sample_pattern.h. Rank-1 lattices (Korobov 1959) whose generator is the one that keeps the
  * points farthest apart, the pixel taken as periodic; for 4 the rotated grid, which is no lattice of that form. */
-#include "cpu/sample_pattern.h"
+#include "draw/sample_pattern.h"
 
 /* Smallest squared distance of point i to point 0, in units of (1 / count)^2. */
 static uint64_t lattice_distance2(uint32_t count, uint32_t generator)

@@ -1,5 +1,5 @@
 /* render_watch.c - see render_watch.h. */
-#include "cpu/render_watch.h"
+#include "draw/render_watch.h"
 
 #include "base/clock.h"
 #include "base/result.h"
@@ -79,4 +79,14 @@ facet_result render_watch_explain(render_watch *w, facet_error *error)
     default:
         return fail(error, FACET_ERROR_MEMORY, "out of memory: drawing a tile");
     }
+}
+
+facet_result render_check_limits(const facet_render_desc *desc, const char *stage, double fraction,
+                                 double deadline_s, facet_error *error)
+{
+    if (desc->progress.report && !desc->progress.report(desc->progress.user, stage, fraction))
+        return fail(error, FACET_ERROR_CANCELLED, "cancelled (%s)", stage);
+    if (deadline_s > 0.0 && clock_seconds() > deadline_s)
+        return fail(error, FACET_ERROR_LIMIT, "the time limit was reached (%s)", stage);
+    return FACET_OK;
 }
