@@ -58,10 +58,20 @@ else()
     message(STATUS "There is no folder \"${FACET_TEST_DATA}\": tests on real models are skipped")
 endif()
 
-# facet_add_test(NAME [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test. It finds shared test data through
+# Whether tests do all of their cases: one build of a run does, the optimised one (src/base/test_effort.h).
+set(FACET_QUICK_TESTS OFF)
+if(FACET_SANITIZE OR NOT FACET_TRUTH)
+    set(FACET_QUICK_TESTS ON)
+endif()
+
+# facet_add_test(NAME [NUMBERS] [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test; NUMBERS: one that is about
+# numbers rather than about memory or threads, and long, in the build that does all cases only. It finds shared test data through
 # the environment variable FACET_TEST_DATA and skips (exit code 77) where it needs it and has none.
 function(facet_add_test name)
-    cmake_parse_arguments(T "" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
+    cmake_parse_arguments(T "NUMBERS" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
+    if(T_NUMBERS AND FACET_QUICK_TESTS)
+        return()
+    endif()
     if(FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS)
         return()
     endif()
@@ -70,23 +80,26 @@ function(facet_add_test name)
     endif()
     add_test(NAME ${FACET_TEST_PREFIX}${name} COMMAND ${T_COMMAND} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
-        ENVIRONMENT "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp;LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0"
+        ENVIRONMENT "FACET_QUICK_TESTS=$<BOOL:${FACET_QUICK_TESTS}>;TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp;LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0"
         ENVIRONMENT_MODIFICATION "FACET_TEST_DATA=${data_setting}")
     if(T_LABELS)
         set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES LABELS "${T_LABELS}")
     endif()
 endfunction()
 
-# facet_test(NAME SOURCES a_test.c LINK facet_x [LABELS threads] [TIMEOUT s]): a cmocka program as a test.
+# facet_test(NAME [NUMBERS] SOURCES a_test.c LINK facet_x [LABELS threads] [TIMEOUT s]): a cmocka program as a test.
 function(facet_test name)
     if(NOT BUILD_TESTING)
         return()
     endif()
-    cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
-    if(FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS)
+    cmake_parse_arguments(T "NUMBERS" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+    if((FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS) OR (T_NUMBERS AND FACET_QUICK_TESTS))
         return()
     endif()
     add_executable(${name}_test ${T_SOURCES})
     target_link_libraries(${name}_test PRIVATE ${T_LINK} PkgConfig::CMOCKA m facet_flags)
+    if(FACET_QUICK_TESTS)
+        target_compile_definitions(${name}_test PRIVATE FACET_QUICK_TESTS)
+    endif()
     facet_add_test(${name} COMMAND ${name}_test TIMEOUT ${T_TIMEOUT} LABELS ${T_LABELS})
 endfunction()

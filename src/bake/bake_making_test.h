@@ -6,14 +6,8 @@
 
 #include "bake/bake.h"
 #include "base/near_test.h"
+#include "base/test_effort.h"
 #include "ibl/making_test.h"
-
-/* Long tests do a part of their cases where nothing is optimised. */
-#ifdef __OPTIMIZE__
-enum { IS_SLOW = 0 };
-#else
-enum { IS_SLOW = 1 };
-#endif
 
 /* Rings take harmonics of a high degree, seconds where nothing is optimised: the tests of rings are enough there. */
 static inline bool is_slow_ring(int lobe, int method)

@@ -10,7 +10,8 @@ float bake_file_limit(const bake_file *file)
                                     [FACET_TEXEL_B10G11R11] = 64512.0f,
                                     [FACET_TEXEL_RGBA32F] = 0.0f};
     if (file->container == CONTAINER_KTX2)
-        return largest[file->texels];
+        return file->texels < sizeof largest / sizeof *largest ? largest[file->texels]
+                                                               : 0.0f; /* r, rg: tables */
     return file->container == CONTAINER_KTX1 ? 64512.0f : file->container == CONTAINER_EXR ? 65504.0f : 0.0f;
 }
 

@@ -1,5 +1,6 @@
 /* convert_robust_test.c - conversions of whole scenes: the same for every number of threads, whole or not at all where
  * memory runs out, each distinct material solved once. */
+#include "base/test_effort.h"
 #include "legacy/convert_test_support.h"
 
 #include "base/clock.h"
@@ -129,7 +130,7 @@ static void memory_runs_out(void **state)
 static void equal_materials_are_solved_once(void **state)
 {
     (void)state;
-    enum { COUNT = 10000 };
+    enum { COUNT = IS_SLOW ? 1000 : 10000 };
     facet_scene *scene = legacy_scene(COUNT);
     for (uint32_t i = 0; i < COUNT; i++) {
         legacy_material *m = &scene->legacy->materials[i];
@@ -153,7 +154,7 @@ static void equal_materials_are_solved_once(void **state)
 static void many_different_materials(void **state)
 {
     (void)state;
-    enum { COUNT = 3000 };
+    enum { COUNT = IS_SLOW ? 300 : 3000 };
     facet_scene *scene = legacy_scene(COUNT);
     for (uint32_t i = 0; i < COUNT; i++) {
         legacy_material *m = &scene->legacy->materials[i];

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "base/test_effort.h"
 #include "base/failing_allocator.h"
 #include "base/memory.h"
 #include "cpu/preview_fixture.h"
@@ -15,6 +16,8 @@
 #include "ibl/environment.h"
 
 #include "path/path_lights.h"
+
+enum { EFFORT = IS_SLOW ? 10 : 1 }; /* what numbers of samples are divided by */
 
 /* ---- scenes ---- */
 
@@ -158,7 +161,7 @@ static meeting meet(const stage *s, vec3 P, vec3 d)
  * was aimed at that was visible. */
 static double assert_aimed_is_met(const stage *s, float extent)
 {
-    enum { TRIALS = 4000 };
+    enum { TRIALS = IS_SLOW ? 1000 : 4000 };
     int aimed = 0;
     int met = 0;
     for (int i = 0; i < TRIALS; i++) {
@@ -293,8 +296,8 @@ static void a_quad_light_gives_what_it_should(void **state)
             fixture_place(&s.f, fixture_add_quad(&s.f, add_emitter(&s, 5.0f, false)), shifts[i], 0, 2, 1.0f));
         stage_ready(&s);
         vec3 up = vec3(0.0f, 0.0f, 1.0f);
-        assert_near(irradiance_at(&s, vec3(0.0f), up, 200000), 5.0 * expected[i]);
-        assert_near(irradiance_by_both(&s, vec3(0.0f), up, 100000), 5.0 * expected[i]);
+        assert_near(irradiance_at(&s, vec3(0.0f), up, 200000 / EFFORT), 5.0 * expected[i]);
+        assert_near(irradiance_by_both(&s, vec3(0.0f), up, 100000 / EFFORT), 5.0 * expected[i]);
         /* Behind it there is nothing to aim at. */
         path_light_sample l;
         for (int k = 0; k < 100; k++) {
@@ -320,7 +323,7 @@ static void a_constant_sky_gives_pi(void **state)
                     l.geometry == VISIBILITY_NONE);
         assert_true(fabsf(l.radiance[1] / l.pdf / (4.0f * PI) - 1.0f) < 2e-6f);
     }
-    assert_near(irradiance_at(&s, vec3(0.0f), normalize(vec3(0.3f, -0.2f, 0.9f)), 100000), pi);
+    assert_near(irradiance_at(&s, vec3(0.0f), normalize(vec3(0.3f, -0.2f, 0.9f)), 100000 / EFFORT), pi);
     stage_destroy(&s);
 }
 
@@ -337,9 +340,9 @@ static void the_sun_gives_its_illuminance(void **state)
                                    .diameter_rad = diameters[i]};
         stage_ready(&s);
         vec3 to_sun = vec3(cosf(0.5f) * sinf(0.7f), sinf(0.5f), cosf(0.5f) * cosf(0.7f));
-        assert_near(irradiance_at(&s, vec3(0.0f), to_sun, 20000), 1000.0);
+        assert_near(irradiance_at(&s, vec3(0.0f), to_sun, 20000 / EFFORT), 1000.0);
         vec3 N = normalize(to_sun + vec3(0.0f, 1.0f, 0.0f));
-        assert_near(irradiance_at(&s, vec3(0.0f), N, 100000), 1000.0 * (double)dot(N, to_sun));
+        assert_near(irradiance_at(&s, vec3(0.0f), N, 100000 / EFFORT), 1000.0 * (double)dot(N, to_sun));
         double angle = diameters[i] > 0.0f ? fmax(0.5 * (double)diameters[i], 5e-5) : 0.265 * pi / 180.0;
         vec3 tangent = normalize(cross(to_sun, vec3(1.0f, 0.0f, 0.0f)));
         for (int k = 0; k < 2; k++) {
@@ -418,12 +421,12 @@ static void kinds_add_up(void **state)
     stage_ready(&s);
     vec3 up = vec3(0.0f, 0.0f, 1.0f);
     double expected = 4.0 * pi + 3.0 * (cos)(pi / 6.0) + 1.5 + 20.0;
-    assert_near(irradiance_at(&s, vec3(0.0f), up, 300000), expected);
-    assert_near(irradiance_by_both(&s, vec3(0.0f), up, 100000), expected);
+    assert_near(irradiance_at(&s, vec3(0.0f), up, 300000 / EFFORT), expected);
+    assert_near(irradiance_by_both(&s, vec3(0.0f), up, 100000 / EFFORT), expected);
 
     /* The density of the surroundings integrates to the probability of aiming at them. */
     int aimed = 0;
-    enum { SAMPLES = 200000, SIDE = 1500 };
+    enum { SAMPLES = 200000 / EFFORT, SIDE = 1500 };
     for (int i = 0; i < SAMPLES; i++) {
         path_light_sample l;
         float u = random_number();
@@ -617,7 +620,7 @@ static void a_hundred_thousand_emitters(void **state)
             if (dot(normal, p[0]) < 0.0f && p[0][1] > 0.0f && p[1][1] > 0.0f && p[2][1] > 0.0f)
                 expected += 2.0 * triangle_irradiance(p[0], p[1], p[2], up);
         }
-        enum { SAMPLES = 100000 };
+        enum { SAMPLES = 100000 / EFFORT };
         start = clock();
         estimate found = irradiance_at(&s, P, up, SAMPLES);
         double sampled_s = (double)(clock() - start) / CLOCKS_PER_SEC;
@@ -694,7 +697,7 @@ static void odd_input_does_no_harm(void **state)
 {
     (void)state;
     uint64_t ignored = 0;
-    for (int trial = 0; trial < 60; trial++) {
+    for (int trial = 0; trial < (IS_SLOW ? 24 : 60); trial++) {
         stage s = {.f = fixture_create()};
         random_state = (uint64_t)trial + 1;
         scene_material m = emitting(2.0f, trial % 2);
@@ -724,7 +727,7 @@ static void odd_input_does_no_harm(void **state)
         s.f.desc.environment_ev = trial % 6 == 5 ? 200.0f : 0.0f;
         stage_ready(&s);
         ignored += path_lights_ignored(s.lights);
-        for (int i = 0; i < 2000; i++) {
+        for (int i = 0; i < 2000 / EFFORT; i++) {
             path_light_sample l;
             vec3 P = random_direction() * (i % 10 ? 3.0f : 1e10f);
             vec3 N = i % 3 ? random_direction() : vec3(0.0f);

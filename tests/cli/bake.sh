@@ -319,8 +319,10 @@ says "12 texels"
 expect 1 bake nan.pfm nan.pfm nan.pfm nan.pfm nan.pfm nan.pfm $tiny -o x.ktx2 --strict
 expect 0 bake neutral --quick -o x.ktx2
 [ "$(u32 x.ktx2 20)" = 128 ] || failed "--quick is not 128 texels"
-expect 0 bake small.pfm --size 16 --mips 2 --preview sheet.png -o x.ktx2
-is_type sheet.png "PNG image data"
+if ! is_quick; then
+    expect 0 bake small.pfm --size 16 --mips 2 --preview sheet.png -o x.ktx2
+    is_type sheet.png "PNG image data"
+fi
 clean
 
 # ---- what a file cannot hold ----

@@ -42,6 +42,11 @@ only() {
     [ "$found" = "$wanted" ] || failed "the folder holds: $found; expected: $wanted"
 }
 
+# is_quick: whether long tests are to leave out what another build of the same run does (src/base/test_effort.h).
+is_quick() {
+    [ "${FACET_QUICK_TESTS:-0}" = 1 ]
+}
+
 # needs_data: ends the test as skipped where the shared models are not there.
 needs_data() {
     [ -n "$data" ] && [ -d "$data/models" ] || {

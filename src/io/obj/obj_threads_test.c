@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/test_effort.h"
 #include "base/failing_allocator.h"
 #include "io/obj/obj_test_support.h"
 
@@ -84,7 +85,7 @@ static void test_any_number_of_threads(void **state)
     (void)state;
     static const uint32_t threads[] = {2, 3, 7};
     char *bytes = make_sheet("# sheet\nmtllib none.mtl\n");
-    for (int normals = 0; normals < 3; normals++) {
+    for (int normals = 0; normals < 3; normals += IS_SLOW ? 2 : 1) {
         facet_scene *expected = load(bytes, 1, (facet_obj_normals)normals);
         assert_true(expected->mesh_count >= 4);
         for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
@@ -102,7 +103,7 @@ static void test_any_cuts(void **state)
 {
     (void)state;
     facet_scene *expected = NULL;
-    for (int shift = 0; shift < 60; shift += 7) {
+    for (int shift = 0; shift < 60; shift += IS_SLOW ? 21 : 7) {
         char head[128];
         snprintf(head, sizeof head, "#%*s\n", shift, "");
         char *bytes = make_sheet(head);
@@ -123,7 +124,7 @@ static void test_any_cuts(void **state)
 static void test_large_primitive(void **state)
 {
     (void)state;
-    enum { EDGE = 400 };
+    enum { EDGE = IS_SLOW ? 200 : 400 };
     growing g = {0};
     for (int i = 0; i < EDGE * EDGE; i++) {
         int k = (int)((int64_t)i * 7919 % (EDGE * EDGE)); /* positions in no order */
@@ -173,7 +174,7 @@ static void test_memory_runs_out(void **state)
     char *bytes = make_sheet("");
     size_t size = strlen(bytes);
     long calls = 1;
-    for (long at = 0; at < calls; at += 1 + at / 6) {
+    for (long at = 0; at < calls; at += 1 + at / (IS_SLOW ? 2 : 6)) {
         failing_allocator failing = {.fail_at = at};
         const facet_scene_desc desc = {.allocator = failing_allocator_get(&failing), .thread_count = 3};
         facet_scene *scene = NULL;
