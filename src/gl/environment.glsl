@@ -59,10 +59,11 @@ vec3 light_levels(int lobe, float lod, vec3 d)
 
 /* ---- pictures (equirect.h) ---- */
 
-/* Turns from the middle column, half turns from the top. */
+/* Turns from the middle column, half turns from the top. At the poles there is no angle: they are in the middle column. */
 vec2 equirect_locate(vec3 d)
 {
-    return vec2(atan(d.z, d.x) * (0.5 * INV_PI), atan(length(d.xz), d.y) * INV_PI);
+    float across = length(d.xz);
+    return vec2(atan(d.z, across > 0.0 ? d.x : 1.0) * (0.5 * INV_PI), atan(across, d.y) * INV_PI);
 }
 
 /* place: column and row of the first texel, width and height. */
