@@ -1,0 +1,212 @@
+/* gl_parity.c - every model of the test data drawn by OpenGL and by the preview: the same picture. A line for each; models that
+ * light passes through are told apart, because OpenGL has rays to no depth.
+ *     gl_parity [-v] [MODEL...]      -v: every model's line, not only those that are too far apart
+ *
+ * Compared are display values (8 bits' worth of sRGB, neither rounded nor clamped above) of pixels away from edges: where two
+ * pixels beside each other show other materials, depths that a plane would not explain, or normals that differ by more
+ * than 25 degrees, and where the model ends, samples fall differently. */
+#include <ftw.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "facet/facet.h"
+
+enum { WIDTH = 256, HEIGHT = 192, COUNT = WIDTH * HEIGHT, MAX_MODELS = 1024 };
+
+/* In 8-bit codes. */
+static const double MOST_MEAN = 1.0, MOST_PERCENTILE = 4.0;
+
+static char *models[MAX_MODELS];
+static int model_count;
+
+static int note_model(const char *path, const struct stat *status, int type, struct FTW *place)
+{
+    (void)status, (void)place;
+    size_t length = strlen(path);
+    bool is_model =
+        length > 5 && (strcmp(path + length - 4, ".glb") == 0 || strcmp(path + length - 5, ".gltf") == 0);
+    if (type == FTW_F && is_model && model_count < MAX_MODELS)
+        models[model_count++] = strdup(path);
+    return 0;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* ---- two pictures ---- */
+
+static facet_image *draw(const facet_scene *scene, facet_environment *environment,
+                         facet_integrator integrator, uint32_t aovs, facet_error *error)
+{
+    facet_render_desc desc = {.width = WIDTH,
+                              .height = HEIGHT,
+                              .environment = environment,
+                              .integrator = integrator,
+                              .background = FACET_BACKGROUND_ENVIRONMENT,
+                              .aovs = aovs,
+                              .pose.time_s = 0.4};
+    static const uint32_t first[1] = {0};
+    if (facet_scene_get_counts(scene).animations > 0) {
+        desc.pose.animations = first;
+        desc.pose.animation_count = 1;
+    }
+    facet_image *made = NULL;
+    return facet_render(scene, &desc, &made, error) == FACET_OK ? made : NULL;
+}
+
+static const float *layer(const facet_image *i, const char *name)
+{
+    for (uint32_t k = 0; k < facet_image_get_layer_count(i); k++)
+        if (strcmp(facet_image_get_layer(i, k).name, name) == 0)
+            return facet_image_get_layer(i, k).pixels;
+    return NULL;
+}
+
+static double code(float linear)
+{
+    double x = fmax((double)linear, 0.0);
+    return 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055);
+}
+
+/* Whether what pixel i shows goes on in pixel k, beside it. */
+static bool goes_on(const float *depth, const float *normal, const float *material, size_t i, size_t k)
+{
+    if (isinf(depth[i]) || isinf(depth[k]))
+        return isinf(depth[i]) && isinf(depth[k]);
+    const float *n = normal + 3 * i, *m = normal + 3 * k;
+    return fabsf(material[i] - material[k]) < 0.5f && fabsf(depth[i] - depth[k]) < 0.03f * depth[i] &&
+           n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > 0.9f;
+}
+
+static bool is_edge(const facet_image *reference, size_t i)
+{
+    const float *depth = layer(reference, "depth"), *normal = layer(reference, "normal"),
+                *material = layer(reference, "material");
+    size_t x = i % WIDTH, y = i / WIDTH;
+    for (int dy = -1; dy <= 1; dy++)
+        for (int dx = -1; dx <= 1; dx++) {
+            size_t u = x + (size_t)dx, v = y + (size_t)dy; /* beyond the border: huge */
+            if (u < WIDTH && v < HEIGHT && !goes_on(depth, normal, material, i, v * WIDTH + u))
+                return true;
+        }
+    return false;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+typedef struct distance {
+    double mean, percentile, largest; /* 99.5th percentile */
+    size_t pixels;                    /* away from edges */
+} distance;
+
+static distance compare(const facet_image *reference, const facet_image *other)
+{
+    static double differences[COUNT];
+    const float *a = layer(reference, ""), *b = layer(other, "");
+    distance d = {0};
+    for (size_t i = 0; i < COUNT; i++) {
+        if (is_edge(reference, i))
+            continue;
+        double most = 0.0;
+        for (size_t c = 0; c < 3; c++) {
+            double difference = fabs(fmin(code(a[4 * i + c]), 255.0) - fmin(code(b[4 * i + c]), 255.0));
+            d.mean += difference / 3.0;
+            most = difference > most || isnan(difference) ? difference : most;
+        }
+        differences[d.pixels++] = isnan(most) ? 1e9 : most;
+    }
+    qsort(differences, d.pixels, sizeof *differences, compare_doubles);
+    d.mean /= (double)d.pixels;
+    d.percentile = differences[d.pixels * 995 / 1000];
+    d.largest = differences[d.pixels - 1];
+    return d;
+}
+
+/* ---- a model ---- */
+
+static bool lets_light_through(const facet_scene *scene)
+{
+    char *text = NULL;
+    facet_error error;
+    bool has = facet_scene_describe_json(scene, &text, &error) == FACET_OK &&
+               strstr(text, "\"KHR_materials_transmission\"");
+    facet_text_destroy(text);
+    return has;
+}
+
+typedef enum verdict { SAME, DIFFERENT, LISTED, NOT_LOADED, NO_GL } verdict;
+
+static verdict check(const char *path, facet_environment *environment, bool is_verbose)
+{
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    const char *name = strstr(path, "/models/") ? strstr(path, "/models/") + 8 : path;
+    if (facet_scene_load(path, NULL, &scene, &error) != FACET_OK)
+        return NOT_LOADED;
+    uint32_t aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_MATERIAL_ID;
+    facet_image *preview = draw(scene, environment, FACET_INTEGRATOR_PREVIEW, aovs, &error);
+    facet_image *gl = preview ? draw(scene, environment, FACET_INTEGRATOR_GL, 0, &error) : NULL;
+    verdict v = SAME;
+    if (!preview || !gl) {
+        v = error.code == FACET_ERROR_ENVIRONMENT ? NO_GL : DIFFERENT;
+        printf("%s: %s\n", name, error.message);
+    } else {
+        distance d = compare(preview, gl);
+        bool is_near = d.mean < MOST_MEAN && d.percentile < MOST_PERCENTILE && d.pixels > COUNT / 20;
+        v = is_near ? SAME : lets_light_through(scene) ? LISTED : DIFFERENT;
+        if (is_verbose || v != SAME)
+            printf("%-48s mean %6.3f  99.5 %% %7.2f  largest %7.2f  of %5zu pixels%s\n", name, d.mean,
+                   d.percentile, d.largest, d.pixels,
+                   v == LISTED      ? "  (transmission)"
+                   : v == DIFFERENT ? "  DIFFERENT"
+                                    : "");
+    }
+    facet_image_destroy(preview);
+    facet_image_destroy(gl);
+    facet_scene_destroy(scene);
+    return v;
+}
+
+int main(int argc, char **argv)
+{
+    const char *folder = getenv("FACET_TEST_DATA");
+    char path[1024];
+    int counts[NO_GL + 1] = {0};
+    bool is_verbose = argc > 1 && strcmp(argv[1], "-v") == 0;
+    if (!folder) {
+        printf("skipped: FACET_TEST_DATA names no folder with models\n");
+        return 77;
+    }
+    snprintf(path, sizeof path, "%s/models", folder);
+    for (int i = 1 + is_verbose; i < argc && model_count < MAX_MODELS; i++)
+        models[model_count++] = strdup(argv[i]);
+    if (model_count == 0)
+        nftw(path, note_model, 16, FTW_PHYS);
+    qsort(models, (size_t)model_count, sizeof *models, compare_names);
+    facet_environment *environment = NULL;
+    facet_error error;
+    snprintf(path, sizeof path, "%s/env/leadenhall_market_1k.hdr", folder);
+    if (facet_environment_load(path, NULL, &environment, &error) != FACET_OK) {
+        printf("%s\n", error.message);
+        return 1;
+    }
+    for (int i = 0; i < model_count; i++) {
+        counts[check(models[i], environment, is_verbose)] += 1;
+        free(models[i]);
+        fflush(stdout);
+        if (counts[NO_GL])
+            break;
+    }
+    facet_environment_destroy(environment);
+    printf("%d models the same, %d different, %d with transmission that are, %d not loaded\n", counts[SAME],
+           counts[DIFFERENT], counts[LISTED], counts[NOT_LOADED]);
+    return counts[NO_GL] ? 77 : counts[DIFFERENT] ? 1 : 0;
+}
