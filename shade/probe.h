@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 91
+#define PROBE_COUNT 96
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -708,6 +708,91 @@ FN vec3 probe_sky(int which, vec2 u)
            preetham_F(s, 0.5f, u[1]) + rec709_from_Yxy(vec3(1.0f, 0.3f + 0.1f * u[0], 0.33f));
 }
 
+/* A frame of a texture coordinate, of which one corner of the domain has none. */
+FN ShadingFrame probe_texcoord_frame(vec2 u)
+{
+    vec2 uv1 = vec2(0.9f, 0.2f * u[0]);
+    vec2 uv2 = sel(u[0] > 0.97f, uv1, vec2(0.1f * u[1], sel(u[1] > 0.5f, 0.7f, -0.7f)));
+    return frame_from_texcoord(vec3(0.1f, 0.2f, 1.1f), vec3(1.0f, 0.3f * u[0], 0.1f), vec3(-0.2f, 0.9f, u[1]),
+                               uv1, uv2, sel(u[0] > 0.5f, 1.0f, -1.0f));
+}
+
+FN vec3 probe_frame(ShadingFrame f)
+{
+    return f.T + f.B * 0.1f + f.N * 0.01f + vec3(sel(frame_has_tangent(f), 2.0f, 3.0f));
+}
+
+FN MaterialFactors probe_factors(vec2 u)
+{
+    MaterialFactors f;
+    f.metallic = 0.7f;
+    f.perceptual_roughness = 0.9f;
+    f.ior = 1.0f + u[1];
+    f.specular = 0.8f;
+    f.specular_color = vec3(0.9f, 0.5f, 0.3f);
+    f.glossiness = 0.6f;
+    f.occlusion_strength = 0.5f;
+    f.emissive = vec3(1.0f, 2.0f, 0.5f);
+    return f;
+}
+
+FN vec3 probe_surface_sum(Surface s)
+{
+    return s.base_color + s.F0 + s.emissive * 0.1f +
+           vec3(s.metallic, s.perceptual_roughness + s.alpha, s.occlusion * 0.5f + s.F90);
+}
+
+FN Layers probe_material_layers(vec2 u, vec3 texel)
+{
+    Layers m = layers_from_surface(
+        surface_from_metallic_roughness(normalize(vec3(0.1f, 0.05f, 1.0f)), vec3(0.5f), 0.2f, u[1]));
+    m = with_ior(m, 1.2f + u[0], u[1] > 0.5f);
+    m = with_clearcoat(m, 0.7f, 0.9f, texel, texel);
+    m = with_sheen(m, vec3(0.4f, 0.5f, 1.2f), 0.8f, texel, u[1]);
+    m = with_iridescence(m, 0.9f, 1.4f, 100.0f, 400.0f, texel, texel);
+    m = with_transmission(m, 0.6f, texel);
+    m = with_diffuse_transmission(m, 0.5f, vec3(0.3f, 0.6f, 0.9f), u[0], texel);
+    m = with_volume(m, 0.3f, texel, vec3(0.9f, 0.8f, 0.7f), 2.0f, 0.4f);
+    m = with_scatter(m, vec3(0.2f, 0.5f, 1.4f), 0.3f);
+    return with_anisotropy(m, anisotropy_strength(0.8f, texel), u[1], texel, probe_texcoord_frame(u));
+}
+
+FN vec3 probe_material(int which, vec2 u)
+{
+    vec3 texel = vec3(u[0], u[1], fract(3.0f * u[0] + u[1]));
+    vec3 texel_or_white = sel(u[1] > 0.9f, vec3(1.0f), texel);
+    vec3 N = normalize(vec3(0.1f, 0.05f, 1.0f));
+    if (which == 91) {
+        vec2 uv = texcoord_transform(u, vec3(0.5f, -0.2f, 0.1f), vec3(0.3f, 0.6f, 0.2f));
+        int mode = int(u[0] * 2.99f);
+        return material_base_color(vec3(0.5f, 0.6f, 0.7f), texel, vec3(0.9f, 0.8f, u[1])) +
+               vec3(uv[0] + 1.0f, uv[1] + 1.0f, material_coverage(mode, 1.5f * u[1], 0.5f) + 1.0f);
+    }
+    vec3 n = normal_from_texel(texel_or_white, 0.7f);
+    ShadingFrame tangents =
+        frame_from_tangent(N * 1.1f, vec3(0.9f, 0.2f, 0.1f), -1.0f, sel(u[0] > 0.5f, 1.0f, -1.0f));
+    if (which == 92)
+        return probe_frame(tangents) + probe_frame(probe_texcoord_frame(u)) + frame_normal(tangents, n, N) +
+               normalize_or(n, N) + 3.0f;
+    MaterialFactors f = probe_factors(u);
+    if (which == 93)
+        return probe_surface_sum(material_surface(f, N, texel, texel, u[0], texel, u[1], texel)) +
+               probe_surface_sum(material_surface_glossy(f, N, texel, texel, u[1], u[0], texel));
+    Surface wide = surface_specular_aa(material_surface(f, N, texel, texel, u[0], texel, u[1], texel),
+                                       vec3(0.1f * u[0], 0.0f, 0.2f), vec3(0.0f, 0.3f * u[1], 0.0f));
+    if (which == 94)
+        return probe_surface_sum(wide) + vec3(roughness_specular_aa(u[0], N * 0.1f, N * u[1]), 0.0f, 0.0f);
+    Layers m = probe_material_layers(u, texel_or_white);
+    vec2 turn = anisotropy_texel_direction(texel_or_white);
+    return 2.0f + m.sheen_color + m.diffuse_transmission_color + m.attenuation_color + m.multiscatter_color +
+           m.anisotropy_T * 0.5f + m.anisotropy_B * 0.1f +
+           vec3(m.clearcoat + m.clearcoat_roughness + m.sheen_roughness, m.iridescence + m.iridescence_ior,
+                m.iridescence_thickness_nm * 0.01f + m.transmission + m.diffuse_transmission) +
+           vec3(m.thickness + m.attenuation_distance * 1e-6f, m.dispersion + m.scatter_anisotropy,
+                m.ior + m.eta) +
+           vec3(m.anisotropy + turn[0], float(m.layers) * 0.01f + turn[1], 0.0f);
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -740,5 +825,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_pixel(which, u);
     if (which < 83)
         return probe_paths(which, u);
-    return probe_sky(which, u);
+    if (which < 91)
+        return probe_sky(which, u);
+    return probe_material(which, u);
 }

@@ -17,9 +17,10 @@ shading_texcoord material_texture_coordinates(const shading_hit *h, const scene_
     if (!ref->has_transform)
         return o;
     shading_texcoord c;
+    vec2 uv = texcoord_transform(vec2(o.uv[0], o.uv[1]), load3(ref->transform), load3(ref->transform + 3));
     for (int i = 0; i < 2; i++) {
         const float *row = ref->transform + 3 * i;
-        c.uv[i] = row[0] * o.uv[0] + row[1] * o.uv[1] + row[2];
+        c.uv[i] = uv[i];
         c.dx[i] = row[0] * o.dx[0] + row[1] * o.dx[1];
         c.dy[i] = row[0] * o.dy[0] + row[1] * o.dy[1];
     }

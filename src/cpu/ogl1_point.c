@@ -46,13 +46,11 @@ vec3 ogl1_point_mapped_normal(const shading_scene *scene, const ogl1_point *p)
 {
     vec3 N = ogl1_point_normal(p, p->hit.weight);
     float texel[4];
-    vec3 n;
     if (!(p->maps & 1u << LEGACY_NORMAL_MAP))
         return N;
     ogl1_point_texel(scene, p, LEGACY_NORMAL_MAP, texel);
-    if (!shading_frame_decode(texel, p->material->legacy->maps[LEGACY_NORMAL_MAP].bump_multiplier, &n))
-        return N;
-    shading_frame f = shading_frame_of_tangents(&p->hit, true);
+    vec3 n = normal_from_texel(load3(texel), p->material->legacy->maps[LEGACY_NORMAL_MAP].bump_multiplier);
+    ShadingFrame f = shading_frame_of_tangents(&p->hit, true);
     return normalize_or(mul(p->setup->view, f.T * n[0] + f.B * n[1] + f.N * n[2]), N);
 }
 
