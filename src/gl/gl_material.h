@@ -15,8 +15,8 @@ void gl_material_destroy(gl_material_set *set); /* NULL is allowed */
  * a warning where OpenGL cannot hold them. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
 facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
                                 const facet_render_desc *desc, facet_error *error);
-/* The program of a batch, apart from what the picture adds (features of gl_program.c). */
-uint64_t gl_material_features(const gl_batch *batch);
+/* The program of a batch, as of the last update, apart from what light and transparency add (features of gl_program.h). */
+uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch);
 /* Binds block and textures, and sets culling. */
 void gl_material_bind(const gl_material_set *set, const gl_batch *batch);
 uint64_t gl_material_decoded_texels(const gl_material_set *set);

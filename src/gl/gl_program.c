@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "gl/gl_blocks.h"
+#include "gl/gl_material_slots.h"
 
 typedef struct glsl_part {
     const char *name, *text;
@@ -18,7 +19,54 @@ typedef struct glsl_part {
 /* ---- what the mains are made of ---- */
 
 /* Names of features become #defines; bit 0 first: gl_program.h has the first ones as numbers. */
-static const char *const surface_features[] = {"HAS_TANGENTS", "HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS",
+static const char *const surface_features[] = {"HAS_TANGENTS",
+                                               "HAS_ENVIRONMENT",
+                                               "HAS_LIGHTS",
+                                               "HAS_SHADOWS",
+                                               "HAS_BASE_COLOR_TEXTURE",
+                                               "HAS_METALLIC_ROUGHNESS_TEXTURE",
+                                               "HAS_NORMAL_TEXTURE",
+                                               "HAS_OCCLUSION_TEXTURE",
+                                               "HAS_EMISSIVE_TEXTURE",
+                                               "HAS_SPECULAR_TEXTURE",
+                                               "HAS_SPECULAR_COLOR_TEXTURE",
+                                               "HAS_CLEARCOAT_TEXTURE",
+                                               "HAS_CLEARCOAT_ROUGHNESS_TEXTURE",
+                                               "HAS_CLEARCOAT_NORMAL_TEXTURE",
+                                               "HAS_SHEEN_COLOR_TEXTURE",
+                                               "HAS_SHEEN_ROUGHNESS_TEXTURE",
+                                               "HAS_TRANSMISSION_TEXTURE",
+                                               "HAS_THICKNESS_TEXTURE",
+                                               "HAS_IRIDESCENCE_TEXTURE",
+                                               "HAS_IRIDESCENCE_THICKNESS_TEXTURE",
+                                               "HAS_ANISOTROPY_TEXTURE",
+                                               "HAS_DIFFUSE_TRANSMISSION_TEXTURE",
+                                               "HAS_DIFFUSE_TRANSMISSION_COLOR_TEXTURE",
+                                               "HAS_SPECULAR_GLOSSINESS_TEXTURE",
+                                               "IS_OCCLUSION_PAIRED",
+                                               "IS_SPECULAR_PAIRED",
+                                               "IS_CLEARCOAT_ROUGHNESS_PAIRED",
+                                               "IS_CLEARCOAT_NORMAL_PAIRED",
+                                               "IS_SHEEN_ROUGHNESS_PAIRED",
+                                               "IS_IRIDESCENCE_THICKNESS_PAIRED",
+                                               "IS_DIFFUSE_TRANSMISSION_PAIRED",
+                                               "HAS_CLEARCOAT",
+                                               "HAS_SHEEN",
+                                               "HAS_ANISOTROPY",
+                                               "HAS_IRIDESCENCE",
+                                               "HAS_TRANSMISSION",
+                                               "HAS_DIFFUSE_TRANSMISSION",
+                                               "HAS_VOLUME",
+                                               "HAS_DISPERSION",
+                                               "HAS_SCATTER",
+                                               "IS_LIT",
+                                               "IS_UNLIT",
+                                               "IS_GLOSSY",
+                                               "HAS_ALPHA_MASK",
+                                               "HAS_ALPHA_BLEND",
+                                               "HAS_COLORS",
+                                               "IS_VOLUME",
+                                               "HAS_SPECULAR_ANTIALIASING",
                                                NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const no_features[] = {NULL};
@@ -32,8 +80,9 @@ static const struct {
     [GL_MAIN_SURFACE] = {"surface",
                          "surface.vert",
                          "surface.frag",
-                         {"surface", "light", "layers_ibl"},
-                         {"light_block.glsl", "environment.glsl", "lights.glsl"},
+                         {"surface", "light", "layers_direct", "layers_ibl", "material"},
+                         {"light_block.glsl", "environment.glsl", "lights.glsl", "surface_in.glsl",
+                          "material.glsl", "radiance.glsl"},
                          surface_features},
     [GL_MAIN_BACKGROUND] = {"background",
                             "screen.vert",
@@ -51,12 +100,24 @@ static const struct {
 } samplers[] = {{"u_environment", GL_UNIT_ENVIRONMENT}, {"u_sharp", GL_UNIT_SHARP},
                 {"u_tables", GL_UNIT_TABLES},           {"u_glass", GL_UNIT_GLASS},
                 {"u_lights", GL_UNIT_LIGHTS},           {"u_shadows", GL_UNIT_SHADOWS},
-                {"u_opaque", GL_UNIT_OPAQUE},           {"u_picture", 0}};
+                {"u_opaque", GL_UNIT_OPAQUE},           {"u_picture", 0},
+                {"u_material0", GL_UNIT_MATERIAL},      {"u_material1", GL_UNIT_MATERIAL + 1},
+                {"u_material2", GL_UNIT_MATERIAL + 2},  {"u_material3", GL_UNIT_MATERIAL + 3},
+                {"u_material4", GL_UNIT_MATERIAL + 4},  {"u_material5", GL_UNIT_MATERIAL + 5},
+                {"u_material6", GL_UNIT_MATERIAL + 6},  {"u_material7", GL_UNIT_MATERIAL + 7},
+                {"u_material8", GL_UNIT_MATERIAL + 8}};
 
 static const char *const attributes[GL_ATTRIBUTE_COUNT] = {
     "position",  "normal",         "tangent",        "color",          "texcoord0",
     "texcoord1", "texcoord2",      "texcoord3",      "world0",         "world1",
     "world2",    "normal_matrix0", "normal_matrix1", "normal_matrix2", "instance"};
+/* What sprites have in the same places. */
+static const char *const sprite_attributes[GL_ATTRIBUTE_COUNT] = {
+    [GL_ATTRIBUTE_TANGENT] = "position_end",
+    [GL_ATTRIBUTE_NORMAL_MATRIX] = "normal_end",
+    [GL_ATTRIBUTE_NORMAL_MATRIX + 1] = "color_end",
+    [GL_ATTRIBUTE_TEXCOORD + 2] = "texcoord0_end",
+    [GL_ATTRIBUTE_TEXCOORD + 3] = "texcoord1_end"};
 
 const char *gl_program_main_name(gl_main main)
 {
@@ -74,6 +135,14 @@ uint32_t gl_program_feature_count(gl_main main)
 const char *gl_program_feature_name(gl_main main, uint32_t feature)
 {
     return mains[main].features[feature];
+}
+
+uint64_t gl_program_feature(gl_main main, const char *name)
+{
+    for (uint32_t i = 0; mains[main].features[i]; i++)
+        if (strcmp(mains[main].features[i], name) == 0)
+            return UINT64_C(1) << i;
+    return 0;
 }
 
 static const char *file_text(const char *name)
@@ -101,6 +170,8 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
     for (uint32_t i = 0; i < gl_program_feature_count(key.main); i++)
         if (key.features >> i & 1)
             text_addf(out, "#define %s\n", gl_program_feature_name(key.main, i));
+    if (key.main == GL_MAIN_SURFACE && stage == GL_FRAGMENT_SHADER)
+        gl_material_slot_text(key.features, out);
     text_add(out, file_text("blocks.glsl"));
     for (int i = 0; stage == GL_FRAGMENT_SHADER && i < 8 && mains[key.main].fragments[i]; i++)
         text_add(out, file_text(mains[key.main].fragments[i]));
@@ -180,6 +251,9 @@ facet_result gl_programs_request(gl_programs *programs, gl_program_key key, face
     }
     for (GLuint i = 0; i < GL_ATTRIBUTE_COUNT; i++)
         glBindAttribLocation(p->name, i, attributes[i]);
+    for (GLuint i = 0; i < GL_ATTRIBUTE_COUNT; i++)
+        if (sprite_attributes[i])
+            glBindAttribLocation(p->name, i, sprite_attributes[i]);
     glLinkProgram(p->name);
     programs->count += result == FACET_OK;
     if (result != FACET_OK)

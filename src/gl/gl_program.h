@@ -24,6 +24,23 @@ enum {
     GL_BACKGROUND_IS_BLURRED = 1u << 1
 };
 
+/* Numbers of the first features of GL_MAIN_SURFACE that come of the material, as many of each as stand behind them, and of
+ * single ones; gl_material.c sets all of them. */
+enum {
+    GL_SURFACE_TEXTURES = 4,                     /* by scene_texture_slot */
+    GL_SURFACE_PAIRS = GL_SURFACE_TEXTURES + 20, /* by gl_slot_pairs: the second reads the first's texel */
+    GL_SURFACE_LAYERS = GL_SURFACE_PAIRS + 7,    /* by bits of LAYER_* */
+    GL_SURFACE_LAYER_COUNT = 9,
+    GL_SURFACE_IS_LIT = GL_SURFACE_LAYERS + GL_SURFACE_LAYER_COUNT,
+    GL_SURFACE_IS_UNLIT,  /* KHR_materials_unlit */
+    GL_SURFACE_IS_GLOSSY, /* specular-glossiness */
+    GL_SURFACE_HAS_ALPHA_MASK,
+    GL_SURFACE_HAS_ALPHA_BLEND,
+    GL_SURFACE_HAS_COLORS, /* of vertices */
+    GL_SURFACE_IS_VOLUME,
+    GL_SURFACE_HAS_SPECULAR_ANTIALIASING
+};
+
 /* features: bits of the main's list of names in gl_program.c, each of which becomes a #define. */
 typedef struct gl_program_key {
     gl_main main;
@@ -48,6 +65,7 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
 /* Number of features of a main, and their names. */
 uint32_t gl_program_feature_count(gl_main main);
 const char *gl_program_feature_name(gl_main main, uint32_t feature);
+uint64_t gl_program_feature(gl_main main, const char *name); /* its bit; 0: there is no such feature */
 const char *gl_program_main_name(gl_main main);
 
 #endif

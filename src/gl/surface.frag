@@ -1,18 +1,51 @@
 /* surface.frag - radiance (cd/m^2, premultiplied) of a material. */
-centroid in vec3 v_position;
-centroid in vec3 v_normal;
-centroid in vec4 v_color;
-centroid in vec4 v_texcoord01;
-centroid in vec4 v_texcoord23;
-flat in vec4 v_instance;
-
 out vec4 fragment;
+
+/* Without light: what has no normals, or is KHR_materials_unlit. glTF 2.0, 3.7.2.1. */
+vec3 unlit_radiance(vec3 color)
+{
+#ifdef IS_UNLIT
+    return color;
+#else
+    return color + emissive_factor.xyz * EMISSIVE_TEXEL.xyz;
+#endif
+}
+
+vec3 lit_radiance(vec3 color)
+{
+    vec3 V = view_direction();
+    Surface s = surface_of_material(shading_normal(V), color);
+#ifdef HAS_SPECULAR_ANTIALIASING
+    vec3 dN_dx = dFdx(s.N);
+    vec3 dN_dy = dFdy(s.N);
+#endif
+#ifdef HAS_LAYERS
+    Layers m = layers_of_material(s, V);
+#ifdef HAS_SPECULAR_ANTIALIASING
+    m.base = surface_specular_aa(m.base, dN_dx, dN_dy);
+    m.clearcoat_roughness = roughness_specular_aa(m.clearcoat_roughness, dN_dx, dN_dy);
+#endif
+    return layered_radiance(m, V);
+#else
+#ifdef HAS_SPECULAR_ANTIALIASING
+    s = surface_specular_aa(s, dN_dx, dN_dy);
+#endif
+    return plain_radiance(s, V);
+#endif
+}
 
 void main()
 {
-    vec3 N = normalize(gl_FrontFacing ? v_normal : -v_normal);
-    vec3 V = -normalize(v_position);
-    Surface s = surface_from_gltf(N, v_color.xyz, 0.0, 0.5, 1.5, 1.0, vec3(1.0), 1.0, vec3(0.0));
-    vec3 radiance = surface_ibl(s, surface_NdotV(s, V), vec2(0.9, 0.05), vec3(0.5 + 0.5 * N.y), vec3(0.5 + 0.5 * N.y), energy);
-    fragment = vec4(radiance * exposure, 1.0);
+    vec4 color = base_color();
+    float opacity = coverage(color.w);
+#ifdef IS_LIT
+    vec3 radiance = lit_radiance(color.xyz);
+#else
+    vec3 radiance = unlit_radiance(color.xyz);
+#endif
+#ifdef HAS_ALPHA_MASK
+    if (opacity < 0.5)
+        discard;
+#endif
+    fragment = vec4(radiance * (exposure * opacity), opacity);
 }

@@ -1,0 +1,27 @@
+/* gl_material_block.h - the uniform block of a material, as material.glsl has it (std140): its factors, and how its
+ * textures' coordinates are transformed. */
+#ifndef GL_GL_MATERIAL_BLOCK_H
+#define GL_GL_MATERIAL_BLOCK_H
+
+#include "scene/scene.h"
+
+typedef struct gl_material_block {
+    float base_color[4];
+    float emissive[3], alpha_cutoff; /* emissive: factor times strength */
+    float specular_color[3], specular;
+    float metallic, perceptual_roughness, ior, glossiness;
+    float normal_scale, occlusion_strength, clearcoat_normal_scale, transmission;
+    float clearcoat, clearcoat_roughness, anisotropy, anisotropy_rotation;
+    float iridescence, iridescence_ior, iridescence_thickness_minimum, iridescence_thickness_maximum;
+    float sheen_color[3], sheen_roughness;
+    float attenuation_color[3], attenuation_distance;
+    float diffuse_transmission_color[3], diffuse_transmission;
+    float multiscatter_color[3], scatter_anisotropy;
+    float thickness, dispersion, reserved[2];
+    float texcoords[SCENE_TEXTURE_SLOT_COUNT][2]
+                   [4]; /* by slot: rows of the transform; the first one's w: the set */
+} gl_material_block;
+
+void gl_material_block_fill(const scene_material *m, gl_material_block *out);
+
+#endif

@@ -1,0 +1,192 @@
+/* material.glsl - a material's numbers and texels (gl_material_block.h, gl_material_slots.h) to the surface and its layers,
+ * by shade/material.h. Texels are read before anything is decided by them: mips follow from the neighbors' coordinates. */
+layout(std140) uniform Material
+{
+    vec4 base_color_factor;
+    vec4 emissive_factor;       /* w: alpha cutoff */
+    vec4 specular_color_factor; /* w: specular */
+    vec4 core_factors;          /* metallic, perceptual roughness, ior, glossiness */
+    vec4 map_scales;            /* normal, occlusion strength, clearcoat normal; transmission */
+    vec4 clearcoat_factors;     /* clearcoat, roughness; anisotropy, rotation */
+    vec4 iridescence_factors;   /* iridescence, ior, minimum and maximum of the thickness */
+    vec4 sheen_factors;         /* color; roughness */
+    vec4 attenuation;           /* color; distance */
+    vec4 diffuse_transmission_factors; /* color; factor */
+    vec4 scatter_factors;              /* color; anisotropy */
+    vec4 volume_factors;               /* thickness, dispersion */
+    vec4 texcoord_rows[40];            /* by slot: rows of the transform; w of the first: the set */
+};
+
+vec2 material_texcoord(int slot)
+{
+    vec4 row = texcoord_rows[2 * slot];
+    return texcoord_transform(texcoord_of_set(int(row.w)), row.xyz, texcoord_rows[2 * slot + 1].xyz);
+}
+
+/* ---- color and opacity ---- */
+
+/* Linear, with the alpha before its mode. */
+vec4 base_color()
+{
+    vec4 texel = BASE_COLOR_TEXEL;
+#ifdef HAS_COLORS
+    vec4 color = v_color;
+#else
+    vec4 color = vec4(1.0);
+#endif
+    return vec4(material_base_color(base_color_factor.xyz, texel.xyz, color.xyz),
+                texel.w * (base_color_factor.w * color.w));
+}
+
+float coverage(float alpha)
+{
+#if defined(HAS_ALPHA_MASK)
+    return material_coverage(ALPHA_MODE_MASK, alpha, emissive_factor.w);
+#elif defined(HAS_ALPHA_BLEND)
+    return material_coverage(ALPHA_MODE_BLEND, alpha, 0.0);
+#else
+    return 1.0;
+#endif
+}
+
+/* ---- normals ---- */
+
+/* Unit, of the vertices alone. */
+vec3 smooth_normal(vec3 V)
+{
+    return normalize_or(v_normal * seen_side(), V);
+}
+
+/* From the change of a texture coordinate from pixel to pixel. */
+ShadingFrame frame_of_texcoord(int set)
+{
+    vec2 uv = texcoord_of_set(set);
+    return frame_from_texcoord(v_normal * seen_side(), dFdx(v_position), dFdy(v_position), dFdx(uv), dFdy(uv),
+                               seen_side());
+}
+
+#ifdef HAS_TANGENTS
+ShadingFrame frame_of_tangents()
+{
+    return frame_from_tangent(v_normal * seen_side(), v_tangent, v_handedness, seen_side());
+}
+#endif
+
+vec3 shading_normal(vec3 V)
+{
+    vec3 N = smooth_normal(V);
+#if defined(HAS_NORMAL_TEXTURE) && defined(HAS_TANGENTS)
+    return frame_normal(frame_of_tangents(), normal_from_texel(NORMAL_TEXEL.xyz, map_scales.x), N);
+#else
+    return N;
+#endif
+}
+
+/* ---- the surface ---- */
+
+Surface surface_of_material(vec3 N, vec3 color)
+{
+    MaterialFactors f;
+    f.metallic = core_factors.x;
+    f.perceptual_roughness = core_factors.y;
+    f.ior = core_factors.z;
+    f.specular = specular_color_factor.w;
+    f.specular_color = specular_color_factor.xyz;
+    f.glossiness = core_factors.w;
+    f.occlusion_strength = map_scales.y;
+    f.emissive = emissive_factor.xyz;
+    float occlusion = OCCLUSION_TEXEL.x;
+    vec3 emissive = EMISSIVE_TEXEL.xyz;
+#ifdef IS_GLOSSY
+    vec4 texel = SPECULAR_GLOSSINESS_TEXEL;
+    return material_surface_glossy(f, N, color, texel.xyz, texel.w, occlusion, emissive);
+#else
+    return material_surface(f, N, color, METALLIC_ROUGHNESS_TEXEL.xyz, occlusion, emissive, SPECULAR_TEXEL.w,
+                            SPECULAR_COLOR_TEXEL.xyz);
+#endif
+}
+
+/* ---- layers ---- */
+
+#ifdef HAS_CLEARCOAT
+vec3 clearcoat_normal(vec3 V)
+{
+    vec3 N = smooth_normal(V);
+#ifdef HAS_CLEARCOAT_NORMAL_TEXTURE
+    vec3 n = normal_from_texel(CLEARCOAT_NORMAL_TEXEL.xyz, map_scales.z);
+    int set = int(texcoord_rows[18].w);
+#ifdef HAS_TANGENTS
+    /* They are those of the base's normal texture. */
+#ifdef HAS_NORMAL_TEXTURE
+    if (int(texcoord_rows[4].w) == set)
+        return frame_normal(frame_of_tangents(), n, N);
+#else
+    return frame_normal(frame_of_tangents(), n, N);
+#endif
+#endif
+    ShadingFrame f = frame_of_texcoord(set);
+    if (frame_has_tangent(f))
+        N = frame_normal(f, n, N);
+#endif
+    return N;
+}
+#endif
+
+#ifdef HAS_ANISOTROPY
+Layers with_anisotropy_of_material(Layers m)
+{
+    vec3 texel = ANISOTROPY_TEXEL.xyz;
+#ifdef HAS_TANGENTS
+    ShadingFrame f = frame_of_tangents();
+#else
+    ShadingFrame f = frame_of_texcoord(int(texcoord_rows[32].w));
+#endif
+    float strength = anisotropy_strength(clearcoat_factors.z, texel);
+    if (strength > 0.0)
+        m = with_anisotropy(m, strength, clearcoat_factors.w, texel, f);
+    return m;
+}
+#endif
+
+#ifdef HAS_LAYERS
+Layers layers_of_material(Surface s, vec3 V)
+{
+    Layers m = layers_from_surface(s);
+#ifdef IS_VOLUME
+    m = with_ior(m, core_factors.z, !gl_FrontFacing);
+#else
+    m = with_ior(m, core_factors.z, false);
+#endif
+#ifdef HAS_CLEARCOAT
+    m = with_clearcoat(m, clearcoat_factors.x, clearcoat_factors.y, CLEARCOAT_TEXEL.xyz,
+                       CLEARCOAT_ROUGHNESS_TEXEL.xyz);
+    m.clearcoat_N = clearcoat_normal(V);
+#endif
+#ifdef HAS_SHEEN
+    m = with_sheen(m, sheen_factors.xyz, sheen_factors.w, SHEEN_COLOR_TEXEL.xyz, SHEEN_ROUGHNESS_TEXEL.w);
+#endif
+#ifdef HAS_IRIDESCENCE
+    m = with_iridescence(m, iridescence_factors.x, iridescence_factors.y, iridescence_factors.z,
+                         iridescence_factors.w, IRIDESCENCE_TEXEL.xyz, IRIDESCENCE_THICKNESS_TEXEL.xyz);
+#endif
+#ifdef HAS_ANISOTROPY
+    m = with_anisotropy_of_material(m);
+#endif
+#ifdef HAS_TRANSMISSION
+    m = with_transmission(m, map_scales.w, TRANSMISSION_TEXEL.xyz);
+#endif
+#ifdef HAS_DIFFUSE_TRANSMISSION
+    m = with_diffuse_transmission(m, diffuse_transmission_factors.w, diffuse_transmission_factors.xyz,
+                                  DIFFUSE_TRANSMISSION_TEXEL.w, DIFFUSE_TRANSMISSION_COLOR_TEXEL.xyz);
+#endif
+#ifdef HAS_VOLUME
+    m = with_volume(m, volume_factors.x * v_instance.x, THICKNESS_TEXEL.xyz, attenuation.xyz, attenuation.w,
+                    volume_factors.y);
+#endif
+#ifdef HAS_SCATTER
+    m = with_scatter(m, scatter_factors.xyz, scatter_factors.w);
+#endif
+    m.layers &= MATERIAL_LAYERS; /* which the compiler then knows */
+    return m;
+}
+#endif

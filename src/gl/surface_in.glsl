@@ -1,0 +1,29 @@
+/* surface_in.glsl - what surface.vert hands on; and where the eye is. */
+centroid in vec3 v_position; /* m, relative to the eye */
+centroid in vec3 v_normal;   /* in world space, not unit */
+centroid in vec4 v_color;
+centroid in vec4 v_texcoord01;
+centroid in vec4 v_texcoord23;
+#ifdef HAS_TANGENTS
+centroid in vec3 v_tangent;
+flat in float v_handedness;
+#endif
+flat in vec4 v_instance; /* scale, sign of bitangents, material id + 1 */
+
+/* 1: the side with counter-clockwise vertices is seen, -1: the other one. */
+float seen_side()
+{
+    return gl_FrontFacing ? 1.0 : -1.0;
+}
+
+/* Unit, from the surface to the eye. */
+vec3 view_direction()
+{
+    return eye.w > 0.0 ? -forward.xyz : -normalize(v_position);
+}
+
+vec2 texcoord_of_set(int set)
+{
+    vec4 two = set < 2 ? v_texcoord01 : v_texcoord23;
+    return (set & 1) == 0 ? two.xy : two.zw;
+}
