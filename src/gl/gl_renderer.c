@@ -168,7 +168,7 @@ static facet_result draw_picture(gl_renderer *r, const facet_render_desc *desc, 
     stats->light_s += clock_seconds() - start;
     start = clock_seconds();
     if (result == FACET_OK)
-        result = gl_mesh_update(r->meshes, &r->prepared, &desc->log, error);
+        result = gl_mesh_update(r->meshes, &r->prepared.geometries, &r->prepared.plans, camera.origin, error);
     if (result == FACET_OK)
         result = gl_material_update(r->materials, r->meshes, desc, error);
     stats->textures_s += clock_seconds() - start;
@@ -176,7 +176,6 @@ static facet_result draw_picture(gl_renderer *r, const facet_render_desc *desc, 
     if (result == FACET_OK)
         result = gl_target_update(&r->target, r->context, desc->width, desc->height, desc->samples, error);
     if (result == FACET_OK) {
-        gl_mesh_order(r->meshes, &block, r->materials);
         gl_light_bind(r->light, &block);
         result = draw(r, desc, &block, error);
     }
