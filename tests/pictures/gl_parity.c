@@ -5,6 +5,7 @@
  * Compared are display values (8 bits' worth of sRGB, neither rounded nor clamped above) of pixels away from edges: where two
  * pixels beside each other show other materials, depths that a plane would not explain, or normals that differ by more
  * than 25 degrees, and where the model ends, samples fall differently. */
+#define _XOPEN_SOURCE 700 /* nftw */
 #include <ftw.h>
 #include <math.h>
 #include <stdio.h>
@@ -39,8 +40,8 @@ static int compare_names(const void *a, const void *b)
 
 /* ---- two pictures ---- */
 
-static facet_image *draw(const facet_scene *scene, facet_environment *environment,
-                         facet_integrator integrator, uint32_t aovs, facet_error *error)
+static facet_result draw(const facet_scene *scene, facet_environment *environment,
+                         facet_integrator integrator, uint32_t aovs, facet_image **drawn, facet_error *error)
 {
     facet_render_desc desc = {.width = WIDTH,
                               .height = HEIGHT,
@@ -54,8 +55,7 @@ static facet_image *draw(const facet_scene *scene, facet_environment *environmen
         desc.pose.animations = first;
         desc.pose.animation_count = 1;
     }
-    facet_image *made = NULL;
-    return facet_render(scene, &desc, &made, error) == FACET_OK ? made : NULL;
+    return facet_render(scene, &desc, drawn, error);
 }
 
 static const float *layer(const facet_image *i, const char *name)
@@ -152,11 +152,13 @@ static verdict check(const char *path, facet_environment *environment, bool is_v
     if (facet_scene_load(path, NULL, &scene, &error) != FACET_OK)
         return NOT_LOADED;
     uint32_t aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_MATERIAL_ID;
-    facet_image *preview = draw(scene, environment, FACET_INTEGRATOR_PREVIEW, aovs, &error);
-    facet_image *gl = preview ? draw(scene, environment, FACET_INTEGRATOR_GL, 0, &error) : NULL;
-    verdict v = SAME;
-    if (!preview || !gl) {
-        v = error.code == FACET_ERROR_ENVIRONMENT ? NO_GL : DIFFERENT;
+    facet_image *preview = NULL, *gl = NULL;
+    facet_result result = draw(scene, environment, FACET_INTEGRATOR_PREVIEW, aovs, &preview, &error);
+    if (result == FACET_OK)
+        result = draw(scene, environment, FACET_INTEGRATOR_GL, 0, &gl, &error);
+    verdict v;
+    if (result != FACET_OK) {
+        v = result == FACET_ERROR_ENVIRONMENT ? NO_GL : DIFFERENT;
         printf("%s: %s\n", name, error.message);
     } else {
         distance d = compare(preview, gl);
