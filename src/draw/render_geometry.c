@@ -161,13 +161,18 @@ static void transform_vertices(void *context, size_t begin, size_t end)
         mat4_transform_point(&job->instance->world, positions + 3 * i, job->out + 3 * i);
 }
 
+float render_geometry_sprite_radius(scene_mode mode)
+{
+    return mode == SCENE_POINTS ? POINT_RADIUS : LINE_RADIUS;
+}
+
 /* One vertex per index, so that neighbours in the array are neighbours on the line. */
 static void place_sprites(void *context, size_t begin, size_t end)
 {
     const transform_job *job = context;
     const camera_rays *camera = job->camera;
     const scene_primitive *primitive = job->instance->primitive;
-    float radius = primitive->mode == SCENE_POINTS ? POINT_RADIUS : LINE_RADIUS;
+    float radius = render_geometry_sprite_radius(primitive->mode);
     for (size_t i = begin; i < end; i++) {
         float *p = job->out + 4 * i;
         mat4_transform_point(&job->instance->world,

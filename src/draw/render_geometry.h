@@ -73,6 +73,8 @@ facet_result render_geometry_create(const facet_scene *scene, const scene_pose *
 facet_result render_geometry_transform(render_geometry_set *set, const scene_pose *pose,
                                        const camera_rays *camera, const facet_allocator *allocator,
                                        uint32_t thread_count, facet_error *error);
+/* Half the width of lines, the radius of points in pixels. */
+float render_geometry_sprite_radius(scene_mode mode);
 /* Points and lines, which have vertices, again for another camera. */
 void render_geometry_place_sprites(render_geometry_set *set, const scene_pose *pose,
                                    const camera_rays *camera, uint32_t thread_count);

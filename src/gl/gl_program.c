@@ -67,6 +67,7 @@ static const char *const surface_features[] = {"HAS_TANGENTS",
                                                "HAS_COLORS",
                                                "IS_VOLUME",
                                                "HAS_SPECULAR_ANTIALIASING",
+                                               "IS_SPRITE",
                                                NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const no_features[] = {NULL};

@@ -88,8 +88,9 @@ static facet_result draw_batches(gl_renderer *r, gl_pass pass, facet_error *erro
     const gl_batch *batches = gl_mesh_batches(r->meshes, pass, &count);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t program;
-        gl_program_key key = {GL_MAIN_SURFACE,
-                              gl_material_features(r->materials, &batches[i]) | gl_light_features(r->light)};
+        if (batches[i].is_outside)
+            continue;
+        gl_program_key key = {GL_MAIN_SURFACE, batches[i].features | gl_light_features(r->light)};
         facet_result result = gl_programs_get(r->programs, key, &program, error);
         if (result != FACET_OK)
             return result;
@@ -168,7 +169,7 @@ static facet_result draw_picture(gl_renderer *r, const facet_render_desc *desc, 
     stats->light_s += clock_seconds() - start;
     start = clock_seconds();
     if (result == FACET_OK)
-        result = gl_mesh_update(r->meshes, &r->prepared.geometries, &r->prepared.plans, camera.origin, error);
+        result = gl_mesh_update(r->meshes, &r->prepared, &desc->log, error);
     if (result == FACET_OK)
         result = gl_material_update(r->materials, r->meshes, desc, error);
     stats->textures_s += clock_seconds() - start;
@@ -176,6 +177,7 @@ static facet_result draw_picture(gl_renderer *r, const facet_render_desc *desc, 
     if (result == FACET_OK)
         result = gl_target_update(&r->target, r->context, desc->width, desc->height, desc->samples, error);
     if (result == FACET_OK) {
+        gl_mesh_order(r->meshes, &block, r->materials);
         gl_light_bind(r->light, &block);
         result = draw(r, desc, &block, error);
     }

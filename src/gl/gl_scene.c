@@ -29,13 +29,14 @@ void gl_scene_clear(gl_scene *s)
 {
     const facet_scene *scene = s->scene;
     facet_allocator allocator = s->allocator;
-    uint64_t revision = s->revision;
+    uint64_t revision = s->revision, generation = s->generation;
     drop_pose(s);
     tangent_store_destroy(&s->tangents);
     if (!scene)
         return;
     gl_scene_init(s, scene, &allocator);
     s->revision = revision;
+    s->generation = generation + 1;
 }
 
 static facet_result make_geometry(gl_scene *s, const facet_render_desc *desc, facet_error *error)

@@ -19,11 +19,12 @@ typedef struct gl_scene {
     tangent_store tangents;
     material_plan_set plans; /* per geometry */
     uint64_t revision;       /* another one whenever something of the above is; 0: there is nothing yet */
+    uint64_t generation;     /* another one when what was kept is gone: arrays may stand where others stood */
 } gl_scene;
 
 /* Of a scene that outlives it; NULL: {0}. Nothing is prepared yet. */
 void gl_scene_init(gl_scene *s, const facet_scene *scene, const facet_allocator *allocator);
-void gl_scene_clear(gl_scene *s); /* as after init, but for the revision; that of {0} is {0} */
+void gl_scene_clear(gl_scene *s); /* as after init, but for revision and generation; that of {0} is {0} */
 /* Makes what desc (resolved) asks for and is not there; tangents of what does not deform are made once. Where it fails there
  * is nothing. Fails with FACET_ERROR_MEMORY, and as scene_pose_create(). */
 facet_result gl_scene_update(gl_scene *s, const facet_render_desc *desc, facet_error *error);

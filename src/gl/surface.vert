@@ -1,19 +1,27 @@
-/* surface.vert - vertices of instances, relative to the eye. */
+/* surface.vert - vertices of instances, relative to the eye; and outlines of sprites. */
 in vec3 position;
 in vec3 normal;
-in vec4 tangent; /* w: handedness */
 in vec4 color;
 in vec2 texcoord0;
 in vec2 texcoord1;
-in vec2 texcoord2;
-in vec2 texcoord3;
 in vec4 world0; /* rows of the instance's matrix */
 in vec4 world1;
 in vec4 world2;
+in vec4 instance; /* scale, sign of bitangents, material id + 1, radius of sprites in pixels */
+#ifdef IS_SPRITE
+in vec3 position_end; /* of a line; that of a point is where it begins */
+in vec3 normal_end;
+in vec4 color_end;
+in vec2 texcoord0_end;
+in vec2 texcoord1_end;
+#else
+in vec4 tangent; /* w: handedness */
+in vec2 texcoord2;
+in vec2 texcoord3;
 in vec3 normal_matrix0; /* rows */
 in vec3 normal_matrix1;
 in vec3 normal_matrix2;
-in vec4 instance; /* scale, sign of bitangents, material id + 1 */
+#endif
 
 centroid out vec3 v_position; /* m, relative to the eye */
 centroid out vec3 v_normal;
@@ -26,13 +34,72 @@ flat out float v_handedness;
 #endif
 flat out vec4 v_instance;
 
+vec3 turn(vec3 v)
+{
+    return vec3(dot(world0.xyz, v), dot(world1.xyz, v), dot(world2.xyz, v));
+}
+
+/* The instance is moved to the eye before the point is added, which is what keeps a model steady that is far away from the
+ * origin. */
+vec3 place(vec3 p)
+{
+    vec3 origin = vec3(world0.w - eye.x, world1.w - eye.y, world2.w - eye.z);
+    return turn(p) + origin;
+}
+
+#ifdef IS_SPRITE
+
+vec3 unit_or(vec3 v, vec3 otherwise)
+{
+    float length2 = dot(v, v);
+    return length2 > 0.0 ? v * inversesqrt(length2) : otherwise;
+}
+
+/* The instance's matrix of normals: the cofactors, such that those of mirrored ones stay outward. */
+vec3 turn_normal(vec3 n)
+{
+    mat3 cofactors = mat3(cross(world1.xyz, world2.xyz), cross(world2.xyz, world0.xyz), cross(world0.xyz, world1.xyz));
+    return vec3(dot(cofactors[0], n), dot(cofactors[1], n), dot(cofactors[2], n)) * instance.y;
+}
+
+/* Place of a vertex on the outline of a sprite: what rays meet that pass within a radius of the line between A and B, as
+ * wide as a pixel at either end. Vertices run along the line, two by two, from the round end at A to that at B, in steps
+ * of 30 degrees; the outline shows its front. */
+vec3 outline(vec3 A, vec3 B, bool is_end)
+{
+    bool is_orthographic = eye.w > 0.5;
+    vec3 middle = is_end ? B : A;
+    vec3 ray = is_orthographic ? forward.xyz : unit_or(middle, forward.xyz);
+    float pixel = length(up.xyz) * pixel_scale * (is_orthographic ? 1.0 : max(dot(middle, forward.xyz), 0.0));
+    vec3 any_side = cross(ray, abs(ray.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));
+    vec3 side = unit_or(cross(B - A, ray), normalize(any_side));
+    vec3 along = cross(ray, side);
+    int column = gl_VertexID >> 1;
+    float angle = float(is_end ? 7 - column : column) * (PI / 6.0);
+    float left = (gl_VertexID & 1) == 0 ? instance.y : -instance.y;
+    return middle + (side * (left * sin(angle)) + along * (is_end ? cos(angle) : -cos(angle))) * (instance.w * pixel);
+}
+
 void main()
 {
-    vec4 p = vec4(position, 1.0);
-    v_position = vec3(dot(world0, p), dot(world1, p), dot(world2, p));
+    bool is_end = gl_VertexID >= 8;
+    v_position = outline(place(position), place(position_end), is_end);
+    v_normal = turn_normal(is_end ? normal_end : normal);
+    v_color = is_end ? color_end : color;
+    v_texcoord01 = is_end ? vec4(texcoord0_end, texcoord1_end) : vec4(texcoord0, texcoord1);
+    v_texcoord23 = vec4(0.0);
+    v_instance = instance;
+    gl_Position = view_projection * vec4(v_position, 1.0);
+}
+
+#else
+
+void main()
+{
+    v_position = place(position);
     v_normal = vec3(dot(normal_matrix0, normal), dot(normal_matrix1, normal), dot(normal_matrix2, normal));
 #ifdef HAS_TANGENTS
-    v_tangent = vec3(dot(world0.xyz, tangent.xyz), dot(world1.xyz, tangent.xyz), dot(world2.xyz, tangent.xyz)) / instance.x;
+    v_tangent = turn(tangent.xyz) / instance.x;
     v_handedness = tangent.w * instance.y;
 #endif
     v_color = color;
@@ -41,3 +108,5 @@ void main()
     v_instance = instance;
     gl_Position = view_projection * vec4(v_position, 1.0);
 }
+
+#endif
