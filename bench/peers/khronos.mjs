@@ -1,7 +1,8 @@
 // khronos.mjs - draws models with the Khronos glTF Sample Renderer in headless Chromium and with facet, with the same
 // light, camera and tone mapping, and prints how far the pictures are apart.
-// usage: node khronos.mjs FACET MODELS LIGHT.hdr OUT [NAME ..]     FACET: the command; MODELS: the folder that holds
-// core, materials, ..; OUT: a folder for NAME-khronos.png and NAME-facet.png; NAME: only these. CHROMIUM names the browser.
+// usage: node khronos.mjs [--renderer gl] FACET MODELS LIGHT.hdr OUT [NAME ..]     FACET: the command; MODELS: the folder that
+// holds core, materials, ..; OUT: a folder for NAME-khronos.png and NAME-facet.png; NAME: only these. CHROMIUM names the
+// browser. FLIP is that of the files as they are, at 67 pixels a degree.
 //
 // The renderer turns an environment by 90 degrees of its own and encodes with a power of 1/2.2 in place of the sRGB
 // function; facet is told the turn (--env-rotation -90), and its codes are re-encoded before they are compared. Glass
@@ -11,9 +12,10 @@ import { readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { open_page } from './browser.mjs';
 
-const [facet, models, light, out, ...only] = process.argv.slice(2);
+const words = process.argv.slice(2), renderer = words[0] === '--renderer' ? words.splice(0, 2)[1] : 'preview';
+const [facet, models, light, out, ...only] = words;
 if (!out) {
-    console.error('usage: node khronos.mjs FACET MODELS LIGHT.hdr OUT [NAME ..]');
+    console.error('usage: node khronos.mjs [--renderer gl] FACET MODELS LIGHT.hdr OUT [NAME ..]');
     process.exit(2);
 }
 const size = 512;
@@ -155,18 +157,20 @@ try {
     await page.waitForFunction('window.ready || window.failure', null, { timeout: 300000 });
     const failure = await page.evaluate('window.failure');
     if (failure) throw new Error(failure);
-    console.log('| model | mean | median | 95 % |\n| --- | --- | --- | --- |');
+    console.log('| model | mean | median | 95 % | FLIP |\n| --- | --- | --- | --- | --- |');
     for (let i = 0; i < jobs.length; i++) {
         const { model, name, eye, target, time } = jobs[i];
         const z = Math.hypot(...eye.map((x, k) => x - target[k]));
         const theirs = await page.evaluate((all) => window.draw(...all), [i, eye, target, z, time]);
-        await writeFile(path.join(out, `${name}-khronos.png`), Buffer.from(theirs.split(',')[1], 'base64'));
+        const theirs_file = path.join(out, `${name}-khronos.png`);
+        await writeFile(theirs_file, Buffer.from(theirs.split(',')[1], 'base64'));
         const ours = path.join(out, `${name}-facet.png`);
-        execFileSync(facet, ['render', '-q', '-s', String(size), '-e', light, '--env-rotation=-90', `--eye=${eye}`,
+        execFileSync(facet, ['render', '-q', '--renderer', renderer, '-s', String(size), '-e', light, '--env-rotation=-90', `--eye=${eye}`,
             `--target=${target}`, '--fov=30', ...(time === undefined ? [] : [`--time=${time}`]), model, '-o', ours]);
         const our_url = 'data:image/png;base64,' + (await readFile(ours)).toString('base64');
         const [mean, median, p95] = await page.evaluate(([a, b]) => window.compare(a, b), [theirs, our_url]);
-        console.log(`| ${name} | ${mean.toFixed(2)} | ${median.toFixed(1)} | ${p95.toFixed(1)} |`);
+        const { metrics } = JSON.parse(execFileSync(facet, ['compare', ours, theirs_file, '--metric', 'flip', '--json']));
+        console.log(`| ${name} | ${mean.toFixed(2)} | ${median.toFixed(1)} | ${p95.toFixed(1)} | ${metrics.flip.toFixed(4)} |`);
     }
 } finally {
     await close();
