@@ -11,8 +11,9 @@ enum { GL_BLOCK_FRAME, GL_BLOCK_MATERIAL, GL_BLOCK_LIGHT, GL_BLOCK_COUNT }; /* b
 typedef struct gl_frame_block {
     float view_projection[16]; /* columns; of points relative to the eye */
     float eye[4];              /* m; w: 1 orthographic */
-    float right[4], up[4];     /* of the camera, per pixel at depth 1 m (orthographic: m) */
-    float forward[4];          /* unit */
+    float right[4], up[4]; /* per +1 of gl_FragCoord at depth 1 m (orthographic: m); up points down where rows
+                                  run from the top: gl_camera.h */
+    float forward[4];      /* unit */
     float size[4];   /* width, height of what is drawn, pixels; what gl_FragCoord lacks to be a place in it */
     float light[4];  /* scale of the environment, cos and sin of its rotation, number of punctual lights */
     float exposure;  /* scale of radiance */
@@ -24,6 +25,7 @@ typedef struct gl_frame_block {
     float far_depth; /* gl_Position.z / w of what is infinitely far away: 1, or 0 where depth is reversed */
     float
         pixel_scale; /* pixels that are drawn, in a row, for one of the picture: 2 with FACET_QUALITY_FINAL */
+    float background[4]; /* display-linear color that is laid behind for a window; w: 0: none */
 } gl_frame_block;
 
 /* Texture units; those of materials come behind. */

@@ -59,10 +59,12 @@ void gl_camera_set(const gl_context *context, const camera_rays *c, const float 
     const float *dy = c->is_orthographic ? c->origin_dy : c->direction_dy;
     double scale = view->scale, low, high, a, b;
     double corner_x = (double)view->x + (double)view->jitter[0];
-    double corner_y = (double)view->y + (double)view->jitter[1];
+    double top = (double)view->y + (double)view->jitter[1];
+    double corner_y = height * scale - top - view->height; /* from the bottom */
+    bool is_top_down = gl_camera_is_top_down(context);
     for (int i = 0; i < 3; i++) {
         block->right[i] = (float)((double)dx[i] / scale);
-        block->up[i] = (float)((double)-dy[i] / scale);
+        block->up[i] = (is_top_down ? 1.0f : -1.0f) * (float)((double)dy[i] / scale);
         block->forward[i] = c->direction[i];
         block->eye[i] = c->origin[i];
     }
@@ -70,7 +72,7 @@ void gl_camera_set(const gl_context *context, const camera_rays *c, const float 
     block->size[0] = (float)(width * scale);
     block->size[1] = (float)(height * scale);
     block->size[2] = (float)corner_x;
-    block->size[3] = (float)corner_y;
+    block->size[3] = (float)(is_top_down ? top : corner_y);
     block->pixel_scale = (float)scale;
     block->far_depth = context->has_clip_control ? 0.0f : 1.0f;
     depth_range(c, bounds_min, bounds_max, &low, &high);
@@ -106,7 +108,7 @@ static void clear_depth(const gl_context *context, float depth)
 void gl_camera_begin_depth(const gl_context *context)
 {
     if (context->has_clip_control)
-        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     clear_depth(context, context->has_clip_control ? 0.0f : 1.0f);
     glDepthFunc(context->has_clip_control ? GL_GEQUAL : GL_LEQUAL);
 }

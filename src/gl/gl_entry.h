@@ -24,6 +24,13 @@ typedef struct gl_host {
                                  facet_image **image, facet_error *error);
 } gl_host;
 
+/* Whether a channel is radiance, which is exposed and tone-mapped; the others are numbers over black. */
+static inline bool gl_channel_is_light(facet_channel channel)
+{
+    return channel == FACET_CHANNEL_LIGHT ||
+           (channel >= FACET_CHANNEL_DIFFUSE && channel <= FACET_CHANNEL_EMISSION);
+}
+
 typedef struct gl_entry {
     /* A context without a window, and what is prepared of a scene for it. The scene outlives it. Fails with
      * FACET_ERROR_ENVIRONMENT where there is no OpenGL, FACET_ERROR_MEMORY. */

@@ -68,9 +68,10 @@ static const char *const surface_features[] = {"HAS_TANGENTS",
                                                "IS_VOLUME",
                                                "HAS_SPECULAR_ANTIALIASING",
                                                "IS_SPRITE",
+                                               "AOVS",
                                                NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
-static const char *const no_features[] = {NULL};
+static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
 static const struct {
     const char *name, *vertex, *fragment;
@@ -91,7 +92,8 @@ static const struct {
                             {"surface"},
                             {"light_block.glsl", "environment.glsl"},
                             background_features},
-    [GL_MAIN_PRESENT] = {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, no_features},
+    [GL_MAIN_PRESENT] =
+        {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, present_features},
 };
 
 /* Samplers and their units. */
@@ -204,8 +206,15 @@ facet_result gl_programs_create(gl_context *context, const facet_allocator *allo
         return fail_memory(error, "programs", sizeof **out);
     (*out)->context = context;
     (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
-    (*out)->log = log ? *log : (facet_log){0};
+    gl_programs_set_log(*out, log);
+    if (context->has_parallel_compile)
+        glMaxShaderCompilerThreadsKHR(0xffffffff); /* as many as the driver likes */
     return FACET_OK;
+}
+
+void gl_programs_set_log(gl_programs *programs, const facet_log *log)
+{
+    programs->log = log ? *log : (facet_log){0};
 }
 
 void gl_programs_destroy(gl_programs *programs)
@@ -262,7 +271,7 @@ facet_result gl_programs_request(gl_programs *programs, gl_program_key key, face
     return result;
 }
 
-/* The text with numbers before its lines, a message for each hundred: people are to find line 812. */
+/* The text with numbers before its lines, a message for each: people are to find line 812. */
 static void tell_source(const gl_programs *programs, const char *source)
 {
     char line[320];

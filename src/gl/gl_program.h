@@ -51,6 +51,8 @@ typedef struct gl_programs gl_programs;
 
 facet_result gl_programs_create(gl_context *context, const facet_allocator *allocator, const facet_log *log,
                                 gl_programs **out, facet_error *error);
+/* What the next picture's warnings go to; log NULL: nowhere. */
+void gl_programs_set_log(gl_programs *programs, const facet_log *log);
 void gl_programs_destroy(gl_programs *programs); /* NULL is allowed; the context is current */
 
 /* Starts to compile, in the background where the driver does that, so that several programs compile at once. */

@@ -1,0 +1,256 @@
+/* gl_film.c - see gl_film.h. Radiance of passes and of finer grids is added up on the CPU, in floats, in a fixed order. */
+#include "gl/gl_film.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "gl/gl_camera.h"
+#include "gl/gl_sampling.h"
+
+/* Pixels that are drawn at once: some 170 MB with 4 samples; between tiles the caller may cancel. */
+static const uint64_t TILE_PIXELS = 1u << 21;
+
+/* A part of the picture in its own pixels. */
+typedef struct tile {
+    uint32_t x, y, width, height; /* what is taken over */
+    uint32_t margin[4];           /* left, top, right, bottom: drawn beside it */
+} tile;
+
+typedef struct drawing {
+    const gl_film_desc *desc;
+    gl_sampling sampling;
+    float *jitter; /* of passes */
+    uint32_t tile_width, tile_height, columns, rows;
+    bool looks_around; /* passes read pixels of others: of the whole picture, as far as it can be had */
+    gl_target layers;
+    float *pixels; /* of a tile, as drawn */
+    film *film;
+    render_watch watch;
+} drawing;
+
+static uint32_t smaller(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* ---- tiles ---- */
+
+/* Tiles as wide as the crop where they can be: their edges cost vertices. */
+static void plan_tiles(drawing *d)
+{
+    const uint32_t *crop = d->desc->render->crop;
+    uint32_t scale = d->sampling.scale;
+    uint32_t most = (uint32_t)d->desc->frame->context->max_texture_size / scale;
+    uint64_t pixels = d->looks_around ? UINT64_MAX : TILE_PIXELS / ((uint64_t)scale * scale);
+    if (d->looks_around && (d->desc->render->width > most || d->desc->render->height > most))
+        most /= 2; /* the other half is for what lies around */
+    d->tile_width = smaller(crop[2], most);
+    uint64_t height = pixels / d->tile_width;
+    d->tile_height = smaller(crop[3], height < most ? (uint32_t)(height ? height : 1) : most);
+    d->columns = (crop[2] + d->tile_width - 1) / d->tile_width;
+    d->rows = (crop[3] + d->tile_height - 1) / d->tile_height;
+}
+
+/* How far the drawn part may reach beyond [begin, begin + size) before and behind, so that it is no larger than most. */
+static void choose_margin(uint32_t begin, uint32_t size, uint32_t whole, uint32_t most, uint32_t *before,
+                          uint32_t *behind)
+{
+    uint32_t room = most - size;
+    *before = smaller(begin, whole <= most ? begin : room / 2);
+    *behind = smaller(whole - begin - size, room - *before);
+}
+
+static tile get_tile(const drawing *d, uint32_t number)
+{
+    const facet_render_desc *r = d->desc->render;
+    uint32_t left = number % d->columns * d->tile_width, top = number / d->columns * d->tile_height;
+    tile t = {.x = r->crop[0] + left,
+              .y = r->crop[1] + top,
+              .width = smaller(d->tile_width, r->crop[2] - left),
+              .height = smaller(d->tile_height, r->crop[3] - top)};
+    uint32_t most = (uint32_t)d->desc->frame->context->max_texture_size / d->sampling.scale;
+    if (d->looks_around) {
+        choose_margin(t.x, t.width, r->width, most, &t.margin[0], &t.margin[2]);
+        choose_margin(t.y, t.height, r->height, most, &t.margin[1], &t.margin[3]);
+    }
+    return t;
+}
+
+static gl_view view_of(const tile *t, uint32_t scale)
+{
+    return (gl_view){.scale = scale,
+                     .x = (t->x - t->margin[0]) * scale,
+                     .y = (t->y - t->margin[1]) * scale,
+                     .width = (t->width + t->margin[0] + t->margin[2]) * scale,
+                     .height = (t->height + t->margin[1] + t->margin[3]) * scale};
+}
+
+/* Reads the tile without its margin, as it was drawn: rows from the top in the end. */
+static void read_tile(const drawing *d, const gl_target *target, uint32_t layer, const tile *t,
+                      uint32_t scale)
+{
+    bool is_top_down = gl_camera_is_top_down(d->desc->frame->context);
+    uint32_t w = t->width * scale, h = t->height * scale;
+    gl_target_read(target, layer, t->margin[0] * scale, t->margin[is_top_down ? 1 : 3] * scale, w, h,
+                   d->pixels);
+    for (uint32_t y = 0; !is_top_down && y < h / 2; y++) {
+        float *a = d->pixels + 4 * (size_t)w * y, *b = d->pixels + 4 * (size_t)w * (h - 1 - y);
+        for (size_t i = 0; i < 4 * (size_t)w; i++) {
+            float kept = a[i];
+            a[i] = b[i];
+            b[i] = kept;
+        }
+    }
+}
+
+/* ---- the picture ---- */
+
+static void add_tile(const drawing *d, const tile *t)
+{
+    const uint32_t *crop = d->desc->render->crop;
+    uint32_t scale = d->sampling.scale;
+    float weight = 1.0f / (float)(scale * scale * d->sampling.passes);
+    for (uint32_t y = 0; y < t->height * scale; y++) {
+        const float *from = d->pixels + 4 * (size_t)y * t->width * scale;
+        size_t row = (size_t)(t->y - crop[1]) + y / scale;
+        float *to = d->film->layers[0].pixels + 4 * (row * crop[2] + (t->x - crop[0]));
+        for (size_t x = 0; x < t->width; x++)
+            for (size_t k = 0; k < 4 * (size_t)scale; k++)
+                to[4 * x + k % 4] += weight * from[4 * x * scale + k];
+    }
+}
+
+static facet_result check_watch(drawing *d, facet_error *error)
+{
+    render_watch_look(&d->watch);
+    return render_watch_explain(&d->watch, error);
+}
+
+static facet_result draw_picture(drawing *d, const tile *t, facet_error *error)
+{
+    const gl_film_desc *desc = d->desc;
+    gl_view view = view_of(t, d->sampling.scale);
+    facet_result result = gl_target_update(desc->target, desc->frame->context, GL_TARGET_FILM, view.width,
+                                           view.height, d->sampling.samples, error);
+    for (uint32_t pass = 0; pass < d->sampling.passes && result == FACET_OK; pass++) {
+        gl_frame_block block = {.channel = 0};
+        memcpy(view.jitter, d->jitter + 2 * pass, sizeof view.jitter);
+        gl_camera_set(desc->frame->context, desc->camera, desc->scene->pose.bounds_min,
+                      desc->scene->pose.bounds_max, desc->render->width, desc->render->height, &view, &block);
+        result = gl_frame_draw(desc->frame, desc->target, desc->render, &block, error);
+        if (result == FACET_OK)
+            read_tile(d, desc->target, 0, t, d->sampling.scale);
+        if (result == FACET_OK)
+            result = gl_context_check(desc->frame->context, "the picture", error);
+        if (result == FACET_OK)
+            add_tile(d, t);
+        render_watch_add(&d->watch, (uint64_t)t->width * t->height);
+        if (result == FACET_OK)
+            result = check_watch(d, error);
+    }
+    return result;
+}
+
+/* ---- layers ---- */
+
+/* Which numbers of what was drawn are a layer. */
+static const struct layer_source {
+    const char *name;
+    uint8_t layer, first, count;
+} layer_sources[] = {{"normal", 0, 0, 3},    {"depth", 0, 3, 1},    {"albedo", 1, 0, 3},
+                     {"occlusion", 1, 3, 1}, {"material", 2, 0, 1}, {"uv", 2, 1, 2}};
+
+/* The film has what stands for nothing; that stays where nothing was drawn. */
+static void store_layer(const drawing *d, const struct layer_source *source, const tile *t,
+                        const uint8_t *is_there)
+{
+    const film_layer *layer = film_find(d->film, source->name);
+    const uint32_t *crop = d->desc->render->crop;
+    if (!layer)
+        return;
+    for (uint32_t y = 0; y < t->height; y++)
+        for (uint32_t x = 0; x < t->width; x++) {
+            size_t from = (size_t)y * t->width + x;
+            size_t to = (size_t)(t->y - crop[1] + y) * crop[2] + (t->x - crop[0]) + x;
+            if (is_there[from])
+                memcpy(layer->pixels + to * layer->channel_count, d->pixels + 4 * from + source->first,
+                       source->count * sizeof(float));
+        }
+}
+
+static void store_layers(const drawing *d, const tile *t, uint8_t *is_there)
+{
+    read_tile(d, &d->layers, 2, t, 1);
+    for (size_t i = 0; i < (size_t)t->width * t->height; i++)
+        is_there[i] = d->pixels[4 * i + 3] > 0.0f;
+    for (uint8_t layer = 0; layer < GL_TARGET_LAYERS; layer++) {
+        read_tile(d, &d->layers, layer, t, 1);
+        for (size_t i = 0; i < sizeof layer_sources / sizeof *layer_sources; i++)
+            if (layer_sources[i].layer == layer)
+                store_layer(d, &layer_sources[i], t, is_there);
+    }
+}
+
+/* One sample at the middle of each pixel. */
+static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
+{
+    const gl_film_desc *desc = d->desc;
+    gl_view view = view_of(t, 1);
+    gl_frame_block block = {.channel = 0};
+    uint8_t *is_there = mem_alloc(&desc->render->allocator, (size_t)t->width * t->height, 1);
+    if (!is_there)
+        return fail_memory(error, "layers", (size_t)t->width * t->height);
+    gl_camera_set(desc->frame->context, desc->camera, desc->scene->pose.bounds_min,
+                  desc->scene->pose.bounds_max, desc->render->width, desc->render->height, &view, &block);
+    facet_result result = gl_target_update(&d->layers, desc->frame->context, GL_TARGET_LAYERED, view.width,
+                                           view.height, 1, error);
+    if (result == FACET_OK)
+        result = gl_frame_draw_layers(desc->frame, &d->layers, desc->render, &block, error);
+    if (result == FACET_OK)
+        store_layers(d, t, is_there);
+    if (result == FACET_OK)
+        result = gl_context_check(desc->frame->context, "the layers", error);
+    mem_free(is_there);
+    return result;
+}
+
+/* ---- all ---- */
+
+static facet_result prepare(drawing *d, facet_error *error)
+{
+    const facet_render_desc *r = d->desc->render;
+    d->sampling = gl_sampling_plan(r->samples, r->quality, (uint32_t)d->desc->frame->context->max_samples);
+    d->looks_around = d->desc->scene->plans.lets_rays_through || r->gl.bloom > 0.0f;
+    plan_tiles(d);
+    size_t scale = d->sampling.scale;
+    size_t count = (size_t)d->tile_width * d->tile_height * scale * scale;
+    d->pixels = mem_alloc(&r->allocator, count, 4 * sizeof *d->pixels);
+    d->jitter = mem_alloc(&r->allocator, d->sampling.passes, 2 * sizeof *d->jitter);
+    if (!d->pixels || !d->jitter)
+        return fail_memory(error, "picture", count * 4 * sizeof *d->pixels);
+    gl_sampling_jitter(&d->sampling, d->jitter);
+    memset(d->film->layers[0].pixels, 0,
+           4 * sizeof(float) * (size_t)d->film->width * d->film->height); /* an attempt may have failed */
+    render_watch_init(&d->watch, &r->progress, "shade", d->desc->deadline_s,
+                      (double)r->crop[2] * (double)r->crop[3] * (double)d->sampling.passes);
+    return FACET_OK;
+}
+
+facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *error)
+{
+    drawing d = {.desc = desc, .film = target};
+    facet_result result = prepare(&d, error);
+    for (uint32_t i = 0; result == FACET_OK && i < d.columns * d.rows; i++) {
+        tile t = get_tile(&d, i);
+        result = draw_picture(&d, &t, error);
+        if (result == FACET_OK && desc->render->aovs)
+            result = draw_layers(&d, &t, error);
+        if (result == FACET_OK)
+            result = check_watch(&d, error);
+    }
+    gl_target_destroy(&d.layers);
+    mem_free(d.pixels);
+    mem_free(d.jitter);
+    return result;
+}

@@ -1,0 +1,254 @@
+/* gl_frame.c - see gl_frame.h. */
+#include "gl/gl_frame.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+#include "base/clock.h"
+#include "gl/gl_camera.h"
+#include "gl/gl_entry.h"
+
+/* ---- what is in OpenGL's memory ---- */
+
+facet_result gl_frame_create(gl_frame *f, gl_context *context, const facet_scene *scene,
+                             const facet_allocator *allocator, facet_error *error)
+{
+    *f = (gl_frame){.context = context, .timers.context = context};
+    facet_result result = gl_programs_create(context, allocator, NULL, &f->programs, error);
+    if (result == FACET_OK)
+        result = gl_mesh_create(context, allocator, &f->meshes, error);
+    if (result == FACET_OK)
+        result = gl_material_create(context, scene, allocator, &f->materials, error);
+    if (result == FACET_OK)
+        result = gl_light_create(context, allocator, &f->light, error);
+    if (result != FACET_OK)
+        return result;
+    glGenBuffers(1, &f->frame_buffer);
+    glGenVertexArrays(1, &f->empty_array);
+    return FACET_OK;
+}
+
+void gl_frame_destroy(gl_frame *f)
+{
+    if (!f->context)
+        return;
+    gl_timers_destroy(&f->timers);
+    gl_light_destroy(f->light);
+    gl_material_destroy(f->materials);
+    gl_mesh_destroy(f->meshes);
+    gl_programs_destroy(f->programs);
+    glDeleteBuffers(1, &f->frame_buffer);
+    glDeleteVertexArrays(1, &f->empty_array);
+    *f = (gl_frame){.context = NULL};
+}
+
+/* ---- programs ---- */
+
+static gl_program_key key_of(const gl_frame *f, const gl_batch *batch, bool is_layers)
+{
+    uint64_t features = gl_material_features(f->materials, batch) | gl_mesh_features(f->meshes, batch) |
+                        gl_light_features(f->light);
+    if (is_layers)
+        features |= gl_program_feature(GL_MAIN_SURFACE, "AOVS");
+    return (gl_program_key){GL_MAIN_SURFACE, features};
+}
+
+static facet_result request_batches(gl_frame *f, bool is_layers, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {
+        uint32_t count;
+        const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
+        for (uint32_t i = 0; i < count && result == FACET_OK; i++)
+            result = gl_programs_request(f->programs, key_of(f, &batches[i], is_layers), error);
+    }
+    return result;
+}
+
+/* Of all that the picture will draw, before any of them is waited for: the driver compiles them at the same time. */
+static facet_result request_programs(gl_frame *f, const facet_render_desc *desc, facet_error *error)
+{
+    gl_programs_set_log(f->programs, &desc->log);
+    facet_result result = request_batches(f, false, error);
+    if (result == FACET_OK && desc->aovs)
+        result = request_batches(f, true, error);
+    if (result == FACET_OK && desc->background == FACET_BACKGROUND_ENVIRONMENT) {
+        gl_program_key key = {GL_MAIN_BACKGROUND, gl_light_background_features(f->light, desc)};
+        result = gl_programs_request(f->programs, key, error);
+    }
+    return result;
+}
+
+facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_rays *camera,
+                             const facet_render_desc *desc, facet_render_stats *stats, facet_error *error)
+{
+    double start = clock_seconds();
+    light_setup light = {0};
+    facet_result result = light_setup_create(&scene->geometries, &scene->pose, camera, desc, &light, error);
+    if (result == FACET_OK)
+        result = gl_light_update(f->light, &light, error);
+    if (result == FACET_OK && gl_channel_is_light(desc->gl.channel))
+        light_setup_tell_dark(&light, &scene->geometries, desc);
+    light_setup_destroy(&light);
+    stats->light_s += clock_seconds() - start;
+    start = clock_seconds();
+    if (result == FACET_OK)
+        result = gl_mesh_update(f->meshes, scene, &desc->log, error);
+    stats->geometry_s += clock_seconds() - start;
+    start = clock_seconds();
+    if (result == FACET_OK)
+        result = gl_material_update(f->materials, f->meshes, desc, error);
+    stats->textures_s += clock_seconds() - start;
+    stats->decoded_texels += result == FACET_OK ? gl_material_decoded_texels(f->materials) : 0;
+    if (result == FACET_OK)
+        result = request_programs(f, desc, error);
+    return result == FACET_OK ? gl_context_check(f->context, "the scene", error) : result;
+}
+
+/* ---- passes ---- */
+
+static facet_result draw_batches(gl_frame *f, gl_pass pass, bool is_layers, facet_error *error)
+{
+    uint32_t count;
+    const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t program;
+        if (batches[i].is_outside)
+            continue;
+        facet_result result =
+            gl_programs_get(f->programs, key_of(f, &batches[i], is_layers), &program, error);
+        if (result != FACET_OK)
+            return result;
+        glUseProgram(program);
+        gl_material_bind(f->materials, &batches[i]);
+        gl_mesh_draw(f->meshes, &batches[i]);
+    }
+    return FACET_OK;
+}
+
+/* What covers the picture. */
+static facet_result draw_screen(gl_frame *f, gl_main main, uint64_t features, facet_error *error)
+{
+    uint32_t program;
+    facet_result result = gl_programs_get(f->programs, (gl_program_key){main, features}, &program, error);
+    if (result != FACET_OK)
+        return result;
+    glUseProgram(program);
+    glBindVertexArray(f->empty_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    return FACET_OK;
+}
+
+static void set_block(gl_frame *f, const gl_frame_block *block)
+{
+    glBindBuffer(GL_UNIFORM_BUFFER, f->frame_buffer);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_DYNAMIC_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_FRAME, f->frame_buffer);
+}
+
+static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_frame_block *block)
+{
+    const float *behind = desc->background_color;
+    bool is_light = gl_channel_is_light(desc->gl.channel);
+    block->exposure = is_light ? exp2f(desc->exposure_ev) : 1.0f;
+    block->energy = (int32_t)desc->energy;
+    block->channel = (int32_t)desc->gl.channel;
+    block->has_specular_antialiasing = desc->specular_antialiasing;
+    block->background_blur = desc->background_blur;
+    block->tonemap = is_light ? (float)desc->tonemap : (float)FACET_TONEMAP_NONE;
+    for (int i = 0; i < 3; i++)
+        block->background[i] = is_light ? behind[i] : 0.0f;
+    block->background[3] = !is_light || desc->background == FACET_BACKGROUND_COLOR;
+    gl_light_bind(f->light, block);
+}
+
+static void begin(gl_frame *f, const gl_target *target, const facet_render_desc *desc, gl_frame_block *block)
+{
+    fill_block(f, desc, block);
+    set_block(f, block);
+    gl_mesh_order(f->meshes, block, f->materials);
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+    glViewport(0, 0, (GLsizei)target->width, (GLsizei)target->height);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    gl_camera_begin_depth(f->context);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+static facet_result draw_pass(gl_frame *f, gl_pass pass, gl_timer timer, facet_error *error)
+{
+    gl_timers_begin(&f->timers, timer);
+    facet_result result = draw_batches(f, pass, false, error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+static facet_result draw_background(gl_frame *f, const facet_render_desc *desc, facet_error *error)
+{
+    if (desc->background != FACET_BACKGROUND_ENVIRONMENT || !gl_channel_is_light(desc->gl.channel))
+        return FACET_OK;
+    gl_timers_begin(&f->timers, GL_TIMER_BACKGROUND);
+    glDisable(GL_CULL_FACE);
+    facet_result result =
+        draw_screen(f, GL_MAIN_BACKGROUND, gl_light_background_features(f->light, desc), error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                           gl_frame_block *block, facet_error *error)
+{
+    begin(f, target, desc, block);
+    facet_result result = draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
+    if (result == FACET_OK)
+        result = draw_background(f, desc, error);
+    if (result == FACET_OK)
+        result = draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colors are premultiplied */
+    if (result == FACET_OK)
+        result = draw_pass(f, GL_PASS_BLENDED, GL_TIMER_BLENDED, error);
+    glDisable(GL_BLEND);
+    gl_camera_end_depth(f->context);
+    gl_timers_begin(&f->timers, GL_TIMER_RESOLVE);
+    gl_target_resolve(target);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+facet_result gl_frame_draw_layers(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                                  gl_frame_block *block, facet_error *error)
+{
+    begin(f, target, desc, block);
+    gl_timers_begin(&f->timers, GL_TIMER_LAYERS);
+    facet_result result = FACET_OK;
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT && result == FACET_OK; pass++)
+        result = draw_batches(f, pass, true, error);
+    gl_timers_end(&f->timers);
+    gl_camera_end_depth(f->context);
+    return result;
+}
+
+facet_result gl_frame_present(gl_frame *f, const gl_target *target, const facet_render_desc *desc, int x,
+                              int y, facet_error *error)
+{
+    gl_frame_block block = {.size = {(float)target->width, (float)target->height, (float)x, (float)y}};
+    fill_block(f, desc, &block);
+    set_block(f, &block);
+    gl_timers_begin(&f->timers, GL_TIMER_PRESENT);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, target->color);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glViewport(x, y, (GLsizei)target->width, (GLsizei)target->height);
+    uint64_t features =
+        gl_camera_is_top_down(f->context) ? gl_program_feature(GL_MAIN_PRESENT, "IS_TOP_DOWN") : 0;
+    facet_result result = draw_screen(f, GL_MAIN_PRESENT, features, error);
+    gl_timers_end(&f->timers);
+    return result;
+}
