@@ -37,7 +37,8 @@ enum {
     GL_UNIT_LIGHTS,      /* punctual ones */
     GL_UNIT_SHADOWS,
     GL_UNIT_OPAQUE, /* the opaque frame with its mips */
-    GL_UNIT_MATERIAL
+    GL_UNIT_MATERIAL,                     /* nine */
+    GL_UNIT_PEELED = GL_UNIT_MATERIAL + 9 /* depths of a layer, where there are so many units */
 };
 
 /* Vertex attributes. */

@@ -21,6 +21,8 @@ facet_result gl_frame_create(gl_frame *f, gl_context *context, const facet_scene
         result = gl_material_create(context, scene, allocator, &f->materials, error);
     if (result == FACET_OK)
         result = gl_light_create(context, allocator, &f->light, error);
+    if (result == FACET_OK)
+        result = gl_transparency_create(context, allocator, &f->transparency, error);
     if (result != FACET_OK)
         return result;
     glGenBuffers(1, &f->frame_buffer);
@@ -33,6 +35,7 @@ void gl_frame_destroy(gl_frame *f)
     if (!f->context)
         return;
     gl_timers_destroy(&f->timers);
+    gl_transparency_destroy(f->transparency);
     gl_light_destroy(f->light);
     gl_material_destroy(f->materials);
     gl_mesh_destroy(f->meshes);
@@ -53,10 +56,22 @@ static gl_program_key key_of(const gl_frame *f, const gl_batch *batch, bool is_l
     return (gl_program_key){GL_MAIN_SURFACE, features};
 }
 
+static gl_transparency_view transparency_of(const gl_frame *f, const facet_render_desc *desc)
+{
+    return (gl_transparency_view){.mode = desc->gl.transparency,
+                                  .programs = f->programs,
+                                  .materials = f->materials,
+                                  .meshes = f->meshes,
+                                  .scene = f->scene,
+                                  .features = gl_light_features(f->light),
+                                  .thread_count = desc->thread_count};
+}
+
 static facet_result request_batches(gl_frame *f, bool is_layers, facet_error *error)
 {
     facet_result result = FACET_OK;
-    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {
+    gl_pass end = is_layers ? GL_PASS_COUNT : GL_PASS_BLENDED;
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < end; pass++) {
         uint32_t count;
         const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
         for (uint32_t i = 0; i < count && result == FACET_OK; i++)
@@ -69,7 +84,10 @@ static facet_result request_batches(gl_frame *f, bool is_layers, facet_error *er
 static facet_result request_programs(gl_frame *f, const facet_render_desc *desc, facet_error *error)
 {
     gl_programs_set_log(f->programs, &desc->log);
+    gl_transparency_view blended = transparency_of(f, desc);
     facet_result result = request_batches(f, false, error);
+    if (result == FACET_OK)
+        result = gl_transparency_request(f->transparency, &blended, error);
     if (result == FACET_OK && desc->aovs)
         result = request_batches(f, true, error);
     if (result == FACET_OK && desc->background == FACET_BACKGROUND_ENVIRONMENT) {
@@ -84,6 +102,7 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
 {
     double start = clock_seconds();
     light_setup light = {0};
+    f->scene = scene;
     facet_result result = light_setup_create(&scene->geometries, &scene->pose, camera, desc, &light, error);
     if (result == FACET_OK)
         result = gl_light_update(f->light, &light, error);
@@ -187,6 +206,18 @@ static facet_result draw_pass(gl_frame *f, gl_pass pass, gl_timer timer, facet_e
     return result;
 }
 
+static facet_result draw_blended(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                                 const gl_frame_block *block, facet_error *error)
+{
+    gl_transparency_view view = transparency_of(f, desc);
+    view.target = target;
+    view.frame = block;
+    gl_timers_begin(&f->timers, GL_TIMER_BLENDED);
+    facet_result result = gl_transparency_draw(f->transparency, &view, error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
 static facet_result draw_background(gl_frame *f, const facet_render_desc *desc, facet_error *error)
 {
     if (desc->background != FACET_BACKGROUND_ENVIRONMENT || !gl_channel_is_light(desc->gl.channel))
@@ -208,11 +239,8 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
         result = draw_background(f, desc, error);
     if (result == FACET_OK)
         result = draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colors are premultiplied */
     if (result == FACET_OK)
-        result = draw_pass(f, GL_PASS_BLENDED, GL_TIMER_BLENDED, error);
-    glDisable(GL_BLEND);
+        result = draw_blended(f, target, desc, block, error);
     gl_camera_end_depth(f->context);
     gl_timers_begin(&f->timers, GL_TIMER_RESOLVE);
     gl_target_resolve(target);

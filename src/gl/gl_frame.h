@@ -7,6 +7,7 @@
 #include "gl/gl_scene.h"
 #include "gl/gl_target.h"
 #include "gl/gl_timers.h"
+#include "gl/gl_transparency.h"
 
 /* All that a scene has in OpenGL's memory; lives as long as its context. */
 typedef struct gl_frame {
@@ -15,6 +16,8 @@ typedef struct gl_frame {
     gl_mesh_set *meshes;
     gl_material_set *materials;
     gl_light *light;
+    gl_transparency *transparency;
+    const gl_scene *scene; /* of the last update */
     gl_timers timers;
     uint32_t frame_buffer; /* of the block */
     uint32_t empty_array;  /* vertices of what covers the picture */

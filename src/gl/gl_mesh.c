@@ -439,6 +439,12 @@ void gl_mesh_set_constants(const gl_mesh_set *set, const gl_batch *b, uint32_t i
     set_instance(&set->instances[instance], b->is_sprites);
 }
 
+facet_result gl_mesh_reorder(gl_mesh_set *set, const gl_batch *b, const uint32_t *order, gl_vertices *out,
+                             facet_error *error)
+{
+    return gl_vertex_store_reorder(&set->store, b->geometry, order, out, error);
+}
+
 void gl_mesh_draw(const gl_mesh_set *set, const gl_batch *b)
 {
     glBindVertexArray(b->vertex_array);

@@ -47,7 +47,8 @@ typedef enum gl_pass {
     GL_PASS_COUNT
 } gl_pass;
 
-/* Orders them for a picture: opaque ones by program, the nearest first; others the farthest first. */
+/* Orders them for a picture: by program, the nearest first. Those of GL_PASS_BLENDED stay in the order of the scene, which
+ * gl_sort.h goes by. */
 void gl_mesh_order(gl_mesh_set *meshes, const gl_frame_block *frame, const struct gl_material_set *materials);
 
 /* Those that are outside of the picture, too: shadows fall into it. */
@@ -62,6 +63,9 @@ void gl_mesh_draw(const gl_mesh_set *meshes, const gl_batch *batch);
 void gl_mesh_point_arrays(const gl_batch *batch, size_t first);
 /* What the batch has no arrays for, and the instance (of all), as constants. */
 void gl_mesh_set_constants(const gl_mesh_set *meshes, const gl_batch *batch, uint32_t instance);
+/* gl_vertex_store_reorder() of the sprites of a batch. */
+facet_result gl_mesh_reorder(gl_mesh_set *meshes, const gl_batch *batch, const uint32_t *order,
+                             gl_vertices *out, facet_error *error);
 /* Number of the scene's geometry. */
 uint32_t gl_mesh_instance_geometry(const gl_mesh_set *meshes, uint32_t instance);
 

@@ -48,14 +48,6 @@ static int by_program(const void *x, const void *y)
     return by_geometry(a, b);
 }
 
-static int from_the_back(const void *x, const void *y)
-{
-    const gl_batch *a = x, *b = y;
-    if (a->depth < b->depth || a->depth > b->depth)
-        return a->depth > b->depth ? -1 : 1;
-    return by_geometry(a, b);
-}
-
 void gl_mesh_order(gl_mesh_set *set, const gl_frame_block *frame, const gl_material_set *materials)
 {
     for (uint32_t i = 0; i < set->count; i++) {
@@ -64,10 +56,9 @@ void gl_mesh_order(gl_mesh_set *set, const gl_frame_block *frame, const gl_mater
         b->depth = depth_of(b, frame);
         b->is_outside = is_outside(b, frame);
     }
-    for (int pass = 0; pass < GL_PASS_COUNT; pass++) {
+    for (int pass = 0; pass < GL_PASS_BLENDED; pass++) {
         uint32_t count = set->first[pass + 1] - set->first[pass];
         if (count > 1)
-            qsort(set->batches + set->first[pass], count, sizeof *set->batches,
-                  pass == GL_PASS_OPAQUE ? by_program : from_the_back);
+            qsort(set->batches + set->first[pass], count, sizeof *set->batches, by_program);
     }
 }

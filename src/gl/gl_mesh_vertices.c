@@ -456,3 +456,18 @@ facet_result gl_vertex_store_use(gl_vertex_store *store, const render_geometry *
         result = use_indices(store, &all, &use->elements, error);
     return result;
 }
+
+facet_result gl_vertex_store_reorder(gl_vertex_store *store, const render_geometry *g, const uint32_t *order,
+                                     gl_vertices *out, facet_error *error)
+{
+    vertex_key key = all_of(g);
+    vertex_choice choice;
+    uint32_t ends = g->primitive->mode == SCENE_LINES ? 2 : 1;
+    if (!follow_indices(&key, &store->allocator, &choice))
+        return fail_memory(error, "vertices", key.index_count * sizeof *choice.vertices);
+    for (uint32_t i = 0; i < key.index_count; i++)
+        choice.vertices[i] = key.indices[ends * order[i / ends] + i % ends];
+    facet_result result = upload_vertices(store, &key, &choice, true, out, error);
+    free_choice(&choice);
+    return result;
+}

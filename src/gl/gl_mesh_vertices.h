@@ -56,6 +56,10 @@ void gl_vertex_store_begin(gl_vertex_store *store);
 facet_result gl_vertex_store_use(gl_vertex_store *store, const render_geometry *g, gl_vertex_use *use,
                                  facet_error *error);
 
+/* Sprites in another order, anew in the buffer of out: number order[i] of the geometry's is number i. Fails as above. */
+facet_result gl_vertex_store_reorder(gl_vertex_store *store, const render_geometry *g, const uint32_t *order,
+                                     gl_vertices *out, facet_error *error);
+
 /* Which sets of texture coordinates go to texcoord0 to texcoord3: those of their numbers, unless the material reads one
  * beyond; then those that it reads, in order. False: it reads more than GL_TEXCOORD_SETS; those beyond are left out. */
 bool gl_texcoord_sets(const render_geometry *g, uint32_t sets[GL_TEXCOORD_SETS]);

@@ -69,8 +69,11 @@ static const char *const surface_features[] = {"HAS_TANGENTS",
                                                "HAS_SPECULAR_ANTIALIASING",
                                                "IS_SPRITE",
                                                "AOVS",
+                                               "IS_WEIGHTED",
+                                               "IS_PEELED",
                                                NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
+static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
 static const struct {
@@ -84,7 +87,7 @@ static const struct {
                          "surface.frag",
                          {"surface", "light", "layers_direct", "layers_ibl", "material"},
                          {"light_block.glsl", "environment.glsl", "lights.glsl", "surface_in.glsl",
-                          "material.glsl", "radiance.glsl"},
+                          "material.glsl", "radiance.glsl", "transparency.glsl"},
                          surface_features},
     [GL_MAIN_BACKGROUND] = {"background",
                             "screen.vert",
@@ -92,6 +95,7 @@ static const struct {
                             {"surface"},
                             {"light_block.glsl", "environment.glsl"},
                             background_features},
+    [GL_MAIN_COMPOSE] = {"compose", "screen.vert", "compose.frag", {"constants"}, {0}, compose_features},
     [GL_MAIN_PRESENT] =
         {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, present_features},
 };
@@ -104,6 +108,8 @@ static const struct {
                 {"u_tables", GL_UNIT_TABLES},           {"u_glass", GL_UNIT_GLASS},
                 {"u_lights", GL_UNIT_LIGHTS},           {"u_shadows", GL_UNIT_SHADOWS},
                 {"u_opaque", GL_UNIT_OPAQUE},           {"u_picture", 0},
+                {"u_sum", GL_UNIT_MATERIAL},            {"u_weights", GL_UNIT_MATERIAL + 1},
+                {"u_peeled", GL_UNIT_PEELED},
                 {"u_material0", GL_UNIT_MATERIAL},      {"u_material1", GL_UNIT_MATERIAL + 1},
                 {"u_material2", GL_UNIT_MATERIAL + 2},  {"u_material3", GL_UNIT_MATERIAL + 3},
                 {"u_material4", GL_UNIT_MATERIAL + 4},  {"u_material5", GL_UNIT_MATERIAL + 5},

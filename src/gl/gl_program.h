@@ -10,6 +10,7 @@
 typedef enum gl_main {
     GL_MAIN_SURFACE,    /* a material */
     GL_MAIN_BACKGROUND, /* the environment behind the model */
+    GL_MAIN_COMPOSE,    /* blended surfaces that were drawn beside the picture */
     GL_MAIN_PRESENT,    /* radiance to a display's numbers */
     GL_MAIN_COUNT
 } gl_main;

@@ -1,6 +1,4 @@
 /* surface.frag - radiance (cd/m^2, premultiplied) of a material. */
-out vec4 fragment;
-
 /* Without light: what has no normals, or is KHR_materials_unlit. glTF 2.0, 3.7.2.1. */
 vec3 unlit_radiance(vec3 color)
 {
@@ -47,5 +45,5 @@ void main()
     if (opacity < 0.5)
         discard;
 #endif
-    fragment = vec4(radiance * (exposure * opacity), opacity);
+    put_fragment(radiance * exposure, opacity);
 }
