@@ -200,6 +200,7 @@ struct gl_programs {
     gl_context *context;
     facet_allocator allocator;
     facet_log log;
+    const char *prelude;
     gl_program *items;
     size_t count, capacity;
 };
@@ -223,6 +224,11 @@ void gl_programs_set_log(gl_programs *programs, const facet_log *log)
     programs->log = log ? *log : (facet_log){0};
 }
 
+void gl_programs_set_prelude(gl_programs *programs, const char *prelude)
+{
+    programs->prelude = prelude;
+}
+
 void gl_programs_destroy(gl_programs *programs)
 {
     if (!programs)
@@ -241,6 +247,23 @@ static gl_program *find(gl_programs *programs, gl_program_key key)
     return NULL;
 }
 
+/* The text of a shader of programs, with the prelude behind its line of version. */
+static facet_result source_text(const gl_programs *programs, gl_program_key key, GLenum stage, text *out,
+                                facet_error *error)
+{
+    facet_result result = gl_program_text(programs->context->glsl_version, key, stage, out, error);
+    if (result != FACET_OK || !programs->prelude)
+        return result;
+    text whole = {.allocator = programs->allocator};
+    size_t version = strcspn(out->data, "\n") + 1;
+    text_add_bytes(&whole, out->data, version);
+    text_add(&whole, programs->prelude);
+    text_add(&whole, out->data + version);
+    text_destroy(out);
+    *out = whole;
+    return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;
+}
+
 facet_result gl_programs_request(gl_programs *programs, gl_program_key key, facet_error *error)
 {
     static const GLenum stages[2] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER};
@@ -254,7 +277,7 @@ facet_result gl_programs_request(gl_programs *programs, gl_program_key key, face
     facet_result result = FACET_OK;
     for (int i = 0; i < 2 && result == FACET_OK; i++) {
         text t = {.allocator = programs->allocator};
-        result = gl_program_text(programs->context->glsl_version, key, stages[i], &t, error);
+        result = source_text(programs, key, stages[i], &t, error);
         if (result == FACET_OK) {
             p->shaders[i] = glCreateShader(stages[i]);
             const char *source = t.data;
@@ -301,7 +324,7 @@ static facet_result fail_link(gl_programs *programs, const gl_program *p, facet_
             continue;
         glGetShaderInfoLog(p->shaders[i], sizeof message, NULL, message);
         text t = {.allocator = programs->allocator};
-        if (gl_program_text(programs->context->glsl_version, p->key, stages[i], &t, NULL) == FACET_OK)
+        if (source_text(programs, p->key, stages[i], &t, NULL) == FACET_OK)
             tell_source(programs, t.data);
         text_destroy(&t);
     }

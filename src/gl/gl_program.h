@@ -54,6 +54,8 @@ facet_result gl_programs_create(gl_context *context, const facet_allocator *allo
                                 gl_programs **out, facet_error *error);
 /* What the next picture's warnings go to; log NULL: nowhere. */
 void gl_programs_set_log(gl_programs *programs, const facet_log *log);
+/* Text before the mains of all programs that are made from now on, which tests break them with; NULL: none. */
+void gl_programs_set_prelude(gl_programs *programs, const char *prelude);
 void gl_programs_destroy(gl_programs *programs); /* NULL is allowed; the context is current */
 
 /* Starts to compile, in the background where the driver does that, so that several programs compile at once. */
