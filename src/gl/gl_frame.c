@@ -35,6 +35,7 @@ void gl_frame_destroy(gl_frame *f)
     if (!f->context)
         return;
     gl_timers_destroy(&f->timers);
+    gl_opaque_destroy(&f->opaque);
     gl_transparency_destroy(f->transparency);
     gl_light_destroy(f->light);
     gl_material_destroy(f->materials);
@@ -230,15 +231,35 @@ static facet_result draw_background(gl_frame *f, const facet_render_desc *desc, 
     return result;
 }
 
+/* After what is opaque, of which it shows a picture. */
+static facet_result draw_transmissive(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                                      facet_error *error)
+{
+    uint32_t count;
+    gl_mesh_batches(f->meshes, GL_PASS_TRANSMISSIVE, &count);
+    if (count == 0)
+        return FACET_OK;
+    gl_timers_begin(&f->timers, GL_TIMER_TRANSMISSION);
+    const gl_pyramid_brush brush = {f->programs, f->empty_array};
+    facet_result result = FACET_OK;
+    if (gl_channel_is_light(desc->gl.channel))
+        result = gl_opaque_take(&f->opaque, f->context, &brush, target, error);
+    gl_opaque_bind(&f->opaque);
+    if (result == FACET_OK)
+        result = draw_batches(f, GL_PASS_TRANSMISSIVE, false, error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
 facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
                            gl_frame_block *block, facet_error *error)
 {
     begin(f, target, desc, block);
     facet_result result = draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
     if (result == FACET_OK)
-        result = draw_background(f, desc, error);
+        result = draw_transmissive(f, target, desc, error);
     if (result == FACET_OK)
-        result = draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
+        result = draw_background(f, desc, error);
     if (result == FACET_OK)
         result = draw_blended(f, target, desc, block, error);
     gl_camera_end_depth(f->context);

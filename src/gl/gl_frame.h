@@ -4,6 +4,7 @@
 
 #include "gl/gl_light.h"
 #include "gl/gl_material.h"
+#include "gl/gl_opaque.h"
 #include "gl/gl_scene.h"
 #include "gl/gl_target.h"
 #include "gl/gl_timers.h"
@@ -16,6 +17,7 @@ typedef struct gl_frame {
     gl_mesh_set *meshes;
     gl_material_set *materials;
     gl_light *light;
+    gl_opaque opaque;
     gl_transparency *transparency;
     const gl_scene *scene; /* of the last update */
     gl_timers timers;

@@ -74,20 +74,6 @@ LayerLight surroundings_of(Layers m, vec3 V)
 }
 #endif
 
-#ifdef HAS_TRANSMISSION
-/* Straight on through a thin wall, refracted once by a body. */
-vec3 transmitted_light(Layers m, vec3 V)
-{
-    if (!has_layer(m, LAYER_VOLUME))
-        return light_specular(-V, sqrt(layers_transmission_alpha(m)));
-    vec3 d = refract(-V, m.base.N, 1.0 / max(m.eta, 1e-3));
-    if (dot(d, d) < 0.5)
-        d = reflect(-V, m.base.N);
-    return light_specular(normalize(d), m.base.perceptual_roughness) *
-           volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
-}
-#endif
-
 vec3 layered_radiance(Layers m, vec3 V)
 {
     LayerTables t = tables_of(m, V);

@@ -1,0 +1,39 @@
+/* halve.frag - a picture at half its size: 13 bilinear lookups over 6 x 6 pixels, five boxes of which the middle one has half
+ * of the weight, so that small bright things do not flicker where they move (Jimenez 2014, "Next generation
+ * post-processing in Call of Duty: Advanced Warfare"). The sum of light stays what it is. With IS_COPY each pixel as it
+ * is. Halves of floats hold no more than 65504: brighter light, and what is no number, ends here. */
+uniform highp sampler2D u_level;
+uniform vec2 u_pixel; /* 1 / size of what is drawn */
+
+out vec4 fragment;
+
+vec4 as_half(vec4 c)
+{
+    return vec4(isnan(c.x) ? 0.0 : clamp(c.x, 0.0, 65000.0), isnan(c.y) ? 0.0 : clamp(c.y, 0.0, 65000.0),
+                isnan(c.z) ? 0.0 : clamp(c.z, 0.0, 65000.0), isnan(c.w) ? 0.0 : clamp(c.w, 0.0, 1.0));
+}
+
+#ifdef IS_COPY
+void main()
+{
+    fragment = as_half(texelFetch(u_level, ivec2(gl_FragCoord.xy), 0));
+}
+#else
+vec4 picture(vec2 texel, float x, float y)
+{
+    vec4 c = textureLod(u_level, gl_FragCoord.xy * u_pixel + texel * vec2(x, y), 0.0);
+#ifdef IS_FIRST
+    c = as_half(c);
+#endif
+    return c;
+}
+
+void main()
+{
+    vec2 t = 1.0 / vec2(textureSize(u_level, 0));
+    vec4 near = picture(t, -1.0, -1.0) + picture(t, 1.0, -1.0) + picture(t, -1.0, 1.0) + picture(t, 1.0, 1.0);
+    vec4 sides = picture(t, -2.0, 0.0) + picture(t, 2.0, 0.0) + picture(t, 0.0, -2.0) + picture(t, 0.0, 2.0);
+    vec4 corners = picture(t, -2.0, -2.0) + picture(t, 2.0, -2.0) + picture(t, -2.0, 2.0) + picture(t, 2.0, 2.0);
+    fragment = (near + picture(t, 0.0, 0.0)) * 0.125 + sides * 0.0625 + corners * 0.03125;
+}
+#endif

@@ -1,0 +1,140 @@
+/* transmission.glsl - light that comes through a surface: what is opaque behind it, from the picture of it, blurred by its
+ * levels; beyond, the environment. The CPU follows rays (src/cpu/refraction.c); here a ray is a line from where light
+ * enters a body to where it leaves it, and a place in the picture. */
+#ifdef HAS_TRANSMISSION
+uniform highp sampler2D u_opaque; /* premultiplied, with exposure */
+
+/* Squared GGX width of lobes that are seen in the sharp environment. */
+#define SHARP2 1e-5
+
+/* ---- the picture of what is opaque ---- */
+
+/* Where a point (m, relative to the eye) is seen, [0, 1] in the picture. What is behind the eye is far outside. */
+vec2 place_in_picture(vec3 P)
+{
+    vec2 at = vec2(dot(P, right.xyz) / dot(right.xyz, right.xyz), dot(P, up.xyz) / dot(up.xyz, up.xyz));
+    if (eye.w < 0.5)
+        at /= max(dot(P, forward.xyz), 1e-6);
+    return (at + 0.5 * frame_size.xy - frame_size.zw) / vec2(textureSize(u_opaque, 0));
+}
+
+/* Uniform cubic B-spline over the texels of a level by four bilinear lookups: levels of few texels show no squares.
+ * Sigg and Hadwiger 2005. */
+vec4 smooth_texel(vec2 at, int level)
+{
+    vec2 size = vec2(textureSize(u_opaque, level));
+    vec2 x = at * size - 0.5;
+    vec2 f = fract(x);
+    vec2 base = floor(x) + 0.5;
+    vec2 f2 = f * f;
+    vec2 w0 = (1.0 - f) * (1.0 - f) * (1.0 - f) / 6.0;
+    vec2 w1 = (4.0 - 6.0 * f2 + 3.0 * f2 * f) / 6.0;
+    vec2 w3 = f2 * f / 6.0;
+    vec2 low = w0 + w1;
+    vec2 a = (base - 1.0 + w1 / low) / size;
+    vec2 b = (base + 1.0 + w3 / (1.0 - low)) / size;
+    float lod = float(level);
+    return mix(mix(textureLod(u_opaque, b, lod), textureLod(u_opaque, vec2(a.x, b.y), lod), low.x),
+               mix(textureLod(u_opaque, vec2(b.x, a.y), lod), textureLod(u_opaque, a, lod), low.x), low.y);
+}
+
+/* Radiance (premultiplied) and coverage of what is opaque. Beyond the border the picture's edge goes on for a while, then
+ * nothing is there. */
+vec4 opaque_at(vec2 at, float lod)
+{
+    vec2 beyond = max(max(-at, at - 1.0), 0.0);
+    float share = 1.0 - smoothstep(0.0, 0.1, max(beyond.x, beyond.y));
+    int level = int(lod);
+    vec4 c = level == 0 ? textureLod(u_opaque, at, 0.0) : smooth_texel(at, level);
+    if (lod > float(level))
+        c = mix(c, smooth_texel(at, level + 1), lod - float(level));
+    return vec4(c.xyz / exposure, c.w) * share;
+}
+
+/* Level of the picture, as Khronos' renderer has it: log2(width) r clamp(2 ior - 2, 0, 1). */
+float opaque_lod(Layers m)
+{
+    float blur = m.base.perceptual_roughness * (m.ior < 1.0 ? 1.0 : clamp(2.0 * m.ior - 2.0, 0.0, 1.0));
+    return blur * log2(float(textureSize(u_opaque, 0).x));
+}
+
+/* ---- beyond ---- */
+
+/* The environment in a direction. A background that is drawn blurred is seen blurred. */
+vec3 environment_seen(vec3 D, float alpha2)
+{
+    if (alpha2 <= SHARP2 && light_atlas.z > 0.0 && !(background_blur > 0.0))
+        return light_background(D);
+    return light_specular(D, min(max(sqrt(sqrt(alpha2)), background_blur), 1.0));
+}
+
+vec3 light_behind(vec2 at, vec3 D, float lod, float alpha2)
+{
+    vec4 c = opaque_at(at, lod);
+    return c.w >= 1.0 ? c.xyz : c.xyz + environment_seen(D, alpha2) * (1.0 - c.w);
+}
+
+/* ---- a thin wall ---- */
+
+vec3 light_through_wall(Layers m, vec3 V)
+{
+    float alpha = layers_transmission_alpha(m);
+    return light_behind(gl_FragCoord.xy / vec2(textureSize(u_opaque, 0)), -V, opaque_lod(m), alpha * alpha);
+}
+
+/* ---- a body ---- */
+
+/* Light that a scattering body sends along a ray: that of the surroundings ahead of it and behind it. */
+vec3 scattered_light(Layers m, vec3 D)
+{
+    return m.multiscatter_color * mix(light_irradiance_over_pi(-D), light_irradiance_over_pi(D),
+                                      0.5 + 0.5 * m.scatter_anisotropy);
+}
+
+/* Through the far side too, which tints as the near one does. What is reflected inside leaves elsewhere and is made up for by
+ * what comes from there: nothing is lost. */
+vec3 light_through_body(Layers m, vec3 V, float eta)
+{
+    vec3 D = refract_or_zero(-V, m.base.N, eta);
+    vec3 P = v_position + D * m.thickness;
+    float own = 0.5 * abs(1.0 - eta) * m.base.alpha;
+    vec3 light = light_behind(place_in_picture(P), D, opaque_lod(m), own * own) * m.base.base_color;
+    vec3 T = volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
+    light *= T;
+    if (has_layer(m, LAYER_SCATTER))
+        light += (1.0 - T) * scattered_light(m, D);
+    return light;
+}
+
+/* Out of a body that the eye is in, or whose near side is missing. */
+vec3 light_out_of_body(Layers m, vec3 V, float eta)
+{
+    vec3 D = refract_or_zero(-V, m.base.N, eta);
+    float own = 0.5 * abs(1.0 - eta) * m.base.alpha;
+    if (dot(D, D) < 0.5)
+        return environment_seen(normalize(reflect(-V, m.base.N)), m.base.alpha * m.base.alpha);
+    return light_behind(place_in_picture(v_position + D * m.thickness), D, opaque_lod(m), own * own);
+}
+
+/* ---- both ---- */
+
+vec3 transmitted_light_of_ior(Layers m, vec3 V, float eta)
+{
+    if (layers_is_inside(m))
+        return light_out_of_body(m, V, eta);
+    return light_through_body(m, V, eta);
+}
+
+/* Radiance (cd/m^2) that reaches the boundary from behind along the refracted ray: LayerLight.transmitted. */
+vec3 transmitted_light(Layers m, vec3 V)
+{
+    if (!has_layer(m, LAYER_VOLUME))
+        return light_through_wall(m, V);
+#ifdef HAS_DISPERSION
+    return vec3(transmitted_light_of_ior(m, V, layers_eta(m, 0)).x, transmitted_light_of_ior(m, V, layers_eta(m, 1)).y,
+                transmitted_light_of_ior(m, V, layers_eta(m, 2)).z);
+#else
+    return transmitted_light_of_ior(m, V, max(m.eta, 1e-3));
+#endif
+}
+#endif
