@@ -1120,12 +1120,15 @@ FACET_API facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot
 
 /* A model as a window begins to show it. */
 typedef struct facet_view_model {
-    facet_scene *scene;   /* the window's from now on */
-    facet_pose_desc pose; /* its animations are copied */
+    facet_scene *scene;                        /* the window's from now on */
+    facet_pose_desc pose;                      /* without animations: */
+    uint32_t first_animation, animation_count; /* those that are played together */
     bool is_playing;
-    facet_orbit orbit;
-    bool has_camera; /* of the file, instead of the orbit */
+    facet_orbit orbit; /* from where it is seen, unless has_camera or has_eye */
+    bool has_camera;   /* from a camera of the file */
     uint32_t camera;
+    bool has_eye; /* from any other camera, apart from its roll */
+    facet_camera eye;
 } facet_view_model;
 
 /* What a window shows, as facet_render() is asked for the same picture. */

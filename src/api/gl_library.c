@@ -23,7 +23,10 @@ static const gl_host host = {.renderer_create = facet_renderer_create,
                              .image_get_layer = facet_image_get_layer,
                              .image_save = facet_image_save,
                              .image_destroy = facet_image_destroy,
-                             .image_create = facet_image_create};
+                             .image_create = facet_image_create,
+                             .scene_destroy = facet_scene_destroy,
+                             .environment_destroy = facet_environment_destroy,
+                             .camera_from_scene = facet_camera_from_scene};
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static const gl_entry *opened;

@@ -147,6 +147,7 @@ typedef enum option_id {
     OPT_ROTATION,
     OPT_DFG,
     OPT_DISTRIBUTION,
+    OPT_SCRIPT,
     OPT_THREADS,
     OPT_MAX_MEMORY,
     OPT_MAX_TEXTURE,

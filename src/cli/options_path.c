@@ -94,3 +94,6 @@ static const option path_options[] = {
      .help = "go on where --checkpoint ended, also with more --samples than it was begun with"},
 };
 const option_group path_group = {"Path tracing (--renderer path)", path_options, COUNT(path_options)};
+/* Without the last two, --checkpoint and --resume. */
+const option_group window_path_group = {"Path tracing (--renderer path)", path_options,
+                                        COUNT(path_options) - 2};

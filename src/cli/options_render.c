@@ -31,11 +31,6 @@ static const option image_options[] = {
      .argument = "WxH",
      .default_text = "1024x768",
      .help = "width and height in pixels; one number for a square"},
-    {.id = OPT_CROP,
-     .name = "crop",
-     .kind = OPTION_TEXT,
-     .argument = "X,Y,W,H",
-     .help = "draw only this part of the picture, in pixels from its top left"},
     {.id = OPT_BACKGROUND,
      .name = "background",
      .kind = OPTION_TEXT,
@@ -51,6 +46,11 @@ static const option image_options[] = {
      .help = "how blurred the environment is as background, 0 to 1",
      .minimum = 0,
      .maximum = 1},
+    {.id = OPT_CROP,
+     .name = "crop",
+     .kind = OPTION_TEXT,
+     .argument = "X,Y,W,H",
+     .help = "draw only this part of the picture, in pixels from its top left"},
     {.id = OPT_AOV,
      .name = "aov",
      .kind = OPTION_CHOICES,
@@ -327,12 +327,17 @@ static const option scene_options[] = {
 
 static const option_group image_group = {"Picture", image_options, COUNT(image_options)};
 static const option_group camera_group = {"Camera", camera_options, COUNT(camera_options)};
-static const option_group light_group = {"Light", light_options, COUNT(light_options)};
-static const option_group color_group = {"Color", color_options, COUNT(color_options)};
-static const option_group shading_group = {"Shading", shading_options, COUNT(shading_options)};
-static const option_group quality_group = {"Quality", quality_options, COUNT(quality_options)};
+const option_group light_group = {"Light", light_options, COUNT(light_options)};
+const option_group color_group = {"Color", color_options, COUNT(color_options)};
+const option_group shading_group = {"Shading", shading_options, COUNT(shading_options)};
+const option_group quality_group = {"Quality", quality_options, COUNT(quality_options)};
 static const option_group motion_group = {"Motion", motion_options, COUNT(motion_options)};
-static const option_group scene_group = {"Scene", scene_options, COUNT(scene_options)};
+const option_group scene_group = {"Scene", scene_options, COUNT(scene_options)};
+
+/* Of facet view: --size, --background, --background-blur; not --turntable; --animation, --time. */
+const option_group window_group = {"Window", image_options + 3, 3};
+const option_group window_camera_group = {"Camera", camera_options, COUNT(camera_options) - 1};
+const option_group window_motion_group = {"Motion", motion_options, 2};
 
 const verb render_verb = {
     .name = "render",

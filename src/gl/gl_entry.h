@@ -22,6 +22,10 @@ typedef struct gl_host {
     void (*image_destroy)(facet_image *image);
     facet_result (*image_create)(const facet_image_view *pixels, const facet_allocator *allocator,
                                  facet_image **image, facet_error *error);
+    void (*scene_destroy)(facet_scene *scene);
+    void (*environment_destroy)(facet_environment *environment);
+    facet_result (*camera_from_scene)(const facet_scene *scene, const facet_pose_desc *pose, uint32_t index,
+                                      facet_camera *camera, facet_error *error);
 } gl_host;
 
 /* Whether a channel is radiance, which is exposed and tone-mapped; the others are numbers over black. */

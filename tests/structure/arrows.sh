@@ -20,7 +20,7 @@ allowed() {
     draw) echo draw ibl scene image base shade facet ;;
     cpu) echo cpu draw film ibl scene image base shade facet ;;
     gl) echo gl draw glsl film ibl scene image base shade facet ;;
-    view) echo view gl draw film ibl scene image base shade facet ;;
+    view) echo view gl plot draw film ibl scene image base shade facet ;;
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;
     report) echo report bake plot legacy cpu draw film ibl scene image base facet ;;

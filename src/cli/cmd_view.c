@@ -1,0 +1,209 @@
+/* cmd_view.c - facet view: a window that reads models and environments as facet render does. */
+#include "cli/commands.h"
+
+#include "cli/failure.h"
+#include "cli/input.h"
+#include "cli/memory_limit.h"
+#include "cli/messages.h"
+#include "cli/preset.h"
+#include "cli/render_camera.h"
+#include "cli/sequence.h"
+#include "cli/view_command.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* All that a run shares. {0}. */
+typedef struct view_run_state {
+    const command_line *line;
+    render_options options;
+    messages messages;
+    facet_budget *budget;
+    facet_allocator allocator;
+    bool has_model; /* the first one was read */
+} view_run_state;
+
+/* ---- models ---- */
+
+/* What of the file is shown, and how it moves. What was asked for by name the first model must have; others of the folder
+ * are shown without it. */
+static facet_result choose_pose(view_run_state *run, const char *path, facet_view_model *model,
+                                facet_error *error)
+{
+    const render_options *o = &run->options;
+    sequence s;
+    facet_result result = sequence_create(model->scene, input_name(path), o, &s, error);
+    if (result != FACET_OK && run->has_model && result == FACET_ERROR_ARGUMENT)
+        return FACET_OK;
+    if (result != FACET_OK)
+        return result;
+    model->pose = s.pose;
+    model->animation_count = s.pose.animation_count;
+    model->first_animation = s.pose.animation_count ? s.pose.animations[0] : 0;
+    model->is_playing = o->animation && !o->has_time;
+    model->pose.animations = NULL;
+    model->pose.animation_count = 0;
+    sequence_destroy(&s);
+    return FACET_OK;
+}
+
+static facet_result choose_camera(view_run_state *run, facet_view_model *model, facet_error *error)
+{
+    render_options o = run->options;
+    const render_view view = {.pose = &model->pose};
+    bool aims = o.has_target[0] || o.has_target[1] || o.has_target[2];
+    facet_camera camera;
+    facet_result result = FACET_OK;
+    if (o.camera) {
+        result = facet_scene_find_camera(model->scene, o.camera, &model->camera, error);
+        model->has_camera = result == FACET_OK;
+        if (result == FACET_ERROR_ARGUMENT && run->has_model)
+            result = FACET_OK;
+    } else if (o.has_eye) {
+        result = render_camera(model->scene, &view, &o, &model->eye, error);
+        model->has_eye = true;
+    } else if (aims && !o.orbit.has_target) { /* one coordinate is given, the others are the model's */
+        result = render_camera(model->scene, &view, &o, &camera, error);
+        if (result == FACET_OK)
+            render_keep_framing(&o, &camera);
+    }
+    model->orbit = o.orbit;
+    return result;
+}
+
+static facet_result load_model(void *user, const char *path, facet_view_model *model, facet_error *error)
+{
+    view_run_state *run = user;
+    bool is_ogl1 = run->options.desc.shading == FACET_SHADING_OGL1;
+    facet_scene_desc desc = run->options.scene_desc;
+    desc.allocator = run->allocator;
+    desc.log = messages_log(&run->messages);
+    desc.legacy.keeps_materials = is_ogl1;
+    *model = (facet_view_model){.scene = NULL};
+    facet_result result = input_load(path, &desc, &model->scene, error);
+    if (result == FACET_OK && is_ogl1)
+        result =
+            facet_scene_convert_materials(model->scene, FACET_MATERIALS_OGL1, &desc.legacy, &desc.log, error);
+    if (result == FACET_OK)
+        result = choose_pose(run, path, model, error);
+    if (result == FACET_OK)
+        result = choose_camera(run, model, error);
+    messages_flush(&run->messages);
+    messages_clear(&run->messages);
+    if (result == FACET_OK) {
+        run->has_model = true;
+        return FACET_OK;
+    }
+    failure_complete(error, input_name(path), run->options.limits.max_memory_bytes);
+    facet_scene_destroy(model->scene);
+    *model = (facet_view_model){.scene = NULL};
+    return result;
+}
+
+/* ---- light ---- */
+
+static facet_result load_environment(void *user, const char *name, const facet_view_model *model,
+                                     facet_environment **environment, facet_error *error)
+{
+    view_run_state *run = user;
+    const render_options *o = &run->options;
+    const facet_environment_desc desc = {.allocator = run->allocator,
+                                         .log = messages_log(&run->messages),
+                                         .thread_count = o->limits.thread_count,
+                                         .cache_folder = o->environment_cache};
+    environment_input input = o->environment;
+    *environment = NULL;
+    if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
+        return FACET_OK;
+    facet_result result = FACET_OK;
+    if (name)
+        result = environment_input_parse("environment", name, ENVIRONMENT_TAKES_NONE, &input, error);
+    bool is_own = !name && !o->has_environment && input.kind != ENVIRONMENT_NONE &&
+                  !o->desc.ignore_scene_lights && facet_scene_has_environment(model->scene, &model->pose);
+    if (result == FACET_OK && is_own)
+        result = facet_environment_create_from_scene(model->scene, &model->pose, &desc, environment, error);
+    else if (result == FACET_OK)
+        result = environment_input_load(&input, &desc, environment, error);
+    messages_flush(&run->messages);
+    if (result != FACET_OK)
+        failure_complete(error, environment_input_name(&input), run->options.limits.max_memory_bytes);
+    return result;
+}
+
+/* ---- the run ---- */
+
+static char *describe(void *user, const facet_view_picture *picture)
+{
+    const view_run_state *run = user;
+    return view_command(run->line, &run->options, picture);
+}
+
+static void print(void *user, const char *text)
+{
+    (void)user;
+    printf("%s\n", text);
+    fflush(stdout);
+}
+
+static facet_result begin(view_run_state *run, command_line *c, config *storage, facet_error *error)
+{
+    facet_result result = config_apply(c, storage, error);
+    if (result == FACET_OK)
+        result = command_line_set(c, option_find_id(c->verb, OPT_RENDERER), "gl", SOURCE_PRESET, error);
+    if (result == FACET_OK)
+        result = render_options_read(c, &run->options, error);
+    if (result == FACET_OK && run->options.desc.integrator == FACET_INTEGRATOR_PREVIEW)
+        result = option_fail(c, OPT_RENDERER, "gl or path; facet render has the preview", error);
+    if (result == FACET_OK)
+        result = facet_budget_create(run->options.limits.max_memory_bytes, &run->budget, error);
+    if (result != FACET_OK)
+        return result;
+    run->allocator = facet_budget_allocator(run->budget);
+    run->messages.verbosity = messages_verbosity(c);
+    return FACET_OK;
+}
+
+static facet_result show(view_run_state *run, facet_error *error)
+{
+    static const char *const environments[] = {"neutral", "white", "sun:45,135", "sun:6,120", "none"};
+    const command_line *c = run->line;
+    const render_options *o = &run->options;
+    bool is_path = o->desc.integrator == FACET_INTEGRATOR_PATH;
+    facet_view_desc desc = {
+        .allocator = run->allocator,
+        .log = messages_log(&run->messages),
+        .source = {.user = run,
+                   .load_model = load_model,
+                   .load_environment = load_environment,
+                   .describe = describe,
+                   .print = print},
+        .paths = c->arguments,
+        .path_count = (uint32_t)c->argument_count,
+        .environments = environments,
+        .environment_count = sizeof environments / sizeof *environments,
+        .environment = o->environment.kind == ENVIRONMENT_NONE ? NULL : option_text(c, OPT_ENV, NULL),
+        .render = o->desc,
+        .script = option_text(c, OPT_SCRIPT, NULL)};
+    if (is_path) {
+        desc.path_samples = is_given(c, OPT_SAMPLES) ? o->desc.samples : 0;
+        desc.render.samples = 4;
+    }
+    return facet_view(&desc, error);
+}
+
+int cmd_view(command_line *c)
+{
+    view_run_state run = {.line = c};
+    config storage = {0};
+    facet_error error = {0};
+    facet_result result = begin(&run, c, &storage, &error);
+    if (result == FACET_OK)
+        result = show(&run, &error);
+    if (result != FACET_OK)
+        message_error(error.message[0] == '-' ? "facet: %s" : "%s", error.message);
+    messages_flush(&run.messages);
+    messages_clear(&run.messages);
+    facet_budget_destroy(run.budget);
+    config_destroy(&storage);
+    return exit_code_of(result);
+}

@@ -1,0 +1,282 @@
+/* view_command.c - see view_command.h. What is as facet render has it anyway is left out, so that the line can be read. */
+#include "cli/view_command.h"
+
+#include "cli/options_table.h"
+#include "cli/output_name.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEGREE 0.017453292519943295 /* pi / 180 */
+
+/* Text that grows in memory of malloc(). */
+typedef struct line {
+    char *text;
+    size_t length, capacity;
+    bool has_failed;
+} line;
+
+static void add_bytes(line *l, const char *bytes, size_t size)
+{
+    if (l->length + size + 1 > l->capacity) {
+        size_t capacity = 2 * (l->length + size) + 256;
+        char *grown = l->has_failed ? NULL : realloc(l->text, capacity);
+        l->has_failed = !grown;
+        if (!grown)
+            return;
+        l->text = grown;
+        l->capacity = capacity;
+    }
+    memcpy(l->text + l->length, bytes, size);
+    l->length += size;
+    l->text[l->length] = 0;
+}
+
+/* A word for the shell: in quotes where it needs them. */
+static void add_word(line *l, const char *word)
+{
+    static const char harmless[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%^";
+    if (l->length)
+        add_bytes(l, " ", 1);
+    if (*word && strspn(word, harmless) == strlen(word)) {
+        add_bytes(l, word, strlen(word));
+        return;
+    }
+    add_bytes(l, "'", 1);
+    for (; *word; word++)
+        if (*word == '\'')
+            add_bytes(l, "'\\''", 4);
+        else
+            add_bytes(l, word, 1);
+    add_bytes(l, "'", 1);
+}
+
+/* --name=value where the value could be taken for an option, else --name value. o NULL: there is no such option. */
+static void add_to(line *l, const option *o, const char *value)
+{
+    char word[4300];
+    if (!o)
+        return;
+    bool is_joined = value[0] == '-';
+    snprintf(word, sizeof word, "--%s%s%s", o->name, is_joined ? "=" : "", is_joined ? value : "");
+    add_word(l, word);
+    if (!is_joined && option_takes_value(o))
+        add_word(l, value);
+}
+
+static void add_option(line *l, option_id id, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void add_option(line *l, option_id id, const char *format, ...)
+{
+    char value[4200];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(value, sizeof value, format, arguments);
+    va_end(arguments);
+    add_to(l, option_find_id(verb_find("render"), id), value);
+}
+
+/* A choice by its place in the table, unless it is the first. */
+static void add_choice(line *l, const char *name, int choice)
+{
+    const option *o = option_find(verb_find("render"), name, strlen(name));
+    int count = 0;
+    while (o && o->choices && o->choices[count])
+        count++;
+    if (choice > 0 && choice < count)
+        add_to(l, o, o->choices[choice]);
+}
+
+/* ---- parts of a picture ---- */
+
+static void add_camera(line *l, const render_options *o, const facet_view_picture *p)
+{
+    const facet_orbit *orbit = p->orbit;
+    if (!orbit) {
+        add_option(l, OPT_CAMERA, "%u", p->camera);
+        return;
+    }
+    add_option(l, OPT_ORBIT, "%.9g,%.9g,%.9g", (double)orbit->azimuth_rad / DEGREE,
+               (double)orbit->polar_rad / DEGREE, (double)orbit->radius);
+    add_option(l, OPT_TARGET, "%.9g,%.9g,%.9g", (double)orbit->target[0], (double)orbit->target[1],
+               (double)orbit->target[2]);
+    if (orbit->fov_y_rad != facet_orbit_default().fov_y_rad)
+        add_option(l, OPT_FOV, "%.9g", (double)orbit->fov_y_rad / DEGREE);
+    if (orbit->orthographic)
+        add_option(l, OPT_ORTHO, "%s", "");
+    if (o->orbit.is_z_up)
+        add_option(l, OPT_UP, "z");
+}
+
+static void add_light(line *l, const command_line *c, const facet_view_picture *p)
+{
+    const facet_render_desc *d = p->render;
+    const char *name = p->environment ? p->environment : option_text(c, OPT_ENV, NULL);
+    if (name)
+        add_option(l, OPT_ENV, "%s", name);
+    if (d->environment_rotation_rad != 0.0f)
+        add_option(l, OPT_ENV_ROTATION, "%.9g", (double)d->environment_rotation_rad / DEGREE);
+    if (d->environment_ev != 0.0f)
+        add_option(l, OPT_ENV_INTENSITY, "%.9g", exp2((double)d->environment_ev));
+    if (d->ignore_scene_lights)
+        add_option(l, OPT_LIGHTS, "none");
+    if (d->ground == FACET_GROUND_SHADOW)
+        add_option(l, OPT_GROUND, "shadow");
+}
+
+static void add_background(line *l, const command_line *c, const facet_render_desc *d)
+{
+    if (d->background == FACET_BACKGROUND_TRANSPARENT)
+        add_option(l, OPT_BACKGROUND, "transparent");
+    else if (d->background == FACET_BACKGROUND_ENVIRONMENT)
+        add_option(l, OPT_BACKGROUND, "env");
+    else if (is_given(c, OPT_BACKGROUND)) /* the color is that which was given, or white */
+        add_option(l, OPT_BACKGROUND, "%s", option_text(c, OPT_BACKGROUND, "white"));
+    if (d->background == FACET_BACKGROUND_ENVIRONMENT && d->background_blur > 0.0f)
+        add_option(l, OPT_BACKGROUND_BLUR, "%.9g", (double)d->background_blur);
+}
+
+static void add_look(line *l, const facet_render_desc *d)
+{
+    static const struct {
+        facet_tonemap tonemap;
+        const char *name;
+    } tonemaps[] = {{FACET_TONEMAP_ACES, "aces"},
+                    {FACET_TONEMAP_ACES_NARKOWICZ, "aces-narkowicz"},
+                    {FACET_TONEMAP_AGX, "agx"},
+                    {FACET_TONEMAP_REINHARD, "reinhard"},
+                    {FACET_TONEMAP_REINHARD_EXTENDED, "reinhard-extended"},
+                    {FACET_TONEMAP_HABLE, "hable"},
+                    {FACET_TONEMAP_NONE, "none"}};
+    if (d->exposure_ev != 0.0f)
+        add_option(l, OPT_EXPOSURE, "%.9g", (double)d->exposure_ev);
+    for (size_t i = 0; i < sizeof tonemaps / sizeof *tonemaps; i++)
+        if (tonemaps[i].tonemap == d->tonemap && d->shading == FACET_SHADING_GLTF)
+            add_option(l, OPT_TONE_MAPPING, "%s", tonemaps[i].name);
+}
+
+static void add_gl(line *l, const facet_gl_desc *gl)
+{
+    char bloom[32];
+    const verb *render = verb_find("render");
+    add_choice(l, "channel", (int)gl->channel);
+    add_choice(l, "brdf", (int)gl->brdf);
+    add_choice(l, "transparency", (int)gl->transparency);
+    if (gl->shadows)
+        add_to(l, option_find(render, "shadows", 7), "");
+    snprintf(bloom, sizeof bloom, "%.9g", (double)gl->bloom);
+    if (gl->bloom > 0.0f)
+        add_to(l, option_find(render, "bloom", 5), bloom);
+}
+
+static void add_rendering(line *l, const facet_render_desc *d)
+{
+    bool is_path = d->integrator == FACET_INTEGRATOR_PATH;
+    bool is_conserving = d->energy == FACET_ENERGY_CONSERVING;
+    add_option(l, OPT_RENDERER, "%s", is_path ? "path" : "gl");
+    if (is_conserving != is_path)
+        add_option(l, OPT_ENERGY, "%s", is_conserving ? "conserving" : "gltf");
+    if (is_path || d->samples != 4)
+        add_option(l, OPT_SAMPLES, "%u", d->samples);
+    if (is_path && d->path.denoises)
+        add_option(l, OPT_DENOISE, "%s", "");
+    if (!is_path)
+        add_gl(l, &d->gl);
+}
+
+static void add_pose(line *l, const command_line *c, const facet_pose_desc *p)
+{
+    const char *animation = option_text(c, OPT_ANIMATION, "");
+    if (p->has_scene_index)
+        add_option(l, OPT_SCENE, "%u", p->scene_index);
+    if (p->has_variant)
+        add_option(l, OPT_VARIANT, "%u", p->variant);
+    if (p->animation_count == 0)
+        return;
+    if (p->animation_count > 1)
+        add_option(l, OPT_ANIMATION, "%s", strcmp(animation, "all") == 0 ? animation : "all");
+    else
+        add_option(l, OPT_ANIMATION, "%u", p->animations[0]);
+    add_option(l, OPT_TIME, "%.9g", p->time_s);
+}
+
+/* ---- what no key changes ---- */
+
+/* Those above, and those that are about the window. */
+static bool is_known(const option *o)
+{
+    static const char *const gl[] = {"channel", "brdf", "transparency", "shadows", "bloom"};
+    static const option_id ids[] = {OPT_SIZE,          OPT_BACKGROUND,   OPT_BACKGROUND_BLUR,
+                                    OPT_ORBIT,         OPT_TARGET,       OPT_FOV,
+                                    OPT_EYE,           OPT_UP,           OPT_ORTHO,
+                                    OPT_CAMERA,        OPT_ENV,          OPT_ENV_ROTATION,
+                                    OPT_ENV_INTENSITY, OPT_LIGHTS,       OPT_GROUND,
+                                    OPT_EXPOSURE,      OPT_TONE_MAPPING, OPT_QUALITY,
+                                    OPT_SAMPLES,       OPT_RENDERER,     OPT_ENERGY,
+                                    OPT_DENOISE,       OPT_ANIMATION,    OPT_TIME,
+                                    OPT_SCENE,         OPT_VARIANT,      OPT_THREADS,
+                                    OPT_TIME_LIMIT,    OPT_QUIET,        OPT_VERBOSE,
+                                    OPT_HELP,          OPT_SCRIPT,       OPT_CONFIG,
+                                    OPT_ENV_CACHE};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (ids[i] == o->id)
+            return true;
+    for (size_t i = 0; i < sizeof gl / sizeof *gl; i++)
+        if (strcmp(gl[i], o->name) == 0)
+            return true;
+    return false;
+}
+
+/* Options that path tracing alone reads are refused elsewhere. */
+static bool is_of_group(const option_group *group, option_id id)
+{
+    for (size_t i = 0; i < group->option_count; i++)
+        if (group->options[i].id == id)
+            return true;
+    return false;
+}
+
+static void add_others(line *l, const command_line *c, bool is_path)
+{
+    for (const option_group *const *g = c->verb->groups; *g; g++)
+        for (size_t i = 0; i < (*g)->option_count; i++) {
+            const option *o = &(*g)->options[i];
+            bool is_left_out =
+                is_known(o) || !is_given(c, o->id) || (is_of_group(&window_path_group, o->id) && !is_path);
+            if (!is_left_out)
+                add_option(l, o->id, "%s", option_text(c, o->id, ""));
+        }
+}
+
+char *view_command(const command_line *c, const render_options *options, const facet_view_picture *p)
+{
+    line l = {0};
+    char stem[1024];
+    char output[1100];
+    const facet_render_desc *d = p->render;
+    if (!output_name_stem(p->model ? p->model : "facet", stem, sizeof stem))
+        memcpy(stem, "model", 6);
+    snprintf(output, sizeof output, "%s.png", stem);
+    add_word(&l, "facet");
+    add_word(&l, "render");
+    if (p->model)
+        add_word(&l, p->model);
+    add_word(&l, "-o");
+    add_word(&l, output);
+    add_option(&l, OPT_SIZE, "%ux%u", d->width, d->height);
+    add_rendering(&l, d);
+    add_camera(&l, options, p);
+    add_pose(&l, c, &d->pose);
+    add_light(&l, c, p);
+    add_background(&l, c, d);
+    add_look(&l, d);
+    add_others(&l, c, d->integrator == FACET_INTEGRATOR_PATH);
+    if (l.has_failed) {
+        free(l.text);
+        return NULL;
+    }
+    return l.text;
+}

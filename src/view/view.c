@@ -1,0 +1,258 @@
+/* view.c - the viewer: facet_view(). The loop sleeps until something happens, lets it change the state, and draws what
+ * changed. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/result.h"
+#include "view/view_app.h"
+
+static const double longest_step_s = 0.25; /* of an animation: who was asleep does not jump */
+static const double patience_s = 0.3;      /* before a window is shown whose model is still being read */
+
+void view_app_say(view_app *a, const char *text, double seconds)
+{
+    snprintf(a->message, sizeof a->message, "%s", text);
+    a->message_until_s = a->time_s + seconds;
+    a->needs_frame = true;
+    if (a->has_no_text)
+        a->desc->source.print(a->desc->source.user, text);
+}
+
+/* Called from threads. */
+static void wake(void *user)
+{
+    view_app *a = user;
+    view_window *w = atomic_load(&a->window);
+    if (w)
+        view_window_wake(w);
+}
+
+/* ---- events ---- */
+
+static void press_key(view_app *a, const view_event *e)
+{
+    const view_binding *b = view_binding_find(e->key, e->modifiers);
+    if (!b)
+        return;
+    if (view_state_apply(&a->state, b->action, b->amount)) {
+        a->needs_picture = true;
+        if (a->state.message[0])
+            view_app_say(a, a->state.message, 2.0);
+        return;
+    }
+    switch (b->action) {
+    case VIEW_ACTION_MODEL:
+        view_files_step_model(a, b->amount);
+        break;
+    case VIEW_ACTION_RELOAD:
+        view_files_reload(a, false);
+        break;
+    case VIEW_ACTION_ENVIRONMENT:
+        view_files_step_environment(a, b->amount);
+        break;
+    case VIEW_ACTION_FULL_SCREEN:
+        view_window_toggle_full_screen(a->window);
+        break;
+    case VIEW_ACTION_SCREENSHOT:
+        view_shot_key(a);
+        break;
+    case VIEW_ACTION_COPY:
+        view_shot_copy(a);
+        break;
+    case VIEW_ACTION_PRINT:
+        view_shot_print(a);
+        break;
+    case VIEW_ACTION_QUIT:
+        a->is_closing = true;
+        break;
+    default:
+        break;
+    }
+}
+
+static void handle_events(view_app *a)
+{
+    view_event e;
+    while (view_queue_take(&a->queue, &e)) {
+        bool was_held = a->state.is_held;
+        switch (e.kind) {
+        case VIEW_KEY:
+            press_key(a, &e);
+            break;
+        case VIEW_DROP:
+            view_files_drop(a, e.path);
+            break;
+        case VIEW_CLOSE:
+            a->is_closing = true;
+            break;
+        default:
+            a->needs_picture = view_state_point(&a->state, &e) || a->needs_picture;
+            /* what was moved is traced when it is let go */
+            a->needs_picture = a->needs_picture || (was_held && !a->state.is_held);
+        }
+        free(e.path);
+    }
+}
+
+/* ---- the loop ---- */
+
+/* Seconds until something is to be done that nobody wakes the loop for. */
+static double time_to_sleep(const view_app *a)
+{
+    bool is_visible = a->state.width > 0;
+    if (a->script.count)
+        return 0.02; /* steps wait for threads, windows, files */
+    if (a->needs_picture || a->needs_frame)
+        return 0.0;
+    if (!a->is_shown)
+        return 0.01;
+    if (a->state.is_playing && is_visible)
+        return 0.0;
+    if (a->message[0])
+        return fmax(a->message_until_s - a->time_s, 0.001);
+    return INFINITY;
+}
+
+static void advance_clock(view_app *a)
+{
+    double now = clock_seconds();
+    double passed = now - a->clock_s;
+    a->clock_s = now;
+    if (!a->script.count) {
+        a->time_s += passed;
+        if (view_state_advance(&a->state, fmin(passed, longest_step_s)))
+            a->needs_picture = true;
+    }
+    if (a->message[0] && a->time_s >= a->message_until_s) {
+        a->message[0] = 0;
+        a->needs_frame = true;
+    }
+}
+
+/* Shows the window with its first picture, or without one where that takes its time. */
+static void show_window(view_app *a, double start)
+{
+    if (a->is_shown || (!a->scene && clock_seconds() - start < patience_s))
+        return;
+    view_window_show(a->window);
+    a->is_shown = true;
+    a->needs_picture = true;
+}
+
+static void draw(view_app *a)
+{
+    uint32_t width;
+    uint32_t height;
+    view_window_size(a->window, &width, &height);
+    if (!a->is_shown || !width || !height) {
+        a->state.width = a->is_shown ? 0 : 1;
+        return;
+    }
+    if (view_window_needs_drawing(a->window))
+        a->needs_picture = true;
+    bool traces = a->state.render.integrator == FACET_INTEGRATOR_PATH ||
+                  a->state.divider.comparison == VIEW_COMPARE_RENDERER;
+    if (traces)
+        a->needs_frame = true; /* the tracer may have more */
+    facet_error error;
+    if ((a->needs_picture || a->needs_frame) && view_show(a, &error) != FACET_OK) {
+        a->needs_picture = a->needs_frame = false;
+        view_app_say(a, error.message, 8.0);
+        if (a->script.count) { /* nobody reads messages */
+            a->error = error;
+            a->result = error.result;
+        }
+    }
+}
+
+static void loop(view_app *a)
+{
+    double start = clock_seconds();
+    a->clock_s = start;
+    while (!a->is_closing && a->result == FACET_OK) {
+        if (view_play(a))
+            view_window_wait(a->window, 0.0);
+        else if (a->script.count && a->script_at == a->script.count)
+            a->is_closing = true;
+        else
+            view_window_wait(a->window, time_to_sleep(a));
+        advance_clock(a);
+        handle_events(a);
+        a->result = view_files_update(a, &a->error);
+        if (a->result != FACET_OK)
+            break;
+        show_window(a, start);
+        draw(a);
+    }
+}
+
+/* ---- beginning and end ---- */
+
+static facet_result begin(view_app *a, facet_error *error)
+{
+    const facet_view_desc *d = a->desc;
+    view_window *window = NULL;
+    view_state_create(&a->state, d);
+    facet_result result = FACET_OK;
+    if (d->script)
+        result = view_script_load(d->script, &d->allocator, &a->script, error);
+    if (result == FACET_OK)
+        result = view_load_create(a->host, d, wake, a, &a->loader, error);
+    if (result == FACET_OK)
+        result = view_files_begin(a, error); /* is read while the window opens */
+    if (result == FACET_OK)
+        result =
+            view_window_create(&d->allocator, d->render.width, d->render.height, &a->queue, &window, error);
+    atomic_store(&a->window, window);
+    if (result == FACET_OK)
+        result = gl_context_adopt(&a->context, error);
+    if (result == FACET_OK)
+        result = view_draw_create(&a->context, &d->allocator, &a->draw, error);
+    if (result == FACET_OK)
+        result = view_trace_create(a->host, &d->allocator, wake, a, &a->tracer, error);
+    if (result == FACET_OK)
+        result = view_watch_create(&d->allocator, wake, a, &a->watcher, error);
+    return result;
+}
+
+static void end(view_app *a)
+{
+    view_window *window = atomic_load(&a->window);
+    view_trace_destroy(a->tracer);
+    view_load_destroy(a->loader);
+    view_watch_destroy(a->watcher);
+    if (window) {
+        gl_renderer_destroy(a->renderer);
+        view_show_end(a);
+        view_draw_destroy(a->draw);
+    }
+    view_files_end(a);
+    view_queue_clear(&a->queue);
+    view_script_destroy(&a->script);
+    atomic_store(&a->window, NULL);
+    view_window_destroy(window);
+}
+
+facet_result view_run(const gl_host *host, const facet_view_desc *desc, facet_error *error)
+{
+    view_app *a = mem_zalloc(&desc->allocator, 1, sizeof *a);
+    if (!a)
+        return fail_memory(error, "window", sizeof *a);
+    a->host = host;
+    a->desc = desc;
+    a->result = begin(a, &a->error);
+    if (a->result == FACET_OK)
+        loop(a);
+    facet_result result = a->result;
+    if (result != FACET_OK && error) {
+        *error = a->error;
+        error->result = result;
+    }
+    end(a);
+    mem_free(a);
+    return result;
+}

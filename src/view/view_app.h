@@ -1,0 +1,117 @@
+/* view_app.h - the viewer's parts, which its files share: view.c (the loop), view_files.c (what is read), view_show.c (what is
+ * drawn), view_shot.c (what is kept of it), view_play.c (scripts). */
+#ifndef VIEW_VIEW_APP_H
+#define VIEW_VIEW_APP_H
+
+#include <stdatomic.h>
+
+#include "gl/gl_renderer.h"
+#include "view/view_draw.h"
+#include "view/view_folder.h"
+#include "view/view_load.h"
+#include "view/view_overlay.h"
+#include "view/view_script.h"
+#include "view/view_state.h"
+#include "view/view_trace.h"
+#include "view/view_watch.h"
+#include "view/view_window.h"
+
+/* A panel of text with what it was made of, so that it is made anew only when that changes. */
+typedef struct view_shown_panel {
+    view_surface surface;
+    char text[2048];
+    float scale;
+    uint32_t max_width, max_height;
+    bool is_there;
+} view_shown_panel;
+
+typedef enum view_panel_id {
+    VIEW_PANEL_HELP,
+    VIEW_PANEL_VALUES,
+    VIEW_PANEL_MESSAGE,
+    VIEW_PANEL_LEFT,
+    VIEW_PANEL_RIGHT,
+    VIEW_PANEL_COUNT
+} view_panel_id;
+
+typedef struct view_app {
+    const gl_host *host;
+    const facet_view_desc *desc;
+    view_queue queue;
+    _Atomic(view_window *) window; /* threads wake it */
+    gl_context context;
+    view_draw *draw;
+    view_state state;
+    view_loader *loader;
+    view_tracer *tracer;
+    view_watcher *watcher;
+
+    /* files */
+    view_list models, environments;
+    facet_scene *scene; /* what is shown; NULL: nothing yet */
+    char *path;         /* NULL: the built-in scene; blocks of malloc() */
+    char *environment_name;
+    facet_environment *environment;
+    gl_renderer *renderer;
+    bool is_reloading;
+    uint32_t reload_count; /* models that were read again as their files had changed */
+
+    /* the picture */
+    view_surface sides[2], traced, shot;
+    bool trace_is_current; /* traced shows what is wanted */
+    uint32_t trace_samples;
+    double frame_s;     /* of the last frames, smoothed; 0: none yet */
+    bool needs_picture; /* something of the model, the camera, the light changed */
+    bool needs_frame;   /* only what is laid over it did */
+    view_shown_panel panels[VIEW_PANEL_COUNT];
+    bool has_no_text; /* there is no cairo */
+
+    /* messages */
+    char message[1024];
+    double message_until_s;
+
+    /* the loop */
+    double time_s; /* of animations and messages: the clock's, or the script's */
+    double clock_s;
+    bool is_shown, is_closing;
+    view_script script;
+    size_t script_at;
+    double script_wait_s; /* clock at which a step is given up */
+    uint32_t script_reload_count;
+    facet_result result;
+    facet_error error;
+} view_app;
+
+/* Says it in the window for a while; without letters, to the caller. */
+void view_app_say(view_app *a, const char *text, double seconds);
+
+/* view_files.c */
+facet_result view_files_begin(view_app *a, facet_error *error);
+void view_files_end(view_app *a);
+void view_files_step_model(view_app *a, int steps);
+void view_files_step_environment(view_app *a, int steps);
+void view_files_drop(view_app *a, const char *path);
+void view_files_reload(view_app *a, bool is_changed);
+/* Takes what was read. Fails where the first model cannot be shown; later ones leave a message. */
+facet_result view_files_update(view_app *a, facet_error *error);
+
+/* view_show.c */
+/* Draws the window; nothing where it has no size. */
+facet_result view_show(view_app *a, facet_error *error);
+/* Draws the picture into a->shot, with the text over it or without. */
+facet_result view_show_into(view_app *a, bool has_panels, facet_error *error);
+void view_show_end(view_app *a);
+/* The desc of what the window shows, of the side that a person means: the right one. */
+facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, facet_camera *camera);
+
+/* view_shot.c */
+facet_result view_shot_save(view_app *a, const char *path, bool has_panels, facet_error *error);
+void view_shot_key(view_app *a);   /* F12: under a name that is free */
+void view_shot_copy(view_app *a);  /* the command line to the clipboard, */
+void view_shot_print(view_app *a); /* and to the caller */
+
+/* view_play.c */
+/* Goes on with the script as far as it can now. True: something was done, and the loop is not to wait. */
+bool view_play(view_app *a);
+
+#endif

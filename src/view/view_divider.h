@@ -1,0 +1,32 @@
+/* view_divider.h - two ways to draw the same beside each other, with a border between them that is dragged. */
+#ifndef VIEW_VIEW_DIVIDER_H
+#define VIEW_VIEW_DIVIDER_H
+
+#include "facet/facet.h"
+
+typedef enum view_comparison {
+    VIEW_COMPARE_NOTHING,
+    VIEW_COMPARE_MASKING,    /* separable Schlick-GGX | height-correlated Smith */
+    VIEW_COMPARE_SCATTERING, /* single | multiple scattering on rough surfaces */
+    VIEW_COMPARE_RENDERER,   /* OpenGL | path tracing */
+    VIEW_COMPARE_TONEMAP,    /* none | the one chosen */
+    VIEW_COMPARE_VARIANT,    /* the file's materials | a variant */
+    VIEW_COMPARISON_COUNT
+} view_comparison;
+
+typedef struct view_divider {
+    view_comparison comparison;
+    double position; /* [0, 1] of the width */
+    bool is_dragged;
+} view_divider;
+
+/* What the left and the right side draw, by name; base is what is drawn without a divider. */
+void view_divider_sides(const view_divider *d, const facet_render_desc *base, facet_render_desc sides[2],
+                        const char *labels[2]);
+/* Whether the pointer at x can take hold of it. reach: px to either side. */
+bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double reach);
+void view_divider_drag(view_divider *d, double x, uint32_t width);
+/* The next comparison, in either direction; those of variants only where there are some. */
+void view_divider_step(view_divider *d, int steps, bool has_variants);
+
+#endif

@@ -1,0 +1,219 @@
+/* view_files.c - models and environments of a window: stepping, dropping, reading again, and what happens when they are
+ * there. */
+#include "view/view_app.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/file.h"
+#include "base/result.h"
+#include "scene/scene.h"
+
+static bool is_folder(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static void request(view_app *a, const view_request *r)
+{
+    if (!view_load_request(a->loader, r))
+        view_app_say(a, "There is no memory", 4.0);
+}
+
+/* The environment comes with a model where the model may bring its own: without a name it is that, or the default one. */
+static void request_model(view_app *a, const char *path)
+{
+    bool may_have_light = !a->environment_name;
+    request(a, &(view_request){.wants_model = true, .path = path, .wants_environment = may_have_light});
+}
+
+facet_result view_files_begin(view_app *a, facet_error *error)
+{
+    const facet_view_desc *d = a->desc;
+    a->models.allocator = a->environments.allocator = d->allocator;
+    if (!view_list_models(&a->models, d->paths, d->path_count) ||
+        !view_list_environments(&a->environments, d->environments, d->environment_count, d->environment))
+        return fail_memory(error, "names", 0);
+    if (d->path_count && a->models.count == 0)
+        return fail(error, FACET_ERROR_READ, "%s: there is no .glb, .gltf or .obj file in it", d->paths[0]);
+    const char *first = view_list_step(&a->models, 0);
+    if (!view_load_request(a->loader, &(view_request){.wants_model = true,
+                                                      .path = first,
+                                                      .wants_environment = true,
+                                                      .environment = d->environment}))
+        return fail_memory(error, "names", 0);
+    return FACET_OK;
+}
+
+void view_files_step_model(view_app *a, int steps)
+{
+    const char *path = view_list_step(&a->models, steps);
+    if (path)
+        request_model(a, path);
+    else
+        view_app_say(a, "Drop a model or a folder of models here", 4.0);
+}
+
+void view_files_step_environment(view_app *a, int steps)
+{
+    const char *name = view_list_step(&a->environments, steps);
+    if (name)
+        request(a, &(view_request){.wants_environment = true, .environment = name});
+}
+
+void view_files_reload(view_app *a, bool is_changed)
+{
+    if (!is_changed)
+        view_app_say(a, "Reading the model again", 2.0);
+    a->is_reloading = true;
+    request_model(a, a->path);
+}
+
+void view_files_drop(view_app *a, const char *path)
+{
+    if (!path)
+        return;
+    if (view_path_is_environment(path)) {
+        view_list_environments(&a->environments, a->desc->environments, a->desc->environment_count, path);
+        request(a, &(view_request){.wants_environment = true, .environment = path});
+        return;
+    }
+    view_list dropped = {.allocator = a->desc->allocator};
+    if (is_folder(path)) {
+        const char *const paths[] = {path};
+        if (!view_list_models(&dropped, paths, 1) || dropped.count == 0) {
+            char text[512];
+            snprintf(text, sizeof text, "%.400s: there is no model in this folder", path_base_name(path));
+            view_app_say(a, text, 6.0);
+            view_list_clear(&dropped);
+            return;
+        }
+        view_list_clear(&a->models);
+        a->models = dropped;
+        path = view_list_step(&a->models, 0);
+    }
+    request_model(a, path); /* which is in no list until it has been read */
+}
+
+/* ---- what was read ---- */
+
+static void set_title(view_app *a)
+{
+    char title[512];
+    const char *name = a->path ? path_base_name(a->path) : "built-in scene";
+    if (a->models.count > 1)
+        snprintf(title, sizeof title, "%.400s - facet (%zu of %zu)", name, a->models.at + 1, a->models.count);
+    else
+        snprintf(title, sizeof title, "%.400s - facet", name);
+    view_window_set_title(a->window, title);
+}
+
+static void show_environment(view_app *a, view_loaded *l)
+{
+    if (!l->has_environment)
+        return;
+    view_trace_stop(a->tracer);
+    a->host->environment_destroy(a->environment);
+    a->environment = l->environment;
+    l->environment = NULL;
+    free(a->environment_name);
+    a->environment_name = l->environment_name;
+    l->environment_name = NULL;
+    a->needs_picture = true;
+}
+
+/* A model that was dropped brings the others of its folder. */
+static void find_in_list(view_app *a)
+{
+    size_t i = 0;
+    while (a->path && i < a->models.count && strcmp(a->models.names[i], a->path) != 0)
+        i++;
+    a->models.at = i;
+    if (a->path && i == a->models.count) {
+        const char *const paths[] = {a->path};
+        view_list_models(&a->models, paths, 1);
+    }
+}
+
+static void tell_model(view_app *a, bool is_again)
+{
+    char text[512];
+    if (is_again) {
+        view_app_say(a, "The model was read again", 2.0);
+    } else if (!a->path) {
+        view_app_say(a, "Drop a model here. H: help", 8.0);
+    } else if (a->models.count > 1) {
+        snprintf(text, sizeof text, "%.400s\t%zu of %zu", path_base_name(a->path), a->models.at + 1,
+                 a->models.count);
+        view_app_say(a, text, 2.0);
+    }
+}
+
+static facet_result show_model(view_app *a, view_loaded *l, facet_error *error)
+{
+    gl_renderer *renderer = NULL;
+    facet_result result =
+        gl_renderer_create(l->model.scene, &a->context, &a->desc->allocator, &renderer, error);
+    if (result != FACET_OK)
+        return result;
+    bool is_again = a->scene && a->is_reloading;
+    view_trace_stop(a->tracer);
+    a->trace_is_current = false;
+    gl_renderer_destroy(a->renderer);
+    a->renderer = renderer;
+    view_state_set_model(&a->state, &l->model, l->low, l->high, is_again);
+    a->host->scene_destroy(a->scene);
+    a->scene = l->model.scene;
+    l->has_model = false;
+    free(a->path);
+    a->path = l->path;
+    l->path = NULL;
+    view_watch_set(a->watcher, a->scene, a->path);
+    find_in_list(a);
+    set_title(a);
+    tell_model(a, is_again);
+    a->needs_picture = true;
+    return FACET_OK;
+}
+
+facet_result view_files_update(view_app *a, facet_error *error)
+{
+    view_loaded loaded;
+    if (view_watch_take(a->watcher))
+        view_files_reload(a, true);
+    if (!view_load_take(a->loader, &loaded))
+        return FACET_OK;
+    facet_error why = loaded.error;
+    facet_result result = why.result;
+    if (result == FACET_OK && loaded.has_model)
+        result = show_model(a, &loaded, &why);
+    if (result == FACET_OK)
+        show_environment(a, &loaded);
+    if (loaded.wanted_model) {
+        a->reload_count += a->is_reloading;
+        a->is_reloading = false;
+    }
+    view_loaded_destroy(a->host, &loaded);
+    if (result == FACET_OK)
+        return FACET_OK;
+    if (!a->scene) {
+        if (error)
+            *error = why;
+        return result;
+    }
+    view_app_say(a, why.message, 8.0);
+    return FACET_OK;
+}
+
+void view_files_end(view_app *a)
+{
+    view_list_clear(&a->models);
+    view_list_clear(&a->environments);
+    a->host->environment_destroy(a->environment);
+    a->host->scene_destroy(a->scene);
+    free(a->path);
+    free(a->environment_name);
+}

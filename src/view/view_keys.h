@@ -1,0 +1,85 @@
+/* view_keys.h - one table: which key does what. Overlay, documentation and tests read it. */
+#ifndef VIEW_VIEW_KEYS_H
+#define VIEW_VIEW_KEYS_H
+
+#include "view/view_event.h"
+
+typedef enum view_action {
+    VIEW_ACTION_NONE,
+    VIEW_ACTION_MODEL, /* amount: steps in the list */
+    VIEW_ACTION_RELOAD,
+    VIEW_ACTION_VARIANT,
+    VIEW_ACTION_FRAME,
+    VIEW_ACTION_LOOK, /* amount: a view_direction */
+    VIEW_ACTION_PROJECTION,
+    VIEW_ACTION_CAMERA,
+    VIEW_ACTION_PLAY,
+    VIEW_ACTION_ANIMATION,
+    VIEW_ACTION_SCRUB, /* amount: frames of 1/24 s */
+    VIEW_ACTION_SPEED, /* amount: doublings */
+    VIEW_ACTION_ENVIRONMENT,
+    VIEW_ACTION_ENVIRONMENT_ROTATION,  /* amount: steps of 15 degrees */
+    VIEW_ACTION_ENVIRONMENT_INTENSITY, /* amount: thirds of a stop */
+    VIEW_ACTION_LIGHTS,
+    VIEW_ACTION_SHADOWS,
+    VIEW_ACTION_GROUND,
+    VIEW_ACTION_BACKGROUND,
+    VIEW_ACTION_BLUR,
+    VIEW_ACTION_EXPOSURE, /* amount: thirds of a stop */
+    VIEW_ACTION_TONEMAP,
+    VIEW_ACTION_BLOOM,
+    VIEW_ACTION_RENDERER,
+    VIEW_ACTION_DENOISE,
+    VIEW_ACTION_CHANNEL,
+    VIEW_ACTION_WHOLE,
+    VIEW_ACTION_BRDF,
+    VIEW_ACTION_ENERGY,
+    VIEW_ACTION_DIVIDER,
+    VIEW_ACTION_TRANSPARENCY,
+    VIEW_ACTION_HELP,
+    VIEW_ACTION_VALUES,
+    VIEW_ACTION_FULL_SCREEN,
+    VIEW_ACTION_SCREENSHOT,
+    VIEW_ACTION_COPY,
+    VIEW_ACTION_PRINT,
+    VIEW_ACTION_QUIT
+} view_action;
+
+typedef enum view_direction {
+    VIEW_FRONT,
+    VIEW_BACK,
+    VIEW_RIGHT_SIDE,
+    VIEW_LEFT_SIDE,
+    VIEW_TOP,
+    VIEW_BOTTOM,
+    VIEW_OBLIQUE
+} view_direction;
+
+typedef struct view_binding {
+    uint32_t key;
+    unsigned modifiers;
+    view_action action;
+    int amount;
+    const char *group; /* NULL: of the line before */
+    const char *help;  /* NULL: the line before tells of it, too */
+} view_binding;
+
+extern const view_binding view_bindings[];
+extern const uint32_t view_binding_count;
+
+/* NULL: the key does nothing. */
+const view_binding *view_binding_find(uint32_t key, unsigned modifiers);
+
+/* "Shift+L", "Left", "?", in any case of letters. False: no such key. */
+bool view_key_parse(const char *text, uint32_t *key, unsigned *modifiers);
+/* The same backwards; size of 32 is enough. */
+void view_key_write(uint32_t key, unsigned modifiers, char *out, uint32_t size);
+
+/* What the pointer does: lines of help that belong to no key. */
+typedef struct view_pointer_help {
+    const char *input, *help;
+} view_pointer_help;
+extern const view_pointer_help view_pointer_lines[];
+extern const uint32_t view_pointer_line_count;
+
+#endif

@@ -1,0 +1,303 @@
+/* view_overlay.c - see view_overlay.h. Light letters on dark glass, which reads over any picture. */
+#include "view/view_overlay.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "plot/chart_text.h"
+#include "view/view_keys.h"
+
+enum { MAX_ROWS = 96, MAX_COLUMNS = 4 };
+
+static const canvas_color glass = {0.06, 0.06, 0.07, 0.86};
+static const canvas_color bright = {1.0, 1.0, 1.0, 0.96};
+static const canvas_color soft = {1.0, 1.0, 1.0, 0.72};
+
+/* A line in two columns; without right it is as wide as it likes, bold where it is a heading. */
+typedef struct overlay_row {
+    char left[160], right[160];
+    bool is_heading, has_gap; /* above */
+} overlay_row;
+
+typedef struct overlay_rows {
+    overlay_row rows[MAX_ROWS];
+    int count;
+} overlay_rows;
+
+/* Lengths in pixels. */
+typedef struct overlay_metrics {
+    double size, line, gap, margin,
+        between; /* letters, rows, above a group, to the border, between columns */
+} overlay_metrics;
+
+static overlay_metrics metrics_of(double size)
+{
+    return (overlay_metrics){size, ceil(1.5 * size), ceil(0.7 * size), ceil(0.9 * size), ceil(1.1 * size)};
+}
+
+/* ---- a block of rows ---- */
+
+typedef struct overlay_block {
+    int first, count;
+    double left_width, width, height;
+} overlay_block;
+
+static overlay_block measure(canvas *c, const overlay_rows *rows, int first, int count, overlay_metrics m)
+{
+    overlay_block b = {.first = first, .count = count};
+    double right_width = 0.0;
+    double alone = 0.0;
+    for (int i = first; i < first + count; i++) {
+        const overlay_row *r = &rows->rows[i];
+        double width = canvas_text_width(c, (canvas_font){m.size, r->is_heading}, r->left);
+        if (r->right[0]) {
+            b.left_width = fmax(b.left_width, width);
+            right_width = fmax(right_width, canvas_text_width(c, (canvas_font){m.size, false}, r->right));
+        } else {
+            alone = fmax(alone, width);
+        }
+        b.height += m.line + (r->has_gap && i > first ? m.gap : 0.0);
+    }
+    b.width = fmax(alone, right_width > 0.0 ? b.left_width + m.between + right_width : 0.0);
+    return b;
+}
+
+static void draw_cut(canvas *c, const char *text, canvas_font font, canvas_color color, double max_width,
+                     double x, double y)
+{
+    label_line line;
+    label_fit(c, font, text, max_width, &line);
+    label_draw(c, &line, font, color, LABEL_LEFT, x, y);
+}
+
+static void draw(canvas *c, const overlay_rows *rows, const overlay_block *b, overlay_metrics m, double x,
+                 double y)
+{
+    for (int i = b->first; i < b->first + b->count; i++) {
+        const overlay_row *r = &rows->rows[i];
+        y += r->has_gap && i > b->first ? m.gap : 0.0;
+        double base = y + 0.5 * m.line + label_middle((canvas_font){m.size, false});
+        draw_cut(c, r->left, (canvas_font){m.size, r->is_heading}, bright,
+                 r->right[0] ? b->left_width + 1.0 : b->width + 1.0, x, base);
+        if (r->right[0])
+            draw_cut(c, r->right, (canvas_font){m.size, false}, soft,
+                     b->width - b->left_width - m.between + 1.0, x + b->left_width + m.between, base);
+        y += m.line;
+    }
+}
+
+/* ---- panels ---- */
+
+static facet_result open_canvas(const facet_allocator *allocator, uint32_t width, uint32_t height, canvas **c,
+                                facet_error *error)
+{
+    return canvas_create(
+        &(canvas_desc){.allocator = *allocator, .format = FACET_PLOT_PNG, .width = width, .height = height},
+        c, error);
+}
+
+static void draw_glass(canvas *c, double width, double height, double radius)
+{
+    const double quarter = 1.57079632679489662;
+    canvas_arc(c, width - radius, radius, radius, -quarter, 0.0);
+    canvas_arc(c, width - radius, height - radius, radius, 0.0, quarter);
+    canvas_arc(c, radius, height - radius, radius, quarter, 2.0 * quarter);
+    canvas_arc(c, radius, radius, radius, 2.0 * quarter, 3.0 * quarter);
+    canvas_close(c);
+    canvas_fill(c, glass);
+}
+
+/* cairo's words to bytes. */
+static facet_result read_panel(canvas *c, const facet_allocator *allocator, view_panel *out,
+                               facet_error *error)
+{
+    const uint32_t *words;
+    facet_result result = canvas_read(c, &words, error);
+    if (result != FACET_OK)
+        return result;
+    size_t count = (size_t)out->width * out->height;
+    out->pixels = mem_alloc(allocator, count, 4);
+    if (!out->pixels)
+        return fail_memory(error, "text", count * 4);
+    for (size_t i = 0; i < count; i++) {
+        out->pixels[4 * i + 0] = (unsigned char)(words[i] >> 16);
+        out->pixels[4 * i + 1] = (unsigned char)(words[i] >> 8);
+        out->pixels[4 * i + 2] = (unsigned char)words[i];
+        out->pixels[4 * i + 3] = (unsigned char)(words[i] >> 24);
+    }
+    return FACET_OK;
+}
+
+static facet_result draw_panel(const overlay_rows *rows, const overlay_block *blocks, int block_count,
+                               overlay_metrics m, const facet_allocator *allocator, view_panel *out,
+                               facet_error *error)
+{
+    double width = 2.0 * m.margin;
+    double height = 0.0;
+    for (int i = 0; i < block_count; i++) {
+        width += blocks[i].width + (i ? 2.0 * m.between : 0.0);
+        height = fmax(height, blocks[i].height);
+    }
+    *out = (view_panel){.width = (uint32_t)ceil(width), .height = (uint32_t)ceil(height + 1.4 * m.margin)};
+    canvas *c = NULL;
+    facet_result result = open_canvas(allocator, out->width, out->height, &c, error);
+    if (result == FACET_OK) {
+        draw_glass(c, out->width, out->height, 0.6 * m.size);
+        double x = m.margin;
+        for (int i = 0; i < block_count; i++) {
+            draw(c, rows, &blocks[i], m, x, 0.7 * m.margin);
+            x += blocks[i].width + 2.0 * m.between;
+        }
+        result = read_panel(c, allocator, out, error);
+    }
+    canvas_destroy(c);
+    if (result != FACET_OK)
+        *out = (view_panel){0};
+    return result;
+}
+
+/* ---- text ---- */
+
+static void clean(const char *text, size_t length, char out[160])
+{
+    char piece[LABEL_SIZE];
+    char whole[LABEL_SIZE];
+    snprintf(piece, sizeof piece, "%.*s", (int)length, text);
+    label_clean(piece, whole);
+    size_t used = strlen(whole);
+    if (used > 159) { /* not within a character */
+        used = 159;
+        while (used > 0 && (whole[used] & 0xc0) == 0x80)
+            used--;
+    }
+    memcpy(out, whole, used);
+    out[used] = 0;
+}
+
+facet_result view_overlay_text(const char *lines, float scale, uint32_t max_width,
+                               const facet_allocator *allocator, view_panel *out, facet_error *error)
+{
+    overlay_rows rows = {.count = 0};
+    *out = (view_panel){0};
+    for (const char *p = lines; *p && rows.count < MAX_ROWS;) {
+        size_t length = strcspn(p, "\n");
+        size_t left = strcspn(p, "\t\n");
+        overlay_row *r = &rows.rows[rows.count++];
+        clean(p, left, r->left);
+        if (left < length)
+            clean(p + left + 1, length - left - 1, r->right);
+        p += length + (p[length] == '\n');
+    }
+    canvas *ruler = NULL;
+    facet_result result = open_canvas(allocator, 1, 1, &ruler, error);
+    if (result != FACET_OK)
+        return result;
+    overlay_metrics m = metrics_of(13.0 * (double)scale);
+    overlay_block b = measure(ruler, &rows, 0, rows.count, m);
+    canvas_destroy(ruler);
+    b.width = fmax(fmin(b.width, max_width - 2.0 * m.margin), m.size);
+    b.left_width = fmin(b.left_width, b.width);
+    return draw_panel(&rows, &b, 1, m, allocator, out, error);
+}
+
+/* ---- help ---- */
+
+static void add_help_rows(overlay_rows *rows)
+{
+    for (uint32_t i = 0; i < view_binding_count; i++) {
+        const view_binding *b = &view_bindings[i];
+        char input[32];
+        view_key_write(b->key, b->modifiers, input, sizeof input);
+        if (!b->help) { /* the line before has it */
+            overlay_row *r = &rows->rows[rows->count - 1];
+            size_t used = strlen(r->left);
+            snprintf(r->left + used, sizeof r->left - used, ", %s", input);
+            continue;
+        }
+        if (b->group) {
+            overlay_row *r = &rows->rows[rows->count++];
+            *r = (overlay_row){.is_heading = true, .has_gap = true};
+            snprintf(r->left, sizeof r->left, "%s", b->group);
+        }
+        overlay_row *r = &rows->rows[rows->count++];
+        memset(r, 0, sizeof *r);
+        snprintf(r->left, sizeof r->left, "%s", input);
+        snprintf(r->right, sizeof r->right, "%s", b->help);
+    }
+    rows->rows[rows->count++] = (overlay_row){.left = "Pointer", .is_heading = true, .has_gap = true};
+    for (uint32_t i = 0; i < view_pointer_line_count; i++) {
+        overlay_row *r = &rows->rows[rows->count++];
+        memset(r, 0, sizeof *r);
+        snprintf(r->left, sizeof r->left, "%s", view_pointer_lines[i].input);
+        snprintf(r->right, sizeof r->right, "%s", view_pointer_lines[i].help);
+    }
+}
+
+/* Groups from top to bottom, then to the right: columns of about the same number of rows, none of which breaks a group. */
+static int split(canvas *c, const overlay_rows *rows, int columns, overlay_metrics m, overlay_block *blocks)
+{
+    int count = 0;
+    int first = 0;
+    for (int i = 1; i <= rows->count; i++) {
+        if (i < rows->count && !rows->rows[i].is_heading)
+            continue;
+        int next = i; /* where the group after this one ends */
+        while (next < rows->count && (next == i || !rows->rows[next].is_heading))
+            next++;
+        bool is_full = (next - first) * columns > rows->count + columns * 3;
+        if (i == rows->count || (is_full && count < columns - 1)) {
+            blocks[count++] = measure(c, rows, first, i - first, m);
+            first = i;
+        }
+    }
+    return count;
+}
+
+static bool fits(const overlay_block *blocks, int count, overlay_metrics m, double width, double height)
+{
+    double used = 2.0 * m.margin;
+    bool is_high = false;
+    for (int i = 0; i < count; i++) {
+        used += blocks[i].width + (i ? 2.0 * m.between : 0.0);
+        is_high = is_high || blocks[i].height + 1.4 * m.margin > height;
+    }
+    return used <= width && !is_high;
+}
+
+facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height,
+                               const facet_allocator *allocator, view_panel *out, facet_error *error)
+{
+    overlay_rows rows = {.count = 0};
+    *out = (view_panel){0};
+    add_help_rows(&rows);
+    canvas *ruler = NULL;
+    facet_result result = open_canvas(allocator, 1, 1, &ruler, error);
+    if (result != FACET_OK)
+        return result;
+    overlay_block blocks[MAX_COLUMNS + 1];
+    overlay_metrics m;
+    int count = 0;
+    double size = 13.0 * (double)scale;
+    bool is_found = false;
+    while (!is_found) {
+        m = metrics_of(size);
+        for (int columns = 1; columns <= MAX_COLUMNS && !is_found; columns++) {
+            count = split(ruler, &rows, columns, m, blocks);
+            is_found = fits(blocks, count, m, max_width, max_height);
+        }
+        if (size < 5.0) /* nobody reads it; but the keys are in the documentation, too */
+            is_found = true;
+        size *= 0.94;
+    }
+    canvas_destroy(ruler);
+    return draw_panel(&rows, blocks, count, m, allocator, out, error);
+}
+
+void view_panel_destroy(view_panel *panel)
+{
+    mem_free(panel->pixels);
+    *panel = (view_panel){0};
+}

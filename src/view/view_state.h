@@ -1,0 +1,60 @@
+/* view_state.h - all that decides what the window shows, and how keys and the pointer change it. No window, no OpenGL. */
+#ifndef VIEW_VIEW_STATE_H
+#define VIEW_VIEW_STATE_H
+
+#include "view/view_divider.h"
+#include "view/view_event.h"
+#include "view/view_keys.h"
+
+#include "facet/facet.h"
+
+enum { VIEW_MAX_ANIMATIONS = 256, VIEW_NO_CAMERA = -1, VIEW_NO_ANIMATION = -1 };
+
+typedef struct view_state {
+    /* the model; NULL: none yet */
+    const facet_scene *scene;
+    facet_scene_counts counts;
+    float low[3], high[3]; /* bounds */
+    facet_pose_desc pose;  /* its animations are those here */
+    uint32_t animations[VIEW_MAX_ANIMATIONS];
+    double begin_s, end_s, speed;
+    bool is_playing;
+
+    facet_orbit orbit; /* with radius and target, unless needs_framing */
+    facet_orbit home;  /* as the model was first shown; they may be left to the model's size */
+    facet_camera file_camera;
+    int camera;         /* of the file */
+    bool needs_framing; /* orbit's radius and target are to be found */
+
+    facet_render_desc render; /* integrator: GL or PATH; without what belongs to the model and the window */
+    uint32_t path_samples;
+    view_divider divider;
+    bool shows_help, shows_values;
+
+    /* the pointer */
+    bool is_held;
+    view_button button;
+    unsigned held_modifiers; /* when it was pressed */
+    double x, y;
+    uint32_t width, height; /* of the picture */
+    float scale;            /* of text and handles */
+
+    char message[256]; /* what was just changed; "": nothing */
+} view_state;
+
+void view_state_create(view_state *s, const facet_view_desc *desc);
+/* Begins to show a model; keeps_view: the same one, read again. */
+void view_state_set_model(view_state *s, const facet_view_model *model, const float low[3],
+                          const float high[3], bool keeps_view);
+
+/* Does what a key asks for and says so in message. False: it is not the state's to do (files, the window). */
+bool view_state_apply(view_state *s, view_action action, int amount);
+/* What the pointer does. True: something is to be drawn anew. */
+bool view_state_point(view_state *s, const view_event *event);
+/* Lets time pass. True: something moved. */
+bool view_state_advance(view_state *s, double seconds);
+
+/* The whole desc of a picture of that size, but for the environment. camera: where it is kept. */
+facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t height, facet_camera *camera);
+
+#endif

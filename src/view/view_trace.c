@@ -1,0 +1,259 @@
+/* view_trace.c - see view_trace.h. */
+#include "view/view_trace.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+
+enum { MAX_ANIMATIONS = 256 };
+
+/* A desc with what it points to. */
+typedef struct trace_job {
+    const facet_scene *scene;
+    facet_render_desc desc;
+    facet_camera camera;
+    uint32_t animations[MAX_ANIMATIONS];
+} trace_job;
+
+struct view_tracer {
+    const gl_host *host;
+    facet_allocator allocator;
+    void (*wake)(void *user);
+    void *user;
+    pthread_t thread;
+    facet_renderer *renderer; /* of rendered; the thread's */
+    const facet_scene *rendered;
+    trace_job job; /* what the thread works on; its own while it does */
+
+    pthread_mutex_t mutex; /* guards all below */
+    pthread_cond_t changed;
+    bool is_started, is_ending, is_working, is_cancelled, has_next;
+    trace_job next;
+    bool has_last;
+    trace_job last; /* what was asked for last */
+    bool has_picture;
+    view_picture picture;
+    view_trace_state state;
+};
+
+/* ---- jobs ---- */
+
+static void fill_job(trace_job *job, const facet_scene *scene, const facet_render_desc *desc)
+{
+    memset(job, 0, sizeof *job); /* the padding, too: jobs are compared byte by byte */
+    job->scene = scene;
+    job->desc = *desc;
+    job->camera = *desc->camera;
+    uint32_t count =
+        desc->pose.animation_count < MAX_ANIMATIONS ? desc->pose.animation_count : MAX_ANIMATIONS;
+    for (uint32_t i = 0; i < count; i++)
+        job->animations[i] = desc->pose.animations[i];
+    job->desc.pose.animation_count = count;
+    job->desc.camera = NULL; /* they belong to the job that is worked on */
+    job->desc.pose.animations = NULL;
+}
+
+/* ---- the thread ---- */
+
+static void give(view_tracer *t, const facet_image *image, uint32_t samples)
+{
+    facet_image_view view = t->host->image_get_layer(image, 0);
+    view_picture picture;
+    if (view_picture_create(&view, &t->allocator, &picture, NULL) != FACET_OK)
+        return;
+    pthread_mutex_lock(&t->mutex);
+    bool is_wanted = !t->is_cancelled;
+    if (is_wanted) {
+        view_picture_destroy(&t->picture);
+        t->picture = picture;
+        t->has_picture = true;
+        t->state.samples = samples;
+    }
+    pthread_mutex_unlock(&t->mutex);
+    if (is_wanted)
+        t->wake(t->user);
+    else
+        view_picture_destroy(&picture);
+}
+
+static void on_pass(void *user, const facet_image *image, uint32_t samples)
+{
+    give(user, image, samples);
+}
+
+static bool on_progress(void *user, const char *stage, double fraction)
+{
+    view_tracer *t = user;
+    (void)stage;
+    (void)fraction;
+    pthread_mutex_lock(&t->mutex);
+    bool goes_on = !t->is_cancelled;
+    pthread_mutex_unlock(&t->mutex);
+    return goes_on;
+}
+
+static facet_result trace(view_tracer *t, facet_error *error)
+{
+    trace_job *job = &t->job;
+    if (t->rendered != job->scene) {
+        t->host->renderer_destroy(t->renderer);
+        t->renderer = NULL;
+        t->rendered = NULL;
+    }
+    facet_result result = FACET_OK;
+    if (!t->renderer)
+        result = t->host->renderer_create(job->scene, &t->allocator, &t->renderer, error);
+    if (result != FACET_OK)
+        return result;
+    t->rendered = job->scene;
+    facet_render_desc desc = job->desc;
+    desc.allocator = t->allocator;
+    desc.camera = &job->camera;
+    desc.pose.animations = job->animations;
+    desc.progress = (facet_progress){.user = t, .report = on_progress};
+    desc.path.pass = on_pass;
+    desc.path.pass_user = t;
+    facet_image *image = NULL;
+    result = t->host->renderer_render(t->renderer, &desc, &image, error);
+    if (result == FACET_OK)
+        give(t, image, desc.samples);
+    t->host->image_destroy(image);
+    return result;
+}
+
+static void *run(void *user)
+{
+    view_tracer *t = user;
+    pthread_mutex_lock(&t->mutex);
+    for (;;) {
+        while (!t->is_ending && !t->has_next)
+            pthread_cond_wait(&t->changed, &t->mutex);
+        if (t->is_ending)
+            break;
+        t->job = t->next;
+        t->has_next = false;
+        t->is_working = true;
+        t->is_cancelled = false;
+        t->state = (view_trace_state){.wanted = t->job.desc.samples};
+        pthread_mutex_unlock(&t->mutex);
+        facet_error error = {0};
+        facet_result result = trace(t, &error);
+        pthread_mutex_lock(&t->mutex);
+        t->is_working = false;
+        t->state.is_done = !t->has_next;
+        if (result != FACET_OK && result != FACET_ERROR_CANCELLED) {
+            t->state.error = error;
+            t->state.error.result = result;
+        }
+        pthread_cond_broadcast(&t->changed);
+        pthread_mutex_unlock(&t->mutex);
+        t->wake(t->user);
+        pthread_mutex_lock(&t->mutex);
+    }
+    pthread_mutex_unlock(&t->mutex);
+    return NULL;
+}
+
+/* ---- for the window ---- */
+
+facet_result view_trace_create(const gl_host *host, const facet_allocator *allocator,
+                               void (*wake)(void *user), void *user, view_tracer **out, facet_error *error)
+{
+    view_tracer *t = mem_zalloc(allocator, 1, sizeof *t);
+    *out = NULL;
+    if (!t)
+        return fail_memory(error, "path tracing", sizeof *t);
+    t->host = host;
+    t->allocator = *allocator;
+    t->wake = wake;
+    t->user = user;
+    pthread_mutex_init(&t->mutex, NULL);
+    pthread_cond_init(&t->changed, NULL);
+    t->is_started = pthread_create(&t->thread, NULL, run, t) == 0;
+    if (!t->is_started) {
+        view_trace_destroy(t);
+        return fail(error, FACET_ERROR_MEMORY, "window: the system refuses a thread that traces paths");
+    }
+    *out = t;
+    return FACET_OK;
+}
+
+void view_trace_destroy(view_tracer *t)
+{
+    if (!t)
+        return;
+    if (t->is_started) {
+        pthread_mutex_lock(&t->mutex);
+        t->is_ending = true;
+        t->is_cancelled = true;
+        pthread_cond_broadcast(&t->changed);
+        pthread_mutex_unlock(&t->mutex);
+        pthread_join(t->thread, NULL);
+    }
+    t->host->renderer_destroy(t->renderer);
+    view_picture_destroy(&t->picture);
+    pthread_cond_destroy(&t->changed);
+    pthread_mutex_destroy(&t->mutex);
+    mem_free(t);
+}
+
+bool view_trace_start(view_tracer *t, const facet_scene *scene, const facet_render_desc *desc)
+{
+    trace_job job;
+    fill_job(&job, scene, desc);
+    pthread_mutex_lock(&t->mutex);
+    bool is_new = !t->has_last || memcmp(&t->last, &job, sizeof job) != 0;
+    if (is_new) {
+        memcpy(&t->last, &job, sizeof job);
+        t->has_last = true;
+        memcpy(&t->next, &job, sizeof job);
+        t->has_next = true;
+        t->is_cancelled = true; /* what is traced now */
+        t->state = (view_trace_state){.wanted = desc->samples};
+        t->has_picture = false;
+        pthread_cond_broadcast(&t->changed);
+    }
+    pthread_mutex_unlock(&t->mutex);
+    return is_new;
+}
+
+void view_trace_stop(view_tracer *t)
+{
+    pthread_mutex_lock(&t->mutex);
+    t->has_next = false;
+    t->has_last = false;
+    t->has_picture = false;
+    t->is_cancelled = true;
+    while (t->is_working)
+        pthread_cond_wait(&t->changed, &t->mutex);
+    t->host->renderer_destroy(t->renderer);
+    t->renderer = NULL;
+    t->rendered = NULL;
+    t->state = (view_trace_state){0};
+    pthread_mutex_unlock(&t->mutex);
+}
+
+bool view_trace_take(view_tracer *t, view_picture *out, uint32_t *samples)
+{
+    pthread_mutex_lock(&t->mutex);
+    bool has_picture = t->has_picture;
+    if (has_picture) {
+        *out = t->picture;
+        *samples = t->state.samples;
+        t->picture = (view_picture){0};
+        t->has_picture = false;
+    }
+    pthread_mutex_unlock(&t->mutex);
+    return has_picture;
+}
+
+view_trace_state view_trace_get(view_tracer *t)
+{
+    pthread_mutex_lock(&t->mutex);
+    view_trace_state state = t->state;
+    pthread_mutex_unlock(&t->mutex);
+    return state;
+}
