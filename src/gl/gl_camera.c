@@ -30,7 +30,8 @@ static void depth_terms(const gl_context *context, const camera_rays *c, double 
                         double *b)
 {
     bool is_reversed = context->has_clip_control;
-    double size = fmax(high - low, 1e-6);
+    /* A flat scene seen from the front has no depth, but depths of its points are rounded. */
+    double size = fmax(high - low, fmax(1e-3 * fmax(fabs(low), fabs(high)), 1e-6));
     double far = fmin((double)c->far_m, fmax(high, 0.0) + size);
     double near = fmax((double)c->near_m, low - 0.01 * size);
     if (!c->is_orthographic) {

@@ -220,7 +220,10 @@ static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
 static facet_result prepare(drawing *d, facet_error *error)
 {
     const facet_render_desc *r = d->desc->render;
-    d->sampling = gl_sampling_plan(r->samples, r->quality, (uint32_t)d->desc->frame->context->max_samples);
+    const gl_frame *frame = d->desc->frame;
+    d->sampling =
+        gl_sampling_plan(r->samples, r->quality,
+                         gl_transparency_max_samples(frame->context, r->gl.transparency, frame->meshes));
     d->looks_around = d->desc->scene->plans.lets_rays_through || r->gl.bloom > 0.0f;
     plan_tiles(d);
     size_t scale = d->sampling.scale;

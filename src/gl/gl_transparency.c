@@ -33,10 +33,19 @@ void gl_transparency_destroy(gl_transparency *t)
 }
 
 /* Peeling takes a texture unit beside those of materials. */
-static facet_transparency mode_of(const gl_transparency *t, const gl_transparency_view *view)
+static facet_transparency possible_mode(const gl_context *context, facet_transparency mode)
 {
-    bool can_peel = t->context->max_texture_units > GL_UNIT_PEELED;
-    return view->mode == FACET_TRANSPARENCY_PEELED && !can_peel ? FACET_TRANSPARENCY_SORTED : view->mode;
+    bool can_peel = context->max_texture_units > GL_UNIT_PEELED;
+    return mode == FACET_TRANSPARENCY_PEELED && !can_peel ? FACET_TRANSPARENCY_SORTED : mode;
+}
+
+uint32_t gl_transparency_max_samples(const gl_context *context, facet_transparency mode,
+                                     const gl_mesh_set *meshes)
+{
+    uint32_t count;
+    gl_mesh_batches(meshes, GL_PASS_BLENDED, &count);
+    bool is_peeled = count && possible_mode(context, mode) == FACET_TRANSPARENCY_PEELED;
+    return is_peeled ? 1 : (uint32_t)context->max_samples;
 }
 
 static uint64_t mode_features(const gl_transparency *t, facet_transparency mode)
@@ -110,7 +119,8 @@ facet_result gl_transparency_request(const gl_transparency *t, const gl_transpar
     for (uint32_t i = 0; i < count && result == FACET_OK; i++) {
         gl_program_key key = {GL_MAIN_SURFACE, gl_material_features(view->materials, &batches[i]) |
                                                    gl_mesh_features(view->meshes, &batches[i]) |
-                                                   view->features | mode_features(t, mode_of(t, view))};
+                                                   view->features |
+                                                   mode_features(t, possible_mode(t->context, view->mode))};
         result = gl_programs_request(view->programs, key, error);
     }
     return result;
@@ -123,7 +133,7 @@ facet_result gl_transparency_draw(gl_transparency *t, const gl_transparency_view
     if (count == 0)
         return FACET_OK;
     facet_result result;
-    switch (mode_of(t, view)) {
+    switch (possible_mode(t->context, view->mode)) {
     case FACET_TRANSPARENCY_PEELED:
         result = gl_peeled_draw(t, view, error);
         break;

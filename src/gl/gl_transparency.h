@@ -34,6 +34,9 @@ facet_result gl_transparency_create(gl_context *context, const facet_allocator *
                                     gl_transparency **out, facet_error *error);
 void gl_transparency_destroy(gl_transparency *t); /* NULL is allowed */
 
+/* The most samples that a view should have of those that OpenGL has: 1 where pixels are peeled. */
+uint32_t gl_transparency_max_samples(const gl_context *context, facet_transparency mode,
+                                     const gl_mesh_set *meshes);
 /* Starts to compile the programs. */
 facet_result gl_transparency_request(const gl_transparency *t, const gl_transparency_view *view,
                                      facet_error *error);
