@@ -35,6 +35,7 @@ void gl_frame_destroy(gl_frame *f)
     if (!f->context)
         return;
     gl_timers_destroy(&f->timers);
+    gl_bloom_destroy(&f->bloom);
     gl_opaque_destroy(&f->opaque);
     gl_transparency_destroy(f->transparency);
     gl_light_destroy(f->light);
@@ -251,6 +252,19 @@ static facet_result draw_transmissive(gl_frame *f, const gl_target *target, cons
     return result;
 }
 
+static facet_result draw_bloom(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                               facet_error *error)
+{
+    if (!(desc->gl.bloom > 0.0f) || !gl_channel_is_light(desc->gl.channel))
+        return FACET_OK;
+    gl_timers_begin(&f->timers, GL_TIMER_BLOOM);
+    const gl_pyramid_brush brush = {f->programs, f->empty_array};
+    facet_result result =
+        gl_bloom_draw(&f->bloom, f->context, &brush, target, fminf(desc->gl.bloom, 1.0f), error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
 facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
                            gl_frame_block *block, facet_error *error)
 {
@@ -266,6 +280,8 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
     gl_timers_begin(&f->timers, GL_TIMER_RESOLVE);
     gl_target_resolve(target);
     gl_timers_end(&f->timers);
+    if (result == FACET_OK)
+        result = draw_bloom(f, target, desc, error);
     return result;
 }
 

@@ -2,6 +2,7 @@
 #ifndef GL_GL_FRAME_H
 #define GL_GL_FRAME_H
 
+#include "gl/gl_bloom.h"
 #include "gl/gl_light.h"
 #include "gl/gl_material.h"
 #include "gl/gl_opaque.h"
@@ -18,6 +19,7 @@ typedef struct gl_frame {
     gl_material_set *materials;
     gl_light *light;
     gl_opaque opaque;
+    gl_bloom bloom;
     gl_transparency *transparency;
     const gl_scene *scene; /* of the last update */
     gl_timers timers;

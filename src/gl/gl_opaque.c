@@ -12,7 +12,7 @@ facet_result gl_opaque_take(gl_opaque *o, gl_context *context, const gl_pyramid_
     facet_result result = gl_pyramid_update(&o->pyramid, context, target->width, target->height, 0, error);
     if (result == FACET_OK) {
         gl_target_resolve(target);
-        result = gl_pyramid_fill(&o->pyramid, brush, target->color, false, error);
+        result = gl_pyramid_fill(&o->pyramid, brush, target->color, error);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     glViewport(0, 0, (GLsizei)target->width, (GLsizei)target->height);

@@ -72,7 +72,8 @@ static const char *const surface_features[] = {"HAS_TANGENTS",
                                                "IS_WEIGHTED",
                                                "IS_PEELED",
                                                NULL};
-static const char *const halve_features[] = {"IS_COPY", "IS_FIRST", NULL};
+static const char *const halve_features[] = {"IS_COPY", NULL};
+static const char *const no_features[] = {NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
@@ -100,6 +101,7 @@ static const struct {
     [GL_MAIN_PRESENT] =
         {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, present_features},
     [GL_MAIN_HALVE] = {"halve", "screen.vert", "halve.frag", {"constants"}, {0}, halve_features},
+    [GL_MAIN_SPREAD] = {"spread", "screen.vert", "spread.frag", {"constants"}, {0}, no_features},
 };
 
 /* Samplers and their units. */
@@ -110,7 +112,7 @@ static const struct {
                 {"u_tables", GL_UNIT_TABLES},           {"u_glass", GL_UNIT_GLASS},
                 {"u_lights", GL_UNIT_LIGHTS},           {"u_shadows", GL_UNIT_SHADOWS},
                 {"u_opaque", GL_UNIT_OPAQUE},           {"u_level", GL_UNIT_OPAQUE},
-                           {"u_picture", 0},
+                {"u_picture", 0},
                 {"u_sum", GL_UNIT_MATERIAL},            {"u_weights", GL_UNIT_MATERIAL + 1},
                 {"u_peeled", GL_UNIT_PEELED},
                 {"u_material0", GL_UNIT_MATERIAL},      {"u_material1", GL_UNIT_MATERIAL + 1},

@@ -13,6 +13,7 @@ typedef enum gl_main {
     GL_MAIN_COMPOSE,    /* blended surfaces that were drawn beside the picture */
     GL_MAIN_PRESENT,    /* radiance to a display's numbers */
     GL_MAIN_HALVE,      /* a picture at half its size */
+    GL_MAIN_SPREAD,     /* and at twice its size */
     GL_MAIN_COUNT
 } gl_main;
 
@@ -24,8 +25,7 @@ enum {
     GL_SURFACE_HAS_SHADOWS = 1u << 3,
     GL_BACKGROUND_HAS_ENVIRONMENT = 1u << 0,
     GL_BACKGROUND_IS_BLURRED = 1u << 1,
-    GL_HALVE_IS_COPY = 1u << 0, /* not halved */
-    GL_HALVE_IS_FIRST = 1u << 1 /* of what may be brighter than half floats */
+    GL_HALVE_IS_COPY = 1u << 0 /* not halved */
 };
 
 /* Numbers of the first features of GL_MAIN_SURFACE that come of the material, as many of each as stand behind them, and of

@@ -90,33 +90,32 @@ void gl_pyramid_end_levels(const gl_pyramid *p)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, (GLint)p->level_count - 1);
 }
 
-facet_result gl_pyramid_draw(const gl_pyramid_brush *brush, gl_program_key key, uint32_t width,
-                             uint32_t height, facet_error *error)
+facet_result gl_pyramid_draw(const gl_pyramid *p, const gl_pyramid_brush *brush, gl_program_key key,
+                             uint32_t level, facet_error *error)
 {
     uint32_t program;
     facet_result result = gl_programs_get(brush->programs, key, &program, error);
     if (result != FACET_OK)
         return result;
     glUseProgram(program);
-    glUniform2f(glGetUniformLocation(program, "u_pixel"), 1.0f / (float)width, 1.0f / (float)height);
+    glUniform2f(glGetUniformLocation(program, "u_pixel"), 1.0f / (float)halved(p->width, level),
+                1.0f / (float)halved(p->height, level));
     glBindVertexArray(brush->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     return FACET_OK;
 }
 
 facet_result gl_pyramid_fill(const gl_pyramid *p, const gl_pyramid_brush *brush, uint32_t picture,
-                             bool is_half, facet_error *error)
+                             facet_error *error)
 {
-    gl_program_key halve = {GL_MAIN_HALVE, 0}, first = {GL_MAIN_HALVE, GL_HALVE_IS_FIRST};
-    if (!is_half)
-        first.features = GL_HALVE_IS_COPY;
+    const gl_program_key copy = {GL_MAIN_HALVE, GL_HALVE_IS_COPY}, halve = {GL_MAIN_HALVE, 0};
     gl_pyramid_begin_level(p, 0, -1);
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
     glBindTexture(GL_TEXTURE_2D, picture);
-    facet_result result = gl_pyramid_draw(brush, first, p->width, p->height, error);
+    facet_result result = gl_pyramid_draw(p, brush, copy, 0, error);
     for (uint32_t level = 1; level < p->level_count && result == FACET_OK; level++) {
         gl_pyramid_begin_level(p, level, (int)level - 1);
-        result = gl_pyramid_draw(brush, halve, halved(p->width, level), halved(p->height, level), error);
+        result = gl_pyramid_draw(p, brush, halve, level, error);
     }
     gl_pyramid_end_levels(p);
     return result;

@@ -23,19 +23,18 @@ facet_result gl_pyramid_update(gl_pyramid *pyramid, gl_context *context, uint32_
                                uint32_t level_count, facet_error *error);
 void gl_pyramid_destroy(gl_pyramid *pyramid); /* {0} is allowed; leaves {0} */
 
-/* Fills its levels from a texture of its size, or (is_half) of twice its size: a pixel of level 0 is one of the picture,
- * as far as half floats reach, or a filtered mean as those of the other levels. Leaves its framebuffer bound, without
- * tests and blending. FACET_ERROR_ENVIRONMENT. */
+/* Fills its levels from a texture of its size; level 0 is the picture as far as half floats reach. Leaves its framebuffer
+ * bound, without tests and blending. FACET_ERROR_ENVIRONMENT. */
 facet_result gl_pyramid_fill(const gl_pyramid *pyramid, const gl_pyramid_brush *brush, uint32_t picture,
-                             bool is_half, facet_error *error);
+                             facet_error *error);
 
 /* Begins to draw into a level, reading another one: level from -1 reads nothing of the pyramid. */
 void gl_pyramid_begin_level(const gl_pyramid *pyramid, uint32_t level, int from);
 /* Every level can be read again. */
 void gl_pyramid_end_levels(const gl_pyramid *pyramid);
 
-/* Covers what is drawn into with a main whose u_pixel is the size of one of its pixels. */
-facet_result gl_pyramid_draw(const gl_pyramid_brush *brush, gl_program_key key, uint32_t width,
-                             uint32_t height, facet_error *error);
+/* Covers a framebuffer of that level's size with a main whose u_pixel is the size of one of its pixels. */
+facet_result gl_pyramid_draw(const gl_pyramid *pyramid, const gl_pyramid_brush *brush, gl_program_key key,
+                             uint32_t level, facet_error *error);
 
 #endif

@@ -7,13 +7,13 @@ uniform vec2 u_pixel; /* 1 / size of what is drawn */
 
 out vec4 fragment;
 
+#ifdef IS_COPY
 vec4 as_half(vec4 c)
 {
     return vec4(isnan(c.x) ? 0.0 : clamp(c.x, 0.0, 65000.0), isnan(c.y) ? 0.0 : clamp(c.y, 0.0, 65000.0),
                 isnan(c.z) ? 0.0 : clamp(c.z, 0.0, 65000.0), isnan(c.w) ? 0.0 : clamp(c.w, 0.0, 1.0));
 }
 
-#ifdef IS_COPY
 void main()
 {
     fragment = as_half(texelFetch(u_level, ivec2(gl_FragCoord.xy), 0));
@@ -21,11 +21,7 @@ void main()
 #else
 vec4 picture(vec2 texel, float x, float y)
 {
-    vec4 c = textureLod(u_level, gl_FragCoord.xy * u_pixel + texel * vec2(x, y), 0.0);
-#ifdef IS_FIRST
-    c = as_half(c);
-#endif
-    return c;
+    return textureLod(u_level, gl_FragCoord.xy * u_pixel + texel * vec2(x, y), 0.0);
 }
 
 void main()
