@@ -3,15 +3,6 @@
  * nothing was prepared of it because no material reads it. */
 uniform highp sampler2D u_tables; /* x, y: DFG; z: sheen's albedo */
 uniform highp sampler3D u_glass;
-#ifdef HAS_ENVIRONMENT
-uniform highp sampler2D u_environment; /* cube maps and pictures, each with a border of one texel */
-uniform highp sampler2D u_sharp;       /* the picture behind the model */
-
-/* World to environment. */
-vec3 to_environment(vec3 d)
-{
-    return vec3(d.x * frame_light.y - d.z * frame_light.z, d.y, d.x * frame_light.z + d.z * frame_light.y);
-}
 
 /* ---- cube maps (cube.h) ---- */
 
@@ -24,6 +15,16 @@ vec4 cube_locate(vec3 d)
     if (a.y >= a.z)
         return vec4(1.0, d.y < 0.0 ? 1.0 : 0.0, vec2(d.x, d.y < 0.0 ? -d.z : d.z) / a.y);
     return vec4(2.0, d.z < 0.0 ? 1.0 : 0.0, vec2(d.z < 0.0 ? -d.x : d.x, -d.y) / a.z);
+}
+
+#ifdef HAS_ENVIRONMENT
+uniform highp sampler2D u_environment; /* cube maps and pictures, each with a border of one texel */
+uniform highp sampler2D u_sharp;       /* the picture behind the model */
+
+/* World to environment. */
+vec3 to_environment(vec3 d)
+{
+    return vec3(d.x * frame_light.y - d.z * frame_light.z, d.y, d.x * frame_light.z + d.z * frame_light.y);
 }
 
 /* place: column and row of the first texel, edge of a face in texels, scale. */

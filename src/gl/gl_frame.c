@@ -107,7 +107,8 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
     f->scene = scene;
     facet_result result = light_setup_create(&scene->geometries, &scene->pose, camera, desc, &light, error);
     if (result == FACET_OK)
-        result = gl_light_update(f->light, &light, error);
+        result =
+            gl_light_update(f->light, &light, desc, scene->pose.bounds_min, scene->pose.bounds_max, error);
     if (result == FACET_OK && gl_channel_is_light(desc->gl.channel))
         light_setup_tell_dark(&light, &scene->geometries, desc);
     light_setup_destroy(&light);
@@ -123,6 +124,11 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
     stats->decoded_texels += result == FACET_OK ? gl_material_decoded_texels(f->materials) : 0;
     if (result == FACET_OK)
         result = request_programs(f, desc, error);
+    gl_timers_begin(&f->timers, GL_TIMER_SHADOWS);
+    if (result == FACET_OK)
+        result = gl_light_draw_shadows(f->light, f->programs, f->meshes, f->materials, camera->origin,
+                                       scene->revision, error);
+    gl_timers_end(&f->timers);
     return result == FACET_OK ? gl_context_check(f->context, "the scene", error) : result;
 }
 

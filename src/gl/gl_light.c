@@ -9,6 +9,7 @@
 #include "gl/gl_light_tables.h"
 #include "gl/gl_program.h"
 #include "gl/gl_punctual.h"
+#include "gl/gl_shadow.h"
 #include "ibl/dfg.h"
 #include "ibl/environment.h"
 
@@ -18,6 +19,7 @@ struct gl_light {
     gl_light_tables tables;
     gl_light_atlas atlas;
     gl_punctual punctual;
+    gl_shadow *shadow;
     facet_environment
         *environment; /* whose parts are in the atlas: as long as it lives they stay what they are */
     bool has_environment;
@@ -37,6 +39,8 @@ facet_result gl_light_create(gl_context *context, const facet_allocator *allocat
     light->allocator = allocator ? *allocator : (facet_allocator){0};
     glGenBuffers(1, &light->block);
     facet_result result = gl_light_tables_create(&light->tables, context, &light->allocator, error);
+    if (result == FACET_OK)
+        result = gl_shadow_create(context, &light->allocator, &light->shadow, error);
     if (result != FACET_OK) {
         gl_light_destroy(light);
         return result;
@@ -60,6 +64,7 @@ void gl_light_destroy(gl_light *light)
     drop_environment(light);
     gl_light_tables_destroy(&light->tables);
     gl_punctual_destroy(&light->punctual);
+    gl_shadow_destroy(light->shadow);
     glDeleteBuffers(1, &light->block);
     mem_free(light);
 }
@@ -82,7 +87,8 @@ static facet_result update_environment(gl_light *light, const ibl_light *ibl, gl
     return result;
 }
 
-facet_result gl_light_update(gl_light *light, const light_setup *setup, facet_error *error)
+facet_result gl_light_update(gl_light *light, const light_setup *setup, const facet_render_desc *desc,
+                             const float bounds_min[3], const float bounds_max[3], facet_error *error)
 {
     gl_light_block block = {.atlas = {0.0f, 0.0f, 0.0f, GLASS_ROOT_MAX}};
     light->scale = setup->scale;
@@ -91,19 +97,31 @@ facet_result gl_light_update(gl_light *light, const light_setup *setup, facet_er
     light->light_count = setup->punctual_count;
     facet_result result = update_environment(light, setup->ibl, &block, error);
     if (result == FACET_OK)
-        result =
-            gl_punctual_update(&light->punctual, light->context, &light->allocator, setup, &block, error);
+        result = gl_shadow_plan(light->shadow, desc, setup, bounds_min, bounds_max, error);
+    if (result == FACET_OK)
+        result = gl_punctual_update(&light->punctual, light->context, &light->allocator, setup, light->shadow,
+                                    &block, error);
     if (result != FACET_OK)
         return result;
+    gl_shadow_describe(light->shadow, &block);
     glBindBuffer(GL_UNIFORM_BUFFER, light->block);
     glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_DYNAMIC_DRAW);
     return gl_context_check(light->context, "light", error);
 }
 
+facet_result gl_light_draw_shadows(gl_light *light, gl_programs *programs, const gl_mesh_set *meshes,
+                                   const gl_material_set *materials, const float eye[3], uint64_t revision,
+                                   facet_error *error)
+{
+    return gl_shadow_draw(light->shadow, programs, meshes, materials, eye, revision, error);
+}
+
 uint64_t gl_light_features(const gl_light *light)
 {
+    uint32_t shadow_count;
+    gl_shadow_records(light->shadow, &shadow_count);
     return (light->has_environment ? GL_SURFACE_HAS_ENVIRONMENT : 0u) |
-           (light->light_count ? GL_SURFACE_HAS_LIGHTS : 0u);
+           (light->light_count ? GL_SURFACE_HAS_LIGHTS : 0u) | (shadow_count ? GL_SURFACE_HAS_SHADOWS : 0u);
 }
 
 uint64_t gl_light_background_features(const gl_light *light, const facet_render_desc *desc)
@@ -125,6 +143,7 @@ void gl_light_bind(const gl_light *light, gl_frame_block *block)
     bind(GL_UNIT_TABLES, GL_TEXTURE_2D, light->tables.albedo);
     bind(GL_UNIT_GLASS, GL_TEXTURE_3D, light->tables.glass);
     bind(GL_UNIT_LIGHTS, GL_TEXTURE_2D, light->punctual.texture);
+    bind(GL_UNIT_SHADOWS, GL_TEXTURE_2D, gl_shadow_texture(light->shadow));
     glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, light->block);
     block->light[0] = light->scale;
     block->light[1] = light->rotation_cos;

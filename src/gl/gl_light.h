@@ -9,15 +9,21 @@
 #include "draw/light_setup.h"
 #include "gl/gl_blocks.h"
 #include "gl/gl_context.h"
+#include "gl/gl_material.h"
 
 typedef struct gl_light gl_light;
 
 facet_result gl_light_create(gl_context *context, const facet_allocator *allocator, gl_light **out,
                              facet_error *error);
 void gl_light_destroy(gl_light *light); /* NULL is allowed */
-/* Uploads what is not there; keeps the environment until another one is shown, or none. Fails with FACET_ERROR_MEMORY,
- * FACET_ERROR_LIMIT. */
-facet_result gl_light_update(gl_light *light, const light_setup *setup, facet_error *error);
+/* Uploads what is not there; keeps the environment until another one is shown, or none. desc: whether there are shadows, and
+ * the log; bounds: of the scene. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
+facet_result gl_light_update(gl_light *light, const light_setup *setup, const facet_render_desc *desc,
+                             const float bounds_min[3], const float bounds_max[3], facet_error *error);
+/* Draws shadow maps that are not as they were: what gl_shadow_draw() says. */
+facet_result gl_light_draw_shadows(gl_light *light, gl_programs *programs, const gl_mesh_set *meshes,
+                                   const gl_material_set *materials, const float eye[3], uint64_t revision,
+                                   facet_error *error);
 /* What a picture's programs have because of its light: GL_SURFACE_HAS_ENVIRONMENT and so on. */
 uint64_t gl_light_features(const gl_light *light);
 uint64_t gl_light_background_features(const gl_light *light, const facet_render_desc *desc);

@@ -28,6 +28,7 @@ typedef struct gl_light_block {
     float grid_origin[4];                            /* m, world */
     float grid_cells[4];                             /* per m */
     int32_t grid_size[4];                            /* per axis; 0: all lights are looked at everywhere */
+    float shadow[4];  /* edge of a tile, texels; tiles in a row; 1 over the edge of the map */
     int32_t lists[4]; /* first texel of lists, of cells; number of lights that reach everywhere */
 } gl_light_block;
 

@@ -174,6 +174,12 @@ static void run(bench *b, gl_program_key key, const char *last, const char *expr
 
 /* ---- what is compared ---- */
 
+static facet_result update(gl_light *light, const light_setup *setup)
+{
+    return gl_light_update(light, setup, &(facet_render_desc){0}, (float[3]){0.0f},
+                           (float[3]){1.0f, 1.0f, 1.0f}, NULL);
+}
+
 static uint32_t random_state = 1;
 static float uniform_number(float low, float high)
 {
@@ -297,7 +303,7 @@ static light_setup prepare_setup(facet_environment *e, ibl_light_desc desc)
 
 static void compare_all(bench *b, const light_setup *setup, float brightest)
 {
-    assert_int_equal(gl_light_update(b->light, setup, NULL), FACET_OK);
+    assert_int_equal(update(b->light, setup), FACET_OK);
     fill_directions(b);
     compare(b, setup, look_up_specular, "light_specular(q.xyz, q.w), 1.0", brightest);
     compare(b, setup, look_up_sheen, "light_sheen(q.xyz, q.w), 1.0", brightest);
@@ -375,7 +381,7 @@ static void tables_are_those_of_the_cpu(void **state)
     for (int i = 0; i < bench_count; i++) {
         bench *b = &on[i];
         assert_int_equal(gl_context_make_current(&b->context, NULL), FACET_OK);
-        assert_int_equal(gl_light_update(b->light, &none, NULL), FACET_OK);
+        assert_int_equal(update(b->light, &none), FACET_OK);
         for (int k = 0; k < COUNT; k++) {
             float *q = b->in[k];
             for (int c = 0; c < 2; c++)
@@ -416,8 +422,8 @@ static void make_lights(light_setup *setup, uint32_t count, bool have_range)
     assert_non_null(setup->punctual);
     setup->punctual_count = count;
     for (uint32_t i = 0; i < count; i++) {
-        vec3 at = vec3(uniform_number(20.0f, 40.0f), uniform_number(-10.0f, 10.0f),
-                       uniform_number(-10.0f, 10.0f));
+        vec3 at =
+            vec3(uniform_number(20.0f, 40.0f), uniform_number(-10.0f, 10.0f), uniform_number(-10.0f, 10.0f));
         vec3 color = vec3(uniform_number(0.0f, 2.0f), uniform_number(0.0f, 2.0f), 1.0f);
         float range = have_range && i % 100 ? uniform_number(0.5f, 3.0f) : 0.0f;
         vec3 down = normalize(vec3(0.1f, -1.0f, uniform_number(-0.5f, 0.5f)));
@@ -438,7 +444,7 @@ static double compare_lights(bench *b, const light_setup *setup)
 {
     const float eye[3] = {31.0f, -3.0f, 7.0f};
     double looked_at = 0.0;
-    assert_int_equal(gl_light_update(b->light, setup, NULL), FACET_OK);
+    assert_int_equal(update(b->light, setup), FACET_OK);
     for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < 3; k++)
             b->in[i][k] = uniform_number(-14.0f, 14.0f); /* some outside of the box */

@@ -53,6 +53,8 @@ void gl_mesh_order(gl_mesh_set *meshes, const gl_frame_block *frame, const struc
 
 /* Those that are outside of the picture, too: shadows fall into it. */
 const gl_batch *gl_mesh_batches(const gl_mesh_set *meshes, gl_pass pass, uint32_t *count);
+/* Whether all of a batch is beyond one side of what a frame sees. */
+bool gl_mesh_is_outside(const gl_batch *batch, const gl_frame_block *frame);
 /* What the program of a batch needs apart from its material. */
 uint64_t gl_mesh_features(const gl_mesh_set *meshes, const gl_batch *batch);
 /* Binds the batch's vertices and draws them. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 /* Whether the box is beyond one side of the picture. Sprites reach a pixel farther. */
-static bool is_outside(const gl_batch *b, const gl_frame_block *frame)
+bool gl_mesh_is_outside(const gl_batch *b, const gl_frame_block *frame)
 {
     const float *m = frame->view_projection;
     const float margin = 1.0f + 0.01f; /* of half the picture: a pixel of 200 */
@@ -54,7 +54,7 @@ void gl_mesh_order(gl_mesh_set *set, const gl_frame_block *frame, const gl_mater
         gl_batch *b = &set->batches[i];
         b->features = gl_material_features(materials, b) | gl_mesh_features(set, b);
         b->depth = depth_of(b, frame);
-        b->is_outside = is_outside(b, frame);
+        b->is_outside = gl_mesh_is_outside(b, frame);
     }
     for (int pass = 0; pass < GL_PASS_BLENDED; pass++) {
         uint32_t count = set->first[pass + 1] - set->first[pass];

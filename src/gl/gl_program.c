@@ -80,17 +80,24 @@ static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
 static const struct {
     const char *name, *vertex, *fragment;
-    const char *parts[8];     /* of the shared text; those that they use come with them */
-    const char *fragments[8]; /* files of this folder before the fragment shader's own */
+    const char *parts[8];      /* of the shared text; those that they use come with them */
+    const char *fragments[12]; /* files of this folder before the fragment shader's own */
     const char *const *features;
 } mains[GL_MAIN_COUNT] = {
     [GL_MAIN_SURFACE] = {"surface",
                          "surface.vert",
                          "surface.frag",
                          {"surface", "light", "layers_direct", "layers_ibl", "material"},
-                         {"light_block.glsl", "environment.glsl", "lights.glsl", "surface_in.glsl",
-                          "material.glsl", "transmission.glsl", "radiance.glsl", "transparency.glsl"},
+                         {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl",
+                          "surface_in.glsl", "material.glsl", "transmission.glsl", "radiance.glsl",
+                          "transparency.glsl"},
                          surface_features},
+    [GL_MAIN_SHADOW] = {"shadow",
+                        "surface.vert",
+                        "shadow.frag",
+                        {"surface", "light", "layers_direct", "layers_ibl", "material"},
+                        {"surface_in.glsl", "material.glsl"},
+                        surface_features},
     [GL_MAIN_BACKGROUND] = {"background",
                             "screen.vert",
                             "background.frag",
@@ -184,10 +191,10 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
     for (uint32_t i = 0; i < gl_program_feature_count(key.main); i++)
         if (key.features >> i & 1)
             text_addf(out, "#define %s\n", gl_program_feature_name(key.main, i));
-    if (key.main == GL_MAIN_SURFACE && stage == GL_FRAGMENT_SHADER)
+    if ((key.main == GL_MAIN_SURFACE || key.main == GL_MAIN_SHADOW) && stage == GL_FRAGMENT_SHADER)
         gl_material_slot_text(key.features, out);
     text_add(out, file_text("blocks.glsl"));
-    for (int i = 0; stage == GL_FRAGMENT_SHADER && i < 8 && mains[key.main].fragments[i]; i++)
+    for (int i = 0; stage == GL_FRAGMENT_SHADER && i < 12 && mains[key.main].fragments[i]; i++)
         text_add(out, file_text(mains[key.main].fragments[i]));
     text_add(out, file_text(stage == GL_VERTEX_SHADER ? mains[key.main].vertex : mains[key.main].fragment));
     return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;

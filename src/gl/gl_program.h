@@ -9,6 +9,7 @@
 /* A pair of shaders: NAME.vert and NAME.frag of this folder, or screen.vert for what covers the picture. */
 typedef enum gl_main {
     GL_MAIN_SURFACE,    /* a material */
+    GL_MAIN_SHADOW,     /* a material as what casts a shadow; features as of the former */
     GL_MAIN_BACKGROUND, /* the environment behind the model */
     GL_MAIN_COMPOSE,    /* blended surfaces that were drawn beside the picture */
     GL_MAIN_PRESENT,    /* radiance to a display's numbers */

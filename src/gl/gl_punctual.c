@@ -6,21 +6,27 @@
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/gl_shadow.h"
 
 #include "shade/shade.h"
 
-enum { LIGHT_TEXELS = 4, WORDS = 4 }; /* of a light, of a texel */
+enum {
+    LIGHT_TEXELS = 4,
+    WORDS = 4,
+    RECORD_TEXELS = sizeof(gl_shadow_record) / 16
+}; /* a texel has four words */
 
 /* Where what begins, in texels. */
 typedef struct layout {
-    size_t lists, cells, end, number_count, cell_count;
+    size_t records, lists, cells, end, number_count, cell_count;
 } layout;
 
 /* Without a grid where none is, or where it is too large for the texture. */
-static layout plan(const light_setup *setup, bool has_grid)
+static layout plan(const light_setup *setup, uint32_t record_count, bool has_grid)
 {
     const light_grid *grid = &setup->grid;
-    layout l = {.lists = LIGHT_TEXELS * (size_t)setup->punctual_count};
+    layout l = {.records = LIGHT_TEXELS * (size_t)setup->punctual_count};
+    l.lists = l.records + RECORD_TEXELS * (size_t)record_count;
     if (has_grid) {
         l.cell_count = (size_t)grid->cell_count[0] * grid->cell_count[1] * grid->cell_count[2];
         l.number_count = grid->everywhere_count + grid->first[l.cell_count];
@@ -30,7 +36,8 @@ static layout plan(const light_setup *setup, bool has_grid)
     return l;
 }
 
-static void store_light(const Light *light, uint32_t *out)
+/* record: first texel of its shadow's record; 0: none. */
+static void store_light(const Light *light, size_t record, uint32_t *out)
 {
     float rows[3][4] = {
         {light->position[0], light->position[1], light->position[2], light->range},
@@ -38,6 +45,7 @@ static void store_light(const Light *light, uint32_t *out)
         {light->intensity[0], light->intensity[1], light->intensity[2], light->spot_offset}};
     memcpy(out, rows, sizeof rows);
     out[12] = light->directional;
+    out[13] = (uint32_t)record;
 }
 
 static void store_grid(const light_grid *grid, const layout *l, uint32_t *words)
@@ -85,12 +93,15 @@ static void describe(const light_setup *setup, const layout *l, gl_light_block *
 }
 
 facet_result gl_punctual_update(gl_punctual *p, gl_context *context, const facet_allocator *allocator,
-                                const light_setup *setup, gl_light_block *block, facet_error *error)
+                                const light_setup *setup, const gl_shadow *shadow, gl_light_block *block,
+                                facet_error *error)
 {
+    uint32_t record_count;
+    const gl_shadow_record *records = gl_shadow_records(shadow, &record_count);
     size_t most = (size_t)context->max_texture_size * GL_LIGHT_ROW;
-    layout l = plan(setup, setup->grid.first != NULL);
+    layout l = plan(setup, record_count, setup->grid.first != NULL);
     if (l.end > most)
-        l = plan(setup, false);
+        l = plan(setup, record_count, false);
     if (l.end > most)
         return fail(error, FACET_ERROR_LIMIT, "OpenGL (%s): %u lights; the most are %zu", context->name,
                     setup->punctual_count, most / LIGHT_TEXELS);
@@ -101,8 +112,13 @@ facet_result gl_punctual_update(gl_punctual *p, gl_context *context, const facet
     uint32_t *words = mem_zalloc(allocator, rows * GL_LIGHT_ROW, WORDS * sizeof *words);
     if (!words)
         return fail_memory(error, "lights", rows * GL_LIGHT_ROW * WORDS * sizeof *words);
-    for (uint32_t i = 0; i < setup->punctual_count; i++)
-        store_light(&setup->punctual[i], words + (size_t)i * LIGHT_TEXELS * WORDS);
+    for (uint32_t i = 0; i < setup->punctual_count; i++) {
+        uint32_t record = gl_shadow_of_light(shadow, i);
+        store_light(&setup->punctual[i], record ? l.records + RECORD_TEXELS * (record - 1) : 0,
+                    words + (size_t)i * LIGHT_TEXELS * WORDS);
+    }
+    if (record_count)
+        memcpy(words + l.records * WORDS, records, record_count * sizeof *records);
     if (l.cell_count)
         store_grid(&setup->grid, &l, words);
     bool is_same =

@@ -17,5 +17,6 @@ layout(std140) uniform Lighting
     vec4 light_grid_origin;                         /* m, world */
     vec4 light_grid_cells;                          /* per m */
     ivec4 light_grid_size;                          /* per axis; 0: all lights are looked at everywhere */
+    vec4 light_shadow;                              /* edge of a tile, texels; tiles in a row; 1 over the edge of the map */
     ivec4 light_lists; /* first texel of lists, of cells; number of lights that reach everywhere */
 };

@@ -6,8 +6,12 @@
 #ifdef HAS_LIGHTS
 uniform highp usampler2D u_lights; /* four texels a light, then lists of numbers: gl_punctual.h */
 
-/* Of the point: its cell's list. light_grid.h */
+/* Of the point: its cell's list (light_grid.h); and where it is. */
 int light_near_first = 0;
+#ifdef HAS_SHADOWS
+vec3 light_P = vec3(0.0);
+vec3 light_face = vec3(0.0); /* unit, normal of the face; either way */
+#endif
 
 uvec4 light_texel(int i)
 {
@@ -32,8 +36,45 @@ ivec2 light_cell(vec3 P)
     return ivec2((cell & 1) == 0 ? two.xy : two.zw);
 }
 
+#ifdef HAS_SHADOWS
+/* Of surface.vert. Positions at centroids would do as well, but Mesa's software renderer puts those of partly covered pixels
+ * beside the face, and differences between them are not those of the face. */
+in vec3 v_middle;
+
+ShadowRecord shadow_record(int first)
+{
+    ShadowRecord r;
+    r.origin = uintBitsToFloat(light_texel(first));
+    r.right = uintBitsToFloat(light_texel(first + 1));
+    r.up = uintBitsToFloat(light_texel(first + 2));
+    r.forward = uintBitsToFloat(light_texel(first + 3));
+    r.depth = uintBitsToFloat(light_texel(first + 4)).xy;
+    r.origin.xyz -= eye.xyz;
+    return r;
+}
+
+/* Of the triangle, unit, either way. */
+vec3 face_normal()
+{
+    vec3 n = cross(dFdx(v_middle), dFdy(v_middle));
+    return n * inversesqrt(max(dot(n, n), 1e-36));
+}
+
+/* first: texel of the light's record; 0: it has none. */
+Light with_shadow(Light l, int first)
+{
+    if (first > 0 && max3(light_illuminate(l, light_P).E) > 0.0)
+        l.intensity *= shadow_share(shadow_record(first), light_P, light_face);
+    return l;
+}
+#endif
+
 int light_count(vec3 P)
 {
+#ifdef HAS_SHADOWS
+    light_P = v_middle;
+    light_face = face_normal();
+#endif
     int count = light_lists.z;
     if (light_grid_size.x > 0) {
         ivec2 near = light_cell(P + eye.xyz);
@@ -54,13 +95,17 @@ Light light_at(int i)
     vec4 spot = uintBitsToFloat(light_texel(4 * number + 1));
     vec4 intensity = uintBitsToFloat(light_texel(4 * number + 2));
     Light l;
-    l.directional = light_texel(4 * number + 3).x != 0u;
+    uvec4 rest = light_texel(4 * number + 3);
+    l.directional = rest.x != 0u;
     l.position = l.directional ? place.xyz : place.xyz - eye.xyz;
     l.range = place.w;
     l.spot_direction = spot.xyz;
     l.spot_scale = spot.w;
     l.intensity = intensity.xyz;
     l.spot_offset = intensity.w;
+#ifdef HAS_SHADOWS
+    l = with_shadow(l, int(rest.y));
+#endif
     return l;
 }
 #else

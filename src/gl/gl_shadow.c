@@ -1,0 +1,308 @@
+/* gl_shadow.c - see gl_shadow.h. */
+#include "gl/gl_shadow.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "gl/gl_camera.h"
+#include "gl/gl_shadow_plan.h"
+
+#include "shade/shade.h"
+
+struct gl_shadow {
+    gl_context *context;
+    facet_allocator allocator;
+    GLuint texture, framebuffer, block;
+    uint32_t edge; /* of the texture, texels */
+    uint32_t tile, tiles_per_row, tile_count;
+    gl_shadow_record *records;
+    uint32_t record_count, untold; /* lights without shadows that nobody was told of */
+    uint32_t *of_light;            /* per light: number of its record + 1 */
+    uint32_t light_count;
+    uint64_t drawn_revision; /* of the scene whose shadows are in the texture; 0: none */
+    shadow_bounds bounds;
+};
+
+facet_result gl_shadow_create(gl_context *context, const facet_allocator *allocator, gl_shadow **out,
+                              facet_error *error)
+{
+    *out = mem_zalloc(allocator, 1, sizeof **out);
+    if (!*out)
+        return fail_memory(error, "shadows", sizeof **out);
+    (*out)->context = context;
+    (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
+    return FACET_OK;
+}
+
+static void destroy_texture(gl_shadow *s)
+{
+    glDeleteTextures(1, &s->texture);
+    glDeleteFramebuffers(1, &s->framebuffer);
+    s->texture = s->framebuffer = 0;
+    s->edge = 0;
+    s->drawn_revision = 0;
+}
+
+void gl_shadow_destroy(gl_shadow *s)
+{
+    if (!s)
+        return;
+    destroy_texture(s);
+    glDeleteBuffers(1, &s->block);
+    mem_free(s->records);
+    mem_free(s->of_light);
+    mem_free(s);
+}
+
+/* ---- which lights ---- */
+
+typedef struct candidate {
+    uint32_t light, tiles;
+    float brightness;
+} candidate;
+
+static int brightest_first(const void *x, const void *y)
+{
+    const candidate *a = x, *b = y;
+    if (a->brightness < b->brightness || a->brightness > b->brightness)
+        return a->brightness > b->brightness ? -1 : 1;
+    return (a->light > b->light) - (a->light < b->light);
+}
+
+/* Those whose light reaches the bounds, sorted; returns how many. */
+static uint32_t find_candidates(const light_setup *setup, const shadow_bounds *bounds, candidate *out)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < setup->punctual_count; i++) {
+        uint32_t tiles = shadow_tile_count(&setup->punctual[i], bounds);
+        if (tiles)
+            out[count++] = (candidate){i, tiles, shadow_brightness(&setup->punctual[i], bounds)};
+    }
+    qsort(out, count, sizeof *out, brightest_first);
+    return count;
+}
+
+/* How many of the candidates find room, and the tiles for them. */
+static uint32_t lay_out(gl_shadow *s, const candidate *candidates, uint32_t count)
+{
+    uint32_t most = (uint32_t)s->context->max_texture_size;
+    most = most < GL_SHADOW_MAP_MAX ? most : GL_SHADOW_MAP_MAX;
+    uint32_t rows = most / GL_SHADOW_TILE_MIN, taken = 0, tiles = 0;
+    while (taken < count && tiles + candidates[taken].tiles <= rows * rows)
+        tiles += candidates[taken++].tiles;
+    s->tiles_per_row = 1;
+    while (s->tiles_per_row * s->tiles_per_row < tiles)
+        s->tiles_per_row++;
+    s->tile = most / s->tiles_per_row;
+    s->tile = s->tile < GL_SHADOW_TILE_MAX ? s->tile : GL_SHADOW_TILE_MAX;
+    s->tile_count = tiles;
+    return taken;
+}
+
+static void tell_lost(gl_shadow *s, const facet_log *log, uint32_t lost, uint32_t all)
+{
+    if (lost && lost != s->untold && log->message) {
+        char message[160];
+        snprintf(message, sizeof message,
+                 "shadows: %u of %u lights cast none; the map has room for the %u brightest", lost, all,
+                 all - lost);
+        log->message(log->user, FACET_LOG_WARNING, message);
+    }
+    s->untold = lost;
+}
+
+/* Takes over what was decided; where it is what it was, what was drawn stays. */
+static facet_result take_records(gl_shadow *s, const light_setup *setup, const candidate *candidates,
+                                 uint32_t count, facet_error *error)
+{
+    gl_shadow_record *records = mem_zalloc(&s->allocator, count, sizeof *records);
+    if (!records)
+        return fail_memory(error, "shadows", count * sizeof *records);
+    memset(s->of_light, 0, setup->punctual_count * sizeof *s->of_light);
+    for (uint32_t i = 0, tile = 0; i < count; tile += candidates[i++].tiles) {
+        records[i] = shadow_record_make(&setup->punctual[candidates[i].light], &s->bounds, tile, s->tile);
+        s->of_light[candidates[i].light] = i + 1;
+    }
+    bool is_same = count == s->record_count && s->edge == s->tile * s->tiles_per_row &&
+                   (count == 0 || memcmp(records, s->records, count * sizeof *records) == 0);
+    mem_free(s->records);
+    s->records = records;
+    s->record_count = count;
+    s->drawn_revision = is_same ? s->drawn_revision : 0;
+    return FACET_OK;
+}
+
+facet_result gl_shadow_plan(gl_shadow *s, const facet_render_desc *desc, const light_setup *setup,
+                            const float bounds_min[3], const float bounds_max[3], facet_error *error)
+{
+    memcpy(s->bounds.min, bounds_min, sizeof s->bounds.min);
+    memcpy(s->bounds.max, bounds_max, sizeof s->bounds.max);
+    if (!desc->gl.shadows || setup->punctual_count == 0 || !(bounds_min[0] <= bounds_max[0])) {
+        s->record_count = s->light_count = 0;
+        return FACET_OK;
+    }
+    candidate *candidates = mem_alloc(&s->allocator, setup->punctual_count, sizeof *candidates);
+    uint32_t *of_light = mem_alloc(&s->allocator, setup->punctual_count, sizeof *of_light);
+    mem_free(s->of_light);
+    s->of_light = of_light;
+    s->light_count = of_light ? setup->punctual_count : 0;
+    facet_result result = FACET_OK;
+    if (!candidates || !of_light)
+        result = fail_memory(error, "shadows", setup->punctual_count * sizeof *candidates);
+    if (result == FACET_OK) {
+        uint32_t count = find_candidates(setup, &s->bounds, candidates);
+        uint32_t taken = lay_out(s, candidates, count);
+        tell_lost(s, &desc->log, count - taken, count);
+        result = take_records(s, setup, candidates, taken, error);
+    }
+    mem_free(candidates);
+    return result;
+}
+
+const gl_shadow_record *gl_shadow_records(const gl_shadow *s, uint32_t *count)
+{
+    *count = s->record_count;
+    return s->records;
+}
+
+uint32_t gl_shadow_of_light(const gl_shadow *s, uint32_t light)
+{
+    return light < s->light_count && s->record_count ? s->of_light[light] : 0;
+}
+
+void gl_shadow_describe(const gl_shadow *s, gl_light_block *block)
+{
+    if (s->record_count == 0)
+        return;
+    block->shadow[0] = (float)s->tile;
+    block->shadow[1] = (float)s->tiles_per_row;
+    block->shadow[2] = 1.0f / (float)(s->tile * s->tiles_per_row);
+}
+
+/* ---- drawing ---- */
+
+static facet_result make_texture(gl_shadow *s, facet_error *error)
+{
+    uint32_t edge = s->tile * s->tiles_per_row;
+    if (s->edge == edge)
+        return FACET_OK;
+    destroy_texture(s);
+    glActiveTexture(GL_TEXTURE0);
+    glGenTextures(1, &s->texture);
+    glBindTexture(GL_TEXTURE_2D, s->texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, (GLsizei)edge, (GLsizei)edge, 0, GL_DEPTH_COMPONENT,
+                 GL_FLOAT, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR); /* of what comparing gives */
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    glGenFramebuffers(1, &s->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, s->texture, 0);
+    static const GLenum none = GL_NONE;
+    glDrawBuffers(1, &none);
+    glReadBuffer(GL_NONE);
+    facet_result result = gl_context_check(s->context, "shadows", error);
+    if (result != FACET_OK)
+        destroy_texture(s);
+    else
+        s->edge = edge;
+    return result;
+}
+
+/* Bodies of glass do, thin panes do not. */
+static bool casts(const gl_batch *batch, gl_pass pass)
+{
+    return !batch->is_sprites &&
+           (pass == GL_PASS_OPAQUE || (pass == GL_PASS_TRANSMISSIVE && batch->plan->is_volume));
+}
+
+static facet_result draw_batch(gl_programs *programs, const gl_mesh_set *meshes,
+                               const gl_material_set *materials, const gl_batch *batch, facet_error *error)
+{
+    uint64_t all = gl_material_features(materials, batch) | gl_mesh_features(meshes, batch);
+    bool is_masked = all >> GL_SURFACE_HAS_ALPHA_MASK & 1;
+    uint32_t program;
+    gl_program_key key = {GL_MAIN_SHADOW, is_masked ? all : 0};
+    facet_result result = gl_programs_get(programs, key, &program, error);
+    if (result != FACET_OK)
+        return result;
+    glUseProgram(program);
+    if (is_masked)
+        gl_material_bind(materials, batch);
+    glDisable(GL_CULL_FACE); /* whichever side the light sees is in its way */
+    gl_mesh_draw(meshes, batch);
+    return FACET_OK;
+}
+
+static facet_result draw_tile(gl_shadow *s, gl_programs *programs, const gl_mesh_set *meshes,
+                              const gl_material_set *materials, const gl_shadow_record *record, uint32_t face,
+                              const float eye[3], facet_error *error)
+{
+    gl_frame_block seen = {.eye = {eye[0], eye[1], eye[2]}};
+    shadow_matrix(record, face, eye, seen.view_projection);
+    glBindBuffer(GL_UNIFORM_BUFFER, s->block);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof seen, &seen, GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_FRAME, s->block);
+    uint32_t tile = (uint32_t)record->tile + face;
+    glViewport((GLint)(tile % s->tiles_per_row * s->tile), (GLint)(tile / s->tiles_per_row * s->tile),
+               (GLsizei)s->tile, (GLsizei)s->tile);
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {
+        uint32_t count;
+        const gl_batch *batches = gl_mesh_batches(meshes, pass, &count);
+        for (uint32_t i = 0; i < count; i++) {
+            if (!casts(&batches[i], pass) || gl_mesh_is_outside(&batches[i], &seen))
+                continue;
+            facet_result result = draw_batch(programs, meshes, materials, &batches[i], error);
+            if (result != FACET_OK)
+                return result;
+        }
+    }
+    return FACET_OK;
+}
+
+static facet_result draw_all(gl_shadow *s, gl_programs *programs, const gl_mesh_set *meshes,
+                             const gl_material_set *materials, const float eye[3], facet_error *error)
+{
+    facet_result result = FACET_OK;
+    glBindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
+    gl_camera_end_depth(s->context);
+    glEnable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    glViewport(0, 0, (GLsizei)s->edge, (GLsizei)s->edge);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    for (uint32_t i = 0; i < s->record_count; i++) {
+        uint32_t faces = (int)s->records[i].kind == GL_SHADOW_CUBE ? 6 : 1;
+        for (uint32_t face = 0; face < faces && result == FACET_OK; face++)
+            result = draw_tile(s, programs, meshes, materials, &s->records[i], face, eye, error);
+    }
+    return result == FACET_OK ? gl_context_check(s->context, "shadows", error) : result;
+}
+
+facet_result gl_shadow_draw(gl_shadow *s, gl_programs *programs, const gl_mesh_set *meshes,
+                            const gl_material_set *materials, const float eye[3], uint64_t revision,
+                            facet_error *error)
+{
+    if (s->record_count == 0)
+        return FACET_OK;
+    facet_result result = make_texture(s, error);
+    if (result != FACET_OK || s->drawn_revision == revision)
+        return result;
+    if (!s->block)
+        glGenBuffers(1, &s->block);
+    s->drawn_revision = 0;
+    result = draw_all(s, programs, meshes, materials, eye, error);
+    s->drawn_revision = result == FACET_OK ? revision : 0;
+    return result;
+}
+
+uint32_t gl_shadow_texture(const gl_shadow *s)
+{
+    return s->texture;
+}
