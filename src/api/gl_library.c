@@ -6,6 +6,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/auxv.h>
 #include <unistd.h>
 
 #include "base/result.h"
@@ -14,7 +15,7 @@
 static const char name[] = "facet_gl.so";
 
 /* Beside what holds this code (libfacet.so, or a program that has it inside): installed, and where facet was built. */
-static const char *const folders[] = {"facet", "../" FACET_LIBDIR_NAME "/facet", "../gl", "."};
+static const char *const folders[] = {"facet", "../" FACET_LIBDIR_NAME "/facet", "../gl", "../src/gl", "."};
 
 static const gl_host host = {.renderer_create = facet_renderer_create,
                              .renderer_render = facet_renderer_render,
@@ -32,24 +33,48 @@ static pthread_once_t once = PTHREAD_ONCE_INIT;
 static const gl_entry *opened;
 static char why[256]; /* it could not be opened */
 
+/* The folder of what holds this code, with a / behind; "": it cannot be told for sure. A program's own name is what its
+ * caller says, and may be relative to a folder that is another one by now: what is found there is nobody's module. */
+static void find_own_folder(char *folder, size_t size)
+{
+    Dl_info self, program;
+    ssize_t length = -1;
+    *folder = 0;
+    if (!dladdr((const void *)&once, &self) || !self.dli_fname)
+        return;
+    if (dladdr((const void *)getauxval(AT_PHDR), &program) && program.dli_fbase == self.dli_fbase)
+        length = readlink("/proc/self/exe", folder, size - 1);
+    else if (*self.dli_fname == '/')
+        length = snprintf(folder, size, "%s", self.dli_fname);
+    if (length < 0 || (size_t)length >= size)
+        length = 0;
+    folder[length] = 0;
+    char *slash = strrchr(folder, '/');
+    folder[slash ? slash + 1 - folder : 0] = 0;
+}
+
+/* NULL: it is not there. Where it is and cannot be opened, why says so. */
+static void *open_at(const char *path)
+{
+    if (access(path, F_OK) != 0)
+        return NULL;
+    void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (!handle)
+        snprintf(why, sizeof why, "%.200s", dlerror());
+    return handle;
+}
+
 static void *open_module(void)
 {
-    Dl_info self;
-    char path[4096];
-    const char *slash;
-    if (!dladdr((const void *)&once, &self) || !self.dli_fname || !(slash = strrchr(self.dli_fname, '/')))
-        slash = self.dli_fname = "./";
-    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        int length = snprintf(path, sizeof path, "%.*s/%s/%s", (int)(slash - self.dli_fname), self.dli_fname,
-                              folders[i], name);
-        if (length >= (int)sizeof path || access(path, F_OK) != 0)
-            continue;
-        void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-        if (!handle)
-            snprintf(why, sizeof why, "%.200s", dlerror());
-        return handle;
+    char folder[4096], path[4096];
+    find_own_folder(folder, sizeof folder);
+    for (size_t i = 0; *folder && i < sizeof folders / sizeof *folders; i++) {
+        int length = snprintf(path, sizeof path, "%s%s/%s", folder, folders[i], name);
+        void *handle = length < (int)sizeof path ? open_at(path) : NULL;
+        if (handle || why[0])
+            return handle;
     }
-    return dlopen(FACET_MODULE_FOLDER "/facet_gl.so", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    return open_at(FACET_MODULE_FOLDER "/facet_gl.so");
 }
 
 static void open_once(void)
@@ -70,6 +95,8 @@ facet_result gl_library_open(const gl_entry **entry, facet_error *error)
     *entry = opened;
     if (opened)
         return FACET_OK;
+    if (!FACET_HAS_GL && !why[0])
+        return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL: this facet was built without it (libepoxy)");
     return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL: facet's module %s cannot be opened%s%s%s", name,
                 why[0] ? " (" : ": it is not installed", why, why[0] ? ")" : "");
 }

@@ -32,7 +32,28 @@ static bool are_finite(const float *x, size_t count)
     return true;
 }
 
-/* What the two integrators ask of a desc, its numbers being finite. */
+/* What is not light is drawn as it is, over black. */
+static facet_result resolve_gl(facet_render_desc *d, facet_error *error)
+{
+    const facet_gl_desc *gl = &d->gl;
+    if ((unsigned)gl->channel >= FACET_CHANNEL_COUNT || (unsigned)gl->brdf > FACET_BRDF_MULTISCATTER ||
+        (unsigned)gl->transparency > FACET_TRANSPARENCY_WEIGHTED)
+        return fail(error, FACET_ERROR_ARGUMENT, "channel %d, brdf %d, transparency %d; there is no such",
+                    (int)gl->channel, (int)gl->brdf, (int)gl->transparency);
+    if (!(gl->bloom >= 0.0f && gl->bloom <= 1.0f))
+        return fail(error, FACET_ERROR_ARGUMENT, "bloom: %g; it is a share of the light, 0 to 1",
+                    (double)gl->bloom);
+    if (gl_channel_is_light(gl->channel))
+        return FACET_OK;
+    d->tonemap = FACET_TONEMAP_NONE;
+    d->exposure_ev = 0.0f;
+    d->background = FACET_BACKGROUND_COLOR;
+    for (int i = 0; i < 3; i++)
+        d->background_color[i] = 0.0f;
+    return FACET_OK;
+}
+
+/* What the integrators ask of a desc, its numbers being finite. */
 static facet_result resolve_integrator(facet_render_desc *d, facet_error *error)
 {
     bool is_path = d->integrator == FACET_INTEGRATOR_PATH;
@@ -51,7 +72,7 @@ static facet_result resolve_integrator(facet_render_desc *d, facet_error *error)
         return fail(error, FACET_ERROR_ARGUMENT, "shading: path tracing knows that of glTF only");
     if (!d->path.max_depth)
         d->path.max_depth = DEFAULT_DEPTH;
-    return FACET_OK;
+    return d->integrator == FACET_INTEGRATOR_GL ? resolve_gl(d, error) : FACET_OK;
 }
 
 static facet_result check_numbers(const facet_render_desc *d, facet_error *error)
@@ -185,12 +206,12 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
     facet_render_desc desc = *resolved;
     facet_camera camera;
     facet_result result = FACET_OK;
-    if (!desc.camera)
+    if (!desc.camera && desc.integrator != FACET_INTEGRATOR_GL) { /* OpenGL's poses the scene for itself */
         result = fit_camera(prepared, &desc, &camera, error);
-    if (result != FACET_OK)
-        return result;
-    if (!desc.camera)
+        if (result != FACET_OK)
+            return result;
         desc.camera = &camera;
+    }
     result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &image->film, error);
     if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_GL)
         result = render_gl(renderer, &desc, image, error);

@@ -36,7 +36,9 @@ static void add_opengl(text *t)
         gl->report(line, sizeof line);
     else
         snprintf(line, sizeof line, "%.250s", error.message);
-    text_addf(t, "opengl    %s\n", line);
+    const char *subject = "OpenGL: ";
+    bool names_itself = strncmp(line, subject, strlen(subject)) == 0;
+    text_addf(t, "opengl    %s\n", names_itself ? line + strlen(subject) : line);
 }
 
 size_t facet_build_report(char *out, size_t size)

@@ -183,7 +183,7 @@ static const option light_options[] = {
      .argument = "WHAT",
      .default_text = "none",
      .help = "shadow: the model casts a shadow on a plane below it that is not seen itself; needs --renderer "
-             "path",
+             "path, or gl, where it is a soft one of what is near the ground",
      .choices = WORDS("none", "shadow")},
 };
 
@@ -227,7 +227,8 @@ static const option quality_options[] = {
      .argument = "NAME",
      .default_text = "preview",
      .help = "preview: prefiltered light, what real-time viewers show; path: path tracing, with shadows, "
-             "reflections and glass as light makes them; gl: the preview, drawn with OpenGL",
+             "reflections and glass as light makes them; gl: the preview, drawn with OpenGL on a GPU or "
+             "without one",
      .choices = WORDS("preview", "path", "gl")},
     {.id = OPT_ENERGY,
      .name = "energy",
@@ -346,7 +347,7 @@ const verb render_verb = {
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj json",
     .description = "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .json of rgl's parameters; - is "
-                   "standard input) and draws it on the CPU: no GPU, "
+                   "standard input) and draws it on the CPU, or with --renderer gl on a GPU: no GPU, "
                    "display or network "
                    "is needed. The whole model is in the picture unless --orbit, --eye or --camera say "
                    "otherwise. Without a "
@@ -371,11 +372,13 @@ const verb render_verb = {
              "small pictures of many models, into a folder that exists"},
             {"facet render ring.glb -o ring.png --renderer path --samples 256 --ground shadow --denoise",
              "path traced, with its shadow"},
+            {"facet render shoe.glb -o 'turn_####.png' --turntable 360 --renderer gl",
+             "the same picture, on a GPU"},
             {"facet render old.obj -o old.png --shading ogl1", "as an OpenGL 1 program showed it"},
             {"curl -s URL | facet render - -o - --format png > out.png", "without files"},
             {NULL, NULL}},
-    .groups =
-        (const option_group *const[]){&image_group, &camera_group, &light_group, &color_group, &quality_group,
-                                      &path_group, &shading_group, &motion_group, &scene_group, &model_group,
-                                      &legacy_group, &machine_group, &message_group, &running_group, NULL},
+    .groups = (const option_group *const[]){&image_group, &camera_group, &light_group, &color_group,
+                                            &quality_group, &path_group, &gl_group, &shading_group,
+                                            &motion_group, &scene_group, &model_group, &legacy_group,
+                                            &machine_group, &message_group, &running_group, NULL},
 };

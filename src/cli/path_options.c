@@ -29,24 +29,42 @@ static facet_result read_renderer(const command_line *c, render_options *out, fa
     return FACET_OK;
 }
 
+/* Lists end with OPTION_ID_COUNT. */
+static const option_id path_only[] = {
+    OPT_BOUNCES,  OPT_NOISE, OPT_SEED,    OPT_FILTER,     OPT_DENOISE, OPT_CLAMP,          OPT_GLASS_SHADOWS,
+    OPT_APERTURE, OPT_FOCUS, OPT_SHUTTER, OPT_CHECKPOINT, OPT_RESUME,  OPT_LIGHT_SAMPLING, OPTION_ID_COUNT};
+static const option_id gl_only[] = {OPT_SHADOWS, OPT_TRANSPARENCY, OPT_BLOOM,
+                                    OPT_CHANNEL, OPT_BRDF,         OPTION_ID_COUNT};
+static const option_id not_path[] = {OPT_SPECULAR_AA, OPT_SHADING, OPTION_ID_COUNT};
+
+static facet_result refuse(const command_line *c, const option_id *list, const char *why, facet_error *error)
+{
+    for (; *list != OPTION_ID_COUNT; list++)
+        if (is_given(c, *list))
+            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: %s", option_find_id(c->verb, *list)->name,
+                             why);
+    return FACET_OK;
+}
+
 static facet_result check_renderer(const command_line *c, const render_options *o, facet_error *error)
 {
-    static const option_id path_only[] = {
-        OPT_BOUNCES,  OPT_NOISE, OPT_SEED,    OPT_FILTER,     OPT_DENOISE, OPT_CLAMP,  OPT_GLASS_SHADOWS,
-        OPT_APERTURE, OPT_FOCUS, OPT_SHUTTER, OPT_CHECKPOINT, OPT_RESUME,  OPT_GROUND, OPT_LIGHT_SAMPLING};
-    bool is_path = o->desc.integrator == FACET_INTEGRATOR_PATH;
-    for (size_t i = 0; i < sizeof path_only / sizeof *path_only; i++)
-        if (!is_path && is_given(c, path_only[i]))
-            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says something only with --renderer path",
-                             option_find_id(c->verb, path_only[i])->name);
+    bool is_path = o->desc.integrator == FACET_INTEGRATOR_PATH,
+         is_gl = o->desc.integrator == FACET_INTEGRATOR_GL;
+    facet_result result = FACET_OK;
+    if (!is_path)
+        result = refuse(c, path_only, "it says something only with --renderer path", error);
+    if (result == FACET_OK && !is_gl)
+        result = refuse(c, gl_only, "it says something only with --renderer gl", error);
+    if (result == FACET_OK && !is_path && !is_gl && is_given(c, OPT_GROUND))
+        result = fail_with(error, FACET_ERROR_ARGUMENT,
+                           "--ground: it says something only with --renderer path or gl");
+    if (result == FACET_OK && is_path)
+        result = refuse(c, not_path, "it says nothing to --renderer path", error);
+    if (result != FACET_OK)
+        return result;
     if (!is_path && o->desc.aovs & (FACET_AOV_VARIANCE | FACET_AOV_SAMPLES))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--aov: variance and samples are layers of --renderer path only");
-    static const option_id preview_only[] = {OPT_SPECULAR_AA, OPT_SHADING};
-    for (size_t i = 0; i < sizeof preview_only / sizeof *preview_only; i++)
-        if (is_path && is_given(c, preview_only[i]))
-            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path",
-                             option_find_id(c->verb, preview_only[i])->name);
     return FACET_OK;
 }
 
@@ -194,6 +212,16 @@ static void read_sampling(const command_line *c, render_options *out)
     p->denoises = is_given(c, OPT_DENOISE);
 }
 
+static void read_gl(const command_line *c, render_options *out)
+{
+    facet_gl_desc *gl = &out->desc.gl;
+    gl->shadows = is_given(c, OPT_SHADOWS);
+    gl->transparency = (facet_transparency)option_choice(c, OPT_TRANSPARENCY, FACET_TRANSPARENCY_SORTED);
+    gl->bloom = (float)option_number(c, OPT_BLOOM, 0.0);
+    gl->channel = (facet_channel)option_choice(c, OPT_CHANNEL, FACET_CHANNEL_LIGHT);
+    gl->brdf = (facet_brdf)option_choice(c, OPT_BRDF, FACET_BRDF_ENERGY);
+}
+
 /* What has another default with each renderer. */
 static void read_defaults(const command_line *c, render_options *out)
 {
@@ -215,11 +243,14 @@ facet_result path_options_read(const command_line *c, render_options *out, facet
     if (result != FACET_OK)
         return result;
     read_defaults(c, out);
+    result = read_ground(c, out, error);
+    if (out->desc.integrator == FACET_INTEGRATOR_GL)
+        read_gl(c, out);
     if (out->desc.integrator != FACET_INTEGRATOR_PATH)
-        return FACET_OK;
+        return result;
     read_sampling(c, out);
     facet_result (*const readers[])(const command_line *, render_options *,
-                                    facet_error *) = {read_ground, read_lens, read_shutter, read_checkpoint};
+                                    facet_error *) = {read_lens, read_shutter, read_checkpoint};
     for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
         result = readers[i](c, out, error);
     return result;

@@ -1,4 +1,4 @@
-/* path_options.h - what the options of the path tracer ask for. */
+/* path_options.h - what the options that belong to one renderer ask for: the path tracer's, and OpenGL's. */
 #ifndef CLI_PATH_OPTIONS_H
 #define CLI_PATH_OPTIONS_H
 

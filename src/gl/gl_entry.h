@@ -40,8 +40,8 @@ typedef struct gl_entry {
      * FACET_ERROR_ENVIRONMENT where there is no OpenGL, FACET_ERROR_MEMORY. */
     facet_result (*create)(const facet_scene *scene, const facet_allocator *allocator, gl_renderer **out,
                            facet_error *error);
-    /* As preview_render_prepared(): desc is resolved, its camera is not NULL. Calls may come from different threads,
-     * one at a time. */
+    /* As preview_render_prepared(): desc is resolved but for its camera, which may be NULL. Calls may come from different
+     * threads, one at a time. */
     facet_result (*render)(gl_renderer *renderer, const facet_render_desc *desc, film *target,
                            facet_render_stats *stats, facet_error *error);
     void (*destroy)(gl_renderer *renderer); /* NULL is allowed */

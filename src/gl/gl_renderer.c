@@ -10,6 +10,7 @@
 #include "gl/gl_film.h"
 #include "gl/gl_frame.h"
 #include "gl/gl_sampling.h"
+#include "scene/scene.h"
 
 struct gl_renderer {
     facet_allocator allocator;
@@ -86,6 +87,21 @@ void gl_renderer_destroy(gl_renderer *r)
 
 /* ---- a picture ---- */
 
+/* Rays of the camera, or of one that shows the whole scene. */
+static facet_result make_camera(gl_renderer *r, const facet_render_desc *desc, camera_rays *rays,
+                                facet_error *error)
+{
+    facet_camera fitted;
+    facet_orbit orbit = scene_orbit_default();
+    facet_result result = FACET_OK;
+    if (!desc->camera)
+        result = scene_fit_pose(&r->prepared.pose, &orbit, (float)desc->width / (float)desc->height,
+                                desc->thread_count, &fitted, error);
+    return result == FACET_OK ? camera_rays_create(desc->camera ? desc->camera : &fitted, desc->width,
+                                                   desc->height, rays, error)
+                              : result;
+}
+
 /* All that comes before drawing: the scene, and what of it is in OpenGL's memory. */
 static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camera_rays *camera,
                             double deadline_s, facet_render_stats *stats, facet_error *error)
@@ -93,9 +109,9 @@ static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camer
     double begin = clock_seconds();
     facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
     if (result == FACET_OK)
-        result = camera_rays_create(desc->camera, desc->width, desc->height, camera, error);
-    if (result == FACET_OK)
         result = gl_scene_update(&r->prepared, desc, error);
+    if (result == FACET_OK)
+        result = make_camera(r, desc, camera, error);
     stats->geometry_s += clock_seconds() - begin;
     if (result == FACET_OK)
         result = gl_frame_update(&r->frame, &r->prepared, camera, desc, stats, error);
