@@ -3,7 +3,7 @@
 #ifndef CPU_OGL1_POINT_H
 #define CPU_OGL1_POINT_H
 
-#include "cpu/ogl1_setup.h"
+#include "draw/ogl1_setup.h"
 #include "cpu/shading_hit.h"
 
 typedef struct ogl1_point {

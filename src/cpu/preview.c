@@ -2,9 +2,10 @@
 #include "cpu/preview.h"
 
 #include "base/clock.h"
-#include "cpu/ogl1_setup.h"
 #include "cpu/render_setup.h"
 #include "cpu/tiles.h"
+
+#include "draw/ogl1_setup.h"
 
 static facet_result draw(render_setup *setup, double deadline_s, film *target, facet_error *error)
 {
@@ -13,8 +14,9 @@ static facet_result draw(render_setup *setup, double deadline_s, film *target, f
     ogl1_setup ogl1 = {.light_count = 0};
     facet_result result = FACET_OK;
     if (desc->shading == FACET_SHADING_OGL1) {
-        result = ogl1_setup_create(setup->prepared, &setup->camera, desc, &setup->light, &setup->plans, &ogl1,
-                                   error);
+        const prepared_scene *p = setup->prepared;
+        const ogl1_source source = {p->scene, &p->pose, &p->geometries, &p->default_legacy};
+        result = ogl1_setup_create(&source, &setup->camera, desc, &setup->light, &setup->plans, &ogl1, error);
         setup->shading.ogl1 = &ogl1;
     }
     tiles_desc tiles = {.render = desc, .scene = &setup->shading, .deadline_s = deadline_s};

@@ -8,7 +8,7 @@
 #include "draw/texture.h"
 #include "cpu/visibility.h"
 
-struct ogl1_setup; /* cpu/ogl1_setup.h */
+struct ogl1_setup; /* draw/ogl1_setup.h */
 
 /* All that shading reads; nothing of it changes while a picture is drawn. */
 typedef struct shading_scene {

@@ -1,5 +1,5 @@
 /* ogl1_maps.c - see ogl1_maps.h. */
-#include "cpu/ogl1_maps.h"
+#include "draw/ogl1_maps.h"
 
 #include "shade/shade.h"
 

@@ -3,9 +3,9 @@
 
 #include "base/memory.h"
 #include "base/result.h"
-#include "cpu/ogl1_maps.h"
+#include "draw/ogl1_maps.h"
 
-#include "cpu/ogl1_setup.h"
+#include "draw/ogl1_setup.h"
 
 _Static_assert(PHONG_VIGNETTE == (int)FACET_OGL1_VIGNETTE && PHONG_WEBGL == (int)FACET_OGL1_WEBGL &&
                    PHONG_FIXED == (int)FACET_OGL1_FIXED && PHONG_RGL_DESKTOP == (int)FACET_OGL1_RGL_DESKTOP,
@@ -151,11 +151,11 @@ static PhongFog make_fog(const ogl1_setup *s, const legacy_fog *fog, const scene
 
 /* ---- all ---- */
 
-facet_result ogl1_setup_create(const prepared_scene *prepared, const camera_rays *camera,
+facet_result ogl1_setup_create(const ogl1_source *source, const camera_rays *camera,
                                const facet_render_desc *desc, const light_setup *light,
                                material_plan_set *plans, ogl1_setup *out, facet_error *error)
 {
-    const facet_scene *scene = prepared->scene;
+    const facet_scene *scene = source->scene;
     const scene_legacy *legacy = scene->legacy;
     *out = (ogl1_setup){.rules = phong_rules((int)desc->ogl1.variant),
                         .is_encoded = !desc->ogl1.is_linear,
@@ -166,15 +166,15 @@ facet_result ogl1_setup_create(const prepared_scene *prepared, const camera_rays
     if (!out->is_encoded && out->are_colors_srgb)
         out->rules.global_ambient = linear_from_srgb(out->rules.global_ambient);
     set_view(out, camera);
-    out->fog = make_fog(out, &legacy->fog, &prepared->pose, camera, desc);
+    out->fog = make_fog(out, &legacy->fog, source->pose, camera, desc);
     size_t count = (size_t)scene->material_count + 1;
     out->materials = mem_alloc(&desc->allocator, count, sizeof *out->materials);
     if (!out->materials)
         return fail_memory(error, "materials", count * sizeof *out->materials);
     for (size_t i = 0; i < count; i++)
-        out->materials[i] = make_material(out, i ? &legacy->materials[i - 1] : &prepared->default_legacy);
-    for (uint32_t i = 0; i < prepared->geometries.count; i++) {
-        const render_geometry *g = &prepared->geometries.items[i];
+        out->materials[i] = make_material(out, i ? &legacy->materials[i - 1] : source->fallback);
+    for (uint32_t i = 0; i < source->geometries->count; i++) {
+        const render_geometry *g = &source->geometries->items[i];
         uint32_t maps = ogl1_maps(g, desc->ogl1.variant);
         if (!g->tangents)
             maps &= ~(1u << LEGACY_NORMAL_MAP);

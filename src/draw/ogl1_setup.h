@@ -1,11 +1,10 @@
 /* ogl1_setup.h - what drawing with FACET_SHADING_OGL1 takes, found once per picture: rules, lights in eye space, fog,
  * materials. Holds shared shading text: include it last. */
-#ifndef CPU_OGL1_SETUP_H
-#define CPU_OGL1_SETUP_H
+#ifndef DRAW_OGL1_SETUP_H
+#define DRAW_OGL1_SETUP_H
 
 #include "draw/light_setup.h"
 #include "draw/material_plan.h"
-#include "cpu/prepared_scene.h"
 
 #include "shade/shade.h"
 
@@ -31,8 +30,16 @@ typedef struct ogl1_setup {
     ogl1_material *materials; /* by render_geometry.material_id */
 } ogl1_setup;
 
-/* Sets legacy_maps of plans as well. prepared: drawn with legacy materials. Fails with FACET_ERROR_MEMORY. */
-facet_result ogl1_setup_create(const prepared_scene *prepared, const camera_rays *camera,
+/* What a picture is of, prepared to be drawn with legacy materials. */
+typedef struct ogl1_source {
+    const facet_scene *scene;
+    const scene_pose *pose;
+    const render_geometry_set *geometries;
+    const legacy_material *fallback; /* of primitives without a material */
+} ogl1_source;
+
+/* Sets legacy_maps of plans as well. source: lives as long as what comes out. Fails with FACET_ERROR_MEMORY. */
+facet_result ogl1_setup_create(const ogl1_source *source, const camera_rays *camera,
                                const facet_render_desc *desc, const light_setup *light,
                                material_plan_set *plans, ogl1_setup *out, facet_error *error);
 void ogl1_setup_destroy(ogl1_setup *setup); /* {0} is allowed */

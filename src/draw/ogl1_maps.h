@@ -1,6 +1,6 @@
 /* ogl1_maps.h - which textures of a legacy material are read, and what they hold at a hit. */
-#ifndef CPU_OGL1_MAPS_H
-#define CPU_OGL1_MAPS_H
+#ifndef DRAW_OGL1_MAPS_H
+#define DRAW_OGL1_MAPS_H
 
 #include "draw/render_geometry.h"
 
