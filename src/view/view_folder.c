@@ -62,13 +62,18 @@ static bool add(view_list *l, char *name)
     return true;
 }
 
-static bool add_copy(view_list *l, const char *name)
+static char *copy_of(const view_list *l, const char *name)
 {
     size_t size = strlen(name) + 1;
     char *copy = mem_alloc(&l->allocator, size, 1);
     if (copy)
         memcpy(copy, name, size);
-    return add(l, copy);
+    return copy;
+}
+
+static bool add_copy(view_list *l, const char *name)
+{
+    return add(l, copy_of(l, name));
 }
 
 /* Figures in names count as numbers: ball2 before ball10. */
@@ -162,9 +167,14 @@ static bool add_neighbours(view_list *l, const char *path, bool (*is_wanted)(con
     bool fits = folder && add_folder(l, folder, is_wanted, 0);
     mem_free(folder);
     l->at = find(l, path);
-    if (fits && l->at == l->count)
-        fits = add_copy(l, path);
-    return fits;
+    if (!fits || l->at == l->count)
+        return fits && add_copy(l, path);
+    char *as_given = copy_of(l, path); /* not ./path */
+    if (as_given) {
+        mem_free(l->names[l->at]);
+        l->names[l->at] = as_given;
+    }
+    return as_given != NULL;
 }
 
 bool view_list_models(view_list *l, const char *const *paths, uint32_t path_count)

@@ -10,7 +10,7 @@
 #include "plot/chart_text.h"
 #include "view/view_keys.h"
 
-enum { MAX_ROWS = 96, MAX_COLUMNS = 4 };
+enum { MAX_ROWS = 96, MAX_COLUMNS = 4, OVERLAY_TEXT = 512 };
 
 static const canvas_color glass = {0.06, 0.06, 0.07, 0.86};
 static const canvas_color bright = {1.0, 1.0, 1.0, 0.96};
@@ -18,7 +18,7 @@ static const canvas_color soft = {1.0, 1.0, 1.0, 0.72};
 
 /* A line in two columns; without right it is as wide as it likes, bold where it is a heading. */
 typedef struct overlay_row {
-    char left[160], right[160];
+    char left[OVERLAY_TEXT], right[OVERLAY_TEXT];
     bool is_heading, has_gap; /* above */
 } overlay_row;
 
@@ -161,20 +161,43 @@ static facet_result draw_panel(const overlay_rows *rows, const overlay_block *bl
 
 /* ---- text ---- */
 
-static void clean(const char *text, size_t length, char out[160])
+static void clean(const char *text, size_t length, char out[OVERLAY_TEXT])
 {
     char piece[LABEL_SIZE];
     char whole[LABEL_SIZE];
     snprintf(piece, sizeof piece, "%.*s", (int)length, text);
     label_clean(piece, whole);
     size_t used = strlen(whole);
-    if (used > 159) { /* not within a character */
-        used = 159;
+    if (used >= OVERLAY_TEXT) { /* not within a character */
+        used = OVERLAY_TEXT - 1;
         while (used > 0 && (whole[used] & 0xc0) == 0x80)
             used--;
     }
     memcpy(out, whole, used);
     out[used] = 0;
+}
+
+/* A line without a second column that is too wide goes on in the next ones. */
+static void wrap_rows(canvas *c, overlay_rows *rows, double size, double max_width)
+{
+    const canvas_font font = {size, false};
+    overlay_rows wrapped = {.count = 0};
+    for (int i = 0; i < rows->count; i++) {
+        label_line lines[LABEL_MAX_LINES];
+        const overlay_row *r = &rows->rows[i];
+        if (r->right[0]) {
+            if (wrapped.count < MAX_ROWS)
+                wrapped.rows[wrapped.count++] = *r;
+            continue;
+        }
+        int count = label_wrap(c, font, r->left, max_width, LABEL_MAX_LINES, lines);
+        for (int k = 0; k < count && wrapped.count < MAX_ROWS; k++) {
+            overlay_row *w = &wrapped.rows[wrapped.count++];
+            memset(w, 0, sizeof *w);
+            clean(lines[k].text, strlen(lines[k].text), w->left);
+        }
+    }
+    *rows = wrapped;
 }
 
 facet_result view_overlay_text(const char *lines, float scale, uint32_t max_width,
@@ -186,6 +209,7 @@ facet_result view_overlay_text(const char *lines, float scale, uint32_t max_widt
         size_t length = strcspn(p, "\n");
         size_t left = strcspn(p, "\t\n");
         overlay_row *r = &rows.rows[rows.count++];
+        memset(r, 0, sizeof *r);
         clean(p, left, r->left);
         if (left < length)
             clean(p + left + 1, length - left - 1, r->right);
@@ -196,9 +220,11 @@ facet_result view_overlay_text(const char *lines, float scale, uint32_t max_widt
     if (result != FACET_OK)
         return result;
     overlay_metrics m = metrics_of(13.0 * (double)scale);
+    double widest = fmax((double)max_width - 2.0 * m.margin, m.size);
+    wrap_rows(ruler, &rows, m.size, widest);
     overlay_block b = measure(ruler, &rows, 0, rows.count, m);
     canvas_destroy(ruler);
-    b.width = fmax(fmin(b.width, max_width - 2.0 * m.margin), m.size);
+    b.width = fmax(fmin(b.width, widest), m.size);
     b.left_width = fmin(b.left_width, b.width);
     return draw_panel(&rows, &b, 1, m, allocator, out, error);
 }

@@ -269,13 +269,8 @@ static void step_renderer(view_state *s)
 static void step_divider(view_state *s, int steps)
 {
     view_divider_step(&s->divider, steps, s->counts.variants > 0);
-    facet_render_desc sides[2];
-    const char *labels[2];
-    view_divider_sides(&s->divider, &s->render, sides, labels);
-    if (s->divider.comparison == VIEW_COMPARE_NOTHING)
+    if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* else the sides have labels */
         say(s, "No comparison");
-    else
-        say(s, "%s | %s", labels[0], labels[1]);
 }
 
 static bool apply_camera(view_state *s, view_action action, int amount)

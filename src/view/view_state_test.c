@@ -1,0 +1,200 @@
+/* view_state_test.c - view_state.h and view_divider.h: what keys and the pointer make of a picture, without a window. */
+#include "view/view_state.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "scene/scene.h"
+
+static facet_scene *scene;
+
+static int make_scene(void **state)
+{
+    (void)state;
+    return scene_create_builtin(&(facet_scene_desc){0}, &scene, NULL) == FACET_OK ? 0 : 1;
+}
+
+static int drop_scene(void **state)
+{
+    (void)state;
+    scene_destroy(scene);
+    return 0;
+}
+
+static void begin(view_state *s)
+{
+    static const float low[3] = {-1.0f, -1.0f, -1.0f};
+    static const float high[3] = {1.0f, 1.0f, 1.0f};
+    view_state_create(
+        s, &(facet_view_desc){.render = {.integrator = FACET_INTEGRATOR_GL, .width = 100, .height = 50},
+                              .path_samples = 16});
+    view_state_set_model(s, &(facet_view_model){.scene = scene, .orbit = scene_orbit_default()}, low, high,
+                         false);
+    s->orbit.radius = 5.0f;
+    s->needs_framing = false;
+    s->width = 100;
+    s->height = 50;
+}
+
+static void press(view_state *s, const char *name)
+{
+    uint32_t key;
+    unsigned modifiers;
+    assert_true(view_key_parse(name, &key, &modifiers));
+    const view_binding *b = view_binding_find(key, modifiers);
+    assert_non_null(b);
+    assert_true(view_state_apply(s, b->action, b->amount));
+}
+
+/* Keys that step go around; there and back is where it was. */
+static void keys_go_around(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    for (int i = 0; i < FACET_CHANNEL_COUNT; i++)
+        press(&s, "n");
+    assert_int_equal(s.render.gl.channel, FACET_CHANNEL_LIGHT);
+    press(&s, "Shift+n");
+    assert_int_equal(s.render.gl.channel, FACET_CHANNEL_FURNACE);
+    press(&s, "0");
+    assert_int_equal(s.render.gl.channel, FACET_CHANNEL_LIGHT);
+    for (int i = 0; i < 8; i++)
+        press(&s, "t");
+    assert_int_equal(s.render.tonemap, FACET_TONEMAP_NONE);
+    for (int i = 0; i < 3; i++)
+        press(&s, "+");
+    assert_true(fabsf(s.render.exposure_ev - 1.0f) < 1e-6f);
+    for (int i = 0; i < 24; i++)
+        press(&s, "Ctrl+Right");
+    assert_true(fabsf(s.render.environment_rotation_rad) < 1e-4f);
+    press(&s, "f");
+    press(&s, "f");
+    press(&s, "f");
+    assert_int_equal(s.render.gl.brdf, FACET_BRDF_ENERGY);
+}
+
+/* What the model lacks is said, and changes nothing. */
+static void what_is_not_there_is_said(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"v", "c", "w", "Space"};
+    view_state s;
+    begin(&s);
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        press(&s, keys[i]);
+        assert_non_null(strstr(s.message, "The model has no"));
+    }
+    assert_false(s.is_playing);
+    assert_false(s.pose.has_variant);
+    assert_int_equal(s.camera, VIEW_NO_CAMERA);
+}
+
+/* Before there is a model keys that are about one do nothing, and nothing breaks. */
+static void keys_without_a_model(void **state)
+{
+    (void)state;
+    view_state s;
+    view_state_create(&s, &(facet_view_desc){.render = {.integrator = FACET_INTEGRATOR_GL}});
+    for (uint32_t i = 0; i < view_binding_count; i++)
+        view_state_apply(&s, view_bindings[i].action, view_bindings[i].amount);
+    assert_false(view_state_point(&s, &(view_event){.kind = VIEW_SCROLL, .y = 1.0}));
+    view_state_point(&s, &(view_event){.kind = VIEW_PRESS});
+    assert_false(view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 10.0}));
+}
+
+static void channels_and_path_tracing_exclude_each_other(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    press(&s, "r");
+    assert_int_equal(s.render.integrator, FACET_INTEGRATOR_PATH);
+    press(&s, "n");
+    assert_int_equal(s.render.integrator, FACET_INTEGRATOR_GL);
+    press(&s, "r");
+    assert_int_equal(s.render.gl.channel, FACET_CHANNEL_LIGHT);
+}
+
+static void the_pointer_moves_what_it_holds(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    float azimuth = s.orbit.azimuth_rad;
+    assert_false(view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 10.0, .y = 10.0}));
+    assert_true(s.orbit.azimuth_rad == azimuth);
+    view_state_point(&s, &(view_event){.kind = VIEW_PRESS, .button = VIEW_LEFT_BUTTON, .x = 10.0, .y = 10.0});
+    assert_true(view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 20.0, .y = 10.0}));
+    assert_true(s.orbit.azimuth_rad < azimuth);
+    view_state_point(&s,
+                     &(view_event){.kind = VIEW_RELEASE, .button = VIEW_LEFT_BUTTON, .x = 20.0, .y = 10.0});
+    azimuth = s.orbit.azimuth_rad;
+    assert_false(view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 40.0, .y = 10.0}));
+    assert_true(s.orbit.azimuth_rad == azimuth);
+    float x = s.orbit.target[0];
+    view_state_point(&s,
+                     &(view_event){.kind = VIEW_PRESS, .button = VIEW_RIGHT_BUTTON, .x = 10.0, .y = 10.0});
+    view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 20.0, .y = 10.0});
+    assert_true(s.orbit.azimuth_rad == azimuth && s.orbit.target[0] != x);
+}
+
+static void the_divider_is_taken_where_it_is(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    press(&s, "Tab");
+    assert_int_equal(s.divider.comparison, VIEW_COMPARE_MASKING);
+    facet_orbit orbit = s.orbit;
+    view_state_point(&s, &(view_event){.kind = VIEW_PRESS, .x = 52.0, .y = 10.0});
+    view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 80.0, .y = 10.0});
+    assert_true(fabs(s.divider.position - 0.8) < 1e-9);
+    assert_memory_equal(&orbit, &s.orbit, sizeof orbit);
+    view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = -500.0, .y = 10.0});
+    assert_true(s.divider.position > 0.0);
+    view_state_point(&s, &(view_event){.kind = VIEW_RELEASE, .x = 30.0, .y = 10.0});
+    view_state_point(&s, &(view_event){.kind = VIEW_PRESS, .x = 50.0, .y = 10.0});
+    view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 60.0, .y = 10.0});
+    assert_true(orbit.azimuth_rad != s.orbit.azimuth_rad);
+}
+
+/* The two sides differ in what the comparison is about, and in nothing else. */
+static void sides_differ_in_one_thing(void **state)
+{
+    (void)state;
+    const facet_render_desc base = {.integrator = FACET_INTEGRATOR_GL, .tonemap = FACET_TONEMAP_AGX};
+    for (int i = 0; i < VIEW_COMPARISON_COUNT; i++) {
+        facet_render_desc sides[2];
+        const char *labels[2];
+        view_divider_sides(&(view_divider){.comparison = (view_comparison)i}, &base, sides, labels);
+        const bool differ[VIEW_COMPARISON_COUNT] = {
+            false,
+            sides[0].gl.brdf != sides[1].gl.brdf,
+            sides[0].energy != sides[1].energy,
+            sides[0].integrator != sides[1].integrator,
+            sides[0].tonemap != sides[1].tonemap,
+            sides[0].pose.has_variant != sides[1].pose.has_variant,
+        };
+        for (int k = 0; k < VIEW_COMPARISON_COUNT; k++)
+            assert_int_equal(differ[k], k == i && i != VIEW_COMPARE_NOTHING);
+        assert_true((labels[0][0] != 0) == (i != VIEW_COMPARE_NOTHING));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(keys_go_around),
+                                       cmocka_unit_test(what_is_not_there_is_said),
+                                       cmocka_unit_test(keys_without_a_model),
+                                       cmocka_unit_test(channels_and_path_tracing_exclude_each_other),
+                                       cmocka_unit_test(the_pointer_moves_what_it_holds),
+                                       cmocka_unit_test(the_divider_is_taken_where_it_is),
+                                       cmocka_unit_test(sides_differ_in_one_thing)};
+    return cmocka_run_group_tests(tests, make_scene, drop_scene);
+}

@@ -1,0 +1,64 @@
+# lib.sh - for the tests of the viewer: sourced with the path of facet as $1, the test's own words behind it. Starts an X server
+# without a screen, and skips where there is none, or no GLFW, or no OpenGL.
+. "$(dirname "$0")/../cli/lib.sh"
+
+program=$facet
+
+skip() {
+    echo "skipped: $*"
+    exit 77
+}
+
+command -v Xvfb >/dev/null || skip "there is no Xvfb"
+# </dev/null etc.: whoever waits for the test's output does not wait for the server
+Xvfb -displayfd 3 -screen 0 1024x768x24 -nolisten tcp 3>display >/dev/null 2>&1 </dev/null &
+server=$!
+trap 'kill $server 2>/dev/null; wait $server 2>/dev/null; rm -rf "$work"' EXIT
+tries=0
+while [ ! -s display ] && [ $tries -lt 100 ]; do
+    sleep 0.1
+    tries=$((tries + 1))
+done
+[ -s display ] || skip "Xvfb does not start"
+DISPLAY=:$(cat display)
+export DISPLAY
+unset WAYLAND_DISPLAY
+rm -f display
+size="--size 160x120"
+
+# A window opens and closes: what is missing on this machine is said, not tested.
+printf 'close\n' >close.txt
+code=0
+"$facet" view --script close.txt $size >out 2>err || code=$?
+[ $code != 8 ] || skip "$(cat err)"
+[ $code = 0 ] || failed "exit code $code where a window opens and closes"
+
+# view WORD...: plays what stands in ./script; messages are in ./err, what is printed in ./out.
+view() {
+    expect 0 view --script script $size "$@"
+}
+
+# same A B [MOST]: the pictures differ by no more than one code, or MOST, anywhere.
+same() {
+    "$facet" compare "$1" "$2" --max "max=${3:-0.0040}" -q >compared 2>&1 ||
+        failed "$1 and $2 differ: $(cat compared)"
+}
+
+# differ A B: they do, visibly.
+differ() {
+    ! "$facet" compare "$1" "$2" --max mae=0.002 -q >/dev/null 2>&1 || failed "$1 and $2 are alike"
+}
+
+# rendered PICTURE FILE [MOST]: the last command that was printed, run as it is by a shell, writes FILE, which is the same.
+rendered() {
+    tail -1 out | grep '^facet render ' >command || {
+        failed "no command was printed"
+        return
+    }
+    rm -f "$2"
+    (
+        facet() { "$program" "$@"; }
+        . ./command
+    ) >/dev/null 2>err || failed "the printed command fails: $(cat command)"
+    same "$1" "$2" "${3:-}"
+}

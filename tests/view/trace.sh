@@ -1,0 +1,50 @@
+#!/bin/sh
+# trace.sh - facet view: path tracing converges to what facet render --renderer path draws; the divider has both sides.
+set -eu
+. "$(dirname "$0")/lib.sh"
+write_triangle triangle.gltf
+size="--size 96x72"
+
+cat >script <<'END'
+load
+trace
+picture path.png
+print
+drag left 40 40 46 45
+trace
+picture turned.png
+key r
+picture gl.png
+key r
+trace 1
+END
+view triangle.gltf --renderer path --samples 8
+rendered_command=$(tail -1 out)
+case $rendered_command in *"--renderer path"*"--samples 8"*) ;; *) failed "no path tracing in $rendered_command" ;; esac
+rendered path.png triangle.png
+differ path.png turned.png
+differ turned.png gl.png
+
+# both sides of the divider, each as it is alone: energy as glTF has it, and conserving
+cat >script <<'END'
+load
+picture left.png
+key Tab
+key Tab
+picture both.png
+drag left 48 30 500 30
+picture dragged.png
+key 0
+key Shift+F
+picture right.png
+END
+view
+differ left.png right.png
+# columns 47 and 48 are the border's
+for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do
+    crop=${side#*:}
+    "$facet" compare "${side%%:*}.png" "${side##*:}.png" --crop "${crop%:*}" --max max=0.004 -q >compared 2>&1 ||
+        failed "the $side side is another picture: $(cat compared)"
+done
+
+finish

@@ -1,0 +1,159 @@
+#!/bin/sh
+# view.sh - facet view: what a window shows is what the copied command line renders, whatever is done to it.
+set -eu
+. "$(dirname "$0")/lib.sh"
+write_triangle triangle.gltf
+
+# ---- the same picture as the copied command's ----
+cat >script <<'END'
+load
+picture first.png
+print
+END
+view
+rendered first.png facet.png
+
+cat >script <<'END'
+load
+picture first.png
+drag left 40 40 52 48
+picture orbit.png
+drag Shift+left 40 40 60 50
+scroll 0 -3
+key 5
+key +
+key t
+key e
+load
+key Ctrl+Left
+key l
+key j
+picture all.png
+print
+END
+view triangle.gltf
+differ first.png orbit.png
+differ orbit.png all.png
+rendered all.png triangle.png
+grep -q -- '--ortho' command || failed "the parallel view is not in $(cat command)"
+grep -q -- '--env white' command || failed "the next environment is not in $(cat command)"
+grep -q -- '--tone-mapping' command || failed "the tone mapping is not in $(cat command)"
+
+# options that no key changes go along; names need quotes
+cp triangle.gltf "it's a triangle.gltf"
+cat >script <<'END'
+load
+picture sun.png
+print
+END
+view "it's a triangle.gltf" --sun 30,45 --background transparent --root . --camera Hero
+rendered sun.png "it's a triangle.png"
+grep -q -- "--sun 30,45" command || failed "the sun is not in $(cat command)"
+grep -q -- "--camera 0" command || failed "the camera is not in $(cat command)"
+
+# ---- what is laid over it ----
+cat >script <<'END'
+load
+wait 20
+window bare.png
+key h
+window help.png
+picture under.png
+key h
+window again.png
+key z
+window values.png
+END
+view triangle.gltf
+if "$facet" plot -o plot.png >/dev/null 2>&1; then # letters are cairo's
+    differ bare.png help.png
+    differ bare.png values.png
+fi
+same bare.png under.png
+same bare.png again.png
+
+# ---- files ----
+mkdir models
+cp triangle.gltf models/b.gltf
+"$facet" convert triangle.gltf -o models/a2.glb -q 2>/dev/null
+cp models/a2.glb models/a10.glb
+echo no >bad.glb
+cat >script <<'END'
+load
+print
+key Right
+load
+print
+key Left
+load
+key Left
+load
+print
+picture before.png
+drop bad.glb
+load
+print
+picture after.png
+drop triangle.gltf
+load
+print
+END
+view models/
+grep -o '^facet render [^ ]*' out | sed 's/.* //' | tr '\n' ' ' >order
+[ "$(cat order)" = "models/a2.glb models/a10.glb models/b.gltf models/b.gltf triangle.gltf " ] ||
+    failed "models in another order: $(cat order)"
+same before.png after.png
+
+# read again when its file changes; the view stays
+cp triangle.gltf changing.gltf
+cat >script <<'END'
+load
+drag left 40 40 52 48
+picture old.png
+print
+reload
+picture new.png
+print
+END
+(
+    sleep 2
+    sed 's/"max":\[1,1,0\]/"max":[1,1,0],"name":"x"/; s/"mesh":0/"mesh":0,"scale":[0.5,0.5,0.5]/' triangle.gltf >new.gltf
+    mv new.gltf changing.gltf
+) &
+view changing.gltf
+wait $!
+differ old.png new.png
+[ "$(grep -c '^facet render' out)" = 2 ] && [ "$(sort -u out | wc -l)" = 1 ] || failed "the view changed with the file"
+rendered new.png changing.png
+
+expect 3 view none.glb --script close.txt
+expect 4 view bad.glb --script close.txt
+mkdir empty
+expect 3 view empty --script close.txt
+says "there is no .glb, .gltf or .obj file in it"
+echo "dance" >wrong
+expect 2 view --script wrong
+says 'wrong: line 1: there is no "dance"'
+expect 2 view --renderer preview
+says "gl or path"
+
+# ---- the window ----
+cat >script <<'END'
+load
+size 200 90
+picture wide.png
+print
+minimise
+key h
+drag left 10 10 20 20
+wait 1
+restore
+key h
+drag left 20 20 10 10
+picture same.png
+END
+view triangle.gltf
+rendered wide.png triangle.png
+same wide.png same.png
+
+finish
