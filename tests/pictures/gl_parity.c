@@ -2,9 +2,12 @@
  * light passes through are told apart, because OpenGL has rays to no depth.
  *     gl_parity [-v] [MODEL...]      -v: every model's line, not only those that are too far apart
  *
- * Compared are display values (8 bits' worth of sRGB, neither rounded nor clamped above) of pixels away from edges: where two
- * pixels beside each other show other materials, depths that a plane would not explain, or normals that differ by more
- * than 25 degrees, and where the model ends, samples fall differently. */
+ * Compared are display values (8 bits' worth of sRGB, not rounded), twice:
+ * with one sample a pixel, where both shade the same points, in pixels away from edges: where two pixels beside each other
+ * show other materials, depths that a plane would not explain, or normals that differ by more than 25 degrees;
+ * and with four, edges and all, both with the preview's picture of 64 samples, shaded four times a pixel. The preview shades once
+ * what four samples see of a surface; OpenGL shades each triangle, so that pixels of small triangles with sharp
+ * reflections differ one by one: neither may be much farther from the better picture than the other. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include <ftw.h>
 #include <math.h>
@@ -18,6 +21,8 @@ enum { WIDTH = 256, HEIGHT = 192, COUNT = WIDTH * HEIGHT, MAX_MODELS = 1024 };
 
 /* In 8-bit codes. */
 static const double MOST_MEAN = 1.0, MOST_PERCENTILE = 4.0;
+/* How much farther from the better picture: times, and besides. */
+static const double MOST_TIMES = 1.5, MOST_MORE = 0.25;
 
 static char *models[MAX_MODELS];
 static int model_count;
@@ -41,14 +46,19 @@ static int compare_names(const void *a, const void *b)
 /* ---- two pictures ---- */
 
 static facet_result draw(const facet_scene *scene, facet_environment *environment,
-                         facet_integrator integrator, uint32_t aovs, facet_image **drawn, facet_error *error)
+                         facet_integrator integrator, uint32_t samples, facet_image **drawn,
+                         facet_error *error)
 {
     facet_render_desc desc = {.width = WIDTH,
                               .height = HEIGHT,
                               .environment = environment,
                               .integrator = integrator,
                               .background = FACET_BACKGROUND_ENVIRONMENT,
-                              .aovs = aovs,
+                              .samples = samples,
+                              .quality = samples > 4 ? FACET_QUALITY_FINAL : FACET_QUALITY_NORMAL,
+                              .aovs = integrator == FACET_INTEGRATOR_PREVIEW
+                                          ? FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_MATERIAL_ID
+                                          : 0,
                               .pose.time_s = 0.4};
     static const uint32_t first[1] = {0};
     if (facet_scene_get_counts(scene).animations > 0) {
@@ -104,30 +114,61 @@ static int compare_doubles(const void *a, const void *b)
 
 typedef struct distance {
     double mean, percentile, largest; /* 99.5th percentile */
-    size_t pixels;                    /* away from edges */
+    size_t count;
 } distance;
 
-static distance compare(const facet_image *reference, const facet_image *other)
+/* differences: of the channel that differs most. */
+static distance sum_up(double *differences, size_t count, double sum)
+{
+    if (count == 0)
+        return (distance){1e9, 1e9, 1e9, 0};
+    qsort(differences, count, sizeof *differences, compare_doubles);
+    return (distance){sum / (3.0 * (double)count), differences[count * 995 / 1000], differences[count - 1],
+                      count};
+}
+
+/* Adds a pair of colors to what sum_up() takes. */
+static void add(const double a[3], const double b[3], double *differences, size_t *count, double *sum)
+{
+    double most = 0.0;
+    for (int c = 0; c < 3; c++) {
+        double difference = fabs(a[c] - b[c]);
+        *sum += isnan(difference) ? 1e9 : difference;
+        most = difference > most || isnan(difference) ? difference : most;
+    }
+    differences[(*count)++] = isnan(most) ? 1e9 : most;
+}
+
+static double display(float linear)
+{
+    return fmin(code(linear), 255.0);
+}
+
+static distance compare_pixels(const facet_image *reference, const facet_image *other)
 {
     static double differences[COUNT];
     const float *a = layer(reference, ""), *b = layer(other, "");
-    distance d = {0};
+    size_t count = 0;
+    double sum = 0.0;
     for (size_t i = 0; i < COUNT; i++) {
         if (is_edge(reference, i))
             continue;
-        double most = 0.0;
-        for (size_t c = 0; c < 3; c++) {
-            double difference = fabs(fmin(code(a[4 * i + c]), 255.0) - fmin(code(b[4 * i + c]), 255.0));
-            d.mean += difference / 3.0;
-            most = difference > most || isnan(difference) ? difference : most;
-        }
-        differences[d.pixels++] = isnan(most) ? 1e9 : most;
+        const float *p = a + 4 * i, *q = b + 4 * i;
+        add((double[3]){display(p[0]), display(p[1]), display(p[2])},
+            (double[3]){display(q[0]), display(q[1]), display(q[2])}, differences, &count, &sum);
     }
-    qsort(differences, d.pixels, sizeof *differences, compare_doubles);
-    d.mean /= (double)d.pixels;
-    d.percentile = differences[d.pixels * 995 / 1000];
-    d.largest = differences[d.pixels - 1];
-    return d;
+    return sum_up(differences, count, sum);
+}
+
+/* Mean over all pixels and channels. */
+static double mean_error(const facet_image *reference, const facet_image *other)
+{
+    const float *a = layer(reference, ""), *b = layer(other, "");
+    double sum = 0.0;
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t c = 0; c < 3; c++)
+            sum += fabs(display(a[4 * i + c]) - display(b[4 * i + c]));
+    return sum / (3.0 * COUNT);
 }
 
 /* ---- a model ---- */
@@ -144,35 +185,64 @@ static bool lets_light_through(const facet_scene *scene)
 
 typedef enum verdict { SAME, DIFFERENT, LISTED, NOT_LOADED, NO_GL } verdict;
 
+/* How far apart a scene's pictures are. */
+typedef struct comparison {
+    distance pixels;            /* of one sample */
+    double gl_error, cpu_error; /* of four */
+} comparison;
+
+static facet_result measure(const facet_scene *scene, facet_environment *environment, comparison *out,
+                            facet_error *error)
+{
+    static const struct {
+        facet_integrator integrator;
+        uint32_t samples;
+    } pictures[] = {{FACET_INTEGRATOR_GL, 1},
+                    {FACET_INTEGRATOR_PREVIEW, 1},
+                    {FACET_INTEGRATOR_GL, 4},
+                    {FACET_INTEGRATOR_PREVIEW, 4},
+                    {FACET_INTEGRATOR_PREVIEW, 64}};
+    facet_image *drawn[5] = {NULL};
+    facet_result result = FACET_OK;
+    for (int i = 0; i < 5 && result == FACET_OK; i++)
+        result = draw(scene, environment, pictures[i].integrator, pictures[i].samples, &drawn[i], error);
+    if (result == FACET_OK)
+        *out = (comparison){compare_pixels(drawn[1], drawn[0]), mean_error(drawn[4], drawn[2]),
+                            mean_error(drawn[4], drawn[3])};
+    for (int i = 0; i < 5; i++)
+        facet_image_destroy(drawn[i]);
+    return result;
+}
+
+static bool is_same(const comparison *c)
+{
+    const distance *d = &c->pixels;
+    return d->mean < MOST_MEAN && d->percentile < MOST_PERCENTILE && d->count > COUNT / 20 &&
+           c->gl_error < MOST_TIMES * c->cpu_error + MOST_MORE;
+}
+
 static verdict check(const char *path, facet_environment *environment, bool is_verbose)
 {
     facet_scene *scene = NULL;
     facet_error error = {0};
+    comparison c = {.gl_error = 0.0};
     const char *name = strstr(path, "/models/") ? strstr(path, "/models/") + 8 : path;
     if (facet_scene_load(path, NULL, &scene, &error) != FACET_OK)
         return NOT_LOADED;
-    uint32_t aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_MATERIAL_ID;
-    facet_image *preview = NULL, *gl = NULL;
-    facet_result result = draw(scene, environment, FACET_INTEGRATOR_PREVIEW, aovs, &preview, &error);
-    if (result == FACET_OK)
-        result = draw(scene, environment, FACET_INTEGRATOR_GL, 0, &gl, &error);
+    facet_result result = measure(scene, environment, &c, &error);
     verdict v;
     if (result != FACET_OK) {
         v = result == FACET_ERROR_ENVIRONMENT ? NO_GL : DIFFERENT;
         printf("%s: %s\n", name, error.message);
     } else {
-        distance d = compare(preview, gl);
-        bool is_near = d.mean < MOST_MEAN && d.percentile < MOST_PERCENTILE && d.pixels > COUNT / 20;
-        v = is_near ? SAME : lets_light_through(scene) ? LISTED : DIFFERENT;
+        v = is_same(&c) ? SAME : lets_light_through(scene) ? LISTED : DIFFERENT;
         if (is_verbose || v != SAME)
-            printf("%-48s mean %6.3f  99.5 %% %7.2f  largest %7.2f  of %5zu pixels%s\n", name, d.mean,
-                   d.percentile, d.largest, d.pixels,
+            printf("%-48s %6.3f %7.2f %7.2f  of %5zu pixels;  %6.3f %6.3f%s\n", name, c.pixels.mean,
+                   c.pixels.percentile, c.pixels.largest, c.pixels.count, c.gl_error, c.cpu_error,
                    v == LISTED      ? "  (transmission)"
                    : v == DIFFERENT ? "  DIFFERENT"
                                     : "");
     }
-    facet_image_destroy(preview);
-    facet_image_destroy(gl);
     facet_scene_destroy(scene);
     return v;
 }
@@ -200,6 +270,8 @@ int main(int argc, char **argv)
         printf("%s\n", error.message);
         return 1;
     }
+    printf("differences in 8-bit codes: mean, 99.5th percentile, largest; OpenGL and preview from a better "
+           "picture\n");
     for (int i = 0; i < model_count; i++) {
         counts[check(models[i], environment, is_verbose)] += 1;
         free(models[i]);
