@@ -90,7 +90,7 @@ static const struct {
                          {"surface", "light", "layers_direct", "layers_ibl", "material"},
                          {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl",
                           "surface_in.glsl", "material.glsl", "transmission.glsl", "radiance.glsl",
-                          "transparency.glsl"},
+                          "transparency.glsl", "aovs.glsl"},
                          surface_features},
     [GL_MAIN_SHADOW] = {"shadow",
                         "surface.vert",

@@ -1,4 +1,17 @@
 /* surface.frag - radiance (cd/m^2, premultiplied) of a material. */
+#ifdef AOVS
+void main()
+{
+    vec4 color = base_color();
+    vec3 V = view_direction();
+    vec3 N = shading_normal(V);
+    float occlusion = 1.0;
+#ifdef IS_LIT
+    occlusion = surface_of_material(N, color.xyz).occlusion;
+#endif
+    put_aovs(N, color.xyz, occlusion, coverage(color.w));
+}
+#else
 /* Without light: what has no normals, or is KHR_materials_unlit. glTF 2.0, 3.7.2.1. */
 vec3 unlit_radiance(vec3 color)
 {
@@ -47,3 +60,4 @@ void main()
 #endif
     put_fragment(radiance * exposure, opacity);
 }
+#endif

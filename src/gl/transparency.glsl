@@ -1,5 +1,7 @@
 /* transparency.glsl - where the radiance of a fragment goes: gl_transparency.h. */
-#ifdef IS_WEIGHTED
+#if defined(AOVS)
+/* aovs.glsl */
+#elif defined(IS_WEIGHTED)
 layout(location = 0) out vec4 fragment;         /* light and what passes */
 layout(location = 1) out float fragment_weight; /* what the light is to be divided by */
 uniform vec2 u_depths;                          /* of the nearest, m; one over how far behind it the farthest is */
@@ -17,6 +19,7 @@ bool is_behind_peeled()
 }
 #endif
 
+#ifndef AOVS
 /* Radiance that is not yet multiplied by opacity. Every fragment ends here, after all that needs its neighbors. */
 void put_fragment(vec3 radiance, float opacity)
 {
@@ -33,3 +36,4 @@ void put_fragment(vec3 radiance, float opacity)
     fragment = vec4(radiance * opacity, opacity);
 #endif
 }
+#endif
