@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 96
+#define PROBE_COUNT 98
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -793,6 +793,18 @@ FN vec3 probe_material(int which, vec2 u)
            vec3(m.anisotropy + turn[0], float(m.layers) * 0.01f + turn[1], 0.0f);
 }
 
+FN vec3 probe_footprint(int which, vec2 u)
+{
+    vec2 size = vec2(512.0f, 300.0f);
+    Footprint f = footprint_from_derivatives(size, vec2(0.001f + 0.02f * u[0], 0.004f * u[1]),
+                                             vec2(-0.003f * u[1], 0.001f + 0.006f * u[0] * u[1]));
+    if (which == 96)
+        return vec3(sqrt(f.longest2), sqrt(f.major2) + sqrt(max(f.minor2, 0.0f) + 1.0f),
+                    length(vec2(f.axis_u, f.axis_v)) / f.major2 + sel(footprint_is_finite(f), 1.0f, 2.0f));
+    ProbeRow p = footprint_probes(f, 1.0f, 1.0f / size);
+    return vec3(float(p.count), sqrt(p.width2), 1.0f + length(vec2(p.step_u, p.step_v) * size));
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -827,5 +839,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_paths(which, u);
     if (which < 91)
         return probe_sky(which, u);
-    return probe_material(which, u);
+    if (which < 96)
+        return probe_material(which, u);
+    return probe_footprint(which, u);
 }

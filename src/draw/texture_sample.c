@@ -80,13 +80,13 @@ static float4 look_up(const texture_binding *b, const texture_pyramid *p, uint32
 }
 
 static float4 sample_minified(const texture_binding *b, const texture_pyramid *p, const float uv[2],
-                              const footprint *f)
+                              const Footprint *f)
 {
     float u = wrap_coordinate(uv[0], b->wrap_u);
     float v = wrap_coordinate(uv[1], b->wrap_v);
     if (b->mip_filter == SCENE_MIP_NONE)
         return look_up(b, p, p->first_level, b->min_filter, u, v);
-    level_pair levels = get_levels(p, f->longest_2);
+    level_pair levels = get_levels(p, f->longest2);
     if (b->mip_filter ==
         SCENE_MIP_NEAREST) /* at lod + 1/2 exactly it is the finer one: OpenGL 4.6, equation 8.16 */
         return look_up(b, p, levels.fraction > 0.5f ? levels.second : levels.first, b->min_filter, u, v);
@@ -102,14 +102,14 @@ static bool is_trilinear(const texture_binding *b)
 
 /* Whether the magnification filter applies: up to lod 0, or 0.5 where minification is coarser by a nearest filter
  * (OpenGL ES 3.0, section 3.8.11). */
-static bool is_magnified(const texture_binding *b, const footprint *f)
+static bool is_magnified(const texture_binding *b, const Footprint *f)
 {
     bool has_mips = b->mip_filter != SCENE_MIP_NONE;
     if (has_mips && b->mag_filter == SCENE_FILTER_LINEAR && b->min_filter == SCENE_FILTER_NEAREST)
-        return f->longest_2 <= 2.0f;
+        return f->longest2 <= 2.0f;
     if (is_trilinear(b))
-        return f->major_2 <= 1.0f;
-    return f->longest_2 <= 1.0f;
+        return f->major2 <= 1.0f;
+    return f->longest2 <= 1.0f;
 }
 
 static const texture_pyramid *find_pyramid(const texture_set *set, const texture_request *request)
@@ -122,7 +122,7 @@ static const texture_pyramid *find_pyramid(const texture_set *set, const texture
 
 /* Looks up requests[first] and all those behind it that are alike; returns them as bits. */
 static uint32_t sample_alike(const texture_set *set, texture_request *requests, uint32_t first,
-                             uint32_t count, const float uv[2], const footprint *f)
+                             uint32_t count, const float uv[2], const Footprint *f)
 {
     const texture_binding *b = &set->bindings[requests[first].texture];
     const texture_pyramid *pyramids[TEXTURE_GROUP] = {find_pyramid(set, &requests[first])};
@@ -156,7 +156,7 @@ void texture_sample_group(const texture_set *set, texture_request *requests, uin
         const texture_pyramid *p = find_pyramid(set, &requests[i]);
         if (p) {
             const texture_binding *b = &set->bindings[requests[i].texture];
-            footprint f;
+            Footprint f;
             if (!get_footprint(p, duv_dx, duv_dy, &f)) {
                 texel = look_up_nearest(p, p->level_count - 1, 0.0f, 0.0f); /* the mean of the image */
             } else if (is_magnified(b, &f)) {

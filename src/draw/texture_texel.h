@@ -5,8 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/texture_footprint.h"
 #include "scene/scene.h"
+
+#include "draw/texture_footprint.h"
 
 typedef float float4 __attribute__((vector_size(16))); /* RGBA; or u and v of two levels */
 typedef int32_t int4 __attribute__((vector_size(16)));

@@ -1,9 +1,9 @@
 /* texture_trilinear.c - see texture_trilinear.h. Where probes read is worked out once for all textures; what they
  * read there is blended on both levels at the same time, in eight lanes. */
-#include "draw/texture_trilinear.h"
+#include "base/simd.h"
 
 #include "draw/texture_texel.h"
-#include "base/simd.h"
+#include "draw/texture_trilinear.h"
 
 typedef uint32_t uint8 __attribute__((vector_size(32)));
 typedef int32_t int8 __attribute__((vector_size(32)));
@@ -178,24 +178,25 @@ INLINE float4 sample(const texture_pyramid *p, level_pair levels, const probe_ta
 }
 
 DISPATCH_AVX2 static void sample_all(const texture_binding *b, const texture_pyramid *const *pyramids,
-                                     uint32_t count, const float uv[2], const footprint *f, float (*out)[4])
+                                     uint32_t count, const float uv[2], const Footprint *f, float (*out)[4])
 {
-    probe_row probes = place_probes(pyramids[0], f);
-    level_pair levels = get_levels(pyramids[0], probes.width_2);
+    ProbeRow probes = place_probes(pyramids[0], f);
+    level_pair levels = get_levels(pyramids[0], probes.width2);
     level_pair_view view = view_levels(b, pyramids[0], levels);
-    probe_taps taps[MAX_PROBES];
-    float begin = -0.5f * (float)(probes.count - 1);
-    for (uint32_t i = 0; i < probes.count; i++)
-        taps[i] = place_taps(&view, wrap_coordinate(uv[0] + (begin + (float)i) * probes.step[0], b->wrap_u),
-                             wrap_coordinate(uv[1] + (begin + (float)i) * probes.step[1], b->wrap_v));
+    probe_taps taps[FOOTPRINT_MAX_PROBES];
+    uint32_t probe_count = (uint32_t)probes.count;
+    float begin = -0.5f * (float)(probe_count - 1);
+    for (uint32_t i = 0; i < probe_count; i++)
+        taps[i] = place_taps(&view, wrap_coordinate(uv[0] + (begin + (float)i) * probes.step_u, b->wrap_u),
+                             wrap_coordinate(uv[1] + (begin + (float)i) * probes.step_v, b->wrap_v));
     for (uint32_t k = 0; k < count; k++) {
-        float4 texel = sample(pyramids[k], levels, taps, probes.count);
+        float4 texel = sample(pyramids[k], levels, taps, probe_count);
         memcpy(out[k], &texel, sizeof texel);
     }
 }
 
 void texture_trilinear(const texture_binding *binding, const texture_pyramid *const *pyramids, uint32_t count,
-                       const float uv[2], const footprint *f, float (*out)[4])
+                       const float uv[2], const Footprint *f, float (*out)[4])
 {
     sample_all(binding, pyramids, count, uv, f, out);
 }

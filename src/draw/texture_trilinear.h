@@ -2,8 +2,9 @@
 #ifndef DRAW_TEXTURE_TRILINEAR_H
 #define DRAW_TEXTURE_TRILINEAR_H
 
-#include "draw/texture_footprint.h"
 #include "draw/texture_set.h"
+
+#include "draw/texture_footprint.h"
 
 /* Whether two textures are read at the same texels with the same weights. */
 static inline bool texture_is_alike(const texture_binding *a, const texture_pyramid *p,
@@ -16,6 +17,6 @@ static inline bool texture_is_alike(const texture_binding *a, const texture_pyra
 
 /* The mean of the probes of place_probes() in count textures, 1 to TEXTURE_GROUP, that are all alike. */
 void texture_trilinear(const texture_binding *binding, const texture_pyramid *const *pyramids, uint32_t count,
-                       const float uv[2], const footprint *f, float (*out)[4]);
+                       const float uv[2], const Footprint *f, float (*out)[4]);
 
 #endif
