@@ -107,23 +107,26 @@ static vec3 clearcoat_normal(const surface_point *s, const float texel[4])
     return frame_has_tangent(f) ? frame_normal(f, n, N) : N;
 }
 
-static void add_clearcoat(const surface_point *s, material_texels texels, Layers *m)
+/* Layers go through these by value: they are inlined, and nothing is copied. */
+
+static inline Layers add_clearcoat(const surface_point *s, material_texels texels, Layers m)
 {
     const scene_material *material = s->hit.geometry->material;
-    *m = with_clearcoat(*m, material->clearcoat, material->clearcoat_roughness,
-                        load3(texels[SCENE_CLEARCOAT_TEXTURE]),
-                        load3(texels[SCENE_CLEARCOAT_ROUGHNESS_TEXTURE]));
-    if (m->layers & LAYER_CLEARCOAT)
-        m->clearcoat_N = clearcoat_normal(s, texels[SCENE_CLEARCOAT_NORMAL_TEXTURE]);
+    m = with_clearcoat(m, material->clearcoat, material->clearcoat_roughness,
+                       load3(texels[SCENE_CLEARCOAT_TEXTURE]),
+                       load3(texels[SCENE_CLEARCOAT_ROUGHNESS_TEXTURE]));
+    if (m.layers & LAYER_CLEARCOAT)
+        m.clearcoat_N = clearcoat_normal(s, texels[SCENE_CLEARCOAT_NORMAL_TEXTURE]);
+    return m;
 }
 
-static void add_anisotropy(const surface_point *s, material_texels texels, Layers *m)
+static inline Layers add_anisotropy(const surface_point *s, material_texels texels, Layers m)
 {
     const scene_material *material = s->hit.geometry->material;
     vec3 texel = load3(texels[SCENE_ANISOTROPY_TEXTURE]);
     float strength = anisotropy_strength(material->anisotropy, texel);
     if (!(strength > 0.0f))
-        return;
+        return m;
     ShadingFrame f;
     if (s->hit.geometry->tangents) {
         f = shading_frame_of_tangents(&s->hit, s->is_front);
@@ -131,48 +134,50 @@ static void add_anisotropy(const surface_point *s, material_texels texels, Layer
         const scene_texture_ref *ref = &material->textures[SCENE_ANISOTROPY_TEXTURE];
         f = shading_frame_of_texcoord(&s->hit, s->is_front, ref->texture == SCENE_NONE ? 0 : ref->texcoord);
     }
-    *m = with_anisotropy(*m, strength, material->anisotropy_rotation, texel, f);
+    return with_anisotropy(m, strength, material->anisotropy_rotation, texel, f);
 }
 
 /* What goes on below the interface of a dielectric. */
-static void add_transmission(const surface_point *s, material_texels texels, Layers *m)
+static inline Layers add_transmission(const surface_point *s, material_texels texels, Layers m)
 {
     const scene_material *material = s->hit.geometry->material;
     uint32_t possible = s->plan->layers;
     if (possible & LAYER_TRANSMISSION)
-        *m = with_transmission(*m, material->transmission, load3(texels[SCENE_TRANSMISSION_TEXTURE]));
+        m = with_transmission(m, material->transmission, load3(texels[SCENE_TRANSMISSION_TEXTURE]));
     if (possible & LAYER_DIFFUSE_TRANSMISSION)
-        *m = with_diffuse_transmission(*m, material->diffuse_transmission,
-                                       load3(material->diffuse_transmission_color),
-                                       texels[SCENE_DIFFUSE_TRANSMISSION_TEXTURE][3],
-                                       load3(texels[SCENE_DIFFUSE_TRANSMISSION_COLOR_TEXTURE]));
+        m = with_diffuse_transmission(m, material->diffuse_transmission,
+                                      load3(material->diffuse_transmission_color),
+                                      texels[SCENE_DIFFUSE_TRANSMISSION_TEXTURE][3],
+                                      load3(texels[SCENE_DIFFUSE_TRANSMISSION_COLOR_TEXTURE]));
     if (possible & LAYER_VOLUME)
-        *m = with_volume(*m, material->thickness * s->hit.geometry->scale,
-                         load3(texels[SCENE_THICKNESS_TEXTURE]), load3(material->attenuation_color),
-                         material->attenuation_distance, material->dispersion);
+        m = with_volume(m, material->thickness * s->hit.geometry->scale,
+                        load3(texels[SCENE_THICKNESS_TEXTURE]), load3(material->attenuation_color),
+                        material->attenuation_distance, material->dispersion);
     if (possible & LAYER_SCATTER)
-        *m = with_scatter(*m, load3(material->multiscatter_color), material->scatter_anisotropy);
+        m = with_scatter(m, load3(material->multiscatter_color), material->scatter_anisotropy);
+    return m;
 }
 
-static void add_layers(const surface_point *s, material_texels texels, Layers *m)
+static inline Layers make_layers(const surface_point *s, material_texels texels)
 {
     const scene_material *material = s->hit.geometry->material;
     uint32_t possible = s->plan->layers;
-    *m = with_ior(layers_from_surface(m->base), material->ior, s->plan->is_volume && !s->is_front);
+    Layers m = with_ior(layers_from_surface(s->m.base), material->ior, s->plan->is_volume && !s->is_front);
     if (possible & LAYER_CLEARCOAT)
-        add_clearcoat(s, texels, m);
+        m = add_clearcoat(s, texels, m);
     if (possible & LAYER_SHEEN)
-        *m = with_sheen(*m, load3(material->sheen_color), material->sheen_roughness,
-                        load3(texels[SCENE_SHEEN_COLOR_TEXTURE]), texels[SCENE_SHEEN_ROUGHNESS_TEXTURE][3]);
+        m = with_sheen(m, load3(material->sheen_color), material->sheen_roughness,
+                       load3(texels[SCENE_SHEEN_COLOR_TEXTURE]), texels[SCENE_SHEEN_ROUGHNESS_TEXTURE][3]);
     if (possible & LAYER_IRIDESCENCE)
-        *m = with_iridescence(
-            *m, material->iridescence, material->iridescence_ior, material->iridescence_thickness_minimum,
-            material->iridescence_thickness_maximum, load3(texels[SCENE_IRIDESCENCE_TEXTURE]),
-            load3(texels[SCENE_IRIDESCENCE_THICKNESS_TEXTURE]));
+        m = with_iridescence(m, material->iridescence, material->iridescence_ior,
+                             material->iridescence_thickness_minimum, material->iridescence_thickness_maximum,
+                             load3(texels[SCENE_IRIDESCENCE_TEXTURE]),
+                             load3(texels[SCENE_IRIDESCENCE_THICKNESS_TEXTURE]));
     if (possible & LAYER_ANISOTROPY)
-        add_anisotropy(s, texels, m);
+        m = add_anisotropy(s, texels, m);
     if (possible & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION))
-        add_transmission(s, texels, m);
+        m = add_transmission(s, texels, m);
+    return m;
 }
 
 /* ---- specular anti-aliasing ---- */
@@ -208,7 +213,7 @@ void surface_point_make(const shading_scene *scene, const shading_point *point, 
     if (!s->is_lit)
         return;
     if (s->plan->layers)
-        add_layers(s, texels, &s->m);
+        s->m = make_layers(s, texels);
     if (scene->specular_antialiasing) {
         s->dN_dx = normal_change(scene, s, 0);
         s->dN_dy = normal_change(scene, s, 1);
