@@ -174,7 +174,7 @@ static void update_block(gl_material_set *set, const gl_batch *batch)
 {
     gl_material *item = &set->items[batch->geometry->material_id];
     gl_material_block block;
-    gl_material_block_fill(batch->geometry->material, &block);
+    gl_material_block_fill(set->scene, batch->geometry->material, &block);
     if (item->is_known && memcmp(&block, &item->block, sizeof block) == 0)
         return;
     item->block = block;

@@ -9,13 +9,17 @@ static void copy3(const float in[3], float out[3])
     memcpy(out, in, 3 * sizeof *out);
 }
 
-static void fill_texcoords(const scene_texture_ref *ref, float rows[2][4])
+static void fill_texcoords(const facet_scene *scene, const scene_texture_ref *ref, float rows[2][4])
 {
     static const float identity[6] = {1, 0, 0, 0, 1, 0};
     const float *transform = ref->has_transform ? ref->transform : identity;
     copy3(transform, rows[0]);
     copy3(transform + 3, rows[1]);
-    rows[0][3] = ref->texture == SCENE_NONE ? 0.0f : (float)ref->texcoord;
+    if (ref->texture >= scene->texture_count)
+        return;
+    const scene_texture *t = &scene->textures[ref->texture];
+    rows[0][3] = (float)ref->texcoord;
+    rows[1][3] = t->min_filter == SCENE_FILTER_LINEAR && t->mip_filter == SCENE_MIP_LINEAR;
 }
 
 static void fill_layers(const scene_material *m, gl_material_block *b)
@@ -42,7 +46,7 @@ static void fill_layers(const scene_material *m, gl_material_block *b)
     b->scatter_anisotropy = m->scatter_anisotropy;
 }
 
-void gl_material_block_fill(const scene_material *m, gl_material_block *b)
+void gl_material_block_fill(const facet_scene *scene, const scene_material *m, gl_material_block *b)
 {
     memset(b, 0, sizeof *b);
     memcpy(b->base_color, m->base_color, sizeof b->base_color);
@@ -59,5 +63,5 @@ void gl_material_block_fill(const scene_material *m, gl_material_block *b)
     b->occlusion_strength = m->occlusion_strength;
     fill_layers(m, b);
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
-        fill_texcoords(&m->textures[slot], b->texcoords[slot]);
+        fill_texcoords(scene, &m->textures[slot], b->texcoords[slot]);
 }

@@ -19,9 +19,9 @@ typedef struct gl_material_block {
     float multiscatter_color[3], scatter_anisotropy;
     float thickness, dispersion, reserved[2];
     float texcoords[SCENE_TEXTURE_SLOT_COUNT][2]
-                   [4]; /* by slot: rows of the transform; the first one's w: the set */
+                   [4]; /* by slot: rows of the transform; w: the set; 1: it is filtered by probes */
 } gl_material_block;
 
-void gl_material_block_fill(const scene_material *m, gl_material_block *out);
+void gl_material_block_fill(const facet_scene *scene, const scene_material *m, gl_material_block *out);
 
 #endif

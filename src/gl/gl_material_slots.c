@@ -96,7 +96,7 @@ void gl_material_slot_text(uint64_t features, text *out)
         else if (source != slot)
             text_addf(out, "#define %s_TEXEL %s_TEXEL\n", slot_names[slot], slot_names[source]);
         else
-            text_addf(out, "#define %s_TEXEL texture(u_material%d, material_texcoord(%d))\n",
-                      slot_names[slot], units[slot], slot);
+            text_addf(out, "#define %s_TEXEL material_texel(u_material%d, %d)\n", slot_names[slot],
+                      units[slot], slot);
     }
 }

@@ -3,7 +3,6 @@
 #include "gl/gl_texture.h"
 
 #include <epoxy/gl.h>
-#include <math.h>
 
 #include "base/memory.h"
 #include "base/result.h"
@@ -231,7 +230,7 @@ uint64_t gl_texture_decoded_texels(const gl_texture_set *set)
 
 /* ---- samplers ---- */
 
-static void set_sampler(const gl_texture_set *set, GLuint name, const scene_texture *t)
+static void set_sampler(GLuint name, const scene_texture *t)
 {
     static const GLint wraps[WRAPS] = {[SCENE_WRAP_REPEAT] = GL_REPEAT,
                                        [SCENE_WRAP_CLAMP] = GL_CLAMP_TO_EDGE,
@@ -249,9 +248,6 @@ static void set_sampler(const gl_texture_set *set, GLuint name, const scene_text
     glSamplerParameteri(name, GL_TEXTURE_WRAP_T, wraps[t->wrap_v]);
     glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, filters[t->mag_filter]);
     glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, minifiers[t->min_filter][t->mip_filter]);
-    if (t->min_filter == SCENE_FILTER_LINEAR && t->mip_filter == SCENE_MIP_LINEAR &&
-        set->context->max_anisotropy > 1.0f)
-        glSamplerParameterf(name, GL_TEXTURE_MAX_ANISOTROPY_EXT, fminf(set->context->max_anisotropy, 16.0f));
 }
 
 uint32_t gl_texture_sampler(gl_texture_set *set, uint32_t texture)
@@ -265,7 +261,7 @@ uint32_t gl_texture_sampler(gl_texture_set *set, uint32_t texture)
     i = MIP_FILTERS * i + (uint32_t)t->mip_filter;
     if (!set->samplers[i]) {
         glGenSamplers(1, &set->samplers[i]);
-        set_sampler(set, set->samplers[i], t);
+        set_sampler(set->samplers[i], t);
     }
     return set->samplers[i];
 }

@@ -23,13 +23,13 @@ in vec3 normal_matrix1;
 in vec3 normal_matrix2;
 #endif
 
-centroid out vec3 v_position; /* m, relative to the eye */
-centroid out vec3 v_normal;
-centroid out vec4 v_color;
-centroid out vec4 v_texcoord01;
-centroid out vec4 v_texcoord23;
+out vec3 v_position; /* m, relative to the eye */
+out vec3 v_normal;
+out vec4 v_color;
+out vec4 v_texcoord01;
+out vec4 v_texcoord23;
 #ifdef HAS_TANGENTS
-centroid out vec3 v_tangent;
+out vec3 v_tangent;
 flat out float v_handedness;
 #endif
 flat out vec4 v_instance;

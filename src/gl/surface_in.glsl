@@ -1,11 +1,12 @@
-/* surface_in.glsl - what surface.vert hands on; and where the eye is. */
-centroid in vec3 v_position; /* m, relative to the eye */
-centroid in vec3 v_normal;   /* in world space, not unit */
-centroid in vec4 v_color;
-centroid in vec4 v_texcoord01;
-centroid in vec4 v_texcoord23;
+/* surface_in.glsl - what surface.vert hands on; and where the eye is. All of it is that of the pixel's middle, on the plane of
+ * the triangle, also where the triangle covers another part of the pixel: triangles that share a pixel then agree. */
+in vec3 v_position; /* m, relative to the eye */
+in vec3 v_normal;   /* in world space, not unit */
+in vec4 v_color;
+in vec4 v_texcoord01;
+in vec4 v_texcoord23;
 #ifdef HAS_TANGENTS
-centroid in vec3 v_tangent;
+in vec3 v_tangent;
 flat in float v_handedness;
 #endif
 flat in vec4 v_instance; /* scale, sign of bitangents, material id + 1 */
