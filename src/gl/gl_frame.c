@@ -132,6 +132,11 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
     return result == FACET_OK ? gl_context_check(f->context, "the scene", error) : result;
 }
 
+uint32_t gl_frame_max_samples(const gl_frame *f, const facet_render_desc *desc)
+{
+    return gl_transparency_max_samples(f->context, desc->gl.transparency, f->meshes);
+}
+
 /* ---- passes ---- */
 
 static facet_result draw_batches(gl_frame *f, gl_pass pass, bool is_layers, facet_error *error)

@@ -37,6 +37,8 @@ void gl_frame_destroy(gl_frame *frame); /* {0} is allowed; leaves {0} */
 facet_result gl_frame_update(gl_frame *frame, const gl_scene *scene, const camera_rays *camera,
                              const facet_render_desc *desc, facet_render_stats *stats, facet_error *error);
 
+/* Of a pixel of a target; the frame is up to date. */
+uint32_t gl_frame_max_samples(const gl_frame *frame, const facet_render_desc *desc);
 /* Draws a view into a target and resolves it. block: gl_camera_set() was called; the rest is filled in. */
 facet_result gl_frame_draw(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
                            gl_frame_block *block, facet_error *error);

@@ -164,6 +164,11 @@ facet_result gl_renderer_render(gl_renderer *r, const facet_render_desc *desc, f
     return result;
 }
 
+gl_context *gl_renderer_get_context(gl_renderer *r)
+{
+    return r->context;
+}
+
 gl_times gl_renderer_get_times(const gl_renderer *r)
 {
     return r->times;
@@ -177,12 +182,14 @@ facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *desc, 
     camera_rays camera;
     gl_frame_block block = {.channel = 0};
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
+    if (!desc->width || !desc->height)
+        return FACET_OK; /* a window that is closed up to its title */
     facet_result result = start(r, error);
     if (result == FACET_OK)
         result = prepare(r, desc, &camera, 0.0, stats, error);
     double begin = clock_seconds();
-    gl_sampling sampling = gl_sampling_plan(desc->samples ? desc->samples : 4, FACET_QUALITY_NORMAL,
-                                            (uint32_t)r->context->max_samples);
+    uint32_t most = result == FACET_OK ? gl_frame_max_samples(&r->frame, desc) : 1;
+    gl_sampling sampling = gl_sampling_plan(desc->samples ? desc->samples : 4, FACET_QUALITY_NORMAL, most);
     if (result == FACET_OK)
         result = gl_target_update(&r->target, r->context, GL_TARGET_WINDOW, desc->width, desc->height,
                                   sampling.samples, error);

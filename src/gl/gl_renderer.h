@@ -22,6 +22,8 @@ facet_result gl_renderer_render(gl_renderer *renderer, const facet_render_desc *
 facet_result gl_renderer_present(gl_renderer *renderer, const facet_render_desc *desc, uint32_t framebuffer,
                                  int x, int y, facet_render_stats *stats, facet_error *error);
 
+/* Its own, {0} where it has none yet, or the caller's. */
+gl_context *gl_renderer_get_context(gl_renderer *renderer);
 /* What the passes of the last picture took; of a window: of the last one whose timers have answered. */
 gl_times gl_renderer_get_times(const gl_renderer *renderer);
 
