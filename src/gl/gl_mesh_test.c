@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "gl/gl_fixture.h"
+#include "gl/gl_fixture_test.h"
 #include "gl/gl_mesh.h"
 
 static gl_fixture_contexts contexts;

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "gl/gl_fixture.h"
+#include "gl/gl_fixture_test.h"
 #include "gl/gl_scene.h"
 
 static gl_fixture_contexts contexts;

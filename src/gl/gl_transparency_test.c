@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "gl/gl_camera.h"
-#include "gl/gl_fixture.h"
+#include "gl/gl_fixture_test.h"
 #include "gl/gl_sort.h"
 #include "gl/gl_transparency.h"
 

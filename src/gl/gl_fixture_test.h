@@ -1,6 +1,6 @@
-/* gl_fixture.h - scenes built by hand (cpu/preview_fixture.h), drawn by OpenGL and by the preview. */
-#ifndef GL_GL_FIXTURE_H
-#define GL_GL_FIXTURE_H
+/* gl_fixture_test.h - scenes built by hand (cpu/preview_fixture.h), drawn by OpenGL and by the preview. */
+#ifndef GL_GL_FIXTURE_TEST_H
+#define GL_GL_FIXTURE_TEST_H
 
 #include "cpu/preview_fixture.h"
 #include "gl/gl_renderer.h"

@@ -1,5 +1,5 @@
-/* gl_fixture.c - see gl_fixture.h. */
-#include "gl/gl_fixture.h"
+/* gl_fixture_test.c - see gl_fixture_test.h. */
+#include "gl/gl_fixture_test.h"
 
 #include <math.h>
 #include <setjmp.h>
