@@ -84,6 +84,8 @@ static ibl_light_desc light_needs(const render_geometry_set *set, const camera_r
     for (uint32_t i = 0; i < set->count && !is_path; i++)
         if (set->items[i].is_lit)
             add_material(&needs, set->items[i].material, desc);
+    if (desc->ground == FACET_GROUND_SHADOW && !is_path) /* of which a sun's shadow is a share */
+        needs.needs_irradiance = true;
     if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
         if (desc->background_blur > 0.0f)
             add_range(&needs, desc->background_blur, desc->background_blur);

@@ -243,6 +243,24 @@ static facet_result draw_background(gl_frame *f, const facet_render_desc *desc, 
     return result;
 }
 
+/* Behind the model, as it never is above what stands on it. */
+static facet_result draw_ground(gl_frame *f, const facet_render_desc *desc, facet_error *error)
+{
+    if (!gl_light_has_ground(f->light) || !gl_channel_is_light(desc->gl.channel))
+        return FACET_OK;
+    gl_timers_begin(&f->timers, GL_TIMER_BACKGROUND);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    gl_light_bind_ground(f->light);
+    facet_result result = draw_screen(f, GL_MAIN_GROUND, gl_light_ground_features(f->light), error);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
 /* After what is opaque, of which it shows a picture. */
 static facet_result draw_transmissive(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
                                       facet_error *error)
@@ -285,6 +303,8 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
         result = draw_transmissive(f, target, desc, error);
     if (result == FACET_OK)
         result = draw_background(f, desc, error);
+    if (result == FACET_OK)
+        result = draw_ground(f, desc, error);
     if (result == FACET_OK)
         result = draw_blended(f, target, desc, block, error);
     gl_camera_end_depth(f->context);

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/gl_ground.h"
 #include "gl/gl_light_atlas.h"
 #include "gl/gl_light_tables.h"
 #include "gl/gl_program.h"
@@ -20,6 +21,8 @@ struct gl_light {
     gl_light_atlas atlas;
     gl_punctual punctual;
     gl_shadow *shadow;
+    gl_ground ground;
+    GLuint caster_block;
     facet_environment
         *environment; /* whose parts are in the atlas: as long as it lives they stay what they are */
     bool has_environment;
@@ -36,6 +39,7 @@ facet_result gl_light_create(gl_context *context, const facet_allocator *allocat
     if (!light)
         return fail_memory(error, "light", sizeof *light);
     light->context = context;
+    light->ground.context = context;
     light->allocator = allocator ? *allocator : (facet_allocator){0};
     glGenBuffers(1, &light->block);
     facet_result result = gl_light_tables_create(&light->tables, context, &light->allocator, error);
@@ -65,7 +69,9 @@ void gl_light_destroy(gl_light *light)
     gl_light_tables_destroy(&light->tables);
     gl_punctual_destroy(&light->punctual);
     gl_shadow_destroy(light->shadow);
+    gl_ground_destroy(&light->ground);
     glDeleteBuffers(1, &light->block);
+    glDeleteBuffers(1, &light->caster_block);
     mem_free(light);
 }
 
@@ -104,6 +110,8 @@ facet_result gl_light_update(gl_light *light, const light_setup *setup, const fa
     if (result != FACET_OK)
         return result;
     gl_shadow_describe(light->shadow, &block);
+    gl_ground_plan(&light->ground, desc, bounds_min, bounds_max);
+    gl_ground_describe(&light->ground, &block);
     glBindBuffer(GL_UNIFORM_BUFFER, light->block);
     glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_DYNAMIC_DRAW);
     return gl_context_check(light->context, "light", error);
@@ -113,7 +121,19 @@ facet_result gl_light_draw_shadows(gl_light *light, gl_programs *programs, const
                                    const gl_material_set *materials, const float eye[3], uint64_t revision,
                                    facet_error *error)
 {
-    return gl_shadow_draw(light->shadow, programs, meshes, materials, eye, revision, error);
+    gl_casters casters = {.context = light->context,
+                          .programs = programs,
+                          .meshes = meshes,
+                          .materials = materials,
+                          .eye = {eye[0], eye[1], eye[2]},
+                          .revision = revision,
+                          .block = light->caster_block};
+    facet_result result = gl_shadow_draw(light->shadow, &casters, error);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, light->block);
+    if (result == FACET_OK)
+        result = gl_ground_draw(&light->ground, &casters, error);
+    light->caster_block = casters.block;
+    return result;
 }
 
 uint64_t gl_light_features(const gl_light *light)
@@ -128,6 +148,27 @@ uint64_t gl_light_background_features(const gl_light *light, const facet_render_
 {
     return (light->has_environment ? GL_BACKGROUND_HAS_ENVIRONMENT : 0u) |
            (desc->background_blur > 0.0f ? GL_BACKGROUND_IS_BLURRED : 0u);
+}
+
+bool gl_light_has_ground(const gl_light *light)
+{
+    return light->ground.is_wanted;
+}
+
+uint64_t gl_light_ground_features(const gl_light *light)
+{
+    uint64_t features = gl_light_features(light);
+    if (!(features & GL_SURFACE_HAS_SHADOWS)) /* then nothing but the map is looked up */
+        return 0;
+    return GL_GROUND_HAS_LIGHTS | GL_GROUND_HAS_SHADOWS |
+           (features & GL_SURFACE_HAS_ENVIRONMENT ? GL_GROUND_HAS_ENVIRONMENT : 0u);
+}
+
+void gl_light_bind_ground(const gl_light *light)
+{
+    glActiveTexture(GL_TEXTURE0 + GL_UNIT_MATERIAL);
+    glBindTexture(GL_TEXTURE_2D, light->ground.map);
+    glBindSampler(GL_UNIT_MATERIAL, 0); /* a material's, with mips */
 }
 
 static void bind(GLuint unit, GLenum target, GLuint texture)

@@ -20,13 +20,18 @@ void gl_light_destroy(gl_light *light); /* NULL is allowed */
  * the log; bounds: of the scene. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
 facet_result gl_light_update(gl_light *light, const light_setup *setup, const facet_render_desc *desc,
                              const float bounds_min[3], const float bounds_max[3], facet_error *error);
-/* Draws shadow maps that are not as they were: what gl_shadow_draw() says. */
+/* Draws shadow maps, and that of the ground, where they are not as they were: gl_shadow_draw(), gl_ground_draw(). */
 facet_result gl_light_draw_shadows(gl_light *light, gl_programs *programs, const gl_mesh_set *meshes,
                                    const gl_material_set *materials, const float eye[3], uint64_t revision,
                                    facet_error *error);
 /* What a picture's programs have because of its light: GL_SURFACE_HAS_ENVIRONMENT and so on. */
 uint64_t gl_light_features(const gl_light *light);
 uint64_t gl_light_background_features(const gl_light *light, const facet_render_desc *desc);
+/* Whether there is a shadow on the ground, and its program's features. What it looks up is bound where materials' textures
+ * are. */
+bool gl_light_has_ground(const gl_light *light);
+uint64_t gl_light_ground_features(const gl_light *light);
+void gl_light_bind_ground(const gl_light *light);
 /* Binds the textures to their units and the block to its point, and fills in what the frame's block says of light. */
 void gl_light_bind(const gl_light *light, gl_frame_block *block);
 

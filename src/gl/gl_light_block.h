@@ -28,8 +28,10 @@ typedef struct gl_light_block {
     float grid_origin[4];                            /* m, world */
     float grid_cells[4];                             /* per m */
     int32_t grid_size[4];                            /* per axis; 0: all lights are looked at everywhere */
-    float shadow[4];  /* edge of a tile, texels; tiles in a row; 1 over the edge of the map */
-    int32_t lists[4]; /* first texel of lists, of cells; number of lights that reach everywhere */
+    float shadow[4]; /* edge of a tile, texels; tiles in a row; 1 over the edge of the map */
+    float ground[4]; /* x, z of the middle of its map, half of its edge, height of the plane; m, world */
+    float ground_height[4]; /* of what stands on it, m: lowest and highest that the map of heights has */
+    int32_t lists[4];       /* first texel of lists, of cells; number of lights that reach everywhere */
 } gl_light_block;
 
 #endif

@@ -74,6 +74,7 @@ static const char *const surface_features[] = {"HAS_TANGENTS",
                                                NULL};
 static const char *const halve_features[] = {"IS_COPY", NULL};
 static const char *const no_features[] = {NULL};
+static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
@@ -98,6 +99,14 @@ static const struct {
                         {"surface", "light", "layers_direct", "layers_ibl", "material", "footprint"},
                         {"surface_in.glsl", "material.glsl"},
                         surface_features},
+    [GL_MAIN_GROUND_MAP] =
+        {"ground_map", "screen.vert", "ground_map.frag", {"constants"}, {"light_block.glsl"}, no_features},
+    [GL_MAIN_GROUND] = {"ground",
+                        "screen.vert",
+                        "ground.frag",
+                        {"surface", "light", "color"},
+                        {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl"},
+                        ground_features},
     [GL_MAIN_BACKGROUND] = {"background",
                             "screen.vert",
                             "background.frag",
@@ -115,17 +124,28 @@ static const struct {
 static const struct {
     const char *name;
     int unit;
-} samplers[] = {{"u_environment", GL_UNIT_ENVIRONMENT}, {"u_sharp", GL_UNIT_SHARP},
-                {"u_tables", GL_UNIT_TABLES},           {"u_glass", GL_UNIT_GLASS},
-                {"u_lights", GL_UNIT_LIGHTS},           {"u_shadows", GL_UNIT_SHADOWS},
-                {"u_opaque", GL_UNIT_OPAQUE},           {"u_level", GL_UNIT_OPAQUE},
+} samplers[] = {{"u_environment", GL_UNIT_ENVIRONMENT},
+                {"u_sharp", GL_UNIT_SHARP},
+                {"u_tables", GL_UNIT_TABLES},
+                {"u_glass", GL_UNIT_GLASS},
+                {"u_lights", GL_UNIT_LIGHTS},
+                {"u_shadows", GL_UNIT_SHADOWS},
+                {"u_opaque", GL_UNIT_OPAQUE},
+                {"u_level", GL_UNIT_OPAQUE},
                 {"u_picture", 0},
-                {"u_sum", GL_UNIT_MATERIAL},            {"u_weights", GL_UNIT_MATERIAL + 1},
+                {"u_heights", GL_UNIT_MATERIAL},
+                {"u_ground", GL_UNIT_MATERIAL},
+                {"u_sum", GL_UNIT_MATERIAL},
+                {"u_weights", GL_UNIT_MATERIAL + 1},
                 {"u_peeled", GL_UNIT_PEELED},
-                {"u_material0", GL_UNIT_MATERIAL},      {"u_material1", GL_UNIT_MATERIAL + 1},
-                {"u_material2", GL_UNIT_MATERIAL + 2},  {"u_material3", GL_UNIT_MATERIAL + 3},
-                {"u_material4", GL_UNIT_MATERIAL + 4},  {"u_material5", GL_UNIT_MATERIAL + 5},
-                {"u_material6", GL_UNIT_MATERIAL + 6},  {"u_material7", GL_UNIT_MATERIAL + 7},
+                {"u_material0", GL_UNIT_MATERIAL},
+                {"u_material1", GL_UNIT_MATERIAL + 1},
+                {"u_material2", GL_UNIT_MATERIAL + 2},
+                {"u_material3", GL_UNIT_MATERIAL + 3},
+                {"u_material4", GL_UNIT_MATERIAL + 4},
+                {"u_material5", GL_UNIT_MATERIAL + 5},
+                {"u_material6", GL_UNIT_MATERIAL + 6},
+                {"u_material7", GL_UNIT_MATERIAL + 7},
                 {"u_material8", GL_UNIT_MATERIAL + 8}};
 
 static const char *const attributes[GL_ATTRIBUTE_COUNT] = {

@@ -10,6 +10,8 @@
 typedef enum gl_main {
     GL_MAIN_SURFACE,    /* a material */
     GL_MAIN_SHADOW,     /* a material as what casts a shadow; features as of the former */
+    GL_MAIN_GROUND_MAP, /* how much of a uniform sky the model hides from the ground */
+    GL_MAIN_GROUND,     /* the shadow on the ground */
     GL_MAIN_BACKGROUND, /* the environment behind the model */
     GL_MAIN_COMPOSE,    /* blended surfaces that were drawn beside the picture */
     GL_MAIN_PRESENT,    /* radiance to a display's numbers */
@@ -24,6 +26,9 @@ enum {
     GL_SURFACE_HAS_ENVIRONMENT = 1u << 1,
     GL_SURFACE_HAS_LIGHTS = 1u << 2, /* punctual ones */
     GL_SURFACE_HAS_SHADOWS = 1u << 3,
+    GL_GROUND_HAS_ENVIRONMENT = 1u << 0,
+    GL_GROUND_HAS_LIGHTS = 1u << 1,
+    GL_GROUND_HAS_SHADOWS = 1u << 2,
     GL_BACKGROUND_HAS_ENVIRONMENT = 1u << 0,
     GL_BACKGROUND_IS_BLURRED = 1u << 1,
     GL_HALVE_IS_COPY = 1u << 0 /* not halved */

@@ -8,7 +8,6 @@
 
 #include "base/memory.h"
 #include "base/result.h"
-#include "gl/gl_camera.h"
 #include "gl/gl_shadow_plan.h"
 
 #include "shade/shade.h"
@@ -16,7 +15,7 @@
 struct gl_shadow {
     gl_context *context;
     facet_allocator allocator;
-    GLuint texture, framebuffer, block;
+    GLuint texture, framebuffer;
     uint32_t edge; /* of the texture, texels */
     uint32_t tile, tiles_per_row, tile_count;
     gl_shadow_record *records;
@@ -52,7 +51,6 @@ void gl_shadow_destroy(gl_shadow *s)
     if (!s)
         return;
     destroy_texture(s);
-    glDeleteBuffers(1, &s->block);
     mem_free(s->records);
     mem_free(s->of_light);
     mem_free(s);
@@ -191,24 +189,8 @@ static facet_result make_texture(gl_shadow *s, facet_error *error)
     if (s->edge == edge)
         return FACET_OK;
     destroy_texture(s);
-    glActiveTexture(GL_TEXTURE0);
-    glGenTextures(1, &s->texture);
-    glBindTexture(GL_TEXTURE_2D, s->texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, (GLsizei)edge, (GLsizei)edge, 0, GL_DEPTH_COMPONENT,
-                 GL_FLOAT, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR); /* of what comparing gives */
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    glGenFramebuffers(1, &s->framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, s->texture, 0);
-    static const GLenum none = GL_NONE;
-    glDrawBuffers(1, &none);
-    glReadBuffer(GL_NONE);
-    facet_result result = gl_context_check(s->context, "shadows", error);
+    facet_result result =
+        gl_casters_make_texture(s->context, edge, true, &s->texture, &s->framebuffer, error);
     if (result != FACET_OK)
         destroy_texture(s);
     else
@@ -216,89 +198,36 @@ static facet_result make_texture(gl_shadow *s, facet_error *error)
     return result;
 }
 
-/* Bodies of glass do, thin panes do not. */
-static bool casts(const gl_batch *batch, gl_pass pass)
+static facet_result draw_tiles(const gl_shadow *s, const gl_shadow_record *record, gl_casters *casters,
+                               facet_error *error)
 {
-    return !batch->is_sprites &&
-           (pass == GL_PASS_OPAQUE || (pass == GL_PASS_TRANSMISSIVE && batch->plan->is_volume));
-}
-
-static facet_result draw_batch(gl_programs *programs, const gl_mesh_set *meshes,
-                               const gl_material_set *materials, const gl_batch *batch, facet_error *error)
-{
-    uint64_t all = gl_material_features(materials, batch) | gl_mesh_features(meshes, batch);
-    bool is_masked = all >> GL_SURFACE_HAS_ALPHA_MASK & 1;
-    uint32_t program;
-    gl_program_key key = {GL_MAIN_SHADOW, is_masked ? all : 0};
-    facet_result result = gl_programs_get(programs, key, &program, error);
-    if (result != FACET_OK)
-        return result;
-    glUseProgram(program);
-    if (is_masked)
-        gl_material_bind(materials, batch);
-    glDisable(GL_CULL_FACE); /* whichever side the light sees is in its way */
-    gl_mesh_draw(meshes, batch);
-    return FACET_OK;
-}
-
-static facet_result draw_tile(gl_shadow *s, gl_programs *programs, const gl_mesh_set *meshes,
-                              const gl_material_set *materials, const gl_shadow_record *record, uint32_t face,
-                              const float eye[3], facet_error *error)
-{
-    gl_frame_block seen = {.eye = {eye[0], eye[1], eye[2]}};
-    shadow_matrix(record, face, eye, seen.view_projection);
-    glBindBuffer(GL_UNIFORM_BUFFER, s->block);
-    glBufferData(GL_UNIFORM_BUFFER, sizeof seen, &seen, GL_STREAM_DRAW);
-    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_FRAME, s->block);
-    uint32_t tile = (uint32_t)record->tile + face;
-    glViewport((GLint)(tile % s->tiles_per_row * s->tile), (GLint)(tile / s->tiles_per_row * s->tile),
-               (GLsizei)s->tile, (GLsizei)s->tile);
-    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {
-        uint32_t count;
-        const gl_batch *batches = gl_mesh_batches(meshes, pass, &count);
-        for (uint32_t i = 0; i < count; i++) {
-            if (!casts(&batches[i], pass) || gl_mesh_is_outside(&batches[i], &seen))
-                continue;
-            facet_result result = draw_batch(programs, meshes, materials, &batches[i], error);
-            if (result != FACET_OK)
-                return result;
-        }
+    uint32_t faces = (int)record->kind == GL_SHADOW_CUBE ? 6 : 1;
+    for (uint32_t face = 0; face < faces; face++) {
+        float matrix[16];
+        uint32_t tile = (uint32_t)record->tile + face;
+        shadow_matrix(record, face, casters->eye, matrix);
+        facet_result result = gl_casters_draw(casters, matrix, tile % s->tiles_per_row * s->tile,
+                                              tile / s->tiles_per_row * s->tile, s->tile, error);
+        if (result != FACET_OK)
+            return result;
     }
     return FACET_OK;
 }
 
-static facet_result draw_all(gl_shadow *s, gl_programs *programs, const gl_mesh_set *meshes,
-                             const gl_material_set *materials, const float eye[3], facet_error *error)
-{
-    facet_result result = FACET_OK;
-    glBindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
-    gl_camera_end_depth(s->context);
-    glEnable(GL_DEPTH_TEST);
-    glDisable(GL_BLEND);
-    glViewport(0, 0, (GLsizei)s->edge, (GLsizei)s->edge);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    for (uint32_t i = 0; i < s->record_count; i++) {
-        uint32_t faces = (int)s->records[i].kind == GL_SHADOW_CUBE ? 6 : 1;
-        for (uint32_t face = 0; face < faces && result == FACET_OK; face++)
-            result = draw_tile(s, programs, meshes, materials, &s->records[i], face, eye, error);
-    }
-    return result == FACET_OK ? gl_context_check(s->context, "shadows", error) : result;
-}
-
-facet_result gl_shadow_draw(gl_shadow *s, gl_programs *programs, const gl_mesh_set *meshes,
-                            const gl_material_set *materials, const float eye[3], uint64_t revision,
-                            facet_error *error)
+facet_result gl_shadow_draw(gl_shadow *s, gl_casters *casters, facet_error *error)
 {
     if (s->record_count == 0)
         return FACET_OK;
     facet_result result = make_texture(s, error);
-    if (result != FACET_OK || s->drawn_revision == revision)
+    if (result != FACET_OK || s->drawn_revision == casters->revision)
         return result;
-    if (!s->block)
-        glGenBuffers(1, &s->block);
     s->drawn_revision = 0;
-    result = draw_all(s, programs, meshes, materials, eye, error);
-    s->drawn_revision = result == FACET_OK ? revision : 0;
+    gl_casters_begin(casters, s->framebuffer, s->edge);
+    for (uint32_t i = 0; i < s->record_count && result == FACET_OK; i++)
+        result = draw_tiles(s, &s->records[i], casters, error);
+    if (result == FACET_OK)
+        result = gl_context_check(s->context, "shadows", error);
+    s->drawn_revision = result == FACET_OK ? casters->revision : 0;
     return result;
 }
 

@@ -1,14 +1,14 @@
 /* gl_shadow.h - shadow maps of punctual lights and the sun: depth as seen from each light, tiles of one square texture.
  *
  * Spot lights and directional ones have a tile, others six, the faces of a cube (cube.h). A tile's frustum is that of its light
- * with GL_SHADOW_GUARD texels more on each side, so that filters need not look across edges. What is opaque casts, masked
- * texels where they are, and bodies of glass, which turn light away; blended surfaces and thin transmissive walls do not. */
+ * with GL_SHADOW_GUARD texels more on each side, so that filters need not look across edges. What casts:
+ * gl_casters.h. */
 #ifndef GL_GL_SHADOW_H
 #define GL_GL_SHADOW_H
 
 #include "draw/light_setup.h"
+#include "gl/gl_casters.h"
 #include "gl/gl_light_block.h"
-#include "gl/gl_material.h"
 
 enum {
     GL_SHADOW_GUARD = 4,      /* texels */
@@ -45,11 +45,9 @@ uint32_t gl_shadow_of_light(const gl_shadow *shadow,
                             uint32_t light); /* number of its record, from 1 on; 0: none */
 void gl_shadow_describe(const gl_shadow *shadow, gl_light_block *block);
 
-/* Draws the tiles where the scene (its revision) or the lights are others than before. The framebuffer, the viewport and the
- * frame's block are others afterwards. Fails as gl_programs_get(), with FACET_ERROR_MEMORY. */
-facet_result gl_shadow_draw(gl_shadow *shadow, gl_programs *programs, const gl_mesh_set *meshes,
-                            const gl_material_set *materials, const float eye[3], uint64_t revision,
-                            facet_error *error);
+/* Draws the tiles where the scene or the lights are others than before. The framebuffer, the viewport and the frame's block are
+ * others afterwards. Fails as gl_programs_get(), with FACET_ERROR_MEMORY. */
+facet_result gl_shadow_draw(gl_shadow *shadow, gl_casters *casters, facet_error *error);
 uint32_t gl_shadow_texture(const gl_shadow *shadow); /* OpenGL's name; 0: there is none */
 
 #endif

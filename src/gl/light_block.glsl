@@ -18,5 +18,7 @@ layout(std140) uniform Lighting
     vec4 light_grid_cells;                          /* per m */
     ivec4 light_grid_size;                          /* per axis; 0: all lights are looked at everywhere */
     vec4 light_shadow;                              /* edge of a tile, texels; tiles in a row; 1 over the edge of the map */
+    vec4 light_ground;        /* x, z of the middle of its map, half of its edge, height of the plane; m, world */
+    vec4 light_ground_height; /* of what stands on it, m: lowest and highest that the map of heights has */
     ivec4 light_lists; /* first texel of lists, of cells; number of lights that reach everywhere */
 };

@@ -37,10 +37,6 @@ ivec2 light_cell(vec3 P)
 }
 
 #ifdef HAS_SHADOWS
-/* Of surface.vert. Positions at centroids would do as well, but Mesa's software renderer puts those of partly covered pixels
- * beside the face, and differences between them are not those of the face. */
-in vec3 v_middle;
-
 ShadowRecord shadow_record(int first)
 {
     ShadowRecord r;
@@ -51,13 +47,6 @@ ShadowRecord shadow_record(int first)
     r.depth = uintBitsToFloat(light_texel(first + 4)).xy;
     r.origin.xyz -= eye.xyz;
     return r;
-}
-
-/* Of the triangle, unit, either way. */
-vec3 face_normal()
-{
-    vec3 n = cross(dFdx(v_middle), dFdy(v_middle));
-    return n * inversesqrt(max(dot(n, n), 1e-36));
 }
 
 /* first: texel of the light's record; 0: it has none. */
@@ -72,8 +61,9 @@ Light with_shadow(Light l, int first)
 int light_count(vec3 P)
 {
 #ifdef HAS_SHADOWS
-    light_P = v_middle;
-    light_face = face_normal();
+    vec3 face = cross(dFdx(P), dFdy(P));
+    light_P = P;
+    light_face = face * inversesqrt(max(dot(face, face), 1e-36));
 #endif
     int count = light_lists.z;
     if (light_grid_size.x > 0) {
@@ -84,8 +74,8 @@ int light_count(vec3 P)
     return count;
 }
 
-/* The i-th of them; light_count() comes first. */
-Light light_at(int i)
+/* The i-th of them, as if nothing were in its way; rest: of its texels. light_count() comes first. */
+Light light_open_at(int i, out uvec4 rest)
 {
     /* Those that reach everywhere have a list of their own, before the others'. */
     int number = i;
@@ -95,7 +85,7 @@ Light light_at(int i)
     vec4 spot = uintBitsToFloat(light_texel(4 * number + 1));
     vec4 intensity = uintBitsToFloat(light_texel(4 * number + 2));
     Light l;
-    uvec4 rest = light_texel(4 * number + 3);
+    rest = light_texel(4 * number + 3);
     l.directional = rest.x != 0u;
     l.position = l.directional ? place.xyz : place.xyz - eye.xyz;
     l.range = place.w;
@@ -103,6 +93,14 @@ Light light_at(int i)
     l.spot_scale = spot.w;
     l.intensity = intensity.xyz;
     l.spot_offset = intensity.w;
+    return l;
+}
+
+/* The same with the share of its intensity that arrives. */
+Light light_at(int i)
+{
+    uvec4 rest;
+    Light l = light_open_at(i, rest);
 #ifdef HAS_SHADOWS
     l = with_shadow(l, int(rest.y));
 #endif

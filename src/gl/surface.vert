@@ -33,9 +33,6 @@ out vec3 v_tangent;
 flat out float v_handedness;
 #endif
 flat out vec4 v_instance;
-#ifdef HAS_SHADOWS
-out vec3 v_middle; /* v_position in the middle of the pixel, even where that is outside of the triangle: on its plane */
-#endif
 
 vec3 turn(vec3 v)
 {
@@ -92,9 +89,6 @@ void main()
     v_texcoord01 = is_end ? vec4(texcoord0_end, texcoord1_end) : vec4(texcoord0, texcoord1);
     v_texcoord23 = vec4(0.0);
     v_instance = instance;
-#ifdef HAS_SHADOWS
-    v_middle = v_position;
-#endif
     gl_Position = view_projection * vec4(v_position, 1.0);
 }
 
@@ -112,9 +106,6 @@ void main()
     v_texcoord01 = vec4(texcoord0, texcoord1);
     v_texcoord23 = vec4(texcoord2, texcoord3);
     v_instance = instance;
-#ifdef HAS_SHADOWS
-    v_middle = v_position;
-#endif
     gl_Position = view_projection * vec4(v_position, 1.0);
 }
 
