@@ -11,8 +11,8 @@ static const double NEAREST_COARSE = 1e-4; /* the same where depth is not revers
 static void depth_range(const camera_rays *c, const float bounds_min[3], const float bounds_max[3],
                         double *low, double *high)
 {
-    *low = INFINITY;
-    *high = -INFINITY;
+    *low = (double)INFINITY;
+    *high = -(double)INFINITY;
     for (int corner = 0; corner < 8; corner++) {
         double depth = 0.0;
         for (int i = 0; i < 3; i++) {

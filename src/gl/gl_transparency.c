@@ -94,12 +94,9 @@ facet_result gl_transparency_compose(gl_transparency *t, const gl_transparency_v
     if (result != FACET_OK)
         return result;
     glUseProgram(program);
-    if (what == GL_COMPOSE_WEIGHTED) {
-        glActiveTexture(GL_TEXTURE0 + GL_UNIT_MATERIAL + 1);
-        glBindTexture(GL_TEXTURE_2D, t->layers.layer);
-    }
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_MATERIAL);
-    glBindTexture(GL_TEXTURE_2D, what == GL_COMPOSE_LAYER ? t->layers.layer : t->layers.sum);
+    if (what == GL_COMPOSE_WEIGHTED)
+        gl_layers_bind(GL_UNIT_MATERIAL + 1, t->layers.layer);
+    gl_layers_bind(GL_UNIT_MATERIAL, what == GL_COMPOSE_LAYER ? t->layers.layer : t->layers.sum);
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);

@@ -104,6 +104,13 @@ facet_result gl_layers_update(gl_transparency *t, const gl_transparency_view *vi
     return result;
 }
 
+void gl_layers_bind(uint32_t unit, uint32_t texture)
+{
+    glBindSampler(unit, 0); /* one with mips would find none, and the texture black */
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+}
+
 /* ---- layers, the nearest first ---- */
 
 static void clear_color(GLint buffer, float rgb, float alpha)
@@ -125,8 +132,7 @@ static bool draw_layer(gl_transparency *t, const gl_transparency_view *view, int
     glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     clear_color(0, 0.0f, 0.0f);
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_PEELED);
-    glBindTexture(GL_TEXTURE_2D, l->depths[1 - (number & 1)]);
+    gl_layers_bind(GL_UNIT_PEELED, l->depths[1 - (number & 1)]);
     glBeginQuery(GL_ANY_SAMPLES_PASSED, t->query);
     *result = gl_transparency_draw_all(view, t->peeled_feature, error);
     glEndQuery(GL_ANY_SAMPLES_PASSED);

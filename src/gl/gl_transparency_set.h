@@ -54,6 +54,8 @@ void gl_sorted_destroy(gl_sorted *s);
 /* Layers for the mode and target of view. */
 facet_result gl_layers_update(gl_transparency *t, const gl_transparency_view *view, facet_error *error);
 void gl_layers_destroy(gl_layers *l);
+/* Binds a texture of the layers, with its own parameters in place of a material's sampler. */
+void gl_layers_bind(uint32_t unit, uint32_t texture);
 facet_result gl_peeled_draw(gl_transparency *t, const gl_transparency_view *view, facet_error *error);
 facet_result gl_weighted_draw(gl_transparency *t, const gl_transparency_view *view, facet_error *error);
 

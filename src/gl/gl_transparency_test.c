@@ -39,14 +39,24 @@ static void blend(const float (*list)[4], int count, float out[4])
     out[3] = 1.0f - passes;
 }
 
+/* A texture that changes nothing, but comes with a sampler of its own. */
+static uint32_t add_white(fixture *f)
+{
+    unsigned char white[4 * 4 * 4];
+    memset(white, 255, sizeof white);
+    return fixture_add_texture(f, 4, 4, white);
+}
+
 /* Quads from z = 0 back, submitted in the order of the permutation. */
 static fixture layered_fixture(const int *permutation, int count)
 {
     fixture f = fixture_create();
+    uint32_t texture = add_white(&f);
     for (int i = 0; i < count; i++) {
         int k = permutation[i];
-        uint32_t material = fixture_add_material(
-            &f, gl_fixture_unlit(layers[k][0], layers[k][1], layers[k][2], layers[k][3]));
+        scene_material m = gl_fixture_unlit(layers[k][0], layers[k][1], layers[k][2], layers[k][3]);
+        m.textures[SCENE_BASE_COLOR_TEXTURE].texture = texture;
+        uint32_t material = fixture_add_material(&f, m);
         fixture_place(&f, fixture_add_quad(&f, material), 0.0f, 0.0f, -0.25f * (float)k, 2.0f);
     }
     return f;
