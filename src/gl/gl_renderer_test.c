@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "base/failing_allocator.h"
-#include "gl/gl_fixture.h"
+#include "gl/gl_fixture_test.h"
 #include "gl/gl_sampling.h"
 
 static gl_fixture_contexts contexts;

@@ -1,7 +1,9 @@
-/* consumer.c - a program of somebody else: draws the built-in scene with the installed library. */
+/* consumer.c - a program of somebody else: draws the built-in scene with the installed library.
+ *     consumer [FILE [gl]]    gl: with OpenGL; exit code 77: there is none */
 #include <facet/facet.h>
 
 #include <stdio.h>
+#include <string.h>
 
 int main(int argc, char **argv)
 {
@@ -15,6 +17,8 @@ int main(int argc, char **argv)
     if (result == FACET_OK) {
         facet_render_desc desc = {
             .width = 64, .height = 48, .environment = studio, .tonemap = FACET_TONEMAP_NEUTRAL};
+        if (argc > 2 && strcmp(argv[2], "gl") == 0)
+            desc.integrator = FACET_INTEGRATOR_GL;
         result = facet_render(scene, &desc, &image, &error);
     }
     if (result == FACET_OK)
@@ -24,5 +28,5 @@ int main(int argc, char **argv)
     facet_image_destroy(image);
     facet_environment_destroy(studio);
     facet_scene_destroy(scene);
-    return result == FACET_OK ? 0 : 1;
+    return result == FACET_OK ? 0 : result == FACET_ERROR_ENVIRONMENT ? 77 : 1;
 }

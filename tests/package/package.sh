@@ -37,6 +37,29 @@ cmake --build cmake >/dev/null
 LD_LIBRARY_PATH=$lib cmake/consumer cmake.png
 cmp shared.png static.png && cmp shared.png cmake.png
 LD_LIBRARY_PATH=$lib usr/bin/facet version
+# The module that draws with OpenGL: found beside the installed library and command, and beside a program that has the
+# library inside. Nothing but its entry is to be seen of it.
+if grep -q 'FACET_HAS_GL 1' "$build/generated/build_config.h"; then
+    module=$lib/facet/facet_gl.so
+    [ -e "$module" ] || { echo "not installed: lib/facet/facet_gl.so"; exit 1; }
+    foreign=$(nm -D --defined-only "$module" | awk '$2 ~ /[TDBRVW]/ {print $3}' | grep -vx 'facet_gl_entry' || true)
+    [ -z "$foreign" ] || { echo "facet_gl.so exports more than its entry: $foreign"; exit 1; }
+    if ldd "$lib/libfacet.so" usr/bin/facet | grep -E 'libepoxy|libGL|libEGL'; then
+        echo "libfacet or facet is linked with OpenGL"
+        exit 1
+    fi
+    cp "$module" .
+    code=0
+    ./static gl_static.png gl 2>"$prefix/why" || code=$?
+    if [ "$code" = 0 ]; then
+        LD_LIBRARY_PATH=$lib ./shared gl_shared.png gl
+        cmp gl_static.png gl_shared.png
+        LD_LIBRARY_PATH=$lib usr/bin/facet render -o gl_command.png --size 64x48 --renderer gl
+        [ -s gl_command.png ]
+    else
+        [ "$code" = 77 ] && grep -q 'there is no driver' "$prefix/why" || { cat "$prefix/why"; exit 1; }
+    fi
+fi
 # The sources of the shared text stand alone as well.
 printf '#include <facet/shade/shade.h>\nint main(void) { return D_GGX(1.0f, 1.0f) > 0.0f ? 0 : 1; }\n' >shade.c
 cc -std=c11 -I"$prefix/usr/include/facet" -I"$prefix/usr/include" shade.c -lm -o shade && ./shade

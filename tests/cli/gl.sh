@@ -1,0 +1,140 @@
+#!/bin/sh
+# gl.sh - --renderer gl: what it draws beside the preview, its options, how it fails. Skips where there is no OpenGL.
+set -eu
+. "$(dirname "$0")/lib.sh"
+
+# ---- without OpenGL ----
+
+# The command alone, in a folder without its module, and with modules that are none.
+mkdir -p bin
+cp "$facet" bin/facet
+alone="$work/bin/facet"
+write_triangle model.gltf
+
+# fails TEXT: exit code 8, one sentence, no picture, and facet version -v says the same.
+fails() {
+    code=0
+    "$alone" render model.gltf -o none.png $small --renderer gl >out 2>err || code=$?
+    [ "$code" = 8 ] || failed "exit code $code, not 8: $1"
+    says "$1"
+    [ "$(wc -l <err)" = 1 ] || failed "more than one sentence: $1"
+    [ ! -e none.png ] || failed "a picture came of it: $1"
+    "$alone" version -v >out 2>err || failed "facet version -v fails: $1"
+    grep -q '^opengl ' out || failed "facet version -v has no line of OpenGL"
+}
+if [ ! -e /usr/lib/*/facet/facet_gl.so ] 2>/dev/null && [ ! -e /usr/local/lib/facet/facet_gl.so ]; then
+    fails "OpenGL: "
+    echo 'not a library' >bin/facet_gl.so
+    fails "OpenGL: facet's module facet_gl.so cannot be opened ("
+    if command -v cc >/dev/null && echo 'const void *facet_gl_entry(const char *build, const void *host)
+        { (void)build; (void)host; return 0; }' | cc -shared -fPIC -x c - -o bin/facet_gl.so 2>/dev/null; then
+        fails "it belongs to another build of facet"
+    fi
+    rm bin/facet_gl.so
+    # The folder that somebody stands in is not searched.
+    echo 'not a library' >facet_gl.so
+    (PATH="$work/bin:$PATH" && facet version -v >out)
+    grep -q 'cannot be opened (' out && failed "a module of the current folder was opened"
+    rm facet_gl.so
+fi
+rm -r bin
+rm -f none.png
+
+# The preview does not load a driver: it draws where there is none.
+code=0
+__EGL_VENDOR_LIBRARY_FILENAMES=/none "$facet" render model.gltf -o cpu.png $small >out 2>err || code=$?
+[ "$code" = 0 ] || failed "the preview needs OpenGL"
+rm cpu.png
+
+# What belongs to it says so with another renderer, and the other way round.
+for option in --shadows '--transparency peeled' '--bloom 0.1' '--channel normal' '--brdf schlick-ggx'; do
+    expect 2 render model.gltf -o no.png $small $option
+    says "it says something only with --renderer gl"
+done
+expect 2 render model.gltf -o no.png $small --ground shadow
+says "it says something only with --renderer path or gl"
+expect 2 render model.gltf -o no.png $small --renderer gl --bounces 2
+says "--bounces: it says something only with --renderer path"
+expect 2 render model.gltf -o no.png $small --renderer gl --channel colour
+says "colour"
+expect 2 render model.gltf -o no.png $small --renderer gl --bloom 2
+expect 2 render model.gltf -o no.exr $small --renderer gl --aov variance
+
+# ---- with it ----
+
+code=0
+"$facet" render model.gltf -o probe.png $small --renderer gl >out 2>err || code=$?
+if [ "$code" = 8 ]; then
+    echo "skipped: $(cat err)"
+    [ $status = 0 ] && exit 77
+    exit 1
+fi
+[ "$code" = 0 ] || failed "exit code $code, not 0"
+is_type probe.png "PNG image data, 48 x 32"
+rm -f probe.png
+"$facet" version -v >out
+grep -q '^opengl .*[0-9]\.[0-9]' out || failed "facet version -v does not name the driver"
+
+# near A B: within half a code of 8 bits on average.
+near() {
+    "$facet" compare "$1" "$2" --max mae=0.002 >out 2>err || failed "$1 and $2 differ: $(grep -m1 mae out)"
+}
+
+# The same picture as the preview's, where both shade in the middle of a pixel; and the same edges.
+for how in '' '--crop 30,25,60,50' '--background transparent' '--background env' '--sun 30,45' \
+    '--ortho --exposure 1' '--energy conserving'; do
+    expect 0 render -o cpu.exr --size 120x90 --quality draft $how
+    expect 0 render -o gpu.exr --size 120x90 --quality draft $how --renderer gl
+    near cpu.exr gpu.exr
+done
+for how in '' '--samples 16' '--samples 64' '--quality final' '--crop 30,25,60,50'; do
+    expect 0 render model.gltf -o cpu.exr --size 120x90 --background '#345' $how
+    expect 0 render model.gltf -o gpu.exr --size 120x90 --background '#345' $how --renderer gl
+    near cpu.exr gpu.exr
+done
+expect 0 render -o cpu.exr --size 96x64 --aov depth,normal,albedo,material,uv,occlusion
+expect 0 render -o gpu.exr --size 96x64 --aov depth,normal,albedo,material,uv,occlusion --renderer gl
+for layer in normal albedo material occlusion uv; do
+    "$facet" compare cpu.exr gpu.exr --layer $layer --max mae=0.005 >out 2>err || failed "layer $layer differs"
+done
+
+# Deterministic; every format; several models; a sequence is drawn by one renderer.
+expect 0 render -o a.png $small --renderer gl
+expect 0 render -o b.png $small --renderer gl --threads 1
+cmp -s a.png b.png || failed "pictures of two runs differ"
+expect 0 render model.gltf -o 'turn_##.png' $small --renderer gl --turntable 4
+for i in 1 2 3 4; do [ -s turn_0$i.png ] || failed "frame $i is missing"; done
+cmp -s turn_01.png turn_02.png && failed "the model does not turn"
+expect 0 render model.gltf -o turn.y4m $small --renderer gl --turntable 4
+[ "$(head -c 9 turn.y4m)" = YUV4MPEG2 ] || failed "no video"
+expect 0 render model.gltf - -o '{stem}.webp' $small --renderer gl <model.gltf
+rm -f ./*.png ./*.webp ./*.exr turn.y4m
+
+# Options draw something else than what is drawn without them.
+expect 0 render -o plain.png $small --renderer gl --sun 30,45
+for option in --shadows '--bloom 0.5' '--channel normal' '--channel furnace'; do
+    expect 0 render -o other.png $small --renderer gl --sun 30,45 $option
+    cmp -s plain.png other.png && failed "$option changes nothing"
+done
+for how in sorted peeled weighted; do
+    expect 0 render -o other.png $small --renderer gl --transparency $how
+done
+
+# Limits, and what a report says.
+expect 7 render model.gltf -o late.png --size 2000 --renderer gl --time-limit 0.000001s
+says "the time limit (--time-limit) was reached"
+[ ! -e late.png ] || failed "a picture of no time"
+expect 0 render model.gltf -o one.png $small --renderer gl --json
+grep -q '"width": 48' out || failed "no report"
+expect 0 render model.gltf -o dark.png $small --renderer gl --env none
+says "the picture is black"
+
+# OpenGL ES, where the driver is Mesa's and can be told to have no more.
+if MESA_GL_VERSION_OVERRIDE=3.0 "$facet" version -v | grep -q '^opengl .*OpenGL ES'; then
+    expect 0 render -o gl.exr --size 96x64 --renderer gl
+    code=0
+    MESA_GL_VERSION_OVERRIDE=3.0 "$facet" render -o es.exr --size 96x64 --renderer gl >out 2>err || code=$?
+    [ "$code" = 0 ] || failed "OpenGL ES: exit code $code"
+    near gl.exr es.exr
+fi
+finish
