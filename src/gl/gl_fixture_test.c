@@ -35,7 +35,7 @@ void gl_fixture_close(gl_fixture_contexts *contexts)
 
 gl_renderer *gl_fixture_renderer(const fixture *f, gl_context *context)
 {
-    gl_renderer *renderer;
+    gl_renderer *renderer = NULL;
     facet_error error = {0};
     if (gl_context_make_current(context, &error) != FACET_OK ||
         gl_renderer_create(f->scene, context, NULL, &renderer, &error) != FACET_OK)

@@ -182,7 +182,7 @@ static facet_result make_batches(gl_mesh_set *set, const gl_scene *scene, facet_
 static void point_array(GLuint index, GLint size, size_t offset, GLsizei stride, GLuint divisor)
 {
     glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, stride, (const char *)0 + offset);
+    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, stride, (const void *)(uintptr_t)offset);
     glVertexAttribDivisor(index, divisor);
 }
 
@@ -335,7 +335,7 @@ static void warn(const gl_mesh_set *set, const gl_scene *scene, const facet_log 
         const render_geometry *g = set->batches[i].geometry;
         uint32_t most = set->batches[i].is_sprites ? 2 : GL_TEXCOORD_SETS;
         bool fits = gl_texcoord_sets(g, sets);
-        for (int slot = 0; fits && slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+        for (scene_texture_slot slot = 0; fits && slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
             fits = !scene_material_has(g->material, slot) ||
                    gl_texcoord_attribute(g, g->material->textures[slot].texcoord) < most;
         if (fits)

@@ -14,7 +14,7 @@ static const uint32_t widths[GL_VERTEX_ARRAYS] = {3, 3, 4, 4, 2, 2, 2, 2};
 
 static bool reads_beyond(const render_geometry *g)
 {
-    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+    for (scene_texture_slot slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
         if (scene_material_has(g->material, slot) && g->material->textures[slot].texcoord >= GL_TEXCOORD_SETS)
             return true;
     return false;
@@ -28,7 +28,7 @@ bool gl_texcoord_sets(const render_geometry *g, uint32_t sets[GL_TEXCOORD_SETS])
         sets[i] = i;
     if (!reads_beyond(g))
         return true;
-    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
+    for (scene_texture_slot slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
         if (!scene_material_has(g->material, slot))
             continue;
         uint32_t set = g->material->textures[slot].texcoord, i = 0;

@@ -103,7 +103,7 @@ static void draw_run(const gl_sorted *s, const gl_batch *b, const gl_sort_run *r
         return;
     }
     size_t offset = (s->first_element[run->unit] + 3 * (size_t)run->first) * sizeof(uint32_t);
-    glDrawElements(GL_TRIANGLES, (GLsizei)(3 * run->count), GL_UNSIGNED_INT, (const char *)0 + offset);
+    glDrawElements(GL_TRIANGLES, (GLsizei)(3 * run->count), GL_UNSIGNED_INT, (const void *)(uintptr_t)offset);
 }
 
 static facet_result draw_runs(const gl_transparency *t, const gl_transparency_view *view, facet_error *error)
