@@ -114,7 +114,7 @@ static double time_to_sleep(const view_app *a)
         return 0.0;
     if (a->message[0])
         return fmax(a->message_until_s - a->time_s, 0.001);
-    return INFINITY;
+    return (double)INFINITY;
 }
 
 static void advance_clock(view_app *a)

@@ -156,4 +156,34 @@ view triangle.gltf
 rendered wide.png triangle.png
 same wide.png same.png
 
+# ---- what models bring: motion, variants, their own light ----
+if [ -d "$data/models" ]; then
+    cat >script <<'END'
+load
+key w
+key w
+wait 0.4
+key Space
+picture fox.png
+print
+END
+    view "$data/models/animation/Fox.glb"
+    rendered fox.png Fox.png
+    grep -q -- '--animation 1 --time ' command || failed "no moment of the second animation in $(cat command)"
+    cat >script <<'END'
+load
+picture first.png
+key v
+key v
+picture shoe.png
+print
+END
+    view "$data/models/materials/MaterialsVariantsShoe.glb"
+    rendered shoe.png MaterialsVariantsShoe.png
+    differ first.png shoe.png
+    grep -q -- '--variant 1' command || failed "no variant in $(cat command)"
+else
+    echo "FACET_TEST_DATA names no folder with models: animations and variants were not looked at"
+fi
+
 finish
