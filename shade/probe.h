@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 98
+#define PROBE_COUNT 100
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -805,6 +805,24 @@ FN vec3 probe_footprint(int which, vec2 u)
     return vec3(float(p.count), sqrt(p.width2), 1.0f + length(vec2(p.step_u, p.step_v) * size));
 }
 
+/* Each lobe by itself, as the columns of u have it. */
+FN vec3 probe_alone(int which, vec2 u)
+{
+    vec3 V = probe_V(u);
+    Layers m = probe_path_layers(u);
+    int energy = ENERGY_GLTF;
+    if (fract(u[1] * 8.0f) > 0.5f)
+        energy = ENERGY_CONSERVING;
+    LayerTables t = probe_layer_tables(m, V, energy, u);
+    int lobe = int(u[0] * 4.99f);
+    if (which == 98)
+        return 1.0f + layers_ibl_alone(m, V, t, layer_light_of(vec3(0.5f, u[0], 1.0f)), energy, lobe);
+    Light l = light_point(probe_L(u) * sel(u[1] > 0.3f, 2.0f, -2.0f), vec3(3.0f, 2.0f, 1.0f), 0.0f);
+    return 1.0f + layers_punctual_alone(m, vec3(0.0f), V, l, energy, t, 0.2f, lobe) +
+           layers_brdf_cos_alone(layers_without_diffuse(m), V, probe_L(u), energy, t, 0.2f, lobe) +
+           vec3(schlick_GGX_over_smith(u[0], u[1], 0.5f), 0.0f, 0.0f);
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -841,5 +859,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_sky(which, u);
     if (which < 96)
         return probe_material(which, u);
-    return probe_footprint(which, u);
+    if (which < 98)
+        return probe_footprint(which, u);
+    return probe_alone(which, u);
 }

@@ -184,6 +184,8 @@ static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_fram
     bool is_light = gl_channel_is_light(desc->gl.channel);
     block->exposure = is_light ? exp2f(desc->exposure_ev) : 1.0f;
     block->energy = (int32_t)desc->energy;
+    if (desc->gl.brdf == FACET_BRDF_MULTISCATTER)
+        block->energy = (int32_t)FACET_ENERGY_CONSERVING;
     block->channel = (int32_t)desc->gl.channel;
     block->has_specular_antialiasing = desc->specular_antialiasing;
     block->background_blur = desc->background_blur;

@@ -85,7 +85,9 @@ void gl_material_slot_text(uint64_t features, text *out)
     int8_t units[SCENE_TEXTURE_SLOT_COUNT];
     int count = gl_material_slot_units(features, units);
     unsigned layers = (unsigned)(features >> GL_SURFACE_LAYERS) & ((1u << GL_SURFACE_LAYER_COUNT) - 1u);
-    if (layers)
+    uint64_t by_layers = gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL") |
+                         gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
+    if (layers || features & by_layers)
         text_addf(out, "#define HAS_LAYERS\n#define MATERIAL_LAYERS %uu\n", layers);
     for (int i = 0; i < count; i++)
         text_addf(out, "uniform sampler2D u_material%d;\n", i);

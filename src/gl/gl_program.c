@@ -71,6 +71,8 @@ static const char *const surface_features[] = {"HAS_TANGENTS",
                                                "AOVS",
                                                "IS_WEIGHTED",
                                                "IS_PEELED",
+                                               "HAS_CHANNEL",
+                                               "HAS_SCHLICK_GGX",
                                                NULL};
 static const char *const halve_features[] = {"IS_COPY", NULL};
 static const char *const no_features[] = {NULL};
@@ -88,9 +90,9 @@ static const struct {
     [GL_MAIN_SURFACE] = {"surface",
                          "surface.vert",
                          "surface.frag",
-                         {"surface", "light", "layers_direct", "layers_ibl", "material", "footprint"},
+                         {"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material", "footprint"},
                          {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl",
-                          "surface_in.glsl", "material.glsl", "transmission.glsl", "radiance.glsl",
+                          "surface_in.glsl", "material.glsl", "transmission.glsl", "radiance.glsl", "channels.glsl",
                           "transparency.glsl", "aovs.glsl"},
                          surface_features},
     [GL_MAIN_SHADOW] = {"shadow",

@@ -1,12 +1,22 @@
 /* radiance.glsl - what leaves a surface towards the eye, in cd/m^2: emission, the prefiltered surroundings, every light.
  * What is looked up for which layer; the formulas are in shade/, as are those of src/cpu/surface_light.c. */
 
+/* (A, B) of the split sum. */
+vec2 dfg_at(vec2 point)
+{
+#ifdef HAS_SCHLICK_GGX
+    return integrate_dfg_karis(point.y, point.x, 128u);
+#else
+    return table_dfg(point.x, point.y);
+#endif
+}
+
 /* ---- a surface without layers ---- */
 
 vec3 plain_radiance(Surface s, vec3 V)
 {
     float NdotV = surface_NdotV(s, V);
-    vec2 dfg = table_dfg(NdotV, s.perceptual_roughness);
+    vec2 dfg = dfg_at(vec2(NdotV, s.perceptual_roughness));
     vec3 radiance = s.emissive;
 #ifdef HAS_ENVIRONMENT
     vec3 specular = light_specular(normalize(reflect(-V, s.N)), s.perceptual_roughness);
@@ -30,11 +40,10 @@ LayerTables tables_of(Layers m, vec3 V)
     float sheen_E = 0.0;
     vec3 glass = vec3(0.0);
 #ifdef HAS_CLEARCOAT
-    coat = table_dfg(layers_clearcoat_NdotV(m, V), m.clearcoat_roughness);
+    coat = dfg_at(vec2(layers_clearcoat_NdotV(m, V), m.clearcoat_roughness));
 #endif
 #ifdef HAS_TRANSMISSION
-    vec2 point = layers_transmission_point(m, V, energy);
-    through = table_dfg(point.x, point.y);
+    through = dfg_at(layers_transmission_point(m, V, energy));
     if (layers_is_exact(m, energy)) {
         vec3 place = layers_glass_point(m, V, energy);
         glass = table_glass(place.x, place.y, place.z);
@@ -43,8 +52,7 @@ LayerTables tables_of(Layers m, vec3 V)
 #ifdef HAS_SHEEN
     sheen_E = table_sheen_albedo(surface_NdotV(m.base, V), m.sheen_roughness);
 #endif
-    vec2 at = layers_dfg_point(m, V, energy);
-    return layer_tables(m, V, energy, table_dfg(at.x, at.y), coat.x + coat.y, through.x + through.y, sheen_E,
+    return layer_tables(m, V, energy, dfg_at(layers_dfg_point(m, V, energy)), coat.x + coat.y, through.x + through.y, sheen_E,
                         glass);
 }
 
@@ -74,10 +82,9 @@ LayerLight surroundings_of(Layers m, vec3 V)
 }
 #endif
 
-vec3 layered_radiance(Layers m, vec3 V)
+/* All that arrives but for lamps. */
+LayerLight layer_light(Layers m, vec3 V)
 {
-    LayerTables t = tables_of(m, V);
-    vec3 radiance = layers_emission(m, V);
     LayerLight light;
 #ifdef HAS_ENVIRONMENT
     light = surroundings_of(m, V);
@@ -93,19 +100,46 @@ vec3 layered_radiance(Layers m, vec3 V)
     if (has_layer(m, LAYER_TRANSMISSION))
         light.transmitted = transmitted_light(m, V);
 #endif
+    return light;
+}
+
+#ifdef HAS_LIGHTS
+/* Of the sheen, at the cosine of a lamp. */
+float sheen_albedo_of(Layers m, Light l)
+{
+#ifdef HAS_SHEEN
+    return table_sheen_albedo(clamp(dot(m.base.N, light_illuminate(l, v_position).L), 0.0, 1.0), m.sheen_roughness);
+#else
+    return 0.0;
+#endif
+}
+
+/* What another formula of the base's visibility adds to a lamp's highlight. */
+vec3 specular_variant(Layers m, vec3 V, Light l, LayerTables t)
+{
+#ifdef HAS_SCHLICK_GGX
+    float NdotL = dot(m.base.N, light_illuminate(l, v_position).L);
+    if (NdotL > 0.0)
+        return layers_punctual_alone(m, v_position, V, l, energy, t, sheen_albedo_of(m, l), ALONE_SPECULAR) *
+               (schlick_GGX_over_smith(min(NdotL, 1.0), surface_NdotV(m.base, V), max(m.base.alpha, ALPHA_MIN)) - 1.0);
+#endif
+    return vec3(0.0);
+}
+#endif
+
+vec3 layered_radiance(Layers m, vec3 V)
+{
+    LayerTables t = tables_of(m, V);
+    vec3 radiance = layers_emission(m, V);
 #if defined(HAS_ENVIRONMENT) || defined(HAS_TRANSMISSION)
-    radiance += layers_ibl(m, V, t, light, energy);
+    radiance += layers_ibl(m, V, t, layer_light(m, V), energy);
 #endif
 #ifdef HAS_LIGHTS
     int count = light_count(v_position);
     for (int i = 0; i < count; i++) {
         Light l = light_at(i);
-        float sheen_E_L = 0.0;
-#ifdef HAS_SHEEN
-        sheen_E_L = table_sheen_albedo(clamp(dot(m.base.N, light_illuminate(l, v_position).L), 0.0, 1.0),
-                                       m.sheen_roughness);
-#endif
-        radiance += layers_punctual(m, v_position, V, l, energy, t, sheen_E_L);
+        radiance += layers_punctual(m, v_position, V, l, energy, t, sheen_albedo_of(m, l)) +
+                    specular_variant(m, V, l, t);
     }
 #endif
     return radiance;

@@ -22,10 +22,10 @@ vec3 unlit_radiance(vec3 color)
 #endif
 }
 
-vec3 lit_radiance(vec3 color)
+#ifdef IS_LIT
+/* s: without anti-aliasing. */
+vec3 lit_radiance(Surface s, vec3 V)
 {
-    vec3 V = view_direction();
-    Surface s = surface_of_material(shading_normal(V), color);
 #ifdef HAS_SPECULAR_ANTIALIASING
     vec3 dN_dx = dFdx(s.N);
     vec3 dN_dy = dFdy(s.N);
@@ -36,7 +36,11 @@ vec3 lit_radiance(vec3 color)
     m.base = surface_specular_aa(m.base, dN_dx, dN_dy);
     m.clearcoat_roughness = roughness_specular_aa(m.clearcoat_roughness, dN_dx, dN_dy);
 #endif
+#ifdef HAS_CHANNEL
+    return lobe_channel(m, V);
+#else
     return layered_radiance(m, V);
+#endif
 #else
 #ifdef HAS_SPECULAR_ANTIALIASING
     s = surface_specular_aa(s, dN_dx, dN_dy);
@@ -44,19 +48,42 @@ vec3 lit_radiance(vec3 color)
     return plain_radiance(s, V);
 #endif
 }
+#endif
+
+/* What is drawn: light, or what takes its place. */
+vec3 shaded(vec3 color, float opacity)
+{
+#if defined(IS_LIT) || defined(HAS_CHANNEL)
+    vec3 V = view_direction();
+    Surface s = surface_of_material(shading_normal(V), color);
+#endif
+#ifdef HAS_CHANNEL
+    if (channel < CHANNEL_DIFFUSE)
+        return surface_channel(s, V, opacity);
+#endif
+#ifdef IS_LIT
+    return lit_radiance(s, V);
+#else
+#ifdef HAS_CHANNEL
+    if (channel != CHANNEL_EMISSION)
+        return vec3(0.0);
+#endif
+    return unlit_radiance(color);
+#endif
+}
 
 void main()
 {
     vec4 color = base_color();
     float opacity = coverage(color.w);
-#ifdef IS_LIT
-    vec3 radiance = lit_radiance(color.xyz);
-#else
-    vec3 radiance = unlit_radiance(color.xyz);
-#endif
+    vec3 radiance = shaded(color.xyz, opacity);
 #ifdef HAS_ALPHA_MASK
     if (opacity < 0.5)
         discard;
+#endif
+#ifdef HAS_CHANNEL
+    if (channel == CHANNEL_OPACITY)
+        opacity = 1.0;
 #endif
     put_fragment(radiance * exposure, opacity);
 }
