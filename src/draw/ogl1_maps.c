@@ -23,6 +23,12 @@ uint32_t ogl1_maps(const render_geometry *g, facet_ogl1_variant variant)
     return bits;
 }
 
+uint32_t ogl1_drawn_maps(const render_geometry *g, facet_ogl1_variant variant)
+{
+    uint32_t maps = ogl1_maps(g, variant);
+    return g->tangents ? maps : maps & ~BIT(LEGACY_NORMAL_MAP);
+}
+
 bool ogl1_map_is_color(const legacy_material *m, legacy_map_slot slot, bool is_linear)
 {
     bool is_opacity = slot == LEGACY_DIFFUSE_MAP && m->texture_type == LEGACY_ALPHA;

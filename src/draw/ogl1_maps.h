@@ -7,6 +7,8 @@
 /* Bits of legacy_map_slot that a shade of a geometry with a legacy material looks up, whether there are tangents or not.
  * Pipelines that light at vertices have textures of color and opacity only. */
 uint32_t ogl1_maps(const render_geometry *g, facet_ogl1_variant variant);
+/* The same of a geometry as it is: without tangents, bumps are not read. */
+uint32_t ogl1_drawn_maps(const render_geometry *g, facet_ogl1_variant variant);
 /* Whether a map is decoded from sRGB: colors, where light is linear. Others are the file's numbers. */
 bool ogl1_map_is_color(const legacy_material *m, legacy_map_slot slot, bool is_linear);
 /* Whether a map is looked up by the reflected view and not by texture coordinates. */

@@ -131,6 +131,13 @@ static facet_result make_lights(ogl1_setup *s, const scene_legacy *legacy, const
 
 /* ---- fog ---- */
 
+/* desc->camera is NULL where the camera was fitted. */
+static float fov_y(const camera_rays *camera, const facet_render_desc *desc)
+{
+    return desc->camera ? desc->camera->fov_y_rad
+                        : 2.0f * atanf(0.5f * (float)desc->height * camera->pixel_size);
+}
+
 /* Where the camera has no clipping distances they are rgl's, which touch the sphere around what is drawn. */
 static PhongFog make_fog(const ogl1_setup *s, const legacy_fog *fog, const scene_pose *pose,
                          const camera_rays *camera, const facet_render_desc *desc)
@@ -138,7 +145,7 @@ static PhongFog make_fog(const ogl1_setup *s, const legacy_fog *fog, const scene
     PhongFog out = {.mode = desc->ogl1.ignores_fog ? PHONG_FOG_NONE : (int)fog->mode,
                     .color = computed(s, fog->color),
                     .scale = fog->scale > 0.0f ? fog->scale : 1.0f,
-                    .w = phong_fog_w(camera->is_orthographic ? 0.0f : desc->camera->fov_y_rad)};
+                    .w = phong_fog_w(camera->is_orthographic ? 0.0f : fov_y(camera, desc))};
     vec3 low = load3(pose->bounds_min);
     vec3 high = load3(pose->bounds_max);
     vec3 middle = phong_to_eye(s->view, s->translation, (low + high) * 0.5f, 1.0f);
@@ -173,11 +180,8 @@ facet_result ogl1_setup_create(const ogl1_source *source, const camera_rays *cam
         return fail_memory(error, "materials", count * sizeof *out->materials);
     for (size_t i = 0; i < count; i++)
         out->materials[i] = make_material(out, i ? &legacy->materials[i - 1] : source->fallback);
-    for (uint32_t i = 0; i < source->geometries->count; i++) {
-        const render_geometry *g = &source->geometries->items[i];
-        uint32_t maps = ogl1_maps(g, desc->ogl1.variant);
-        if (!g->tangents)
-            maps &= ~(1u << LEGACY_NORMAL_MAP);
+    for (uint32_t i = 0; plans && i < source->geometries->count; i++) {
+        uint32_t maps = ogl1_drawn_maps(&source->geometries->items[i], desc->ogl1.variant);
         plans->items[i].legacy_maps = maps;
         plans->items[i].reads_changes = maps != 0;
     }

@@ -38,7 +38,7 @@ typedef struct ogl1_source {
     const legacy_material *fallback; /* of primitives without a material */
 } ogl1_source;
 
-/* Sets legacy_maps of plans as well. source: lives as long as what comes out. Fails with FACET_ERROR_MEMORY. */
+/* Sets legacy_maps of plans as well (NULL: not wanted). source: lives as long as what comes out. Fails with FACET_ERROR_MEMORY. */
 facet_result ogl1_setup_create(const ogl1_source *source, const camera_rays *camera,
                                const facet_render_desc *desc, const light_setup *light,
                                material_plan_set *plans, ogl1_setup *out, facet_error *error);

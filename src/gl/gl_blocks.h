@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-enum { GL_BLOCK_FRAME, GL_BLOCK_MATERIAL, GL_BLOCK_LIGHT, GL_BLOCK_COUNT }; /* binding points */
+enum { GL_BLOCK_FRAME, GL_BLOCK_MATERIAL, GL_BLOCK_LIGHT, GL_BLOCK_OGL1, GL_BLOCK_COUNT }; /* binding points */
 
 /* Of a picture. */
 typedef struct gl_frame_block {

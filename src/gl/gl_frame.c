@@ -36,6 +36,7 @@ void gl_frame_destroy(gl_frame *f)
         return;
     gl_timers_destroy(&f->timers);
     gl_bloom_destroy(&f->bloom);
+    gl_phong_destroy(f->phong);
     gl_opaque_destroy(&f->opaque);
     gl_transparency_destroy(f->transparency);
     gl_light_destroy(f->light);
@@ -55,7 +56,7 @@ static gl_program_key key_of(const gl_frame *f, const gl_batch *batch, bool is_l
                         gl_light_features(f->light);
     if (is_layers)
         features |= gl_program_feature(GL_MAIN_SURFACE, "AOVS");
-    return (gl_program_key){GL_MAIN_SURFACE, features};
+    return (gl_program_key){gl_material_main(f->materials, batch), features};
 }
 
 static gl_transparency_view transparency_of(const gl_frame *f, const facet_render_desc *desc)
@@ -99,6 +100,21 @@ static facet_result request_programs(gl_frame *f, const facet_render_desc *desc,
     return result;
 }
 
+static facet_result update_phong(gl_frame *f, const gl_phong_view *view, facet_error *error)
+{
+    gl_material_use_phong(f->materials, NULL);
+    if (view->render->shading != FACET_SHADING_OGL1)
+        return FACET_OK;
+    facet_result result = FACET_OK;
+    if (!f->phong)
+        result = gl_phong_create(f->context, view->scene->scene, &view->scene->allocator, &f->phong, error);
+    if (result == FACET_OK)
+        result = gl_phong_update(f->phong, view, error);
+    if (result == FACET_OK)
+        gl_material_use_phong(f->materials, f->phong);
+    return result;
+}
+
 facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_rays *camera,
                              const facet_render_desc *desc, facet_render_stats *stats, facet_error *error)
 {
@@ -111,7 +127,6 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
             gl_light_update(f->light, &light, desc, scene->pose.bounds_min, scene->pose.bounds_max, error);
     if (result == FACET_OK && gl_channel_is_light(desc->gl.channel))
         light_setup_tell_dark(&light, &scene->geometries, desc);
-    light_setup_destroy(&light);
     stats->light_s += clock_seconds() - start;
     start = clock_seconds();
     if (result == FACET_OK)
@@ -120,6 +135,9 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
     start = clock_seconds();
     if (result == FACET_OK)
         result = gl_material_update(f->materials, f->meshes, desc, error);
+    if (result == FACET_OK)
+        result = update_phong(f, &(gl_phong_view){scene, camera, &light, f->meshes, desc}, error);
+    light_setup_destroy(&light);
     stats->textures_s += clock_seconds() - start;
     stats->decoded_texels += result == FACET_OK ? gl_material_decoded_texels(f->materials) : 0;
     if (result == FACET_OK)
@@ -313,6 +331,9 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
     gl_timers_begin(&f->timers, GL_TIMER_RESOLVE);
     gl_target_resolve(target);
     gl_timers_end(&f->timers);
+    const gl_pyramid_brush brush = {f->programs, f->empty_array};
+    if (result == FACET_OK && desc->shading == FACET_SHADING_OGL1)
+        result = gl_phong_develop(f->phong, &brush, target, error);
     if (result == FACET_OK)
         result = draw_bloom(f, target, desc, error);
     return result;

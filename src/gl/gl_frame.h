@@ -20,6 +20,7 @@ typedef struct gl_frame {
     gl_light *light;
     gl_opaque opaque;
     gl_bloom bloom;
+    gl_phong *phong; /* NULL: no picture had materials of OpenGL 1 */
     gl_transparency *transparency;
     const gl_scene *scene; /* of the last update */
     gl_timers timers;

@@ -28,12 +28,12 @@ struct gl_material_set {
     const facet_scene *scene;
     facet_allocator allocator;
     gl_texture_set *textures;
-    gl_material *items; /* by material_id */
-    texture_use *uses;  /* by texture */
+    const gl_phong *phong; /* of legacy materials; NULL: they are drawn as glTF's */
+    gl_material *items;    /* by material_id */
+    texture_use *uses;     /* by texture */
     GLuint buffer;
     size_t stride; /* of blocks in the buffer, bytes */
-    uint64_t picture_features; /* of what is lit */
-    uint64_t channel_feature;
+    uint64_t picture_features;
 };
 
 facet_result gl_material_create(gl_context *context, const facet_scene *scene,
@@ -219,11 +219,6 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
     set->picture_features = 0;
     if (desc->specular_antialiasing)
         set->picture_features |= 1ull << GL_SURFACE_HAS_SPECULAR_ANTIALIASING;
-    if (desc->gl.brdf == FACET_BRDF_SCHLICK_GGX)
-        set->picture_features |= gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
-    set->channel_feature = 0;
-    if (desc->gl.channel != FACET_CHANNEL_LIGHT)
-        set->channel_feature = gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL");
     memset(set->uses, 0, set->scene->texture_count * sizeof *set->uses);
     for_each_batch(set, meshes, add_uses);
     facet_result result = gl_texture_update(set->textures, set->uses, &desc->log, desc->thread_count, error);
@@ -242,12 +237,24 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
 
 /* ---- a batch ---- */
 
+void gl_material_use_phong(gl_material_set *set, const gl_phong *phong)
+{
+    set->phong = phong;
+}
+
+gl_main gl_material_main(const gl_material_set *set, const gl_batch *batch)
+{
+    return set->phong && batch->geometry->legacy ? GL_MAIN_PHONG : GL_MAIN_SURFACE;
+}
+
 uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch)
 {
+    if (gl_material_main(set, batch) == GL_MAIN_PHONG)
+        return gl_phong_features(set->phong, batch);
     const render_geometry *g = batch->geometry;
     const scene_material *m = g->material;
     uint32_t lost;
-    uint64_t features = texture_features(set, batch, &lost) | set->channel_feature;
+    uint64_t features = texture_features(set, batch, &lost);
     features |= (uint64_t)batch->plan->layers << GL_SURFACE_LAYERS;
     if (g->tangents)
         features |= GL_SURFACE_HAS_TANGENTS;
@@ -270,6 +277,10 @@ uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch)
 
 void gl_material_bind(const gl_material_set *set, const gl_batch *batch)
 {
+    if (gl_material_main(set, batch) == GL_MAIN_PHONG) {
+        gl_phong_bind(set->phong, batch);
+        return;
+    }
     uint32_t lost;
     int8_t units[SCENE_TEXTURE_SLOT_COUNT];
     gl_material_slot_units(texture_features(set, batch, &lost), units);

@@ -3,6 +3,7 @@
 #define GL_GL_MATERIAL_H
 
 #include "gl/gl_mesh.h"
+#include "gl/gl_phong.h"
 #include "gl/gl_program.h"
 
 typedef struct gl_material_set gl_material_set;
@@ -15,6 +16,9 @@ void gl_material_destroy(gl_material_set *set); /* NULL is allowed */
  * a warning where OpenGL cannot hold them. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
 facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
                                 const facet_render_desc *desc, facet_error *error);
+/* The main that a batch is drawn by: GL_MAIN_PHONG where it has a material of OpenGL 1 and there is a set of those. */
+gl_main gl_material_main(const gl_material_set *set, const gl_batch *batch);
+void gl_material_use_phong(gl_material_set *set, const gl_phong *phong); /* NULL: none */
 /* The program of a batch, as of the last update, apart from what light and transparency add (features of gl_program.h). */
 uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch);
 /* Binds block and textures, and sets culling. */

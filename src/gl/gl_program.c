@@ -71,9 +71,12 @@ static const char *const surface_features[] = {"HAS_TANGENTS",
                                                "AOVS",
                                                "IS_WEIGHTED",
                                                "IS_PEELED",
-                                               "HAS_CHANNEL",
-                                               "HAS_SCHLICK_GGX",
                                                NULL};
+/* From GL_SURFACE_TEXTURES on; the other ones are those of surfaces. */
+static const char *const phong_features[] = {"HAS_AMBIENT_MAP",  "HAS_DIFFUSE_MAP",   "HAS_SPECULAR_MAP",
+                                             "HAS_EMISSION_MAP", "HAS_SHININESS_MAP", "HAS_OPACITY_MAP",
+                                             "HAS_NORMAL_MAP",   "IS_SPHERE_MAP",     "IS_AT_VERTICES",
+                                             "IS_FLAT",          "IS_SEE_THROUGH"};
 static const char *const halve_features[] = {"IS_COPY", NULL};
 static const char *const no_features[] = {NULL};
 static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
@@ -86,21 +89,30 @@ static const struct {
     const char *parts[8];      /* of the shared text; those that they use come with them */
     const char *fragments[12]; /* files of this folder before the fragment shader's own */
     const char *const *features;
+    const char *vertex_parts[4]; /* files before the vertex shader's own */
 } mains[GL_MAIN_COUNT] = {
     [GL_MAIN_SURFACE] = {"surface",
                          "surface.vert",
                          "surface.frag",
-                         {"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material", "footprint"},
+                         {"surface", "light", "layers_direct", "layers_ibl", "material", "footprint"},
                          {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl",
-                          "surface_in.glsl", "material.glsl", "transmission.glsl", "radiance.glsl", "channels.glsl",
-                          "transparency.glsl", "aovs.glsl"},
+                          "surface_in.glsl", "texel.glsl", "material.glsl", "transmission.glsl",
+                          "radiance.glsl", "transparency.glsl", "aovs.glsl"},
                          surface_features},
     [GL_MAIN_SHADOW] = {"shadow",
                         "surface.vert",
                         "shadow.frag",
                         {"surface", "light", "layers_direct", "layers_ibl", "material", "footprint"},
-                        {"surface_in.glsl", "material.glsl"},
+                        {"surface_in.glsl", "texel.glsl", "material.glsl"},
                         surface_features},
+    [GL_MAIN_PHONG] = {"phong",
+                       "surface.vert",
+                       "phong.frag",
+                       {"phong", "light", "color", "material", "footprint"},
+                       {"light_block.glsl", "shadow.glsl", "lights.glsl", "surface_in.glsl", "texel.glsl",
+                        "phong.glsl", "transparency.glsl", "aovs.glsl"},
+                       surface_features,
+                       {"light_block.glsl", "lights.glsl", "phong.glsl", "phong_vertex.glsl"}},
     [GL_MAIN_GROUND_MAP] =
         {"ground_map", "screen.vert", "ground_map.frag", {"constants"}, {"light_block.glsl"}, no_features},
     [GL_MAIN_GROUND] = {"ground",
@@ -120,6 +132,7 @@ static const struct {
         {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, present_features},
     [GL_MAIN_HALVE] = {"halve", "screen.vert", "halve.frag", {"constants"}, {0}, halve_features},
     [GL_MAIN_SPREAD] = {"spread", "screen.vert", "spread.frag", {"constants"}, {0}, no_features},
+    [GL_MAIN_DEVELOP] = {"develop", "screen.vert", "develop.frag", {"color"}, {0}, no_features},
 };
 
 /* Samplers and their units. */
@@ -177,13 +190,18 @@ uint32_t gl_program_feature_count(gl_main main)
 
 const char *gl_program_feature_name(gl_main main, uint32_t feature)
 {
+    const uint32_t own = sizeof phong_features / sizeof *phong_features;
+    if (main == GL_MAIN_PHONG && UINT64_C(1) << feature == GL_SURFACE_HAS_SHADOWS) /* OpenGL 1 has none */
+        return "";
+    if (main == GL_MAIN_PHONG && feature >= GL_SURFACE_TEXTURES && feature < GL_SURFACE_IS_LIT)
+        return feature - GL_SURFACE_TEXTURES < own ? phong_features[feature - GL_SURFACE_TEXTURES] : "";
     return mains[main].features[feature];
 }
 
 uint64_t gl_program_feature(gl_main main, const char *name)
 {
     for (uint32_t i = 0; mains[main].features[i]; i++)
-        if (strcmp(mains[main].features[i], name) == 0)
+        if (strcmp(gl_program_feature_name(main, i), name) == 0)
             return UINT64_C(1) << i;
     return 0;
 }
@@ -211,13 +229,17 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
     text_add(out, (const char *)shared);
     mem_free(shared);
     for (uint32_t i = 0; i < gl_program_feature_count(key.main); i++)
-        if (key.features >> i & 1)
+        if (key.features >> i & 1 && gl_program_feature_name(key.main, i)[0])
             text_addf(out, "#define %s\n", gl_program_feature_name(key.main, i));
+    if (key.main == GL_MAIN_PHONG)
+        text_add(out, "#define IS_PHONG\n");
     if ((key.main == GL_MAIN_SURFACE || key.main == GL_MAIN_SHADOW) && stage == GL_FRAGMENT_SHADER)
         gl_material_slot_text(key.features, out);
     text_add(out, file_text("blocks.glsl"));
     for (int i = 0; stage == GL_FRAGMENT_SHADER && i < 12 && mains[key.main].fragments[i]; i++)
         text_add(out, file_text(mains[key.main].fragments[i]));
+    for (int i = 0; stage == GL_VERTEX_SHADER && i < 4 && mains[key.main].vertex_parts[i]; i++)
+        text_add(out, file_text(mains[key.main].vertex_parts[i]));
     text_add(out, file_text(stage == GL_VERTEX_SHADER ? mains[key.main].vertex : mains[key.main].fragment));
     return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;
 }
@@ -371,7 +393,7 @@ static facet_result fail_link(gl_programs *programs, const gl_program *p, facet_
 
 static void bind_names(const gl_program *p)
 {
-    static const char *const blocks[GL_BLOCK_COUNT] = {"Frame", "Material", "Lighting"};
+    static const char *const blocks[GL_BLOCK_COUNT] = {"Frame", "Material", "Lighting", "Ogl1"};
     for (GLuint i = 0; i < GL_BLOCK_COUNT; i++) {
         GLuint index = glGetUniformBlockIndex(p->name, blocks[i]);
         if (index != GL_INVALID_INDEX)

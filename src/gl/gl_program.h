@@ -10,6 +10,7 @@
 typedef enum gl_main {
     GL_MAIN_SURFACE,    /* a material */
     GL_MAIN_SHADOW,     /* a material as what casts a shadow; features as of the former */
+    GL_MAIN_PHONG,      /* a material of OpenGL 1 */
     GL_MAIN_GROUND_MAP, /* how much of a uniform sky the model hides from the ground */
     GL_MAIN_GROUND,     /* the shadow on the ground */
     GL_MAIN_BACKGROUND, /* the environment behind the model */
@@ -17,6 +18,7 @@ typedef enum gl_main {
     GL_MAIN_PRESENT,    /* radiance to a display's numbers */
     GL_MAIN_HALVE,      /* a picture at half its size */
     GL_MAIN_SPREAD,     /* and at twice its size */
+    GL_MAIN_DEVELOP,    /* what OpenGL 1 computed as light */
     GL_MAIN_COUNT
 } gl_main;
 
@@ -51,6 +53,16 @@ enum {
     GL_SURFACE_HAS_SPECULAR_ANTIALIASING
 };
 
+/* GL_MAIN_PHONG has features of its own from GL_SURFACE_TEXTURES to GL_SURFACE_IS_LIT, first of all those of its maps in the
+ * order of gl_phong_slots; the others are those of GL_MAIN_SURFACE. */
+enum {
+    GL_PHONG_MAP_COUNT = 7,
+    GL_PHONG_IS_SPHERE_MAP = GL_SURFACE_TEXTURES + GL_PHONG_MAP_COUNT,
+    GL_PHONG_IS_AT_VERTICES, /* light is computed there */
+    GL_PHONG_IS_FLAT,
+    GL_PHONG_IS_SEE_THROUGH
+};
+
 /* features: bits of the main's list of names in gl_program.c, each of which becomes a #define. */
 typedef struct gl_program_key {
     gl_main main;
@@ -76,7 +88,7 @@ facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t
 /* The whole text of a shader, as it is compiled. stage: GL_VERTEX_SHADER or GL_FRAGMENT_SHADER. FACET_ERROR_MEMORY. */
 facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint32_t stage, text *out,
                              facet_error *error);
-/* Number of features of a main, and their names. */
+/* Number of features of a main, and their names ("": there is no such feature). */
 uint32_t gl_program_feature_count(gl_main main);
 const char *gl_program_feature_name(gl_main main, uint32_t feature);
 uint64_t gl_program_feature(gl_main main, const char *name); /* its bit; 0: there is no such feature */

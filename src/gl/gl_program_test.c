@@ -58,7 +58,8 @@ static size_t list_keys(gl_program_key keys[MAX_KEYS])
         keys[count++] = (gl_program_key){main, 0};
         keys[count++] = (gl_program_key){main, main == GL_MAIN_SURFACE ? drop_textures(all) : all};
         for (uint32_t i = 0; i < gl_program_feature_count(main); i++)
-            keys[count++] = (gl_program_key){main, UINT64_C(1) << i};
+            if (gl_program_feature_name(main, i)[0])
+                keys[count++] = (gl_program_key){main, UINT64_C(1) << i};
         if (main != GL_MAIN_SURFACE)
             continue;
         uint64_t lit = UINT64_C(1) << GL_SURFACE_IS_LIT | GL_SURFACE_HAS_ENVIRONMENT | GL_SURFACE_HAS_LIGHTS |

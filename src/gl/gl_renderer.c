@@ -12,6 +12,8 @@
 #include "gl/gl_sampling.h"
 #include "scene/scene.h"
 
+#include "draw/ogl1_setup.h"
+
 struct gl_renderer {
     facet_allocator allocator;
     gl_context own, *context; /* own: {0} where there is none yet, or it was lost */
@@ -87,6 +89,17 @@ void gl_renderer_destroy(gl_renderer *r)
 
 /* ---- a picture ---- */
 
+/* What goes together: OpenGL 1 has no shadows, and channels are those of glTF's materials. */
+static facet_render_desc settle(const facet_render_desc *desc)
+{
+    facet_render_desc settled = *desc;
+    if (desc->gl.channel != FACET_CHANNEL_LIGHT)
+        settled.shading = FACET_SHADING_GLTF;
+    if (settled.shading == FACET_SHADING_OGL1)
+        settled.gl.shadows = false;
+    return settled;
+}
+
 /* Rays of the camera, or of one that shows the whole scene. */
 static facet_result make_camera(gl_renderer *r, const facet_render_desc *desc, camera_rays *rays,
                                 facet_error *error)
@@ -108,6 +121,8 @@ static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camer
 {
     double begin = clock_seconds();
     facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
+    if (result == FACET_OK)
+        result = ogl1_check(r->prepared.scene, desc, error);
     if (result == FACET_OK)
         result = gl_scene_update(&r->prepared, desc, error);
     if (result == FACET_OK)
@@ -145,9 +160,10 @@ static facet_result attempt(gl_renderer *r, const facet_render_desc *desc, doubl
     return result;
 }
 
-facet_result gl_renderer_render(gl_renderer *r, const facet_render_desc *desc, film *target,
+facet_result gl_renderer_render(gl_renderer *r, const facet_render_desc *wanted, film *target,
                                 facet_render_stats *stats, facet_error *error)
 {
+    const facet_render_desc settled = settle(wanted), *desc = &settled;
     double begin = clock_seconds();
     double deadline_s = desc->time_limit_s > 0.0 ? begin + desc->time_limit_s : 0.0;
     bool was_used = r->prepared.revision > 0;
@@ -176,9 +192,10 @@ gl_times gl_renderer_get_times(const gl_renderer *r)
 
 /* ---- a frame of a window ---- */
 
-facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *desc, uint32_t framebuffer, int x,
+facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted, uint32_t framebuffer, int x,
                                  int y, facet_render_stats *stats, facet_error *error)
 {
+    const facet_render_desc settled = settle(wanted), *desc = &settled;
     camera_rays camera;
     gl_frame_block block = {.channel = 0};
     *stats = (facet_render_stats){.thread_count = desc->thread_count};

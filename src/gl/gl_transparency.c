@@ -59,7 +59,7 @@ facet_result gl_transparency_use(const gl_transparency_view *view, const gl_batc
                                  facet_error *error)
 {
     uint32_t program;
-    gl_program_key key = {GL_MAIN_SURFACE, b->features | view->features | features};
+    gl_program_key key = {gl_material_main(view->materials, b), b->features | view->features | features};
     facet_result result = gl_programs_get(view->programs, key, &program, error);
     if (result != FACET_OK)
         return result;
@@ -114,10 +114,10 @@ facet_result gl_transparency_request(const gl_transparency *t, const gl_transpar
     const gl_batch *batches = gl_mesh_batches(view->meshes, GL_PASS_BLENDED, &count);
     facet_result result = FACET_OK;
     for (uint32_t i = 0; i < count && result == FACET_OK; i++) {
-        gl_program_key key = {GL_MAIN_SURFACE, gl_material_features(view->materials, &batches[i]) |
-                                                   gl_mesh_features(view->meshes, &batches[i]) |
-                                                   view->features |
-                                                   mode_features(t, possible_mode(t->context, view->mode))};
+        gl_program_key key = {gl_material_main(view->materials, &batches[i]),
+                              gl_material_features(view->materials, &batches[i]) |
+                                  gl_mesh_features(view->meshes, &batches[i]) | view->features |
+                                  mode_features(t, possible_mode(t->context, view->mode))};
         result = gl_programs_request(view->programs, key, error);
     }
     return result;

@@ -86,6 +86,9 @@ void main()
     v_position = outline(place(position), place(position_end), is_end);
     v_normal = turn_normal(is_end ? normal_end : normal);
     v_color = is_end ? color_end : color;
+#ifdef IS_PHONG
+    light_vertex(v_color, place(is_end ? position_end : position), v_normal);
+#endif
     v_texcoord01 = is_end ? vec4(texcoord0_end, texcoord1_end) : vec4(texcoord0, texcoord1);
     v_texcoord23 = vec4(0.0);
     v_instance = instance;
@@ -103,6 +106,9 @@ void main()
     v_handedness = tangent.w * instance.y;
 #endif
     v_color = color;
+#ifdef IS_PHONG
+    light_vertex(v_color, v_position, v_normal);
+#endif
     v_texcoord01 = vec4(texcoord0, texcoord1);
     v_texcoord23 = vec4(texcoord2, texcoord3);
     v_instance = instance;
