@@ -44,8 +44,6 @@ float height_of(float depth)
 /* What a step of a slice hides: the column at a place of the map, from near to far (texels). */
 uint step_bits(ivec2 at, int size, float near, float far, float m_per_texel)
 {
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(size))))
-        return 0u;
     float low = texelFetch(u_heights, at, 0).x;
     if (low >= 1.0)
         return 0u;
@@ -70,6 +68,8 @@ void main()
         for (int i = 1; i <= STEPS; i++) {
             float far = float(size) * float(i * i) / float(STEPS * STEPS);
             ivec2 at = ivec2(floor(place + direction * mix(near, far, jitter)));
+            if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(size))))
+                break;
             bits |= step_bits(at, size, near, far, m_per_texel);
             near = far;
         }

@@ -15,7 +15,8 @@ struct ShadowRecord {
 struct ShadowPlace {
     vec2 at; /* [-1, 1] */
     float depth; /* along the axis, m (parallel: of the range) */
-    vec3 axis;
+    vec3 right;  /* unit, along the rows of the tile; and along its columns */
+    vec3 up;
     float tile;
 };
 
@@ -25,7 +26,8 @@ ShadowPlace shadow_place(ShadowRecord r, vec3 d)
     p.tile = r.up.w;
     if (r.origin.w < 1.5) {
         p.depth = dot(d, r.forward.xyz);
-        p.axis = r.forward.xyz;
+        p.right = normalize(r.right.xyz);
+        p.up = normalize(r.up.xyz);
         p.at = vec2(dot(d, r.right.xyz), dot(d, r.up.xyz)) / (r.origin.w < 0.5 ? 1.0 : p.depth);
         return p;
     }
@@ -34,8 +36,8 @@ ShadowPlace shadow_place(ShadowRecord r, vec3 d)
     p.tile += 2.0 * face.x + face.y;
     p.at = face.zw * r.forward.w;
     p.depth = abs(d[i]);
-    p.axis = vec3(0.0);
-    p.axis[i] = 1.0;
+    p.right = i == 0 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
+    p.up = i == 1 ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0);
     return p;
 }
 
@@ -67,11 +69,8 @@ float shadow_share(ShadowRecord r, vec3 P, vec3 N)
     ShadowPlace p = shadow_place(r, d);
     bool is_parallel = r.origin.w < 0.5;
     float texel = r.right.w * (is_parallel ? 1.0 : p.depth);
-    vec3 axis = normalize(p.axis);
-    float along = dot(N, axis);
-    vec3 across = abs(N - axis * along);
-    float reach = 3.0 * min(across.x + across.y + across.z, 1.4143 * sqrt(max(1.0 - along * along, 0.0)));
-    vec3 to_light = is_parallel ? -axis : -d;
+    float reach = 3.0 * (abs(dot(N, p.right)) + abs(dot(N, p.up)));
+    vec3 to_light = is_parallel ? -r.forward.xyz : -d;
     p = shadow_place(r, d + N * (sign(dot(N, to_light)) * texel * (reach + 0.1)) + normalize(to_light) * (1.5 * texel));
     float depth = is_parallel ? p.depth : r.depth.x + r.depth.y / p.depth;
     float edge = light_shadow.x;
