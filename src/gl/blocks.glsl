@@ -11,7 +11,7 @@ layout(std140) uniform Frame
     float exposure;
     int energy;
     int channel;
-    int has_specular_antialiasing;
+    int has_coverage; /* 1: samples are made of the alpha of masks */
     float background_blur;
     float tonemap_operator;
     float far_depth;   /* gl_Position.z / w of what is infinitely far away: 1, or 0 where depth is reversed */

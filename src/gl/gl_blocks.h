@@ -19,7 +19,7 @@ typedef struct gl_frame_block {
     float exposure;  /* scale of radiance */
     int32_t energy;  /* ENERGY_* */
     int32_t channel; /* facet_channel */
-    int32_t has_specular_antialiasing;
+    int32_t has_coverage;  /* 1: samples are made of the alpha of masks */
     float background_blur; /* perceptual roughness */
     float tonemap;
     float far_depth; /* gl_Position.z / w of what is infinitely far away: 1, or 0 where depth is reversed */

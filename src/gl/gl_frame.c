@@ -205,7 +205,6 @@ static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_fram
     if (desc->gl.brdf == FACET_BRDF_MULTISCATTER)
         block->energy = (int32_t)FACET_ENERGY_CONSERVING;
     block->channel = (int32_t)desc->gl.channel;
-    block->has_specular_antialiasing = desc->specular_antialiasing;
     block->background_blur = desc->background_blur;
     block->tonemap = is_light ? (float)desc->tonemap : (float)FACET_TONEMAP_NONE;
     for (int i = 0; i < 3; i++)
@@ -217,6 +216,7 @@ static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_fram
 static void begin(gl_frame *f, const gl_target *target, const facet_render_desc *desc, gl_frame_block *block)
 {
     fill_block(f, desc, block);
+    block->has_coverage = target->samples > 1 && gl_material_has_coverage(f->context);
     set_block(f, block);
     gl_mesh_order(f->meshes, block, f->materials);
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);

@@ -275,8 +275,29 @@ uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch)
     return features;
 }
 
+bool gl_material_has_coverage(const gl_context *context)
+{
+    return !context->is_es;
+}
+
+static void set_coverage(const gl_material_set *set, const gl_batch *batch)
+{
+    bool is_mask = batch->geometry->is_see_through && !batch->geometry->legacy &&
+                   batch->geometry->material->alpha_mode == SCENE_ALPHA_MASK;
+    if (!gl_material_has_coverage(set->context))
+        return;
+    if (is_mask) {
+        glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glEnable(GL_SAMPLE_ALPHA_TO_ONE);
+    } else {
+        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+    }
+}
+
 void gl_material_bind(const gl_material_set *set, const gl_batch *batch)
 {
+    set_coverage(set, batch);
     if (gl_material_main(set, batch) == GL_MAIN_PHONG) {
         gl_phong_bind(set->phong, batch);
         return;

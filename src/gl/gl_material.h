@@ -21,7 +21,9 @@ gl_main gl_material_main(const gl_material_set *set, const gl_batch *batch);
 void gl_material_use_phong(gl_material_set *set, const gl_phong *phong); /* NULL: none */
 /* The program of a batch, as of the last update, apart from what light and transparency add (features of gl_program.h). */
 uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch);
-/* Binds block and textures, and sets culling. */
+/* Whether OpenGL makes samples of the alpha of masks, and alpha 1 of those that are there: not OpenGL ES. */
+bool gl_material_has_coverage(const gl_context *context);
+/* Binds block and textures, and sets culling, and that samples are made of a mask's alpha. */
 void gl_material_bind(const gl_material_set *set, const gl_batch *batch);
 uint64_t gl_material_decoded_texels(const gl_material_set *set);
 

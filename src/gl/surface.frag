@@ -72,14 +72,28 @@ vec3 shaded(vec3 color, float opacity)
 #endif
 }
 
+#ifdef HAS_ALPHA_MASK
+/* How much of the pixel a mask leaves, where alpha grows evenly across it; OpenGL makes samples of it. */
+float mask_share(float alpha)
+{
+    float change = fwidth(alpha);
+    if (change < 1e-4)
+        return coverage(alpha);
+    return clamp((alpha - emissive_factor.w) / change + 0.5, 0.0, 1.0);
+}
+#endif
+
 void main()
 {
     vec4 color = base_color();
     float opacity = coverage(color.w);
     vec3 radiance = shaded(color.xyz, opacity);
 #ifdef HAS_ALPHA_MASK
-    if (opacity < 0.5)
+    if (has_coverage != 0)
+        opacity = mask_share(color.w);
+    if (opacity < (has_coverage != 0 ? 1.0 / 512.0 : 0.5))
         discard;
+    radiance /= opacity; /* which put_fragment() multiplies with: samples are there or not */
 #endif
 #ifdef HAS_CHANNEL
     if (channel == CHANNEL_OPACITY)
