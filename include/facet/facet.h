@@ -594,8 +594,9 @@ typedef struct facet_path_desc {
     bool
         resumes; /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there
                      is none it starts */
-    /* Told after a pass, while there are more to come: the picture so far, not denoised, which is gone when it returns.
-     * From a thread of the renderer's. NULL: nobody */
+    /* Told after passes, while there are more to come: the picture so far, which is gone when it returns, as it is with that
+     * many samples; denoised ones, but for the shadow on the ground, at 2, 4, 8 .. samples. From a thread of the
+     * renderer's. NULL: nobody */
     void (*pass)(void *pass_user, const facet_image *image, uint32_t samples);
     void *pass_user;
 } facet_path_desc;

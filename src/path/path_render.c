@@ -253,13 +253,39 @@ static bool judge(path_picture *p, uint32_t goal)
     return path_film_share_done(p->sums) >= 1.0f;
 }
 
-/* Whoever asked knows which film is drawn into; of images nothing is known here. */
+enum { GUIDES = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE };
+
+static facet_result denoise(path_picture *p, float scale, facet_error *error)
+{
+    double start = clock_seconds();
+    const facet_render_desc *desc = p->desc;
+    film guided;
+    facet_result result =
+        film_create(&desc->allocator, p->target->width, p->target->height, GUIDES, &guided, error);
+    if (result != FACET_OK)
+        return result;
+    path_film_resolve(p->sums, scale, &guided, desc->thread_count);
+    result = film_denoise(&guided, &desc->allocator, desc->thread_count, error);
+    if (result == FACET_OK)
+        memcpy(p->target->layers[0].pixels, guided.layers[0].pixels,
+               (size_t)p->target->width * p->target->height * 4 * sizeof(float));
+    film_destroy(&guided);
+    p->stats->denoise_s = clock_seconds() - start;
+    return result;
+}
+
+/* Whoever asked knows which film is drawn into; of images nothing is known here. Denoising takes its time and is not worth it
+ * before the noise has halved; the shadow on the ground stays noisy, since what calms it is for films that get no more. */
 static void tell_pass(path_picture *p, uint32_t goal)
 {
     const facet_path_desc *path = &p->desc->path;
-    if (!path->pass || goal >= p->desc->samples)
+    bool is_power_of_two = (goal & (goal - 1)) == 0;
+    if (!path->pass || goal >= p->desc->samples || (path->denoises && !is_power_of_two))
         return;
-    path_film_resolve(p->sums, exp2f(p->desc->exposure_ev), p->target, p->desc->thread_count);
+    float scale = exp2f(p->desc->exposure_ev);
+    path_film_resolve(p->sums, scale, p->target, p->desc->thread_count);
+    if (path->denoises && goal > 1 && denoise(p, scale, NULL) != FACET_OK)
+        return;
     path->pass(path->pass_user, NULL, goal);
 }
 
@@ -317,27 +343,6 @@ static facet_result draw(path_picture *p, facet_error *error)
 }
 
 /* ---- from sums to the film ---- */
-
-enum { GUIDES = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE };
-
-static facet_result denoise(path_picture *p, float scale, facet_error *error)
-{
-    double start = clock_seconds();
-    const facet_render_desc *desc = p->desc;
-    film guided;
-    facet_result result =
-        film_create(&desc->allocator, p->target->width, p->target->height, GUIDES, &guided, error);
-    if (result != FACET_OK)
-        return result;
-    path_film_resolve(p->sums, scale, &guided, desc->thread_count);
-    result = film_denoise(&guided, &desc->allocator, desc->thread_count, error);
-    if (result == FACET_OK)
-        memcpy(p->target->layers[0].pixels, guided.layers[0].pixels,
-               (size_t)p->target->width * p->target->height * 4 * sizeof(float));
-    film_destroy(&guided);
-    p->stats->denoise_s = clock_seconds() - start;
-    return result;
-}
 
 /* The layers that are not means over samples: those of the first instant. */
 static facet_result draw_aovs(path_picture *p, facet_error *error)

@@ -60,7 +60,7 @@ typedef struct view_app {
     view_surface sides[2], traced, shot;
     bool trace_is_current; /* traced shows what is wanted */
     uint32_t trace_samples;
-    double frame_s;     /* of the last frames, smoothed; 0: none yet */
+    double frame_s;     /* of the last frame; while something moves smoothed; 0: none yet */
     bool needs_picture; /* something of the model, the camera, the light changed */
     bool needs_frame;   /* only what is laid over it did */
     view_shown_panel panels[VIEW_PANEL_COUNT];

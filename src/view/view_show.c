@@ -186,7 +186,7 @@ static void make_panels(view_app *a, uint32_t width, uint32_t height, const char
     uint32_t margin = (uint32_t)(12.0f * a->state.scale);
     uint32_t inside = width > 2 * margin ? width - 2 * margin : 1;
     uint32_t inside_height = height > 2 * margin ? height - 2 * margin : 1;
-    if (a->state.shows_values && a->scene)
+    if (a->state.shows_values && a->scene && !a->state.shows_help)
         write_values(a, width, height, values, sizeof values);
     make_panel(a, VIEW_PANEL_HELP, a->state.shows_help ? "help" : "", inside, inside_height);
     make_panel(a, VIEW_PANEL_VALUES, values, inside, 0);
@@ -270,7 +270,8 @@ static void measure_frame(view_app *a, double start)
         return;
     glFinish(); /* else it is how long asking took */
     double s = clock_seconds() - start;
-    a->frame_s = a->frame_s > 0.0 ? a->frame_s + 0.2 * (s - a->frame_s) : s;
+    bool is_moving = a->state.is_playing || a->state.is_held;
+    a->frame_s = is_moving && a->frame_s > 0.0 ? a->frame_s + 0.2 * (s - a->frame_s) : s;
 }
 
 facet_result view_show(view_app *a, facet_error *error)
