@@ -33,7 +33,8 @@ struct gl_material_set {
     texture_use *uses;     /* by texture */
     GLuint buffer;
     size_t stride; /* of blocks in the buffer, bytes */
-    uint64_t picture_features;
+    uint64_t picture_features; /* of what is lit */
+    uint64_t channel_feature;
 };
 
 facet_result gl_material_create(gl_context *context, const facet_scene *scene,
@@ -219,6 +220,11 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
     set->picture_features = 0;
     if (desc->specular_antialiasing)
         set->picture_features |= 1ull << GL_SURFACE_HAS_SPECULAR_ANTIALIASING;
+    if (desc->gl.brdf == FACET_BRDF_SCHLICK_GGX)
+        set->picture_features |= gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
+    set->channel_feature = 0;
+    if (desc->gl.channel != FACET_CHANNEL_LIGHT)
+        set->channel_feature = gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL");
     memset(set->uses, 0, set->scene->texture_count * sizeof *set->uses);
     for_each_batch(set, meshes, add_uses);
     facet_result result = gl_texture_update(set->textures, set->uses, &desc->log, desc->thread_count, error);
@@ -254,7 +260,7 @@ uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch)
     const render_geometry *g = batch->geometry;
     const scene_material *m = g->material;
     uint32_t lost;
-    uint64_t features = texture_features(set, batch, &lost);
+    uint64_t features = texture_features(set, batch, &lost) | set->channel_feature;
     features |= (uint64_t)batch->plan->layers << GL_SURFACE_LAYERS;
     if (g->tangents)
         features |= GL_SURFACE_HAS_TANGENTS;
