@@ -97,6 +97,8 @@ static facet_result request_programs(gl_frame *f, const facet_render_desc *desc,
         gl_program_key key = {GL_MAIN_BACKGROUND, gl_light_background_features(f->light, desc)};
         result = gl_programs_request(f->programs, key, error);
     }
+    if (result == FACET_OK)
+        result = gl_light_request_programs(f->light, f->programs, error);
     return result;
 }
 

@@ -164,6 +164,19 @@ uint64_t gl_light_ground_features(const gl_light *light)
            (features & GL_SURFACE_HAS_ENVIRONMENT ? GL_GROUND_HAS_ENVIRONMENT : 0u);
 }
 
+facet_result gl_light_request_programs(const gl_light *light, gl_programs *programs, facet_error *error)
+{
+    const gl_program_key keys[] = {
+        {GL_MAIN_SHADOW, 0}, {GL_MAIN_GROUND_MAP, 0}, {GL_MAIN_GROUND, gl_light_ground_features(light)}};
+    bool has_shadows = gl_light_features(light) & GL_SURFACE_HAS_SHADOWS;
+    uint32_t first = has_shadows || light->ground.is_wanted ? 0 : 1;
+    uint32_t end = light->ground.is_wanted ? 3 : 1;
+    facet_result result = FACET_OK;
+    for (uint32_t i = first; i < end && result == FACET_OK; i++)
+        result = gl_programs_request(programs, keys[i], error);
+    return result;
+}
+
 void gl_light_bind_ground(const gl_light *light)
 {
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_MATERIAL);

@@ -27,6 +27,8 @@ facet_result gl_light_draw_shadows(gl_light *light, gl_programs *programs, const
 /* What a picture's programs have because of its light: GL_SURFACE_HAS_ENVIRONMENT and so on. */
 uint64_t gl_light_features(const gl_light *light);
 uint64_t gl_light_background_features(const gl_light *light, const facet_render_desc *desc);
+/* Starts to compile what the passes of shadows and ground need. FACET_ERROR_MEMORY. */
+facet_result gl_light_request_programs(const gl_light *light, gl_programs *programs, facet_error *error);
 /* Whether there is a shadow on the ground, and its program's features. What it looks up is bound where materials' textures
  * are. */
 bool gl_light_has_ground(const gl_light *light);

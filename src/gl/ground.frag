@@ -26,7 +26,7 @@ float hidden_sky(vec3 P)
 float opacity_at(vec3 P)
 {
     float hidden = hidden_sky(P);
-#ifdef HAS_SHADOWS
+#if defined(HAS_LIGHTS) && defined(HAS_SHADOWS)
     float open = luminance(light_irradiance_over_pi(vec3(0.0, 1.0, 0.0))) * PI;
     float lit = open * (1.0 - hidden);
     int count = light_count(P);
