@@ -55,12 +55,10 @@ static void add_word(line *l, const char *word)
     add_bytes(l, "'", 1);
 }
 
-/* --name=value where the value could be taken for an option, else --name value. o NULL: there is no such option. */
+/* --name=value where the value could be taken for an option, else --name value. */
 static void add_to(line *l, const option *o, const char *value)
 {
     char word[4300];
-    if (!o)
-        return;
     bool is_joined = value[0] == '-';
     snprintf(word, sizeof word, "--%s%s%s", o->name, is_joined ? "=" : "", is_joined ? value : "");
     add_word(l, word);
@@ -80,13 +78,10 @@ static void add_option(line *l, option_id id, const char *format, ...)
 }
 
 /* A choice by its place in the table, unless it is the first. */
-static void add_choice(line *l, const char *name, int choice)
+static void add_choice(line *l, option_id id, int choice)
 {
-    const option *o = option_find(verb_find("render"), name, strlen(name));
-    int count = 0;
-    while (o && o->choices && o->choices[count])
-        count++;
-    if (choice > 0 && choice < count)
+    const option *o = option_find_id(verb_find("render"), id);
+    if (choice > 0)
         add_to(l, o, o->choices[choice]);
 }
 
@@ -160,16 +155,13 @@ static void add_look(line *l, const facet_render_desc *d)
 
 static void add_gl(line *l, const facet_gl_desc *gl)
 {
-    char bloom[32];
-    const verb *render = verb_find("render");
-    add_choice(l, "channel", (int)gl->channel);
-    add_choice(l, "brdf", (int)gl->brdf);
-    add_choice(l, "transparency", (int)gl->transparency);
+    add_choice(l, OPT_CHANNEL, (int)gl->channel);
+    add_choice(l, OPT_BRDF, (int)gl->brdf);
+    add_choice(l, OPT_TRANSPARENCY, (int)gl->transparency);
     if (gl->shadows)
-        add_to(l, option_find(render, "shadows", 7), "");
-    snprintf(bloom, sizeof bloom, "%.9g", (double)gl->bloom);
+        add_option(l, OPT_SHADOWS, "%s", "");
     if (gl->bloom > 0.0f)
-        add_to(l, option_find(render, "bloom", 5), bloom);
+        add_option(l, OPT_BLOOM, "%.9g", (double)gl->bloom);
 }
 
 static void add_rendering(line *l, const facet_render_desc *d)
@@ -206,9 +198,8 @@ static void add_pose(line *l, const command_line *c, const facet_pose_desc *p)
 /* ---- what no key changes ---- */
 
 /* Those above, and those that are about the window. */
-static bool is_known(const option *o)
+static bool is_known(option_id id)
 {
-    static const char *const gl[] = {"channel", "brdf", "transparency", "shadows", "bloom"};
     static const option_id ids[] = {OPT_SIZE,          OPT_BACKGROUND,   OPT_BACKGROUND_BLUR,
                                     OPT_ORBIT,         OPT_TARGET,       OPT_FOV,
                                     OPT_EYE,           OPT_UP,           OPT_ORTHO,
@@ -220,12 +211,10 @@ static bool is_known(const option *o)
                                     OPT_SCENE,         OPT_VARIANT,      OPT_THREADS,
                                     OPT_TIME_LIMIT,    OPT_QUIET,        OPT_VERBOSE,
                                     OPT_HELP,          OPT_SCRIPT,       OPT_CONFIG,
-                                    OPT_ENV_CACHE};
+                                    OPT_ENV_CACHE,     OPT_CHANNEL,      OPT_BRDF,
+                                    OPT_TRANSPARENCY,  OPT_SHADOWS,      OPT_BLOOM};
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
-        if (ids[i] == o->id)
-            return true;
-    for (size_t i = 0; i < sizeof gl / sizeof *gl; i++)
-        if (strcmp(gl[i], o->name) == 0)
+        if (ids[i] == id)
             return true;
     return false;
 }
@@ -244,8 +233,8 @@ static void add_others(line *l, const command_line *c, bool is_path)
     for (const option_group *const *g = c->verb->groups; *g; g++)
         for (size_t i = 0; i < (*g)->option_count; i++) {
             const option *o = &(*g)->options[i];
-            bool is_left_out =
-                is_known(o) || !is_given(c, o->id) || (is_of_group(&window_path_group, o->id) && !is_path);
+            bool is_left_out = is_known(o->id) || !is_given(c, o->id) ||
+                               (is_of_group(&window_path_group, o->id) && !is_path);
             if (!is_left_out)
                 add_option(l, o->id, "%s", option_text(c, o->id, ""));
         }

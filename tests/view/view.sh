@@ -39,6 +39,35 @@ grep -q -- '--ortho' command || failed "the parallel view is not in $(cat comman
 grep -q -- '--env white' command || failed "the next environment is not in $(cat command)"
 grep -q -- '--tone-mapping' command || failed "the tone mapping is not in $(cat command)"
 
+# what OpenGL alone knows
+cat >script <<'END'
+load
+key n
+key n
+picture base_color.png
+print
+key 0
+key f
+key f
+key Shift+f
+key p
+key s
+key b
+key g
+picture gl.png
+print
+END
+view --sun 30,45
+differ base_color.png gl.png
+grep -q -- '--channel base-color' out || failed "no channel in $(cat out)"
+rendered gl.png facet.png
+for word in '--brdf multiscatter' '--energy conserving' '--transparency peeled' --shadows '--bloom 0.05' '--ground shadow'; do
+    grep -qF -- "$word" command || failed "no $word in $(cat command)"
+done
+head -1 out >channel
+mv channel out
+rendered base_color.png facet.png
+
 # options that no key changes go along; names need quotes
 cp triangle.gltf "it's a triangle.gltf"
 cat >script <<'END'
