@@ -5,7 +5,13 @@
 
 #include <stdint.h>
 
-enum { GL_BLOCK_FRAME, GL_BLOCK_MATERIAL, GL_BLOCK_LIGHT, GL_BLOCK_OGL1, GL_BLOCK_COUNT }; /* binding points */
+enum {
+    GL_BLOCK_FRAME,
+    GL_BLOCK_MATERIAL,
+    GL_BLOCK_LIGHT,
+    GL_BLOCK_OGL1,
+    GL_BLOCK_COUNT
+}; /* binding points */
 
 /* Of a picture. */
 typedef struct gl_frame_block {
@@ -36,7 +42,7 @@ enum {
     GL_UNIT_GLASS,       /* 3D */
     GL_UNIT_LIGHTS,      /* punctual ones */
     GL_UNIT_SHADOWS,
-    GL_UNIT_OPAQUE, /* the opaque frame with its mips */
+    GL_UNIT_OPAQUE,                       /* the opaque frame with its mips */
     GL_UNIT_MATERIAL,                     /* nine */
     GL_UNIT_PEELED = GL_UNIT_MATERIAL + 9 /* depths of a layer, where there are so many units */
 };
