@@ -4,12 +4,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "gl/gl_mesh_vertices.h"
+
 static void copy3(const float in[3], float out[3])
 {
     memcpy(out, in, 3 * sizeof *out);
 }
 
-static void fill_texcoords(const facet_scene *scene, const scene_texture_ref *ref, float rows[2][4])
+static void fill_texcoords(const facet_scene *scene, const scene_material *m, const scene_texture_ref *ref,
+                           float rows[2][4])
 {
     static const float identity[6] = {1, 0, 0, 0, 1, 0};
     const float *transform = ref->has_transform ? ref->transform : identity;
@@ -18,7 +21,11 @@ static void fill_texcoords(const facet_scene *scene, const scene_texture_ref *re
     if (ref->texture >= scene->texture_count)
         return;
     const scene_texture *t = &scene->textures[ref->texture];
-    rows[0][3] = (float)ref->texcoord;
+    uint32_t attribute = gl_texcoord_attribute(m, ref->texcoord);
+    if (attribute == GL_TEXCOORD_SETS) /* it did not get there: 0 */
+        memset(rows, 0, 2 * sizeof *rows);
+    else
+        rows[0][3] = (float)attribute;
     rows[1][3] = t->min_filter == SCENE_FILTER_LINEAR && t->mip_filter == SCENE_MIP_LINEAR;
 }
 
@@ -63,5 +70,5 @@ void gl_material_block_fill(const facet_scene *scene, const scene_material *m, g
     b->occlusion_strength = m->occlusion_strength;
     fill_layers(m, b);
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
-        fill_texcoords(scene, &m->textures[slot], b->texcoords[slot]);
+        fill_texcoords(scene, m, &m->textures[slot], b->texcoords[slot]);
 }

@@ -334,10 +334,10 @@ static void warn(const gl_mesh_set *set, const gl_scene *scene, const facet_log 
     for (uint32_t i = 0; i < set->count; i++) {
         const render_geometry *g = set->batches[i].geometry;
         uint32_t most = set->batches[i].is_sprites ? 2 : GL_TEXCOORD_SETS;
-        bool fits = gl_texcoord_sets(g, sets);
+        bool fits = gl_texcoord_sets(g->material, sets);
         for (scene_texture_slot slot = 0; fits && slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
             fits = !scene_material_has(g->material, slot) ||
-                   gl_texcoord_attribute(g, g->material->textures[slot].texcoord) < most;
+                   gl_texcoord_attribute(g->material, g->material->textures[slot].texcoord) < most;
         if (fits)
             continue;
         log_warning(

@@ -241,19 +241,18 @@ static void material_chooses_texcoords(void **state)
 {
     (void)state;
     scene_material material = scene_material_default();
-    render_geometry g = {.material = &material};
     uint32_t sets[GL_TEXCOORD_SETS];
     material.textures[SCENE_NORMAL_TEXTURE] = (scene_texture_ref){.texture = 0, .texcoord = 3};
-    assert_true(gl_texcoord_sets(&g, sets));
-    assert_int_equal(gl_texcoord_attribute(&g, 3), 3);
+    assert_true(gl_texcoord_sets(&material, sets));
+    assert_int_equal(gl_texcoord_attribute(&material, 3), 3);
     material.textures[SCENE_BASE_COLOR_TEXTURE] = (scene_texture_ref){.texture = 0, .texcoord = 6};
-    assert_true(gl_texcoord_sets(&g, sets));
-    assert_int_equal(gl_texcoord_attribute(&g, 6), 0);
-    assert_int_equal(gl_texcoord_attribute(&g, 3), 1);
-    assert_int_equal(gl_texcoord_attribute(&g, 0), GL_TEXCOORD_SETS);
+    assert_true(gl_texcoord_sets(&material, sets));
+    assert_int_equal(gl_texcoord_attribute(&material, 6), 0);
+    assert_int_equal(gl_texcoord_attribute(&material, 3), 1);
+    assert_int_equal(gl_texcoord_attribute(&material, 0), GL_TEXCOORD_SETS);
     for (int slot = 0; slot < 5; slot++)
         material.textures[slot] = (scene_texture_ref){.texture = 0, .texcoord = 2 + (uint32_t)slot};
-    assert_false(gl_texcoord_sets(&g, sets));
+    assert_false(gl_texcoord_sets(&material, sets));
 }
 
 /* ---- pictures ---- */
@@ -269,6 +268,29 @@ static void assert_as_preview(const fixture *f, double mean, double share)
         film_destroy(&picture);
     }
     film_destroy(&preview);
+}
+
+/* A seventh set of texture coordinates is read, where the first four would be. */
+static void far_texcoords_are_read(void **state)
+{
+    (void)state;
+    static const unsigned char texels[16] = {255, 0, 0,   255, 0,   255, 0, 255,
+                                             0,   0, 255, 255, 255, 255, 0, 255};
+    static const float other[8] = {0.9f, 0.1f, 0.1f, 0.1f, 0.9f, 0.9f, 0.1f, 0.9f};
+    const float *sets[7];
+    fixture f = fixture_create();
+    scene_material m = gl_fixture_unlit(1.0f, 1.0f, 1.0f, 1.0f);
+    m.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 2, 2, texels);
+    m.textures[SCENE_BASE_COLOR_TEXTURE].texcoord = 6;
+    uint32_t quad = fixture_add_quad(&f, fixture_add_material(&f, m));
+    scene_primitive *p = fixture_primitive(&f, quad);
+    for (int i = 0; i < 7; i++)
+        sets[i] = i == 6 ? other : p->texcoords[0];
+    p->texcoords = sets;
+    p->texcoord_count = 7;
+    fixture_place(&f, quad, 0.0f, 0.0f, 0.0f, 0.9f);
+    assert_as_preview(&f, 2e-3, 0.0);
+    fixture_destroy(&f);
 }
 
 /* Instances of one call are what separate meshes are, but for rounding where the order of drawing shows. */
@@ -445,6 +467,7 @@ int main(void)
         cmocka_unit_test(corners_are_welded),
         cmocka_unit_test(huge_meshes_are_refused),
         cmocka_unit_test(material_chooses_texcoords),
+        cmocka_unit_test(far_texcoords_are_read),
         cmocka_unit_test(instances_are_separate_meshes),
         cmocka_unit_test(mirrored_and_culled),
         cmocka_unit_test(far_from_the_origin),

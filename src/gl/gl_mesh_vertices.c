@@ -12,26 +12,26 @@
 
 static const uint32_t widths[GL_VERTEX_ARRAYS] = {3, 3, 4, 4, 2, 2, 2, 2};
 
-static bool reads_beyond(const render_geometry *g)
+static bool reads_beyond(const scene_material *m)
 {
     for (scene_texture_slot slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
-        if (scene_material_has(g->material, slot) && g->material->textures[slot].texcoord >= GL_TEXCOORD_SETS)
+        if (scene_material_has(m, slot) && m->textures[slot].texcoord >= GL_TEXCOORD_SETS)
             return true;
     return false;
 }
 
-bool gl_texcoord_sets(const render_geometry *g, uint32_t sets[GL_TEXCOORD_SETS])
+bool gl_texcoord_sets(const scene_material *m, uint32_t sets[GL_TEXCOORD_SETS])
 {
     uint32_t count = 0;
     bool fits = true;
     for (uint32_t i = 0; i < GL_TEXCOORD_SETS; i++)
         sets[i] = i;
-    if (!reads_beyond(g))
+    if (!reads_beyond(m))
         return true;
     for (scene_texture_slot slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
-        if (!scene_material_has(g->material, slot))
+        if (!scene_material_has(m, slot))
             continue;
-        uint32_t set = g->material->textures[slot].texcoord, i = 0;
+        uint32_t set = m->textures[slot].texcoord, i = 0;
         while (i < count && sets[i] != set)
             i++;
         if (i == GL_TEXCOORD_SETS)
@@ -44,10 +44,10 @@ bool gl_texcoord_sets(const render_geometry *g, uint32_t sets[GL_TEXCOORD_SETS])
     return fits;
 }
 
-uint32_t gl_texcoord_attribute(const render_geometry *g, uint32_t set)
+uint32_t gl_texcoord_attribute(const scene_material *m, uint32_t set)
 {
     uint32_t sets[GL_TEXCOORD_SETS], i = 0;
-    gl_texcoord_sets(g, sets);
+    gl_texcoord_sets(m, sets);
     while (i < GL_TEXCOORD_SETS && sets[i] != set)
         i++;
     return i;
@@ -73,7 +73,7 @@ static vertex_key all_of(const render_geometry *g)
     if (p->mode == SCENE_TRIANGLES)
         key.arrays[GL_ATTRIBUTE_TANGENT] = g->tangents;
     key.arrays[GL_ATTRIBUTE_COLOR] = p->colors;
-    gl_texcoord_sets(g, sets);
+    gl_texcoord_sets(g->material, sets);
     for (uint32_t i = 0; i < GL_TEXCOORD_SETS; i++)
         if (sets[i] < p->texcoord_count)
             key.arrays[GL_ATTRIBUTE_TEXCOORD + i] = p->texcoords[sets[i]];

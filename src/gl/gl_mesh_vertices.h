@@ -61,9 +61,9 @@ facet_result gl_vertex_store_reorder(gl_vertex_store *store, const render_geomet
                                      gl_vertices *out, facet_error *error);
 
 /* Which sets of texture coordinates go to texcoord0 to texcoord3: those of their numbers, unless the material reads one
- * beyond; then those that it reads, in order. False: it reads more than GL_TEXCOORD_SETS; those beyond are left out. */
-bool gl_texcoord_sets(const render_geometry *g, uint32_t sets[GL_TEXCOORD_SETS]);
+ * beyond; then those that it reads, as its slots name them. False: it reads more than GL_TEXCOORD_SETS; those beyond are left out. */
+bool gl_texcoord_sets(const scene_material *m, uint32_t sets[GL_TEXCOORD_SETS]);
 /* The texcoord attribute with that set; GL_TEXCOORD_SETS: none. */
-uint32_t gl_texcoord_attribute(const render_geometry *g, uint32_t set);
+uint32_t gl_texcoord_attribute(const scene_material *m, uint32_t set);
 
 #endif
