@@ -53,8 +53,8 @@ expect 2 render --orbit 1,2,3,4
 expect 2 render --fov 200
 expect 2 render --camera 0 --orbit 30
 expect 2 render --eye 0,0,1 --turntable 3
-expect 2 render --renderer gl
-says "does not have gl yet"
+expect 2 render --renderer opengl
+says "is not preview, path or gl"
 expect 2 render -o x.bmp
 says ".png, .jpg, .webp, .exr, .hdr, .pfm or .y4m"
 expect 2 render --aov depth -o x.png
