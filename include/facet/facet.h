@@ -701,7 +701,11 @@ typedef struct facet_render_desc {
     bool
         specular_antialiasing; /* widen highlights by how much normals turn within a pixel (Kaplanyan and Tokuyoshi
                                    2019): fewer sparkles, and no longer what real-time viewers show */
-    float exposure_ev;         /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
+    bool
+        whole_textures; /* decode textures in full where a part of their texels would do: the mips of a JPEG that is
+                                  decoded at half size are not quite those of the whole. Slower; path tracing and OpenGL do
+                                  it always */
+    float exposure_ev; /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
     facet_tonemap tonemap;
     uint32_t aovs; /* facet_aov or-ed */
     double

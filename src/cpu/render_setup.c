@@ -34,7 +34,7 @@ static facet_result find_texture_need(render_setup *p, facet_error *error)
                               .thread_count = desc->thread_count};
     facet_result result =
         texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error);
-    if (result == FACET_OK && p->reads_everywhere)
+    if (result == FACET_OK && (p->reads_everywhere || desc->whole_textures))
         read_everywhere(scene, p->uses);
     return result;
 }

@@ -54,6 +54,7 @@ static facet_result draw(const facet_scene *scene, facet_environment *environmen
                               .environment = environment,
                               .integrator = integrator,
                               .background = FACET_BACKGROUND_ENVIRONMENT,
+                              .whole_textures = true,
                               .samples = samples,
                               .quality = samples > 4 ? FACET_QUALITY_FINAL : FACET_QUALITY_NORMAL,
                               .aovs = integrator == FACET_INTEGRATOR_PREVIEW
