@@ -1,0 +1,166 @@
+/* material_test.c - what glTF says of factors and texels: neutral texels change nothing, each channel is the right one, frames
+ * follow their side. */
+#include "testing/test_support.h"
+
+static const vec3 white = {1.0f, 1.0f, 1.0f};
+
+static void expect_vec(vec3 v, double x, double y, double z, const char *what)
+{
+    expect_near((double)v[0], x, 1e-6, "%s, x", what);
+    expect_near((double)v[1], y, 1e-6, "%s, y", what);
+    expect_near((double)v[2], z, 1e-6, "%s, z", what);
+}
+
+static Layers plain(float metallic)
+{
+    return layers_from_surface(
+        surface_from_metallic_roughness(vec3(0.0f, 0.0f, 1.0f), vec3(0.5f), metallic, 0.4f));
+}
+
+static void test_coverage(void **state)
+{
+    (void)state;
+    assert_true(material_coverage(ALPHA_MODE_OPAQUE, 0.2f, 0.5f) == 1.0f);
+    assert_true(material_coverage(ALPHA_MODE_MASK, 0.5f, 0.5f) == 1.0f); /* "greater than or equal" */
+    assert_true(material_coverage(ALPHA_MODE_MASK, 0.499f, 0.5f) == 0.0f);
+    assert_true(material_coverage(ALPHA_MODE_BLEND, 0.3f, 0.5f) == 0.3f);
+    assert_true(material_coverage(ALPHA_MODE_BLEND, 1.5f, 0.5f) == 1.0f);
+}
+
+/* The matrix of KHR_texture_transform's example: offset, rotation by 90 degrees, scale. */
+static void test_texcoords(void **state)
+{
+    (void)state;
+    vec2 uv = texcoord_transform(vec2(0.25f, 0.5f), vec3(0.0f, 3.0f, 0.1f), vec3(-2.0f, 0.0f, 0.2f));
+    expect_near((double)uv[0], 1.6, 1e-6, "u");
+    expect_near((double)uv[1], -0.3, 1e-6, "v");
+}
+
+/* Green roughness, blue metallic, red occlusion with its strength, alpha specular, RGB specular color and emissive. */
+static void test_surface_channels(void **state)
+{
+    (void)state;
+    MaterialFactors f = {.metallic = 0.5f,
+                         .perceptual_roughness = 0.8f,
+                         .ior = 1.5f,
+                         .specular = 0.6f,
+                         .specular_color = vec3(1.0f, 0.5f, 0.25f),
+                         .glossiness = 0.7f,
+                         .occlusion_strength = 0.5f,
+                         .emissive = vec3(2.0f, 4.0f, 6.0f)};
+    vec3 N = vec3(0.0f, 0.0f, 1.0f);
+    Surface s = material_surface(f, N, vec3(0.3f), vec3(9.0f, 0.5f, 0.2f), 0.4f, vec3(0.5f, 0.25f, 0.0f),
+                                 0.5f, vec3(0.2f, 0.4f, 0.8f));
+    expect_near((double)s.perceptual_roughness, 0.4, 1e-6, "roughness");
+    expect_near((double)s.metallic, 0.1, 1e-6, "metallic");
+    expect_near((double)s.occlusion, 0.7, 1e-6, "occlusion");
+    expect_near((double)s.F90, 0.3, 1e-6, "specular");
+    expect_vec(s.F0, 0.04 * 0.2 * 0.3, 0.04 * 0.2 * 0.3, 0.04 * 0.2 * 0.3, "F0");
+    expect_vec(s.emissive, 1.0, 1.0, 0.0, "emissive");
+    s = material_surface_glossy(f, N, vec3(0.3f), vec3(0.5f), 0.5f, 1.0f, white);
+    expect_near((double)s.perceptual_roughness, 0.65, 1e-6, "glossiness");
+    expect_vec(s.F0, 0.5, 0.25, 0.125, "specular color");
+    assert_true(s.metallic == 0.0f && s.occlusion == 1.0f);
+}
+
+/* Factors of 0 turn no layer on, whatever the texel; texels of 0 neither. Metals let nothing through. */
+static void test_layers_are_there_or_not(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; ++i) {
+        float factor = i == 0 ? 0.0f : 0.5f;
+        vec3 texel = i == 1 ? vec3(0.0f) : white;
+        uint none = i < 2 ? 0u : 0xffffffffu;
+        Layers m = with_clearcoat(plain(0.0f), factor, 0.3f, texel, white);
+        assert_int_equal(m.layers, LAYER_CLEARCOAT & none);
+        assert_int_equal(with_sheen(plain(0.0f), vec3(factor), 0.5f, texel, 1.0f).layers, LAYER_SHEEN & none);
+        m = with_iridescence(plain(0.0f), factor, 1.3f, 100.0f, 400.0f, texel, white);
+        assert_int_equal(m.layers, LAYER_IRIDESCENCE & none);
+        assert_int_equal(with_transmission(plain(0.0f), factor, texel).layers, LAYER_TRANSMISSION & none);
+        m = with_diffuse_transmission(plain(0.0f), factor, white, texel[0], white);
+        assert_int_equal(m.layers, LAYER_DIFFUSE_TRANSMISSION & none);
+        assert_int_equal(with_transmission(plain(1.0f), factor, texel).layers, 0);
+        assert_int_equal(with_diffuse_transmission(plain(1.0f), factor, white, 1.0f, white).layers, 0);
+    }
+    Layers opaque = with_volume(plain(0.0f), 1.0f, white, white, 1.0f, 0.5f);
+    assert_int_equal(opaque.layers, 0); /* nothing gets in */
+    Layers glass = with_ior(with_transmission(plain(0.0f), 1.0f, white), 1.5f, true);
+    expect_near((double)glass.eta, 1.0 / 1.5, 1e-6, "seen from inside");
+    glass = with_volume(glass, 0.2f, vec3(0.0f, 0.5f, 0.0f), vec3(0.9f), 2.0f, 0.5f);
+    assert_int_equal(glass.layers, LAYER_TRANSMISSION | LAYER_VOLUME | LAYER_DISPERSION);
+    expect_near((double)glass.thickness, 0.1, 1e-6, "thickness: green");
+    assert_int_equal(with_scatter(glass, vec3(0.0f), 0.1f).layers, glass.layers);
+    assert_int_equal(with_scatter(glass, vec3(0.3f), 0.1f).layers, glass.layers | LAYER_SCATTER);
+    assert_int_equal(with_scatter(plain(0.0f), vec3(0.3f), 0.1f).layers, 0);
+}
+
+static void test_layer_channels(void **state)
+{
+    (void)state;
+    vec3 texel = vec3(0.2f, 0.4f, 0.8f);
+    Layers m = with_clearcoat(plain(0.0f), 0.5f, 0.5f, texel, texel);
+    expect_near((double)m.clearcoat, 0.1, 1e-6, "clearcoat: red");
+    expect_near((double)m.clearcoat_roughness, 0.2, 1e-6, "its roughness: green");
+    m = with_iridescence(plain(0.0f), 0.5f, 0.7f, 100.0f, 600.0f, texel, texel);
+    expect_near((double)m.iridescence, 0.1, 1e-6, "iridescence: red");
+    expect_near((double)m.iridescence_thickness_nm, 300.0, 1e-3, "thickness: green");
+    expect_near((double)m.iridescence_ior, 1.0, 1e-6, "ior at least 1");
+    expect_near((double)anisotropy_strength(0.5f, texel), 0.4, 1e-6, "anisotropy: blue");
+    vec2 d = anisotropy_texel_direction(vec3(0.5f, 1.0f, 0.0f));
+    expect_near((double)d[0], 0.0, 1e-6, "red");
+    expect_near((double)d[1], 1.0, 1e-6, "green");
+    d = anisotropy_texel_direction(white);
+    assert_true(d[0] == 1.0f && d[1] == 0.0f);
+    d = anisotropy_texel_direction(vec3(0.5f));
+    assert_true(d[0] == 1.0f && d[1] == 0.0f);
+}
+
+/* u to the right, v down in a picture that stands upright and faces +Z: T right, B up, and mirrored with the side. */
+static void test_frames(void **state)
+{
+    (void)state;
+    vec3 N = vec3(0.0f, 0.0f, 1.0f), e1 = vec3(2.0f, 0.0f, 0.0f), e2 = vec3(0.0f, 3.0f, 0.0f);
+    ShadingFrame f = frame_from_texcoord(N, e1, e2, vec2(1.0f, 0.0f), vec2(0.0f, -1.0f), 1.0f);
+    assert_true(frame_has_tangent(f));
+    expect_vec(f.T, 1.0, 0.0, 0.0, "T");
+    expect_vec(f.B, 0.0, 1.0, 0.0, "B");
+    ShadingFrame same = frame_from_tangent(N, vec3(1.0f, 0.0f, 0.0f), 1.0f, 1.0f);
+    expect_vec(same.B - f.B, 0.0, 0.0, 0.0, "the same frame");
+    ShadingFrame back = frame_from_texcoord(-N, e1, e2, vec2(1.0f, 0.0f), vec2(0.0f, -1.0f), -1.0f);
+    expect_vec(back.T, -1.0, 0.0, 0.0, "T of the back");
+    expect_vec(back.B, 0.0, -1.0, 0.0, "B of the back");
+    back = frame_from_tangent(-N, vec3(1.0f, 0.0f, 0.0f), 1.0f, -1.0f);
+    expect_vec(back.T, -1.0, 0.0, 0.0, "tangent of the back");
+    expect_vec(back.B, 0.0, -1.0, 0.0, "bitangent of the back");
+    ShadingFrame mirrored = frame_from_texcoord(N, e1, e2, vec2(-1.0f, 0.0f), vec2(0.0f, -1.0f), 1.0f);
+    expect_vec(mirrored.T, -1.0, 0.0, 0.0, "T of a mirrored picture");
+    expect_vec(mirrored.B, 0.0, 1.0, 0.0, "B of a mirrored picture");
+    vec2 line = vec2(0.5f, 0.5f);
+    assert_false(frame_has_tangent(frame_from_texcoord(N, e1, e2, line, line, 1.0f)));
+}
+
+static void test_normals(void **state)
+{
+    (void)state;
+    ShadingFrame f = frame_from_tangent(vec3(0.0f, 0.0f, 2.0f), vec3(1.0f, 0.0f, 0.0f), 1.0f, 1.0f);
+    f.B = vec3(0.0f, 1.0f, 0.0f);
+    f.N = vec3(0.0f, 0.0f, 1.0f);
+    vec3 fallback = vec3(1.0f, 0.0f, 0.0f);
+    expect_vec(frame_normal(f, normal_from_texel(vec3(0.5f, 0.5f, 1.0f), 3.0f), fallback), 0.0, 0.0, 1.0,
+               "flat");
+    vec3 n = normal_from_texel(vec3(0.8f, 0.5f, 0.9f), 0.5f);
+    expect_vec(n, 0.3, 0.0, 0.8, "scaled in the plane only");
+    expect_vec(normal_from_texel(white, 1.0f), 0.0, 0.0, 0.0, "no normal");
+    expect_vec(frame_normal(f, vec3(0.0f), fallback), 1.0, 0.0, 0.0, "otherwise");
+    expect_vec(normalize_or(vec3(0.0f, 3.0f, 4.0f), fallback), 0.0, 0.6, 0.8, "unit");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_coverage),         cmocka_unit_test(test_texcoords),
+        cmocka_unit_test(test_surface_channels), cmocka_unit_test(test_layers_are_there_or_not),
+        cmocka_unit_test(test_layer_channels),   cmocka_unit_test(test_frames),
+        cmocka_unit_test(test_normals)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
