@@ -32,7 +32,7 @@ struct gl_material_set {
     gl_material *items;    /* by material_id */
     texture_use *uses;     /* by texture */
     GLuint buffer;
-    size_t stride; /* of blocks in the buffer, bytes */
+    size_t stride;             /* of blocks in the buffer, bytes */
     uint64_t picture_features; /* of what is lit */
     uint64_t channel_feature;
 };
