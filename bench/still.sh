@@ -28,6 +28,14 @@ for model in small textured heavy; do
     line "$model" "$facet" render -q -s 512 -o "$work/$model.png" "$work/$model.glb"
     line "$model, 1k HDR" "$facet" render -q -s 512 -o "$work/$model.png" -e "$work/light_1k.hdr" "$work/$model.glb"
 done
+if "$facet" render -q -s 16 --renderer gl -o "$work/gl.png" 2>"$work/errors"; then
+    for model in small textured heavy; do
+        line "--renderer gl, $model, 1k HDR" "$facet" render -q -s 512 --renderer gl -o "$work/$model.png" \
+            -e "$work/light_1k.hdr" "$work/$model.glb"
+    done
+else
+    tail -n 1 "$work/errors"
+fi
 echo "stages of textured, 1k HDR:"
 "$facet" render -vv -s 512 -o "$work/textured.png" -e "$work/light_1k.hdr" "$work/textured.glb" 2>&1 | sed 's/^/    /'
 

@@ -1,8 +1,9 @@
 // khronos.mjs - draws models with the Khronos glTF Sample Renderer in headless Chromium and with facet, with the same
 // light, camera and tone mapping, and prints how far the pictures are apart.
-// usage: node khronos.mjs [--renderer gl] FACET MODELS LIGHT.hdr OUT [NAME ..]     FACET: the command; MODELS: the folder that
+// usage: node khronos.mjs [--renderer gl] [--frames N] FACET MODELS LIGHT.hdr OUT [NAME ..]     FACET: the command; MODELS: the folder that
 // holds core, materials, ..; OUT: a folder for NAME-khronos.png and NAME-facet.png; NAME: only these. CHROMIUM names the
-// browser. FLIP is that of the files as they are, at 67 pixels a degree.
+// browser. FLIP is that of the files as they are, at 67 pixels a degree. --frames: the median time of a frame of Khronos' renderer, too,
+// over N frames of which each is waited for.
 //
 // The renderer turns an environment by 90 degrees of its own and encodes with a power of 1/2.2 in place of the sRGB
 // function; facet is told the turn (--env-rotation -90), and its codes are re-encoded before they are compared. Glass
@@ -12,10 +13,11 @@ import { readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { open_page } from './browser.mjs';
 
-const words = process.argv.slice(2), renderer = words[0] === '--renderer' ? words.splice(0, 2)[1] : 'preview';
+const words = process.argv.slice(2), option = (name, otherwise) => words[0] === name ? words.splice(0, 2)[1] : otherwise;
+const renderer = option('--renderer', 'preview'), frames = Number(option('--frames', 0));
 const [facet, models, light, out, ...only] = words;
 if (!out) {
-    console.error('usage: node khronos.mjs [--renderer gl] FACET MODELS LIGHT.hdr OUT [NAME ..]');
+    console.error('usage: node khronos.mjs [--renderer gl] [--frames N] FACET MODELS LIGHT.hdr OUT [NAME ..]');
     process.exit(2);
 }
 const size = 512;
@@ -119,6 +121,17 @@ p.clearColor = [255, 255, 255, 255];
 for (let i = 0; i < 4; i++) { view.renderFrame(state, canvas.width, canvas.height); await new Promise(requestAnimationFrame); }
 return canvas.toDataURL('image/png');
 };
+// Median time of a frame, ms. Reading a pixel waits for what was drawn.
+window.time_frames = (count) => {
+    const times = [], pixel = new Uint8Array(4);
+    for (let i = 0; i <= count; i++) {
+        const start = performance.now();
+        view.renderFrame(state, canvas.width, canvas.height);
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+        if (i > 0) times.push(performance.now() - start);
+    }
+    return times.sort((a, b) => a - b)[count >> 1];
+};
 // Mean, median and 95th percentile of the largest channel's difference, in codes of 8 bits, over pixels that either picture
 // has something on.
 window.compare = async (a, b) => {
@@ -157,7 +170,7 @@ try {
     await page.waitForFunction('window.ready || window.failure', null, { timeout: 300000 });
     const failure = await page.evaluate('window.failure');
     if (failure) throw new Error(failure);
-    console.log('| model | mean | median | 95 % | FLIP |\n| --- | --- | --- | --- | --- |');
+    console.log('| model | mean | median | 95 % | FLIP |' + (frames ? ' ms |' : '') + '\n| --- | --- | --- | --- | --- |' + (frames ? ' --- |' : ''));
     for (let i = 0; i < jobs.length; i++) {
         const { model, name, eye, target, time } = jobs[i];
         const z = Math.hypot(...eye.map((x, k) => x - target[k]));
@@ -170,7 +183,8 @@ try {
         const our_url = 'data:image/png;base64,' + (await readFile(ours)).toString('base64');
         const [mean, median, p95] = await page.evaluate(([a, b]) => window.compare(a, b), [theirs, our_url]);
         const { metrics } = JSON.parse(execFileSync(facet, ['compare', ours, theirs_file, '--metric', 'flip', '--json']));
-        console.log(`| ${name} | ${mean.toFixed(2)} | ${median.toFixed(1)} | ${p95.toFixed(1)} | ${metrics.flip.toFixed(4)} |`);
+        console.log(`| ${name} | ${mean.toFixed(2)} | ${median.toFixed(1)} | ${p95.toFixed(1)} | ${metrics.flip.toFixed(4)} |` +
+            (frames ? ` ${(await page.evaluate((n) => window.time_frames(n), frames)).toFixed(1)} |` : ''));
     }
 } finally {
     await close();
