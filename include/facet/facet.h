@@ -1121,6 +1121,188 @@ typedef struct facet_plot_desc {
 FACET_API facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format format,
                                          unsigned char **bytes, size_t *size, facet_error *error);
 
+/* ---- the sea ----
+ *
+ * Axes as everywhere: +Y up, still water at y = 0. Directions in the plane are angles from +X towards +Z, and say where wind or
+ * waves go to. docs/ocean.md has the formulas and their sources. */
+
+typedef enum facet_sea_spectrum {
+    FACET_SEA_JONSWAP, /* Hasselmann et al. 1973, growth ending where the sea is fully developed; in shallow water with the
+                          factor of Bouws et al. 1985 (TMA) */
+    FACET_SEA_PIERSON_MOSKOWITZ, /* fully developed, whatever the fetch (1964) */
+    FACET_SEA_ELFOUHAILY         /* et al. 1997: one spectrum down to capillary waves */
+} facet_sea_spectrum;
+
+typedef enum facet_sea_spreading {
+    FACET_SPREADING_HASSELMANN,     /* et al. 1980 */
+    FACET_SPREADING_DONELAN_BANNER, /* Donelan, Hamilton and Hui 1985; Banner 1990 */
+    FACET_SPREADING_COSINE          /* 2 / pi cos^2, down the wind only */
+} facet_sea_spreading;
+
+/* Waves from far away, beside those of the wind. {0}: none. */
+typedef struct facet_swell {
+    float height_m; /* significant height, [0, 30] */
+    float period_s; /* of the peak, (0, 40] */
+    float direction_rad;
+    float peakedness; /* JONSWAP's gamma, [1, 20]; 0: 7 */
+    float elongation; /* [0, 1], 1: crests as long as Horvath 2015 has them */
+} facet_swell;
+
+/* What the water is, by Jerlov's types or by what is in it. */
+typedef enum facet_water_kind {
+    FACET_WATER_CHLOROPHYLL, /* of the open ocean: Morel 1988; a content of 0 is pure sea water */
+    FACET_WATER_JERLOV_I,
+    FACET_WATER_JERLOV_IA,
+    FACET_WATER_JERLOV_IB,
+    FACET_WATER_JERLOV_II,
+    FACET_WATER_JERLOV_III,
+    FACET_WATER_JERLOV_1C,
+    FACET_WATER_JERLOV_3C,
+    FACET_WATER_JERLOV_5C,
+    FACET_WATER_JERLOV_7C,
+    FACET_WATER_JERLOV_9C,
+    FACET_WATER_COEFFICIENTS /* absorption, scattering and backscattering as they are given */
+} facet_water_kind;
+
+typedef struct facet_water {
+    facet_water_kind kind;
+    float chlorophyll_mg_m3; /* [0, 30] */
+    float absorption[3], scattering[3],
+        backscattering[3]; /* 1/m, linear Rec.709; FACET_WATER_COEFFICIENTS only */
+    float salinity;        /* g of salt per kg, [0, 40] */
+    float temperature_C;
+    float ior;         /* [1, 2]; 0: by salinity and temperature at 550 nm (Quan and Fry 1995) */
+    float foam_albedo; /* of fresh foam, [0, 1] */
+} facet_water;
+
+/* The ground below. It is a plane. */
+typedef struct facet_sea_bed {
+    float depth_m; /* under the origin, (0, inf); 0: there is none */
+    float slope;   /* m of rise per m, [0, 1], towards direction_rad */
+    float direction_rad;
+    float albedo[3]; /* [0, 1] */
+} facet_sea_bed;
+
+typedef struct facet_sea_desc {
+    facet_allocator allocator;
+    facet_log log;
+    uint32_t thread_count; /* 0: facet_thread_count(); waves do not depend on it */
+    float wind_mps;        /* mean at 10 m above the water, [0, 40] */
+    float wind_direction_rad;
+    float fetch_m; /* over which it blows, at least 100; INFINITY: without limit */
+    facet_sea_spectrum spectrum;
+    facet_sea_spreading spreading;
+    float peakedness; /* JONSWAP's gamma, [1, 20] */
+    facet_swell swell;
+    float choppiness;    /* how far water moves to and fro, over what physics has it, [0, 2]: 1 is physical */
+    float loop_s;        /* after which waves repeat; 0: never */
+    uint32_t resolution; /* samples along the edge of a tile of waves, a power of two, [32, 1024] */
+    uint32_t cascade_count; /* tiles of different length, [1, 4] */
+    uint64_t seed;          /* another one: another sea of the same kind */
+    facet_water water;
+    facet_sea_bed bed; /* its depth is what waves feel, too */
+} facet_sea_desc;
+
+/* A fresh breeze of 10 m/s along +X without limit of fetch, chlorophyll 0.2 mg/m^3, salinity 35, 20 C, deep; tiles of 256. */
+FACET_API facet_sea_desc facet_sea_default(void);
+
+/* Seas that have names: "glass", "breeze", "trade-wind", "gale", "lagoon", "harbour". */
+FACET_API uint32_t facet_sea_get_preset_count(void);
+FACET_API const char *facet_sea_get_preset_name(uint32_t index); /* NULL: there is none */
+/* FACET_ERROR_ARGUMENT: no such name. */
+FACET_API facet_result facet_sea_preset(const char *name, facet_sea_desc *desc, facet_error *error);
+
+/* The sea at time 0. FACET_ERROR_ARGUMENT: a number outside of its range, or a bed that reaches out of the water at the
+ * origin; _MEMORY. */
+FACET_API facet_result facet_sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error);
+FACET_API void facet_sea_destroy(facet_sea *sea); /* NULL is allowed */
+
+/* Seconds, any finite number, forwards or backwards. Not while others use the sea. FACET_ERROR_MEMORY. */
+FACET_API facet_result facet_sea_set_time(facet_sea *sea, double time_s, facet_error *error);
+
+/* What is known of a sea beforehand, by its spectrum. */
+typedef struct facet_sea_info {
+    double height_m; /* significant: 4 standard deviations */
+    double peak_period_s, peak_length_m;
+    double slope_variance[2];          /* of all waves, along the wind and across (Cox and Munk 1954) */
+    double resolved_slope_variance[2]; /* of those in the tiles */
+    double foam_coverage;              /* share of the area, from above (Monahan and O'Muircheartaigh 1980) */
+    double ior;
+    double absorption[3], scattering[3], backscattering[3]; /* 1/m */
+    double reflectance[3]; /* diffuse, of deep water just above the surface: pi R_rs */
+    uint32_t tile_count;
+    double tile_length_m[4];
+} facet_sea_info;
+FACET_API facet_sea_info facet_sea_get_info(const facet_sea *sea);
+
+/* A place of the surface. */
+typedef struct facet_sea_point {
+    float height_m;
+    float normal[3];
+    float velocity_mps; /* upwards */
+    float jacobian;     /* area over that of the water at rest; below 0 it is folded */
+} facet_sea_point;
+/* The surface above and below (x, z), count times: positions are pairs. For what floats. */
+FACET_API void facet_sea_get_points(const facet_sea *sea, const double *positions, size_t count,
+                                    facet_sea_point *points);
+
+/* Layers of a tile, RGB or one channel: "displacement" (m), "normal" (unit), "slope", "jacobian", "foam" ([0, 1]). Rows go
+ * along +Z, as texture coordinates do. FACET_ERROR_ARGUMENT: no such tile. */
+FACET_API facet_result facet_sea_create_maps(const facet_sea *sea, uint32_t tile,
+                                             const facet_allocator *allocator /* NULL: {0} */,
+                                             facet_image **image, facet_error *error);
+
+/* The surface as a mesh: a square around the origin of size_m, samples^2 vertices, with the water's material (ior, transmission,
+ * volume) and the bed. FACET_ERROR_ARGUMENT, _MEMORY. */
+typedef struct facet_sea_mesh_desc {
+    facet_allocator allocator;
+    float size_m;     /* 0: the longest tile */
+    uint32_t samples; /* [2, 4096]; 0: 512 */
+} facet_sea_mesh_desc;
+FACET_API facet_result facet_sea_create_mesh(const facet_sea *sea,
+                                             const facet_sea_mesh_desc *desc /* NULL: {0} */,
+                                             facet_scene **scene, facet_error *error);
+
+typedef enum facet_sea_normals {
+    FACET_SEA_BECKMANN, /* slopes are Gaussian, which those of the sea nearly are */
+    FACET_SEA_GGX       /* the same width, with longer tails */
+} facet_sea_normals;
+typedef enum facet_sea_masking {
+    FACET_SEA_SMITH,        /* height-correlated */
+    FACET_SEA_SCHLICK_KARIS /* separable, k = (r + 1)^2 / 8: too dark at grazing angles, for comparison */
+} facet_sea_masking;
+
+/* Looks of before, without physics. docs/ocean.md, "Before". */
+typedef enum facet_sea_before {
+    FACET_SEA_PHYSICAL,
+    FACET_SEA_BEFORE_WRITTEN, /* A: the formulas as they were written */
+    FACET_SEA_BEFORE_INTENDED /* B: with the signs that they were meant to have */
+} facet_sea_before;
+
+/* How the surface is shaded. {0}: physically. */
+typedef struct facet_sea_look {
+    facet_sea_before before;
+    facet_sea_normals normals;
+    facet_sea_masking masking;
+    bool schlick_fresnel;       /* in place of the exact formula */
+    float perceptual_roughness; /* of the finest waves, [0.001, 1]; 0: by their slopes */
+    bool no_glints, no_foam;
+    uint32_t stage; /* 1 to 5: only so much of the way from before to now; 0: all */
+    float clamp;    /* radiance times exposure is cut off here; 0: not */
+} facet_sea_look;
+
+/* Draws the sea, and a model in it. render: as for facet_render(), of which integrator, size, crop, camera, exposure, quality, samples,
+ * threads, time limit are followed. environment NULL: the sky of `sky`, whose sun is a lamp of its own. scene NULL: nothing but
+ * water. */
+typedef struct facet_sea_render_desc {
+    facet_render_desc render;
+    facet_sky_desc sky;
+    facet_sea_look look;
+} facet_sea_render_desc;
+FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
+                                        const facet_sea_render_desc *desc, facet_image **image,
+                                        facet_error *error);
+
 /* ---- the viewer ---- */
 
 /* A model as a window begins to show it. */

@@ -18,6 +18,8 @@ allowed() {
     bake) echo bake ibl scene image base shade facet ;;
     glsl) echo glsl base facet ;;
     draw) echo draw ibl scene image base shade facet ;;
+    ocean) echo ocean image base shade facet ;;
+    water) echo water ocean cpu draw film ibl scene image base shade facet ;;
     cpu) echo cpu draw film ibl scene image base shade facet ;;
     gl) echo gl draw glsl film ibl scene image base shade facet ;;
     view) echo view gl plot draw film ibl scene image base shade facet ;;
@@ -26,7 +28,7 @@ allowed() {
     report) echo report bake plot legacy cpu draw film ibl scene image base facet ;;
     path) echo path cpu draw film ibl scene image base shade facet ;;
     compare) echo compare image base shade facet ;;
-    api) echo api gl path bake compare report plot legacy io cpu draw ibl film scene image base facet ;;
+    api) echo api gl path water ocean bake compare report plot legacy io cpu draw ibl film scene image base facet ;;
     cli) echo cli facet ;;
     *) echo "" ;;
     esac

@@ -1,0 +1,20 @@
+/* sea.h - what a facet_sea holds. */
+#ifndef OCEAN_SEA_H
+#define OCEAN_SEA_H
+
+#include "ocean/water_optics.h"
+#include "ocean/waves.h"
+
+struct facet_sea {
+    facet_sea_desc desc;
+    waves waves;
+    slope_filter slopes;
+    foam_rule foam;
+    water_optics optics;
+};
+
+/* See facet_sea_create(); and its end. */
+facet_result sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error);
+void sea_destroy(facet_sea *sea); /* NULL is allowed */
+
+#endif

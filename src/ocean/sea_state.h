@@ -1,0 +1,71 @@
+/* sea_state.h - what wind and swell have made of the sea: how the variance of its height is spread over frequencies and
+ * directions. Nothing here is random; waves.h draws a sea from it.
+ *
+ * SI units. Angles from +X towards +Z, where waves go to. Double, as tails span many decades. */
+#ifndef OCEAN_SEA_STATE_H
+#define OCEAN_SEA_STATE_H
+
+#include "facet/facet.h"
+
+#define GRAVITY 9.81                        /* m/s^2 */
+#define SURFACE_TENSION_OVER_DENSITY 7.2e-5 /* m^3/s^2, sea water */
+
+/* One system of waves: the wind's, or a swell. Without wind or height, peak_omega is 0 and there are no waves. */
+typedef struct wave_system {
+    facet_sea_spectrum spectrum;
+    facet_sea_spreading spreading;
+    double peak_omega;  /* rad/s */
+    double alpha;       /* Phillips' constant of it */
+    double gamma;       /* peakedness */
+    double direction;   /* rad */
+    double wind_mps;    /* of the wind's; 0 of a swell */
+    double inverse_age; /* Omega of Elfouhaily's */
+    double elongation;  /* of crests, [0, 1] */
+} wave_system;
+
+typedef struct sea_state {
+    wave_system systems[2]; /* the wind's, the swell */
+    double depth_m;         /* INFINITY: deep */
+    double wind_mps, wind_direction;
+    double taper_k,
+        taper; /* beyond taper_k the density is multiplied by taper, [0, 1]: light airs, whose tails the
+                              formulas take for steeper than Cox and Munk saw them */
+} sea_state;
+
+/* FACET_ERROR_ARGUMENT: a number outside of the range that facet.h gives; the sentence names it. */
+facet_result sea_state_create(const facet_sea_desc *desc, sea_state *out, facet_error *error);
+
+/* ---- dispersion ---- */
+
+/* omega^2 = (g k + tau k^3 / rho) tanh(k depth); k in rad/m. */
+double wave_omega(double k, double depth_m);
+double wave_domega_dk(double k, double depth_m);
+double wave_k(double omega, double depth_m); /* the inverse, by Newton's method */
+
+/* ---- spectra ---- */
+
+/* Density of the variance of height over omega, m^2 s. */
+double wave_spectrum(const wave_system *w, double omega, double depth_m);
+/* Of its direction, theta from the system's: the integral over [-pi, pi] is 1. */
+double wave_spreading(const wave_system *w, double omega, double theta);
+/* Of all systems over the plane of wave vectors, m^4: the integral over it is the variance of height. k > 0. */
+double sea_density(const sea_state *s, double kx, double kz);
+
+/* Integrals of sea_density over from <= k < to (rad/m). */
+typedef struct sea_moments {
+    double height;    /* variance, m^2 */
+    double k;         /* of k: what choppiness takes off the mean level */
+    double slope[3];  /* of k_x^2, k_z^2, k_x k_z: slope variances, in world axes */
+    double k4;        /* of k^4 (1/m^2): curvature, for glints */
+    double omega2_k2; /* of omega^2 k^2 (1/s^2) */
+} sea_moments;
+sea_moments sea_state_moments(const sea_state *s, double from, double to);
+
+/* ---- what was measured of seas ---- */
+
+/* Variance of slopes of a clean sea along the wind and across, whose sum is 0.003 + 0.00512 U. Cox and Munk 1954. */
+void cox_munk_slopes(double wind_mps, double out[2]);
+/* Share of the area under foam, [0, 1]: 3.84e-6 U^3.41. Monahan and O'Muircheartaigh 1980. */
+double whitecap_coverage(double wind_mps);
+
+#endif

@@ -1,0 +1,107 @@
+/* waves.h - a sea drawn from its spectrum: tiles of different length, each with its band of wave numbers, that repeat and are
+ * summed. Everything is a function of seed and time, whatever resolution and threads. */
+#ifndef OCEAN_WAVES_H
+#define OCEAN_WAVES_H
+
+#include "ocean/sea_state.h"
+
+enum { WAVES_MAX_TILES = 4 };
+
+/* What a texel holds; of a place of the water at rest. */
+typedef enum wave_field {
+    WAVE_DX,  /* displacement, m, choppiness included, in the tile's axes */
+    WAVE_ETA, /* height, m */
+    WAVE_DZ,
+    WAVE_ETA_X, /* slopes of ETA */
+    WAVE_ETA_Z,
+    WAVE_DXX, /* derivatives of the displacement, choppiness included */
+    WAVE_DZZ,
+    WAVE_DXZ,
+    WAVE_FIELDS
+} wave_field;
+
+typedef struct wave_tile {
+    double length_m;
+    double turn; /* rad: the tile's axes are turned by it from +X towards +Z */
+    double k_from, k_to;
+    uint32_t size;        /* samples along an edge */
+    uint32_t level_count; /* means of 2 x 2, down to one texel */
+    float *levels[12];    /* each size >> l squared, WAVE_FIELDS a texel; rows along the tile's z */
+    float highest, lowest,
+        steepest; /* of ETA, and the greatest slope against the horizon that the displaced tile has */
+} wave_tile;
+
+typedef struct waves {
+    sea_state state;
+    double choppiness, loop_s;
+    double time_s;
+    double level_m; /* what is added to ETA so that the surface's mean, seen from above, is 0 */
+    uint32_t tile_count;
+    wave_tile tiles[WAVES_MAX_TILES];
+    struct wave_amplitudes *amplitudes; /* waves_fft.c's */
+    facet_allocator allocator;
+    uint32_t thread_count;
+} waves;
+
+/* At time 0. desc is checked by sea_state_create(). FACET_ERROR_MEMORY. */
+facet_result waves_create(const facet_sea_desc *desc, const sea_state *state, waves *out, facet_error *error);
+facet_result waves_set_time(waves *w, double time_s, facet_error *error);
+void waves_destroy(waves *w); /* {0} is allowed */
+
+/* A place of the water, at rest at (x, z): the sums of all tiles in world axes, each read as wide as the footprint (m) is; tiles
+ * whose waves are all shorter than that add nothing. */
+typedef struct wave_point {
+    float displacement[2]; /* along X and Z, m */
+    float height_m;        /* with level_m */
+    float slope[2];        /* of ETA */
+    float Dxx, Dzz, Dxz;
+} wave_point;
+wave_point waves_at(const waves *w, double x, double z, float footprint_m);
+
+/* The surface above or below (X, Z): the same of the water that is there, found by iteration. rest: where it was at rest. */
+wave_point waves_above(const waves *w, double X, double Z, float footprint_m, double rest[2]);
+/* Height alone: what marching asks for. */
+float waves_height(const waves *w, double X, double Z, float footprint_m);
+
+/* The geometry of a wave_point: exact normal of the displaced surface (Y > 0), Jacobian, convergence q = -(Dxx + Dzz). */
+typedef struct wave_shape {
+    float normal[3];
+    float jacobian;
+    float convergence;
+} wave_shape;
+wave_shape wave_shape_of(const wave_point *p);
+
+/* ---- what a footprint hides ---- */
+
+/* Covariance of slopes in world axes: xx, zz, xz. */
+typedef struct slope_covariance {
+    float xx, zz, xz;
+} slope_covariance;
+
+/* Tables over the footprint, made once per sea. */
+typedef struct slope_filter {
+    slope_covariance total; /* Cox and Munk's, along the wind */
+    slope_covariance
+        residual[64]; /* total less what a footprint resolves; footprints of slope_filter_footprint(i) */
+    float curvature[64], rate[64]; /* sea_moments.k4 (1/m^2) and mean omega (rad/s) of what is not resolved */
+    float convergence_variance[64]; /* of q within the footprint */
+} slope_filter;
+void slope_filter_create(const waves *w, slope_filter *out);
+float slope_filter_footprint(uint32_t i); /* m, geometric from 1 mm to 100 km */
+/* Entry, with fraction, of a footprint, [0, 63]. */
+float slope_filter_place(float footprint_m);
+
+/* ---- foam ---- */
+
+/* A crest breaks where q exceeds this, such that the area of it, seen from above, is the share that whitecap_coverage() has. INFINITY:
+ * no foam. sigma: standard deviation of q of all tiles together. */
+typedef struct foam_rule {
+    float threshold, active_threshold; /* of all foam, and of the tenth that is fresh */
+    float sigma;
+    float coverage;
+} foam_rule;
+foam_rule foam_rule_create(const waves *w);
+/* Share of a footprint under foam, [0, 1]; mean and variance of q in it. */
+float foam_coverage(const foam_rule *r, float mean, float variance, float threshold);
+
+#endif
