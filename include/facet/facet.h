@@ -1212,6 +1212,8 @@ FACET_API const char *facet_sea_get_preset_name(uint32_t index); /* NULL: there 
 /* FACET_ERROR_ARGUMENT: no such name. */
 FACET_API facet_result facet_sea_preset(const char *name, facet_sea_desc *desc, facet_error *error);
 
+typedef struct facet_sea facet_sea;
+
 /* The sea at time 0. FACET_ERROR_ARGUMENT: a number outside of its range, or a bed that reaches out of the water at the
  * origin; _MEMORY. */
 FACET_API facet_result facet_sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error);
