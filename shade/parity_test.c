@@ -14,7 +14,7 @@
 
 #include "lang/lang_c_end.h"
 
-enum { SIZE = 64, TEXT_MAX = 1 << 18 };
+enum { SIZE = 64, TEXT_MAX = 1 << 19 };
 
 /* Largest difference, relative to the value plus FLOOR. */
 static const float tolerance = 1e-4f, FLOOR = 1e-3f;

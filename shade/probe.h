@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 100
+#define PROBE_COUNT 117
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -823,6 +823,121 @@ FN vec3 probe_alone(int which, vec2 u)
            vec3(schlick_GGX_over_smith(u[0], u[1], 0.5f), 0.0f, 0.0f);
 }
 
+/* A sea, seen from above. */
+FN vec3 probe_up(vec3 v)
+{
+    return vec3(v[0], v[2], v[1]);
+}
+FN vec3 probe_slopes(vec2 u)
+{
+    return vec3(0.01f + 0.03f * u[0], 0.02f + 0.01f * u[1], 0.005f * u[0]);
+}
+FN vec3 probe_sea(int which, vec2 u)
+{
+    int normals = int(u[0] * 1.99f);
+    vec3 C = probe_slopes(u);
+    vec3 N = normal_from_slope(vec2(0.2f * u[0], -0.3f * u[1]));
+    vec3 V = probe_up(probe_V(u));
+    vec3 L = probe_up(probe_L(u));
+    vec3 H = normalize(V + L);
+    if (which == 100)
+        return vec3(slope_density(normals, C, vec2(0.3f * u[1], -0.1f)), D_slopes(normals, C, N, H),
+                    1.0f + slope_variance(C, slope_from_normal(H)));
+    if (which == 101)
+        return vec3(Lambda_Beckmann(0.1f + 2.0f * u[0]), Lambda_GGX(0.1f + 2.0f * u[0]),
+                    Lambda_slopes(normals, smith_a(C, N, V)) + erfcx(u[1]));
+    if (which == 102)
+        return vec3(V_slopes(normals, WATER_SMITH, C, N, N, V),
+                    V_slopes(normals, WATER_SCHLICK_KARIS, C, N, N, V),
+                    glitter(normals, WATER_SMITH, C, N, L, V, u[1]));
+    if (which == 103)
+        return sun_slopes(L, V) * 1e5f + slopes_from_roughness(u[1]) + roughness_from_slopes(C);
+    if (which == 104) {
+        vec2 pair = water_table_pair(water_table_place(u[0], 0.4f * u[1]));
+        return vec3(pair[0], pair[1], water_mean_fresnel_fit(u[0], 0.3f * u[1], 1.34f)) + 0.1f;
+    }
+    if (which == 105)
+        return raised_reflection(N, V, 0.3f * u[0]) + 2.0f +
+               vec3(sigma_towards(C, N, V), roughness_from_spread(0.33f * u[1]), 0.0f);
+    WaterMeans m = integrate_water_means(normals, 0.05f + 0.9f * u[0], 0.05f + 0.3f * u[1], 1.34f, 6);
+    if (which == 106)
+        return vec3(m.fresnel, m.escape, 1.0f + m.lift);
+    if (which == 107)
+        return vec3(m.spread, m.below + 1.0f, m.elevation);
+    if (which == 108)
+        return vec3(glint_count(normals, C, N, H, 5000.0f, 0.01f, u[0]) + 0.1f,
+                    gamma_variate(1.0f + 9.0f * u[0], 4.0f * u[1] - 2.0f),
+                    glint_uniform(glint_hash2(uint(u[0] * 4096.0f), uint(u[1] * 4096.0f))));
+    uint cell = glint_cell(u * 7.3f, vec2(0.3f, 0.0113f + u[0]));
+    if (which == 109)
+        return vec3(glint_uniform(cell), 5.0f + glint_normal(cell), 1.0f + glint_sum(cell, 12.0f * u[1]));
+    return vec3(1.0f + glint_variate(glint_hash(uint(u[0] * 4096.0f)), 100.0f * u[1], 3.7f, 0.02f));
+}
+
+FN vec3 probe_water(int which, vec2 u)
+{
+    Water w;
+    w.ior = 1.3f + 0.05f * u[0];
+    w.absorption = vec3(0.33f, 0.06f, 0.02f + 0.1f * u[1]);
+    w.scattering = vec3(0.09f, 0.11f, 0.14f);
+    w.backscattering = vec3(0.002f, 0.003f, 0.005f);
+    w.reflectance = vec3(0.0f, 0.006f, 0.024f);
+    w.pure_share = vec3(0.01f, 0.02f, 0.03f);
+    w.sky_reflectance = 0.06f;
+    w.foam_albedo = 0.5f;
+    w.normals = WATER_BECKMANN;
+    w.masking = WATER_SMITH;
+    w.is_schlick = int(u[1] * 1.99f);
+    WaterPoint p;
+    p.N = normal_from_slope(vec2(0.2f * u[0], -0.3f * u[1]));
+    p.covariance = probe_slopes(u);
+    p.foam = 0.2f * u[1];
+    vec3 V = probe_up(probe_V(u));
+    WaterLight light;
+    light.L = probe_up(probe_L(u));
+    light.sun_irradiance = vec3(5.0f, 4.0f, 3.0f);
+    light.sky_irradiance = vec3(1.0f, 2.0f, 3.0f);
+    light.sun_fresnel = 0.1f;
+    light.downwelling = water_downwelling(w, light);
+    if (which == 111) {
+        vec3 d = water_refracted(w, -V, p.N);
+        return d + 2.0f + water_sun(w, p, light, V) +
+               vec3(water_fresnel(w, u[0]), water_fresnel_inside(w, 0.7f + 0.3f * u[1]), 0.0f);
+    }
+    if (which == 112) {
+        WaterBed bed;
+        bed.albedo = vec3(0.5f, 0.4f, 0.3f);
+        bed.mean_albedo = vec3(0.4f);
+        bed.depth = 20.0f * u[0];
+        bed.way = bed.depth * 1.2f;
+        return water_from_bed(w, light.downwelling, bed) + water_beam(w) + water_diffuse(w) + water_K_d(w) +
+               water_from_deep(w, light.downwelling) + water_transmittance(w.absorption, u[1]);
+    }
+    if (which == 113)
+        return water_single_scattering(w, light.sun_irradiance, u[0], 0.9f, 0.7f, 5.0f * u[1]) +
+               water_phase(w, u[1]) + water_phase_pure(u[0]);
+    if (which == 114)
+        return water_backlight(w, light, V, water_crest_way(u[0], u[1]), u[0]) + 0.01f +
+               water_foam(w, light, p.N);
+    vec3 down = -V;
+    if (which == 115) {
+        vec3 d = normalize(vec3(u[0] - 0.5f, 1.0f, u[1] - 0.3f));
+        WaterWindow window = water_window(w, d, p.N);
+        return window.mirrored + window.outside * 0.1f +
+               vec3(2.0f + window.fresnel, 2.0f + window.gain, 2.0f) +
+               water_inscatter(w, light.downwelling, 3.0f, down, 20.0f * u[1]) +
+               water_path1(u[0] - 0.5f, u[1]) + water_path(down, u[0]) +
+               water_sun_glow(w, water_beam_below(w, light), normalize(vec3(0.3f, 1.0f, 0.1f)), 2.0f, d,
+                              10.0f * u[0]);
+    }
+    WaterMirror m = water_mirror(w, p, V, 0.9f, 0.95f, 0.1f * u[0], 0.3f * u[1]);
+    vec3 before = before_shade(int(u[0] * 1.99f), int(u[1] * 2.99f), down, p.N, BEFORE_SUN_DIRECTION, u[0],
+                               u[1], before_foam(u[0]), 1.33f, 0.3f);
+    return m.R + m.perceptual_roughness + before_display(before) + before_sky(V) +
+           before_highlight(1, p.N, V, light.L, 1.33f, 0.1f) +
+           water_radiance(water_parts(w, p, light, m, vec3(1.0f, 2.0f, 3.0f), vec3(0.5f), light.downwelling));
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -861,5 +976,9 @@ FN vec3 probe(int which, vec2 u)
         return probe_material(which, u);
     if (which < 98)
         return probe_footprint(which, u);
-    return probe_alone(which, u);
+    if (which < 100)
+        return probe_alone(which, u);
+    if (which < 111)
+        return probe_sea(which, u);
+    return probe_water(which, u);
 }

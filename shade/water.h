@@ -1,26 +1,34 @@
-/* water.h - the surface of a sea and the water under it: reflection at waves that are too small to be seen one by one, light that comes
- * up from the depth, what a bed adds, foam. The waves that are seen are the caller's, who brings a normal for them.
+/* water.h - the water of a sea: what its surface does to light that arrives, what comes up from the depth, from a bed, through a
+ * crest, what the eye sees below, and foam. Which waves are seen is the caller's matter, who brings a normal for them, and
+ * the covariance of slopes of those that are not (water_surface.h); glints of the sun on these are glint.h's.
  *
  * SI units; radiance in cd/m^2, linear Rec.709. V: from the surface to the eye, L: to the sun, both unit; still water lies in the plane
- * y = 0. */
+ * y = 0. Nothing is painted: light is reflected, or goes into the water and is absorbed and scattered there.
+ *
+ * Order of use. Once per picture: water_downwelling(). At a point of the surface: sigma_towards() and water_table_place() tell
+ * where to read the table of means, water_mirror() what to look up in the sky; water_from_deep() or water_from_bed() is what comes up;
+ * water_parts() puts them together, water_radiance() adds them up and lays foam over. */
 #ifndef SHADE_WATER_H
 #define SHADE_WATER_H
 
-/* How microfacets of the unresolved waves are distributed, and mask each other. */
-#define WATER_BECKMANN 0 /* Gaussian slopes; which those of the sea nearly are */
-#define WATER_GGX 1
-#define WATER_SMITH 0         /* height-correlated, Heitz 2014 */
-#define WATER_SCHLICK_KARIS 1 /* separable, k = (r + 1)^2 / 8, for comparison */
+/* Mean cosine of light that goes down: K_d = (a + b_b) / this. Mobley 1994, section 3.9, for the open ocean. */
+#define WATER_MEAN_COSINE 0.86f
+/* Of Lee et al. 2002, equation 4: R_rs = 0.52 r_rs / (1 - 1.7 r_rs), both interfaces of a sea seen from above. */
+#define WATER_RRS_SHARE 0.52f
+/* Mean cosine of scattering by particles, for phase_HG(). */
+#define WATER_PARTICLE_G 0.92f
 
 /* What does not change from place to place. */
 STRUCT(Water)
 {
     float ior;           /* of water over that of air */
-    vec3 absorption;     /* 1/m */
-    vec3 scattering;     /* 1/m */
-    vec3 backscattering; /* 1/m, the part of scattering that goes backwards */
+    vec3 absorption;     /* a, 1/m */
+    vec3 scattering;     /* b, 1/m */
+    vec3 backscattering; /* b_b, 1/m, the part of scattering that goes backwards */
     vec3 reflectance;    /* of deep water just above its surface, pi R_rs: upward over downward irradiance */
-    float pure_share;    /* of scattering (luminance) that is not strongly forward */
+    vec3 pure_share;     /* of scattering that is the water's own and not strongly forward, [0, 1] */
+    float
+        sky_reflectance; /* of the surface for light from all of the sky: 2 int F mu dmu, with the whole sea's slopes */
     float foam_albedo;
     int normals;    /* WATER_BECKMANN or WATER_GGX */
     int masking;    /* WATER_SMITH or WATER_SCHLICK_KARIS */
@@ -30,17 +38,281 @@ STRUCT(Water)
 /* A place of the surface, as wide as a footprint. */
 STRUCT(WaterPoint)
 {
-    vec3 N;          /* unit normal of the waves that are seen, N.y > 0 */
-    vec3 covariance; /* xx, zz, xz of the slopes that are not, in world axes */
-    float foam;      /* share of it that foam covers, [0, 1] */
+    vec3 N; /* unit normal of the waves that are seen, N.y > 0 */
+    vec3
+        covariance; /* xx, zz, xz of the slopes that are not, in world axes, with SLOPE_VARIANCE_MIN on xx and zz */
+    float foam; /* share of it that foam covers, [0, 1] */
 };
 
 /* Light that arrives. */
 STRUCT(WaterLight)
 {
     vec3 L;              /* to the sun */
-    vec3 sun_irradiance; /* lx on a plane that faces it */
+    vec3 sun_irradiance; /* lx on a plane that faces it; 0 where it is below the horizon */
     vec3 sky_irradiance; /* lx on a horizontal plane, without the sun */
+    vec3 downwelling;    /* lx on a horizontal plane just below the surface: water_downwelling() */
+    float
+        sun_fresnel; /* share of the sun's light that the whole sea reflects: its mean reflectance seen from L */
 };
+
+/* ---- the interface ---- */
+
+/* Reflectance for unpolarised light from the air, c the cosine on that side. */
+FN float water_fresnel(Water w, float c)
+{
+    return sel(w.is_schlick == 1, F_Schlick1(F0_from_ior(w.ior), 1.0f, c), F_dielectric(c, w.ior));
+}
+
+/* From below, c on the water's side: 1 beyond the critical angle. With Schlick's formula the cosine is that of the air's side. */
+FN float water_fresnel_inside(Water w, float c)
+{
+    float sin2 = (1.0f - c * c) * w.ior * w.ior;
+    float schlick = F_Schlick1(F0_from_ior(w.ior), 1.0f, sqrt(max(1.0f - sin2, 0.0f)));
+    return sel(w.is_schlick == 1, sel(sin2 >= 1.0f, 1.0f, schlick), F_dielectric(c, 1.0f / w.ior));
+}
+
+/* Unit direction in which a ray with the direction d (down) goes on below a surface of normal N (up). Snell. */
+FN vec3 water_refracted(Water w, vec3 d, vec3 N)
+{
+    return refract(d, N, 1.0f / w.ior);
+}
+
+/* What the table of water_surface.h is made of: mean reflectance over that of flat water .. See integrate_water_means(). */
+STRUCT(WaterMirror)
+{
+    float fresnel;              /* mean reflectance of the facets that are seen */
+    float escape;               /* share of the reflected light that comes from the sky */
+    vec3 R;                     /* where to look the sky up, unit, R.y >= 0 */
+    float perceptual_roughness; /* for which it is to be prefiltered */
+};
+
+/* From the table's fresnel, escape, lift and spread, read at water_table_place(N.V, sigma_towards(..)). */
+FN WaterMirror water_mirror(Water w, WaterPoint p, vec3 V, float fresnel, float escape, float lift,
+                            float spread)
+{
+    WaterMirror r;
+    r.fresnel = min(fresnel * water_fresnel(w, clamp(dot(p.N, V), 1e-4f, 1.0f)), 1.0f);
+    r.escape = escape;
+    r.R = raised_reflection(p.N, V, lift);
+    r.perceptual_roughness = roughness_from_spread(spread);
+    return r;
+}
+
+/* Radiance (cd/m^2) of the sun in the facets: F D G E / (4 N.V). */
+FN vec3 water_sun(Water w, WaterPoint p, WaterLight light, vec3 V)
+{
+    vec3 H = normalize(V + light.L);
+    float F = water_fresnel(w, clamp(dot(V, H), 0.0f, 1.0f));
+    return light.sun_irradiance * (F * glitter(w.normals, w.masking, p.covariance, p.N, light.L, V, 1.0f));
+}
+
+/* ---- light in the water ---- */
+
+/* Irradiance (lx) on a horizontal plane just below the surface:
+ *   E_d(0-) = (1 - F_sun) E_n L.y + (1 - R_sky) E_sky */
+FN vec3 water_downwelling(Water w, WaterLight light)
+{
+    float sun = (1.0f - light.sun_fresnel) * max(light.L[1], 0.0f);
+    return light.sun_irradiance * sun + light.sky_irradiance * (1.0f - w.sky_reflectance);
+}
+
+/* Attenuation in 1/m: of what is seen sharply, c = a + b; of diffuse light along a ray, a + b_b, as most scattering hardly turns
+ * it (Gordon 1973); and of irradiance with depth, K_d = (a + b_b) / 0.86. */
+FN vec3 water_beam(Water w)
+{
+    return w.absorption + w.scattering;
+}
+FN vec3 water_diffuse(Water w)
+{
+    return w.absorption + w.backscattering;
+}
+FN vec3 water_K_d(Water w)
+{
+    return water_diffuse(w) * (1.0f / WATER_MEAN_COSINE);
+}
+
+/* Share of light left after x m, per channel. Beer and Lambert. */
+FN vec3 water_transmittance(vec3 attenuation, float x)
+{
+    return exp(-attenuation * x);
+}
+
+/* Phase function in 1/sr: of pure sea water, 1 + 0.835 cos^2 (Morel 1974), and of particles, Henyey and Greenstein. cos_angle between
+ * the directions of travel. */
+FN float water_phase_pure(float cos_angle)
+{
+    return (1.0f + 0.835f * cos_angle * cos_angle) * (0.25f * INV_PI / (1.0f + 0.835f / 3.0f));
+}
+FN vec3 water_phase(Water w, float cos_angle)
+{
+    return mix(vec3(phase_HG(cos_angle, WATER_PARTICLE_G)), vec3(water_phase_pure(cos_angle)), w.pure_share);
+}
+
+/* Radiance (cd/m^2) that goes up below the surface of deep water: reflectance / (pi 0.52) E_d(0-), which makes R_rs what it is with
+ * 0.52 / n^2 for the way out. Gordon et al. 1988; Lee et al. 2002. */
+FN vec3 water_from_deep(Water w, vec3 downwelling)
+{
+    return w.reflectance * downwelling * (INV_PI / WATER_RRS_SHARE);
+}
+
+/* Ground below, where the refracted ray meets it. */
+STRUCT(WaterBed)
+{
+    vec3 albedo;      /* there */
+    vec3 mean_albedo; /* around it, as wide as a quarter of the way */
+    float depth;      /* m of water above it, >= 0 */
+    float way;        /* m that the ray went through the water, >= depth */
+};
+
+/* Radiance (cd/m^2) that goes up below the surface: the bed, sharp as far as light was not scattered and blurred as far as it was
+ * scattered forward, and the water before it.
+ *   E_bed = E_d e^(-K_d H)
+ *   E_bed / pi (albedo e^(-c l) + mean (e^(-(a + b_b) l) - e^(-c l))) + L_deep (1 - e^(-K_d H - (a + b_b) l))
+ * Goes to water_from_deep() with the depth, and to that of a dry bed without it. */
+FN vec3 water_from_bed(Water w, vec3 downwelling, WaterBed bed)
+{
+    vec3 sharp = water_transmittance(water_beam(w), bed.way);
+    vec3 blurred = water_transmittance(water_diffuse(w), bed.way);
+    vec3 down = water_transmittance(water_K_d(w), bed.depth);
+    vec3 ground = downwelling * down * INV_PI * (bed.albedo * sharp + bed.mean_albedo * (blurred - sharp));
+    return ground + water_from_deep(w, downwelling) * (1.0f - down * blurred);
+}
+
+/* Radiance (cd/m^2) below the surface of sunlight scattered once, in water of the depth H: eye and sun at the cosines mu_v, mu_s
+ * below the surface, beam: irradiance (lx) across the sun's beam there.
+ *   E b p / (c (1 + mu_v / mu_s)) (1 - e^(-c H (1 / mu_s + 1 / mu_v)))
+ * Chandrasekhar 1960, section 68. */
+FN vec3 water_single_scattering(Water w, vec3 beam, float cos_angle, float mu_s, float mu_v, float depth)
+{
+    vec3 c = water_beam(w);
+    vec3 left = exp(-c * (depth * (1.0f / mu_s + 1.0f / mu_v)));
+    return beam * w.scattering * water_phase(w, cos_angle) * (1.0f - left) / (c * (1.0f + mu_v / mu_s));
+}
+
+/* ---- crests against the sun ---- */
+
+/* m of water between the sun and a point that lies `above` m over the trough before it, through a crest whose slope towards the sun is
+ * `slope` (rise per m, >= 0). */
+FN float water_crest_way(float above, float slope)
+{
+    return max(above, 0.0f) / max(slope, 0.05f);
+}
+
+/* Radiance (cd/m^2) below the surface of sunlight that entered a crest behind and was scattered towards the eye, over a way of
+ * `behind` m to the ray and `before` m along it:
+ *   E (1 - F) b p(-L.V) (1 - e^(-c before)) / c e^(-(a + b_b) (behind + before))
+ * Nothing where the sun stands behind the eye: what goes back is in the reflectance of the depth. */
+FN vec3 water_backlight(Water w, WaterLight light, vec3 V, float behind, float before)
+{
+    float forward = -dot(light.L, V);
+    vec3 c = water_beam(w);
+    vec3 gathered = (1.0f - exp(-c * before)) / max(c, 1e-9f);
+    vec3 left = water_transmittance(water_diffuse(w), behind + before);
+    vec3 L = light.sun_irradiance * (1.0f - light.sun_fresnel) * w.scattering * water_phase(w, forward) *
+             gathered * left;
+    return sel(forward > 0.0f && light.L[1] > 0.0f, L, vec3(0.0f));
+}
+
+/* ---- the eye below ---- */
+
+/* Share and direction of what the surface shows from below: d unit, up to it; N its normal, up. */
+STRUCT(WaterWindow)
+{
+    float fresnel; /* share that is reflected, 1 outside of Snell's window */
+    vec3 mirrored; /* unit direction in which the water is seen */
+    vec3 outside;  /* unit direction in which the sky is seen; 0 where it is not */
+    float gain;    /* of radiance that comes in: n^2 (1 - F) */
+};
+FN WaterWindow water_window(Water w, vec3 d, vec3 N)
+{
+    WaterWindow r;
+    r.fresnel = water_fresnel_inside(w, clamp(dot(d, N), 0.0f, 1.0f));
+    r.mirrored = reflect(d, N);
+    r.outside = refract(d, -N, w.ior);
+    r.gain = w.ior * w.ior * (1.0f - r.fresnel);
+    return r;
+}
+
+/* int_0^x e^(-q t) dt per channel, for any sign of q. */
+FN float water_path1(float q, float x)
+{
+    float t = q * x;
+    return sel(abs(t) < 1e-3f, x * (1.0f - 0.5f * t), (1.0f - exp(-t)) / sel(q == 0.0f, 1.0f, q));
+}
+FN vec3 water_path(vec3 q, float x)
+{
+    return vec3(water_path1(q[0], x), water_path1(q[1], x), water_path1(q[2], x));
+}
+
+/* Radiance (cd/m^2) that water adds along a ray of x m below the surface, from an eye at the depth z (m) in the unit direction d.
+ * Diffuse light scatters so much that deep water seen from above shines as it does: S = L_deep (K_d + a + b_b) e^(-K_d z). */
+FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
+{
+    vec3 K = water_K_d(w);
+    vec3 along = water_diffuse(w);
+    vec3 S = water_from_deep(w, downwelling) * (K + along) * exp(-K * z);
+    return S * water_path(along - K * d[1], x);
+}
+
+/* And of the sun's own beam, scattered forward once: the glow around it. sunward: unit direction to the sun below the surface;
+ * beam: irradiance (lx) across it just below. */
+FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float x)
+{
+    float forward = dot(sunward, d);
+    vec3 c = water_beam(w);
+    float mu = max(sunward[1], 1e-3f);
+    vec3 E = beam * exp(-c * (z / mu));
+    vec3 L = E * w.scattering * water_phase(w, forward) * water_path(c * (1.0f - d[1] / mu), x);
+    return sel(forward > 0.0f, L, vec3(0.0f));
+}
+
+/* Irradiance (lx) across the beam of the sun just below flat water: E (1 - F) L.y / mu', mu' its cosine there. */
+FN vec3 water_beam_below(Water w, WaterLight light)
+{
+    float c = clamp(light.L[1], 0.0f, 1.0f);
+    float mu = sqrt(1.0f - (1.0f - c * c) / (w.ior * w.ior));
+    return light.sun_irradiance * ((1.0f - light.sun_fresnel) * c / mu);
+}
+
+/* ---- all together ---- */
+
+/* Radiance (cd/m^2) by where it comes from; their sum is what the eye sees. */
+STRUCT(WaterParts)
+{
+    vec3 reflection;   /* of the sky */
+    vec3 sun;          /* in the facets */
+    vec3 transmission; /* from below */
+    vec3 between;      /* from the sky or from below, by way of a second facet */
+    vec3 foam;
+};
+
+/* Foam is Lambertian and hides the water where it is: foam_albedo / pi (E_n N.L + E_sky). */
+FN vec3 water_foam(Water w, WaterLight light, vec3 N)
+{
+    float NdotL = max(dot(N, light.L), 0.0f);
+    return (light.sun_irradiance * NdotL + light.sky_irradiance) * (w.foam_albedo * INV_PI);
+}
+
+/* sky: radiance read at m.R; sun: water_sun() times its glints; below: radiance that goes up just below the surface. What
+ * facets reflect of other facets is the sky again, or comes from below:
+ *   F e L_sky + (1 - F) L_below / n^2 + F (1 - e) (F L_sky + (1 - F) L_below / n^2) + L_sun
+ * In a closed box, L_below = n^2 L_sky, the sum is L_sky. */
+FN WaterParts water_parts(Water w, WaterPoint p, WaterLight light, WaterMirror m, vec3 sky, vec3 sun,
+                          vec3 below)
+{
+    vec3 out_of_water = below * (1.0f / (w.ior * w.ior));
+    float open = 1.0f - p.foam;
+    WaterParts r;
+    r.reflection = sky * (m.fresnel * m.escape * open);
+    r.sun = sun * open;
+    r.transmission = out_of_water * ((1.0f - m.fresnel) * open);
+    r.between = mix(out_of_water, sky, m.fresnel) * (m.fresnel * (1.0f - m.escape) * open);
+    r.foam = water_foam(w, light, p.N) * p.foam;
+    return r;
+}
+FN vec3 water_radiance(WaterParts p)
+{
+    return p.reflection + p.sun + p.transmission + p.between + p.foam;
+}
 
 #endif

@@ -36,7 +36,8 @@ const verb shaders_verb = {
     .max_arguments = SIZE_MAX,
     .words = WORDS("constants", "color", "brdf", "fresnel", "sampling", "sobol", "pixel_filter", "footprint",
                    "surface", "light", "area_light", "ibl", "sheen", "clearcoat", "anisotropy", "iridescence",
-                   "dispersion", "transmission", "glass", "volume", "sky", "specular_aa",
+                   "dispersion", "transmission", "glass", "volume", "sky", "water_surface", "glint",
+                   "water", "water_before", "specular_aa",
                    "specular_glossiness", "layers", "layers_direct", "layers_ibl", "layers_lobes", "material",
                    "layers_sample", "phong", "tonemap"),
     .description =
