@@ -9,6 +9,9 @@
 
 #define GRAVITY 9.81                        /* m/s^2 */
 #define SURFACE_TENSION_OVER_DENSITY 7.2e-5 /* m^3/s^2, sea water */
+#define SHORTEST_WAVE_K 3000.0              /* rad/m: 2 mm, beyond which viscosity leaves nothing */
+
+enum { SEA_SYSTEMS = 2, SEA_MAX_BANDS = 4 };
 
 /* One system of waves: the wind's, or a swell. Without wind or height, peak_omega is 0 and there are no waves. */
 typedef struct wave_system {
@@ -19,21 +22,34 @@ typedef struct wave_system {
     double gamma;       /* peakedness */
     double direction;   /* rad */
     double wind_mps;    /* of the wind's; 0 of a swell */
-    double inverse_age; /* Omega of Elfouhaily's */
+    double inverse_age; /* U omega_p / g; Elfouhaily's Omega */
     double elongation;  /* of crests, [0, 1] */
+    double scale;       /* of the density: 1, less where waves would be higher than the water is deep */
 } wave_system;
 
+/* Tiles, the longest first, and which wave numbers each has: k_from <= k < k_to, without gap or overlap. */
+typedef struct sea_bands {
+    uint32_t count; /* 0: there are no waves */
+    double length_m[SEA_MAX_BANDS];
+    double k_from[SEA_MAX_BANDS], k_to[SEA_MAX_BANDS]; /* rad/m */
+} sea_bands;
+
 typedef struct sea_state {
-    wave_system systems[2]; /* the wind's, the swell */
-    double depth_m;         /* INFINITY: deep */
+    wave_system systems[SEA_SYSTEMS]; /* the wind's, the swell */
+    double depth_m;                   /* INFINITY: deep */
     double wind_mps, wind_direction;
     double taper_k,
-        taper; /* beyond taper_k the density is multiplied by taper, [0, 1]: light airs, whose tails the
-                              formulas take for steeper than Cox and Munk saw them */
+        taper; /* beyond taper_k the wind's density is multiplied by taper, [0, 1]: light airs, whose tails
+                              the formulas take for steeper than Cox and Munk saw them */
+    sea_bands bands;
 } sea_state;
 
 /* FACET_ERROR_ARGUMENT: a number outside of the range that facet.h gives; the sentence names it. */
 facet_result sea_state_create(const facet_sea_desc *desc, sea_state *out, facet_error *error);
+
+/* Tiles for waves whose longest peak is at peak_k: the first is eight of it long; each next carries on where four samples
+ * per wave are no longer to be had. */
+sea_bands sea_bands_make(double peak_k, uint32_t resolution, uint32_t count);
 
 /* ---- dispersion ---- */
 
@@ -41,29 +57,55 @@ facet_result sea_state_create(const facet_sea_desc *desc, sea_state *out, facet_
 double wave_omega(double k, double depth_m);
 double wave_domega_dk(double k, double depth_m);
 double wave_k(double omega, double depth_m); /* the inverse, by Newton's method */
+/* How far water moves to and fro at the surface, over how far up and down: coth(k depth), 1 in deep water. */
+double wave_stretch(double k, double depth_m);
 
 /* ---- spectra ---- */
 
 /* Density of the variance of height over omega, m^2 s. */
 double wave_spectrum(const wave_system *w, double omega, double depth_m);
-/* Of its direction, theta from the system's: the integral over [-pi, pi] is 1. */
+
+/* Directions at one frequency; made once, as its norm takes long. */
+typedef struct wave_directions {
+    facet_sea_spreading spreading;
+    double norm;  /* of what follows */
+    double power; /* Hasselmann: s; Donelan and Banner: beta; Elfouhaily: Delta */
+} wave_directions;
+wave_directions wave_directions_at(const wave_system *w, double omega);
+/* Density over theta from the system's direction, 1/rad: the integral over [-pi, pi] is 1. */
+double wave_directions_density(const wave_directions *d, double theta);
+/* Both in one. */
 double wave_spreading(const wave_system *w, double omega, double theta);
-/* Of all systems over the plane of wave vectors, m^4: the integral over it is the variance of height. k > 0. */
+
+/* All systems at one wave number, k > 0. */
+typedef struct sea_ring {
+    double density[SEA_SYSTEMS]; /* over the plane, m^4, before directions */
+    wave_directions directions[SEA_SYSTEMS];
+    double direction[SEA_SYSTEMS];
+} sea_ring;
+sea_ring sea_ring_at(const sea_state *s, double k);
+double sea_ring_density(const sea_ring *r, double theta); /* theta in the world */
+
+/* Over the plane of wave vectors, m^4: the integral over it is the variance of height. k > 0. */
 double sea_density(const sea_state *s, double kx, double kz);
 
-/* Integrals of sea_density over from <= k < to (rad/m). */
+/* Integrals of sea_density over from <= k < to (rad/m), to at most SHORTEST_WAVE_K. */
 typedef struct sea_moments {
-    double height;    /* variance, m^2 */
-    double k;         /* of k: what choppiness takes off the mean level */
-    double slope[3];  /* of k_x^2, k_z^2, k_x k_z: slope variances, in world axes */
-    double k4;        /* of k^4 (1/m^2): curvature, for glints */
-    double omega2_k2; /* of omega^2 k^2 (1/s^2) */
+    double height;      /* variance, m^2 */
+    double k;           /* of k times wave_stretch(): what choppiness takes off the mean level */
+    double slope[3];    /* of k_x^2, k_z^2, k_x k_z: slope variances, in world axes */
+    double k4;          /* of k^4 (1/m^2): curvature, for glints */
+    double omega2_k2;   /* of omega^2 k^2 (1/s^2) */
+    double convergence; /* of (k wave_stretch())^2: variance of the convergence of a sea of choppiness 1 */
 } sea_moments;
 sea_moments sea_state_moments(const sea_state *s, double from, double to);
+/* Of one of its systems. */
+sea_moments sea_system_moments(const sea_state *s, uint32_t system, double from, double to);
 
 /* ---- what was measured of seas ---- */
 
-/* Variance of slopes of a clean sea along the wind and across, whose sum is 0.003 + 0.00512 U. Cox and Munk 1954. */
+/* Variance of slopes of a clean sea along the wind and across, whose sum is 0.003 + 0.00512 U. Cox and Munk 1954. Below 1 m/s,
+ * where they saw nothing, the 0.003 falls to 0: without wind the sea is a mirror. */
 void cox_munk_slopes(double wind_mps, double out[2]);
 /* Share of the area under foam, [0, 1]: 3.84e-6 U^3.41. Monahan and O'Muircheartaigh 1980. */
 double whitecap_coverage(double wind_mps);

@@ -5,9 +5,9 @@
 
 #include "ocean/sea_state.h"
 
-enum { WAVES_MAX_TILES = 4 };
+enum { WAVES_MAX_TILES = SEA_MAX_BANDS, WAVES_MAX_LEVELS = 11 };
 
-/* What a texel holds; of a place of the water at rest. */
+/* What a texel holds; of a place of the water at rest. Texel i of a row lies at i lengths / size. */
 typedef enum wave_field {
     WAVE_DX,  /* displacement, m, choppiness included, in the tile's axes */
     WAVE_ETA, /* height, m */
@@ -20,36 +20,54 @@ typedef enum wave_field {
     WAVE_FIELDS
 } wave_field;
 
+/* Of a level's texels, and so of all that is read from it. */
+typedef struct wave_bounds {
+    float highest, lowest; /* of ETA, m */
+    float steepest;        /* slope of the displaced surface, were this tile alone */
+    float farthest;        /* displacement, m */
+} wave_bounds;
+
 typedef struct wave_tile {
     double length_m;
     double turn; /* rad: the tile's axes are turned by it from +X towards +Z */
     double k_from, k_to;
     uint32_t size;        /* samples along an edge */
     uint32_t level_count; /* means of 2 x 2, down to one texel */
-    float *levels[12];    /* each size >> l squared, WAVE_FIELDS a texel; rows along the tile's z */
-    float highest, lowest,
-        steepest; /* of ETA, and the greatest slope against the horizon that the displaced tile has */
+    float
+        *levels[WAVES_MAX_LEVELS]; /* each size >> l squared, WAVE_FIELDS a texel; rows along the tile's z */
+    wave_bounds bounds[WAVES_MAX_LEVELS];
+    double samples_per_m;        /* size / length_m */
+    double cos_per_m, sin_per_m; /* of turn, times samples_per_m: from the world to samples */
+    float cos_turn, sin_turn;
 } wave_tile;
 
 typedef struct waves {
     sea_state state;
     double choppiness, loop_s;
     double time_s;
-    double level_m; /* what is added to ETA so that the surface's mean, seen from above, is 0 */
-    uint32_t tile_count;
+    float level_m;       /* what is added to ETA so that the surface's mean, seen from above, is 0 */
+    uint32_t tile_count; /* 0: flat */
     wave_tile tiles[WAVES_MAX_TILES];
-    struct wave_amplitudes *amplitudes; /* waves_fft.c's */
+    struct wave_amplitudes *amplitudes[WAVES_MAX_TILES]; /* wave_amplitudes.h */
+    struct wave_transform *transform;                    /* wave_transform.h */
     facet_allocator allocator;
     uint32_t thread_count;
 } waves;
 
-/* At time 0. desc is checked by sea_state_create(). FACET_ERROR_MEMORY. */
+/* At time 0. desc is checked by sea_state_create(). FACET_ERROR_MEMORY; FACET_ERROR_UNSUPPORTED: facet was built without kissfft,
+ * and there are waves. */
 facet_result waves_create(const facet_sea_desc *desc, const sea_state *state, waves *out, facet_error *error);
-facet_result waves_set_time(waves *w, double time_s, facet_error *error);
+/* Takes no memory: never fails after waves_create(). */
+void waves_set_time(waves *w, double time_s);
 void waves_destroy(waves *w); /* {0} is allowed */
 
-/* A place of the water, at rest at (x, z): the sums of all tiles in world axes, each read as wide as the footprint (m) is; tiles
- * whose waves are all shorter than that add nothing. */
+/* Of the surface as a footprint (m) reads it, above the still water (level_m included): it lies between, is nowhere steeper, and
+ * water is nowhere farther from where it rests. steepest is the sum of what tiles have alone, which is what marching needs unless
+ * crests of different tiles fold over each other. */
+wave_bounds waves_bounds(const waves *w, float footprint_m);
+
+/* A place of the water, at rest at (x, z): the sums of all tiles in world axes, each read as wide as the footprint (m) is: means over
+ * squares of that width, interpolated. Tiles whose waves are all shorter than that add nothing. */
 typedef struct wave_point {
     float displacement[2]; /* along X and Z, m */
     float height_m;        /* with level_m */
@@ -62,6 +80,11 @@ wave_point waves_at(const waves *w, double x, double z, float footprint_m);
 wave_point waves_above(const waves *w, double X, double Z, float footprint_m, double rest[2]);
 /* Height alone: what marching asks for. */
 float waves_height(const waves *w, double X, double Z, float footprint_m);
+/* The same, beginning from a displacement that is about right, that of a place nearby, and leaving the one that was found: half
+ * as long where steps are short. {0, 0}: nothing is known. */
+float waves_height_near(const waves *w, double X, double Z, float footprint_m, float displacement[2]);
+/* How fast the water that rests at (x, z) goes up, m/s: the sum over all waves, some 50 us. */
+double waves_velocity(const waves *w, double x, double z);
 
 /* The geometry of a wave_point: exact normal of the displaced surface (Y > 0), Jacobian, convergence q = -(Dxx + Dzz). */
 typedef struct wave_shape {

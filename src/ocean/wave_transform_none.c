@@ -1,0 +1,23 @@
+/* wave_transform_none.c - in place of wave_transform_kiss.c where there is no kissfft. */
+#include "ocean/wave_transform.h"
+
+#include "base/result.h"
+
+facet_result wave_transform_create(const waves *w, wave_transform **out, facet_error *error)
+{
+    (void)w;
+    *out = NULL;
+    return fail(error, FACET_ERROR_UNSUPPORTED,
+                "a sea with waves: this facet was built without kissfft (Debian: libkissfft-dev)");
+}
+
+void wave_transform_destroy(wave_transform *t)
+{
+    (void)t;
+}
+
+void wave_transform_run(wave_transform *t, waves *w)
+{
+    (void)t;
+    (void)w;
+}
