@@ -172,7 +172,7 @@ STRUCT(WaterMeans)
         lift; /* rad: how far above the direction that flat water mirrors the mean of those stands where it comes from */
     float spread;    /* 1 minus the length of the mean of these unit directions, [0, 1] */
     float below;     /* share of the area seen that mirrors what is below the horizon */
-    float elevation; /* mean over the reflected light, rad; below the horizon: 0 */
+    float elevation; /* rad, mean over the light that is reflected from above the horizon */
 };
 
 /* The integral by n x n points. sigma 0 is flat water. Reflected directions, masked with Smith's G2 / G1 = (1 + Lambda(V)) /
@@ -193,6 +193,7 @@ FN WaterMeans integrate_water_means(int normals, float mu, float sigma, float io
     float reflected = 0.0f;
     float escaped = 0.0f;
     float elevation = 0.0f;
+    float above_horizon = 0.0f;
     float astray = 0.0f; /* 1 - cos to what flat water mirrors, without rounding */
     float raised = 0.0f;
     for (int i = 0; i < n; ++i) {
@@ -213,7 +214,8 @@ FN WaterMeans integrate_water_means(int normals, float mu, float sigma, float io
             below += sel(L[1] > 0.0f, 0.0f, seen);
             reflected += light;
             escaped += to_sky;
-            elevation += light * asin(clamp(L[1], 0.0f, 1.0f));
+            elevation += sel(L[1] > 0.0f, light, 0.0f) * asin(clamp(L[1], 0.0f, 1.0f));
+            above_horizon += sel(L[1] > 0.0f, light, 0.0f);
             astray += 0.5f * dot(L - mirror, L - mirror) * to_sky;
             raised += dot(across, L) * to_sky;
         }
@@ -227,7 +229,7 @@ FN WaterMeans integrate_water_means(int normals, float mu, float sigma, float io
     float missing = astray * (2.0f - astray) - raised * raised; /* 1 - length^2 */
     r.spread = max(missing, 0.0f) / (1.0f + sqrt(max(1.0f - missing, 0.0f)));
     r.below = below / area;
-    r.elevation = elevation / reflected;
+    r.elevation = elevation / above_horizon;
     return r;
 }
 

@@ -1,4 +1,4 @@
-/* water_optics.h - what water does to light, from spectra of 10 nm to linear Rec.709: absorption, scattering, color of the depth.
+/* water_optics.h - what water does to light, from spectra to linear Rec.709: absorption, scattering, color of the depth.
  * Reference: docs/ocean.md, "Water". */
 #ifndef OCEAN_WATER_OPTICS_H
 #define OCEAN_WATER_OPTICS_H
@@ -15,7 +15,7 @@ typedef struct water_optics {
     float foam_albedo;
 } water_optics;
 
-/* FACET_ERROR_ARGUMENT: a number outside of the range that facet.h gives. */
+/* By water_spectrum.h, or coefficients as they are given. FACET_ERROR_ARGUMENT: a number outside of the range that facet.h gives. */
 facet_result water_optics_create(const facet_water *water, water_optics *out, facet_error *error);
 
 /* Quan and Fry 1995, equation 3; lambda in [400, 700] nm. */

@@ -2,45 +2,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "image/cie.h"
 #include "image/srgb.h"
 #include "io/obj/mtl_parts.h"
-
-/* ---- CIE ---- */
-
-/* Linear Rec.709 (D65) of XYZ, IEC 61966-2-1. */
-static void rec709_from_xyz(const double xyz[3], double rgb[3])
-{
-    static const double m[3][3] = {{3.2404542, -1.5371385, -0.4985314},
-                                   {-0.9692660, 1.8760108, 0.0415560},
-                                   {0.0556434, -0.2040259, 1.0572252}};
-    for (int i = 0; i < 3; i++)
-        rgb[i] = m[i][0] * xyz[0] + m[i][1] * xyz[1] + m[i][2] * xyz[2];
-}
-
-/* A Gaussian with its own width on either side. */
-static double lobe(double x, double mean, double below, double above)
-{
-    double t = (x - mean) / (x < mean ? below : above);
-    return exp(-0.5 * t * t);
-}
-
-/* The CIE 1931 color matching functions at a wavelength in nm, as Wyman, Sloan and Shirley fit them ("Simple Analytic
- * Approximations to the CIE XYZ Color Matching Functions", JCGT 2013, table 1; at most 1.4 % off). */
-static void match_color(double nm, double xyz[3])
-{
-    xyz[0] = 1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) -
-             0.065 * lobe(nm, 501.1, 20.4, 26.2);
-    xyz[1] = 0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1);
-    xyz[2] = 1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8);
-}
-
-/* Relative power of daylight D65 (CIE 15), 380 to 780 nm in steps of 10. */
-enum { D65_FIRST = 380, D65_STEP = 10, D65_COUNT = 41 };
-static const double D65[D65_COUNT] = {
-    49.9755, 54.6482, 82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861, 115.923,
-    108.811, 109.354, 107.802, 104.790, 107.689, 104.405, 104.046, 100.000, 96.3342, 95.7880, 88.6856,
-    90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091,
-    74.3490, 61.6040, 69.8856, 75.0870, 63.5927, 46.4182, 66.8054, 63.3828};
 
 /* ---- spectra ---- */
 
@@ -67,17 +31,17 @@ static void color_of_reflectance(const spectrum *s, double rgb[3])
     double sum[3] = {0, 0, 0};
     double white[3] = {0, 0, 0};
     double white_rgb[3];
-    for (int i = 0; i < D65_COUNT; i++) {
-        double nm = D65_FIRST + D65_STEP * i;
+    for (int i = 0; i < CIE_D65_COUNT; i++) {
+        double nm = CIE_D65_FIRST + CIE_D65_STEP * i;
         double xyz[3];
-        match_color(nm, xyz);
+        cie_match_color(nm, xyz);
         for (int k = 0; k < 3; k++) {
-            sum[k] += xyz[k] * D65[i] * spectrum_at(s, nm);
-            white[k] += xyz[k] * D65[i];
+            sum[k] += xyz[k] * cie_d65[i] * spectrum_at(s, nm);
+            white[k] += xyz[k] * cie_d65[i];
         }
     }
-    rec709_from_xyz(sum, rgb);
-    rec709_from_xyz(white, white_rgb);
+    cie_rec709_from_xyz(sum, rgb);
+    cie_rec709_from_xyz(white, white_rgb);
     for (int k = 0; k < 3; k++)
         rgb[k] /= white_rgb[k];
 }
@@ -220,7 +184,7 @@ bool mtl_parse_color(mtl_parser *p, const char *keyword, mtl_span arguments, flo
     } else if (mtl_is_word(first, "xyz")) {
         if (!parse_triple(p, keyword, rest, values))
             return false;
-        rec709_from_xyz(values, linear);
+        cie_rec709_from_xyz(values, linear);
         encode(p, linear, values);
     } else if (!parse_triple(p, keyword, arguments, values)) {
         return false;

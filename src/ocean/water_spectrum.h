@@ -1,0 +1,43 @@
+/* water_spectrum.h - what water does to each wavelength, and what an eye makes of that. Spectra go from 380 to 720 nm in steps of 5;
+ * what is tabulated every 10 or 25 nm is linear in between. */
+#ifndef OCEAN_WATER_SPECTRUM_H
+#define OCEAN_WATER_SPECTRUM_H
+
+enum { SPECTRUM_FIRST_NM = 380, SPECTRUM_STEP_NM = 5, SPECTRUM_COUNT = 69 };
+
+/* Absorption, scattering and backscattering, 1/m. */
+typedef struct water_spectrum {
+    double a[SPECTRUM_COUNT], b[SPECTRUM_COUNT], b_b[SPECTRUM_COUNT];
+    double b_pure[SPECTRUM_COUNT]; /* the part of b that is the water's own */
+} water_spectrum;
+
+/* Of the open ocean ("case 1"), by its chlorophyll (mg/m^3), from pure sea water at 0:
+ *   a = (a_w + 0.06 A_c C^0.65) (1 + 0.2 e^(-0.014 (lambda - 440))),  b_p = 0.30 C^0.62 (550 / lambda),
+ *   b_b = b_w / 2 + (0.002 + 0.02 (1/2 - 1/4 log10 C) (550 / lambda)) b_p
+ * Prieur and Sathyendranath 1981; Gordon and Morel 1983; Morel 1988, equations 8, 17 and 18. a_w is Pope and Fry's (1997), b_w Morel's
+ * (1974); salinity (g/kg): fresh water scatters 1.3 times less than the sea's 35. */
+water_spectrum water_spectrum_case1(double chlorophyll, double salinity);
+
+/* Of Jerlov's types 0 to 9, "I" to "9C": diffuse attenuation K_d (1/m). Jerlov 1976; I to III and 1C as revised by Austin and Petzold
+ * 1984. */
+enum { JERLOV_COUNT = 10 };
+void jerlov_attenuation(int type, double K_d[SPECTRUM_COUNT]);
+
+/* And what absorbs and scatters so: a = 0.86 K_d - b_b, not below pure water's, with the scattering of the open ocean whose K_d is
+ * nearest in green and blue. */
+water_spectrum water_spectrum_jerlov(int type, double salinity);
+
+/* Diffuse reflectance pi R_rs just above deep water, per wavelength: u = b_b / (a + b_b), r_rs = (0.0895 + 0.1247 u) u,
+ * R_rs = 0.52 r_rs / (1 - 1.7 r_rs). Gordon et al. 1988; Lee et al. 2002, equations 2 and 4. */
+double water_reflectance(double a, double b_b);
+
+/* ---- linear Rec.709 ---- */
+
+/* Of a spectrum that daylight (D65) is multiplied with: 1 everywhere is (1, 1, 1). What no screen can show is below 0. */
+void spectrum_color(const double spectrum[SPECTRUM_COUNT], double rgb[3]);
+/* Of daylight after a way (m) through what attenuates so (1/m). */
+void spectrum_transmittance(const double attenuation[SPECTRUM_COUNT], double way_m, double rgb[3]);
+/* Coefficients (1/m) whose exponentials are nearest to it, by least squares over ways of 0.5 to 20 m, or to 50 m; colors below 0 are 0. */
+void spectrum_attenuation(const double attenuation[SPECTRUM_COUNT], double longest_m, double rgb[3]);
+
+#endif
