@@ -109,7 +109,7 @@ static double level_of(const wave_amplitudes *a)
     return sum;
 }
 
-wave_amplitudes *wave_amplitudes_create(const waves *w, uint32_t tile, uint64_t seed)
+wave_amplitudes *wave_amplitudes_create(const waves *w, uint32_t tile)
 {
     const wave_tile *t = &w->tiles[tile];
     wave_amplitudes *a = mem_zalloc(&w->allocator, 1, sizeof *a);
@@ -122,14 +122,15 @@ wave_amplitudes *wave_amplitudes_create(const waves *w, uint32_t tile, uint64_t 
         a->count += list_row(t, a->k_step, a->reach, row, NULL);
     a->modes = mem_alloc(&w->allocator, a->count, sizeof *a->modes);
     a->now = mem_alloc(&w->allocator, a->count, sizeof *a->now);
-    if (!a->modes || !a->now) {
+    a->rate = mem_alloc(&w->allocator, a->count, sizeof *a->rate);
+    if (!a->modes || !a->now || !a->rate) {
         wave_amplitudes_destroy(a);
         return NULL;
     }
     size_t next = 0;
     for (int32_t row = 0; row <= a->reach; row++)
         next += list_row(t, a->k_step, a->reach, row, a->modes + next);
-    drawing d = {w, t, tile, seed, a};
+    drawing d = {w, t, tile, w->seed, a};
     parallel_for(w->thread_count, a->count, 1024, draw_modes, &d);
     a->level_m = level_of(a);
     return a;
@@ -141,6 +142,7 @@ void wave_amplitudes_destroy(wave_amplitudes *a)
         return;
     mem_free(a->modes);
     mem_free(a->now);
+    mem_free(a->rate);
     mem_free(a);
 }
 
@@ -158,8 +160,12 @@ void wave_amplitudes_evolve(wave_amplitudes *a, double time_s, size_t begin, siz
         const wave_mode *m = &a->modes[i];
         double phase = m->omega * time_s;
         float c = (float)cos(phase), s = (float)sin(phase);
-        /* (r + i j) (c - i s) + (r' - i j') (c + i s) */
-        a->now[i][0] = m->there[0] * c + m->there[1] * s + m->back[0] * c + m->back[1] * s;
-        a->now[i][1] = m->there[1] * c - m->there[0] * s - m->back[1] * c + m->back[0] * s;
+        const float there[2] = {m->there[0] * c + m->there[1] * s, m->there[1] * c - m->there[0] * s};
+        const float back[2] = {m->back[0] * c + m->back[1] * s, m->back[0] * s - m->back[1] * c};
+        float omega = (float)m->omega;
+        a->now[i][0] = there[0] + back[0];
+        a->now[i][1] = there[1] + back[1];
+        a->rate[i][0] = omega * (there[1] - back[1]); /* -i omega there + i omega back */
+        a->rate[i][1] = omega * (back[0] - there[0]);
     }
 }

@@ -19,11 +19,12 @@ typedef struct wave_amplitudes {
     size_t count;
     wave_mode *modes; /* by rows of n_z */
     float (*now)[2];  /* h(k, t) of each, complex */
+    float (*rate)[2]; /* its derivative by time */
     double level_m;   /* what choppiness takes off the mean level: choppiness sum k coth(k depth) |h|^2 */
 } wave_amplitudes;
 
 /* NULL: no memory. The random numbers depend on seed, tile and n alone, so that a finer tile has the same long waves. */
-wave_amplitudes *wave_amplitudes_create(const waves *w, uint32_t tile, uint64_t seed);
+wave_amplitudes *wave_amplitudes_create(const waves *w, uint32_t tile);
 void wave_amplitudes_destroy(wave_amplitudes *a); /* NULL is allowed */
 
 /* h(k, t) = h0(k) e^-i omega t + conj(h0(-k)) e^i omega t of modes [begin, end). */

@@ -160,6 +160,7 @@ facet_result waves_create(const facet_sea_desc *desc, const sea_state *state, wa
     *out = (waves){.state = *state,
                    .choppiness = (double)desc->choppiness,
                    .loop_s = (double)desc->loop_s,
+                   .seed = desc->seed,
                    .allocator = desc->allocator,
                    .thread_count = desc->thread_count,
                    .tile_count = state->bands.count};
@@ -172,7 +173,7 @@ facet_result waves_create(const facet_sea_desc *desc, const sea_state *state, wa
         result = allocate_tile(out, &out->tiles[i], error);
         if (result)
             break;
-        out->amplitudes[i] = wave_amplitudes_create(out, i, desc->seed);
+        out->amplitudes[i] = wave_amplitudes_create(out, i);
         if (!out->amplitudes[i])
             result = fail_memory(error, "amplitudes of waves", 0);
         else

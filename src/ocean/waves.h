@@ -1,5 +1,7 @@
 /* waves.h - a sea drawn from its spectrum: tiles of different length, each with its band of wave numbers, that repeat and are
- * summed. Everything is a function of seed and time, whatever resolution and threads. */
+ * summed. Everything is a function of seed and time, whatever resolution and threads.
+ *
+ * The longest tile does not repeat where it is read: see wave_patches.h. */
 #ifndef OCEAN_WAVES_H
 #define OCEAN_WAVES_H
 
@@ -44,6 +46,7 @@ typedef struct wave_tile {
 typedef struct waves {
     sea_state state;
     double choppiness, loop_s;
+    uint64_t seed;
     double time_s;
     float level_m;       /* what is added to ETA so that the surface's mean, seen from above, is 0 */
     uint32_t tile_count; /* 0: flat */

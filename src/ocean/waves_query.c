@@ -7,41 +7,27 @@
 
 #include <math.h>
 
+#include "ocean/wave_patches.h"
+
 /* Half of a texel: displacement, height and one slope; or the other slope and the derivatives. */
 typedef float float4 __attribute__((vector_size(16), may_alias));
 
-/* How a footprint reads the tiles; levels beyond the last are those of nothing. */
+/* How a footprint reads a tile around a place. */
 typedef struct tile_reading {
     const wave_tile *tile;
     uint32_t level;
-    float mix; /* of the next level, [0, 1) */
+    float mix;    /* of the next level, [0, 1) */
+    float weight; /* of a patch; 1 */
+    float u, v;   /* the place in samples of level 0, [0, 2 size] */
 } tile_reading;
 
+/* The longest tile first, once per patch. */
 typedef struct reading {
-    tile_reading tiles[WAVES_MAX_TILES];
-    uint32_t count;
+    tile_reading tiles[WAVES_MAX_TILES + WAVES_MAX_PATCHES - 1];
+    uint32_t count, patch_count;
 } reading;
 
-/* The share of the next level is linear in the footprint: no logarithm, and no jump. */
-static inline reading reading_of(const waves *w, float footprint_m)
-{
-    reading r;
-    r.count = 0;
-    for (uint32_t i = 0; i < w->tile_count; i++) {
-        const wave_tile *t = &w->tiles[i];
-        float texels = footprint_m * (float)t->samples_per_m;
-        uint32_t level = 0;
-        while (texels >= 2.0f && level < t->level_count) {
-            texels *= 0.5f;
-            level++;
-        }
-        if (level + 1 < t->level_count) /* the last level is the mean, 0 */
-            r.tiles[r.count++] = (tile_reading){t, level, texels > 1.0f ? texels - 1.0f : 0.0f};
-    }
-    return r;
-}
-
-/* A place in samples of level 0, wrapped to [0, size]. In double, so that it is exact a thousand kilometres away. */
+/* In samples, wrapped to [0, size]. In double, so that it is exact a thousand kilometres away. */
 static inline float wrapped(double samples, uint32_t size)
 {
     if (!(fabs(samples) < 0x1p52))
@@ -51,25 +37,70 @@ static inline float wrapped(double samples, uint32_t size)
     return (float)(whole & (int64_t)(size - 1)) + (float)(samples - (double)whole);
 }
 
+/* The share of the next level is linear in the footprint: no logarithm, and no jump. False: the footprint hides the tile. */
+static inline bool read_at(tile_reading *r, const wave_tile *t, double x, double z, float footprint_m)
+{
+    float texels = footprint_m * (float)t->samples_per_m;
+    uint32_t level = 0;
+    while (texels >= 2.0f && level < t->level_count) {
+        texels *= 0.5f;
+        level++;
+    }
+    if (level + 1 >= t->level_count) /* the last level is the mean, 0 */
+        return false;
+    *r = (tile_reading){.tile = t,
+                        .level = level,
+                        .mix = texels > 1.0f ? texels - 1.0f : 0.0f,
+                        .weight = 1.0f,
+                        .u = wrapped(x * t->cos_per_m + z * t->sin_per_m, t->size),
+                        .v = wrapped(z * t->cos_per_m - x * t->sin_per_m, t->size)};
+    return true;
+}
+
+static inline reading reading_of(const waves *w, double x, double z, float footprint_m)
+{
+    reading r;
+    r.count = r.patch_count = 0;
+    tile_reading longest;
+    if (w->tile_count && read_at(&longest, &w->tiles[0], x, z, footprint_m)) {
+        wave_patch patches[WAVES_MAX_PATCHES];
+        r.count = r.patch_count = wave_patches_at(w, x, z, patches);
+        for (uint32_t i = 0; i < r.count; i++) {
+            r.tiles[i] = longest;
+            r.tiles[i].weight = patches[i].weight;
+            r.tiles[i].u += (float)patches[i].u;
+            r.tiles[i].v += (float)patches[i].v;
+        }
+    }
+    for (uint32_t i = 1; i < w->tile_count; i++)
+        r.count += read_at(&r.tiles[r.count], &w->tiles[i], x, z, footprint_m);
+    return r;
+}
+
 /* Four texels of a level and their weights. Texel i of level l is the mean of samples 2^l i to 2^l (i + 1) - 1. */
 typedef struct taps {
     const float *texels[4];
     float weights[4];
 } taps;
 
-static inline taps taps_at(const wave_tile *t, uint32_t level, float x, float z)
+static inline int32_t rounded_down(float a)
 {
-    float scale = 1.0f / (float)(1u << level);
-    float offset = 0.5f * scale + 0.5f; /* -0.5 + 0.5 scale, and 1 so that truncation rounds down */
-    float px = x * scale + offset, pz = z * scale + offset;
-    uint32_t mask = (t->size >> level) - 1u;
-    uint32_t ix = (uint32_t)px, iz = (uint32_t)pz;
+    int32_t i = (int32_t)a;
+    return i - (a < (float)i);
+}
+
+static inline taps taps_at(const wave_tile *t, uint32_t level, float u, float v)
+{
+    static const float scales[WAVES_MAX_LEVELS] = {0x1p0f,  0x1p-1f, 0x1p-2f, 0x1p-3f, 0x1p-4f, 0x1p-5f,
+                                                   0x1p-6f, 0x1p-7f, 0x1p-8f, 0x1p-9f, 0x1p-10f};
+    float scale = scales[level], offset = 0.5f * scale - 0.5f;
+    float px = u * scale + offset, pz = v * scale + offset;
+    int32_t ix = rounded_down(px), iz = rounded_down(pz);
     float fx = px - (float)ix, fz = pz - (float)iz;
-    uint32_t x0 = (ix - 1u) & mask, x1 = ix & mask;
-    const float *texels = t->levels[level];
-    size_t edge = (size_t)mask + 1;
-    const float *row0 = texels + ((iz - 1u) & mask) * edge * WAVE_FIELDS;
-    const float *row1 = texels + (iz & mask) * edge * WAVE_FIELDS;
+    uint32_t mask = (t->size >> level) - 1u;
+    uint32_t x0 = (uint32_t)ix & mask, x1 = (x0 + 1u) & mask, z0 = (uint32_t)iz & mask, z1 = (z0 + 1u) & mask;
+    const float *row0 = t->levels[level] + (size_t)z0 * (mask + 1u) * WAVE_FIELDS;
+    const float *row1 = t->levels[level] + (size_t)z1 * (mask + 1u) * WAVE_FIELDS;
     return (taps){
         {row0 + x0 * WAVE_FIELDS, row0 + x1 * WAVE_FIELDS, row1 + x0 * WAVE_FIELDS, row1 + x1 * WAVE_FIELDS},
         {(1.0f - fx) * (1.0f - fz), fx * (1.0f - fz), (1.0f - fx) * fz, fx * fz}};
@@ -83,47 +114,33 @@ static inline float4 weighted(const taps *p, size_t first)
            p->weights[3] * *(const float4 *)(p->texels[3] + first);
 }
 
-/* DX, ETA, DZ, ETA_X of one tile; rest (NULL: not wanted): the other four. */
-static inline float4 read_tile(const tile_reading *r, double x, double z, float4 *rest)
+/* DX, ETA, DZ, ETA_X of one tile where the displacement (m, in the world) comes from; high (NULL: not wanted): the other
+ * four. */
+static inline float4 read_tile(const tile_reading *r, const float displacement[2], float4 *high)
 {
     const wave_tile *t = r->tile;
-    float u = wrapped(x * t->cos_per_m + z * t->sin_per_m, t->size);
-    float v = wrapped(z * t->cos_per_m - x * t->sin_per_m, t->size);
+    float per_m = (float)t->samples_per_m;
+    float u = r->u - per_m * (t->cos_turn * displacement[0] + t->sin_turn * displacement[1]);
+    float v = r->v - per_m * (t->cos_turn * displacement[1] - t->sin_turn * displacement[0]);
     taps p = taps_at(t, r->level, u, v);
     float4 low = weighted(&p, 0);
-    if (rest)
-        *rest = weighted(&p, 4);
+    if (high)
+        *high = weighted(&p, 4);
     if (r->mix > 0.0f) {
         taps q = taps_at(t, r->level + 1, u, v);
         low += r->mix * (weighted(&q, 0) - low);
-        if (rest)
-            *rest += r->mix * (weighted(&q, 4) - *rest);
+        if (high)
+            *high += r->mix * (weighted(&q, 4) - *high);
     }
-    return low;
+    if (high)
+        *high *= r->weight;
+    return low * r->weight;
 }
 
-/* Displacement in the world and height. */
-typedef struct heave {
-    float x, z, height;
-} heave;
-
-static inline heave heave_at(const reading *r, double x, double z)
-{
-    heave sum = {0.0f, 0.0f, 0.0f};
-    for (uint32_t i = 0; i < r->count; i++) {
-        const wave_tile *t = r->tiles[i].tile;
-        float4 low = read_tile(&r->tiles[i], x, z, NULL);
-        sum.x += t->cos_turn * low[WAVE_DX] - t->sin_turn * low[WAVE_DZ];
-        sum.z += t->sin_turn * low[WAVE_DX] + t->cos_turn * low[WAVE_DZ];
-        sum.height += low[WAVE_ETA];
-    }
-    return sum;
-}
-
-static void add_tile(wave_point *p, const tile_reading *r, double x, double z)
+static void add_tile(wave_point *p, const tile_reading *r, const float displacement[2])
 {
     float c = r->tile->cos_turn, s = r->tile->sin_turn;
-    float4 high, low = read_tile(r, x, z, &high);
+    float4 high, low = read_tile(r, displacement, &high);
     float slope_x = low[WAVE_ETA_X], slope_z = high[WAVE_ETA_Z - 4];
     float Dxx = high[WAVE_DXX - 4], Dzz = high[WAVE_DZZ - 4], Dxz = high[WAVE_DXZ - 4];
     p->displacement[0] += c * low[WAVE_DX] - s * low[WAVE_DZ];
@@ -136,31 +153,59 @@ static void add_tile(wave_point *p, const tile_reading *r, double x, double z)
     p->Dxz += c * s * (Dxx - Dzz) + (c * c - s * s) * Dxz;
 }
 
-static wave_point point_at(const waves *w, const reading *r, double x, double z)
+static wave_point point_at(const waves *w, const reading *r, const float displacement[2])
 {
     wave_point p = {.height_m = w->level_m};
     for (uint32_t i = 0; i < r->count; i++)
-        add_tile(&p, &r->tiles[i], x, z);
+        add_tile(&p, &r->tiles[i], displacement);
     return p;
 }
 
 wave_point waves_at(const waves *w, double x, double z, float footprint_m)
 {
-    reading r = reading_of(w, footprint_m);
-    return point_at(w, &r, x, z);
+    reading r = reading_of(w, x, z, footprint_m);
+    return point_at(w, &r, (const float[2]){0.0f, 0.0f});
 }
 
 /* ---- above a place ---- */
 
+/* Displacement in the world and height. */
+typedef struct heave {
+    float x, z, height;
+} heave;
+
+static inline heave heave_from(const reading *r, uint32_t tile_count, const float displacement[2])
+{
+    heave sum = {0.0f, 0.0f, 0.0f};
+    for (uint32_t i = 0; i < tile_count; i++) {
+        const wave_tile *t = r->tiles[i].tile;
+        float4 low = read_tile(&r->tiles[i], displacement, NULL);
+        sum.x += t->cos_turn * low[WAVE_DX] - t->sin_turn * low[WAVE_DZ];
+        sum.z += t->sin_turn * low[WAVE_DX] + t->cos_turn * low[WAVE_DZ];
+        sum.height += low[WAVE_ETA];
+    }
+    return sum;
+}
+
+/* Where nothing is known, the long waves come first: they move water farthest, and are read quickest. */
+static inline void guess_rest(const reading *r, float displacement[2])
+{
+    for (uint32_t tile_count = r->patch_count; tile_count && tile_count < r->count; tile_count++) {
+        heave h = heave_from(r, tile_count, displacement);
+        displacement[0] = h.x;
+        displacement[1] = h.z;
+    }
+}
+
 /* x <- X - D(x): the error shrinks by about the root of the slope variance with each step, by less in steep places. It ends where
- * water moves by less than a hundredth of the footprint or 0.1 mm. Folded water goes round in circles; halved steps end that. */
-static heave find_rest(const reading *r, double X, double Z, float footprint_m, float displacement[2])
+ * water moves by less than a fiftieth of the footprint or 0.2 mm. Folded water goes round in circles; halved steps end that. */
+static inline float find_rest(const reading *r, float footprint_m, float displacement[2])
 {
     enum { FULL_STEPS = 6, MOST_STEPS = 12 };
-    float close = fmaxf(0.01f * footprint_m, 1e-4f);
+    float close = fmaxf(0.02f * footprint_m, 2e-4f);
     heave h = {0.0f, 0.0f, 0.0f};
     for (int i = 0; i < MOST_STEPS; i++) {
-        h = heave_at(r, X - (double)displacement[0], Z - (double)displacement[1]);
+        h = heave_from(r, r->count, displacement);
         float dx = h.x - displacement[0], dz = h.z - displacement[1];
         float share = i < FULL_STEPS ? 1.0f : 0.5f;
         displacement[0] += share * dx;
@@ -168,44 +213,52 @@ static heave find_rest(const reading *r, double X, double Z, float footprint_m, 
         if (dx * dx + dz * dz <= close * close)
             break;
     }
-    return h;
+    return h.height;
 }
 
 float waves_height_near(const waves *w, double X, double Z, float footprint_m, float displacement[2])
 {
-    reading r = reading_of(w, footprint_m);
-    return find_rest(&r, X, Z, footprint_m, displacement).height + w->level_m;
+    reading r = reading_of(w, X, Z, footprint_m);
+    return find_rest(&r, footprint_m, displacement) + w->level_m;
 }
 
 float waves_height(const waves *w, double X, double Z, float footprint_m)
 {
+    reading r = reading_of(w, X, Z, footprint_m);
     float displacement[2] = {0.0f, 0.0f};
-    return waves_height_near(w, X, Z, footprint_m, displacement);
+    guess_rest(&r, displacement);
+    return find_rest(&r, footprint_m, displacement) + w->level_m;
 }
 
 wave_point waves_above(const waves *w, double X, double Z, float footprint_m, double rest[2])
 {
-    reading r = reading_of(w, footprint_m);
+    reading r = reading_of(w, X, Z, footprint_m);
     float displacement[2] = {0.0f, 0.0f};
-    find_rest(&r, X, Z, footprint_m, displacement);
+    guess_rest(&r, displacement);
+    find_rest(&r, footprint_m, displacement);
     rest[0] = X - (double)displacement[0];
     rest[1] = Z - (double)displacement[1];
-    return point_at(w, &r, rest[0], rest[1]);
+    return point_at(w, &r, displacement);
 }
 
 /* ---- bounds ---- */
 
+static void add_bounds(wave_bounds *sum, const wave_bounds *b, float scale)
+{
+    sum->highest += scale * b->highest;
+    sum->lowest += scale * b->lowest;
+    sum->steepest += scale * b->steepest;
+    sum->farthest += scale * b->farthest;
+}
+
+/* A mix of two levels lies within the finer; a blend of patches, whose squared weights sum to 1, within sqrt(3) times the tile. */
 wave_bounds waves_bounds(const waves *w, float footprint_m)
 {
-    reading r = reading_of(w, footprint_m);
     wave_bounds sum = {w->level_m, w->level_m, 0.0f, 0.0f};
-    for (uint32_t i = 0; i < r.count; i++) { /* a mix of two levels lies within the finer */
-        const wave_bounds *b = &r.tiles[i].tile->bounds[r.tiles[i].level];
-        sum.highest += b->highest;
-        sum.lowest += b->lowest;
-        sum.steepest += b->steepest;
-        sum.farthest += b->farthest;
-    }
+    tile_reading r;
+    for (uint32_t i = 0; i < w->tile_count; i++)
+        if (read_at(&r, &w->tiles[i], 0.0, 0.0, footprint_m))
+            add_bounds(&sum, &w->tiles[i].bounds[r.level], i ? 1.0f : 1.7320508f);
     return sum;
 }
 
