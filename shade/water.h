@@ -237,7 +237,8 @@ FN WaterWindow water_window(Water w, vec3 d, vec3 N)
 FN float water_path1(float q, float x)
 {
     float t = q * x;
-    return sel(abs(t) < 1e-3f, x * (1.0f - 0.5f * t), (1.0f - exp(-t)) / sel(q == 0.0f, 1.0f, q));
+    float series = x * (1.0f - t * (0.5f - t * (1.0f / 6.0f))); /* where 1 - exp would cancel */
+    return sel(abs(t) < 1e-2f, series, (1.0f - exp(-t)) / sel(q == 0.0f, 1.0f, q));
 }
 FN vec3 water_path(vec3 q, float x)
 {

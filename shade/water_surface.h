@@ -214,7 +214,7 @@ FN WaterMeans integrate_water_means(int normals, float mu, float sigma, float io
             below += sel(L[1] > 0.0f, 0.0f, seen);
             reflected += light;
             escaped += to_sky;
-            elevation += sel(L[1] > 0.0f, light, 0.0f) * asin(clamp(L[1], 0.0f, 1.0f));
+            elevation += sel(L[1] > 0.0f, light, 0.0f) * atan(L[1], length(vec2(L[0], L[2])));
             above_horizon += sel(L[1] > 0.0f, light, 0.0f);
             astray += 0.5f * dot(L - mirror, L - mirror) * to_sky;
             raised += dot(across, L) * to_sky;
