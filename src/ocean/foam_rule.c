@@ -29,7 +29,7 @@ static double area_beyond(double z, double sigma)
 static double threshold_of(double coverage, double sigma)
 {
     if (!(coverage > 0.0) || !(sigma > 0.0))
-        return INFINITY;
+        return ENDLESS;
     double low = -6.0, high = fmin(8.0, 2.0 / sigma - 1.0);
     for (int i = 0; i < 60; i++) {
         double z = 0.5 * (low + high);

@@ -71,8 +71,8 @@ double wave_spectrum(const wave_system *w, double omega, double depth_m)
         return 0.0;
     double density;
     if (w->spectrum == FACET_SEA_ELFOUHAILY) {
-        double k = wave_k(omega, INFINITY);
-        density = elfouhaily(w, k) / wave_domega_dk(k, INFINITY);
+        double k = wave_k(omega, ENDLESS);
+        density = elfouhaily(w, k) / wave_domega_dk(k, ENDLESS);
     } else {
         density = jonswap(w, omega);
     }

@@ -150,8 +150,8 @@ static wave_system swell_sea(const facet_swell *d, double depth_m)
         return w;
     w.peak_omega = 6.28318530717958647693 / (double)d->period_s;
     w.alpha = 1.0;
-    sea_state alone = {.systems = {{0}, w}, .depth_m = depth_m, .taper_k = INFINITY, .taper = 1.0};
-    double height = 4.0 * sqrt(sea_state_moments(&alone, 0.0, INFINITY).height);
+    sea_state alone = {.systems = {{0}, w}, .depth_m = depth_m, .taper_k = ENDLESS, .taper = 1.0};
+    double height = 4.0 * sqrt(sea_state_moments(&alone, 0.0, ENDLESS).height);
     double ratio = height > 0.0 ? (double)d->height_m / height : 0.0;
     w.alpha = ratio * ratio;
     return w;
@@ -163,7 +163,7 @@ static void limit_by_depth(sea_state *s)
 {
     if (!isfinite(s->depth_m))
         return;
-    double height = 4.0 * sqrt(sea_state_moments(s, 0.0, INFINITY).height);
+    double height = 4.0 * sqrt(sea_state_moments(s, 0.0, ENDLESS).height);
     double ratio = HEIGHT_OVER_DEPTH * s->depth_m / height;
     if (height > 0.0 && ratio < 1.0)
         for (int i = 0; i < SEA_SYSTEMS; i++)
@@ -226,10 +226,10 @@ facet_result sea_state_create(const facet_sea_desc *desc, sea_state *out, facet_
         result = check_tiles(desc, error);
     if (result)
         return result;
-    *out = (sea_state){.depth_m = desc->bed.depth_m > 0.0f ? (double)desc->bed.depth_m : (double)INFINITY,
+    *out = (sea_state){.depth_m = desc->bed.depth_m > 0.0f ? (double)desc->bed.depth_m : ENDLESS,
                        .wind_mps = (double)desc->wind_mps,
                        .wind_direction = (double)desc->wind_direction_rad,
-                       .taper_k = INFINITY,
+                       .taper_k = ENDLESS,
                        .taper = 1.0};
     out->systems[0] = wind_sea(desc);
     out->systems[1] = swell_sea(&desc->swell, out->depth_m);

@@ -5,10 +5,13 @@
 #ifndef OCEAN_SEA_STATE_H
 #define OCEAN_SEA_STATE_H
 
+#include <math.h>
+
 #include "facet/facet.h"
 
 #define GRAVITY 9.81                        /* m/s^2 */
 #define SURFACE_TENSION_OVER_DENSITY 7.2e-5 /* m^3/s^2, sea water */
+#define ENDLESS ((double)INFINITY)          /* a depth, or the last wave number */
 #define SHORTEST_WAVE_K 3000.0              /* rad/m: 2 mm, beyond which viscosity leaves nothing */
 
 enum { SEA_SYSTEMS = 2, SEA_MAX_BANDS = 4 };

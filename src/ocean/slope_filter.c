@@ -153,7 +153,7 @@ static sea_moments beyond_tiles(const sea_state *s, double k_from)
         w->inverse_age = 0.84;
         w->peak_omega = 0.84 * GRAVITY / s->wind_mps;
         w->scale = 1.0;
-        capillary.taper_k = INFINITY;
+        capillary.taper_k = ENDLESS;
     }
     return sea_state_moments(&capillary, k_from, SHORTEST_WAVE_K);
 }
@@ -185,7 +185,7 @@ void slope_filter_create(const waves *w, slope_filter *out)
     const sea_state *s = &w->state;
     tables all;
     memset(&all, 0, sizeof all);
-    double lowest = INFINITY;
+    double lowest = ENDLESS;
     for (int i = 0; i < SEA_SYSTEMS; i++)
         if (s->systems[i].peak_omega > 0.0)
             lowest = fmin(lowest, wave_k(0.3 * s->systems[i].peak_omega, s->depth_m));

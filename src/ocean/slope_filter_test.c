@@ -30,7 +30,7 @@ static facet_sea_desc desc_of(float wind_mps, uint32_t resolution, uint32_t casc
 static waves waves_of(facet_sea_desc d)
 {
     sea_state s;
-    waves w;
+    waves w = {.tile_count = 0};
     facet_error error = {.message = ""};
     if (sea_state_create(&d, &s, &error) || waves_create(&d, &s, &w, &error))
         fail_msg("%s", error.message);
@@ -174,7 +174,7 @@ static void thresholds_are_those_of_the_table(void **state)
         facet_sea_desc d = desc_of((float)expected[i][0], 256, 3, 1);
         waves w = {.choppiness = 1.0, .tile_count = 1};
         assert_int_equal(sea_state_create(&d, &w.state, NULL), FACET_OK);
-        w.state.taper_k = INFINITY; /* as the table has it: all waves up to 78 rad/m */
+        w.state.taper_k = ENDLESS; /* as the table has it: all waves up to 78 rad/m */
         w.state.bands = (sea_bands){.count = 1, .k_to = {78.0}};
         foam_rule r = foam_rule_create(&w);
         assert_near(r.sigma, expected[i][1], 0.005 * expected[i][1]);

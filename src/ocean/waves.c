@@ -81,26 +81,31 @@ static void reduce_rows(void *context, size_t begin, size_t end)
 
 /* ---- bounds ---- */
 
-static float texel_slope(const float *t)
+static inline float larger(float a, float b) /* NaN does not occur, and fmaxf() is a call */
+{
+    return a > b ? a : b;
+}
+
+/* Squared. */
+static inline float texel_slope(const float *t)
 {
     float a = t[WAVE_DXZ], b = 1.0f + t[WAVE_DZZ], c = 1.0f + t[WAVE_DXX];
-    float J = fmaxf(b * c - a * a, LEAST_JACOBIAN);
-    float x = (b * t[WAVE_ETA_X] - a * t[WAVE_ETA_Z]) / J, z = (c * t[WAVE_ETA_Z] - a * t[WAVE_ETA_X]) / J;
-    return x * x + z * z;
+    float J = larger(b * c - a * a, LEAST_JACOBIAN);
+    float x = b * t[WAVE_ETA_X] - a * t[WAVE_ETA_Z], z = c * t[WAVE_ETA_Z] - a * t[WAVE_ETA_X];
+    return (x * x + z * z) / (J * J);
 }
 
 static wave_bounds bounds_of(const float *texels, size_t count)
 {
-    wave_bounds b = {-INFINITY, INFINITY, 0.0f, 0.0f};
+    float highest = -INFINITY, lowest = INFINITY, steepest = 0.0f, farthest = 0.0f;
     for (size_t i = 0; i < count; i++, texels += WAVE_FIELDS) {
-        b.highest = fmaxf(b.highest, texels[WAVE_ETA]);
-        b.lowest = fminf(b.lowest, texels[WAVE_ETA]);
-        b.steepest = fmaxf(b.steepest, texel_slope(texels));
-        b.farthest = fmaxf(b.farthest, texels[WAVE_DX] * texels[WAVE_DX] + texels[WAVE_DZ] * texels[WAVE_DZ]);
+        float eta = texels[WAVE_ETA];
+        highest = larger(highest, eta);
+        lowest = -larger(-lowest, -eta);
+        steepest = larger(steepest, texel_slope(texels));
+        farthest = larger(farthest, texels[WAVE_DX] * texels[WAVE_DX] + texels[WAVE_DZ] * texels[WAVE_DZ]);
     }
-    b.steepest = sqrtf(b.steepest);
-    b.farthest = sqrtf(b.farthest);
-    return b;
+    return (wave_bounds){highest, lowest, sqrtf(steepest), sqrtf(farthest)};
 }
 
 static void find_bounds(void *context, size_t begin, size_t end)
