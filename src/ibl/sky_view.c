@@ -137,25 +137,43 @@ static void cubic_weights(float x, float weights[4])
     weights[3] = x * x * (-0.5f + 0.5f * x);
 }
 
-void sky_view_fetch_row(const sky_view *v, float zenith_angle, sky_light out[SKY_VIEW_AZIMUTHS])
+/* Four rows and their weights. */
+typedef struct row_place {
+    const sky_light *rows[4];
+    float weights[4];
+} row_place;
+
+static row_place find_rows(const sky_view *v, float zenith_angle)
 {
+    row_place place;
     float row = sky_view_row(v->height_km, zenith_angle);
     int count = row >= 0.0f ? SKY_VIEW_UP : SKY_VIEW_DOWN;
     const sky_light *rows = row >= 0.0f ? v->rows : v->rows + (size_t)SKY_VIEW_UP * SKY_VIEW_AZIMUTHS;
     float x = fabsf(row) * (float)(count - 1);
     int first = (int)x < count - 2 ? (int)x : count - 2;
-    float weights[4];
-    cubic_weights(x - (float)first, weights);
+    cubic_weights(x - (float)first, place.weights);
+    for (int k = 0; k < 4; k++) {
+        int node = first - 1 + k;
+        node = node < 0 ? 0 : node > count - 1 ? count - 1 : node;
+        place.rows[k] = rows + (size_t)node * SKY_VIEW_AZIMUTHS;
+    }
+    return place;
+}
+
+static inline void add_light(sky_light *sum, const sky_light *l, float weight)
+{
+    sum->rayleigh += l->rayleigh * weight;
+    sum->haze += l->haze * weight;
+    sum->rest += l->rest * weight;
+}
+
+void sky_view_fetch_row(const sky_view *v, float zenith_angle, sky_light out[SKY_VIEW_AZIMUTHS])
+{
+    row_place place = find_rows(v, zenith_angle);
     for (int a = 0; a < SKY_VIEW_AZIMUTHS; a++) {
         sky_light sum = {vec3(0.0f), vec3(0.0f), vec3(0.0f)};
-        for (int k = 0; k < 4; k++) {
-            int node = first - 1 + k;
-            node = node < 0 ? 0 : node > count - 1 ? count - 1 : node;
-            const sky_light *l = rows + (size_t)node * SKY_VIEW_AZIMUTHS + (size_t)a;
-            sum.rayleigh += l->rayleigh * weights[k];
-            sum.haze += l->haze * weights[k];
-            sum.rest += l->rest * weights[k];
-        }
+        for (int k = 0; k < 4; k++)
+            add_light(&sum, place.rows[k] + a, place.weights[k]);
         out[a] = sum;
     }
 }
@@ -175,17 +193,27 @@ sky_azimuth sky_view_azimuth(double radians)
     return out;
 }
 
+static vec3 with_phases(const sky_view *v, const sky_light *l, float cos_angle)
+{
+    return max(l->rayleigh * phase_rayleigh(cos_angle) + l->haze * phase_HG(cos_angle, v->haze_g) + l->rest,
+               0.0f);
+}
+
 vec3 sky_view_radiance(const sky_view *v, const sky_light row[SKY_VIEW_AZIMUTHS], const sky_azimuth *azimuth,
                        float cos_angle)
 {
     sky_light sum = {vec3(0.0f), vec3(0.0f), vec3(0.0f)};
-    for (int k = 0; k < 4; k++) {
-        const sky_light *l = row + azimuth->nodes[k];
-        sum.rayleigh += l->rayleigh * azimuth->weights[k];
-        sum.haze += l->haze * azimuth->weights[k];
-        sum.rest += l->rest * azimuth->weights[k];
-    }
-    return max(sum.rayleigh * phase_rayleigh(cos_angle) + sum.haze * phase_HG(cos_angle, v->haze_g) +
-                   sum.rest,
-               0.0f);
+    for (int k = 0; k < 4; k++)
+        add_light(&sum, row + azimuth->nodes[k], azimuth->weights[k]);
+    return with_phases(v, &sum, cos_angle);
+}
+
+vec3 sky_view_at(const sky_view *v, float zenith_angle, const sky_azimuth *azimuth, float cos_angle)
+{
+    row_place place = find_rows(v, zenith_angle);
+    sky_light sum = {vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+    for (int a = 0; a < 4; a++)
+        for (int k = 0; k < 4; k++)
+            add_light(&sum, place.rows[k] + azimuth->nodes[a], place.weights[k] * azimuth->weights[a]);
+    return with_phases(v, &sum, cos_angle);
 }

@@ -42,5 +42,7 @@ sky_azimuth sky_view_azimuth(double radians); /* from that of the sun, any */
 /* Radiance; cos_angle: between direction and sun. */
 vec3 sky_view_radiance(const sky_view *v, const sky_light row[SKY_VIEW_AZIMUTHS], const sky_azimuth *azimuth,
                        float cos_angle);
+/* The same of one direction, without its row: some tenth of what a row takes. */
+vec3 sky_view_at(const sky_view *v, float zenith_angle, const sky_azimuth *azimuth, float cos_angle);
 
 #endif
