@@ -1,0 +1,90 @@
+/* water_below.c - see water_below.h. Light of a place that is seen through water is weakened by absorption and by all scattering; what
+ * is scattered into the ray comes from the light that goes down, and from the sun's beam. */
+#include <math.h>
+
+#include "water/water_below.h"
+
+static const float FAR_M = 1e4f; /* farther than any water lets see */
+
+static float depth_of(const double P[3])
+{
+    return (float)fmax(-P[1], 0.0);
+}
+
+/* Light behind x m of water, as seen from a depth z along d. */
+static vec3 through_water(const water_setup *s, vec3 behind, float z, vec3 d, float x)
+{
+    Water w = s->water;
+    vec3 inscatter =
+        water_inscatter(w, s->light.downwelling, z, d, x) + water_sun_glow(w, s->beam, s->sunward, z, d, x);
+    return behind * water_transmittance(water_beam(w), x) + inscatter;
+}
+
+/* m to the bed; FAR_M: it is not met. */
+static float way_to_bed(const water_setup *s, const double P[3], vec3 d)
+{
+    const facet_sea_bed *bed = &s->sea->desc.bed;
+    if (!water_has_bed(s))
+        return FAR_M;
+    double closing = water_bed_rise(bed, d) - (double)d[1];
+    double above = P[1] - water_bed_height(bed, P[0], P[2]);
+    if (above <= 0.0)
+        return 0.0f;
+    return closing > 1e-9 ? (float)fmin(above / closing, (double)FAR_M) : FAR_M;
+}
+
+vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d)
+{
+    float x = way_to_bed(s, P, d), z = depth_of(P);
+    vec3 ground = vec3(0.0f);
+    if (x < FAR_M) {
+        const float *albedo = s->sea->desc.bed.albedo;
+        float bed_depth = max(z - x * d[1], 0.0f);
+        ground = vec3(albedo[0], albedo[1], albedo[2]) * s->light.downwelling * INV_PI *
+                 water_transmittance(water_K_d(s->water), bed_depth);
+    }
+    /* a ray that goes up for ever leaves water that would shine as it does near the surface */
+    float reach = d[1] > 1e-4f ? min(x, z / d[1]) : x;
+    return through_water(s, ground, z, d, reach);
+}
+
+/* The sun through a surface whose slopes spread its disc: they turn the refracted ray by about n - 1 of their angle. */
+static vec3 sun_through(const water_setup *s, const water_place *p, vec3 outside, float gain)
+{
+    float bend = (s->water.ior - 1.0f) * (s->water.ior - 1.0f);
+    float variance =
+        0.5f * bend * (p->point.covariance[0] + p->point.covariance[1]) + 0.5f * SUN_RADIUS * SUN_RADIUS;
+    vec3 off = outside - s->light.L;
+    float density = exp(-0.5f * dot(off, off) / variance) * (0.5f * INV_PI / variance);
+    return s->light.sun_irradiance * (gain * density);
+}
+
+static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 d)
+{
+    WaterWindow window = water_window(s->water, d, p->point.N);
+    vec3 mirrored = window.mirrored;
+    if (mirrored[1] > -1e-3f)
+        mirrored = normalize(vec3(mirrored[0], -1e-3f, mirrored[2]));
+    const double below[3] = {p->P[0], fmin(p->P[1], 0.0), p->P[2]};
+    vec3 L = vec3(0.0f);
+    if (window.fresnel > 0.0f)
+        L = water_seen_through_water(s, below, mirrored) * window.fresnel;
+    if (window.fresnel < 1.0f) {
+        float perceptual_roughness = roughness_from_slopes(p->point.covariance * 0.1f);
+        L = L + water_sky_reflected(&s->sky, window.outside, perceptual_roughness) * window.gain;
+        L = L + sun_through(s, p, window.outside, window.gain);
+    }
+    vec3 foam = s->light.downwelling * (s->water.foam_albedo * INV_PI);
+    return mix(L, foam, p->point.foam);
+}
+
+vec3 water_shade_from_below(const water_setup *s, const march_ray *ray, const march_hit *hit)
+{
+    const double *o = ray->origin, *e = ray->direction;
+    vec3 d = vec3((float)e[0], (float)e[1], (float)e[2]);
+    float to_bed = way_to_bed(s, o, d);
+    if (!hit || (float)hit->t >= to_bed)
+        return water_seen_through_water(s, o, d);
+    water_place p = water_place_of(s, ray, hit);
+    return through_water(s, surface_from_below(s, &p, d), depth_of(o), d, (float)hit->t);
+}

@@ -1,0 +1,117 @@
+/* water_setup.c - see water_setup.h. */
+#include <math.h>
+#include <string.h>
+
+#include "base/result.h"
+
+#include "water/water_setup.h"
+
+static const float SHUTTER_S = 0.01f;
+
+static inline vec3 load3(const float *v)
+{
+    return vec3(v[0], v[1], v[2]);
+}
+
+static vec3 load_slopes(const slope_covariance *c)
+{
+    return vec3(c->xx, c->zz, c->xz);
+}
+
+static float sigma_of(vec3 C)
+{
+    return sqrt(max(0.5f * (C[0] + C[1]), 0.0f));
+}
+
+static void fill_water(water_setup *s)
+{
+    const water_optics *o = &s->sea->optics;
+    const facet_sea_look *look = &s->desc->look;
+    s->water.ior = o->ior;
+    s->water.absorption = load3(o->absorption);
+    s->water.scattering = load3(o->scattering);
+    s->water.backscattering = load3(o->backscattering);
+    s->water.reflectance = load3(o->reflectance);
+    s->water.pure_share = load3(o->pure_share);
+    s->water.foam_albedo = o->foam_albedo;
+    s->water.normals = look->normals == FACET_SEA_GGX ? WATER_GGX : WATER_BECKMANN;
+    s->water.masking = look->masking == FACET_SEA_SCHLICK_KARIS ? WATER_SCHLICK_KARIS : WATER_SMITH;
+    s->water.is_schlick = look->schlick_fresnel;
+}
+
+static void fill_light(water_setup *s)
+{
+    float sigma = sigma_of(load_slopes(&s->sea->slopes.total));
+    Water *w = &s->water;
+    w->sky_reflectance = water_table_sky_reflectance(&s->table, sigma);
+    s->light.L = s->sky.L;
+    s->light.sun_irradiance = s->sky.sun_irradiance;
+    s->light.sky_irradiance = s->sky.sky_irradiance;
+    s->light.sun_fresnel = water_table_fresnel(&s->table, max(s->sky.L[1], 0.0f), sigma);
+    s->light.downwelling = water_downwelling(*w, s->light);
+    s->beam = water_beam_below(*w, s->light);
+    vec3 L = vec3(s->sky.L[0], max(s->sky.L[1], 0.0f), s->sky.L[2]);
+    s->sunward = -water_refracted(*w, -normalize(L), vec3(0.0f, 1.0f, 0.0f));
+}
+
+static bool is_under_water(const water_setup *s)
+{
+    const float *eye = s->camera.origin;
+    return eye[1] < waves_height(&s->sea->waves, (double)eye[0], (double)eye[2], 0.0f);
+}
+
+facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_desc *desc, water_setup *s,
+                                facet_error *error)
+{
+    const facet_render_desc *r = &desc->render;
+    memset(s, 0, sizeof *s);
+    s->sea = sea;
+    s->desc = desc;
+    s->exposure = exp2(r->exposure_ev);
+    s->shutter_s = SHUTTER_S;
+    facet_result result = camera_rays_create(r->camera, r->width, r->height, &s->camera, error);
+    if (result != FACET_OK)
+        return result;
+    s->footprint = inversesqrt((float)(r->samples ? r->samples : 1));
+    s->is_below = is_under_water(s);
+    result = water_march_create(&sea->waves, &sea->slopes, s->camera.origin, !s->camera.is_orthographic,
+                                &r->allocator, &s->march, error);
+    float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
+    if (result == FACET_OK)
+        result = water_sky_create(desc, s->camera.origin[1], rows_per_rad, &s->sky, error);
+    if (result != FACET_OK)
+        return result;
+    fill_water(s);
+    water_table_create(s->water.normals, s->water.ior, r->thread_count, &s->table);
+    fill_light(s);
+    float perceptual_roughness = desc->look.perceptual_roughness;
+    s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
+    s->trough_m = -2.0f * s->march.deviation_m;
+    return FACET_OK;
+}
+
+void water_setup_destroy(water_setup *s)
+{
+    water_march_destroy(&s->march);
+    water_sky_destroy(&s->sky);
+    memset(s, 0, sizeof *s);
+}
+
+water_slopes water_slopes_at(const water_setup *s, float footprint_m)
+{
+    const slope_filter *f = &s->sea->slopes;
+    float place = slope_filter_place(footprint_m);
+    uint32_t i = place < 62.0f ? (uint32_t)place : 62;
+    float share = place - (float)i;
+    vec3 C = mix(load_slopes(&f->residual[i]), load_slopes(&f->residual[i + 1]), share);
+    vec3 resolved = load_slopes(&f->total) - C;
+    if (s->roughness[0] >= 0.0f)
+        C = C - load_slopes(&f->residual[0]) + s->roughness;
+    vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
+    return (water_slopes){
+        .covariance = vec3(max(C[0], 0.0f), max(C[1], 0.0f), C[2]) + least,
+        .resolved = vec3(max(resolved[0], 0.0f), max(resolved[1], 0.0f), resolved[2]) + least,
+        .curvature = mix(f->curvature[i], f->curvature[i + 1], share),
+        .rate = mix(f->rate[i], f->rate[i + 1], share),
+        .convergence_variance = mix(f->convergence_variance[i], f->convergence_variance[i + 1], share)};
+}

@@ -1,0 +1,61 @@
+/* water_setup.h - all that is made for one picture of a sea before its rays are. Holds shared shading text: include it last. */
+#ifndef WATER_WATER_SETUP_H
+#define WATER_WATER_SETUP_H
+
+#include "draw/camera_rays.h"
+#include "ocean/sea.h"
+#include "ocean/water_table.h"
+#include "water/water_march.h"
+#include "water/water_sky.h"
+
+typedef struct water_setup {
+    const facet_sea *sea;
+    const facet_sea_render_desc *desc;
+    camera_rays camera;
+    float footprint; /* of a sample, over that of its pixel */
+    bool is_below;   /* the eye is in the water */
+    water_march march;
+    water_sky sky;
+    water_table table; /* of means over facets */
+    Water water;
+    WaterLight light;
+    vec3 beam;    /* irradiance across the sun's beam just below the surface, lx */
+    vec3 sunward; /* unit direction to the sun, below the surface */
+    vec3
+        roughness; /* covariance of slopes that stands for waves finer than all tiles; xx < 0: by their slopes */
+    float trough_m;  /* where troughs are, two standard deviations below the mean */
+    float exposure;  /* 2^exposure_ev */
+    float shutter_s; /* for which glints are seen */
+} water_setup;
+
+/* Fails as water_render(). What comes back, even after a failure, is to be destroyed. */
+facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_desc *desc, water_setup *out,
+                                facet_error *error);
+void water_setup_destroy(water_setup *s);
+
+/* Slopes that a footprint (m) does not resolve, with SLOPE_VARIANCE_MIN; *curvature, *rate: of their waves (slope_filter). */
+typedef struct water_slopes {
+    vec3 covariance; /* xx, zz, xz */
+    vec3 resolved;   /* of all others */
+    float curvature, rate, convergence_variance;
+} water_slopes;
+water_slopes water_slopes_at(const water_setup *s, float footprint_m);
+
+/* ---- the ground below ---- */
+
+static inline bool water_has_bed(const water_setup *s)
+{
+    return s->sea->desc.bed.depth_m > 0.0f && isfinite(s->sea->desc.bed.depth_m);
+}
+/* Height of it at (X, Z), and how much it rises along d. */
+static inline double water_bed_height(const facet_sea_bed *bed, double X, double Z)
+{
+    double along = X * (double)cos(bed->direction_rad) + Z * (double)sin(bed->direction_rad);
+    return (double)bed->slope * along - (double)bed->depth_m;
+}
+static inline double water_bed_rise(const facet_sea_bed *bed, vec3 d)
+{
+    return (double)bed->slope * (double)(d[0] * cos(bed->direction_rad) + d[2] * sin(bed->direction_rad));
+}
+
+#endif

@@ -1,0 +1,39 @@
+/* water_shade.h - light that comes from a place of the surface to an eye over the water. Holds shared shading text: include it last. */
+#ifndef WATER_WATER_SHADE_H
+#define WATER_WATER_SHADE_H
+
+#include "water/water_setup.h"
+
+/* A place of the surface as an eye sees it. */
+typedef struct water_place {
+    double P[3];         /* m */
+    double rest[2];      /* of the water there */
+    vec3 V;              /* unit, to the eye, against the level of the sea there */
+    float footprint_m;   /* across the ray */
+    water_slopes slopes; /* beyond the footprint */
+    WaterPoint point;    /* N faces V */
+    wave_point waves;
+    float
+        cosine; /* about N.V, waves of all lengths considered: how much longer the footprint is on the water */
+} water_place;
+
+/* Of a ray (from above or below) and its hit. */
+water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit);
+
+/* What others find along rays that leave the place; {0}: nothing but sky and water. */
+typedef struct water_findings {
+    bool has_mirrored, has_below;
+    vec3 mirrored; /* radiance that the mirror ray brings */
+    vec3 below;    /* radiance just below the surface, along the refracted ray */
+} water_findings;
+
+/* Radiance (cd/m^2) towards the eye over the water. */
+vec3 water_shade(const water_setup *s, const water_place *p, const water_findings *found);
+
+/* Radiance (cd/m^2) that goes up just below the place, towards the eye: of deep water, or of the bed through it. */
+vec3 water_from_below(const water_setup *s, const water_place *p);
+
+/* Of ground that the water does not cover, where it is seen from the air. */
+vec3 water_shade_land(const water_setup *s);
+
+#endif
