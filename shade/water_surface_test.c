@@ -2,6 +2,8 @@
  * seen. Golden numbers were computed in double (reference of this project, "Surface optics" and "Validation"). */
 #include "testing/test_support.h"
 
+static const double PI_DOUBLE = 3.14159265358979324;
+
 static const vec3 UP = {0.0f, 1.0f, 0.0f, 0.0f};
 
 static float radians(double degrees)
@@ -37,9 +39,9 @@ static vec3 integral_of_normals(int normals, vec3 C, vec3 N, double width)
         double x = (i + 0.5) / RINGS, t = width * x / (1.0 - x); /* tan of half the angle from N */
         double angle = 2.0 * (atan2)(t, 1.0);
         double slope = width / ((1.0 - x) * (1.0 - x)); /* dt / dx */
-        double weight = (sin)(angle)*2.0 * slope / (1.0 + t * t) * 2.0 * M_PI / (RINGS * SECTORS);
+        double weight = (sin)(angle)*2.0 * slope / (1.0 + t * t) * 2.0 * PI_DOUBLE / (RINGS * SECTORS);
         for (int j = 0; j < SECTORS; ++j) {
-            double phi = 2.0 * M_PI * (j + 0.5) / SECTORS;
+            double phi = 2.0 * PI_DOUBLE * (j + 0.5) / SECTORS;
             vec3 m = mul(frame, vec3((float)((sin)(angle) * (cos)(phi)), (float)((sin)(angle) * (sin)(phi)),
                                      (float)(cos)(angle)));
             double D = (double)D_slopes(normals, C, N, m) * weight;
@@ -59,7 +61,8 @@ static void test_distribution(void **state)
             double alpha = roughness[i] * roughness[i];
             vec3 C = slopes_from_roughness((float)roughness[i]);
             double peak = (double)D_slopes(normals, C, UP, UP);
-            expect_relative(peak, 1.0 / (M_PI * alpha * alpha), 1e-5, "D(N), roughness %g", roughness[i]);
+            expect_relative(peak, 1.0 / (PI_DOUBLE * alpha * alpha), 1e-5, "D(N), roughness %g",
+                            roughness[i]);
             vec3 sum = integral_of_normals(normals, C, UP, alpha);
             expect_near((double)sum[1], 1.0, 1e-3, "integral of D cos, roughness %g", roughness[i]);
         }
@@ -108,7 +111,7 @@ static void test_masking(void **state)
     (void)state;
     double worst = 0.0;
     for (double a = 0.01; a < 6.0; a *= 1.03) {
-        double exact = (exp)(-a * a) / (2.0 * a * (sqrt)(M_PI)) - 0.5 * erfc(a);
+        double exact = (exp)(-a * a) / (2.0 * a * (sqrt)(PI_DOUBLE)) - 0.5 * erfc(a);
         worst = fmax(worst, fabs((double)Lambda_Beckmann((float)a) - exact) * a);
     }
     assert_true(worst < 2e-7);
@@ -162,10 +165,10 @@ static double albedo(int normals, int masking, vec3 C, vec3 N, vec3 V, float sun
     mat3 frame = basis_from_normal(normalize(N * (2.0f * dot(N, V)) - V));
     double sum = 0.0;
     for (int i = 0; i < RINGS; ++i) {
-        double x = (i + 0.5) / RINGS, angle = M_PI * x * x,
-               weight = (sin)(angle)*2.0 * M_PI * x / RINGS * 2.0 * M_PI / SECTORS;
+        double x = (i + 0.5) / RINGS, angle = PI_DOUBLE * x * x,
+               weight = (sin)(angle)*2.0 * PI_DOUBLE * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
         for (int j = 0; j < SECTORS; ++j) {
-            double phi = 2.0 * M_PI * (j + 0.5) / SECTORS;
+            double phi = 2.0 * PI_DOUBLE * (j + 0.5) / SECTORS;
             vec3 L = mul(frame, vec3((float)((sin)(angle) * (cos)(phi)), (float)((sin)(angle) * (sin)(phi)),
                                      (float)(cos)(angle)));
             sum += (double)glitter(normals, masking, C, N, L, V, sun) * weight;
@@ -206,7 +209,7 @@ static void test_furnace(void **state)
 static void test_sun(void **state)
 {
     (void)state;
-    double disc = 1.0 / (M_PI * (double)SUN_RADIUS * (double)SUN_RADIUS);
+    double disc = 1.0 / (PI_DOUBLE * (double)SUN_RADIUS * (double)SUN_RADIUS);
     vec3 flat = vec3(SLOPE_VARIANCE_MIN * 1e-3f, SLOPE_VARIANCE_MIN * 1e-3f, 0.0f);
     for (double e = 2.0; e <= 90.0; e += 11.0) {
         vec3 L = direction(e, 0.0), V = direction(e, 180.0);
@@ -227,10 +230,10 @@ static void test_sun(void **state)
     enum { RINGS = 200, SECTORS = 128 };
     mat3 frame = basis_from_normal(direction(e, 180.0));
     for (int i = 0; i < RINGS; ++i) {
-        double x = (i + 0.5) / RINGS, angle = M_PI * x * x,
-               weight = (sin)(angle)*2.0 * M_PI * x / RINGS * 2.0 * M_PI / SECTORS;
+        double x = (i + 0.5) / RINGS, angle = PI_DOUBLE * x * x,
+               weight = (sin)(angle)*2.0 * PI_DOUBLE * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
         for (int j = 0; j < SECTORS; ++j) {
-            double phi = 2.0 * M_PI * (j + 0.5) / SECTORS;
+            double phi = 2.0 * PI_DOUBLE * (j + 0.5) / SECTORS;
             V = mul(frame, vec3((float)((sin)(angle) * (cos)(phi)), (float)((sin)(angle) * (sin)(phi)),
                                 (float)(cos)(angle)));
             if (V[1] <= 0.0f)

@@ -2,6 +2,8 @@
  * less water. Golden numbers are in double (reference of this project, sections 9 and 10). */
 #include "testing/test_support.h"
 
+static const double PI_DOUBLE = 3.14159265358979324;
+
 static const vec3 UP = {0.0f, 1.0f, 0.0f, 0.0f};
 
 static float radians(double degrees)
@@ -203,7 +205,7 @@ static void test_flat(void **state)
         vec3 seen = water_radiance(water_parts(w, p, day, m, vec3(3.0f), vec3(0.0f), vec3(0.7f)));
         expect_relative(seen[1], 3.0 * F + (1.0 - F) / (1.333 * 1.333) * 0.7, 1e-4,
                         "flat water at %g degrees", a);
-        double disc = 1.0 / (M_PI * (double)SUN_RADIUS * (double)SUN_RADIUS);
+        double disc = 1.0 / (PI_DOUBLE * (double)SUN_RADIUS * (double)SUN_RADIUS);
         expect_relative(water_sun(w, p, day, V)[1], F * disc, 5e-3, "the sun at %g degrees", a);
     }
 }
@@ -214,7 +216,7 @@ static void test_bound(void **state)
     (void)state;
     Water w = ocean(1.34f);
     test_rng rng = {11};
-    double disc = 1.0 / (M_PI * (double)SUN_RADIUS * (double)SUN_RADIUS);
+    double disc = 1.0 / (PI_DOUBLE * (double)SUN_RADIUS * (double)SUN_RADIUS);
     for (int i = 0; i < 20000; ++i) {
         WaterPoint p = point(0.0f);
         float v = exp(-18.0f * rng_float(&rng));
@@ -238,7 +240,7 @@ static void test_volume(void **state)
     Water w = ocean(1.34f);
     double sum = 0.0, forward = 0.0;
     for (int i = 0; i < 4000; ++i) { /* over cosines, closer to 1 */
-        double x = (i + 0.5) / 4000, c = 1.0 - 2.0 * x * x * x, weight = 2.0 * M_PI * 6.0 * x * x / 4000;
+        double x = (i + 0.5) / 4000, c = 1.0 - 2.0 * x * x * x, weight = 2.0 * PI_DOUBLE * 6.0 * x * x / 4000;
         sum += weight * (double)water_phase_pure((float)c);
         forward += weight * (double)water_phase(w, (float)c)[0];
     }
@@ -275,7 +277,7 @@ static void test_deep(void **state)
     vec3 L = water_from_deep(w, day.downwelling);
     /* out through the surface, against pi R_rs of the irradiance above: 0.98 0.96 / n^2 is 0.52 of the published factor */
     double above = 80000.0 * (cos)(30.0 * 0.017453292519943295) + 12000.0;
-    double leaving = M_PI * (double)L[2] * (1.0 - 0.0211) / (1.34 * 1.34);
+    double leaving = PI_DOUBLE * (double)L[2] * (1.0 - 0.0211) / (1.34 * 1.34);
     expect_relative(leaving / above, 0.0242, 0.025, "reflectance of the deep");
     assert_true(L[0] <= L[1] && L[1] < L[2]);
 }
@@ -338,7 +340,7 @@ static void test_backlight(void **state)
     low.sun_irradiance = vec3(0.0f);
     assert_true(water_backlight(w, low, against, 2.0f, 1.0f)[1] == 0.0f);
     /* what a metre of it scatters is less than the sun brought */
-    assert_true((double)L[2] * 2.0 * M_PI < 30000.0 * 4.0);
+    assert_true((double)L[2] * 2.0 * PI_DOUBLE < 30000.0 * 4.0);
     assert_true(water_crest_way(-1.0f, 0.3f) == 0.0f && water_crest_way(1.0f, 0.0f) == 20.0f);
     expect_near((double)water_crest_way(0.6f, 0.3f), 2.0, 1e-6, "way through a crest");
 }
@@ -379,7 +381,7 @@ static void test_foam(void **state)
     vec3 clear = water_radiance(water_parts(w, p, day, m, vec3(5000.0f), vec3(100.0f), vec3(900.0f)));
     p.foam = 1.0f;
     vec3 covered = water_radiance(water_parts(w, p, day, m, vec3(5000.0f), vec3(100.0f), vec3(900.0f)));
-    expect_relative(covered[1], 0.4 / M_PI * 70000.0, 1e-5, "foam");
+    expect_relative(covered[1], 0.4 / PI_DOUBLE * 70000.0, 1e-5, "foam");
     p.foam = 0.25f;
     vec3 quarter = water_radiance(water_parts(w, p, day, m, vec3(5000.0f), vec3(100.0f), vec3(900.0f)));
     expect_relative(quarter[1], 0.75 * (double)clear[1] + 0.25 * (double)covered[1], 1e-5,
