@@ -5,7 +5,9 @@
  * on average, squared. Along one axis, with texels of width b and K = k b:
  *     level l, between texels    A_l^2 (2 + cos K) / 3,              A_l: mean of 2^l samples
  *     level l times level l + 1  A_l A_(l+1) (70 cos K/2 + 25 cos 3K/2 + cos 5K/2) / 96
- * both means over places within a texel; both axes multiply. */
+ *     level 0, cubics            (228 + 71 cos K - 20 cos 2K + cos 3K) / 280
+ *     level 0, linear times cubic    (22 + 9 cos K - cos 2K) / 30
+ * all means over places within a texel; both axes multiply. */
 #include "ocean/waves.h"
 
 #include <math.h>
@@ -34,11 +36,13 @@ float slope_filter_place(float footprint_m)
 /* Along one axis, of each level. */
 typedef struct axis_gain {
     double alone[WAVES_MAX_LEVELS + 1], with_next[WAVES_MAX_LEVELS];
+    double cubic, linear_and_cubic; /* of level 0 */
 } axis_gain;
 
 static axis_gain axis_gain_of(double K, uint32_t level_count) /* K: k times the distance of samples */
 {
-    axis_gain g = {{0.0}, {0.0}};
+    axis_gain g = {.cubic = (228.0 + 71.0 * cos(K) - 20.0 * cos(2.0 * K) + cos(3.0 * K)) / 280.0,
+                   .linear_and_cubic = (22.0 + 9.0 * cos(K) - cos(2.0 * K)) / 30.0};
     double mean = 1.0;
     for (uint32_t l = 0; l < level_count; l++, K *= 2.0) {
         double next = mean * cos(0.5 * K);
@@ -59,7 +63,12 @@ static double gain_of(const axis_gain *x, const axis_gain *z, uint32_t level_cou
     }
     if (l + 1 >= level_count)
         return 0.0;
-    double t = fmax(texels - 1.0, 0.0);
+    if (texels < 1.0) {
+        double c = fmin(2.0 - 2.0 * texels, 1.0);
+        return (1.0 - c) * (1.0 - c) * x->alone[0] * z->alone[0] + c * c * x->cubic * z->cubic +
+               2.0 * c * (1.0 - c) * x->linear_and_cubic * z->linear_and_cubic;
+    }
+    double t = texels - 1.0;
     return (1.0 - t) * (1.0 - t) * x->alone[l] * z->alone[l] + t * t * x->alone[l + 1] * z->alone[l + 1] +
            2.0 * t * (1.0 - t) * x->with_next[l] * z->with_next[l];
 }

@@ -63,7 +63,7 @@ static void footprints_are_geometric(void **state)
 static void hidden_and_read_slopes_are_all_there_are(void **state)
 {
     (void)state;
-    static const float wanted[6] = {0.02f, 0.3f, 1.1f, 4.0f, 9.0f, 40.0f};
+    static const float wanted[6] = {0.02f, 0.5f, 1.1f, 5.5f, 13.0f, 40.0f};
     enum { SEEDS = 8, PLACES = IS_SLOW ? 4000 : 30000 };
     double sums[6][4] = {{0.0}};
     slope_filter f;

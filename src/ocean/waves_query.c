@@ -1,8 +1,9 @@
 /* waves_query.c - reads tiles: sums of all at a place at rest, and which water is above or below a place of the world.
  *
  * A tile is read as a square of the footprint's width sees it: from two neighbouring levels of means, mixed, each interpolated
- * linearly between four texels. Level l is as it is where a texel is as wide as the footprint. slope_filter.c knows
- * the variance that this leaves. */
+ * linearly between four texels. Level l is as it is where a texel is as wide as the footprint. Where samples are wider than
+ * the footprint, cubics of Catmull and Rom through sixteen of them take over: slopes without kinks. Marching reads linearly
+ * there, too. slope_filter.c knows the variance that all this leaves. */
 #include "ocean/waves.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@ typedef struct tile_reading {
     const wave_tile *tile;
     uint32_t level;
     float mix;    /* of the next level, [0, 1) */
+    float cubic;  /* its share of level 0, [0, 1] */
     float weight; /* of a patch; 1 */
     float u, v;   /* the place in samples of level 0, [0, 2 size] */
 } tile_reading;
@@ -51,6 +53,9 @@ static inline bool read_at(tile_reading *r, const wave_tile *t, double x, double
     *r = (tile_reading){.tile = t,
                         .level = level,
                         .mix = texels > 1.0f ? texels - 1.0f : 0.0f,
+                        .cubic = texels > 1.0f   ? 0.0f
+                                 : texels > 0.5f ? 2.0f - 2.0f * texels
+                                                 : 1.0f,
                         .weight = 1.0f,
                         .u = wrapped(x * t->cos_per_m + z * t->sin_per_m, t->size),
                         .v = wrapped(z * t->cos_per_m - x * t->sin_per_m, t->size)};
@@ -114,33 +119,94 @@ static inline float4 weighted(const taps *p, size_t first)
            p->weights[3] * *(const float4 *)(p->texels[3] + first);
 }
 
-/* DX, ETA, DZ, ETA_X of one tile where the displacement (m, in the world) comes from; high (NULL: not wanted): the other
- * four. */
-static inline float4 read_tile(const tile_reading *r, const float displacement[2], float4 *high)
+/* Half of a texel, or all of it. */
+typedef struct half_texels {
+    float4 low, high;
+} half_texels;
+
+static inline void cubic_weights(float f, float weights[4])
+{
+    weights[0] = f * (-0.5f + f * (1.0f - 0.5f * f));
+    weights[1] = 1.0f + f * f * (-2.5f + 1.5f * f);
+    weights[2] = f * (0.5f + f * (2.0f - 1.5f * f));
+    weights[3] = f * f * (-0.5f + 0.5f * f);
+}
+
+/* Of level 0. */
+static half_texels read_cubic(const wave_tile *t, float u, float v)
+{
+    int32_t ix = rounded_down(u), iz = rounded_down(v);
+    float wx[4], wz[4];
+    cubic_weights(u - (float)ix, wx);
+    cubic_weights(v - (float)iz, wz);
+    uint32_t mask = t->size - 1u;
+    half_texels sum = {{0.0f}, {0.0f}};
+    for (uint32_t j = 0; j < 4; j++) {
+        const float *row = t->levels[0] + (size_t)(((uint32_t)iz + j - 1u) & mask) * t->size * WAVE_FIELDS;
+        half_texels across = {{0.0f}, {0.0f}};
+        for (uint32_t i = 0; i < 4; i++) {
+            const float *texel = row + (((uint32_t)ix + i - 1u) & mask) * WAVE_FIELDS;
+            across.low += wx[i] * *(const float4 *)texel;
+            across.high += wx[i] * *(const float4 *)(texel + 4);
+        }
+        sum.low += wz[j] * across.low;
+        sum.high += wz[j] * across.high;
+    }
+    return sum;
+}
+
+/* Where water comes from that is at the place of r with this displacement (m, in the world): in samples. */
+static inline void place_before(const tile_reading *r, const float displacement[2], float *u, float *v)
 {
     const wave_tile *t = r->tile;
     float per_m = (float)t->samples_per_m;
-    float u = r->u - per_m * (t->cos_turn * displacement[0] + t->sin_turn * displacement[1]);
-    float v = r->v - per_m * (t->cos_turn * displacement[1] - t->sin_turn * displacement[0]);
-    taps p = taps_at(t, r->level, u, v);
+    *u = r->u - per_m * (t->cos_turn * displacement[0] + t->sin_turn * displacement[1]);
+    *v = r->v - per_m * (t->cos_turn * displacement[1] - t->sin_turn * displacement[0]);
+}
+
+/* DX, ETA, DZ, ETA_X of one tile, linearly. */
+static inline float4 read_low(const tile_reading *r, const float displacement[2])
+{
+    float u, v;
+    place_before(r, displacement, &u, &v);
+    taps p = taps_at(r->tile, r->level, u, v);
     float4 low = weighted(&p, 0);
-    if (high)
-        *high = weighted(&p, 4);
     if (r->mix > 0.0f) {
-        taps q = taps_at(t, r->level + 1, u, v);
+        taps q = taps_at(r->tile, r->level + 1, u, v);
         low += r->mix * (weighted(&q, 0) - low);
-        if (high)
-            *high += r->mix * (weighted(&q, 4) - *high);
     }
-    if (high)
-        *high *= r->weight;
     return low * r->weight;
+}
+
+static half_texels read_all(const tile_reading *r, const float displacement[2])
+{
+    float u, v;
+    place_before(r, displacement, &u, &v);
+    half_texels all = {{0.0f}, {0.0f}};
+    if (r->cubic < 1.0f) {
+        taps p = taps_at(r->tile, r->level, u, v);
+        all = (half_texels){weighted(&p, 0), weighted(&p, 4)};
+    }
+    if (r->mix > 0.0f) {
+        taps q = taps_at(r->tile, r->level + 1, u, v);
+        all.low += r->mix * (weighted(&q, 0) - all.low);
+        all.high += r->mix * (weighted(&q, 4) - all.high);
+    }
+    if (r->cubic > 0.0f) {
+        half_texels smooth = read_cubic(r->tile, u, v);
+        all.low += r->cubic * (smooth.low - all.low);
+        all.high += r->cubic * (smooth.high - all.high);
+    }
+    all.low *= r->weight;
+    all.high *= r->weight;
+    return all;
 }
 
 static void add_tile(wave_point *p, const tile_reading *r, const float displacement[2])
 {
     float c = r->tile->cos_turn, s = r->tile->sin_turn;
-    float4 high, low = read_tile(r, displacement, &high);
+    half_texels all = read_all(r, displacement);
+    float4 low = all.low, high = all.high;
     float slope_x = low[WAVE_ETA_X], slope_z = high[WAVE_ETA_Z - 4];
     float Dxx = high[WAVE_DXX - 4], Dzz = high[WAVE_DZZ - 4], Dxz = high[WAVE_DXZ - 4];
     p->displacement[0] += c * low[WAVE_DX] - s * low[WAVE_DZ];
@@ -179,7 +245,7 @@ static inline heave heave_from(const reading *r, uint32_t tile_count, const floa
     heave sum = {0.0f, 0.0f, 0.0f};
     for (uint32_t i = 0; i < tile_count; i++) {
         const wave_tile *t = r->tiles[i].tile;
-        float4 low = read_tile(&r->tiles[i], displacement, NULL);
+        float4 low = read_low(&r->tiles[i], displacement);
         sum.x += t->cos_turn * low[WAVE_DX] - t->sin_turn * low[WAVE_DZ];
         sum.z += t->sin_turn * low[WAVE_DX] + t->cos_turn * low[WAVE_DZ];
         sum.height += low[WAVE_ETA];
@@ -236,9 +302,18 @@ wave_point waves_above(const waves *w, double X, double Z, float footprint_m, do
     float displacement[2] = {0.0f, 0.0f};
     guess_rest(&r, displacement);
     find_rest(&r, footprint_m, displacement);
+    wave_point p = point_at(w, &r, displacement);
+    for (int i = 0; i < 3 && r.count && r.tiles[0].cubic > 0.0f; i++) { /* what cubics change */
+        float dx = p.displacement[0] - displacement[0], dz = p.displacement[1] - displacement[1];
+        if (dx * dx + dz * dz < 1e-8f)
+            break;
+        displacement[0] = p.displacement[0];
+        displacement[1] = p.displacement[1];
+        p = point_at(w, &r, displacement);
+    }
     rest[0] = X - (double)displacement[0];
     rest[1] = Z - (double)displacement[1];
-    return point_at(w, &r, displacement);
+    return p;
 }
 
 /* ---- bounds ---- */

@@ -419,8 +419,10 @@ static void water_above_a_place_is_displaced_to_it(void **state)
         assert_near(rest[0] + (double)p.displacement[0], X, 2.0 * close + 3e-4);
         assert_near(rest[1] + (double)p.displacement[1], Z, 2.0 * close + 3e-4);
         float near_[2] = {p.displacement[0] + 0.3f, p.displacement[1]};
-        assert_near(waves_height(&w, X, Z, footprint), p.height_m, close + 3e-4);
-        assert_near(waves_height_near(&w, X, Z, footprint, near_), p.height_m, close + 3e-4);
+        float height = waves_height(&w, X, Z, footprint);
+        assert_near(height, p.height_m,
+                    0.03); /* of 2.1 m: linear and cubic, with 8 samples for a wave of the peak */
+        assert_near(waves_height_near(&w, X, Z, footprint, near_), height, close + 3e-4);
         wave_bounds b = waves_bounds(&w, footprint);
         assert_true(p.height_m <= b.highest && p.height_m >= b.lowest);
         assert_true(hypotf(p.displacement[0], p.displacement[1]) <= b.farthest);
