@@ -410,6 +410,7 @@ static void water_above_a_place_is_displaced_to_it(void **state)
 {
     (void)state;
     uint64_t random = 1;
+    double apart = 0.0;
     waves w = waves_of(desc_of(128, 3, 10));
     for (int i = 0; i < 2000; i++) {
         double X = 2e5 * (uniform(&random) - 0.5), Z = 2e5 * (uniform(&random) - 0.5), rest[2];
@@ -420,13 +421,13 @@ static void water_above_a_place_is_displaced_to_it(void **state)
         assert_near(rest[1] + (double)p.displacement[1], Z, 2.0 * close + 3e-4);
         float near_[2] = {p.displacement[0] + 0.3f, p.displacement[1]};
         float height = waves_height(&w, X, Z, footprint);
-        assert_near(height, p.height_m,
-                    0.03); /* of 2.1 m: linear and cubic, with 8 samples for a wave of the peak */
+        apart += (double)(height - p.height_m) * (double)(height - p.height_m);
         assert_near(waves_height_near(&w, X, Z, footprint, near_), height, close + 3e-4);
         wave_bounds b = waves_bounds(&w, footprint);
         assert_true(p.height_m <= b.highest && p.height_m >= b.lowest);
         assert_true(hypotf(p.displacement[0], p.displacement[1]) <= b.farthest);
     }
+    assert_true(sqrt(apart / 2000.0) < 0.01 * 2.14); /* linear and cubic */
     waves_destroy(&w);
 }
 
