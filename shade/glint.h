@@ -63,20 +63,21 @@ FN float gamma_variate(float k, float normal)
 /* Sum of Poisson(mean) exponential variates: expectation mean, variance 2 mean. Up to 8 the number is drawn by inversion. */
 FN float glint_sum(uint key, float mean)
 {
-    float z = glint_normal(glint_hash(key ^ 1779033703u));
+    uint size = glint_hash(key ^ 1779033703u);
+    if (mean > 8.0f)
+        return 2.0f * gamma_variate(0.5f * mean, glint_normal(size));
     float u = glint_uniform(key);
-    float p = exp(-min(mean, 8.0f));
+    float p = exp(-mean);
+    if (u < p)
+        return 0.0f;
     float below = p;
     float count = 0.0f;
-    for (int i = 1; i <= 28; ++i) {
-        if (u < below || mean > 8.0f)
-            break;
+    for (int i = 1; i <= 28 && u >= below; ++i) {
         count += 1.0f;
         p *= mean / count;
         below += p;
     }
-    float few = sel(count > 0.0f, gamma_variate(max(count, 1.0f), z), 0.0f);
-    return sel(mean > 8.0f, 2.0f * gamma_variate(0.5f * max(mean, 8.0f), z), few);
+    return gamma_variate(count, glint_normal(size));
 }
 
 /* ---- where and when ---- */

@@ -101,9 +101,11 @@ FN WaterMirror water_mirror(Water w, WaterPoint p, vec3 V, float fresnel, float 
 /* Radiance (cd/m^2) of the sun in the facets: F D G E / (4 N.V). */
 FN vec3 water_sun(Water w, WaterPoint p, WaterLight light, vec3 V)
 {
-    vec3 H = normalize(V + light.L);
-    float F = water_fresnel(w, clamp(dot(V, H), 0.0f, 1.0f));
-    return light.sun_irradiance * (F * glitter(w.normals, w.masking, p.covariance, p.N, light.L, V, 1.0f));
+    float mirrored = glitter(w.normals, w.masking, p.covariance, p.N, light.L, V, 1.0f);
+    if (mirrored <= 0.0f)
+        return vec3(0.0f);
+    float VdotH = dot(V, normalize(V + light.L));
+    return light.sun_irradiance * (water_fresnel(w, clamp(VdotH, 0.0f, 1.0f)) * mirrored);
 }
 
 /* ---- light in the water ---- */

@@ -85,9 +85,11 @@ FN float erfcx(float a)
 
 /* Smith's auxiliary function of Gaussian slopes, in [0, inf), within 1e-7 / a:
  *   Lambda = exp(-a^2) / (2 a sqrt pi) - erfc(a) / 2
- * Heitz 2014, equation 66. a > 0. */
+ * 0 from 4 on, where it is 2e-10. Heitz 2014, equation 66. a > 0. */
 FN float Lambda_Beckmann(float a)
 {
+    if (a > 4.0f)
+        return 0.0f;
     return max(exp(-a * a) * (0.282094792f / a - 0.5f * erfcx(a)), 0.0f);
 }
 
@@ -153,11 +155,13 @@ FN vec3 sun_slopes(vec3 L, vec3 V)
  * 0 where N.L <= 0 or L is below the horizon. */
 FN float glitter(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V, float sun)
 {
-    vec3 H = normalize(V + L);
-    float D = D_slopes(normals, C + sun_slopes(L, V) * sun, N, H);
-    float Vis = V_slopes(normals, masking, C, N, L, V);
     float NdotL = dot(N, L);
-    return sel(NdotL > 0.0f && L[1] > 0.0f && dot(N, V) > 0.0f, D * Vis * NdotL, 0.0f);
+    if (NdotL <= 0.0f || L[1] <= 0.0f || dot(N, V) <= 0.0f)
+        return 0.0f;
+    float D = D_slopes(normals, C + sun_slopes(L, V) * sun, N, normalize(V + L));
+    if (D < 1e-14f) /* most of the sea, most of the time: nothing of the sun would be seen of it */
+        return 0.0f;
+    return D * V_slopes(normals, masking, C, N, L, V) * NdotL;
 }
 
 /* ---- means over all facets that are seen ---- */
