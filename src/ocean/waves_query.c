@@ -303,7 +303,7 @@ wave_point waves_above(const waves *w, double X, double Z, float footprint_m, do
     guess_rest(&r, displacement);
     find_rest(&r, footprint_m, displacement);
     wave_point p = point_at(w, &r, displacement);
-    for (int i = 0; i < 3 && r.count && r.tiles[0].cubic > 0.0f; i++) { /* what cubics change */
+    for (int i = 0; i < 8 && r.count && r.tiles[0].cubic > 0.0f; i++) { /* what cubics change */
         float dx = p.displacement[0] - displacement[0], dz = p.displacement[1] - displacement[1];
         if (dx * dx + dz * dz < 1e-8f)
             break;
