@@ -45,9 +45,7 @@ FN float glint_uniform(uint key)
 }
 FN float glint_normal(uint key)
 {
-    float u = glint_uniform(key);
-    float phi = 2.0f * PI * glint_uniform(glint_hash(key));
-    return sqrt(-2.0f * log(u)) * cos(phi);
+    return inverse_normal(glint_uniform(key));
 }
 
 /* Gamma variate of shape k >= 1 and mean k from a normal one: the cube of Wilson and Hilferty 1931, over its own mean. Its variance is

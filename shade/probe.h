@@ -845,13 +845,16 @@ FN vec3 probe_sea(int which, vec2 u)
                     1.0f + slope_variance(C, slope_from_normal(H)));
     if (which == 101)
         return vec3(Lambda_Beckmann(0.1f + 2.0f * u[0]), Lambda_GGX(0.1f + 2.0f * u[0]),
-                    Lambda_slopes(normals, smith_a(C, N, V)) + erfcx(u[1]));
+                    Lambda_slopes(normals, smith_a(C, N, V)) + erfcx(u[1]) +
+                        seen_slopes(2.0f, 3.0f * u[0] - 1.0f) + 0.1f * inverse_normal(u[1]));
     if (which == 102)
         return vec3(V_slopes(normals, WATER_SMITH, C, N, N, V),
                     V_slopes(normals, WATER_SCHLICK_KARIS, C, N, N, V),
-                    glitter(normals, WATER_SMITH, C, N, L, V, u[1]));
+                    glitter(normals, WATER_SMITH, C, N, L, V, u[1]) +
+                        glitter_below(normals, C, N, L, -refract(-V, N, 0.75f), 1.34f));
     if (which == 103)
-        return sun_slopes(L, V) * 1e5f + slopes_from_roughness(u[1]) + roughness_from_slopes(C);
+        return 2.0f + sample_slopes(u, C, N, V) + sun_slopes(L, V) * 1e5f +
+               sun_slopes_about(L, L + N) * 1e4f + slopes_from_roughness(u[1]) + roughness_from_slopes(C);
     if (which == 104) {
         vec2 pair = water_table_pair(water_table_place(u[0], 0.4f * u[1]));
         return vec3(pair[0], pair[1], water_mean_fresnel_fit(u[0], 0.3f * u[1], 1.34f)) + 0.1f;
@@ -901,7 +904,7 @@ FN vec3 probe_water(int which, vec2 u)
     light.downwelling = water_downwelling(w, light);
     if (which == 111) {
         vec3 d = water_refracted(w, -V, p.N);
-        return d + 2.0f + water_sun(w, p, light, V) +
+        return d + 2.0f + water_sun(w, p, light, V) + water_sun_below(w, p, light, -d) +
                vec3(water_fresnel(w, u[0]), water_fresnel_inside(w, 0.7f + 0.3f * u[1]), 0.0f);
     }
     if (which == 112) {

@@ -235,6 +235,17 @@ FN WaterWindow water_window(Water w, vec3 d, vec3 N)
     return r;
 }
 
+/* Radiance (cd/m^2) of the sun that an eye below sees in the facets, looking along d (unit, up): n^2 (1 - F) times its disc where the
+ * water is flat. */
+FN vec3 water_sun_below(Water w, WaterPoint p, WaterLight light, vec3 d)
+{
+    float through = glitter_below(w.normals, p.covariance, p.N, light.L, d, w.ior);
+    if (through <= 0.0f)
+        return vec3(0.0f);
+    float LdotM = dot(light.L, normalize(d * w.ior - light.L));
+    return light.sun_irradiance * ((1.0f - water_fresnel(w, clamp(LdotM, 0.0f, 1.0f))) * through);
+}
+
 /* int_0^x e^(-q t) dt per channel, for any sign of q. */
 FN float water_path1(float q, float x)
 {

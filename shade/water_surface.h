@@ -134,20 +134,26 @@ FN float V_slopes(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V)
 
 /* ---- the sun ---- */
 
-/* Slopes that mirror the disc of the sun (angular radius SUN_RADIUS) to the eye, as a covariance about the slope of the half
- * vector. The disc is taken for a Gaussian of its radiance in the middle and of its flux, variance radius^2 / 2 along each axis
- * of directions; with h = V + L and s = -h_xz / h.y, ds = -(dL_xz + s dL.y) / h.y. On flat water the image of the sun is as
- * bright as F times its disc, whatever the angle; facing it, alpha^2 is radius^2 / 4. V + L may not be horizontal. */
-FN vec3 sun_slopes(vec3 L, vec3 V)
+/* Slopes that bring light from the disc of the sun (angular radius SUN_RADIUS) to the eye, as a covariance about the slope of the
+ * half vector h, L plus what belongs to the eye. The disc is taken for a Gaussian of its radiance in the middle and of its flux,
+ * variance radius^2 / 2 along each axis of directions; s = -h_xz / h.y, so ds = -(dL_xz + s dL.y) / h.y. On flat water the
+ * image of the sun is as bright as F times its disc, whatever the angle; facing it, alpha^2 is radius^2 / 4. */
+FN vec3 sun_slopes_about(vec3 L, vec3 h)
 {
-    vec3 h = V + L;
-    float y = max(h[1], 1e-4f);
+    bool is_wall =
+        h[1] * h[1] < 0.01f * dot(h, h); /* steeper than any sea; the difference below would cancel */
+    float y = sel(is_wall, 1.0f, h[1]);
     vec2 s = vec2(h[0], h[2]) * (-1.0f / y);
     vec2 p = vec2(L[0] + s[0] * L[1], L[2] + s[1] * L[1]);
-    float k = 0.5f * SUN_RADIUS * SUN_RADIUS / (y * y);
+    float k = sel(is_wall, 0.0f, 0.5f * SUN_RADIUS * SUN_RADIUS / (y * y));
     return vec3(1.0f + s[0] * s[0] - p[0] * p[0], 1.0f + s[1] * s[1] - p[1] * p[1],
                 s[0] * s[1] - p[0] * p[1]) *
            k;
+}
+/* Of mirrored light. */
+FN vec3 sun_slopes(vec3 L, vec3 V)
+{
+    return sun_slopes_about(L, V + L);
 }
 
 /* BRDF times N.L of facets that reflect all light, in 1/sr: D G / (4 N.V), D as wide as slopes and sun (sun: 1; 0: a point far
@@ -162,6 +168,93 @@ FN float glitter(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V, float
     if (D < 1e-14f) /* most of the sea, most of the time: nothing of the sun would be seen of it */
         return 0.0f;
     return D * V_slopes(normals, masking, C, N, L, V) * NdotL;
+}
+
+/* BTDF times N.L for an eye below that looks along d (unit, up) and the sun above, both at the surface, in 1/sr: facets of the ior n
+ * that let all light through,
+ *   n^2 (L.m) (d.m) D G / (d.N (L.m - n d.m)^2),  m along n d - L
+ * with G of both sides taken as independent. Times 1 - F(L.m) and the sun's irradiance it is the radiance that the eye sees.
+ * Walter et al. 2007, equation 21. */
+FN float glitter_below(int normals, vec3 C, vec3 N, vec3 L, vec3 d, float n)
+{
+    vec3 h = L - d * n; /* downwards: light is bent towards the normal */
+    vec3 m = -normalize(h);
+    float LdotM = dot(L, m);
+    float ddotM = dot(d, m);
+    float NdotD = dot(N, d);
+    if (L[1] <= 0.0f || m[1] <= 0.0f || LdotM <= 0.0f || ddotM <= 0.0f || NdotD <= 0.0f || dot(N, L) <= 0.0f)
+        return 0.0f;
+    float D = D_slopes(normals, C + sun_slopes_about(L, h), N, m);
+    float G = 1.0f / ((1.0f + Lambda_slopes(normals, smith_a(C, N, L))) *
+                      (1.0f + Lambda_slopes(normals, smith_a(C, N, d))));
+    float t = LdotM - n * ddotM;
+    return n * n * LdotM * ddotM * D * G / (NdotD * t * t);
+}
+
+/* ---- a facet by chance ---- */
+
+/* The inverse of the normal distribution function, u in (0, 1). Giles 2010, "Approximating the erfinv function", single precision. */
+FN float inverse_normal(float u)
+{
+    float x = 2.0f * u - 1.0f;
+    float w = -log(max((1.0f - x) * (1.0f + x), 1e-30f));
+    float v = w - 2.5f;
+    float p = 2.81022636e-08f;
+    p = 3.43273939e-07f + p * v;
+    p = -3.5233877e-06f + p * v;
+    p = -4.39150654e-06f + p * v;
+    p = 0.00021858087f + p * v;
+    p = -0.00125372503f + p * v;
+    p = -0.00417768164f + p * v;
+    p = 0.246640727f + p * v;
+    p = 1.50140941f + p * v;
+    float t = sqrt(w) - 3.0f;
+    float q = -0.000200214257f;
+    q = 0.000100950558f + q * t;
+    q = 0.00134934322f + q * t;
+    q = -0.00367342844f + q * t;
+    q = 0.00573950773f + q * t;
+    q = -0.0076224613f + q * t;
+    q = 0.00943887047f + q * t;
+    q = 1.00167406f + q * t;
+    q = 2.83297682f + q * t;
+    return 1.41421356f * x * sel(w < 5.0f, p, q);
+}
+
+/* n Phi(z) + phi(z), Phi and phi of the normal distribution: area of Gaussian slopes up to z that is seen n standard deviations above the
+ * surface. z at most n. */
+FN float seen_slopes(float n, float z)
+{
+    float phi = exp(-0.5f * z * z);
+    float tail = 0.5f * phi * erfcx(abs(z) * 0.707106781f);
+    return n * sel(z < 0.0f, tail, 1.0f - tail) + 0.398942280f * phi;
+}
+
+/* Normal of a facet of Gaussian slopes, with the density D max(V.m, 0) of those that V sees, unit. Along V, its slope has the
+ * density (n - z) phi(z) for z < n in standard deviations; found by halving. Across, slopes are Gaussian about their regression. What it
+ * mirrors, L, weighs F(V.m) G2 / G1 = F (1 + Lambda(V)) / (1 + Lambda(V) + Lambda(L)) where L.y > 0. Heitz 2014; Jakob 2014. */
+FN vec3 sample_slopes(vec2 u, vec3 C, vec3 N, vec3 V)
+{
+    float across2 = V[0] * V[0] + V[2] * V[2];
+    vec2 t = sel(across2 > 1e-10f, vec2(V[0], V[2]) * inversesqrt(max(across2, 1e-10f)), vec2(1.0f, 0.0f));
+    float variance = slope_variance(C, t);
+    float sd = sqrt(variance);
+    float n = min(dot(N, V) / (N[1] * sd * max(sqrt(across2), 1e-6f)), 1e4f);
+    float high = min(n, 6.0f);
+    float low = -6.0f;
+    float share = u[0] * seen_slopes(n, high);
+    for (int i = 0; i < 18; ++i) {
+        float middle = 0.5f * (low + high);
+        bool is_above = seen_slopes(n, middle) > share;
+        high = sel(is_above, middle, high);
+        low = sel(is_above, low, middle);
+    }
+    float along = 0.5f * (low + high) * sd;
+    float mixed =
+        (C[1] - C[0]) * t[0] * t[1] + C[2] * (t[0] * t[0] - t[1] * t[1]); /* covariance with across */
+    float rest = max(C[0] * C[1] - C[2] * C[2], 0.0f) / variance;
+    float sideways = mixed / variance * along + sqrt(rest) * inverse_normal(clamp(u[1], 1e-7f, 0.9999999f));
+    return normal_from_slope(slope_from_normal(N) + t * along + vec2(-t[1], t[0]) * sideways);
 }
 
 /* ---- means over all facets that are seen ---- */

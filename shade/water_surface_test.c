@@ -380,12 +380,88 @@ static void test_lookup(void **state)
     }
 }
 
+/* ---- facets by chance ---- */
+
+/* The normal distribution's inverse against its function; drawn facets against the means by quadrature, on a flank and askew. */
+static void test_sampling(void **state)
+{
+    (void)state;
+    for (double z = -4.5; z <= 4.5; z += 0.37)
+        expect_near((double)inverse_normal((float)(0.5 * erfc(-z * (sqrt)(0.5)))), z,
+                    fabs(z) > 3.0 ? 0.02 : 2e-5, "inverse at %g", z);
+    vec3 C = vec3(0.03f, 0.012f, 0.008f), N = normal_from_slope(vec2(0.2f, -0.1f));
+    for (double e = 4.0; e < 90.0; e += 21.0) {
+        vec3 V = direction(e, 35.0);
+        if (dot(N, V) < 0.02f)
+            continue;
+        double exact[3] = {0, 0, 0}, weight = 0.0;
+        enum { STEPS = 240, DRAWS = 128 };
+        for (int i = 0; i < STEPS; ++i) /* over the plane of slopes, within six standard deviations */
+            for (int j = 0; j < STEPS; ++j) {
+                vec2 d = vec2((float)(12.0 * (i + 0.5) / STEPS - 6.0) * 0.1732f,
+                              (float)(12.0 * (j + 0.5) / STEPS - 6.0) * 0.1095f);
+                vec3 m = normal_from_slope(slope_from_normal(N) + d);
+                double w = (double)(slope_density(WATER_BECKMANN, C, d) * max(dot(V, m), 0.0f) / m[1]);
+                weight += w;
+                exact[0] += w * (double)d[0];
+                exact[1] += w * (double)(d[0] * d[1]);
+                exact[2] += w * (double)F_dielectric(max(dot(V, m), 0.0f), 1.34f);
+            }
+        double drawn[3] = {0, 0, 0};
+        for (int i = 0; i < DRAWS; ++i)
+            for (int j = 0; j < DRAWS; ++j) {
+                vec2 u = vec2(((float)i + 0.5f) / DRAWS, ((float)j + 0.5f) / DRAWS);
+                vec3 m = sample_slopes(u, C, N, V);
+                vec2 d = slope_from_normal(m) - slope_from_normal(N);
+                assert_true(dot(V, m) > -1e-4f);
+                drawn[0] += (double)d[0];
+                drawn[1] += (double)(d[0] * d[1]);
+                drawn[2] += (double)F_dielectric(max(dot(V, m), 0.0f), 1.34f);
+            }
+        const double tolerance[3] = {1e-3, 1e-4, 2e-3};
+        for (int k = 0; k < 3; ++k)
+            expect_near(drawn[k] / (DRAWS * DRAWS), exact[k] / weight, tolerance[k],
+                        "mean %d of what is drawn, elevation %g", k, e);
+    }
+}
+
+/* The sun from below: n^2 times its disc in flat water; its flux through a rough surface is what the sun brought, less what masking
+ * loses. */
+static void test_sun_below(void **state)
+{
+    (void)state;
+    double disc = 1.0 / (PI_DOUBLE * (double)SUN_RADIUS * (double)SUN_RADIUS);
+    vec3 flat = vec3(SLOPE_VARIANCE_MIN * 1e-3f, SLOPE_VARIANCE_MIN * 1e-3f, 0.0f);
+    for (double e = 20.0; e <= 90.0; e += 17.0) {
+        vec3 L = direction(e, 60.0), d = -refract(-L, UP, 1.0f / 1.34f);
+        expect_relative(glitter_below(WATER_BECKMANN, flat, UP, L, d, 1.34f), 1.34 * 1.34 * disc, 6e-3,
+                        "sun from below, elevation %g", e);
+        assert_true(glitter_below(WATER_BECKMANN, flat, UP, L, -d, 1.34f) == 0.0f);
+        double sum = 0.0;
+        enum { RINGS = 160, SECTORS = 96 };
+        mat3 frame = basis_from_normal(d);
+        for (int i = 0; i < RINGS; ++i) {
+            double x = (i + 0.5) / RINGS, angle = 1.2 * x * x;
+            double weight = (sin)(angle)*1.2 * 2.0 * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
+            for (int j = 0; j < SECTORS; ++j) {
+                double phi = 2.0 * PI_DOUBLE * (j + 0.5) / SECTORS;
+                vec3 w = mul(frame, vec3((float)((sin)(angle) * (cos)(phi)),
+                                         (float)((sin)(angle) * (sin)(phi)), (float)(cos)(angle)));
+                sum += (double)glitter_below(WATER_BECKMANN, isotropic(0.0286), UP, L, w, 1.34f) *
+                       (double)w[1] * weight;
+            }
+        }
+        expect_near(sum / (double)L[1], 1.0, 0.02, "flux from below, elevation %g", e);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distribution), cmocka_unit_test(test_slopes),  cmocka_unit_test(test_masking),
-        cmocka_unit_test(test_reciprocity),  cmocka_unit_test(test_furnace), cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_glitter),      cmocka_unit_test(test_means),   cmocka_unit_test(test_lookup),
+        cmocka_unit_test(test_distribution), cmocka_unit_test(test_slopes),    cmocka_unit_test(test_masking),
+        cmocka_unit_test(test_reciprocity),  cmocka_unit_test(test_furnace),   cmocka_unit_test(test_sun),
+        cmocka_unit_test(test_glitter),      cmocka_unit_test(test_means),     cmocka_unit_test(test_lookup),
+        cmocka_unit_test(test_sampling),     cmocka_unit_test(test_sun_below),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
