@@ -154,18 +154,23 @@ double wave_phase_time(const waves *w, double time_s)
     return fmod(time_s, w->loop_s > 0.0 ? w->loop_s : 0x1p24);
 }
 
+void wave_mode_at(const wave_mode *m, double phase_time_s, float h[2], float rate[2])
+{
+    double phase = m->omega * phase_time_s;
+    float c = (float)cos(phase), s = (float)sin(phase);
+    const float there[2] = {m->there[0] * c + m->there[1] * s, m->there[1] * c - m->there[0] * s};
+    const float back[2] = {m->back[0] * c + m->back[1] * s, m->back[0] * s - m->back[1] * c};
+    h[0] = there[0] + back[0];
+    h[1] = there[1] + back[1];
+    if (!rate)
+        return;
+    float omega = (float)m->omega; /* -i omega there + i omega back */
+    rate[0] = omega * (there[1] - back[1]);
+    rate[1] = omega * (back[0] - there[0]);
+}
+
 void wave_amplitudes_evolve(wave_amplitudes *a, double time_s, size_t begin, size_t end)
 {
-    for (size_t i = begin; i < end; i++) {
-        const wave_mode *m = &a->modes[i];
-        double phase = m->omega * time_s;
-        float c = (float)cos(phase), s = (float)sin(phase);
-        const float there[2] = {m->there[0] * c + m->there[1] * s, m->there[1] * c - m->there[0] * s};
-        const float back[2] = {m->back[0] * c + m->back[1] * s, m->back[0] * s - m->back[1] * c};
-        float omega = (float)m->omega;
-        a->now[i][0] = there[0] + back[0];
-        a->now[i][1] = there[1] + back[1];
-        a->rate[i][0] = omega * (there[1] - back[1]); /* -i omega there + i omega back */
-        a->rate[i][1] = omega * (back[0] - there[0]);
-    }
+    for (size_t i = begin; i < end; i++)
+        wave_mode_at(&a->modes[i], time_s, a->now[i], a->rate[i]);
 }

@@ -27,7 +27,9 @@ typedef struct wave_amplitudes {
 wave_amplitudes *wave_amplitudes_create(const waves *w, uint32_t tile);
 void wave_amplitudes_destroy(wave_amplitudes *a); /* NULL is allowed */
 
-/* h(k, t) = h0(k) e^-i omega t + conj(h0(-k)) e^i omega t of modes [begin, end). */
+/* h(k, t) = h0(k) e^-i omega t + conj(h0(-k)) e^i omega t, and its derivative by time (NULL: not wanted); complex. */
+void wave_mode_at(const wave_mode *m, double phase_time_s, float h[2], float rate[2]);
+/* Of modes [begin, end), into now and rate. */
 void wave_amplitudes_evolve(wave_amplitudes *a, double time_s, size_t begin, size_t end);
 /* The time as phases need it: within a loop, and small enough for their precision. */
 double wave_phase_time(const waves *w, double time_s);

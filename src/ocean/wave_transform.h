@@ -14,4 +14,14 @@ void wave_transform_destroy(wave_transform *t); /* NULL is allowed */
 /* Fills level 0 of all tiles from what their amplitudes are now. */
 void wave_transform_run(wave_transform *t, waves *w);
 
+/* Two real fields of one tile by one transform. */
+typedef struct wave_pair {
+    uint32_t tile;
+    float (
+        *coefficients)[2][2]; /* of each mode of the tile, at k: the first field's, the second's; complex */
+    float (*rows)[2];         /* to work in: (2 reach + 1) size */
+    float *fields[2];         /* out: size^2 each, rows along z */
+} wave_pair;
+void wave_transform_pair(const wave_transform *t, const waves *w, const wave_pair *p);
+
 #endif

@@ -183,3 +183,60 @@ void wave_transform_run(wave_transform *t, waves *w)
     size_t blocks = w->tiles[0].size / COLUMNS;
     parallel_for(w->thread_count, w->tile_count * blocks, 4, transform_blocks, &r);
 }
+
+/* ---- two fields alone ---- */
+
+typedef struct pair_run {
+    const wave_transform *transform;
+    const waves *w;
+    const wave_pair *p;
+} pair_run;
+
+static void transform_pair_rows(void *context, size_t begin, size_t end)
+{
+    const pair_run *r = context;
+    size_t size = r->w->tiles[0].size;
+    kiss_fft_cpx in[MAX_SIZE], *rows = (kiss_fft_cpx *)r->p->rows;
+    for (size_t row = begin; row < end; row++) {
+        memcpy(in, rows + row * size, size * sizeof *in);
+        kiss_fft(r->transform->plan, in, rows + row * size);
+    }
+}
+
+static void transform_pair_columns(void *context, size_t begin, size_t end)
+{
+    const pair_run *r = context;
+    int32_t reach = r->w->amplitudes[r->p->tile]->reach;
+    size_t size = r->w->tiles[0].size;
+    const kiss_fft_cpx *rows = (const kiss_fft_cpx *)r->p->rows;
+    kiss_fft_cpx in[MAX_SIZE], out[COLUMNS][MAX_SIZE];
+    memset(in, 0, size * sizeof *in);
+    for (size_t first = begin * COLUMNS; first < end * COLUMNS; first += COLUMNS) {
+        for (size_t c = 0; c < COLUMNS; c++) {
+            for (int32_t n = -reach; n <= reach; n++)
+                in[(size_t)n & (size - 1)] = rows[(size_t)(reach + n) * size + first + c];
+            kiss_fft(r->transform->plan, in, out[c]);
+        }
+        for (size_t z = 0; z < size; z++)
+            for (size_t c = 0; c < COLUMNS; c++) {
+                r->p->fields[0][z * size + first + c] = out[c][z].r;
+                r->p->fields[1][z * size + first + c] = out[c][z].i;
+            }
+    }
+}
+
+void wave_transform_pair(const wave_transform *t, const waves *w, const wave_pair *p)
+{
+    const wave_amplitudes *a = w->amplitudes[p->tile];
+    size_t size = w->tiles[0].size, row_count = 2 * (size_t)a->reach + 1;
+    kiss_fft_cpx *rows = (kiss_fft_cpx *)p->rows;
+    memset(rows, 0, row_count * size * sizeof *rows);
+    for (size_t i = 0; i < a->count; i++) {
+        const float(*c)[2] = (const float(*)[2])p->coefficients[i];
+        put_mode(rows, a->reach, (int32_t)size, &a->modes[i], (kiss_fft_cpx){c[0][0], c[0][1]},
+                 (kiss_fft_cpx){c[1][0], c[1][1]});
+    }
+    pair_run r = {t, w, p};
+    parallel_for(w->thread_count, row_count, 64, transform_pair_rows, &r);
+    parallel_for(w->thread_count, size / COLUMNS, 16, transform_pair_columns, &r);
+}

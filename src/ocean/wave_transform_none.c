@@ -21,3 +21,10 @@ void wave_transform_run(wave_transform *t, waves *w)
     (void)t;
     (void)w;
 }
+
+void wave_transform_pair(const wave_transform *t, const waves *w, const wave_pair *p)
+{
+    (void)t;
+    (void)w;
+    (void)p;
+}

@@ -1,0 +1,44 @@
+/* waves_foam.h - foam that crests leave behind, at the time of the waves.
+ *
+ * Foam rests in the water. Where a crest has broken it fades as e^(-age / decay): at a place at rest its amount is the largest
+ * of what was active then, times that. It is computed anew for a time, from five decays before, so that no frame depends on
+ * another.
+ *
+ * Which place of the longest tile breaks is known by its own waves' convergence and, for the shorter waves, as a probability; the
+ * amount is a share of the area around. Within that area old foam lies in lace: along the lines where a Gaussian field, that of
+ * the shorter waves as they were at time 0, is near 0; the more the wider. */
+#ifndef OCEAN_WAVES_FOAM_H
+#define OCEAN_WAVES_FOAM_H
+
+#include "ocean/waves.h"
+
+/* A field of one number per texel, with means of 2 x 2. */
+typedef struct foam_plane {
+    uint32_t size, level_count; /* 0: none */
+    float *levels[WAVES_MAX_LEVELS];
+    float hidden[WAVES_MAX_LEVELS]; /* variance that a level has lost */
+} foam_plane;
+
+enum { FOAM_LACES = 2 };
+
+typedef struct waves_foam {
+    const waves *w;
+    foam_plane share; /* of the longest tile, [0, 1] */
+    foam_plane lace[FOAM_LACES];
+    uint32_t lace_tiles[FOAM_LACES];
+    uint32_t lace_count;
+} waves_foam;
+
+/* For w as it is, which stays as long. The mean share is what rule->coverage has beyond its fresh tenth; decay_s: some 3.7 s in
+ * sea water, 2.5 s in fresh. FACET_ERROR_MEMORY. */
+facet_result waves_foam_create(const waves *w, const foam_rule *rule, double decay_s, waves_foam *out,
+                               facet_error *error);
+void waves_foam_destroy(waves_foam *f); /* {0} is allowed */
+
+/* Share of a footprint under old foam, [0, 1]; (x, z) at rest. */
+float waves_foam_at(const waves_foam *f, double x, double z, float footprint_m);
+
+/* waves_foam_create()'s decay by salinity, g/kg. */
+double foam_decay_s(double salinity);
+
+#endif

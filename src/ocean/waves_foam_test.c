@@ -1,0 +1,236 @@
+/* Tests of waves_foam.h: old foam covers what it should, fades, and is a function of the time alone. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/failing_allocator.h"
+#include "base/near_test.h"
+#include "base/test_effort.h"
+#include "ocean/sea_preset.h"
+#include "ocean/waves_foam.h"
+
+typedef struct foamy {
+    waves w;
+    foam_rule rule;
+    waves_foam foam;
+} foamy;
+
+static facet_sea_desc desc_of(float wind_mps, uint64_t seed)
+{
+    facet_sea_desc d = sea_default();
+    d.wind_mps = wind_mps;
+    d.fetch_m = 100e3f;
+    d.resolution = 64;
+    d.seed = seed;
+    d.thread_count = 2;
+    return d;
+}
+
+static void set_time(foamy *f, double time_s)
+{
+    waves_foam_destroy(&f->foam);
+    waves_set_time(&f->w, time_s);
+    assert_int_equal(waves_foam_create(&f->w, &f->rule, foam_decay_s(35.0), &f->foam, NULL), FACET_OK);
+}
+
+static void create(foamy *f, facet_sea_desc d)
+{
+    sea_state s;
+    *f = (foamy){.foam = {.lace_count = 0}};
+    assert_int_equal(sea_state_create(&d, &s, NULL), FACET_OK);
+    assert_int_equal(waves_create(&d, &s, &f->w, NULL), FACET_OK);
+    f->rule = foam_rule_create(&f->w);
+    set_time(f, 20.0);
+}
+
+static void destroy(foamy *f)
+{
+    waves_foam_destroy(&f->foam);
+    waves_destroy(&f->w);
+}
+
+static size_t texel_count(const foamy *f)
+{
+    return (size_t)f->foam.share.size * f->foam.share.size;
+}
+
+static double uniform(uint64_t *random)
+{
+    *random = *random * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*random >> 11) * 0x1p-53;
+}
+
+static void the_mean_is_nine_tenths_of_all_foam(void **state)
+{
+    (void)state;
+    static const float winds[3] = {5.0f, 10.0f, 20.0f};
+    for (int i = 0; i < 3; i++) {
+        foamy f;
+        create(&f, desc_of(winds[i], 3));
+        double sum = 0.0, most = 0.0;
+        for (size_t j = 0; j < texel_count(&f); j++) {
+            double share = (double)f.foam.share.levels[0][j];
+            sum += share;
+            most = fmax(most, share);
+        }
+        assert_near(sum / (double)texel_count(&f), 0.9 * (double)f.rule.coverage,
+                    1e-4 * (double)f.rule.coverage);
+        assert_true(most <= 1.0 && most > 5.0 * (double)f.rule.coverage); /* in patches, not everywhere */
+        destroy(&f);
+    }
+}
+
+/* Through the lace, at footprints below and above its threads. */
+static void lace_covers_its_share(void **state)
+{
+    (void)state;
+    static const float footprints[4] = {0.01f, 0.5f, 4.0f, 3000.0f};
+    enum { SEEDS = 4, PLACES = IS_SLOW ? 10000 : 40000 };
+    double sums[4] = {0.0}, wanted = 0.9 * whitecap_coverage(15.0);
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        foamy f;
+        create(&f, desc_of(15.0f, seed));
+        for (int k = 0; k < 4; k++) {
+            uint64_t random = seed;
+            for (int i = 0; i < PLACES; i++) {
+                float share =
+                    waves_foam_at(&f.foam, 1e5 * uniform(&random), 1e5 * uniform(&random), footprints[k]);
+                assert_true(share >= 0.0f && share <= 1.0f);
+                sums[k] += (double)share / (PLACES * (double)SEEDS);
+            }
+        }
+        destroy(&f);
+    }
+    for (int k = 0; k < 4; k++)
+        assert_near(sums[k], wanted, 0.1 * wanted);
+}
+
+static void foam_fades_where_nothing_breaks(void **state)
+{
+    (void)state;
+    foamy f;
+    create(&f, desc_of(12.0f, 5));
+    size_t count = texel_count(&f);
+    float *before = malloc(count * sizeof *before);
+    assert_non_null(before);
+    memcpy(before, f.foam.share.levels[0], count * sizeof *before);
+    set_time(&f, 21.0);
+    size_t faded = 0, fresh = 0;
+    for (size_t i = 0; i < count; i++) {
+        double ratio = (double)f.foam.share.levels[0][i] / fmax((double)before[i], 1e-9);
+        assert_true(ratio > 0.85 * exp(-1.0 / 3.7) ||
+                    before[i] < 1e-6f); /* never quicker; means are kept to 15 % */
+        faded += ratio < 1.15 * exp(-1.0 / 3.7);
+        fresh += ratio > 2.0;
+    }
+    assert_true(faded > count / 3); /* most of it */
+    assert_true(fresh > count / 200);
+    free(before);
+    destroy(&f);
+}
+
+static void foam_is_a_function_of_the_time(void **state)
+{
+    (void)state;
+    foamy a, b;
+    facet_sea_desc d = desc_of(10.0f, 8);
+    create(&a, d);
+    d.thread_count = 3;
+    create(&b, d);
+    for (int i = 0; i < 5; i++)
+        set_time(&b, 7.3 * i); /* wherever it comes from */
+    set_time(&a, 33.3);
+    set_time(&b, 33.3);
+    assert_memory_equal(a.foam.share.levels[0], b.foam.share.levels[0], texel_count(&a) * sizeof(float));
+    for (uint32_t i = 0; i < 2; i++) /* and lace rests */
+        assert_memory_equal(a.foam.lace[i].levels[0], b.foam.lace[i].levels[0],
+                            texel_count(&a) * sizeof(float));
+    destroy(&a);
+    destroy(&b);
+}
+
+static void foam_loops(void **state)
+{
+    (void)state;
+    facet_sea_desc d = desc_of(10.0f, 9);
+    d.loop_s = 30.0f;
+    foamy a, b;
+    create(&a, d);
+    create(&b, d);
+    set_time(&a, 2.5);
+    set_time(&b, 92.5);
+    for (size_t i = 0; i < texel_count(&a); i++)
+        assert_near(a.foam.share.levels[0][i], b.foam.share.levels[0][i], 1e-5);
+    set_time(&a, 0.0); /* the seam */
+    set_time(&b, 29.999);
+    for (size_t i = 0; i < texel_count(&a); i++)
+        assert_near(a.foam.share.levels[0][i], b.foam.share.levels[0][i], 0.01);
+    destroy(&a);
+    destroy(&b);
+}
+
+static void calm_has_none(void **state)
+{
+    (void)state;
+    foamy f;
+    create(&f, desc_of(0.0f, 1));
+    assert_true(waves_foam_at(&f.foam, 1.0, 2.0, 0.1f) == 0.0f);
+    destroy(&f);
+    facet_sea_desc d = desc_of(10.0f, 1);
+    d.choppiness = 0.0f;
+    create(&f, d);
+    assert_true(waves_foam_at(&f.foam, 1.0, 2.0, 0.1f) == 0.0f);
+    destroy(&f);
+    d = desc_of(40.0f, 1);
+    d.cascade_count = 1; /* lace of the same tile */
+    create(&f, d);
+    for (int i = 0; i < 100; i++)
+        assert_in_range(1000.0f * waves_foam_at(&f.foam, 7.0 * i, 3.0, 0.1f), 0, 1000);
+    assert_true(waves_foam_at(&f.foam, 1e300, 0.0, 0.1f) <= 1.0f);
+    destroy(&f);
+}
+
+static void running_out_of_memory_leaks_nothing(void **state)
+{
+    (void)state;
+    facet_sea_desc d = desc_of(10.0f, 1);
+    d.resolution = 32;
+    sea_state s;
+    assert_int_equal(sea_state_create(&d, &s, NULL), FACET_OK);
+    for (long fail_at = 0;; fail_at++) {
+        failing_allocator f = {.fail_at = fail_at};
+        d.allocator = failing_allocator_get(&f);
+        waves w;
+        waves_foam foam = {.lace_count = 0};
+        facet_result result = waves_create(&d, &s, &w, NULL);
+        if (!result) {
+            foam_rule rule = foam_rule_create(&w);
+            result = waves_foam_create(&w, &rule, 3.7, &foam, NULL);
+        }
+        waves_foam_destroy(&foam);
+        waves_destroy(&w);
+        assert_int_equal(atomic_load(&f.blocks), 0);
+        if (result == FACET_OK)
+            break;
+        assert_int_equal(result, FACET_ERROR_MEMORY);
+        assert_in_range(fail_at, 0, 300);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_mean_is_nine_tenths_of_all_foam),
+                                       cmocka_unit_test(lace_covers_its_share),
+                                       cmocka_unit_test(foam_fades_where_nothing_breaks),
+                                       cmocka_unit_test(foam_is_a_function_of_the_time),
+                                       cmocka_unit_test(foam_loops),
+                                       cmocka_unit_test(calm_has_none),
+                                       cmocka_unit_test(running_out_of_memory_leaks_nothing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
