@@ -853,7 +853,7 @@ FN vec3 probe_sea(int which, vec2 u)
                     glitter(normals, WATER_SMITH, C, N, L, V, u[1]) +
                         glitter_below(normals, C, N, L, -refract(-V, N, 0.75f), 1.34f));
     if (which == 103)
-        return 2.0f + sample_slopes(u, C, N, V) + sun_slopes(L, V) * 1e5f +
+        return 4.0f + sample_slopes(u, C, N, V) + sun_slopes(L, V) * 1e4f +
                sun_slopes_about(L, L + N) * 1e4f + slopes_from_roughness(u[1]) + roughness_from_slopes(C);
     if (which == 104) {
         vec2 pair = water_table_pair(water_table_place(u[0], 0.4f * u[1]));
