@@ -21,104 +21,6 @@ double foam_decay_s(double salinity)
     return 2.5 + 1.2 * fmin(salinity / 35.0, 1.0);
 }
 
-/* ---- planes ---- */
-
-static bool allocate_plane(const facet_allocator *allocator, uint32_t size, foam_plane *p)
-{
-    p->size = size;
-    while (size >> p->level_count) {
-        size_t edge = size >> p->level_count;
-        p->levels[p->level_count] = mem_zalloc(allocator, edge * edge, sizeof(float));
-        if (!p->levels[p->level_count])
-            return false;
-        p->level_count++;
-    }
-    return true;
-}
-
-static void destroy_plane(foam_plane *p)
-{
-    for (uint32_t l = 0; l < WAVES_MAX_LEVELS; l++)
-        mem_free(p->levels[l]);
-}
-
-static double mean_square(const float *values, size_t count)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < count; i++)
-        sum += (double)values[i] * (double)values[i];
-    return sum / (double)count;
-}
-
-/* Of what lies between texels, interpolated linearly: products of neighbours are in it. */
-static double mean_square_between(const float *values, size_t edge)
-{
-    double same = 0.0, beside = 0.0, across = 0.0;
-    for (size_t z = 0; z < edge; z++) {
-        const float *row = values + z * edge, *next = values + (z + 1) % edge * edge;
-        for (size_t x = 0; x < edge; x++) {
-            double here = (double)row[x];
-            same += here * here;
-            beside += here * (double)(row[(x + 1) % edge] + next[x]);
-            across += here * (double)next[(x + 1) % edge] + (double)row[(x + 1) % edge] * (double)next[x];
-        }
-    }
-    return (4.0 * same + 2.0 * beside + 0.5 * across) / (9.0 * (double)(edge * edge));
-}
-
-static void reduce_plane(foam_plane *p)
-{
-    double all = mean_square(p->levels[0], (size_t)p->size * p->size);
-    for (uint32_t l = 1; l < p->level_count; l++) {
-        size_t edge = p->size >> l;
-        for (size_t z = 0; z < edge; z++)
-            for (size_t x = 0; x < edge; x++) {
-                const float *from = p->levels[l - 1] + 4 * z * edge + 2 * x;
-                p->levels[l][z * edge + x] =
-                    0.25f * (from[0] + from[1] + from[2 * edge] + from[2 * edge + 1]);
-            }
-    }
-    for (uint32_t l = 0; l < p->level_count; l++)
-        p->hidden[l] = (float)fmax(all - mean_square_between(p->levels[l], p->size >> l), 0.0);
-}
-
-static float plane_texel(const foam_plane *p, uint32_t level, double u, double v)
-{
-    double scale = 1.0 / (double)(1u << level), offset = 0.5 * scale - 0.5;
-    double x = u * scale + offset, z = v * scale + offset;
-    if (!(fabs(x) < 0x1p52 && fabs(z) < 0x1p52))
-        return 0.0f;
-    double x0 = floor(x), z0 = floor(z);
-    float fx = (float)(x - x0), fz = (float)(z - z0);
-    size_t edge = p->size >> level, mask = edge - 1;
-    size_t ix = (size_t)(int64_t)x0 & mask, iz = (size_t)(int64_t)z0 & mask;
-    const float *row0 = p->levels[level] + iz * edge, *row1 = p->levels[level] + ((iz + 1) & mask) * edge;
-    float a = row0[ix] + fx * (row0[(ix + 1) & mask] - row0[ix]);
-    float b = row1[ix] + fx * (row1[(ix + 1) & mask] - row1[ix]);
-    return a + fz * (b - a);
-}
-
-typedef struct plane_value {
-    float mean, hidden;
-} plane_value;
-
-/* (u, v) in samples; texels: the footprint's width in them. */
-static plane_value read_plane(const foam_plane *p, double u, double v, float texels)
-{
-    uint32_t level = 0;
-    while (texels >= 2.0f && level + 1 < p->level_count) {
-        texels *= 0.5f;
-        level++;
-    }
-    plane_value value = {plane_texel(p, level, u, v), p->hidden[level]};
-    if (texels <= 1.0f || level + 1 >= p->level_count)
-        return value;
-    float mix = fminf(texels - 1.0f, 1.0f);
-    value.mean += mix * (plane_texel(p, level + 1, u, v) - value.mean);
-    value.hidden += mix * (p->hidden[level + 1] - value.hidden);
-    return value;
-}
-
 /* ---- what has broken ---- */
 
 /* Times at which crests are looked at: now, and multiples of step_s before, so that the next frame looks at the same. */
@@ -271,6 +173,14 @@ static void scale_share(float *share, size_t count, double mean)
         share[j] = (float)fmin(high * (double)share[j], 1.0);
 }
 
+static double mean_square(const float *values, size_t count)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < count; i++)
+        sum += (double)values[i] * (double)values[i];
+    return sum / (double)count;
+}
+
 /* Heights at time 0, with a variance of 1. */
 static void make_lace(const waves *w, workspace *s, uint32_t tile, foam_plane *lace)
 {
@@ -286,14 +196,14 @@ static void make_lace(const waves *w, workspace *s, uint32_t tile, foam_plane *l
     float scale = deviation > 0.0 ? (float)(1.0 / deviation) : 0.0f;
     for (size_t i = 0; i < count; i++)
         lace->levels[0][i] = scale * s->pair.fields[0][i];
-    reduce_plane(lace);
+    foam_plane_reduce(lace);
 }
 
 void waves_foam_destroy(waves_foam *f)
 {
-    destroy_plane(&f->share);
+    foam_plane_destroy(&f->share);
     for (uint32_t i = 0; i < FOAM_LACES; i++)
-        destroy_plane(&f->lace[i]);
+        foam_plane_destroy(&f->lace[i]);
     *f = (waves_foam){.lace_count = 0};
 }
 
@@ -305,11 +215,11 @@ facet_result waves_foam_create(const waves *w, const foam_rule *rule, double dec
         return FACET_OK;
     uint32_t size = w->tiles[0].size;
     workspace s = {.chances = NULL};
-    bool is_there = allocate_workspace(w, &s) && allocate_plane(&w->allocator, size, &out->share);
+    bool is_there = allocate_workspace(w, &s) && foam_plane_create(&w->allocator, size, &out->share);
     out->lace_count = w->tile_count > FOAM_LACES ? FOAM_LACES : 1;
     for (uint32_t i = 0; i < out->lace_count; i++) {
         out->lace_tiles[i] = w->tile_count > 1 ? i + 1 : 0;
-        is_there = is_there && allocate_plane(&w->allocator, size, &out->lace[i]);
+        is_there = is_there && foam_plane_create(&w->allocator, size, &out->lace[i]);
     }
     if (!is_there) {
         destroy_workspace(&s);
@@ -319,7 +229,7 @@ facet_result waves_foam_create(const waves *w, const foam_rule *rule, double dec
     make_chances(s.chances, w, (double)rule->active_threshold);
     gather_history(w, &s, decay_s, out->share.levels[0]);
     scale_share(out->share.levels[0], (size_t)size * size, 0.9 * (double)rule->coverage);
-    reduce_plane(&out->share);
+    foam_plane_reduce(&out->share);
     for (uint32_t i = 0; i < out->lace_count; i++)
         make_lace(w, &s, out->lace_tiles[i], &out->lace[i]);
     destroy_workspace(&s);
@@ -363,8 +273,8 @@ static float share_at(const waves_foam *f, double x, double z, float footprint_m
     float sum = 0.0f; /* squares of the weights sum to 1 */
     for (uint32_t i = 0; i < count; i++)
         sum += patches[i].weight * patches[i].weight *
-               read_plane(&f->share, u + (double)patches[i].u, v + (double)patches[i].v,
-                          footprint_m * (float)t->samples_per_m)
+               foam_plane_read(&f->share, u + (double)patches[i].u, v + (double)patches[i].v,
+                               footprint_m * (float)t->samples_per_m)
                    .mean;
     return fminf(fmaxf(sum, 0.0f), 1.0f);
 }
@@ -379,9 +289,9 @@ float waves_foam_at(const waves_foam *f, double x, double z, float footprint_m)
     float mean = 0.0f, hidden = 0.0f, scale = 1.0f / sqrtf((float)f->lace_count);
     for (uint32_t i = 0; i < f->lace_count; i++) {
         const wave_tile *t = &f->w->tiles[f->lace_tiles[i]];
-        plane_value value =
-            read_plane(&f->lace[i], x * t->cos_per_m + z * t->sin_per_m, z * t->cos_per_m - x * t->sin_per_m,
-                       footprint_m * (float)t->samples_per_m);
+        foam_plane_value value =
+            foam_plane_read(&f->lace[i], x * t->cos_per_m + z * t->sin_per_m,
+                            z * t->cos_per_m - x * t->sin_per_m, footprint_m * (float)t->samples_per_m);
         mean += value.mean * scale;
         hidden += value.hidden * scale * scale;
     }

@@ -10,14 +10,8 @@
 #ifndef OCEAN_WAVES_FOAM_H
 #define OCEAN_WAVES_FOAM_H
 
+#include "ocean/foam_plane.h"
 #include "ocean/waves.h"
-
-/* A field of one number per texel, with means of 2 x 2. */
-typedef struct foam_plane {
-    uint32_t size, level_count; /* 0: none */
-    float *levels[WAVES_MAX_LEVELS];
-    float hidden[WAVES_MAX_LEVELS]; /* variance that a level has lost */
-} foam_plane;
 
 enum { FOAM_LACES = 2 };
 
