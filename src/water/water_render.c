@@ -85,7 +85,7 @@ static vec3 trace(const water_setup *s, const march_ray *ray)
     vec3 d = vec3((float)e[0], (float)e[1], (float)e[2]);
     bool is_before = water_look_is_before(&s->desc->look);
     march_hit hit;
-    bool is_met = water_march_find(&s->march, ray, &hit);
+    bool is_met = water_profile_find(&s->profile, ray, &hit);
     if (is_before)
         return is_met ? shade_hit(s, ray, &hit, d) : water_look_sky(d);
     vec3 L;
@@ -107,13 +107,14 @@ static vec3 trace(const water_setup *s, const march_ray *ray)
 
 /* ---- pixels, tiles ---- */
 
-static void draw_pixel(const picture *p, uint32_t x, uint32_t y, float rgba[4])
+static void draw_pixel(const picture *p, uint32_t x, uint32_t y)
 {
     vec3 sum = vec3(0.0f);
     for (uint32_t i = 0; i < p->sample_count; i++) {
         march_ray ray = camera_ray(p->setup, (float)x + p->pattern[2 * i], (float)y + p->pattern[2 * i + 1]);
         sum = sum + trace(p->setup, &ray);
     }
+    float *rgba = p->pixels + 4 * ((size_t)(y - p->crop[1]) * p->crop[2] + (x - p->crop[0]));
     for (int i = 0; i < 3; i++)
         rgba[i] = sum[i] / (float)p->sample_count;
     rgba[3] = 1.0f;
@@ -121,11 +122,10 @@ static void draw_pixel(const picture *p, uint32_t x, uint32_t y, float rgba[4])
 
 static void draw_tile(picture *p, uint32_t tile)
 {
-    const uint32_t *crop = p->crop;
     uint32_t left = tile % p->tile_columns * TILE, top = tile / p->tile_columns * TILE;
-    for (uint32_t y = top; y < top + TILE && y < crop[3]; y++) {
-        for (uint32_t x = left; x < left + TILE && x < crop[2]; x++)
-            draw_pixel(p, crop[0] + x, crop[1] + y, p->pixels + 4 * ((size_t)y * crop[2] + x));
+    for (uint32_t y = top; y < top + TILE && y < p->crop[3]; y++) {
+        for (uint32_t x = left; x < left + TILE && x < p->crop[2]; x++)
+            draw_pixel(p, p->crop[0] + x, p->crop[1] + y);
         render_watch_look(&p->watch);
         if (render_watch_is_stopped(&p->watch))
             return;

@@ -74,8 +74,9 @@ facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_des
         return result;
     s->footprint = inversesqrt((float)(r->samples ? r->samples : 1));
     s->is_below = is_under_water(s);
-    result = water_march_create(&sea->waves, &sea->slopes, s->camera.origin, !s->camera.is_orthographic,
-                                &r->allocator, &s->march, error);
+    s->march = water_march_of(&sea->waves, &sea->slopes, !s->camera.is_orthographic);
+    result = water_profile_create(&s->march, &s->camera, r->crop, s->is_below, r->thread_count, &r->allocator,
+                                  &s->profile, error);
     float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
     if (result == FACET_OK)
         result = water_sky_create(desc, s->camera.origin[1], rows_per_rad, &s->sky, error);
@@ -92,7 +93,7 @@ facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_des
 
 void water_setup_destroy(water_setup *s)
 {
-    water_march_destroy(&s->march);
+    water_profile_destroy(&s->profile);
     water_sky_destroy(&s->sky);
     memset(s, 0, sizeof *s);
 }

@@ -5,7 +5,7 @@
 #include "draw/camera_rays.h"
 #include "ocean/sea.h"
 #include "ocean/water_table.h"
-#include "water/water_march.h"
+#include "water/water_profile.h"
 #include "water/water_sky.h"
 
 typedef struct water_setup {
@@ -15,6 +15,7 @@ typedef struct water_setup {
     float footprint; /* of a sample, over that of its pixel */
     bool is_below;   /* the eye is in the water */
     water_march march;
+    water_profile profile;
     water_sky sky;
     water_table table; /* of means over facets */
     Water water;

@@ -1,0 +1,231 @@
+/* water_profile.c - see water_profile.h. */
+#include "water/water_profile.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+
+static const double STEEPEST_LEVEL =
+    0.2; /* level part of the steepest rays that are found here: 78 degrees */
+static const double FINE_PIXELS = 1.0, COARSE_PIXELS = 4.0; /* between columns; between samples */
+static const double LONGEST_M = 1e5, SHORTEST_M = 0.02;
+static const double MOST_SAMPLES = 4e6;
+static const double PI_D = 3.14159265358979323846;
+enum { PROBES = 33 };
+
+typedef struct filling {
+    water_profile *p;
+    uint32_t coarse_count; /* columns of samples */
+    double coarse_per_rad;
+    double pixel_rad;
+    float *heights; /* coarse_count columns of row_count */
+} filling;
+
+static double distance_of(const water_profile *p, double row)
+{
+    return p->first_m * exp(row / p->rows_per_log);
+}
+
+/* ---- where ---- */
+
+static double turned(double azimuth, double from)
+{
+    double a = azimuth - from;
+    return a - 2.0 * PI_D * floor(a / (2.0 * PI_D) + 0.5);
+}
+
+/* Azimuths that rays of the part have, of those that are not too steep; false: none. */
+static bool azimuths_of(const camera_rays *rays, const uint32_t part[4], double *middle, double *half)
+{
+    float o[3], d[3];
+    camera_rays_at(rays, (float)part[0] + 0.5f * (float)part[2], (float)part[1] + 0.5f * (float)part[3], o,
+                   d);
+    double level = hypot((double)d[0], (double)d[2]), length = hypot(level, (double)d[1]);
+    *middle = atan2((double)d[2], (double)d[0]);
+    *half = 0.0;
+    bool is_any = false;
+    for (int i = 0; i < PROBES * PROBES; i++) {
+        float x = (float)part[0] + (float)part[2] * (float)(i % PROBES) / (PROBES - 1);
+        float y = (float)part[1] + (float)part[3] * (float)(i / PROBES) / (PROBES - 1);
+        camera_rays_at(rays, x, y, o, d);
+        double flat = hypot((double)d[0], (double)d[2]);
+        if (flat < STEEPEST_LEVEL * hypot(flat, (double)d[1]))
+            continue;
+        is_any = true;
+        *half = fmax(*half, fabs(turned(atan2((double)d[2], (double)d[0]), *middle)));
+    }
+    *half = level < 0.5 * length ? PI_D : fmin(*half * 1.1 + 0.02, PI_D);
+    return is_any;
+}
+
+/* From where rays can meet waves to where waves are seen no more. */
+static void distances_of(const water_march *m, double eye_y, double pixel_rad, bool is_below, double out[2])
+{
+    wave_bounds all = waves_bounds(m->waves, 0.0f);
+    double clear = is_below ? (double)all.lowest - eye_y : eye_y - (double)all.highest;
+    out[0] = fmax(clear * STEEPEST_LEVEL, SHORTEST_M);
+    out[1] = out[0] * 2.0;
+    while (out[1] < LONGEST_M) {
+        double rise = (eye_y - out[1] * out[1] * m->fall) / out[1];
+        float footprint = water_march_footprint(m, (float)(pixel_rad * out[1]), rise);
+        wave_bounds there = waves_bounds(m->waves, footprint);
+        if ((double)(there.highest - there.lowest) < 0.1 * pixel_rad * out[1])
+            break;
+        out[1] *= 1.3;
+    }
+}
+
+/* ---- filling ---- */
+
+static void fill_samples(void *context, size_t begin, size_t end)
+{
+    const filling *f = context;
+    const water_profile *p = f->p;
+    for (size_t c = begin; c < end; c++) {
+        double azimuth = p->first_azimuth + (double)c / f->coarse_per_rad;
+        double dx = cos(azimuth), dz = sin(azimuth);
+        float displacement[2] = {0.0f, 0.0f};
+        for (uint32_t row = 0; row < p->row_count; row++) {
+            double r = distance_of(p, row);
+            double rise = (p->origin[1] - r * r * p->march->fall) / r;
+            float width = (float)(0.5 * COARSE_PIXELS * f->pixel_rad * hypot(r, p->origin[1]));
+            float footprint = water_march_footprint(p->march, width, rise);
+            f->heights[c * p->row_count + row] = waves_height_near(
+                p->march->waves, p->origin[0] + r * dx, p->origin[2] + r * dz, footprint, displacement);
+        }
+    }
+}
+
+static void fill_columns(void *context, size_t begin, size_t end)
+{
+    const filling *f = context;
+    const water_profile *p = f->p;
+    float sign = p->is_below ? -1.0f : 1.0f;
+    for (size_t c = begin; c < end; c++) {
+        double x = (double)c / p->columns_per_rad * f->coarse_per_rad;
+        size_t left = (size_t)x < f->coarse_count - 1 ? (size_t)x : f->coarse_count - 2;
+        float share = (float)(x - (double)left), greatest = -HUGE_VALF;
+        const float *a = f->heights + left * p->row_count, *b = a + p->row_count;
+        float *out = p->tangents + c * p->row_count;
+        for (uint32_t row = 0; row < p->row_count; row++) {
+            double r = distance_of(p, row);
+            double eta = (double)(a[row] + (b[row] - a[row]) * share);
+            float e = sign * (float)((eta - p->origin[1] - r * r * p->march->fall) / r);
+            greatest = e > greatest ? e : greatest;
+            out[row] = greatest;
+        }
+    }
+}
+
+/* ---- making ---- */
+
+/* Chooses numbers of columns and rows, fewer of them where a picture is so large that its samples would be. */
+static void lay_out(filling *f, double half, const double distances[2])
+{
+    water_profile *p = f->p;
+    double ratio = log(distances[1] / distances[0]), coarse = COARSE_PIXELS * f->pixel_rad;
+    double samples = 2.0 * half / coarse * ratio / coarse;
+    coarse *= samples > MOST_SAMPLES ? sqrt(samples / MOST_SAMPLES) : 1.0;
+    coarse = fmin(coarse, 0.05);
+    f->coarse_count = (uint32_t)(2.0 * half / coarse) + 3;
+    f->coarse_per_rad = (f->coarse_count - 2) / (2.0 * half);
+    double finer = ceil(COARSE_PIXELS / FINE_PIXELS);
+    p->column_count = (uint32_t)((f->coarse_count - 1) * finer);
+    p->columns_per_rad = f->coarse_per_rad * finer;
+    p->first_m = distances[0];
+    p->rows_per_log = 1.0 / coarse;
+    p->row_count = (uint32_t)(ratio / coarse) + 2;
+}
+
+facet_result water_profile_create(const water_march *m, const camera_rays *rays, const uint32_t part[4],
+                                  bool is_below, uint32_t thread_count, const facet_allocator *allocator,
+                                  water_profile *p, facet_error *error)
+{
+    *p = (water_profile){.march = m, .is_below = is_below};
+    double middle, half, distances[2];
+    if (rays->is_orthographic || m->waves->tile_count == 0 || !azimuths_of(rays, part, &middle, &half))
+        return FACET_OK;
+    for (int i = 0; i < 3; i++)
+        p->origin[i] = (double)rays->origin[i];
+    filling f = {.p = p, .pixel_rad = (double)rays->pixel_size};
+    distances_of(m, p->origin[1], f.pixel_rad, is_below, distances);
+    p->first_azimuth = middle - half;
+    lay_out(&f, half, distances);
+    size_t samples = (size_t)f.coarse_count * p->row_count, all = (size_t)p->column_count * p->row_count;
+    f.heights = mem_alloc(allocator, samples, sizeof *f.heights);
+    p->tangents = mem_alloc(allocator, all, sizeof *p->tangents);
+    if (!f.heights || !p->tangents) {
+        mem_free(f.heights);
+        water_profile_destroy(p);
+        return fail_memory(error, "the sea's profile", (samples + all) * sizeof(float));
+    }
+    parallel_for(thread_count, f.coarse_count, 4, fill_samples, &f);
+    parallel_for(thread_count, p->column_count, 16, fill_columns, &f);
+    mem_free(f.heights);
+    return FACET_OK;
+}
+
+void water_profile_destroy(water_profile *p)
+{
+    mem_free(p->tangents);
+    *p = (water_profile){.march = NULL};
+}
+
+/* ---- asking ---- */
+
+static uint32_t first_row(const float *tangents, uint32_t count, float tangent)
+{
+    uint32_t low = 0;
+    while (count > 0) {
+        uint32_t half = count / 2;
+        bool is_less = tangents[low + half] < tangent;
+        low += is_less ? half + 1 : 0;
+        count = is_less ? count - half - 1 : half;
+    }
+    return low;
+}
+
+/* Beyond the last row there are no waves any more. */
+static bool find_flat(const water_profile *p, const march_ray *ray, double from, march_hit *hit)
+{
+    const float still[2] = {0.0f, 0.0f};
+    double f, t = water_march_reach(p->march, ray, 0.0, fmax(from, ray->near_m));
+    if (!(t <= ray->far_m && t < HUGE_VAL))
+        return false;
+    *hit = water_march_hit_at(p->march, ray, t, still, &f);
+    return true;
+}
+
+bool water_profile_find(const water_profile *p, const march_ray *ray, march_hit *hit)
+{
+    const double *d = ray->direction;
+    double level = hypot(d[0], d[2]);
+    double column = turned(atan2(d[2], d[0]), p->first_azimuth) * p->columns_per_rad + 0.5;
+    column = column < 0.0 ? column + 2.0 * PI_D * p->columns_per_rad : column;
+    if (!p->tangents || level < STEEPEST_LEVEL || !(column < (double)p->column_count))
+        return water_march_find(p->march, ray, hit);
+    const float *tangents = p->tangents + (size_t)column * p->row_count;
+    double slope = d[1] / level * (p->is_below ? -1.0 : 1.0);
+    uint32_t row = first_row(tangents, p->row_count, (float)slope);
+    if (row == 0)
+        return water_march_find(p->march, ray, hit);
+    if (row == p->row_count)
+        return find_flat(p, ray, distance_of(p, row - 1.0) / level, hit);
+    double near_r = distance_of(p, row - 1.0), far_r = distance_of(p, row);
+    double near_f = near_r * (slope - (double)tangents[row - 1]),
+           far_f = far_r * (slope - (double)tangents[row]);
+    double share = near_f / fmax(near_f - far_f, 1e-12), r = near_r + (far_r - near_r) * share;
+    const float still[2] = {0.0f, 0.0f};
+    double f, t = r / level;
+    if (!(t >= ray->near_m && t <= ray->far_m))
+        return t < ray->near_m ? water_march_find(p->march, ray, hit) : false;
+    *hit = water_march_hit_at(p->march, ray, t, still, &f);
+    double closing = (near_f - far_f) / (far_r - near_r);
+    double more = fmin(fmax(f / fmax(closing, 1e-3), near_r - far_r), far_r - near_r) / level;
+    hit->t = t + more;
+    hit->X += more * d[0];
+    hit->Z += more * d[2];
+    return true;
+}

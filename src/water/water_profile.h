@@ -1,0 +1,35 @@
+/* water_profile.h - the sea as one eye sees it, for all rays of a picture at once.
+ *
+ * Every ray from an eye keeps its azimuth. Along an azimuth the surface at the distance r is seen under the elevation whose tangent is
+ *   e(r) = (eta(r) - y_eye - r^2 / (2 R)) / r
+ * and a ray of tangent e meets the first r that has as much: the greatest e so far grows with r, so it is found by bisection. The surface is
+ * sampled 4 pixels apart along and across, where waves that are shorter are less than a tenth of a pixel high; the place that is found is
+ * corrected by the surface as it is. */
+#ifndef WATER_WATER_PROFILE_H
+#define WATER_WATER_PROFILE_H
+
+#include "draw/camera_rays.h"
+#include "water/water_march.h"
+
+typedef struct water_profile {
+    const water_march *march;
+    double origin[3];
+    bool is_below;
+    double first_azimuth, columns_per_rad;
+    uint32_t column_count, row_count; /* 0: there is none */
+    double first_m, rows_per_log;     /* distance of row 0; rows per natural logarithm of distance */
+    float *
+        tangents; /* column_count columns of row_count: greatest e so far (from below: of -e); block of mem_alloc() */
+} water_profile;
+
+/* For the part of a picture (x, y, width, height in pixels) that rays show. None is made, and none needed, for parallel rays and still
+ * water. FACET_ERROR_MEMORY. */
+facet_result water_profile_create(const water_march *m, const camera_rays *rays, const uint32_t part[4],
+                                  bool is_below, uint32_t thread_count, const facet_allocator *allocator,
+                                  water_profile *out, facet_error *error);
+void water_profile_destroy(water_profile *p); /* {0} is allowed */
+
+/* As water_march_find(), of a ray from the eye. */
+bool water_profile_find(const water_profile *p, const march_ray *ray, march_hit *hit);
+
+#endif
