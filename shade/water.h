@@ -77,7 +77,7 @@ FN vec3 water_refracted(Water w, vec3 d, vec3 N)
     return refract(d, N, 1.0f / w.ior);
 }
 
-/* What the table of water_surface.h is made of: mean reflectance over that of flat water .. See integrate_water_means(). */
+/* What the table of water_means.h is made of: mean reflectance over that of flat water .. See integrate_water_means(). */
 STRUCT(WaterMirror)
 {
     float fresnel;              /* mean reflectance of the facets that are seen */

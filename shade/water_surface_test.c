@@ -380,6 +380,45 @@ static void test_lookup(void **state)
     }
 }
 
+/* A sky that is six times as bright at the horizon as above, in facets drawn one by one and as it is looked up by the means. */
+static double bright_horizon(vec3 d)
+{
+    return d[1] > 0.0f ? 1.0 + 6.0 * (exp)(-7.0 * (double)d[1]) : 0.0;
+}
+static void test_sky(void **state)
+{
+    (void)state;
+    const double angle[4] = {0.0, 30.0, 70.0, 88.0}, low[4] = {-0.02, -0.03, -0.20, -0.20},
+                 high[4] = {0.02, 0.02, 0.0, 0.0};
+    vec3 C = isotropic(0.0542);
+    for (int k = 0; k < 4; ++k) {
+        vec3 V = direction(90.0 - angle[k], 0.0);
+        float Lambda_V = Lambda_slopes(WATER_BECKMANN, smith_a(C, UP, V));
+        double truth = 0.0, weight = 0.0, looked_up = 0.0, lobe = 0.0;
+        enum { DRAWS = 96, POINTS = 4096 };
+        for (uint i = 0; i < DRAWS * DRAWS; ++i) {
+            vec3 m = sample_slopes(hammersley(i, DRAWS * DRAWS) + vec2(0.5f / (DRAWS * DRAWS)), C, UP, V),
+                 L = reflect(-V, m);
+            float g =
+                (1.0f + Lambda_V) / (1.0f + Lambda_V + Lambda_slopes(WATER_BECKMANN, smith_a(C, UP, L)));
+            double w = L[1] > 0.0f ? (double)(g * F_dielectric(max(dot(V, m), 0.0f), 1.34f)) : 0.0;
+            truth += w * bright_horizon(L);
+            weight += w;
+        }
+        WaterMeans means = integrate_water_means(WATER_BECKMANN, V[1], sqrt(C[0]), 1.34f, 64);
+        vec3 R = raised_reflection(UP, V, means.lift);
+        for (uint i = 0; i < POINTS; ++i) {
+            PrefilterSample p =
+                prefilter_sample(i, POINTS, alpha_from_roughness(roughness_from_spread(means.spread)), R);
+            looked_up += (double)p.weight * bright_horizon(p.L);
+            lobe += (double)p.weight;
+        }
+        double error = looked_up / lobe / (truth / weight) - 1.0;
+        if (!(error > low[k] && error < high[k]))
+            fail_msg("the sky at %g degrees: %.1f %% off", angle[k], 100.0 * error);
+    }
+}
+
 /* ---- facets by chance ---- */
 
 /* The normal distribution's inverse against its function; drawn facets against the means by quadrature, on a flank and askew. */
@@ -458,9 +497,11 @@ static void test_sun_below(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distribution), cmocka_unit_test(test_slopes),    cmocka_unit_test(test_masking),
-        cmocka_unit_test(test_reciprocity),  cmocka_unit_test(test_furnace),   cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_glitter),      cmocka_unit_test(test_means),     cmocka_unit_test(test_lookup),
+        cmocka_unit_test(test_distribution), cmocka_unit_test(test_slopes),
+        cmocka_unit_test(test_masking),      cmocka_unit_test(test_reciprocity),
+        cmocka_unit_test(test_furnace),      cmocka_unit_test(test_sun),
+        cmocka_unit_test(test_glitter),      cmocka_unit_test(test_means),
+        cmocka_unit_test(test_lookup),       cmocka_unit_test(test_sky),
         cmocka_unit_test(test_sampling),     cmocka_unit_test(test_sun_below),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

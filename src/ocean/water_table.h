@@ -1,4 +1,4 @@
-/* water_table.h - means over the facets of a rough sea that an eye sees (shade/water_surface.h), for every direction and roughness. */
+/* water_table.h - means over the facets of a rough sea that an eye sees (shade/water_means.h), for every direction and roughness. */
 #ifndef OCEAN_WATER_TABLE_H
 #define OCEAN_WATER_TABLE_H
 
