@@ -1,6 +1,7 @@
-/* wave_patches.h - the longest tile without its repetition: the plane is laid out with patches of it, each from a random place,
- * that blend into each other. Of Gaussian fields a blend whose squared weights sum to 1 is again one, with the same variance and
- * the same spectrum (Heitz and Neyret 2018). Shorter tiles have a twentieth of the variance, and repeat.
+/* wave_patches.h - a tile without its repetition: the plane is laid out with patches of it, each from a random place, that blend
+ * into each other. Of Gaussian fields a blend whose squared weights sum to 1 is again one, with the same variance and the same
+ * spectrum (Heitz and Neyret 2018). The longest tile and those that have a peak of the spectrum are read so: they have nearly all of the
+ * height. Others have a twentieth, and repeat.
  *
  * Patches lie around the corners of equilateral triangles with edges of one tile; a corner's weight is the square of what its
  * barycentric coordinate has over a quarter: half of the plane sees two patches, a twentieth three. The weights' own slopes, up
@@ -29,9 +30,14 @@ static inline uint64_t wave_patch_hash(uint64_t seed, int64_t i, int64_t j)
 }
 
 /* Those that are seen at (x, z); how many. Squares of the weights sum to 1. */
-static inline uint32_t wave_patches_at(const waves *w, double x, double z, wave_patch out[WAVES_MAX_PATCHES])
+static inline uint32_t wave_patches_at(const waves *w, uint32_t tile, double x, double z,
+                                       wave_patch out[WAVES_MAX_PATCHES])
 {
-    const wave_tile *t = &w->tiles[0];
+    const wave_tile *t = &w->tiles[tile];
+    if (!t->is_patched) {
+        out[0] = (wave_patch){1.0f, 0, 0};
+        return 1;
+    }
     double b = z / t->length_m * 1.15470053837925153,
            a = x / t->length_m - 0.5 * b; /* in the triangles' axes */
     if (!(fabs(a) < 0x1p40 && fabs(b) < 0x1p40))
@@ -50,7 +56,7 @@ static inline uint32_t wave_patches_at(const waves *w, double x, double z, wave_
         float over = barycentric[c] - 0.25f;
         if (over <= 0.0f)
             continue;
-        uint64_t hash = wave_patch_hash(w->seed, corners[c][0], corners[c][1]);
+        uint64_t hash = wave_patch_hash(w->seed + tile, corners[c][0], corners[c][1]);
         out[count++] = (wave_patch){over * over, (uint32_t)hash & (t->size - 1u),
                                     (uint32_t)(hash >> 32) & (t->size - 1u)};
         squares += over * over * over * over;

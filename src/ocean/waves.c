@@ -25,8 +25,19 @@ static facet_result allocate_tile(const waves *w, wave_tile *t, facet_error *err
     return FACET_OK;
 }
 
-static wave_tile tile_of(const sea_bands *b, uint32_t index, uint32_t size)
+static bool has_peak(const sea_state *s, const wave_tile *t)
 {
+    for (int i = 0; i < SEA_SYSTEMS; i++) {
+        double k = wave_k(s->systems[i].peak_omega, s->depth_m);
+        if (k > 0.0 && k >= t->k_from && k < t->k_to)
+            return true;
+    }
+    return false;
+}
+
+static wave_tile tile_of(const sea_state *s, uint32_t index, uint32_t size)
+{
+    const sea_bands *b = &s->bands;
     /* No two tiles have axes that are parallel or at right angles. */
     static const double turns_degrees[WAVES_MAX_TILES] = {0.0, 37.0, -71.0, 62.0};
     wave_tile t = {.length_m = b->length_m[index],
@@ -36,6 +47,7 @@ static wave_tile tile_of(const sea_bands *b, uint32_t index, uint32_t size)
                    .size = size};
     while (size >> t.level_count)
         t.level_count++;
+    t.is_patched = index == 0 || has_peak(s, &t);
     t.samples_per_m = size / t.length_m;
     t.cos_per_m = cos(t.turn) * t.samples_per_m;
     t.sin_per_m = sin(t.turn) * t.samples_per_m;
@@ -174,7 +186,7 @@ facet_result waves_create(const facet_sea_desc *desc, const sea_state *state, wa
     facet_result result = FACET_OK;
     double level_m = 0.0;
     for (uint32_t i = 0; i < out->tile_count && !result; i++) {
-        out->tiles[i] = tile_of(&state->bands, i, desc->resolution);
+        out->tiles[i] = tile_of(state, i, desc->resolution);
         result = allocate_tile(out, &out->tiles[i], error);
         if (result)
             break;

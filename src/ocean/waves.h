@@ -1,7 +1,7 @@
 /* waves.h - a sea drawn from its spectrum: tiles of different length, each with its band of wave numbers, that repeat and are
  * summed. Everything is a function of seed and time, whatever resolution and threads.
  *
- * The longest tile does not repeat where it is read: see wave_patches.h. */
+ * The longest tile, and those with the peak of the wind's waves or the swell's, do not repeat where they are read: see wave_patches.h. */
 #ifndef OCEAN_WAVES_H
 #define OCEAN_WAVES_H
 
@@ -31,6 +31,7 @@ typedef struct wave_bounds {
 
 typedef struct wave_tile {
     double length_m;
+    bool is_patched;
     double turn; /* rad: the tile's axes are turned by it from +X towards +Z */
     double k_from, k_to;
     uint32_t size;        /* samples along an edge */

@@ -269,7 +269,7 @@ static float share_at(const waves_foam *f, double x, double z, float footprint_m
     const wave_tile *t = &f->w->tiles[0];
     double u = x * t->cos_per_m + z * t->sin_per_m, v = z * t->cos_per_m - x * t->sin_per_m;
     wave_patch patches[WAVES_MAX_PATCHES];
-    uint32_t count = wave_patches_at(f->w, x, z, patches);
+    uint32_t count = wave_patches_at(f->w, 0, x, z, patches);
     float sum = 0.0f; /* squares of the weights sum to 1 */
     for (uint32_t i = 0; i < count; i++)
         sum += patches[i].weight * patches[i].weight *

@@ -23,10 +23,11 @@ typedef struct tile_reading {
     float u, v;   /* the place in samples of level 0, [0, 2 size] */
 } tile_reading;
 
-/* The longest tile first, once per patch. */
+/* Tiles with the longest first, each once per patch. */
 typedef struct reading {
-    tile_reading tiles[WAVES_MAX_TILES + WAVES_MAX_PATCHES - 1];
-    uint32_t count, patch_count;
+    tile_reading tiles[WAVES_MAX_TILES * WAVES_MAX_PATCHES];
+    uint32_t ends[WAVES_MAX_TILES]; /* of what each tile has */
+    uint32_t count, tile_count;
 } reading;
 
 /* In samples, wrapped to [0, size]. In double, so that it is exact a thousand kilometres away. */
@@ -65,20 +66,22 @@ static inline bool read_at(tile_reading *r, const wave_tile *t, double x, double
 static inline reading reading_of(const waves *w, double x, double z, float footprint_m)
 {
     reading r;
-    r.count = r.patch_count = 0;
-    tile_reading longest;
-    if (w->tile_count && read_at(&longest, &w->tiles[0], x, z, footprint_m)) {
+    r.count = r.tile_count = 0;
+    for (uint32_t i = 0; i < w->tile_count; i++) {
+        tile_reading one;
+        if (!read_at(&one, &w->tiles[i], x, z, footprint_m))
+            continue;
         wave_patch patches[WAVES_MAX_PATCHES];
-        r.count = r.patch_count = wave_patches_at(w, x, z, patches);
-        for (uint32_t i = 0; i < r.count; i++) {
-            r.tiles[i] = longest;
-            r.tiles[i].weight = patches[i].weight;
-            r.tiles[i].u += (float)patches[i].u;
-            r.tiles[i].v += (float)patches[i].v;
+        uint32_t patch_count = wave_patches_at(w, i, x, z, patches);
+        for (uint32_t p = 0; p < patch_count; p++) {
+            tile_reading *to = &r.tiles[r.count++];
+            *to = one;
+            to->weight = patches[p].weight;
+            to->u += (float)patches[p].u;
+            to->v += (float)patches[p].v;
         }
+        r.ends[r.tile_count++] = r.count;
     }
-    for (uint32_t i = 1; i < w->tile_count; i++)
-        r.count += read_at(&r.tiles[r.count], &w->tiles[i], x, z, footprint_m);
     return r;
 }
 
@@ -240,10 +243,10 @@ typedef struct heave {
     float x, z, height;
 } heave;
 
-static inline heave heave_from(const reading *r, uint32_t tile_count, const float displacement[2])
+static inline heave heave_from(const reading *r, uint32_t count, const float displacement[2])
 {
     heave sum = {0.0f, 0.0f, 0.0f};
-    for (uint32_t i = 0; i < tile_count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const wave_tile *t = r->tiles[i].tile;
         float4 low = read_low(&r->tiles[i], displacement);
         sum.x += t->cos_turn * low[WAVE_DX] - t->sin_turn * low[WAVE_DZ];
@@ -256,8 +259,8 @@ static inline heave heave_from(const reading *r, uint32_t tile_count, const floa
 /* Where nothing is known, the long waves come first: they move water farthest, and are read quickest. */
 static inline void guess_rest(const reading *r, float displacement[2])
 {
-    for (uint32_t tile_count = r->patch_count; tile_count && tile_count < r->count; tile_count++) {
-        heave h = heave_from(r, tile_count, displacement);
+    for (uint32_t i = 0; i + 1 < r->tile_count; i++) {
+        heave h = heave_from(r, r->ends[i], displacement);
         displacement[0] = h.x;
         displacement[1] = h.z;
     }
@@ -333,7 +336,7 @@ wave_bounds waves_bounds(const waves *w, float footprint_m)
     tile_reading r;
     for (uint32_t i = 0; i < w->tile_count; i++)
         if (read_at(&r, &w->tiles[i], 0.0, 0.0, footprint_m))
-            add_bounds(&sum, &w->tiles[i].bounds[r.level], i ? 1.0f : 1.7320508f);
+            add_bounds(&sum, &w->tiles[i].bounds[r.level], w->tiles[i].is_patched ? 1.7320508f : 1.0f);
     return sum;
 }
 

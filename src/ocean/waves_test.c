@@ -376,14 +376,15 @@ static void levels_are_means(void **state)
 static void samples_are_read_where_they_lie(void **state)
 {
     (void)state;
-    waves w = waves_of(desc_of(32, 2, 9));
+    waves w = waves_of(desc_of(64, 2, 9));
     const wave_tile *t = &w.tiles[1];
+    assert_false(t->is_patched);
     double c = cos(t->turn), s = sin(t->turn);
-    for (uint32_t i = 0; i < 1024; i += 37) {
+    for (uint32_t i = 0; i < 4096; i += 149) {
         const float *texel = t->levels[0] + (size_t)i * WAVE_FIELDS;
         for (int far = -1; far <= 1; far++) { /* three hundred kilometres away, too */
-            double u = (i % 32 / 32.0 + 3000.0 * far) * t->length_m,
-                   v = (i / 32 / 32.0 - 1000.0 * far) * t->length_m;
+            double u = (i % 64 / 64.0 + 3000.0 * far) * t->length_m,
+                   v = (i / 64 / 64.0 - 1000.0 * far) * t->length_m;
             double x = c * u - s * v, z = s * u + c * v;
             wave_point all = waves_at(&w, x, z, 0.0f);
             wave_tile hidden = w.tiles[1];
@@ -516,6 +517,31 @@ static void a_lag_of_a_tile_is_as_any_other(void **state)
     waves_destroy(&w);
 }
 
+/* Over a swell the wind's waves are in a tile of a few metres, which must not show either. */
+static void ripples_on_a_swell_do_not_repeat(void **state)
+{
+    (void)state;
+    facet_sea_desc d = desc_of(64, 4, 16);
+    d.wind_mps = 2.0f;
+    d.swell = (facet_swell){.height_m = 0.5f, .period_s = 9.0f, .direction_rad = 0.4f};
+    waves w = waves_of(d);
+    double k = wave_k(w.state.systems[0].peak_omega, ENDLESS);
+    uint32_t tile = 0;
+    while (!(k < w.tiles[tile].k_to))
+        tile++;
+    assert_true(tile > 0 && w.tiles[tile].is_patched);
+    double product = 0.0, squares = 0.0, L = w.tiles[tile].length_m;
+    double turn = w.tiles[tile].turn;
+    for (int i = 0; i < 10000; i++) {
+        double x = 0.37 * L * (i % 100), z = 0.37 * L * (i / 100);
+        double a = (double)waves_at(&w, x, z, 0.0f).slope[0];
+        squares += a * a;
+        product += a * (double)waves_at(&w, x + L * cos(turn), z + L * sin(turn), 0.0f).slope[0];
+    }
+    assert_true(fabs(product / squares) < 0.3);
+    waves_destroy(&w);
+}
+
 static void patches_keep_the_variance(void **state)
 {
     (void)state;
@@ -525,7 +551,7 @@ static void patches_keep_the_variance(void **state)
     for (int i = 0; i < 20000; i++) {
         wave_patch patches[WAVES_MAX_PATCHES];
         double x = 1e5 * (uniform(&random) - 0.5), z = 1e5 * (uniform(&random) - 0.5), sum = 0.0;
-        uint32_t count = wave_patches_at(&w, x, z, patches);
+        uint32_t count = wave_patches_at(&w, 0, x, z, patches);
         assert_in_range(count, 1, 3);
         counts[count]++;
         for (uint32_t j = 0; j < count; j++)
@@ -640,6 +666,7 @@ int main(void)
                                        cmocka_unit_test(normals_are_those_of_the_displaced_surface),
                                        cmocka_unit_test(velocity_is_the_change_of_height),
                                        cmocka_unit_test(a_lag_of_a_tile_is_as_any_other),
+                                       cmocka_unit_test(ripples_on_a_swell_do_not_repeat),
                                        cmocka_unit_test(patches_keep_the_variance),
                                        cmocka_unit_test(extremes_are_finite),
                                        cmocka_unit_test(running_out_of_memory_leaks_nothing)};

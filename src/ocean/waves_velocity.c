@@ -40,8 +40,8 @@ double waves_velocity(const waves *w, double x, double z)
         const wave_tile *t = &w->tiles[i];
         double u = (x * t->cos_per_m + z * t->sin_per_m) / t->size;
         double v = (z * t->cos_per_m - x * t->sin_per_m) / t->size;
-        wave_patch patches[WAVES_MAX_PATCHES] = {{1.0f, 0, 0}};
-        uint32_t patch_count = i ? 1 : wave_patches_at(w, x, z, patches);
+        wave_patch patches[WAVES_MAX_PATCHES];
+        uint32_t patch_count = wave_patches_at(w, i, x, z, patches);
         for (uint32_t p = 0; p < patch_count; p++)
             sum += (double)patches[p].weight * tile_velocity(w->amplitudes[i],
                                                              u + (double)patches[p].u / t->size,
