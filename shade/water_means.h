@@ -70,15 +70,15 @@ FN WaterMeans integrate_water_means(int normals, float mu, float sigma, float io
         }
     }
     WaterMeans r;
-    r.fresnel = reflected / (area * F_dielectric(NdotV, ior));
-    r.escape = escaped / reflected;
-    astray = astray / escaped;
-    raised = raised / escaped;
+    r.fresnel = reflected / max(area * F_dielectric(NdotV, ior), 1e-20f); /* ior 1: there is no surface */
+    r.escape = escaped / max(reflected, 1e-20f);
+    astray = astray / max(escaped, 1e-20f);
+    raised = raised / max(escaped, 1e-20f);
     r.lift = atan(raised, 1.0f - astray);
     float missing = astray * (2.0f - astray) - raised * raised; /* 1 - length^2 */
     r.spread = max(missing, 0.0f) / (1.0f + sqrt(max(1.0f - missing, 0.0f)));
     r.below = below / area;
-    r.elevation = elevation / above_horizon;
+    r.elevation = elevation / max(above_horizon, 1e-20f);
     return r;
 }
 

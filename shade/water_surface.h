@@ -172,8 +172,8 @@ FN float glitter(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V, float
  * Walter et al. 2007, equation 21. */
 FN float glitter_below(int normals, vec3 C, vec3 N, vec3 L, vec3 d, float n)
 {
-    vec3 h = L - d * n; /* downwards: light is bent towards the normal */
-    vec3 m = -normalize(h);
+    vec3 h = L - d * n;                                /* downwards: light is bent towards the normal */
+    vec3 m = h * -inversesqrt(max(dot(h, h), 1e-20f)); /* n = 1: 0, and no light is bent */
     float LdotM = dot(L, m);
     float ddotM = dot(d, m);
     float NdotD = dot(N, d);

@@ -388,13 +388,42 @@ static void test_foam(void **state)
                     "a quarter of foam");
 }
 
+/* Nothing is seen of a surface without a step of the ior; and no number fails at the edges: eyes at the horizon, a sun at it or below,
+ * no waves or a hurricane's. */
+static void test_edges(void **state)
+{
+    (void)state;
+    Water none = ocean(1.0f);
+    WaterPoint p = point(0.01f);
+    vec3 V = towards(60.0, 0.0), below = vec3(3.0f, 2.0f, 1.0f);
+    WaterLight day = light_of(V, 1000.0f, 10.0f, none);
+    vec3 seen = water_radiance(
+        water_parts(none, p, day, mirror_of(none, p, V), vec3(50.0f), water_sun(none, p, day, V), below));
+    for (int k = 0; k < 3; ++k)
+        expect_near((double)seen[k], (double)below[k], 1e-6, "ior 1, channel %d", k);
+    assert_true(is_finite3(water_sun_below(none, p, day, V)));
+    Water w = ocean(1.34f);
+    const double eyes[4] = {0.0, 60.0, 89.9, 89.999}, suns[4] = {0.0, 89.5, 90.0, 100.0};
+    const float variances[3] = {SLOPE_VARIANCE_MIN, 0.02f, 0.25f};
+    for (int i = 0; i < 4 * 4 * 3 * 2; ++i) {
+        w.normals = i & 1;
+        p = point(variances[(i >> 1) % 3]);
+        V = towards(eyes[i / 6 % 4], 10.0);
+        day = light_of(towards(suns[i / 24 % 4], 190.0), 1e5f, 1e4f, w);
+        seen = water_radiance(water_parts(w, p, day, mirror_of(w, p, V), vec3(4000.0f),
+                                          water_sun(w, p, day, V), water_from_deep(w, day.downwelling)));
+        assert_true(is_finite3(seen) && seen[0] >= 0.0f && seen[1] >= 0.0f && seen[2] >= 0.0f);
+        assert_true(suns[i / 24 % 4] < 90.0 || water_sun(w, p, day, V)[1] <= 1e-3f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_fresnel), cmocka_unit_test(test_refraction), cmocka_unit_test(test_closed_box),
         cmocka_unit_test(test_flat),    cmocka_unit_test(test_bound),      cmocka_unit_test(test_volume),
         cmocka_unit_test(test_deep),    cmocka_unit_test(test_bed),        cmocka_unit_test(test_backlight),
-        cmocka_unit_test(test_below),   cmocka_unit_test(test_foam),
+        cmocka_unit_test(test_below),   cmocka_unit_test(test_foam),       cmocka_unit_test(test_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
