@@ -104,18 +104,17 @@ static void add_node(sums *sum, const wave_node *n, double share)
 }
 
 typedef struct tables {
+    double footprints_m[FOOTPRINTS];
     sums resolved[FOOTPRINTS], hidden[FOOTPRINTS];
 } tables;
 
-static void add_wave(tables *all, const waves *w, const wave_tile *t, const wave_node *n)
+static void add_wave(tables *all, const wave_tile *t, const wave_node *n)
 {
     double sample = 1.0 / t->samples_per_m, c = cos(t->turn), s = sin(t->turn);
     axis_gain x = axis_gain_of(n->k * (c * n->c + s * n->s) * sample, t->level_count);
     axis_gain z = axis_gain_of(n->k * (c * n->s - s * n->c) * sample, t->level_count);
-    (void)w;
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
-        double texels = (double)slope_filter_footprint(i) * t->samples_per_m;
-        double gain = gain_of(&x, &z, t->level_count, texels);
+        double gain = gain_of(&x, &z, t->level_count, all->footprints_m[i] * t->samples_per_m);
         add_node(&all->resolved[i], n, gain);
         add_node(&all->hidden[i], n, 1.0 - gain);
     }
@@ -136,7 +135,7 @@ static void add_ring(tables *all, const waves *w, const wave_tile *t, double k, 
             n.density[i] =
                 ring.density[i] > 0.0 ? ring.density[i] * both * k * k * step * PI_D / DIRECTIONS : 0.0;
         }
-        add_wave(all, w, t, &n);
+        add_wave(all, t, &n);
     }
 }
 
@@ -194,6 +193,8 @@ void slope_filter_create(const waves *w, slope_filter *out)
     const sea_state *s = &w->state;
     tables all;
     memset(&all, 0, sizeof all);
+    for (uint32_t i = 0; i < FOOTPRINTS; i++)
+        all.footprints_m[i] = (double)slope_filter_footprint(i);
     double lowest = ENDLESS;
     for (int i = 0; i < SEA_SYSTEMS; i++)
         if (s->systems[i].peak_omega > 0.0)
