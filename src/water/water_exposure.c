@@ -5,6 +5,8 @@
 
 #include "water/water_sky.h"
 
+static const double DOME_CONSTANT = 340.0; /* lx s */
+
 facet_result water_exposure_ev100(const facet_sea_render_desc *desc, double *ev100, facet_error *error)
 {
     water_sky sky;
@@ -13,7 +15,7 @@ facet_result water_exposure_ev100(const facet_sea_render_desc *desc, double *ev1
     if (result == FACET_OK) {
         vec3 E = sky.sun_irradiance * max(sky.L[1], 0.0f) + sky.sky_irradiance;
         double lux = 0.2126 * (double)E[0] + 0.7152 * (double)E[1] + 0.0722 * (double)E[2];
-        *ev100 = (log2)(100.0 / 12.5 * 0.18 / 3.14159265358979323846 * (lux > 1.0 ? lux : 1.0));
+        *ev100 = (log2)(100.0 / DOME_CONSTANT * (lux > 1.0 ? lux : 1.0));
     }
     water_sky_destroy(&sky);
     return result;

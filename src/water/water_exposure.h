@@ -4,9 +4,9 @@
 
 #include "facet/facet.h"
 
-/* EV at ISO 100 for the light of desc's sky (or environment and sun) on a horizontal plane:
- *   EV100 = log2(100 / 12.5 * 0.18 / pi * E)
- * that of a meter pointed at a grey card, reflectance 0.18, which lies there. Light below 1 lx counts as 1: night stays dark.
+/* EV at ISO 100 for the light of desc's sky (or environment and sun), by a meter with a dome that lies on the water:
+ *   EV100 = log2(100 E / C),  C = 340 lx s
+ * ISO 2720; E in lx on a horizontal plane. Light below 1 lx counts as 1: night stays dark.
  * FACET_ERROR_MEMORY, _ARGUMENT. */
 facet_result water_exposure_ev100(const facet_sea_render_desc *desc, double *ev100, facet_error *error);
 

@@ -75,7 +75,8 @@ facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_des
     s->footprint = inversesqrt((float)(r->samples ? r->samples : 1));
     s->is_below = is_under_water(s);
     s->march = water_march_of(&sea->waves, &sea->slopes, !s->camera.is_orthographic);
-    result = water_profile_create(&s->march, &s->camera, r->crop, s->is_below, r->thread_count, &r->allocator,
+    const uint32_t whole[4] = {0, 0, r->width, r->height}; /* so that a part shows the same */
+    result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count, &r->allocator,
                                   &s->profile, error);
     float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
     if (result == FACET_OK)

@@ -28,7 +28,7 @@ static float foam_at(const water_setup *s, const water_place *p, float convergen
 {
     const facet_sea_look *look = &s->desc->look;
     const foam_rule *rule = &s->sea->foam;
-    if (look->no_foam || !(rule->threshold < INFINITY))
+    if (look->no_foam || look->stage == 4 || !(rule->threshold < INFINITY))
         return 0.0f;
     return foam_coverage(rule, convergence, p->slopes.convergence_variance, rule->threshold);
 }
@@ -118,7 +118,8 @@ static vec2 footprint_extent(const water_place *p)
 static float glints(const water_setup *s, const water_place *p)
 {
     vec3 H = normalize(p->V + s->light.L);
-    if (s->desc->look.no_glints || H[1] <= 0.0f || p->slopes.rate <= 0.0f)
+    const facet_sea_look *look = &s->desc->look;
+    if (look->no_glints || look->stage == 4 || H[1] <= 0.0f || p->slopes.rate <= 0.0f)
         return 1.0f;
     float area = p->footprint_m * p->footprint_m / p->cosine, lifetime = 1.0f / p->slopes.rate;
     float count = glint_count(s->water.normals, p->point.covariance, p->point.N, H, p->slopes.curvature, area,
@@ -139,9 +140,12 @@ static vec3 sun_in_water(const water_setup *s, const water_place *p)
 
 vec3 water_shade(const water_setup *s, const water_place *p, const water_findings *found)
 {
-    float means[4];
+    float means[4] = {1.0f, 1.0f, 0.0f, 0.0f}; /* of flat water; the table's first row has slopes of 1e-4 */
     float NdotV = clamp(dot(p->point.N, p->V), 1e-4f, 1.0f);
-    water_table_at(&s->table, NdotV, sigma_towards(p->point.covariance, p->point.N, p->V), means);
+    const vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
+    float sigma = sigma_towards(p->point.covariance - least, p->point.N, p->V);
+    if (sigma > 1e-6f)
+        water_table_at(&s->table, NdotV, sigma, means);
     WaterMirror m = water_mirror(s->water, p->point, p->V, means[0], means[1], means[2], means[3]);
     m.escape *= passing(p, normalize(m.R + vec3(0.0f, 1e-4f, 0.0f)));
     vec3 sky =

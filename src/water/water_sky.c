@@ -16,6 +16,8 @@ enum { PICTURE_HEIGHT = 256 };
 static const float MARITIME_TURBIDITY = 1.55f, SEA_ALBEDO = 0.06f;
 static const float LEAST_EYE_KM = 0.001f; /* lower eyes see no farther in a table of floats */
 static const float MOST_EYE_KM = 50.0f;
+static const float SAME_VIEW_KM =
+    0.05f; /* up to which the eye's sky is that of the sea, but for the horizon */
 static const float LIMB_DARKENING = 0.6f; /* in green; Cox 2000 */
 
 static inline float luminance_of(vec3 c)
@@ -77,17 +79,10 @@ static void choose_air(const facet_sky_desc *sky, Atmosphere air[SKY_HALVES])
     sky_atmosphere(sky->turbidity != 0.0f ? sky->turbidity : MARITIME_TURBIDITY, is_black ? sea : given, air);
 }
 
-static facet_result make_tables(const facet_sea_render_desc *desc, water_sky *s, facet_error *error)
+static void fill_air(const facet_sky_desc *sky, water_sky *s)
 {
-    Atmosphere air[SKY_HALVES];
-    choose_air(&desc->sky, air);
-    facet_result result =
-        sky_tables_create(air, &desc->render.allocator, desc->render.thread_count, &s->tables, error);
-    if (result == FACET_OK) {
-        const vec3 all[SKY_HALVES] = {vec3(1.0f), vec3(1.0f)};
-        s->white = sky_color(&s->tables, all);
-    }
-    return result;
+    choose_air(sky, s->air);
+    s->white = atmosphere_color(s->air[0], vec3(1.0f)) + atmosphere_color(s->air[1], vec3(1.0f));
 }
 
 /* The same air over black ground: what a view shows below the horizon then is the air's own light. */
@@ -105,16 +100,20 @@ static facet_result make_views(const facet_sea_render_desc *desc, water_sky *s, 
     sky_tables dark = over_black(&s->tables);
     facet_result result =
         sky_view_create(&dark, s->eye_km, elevation, &r->allocator, r->thread_count, &s->eye, error);
-    if (result == FACET_OK)
-        result = sky_view_create(&dark, 0.0f, elevation, &r->allocator, r->thread_count, &s->sea, error);
+    if (result == FACET_OK && s->eye_km > SAME_VIEW_KM)
+        result = sky_view_create(&dark, 0.0f, elevation, &r->allocator, r->thread_count, &s->low, error);
     return result;
+}
+
+static const sky_view *view_of_sea(const water_sky *s)
+{
+    return s->low.rows ? &s->low : &s->eye;
 }
 
 static void light_by_air(const facet_sky_desc *sky, water_sky *s)
 {
     vec3 share[SKY_HALVES];
-    sky_sun_light sun =
-        sky_sun_through_air(s->tables.air, 0.0f, sky->sun_elevation_rad, sky->sun_azimuth_rad);
+    sky_sun_light sun = sky_sun_through_air(s->air, 0.0f, sky->sun_elevation_rad, sky->sun_azimuth_rad);
     s->sun_irradiance = max(sky_sun_illuminance(&sun), 0.0f);
     sky_irradiance(&s->tables, s->L[1], share);
     s->sky_irradiance = max(sky_color(&s->tables, share), 0.0f);
@@ -159,13 +158,13 @@ static facet_result use_views(const facet_sea_render_desc *desc, water_sky *s, f
     if (result == FACET_OK)
         result = make_environment(&r->allocator, 2 * PICTURE_HEIGHT, PICTURE_HEIGHT, &s->mirrored, error);
     if (result == FACET_OK)
-        result = sky_picture_atmosphere(&s->sea, desc->sky.sun_azimuth_rad, &r->allocator, r->thread_count,
-                                        &s->mirrored->picture, error);
+        result = sky_picture_atmosphere(view_of_sea(s), desc->sky.sun_azimuth_rad, &r->allocator,
+                                        r->thread_count, &s->mirrored->picture, error);
     if (result == FACET_OK)
         result = prepare_reflections(desc, s, error);
     if (result == FACET_OK && !desc->sky.has_no_disc && s->L[1] > -SUN_RADIUS - 0.2f) {
-        s->disc = sky_sun_through_air(s->tables.air, s->eye_km, desc->sky.sun_elevation_rad,
-                                      desc->sky.sun_azimuth_rad);
+        s->disc =
+            sky_sun_through_air(s->air, s->eye_km, desc->sky.sun_elevation_rad, desc->sky.sun_azimuth_rad);
         s->disc_radius = SUN_RADIUS;
     }
     return result;
@@ -244,7 +243,12 @@ static facet_result begin(const facet_sea_render_desc *desc, water_sky *s, facet
     if (result != FACET_OK)
         return result;
     place_sun(s, desc->sky.sun_elevation_rad, desc->sky.sun_azimuth_rad);
-    return make_tables(desc, s, error);
+    fill_air(&desc->sky, s);
+    s->has_views = !desc->render.environment && desc->sky.model != FACET_SKY_PREETHAM;
+    if (s->has_views)
+        result =
+            sky_tables_create(s->air, &desc->render.allocator, desc->render.thread_count, &s->tables, error);
+    return result;
 }
 
 static void rotate(const facet_render_desc *r, water_sky *s)
@@ -269,7 +273,6 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
         result = use_preetham(desc, rows_per_rad, s, error);
         scale_light(&desc->sky, s);
     } else {
-        s->has_views = true;
         light_by_air(&desc->sky, s);
         result = use_views(desc, s, error);
         scale_light(&desc->sky, s);
@@ -292,7 +295,7 @@ facet_result water_sky_create_light(const facet_sea_render_desc *desc, water_sky
 void water_sky_destroy(water_sky *s)
 {
     sky_view_destroy(&s->eye);
-    sky_view_destroy(&s->sea);
+    sky_view_destroy(&s->low);
     sky_tables_destroy(&s->tables);
     ibl_light_release(s->reflected);
     ibl_light_release(s->background);
@@ -370,7 +373,7 @@ vec3 water_sky_reflected(const water_sky *s, vec3 R, float perceptual_roughness)
     float share = s->has_views ? clamp(perceptual_roughness / as_mirror, 0.0f, 1.0f) : 1.0f;
     vec3 sum = vec3(0.0f);
     if (share < 1.0f)
-        sum = view_at(s, &s->sea, up, 0.0f, 0.5f * PI) * (1.0f - share);
+        sum = view_at(s, view_of_sea(s), up, 0.0f, 0.5f * PI) * (1.0f - share);
     if (share > 0.0f)
         sum = sum + picture_at(s, up, perceptual_roughness) * share;
     return sum;
@@ -397,8 +400,9 @@ static vec3 transmittance_over(const water_sky *s, float length_km, float height
     vec3 column = vec3(mean_density(from, to, 8.0f), mean_density(from, to, 1.2f), 0.0f) * length_km;
     vec3 share[SKY_HALVES];
     for (int half = 0; half < SKY_HALVES; half++)
-        share[half] = air_transmittance(s->tables.air[half], column);
-    return clamp(sky_color(&s->tables, share) / s->white, 0.0f, 1.0f);
+        share[half] = air_transmittance(s->air[half], column);
+    vec3 color = atmosphere_color(s->air[0], share[0]) + atmosphere_color(s->air[1], share[1]);
+    return clamp(color / s->white, 0.0f, 1.0f);
 }
 
 /* The view holds the air's light as far as the sea; nearer things have as much less as less of what is behind is lost. */

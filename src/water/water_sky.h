@@ -13,10 +13,11 @@
 #include "shade/shade.h"
 
 typedef struct water_sky {
-    bool has_views;       /* the sky is the atmosphere's; else a picture */
-    sky_tables tables;    /* of the air, in either case */
+    bool has_views; /* the sky is the atmosphere's; else a picture */
+    Atmosphere air[SKY_HALVES];
+    sky_tables tables;    /* has_views */
     sky_view eye;         /* as the eye sees it; below the horizon, what the air before the sea shines with */
-    sky_view sea;         /* as the surface does */
+    sky_view low;         /* as the surface does, where the eye is far above it; else {0} */
     sky_sun_light disc;   /* has_views: as the eye sees it */
     vec3 disc_radiance;   /* the other suns' */
     float disc_radius;    /* rad; 0: there is none to be seen */
