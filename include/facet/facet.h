@@ -1219,21 +1219,22 @@ typedef struct facet_sea facet_sea;
 FACET_API facet_result facet_sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error);
 FACET_API void facet_sea_destroy(facet_sea *sea); /* NULL is allowed */
 
-/* Seconds, any finite number, forwards or backwards. Not while others use the sea. FACET_ERROR_MEMORY. */
+/* Seconds, any finite number, forwards or backwards. Not while others use the sea. FACET_ERROR_ARGUMENT: not finite. */
 FACET_API facet_result facet_sea_set_time(facet_sea *sea, double time_s, facet_error *error);
 
 /* What is known of a sea beforehand, by its spectrum. */
 typedef struct facet_sea_info {
-    double height_m; /* significant: 4 standard deviations */
-    double peak_period_s, peak_length_m;
-    double slope_variance[2];          /* of all waves, along the wind and across (Cox and Munk 1954) */
-    double resolved_slope_variance[2]; /* of those in the tiles */
-    double foam_coverage;              /* share of the area, from above (Monahan and O'Muircheartaigh 1980) */
+    double height_m;                     /* significant: 4 standard deviations */
+    double peak_period_s, peak_length_m; /* of the wind's waves or the swell, whichever is higher; 0: flat */
+    double slope_variance[2];            /* of all waves, along the wind and across (Cox and Munk 1954) */
+    double resolved_slope_variance[2];   /* of those in the tiles */
+    double foam_coverage; /* share of the area, from above (Monahan and O'Muircheartaigh 1980) */
     double ior;
     double absorption[3], scattering[3], backscattering[3]; /* 1/m */
     double reflectance[3]; /* diffuse, of deep water just above the surface: pi R_rs */
-    uint32_t tile_count;
+    uint32_t tile_count;   /* 0: flat */
     double tile_length_m[4];
+    double tile_turn_rad[4]; /* of a tile's axes, from +X towards +Z */
 } facet_sea_info;
 FACET_API facet_sea_info facet_sea_get_info(const facet_sea *sea);
 
@@ -1244,22 +1245,29 @@ typedef struct facet_sea_point {
     float velocity_mps; /* upwards */
     float jacobian;     /* area over that of the water at rest; below 0 it is folded */
 } facet_sea_point;
-/* The surface above and below (x, z), count times: positions are pairs. For what floats. */
+/* The surface above or below (x, z), count times: positions are pairs. For what floats. Some 50 us each, on the sea's threads. */
 FACET_API void facet_sea_get_points(const facet_sea *sea, const double *positions, size_t count,
                                     facet_sea_point *points);
 
-/* Layers of a tile, RGB or one channel: "displacement" (m), "normal" (unit), "slope", "jacobian", "foam" ([0, 1]). Rows go
- * along +Z, as texture coordinates do. FACET_ERROR_ARGUMENT: no such tile. */
+/* What a tile of waves holds, as it is read by real-time programs that sum tiles by themselves: they repeat, every
+ * tile_length_m, in axes that are turned by tile_turn_rad. Layers: "" RGBA, displacement along the tile's x, upwards and along its
+ * z, m, and 1; "normal" (3, unit, of the displaced surface, were the tile alone); "slope" (2, of the height); "jacobian" (1);
+ * "foam" (1, the share of the area under foam that is to be expected there, [0, 1]). Rows go along the tile's z, from its origin;
+ * a texel lies at its index times length / size. FACET_ERROR_ARGUMENT: no such tile; _MEMORY. */
 FACET_API facet_result facet_sea_create_maps(const facet_sea *sea, uint32_t tile,
                                              const facet_allocator *allocator /* NULL: {0} */,
                                              facet_image **image, facet_error *error);
 
-/* The surface as a mesh: a square around the origin of size_m, samples^2 vertices, with the water's material (ior, transmission,
- * volume) and the bed. FACET_ERROR_ARGUMENT, _MEMORY. */
+/* The surface as a mesh: a square of water around center, and the bed where there is one, with materials of the same
+ * coefficients: water has KHR_materials_ior, _transmission and _volume (absorption and backscattering, which is what glTF has
+ * for a color of the depth). FACET_ERROR_ARGUMENT, _MEMORY. */
 typedef struct facet_sea_mesh_desc {
     facet_allocator allocator;
-    float size_m;     /* 0: the longest tile */
-    uint32_t samples; /* [2, 4096]; 0: 512 */
+    float size_m;       /* at rest; 0: the longest tile, 100 m where it is flat */
+    uint32_t samples;   /* vertices along an edge, [2, 4096]; 0: 512 */
+    double center_m[2]; /* along X and Z */
+    float refinement;   /* how much closer vertices are at the center than evenly, [1, 1000]; 0: 1, evenly */
+    bool no_bed;
 } facet_sea_mesh_desc;
 FACET_API facet_result facet_sea_create_mesh(const facet_sea *sea,
                                              const facet_sea_mesh_desc *desc /* NULL: {0} */,
@@ -1293,9 +1301,12 @@ typedef struct facet_sea_look {
     float clamp;    /* radiance times exposure is cut off here; 0: not */
 } facet_sea_look;
 
-/* Draws the sea, and a model in it. render: as for facet_render(), of which integrator, size, crop, camera, exposure, quality, samples,
- * threads, time limit are followed. environment NULL: the sky of `sky`, whose sun is a lamp of its own. scene NULL: nothing but
- * water. */
+/* Draws the sea, and a model in it. render: as for facet_render(), of which size, crop, camera, exposure, tone mapping, quality,
+ * samples, environment, sun, threads, progress and time limit are followed. environment NULL: the sky of `sky`, with its sun.
+ * camera NULL: facet_sea_camera(). scene NULL: nothing but water; its pose is followed, its cameras and lights are not.
+ *
+ * integrator FACET_INTEGRATOR_PREVIEW draws the endless sea. _PATH traces paths through facet_sea_create_mesh(), as far as
+ * its mesh reaches, without glints, foam and looks, and without scene; _GL: FACET_ERROR_ARGUMENT. */
 typedef struct facet_sea_render_desc {
     facet_render_desc render;
     facet_sky_desc sky;
@@ -1304,6 +1315,16 @@ typedef struct facet_sea_render_desc {
 FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
                                         const facet_sea_render_desc *desc, facet_image **image,
                                         facet_error *error);
+
+/* Someone's view of the sea: from above the origin, height_m above the still water (0: 3 m, more in high seas; below 0: under
+ * water), and at least a metre above the water that is there; towards azimuth_rad (from +Z towards +X, as the sky has its sun) and
+ * just below the horizon. */
+FACET_API facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad);
+
+/* The light on the water as a photographer's incident meter reads it (ISO 2720, C = 340 lx s): EV at ISO 100; and the
+ * exposure_ev that a camera set so has (ISO 12232, Lagarde and de Rousiers 2014). FACET_ERROR_ARGUMENT, _MEMORY. */
+FACET_API facet_result facet_sea_meter(const facet_sea_render_desc *desc, double *ev100, facet_error *error);
+FACET_API float facet_exposure_from_ev100(double ev100);
 
 /* ---- the viewer ---- */
 

@@ -10,4 +10,7 @@ struct facet_image {
     bool is_for_display; /* read from a file whose colors are a display's */
 };
 
+/* The desc with every default but the camera filled in, or what is wrong with it: FACET_ERROR_ARGUMENT. */
+facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_desc *out, facet_error *error);
+
 #endif

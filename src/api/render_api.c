@@ -98,8 +98,7 @@ static facet_result check_numbers(const facet_render_desc *d, facet_error *error
     return FACET_OK;
 }
 
-/* The desc with every default but the camera filled in, or what is wrong with it. */
-static facet_result resolve(const facet_render_desc *desc, facet_render_desc *out, facet_error *error)
+facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_desc *out, facet_error *error)
 {
     *out = *desc;
     if (!out->width && !out->height) {
@@ -257,7 +256,7 @@ facet_result facet_render(const facet_scene *scene, const facet_render_desc *des
 {
     *image = NULL;
     facet_render_desc resolved;
-    facet_result result = resolve(desc ? desc : &default_desc, &resolved, error);
+    facet_result result = render_desc_resolve(desc ? desc : &default_desc, &resolved, error);
     if (result != FACET_OK)
         return result;
     facet_renderer renderer = {.gl = NULL};
@@ -284,7 +283,7 @@ facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_
 {
     *image = NULL;
     facet_render_desc resolved;
-    facet_result result = resolve(desc ? desc : &default_desc, &resolved, error);
+    facet_result result = render_desc_resolve(desc ? desc : &default_desc, &resolved, error);
     return result == FACET_OK ? render_image(renderer, &resolved, image, error) : result;
 }
 

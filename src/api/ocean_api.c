@@ -1,0 +1,292 @@
+/* ocean_api.c - the part of facet.h about the sea. */
+#include "api/api.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "ocean/sea.h"
+#include "ocean/sea_maps.h"
+#include "ocean/sea_mesh.h"
+#include "ocean/sea_preset.h"
+#include "water/water_exposure.h"
+#include "water/water_render.h"
+
+/* ---- seas ---- */
+
+facet_sea_desc facet_sea_default(void)
+{
+    return sea_default();
+}
+
+uint32_t facet_sea_get_preset_count(void)
+{
+    return sea_preset_count();
+}
+
+const char *facet_sea_get_preset_name(uint32_t index)
+{
+    return sea_preset_name(index);
+}
+
+facet_result facet_sea_preset(const char *name, facet_sea_desc *desc, facet_error *error)
+{
+    return sea_preset(name, desc, error);
+}
+
+facet_result facet_sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error)
+{
+    return sea_create(desc, sea, error);
+}
+
+void facet_sea_destroy(facet_sea *sea)
+{
+    sea_destroy(sea);
+}
+
+facet_result facet_sea_set_time(facet_sea *sea, double time_s, facet_error *error)
+{
+    if (!isfinite(time_s))
+        return fail(error, FACET_ERROR_ARGUMENT, "sea: its time is not a finite number");
+    waves_set_time(&sea->waves, time_s);
+    return FACET_OK;
+}
+
+/* ---- what is known of them ---- */
+
+/* Along the wind and across. */
+static void turn_slopes(slope_covariance c, double direction, double out[2])
+{
+    double x = cos(direction), z = sin(direction);
+    double xx = (double)c.xx, zz = (double)c.zz, xz = (double)c.xz;
+    out[0] = fmax(x * x * xx + z * z * zz + 2.0 * x * z * xz, 0.0);
+    out[1] = fmax(z * z * xx + x * x * zz - 2.0 * x * z * xz, 0.0);
+}
+
+/* The system that is higher. */
+static double peak_omega(const sea_state *s)
+{
+    double highest = 0.0, omega = 0.0;
+    for (uint32_t i = 0; i < SEA_SYSTEMS; i++) {
+        double height = s->systems[i].peak_omega > 0.0 ? sea_system_moments(s, i, 0.0, ENDLESS).height : 0.0;
+        if (height > highest) {
+            highest = height;
+            omega = s->systems[i].peak_omega;
+        }
+    }
+    return omega;
+}
+
+facet_sea_info facet_sea_get_info(const facet_sea *sea)
+{
+    const waves *w = &sea->waves;
+    const sea_state *s = &w->state;
+    const water_optics *o = &sea->optics;
+    facet_sea_info info = {
+        .foam_coverage = (double)sea->foam.coverage, .ior = (double)o->ior, .tile_count = w->tile_count};
+    double omega = peak_omega(s);
+    if (omega > 0.0) {
+        info.height_m = 4.0 * sqrt(sea_state_moments(s, 0.0, ENDLESS).height);
+        info.peak_period_s = 6.283185307179586 / omega;
+        info.peak_length_m = 6.283185307179586 / wave_k(omega, s->depth_m);
+    }
+    const slope_covariance *total = &sea->slopes.total, *rest = &sea->slopes.residual[0];
+    slope_covariance resolved = {total->xx - rest->xx, total->zz - rest->zz, total->xz - rest->xz};
+    turn_slopes(*total, s->wind_direction, info.slope_variance);
+    turn_slopes(resolved, s->wind_direction, info.resolved_slope_variance);
+    for (int i = 0; i < 3; i++) {
+        info.absorption[i] = (double)o->absorption[i];
+        info.scattering[i] = (double)o->scattering[i];
+        info.backscattering[i] = (double)o->backscattering[i];
+        info.reflectance[i] = (double)o->reflectance[i];
+    }
+    for (uint32_t i = 0; i < w->tile_count; i++) {
+        info.tile_length_m[i] = w->tiles[i].length_m;
+        info.tile_turn_rad[i] = w->tiles[i].turn;
+    }
+    return info;
+}
+
+/* ---- points ---- */
+
+typedef struct questions {
+    const waves *w;
+    const double *positions;
+    facet_sea_point *points;
+} questions;
+
+static void answer(void *context, size_t begin, size_t end)
+{
+    const questions *q = context;
+    for (size_t i = begin; i < end; i++) {
+        double rest[2];
+        wave_point p = waves_above(q->w, q->positions[2 * i], q->positions[2 * i + 1], 0.0f, rest);
+        wave_shape shape = wave_shape_of(&p);
+        facet_sea_point *out = &q->points[i];
+        *out = (facet_sea_point){.height_m = p.height_m,
+                                 .velocity_mps = (float)waves_velocity(q->w, rest[0], rest[1]),
+                                 .jacobian = shape.jacobian};
+        memcpy(out->normal, shape.normal, sizeof out->normal);
+    }
+}
+
+void facet_sea_get_points(const facet_sea *sea, const double *positions, size_t count,
+                          facet_sea_point *points)
+{
+    questions q = {&sea->waves, positions, points};
+    parallel_for(count > 16 ? sea->desc.thread_count : 1, count, 16, answer, &q);
+}
+
+/* ---- maps, meshes ---- */
+
+static const struct {
+    const char *name;
+    uint32_t channel_count;
+    const char *channel_names[4];
+} map_layers[] = {{"", 4, {"R", "G", "B", "A"}},
+                  {"normal", 3, {"normal.X", "normal.Y", "normal.Z"}},
+                  {"slope", 2, {"slope.X", "slope.Z"}},
+                  {"jacobian", 1, {"jacobian.J"}},
+                  {"foam", 1, {"foam.A"}}};
+enum { MAP_LAYERS = sizeof map_layers / sizeof *map_layers };
+
+static facet_result create_layers(const facet_allocator *allocator, uint32_t size, film *f,
+                                  facet_error *error)
+{
+    f->width = f->height = size;
+    for (uint32_t i = 0; i < MAP_LAYERS; i++) {
+        size_t channels = map_layers[i].channel_count;
+        float *pixels = mem_alloc(allocator, (size_t)size * size, channels * sizeof(float));
+        if (!pixels)
+            return fail_memory(error, "maps of a sea", (size_t)size * size * channels * sizeof(float));
+        f->layers[f->layer_count++] = (film_layer){.name = map_layers[i].name,
+                                                   .channel_names = map_layers[i].channel_names,
+                                                   .channel_count = map_layers[i].channel_count,
+                                                   .pixels = pixels};
+    }
+    return FACET_OK;
+}
+
+static void fill_maps(const facet_sea *sea, uint32_t tile, film *f)
+{
+    float others = sea_others_variance(sea, tile);
+    for (size_t at = 0; at < (size_t)f->width * f->height; at++) {
+        sea_texel t = sea_texel_of(sea, tile, others, (uint32_t)(at % f->width), (uint32_t)(at / f->width));
+        memcpy(f->layers[0].pixels + 4 * at, t.displacement, sizeof t.displacement);
+        f->layers[0].pixels[4 * at + 3] = 1.0f;
+        memcpy(f->layers[1].pixels + 3 * at, t.normal, sizeof t.normal);
+        memcpy(f->layers[2].pixels + 2 * at, t.slope, sizeof t.slope);
+        f->layers[3].pixels[at] = t.jacobian;
+        f->layers[4].pixels[at] = t.foam;
+    }
+}
+
+facet_result facet_sea_create_maps(const facet_sea *sea, uint32_t tile, const facet_allocator *allocator,
+                                   facet_image **image, facet_error *error)
+{
+    *image = NULL;
+    if (tile >= sea->waves.tile_count)
+        return fail(error, FACET_ERROR_ARGUMENT, "sea: there is no tile %u; it has %u, counted from 0", tile,
+                    sea->waves.tile_count);
+    facet_image *made = mem_zalloc(allocator, 1, sizeof *made);
+    if (!made)
+        return fail_memory(error, "image", sizeof *made);
+    facet_result result = create_layers(allocator, sea->waves.tiles[tile].size, &made->film, error);
+    if (result != FACET_OK) {
+        facet_image_destroy(made);
+        return result;
+    }
+    fill_maps(sea, tile, &made->film);
+    *image = made;
+    return FACET_OK;
+}
+
+facet_result facet_sea_create_mesh(const facet_sea *sea, const facet_sea_mesh_desc *desc, facet_scene **scene,
+                                   facet_error *error)
+{
+    const facet_sea_mesh_desc defaults = {0};
+    return sea_mesh_create(sea, desc ? desc : &defaults, scene, error);
+}
+
+/* ---- pictures ---- */
+
+static const float EYE_M = 3.0f, CLEARANCE_M = 1.0f, FOV_RAD = 0.61f, /* a lens of 38 mm */
+    DIP_RAD = 0.07f;
+
+facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad)
+{
+    float waves_m = 4.0f * (float)sqrt(sea_state_moments(&sea->waves.state, 0.0, ENDLESS).height);
+    float y = height_m != 0.0f ? height_m : fmaxf(EYE_M, waves_m);
+    float water = waves_height(&sea->waves, 0.0, 0.0, 0.0f);
+    if (y > 0.0f)
+        y = fmaxf(y, water + CLEARANCE_M);
+    float x = sinf(azimuth_rad) * cosf(DIP_RAD), z = cosf(azimuth_rad) * cosf(DIP_RAD);
+    return (facet_camera){.eye = {0.0f, y, 0.0f}, .target = {x, y - sinf(DIP_RAD), z}, .fov_y_rad = FOV_RAD};
+}
+
+static facet_result check_look(const facet_sea_look *look, facet_error *error)
+{
+    if ((unsigned)look->before > FACET_SEA_BEFORE_INTENDED || (unsigned)look->normals > FACET_SEA_GGX ||
+        (unsigned)look->masking > FACET_SEA_SCHLICK_KARIS || look->stage > 5)
+        return fail(error, FACET_ERROR_ARGUMENT, "look: before %d, normals %d, masking %d, stage %u; no such",
+                    (int)look->before, (int)look->normals, (int)look->masking, look->stage);
+    float r = look->perceptual_roughness;
+    if (r != 0.0f && !(r >= 0.001f && r <= 1.0f))
+        return fail(error, FACET_ERROR_ARGUMENT, "look: a roughness of %g is not within [0.001, 1]",
+                    (double)r);
+    if (!(look->clamp >= 0.0f))
+        return fail(error, FACET_ERROR_ARGUMENT, "look: a clamp of %g is below 0", (double)look->clamp);
+    return FACET_OK;
+}
+
+static facet_result resolve_sea(const facet_sea_render_desc *desc, facet_sea_render_desc *out,
+                                facet_error *error)
+{
+    *out = *desc;
+    facet_result result = check_look(&desc->look, error);
+    if (result == FACET_OK && desc->render.integrator != FACET_INTEGRATOR_PREVIEW)
+        result = fail(error, FACET_ERROR_ARGUMENT, "sea: integrator %d does not draw it",
+                      (int)desc->render.integrator);
+    return result == FACET_OK ? render_desc_resolve(&desc->render, &out->render, error) : result;
+}
+
+facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
+                              const facet_sea_render_desc *desc, facet_image **image, facet_error *error)
+{
+    const facet_sea_render_desc defaults = {0};
+    *image = NULL;
+    facet_sea_render_desc d;
+    facet_result result = resolve_sea(desc ? desc : &defaults, &d, error);
+    if (result != FACET_OK)
+        return result;
+    const facet_camera camera = facet_sea_camera(sea, 0.0f, d.sky.sun_azimuth_rad);
+    if (!d.render.camera)
+        d.render.camera = &camera;
+    facet_image *made = mem_zalloc(&d.render.allocator, 1, sizeof *made);
+    if (!made)
+        return fail_memory(error, "image", sizeof *made);
+    result = film_create(&d.render.allocator, d.render.crop[2], d.render.crop[3], 0, &made->film, error);
+    if (result == FACET_OK)
+        result = water_render(sea, scene, &d, &made->film, &made->stats, error);
+    if (result != FACET_OK) {
+        facet_image_destroy(made);
+        return result;
+    }
+    film_develop(&made->film, d.render.tonemap, NULL, d.render.thread_count);
+    *image = made;
+    return FACET_OK;
+}
+
+facet_result facet_sea_meter(const facet_sea_render_desc *desc, double *ev100, facet_error *error)
+{
+    const facet_sea_render_desc defaults = {0};
+    *ev100 = 0.0;
+    return water_exposure_ev100(desc ? desc : &defaults, ev100, error);
+}
+
+float facet_exposure_from_ev100(double ev100)
+{
+    return (float)water_exposure_ev(ev100);
+}
