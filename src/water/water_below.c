@@ -20,6 +20,11 @@ static vec3 through_water(const water_setup *s, vec3 behind, float z, vec3 d, fl
     return behind * water_transmittance(water_beam(w), x) + inscatter;
 }
 
+vec3 water_behind_water(const water_setup *s, vec3 radiance, const double P[3], vec3 d, float x)
+{
+    return through_water(s, radiance, depth_of(P), d, x);
+}
+
 /* m to the bed; FAR_M: it is not met. */
 static float way_to_bed(const water_setup *s, const double P[3], vec3 d)
 {
@@ -74,7 +79,7 @@ static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 
         L = L + water_sky_reflected(&s->sky, window.outside, perceptual_roughness) * window.gain;
         L = L + sun_through(s, p, window.outside, window.gain);
     }
-    vec3 foam = s->light.downwelling * (s->water.foam_albedo * INV_PI);
+    vec3 foam = s->light.downwelling * (s->water.foam_albedo * p->foam_albedo * INV_PI);
     return mix(L, foam, p->point.foam);
 }
 

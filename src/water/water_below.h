@@ -4,6 +4,9 @@
 
 #include "water/water_shade.h"
 
+/* Radiance (cd/m^2) of something behind x m of water, seen from P along the unit direction d. */
+vec3 water_behind_water(const water_setup *s, vec3 radiance, const double P[3], vec3 d, float x);
+
 /* Radiance (cd/m^2) that comes to a point at the height y (m) from the unit direction d through water that ends at the bed, if there is
  * one, and nowhere else. */
 vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d);

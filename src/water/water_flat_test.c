@@ -59,7 +59,7 @@ static void test_flat(void **state)
     s.desc.sky.sun_azimuth_rad = 0.3f; /* behind the eye: no disc in sight */
     draw_shot(sea, &s);
     water_setup setup;
-    assert_int_equal(water_setup_create(sea, &s.desc, &setup, NULL), FACET_OK);
+    assert_int_equal(water_setup_create(sea, NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
     int seen = 0;
     for (uint32_t y = 0; y < 48; y++)
         for (uint32_t x = 0; x < 32; x++) {
@@ -97,7 +97,7 @@ static void test_sun(void **state)
     s.desc.sky.sun_azimuth_rad = 3.14159265f;
     draw_shot(sea, &s);
     water_setup setup;
-    assert_int_equal(water_setup_create(sea, &s.desc, &setup, NULL), FACET_OK);
+    assert_int_equal(water_setup_create(sea, NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
     double F = fresnel((sin)(0.7), (double)setup.water.ior);
     double E = (double)setup.light.sun_irradiance[1],
            disc = E / (3.14159265358979323846 * 0.00465305 * 0.00465305);
@@ -131,7 +131,7 @@ static void test_closed_box(void **state)
                          FACET_OK);
         s.desc.render.camera = &s.camera;
         water_setup setup;
-        assert_int_equal(water_setup_create(sea, &s.desc, &setup, NULL), FACET_OK);
+        assert_int_equal(water_setup_create(sea, NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
         float n2 = setup.water.ior * setup.water.ior;
         for (int i = 0; i < 3; i++)
             sea->optics.reflectance[i] = n2 * 0.52f / (1.0f - setup.water.sky_reflectance);

@@ -2,11 +2,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/result.h"
+#include "ibl/equirect.h"
 
 #include "water/water_setup.h"
 
 static const float SHUTTER_S = 0.01f;
+enum { SURROUNDINGS_HEIGHT = 128 };
 
 static inline vec3 load3(const float *v)
 {
@@ -60,7 +63,59 @@ static bool is_under_water(const water_setup *s)
     return eye[1] < waves_height(&s->sea->waves, (double)eye[0], (double)eye[2], 0.0f);
 }
 
-facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_desc *desc, water_setup *s,
+/* ---- what a model sees ---- */
+
+/* Radiance from a direction: the sky, or the whole sea on average. */
+static vec3 surroundings(const water_setup *s, vec3 d)
+{
+    if (d[1] >= 0.0f)
+        return water_sky_reflected(&s->sky, d, 0.0f);
+    float means[4], mu = max(-d[1], 1e-3f);
+    WaterPoint point;
+    point.N = vec3(0.0f, 1.0f, 0.0f);
+    point.covariance = load_slopes(&s->sea->slopes.total);
+    point.foam = 0.0f;
+    water_table_at(&s->table, mu, sigma_of(point.covariance), means);
+    WaterMirror m = water_mirror(s->water, point, -d, means[0], means[1], means[2], means[3]);
+    vec3 sky = water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
+    vec3 below = water_from_deep(s->water, s->light.downwelling) * (1.0f / (s->water.ior * s->water.ior));
+    return mix(below, sky, m.fresnel);
+}
+
+static void draw_surroundings(void *context, size_t begin, size_t end)
+{
+    const water_setup *s = ((const void *const *)context)[0];
+    const image *picture = ((const void *const *)context)[1];
+    for (size_t y = begin; y < end; y++) {
+        float *texel = (float *)picture->pixels + y * picture->width * 3;
+        for (uint32_t x = 0; x < picture->width; x++, texel += 3) {
+            float d[3];
+            equirect_direction(picture->width, picture->height, (double)x, (double)y, d);
+            vec3 L = surroundings(s, load3(d));
+            for (int i = 0; i < 3; i++)
+                texel[i] = L[i];
+        }
+    }
+}
+
+static facet_result add_model(water_setup *s, const facet_scene *scene, facet_render_stats *stats,
+                              facet_error *error)
+{
+    const facet_render_desc *r = &s->desc->render;
+    image picture;
+    facet_result result = image_create(&r->allocator, 2 * SURROUNDINGS_HEIGHT, SURROUNDINGS_HEIGHT, 3,
+                                       IMAGE_F32, &picture, error);
+    if (result != FACET_OK)
+        return result;
+    const void *context[2] = {s, &picture};
+    parallel_for(r->thread_count, SURROUNDINGS_HEIGHT, 8, draw_surroundings, (void *)(uintptr_t)context);
+    return water_model_create(scene, s->desc, &s->sky, &picture, stats, &s->model, error);
+}
+
+/* ---- all ---- */
+
+facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
+                                const facet_sea_render_desc *desc, water_setup *s, facet_render_stats *stats,
                                 facet_error *error)
 {
     const facet_render_desc *r = &desc->render;
@@ -78,6 +133,11 @@ facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_des
     const uint32_t whole[4] = {0, 0, r->width, r->height}; /* so that a part shows the same */
     result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count, &r->allocator,
                                   &s->profile, error);
+    const facet_sea_look *look = &desc->look;
+    bool has_foam = !look->no_foam && look->stage != 4 && sea->foam.threshold < HUGE_VALF;
+    if (result == FACET_OK && has_foam)
+        result = waves_foam_create(&sea->waves, &sea->foam, foam_decay_s((double)sea->desc.water.salinity),
+                                   &s->foam, error);
     float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
     if (result == FACET_OK)
         result = water_sky_create(desc, s->camera.origin[1], rows_per_rad, &s->sky, error);
@@ -89,12 +149,14 @@ facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_des
     float perceptual_roughness = desc->look.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     s->trough_m = -2.0f * s->march.deviation_m;
-    return FACET_OK;
+    return scene ? add_model(s, scene, stats, error) : FACET_OK;
 }
 
 void water_setup_destroy(water_setup *s)
 {
+    water_model_destroy(&s->model);
     water_profile_destroy(&s->profile);
+    waves_foam_destroy(&s->foam);
     water_sky_destroy(&s->sky);
     memset(s, 0, sizeof *s);
 }

@@ -4,7 +4,9 @@
 
 #include "draw/camera_rays.h"
 #include "ocean/sea.h"
+#include "ocean/waves_foam.h"
 #include "ocean/water_table.h"
+#include "water/water_model.h"
 #include "water/water_profile.h"
 #include "water/water_sky.h"
 
@@ -16,7 +18,9 @@ typedef struct water_setup {
     bool is_below;   /* the eye is in the water */
     water_march march;
     water_profile profile;
+    waves_foam foam; /* what crests have left behind */
     water_sky sky;
+    water_model model;
     water_table table; /* of means over facets */
     Water water;
     WaterLight light;
@@ -29,9 +33,11 @@ typedef struct water_setup {
     float shutter_s; /* for which glints are seen */
 } water_setup;
 
-/* Fails as water_render(). What comes back, even after a failure, is to be destroyed. */
-facet_result water_setup_create(const facet_sea *sea, const facet_sea_render_desc *desc, water_setup *out,
-                                facet_error *error);
+/* Stays where it is between create and destroy; scene NULL: nothing but water. Adds to stats what a model took. Fails as water_render(). What
+ * comes back, even after a failure, is to be destroyed. */
+facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
+                                const facet_sea_render_desc *desc, water_setup *out,
+                                facet_render_stats *stats, facet_error *error);
 void water_setup_destroy(water_setup *s);
 
 /* Slopes that a footprint (m) does not resolve, with SLOPE_VARIANCE_MIN; *curvature, *rate: of their waves (slope_filter). */

@@ -4,6 +4,8 @@
 
 #include "water/water_shade.h"
 
+static const float OLD_FOAM = 0.4f; /* albedo over that of fresh foam */
+
 /* ---- the place ---- */
 
 /* About the cosine at which waves are seen that a ray at the cosine mu meets: no less than the slopes make of grazing rays. The mean slope
@@ -24,13 +26,21 @@ static vec3 faced(vec3 N, vec3 V)
     return n[1] > least ? n : normalize(vec3(n[0], least, n[2]));
 }
 
-static float foam_at(const water_setup *s, const water_place *p, float convergence)
+/* Share of the footprint under foam, and *albedo: of that, over that of fresh foam. Old foam gets thin. Koepke 1984: 0.22 is the mean of
+ * a patch's life, 0.55 its begin. */
+static float foam_at(const water_setup *s, const water_place *p, float convergence, float footprint_m,
+                     float *albedo)
 {
     const facet_sea_look *look = &s->desc->look;
     const foam_rule *rule = &s->sea->foam;
+    *albedo = 1.0f;
     if (look->no_foam || look->stage == 4 || !(rule->threshold < INFINITY))
         return 0.0f;
-    return foam_coverage(rule, convergence, p->slopes.convergence_variance, rule->threshold);
+    float fresh = foam_coverage(rule, convergence, p->slopes.convergence_variance, rule->active_threshold);
+    float old = waves_foam_at(&s->foam, p->rest[0], p->rest[1], footprint_m);
+    float both = 1.0f - (1.0f - fresh) * (1.0f - old);
+    *albedo = both > 0.0f ? mix(OLD_FOAM, 1.0f, clamp(fresh / both + old * old, 0.0f, 1.0f)) : 1.0f;
+    return both;
 }
 
 water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit)
@@ -56,7 +66,7 @@ water_place water_place_of(const water_setup *s, const march_ray *ray, const mar
     p.point.N = vec3(shape.normal[0], shape.normal[1], shape.normal[2]);
     p.point.N = side > 0.0f ? faced(p.point.N, facing) : p.point.N;
     p.point.covariance = p.slopes.covariance;
-    p.point.foam = foam_at(s, &p, shape.convergence);
+    p.point.foam = foam_at(s, &p, shape.convergence, footprint, &p.foam_albedo);
     return p;
 }
 
@@ -128,11 +138,11 @@ static float glints(const water_setup *s, const water_place *p)
     return glint_variate(cell, count, (float)s->sea->waves.time_s, lifetime);
 }
 
-static vec3 sun_in_water(const water_setup *s, const water_place *p)
+static vec3 sun_in_water(const water_setup *s, const water_place *p, WaterLight light)
 {
-    if (s->light.L[1] <= 0.0f || s->light.sun_irradiance[1] <= 0.0f)
+    if (light.L[1] <= 0.0f || light.sun_irradiance[1] <= 0.0f)
         return vec3(0.0f);
-    vec3 sun = water_sun(s->water, p->point, s->light, p->V) * passing(p, s->light.L);
+    vec3 sun = water_sun(s->water, p->point, light, p->V) * passing(p, s->light.L);
     return sun[1] > 0.0f ? sun * glints(s, p) : sun;
 }
 
@@ -146,12 +156,18 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
     float sigma = sigma_towards(p->point.covariance - least, p->point.N, p->V);
     if (sigma > 1e-6f)
         water_table_at(&s->table, NdotV, sigma, means);
-    WaterMirror m = water_mirror(s->water, p->point, p->V, means[0], means[1], means[2], means[3]);
+    Water w = s->water;
+    w.foam_albedo *= p->foam_albedo;
+    WaterMirror m = water_mirror(w, p->point, p->V, means[0], means[1], means[2], means[3]);
     m.escape *= passing(p, normalize(m.R + vec3(0.0f, 1e-4f, 0.0f)));
     vec3 sky =
         found->has_mirrored ? found->mirrored : water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
     vec3 below = found->has_below ? found->below : water_from_below(s, p);
-    return water_radiance(water_parts(s->water, p->point, s->light, m, sky, sun_in_water(s, p), below));
+    WaterLight light = s->light;
+    if (found->has_shadow)
+        light.sun_irradiance = light.sun_irradiance * found->sun;
+    vec3 sun = sun_in_water(s, p, light);
+    return water_radiance(water_parts(w, p->point, light, m, sky, sun, below));
 }
 
 vec3 water_shade_land(const water_setup *s)

@@ -12,6 +12,7 @@ typedef struct water_place {
     float footprint_m;   /* across the ray */
     water_slopes slopes; /* beyond the footprint */
     WaterPoint point;    /* N faces V */
+    float foam_albedo;   /* over that of fresh foam */
     wave_point waves;
     float
         cosine; /* about N.V, waves of all lengths considered: how much longer the footprint is on the water */
@@ -22,7 +23,8 @@ water_place water_place_of(const water_setup *s, const march_ray *ray, const mar
 
 /* What others find along rays that leave the place; {0}: nothing but sky and water. */
 typedef struct water_findings {
-    bool has_mirrored, has_below;
+    bool has_mirrored, has_below, has_shadow;
+    float sun;     /* share of the sun's light that arrives */
     vec3 mirrored; /* radiance that the mirror ray brings */
     vec3 below;    /* radiance just below the surface, along the refracted ray */
 } water_findings;

@@ -1,0 +1,192 @@
+/* water_model.c - see water_model.h. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "draw/light_setup.h"
+#include "ibl/environment.h"
+
+#include "water/water_model.h"
+
+#include "cpu/ray_trace.h"
+
+static const ray_spread no_spread = {.moves = false, .turns = false};
+static const double farthest = 1e6;
+enum { SIDES = 8 };
+
+/* ---- making ---- */
+
+static facet_result make_around(const facet_render_desc *r, image *picture, water_model *m,
+                                facet_error *error)
+{
+    const facet_environment_desc desc = {.allocator = r->allocator};
+    facet_result result = environment_create(&desc, &m->around, error);
+    if (result != FACET_OK) {
+        image_destroy(picture);
+        return result;
+    }
+    m->around->picture = *picture;
+    *picture = (image){.pixels = NULL};
+    environment_limit(m->around, r->thread_count);
+    return FACET_OK;
+}
+
+static void fill_desc(const facet_sea_render_desc *desc, const water_sky *sky, water_model *m)
+{
+    vec3 L = sky->L, E = sky->sun_irradiance;
+    m->desc = desc->render;
+    m->desc.environment = m->around;
+    m->desc.environment_rotation_rad = m->desc.environment_ev = 0.0f;
+    m->desc.integrator = FACET_INTEGRATOR_PREVIEW;
+    m->desc.background = (facet_background){0};
+    m->desc.background_blur = 0.0f;
+    m->desc.ground = FACET_GROUND_NONE;
+    m->desc.shading = (facet_shading){0};
+    m->desc.sun = (facet_sun){.azimuth_rad = atan(L[0], L[2]),
+                              .elevation_rad = asin(clamp(L[1], -1.0f, 1.0f)),
+                              .illuminance_lux = {E[0], E[1], E[2]}};
+}
+
+/* The sun is the last of the lights, where it shines. */
+static facet_result make_shade(const facet_allocator *allocator, bool has_sun, water_model *m,
+                               facet_error *error)
+{
+    const light_setup *light = &m->setup.light;
+    m->shaded_light = *light;
+    m->shaded_light.punctual = NULL;
+    m->shaded = m->setup.shading;
+    m->shaded.light = &m->shaded_light;
+    if (!has_sun || light->punctual_count == 0) {
+        m->shaded_light.punctual_count = 0;
+        return FACET_OK;
+    }
+    Light *lights = mem_alloc(allocator, light->punctual_count, sizeof *lights);
+    if (!lights)
+        return fail_memory(error, "lights", light->punctual_count * sizeof *lights);
+    memcpy(lights, light->punctual, light->punctual_count * sizeof *lights);
+    lights[light->punctual_count - 1].intensity = vec3(0.0f);
+    m->shaded_light.punctual = lights;
+    return FACET_OK;
+}
+
+facet_result water_model_create(const facet_scene *scene, const facet_sea_render_desc *desc,
+                                const water_sky *sky, image *around, facet_render_stats *stats,
+                                water_model *m, facet_error *error)
+{
+    facet_result result = make_around(&desc->render, around, m, error);
+    if (result != FACET_OK)
+        return result;
+    fill_desc(desc, sky, m);
+    prepared_scene_init(&m->prepared, scene, &desc->render.allocator);
+    m->is_there = true;
+    m->setup =
+        (render_setup){.prepared = &m->prepared, .desc = &m->desc, .stats = stats, .reads_everywhere = true};
+    result = render_setup_create(&m->setup, error);
+    if (result == FACET_OK) {
+        vec3 E = sky->sun_irradiance;
+        result = make_shade(&desc->render.allocator, max(E[0], max(E[1], E[2])) > 0.0f, m, error);
+    }
+    return result;
+}
+
+void water_model_destroy(water_model *m)
+{
+    if (m->is_there) {
+        mem_free(m->shaded_light.punctual);
+        render_setup_destroy(&m->setup);
+        prepared_scene_clear(&m->prepared);
+    }
+    if (m->around)
+        environment_release(m->around);
+    m->around = NULL;
+    m->is_there = false;
+}
+
+/* ---- rays ---- */
+
+static shading_ray ray_from(const double P[3], vec3 d, double far_m)
+{
+    float size = (float)fmax(fabs(P[0]), fmax(fabs(P[1]), fabs(P[2])));
+    shading_ray ray = {
+        .near_t = 1e-4f + 4e-7f * size, .far_t = (float)fmin(far_m, farthest), .spread = &no_spread};
+    for (int i = 0; i < 3; i++) {
+        ray.origin[i] = (float)P[i];
+        ray.direction[i] = d[i];
+    }
+    return ray;
+}
+
+static bool find(const water_model *m, double length, uint32_t random, model_hit *hit)
+{
+    if (!ray_trace_nearest(&m->setup.shading, &hit->ray, random, &hit->hit))
+        return false;
+    hit->distance_m = (double)hit->hit.t * length;
+    hit->P = load3(hit->ray.origin) + load3(hit->ray.direction) * hit->hit.t;
+    return true;
+}
+
+bool water_model_find(const water_model *m, const double P[3], vec3 d, double far_m, uint32_t random,
+                      model_hit *hit)
+{
+    hit->ray = ray_from(P, d, far_m);
+    return m->is_there && find(m, 1.0, random, hit);
+}
+
+bool water_model_find_seen(const water_model *m, float x, float y, float footprint, double far_m,
+                           uint32_t random, model_hit *hit)
+{
+    if (!m->is_there)
+        return false;
+    const shading_scene *s = &m->setup.shading;
+    hit->ray = shading_ray_of_camera(s->camera, &s->camera_spread, x, y, footprint);
+    double scale = (double)length(load3(hit->ray.direction));
+    hit->ray.far_t = (float)fmin((double)hit->ray.far_t, far_m / scale);
+    return find(m, scale, random, hit);
+}
+
+float water_model_opening(const water_model *m, const double P[3], vec3 d)
+{
+    shading_ray ray = ray_from(P, d, farthest);
+    return m->is_there ? ray_trace_opening(&m->setup.shading, &ray, NULL) : 1.0f;
+}
+
+/* The sun's shadow begins off the surface, on the side that the sun is on. */
+vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun)
+{
+    const shading_point point = {.hit = &hit->hit, .ray = &hit->ray, .shade_count = 1};
+    shading_result lit, shaded;
+    vec3 N = normalize(load3(hit->hit.normal));
+    N = dot(N, sun) < 0.0f ? -N : N;
+    float size = max(max(abs(hit->P[0]), abs(hit->P[1])), abs(hit->P[2]));
+    vec3 start = hit->P + N * (1e-4f + 4e-6f * size);
+    const double P[3] = {(double)start[0], (double)start[1], (double)start[2]};
+    float share = sun[1] > 0.0f ? water_model_opening(m, P, sun) : 0.0f;
+    vec3 L = vec3(0.0f);
+    if (share > 0.0f) {
+        shading_shade(&m->setup.shading, &point, &lit);
+        L = load3(lit.radiance) * share;
+    }
+    if (share < 1.0f) {
+        shading_shade(&m->shaded, &point, &shaded);
+        L = L + load3(shaded.radiance) * (1.0f - share);
+    }
+    return max(L, 0.0f);
+}
+
+bool water_model_is_dry(const water_model *m, const double P[3])
+{
+    const float *low = m->prepared.pose.bounds_min, *high = m->prepared.pose.bounds_max;
+    if (!m->is_there || P[0] < (double)low[0] || P[0] > (double)high[0] || P[2] < (double)low[2] ||
+        P[2] > (double)high[2])
+        return false;
+    model_hit hit;
+    if (!water_model_find(m, P, vec3(0.0f, -1.0f, 0.0f), farthest, 0, &hit))
+        return false;
+    for (int i = 0; i < SIDES; i++) {
+        float a = 2.0f * PI * ((float)i + 0.37f) / (float)SIDES;
+        if (!water_model_find(m, P, vec3(cos(a), 0.0f, sin(a)), farthest, 0, &hit))
+            return false;
+    }
+    return true;
+}
