@@ -12,7 +12,7 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-static const double DEFAULT_SUN_EL = 30.0, BESIDE_SUN = 15.0;
+static const double DEFAULT_SUN_EL = 22.0, BESIDE_SUN = 36.0;
 static const float SAND[3] = {0.42f, 0.36f, 0.27f};
 
 /* ---- notations ---- */
