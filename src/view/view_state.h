@@ -54,6 +54,12 @@ bool view_state_point(view_state *s, const view_event *event);
 /* Lets time pass. True: something moved. */
 bool view_state_advance(view_state *s, double seconds);
 
+/* For what changes it: which animations of the scene run; the model's longest edge in m, 1 where it has none; and what makes an orbit of a camera of the file, before
+ * it is moved by hand. */
+void view_state_set_animations(view_state *s, const uint32_t *animations, uint32_t count);
+float view_state_size(const view_state *s);
+void view_state_leave_file_camera(view_state *s);
+
 /* The whole desc of a picture of that size, but for the environment. camera: where it is kept. */
 facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t height, facet_camera *camera);
 
