@@ -214,6 +214,12 @@ static void for_each_batch(gl_material_set *set, const gl_mesh_set *meshes, batc
     }
 }
 
+void gl_material_show(gl_material_set *set, facet_channel channel)
+{
+    set->channel_feature =
+        channel == FACET_CHANNEL_LIGHT ? 0 : gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL");
+}
+
 facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
                                 const facet_render_desc *desc, facet_error *error)
 {
@@ -222,9 +228,7 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
         set->picture_features |= 1ull << GL_SURFACE_HAS_SPECULAR_ANTIALIASING;
     if (desc->gl.brdf == FACET_BRDF_SCHLICK_GGX)
         set->picture_features |= gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
-    set->channel_feature = 0;
-    if (desc->gl.channel != FACET_CHANNEL_LIGHT)
-        set->channel_feature = gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL");
+    gl_material_show(set, desc->gl.channel);
     memset(set->uses, 0, set->scene->texture_count * sizeof *set->uses);
     for_each_batch(set, meshes, add_uses);
     facet_result result = gl_texture_update(set->textures, set->uses, &desc->log, desc->thread_count, error);
