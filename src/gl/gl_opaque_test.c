@@ -76,6 +76,22 @@ static void a_clear_wall_shows_what_is_behind(void **state)
     }
 }
 
+/* The light that passes, alone: the board is not dark behind it, though a board has no such lobe. */
+static void a_lobe_alone_shows_light_behind(void **state)
+{
+    (void)state;
+    for (int c = 0; c < contexts.count; c++) {
+        fixture f = fixture_create();
+        add_board(&f, 2, 255, 255);
+        add_pane(&f, glass(0.0f, 0.0f));
+        f.desc.gl.channel = FACET_CHANNEL_TRANSMISSION;
+        film seen = gl_fixture_render(&f, &contexts.items[c]);
+        gl_fixture_assert_pixel(&seen, 20, 40, (const float[4]){1 - F0, 1 - F0, 1 - F0, 1}, 3e-3f);
+        film_destroy(&seen);
+        fixture_destroy(&f);
+    }
+}
+
 /* color^(thickness / distance) of a white board; the body's color tints at both boundaries. */
 static void a_body_attenuates_by_its_thickness(void **state)
 {
@@ -274,6 +290,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_clear_wall_shows_what_is_behind),
+        cmocka_unit_test(a_lobe_alone_shows_light_behind),
         cmocka_unit_test(a_body_attenuates_by_its_thickness),
         cmocka_unit_test(roughness_blurs_and_keeps_the_mean),
         cmocka_unit_test(ior_1_stays_sharp),
