@@ -92,7 +92,7 @@ static void a_lobe_alone_shows_light_behind(void **state)
     }
 }
 
-/* color^(thickness / distance) of a white board; the body's color tints at both boundaries. */
+/* color^(thickness / distance) of a white board, the thickness by a factor and by a texture; the body's color tints at both boundaries. */
 static void a_body_attenuates_by_its_thickness(void **state)
 {
     (void)state;
@@ -105,7 +105,13 @@ static void a_body_attenuates_by_its_thickness(void **state)
             memcpy(m.attenuation_color, color, sizeof color);
             m.attenuation_distance = 0.5f;
             m.base_color[1] = 0.8f;
+            if (k == 2) { /* 0.75 m, by a texel of two thirds in green */
+                const unsigned char texel[4] = {0, 170, 255, 255};
+                m.textures[SCENE_THICKNESS_TEXTURE].texture = fixture_add_texture(&f, 1, 1, texel);
+                m.thickness *= 1.5f;
+            }
             add_pane(&f, m);
+            m.thickness = 0.25f * (float)(k + 1);
             film seen = gl_fixture_render(&f, &contexts.items[c]);
             float wanted[4] = {0, 0, 0, 1.0f};
             for (int i = 0; i < 3; i++)
