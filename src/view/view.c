@@ -180,9 +180,11 @@ static void loop(view_app *a)
             a->is_closing = true;
         else
             view_window_wait(a->window, time_to_sleep(a));
-        advance_clock(a);
-        handle_events(a);
-        a->result = view_files_update(a, &a->error);
+        if (a->result == FACET_OK) { /* else the script has failed */
+            advance_clock(a);
+            handle_events(a);
+            a->result = view_files_update(a, &a->error);
+        }
         if (a->result != FACET_OK)
             break;
         show_window(a, start);
