@@ -46,6 +46,17 @@ __EGL_VENDOR_LIBRARY_FILENAMES=/none "$facet" render model.gltf -o cpu.png $smal
 [ "$code" = 0 ] || failed "the preview needs OpenGL"
 rm cpu.png
 
+# libEGL alone.
+mkdir shadow
+for library in libGL.so.1 libOpenGL.so.0; do
+    echo 'not a library' >shadow/$library
+done
+code=0
+LD_LIBRARY_PATH="$work/shadow${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$facet" render model.gltf -o none.png $small --renderer gl >out 2>err || code=$?
+[ "$code" = 8 ] || failed "exit code $code, not 8, without libGL"
+says "OpenGL: "
+[ ! -e none.png ] || failed "a picture without libGL"
+
 # What belongs to it says so with another renderer, and the other way round.
 for option in --shadows '--transparency peeled' '--bloom 0.1' '--channel normal' '--brdf schlick-ggx'; do
     expect 2 render model.gltf -o no.png $small $option
