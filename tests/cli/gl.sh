@@ -135,6 +135,13 @@ done
 expect 7 render model.gltf -o late.png --size 2000 --renderer gl --time-limit 0.000001s
 says "the time limit (--time-limit) was reached"
 [ ! -e late.png ] || failed "a picture of no time"
+long="render -o long.png --size 4000 --samples 4096 --renderer gl"
+expect 7 $long --time-limit 1s
+says "long.png: the time limit (--time-limit) was reached"
+code=0
+timeout --preserve-status -k 20 -s TERM 1 "$facet" $long >out 2>err || code=$?
+[ "$code" = 75 ] || failed "exit code $code, not 75, by SIGTERM"
+[ ! -e long.png ] || failed "a part of a picture"
 expect 0 render model.gltf -o one.png $small --renderer gl --json
 grep -q '"width": 48' out || failed "no report"
 expect 0 render model.gltf -o dark.png $small --renderer gl --env none
