@@ -68,6 +68,8 @@ static facet_result choose_camera(view_run_state *run, facet_view_model *model, 
             render_keep_framing(&o, &camera);
     }
     model->orbit = o.orbit;
+    /* who gave no view will turn the model first: the distance is one that holds all around */
+    model->orbit.fits_all_azimuths = !is_given(run->line, OPT_ORBIT);
     return result;
 }
 

@@ -37,6 +37,7 @@ static void step_animation(view_state *s, int steps)
     view_state_set_animations(s, &index, next == VIEW_NO_ANIMATION ? 0 : 1);
     s->pose.time_s = next == VIEW_NO_ANIMATION ? 0.0 : s->begin_s;
     s->is_playing = next != VIEW_NO_ANIMATION;
+    view_state_follow_motion(s);
     if (next == VIEW_NO_ANIMATION)
         say(s, "Animation: none");
     else
@@ -115,20 +116,7 @@ void view_state_leave_file_camera(view_state *s)
         middle[i] = 0.5f * s->low[i] + 0.5f * s->high[i];
     s->orbit = view_camera_orbit(&s->file_camera, &s->orbit, middle);
     s->camera = VIEW_NO_CAMERA;
-    s->needs_framing = false;
-}
-
-static void frame(view_state *s)
-{
-    facet_orbit whole = scene_orbit_default();
-    view_state_leave_file_camera(s);
-    whole.azimuth_rad = s->orbit.azimuth_rad;
-    whole.polar_rad = s->orbit.polar_rad;
-    whole.orthographic = s->orbit.orthographic;
-    whole.is_z_up = s->orbit.is_z_up;
-    whole.fov_y_rad = s->orbit.fov_y_rad;
-    s->orbit = whole;
-    s->needs_framing = true;
+    s->needs_framing = s->is_framed = false;
 }
 
 static void step_background(view_state *s)
@@ -184,10 +172,10 @@ static bool apply_camera(view_state *s, view_action action, int amount)
 {
     switch (action) {
     case VIEW_ACTION_FRAME:
-        frame(s);
+        view_state_show_whole(s);
         break;
     case VIEW_ACTION_LOOK:
-        view_state_leave_file_camera(s);
+        view_state_show_whole(s);
         view_camera_look(&s->orbit, (view_direction)amount);
         break;
     case VIEW_ACTION_PROJECTION:

@@ -77,7 +77,7 @@ facet_camera view_camera_of(const facet_orbit *o, float aspect, const float low[
                               fabs((double)high[i] - (double)o->target[i]));
             reach += far * far;
         }
-        distance = fmax(distance, 1.1 * sqrt(reach));
+        distance = fmax(distance, 2.0 * sqrt(reach)); /* what moves may leave the bounds */
     } else {
         camera.fov_y_rad = o->fov_y_rad;
     }

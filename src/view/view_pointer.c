@@ -7,6 +7,7 @@
 static void drag(view_state *s, double dx, double dy, unsigned modifiers)
 {
     view_state_leave_file_camera(s);
+    s->is_framed = false;
     if (modifiers & VIEW_CONTROL)
         view_camera_dolly(&s->orbit, -dy * 40.0 / (s->height ? s->height : 1), (double)view_state_size(s));
     else if (s->button == VIEW_RIGHT_BUTTON || modifiers & VIEW_SHIFT)
@@ -19,6 +20,7 @@ static void scroll(view_state *s, const view_event *e)
 {
     const double pixels = 40.0 * (double)s->scale; /* of a step, of two fingers or a wheel */
     view_state_leave_file_camera(s);
+    s->is_framed = false;
     if (e->modifiers & VIEW_SHIFT)
         view_camera_pan(&s->orbit, pixels * e->x, pixels * e->y, s->height);
     else if (e->modifiers & VIEW_ALT)

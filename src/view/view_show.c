@@ -20,25 +20,7 @@ static facet_result find_camera(view_app *a, uint32_t width, uint32_t height, fa
     view_state *s = &a->state;
     if (s->camera != VIEW_NO_CAMERA)
         return a->host->camera_from_scene(s->scene, &s->pose, (uint32_t)s->camera, &s->file_camera, error);
-    if (!s->needs_framing)
-        return FACET_OK;
-    facet_camera camera;
-    facet_result result =
-        scene_fit_orbit(s->scene, &s->pose, &s->orbit, (float)width / (float)height, &camera, error);
-    if (result != FACET_OK)
-        return result;
-    facet_orbit *o = &s->orbit;
-    double distance2 = 0.0;
-    for (int i = 0; i < 3; i++) {
-        double d = (double)camera.eye[i] - (double)camera.target[i];
-        o->target[i] = camera.target[i];
-        distance2 += d * d;
-    }
-    o->radius = o->orthographic ? (float)(0.5 * (double)camera.ortho_height / tan(0.5 * (double)o->fov_y_rad))
-                                : (float)sqrt(distance2);
-    o->has_target = true;
-    s->needs_framing = false;
-    return FACET_OK;
+    return view_state_frame(s, (float)width / (float)height, error);
 }
 
 facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, facet_camera *camera)

@@ -89,7 +89,7 @@ void view_state_set_model(view_state *s, const facet_view_model *model, const fl
         for (int i = 0; i < 3; i++)
             middle[i] = 0.5f * low[i] + 0.5f * high[i];
         s->orbit = view_camera_orbit(&model->eye, &model->orbit, middle);
-        s->needs_framing = false;
+        s->needs_framing = s->is_framed = false;
         return;
     }
     s->needs_framing = true;

@@ -164,6 +164,33 @@ static void the_divider_is_taken_where_it_is(void **state)
     assert_true(orbit.azimuth_rad != s.orbit.azimuth_rad);
 }
 
+/* Keys for views are at the distance that frames the model from there, whatever was before. */
+static void views_show_the_whole_model(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"1", "Ctrl+1", "3", "Ctrl+3", "7", "Ctrl+7", "9", "Enter"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        view_state s;
+        facet_camera fitted;
+        begin(&s);
+        press(&s, keys[i]);
+        assert_int_equal(view_state_frame(&s, 2.0f, NULL), FACET_OK);
+        facet_orbit wanted = scene_orbit_default();
+        wanted.azimuth_rad = s.orbit.azimuth_rad;
+        wanted.polar_rad = s.orbit.polar_rad;
+        assert_int_equal(scene_fit_orbit(scene, &s.pose, &wanted, 2.0f, &fitted, NULL), FACET_OK);
+        double distance2 = 0.0;
+        for (int k = 0; k < 3; k++)
+            distance2 += pow((double)fitted.eye[k] - (double)fitted.target[k], 2.0);
+        assert_true(fabs((double)s.orbit.radius - sqrt(distance2)) < 1e-5);
+        view_state_point(&s, &(view_event){.kind = VIEW_SCROLL, .y = 1.0});
+        float nearer = s.orbit.radius;
+        view_state_follow_motion(&s); /* what a hand has set stays */
+        assert_int_equal(view_state_frame(&s, 2.0f, NULL), FACET_OK);
+        assert_true(s.orbit.radius == nearer);
+    }
+}
+
 /* The two sides differ in what the comparison is about, and in nothing else. */
 static void sides_differ_in_one_thing(void **state)
 {
@@ -195,6 +222,7 @@ int main(void)
                                        cmocka_unit_test(channels_and_path_tracing_exclude_each_other),
                                        cmocka_unit_test(the_pointer_moves_what_it_holds),
                                        cmocka_unit_test(the_divider_is_taken_where_it_is),
+                                       cmocka_unit_test(views_show_the_whole_model),
                                        cmocka_unit_test(sides_differ_in_one_thing)};
     return cmocka_run_group_tests(tests, make_scene, drop_scene);
 }

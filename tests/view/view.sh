@@ -185,6 +185,35 @@ view triangle.gltf
 rendered wide.png triangle.png
 same wide.png same.png
 
+# ---- what moves is framed in all of its motion, whether it is asked for at the start or later ----
+sed 's/"scene":0,/"scene":0,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":1,"output":2}]}],/
+    s/"max":.1,1,0.}\],/"max":[1,1,0]},{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"}],/
+    s/"byteLength":36}\],/"byteLength":36},{"buffer":1,"byteLength":8},{"buffer":1,"byteOffset":8,"byteLength":24}],/
+    s/"buffers":\[/&{},/' triangle.gltf >moving.gltf
+sed -i 's/{},\(.*\)}\]}$/\1},{"byteLength":32,"uri":"data:application\/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAEBAAAAAAAAAAAA="}]}/' moving.gltf
+cat >script <<'END'
+load
+print
+key w
+key Space
+print
+key w
+print
+key 9
+print
+wait 1
+key Enter
+print
+END
+view moving.gltf
+sed -n 's/.*--orbit \([^ ]*\).*/\1/p' out >orbits
+[ "$(sed -n 1p orbits)" = "$(sed -n 3p orbits)" ] && [ "$(sed -n 4p orbits)" = "$(sed -n 5p orbits)" ] &&
+    [ "$(sed -n 1p orbits)" != "$(sed -n 2p orbits)" ] || failed "distances: $(cat orbits)"
+sed -n 2p orbits >moving
+printf 'load\nprint\n' >script
+view moving.gltf --animation 0
+grep -q -- "--orbit $(cat moving) " out || failed "another distance with --animation than with a key: $(cat out)"
+
 # ---- what models bring: motion, variants, their own light ----
 if [ -d "$data/models" ]; then
     cat >script <<'END'
