@@ -8,7 +8,7 @@
 #include "view/view_names.h"
 #include "view/view_state.h"
 
-static const double pi = 3.14159265358979323846;
+static const double degree = 0.017453292519943295; /* pi / 180 */
 
 static int wrap(int value, int count)
 {
@@ -217,17 +217,40 @@ static bool apply_motion(view_state *s, view_action action, int amount)
     return true;
 }
 
+/* Numbers that are short in decimal stay so: degrees to a thousandth, as they are read; stops to a ten thousandth; factors to
+ * five digits. */
+static float turn(float radians, double degrees)
+{
+    double turned = round(((double)radians / degree + degrees) * 1e3) / 1e3;
+    return (float)((remainder(turned, 360.0) + 0.0) * degree);
+}
+
+/* Thirds of a stop stay thirds. */
+static double step_third(float stops, int steps)
+{
+    double thirds = 3.0 * (double)stops;
+    if (fabs(thirds - round(thirds)) < 0.01)
+        thirds = round(thirds);
+    return (thirds + steps) / 3.0;
+}
+
+static float step_intensity(float stops, int steps)
+{
+    double factor = exp2(step_third(stops, steps));
+    double unit = pow(10.0, 4.0 - floor(log10(factor)));
+    return (float)log2(round(factor * unit) / unit);
+}
+
 static bool apply_light(view_state *s, view_action action, int amount)
 {
     facet_render_desc *r = &s->render;
     switch (action) {
     case VIEW_ACTION_ENVIRONMENT_ROTATION:
-        r->environment_rotation_rad =
-            (float)remainder((double)r->environment_rotation_rad + amount * pi / 12.0, 2.0 * pi);
-        say(s, "Environment turned by %.0f degrees", (double)r->environment_rotation_rad * 180.0 / pi);
+        r->environment_rotation_rad = turn(r->environment_rotation_rad, 15.0 * amount);
+        say(s, "Environment turned by %.0f degrees", (double)r->environment_rotation_rad / degree);
         break;
     case VIEW_ACTION_ENVIRONMENT_INTENSITY:
-        r->environment_ev += (float)amount / 3.0f;
+        r->environment_ev = step_intensity(r->environment_ev, amount);
         say(s, "Light of the environment: %.2f", exp2((double)r->environment_ev));
         break;
     case VIEW_ACTION_LIGHTS:
@@ -259,7 +282,7 @@ static bool apply_picture(view_state *s, view_action action, int amount)
         step_blur(s);
         break;
     case VIEW_ACTION_EXPOSURE:
-        r->exposure_ev += (float)amount / 3.0f;
+        r->exposure_ev = (float)(round(step_third(r->exposure_ev, amount) * 1e4) / 1e4);
         say(s, "Exposure: %+.2f stops", (double)r->exposure_ev);
         break;
     case VIEW_ACTION_TONEMAP:

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "view/view_camera.h"
 
 static facet_result save(view_app *a, const view_picture *picture, const char *path, facet_error *error)
 {
@@ -89,12 +90,13 @@ static char *describe(view_app *a)
     if (desc.integrator == FACET_INTEGRATOR_PATH && a->trace_is_current)
         desc.samples = a->trace_samples;
     const view_state *s = &a->state;
+    const facet_orbit orbit = view_camera_round(&s->orbit);
     return a->desc->source.describe(
         a->desc->source.user,
         &(facet_view_picture){.model = a->path,
                               .environment = a->environment_name,
                               .render = &desc,
-                              .orbit = s->camera == VIEW_NO_CAMERA ? &s->orbit : NULL,
+                              .orbit = s->camera == VIEW_NO_CAMERA ? &orbit : NULL,
                               .camera = s->camera == VIEW_NO_CAMERA ? 0 : (uint32_t)s->camera});
 }
 

@@ -113,8 +113,10 @@ facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t 
     desc.width = desc.crop[2] = width;
     desc.height = desc.crop[3] = height;
     desc.pose = s->pose;
+    desc.pose.time_s = round(s->pose.time_s * 1e4) / 1e4;
+    facet_orbit orbit = view_camera_round(&s->orbit);
     *camera = s->camera == VIEW_NO_CAMERA
-                  ? view_camera_of(&s->orbit, (float)width / (float)height, s->low, s->high)
+                  ? view_camera_of(&orbit, (float)width / (float)height, s->low, s->high)
                   : s->file_camera;
     desc.camera = camera;
     return desc;
