@@ -3,11 +3,16 @@
 #define API_API_H
 
 #include "film/film.h"
+#include "gl/gl_entry.h"
 
 struct facet_image {
     film film; /* developed: tone-mapped, background laid under it */
     facet_render_stats stats;
     bool is_for_display; /* read from a file whose colors are a display's */
 };
+
+/* facet_render() by a renderer of OpenGL that is there already, a window's. */
+facet_result render_by_gl(gl_renderer *renderer, const facet_render_desc *desc, facet_image **image,
+                          facet_error *error);
 
 #endif

@@ -63,6 +63,7 @@ typedef struct view_app {
     double frame_s;     /* of the last frame; while something moves smoothed; 0: none yet */
     bool needs_picture; /* something of the model, the camera, the light changed */
     bool needs_frame;   /* only what is laid over it did */
+    bool is_for_file;   /* with all the care that facet render takes, if slower */
     view_shown_panel panels[VIEW_PANEL_COUNT];
     bool has_no_text; /* there is no cairo */
 

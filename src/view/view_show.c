@@ -8,13 +8,14 @@
 
 #include "base/clock.h"
 #include "scene/scene.h"
+#include "view/view_camera.h"
 #include "view/view_names.h"
 
 #include <epoxy/gl.h>
 
 /* ---- the picture ---- */
 
-/* Radius and target of an orbit that is to frame the model, or the file's camera at this moment. */
+/* The orbit's radius and target where they are to be found, or the file's camera at this moment. */
 static facet_result find_camera(view_app *a, uint32_t width, uint32_t height, facet_error *error)
 {
     view_state *s = &a->state;
@@ -27,6 +28,7 @@ facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, f
 {
     facet_render_desc sides[2];
     const char *labels[2];
+    find_camera(a, width, height, NULL); /* a key may have asked for it since the last picture */
     facet_render_desc base = view_state_desc(&a->state, width, height, camera);
     base.environment = a->environment;
     view_divider_sides(&a->state.divider, &base, sides, labels);
@@ -58,11 +60,41 @@ static bool trace(view_app *a, const facet_render_desc *side)
     return a->trace_is_current;
 }
 
+/* As facet render draws it: in floats of 32 bits, and with the eye of a parallel view where it has it. */
+static facet_result draw_for_file(view_app *a, view_surface *to, const facet_render_desc *wanted,
+                                  facet_error *error)
+{
+    facet_render_desc desc = *wanted;
+    facet_camera camera;
+    facet_image *image = NULL;
+    view_picture picture = {0};
+    facet_orbit orbit = view_camera_round(&a->state.orbit);
+    facet_result result = FACET_OK;
+    if (a->state.camera == VIEW_NO_CAMERA) {
+        result = scene_fit_orbit(a->scene, &desc.pose, &orbit, (float)desc.width / (float)desc.height,
+                                 &camera, error);
+        desc.camera = &camera;
+    }
+    if (result == FACET_OK)
+        result = a->host->render_gl(a->renderer, &desc, &image, error);
+    if (result == FACET_OK) {
+        facet_image_view view = a->host->image_get_layer(image, 0);
+        result = view_picture_create(&view, &a->desc->allocator, &picture, error);
+    }
+    if (result == FACET_OK)
+        view_surface_upload(to, picture.width, picture.height, picture.pixels);
+    view_picture_destroy(&picture);
+    a->host->image_destroy(image);
+    return result;
+}
+
 static facet_result draw_side(view_app *a, int side, facet_render_desc *desc, facet_error *error)
 {
     view_surface *s = &a->sides[side];
     facet_render_stats stats;
     desc->integrator = FACET_INTEGRATOR_GL;
+    if (a->is_for_file)
+        return draw_for_file(a, s, desc, error);
     facet_result result = view_surface_resize(s, &a->context, desc->width, desc->height, error);
     return result == FACET_OK ? gl_renderer_present(a->renderer, desc, s->framebuffer, 0, 0, &stats, error)
                               : result;
@@ -286,9 +318,11 @@ facet_result view_show_into(view_app *a, bool has_panels, facet_error *error)
     height = height ? height : a->desc->render.height;
     facet_result result = view_surface_resize(&a->shot, &a->context, width, height, error);
     a->needs_picture = true; /* sides may have another size */
+    a->is_for_file = !has_panels;
     if (result == FACET_OK)
         result = compose(a, a->shot.framebuffer, width, height, has_panels ? 8.0f * a->state.scale : 0.0f,
                          has_panels, error);
+    a->is_for_file = false;
     return result;
 }
 
