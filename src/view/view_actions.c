@@ -24,6 +24,12 @@ static void say(view_state *s, const char *format, ...)
     va_end(arguments);
 }
 
+/* "Camera 1 of 2: Hero"; not every file has names. */
+static void say_which(view_state *s, const char *what, int index, int count, const char *name)
+{
+    say(s, "%s %d of %d%s%s", what, index + 1, count, *name ? ": " : "", name);
+}
+
 static void step_animation(view_state *s, int steps)
 {
     int count = (int)s->counts.animations;
@@ -41,7 +47,7 @@ static void step_animation(view_state *s, int steps)
     if (next == VIEW_NO_ANIMATION)
         say(s, "Animation: none");
     else
-        say(s, "Animation %d of %d: %s", next + 1, count, s->scene->animations[next].name);
+        say_which(s, "Animation", next, count, s->scene->animations[next].name);
 }
 
 static void play(view_state *s)
@@ -95,7 +101,7 @@ static void step_camera(view_state *s, int steps)
         s->needs_framing = true;
         say(s, "Camera: none of the file");
     } else {
-        say(s, "Camera %d of %d: %s", s->camera + 1, count, s->scene->cameras[s->camera].name);
+        say_which(s, "Camera", s->camera, count, s->scene->cameras[s->camera].name);
     }
 }
 
@@ -161,9 +167,30 @@ static void step_renderer(view_state *s)
     say(s, "Renderer: %s", is_path ? "OpenGL" : "path tracing");
 }
 
+bool view_state_has_casters(const view_state *s)
+{
+    const float *sun = s->render.sun.illuminance_lux;
+    return (s->counts.lights && !s->render.ignore_scene_lights) || sun[0] + sun[1] + sun[2] > 0.0f;
+}
+
+/* The first variant that looks otherwise than the file without: often the first one is its default. */
+static uint32_t find_variant(const facet_scene *scene)
+{
+    for (uint32_t v = 0; v < scene->variant_count; v++)
+        for (uint32_t m = 0; m < scene->mesh_count; m++)
+            for (uint32_t i = 0; i < scene->meshes[m].primitive_count; i++) {
+                const scene_primitive *p = &scene->meshes[m].primitives[i];
+                uint32_t material = p->variant_materials ? p->variant_materials[v] : SCENE_NONE;
+                if (material != SCENE_NONE && material != p->material)
+                    return v;
+            }
+    return 0;
+}
+
 static void step_divider(view_state *s, int steps)
 {
     view_divider_step(&s->divider, steps, s->counts.variants > 0);
+    s->divider.variant = s->scene ? find_variant(s->scene) : 0;
     if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* else the sides have labels */
         say(s, "No comparison");
 }
@@ -255,11 +282,13 @@ static bool apply_light(view_state *s, view_action action, int amount)
         break;
     case VIEW_ACTION_LIGHTS:
         r->ignore_scene_lights = !r->ignore_scene_lights;
-        say(s, "Lights of the file: %s", r->ignore_scene_lights ? "off" : "on");
+        say(s, "Lights of the file: %s%s", r->ignore_scene_lights ? "off" : "on",
+            s->counts.lights || s->counts.image_lights ? "" : "; it has none");
         break;
     case VIEW_ACTION_SHADOWS:
         r->gl.shadows = !r->gl.shadows;
-        say(s, "Shadows of lights: %s", r->gl.shadows ? "on" : "off");
+        say(s, "Shadows of lights: %s%s", r->gl.shadows ? "on" : "off",
+            view_state_has_casters(s) ? "" : "; there is no light of the file and no sun to cast any");
         break;
     case VIEW_ACTION_GROUND:
         r->ground = r->ground == FACET_GROUND_NONE ? FACET_GROUND_SHADOW : FACET_GROUND_NONE;
@@ -289,7 +318,7 @@ static bool apply_picture(view_state *s, view_action action, int amount)
         step_tonemap(s, amount);
         break;
     case VIEW_ACTION_BLOOM:
-        r->gl.bloom = r->gl.bloom > 0.0f ? 0.0f : 0.05f;
+        r->gl.bloom = r->gl.bloom > 0.0f ? 0.0f : 0.04f;
         say(s, "Bloom: %s", r->gl.bloom > 0.0f ? "on" : "off");
         break;
     default:
@@ -342,9 +371,12 @@ static bool apply_rendering(view_state *s, view_action action, int amount)
 bool view_state_apply(view_state *s, view_action action, int amount)
 {
     s->message[0] = 0;
-    if (action == VIEW_ACTION_HELP || action == VIEW_ACTION_VALUES) {
-        bool *shown = action == VIEW_ACTION_HELP ? &s->shows_help : &s->shows_values;
-        *shown = !*shown;
+    if (action == VIEW_ACTION_HELP) {
+        s->help_page = s->help_page < s->help_pages ? s->help_page + 1 : 0;
+        return true;
+    }
+    if (action == VIEW_ACTION_VALUES) {
+        s->shows_values = !s->shows_values;
         return true;
     }
     if (apply_picture(s, action, amount) || apply_light(s, action, amount) ||

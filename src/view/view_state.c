@@ -13,6 +13,7 @@ void view_state_create(view_state *s, const facet_view_desc *desc)
                       .path_samples = desc->path_samples,
                       .camera = VIEW_NO_CAMERA,
                       .speed = 1.0,
+                      .help_pages = 1,
                       .scale = 1.0f,
                       .divider = {.position = 0.5},
                       .orbit = scene_orbit_default()};

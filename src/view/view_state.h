@@ -31,7 +31,8 @@ typedef struct view_state {
     facet_render_desc render; /* integrator: GL or PATH; without what belongs to the model and the window */
     uint32_t path_samples;
     view_divider divider;
-    bool shows_help, shows_values;
+    uint32_t help_page, help_pages; /* which is shown, from 1, of how many; 0: none */
+    bool shows_values;
 
     /* the pointer */
     bool is_held;
@@ -56,6 +57,8 @@ bool view_state_point(view_state *s, const view_event *event);
 /* Lets time pass. True: something moved. */
 bool view_state_advance(view_state *s, double seconds);
 
+/* Whether there is a light that could cast shadows. */
+bool view_state_has_casters(const view_state *s);
 /* For what changes it: which animations of the scene run; the model's longest edge in m, 1 where it has none; and what makes an orbit of a camera of the file, before
  * it is moved by hand. */
 void view_state_set_animations(view_state *s, const uint32_t *animations, uint32_t count);

@@ -108,6 +108,52 @@ static void keys_without_a_model(void **state)
     assert_false(view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 10.0}));
 }
 
+static void what_does_nothing_is_said(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    s.counts.lights = 0;
+    s.counts.image_lights = 0;
+    press(&s, "k");
+    assert_non_null(strstr(s.message, "it has none"));
+    press(&s, "s");
+    assert_non_null(strstr(s.message, "there is no light"));
+    s.render.sun.illuminance_lux[1] = 1.0f;
+    press(&s, "s");
+    assert_null(strstr(s.message, "there is no light"));
+}
+
+/* H goes through the pages, as many as the window made of them, and then away. */
+static void help_has_pages(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    press(&s, "h");
+    assert_int_equal(s.help_page, 1);
+    s.help_pages = 3;
+    press(&s, "h");
+    press(&s, "h");
+    assert_int_equal(s.help_page, 3);
+    press(&s, "h");
+    assert_int_equal(s.help_page, 0);
+}
+
+/* Whole labels, within the window, wherever the border is. */
+static void labels_are_not_cut(void **state)
+{
+    (void)state;
+    const int widths[2] = {150, 120};
+    for (int border = 0; border <= 480; border++) {
+        int x[2];
+        bool is_narrow = view_divider_labels(border, 480, 12, widths, x);
+        assert_true(x[0] >= 12 && x[0] + widths[0] <= 468 && x[1] >= 12 && x[1] + widths[1] <= 468);
+        assert_true(is_narrow || x[0] + widths[0] < x[1]);
+        assert_true(is_narrow == (border < 174 || border > 336));
+    }
+}
+
 static void channels_and_path_tracing_exclude_each_other(void **state)
 {
     (void)state;
@@ -219,6 +265,9 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(keys_go_around),
                                        cmocka_unit_test(what_is_not_there_is_said),
                                        cmocka_unit_test(keys_without_a_model),
+                                       cmocka_unit_test(what_does_nothing_is_said),
+                                       cmocka_unit_test(help_has_pages),
+                                       cmocka_unit_test(labels_are_not_cut),
                                        cmocka_unit_test(channels_and_path_tracing_exclude_each_other),
                                        cmocka_unit_test(the_pointer_moves_what_it_holds),
                                        cmocka_unit_test(the_divider_is_taken_where_it_is),

@@ -61,7 +61,7 @@ view --sun 30,45
 differ base_color.png gl.png
 grep -q -- '--channel base-color' out || failed "no channel in $(cat out)"
 rendered gl.png facet.png
-for word in '--brdf multiscatter' '--energy conserving' '--transparency peeled' --shadows '--bloom 0.05' '--ground shadow'; do
+for word in '--brdf multiscatter' '--energy conserving' '--transparency peeled' --shadows '--bloom 0.04' '--ground shadow'; do
     grep -qF -- "$word" command || failed "no $word in $(cat command)"
 done
 head -1 out >channel
@@ -83,6 +83,8 @@ grep -q -- "--camera 0" command || failed "the camera is not in $(cat command)"
 # ---- what is laid over it ----
 cat >script <<'END'
 load
+window hint.png
+size 1000 800
 wait 20
 window bare.png
 key h
@@ -92,14 +94,52 @@ key h
 window again.png
 key z
 window values.png
+key z
+size 480 360
+key h
+window page1.png
+key h
+window page2.png
+size 160 120
+wait 20
+window tiny.png
 END
 view triangle.gltf
 if "$facet" plot -o plot.png >/dev/null 2>&1; then # letters are cairo's
     differ bare.png help.png
     differ bare.png values.png
+    differ page1.png page2.png # letters stay as large as they can be read
+    "$facet" compare page1.png page2.png --max mae=0.5 -q >/dev/null 2>&1 || failed "the second page is no help"
 fi
 same bare.png under.png
 same bare.png again.png
+
+# the environments go around, and each says its name; where there is none the window says what is missing, nobody else
+cat >script <<'END'
+load
+wait 20
+window neutral.png
+key e
+load
+window white.png
+wait 20
+key Shift+e
+load
+key Shift+e
+load
+wait 1
+window none.png
+wait 20
+window dark.png
+print
+END
+view triangle.gltf
+grep -q -- '--env none' out || failed "none is not the last environment: $(cat out)"
+[ ! -s err ] || failed "what the window says stands elsewhere, too: $(cat err)"
+if "$facet" plot -o plot.png >/dev/null 2>&1; then
+    differ neutral.png white.png
+    differ none.png dark.png
+fi
 
 # ---- files ----
 mkdir models
@@ -163,6 +203,13 @@ says "there is no .glb, .gltf or .obj file in it"
 echo "dance" >wrong
 expect 2 view --script wrong
 says 'wrong: line 1: there is no "dance"'
+expect 2 view --script - <wrong
+says 'line 1: there is no "dance"'
+echo close | expect 0 view --script - $size
+expect 2 render -n 4097 -o many.png
+says "--samples"
+expect 0 render $small --renderer gl -o driver.png -v
+says "OpenGL: "
 expect 2 view --renderer preview
 says "gl or path"
 
@@ -240,6 +287,9 @@ END
     rendered shoe.png MaterialsVariantsShoe.png
     differ first.png shoe.png
     grep -q -- '--variant 1' command || failed "no variant in $(cat command)"
+    printf 'load\nkey Shift+Tab\nprint\n' >script
+    view "$data/models/materials/MaterialsVariantsShoe.glb" # whose variant 0 is its default
+    grep -q -- '--variant 1' out || failed "the sides are alike: $(cat out)"
 else
     echo "FACET_TEST_DATA names no folder with models: animations and variants were not looked at"
 fi
