@@ -146,7 +146,7 @@ static void handle_events(view_app *a)
 static double time_to_sleep(const view_app *a)
 {
     bool is_visible = a->state.width > 0;
-    if (a->script.count)
+    if (a->desc->script)
         return 0.02; /* steps wait for threads, windows, files */
     if (a->needs_picture || a->needs_frame)
         return 0.0;
@@ -164,7 +164,7 @@ static void advance_clock(view_app *a)
     double now = clock_seconds();
     double passed = now - a->clock_s;
     a->clock_s = now;
-    if (!a->script.count) {
+    if (!a->desc->script) {
         a->time_s += passed;
         if (view_state_advance(&a->state, fmin(passed, longest_step_s)))
             a->needs_picture = true;
@@ -206,7 +206,7 @@ static void draw(view_app *a)
     if ((a->needs_picture || a->needs_frame) && view_show(a, &error) != FACET_OK) {
         a->needs_picture = a->needs_frame = false;
         view_app_say(a, error.message, 8.0);
-        if (a->script.count) { /* nobody reads messages */
+        if (a->desc->script) { /* nobody reads messages */
             a->error = error;
             a->result = error.result;
         }
@@ -220,7 +220,7 @@ static void loop(view_app *a)
     while (!a->is_closing && a->result == FACET_OK) {
         if (view_play(a))
             view_window_wait(a->window, 0.0);
-        else if (a->script.count && a->script_at == a->script.count)
+        else if (a->desc->script && a->script_at == a->script.count)
             a->is_closing = true;
         else
             view_window_wait(a->window, time_to_sleep(a));

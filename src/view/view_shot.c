@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "scene/scene.h"
 #include "view/view_camera.h"
 
 static facet_result save(view_app *a, const view_picture *picture, const char *path, facet_error *error)
@@ -35,6 +36,9 @@ static facet_result save(view_app *a, const view_picture *picture, const char *p
 
 facet_result view_shot_save(view_app *a, const char *path, bool has_panels, facet_error *error)
 {
+    if (a->scene && scene_has_file(a->scene, path))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: the model was read from it, and would be overwritten; name another picture", path);
     facet_result result = view_show_into(a, has_panels, error);
     if (result != FACET_OK)
         return result;

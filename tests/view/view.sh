@@ -261,6 +261,18 @@ printf 'load\nprint\n' >script
 view moving.gltf --animation 0
 grep -q -- "--orbit $(cat moving) " out || failed "another distance with --animation than with a key: $(cat out)"
 
+# A picture never takes the place of what it shows; a script without a step is one.
+cp triangle.gltf shown.gltf
+printf 'load\npicture shown.gltf\n' >script
+code=0
+timeout 60 "$program" view shown.gltf $size --script script >out 2>err || code=$?
+[ "$code" = 2 ] || failed "exit code $code, not 2, of a picture over its model"
+cmp -s triangle.gltf shown.gltf || failed "the model was overwritten"
+printf '# nothing\n' >script
+code=0
+timeout 60 "$program" view shown.gltf $size --script script >out 2>err || code=$?
+[ "$code" = 0 ] || failed "exit code $code of a script without steps"
+
 # ---- what models bring: motion, variants, their own light ----
 if [ -d "$data/models" ]; then
     cat >script <<'END'
