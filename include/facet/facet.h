@@ -69,7 +69,10 @@ FACET_API facet_allocator facet_budget_allocator(facet_budget *budget);
 FACET_API uint64_t facet_budget_used_bytes(const facet_budget *budget);
 FACET_API uint64_t facet_budget_peak_bytes(const facet_budget *budget);
 
-typedef enum facet_log_level { FACET_LOG_WARNING } facet_log_level; /* others may come */
+typedef enum facet_log_level {
+    FACET_LOG_WARNING,
+    FACET_LOG_DETAIL /* for who wants to know: the driver that draws */
+} facet_log_level;   /* others may come */
 
 /* Receives messages about what is lost but survivable. {0}: silent. May be called from any thread, one call at
  * a time per operation. */

@@ -9,6 +9,7 @@
 #include <sys/auxv.h>
 #include <unistd.h>
 
+#include "api/api.h"
 #include "base/result.h"
 #include "gl/gl_build.h"
 
@@ -20,6 +21,7 @@ static const char *const folders[] = {"facet", "../" FACET_LIBDIR_NAME "/facet",
 static const gl_host host = {.renderer_create = facet_renderer_create,
                              .renderer_render = facet_renderer_render,
                              .renderer_destroy = facet_renderer_destroy,
+                             .render_gl = render_by_gl,
                              .image_get_layer_count = facet_image_get_layer_count,
                              .image_get_layer = facet_image_get_layer,
                              .image_save = facet_image_save,

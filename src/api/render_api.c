@@ -266,6 +266,16 @@ facet_result facet_render(const facet_scene *scene, const facet_render_desc *des
     return result;
 }
 
+facet_result render_by_gl(gl_renderer *gl, const facet_render_desc *desc, facet_image **image,
+                          facet_error *error)
+{
+    *image = NULL;
+    facet_render_desc resolved;
+    facet_renderer borrowed = {.gl = gl}; /* nothing is prepared beside what gl has */
+    facet_result result = resolve(desc, &resolved, error);
+    return result == FACET_OK ? render_image(&borrowed, &resolved, image, error) : result;
+}
+
 /* ---- several pictures ---- */
 
 facet_result facet_renderer_create(const facet_scene *scene, const facet_allocator *allocator,

@@ -49,6 +49,34 @@ static facet_result read_stream(int fd, const char *path, uint64_t max_bytes,
     return FACET_OK;
 }
 
+/* Larger files are mapped: most of what is hostile shows in the first bytes, and the rest is never read. Others are read, so
+ * that they may be cut or written anew while what was read is in use, which would end the process on a mapping. */
+static const size_t MAPPED_FROM = (size_t)256 << 20;
+
+/* A file that is known to have size bytes. */
+static facet_result read_sized(int fd, const char *path, size_t size, const facet_allocator *allocator,
+                               file_bytes *file, facet_error *error)
+{
+    unsigned char *data = mem_alloc(allocator, size + 1, 1);
+    if (!data)
+        return fail_memory(error, path, size + 1);
+    size_t at = 0;
+    while (at < size) {
+        ssize_t got = read(fd, data + at, size - at);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0) {
+            mem_free(data);
+            return fail(error, FACET_ERROR_READ, "%s: cannot be read: %s", path,
+                        got < 0 ? strerror(errno) : "it became shorter meanwhile");
+        }
+        at += (size_t)got;
+    }
+    data[size] = 0;
+    *file = (file_bytes){.data = data, .size = size, .mapping = data};
+    return FACET_OK;
+}
+
 facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,
                        file_bytes *file, facet_error *error)
 {
@@ -71,11 +99,14 @@ facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocat
         /* The page behind the end must hold a 0: a size that fills its last page exactly is read instead. */
         size_t size = (size_t)status.st_size;
         size_t page = (size_t)sysconf(_SC_PAGESIZE);
-        void *mapping = size && size % page ? mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0) : MAP_FAILED;
+        bool is_mapped = size >= MAPPED_FROM && size % page;
+        void *mapping = is_mapped ? mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0) : MAP_FAILED;
         if (mapping != MAP_FAILED) {
             *file = (file_bytes){.data = mapping, .size = size, .mapping = mapping, .mapping_size = size};
             result = FACET_OK;
-        } else {
+        } else if (size) {
+            result = read_sized(fd, path, size, allocator, file, error);
+        } else { /* as those of /proc say of themselves */
             result = read_stream(fd, path, max_bytes, allocator, file, error);
         }
     }

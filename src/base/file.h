@@ -4,7 +4,7 @@
 
 #include "facet/facet.h"
 
-/* The bytes of a file; mapped where the system can, else read. */
+/* The bytes of a file: read, or mapped where it has 256 MiB or more. */
 typedef struct file_bytes {
     const unsigned char *data; /* at least one readable byte of 0 stands behind the last one */
     size_t size;
@@ -14,7 +14,7 @@ typedef struct file_bytes {
 } file_bytes;
 
 /* Opens path for reading as a whole. Fails with FACET_ERROR_READ (missing, a folder, no permission), _LIMIT
- * where it is larger than max_bytes (0: no limit), _MEMORY. The file must not shrink while it is open. */
+ * where it is larger than max_bytes (0: no limit), _MEMORY. A mapped file must not shrink while it is open. */
 facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,
                        file_bytes *file, facet_error *error);
 void file_close(file_bytes *file); /* {0} is allowed; leaves {0} */

@@ -58,6 +58,25 @@ static void what_is_written_is_read(void **state)
     mem_free(path);
 }
 
+/* Who shows a model while somebody exports it again. */
+static void a_file_may_be_cut_while_it_is_open(void **state)
+{
+    (void)state;
+    char *path = in_folder("cut.bin");
+    char bytes[9000];
+    memset(bytes, 'x', sizeof bytes);
+    assert_int_equal(file_write(path, bytes, sizeof bytes, NULL), FACET_OK);
+    file_bytes file;
+    facet_error error;
+    assert_int_equal(file_open(path, 0, NULL, &file, &error), FACET_OK);
+    assert_int_equal(truncate(path, 0), 0);
+    assert_int_equal(file.size, sizeof bytes);
+    assert_memory_equal(file.data, bytes, sizeof bytes);
+    assert_int_equal(file.data[sizeof bytes], 0);
+    file_close(&file);
+    mem_free(path);
+}
+
 static void a_file_is_known_by_other_names(void **state)
 {
     (void)state;
@@ -271,6 +290,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_written_is_read),
+        cmocka_unit_test(a_file_may_be_cut_while_it_is_open),
         cmocka_unit_test(a_file_is_known_by_other_names),
         cmocka_unit_test(links_are_replaced_but_those_to_descriptors),
         cmocka_unit_test(a_file_of_our_own_follows_no_link),

@@ -10,4 +10,11 @@ enum { IS_SLOW = 1 };
 enum { IS_SLOW = 0 };
 #endif
 
+/* Which call for memory is to fail after the nth, in tests that let one after the other fail: each, or fewer the later they
+ * come. */
+static inline long next_failure(long n)
+{
+    return n + 1 + (IS_SLOW ? n / 8 : 0);
+}
+
 #endif

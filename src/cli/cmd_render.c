@@ -171,7 +171,13 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
         return result;
     desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
     facet_image *image = NULL;
+    /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. */
+    bool may_end = desc.integrator == FACET_INTEGRATOR_GL && !m->video;
+    if (may_end)
+        interrupt_begin(report->output, "OpenGL drew", shown.mode == PROGRESS_BAR);
     result = facet_renderer_render(m->renderer, &desc, &image, error);
+    if (may_end)
+        interrupt_set_safe(NULL);
     progress_clear();
     if (result == FACET_ERROR_CANCELLED && o->checkpoint)
         message_at(&run->messages, VERBOSITY_NORMAL, "%s: interrupted; --resume goes on with %s",

@@ -68,6 +68,8 @@ static facet_result choose_camera(view_run_state *run, facet_view_model *model, 
             render_keep_framing(&o, &camera);
     }
     model->orbit = o.orbit;
+    /* who gave no view will turn the model first: the distance is one that holds all around */
+    model->orbit.fits_all_azimuths = !is_given(run->line, OPT_ORBIT);
     return result;
 }
 
@@ -169,6 +171,7 @@ static facet_result show(view_run_state *run, facet_error *error)
     const command_line *c = run->line;
     const render_options *o = &run->options;
     bool is_path = o->desc.integrator == FACET_INTEGRATOR_PATH;
+    const char *script = option_text(c, OPT_SCRIPT, NULL);
     facet_view_desc desc = {
         .allocator = run->allocator,
         .log = messages_log(&run->messages),
@@ -183,7 +186,7 @@ static facet_result show(view_run_state *run, facet_error *error)
         .environment_count = sizeof environments / sizeof *environments,
         .environment = o->environment.kind == ENVIRONMENT_NONE ? NULL : option_text(c, OPT_ENV, NULL),
         .render = o->desc,
-        .script = option_text(c, OPT_SCRIPT, NULL)};
+        .script = script && strcmp(script, "-") == 0 ? "/dev/stdin" : script};
     if (is_path) {
         desc.path_samples = is_given(c, OPT_SAMPLES) ? o->desc.samples : 0;
         desc.render.samples = 4;

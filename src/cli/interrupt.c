@@ -113,12 +113,17 @@ void interrupt_set_safe(const char *message_at_deadline)
         interrupt_exit();
 }
 
-void interrupt_begin_reading(const char *name)
+void interrupt_begin(const char *name, const char *doing, bool has_bar)
 {
     static char sentence[512];
-    snprintf(sentence, sizeof sentence, "%.400s: the time limit (--time-limit) was reached while reading\n",
-             name);
+    snprintf(sentence, sizeof sentence, "%s%.400s: the time limit (--time-limit) was reached while %s\n",
+             has_bar ? "\r\033[K" : "", name, doing);
     interrupt_set_safe(sentence);
+}
+
+void interrupt_begin_reading(const char *name)
+{
+    interrupt_begin(name, "reading", false);
 }
 
 int interrupt_exit(void)

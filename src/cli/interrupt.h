@@ -21,7 +21,8 @@ double interrupt_seconds_left(void);
  * or the time limit says so; message NULL: no longer. */
 void interrupt_set_safe(const char *message_at_deadline);
 
-/* The same while name is read. */
+/* The same with a sentence that the limit came while something was done for name; has_bar: over a bar of progress. */
+void interrupt_begin(const char *name, const char *doing, bool has_bar);
 void interrupt_begin_reading(const char *name);
 
 /* The exit code after an interruption: EXIT_AGAIN for SIGTERM; for others the process ends here by that signal. */

@@ -6,7 +6,8 @@ static const option script_options[] = {
      .name = "script",
      .kind = OPTION_FILE,
      .argument = "FILE",
-     .help = "play the input in this file instead of waiting for a person, then close (docs/view.md)"},
+     .help = "play the input in this file (-: standard input) instead of waiting for a person, then close; "
+             "docs/view.md has the words"},
     {.id = OPT_CONFIG,
      .name = "config",
      .kind = OPTION_FILE,

@@ -243,6 +243,8 @@ facet_result path_options_read(const command_line *c, render_options *out, facet
     if (result != FACET_OK)
         return result;
     read_defaults(c, out);
+    if (out->desc.integrator != FACET_INTEGRATOR_PATH && out->desc.samples > 4096)
+        return option_fail(c, OPT_SAMPLES, "a number from 1 to 4096 (--renderer path takes more)", error);
     result = read_ground(c, out, error);
     if (out->desc.integrator == FACET_INTEGRATOR_GL)
         read_gl(c, out);

@@ -85,7 +85,77 @@ static void add_choice(line *l, option_id id, int choice)
         add_to(l, o, o->choices[choice]);
 }
 
+/* How an option makes of what is written what the renderer gets. */
+typedef double reading(double written);
+
+static double read_float(double x)
+{
+    return (double)(float)x;
+}
+
+static double read_double(double x)
+{
+    return x;
+}
+
+static double read_degrees(double x)
+{
+    return (double)(float)(x * DEGREE);
+}
+
+static double read_factor(double x)
+{
+    return (double)(float)log2(x);
+}
+
+/* Decimals as people write them; exponents for what is tiny or huge. */
+static void write_digits(double value, int digits, char out[48])
+{
+    int exponent = value != 0.0 ? (int)floor(log10(fabs(value))) : 0;
+    int decimals = digits - 1 - exponent;
+    if (exponent < -4 || exponent > 9)
+        snprintf(out, 48, "%.*g", digits, value);
+    else
+        snprintf(out, 48, "%.*f", decimals > 0 ? decimals : 0, value);
+}
+
+/* The fewest digits that are read as the same number. about: what was written, nearly. */
+static void write_number(double about, double wanted, reading *read, char out[48])
+{
+    if (wanted == read(0.0))
+        about = 0.0; /* without a sign */
+    for (int digits = 1; digits <= 17; digits++) {
+        write_digits(about, digits, out);
+        if (read(strtod(out, NULL)) == wanted)
+            return;
+    }
+}
+
+static void write_float(float x, char out[48])
+{
+    write_number((double)x, (double)x, read_float, out);
+}
+
+static void write_degrees(float radians, char out[48])
+{
+    write_number((double)radians / DEGREE, (double)radians, read_degrees, out);
+}
+
 /* ---- parts of a picture ---- */
+
+static void add_float(line *l, option_id id, float x)
+{
+    char word[48];
+    write_float(x, word);
+    add_option(l, id, "%s", word);
+}
+
+static void add_degrees(line *l, option_id id, float radians)
+{
+    char word[48];
+    write_degrees(radians, word);
+    add_option(l, id, "%s", word);
+}
 
 static void add_camera(line *l, const render_options *o, const facet_view_picture *p)
 {
@@ -94,12 +164,16 @@ static void add_camera(line *l, const render_options *o, const facet_view_pictur
         add_option(l, OPT_CAMERA, "%u", p->camera);
         return;
     }
-    add_option(l, OPT_ORBIT, "%.9g,%.9g,%.9g", (double)orbit->azimuth_rad / DEGREE,
-               (double)orbit->polar_rad / DEGREE, (double)orbit->radius);
-    add_option(l, OPT_TARGET, "%.9g,%.9g,%.9g", (double)orbit->target[0], (double)orbit->target[1],
-               (double)orbit->target[2]);
+    char words[3][48];
+    write_degrees(orbit->azimuth_rad, words[0]);
+    write_degrees(orbit->polar_rad, words[1]);
+    write_float(orbit->radius, words[2]);
+    add_option(l, OPT_ORBIT, "%s,%s,%s", words[0], words[1], words[2]);
+    for (int i = 0; i < 3; i++)
+        write_float(orbit->target[i], words[i]);
+    add_option(l, OPT_TARGET, "%s,%s,%s", words[0], words[1], words[2]);
     if (orbit->fov_y_rad != facet_orbit_default().fov_y_rad)
-        add_option(l, OPT_FOV, "%.9g", (double)orbit->fov_y_rad / DEGREE);
+        add_degrees(l, OPT_FOV, orbit->fov_y_rad);
     if (orbit->orthographic)
         add_option(l, OPT_ORTHO, "%s", "");
     if (o->orbit.is_z_up)
@@ -113,9 +187,12 @@ static void add_light(line *l, const command_line *c, const facet_view_picture *
     if (name)
         add_option(l, OPT_ENV, "%s", name);
     if (d->environment_rotation_rad != 0.0f)
-        add_option(l, OPT_ENV_ROTATION, "%.9g", (double)d->environment_rotation_rad / DEGREE);
-    if (d->environment_ev != 0.0f)
-        add_option(l, OPT_ENV_INTENSITY, "%.9g", exp2((double)d->environment_ev));
+        add_degrees(l, OPT_ENV_ROTATION, d->environment_rotation_rad);
+    if (d->environment_ev != 0.0f) {
+        char factor[48];
+        write_number(exp2((double)d->environment_ev), (double)d->environment_ev, read_factor, factor);
+        add_option(l, OPT_ENV_INTENSITY, "%s", factor);
+    }
     if (d->ignore_scene_lights)
         add_option(l, OPT_LIGHTS, "none");
     if (d->ground == FACET_GROUND_SHADOW)
@@ -131,7 +208,7 @@ static void add_background(line *l, const command_line *c, const facet_render_de
     else if (is_given(c, OPT_BACKGROUND)) /* the color is that which was given, or white */
         add_option(l, OPT_BACKGROUND, "%s", option_text(c, OPT_BACKGROUND, "white"));
     if (d->background == FACET_BACKGROUND_ENVIRONMENT && d->background_blur > 0.0f)
-        add_option(l, OPT_BACKGROUND_BLUR, "%.9g", (double)d->background_blur);
+        add_float(l, OPT_BACKGROUND_BLUR, d->background_blur);
 }
 
 static void add_look(line *l, const facet_render_desc *d)
@@ -147,7 +224,7 @@ static void add_look(line *l, const facet_render_desc *d)
                     {FACET_TONEMAP_HABLE, "hable"},
                     {FACET_TONEMAP_NONE, "none"}};
     if (d->exposure_ev != 0.0f)
-        add_option(l, OPT_EXPOSURE, "%.9g", (double)d->exposure_ev);
+        add_float(l, OPT_EXPOSURE, d->exposure_ev);
     for (size_t i = 0; i < sizeof tonemaps / sizeof *tonemaps; i++)
         if (tonemaps[i].tonemap == d->tonemap && d->shading == FACET_SHADING_GLTF)
             add_option(l, OPT_TONE_MAPPING, "%s", tonemaps[i].name);
@@ -161,7 +238,7 @@ static void add_gl(line *l, const facet_gl_desc *gl)
     if (gl->shadows)
         add_option(l, OPT_SHADOWS, "%s", "");
     if (gl->bloom > 0.0f)
-        add_option(l, OPT_BLOOM, "%.9g", (double)gl->bloom);
+        add_float(l, OPT_BLOOM, gl->bloom);
 }
 
 static void add_rendering(line *l, const facet_render_desc *d)
@@ -192,7 +269,9 @@ static void add_pose(line *l, const command_line *c, const facet_pose_desc *p)
         add_option(l, OPT_ANIMATION, "%s", strcmp(animation, "all") == 0 ? animation : "all");
     else
         add_option(l, OPT_ANIMATION, "%u", p->animations[0]);
-    add_option(l, OPT_TIME, "%.9g", p->time_s);
+    char time[48];
+    write_number(p->time_s, p->time_s, read_double, time);
+    add_option(l, OPT_TIME, "%s", time);
 }
 
 /* ---- what no key changes ---- */

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "base/failing_allocator.h"
+#include "base/test_effort.h"
 #include "cpu/ogl1_fixture.h"
 
 /* ---- sameness ---- */
@@ -167,7 +168,7 @@ static void running_out_of_memory_leaks_nothing(void **state)
     fixture f = busy_scene();
     f.desc.width = f.desc.height = 24;
     f.desc.thread_count = 1;
-    for (long fail_at = 0;; fail_at++) {
+    for (long fail_at = 0;; fail_at = next_failure(fail_at)) {
         failing_allocator memory = {.fail_at = fail_at};
         f.desc.allocator = failing_allocator_get(&memory);
         film picture = {0};

@@ -11,6 +11,7 @@
 
 #include "base/failing_allocator.h"
 #include "base/memory.h"
+#include "base/test_effort.h"
 #include "cpu/preview_fixture.h"
 
 static facet_render_desc resolved_desc(const fixture *f)
@@ -518,7 +519,7 @@ static void running_out_of_memory_starts_again(void **state)
     film expected = fixture_render(&f);
     failing_allocator memory = {.fail_at = -1};
     facet_allocator allocator = failing_allocator_get(&memory);
-    for (long at = 0;; at++) {
+    for (long at = 0;; at = next_failure(at)) {
         memory = (failing_allocator){.fail_at = -1};
         prepared_scene p;
         prepared_scene_init(&p, f.scene, &allocator);

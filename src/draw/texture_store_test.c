@@ -9,6 +9,7 @@
 
 #include "base/failing_allocator.h"
 #include "base/memory.h"
+#include "base/test_effort.h"
 #include "draw/texture_set.h"
 
 enum { IMAGE_COUNT = 4 };
@@ -154,7 +155,7 @@ static void a_store_survives_running_out_of_memory(void **state)
     fixture f;
     set_up(&f);
     f.scene.image_count = f.scene.texture_count = 3;
-    for (long at = 0;; at++) {
+    for (long at = 0;; at = next_failure(at)) {
         failing_allocator memory = {.fail_at = -1};
         facet_allocator allocator = failing_allocator_get(&memory);
         texture_store *store;

@@ -1,6 +1,7 @@
 /* gl_context.c - see gl_context.h: what any context can do. Where contexts come from: gl_context_egl.c. */
 #include "gl/gl_context.h"
 
+#include <dlfcn.h>
 #include <epoxy/gl.h>
 #include <stdio.h>
 
@@ -68,8 +69,25 @@ static void read_limits(gl_context *c)
     c->has_debug_output = epoxy_has_gl_extension("GL_KHR_debug");
 }
 
+/* epoxy ends the process where it finds neither. libEGL may be there alone. */
+static bool has_client_library(void)
+{
+    static const char *const names[] = {"libOpenGL.so.0", "libGL.so.1"};
+    for (int i = 0; i < 2; i++) {
+        void *library = dlopen(names[i], RTLD_LAZY | RTLD_LOCAL);
+        if (library) {
+            dlclose(library);
+            return true;
+        }
+    }
+    return false;
+}
+
 facet_result gl_context_adopt(gl_context *c, facet_error *error)
 {
+    if (!has_client_library())
+        return fail(error, FACET_ERROR_ENVIRONMENT,
+                    "OpenGL: neither libOpenGL.so.0 nor libGL.so.1 is installed");
     c->is_es = !epoxy_is_desktop_gl();
     c->version = epoxy_gl_version();
     snprintf(c->name, sizeof c->name, "%s, %s", (const char *)glGetString(GL_RENDERER),

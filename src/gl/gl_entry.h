@@ -15,6 +15,9 @@ typedef struct gl_host {
     facet_result (*renderer_render)(facet_renderer *renderer, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
     void (*renderer_destroy)(facet_renderer *renderer);
+    /* What facet_render() makes of desc, by a renderer of the caller's: the same bytes. */
+    facet_result (*render_gl)(gl_renderer *renderer, const facet_render_desc *desc, facet_image **image,
+                              facet_error *error);
     uint32_t (*image_get_layer_count)(const facet_image *image);
     facet_image_view (*image_get_layer)(const facet_image *image, uint32_t layer);
     facet_result (*image_save)(const facet_image *image, const char *path, const facet_save_desc *desc,

@@ -122,3 +122,34 @@ scene_material gl_fixture_unlit(float r, float g, float b, float alpha)
         m.alpha_mode = SCENE_ALPHA_BLEND;
     return m;
 }
+
+fixture gl_fixture_scene(void)
+{
+    static const unsigned char checks[16] = {250, 40, 30,  255, 40,  220, 60, 255,
+                                             40,  60, 230, 255, 240, 230, 40, 255};
+    fixture f = fixture_create();
+    scene_material m = scene_material_default();
+    m.perceptual_roughness = 0.5f;
+    m.metallic = 0.0f;
+    uint32_t plain = fixture_add_material(&f, m);
+    m.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 2, 2, checks);
+    m.is_double_sided = true;
+    uint32_t checked = fixture_add_material(&f, m);
+    uint32_t faint = fixture_add_material(&f, gl_fixture_unlit(0.2f, 0.9f, 0.4f, 0.5f));
+    fixture_place(&f, fixture_add_sphere(&f, 24, plain), -0.3f, 0.1f, 0.5f, 0.5f);
+    gl_fixture_turn(fixture_place(&f, fixture_add_quad(&f, checked), 0.1f, -0.1f, -0.5f, 0.7f), 0.1f, 0.2f,
+                    0.1f, 0.9695f);
+    fixture_place(&f, fixture_add_quad(&f, faint), 0.6f, 0.2f, 1.0f, 0.3f);
+    f.camera = (facet_camera){.eye = {0.4f, 0.6f, 4.0f}, .fov_y_rad = 0.6f};
+    f.desc.width = 96;
+    f.desc.height = 64;
+    return f;
+}
+
+void gl_fixture_assert_same(const film *a, const film *b)
+{
+    size_t size = (size_t)a->width * a->height * 4 * sizeof(float);
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_memory_equal(a->layers[0].pixels, b->layers[0].pixels, size);
+}

@@ -30,6 +30,12 @@ picture_difference gl_fixture_compare(const film *a, const film *b, float most);
 void gl_fixture_assert_pixel(const film *picture, uint32_t x, uint32_t y, const float rgba[4],
                              float tolerance);
 
+/* Fails where two pictures are not the same to the last bit. */
+void gl_fixture_assert_same(const film *a, const film *b);
+
+/* A rough sphere before a tilted quad with a texture, and half a quad that is blended, on the right; 96 x 64. */
+fixture gl_fixture_scene(void);
+
 /* A node without rotation or parent is turned by a unit quaternion. */
 void gl_fixture_turn(scene_node *node, float x, float y, float z, float w);
 /* Unlit, of one color; alpha below 1 is blended. */

@@ -283,24 +283,47 @@ static facet_result draw_ground(gl_frame *f, const facet_render_desc *desc, face
     return result;
 }
 
-/* After what is opaque, of which it shows a picture. */
-static facet_result draw_transmissive(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
-                                      facet_error *error)
+static bool has_transmissive(const gl_frame *f)
 {
     uint32_t count;
     gl_mesh_batches(f->meshes, GL_PASS_TRANSMISSIVE, &count);
-    if (count == 0)
-        return FACET_OK;
-    gl_timers_begin(&f->timers, GL_TIMER_TRANSMISSION);
+    return count > 0;
+}
+
+/* The picture of what is opaque that glass shows. */
+static facet_result take_opaque(gl_frame *f, const gl_target *target, facet_error *error)
+{
     const gl_pyramid_brush brush = {f->programs, f->empty_array};
-    facet_result result = FACET_OK;
-    if (gl_channel_is_light(desc->gl.channel))
-        result = gl_opaque_take(&f->opaque, f->context, &brush, target, error);
-    gl_opaque_bind(&f->opaque);
-    if (result == FACET_OK)
-        result = draw_batches(f, GL_PASS_TRANSMISSIVE, false, error);
+    gl_timers_begin(&f->timers, GL_TIMER_TRANSMISSION);
+    facet_result result = gl_opaque_take(&f->opaque, f->context, &brush, target, error);
     gl_timers_end(&f->timers);
     return result;
+}
+
+/* What glass shows is light, also in a picture of one lobe alone, which is drawn over it. */
+static facet_result draw_opaque(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                                facet_error *error)
+{
+    facet_channel channel = desc->gl.channel;
+    bool takes = has_transmissive(f) && gl_channel_is_light(channel);
+    gl_material_show(f->materials, takes ? FACET_CHANNEL_LIGHT : channel);
+    facet_result result = draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
+    if (result == FACET_OK && takes)
+        result = take_opaque(f, target, error);
+    if (result != FACET_OK || !takes || channel == FACET_CHANNEL_LIGHT)
+        return result;
+    gl_material_show(f->materials, channel);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    return draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
+}
+
+/* After what is opaque, of which it shows a picture. */
+static facet_result draw_transmissive(gl_frame *f, facet_error *error)
+{
+    if (!has_transmissive(f))
+        return FACET_OK;
+    gl_opaque_bind(&f->opaque);
+    return draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
 }
 
 static facet_result draw_bloom(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
@@ -320,9 +343,9 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
                            gl_frame_block *block, facet_error *error)
 {
     begin(f, target, desc, block);
-    facet_result result = draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
+    facet_result result = draw_opaque(f, target, desc, error);
     if (result == FACET_OK)
-        result = draw_transmissive(f, target, desc, error);
+        result = draw_transmissive(f, error);
     if (result == FACET_OK)
         result = draw_background(f, desc, error);
     if (result == FACET_OK)

@@ -119,10 +119,20 @@ static uint64_t pair_features(const gl_material_set *set, const gl_batch *batch,
     return features;
 }
 
+/* The textures that a batch reads, as bits of slots. Where rays have real distances the thickness is not read; here bodies of
+ * glass are as thick as it says. */
+static uint32_t slots_of(const gl_batch *batch)
+{
+    uint32_t slots = batch->plan->textures;
+    if (batch->plan->is_volume && scene_material_has(batch->geometry->material, SCENE_THICKNESS_TEXTURE))
+        slots |= 1u << SCENE_THICKNESS_TEXTURE;
+    return slots;
+}
+
 /* Features of the textures of a batch. *lost: slots that are given up because there are not enough units. */
 static uint64_t texture_features(const gl_material_set *set, const gl_batch *batch, uint32_t *lost)
 {
-    uint32_t slots = batch->plan->textures;
+    uint32_t slots = slots_of(batch);
     uint64_t pairs = pair_features(set, batch, slots);
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
         if (!(slots >> slot & 1) || name_of(set, batch, slot))
@@ -154,7 +164,7 @@ static uint64_t texture_features(const gl_material_set *set, const gl_batch *bat
 /* Notes what the batch reads. */
 static void add_uses(gl_material_set *set, const gl_batch *batch)
 {
-    uint32_t slots = batch->plan->textures;
+    uint32_t slots = slots_of(batch);
     uint64_t pairs = pair_features(set, batch, slots);
     for (int i = 0; i < GL_SLOT_PAIR_COUNT; i++)
         if (pairs >> (GL_SURFACE_PAIRS + i) & 1)
@@ -214,6 +224,12 @@ static void for_each_batch(gl_material_set *set, const gl_mesh_set *meshes, batc
     }
 }
 
+void gl_material_show(gl_material_set *set, facet_channel channel)
+{
+    set->channel_feature =
+        channel == FACET_CHANNEL_LIGHT ? 0 : gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL");
+}
+
 facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
                                 const facet_render_desc *desc, facet_error *error)
 {
@@ -222,9 +238,7 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
         set->picture_features |= 1ull << GL_SURFACE_HAS_SPECULAR_ANTIALIASING;
     if (desc->gl.brdf == FACET_BRDF_SCHLICK_GGX)
         set->picture_features |= gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
-    set->channel_feature = 0;
-    if (desc->gl.channel != FACET_CHANNEL_LIGHT)
-        set->channel_feature = gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL");
+    gl_material_show(set, desc->gl.channel);
     memset(set->uses, 0, set->scene->texture_count * sizeof *set->uses);
     for_each_batch(set, meshes, add_uses);
     facet_result result = gl_texture_update(set->textures, set->uses, &desc->log, desc->thread_count, error);

@@ -12,6 +12,9 @@ facet_result gl_material_create(gl_context *context, const facet_scene *scene,
                                 const facet_allocator *allocator, gl_material_set **out, facet_error *error);
 void gl_material_destroy(gl_material_set *set); /* NULL is allowed */
 
+/* What is drawn of surfaces from here on; gl_material_update() sets the desc's. */
+void gl_material_show(gl_material_set *set, facet_channel channel);
+
 /* Blocks and textures of what the batches of all passes need; textures are decoded in parallel, once, and scaled down with
  * a warning where OpenGL cannot hold them. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
 facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,

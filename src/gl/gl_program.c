@@ -301,6 +301,8 @@ void gl_programs_destroy(gl_programs *programs)
 {
     if (!programs)
         return;
+    if (programs->count > 0)
+        glUseProgram(0); /* one that is in use would stay */
     for (size_t i = 0; i < programs->count; i++)
         glDeleteProgram(programs->items[i].name);
     mem_free(programs->items);

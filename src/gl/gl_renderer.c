@@ -2,6 +2,7 @@
 #include "gl/gl_renderer.h"
 
 #include <epoxy/gl.h>
+#include <stdio.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -21,6 +22,7 @@ struct gl_renderer {
     gl_frame frame;
     gl_target target;
     gl_times times;
+    bool has_told_driver;
 };
 
 /* ---- what is kept ---- */
@@ -39,6 +41,7 @@ static void stop(gl_renderer *r)
         gl_target_destroy(&r->target);
     }
     gl_context_destroy(&spare);
+    r->has_told_driver = false;
     if (is_own)
         gl_context_destroy(&r->own);
 }
@@ -135,12 +138,25 @@ static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camer
     return result;
 }
 
+/* Once for a context. */
+static void tell_driver(gl_renderer *r, const facet_log *log)
+{
+    char line[sizeof r->context->name + 16];
+    if (r->has_told_driver || !log->message)
+        return;
+    snprintf(line, sizeof line, "OpenGL: %s", r->context->name);
+    log->message(log->user, FACET_LOG_DETAIL, line);
+    r->has_told_driver = true;
+}
+
 static facet_result attempt(gl_renderer *r, const facet_render_desc *desc, double deadline_s, film *target,
                             facet_render_stats *stats, facet_error *error)
 {
     camera_rays camera;
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     facet_result result = start(r, error);
+    if (result == FACET_OK)
+        tell_driver(r, &desc->log);
     if (result == FACET_OK)
         result = prepare(r, desc, &camera, deadline_s, stats, error);
     double begin = clock_seconds();

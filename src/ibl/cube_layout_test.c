@@ -11,6 +11,7 @@
 
 #include "base/failing_allocator.h"
 #include "base/memory.h"
+#include "base/test_effort.h"
 #include "ibl/cube_layout.h"
 #include "ibl/sphere_resample.h"
 
@@ -502,7 +503,7 @@ static void memory_runs_out(void **state)
     cube c = make_directions(8);
     *cube_texel(&c, 0, 0, 0) = rgbx_splat(1e5f);
     cube_fill_borders(&c);
-    for (long fail_at = 0;; fail_at++) {
+    for (long fail_at = 0;; fail_at = next_failure(fail_at)) {
         failing_allocator f = {.fail_at = fail_at};
         facet_allocator allocator = failing_allocator_get(&f);
         image out;

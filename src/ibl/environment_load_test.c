@@ -16,6 +16,7 @@
 #include "base/failing_allocator.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/test_effort.h"
 #include "ibl/cube_layout.h"
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
@@ -578,7 +579,7 @@ static void memory_runs_out(void **state)
         bytes b = k == 0   ? encode_layout(&c, FACET_LAYOUT_CROSS_HORIZONTAL)
                   : k == 1 ? encode_layout(&c, FACET_LAYOUT_OCTAHEDRAL)
                            : encode_ktx2(&c, FACET_TEXEL_RGBA16F, k == 2 ? 0 : 1);
-        for (long fail_at = 0; b.data; fail_at++) {
+        for (long fail_at = 0; b.data; fail_at = next_failure(fail_at)) {
             failing_allocator f = {.fail_at = fail_at};
             facet_environment_desc desc = {.allocator = failing_allocator_get(&f),
                                            .thread_count = 1,

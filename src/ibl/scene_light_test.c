@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "base/near_test.h"
+#include "base/test_effort.h"
 #include "ibl/making_test.h"
 #include "ibl/scene_cube.h"
 #include "ibl/sh.h"
@@ -541,7 +542,7 @@ static void test_memory_runs_out(void **state)
 {
     (void)state;
     lit_scene *s = make_scene(&(writing){.size = 4}, gradient);
-    for (long limit = 0;; limit++) {
+    for (long limit = 0;; limit = next_failure(limit)) {
         counter c = {.left = limit};
         facet_environment_desc desc = {.allocator = {&c, count_allocate, count_release}, .thread_count = 1};
         facet_environment *e = NULL;

@@ -12,6 +12,7 @@
 
 #include "base/failing_allocator.h"
 #include "base/near_test.h"
+#include "base/test_effort.h"
 #include "ibl/environment.h"
 
 #include "ibl/equirect.h"
@@ -395,7 +396,7 @@ static void test_memory(void **state)
 {
     (void)state;
     for (int model = 0; model < 3; model++)
-        for (long n = 0;; n++) {
+        for (long n = 0;; n = next_failure(n)) {
             failing_allocator failing = {.fail_at = n};
             facet_environment *e = NULL;
             facet_environment_desc desc = {.allocator = failing_allocator_get(&failing)};

@@ -1,4 +1,5 @@
 /* convert_drop_test.c - pictures that only the old materials read leave the scene, and what is known without them. */
+#include "base/test_effort.h"
 #include "legacy/convert_test_support.h"
 
 #include "base/failing_allocator.h"
@@ -194,7 +195,7 @@ static void pictures_of_light_stay(void **state)
 static void memory_runs_out(void **state)
 {
     (void)state;
-    for (long at = 0;; at++) {
+    for (long at = 0;; at = next_failure(at)) {
         failing_allocator failing = {.fail_at = -1};
         facet_allocator allocator = failing_allocator_get(&failing);
         facet_scene *scene = legacy_scene_in(&allocator, MATERIALS);

@@ -78,7 +78,7 @@ static void threads_do_not_change_a_bit(void **state)
 /* Every allocation fails once: the call fails with FACET_ERROR_MEMORY, nothing leaks, the materials are as before. */
 static void run_out(facet_material_model to, bool is_legacy, const facet_legacy_desc *desc)
 {
-    for (long at = 0;; at++) {
+    for (long at = 0;; at = next_failure(at)) {
         failing_allocator failing = {.fail_at = -1};
         facet_allocator allocator = failing_allocator_get(&failing);
         facet_scene *scene = legacy_scene_in(&allocator, 6);

@@ -15,6 +15,7 @@
 #include "base/failing_allocator.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/test_effort.h"
 #include "image/image.h"
 #include "path/path_film_state.h"
 
@@ -368,7 +369,7 @@ static void memory_runs_out(void **state)
     path_film *filled = create(WIDTH, HEIGHT, true);
     draw(filled, 3);
     save(filled, path);
-    for (long k = 0;; k++) {
+    for (long k = 0;; k = next_failure(k)) {
         failing_allocator failing = {.fail_at = -1};
         facet_allocator allocator = failing_allocator_get(&failing);
         path_film *f;

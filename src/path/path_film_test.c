@@ -13,6 +13,7 @@
 #include "base/failing_allocator.h"
 #include "base/near_test.h"
 #include "base/parallel.h"
+#include "base/test_effort.h"
 #include "path/path_film_state.h"
 
 enum { ALL = FACET_AOV_NORMAL | FACET_AOV_ALBEDO | FACET_AOV_VARIANCE | FACET_AOV_SAMPLES };
@@ -579,7 +580,7 @@ static void memory_runs_out(void **state)
 {
     (void)state;
     assert_true(sizeof(path_pixel) + sizeof(path_ground) <= 120);
-    for (long k = 0;; k++) {
+    for (long k = 0;; k = next_failure(k)) {
         failing_allocator failing = {.fail_at = k};
         facet_allocator allocator = failing_allocator_get(&failing);
         path_film *f;

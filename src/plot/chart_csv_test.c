@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "base/failing_allocator.h"
+#include "base/test_effort.h"
 #include "plot/chart.h"
 
 static void expect_csv(const chart *c, const char *expected)
@@ -102,7 +103,7 @@ static void memory_may_run_out_anywhere(void **state)
                                   {.name = "b", .count = 3, .x = X, .y = Z}};
     const chart_panel panel = {.title = "t", .curve_count = 2, .curves = curves};
     const chart c = {.panel_count = 1, .panels = &panel};
-    for (long i = 0;; i++) {
+    for (long i = 0;; i = next_failure(i)) {
         failing_allocator failing = {.fail_at = i};
         const facet_allocator allocator = failing_allocator_get(&failing);
         unsigned char *bytes;

@@ -1,5 +1,6 @@
 /* plot_test.c - the charts of all kinds: their numbers against closed forms and the functions that they come from, and
  * what is refused. */
+#include "base/test_effort.h"
 #include "plot/plot_test_support.h"
 
 #include "base/failing_allocator.h"
@@ -66,7 +67,7 @@ static void every_kind_is_drawn_from_nothing(void **state)
 {
     (void)state;
     for (int k = 0; k < KINDS; k++)
-        for (int log = 0; log < (makes_much(all_kinds[k]) ? 1 : 2); log++) {
+        for (int log = 0; log < (IS_SLOW || makes_much(all_kinds[k]) ? 1 : 2); log++) {
             plot_fixture f = make_plot(&(facet_plot_desc){.kind = all_kinds[k], .is_logarithmic = log});
             assert_true(f.drawing.panel_count > 0 && f.drawing.columns > 0);
             assert_true(f.drawing.width >= 640 && f.drawing.height >= 400);
@@ -140,7 +141,7 @@ static void running_out_of_memory_is_a_result(void **state)
 {
     (void)state;
     for (int k = 0; k < KINDS; k++)
-        for (long fail_at = 0;; fail_at += 1 + fail_at / 2) {
+        for (long fail_at = 0;; fail_at += 1 + fail_at / (IS_SLOW ? 1 : 2)) {
             failing_allocator failing = {.fail_at = fail_at};
             facet_plot_desc desc = {
                 .kind = all_kinds[k], .allocator = failing_allocator_get(&failing), .has_fit = true};

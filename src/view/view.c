@@ -11,6 +11,7 @@
 #include "view/view_app.h"
 
 static const double longest_step_s = 0.25; /* of an animation: who was asleep does not jump */
+static const double rest_s = 0.2;          /* of the hand, after which the picture is drawn sharp */
 static const double patience_s = 0.3;      /* before a window is shown whose model is still being read */
 
 void view_app_say(view_app *a, const char *text, double seconds)
@@ -20,6 +21,43 @@ void view_app_say(view_app *a, const char *text, double seconds)
     a->needs_frame = true;
     if (a->has_no_text)
         a->desc->source.print(a->desc->source.user, text);
+}
+
+/* ---- warnings of renderers ---- */
+
+static void wake(void *user);
+
+static void receive_warning(void *user, facet_log_level level, const char *text)
+{
+    view_app *a = user;
+    if (level != FACET_LOG_WARNING)
+        return;
+    pthread_mutex_lock(&a->warning_mutex);
+    snprintf(a->warning, sizeof a->warning, "%s", text);
+    pthread_mutex_unlock(&a->warning_mutex);
+    wake(a);
+}
+
+/* Once, not with every frame. */
+static void show_warning(view_app *a)
+{
+    char text[sizeof a->warning];
+    pthread_mutex_lock(&a->warning_mutex);
+    memcpy(text, a->warning, sizeof text);
+    a->warning[0] = 0;
+    bool is_new = text[0] && strcmp(text, a->said_warning) != 0;
+    if (is_new)
+        memcpy(a->said_warning, text, sizeof text);
+    pthread_mutex_unlock(&a->warning_mutex);
+    if (is_new)
+        view_app_say(a, text, 6.0);
+}
+
+void view_app_forget_warning(view_app *a)
+{
+    pthread_mutex_lock(&a->warning_mutex);
+    a->said_warning[0] = 0;
+    pthread_mutex_unlock(&a->warning_mutex);
 }
 
 /* Called from threads. */
@@ -40,6 +78,7 @@ static void press_key(view_app *a, const view_event *e)
         return;
     if (view_state_apply(&a->state, b->action, b->amount)) {
         a->needs_picture = true;
+        view_app_forget_warning(a);
         if (a->state.message[0])
             view_app_say(a, a->state.message, 2.0);
         return;
@@ -90,7 +129,10 @@ static void handle_events(view_app *a)
             a->is_closing = true;
             break;
         default:
-            a->needs_picture = view_state_point(&a->state, &e) || a->needs_picture;
+            if (view_state_point(&a->state, &e)) {
+                a->needs_picture = true;
+                a->moves_until_s = a->state.divider.is_dragged ? 0.0 : clock_seconds() + rest_s;
+            }
             /* what was moved is traced when it is let go */
             a->needs_picture = a->needs_picture || (was_held && !a->state.is_held);
         }
@@ -104,7 +146,7 @@ static void handle_events(view_app *a)
 static double time_to_sleep(const view_app *a)
 {
     bool is_visible = a->state.width > 0;
-    if (a->script.count)
+    if (a->desc->script)
         return 0.02; /* steps wait for threads, windows, files */
     if (a->needs_picture || a->needs_frame)
         return 0.0;
@@ -112,9 +154,9 @@ static double time_to_sleep(const view_app *a)
         return 0.01;
     if (a->state.is_playing && is_visible)
         return 0.0;
-    if (a->message[0])
-        return fmax(a->message_until_s - a->time_s, 0.001);
-    return (double)INFINITY;
+    double rest = a->divisor > 1 ? a->moves_until_s - a->clock_s : (double)INFINITY;
+    double message = a->message[0] ? a->message_until_s - a->time_s : (double)INFINITY;
+    return fmax(fmin(rest, message), 0.001);
 }
 
 static void advance_clock(view_app *a)
@@ -122,11 +164,13 @@ static void advance_clock(view_app *a)
     double now = clock_seconds();
     double passed = now - a->clock_s;
     a->clock_s = now;
-    if (!a->script.count) {
+    if (!a->desc->script) {
         a->time_s += passed;
         if (view_state_advance(&a->state, fmin(passed, longest_step_s)))
             a->needs_picture = true;
     }
+    if (a->divisor > 1 && now >= a->moves_until_s)
+        a->needs_picture = true;
     if (a->message[0] && a->time_s >= a->message_until_s) {
         a->message[0] = 0;
         a->needs_frame = true;
@@ -162,7 +206,7 @@ static void draw(view_app *a)
     if ((a->needs_picture || a->needs_frame) && view_show(a, &error) != FACET_OK) {
         a->needs_picture = a->needs_frame = false;
         view_app_say(a, error.message, 8.0);
-        if (a->script.count) { /* nobody reads messages */
+        if (a->desc->script) { /* nobody reads messages */
             a->error = error;
             a->result = error.result;
         }
@@ -176,16 +220,19 @@ static void loop(view_app *a)
     while (!a->is_closing && a->result == FACET_OK) {
         if (view_play(a))
             view_window_wait(a->window, 0.0);
-        else if (a->script.count && a->script_at == a->script.count)
+        else if (a->desc->script && a->script_at == a->script.count)
             a->is_closing = true;
         else
             view_window_wait(a->window, time_to_sleep(a));
-        advance_clock(a);
-        handle_events(a);
-        a->result = view_files_update(a, &a->error);
+        if (a->result == FACET_OK) { /* else the script has failed */
+            advance_clock(a);
+            handle_events(a);
+            a->result = view_files_update(a, &a->error);
+        }
         if (a->result != FACET_OK)
             break;
         show_window(a, start);
+        show_warning(a);
         draw(a);
     }
 }
@@ -197,6 +244,8 @@ static facet_result begin(view_app *a, facet_error *error)
     const facet_view_desc *d = a->desc;
     view_window *window = NULL;
     view_state_create(&a->state, d);
+    a->divisor = 1;
+    a->state.render.log = (facet_log){.user = a, .message = receive_warning};
     facet_result result = FACET_OK;
     if (d->script)
         result = view_script_load(d->script, &d->allocator, &a->script, error);
@@ -244,6 +293,7 @@ facet_result view_run(const gl_host *host, const facet_view_desc *desc, facet_er
         return fail_memory(error, "window", sizeof *a);
     a->host = host;
     a->desc = desc;
+    pthread_mutex_init(&a->warning_mutex, NULL);
     a->result = begin(a, &a->error);
     if (a->result == FACET_OK)
         loop(a);
@@ -253,6 +303,7 @@ facet_result view_run(const gl_host *host, const facet_view_desc *desc, facet_er
         error->result = result;
     }
     end(a);
+    pthread_mutex_destroy(&a->warning_mutex);
     mem_free(a);
     return result;
 }

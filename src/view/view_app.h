@@ -3,6 +3,7 @@
 #ifndef VIEW_VIEW_APP_H
 #define VIEW_VIEW_APP_H
 
+#include <pthread.h>
 #include <stdatomic.h>
 
 #include "gl/gl_renderer.h"
@@ -10,6 +11,7 @@
 #include "view/view_folder.h"
 #include "view/view_load.h"
 #include "view/view_overlay.h"
+#include "view/view_pace.h"
 #include "view/view_script.h"
 #include "view/view_state.h"
 #include "view/view_trace.h"
@@ -60,15 +62,24 @@ typedef struct view_app {
     view_surface sides[2], traced, shot;
     bool trace_is_current; /* traced shows what is wanted */
     uint32_t trace_samples;
-    double frame_s;     /* of the last frame; while something moves smoothed; 0: none yet */
-    bool needs_picture; /* something of the model, the camera, the light changed */
-    bool needs_frame;   /* only what is laid over it did */
+    double frame_s; /* of the last frame; while something moves smoothed; 0: none yet */
+    view_pace pace;
+    uint32_t divisor;     /* of the resolution in which it was drawn */
+    double moves_until_s; /* on the clock; the hand rests when it has not moved the camera for a moment */
+    char variant[128];    /* label of a side */
+    bool needs_picture;   /* something of the model, the camera, the light changed */
+    bool needs_frame;     /* only what is laid over it did */
+    bool has_drawn;       /* OpenGL did, for the frame that is being made */
+    bool is_for_file;     /* with all the care that facet render takes, if slower */
     view_shown_panel panels[VIEW_PANEL_COUNT];
     bool has_no_text; /* there is no cairo */
 
     /* messages */
     char message[1024];
     double message_until_s;
+    pthread_mutex_t warning_mutex; /* guards: */
+    char warning[256],
+        said_warning[256]; /* what a renderer says, from any thread; the last one that was shown */
 
     /* the loop */
     double time_s; /* of animations and messages: the clock's, or the script's */
@@ -84,6 +95,8 @@ typedef struct view_app {
 
 /* Says it in the window for a while; without letters, to the caller. */
 void view_app_say(view_app *a, const char *text, double seconds);
+/* What renderers warn of is said again, if it is still so. */
+void view_app_forget_warning(view_app *a);
 
 /* view_files.c */
 facet_result view_files_begin(view_app *a, facet_error *error);
@@ -103,6 +116,9 @@ facet_result view_show_into(view_app *a, bool has_panels, facet_error *error);
 void view_show_end(view_app *a);
 /* The desc of what the window shows, of the side that a person means: the right one. */
 facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, facet_camera *camera);
+
+/* view_values.c: what Z shows, rows of a name, a tab and a value. */
+void view_values_write(view_app *a, uint32_t width, uint32_t height, char *out, size_t size);
 
 /* view_shot.c */
 facet_result view_shot_save(view_app *a, const char *path, bool has_panels, facet_error *error);

@@ -2,6 +2,7 @@
 #include "view/view_camera.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -77,7 +78,7 @@ facet_camera view_camera_of(const facet_orbit *o, float aspect, const float low[
                               fabs((double)high[i] - (double)o->target[i]));
             reach += far * far;
         }
-        distance = fmax(distance, 1.1 * sqrt(reach));
+        distance = fmax(distance, 2.0 * sqrt(reach)); /* what moves may leave the bounds */
     } else {
         camera.fov_y_rad = o->fov_y_rad;
     }
@@ -87,6 +88,34 @@ facet_camera view_camera_of(const facet_orbit *o, float aspect, const float low[
         camera.up[i] = (float)axes.up[i];
     }
     return camera;
+}
+
+/* Thousandths of a degree, as an option in degrees is read. */
+static float round_angle(float radians)
+{
+    const double degree = 0.017453292519943295; /* pi / 180 */
+    return (float)((round((double)radians / degree * 1e3) / 1e3 + 0.0) * degree);
+}
+
+/* To a multiple of 10^exponent; by division where that is exact. */
+static float round_to(double value, int exponent)
+{
+    double unit = pow(10.0, abs(exponent));
+    return (float)((exponent < 0 ? round(value * unit) / unit : round(value / unit) * unit) + 0.0);
+}
+
+facet_orbit view_camera_round(const facet_orbit *o)
+{
+    facet_orbit rounded = *o;
+    rounded.azimuth_rad = round_angle(o->azimuth_rad);
+    rounded.polar_rad = round_angle(o->polar_rad);
+    if (!(o->radius > 0.0f))
+        return rounded;
+    int exponent = (int)floor(log10((double)o->radius)) - 5;
+    rounded.radius = round_to((double)o->radius, exponent);
+    for (int i = 0; i < 3; i++)
+        rounded.target[i] = round_to((double)o->target[i], exponent);
+    return rounded;
 }
 
 facet_orbit view_camera_orbit(const facet_camera *c, const facet_orbit *like, const float middle[3])
@@ -118,6 +147,6 @@ facet_orbit view_camera_orbit(const facet_camera *c, const facet_orbit *like, co
     if (o.orthographic) /* the height tells the radius; the eye may stand anywhere */
         o.radius = (float)(0.5 * (double)c->ortho_height / tan(0.5 * (double)o.fov_y_rad));
     else
-        o.fov_y_rad = c->fov_y_rad;
+        o.fov_y_rad = round_angle(c->fov_y_rad);
     return o;
 }

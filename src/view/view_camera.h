@@ -19,6 +19,9 @@ void view_camera_look(facet_orbit *orbit, view_direction direction);
 
 /* low, high: bounds of what is shown; an orthographic eye stands outside of them. */
 facet_camera view_camera_of(const facet_orbit *orbit, float aspect, const float low[3], const float high[3]);
+/* The same in numbers that are short in decimal, by less than anybody sees: thousandths of a degree, metres to a hundred
+ * thousandth of the distance. What is drawn is this one, so that a command line with few digits draws it, too. */
+facet_orbit view_camera_round(const facet_orbit *orbit);
 /* An orbit that looks as a camera does, apart from its roll: about the point of its axis that is nearest to middle. */
 facet_orbit view_camera_orbit(const facet_camera *camera, const facet_orbit *like, const float middle[3]);
 

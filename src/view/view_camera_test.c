@@ -134,6 +134,29 @@ static void an_orbit_survives_being_a_camera(void **state)
     }
 }
 
+/* Rounding takes away what nobody sees, and leaves zero, halves and whole numbers as they are. */
+static void numbers_are_short(void **state)
+{
+    (void)state;
+    const double degree = 0.017453292519943295;
+    facet_orbit o = start(false);
+    o.azimuth_rad = (float)(45.0000013 * degree);
+    o.polar_rad = (float)(54.9999993 * degree);
+    o.radius = 0.162345678f;
+    o.target[0] = -7.4505806e-09f;
+    o.target[1] = 0.5f;
+    o.target[2] = -1234.56789f;
+    facet_orbit r = view_camera_round(&o);
+    assert_true(r.azimuth_rad == (float)(45.0 * degree) && r.polar_rad == (float)(55.0 * degree));
+    assert_true(r.radius == 0.162346f);
+    assert_true(r.target[0] == 0.0f && !signbit(r.target[0]));
+    assert_true(r.target[1] == 0.5f && r.target[2] == -1234.567871f);
+    o.radius = 3456789.0f;
+    assert_true(view_camera_round(&o).radius == 3456790.0f);
+    facet_orbit again = view_camera_round(&r);
+    assert_memory_equal(&again, &r, sizeof r);
+}
+
 /* An orthographic eye may stand anywhere on its axis, but not within the model. */
 static void a_parallel_eye_is_outside(void **state)
 {
@@ -156,6 +179,7 @@ int main(void)
                                        cmocka_unit_test(dolly_never_arrives),
                                        cmocka_unit_test(directions_look_along_axes),
                                        cmocka_unit_test(an_orbit_survives_being_a_camera),
+                                       cmocka_unit_test(numbers_are_short),
                                        cmocka_unit_test(a_parallel_eye_is_outside)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

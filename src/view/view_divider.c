@@ -41,7 +41,7 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
     case VIEW_COMPARE_VARIANT:
         sides[0].pose.has_variant = false;
         if (!base->pose.has_variant)
-            sides[1].pose.variant = 0;
+            sides[1].pose.variant = d->variant;
         sides[1].pose.has_variant = true;
         sides[0].integrator = sides[1].integrator = FACET_INTEGRATOR_GL;
         break;
@@ -64,4 +64,16 @@ void view_divider_step(view_divider *d, int steps, bool has_variants)
 {
     int count = has_variants ? VIEW_COMPARISON_COUNT : VIEW_COMPARE_VARIANT;
     d->comparison = (view_comparison)((((int)d->comparison + steps) % count + count) % count);
+}
+
+bool view_divider_labels(int border, int width, int margin, const int widths[2], int x[2])
+{
+    int first = margin;
+    int last = width - margin - widths[1];
+    x[0] = border - margin - widths[0];
+    x[1] = border + margin;
+    bool is_narrow = x[0] < first || x[1] > last;
+    x[0] = x[0] < first ? first : x[0];
+    x[1] = x[1] > last ? last : x[1];
+    return is_narrow;
 }

@@ -16,7 +16,8 @@ typedef enum view_comparison {
 
 typedef struct view_divider {
     view_comparison comparison;
-    double position; /* [0, 1] of the width */
+    double position;  /* [0, 1] of the width */
+    uint32_t variant; /* that is compared where none is chosen */
     bool is_dragged;
 } view_divider;
 
@@ -28,5 +29,8 @@ bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double 
 void view_divider_drag(view_divider *d, double x, uint32_t width);
 /* The next comparison, in either direction; those of variants only where there are some. */
 void view_divider_step(view_divider *d, int steps, bool has_variants);
+/* Where labels of those widths begin (x), beside the border where they fit there, else as near as the window allows. True: one of
+ * them does not fit on its own side, and they are not to stand in one line. */
+bool view_divider_labels(int border, int width, int margin, const int widths[2], int x[2]);
 
 #endif

@@ -231,6 +231,8 @@ void view_draw_surface(view_draw *d, const view_surface *s, view_laying laying, 
     if (!s->texture || right <= left)
         return;
     glBindTexture(GL_TEXTURE_2D, s->texture);
+    bool is_stretched = s->width != width || s->height != height;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, is_stretched ? GL_LINEAR : GL_NEAREST);
     set_place(d, (float)x, (float)y, (float)width, (float)height);
     glUniform1f(d->is_upside_down, s->is_upside_down ? 1.0f : 0.0f);
     glUniform4f(d->color, 1.0f, 1.0f, 1.0f, 1.0f);

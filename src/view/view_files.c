@@ -111,6 +111,17 @@ static void set_title(view_app *a)
     view_window_set_title(a->window, title);
 }
 
+static void tell_environment(view_app *a)
+{
+    char text[512];
+    const view_list *l = &a->environments;
+    const char *name = a->environment_name ? a->environment_name : "default";
+    int used = snprintf(text, sizeof text, "Environment: %.400s", path_base_name(name));
+    if (l->at < l->count && strcmp(l->names[l->at], name) == 0)
+        snprintf(text + used, sizeof text - (size_t)used, " (%zu of %zu)", l->at + 1, l->count);
+    view_app_say(a, text, 2.0);
+}
+
 static void show_environment(view_app *a, view_loaded *l)
 {
     if (!l->has_environment)
@@ -123,6 +134,9 @@ static void show_environment(view_app *a, view_loaded *l)
     a->environment_name = l->environment_name;
     l->environment_name = NULL;
     a->needs_picture = true;
+    view_app_forget_warning(a);
+    if (!l->wanted_model)
+        tell_environment(a);
 }
 
 /* A model that was dropped brings the others of its folder. */
@@ -138,18 +152,24 @@ static void find_in_list(view_app *a)
     }
 }
 
-static void tell_model(view_app *a, bool is_again)
+/* The first message says, too, where the keys are; and what was asked for and does nothing. */
+static void tell_model(view_app *a, bool is_again, bool is_first)
 {
     char text[512];
+    const char *help = is_first ? "\nH: help" : "";
     if (is_again) {
         view_app_say(a, "The model was read again", 2.0);
     } else if (!a->path) {
         view_app_say(a, "Drop a model here. H: help", 8.0);
     } else if (a->models.count > 1) {
-        snprintf(text, sizeof text, "%.400s\t%zu of %zu", path_base_name(a->path), a->models.at + 1,
-                 a->models.count);
-        view_app_say(a, text, 2.0);
+        snprintf(text, sizeof text, "%.400s\t%zu of %zu%s", path_base_name(a->path), a->models.at + 1,
+                 a->models.count, help);
+        view_app_say(a, text, is_first ? 5.0 : 2.0);
+    } else if (is_first) {
+        view_app_say(a, help + 1, 5.0);
     }
+    if (is_first && a->state.render.gl.shadows && !view_state_has_casters(&a->state))
+        view_app_say(a, "--shadows: the model has no lights, and there is no --sun to cast any", 6.0);
 }
 
 static facet_result show_model(view_app *a, view_loaded *l, facet_error *error)
@@ -160,6 +180,7 @@ static facet_result show_model(view_app *a, view_loaded *l, facet_error *error)
     if (result != FACET_OK)
         return result;
     bool is_again = a->scene && a->is_reloading;
+    bool is_first = !a->scene;
     view_trace_stop(a->tracer);
     a->trace_is_current = false;
     gl_renderer_destroy(a->renderer);
@@ -174,7 +195,8 @@ static facet_result show_model(view_app *a, view_loaded *l, facet_error *error)
     view_watch_set(a->watcher, a->scene, a->path);
     find_in_list(a);
     set_title(a);
-    tell_model(a, is_again);
+    tell_model(a, is_again, is_first);
+    view_app_forget_warning(a);
     a->needs_picture = true;
     return FACET_OK;
 }

@@ -23,7 +23,7 @@ typedef struct overlay_row {
 } overlay_row;
 
 typedef struct overlay_rows {
-    overlay_row rows[MAX_ROWS];
+    overlay_row rows[MAX_ROWS + 1]; /* one for a line below */
     int count;
 } overlay_rows;
 
@@ -84,7 +84,8 @@ static void draw(canvas *c, const overlay_rows *rows, const overlay_block *b, ov
                  r->right[0] ? b->left_width + 1.0 : b->width + 1.0, x, base);
         if (r->right[0])
             draw_cut(c, r->right, (canvas_font){m.size, false}, soft,
-                     b->width - b->left_width - m.between + 1.0, x + b->left_width + m.between, base);
+                     fmax(b->width - b->left_width - m.between + 1.0, 0.0), x + b->left_width + m.between,
+                     base);
         y += m.line;
     }
 }
@@ -131,17 +132,20 @@ static facet_result read_panel(canvas *c, const facet_allocator *allocator, view
     return FACET_OK;
 }
 
+/* foot: the row for a line below all blocks; -1: none. */
 static facet_result draw_panel(const overlay_rows *rows, const overlay_block *blocks, int block_count,
-                               overlay_metrics m, const facet_allocator *allocator, view_panel *out,
+                               int foot, overlay_metrics m, const facet_allocator *allocator, view_panel *out,
                                facet_error *error)
 {
+    double foot_height = foot >= 0 ? m.gap + m.line : 0.0;
     double width = 2.0 * m.margin;
     double height = 0.0;
     for (int i = 0; i < block_count; i++) {
         width += blocks[i].width + (i ? 2.0 * m.between : 0.0);
         height = fmax(height, blocks[i].height);
     }
-    *out = (view_panel){.width = (uint32_t)ceil(width), .height = (uint32_t)ceil(height + 1.4 * m.margin)};
+    *out = (view_panel){.width = (uint32_t)ceil(width),
+                        .height = (uint32_t)ceil(height + foot_height + 1.4 * m.margin)};
     canvas *c = NULL;
     facet_result result = open_canvas(allocator, out->width, out->height, &c, error);
     if (result == FACET_OK) {
@@ -150,6 +154,11 @@ static facet_result draw_panel(const overlay_rows *rows, const overlay_block *bl
         for (int i = 0; i < block_count; i++) {
             draw(c, rows, &blocks[i], m, x, 0.7 * m.margin);
             x += blocks[i].width + 2.0 * m.between;
+        }
+        if (foot >= 0) {
+            double inside = out->width - 2.0 * m.margin;
+            draw(c, rows, &(overlay_block){.first = foot, .count = 1, .width = inside}, m, m.margin,
+                 0.7 * m.margin + height + m.gap);
         }
         result = read_panel(c, allocator, out, error);
     }
@@ -226,7 +235,7 @@ facet_result view_overlay_text(const char *lines, float scale, uint32_t max_widt
     canvas_destroy(ruler);
     b.width = fmax(fmin(b.width, widest), m.size);
     b.left_width = fmin(b.left_width, b.width);
-    return draw_panel(&rows, &b, 1, m, allocator, out, error);
+    return draw_panel(&rows, &b, 1, -1, m, allocator, out, error);
 }
 
 /* ---- help ---- */
@@ -293,33 +302,101 @@ static bool fits(const overlay_block *blocks, int count, overlay_metrics m, doub
     return used <= width && !is_high;
 }
 
-facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height,
-                               const facet_allocator *allocator, view_panel *out, facet_error *error)
+/* Rows from first on that fit below each other: whole groups, or as much of one as there is room for. Returns how many. */
+static int fill_column(const overlay_rows *rows, int first, overlay_metrics m, double height)
+{
+    double used = 0.0;
+    int groups_end = first; /* of those that fit whole */
+    int i = first;
+    for (; i < rows->count; i++) {
+        const overlay_row *r = &rows->rows[i];
+        if (r->is_heading)
+            groups_end = i;
+        used += m.line + (r->has_gap && i > first ? m.gap : 0.0);
+        if (used > height)
+            break;
+    }
+    if (i == rows->count)
+        groups_end = i;
+    int count = (groups_end > first ? groups_end : i) - first;
+    return count > 0 ? count : 1;
+}
+
+/* Columns of the page that begins with row first, side by side; at least one. Returns how many; *next: where the next one begins. */
+static int fill_page(canvas *c, const overlay_rows *rows, int first, overlay_metrics m, double width,
+                     double height, overlay_block *blocks, int *next)
+{
+    double used = 2.0 * m.margin;
+    int count = 0;
+    while (first < rows->count && count < MAX_COLUMNS) {
+        int row_count = fill_column(rows, first, m, height);
+        overlay_block b = measure(c, rows, first, row_count, m);
+        used += b.width + (count ? 2.0 * m.between : 0.0);
+        if (count && used > width)
+            break;
+        b.width = fmax(fmin(b.width, width - 2.0 * m.margin), m.size);
+        b.left_width = fmin(b.left_width, b.width);
+        blocks[count++] = b;
+        first += row_count;
+    }
+    *next = first;
+    return count;
+}
+
+/* The page that is wanted, or the last one; below it a line that tells of the others, a row behind those of the table. */
+static int lay_pages(canvas *c, overlay_rows *rows, overlay_metrics m, double width, double height,
+                     uint32_t page, uint32_t *page_count, overlay_block *blocks)
+{
+    overlay_block candidates[MAX_COLUMNS];
+    int count = 0;
+    height -= 1.4 * m.margin + m.gap + m.line;
+    *page_count = 0;
+    for (int first = 0; first < rows->count;) {
+        int filled = fill_page(c, rows, first, m, width, height, candidates, &first);
+        if (++*page_count <= page) {
+            count = filled;
+            memcpy(blocks, candidates, sizeof candidates);
+        }
+    }
+    overlay_row *r = &rows->rows[rows->count];
+    memset(r, 0, sizeof *r);
+    snprintf(r->left, sizeof r->left, "%u of %u. H: %s", page < *page_count ? page : *page_count, *page_count,
+             page < *page_count ? "next page" : "close");
+    return count;
+}
+
+/* Letters no smaller than this fraction of the usual ones, on one page or several. */
+static const double smallest_letters = 0.8, letters_of_pages = 0.9;
+
+facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height, uint32_t page,
+                               uint32_t *page_count, const facet_allocator *allocator, view_panel *out,
+                               facet_error *error)
 {
     overlay_rows rows = {.count = 0};
     *out = (view_panel){0};
+    *page_count = 1;
     add_help_rows(&rows);
     canvas *ruler = NULL;
     facet_result result = open_canvas(allocator, 1, 1, &ruler, error);
     if (result != FACET_OK)
         return result;
     overlay_block blocks[MAX_COLUMNS + 1];
-    overlay_metrics m;
+    overlay_metrics m = {0};
     int count = 0;
-    double size = 13.0 * (double)scale;
     bool is_found = false;
-    while (!is_found) {
-        m = metrics_of(size);
+    for (double size = 1.0; size >= smallest_letters && !is_found; size *= 0.94) {
+        m = metrics_of(size * 13.0 * (double)scale);
         for (int columns = 1; columns <= MAX_COLUMNS && !is_found; columns++) {
             count = split(ruler, &rows, columns, m, blocks);
             is_found = fits(blocks, count, m, max_width, max_height);
         }
-        if (size < 5.0) /* nobody reads it; but the keys are in the documentation, too */
-            is_found = true;
-        size *= 0.94;
+    }
+    if (!is_found) {
+        m = metrics_of(letters_of_pages * 13.0 * (double)scale);
+        count = lay_pages(ruler, &rows, m, max_width, max_height, page, page_count, blocks);
     }
     canvas_destroy(ruler);
-    return draw_panel(&rows, blocks, count, m, allocator, out, error);
+    return draw_panel(&rows, blocks, count, is_found ? -1 : rows.count, m, allocator, out, error);
 }
 
 void view_panel_destroy(view_panel *panel)

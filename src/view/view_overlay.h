@@ -15,9 +15,11 @@ typedef struct view_panel {
  * max_width they are cut. FACET_ERROR_UNSUPPORTED, _ENVIRONMENT: there is no cairo; _MEMORY. */
 facet_result view_overlay_text(const char *lines, float scale, uint32_t max_width,
                                const facet_allocator *allocator, view_panel *out, facet_error *error);
-/* The table of keys, in as many columns, and letters as small, as fit. */
-facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height,
-                               const facet_allocator *allocator, view_panel *out, facet_error *error);
+/* The table of keys, in as many columns as fit, and letters as small as can be read well; where that is not enough on several
+ * pages, with a last line that tells so. page: which, from 1. *page_count: of how many. */
+facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height, uint32_t page,
+                               uint32_t *page_count, const facet_allocator *allocator, view_panel *out,
+                               facet_error *error);
 void view_panel_destroy(view_panel *panel); /* {0} is allowed */
 
 #endif

@@ -14,10 +14,13 @@ facet_result view_overlay_text(const char *lines, float scale, uint32_t max_widt
                 "window: this facet was built without cairo, which writes text");
 }
 
-facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height,
-                               const facet_allocator *allocator, view_panel *out, facet_error *error)
+facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height, uint32_t page,
+                               uint32_t *page_count, const facet_allocator *allocator, view_panel *out,
+                               facet_error *error)
 {
     (void)max_height;
+    (void)page;
+    *page_count = 1;
     return view_overlay_text("", scale, max_width, allocator, out, error);
 }
 

@@ -10,7 +10,12 @@
 #include "base/clock.h"
 #include "base/result.h"
 
-static const double patience_s = 60.0; /* that a step waits for what does not come */
+/* How long a step waits for what does not come. */
+static double patience_of(const view_step *s)
+{
+    const double patience_s = 60.0;
+    return s->kind == VIEW_STEP_TRACE && s->numbers[1] > 0.0 ? s->numbers[1] : patience_s;
+}
 
 static void drag(view_app *a, const view_step *s)
 {
@@ -26,10 +31,16 @@ static void drag(view_app *a, const view_step *s)
     view_queue_put(&a->queue, event);
 }
 
-static void give_up(view_app *a, const char *what)
+static void give_up(view_app *a, const view_step *s)
 {
+    char what[96] = "the model";
+    if (s->kind == VIEW_STEP_TRACE) {
+        view_trace_state trace = view_trace_get(a->tracer);
+        uint32_t wanted = s->numbers[0] > 0.0 ? (uint32_t)fmin(s->numbers[0], 4e9) : trace.wanted;
+        snprintf(what, sizeof what, "the path traced picture (%u of %u samples)", trace.samples, wanted);
+    }
     a->result = fail(&a->error, FACET_ERROR_LIMIT, "%s: line %u: %s did not come within %g s",
-                     a->desc->script, a->script.steps[a->script_at].line, what, patience_s);
+                     a->desc->script, s->line, what, patience_of(s));
 }
 
 /* Whether what a step waits for is there. */
@@ -113,9 +124,9 @@ bool view_play(view_app *a)
     const view_step *s = &a->script.steps[a->script_at];
     if (!is_ready(a, s)) {
         if (a->script_wait_s == 0.0)
-            a->script_wait_s = clock_seconds() + patience_s;
+            a->script_wait_s = clock_seconds() + patience_of(s);
         else if (clock_seconds() > a->script_wait_s && a->result == FACET_OK)
-            give_up(a, s->kind == VIEW_STEP_TRACE ? "the path traced picture" : "the model");
+            give_up(a, s);
         return false;
     }
     a->script_wait_s = 0.0;

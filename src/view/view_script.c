@@ -29,7 +29,7 @@ static const struct {
     {"wait", VIEW_STEP_WAIT, TAKES_NUMBERS, 1, 1, "seconds"},
     {"load", VIEW_STEP_LOAD, TAKES_NOTHING, 0, 0, "nothing more"},
     {"reload", VIEW_STEP_RELOAD, TAKES_NOTHING, 0, 0, "nothing more"},
-    {"trace", VIEW_STEP_TRACE, TAKES_NUMBERS, 0, 1, "samples per pixel"},
+    {"trace", VIEW_STEP_TRACE, TAKES_NUMBERS, 0, 2, "samples per pixel, and the seconds that they may take"},
     {"picture", VIEW_STEP_PICTURE, TAKES_PATH, 0, 0, "a file"},
     {"window", VIEW_STEP_WINDOW, TAKES_PATH, 0, 0, "a file"},
     {"print", VIEW_STEP_PRINT, TAKES_NOTHING, 0, 0, "nothing more"},

@@ -8,14 +8,15 @@
 
 typedef enum view_step_kind {
     VIEW_STEP_KEY,
-    VIEW_STEP_DRAG,    /* numbers: from x, y to x, y, pixels */
-    VIEW_STEP_SCROLL,  /* numbers: steps to the right, away */
-    VIEW_STEP_DROP,    /* path */
-    VIEW_STEP_SIZE,    /* numbers: width, height, pixels */
-    VIEW_STEP_WAIT,    /* numbers: s of the script's clock */
-    VIEW_STEP_LOAD,    /* until nothing is being read */
-    VIEW_STEP_RELOAD,  /* until the model was read again as its files had changed */
-    VIEW_STEP_TRACE,   /* until path tracing has numbers[0] samples per pixel (0: all) */
+    VIEW_STEP_DRAG,   /* numbers: from x, y to x, y, pixels */
+    VIEW_STEP_SCROLL, /* numbers: steps to the right, away */
+    VIEW_STEP_DROP,   /* path */
+    VIEW_STEP_SIZE,   /* numbers: width, height, pixels */
+    VIEW_STEP_WAIT,   /* numbers: s of the script's clock */
+    VIEW_STEP_LOAD,   /* until nothing is being read */
+    VIEW_STEP_RELOAD, /* until the model was read again as its files had changed */
+    VIEW_STEP_TRACE, /* until path tracing has numbers[0] samples per pixel (0: all), for at most numbers[1] s (0: as
+                          other steps wait) */
     VIEW_STEP_PICTURE, /* path: what F12 saves */
     VIEW_STEP_WINDOW,  /* path: with the text over it */
     VIEW_STEP_PRINT,   /* the facet render command */

@@ -23,10 +23,10 @@ static void steps_are_what_lines_say(void **state)
     view_script s;
     facet_error error;
     assert_int_equal(parse("# all of it\n\nload\r\n  key Shift+l \ndrag Ctrl+right 1 2.5 3 -4\nscroll 0 -1\n"
-                           "drop a model.glb \ntrace\ntrace 16\nwait 0.5",
+                           "drop a model.glb \ntrace\ntrace 16\nwait 0.5\ntrace 0 2.5",
                            &s, &error),
                      FACET_OK);
-    assert_int_equal(s.count, 8);
+    assert_int_equal(s.count, 9);
     assert_int_equal(s.steps[0].kind, VIEW_STEP_LOAD);
     assert_int_equal(s.steps[0].line, 3);
     assert_int_equal(s.steps[1].key, 'L');
@@ -37,16 +37,18 @@ static void steps_are_what_lines_say(void **state)
     assert_string_equal(s.steps[4].path, "a model.glb");
     assert_true(s.steps[5].numbers[0] == 0.0 && s.steps[6].numbers[0] == 16.0);
     assert_true(s.steps[7].numbers[0] == 0.5);
+    assert_true(s.steps[8].numbers[0] == 0.0 && s.steps[8].numbers[1] == 2.5);
     view_script_destroy(&s);
 }
 
 static void what_is_wrong_is_told_with_its_line(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"load\njump\n", "load\nkey\n",          "load\nkey F99\n",
-                                        "load\nwait\n", "load\nwait 1 2\n",     "load\nwait nan\n",
-                                        "load\ndrop\n", "load\ndrag 1 2 3 4\n", "load\ndrag left 1 2 3\n",
-                                        "load\nload 1", "load\nsize 4x3",       "load\nkey a b"};
+    static const char *const wrong[] = {"load\njump\n",     "load\nkey\n",          "load\nkey F99\n",
+                                        "load\nwait\n",     "load\nwait 1 2\n",     "load\nwait nan\n",
+                                        "load\ndrop\n",     "load\ndrag 1 2 3 4\n", "load\ndrag left 1 2 3\n",
+                                        "load\nload 1",     "load\nsize 4x3",       "load\nkey a b",
+                                        "load\ntrace 1 2 3"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         view_script s;
         facet_error error;

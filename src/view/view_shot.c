@@ -9,6 +9,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "scene/scene.h"
+#include "view/view_camera.h"
 
 static facet_result save(view_app *a, const view_picture *picture, const char *path, facet_error *error)
 {
@@ -34,6 +36,9 @@ static facet_result save(view_app *a, const view_picture *picture, const char *p
 
 facet_result view_shot_save(view_app *a, const char *path, bool has_panels, facet_error *error)
 {
+    if (a->scene && scene_has_file(a->scene, path))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: the model was read from it, and would be overwritten; name another picture", path);
     facet_result result = view_show_into(a, has_panels, error);
     if (result != FACET_OK)
         return result;
@@ -89,12 +94,13 @@ static char *describe(view_app *a)
     if (desc.integrator == FACET_INTEGRATOR_PATH && a->trace_is_current)
         desc.samples = a->trace_samples;
     const view_state *s = &a->state;
+    const facet_orbit orbit = view_camera_round(&s->orbit);
     return a->desc->source.describe(
         a->desc->source.user,
         &(facet_view_picture){.model = a->path,
                               .environment = a->environment_name,
                               .render = &desc,
-                              .orbit = s->camera == VIEW_NO_CAMERA ? &s->orbit : NULL,
+                              .orbit = s->camera == VIEW_NO_CAMERA ? &orbit : NULL,
                               .camera = s->camera == VIEW_NO_CAMERA ? 0 : (uint32_t)s->camera});
 }
 

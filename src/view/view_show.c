@@ -8,43 +8,26 @@
 
 #include "base/clock.h"
 #include "scene/scene.h"
-#include "view/view_names.h"
+#include "view/view_camera.h"
 
 #include <epoxy/gl.h>
 
 /* ---- the picture ---- */
 
-/* Radius and target of an orbit that is to frame the model, or the file's camera at this moment. */
+/* The orbit's radius and target where they are to be found, or the file's camera at this moment. */
 static facet_result find_camera(view_app *a, uint32_t width, uint32_t height, facet_error *error)
 {
     view_state *s = &a->state;
     if (s->camera != VIEW_NO_CAMERA)
         return a->host->camera_from_scene(s->scene, &s->pose, (uint32_t)s->camera, &s->file_camera, error);
-    if (!s->needs_framing)
-        return FACET_OK;
-    facet_camera camera;
-    facet_result result =
-        scene_fit_orbit(s->scene, &s->pose, &s->orbit, (float)width / (float)height, &camera, error);
-    if (result != FACET_OK)
-        return result;
-    facet_orbit *o = &s->orbit;
-    double distance2 = 0.0;
-    for (int i = 0; i < 3; i++) {
-        double d = (double)camera.eye[i] - (double)camera.target[i];
-        o->target[i] = camera.target[i];
-        distance2 += d * d;
-    }
-    o->radius = o->orthographic ? (float)(0.5 * (double)camera.ortho_height / tan(0.5 * (double)o->fov_y_rad))
-                                : (float)sqrt(distance2);
-    o->has_target = true;
-    s->needs_framing = false;
-    return FACET_OK;
+    return view_state_frame(s, (float)width / (float)height, error);
 }
 
 facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, facet_camera *camera)
 {
     facet_render_desc sides[2];
     const char *labels[2];
+    find_camera(a, width, height, NULL); /* a key may have asked for it since the last picture */
     facet_render_desc base = view_state_desc(&a->state, width, height, camera);
     base.environment = a->environment;
     view_divider_sides(&a->state.divider, &base, sides, labels);
@@ -76,11 +59,44 @@ static bool trace(view_app *a, const facet_render_desc *side)
     return a->trace_is_current;
 }
 
+/* As facet render draws it: in floats of 32 bits, and with the eye of a parallel view where it has it. */
+static facet_result draw_for_file(view_app *a, view_surface *to, const facet_render_desc *wanted,
+                                  facet_error *error)
+{
+    facet_render_desc desc = *wanted;
+    facet_camera camera;
+    facet_image *image = NULL;
+    view_picture picture = {0};
+    facet_orbit orbit = view_camera_round(&a->state.orbit);
+    facet_result result = FACET_OK;
+    if (a->state.camera == VIEW_NO_CAMERA) {
+        result = scene_fit_orbit(a->scene, &desc.pose, &orbit, (float)desc.width / (float)desc.height,
+                                 &camera, error);
+        desc.camera = &camera;
+    }
+    if (result == FACET_OK)
+        result = a->host->render_gl(a->renderer, &desc, &image, error);
+    if (result == FACET_OK) {
+        facet_image_view view = a->host->image_get_layer(image, 0);
+        result = view_picture_create(&view, &a->desc->allocator, &picture, error);
+    }
+    if (result == FACET_OK)
+        view_surface_upload(to, picture.width, picture.height, picture.pixels);
+    view_picture_destroy(&picture);
+    a->host->image_destroy(image);
+    return result;
+}
+
 static facet_result draw_side(view_app *a, int side, facet_render_desc *desc, facet_error *error)
 {
     view_surface *s = &a->sides[side];
     facet_render_stats stats;
     desc->integrator = FACET_INTEGRATOR_GL;
+    a->has_drawn = true;
+    if (a->is_for_file)
+        return draw_for_file(a, s, desc, error);
+    desc->width = desc->crop[2] = (desc->width + a->divisor - 1) / a->divisor;
+    desc->height = desc->crop[3] = (desc->height + a->divisor - 1) / a->divisor;
     facet_result result = view_surface_resize(s, &a->context, desc->width, desc->height, error);
     return result == FACET_OK ? gl_renderer_present(a->renderer, desc, s->framebuffer, 0, 0, &stats, error)
                               : result;
@@ -99,6 +115,10 @@ static facet_result draw_picture(view_app *a, uint32_t width, uint32_t height, c
     base.environment = a->environment;
     view_divider_sides(&a->state.divider, &base, sides, labels);
     bool is_divided = a->state.divider.comparison != VIEW_COMPARE_NOTHING;
+    if (a->state.divider.comparison == VIEW_COMPARE_VARIANT) {
+        snprintf(a->variant, sizeof a->variant, "Variant: %.100s", a->scene->variants[sides[1].pose.variant]);
+        labels[1] = a->variant;
+    }
     for (int i = is_divided ? 0 : 1; i < 2 && result == FACET_OK; i++) {
         shown[i] = &a->sides[i];
         bool is_path = sides[i].integrator == FACET_INTEGRATOR_PATH;
@@ -122,11 +142,11 @@ static bool is_made(const view_shown_panel *p, const char *text, float scale, ui
 }
 
 /* text "": none; for VIEW_PANEL_HELP any. */
-static void make_panel(view_app *a, view_panel_id id, const char *text, uint32_t max_width,
+static void make_panel(view_app *a, view_panel_id id, const char *text, float scale, uint32_t max_width,
                        uint32_t max_height)
 {
     view_shown_panel *p = &a->panels[id];
-    float scale = a->state.scale;
+    view_state *s = &a->state;
     if (!*text || a->has_no_text) {
         p->is_there = false;
         return;
@@ -137,7 +157,8 @@ static void make_panel(view_app *a, view_panel_id id, const char *text, uint32_t
     facet_error error;
     const facet_allocator *allocator = &a->desc->allocator;
     facet_result result = id == VIEW_PANEL_HELP
-                              ? view_overlay_help(scale, max_width, max_height, allocator, &panel, &error)
+                              ? view_overlay_help(scale, max_width, max_height, s->help_page, &s->help_pages,
+                                                  allocator, &panel, &error)
                               : view_overlay_text(text, scale, max_width, allocator, &panel, &error);
     p->is_there = result == FACET_OK;
     if (result != FACET_OK) {
@@ -154,45 +175,39 @@ static void make_panel(view_app *a, view_panel_id id, const char *text, uint32_t
     view_panel_destroy(&panel);
 }
 
-/* Name, how it is drawn, how long that took. */
-static void write_values(view_app *a, uint32_t width, uint32_t height, char *out, size_t size)
+/* Smaller letters where the panel would take more than half of the window. */
+static float scale_of_values(const view_app *a, const char *values, uint32_t height)
 {
-    const view_state *s = &a->state;
-    const facet_render_desc *r = &s->render;
-    bool is_path = r->integrator == FACET_INTEGRATOR_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
-    int used = snprintf(out, size, "Triangles\t%llu\nPicture\t%u x %u\nRenderer\t%s\n",
-                        (unsigned long long)s->counts.drawn_triangles, width, height,
-                        is_path ? "path tracing" : "OpenGL");
-    char *at = out + used;
-    char *end = out + size;
-    if (is_path)
-        at += snprintf(at, (size_t)(end - at), "Samples\t%u of %u\n",
-                       a->trace_is_current ? a->trace_samples : 0, s->path_samples);
-    else
-        at += snprintf(at, (size_t)(end - at), "Frame\t%.2f ms\nChannel\t%s\nSpecular\t%s\n",
-                       1e3 * a->frame_s, view_channel_name(r->gl.channel), view_brdf_name(r->gl.brdf));
-    at += snprintf(at, (size_t)(end - at), "Energy\t%s\nTone mapping\t%s\nExposure\t%+.2f\n",
-                   view_energy_name(r->energy), view_tonemap_name(r->tonemap), (double)r->exposure_ev);
-    at += snprintf(at, (size_t)(end - at), "Environment\t%s",
-                   a->environment_name ? a->environment_name : "default");
-    if (s->pose.animation_count && at < end)
-        snprintf(at, (size_t)(end - at), "\nAnimation\t%.2f of %.2f s", s->pose.time_s - s->begin_s,
-                 s->end_s - s->begin_s);
+    int rows = 1;
+    for (const char *p = values; *p; p++)
+        rows += *p == '\n';
+    float wanted = 0.5f * (float)height / (20.0f * (float)rows);
+    return fminf(a->state.scale, fmaxf(wanted, 10.0f / 13.0f * a->state.scale));
+}
+
+static void make_help(view_app *a, uint32_t width, uint32_t height)
+{
+    char text[32] = "";
+    view_state *s = &a->state;
+    if (s->help_page)
+        snprintf(text, sizeof text, "help %u", s->help_page);
+    make_panel(a, VIEW_PANEL_HELP, text, s->scale, width, height);
 }
 
 static void make_panels(view_app *a, uint32_t width, uint32_t height, const char *const labels[2])
 {
     char values[2048] = "";
+    float scale = a->state.scale;
     uint32_t margin = (uint32_t)(12.0f * a->state.scale);
     uint32_t inside = width > 2 * margin ? width - 2 * margin : 1;
     uint32_t inside_height = height > 2 * margin ? height - 2 * margin : 1;
-    if (a->state.shows_values && a->scene && !a->state.shows_help)
-        write_values(a, width, height, values, sizeof values);
-    make_panel(a, VIEW_PANEL_HELP, a->state.shows_help ? "help" : "", inside, inside_height);
-    make_panel(a, VIEW_PANEL_VALUES, values, inside, 0);
-    make_panel(a, VIEW_PANEL_MESSAGE, a->message, inside, 0);
-    make_panel(a, VIEW_PANEL_LEFT, labels[0], inside / 2, 0);
-    make_panel(a, VIEW_PANEL_RIGHT, labels[1], inside / 2, 0);
+    if (a->state.shows_values && a->scene && !a->state.help_page)
+        view_values_write(a, width, height, values, sizeof values);
+    make_help(a, inside, inside_height);
+    make_panel(a, VIEW_PANEL_VALUES, values, scale_of_values(a, values, height), inside * 2 / 3, 0);
+    make_panel(a, VIEW_PANEL_MESSAGE, a->message, scale, inside, 0);
+    make_panel(a, VIEW_PANEL_LEFT, labels[0], scale, inside / 2, 0);
+    make_panel(a, VIEW_PANEL_RIGHT, labels[1], scale, inside / 2, 0);
 }
 
 static void draw_panel(view_app *a, view_panel_id id, int x, int y, int left, int right)
@@ -203,7 +218,24 @@ static void draw_panel(view_app *a, view_panel_id id, int x, int y, int left, in
                           left, right);
 }
 
-/* Values top right, messages bottom middle, what the sides are at their feet beside the border, help in the middle. */
+/* Beside the border, or, where a side is narrower than its label, the right one a line below. Returns where there is room below
+ * them. */
+static int draw_labels(view_app *a, int width, int border, int margin)
+{
+    const view_surface *left = &a->panels[VIEW_PANEL_LEFT].surface;
+    const view_surface *right = &a->panels[VIEW_PANEL_RIGHT].surface;
+    if (!a->panels[VIEW_PANEL_LEFT].is_there || !a->panels[VIEW_PANEL_RIGHT].is_there)
+        return margin;
+    int x[2];
+    const int widths[2] = {(int)left->width, (int)right->width};
+    bool is_narrow = view_divider_labels(border, width, margin, widths, x);
+    int y = is_narrow ? 2 * margin + (int)left->height : margin;
+    draw_panel(a, VIEW_PANEL_LEFT, x[0], margin, 0, width);
+    draw_panel(a, VIEW_PANEL_RIGHT, x[1], y, 0, width);
+    return y + (int)right->height + margin;
+}
+
+/* Values top right, messages bottom middle, what the sides are at the top, help in the middle. */
 static void draw_panels(view_app *a, uint32_t width, uint32_t height)
 {
     int margin = (int)(12.0f * a->state.scale);
@@ -211,12 +243,8 @@ static void draw_panels(view_app *a, uint32_t width, uint32_t height)
     int h = (int)height;
     int border = (int)(a->state.divider.position * width);
     const view_shown_panel *p = a->panels;
-    draw_panel(a, VIEW_PANEL_LEFT, border - margin - (int)p[VIEW_PANEL_LEFT].surface.width, margin, 0,
-               border);
-    draw_panel(a, VIEW_PANEL_RIGHT, border + margin, margin, border, w);
-    draw_panel(a, VIEW_PANEL_VALUES, w - margin - (int)p[VIEW_PANEL_VALUES].surface.width,
-               p[VIEW_PANEL_RIGHT].is_there ? 2 * margin + (int)p[VIEW_PANEL_RIGHT].surface.height : margin,
-               0, w);
+    int y = draw_labels(a, w, border, margin);
+    draw_panel(a, VIEW_PANEL_VALUES, w - margin - (int)p[VIEW_PANEL_VALUES].surface.width, y, 0, w);
     draw_panel(a, VIEW_PANEL_HELP, (w - (int)p[VIEW_PANEL_HELP].surface.width) / 2,
                (h - (int)p[VIEW_PANEL_HELP].surface.height) / 2, 0, w);
     draw_panel(a, VIEW_PANEL_MESSAGE, (w - (int)p[VIEW_PANEL_MESSAGE].surface.width) / 2,
@@ -264,14 +292,16 @@ static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, u
     return gl_context_check(&a->context, "the window", error);
 }
 
-static void measure_frame(view_app *a, double start)
+/* Without waiting for the driver it would be how long asking took. */
+static void measure_frame(view_app *a, double start, bool is_moving)
 {
-    if (!a->state.shows_values || !a->needs_picture)
+    if (!a->has_drawn || !a->needs_picture || (a->script.count && !a->state.shows_values))
         return;
-    glFinish(); /* else it is how long asking took */
+    glFinish();
     double s = clock_seconds() - start;
-    bool is_moving = a->state.is_playing || a->state.is_held;
-    a->frame_s = is_moving && a->frame_s > 0.0 ? a->frame_s + 0.2 * (s - a->frame_s) : s;
+    view_pace_measure(&a->pace, a->divisor, s);
+    bool is_smoothed = (a->state.is_playing || is_moving) && a->frame_s > 0.0;
+    a->frame_s = is_smoothed ? a->frame_s + 0.2 * (s - a->frame_s) : s;
 }
 
 facet_result view_show(view_app *a, facet_error *error)
@@ -283,14 +313,24 @@ facet_result view_show(view_app *a, facet_error *error)
     if (!width || !height)
         return FACET_OK;
     double start = clock_seconds();
+    bool is_moving = !a->script.count && start < a->moves_until_s;
+    uint32_t divisor = view_pace_divisor(&a->pace, is_moving);
+    if (divisor != a->divisor) {
+        a->needs_picture = true;
+        a->frame_s = 0.0;
+    }
+    a->divisor = divisor;
+    a->has_drawn = false;
     a->state.width = width;
     a->state.height = height;
     a->state.scale = view_window_scale(w);
     facet_result result = compose(a, 0, width, height, 8.0f * a->state.scale, true, error);
     if (result != FACET_OK)
         return result;
-    measure_frame(a, start);
-    a->needs_picture = a->needs_frame = false;
+    bool had_picture = a->needs_picture;
+    measure_frame(a, start, is_moving);
+    a->needs_picture = false;
+    a->needs_frame = had_picture && a->state.shows_values && !a->state.is_playing; /* what it took */
     view_window_present(w);
     return FACET_OK;
 }
@@ -304,9 +344,12 @@ facet_result view_show_into(view_app *a, bool has_panels, facet_error *error)
     height = height ? height : a->desc->render.height;
     facet_result result = view_surface_resize(&a->shot, &a->context, width, height, error);
     a->needs_picture = true; /* sides may have another size */
+    a->divisor = 1;
+    a->is_for_file = !has_panels;
     if (result == FACET_OK)
         result = compose(a, a->shot.framebuffer, width, height, has_panels ? 8.0f * a->state.scale : 0.0f,
                          has_panels, error);
+    a->is_for_file = false;
     return result;
 }
 

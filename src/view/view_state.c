@@ -2,15 +2,10 @@
 #include "view/view_state.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "scene/scene.h"
 #include "view/view_camera.h"
-#include "view/view_names.h"
-
-static const double pi = 3.14159265358979323846;
 
 void view_state_create(view_state *s, const facet_view_desc *desc)
 {
@@ -18,6 +13,7 @@ void view_state_create(view_state *s, const facet_view_desc *desc)
                       .path_samples = desc->path_samples,
                       .camera = VIEW_NO_CAMERA,
                       .speed = 1.0,
+                      .help_pages = 1,
                       .scale = 1.0f,
                       .divider = {.position = 0.5},
                       .orbit = scene_orbit_default()};
@@ -34,7 +30,7 @@ void view_state_create(view_state *s, const facet_view_desc *desc)
 
 /* ---- the model ---- */
 
-static void set_animations(view_state *s, const uint32_t *animations, uint32_t count)
+void view_state_set_animations(view_state *s, const uint32_t *animations, uint32_t count)
 {
     count = count < VIEW_MAX_ANIMATIONS ? count : VIEW_MAX_ANIMATIONS;
     s->begin_s = HUGE_VAL;
@@ -61,7 +57,7 @@ static void keep_pose(view_state *s, const facet_pose_desc *old)
     s->pose = *old;
     s->pose.has_variant = old->has_variant && old->variant < c->variants;
     s->pose.has_scene_index = old->has_scene_index && old->scene_index < c->scenes;
-    set_animations(s, kept, count);
+    view_state_set_animations(s, kept, count);
     s->is_playing = s->is_playing && count > 0;
     if (s->camera >= (int)c->cameras)
         s->camera = VIEW_NO_CAMERA;
@@ -85,7 +81,7 @@ void view_state_set_model(view_state *s, const facet_view_model *model, const fl
     for (uint32_t i = 0; i < count; i++)
         animations[i] = model->first_animation + i;
     s->pose = model->pose;
-    set_animations(s, animations, count);
+    view_state_set_animations(s, animations, count);
     s->is_playing = model->is_playing && count > 0;
     s->orbit = s->home = model->orbit;
     s->camera = model->has_camera ? (int)model->camera : VIEW_NO_CAMERA;
@@ -94,412 +90,10 @@ void view_state_set_model(view_state *s, const facet_view_model *model, const fl
         for (int i = 0; i < 3; i++)
             middle[i] = 0.5f * low[i] + 0.5f * high[i];
         s->orbit = view_camera_orbit(&model->eye, &model->orbit, middle);
-        s->needs_framing = false;
+        s->needs_framing = s->is_framed = false;
         return;
     }
     s->needs_framing = true;
-}
-
-/* ---- what keys change ---- */
-
-static int wrap(int value, int count)
-{
-    return count > 0 ? (value % count + count) % count : 0;
-}
-
-static void say(view_state *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void say(view_state *s, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(s->message, sizeof s->message, format, arguments);
-    va_end(arguments);
-}
-
-static void step_animation(view_state *s, int steps)
-{
-    int count = (int)s->counts.animations;
-    if (count == 0) {
-        say(s, "The model has no animation");
-        return;
-    }
-    int now = s->pose.animation_count ? (int)s->animations[0] : VIEW_NO_ANIMATION;
-    int next = wrap(now + 1 + steps, count + 1) - 1;
-    uint32_t index = (uint32_t)next;
-    set_animations(s, &index, next == VIEW_NO_ANIMATION ? 0 : 1);
-    s->pose.time_s = next == VIEW_NO_ANIMATION ? 0.0 : s->begin_s;
-    s->is_playing = next != VIEW_NO_ANIMATION;
-    if (next == VIEW_NO_ANIMATION)
-        say(s, "Animation: none");
-    else
-        say(s, "Animation %d of %d: %s", next + 1, count, s->scene->animations[next].name);
-}
-
-static void play(view_state *s)
-{
-    if (s->counts.animations && !s->pose.animation_count) {
-        step_animation(s, 1);
-        return;
-    }
-    if (!s->counts.animations) {
-        say(s, "The model has no animation");
-        return;
-    }
-    s->is_playing = !s->is_playing;
-    say(s, s->is_playing ? "Playing" : "Paused at %.2f s", s->pose.time_s);
-}
-
-static void scrub(view_state *s, int frames)
-{
-    if (!s->pose.animation_count)
-        step_animation(s, 1);
-    if (!s->pose.animation_count)
-        return;
-    s->is_playing = false;
-    s->pose.time_s = fmin(fmax(s->pose.time_s + frames / 24.0, s->begin_s), s->end_s);
-    say(s, "%.2f of %.2f s", s->pose.time_s - s->begin_s, s->end_s - s->begin_s);
-}
-
-static void step_variant(view_state *s, int steps)
-{
-    int count = (int)s->counts.variants;
-    if (count == 0) {
-        say(s, "The model has no variants of its materials");
-        return;
-    }
-    int next = wrap((s->pose.has_variant ? (int)s->pose.variant + 1 : 0) + steps, count + 1);
-    s->pose.has_variant = next > 0;
-    s->pose.variant = next > 0 ? (uint32_t)next - 1 : 0;
-    say(s, "Variant: %s", next > 0 ? s->scene->variants[next - 1] : "none");
-}
-
-static void step_camera(view_state *s, int steps)
-{
-    int count = (int)s->counts.cameras;
-    if (count == 0) {
-        say(s, "The model has no camera");
-        return;
-    }
-    s->camera = wrap(s->camera + 1 + steps, count + 1) - 1;
-    if (s->camera == VIEW_NO_CAMERA) {
-        s->orbit = s->home;
-        s->needs_framing = true;
-        say(s, "Camera: none of the file");
-    } else {
-        say(s, "Camera %d of %d: %s", s->camera + 1, count, s->scene->cameras[s->camera].name);
-    }
-}
-
-static float size_of(const view_state *s)
-{
-    float size = 0.0f;
-    for (int i = 0; i < 3; i++)
-        size = fmaxf(size, s->high[i] - s->low[i]);
-    return size > 0.0f ? size : 1.0f;
-}
-
-/* Before it is moved by hand a camera of the file becomes an orbit. */
-static void leave_file_camera(view_state *s)
-{
-    if (s->camera == VIEW_NO_CAMERA)
-        return;
-    float middle[3];
-    for (int i = 0; i < 3; i++)
-        middle[i] = 0.5f * s->low[i] + 0.5f * s->high[i];
-    s->orbit = view_camera_orbit(&s->file_camera, &s->orbit, middle);
-    s->camera = VIEW_NO_CAMERA;
-    s->needs_framing = false;
-}
-
-static void frame(view_state *s)
-{
-    facet_orbit whole = scene_orbit_default();
-    leave_file_camera(s);
-    whole.azimuth_rad = s->orbit.azimuth_rad;
-    whole.polar_rad = s->orbit.polar_rad;
-    whole.orthographic = s->orbit.orthographic;
-    whole.is_z_up = s->orbit.is_z_up;
-    whole.fov_y_rad = s->orbit.fov_y_rad;
-    s->orbit = whole;
-    s->needs_framing = true;
-}
-
-static void step_background(view_state *s)
-{
-    facet_render_desc *r = &s->render;
-    r->background = r->background == FACET_BACKGROUND_COLOR         ? FACET_BACKGROUND_ENVIRONMENT
-                    : r->background == FACET_BACKGROUND_ENVIRONMENT ? FACET_BACKGROUND_TRANSPARENT
-                                                                    : FACET_BACKGROUND_COLOR;
-    say(s, "Background: %s", view_background_name(r->background));
-}
-
-static void step_blur(view_state *s)
-{
-    facet_render_desc *r = &s->render;
-    r->background_blur = r->background_blur < 0.1f ? 0.2f : r->background_blur < 0.3f ? 0.5f : 0.0f;
-    r->background = FACET_BACKGROUND_ENVIRONMENT;
-    say(s, "Blur of the background: %.1f", (double)r->background_blur);
-}
-
-static void step_tonemap(view_state *s, int steps)
-{
-    facet_render_desc *r = &s->render;
-    r->tonemap = (facet_tonemap)wrap((int)r->tonemap + steps, FACET_TONEMAP_HABLE + 1);
-    say(s, "Tone mapping: %s", view_tonemap_name(r->tonemap));
-}
-
-static void step_channel(view_state *s, int steps)
-{
-    facet_gl_desc *gl = &s->render.gl;
-    gl->channel = (facet_channel)wrap((int)gl->channel + steps, FACET_CHANNEL_COUNT);
-    if (gl->channel != FACET_CHANNEL_LIGHT)
-        s->render.integrator = FACET_INTEGRATOR_GL;
-    say(s, "Channel: %s", view_channel_name(gl->channel));
-}
-
-static void step_renderer(view_state *s)
-{
-    bool is_path = s->render.integrator == FACET_INTEGRATOR_PATH;
-    s->render.integrator = is_path ? FACET_INTEGRATOR_GL : FACET_INTEGRATOR_PATH;
-    if (!is_path)
-        s->render.gl.channel = FACET_CHANNEL_LIGHT;
-    say(s, "Renderer: %s", is_path ? "OpenGL" : "path tracing");
-}
-
-static void step_divider(view_state *s, int steps)
-{
-    view_divider_step(&s->divider, steps, s->counts.variants > 0);
-    if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* else the sides have labels */
-        say(s, "No comparison");
-}
-
-static bool apply_camera(view_state *s, view_action action, int amount)
-{
-    switch (action) {
-    case VIEW_ACTION_FRAME:
-        frame(s);
-        break;
-    case VIEW_ACTION_LOOK:
-        leave_file_camera(s);
-        view_camera_look(&s->orbit, (view_direction)amount);
-        break;
-    case VIEW_ACTION_PROJECTION:
-        leave_file_camera(s);
-        s->orbit.orthographic = !s->orbit.orthographic;
-        say(s, "Projection: %s", s->orbit.orthographic ? "parallel" : "perspective");
-        break;
-    case VIEW_ACTION_CAMERA:
-        step_camera(s, amount);
-        break;
-    default:
-        return false;
-    }
-    return true;
-}
-
-static bool apply_motion(view_state *s, view_action action, int amount)
-{
-    switch (action) {
-    case VIEW_ACTION_PLAY:
-        play(s);
-        break;
-    case VIEW_ACTION_ANIMATION:
-        step_animation(s, amount);
-        break;
-    case VIEW_ACTION_SCRUB:
-        scrub(s, amount);
-        break;
-    case VIEW_ACTION_SPEED:
-        s->speed = fmin(fmax(ldexp(s->speed, amount), 1.0 / 64.0), 64.0);
-        say(s, "Speed: %g", s->speed);
-        break;
-    case VIEW_ACTION_VARIANT:
-        step_variant(s, amount);
-        break;
-    default:
-        return false;
-    }
-    return true;
-}
-
-static bool apply_light(view_state *s, view_action action, int amount)
-{
-    facet_render_desc *r = &s->render;
-    switch (action) {
-    case VIEW_ACTION_ENVIRONMENT_ROTATION:
-        r->environment_rotation_rad =
-            (float)remainder((double)r->environment_rotation_rad + amount * pi / 12.0, 2.0 * pi);
-        say(s, "Environment turned by %.0f degrees", (double)r->environment_rotation_rad * 180.0 / pi);
-        break;
-    case VIEW_ACTION_ENVIRONMENT_INTENSITY:
-        r->environment_ev += (float)amount / 3.0f;
-        say(s, "Light of the environment: %.2f", exp2((double)r->environment_ev));
-        break;
-    case VIEW_ACTION_LIGHTS:
-        r->ignore_scene_lights = !r->ignore_scene_lights;
-        say(s, "Lights of the file: %s", r->ignore_scene_lights ? "off" : "on");
-        break;
-    case VIEW_ACTION_SHADOWS:
-        r->gl.shadows = !r->gl.shadows;
-        say(s, "Shadows of lights: %s", r->gl.shadows ? "on" : "off");
-        break;
-    case VIEW_ACTION_GROUND:
-        r->ground = r->ground == FACET_GROUND_NONE ? FACET_GROUND_SHADOW : FACET_GROUND_NONE;
-        say(s, "Shadow on the ground: %s", r->ground == FACET_GROUND_SHADOW ? "on" : "off");
-        break;
-    default:
-        return false;
-    }
-    return true;
-}
-
-static bool apply_picture(view_state *s, view_action action, int amount)
-{
-    facet_render_desc *r = &s->render;
-    switch (action) {
-    case VIEW_ACTION_BACKGROUND:
-        step_background(s);
-        break;
-    case VIEW_ACTION_BLUR:
-        step_blur(s);
-        break;
-    case VIEW_ACTION_EXPOSURE:
-        r->exposure_ev += (float)amount / 3.0f;
-        say(s, "Exposure: %+.2f stops", (double)r->exposure_ev);
-        break;
-    case VIEW_ACTION_TONEMAP:
-        step_tonemap(s, amount);
-        break;
-    case VIEW_ACTION_BLOOM:
-        r->gl.bloom = r->gl.bloom > 0.0f ? 0.0f : 0.05f;
-        say(s, "Bloom: %s", r->gl.bloom > 0.0f ? "on" : "off");
-        break;
-    default:
-        return false;
-    }
-    return true;
-}
-
-static bool apply_rendering(view_state *s, view_action action, int amount)
-{
-    facet_render_desc *r = &s->render;
-    switch (action) {
-    case VIEW_ACTION_RENDERER:
-        step_renderer(s);
-        break;
-    case VIEW_ACTION_DENOISE:
-        r->path.denoises = !r->path.denoises;
-        say(s, "Denoising of path tracing: %s", r->path.denoises ? "on" : "off");
-        break;
-    case VIEW_ACTION_CHANNEL:
-        step_channel(s, amount);
-        break;
-    case VIEW_ACTION_WHOLE:
-        r->gl.channel = FACET_CHANNEL_LIGHT;
-        s->divider.comparison = VIEW_COMPARE_NOTHING;
-        say(s, "Channel: %s", view_channel_name(r->gl.channel));
-        break;
-    case VIEW_ACTION_BRDF:
-        r->gl.brdf = (facet_brdf)wrap((int)r->gl.brdf + 1, FACET_BRDF_MULTISCATTER + 1);
-        say(s, "Specular lobe: %s", view_brdf_name(r->gl.brdf));
-        break;
-    case VIEW_ACTION_ENERGY:
-        r->energy = r->energy == FACET_ENERGY_GLTF ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF;
-        say(s, "Energy: %s", view_energy_name(r->energy));
-        break;
-    case VIEW_ACTION_DIVIDER:
-        step_divider(s, amount);
-        break;
-    case VIEW_ACTION_TRANSPARENCY:
-        r->gl.transparency =
-            (facet_transparency)wrap((int)r->gl.transparency + 1, FACET_TRANSPARENCY_WEIGHTED + 1);
-        say(s, "Transparency: %s", view_transparency_name(r->gl.transparency));
-        break;
-    default:
-        return false;
-    }
-    return true;
-}
-
-bool view_state_apply(view_state *s, view_action action, int amount)
-{
-    s->message[0] = 0;
-    if (action == VIEW_ACTION_HELP || action == VIEW_ACTION_VALUES) {
-        bool *shown = action == VIEW_ACTION_HELP ? &s->shows_help : &s->shows_values;
-        *shown = !*shown;
-        return true;
-    }
-    if (apply_picture(s, action, amount) || apply_light(s, action, amount) ||
-        apply_rendering(s, action, amount))
-        return true;
-    bool is_about_model = action >= VIEW_ACTION_VARIANT && action <= VIEW_ACTION_SPEED;
-    if (!s->scene && is_about_model)
-        return true;
-    return apply_camera(s, action, amount) || apply_motion(s, action, amount);
-}
-
-/* ---- the pointer ---- */
-
-/* model-viewer's and Blender's habits: left and middle orbit; right, or either with shift, moves; with control comes
- * nearer. */
-static void drag(view_state *s, double dx, double dy, unsigned modifiers)
-{
-    leave_file_camera(s);
-    if (modifiers & VIEW_CONTROL)
-        view_camera_dolly(&s->orbit, -dy * 40.0 / (s->height ? s->height : 1), (double)size_of(s));
-    else if (s->button == VIEW_RIGHT_BUTTON || modifiers & VIEW_SHIFT)
-        view_camera_pan(&s->orbit, dx, dy, s->height);
-    else
-        view_camera_turn(&s->orbit, dx, dy, s->height);
-}
-
-static void scroll(view_state *s, const view_event *e)
-{
-    const double pixels = 40.0 * (double)s->scale; /* of a step, of two fingers or a wheel */
-    leave_file_camera(s);
-    if (e->modifiers & VIEW_SHIFT)
-        view_camera_pan(&s->orbit, pixels * e->x, pixels * e->y, s->height);
-    else if (e->modifiers & VIEW_ALT)
-        view_camera_turn(&s->orbit, pixels * e->x, pixels * e->y, s->height);
-    else
-        view_camera_dolly(&s->orbit, e->y, (double)size_of(s));
-}
-
-bool view_state_point(view_state *s, const view_event *e)
-{
-    double dx = e->x - s->x;
-    double dy = e->y - s->y;
-    switch (e->kind) {
-    case VIEW_PRESS:
-        s->x = e->x;
-        s->y = e->y;
-        s->is_held = true;
-        s->button = e->button;
-        s->held_modifiers = e->modifiers;
-        s->divider.is_dragged = e->button == VIEW_LEFT_BUTTON &&
-                                view_divider_is_at(&s->divider, e->x, s->width, 8.0 * (double)s->scale);
-        return false;
-    case VIEW_RELEASE:
-        s->is_held = s->is_held && e->button != s->button;
-        s->divider.is_dragged = s->divider.is_dragged && s->is_held;
-        return false;
-    case VIEW_MOVE:
-        s->x = e->x;
-        s->y = e->y;
-        if (!s->is_held || !s->scene || (dx == 0.0 && dy == 0.0))
-            return false;
-        if (s->divider.is_dragged)
-            view_divider_drag(&s->divider, e->x, s->width);
-        else
-            drag(s, dx, dy, s->held_modifiers);
-        return true;
-    case VIEW_SCROLL:
-        if (s->scene)
-            scroll(s, e);
-        return s->scene != NULL;
-    default:
-        return false;
-    }
 }
 
 /* ---- time, and the picture ---- */
@@ -520,8 +114,10 @@ facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t 
     desc.width = desc.crop[2] = width;
     desc.height = desc.crop[3] = height;
     desc.pose = s->pose;
+    desc.pose.time_s = round(s->pose.time_s * 1e4) / 1e4;
+    facet_orbit orbit = view_camera_round(&s->orbit);
     *camera = s->camera == VIEW_NO_CAMERA
-                  ? view_camera_of(&s->orbit, (float)width / (float)height, s->low, s->high)
+                  ? view_camera_of(&orbit, (float)width / (float)height, s->low, s->high)
                   : s->file_camera;
     desc.camera = camera;
     return desc;

@@ -108,6 +108,52 @@ static void keys_without_a_model(void **state)
     assert_false(view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 10.0}));
 }
 
+static void what_does_nothing_is_said(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    s.counts.lights = 0;
+    s.counts.image_lights = 0;
+    press(&s, "k");
+    assert_non_null(strstr(s.message, "it has none"));
+    press(&s, "s");
+    assert_non_null(strstr(s.message, "there is no light"));
+    s.render.sun.illuminance_lux[1] = 1.0f;
+    press(&s, "s");
+    assert_null(strstr(s.message, "there is no light"));
+}
+
+/* H goes through the pages, as many as the window made of them, and then away. */
+static void help_has_pages(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    press(&s, "h");
+    assert_int_equal(s.help_page, 1);
+    s.help_pages = 3;
+    press(&s, "h");
+    press(&s, "h");
+    assert_int_equal(s.help_page, 3);
+    press(&s, "h");
+    assert_int_equal(s.help_page, 0);
+}
+
+/* Whole labels, within the window, wherever the border is. */
+static void labels_are_not_cut(void **state)
+{
+    (void)state;
+    const int widths[2] = {150, 120};
+    for (int border = 0; border <= 480; border++) {
+        int x[2];
+        bool is_narrow = view_divider_labels(border, 480, 12, widths, x);
+        assert_true(x[0] >= 12 && x[0] + widths[0] <= 468 && x[1] >= 12 && x[1] + widths[1] <= 468);
+        assert_true(is_narrow || x[0] + widths[0] < x[1]);
+        assert_true(is_narrow == (border < 174 || border > 336));
+    }
+}
+
 static void channels_and_path_tracing_exclude_each_other(void **state)
 {
     (void)state;
@@ -164,6 +210,33 @@ static void the_divider_is_taken_where_it_is(void **state)
     assert_true(orbit.azimuth_rad != s.orbit.azimuth_rad);
 }
 
+/* Keys for views are at the distance that frames the model from there, whatever was before. */
+static void views_show_the_whole_model(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"1", "Ctrl+1", "3", "Ctrl+3", "7", "Ctrl+7", "9", "Enter"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        view_state s;
+        facet_camera fitted;
+        begin(&s);
+        press(&s, keys[i]);
+        assert_int_equal(view_state_frame(&s, 2.0f, NULL), FACET_OK);
+        facet_orbit wanted = scene_orbit_default();
+        wanted.azimuth_rad = s.orbit.azimuth_rad;
+        wanted.polar_rad = s.orbit.polar_rad;
+        assert_int_equal(scene_fit_orbit(scene, &s.pose, &wanted, 2.0f, &fitted, NULL), FACET_OK);
+        double distance2 = 0.0;
+        for (int k = 0; k < 3; k++)
+            distance2 += pow((double)fitted.eye[k] - (double)fitted.target[k], 2.0);
+        assert_true(fabs((double)s.orbit.radius - sqrt(distance2)) < 1e-5);
+        view_state_point(&s, &(view_event){.kind = VIEW_SCROLL, .y = 1.0});
+        float nearer = s.orbit.radius;
+        view_state_follow_motion(&s); /* what a hand has set stays */
+        assert_int_equal(view_state_frame(&s, 2.0f, NULL), FACET_OK);
+        assert_true(s.orbit.radius == nearer);
+    }
+}
+
 /* The two sides differ in what the comparison is about, and in nothing else. */
 static void sides_differ_in_one_thing(void **state)
 {
@@ -192,9 +265,13 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(keys_go_around),
                                        cmocka_unit_test(what_is_not_there_is_said),
                                        cmocka_unit_test(keys_without_a_model),
+                                       cmocka_unit_test(what_does_nothing_is_said),
+                                       cmocka_unit_test(help_has_pages),
+                                       cmocka_unit_test(labels_are_not_cut),
                                        cmocka_unit_test(channels_and_path_tracing_exclude_each_other),
                                        cmocka_unit_test(the_pointer_moves_what_it_holds),
                                        cmocka_unit_test(the_divider_is_taken_where_it_is),
+                                       cmocka_unit_test(views_show_the_whole_model),
                                        cmocka_unit_test(sides_differ_in_one_thing)};
     return cmocka_run_group_tests(tests, make_scene, drop_scene);
 }

@@ -176,7 +176,10 @@ static facet_result fail_glfw(const view_window *w, const char *what, facet_erro
 {
     const char *why = NULL;
     w->glfw.get_error(&why);
-    return fail(error, FACET_ERROR_ENVIRONMENT, "window: %s (%s)", what, why ? why : "GLFW says no more");
+    size_t length = why ? strlen(why) : 0;
+    while (length && why[length - 1] == ' ') /* behind which a name was to stand */
+        length--;
+    return fail(error, FACET_ERROR_ENVIRONMENT, "window: %s (%.*s)", what, (int)length, why ? why : "");
 }
 
 /* OpenGL 3.3, else ES 3.0. */

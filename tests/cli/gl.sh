@@ -46,6 +46,17 @@ __EGL_VENDOR_LIBRARY_FILENAMES=/none "$facet" render model.gltf -o cpu.png $smal
 [ "$code" = 0 ] || failed "the preview needs OpenGL"
 rm cpu.png
 
+# libEGL alone.
+mkdir shadow
+for library in libGL.so.1 libOpenGL.so.0; do
+    echo 'not a library' >shadow/$library
+done
+code=0
+LD_LIBRARY_PATH="$work/shadow${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$facet" render model.gltf -o none.png $small --renderer gl >out 2>err || code=$?
+[ "$code" = 8 ] || failed "exit code $code, not 8, without libGL"
+says "OpenGL: "
+[ ! -e none.png ] || failed "a picture without libGL"
+
 # What belongs to it says so with another renderer, and the other way round.
 for option in --shadows '--transparency peeled' '--bloom 0.1' '--channel normal' '--brdf schlick-ggx'; do
     expect 2 render model.gltf -o no.png $small $option
@@ -124,6 +135,13 @@ done
 expect 7 render model.gltf -o late.png --size 2000 --renderer gl --time-limit 0.000001s
 says "the time limit (--time-limit) was reached"
 [ ! -e late.png ] || failed "a picture of no time"
+long="render -o long.png --size 4000 --samples 4096 --renderer gl"
+expect 7 $long --time-limit 1s
+says "long.png: the time limit (--time-limit) was reached"
+code=0
+timeout --preserve-status -k 20 -s TERM 1 "$facet" $long >out 2>err || code=$?
+[ "$code" = 75 ] || failed "exit code $code, not 75, by SIGTERM"
+[ ! -e long.png ] || failed "a part of a picture"
 expect 0 render model.gltf -o one.png $small --renderer gl --json
 grep -q '"width": 48' out || failed "no report"
 expect 0 render model.gltf -o dark.png $small --renderer gl --env none

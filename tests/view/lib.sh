@@ -58,7 +58,8 @@ differ() {
     ! "$facet" compare "$1" "$2" --max mae=0.002 -q >/dev/null 2>&1 || failed "$1 and $2 are alike"
 }
 
-# rendered PICTURE FILE [MOST]: the last command that was printed, run as it is by a shell, writes FILE, which is the same.
+# rendered PICTURE FILE [MOST]: the last command that was printed, run as it is by a shell, writes FILE, which is the same to the
+# last bit, or within MOST.
 rendered() {
     tail -1 out | grep '^facet render ' >command || {
         failed "no command was printed"
@@ -69,5 +70,5 @@ rendered() {
         facet() { "$program" "$@"; }
         . ./command
     ) >/dev/null 2>err || failed "the printed command fails: $(cat command)"
-    same "$1" "$2" "${3:-}"
+    same "$1" "$2" "${3:-0}"
 }

@@ -38,7 +38,7 @@ key 0
 key Shift+F
 picture right.png
 END
-view
+view --orbit 0,75,105% # near, so that both differ in many pixels
 differ left.png right.png
 # columns 47 and 48 are the border's
 for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do
@@ -46,5 +46,23 @@ for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do
     "$facet" compare "${side%%:*}.png" "${side##*:}.png" --crop "${crop%:*}" --max max=0.004 -q >compared 2>&1 ||
         failed "the $side side is another picture: $(cat compared)"
 done
+
+# what does not come in time ends the script, and so does what cannot be written
+cat >script <<'END'
+load
+key r
+trace 0 1.5
+close
+END
+expect 7 view triangle.gltf --script script $size
+says "script: line 3: the path traced picture ("
+says "of 4096 samples) did not come within 1.5 s"
+cat >script <<'END'
+load
+picture nowhere/picture.png
+close
+END
+expect 6 view triangle.gltf --script script $size
+says "nowhere/picture.png"
 
 finish

@@ -61,7 +61,7 @@ view --sun 30,45
 differ base_color.png gl.png
 grep -q -- '--channel base-color' out || failed "no channel in $(cat out)"
 rendered gl.png facet.png
-for word in '--brdf multiscatter' '--energy conserving' '--transparency peeled' --shadows '--bloom 0.05' '--ground shadow'; do
+for word in '--brdf multiscatter' '--energy conserving' '--transparency peeled' --shadows '--bloom 0.04' '--ground shadow'; do
     grep -qF -- "$word" command || failed "no $word in $(cat command)"
 done
 head -1 out >channel
@@ -83,6 +83,8 @@ grep -q -- "--camera 0" command || failed "the camera is not in $(cat command)"
 # ---- what is laid over it ----
 cat >script <<'END'
 load
+window hint.png
+size 1000 800
 wait 20
 window bare.png
 key h
@@ -92,14 +94,52 @@ key h
 window again.png
 key z
 window values.png
+key z
+size 480 360
+key h
+window page1.png
+key h
+window page2.png
+size 160 120
+wait 20
+window tiny.png
 END
 view triangle.gltf
 if "$facet" plot -o plot.png >/dev/null 2>&1; then # letters are cairo's
     differ bare.png help.png
     differ bare.png values.png
+    differ page1.png page2.png # letters stay as large as they can be read
+    "$facet" compare page1.png page2.png --max mae=0.5 -q >/dev/null 2>&1 || failed "the second page is no help"
 fi
 same bare.png under.png
 same bare.png again.png
+
+# the environments go around, and each says its name; where there is none the window says what is missing, nobody else
+cat >script <<'END'
+load
+wait 20
+window neutral.png
+key e
+load
+window white.png
+wait 20
+key Shift+e
+load
+key Shift+e
+load
+wait 1
+window none.png
+wait 20
+window dark.png
+print
+END
+view triangle.gltf
+grep -q -- '--env none' out || failed "none is not the last environment: $(cat out)"
+[ ! -s err ] || failed "what the window says stands elsewhere, too: $(cat err)"
+if "$facet" plot -o plot.png >/dev/null 2>&1; then
+    differ neutral.png white.png
+    differ none.png dark.png
+fi
 
 # ---- files ----
 mkdir models
@@ -163,6 +203,13 @@ says "there is no .glb, .gltf or .obj file in it"
 echo "dance" >wrong
 expect 2 view --script wrong
 says 'wrong: line 1: there is no "dance"'
+expect 2 view --script - <wrong
+says 'line 1: there is no "dance"'
+echo close | expect 0 view --script - $size
+expect 2 render -n 4097 -o many.png
+says "--samples"
+expect 0 render $small --renderer gl -o driver.png -v
+says "OpenGL: "
 expect 2 view --renderer preview
 says "gl or path"
 
@@ -184,6 +231,47 @@ END
 view triangle.gltf
 rendered wide.png triangle.png
 same wide.png same.png
+
+# ---- what moves is framed in all of its motion, whether it is asked for at the start or later ----
+sed 's/"scene":0,/"scene":0,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":1,"output":2}]}],/
+    s/"max":.1,1,0.}\],/"max":[1,1,0]},{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"}],/
+    s/"byteLength":36}\],/"byteLength":36},{"buffer":1,"byteLength":8},{"buffer":1,"byteOffset":8,"byteLength":24}],/
+    s/"buffers":\[/&{},/' triangle.gltf >moving.gltf
+sed -i 's/{},\(.*\)}\]}$/\1},{"byteLength":32,"uri":"data:application\/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAEBAAAAAAAAAAAA="}]}/' moving.gltf
+cat >script <<'END'
+load
+print
+key w
+key Space
+print
+key w
+print
+key 9
+print
+wait 1
+key Enter
+print
+END
+view moving.gltf
+sed -n 's/.*--orbit \([^ ]*\).*/\1/p' out >orbits
+[ "$(sed -n 1p orbits)" = "$(sed -n 3p orbits)" ] && [ "$(sed -n 4p orbits)" = "$(sed -n 5p orbits)" ] &&
+    [ "$(sed -n 1p orbits)" != "$(sed -n 2p orbits)" ] || failed "distances: $(cat orbits)"
+sed -n 2p orbits >moving
+printf 'load\nprint\n' >script
+view moving.gltf --animation 0
+grep -q -- "--orbit $(cat moving) " out || failed "another distance with --animation than with a key: $(cat out)"
+
+# A picture never takes the place of what it shows; a script without a step is one.
+cp triangle.gltf shown.gltf
+printf 'load\npicture shown.gltf\n' >script
+code=0
+timeout 60 "$program" view shown.gltf $size --script script >out 2>err || code=$?
+[ "$code" = 2 ] || failed "exit code $code, not 2, of a picture over its model"
+cmp -s triangle.gltf shown.gltf || failed "the model was overwritten"
+printf '# nothing\n' >script
+code=0
+timeout 60 "$program" view shown.gltf $size --script script >out 2>err || code=$?
+[ "$code" = 0 ] || failed "exit code $code of a script without steps"
 
 # ---- what models bring: motion, variants, their own light ----
 if [ -d "$data/models" ]; then
@@ -211,6 +299,9 @@ END
     rendered shoe.png MaterialsVariantsShoe.png
     differ first.png shoe.png
     grep -q -- '--variant 1' command || failed "no variant in $(cat command)"
+    printf 'load\nkey Shift+Tab\nprint\n' >script
+    view "$data/models/materials/MaterialsVariantsShoe.glb" # whose variant 0 is its default
+    grep -q -- '--variant 1' out || failed "the sides are alike: $(cat out)"
 else
     echo "FACET_TEST_DATA names no folder with models: animations and variants were not looked at"
 fi

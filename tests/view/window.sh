@@ -9,6 +9,7 @@ write_triangle triangle.gltf
     unset DISPLAY
     expect 8 view triangle.gltf
     says "window: there is no display"
+    grep -q ' )' err && failed "a stray blank: $(cat err)"
     [ "$(wc -l <err)" = 1 ] || failed "more than a sentence: $(cat err)"
     exit $status
 ) || status=1

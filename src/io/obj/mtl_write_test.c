@@ -1,5 +1,6 @@
 /* mtl_write_test.c - what is written of materials comes back; glTF materials to the bit. */
 #define _POSIX_C_SOURCE 200809L
+#include "base/test_effort.h"
 #include "io/obj/mtl_test_support.h"
 
 #include <stdio.h>
@@ -435,7 +436,7 @@ static void memory_may_run_out(void **state)
     const char *const names[] = {"one.png", "two.png"};
     char *written = write_mtl(scene, names, NULL);
     bool is_done = false;
-    for (long fail_at = 0; !is_done; fail_at++) {
+    for (long fail_at = 0; !is_done; fail_at = next_failure(fail_at)) {
         assert_true(fail_at < 1000);
         failing_allocator f = {.fail_at = fail_at};
         const facet_scene_save_desc desc = {.allocator = failing_allocator_get(&f)};

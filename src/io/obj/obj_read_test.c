@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/failing_allocator.h"
+#include "base/test_effort.h"
 #include "io/obj/obj_test_support.h"
 
 #define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -409,7 +410,7 @@ static void test_memory_runs_out(void **state)
         "v 2 2 2 1 0 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1 2 3 4\nf 1 2 3 4 5\nl 1 2\np 3\ns 1\n"
         "f 1 3 4\nf 9 9 9\nvp 1\n#MRGB ff00ff00\nl 1 2\n";
     bool is_done = false;
-    for (long at = 0; !is_done; at++) {
+    for (long at = 0; !is_done; at = next_failure(at)) {
         failing_allocator failing = {.fail_at = at};
         const facet_scene_desc desc = {.allocator = failing_allocator_get(&failing), .thread_count = 1};
         facet_scene *scene = NULL;
