@@ -272,7 +272,7 @@ facet_result render_by_gl(gl_renderer *gl, const facet_render_desc *desc, facet_
     *image = NULL;
     facet_render_desc resolved;
     facet_renderer borrowed = {.gl = gl}; /* nothing is prepared beside what gl has */
-    facet_result result = resolve(desc, &resolved, error);
+    facet_result result = render_desc_resolve(desc, &resolved, error);
     return result == FACET_OK ? render_image(&borrowed, &resolved, image, error) : result;
 }
 
