@@ -313,6 +313,11 @@ typedef struct facet_pose_desc {
 FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *pose, float minimum[3],
                                       float maximum[3]);
 
+/* Moves what the default scene draws: puts a node above its roots with that matrix (columns, as in glTF; the last row is 0 0 0 1),
+ * or changes that of the node that an earlier call has put there. Skins go along. Not while others use the scene.
+ * FACET_ERROR_ARGUMENT: not such a matrix; _MEMORY: the scene is as it was. */
+FACET_API facet_result facet_scene_place(facet_scene *scene, const float matrix[16], facet_error *error);
+
 /* How a model is written. {0}. */
 typedef struct facet_scene_save_desc {
     facet_allocator allocator;
@@ -756,6 +761,20 @@ typedef struct facet_image_view {
 FACET_API uint32_t facet_image_get_layer_count(const facet_image *image);
 FACET_API facet_image_view facet_image_get_layer(const facet_image *image, uint32_t layer);
 FACET_API void facet_image_destroy(facet_image *image); /* NULL is allowed */
+
+/* Developed pictures of one size side by side, row by row, as they are for a display. {0}: as square as it goes, no labels. */
+typedef struct facet_contact_sheet_desc {
+    facet_allocator allocator;
+    facet_log log;
+    uint32_t column_count; /* 0: as many as make it square */
+    uint32_t gap;          /* pixels between pictures; 0: 4 */
+    const char *const *
+        labels; /* UTF-8, one per picture, below it; NULL: none. Without cairo they are left out, with a warning */
+} facet_contact_sheet_desc;
+/* FACET_ERROR_ARGUMENT: sizes differ, or the sheet is larger than 65536 pixels; _MEMORY. */
+FACET_API facet_result facet_image_create_sheet(const facet_image *const *images, uint32_t count,
+                                                const facet_contact_sheet_desc *desc /* NULL: {0} */,
+                                                facet_image **sheet, facet_error *error);
 
 /* How a picture is read from a file. {0}: with malloc, all threads. */
 typedef struct facet_image_load_desc {

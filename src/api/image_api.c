@@ -6,6 +6,7 @@
 #include "film/film_image.h"
 #include "image/image.h"
 #include "image/srgb.h"
+#include "report/contact_sheet.h"
 
 #include <string.h>
 #include <strings.h>
@@ -33,6 +34,30 @@ void facet_image_destroy(facet_image *picture)
         return;
     film_destroy(&picture->film);
     mem_free(picture);
+}
+
+facet_result facet_image_create_sheet(const facet_image *const *images, uint32_t count,
+                                      const facet_contact_sheet_desc *desc, facet_image **sheet,
+                                      facet_error *error)
+{
+    const facet_contact_sheet_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    *sheet = NULL;
+    facet_image *made = mem_zalloc(&desc->allocator, 1, sizeof *made);
+    const film **films = mem_alloc(&desc->allocator, count ? count : 1, sizeof *films);
+    facet_result result = FACET_OK;
+    if (!made || !films)
+        result = fail_memory(error, "sheet", count * sizeof *films);
+    for (uint32_t i = 0; i < count && films; i++)
+        films[i] = &images[i]->film;
+    if (result == FACET_OK)
+        result = contact_sheet_create(films, count, desc, &made->film, error);
+    mem_free(films);
+    if (result != FACET_OK)
+        mem_free(made);
+    else
+        *sheet = made;
+    return result;
 }
 
 float facet_linear_from_srgb(float encoded)

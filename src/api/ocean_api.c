@@ -213,7 +213,7 @@ facet_result facet_sea_create_mesh(const facet_sea *sea, const facet_sea_mesh_de
 /* ---- pictures ---- */
 
 static const float EYE_M = 3.0f, CLEARANCE_M = 1.0f, FOV_RAD = 0.61f, /* a lens of 38 mm */
-    DIP_RAD = 0.07f;
+    DIP_RAD = 0.07f, CLEAR_AIR = 1.55f;                               /* turbidity, as water_sky.c has it */
 
 facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad)
 {
@@ -241,15 +241,62 @@ static facet_result check_look(const facet_sea_look *look, facet_error *error)
     return FACET_OK;
 }
 
-static facet_result resolve_sea(const facet_sea_render_desc *desc, facet_sea_render_desc *out,
-                                facet_error *error)
+static facet_result resolve_sea(const facet_scene *scene, const facet_sea_render_desc *desc,
+                                facet_sea_render_desc *out, facet_error *error)
 {
+    static const facet_sea_look physical = {.before = FACET_SEA_PHYSICAL};
     *out = *desc;
+    facet_integrator integrator = desc->render.integrator;
     facet_result result = check_look(&desc->look, error);
-    if (result == FACET_OK && desc->render.integrator != FACET_INTEGRATOR_PREVIEW)
-        result = fail(error, FACET_ERROR_ARGUMENT, "sea: integrator %d does not draw it",
-                      (int)desc->render.integrator);
+    if (result == FACET_OK && integrator == FACET_INTEGRATOR_PATH &&
+        (scene || memcmp(&desc->look, &physical, sizeof physical) != 0))
+        result = fail(error, FACET_ERROR_ARGUMENT, "sea: path tracing knows no looks and no model in it");
+    if (result == FACET_OK && integrator != FACET_INTEGRATOR_PATH && integrator != FACET_INTEGRATOR_PREVIEW)
+        result = fail(error, FACET_ERROR_ARGUMENT, "sea: integrator %d does not draw it", (int)integrator);
     return result == FACET_OK ? render_desc_resolve(&desc->render, &out->render, error) : result;
+}
+
+/* Vertices are closest below the eye, 7 cm apart, and the mesh ends where its waves are a fraction of a pixel. */
+static facet_result trace_mesh(const facet_sea *sea, const facet_sea_render_desc *d, facet_image **image,
+                               facet_error *error)
+{
+    const facet_sea_mesh_desc mesh = {
+        .allocator = d->render.allocator,
+        .size_m = 20000.0f,
+        .samples = 1024,
+        .center_m = {(double)d->render.camera->eye[0], (double)d->render.camera->eye[2]},
+        .refinement = 300.0f};
+    facet_scene *scene = NULL;
+    facet_environment *sky = NULL;
+    facet_render_desc r = d->render;
+    facet_result result = sea_mesh_create(sea, &mesh, &scene, error);
+    if (result == FACET_OK && !r.environment) {
+        facet_sky_desc desc = d->sky;
+        desc.turbidity = desc.turbidity > 0.0f ? desc.turbidity : CLEAR_AIR;
+        const facet_environment_desc made = {
+            .allocator = r.allocator, .log = r.log, .thread_count = r.thread_count};
+        result = facet_environment_create_sky(&desc, &made, &sky, error);
+        r.environment = sky;
+    }
+    r.background = FACET_BACKGROUND_ENVIRONMENT;
+    r.pose = (facet_pose_desc){0};
+    if (result == FACET_OK)
+        result = facet_render(scene, &r, image, error);
+    facet_environment_destroy(sky);
+    facet_scene_destroy(scene);
+    return result;
+}
+
+static facet_result draw(const facet_sea *sea, const facet_scene *scene, const facet_sea_render_desc *d,
+                         facet_image *image, facet_error *error)
+{
+    const facet_render_desc *r = &d->render;
+    facet_result result = film_create(&r->allocator, r->crop[2], r->crop[3], 0, &image->film, error);
+    if (result == FACET_OK)
+        result = water_render(sea, scene, d, &image->film, &image->stats, error);
+    if (result == FACET_OK)
+        film_develop(&image->film, r->tonemap, NULL, r->thread_count);
+    return result;
 }
 
 facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
@@ -258,25 +305,23 @@ facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
     const facet_sea_render_desc defaults = {0};
     *image = NULL;
     facet_sea_render_desc d;
-    facet_result result = resolve_sea(desc ? desc : &defaults, &d, error);
+    facet_result result = resolve_sea(scene, desc ? desc : &defaults, &d, error);
     if (result != FACET_OK)
         return result;
     const facet_camera camera = facet_sea_camera(sea, 0.0f, d.sky.sun_azimuth_rad);
     if (!d.render.camera)
         d.render.camera = &camera;
+    if (d.render.integrator == FACET_INTEGRATOR_PATH)
+        return trace_mesh(sea, &d, image, error);
     facet_image *made = mem_zalloc(&d.render.allocator, 1, sizeof *made);
     if (!made)
         return fail_memory(error, "image", sizeof *made);
-    result = film_create(&d.render.allocator, d.render.crop[2], d.render.crop[3], 0, &made->film, error);
+    result = draw(sea, scene, &d, made, error);
     if (result == FACET_OK)
-        result = water_render(sea, scene, &d, &made->film, &made->stats, error);
-    if (result != FACET_OK) {
+        *image = made;
+    else
         facet_image_destroy(made);
-        return result;
-    }
-    film_develop(&made->film, d.render.tonemap, NULL, d.render.thread_count);
-    *image = made;
-    return FACET_OK;
+    return result;
 }
 
 facet_result facet_sea_meter(const facet_sea_render_desc *desc, double *ev100, facet_error *error)

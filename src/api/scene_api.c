@@ -174,6 +174,11 @@ facet_animation facet_scene_get_animation(const facet_scene *scene, uint32_t ind
         .name = animation->name, .begin_s = (double)animation->begin_s, .end_s = (double)animation->end_s};
 }
 
+facet_result facet_scene_place(facet_scene *scene, const float matrix[16], facet_error *error)
+{
+    return scene_place(scene, matrix, error);
+}
+
 facet_result facet_scene_save(const facet_scene *scene, const char *path, const facet_scene_save_desc *desc,
                               facet_error *error)
 {

@@ -5,6 +5,7 @@
 #include "cli/command_line.h"
 
 int cmd_render(command_line *c);
+int cmd_ocean(command_line *c);
 int cmd_view(command_line *c);
 int cmd_bake(command_line *c);
 int cmd_convert(command_line *c);

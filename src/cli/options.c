@@ -56,7 +56,7 @@ static const verb help_verb = {
     .summary = "explain facet or one of its commands",
     .arguments = "[COMMAND]",
     .max_arguments = 1,
-    .words = WORDS("render", "view", "bake", "convert", "inspect", "plot", "compare", "shaders", "version",
+    .words = WORDS("render", "ocean", "view", "bake", "convert", "inspect", "plot", "compare", "shaders", "version",
                    "help", "exit-codes"),
     .description = "Prints what facet --help or facet COMMAND --help print; exit-codes explains those.",
     .examples = (const example[]){{"facet help render", "all options of render"},
@@ -65,7 +65,7 @@ static const verb help_verb = {
     .groups = (const option_group *const[]){&help_group, NULL},
 };
 
-const verb *const verbs[] = {&render_verb,  &view_verb, &bake_verb,    &convert_verb,
+const verb *const verbs[] = {&render_verb, &ocean_verb, &view_verb, &bake_verb,    &convert_verb,
                              &inspect_verb, &plot_verb, &compare_verb, &shaders_verb,
                              &version_verb, &help_verb, NULL};
 
@@ -89,7 +89,7 @@ static bool is_among(const char *name, const char *const *words)
 
 bool verb_is_planned(const char *name)
 {
-    return is_among(name, WORDS("ocean", "batch", "serve", "merge"));
+    return is_among(name, WORDS("batch", "serve", "merge"));
 }
 
 bool option_is_planned(const char *name)

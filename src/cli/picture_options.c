@@ -95,10 +95,11 @@ facet_result picture_options_format(const command_line *c, render_options *out, 
 
 /* ---- size ---- */
 
-facet_result picture_options_size(const command_line *c, render_options *out, facet_error *error)
+facet_result picture_options_size(const command_line *c, const char *otherwise, render_options *out,
+                                  facet_error *error)
 {
     facet_render_desc *d = &out->desc;
-    if (!value_size(option_text(c, OPT_SIZE, "1024x768"), &d->width, &d->height))
+    if (!value_size(option_text(c, OPT_SIZE, otherwise), &d->width, &d->height))
         return option_fail(
             c, OPT_SIZE,
             "WIDTHxHEIGHT in pixels such as 640x480, or one number for a square; the most are 65536", error);

@@ -8,8 +8,9 @@
 
 facet_result picture_options_output(const command_line *c, render_options *out, facet_error *error);
 facet_result picture_options_format(const command_line *c, render_options *out, facet_error *error);
-/* --size, --crop. */
-facet_result picture_options_size(const command_line *c, render_options *out, facet_error *error);
+/* --size (otherwise: where it is not given), --crop. */
+facet_result picture_options_size(const command_line *c, const char *otherwise, render_options *out,
+                                  facet_error *error);
 /* --exposure, as stops. */
 facet_result picture_options_exposure(const command_line *c, render_options *out, facet_error *error);
 /* --tone-mapping (otherwise: where nothing is given and the file is for a display), --quality, --jpeg-quality, --png-compression. */

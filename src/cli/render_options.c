@@ -18,6 +18,11 @@
 
 /* ---- picture ---- */
 
+static facet_result read_size(const command_line *c, render_options *out, facet_error *error)
+{
+    return picture_options_size(c, "1024x768", out, error);
+}
+
 static facet_result read_background(const command_line *c, render_options *out, facet_error *error)
 {
     const char *text = option_text(c, OPT_BACKGROUND, "white");
@@ -166,7 +171,7 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
     facet_result (*const readers[])(const command_line *, render_options *,
                                     facet_error *) = {picture_options_output,
                                                       picture_options_format,
-                                                      picture_options_size,
+                                                      read_size,
                                                       read_background,
                                                       read_aovs,
                                                       read_look,

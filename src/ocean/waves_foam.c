@@ -181,12 +181,16 @@ static double mean_square(const float *values, size_t count)
     return sum / (double)count;
 }
 
-/* Heights at time 0, with a variance of 1. */
+/* Heights at time 0, each wave over its length (which makes the lace as fine as the waves are), with a variance of 1. */
 static void make_lace(const waves *w, workspace *s, uint32_t tile, foam_plane *lace)
 {
     const wave_amplitudes *a = w->amplitudes[tile];
     for (size_t i = 0; i < a->count; i++) {
-        wave_mode_at(&a->modes[i], 0.0, s->pair.coefficients[i][0], NULL);
+        const wave_mode *m = &a->modes[i];
+        float n = sqrtf((float)(m->n_x * m->n_x + m->n_z * m->n_z));
+        wave_mode_at(m, 0.0, s->pair.coefficients[i][0], NULL);
+        s->pair.coefficients[i][0][0] *= n;
+        s->pair.coefficients[i][0][1] *= n;
         s->pair.coefficients[i][1][0] = s->pair.coefficients[i][1][1] = 0.0f;
     }
     s->pair.tile = tile;
@@ -279,6 +283,21 @@ static float share_at(const waves_foam *f, double x, double z, float footprint_m
     return fminf(fmaxf(sum, 0.0f), 1.0f);
 }
 
+/* What the share is multiplied by from place to place, 1 on average: (p + 1) Phi(M)^p of a Gaussian field M three times as wide as the
+ * lace, with the p up to 3 that leaves all shares below 1. Lines break where it is small, and run together where it is not. */
+static float thickness_at(const waves_foam *f, double x, double z, float footprint_m, float share)
+{
+    static const double WIDER = 0.37;
+    const wave_tile *t = &f->w->tiles[f->lace_tiles[0]];
+    double u = x * t->cos_per_m + z * t->sin_per_m, v = z * t->cos_per_m - x * t->sin_per_m;
+    foam_plane_value m = foam_plane_read(&f->lace[0], -WIDER * v, WIDER * u,
+                                         footprint_m * (float)(WIDER * (double)t->samples_per_m));
+    float power = fminf(3.0f, 1.0f / share - 1.0f);
+    float below = 0.5f * erfcf(-0.70710678f * m.mean);
+    float hidden = fminf(m.hidden, 1.0f);
+    return (1.0f - hidden) * (power + 1.0f) * powf(below, power) + hidden;
+}
+
 float waves_foam_at(const waves_foam *f, double x, double z, float footprint_m)
 {
     if (!f->share.level_count)
@@ -286,6 +305,7 @@ float waves_foam_at(const waves_foam *f, double x, double z, float footprint_m)
     float share = share_at(f, x, z, footprint_m);
     if (share <= 1e-4f || share >= 0.999f)
         return share;
+    share = fminf(share * thickness_at(f, x, z, footprint_m, share), 0.999f);
     float mean = 0.0f, hidden = 0.0f, scale = 1.0f / sqrtf((float)f->lace_count);
     for (uint32_t i = 0; i < f->lace_count; i++) {
         const wave_tile *t = &f->w->tiles[f->lace_tiles[i]];

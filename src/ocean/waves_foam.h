@@ -6,7 +6,7 @@
  *
  * Which place of the longest tile breaks is known by its own waves' convergence and, for the shorter waves, as a probability; the
  * amount is a share of the area around. Within that area old foam lies in lace: along the lines where a Gaussian field, that of
- * the shorter waves as they were at time 0, is near 0; the more the wider. */
+ * the shorter waves as they were at time 0, is near 0; the more the wider, and here thin, there thick. */
 #ifndef OCEAN_WAVES_FOAM_H
 #define OCEAN_WAVES_FOAM_H
 

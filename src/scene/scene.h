@@ -347,6 +347,7 @@ typedef struct facet_scene {
     const char **variants; /* KHR_materials_variants: names */
     scene_root *scenes;
     scene_meta meta, asset_meta; /* of the root object: xmp packets; of "asset" */
+    bool is_placed;              /* the default scene has one root, the last node, which facet_scene_place() made */
     uint32_t default_scene;      /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
     const char **warnings; /* what log got while reading */
@@ -378,6 +379,8 @@ void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ..
 /* Looks up scene->materials[index], or the default material for SCENE_NONE. */
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index);
 
+/* facet_scene_place(). */
+facet_result scene_place(facet_scene *scene, const float matrix[16], facet_error *error);
 /* facet_scene_create_builtin(), facet_scene_get_counts(), facet_scene_describe_json(). */
 facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **out, facet_error *error);
 facet_scene_counts scene_count(const facet_scene *scene);

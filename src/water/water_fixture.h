@@ -17,6 +17,7 @@
 typedef struct shot {
     facet_camera camera;
     facet_sea_render_desc desc;
+    const facet_scene *scene; /* in the sea; NULL: none */
     film film;
     facet_render_stats stats;
 } shot;
@@ -55,7 +56,7 @@ static inline facet_result try_shot(const facet_sea *sea, shot *s, facet_error *
     film_destroy(&s->film);
     if (film_create(&r->allocator, r->crop[2], r->crop[3], 0, &s->film, error) != FACET_OK)
         return FACET_ERROR_MEMORY;
-    return water_render(sea, NULL, &s->desc, &s->film, &s->stats, error);
+    return water_render(sea, s->scene, &s->desc, &s->film, &s->stats, error);
 }
 
 static inline void draw_shot(const facet_sea *sea, shot *s)

@@ -58,9 +58,11 @@ static void test_handover(void **state)
     facet_sea_desc d = sea_default();
     d.fetch_m = 100000.0f;
     facet_sea *sea = make_sea(&d);
-    static const view views[] = {{300.0f, 0.7f, 0.3f, 0.7f},       {300.0f, 0.7f, 3.14159265f, 0.7f},
-                                 {300.0f, 0.25f, 1.2f, 0.4f},      {3e3f, 0.9f, 1.2f, 0.2f},
-                                 {10e3f, 0.7f, 3.14159265f, 0.1f}, {10e3f, 0.45f, 3.14159265f, 0.7f}};
+    static const view views[] = {{300.0f, 0.7f, 0.3f, 0.7f},
+                                 {300.0f, 0.7f, 3.14159265f, 0.7f},
+                                 {300.0f, 0.25f, 1.2f, 0.4f},
+                                 {10e3f, 0.7f, 3.14159265f, 0.1f},
+                                 {10e3f, 0.45f, 3.14159265f, 0.7f}};
     for (size_t i = 0; i < sizeof views / sizeof *views; i++)
         compare_view(sea, &views[i]);
     sea_destroy(sea);

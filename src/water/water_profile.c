@@ -187,45 +187,75 @@ static uint32_t first_row(const float *tangents, uint32_t count, float tangent)
     return low;
 }
 
-/* Beyond the last row there are no waves any more. */
-static bool find_flat(const water_profile *p, const march_ray *ray, double from, march_hit *hit)
+/* How fast a ray comes down to the level of still water, over the level. */
+static double level_closing(const water_profile *p, const march_ray *ray, double t)
 {
-    const float still[2] = {0.0f, 0.0f};
-    double f, t = water_march_reach(p->march, ray, 0.0, fmax(from, ray->near_m));
-    if (!(t <= ray->far_m && t < HUGE_VAL))
-        return false;
-    *hit = water_march_hit_at(p->march, ray, t, still, &f);
-    return true;
+    double level = sqrt(ray->direction[0] * ray->direction[0] + ray->direction[2] * ray->direction[2]);
+    return fmax(fabs(march_rise(p->march, ray, t)) / fmax(level, 1e-6), 1e-3);
 }
 
-bool water_profile_find(const water_profile *p, const march_ray *ray, march_hit *hit)
+static bool march_there(const water_profile *p, const march_ray *ray, profile_place *out)
+{
+    march_hit hit;
+    bool is_met = water_march_find(p->march, ray, &hit);
+    *out = (profile_place){.t = hit.t, .closing = is_met ? level_closing(p, ray, hit.t) : 1.0};
+    return is_met;
+}
+
+/* Beyond the last row there are no waves any more. */
+static bool look_flat(const water_profile *p, const march_ray *ray, double from, profile_place *out)
+{
+    *out =
+        (profile_place){.t = water_march_reach(p->march, ray, 0.0, fmax(from, ray->near_m)), .closing = 1.0};
+    return out->t <= ray->far_m && out->t < HUGE_VAL;
+}
+
+bool water_profile_look(const water_profile *p, const march_ray *ray, profile_place *out)
 {
     const double *d = ray->direction;
-    double level = hypot(d[0], d[2]);
+    double level = sqrt(d[0] * d[0] + d[2] * d[2]);
     double column = turned(atan2(d[2], d[0]), p->first_azimuth) * p->columns_per_rad + 0.5;
     column = column < 0.0 ? column + 2.0 * PI_D * p->columns_per_rad : column;
     if (!p->tangents || level < STEEPEST_LEVEL || !(column < (double)p->column_count))
-        return water_march_find(p->march, ray, hit);
+        return march_there(p, ray, out);
     const float *tangents = p->tangents + (size_t)column * p->row_count;
     double slope = d[1] / level * (p->is_below ? -1.0 : 1.0);
     uint32_t row = first_row(tangents, p->row_count, (float)slope);
     if (row == 0)
-        return water_march_find(p->march, ray, hit);
+        return march_there(p, ray, out);
     if (row == p->row_count)
-        return find_flat(p, ray, distance_of(p, row - 1.0) / level, hit);
+        return look_flat(p, ray, distance_of(p, row - 1.0) / level, out);
     double near_r = distance_of(p, row - 1.0), far_r = distance_of(p, row);
-    double near_f = near_r * (slope - (double)tangents[row - 1]),
-           far_f = far_r * (slope - (double)tangents[row]);
-    double share = near_f / fmax(near_f - far_f, 1e-12), r = near_r + (far_r - near_r) * share;
+    double near_f = near_r * (slope - (double)tangents[row - 1]);
+    double far_f = far_r * (slope - (double)tangents[row]);
+    double share = near_f / fmax(near_f - far_f, 1e-12);
+    *out = (profile_place){.t = (near_r + (far_r - near_r) * share) / level,
+                           .closing = fmax((near_f - far_f) / (far_r - near_r), 1e-3),
+                           .slack_m = (far_r - near_r) / level};
+    if (out->t < ray->near_m)
+        return march_there(p, ray, out);
+    return out->t <= ray->far_m;
+}
+
+march_hit water_profile_correct(const water_profile *p, const march_ray *ray, const profile_place *place)
+{
     const float still[2] = {0.0f, 0.0f};
-    double f, t = r / level;
-    if (!(t >= ray->near_m && t <= ray->far_m))
-        return t < ray->near_m ? water_march_find(p->march, ray, hit) : false;
-    *hit = water_march_hit_at(p->march, ray, t, still, &f);
-    double closing = (near_f - far_f) / (far_r - near_r);
-    double more = fmin(fmax(f / fmax(closing, 1e-3), near_r - far_r), far_r - near_r) / level;
-    hit->t = t + more;
-    hit->X += more * d[0];
-    hit->Z += more * d[2];
+    double f, level = hypot(ray->direction[0], ray->direction[2]);
+    march_hit hit = water_march_hit_at(p->march, ray, place->t, still, &f);
+    if (place->slack_m > 0.0) {
+        double more = fmin(fmax(f / (place->closing * level), -place->slack_m), place->slack_m);
+        hit.t += more;
+        hit.X += more * ray->direction[0];
+        hit.Z += more * ray->direction[2];
+    }
+    return hit;
+}
+
+bool water_profile_find(const water_profile *p, const march_ray *ray, march_hit *hit)
+{
+    profile_place place;
+    if (!water_profile_look(p, ray, &place))
+        return false;
+    *hit = water_profile_correct(p, ray, &place);
     return true;
 }

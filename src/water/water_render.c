@@ -29,15 +29,10 @@ typedef struct picture {
 
 static void draw_pixel(const picture *p, uint32_t x, uint32_t y)
 {
-    vec3 sum = vec3(0.0f);
-    for (uint32_t i = 0; i < p->sample_count; i++) {
-        uint32_t random = hash_uint(hash_uint(y * 65536u + x) + i);
-        sum = sum +
-              water_trace(p->setup, (float)x + p->pattern[2 * i], (float)y + p->pattern[2 * i + 1], random);
-    }
+    vec3 L = water_trace_pixel(p->setup, x, y, p->pattern, p->sample_count);
     float *rgba = p->pixels + 4 * ((size_t)(y - p->crop[1]) * p->crop[2] + (x - p->crop[0]));
     for (int i = 0; i < 3; i++)
-        rgba[i] = sum[i] / (float)p->sample_count;
+        rgba[i] = L[i];
     rgba[3] = 1.0f;
 }
 

@@ -100,6 +100,8 @@ static void test_threads(void **state)
     shot one, three;
     make_shot(&one, 50, 70, 3.0f, 0.1f);
     make_shot(&three, 50, 70, 3.0f, 0.1f);
+    light_by_picture(&one);
+    light_by_picture(&three);
     one.desc.render.thread_count = 1;
     three.desc.render.thread_count = 3;
     draw_shot(sea, &one);
@@ -111,6 +113,8 @@ static void test_threads(void **state)
     for (uint32_t y = 0; y < part[3]; y++)
         assert_memory_equal(shot_pixel(&three, 0, y), shot_pixel(&one, part[0], part[1] + y),
                             part[2] * 4 * sizeof(float));
+    facet_environment_destroy(one.desc.render.environment);
+    facet_environment_destroy(three.desc.render.environment);
     film_destroy(&one.film);
     film_destroy(&three.film);
     sea_destroy(sea);

@@ -1,5 +1,6 @@
 /* water_trace.c - see water_trace.h. */
 #include <math.h>
+#include <stddef.h>
 
 #include "water/water_trace.h"
 
@@ -7,23 +8,25 @@
 #include "water/water_look.h"
 
 static const double FAR_M = 1e7;
+enum { MOST_GROUPED = 16 };
 
 /* A sample on its way. */
 typedef struct sample {
     const water_setup *s;
     float x, y;
+    float footprint; /* over that of a pixel */
     uint32_t random;
     march_ray ray;
     vec3 d;
 } sample;
 
-static sample begin(const water_setup *s, float x, float y, uint32_t random)
+static sample begin(const water_setup *s, float x, float y, float footprint, uint32_t random)
 {
     float o[3], d[3];
     camera_rays_at(&s->camera, x, y, o, d);
     double length =
         (sqrt)((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
-    sample p = {.s = s, .x = x, .y = y, .random = random};
+    sample p = {.s = s, .x = x, .y = y, .footprint = footprint, .random = random};
     p.ray.near_m = (double)s->camera.near_m * length;
     p.ray.far_m = fmin((double)s->camera.far_m * length, FAR_M);
     p.ray.is_below = s->is_below;
@@ -33,9 +36,9 @@ static sample begin(const water_setup *s, float x, float y, uint32_t random)
         p.d[i] = (float)p.ray.direction[i];
     }
     if (s->camera.is_orthographic)
-        p.ray.width = s->camera.pixel_size * s->footprint;
+        p.ray.width = s->camera.pixel_size * footprint;
     else
-        p.ray.spread = s->camera.pixel_size * s->footprint / (float)length;
+        p.ray.spread = s->camera.pixel_size * footprint / (float)length;
     return p;
 }
 
@@ -131,7 +134,7 @@ static vec3 from_above(const sample *p, bool is_met, const march_hit *sea)
         water_model_is_dry(&s->model,
                            (const double[3]){sea->X, p->ray.origin[1] + t * p->ray.direction[1], sea->Z});
     double far_m = is_dry ? FAR_M : fmin(land, t);
-    if (water_model_find_seen(&s->model, p->x, p->y, s->footprint, far_m, p->random, &hit))
+    if (water_model_find_seen(&s->model, p->x, p->y, p->footprint, far_m, p->random, &hit))
         return through_air(p, water_model_radiance(&s->model, &hit, s->light.L), hit.distance_m,
                            (double)hit.P[1]);
     if (land < HUGE_VAL)
@@ -148,25 +151,130 @@ static vec3 from_below(const sample *p, bool is_met, const march_hit *sea)
     const water_setup *s = p->s;
     model_hit hit;
     double far_m = is_met ? sea->t : FAR_M;
-    if (!water_model_find_seen(&s->model, p->x, p->y, s->footprint, far_m, p->random, &hit))
+    if (!water_model_find_seen(&s->model, p->x, p->y, p->footprint, far_m, p->random, &hit))
         return water_shade_from_below(s, &p->ray, is_met ? sea : NULL);
     vec3 down = water_transmittance(water_K_d(s->water), max(-hit.P[1], 0.0f));
     vec3 L = water_model_radiance(&s->model, &hit, s->light.L) * down;
     return water_behind_water(s, L, p->ray.origin, p->d, (float)hit.distance_m);
 }
 
-vec3 water_trace(const water_setup *s, float x, float y, uint32_t random)
+/* ---- pixels ---- */
+
+static vec3 exposed(const water_setup *s, vec3 L)
 {
-    sample p = begin(s, x, y, random);
+    float most = s->desc->look.clamp;
+    L = L * s->exposure;
+    return most > 0.0f ? min(L, most) : L;
+}
+
+static vec3 shade(const sample *p, bool is_met, const march_hit *sea)
+{
+    const water_setup *s = p->s;
+    if (!water_look_is_before(&s->desc->look))
+        return exposed(s, (p->ray.is_below ? from_below : from_above)(p, is_met, sea));
+    if (!is_met)
+        return water_look_sky(p->d);
+    water_place place = water_place_of(s, &p->ray, sea);
+    return water_look_shade(s, &place, p->d);
+}
+
+static vec3 trace(const water_setup *s, float x, float y, float footprint, uint32_t random)
+{
+    sample p = begin(s, x, y, footprint, random);
     march_hit sea;
     bool is_met = water_profile_find(&s->profile, &p.ray, &sea);
-    if (water_look_is_before(&s->desc->look)) {
-        if (!is_met)
-            return water_look_sky(p.d);
-        water_place place = water_place_of(s, &p.ray, &sea);
-        return water_look_shade(s, &place, p.d);
+    return shade(&p, is_met, &sea);
+}
+
+/* Samples of a pixel that meet one piece of water, or nothing. */
+typedef struct group {
+    bool is_met;
+    float x, y;          /* sums over the samples */
+    profile_place place; /* of the first; t: sum */
+    uint32_t count;
+} group;
+
+/* Whether t is in the piece of water that a pixel shows at the place of a group: within what it covers of a slope. */
+static bool is_one_piece(const group *g, const profile_place *place, float pixel)
+{
+    double t = g->place.t / g->count, closing = fmin(g->place.closing, place->closing);
+    return fabs(place->t - t) < t * (double)pixel * (1.5 + 1.5 / fmax(closing, 0.03));
+}
+
+static bool joins(const water_setup *s, const group *g, bool is_met, const profile_place *place)
+{
+    if (g->is_met != is_met)
+        return false;
+    return !is_met || is_one_piece(g, place, s->camera.pixel_size);
+}
+
+static vec3 shade_group(const water_setup *s, const group *g, uint32_t count)
+{
+    float n = (float)g->count;
+    sample p = begin(s, g->x / n, g->y / n, sqrt(n / (float)count), 0);
+    march_hit sea = {.t = 0.0};
+    if (g->is_met) {
+        profile_place place = g->place;
+        place.t /= g->count;
+        sea = water_profile_correct(&s->profile, &p.ray, &place);
     }
-    vec3 L = (p.ray.is_below ? from_below : from_above)(&p, is_met, &sea) * s->exposure;
-    float most = s->desc->look.clamp;
-    return most > 0.0f ? min(L, most) : L;
+    return shade(&p, g->is_met, &sea);
+}
+
+/* A disc has an edge that a sample may show. */
+static bool is_near_sun(const water_setup *s, vec3 d)
+{
+    vec3 off = d - s->sky.L;
+    float reach = s->sky.disc_radius + 2.0f * s->camera.pixel_size;
+    return s->sky.disc_radius > 0.0f && dot(off, off) < reach * reach;
+}
+
+static bool can_group(const water_setup *s, uint32_t count)
+{
+    bool has_land = water_has_bed(s) && s->sea->desc.bed.slope > 0.0f;
+    return count > 1 && count <= MOST_GROUPED && s->desc->render.quality != FACET_QUALITY_FINAL &&
+           !s->is_below && !s->model.is_there && !has_land && !s->camera.is_orthographic;
+}
+
+static vec3 trace_grouped(const water_setup *s, float x, float y, const float *pattern, uint32_t count)
+{
+    group groups[MOST_GROUPED];
+    uint32_t group_count = 0;
+    vec3 sum = vec3(0.0f);
+    for (uint32_t i = 0; i < count; i++) {
+        float px = x + pattern[2 * i], py = y + pattern[2 * i + 1];
+        sample p = begin(s, px, py, s->footprint, 0);
+        profile_place place = {.t = 0.0, .closing = 1.0};
+        bool is_met = water_profile_look(&s->profile, &p.ray, &place);
+        if (!is_met && is_near_sun(s, p.d)) {
+            sum = sum + shade(&p, false, NULL);
+            continue;
+        }
+        uint32_t k = 0;
+        while (k < group_count && !joins(s, &groups[k], is_met, &place))
+            k++;
+        if (k == group_count)
+            groups[group_count++] = (group){.is_met = is_met, .place = {.closing = place.closing}};
+        group *g = &groups[k];
+        g->x += px;
+        g->y += py;
+        g->place.t += place.t;
+        g->place.slack_m = fmax(g->place.slack_m, place.slack_m);
+        g->count++;
+    }
+    for (uint32_t k = 0; k < group_count; k++)
+        sum = sum + shade_group(s, &groups[k], count) * (float)groups[k].count;
+    return sum * (1.0f / (float)count);
+}
+
+vec3 water_trace_pixel(const water_setup *s, uint32_t x, uint32_t y, const float *pattern, uint32_t count)
+{
+    if (can_group(s, count))
+        return trace_grouped(s, (float)x, (float)y, pattern, count);
+    vec3 sum = vec3(0.0f);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t random = hash_uint(hash_uint(y * 65536u + x) + i);
+        sum = sum + trace(s, (float)x + pattern[2 * i], (float)y + pattern[2 * i + 1], s->footprint, random);
+    }
+    return sum * (1.0f / (float)count);
 }

@@ -1,0 +1,305 @@
+/* cmd_ocean.c - facet ocean: pictures, maps and meshes of a sea. */
+#include "cli/commands.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/failure.h"
+#include "cli/interrupt.h"
+#include "cli/memory_limit.h"
+#include "cli/ocean_report.h"
+#include "cli/ocean_run.h"
+#include "cli/output.h"
+#include "cli/output_name.h"
+#include "cli/preset.h"
+#include "cli/render_names.h"
+#include "cli/render_report.h"
+#include "cli/video.h"
+
+/* All that a run writes. */
+typedef struct ocean_output {
+    ocean_run *run;
+    video *video;  /* NULL: files */
+    json_t *files; /* NULL: nobody asked for JSON */
+} ocean_output;
+
+static void tell(ocean_output *o, const picture_report *report)
+{
+    report_picture(&o->run->messages, report, false);
+    if (o->files)
+        json_array_append_new(o->files, report_picture_json(report));
+}
+
+/* Whether a file is to be left as it is, which is then said. */
+static bool is_kept(ocean_output *o, const char *name)
+{
+    const render_options *p = &o->run->options.picture;
+    if (!p->keeps_existing || o->video || p->is_stdout || !output_exists(name))
+        return false;
+    tell(o, &(picture_report){.model = "sea", .output = name, .is_kept = true});
+    return true;
+}
+
+/* ---- pictures ---- */
+
+static facet_result write_picture(ocean_output *o, const facet_image *image, const char *name,
+                                  facet_error *error)
+{
+    const render_options *p = &o->run->options.picture;
+    facet_save_desc save = p->save;
+    save.allocator = o->run->allocator;
+    return o->video ? video_add(o->video, image, &o->run->allocator, p->limits.thread_count, error)
+                    : output_write(image, name, &save, error);
+}
+
+static facet_result make_picture(ocean_output *o, uint32_t index, const char *name, facet_error *error)
+{
+    ocean_run *run = o->run;
+    const ocean_options *options = &run->options;
+    double start = interrupt_clock();
+    facet_image *image = NULL;
+    ocean_step step = {name, index, options->picture.frames.frame_count};
+    facet_result result = options->sweep ? ocean_sweep(run, name, &image, error)
+                                         : ocean_run_draw(run, options, step, &image, error);
+    double drawn = interrupt_clock();
+    if (result == FACET_OK)
+        result = write_picture(o, image, name, error);
+    if (result == FACET_OK) {
+        facet_image_view view = facet_image_get_layer(image, 0);
+        static const uint32_t samples[] = {4, 1, 16}, path_samples[] = {64, 16, 512}; /* of facet_quality */
+        const facet_render_desc *d = &options->picture.desc;
+        bool is_path = d->integrator == FACET_INTEGRATOR_PATH;
+        picture_report report = {.model = "sea",
+                                 .output = name,
+                                 .width = view.width,
+                                 .height = view.height,
+                                 .samples = d->samples ? d->samples
+                                            : is_path  ? path_samples[d->quality]
+                                                       : samples[d->quality],
+                                 .stats = facet_image_get_render_stats(image),
+                                 .save_s = interrupt_clock() - drawn,
+                                 .total_s = interrupt_clock() - start};
+        tell(o, &report);
+    }
+    facet_image_destroy(image);
+    return result;
+}
+
+/* ---- meshes ---- */
+
+static facet_result make_mesh(ocean_output *o, const char *name, facet_error *error)
+{
+    ocean_run *run = o->run;
+    facet_sea_mesh_desc desc = run->options.mesh;
+    desc.allocator = run->allocator;
+    facet_scene *scene = NULL;
+    facet_result result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
+    const facet_scene_save_desc save = {.allocator = run->allocator, .log = messages_log(&run->messages)};
+    if (result == FACET_OK)
+        result = facet_scene_save(scene, name, &save, error);
+    if (result == FACET_OK) {
+        message_at(&run->messages, VERBOSITY_DETAILS, "%s: written", name);
+        if (o->files)
+            json_array_append_new(o->files, json_pack("{s:o}", "output", report_string_json(name)));
+    }
+    facet_scene_destroy(scene);
+    return result;
+}
+
+/* ---- maps ---- */
+
+/* A folder, or a pattern with a place for the tile's number. */
+static facet_result map_name(const char *maps, uint32_t tile, char *name, size_t size, facet_error *error)
+{
+    char pattern[RENDER_NAME_SIZE];
+    size_t length = strlen(maps);
+    bool fits = length + 16 < sizeof pattern;
+    if (fits)
+        snprintf(pattern, sizeof pattern,
+                 output_name_has_frame(maps)         ? "%s"
+                 : length && maps[length - 1] == '/' ? "%stile_##.exr"
+                                                     : "%s/tile_##.exr",
+                 maps);
+    return fits && output_name_expand(pattern, "sea", tile, name, size)
+               ? FACET_OK
+               : fail_with(error, FACET_ERROR_ARGUMENT, "--maps: the names are too long");
+}
+
+static facet_result make_maps(ocean_output *o, facet_error *error)
+{
+    ocean_run *run = o->run;
+    facet_result result = FACET_OK;
+    uint32_t count = facet_sea_get_info(run->sea).tile_count;
+    if (!count)
+        message_at(&run->messages, VERBOSITY_NORMAL, "--maps: the sea is flat and has none");
+    for (uint32_t tile = 0; tile < count && result == FACET_OK; tile++) {
+        char name[RENDER_NAME_SIZE];
+        facet_image *image = NULL;
+        result = map_name(run->options.maps, tile, name, sizeof name, error);
+        if (result == FACET_OK && is_kept(o, name))
+            continue;
+        if (result == FACET_OK)
+            result = output_check(name, error);
+        if (result == FACET_OK)
+            result = facet_sea_create_maps(run->sea, tile, &run->allocator, &image, error);
+        const facet_save_desc save = {.allocator = run->allocator,
+                                      .format = FACET_FORMAT_EXR_FLOAT,
+                                      .thread_count = run->options.picture.limits.thread_count};
+        if (result == FACET_OK)
+            result = output_write(image, name, &save, error);
+        if (result == FACET_OK && o->files)
+            json_array_append_new(o->files, json_pack("{s:o}", "output", report_string_json(name)));
+        facet_image_destroy(image);
+    }
+    return result;
+}
+
+/* ---- the run ---- */
+
+static facet_result set_moment(ocean_output *o, uint32_t number, facet_error *error)
+{
+    ocean_run *run = o->run;
+    const render_options *p = &run->options.picture;
+    double time = p->has_time ? p->time_s : ((double)number - 1.0) / p->fps;
+    facet_result result = facet_sea_set_time(run->sea, time, error);
+    return result == FACET_OK && run->model ? ocean_float_place(run, error) : result;
+}
+
+static facet_result make_frames(ocean_output *o, facet_error *error)
+{
+    ocean_run *run = o->run;
+    const render_options *p = &run->options.picture;
+    facet_result result = FACET_OK;
+    for (uint32_t i = 0; i < p->frames.frame_count && result == FACET_OK; i++) {
+        uint32_t number = frame_list_at(&p->frames, i);
+        char name[RENDER_NAME_SIZE];
+        result = render_name(p, "sea", number, name, sizeof name, error);
+        if (result != FACET_OK || is_kept(o, name))
+            continue;
+        if (interrupt_signal())
+            return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
+        if (!o->video)
+            result = output_check(name, error);
+        if (result == FACET_OK)
+            result = set_moment(o, number, error);
+        if (result == FACET_OK)
+            result = run->options.has_mesh ? make_mesh(o, name, error) : make_picture(o, i, name, error);
+        messages_flush(&run->messages);
+    }
+    return result;
+}
+
+/* Where it is looked at by information and maps: the first moment. */
+static facet_result make_all(ocean_output *o, facet_error *error)
+{
+    ocean_run *run = o->run;
+    const ocean_options *options = &run->options;
+    facet_result result =
+        set_moment(o, options->picture.has_frames ? frame_list_at(&options->picture.frames, 0) : 1, error);
+    if (result == FACET_OK && options->has_info && !is_given(run->line, OPT_JSON))
+        ocean_report_print(run);
+    if (result == FACET_OK && options->maps)
+        result = make_maps(o, error);
+    if (result != FACET_OK || !options->picture.output)
+        return result;
+    if (options->picture.video)
+        result = video_open(options->picture.output, options->picture.video, options->picture.fps, &o->video,
+                            error);
+    if (result == FACET_OK)
+        result = make_frames(o, error);
+    facet_result closed = video_close(o->video, result == FACET_OK, error);
+    return result == FACET_OK ? closed : result;
+}
+
+static facet_result load_environment(ocean_run *run, facet_error *error)
+{
+    const render_options *p = &run->options.picture;
+    environment_input input = p->environment;
+    if (!p->has_environment)
+        return FACET_OK;
+    if (input.kind == ENVIRONMENT_NONE) { /* no environment would be the sky */
+        facet_result result = environment_input_parse("--env", "constant:0", 0, &input, error);
+        if (result != FACET_OK)
+            return result;
+    }
+    const facet_environment_desc desc = {.allocator = run->allocator,
+                                         .log = messages_log(&run->messages),
+                                         .thread_count = p->limits.thread_count,
+                                         .cache_folder = p->environment_cache};
+    if (!p->environment_cache) /* the cache writes files */
+        interrupt_begin_reading(environment_input_name(&input));
+    facet_result result = environment_input_load(&input, &desc, &run->environment, error);
+    interrupt_set_safe(NULL);
+    return result;
+}
+
+static facet_result begin(ocean_run *run, command_line *c, config *storage, facet_error *error)
+{
+    ocean_options *o = &run->options;
+    facet_result result = config_apply(c, storage, error);
+    if (result == FACET_OK)
+        result = ocean_options_read(c, o, error);
+    if (result == FACET_OK && o->picture.output && !o->picture.has_frames)
+        result = render_names_check(c, &o->picture, error);
+    if (result == FACET_OK)
+        result = facet_budget_create(o->picture.limits.max_memory_bytes, &run->budget, error);
+    if (result != FACET_OK)
+        return result;
+    run->allocator = facet_budget_allocator(run->budget);
+    run->messages.verbosity = messages_verbosity(c);
+    run->progress = progress_choose(option_choice(c, OPT_PROGRESS, 0), is_given(c, OPT_QUIET));
+    interrupt_set_deadline(o->picture.limits.time_limit_s);
+    if (o->has_picture)
+        result = load_environment(run, error);
+    if (result == FACET_OK && o->model)
+        result = ocean_float_load(run, error);
+    return result == FACET_OK ? ocean_run_set_sea(run, o, error) : result;
+}
+
+static void print_json(const ocean_run *run, json_t *files, double start, const facet_error *error,
+                       int exit_code)
+{
+    json_t *failures = json_array();
+    if (error->result != FACET_OK)
+        json_array_append_new(failures, report_error_json(error, NULL, exit_code));
+    json_t *root =
+        json_pack("{s:s, s:o, s:O, s:o, s:o, s:f, s:I, s:i}", "facet", facet_version(), "sea",
+                  run->sea ? ocean_report_json(run) : json_null(), "outputs", files, "failures", failures,
+                  "warnings", report_warnings_json(&run->messages), "seconds", interrupt_clock() - start,
+                  "peak_memory_bytes", (json_int_t)memory_peak(), "exit_code", exit_code);
+    report_print_json(root);
+    json_decref(root);
+}
+
+int cmd_ocean(command_line *c)
+{
+    double start = interrupt_clock();
+    ocean_run run = {.line = c};
+    ocean_output output = {.run = &run, .files = is_given(c, OPT_JSON) ? json_array() : NULL};
+    config storage = {0};
+    facet_error error = {0};
+    interrupt_install();
+    facet_result result = begin(&run, c, &storage, &error);
+    if (result == FACET_OK)
+        result = make_all(&output, &error);
+    messages_flush(&run.messages);
+    int exit_code = result != FACET_OK                                      ? exit_code_of(result)
+                    : run.messages.warning_count && is_given(c, OPT_STRICT) ? EXIT_NEGATIVE
+                                                                            : EXIT_DONE;
+    if (result != FACET_OK) {
+        bool is_ours = error.message[0] == '-' || strncmp(error.message, "ocean:", 6) == 0;
+        failure_complete(&error, "sea", run.options.picture.limits.max_memory_bytes);
+        if (result != FACET_ERROR_CANCELLED)
+            message_error("%s%s", is_ours ? "facet: " : "", error.message);
+    }
+    if (output.files)
+        print_json(&run, output.files, start, &error, exit_code);
+    json_decref(output.files);
+    facet_sea_destroy(run.sea);
+    facet_scene_destroy(run.model);
+    facet_environment_destroy(run.environment);
+    messages_clear(&run.messages);
+    facet_budget_destroy(run.budget);
+    config_destroy(&storage);
+    return result == FACET_ERROR_CANCELLED ? interrupt_exit() : exit_code;
+}

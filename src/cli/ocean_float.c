@@ -1,0 +1,133 @@
+/* ocean_float.c - a model that floats: it follows the plane that fits the water below it best. */
+#include "cli/ocean_run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/failure.h"
+#include "cli/input.h"
+#include "cli/interrupt.h"
+#include "cli/value.h"
+
+#define DEGREE 0.017453292519943295 /* pi / 180 */
+
+enum { GRID = 9 }; /* points along an edge of the footprint */
+
+/* MODEL[@X,Z[,HEADING]]; an @ before a file's extension is part of its name. */
+typedef struct berth {
+    char path[4096];
+    double numbers[3]; /* x, z in m; heading in degrees, from +Z towards +X */
+} berth;
+
+static facet_result read_berth(const ocean_run *run, berth *out, facet_error *error)
+{
+    const char *text = run->options.model, *at = strrchr(text, '@');
+    *out = (berth){.numbers = {0.0, 0.0, 0.0}};
+    if (at && !strpbrk(at, "./\\") && !strpbrk(at, "0123456789"))
+        at = NULL;
+    bool is_place = at && (value_numbers(at + 1, 2, out->numbers) || value_numbers(at + 1, 3, out->numbers));
+    size_t length = is_place ? (size_t)(at - text) : strlen(text);
+    if (length == 0 || length >= sizeof out->path || (at && !is_place && !strchr(at, '.')))
+        return option_fail(run->line, OPT_WITH, "MODEL, MODEL@X,Z or MODEL@X,Z,DEGREES", error);
+    memcpy(out->path, text, length);
+    return FACET_OK;
+}
+
+facet_result ocean_float_load(ocean_run *run, facet_error *error)
+{
+    berth b;
+    facet_result result = read_berth(run, &b, error);
+    if (result != FACET_OK)
+        return result;
+    const facet_scene_desc desc = {.allocator = run->allocator,
+                                   .log = messages_log(&run->messages),
+                                   .thread_count = run->options.picture.limits.thread_count,
+                                   .max_texture_size = run->options.picture.limits.max_texture_size};
+    interrupt_begin_reading(b.path);
+    result = input_load(b.path, &desc, &run->model, error);
+    interrupt_set_safe(NULL);
+    if (result != FACET_OK)
+        return result;
+    /* where it is, before it is put elsewhere */
+    if (!facet_scene_get_bounds(run->model, NULL, run->model_low, run->model_high))
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: there is nothing in it that floats", b.path);
+    return FACET_OK;
+}
+
+/* y = height + slope_x x + slope_z z over a grid around the origin of its axes. */
+typedef struct plane {
+    double height, slope_x, slope_z;
+} plane;
+
+static plane fit_plane(const double (*places)[2], const facet_sea_point *points, size_t count)
+{
+    double sum = 0.0, x_sum = 0.0, z_sum = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        sum += (double)points[i].height_m / (double)count;
+        x_sum += places[i][0] / (double)count;
+        z_sum += places[i][1] / (double)count;
+    }
+    double xx = 0.0, zz = 0.0, xz = 0.0, xy = 0.0, zy = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        double x = places[i][0] - x_sum, z = places[i][1] - z_sum, y = (double)points[i].height_m - sum;
+        xx += x * x, zz += z * z, xz += x * z, xy += x * y, zy += z * y;
+    }
+    double determinant = xx * zz - xz * xz;
+    if (!(determinant > 1e-12 * xx * zz)) /* it has no width */
+        return (plane){.height = sum};
+    plane p = {.slope_x = (xy * zz - zy * xz) / determinant, .slope_z = (zy * xx - xy * xz) / determinant};
+    p.height = sum - p.slope_x * x_sum - p.slope_z * z_sum;
+    return p;
+}
+
+/* Columns: heading about +Y, then what takes +Y to the plane's normal, then to its place. */
+static void matrix_of(const plane *p, const berth *b, float m[16])
+{
+    double c = cos(b->numbers[2] * DEGREE), s = sin(b->numbers[2] * DEGREE);
+    double length = sqrt(1.0 + p->slope_x * p->slope_x + p->slope_z * p->slope_z);
+    double n[3] = {-p->slope_x / length, 1.0 / length, -p->slope_z / length};
+    double k = 1.0 / (1.0 + n[1]);
+    const double tilt[3][3] = {{1.0 - k * n[0] * n[0], n[0], -k * n[0] * n[2]},
+                               {-n[0], n[1], -n[2]},
+                               {-k * n[0] * n[2], n[2], 1.0 - k * n[2] * n[2]}};
+    const double turn[3][3] = {{c, 0.0, s}, {0.0, 1.0, 0.0}, {-s, 0.0, c}};
+    const double to[3] = {b->numbers[0], p->height, b->numbers[1]};
+    for (int column = 0; column < 3; column++) {
+        for (int row = 0; row < 3; row++) {
+            double sum = 0.0;
+            for (int i = 0; i < 3; i++)
+                sum += tilt[row][i] * turn[i][column];
+            m[4 * column + row] = (float)sum;
+        }
+        m[4 * column + 3] = 0.0f;
+        m[12 + column] = (float)to[column];
+    }
+    m[15] = 1.0f;
+}
+
+facet_result ocean_float_place(const ocean_run *run, facet_error *error)
+{
+    berth b;
+    facet_result result = read_berth(run, &b, error);
+    if (result != FACET_OK)
+        return result;
+    double c = cos(b.numbers[2] * DEGREE), s = sin(b.numbers[2] * DEGREE);
+    double around[GRID * GRID][2], places[GRID * GRID][2];
+    facet_sea_point points[GRID * GRID];
+    const float *low = run->model_low, *high = run->model_high;
+    for (int i = 0; i < GRID * GRID; i++) {
+        double u = (double)(i % GRID) / (GRID - 1), v = (double)(i / GRID) / (GRID - 1);
+        double x = (double)low[0] + u * ((double)high[0] - (double)low[0]);
+        double z = (double)low[2] + v * ((double)high[2] - (double)low[2]);
+        around[i][0] = c * x + s * z;
+        around[i][1] = c * z - s * x;
+        places[i][0] = b.numbers[0] + around[i][0];
+        places[i][1] = b.numbers[1] + around[i][1];
+    }
+    facet_sea_get_points(run->sea, places[0], (size_t)GRID * GRID, points);
+    plane p = fit_plane((const double(*)[2])around, points, (size_t)GRID * GRID);
+    float matrix[16];
+    matrix_of(&p, &b, matrix);
+    return facet_scene_place(run->model, matrix, error);
+}

@@ -1,0 +1,14 @@
+/* ocean_report.h - what is known of a sea, for people and for programs. */
+#ifndef CLI_OCEAN_REPORT_H
+#define CLI_OCEAN_REPORT_H
+
+#include "cli/ocean_run.h"
+
+#include <jansson.h>
+
+/* Lines on standard output. */
+void ocean_report_print(const ocean_run *run);
+/* The same; NULL: no memory. */
+json_t *ocean_report_json(const ocean_run *run);
+
+#endif

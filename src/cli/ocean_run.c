@@ -1,0 +1,104 @@
+/* ocean_run.c - see ocean_run.h. */
+#include "cli/ocean_run.h"
+
+#include <string.h>
+
+#include "cli/failure.h"
+#include "cli/interrupt.h"
+
+facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error)
+{
+    facet_sea_desc desc = options->sea;
+    desc.allocator = run->allocator;
+    desc.log = messages_log(&run->messages);
+    facet_sea_destroy(run->sea);
+    return facet_sea_create(&desc, &run->sea, error);
+}
+
+static facet_camera camera_of(const ocean_run *run, const ocean_options *o)
+{
+    facet_camera camera = facet_sea_camera(run->sea, o->eye_height_m, o->heading_rad);
+    for (int i = 0; i < 3 && o->picture.has_eye; i++) {
+        camera.target[i] += o->picture.eye[i] - camera.eye[i];
+        camera.eye[i] = o->picture.eye[i];
+    }
+    if (o->has_target)
+        memcpy(camera.target, o->target, sizeof camera.target);
+    if (o->fov_y_rad > 0.0f)
+        camera.fov_y_rad = o->fov_y_rad;
+    return camera;
+}
+
+/* Relative to the meter, unless the exposure is given. */
+static facet_result expose(const ocean_options *o, facet_sea_render_desc *d, facet_error *error)
+{
+    double ev100 = o->ev100;
+    facet_result result = o->has_ev100 ? FACET_OK : facet_sea_meter(d, &ev100, error);
+    d->render.exposure_ev += facet_exposure_from_ev100(ev100);
+    return result;
+}
+
+static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea_look *look,
+                         facet_tonemap tonemap, progress *shown, facet_image **image, facet_error *error)
+{
+    const facet_camera camera = camera_of(run, o);
+    double left = interrupt_seconds_left();
+    if (left <= 0.0)
+        return fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached",
+                         shown->subject);
+    facet_sea_render_desc d = {.render = o->picture.desc, .sky = o->sky, .look = *look};
+    d.render.allocator = run->allocator;
+    d.render.log = messages_log(&run->messages);
+    d.render.camera = &camera;
+    d.render.environment = run->environment;
+    d.render.progress = progress_callback(shown);
+    d.render.tonemap = tonemap;
+    d.render.time_limit_s = left < 1e29 ? left : 0.0;
+    facet_result result = expose(o, &d, error);
+    if (result == FACET_OK)
+        result = facet_sea_render(run->sea, run->model, &d, image, error);
+    progress_clear();
+    return result;
+}
+
+/* Both halves, side by side; the look of before is for a display as it is. */
+static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *shown, facet_image **image,
+                              facet_error *error)
+{
+    facet_image *halves[2] = {NULL, NULL};
+    static const char *const labels[] = {"before", "now"};
+    facet_sea_look before = o->look, now = o->look;
+    now.before = FACET_SEA_PHYSICAL;
+    if (!before.before)
+        before.before = FACET_SEA_BEFORE_INTENDED;
+    before.stage = 0;
+    facet_result result = draw(run, o, &before, FACET_TONEMAP_NONE, shown, &halves[0], error);
+    facet_tonemap tonemap = o->look.before && !is_given(run->line, OPT_TONE_MAPPING)
+                                ? FACET_TONEMAP_AGX
+                                : o->picture.desc.tonemap;
+    if (result == FACET_OK)
+        result = draw(run, o, &now, tonemap, shown, &halves[1], error);
+    const facet_contact_sheet_desc sheet = {.allocator = run->allocator,
+                                            .log = messages_log(&run->messages),
+                                            .column_count = 2,
+                                            .gap = 2,
+                                            .labels = labels};
+    if (result == FACET_OK)
+        result = facet_image_create_sheet((const facet_image *const *)halves, 2, &sheet, image, error);
+    facet_image_destroy(halves[0]);
+    facet_image_destroy(halves[1]);
+    return result;
+}
+
+facet_result ocean_run_draw(ocean_run *run, const ocean_options *o, ocean_step step, facet_image **image,
+                            facet_error *error)
+{
+    progress shown = {.mode = run->progress,
+                      .subject = step.output,
+                      .start = interrupt_clock(),
+                      .done_before = (double)step.index / step.count,
+                      .share = 1.0 / step.count,
+                      .last_percent = -10};
+    return o->is_before_after ? draw_both(run, o, &shown, image, error)
+                              : draw(run, o, &o->look, o->picture.desc.tonemap, &shown, image, error);
+}

@@ -1,0 +1,43 @@
+/* ocean_run.h - what a run of facet ocean holds, and how its pictures are made. */
+#ifndef CLI_OCEAN_RUN_H
+#define CLI_OCEAN_RUN_H
+
+#include "cli/messages.h"
+#include "cli/ocean_options.h"
+#include "cli/progress.h"
+
+/* {0}. */
+typedef struct ocean_run {
+    const command_line *line;
+    ocean_options options;
+    messages messages;
+    progress_mode progress;
+    facet_budget *budget;
+    facet_allocator allocator;
+    facet_environment *environment; /* NULL: the sky */
+    facet_sea *sea;
+    facet_scene *model;                /* NULL: none */
+    float model_low[3], model_high[3]; /* where it is before it floats */
+} ocean_run;
+
+/* How far a picture is, of all. */
+typedef struct ocean_step {
+    const char *output;
+    uint32_t index, count;
+} ocean_step;
+
+/* Makes the sea of options, in place of the one before. */
+facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error);
+
+/* One picture of the sea as it is, developed: with --before-after a sheet of two. */
+facet_result ocean_run_draw(ocean_run *run, const ocean_options *options, ocean_step step,
+                            facet_image **image, facet_error *error);
+
+/* --sweep: sheets of pictures over one or two options. Leaves another sea. */
+facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image, facet_error *error);
+
+/* Reads --with, and floats it on the sea as it is. */
+facet_result ocean_float_load(ocean_run *run, facet_error *error);
+facet_result ocean_float_place(const ocean_run *run, facet_error *error);
+
+#endif

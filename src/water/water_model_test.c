@@ -1,0 +1,176 @@
+/* water_model_test.c - a sphere in and over still water: its mirror image, its shadow, what it looks like below, where it keeps water out; and memory
+ * that runs out. */
+#include "water/water_fixture.h"
+
+#include "base/failing_allocator.h"
+#include "cpu/preview_fixture.h"
+#include "water/water_setup.h"
+
+static const float black[3] = {0.0f, 0.0f, 0.0f};
+
+/* A sphere of radius 1 that shines with 1000 cd/m^2 and reflects nothing. */
+static fixture shining_sphere(float x, float y, float z)
+{
+    fixture f = fixture_create();
+    scene_material material = scene_material_default();
+    material.base_color[0] = material.base_color[1] = material.base_color[2] = 0.0f;
+    material.emissive[0] = material.emissive[1] = material.emissive[2] = 1.0f;
+    material.emissive_strength = 1000.0f;
+    fixture_place(&f, fixture_add_sphere(&f, 96, fixture_add_material(&f, material)), x, y, z, 1.0f);
+    return f;
+}
+
+static facet_sea *still_sea(void)
+{
+    facet_sea_desc d = sea_default();
+    d.wind_mps = 0.0f;
+    d.resolution = 32;
+    return make_sea(&d);
+}
+
+/* In the dark, unless there is a sun. */
+static void make_dark_shot(shot *s, uint32_t size, float eye_m, float down_rad, const facet_scene *scene)
+{
+    make_shot(s, size, size, eye_m, down_rad);
+    s->scene = scene;
+    s->desc.render.energy = (facet_energy){0};
+    assert_int_equal(facet_environment_create_constant(black, NULL, &s->desc.render.environment, NULL),
+                     FACET_OK);
+}
+
+static void end_shot(shot *s)
+{
+    facet_environment_destroy(s->desc.render.environment);
+    film_destroy(&s->film);
+}
+
+static double fresnel(double c, double n)
+{
+    double g = (sqrt)(n * n + c * c - 1.0), a = (g - c) / (g + c),
+           b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
+    return 0.5 * a * a * (1.0 + b * b);
+}
+
+/* Half-way between the eye and the sphere, both 3 m over the water, it is mirrored at 45 degrees; straight on it is as bright as it is. */
+static void test_mirror(void **state)
+{
+    (void)state;
+    fixture f = shining_sphere(0.0f, 3.0f, -6.0f);
+    facet_sea *sea = still_sea();
+    shot s;
+    make_dark_shot(&s, 33, 3.0f, 0.78539816f, f.scene);
+    draw_shot(sea, &s);
+    double F = fresnel((sqrt)(0.5), (double)sea->optics.ior);
+    assert_true(fabs((double)shot_pixel(&s, 16, 16)[1] / (1000.0 * F) - 1.0) < 2e-3);
+    assert_true(shot_pixel(&s, 16, 32)[1] == 0.0f); /* under the eye there is but dark water */
+    s.camera.target[1] = 3.0f;
+    draw_shot(sea, &s);
+    assert_true(fabs((double)shot_pixel(&s, 16, 16)[1] / 1000.0 - 1.0) < 2e-3);
+    end_shot(&s);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
+/* Under water it gets darker, and red goes first. */
+static void test_depth(void **state)
+{
+    (void)state;
+    facet_sea *sea = still_sea();
+    float before[3] = {1e9f, 1e9f, 1e9f};
+    for (int k = 0; k < 3; k++) {
+        fixture f = shining_sphere(0.0f, -2.0f - 2.0f * (float)k, 0.0f);
+        shot s;
+        make_dark_shot(&s, 9, 3.0f, 1.5707963f, f.scene);
+        draw_shot(sea, &s);
+        const float *p = shot_pixel(&s, 4, 4);
+        assert_true(p[0] > 0.0f && p[0] < p[1] && p[1] < p[2]);
+        for (int i = 0; i < 3; i++) {
+            assert_true(p[i] < before[i]);
+            before[i] = p[i];
+        }
+        end_shot(&s);
+        fixture_destroy(&f);
+    }
+    sea_destroy(sea);
+}
+
+/* The sun's image in the water goes out where the sphere is before the sun. */
+static void test_shadow(void **state)
+{
+    (void)state;
+    facet_sea *sea = still_sea();
+    fixture f = shining_sphere(
+        0.0f, 10.0f,
+        -14.0f); /* 4 m beyond where the ray of 45 degrees is mirrored, and as far up as that asks */
+    float brightest[2];
+    for (int k = 0; k < 2; k++) {
+        shot s;
+        make_dark_shot(&s, 33, 4.0f, 0.78539816f, k ? f.scene : NULL);
+        s.camera.fov_y_rad = 0.03f;
+        s.desc.render.sun = (facet_sun){
+            .azimuth_rad = 3.14159265f, .elevation_rad = 0.78539816f, .illuminance_lux = {1e5f, 1e5f, 1e5f}};
+        draw_shot(sea, &s);
+        brightest[k] = scan_shot(&s, "the sun in the water");
+        end_shot(&s);
+    }
+    double disc = 1e5 / (3.14159265358979 * 0.00465305 * 0.00465305),
+           F = fresnel((sqrt)(0.5), (double)sea->optics.ior);
+    assert_true(fabs((double)brightest[0] / (F * disc) - 1.0) < 0.03);
+    assert_true((double)brightest[1] < 1e-3 * F * disc);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
+static void test_dry(void **state)
+{
+    (void)state;
+    fixture f = shining_sphere(0.0f, 0.0f, 0.0f);
+    facet_sea *sea = still_sea();
+    shot s;
+    water_setup setup;
+    make_dark_shot(&s, 8, 3.0f, 0.5f, f.scene);
+    s.desc.render.camera = &s.camera;
+    assert_int_equal(water_setup_create(sea, f.scene, &s.desc, &setup, &s.stats, NULL), FACET_OK);
+    assert_true(water_model_is_dry(&setup.model, (const double[3]){0.1, 0.0, 0.2}));
+    assert_false(
+        water_model_is_dry(&setup.model, (const double[3]){0.9, 0.0, 0.9})); /* within the box around it */
+    assert_false(water_model_is_dry(&setup.model, (const double[3]){3.0, 0.0, 0.0}));
+    water_setup_destroy(&setup);
+    end_shot(&s);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    fixture f = shining_sphere(0.0f, 0.0f, -6.0f);
+    facet_sea_desc d = sea_default();
+    d.resolution = 32;
+    facet_sea *sea = make_sea(&d);
+    int refused = 0;
+    for (long at = 0; at < 4000; at += 1 + at / 4) {
+        failing_allocator memory = {.fail_at = at};
+        shot s;
+        facet_error error;
+        make_dark_shot(&s, 4, 3.0f, 0.3f, f.scene);
+        s.desc.render.allocator = failing_allocator_get(&memory);
+        facet_result result = try_shot(sea, &s, &error);
+        assert_true(result == FACET_OK || result == FACET_ERROR_MEMORY);
+        refused += result == FACET_ERROR_MEMORY;
+        end_shot(&s);
+        assert_int_equal(atomic_load(&memory.blocks), 0);
+    }
+    assert_in_range(refused, 8, 100);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_mirror), cmocka_unit_test(test_depth),  cmocka_unit_test(test_shadow),
+        cmocka_unit_test(test_dry),    cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
