@@ -975,7 +975,9 @@ FN vec3 probe_water_place(int which, vec2 u)
     if (which == 118) {
         WaterFoam foam = water_foam_mix(0.2f * u[0], 0.5f * u[1]);
         return vec3(1.0f + foam_share(0.6f * u[0] - 0.1f, 0.01f + 0.05f * u[1], 0.4f),
-                    foam.share + foam.albedo, water_passing(C, light.L) + wave_jacobian(D));
+                    foam.share + foam.albedo + normal_below(3.0f * u[0] - 1.5f) +
+                        foam_lace(0.9f * u[0], u[1], 0.3f) + foam_thickness(0.05f + 0.9f * u[0], u[1], 0.2f),
+                    water_passing(C, light.L) + wave_jacobian(D));
     }
     vec3 down = water_refracted(w, -V, N);
     vec3 sunward = normalize(vec3(0.3f, 1.0f, 0.1f));
@@ -985,6 +987,7 @@ FN vec3 probe_water_place(int which, vec2 u)
            water_through(w, light.downwelling, vec3(3.0f), sunward, vec3(1.0f), 2.0f * u[0], -V,
                          4.0f * u[1]) +
            water_bed_below(w, light.downwelling, vec3(0.4f), u[0]) +
+           painted_water(light, N, V, 1.34f, 0.1f + u[0], painted_mirror(N, V)) +
            water_sun_through(w, C, light, normalize(light.L + 0.1f * u[0]), 0.5f);
 }
 

@@ -89,6 +89,13 @@ FN float water_passing(vec3 C, vec3 X)
 
 /* ---- foam ---- */
 
+/* Share of a normal distribution below z standard deviations. */
+FN float normal_below(float z)
+{
+    float tail = 0.5f * exp(-0.5f * z * z) * erfcx(abs(z) * 0.707106781f);
+    return sel(z < 0.0f, tail, 1.0f - tail);
+}
+
 /* Of a footprint whose water converges by `mean` with this variance, the share that breaks: where q is above the threshold. Areas are
  * seen from above, where water that converges has less of it: the mean Jacobian at q is 1 - q + (q^2 - sigma^2) / 4. */
 FN float foam_share(float mean, float variance, float threshold)
@@ -99,10 +106,26 @@ FN float foam_share(float mean, float variance, float threshold)
     float area = max(1.0f - mean, 0.02f); /* of the footprint's water */
     float z = (threshold - mean) / sigma;
     float density = exp(-0.5f * z * z);
-    float tail = 0.5f * density * erfcx(abs(z) * 0.707106781f);
-    tail = sel(z < 0.0f, 1.0f - tail, tail);
-    float covered = area * tail - sigma * 0.398942280f * density * (1.0f - 0.25f * sigma * z);
+    float covered = area * normal_below(-z) - sigma * 0.398942280f * density * (1.0f - 0.25f * sigma * z);
     return clamp(covered / area, 0.0f, 1.0f);
+}
+
+/* What an amount of old foam, (0, 1), is multiplied by from place to place, 1 on average: (p + 1) Phi(M)^p of a Gaussian field M, of
+ * which the footprint hides the variance `hidden`, with the p up to 3 that leaves all amounts below 1. */
+FN float foam_thickness(float share, float M, float hidden)
+{
+    float power = min(3.0f, 1.0f / share - 1.0f);
+    float rest = min(hidden, 1.0f);
+    return (1.0f - rest) * (power + 1.0f) * pow(normal_below(M), power) + rest;
+}
+
+/* Old foam lies along lines where a Gaussian field of variance 1 is near 0, in a band of it that holds the share, [0, 0.999]. How much of
+ * a footprint with that mean and variance of the field lies in it. */
+FN float foam_lace(float share, float mean, float variance)
+{
+    float z = inverse_normal(0.5f + 0.5f * share);
+    float scale = inversesqrt(max(variance, 1e-6f));
+    return normal_below((z - mean) * scale) + normal_below((z + mean) * scale) - 1.0f;
 }
 
 /* Share of a footprint under foam, of which shares are fresh and old; and albedo over that of fresh foam: old foam gets thin. Koepke

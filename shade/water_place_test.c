@@ -77,6 +77,25 @@ static void test_foam(void **state)
     assert_true(all.share == 1.0f && all.albedo == 1.0f);
 }
 
+/* Lace covers its share where nothing of the field is seen, and its mean over the field is that share. */
+static void test_lace(void **state)
+{
+    (void)state;
+    for (int i = 1; i < 10; i++) {
+        float share = 0.1f * (float)i;
+        double sum = 0.0, thickness = 0.0;
+        for (int k = 0; k < 4000; k++) {
+            double z = -6.0 + 12.0 * (k + 0.5) / 4000,
+                   density = (exp)(-0.5 * z * z) * 0.3989422804 * 12.0 / 4000;
+            sum += (double)foam_lace(share, (float)z, 0.0f) * density;
+            thickness += (double)foam_thickness(share, (float)z, 0.0f) * density;
+        }
+        expect_near((double)foam_lace(share, 0.0f, 1.0f), (double)share, 1e-4, "unseen, %d", i);
+        expect_near(sum, (double)share, 2e-3, "mean, %d", i);
+        expect_near(thickness, 1.0, 1e-3, "thickness, %d", i);
+    }
+}
+
 static void test_passing(void **state)
 {
     (void)state;
@@ -88,8 +107,8 @@ static void test_passing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_weights), cmocka_unit_test(test_normal),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_weights),   cmocka_unit_test(test_normal),
                                        cmocka_unit_test(test_footprint), cmocka_unit_test(test_foam),
-                                       cmocka_unit_test(test_passing)};
+                                       cmocka_unit_test(test_lace),      cmocka_unit_test(test_passing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* wave_place.c - what a place of the surface looks like, by the shared text. */
-#include "ocean/waves.h"
+#include "ocean/foam_plane.h"
 
 #include "shade/shade.h"
 
@@ -14,4 +14,14 @@ float foam_coverage(const foam_rule *r, float mean, float variance, float thresh
 {
     (void)r;
     return threshold < INFINITY ? foam_share(mean, variance, threshold) : 0.0f;
+}
+
+float wave_foam_thickness(float share, float field, float hidden)
+{
+    return foam_thickness(share, field, hidden);
+}
+
+float wave_foam_lace(float share, float mean, float variance)
+{
+    return foam_lace(share, mean, variance);
 }
