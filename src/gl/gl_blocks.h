@@ -53,7 +53,8 @@ enum {
     GL_UNIT_SEA_PATCHES, /* from where in its tile each patch comes */
     GL_UNIT_SEA_SKY,
     GL_UNIT_SEA_MEANS,
-    GL_UNIT_SEA_GRID
+    GL_UNIT_SEA_GRID,
+    GL_UNIT_SEA_SEEN
 };
 
 /* Vertex attributes. */

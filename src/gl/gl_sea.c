@@ -29,7 +29,7 @@ struct gl_sea {
     gl_programs *programs;
     gl_sea_textures textures;
     gl_light_atlas atlas;
-    gl_target grid, target;
+    gl_target grid, seen, target;
     facet_environment
         *environments[2]; /* whose parts are in the atlas: as long as they live they stay what they are */
     GLuint frame_buffer, light_buffer, sea_buffer, index_buffer, mesh_array, empty_array;
@@ -55,6 +55,7 @@ static void stop(gl_sea *s)
         gl_programs_destroy(s->programs);
         gl_sea_textures_destroy(&s->textures);
         gl_target_destroy(&s->grid);
+        gl_target_destroy(&s->seen);
         gl_target_destroy(&s->target);
         const GLuint buffers[] = {s->frame_buffer, s->light_buffer, s->sea_buffer, s->index_buffer};
         glDeleteBuffers(4, buffers);
@@ -163,6 +164,8 @@ static void bind_textures(const gl_sea *s)
     glBindTexture(GL_TEXTURE_2D, s->atlas.background);
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_SEA_GRID);
     glBindTexture(GL_TEXTURE_2D, s->grid.color);
+    glActiveTexture(GL_TEXTURE0 + GL_UNIT_SEA_SEEN);
+    glBindTexture(GL_TEXTURE_2D, s->seen.color);
 }
 
 /* One strip of triangles from circle to circle, the nearest first, with two triangles of no size in between. */
@@ -218,7 +221,7 @@ typedef struct drawing {
     const sea_picture *picture;
     camera_rays camera;
     gl_sea_fan fan;
-    GLuint grid, surface, sky; /* programs */
+    GLuint grid, surface, all; /* programs */
     float *pattern, *pixels;
     film *film;
     render_watch watch;
@@ -227,9 +230,8 @@ typedef struct drawing {
 static facet_result get_programs(drawing *d, facet_error *error)
 {
     uint64_t features = features_of(d->picture);
-    const gl_program_key keys[3] = {
-        {GL_MAIN_SEA_GRID, 0}, {GL_MAIN_SEA, features}, {GL_MAIN_SEA_SKY, features}};
-    GLuint *names[3] = {&d->grid, &d->surface, &d->sky};
+    const gl_program_key keys[3] = {{GL_MAIN_SEA_GRID, 0}, {GL_MAIN_SEA_SURFACE, 0}, {GL_MAIN_SEA, features}};
+    GLuint *names[3] = {&d->grid, &d->surface, &d->all};
     facet_result result = FACET_OK;
     gl_programs_set_log(d->s->programs, &d->picture->desc->render.log);
     for (int i = 0; i < 3 && result == FACET_OK; i++)
@@ -283,22 +285,22 @@ static void set_frame(const drawing *d, const gl_view *view)
     set_block(d->s->frame_buffer, GL_BLOCK_FRAME, &block, sizeof block);
 }
 
-/* Circles come from near to far: what is hidden is not shaded. */
+/* Which water is seen, then what that looks like. */
 static void draw_view(const drawing *d)
 {
     const gl_sea *s = d->s;
-    begin_pass(&s->target);
+    begin_pass(&s->seen);
     gl_camera_begin_depth(&s->context);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(s->context.has_clip_control ? GL_GREATER : GL_LESS);
     bind_textures(s);
     glUseProgram(d->surface);
     glBindVertexArray(s->mesh_array);
     size_t count = (size_t)(d->fan.rows - 1) * (2 * (size_t)d->fan.columns + 2);
     glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
-    glDepthFunc(s->context.has_clip_control ? GL_GEQUAL : GL_LEQUAL);
-    glUseProgram(d->sky);
+    begin_pass(&s->target);
+    glUseProgram(d->all);
     glBindVertexArray(s->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     gl_camera_end_depth(&s->context);
@@ -329,7 +331,9 @@ static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
     gl_sea *s = d->s;
     uint32_t sample_count = d->picture->desc->render.samples ? d->picture->desc->render.samples : 1;
     facet_result result =
-        gl_target_update(&s->target, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
+        gl_target_update(&s->seen, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
+    if (result == FACET_OK)
+        result = gl_target_update(&s->target, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
     for (uint32_t i = 0; i < sample_count && result == FACET_OK; i++) {
         const gl_view view = {.scale = 1,
                               .x = t->x,

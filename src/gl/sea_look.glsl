@@ -3,9 +3,9 @@
 uniform highp sampler2D u_sea_means; /* means over facets: water_table.h */
 
 /* Where the water rests in the world, m. */
-vec2 sea_world_rest()
+vec2 sea_world_rest(SeaPlace p)
 {
-    return v_rest + eye.xz;
+    return p.rest + eye.xz;
 }
 
 /* fresnel, escape, lift, spread */
@@ -24,7 +24,7 @@ float sea_glints(SeaPlace p, Water w)
     float area = p.width * p.width / p.cosine;
     float lifetime = 1.0 / p.moments.y;
     float count = glint_count(w.normals, p.point.covariance, p.point.N, H, p.moments.x, area, sea_downwelling.w / lifetime);
-    return glint_variate(glint_cell(sea_world_rest(), water_extent(p.V, p.width, p.cosine)), count, sea_sky_irradiance.w, lifetime);
+    return glint_variate(glint_cell(sea_world_rest(p), water_extent(p.V, p.width, p.cosine)), count, sea_sky_irradiance.w, lifetime);
 #else
     return 1.0;
 #endif
@@ -95,7 +95,7 @@ vec3 sea_before(SeaPlace p)
     vec2 slope = slope_from_normal(p.point.N);
     float sparkle = 0.0;
     if (sea_look.w != 0) /* noise in the water, about one cell in ten */
-        sparkle = glint_uniform(glint_cell(sea_world_rest(), vec2(p.width))) > 0.9 ? 1.0 : 0.0;
+        sparkle = glint_uniform(glint_cell(sea_world_rest(p), vec2(p.width))) > 0.9 ? 1.0 : 0.0;
     float foam = sea_look.z != 0 ? before_foam(length(slope)) : 0.0;
     return before_shade(sea_look.y, sea_look.x, p.d, p.point.N, sea_sun.xyz, p.at.y, sparkle, foam, sea_absorption.w, sea_bed_slope.z);
 }

@@ -1,12 +1,10 @@
 /* sea_place.glsl - the place of the surface that a fragment shows, as water_shade.c has it. */
 uniform highp sampler2DArray u_sea_foam; /* one number a texel: amount of old foam, planes of lace */
 
-in highp vec3 v_at;   /* from the eye, m */
-in highp vec2 v_rest; /* of the water */
-
 struct SeaPlace
 {
     vec3 d;           /* unit, from the eye */
+    vec2 rest;        /* of the water, from the eye, m */
     float t;          /* m */
     vec3 V;           /* unit, to the eye, against the level of the sea there */
     vec3 at;          /* x, z from the eye; y over still water; m */
@@ -93,11 +91,13 @@ float sea_old_foam(vec2 rest, float footprint)
 
 /* ---- all ---- */
 
-SeaPlace sea_place()
+/* Seen t m away along d, where water rests at `rest` from the eye. */
+SeaPlace sea_place(vec3 d, float t, vec2 rest)
 {
     SeaPlace p;
-    p.t = length(v_at);
-    p.d = v_at / p.t;
+    p.t = t;
+    p.d = d;
+    p.rest = rest;
     float level2 = 1.0 - p.d.y * p.d.y;
     float rise = p.d.y + 2.0 * p.t * level2 * sea_eye.y;
 #ifdef IS_BELOW
@@ -106,14 +106,14 @@ SeaPlace sea_place()
     float side = 1.0;
 #endif
     p.V = normalize(vec3(-p.d.x, -rise, -p.d.z));
-    p.at = vec3(v_at.x, v_at.y + sea_eye.x + p.t * p.t * level2 * sea_eye.y, v_at.z);
+    p.at = d * t + vec3(0.0, sea_eye.x + t * t * level2 * sea_eye.y, 0.0);
     p.width = sea_ray.x * sea_ray.y * p.t * dot(p.d, forward.xyz);
     float footprint = water_footprint(p.width, rise, sea_eye.z);
     sea_slopes(footprint, p.resolved, p.moments);
     p.cosine = water_seen_cosine(p.V * side, p.resolved);
     footprint = max(footprint, p.width * inversesqrt(p.cosine));
     vec4 hidden = sea_slopes(footprint, p.resolved, p.moments);
-    SeaWaves waves = sea_waves(v_rest, footprint);
+    SeaWaves waves = sea_waves(rest, footprint);
     p.height = waves.displacement.y;
     p.point.N = wave_normal(waves.slope, waves.D);
 #ifndef IS_BELOW
@@ -123,7 +123,7 @@ SeaPlace sea_place()
     p.point.foam = 0.0;
     p.foam_albedo = 1.0;
 #ifdef HAS_FOAM
-    WaterFoam foam = water_foam_mix(foam_share(-(waves.D.x + waves.D.y), hidden.w, sea_foam_at.x), sea_old_foam(v_rest, footprint));
+    WaterFoam foam = water_foam_mix(foam_share(-(waves.D.x + waves.D.y), hidden.w, sea_foam_at.x), sea_old_foam(rest, footprint));
     p.point.foam = foam.share;
     p.foam_albedo = foam.albedo;
 #endif

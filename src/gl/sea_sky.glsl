@@ -153,10 +153,3 @@ vec4 sea_shown(vec3 c)
 {
     return vec4(linear_from_srgb(before_display(c)), 1.0);
 }
-
-/* Unit direction of the ray through the middle of a fragment. */
-vec3 sea_direction()
-{
-    vec2 place = gl_FragCoord.xy + frame_size.zw - 0.5 * frame_size.xy;
-    return normalize(forward.xyz + right.xyz * place.x + up.xyz * place.y);
-}

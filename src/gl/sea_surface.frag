@@ -1,0 +1,10 @@
+/* sea_surface.frag - which water a pixel shows. Triangles are small: what takes long is done once for a pixel, by sea.frag. */
+in highp vec3 v_at;
+in highp vec2 v_rest;
+
+layout(location = 0) out highp vec4 fragment;
+
+void main()
+{
+    fragment = vec4(v_rest, length(v_at), 1.0);
+}
