@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cli/failure.h"
 #include "cli/interrupt.h"
@@ -87,6 +88,13 @@ static facet_result make_picture(ocean_output *o, uint32_t index, const char *na
 
 /* ---- meshes ---- */
 
+/* Else its materials are those of OpenGL 1. */
+static bool is_gltf(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return !dot || strcasecmp(dot, ".obj") != 0;
+}
+
 static facet_result make_mesh(ocean_output *o, const char *name, facet_error *error)
 {
     ocean_run *run = o->run;
@@ -95,6 +103,8 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
     facet_scene *scene = NULL;
     facet_result result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
     const facet_scene_save_desc save = {.allocator = run->allocator, .log = messages_log(&run->messages)};
+    if (result == FACET_OK && !is_gltf(name))
+        result = facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, &save.log, error);
     if (result == FACET_OK)
         result = facet_scene_save(scene, name, &save, error);
     if (result == FACET_OK) {
@@ -165,6 +175,17 @@ static facet_result set_moment(ocean_output *o, uint32_t number, facet_error *er
     return result == FACET_OK && run->model ? ocean_float_place(run, error) : result;
 }
 
+/* Whether it can be written, and is nothing that is read. */
+static facet_result check_output(const ocean_output *o, const char *name, facet_error *error)
+{
+    const facet_scene *model = o->run->model;
+    if (model && !o->run->options.picture.is_stdout && facet_scene_has_file(model, name))
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "%s: it is an input, too, and would be overwritten; name another output with -o",
+                         name);
+    return o->video ? FACET_OK : output_check(name, error);
+}
+
 static facet_result make_frames(ocean_output *o, facet_error *error)
 {
     ocean_run *run = o->run;
@@ -178,8 +199,7 @@ static facet_result make_frames(ocean_output *o, facet_error *error)
             continue;
         if (interrupt_signal())
             return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
-        if (!o->video)
-            result = output_check(name, error);
+        result = check_output(o, name, error);
         if (result == FACET_OK)
             result = set_moment(o, number, error);
         if (result == FACET_OK)
@@ -203,6 +223,8 @@ static facet_result make_all(ocean_output *o, facet_error *error)
     if (result != FACET_OK || !options->picture.output)
         return result;
     if (options->picture.video)
+        result = check_output(o, options->picture.output, error);
+    if (result == FACET_OK && options->picture.video)
         result = video_open(options->picture.output, options->picture.video, options->picture.fps, &o->video,
                             error);
     if (result == FACET_OK)

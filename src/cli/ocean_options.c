@@ -20,7 +20,7 @@ static const float SAND[3] = {0.42f, 0.36f, 0.27f};
 bool value_length(const char *text, double *metres)
 {
     if (strcasecmp(text, "inf") == 0) {
-        *metres = INFINITY;
+        *metres = (double)INFINITY;
         return true;
     }
     double number;

@@ -56,8 +56,8 @@ static const verb help_verb = {
     .summary = "explain facet or one of its commands",
     .arguments = "[COMMAND]",
     .max_arguments = 1,
-    .words = WORDS("render", "ocean", "view", "bake", "convert", "inspect", "plot", "compare", "shaders", "version",
-                   "help", "exit-codes"),
+    .words = WORDS("render", "ocean", "view", "bake", "convert", "inspect", "plot", "compare", "shaders",
+                   "version", "help", "exit-codes"),
     .description = "Prints what facet --help or facet COMMAND --help print; exit-codes explains those.",
     .examples = (const example[]){{"facet help render", "all options of render"},
                                   {"facet help exit-codes", "what 0 to 75 mean"},
@@ -65,9 +65,9 @@ static const verb help_verb = {
     .groups = (const option_group *const[]){&help_group, NULL},
 };
 
-const verb *const verbs[] = {&render_verb, &ocean_verb, &view_verb, &bake_verb,    &convert_verb,
-                             &inspect_verb, &plot_verb, &compare_verb, &shaders_verb,
-                             &version_verb, &help_verb, NULL};
+const verb *const verbs[] = {&render_verb,  &ocean_verb,   &view_verb, &bake_verb,
+                             &convert_verb, &inspect_verb, &plot_verb, &compare_verb,
+                             &shaders_verb, &version_verb, &help_verb, NULL};
 
 /* ---- looking up ---- */
 

@@ -347,8 +347,8 @@ typedef struct facet_scene {
     const char **variants; /* KHR_materials_variants: names */
     scene_root *scenes;
     scene_meta meta, asset_meta; /* of the root object: xmp packets; of "asset" */
-    bool is_placed;              /* the default scene has one root, the last node, which facet_scene_place() made */
-    uint32_t default_scene;      /* 0 where the file names none; SCENE_NONE: the file has no scene */
+    bool is_placed; /* the default scene has one root, the last node, which facet_scene_place() made */
+    uint32_t default_scene; /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
     const char **warnings; /* what log got while reading */
 

@@ -1,0 +1,195 @@
+#!/bin/sh
+# ocean.sh - the sea: pictures, sequences, meshes, maps, sweeps, looks, what floats, and what is wrong.
+set -eu
+. "$(dirname "$0")/lib.sh"
+
+# A sky costs a third of a second; most pictures make do with two colors and a lamp.
+small="$small --resolution 32"
+light="-e gradient:0.2/0.3/0.6,0.8 --env-intensity 5000 --sun 22,0,80000"
+
+# How to begin.
+expect 2 ocean
+says "facet ocean -o sea.png"
+if ! "$facet" ocean --info >out 2>err; then # without a library of transforms there is flat water only
+    [ $? = 5 ] || failed "without waves the exit code is another than 5"
+    expect 0 ocean --wind 0 $small -o flat.png
+    finish
+    exit
+fi
+expect 0 help ocean
+for option in preset wind chl before-after sweep with maps; do
+    grep -q -- "--$option" out || failed "the help does not tell of --$option"
+done
+
+# Numbers that the reference has.
+value() { # value NAME: a number of the JSON of ./out
+    sed -n "s/.*\"$1\": *\\(-\\{0,1\\}[0-9.e+-]*\\).*/\\1/p" out
+}
+near() { # near NAME NUMBER SHARE
+    value "$1" | awk -v b="$2" -v e="$3" '{ d = $1 - b; if (d < 0) d = -d; exit !(d <= e * b) }' ||
+        failed "$1 is $(value "$1"), not $2"
+}
+expect 0 ocean --preset gale --json
+near height_m 8.978 0.01
+near peak_period_s 12.83 0.01
+near wind_mps 20 0
+expect 0 ocean --wind 10 --fetch 100km --json
+near height_m 2.139 0.01
+expect 0 ocean --wind 0 --swell 2,12,0 --json
+near height_m 2 0.01
+near peak_period_s 12 0.01
+expect 0 ocean --preset gale --wind 5 --json
+near wind_mps 5 0
+expect 0 ocean --preset trade-wind --info
+grep -q '^significant height *2.24 m' out || failed "--info does not tell the height"
+
+# Pictures
+expect 0 ocean $small -o sky.png
+is_type sky.png "PNG image data, 48 x 32"
+for words in "--sun 10" "--turbidity 6" "-e white" "--env none"; do
+    expect 0 ocean $small -o other.png $words
+    cmp -s sky.png other.png && failed "nothing changes with $words"
+done
+rm -f sky.png other.png
+small="$small $light"
+expect 0 ocean $small -o sea.png
+is_type sea.png "PNG image data, 48 x 32"
+expect 0 ocean $small -o again.png -j 3
+cmp -s sea.png again.png || failed "the picture depends on the threads"
+expect 0 ocean $small -o sea.png --no-clobber
+says "sea.png: kept"
+expect 0 ocean $small -o - --format png
+cmp -s out sea.png || failed "standard output has another picture"
+expect 0 ocean $small --crop 8,4,16,12 -o crop.exr
+different() { # different WORD...: another picture than sea.png
+    expect 0 ocean $small -o other.png "$@"
+    cmp -s sea.png other.png && failed "nothing changes with $*"
+    rm -f other.png
+}
+different --preset glass
+different --sun 40,0,80000
+different --heading 120
+different --exposure 1
+different --ev100 10
+different --tone-mapping aces
+different --seed 2
+different --time 1
+different --before A
+if ! is_quick; then
+    for words in "--preset breeze" "--preset gale" "--preset lagoon" "--preset harbour" "--wind 10,0" \
+        "--swell 3,12,45" "--spectrum elfouhaily" "--spreading cosine" "--choppiness 0" "--resolution 64" "-e white --env-intensity 5000" \
+        "--cascades 1" "--water 9C" "--chl 10" "--absorption 0.1,0.2,0.3" "--depth 2" "--ior 1.4" \
+        "--depth 3 --bed-slope 0.1,45" "--depth 2 --bed-color white" "--eye 0,30,0" \
+        "--height-of-eye 10" "--height-of-eye -5" "--target 5,0,5" "--fov 60" "--before B" "--stage 1" "--stage 2" \
+        "--stage 3" "--stage 4" "--roughness 0.9" "--normals ggx" "--masking schlick --heading 10" "--fresnel schlick" \
+        "--samples 3" "--clamp 0.1"; do
+        different $words
+    done
+fi
+rm -f ./*.png ./*.exr
+
+# Sequences
+expect 0 ocean $small -o 'f_##.png' --frames 1-3 --fps 2
+only f_01.png f_02.png f_03.png
+cmp -s f_01.png f_02.png && failed "frames are the same"
+expect 0 ocean $small -o second.png --time 0.5
+cmp -s second.png f_02.png || failed "frame 2 of 2 a second is not at 0.5 s"
+expect 0 ocean $small -o 'l_##.png' --loop 2 --frames 1,5,6 --fps 2
+cmp -s l_01.png l_05.png || failed "a loop of 2 s does not repeat after 4 frames of 2 a second"
+cmp -s l_02.png l_06.png && failed "there is a frame that nobody asked for"
+expect 2 ocean $small -o one.png --frames 1-3
+says "put #### in it"
+expect 2 ocean $small -o 'a_##.png' --fps 12
+says "a sea has no end"
+expect 0 ocean $small -o film.y4m --frames 1-2
+[ "$(head -c 9 film.y4m)" = YUV4MPEG2 ] || failed "film.y4m is no video"
+rm -f ./*.png film.y4m
+
+# Meshes, maps
+expect 0 ocean --mesh-samples 16 -o sea.glb --wind 8
+expect 0 inspect sea.glb
+for extension in ior transmission volume; do
+    grep -q "KHR_materials_$extension *supported" out || failed "the mesh has no KHR_materials_$extension"
+done
+expect 0 ocean --mesh-samples 16 --mesh-size 50 -o sea.obj --depth 4
+expect 0 inspect sea.obj
+grep -q "2 materials\|bed" out || failed "sea.obj has no bed"
+expect 0 render sea.glb --size 48x32 --quality draft -o mesh.png
+mkdir maps
+expect 0 ocean --resolution 32 --cascades 2 --maps maps
+[ -s maps/tile_00.exr ] && [ -s maps/tile_01.exr ] || failed "there are no maps"
+expect 0 ocean --resolution 32 --cascades 1 --maps 'm_##.exr'
+cmp -s m_00.exr maps/tile_00.exr && failed "another number of tiles has the same first one"
+expect 6 ocean --maps nowhere
+rm -rf maps ./*.exr ./*.glb ./*.obj ./*.mtl ./*.png
+
+# Sheets
+expect 0 ocean $small -s 32x24 --sweep heading=5:60:2,wind=2:12:3 -o sheet.png
+is_type sheet.png "PNG image data, 68 x"
+expect 2 ocean $small --sweep rouhgness=0.1:0.2:2 -o sheet.png
+says "roughness"
+expect 2 ocean $small --sweep roughness=0.1:0.2 -o sheet.png
+says "NAME=FROM:TO:COUNT"
+expect 2 ocean $small --sweep output=1:2:2 -o sheet.png
+says "takes no number"
+expect 2 ocean $small --sweep roughness=0:9:2 -o sheet.png
+expect 0 ocean $small -s 32x24 --before-after -o both.png
+is_type both.png "PNG image data, 66 x"
+rm -f ./*.png
+
+# What floats
+write_triangle boat.gltf
+expect 0 ocean $small --with boat.gltf -o a.png
+expect 0 ocean $small --with boat.gltf@3,5,90 -o a.png
+expect 3 ocean $small --with missing.glb -o b.png
+says "missing.glb"
+expect 2 ocean $small --with boat.gltf@3,x -o b.png
+says "MODEL@X,Z"
+cp boat.gltf saved.gltf
+expect 2 ocean $small --with boat.gltf -o boat.gltf
+cmp -s boat.gltf saved.gltf || failed "an input was overwritten"
+rm -f ./*.png ./*.gltf
+
+# What is asked for
+expect 2 ocean --wind 50 -o a.png
+says "0 to 40 m/s"
+expect 2 ocean --preset pond -o a.png
+expect 2 ocean --chl 1 --water IB -o a.png
+says "give one of them"
+expect 2 ocean --bed-slope 0.1 -o a.png
+says "--depth"
+expect 2 ocean --resolution 100 -o a.png
+says "a power of two"
+expect 2 ocean --sun 100 -o a.png
+expect 2 ocean --sun 10,0,1000 -o a.png
+says "lux"
+expect 2 ocean --sun 10,0 -e white -o a.png
+says "as 30,15,100000"
+expect 2 ocean --absorption 0.1,0.2 -o a.png
+expect 2 ocean --eye 0,1,0 --height-of-eye 2 -o a.png
+expect 2 ocean --target 0,1,0 --heading 2 -o a.png
+expect 2 ocean --before A --stage 2 -o a.png
+expect 2 ocean --renderer path --no-foam -o a.png
+says "says nothing to --renderer path"
+expect 2 ocean -o a.gif
+expect 2 ocean extra -o a.png
+expect 6 ocean -o nowhere/a.png
+expect 7 ocean -o a.png --max-memory 1M
+says "--max-memory"
+expect 7 ocean -o a.png --time-limit 1ms
+printf '{"preset": "glass", "sweep": null}' >sea.json
+expect 2 ocean --config sea.json -o a.png
+printf '{"preset": "glass", "time": 3}' >sea.json
+expect 0 ocean --config sea.json $small -o a.png
+expect 0 ocean --preset glass $small --time 3 -o b.png
+cmp -s a.png b.png || failed "the config makes another picture"
+expect 0 ocean $small -o a.png --json
+grep -q '"output": *"a.png"' out || failed "--json does not name the picture"
+grep -q '"exit_code": *0' out || failed "--json does not tell the exit code"
+expect 2 ocean --wind x -o a.png --json
+grep -q '"exit_code": *2' out || failed "--json does not tell the failure"
+if ! is_quick; then
+    expect 0 ocean --size 16x12 --renderer path -n 2 -o path.png
+    is_type path.png "PNG image data, 16 x 12"
+fi
+finish
