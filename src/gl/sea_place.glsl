@@ -91,20 +91,42 @@ float sea_old_foam(vec2 rest, float footprint)
 
 /* ---- all ---- */
 
-/* Seen t m away along d, where water rests at `rest` from the eye. */
-SeaPlace sea_place(vec3 d, float t, vec2 rest)
+/* The mesh's place (sea_surface.frag) corrected by the surface as it is, by no more than a cell: t, then where the water there
+ * rests. */
+vec3 sea_corrected(vec3 d, vec4 seen, float side)
+{
+    float t = seen.z;
+    float level = length(d.xz);
+    if (level < 0.1)
+        return vec3(t, seen.xy);
+    float y = d.y * t + sea_eye.x + t * t * level * level * sea_eye.y;
+    float width = sea_ray.x * sea_ray.y * t * dot(d, forward.xyz);
+    float footprint = water_footprint(width, d.y + 2.0 * t * level * level * sea_eye.y, sea_eye.z);
+    vec2 D = d.xz * t - seen.xy;
+    D = sea_heave(d.xz * t - D, footprint).xz;
+    vec3 there = sea_heave(d.xz * t - D, footprint);
+    float cell = sea_fan.w * t * level;
+    float more = clamp((y - there.y) * side / seen.w, -cell, cell) / level;
+    return vec3(t + more, d.xz * (t + more) - there.xz);
+}
+
+/* Seen along d. */
+SeaPlace sea_place(vec3 d, vec4 seen)
 {
     SeaPlace p;
-    p.t = t;
-    p.d = d;
-    p.rest = rest;
-    float level2 = 1.0 - p.d.y * p.d.y;
-    float rise = p.d.y + 2.0 * p.t * level2 * sea_eye.y;
 #ifdef IS_BELOW
     float side = -1.0;
 #else
     float side = 1.0;
 #endif
+    vec3 corrected = sea_corrected(d, seen, side);
+    float t = corrected.x;
+    vec2 rest = corrected.yz;
+    p.t = t;
+    p.d = d;
+    p.rest = rest;
+    float level2 = 1.0 - p.d.y * p.d.y;
+    float rise = p.d.y + 2.0 * p.t * level2 * sea_eye.y;
     p.V = normalize(vec3(-p.d.x, -rise, -p.d.z));
     p.at = d * t + vec3(0.0, sea_eye.x + t * t * level2 * sea_eye.y, 0.0);
     p.width = sea_ray.x * sea_ray.y * p.t * dot(p.d, forward.xyz);
