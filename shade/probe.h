@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 117
+#define PROBE_COUNT 120
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -941,6 +941,56 @@ FN vec3 probe_water(int which, vec2 u)
            water_radiance(water_parts(w, p, light, m, vec3(1.0f, 2.0f, 3.0f), vec3(0.5f), light.downwelling));
 }
 
+FN vec3 probe_water_place(int which, vec2 u)
+{
+    Water w;
+    w.ior = 1.34f;
+    w.absorption = vec3(0.33f, 0.06f, 0.02f + 0.1f * u[1]);
+    w.scattering = vec3(0.09f, 0.11f, 0.14f);
+    w.backscattering = vec3(0.002f, 0.003f, 0.005f);
+    w.reflectance = vec3(0.001f, 0.006f, 0.024f);
+    w.pure_share = vec3(0.01f, 0.02f, 0.03f);
+    w.sky_reflectance = 0.06f;
+    w.foam_albedo = 0.5f;
+    w.normals = WATER_BECKMANN;
+    w.masking = WATER_SMITH;
+    w.is_schlick = 0;
+    WaterLight light;
+    light.L = probe_up(probe_L(u));
+    light.sun_irradiance = vec3(5.0f, 4.0f, 3.0f);
+    light.sky_irradiance = vec3(1.0f, 2.0f, 3.0f);
+    light.sun_fresnel = 0.1f;
+    light.downwelling = water_downwelling(w, light);
+    vec3 V = probe_up(probe_V(u));
+    vec3 C = probe_slopes(u);
+    vec3 D = vec3(0.3f * u[0], -0.2f * u[1], 0.1f);
+    vec3 N = water_faced(wave_normal(vec2(0.4f * u[1], -0.3f), D), V);
+    if (which == 117) {
+        vec2 extent = water_extent(V, 0.1f, water_seen_cosine(V, C));
+        vec2 place =
+            sel(abs(u[0] + u[1] - 1.0f) < 1e-3f, vec2(0.4f, 0.3f), u); /* its rhombus has an edge there */
+        return wave_patch_weights(place) + wave_cubic_weights(u[0]) + N + 2.0f +
+               vec3(extent[0], extent[1], water_footprint(u[0], V[1] * u[1], 0.3f));
+    }
+    if (which == 118) {
+        WaterFoam foam = water_foam_mix(0.2f * u[0], 0.5f * u[1]);
+        return vec3(1.0f + foam_share(0.6f * u[0] - 0.1f, 0.01f + 0.05f * u[1], 0.4f),
+                    foam.share + foam.albedo + normal_below(3.0f * u[0] - 1.5f) +
+                        foam_lace(0.9f * u[0], u[1], 0.3f) + foam_thickness(0.05f + 0.9f * u[0], u[1], 0.2f),
+                    water_passing(C, light.L) + wave_jacobian(D));
+    }
+    vec3 down = water_refracted(w, -V, N);
+    vec3 sunward = normalize(vec3(0.3f, 1.0f, 0.1f));
+    return water_crest(w, light, N, V, down, u[0]) + 0.1f +
+           water_over_bed(w, light.downwelling, vec3(0.5f, 0.4f, 0.3f), 9.0f * u[0], 0.1f * u[1], down) +
+           water_land(light, vec3(0.5f), N) +
+           water_through(w, light.downwelling, vec3(3.0f), sunward, vec3(1.0f), 2.0f * u[0], -V,
+                         4.0f * u[1]) +
+           water_bed_below(w, light.downwelling, vec3(0.4f), u[0]) +
+           painted_water(light, N, V, 1.34f, 0.1f + u[0], painted_mirror(N, V)) +
+           water_sun_through(w, C, light, normalize(light.L + 0.1f * u[0]), 0.5f);
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -983,5 +1033,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_alone(which, u);
     if (which < 111)
         return probe_sea(which, u);
-    return probe_water(which, u);
+    if (which < 117)
+        return probe_water(which, u);
+    return probe_water_place(which, u);
 }

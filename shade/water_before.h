@@ -17,6 +17,8 @@
 #define BEFORE_STAGE_NONE 0
 #define BEFORE_STAGE_FRESNEL 1
 #define BEFORE_STAGE_COOK_TORRANCE 2
+/* Perceptual, where none is given: the widest that was planned. */
+#define BEFORE_ROUGHNESS 0.1f
 
 /* Unit direction to the sun, along (0.8, 1, 0.6), and its color. */
 #define BEFORE_SUN_DIRECTION vec3(0.565685425f, 0.707106781f, 0.424264069f)
@@ -72,6 +74,34 @@ FN vec3 before_shade(int variant, int stage, vec3 d, vec3 N, vec3 L, float y, fl
 FN vec3 before_display(vec3 c)
 {
     return pow(max(c, 0.0f), vec3(0.95f));
+}
+
+/* ---- a stage on the way ---- */
+
+/* The direction in which it looks the sky up; not below the horizon. */
+FN vec3 painted_mirror(vec3 N, vec3 V)
+{
+    vec3 R = reflect(-V, N);
+    return normalize(vec3(R[0], max(R[1], 0.0f), R[2]));
+}
+
+/* The sky (radiance there) in a mirror of Schlick's reflectance, the sun in GGX of one roughness, and a matt base color below:
+ *   F L_sky + F D V N.L E + (1 - F) albedo / pi (E N.L + E_sky) */
+FN vec3 painted_water(WaterLight light, vec3 N, vec3 V, float ior, float perceptual_roughness, vec3 sky)
+{
+    vec3 albedo = vec3(0.0f, 0.3f, 0.5f);
+    vec3 L = light.L;
+    vec3 H = normalize(V + L);
+    float NdotV = clamp(dot(N, V), NDOTV_MIN, 1.0f);
+    float NdotL = clamp(dot(N, L), 0.0f, 1.0f);
+    float F0 = F0_from_ior(ior);
+    float F = F_Schlick1(F0, 1.0f, NdotV);
+    float alpha = max(alpha_from_roughness(perceptual_roughness), ALPHA_MIN);
+    float FH = F_Schlick1(F0, 1.0f, clamp(dot(V, H), 0.0f, 1.0f));
+    float specular =
+        FH * D_GGX_stable(max(dot(N, H), 0.0f), cross(N, H), alpha) * V_SmithGGX(NdotL, NdotV, alpha) * NdotL;
+    vec3 E = light.sun_irradiance * NdotL + light.sky_irradiance;
+    return sky * F + light.sun_irradiance * specular + albedo * E * (INV_PI * (1.0f - F));
 }
 
 #endif

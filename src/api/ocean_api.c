@@ -1,7 +1,9 @@
 /* ocean_api.c - the part of facet.h about the sea. */
 #include "api/api.h"
+#include "api/gl_library.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -12,6 +14,7 @@
 #include "ocean/sea_mesh.h"
 #include "ocean/sea_preset.h"
 #include "water/water_exposure.h"
+#include "water/water_picture.h"
 #include "water/water_render.h"
 
 /* ---- seas ---- */
@@ -41,8 +44,19 @@ facet_result facet_sea_create(const facet_sea_desc *desc, facet_sea **sea, facet
     return sea_create(desc, sea, error);
 }
 
+/* Keeps what draws a sea, or gives up the one that was kept. */
+static void keep_gl(facet_sea *sea, gl_sea *used)
+{
+    const gl_entry *gl;
+    gl_sea *other = atomic_exchange(&sea->gl, used);
+    if (other && gl_library_open(&gl, NULL) == FACET_OK)
+        gl->destroy_sea(other);
+}
+
 void facet_sea_destroy(facet_sea *sea)
 {
+    if (sea)
+        keep_gl(sea, NULL);
     sea_destroy(sea);
 }
 
@@ -252,7 +266,10 @@ static facet_result resolve_sea(const facet_scene *scene, const facet_sea_render
     if (result == FACET_OK && integrator == FACET_INTEGRATOR_PATH &&
         (scene || memcmp(&desc->look, &physical, sizeof physical) != 0))
         result = fail(error, FACET_ERROR_ARGUMENT, "sea: path tracing knows no looks and no model in it");
-    if (result == FACET_OK && integrator != FACET_INTEGRATOR_PATH && integrator != FACET_INTEGRATOR_PREVIEW)
+    if (result == FACET_OK && integrator == FACET_INTEGRATOR_GL && scene)
+        result = fail(error, FACET_ERROR_ARGUMENT, "sea: OpenGL draws no model in it");
+    if (result == FACET_OK && integrator != FACET_INTEGRATOR_PATH && integrator != FACET_INTEGRATOR_PREVIEW &&
+        integrator != FACET_INTEGRATOR_GL)
         result = fail(error, FACET_ERROR_ARGUMENT, "sea: integrator %d does not draw it", (int)integrator);
     return result == FACET_OK ? render_desc_resolve(&desc->render, &out->render, error) : result;
 }
@@ -288,13 +305,38 @@ static facet_result trace_mesh(const facet_sea *sea, const facet_sea_render_desc
     return result;
 }
 
+/* What the sea keeps is taken while it is in use: several threads may draw one sea. */
+static facet_result draw_gl(const facet_sea *sea, const facet_sea_render_desc *d, facet_image *image,
+                            facet_error *error)
+{
+    facet_sea *kept = (facet_sea *)(uintptr_t)sea;
+    const gl_entry *gl;
+    water_picture *picture = NULL;
+    facet_result result = gl_library_open(&gl, error);
+    if (result != FACET_OK)
+        return result;
+    gl_sea *renderer = atomic_exchange(&kept->gl, NULL);
+    if (!renderer)
+        result = gl->create_sea(&sea->desc.allocator, &renderer, error);
+    if (result == FACET_OK)
+        result = water_picture_create(sea, d, &picture, &image->stats, error);
+    if (result == FACET_OK)
+        result = gl->draw_sea(renderer, water_picture_get(picture), &image->film, &image->stats, error);
+    water_picture_destroy(picture);
+    if (renderer)
+        keep_gl(kept, renderer);
+    return result;
+}
+
 static facet_result draw(const facet_sea *sea, const facet_scene *scene, const facet_sea_render_desc *d,
                          facet_image *image, facet_error *error)
 {
     const facet_render_desc *r = &d->render;
     facet_result result = film_create(&r->allocator, r->crop[2], r->crop[3], 0, &image->film, error);
     if (result == FACET_OK)
-        result = water_render(sea, scene, d, &image->film, &image->stats, error);
+        result = r->integrator == FACET_INTEGRATOR_GL
+                     ? draw_gl(sea, d, image, error)
+                     : water_render(sea, scene, d, &image->film, &image->stats, error);
     if (result == FACET_OK)
         film_develop(&image->film, r->tonemap, NULL, r->thread_count);
     return result;

@@ -324,7 +324,7 @@ static void what_is_wrong_is_said(void **state)
         if (i == 2)
             d.look.clamp = -1.0f;
         if (i == 3)
-            d.render.integrator = FACET_INTEGRATOR_GL;
+            d.render.integrator = (facet_integrator)9;
         if (i == 4)
             d.render.crop[2] = 100, d.render.crop[3] = 100;
         if (i == 5)

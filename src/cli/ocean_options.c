@@ -238,8 +238,9 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--before: it is the look before all stages; give it or --stage");
     o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
-    o->desc.integrator =
-        option_choice(c, OPT_RENDERER, 0) == 1 ? FACET_INTEGRATOR_PATH : FACET_INTEGRATOR_PREVIEW;
+    static const facet_integrator integrators[] = {FACET_INTEGRATOR_PREVIEW, FACET_INTEGRATOR_PATH,
+                                                   FACET_INTEGRATOR_GL};
+    o->desc.integrator = integrators[option_choice(c, OPT_RENDERER, 0)];
     static const option_id preview_only[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,   OPT_ROUGHNESS,
                                              OPT_NORMALS, OPT_MASKING,      OPT_FRESNEL, OPT_NO_GLINTS,
                                              OPT_NO_FOAM, OPT_WITH,         OPT_CLAMP};

@@ -407,8 +407,9 @@ static const option quality_options[] = {
      .kind = OPTION_CHOICE,
      .argument = "NAME",
      .default_text = "preview",
-     .help = "preview: the endless sea; path: path tracing of its mesh, for comparison",
-     .choices = WORDS("preview", "path")},
+     .help = "preview: the endless sea; gl: the same by OpenGL; path: path tracing of its mesh, for "
+             "comparison",
+     .choices = WORDS("preview", "path", "gl")},
 };
 
 static const option motion_options[] = {

@@ -38,8 +38,8 @@ const verb shaders_verb = {
         WORDS("constants", "color", "brdf", "fresnel", "sampling", "sobol", "pixel_filter", "footprint",
               "surface", "light", "area_light", "ibl", "sheen", "clearcoat", "anisotropy", "iridescence",
               "dispersion", "transmission", "glass", "volume", "sky", "water_surface", "water_means", "glint",
-              "water", "water_before", "specular_aa", "specular_glossiness", "layers", "layers_direct",
-              "layers_ibl", "layers_lobes", "material", "layers_sample", "phong", "tonemap"),
+              "water", "water_place", "water_before", "specular_aa", "specular_glossiness", "layers",
+              "layers_direct", "layers_ibl", "layers_lobes", "material", "layers_sample", "phong", "tonemap"),
     .description =
         "Prints the functions that facet shades with as one file of GLSL, or those parts of it that are "
         "named, with all "

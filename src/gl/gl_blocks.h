@@ -10,6 +10,7 @@ enum {
     GL_BLOCK_MATERIAL,
     GL_BLOCK_LIGHT,
     GL_BLOCK_OGL1,
+    GL_BLOCK_SEA,
     GL_BLOCK_COUNT
 }; /* binding points */
 
@@ -42,9 +43,18 @@ enum {
     GL_UNIT_GLASS,       /* 3D */
     GL_UNIT_LIGHTS,      /* punctual ones */
     GL_UNIT_SHADOWS,
-    GL_UNIT_OPAQUE,                       /* the opaque frame with its mips */
-    GL_UNIT_MATERIAL,                     /* nine */
-    GL_UNIT_PEELED = GL_UNIT_MATERIAL + 9 /* depths of a layer, where there are so many units */
+    GL_UNIT_OPAQUE,                        /* the opaque frame with its mips */
+    GL_UNIT_MATERIAL,                      /* nine */
+    GL_UNIT_PEELED = GL_UNIT_MATERIAL + 9, /* depths of a layer, where there are so many units */
+    /* of a sea, which has no materials */
+    GL_UNIT_SEA_LOW = GL_UNIT_MATERIAL, /* tiles of waves, arrays: displacement, height, a slope; */
+    GL_UNIT_SEA_HIGH,                   /* the other slope, derivatives */
+    GL_UNIT_SEA_FOAM,
+    GL_UNIT_SEA_PATCHES, /* from where in its tile each patch comes */
+    GL_UNIT_SEA_SKY,
+    GL_UNIT_SEA_MEANS,
+    GL_UNIT_SEA_GRID,
+    GL_UNIT_SEA_SEEN
 };
 
 /* Vertex attributes. */

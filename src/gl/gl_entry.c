@@ -6,6 +6,7 @@
 
 #include "gl/gl_build.h"
 #include "gl/gl_renderer.h"
+#include "gl/gl_sea.h"
 
 static facet_result create(const facet_scene *scene, const facet_allocator *allocator, gl_renderer **out,
                            facet_error *error)
@@ -30,6 +31,9 @@ const gl_entry *facet_gl_entry(const char *build, const gl_host *host)
     static const gl_entry entry = {.create = create,
                                    .render = gl_renderer_render,
                                    .destroy = gl_renderer_destroy,
+                                   .create_sea = gl_sea_create,
+                                   .draw_sea = gl_sea_draw,
+                                   .destroy_sea = gl_sea_destroy,
                                    .report = report,
                                    .view = view_run};
     (void)host;

@@ -7,6 +7,8 @@
 #include "film/film.h"
 
 typedef struct gl_renderer gl_renderer;
+typedef struct gl_sea gl_sea;
+struct sea_picture;
 
 /* What the module wants of libfacet; the rest of what it uses it has a copy of. */
 typedef struct gl_host {
@@ -48,6 +50,11 @@ typedef struct gl_entry {
     facet_result (*render)(gl_renderer *renderer, const facet_render_desc *desc, film *target,
                            facet_render_stats *stats, facet_error *error);
     void (*destroy)(gl_renderer *renderer); /* NULL is allowed */
+    /* What draws seas, with a context of its own, and keeps programs and textures from picture to picture: gl_sea.h. */
+    facet_result (*create_sea)(const facet_allocator *allocator, gl_sea **out, facet_error *error);
+    facet_result (*draw_sea)(gl_sea *sea, const struct sea_picture *picture, film *target,
+                             facet_render_stats *stats, facet_error *error);
+    void (*destroy_sea)(gl_sea *sea); /* NULL is allowed */
     /* One line: version, driver, whether without a window; or why there is none. */
     void (*report)(char *out, size_t size);
     /* facet_view() with a desc whose functions are all there. */

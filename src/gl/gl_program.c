@@ -84,6 +84,8 @@ static const char *const no_features[] = {NULL};
 static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
+static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE", "IS_PAINTED", "IS_BELOW",
+                                           "HAS_BED",     "HAS_FOAM",  "HAS_GLINTS", NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
 static const struct {
@@ -145,6 +147,28 @@ static const struct {
     [GL_MAIN_HALVE] = {"halve", "screen.vert", "halve.frag", {"constants"}, {0}, halve_features, {0}},
     [GL_MAIN_SPREAD] = {"spread", "screen.vert", "spread.frag", {"constants"}, {0}, no_features, {0}},
     [GL_MAIN_DEVELOP] = {"develop", "screen.vert", "develop.frag", {"color"}, {0}, no_features, {0}},
+    [GL_MAIN_SEA_GRID] = {"sea_grid",
+                          "screen.vert",
+                          "sea_grid.frag",
+                          {"water_place"},
+                          {"sea_block.glsl", "sea_waves.glsl", "sea_grid.glsl"},
+                          no_features,
+                          {0}},
+    [GL_MAIN_SEA_SURFACE] = {"sea_surface",
+                             "sea.vert",
+                             "sea_surface.frag",
+                             {"water_place"},
+                             {0},
+                             no_features,
+                             {"sea_block.glsl", "sea_grid.glsl"}},
+    [GL_MAIN_SEA] = {"sea",
+                     "screen.vert",
+                     "sea.frag",
+                     {"water_place", "water_before", "glint", "ibl", "surface"},
+                     {"sea_light.glsl", "light_block.glsl", "environment.glsl", "sea_block.glsl",
+                      "sea_waves.glsl", "sea_sky.glsl", "sea_place.glsl", "sea_look.glsl"},
+                     sea_features,
+                     {0}},
 };
 
 /* Samplers and their units. */
@@ -165,6 +189,14 @@ static const struct {
                 {"u_sum", GL_UNIT_MATERIAL},
                 {"u_weights", GL_UNIT_MATERIAL + 1},
                 {"u_peeled", GL_UNIT_PEELED},
+                {"u_sea_low", GL_UNIT_SEA_LOW},
+                {"u_sea_high", GL_UNIT_SEA_HIGH},
+                {"u_sea_foam", GL_UNIT_SEA_FOAM},
+                {"u_sea_patches", GL_UNIT_SEA_PATCHES},
+                {"u_sea_sky", GL_UNIT_SEA_SKY},
+                {"u_sea_means", GL_UNIT_SEA_MEANS},
+                {"u_sea_grid", GL_UNIT_SEA_GRID},
+                {"u_sea_seen", GL_UNIT_SEA_SEEN},
                 {"u_material0", GL_UNIT_MATERIAL},
                 {"u_material1", GL_UNIT_MATERIAL + 1},
                 {"u_material2", GL_UNIT_MATERIAL + 2},
@@ -407,7 +439,7 @@ static facet_result fail_link(gl_programs *programs, const gl_program *p, facet_
 
 static void bind_names(const gl_program *p)
 {
-    static const char *const blocks[GL_BLOCK_COUNT] = {"Frame", "Material", "Lighting", "Ogl1"};
+    static const char *const blocks[GL_BLOCK_COUNT] = {"Frame", "Material", "Lighting", "Ogl1", "Sea"};
     for (GLuint i = 0; i < GL_BLOCK_COUNT; i++) {
         GLuint index = glGetUniformBlockIndex(p->name, blocks[i]);
         if (index != GL_INVALID_INDEX)

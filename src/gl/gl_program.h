@@ -8,17 +8,20 @@
 
 /* A pair of shaders: NAME.vert and NAME.frag of this folder, or screen.vert for what covers the picture. */
 typedef enum gl_main {
-    GL_MAIN_SURFACE,    /* a material */
-    GL_MAIN_SHADOW,     /* a material as what casts a shadow; features as of the former */
-    GL_MAIN_PHONG,      /* a material of OpenGL 1 */
-    GL_MAIN_GROUND_MAP, /* how much of a uniform sky the model hides from the ground */
-    GL_MAIN_GROUND,     /* the shadow on the ground */
-    GL_MAIN_BACKGROUND, /* the environment behind the model */
-    GL_MAIN_COMPOSE,    /* blended surfaces that were drawn beside the picture */
-    GL_MAIN_PRESENT,    /* radiance to a display's numbers */
-    GL_MAIN_HALVE,      /* a picture at half its size */
-    GL_MAIN_SPREAD,     /* and at twice its size */
-    GL_MAIN_DEVELOP,    /* what OpenGL 1 computed as light */
+    GL_MAIN_SURFACE,     /* a material */
+    GL_MAIN_SHADOW,      /* a material as what casts a shadow; features as of the former */
+    GL_MAIN_PHONG,       /* a material of OpenGL 1 */
+    GL_MAIN_GROUND_MAP,  /* how much of a uniform sky the model hides from the ground */
+    GL_MAIN_GROUND,      /* the shadow on the ground */
+    GL_MAIN_BACKGROUND,  /* the environment behind the model */
+    GL_MAIN_COMPOSE,     /* blended surfaces that were drawn beside the picture */
+    GL_MAIN_PRESENT,     /* radiance to a display's numbers */
+    GL_MAIN_HALVE,       /* a picture at half its size */
+    GL_MAIN_SPREAD,      /* and at twice its size */
+    GL_MAIN_DEVELOP,     /* what OpenGL 1 computed as light */
+    GL_MAIN_SEA_GRID,    /* where the surface of a sea lies */
+    GL_MAIN_SEA_SURFACE, /* which water is seen in each pixel */
+    GL_MAIN_SEA,         /* what it looks like */
     GL_MAIN_COUNT
 } gl_main;
 
@@ -61,6 +64,17 @@ enum {
     GL_PHONG_IS_AT_VERTICES, /* light is computed there */
     GL_PHONG_IS_FLAT,
     GL_PHONG_IS_SEE_THROUGH
+};
+
+/* GL_MAIN_SEA. */
+enum {
+    GL_SEA_HAS_PICTURE = 1u << 0, /* an environment's in the sky's place */
+    GL_SEA_IS_BEFORE = 1u << 1,   /* looks without physics */
+    GL_SEA_IS_PAINTED = 1u << 2,  /* stage 3 */
+    GL_SEA_IS_BELOW = 1u << 3,    /* the eye is in the water */
+    GL_SEA_HAS_BED = 1u << 4,
+    GL_SEA_HAS_FOAM = 1u << 5,
+    GL_SEA_HAS_GLINTS = 1u << 6
 };
 
 /* features: bits of the main's list of names in gl_program.c, each of which becomes a #define. */

@@ -53,17 +53,3 @@ foam_rule foam_rule_create(const waves *w)
                        .sigma = (float)sigma,
                        .coverage = (float)coverage};
 }
-
-float foam_coverage(const foam_rule *r, float mean, float variance, float threshold)
-{
-    (void)r;
-    if (!(threshold < INFINITY))
-        return 0.0f;
-    double sigma = sqrt(fmax((double)variance, 0.0));
-    if (sigma < 1e-4)
-        return mean > threshold ? 1.0f : 0.0f;
-    double area = fmax(1.0 - (double)mean, 0.02); /* of the footprint's water, seen from above */
-    double z = ((double)threshold - (double)mean) / sigma;
-    double covered = area * upper_tail(z) - sigma * normal_density(z) * (1.0 - 0.25 * sigma * z);
-    return (float)fmin(fmax(covered / area, 0.0), 1.0);
-}

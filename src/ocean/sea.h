@@ -11,6 +11,8 @@ struct facet_sea {
     slope_filter slopes;
     foam_rule foam;
     water_optics optics;
+    void *_Atomic
+        gl; /* what OpenGL draws it with, kept from picture to picture; ocean_api.c's. NULL: nothing, or in use */
 };
 
 /* See facet_sea_create(); and its end. */

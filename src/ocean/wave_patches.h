@@ -20,7 +20,7 @@ typedef struct wave_patch {
     uint32_t u, v; /* where it comes from, in samples of the tile */
 } wave_patch;
 
-/* Of the corner (i, j): a finaliser of 64 bits, as in wave_amplitudes.c. */
+/* Of the corner (i, j): a finaliser of 64 bits, as in wave_amplitudes.c. Lower and upper half: u, v of a patch, modulo the tile's size. */
 static inline uint64_t wave_patch_hash(uint64_t seed, int64_t i, int64_t j)
 {
     uint64_t x = seed ^ ((uint64_t)i * 0x9e3779b97f4a7c15u) ^ ((uint64_t)j * 0xc2b2ae3d27d4eb4fu);
@@ -29,42 +29,24 @@ static inline uint64_t wave_patch_hash(uint64_t seed, int64_t i, int64_t j)
     return x ^ (x >> 31);
 }
 
-/* Those that are seen at (x, z); how many. Squares of the weights sum to 1. */
-static inline uint32_t wave_patches_at(const waves *w, uint32_t tile, double x, double z,
-                                       wave_patch out[WAVES_MAX_PATCHES])
+/* A place in the axes of the triangles: the corner of its rhombus, and the rest, [0, 1)^2. */
+typedef struct wave_rhombus {
+    int64_t i, j;
+    float a, b;
+} wave_rhombus;
+static inline wave_rhombus wave_rhombus_at(const wave_tile *t, double x, double z)
 {
-    const wave_tile *t = &w->tiles[tile];
-    if (!t->is_patched) {
-        out[0] = (wave_patch){1.0f, 0, 0};
-        return 1;
-    }
-    double b = z / t->length_m * 1.15470053837925153,
-           a = x / t->length_m - 0.5 * b; /* in the triangles' axes */
+    double b = z / t->length_m * 1.15470053837925153, a = x / t->length_m - 0.5 * b;
     if (!(fabs(a) < 0x1p40 && fabs(b) < 0x1p40))
         a = b = 0.0;
     int64_t i = (int64_t)a, j = (int64_t)b;
     i -= a < (double)i;
     j -= b < (double)j;
-    float fa = (float)(a - (double)i), fb = (float)(b - (double)j);
-    int64_t upper = fa + fb > 1.0f; /* of the two triangles of a rhombus */
-    float first = upper ? fa + fb - 1.0f : 1.0f - fa - fb;
-    float barycentric[WAVES_MAX_PATCHES] = {first, upper ? 1.0f - fa : fb, upper ? 1.0f - fb : fa};
-    int64_t corners[WAVES_MAX_PATCHES][2] = {{i + upper, j + upper}, {i, j + 1}, {i + 1, j}};
-    uint32_t count = 0;
-    float squares = 0.0f;
-    for (int c = 0; c < WAVES_MAX_PATCHES; c++) {
-        float over = barycentric[c] - 0.25f;
-        if (over <= 0.0f)
-            continue;
-        uint64_t hash = wave_patch_hash(w->seed + tile, corners[c][0], corners[c][1]);
-        out[count++] = (wave_patch){over * over, (uint32_t)hash & (t->size - 1u),
-                                    (uint32_t)(hash >> 32) & (t->size - 1u)};
-        squares += over * over * over * over;
-    }
-    float scale = 1.0f / sqrtf(squares);
-    for (uint32_t c = 0; c < count; c++)
-        out[c].weight *= scale;
-    return count;
+    return (wave_rhombus){i, j, (float)(a - (double)i), (float)(b - (double)j)};
 }
+
+/* Those that are seen at (x, z); how many. Squares of the weights sum to 1. */
+uint32_t wave_patches_at(const waves *w, uint32_t tile, double x, double z,
+                         wave_patch out[WAVES_MAX_PATCHES]);
 
 #endif

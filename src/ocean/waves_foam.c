@@ -242,32 +242,6 @@ facet_result waves_foam_create(const waves *w, const foam_rule *rule, double dec
 
 /* ---- reading ---- */
 
-/* Half the width of a band around 0 that holds this share, [0, 0.999], of a normal distribution: sqrt(2) erf^-1(share). Giles
- * 2012, "Approximating the erfinv function", where it is above 0.9966, too. */
-static float half_band(float share)
-{
-    static const float central[9] = {2.81022636e-08f,  3.43273939e-07f, -3.5233877e-06f,
-                                     -4.39150654e-06f, 0.00021858087f,  -0.00125372503f,
-                                     -0.00417768164f,  0.246640727f,    1.50140941f};
-    static const float tail[9] = {-0.000200214257f, 0.000100950558f, 0.00134934322f,
-                                  -0.00367342844f,  0.00573950773f,  -0.0076224613f,
-                                  0.00943887047f,   1.00167406f,     2.83297682f};
-    float w = -logf((1.0f - share) * (1.0f + share));
-    const float *c = w < 5.0f ? central : tail;
-    w = w < 5.0f ? w - 2.5f : sqrtf(w) - 3.0f;
-    float p = c[0];
-    for (int i = 1; i < 9; i++)
-        p = c[i] + p * w;
-    return 1.41421356f * p * share;
-}
-
-/* Of normal numbers with this mean and variance, those within the band. */
-static float share_within(float z, float mean, float variance)
-{
-    float scale = 0.70710678f / sqrtf(fmaxf(variance, 1e-6f));
-    return 0.5f * (erff((z - mean) * scale) + erff((z + mean) * scale));
-}
-
 static float share_at(const waves_foam *f, double x, double z, float footprint_m)
 {
     const wave_tile *t = &f->w->tiles[0];
@@ -283,19 +257,16 @@ static float share_at(const waves_foam *f, double x, double z, float footprint_m
     return fminf(fmaxf(sum, 0.0f), 1.0f);
 }
 
-/* What the share is multiplied by from place to place, 1 on average: (p + 1) Phi(M)^p of a Gaussian field M three times as wide as the
- * lace, with the p up to 3 that leaves all shares below 1. Lines break where it is small, and run together where it is not. */
+/* What the share is multiplied by from place to place, by a field three times as wide as the lace. Lines break where it is small, and run
+ * together where it is not. */
 static float thickness_at(const waves_foam *f, double x, double z, float footprint_m, float share)
 {
-    static const double WIDER = 0.37;
     const wave_tile *t = &f->w->tiles[f->lace_tiles[0]];
     double u = x * t->cos_per_m + z * t->sin_per_m, v = z * t->cos_per_m - x * t->sin_per_m;
-    foam_plane_value m = foam_plane_read(&f->lace[0], -WIDER * v, WIDER * u,
-                                         footprint_m * (float)(WIDER * (double)t->samples_per_m));
-    float power = fminf(3.0f, 1.0f / share - 1.0f);
-    float below = 0.5f * erfcf(-0.70710678f * m.mean);
-    float hidden = fminf(m.hidden, 1.0f);
-    return (1.0f - hidden) * (power + 1.0f) * powf(below, power) + hidden;
+    foam_plane_value m =
+        foam_plane_read(&f->lace[0], -FOAM_THICKNESS_WIDTH * v, FOAM_THICKNESS_WIDTH * u,
+                        footprint_m * (float)(FOAM_THICKNESS_WIDTH * (double)t->samples_per_m));
+    return wave_foam_thickness(share, m.mean, m.hidden);
 }
 
 float waves_foam_at(const waves_foam *f, double x, double z, float footprint_m)
@@ -315,5 +286,5 @@ float waves_foam_at(const waves_foam *f, double x, double z, float footprint_m)
         mean += value.mean * scale;
         hidden += value.hidden * scale * scale;
     }
-    return share_within(half_band(share), mean, hidden);
+    return wave_foam_lace(share, mean, hidden);
 }

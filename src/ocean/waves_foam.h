@@ -14,6 +14,8 @@
 #include "ocean/waves.h"
 
 enum { FOAM_LACES = 2 };
+static const double FOAM_THICKNESS_WIDTH =
+    0.37; /* of samples of lace[0], turned by a right angle, to those of thickness */
 
 typedef struct waves_foam {
     const waves *w;

@@ -339,17 +339,3 @@ wave_bounds waves_bounds(const waves *w, float footprint_m)
             add_bounds(&sum, &w->tiles[i].bounds[r.level], w->tiles[i].is_patched ? 1.7320508f : 1.0f);
     return sum;
 }
-
-/* ---- shape ---- */
-
-/* The displaced surface is (x + D_x, eta, z + D_z) over (x, z); its normal is the cross product of its derivatives. Where it is
- * folded, or nearly, its Jacobian counts as 0.02: the normal points up. */
-wave_shape wave_shape_of(const wave_point *p)
-{
-    float a = p->Dxz, b = 1.0f + p->Dzz, c = 1.0f + p->Dxx;
-    float J = b * c - a * a;
-    float x = a * p->slope[1] - b * p->slope[0], y = J > 0.02f ? J : 0.02f,
-          z = a * p->slope[0] - c * p->slope[1];
-    float scale = 1.0f / sqrtf(x * x + y * y + z * z);
-    return (wave_shape){{x * scale, y * scale, z * scale}, J, -(p->Dxx + p->Dzz)};
-}

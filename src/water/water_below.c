@@ -14,10 +14,7 @@ static float depth_of(const double P[3])
 /* Light behind x m of water, as seen from a depth z along d. */
 static vec3 through_water(const water_setup *s, vec3 behind, float z, vec3 d, float x)
 {
-    Water w = s->water;
-    vec3 inscatter =
-        water_inscatter(w, s->light.downwelling, z, d, x) + water_sun_glow(w, s->beam, s->sunward, z, d, x);
-    return behind * water_transmittance(water_beam(w), x) + inscatter;
+    return water_through(s->water, s->light.downwelling, s->beam, s->sunward, behind, z, d, x);
 }
 
 vec3 water_behind_water(const water_setup *s, vec3 radiance, const double P[3], vec3 d, float x)
@@ -45,23 +42,12 @@ vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d)
     if (x < FAR_M) {
         const float *albedo = s->sea->desc.bed.albedo;
         float bed_depth = max(z - x * d[1], 0.0f);
-        ground = vec3(albedo[0], albedo[1], albedo[2]) * s->light.downwelling * INV_PI *
-                 water_transmittance(water_K_d(s->water), bed_depth);
+        ground =
+            water_bed_below(s->water, s->light.downwelling, vec3(albedo[0], albedo[1], albedo[2]), bed_depth);
     }
     /* a ray that goes up for ever leaves water that would shine as it does near the surface */
     float reach = d[1] > 1e-4f ? min(x, z / d[1]) : x;
     return through_water(s, ground, z, d, reach);
-}
-
-/* The sun through a surface whose slopes spread its disc: they turn the refracted ray by about n - 1 of their angle. */
-static vec3 sun_through(const water_setup *s, const water_place *p, vec3 outside, float gain)
-{
-    float bend = (s->water.ior - 1.0f) * (s->water.ior - 1.0f);
-    float variance =
-        0.5f * bend * (p->point.covariance[0] + p->point.covariance[1]) + 0.5f * SUN_RADIUS * SUN_RADIUS;
-    vec3 off = outside - s->light.L;
-    float density = exp(-0.5f * dot(off, off) / variance) * (0.5f * INV_PI / variance);
-    return s->light.sun_irradiance * (gain * density);
 }
 
 static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 d)
@@ -77,7 +63,7 @@ static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 
     if (window.fresnel < 1.0f) {
         float perceptual_roughness = roughness_from_slopes(p->point.covariance * 0.1f);
         L = L + water_sky_reflected(&s->sky, window.outside, perceptual_roughness) * window.gain;
-        L = L + sun_through(s, p, window.outside, window.gain);
+        L = L + water_sun_through(s->water, p->point.covariance, s->light, window.outside, window.gain);
     }
     vec3 foam = s->light.downwelling * (s->water.foam_albedo * p->foam_albedo * INV_PI);
     return mix(L, foam, p->point.foam);

@@ -25,13 +25,6 @@ static float width_at(const march_ray *ray, double t)
     return ray->width + (float)t * ray->spread;
 }
 
-float water_march_footprint(const water_march *m, float width_m, double rise)
-{
-    float flat = 2.75f * width_m / fmaxf(m->deviation_m, 1e-6f), wider = 1.0f + flat * flat;
-    float along = 1.0f / fmaxf(fabsf((float)rise), 1e-4f);
-    return width_m * fminf(wider, along);
-}
-
 march_hit water_march_hit_at(const water_march *m, const march_ray *ray, double t,
                              const float displacement[2], double *clearance)
 {

@@ -131,8 +131,9 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     s->is_below = is_under_water(s);
     s->march = water_march_of(&sea->waves, &sea->slopes, !s->camera.is_orthographic);
     const uint32_t whole[4] = {0, 0, r->width, r->height}; /* so that a part shows the same */
-    result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count, &r->allocator,
-                                  &s->profile, error);
+    if (r->integrator == FACET_INTEGRATOR_PREVIEW)
+        result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count,
+                                      &r->allocator, &s->profile, error);
     const facet_sea_look *look = &desc->look;
     bool has_foam = !look->no_foam && look->stage != 4 && sea->foam.threshold < HUGE_VALF;
     if (result == FACET_OK && has_foam)

@@ -4,30 +4,14 @@
 
 #include "water/water_shade.h"
 
-static const float OLD_FOAM = 0.4f; /* albedo over that of fresh foam */
-
 /* ---- the place ---- */
 
-/* About the cosine at which waves are seen that a ray at the cosine mu meets: no less than the slopes make of grazing rays. The mean slope
- * towards the eye, of Gaussian ones of a standard deviation sigma that a grazing ray meets, is 1.25 sigma. */
-static float seen_cosine(vec3 V, vec3 C)
+float water_march_footprint(const water_march *m, float width_m, double rise)
 {
-    float level2 = max(V[0] * V[0] + V[2] * V[2], 1e-8f);
-    float variance = max(slope_variance(C, vec2(V[0], V[2])), 0.0f) / level2;
-    return clamp(sqrt(V[1] * V[1] + 1.5708f * variance * level2), 1e-3f, 1.0f);
+    return water_footprint(width_m, (float)rise, m->deviation_m);
 }
 
-/* N turned to V as far as it takes to see it: facets that are not resolved do so. */
-static vec3 faced(vec3 N, vec3 V)
-{
-    const float least = 1e-3f;
-    float NdotV = dot(N, V);
-    vec3 n = NdotV < least ? normalize(N + V * (least - NdotV)) : N;
-    return n[1] > least ? n : normalize(vec3(n[0], least, n[2]));
-}
-
-/* Share of the footprint under foam, and *albedo: of that, over that of fresh foam. Old foam gets thin. Koepke 1984: 0.22 is the mean of
- * a patch's life, 0.55 its begin. */
+/* Share of the footprint under foam, and *albedo: of that, over that of fresh foam. */
 static float foam_at(const water_setup *s, const water_place *p, float convergence, float footprint_m,
                      float *albedo)
 {
@@ -38,9 +22,9 @@ static float foam_at(const water_setup *s, const water_place *p, float convergen
         return 0.0f;
     float fresh = foam_coverage(rule, convergence, p->slopes.convergence_variance, rule->active_threshold);
     float old = waves_foam_at(&s->foam, p->rest[0], p->rest[1], footprint_m);
-    float both = 1.0f - (1.0f - fresh) * (1.0f - old);
-    *albedo = both > 0.0f ? mix(OLD_FOAM, 1.0f, clamp(fresh / both + old * old, 0.0f, 1.0f)) : 1.0f;
-    return both;
+    WaterFoam foam = water_foam_mix(fresh, old);
+    *albedo = foam.albedo;
+    return foam.share;
 }
 
 water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit)
@@ -52,7 +36,7 @@ water_place water_place_of(const water_setup *s, const march_ray *ray, const mar
     p.V = normalize(vec3((float)-d[0], (float)-rise, (float)-d[2]));
     p.footprint_m = hit->width_m;
     vec3 facing = p.V * side;
-    p.cosine = seen_cosine(facing, water_slopes_at(s, hit->footprint_m).resolved);
+    p.cosine = water_seen_cosine(facing, water_slopes_at(s, hit->footprint_m).resolved);
     float footprint = max(hit->footprint_m, hit->width_m * inversesqrt(p.cosine));
     p.slopes = water_slopes_at(s, footprint);
     double X = hit->X - (double)hit->displacement[0], Z = hit->Z - (double)hit->displacement[1];
@@ -64,7 +48,7 @@ water_place water_place_of(const water_setup *s, const march_ray *ray, const mar
     p.P[1] = march_height(&s->march, ray, hit->t);
     p.P[2] = hit->Z;
     p.point.N = vec3(shape.normal[0], shape.normal[1], shape.normal[2]);
-    p.point.N = side > 0.0f ? faced(p.point.N, facing) : p.point.N;
+    p.point.N = side > 0.0f ? water_faced(p.point.N, facing) : p.point.N;
     p.point.covariance = p.slopes.covariance;
     p.point.foam = foam_at(s, &p, shape.convergence, footprint, &p.foam_albedo);
     return p;
@@ -72,58 +56,21 @@ water_place water_place_of(const water_setup *s, const march_ray *ray, const mar
 
 /* ---- below ---- */
 
-/* Sunlight that comes through the crest from behind. */
-static vec3 backlight(const water_setup *s, const water_place *p, vec3 down)
-{
-    vec3 L = s->light.L;
-    float level = sqrt(L[0] * L[0] + L[2] * L[2]);
-    float above = p->waves.height_m - s->trough_m;
-    vec2 slope = slope_from_normal(p->point.N);
-    float rise = (slope[0] * L[0] + slope[1] * L[2]) / max(level, 1e-4f);
-    if (!(above > 0.0f) || !(rise > 0.0f) || level < 1e-4f)
-        return vec3(0.0f);
-    float before = above / max(-down[1], 0.3f);
-    return water_backlight(s->water, s->light, p->V, water_crest_way(above, rise), before);
-}
-
 vec3 water_from_below(const water_setup *s, const water_place *p)
 {
     vec3 down = water_refracted(s->water, -p->V, p->point.N);
-    vec3 crest = backlight(s, p, down);
+    vec3 crest = water_crest(s->water, s->light, p->point.N, p->V, down, p->waves.height_m - s->trough_m);
     if (!water_has_bed(s))
         return water_from_deep(s->water, s->light.downwelling) + crest;
     const facet_sea_bed *bed = &s->sea->desc.bed;
-    double depth = p->P[1] - water_bed_height(bed, p->P[0], p->P[2]);
-    double closing = water_bed_rise(bed, down) - (double)down[1];
-    WaterBed b;
-    b.albedo = b.mean_albedo = vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]);
-    b.way = closing > 1e-6 ? min((float)(depth / closing), 1e6f) : 1e6f;
-    b.way = max(b.way, 0.0f);
-    /* what lies over the place that is seen, whose height over the water here is that of the bed there */
-    b.depth = clamp((float)depth - b.way * (float)water_bed_rise(bed, down), 0.0f, b.way);
-    return water_from_bed(s->water, s->light.downwelling, b) + crest;
+    float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2]));
+    vec3 albedo = vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]);
+    return water_over_bed(s->water, s->light.downwelling, albedo, depth, (float)water_bed_rise(bed, down),
+                          down) +
+           crest;
 }
 
 /* ---- the sun ---- */
-
-/* Share of light along X that waves larger than the footprint let pass: Smith's, about the mean level. */
-static float passing(const water_place *p, vec3 X)
-{
-    vec3 up = vec3(0.0f, 1.0f, 0.0f);
-    if (X[1] <= 0.0f)
-        return 0.0f;
-    return 1.0f / (1.0f + Lambda_slopes(WATER_BECKMANN, smith_a(p->slopes.resolved, up, X)));
-}
-
-/* Extent of the footprint on the water along x and z. */
-static vec2 footprint_extent(const water_place *p)
-{
-    float w = p->footprint_m;
-    float level2 = max(p->V[0] * p->V[0] + p->V[2] * p->V[2], 1e-8f);
-    float longer = 1.0f / (p->cosine * p->cosine) - 1.0f;
-    return vec2(w * sqrt(1.0f + longer * p->V[0] * p->V[0] / level2),
-                w * sqrt(1.0f + longer * p->V[2] * p->V[2] / level2));
-}
 
 static float glints(const water_setup *s, const water_place *p)
 {
@@ -134,7 +81,8 @@ static float glints(const water_setup *s, const water_place *p)
     float area = p->footprint_m * p->footprint_m / p->cosine, lifetime = 1.0f / p->slopes.rate;
     float count = glint_count(s->water.normals, p->point.covariance, p->point.N, H, p->slopes.curvature, area,
                               s->shutter_s / lifetime);
-    uint cell = glint_cell(vec2((float)p->rest[0], (float)p->rest[1]), footprint_extent(p));
+    uint cell =
+        glint_cell(vec2((float)p->rest[0], (float)p->rest[1]), water_extent(p->V, p->footprint_m, p->cosine));
     return glint_variate(cell, count, (float)s->sea->waves.time_s, lifetime);
 }
 
@@ -142,7 +90,7 @@ static vec3 sun_in_water(const water_setup *s, const water_place *p, WaterLight 
 {
     if (light.L[1] <= 0.0f || light.sun_irradiance[1] <= 0.0f)
         return vec3(0.0f);
-    vec3 sun = water_sun(s->water, p->point, light, p->V) * passing(p, s->light.L);
+    vec3 sun = water_sun(s->water, p->point, light, p->V) * water_passing(p->slopes.resolved, s->light.L);
     return sun[1] > 0.0f ? sun * glints(s, p) : sun;
 }
 
@@ -159,7 +107,7 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
     Water w = s->water;
     w.foam_albedo *= p->foam_albedo;
     WaterMirror m = water_mirror(w, p->point, p->V, means[0], means[1], means[2], means[3]);
-    m.escape *= passing(p, normalize(m.R + vec3(0.0f, 1e-4f, 0.0f)));
+    m.escape *= water_passing(p->slopes.resolved, normalize(m.R + vec3(0.0f, 1e-4f, 0.0f)));
     vec3 sky =
         found->has_mirrored ? found->mirrored : water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
     vec3 below = found->has_below ? found->below : water_from_below(s, p);
@@ -175,6 +123,5 @@ vec3 water_shade_land(const water_setup *s)
     const facet_sea_bed *bed = &s->sea->desc.bed;
     vec3 N =
         normalize(vec3(-bed->slope * cos(bed->direction_rad), 1.0f, -bed->slope * sin(bed->direction_rad)));
-    vec3 E = s->light.sun_irradiance * max(dot(N, s->light.L), 0.0f) + s->light.sky_irradiance;
-    return vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]) * E * INV_PI;
+    return water_land(s->light, vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]), N);
 }

@@ -21,7 +21,7 @@ allowed() {
     ocean) echo ocean scene image base shade facet ;;
     water) echo water ocean cpu draw film ibl scene image base shade facet ;;
     cpu) echo cpu draw film ibl scene image base shade facet ;;
-    gl) echo gl draw glsl film ibl scene image base shade facet ;;
+    gl) echo gl ocean draw glsl film ibl scene image base shade facet ;;
     view) echo view gl plot draw film ibl scene image base shade facet ;;
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;

@@ -1,0 +1,210 @@
+/* water_place.h - a place of the sea as an eye sees it: how wide it is looked at, its normal, what foam covers, what hides it from
+ * light, and the ground below. Which waves are there is the caller's matter, who sums tiles of them.
+ *
+ * V to the eye, unit; C: xx, zz, xz of a covariance of slopes (water_surface.h). */
+#ifndef SHADE_WATER_PLACE_H
+#define SHADE_WATER_PLACE_H
+
+/* ---- waves ---- */
+
+/* Weights of the patches that a tile without repetition is laid out with, at a place in the axes of their triangles' rhombi,
+ * [0, 1)^2: of the corner (0, 0), or (1, 1) where place.x + place.y > 1, then (0, 1) and (1, 0). Each is the square of what its
+ * barycentric coordinate has over a quarter; the squares of all sum to 1. Heitz and Neyret 2018. */
+FN vec3 wave_patch_weights(vec2 place)
+{
+    float sum = place[0] + place[1];
+    bool is_upper = sum > 1.0f;
+    vec3 barycentric = vec3(sel(is_upper, sum - 1.0f, 1.0f - sum), sel(is_upper, 1.0f - place[0], place[1]),
+                            sel(is_upper, 1.0f - place[1], place[0]));
+    vec3 over = max(barycentric - 0.25f, 0.0f);
+    vec3 squares = over * over;
+    return squares * (1.0f / length(squares));
+}
+
+/* Weights of four samples in a row for a place between the middle two, f in [0, 1): the first three; all sum to 1. Catmull and
+ * Rom 1974. */
+FN vec3 wave_cubic_weights(float f)
+{
+    return vec3(f * (-0.5f + f * (1.0f - 0.5f * f)), 1.0f + f * f * (-2.5f + 1.5f * f),
+                f * (0.5f + f * (2.0f - 1.5f * f)));
+}
+
+/* The displaced surface is (x + D_x, eta, z + D_z) over (x, z); D: xx, zz, xz of D's derivatives. Its Jacobian, and its normal, unit:
+ * the cross product of its derivatives. Where it is folded, or nearly, its Jacobian counts as 0.02: the normal points up. */
+FN float wave_jacobian(vec3 D)
+{
+    return (1.0f + D[1]) * (1.0f + D[0]) - D[2] * D[2];
+}
+FN vec3 wave_normal(vec2 slope, vec3 D)
+{
+    return normalize(vec3(D[2] * slope[1] - (1.0f + D[1]) * slope[0], max(wave_jacobian(D), 0.02f),
+                          D[2] * slope[0] - (1.0f + D[0]) * slope[1]));
+}
+
+/* ---- how wide ---- */
+
+/* Width (m) with which the surface is read where a ray as wide as `width` meets it that rises by `rise` over the level: as wide,
+ * until waves, of the standard deviation `deviation` (m), are not even a width high. Then no longer they but their slopes are seen,
+ * and as much more of them at once as rays are flat: up to the ray's length on still water. */
+FN float water_footprint(float width, float rise, float deviation)
+{
+    float flat_share = 2.75f * width / max(deviation, 1e-6f);
+    return width * min(1.0f + flat_share * flat_share, 1.0f / max(abs(rise), 1e-4f));
+}
+
+/* About the cosine at which waves are seen by a ray towards V: no less than the slopes C make of grazing rays. The mean slope
+ * towards the eye, of Gaussian ones of a standard deviation sigma that a grazing ray meets, is 1.25 sigma. */
+FN float water_seen_cosine(vec3 V, vec3 C)
+{
+    float level2 = max(V[0] * V[0] + V[2] * V[2], 1e-8f);
+    float variance = max(slope_variance(C, vec2(V[0], V[2])), 0.0f) / level2;
+    return clamp(sqrt(V[1] * V[1] + 1.5708f * variance * level2), 1e-3f, 1.0f);
+}
+
+/* Extent (m) of the footprint on the water along x and z; cosine: water_seen_cosine(). */
+FN vec2 water_extent(vec3 V, float width, float cosine)
+{
+    float level2 = max(V[0] * V[0] + V[2] * V[2], 1e-8f);
+    float longer = 1.0f / (cosine * cosine) - 1.0f;
+    return vec2(width * sqrt(1.0f + longer * V[0] * V[0] / level2),
+                width * sqrt(1.0f + longer * V[2] * V[2] / level2));
+}
+
+/* N turned to V as far as it takes to see it: facets that are not resolved do so. */
+FN vec3 water_faced(vec3 N, vec3 V)
+{
+    float least = 1e-3f;
+    float NdotV = dot(N, V);
+    vec3 n = sel(NdotV < least, normalize(N + V * (least - NdotV)), N);
+    return sel(n[1] > least, n, normalize(vec3(n[0], least, n[2])));
+}
+
+/* Share of light along X that waves of the slopes C let pass: Smith's, about the mean level. */
+FN float water_passing(vec3 C, vec3 X)
+{
+    vec3 up = vec3(0.0f, 1.0f, 0.0f);
+    float Lambda = Lambda_slopes(WATER_BECKMANN, smith_a(C, up, X));
+    return sel(X[1] <= 0.0f, 0.0f, 1.0f / (1.0f + Lambda));
+}
+
+/* ---- foam ---- */
+
+/* Share of a normal distribution below z standard deviations. */
+FN float normal_below(float z)
+{
+    float tail = 0.5f * exp(-0.5f * z * z) * erfcx(abs(z) * 0.707106781f);
+    return sel(z < 0.0f, tail, 1.0f - tail);
+}
+
+/* Of a footprint whose water converges by `mean` with this variance, the share that breaks: where q is above the threshold. Areas are
+ * seen from above, where water that converges has less of it: the mean Jacobian at q is 1 - q + (q^2 - sigma^2) / 4. */
+FN float foam_share(float mean, float variance, float threshold)
+{
+    float sigma = sqrt(max(variance, 0.0f));
+    if (sigma < 1e-4f)
+        return sel(mean > threshold, 1.0f, 0.0f);
+    float area = max(1.0f - mean, 0.02f); /* of the footprint's water */
+    float z = (threshold - mean) / sigma;
+    float density = exp(-0.5f * z * z);
+    float covered = area * normal_below(-z) - sigma * 0.398942280f * density * (1.0f - 0.25f * sigma * z);
+    return clamp(covered / area, 0.0f, 1.0f);
+}
+
+/* What an amount of old foam, (0, 1), is multiplied by from place to place, 1 on average: (p + 1) Phi(M)^p of a Gaussian field M, of
+ * which the footprint hides the variance `hidden`, with the p up to 3 that leaves all amounts below 1. */
+FN float foam_thickness(float share, float M, float hidden)
+{
+    float power = min(3.0f, 1.0f / share - 1.0f);
+    float rest = min(hidden, 1.0f);
+    return (1.0f - rest) * (power + 1.0f) * pow(normal_below(M), power) + rest;
+}
+
+/* Old foam lies along lines where a Gaussian field of variance 1 is near 0, in a band of it that holds the share, [0, 0.999]. How much of
+ * a footprint with that mean and variance of the field lies in it. */
+FN float foam_lace(float share, float mean, float variance)
+{
+    float z = inverse_normal(0.5f + 0.5f * share);
+    float scale = inversesqrt(max(variance, 1e-6f));
+    return normal_below((z - mean) * scale) + normal_below((z + mean) * scale) - 1.0f;
+}
+
+/* Share of a footprint under foam, of which shares are fresh and old; and albedo over that of fresh foam: old foam gets thin. Koepke
+ * 1984: 0.22 is the mean of a patch's life, 0.55 its begin. */
+STRUCT(WaterFoam)
+{
+    float share;
+    float albedo;
+};
+FN WaterFoam water_foam_mix(float fresh, float old)
+{
+    WaterFoam r;
+    r.share = 1.0f - (1.0f - fresh) * (1.0f - old);
+    float new_share = clamp(fresh / max(r.share, 1e-20f) + old * old, 0.0f, 1.0f);
+    r.albedo = sel(r.share > 0.0f, mix(0.4f, 1.0f, new_share), 1.0f);
+    return r;
+}
+
+/* ---- what comes from below ---- */
+
+/* Sunlight through the crest behind a place that is `above` m over the troughs; down: refracted from the eye. See water_backlight(). */
+FN vec3 water_crest(Water w, WaterLight light, vec3 N, vec3 V, vec3 down, float above)
+{
+    float level = sqrt(light.L[0] * light.L[0] + light.L[2] * light.L[2]);
+    vec2 slope = slope_from_normal(N);
+    float rise = (slope[0] * light.L[0] + slope[1] * light.L[2]) / max(level, 1e-4f);
+    bool is_behind = above > 0.0f && rise > 0.0f && level >= 1e-4f;
+    float before = max(above, 0.0f) / max(-down[1], 0.3f);
+    return sel(is_behind, water_backlight(w, light, V, water_crest_way(above, rise), before), vec3(0.0f));
+}
+
+/* A bed that is a plane, `depth` m below the place and rising by `rise` m per m along `down`, seen through the water. See
+ * water_from_bed(). */
+FN vec3 water_over_bed(Water w, vec3 downwelling, vec3 albedo, float depth, float rise, vec3 down)
+{
+    float closing = rise - down[1];
+    WaterBed b;
+    b.albedo = albedo;
+    b.mean_albedo = albedo;
+    b.way = max(sel(closing > 1e-6f, min(depth / closing, 1e6f), 1e6f), 0.0f);
+    /* what lies over the place that is seen, whose height over the water here is that of the bed there */
+    b.depth = clamp(depth - b.way * rise, 0.0f, b.way);
+    return water_from_bed(w, downwelling, b);
+}
+
+/* Radiance (cd/m^2) of ground of normal N that the water leaves dry. */
+FN vec3 water_land(WaterLight light, vec3 albedo, vec3 N)
+{
+    vec3 E = light.sun_irradiance * max(dot(N, light.L), 0.0f) + light.sky_irradiance;
+    return albedo * E * INV_PI;
+}
+
+/* ---- through water ---- */
+
+/* Light behind x m of water, as seen from a depth z (m) along the unit direction d: weakened by absorption and by all scattering, and
+ * with what is scattered into the ray, of the light that goes down and of the sun's beam (lx across it, unit direction to the
+ * sun there). */
+FN vec3 water_through(Water w, vec3 downwelling, vec3 beam, vec3 sunward, vec3 behind, float z, vec3 d,
+                      float x)
+{
+    vec3 inscatter = water_inscatter(w, downwelling, z, d, x) + water_sun_glow(w, beam, sunward, z, d, x);
+    return behind * water_transmittance(water_beam(w), x) + inscatter;
+}
+
+/* The bed's radiance below a depth (m). */
+FN vec3 water_bed_below(Water w, vec3 downwelling, vec3 albedo, float depth)
+{
+    return albedo * downwelling * INV_PI * water_transmittance(water_K_d(w), depth);
+}
+
+/* The sun through a surface of slopes C that spread its disc, for an eye below that sees `outside` through it: they turn the
+ * refracted ray by about n - 1 of their angle. gain: WaterWindow's. */
+FN vec3 water_sun_through(Water w, vec3 C, WaterLight light, vec3 outside, float gain)
+{
+    float bend = (w.ior - 1.0f) * (w.ior - 1.0f);
+    float variance = 0.5f * bend * (C[0] + C[1]) + 0.5f * SUN_RADIUS * SUN_RADIUS;
+    vec3 off = outside - light.L;
+    float density = exp(-0.5f * dot(off, off) / variance) * (0.5f * INV_PI / variance);
+    return light.sun_irradiance * (gain * density);
+}
+
+#endif

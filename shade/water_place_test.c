@@ -1,0 +1,114 @@
+/* water_place_test.c - places of the sea: sums of weights, limits of footprints, foam against its integral, the bed's limits. */
+#include "testing/test_support.h"
+
+static void test_weights(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 400; i++) {
+        float a = (float)(i % 20) / 20.0f, b = (float)(i / 20) / 20.0f;
+        vec3 w = wave_patch_weights(vec2(a, b));
+        expect_near((double)dot(w, w), 1.0, 1e-6, "squares at %g, %g", (double)a, (double)b);
+        vec3 c = wave_cubic_weights(a);
+        double last = (double)(a * a * (-0.5f + 0.5f * a));
+        expect_near((double)(c[0] + c[1] + c[2]) + last, 1.0, 1e-6, "cubic at %g", (double)a);
+    }
+    vec3 corner = wave_patch_weights(vec2(0.0f, 0.0f));
+    expect_near((double)corner[0], 1.0, 1e-6, "at a corner");
+    expect_near((double)wave_patch_weights(vec2(0.5f, 0.5001f))[0], 0.0, 1e-6, "across an edge");
+    expect_near((double)wave_patch_weights(vec2(0.9999f, 0.9999f))[0], 1.0, 1e-6, "at the upper corner");
+}
+
+/* The normal beside the cross product of derivatives, in double. */
+static void test_normal(void **state)
+{
+    (void)state;
+    vec3 N = wave_normal(vec2(0.2f, -0.3f), vec3(-0.1f, 0.05f, 0.08f));
+    double x = 0.08 * -0.3 - 1.05 * 0.2, y = 1.05 * 0.9 - 0.08 * 0.08, z = 0.08 * 0.2 - 0.9 * -0.3;
+    double length = (sqrt)(x * x + y * y + z * z);
+    expect_near((double)N[0], x / length, 1e-6, "x");
+    expect_near((double)N[1], y / length, 1e-6, "y");
+    expect_near((double)N[2], z / length, 1e-6, "z");
+    vec3 V = normalize(vec3(-1.0f, 0.01f, 0.0f)), tilted = normalize(vec3(0.5f, 1.0f, 0.0f));
+    vec3 faced = water_faced(tilted, V);
+    assert_true(dot(faced, V) > 0.0f && faced[1] > 0.0f);
+    vec3 same = water_faced(tilted, vec3(0.0f, 1.0f, 0.0f));
+    expect_near((double)dot(same, tilted), 1.0, 1e-6, "seen as it is");
+}
+
+static void test_footprint(void **state)
+{
+    (void)state;
+    expect_near((double)water_footprint(0.01f, 0.001f, 1.0f), 0.01, 1e-4, "where waves are high");
+    expect_near((double)water_footprint(0.01f, 0.25f, 0.0f), 0.04, 1e-6,
+                "still water: the length of the ray's foot");
+    expect_near((double)water_footprint(0.01f, -1.0f, 0.0f), 0.01, 1e-8, "from below, straight");
+    vec3 C = vec3(0.0f);
+    expect_near((double)water_seen_cosine(vec3(0.6f, 0.8f, 0.0f), C), 0.8, 1e-6, "flat water");
+    vec2 extent = water_extent(vec3(0.6f, 0.8f, 0.0f), 1.0f, 0.8f);
+    expect_near((double)extent[0], 1.25, 1e-5, "along");
+    expect_near((double)extent[1], 1.0, 1e-6, "across");
+}
+
+/* Share of the area seen from above whose q is beyond the threshold, by the sum over q. */
+static double foam_integral(double mean, double sigma, double threshold)
+{
+    double sum = 0.0, all = fmax(1.0 - mean, 0.02);
+    for (int i = 0; i < 20000; i++) {
+        double z = -8.0 + 16.0 * (i + 0.5) / 20000, q = z * sigma; /* about the mean */
+        double J = (1.0 - mean) - q + 0.25 * (q * q - sigma * sigma);
+        if (mean + q > threshold)
+            sum += J * (exp)(-0.5 * z * z) * 0.3989422804 * 16.0 / 20000;
+    }
+    return fmin(fmax(sum / all, 0.0), 1.0);
+}
+
+static void test_foam(void **state)
+{
+    (void)state;
+    const double cases[][3] = {{0.0, 0.2, 0.5}, {0.3, 0.1, 0.5}, {0.6, 0.1, 0.5}, {-0.2, 0.3, 0.4}};
+    for (int i = 0; i < 4; i++) {
+        const double *c = cases[i];
+        double share = (double)foam_share((float)c[0], (float)(c[1] * c[1]), (float)c[2]);
+        expect_near(share, foam_integral(c[0], c[1], c[2]), 2e-3, "case %d", i);
+    }
+    assert_true(foam_share(0.6f, 0.0f, 0.5f) == 1.0f && foam_share(0.4f, 0.0f, 0.5f) == 0.0f);
+    WaterFoam none = water_foam_mix(0.0f, 0.0f), all = water_foam_mix(1.0f, 0.3f);
+    assert_true(none.share == 0.0f && none.albedo == 1.0f);
+    assert_true(all.share == 1.0f && all.albedo == 1.0f);
+}
+
+/* Lace covers its share where nothing of the field is seen, and its mean over the field is that share. */
+static void test_lace(void **state)
+{
+    (void)state;
+    for (int i = 1; i < 10; i++) {
+        float share = 0.1f * (float)i;
+        double sum = 0.0, thickness = 0.0;
+        for (int k = 0; k < 4000; k++) {
+            double z = -6.0 + 12.0 * (k + 0.5) / 4000,
+                   density = (exp)(-0.5 * z * z) * 0.3989422804 * 12.0 / 4000;
+            sum += (double)foam_lace(share, (float)z, 0.0f) * density;
+            thickness += (double)foam_thickness(share, (float)z, 0.0f) * density;
+        }
+        expect_near((double)foam_lace(share, 0.0f, 1.0f), (double)share, 1e-4, "unseen, %d", i);
+        expect_near(sum, (double)share, 2e-3, "mean, %d", i);
+        expect_near(thickness, 1.0, 1e-3, "thickness, %d", i);
+    }
+}
+
+static void test_passing(void **state)
+{
+    (void)state;
+    vec3 C = vec3(0.02f, 0.02f, 0.0f);
+    expect_near((double)water_passing(C, vec3(0.0f, 1.0f, 0.0f)), 1.0, 1e-6, "straight up");
+    assert_true(water_passing(C, vec3(1.0f, -0.01f, 0.0f)) == 0.0f);
+    assert_true(water_passing(C, normalize(vec3(1.0f, 0.02f, 0.0f))) < 0.5f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_weights),   cmocka_unit_test(test_normal),
+                                       cmocka_unit_test(test_footprint), cmocka_unit_test(test_foam),
+                                       cmocka_unit_test(test_lace),      cmocka_unit_test(test_passing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

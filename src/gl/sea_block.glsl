@@ -1,0 +1,45 @@
+/* sea_block.glsl - a picture's sea, as gl_sea_block.h has it. Places are relative to the eye's: X, Z of the world less its. */
+#define SEA_TILES 4
+#define SEA_FOOTPRINTS 64
+#define SEA_LEVELS 11
+
+layout(std140) uniform Sea
+{
+    vec4 sea_axes[SEA_TILES];      /* cos, sin of a tile's turn; samples per m; 1: it is read through patches */
+    vec4 sea_places[SEA_TILES];    /* of the eye: in samples; in its rhombus of patches */
+    vec4 sea_lengths[SEA_TILES];   /* 1 / length, 1/m; first row of its patches; row of the foam's planes */
+    ivec4 sea_counts;              /* tiles, levels, samples along an edge, planes of lace */
+    vec4 sea_eye;                  /* height over still water, fall (1/m), deviation, mean level of waves; m */
+    vec4 sea_ray;                  /* height of a pixel at depth 1, share of it that a sample is wide; near, far; m */
+    vec4 sea_fan;                  /* of the grid: first and half azimuth, m that steps grow from, size of steps */
+    vec4 sea_fan_ends;             /* columns, rows with waves, rows; ratio of distances beyond */
+    vec4 sea_shift;                /* x, z of the grid's middle at rest; how far water moves, m; width of samples, rad */
+    vec4 sea_residual[SEA_FOOTPRINTS]; /* slopes that a footprint hides: xx, zz, xz; variance of convergence */
+    vec4 sea_moments[SEA_FOOTPRINTS];  /* k4 of their waves, mean omega */
+    vec4 sea_total;                /* slopes of all; w: 1: sea_rough stands for waves finer than all tiles */
+    vec4 sea_rough;                /* slopes; w: troughs, m */
+    vec4 sea_foam_at;              /* threshold of fresh foam; width of thickness, and the eye's place in it, samples */
+    vec4 sea_foam_hidden[SEA_LEVELS]; /* variance that a level hides, of each plane of lace */
+    vec4 sea_absorption, sea_scattering, sea_backscattering, sea_reflectance; /* w: ior, foam's albedo, normals, masking */
+    vec4 sea_pure_share;           /* w: 1: Schlick's formula */
+    vec4 sea_sun;                  /* unit, to it; w: its Fresnel reflectance */
+    vec4 sea_sun_irradiance;       /* lx; w: reflectance of light from all of the sky */
+    vec4 sea_sky_irradiance;       /* w: time, s */
+    vec4 sea_downwelling;          /* w: time that the shutter is open, s */
+    vec4 sea_beam, sea_sunward;    /* w: radius of the disc; azimuth of the sun, rad */
+    vec4 sea_bed;                  /* albedo; depth under the eye, m */
+    vec4 sea_bed_slope;            /* rise along x, z; perceptual roughness of stages; clamp */
+    vec4 sea_sky_at;               /* height of the eye, km; way of clearness, km; 1: mirrors show the drawn sky */
+    ivec4 sea_look;                /* stage, variant of before; 1: foam, sparkles of before */
+};
+
+Water sea_water()
+{
+    return Water(sea_absorption.w, sea_absorption.xyz, sea_scattering.xyz, sea_backscattering.xyz, sea_reflectance.xyz, sea_pure_share.xyz,
+                 sea_sun_irradiance.w, sea_scattering.w, int(sea_backscattering.w), int(sea_reflectance.w), int(sea_pure_share.w));
+}
+
+WaterLight sea_light()
+{
+    return WaterLight(sea_sun.xyz, sea_sun_irradiance.xyz, sea_sky_irradiance.xyz, sea_downwelling.xyz, sea_sun.w);
+}

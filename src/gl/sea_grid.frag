@@ -1,0 +1,13 @@
+/* sea_grid.frag - nodes of the mesh: places relative to the eye, as it sees them over a round Earth. */
+layout(location = 0) out highp vec4 fragment;
+
+void main()
+{
+    vec2 rest = sea_grid_rest(ivec2(gl_FragCoord.xy));
+    float r = max(length(rest), 1e-3);
+    float width = sea_shift.w * length(vec2(r, sea_eye.x));
+    float rise = (sea_eye.x - r * r * sea_eye.y) / r;
+    vec3 D = sea_heave(rest, water_footprint(width, rise, sea_eye.z));
+    vec2 at = rest + D.xz;
+    fragment = vec4(at.x, D.y - sea_eye.x - dot(at, at) * sea_eye.y, at.y, 1.0);
+}

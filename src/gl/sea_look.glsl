@@ -1,0 +1,108 @@
+/* sea_look.glsl - what a place of the sea looks like, physically and before: water_shade.c, water_below.c, water_look.c with the same
+ * functions of the shared text. */
+uniform highp sampler2D u_sea_means; /* means over facets: water_table.h */
+
+/* Where the water rests in the world, m. */
+vec2 sea_world_rest(SeaPlace p)
+{
+    return p.rest + eye.xz;
+}
+
+/* fresnel, escape, lift, spread */
+vec4 sea_means(float mu, float sigma)
+{
+    vec2 place = (water_table_place(mu, sigma) + 0.5) / vec2(WATER_TABLE_COLUMNS, WATER_TABLE_ROWS);
+    return textureLod(u_sea_means, place, 0.0);
+}
+
+float sea_glints(SeaPlace p, Water w)
+{
+#ifdef HAS_GLINTS
+    vec3 H = normalize(p.V + sea_sun.xyz);
+    if (H.y <= 0.0 || p.moments.y <= 0.0)
+        return 1.0;
+    float area = p.width * p.width / p.cosine;
+    float lifetime = 1.0 / p.moments.y;
+    float count = glint_count(w.normals, p.point.covariance, p.point.N, H, p.moments.x, area, sea_downwelling.w / lifetime);
+    return glint_variate(glint_cell(sea_world_rest(p), water_extent(p.V, p.width, p.cosine)), count, sea_sky_irradiance.w, lifetime);
+#else
+    return 1.0;
+#endif
+}
+
+vec3 sea_sun_seen(SeaPlace p, Water w, WaterLight light)
+{
+    if (light.L.y <= 0.0 || light.sun_irradiance.y <= 0.0)
+        return vec3(0.0);
+    vec3 sun = water_sun(w, p.point, light, p.V);
+    return sun.y > 0.0 ? sun * (water_passing(p.resolved, light.L) * sea_glints(p, w)) : sun;
+}
+
+/* Radiance that goes up just below the surface, towards the eye. */
+vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
+{
+    vec3 down = water_refracted(w, -p.V, p.point.N);
+    vec3 crest = water_crest(w, light, p.point.N, p.V, down, p.height - sea_rough.w);
+#ifdef HAS_BED
+    float depth = p.at.y + sea_bed.w - dot(sea_bed_slope.xy, p.at.xz);
+    return water_over_bed(w, light.downwelling, sea_bed.xyz, depth, dot(sea_bed_slope.xy, down.xz), down) + crest;
+#else
+    return water_from_deep(w, light.downwelling) + crest;
+#endif
+}
+
+/* To an eye over the water. */
+vec3 sea_shade(SeaPlace p)
+{
+    Water w = sea_water();
+    WaterLight light = sea_light();
+    vec4 means = vec4(1.0, 1.0, 0.0, 0.0); /* of flat water */
+    float NdotV = clamp(dot(p.point.N, p.V), 1e-4, 1.0);
+    vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0);
+    float sigma = sigma_towards(p.point.covariance - least, p.point.N, p.V);
+    if (sigma > 1e-6)
+        means = sea_means(NdotV, sigma);
+    w.foam_albedo *= p.foam_albedo;
+    WaterMirror m = water_mirror(w, p.point, p.V, means.x, means.y, means.z, means.w);
+    m.escape *= water_passing(p.resolved, normalize(m.R + vec3(0.0, 1e-4, 0.0)));
+    vec3 sky = sea_sky_reflected(m.R, m.perceptual_roughness);
+    return water_radiance(water_parts(w, p.point, light, m, sky, sea_sun_seen(p, w, light), sea_from_below(p, w, light)));
+}
+
+/* To an eye in the water. */
+vec3 sea_shade_below(SeaPlace p)
+{
+    Water w = sea_water();
+    WaterLight light = sea_light();
+    WaterWindow window = water_window(w, p.d, p.point.N);
+    vec3 mirrored = window.mirrored;
+    if (mirrored.y > -1e-3)
+        mirrored = normalize(vec3(mirrored.x, -1e-3, mirrored.z));
+    vec3 L = vec3(0.0);
+    if (window.fresnel > 0.0)
+        L = sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored) * window.fresnel;
+    if (window.fresnel < 1.0) {
+        L += sea_sky_reflected(window.outside, roughness_from_slopes(p.point.covariance * 0.1)) * window.gain;
+        L += water_sun_through(w, p.point.covariance, light, window.outside, window.gain);
+    }
+    L = mix(L, light.downwelling * (w.foam_albedo * p.foam_albedo * INV_PI), p.point.foam);
+    return water_through(w, light.downwelling, sea_beam.xyz, sea_sunward.xyz, L, max(-sea_eye.x, 0.0), p.d, p.t);
+}
+
+/* The looks before, in numbers of a display. */
+vec3 sea_before(SeaPlace p)
+{
+    vec2 slope = slope_from_normal(p.point.N);
+    float sparkle = 0.0;
+    if (sea_look.w != 0) /* noise in the water, about one cell in ten */
+        sparkle = glint_uniform(glint_cell(sea_world_rest(p), vec2(p.width))) > 0.9 ? 1.0 : 0.0;
+    float foam = sea_look.z != 0 ? before_foam(length(slope)) : 0.0;
+    return before_shade(sea_look.y, sea_look.x, p.d, p.point.N, sea_sun.xyz, p.at.y, sparkle, foam, sea_absorption.w, sea_bed_slope.z);
+}
+
+/* Stage 3: the sky in a mirror of Schlick's reflectance, the sun in GGX of one roughness, and a matt base color below. */
+vec3 sea_painted(SeaPlace p)
+{
+    vec3 sky = sea_sky_reflected(painted_mirror(p.point.N, p.V), sea_bed_slope.z);
+    return painted_water(sea_light(), p.point.N, p.V, sea_absorption.w, sea_bed_slope.z, sky);
+}

@@ -1,0 +1,153 @@
+/* sea_place.glsl - the place of the surface that a fragment shows, as water_shade.c has it. */
+uniform highp sampler2DArray u_sea_foam; /* one number a texel: amount of old foam, planes of lace */
+
+struct SeaPlace
+{
+    vec3 d;           /* unit, from the eye */
+    vec2 rest;        /* of the water, from the eye, m */
+    float t;          /* m */
+    vec3 V;           /* unit, to the eye, against the level of the sea there */
+    vec3 at;          /* x, z from the eye; y over still water; m */
+    float width;      /* of the footprint across the ray, m */
+    float cosine;     /* water_seen_cosine() */
+    float height;     /* of waves, m */
+    vec3 resolved;    /* slopes that the footprint resolves */
+    vec2 moments;     /* k4, omega of the others */
+    float foam_albedo;
+    WaterPoint point;
+};
+
+/* ---- slopes ---- */
+
+/* Entry of a footprint, with fraction: from 1 mm to 100 km, 63 steps. */
+float sea_footprint_place(float footprint)
+{
+    return clamp(log2(max(footprint * 1000.0, 1.0)) * (63.0 / 26.575425), 0.0, 63.0);
+}
+
+/* Slopes that a footprint does not resolve, and variance of convergence; those of all others. */
+vec4 sea_slopes(float footprint, out vec3 resolved, out vec2 moments)
+{
+    float place = sea_footprint_place(footprint);
+    int i = min(int(place), SEA_FOOTPRINTS - 2);
+    vec4 hidden = mix(sea_residual[i], sea_residual[i + 1], place - float(i));
+    moments = mix(sea_moments[i], sea_moments[i + 1], place - float(i)).xy;
+    resolved = sea_total.xyz - hidden.xyz;
+    if (sea_total.w > 0.0)
+        hidden.xyz += sea_rough.xyz - sea_residual[0].xyz;
+    vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0);
+    resolved = vec3(max(resolved.xy, 0.0), resolved.z) + least;
+    return vec4(vec3(max(hidden.xy, 0.0), hidden.z) + least, hidden.w);
+}
+
+/* ---- foam ---- */
+
+#ifdef HAS_FOAM
+/* Mean and hidden variance of a plane; at: in samples, texels: width of the footprint in them. */
+vec2 sea_plane(int layer, vec2 at, float texels)
+{
+    int last = sea_counts.y - 1;
+    float whole = min(floor(log2(max(texels, 1.0))), float(last));
+    float rest = texels * exp2(-whole);
+    float more = int(whole) < last ? clamp(rest - 1.0, 0.0, 1.0) : 0.0;
+    float mean = textureLod(u_sea_foam, vec3((at + 0.5) / float(sea_counts.z), layer), whole + more).x;
+    int level = int(whole);
+    float hidden = mix(sea_foam_hidden[level][layer], sea_foam_hidden[min(level + 1, last)][layer], more);
+    return vec2(mean, hidden);
+}
+
+/* In samples of a tile, from a place of the eye. */
+vec2 sea_samples(int tile, vec2 rest, vec2 eye_at, float scale)
+{
+    float size = float(sea_counts.z);
+    vec4 axes = sea_axes[tile];
+    vec2 at = eye_at + vec2(rest.x * axes.x + rest.y * axes.y, rest.y * axes.x - rest.x * axes.y) * (axes.z * scale);
+    return at - floor(at / size) * size;
+}
+
+/* waves_foam_at() */
+float sea_old_foam(vec2 rest, float footprint)
+{
+    SeaPatches p = sea_patches(0, rest);
+    float share = 0.0;
+    float texels = footprint * sea_axes[0].z;
+    for (int i = 0; i < 3; i++)
+        if (p.weights[i] > 0.0)
+            share += p.weights[i] * p.weights[i] * sea_plane(0, p.place + p.from[i], texels).x;
+    share = clamp(share, 0.0, 1.0);
+    if (share <= 1e-4 || share >= 0.999)
+        return share;
+    int first = sea_counts.x > 1 ? 1 : 0;
+    vec2 at = sea_samples(first, rest, sea_foam_at.zw, sea_foam_at.y);
+    vec2 field = sea_plane(1, vec2(-at.y, at.x), footprint * sea_foam_at.y * sea_axes[first].z);
+    share = min(share * foam_thickness(share, field.x, field.y), 0.999);
+    vec2 lace = vec2(0.0);
+    float scale = inversesqrt(float(sea_counts.w));
+    for (int i = 0; i < sea_counts.w; i++)
+        lace += sea_plane(1 + i, sea_samples(first + i, rest, sea_places[first + i].xy, 1.0), footprint * sea_axes[first + i].z) * vec2(scale, scale * scale);
+    return foam_lace(share, lace.x, lace.y);
+}
+#endif
+
+/* ---- all ---- */
+
+/* The mesh's place (sea_surface.frag) corrected by the surface as it is, by no more than a cell: t, then where the water there
+ * rests. */
+vec3 sea_corrected(vec3 d, vec4 seen, float side)
+{
+    float t = seen.z;
+    float level = length(d.xz);
+    if (level < 0.1)
+        return vec3(t, seen.xy);
+    float y = d.y * t + sea_eye.x + t * t * level * level * sea_eye.y;
+    float width = sea_ray.x * sea_ray.y * t * dot(d, forward.xyz);
+    float footprint = water_footprint(width, d.y + 2.0 * t * level * level * sea_eye.y, sea_eye.z);
+    vec2 D = d.xz * t - seen.xy;
+    D = sea_heave(d.xz * t - D, footprint).xz;
+    vec3 there = sea_heave(d.xz * t - D, footprint);
+    float cell = sea_fan.w * t * level;
+    float more = clamp((y - there.y) * side / seen.w, -cell, cell) / level;
+    return vec3(t + more, d.xz * (t + more) - there.xz);
+}
+
+/* Seen along d. */
+SeaPlace sea_place(vec3 d, vec4 seen)
+{
+    SeaPlace p;
+#ifdef IS_BELOW
+    float side = -1.0;
+#else
+    float side = 1.0;
+#endif
+    vec3 corrected = sea_corrected(d, seen, side);
+    float t = corrected.x;
+    vec2 rest = corrected.yz;
+    p.t = t;
+    p.d = d;
+    p.rest = rest;
+    float level2 = 1.0 - p.d.y * p.d.y;
+    float rise = p.d.y + 2.0 * p.t * level2 * sea_eye.y;
+    p.V = normalize(vec3(-p.d.x, -rise, -p.d.z));
+    p.at = d * t + vec3(0.0, sea_eye.x + t * t * level2 * sea_eye.y, 0.0);
+    p.width = sea_ray.x * sea_ray.y * p.t * dot(p.d, forward.xyz);
+    float footprint = water_footprint(p.width, rise, sea_eye.z);
+    sea_slopes(footprint, p.resolved, p.moments);
+    p.cosine = water_seen_cosine(p.V * side, p.resolved);
+    footprint = max(footprint, p.width * inversesqrt(p.cosine));
+    vec4 hidden = sea_slopes(footprint, p.resolved, p.moments);
+    SeaWaves waves = sea_waves(rest, footprint);
+    p.height = waves.displacement.y;
+    p.point.N = wave_normal(waves.slope, waves.D);
+#ifndef IS_BELOW
+    p.point.N = water_faced(p.point.N, p.V);
+#endif
+    p.point.covariance = hidden.xyz;
+    p.point.foam = 0.0;
+    p.foam_albedo = 1.0;
+#ifdef HAS_FOAM
+    WaterFoam foam = water_foam_mix(foam_share(-(waves.D.x + waves.D.y), hidden.w, sea_foam_at.x), sea_old_foam(rest, footprint));
+    p.point.foam = foam.share;
+    p.foam_albedo = foam.albedo;
+#endif
+    return p;
+}

@@ -1,0 +1,155 @@
+/* sea_sky.glsl - the sky over a sea, the air before it, and what lies beyond the water: pictures that were drawn of it, and light that
+ * was filtered. Radiance in cd/m^2. */
+#define SEA_SKY_SEEN 0
+#define SEA_SKY_AIR 1
+#define SEA_SKY_MIRRORED 2
+#define SEA_SKY_CLEARNESS 3
+#define SEA_SKY_DISC 4
+
+uniform highp sampler2DArray u_sea_sky;
+
+/* A picture at a direction, `share` of the way from the horizon. */
+vec3 sea_sky_at_share(int layer, vec3 d, float share)
+{
+    float turns = (atan(d.z, abs(d.x) + abs(d.z) > 0.0 ? d.x : 1.0) - sea_sunward.w) * (0.5 * INV_PI);
+    return textureLod(u_sea_sky, vec3(turns, sqrt(clamp(share, 0.0, 1.0)), layer), 0.0).xyz;
+}
+
+float sea_zenith(vec3 d)
+{
+    return atan(length(d.xz), d.y);
+}
+
+float sea_horizon()
+{
+    return acos(horizon_mu(sea_sky_at.x));
+}
+
+/* The sun's disc. */
+vec3 sea_disc(vec3 d)
+{
+    vec3 off = (d - sea_sun.xyz) / max(sea_beam.w, 1e-6);
+    float level = length(sea_sun.xz);
+    vec3 right = level > 1e-6 ? vec3(-sea_sun.z, 0.0, sea_sun.x) / level : vec3(1.0, 0.0, 0.0);
+    vec3 up = cross(right, sea_sun.xyz);
+    up = up.y < 0.0 ? -up : up;
+    vec2 at = vec2(dot(off, right), dot(off, up));
+    if (sea_beam.w <= 0.0 || dot(off, off) >= 1.0)
+        return vec3(0.0);
+    return textureLod(u_sea_sky, vec3(0.5 + 0.5 * at, SEA_SKY_DISC), 0.0).xyz;
+}
+
+vec3 sea_sky_seen(vec3 d)
+{
+#ifdef HAS_PICTURE
+    vec3 sky = light_background(normalize(vec3(d.x, max(d.y, 0.0), d.z)));
+#else
+    float horizon = sea_horizon();
+    vec3 sky = sea_sky_at_share(SEA_SKY_SEEN, d, 1.0 - sea_zenith(d) / horizon);
+#endif
+    return sky + sea_disc(d);
+}
+
+/* Lobes narrower than 0.02 in alpha are as good as mirrors under a sky without a disc. */
+vec3 sea_sky_reflected(vec3 R, float perceptual_roughness)
+{
+    vec3 up = vec3(R.x, abs(R.y), R.z);
+#ifdef HAS_PICTURE
+    return light_specular(up, perceptual_roughness);
+#else
+    float share = clamp(perceptual_roughness / 0.14, 0.0, 1.0);
+    vec3 sum = vec3(0.0);
+    if (share < 1.0)
+        sum = sea_sky_at_share(SEA_SKY_MIRRORED, up, 1.0 - sea_zenith(up) * (2.0 * INV_PI)) * (1.0 - share);
+    if (share > 0.0)
+        sum += light_specular(up, perceptual_roughness) * share;
+    return sum;
+#endif
+}
+
+/* Share of light left after a way at the height of the eye. */
+vec3 sea_clearness(float way_km)
+{
+    float edge = 0.5 / float(textureSize(u_sea_sky, 0).x);
+    float x = way_km / (way_km + sea_sky_at.y);
+    vec3 left = textureLod(u_sea_sky, vec3(clamp(x, edge, 1.0 - edge), 0.5, SEA_SKY_CLEARNESS), 0.0).xyz;
+    return x < edge ? mix(vec3(1.0), left, x / edge) : left;
+}
+
+/* Through the air between the eye and what is t m away along d. */
+vec3 sea_through_air(vec3 radiance, vec3 d, float t)
+{
+    vec3 left = sea_clearness(t * 0.001);
+#ifdef HAS_PICTURE
+    vec3 share = 1.0 - left;
+#else
+    float horizon = horizon_mu(sea_sky_at.x);
+    float whole_km = ray_to_ground(sea_sky_at.x, min(d.y, horizon));
+    if (whole_km < 0.0)
+        whole_km = ray_to_ground(sea_sky_at.x, horizon - 1e-6);
+    vec3 whole = 1.0 - sea_clearness(max(whole_km, 1e-4));
+    vec3 share = min((1.0 - left) / max(whole, vec3(1e-12)), vec3(1.0));
+#endif
+    float angle = sea_horizon();
+    return radiance * left + sea_sky_at_share(SEA_SKY_AIR, d, (sea_zenith(d) - angle) / (PI - angle)) * share;
+}
+
+/* ---- the ground ---- */
+
+#ifdef HAS_BED
+/* m from the eye to ground that the water leaves dry; -1: there is none. */
+float sea_land(vec3 d)
+{
+    float closing = dot(sea_bed_slope.xy, d.xz) - d.y;
+    float above = sea_eye.x + sea_bed.w;
+    float land = closing > 0.0 ? above / closing : -1.0;
+    return dot(sea_bed_slope.xy, sea_bed_slope.xy) > 0.0 ? land : -1.0;
+}
+
+vec3 sea_land_seen(vec3 d, float land)
+{
+    vec3 N = normalize(vec3(-sea_bed_slope.x, 1.0, -sea_bed_slope.y));
+    return sea_through_air(water_land(sea_light(), sea_bed.xyz, N), d, land);
+}
+#endif
+
+/* m to the bed along d from a place at x, z from the eye and y over still water; 1e4: it is not met. */
+float sea_way_to_bed(vec3 at, vec3 d)
+{
+#ifdef HAS_BED
+    float closing = dot(sea_bed_slope.xy, d.xz) - d.y;
+    float above = at.y + sea_bed.w - dot(sea_bed_slope.xy, at.xz);
+    if (above <= 0.0)
+        return 0.0;
+    return closing > 1e-9 ? min(above / closing, 1e4) : 1e4;
+#else
+    return 1e4;
+#endif
+}
+
+/* Water, and the bed behind it, seen from a place in the water along d. */
+vec3 sea_seen_through_water(vec3 at, vec3 d)
+{
+    Water w = sea_water();
+    float x = sea_way_to_bed(at, d);
+    float z = max(-at.y, 0.0);
+    vec3 ground = vec3(0.0);
+    if (x < 1e4)
+        ground = water_bed_below(w, sea_downwelling.xyz, sea_bed.xyz, max(z - x * d.y, 0.0));
+    float reach = d.y > 1e-4 ? min(x, z / d.y) : x;
+    return water_through(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, ground, z, d, reach);
+}
+
+/* ---- out ---- */
+
+vec4 sea_exposed(vec3 radiance)
+{
+    vec3 c = radiance * exposure;
+    return vec4(sea_bed_slope.w > 0.0 ? min(c, vec3(sea_bed_slope.w)) : c, 1.0);
+}
+
+/* Displays were given c^0.95 as it is; the numbers here are encoded later. */
+vec4 sea_shown(vec3 c)
+{
+    return vec4(linear_from_srgb(before_display(c)), 1.0);
+}

@@ -1,0 +1,11 @@
+/* sea_surface.frag - which water a pixel shows. Triangles are small: what takes long is done once for a pixel, by sea.frag. */
+in highp vec3 v_at;
+in highp vec2 v_rest;
+in highp float v_closing;
+
+layout(location = 0) out highp vec4 fragment;
+
+void main()
+{
+        fragment = vec4(v_rest, length(v_at), max(abs(v_closing), 1e-3));
+}

@@ -1,0 +1,48 @@
+/* sea_picture.h - all that a picture of a sea is made of, as plain data for a renderer on the GPU: what of it the CPU renderer
+ * prepares, too, once per picture. */
+#ifndef OCEAN_SEA_PICTURE_H
+#define OCEAN_SEA_PICTURE_H
+
+#include "ocean/sea.h"
+#include "ocean/water_table.h"
+#include "ocean/waves_foam.h"
+
+struct ibl_light;
+
+/* Pictures of the sky, one behind the other, RGBA. Columns go once around from the azimuth of the sun, +X towards +Z, texel
+ * middles at their places. Rows of the first three go with the root of the angle from the horizon. */
+enum {
+    SEA_SKY_WIDTH = 512,
+    SEA_SKY_HEIGHT = 128,
+    SEA_SKY_SEEN =
+        0, /* by the eye without the sun's disc, from the horizon that it sees up to the zenith; cd/m^2 */
+    SEA_SKY_AIR,      /* light of the air before the sea, down to the nadir; cd/m^2 */
+    SEA_SKY_MIRRORED, /* the sky over the sea, from the level up to the zenith; cd/m^2 */
+    SEA_SKY_CLEARNESS, /* share of light left after a way of x / (1 - x) SEA_SKY_WAY_KM, x along the columns, [0, 1) */
+    SEA_SKY_DISC, /* the sun's disc over 2 x 2 radii, x to its right, y upwards; cd/m^2 */
+    SEA_SKY_LAYERS
+};
+#define SEA_SKY_WAY_KM 20.0f
+
+typedef struct sea_picture {
+    const facet_sea *sea;
+    const facet_sea_render_desc *desc; /* resolved, with a camera */
+    const waves_foam *foam;            /* NULL: none */
+    const water_table *table;
+    bool is_below; /* the eye is in the water */
+    double fall;   /* 1/m, by which the sea falls away with the square of distance; 0: a plane */
+    float deviation_m, trough_m, shutter_s, exposure;
+    float roughness
+        [3]; /* covariance of slopes that stands for waves finer than all tiles; [0] < 0: by their slopes */
+    /* WaterLight, and the sun below the surface (shade/water.h) */
+    float L[3], sun_irradiance[3], sky_irradiance[3], downwelling[3], sun_fresnel, sky_reflectance;
+    float beam[3], sunward[3];
+    /* the sky */
+    float *sky; /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4; block of mem_alloc() */
+    float sun_longitude, eye_km, disc_radius; /* disc_radius 0: no disc is seen */
+    bool is_mirror_sharp; /* SEA_SKY_MIRRORED is what mirrors show; else the picture's light */
+    const struct ibl_light *reflected, *background; /* filtered; background: of a picture, else NULL */
+    float light_scale, rotation_cos, rotation_sin;  /* of both */
+} sea_picture;
+
+#endif

@@ -1,0 +1,163 @@
+/* water_picture.c - see water_picture.h. The sky is drawn by the functions that rays of the CPU look it up with. */
+#include "water/water_picture.h"
+
+#include <math.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+
+#include "water/water_setup.h"
+
+struct water_picture {
+    water_setup setup;
+    sea_picture picture;
+};
+
+/* ---- the sky ---- */
+
+typedef struct sky_drawing {
+    water_sky sky; /* without the sun's disc */
+    const water_setup *setup;
+    float *texels;
+} sky_drawing;
+
+/* Unit direction of a column and an angle from the zenith. */
+static vec3 direction_of(const water_sky *sky, uint32_t column, float zenith)
+{
+    double a = sky->sun_longitude + (column + 0.5) / SEA_SKY_WIDTH * 6.283185307179586;
+    return vec3(sin(zenith) * (float)(cos)(a), cos(zenith), sin(zenith) * (float)(sin)(a));
+}
+
+static vec3 disc_at(const sky_drawing *s, float x, float y)
+{
+    vec3 L = s->sky.L;
+    float level = sqrt(L[0] * L[0] + L[2] * L[2]);
+    vec3 right = level > 1e-6f ? vec3(-L[2], 0.0f, L[0]) / level : vec3(1.0f, 0.0f, 0.0f);
+    vec3 up = cross(L, right) * -1.0f;
+    up = up[1] < 0.0f ? up * -1.0f : up;
+    return water_sky_disc(&s->setup->sky, normalize(L + (right * x + up * y) * s->setup->sky.disc_radius));
+}
+
+static vec3 texel_of(const sky_drawing *s, uint32_t layer, uint32_t row, uint32_t column)
+{
+    float v = ((float)row + 0.5f) / SEA_SKY_HEIGHT, u = ((float)column + 0.5f) / SEA_SKY_WIDTH;
+    float horizon = acos(horizon_mu(s->sky.eye_km));
+    switch (layer) {
+    case SEA_SKY_SEEN:
+        return water_sky_seen(&s->sky, direction_of(&s->sky, column, horizon * (1.0f - v * v)));
+    case SEA_SKY_AIR:
+        return water_sky_air(&s->sky, direction_of(&s->sky, column, mix(horizon, PI, v * v)), 1e12f, 0.0f)
+            .light;
+    case SEA_SKY_MIRRORED:
+        return water_sky_reflected(&s->sky, direction_of(&s->sky, column, 0.5f * PI * (1.0f - v * v)), 0.0f);
+    case SEA_SKY_CLEARNESS:
+        return water_sky_air(&s->sky, vec3(1.0f, 0.0f, 0.0f), u / (1.0f - u) * SEA_SKY_WAY_KM * 1000.0f, 0.0f)
+            .transmittance;
+    default:
+        return disc_at(s, 2.0f * u - 1.0f, 2.0f * v - 1.0f);
+    }
+}
+
+static void draw_rows(void *context, size_t begin, size_t end)
+{
+    const sky_drawing *s = context;
+    for (size_t i = begin; i < end; i++)
+        for (uint32_t x = 0; x < SEA_SKY_WIDTH; x++) {
+            float *to = s->texels + 4 * (i * SEA_SKY_WIDTH + x);
+            vec3 c = texel_of(s, (uint32_t)(i / SEA_SKY_HEIGHT), (uint32_t)(i % SEA_SKY_HEIGHT), x);
+            for (int k = 0; k < 3; k++)
+                to[k] = c[k];
+            to[3] = 1.0f;
+        }
+}
+
+static facet_result draw_sky(const water_setup *setup, sea_picture *p, facet_error *error)
+{
+    enum { ROWS = SEA_SKY_LAYERS * SEA_SKY_HEIGHT, TEXELS = ROWS * SEA_SKY_WIDTH };
+    p->sky = mem_alloc(&setup->desc->render.allocator, TEXELS, 4 * sizeof(float));
+    if (!p->sky)
+        return fail_memory(error, "pictures of the sky", TEXELS * 4 * sizeof(float));
+    sky_drawing s = {.sky = setup->sky, .setup = setup, .texels = p->sky};
+    s.sky.disc_radius = 0.0f;
+    parallel_for(setup->desc->render.thread_count, ROWS, 4, draw_rows, &s);
+    return FACET_OK;
+}
+
+/* ---- all ---- */
+
+static void store3(vec3 from, float to[3])
+{
+    for (int i = 0; i < 3; i++)
+        to[i] = from[i];
+}
+
+static void describe(const water_setup *s, sea_picture *p)
+{
+    const water_sky *sky = &s->sky;
+    p->sea = s->sea;
+    p->desc = s->desc;
+    p->foam = s->foam.share.level_count ? &s->foam : NULL;
+    p->table = &s->table;
+    p->is_below = s->is_below;
+    p->fall = s->march.fall;
+    p->deviation_m = s->march.deviation_m;
+    p->trough_m = s->trough_m;
+    p->shutter_s = s->shutter_s;
+    p->exposure = s->exposure;
+    store3(s->roughness, p->roughness);
+    store3(s->light.L, p->L);
+    store3(s->light.sun_irradiance, p->sun_irradiance);
+    store3(s->light.sky_irradiance, p->sky_irradiance);
+    store3(s->light.downwelling, p->downwelling);
+    p->sun_fresnel = s->light.sun_fresnel;
+    p->sky_reflectance = s->water.sky_reflectance;
+    store3(s->beam, p->beam);
+    store3(s->sunward, p->sunward);
+    p->sun_longitude = (float)sky->sun_longitude;
+    p->eye_km = sky->eye_km;
+    p->disc_radius = sky->disc_radius;
+    p->is_mirror_sharp = sky->has_views;
+    p->reflected = sky->reflected;
+    p->background = sky->background;
+    p->light_scale = sky->scale;
+    p->rotation_cos = sky->rotation_cos;
+    p->rotation_sin = sky->rotation_sin;
+}
+
+facet_result water_picture_create(const facet_sea *sea, const facet_sea_render_desc *desc,
+                                  water_picture **out, facet_render_stats *stats, facet_error *error)
+{
+    double begin = clock_seconds();
+    *out = NULL;
+    water_picture *p = mem_zalloc(&desc->render.allocator, 1, sizeof *p);
+    if (!p)
+        return fail_memory(error, "a picture of the sea", sizeof *p);
+    facet_result result = water_setup_create(sea, NULL, desc, &p->setup, stats, error);
+    if (result == FACET_OK) {
+        describe(&p->setup, &p->picture);
+        result = draw_sky(&p->setup, &p->picture, error);
+    }
+    stats->light_s += clock_seconds() - begin;
+    if (result != FACET_OK) {
+        water_picture_destroy(p);
+        return result;
+    }
+    *out = p;
+    return FACET_OK;
+}
+
+void water_picture_destroy(water_picture *p)
+{
+    if (!p)
+        return;
+    mem_free(p->picture.sky);
+    water_setup_destroy(&p->setup);
+    mem_free(p);
+}
+
+const sea_picture *water_picture_get(const water_picture *p)
+{
+    return &p->picture;
+}
