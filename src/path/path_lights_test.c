@@ -424,9 +424,13 @@ static void kinds_add_up(void **state)
     assert_near(irradiance_at(&s, vec3(0.0f), up, 300000 / EFFORT), expected);
     assert_near(irradiance_by_both(&s, vec3(0.0f), up, 100000 / EFFORT), expected);
 
+    if (IS_SLOW) {
+        stage_destroy(&s);
+        return;
+    }
     /* The density of the surroundings integrates to the probability of aiming at them. */
     int aimed = 0;
-    enum { SAMPLES = 200000 / EFFORT, SIDE = IS_SLOW ? 500 : 1500 };
+    enum { SAMPLES = 200000 / EFFORT, SIDE = 1500 };
     for (int i = 0; i < SAMPLES; i++) {
         path_light_sample l;
         float u = random_number();
