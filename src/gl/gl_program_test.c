@@ -91,7 +91,7 @@ static void each_text_defines_before_it_uses(void **state)
     static gl_program_key keys[MAX_KEYS];
     size_t count = list_keys(keys);
     char complaint[256];
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i += IS_SLOW ? 5 : 1)
         for (int v = 0; v < 2; v++)
             for (int s = 0; s < 2; s++) {
                 text t = assemble(versions[v], keys[i], stages[s]);
