@@ -1,4 +1,5 @@
 /* sea_spreading.c - how waves of one frequency are spread over directions. Each density has an integral of 1. */
+#define _DEFAULT_SOURCE
 #include "ocean/sea_state.h"
 
 #include <math.h>
@@ -12,7 +13,8 @@ static wave_directions hasselmann(const wave_system *w, double omega)
     double x = omega / w->peak_omega;
     double s = x <= 1.0 ? 6.97 * pow(x, 4.06) : 9.77 * pow(x, -2.33 - 1.45 * (w->inverse_age - 1.17));
     s += 16.0 * tanh(1.0 / x) * w->elongation * w->elongation;
-    double norm = exp(lgamma(s + 1.0) - lgamma(s + 0.5)) / (2.0 * sqrt(PI_D));
+    int sign; /* lgamma() would put it where all threads see it */
+    double norm = exp(lgamma_r(s + 1.0, &sign) - lgamma_r(s + 0.5, &sign)) / (2.0 * sqrt(PI_D));
     return (wave_directions){FACET_SPREADING_HASSELMANN, norm, s};
 }
 
