@@ -19,8 +19,9 @@ skip() {
 }
 
 command -v Xvfb >/dev/null || skip "there is no Xvfb"
-# </dev/null etc.: whoever waits for the test's output does not wait for the server
-Xvfb -displayfd 3 -screen 0 1024x768x24 -nolisten tcp 3>display >/dev/null 2>&1 </dev/null &
+# A number that no other test has: a server that ends takes the socket of its number with it, also where another has just taken that.
+# It stays when its last client goes. </dev/null etc.: whoever waits for the test's output does not wait for the server.
+Xvfb ":$((100 + $$ % 50000))" -displayfd 3 -noreset -screen 0 1024x768x24 -nolisten tcp 3>display >/dev/null 2>&1 </dev/null &
 server=$!
 trap 'kill $server 2>/dev/null; wait $server 2>/dev/null; rm -rf "$work"' EXIT
 tries=0
