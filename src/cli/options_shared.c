@@ -78,6 +78,30 @@ const option_group running_group = {"Running", running_options, COUNT(running_op
 /* Without the last one, --preset. */
 const option_group working_group = {"Running", running_options, COUNT(running_options) - 1};
 
+static const option environment_options[] = {
+    {.id = OPT_ENV_ROTATION,
+     .name = "env-rotation",
+     .kind = OPTION_TEXT,
+     .argument = "DEG",
+     .default_text = "0",
+     .help = "turn the environment around the upward axis"},
+    {.id = OPT_ENV_INTENSITY,
+     .name = "env-intensity",
+     .kind = OPTION_NUMBER,
+     .argument = "X",
+     .default_text = "1",
+     .help = "factor for the light of the environment",
+     .minimum = 0,
+     .maximum = 1e9},
+    {.id = OPT_ENV_CACHE,
+     .name = "env-cache",
+     .kind = OPTION_FOLDER,
+     .argument = "DIR",
+     .help = "keep prepared environments there for the next run (at most 256 MiB)"},
+};
+
+const option_group environment_group = {"Environment", environment_options, COUNT(environment_options)};
+
 static const option model_options[] = {
     {.id = OPT_ROOT,
      .name = "root",

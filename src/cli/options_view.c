@@ -53,8 +53,9 @@ const verb view_verb = {
                                    "a folder, in a light of your own"},
                                   {"facet view ring.glb --renderer path --ground shadow", "path traced"},
                                   {NULL, NULL}},
-    .groups = (const option_group *const[]){&window_group, &window_camera_group, &light_group, &color_group,
-                                            &quality_group, &gl_group, &window_path_group, &shading_group,
-                                            &window_motion_group, &scene_group, &model_group, &legacy_group,
-                                            &machine_group, &view_message_group, &script_group, NULL},
+    .groups = (const option_group *const[]){&window_group, &window_camera_group, &light_group,
+                                            &environment_group, &color_group, &quality_group, &gl_group,
+                                            &window_path_group, &shading_group, &window_motion_group,
+                                            &scene_group, &model_group, &legacy_group, &machine_group,
+                                            &view_message_group, &script_group, NULL},
 };
