@@ -268,6 +268,30 @@ static void test_irradiance(void **state)
     destroy(&s);
 }
 
+/* Seen from above, what the air in front of the ground shines with grows towards the horizon and goes over into the sky there. */
+static void test_horizon(void **state)
+{
+    (void)state;
+    scene s;
+    make_air(&s, false);
+    for (int half = 0; half < SKY_HALVES; half++)
+        s.tables.air[half].ground_albedo = vec3(0.0f);
+    sky_view view;
+    assert_int_equal(sky_view_create(&s.tables, 0.3f, (float)(45.0 * degree), NULL, 0, &view, NULL),
+                     FACET_OK);
+    float horizon = acosf(horizon_mu(0.3f));
+    sky_azimuth azimuth = sky_view_azimuth(1.0);
+    double last = (double)luminance(sky_view_at(&view, horizon - 1e-5f, &azimuth, 0.5f));
+    for (int i = 0; i < 40; i++) {
+        float angle = horizon + 1e-5f + 5e-5f * (float)(i * i);
+        double now = (double)luminance(sky_view_at(&view, angle, &azimuth, 0.5f));
+        assert_near(now / last, 0.95, i == 0 ? 0.1 : 0.051);
+        last = now;
+    }
+    sky_view_destroy(&view);
+    destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_sun),
@@ -276,6 +300,7 @@ int main(void)
                                        cmocka_unit_test(test_single_scattering),
                                        cmocka_unit_test(test_all_orders),
                                        cmocka_unit_test(test_bright_ground),
-                                       cmocka_unit_test(test_irradiance)};
+                                       cmocka_unit_test(test_irradiance),
+                                       cmocka_unit_test(test_horizon)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,7 +67,9 @@ static sky_light light_along(const view_job *job, const sky_ray *ray, bool is_gr
     const sky_tables *t = job->tables;
     AirLight light[SKY_HALVES];
     float to_ground = ray_to_ground(ray->height_km, ray->mu);
-    float length_km = is_ground ? max(to_ground, 0.0f) : ray_to_top(ray->height_km, ray->mu);
+    to_ground =
+        to_ground < 0.0f ? sqrtf(height_square(ray->height_km)) : to_ground; /* it just misses the horizon */
+    float length_km = is_ground ? to_ground : ray_to_top(ray->height_km, ray->mu);
     sky_march(t, ray, length_km, length_km > 1e-6f ? STEPS : 0, light);
     vec3 ground[SKY_HALVES] = {vec3(0.0f), vec3(0.0f)};
     if (is_ground)
