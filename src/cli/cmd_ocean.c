@@ -8,6 +8,7 @@
 #include "cli/failure.h"
 #include "cli/interrupt.h"
 #include "cli/memory_limit.h"
+#include "cli/ocean_names.h"
 #include "cli/ocean_report.h"
 #include "cli/ocean_run.h"
 #include "cli/output.h"
@@ -22,6 +23,7 @@ typedef struct ocean_output {
     ocean_run *run;
     video *video;  /* NULL: files */
     json_t *files; /* NULL: nobody asked for JSON */
+    char name[RENDER_NAME_SIZE]; /* what is being made; "": nothing yet */
 } ocean_output;
 
 static void tell(ocean_output *o, const picture_report *report)
@@ -101,7 +103,11 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
     facet_sea_mesh_desc desc = run->options.mesh;
     desc.allocator = run->allocator;
     facet_scene *scene = NULL;
+    if (interrupt_seconds_left() <= 0.0)
+        return ocean_run_fail_late(name, error);
+    interrupt_begin(name, "making it", false);
     facet_result result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
+    interrupt_set_safe(NULL);
     const facet_scene_save_desc save = {.allocator = run->allocator, .log = messages_log(&run->messages)};
     if (result == FACET_OK && !is_gltf(name))
         result = facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, &save.log, error);
@@ -118,24 +124,28 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
 
 /* ---- maps ---- */
 
-/* A folder, or a pattern with a place for the tile's number. */
-static facet_result map_name(const char *maps, uint32_t tile, char *name, size_t size, facet_error *error)
+static facet_result make_map(ocean_output *o, uint32_t tile, const char *name, facet_error *error)
 {
-    char pattern[RENDER_NAME_SIZE];
-    size_t length = strlen(maps);
-    bool fits = length + 16 < sizeof pattern;
-    if (fits)
-        snprintf(pattern, sizeof pattern,
-                 output_name_has_frame(maps)         ? "%s"
-                 : length && maps[length - 1] == '/' ? "%stile_##.exr"
-                                                     : "%s/tile_##.exr",
-                 maps);
-    return fits && output_name_expand(pattern, "sea", tile, name, size)
-               ? FACET_OK
-               : fail_with(error, FACET_ERROR_ARGUMENT, "--maps: the names are too long");
+    ocean_run *run = o->run;
+    facet_image *image = NULL;
+    snprintf(o->name, sizeof o->name, "%s", name);
+    facet_result result = ocean_check_name(run, name, error);
+    if (result == FACET_OK && interrupt_seconds_left() <= 0.0)
+        result = ocean_run_fail_late(name, error);
+    if (result == FACET_OK)
+        result = facet_sea_create_maps(run->sea, tile, &run->allocator, &image, error);
+    const facet_save_desc save = {.allocator = run->allocator,
+                                  .format = FACET_FORMAT_EXR_FLOAT,
+                                  .thread_count = run->options.picture.limits.thread_count};
+    if (result == FACET_OK)
+        result = output_write(image, name, &save, error);
+    if (result == FACET_OK && o->files)
+        json_array_append_new(o->files, json_pack("{s:o}", "output", report_string_json(name)));
+    facet_image_destroy(image);
+    return result;
 }
 
-static facet_result make_maps(ocean_output *o, facet_error *error)
+static facet_result make_maps(ocean_output *o, uint32_t frame, facet_error *error)
 {
     ocean_run *run = o->run;
     facet_result result = FACET_OK;
@@ -144,22 +154,9 @@ static facet_result make_maps(ocean_output *o, facet_error *error)
         message_at(&run->messages, VERBOSITY_NORMAL, "--maps: the sea is flat and has none");
     for (uint32_t tile = 0; tile < count && result == FACET_OK; tile++) {
         char name[RENDER_NAME_SIZE];
-        facet_image *image = NULL;
-        result = map_name(run->options.maps, tile, name, sizeof name, error);
-        if (result == FACET_OK && is_kept(o, name))
-            continue;
-        if (result == FACET_OK)
-            result = output_check(name, error);
-        if (result == FACET_OK)
-            result = facet_sea_create_maps(run->sea, tile, &run->allocator, &image, error);
-        const facet_save_desc save = {.allocator = run->allocator,
-                                      .format = FACET_FORMAT_EXR_FLOAT,
-                                      .thread_count = run->options.picture.limits.thread_count};
-        if (result == FACET_OK)
-            result = output_write(image, name, &save, error);
-        if (result == FACET_OK && o->files)
-            json_array_append_new(o->files, json_pack("{s:o}", "output", report_string_json(name)));
-        facet_image_destroy(image);
+        result = ocean_map_name(&run->options, tile, frame, name, sizeof name, error);
+        if (result == FACET_OK && !is_kept(o, name))
+            result = make_map(o, tile, name, error);
     }
     return result;
 }
@@ -175,58 +172,68 @@ static facet_result set_moment(ocean_output *o, uint32_t number, facet_error *er
     return result == FACET_OK && run->model ? ocean_float_place(run, error) : result;
 }
 
-/* Whether it can be written, and is nothing that is read. */
-static facet_result check_output(const ocean_output *o, const char *name, facet_error *error)
-{
-    const facet_scene *model = o->run->model;
-    if (model && !o->run->options.picture.is_stdout && facet_scene_has_file(model, name))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: it is an input, too, and would be overwritten; name another output with -o",
-                         name);
-    return o->video ? FACET_OK : output_check(name, error);
-}
-
-static facet_result make_frames(ocean_output *o, facet_error *error)
+static facet_result make_frame(ocean_output *o, uint32_t index, uint32_t number, const char *name,
+                               facet_error *error)
 {
     ocean_run *run = o->run;
-    const render_options *p = &run->options.picture;
+    facet_result result = set_moment(o, number, error);
+    if (result == FACET_OK && run->options.maps)
+        result = make_maps(o, number, error);
+    if (result != FACET_OK || !*name)
+        return result;
+    snprintf(o->name, sizeof o->name, "%s", run->options.picture.is_stdout ? "stdout" : name);
+    if (!o->video && !run->options.picture.is_stdout) {
+        result = ocean_check_name(run, name, error);
+        if (result == FACET_OK)
+            result = ocean_check_maps(run, name, number, error);
+    }
+    if (result != FACET_OK)
+        return result;
+    return run->options.has_mesh ? make_mesh(o, name, error) : make_picture(o, index, name, error);
+}
+
+/* Those of which there is a picture or mesh already may be left. */
+static facet_result make_frames(ocean_output *o, facet_error *error)
+{
+    const render_options *p = &o->run->options.picture;
     facet_result result = FACET_OK;
     for (uint32_t i = 0; i < p->frames.frame_count && result == FACET_OK; i++) {
         uint32_t number = frame_list_at(&p->frames, i);
-        char name[RENDER_NAME_SIZE];
-        result = render_name(p, "sea", number, name, sizeof name, error);
-        if (result != FACET_OK || is_kept(o, name))
-            continue;
+        char name[RENDER_NAME_SIZE] = "";
+        if (p->output)
+            result = render_name(p, "sea", number, name, sizeof name, error);
+        if (result != FACET_OK)
+            return result;
+        if (*name && is_kept(o, name)) {
+            if (!o->run->options.maps)
+                continue;
+            *name = 0;
+        }
         if (interrupt_signal())
-            return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
-        result = check_output(o, name, error);
-        if (result == FACET_OK)
-            result = set_moment(o, number, error);
-        if (result == FACET_OK)
-            result = run->options.has_mesh ? make_mesh(o, name, error) : make_picture(o, i, name, error);
-        messages_flush(&run->messages);
+            return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", *name ? name : "maps");
+        result = make_frame(o, i, number, name, error);
+        messages_flush(&o->run->messages);
     }
     return result;
 }
 
-/* Where it is looked at by information and maps: the first moment. */
+/* What is known is that of the first moment. */
 static facet_result make_all(ocean_output *o, facet_error *error)
 {
     ocean_run *run = o->run;
     const ocean_options *options = &run->options;
-    facet_result result =
-        set_moment(o, options->picture.has_frames ? frame_list_at(&options->picture.frames, 0) : 1, error);
+    const render_options *p = &options->picture;
+    facet_result result = set_moment(o, p->has_frames ? frame_list_at(&p->frames, 0) : 1, error);
     if (result == FACET_OK && options->has_info && !is_given(run->line, OPT_JSON))
         ocean_report_print(run);
-    if (result == FACET_OK && options->maps)
-        result = make_maps(o, error);
-    if (result != FACET_OK || !options->picture.output)
+    if (result != FACET_OK || (!p->output && !options->maps))
         return result;
-    if (options->picture.video)
-        result = check_output(o, options->picture.output, error);
-    if (result == FACET_OK && options->picture.video)
-        result = video_open(options->picture.output, options->picture.video, options->picture.fps, &o->video,
-                            error);
+    if (p->output && p->video) {
+        if (!p->is_stdout)
+            result = ocean_check_name(run, p->output, error);
+        if (result == FACET_OK)
+            result = video_open(p->output, p->video, p->fps, &o->video, error);
+    }
     if (result == FACET_OK)
         result = make_frames(o, error);
     facet_result closed = video_close(o->video, result == FACET_OK, error);
@@ -262,7 +269,7 @@ static facet_result begin(ocean_run *run, command_line *c, config *storage, face
     if (result == FACET_OK)
         result = ocean_options_read(c, o, error);
     if (result == FACET_OK && o->picture.output && !o->picture.has_frames)
-        result = render_names_check(c, &o->picture, error);
+        result = render_names_check(c, &o->picture, error); /* before what takes long is read */
     if (result == FACET_OK)
         result = facet_budget_create(o->picture.limits.max_memory_bytes, &run->budget, error);
     if (result != FACET_OK)
@@ -310,7 +317,7 @@ int cmd_ocean(command_line *c)
                                                                             : EXIT_DONE;
     if (result != FACET_OK) {
         bool is_ours = error.message[0] == '-' || strncmp(error.message, "ocean:", 6) == 0;
-        failure_complete(&error, "sea", run.options.picture.limits.max_memory_bytes);
+        failure_complete(&error, *output.name ? output.name : "sea", run.options.picture.limits.max_memory_bytes);
         if (result != FACET_ERROR_CANCELLED)
             message_error("%s%s", is_ours ? "facet: " : "", error.message);
     }

@@ -7,12 +7,15 @@
 
 #include "cli/color.h"
 #include "cli/failure.h"
+#include "cli/output_name.h"
 #include "cli/picture_options.h"
 #include "cli/value.h"
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
 static const double DEFAULT_SUN_EL = 22.0, BESIDE_SUN = 36.0;
+/* Of what the options take: of a length, a place, an azimuth (degrees), light (lx), a coefficient (1/m). */
+static const double LONGEST = 1e7, FARTHEST = 1e6, MOST_TURNED = 1e6, BRIGHTEST = 1e9, MOST_ABSORBING = 1e3;
 static const float SAND[3] = {0.42f, 0.36f, 0.27f};
 
 /* ---- notations ---- */
@@ -32,7 +35,7 @@ bool value_length(const char *text, double *metres)
     else if (*at && strcmp(at, "m") != 0)
         return false;
     *metres = number;
-    return true;
+    return number <= LONGEST;
 }
 
 /* Between least and most numbers separated by commas; how many, 0: it is no such list. */
@@ -42,6 +45,19 @@ static size_t scan_list(const char *text, size_t least, size_t most, double *num
         if (value_numbers(text, count, numbers))
             return count;
     return 0;
+}
+
+static bool are_within(const double *numbers, size_t count, double least, double most)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!(numbers[i] >= least && numbers[i] <= most))
+            return false;
+    return true;
+}
+
+static bool is_azimuth(double degrees)
+{
+    return fabs(degrees) <= MOST_TURNED;
 }
 
 /* The command line's directions are azimuths from +Z towards +X, the sea's angles from +X towards +Z. */
@@ -57,7 +73,7 @@ static facet_result read_wind(const command_line *c, ocean_options *out, facet_e
     double numbers[2] = {0.0, 90.0}, fetch = 0.0;
     if (is_given(c, OPT_WIND)) {
         size_t count = scan_list(option_text(c, OPT_WIND, ""), 1, 2, numbers);
-        if (!count || numbers[0] < 0.0 || numbers[0] > 40.0)
+        if (!count || !are_within(numbers, 1, 0.0, 40.0) || !is_azimuth(numbers[1]))
             return option_fail(c, OPT_WIND,
                                "SPEED or SPEED,DIRECTION such as 10 or 10,45: 0 to 40 m/s, degrees", error);
         out->sea.wind_mps = (float)numbers[0];
@@ -67,7 +83,8 @@ static facet_result read_wind(const command_line *c, ocean_options *out, facet_e
     if (!is_given(c, OPT_FETCH))
         return FACET_OK;
     if (!value_length(option_text(c, OPT_FETCH, ""), &fetch) || fetch < 100.0)
-        return option_fail(c, OPT_FETCH, "a length from 100 m, such as 5000, 20km or inf", error);
+        return option_fail(c, OPT_FETCH, "a length from 100 m to 10000 km, such as 5000 or 20km, or inf",
+                           error);
     out->sea.fetch_m = (float)fetch;
     return FACET_OK;
 }
@@ -77,10 +94,10 @@ static facet_result read_swell(const command_line *c, ocean_options *out, facet_
     if (!is_given(c, OPT_SWELL))
         return FACET_OK;
     double numbers[3] = {0.0, 0.0, 90.0};
-    if (!scan_list(option_text(c, OPT_SWELL, ""), 2, 3, numbers) || numbers[0] < 0.0 || numbers[0] > 30.0 ||
-        numbers[1] <= 0.0 || numbers[1] > 40.0)
+    if (!scan_list(option_text(c, OPT_SWELL, ""), 2, 3, numbers) || !are_within(numbers, 1, 0.0, 30.0) ||
+        !are_within(numbers + 1, 1, 0.1, 40.0) || !is_azimuth(numbers[2]))
         return option_fail(c, OPT_SWELL,
-                           "HEIGHT,PERIOD[,DIRECTION] such as 2,12 or 2,12,45: to 30 m, to 40 s, degrees",
+                           "HEIGHT,PERIOD[,DIRECTION] such as 2,12 or 2,12,45: to 30 m, 0.1 to 40 s, degrees",
                            error);
     out->sea.swell = (facet_swell){.height_m = (float)numbers[0],
                                    .period_s = (float)numbers[1],
@@ -118,8 +135,8 @@ static facet_result read_absorption(const command_line *c, facet_sea_desc *d, fa
     if (!is_given(c, OPT_ABSORPTION))
         return FACET_OK;
     if (!value_numbers(option_text(c, OPT_ABSORPTION, ""), 3, numbers) ||
-        !(numbers[0] >= 0.0 && numbers[1] >= 0.0 && numbers[2] >= 0.0))
-        return option_fail(c, OPT_ABSORPTION, "R,G,B in 1/m, each at least 0", error);
+        !are_within(numbers, 3, 0.0, MOST_ABSORBING))
+        return option_fail(c, OPT_ABSORPTION, "R,G,B in 1/m, each from 0 to 1000", error);
     facet_sea_desc flat = *d;
     flat.wind_mps = flat.swell.height_m = 0.0f;
     facet_sea *sea = NULL;
@@ -162,14 +179,14 @@ static facet_result read_bed(const command_line *c, ocean_options *out, facet_er
     double depth, numbers[2] = {0.0, 90.0};
     if (is_given(c, OPT_DEPTH)) {
         if (!value_length(option_text(c, OPT_DEPTH, ""), &depth) || depth < 0.001)
-            return option_fail(c, OPT_DEPTH, "a length from 1 mm, such as 3, or inf", error);
+            return option_fail(c, OPT_DEPTH, "a length from 1 mm to 10000 km, such as 3, or inf", error);
         if (bed->depth_m <= 0.0f)
             memcpy(bed->albedo, SAND, sizeof SAND);
         bed->depth_m = isinf(depth) ? 0.0f : (float)depth;
     }
     if (is_given(c, OPT_BED_SLOPE)) {
         size_t count = scan_list(option_text(c, OPT_BED_SLOPE, ""), 1, 2, numbers);
-        if (!count || numbers[0] < 0.0 || numbers[0] > 1.0)
+        if (!count || !are_within(numbers, 1, 0.0, 1.0) || !is_azimuth(numbers[1]))
             return option_fail(c, OPT_BED_SLOPE, "SLOPE or SLOPE,DIRECTION such as 0.05,90: 0 to 1, degrees",
                                error);
         bed->slope = (float)numbers[0];
@@ -195,8 +212,13 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
         return result;
     if (is_given(c, OPT_SUN))
         count = scan_list(option_text(c, OPT_SUN, ""), 1, 3, numbers);
-    if (!count || fabs(numbers[0]) > 90.0 || numbers[2] < 0.0)
-        return option_fail(c, OPT_SUN, "ELEVATION or ELEVATION,AZIMUTH in degrees such as 30,15", error);
+    if (!count || !are_within(numbers, 1, -90.0, 90.0) || !is_azimuth(numbers[1]) ||
+        !are_within(numbers + 2, 1, 0.0, BRIGHTEST))
+        return option_fail(
+            c, OPT_SUN,
+            "ELEVATION or ELEVATION,AZIMUTH in degrees such as 30,15, from -90 to 90; beside --env "
+            "with the lux that the sun has, to 1e9",
+            error);
     if (count == 3 && !o->has_environment)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--sun: lux, the third number, go together with --env; the sky's sun has its own");
@@ -257,6 +279,8 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
 {
     double numbers[3], angle = (double)out->sky.sun_azimuth_rad + BESIDE_SUN * DEGREE;
     out->eye_height_m = (float)option_number(c, OPT_EYE_HEIGHT, 0.0);
+    if (is_given(c, OPT_EYE_HEIGHT) && out->eye_height_m == 0.0f)
+        out->eye_height_m = 1e-6f; /* 0 would be the height that one has where none is given */
     if (is_given(c, OPT_HEADING) && !value_angle(option_text(c, OPT_HEADING, ""), &angle))
         return option_fail(c, OPT_HEADING, "an angle in degrees", error);
     out->heading_rad = (float)angle;
@@ -265,8 +289,9 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
         if (is_given(c, OPT_EYE_HEIGHT))
             return fail_with(error, FACET_ERROR_ARGUMENT,
                              "--eye: it does not go together with --height-of-eye; give one of them");
-        if (!value_numbers(option_text(c, OPT_EYE, ""), 3, numbers))
-            return option_fail(c, OPT_EYE, "X,Y,Z in metres", error);
+        if (!value_numbers(option_text(c, OPT_EYE, ""), 3, numbers) ||
+            !are_within(numbers, 3, -FARTHEST, FARTHEST))
+            return option_fail(c, OPT_EYE, "X,Y,Z in metres, each from -1e6 to 1e6", error);
         for (int i = 0; i < 3; i++)
             out->picture.eye[i] = (float)numbers[i];
     }
@@ -275,8 +300,9 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
         if (is_given(c, OPT_HEADING))
             return fail_with(error, FACET_ERROR_ARGUMENT,
                              "--target: it does not go together with --heading; give one of them");
-        if (!value_numbers(option_text(c, OPT_TARGET, ""), 3, numbers))
-            return option_fail(c, OPT_TARGET, "X,Y,Z in metres", error);
+        if (!value_numbers(option_text(c, OPT_TARGET, ""), 3, numbers) ||
+            !are_within(numbers, 3, -2.0 * FARTHEST, 2.0 * FARTHEST))
+            return option_fail(c, OPT_TARGET, "X,Y,Z in metres, each from -2e6 to 2e6", error);
         for (int i = 0; i < 3; i++)
             out->target[i] = (float)numbers[i];
     }
@@ -332,6 +358,8 @@ static facet_result read_output(const command_line *c, ocean_options *out, facet
     out->maps = option_text(c, OPT_MAPS, NULL);
     out->sweep = option_text(c, OPT_SWEEP, NULL);
     out->model = option_text(c, OPT_WITH, NULL);
+    if (c->values[OPT_WITH].count > 1)
+        return option_fail(c, OPT_WITH, "one model; it was given more than once", error);
     out->has_mesh = is_mesh_name(o->output);
     out->has_picture = o->output && !out->has_mesh;
     out->has_info = is_given(c, OPT_INFO);
@@ -349,15 +377,44 @@ static facet_result read_output(const command_line *c, ocean_options *out, facet
     return out->has_picture ? picture_options_format(c, o, error) : FACET_OK;
 }
 
+static facet_result check_maps(const command_line *c, const ocean_options *out, facet_error *error)
+{
+    const char *maps = out->maps, *dot = maps ? strrchr(maps, '.') : NULL;
+    bool has_place = maps && output_name_has_frame(maps);
+    if (has_place && (!dot || strcasecmp(dot, ".exr") != 0))
+        return option_fail(c, OPT_MAPS, "a folder, or a name with #### that ends in .exr", error);
+    if (has_place && out->picture.is_sequence)
+        return option_fail(c, OPT_MAPS, "a folder, as there are several frames", error);
+    return FACET_OK;
+}
+
+/* What has no meaning for a mesh, and would be dropped without a word. */
+static facet_result check_mesh(const command_line *c, const ocean_options *out, facet_error *error)
+{
+    static const option_id of_pictures[] = {
+        OPT_FORMAT,  OPT_SIZE,    OPT_CROP,   OPT_JPEG_QUALITY, OPT_SUN,      OPT_TURBIDITY,
+        OPT_ENV,     OPT_EV100,   OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE,    OPT_ROUGHNESS,
+        OPT_NORMALS, OPT_MASKING, OPT_CLAMP,  OPT_WITH,         OPT_RENDERER, OPT_EXPOSURE,
+        OPT_SAMPLES, OPT_EYE,     OPT_TARGET, OPT_HEADING};
+    for (size_t i = 0; out->has_mesh && i < sizeof of_pictures / sizeof *of_pictures; i++)
+        if (is_given(c, of_pictures[i]) && c->values[of_pictures[i]].source == SOURCE_COMMAND_LINE)
+            return fail_with(error, FACET_ERROR_ARGUMENT,
+                             "--%s: it is of pictures, and %s is a mesh of the water alone",
+                             option_find_id(c->verb, of_pictures[i])->name, out->picture.output);
+    return FACET_OK;
+}
+
 /* Sequences of pictures or of meshes have a number in their names; a sheet is one picture. */
 static facet_result check_output(const command_line *c, const ocean_options *out, facet_error *error)
 {
-    if (!out->picture.output)
-        return FACET_OK;
+    facet_result result = check_maps(c, out, error);
+    if (result != FACET_OK || !out->picture.output)
+        return result;
     if (out->sweep && out->picture.frames.frame_count > 1)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--sweep: it is of one moment and does not go together with --frames or --loop");
-    return picture_options_check_sequence(c, &out->picture, error);
+    result = check_mesh(c, out, error);
+    return result == FACET_OK ? picture_options_check_sequence(c, &out->picture, error) : result;
 }
 
 facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error)

@@ -6,6 +6,13 @@
 #include "cli/failure.h"
 #include "cli/interrupt.h"
 
+static const float BLACK_EV = -200.0f; /* 2 to this power is 0 */
+
+facet_result ocean_run_fail_late(const char *name, facet_error *error)
+{
+    return fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", name);
+}
+
 facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error)
 {
     facet_sea_desc desc = options->sea;
@@ -44,13 +51,14 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     const facet_camera camera = camera_of(run, o);
     double left = interrupt_seconds_left();
     if (left <= 0.0)
-        return fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached",
-                         shown->subject);
+        return ocean_run_fail_late(shown->subject, error);
     facet_sea_render_desc d = {.render = o->picture.desc, .sky = o->sky, .look = *look};
     d.render.allocator = run->allocator;
     d.render.log = messages_log(&run->messages);
     d.render.camera = &camera;
     d.render.environment = run->environment;
+    if (o->picture.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without the others' light */
+        d.render.environment_ev = BLACK_EV;
     d.render.progress = progress_callback(shown);
     d.render.tonemap = tonemap;
     d.render.time_limit_s = left < 1e29 ? left : 0.0;

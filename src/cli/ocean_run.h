@@ -26,6 +26,9 @@ typedef struct ocean_step {
     uint32_t index, count;
 } ocean_step;
 
+/* FACET_ERROR_LIMIT: there is no time left for the output name. */
+facet_result ocean_run_fail_late(const char *name, facet_error *error);
+
 /* Makes the sea of options, in place of the one before. */
 facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error);
 

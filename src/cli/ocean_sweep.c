@@ -2,6 +2,7 @@
  * command line with the number put in. */
 #include "cli/ocean_run.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,8 @@
 #include "cli/value.h"
 
 enum { MAX_STEPS = 64, AXES = 2, LABEL_SIZE = 96 };
+
+static const double LARGEST = 1e15; /* of numbers: whole ones are exact */
 
 typedef struct axis {
     const option *option;
@@ -42,7 +45,7 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
 {
     size_t length = strcspn(*at, "=");
     out->option = option_find(c->verb, *at, length);
-    if (!(*at)[length])
+    if (length == 0 || !(*at)[length])
         return option_fail(c, OPT_SWEEP, expected, error);
     if (!out->option)
         return suggest_option(c->verb, *at, length, error);
@@ -53,11 +56,10 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
     double count = 0.0;
     bool is_range = scan_number(at, &out->from) && *(*at)++ == ':' && scan_number(at, &out->to) &&
                     *(*at)++ == ':' && scan_number(at, &count);
-    if (!is_range || count < 1.0 || count > MAX_STEPS || count != (double)(uint32_t)count ||
-        (**at && **at != ','))
+    if (!is_range || !(fabs(out->from) <= LARGEST && fabs(out->to) <= LARGEST) || count < 1.0 ||
+        count > MAX_STEPS || count != floor(count))
         return option_fail(c, OPT_SWEEP, expected, error);
     out->count = (uint32_t)count;
-    *at += **at == ',';
     return FACET_OK;
 }
 
@@ -65,10 +67,15 @@ static facet_result read_axes(const command_line *c, axis axes[AXES], facet_erro
 {
     const char *at = option_text(c, OPT_SWEEP, "");
     facet_result result = read_axis(c, &at, &axes[0], error);
-    if (result == FACET_OK && *at)
+    if (result == FACET_OK && *at == ',') {
+        at++;
         result = read_axis(c, &at, &axes[1], error);
+    }
     if (result == FACET_OK && *at)
         result = option_fail(c, OPT_SWEEP, expected, error);
+    if (result == FACET_OK && axes[0].option == axes[1].option)
+        result = fail_with(error, FACET_ERROR_ARGUMENT, "--sweep: both of its axes are --%s",
+                           axes[0].option->name);
     return result;
 }
 
@@ -76,7 +83,10 @@ static void put_number(const axis *a, uint32_t i, char *text, size_t size)
 {
     double share = a->count > 1 ? (double)i / (a->count - 1) : 0.0;
     double number = a->from + share * (a->to - a->from);
-    snprintf(text, size, "%.6g", a->option->kind == OPTION_INTEGER ? (double)(long)(number + 0.5) : number);
+    if (a->option->kind == OPTION_INTEGER)
+        snprintf(text, size, "%.0f", round(number));
+    else
+        snprintf(text, size, "%.6g", number); /* the picture is of the number that its label shows */
 }
 
 /* One picture: the command line with both numbers. */

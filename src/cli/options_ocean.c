@@ -75,9 +75,11 @@ static const option light_options[] = {
     {.id = OPT_SUN,
      .name = "sun",
      .kind = OPTION_TEXT,
-     .argument = "EL[,AZ]",
+     .argument = "EL[,AZ[,LUX]]",
      .default_text = "22,0",
-     .help = "where it stands: degrees above the horizon, and around, from +Z towards +X"},
+     .help =
+         "where it stands: degrees above the horizon, and around, from +Z towards +X; beside --env also its "
+         "illuminance"},
     {.id = OPT_TURBIDITY,
      .name = "turbidity",
      .kind = OPTION_NUMBER,
@@ -213,7 +215,7 @@ static const option look_options[] = {
      .argument = "X",
      .default_text = "none",
      .help = "cut radiance times exposure off there",
-     .minimum = 0,
+     .minimum = 1e-6,
      .maximum = 1e9},
     {.id = OPT_SWEEP,
      .name = "sweep",
@@ -312,7 +314,7 @@ const verb ocean_verb = {
         "printed.",
     .examples =
         (const example[]){
-            {"facet ocean -o sea.png", "a fresh breeze, sun ahead"},
+            {"facet ocean -o sea.png", "a fresh breeze, the sun at the right"},
             {"facet ocean --preset gale --sun 12 -o gale.jpg --size 1920x1080", "a gale at low sun"},
             {"facet ocean --preset lagoon --height-of-eye 20 -o lagoon.png", "sand below clear water"},
             {"facet ocean --wind 7,45 --swell 2,12,90 --chl 1 -o 'sea_####.png' --loop 8", "a loop of 8 s"},

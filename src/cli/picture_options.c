@@ -151,7 +151,7 @@ facet_result picture_options_environment(const command_line *c, render_options *
         return result;
     double rotation = 0.0;
     if (is_given(c, OPT_ENV_ROTATION) && !value_angle(option_text(c, OPT_ENV_ROTATION, ""), &rotation))
-        return option_fail(c, OPT_ENV_ROTATION, "an angle in degrees", error);
+        return option_fail(c, OPT_ENV_ROTATION, "an angle in degrees, such as 90", error);
     out->desc.environment_rotation_rad = (float)rotation;
     double intensity = option_number(c, OPT_ENV_INTENSITY, 1.0);
     if (intensity > 0.0)

@@ -56,8 +56,7 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Whether the picture name would replace what is read for it. */
-static bool is_an_input(const command_line *c, const render_options *o, const char *model, const char *name)
+bool render_name_is_input(const command_line *c, const render_options *o, const char *model, const char *name)
 {
     const char *config_path = option_text(c, OPT_CONFIG, NULL);
     if (o->is_stdout || o->keeps_existing || !output_exists(name))
@@ -77,7 +76,8 @@ static facet_result check_checkpoint(const command_line *c, const render_options
         return result;
     result = output_check(name, error);
     if (result == FACET_OK && output_exists(name) &&
-        (is_an_input(c, o, model, name) || (output_exists(picture) && input_is_same_file(name, picture))))
+        (render_name_is_input(c, o, model, name) ||
+         (output_exists(picture) && input_is_same_file(name, picture))))
         result =
             fail_with(error, FACET_ERROR_ARGUMENT,
                       "--checkpoint: %s is an input or the picture, too, and would be overwritten", name);
@@ -95,7 +95,7 @@ facet_result render_names_check(const command_line *c, const render_options *o, 
         result = render_name(o, model, 1, name, sizeof name, error);
         if (result == FACET_OK)
             result = output_check(name, error);
-        if (result == FACET_OK && is_an_input(c, o, model, name))
+        if (result == FACET_OK && render_name_is_input(c, o, model, name))
             result = fail_with(
                 error, FACET_ERROR_ARGUMENT,
                 "%s: it is an input, too, and would be overwritten; name another output with -o", name);

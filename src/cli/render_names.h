@@ -15,6 +15,11 @@ facet_result render_name(const render_options *o, const char *model, uint32_t nu
 facet_result render_checkpoint_name(const render_options *o, const char *model, uint32_t number, char *name,
                                     size_t size, facet_error *error);
 
+/* Whether the picture name would replace what is read for it: the model (NULL: none), the environment, the file of options; not where it is
+ * kept (--no-clobber). */
+bool render_name_is_input(const command_line *c, const render_options *o, const char *model,
+                          const char *name);
+
 /* Checks before any work that the first pictures of all models can be written, have different names and are no model,
  * environment or file of options. What a model is made of beside is known once it is read. */
 facet_result render_names_check(const command_line *c, const render_options *o, facet_error *error);

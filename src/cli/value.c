@@ -8,6 +8,9 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
+/* More turns than anybody means; floats still tell a tenth of a degree apart. */
+static const double MAX_ANGLE = 1e4;
+
 static const char *skip_blanks(const char *text)
 {
     return text + strspn(text, " \t");
@@ -176,7 +179,7 @@ bool value_angle(const char *text, double *radians)
 {
     static const unit units[] = {{"", DEGREE}, {"deg", DEGREE}, {"rad", 1.0}, {NULL, 0}};
     double number;
-    if (!scan_number(&text, &number) || !apply_unit(text, units, &number))
+    if (!scan_number(&text, &number) || !apply_unit(text, units, &number) || fabs(number) > MAX_ANGLE)
         return false;
     *radians = number;
     return true;

@@ -104,6 +104,7 @@ static void test_units(void **state)
     assert_true(value_angle("-90deg", &x) && fabs(x + 90.0 * DEGREE) < 1e-12);
     assert_true(value_angle("1.5rad", &x) && fabs(x - 1.5) < 1e-12);
     assert_false(value_angle("90%", &x));
+    assert_false(value_angle("1e300", &x));
 }
 
 static const facet_orbit start = {

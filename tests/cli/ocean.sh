@@ -121,7 +121,33 @@ expect 0 ocean --resolution 32 --cascades 2 --maps maps
 expect 0 ocean --resolution 32 --cascades 1 --maps 'm_##.exr'
 cmp -s m_00.exr maps/tile_00.exr && failed "another number of tiles has the same first one"
 expect 6 ocean --maps nowhere
+expect 0 ocean $small --resolution 32 --cascades 1 --maps maps --frames 1-2 -o 'f_##.png'
+[ -s maps/tile_00_0002.exr ] || failed "there is no map of the second frame"
+cmp -s maps/tile_00_0001.exr maps/tile_00_0002.exr && failed "maps of two frames are the same"
+expect 2 ocean --maps 'm_##.png'
+says ".exr"
+expect 2 ocean --maps 'm_##.exr' --frames 1-2
+says "a folder"
+expect 7 ocean --maps maps --time-limit 1ms
+expect 7 ocean -o large.glb --time-limit 1ms
 rm -rf maps ./*.exr ./*.glb ./*.obj ./*.mtl ./*.png
+
+# Nothing that is read is replaced.
+mkdir maps
+expect 0 ocean $small -s 64x32 --cascades 1 --resolution 32 -o maps/tile_00.exr
+cp maps/tile_00.exr saved
+cp saved sky_01.exr
+kept() { # kept FILE
+    says "it is an input, too"
+    cmp -s "$1" saved || failed "the input $1 was overwritten"
+}
+expect 2 ocean $small -e sky_01.exr -o 'sky_##.exr' --frames 1-2
+kept sky_01.exr
+expect 2 ocean $small -e maps/tile_00.exr --maps maps -o a.png
+kept maps/tile_00.exr
+expect 2 ocean $small --maps maps -o maps/tile_00.exr
+says "one of the files of --maps"
+rm -rf maps ./*.exr saved
 
 # Sheets
 expect 0 ocean $small -s 32x24 --sweep heading=5:60:2,wind=2:12:3 -o sheet.png
@@ -132,6 +158,11 @@ expect 2 ocean $small --sweep roughness=0.1:0.2 -o sheet.png
 says "NAME=FROM:TO:COUNT"
 expect 2 ocean $small --sweep output=1:2:2 -o sheet.png
 says "takes no number"
+expect 2 ocean $small --sweep wind=3:5:2, -o sheet.png
+expect 2 ocean $small --sweep wind=3:5:2,wind=1:2:2 -o sheet.png
+says "both of its axes"
+expect 2 ocean $small --sweep seed=1e300:1e300:1 -o sheet.png
+expect 0 ocean $small -s 32x24 --sweep seed=4294967295:4294967295:1 -o sheet.png
 expect 2 ocean $small --sweep roughness=0:9:2 -o sheet.png
 expect 0 ocean $small -s 32x24 --before-after -o both.png
 is_type both.png "PNG image data, 66 x"
@@ -151,6 +182,15 @@ cmp -s boat.gltf saved.gltf || failed "an input was overwritten"
 rm -f ./*.png ./*.gltf
 
 # What is asked for
+for words in "--sun 22,1e300" "--depth 1e39" "--bed-slope 1,1e300 --depth 3" "--wind 10,1e300" "--swell 2,0.01" \
+    "--absorption 1e300,0,0" "--eye 1e39,0,0" "--target 0,1e39,0" "--heading 1e300" "--env-rotation 1e300 -e white"; do
+    expect 2 ocean $words -o a.png
+    says "${words%% *}:"
+done
+expect 2 ocean --stage 2 -o a.glb
+says "of pictures"
+expect 2 ocean --with a.glb --with b.glb -o a.png
+says "more than once"
 expect 2 ocean --wind 50 -o a.png
 says "0 to 40 m/s"
 expect 2 ocean --preset pond -o a.png
