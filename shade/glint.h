@@ -80,6 +80,9 @@ FN float glint_sum(uint key, float mean)
 
 /* ---- where and when ---- */
 
+/* Cells and slots beyond are one: they are numbered by integers. */
+#define GLINT_FAR 1e9f
+
 /* Cell of the water that a footprint takes for its own. rest: where the water is at rest (m), so that glints ride the waves; width: of
  * the footprint along x and z (m). Cells are powers of two wide; between two of them the choice is by chance, once per wider cell, as a
  * mean of two would have half the variance. */
@@ -88,13 +91,14 @@ FN uint glint_cell(vec2 rest, vec2 width)
     vec2 level = vec2(log2(max(width[0], 1e-6f)), log2(max(width[1], 1e-6f)));
     vec2 fine = floor(level);
     vec2 size = vec2(exp2(fine[0] + 1.0f), exp2(fine[1] + 1.0f));
-    vec2 at = floor(vec2(rest[0] / size[0], rest[1] / size[1]));
+    vec2 at = clamp(floor(vec2(rest[0] / size[0], rest[1] / size[1])), -GLINT_FAR, GLINT_FAR);
     uint wide =
         glint_hash2(glint_hash2(uint(int(at[0])), uint(int(at[1]))), uint(int(fine[0]) * 64 + int(fine[1])));
     vec2 more = level - fine;
     float step_x = sel(more[0] > glint_uniform(wide), 1.0f, 2.0f);
     float step_z = sel(more[1] > glint_uniform(glint_hash(wide)), 1.0f, 2.0f);
-    vec2 part = floor(vec2(rest[0] / size[0] - at[0], rest[1] / size[1] - at[1]) * vec2(step_x, step_z));
+    vec2 within = clamp(vec2(rest[0] / size[0] - at[0], rest[1] / size[1] - at[1]), 0.0f, 0.999f);
+    vec2 part = floor(within * vec2(step_x, step_z));
     return glint_hash2(wide, uint(int(part[0] + 2.0f * part[1] + 4.0f * step_x + 16.0f * step_z)));
 }
 
@@ -105,8 +109,8 @@ FN float glint_variate(uint cell, float count, float time_s, float lifetime_s)
     if (count > GLINT_COUNT_MAX)
         return 1.0f;
     float t = time_s / (2.0f * lifetime_s) + glint_uniform(glint_hash(cell ^ 3144134277u));
-    float slot = floor(t);
-    float share = t - slot;
+    float slot = clamp(floor(t), -GLINT_FAR, GLINT_FAR);
+    float share = clamp(t - slot, 0.0f, 1.0f);
     float n = max(count, 1e-6f);
     uint now = glint_hash2(cell, uint(int(slot)));
     uint next = glint_hash2(cell, uint(int(slot) + 1));

@@ -268,7 +268,8 @@ FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
     return S * water_path(along - K * d[1], x);
 }
 
-/* And of the sun's own beam, scattered forward once: the glow around it. sunward: unit direction to the sun below the surface;
+/* And of the sun's own beam, scattered forward once: the glow around it. What is scattered as much as sideways, or backwards, is diffuse
+ * light's. sunward: unit direction to the sun below the surface;
  * beam: irradiance (lx) across it just below. */
 FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float x)
 {
@@ -276,7 +277,8 @@ FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float 
     vec3 c = water_beam(w);
     float mu = max(sunward[1], 1e-3f);
     vec3 E = beam * exp(-c * (z / mu));
-    vec3 L = E * w.scattering * water_phase(w, forward) * water_path(c * (1.0f - d[1] / mu), x);
+    vec3 glow = max(water_phase(w, forward) - water_phase(w, 0.0f), 0.0f);
+    vec3 L = E * w.scattering * glow * water_path(c * (1.0f - d[1] / mu), x);
     return sel(forward > 0.0f, L, vec3(0.0f));
 }
 

@@ -368,6 +368,10 @@ static void test_below(void **state)
     vec3 far = water_sun_glow(w, beam, sunward, 5.0f, normalize(sunward + vec3(0.0f, 0.0f, 1.0f)), 5.0f);
     assert_true(near[1] > 5.0f * far[1] && far[1] > 0.0f);
     assert_true(water_sun_glow(w, beam, sunward, 5.0f, -sunward, 5.0f)[1] == 0.0f);
+    /* and fades to the side: no edge */
+    vec3 side = normalize(vec3(sunward[1], -sunward[0], 0.0f));
+    vec3 aside = water_sun_glow(w, beam, sunward, 5.0f, normalize(side + sunward * 1e-3f), 5.0f);
+    assert_true(aside[1] < 1e-3f * near[1]);
 }
 
 /* Foam covers: at 1 only foam is seen, as bright as its albedo allows. */

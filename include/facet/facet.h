@@ -1205,21 +1205,22 @@ typedef struct facet_sea_bed {
     float albedo[3]; /* [0, 1] */
 } facet_sea_bed;
 
+/* {0} is still, fresh, pure water without a bed; facet_sea_default() is a sea. */
 typedef struct facet_sea_desc {
     facet_allocator allocator;
     facet_log log;
     uint32_t thread_count; /* 0: facet_thread_count(); waves do not depend on it */
     float wind_mps;        /* mean at 10 m above the water, [0, 40] */
     float wind_direction_rad;
-    float fetch_m; /* over which it blows, at least 100; INFINITY: without limit */
+    float fetch_m; /* over which it blows, at least 100; INFINITY, or 0: without limit */
     facet_sea_spectrum spectrum;
     facet_sea_spreading spreading;
-    float peakedness; /* JONSWAP's gamma, [1, 20] */
+    float peakedness; /* JONSWAP's gamma, [1, 20]; 0: 3.3 */
     facet_swell swell;
     float choppiness;    /* how far water moves to and fro, over what physics has it, [0, 2]: 1 is physical */
-    float loop_s;        /* after which waves repeat; 0: never */
-    uint32_t resolution; /* samples along the edge of a tile of waves, a power of two, [32, 1024] */
-    uint32_t cascade_count; /* tiles of different length, [1, 4] */
+    double loop_s;       /* after which waves repeat; 0: never */
+    uint32_t resolution; /* samples along the edge of a tile of waves, a power of two, [32, 1024]; 0: 256 */
+    uint32_t cascade_count; /* tiles of different length, [1, 4]; 0: 3 */
     uint64_t seed;          /* another one: another sea of the same kind */
     facet_water water;
     facet_sea_bed bed; /* its depth is what waves feel, too */

@@ -232,6 +232,8 @@ static const float EYE_M = 3.0f, CLEARANCE_M = 1.0f, FOV_RAD = 0.61f, /* a lens 
 
 facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad)
 {
+    height_m = isfinite(height_m) ? height_m : 0.0f;
+    azimuth_rad = isfinite(azimuth_rad) ? azimuth_rad : 0.0f;
     float waves_m = 4.0f * (float)sqrt(sea_state_moments(&sea->waves.state, 0.0, ENDLESS).height);
     float y = height_m != 0.0f ? height_m : fmaxf(EYE_M, waves_m);
     float water = waves_height(&sea->waves, 0.0, 0.0, 0.0f);
@@ -251,8 +253,8 @@ static facet_result check_look(const facet_sea_look *look, facet_error *error)
     if (r != 0.0f && !(r >= 0.001f && r <= 1.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "look: a roughness of %g is not within [0.001, 1]",
                     (double)r);
-    if (!(look->clamp >= 0.0f))
-        return fail(error, FACET_ERROR_ARGUMENT, "look: a clamp of %g is below 0", (double)look->clamp);
+    if (!(look->clamp >= 0.0f && look->clamp < INFINITY))
+        return fail(error, FACET_ERROR_ARGUMENT, "look: a clamp of %g is not 0 or more", (double)look->clamp);
     return FACET_OK;
 }
 
@@ -370,8 +372,10 @@ facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
 facet_result facet_sea_meter(const facet_sea_render_desc *desc, double *ev100, facet_error *error)
 {
     const facet_sea_render_desc defaults = {0};
+    facet_sea_render_desc d;
     *ev100 = 0.0;
-    return water_exposure_ev100(desc ? desc : &defaults, ev100, error);
+    facet_result result = resolve_sea(NULL, desc ? desc : &defaults, &d, error);
+    return result == FACET_OK ? water_exposure_ev100(&d, ev100, error) : result;
 }
 
 float facet_exposure_from_ev100(double ev100)

@@ -309,13 +309,62 @@ static void paths_are_traced_through_the_mesh(void **state)
     facet_sea_destroy(sea);
 }
 
+/* Nothing that is said of a sea is said in words: numbers far away and no numbers at all have answers. */
+static void numbers_far_away_are_answered(void **state)
+{
+    (void)state;
+    facet_sea_desc desc = small();
+    facet_sea *sea = make(&desc);
+    const double far_away[] = {(double)NAN, 0.0, 0.0, (double)INFINITY, -1.7e308, 1.7e308, 1e9, -1e15};
+    facet_sea_point points[4];
+    facet_sea_get_points(sea, far_away, 4, points);
+    for (int i = 0; i < 4; i++)
+        assert_true(isfinite(points[i].height_m) && isfinite(points[i].velocity_mps) &&
+                    isfinite(points[i].jacobian) && isfinite(points[i].normal[1]));
+    assert_true(isfinite(facet_sea_camera(sea, NAN, NAN).eye[1]));
+    facet_sea_render_desc d = picture();
+    d.render.samples = 1;
+    const facet_camera camera = {.eye = {1e9f, 3.0f, 1e9f}, .target = {1e9f, 0.0f, 2e9f}, .fov_y_rad = 0.6f};
+    for (int i = 0; i < 3; i++) {
+        facet_image *image = NULL;
+        done(facet_sea_set_time(sea, i == 0 ? 1e300 : i == 1 ? -1e9 : 0.0, &failure));
+        d.render.camera = i == 2 ? &camera : NULL;
+        done(facet_sea_render(sea, NULL, &d, &image, &failure));
+        assert_true(brightness(image) >= 0.0);
+        facet_image_destroy(image);
+    }
+    facet_sea_destroy(sea);
+}
+
+/* Still, fresh, pure water; and a loop of 2.4 s closes though no float is 2.4. */
+static void zero_is_a_sea(void **state)
+{
+    (void)state;
+    const facet_sea_desc zero = {0};
+    facet_sea *sea = make(&zero);
+    facet_sea_info info = facet_sea_get_info(sea);
+    assert_true(info.height_m == 0.0 && info.tile_count == 0 && info.ior > 1.33 && info.ior < 1.34);
+    facet_sea_destroy(sea);
+    facet_sea_desc desc = small();
+    desc.loop_s = 2.4;
+    sea = make(&desc);
+    const double origin[2] = {3.0, 4.0};
+    facet_sea_point before, after;
+    facet_sea_get_points(sea, origin, 1, &before);
+    done(facet_sea_set_time(sea, 2.4, &failure));
+    facet_sea_get_points(sea, origin, 1, &after);
+    assert_memory_equal(&before, &after, sizeof before);
+    facet_sea_destroy(sea);
+}
+
 static void what_is_wrong_is_said(void **state)
 {
     (void)state;
     facet_sea_desc desc = small();
     facet_sea *sea = make(&desc);
     facet_image *image = NULL;
-    for (int i = 0; i < 7; i++) {
+    double ev100 = 0.0;
+    for (int i = 0; i < 9; i++) {
         facet_sea_render_desc d = picture();
         if (i == 0)
             d.look.stage = 6;
@@ -330,13 +379,19 @@ static void what_is_wrong_is_said(void **state)
         if (i == 5)
             d.look.before = (facet_sea_before)9;
         if (i == 6)
-            d.render.integrator = FACET_INTEGRATOR_PATH, d.look.no_foam = true;
+            d.render.integrator = FACET_INTEGRATOR_PATH, d.look.before = FACET_SEA_BEFORE_INTENDED;
+        if (i == 7)
+            d.render.environment_ev = INFINITY;
+        if (i == 8)
+            d.render.sun.illuminance_lux[0] = NAN;
+        assert_int_equal(facet_sea_meter(&d, &ev100, &failure), FACET_ERROR_ARGUMENT);
         assert_int_equal(facet_sea_render(sea, NULL, &d, &image, &failure), FACET_ERROR_ARGUMENT);
         assert_null(image);
         assert_true(strlen(failure.message) > 10);
     }
     desc.wind_mps = 50.0f;
     facet_sea *none = NULL;
+    assert_int_equal(facet_sea_preset(NULL, &desc, &failure), FACET_ERROR_ARGUMENT);
     assert_int_equal(facet_sea_create(&desc, &none, &failure), FACET_ERROR_ARGUMENT);
     assert_null(none);
     facet_sea_destroy(sea);
@@ -493,6 +548,8 @@ int main(void)
                                        cmocka_unit_test(mesh_is_the_surface),
                                        cmocka_unit_test(pictures_are_exposed),
                                        cmocka_unit_test(paths_are_traced_through_the_mesh),
+                                       cmocka_unit_test(numbers_far_away_are_answered),
+                                       cmocka_unit_test(zero_is_a_sea),
                                        cmocka_unit_test(what_is_wrong_is_said),
                                        cmocka_unit_test(eyes_stay_above_the_water),
                                        cmocka_unit_test(memory_runs_out),

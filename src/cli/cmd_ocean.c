@@ -21,8 +21,8 @@
 /* All that a run writes. */
 typedef struct ocean_output {
     ocean_run *run;
-    video *video;  /* NULL: files */
-    json_t *files; /* NULL: nobody asked for JSON */
+    video *video;                /* NULL: files */
+    json_t *files;               /* NULL: nobody asked for JSON */
     char name[RENDER_NAME_SIZE]; /* what is being made; "": nothing yet */
 } ocean_output;
 
@@ -317,7 +317,8 @@ int cmd_ocean(command_line *c)
                                                                             : EXIT_DONE;
     if (result != FACET_OK) {
         bool is_ours = error.message[0] == '-' || strncmp(error.message, "ocean:", 6) == 0;
-        failure_complete(&error, *output.name ? output.name : "sea", run.options.picture.limits.max_memory_bytes);
+        failure_complete(&error, *output.name ? output.name : "sea",
+                         run.options.picture.limits.max_memory_bytes);
         if (result != FACET_ERROR_CANCELLED)
             message_error("%s%s", is_ours ? "facet: " : "", error.message);
     }

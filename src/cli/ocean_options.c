@@ -120,7 +120,7 @@ static facet_result read_waves(const command_line *c, ocean_options *out, facet_
     d->seed = (uint64_t)option_number(c, OPT_SEED, (double)d->seed);
     d->resolution = (uint32_t)option_number(c, OPT_TILE_SAMPLES, d->resolution);
     d->cascade_count = (uint32_t)option_number(c, OPT_CASCADES, d->cascade_count);
-    d->loop_s = (float)option_number(c, OPT_LOOP, 0.0);
+    d->loop_s = option_number(c, OPT_LOOP, 0.0);
     if (d->resolution & (d->resolution - 1))
         return option_fail(c, OPT_TILE_SAMPLES, "a power of two from 32 to 1024", error);
     return FACET_OK;
@@ -332,7 +332,7 @@ static facet_result read_sequence(const command_line *c, ocean_options *out, fac
     facet_result result = picture_options_frames(c, o, error);
     if (result != FACET_OK)
         return result;
-    double loop = (double)out->sea.loop_s;
+    double loop = out->sea.loop_s;
     o->is_sequence = o->has_frames || (!o->has_time && (is_given(c, OPT_LOOP) || o->has_fps));
     if (!o->has_frames)
         o->frames = frame_list_all(1, 1);

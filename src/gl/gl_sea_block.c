@@ -85,7 +85,7 @@ static void fill_water(const sea_picture *p, gl_sea_block *b)
     set4(b->pure_share, o->pure_share, look->schlick_fresnel ? 1.0f : 0.0f);
     set4(b->sun, p->L, p->sun_fresnel);
     set4(b->sun_irradiance, p->sun_irradiance, p->sky_reflectance);
-    set4(b->sky_irradiance, p->sky_irradiance, (float)p->sea->waves.time_s);
+    set4(b->sky_irradiance, p->sky_irradiance, waves_glint_time(&p->sea->waves));
     set4(b->downwelling, p->downwelling, p->shutter_s);
     set4(b->beam, p->beam, p->disc_radius);
     set4(b->sunward, p->sunward, p->sun_longitude);

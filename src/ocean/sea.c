@@ -3,10 +3,23 @@
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "ocean/sea_preset.h"
 
-facet_result sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error)
+/* 0 stands for the default where it is no number of a sea. */
+static facet_sea_desc complete(const facet_sea_desc *desc)
+{
+    facet_sea_desc d = *desc, otherwise = sea_default();
+    d.fetch_m = d.fetch_m != 0.0f ? d.fetch_m : otherwise.fetch_m;
+    d.peakedness = d.peakedness != 0.0f ? d.peakedness : otherwise.peakedness;
+    d.resolution = d.resolution ? d.resolution : otherwise.resolution;
+    d.cascade_count = d.cascade_count ? d.cascade_count : otherwise.cascade_count;
+    return d;
+}
+
+facet_result sea_create(const facet_sea_desc *asked, facet_sea **sea, facet_error *error)
 {
     *sea = NULL;
+    const facet_sea_desc d = complete(asked), *desc = &d;
     sea_state state;
     water_optics optics;
     facet_result result = sea_state_create(desc, &state, error);

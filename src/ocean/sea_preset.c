@@ -99,7 +99,7 @@ const char *sea_preset_name(uint32_t index)
 
 facet_result sea_preset(const char *name, facet_sea_desc *desc, facet_error *error)
 {
-    for (uint32_t i = 0; i < PRESETS; i++)
+    for (uint32_t i = 0; name && i < PRESETS; i++)
         if (strcmp(name, presets[i].name) == 0) {
             *desc = sea_default();
             presets[i].change(desc);
@@ -108,5 +108,6 @@ facet_result sea_preset(const char *name, facet_sea_desc *desc, facet_error *err
     char names[128] = "";
     for (uint32_t i = 0, at = 0; i < PRESETS && at < sizeof names; i++)
         at += (uint32_t)snprintf(names + at, sizeof names - at, "%s%s", i ? ", " : "", presets[i].name);
-    return fail(error, FACET_ERROR_ARGUMENT, "sea: there is no preset '%s' among %s", name, names);
+    return fail(error, FACET_ERROR_ARGUMENT, "sea: there is no preset '%s' among %s", name ? name : "",
+                names);
 }

@@ -444,7 +444,7 @@ static void numbers_out_of_range_are_named(void **state)
     cases[n].word = "peakedness", cases[n++].d.peakedness = 0.0f;
     cases[n].word = "spectrum", cases[n++].d.spectrum = (facet_sea_spectrum)7;
     cases[n].word = "choppiness", cases[n++].d.choppiness = -0.1f;
-    cases[n].word = "loop", cases[n++].d.loop_s = -1.0f;
+    cases[n].word = "loop", cases[n++].d.loop_s = -1.0;
     cases[n].word = "resolution", cases[n++].d.resolution = 100;
     cases[n].word = "cascades", cases[n++].d.cascade_count = 5;
     cases[n].word = "bed", cases[n++].d.bed.depth_m = -1.0f;

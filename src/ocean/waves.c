@@ -176,7 +176,7 @@ facet_result waves_create(const facet_sea_desc *desc, const sea_state *state, wa
 {
     *out = (waves){.state = *state,
                    .choppiness = (double)desc->choppiness,
-                   .loop_s = (double)desc->loop_s,
+                   .loop_s = desc->loop_s,
                    .seed = desc->seed,
                    .allocator = desc->allocator,
                    .thread_count = desc->thread_count,

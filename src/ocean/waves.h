@@ -61,6 +61,13 @@ typedef struct waves {
 /* At time 0. desc is checked by sea_state_create(). FACET_ERROR_MEMORY; FACET_ERROR_UNSUPPORTED: facet was built without kissfft,
  * and there are waves. */
 facet_result waves_create(const facet_sea_desc *desc, const sea_state *state, waves *out, facet_error *error);
+/* The time that what glitters lives by, in which floats tell 1 ms apart: it begins anew every 4.5 hours. */
+static inline float waves_glint_time(const waves *w)
+{
+    const double again_s = 16384.0;
+    double time_s = fmod(w->time_s, again_s);
+    return (float)(time_s < 0.0 ? time_s + again_s : time_s);
+}
 /* Takes no memory: never fails after waves_create(). */
 void waves_set_time(waves *w, double time_s);
 void waves_destroy(waves *w); /* {0} is allowed */

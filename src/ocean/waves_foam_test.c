@@ -159,7 +159,7 @@ static void foam_loops(void **state)
 {
     (void)state;
     facet_sea_desc d = desc_of(10.0f, 9);
-    d.loop_s = 30.0f;
+    d.loop_s = 30.0;
     foamy a, b;
     create(&a, d);
     create(&b, d);

@@ -6,6 +6,8 @@
 #include "ocean/wave_amplitudes.h"
 #include "ocean/wave_patches.h"
 
+static const double FARTHEST = 0x1p40; /* m */
+
 enum { MAX_REACH = 1 << (WAVES_MAX_LEVELS - 2) };
 
 /* e^(i n phase), n from 0 to reach. */
@@ -36,6 +38,8 @@ static double tile_velocity(const wave_amplitudes *a, double u, double v)
 double waves_velocity(const waves *w, double x, double z)
 {
     double sum = 0.0;
+    if (!(fabs(x) < FARTHEST && fabs(z) < FARTHEST))
+        x = z = 0.0;
     for (uint32_t i = 0; i < w->tile_count; i++) {
         const wave_tile *t = &w->tiles[i];
         double u = (x * t->cos_per_m + z * t->sin_per_m) / t->size;

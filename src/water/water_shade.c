@@ -83,7 +83,7 @@ static float glints(const water_setup *s, const water_place *p)
                               s->shutter_s / lifetime);
     uint cell =
         glint_cell(vec2((float)p->rest[0], (float)p->rest[1]), water_extent(p->V, p->footprint_m, p->cosine));
-    return glint_variate(cell, count, (float)s->sea->waves.time_s, lifetime);
+    return glint_variate(cell, count, waves_glint_time(&s->sea->waves), lifetime);
 }
 
 static vec3 sun_in_water(const water_setup *s, const water_place *p, WaterLight light)
