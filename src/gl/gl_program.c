@@ -84,8 +84,8 @@ static const char *const no_features[] = {NULL};
 static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
-static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE", "IS_PAINTED", "IS_BELOW",
-                                           "HAS_BED",     "HAS_FOAM",  "HAS_GLINTS", NULL};
+static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE",  "IS_PAINTED", "IS_BELOW",  "HAS_BED",
+                                           "HAS_FOAM",    "HAS_GLINTS", "HAS_CUBIC",  "IS_BESIDE", NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
 static const struct {
@@ -161,6 +161,13 @@ static const struct {
                              {0},
                              no_features,
                              {"sea_block.glsl", "sea_grid.glsl"}},
+    [GL_MAIN_SEA_CLASS] = {"sea_class",
+                           "screen.vert",
+                           "sea_class.frag",
+                           {"water_place"},
+                           {"sea_block.glsl"},
+                           no_features,
+                           {0}},
     [GL_MAIN_SEA] = {"sea",
                      "screen.vert",
                      "sea.frag",

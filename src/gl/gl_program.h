@@ -21,6 +21,7 @@ typedef enum gl_main {
     GL_MAIN_DEVELOP,     /* what OpenGL 1 computed as light */
     GL_MAIN_SEA_GRID,    /* where the surface of a sea lies */
     GL_MAIN_SEA_SURFACE, /* which water is seen in each pixel */
+    GL_MAIN_SEA_CLASS,   /* what is to be done for a pixel */
     GL_MAIN_SEA,         /* what it looks like */
     GL_MAIN_COUNT
 } gl_main;
@@ -74,7 +75,9 @@ enum {
     GL_SEA_IS_BELOW = 1u << 3,    /* the eye is in the water */
     GL_SEA_HAS_BED = 1u << 4,
     GL_SEA_HAS_FOAM = 1u << 5,
-    GL_SEA_HAS_GLINTS = 1u << 6
+    GL_SEA_HAS_GLINTS = 1u << 6,
+    GL_SEA_HAS_CUBIC = 1u << 7, /* near enough that samples of waves are wider than pixels */
+    GL_SEA_IS_BESIDE = 1u << 8  /* where the surface is not seen */
 };
 
 /* features: bits of the main's list of names in gl_program.c, each of which becomes a #define. */

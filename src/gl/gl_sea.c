@@ -14,6 +14,7 @@
 #include "gl/gl_light_atlas.h"
 #include "gl/gl_program.h"
 #include "gl/gl_sea_block.h"
+#include "gl/gl_sea_classes.h"
 #include "gl/gl_sea_textures.h"
 #include "gl/gl_target.h"
 #include "ibl/environment.h"
@@ -213,6 +214,9 @@ static uint64_t features_of(const sea_picture *p)
            (has_foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);
 }
 
+/* Features that what is not water has, too. */
+static const uint64_t BESIDE = GL_SEA_HAS_PICTURE | GL_SEA_IS_BEFORE | GL_SEA_IS_BELOW | GL_SEA_HAS_BED;
+
 /* ---- passes ---- */
 
 /* A picture on its way. */
@@ -221,7 +225,7 @@ typedef struct drawing {
     const sea_picture *picture;
     camera_rays camera;
     gl_sea_fan fan;
-    GLuint grid, surface, all; /* programs */
+    GLuint grid, surface, sorting, smooth, linear, beside; /* programs */
     float *pattern, *pixels;
     film *film;
     render_watch watch;
@@ -230,13 +234,19 @@ typedef struct drawing {
 static facet_result get_programs(drawing *d, facet_error *error)
 {
     uint64_t features = features_of(d->picture);
-    const gl_program_key keys[3] = {{GL_MAIN_SEA_GRID, 0}, {GL_MAIN_SEA_SURFACE, 0}, {GL_MAIN_SEA, features}};
-    GLuint *names[3] = {&d->grid, &d->surface, &d->all};
+    enum { COUNT = 6 };
+    const gl_program_key keys[COUNT] = {{GL_MAIN_SEA_GRID, 0},
+                                        {GL_MAIN_SEA_SURFACE, 0},
+                                        {GL_MAIN_SEA_CLASS, 0},
+                                        {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
+                                        {GL_MAIN_SEA, features},
+                                        {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE}};
+    GLuint *names[COUNT] = {&d->grid, &d->surface, &d->sorting, &d->smooth, &d->linear, &d->beside};
     facet_result result = FACET_OK;
     gl_programs_set_log(d->s->programs, &d->picture->desc->render.log);
-    for (int i = 0; i < 3 && result == FACET_OK; i++)
+    for (int i = 0; i < COUNT && result == FACET_OK; i++)
         result = gl_programs_request(d->s->programs, keys[i], error);
-    for (int i = 0; i < 3 && result == FACET_OK; i++)
+    for (int i = 0; i < COUNT && result == FACET_OK; i++)
         result = gl_programs_get(d->s->programs, keys[i], names[i], error);
     return result;
 }
@@ -253,6 +263,13 @@ static void begin_pass(const gl_target *t)
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
+static void use(GLuint program, gl_sea_class reading)
+{
+    glUseProgram(program);
+    glUniform3i(glGetUniformLocation(program, "u_sea_reading"), reading.cubic_end, reading.linear_begin,
+                reading.linear_end);
+}
+
 /* Where nodes are. */
 static facet_result draw_grid(drawing *d, facet_error *error)
 {
@@ -263,7 +280,7 @@ static facet_result draw_grid(drawing *d, facet_error *error)
         return result;
     begin_pass(&s->grid);
     gl_sea_textures_bind(&s->textures);
-    glUseProgram(d->grid);
+    use(d->grid, (gl_sea_class){.linear_end = (int32_t)d->picture->sea->waves.tile_count});
     glBindVertexArray(s->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     return gl_context_check(&s->context, "a sea's mesh", error);
@@ -285,7 +302,40 @@ static void set_frame(const drawing *d, const gl_view *view)
     set_block(d->s->frame_buffer, GL_BLOCK_FRAME, &block, sizeof block);
 }
 
-/* Which water is seen, then what that looks like. */
+/* Whatever a triangle's depth is, it is taken for this one. */
+static void set_depths(const gl_context *context, double nearest, double farthest)
+{
+    if (context->is_es)
+        glDepthRangef((GLfloat)nearest, (GLfloat)farthest);
+    else
+        glDepthRange(nearest, farthest);
+}
+
+/* Of pixels of a class. */
+static void draw_class(const drawing *d, double depth)
+{
+    set_depths(&d->s->context, depth, depth);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/* What all pixels look like, whose classes are the target's depths. */
+static void draw_classes(const drawing *d)
+{
+    gl_sea_class classes[GL_SEA_MOST_CLASSES];
+    uint32_t count = gl_sea_classes(d->picture->sea->waves.tile_count, classes);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_EQUAL);
+    glUseProgram(d->beside);
+    draw_class(d, 0.0);
+    for (uint32_t i = 0; i < count; i++) {
+        use(classes[i].cubic_end ? d->smooth : d->linear, classes[i]);
+        draw_class(d, gl_sea_class_depth(classes[i]));
+    }
+    set_depths(&d->s->context, 0.0, 1.0);
+    glDepthMask(GL_TRUE);
+}
+
+/* Which water is seen, what is to be done for it, then what that looks like. */
 static void draw_view(const drawing *d)
 {
     const gl_sea *s = d->s;
@@ -300,9 +350,12 @@ static void draw_view(const drawing *d)
     size_t count = (size_t)(d->fan.rows - 1) * (2 * (size_t)d->fan.columns + 2);
     glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
     begin_pass(&s->target);
-    glUseProgram(d->all);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glUseProgram(d->sorting);
     glBindVertexArray(s->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    draw_classes(d);
     gl_camera_end_depth(&s->context);
 }
 

@@ -2,6 +2,8 @@
 #define SEA_TILES 4
 #define SEA_FOOTPRINTS 64
 #define SEA_LEVELS 11
+#define SEA_CLASS_STEP 8 /* gl_sea_classes.c */
+#define SEA_CLASSES 512
 
 layout(std140) uniform Sea
 {

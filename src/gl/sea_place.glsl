@@ -43,17 +43,27 @@ vec4 sea_slopes(float footprint, out vec3 resolved, out vec2 moments)
 /* ---- foam ---- */
 
 #ifdef HAS_FOAM
-/* Mean and hidden variance of a plane; at: in samples, texels: width of the footprint in them. */
+/* How a footprint as wide as `texels` reads planes: level, and the share of the next one. */
+vec2 sea_plane_level(float texels)
+{
+    float last = float(sea_counts.y - 1);
+    float whole = min(floor(log2(max(texels, 1.0))), last);
+    return vec2(whole, whole < last ? clamp(texels * exp2(-whole) - 1.0, 0.0, 1.0) : 0.0);
+}
+
+/* Mean of a plane; at: in samples. */
+float sea_plane_mean(int layer, vec2 at, vec2 level)
+{
+    return textureLod(u_sea_foam, vec3((at + 0.5) / float(sea_counts.z), layer), level.x + level.y).x;
+}
+
+/* The same, and the variance that is hidden. */
 vec2 sea_plane(int layer, vec2 at, float texels)
 {
-    int last = sea_counts.y - 1;
-    float whole = min(floor(log2(max(texels, 1.0))), float(last));
-    float rest = texels * exp2(-whole);
-    float more = int(whole) < last ? clamp(rest - 1.0, 0.0, 1.0) : 0.0;
-    float mean = textureLod(u_sea_foam, vec3((at + 0.5) / float(sea_counts.z), layer), whole + more).x;
-    int level = int(whole);
-    float hidden = mix(sea_foam_hidden[level][layer], sea_foam_hidden[min(level + 1, last)][layer], more);
-    return vec2(mean, hidden);
+    vec2 level = sea_plane_level(texels);
+    int whole = int(level.x);
+    int next = min(whole + 1, sea_counts.y - 1);
+    return vec2(sea_plane_mean(layer, at, level), mix(sea_foam_hidden[whole][layer], sea_foam_hidden[next][layer], level.y));
 }
 
 /* In samples of a tile, from a place of the eye. */
@@ -69,11 +79,12 @@ vec2 sea_samples(int tile, vec2 rest, vec2 eye_at, float scale)
 float sea_old_foam(vec2 rest, float footprint)
 {
     SeaPatches p = sea_patches(0, rest);
+    vec2 level = sea_plane_level(footprint * sea_axes[0].z);
     float share = 0.0;
-    float texels = footprint * sea_axes[0].z;
-    for (int i = 0; i < 3; i++)
-        if (p.weights[i] > 0.0)
-            share += p.weights[i] * p.weights[i] * sea_plane(0, p.place + p.from[i], texels).x;
+    do {
+        share += p.weights.x * p.weights.x * sea_plane_mean(0, sea_first(0, p), level);
+        p = sea_rest(p);
+    } while (p.weights.x > 0.0);
     share = clamp(share, 0.0, 1.0);
     if (share <= 1e-4 || share >= 0.999)
         return share;
@@ -83,8 +94,11 @@ float sea_old_foam(vec2 rest, float footprint)
     share = min(share * foam_thickness(share, field.x, field.y), 0.999);
     vec2 lace = vec2(0.0);
     float scale = inversesqrt(float(sea_counts.w));
-    for (int i = 0; i < sea_counts.w; i++)
+    int i = 0;
+    do {
         lace += sea_plane(1 + i, sea_samples(first + i, rest, sea_places[first + i].xy, 1.0), footprint * sea_axes[first + i].z) * vec2(scale, scale * scale);
+        i++;
+    } while (i < sea_counts.w);
     return foam_lace(share, lace.x, lace.y);
 }
 #endif

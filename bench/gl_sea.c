@@ -1,0 +1,175 @@
+/* gl_sea.c - frames of an animated sea by OpenGL: what each costs, beside the look of before on the same surface.
+ *
+ *     gl_sea [-n FRAMES] [-s WxH] [-p PRESET] [-e]
+ *       -n   20 frames of each look, taken by turns, 1/24 s apart, after 2 that nobody looks at
+ *       -s   640x360, one sample a pixel
+ *       -p   trade-wind
+ *       -e   OpenGL ES in place of OpenGL
+ *
+ * Medians over the frames of the wall clock, in ms. waves: the step of time; light: what is prepared for a picture of it; upload:
+ * textures and blocks; draw: passes and reading back; processor: time of all processors, the driver's included. "first" is the first picture, with all that is compiled. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "film/film.h"
+#include "gl/gl_sea.h"
+#include "ocean/sea.h"
+#include "ocean/sea_preset.h"
+#include "water/water_exposure.h"
+#include "water/water_picture.h"
+
+enum { MOST_FRAMES = 1000, UNTIMED_FRAMES = 2, LOOKS = 2 };
+typedef enum part { WAVES, LIGHT, UPLOAD, DRAW, FRAME, PROCESSOR, PART_COUNT } part;
+
+static struct {
+    uint32_t frames, width, height;
+    const char *preset;
+    bool is_es;
+} options = {.frames = 20, .width = 640, .height = 360, .preset = "trade-wind"};
+
+static double times[LOOKS][PART_COUNT][MOST_FRAMES];
+
+static void check(facet_result result, const facet_error *error)
+{
+    if (result == FACET_OK)
+        return;
+    fprintf(stderr, "gl_sea: %s\n", error->message);
+    exit(result == FACET_ERROR_ENVIRONMENT ? 8 : 1);
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *values, uint32_t count)
+{
+    qsort(values, count, sizeof *values, compare);
+    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
+}
+
+static void read_options(int argc, char **argv)
+{
+    for (int option; (option = getopt(argc, argv, "n:s:p:e")) != -1;) {
+        bool is_good = true;
+        switch (option) {
+        case 'n':
+            options.frames = (uint32_t)atoi(optarg);
+            is_good = options.frames >= 1 && options.frames <= MOST_FRAMES;
+            break;
+        case 's':
+            is_good = sscanf(optarg, "%ux%u", &options.width, &options.height) == 2;
+            break;
+        case 'p':
+            options.preset = optarg;
+            break;
+        case 'e':
+            options.is_es = true;
+            break;
+        default:
+            is_good = false;
+        }
+        if (!is_good) {
+            fprintf(stderr, "usage: gl_sea [-n FRAMES] [-s WxH] [-p PRESET] [-e]\n");
+            exit(2);
+        }
+    }
+}
+
+static double processor_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* One picture; to: its times, or NULL. */
+static void draw(gl_sea *renderer, facet_sea *sea, const facet_sea_render_desc *desc, double time_s,
+                 film *target, double *to[PART_COUNT])
+{
+    facet_error error;
+    facet_render_stats stats = {.total_s = 0.0};
+    water_picture *picture;
+    double begin = clock_seconds(), processor = processor_seconds();
+    waves_set_time(&sea->waves, time_s);
+    double stepped = clock_seconds();
+    check(water_picture_create(sea, desc, &picture, &stats, &error), &error);
+    double prepared = clock_seconds();
+    check(gl_sea_draw(renderer, water_picture_get(picture), target, &stats, &error), &error);
+    double end = clock_seconds();
+    water_picture_destroy(picture);
+    if (!to)
+        return;
+    *to[WAVES] = 1e3 * (stepped - begin);
+    *to[LIGHT] = 1e3 * (prepared - stepped);
+    *to[UPLOAD] = 1e3 * stats.geometry_s;
+    *to[DRAW] = 1e3 * stats.shade_s;
+    *to[FRAME] = 1e3 * (end - begin);
+    *to[PROCESSOR] = 1e3 * (processor_seconds() - processor);
+}
+
+static facet_sea *make_sea(void)
+{
+    facet_error error;
+    facet_sea_desc desc;
+    facet_sea *sea;
+    check(sea_preset(options.preset, &desc, &error), &error);
+    desc.thread_count = facet_thread_count();
+    check(sea_create(&desc, &sea, &error), &error);
+    return sea;
+}
+
+static void print_times(void)
+{
+    static const char *const names[PART_COUNT] = {"waves", "light", "upload", "draw", "frame", "processor"};
+    printf("%-10s %9s %9s %9s\n", "", "physical", "before", "ratio");
+    for (int p = 0; p < PART_COUNT; p++) {
+        double physical = median(times[0][p], options.frames), before = median(times[1][p], options.frames);
+        printf("%-10s %9.1f %9.1f %9.2f\n", names[p], physical, before, physical / before);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    read_options(argc, argv);
+    facet_error error;
+    gl_sea *renderer;
+    check(gl_sea_create_api(options.is_es ? GL_API_ES : GL_API_ANY, NULL, &renderer, &error), &error);
+    facet_sea *sea = make_sea();
+    facet_sea_render_desc desc = {.sky = {.sun_elevation_rad = 0.384f, .sun_azimuth_rad = -0.63f}};
+    const facet_camera camera = facet_sea_camera(sea, 0.0f, 0.0f);
+    double ev100;
+    check(water_exposure_ev100(&desc, &ev100, &error), &error);
+    desc.render = (facet_render_desc){.width = options.width,
+                                      .height = options.height,
+                                      .samples = 1,
+                                      .camera = &camera,
+                                      .crop = {0, 0, options.width, options.height},
+                                      .exposure_ev = (float)water_exposure_ev(ev100),
+                                      .integrator = FACET_INTEGRATOR_GL,
+                                      .thread_count = facet_thread_count()};
+    film target = {.width = 0};
+    check(film_create(NULL, options.width, options.height, 0, &target, &error), &error);
+    double begin = clock_seconds();
+    draw(renderer, sea, &desc, 0.0, &target, NULL);
+    double first_s = clock_seconds() - begin;
+    for (uint32_t i = 0; i < UNTIMED_FRAMES + options.frames; i++)
+        for (int look = 0; look < LOOKS; look++) {
+            desc.look.before = look ? FACET_SEA_BEFORE_INTENDED : FACET_SEA_PHYSICAL;
+            double *to[PART_COUNT];
+            for (int p = 0; p < PART_COUNT; p++)
+                to[p] = &times[look][p][i < UNTIMED_FRAMES ? 0 : i - UNTIMED_FRAMES];
+            draw(renderer, sea, &desc, i / 24.0, &target, to);
+        }
+    printf("%s, %u x %u, first %.0f ms\n", options.preset, options.width, options.height, 1e3 * first_s);
+    print_times();
+    film_destroy(&target);
+    sea_destroy(sea);
+    gl_sea_destroy(renderer);
+    return 0;
+}
