@@ -47,6 +47,9 @@ void sea_destroy(facet_sea *sea)
 {
     if (!sea)
         return;
+    sea_kept *light = atomic_load(&sea->light);
+    if (light)
+        light->destroy(light);
     waves_destroy(&sea->waves);
     mem_free(sea);
 }

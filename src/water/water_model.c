@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "draw/light_setup.h"
-#include "ibl/environment.h"
 
 #include "water/water_model.h"
 
@@ -17,26 +16,12 @@ enum { SIDES = 8 };
 
 /* ---- making ---- */
 
-static facet_result make_around(const facet_render_desc *r, image *picture, water_model *m,
-                                facet_error *error)
-{
-    const facet_environment_desc desc = {.allocator = r->allocator};
-    facet_result result = environment_create(&desc, &m->around, error);
-    if (result != FACET_OK) {
-        image_destroy(picture);
-        return result;
-    }
-    m->around->picture = *picture;
-    *picture = (image){.pixels = NULL};
-    environment_limit(m->around, r->thread_count);
-    return FACET_OK;
-}
-
-static void fill_desc(const facet_sea_render_desc *desc, const water_sky *sky, water_model *m)
+static void fill_desc(const facet_sea_render_desc *desc, const water_sky *sky, facet_environment *around,
+                      water_model *m)
 {
     vec3 L = sky->L, E = sky->sun_irradiance;
     m->desc = desc->render;
-    m->desc.environment = m->around;
+    m->desc.environment = around;
     m->desc.environment_rotation_rad = m->desc.environment_ev = 0.0f;
     m->desc.integrator = FACET_INTEGRATOR_PREVIEW;
     m->desc.background = (facet_background){0};
@@ -71,18 +56,15 @@ static facet_result make_shade(const facet_allocator *allocator, bool has_sun, w
 }
 
 facet_result water_model_create(const facet_scene *scene, const facet_sea_render_desc *desc,
-                                const water_sky *sky, image *around, facet_render_stats *stats,
+                                const water_sky *sky, facet_environment *around, facet_render_stats *stats,
                                 water_model *m, facet_error *error)
 {
-    facet_result result = make_around(&desc->render, around, m, error);
-    if (result != FACET_OK)
-        return result;
-    fill_desc(desc, sky, m);
+    fill_desc(desc, sky, around, m);
     prepared_scene_init(&m->prepared, scene, &desc->render.allocator);
     m->is_there = true;
     m->setup =
         (render_setup){.prepared = &m->prepared, .desc = &m->desc, .stats = stats, .reads_everywhere = true};
-    result = render_setup_create(&m->setup, error);
+    facet_result result = render_setup_create(&m->setup, error);
     if (result == FACET_OK) {
         vec3 E = sky->sun_irradiance;
         result = make_shade(&desc->render.allocator, max(E[0], max(E[1], E[2])) > 0.0f, m, error);
@@ -97,9 +79,6 @@ void water_model_destroy(water_model *m)
         render_setup_destroy(&m->setup);
         prepared_scene_clear(&m->prepared);
     }
-    if (m->around)
-        environment_release(m->around);
-    m->around = NULL;
     m->is_there = false;
 }
 

@@ -12,15 +12,13 @@ typedef struct water_model {
     prepared_scene prepared;
     render_setup setup;
     facet_render_desc desc;    /* of setup */
-    facet_environment *around; /* the sky, and the sea below the horizon */
     light_setup shaded_light;  /* setup's, where the sun does not reach: its own are the lamps only */
     shading_scene shaded;
 } water_model;
 
-/* sea: a picture (F32 RGB, equirectangular) of the sky whose lower half shows the sea; it is taken, and released whatever comes back. Fails as
- * preview_render(). */
+/* around: the sky, whose lower half shows the sea; it stays as long. Fails as preview_render(). */
 facet_result water_model_create(const facet_scene *scene, const facet_sea_render_desc *desc,
-                                const water_sky *sky, image *around, facet_render_stats *stats,
+                                const water_sky *sky, facet_environment *around, facet_render_stats *stats,
                                 water_model *out, facet_error *error);
 void water_model_destroy(water_model *m); /* {0} is allowed */
 

@@ -76,12 +76,16 @@ static void draw_rows(void *context, size_t begin, size_t end)
 static facet_result draw_sky(const water_setup *setup, sea_picture *p, facet_error *error)
 {
     enum { ROWS = SEA_SKY_LAYERS * SEA_SKY_HEIGHT, TEXELS = ROWS * SEA_SKY_WIDTH };
-    p->sky = mem_alloc(&setup->desc->render.allocator, TEXELS, 4 * sizeof(float));
-    if (!p->sky)
-        return fail_memory(error, "pictures of the sky", TEXELS * 4 * sizeof(float));
-    sky_drawing s = {.sky = setup->sky, .setup = setup, .texels = p->sky};
-    s.sky.disc_radius = 0.0f;
-    parallel_for(setup->desc->render.thread_count, ROWS, 4, draw_rows, &s);
+    water_light *lit = setup->lit;
+    if (!lit->pictures) {
+        lit->pictures = mem_alloc(&setup->sea->desc.allocator, TEXELS, 4 * sizeof(float));
+        if (!lit->pictures)
+            return fail_memory(error, "pictures of the sky", TEXELS * 4 * sizeof(float));
+        sky_drawing s = {.sky = setup->sky, .setup = setup, .texels = lit->pictures};
+        s.sky.disc_radius = 0.0f;
+        parallel_for(setup->desc->render.thread_count, ROWS, 4, draw_rows, &s);
+    }
+    p->sky = lit->pictures;
     return FACET_OK;
 }
 
@@ -152,7 +156,6 @@ void water_picture_destroy(water_picture *p)
 {
     if (!p)
         return;
-    mem_free(p->picture.sky);
     water_setup_destroy(&p->setup);
     mem_free(p);
 }

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/result.h"
+#include "ibl/environment.h"
 #include "ibl/equirect.h"
 
 #include "water/water_setup.h"
@@ -98,18 +99,37 @@ static void draw_surroundings(void *context, size_t begin, size_t end)
     }
 }
 
+/* Made once for a light. */
+static facet_result prepare_around(water_setup *s, facet_error *error)
+{
+    const facet_render_desc *r = &s->desc->render;
+    const facet_environment_desc desc = {.allocator = s->sea->desc.allocator};
+    facet_environment *around;
+    if (s->lit->around)
+        return FACET_OK;
+    facet_result result = environment_create(&desc, &around, error);
+    if (result == FACET_OK)
+        result = image_create(&desc.allocator, 2 * SURROUNDINGS_HEIGHT, SURROUNDINGS_HEIGHT, 3, IMAGE_F32,
+                              &around->picture, error);
+    if (result != FACET_OK) {
+        if (around)
+            environment_release(around);
+        return result;
+    }
+    const void *context[2] = {s, &around->picture};
+    parallel_for(r->thread_count, SURROUNDINGS_HEIGHT, 8, draw_surroundings, (void *)(uintptr_t)context);
+    environment_limit(around, r->thread_count);
+    s->lit->around = around;
+    return FACET_OK;
+}
+
 static facet_result add_model(water_setup *s, const facet_scene *scene, facet_render_stats *stats,
                               facet_error *error)
 {
-    const facet_render_desc *r = &s->desc->render;
-    image picture;
-    facet_result result = image_create(&r->allocator, 2 * SURROUNDINGS_HEIGHT, SURROUNDINGS_HEIGHT, 3,
-                                       IMAGE_F32, &picture, error);
-    if (result != FACET_OK)
-        return result;
-    const void *context[2] = {s, &picture};
-    parallel_for(r->thread_count, SURROUNDINGS_HEIGHT, 8, draw_surroundings, (void *)(uintptr_t)context);
-    return water_model_create(scene, s->desc, &s->sky, &picture, stats, &s->model, error);
+    facet_result result = prepare_around(s, error);
+    return result == FACET_OK
+               ? water_model_create(scene, s->desc, &s->sky, s->lit->around, stats, &s->model, error)
+               : result;
 }
 
 /* ---- all ---- */
@@ -141,11 +161,12 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
                                    &s->foam, error);
     float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
     if (result == FACET_OK)
-        result = water_sky_create(desc, s->camera.origin[1], rows_per_rad, &s->sky, error);
+        result = water_light_take(sea, desc, s->camera.origin[1], rows_per_rad, &s->lit, error);
     if (result != FACET_OK)
         return result;
+    s->sky = s->lit->sky;
+    s->table = s->lit->table;
     fill_water(s);
-    water_table_create(s->water.normals, s->water.ior, r->thread_count, &s->table);
     fill_light(s);
     float perceptual_roughness = desc->look.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
@@ -158,7 +179,7 @@ void water_setup_destroy(water_setup *s)
     water_model_destroy(&s->model);
     water_profile_destroy(&s->profile);
     waves_foam_destroy(&s->foam);
-    water_sky_destroy(&s->sky);
+    water_light_give_back(s->sea, s->lit);
     memset(s, 0, sizeof *s);
 }
 

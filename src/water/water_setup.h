@@ -5,10 +5,9 @@
 #include "draw/camera_rays.h"
 #include "ocean/sea.h"
 #include "ocean/waves_foam.h"
-#include "ocean/water_table.h"
+#include "water/water_light.h"
 #include "water/water_model.h"
 #include "water/water_profile.h"
-#include "water/water_sky.h"
 
 typedef struct water_setup {
     const facet_sea *sea;
@@ -19,9 +18,10 @@ typedef struct water_setup {
     water_march march;
     water_profile profile;
     waves_foam foam; /* what crests have left behind */
-    water_sky sky;
+    water_light *lit; /* owns what sky points to, and the rest that is kept */
+    water_sky sky;    /* its */
     water_model model;
-    water_table table; /* of means over facets */
+    water_table table; /* of means over facets; its */
     Water water;
     WaterLight light;
     vec3 beam;    /* irradiance across the sun's beam just below the surface, lx */
