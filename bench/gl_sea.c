@@ -128,8 +128,8 @@ static facet_sea *make_sea(void)
 
 static void print_times(void)
 {
-    static const char *const names[PART_COUNT] = {"waves", "light", "upload", "draw",       "frame",
-                                            "of draw", "processors"};
+    static const char *const names[PART_COUNT] = {"waves", "light",   "upload",    "draw",
+                                                  "frame", "of draw", "processors"};
     printf("%-10s %9s %9s %9s\n", "", "physical", "before", "ratio");
     for (int p = 0; p < PART_COUNT; p++) {
         double physical = median(times[0][p], options.frames), before = median(times[1][p], options.frames);

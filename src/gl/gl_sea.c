@@ -235,12 +235,10 @@ static facet_result get_programs(drawing *d, facet_error *error)
 {
     uint64_t features = features_of(d->picture);
     enum { COUNT = 6 };
-    const gl_program_key keys[COUNT] = {{GL_MAIN_SEA_GRID, 0},
-                                        {GL_MAIN_SEA_SURFACE, 0},
-                                        {GL_MAIN_SEA_CLASS, 0},
-                                        {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
-                                        {GL_MAIN_SEA, features},
-                                        {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE}};
+    const gl_program_key keys[COUNT] = {
+        {GL_MAIN_SEA_GRID, 0},   {GL_MAIN_SEA_SURFACE, 0},
+        {GL_MAIN_SEA_CLASS, 0},  {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
+        {GL_MAIN_SEA, features}, {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE}};
     GLuint *names[COUNT] = {&d->grid, &d->surface, &d->sorting, &d->smooth, &d->linear, &d->beside};
     facet_result result = FACET_OK;
     gl_programs_set_log(d->s->programs, &d->picture->desc->render.log);
@@ -275,7 +273,7 @@ static facet_result draw_grid(drawing *d, facet_error *error)
 {
     gl_sea *s = d->s;
     facet_result result =
-        gl_target_update(&s->grid, &s->context, GL_TARGET_FILM, d->fan.columns, d->fan.rows, 1, error);
+        gl_target_update(&s->grid, &s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error);
     if (result != FACET_OK)
         return result;
     begin_pass(&s->grid);
@@ -345,10 +343,12 @@ static void draw_view(const drawing *d)
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     bind_textures(s);
+    glBindTexture(GL_TEXTURE_2D, s->grid.layers[0]); /* in the place of what is drawn now */
     glUseProgram(d->surface);
     glBindVertexArray(s->mesh_array);
     size_t count = (size_t)(d->fan.rows - 1) * (2 * (size_t)d->fan.columns + 2);
     glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
+    glBindTexture(GL_TEXTURE_2D, s->seen.color);
     begin_pass(&s->target);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);

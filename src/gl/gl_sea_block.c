@@ -120,12 +120,13 @@ void gl_sea_block_fill(const sea_picture *p, const camera_rays *camera, const gl
 {
     const double eye[2] = {(double)camera->origin[0], (double)camera->origin[2]};
     uint32_t samples = p->desc->render.samples ? p->desc->render.samples : 1;
-    *b =
-        (gl_sea_block){.eye = {camera->origin[1], (float)p->fall, p->deviation_m, p->sea->waves.level_m},
-                       .ray = {camera->pixel_size, inversesqrt((float)samples), fan->near_m, 0.0f},
-                       .fan = {fan->azimuth, fan->half_azimuth, fan->first_m, fan->step},
-                       .fan_ends = {(float)fan->columns, (float)fan->wave_rows, (float)fan->rows, fan->ratio},
-                       .shift = {fan->shift[0], fan->shift[1], fan->farthest_m, fan->width_rad}};
+    *b = (gl_sea_block){
+        .eye = {camera->origin[1], (float)p->fall, p->deviation_m, p->sea->waves.level_m},
+        .ray = {camera->pixel_size, inversesqrt((float)samples), fan->near_m, 0.0f},
+        .fan = {fan->azimuth, fan->half_azimuth, fan->first_m, fan->step},
+        .fan_ends = {(float)fan->columns, (float)(fan->wave_rows - 1), (float)fan->rows, fan->ratio},
+        .fan_level = {(float)fan->level_row, fan->level_m},
+        .shift = {fan->shift[0], fan->shift[1], fan->farthest_m, fan->width_rad}};
     fill_tiles(p, eye, b);
     fill_slopes(p, b);
     fill_foam(p, eye, b);

@@ -11,7 +11,7 @@ enum { GL_SEA_PATCHES = 128, GL_SEA_FOOTPRINTS = 64 }; /* corners of patches alo
 typedef struct gl_sea_block {
     float axes[WAVES_MAX_TILES][4], places[WAVES_MAX_TILES][4], lengths[WAVES_MAX_TILES][4];
     int32_t counts[4];
-    float eye[4], ray[4], fan[4], fan_ends[4], shift[4];
+    float eye[4], ray[4], fan[4], fan_ends[4], fan_level[4], shift[4];
     float residual[GL_SEA_FOOTPRINTS][4], moments[GL_SEA_FOOTPRINTS][4], total[4], rough[4];
     float foam_at[4], foam_hidden[WAVES_MAX_LEVELS][4];
     float absorption[4], scattering[4], backscattering[4], reflectance[4], pure_share[4];

@@ -67,13 +67,17 @@ gl_sea_fan gl_sea_fan_of(const sea_picture *p, const camera_rays *camera, uint32
     fan.first_m = (float)fmax(0.5 * clear, 0.05);
     fan.near_m = (float)fmax(0.1 * clear, 0.01);
     double last = last_waves(p, pixel, 4.0 * (double)fan.first_m);
-    double rows = asinh(last / (double)fan.first_m), angle = 2.0 * (double)fan.half_azimuth;
+    double first = (double)fan.first_m, angle = 2.0 * (double)fan.half_azimuth;
+    double level = fmin(fmax(2.0 * (double)p->deviation_m / (CELL_PIXELS * pixel), 4.0 * first), last);
+    double standing = asinh(level / first), lying = 1.0 - level / last; /* rows of a step of 1 */
     double step = fmin(CELL_PIXELS * pixel, 0.05);
-    double nodes = rows / step * angle / step;
+    double nodes = (standing + lying) / step * angle / step;
     step *= nodes > MOST_NODES ? sqrt(nodes / MOST_NODES) : 1.0;
     fan.columns = at_most(angle / step + 3.0, most_nodes);
-    fan.wave_rows = at_most(rows / step + 2.0, most_nodes - 256);
-    fan.step = (float)(rows / (fan.wave_rows - 1));
+    fan.level_row = at_most(standing / step + 1.0, most_nodes / 2);
+    fan.step = (float)(standing / fan.level_row);
+    fan.level_m = (float)level;
+    fan.wave_rows = fan.level_row + at_most(lying / (double)fan.step, most_nodes / 2 - 256) + 1;
     double beyond = 1.5 * horizon_m(p, eye_y) + 1000.0;
     fan.rows = fan.wave_rows + at_most(fmax(log(beyond / last), 0.0) / log((double)fan.ratio) + 2.0, 254);
     fan.width_rad = (float)(0.5 * step);

@@ -1,7 +1,9 @@
 /* gl_sea_fan.h - where nodes of a sea's mesh rest: on circles around the eye, a few pixels from each other.
  *
  * Circle i has the radius first sinh(step i): near the eye they are as far from each other as the surface is seen, farther away
- * in proportion to distance, as crests are seen that stand up. Where waves are seen no more the last circles lead over the horizon. */
+ * in proportion to distance, as crests are seen that stand up. From level_m on, where waves are lower than a cell is wide, they are as far
+ * from each other in depression: 1 / radius falls by as much from one to the next. Where waves are seen no more the last circles lead
+ * over the horizon. */
 #ifndef GL_GL_SEA_FAN_H
 #define GL_GL_SEA_FAN_H
 
@@ -11,7 +13,8 @@
 typedef struct gl_sea_fan {
     float azimuth, half_azimuth; /* rad, from +X towards +Z */
     float first_m, step;
-    uint32_t columns, wave_rows, rows;
+    uint32_t columns, level_row, wave_rows, rows;
+    float level_m;    /* of circle level_row */
     float ratio;      /* of radii beyond wave_rows */
     float shift[2];   /* of the water below the eye, at rest, from the eye; m */
     float farthest_m; /* that water is from where it rests */

@@ -1,5 +1,6 @@
 /* sea.vert - the mesh of a sea: nodes were computed before (sea_grid.frag). */
 uniform highp sampler2D u_sea_grid;
+uniform highp sampler2D u_sea_rest;
 
 out highp vec3 v_at;   /* from the eye, m */
 out highp vec2 v_rest; /* of the water */
@@ -17,7 +18,7 @@ void main()
     int columns = int(sea_fan_ends.x);
     ivec2 node = ivec2(gl_VertexID % columns, gl_VertexID / columns);
     v_at = texelFetch(u_sea_grid, node, 0).xyz;
-    v_rest = sea_grid_rest(node);
+    v_rest = texelFetch(u_sea_rest, node, 0).xy;
     vec3 beyond = texelFetch(u_sea_grid, ivec2(node.x, min(node.y + 1, int(sea_fan_ends.z) - 1)), 0).xyz;
     vec2 here = sea_seen_at(v_at);
     vec2 there = sea_seen_at(beyond);

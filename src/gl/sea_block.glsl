@@ -14,7 +14,8 @@ layout(std140) uniform Sea
     vec4 sea_eye;                  /* height over still water, fall (1/m), deviation, mean level of waves; m */
     vec4 sea_ray;                  /* height of a pixel at depth 1, share of it that a sample is wide; near, far; m */
     vec4 sea_fan;                  /* of the grid: first and half azimuth, m that steps grow from, size of steps */
-    vec4 sea_fan_ends;             /* columns, rows with waves, rows; ratio of distances beyond */
+    vec4 sea_fan_ends;             /* columns, last row with waves, rows; ratio of distances beyond */
+    vec4 sea_fan_level;            /* row from which 1 / distance falls evenly, its distance, m */
     vec4 sea_shift;                /* x, z of the grid's middle at rest; how far water moves, m; width of samples, rad */
     vec4 sea_residual[SEA_FOOTPRINTS]; /* slopes that a footprint hides: xx, zz, xz; variance of convergence */
     vec4 sea_moments[SEA_FOOTPRINTS];  /* k4 of their waves, mean omega */

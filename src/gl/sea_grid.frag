@@ -1,5 +1,6 @@
-/* sea_grid.frag - nodes of the mesh: places relative to the eye, as it sees them over a round Earth. */
+/* sea_grid.frag - nodes of the mesh: places relative to the eye, as it sees them over a round Earth, and where their water rests. */
 layout(location = 0) out highp vec4 fragment;
+layout(location = 1) out highp vec4 fragment_rest;
 
 void main()
 {
@@ -10,4 +11,5 @@ void main()
     vec3 D = sea_heave(rest, water_footprint(width, rise, sea_eye.z));
     vec2 at = rest + D.xz;
     fragment = vec4(at.x, D.y - sea_eye.x - dot(at, at) * sea_eye.y, at.y, 1.0);
+    fragment_rest = vec4(rest, 0.0, 1.0);
 }

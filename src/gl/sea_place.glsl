@@ -119,7 +119,7 @@ vec3 sea_corrected(vec3 d, vec4 seen, float side)
     vec2 D = d.xz * t - seen.xy;
     D = sea_heave(d.xz * t - D, footprint).xz;
     vec3 there = sea_heave(d.xz * t - D, footprint);
-    float cell = sea_fan.w * t * level;
+    float cell = min(sea_fan.w * max(1.0, t * level / sea_fan_level.y), 0.05) * t * level;
     float more = clamp((y - there.y) * side / seen.w, -cell, cell) / level;
     return vec3(t + more, d.xz * (t + more) - there.xz);
 }

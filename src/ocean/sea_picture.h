@@ -38,7 +38,7 @@ typedef struct sea_picture {
     float L[3], sun_irradiance[3], sky_irradiance[3], downwelling[3], sun_fresnel, sky_reflectance;
     float beam[3], sunward[3];
     /* the sky */
-    const float *sky; /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4 */
+    const float *sky;                         /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4 */
     float sun_longitude, eye_km, disc_radius; /* disc_radius 0: no disc is seen */
     bool is_mirror_sharp; /* SEA_SKY_MIRRORED is what mirrors show; else the picture's light */
     const struct ibl_light *reflected, *background; /* filtered; background: of a picture, else NULL */

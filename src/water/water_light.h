@@ -9,7 +9,7 @@
 #include "water/water_sky.h"
 
 typedef struct water_light {
-    sea_kept kept; /* first */
+    sea_kept kept;              /* first */
     facet_sea_render_desc desc; /* what it was made for; its environment stays as long */
     float eye_height_m, rows_per_rad;
     water_sky sky;

@@ -11,8 +11,8 @@ typedef struct water_model {
     bool is_there;
     prepared_scene prepared;
     render_setup setup;
-    facet_render_desc desc;    /* of setup */
-    light_setup shaded_light;  /* setup's, where the sun does not reach: its own are the lamps only */
+    facet_render_desc desc;   /* of setup */
+    light_setup shaded_light; /* setup's, where the sun does not reach: its own are the lamps only */
     shading_scene shaded;
 } water_model;
 

@@ -17,7 +17,7 @@ typedef struct water_setup {
     bool is_below;   /* the eye is in the water */
     water_march march;
     water_profile profile;
-    waves_foam foam; /* what crests have left behind */
+    waves_foam foam;  /* what crests have left behind */
     water_light *lit; /* owns what sky points to, and the rest that is kept */
     water_sky sky;    /* its */
     water_model model;
