@@ -86,7 +86,6 @@ typedef struct wave_point {
     float Dxx, Dzz, Dxz;
 } wave_point;
 wave_point waves_at(const waves *w, double x, double z, float footprint_m);
-
 /* The surface above or below (X, Z): the same of the water that is there, found by iteration. rest: where it was at rest. */
 wave_point waves_above(const waves *w, double X, double Z, float footprint_m, double rest[2]);
 /* Height alone: what marching asks for. Linear between samples, where the others are cubic: apart by a hundredth of the height. */

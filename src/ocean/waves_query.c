@@ -4,31 +4,12 @@
  * linearly between four texels. Level l is as it is where a texel is as wide as the footprint. Where samples are wider than
  * the footprint, cubics of Catmull and Rom through sixteen of them take over: slopes without kinks. Marching reads linearly
  * there, too. slope_filter.c knows the variance that all this leaves. */
-#include "ocean/waves.h"
+#include "ocean/waves_reading.h"
 
 #include <math.h>
 
-#include "ocean/wave_patches.h"
-
 /* Half of a texel: displacement, height and one slope; or the other slope and the derivatives. */
 typedef float float4 __attribute__((vector_size(16), may_alias));
-
-/* How a footprint reads a tile around a place. */
-typedef struct tile_reading {
-    const wave_tile *tile;
-    uint32_t level;
-    float mix;    /* of the next level, [0, 1) */
-    float cubic;  /* its share of level 0, [0, 1] */
-    float weight; /* of a patch; 1 */
-    float u, v;   /* the place in samples of level 0, [0, 2 size] */
-} tile_reading;
-
-/* Tiles with the longest first, each once per patch. */
-typedef struct reading {
-    tile_reading tiles[WAVES_MAX_TILES * WAVES_MAX_PATCHES];
-    uint32_t ends[WAVES_MAX_TILES]; /* of what each tile has */
-    uint32_t count, tile_count;
-} reading;
 
 /* In samples, wrapped to [0, size]. In double, so that it is exact a thousand kilometres away. */
 static inline float wrapped(double samples, uint32_t size)
@@ -41,7 +22,7 @@ static inline float wrapped(double samples, uint32_t size)
 }
 
 /* The share of the next level is linear in the footprint: no logarithm, and no jump. False: the footprint hides the tile. */
-static inline bool read_at(tile_reading *r, const wave_tile *t, double x, double z, float footprint_m)
+static inline bool read_at(wave_tile_reading *r, const wave_tile *t, double x, double z, float footprint_m)
 {
     float texels = footprint_m * (float)t->samples_per_m;
     uint32_t level = 0;
@@ -51,30 +32,31 @@ static inline bool read_at(tile_reading *r, const wave_tile *t, double x, double
     }
     if (level + 1 >= t->level_count) /* the last level is the mean, 0 */
         return false;
-    *r = (tile_reading){.tile = t,
-                        .level = level,
-                        .mix = texels > 1.0f ? texels - 1.0f : 0.0f,
-                        .cubic = texels > 1.0f   ? 0.0f
-                                 : texels > 0.5f ? 2.0f - 2.0f * texels
-                                                 : 1.0f,
-                        .weight = 1.0f,
-                        .u = wrapped(x * t->cos_per_m + z * t->sin_per_m, t->size),
-                        .v = wrapped(z * t->cos_per_m - x * t->sin_per_m, t->size)};
+    *r = (wave_tile_reading){.tile = t,
+                             .level = level,
+                             .mix = texels > 1.0f ? texels - 1.0f : 0.0f,
+                             .cubic = texels > 1.0f   ? 0.0f
+                                      : texels > 0.5f ? 2.0f - 2.0f * texels
+                                                      : 1.0f,
+                             .weight = 1.0f,
+                             .u = wrapped(x * t->cos_per_m + z * t->sin_per_m, t->size),
+                             .v = wrapped(z * t->cos_per_m - x * t->sin_per_m, t->size)};
     return true;
 }
 
-static inline reading reading_of(const waves *w, double x, double z, float footprint_m)
+waves_reading waves_reading_of(const waves *w, double x, double z, float footprint_m)
 {
-    reading r;
+    waves_reading r;
+    r.w = w;
     r.count = r.tile_count = 0;
     for (uint32_t i = 0; i < w->tile_count; i++) {
-        tile_reading one;
+        wave_tile_reading one;
         if (!read_at(&one, &w->tiles[i], x, z, footprint_m))
             continue;
         wave_patch patches[WAVES_MAX_PATCHES];
         uint32_t patch_count = wave_patches_at(w, i, x, z, patches);
         for (uint32_t p = 0; p < patch_count; p++) {
-            tile_reading *to = &r.tiles[r.count++];
+            wave_tile_reading *to = &r.tiles[r.count++];
             *to = one;
             to->weight = patches[p].weight;
             to->u += (float)patches[p].u;
@@ -159,7 +141,7 @@ static half_texels read_cubic(const wave_tile *t, float u, float v)
 }
 
 /* Where water comes from that is at the place of r with this displacement (m, in the world): in samples. */
-static inline void place_before(const tile_reading *r, const float displacement[2], float *u, float *v)
+static inline void place_before(const wave_tile_reading *r, const float displacement[2], float *u, float *v)
 {
     const wave_tile *t = r->tile;
     float per_m = (float)t->samples_per_m;
@@ -168,7 +150,7 @@ static inline void place_before(const tile_reading *r, const float displacement[
 }
 
 /* DX, ETA, DZ, ETA_X of one tile, linearly. */
-static inline float4 read_low(const tile_reading *r, const float displacement[2])
+static inline float4 read_low(const wave_tile_reading *r, const float displacement[2])
 {
     float u, v;
     place_before(r, displacement, &u, &v);
@@ -181,7 +163,7 @@ static inline float4 read_low(const tile_reading *r, const float displacement[2]
     return low * r->weight;
 }
 
-static half_texels read_all(const tile_reading *r, const float displacement[2])
+static half_texels read_all(const wave_tile_reading *r, const float displacement[2])
 {
     float u, v;
     place_before(r, displacement, &u, &v);
@@ -205,7 +187,7 @@ static half_texels read_all(const tile_reading *r, const float displacement[2])
     return all;
 }
 
-static void add_tile(wave_point *p, const tile_reading *r, const float displacement[2])
+static void add_tile(wave_point *p, const wave_tile_reading *r, const float displacement[2])
 {
     float c = r->tile->cos_turn, s = r->tile->sin_turn;
     half_texels all = read_all(r, displacement);
@@ -222,9 +204,9 @@ static void add_tile(wave_point *p, const tile_reading *r, const float displacem
     p->Dxz += c * s * (Dxx - Dzz) + (c * c - s * s) * Dxz;
 }
 
-static wave_point point_at(const waves *w, const reading *r, const float displacement[2])
+wave_point waves_reading_point(const waves_reading *r, const float displacement[2])
 {
-    wave_point p = {.height_m = w->level_m};
+    wave_point p = {.height_m = r->w->level_m};
     for (uint32_t i = 0; i < r->count; i++)
         add_tile(&p, &r->tiles[i], displacement);
     return p;
@@ -232,8 +214,8 @@ static wave_point point_at(const waves *w, const reading *r, const float displac
 
 wave_point waves_at(const waves *w, double x, double z, float footprint_m)
 {
-    reading r = reading_of(w, x, z, footprint_m);
-    return point_at(w, &r, (const float[2]){0.0f, 0.0f});
+    waves_reading r = waves_reading_of(w, x, z, footprint_m);
+    return waves_reading_point(&r, (const float[2]){0.0f, 0.0f});
 }
 
 /* ---- above a place ---- */
@@ -243,7 +225,7 @@ typedef struct heave {
     float x, z, height;
 } heave;
 
-static inline heave heave_from(const reading *r, uint32_t count, const float displacement[2])
+static inline heave heave_from(const waves_reading *r, uint32_t count, const float displacement[2])
 {
     heave sum = {0.0f, 0.0f, 0.0f};
     for (uint32_t i = 0; i < count; i++) {
@@ -256,8 +238,21 @@ static inline heave heave_from(const reading *r, uint32_t count, const float dis
     return sum;
 }
 
+float waves_reading_height(const waves_reading *r, const float offset[2], float displacement[2])
+{
+    enum { STEPS = 2 };
+    heave h = {0.0f, 0.0f, 0.0f};
+    for (int i = 0; i < STEPS; i++) {
+        h = heave_from(r, r->count,
+                       (const float[2]){displacement[0] - offset[0], displacement[1] - offset[1]});
+        displacement[0] = h.x;
+        displacement[1] = h.z;
+    }
+    return h.height + r->w->level_m;
+}
+
 /* Where nothing is known, the long waves come first: they move water farthest, and are read quickest. */
-static inline void guess_rest(const reading *r, float displacement[2])
+static inline void guess_rest(const waves_reading *r, float displacement[2])
 {
     for (uint32_t i = 0; i + 1 < r->tile_count; i++) {
         heave h = heave_from(r, r->ends[i], displacement);
@@ -268,7 +263,7 @@ static inline void guess_rest(const reading *r, float displacement[2])
 
 /* x <- X - D(x): the error shrinks by about the root of the slope variance with each step, by less in steep places. It ends where
  * water moves by less than a fiftieth of the footprint or 0.2 mm. Folded water goes round in circles; halved steps end that. */
-static inline float find_rest(const reading *r, float footprint_m, float displacement[2])
+static inline float find_rest(const waves_reading *r, float footprint_m, float displacement[2])
 {
     enum { FULL_STEPS = 6, MOST_STEPS = 12 };
     float close = fmaxf(0.02f * footprint_m, 2e-4f);
@@ -287,13 +282,13 @@ static inline float find_rest(const reading *r, float footprint_m, float displac
 
 float waves_height_near(const waves *w, double X, double Z, float footprint_m, float displacement[2])
 {
-    reading r = reading_of(w, X, Z, footprint_m);
+    waves_reading r = waves_reading_of(w, X, Z, footprint_m);
     return find_rest(&r, footprint_m, displacement) + w->level_m;
 }
 
 float waves_height(const waves *w, double X, double Z, float footprint_m)
 {
-    reading r = reading_of(w, X, Z, footprint_m);
+    waves_reading r = waves_reading_of(w, X, Z, footprint_m);
     float displacement[2] = {0.0f, 0.0f};
     guess_rest(&r, displacement);
     return find_rest(&r, footprint_m, displacement) + w->level_m;
@@ -301,18 +296,18 @@ float waves_height(const waves *w, double X, double Z, float footprint_m)
 
 wave_point waves_above(const waves *w, double X, double Z, float footprint_m, double rest[2])
 {
-    reading r = reading_of(w, X, Z, footprint_m);
+    waves_reading r = waves_reading_of(w, X, Z, footprint_m);
     float displacement[2] = {0.0f, 0.0f};
     guess_rest(&r, displacement);
     find_rest(&r, footprint_m, displacement);
-    wave_point p = point_at(w, &r, displacement);
+    wave_point p = waves_reading_point(&r, displacement);
     for (int i = 0; i < 8 && r.count && r.tiles[0].cubic > 0.0f; i++) { /* what cubics change */
         float dx = p.displacement[0] - displacement[0], dz = p.displacement[1] - displacement[1];
         if (dx * dx + dz * dz < 1e-8f)
             break;
         displacement[0] = p.displacement[0];
         displacement[1] = p.displacement[1];
-        p = point_at(w, &r, displacement);
+        p = waves_reading_point(&r, displacement);
     }
     rest[0] = X - (double)displacement[0];
     rest[1] = Z - (double)displacement[1];
@@ -333,7 +328,7 @@ static void add_bounds(wave_bounds *sum, const wave_bounds *b, float scale)
 wave_bounds waves_bounds(const waves *w, float footprint_m)
 {
     wave_bounds sum = {w->level_m, w->level_m, 0.0f, 0.0f};
-    tile_reading r;
+    wave_tile_reading r;
     for (uint32_t i = 0; i < w->tile_count; i++)
         if (read_at(&r, &w->tiles[i], 0.0, 0.0, footprint_m))
             add_bounds(&sum, &w->tiles[i].bounds[r.level], w->tiles[i].is_patched ? 1.7320508f : 1.0f);
