@@ -20,7 +20,6 @@ typedef struct filling {
     uint32_t coarse_count; /* columns of samples */
     double coarse_per_rad;
     double pixel_rad;
-    float *heights; /* coarse_count columns of row_count */
 } filling;
 
 static double distance_of(const water_profile *p, double row)
@@ -92,8 +91,11 @@ static void fill_samples(void *context, size_t begin, size_t end)
             double rise = (p->origin[1] - r * r * p->march->fall) / r;
             float width = (float)(0.5 * COARSE_PIXELS * f->pixel_rad * hypot(r, p->origin[1]));
             float footprint = water_march_footprint(p->march, width, rise);
-            f->heights[c * p->row_count + row] = waves_height_near(
-                p->march->waves, p->origin[0] + r * dx, p->origin[2] + r * dz, footprint, displacement);
+            profile_sample *to = &p->samples[c * p->row_count + row];
+            to->height_m = waves_height_near(p->march->waves, p->origin[0] + r * dx, p->origin[2] + r * dz,
+                                             footprint, displacement);
+            to->displacement[0] = displacement[0];
+            to->displacement[1] = displacement[1];
         }
     }
 }
@@ -107,11 +109,11 @@ static void fill_columns(void *context, size_t begin, size_t end)
         double x = (double)c / p->columns_per_rad * f->coarse_per_rad;
         size_t left = (size_t)x < f->coarse_count - 1 ? (size_t)x : f->coarse_count - 2;
         float share = (float)(x - (double)left), greatest = -HUGE_VALF;
-        const float *a = f->heights + left * p->row_count, *b = a + p->row_count;
+        const profile_sample *a = p->samples + left * p->row_count, *b = a + p->row_count;
         float *out = p->tangents + c * p->row_count;
         for (uint32_t row = 0; row < p->row_count; row++) {
             double r = distance_of(p, row);
-            double eta = (double)(a[row] + (b[row] - a[row]) * share);
+            double eta = (double)(a[row].height_m + (b[row].height_m - a[row].height_m) * share);
             float e = sign * (float)((eta - p->origin[1] - r * r * p->march->fall) / r);
             greatest = e > greatest ? e : greatest;
             out[row] = greatest;
@@ -131,9 +133,9 @@ static void lay_out(filling *f, double half, const double distances[2])
     coarse = fmin(coarse, 0.05);
     f->coarse_count = (uint32_t)(2.0 * half / coarse) + 3;
     f->coarse_per_rad = (f->coarse_count - 2) / (2.0 * half);
-    double finer = ceil(COARSE_PIXELS / FINE_PIXELS);
-    p->column_count = (uint32_t)((f->coarse_count - 1) * finer);
-    p->columns_per_rad = f->coarse_per_rad * finer;
+    p->finer = (uint32_t)ceil(COARSE_PIXELS / FINE_PIXELS);
+    p->column_count = (f->coarse_count - 1) * p->finer;
+    p->columns_per_rad = f->coarse_per_rad * p->finer;
     p->first_m = distances[0];
     p->rows_per_log = 1.0 / coarse;
     p->row_count = (uint32_t)(ratio / coarse) + 2;
@@ -154,30 +156,31 @@ facet_result water_profile_create(const water_march *m, const camera_rays *rays,
     p->first_azimuth = middle - half;
     lay_out(&f, half, distances);
     size_t samples = (size_t)f.coarse_count * p->row_count, all = (size_t)p->column_count * p->row_count;
-    f.heights = mem_alloc(allocator, samples, sizeof *f.heights);
+    p->samples = mem_alloc(allocator, samples, sizeof *p->samples);
     p->tangents = mem_alloc(allocator, all, sizeof *p->tangents);
-    if (!f.heights || !p->tangents) {
-        mem_free(f.heights);
+    if (!p->samples || !p->tangents) {
         water_profile_destroy(p);
-        return fail_memory(error, "the sea's profile", (samples + all) * sizeof(float));
+        return fail_memory(error, "the sea's profile",
+                           samples * sizeof *p->samples + all * sizeof *p->tangents);
     }
     parallel_for(thread_count, f.coarse_count, 4, fill_samples, &f);
     parallel_for(thread_count, p->column_count, 16, fill_columns, &f);
-    mem_free(f.heights);
     return FACET_OK;
 }
 
 void water_profile_destroy(water_profile *p)
 {
     mem_free(p->tangents);
+    mem_free(p->samples);
     *p = (water_profile){.march = NULL};
 }
 
 /* ---- asking ---- */
 
-static uint32_t first_row(const float *tangents, uint32_t count, float tangent)
+/* First row between low and high whose tangent is not less; high: none. */
+static uint32_t first_row(const float *tangents, uint32_t low, uint32_t high, float tangent)
 {
-    uint32_t low = 0;
+    uint32_t count = high - low;
     while (count > 0) {
         uint32_t half = count / 2;
         bool is_less = tangents[low + half] < tangent;
@@ -185,6 +188,35 @@ static uint32_t first_row(const float *tangents, uint32_t count, float tangent)
         count = is_less ? count - half - 1 : half;
     }
     return low;
+}
+
+/* The same of all rows, by steps that double from one that is about right. */
+static uint32_t first_row_near(const float *tangents, uint32_t row_count, uint32_t near_row, float tangent)
+{
+    uint32_t low = near_row < row_count ? near_row : row_count - 1, high = low, step = 4;
+    if (tangents[low] < tangent) {
+        do {
+            low = high + 1;
+            high = step < row_count - low ? low + step : row_count;
+            step *= 4;
+        } while (high < row_count && tangents[high] < tangent);
+    } else {
+        do {
+            high = low;
+            low = step < high ? high - step : 0;
+            step *= 4;
+        } while (low > 0 && !(tangents[low] < tangent));
+    }
+    return first_row(tangents, low, high, tangent);
+}
+
+/* Of a direction near the one that was asked for last. */
+static double azimuth_of(const double d[3], const profile_nearby *last)
+{
+    double dot = d[0] * last->x + d[2] * last->z, cross = d[2] * last->x - d[0] * last->z;
+    if (!(fabs(cross) < 0.01 * dot)) /* beyond, a third of the cube would be seen */
+        return atan2(d[2], d[0]);
+    return last->azimuth + cross / dot;
 }
 
 /* How fast a ray comes down to the level of still water, over the level. */
@@ -198,7 +230,9 @@ static bool march_there(const water_profile *p, const march_ray *ray, profile_pl
 {
     march_hit hit;
     bool is_met = water_march_find(p->march, ray, &hit);
-    *out = (profile_place){.t = hit.t, .closing = is_met ? level_closing(p, ray, hit.t) : 1.0};
+    *out = (profile_place){.t = hit.t,
+                           .closing = is_met ? level_closing(p, ray, hit.t) : 1.0,
+                           .displacement = {hit.displacement[0], hit.displacement[1]}};
     return is_met;
 }
 
@@ -210,17 +244,20 @@ static bool look_flat(const water_profile *p, const march_ray *ray, double from,
     return out->t <= ray->far_m && out->t < HUGE_VAL;
 }
 
-bool water_profile_look(const water_profile *p, const march_ray *ray, profile_place *out)
+bool water_profile_look(const water_profile *p, const march_ray *ray, profile_nearby *nearby,
+                        profile_place *out)
 {
     const double *d = ray->direction;
-    double level = sqrt(d[0] * d[0] + d[2] * d[2]);
-    double column = turned(atan2(d[2], d[0]), p->first_azimuth) * p->columns_per_rad + 0.5;
+    double level = sqrt(d[0] * d[0] + d[2] * d[2]), azimuth = azimuth_of(d, nearby);
+    double column = turned(azimuth, p->first_azimuth) * p->columns_per_rad + 0.5;
     column = column < 0.0 ? column + 2.0 * PI_D * p->columns_per_rad : column;
     if (!p->tangents || level < STEEPEST_LEVEL || !(column < (double)p->column_count))
         return march_there(p, ray, out);
     const float *tangents = p->tangents + (size_t)column * p->row_count;
     double slope = d[1] / level * (p->is_below ? -1.0 : 1.0);
-    uint32_t row = first_row(tangents, p->row_count, (float)slope);
+    uint32_t row = nearby->row ? first_row_near(tangents, p->row_count, nearby->row, (float)slope)
+                               : first_row(tangents, 0, p->row_count, (float)slope);
+    *nearby = (profile_nearby){row, azimuth, d[0], d[2]};
     if (row == 0)
         return march_there(p, ray, out);
     if (row == p->row_count)
@@ -229,9 +266,11 @@ bool water_profile_look(const water_profile *p, const march_ray *ray, profile_pl
     double near_f = near_r * (slope - (double)tangents[row - 1]);
     double far_f = far_r * (slope - (double)tangents[row]);
     double share = near_f / fmax(near_f - far_f, 1e-12);
+    const profile_sample *known = &p->samples[(size_t)column / p->finer * p->row_count + row];
     *out = (profile_place){.t = (near_r + (far_r - near_r) * share) / level,
                            .closing = fmax((near_f - far_f) / (far_r - near_r), 1e-3),
-                           .slack_m = (far_r - near_r) / level};
+                           .slack_m = (far_r - near_r) / level,
+                           .displacement = {known->displacement[0], known->displacement[1]}};
     if (out->t < ray->near_m)
         return march_there(p, ray, out);
     return out->t <= ray->far_m;
@@ -239,9 +278,8 @@ bool water_profile_look(const water_profile *p, const march_ray *ray, profile_pl
 
 march_hit water_profile_correct(const water_profile *p, const march_ray *ray, const profile_place *place)
 {
-    const float still[2] = {0.0f, 0.0f};
     double f, level = hypot(ray->direction[0], ray->direction[2]);
-    march_hit hit = water_march_hit_at(p->march, ray, place->t, still, &f);
+    march_hit hit = water_march_hit_at(p->march, ray, place->t, place->displacement, &f);
     if (place->slack_m > 0.0) {
         double more = fmin(fmax(f / (place->closing * level), -place->slack_m), place->slack_m);
         hit.t += more;
@@ -254,7 +292,8 @@ march_hit water_profile_correct(const water_profile *p, const march_ray *ray, co
 bool water_profile_find(const water_profile *p, const march_ray *ray, march_hit *hit)
 {
     profile_place place;
-    if (!water_profile_look(p, ray, &place))
+    profile_nearby nowhere = {.row = 0};
+    if (!water_profile_look(p, ray, &nowhere, &place))
         return false;
     *hit = water_profile_correct(p, ray, &place);
     return true;

@@ -11,6 +11,11 @@
 #include "draw/camera_rays.h"
 #include "water/water_march.h"
 
+/* A sample of the surface. */
+typedef struct profile_sample {
+    float height_m, displacement[2];
+} profile_sample;
+
 typedef struct water_profile {
     const water_march *march;
     double origin[3];
@@ -20,6 +25,8 @@ typedef struct water_profile {
     double first_m, rows_per_log;     /* distance of row 0; rows per natural logarithm of distance */
     float *
         tangents; /* column_count columns of row_count: greatest e so far (from below: of -e); block of mem_alloc() */
+    uint32_t finer;          /* columns per column of samples */
+    profile_sample *samples; /* column_count / finer + 1 columns of row_count */
 } water_profile;
 
 /* For the part of a picture (x, y, width, height in pixels) that rays show. None is made, and none needed, for parallel rays and still
@@ -36,10 +43,17 @@ bool water_profile_find(const water_profile *p, const march_ray *ray, march_hit 
  * one between those of several rays, all near by. */
 typedef struct profile_place {
     double t;
-    double closing; /* how fast the ray comes down to the surface there, m over m of distance */
-    double slack_m; /* by which the distance may be wrong; 0: it is exact */
+    double closing;        /* how fast the ray comes down to the surface there, m over m of distance */
+    double slack_m;        /* by which the distance may be wrong; 0: it is exact */
+    float displacement[2]; /* of the water nearby */
 } profile_place;
-bool water_profile_look(const water_profile *p, const march_ray *ray, profile_place *out);
+/* Where the last ray of the same pixel was looked for; {0}: there was none. It saves time, and changes nothing but roundings. */
+typedef struct profile_nearby {
+    uint32_t row;
+    double azimuth, x, z;
+} profile_nearby;
+bool water_profile_look(const water_profile *p, const march_ray *ray, profile_nearby *nearby,
+                        profile_place *out);
 march_hit water_profile_correct(const water_profile *p, const march_ray *ray, const profile_place *place);
 
 #endif

@@ -11,7 +11,7 @@
 #include "draw/render_watch.h"
 #include "draw/sample_pattern.h"
 
-#include "water/water_trace.h"
+#include "water/water_pixel.h"
 
 enum { TILE = 32 };
 
@@ -29,7 +29,7 @@ typedef struct picture {
 
 static void draw_pixel(const picture *p, uint32_t x, uint32_t y)
 {
-    vec3 L = water_trace_pixel(p->setup, x, y, p->pattern, p->sample_count);
+    vec3 L = water_pixel_trace(p->setup, x, y, p->pattern, p->sample_count);
     float *rgba = p->pixels + 4 * ((size_t)(y - p->crop[1]) * p->crop[2] + (x - p->crop[0]));
     for (int i = 0; i < 3; i++)
         rgba[i] = L[i];

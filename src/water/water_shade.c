@@ -1,65 +1,15 @@
-/* water_shade.c - see water_shade.h. The order is: footprint, slopes that it hides, normal; the sky in them, the sun in them with its
- * glints, what comes from below; all composed, foam over it. */
+/* water_shade.c - see water_shade.h. The order is: the sky in the slopes, the sun in them with its glints, what comes from below;
+ * all composed, foam over it. */
 #include <math.h>
 
 #include "water/water_shade.h"
-
-/* ---- the place ---- */
-
-float water_march_footprint(const water_march *m, float width_m, double rise)
-{
-    return water_footprint(width_m, (float)rise, m->deviation_m);
-}
-
-/* Share of the footprint under foam, and *albedo: of that, over that of fresh foam. */
-static float foam_at(const water_setup *s, const water_place *p, float convergence, float footprint_m,
-                     float *albedo)
-{
-    const facet_sea_look *look = &s->desc->look;
-    const foam_rule *rule = &s->sea->foam;
-    *albedo = 1.0f;
-    if (look->no_foam || look->stage == 4 || !(rule->threshold < INFINITY))
-        return 0.0f;
-    float fresh = foam_coverage(rule, convergence, p->slopes.convergence_variance, rule->active_threshold);
-    float old = waves_foam_at(&s->foam, p->rest[0], p->rest[1], footprint_m);
-    WaterFoam foam = water_foam_mix(fresh, old);
-    *albedo = foam.albedo;
-    return foam.share;
-}
-
-water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit)
-{
-    water_place p;
-    const double *d = ray->direction;
-    double rise = march_rise(&s->march, ray, hit->t);
-    float side = ray->is_below ? -1.0f : 1.0f;
-    p.V = normalize(vec3((float)-d[0], (float)-rise, (float)-d[2]));
-    p.footprint_m = hit->width_m;
-    vec3 facing = p.V * side;
-    p.cosine = water_seen_cosine(facing, water_slopes_at(s, hit->footprint_m).resolved);
-    float footprint = max(hit->footprint_m, hit->width_m * inversesqrt(p.cosine));
-    p.slopes = water_slopes_at(s, footprint);
-    double X = hit->X - (double)hit->displacement[0], Z = hit->Z - (double)hit->displacement[1];
-    p.waves = waves_at(&s->sea->waves, X, Z, footprint);
-    wave_shape shape = wave_shape_of(&p.waves);
-    p.rest[0] = X;
-    p.rest[1] = Z;
-    p.P[0] = hit->X;
-    p.P[1] = march_height(&s->march, ray, hit->t);
-    p.P[2] = hit->Z;
-    p.point.N = vec3(shape.normal[0], shape.normal[1], shape.normal[2]);
-    p.point.N = side > 0.0f ? water_faced(p.point.N, facing) : p.point.N;
-    p.point.covariance = p.slopes.covariance;
-    p.point.foam = foam_at(s, &p, shape.convergence, footprint, &p.foam_albedo);
-    return p;
-}
 
 /* ---- below ---- */
 
 vec3 water_from_below(const water_setup *s, const water_place *p)
 {
     vec3 down = water_refracted(s->water, -p->V, p->point.N);
-    vec3 crest = water_crest(s->water, s->light, p->point.N, p->V, down, p->waves.height_m - s->trough_m);
+    vec3 crest = water_crest(s->water, s->light, p->point.N, p->V, down, p->height_m - s->trough_m);
     if (!water_has_bed(s))
         return water_from_deep(s->water, s->light.downwelling) + crest;
     const facet_sea_bed *bed = &s->sea->desc.bed;

@@ -2,24 +2,7 @@
 #ifndef WATER_WATER_SHADE_H
 #define WATER_WATER_SHADE_H
 
-#include "water/water_setup.h"
-
-/* A place of the surface as an eye sees it. */
-typedef struct water_place {
-    double P[3];         /* m */
-    double rest[2];      /* of the water there */
-    vec3 V;              /* unit, to the eye, against the level of the sea there */
-    float footprint_m;   /* across the ray */
-    water_slopes slopes; /* beyond the footprint */
-    WaterPoint point;    /* N faces V */
-    float foam_albedo;   /* over that of fresh foam */
-    wave_point waves;
-    float
-        cosine; /* about N.V, waves of all lengths considered: how much longer the footprint is on the water */
-} water_place;
-
-/* Of a ray (from above or below) and its hit. */
-water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit);
+#include "water/water_place.h"
 
 /* What others find along rays that leave the place; {0}: nothing but sky and water. */
 typedef struct water_findings {

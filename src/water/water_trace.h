@@ -3,11 +3,22 @@
 #ifndef WATER_WATER_TRACE_H
 #define WATER_WATER_TRACE_H
 
-#include "water/water_setup.h"
+#include "water/water_place.h"
 
-/* What the rays through pixel (x, y) of the picture bring on average, for the film: radiance (cd/m^2) times the exposure, or the look of before.
- * pattern: count places in the pixel, x and y in [0, 1). Unless all of them are to be shaded (FACET_QUALITY_FINAL), those that meet one
- * piece of water, or all miss it, are shaded once. */
-vec3 water_trace_pixel(const water_setup *s, uint32_t x, uint32_t y, const float *pattern, uint32_t count);
+/* A sample on its way. */
+typedef struct water_sample {
+    const water_setup *s;
+    float x, y;      /* pixels */
+    float footprint; /* over that of a pixel */
+    uint32_t random;
+    march_ray ray;
+    vec3 d;                   /* its direction */
+    const water_place *place; /* that it shows of the sea; NULL: yet to be known */
+} water_sample;
+
+water_sample water_sample_begin(const water_setup *s, float x, float y, float footprint, uint32_t random);
+
+/* What it brings for the film: radiance (cd/m^2) times the exposure, or the look of before; sea: where the ray meets the water, if it does. */
+vec3 water_sample_shade(const water_sample *p, bool is_met, const march_hit *sea);
 
 #endif
