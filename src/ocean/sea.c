@@ -47,9 +47,8 @@ void sea_destroy(facet_sea *sea)
 {
     if (!sea)
         return;
-    sea_kept *light = atomic_load(&sea->light);
-    if (light)
-        light->destroy(light);
+    sea_kept_put(&sea->light, NULL);
+    sea_kept_put(&sea->foam_history, NULL);
     waves_destroy(&sea->waves);
     mem_free(sea);
 }

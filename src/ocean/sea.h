@@ -2,15 +2,9 @@
 #ifndef OCEAN_SEA_H
 #define OCEAN_SEA_H
 
-#include <stdatomic.h>
-
+#include "ocean/sea_kept.h"
 #include "ocean/water_optics.h"
 #include "ocean/waves.h"
-
-/* What somebody keeps with a sea from picture to picture: the first member of it. */
-typedef struct sea_kept {
-    void (*destroy)(struct sea_kept *kept);
-} sea_kept;
 
 struct facet_sea {
     facet_sea_desc desc;
@@ -20,7 +14,7 @@ struct facet_sea {
     water_optics optics;
     void *_Atomic
         gl; /* what OpenGL draws it with, kept from picture to picture; ocean_api.c's. NULL: nothing, or in use */
-    sea_kept *_Atomic light; /* water_light.c's; NULL: the same */
+    sea_kept_place light, foam_history; /* water_light.c's, foam_history.c's */
 };
 
 /* See facet_sea_create(); and its end. */

@@ -19,6 +19,7 @@ typedef struct foamy {
     waves w;
     foam_rule rule;
     waves_foam foam;
+    foam_history *history;
 } foamy;
 
 static facet_sea_desc desc_of(float wind_mps, uint64_t seed)
@@ -36,7 +37,8 @@ static void set_time(foamy *f, double time_s)
 {
     waves_foam_destroy(&f->foam);
     waves_set_time(&f->w, time_s);
-    assert_int_equal(waves_foam_create(&f->w, &f->rule, foam_decay_s(35.0), &f->foam, NULL), FACET_OK);
+    assert_int_equal(waves_foam_create(&f->w, &f->rule, foam_decay_s(35.0), &f->history, &f->foam, NULL),
+                     FACET_OK);
 }
 
 static void create(foamy *f, facet_sea_desc d)
@@ -52,6 +54,7 @@ static void create(foamy *f, facet_sea_desc d)
 static void destroy(foamy *f)
 {
     waves_foam_destroy(&f->foam);
+    foam_history_destroy(f->history);
     waves_destroy(&f->w);
 }
 
@@ -208,12 +211,14 @@ static void running_out_of_memory_leaks_nothing(void **state)
         d.allocator = failing_allocator_get(&f);
         waves w;
         waves_foam foam = {.lace_count = 0};
+        foam_history *history = NULL;
         facet_result result = waves_create(&d, &s, &w, NULL);
         if (!result) {
             foam_rule rule = foam_rule_create(&w);
-            result = waves_foam_create(&w, &rule, 3.7, &foam, NULL);
+            result = waves_foam_create(&w, &rule, 3.7, &history, &foam, NULL);
         }
         waves_foam_destroy(&foam);
+        foam_history_destroy(history);
         waves_destroy(&w);
         assert_int_equal(atomic_load(&f.blocks), 0);
         if (result == FACET_OK)

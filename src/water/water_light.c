@@ -70,8 +70,8 @@ static bool is_made_for(const water_light *l, const facet_sea_render_desc *desc,
            a->environment_ev == b->environment_ev;
 }
 
-/* Only what is kept changes, and that by exchange: several threads may draw one sea. */
-static sea_kept *_Atomic *place_of(const facet_sea *sea)
+/* Nothing of a sea but what it keeps changes. */
+static sea_kept_place *place_of(const facet_sea *sea)
 {
     return &((facet_sea *)(uintptr_t)sea)->light;
 }
@@ -79,7 +79,7 @@ static sea_kept *_Atomic *place_of(const facet_sea *sea)
 facet_result water_light_take(const facet_sea *sea, const facet_sea_render_desc *desc, float eye_height_m,
                               float rows_per_rad, water_light **out, facet_error *error)
 {
-    water_light *kept = (water_light *)atomic_exchange(place_of(sea), NULL);
+    water_light *kept = (water_light *)sea_kept_take(place_of(sea));
     if (kept && is_made_for(kept, desc, eye_height_m, rows_per_rad)) {
         *out = kept;
         return FACET_OK;
@@ -91,9 +91,6 @@ facet_result water_light_take(const facet_sea *sea, const facet_sea_render_desc 
 
 void water_light_give_back(const facet_sea *sea, water_light *light)
 {
-    if (!light)
-        return;
-    sea_kept *other = atomic_exchange(place_of(sea), &light->kept);
-    if (other)
-        destroy(other);
+    if (light)
+        sea_kept_put(place_of(sea), &light->kept);
 }

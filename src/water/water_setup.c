@@ -134,6 +134,15 @@ static facet_result add_model(water_setup *s, const facet_scene *scene, facet_re
 
 /* ---- all ---- */
 
+static facet_result make_foam(water_setup *s, facet_error *error)
+{
+    const facet_sea *sea = s->sea;
+    sea_kept_place *place = &((facet_sea *)(uintptr_t)sea)->foam_history;
+    s->foam_history = (foam_history *)sea_kept_take(place);
+    return waves_foam_create(&sea->waves, &sea->foam, foam_decay_s((double)sea->desc.water.salinity),
+                             &s->foam_history, &s->foam, error);
+}
+
 facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
                                 const facet_sea_render_desc *desc, water_setup *s, facet_render_stats *stats,
                                 facet_error *error)
@@ -155,10 +164,10 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
         result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count,
                                       &r->allocator, &s->profile, error);
     const facet_sea_look *look = &desc->look;
-    bool has_foam = !look->no_foam && look->stage != 4 && sea->foam.threshold < HUGE_VALF;
+    bool has_foam = look->before == FACET_SEA_PHYSICAL && (look->stage == 0 || look->stage == 5) &&
+                    !look->no_foam && sea->foam.threshold < HUGE_VALF;
     if (result == FACET_OK && has_foam)
-        result = waves_foam_create(&sea->waves, &sea->foam, foam_decay_s((double)sea->desc.water.salinity),
-                                   &s->foam, error);
+        result = make_foam(s, error);
     float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
     if (result == FACET_OK)
         result = water_light_take(sea, desc, s->camera.origin[1], rows_per_rad, &s->lit, error);
@@ -179,6 +188,8 @@ void water_setup_destroy(water_setup *s)
     water_model_destroy(&s->model);
     water_profile_destroy(&s->profile);
     waves_foam_destroy(&s->foam);
+    if (s->foam_history)
+        sea_kept_put(&((facet_sea *)(uintptr_t)s->sea)->foam_history, &s->foam_history->kept);
     water_light_give_back(s->sea, s->lit);
     memset(s, 0, sizeof *s);
 }

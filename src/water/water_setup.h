@@ -17,9 +17,10 @@ typedef struct water_setup {
     bool is_below;   /* the eye is in the water */
     water_march march;
     water_profile profile;
-    waves_foam foam;  /* what crests have left behind */
-    water_light *lit; /* owns what sky points to, and the rest that is kept */
-    water_sky sky;    /* its */
+    foam_history *foam_history; /* the sea's */
+    waves_foam foam;            /* what crests have left behind */
+    water_light *lit;           /* owns what sky points to, and the rest that is kept */
+    water_sky sky;              /* its */
     water_model model;
     water_table table; /* of means over facets; its */
     Water water;

@@ -1,0 +1,280 @@
+/* foam_history.c - see foam_history.h. */
+#include "ocean/foam_history.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+#include "ocean/wave_amplitudes.h"
+#include "ocean/wave_transform.h"
+
+static const double TWO_PI = 6.28318530717958647693;
+static const double DECAYS = 5.0;         /* e^-5 is below what is seen */
+static const double STEPS_PER_WAVE = 8.0; /* of the shortest in the longest tile */
+static const size_t MOST_KEPT = 64u << 20;
+enum { MOST_STEPS = 96, CHANCES = 1024 };
+
+/* Probability that all waves together converge by more than the threshold where those of the longest tile do by q: a table over
+ * [-threshold, 2 threshold]. */
+struct foam_chances {
+    float table[CHANCES + 1], from, scale;
+};
+
+/* Chances at the multiples 2 number and 2 number + 1 of the step: one transform, and the same numbers whoever asks. */
+struct foam_pair {
+    bool is_there;
+    int64_t number;
+    float *planes[2];
+};
+
+/* ---- chances ---- */
+
+static void make_chances(foam_chances *c, const waves *w, double threshold)
+{
+    double rest = 0.0; /* variance of the other tiles' */
+    if (w->tile_count > 1)
+        rest = sea_state_moments(&w->state, w->tiles[0].k_to, w->tiles[w->tile_count - 1].k_to).convergence;
+    double sigma = fmax(w->choppiness * sqrt(rest), 0.01 * threshold);
+    c->from = (float)-threshold;
+    c->scale = (float)(CHANCES / (3.0 * threshold));
+    for (int i = 0; i <= CHANCES; i++) {
+        double q = threshold * (3.0 * i / CHANCES - 1.0);
+        c->table[i] = (float)(0.5 * erfc((threshold - q) / sigma * 0.70710678118654752440));
+    }
+}
+
+static inline float chance_of(const foam_chances *c, float q)
+{
+    float place = (q - c->from) * c->scale;
+    place = place > 0.0f ? place : 0.0f;
+    place = place < (float)CHANCES - 1.0f ? place : (float)CHANCES - 1.0f;
+    int32_t i = (int32_t)place;
+    return c->table[i] + (place - (float)i) * (c->table[i + 1] - c->table[i]);
+}
+
+typedef struct looking {
+    const foam_chances *chances;
+    const float *field;
+    float *plane;
+} looking;
+
+static void look_up(void *context, size_t begin, size_t end)
+{
+    const looking *l = context;
+    for (size_t i = begin; i < end; i++)
+        l->plane[i] = chance_of(l->chances, l->field[i]);
+}
+
+/* ---- times ---- */
+
+/* Convergence of the longest tile at two times to the fields. */
+static void converge(foam_history *h, const waves *w, const double times_s[2])
+{
+    const wave_amplitudes *a = w->amplitudes[0];
+    for (size_t i = 0; i < a->count; i++) {
+        const wave_mode *m = &a->modes[i];
+        float k2 = (float)(a->k_step * a->k_step * ((double)m->n_x * m->n_x + (double)m->n_z * m->n_z));
+        for (int j = 0; j < 2; j++) {
+            wave_mode_at(m, times_s[j], h->coefficients[i][j], NULL);
+            h->coefficients[i][j][0] *= m->stretch * k2;
+            h->coefficients[i][j][1] *= m->stretch * k2;
+        }
+    }
+    const wave_pair pair = {0, h->coefficients, h->rows, {h->fields[0], h->fields[1]}};
+    wave_transform_pair(w->transform, w, &pair);
+}
+
+static bool allocate_pair(foam_history *h, foam_pair *p)
+{
+    for (int j = 0; j < 2; j++)
+        if (!p->planes[j])
+            p->planes[j] = mem_alloc(&h->allocator, (size_t)h->size * h->size, sizeof(float));
+    return p->planes[0] && p->planes[1];
+}
+
+/* NULL: no memory. */
+static const foam_pair *find_pair(foam_history *h, const waves *w, int64_t number)
+{
+    uint32_t at = (uint32_t)(((number % h->pair_count) + h->pair_count) % h->pair_count);
+    foam_pair *p = &h->pairs[at];
+    if (p->is_there && p->number == number)
+        return p;
+    if (!allocate_pair(h, p))
+        return NULL;
+    converge(h, w,
+             (const double[2]){2.0 * (double)number * h->step_s, (2.0 * (double)number + 1.0) * h->step_s});
+    for (int j = 0; j < 2; j++) {
+        looking l = {h->chances, h->fields[j], p->planes[j]};
+        parallel_for(w->thread_count, (size_t)h->size * h->size, 16384, look_up, &l);
+    }
+    p->is_there = true;
+    p->number = number;
+    return p;
+}
+
+/* ---- gathering ---- */
+
+typedef struct gathering {
+    const float *plane;
+    float fade;
+    float *share;
+} gathering;
+
+static void gather(void *context, size_t begin, size_t end)
+{
+    const gathering *g = context;
+    for (size_t i = begin; i < end; i++) {
+        float amount = g->fade * g->plane[i];
+        g->share[i] = g->share[i] > amount ? g->share[i] : amount;
+    }
+}
+
+static void add(const foam_history *h, const waves *w, const float *plane, double age_s, float *share)
+{
+    gathering g = {plane, (float)exp(-age_s / h->decay_s), share};
+    parallel_for(w->thread_count, (size_t)h->size * h->size, 16384, gather, &g);
+}
+
+facet_result foam_history_gather(foam_history *h, const waves *w, float *share, facet_error *error)
+{
+    double now_s = wave_phase_time(w, w->time_s);
+    double last = floor(now_s / h->step_s);
+    size_t texels = (size_t)h->size * h->size;
+    if (!(fabs(last) < 0x1p50)) /* such times are no more apart than the steps */
+        last = 0.0;
+    converge(h, w, (const double[2]){now_s, now_s});
+    looking l = {h->chances, h->fields[0], share};
+    parallel_for(w->thread_count, texels, 16384, look_up, &l);
+    for (uint32_t i = 0; i + 1 < h->count; i++) {
+        int64_t multiple = (int64_t)last - (int64_t)i, number = (multiple - (multiple & 1)) / 2;
+        const foam_pair *p = find_pair(h, w, number);
+        if (!p)
+            return fail_memory(error, "foam", 2 * texels * sizeof(float));
+        add(h, w, p->planes[multiple & 1], now_s - (double)multiple * h->step_s, share);
+    }
+    return FACET_OK;
+}
+
+/* ---- lace ---- */
+
+static double mean_square(const float *values, size_t count)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < count; i++)
+        sum += (double)values[i] * (double)values[i];
+    return sum / (double)count;
+}
+
+/* Heights at time 0, each wave over its length (which makes the lace as fine as the waves are), with a variance of 1. */
+static void make_lace(foam_history *h, const waves *w, uint32_t tile, foam_plane *lace)
+{
+    const wave_amplitudes *a = w->amplitudes[tile];
+    for (size_t i = 0; i < a->count; i++) {
+        const wave_mode *m = &a->modes[i];
+        float n = sqrtf((float)(m->n_x * m->n_x + m->n_z * m->n_z));
+        wave_mode_at(m, 0.0, h->coefficients[i][0], NULL);
+        h->coefficients[i][0][0] *= n;
+        h->coefficients[i][0][1] *= n;
+        h->coefficients[i][1][0] = h->coefficients[i][1][1] = 0.0f;
+    }
+    const wave_pair pair = {tile, h->coefficients, h->rows, {h->fields[0], h->fields[1]}};
+    wave_transform_pair(w->transform, w, &pair);
+    size_t count = (size_t)lace->size * lace->size;
+    double deviation = sqrt(mean_square(h->fields[0], count));
+    float scale = deviation > 0.0 ? (float)(1.0 / deviation) : 0.0f;
+    for (size_t i = 0; i < count; i++)
+        lace->levels[0][i] = scale * h->fields[0][i];
+    foam_plane_reduce(lace);
+}
+
+/* ---- all ---- */
+
+static void destroy(sea_kept *kept)
+{
+    foam_history_destroy((foam_history *)kept);
+}
+
+static bool allocate(foam_history *h, const waves *w)
+{
+    size_t modes = 0, rows = 0, size = h->size;
+    for (uint32_t i = 0; i < w->tile_count; i++) {
+        const wave_amplitudes *a = w->amplitudes[i];
+        size_t row_count = 2 * (size_t)a->reach + 1;
+        modes = a->count > modes ? a->count : modes;
+        rows = row_count > rows ? row_count : rows;
+    }
+    h->coefficients = mem_alloc(&h->allocator, modes, sizeof *h->coefficients);
+    h->rows = mem_alloc(&h->allocator, rows * size, sizeof *h->rows);
+    h->chances = mem_alloc(&h->allocator, 1, sizeof *h->chances);
+    h->pairs = mem_zalloc(&h->allocator, h->pair_count, sizeof *h->pairs);
+    bool is_there = h->coefficients && h->rows && h->chances && h->pairs;
+    for (int i = 0; i < 2 && is_there; i++) {
+        h->fields[i] = mem_alloc(&h->allocator, size * size, sizeof(float));
+        is_there = h->fields[i];
+    }
+    for (uint32_t i = 0; i < h->lace_count && is_there; i++)
+        is_there = foam_plane_create(&h->allocator, h->size, &h->lace[i]);
+    return is_there;
+}
+
+/* Times at which crests are looked at: now, and multiples of step_s before, so that the next frame looks at the same. */
+static void choose_times(foam_history *h, const waves *w)
+{
+    double omega = wave_omega(w->tiles[0].k_to, w->state.depth_m);
+    h->step_s = fmax(TWO_PI / (omega * STEPS_PER_WAVE), DECAYS * h->decay_s / MOST_STEPS);
+    if (w->loop_s > 0.0) /* a loop has a whole number of them */
+        h->step_s = (double)w->loop_s / ceil((double)w->loop_s / h->step_s);
+    h->count = (uint32_t)ceil(DECAYS * h->decay_s / h->step_s);
+    h->count = h->count < MOST_STEPS ? h->count : MOST_STEPS;
+    size_t pair_bytes = 2 * (size_t)h->size * h->size * sizeof(float);
+    h->pair_count = h->count / 2 + 1;
+    if (h->pair_count > MOST_KEPT / pair_bytes)
+        h->pair_count = 1;
+}
+
+facet_result foam_history_create(const waves *w, double threshold, double decay_s, foam_history **out,
+                                 facet_error *error)
+{
+    foam_history *h = mem_zalloc(&w->allocator, 1, sizeof *h);
+    *out = NULL;
+    if (!h)
+        return fail_memory(error, "foam", sizeof *h);
+    *h = (foam_history){.kept.destroy = destroy,
+                        .allocator = w->allocator,
+                        .size = w->tiles[0].size,
+                        .decay_s = decay_s,
+                        .lace_count = w->tile_count > FOAM_LACES ? FOAM_LACES : 1};
+    choose_times(h, w);
+    if (!allocate(h, w)) {
+        foam_history_destroy(h);
+        return fail_memory(error, "foam", (size_t)w->tiles[0].size * w->tiles[0].size * sizeof(float));
+    }
+    make_chances(h->chances, w, threshold);
+    for (uint32_t i = 0; i < h->lace_count; i++) {
+        h->lace_tiles[i] = w->tile_count > 1 ? i + 1 : 0;
+        make_lace(h, w, h->lace_tiles[i], &h->lace[i]);
+    }
+    *out = h;
+    return FACET_OK;
+}
+
+void foam_history_destroy(foam_history *h)
+{
+    if (!h)
+        return;
+    for (uint32_t i = 0; h->pairs && i < h->pair_count; i++) {
+        mem_free(h->pairs[i].planes[0]);
+        mem_free(h->pairs[i].planes[1]);
+    }
+    for (uint32_t i = 0; i < FOAM_LACES; i++)
+        foam_plane_destroy(&h->lace[i]);
+    mem_free(h->pairs);
+    mem_free(h->chances);
+    mem_free(h->coefficients);
+    mem_free(h->rows);
+    mem_free(h->fields[0]);
+    mem_free(h->fields[1]);
+    mem_free(h);
+}
