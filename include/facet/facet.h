@@ -1345,9 +1345,11 @@ FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene 
  * just below the horizon. */
 FACET_API facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad);
 
-/* The light on the water as a photographer's incident meter reads it (ISO 2720, C = 340 lx s): EV at ISO 100; and the
- * exposure_ev that a camera set so has (ISO 12232, Lagarde and de Rousiers 2014). FACET_ERROR_ARGUMENT, _MEMORY. */
-FACET_API facet_result facet_sea_meter(const facet_sea_render_desc *desc, double *ev100, facet_error *error);
+/* What a camera's light meter reads of that picture of the sea as it is: EV at ISO 100 that brings the log-average of the radiance to 0.22 of
+ * white (Reinhard et al. 2002); and the exposure_ev that a camera set so has (ISO 12232, Lagarde and de Rousiers 2014). Sequences are best
+ * metered once. Where there is hardly any light, desc's log is told. Fails as facet_sea_render(). */
+FACET_API facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *desc, double *ev100,
+                                       facet_error *error);
 FACET_API float facet_exposure_from_ev100(double ev100);
 
 /* ---- the viewer ---- */

@@ -369,13 +369,17 @@ facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
     return result;
 }
 
-facet_result facet_sea_meter(const facet_sea_render_desc *desc, double *ev100, facet_error *error)
+facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *desc, double *ev100,
+                             facet_error *error)
 {
     const facet_sea_render_desc defaults = {0};
     facet_sea_render_desc d;
     *ev100 = 0.0;
     facet_result result = resolve_sea(NULL, desc ? desc : &defaults, &d, error);
-    return result == FACET_OK ? water_exposure_ev100(&d, ev100, error) : result;
+    const facet_camera camera = facet_sea_camera(sea, 0.0f, d.sky.sun_azimuth_rad);
+    if (!d.render.camera)
+        d.render.camera = &camera;
+    return result == FACET_OK ? water_exposure_ev100(sea, &d, ev100, error) : result;
 }
 
 float facet_exposure_from_ev100(double ev100)

@@ -262,7 +262,7 @@ static void pictures_are_exposed(void **state)
     facet_sea *sea = make(&desc);
     facet_sea_render_desc d = picture();
     double ev100 = 0.0, night = 0.0;
-    done(facet_sea_meter(&d, &ev100, &failure));
+    done(facet_sea_meter(sea, &d, &ev100, &failure));
     assert_true(ev100 > 12.0 && ev100 < 16.0); /* a sunny day */
     assert_true(fabs((double)facet_exposure_from_ev100(ev100) + ev100 + log2(1.2)) < 1e-5);
     d.render.exposure_ev = facet_exposure_from_ev100(ev100);
@@ -279,7 +279,7 @@ static void pictures_are_exposed(void **state)
     facet_image_destroy(image);
     facet_image_destroy(again);
     d.sky.sun_elevation_rad = -0.6f;
-    done(facet_sea_meter(&d, &night, &failure));
+    done(facet_sea_meter(sea, &d, &night, &failure));
     assert_true(night < 0.0);
     facet_sea_destroy(sea);
 }
@@ -384,7 +384,7 @@ static void what_is_wrong_is_said(void **state)
             d.render.environment_ev = INFINITY;
         if (i == 8)
             d.render.sun.illuminance_lux[0] = NAN;
-        assert_int_equal(facet_sea_meter(&d, &ev100, &failure), FACET_ERROR_ARGUMENT);
+        assert_int_equal(facet_sea_meter(sea, &d, &ev100, &failure), FACET_ERROR_ARGUMENT);
         assert_int_equal(facet_sea_render(sea, NULL, &d, &image, &failure), FACET_ERROR_ARGUMENT);
         assert_null(image);
         assert_true(strlen(failure.message) > 10);

@@ -1,6 +1,7 @@
 /* cmd_ocean.c - facet ocean: pictures, maps and meshes of a sea. */
 #include "cli/commands.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -30,7 +31,8 @@ static void tell(ocean_output *o, const picture_report *report)
 {
     report_picture(&o->run->messages, report, false);
     if (o->files)
-        json_array_append_new(o->files, report_picture_json(report));
+        json_array_append_new(o->files, report->is_kept ? report_picture_json(report)
+                                                        : ocean_report_picture_json(o->run, report));
 }
 
 /* Whether a file is to be left as it is, which is then said. */
@@ -103,11 +105,14 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
     facet_sea_mesh_desc desc = run->options.mesh;
     desc.allocator = run->allocator;
     facet_scene *scene = NULL;
-    if (interrupt_seconds_left() <= 0.0)
-        return ocean_run_fail_late(name, error);
+    facet_result result = ocean_run_check_time(name, error);
+    if (result != FACET_OK)
+        return result;
     interrupt_begin(name, "making it", false);
-    facet_result result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
+    result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
     interrupt_set_safe(NULL);
+    if (result == FACET_OK)
+        result = ocean_run_check_time(name, error);
     const facet_scene_save_desc save = {.allocator = run->allocator, .log = messages_log(&run->messages)};
     if (result == FACET_OK && !is_gltf(name))
         result = facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, &save.log, error);
@@ -130,8 +135,8 @@ static facet_result make_map(ocean_output *o, uint32_t tile, const char *name, f
     facet_image *image = NULL;
     snprintf(o->name, sizeof o->name, "%s", name);
     facet_result result = ocean_check_name(run, name, error);
-    if (result == FACET_OK && interrupt_seconds_left() <= 0.0)
-        result = ocean_run_fail_late(name, error);
+    if (result == FACET_OK)
+        result = ocean_run_check_time(name, error);
     if (result == FACET_OK)
         result = facet_sea_create_maps(run->sea, tile, &run->allocator, &image, error);
     const facet_save_desc save = {.allocator = run->allocator,
@@ -168,6 +173,7 @@ static facet_result set_moment(ocean_output *o, uint32_t number, facet_error *er
     ocean_run *run = o->run;
     const render_options *p = &run->options.picture;
     double time = p->has_time ? p->time_s : ((double)number - 1.0) / p->fps;
+    run->time_s = time;
     facet_result result = facet_sea_set_time(run->sea, time, error);
     return result == FACET_OK && run->model ? ocean_float_place(run, error) : result;
 }
@@ -176,7 +182,9 @@ static facet_result make_frame(ocean_output *o, uint32_t index, uint32_t number,
                                facet_error *error)
 {
     ocean_run *run = o->run;
-    facet_result result = set_moment(o, number, error);
+    facet_result result = ocean_run_check_time(*name ? name : "maps", error);
+    if (result == FACET_OK)
+        result = set_moment(o, number, error);
     if (result == FACET_OK && run->options.maps)
         result = make_maps(o, number, error);
     if (result != FACET_OK || !*name)
@@ -209,12 +217,29 @@ static facet_result make_frames(ocean_output *o, facet_error *error)
                 continue;
             *name = 0;
         }
-        if (interrupt_signal())
-            return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", *name ? name : "maps");
         result = make_frame(o, i, number, name, error);
         messages_flush(&o->run->messages);
     }
     return result;
+}
+
+/* Waves that a loop is too short for run faster, and frames that do not fill it make a jump. */
+static void warn_of_loop(ocean_run *run)
+{
+    const render_options *p = &run->options.picture;
+    double loop = run->options.sea.loop_s, frames = loop * p->fps;
+    facet_log log = messages_log(&run->messages);
+    double longest = facet_sea_get_info(run->sea).peak_period_s;
+    char text[256] = "";
+    if (loop > 0.0 && loop < longest)
+        snprintf(text, sizeof text,
+                 "--loop: %g s are less than the %.3g s that the highest waves take, which go faster for it",
+                 loop, longest);
+    else if (loop > 0.0 && p->is_sequence && fabs(frames - round(frames)) > 1e-6 * frames)
+        snprintf(text, sizeof text, "--loop: %g s are %g frames; the last one does not join the first", loop,
+                 frames);
+    if (*text)
+        log.message(log.user, FACET_LOG_WARNING, text);
 }
 
 /* What is known is that of the first moment. */
@@ -226,6 +251,7 @@ static facet_result make_all(ocean_output *o, facet_error *error)
     facet_result result = set_moment(o, p->has_frames ? frame_list_at(&p->frames, 0) : 1, error);
     if (result == FACET_OK && options->has_info && !is_given(run->line, OPT_JSON))
         ocean_report_print(run);
+    warn_of_loop(run);
     if (result != FACET_OK || (!p->output && !options->maps))
         return result;
     if (p->output && p->video) {
@@ -282,7 +308,14 @@ static facet_result begin(ocean_run *run, command_line *c, config *storage, face
         result = load_environment(run, error);
     if (result == FACET_OK && o->model)
         result = ocean_float_load(run, error);
-    return result == FACET_OK ? ocean_run_set_sea(run, o, error) : result;
+    if (result != FACET_OK)
+        return result;
+    interrupt_begin("sea", "making its waves and metering its light", false);
+    result = ocean_run_set_sea(run, o, error);
+    if (result == FACET_OK && o->has_picture && !o->sweep)
+        result = ocean_run_meter(run, o, error);
+    interrupt_set_safe(NULL);
+    return result;
 }
 
 static void print_json(const ocean_run *run, json_t *files, double start, const facet_error *error,

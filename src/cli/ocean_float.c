@@ -12,46 +12,50 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
+/* Of a berth: where it may be, m; how far away in sizes of the model that would fill the picture's height; how much farther than the nearest
+ * water in the picture. */
+static const double FARTHEST = 1e6, SIZE_AWAY = 1.2, NEAREST = 1.15;
+
 enum { GRID = 9 }; /* points along an edge of the footprint */
 
 /* MODEL[@X,Z[,HEADING]]; an @ before a file's extension is part of its name. */
-typedef struct berth {
-    char path[4096];
-    double numbers[3]; /* x, z in m; heading in degrees, from +Z towards +X */
-} berth;
-
-static facet_result read_berth(const ocean_run *run, berth *out, facet_error *error)
+static facet_result read_berth(const ocean_run *run, char *path, size_t size, ocean_berth *out,
+                               facet_error *error)
 {
     const char *text = run->options.model, *at = strrchr(text, '@');
-    *out = (berth){.numbers = {0.0, 0.0, 0.0}};
+    *out = (ocean_berth){.has_place = false};
+    double *n = out->numbers;
     if (at && !strpbrk(at, "./\\") && !strpbrk(at, "0123456789"))
         at = NULL;
-    bool is_place = at && (value_numbers(at + 1, 2, out->numbers) || value_numbers(at + 1, 3, out->numbers));
-    size_t length = is_place ? (size_t)(at - text) : strlen(text);
-    if (length == 0 || length >= sizeof out->path || (at && !is_place && !strchr(at, '.')))
-        return option_fail(run->line, OPT_WITH, "MODEL, MODEL@X,Z or MODEL@X,Z,DEGREES", error);
-    memcpy(out->path, text, length);
+    out->has_place = at && (value_numbers(at + 1, 2, n) || value_numbers(at + 1, 3, n));
+    size_t length = out->has_place ? (size_t)(at - text) : strlen(text);
+    bool is_far = fabs(n[0]) > FARTHEST || fabs(n[1]) > FARTHEST || fabs(n[2]) > FARTHEST;
+    if (length == 0 || length >= size || is_far || (at && !out->has_place && !strchr(at, '.')))
+        return option_fail(run->line, OPT_WITH,
+                           "MODEL, MODEL@X,Z or MODEL@X,Z,DEGREES, in metres from -1e6 to 1e6", error);
+    memcpy(path, text, length);
+    path[length] = 0;
     return FACET_OK;
 }
 
 facet_result ocean_float_load(ocean_run *run, facet_error *error)
 {
-    berth b;
-    facet_result result = read_berth(run, &b, error);
+    char path[4096];
+    facet_result result = read_berth(run, path, sizeof path, &run->berth, error);
     if (result != FACET_OK)
         return result;
     const facet_scene_desc desc = {.allocator = run->allocator,
                                    .log = messages_log(&run->messages),
                                    .thread_count = run->options.picture.limits.thread_count,
                                    .max_texture_size = run->options.picture.limits.max_texture_size};
-    interrupt_begin_reading(b.path);
-    result = input_load(b.path, &desc, &run->model, error);
+    interrupt_begin_reading(path);
+    result = input_load(path, &desc, &run->model, error);
     interrupt_set_safe(NULL);
     if (result != FACET_OK)
         return result;
     /* where it is, before it is put elsewhere */
     if (!facet_scene_get_bounds(run->model, NULL, run->model_low, run->model_high))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: there is nothing in it that floats", b.path);
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: there is nothing in it that floats", path);
     return FACET_OK;
 }
 
@@ -82,7 +86,7 @@ static plane fit_plane(const double (*places)[2], const facet_sea_point *points,
 }
 
 /* Columns: heading about +Y, then what takes +Y to the plane's normal, then to its place. */
-static void matrix_of(const plane *p, const berth *b, float m[16])
+static void matrix_of(const plane *p, const ocean_berth *b, float m[16])
 {
     double c = cos(b->numbers[2] * DEGREE), s = sin(b->numbers[2] * DEGREE);
     double length = sqrt(1.0 + p->slope_x * p->slope_x + p->slope_z * p->slope_z);
@@ -106,12 +110,30 @@ static void matrix_of(const plane *p, const berth *b, float m[16])
     m[15] = 1.0f;
 }
 
-facet_result ocean_float_place(const ocean_run *run, facet_error *error)
+/* Ahead, as far away as it takes to see all of it, and water before it. */
+static void find_berth(ocean_run *run)
 {
-    berth b;
-    facet_result result = read_berth(run, &b, error);
-    if (result != FACET_OK)
-        return result;
+    const facet_camera camera = ocean_run_camera(run, &run->options);
+    const float *low = run->model_low, *high = run->model_high;
+    double x = (double)camera.target[0] - (double)camera.eye[0];
+    double y = (double)camera.target[1] - (double)camera.eye[1];
+    double z = (double)camera.target[2] - (double)camera.eye[2];
+    double level = hypot(x, z), half = 0.5 * (double)camera.fov_y_rad;
+    double width = fmax((double)high[0] - (double)low[0], (double)high[2] - (double)low[2]);
+    double size = fmax(width, (double)high[1] - (double)low[1]);
+    double lowest =
+        tan(fmin(fmax(half - atan2(y, level), 0.05), 1.5)); /* edge of the picture, below the level */
+    double away = fmax(SIZE_AWAY * size / tan(half), NEAREST * fabs((double)camera.eye[1]) / lowest + width);
+    run->berth.has_place = true;
+    run->berth.numbers[0] = (double)camera.eye[0] + (level > 0.0 ? x / level * away : 0.0);
+    run->berth.numbers[1] = (double)camera.eye[2] + (level > 0.0 ? z / level * away : 0.0);
+}
+
+facet_result ocean_float_place(ocean_run *run, facet_error *error)
+{
+    if (!run->berth.has_place)
+        find_berth(run);
+    const ocean_berth b = run->berth;
     double c = cos(b.numbers[2] * DEGREE), s = sin(b.numbers[2] * DEGREE);
     double around[GRID * GRID][2], places[GRID * GRID][2];
     facet_sea_point points[GRID * GRID];
@@ -127,7 +149,6 @@ facet_result ocean_float_place(const ocean_run *run, facet_error *error)
     }
     facet_sea_get_points(run->sea, places[0], (size_t)GRID * GRID, points);
     plane p = fit_plane((const double(*)[2])around, points, (size_t)GRID * GRID);
-    float matrix[16];
-    matrix_of(&p, &b, matrix);
-    return facet_scene_place(run->model, matrix, error);
+    matrix_of(&p, &b, run->model_pose);
+    return facet_scene_place(run->model, run->model_pose, error);
 }

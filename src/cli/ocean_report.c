@@ -64,3 +64,27 @@ json_t *ocean_report_json(const ocean_run *run)
         rgb_json(i.scattering), "backscattering", rgb_json(i.backscattering), "reflectance",
         rgb_json(i.reflectance), "bed_depth_m", (double)d->bed.depth_m, "tiles", tiles);
 }
+
+static json_t *numbers_json(const float *numbers, size_t count)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(list, json_real((double)numbers[i]));
+    return list;
+}
+
+json_t *ocean_report_picture_json(const ocean_run *run, const picture_report *p)
+{
+    json_t *all = report_picture_json(p);
+    const facet_camera camera = ocean_run_camera(run, &run->options);
+    if (!all || run->options.sweep) /* of whose pictures each has its own */
+        return all;
+    json_object_set_new(all, "ev100", json_real(run->ev100));
+    json_object_set_new(all, "time_s", json_real(run->time_s));
+    json_object_set_new(all, "camera",
+                        json_pack("{s:o, s:o, s:f}", "eye", numbers_json(camera.eye, 3), "target",
+                                  numbers_json(camera.target, 3), "fov_y_rad", (double)camera.fov_y_rad));
+    if (run->model)
+        json_object_set_new(all, "model_matrix", numbers_json(run->model_pose, 16));
+    return all;
+}

@@ -3,6 +3,7 @@
 #define CLI_OCEAN_REPORT_H
 
 #include "cli/ocean_run.h"
+#include "cli/render_report.h"
 
 #include <jansson.h>
 
@@ -10,5 +11,8 @@
 void ocean_report_print(const ocean_run *run);
 /* The same; NULL: no memory. */
 json_t *ocean_report_json(const ocean_run *run);
+
+/* report_picture_json() with what another program needs to draw the same: exposure, time, camera, where the model floats. */
+json_t *ocean_report_picture_json(const ocean_run *run, const picture_report *p);
 
 #endif

@@ -8,9 +8,13 @@
 
 static const float BLACK_EV = -200.0f; /* 2 to this power is 0 */
 
-facet_result ocean_run_fail_late(const char *name, facet_error *error)
+facet_result ocean_run_check_time(const char *name, facet_error *error)
 {
-    return fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", name);
+    if (interrupt_signal())
+        return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
+    return interrupt_seconds_left() > 0.0
+               ? FACET_OK
+               : fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", name);
 }
 
 facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error)
@@ -22,7 +26,7 @@ facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, fac
     return facet_sea_create(&desc, &run->sea, error);
 }
 
-static facet_camera camera_of(const ocean_run *run, const ocean_options *o)
+facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
 {
     facet_camera camera = facet_sea_camera(run->sea, o->eye_height_m, o->heading_rad);
     for (int i = 0; i < 3 && o->picture.has_eye; i++) {
@@ -36,35 +40,44 @@ static facet_camera camera_of(const ocean_run *run, const ocean_options *o)
     return camera;
 }
 
-/* Relative to the meter, unless the exposure is given. */
-static facet_result expose(const ocean_options *o, facet_sea_render_desc *d, facet_error *error)
+/* But for exposure and camera. */
+static facet_sea_render_desc desc_of(ocean_run *run, const ocean_options *o, const facet_sea_look *look)
 {
-    double ev100 = o->ev100;
-    facet_result result = o->has_ev100 ? FACET_OK : facet_sea_meter(d, &ev100, error);
-    d->render.exposure_ev += facet_exposure_from_ev100(ev100);
+    facet_sea_render_desc d = {.render = o->picture.desc, .sky = o->sky, .look = *look};
+    d.render.allocator = run->allocator;
+    d.render.log = messages_log(&run->messages);
+    d.render.environment = run->environment;
+    if (o->picture.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without the others' light */
+        d.render.environment_ev = BLACK_EV;
+    return d;
+}
+
+facet_result ocean_run_meter(ocean_run *run, const ocean_options *o, facet_error *error)
+{
+    const facet_camera camera = ocean_run_camera(run, o);
+    facet_sea_render_desc d = desc_of(run, o, &o->look);
+    d.render.camera = &camera;
+    run->ev100 = o->ev100;
+    facet_result result = o->has_ev100 ? FACET_OK : facet_sea_meter(run->sea, &d, &run->ev100, error);
+    run->ev100 -= (double)d.render.exposure_ev;
     return result;
 }
 
 static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea_look *look,
                          facet_tonemap tonemap, progress *shown, facet_image **image, facet_error *error)
 {
-    const facet_camera camera = camera_of(run, o);
+    const facet_camera camera = ocean_run_camera(run, o);
     double left = interrupt_seconds_left();
-    if (left <= 0.0)
-        return ocean_run_fail_late(shown->subject, error);
-    facet_sea_render_desc d = {.render = o->picture.desc, .sky = o->sky, .look = *look};
-    d.render.allocator = run->allocator;
-    d.render.log = messages_log(&run->messages);
+    facet_result result = ocean_run_check_time(shown->subject, error);
+    if (result != FACET_OK)
+        return result;
+    facet_sea_render_desc d = desc_of(run, o, look);
     d.render.camera = &camera;
-    d.render.environment = run->environment;
-    if (o->picture.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without the others' light */
-        d.render.environment_ev = BLACK_EV;
     d.render.progress = progress_callback(shown);
     d.render.tonemap = tonemap;
     d.render.time_limit_s = left < 1e29 ? left : 0.0;
-    facet_result result = expose(o, &d, error);
-    if (result == FACET_OK)
-        result = facet_sea_render(run->sea, run->model, &d, image, error);
+    d.render.exposure_ev = facet_exposure_from_ev100(run->ev100);
+    result = facet_sea_render(run->sea, run->model, &d, image, error);
     progress_clear();
     return result;
 }

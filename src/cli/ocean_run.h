@@ -6,6 +6,12 @@
 #include "cli/ocean_options.h"
 #include "cli/progress.h"
 
+/* Where a model floats. */
+typedef struct ocean_berth {
+    bool has_place;    /* else: in view */
+    double numbers[3]; /* x, z in m; heading in degrees, from +Z towards +X */
+} ocean_berth;
+
 /* {0}. */
 typedef struct ocean_run {
     const command_line *line;
@@ -18,6 +24,10 @@ typedef struct ocean_run {
     facet_sea *sea;
     facet_scene *model;                /* NULL: none */
     float model_low[3], model_high[3]; /* where it is before it floats */
+    ocean_berth berth;
+    float model_pose[16]; /* where it floats: columns of a matrix */
+    double time_s;
+    double ev100; /* that pictures are exposed for, --exposure included */
 } ocean_run;
 
 /* How far a picture is, of all. */
@@ -26,11 +36,17 @@ typedef struct ocean_step {
     uint32_t index, count;
 } ocean_step;
 
-/* FACET_ERROR_LIMIT: there is no time left for the output name. */
-facet_result ocean_run_fail_late(const char *name, facet_error *error);
+/* FACET_ERROR_LIMIT, _CANCELLED: there is no time left for the output name, or somebody wants an end. */
+facet_result ocean_run_check_time(const char *name, facet_error *error);
 
 /* Makes the sea of options, in place of the one before. */
 facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error);
+
+/* That of the options, over the sea as it is. */
+facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *options);
+
+/* Exposes for the sea as it is: as it was made, so that every moment of it has one exposure and frames do not flicker. */
+facet_result ocean_run_meter(ocean_run *run, const ocean_options *options, facet_error *error);
 
 /* One picture of the sea as it is, developed: with --before-after a sheet of two. */
 facet_result ocean_run_draw(ocean_run *run, const ocean_options *options, ocean_step step,
@@ -39,8 +55,8 @@ facet_result ocean_run_draw(ocean_run *run, const ocean_options *options, ocean_
 /* --sweep: sheets of pictures over one or two options. Leaves another sea. */
 facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image, facet_error *error);
 
-/* Reads --with, and floats it on the sea as it is. */
+/* Reads --with, and floats it on the sea as it is. Without a place it lies in view of the camera of the first moment. */
 facet_result ocean_float_load(ocean_run *run, facet_error *error);
-facet_result ocean_float_place(const ocean_run *run, facet_error *error);
+facet_result ocean_float_place(ocean_run *run, facet_error *error);
 
 #endif

@@ -12,7 +12,7 @@
 #include "cli/suggest.h"
 #include "cli/value.h"
 
-enum { MAX_STEPS = 64, AXES = 2, LABEL_SIZE = 96 };
+enum { MAX_STEPS = 64, AXES = 2, LABEL_SIZE = 96, LONGEST_EDGE = 65536 };
 
 static const double LARGEST = 1e15; /* of numbers: whole ones are exact */
 
@@ -63,8 +63,9 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
     return FACET_OK;
 }
 
-static facet_result read_axes(const command_line *c, axis axes[AXES], facet_error *error)
+static facet_result read_axes(const ocean_run *run, axis axes[AXES], facet_error *error)
 {
+    const command_line *c = run->line;
     const char *at = option_text(c, OPT_SWEEP, "");
     facet_result result = read_axis(c, &at, &axes[0], error);
     if (result == FACET_OK && *at == ',') {
@@ -73,6 +74,14 @@ static facet_result read_axes(const command_line *c, axis axes[AXES], facet_erro
     }
     if (result == FACET_OK && *at)
         result = option_fail(c, OPT_SWEEP, expected, error);
+    const render_options *p = &run->options.picture;
+    uint64_t columns = axes[0].count, rows = axes[1].count; /* 0: the columns are as many as look well */
+    if (result == FACET_OK &&
+        (columns * p->desc.width > LONGEST_EDGE || rows * p->desc.height > LONGEST_EDGE))
+        result = fail_with(
+            error, FACET_ERROR_ARGUMENT,
+            "--sweep: %u x %u pictures of %u x %u pixels are more than a sheet of %d x %d holds",
+            axes[0].count, (unsigned)rows, p->desc.width, p->desc.height, LONGEST_EDGE, LONGEST_EDGE);
     if (result == FACET_OK && axes[0].option == axes[1].option)
         result = fail_with(error, FACET_ERROR_ARGUMENT, "--sweep: both of its axes are --%s",
                            axes[0].option->name);
@@ -111,6 +120,8 @@ static facet_result draw_cell(ocean_run *run, const axis *axes, uint32_t cell, o
     if (result == FACET_OK)
         result = ocean_run_set_sea(run, &options, error);
     if (result == FACET_OK)
+        result = ocean_run_meter(run, &options, error);
+    if (result == FACET_OK)
         result = facet_sea_set_time(run->sea, options.picture.time_s, error);
     if (result == FACET_OK && run->model)
         result = ocean_float_place(run, error);
@@ -120,7 +131,7 @@ static facet_result draw_cell(ocean_run *run, const axis *axes, uint32_t cell, o
 facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image, facet_error *error)
 {
     axis axes[AXES] = {{.option = NULL}, {.option = NULL}};
-    facet_result result = read_axes(run->line, axes, error);
+    facet_result result = read_axes(run, axes, error);
     if (result != FACET_OK)
         return result;
     uint32_t count = axes[0].count * (axes[1].option ? axes[1].count : 1);

@@ -100,13 +100,13 @@ static const option light_options[] = {
      .kind = OPTION_TEXT,
      .argument = "STOPS",
      .default_text = "0",
-     .help = "brighter than an incident light meter has it: +1 is twice as bright, 2x the factor 2"},
+     .help = "brighter than the light meter has it: +1 is twice as bright, 2x the factor 2"},
     {.id = OPT_EV100,
      .name = "ev100",
      .kind = OPTION_NUMBER,
      .argument = "EV",
      .default_text = "the meter's",
-     .help = "exposure value at ISO 100 instead of the meter's: 15 is a sunny day",
+     .help = "exposure value at ISO 100 instead of what the meter reads of the view: 15 is a sunny day",
      .minimum = -20,
      .maximum = 30},
     {.id = OPT_TONE_MAPPING,
@@ -227,7 +227,9 @@ static const option look_options[] = {
      .name = "with",
      .kind = OPTION_TEXT,
      .argument = "MODEL[@X,Z[,DEG]]",
-     .help = "a model that floats, its y = 0 at the water line; @ where, and how it is turned"},
+     .help =
+         "a model that floats, its y = 0 at the water line; @ where, and how it is turned: in m and degrees; "
+         "without @ it lies ahead"},
 };
 
 static const option quality_options[] = {

@@ -206,27 +206,74 @@ static void test_profile(void **state)
 
 /* ---- exposure ---- */
 
-/* The meter's reading of a sun 20 degrees high over a clear sea, by reference 13.3: E = 75 730 sin 20 + 9 500 = 35 400 lx. */
-static void test_exposure(void **state)
+/* Light on level water by a sun 20 degrees high in a clear sky; reference 13.3: E = 75 730 sin 20 + 9 500 = 35 400 lx. */
+static void test_light(void **state)
 {
     (void)state;
     shot s;
     make_shot(&s, 8, 8, 3.0f, 0.1f);
     s.desc.sky.sun_elevation_rad = 0.34906585f;
-    double ev100;
-    assert_int_equal(water_exposure_ev100(&s.desc, &ev100, NULL), FACET_OK);
-    assert_true(fabs(ev100 - (log2)(35400.0 / 3.4)) < 0.05);
+    water_sky sky;
+    assert_int_equal(water_sky_create(&s.desc, 0.0f, 1.0f, &sky, NULL), FACET_OK);
+    vec3 E = sky.sun_irradiance * sky.L[1] + sky.sky_irradiance;
+    water_sky_destroy(&sky);
+    assert_true(fabs((double)luminance(E) / 35400.0 - 1.0) < 0.035);
+}
+
+static unsigned warning_count;
+
+static void count_warning(void *user, facet_log_level level, const char *words)
+{
+    (void)user, (void)words;
+    warning_count += level == FACET_LOG_WARNING;
+}
+
+static double metered(const facet_sea *sea, const facet_sea_render_desc *desc)
+{
+    double ev100 = 0.0;
+    assert_int_equal(water_exposure_ev100(sea, desc, &ev100, NULL), FACET_OK);
+    return ev100;
+}
+
+/* As metered, the log-average of a picture is 0.22; light, not the picture's size, part or samples, is what a meter reads. */
+static void test_exposure(void **state)
+{
+    (void)state;
+    facet_sea_desc desc = small_sea(6.0f);
+    facet_sea *sea = make_sea(&desc);
+    shot s;
+    make_shot(&s, 96, 64, 3.0f, 0.1f);
+    s.desc.render.camera = &s.camera;
+    s.desc.look.no_glints = true;
+    double day = metered(sea, &s.desc), sum = 0.0;
+    s.desc.render.exposure_ev = (float)water_exposure_ev(day);
+    draw_shot(sea, &s);
+    for (uint32_t i = 0; i < 96 * 64; i++) {
+        const float *p = shot_pixel(&s, i % 96, i / 96);
+        sum += (log)((double)luminance(vec3(p[0], p[1], p[2]))) / (96 * 64);
+    }
+    film_destroy(&s.film);
+    assert_true(fabs((exp)(sum) / 0.22 - 1.0) < 0.04);
+    s.desc.render.samples = 7;
+    s.desc.render.crop[0] = 20;
+    s.desc.render.crop[2] = 8;
+    assert_true(metered(sea, &s.desc) == day);
+    s.desc.render.log.message = count_warning;
+    s.desc.sky.sun_elevation_rad = -0.07f;
+    double dusk = metered(sea, &s.desc);
+    assert_true(dusk < day - 3.0 && warning_count == 0);
     s.desc.sky.sun_elevation_rad = -1.5f;
-    assert_int_equal(water_exposure_ev100(&s.desc, &ev100, NULL), FACET_OK);
-    assert_true(fabs(ev100 - (log2)(1.0 / 3.4)) < 1e-6);
+    assert_true(fabs(metered(sea, &s.desc) - (log2)(1e-3 / 0.264)) < 1e-6);
+    assert_int_equal(warning_count, 1);
     assert_true(fabs((exp2)(water_exposure_ev(15.0)) * 1.2 * 32768.0 - 1.0) < 1e-12);
+    sea_destroy(sea);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edge_cases), cmocka_unit_test(test_threads),  cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_profile),    cmocka_unit_test(test_exposure),
+        cmocka_unit_test(test_edge_cases), cmocka_unit_test(test_threads), cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_profile),    cmocka_unit_test(test_light),   cmocka_unit_test(test_exposure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
