@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 120
+#define PROBE_COUNT 121
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -981,12 +981,22 @@ FN vec3 probe_water_place(int which, vec2 u)
     }
     vec3 down = water_refracted(w, -V, N);
     vec3 sunward = normalize(vec3(0.3f, 1.0f, 0.1f));
+    if (which == 120) {
+        vec3 beam = water_beam_below(w, light);
+        return water_bed_lit(water_focused(w, light.downwelling, beam, sunward[1], 9.0f * u[0]),
+                             3.0f * u[1]) +
+               vec3(water_bed_footprint(w, N, V, down, C, u[0], 4.0f * u[1]),
+                    caustic_cover(vec2(2.0f * u[0] - 1.0f, 0.1f)),
+                    caustic_lod(9.0f * u[1]) + water_mirrored_spread(C));
+    }
     return water_crest(w, light, N, V, down, u[0]) + 0.1f +
-           water_over_bed(w, light.downwelling, vec3(0.5f, 0.4f, 0.3f), 9.0f * u[0], 0.1f * u[1], down) +
+           water_over_bed(w, light.downwelling, vec3(0.5f, 0.4f, 0.3f), vec3(0.4f, 0.4f, 0.2f), 9.0f * u[0],
+                          0.1f * u[1], down) +
            water_land(light, vec3(0.5f), N) +
            water_through(w, light.downwelling, vec3(3.0f), sunward, vec3(1.0f), 2.0f * u[0], -V,
                          4.0f * u[1]) +
            water_bed_below(w, light.downwelling, vec3(0.4f), u[0]) +
+           water_bed_through(w, light.downwelling, vec3(2.0f), 9.0f * u[0]) +
            painted_water(light, N, V, 1.34f, 0.1f + u[0], painted_mirror(N, V)) +
            water_sun_through(w, C, light, normalize(light.L + 0.1f * u[0]), 0.5f);
 }

@@ -157,15 +157,21 @@ FN vec3 water_crest(Water w, WaterLight light, vec3 N, vec3 V, vec3 down, float 
     return sel(is_behind, water_backlight(w, light, V, water_crest_way(above, rise), before), vec3(0.0f));
 }
 
-/* A bed that is a plane, `depth` m below the place and rising by `rise` m per m along `down`, seen through the water. See
- * water_from_bed(). */
-FN vec3 water_over_bed(Water w, vec3 downwelling, vec3 albedo, float depth, float rise, vec3 down)
+/* How far (m) it is along `down` to a bed that is a plane, `depth` m below the place and rising by `rise` m per m along it. */
+FN float water_way_to_bed(float depth, float rise, vec3 down)
 {
     float closing = rise - down[1];
+    return max(sel(closing > 1e-6f, min(depth / closing, 1e6f), 1e6f), 0.0f);
+}
+
+/* That bed seen through the water: of the albedo `albedo`, and `mean_albedo` around, both as they are lit. See water_from_bed(). */
+FN vec3 water_over_bed(Water w, vec3 downwelling, vec3 albedo, vec3 mean_albedo, float depth, float rise,
+                       vec3 down)
+{
     WaterBed b;
     b.albedo = albedo;
-    b.mean_albedo = albedo;
-    b.way = max(sel(closing > 1e-6f, min(depth / closing, 1e6f), 1e6f), 0.0f);
+    b.mean_albedo = mean_albedo;
+    b.way = water_way_to_bed(depth, rise, down);
     /* what lies over the place that is seen, whose height over the water here is that of the bed there */
     b.depth = clamp(depth - b.way * rise, 0.0f, b.way);
     return water_from_bed(w, downwelling, b);
@@ -194,6 +200,13 @@ FN vec3 water_through(Water w, vec3 downwelling, vec3 beam, vec3 sunward, vec3 b
 FN vec3 water_bed_below(Water w, vec3 downwelling, vec3 albedo, float depth)
 {
     return albedo * downwelling * INV_PI * water_transmittance(water_K_d(w), depth);
+}
+
+/* A wide bed behind x m of water, of which light that is scattered forward shows the mean, as in water_from_bed(). */
+FN vec3 water_bed_through(Water w, vec3 bed, vec3 mean, float x)
+{
+    vec3 sharp = water_transmittance(water_beam(w), x);
+    return bed * sharp + mean * (water_transmittance(water_diffuse(w), x) - sharp);
 }
 
 /* The sun through a surface of slopes C that spread its disc, for an eye below that sees `outside` through it: they turn the

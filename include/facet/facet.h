@@ -1320,8 +1320,9 @@ typedef struct facet_sea_look {
     bool schlick_fresnel;       /* in place of the exact formula */
     float perceptual_roughness; /* of the finest waves, [0.001, 1]; 0: by their slopes */
     bool no_glints, no_foam;
-    uint32_t stage; /* 1 to 5: only so much of the way from before to now; 0: all */
-    float clamp;    /* radiance times exposure is cut off here; 0: not */
+    bool no_caustics; /* the bed is lit evenly, as if waves focused no light */
+    uint32_t stage;   /* 1 to 5: only so much of the way from before to now; 0: all */
+    float clamp;      /* radiance times exposure is cut off here; 0: not */
 } facet_sea_look;
 
 /* Draws the sea, and a model in it. render: as for facet_render(), of which size, crop, camera, exposure, tone mapping, quality,

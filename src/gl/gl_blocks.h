@@ -54,7 +54,8 @@ enum {
     GL_UNIT_SEA_SKY,
     GL_UNIT_SEA_MEANS,
     GL_UNIT_SEA_GRID,
-    GL_UNIT_SEA_SEEN
+    GL_UNIT_SEA_SEEN,
+    GL_UNIT_SEA_CAUSTICS /* the last that every driver has */
 };
 
 /* Vertex attributes. */

@@ -103,6 +103,20 @@ static void fill_bed(const sea_picture *p, const double eye[2], gl_sea_block *b)
     b->bed_slope[1] = (float)z;
 }
 
+static void fill_caustics(const caustic_map *map, const double eye[2], gl_sea_block *b)
+{
+    if (!map)
+        return;
+    const float axis[4] = {map->axis[0], map->axis[1], 1.0f, 0.0f};
+    memcpy(b->caustic_axis, axis, sizeof axis);
+    for (int i = 0; i < CAUSTIC_LAYERS; i++) {
+        const caustic_layer *l = &map->layers[i];
+        const float layer[4] = {(float)(l->middle[0] - eye[0]), (float)(l->middle[1] - eye[1]),
+                                2.0f / (l->texel_m * CAUSTIC_SIZE), l->texel_m};
+        memcpy(b->caustics[i], layer, sizeof layer);
+    }
+}
+
 static void fill_look(const facet_sea_look *look, gl_sea_block *b)
 {
     b->bed_slope[2] = look->perceptual_roughness > 0.0f ? look->perceptual_roughness : BEFORE_ROUGHNESS;
@@ -132,5 +146,6 @@ void gl_sea_block_fill(const sea_picture *p, const camera_rays *camera, const gl
     fill_foam(p, eye, b);
     fill_water(p, b);
     fill_bed(p, eye, b);
+    fill_caustics(p->caustics, eye, b);
     fill_look(&p->desc->look, b);
 }

@@ -12,8 +12,8 @@
 
 void gl_sea_textures_destroy(gl_sea_textures *t)
 {
-    const GLuint names[] = {t->low, t->high, t->foam, t->patches, t->sky, t->means};
-    glDeleteTextures(6, names);
+    const GLuint names[] = {t->low, t->high, t->foam, t->patches, t->sky, t->means, t->caustics};
+    glDeleteTextures(7, names);
     *t = (gl_sea_textures){.size = 0};
 }
 
@@ -31,6 +31,7 @@ void gl_sea_textures_bind(const gl_sea_textures *t)
     bind(GL_UNIT_SEA_PATCHES, GL_TEXTURE_2D, t->patches);
     bind(GL_UNIT_SEA_SKY, GL_TEXTURE_2D_ARRAY, t->sky);
     bind(GL_UNIT_SEA_MEANS, GL_TEXTURE_2D, t->means);
+    bind(GL_UNIT_SEA_CAUSTICS, GL_TEXTURE_2D_ARRAY, t->caustics);
 }
 
 /* Bound afterwards. */
@@ -47,9 +48,11 @@ static GLuint make(uint32_t unit, GLenum target, GLenum filter, GLenum wrap_s, G
     return name;
 }
 
-static GLuint make_repeating(uint32_t unit, GLenum format, GLenum channels, uint32_t size, uint32_t layers)
+/* With all mips. */
+static GLuint make_layers(uint32_t unit, GLenum format, GLenum channels, uint32_t size, uint32_t layers,
+                          GLenum wrap)
 {
-    GLuint name = make(unit, GL_TEXTURE_2D_ARRAY, GL_LINEAR_MIPMAP_LINEAR, GL_REPEAT, GL_REPEAT);
+    GLuint name = make(unit, GL_TEXTURE_2D_ARRAY, GL_LINEAR_MIPMAP_LINEAR, wrap, wrap);
     GLint level = 0;
     for (uint32_t edge = size; edge; edge >>= 1)
         glTexImage3D(GL_TEXTURE_2D_ARRAY, level++, (GLint)format, (GLsizei)edge, (GLsizei)edge,
@@ -62,10 +65,12 @@ static void make_all(gl_sea_textures *t, const gl_context *c)
 {
     GLenum rgba = c->has_float_linear ? GL_RGBA32F : GL_RGBA16F,
            red = c->has_float_linear ? GL_R32F : GL_R16F;
-    t->low = make_repeating(GL_UNIT_SEA_LOW, rgba, GL_RGBA, t->size, t->tile_count);
-    t->high = make_repeating(GL_UNIT_SEA_HIGH, rgba, GL_RGBA, t->size, t->tile_count);
-    t->foam = make_repeating(GL_UNIT_SEA_FOAM, red, GL_RED, t->plane_count ? t->size : 1,
-                             t->plane_count ? t->plane_count : 1);
+    t->low = make_layers(GL_UNIT_SEA_LOW, rgba, GL_RGBA, t->size, t->tile_count, GL_REPEAT);
+    t->high = make_layers(GL_UNIT_SEA_HIGH, rgba, GL_RGBA, t->size, t->tile_count, GL_REPEAT);
+    t->foam = make_layers(GL_UNIT_SEA_FOAM, red, GL_RED, t->plane_count ? t->size : 1,
+                          t->plane_count ? t->plane_count : 1, GL_REPEAT);
+    t->caustics =
+        make_layers(GL_UNIT_SEA_CAUSTICS, red, GL_RED, t->caustic_size, CAUSTIC_LAYERS, GL_CLAMP_TO_EDGE);
     t->patches = make(GL_UNIT_SEA_PATCHES, GL_TEXTURE_2D, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     t->means = make(GL_UNIT_SEA_MEANS, GL_TEXTURE_2D, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     t->sky = make(GL_UNIT_SEA_SKY, GL_TEXTURE_2D_ARRAY, GL_LINEAR, GL_REPEAT, GL_CLAMP_TO_EDGE);
@@ -128,6 +133,14 @@ static void upload_foam(const waves_foam *f)
     }
 }
 
+static void upload_caustics(const caustic_map *map)
+{
+    for (uint32_t layer = 0; map && layer < CAUSTIC_LAYERS; layer++)
+        for (uint32_t mip = 0; mip < CAUSTIC_MIPS; mip++)
+            upload_layer(GL_UNIT_SEA_CAUSTICS, mip, layer, CAUSTIC_SIZE >> mip, GL_RED,
+                         map->layers[layer].mips[mip]);
+}
+
 /* Corners around the eye's, each where its index falls modulo the edge. */
 static facet_result upload_patches(const sea_picture *p, const camera_rays *camera, facet_error *error)
 {
@@ -162,12 +175,15 @@ facet_result gl_sea_textures_update(gl_sea_textures *t, gl_context *c, const sea
     const waves *w = &p->sea->waves;
     uint32_t size = w->tile_count ? w->tiles[0].size : 1, tile_count = w->tile_count ? w->tile_count : 1;
     uint32_t plane_count = p->foam ? 1 + p->foam->lace_count : 0;
+    uint32_t caustic_size = p->caustics ? CAUSTIC_SIZE : 1;
     if (size > (uint32_t)c->max_texture_size)
         return fail(error, FACET_ERROR_LIMIT, "OpenGL (%s): tiles of %u samples; the most are %d", c->name,
                     size, c->max_texture_size);
-    if (!t->low || t->size != size || t->tile_count != tile_count || t->plane_count != plane_count) {
+    if (!t->low || t->size != size || t->tile_count != tile_count || t->plane_count != plane_count ||
+        t->caustic_size != caustic_size) {
         gl_sea_textures_destroy(t);
-        *t = (gl_sea_textures){.size = size, .tile_count = tile_count, .plane_count = plane_count};
+        *t = (gl_sea_textures){
+            .size = size, .tile_count = tile_count, .plane_count = plane_count, .caustic_size = caustic_size};
         make_all(t, c);
     }
     gl_sea_textures_bind(t);
@@ -178,6 +194,7 @@ facet_result gl_sea_textures_update(gl_sea_textures *t, gl_context *c, const sea
     if (result != FACET_OK)
         return result;
     upload_foam(p->foam);
+    upload_caustics(p->caustics);
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_SEA_SKY);
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, SEA_SKY_WIDTH, SEA_SKY_HEIGHT, SEA_SKY_LAYERS, GL_RGBA,
                     GL_FLOAT, p->sky);

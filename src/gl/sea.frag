@@ -17,7 +17,7 @@ vec4 sea_beside(vec3 d)
 #ifdef IS_BELOW
 vec4 sea_beside(vec3 d)
 {
-    return sea_exposed(sea_seen_through_water(vec3(0.0, sea_eye.x, 0.0), d));
+    return sea_exposed(sea_seen_through_water(vec3(0.0, sea_eye.x, 0.0), d, 0.0, sea_ray.x * sea_ray.y * dot(d, forward.xyz)));
 }
 vec4 sea_pixel(vec3 d, vec4 seen)
 {

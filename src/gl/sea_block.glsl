@@ -4,6 +4,7 @@
 #define SEA_LEVELS 11
 #define SEA_CLASS_STEP 8 /* gl_sea_classes.c */
 #define SEA_CLASSES 512
+#define SEA_CAUSTIC_LAYERS 3
 
 layout(std140) uniform Sea
 {
@@ -33,6 +34,8 @@ layout(std140) uniform Sea
     vec4 sea_bed;                  /* albedo; depth under the eye, m */
     vec4 sea_bed_slope;            /* rise along x, z; perceptual roughness of stages; clamp */
     vec4 sea_sky_at;               /* height of the eye, km; way of clearness, km; 1: mirrors show the drawn sky */
+    vec4 sea_caustic_axis;         /* of layers of sunlight on the bed; z: 1: there are some */
+    vec4 sea_caustics[SEA_CAUSTIC_LAYERS]; /* middle from the eye, 2 / width, width of a texel */
     ivec4 sea_look;                /* stage, variant of before; 1: foam, sparkles of before */
 };
 

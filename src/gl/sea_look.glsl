@@ -45,7 +45,16 @@ vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
     vec3 crest = water_crest(w, light, p.point.N, p.V, down, p.height - sea_rough.w);
 #ifdef HAS_BED
     float depth = p.at.y + sea_bed.w - dot(sea_bed_slope.xy, p.at.xz);
-    return water_over_bed(w, light.downwelling, sea_bed.xyz, depth, dot(sea_bed_slope.xy, down.xz), down) + crest;
+    float rise = dot(sea_bed_slope.xy, down.xz);
+    vec3 albedo = sea_bed.xyz;
+    vec3 mean_albedo = albedo;
+    if (sea_caustic_axis.z > 0.0) {
+        float way = water_way_to_bed(depth, rise, down);
+        float width = water_bed_footprint(w, p.point.N, p.V, down, p.point.covariance, p.width * inversesqrt(p.cosine), way);
+        albedo *= sea_bed_lit(w, p.at, down, way, width);
+        mean_albedo *= sea_bed_lit(w, p.at, down, way, max(width, 0.25 * way));
+    }
+    return water_over_bed(w, light.downwelling, albedo, mean_albedo, depth, rise, down) + crest;
 #else
     return water_from_deep(w, light.downwelling) + crest;
 #endif
@@ -80,7 +89,7 @@ vec3 sea_shade_below(SeaPlace p)
         mirrored = normalize(vec3(mirrored.x, -1e-3, mirrored.z));
     vec3 L = vec3(0.0);
     if (window.fresnel > 0.0)
-        L = sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored) * window.fresnel;
+        L = sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.width, water_mirrored_spread(p.point.covariance)) * window.fresnel;
     if (window.fresnel < 1.0) {
         L += sea_sky_reflected(window.outside, roughness_from_slopes(p.point.covariance * 0.1)) * window.gain;
         L += water_sun_through(w, p.point.covariance, light, window.outside, window.gain);

@@ -127,17 +127,24 @@ float sea_way_to_bed(vec3 at, vec3 d)
 #endif
 }
 
-/* Water, and the bed behind it, seen from a place in the water along d. */
-vec3 sea_seen_through_water(vec3 at, vec3 d)
+/* Water, and the bed behind it, seen from a place in the water along d by a ray that is so wide, and wider by `spread` per m. */
+vec3 sea_seen_through_water(vec3 at, vec3 d, float width, float spread)
 {
     Water w = sea_water();
     float x = sea_way_to_bed(at, d);
     float z = max(-at.y, 0.0);
     vec3 ground = vec3(0.0);
-    if (x < 1e4)
-        ground = water_bed_below(w, sea_downwelling.xyz, sea_bed.xyz, max(z - x * d.y, 0.0));
+    if (x < 1e4) {
+        vec3 mean = water_bed_below(w, sea_downwelling.xyz, sea_bed.xyz, max(z - x * d.y, 0.0));
+        vec3 bed = mean;
+#ifdef HAS_BED
+        if (sea_caustic_axis.z > 0.0)
+            bed *= sea_bed_lit(w, at, d, x, (width + spread * x) * inversesqrt(clamp(-d.y, 0.05, 1.0)));
+#endif
+        ground = water_bed_through(w, bed, mean, x);
+    }
     float reach = d.y > 1e-4 ? min(x, z / d.y) : x;
-    return water_through(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, ground, z, d, reach);
+    return ground + water_through(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, vec3(0.0), z, d, reach);
 }
 
 /* ---- out ---- */

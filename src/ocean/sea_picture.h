@@ -3,6 +3,7 @@
 #ifndef OCEAN_SEA_PICTURE_H
 #define OCEAN_SEA_PICTURE_H
 
+#include "ocean/caustic_map.h"
 #include "ocean/sea.h"
 #include "ocean/water_table.h"
 #include "ocean/waves_foam.h"
@@ -29,8 +30,9 @@ typedef struct sea_picture {
     const facet_sea_render_desc *desc; /* resolved, with a camera */
     const waves_foam *foam;            /* NULL: none */
     const water_table *table;
-    bool is_below; /* the eye is in the water */
-    double fall;   /* 1/m, by which the sea falls away with the square of distance; 0: a plane */
+    const caustic_map *caustics; /* NULL: the bed is lit evenly, or there is none */
+    bool is_below;               /* the eye is in the water */
+    double fall; /* 1/m, by which the sea falls away with the square of distance; 0: a plane */
     float deviation_m, trough_m, shutter_s, exposure;
     float roughness
         [3]; /* covariance of slopes that stands for waves finer than all tiles; [0] < 0: by their slopes */

@@ -35,19 +35,21 @@ static float way_to_bed(const water_setup *s, const double P[3], vec3 d)
     return closing > 1e-9 ? (float)fmin(above / closing, (double)FAR_M) : FAR_M;
 }
 
-vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d)
+vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, float width_m, float spread)
 {
     float x = way_to_bed(s, P, d), z = depth_of(P);
     vec3 ground = vec3(0.0f);
     if (x < FAR_M) {
         const float *albedo = s->sea->desc.bed.albedo;
-        float bed_depth = max(z - x * d[1], 0.0f);
-        ground =
-            water_bed_below(s->water, s->light.downwelling, vec3(albedo[0], albedo[1], albedo[2]), bed_depth);
+        vec3 mean = water_bed_below(s->water, s->light.downwelling, vec3(albedo[0], albedo[1], albedo[2]),
+                                    max(z - x * d[1], 0.0f));
+        float width = (width_m + spread * x) * inversesqrt(clamp(-d[1], 0.05f, 1.0f));
+        vec3 bed = s->caustics.is_there ? mean * water_bed_lit_at(s, P, d, x, width) : mean;
+        ground = water_bed_through(s->water, bed, mean, x);
     }
     /* a ray that goes up for ever leaves water that would shine as it does near the surface */
     float reach = d[1] > 1e-4f ? min(x, z / d[1]) : x;
-    return through_water(s, ground, z, d, reach);
+    return ground + through_water(s, vec3(0.0f), z, d, reach);
 }
 
 static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 d)
@@ -59,7 +61,9 @@ static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 
     const double below[3] = {p->P[0], fmin(p->P[1], 0.0), p->P[2]};
     vec3 L = vec3(0.0f);
     if (window.fresnel > 0.0f)
-        L = water_seen_through_water(s, below, mirrored) * window.fresnel;
+        L = water_seen_through_water(s, below, mirrored, p->footprint_m,
+                                     water_mirrored_spread(p->point.covariance)) *
+            window.fresnel;
     if (window.fresnel < 1.0f) {
         float perceptual_roughness = roughness_from_slopes(p->point.covariance * 0.1f);
         L = L + water_sky_reflected(&s->sky, window.outside, perceptual_roughness) * window.gain;
@@ -75,7 +79,7 @@ vec3 water_shade_from_below(const water_setup *s, const march_ray *ray, const ma
     vec3 d = vec3((float)e[0], (float)e[1], (float)e[2]);
     float to_bed = way_to_bed(s, o, d);
     if (!hit || (float)hit->t >= to_bed)
-        return water_seen_through_water(s, o, d);
+        return water_seen_through_water(s, o, d, (float)ray->width, (float)ray->spread);
     water_place p = water_place_of(s, ray, hit);
     return through_water(s, surface_from_below(s, &p, d), depth_of(o), d, (float)hit->t);
 }

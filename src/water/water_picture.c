@@ -104,6 +104,7 @@ static void describe(const water_setup *s, sea_picture *p)
     p->desc = s->desc;
     p->foam = s->foam.share.level_count ? &s->foam : NULL;
     p->table = &s->table;
+    p->caustics = s->caustics.is_there ? &s->caustics : NULL;
     p->is_below = s->is_below;
     p->fall = s->march.fall;
     p->deviation_m = s->march.deviation_m;

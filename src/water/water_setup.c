@@ -7,7 +7,7 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 
-#include "water/water_setup.h"
+#include "water/caustic_plan.h"
 
 static const float SHUTTER_S = 0.01f;
 enum { SURROUNDINGS_HEIGHT = 128 };
@@ -180,12 +180,16 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     float perceptual_roughness = desc->look.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     s->trough_m = -2.0f * s->march.deviation_m;
+    result = caustic_map_of_picture(s, &s->caustics, error);
+    if (result != FACET_OK)
+        return result;
     return scene ? add_model(s, scene, stats, error) : FACET_OK;
 }
 
 void water_setup_destroy(water_setup *s)
 {
     water_model_destroy(&s->model);
+    caustic_map_destroy(&s->caustics);
     water_profile_destroy(&s->profile);
     waves_foam_destroy(&s->foam);
     if (s->foam_history)

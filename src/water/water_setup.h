@@ -3,6 +3,7 @@
 #define WATER_WATER_SETUP_H
 
 #include "draw/camera_rays.h"
+#include "ocean/caustic_map.h"
 #include "ocean/sea.h"
 #include "ocean/waves_foam.h"
 #include "water/water_light.h"
@@ -25,8 +26,9 @@ typedef struct water_setup {
     water_table table; /* of means over facets; its */
     Water water;
     WaterLight light;
-    vec3 beam;    /* irradiance across the sun's beam just below the surface, lx */
-    vec3 sunward; /* unit direction to the sun, below the surface */
+    vec3 beam;            /* irradiance across the sun's beam just below the surface, lx */
+    vec3 sunward;         /* unit direction to the sun, below the surface */
+    caustic_map caustics; /* of the bed */
     vec3
         roughness; /* covariance of slopes that stands for waves finer than all tiles; xx < 0: by their slopes */
     float trough_m;  /* where troughs are, two standard deviations below the mean */

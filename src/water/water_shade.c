@@ -6,6 +6,14 @@
 
 /* ---- below ---- */
 
+vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m)
+{
+    double X = P[0] + (double)way * (double)d[0], Z = P[2] + (double)way * (double)d[2];
+    float depth = max((float)-water_bed_height(&s->sea->desc.bed, X, Z), 0.0f);
+    vec3 focused = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], depth);
+    return water_bed_lit(focused, caustic_map_at(&s->caustics, X, Z, width_m));
+}
+
 vec3 water_from_below(const water_setup *s, const water_place *p)
 {
     vec3 down = water_refracted(s->water, -p->V, p->point.N);
@@ -13,11 +21,16 @@ vec3 water_from_below(const water_setup *s, const water_place *p)
     if (!water_has_bed(s))
         return water_from_deep(s->water, s->light.downwelling) + crest;
     const facet_sea_bed *bed = &s->sea->desc.bed;
-    float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2]));
-    vec3 albedo = vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]);
-    return water_over_bed(s->water, s->light.downwelling, albedo, depth, (float)water_bed_rise(bed, down),
-                          down) +
-           crest;
+    float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2])),
+          rise = (float)water_bed_rise(bed, down);
+    vec3 albedo = vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]), mean_albedo = albedo;
+    if (s->caustics.is_there) {
+        float way = water_way_to_bed(depth, rise, down), width = p->footprint_m * inversesqrt(p->cosine);
+        width = water_bed_footprint(s->water, p->point.N, p->V, down, p->point.covariance, width, way);
+        albedo = albedo * water_bed_lit_at(s, p->P, down, way, width);
+        mean_albedo = mean_albedo * water_bed_lit_at(s, p->P, down, way, max(width, 0.25f * way));
+    }
+    return water_over_bed(s->water, s->light.downwelling, albedo, mean_albedo, depth, rise, down) + crest;
 }
 
 /* ---- the sun ---- */

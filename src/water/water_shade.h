@@ -18,6 +18,10 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
 /* Radiance (cd/m^2) that goes up just below the place, towards the eye: of deep water, or of the bed through it. */
 vec3 water_from_below(const water_setup *s, const water_place *p);
 
+/* Light on the bed over its mean, per channel, where the ray from P along the unit direction d meets it after `way` m, as wide as
+ * width_m. */
+vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m);
+
 /* Of ground that the water does not cover, where it is seen from the air. */
 vec3 water_shade_land(const water_setup *s);
 

@@ -1,0 +1,254 @@
+/* caustic_plan.c - see caustic_plan.h. Rays through the whole picture, whatever part of it is drawn, tell where the bed is seen. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "water/caustic_plan.h"
+#include "water/water_caustics.h"
+
+enum { RAYS = 24, MOST_SEEN = RAYS * RAYS };
+
+static const float LEAST_SEEN =
+    0.002f; /* of the bed's light, below which waves on it are not to be told from grey */
+
+/* A place of the bed. */
+typedef struct seen_place {
+    double distance_m, X, Z;
+    float depth_m;
+    float width_m; /* of what a pixel shows of it */
+} seen_place;
+
+typedef struct view {
+    const water_setup *s;
+    caustic_source source;
+    float axis[2];
+    seen_place places[MOST_SEEN]; /* the nearest first */
+    uint32_t count;
+    float depth_m; /* at the first */
+} view;
+
+/* ---- what is seen ---- */
+
+static float width_at(const water_setup *s, double distance_m)
+{
+    float pixel = s->camera.pixel_size;
+    return s->camera.is_orthographic ? pixel : pixel * (float)distance_m;
+}
+
+/* How far a ray has come where it is in the water, as if that were still. */
+typedef struct entered {
+    double at[3], above_m;
+    vec3 down;
+    bool is_there;
+} entered;
+
+static entered enter(const water_setup *s, float x, float y)
+{
+    float o[3], d[3];
+    camera_rays_at(&s->camera, x, y, o, d);
+    vec3 along = normalize(vec3(d[0], d[1], d[2]));
+    entered e = {.at = {(double)o[0], (double)o[1], (double)o[2]}, .down = along, .is_there = true};
+    if (s->is_below)
+        return e;
+    if (along[1] > -1e-3f)
+        return (entered){.is_there = false};
+    e.above_m = e.at[1] / -(double)along[1];
+    for (int i = 0; i < 3; i++)
+        e.at[i] += e.above_m * (double)along[i];
+    e.down = water_refracted(s->water, along, vec3(0.0f, 1.0f, 0.0f));
+    return e;
+}
+
+static bool see(const water_setup *s, float x, float y, seen_place *place)
+{
+    const facet_sea_bed *bed = &s->sea->desc.bed;
+    const vec3 up = vec3(0.0f, 1.0f, 0.0f);
+    entered e = enter(s, x, y);
+    double closing = water_bed_rise(bed, e.down) - (double)e.down[1];
+    double height = e.at[1] - water_bed_height(bed, e.at[0], e.at[2]);
+    if (!e.is_there || closing < 1e-3 || height <= 0.0)
+        return false;
+    double way = height / closing;
+    *place = (seen_place){.distance_m = e.above_m + way,
+                          .X = e.at[0] + way * (double)e.down[0],
+                          .Z = e.at[2] + way * (double)e.down[2]};
+    place->depth_m = (float)-water_bed_height(bed, place->X, place->Z);
+    place->width_m = width_at(s, place->distance_m);
+    if (!s->is_below) {
+        vec3 V = -refract(e.down, up, s->water.ior), C = water_slopes_at(s, place->width_m).covariance;
+        place->width_m =
+            max(place->width_m, 0.1f * water_bed_footprint(s->water, up, V, e.down, C, 0.0f, (float)way));
+    }
+    return place->depth_m > 0.0f;
+}
+
+static int nearer(const void *a, const void *b)
+{
+    double p = ((const seen_place *)a)->distance_m, q = ((const seen_place *)b)->distance_m;
+    return (p > q) - (p < q);
+}
+
+/* What is below the eye stands for a bed that is not seen but mirrored. */
+static void look_around(view *v)
+{
+    const water_setup *s = v->s;
+    const facet_render_desc *r = &s->desc->render;
+    for (uint32_t i = 0; i < MOST_SEEN; i++) {
+        float x = (float)(i % RAYS) / (RAYS - 1) * (float)r->width;
+        float y = (float)(i / RAYS) / (RAYS - 1) * (float)r->height;
+        v->count += see(s, x, y, &v->places[v->count]);
+    }
+    qsort(v->places, v->count, sizeof *v->places, nearer);
+    if (v->count == 0) {
+        const float *eye = s->camera.origin;
+        double X = (double)eye[0], Z = (double)eye[2], bed = water_bed_height(&s->sea->desc.bed, X, Z);
+        v->places[v->count++] = (seen_place){.distance_m = fabs((double)eye[1] - bed),
+                                             .X = X,
+                                             .Z = Z,
+                                             .depth_m = (float)fmax(-bed, 0.0),
+                                             .width_m = width_at(s, fabs((double)eye[1] - bed))};
+    }
+    v->depth_m = v->places[0].depth_m;
+}
+
+/* Whether the sun's beam, and what the bed sends back of it, come through the water at the shallowest place. */
+static bool is_worth_it(const view *v)
+{
+    const water_setup *s = v->s;
+    float depth = v->depth_m;
+    for (uint32_t i = 0; i < v->count; i++)
+        depth = min(depth, v->places[i].depth_m);
+    vec3 left = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], depth) *
+                water_transmittance(water_beam(s->water), depth);
+    return max(max(left[0], left[1]), left[2]) > LEAST_SEEN;
+}
+
+/* ---- layers ---- */
+
+/* Variance (m^2, along the axes) of where light falls if slopes vary by C. */
+static vec2 variance_by_slopes(const view *v, vec3 C, float depth)
+{
+    const float step = 0.01f;
+    vec3 L = v->source.L;
+    vec2 still = water_caustics_shift(&v->source, v->axis, L, vec2(0.0f), depth);
+    vec2 x = (water_caustics_shift(&v->source, v->axis, L, vec2(step, 0.0f), depth) - still) * (1.0f / step);
+    vec2 z = (water_caustics_shift(&v->source, v->axis, L, vec2(0.0f, step), depth) - still) * (1.0f / step);
+    return x * x * C[0] + z * z * C[1] + x * z * (2.0f * C[2]);
+}
+
+/* Of light from all of the sun's disc: a quarter of its radius squared, through still water. */
+static vec2 variance_by_disc(const view *v, float depth)
+{
+    vec3 L = v->source.L, across = vec3(-v->axis[1], 0.0f, v->axis[0]), up = cross(across, L);
+    vec2 still = water_caustics_shift(&v->source, v->axis, L, vec2(0.0f), depth);
+    vec2 a = water_caustics_shift(&v->source, v->axis, normalize(L + across * SUN_RADIUS), vec2(0.0f), depth);
+    vec2 b = water_caustics_shift(&v->source, v->axis, normalize(L + up * SUN_RADIUS), vec2(0.0f), depth);
+    a = a - still;
+    b = b - still;
+    return (a * a + b * b) * 0.25f;
+}
+
+/* All but the middle. */
+static caustic_plan plan_for(const view *v, float texel_m, float depth)
+{
+    const vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
+    water_slopes slopes = water_slopes_at(v->s, texel_m);
+    vec2 spread = variance_by_slopes(v, slopes.covariance - least, depth) + variance_by_disc(v, depth);
+    vec2 moved = variance_by_slopes(v, slopes.resolved, depth);
+    const float *axis = v->axis;
+    vec2 still = water_caustics_shift(&v->source, axis, v->source.L, vec2(0.0f), 1.0f);
+    float heave = 1.0f + length(still); /* m that light moves with a wave of 1 m */
+    return (caustic_plan){
+        .texel_m = texel_m,
+        .sigma_m = {sqrt(max(spread[0], 0.0f)), sqrt(max(spread[1], 0.0f))},
+        .margin_m = 3.0f * (sqrt(max(moved[0] + moved[1], 0.0f)) + heave * v->s->march.deviation_m)};
+}
+
+/* Around as much of what is seen as it covers, from the nearest place on. */
+static void place_layer(const view *v, caustic_plan *p)
+{
+    double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
+    const double size = 0.8 * (double)p->texel_m * CAUSTIC_SIZE;
+    double a = (double)v->axis[0], b = (double)v->axis[1];
+    for (uint32_t i = 0; i < v->count; i++) {
+        double X = v->places[i].X, Z = v->places[i].Z, at[2] = {X * a + Z * b, Z * a - X * b};
+        double low[2], high[2];
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(least[k], at[k]);
+            high[k] = fmax(most[k], at[k]);
+        }
+        if (high[0] - low[0] > size || high[1] - low[1] > size)
+            break;
+        for (int k = 0; k < 2; k++) {
+            least[k] = low[k];
+            most[k] = high[k];
+        }
+    }
+    const double step = 2.0 * (double)p->texel_m; /* so that an eye that moves sees the same points */
+    double u = step * (floor)(0.5 * (least[0] + most[0]) / step),
+           w = step * (floor)(0.5 * (least[1] + most[1]) / step);
+    p->middle[0] = u * a - w * b;
+    p->middle[1] = u * b + w * a;
+}
+
+/* Of the finest layer: a power of 2 that shows what pixels do, and no finer than light is focused, or than waves let see the bed;
+ * not mostly margin. */
+static float finest_texel(const view *v)
+{
+    int power = (int)ceilf(log2(clamp(v->places[0].width_m, 1e-4f, 1e4f)));
+    for (; power < 14; power++) {
+        caustic_plan p = plan_for(v, exp2((float)power), v->depth_m);
+        if (p.texel_m >= 0.5f * min(p.sigma_m[0], p.sigma_m[1]) &&
+            p.margin_m <= 0.25f * CAUSTIC_SIZE * p.texel_m)
+            break;
+    }
+    return exp2((float)power);
+}
+
+/* ---- all ---- */
+
+static bool has_caustics(const water_setup *s)
+{
+    const facet_sea_look *look = &s->desc->look;
+    bool is_whole = !look->before && (look->stage == 0 || look->stage == 5);
+    return is_whole && !look->no_caustics && water_has_bed(s) && s->sea->waves.tile_count > 0 &&
+           s->light.L[1] > 0.0f && max(max(s->beam[0], s->beam[1]), s->beam[2]) > 0.0f;
+}
+
+static void begin(view *v, const water_setup *s)
+{
+    const facet_sea_bed *bed = &s->sea->desc.bed;
+    *v = (view){.s = s};
+    v->source = (caustic_source){.waves = &s->sea->waves,
+                                 .water = s->water,
+                                 .L = s->light.L,
+                                 .bed_height = water_bed_height(bed, 0.0, 0.0),
+                                 .bed_rise = {water_bed_rise(bed, vec3(1.0f, 0.0f, 0.0f)),
+                                              water_bed_rise(bed, vec3(0.0f, 0.0f, 1.0f))},
+                                 .thread_count = s->desc->render.thread_count,
+                                 .allocator = s->desc->render.allocator};
+    float level = sqrt(s->light.L[0] * s->light.L[0] + s->light.L[2] * s->light.L[2]);
+    v->axis[0] = level > 1e-4f ? s->light.L[0] / level : 1.0f;
+    v->axis[1] = level > 1e-4f ? s->light.L[2] / level : 0.0f;
+    look_around(v);
+}
+
+facet_result caustic_map_of_picture(const water_setup *s, caustic_map *map, facet_error *error)
+{
+    *map = (caustic_map){.is_there = false};
+    if (!has_caustics(s))
+        return FACET_OK;
+    view v;
+    begin(&v, s);
+    const caustic_source *source = &v.source;
+    double closing = source->bed_rise[0] * -(double)s->sunward[0] +
+                     source->bed_rise[1] * -(double)s->sunward[2] + (double)s->sunward[1];
+    if (closing < 0.1 || !is_worth_it(&v)) /* less: light goes along the bed */
+        return FACET_OK;
+    caustic_plan plans[CAUSTIC_LAYERS];
+    float texel = finest_texel(&v);
+    for (uint32_t l = 0; l < CAUSTIC_LAYERS; l++, texel *= CAUSTIC_WIDER) {
+        plans[l] = plan_for(&v, texel, v.depth_m);
+        place_layer(&v, &plans[l]);
+    }
+    return water_caustics_fill(source, v.axis, plans, map, error);
+}
