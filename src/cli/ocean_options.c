@@ -253,6 +253,7 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
         .perceptual_roughness = (float)option_number(c, OPT_ROUGHNESS, 0.0),
         .no_glints = is_given(c, OPT_NO_GLINTS),
         .no_foam = is_given(c, OPT_NO_FOAM),
+        .no_caustics = is_given(c, OPT_NO_CAUSTICS),
         .stage = (uint32_t)option_number(c, OPT_STAGE, 0.0),
         .clamp = (float)option_number(c, OPT_CLAMP, 0.0),
     };
@@ -265,7 +266,7 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
     o->desc.integrator = integrators[option_choice(c, OPT_RENDERER, 0)];
     static const option_id preview_only[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,   OPT_ROUGHNESS,
                                              OPT_NORMALS, OPT_MASKING,      OPT_FRESNEL, OPT_NO_GLINTS,
-                                             OPT_NO_FOAM, OPT_WITH,         OPT_CLAMP};
+                                             OPT_NO_FOAM, OPT_NO_CAUSTICS,  OPT_WITH,    OPT_CLAMP};
     for (size_t i = 0; i < sizeof preview_only / sizeof *preview_only; i++)
         if (o->desc.integrator == FACET_INTEGRATOR_PATH && is_given(c, preview_only[i]))
             return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path",

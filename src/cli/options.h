@@ -182,6 +182,7 @@ typedef enum option_id {
     OPT_FRESNEL,
     OPT_NO_GLINTS,
     OPT_NO_FOAM,
+    OPT_NO_CAUSTICS,
     OPT_SWEEP,
     OPT_WITH,
     OPT_INFO,

@@ -210,6 +210,7 @@ expect 2 ocean --eye 0,1,0 --height-of-eye 2 -o a.png
 expect 2 ocean --target 0,1,0 --heading 2 -o a.png
 expect 2 ocean --before A --stage 2 -o a.png
 expect 2 ocean --renderer path --no-foam -o a.png
+expect 2 ocean --renderer path --no-caustics -o a.png
 says "says nothing to --renderer path"
 expect 2 ocean -o a.gif
 expect 2 ocean extra -o a.png
