@@ -973,9 +973,8 @@ FN vec3 probe_water_place(int which, vec2 u)
                vec3(extent[0], extent[1], water_footprint(u[0], V[1] * u[1], 0.3f));
     }
     if (which == 118) {
-        WaterFoam foam = water_foam_mix(0.2f * u[0], 0.5f * u[1]);
         return vec3(1.0f + foam_share(0.6f * u[0] - 0.1f, 0.01f + 0.05f * u[1], 0.4f),
-                    foam.share + foam.albedo + normal_below(3.0f * u[0] - 1.5f) +
+                    2.0f * water_foam_cover(0.2f * u[0], 0.5f * u[1]) + normal_below(3.0f * u[0] - 1.5f) +
                         foam_lace(0.9f * u[0], u[1], 0.3f) + foam_thickness(0.05f + 0.9f * u[0], u[1], 0.2f),
                     water_passing(C, light.L) + wave_jacobian(D));
     }

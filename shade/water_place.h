@@ -128,20 +128,13 @@ FN float foam_lace(float share, float mean, float variance)
     return normal_below((z - mean) * scale) + normal_below((z + mean) * scale) - 1.0f;
 }
 
-/* Share of a footprint under foam, of which shares are fresh and old; and albedo over that of fresh foam: old foam gets thin. Koepke
- * 1984: 0.22 is the mean of a patch's life, 0.55 its begin. */
-STRUCT(WaterFoam)
+/* Share of a footprint that foam hides, of which shares are under fresh and old foam. Old foam gets thin: water is seen between its
+ * bubbles, so that a patch reflects 0.22 over its life and 0.55 in the beginning. Koepke 1984. */
+FN float water_foam_cover(float fresh, float old)
 {
-    float share;
-    float albedo;
-};
-FN WaterFoam water_foam_mix(float fresh, float old)
-{
-    WaterFoam r;
-    r.share = 1.0f - (1.0f - fresh) * (1.0f - old);
-    float new_share = clamp(fresh / max(r.share, 1e-20f) + old * old, 0.0f, 1.0f);
-    r.albedo = sel(r.share > 0.0f, mix(0.4f, 1.0f, new_share), 1.0f);
-    return r;
+    float share = 1.0f - (1.0f - fresh) * (1.0f - old);
+    float new_share = clamp(fresh / max(share, 1e-20f) + old * old, 0.0f, 1.0f);
+    return share * mix(0.4f, 1.0f, new_share);
 }
 
 /* ---- what comes from below ---- */

@@ -72,9 +72,10 @@ static void test_foam(void **state)
         expect_near(share, foam_integral(c[0], c[1], c[2]), 2e-3, "case %d", i);
     }
     assert_true(foam_share(0.6f, 0.0f, 0.5f) == 1.0f && foam_share(0.4f, 0.0f, 0.5f) == 0.0f);
-    WaterFoam none = water_foam_mix(0.0f, 0.0f), all = water_foam_mix(1.0f, 0.3f);
-    assert_true(none.share == 0.0f && none.albedo == 1.0f);
-    assert_true(all.share == 1.0f && all.albedo == 1.0f);
+    assert_true(water_foam_cover(0.0f, 0.0f) == 0.0f && water_foam_cover(1.0f, 0.3f) == 1.0f);
+    assert_true(water_foam_cover(0.3f, 0.0f) == 0.3f); /* fresh foam hides what it is on */
+    expect_relative(water_foam_cover(0.0f, 0.01f) * 0.55f, 0.0022, 1e-3,
+                    "thin foam"); /* reflects 0.22 of its area */
 }
 
 /* Lace covers its share where nothing of the field is seen, and its mean over the field is that share. */

@@ -71,7 +71,6 @@ vec3 sea_shade(SeaPlace p)
     float sigma = sigma_towards(p.point.covariance - least, p.point.N, p.V);
     if (sigma > 1e-6)
         means = sea_means(NdotV, sigma);
-    w.foam_albedo *= p.foam_albedo;
     WaterMirror m = water_mirror(w, p.point, p.V, means.x, means.y, means.z, means.w);
     m.escape *= water_passing(p.resolved, normalize(m.R + vec3(0.0, 1e-4, 0.0)));
     vec3 sky = sea_sky_reflected(m.R, m.perceptual_roughness);
@@ -94,7 +93,7 @@ vec3 sea_shade_below(SeaPlace p)
         L += sea_sky_reflected(window.outside, roughness_from_slopes(p.point.covariance * 0.1)) * window.gain;
         L += water_sun_through(w, p.point.covariance, light, window.outside, window.gain);
     }
-    L = mix(L, light.downwelling * (w.foam_albedo * p.foam_albedo * INV_PI), p.point.foam);
+    L = mix(L, light.downwelling * (w.foam_albedo * INV_PI), p.point.foam);
     return water_through(w, light.downwelling, sea_beam.xyz, sea_sunward.xyz, L, max(-sea_eye.x, 0.0), p.d, p.t);
 }
 

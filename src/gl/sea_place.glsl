@@ -13,7 +13,6 @@ struct SeaPlace
     float height;     /* of waves, m */
     vec3 resolved;    /* slopes that the footprint resolves */
     vec2 moments;     /* k4, omega of the others */
-    float foam_albedo;
     WaterPoint point;
 };
 
@@ -157,11 +156,9 @@ SeaPlace sea_place(vec3 d, vec4 seen)
 #endif
     p.point.covariance = hidden.xyz;
     p.point.foam = 0.0;
-    p.foam_albedo = 1.0;
 #ifdef HAS_FOAM
-    WaterFoam foam = water_foam_mix(foam_share(-(waves.D.x + waves.D.y), hidden.w, sea_foam_at.x), sea_old_foam(rest, footprint));
-    p.point.foam = foam.share;
-    p.foam_albedo = foam.albedo;
+    float fresh = foam_share(-(waves.D.x + waves.D.y), hidden.w, sea_foam_at.x);
+    p.point.foam = water_foam_cover(fresh, sea_old_foam(rest, footprint));
 #endif
     return p;
 }

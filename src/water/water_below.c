@@ -69,7 +69,7 @@ static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 
         L = L + water_sky_reflected(&s->sky, window.outside, perceptual_roughness) * window.gain;
         L = L + water_sun_through(s->water, p->point.covariance, s->light, window.outside, window.gain);
     }
-    vec3 foam = s->light.downwelling * (s->water.foam_albedo * p->foam_albedo * INV_PI);
+    vec3 foam = s->light.downwelling * (s->water.foam_albedo * INV_PI);
     return mix(L, foam, p->point.foam);
 }
 

@@ -10,20 +10,15 @@ float water_march_footprint(const water_march *m, float width_m, double rise)
     return water_footprint(width_m, (float)rise, m->deviation_m);
 }
 
-/* Share of the footprint under foam, and *albedo: of that, over that of fresh foam. */
-static float foam_at(const water_setup *s, const water_place *p, float convergence, float footprint_m,
-                     float *albedo)
+/* Share of the footprint that foam hides. */
+static float foam_at(const water_setup *s, const water_place *p, float convergence, float footprint_m)
 {
     const facet_sea_look *look = &s->desc->look;
     const foam_rule *rule = &s->sea->foam;
-    *albedo = 1.0f;
     if (look->no_foam || look->stage == 4 || !(rule->threshold < INFINITY))
         return 0.0f;
     float fresh = foam_coverage(rule, convergence, p->slopes.convergence_variance, rule->active_threshold);
-    float old = waves_foam_at(&s->foam, p->rest[0], p->rest[1], footprint_m);
-    WaterFoam foam = water_foam_mix(fresh, old);
-    *albedo = foam.albedo;
-    return foam.share;
+    return water_foam_cover(fresh, waves_foam_at(&s->foam, p->rest[0], p->rest[1], footprint_m));
 }
 
 /* ---- slopes that samples see ---- */
@@ -99,7 +94,7 @@ static void finish(const water_setup *s, const march_ray *ray, const sums *mean,
     p->point.N = normal_from_slope(mean->slope);
     p->point.N = ray->is_below ? p->point.N : water_faced(p->point.N, p->V);
     p->point.covariance = p->slopes.covariance;
-    p->point.foam = foam_at(s, p, mean->convergence, footprint_m, &p->foam_albedo);
+    p->point.foam = foam_at(s, p, mean->convergence, footprint_m);
 }
 
 water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit)

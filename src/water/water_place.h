@@ -13,7 +13,6 @@ typedef struct water_place {
     float footprint_m;   /* across the ray */
     water_slopes slopes; /* beyond the footprint */
     WaterPoint point;    /* N faces V */
-    float foam_albedo;   /* over that of fresh foam */
     float height_m;      /* of the waves */
     float
         cosine; /* about N.V, waves of all lengths considered: how much longer the footprint is on the water */

@@ -68,7 +68,6 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
     if (sigma > 1e-6f)
         water_table_at(&s->table, NdotV, sigma, means);
     Water w = s->water;
-    w.foam_albedo *= p->foam_albedo;
     WaterMirror m = water_mirror(w, p->point, p->V, means[0], means[1], means[2], means[3]);
     m.escape *= water_passing(p->slopes.resolved, normalize(m.R + vec3(0.0f, 1e-4f, 0.0f)));
     vec3 sky =
