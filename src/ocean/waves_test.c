@@ -184,7 +184,7 @@ static void loops_close(void **state)
 {
     (void)state;
     facet_sea_desc d = desc_of(32, 2, 5);
-    d.loop_s = 60.0f;
+    d.loop_s = 60.0;
     waves w = waves_of(d);
     size_t size = texel_count(&w.tiles[1]) * WAVE_FIELDS * sizeof(float);
     float *before = malloc(size);
