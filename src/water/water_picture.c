@@ -43,7 +43,7 @@ static vec3 disc_at(const sky_drawing *s, float x, float y)
 static vec3 texel_of(const sky_drawing *s, uint32_t layer, uint32_t row, uint32_t column)
 {
     float v = ((float)row + 0.5f) / SEA_SKY_HEIGHT, u = ((float)column + 0.5f) / SEA_SKY_WIDTH;
-    float horizon = acos(horizon_mu(s->sky.eye_km));
+    float horizon = s->sky.horizon_rad;
     switch (layer) {
     case SEA_SKY_SEEN:
         return water_sky_seen(&s->sky, direction_of(&s->sky, column, horizon * (1.0f - v * v)));

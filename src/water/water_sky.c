@@ -1,4 +1,4 @@
-/* water_sky.c - see water_sky.h. */
+/* water_sky.c - makes what water_sky.h has; water_sky_look.c looks it up. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,6 @@ static const float LEAST_EYE_KM = 0.001f; /* lower eyes see no farther in a tabl
 static const float MOST_EYE_KM = 50.0f;
 static const float SAME_VIEW_KM =
     0.05f; /* up to which the eye's sky is that of the sea, but for the horizon */
-static const float LIMB_DARKENING = 0.6f; /* in green; Cox 2000 */
 
 static inline float luminance_of(vec3 c)
 {
@@ -105,11 +104,6 @@ static facet_result make_views(const facet_sea_render_desc *desc, water_sky *s, 
     return result;
 }
 
-static const sky_view *view_of_sea(const water_sky *s)
-{
-    return s->low.rows ? &s->low : &s->eye;
-}
-
 static void light_by_air(const facet_sky_desc *sky, water_sky *s)
 {
     vec3 share[SKY_HALVES];
@@ -158,7 +152,7 @@ static facet_result use_views(const facet_sea_render_desc *desc, water_sky *s, f
     if (result == FACET_OK)
         result = make_environment(&r->allocator, 2 * PICTURE_HEIGHT, PICTURE_HEIGHT, &s->mirrored, error);
     if (result == FACET_OK)
-        result = sky_picture_atmosphere(view_of_sea(s), desc->sky.sun_azimuth_rad, &r->allocator,
+        result = sky_picture_atmosphere(water_sky_low(s), desc->sky.sun_azimuth_rad, &r->allocator,
                                         r->thread_count, &s->mirrored->picture, error);
     if (result == FACET_OK)
         result = prepare_reflections(desc, s, error);
@@ -265,6 +259,9 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
     if (result != FACET_OK)
         return result;
     s->eye_km = clamp(eye_height_m * 0.001f, LEAST_EYE_KM, MOST_EYE_KM);
+    s->horizon_mu = horizon_mu(s->eye_km);
+    s->horizon_rad = acos(s->horizon_mu);
+    s->density_to_sea = water_sky_density(s->eye_km, 0.0f);
     if (desc->render.environment) {
         rotate(&desc->render, s);
         result = use_picture(desc, desc->render.environment, rows_per_rad, s, error);
@@ -302,127 +299,4 @@ void water_sky_destroy(water_sky *s)
     if (s->mirrored)
         environment_release(s->mirrored);
     memset(s, 0, sizeof *s);
-}
-
-/* ---- lookups ---- */
-
-static vec3 view_at(const water_sky *s, const sky_view *v, vec3 d, float least_angle, float most_angle)
-{
-    float angle = equirect_atan2(sqrt(d[0] * d[0] + d[2] * d[2]), d[1]);
-    sky_azimuth azimuth = sky_view_azimuth((double)equirect_atan2(d[2], d[0]) - s->sun_longitude);
-    return sky_view_at(v, clamp(angle, least_angle, most_angle), &azimuth, clamp(dot(d, s->L), -1.0f, 1.0f)) *
-           s->scale;
-}
-
-static vec3 rotated(const water_sky *s, vec3 d)
-{
-    return vec3(d[0] * s->rotation_cos - d[2] * s->rotation_sin, d[1],
-                d[0] * s->rotation_sin + d[2] * s->rotation_cos);
-}
-
-static vec3 picture_at(const water_sky *s, vec3 d, float perceptual_roughness)
-{
-    vec3 r = rotated(s, d);
-    const float R[3] = {r[0], r[1], r[2]};
-    float out[3];
-    ibl_specular(s->reflected, R, perceptual_roughness, out);
-    return vec3(out[0], out[1], out[2]) * s->scale;
-}
-
-/* Limb darkening: 1 - u (1 - sqrt(1 - r^2)), over its mean 1 - u / 3; and the color that the air leaves at this height. */
-static vec3 disc_through_air(const water_sky *s, vec3 d, float r2)
-{
-    float elevation = asin(clamp(d[1], -1.0f, 1.0f));
-    float x = (elevation - s->disc.elevation_rad) / SUN_RADIUS * 0.5f + 0.5f;
-    x = clamp(x, 0.0f, 1.0f) * (float)(SKY_SUN_NODES - 1);
-    int node = (int)x < SKY_SUN_NODES - 2 ? (int)x : SKY_SUN_NODES - 2;
-    vec3 light = max(mix(s->disc.nodes[node], s->disc.nodes[node + 1], x - (float)node), 0.0f);
-    float limb =
-        (1.0f - LIMB_DARKENING * (1.0f - sqrt(max(1.0f - r2, 0.0f)))) / (1.0f - LIMB_DARKENING / 3.0f);
-    return elevation < s->disc.horizon_rad ? vec3(0.0f) : light * (limb * s->scale / SUN_SOLID_ANGLE);
-}
-
-vec3 water_sky_disc(const water_sky *s, vec3 d)
-{
-    vec3 off = d - s->L;
-    float r2 = dot(off, off) / max(s->disc_radius * s->disc_radius, 1e-12f);
-    if (s->disc_radius <= 0.0f || r2 >= 1.0f)
-        return vec3(0.0f);
-    return s->has_views ? disc_through_air(s, d, r2) : s->disc_radiance;
-}
-
-vec3 water_sky_seen(const water_sky *s, vec3 d)
-{
-    vec3 disc = water_sky_disc(s, d);
-    if (s->has_views) {
-        float horizon = acos(horizon_mu(s->eye_km));
-        return view_at(s, &s->eye, d, 0.0f, horizon) + disc;
-    }
-    vec3 r = rotated(s, normalize(vec3(d[0], max(d[1], 0.0f), d[2])));
-    const float direction[3] = {r[0], r[1], r[2]};
-    float out[3];
-    ibl_background(s->background, direction, 0.0f, out);
-    return vec3(out[0], out[1], out[2]) * s->scale + disc;
-}
-
-vec3 water_sky_reflected(const water_sky *s, vec3 R, float perceptual_roughness)
-{
-    /* Lobes narrower than 0.02 in alpha are as good as mirrors under a sky without a disc; a picture's texels would show. */
-    const float as_mirror = 0.14f;
-    vec3 up = vec3(R[0], abs(R[1]), R[2]);
-    float share = s->has_views ? clamp(perceptual_roughness / as_mirror, 0.0f, 1.0f) : 1.0f;
-    vec3 sum = vec3(0.0f);
-    if (share < 1.0f)
-        sum = view_at(s, view_of_sea(s), up, 0.0f, 0.5f * PI) * (1.0f - share);
-    if (share > 0.0f)
-        sum = sum + picture_at(s, up, perceptual_roughness) * share;
-    return sum;
-}
-
-/* ---- air ---- */
-
-/* (1 - e^(-x)) / x for x >= 0. */
-static float mean_decay(float x)
-{
-    return air_path1(x, 1.0f);
-}
-
-/* Mean of e^(-h / scale) between two heights (km). */
-static float mean_density(float a_km, float b_km, float scale_km)
-{
-    float low = min(a_km, b_km), high = max(a_km, b_km);
-    return exp(-low / scale_km) * mean_decay((high - low) / scale_km);
-}
-
-static vec3 transmittance_over(const water_sky *s, float length_km, float height_km)
-{
-    float from = s->eye_km, to = max(height_km, 0.0f);
-    vec3 column = vec3(mean_density(from, to, 8.0f), mean_density(from, to, 1.2f), 0.0f) * length_km;
-    vec3 share[SKY_HALVES];
-    for (int half = 0; half < SKY_HALVES; half++)
-        share[half] = air_transmittance(s->air[half], column);
-    vec3 color = atmosphere_color(s->air[0], share[0]) + atmosphere_color(s->air[1], share[1]);
-    return clamp(color / s->white, 0.0f, 1.0f);
-}
-
-/* The view holds the air's light as far as the sea; nearer things have as much less as less of what is behind is lost. */
-water_air water_sky_air(const water_sky *s, vec3 d, float distance_m, float height_m)
-{
-    float length_km = max(distance_m, 0.0f) * 0.001f;
-    water_air air = {transmittance_over(s, length_km, height_m * 0.001f), vec3(0.0f)};
-    vec3 lost = 1.0f - air.transmittance;
-    if (!s->has_views) {
-        air.light = picture_at(s, normalize(vec3(d[0], 0.0f, d[2]) + vec3(1e-9f, 0.0f, 0.0f)), 0.1f) * lost;
-        return air;
-    }
-    float horizon = horizon_mu(s->eye_km), mu = min(d[1], horizon);
-    float whole_km = ray_to_ground(s->eye_km, mu);
-    if (whole_km < 0.0f)
-        whole_km = ray_to_ground(s->eye_km, horizon - 1e-6f);
-    whole_km = max(whole_km, 1e-4f);
-    vec3 whole = 1.0f - transmittance_over(s, whole_km, 0.0f);
-    vec3 share = min(lost / max(whole, 1e-12f), 1.0f);
-    float horizon_angle = acos(horizon);
-    air.light = view_at(s, &s->eye, d, horizon_angle + 1e-5f, PI) * share;
-    return air;
 }

@@ -27,11 +27,19 @@ typedef struct water_sky {
     float rotation_cos, rotation_sin;        /* of the picture */
     float scale;                             /* of all light */
     float eye_km;                            /* height that eye is made for */
+    float horizon_mu, horizon_rad;           /* where that eye sees it: cosine and angle from the zenith */
+    vec2 density_to_sea;                     /* water_sky_density() from there down to the sea */
     vec3 white;                              /* color of sunlight outside the air, lx */
     vec3 L;                                  /* to the sun, unit */
     vec3 sun_irradiance;                     /* lx, facing it, at the sea */
     vec3 sky_irradiance;                     /* lx, on a horizontal plane */
 } water_sky;
+
+/* What lights the surface itself. */
+static inline const sky_view *water_sky_low(const water_sky *s)
+{
+    return s->low.rows ? &s->low : &s->eye;
+}
 
 /* For a desc whose members are resolved, seen from a height; rows_per_rad: pixels, how fine a picture is seen. What comes back, even
  * after a failure, is to be destroyed. FACET_ERROR_MEMORY, _ARGUMENT: a number in desc->sky. */
@@ -50,6 +58,9 @@ vec3 water_sky_disc(const water_sky *s, vec3 d);
 
 /* Radiance around the unit direction R (below the horizon: mirrored) over the lobe of a perceptual roughness, without the sun. */
 vec3 water_sky_reflected(const water_sky *s, vec3 R, float perceptual_roughness);
+
+/* Mean densities between two heights (km), over those at the sea: of air and of haze. */
+vec2 water_sky_density(float a_km, float b_km);
 
 /* The air on the way from the eye along the unit direction d to what is distance_m away, height_m high. */
 typedef struct water_air {
