@@ -99,7 +99,7 @@ static void draw(gl_sea *renderer, facet_sea *sea, const facet_sea_render_desc *
     double begin = clock_seconds(), processor = processor_seconds();
     waves_set_time(&sea->waves, time_s);
     double stepped = clock_seconds();
-    check(water_picture_create(sea, desc, &picture, &stats, &error), &error);
+    check(water_picture_create(sea, NULL, desc, &picture, &stats, &error), &error);
     double prepared = clock_seconds(), unlit = processor_seconds();
     check(gl_sea_draw(renderer, water_picture_get(picture), target, &stats, &error), &error);
     double end = clock_seconds(), drawn = processor_seconds();
@@ -146,14 +146,12 @@ int main(int argc, char **argv)
     facet_sea *sea = make_sea();
     facet_sea_render_desc desc = {.sky = {.sun_elevation_rad = 0.384f, .sun_azimuth_rad = -0.63f}};
     const facet_camera camera = facet_sea_camera(sea, 0.0f, 0.0f);
-    double ev100;
-    check(water_exposure_ev100(&desc, &ev100, &error), &error);
     desc.render = (facet_render_desc){.width = options.width,
                                       .height = options.height,
                                       .samples = 1,
                                       .camera = &camera,
                                       .crop = {0, 0, options.width, options.height},
-                                      .exposure_ev = (float)water_exposure_ev(ev100),
+                                      .exposure_ev = (float)water_exposure_ev(13.3),
                                       .integrator = FACET_INTEGRATOR_GL,
                                       .thread_count = facet_thread_count()};
     film target = {.width = 0};

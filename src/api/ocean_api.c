@@ -268,8 +268,6 @@ static facet_result resolve_sea(const facet_scene *scene, const facet_sea_render
     if (result == FACET_OK && integrator == FACET_INTEGRATOR_PATH &&
         (scene || memcmp(&desc->look, &physical, sizeof physical) != 0))
         result = fail(error, FACET_ERROR_ARGUMENT, "sea: path tracing knows no looks and no model in it");
-    if (result == FACET_OK && integrator == FACET_INTEGRATOR_GL && scene)
-        result = fail(error, FACET_ERROR_ARGUMENT, "sea: OpenGL draws no model in it");
     if (result == FACET_OK && integrator != FACET_INTEGRATOR_PATH && integrator != FACET_INTEGRATOR_PREVIEW &&
         integrator != FACET_INTEGRATOR_GL)
         result = fail(error, FACET_ERROR_ARGUMENT, "sea: integrator %d does not draw it", (int)integrator);
@@ -308,8 +306,8 @@ static facet_result trace_mesh(const facet_sea *sea, const facet_sea_render_desc
 }
 
 /* What the sea keeps is taken while it is in use: several threads may draw one sea. */
-static facet_result draw_gl(const facet_sea *sea, const facet_sea_render_desc *d, facet_image *image,
-                            facet_error *error)
+static facet_result draw_gl(const facet_sea *sea, const facet_scene *scene, const facet_sea_render_desc *d,
+                            facet_image *image, facet_error *error)
 {
     facet_sea *kept = (facet_sea *)(uintptr_t)sea;
     const gl_entry *gl;
@@ -321,7 +319,7 @@ static facet_result draw_gl(const facet_sea *sea, const facet_sea_render_desc *d
     if (!renderer)
         result = gl->create_sea(&sea->desc.allocator, &renderer, error);
     if (result == FACET_OK)
-        result = water_picture_create(sea, d, &picture, &image->stats, error);
+        result = water_picture_create(sea, scene, d, &picture, &image->stats, error);
     if (result == FACET_OK)
         result = gl->draw_sea(renderer, water_picture_get(picture), &image->film, &image->stats, error);
     water_picture_destroy(picture);
@@ -337,7 +335,7 @@ static facet_result draw(const facet_sea *sea, const facet_scene *scene, const f
     facet_result result = film_create(&r->allocator, r->crop[2], r->crop[3], 0, &image->film, error);
     if (result == FACET_OK)
         result = r->integrator == FACET_INTEGRATOR_GL
-                     ? draw_gl(sea, d, image, error)
+                     ? draw_gl(sea, scene, d, image, error)
                      : water_render(sea, scene, d, &image->film, &image->stats, error);
     if (result == FACET_OK)
         film_develop(&image->film, r->tonemap, NULL, r->thread_count);

@@ -84,8 +84,9 @@ static const char *const no_features[] = {NULL};
 static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
-static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE",  "IS_PAINTED", "IS_BELOW",  "HAS_BED",
-                                           "HAS_FOAM",    "HAS_GLINTS", "HAS_CUBIC",  "IS_BESIDE", NULL};
+static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE", "IS_PAINTED", "IS_BELOW",
+                                           "HAS_BED",     "HAS_FOAM",  "HAS_GLINTS", "HAS_CUBIC",
+                                           "IS_BESIDE",   "HAS_MODEL", NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
 static const struct {
@@ -169,7 +170,7 @@ static const struct {
                      {"water_place", "water_caustic", "water_before", "glint", "ibl", "surface"},
                      {"sea_light.glsl", "light_block.glsl", "environment.glsl", "sea_block.glsl",
                       "sea_waves.glsl", "sea_caustics.glsl", "sea_sky.glsl", "sea_place.glsl",
-                      "sea_look.glsl"},
+                      "sea_model.glsl", "sea_look.glsl"},
                      sea_features,
                      {0}},
 };
@@ -198,6 +199,11 @@ static const struct {
                 {"u_sea_patches", GL_UNIT_SEA_PATCHES},
                 {"u_sea_sky", GL_UNIT_SEA_SKY},
                 {"u_sea_means", GL_UNIT_SEA_MEANS},
+                {"u_sea_model", GL_UNIT_SEA_MODEL},
+                {"u_sea_model_depth", GL_UNIT_SEA_MODEL_DEPTH},
+                {"u_sea_mirrored", GL_UNIT_SEA_MIRRORED},
+                {"u_sea_mirrored_depth", GL_UNIT_SEA_MIRRORED_DEPTH},
+                {"u_sea_touch", GL_UNIT_SEA_TOUCH},
                 {"u_sea_grid", GL_UNIT_SEA_GRID},
                 {"u_sea_rest", GL_UNIT_SEA_SEEN},
                 {"u_sea_seen", GL_UNIT_SEA_SEEN},

@@ -15,6 +15,7 @@
 #include "gl/gl_program.h"
 #include "gl/gl_sea_block.h"
 #include "gl/gl_sea_classes.h"
+#include "gl/gl_sea_model.h"
 #include "gl/gl_sea_textures.h"
 #include "gl/gl_target.h"
 #include "ibl/environment.h"
@@ -208,14 +209,15 @@ static uint64_t features_of(const sea_picture *p)
     bool has_bed = bed->depth_m > 0.0f && bed->depth_m < 1e30f;
     bool has_foam = is_shaded_whole && !look->no_foam && p->foam;
     bool has_glints = is_shaded_whole && !look->no_glints && !p->is_below;
-    return (p->background ? GL_SEA_HAS_PICTURE : 0u) |
+    return (p->background ? GL_SEA_HAS_PICTURE : 0u) | (p->model ? GL_SEA_HAS_MODEL : 0u) |
            (look->stage == 3 && !p->is_below ? GL_SEA_IS_PAINTED : 0u) |
            (p->is_below ? GL_SEA_IS_BELOW : 0u) | (has_bed ? GL_SEA_HAS_BED : 0u) |
            (has_foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);
 }
 
 /* Features that what is not water has, too. */
-static const uint64_t BESIDE = GL_SEA_HAS_PICTURE | GL_SEA_IS_BEFORE | GL_SEA_IS_BELOW | GL_SEA_HAS_BED;
+static const uint64_t BESIDE =
+    GL_SEA_HAS_PICTURE | GL_SEA_IS_BEFORE | GL_SEA_IS_BELOW | GL_SEA_HAS_BED | GL_SEA_HAS_MODEL;
 
 /* ---- passes ---- */
 
@@ -225,6 +227,9 @@ typedef struct drawing {
     const sea_picture *picture;
     camera_rays camera;
     gl_sea_fan fan;
+    gl_sea_block block;
+    gl_sea_model model;
+    bool has_model;
     GLuint grid, surface, sorting, smooth, linear, beside; /* programs */
     float *pattern, *pixels;
     film *film;
@@ -349,6 +354,8 @@ static void draw_view(const drawing *d)
     size_t count = (size_t)(d->fan.rows - 1) * (2 * (size_t)d->fan.columns + 2);
     glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
     glBindTexture(GL_TEXTURE_2D, s->seen.color);
+    if (d->has_model)
+        gl_sea_model_bind(&d->model);
     begin_pass(&s->target);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
@@ -379,6 +386,16 @@ static void add_tile(const drawing *d, const tile *t, uint32_t sample_count)
     }
 }
 
+/* And what was bound before. */
+static facet_result draw_model(drawing *d, const gl_view *view, facet_error *error)
+{
+    gl_sea *s = d->s;
+    facet_result result = gl_sea_model_draw(&d->model, d->picture, &d->camera, view, &d->block, error);
+    set_block(s->sea_buffer, GL_BLOCK_SEA, &d->block, sizeof d->block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, s->light_buffer);
+    return result;
+}
+
 static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
 {
     gl_sea *s = d->s;
@@ -394,6 +411,10 @@ static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
                               .width = t->width,
                               .height = t->height,
                               .jitter = {d->pattern[2 * i] - 0.5f, d->pattern[2 * i + 1] - 0.5f}};
+        if (d->has_model)
+            result = draw_model(d, &view, error);
+        if (result != FACET_OK)
+            return result;
         set_frame(d, &view);
         draw_view(d);
         gl_target_read(&s->target, 0, 0, 0, t->width, t->height, d->pixels);
@@ -436,7 +457,7 @@ static facet_result draw_tiles(drawing *d, double deadline_s, facet_error *error
 
 /* ---- all ---- */
 
-static facet_result prepare(drawing *d, facet_error *error)
+static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *error)
 {
     gl_sea *s = d->s;
     const sea_picture *p = d->picture;
@@ -452,10 +473,13 @@ static facet_result prepare(drawing *d, facet_error *error)
     if (result != FACET_OK)
         return result;
     d->fan = gl_sea_fan_of(p, &d->camera, (uint32_t)s->context.max_texture_size);
-    gl_sea_block block;
-    gl_sea_block_fill(p, &d->camera, &d->fan, &block);
-    set_block(s->sea_buffer, GL_BLOCK_SEA, &block, sizeof block);
-    result = update_light(s, p, error);
+    gl_sea_block_fill(p, &d->camera, &d->fan, &d->block);
+    d->has_model = (features_of(p) & GL_SEA_HAS_MODEL) != 0;
+    if (d->has_model)
+        result = gl_sea_model_begin(&d->model, &s->context, p, &d->camera, &d->block, stats, error);
+    if (result == FACET_OK)
+        result = update_light(s, p, error);
+    set_block(s->sea_buffer, GL_BLOCK_SEA, &d->block, sizeof d->block);
     if (result == FACET_OK)
         result = gl_sea_textures_update(&s->textures, &s->context, p, &d->camera, error);
     if (result == FACET_OK)
@@ -472,7 +496,7 @@ facet_result gl_sea_draw(gl_sea *s, const sea_picture *picture, film *target, fa
     drawing d = {.s = s, .picture = picture, .film = target};
     facet_result result = render_check_limits(r, "prepare", 0.0, deadline_s, error);
     if (result == FACET_OK)
-        result = prepare(&d, error);
+        result = prepare(&d, stats, error);
     double drawing_begin = clock_seconds();
     stats->geometry_s += drawing_begin - begin;
     if (result == FACET_OK)
@@ -485,6 +509,7 @@ facet_result gl_sea_draw(gl_sea *s, const sea_picture *picture, film *target, fa
     stats->total_s = stats->light_s + (clock_seconds() - begin);
     mem_free(d.pattern);
     mem_free(d.pixels);
+    gl_sea_model_end(&d.model);
     if (result == FACET_ERROR_MEMORY || s->context.is_lost)
         stop(s);
     gl_context_release(&s->context);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/test_effort.h"
+#include "cpu/preview_fixture.h"
 #include "gl/gl_sea.h"
 #include "water/water_exposure.h"
 #include "water/water_picture.h"
@@ -19,15 +20,25 @@ static facet_sea_desc small(float wind_mps)
     return desc;
 }
 
-static gl_sea *make_renderer(gl_api api)
+/* One for all tests of an API: programs take long to compile. */
+static gl_sea *renderers[3];
+
+static gl_sea *renderer_of(gl_api api)
 {
-    gl_sea *renderer;
     facet_error error;
-    if (gl_sea_create_api(api, NULL, &renderer, &error) != FACET_OK) {
+    if (!renderers[api] && gl_sea_create_api(api, NULL, &renderers[api], &error) != FACET_OK) {
         print_message("%s: skipped\n", error.message);
         skip();
     }
-    return renderer;
+    return renderers[api];
+}
+
+static int destroy_renderers(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        gl_sea_destroy(renderers[i]);
+    return 0;
 }
 
 static void expose(shot *s)
@@ -54,7 +65,7 @@ static void draw_gl(gl_sea *renderer, const facet_sea *sea, const shot *s, film 
     desc.render.crop[3] = HEIGHT;
     *out = (film){.width = 0};
     assert_int_equal(film_create(&desc.render.allocator, WIDTH, HEIGHT, 0, out, &error), FACET_OK);
-    if (water_picture_create(sea, &desc, &picture, &stats, &error) != FACET_OK)
+    if (water_picture_create(sea, s->scene, &desc, &picture, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
     if (gl_sea_draw(renderer, water_picture_get(picture), out, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
@@ -76,6 +87,22 @@ static double difference(const shot *s, const film *gl, bool is_light, double *c
     return sum / (3.0 * WIDTH * (HEIGHT - 1));
 }
 
+/* How far the preview's picture is from OpenGL's without the model: what a comparison would find if it were not drawn. */
+static double without_model(gl_sea *renderer, const facet_sea *sea, shot *s)
+{
+    film gl;
+    double contrast;
+    const facet_scene *scene = s->scene;
+    draw_shot(sea, s);
+    s->scene = NULL;
+    draw_gl(renderer, sea, s, &gl);
+    s->scene = scene;
+    double apart = difference(s, &gl, true, &contrast);
+    film_destroy(&gl);
+    film_destroy(&s->film);
+    return apart;
+}
+
 /* Draws both and says how far they are apart; a sea that is not flat shows waves. */
 static double compare(gl_sea *renderer, const facet_sea *sea, shot *s, const char *name)
 {
@@ -94,7 +121,7 @@ static double compare(gl_sea *renderer, const facet_sea *sea, shot *s, const cha
 
 static void compare_breeze(gl_api api)
 {
-    gl_sea *renderer = make_renderer(api);
+    gl_sea *renderer = renderer_of(api);
     facet_sea_desc desc = small(10.0f);
     facet_sea *sea = make_sea(&desc);
     shot s;
@@ -106,7 +133,6 @@ static void compare_breeze(gl_api api)
         assert_true(compare(renderer, sea, &s, "before") < 0.3);
     }
     sea_destroy(sea);
-    gl_sea_destroy(renderer);
 }
 
 static void opengl_draws_what_the_preview_does(void **state)
@@ -128,7 +154,7 @@ static void still_and_shallow_water(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = make_renderer(GL_API_ANY);
+    gl_sea *renderer = renderer_of(GL_API_CORE);
     facet_sea_desc calm = small(0.0f), shallow = small(3.0f);
     shallow.bed = (facet_sea_bed){
         .depth_m = 3.0f, .slope = 0.05f, .direction_rad = -1.2f, .albedo = {0.5f, 0.45f, 0.35f}};
@@ -142,7 +168,6 @@ static void still_and_shallow_water(void **state)
     assert_true(compare(renderer, seas[1], &s, "bed") < 0.2);
     for (int i = 0; i < 2; i++)
         sea_destroy(seas[i]);
-    gl_sea_destroy(renderer);
 }
 
 /* From in the water, and a part of a picture with several samples: the same places, whatever the part. */
@@ -151,7 +176,7 @@ static void parts_and_depths(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = make_renderer(GL_API_ANY);
+    gl_sea *renderer = renderer_of(GL_API_CORE);
     facet_sea_desc desc = small(5.0f);
     facet_sea *sea = make_sea(&desc);
     shot s;
@@ -167,13 +192,106 @@ static void parts_and_depths(void **state)
     s.desc.render.crop[3] = HEIGHT;
     assert_true(compare(renderer, sea, &s, "a part") < 1.5);
     sea_destroy(sea);
-    gl_sea_destroy(renderer);
+}
+
+/* A picture in the sky's place, turned, with a sun beside it. */
+static void environments(void **state)
+{
+    (void)state;
+    if (IS_SLOW)
+        skip();
+    gl_sea *renderer = renderer_of(GL_API_CORE);
+    facet_sea_desc desc = small(3.0f);
+    facet_sea *sea = make_sea(&desc);
+    facet_environment *studio;
+    assert_int_equal(facet_environment_create_studio(NULL, &studio, NULL), FACET_OK);
+    shot s;
+    make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.1f);
+    s.desc.render.environment = studio;
+    s.desc.render.environment_rotation_rad = 1.9f;
+    s.desc.render.environment_ev = 13.0f;
+    s.desc.render.sun = (facet_sun){
+        .azimuth_rad = 2.9f, .elevation_rad = 0.3f, .illuminance_lux = {60000.0f, 50000.0f, 40000.0f}};
+    expose(&s);
+    assert_true(compare(renderer, sea, &s, "a picture") < 0.3);
+    facet_environment_destroy(studio);
+    sea_destroy(sea);
+}
+
+/* Spheres of radius 1: one floats between the eye and the sun, one lies on the right below the surface, one hangs over it on the left. */
+static fixture spheres(void)
+{
+    fixture f = fixture_create();
+    scene_material material = scene_material_default();
+    material.base_color[1] = material.base_color[2] = 0.1f;
+    material.metallic = 0.0f;
+    uint32_t sphere = fixture_add_sphere(&f, 48, fixture_add_material(&f, material));
+    fixture_place(&f, sphere, 0.0f, 0.2f, -7.0f, 1.0f);
+    fixture_place(&f, sphere, 2.0f, -1.3f, -6.0f, 1.0f);
+    fixture_place(&f, sphere, -2.5f, 1.5f, -8.0f, 1.0f);
+    return f;
+}
+
+static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float down_rad, double bound)
+{
+    facet_sea_desc desc = small(wind_mps);
+    facet_sea *sea = make_sea(&desc);
+    fixture f = spheres();
+    shot s;
+    make_shot(&s, WIDTH, HEIGHT, eye_m, down_rad);
+    s.desc.sky.sun_azimuth_rad = 2.6f;
+    s.scene = f.scene;
+    expose(&s);
+    assert_true(compare(renderer, sea, &s, eye_m > 0.0f ? "spheres" : "spheres from below") < bound);
+    double without = without_model(renderer, sea, &s);
+    print_message("without them %.2f\n", without);
+    assert_true(without > 4.0 * bound);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
+static void models(void **state)
+{
+    (void)state;
+    if (IS_SLOW)
+        skip();
+    gl_sea *renderer = renderer_of(GL_API_CORE);
+    compare_model(renderer, 2.0f, 3.0f, 0.35f, 0.6);
+    compare_model(renderer, 0.0f, -2.0f, -0.2f, 0.1);
+}
+
+/* The same as a still of its time, whatever was drawn before. */
+static void frames_are_stills(void **state)
+{
+    (void)state;
+    facet_sea_desc desc = small(12.0f);
+    facet_sea *sea = make_sea(&desc);
+    gl_sea *renderer = renderer_of(GL_API_CORE);
+    shot s;
+    film frame, still;
+    make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.1f);
+    s.desc.render.camera = &s.camera;
+    expose(&s);
+    for (int i = 0; i < 3; i++) {
+        waves_set_time(&sea->waves, 0.7 * i);
+        draw_gl(renderer, sea, &s, &frame);
+        if (i < 2)
+            film_destroy(&frame);
+    }
+    facet_sea *again = make_sea(&desc);
+    waves_set_time(&again->waves, 1.4);
+    draw_gl(renderer, again, &s, &still);
+    assert_memory_equal(frame.layers[0].pixels, still.layers[0].pixels, WIDTH * HEIGHT * 4 * sizeof(float));
+    film_destroy(&frame);
+    film_destroy(&still);
+    sea_destroy(sea);
+    sea_destroy(again);
 }
 
 static void what_cannot_be_drawn_is_said(void **state)
 {
     (void)state;
-    gl_sea *renderer = make_renderer(GL_API_ANY);
+    gl_sea *renderer = renderer_of(GL_API_CORE);
     facet_sea_desc desc = small(0.0f);
     facet_sea *sea = make_sea(&desc);
     shot s;
@@ -188,21 +306,24 @@ static void what_cannot_be_drawn_is_said(void **state)
     s.desc.render.crop[3] = HEIGHT;
     s.desc.render.integrator = FACET_INTEGRATOR_GL;
     assert_int_equal(film_create(&s.desc.render.allocator, WIDTH, HEIGHT, 0, &s.film, &error), FACET_OK);
-    assert_int_equal(water_picture_create(sea, &s.desc, &picture, &stats, &error), FACET_OK);
+    assert_int_equal(water_picture_create(sea, NULL, &s.desc, &picture, &stats, &error), FACET_OK);
     assert_int_equal(gl_sea_draw(renderer, water_picture_get(picture), &s.film, &stats, &error),
                      FACET_ERROR_UNSUPPORTED);
     assert_true(strlen(error.message) > 10);
     water_picture_destroy(picture);
     film_destroy(&s.film);
     sea_destroy(sea);
-    gl_sea_destroy(renderer);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(opengl_draws_what_the_preview_does),
-        cmocka_unit_test(opengl_es_draws_what_the_preview_does), cmocka_unit_test(still_and_shallow_water),
-        cmocka_unit_test(parts_and_depths), cmocka_unit_test(what_cannot_be_drawn_is_said)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(opengl_draws_what_the_preview_does),
+                                       cmocka_unit_test(opengl_es_draws_what_the_preview_does),
+                                       cmocka_unit_test(still_and_shallow_water),
+                                       cmocka_unit_test(parts_and_depths),
+                                       cmocka_unit_test(environments),
+                                       cmocka_unit_test(models),
+                                       cmocka_unit_test(frames_are_stills),
+                                       cmocka_unit_test(what_cannot_be_drawn_is_said)};
+    return cmocka_run_group_tests(tests, NULL, destroy_renderers);
 }

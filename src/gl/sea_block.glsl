@@ -37,6 +37,13 @@ layout(std140) uniform Sea
     vec4 sea_caustic_axis;         /* of layers of sunlight on the bed; z: 1: there are some */
     vec4 sea_caustics[SEA_CAUSTIC_LAYERS]; /* middle from the eye, 2 / width, width of a texel */
     ivec4 sea_look;                /* stage, variant of before; 1: foam, sparkles of before */
+    /* of a model; places from the eye */
+    mat4 sea_mirror;       /* of places from the eye's mirror image */
+    vec4 sea_mirror_axis;  /* unit; w: 1: depth is reversed, rows run from the top */
+    vec4 sea_mirror_plane; /* nearness of a height at its depth; depth of the mirror image below the water, m */
+    vec4 sea_model_depth;  /* a, b of depth in clip space, a + b / depth; as sea_mirror_axis.w */
+    vec4 sea_model_ball;   /* around it: middle, radius */
+    vec4 sea_touch;        /* of the rectangle: x, z from the eye, 1 / lengths, 1/m */
 };
 
 Water sea_water()

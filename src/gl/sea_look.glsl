@@ -74,7 +74,17 @@ vec3 sea_shade(SeaPlace p)
     WaterMirror m = water_mirror(w, p.point, p.V, means.x, means.y, means.z, means.w);
     m.escape *= water_passing(p.resolved, normalize(m.R + vec3(0.0, 1e-4, 0.0)));
     vec3 sky = sea_sky_reflected(m.R, m.perceptual_roughness);
-    return water_radiance(water_parts(w, p.point, light, m, sky, sea_sun_seen(p, w, light), sea_from_below(p, w, light)));
+    vec3 below = sea_from_below(p, w, light);
+#ifdef HAS_MODEL
+    vec3 P = p.d * p.t;
+    vec4 mirrored = sea_model_mirrored(P, reflect(-p.V, p.point.N));
+    sky = sky * (1.0 - mirrored.w) + mirrored.xyz;
+    SeaModel model = sea_model_below(P, water_refracted(w, -p.V, p.point.N));
+    if (model.color.w > 0.0)
+        below = mix(below, sea_model_through_water(model, P, w, light), model.color.w);
+    light.sun_irradiance *= sea_touched(p.at.xz).y;
+#endif
+    return water_radiance(water_parts(w, p.point, light, m, sky, sea_sun_seen(p, w, light), below));
 }
 
 /* To an eye in the water. */

@@ -25,6 +25,13 @@ enum {
 };
 #define SEA_SKY_WAY_KM 20.0f
 
+/* What a model does to the water around it: over a rectangle of the plane, rows along z, texel middles at their places. */
+enum { SEA_TOUCH_EDGE = 192 };
+typedef struct sea_touch {
+    float dry;  /* 1: a hull keeps the sea out */
+    float open; /* share of the sun's light that passes the model */
+} sea_touch;
+
 typedef struct sea_picture {
     const facet_sea *sea;
     const facet_sea_render_desc *desc; /* resolved, with a camera */
@@ -45,6 +52,13 @@ typedef struct sea_picture {
     bool is_mirror_sharp; /* SEA_SKY_MIRRORED is what mirrors show; else the picture's light */
     const struct ibl_light *reflected, *background; /* filtered; background: of a picture, else NULL */
     float light_scale, rotation_cos, rotation_sin;  /* of both */
+    /* what floats */
+    const facet_scene *model;            /* NULL: nothing */
+    const facet_render_desc *model_desc; /* its light: the sky over the sea around it, the sun */
+    float model_low[3], model_high[3];   /* m */
+    float model_water_m;                 /* height of the water there */
+    const sea_touch *touch;              /* SEA_TOUCH_EDGE^2 */
+    float touch_low[2], touch_high[2];   /* x, z of its rectangle, m */
 } sea_picture;
 
 #endif

@@ -63,7 +63,7 @@ static bool is_made_for(const water_light *l, const facet_sea_render_desc *desc,
                         float rows_per_rad)
 {
     const facet_render_desc *a = &l->desc.render, *b = &desc->render;
-    return l->eye_height_m == eye_height_m && l->rows_per_rad == rows_per_rad &&
+    return l->eye_height_m == eye_height_m && (l->sky.has_views || l->rows_per_rad == rows_per_rad) &&
            l->desc.look.normals == desc->look.normals && is_same_sky(&l->desc.sky, &desc->sky) &&
            is_same_sun(&a->sun, &b->sun) && a->environment == b->environment &&
            a->environment_rotation_rad == b->environment_rotation_rad &&

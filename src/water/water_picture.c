@@ -2,6 +2,7 @@
 #include "water/water_picture.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -13,6 +14,7 @@
 struct water_picture {
     water_setup setup;
     sea_picture picture;
+    sea_touch *touch;
 };
 
 /* ---- the sky ---- */
@@ -89,6 +91,67 @@ static facet_result draw_sky(const water_setup *setup, sea_picture *p, facet_err
     return FACET_OK;
 }
 
+/* ---- a model ---- */
+
+typedef struct touching {
+    const water_setup *setup;
+    const sea_picture *picture;
+    sea_touch *touch;
+} touching;
+
+static void touch_rows(void *context, size_t begin, size_t end)
+{
+    const touching *t = context;
+    const sea_picture *p = t->picture;
+    double width = (double)(p->touch_high[0] - p->touch_low[0]) / SEA_TOUCH_EDGE;
+    double length = (double)(p->touch_high[1] - p->touch_low[1]) / SEA_TOUCH_EDGE;
+    vec3 L = t->setup->light.L;
+    for (size_t z = begin; z < end; z++)
+        for (size_t x = 0; x < SEA_TOUCH_EDGE; x++) {
+            double P[3] = {(double)p->touch_low[0] + ((double)x + 0.5) * width, 0.0,
+                           (double)p->touch_low[1] + ((double)z + 0.5) * length};
+            P[1] = (double)waves_height(&p->sea->waves, P[0], P[2], (float)fmin(width, length)) + 1e-3;
+            sea_touch *to = &t->touch[z * SEA_TOUCH_EDGE + x];
+            to->dry = water_model_is_dry(&t->setup->model, P) ? 1.0f : 0.0f;
+            to->open = L[1] > 0.0f ? water_model_opening(&t->setup->model, P, L) : 1.0f;
+        }
+}
+
+/* The model's bounds and the shadow that they cast on the water, no longer than eight times as they are wide; with an edge where nothing
+ * is touched. */
+static void choose_rectangle(const vec3 L, sea_picture *p)
+{
+    float above = max(p->model_high[1] - p->model_water_m, 0.0f);
+    float size = max(p->model_high[0] - p->model_low[0], p->model_high[2] - p->model_low[2]);
+    float way = L[1] > 0.0f ? min(above / L[1], 8.0f * max(size, above)) : 0.0f, edge = 0.05f * size + 0.01f;
+    for (int i = 0; i < 2; i++) {
+        float shift = -L[2 * i] * way;
+        p->touch_low[i] = p->model_low[2 * i] + min(shift, 0.0f) - edge;
+        p->touch_high[i] = p->model_high[2 * i] + max(shift, 0.0f) + edge;
+    }
+}
+
+static facet_result describe_model(const water_setup *s, sea_touch **touch, sea_picture *p,
+                                   facet_error *error)
+{
+    const scene_pose *pose = &s->model.prepared.pose;
+    *touch = mem_alloc(&s->desc->render.allocator, SEA_TOUCH_EDGE * SEA_TOUCH_EDGE, sizeof **touch);
+    if (!*touch)
+        return fail_memory(error, "water around a model", SEA_TOUCH_EDGE * SEA_TOUCH_EDGE * sizeof **touch);
+    p->model_desc = &s->model.desc;
+    memcpy(p->model_low, pose->bounds_min, sizeof p->model_low);
+    memcpy(p->model_high, pose->bounds_max, sizeof p->model_high);
+    float size = max(p->model_high[0] - p->model_low[0], p->model_high[2] - p->model_low[2]);
+    p->model_water_m =
+        waves_height(&s->sea->waves, 0.5 * ((double)p->model_low[0] + (double)p->model_high[0]),
+                     0.5 * ((double)p->model_low[2] + (double)p->model_high[2]), size);
+    choose_rectangle(s->light.L, p);
+    touching t = {s, p, *touch};
+    parallel_for(s->desc->render.thread_count, SEA_TOUCH_EDGE, 4, touch_rows, &t);
+    p->touch = *touch;
+    return FACET_OK;
+}
+
 /* ---- all ---- */
 
 static void store3(vec3 from, float to[3])
@@ -131,18 +194,23 @@ static void describe(const water_setup *s, sea_picture *p)
     p->rotation_sin = sky->rotation_sin;
 }
 
-facet_result water_picture_create(const facet_sea *sea, const facet_sea_render_desc *desc,
-                                  water_picture **out, facet_render_stats *stats, facet_error *error)
+facet_result water_picture_create(const facet_sea *sea, const facet_scene *scene,
+                                  const facet_sea_render_desc *desc, water_picture **out,
+                                  facet_render_stats *stats, facet_error *error)
 {
     double begin = clock_seconds();
     *out = NULL;
     water_picture *p = mem_zalloc(&desc->render.allocator, 1, sizeof *p);
     if (!p)
         return fail_memory(error, "a picture of the sea", sizeof *p);
-    facet_result result = water_setup_create(sea, NULL, desc, &p->setup, stats, error);
+    facet_result result = water_setup_create(sea, scene, desc, &p->setup, stats, error);
     if (result == FACET_OK) {
         describe(&p->setup, &p->picture);
         result = draw_sky(&p->setup, &p->picture, error);
+    }
+    if (result == FACET_OK && scene) {
+        p->picture.model = scene;
+        result = describe_model(&p->setup, &p->touch, &p->picture, error);
     }
     stats->light_s += clock_seconds() - begin;
     if (result != FACET_OK) {
@@ -158,6 +226,7 @@ void water_picture_destroy(water_picture *p)
     if (!p)
         return;
     water_setup_destroy(&p->setup);
+    mem_free(p->touch);
     mem_free(p);
 }
 

@@ -1,0 +1,190 @@
+/* gl_sea_model.c - see gl_sea_model.h. */
+#include "gl/gl_sea_model.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/result.h"
+
+static const uint32_t MOST_PIXELS = 2048; /* of the mirror image along an edge */
+
+/* ---- the mirror image ---- */
+
+/* The eye below the water's plane sees what a mirror there shows; turned around its axis, so that it is not left-handed. */
+static camera_rays mirrored(const camera_rays *c, float plane_m)
+{
+    camera_rays m = *c;
+    m.origin[1] = 2.0f * plane_m - c->origin[1];
+    m.direction[1] = -c->direction[1];
+    m.direction_dx[1] = -c->direction_dx[1];
+    m.direction_dy[0] = -c->direction_dy[0];
+    m.direction_dy[2] = -c->direction_dy[2];
+    return m;
+}
+
+/* The near plane lies in the water, so that what is below does not stand before what is above (Lengyel 2005): how much nearer than far a
+ * point is, is scale times its height over the plane, over its depth. Such that the whole model is nearer than far. */
+static float plane_scale(const sea_picture *p, const camera_rays *m)
+{
+    double scale = 1.0;
+    for (int corner = 0; corner < 8; corner++) {
+        double depth = 0.0, height = 0.0;
+        for (int i = 0; i < 3; i++) {
+            double at = (double)(corner >> i & 1 ? p->model_high[i] : p->model_low[i]);
+            depth += (at - (double)m->origin[i]) * (double)m->direction[i];
+            height = i == 1 ? at - (double)p->model_water_m : height;
+        }
+        if (height > 0.0)
+            scale = fmin(scale, 0.9 * fmax(depth, 1e-3) / height);
+    }
+    return (float)scale;
+}
+
+static void lay_near_plane(gl_frame_block *block, float scale, float below_m, bool is_reversed)
+{
+    float *m = block->view_projection, sign = is_reversed ? 1.0f : -1.0f;
+    for (int i = 0; i < 4; i++)
+        m[4 * i + 2] = sign * m[4 * i + 3];
+    m[4 * 1 + 2] -= sign * scale;
+    m[4 * 3 + 2] += sign * scale * below_m;
+}
+
+static facet_result draw_mirrored(gl_sea_model *m, const sea_picture *p, gl_sea_block *b, facet_error *error)
+{
+    const gl_view *v = &m->mirror_view;
+    facet_result result =
+        gl_target_update(&m->mirrored, m->context, GL_TARGET_FILM, v->width, v->height, 1, error);
+    if (result != FACET_OK)
+        return result;
+    gl_frame_block block = {.channel = 0};
+    bool is_reversed = gl_camera_is_top_down(m->context);
+    float scale = plane_scale(p, &m->mirror), below_m = p->model_water_m - m->mirror.origin[1];
+    gl_camera_set(m->context, &m->mirror, p->model_low, p->model_high, v->width, v->height, v, &block);
+    lay_near_plane(&block, scale, below_m, is_reversed);
+    result = gl_frame_draw(&m->frame, &m->mirrored, &m->desc, &block, error);
+    memcpy(b->mirror, block.view_projection, sizeof b->mirror);
+    memcpy(b->mirror_axis, m->mirror.direction, sizeof m->mirror.direction);
+    b->mirror_axis[3] = is_reversed ? 1.0f : 0.0f;
+    b->mirror_plane[0] = scale;
+    b->mirror_plane[1] = below_m;
+    return result;
+}
+
+/* ---- the water around ---- */
+
+static void upload_touch(gl_sea_model *m, const sea_picture *p, const camera_rays *camera, gl_sea_block *b)
+{
+    glGenTextures(1, &m->touch);
+    glActiveTexture(GL_TEXTURE0 + GL_UNIT_SEA_TOUCH);
+    glBindTexture(GL_TEXTURE_2D, m->touch);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16F, SEA_TOUCH_EDGE, SEA_TOUCH_EDGE, 0, GL_RG, GL_FLOAT, p->touch);
+    for (int i = 0; i < 2; i++) {
+        b->touch[i] = p->touch_low[i] - camera->origin[2 * i];
+        b->touch[2 + i] = 1.0f / (p->touch_high[i] - p->touch_low[i]);
+    }
+}
+
+static void describe_ball(const sea_picture *p, const camera_rays *camera, gl_sea_block *b)
+{
+    float square = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        float half = 0.5f * (p->model_high[i] - p->model_low[i]);
+        b->model_ball[i] = p->model_low[i] + half - camera->origin[i];
+        square += half * half;
+    }
+    b->model_ball[3] = sqrtf(square);
+}
+
+/* ---- all ---- */
+
+static facet_render_desc desc_of(const sea_picture *p)
+{
+    facet_render_desc d = *p->model_desc;
+    d.integrator = FACET_INTEGRATOR_GL;
+    d.exposure_ev = 0.0f;
+    d.gl = (facet_gl_desc){.shadows = true};
+    d.aovs = 0;
+    return d;
+}
+
+facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const sea_picture *p,
+                                const camera_rays *camera, gl_sea_block *b, facet_render_stats *stats,
+                                facet_error *error)
+{
+    const facet_render_desc *r = &p->desc->render;
+    *m = (gl_sea_model){.context = context, .allocator = r->allocator, .desc = desc_of(p)};
+    uint32_t edge = r->width > r->height ? r->width : r->height;
+    double share = fmin(1.0, (double)MOST_PIXELS / (double)edge);
+    m->mirror_view = (gl_view){.scale = 1,
+                               .width = (uint32_t)fmax((double)r->width * share, 1.0),
+                               .height = (uint32_t)fmax((double)r->height * share, 1.0)};
+    camera_rays small;
+    facet_result result =
+        camera_rays_create(r->camera, m->mirror_view.width, m->mirror_view.height, &small, error);
+    if (result != FACET_OK)
+        return result;
+    m->mirror = mirrored(&small, p->model_water_m);
+    describe_ball(p, camera, b);
+    gl_scene_init(&m->prepared, p->model, &m->allocator);
+    result = gl_frame_create(&m->frame, context, p->model, &m->allocator, error);
+    if (result == FACET_OK)
+        result = gl_scene_update(&m->prepared, &m->desc, error);
+    if (result == FACET_OK)
+        result = gl_frame_update(&m->frame, &m->prepared, camera, &m->desc, stats, error);
+    if (result == FACET_OK && !p->is_below)
+        result = draw_mirrored(m, p, b, error);
+    if (result == FACET_OK)
+        upload_touch(m, p, camera, b);
+    return result;
+}
+
+facet_result gl_sea_model_draw(gl_sea_model *m, const sea_picture *p, const camera_rays *camera,
+                               const gl_view *view, gl_sea_block *b, facet_error *error)
+{
+    gl_frame_block block = {.channel = 0};
+    facet_result result =
+        gl_target_update(&m->seen, m->context, GL_TARGET_FILM, view->width, view->height, 1, error);
+    if (result != FACET_OK)
+        return result;
+    gl_camera_set(m->context, camera, p->model_low, p->model_high, p->desc->render.width,
+                  p->desc->render.height, view, &block);
+    float along = 0.0f; /* depth in clip space is along * depth + block.view_projection[14] */
+    for (int i = 0; i < 3; i++)
+        along += block.view_projection[4 * i + 2] * block.forward[i];
+    b->model_depth[0] = along;
+    b->model_depth[1] = block.view_projection[14];
+    b->model_depth[2] = gl_camera_is_top_down(m->context) ? 1.0f : 0.0f;
+    return gl_frame_draw(&m->frame, &m->seen, &m->desc, &block, error);
+}
+
+static void bind(uint32_t unit, GLuint name)
+{
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, name);
+}
+
+void gl_sea_model_bind(const gl_sea_model *m)
+{
+    bind(GL_UNIT_SEA_MODEL, m->seen.color);
+    bind(GL_UNIT_SEA_MODEL_DEPTH, m->seen.depth);
+    bind(GL_UNIT_SEA_MIRRORED, m->mirrored.color);
+    bind(GL_UNIT_SEA_MIRRORED_DEPTH, m->mirrored.depth);
+    bind(GL_UNIT_SEA_TOUCH, m->touch);
+}
+
+void gl_sea_model_end(gl_sea_model *m)
+{
+    if (!m->context)
+        return;
+    gl_frame_destroy(&m->frame);
+    gl_scene_clear(&m->prepared);
+    gl_target_destroy(&m->seen);
+    gl_target_destroy(&m->mirrored);
+    glDeleteTextures(1, &m->touch);
+    *m = (gl_sea_model){.context = NULL};
+}

@@ -1,0 +1,34 @@
+/* gl_sea_model.h - a model in a sea: pictures of it from the eye and from the eye's mirror image below the water, which sea_model.glsl
+ * puts behind the surface, before it, and into its reflections. Drawn as any model is (gl_frame.h), by the light over the sea. */
+#ifndef GL_GL_SEA_MODEL_H
+#define GL_GL_SEA_MODEL_H
+
+#include "gl/gl_camera.h"
+#include "gl/gl_frame.h"
+#include "gl/gl_sea_block.h"
+#include "ocean/sea_picture.h"
+
+typedef struct gl_sea_model {
+    gl_context *context;
+    facet_allocator allocator;
+    gl_scene prepared;
+    gl_frame frame;
+    gl_target seen, mirrored;
+    uint32_t touch; /* texture: sea_touch */
+    facet_render_desc desc;
+    camera_rays mirror;
+    gl_view mirror_view;
+} gl_sea_model;
+
+/* For a picture with a model: uploads it, and draws its mirror image and shadow maps. Anew for each picture, as the model may have moved. Fails as
+ * gl_renderer_render(). gl_sea_model_end() whatever comes back. */
+facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const sea_picture *picture,
+                                const camera_rays *camera, gl_sea_block *block, facet_render_stats *stats,
+                                facet_error *error);
+/* The model as a view sees it. What OpenGL has bound is other afterwards. */
+facet_result gl_sea_model_draw(gl_sea_model *m, const sea_picture *picture, const camera_rays *camera,
+                               const gl_view *view, gl_sea_block *block, facet_error *error);
+void gl_sea_model_bind(const gl_sea_model *m);
+void gl_sea_model_end(gl_sea_model *m); /* {0} is allowed; leaves {0} */
+
+#endif
