@@ -991,7 +991,7 @@ FN vec3 probe_water_place(int which, vec2 u)
     return water_crest(w, light, N, V, down, u[0]) + 0.1f +
            water_over_bed(w, light.downwelling, vec3(0.5f, 0.4f, 0.3f), vec3(0.4f, 0.4f, 0.2f), 9.0f * u[0],
                           0.1f * u[1], down) +
-           water_land(light, vec3(0.5f), N) +
+           0.1f * water_way_to_bed(9.0f * u[0], 0.1f * u[1], down) + water_land(light, vec3(0.5f), N) +
            water_through(w, light.downwelling, vec3(3.0f), sunward, vec3(1.0f), 2.0f * u[0], -V,
                          4.0f * u[1]) +
            water_bed_below(w, light.downwelling, vec3(0.4f), u[0]) +

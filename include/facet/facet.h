@@ -1265,7 +1265,7 @@ FACET_API facet_sea_info facet_sea_get_info(const facet_sea *sea);
 typedef struct facet_sea_point {
     float height_m;
     float normal[3];
-    float velocity_mps; /* upwards */
+    float velocity_mps; /* upwards, of the water there, which also moves to and fro */
     float jacobian;     /* area over that of the water at rest; below 0 it is folded */
 } facet_sea_point;
 /* The surface above or below (x, z), count times: positions are pairs. For what floats. Some 50 us each, on the sea's threads. */

@@ -323,7 +323,7 @@ const verb ocean_verb = {
             {"facet ocean -o sea.png", "a fresh breeze, the sun at the right"},
             {"facet ocean --preset gale --sun 12 -o gale.jpg --size 1920x1080", "a gale at low sun"},
             {"facet ocean --preset lagoon --height-of-eye 20 -o lagoon.png", "sand below clear water"},
-            {"facet ocean --wind 7,45 --swell 2,12,90 --chl 1 -o 'sea_####.png' --loop 8", "a loop of 8 s"},
+            {"facet ocean --wind 7,45 --swell 2,12,90 --chl 1 -o 'sea_####.png' --loop 24", "a loop of 24 s"},
             {"facet ocean --before-after -o compare.png", "before and now"},
             {"facet ocean --sweep roughness=0.01:0.1:5,ior=1.3:1.4:5 -s 320x180 -o sweep.png",
              "a sheet of 25"},

@@ -23,14 +23,12 @@ facet_sea_desc sea_default(void)
             .chlorophyll_mg_m3 = 0.2f, .salinity = 35.0f, .temperature_C = 20.0f, .foam_albedo = 0.55f}};
 }
 
-/* A breath of air over what is left of a swell. */
+/* No wind: a mirror that bends with what is left of a swell. */
 static void glass(facet_sea_desc *d)
 {
-    d->wind_mps = 1.0f;
-    d->fetch_m = 2000.0f;
-    d->cascade_count = 4;
+    d->wind_mps = 0.0f;
     d->swell = (facet_swell){
-        .height_m = 0.25f, .period_s = 9.0f, .direction_rad = 25.0f * DEGREE, .elongation = 0.8f};
+        .height_m = 0.4f, .period_s = 7.0f, .direction_rad = 25.0f * DEGREE, .elongation = 0.8f};
     d->water.chlorophyll_mg_m3 = 0.1f;
 }
 
