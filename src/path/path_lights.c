@@ -236,7 +236,7 @@ static float mixed_pdf(const path_lights *lights, const choice *c, float environ
            (is_in_sun ? c->probabilities[SUN] * lights->sun.pdf : 0.0f);
 }
 
-static vec3 environment_radiance(const path_lights *lights, vec3 d)
+vec3 path_lights_environment(const path_lights *lights, vec3 d)
 {
     return lights->environment ? light_environment_radiance(lights->environment, d) : vec3(0.0f);
 }
@@ -247,7 +247,7 @@ static bool sample_environment(const path_lights *lights, const choice *c, const
     float pdf = light_environment_sample(lights->environment, &c->environment, u, &out->L);
     bool is_in_sun = lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, out->L);
     out->is_surroundings = true;
-    out->radiance = environment_radiance(lights, out->L) + (is_in_sun ? lights->sun.radiance : vec3(0.0f));
+    out->radiance = path_lights_environment(lights, out->L) + (is_in_sun ? lights->sun.radiance : vec3(0.0f));
     out->pdf = mixed_pdf(lights, c, pdf, is_in_sun);
     return out->pdf > 0.0f;
 }
@@ -256,7 +256,7 @@ static bool sample_sun(const path_lights *lights, const choice *c, vec2 u, path_
 {
     out->L = light_sun_sample(&lights->sun, u);
     out->is_surroundings = true;
-    out->radiance = environment_radiance(lights, out->L) + lights->sun.radiance;
+    out->radiance = path_lights_environment(lights, out->L) + lights->sun.radiance;
     float environment_pdf = c->probabilities[ENVIRONMENT] > 0.0f
                                 ? light_environment_pdf(lights->environment, &c->environment, out->L)
                                 : 0.0f;
@@ -363,7 +363,7 @@ bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light
 
 vec3 path_lights_surroundings(const path_lights *lights, vec3 d)
 {
-    vec3 radiance = environment_radiance(lights, d);
+    vec3 radiance = path_lights_environment(lights, d);
     if (lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, d))
         radiance += lights->sun.radiance;
     return radiance;

@@ -38,6 +38,8 @@ bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light
 
 /* Radiance of environment and sun from the unit direction d, cd/m^2. */
 vec3 path_lights_surroundings(const path_lights *lights, vec3 d);
+/* The same without the sun. */
+vec3 path_lights_environment(const path_lights *lights, vec3 d);
 /* The pdf per sr with which path_lights_sample(P, N) finds d in the surroundings. */
 float path_lights_surroundings_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d);
 /* The same for the point of an emissive triangle that the ray from P met as hit, at distance_m, direction d unit. */

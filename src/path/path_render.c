@@ -129,7 +129,8 @@ static facet_result begin_instant(path_picture *p, facet_error *error)
                             .lights = p->lights,
                             .has_ground = desc->ground == FACET_GROUND_SHADOW,
                             .ground_y = p->ground_y,
-                            .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT};
+                            .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT,
+                            .sea = p->prepared->scene->sea};
     return result;
 }
 

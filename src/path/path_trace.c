@@ -5,19 +5,24 @@
 
 #include "path/path_camera.h"
 #include "path/path_ground.h"
+#include "path/path_sea.h"
 #include "path/path_trace.h"
 #include "path/path_walk.h"
 
 /* What is seen where nothing covers it. */
 static vec3 background(const path_scene *scene, vec3 D)
 {
+    const path_sea *sea = scene->sea;
     float blur = scene->setup->desc->background_blur;
-    if (!(blur > 0.0f))
+    if (!sea && !(blur > 0.0f))
         return path_lights_surroundings(scene->lights, D);
     float d[3];
     float radiance[3];
     store3(D, d);
-    light_specular(&scene->setup->light, d, blur, radiance);
+    if (sea)
+        sea->seen(sea->sky, d, radiance);
+    else
+        light_specular(&scene->setup->light, d, blur, radiance);
     return load3(radiance);
 }
 
@@ -45,14 +50,28 @@ static void trace_inside(path *p)
     p->out->opacity = 1.0f;
 }
 
+/* Between the eye and the first surface. */
+static void add_air(path *p, const path_camera_ray *camera, const ray_first *first)
+{
+    const path_sea *sea = p->scene->sea;
+    const float *d = camera->ray.direction;
+    float height = camera->ray.origin[1] + d[1] * first->hit.t, radiance[3];
+    store3(p->radiance * (1.0f / first->opacity), radiance);
+    sea->through_air(sea->sky, d, first->hit.t, height, radiance);
+    p->radiance = load3(radiance) * first->opacity;
+}
+
 static void trace_outside(path *p, const path_camera_ray *camera)
 {
     ray_first first = ray_trace_first(p->shading, &camera->ray, path_sampler_number(&p->sampler));
     p->out->rays += first.rays;
     p->out->opacity = first.opacity;
     p->throughput = vec3(first.opacity);
-    if (first.opacity > 0.0f)
-        path_walk_from(p, &first.hit, &camera->ray);
+    if (!(first.opacity > 0.0f))
+        return;
+    path_walk_from(p, &first.hit, &camera->ray);
+    if (p->scene->sea)
+        add_air(p, camera, &first);
 }
 
 void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index, path_sample *out)
@@ -64,7 +83,8 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
     path_camera_ray_at(scene, &sampler, x, y, &camera);
     path p = start(scene, &camera, sampler, out);
     out->rays += ray_trace_media_at(p.shading, camera.ray.origin, &p.media);
-    if (p.media.count)
+    p.is_in_sea = scene->sea && scene->sea->is_below;
+    if (p.media.count || p.is_in_sea)
         trace_inside(&p);
     else
         trace_outside(&p, &camera);

@@ -5,6 +5,7 @@
 #include "cpu/render_setup.h"
 
 struct path_lights; /* path_lights.h */
+struct path_sea;    /* path_sea.h */
 
 /* What paths go through; nothing of it changes while a pass is drawn. */
 typedef struct path_scene {
@@ -13,6 +14,7 @@ typedef struct path_scene {
     bool has_ground;
     float ground_y; /* m: the plane of FACET_GROUND_SHADOW (along the up axis of the scene: +Y) */
     bool draws_background;
+    const struct path_sea *sea; /* NULL: there is none */
 } path_scene;
 
 /* One sample of a pixel. */

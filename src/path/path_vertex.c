@@ -108,6 +108,31 @@ static bool has_mirrors_only(const Layers *m, const LayersLobes *p)
     return !(p->diffuse + p->diffuse_back + p->sheen > 0.0f) && layers_scattering_lobes(*m) == 0u;
 }
 
+/* ---- a sea ---- */
+
+static void meet_sea(const path_sea *sea, const visibility_hit *hit, path_vertex *v)
+{
+    surface_point *s = &v->s;
+    v->is_sea = v->lets_through = true;
+    v->water = path_sea_point_make(sea, &s->hit, hit->normal, s->V);
+    v->Ng = v->water.Ng * v->water.side;
+    s->m.base.N = v->water.N * v->water.side;
+    s->m.base.base_color = vec3(path_sea_albedo(&v->water, s->V));
+    s->m.base.alpha = 1.0f;
+}
+
+static bool sample_sea(const path_vertex *v, float u_lobe, vec2 u, path_direction *out)
+{
+    path_sea_direction d = path_sea_sample(&v->water, v->s.V, u_lobe, u);
+    *out = (path_direction){.L = d.L,
+                            .weight = vec3(d.weight),
+                            .pdf = d.pdf,
+                            .is_mirror = d.is_second,
+                            .is_through = d.is_through,
+                            .is_second = d.is_second};
+    return d.weight > 0.0f;
+}
+
 /* ---- all ---- */
 
 void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray, path_vertex *v)
@@ -115,12 +140,17 @@ void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray
     shading_point point = {.hit = hit, .ray = ray};
     surface_point *s = &v->s;
     surface_point_make(p->shading, &point, s);
-    v->lets_through = v->is_mirror = v->is_false = v->disperses = v->is_straight = false;
+    v->lets_through = v->is_mirror = v->is_false = v->disperses = v->is_straight = v->is_sea = false;
     if (!s->is_lit)
         return;
     v->Ng = geometric_normal(hit, s->V);
     v->tolerance = tolerance_at(s);
     v->energy = surface_energy(p->shading);
+    if (p->scene->sea && s->hit.geometry->primitive->water) {
+        v->lobes = (LayersLobes){.diffuse = 1.0f};
+        meet_sea(p->scene->sea, hit, v);
+        return;
+    }
     Layers *m = &s->m;
     if (s->plan->is_body && m->layers & LAYER_VOLUME)
         meet_body(p, hit, v);
@@ -168,6 +198,8 @@ static bool is_on_one_side(const path_vertex *v, vec3 L)
 vec3 path_vertex_scatter(const path_vertex *v, vec3 L, float *pdf)
 {
     *pdf = 0.0f;
+    if (v->is_sea)
+        return path_sea_scatter(&v->water, v->s.V, L, pdf);
     if (!is_on_one_side(v, L))
         return vec3(0.0f);
     const Layers *m = &v->s.m;
@@ -177,6 +209,9 @@ vec3 path_vertex_scatter(const path_vertex *v, vec3 L, float *pdf)
 
 vec3 path_vertex_scatter_punctual(const path_vertex *v, vec3 L)
 {
+    float pdf;
+    if (v->is_sea)
+        return path_sea_scatter(&v->water, v->s.V, L, &pdf);
     if (!is_on_one_side(v, L))
         return vec3(0.0f);
     Layers m = v->s.m;
@@ -195,6 +230,8 @@ static vec3 keep_side(vec3 L, vec3 Ng, float side)
 
 bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, path_direction *out)
 {
+    if (v->is_sea)
+        return sample_sea(v, u_lobe, u, out);
     const Layers *m = &v->s.m;
     LayersSample s = layers_sample(*m, v->lobes, v->s.V, u_lobe, u, v->energy, v->tables);
     if (!s.is_valid)

@@ -3,6 +3,7 @@
 #ifndef PATH_VERTEX_H
 #define PATH_VERTEX_H
 
+#include "path/path_sea.h"
 #include "path/path_state.h"
 
 typedef struct path_vertex {
@@ -15,7 +16,9 @@ typedef struct path_vertex {
     bool is_mirror;    /* no other lobes */
     bool is_straight;  /* path_vertex_straight() is not 0, and shadow rays know */
     bool disperses;    /* light that goes through needs a wavelength first */
-    media behind;      /* what is on the other side */
+    bool is_sea;       /* the surface of a sea: */
+    path_sea_point water;
+    media behind; /* what is on the other side */
     LayerTables tables;
     LayersLobes lobes;
 } path_vertex;
@@ -38,6 +41,7 @@ typedef struct path_direction {
     vec3 weight; /* BSDF |N.L| / pdf */
     float pdf;   /* per sr; of a mirror undefined */
     bool is_mirror, is_through;
+    bool is_second; /* is_mirror: by way of another facet of a sea, where no light was aimed at */
 } path_direction;
 
 /* False: the path ends here. */

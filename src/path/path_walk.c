@@ -105,9 +105,60 @@ static shading_ray ray_of(const path *p, const visibility_hit *hit, ray_spread *
 static void meet_surroundings(path *p)
 {
     float pdf = 0.0f;
+    if (p->sees_no_sun) {
+        path_add(p, p->throughput * path_lights_environment(p->scene->lights, p->D));
+        return;
+    }
     if (p->from.is_chosen)
         pdf = path_lights_surroundings_pdf(p->scene->lights, p->from.P, p->from.N, p->D);
     path_add(p, p->throughput * path_lights_surroundings(p->scene->lights, p->D) * path_met_weight(p, pdf));
+}
+
+/* ---- in a sea ---- */
+
+/* What water adds to the way to the next vertex, and takes from what is behind it. */
+static void pass_water(path *p, float distance_m)
+{
+    const path_sea *sea = p->scene->sea;
+    float way = distance_m + p->skipped_m;
+    if (!p->sees_no_glow)
+        path_add(p, p->throughput * path_sea_glow(sea, p->P, p->D, way));
+    p->throughput *= path_sea_transmittance(sea, way);
+}
+
+/* Whether a way from v into L is in the water. */
+static bool goes_through_sea(const path *p, const path_vertex *v, vec3 L)
+{
+    if (!v->is_sea)
+        return p->is_in_sea;
+    return (v->water.side < 0.0f) != (dot(v->Ng, L) < 0.0f);
+}
+
+/* Under water the sun is found by rays towards where it is refracted: half of them go there. They are one strategy with those of
+ * the surface itself: each direction's pdf is the mean of both. */
+static bool aims_at_sun(const path *p, const path_vertex *v)
+{
+    return p->is_in_sea && !v->is_sea && p->scene->sea->sun_spread > 0.0f && !v->is_mirror;
+}
+
+static bool sample_below(const path *p, const path_vertex *v, float u_lobe, vec2 u, path_direction *out)
+{
+    const path_sea *sea = p->scene->sea;
+    bool is_sunward = u_lobe < 0.5f;
+    float rest = is_sunward ? 2.0f * u_lobe : 2.0f * u_lobe - 1.0f;
+    if (is_sunward) {
+        *out = (path_direction){.L = path_sea_sunward(sea, u)};
+        out->is_through = dot(out->L, v->Ng) < 0.0f;
+    } else if (!path_vertex_sample(v, rest, u, out))
+        return false;
+    if (out->is_mirror) {
+        out->weight *= 2.0f;
+        return true;
+    }
+    vec3 f = path_vertex_scatter(v, out->L, &out->pdf);
+    out->pdf = 0.5f * (out->pdf + path_sea_sunward_pdf(sea, out->L));
+    out->weight = out->pdf > 0.0f ? f * (1.0f / out->pdf) : vec3(0.0f);
+    return max3(out->weight) > 0.0f;
 }
 
 /* To the next vertex. */
@@ -123,6 +174,10 @@ static place advance(path *p, visibility_hit *hit)
         random = (uint32_t)(path_sampler_number(&p->sampler) * 4294967040.0f);
     p->out->rays++;
     bool is_met = ray_trace_nearest(p->shading, &ray, random, hit);
+    if (p->is_in_sea) {
+        pass_water(p, is_met ? hit->t : INFINITY);
+        return is_met && max3(p->throughput) > 0.0f ? AT_SURFACE : NOWHERE;
+    }
     if (p->media.count) {
         vec2 u = path_sampler_pair(&p->sampler);
         if (path_fly(p, is_met ? hit->t : INFINITY, u[0], u[1]))
@@ -176,6 +231,8 @@ static void add_light(path *p, const path_vertex *v, const numbers *u)
     vec3 f = value_for(p, v, &light, &pdf);
     vec3 contribution =
         p->throughput * f * light.radiance * (path_aimed_weight(p->scene, &light, pdf) / light.pdf);
+    if (p->scene->sea && goes_through_sea(p, v, light.L))
+        contribution *= path_sea_transmittance(p->scene->sea, light.distance_m);
     if (!(max3(contribution) > 0.0f))
         return;
     bool is_inside = v->s.m.layers & LAYER_VOLUME && dot(v->Ng, light.L) < 0.0f;
@@ -218,7 +275,9 @@ static bool disperse(path *p, path_vertex *v, const numbers *u, path_direction *
 static bool scatter(path *p, path_vertex *v, const visibility_hit *hit, const numbers *u)
 {
     path_direction d;
-    if (!path_vertex_sample(v, u->which_lobe, u->direction, &d))
+    bool is_any = aims_at_sun(p, v) ? sample_below(p, v, u->which_lobe, u->direction, &d)
+                                    : path_vertex_sample(v, u->which_lobe, u->direction, &d);
+    if (!is_any)
         return false;
     if (d.is_through && v->disperses && !disperse(p, v, u, &d))
         return false;
@@ -230,6 +289,10 @@ static bool scatter(path *p, path_vertex *v, const visibility_hit *hit, const nu
     leave(p, v, d.L);
     if (d.is_through && v->s.m.layers & LAYER_VOLUME)
         p->media = v->behind;
+    p->sees_no_glow = p->sees_no_glow || (p->is_in_sea && !v->is_sea);
+    if (v->is_sea && d.is_through)
+        p->is_in_sea = !p->is_in_sea;
+    p->sees_no_sun = d.is_second;
     p->has_crossed = d.is_through && p->from.is_chosen && v->s.m.layers & LAYER_TRANSMISSION &&
                      path_has_straight_shadows(p);
     if (!p->has_crossed)

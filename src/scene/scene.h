@@ -34,6 +34,10 @@ typedef struct scene_morph_target {
     const float *positions, *normals, *tangents; /* 3 per vertex, m, finite */
 } scene_morph_target;
 
+/* What vertices of a sea know beside their normals: xx, zz, xz of the covariance of slopes that vertices do not show; the share that
+ * foam hides. */
+enum { SCENE_WATER_VALUES = 4 };
+
 /* Vertices of one material. Strips, fans and loops are lists here. */
 typedef struct scene_primitive {
     scene_mode mode;
@@ -44,8 +48,10 @@ typedef struct scene_primitive {
     const float *normals;    /* 3 per vertex, unit; NULL only for points and lines without (then unlit) */
     const float *tangents;   /* 4 per vertex, xyz unit, w +-1; NULL: none */
     uint32_t texcoord_count; /* sets */
-    const float *const *texcoords;      /* per set 2 per vertex; (0, 0) is the top left of an image */
-    const float *colors;                /* 4 per vertex, linear, [0, 1]; NULL: white */
+    const float *const *texcoords; /* per set 2 per vertex; (0, 0) is the top left of an image */
+    const float *colors;           /* 4 per vertex, linear, [0, 1]; NULL: white */
+    const float
+        *water; /* SCENE_WATER_VALUES per vertex, of the surface of scene->sea; NULL: none. No file has it */
     uint32_t material;                  /* SCENE_NONE: the default material */
     float bounds_min[3], bounds_max[3]; /* of the positions that indices use; 0 where there are none */
     bool has_flat_normals;              /* the file had none: vertices are not shared between triangles */
@@ -354,6 +360,8 @@ typedef struct facet_scene {
 
     struct scene_legacy *legacy;         /* scene/legacy.h; NULL: materials of glTF only */
     struct scene_conversion *conversion; /* the last one; NULL: none */
+
+    const struct path_sea *sea; /* path/path_sea.h: the water of primitives that have some; NULL: none has */
 
     uint32_t max_texture_size; /* from the desc, for the decoding to come */
     uint32_t thread_count;     /* from the desc, for questions about the scene; 0: facet_thread_count() */
