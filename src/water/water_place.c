@@ -10,15 +10,15 @@ float water_march_footprint(const water_march *m, float width_m, double rise)
     return water_footprint(width_m, (float)rise, m->deviation_m);
 }
 
-/* Share of the footprint that foam hides. */
-static float foam_at(const water_setup *s, const water_place *p, float convergence, float footprint_m)
+float water_foam_at(const water_setup *s, const double rest[2], float convergence, float variance,
+                    float footprint_m)
 {
     const facet_sea_look *look = &s->desc->look;
     const foam_rule *rule = &s->sea->foam;
     if (look->no_foam || look->stage == 4 || !(rule->threshold < INFINITY))
         return 0.0f;
-    float fresh = foam_coverage(rule, convergence, p->slopes.convergence_variance, rule->active_threshold);
-    return water_foam_cover(fresh, waves_foam_at(&s->foam, p->rest[0], p->rest[1], footprint_m));
+    float fresh = foam_coverage(rule, convergence, variance, rule->active_threshold);
+    return water_foam_cover(fresh, waves_foam_at(&s->foam, rest[0], rest[1], footprint_m));
 }
 
 /* ---- slopes that samples see ---- */
@@ -94,7 +94,7 @@ static void finish(const water_setup *s, const march_ray *ray, const sums *mean,
     p->point.N = normal_from_slope(mean->slope);
     p->point.N = ray->is_below ? p->point.N : water_faced(p->point.N, p->V);
     p->point.covariance = p->slopes.covariance;
-    p->point.foam = foam_at(s, p, mean->convergence, footprint_m);
+    p->point.foam = water_foam_at(s, p->rest, mean->convergence, p->slopes.convergence_variance, footprint_m);
 }
 
 water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit)

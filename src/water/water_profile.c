@@ -35,8 +35,7 @@ static double turned(double azimuth, double from)
     return a - 2.0 * PI_D * floor(a / (2.0 * PI_D) + 0.5);
 }
 
-/* Azimuths that rays of the part have, of those that are not too steep; false: none. */
-static bool azimuths_of(const camera_rays *rays, const uint32_t part[4], double *middle, double *half)
+bool water_profile_azimuths(const camera_rays *rays, const uint32_t part[4], double *middle, double *half)
 {
     float o[3], d[3];
     camera_rays_at(rays, (float)part[0] + 0.5f * (float)part[2], (float)part[1] + 0.5f * (float)part[3], o,
@@ -147,7 +146,8 @@ facet_result water_profile_create(const water_march *m, const camera_rays *rays,
 {
     *p = (water_profile){.march = m, .is_below = is_below};
     double middle, half, distances[2];
-    if (rays->is_orthographic || m->waves->tile_count == 0 || !azimuths_of(rays, part, &middle, &half))
+    if (rays->is_orthographic || m->waves->tile_count == 0 ||
+        !water_profile_azimuths(rays, part, &middle, &half))
         return FACET_OK;
     for (int i = 0; i < 3; i++)
         p->origin[i] = (double)rays->origin[i];

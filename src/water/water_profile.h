@@ -34,6 +34,8 @@ typedef struct water_profile {
 facet_result water_profile_create(const water_march *m, const camera_rays *rays, const uint32_t part[4],
                                   bool is_below, uint32_t thread_count, const facet_allocator *allocator,
                                   water_profile *out, facet_error *error);
+/* Azimuths that rays of the part have, of those that are not too steep: the middle, +X towards +Z, and half their range. False: none. */
+bool water_profile_azimuths(const camera_rays *rays, const uint32_t part[4], double *middle, double *half);
 void water_profile_destroy(water_profile *p); /* {0} is allowed */
 
 /* As water_march_find(), of a ray from the eye. */

@@ -180,7 +180,8 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     float perceptual_roughness = desc->look.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     s->trough_m = -2.0f * s->march.deviation_m;
-    result = caustic_map_of_picture(s, &s->caustics, error);
+    if (r->integrator != FACET_INTEGRATOR_PATH) /* which finds them */
+        result = caustic_map_of_picture(s, &s->caustics, error);
     if (result != FACET_OK)
         return result;
     return scene ? add_model(s, scene, stats, error) : FACET_OK;

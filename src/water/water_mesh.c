@@ -1,0 +1,299 @@
+/* water_mesh.c - see water_mesh.h: vertices of the surface, its triangles, and those that a hull cuts. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+
+#include "water/water_mesh.h"
+#include "water/water_place.h"
+
+/* Waves are read twice as wide as vertices are apart: what lies between them is nearly linear then. */
+static const double WIDTH_OF_SPACING = 1.0;
+enum { HALVINGS = 14 };
+
+typedef struct surface {
+    const water_setup *s;
+    const water_mesh_lattice *l;
+    float *positions, *normals, *water;
+    unsigned char *is_dry;
+    uint32_t *indices;
+    uint32_t vertex_count, index_count;
+} surface;
+
+/* ---- vertices ---- */
+
+static double fallen(const water_setup *s, const water_mesh_lattice *l, double X, double Z)
+{
+    double x = X - l->center[0], z = Z - l->center[1];
+    return s->march.fall * (x * x + z * z);
+}
+
+static void fill_water(const water_setup *s, const double rest[2], float convergence, float footprint,
+                       float *out)
+{
+    water_slopes slopes = water_slopes_at(s, footprint);
+    for (int i = 0; i < 3; i++)
+        out[i] = slopes.covariance[i];
+    out[3] = water_foam_at(s, rest, convergence, slopes.convergence_variance, footprint);
+}
+
+static void fill_vertex(const surface *f, uint32_t row, uint32_t column)
+{
+    const water_setup *s = f->s;
+    const water_mesh_lattice *l = f->l;
+    double r = l->radii[row], a = l->azimuths[column];
+    const double rest[2] = {l->center[0] + r * (cos)(a), l->center[1] + r * (sin)(a)};
+    double spacing = fmax(l->row_steps[row], r * l->column_steps[column]);
+    float footprint = (float)(WIDTH_OF_SPACING * spacing);
+    wave_point p = waves_at(&s->sea->waves, rest[0], rest[1], footprint);
+    wave_shape shape = wave_shape_of(&p);
+    size_t at = (size_t)row * l->column_count + column;
+    double X = rest[0] + (double)p.displacement[0], Z = rest[1] + (double)p.displacement[1];
+    f->positions[3 * at] = (float)X;
+    f->positions[3 * at + 1] = (float)((double)p.height_m - fallen(s, l, X, Z));
+    f->positions[3 * at + 2] = (float)Z;
+    memcpy(f->normals + 3 * at, shape.normal, sizeof shape.normal);
+    fill_water(s, rest, shape.convergence, footprint, f->water + SCENE_WATER_VALUES * at);
+}
+
+static void fill_rows(void *context, size_t begin, size_t end)
+{
+    const surface *f = context;
+    for (size_t row = begin; row < end; row++)
+        for (uint32_t column = 0; column < f->l->column_count; column++)
+            fill_vertex(f, (uint32_t)row, column);
+}
+
+/* The last column is the first: no seam. */
+static void close_circle(const surface *f)
+{
+    uint32_t count = f->l->column_count;
+    for (size_t row = 0; row < f->l->row_count; row++) {
+        size_t from = row * count, to = from + count - 1;
+        memcpy(f->positions + 3 * to, f->positions + 3 * from, 3 * sizeof(float));
+        memcpy(f->normals + 3 * to, f->normals + 3 * from, 3 * sizeof(float));
+        memcpy(f->water + SCENE_WATER_VALUES * to, f->water + SCENE_WATER_VALUES * from,
+               SCENE_WATER_VALUES * sizeof(float));
+    }
+}
+
+/* ---- hulls ---- */
+
+static bool is_dry(const surface *f, const float P[3])
+{
+    return water_model_is_dry(&f->s->model, (const double[3]){(double)P[0], (double)P[1], (double)P[2]});
+}
+
+static void find_dry(void *context, size_t begin, size_t end)
+{
+    const surface *f = context;
+    for (size_t i = begin; i < end; i++)
+        f->is_dry[i] = is_dry(f, f->positions + 3 * i);
+}
+
+static void mix_values(float *values, uint32_t width, uint32_t a, uint32_t b, float share, uint32_t to)
+{
+    for (uint32_t i = 0; i < width; i++) {
+        float x = values[(size_t)width * a + i], y = values[(size_t)width * b + i];
+        values[(size_t)width * to + i] = x + (y - x) * share;
+    }
+}
+
+/* A new vertex on the edge from a wet to a dry one, where it becomes dry. */
+static uint32_t cut(surface *f, uint32_t wet, uint32_t dry)
+{
+    float low = 0.0f, high = 1.0f;
+    uint32_t to = f->vertex_count++;
+    for (int i = 0; i < HALVINGS; i++) {
+        float middle = 0.5f * (low + high);
+        mix_values(f->positions, 3, wet, dry, middle, to);
+        if (is_dry(f, f->positions + 3 * (size_t)to))
+            high = middle;
+        else
+            low = middle;
+    }
+    mix_values(f->positions, 3, wet, dry, high, to);
+    mix_values(f->normals, 3, wet, dry, high, to);
+    mix_values(f->water, SCENE_WATER_VALUES, wet, dry, high, to);
+    return to;
+}
+
+static void put(surface *f, uint32_t a, uint32_t b, uint32_t c)
+{
+    const uint32_t corners[3] = {a, b, c};
+    memcpy(f->indices + f->index_count, corners, sizeof corners);
+    f->index_count += 3;
+}
+
+/* The wet part of a triangle. */
+static void put_wet(surface *f, const uint32_t corners[3])
+{
+    int count = 0, first = 0;
+    for (int i = 0; i < 3; i++)
+        count += !f->is_dry[corners[i]];
+    if (count == 0)
+        return;
+    if (count == 3) {
+        put(f, corners[0], corners[1], corners[2]);
+        return;
+    }
+    while (f->is_dry[corners[first]] != (count == 2)) /* the one that is unlike the others */
+        first++;
+    uint32_t a = corners[first], b = corners[(first + 1) % 3], c = corners[(first + 2) % 3];
+    if (count == 1) {
+        uint32_t ab = cut(f, a, b), ac = cut(f, a, c);
+        put(f, a, ab, ac);
+    } else {
+        uint32_t ab = cut(f, b, a), ac = cut(f, c, a);
+        put(f, ab, b, c);
+        put(f, ab, c, ac);
+    }
+}
+
+/* ---- triangles ---- */
+
+/* Those of one square, facing up; of the innermost, which has no inner edge, one. */
+static uint32_t corners_of(const water_mesh_lattice *l, size_t square, uint32_t out[2][3])
+{
+    uint32_t columns = l->column_count, row = (uint32_t)(square / (columns - 1));
+    uint32_t a = row * columns + (uint32_t)(square % (columns - 1)), b = a + columns;
+    const uint32_t both[2][3] = {{a, b + 1, b}, {a, a + 1, b + 1}};
+    memcpy(out, both, sizeof both);
+    return row ? 2 : 1;
+}
+
+/* Triangles that a hull cuts. */
+static size_t count_cut(const surface *f)
+{
+    const water_mesh_lattice *l = f->l;
+    size_t squares = (size_t)(l->column_count - 1) * (l->row_count - 1), count = 0;
+    for (size_t i = 0; i < squares; i++) {
+        uint32_t corners[2][3];
+        uint32_t n = corners_of(l, i, corners);
+        for (uint32_t t = 0; t < n; t++) {
+            int dry = f->is_dry[corners[t][0]] + f->is_dry[corners[t][1]] + f->is_dry[corners[t][2]];
+            count += dry == 1 || dry == 2;
+        }
+    }
+    return count;
+}
+
+static void fill_triangles(surface *f)
+{
+    const water_mesh_lattice *l = f->l;
+    size_t squares = (size_t)(l->column_count - 1) * (l->row_count - 1);
+    for (size_t i = 0; i < squares; i++) {
+        uint32_t corners[2][3];
+        uint32_t n = corners_of(l, i, corners);
+        for (uint32_t t = 0; t < n; t++)
+            put_wet(f, corners[t]);
+    }
+}
+
+static void bound(scene_primitive *p)
+{
+    for (int k = 0; k < 3; k++) {
+        p->bounds_min[k] = p->bounds_max[k] = p->positions[k];
+        for (uint32_t i = 1; i < p->vertex_count; i++) {
+            p->bounds_min[k] = min(p->bounds_min[k], p->positions[3 * (size_t)i + (size_t)k]);
+            p->bounds_max[k] = max(p->bounds_max[k], p->positions[3 * (size_t)i + (size_t)k]);
+        }
+    }
+}
+
+/* Room for vertices that a hull adds is not known before its triangles are: they are moved. */
+static bool grow(surface *f, arena *memory, size_t cuts)
+{
+    size_t count = (size_t)f->vertex_count + 2 * cuts;
+    float *positions = arena_alloc(memory, count, 3 * sizeof(float));
+    float *normals = arena_alloc(memory, count, 3 * sizeof(float));
+    float *water = arena_alloc(memory, count, SCENE_WATER_VALUES * sizeof(float));
+    if (!positions || !normals || !water)
+        return false;
+    memcpy(positions, f->positions, f->vertex_count * 3 * sizeof(float));
+    memcpy(normals, f->normals, f->vertex_count * 3 * sizeof(float));
+    memcpy(water, f->water, f->vertex_count * SCENE_WATER_VALUES * sizeof(float));
+    f->positions = positions;
+    f->normals = normals;
+    f->water = water;
+    return true;
+}
+
+static scene_primitive primitive_of(const surface *f)
+{
+    scene_primitive p = {.mode = SCENE_TRIANGLES,
+                         .vertex_count = f->vertex_count,
+                         .index_count = f->index_count,
+                         .indices = f->indices,
+                         .positions = f->positions,
+                         .normals = f->normals,
+                         .water = f->water};
+    bound(&p);
+    return p;
+}
+
+bool water_mesh_surface(const water_setup *s, const water_mesh_lattice *l, arena *memory,
+                        scene_primitive *out)
+{
+    size_t vertices = (size_t)l->column_count * l->row_count;
+    size_t triangles = 2 * (size_t)(l->column_count - 1) * (l->row_count - 1), cuts = 0;
+    uint32_t threads = s->desc->render.thread_count;
+    surface f = {.s = s, .l = l, .vertex_count = (uint32_t)vertices};
+    f.positions = arena_alloc(memory, vertices, 3 * sizeof(float));
+    f.normals = arena_alloc(memory, vertices, 3 * sizeof(float));
+    f.water = arena_alloc(memory, vertices, SCENE_WATER_VALUES * sizeof(float));
+    f.is_dry = arena_zalloc(memory, vertices, 1);
+    if (!f.positions || !f.normals || !f.water || !f.is_dry)
+        return false;
+    parallel_for(threads, l->row_count, 4, fill_rows, &f);
+    close_circle(&f);
+    if (s->model.is_there) {
+        parallel_for(threads, vertices, 256, find_dry, &f);
+        cuts = count_cut(&f);
+    }
+    f.indices = arena_alloc(memory, triangles + cuts, 3 * sizeof(uint32_t));
+    if (!f.indices || (cuts > 0 && !grow(&f, memory, cuts)))
+        return false;
+    fill_triangles(&f);
+    *out = primitive_of(&f);
+    return true;
+}
+
+/* ---- the bed ---- */
+
+enum { BED_COLUMNS = 129, BED_ROWS = 96 };
+static const double BED_NEAREST_M = 0.5;
+
+/* Rings, each farther by the same factor: between two of them the plane falls away less than one would see. */
+bool water_mesh_bed(const water_setup *s, const water_mesh_lattice *l, arena *memory, scene_primitive *out)
+{
+    const facet_sea_bed *bed = &s->sea->desc.bed;
+    const size_t vertices = (size_t)BED_COLUMNS * BED_ROWS;
+    water_mesh_lattice rings = {.column_count = BED_COLUMNS, .row_count = BED_ROWS};
+    surface f = {.s = s, .l = &rings, .vertex_count = (uint32_t)vertices};
+    f.positions = arena_alloc(memory, vertices, 3 * sizeof(float));
+    f.normals = arena_alloc(memory, vertices, 3 * sizeof(float));
+    f.is_dry = arena_zalloc(memory, vertices, 1);
+    f.indices = arena_alloc(memory, 2 * (size_t)(BED_COLUMNS - 1) * (BED_ROWS - 1), 3 * sizeof(uint32_t));
+    if (!f.positions || !f.normals || !f.is_dry || !f.indices)
+        return false;
+    double far_m = l->radii[l->row_count - 1];
+    vec3 N =
+        normalize(vec3(-bed->slope * cos(bed->direction_rad), 1.0f, -bed->slope * sin(bed->direction_rad)));
+    for (size_t at = 0; at < vertices; at++) {
+        uint32_t row = (uint32_t)(at / BED_COLUMNS),
+                 column = (uint32_t)(at % BED_COLUMNS) % (BED_COLUMNS - 1);
+        double r = row ? BED_NEAREST_M * (pow)(far_m / BED_NEAREST_M, (row - 1.0) / (BED_ROWS - 2.0)) : 0.0;
+        double a = 6.283185307179586 * column / (BED_COLUMNS - 1);
+        double X = l->center[0] + r * (cos)(a), Z = l->center[1] + r * (sin)(a);
+        f.positions[3 * at] = (float)X;
+        f.positions[3 * at + 1] = (float)(water_bed_height(bed, X, Z) - fallen(s, l, X, Z));
+        f.positions[3 * at + 2] = (float)Z;
+        for (size_t i = 0; i < 3; i++)
+            f.normals[3 * at + i] = N[i];
+    }
+    fill_triangles(&f);
+    *out = primitive_of(&f);
+    return true;
+}
