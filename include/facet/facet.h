@@ -1329,8 +1329,8 @@ typedef struct facet_sea_look {
  * samples, environment, sun, threads, progress and time limit are followed. environment NULL: the sky of `sky`, with its sun.
  * camera NULL: facet_sea_camera(). scene NULL: nothing but water; its pose is followed, its cameras and lights are not.
  *
- * integrator FACET_INTEGRATOR_PREVIEW draws the endless sea. _PATH traces paths through facet_sea_create_mesh(), as far as
- * its mesh reaches, without glints, foam and looks, and without scene. _GL draws what _PREVIEW does, for cameras with a field of view and without
+ * integrator FACET_INTEGRATOR_PREVIEW draws the endless sea. _PATH traces paths through the waves as triangles, out to the horizon, with
+ * foam and scene; of looks it knows no_foam, schlick_fresnel and perceptual_roughness. _GL draws what _PREVIEW does, for cameras with a field of view and without
  * scene; the sea keeps OpenGL's programs for its next picture. */
 typedef struct facet_sea_render_desc {
     facet_render_desc render;

@@ -1,6 +1,7 @@
 /* ocean_api.c - the part of facet.h about the sea. */
 #include "api/api.h"
 #include "api/gl_library.h"
+#include "api/ocean_path.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -228,7 +229,7 @@ facet_result facet_sea_create_mesh(const facet_sea *sea, const facet_sea_mesh_de
 /* ---- pictures ---- */
 
 static const float EYE_M = 3.0f, CLEARANCE_M = 1.0f, FOV_RAD = 0.61f, /* a lens of 38 mm */
-    DIP_RAD = 0.07f, CLEAR_AIR = 1.55f;                               /* turbidity, as water_sky.c has it */
+    DIP_RAD = 0.07f;
 
 facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad)
 {
@@ -258,51 +259,29 @@ static facet_result check_look(const facet_sea_look *look, facet_error *error)
     return FACET_OK;
 }
 
+/* Whether path tracing has it: what is there, and nothing in its place. */
+static bool is_physical(const facet_sea_look *look)
+{
+    return look->before == FACET_SEA_PHYSICAL && look->stage == 0 && look->normals == FACET_SEA_BECKMANN &&
+           look->masking == FACET_SEA_SMITH && !look->no_glints && !look->no_caustics &&
+           !(look->clamp > 0.0f);
+}
+
 static facet_result resolve_sea(const facet_scene *scene, const facet_sea_render_desc *desc,
                                 facet_sea_render_desc *out, facet_error *error)
 {
-    static const facet_sea_look physical = {.before = FACET_SEA_PHYSICAL};
     *out = *desc;
     facet_integrator integrator = desc->render.integrator;
     facet_result result = check_look(&desc->look, error);
-    if (result == FACET_OK && integrator == FACET_INTEGRATOR_PATH &&
-        (scene || memcmp(&desc->look, &physical, sizeof physical) != 0))
-        result = fail(error, FACET_ERROR_ARGUMENT, "sea: path tracing knows no looks and no model in it");
+    if (result == FACET_OK && integrator == FACET_INTEGRATOR_PATH && !is_physical(&desc->look))
+        result =
+            fail(error, FACET_ERROR_ARGUMENT,
+                 "look: path tracing knows no stages, no look of before, no other normals or masking, no "
+                 "glints or caustics to leave out and no clamp");
     if (result == FACET_OK && integrator != FACET_INTEGRATOR_PATH && integrator != FACET_INTEGRATOR_PREVIEW &&
         integrator != FACET_INTEGRATOR_GL)
         result = fail(error, FACET_ERROR_ARGUMENT, "sea: integrator %d does not draw it", (int)integrator);
     return result == FACET_OK ? render_desc_resolve(&desc->render, &out->render, error) : result;
-}
-
-/* Vertices are closest below the eye, 7 cm apart, and the mesh ends where its waves are a fraction of a pixel. */
-static facet_result trace_mesh(const facet_sea *sea, const facet_sea_render_desc *d, facet_image **image,
-                               facet_error *error)
-{
-    const facet_sea_mesh_desc mesh = {
-        .allocator = d->render.allocator,
-        .size_m = 20000.0f,
-        .samples = 1024,
-        .center_m = {(double)d->render.camera->eye[0], (double)d->render.camera->eye[2]},
-        .refinement = 300.0f};
-    facet_scene *scene = NULL;
-    facet_environment *sky = NULL;
-    facet_render_desc r = d->render;
-    facet_result result = sea_mesh_create(sea, &mesh, &scene, error);
-    if (result == FACET_OK && !r.environment) {
-        facet_sky_desc desc = d->sky;
-        desc.turbidity = desc.turbidity > 0.0f ? desc.turbidity : CLEAR_AIR;
-        const facet_environment_desc made = {
-            .allocator = r.allocator, .log = r.log, .thread_count = r.thread_count};
-        result = facet_environment_create_sky(&desc, &made, &sky, error);
-        r.environment = sky;
-    }
-    r.background = FACET_BACKGROUND_ENVIRONMENT;
-    r.pose = (facet_pose_desc){0};
-    if (result == FACET_OK)
-        result = facet_render(scene, &r, image, error);
-    facet_environment_destroy(sky);
-    facet_scene_destroy(scene);
-    return result;
 }
 
 /* What the sea keeps is taken while it is in use: several threads may draw one sea. */
@@ -355,7 +334,7 @@ facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
     if (!d.render.camera)
         d.render.camera = &camera;
     if (d.render.integrator == FACET_INTEGRATOR_PATH)
-        return trace_mesh(sea, &d, image, error);
+        return ocean_path_render(sea, scene, &d, image, error);
     facet_image *made = mem_zalloc(&d.render.allocator, 1, sizeof *made);
     if (!made)
         return fail_memory(error, "image", sizeof *made);

@@ -284,31 +284,6 @@ static void pictures_are_exposed(void **state)
     facet_sea_destroy(sea);
 }
 
-static void paths_are_traced_through_the_mesh(void **state)
-{
-    (void)state;
-    facet_sea_desc desc = small();
-    desc.wind_mps = 0.0f; /* flat: both must see the same mirror */
-    facet_sea *sea = make(&desc);
-    facet_sea_render_desc d = picture();
-    d.sky.has_no_disc = true;
-    d.sky.sun_azimuth_rad = 2.0f;
-    const facet_camera camera = facet_sea_camera(sea, 5.0f, 0.0f);
-    d.render.camera = &camera;
-    d.render.exposure_ev = -14.0f;
-    d.render.samples = 16;
-    facet_image *preview = NULL, *path = NULL;
-    done(facet_sea_render(sea, NULL, &d, &preview, &failure));
-    d.render.integrator = FACET_INTEGRATOR_PATH;
-    done(facet_sea_render(sea, NULL, &d, &path, &failure));
-    double a = brightness(preview), b = brightness(path);
-    if (fabs(a / b - 1.0) > 0.15)
-        fail_msg("mean of the preview %g, of paths %g", a, b);
-    facet_image_destroy(preview);
-    facet_image_destroy(path);
-    facet_sea_destroy(sea);
-}
-
 /* Nothing that is said of a sea is said in words: numbers far away and no numbers at all have answers. */
 static void numbers_far_away_are_answered(void **state)
 {
@@ -547,7 +522,6 @@ int main(void)
                                        cmocka_unit_test(maps_hold_the_tiles),
                                        cmocka_unit_test(mesh_is_the_surface),
                                        cmocka_unit_test(pictures_are_exposed),
-                                       cmocka_unit_test(paths_are_traced_through_the_mesh),
                                        cmocka_unit_test(numbers_far_away_are_answered),
                                        cmocka_unit_test(zero_is_a_sea),
                                        cmocka_unit_test(what_is_wrong_is_said),

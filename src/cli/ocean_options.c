@@ -264,9 +264,11 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
     static const facet_integrator integrators[] = {FACET_INTEGRATOR_PREVIEW, FACET_INTEGRATOR_PATH,
                                                    FACET_INTEGRATOR_GL};
     o->desc.integrator = integrators[option_choice(c, OPT_RENDERER, 0)];
-    static const option_id preview_only[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,   OPT_ROUGHNESS,
-                                             OPT_NORMALS, OPT_MASKING,      OPT_FRESNEL, OPT_NO_GLINTS,
-                                             OPT_NO_FOAM, OPT_NO_CAUSTICS,  OPT_WITH,    OPT_CLAMP};
+    static const option_id preview_only[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,       OPT_NORMALS,
+                                             OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS, OPT_CLAMP};
+    o->desc.path.denoises = is_given(c, OPT_DENOISE);
+    if (o->desc.path.denoises && o->desc.integrator != FACET_INTEGRATOR_PATH)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "--denoise: only --renderer path has noise");
     for (size_t i = 0; i < sizeof preview_only / sizeof *preview_only; i++)
         if (o->desc.integrator == FACET_INTEGRATOR_PATH && is_given(c, preview_only[i]))
             return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path",

@@ -258,9 +258,14 @@ static const option quality_options[] = {
      .kind = OPTION_CHOICE,
      .argument = "NAME",
      .default_text = "preview",
-     .help = "preview: the endless sea; gl: the same by OpenGL; path: path tracing of its mesh, for "
-             "comparison",
+     .help =
+         "preview: the endless sea; gl: the same by OpenGL; path: path tracing of its waves as triangles, "
+         "for comparison",
      .choices = WORDS("preview", "path", "gl")},
+    {.id = OPT_DENOISE,
+     .name = "denoise",
+     .kind = OPTION_FLAG,
+     .help = "of --renderer path: filter the noise out; what is finer than the noise is lost with it"},
 };
 
 static const option motion_options[] = {

@@ -209,8 +209,10 @@ expect 2 ocean --absorption 0.1,0.2 -o a.png
 expect 2 ocean --eye 0,1,0 --height-of-eye 2 -o a.png
 expect 2 ocean --target 0,1,0 --heading 2 -o a.png
 expect 2 ocean --before A --stage 2 -o a.png
-expect 2 ocean --renderer path --no-foam -o a.png
+expect 2 ocean --denoise -o a.png
+says "only --renderer path has noise"
 expect 2 ocean --renderer path --no-caustics -o a.png
+expect 2 ocean --renderer path --no-glints -o a.png
 says "says nothing to --renderer path"
 expect 2 ocean -o a.gif
 expect 2 ocean extra -o a.png
@@ -230,7 +232,7 @@ grep -q '"exit_code": *0' out || failed "--json does not tell the exit code"
 expect 2 ocean --wind x -o a.png --json
 grep -q '"exit_code": *2' out || failed "--json does not tell the failure"
 if ! is_quick; then
-    expect 0 ocean --size 16x12 --renderer path -n 2 -o path.png
+    expect 0 ocean --size 16x12 --renderer path -n 2 --denoise -o path.png
     is_type path.png "PNG image data, 16 x 12"
 fi
 finish

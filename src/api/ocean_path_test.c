@@ -1,0 +1,322 @@
+/* ocean_path_test.c - a sea by path tracing beside the preview: the same waves where both resolve them (ocean reference 16.7), known light
+ * on still water, rough water within what second hits explain, a model and its image in the right pixels, memory that runs out. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "facet/facet.h"
+
+#include "base/failing_allocator.h"
+#include "base/test_effort.h"
+
+static facet_error failure;
+
+static void done(facet_result result)
+{
+    if (result != FACET_OK)
+        fail_msg("%s", failure.message);
+}
+
+/* One picture to be, by both renderers. */
+typedef struct pair {
+    facet_sea *sea;
+    const facet_scene *scene;
+    facet_sea_render_desc d;
+    facet_camera camera;
+    facet_image *preview, *path;
+} pair;
+
+static void begin(pair *p, const facet_sea_desc *desc, uint32_t width, uint32_t height, const float *radiance)
+{
+    *p = (pair){.d = {.render = {.width = width, .height = height}, .sky = {.sun_elevation_rad = 0.5f}}};
+    done(facet_sea_create(desc, &p->sea, &failure));
+    p->camera = facet_sea_camera(p->sea, 0.0f, 1.0f);
+    if (radiance)
+        done(facet_environment_create_constant(radiance, NULL, &p->d.render.environment, &failure));
+}
+
+static void draw(pair *p, uint32_t preview_samples, uint32_t path_samples)
+{
+    facet_image_destroy(p->preview);
+    facet_image_destroy(p->path);
+    p->d.render.camera = &p->camera;
+    p->d.render.quality = FACET_QUALITY_FINAL;
+    p->d.render.integrator = FACET_INTEGRATOR_PREVIEW;
+    p->d.render.samples = preview_samples;
+    done(facet_sea_render(p->sea, p->scene, &p->d, &p->preview, &failure));
+    p->d.render.integrator = FACET_INTEGRATOR_PATH;
+    p->d.render.samples = path_samples;
+    done(facet_sea_render(p->sea, p->scene, &p->d, &p->path, &failure));
+}
+
+static void end(pair *p)
+{
+    facet_image_destroy(p->preview);
+    facet_image_destroy(p->path);
+    facet_environment_destroy(p->d.render.environment);
+    facet_sea_destroy(p->sea);
+}
+
+/* Mean of green over rows. */
+static double rows_mean(const facet_image *image, uint32_t from, uint32_t to)
+{
+    facet_image_view v = facet_image_get_layer(image, 0);
+    double sum = 0.0;
+    for (uint32_t i = from * v.width; i < to * v.width; i++)
+        sum += (double)v.pixels[4 * (size_t)i + 1];
+    return sum / ((double)(to - from) * v.width);
+}
+
+static double rows_ratio(const pair *p, uint32_t from, uint32_t to)
+{
+    return rows_mean(p->path, from, to) / rows_mean(p->preview, from, to);
+}
+
+static const float white[3] = {1.0f, 1.0f, 1.0f}, black[3] = {0.0f, 0.0f, 0.0f};
+
+static facet_sea_desc sea_of(float wind_mps)
+{
+    facet_sea_desc d = facet_sea_default();
+    d.wind_mps = wind_mps;
+    d.resolution = 128;
+    return d;
+}
+
+/* Sky, air, horizon, water, bed: where there are no waves all is the same but for noise. */
+static void still_water_is_the_same(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        facet_sea_desc desc = sea_of(0.0f);
+        pair p;
+        begin(&p, &desc, 24, 27, NULL);
+        p.d.sky.has_no_disc = true;
+        p.d.sky.sun_azimuth_rad = 3.0f;
+        if (k)
+            p.camera.eye[1] = 300.0f, p.camera.target[1] += 297.0f;
+        p.d.render.exposure_ev = -13.0f;
+        draw(&p, 16, IS_SLOW ? 16 : 48);
+        for (uint32_t row = 0; row < 27; row += 3) {
+            double ratio = rows_ratio(&p, row, row + 3);
+            if (!(fabs(ratio - 1.0) < (row < 9 ? 2e-3 : 2e-2)))
+                fail_msg("eye %d, row %u: %g", k, row, ratio);
+        }
+        end(&p);
+    }
+}
+
+/* A swell without wind hides no slopes and mirrors itself hardly ever: mean difference below 1 %, 95 of 100 pixels within 5 %,
+ * noise included. */
+static void swell_is_where_it_is(void **state)
+{
+    (void)state;
+    const uint32_t width = 64, height = 36;
+    facet_sea_desc desc = sea_of(0.0f);
+    desc.swell = (facet_swell){.height_m = 2.0f, .period_s = 12.0f, .direction_rad = 0.4f};
+    pair p;
+    begin(&p, &desc, width, height, white);
+    draw(&p, 64, IS_SLOW ? 32 : 160);
+    assert_true(fabs(rows_ratio(&p, 0, height) - 1.0) < 0.01);
+    const float *a = facet_image_get_layer(p.path, 0).pixels, *b = facet_image_get_layer(p.preview, 0).pixels;
+    uint32_t off = 0;
+    for (uint32_t i = 0; i < width * height; i++)
+        if (!(fabsf(a[4 * i + 1] / b[4 * i + 1] - 1.0f) < 0.05f))
+            off++;
+    if (!IS_SLOW && off > width * height / 20)
+        fail_msg("%u of %u pixels are off by 5 %%", off, width * height);
+    end(&p);
+}
+
+/* In even light paths are darker by what waves mirror of each other, and never brighter. */
+static void rough_water_is_darker_by_second_hits(void **state)
+{
+    (void)state;
+    static const float winds[] = {3.0f, 10.0f};
+    for (int k = 0; k < 2; k++) {
+        facet_sea_desc desc = sea_of(winds[k]);
+        pair p;
+        begin(&p, &desc, 80, 45, white);
+        p.d.look.no_foam = true;
+        draw(&p, 16, IS_SLOW ? 8 : 24);
+        for (uint32_t row = 24; row < 45; row += 7) {
+            double ratio = rows_ratio(&p, row, row + 7);
+            if (!(ratio > 0.85 && ratio < 1.01))
+                fail_msg("%g m/s, rows %u to %u: %g", (double)winds[k], row, row + 7, ratio);
+        }
+        end(&p);
+    }
+}
+
+/* From above, where slopes are all that is hidden and little is mirrored twice: with sun, sky and depth. Foam lies in troughs, too, which see
+ * less of the sky than an open plane. */
+static void a_gale_from_above_is_the_same(void **state)
+{
+    (void)state;
+    facet_sea_desc desc = sea_of(20.0f);
+    pair p;
+    begin(&p, &desc, 32, 32, NULL);
+    p.camera = (facet_camera){.eye = {0.0f, 300.0f, 0.0f}, .target = {150.0f, 0.0f, 0.0f}, .fov_y_rad = 0.5f};
+    p.d.render.exposure_ev = -13.0f;
+    p.d.sky.sun_elevation_rad = 0.9f;
+    p.d.sky.sun_azimuth_rad = 4.0f;
+    draw(&p, 16, 32);
+    double with_foam = rows_mean(p.path, 0, 32), ratio = rows_ratio(&p, 0, 32);
+    if (!(ratio > 0.92 && ratio < 1.02))
+        fail_msg("with foam: %g", ratio);
+    p.d.look.no_foam = true;
+    draw(&p, 16, 32);
+    ratio = rows_ratio(&p, 0, 32);
+    if (!(fabs(ratio - 1.0) < 0.04))
+        fail_msg("without foam: %g", ratio);
+    assert_true(with_foam > 1.5 * rows_mean(p.path, 0, 32));
+    end(&p);
+}
+
+/* A square of 2 x 2 m, 8 m before the eye and 2 to 4 m over the water, that shines with 1000 cd/m^2. */
+static facet_scene *lamp(void)
+{
+    static const char file[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_emissive_strength\"],"
+        "\"scenes\":[{\"nodes\":[0]}],\"scene\":0,\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2,"
+        "\"material\":0}"
+        "]}],\"materials\":[{\"doubleSided\":true,\"emissiveFactor\":[1,1,1],\"pbrMetallicRoughness\":{"
+        "\"baseColorFactor\":[0,0,0,1],\"metallicFactor\":0},\"extensions\":{"
+        "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":1000}}}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\",\"min\":[-1,2,-8],\"max\":[1,"
+        "4,-8]},"
+        "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":2,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}],\"bufferViews\":["
+        "{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":12}],\"buffers\":[{\"byteLength\":108,\"uri\":"
+        "\"data:application/octet-stream;base64,"
+        "AACAvwAAAEAAAADBAACAPwAAAEAAAADBAACAPwAAgEAAAADBAACAvwAAgEAAAADBAAAAAAAAAAAAAIA/"
+        "AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAABAAIAAAACAAMA\"}]}";
+    facet_scene *scene = NULL;
+    done(facet_scene_load_memory(file, strlen(file), "lamp.gltf", NULL, &scene, &failure));
+    return scene;
+}
+
+/* For unpolarised light: half the sum of both polarisations' shares. */
+static double fresnel(double c, double n)
+{
+    double t = sqrt(1.0 - (1.0 - c * c) / (n * n));
+    double s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
+    return 0.5 * (s * s + p * p);
+}
+
+static float pixel(const facet_image *image, uint32_t x, uint32_t y)
+{
+    facet_image_view v = facet_image_get_layer(image, 0);
+    return v.pixels[4 * ((size_t)y * v.width + x) + 1];
+}
+
+/* The eye, 3 m high, looks level: the middle of the square straight on, its image at a slope of 6 in 8. */
+static void a_model_is_seen_and_mirrored(void **state)
+{
+    (void)state;
+    facet_scene *scene = lamp();
+    facet_sea_desc desc = sea_of(0.0f);
+    pair p;
+    begin(&p, &desc, 21, 21, black);
+    p.scene = scene;
+    p.camera = (facet_camera){.eye = {0.0f, 3.0f, 0.0f}, .target = {0.0f, 3.0f, -8.0f}, .fov_y_rad = 1.6f};
+    draw(&p, 1, IS_SLOW ? 400 : 2000);
+    double pixels_per_slope = 10.5 / tan(0.8);
+    uint32_t row = (uint32_t)(10.5 + pixels_per_slope * 0.75);
+    assert_true(fabsf(pixel(p.path, 10, 10) / 1000.0f - 1.0f) < 1e-2f);
+    assert_true(fabsf(pixel(p.path, 10, 10) / pixel(p.preview, 10, 10) - 1.0f) < 1e-2f);
+    double F = fresnel(0.6, (double)facet_sea_get_info(p.sea).ior);
+    if (!(fabs((double)pixel(p.path, 10, row) / (1000.0 * F) - 1.0) < (IS_SLOW ? 0.3 : 0.15)))
+        fail_msg("mirrored %g of %g", (double)pixel(p.path, 10, row), 1000.0 * F);
+    assert_true(pixel(p.path, 1, 10) == 0.0f && pixel(p.path, 19, row) < 1.0f);
+    end(&p);
+    facet_scene_destroy(scene);
+}
+
+/* Where a look has no meaning it is refused; foam, Fresnel's formula and the roughness of what no tile has are in both. */
+static void looks_are_refused_or_followed(void **state)
+{
+    (void)state;
+    facet_sea_desc desc = sea_of(10.0f);
+    pair p;
+    begin(&p, &desc, 16, 8, NULL);
+    p.d.render.integrator = FACET_INTEGRATOR_PATH;
+    p.d.render.samples = 1;
+    for (int i = 0; i < 9; i++) {
+        facet_sea_render_desc d = p.d;
+        facet_image *made = NULL;
+        if (i == 0)
+            d.look.before = FACET_SEA_BEFORE_INTENDED;
+        if (i == 1)
+            d.look.stage = 3;
+        if (i == 2)
+            d.look.normals = FACET_SEA_GGX;
+        if (i == 3)
+            d.look.masking = FACET_SEA_SCHLICK_KARIS;
+        if (i == 4)
+            d.look.no_glints = true;
+        if (i == 5)
+            d.look.clamp = 10.0f;
+        if (i == 6)
+            d.look.no_foam = true;
+        if (i == 7)
+            d.look.schlick_fresnel = true;
+        if (i == 8)
+            d.look.perceptual_roughness = 0.3f;
+        facet_result result = facet_sea_render(p.sea, NULL, &d, &made, &failure);
+        assert_int_equal(result, i < 6 ? FACET_ERROR_ARGUMENT : FACET_OK);
+        if (i < 6)
+            assert_non_null(strstr(failure.message, "path tracing"));
+        facet_image_destroy(made);
+    }
+    end(&p);
+}
+
+static void memory_runs_out(void **state)
+{
+    (void)state;
+    facet_sea_desc desc = sea_of(8.0f);
+    desc.resolution = 32;
+    pair p;
+    begin(&p, &desc, 8, 8, NULL);
+    facet_scene *scene = lamp();
+    bool has_ended = false;
+    for (long at = 0; at < 4000 && !has_ended; at += 1 + at / 2) {
+        failing_allocator f = {.fail_at = at};
+        facet_sea_render_desc d = p.d;
+        facet_image *made = NULL;
+        d.render.allocator = failing_allocator_get(&f);
+        d.render.integrator = FACET_INTEGRATOR_PATH;
+        d.render.samples = 1;
+        facet_result result = facet_sea_render(p.sea, scene, &d, &made, &failure);
+        if (result != FACET_OK && result != FACET_ERROR_MEMORY)
+            fail_msg("call %ld: %s", at, failure.message);
+        assert_true((result == FACET_OK) == (made != NULL));
+        has_ended = result == FACET_OK && atomic_load(&f.calls) <= at;
+        facet_image_destroy(made);
+        assert_int_equal(atomic_load(&f.blocks), 0);
+    }
+    assert_true(has_ended);
+    facet_scene_destroy(scene);
+    end(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(still_water_is_the_same),
+                                       cmocka_unit_test(swell_is_where_it_is),
+                                       cmocka_unit_test(rough_water_is_darker_by_second_hits),
+                                       cmocka_unit_test(a_gale_from_above_is_the_same),
+                                       cmocka_unit_test(a_model_is_seen_and_mirrored),
+                                       cmocka_unit_test(looks_are_refused_or_followed),
+                                       cmocka_unit_test(memory_runs_out)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
