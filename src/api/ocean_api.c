@@ -267,8 +267,8 @@ static bool is_physical(const facet_sea_look *look)
            !(look->clamp > 0.0f);
 }
 
-static facet_result resolve_sea(const facet_scene *scene, const facet_sea_render_desc *desc,
-                                facet_sea_render_desc *out, facet_error *error)
+static facet_result resolve_sea(const facet_sea_render_desc *desc, facet_sea_render_desc *out,
+                                facet_error *error)
 {
     *out = *desc;
     facet_integrator integrator = desc->render.integrator;
@@ -327,7 +327,7 @@ facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
     const facet_sea_render_desc defaults = {0};
     *image = NULL;
     facet_sea_render_desc d;
-    facet_result result = resolve_sea(scene, desc ? desc : &defaults, &d, error);
+    facet_result result = resolve_sea(desc ? desc : &defaults, &d, error);
     if (result != FACET_OK)
         return result;
     const facet_camera camera = facet_sea_camera(sea, 0.0f, d.sky.sun_azimuth_rad);
@@ -352,7 +352,7 @@ facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *
     const facet_sea_render_desc defaults = {0};
     facet_sea_render_desc d;
     *ev100 = 0.0;
-    facet_result result = resolve_sea(NULL, desc ? desc : &defaults, &d, error);
+    facet_result result = resolve_sea(desc ? desc : &defaults, &d, error);
     const facet_camera camera = facet_sea_camera(sea, 0.0f, d.sky.sun_azimuth_rad);
     if (!d.render.camera)
         d.render.camera = &camera;
