@@ -102,7 +102,7 @@ static void still_water_is_the_same(void **state)
         if (k)
             p.camera.eye[1] = 300.0f, p.camera.target[1] += 297.0f;
         p.d.render.exposure_ev = -13.0f;
-        draw(&p, 16, IS_SLOW ? 16 : 48);
+        draw(&p, 16, 48);
         for (uint32_t row = 0; row < 27; row += 3) {
             double ratio = rows_ratio(&p, row, row + 3);
             if (!(fabs(ratio - 1.0) < (row < 9 ? 2e-3 : 2e-2)))
