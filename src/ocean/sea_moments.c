@@ -85,5 +85,7 @@ void cox_munk_slopes(double wind_mps, double out[2])
 
 double whitecap_coverage(double wind_mps)
 {
-    return fmin(3.84e-6 * pow(wind_mps, 3.41), 1.0);
+    const double onset_mps = 3.36, full_mps = 5.0;
+    double t = fmin(fmax((wind_mps - onset_mps) / (full_mps - onset_mps), 0.0), 1.0);
+    return fmin(3.84e-6 * pow(wind_mps, 3.41), 1.0) * t * t * (3.0 - 2.0 * t);
 }
