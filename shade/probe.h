@@ -974,8 +974,8 @@ FN vec3 probe_water_place(int which, vec2 u)
     }
     if (which == 118) {
         return vec3(1.0f + foam_share(0.6f * u[0] - 0.1f, 0.01f + 0.05f * u[1], 0.4f),
-                    2.0f * water_foam_cover(0.2f * u[0], 0.5f * u[1]) + normal_below(3.0f * u[0] - 1.5f) +
-                        foam_lace(0.9f * u[0], u[1], 0.3f) + foam_thickness(0.05f + 0.9f * u[0], u[1], 0.2f),
+                    2.0f * water_foam_cover(0.5f * u[1], u[0]) + normal_below(3.0f * u[0] - 1.5f) +
+                        foam_lace(0.05f + 0.9f * u[0], u[1], 0.3f),
                     water_passing(C, light.L) + wave_jacobian(D));
     }
     vec3 down = water_refracted(w, -V, N);

@@ -110,31 +110,24 @@ FN float foam_share(float mean, float variance, float threshold)
     return clamp(covered / area, 0.0f, 1.0f);
 }
 
-/* What an amount of old foam, (0, 1), is multiplied by from place to place, 1 on average: (p + 1) Phi(M)^p of a Gaussian field M, of
- * which the footprint hides the variance `hidden`, with the p up to 3 that leaves all amounts below 1. */
-FN float foam_thickness(float share, float M, float hidden)
-{
-    float power = min(3.0f, 1.0f / share - 1.0f);
-    float rest = min(hidden, 1.0f);
-    return (1.0f - rest) * (power + 1.0f) * pow(normal_below(M), power) + rest;
-}
-
-/* Old foam lies along lines where a Gaussian field of variance 1 is near 0, in a band of it that holds the share, [0, 0.999]. How much of
- * a footprint with that mean and variance of the field lies in it. */
+/* Foam of the share, (0, 1), lies where a Gaussian field of variance 1 is above the number that this share of it exceeds. How much of a
+ * footprint with that mean and variance of the field it covers. Most of it has sharp edges; the rest is a veil that gets thin
+ * around them. A field with so much more variance, whose own number the share of it exceeds, has the same mean. */
 FN float foam_lace(float share, float mean, float variance)
 {
-    float z = inverse_normal(0.5f + 0.5f * share);
-    float scale = inversesqrt(max(variance, 1e-6f));
-    return normal_below((z - mean) * scale) + normal_below((z + mean) * scale) - 1.0f;
+    float sharp = 0.015f; /* variances that are added */
+    float veil = 0.4f;
+    float z = inverse_normal(share);
+    float rest = max(variance, 0.0f);
+    return mix(normal_below((mean + z * sqrt(1.0f + sharp)) * inversesqrt(rest + sharp)),
+               normal_below((mean + z * sqrt(1.0f + veil)) * inversesqrt(rest + veil)), 0.3f);
 }
 
-/* Share of a footprint that foam hides, of which shares are under fresh and old foam. Old foam gets thin: water is seen between its
- * bubbles, so that a patch reflects 0.22 over its life and 0.55 in the beginning. Koepke 1984. */
-FN float water_foam_cover(float fresh, float old)
+/* Share of a footprint that foam hides which lies on a share of it. Foam gets thin: water is seen between its bubbles, so that a patch
+ * reflects 0.22 over its life and 0.55 in the beginning, when its amount is 1. Koepke 1984. */
+FN float water_foam_cover(float share, float amount)
 {
-    float share = 1.0f - (1.0f - fresh) * (1.0f - old);
-    float new_share = clamp(fresh / max(share, 1e-20f) + old * old, 0.0f, 1.0f);
-    return share * mix(0.4f, 1.0f, new_share);
+    return share * mix(0.4f, 1.0f, amount);
 }
 
 /* ---- what comes from below ---- */

@@ -46,7 +46,7 @@ static void fill_slopes(const sea_picture *p, gl_sea_block *b)
     const slope_filter *f = &p->sea->slopes;
     for (int i = 0; i < GL_SEA_FOOTPRINTS; i++) {
         const slope_covariance *c = &f->residual[i];
-        const float residual[4] = {c->xx, c->zz, c->xz, f->convergence_variance[i]};
+        const float residual[4] = {c->xx, c->zz, c->xz};
         memcpy(b->residual[i], residual, sizeof residual);
         b->moments[i][0] = f->curvature[i];
         b->moments[i][1] = f->rate[i];
@@ -58,18 +58,22 @@ static void fill_slopes(const sea_picture *p, gl_sea_block *b)
 
 static void fill_foam(const sea_picture *p, const double eye[2], gl_sea_block *b)
 {
-    b->foam_at[0] = p->sea->foam.active_threshold;
     if (!p->foam)
         return;
     const waves_foam *f = p->foam;
-    const wave_tile *t = &f->w->tiles[f->lace_tiles[0]];
-    b->foam_at[1] = (float)FOAM_THICKNESS_WIDTH;
-    b->foam_at[2] = wrapped(FOAM_THICKNESS_WIDTH * (eye[0] * t->cos_per_m + eye[1] * t->sin_per_m), t->size);
-    b->foam_at[3] = wrapped(FOAM_THICKNESS_WIDTH * (eye[1] * t->cos_per_m - eye[0] * t->sin_per_m), t->size);
-    b->counts[3] = (int32_t)f->lace_count;
+    for (uint32_t i = 0; i < FOAM_READINGS; i++) {
+        const foam_reading *r = &f->readings[i];
+        const float axes[4] = {(float)r->along[0], (float)r->along[1], (float)r->across[0],
+                               (float)r->across[1]};
+        const float at[4] = {wrapped(eye[0] * r->along[0] + eye[1] * r->along[1], f->share.size),
+                             wrapped(eye[0] * r->across[0] + eye[1] * r->across[1], f->share.size),
+                             r->samples_per_m, r->weight};
+        memcpy(b->foam_axes[i], axes, sizeof axes);
+        memcpy(b->foam_places[i], at, sizeof at);
+    }
     for (uint32_t level = 0; level < f->share.level_count; level++)
-        for (uint32_t i = 0; i < f->lace_count; i++)
-            b->foam_hidden[level][1 + i] = f->lace[i].hidden[level];
+        for (uint32_t i = 0; i < FOAM_PATTERNS; i++)
+            b->foam_hidden[level][1 + i] = f->patterns[i].hidden[level];
 }
 
 static void fill_water(const sea_picture *p, gl_sea_block *b)

@@ -13,7 +13,8 @@ typedef struct gl_sea_block {
     int32_t counts[4];
     float eye[4], ray[4], fan[4], fan_ends[4], fan_level[4], shift[4];
     float residual[GL_SEA_FOOTPRINTS][4], moments[GL_SEA_FOOTPRINTS][4], total[4], rough[4];
-    float foam_at[4], foam_hidden[WAVES_MAX_LEVELS][4];
+    float foam_axes[FOAM_READINGS][4], foam_places[FOAM_READINGS][4];
+    float foam_hidden[WAVES_MAX_LEVELS][4];
     float absorption[4], scattering[4], backscattering[4], reflectance[4], pure_share[4];
     float sun[4], sun_irradiance[4], sky_irradiance[4], downwelling[4], beam[4], sunward[4];
     float bed[4], bed_slope[4], sky_at[4], caustic_axis[4], caustics[CAUSTIC_LAYERS][4];

@@ -126,8 +126,8 @@ static facet_result upload_waves(const sea_picture *p, facet_error *error)
 
 static void upload_foam(const waves_foam *f)
 {
-    for (uint32_t i = 0; f && i < 1 + f->lace_count; i++) {
-        const foam_plane *plane = i ? &f->lace[i - 1] : &f->share;
+    for (uint32_t i = 0; f && i < 1 + FOAM_PATTERNS; i++) {
+        const foam_plane *plane = i ? &f->patterns[i - 1] : &f->share;
         for (uint32_t level = 0; level < plane->level_count; level++)
             upload_layer(GL_UNIT_SEA_FOAM, level, i, plane->size >> level, GL_RED, plane->levels[level]);
     }
@@ -174,7 +174,7 @@ facet_result gl_sea_textures_update(gl_sea_textures *t, gl_context *c, const sea
 {
     const waves *w = &p->sea->waves;
     uint32_t size = w->tile_count ? w->tiles[0].size : 1, tile_count = w->tile_count ? w->tile_count : 1;
-    uint32_t plane_count = p->foam ? 1 + p->foam->lace_count : 0;
+    uint32_t plane_count = p->foam ? 1 + FOAM_PATTERNS : 0;
     uint32_t caustic_size = p->caustics ? CAUSTIC_SIZE : 1;
     if (size > (uint32_t)c->max_texture_size)
         return fail(error, FACET_ERROR_LIMIT, "OpenGL (%s): tiles of %u samples; the most are %d", c->name,

@@ -5,25 +5,27 @@
 #define SEA_CLASS_STEP 8 /* gl_sea_classes.c */
 #define SEA_CLASSES 512
 #define SEA_CAUSTIC_LAYERS 3
+#define SEA_FOAM_READINGS 4
 
 layout(std140) uniform Sea
 {
     vec4 sea_axes[SEA_TILES];      /* cos, sin of a tile's turn; samples per m; 1: it is read through patches */
     vec4 sea_places[SEA_TILES];    /* of the eye: in samples; in its rhombus of patches */
     vec4 sea_lengths[SEA_TILES];   /* 1 / length, 1/m; first row of its patches; row of the foam's planes */
-    ivec4 sea_counts;              /* tiles, levels, samples along an edge, planes of lace */
+    ivec4 sea_counts;              /* tiles, levels, samples along an edge */
     vec4 sea_eye;                  /* height over still water, fall (1/m), deviation, mean level of waves; m */
     vec4 sea_ray;                  /* height of a pixel at depth 1, share of it that a sample is wide; near, far; m */
     vec4 sea_fan;                  /* of the grid: first and half azimuth, m that steps grow from, size of steps */
     vec4 sea_fan_ends;             /* columns, last row with waves, rows; ratio of distances beyond */
     vec4 sea_fan_level;            /* row from which 1 / distance falls evenly, its distance, m */
     vec4 sea_shift;                /* x, z of the grid's middle at rest; how far water moves, m; width of samples, rad */
-    vec4 sea_residual[SEA_FOOTPRINTS]; /* slopes that a footprint hides: xx, zz, xz; variance of convergence */
+    vec4 sea_residual[SEA_FOOTPRINTS]; /* slopes that a footprint hides: xx, zz, xz */
     vec4 sea_moments[SEA_FOOTPRINTS];  /* k4 of their waves, mean omega */
     vec4 sea_total;                /* slopes of all; w: 1: sea_rough stands for waves finer than all tiles */
     vec4 sea_rough;                /* slopes; w: troughs, m */
-    vec4 sea_foam_at;              /* threshold of fresh foam; width of thickness, and the eye's place in it, samples */
-    vec4 sea_foam_hidden[SEA_LEVELS]; /* variance that a level hides, of each plane of lace */
+    vec4 sea_foam_axes[SEA_FOAM_READINGS];   /* rows, columns of a pattern along x, z: samples per m */
+    vec4 sea_foam_places[SEA_FOAM_READINGS]; /* of the eye in it, samples; samples per m of footprints; weight */
+    vec4 sea_foam_hidden[SEA_LEVELS]; /* variance that a level hides, of each pattern, after the share */
     vec4 sea_absorption, sea_scattering, sea_backscattering, sea_reflectance; /* w: ior, foam's albedo, normals, masking */
     vec4 sea_pure_share;           /* w: 1: Schlick's formula */
     vec4 sea_sun;                  /* unit, to it; w: its Fresnel reflectance */

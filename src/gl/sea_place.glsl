@@ -1,5 +1,5 @@
 /* sea_place.glsl - the place of the surface that a fragment shows, as water_shade.c has it. */
-uniform highp sampler2DArray u_sea_foam; /* one number a texel: amount of old foam, planes of lace */
+uniform highp sampler2DArray u_sea_foam; /* one number a texel: amount of foam, patterns */
 
 struct SeaPlace
 {
@@ -24,19 +24,19 @@ float sea_footprint_place(float footprint)
     return clamp(log2(max(footprint * 1000.0, 1.0)) * (63.0 / 26.575425), 0.0, 63.0);
 }
 
-/* Slopes that a footprint does not resolve, and variance of convergence; those of all others. */
-vec4 sea_slopes(float footprint, out vec3 resolved, out vec2 moments)
+/* Slopes that a footprint does not resolve; those of all others. */
+vec3 sea_slopes(float footprint, out vec3 resolved, out vec2 moments)
 {
     float place = sea_footprint_place(footprint);
     int i = min(int(place), SEA_FOOTPRINTS - 2);
-    vec4 hidden = mix(sea_residual[i], sea_residual[i + 1], place - float(i));
+    vec3 hidden = mix(sea_residual[i], sea_residual[i + 1], place - float(i)).xyz;
     moments = mix(sea_moments[i], sea_moments[i + 1], place - float(i)).xy;
     resolved = sea_total.xyz - hidden.xyz;
     if (sea_total.w > 0.0)
-        hidden.xyz += sea_rough.xyz - sea_residual[0].xyz;
+        hidden += sea_rough.xyz - sea_residual[0].xyz;
     vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0);
     resolved = vec3(max(resolved.xy, 0.0), resolved.z) + least;
-    return vec4(vec3(max(hidden.xy, 0.0), hidden.z) + least, hidden.w);
+    return vec3(max(hidden.xy, 0.0), hidden.z) + least;
 }
 
 /* ---- foam ---- */
@@ -65,17 +65,18 @@ vec2 sea_plane(int layer, vec2 at, float texels)
     return vec2(sea_plane_mean(layer, at, level), mix(sea_foam_hidden[whole][layer], sea_foam_hidden[next][layer], level.y));
 }
 
-/* In samples of a tile, from a place of the eye. */
-vec2 sea_samples(int tile, vec2 rest, vec2 eye_at, float scale)
+/* read_pattern() */
+vec2 sea_pattern(int reading, int layer, vec2 rest, float footprint)
 {
+    vec4 axes = sea_foam_axes[reading];
+    vec4 eye = sea_foam_places[reading];
     float size = float(sea_counts.z);
-    vec4 axes = sea_axes[tile];
-    vec2 at = eye_at + vec2(rest.x * axes.x + rest.y * axes.y, rest.y * axes.x - rest.x * axes.y) * (axes.z * scale);
-    return at - floor(at / size) * size;
+    vec2 at = eye.xy + vec2(dot(rest, axes.xy), dot(rest, axes.zw));
+    return sea_plane(layer, at - floor(at / size) * size, footprint * eye.z);
 }
 
-/* waves_foam_at() */
-float sea_old_foam(vec2 rest, float footprint)
+/* waves_foam_at(): share, amount. */
+vec2 sea_foam(vec2 rest, float footprint)
 {
     SeaPatches p = sea_patches(0, rest);
     vec2 level = sea_plane_level(footprint * sea_axes[0].z);
@@ -86,19 +87,13 @@ float sea_old_foam(vec2 rest, float footprint)
     } while (p.weights.x > 0.0);
     share = clamp(share, 0.0, 1.0);
     if (share <= 1e-4 || share >= 0.999)
-        return share;
-    int first = sea_counts.x > 1 ? 1 : 0;
-    vec2 at = sea_samples(first, rest, sea_foam_at.zw, sea_foam_at.y);
-    vec2 field = sea_plane(1, vec2(-at.y, at.x), footprint * sea_foam_at.y * sea_axes[first].z);
-    share = min(share * foam_thickness(share, field.x, field.y), 0.999);
-    vec2 lace = vec2(0.0);
-    float scale = inversesqrt(float(sea_counts.w));
-    int i = 0;
-    do {
-        lace += sea_plane(1 + i, sea_samples(first + i, rest, sea_places[first + i].xy, 1.0), footprint * sea_axes[first + i].z) * vec2(scale, scale * scale);
-        i++;
-    } while (i < sea_counts.w);
-    return foam_lace(share, lace.x, lace.y);
+        return vec2(share);
+    vec2 field = vec2(0.0);
+    for (int i = 0; i < SEA_FOAM_READINGS; i++) {
+        float weight = sea_foam_places[i].w;
+        field += sea_pattern(i, i > 0 ? 1 : 2, rest, footprint) * vec2(weight, weight * weight);
+    }
+    return vec2(foam_lace(share, field.x, field.y), share);
 }
 #endif
 
@@ -147,18 +142,18 @@ SeaPlace sea_place(vec3 d, vec4 seen)
     sea_slopes(footprint, p.resolved, p.moments);
     p.cosine = water_seen_cosine(p.V * side, p.resolved);
     footprint = max(footprint, p.width * inversesqrt(p.cosine));
-    vec4 hidden = sea_slopes(footprint, p.resolved, p.moments);
+    vec3 hidden = sea_slopes(footprint, p.resolved, p.moments);
     SeaWaves waves = sea_waves(rest, footprint);
     p.height = waves.displacement.y;
     p.point.N = wave_normal(waves.slope, waves.D);
 #ifndef IS_BELOW
     p.point.N = water_faced(p.point.N, p.V);
 #endif
-    p.point.covariance = hidden.xyz;
+    p.point.covariance = hidden;
     p.point.foam = 0.0;
 #ifdef HAS_FOAM
-    float fresh = foam_share(-(waves.D.x + waves.D.y), hidden.w, sea_foam_at.x);
-    p.point.foam = water_foam_cover(fresh, sea_old_foam(rest, footprint));
+    vec2 foam = sea_foam(rest, footprint);
+    p.point.foam = water_foam_cover(foam.x, foam.y);
 #endif
     return p;
 }

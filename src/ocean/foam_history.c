@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "ocean/foam_pattern.h"
 #include "ocean/wave_amplitudes.h"
 #include "ocean/wave_transform.h"
 
@@ -157,38 +158,6 @@ facet_result foam_history_gather(foam_history *h, const waves *w, float *share, 
     return FACET_OK;
 }
 
-/* ---- lace ---- */
-
-static double mean_square(const float *values, size_t count)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < count; i++)
-        sum += (double)values[i] * (double)values[i];
-    return sum / (double)count;
-}
-
-/* Heights at time 0, each wave over its length (which makes the lace as fine as the waves are), with a variance of 1. */
-static void make_lace(foam_history *h, const waves *w, uint32_t tile, foam_plane *lace)
-{
-    const wave_amplitudes *a = w->amplitudes[tile];
-    for (size_t i = 0; i < a->count; i++) {
-        const wave_mode *m = &a->modes[i];
-        float n = sqrtf((float)(m->n_x * m->n_x + m->n_z * m->n_z));
-        wave_mode_at(m, 0.0, h->coefficients[i][0], NULL);
-        h->coefficients[i][0][0] *= n;
-        h->coefficients[i][0][1] *= n;
-        h->coefficients[i][1][0] = h->coefficients[i][1][1] = 0.0f;
-    }
-    const wave_pair pair = {tile, h->coefficients, h->rows, {h->fields[0], h->fields[1]}};
-    wave_transform_pair(w->transform, w, &pair);
-    size_t count = (size_t)lace->size * lace->size;
-    double deviation = sqrt(mean_square(h->fields[0], count));
-    float scale = deviation > 0.0 ? (float)(1.0 / deviation) : 0.0f;
-    for (size_t i = 0; i < count; i++)
-        lace->levels[0][i] = scale * h->fields[0][i];
-    foam_plane_reduce(lace);
-}
-
 /* ---- all ---- */
 
 static void destroy(sea_kept *kept)
@@ -214,8 +183,8 @@ static bool allocate(foam_history *h, const waves *w)
         h->fields[i] = mem_alloc(&h->allocator, size * size, sizeof(float));
         is_there = h->fields[i];
     }
-    for (uint32_t i = 0; i < h->lace_count && is_there; i++)
-        is_there = foam_plane_create(&h->allocator, h->size, &h->lace[i]);
+    for (uint32_t i = 0; i < FOAM_PATTERNS && is_there; i++)
+        is_there = foam_plane_create(&h->allocator, h->size, &h->patterns[i]);
     return is_there;
 }
 
@@ -241,21 +210,16 @@ facet_result foam_history_create(const waves *w, double threshold, double decay_
     *out = NULL;
     if (!h)
         return fail_memory(error, "foam", sizeof *h);
-    *h = (foam_history){.kept.destroy = destroy,
-                        .allocator = w->allocator,
-                        .size = w->tiles[0].size,
-                        .decay_s = decay_s,
-                        .lace_count = w->tile_count > FOAM_LACES ? FOAM_LACES : 1};
+    *h = (foam_history){
+        .kept.destroy = destroy, .allocator = w->allocator, .size = w->tiles[0].size, .decay_s = decay_s};
     choose_times(h, w);
     if (!allocate(h, w)) {
         foam_history_destroy(h);
         return fail_memory(error, "foam", (size_t)w->tiles[0].size * w->tiles[0].size * sizeof(float));
     }
     make_chances(h->chances, w, threshold);
-    for (uint32_t i = 0; i < h->lace_count; i++) {
-        h->lace_tiles[i] = w->tile_count > 1 ? i + 1 : 0;
-        make_lace(h, w, h->lace_tiles[i], &h->lace[i]);
-    }
+    foam_pattern_cells(&h->patterns[FOAM_CELLS], w->thread_count);
+    foam_pattern_clouds(&h->patterns[FOAM_CLOUDS], w->thread_count);
     *out = h;
     return FACET_OK;
 }
@@ -268,8 +232,8 @@ void foam_history_destroy(foam_history *h)
         mem_free(h->pairs[i].planes[0]);
         mem_free(h->pairs[i].planes[1]);
     }
-    for (uint32_t i = 0; i < FOAM_LACES; i++)
-        foam_plane_destroy(&h->lace[i]);
+    for (uint32_t i = 0; i < FOAM_PATTERNS; i++)
+        foam_plane_destroy(&h->patterns[i]);
     mem_free(h->pairs);
     mem_free(h->chances);
     mem_free(h->coefficients);

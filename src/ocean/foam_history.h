@@ -1,4 +1,4 @@
-/* foam_history.h - where the longest tile has broken in the last seconds, and the fields that old foam lies along: what foam at a time is
+/* foam_history.h - where the longest tile has broken in the last seconds, and the patterns of old foam: what foam at a time is
  * computed from, kept, as the next frame looks at nearly the same. It changes no number of it. */
 #ifndef OCEAN_FOAM_HISTORY_H
 #define OCEAN_FOAM_HISTORY_H
@@ -7,7 +7,7 @@
 #include "ocean/sea_kept.h"
 #include "ocean/waves.h"
 
-enum { FOAM_LACES = 2 };
+enum { FOAM_CELLS, FOAM_CLOUDS, FOAM_PATTERNS }; /* foam_pattern.h */
 
 typedef struct foam_chances foam_chances;
 typedef struct foam_pair foam_pair;
@@ -18,8 +18,7 @@ typedef struct foam_history {
     uint32_t size;
     double step_s, decay_s; /* of the times that are looked at; in which foam fades by e */
     uint32_t count;         /* of times: now, then multiples of step_s */
-    foam_plane lace[FOAM_LACES];
-    uint32_t lace_tiles[FOAM_LACES], lace_count;
+    foam_plane patterns[FOAM_PATTERNS];
     foam_chances *chances;
     foam_pair *pairs; /* of multiples, as many as are kept */
     uint32_t pair_count;

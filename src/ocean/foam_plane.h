@@ -22,8 +22,8 @@ typedef struct foam_plane_value {
 /* (u, v) in samples; texels: the footprint's width in them. */
 foam_plane_value foam_plane_read(const foam_plane *p, double u, double v, float texels);
 
-/* foam_thickness() and foam_lace() of shade/water_place.h. */
-float wave_foam_thickness(float share, float field, float hidden);
+/* foam_lace() and inverse_normal() of the shared text. */
 float wave_foam_lace(float share, float mean, float variance);
+float wave_inverse_normal(float u);
 
 #endif

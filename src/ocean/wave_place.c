@@ -16,12 +16,12 @@ float foam_coverage(const foam_rule *r, float mean, float variance, float thresh
     return threshold < INFINITY ? foam_share(mean, variance, threshold) : 0.0f;
 }
 
-float wave_foam_thickness(float share, float field, float hidden)
-{
-    return foam_thickness(share, field, hidden);
-}
-
 float wave_foam_lace(float share, float mean, float variance)
 {
     return foam_lace(share, mean, variance);
+}
+
+float wave_inverse_normal(float u)
+{
+    return inverse_normal(u);
 }

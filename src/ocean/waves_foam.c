@@ -5,7 +5,10 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "ocean/foam_pattern.h"
 #include "ocean/wave_patches.h"
+
+static const double MOST_COVER = 0.9; /* Beaufort 12: white with foam, and streaks are seen in it */
 
 double foam_decay_s(double salinity)
 {
@@ -34,10 +37,37 @@ static void scale_share(float *share, size_t count, double mean)
         share[i] = (float)fmin(factor * (double)share[i], 1.0);
 }
 
+/* How patterns lie on the water: wide ones grow with the waves, the finest cells hardly. They are drawn out along the wind, the more it
+ * blows: foam gathers in windrows. */
+static void place_readings(const waves *w, foam_reading *readings)
+{
+    double size = (double)w->tiles[0].size, wind = w->state.wind_mps;
+    double scale = fmin(fmax(sqrt(w->tiles[0].length_m / 2000.0), 0.1), 1.5), rows = 1.0 + wind / 8.0;
+    const struct {
+        uint32_t pattern;
+        double samples_per_m, stretch, turn;
+        float weight;
+    } all[FOAM_READINGS] = {
+        {FOAM_CLOUDS, size / (70.0 * scale), rows, 0.0, 0.5f},
+        {FOAM_CELLS, FOAM_CELL_SAMPLES / (3.7 * scale), 0.5 + 0.5 * rows, 0.13, 0.45f},
+        {FOAM_CELLS, FOAM_CELL_SAMPLES / (1.1 * scale), 0.75 + 0.25 * rows, -0.4, 0.6f},
+        {FOAM_CELLS, FOAM_CELL_SAMPLES / (0.3 * sqrt(scale)), 1.0, 1.1, 0.43f},
+    };
+    for (uint32_t i = 0; i < FOAM_READINGS; i++) {
+        double turn = w->state.wind_direction + all[i].turn, along = all[i].samples_per_m / all[i].stretch;
+        readings[i] =
+            (foam_reading){.pattern = all[i].pattern,
+                           .along = {along * cos(turn), along * sin(turn)},
+                           .across = {-all[i].samples_per_m * sin(turn), all[i].samples_per_m * cos(turn)},
+                           .samples_per_m = (float)all[i].samples_per_m,
+                           .weight = all[i].weight};
+    }
+}
+
 void waves_foam_destroy(waves_foam *f)
 {
     foam_plane_destroy(&f->share);
-    *f = (waves_foam){.lace_count = 0};
+    *f = (waves_foam){.w = NULL};
 }
 
 facet_result waves_foam_create(const waves *w, const foam_rule *rule, double decay_s, foam_history **history,
@@ -58,10 +88,9 @@ facet_result waves_foam_create(const waves *w, const foam_rule *rule, double dec
         waves_foam_destroy(out);
         return result;
     }
-    out->lace_count = (*history)->lace_count;
-    memcpy(out->lace, (*history)->lace, sizeof out->lace);
-    memcpy(out->lace_tiles, (*history)->lace_tiles, sizeof out->lace_tiles);
-    scale_share(out->share.levels[0], (size_t)size * size, 0.9 * (double)rule->coverage);
+    memcpy(out->patterns, (*history)->patterns, sizeof out->patterns);
+    place_readings(w, out->readings);
+    scale_share(out->share.levels[0], (size_t)size * size, fmin((double)rule->coverage, MOST_COVER));
     foam_plane_reduce(&out->share);
     return FACET_OK;
 }
@@ -83,34 +112,27 @@ static float share_at(const waves_foam *f, double x, double z, float footprint_m
     return fminf(fmaxf(sum, 0.0f), 1.0f);
 }
 
-/* What the share is multiplied by from place to place, by a field three times as wide as the lace. Lines break where it is small, and run
- * together where it is not. */
-static float thickness_at(const waves_foam *f, double x, double z, float footprint_m, float share)
+static foam_plane_value read_pattern(const waves_foam *f, uint32_t reading, double x, double z,
+                                     float footprint_m)
 {
-    const wave_tile *t = &f->w->tiles[f->lace_tiles[0]];
-    double u = x * t->cos_per_m + z * t->sin_per_m, v = z * t->cos_per_m - x * t->sin_per_m;
-    foam_plane_value m =
-        foam_plane_read(&f->lace[0], -FOAM_THICKNESS_WIDTH * v, FOAM_THICKNESS_WIDTH * u,
-                        footprint_m * (float)(FOAM_THICKNESS_WIDTH * (double)t->samples_per_m));
-    return wave_foam_thickness(share, m.mean, m.hidden);
+    const foam_reading *r = &f->readings[reading];
+    return foam_plane_read(&f->patterns[r->pattern], x * r->along[0] + z * r->along[1],
+                           x * r->across[0] + z * r->across[1], footprint_m * r->samples_per_m);
 }
 
-float waves_foam_at(const waves_foam *f, double x, double z, float footprint_m)
+foam_seen waves_foam_at(const waves_foam *f, double x, double z, float footprint_m)
 {
     if (!f->share.level_count)
-        return 0.0f;
-    float share = share_at(f, x, z, footprint_m);
-    if (share <= 1e-4f || share >= 0.999f)
-        return share;
-    share = fminf(share * thickness_at(f, x, z, footprint_m, share), 0.999f);
-    float mean = 0.0f, hidden = 0.0f, scale = 1.0f / sqrtf((float)f->lace_count);
-    for (uint32_t i = 0; i < f->lace_count; i++) {
-        const wave_tile *t = &f->w->tiles[f->lace_tiles[i]];
-        foam_plane_value value =
-            foam_plane_read(&f->lace[i], x * t->cos_per_m + z * t->sin_per_m,
-                            z * t->cos_per_m - x * t->sin_per_m, footprint_m * (float)t->samples_per_m);
-        mean += value.mean * scale;
-        hidden += value.hidden * scale * scale;
+        return (foam_seen){0.0f, 0.0f};
+    float amount = share_at(f, x, z, footprint_m);
+    if (amount <= 1e-4f || amount >= 0.999f)
+        return (foam_seen){amount, amount};
+    float mean = 0.0f, hidden = 0.0f;
+    for (uint32_t i = 0; i < FOAM_READINGS; i++) {
+        float weight = f->readings[i].weight;
+        foam_plane_value value = read_pattern(f, i, x, z, footprint_m);
+        mean += weight * value.mean;
+        hidden += weight * weight * value.hidden;
     }
-    return wave_foam_lace(share, mean, hidden);
+    return (foam_seen){wave_foam_lace(amount, mean, hidden), amount};
 }

@@ -29,13 +29,12 @@ static double fallen(const water_setup *s, const water_mesh_lattice *l, double X
     return s->march.fall * (x * x + z * z);
 }
 
-static void fill_water(const water_setup *s, const double rest[2], float convergence, float footprint,
-                       float *out)
+static void fill_water(const water_setup *s, const double rest[2], float footprint, float *out)
 {
     water_slopes slopes = water_slopes_at(s, footprint);
     for (int i = 0; i < 3; i++)
         out[i] = slopes.covariance[i];
-    out[3] = water_foam_at(s, rest, convergence, slopes.convergence_variance, footprint);
+    out[3] = water_foam_at(s, rest, footprint);
 }
 
 static void fill_vertex(const surface *f, uint32_t row, uint32_t column)
@@ -54,7 +53,7 @@ static void fill_vertex(const surface *f, uint32_t row, uint32_t column)
     f->positions[3 * at + 1] = (float)((double)p.height_m - fallen(s, l, X, Z));
     f->positions[3 * at + 2] = (float)Z;
     memcpy(f->normals + 3 * at, shape.normal, sizeof shape.normal);
-    fill_water(s, rest, shape.convergence, footprint, f->water + SCENE_WATER_VALUES * at);
+    fill_water(s, rest, footprint, f->water + SCENE_WATER_VALUES * at);
 }
 
 static void fill_rows(void *context, size_t begin, size_t end)

@@ -141,15 +141,14 @@ static double foam_of_preview(const made *m, double from, double to)
         const double rest[2] = {r * (cos)(angle), r * (sin)(angle)};
         wave_point p = waves_at(&m->sea->waves, rest[0], rest[1], footprint);
         wave_shape shape = wave_shape_of(&p);
-        float variance = water_slopes_at(&m->setup, footprint).convergence_variance;
-        float share = water_foam_at(&m->setup, rest, shape.convergence, variance, footprint);
+        float share = water_foam_at(&m->setup, rest, footprint);
         foam += (double)(share * shape.jacobian);
         area += (double)shape.jacobian;
     }
     return foam / area;
 }
 
-/* At 15 m/s: as much as the preview has, and between the fresh tenth of what the wind covers and all of it. */
+/* At 15 m/s: as much as the preview has, and between a tenth of what the wind covers and all of it. */
 static void foam_covers_what_it_should(void **state)
 {
     (void)state;

@@ -10,15 +10,13 @@ float water_march_footprint(const water_march *m, float width_m, double rise)
     return water_footprint(width_m, (float)rise, m->deviation_m);
 }
 
-float water_foam_at(const water_setup *s, const double rest[2], float convergence, float variance,
-                    float footprint_m)
+float water_foam_at(const water_setup *s, const double rest[2], float footprint_m)
 {
     const facet_sea_look *look = &s->desc->look;
-    const foam_rule *rule = &s->sea->foam;
-    if (look->no_foam || look->stage == 4 || !(rule->threshold < INFINITY))
+    if (look->no_foam || look->stage == 4 || !(s->sea->foam.threshold < INFINITY))
         return 0.0f;
-    float fresh = foam_coverage(rule, convergence, variance, rule->active_threshold);
-    return water_foam_cover(fresh, waves_foam_at(&s->foam, rest[0], rest[1], footprint_m));
+    foam_seen foam = waves_foam_at(&s->foam, rest[0], rest[1], footprint_m);
+    return water_foam_cover(foam.share, foam.amount);
 }
 
 /* ---- slopes that samples see ---- */
@@ -28,8 +26,7 @@ float water_foam_at(const water_setup *s, const double rest[2], float convergenc
 typedef struct sums {
     float weight;
     vec2 slope;
-    vec3 square;                     /* products of slopes: xx, zz, xz */
-    float convergence, convergence2; /* and its square */
+    vec3 square; /* products of slopes: xx, zz, xz */
     float height_m;
 } sums;
 
@@ -44,8 +41,6 @@ static void add(sums *sum, const wave_point *at, vec3 facing, bool is_below)
     sum->weight += weight;
     sum->slope = sum->slope + slope * weight;
     sum->square = sum->square + vec3(slope[0] * slope[0], slope[1] * slope[1], slope[0] * slope[1]) * weight;
-    sum->convergence += shape.convergence * weight;
-    sum->convergence2 += shape.convergence * shape.convergence * weight;
     sum->height_m += at->height_m * weight;
 }
 
@@ -55,8 +50,6 @@ static sums mean_of(sums sum)
     return (sums){.weight = 1.0f,
                   .slope = sum.slope * share,
                   .square = sum.square * share,
-                  .convergence = sum.convergence * share,
-                  .convergence2 = sum.convergence2 * share,
                   .height_m = sum.height_m * share};
 }
 
@@ -67,7 +60,6 @@ static void spread(water_slopes *slopes, const sums *mean)
     vec2 m = mean->slope;
     vec3 C = mean->square - vec3(m[0] * m[0], m[1] * m[1], m[0] * m[1]);
     slopes->covariance = slopes->covariance + vec3(max(C[0], 0.0f), max(C[1], 0.0f), C[2]);
-    slopes->convergence_variance += max(mean->convergence2 - mean->convergence * mean->convergence, 0.0f);
 }
 
 /* ---- a place ---- */
@@ -94,7 +86,7 @@ static void finish(const water_setup *s, const march_ray *ray, const sums *mean,
     p->point.N = normal_from_slope(mean->slope);
     p->point.N = ray->is_below ? p->point.N : water_faced(p->point.N, p->V);
     p->point.covariance = p->slopes.covariance;
-    p->point.foam = water_foam_at(s, p->rest, mean->convergence, p->slopes.convergence_variance, footprint_m);
+    p->point.foam = water_foam_at(s, p->rest, footprint_m);
 }
 
 water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit)
@@ -188,6 +180,7 @@ water_place water_place_of_samples(const water_setup *s, const march_ray *ray,
     p.P[2] = hit->Z;
     for (int i = 0; i < 2; i++)
         p.rest[i] = p.P[2 * i] - (double)hit->displacement[i];
-    finish(s, ray, &sum, footprint, &p);
+    float n = (float)count; /* foam is read once, as wide as they are together: see begin() */
+    finish(s, ray, &sum, footprint * sqrt(n * sqrt(n)), &p);
     return p;
 }

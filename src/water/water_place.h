@@ -18,9 +18,8 @@ typedef struct water_place {
         cosine; /* about N.V, waves of all lengths considered: how much longer the footprint is on the water */
 } water_place;
 
-/* Share of a footprint that foam hides, [0, 1]. rest: of the water; convergence there, and its variance within the footprint. */
-float water_foam_at(const water_setup *s, const double rest[2], float convergence, float variance,
-                    float footprint_m);
+/* Share of a footprint (m) that foam hides; of water that rests at (x, z). */
+float water_foam_at(const water_setup *s, const double rest[2], float footprint_m);
 
 /* Of a ray (from above or below) and its hit. */
 water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit);

@@ -210,10 +210,9 @@ water_slopes water_slopes_at(const water_setup *s, float footprint_m)
     if (s->roughness[0] >= 0.0f)
         C = C - load_slopes(&f->residual[0]) + s->roughness;
     vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
-    return (water_slopes){
-        .covariance = vec3(max(C[0], 0.0f), max(C[1], 0.0f), C[2]) + least,
-        .resolved = vec3(max(resolved[0], 0.0f), max(resolved[1], 0.0f), resolved[2]) + least,
-        .curvature = mix(f->curvature[i], f->curvature[i + 1], share),
-        .rate = mix(f->rate[i], f->rate[i + 1], share),
-        .convergence_variance = mix(f->convergence_variance[i], f->convergence_variance[i + 1], share)};
+    return (water_slopes){.covariance = vec3(max(C[0], 0.0f), max(C[1], 0.0f), C[2]) + least,
+                          .resolved =
+                              vec3(max(resolved[0], 0.0f), max(resolved[1], 0.0f), resolved[2]) + least,
+                          .curvature = mix(f->curvature[i], f->curvature[i + 1], share),
+                          .rate = mix(f->rate[i], f->rate[i + 1], share)};
 }

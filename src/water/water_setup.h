@@ -47,7 +47,7 @@ void water_setup_destroy(water_setup *s);
 typedef struct water_slopes {
     vec3 covariance; /* xx, zz, xz */
     vec3 resolved;   /* of all others */
-    float curvature, rate, convergence_variance;
+    float curvature, rate;
 } water_slopes;
 water_slopes water_slopes_at(const water_setup *s, float footprint_m);
 
