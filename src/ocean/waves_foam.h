@@ -8,7 +8,8 @@
  * amount is a share of the area around. Within that area foam lies where a sum of clouds and cells of three sizes is above the
  * number that the share of it exceeds: much of it is a patch with ragged edges, less has holes of many sizes, little is threads between them.
  *
- * Ripples that curl over break without air in them, and no foam comes of them: those of the longest tile count alone. */
+ * No place is white for a ripple's own convergence: ripples curl over without air in them, and would dot all crests. What is shorter than
+ * the longest tile's waves is part of the chance alone. */
 #ifndef OCEAN_WAVES_FOAM_H
 #define OCEAN_WAVES_FOAM_H
 
