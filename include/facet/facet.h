@@ -1330,8 +1330,8 @@ typedef struct facet_sea_look {
  * camera NULL: facet_sea_camera(). scene NULL: nothing but water; its pose is followed, its cameras and lights are not.
  *
  * integrator FACET_INTEGRATOR_PREVIEW draws the endless sea. _PATH traces paths through the waves as triangles, out to the horizon, with
- * foam and scene; of looks it knows no_foam, schlick_fresnel and perceptual_roughness. _GL draws what _PREVIEW does, for cameras with a field of view and without
- * scene; the sea keeps OpenGL's programs for its next picture. */
+ * foam and scene, whose lamps it follows; of looks it knows no_foam, schlick_fresnel and perceptual_roughness. _GL draws what
+ * _PREVIEW does, for cameras with a field of view; the sea keeps OpenGL's programs for its next picture. */
 typedef struct facet_sea_render_desc {
     facet_render_desc render;
     facet_sky_desc sky;
