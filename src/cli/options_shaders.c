@@ -34,12 +34,12 @@ const verb shaders_verb = {
     .summary = "print the shading text as GLSL, for other renderers",
     .arguments = "[PART...]",
     .max_arguments = SIZE_MAX,
-    .words =
-        WORDS("constants", "color", "brdf", "fresnel", "sampling", "sobol", "pixel_filter", "footprint",
-              "surface", "light", "area_light", "ibl", "sheen", "clearcoat", "anisotropy", "iridescence",
-              "dispersion", "transmission", "glass", "volume", "sky", "water_surface", "water_means", "glint",
-              "water", "water_place", "water_before", "specular_aa", "specular_glossiness", "layers",
-              "layers_direct", "layers_ibl", "layers_lobes", "material", "layers_sample", "phong", "tonemap"),
+    .words = WORDS("constants", "color", "brdf", "fresnel", "sampling", "sobol", "pixel_filter", "footprint",
+                   "surface", "light", "area_light", "ibl", "sheen", "clearcoat", "anisotropy", "iridescence",
+                   "dispersion", "transmission", "glass", "volume", "sky", "water_surface", "water_means",
+                   "glint", "water", "water_place", "water_before", "water_caustic", "specular_aa",
+                   "specular_glossiness", "layers", "layers_direct", "layers_ibl", "layers_lobes", "material",
+                   "layers_sample", "phong", "tonemap"),
     .description =
         "Prints the functions that facet shades with as one file of GLSL, or those parts of it that are "
         "named, with all "
