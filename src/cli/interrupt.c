@@ -5,6 +5,7 @@
 #include "cli/failure.h"
 
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,7 @@
 #include <unistd.h>
 
 /* What a signal handler shares with the process: the one place for state that is not passed along. */
-static volatile sig_atomic_t pending_signal;
+static atomic_int pending_signal; /* lock-free: the handler writes it, all threads ask for it */
 static const char *volatile safe_message;
 static volatile double deadline; /* on interrupt_clock(); 0: none */
 
