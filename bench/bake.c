@@ -14,10 +14,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "facet/facet.h"
+#include "median.h"
 
 enum { MOST_RUNS = 101, SAMPLES = 1024 };
 
@@ -31,32 +32,12 @@ static void check(facet_result result, const facet_error *error)
     exit(1);
 }
 
-static double seconds(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* ---- runs ---- */
 
 typedef struct timing {
     double wall[MOST_RUNS], cpu[MOST_RUNS], bytes[MOST_RUNS];
     int count;
 } timing;
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, int count)
-{
-    qsort(values, (size_t)count, sizeof *values, compare);
-    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
-}
 
 /* Something that is timed; it takes its memory from allocator. */
 typedef struct job {
@@ -76,11 +57,11 @@ static void time_once(const job *j, uint32_t thread_count, timing *t)
     facet_budget *budget = NULL;
     facet_error error;
     check(facet_budget_create(0, &budget, &error), &error);
-    double wall = seconds(CLOCK_MONOTONIC);
-    double cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    double wall = clock_seconds();
+    double cpu = processor_seconds();
     j->run(j, thread_count, facet_budget_allocator(budget));
-    t->wall[t->count] = seconds(CLOCK_MONOTONIC) - wall;
-    t->cpu[t->count] = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    t->wall[t->count] = clock_seconds() - wall;
+    t->cpu[t->count] = processor_seconds() - cpu;
     t->bytes[t->count++] = (double)facet_budget_peak_bytes(budget);
     facet_budget_destroy(budget);
 }
@@ -313,7 +294,7 @@ static double time_baseline(facet_environment *environment, uint32_t size, float
     for (uint32_t level = 1; level < facet_cube_get_level_count(cube); level++) {
         uint32_t edge = facet_cube_get_size(cube, level);
         uint32_t rows = 0;
-        double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+        double start = processor_seconds();
         for (uint32_t face = 0; face < 6; face++)
             for (uint32_t y = face; y < edge; y += STEP, rows++)
                 for (uint32_t x = 0; x < edge; x++) {
@@ -323,7 +304,7 @@ static double time_baseline(facet_environment *environment, uint32_t size, float
                     prefilter(&p, facet_cube_get_roughness(cube, level), d, out);
                     *sink += out[0] + out[1] + out[2];
                 }
-        all += (seconds(CLOCK_PROCESS_CPUTIME_ID) - start) * 6.0 * edge / rows;
+        all += (processor_seconds() - start) * 6.0 * edge / rows;
     }
     facet_cube_destroy(cube);
     return all;

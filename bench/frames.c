@@ -12,6 +12,7 @@
 
 #include "base/clock.h"
 #include "facet/facet.h"
+#include "median.h"
 
 typedef struct film_strip {
     facet_scene *scene;
@@ -68,14 +69,6 @@ static long peak_megabytes(void)
     return usage.ru_maxrss / 1024;
 }
 
-static double cpu_seconds(void)
-{
-    struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-           1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
 static uint64_t hash_image(const facet_image *picture)
 {
     facet_image_view view = facet_image_get_layer(picture, 0);
@@ -88,13 +81,6 @@ static uint64_t hash_image(const facet_image *picture)
     return hash;
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Draws all frames; renderer NULL: each on its own. */
 static void run(const film_strip *s, facet_renderer *renderer, uint64_t *hashes, const char *name)
 {
@@ -103,7 +89,7 @@ static void run(const film_strip *s, facet_renderer *renderer, uint64_t *hashes,
     double geometry = 0.0;
     double textures = 0.0;
     double shade = 0.0;
-    double cpu = cpu_seconds();
+    double cpu = processor_seconds();
     if (!seconds)
         exit(1);
     for (uint32_t i = 0; i < s->count; i++) {
@@ -120,21 +106,20 @@ static void run(const film_strip *s, facet_renderer *renderer, uint64_t *hashes,
             textures += stats.textures_s;
             shade += stats.shade_s;
         } else {
-            cpu = cpu_seconds();
+            cpu = processor_seconds();
         }
         hashes[i] = hash_image(picture);
         facet_image_destroy(picture);
     }
-    double first = seconds[0];
+    double first = seconds[0], *others = seconds + (s->count > 1);
     double n = s->count > 1 ? (double)(s->count - 1) : 1.0;
-    cpu = cpu_seconds() - cpu;
-    qsort(seconds + 1, s->count - 1, sizeof *seconds, compare);
+    cpu = processor_seconds() - cpu;
+    double typical = median(others, s->count > 1 ? (int)s->count - 1 : 1);
     printf("%-9s first %6.1f ms; others: median %6.1f ms (%.1f frames/s), least %6.1f ms, CPU %6.1f ms: "
            "geometry "
            "%.1f, textures %.1f, shade %.1f; peak %ld MB\n",
-           name, first * 1e3, seconds[s->count / 2] * 1e3, 1.0 / seconds[s->count / 2],
-           seconds[s->count > 1] * 1e3, cpu / n * 1e3, geometry / n * 1e3, textures / n * 1e3,
-           shade / n * 1e3, peak_megabytes());
+           name, first * 1e3, typical * 1e3, 1.0 / typical, others[0] * 1e3, cpu / n * 1e3,
+           geometry / n * 1e3, textures / n * 1e3, shade / n * 1e3, peak_megabytes());
     free(seconds);
 }
 

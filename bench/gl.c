@@ -20,6 +20,7 @@
 
 #include "base/clock.h"
 #include "gl/gl_renderer.h"
+#include "median.h"
 
 enum { MOST_FRAMES = 10000, UNTIMED_FRAMES = 5 };
 
@@ -37,18 +38,6 @@ static void check(facet_result result, const facet_error *error)
         return;
     fprintf(stderr, "gl: %s\n", error->message);
     exit(result == FACET_ERROR_ENVIRONMENT ? 8 : 1);
-}
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, uint32_t count)
-{
-    qsort(values, count, sizeof *values, compare);
-    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
 static void read_options(int argc, char **argv)
@@ -134,7 +123,7 @@ static void print_passes(void)
 {
     double sum = 0.0;
     for (int i = 0; i < GL_TIMER_COUNT; i++) {
-        double ms = median(passes[i], options.frames);
+        double ms = median(passes[i], (int)options.frames);
         sum += ms;
         if (ms > 0.0)
             printf("%-14s %9.3f ms\n", gl_timer_name((gl_timer)i), ms);

@@ -12,12 +12,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "film/film.h"
 #include "gl/gl_sea.h"
+#include "median.h"
 #include "ocean/sea.h"
 #include "ocean/sea_preset.h"
 #include "water/water_exposure.h"
@@ -40,18 +40,6 @@ static void check(facet_result result, const facet_error *error)
         return;
     fprintf(stderr, "gl_sea: %s\n", error->message);
     exit(result == FACET_ERROR_ENVIRONMENT ? 8 : 1);
-}
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, uint32_t count)
-{
-    qsort(values, count, sizeof *values, compare);
-    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
 static void read_options(int argc, char **argv)
@@ -80,13 +68,6 @@ static void read_options(int argc, char **argv)
             exit(2);
         }
     }
-}
-
-static double processor_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* One picture; to: its times, or NULL. */
@@ -132,7 +113,8 @@ static void print_times(void)
                                                   "frame", "of draw", "processors"};
     printf("%-10s %9s %9s %9s\n", "", "physical", "before", "ratio");
     for (int p = 0; p < PART_COUNT; p++) {
-        double physical = median(times[0][p], options.frames), before = median(times[1][p], options.frames);
+        double physical = median(times[0][p], (int)options.frames),
+               before = median(times[1][p], (int)options.frames);
         printf("%-10s %9.1f %9.1f %9.2f\n", names[p], physical, before, physical / before);
     }
 }

@@ -2,10 +2,10 @@
  * direction with its density, its value, and for light samples value and density of another direction.
  *
  *     lobes [RUNS]     default: 21; prints minima of processor time */
-#define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
+
+#include "median.h"
 
 #include "shade/shade.h"
 
@@ -104,21 +104,14 @@ static float run(int what)
     return sum;
 }
 
-static double now_ns(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
-
 static double measure(int what, int runs)
 {
     double least = HUGE_VAL;
     for (int r = 0; r < runs; ++r) {
-        double start = now_ns();
+        double start = processor_seconds();
         for (int pass = 0; pass < PASSES; ++pass)
             sink = run(what);
-        least = fmin(least, (now_ns() - start) / ((double)COUNT * PASSES));
+        least = fmin(least, 1e9 * (processor_seconds() - start) / ((double)COUNT * PASSES));
     }
     return least;
 }

@@ -7,34 +7,16 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
-enum { MAX_RUNS = 1000 };
+#include "base/clock.h"
+#include "median.h"
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+enum { MAX_RUNS = 1000 };
 
 static double seconds(struct timeval t)
 {
     return (double)t.tv_sec + 1e-6 * (double)t.tv_usec;
-}
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, int count)
-{
-    qsort(values, (size_t)count, sizeof *values, compare);
-    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
 int main(int argc, char **argv)
@@ -46,7 +28,7 @@ int main(int argc, char **argv)
     }
     static double wall[MAX_RUNS], cpu[MAX_RUNS], peak[MAX_RUNS];
     for (int i = 0; i < runs; i++) {
-        double start = now();
+        double start = clock_seconds();
         pid_t child = fork();
         if (child == 0) {
             int null = open("/dev/null", O_WRONLY);
@@ -62,7 +44,7 @@ int main(int argc, char **argv)
             fprintf(stderr, "measure: %s failed\n", argv[2]);
             return 1;
         }
-        wall[i] = now() - start;
+        wall[i] = clock_seconds() - start;
         cpu[i] = seconds(usage.ru_utime) + seconds(usage.ru_stime);
         peak[i] = (double)usage.ru_maxrss / 1024.0;
     }

@@ -12,6 +12,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "io/obj/obj.h"
+#include "median.h"
 
 enum { RUNS = 5 };
 
@@ -70,19 +71,6 @@ static void write_sheet(FILE *file, kind k, double bytes)
 
 /* ---- times ---- */
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
-static double median(double *seconds)
-{
-    qsort(seconds, RUNS, sizeof *seconds, compare);
-    return seconds[RUNS / 2];
-}
-
 static double time_scan(const char *path, double *megabytes)
 {
     double seconds[RUNS];
@@ -101,7 +89,7 @@ static double time_scan(const char *path, double *megabytes)
         file_close(&file);
         seconds[run] = clock_seconds() - start;
     }
-    return lines ? median(seconds) : -1.0;
+    return lines ? median(seconds, RUNS) : -1.0;
 }
 
 static double time_load(const char *path, uint32_t threads, double *peak, double *kept)
@@ -126,7 +114,7 @@ static double time_load(const char *path, uint32_t threads, double *peak, double
         scene_destroy(scene);
         facet_budget_destroy(budget);
     }
-    return median(seconds);
+    return median(seconds, RUNS);
 }
 
 static void measure(const char *path, const char *name)

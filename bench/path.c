@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "median.h"
 #include "path/path_lights.h"
 #include "path/path_trace.h"
 #include "path_rays.h"
@@ -118,19 +119,6 @@ static double draw(picture *p, uint32_t thread_count)
 }
 
 /* ---- numbers ---- */
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, int count)
-{
-    qsort(values, (size_t)count, sizeof *values, compare);
-    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
-}
 
 /* Medians of each way to trace the rays of a kind: seconds[way]. */
 static void time_rays(const picture *p, rays_kind kind, int runs, uint32_t threads, double seconds[3],

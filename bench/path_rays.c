@@ -1,11 +1,11 @@
 /* path_rays.c - see path_rays.h. */
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "median.h"
 #include "path_rays.h"
 
 enum { GRAIN = 1024 /* rays that a thread takes at once: 80 kB of them */ };
@@ -29,7 +29,7 @@ static const ray_spread NO_SPREAD = {.moves = false, .turns = false};
 
 double rays_now(bool by_processors, uint32_t thread_count)
 {
-    return by_processors ? (double)clock() / CLOCKS_PER_SEC / thread_count : clock_seconds();
+    return by_processors ? processor_seconds() / thread_count : clock_seconds();
 }
 
 void rays_count_processors(bool by_processors)

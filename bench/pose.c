@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "median.h"
 #include "scene/scene.h"
 
 enum { VERTICES = 100000, JOINTS = 64, TARGETS = 8, RUNS = 31, NODES = 100000, COPIES = 100000 };
@@ -113,13 +114,6 @@ static void add_targets(facet_scene *scene)
     scene->meshes[0].weights = noise_array(scene->arena, TARGETS, 1.0f);
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median seconds of a pose; prints it with count things per second. */
 static void measure(const char *name, facet_scene *scene, uint32_t thread_count, double count,
                     const char *what)
@@ -133,9 +127,8 @@ static void measure(const char *name, facet_scene *scene, uint32_t thread_count,
         seconds[i] = clock_seconds() - start;
         scene_pose_destroy(&pose);
     }
-    qsort(seconds, RUNS, sizeof *seconds, compare);
-    printf("%-28s %8.3f ms %8.1f million %s/s\n", name, 1e3 * seconds[RUNS / 2],
-           1e-6 * count / seconds[RUNS / 2], what);
+    double typical = median(seconds, RUNS);
+    printf("%-28s %8.3f ms %8.1f million %s/s\n", name, 1e3 * typical, 1e-6 * count / typical, what);
     scene_destroy(scene);
 }
 

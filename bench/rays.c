@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "cpu/visibility.h"
 #include "io/gltf/gltf.h"
+#include "median.h"
 
 enum { RUNS = 15, SAMPLES = 4, COLUMNS = 160, ROWS = 48, CHUNK = 64 };
 
@@ -170,19 +171,6 @@ static double time_embree(const setup *s, uint64_t *hit_count)
 
 /* ---- */
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values)
-{
-    qsort(values, RUNS, sizeof *values, compare);
-    return values[RUNS / 2];
-}
-
 int main(int argc, char **argv)
 {
     setup s = {.size = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) / 4 * 4 : 1024};
@@ -210,8 +198,8 @@ int main(int argc, char **argv)
         embree_s[i] = time_embree(&s, &embree_hits);
     }
     double rays = (double)s.size * s.size * SAMPLES;
-    double ours = median(facet_s);
-    double bare = median(embree_s);
+    double ours = median(facet_s, RUNS);
+    double bare = median(embree_s, RUNS);
     printf("hierarchy  %6.2f ms\n", build_s * 1e3);
     printf("embree     %6.1f M rays/s, %.1f %% hit\n", rays / bare * 1e-6,
            100.0 * (double)embree_hits / rays);

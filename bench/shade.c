@@ -1,10 +1,10 @@
 /* shade.c - nanoseconds per evaluation of the shared text: the whole surface, one hit at a time, and the scalar terms,
  * one at a time and in loops over arrays of float that the compiler vectorises. Each line is the median of RUNS runs
  * and how many times faster that is than the line it is compared with. bench/shade.sh runs it with gcc and clang. */
-#define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
+
+#include "base/clock.h"
+#include "median.h"
 
 #include "shade/shade.h"
 
@@ -115,33 +115,20 @@ LOOPS(term_mix)
 
 /* ---- measuring ---- */
 
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median nanoseconds per sample. */
 static double measure(void (*kernel)(void))
 {
     double runs[RUNS];
     for (int r = 0; r < RUNS; ++r) {
-        double start = seconds();
+        double start = clock_seconds();
         for (int p = 0; p < PASSES; ++p) {
             kernel();
             __asm__ volatile("" ::"r"(shaded), "r"(out), "r"(hits), "r"(&in)
                              : "memory"); /* in and out are used */
         }
-        runs[r] = (seconds() - start) * 1e9 / ((double)PASSES * COUNT);
+        runs[r] = (clock_seconds() - start) * 1e9 / ((double)PASSES * COUNT);
     }
-    qsort(runs, RUNS, sizeof *runs, ascending);
-    return runs[RUNS / 2];
+    return median(runs, RUNS);
 }
 
 static uint32_t rng_state = 1;

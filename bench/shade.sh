@@ -10,7 +10,7 @@ for cc in gcc clang; do
     command -v $cc > /dev/null || { echo "skip: no $cc"; continue; }
     for set in $sets; do
         if [ "$set" = baseline ]; then march=; else march=-m$set; fi
-        $cc $flags $march -I"$here/.." "$here/shade.c" -o "$tmp/shade" -lm
+        $cc $flags $march -I"$here/.." -I"$here/../src" "$here/shade.c" "$here/../src/base/clock.c" -o "$tmp/shade" -lm
         printf '%s: ' "$set"
         "$tmp/shade"
     done

@@ -1,9 +1,9 @@
 /* water.c - nanoseconds per shade of a sea's surface: the look before physics, the physical one, and its parts. Waves, sky and bed are looked
  * up beforehand. Each line is the median of RUNS runs, and how often the first line would fit into it. */
-#define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
+
+#include "base/clock.h"
+#include "median.h"
 
 #include "shade/shade.h"
 
@@ -101,32 +101,19 @@ static void fit_alone(void)
         shaded[i] = vec3(water_mean_fresnel_fit(hits[i].V[1], hits[i].spread, 1.34f));
 }
 
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median nanoseconds per shade. */
 static double measure(void (*kernel)(void))
 {
     double runs[RUNS];
     for (int r = 0; r < RUNS; ++r) {
-        double start = seconds();
+        double start = clock_seconds();
         for (int p = 0; p < PASSES; ++p) {
             kernel();
             __asm__ volatile("" ::"r"(shaded), "r"(hits) : "memory"); /* both are used */
         }
-        runs[r] = (seconds() - start) * 1e9 / ((double)PASSES * COUNT);
+        runs[r] = (clock_seconds() - start) * 1e9 / ((double)PASSES * COUNT);
     }
-    qsort(runs, RUNS, sizeof *runs, ascending);
-    return runs[RUNS / 2];
+    return median(runs, RUNS);
 }
 
 static uint32_t rng_state = 1;
