@@ -267,9 +267,11 @@ static bool is_physical(const facet_sea_look *look)
            !(look->clamp > 0.0f);
 }
 
-static facet_result resolve_sea(const facet_sea_render_desc *desc, facet_sea_render_desc *out,
-                                facet_error *error)
+/* The desc (NULL: defaults) with nothing left open; *camera is where the camera of one that has none is kept. */
+static facet_result resolve_sea(const facet_sea *sea, const facet_sea_render_desc *asked,
+                                facet_sea_render_desc *out, facet_camera *camera, facet_error *error)
 {
+    const facet_sea_render_desc defaults = {0}, *desc = asked ? asked : &defaults;
     *out = *desc;
     facet_integrator integrator = desc->render.integrator;
     facet_result result = check_look(&desc->look, error);
@@ -281,7 +283,13 @@ static facet_result resolve_sea(const facet_sea_render_desc *desc, facet_sea_ren
     if (result == FACET_OK && integrator != FACET_INTEGRATOR_PATH && integrator != FACET_INTEGRATOR_PREVIEW &&
         integrator != FACET_INTEGRATOR_GL)
         result = fail(error, FACET_ERROR_ARGUMENT, "sea: integrator %d does not draw it", (int)integrator);
-    return result == FACET_OK ? render_desc_resolve(&desc->render, &out->render, error) : result;
+    if (result == FACET_OK)
+        result = render_desc_resolve(&desc->render, &out->render, error);
+    if (result == FACET_OK && !out->render.camera) {
+        *camera = facet_sea_camera(sea, 0.0f, out->sky.sun_azimuth_rad);
+        out->render.camera = camera;
+    }
+    return result;
 }
 
 /* What the sea keeps is taken while it is in use: several threads may draw one sea. */
@@ -324,15 +332,12 @@ static facet_result draw(const facet_sea *sea, const facet_scene *scene, const f
 facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
                               const facet_sea_render_desc *desc, facet_image **image, facet_error *error)
 {
-    const facet_sea_render_desc defaults = {0};
     *image = NULL;
     facet_sea_render_desc d;
-    facet_result result = resolve_sea(desc ? desc : &defaults, &d, error);
+    facet_camera camera;
+    facet_result result = resolve_sea(sea, desc, &d, &camera, error);
     if (result != FACET_OK)
         return result;
-    const facet_camera camera = facet_sea_camera(sea, 0.0f, d.sky.sun_azimuth_rad);
-    if (!d.render.camera)
-        d.render.camera = &camera;
     if (d.render.integrator == FACET_INTEGRATOR_PATH)
         return ocean_path_render(sea, scene, &d, image, error);
     facet_image *made = mem_zalloc(&d.render.allocator, 1, sizeof *made);
@@ -349,13 +354,10 @@ facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
 facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *desc, double *ev100,
                              facet_error *error)
 {
-    const facet_sea_render_desc defaults = {0};
     facet_sea_render_desc d;
+    facet_camera camera;
     *ev100 = 0.0;
-    facet_result result = resolve_sea(desc ? desc : &defaults, &d, error);
-    const facet_camera camera = facet_sea_camera(sea, 0.0f, d.sky.sun_azimuth_rad);
-    if (!d.render.camera)
-        d.render.camera = &camera;
+    facet_result result = resolve_sea(sea, desc, &d, &camera, error);
     return result == FACET_OK ? water_exposure_ev100(sea, &d, ev100, error) : result;
 }
 
