@@ -27,6 +27,13 @@ typedef struct ocean_output {
     char name[RENDER_NAME_SIZE]; /* what is being made; "": nothing yet */
 } ocean_output;
 
+/* Of a file that is no picture, of which there is nothing else to say. */
+static void tell_file(ocean_output *o, const char *name)
+{
+    if (o->files)
+        json_array_append_new(o->files, json_pack("{s:o}", "output", report_string_json(name)));
+}
+
 static void tell(ocean_output *o, const picture_report *report)
 {
     report_picture(&o->run->messages, report, false);
@@ -120,8 +127,7 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
         result = facet_scene_save(scene, name, &save, error);
     if (result == FACET_OK) {
         message_at(&run->messages, VERBOSITY_DETAILS, "%s: written", name);
-        if (o->files)
-            json_array_append_new(o->files, json_pack("{s:o}", "output", report_string_json(name)));
+        tell_file(o, name);
     }
     facet_scene_destroy(scene);
     return result;
@@ -144,8 +150,8 @@ static facet_result make_map(ocean_output *o, uint32_t tile, const char *name, f
                                   .thread_count = run->options.picture.limits.thread_count};
     if (result == FACET_OK)
         result = output_write(image, name, &save, error);
-    if (result == FACET_OK && o->files)
-        json_array_append_new(o->files, json_pack("{s:o}", "output", report_string_json(name)));
+    if (result == FACET_OK)
+        tell_file(o, name);
     facet_image_destroy(image);
     return result;
 }
