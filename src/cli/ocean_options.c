@@ -240,6 +240,16 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
 
 /* ---- look ---- */
 
+/* The first of the options that somebody gave, up to the last of option_source that counts; NULL: none is. */
+static const option *first_given(const command_line *c, const option_id *ids, size_t count,
+                                 option_source last)
+{
+    for (size_t i = 0; i < count; i++)
+        if (is_given(c, ids[i]) && c->values[ids[i]].source <= last)
+            return option_find_id(c->verb, ids[i]);
+    return NULL;
+}
+
 static facet_result read_look(const command_line *c, ocean_options *out, facet_error *error)
 {
     render_options *o = &out->picture;
@@ -269,10 +279,11 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
     o->desc.path.denoises = is_given(c, OPT_DENOISE);
     if (o->desc.path.denoises && o->desc.integrator != FACET_INTEGRATOR_PATH)
         return fail_with(error, FACET_ERROR_ARGUMENT, "--denoise: only --renderer path has noise");
-    for (size_t i = 0; i < sizeof preview_only / sizeof *preview_only; i++)
-        if (o->desc.integrator == FACET_INTEGRATOR_PATH && is_given(c, preview_only[i]))
-            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path",
-                             option_find_id(c->verb, preview_only[i])->name);
+    const option *other =
+        first_given(c, preview_only, sizeof preview_only / sizeof *preview_only, SOURCE_PRESET);
+    if (other && o->desc.integrator == FACET_INTEGRATOR_PATH)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path",
+                         other->name);
     return FACET_OK;
 }
 
@@ -399,11 +410,12 @@ static facet_result check_mesh(const command_line *c, const ocean_options *out, 
         OPT_ENV,     OPT_EV100,   OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE,    OPT_ROUGHNESS,
         OPT_NORMALS, OPT_MASKING, OPT_CLAMP,  OPT_WITH,         OPT_RENDERER, OPT_EXPOSURE,
         OPT_SAMPLES, OPT_EYE,     OPT_TARGET, OPT_HEADING};
-    for (size_t i = 0; out->has_mesh && i < sizeof of_pictures / sizeof *of_pictures; i++)
-        if (is_given(c, of_pictures[i]) && c->values[of_pictures[i]].source == SOURCE_COMMAND_LINE)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--%s: it is of pictures, and %s is a mesh of the water alone",
-                             option_find_id(c->verb, of_pictures[i])->name, out->picture.output);
+    const option *other =
+        first_given(c, of_pictures, sizeof of_pictures / sizeof *of_pictures, SOURCE_COMMAND_LINE);
+    if (other && out->has_mesh)
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--%s: it is of pictures, and %s is a mesh of the water alone", other->name,
+                         out->picture.output);
     return FACET_OK;
 }
 
