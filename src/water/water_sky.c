@@ -277,18 +277,6 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
     return result;
 }
 
-facet_result water_sky_create_light(const facet_sea_render_desc *desc, water_sky *s, facet_error *error)
-{
-    if (desc->render.environment || desc->sky.model == FACET_SKY_PREETHAM)
-        return water_sky_create(desc, 0.0f, 1.0f, s, error);
-    facet_result result = begin(desc, s, error);
-    if (result == FACET_OK) {
-        light_by_air(&desc->sky, s);
-        scale_light(&desc->sky, s);
-    }
-    return result;
-}
-
 void water_sky_destroy(water_sky *s)
 {
     sky_view_destroy(&s->eye);

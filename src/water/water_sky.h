@@ -47,9 +47,6 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
                               water_sky *out, facet_error *error);
 void water_sky_destroy(water_sky *s); /* {0} is allowed */
 
-/* Only what an exposure asks for: sun_irradiance, sky_irradiance and L. */
-facet_result water_sky_create_light(const facet_sea_render_desc *desc, water_sky *out, facet_error *error);
-
 /* Radiance (cd/m^2) that the eye sees in the unit direction d, which does not meet the sea; below the horizon, that of the
  * horizon. With the sun's disc. */
 vec3 water_sky_seen(const water_sky *s, vec3 d);
