@@ -79,6 +79,16 @@ static float begin(const water_setup *s, const march_ray *ray, double t, float w
     return max(seen, width * inversesqrt(p->cosine));
 }
 
+/* Where the ray is at a hit, and where the water that is there rests. */
+static void locate(const water_setup *s, const march_ray *ray, const march_hit *hit, water_place *p)
+{
+    p->P[0] = hit->X;
+    p->P[1] = march_height(&s->march, ray, hit->t);
+    p->P[2] = hit->Z;
+    for (int i = 0; i < 2; i++)
+        p->rest[i] = p->P[2 * i] - (double)hit->displacement[i];
+}
+
 static void finish(const water_setup *s, const march_ray *ray, const sums *mean, float footprint_m,
                    water_place *p)
 {
@@ -94,11 +104,7 @@ water_place water_place_of(const water_setup *s, const march_ray *ray, const mar
     water_place p;
     float footprint = begin(s, ray, hit->t, hit->width_m, 1, &p);
     p.slopes = water_slopes_at(s, footprint);
-    p.P[0] = hit->X;
-    p.P[1] = march_height(&s->march, ray, hit->t);
-    p.P[2] = hit->Z;
-    for (int i = 0; i < 2; i++)
-        p.rest[i] = p.P[2 * i] - (double)hit->displacement[i];
+    locate(s, ray, hit, &p);
     wave_point at = waves_at(&s->sea->waves, p.rest[0], p.rest[1], footprint);
     sums sum = {.weight = 0.0f};
     add(&sum, &at, p.V * (ray->is_below ? -1.0f : 1.0f), ray->is_below);
@@ -175,11 +181,7 @@ water_place water_place_of_samples(const water_setup *s, const march_ray *ray,
     p.slopes = water_slopes_at(s, footprint);
     if (count > 1)
         spread(&p.slopes, &sum);
-    p.P[0] = hit->X;
-    p.P[1] = march_height(&s->march, ray, hit->t);
-    p.P[2] = hit->Z;
-    for (int i = 0; i < 2; i++)
-        p.rest[i] = p.P[2 * i] - (double)hit->displacement[i];
+    locate(s, ray, hit, &p);
     float n = (float)count; /* foam is read once, as wide as they are together: see begin() */
     finish(s, ray, &sum, footprint * sqrt(n * sqrt(n)), &p);
     return p;
