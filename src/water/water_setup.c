@@ -134,11 +134,16 @@ static facet_result add_model(water_setup *s, const facet_scene *scene, facet_re
 
 /* ---- all ---- */
 
+/* Nothing of a sea but what it keeps changes. */
+static sea_kept_place *history_place(const facet_sea *sea)
+{
+    return &((facet_sea *)(uintptr_t)sea)->foam_history;
+}
+
 static facet_result make_foam(water_setup *s, facet_error *error)
 {
     const facet_sea *sea = s->sea;
-    sea_kept_place *place = &((facet_sea *)(uintptr_t)sea)->foam_history;
-    s->foam_history = (foam_history *)sea_kept_take(place);
+    s->foam_history = (foam_history *)sea_kept_take(history_place(sea));
     return waves_foam_create(&sea->waves, &sea->foam, foam_decay_s((double)sea->desc.water.salinity),
                              &s->foam_history, &s->foam, error);
 }
@@ -194,7 +199,7 @@ void water_setup_destroy(water_setup *s)
     water_profile_destroy(&s->profile);
     waves_foam_destroy(&s->foam);
     if (s->foam_history)
-        sea_kept_put(&((facet_sea *)(uintptr_t)s->sea)->foam_history, &s->foam_history->kept);
+        sea_kept_put(history_place(s->sea), &s->foam_history->kept);
     water_light_give_back(s->sea, s->lit);
     memset(s, 0, sizeof *s);
 }
