@@ -278,8 +278,7 @@ bool water_mesh_bed(const water_setup *s, const water_mesh_lattice *l, arena *me
     if (!f.positions || !f.normals || !f.is_dry || !f.indices)
         return false;
     double far_m = l->radii[l->row_count - 1];
-    vec3 N =
-        normalize(vec3(-bed->slope * cos(bed->direction_rad), 1.0f, -bed->slope * sin(bed->direction_rad)));
+    vec3 N = water_bed_normal(bed);
     for (size_t at = 0; at < vertices; at++) {
         uint32_t row = (uint32_t)(at / BED_COLUMNS),
                  column = (uint32_t)(at % BED_COLUMNS) % (BED_COLUMNS - 1);

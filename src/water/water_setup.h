@@ -67,5 +67,10 @@ static inline double water_bed_rise(const facet_sea_bed *bed, vec3 d)
 {
     return (double)bed->slope * (double)(d[0] * cos(bed->direction_rad) + d[2] * sin(bed->direction_rad));
 }
+static inline vec3 water_bed_normal(const facet_sea_bed *bed)
+{
+    return normalize(
+        vec3(-bed->slope * cos(bed->direction_rad), 1.0f, -bed->slope * sin(bed->direction_rad)));
+}
 
 #endif

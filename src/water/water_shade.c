@@ -83,7 +83,6 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
 vec3 water_shade_land(const water_setup *s)
 {
     const facet_sea_bed *bed = &s->sea->desc.bed;
-    vec3 N =
-        normalize(vec3(-bed->slope * cos(bed->direction_rad), 1.0f, -bed->slope * sin(bed->direction_rad)));
-    return water_land(s->light, vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]), N);
+    vec3 albedo = vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]);
+    return water_land(s->light, albedo, water_bed_normal(bed));
 }
