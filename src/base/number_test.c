@@ -12,6 +12,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/mix64.h"
+
 /* Reads text, which may be followed by anything, and tells how many characters were the number; -1: none. */
 static long read_text(const char *text, float *value)
 {
@@ -36,11 +38,7 @@ static void assert_as_strtof(const char *text)
 
 static uint64_t next_random(uint64_t *state)
 {
-    *state += 0x9e3779b97f4a7c15u;
-    uint64_t z = *state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
+    return mix64(*state += MIX64_STEP);
 }
 
 static void test_forms(void **state)
@@ -192,6 +190,17 @@ static void test_digits(void **state)
     }
 }
 
+/* The first numbers of splitmix64 from the seed 1234567 by Vigna's splitmix64.c. */
+static void test_mixed_bits(void **state)
+{
+    (void)state;
+    static const uint64_t expected[] = {6457827717110365317u, 3203168211198807973u, 9817491932198370423u,
+                                        4593380528125082431u, 16408922859458223821u};
+    uint64_t random = 1234567;
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        assert_true(next_random(&random) == expected[i]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -201,6 +210,7 @@ int main(void)
         cmocka_unit_test(test_random_decimals),
         cmocka_unit_test(test_every_size_of_float),
         cmocka_unit_test(test_digits),
+        cmocka_unit_test(test_mixed_bits),
     };
     return cmocka_run_group_tests_name("number", tests, NULL, NULL);
 }

@@ -4,19 +4,17 @@
 
 #include <math.h>
 
+#include "base/mix64.h"
 #include "base/parallel.h"
 
 enum { RANKS = 4096, OCTAVES = 6 };
 
 /* ---- noise ---- */
 
-/* Of a place of a lattice, [0, 1). splitmix64's mixing, Steele et al. 2014. */
+/* Of a place of a lattice, [0, 1). */
 static float random_at(uint32_t x, uint32_t z, uint32_t stream)
 {
-    uint64_t h = ((uint64_t)x << 32 | z) + (uint64_t)(stream + 1) * 0x9e3779b97f4a7c15u;
-    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
-    h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
-    h ^= h >> 31;
+    uint64_t h = mix64(((uint64_t)x << 32 | z) + (uint64_t)(stream + 1) * MIX64_STEP);
     return (float)(h >> 40) * 0x1p-24f;
 }
 

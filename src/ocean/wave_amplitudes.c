@@ -5,28 +5,20 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "base/mix64.h"
 #include "base/parallel.h"
 
 static const double TWO_PI = 6.28318530717958647693;
 
 /* ---- random numbers ---- */
 
-/* Finaliser of splitmix64 (Steele, Lea and Flood 2014). */
-static uint64_t mix(uint64_t x)
-{
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-}
-
 /* Two independent normal numbers of one wave, by Box and Muller. */
 static void normal_pair(uint64_t seed, uint32_t tile, int32_t n_x, int32_t n_z, double out[2])
 {
-    const uint64_t golden = 0x9e3779b97f4a7c15u;
-    uint64_t key = mix(seed + golden * (tile + 1u));
-    key = mix(key ^ ((uint64_t)(uint32_t)n_x << 32 | (uint32_t)n_z));
-    double u = ((double)(mix(key + golden) >> 11) + 0.5) * 0x1p-53;
-    double v = (double)(mix(key + 2u * golden) >> 11) * 0x1p-53;
+    uint64_t key = mix64(seed + MIX64_STEP * (tile + 1u));
+    key = mix64(key ^ ((uint64_t)(uint32_t)n_x << 32 | (uint32_t)n_z));
+    double u = ((double)(mix64(key + MIX64_STEP) >> 11) + 0.5) * 0x1p-53;
+    double v = (double)(mix64(key + 2u * MIX64_STEP) >> 11) * 0x1p-53;
     double radius = sqrt(-2.0 * log(u));
     out[0] = radius * cos(TWO_PI * v);
     out[1] = radius * sin(TWO_PI * v);

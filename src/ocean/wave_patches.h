@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "base/mix64.h"
 #include "ocean/waves.h"
 
 enum { WAVES_MAX_PATCHES = 3 };
@@ -20,13 +21,10 @@ typedef struct wave_patch {
     uint32_t u, v; /* where it comes from, in samples of the tile */
 } wave_patch;
 
-/* Of the corner (i, j): a finaliser of 64 bits, as in wave_amplitudes.c. Lower and upper half: u, v of a patch, modulo the tile's size. */
+/* Of the corner (i, j). Lower and upper half: u, v of a patch, modulo the tile's size. */
 static inline uint64_t wave_patch_hash(uint64_t seed, int64_t i, int64_t j)
 {
-    uint64_t x = seed ^ ((uint64_t)i * 0x9e3779b97f4a7c15u) ^ ((uint64_t)j * 0xc2b2ae3d27d4eb4fu);
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
+    return mix64(seed ^ ((uint64_t)i * MIX64_STEP) ^ ((uint64_t)j * 0xc2b2ae3d27d4eb4fu));
 }
 
 /* A place in the axes of the triangles: the corner of its rhombus, and the rest, [0, 1)^2. */

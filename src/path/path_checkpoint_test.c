@@ -15,6 +15,7 @@
 #include "base/failing_allocator.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/mix64.h"
 #include "base/test_effort.h"
 #include "image/image.h"
 #include "path/path_film_state.h"
@@ -55,9 +56,7 @@ static path_film *create(uint32_t width, uint32_t height, bool has_ground)
 
 static float random_number(uint32_t pixel, uint32_t sample, uint32_t dimension)
 {
-    uint64_t z = ((uint64_t)pixel << 40 | (uint64_t)sample << 8 | dimension) * 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    uint64_t z = mix64(((uint64_t)pixel << 40 | (uint64_t)sample << 8 | dimension) * MIX64_STEP);
     return (float)(z >> 40) / 16777216.0f;
 }
 

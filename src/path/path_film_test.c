@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "base/failing_allocator.h"
+#include "base/mix64.h"
 #include "base/near_test.h"
 #include "base/parallel.h"
 #include "base/test_effort.h"
@@ -43,14 +44,11 @@ static path_sample grey(float radiance)
     return (path_sample){.radiance = {radiance, radiance, radiance}, .opacity = 1.0f};
 }
 
-/* ---- random numbers: splitmix64 (Steele, Lea and Flood 2014) ---- */
+/* ---- random numbers ---- */
 
 static double uniform(uint64_t *state) /* in (0, 1) */
 {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return ((double)((z ^ z >> 31) >> 12) + 0.5) / 4503599627370496.0;
+    return ((double)(mix64(*state += MIX64_STEP) >> 12) + 0.5) / 4503599627370496.0;
 }
 
 static double normal(uint64_t *state)
