@@ -66,7 +66,9 @@ facet_result facet_sea_set_time(facet_sea *sea, double time_s, facet_error *erro
     if (!isfinite(time_s))
         return fail(error, FACET_ERROR_ARGUMENT, "sea: its time is not a finite number");
     double loop = sea->waves.loop_s; /* to the last bit, and with it all that depends on time beside waves */
-    waves_set_time(&sea->waves, loop > 0.0 ? time_s - loop * floor(time_s / loop) : time_s);
+    time_s = loop > 0.0 ? time_s - loop * floor(time_s / loop) : time_s;
+    if (time_s != sea->waves.time_s) /* else they are there */
+        waves_set_time(&sea->waves, time_s);
     return FACET_OK;
 }
 
