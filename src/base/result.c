@@ -30,7 +30,8 @@ facet_result fail(facet_error *error, facet_result result, const char *format, .
 
 facet_result fail_memory(facet_error *error, const char *what, size_t size)
 {
-    return fail(error, FACET_ERROR_MEMORY, "out of memory: %s (%zu bytes)", what, size);
+    return size ? fail(error, FACET_ERROR_MEMORY, "out of memory: %s (%zu bytes)", what, size)
+                : fail(error, FACET_ERROR_MEMORY, "out of memory: %s", what);
 }
 
 void log_warning(const facet_log *log, const char *format, ...)

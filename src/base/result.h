@@ -11,7 +11,7 @@
 facet_result fail(facet_error *error, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* fail() for memory that was not there: "out of memory: WHAT (SIZE bytes)". */
+/* fail() for memory that was not there: "out of memory: WHAT (SIZE bytes)"; size 0, where a library asked for it: without them. */
 facet_result fail_memory(facet_error *error, const char *what, size_t size);
 
 /* Sends one formatted warning to log, if there is one. */

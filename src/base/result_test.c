@@ -19,6 +19,16 @@ static void writes_code_and_sentence(void **state)
     assert_int_equal(fail(NULL, FACET_ERROR_READ, "nobody listens"), FACET_ERROR_READ);
 }
 
+static void missing_memory_has_a_size_if_known(void **state)
+{
+    (void)state;
+    facet_error error;
+    assert_int_equal(fail_memory(&error, "a sea", 4096), FACET_ERROR_MEMORY);
+    assert_string_equal(error.message, "out of memory: a sea (4096 bytes)");
+    assert_int_equal(fail_memory(&error, "JPEG decoder", 0), FACET_ERROR_MEMORY);
+    assert_string_equal(error.message, "out of memory: JPEG decoder");
+}
+
 static void stays_one_line_and_in_bounds(void **state)
 {
     (void)state;
@@ -53,6 +63,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(writes_code_and_sentence),
+        cmocka_unit_test(missing_memory_has_a_size_if_known),
         cmocka_unit_test(stays_one_line_and_in_bounds),
         cmocka_unit_test(log_sends_formatted_text),
     };

@@ -88,7 +88,7 @@ static char *dump(writer *w)
     size_t flags = w->needs_all_digits ? JSON_REAL_PRECISION(17) : JSON_REAL_PRECISION(15);
     char *text = json_dumps(w->root, flags | (w->stem ? JSON_INDENT(2) : JSON_COMPACT));
     if (!text)
-        writer_fail_memory(w);
+        writer_fail_memory(w, 0);
     return text;
 }
 
@@ -125,7 +125,7 @@ static facet_result save_glb(writer *w, const char *path)
         w->result = fail(w->error, FACET_ERROR_LIMIT,
                          "%s: a .glb file holds at most 4 GiB; write a .gltf file", path);
     } else if (!file) {
-        writer_fail_memory(w);
+        writer_fail_memory(w, size);
     } else {
         unsigned char *at = file + 12;
         put_u32(file, GLB_MAGIC);
@@ -169,7 +169,7 @@ static facet_result save_gltf(writer *w, const char *path)
     char *bin_name = mem_alloc(w->allocator, length + 5, 1);
     char *text = NULL;
     if (!stem || !bin_name) {
-        writer_fail_memory(w);
+        writer_fail_memory(w, length + 5);
         goto done;
     }
     snprintf(stem, length + 1, "%s", base);
@@ -207,7 +207,7 @@ facet_result gltf_save(const facet_scene *scene, const char *path, const char *g
                 .views = json_array(),
                 .extensions_used = json_object()};
     if (!w.root || !w.accessors || !w.views || !w.extensions_used)
-        writer_fail_memory(&w);
+        writer_fail_memory(&w, 0);
     else if (is_glb)
         save_glb(&w, path);
     else

@@ -23,7 +23,7 @@ static unsigned char *add_bytes(writer *w, size_t size, size_t *offset)
         return NULL;
     }
     if (!mem_reserve(w->allocator, (void **)&w->bin, &w->bin_capacity, begin + size + 4, 1)) {
-        writer_fail_memory(w);
+        writer_fail_memory(w, begin + size + 4);
         return NULL;
     }
     memset(w->bin + w->bin_size, 0, begin - w->bin_size);
@@ -100,7 +100,7 @@ static bool grow(writer *w)
     size_t capacity = w->written_capacity ? 2 * w->written_capacity : 256;
     written_array *table = mem_zalloc(w->allocator, capacity, sizeof *table);
     if (!table) {
-        writer_fail_memory(w);
+        writer_fail_memory(w, capacity * sizeof *table);
         return false;
     }
     for (size_t i = 0; i < w->written_capacity; i++)

@@ -11,22 +11,22 @@ bool writer_is_ok(const writer *w)
     return w->result == FACET_OK;
 }
 
-void writer_fail_memory(writer *w)
+void writer_fail_memory(writer *w, size_t size)
 {
     if (writer_is_ok(w))
-        w->result = fail_memory(w->error, "glTF", w->bin_size);
+        w->result = fail_memory(w->error, "glTF", size);
 }
 
 void put(writer *w, json_t *object, const char *key, json_t *value)
 {
     if (json_object_set_new(object, key, value) != 0)
-        writer_fail_memory(w);
+        writer_fail_memory(w, 0);
 }
 
 void append(writer *w, json_t *array, json_t *value)
 {
     if (json_array_append_new(array, value) != 0)
-        writer_fail_memory(w);
+        writer_fail_memory(w, 0);
 }
 
 json_t *put_object(writer *w, json_t *object, const char *key)
@@ -149,7 +149,7 @@ static json_t *parse(writer *w, const char *json)
 {
     json_t *value = json_loads(json, JSON_DECODE_ANY | JSON_ALLOW_NUL, NULL);
     if (!value) {
-        writer_fail_memory(w);
+        writer_fail_memory(w, 0);
         return NULL;
     }
     w->needs_all_digits = w->needs_all_digits || has_many_digits(value);
@@ -171,7 +171,7 @@ void put_uri(writer *w, json_t *object, const char *name)
     char *uri = mem_alloc(w->allocator, 3 * strlen(name) + 1, 1);
     char *at = uri;
     if (!uri) {
-        writer_fail_memory(w);
+        writer_fail_memory(w, 3 * strlen(name) + 1);
         return;
     }
     for (; *name; name++) {

@@ -45,7 +45,7 @@ static uint32_t write_booleans(writer *w, const scene_sampler *s)
     unsigned char *bytes = mem_alloc(w->allocator, s->key_count, 1);
     uint32_t accessor = 0;
     if (!bytes) {
-        writer_fail_memory(w);
+        writer_fail_memory(w, s->key_count);
         return 0;
     }
     for (uint32_t i = 0; i < s->key_count; i++)

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/failing_allocator.h"
 #include "base/file.h"
 #include "scene/material_table.h"
 
@@ -502,6 +503,39 @@ static void what_cannot_be_written_is_said(void **state)
     scene_destroy(scene);
 }
 
+/* Of both kinds of file: whatever block is refused, one that glTF asked for is told with its size, and nothing is kept. */
+static void memory_that_runs_out_is_told(void **state)
+{
+    (void)state;
+    facet_scene *scene = NULL;
+    size_t told = 0;
+    assert_int_equal(scene_create_builtin(&(facet_scene_desc){0}, &scene, NULL), FACET_OK);
+    for (int kind = 0; kind < 2; kind++) {
+        char path[256];
+        facet_result result = FACET_ERROR_MEMORY;
+        snprintf(path, sizeof path, "%s/%s", folder, kind ? "m.gltf" : "m.glb");
+        for (long at = 0; result != FACET_OK; at++) {
+            failing_allocator memory = {.fail_at = at};
+            const facet_scene_save_desc desc = {.allocator = failing_allocator_get(&memory)};
+            facet_error error = {0};
+            size_t size = 0;
+            result = gltf_save(scene, path, "a test", &desc, &error);
+            assert_int_equal(memory.blocks, 0);
+            if (result == FACET_OK)
+                break;
+            assert_int_equal(result, FACET_ERROR_MEMORY);
+            if (sscanf(error.message, "out of memory: glTF (%zu bytes)", &size) == 1
+                    ? size == 0
+                    : !strstr(error.message, path))
+                fail_msg("call %ld: %s", at, error.message);
+            told += size > 0;
+        }
+    }
+    assert_true(told >= 8);
+    empty_folder();
+    scene_destroy(scene);
+}
+
 /* Every model of a folder, and of those in it. */
 static size_t check_models(const char *path)
 {
@@ -561,6 +595,7 @@ int main(void)
         cmocka_unit_test(all_files_or_none),
         cmocka_unit_test(the_builtin_scene_survives),
         cmocka_unit_test(what_cannot_be_written_is_said),
+        cmocka_unit_test(memory_that_runs_out_is_told),
         cmocka_unit_test(real_models_survive),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

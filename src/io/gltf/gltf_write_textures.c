@@ -29,7 +29,7 @@ static void add_file(writer *w, json_t *object, uint32_t index, const char *exte
     if (!name || !mem_reserve(w->allocator, (void **)&w->files, &w->file_capacity, w->file_count + 1,
                               sizeof *w->files)) {
         mem_free(name);
-        writer_fail_memory(w);
+        writer_fail_memory(w, length);
         return;
     }
     snprintf(name, length, "%s%s", w->stem, number);

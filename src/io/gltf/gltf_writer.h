@@ -54,7 +54,7 @@ typedef struct written_file {
 } written_file;
 
 bool writer_is_ok(const writer *w);
-void writer_fail_memory(writer *w);
+void writer_fail_memory(writer *w, size_t size); /* bytes that were asked for; 0: by a library */
 
 /* ---- JSON: value is taken over; NULL means out of memory ---- */
 
