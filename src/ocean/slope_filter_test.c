@@ -12,35 +12,13 @@
 
 #include "base/near_test.h"
 #include "base/test_effort.h"
-#include "ocean/sea_preset.h"
-#include "ocean/waves.h"
+#include "ocean/waves_fixture.h"
 
-static facet_sea_desc desc_of(float wind_mps, uint32_t resolution, uint32_t cascade_count, uint64_t seed)
+static facet_sea_desc windy(float wind_mps, uint32_t resolution, uint32_t cascade_count, uint64_t seed)
 {
-    facet_sea_desc d = sea_default();
+    facet_sea_desc d = desc_of(resolution, cascade_count, seed);
     d.wind_mps = wind_mps;
-    d.fetch_m = 100e3f;
-    d.resolution = resolution;
-    d.cascade_count = cascade_count;
-    d.seed = seed;
-    d.thread_count = 2;
     return d;
-}
-
-static waves waves_of(facet_sea_desc d)
-{
-    sea_state s;
-    waves w = {.tile_count = 0};
-    facet_error error = {.message = ""};
-    if (sea_state_create(&d, &s, &error) || waves_create(&d, &s, &w, &error))
-        fail_msg("%s", error.message);
-    return w;
-}
-
-static double uniform(uint64_t *random)
-{
-    *random = *random * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*random >> 11) * 0x1p-53;
 }
 
 static uint32_t nearest_entry(float footprint_m)
@@ -70,7 +48,7 @@ static void hidden_and_read_slopes_are_all_there_are(void **state)
     double choppiness = 0.0;
     float footprints[6];
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
-        facet_sea_desc d = desc_of(10.0f, 64, 2, seed);
+        facet_sea_desc d = windy(10.0f, 64, 2, seed);
         d.wind_direction_rad = 0.5f;
         d.swell =
             (facet_swell){.height_m = 1.0f, .period_s = 5.0f, .direction_rad = 2.0f, .elongation = 0.5f};
@@ -107,7 +85,7 @@ static void totals_are_those_that_were_seen(void **state)
     (void)state;
     static const float winds[5] = {3.0f, 5.0f, 10.0f, 15.0f, 30.0f};
     for (int i = 0; i < 5; i++) {
-        facet_sea_desc d = desc_of(winds[i], 32, 3, 1);
+        facet_sea_desc d = windy(winds[i], 32, 3, 1);
         d.wind_direction_rad = 2.0f;
         waves w = waves_of(d);
         slope_filter f;
@@ -138,7 +116,7 @@ static void totals_are_those_that_were_seen(void **state)
 static void glints_have_curvature(void **state)
 {
     (void)state;
-    waves w = waves_of(desc_of(10.0f, 64, 3, 1));
+    waves w = waves_of(windy(10.0f, 64, 3, 1));
     slope_filter f;
     slope_filter_create(&w, &f);
     assert_near(f.curvature[63], 6540.0, 100.0);
@@ -148,7 +126,7 @@ static void glints_have_curvature(void **state)
 static void calm_is_a_mirror(void **state)
 {
     (void)state;
-    waves w = waves_of(desc_of(0.0f, 64, 3, 1));
+    waves w = waves_of(windy(0.0f, 64, 3, 1));
     slope_filter f;
     slope_filter_create(&w, &f);
     for (uint32_t i = 0; i < 64; i += 7) {
@@ -171,7 +149,7 @@ static void thresholds_are_those_of_the_table(void **state)
         {10.0, 0.1801, 2.130, 0.384, 2.884, 0.519}, {12.5, 0.1914, 1.819, 0.348, 2.638, 0.505},
         {15.0, 0.2010, 1.538, 0.309, 2.425, 0.487}, {20.0, 0.2172, 1.022, 0.222, 2.060, 0.447}};
     for (int i = 0; i < 6; i++) {
-        facet_sea_desc d = desc_of((float)expected[i][0], 256, 3, 1);
+        facet_sea_desc d = windy((float)expected[i][0], 256, 3, 1);
         waves w = {.choppiness = 1.0, .tile_count = 1};
         assert_int_equal(sea_state_create(&d, &w.state, NULL), FACET_OK);
         w.state.taper_k = ENDLESS; /* as the table has it: all waves up to 78 rad/m */
@@ -216,7 +194,7 @@ static void foam_covers_what_was_seen(void **state)
         for (int u = 0; u < 3; u++) {
             double sum = 0.0;
             for (uint64_t seed = 0; seed < SEEDS; seed++) {
-                waves w = waves_of(desc_of(winds[u], size, 3, seed));
+                waves w = waves_of(windy(winds[u], size, 3, seed));
                 foam_rule r = foam_rule_create(&w);
                 uint64_t random = seed;
                 sum += covered(&w, r.threshold, &random, PLACES) / SEEDS;
@@ -234,7 +212,7 @@ static void foam_is_the_same_from_afar(void **state)
     static const float footprints[4] = {0.1f, 1.0f, 8.0f, 5000.0f};
     double wanted = whitecap_coverage(12.0), sums[4] = {0.0};
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
-        waves w = waves_of(desc_of(12.0f, 64, 3, seed));
+        waves w = waves_of(windy(12.0f, 64, 3, seed));
         foam_rule r = foam_rule_create(&w);
         slope_filter f;
         slope_filter_create(&w, &f);
@@ -264,7 +242,7 @@ static void foam_is_found_by_any_sea(void **state)
     static const float winds[4] = {1.0f, 3.0f, 30.0f, 40.0f};
     for (int i = 0; i < 4; i++)
         for (float choppiness = 0.0f; choppiness <= 2.0f; choppiness += 1.0f) {
-            facet_sea_desc d = desc_of(winds[i], 32, 2, 1);
+            facet_sea_desc d = windy(winds[i], 32, 2, 1);
             d.choppiness = choppiness;
             waves w = waves_of(d);
             foam_rule r = foam_rule_create(&w);

@@ -12,7 +12,7 @@
 #include "base/failing_allocator.h"
 #include "base/near_test.h"
 #include "base/test_effort.h"
-#include "ocean/sea_preset.h"
+#include "ocean/waves_fixture.h"
 #include "ocean/waves_foam.h"
 
 typedef struct foamy {
@@ -22,14 +22,10 @@ typedef struct foamy {
     foam_history *history;
 } foamy;
 
-static facet_sea_desc desc_of(float wind_mps, uint64_t seed)
+static facet_sea_desc windy(float wind_mps, uint64_t seed)
 {
-    facet_sea_desc d = sea_default();
+    facet_sea_desc d = desc_of(64, sea_default().cascade_count, seed);
     d.wind_mps = wind_mps;
-    d.fetch_m = 100e3f;
-    d.resolution = 64;
-    d.seed = seed;
-    d.thread_count = 2;
     return d;
 }
 
@@ -43,10 +39,7 @@ static void set_time(foamy *f, double time_s)
 
 static void create(foamy *f, facet_sea_desc d)
 {
-    sea_state s;
-    *f = (foamy){.foam = {.w = NULL}};
-    assert_int_equal(sea_state_create(&d, &s, NULL), FACET_OK);
-    assert_int_equal(waves_create(&d, &s, &f->w, NULL), FACET_OK);
+    *f = (foamy){.w = waves_of(d)};
     f->rule = foam_rule_create(&f->w);
     set_time(f, 20.0);
 }
@@ -63,19 +56,13 @@ static size_t texel_count(const foamy *f)
     return (size_t)f->foam.share.size * f->foam.share.size;
 }
 
-static double uniform(uint64_t *random)
-{
-    *random = *random * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*random >> 11) * 0x1p-53;
-}
-
 static void the_mean_is_the_coverage(void **state)
 {
     (void)state;
     static const float winds[3] = {5.0f, 10.0f, 20.0f};
     for (int i = 0; i < 3; i++) {
         foamy f;
-        create(&f, desc_of(winds[i], 3));
+        create(&f, windy(winds[i], 3));
         double sum = 0.0, most = 0.0;
         for (size_t j = 0; j < texel_count(&f); j++) {
             double share = (double)f.foam.share.levels[0][j];
@@ -97,7 +84,7 @@ static void lace_covers_its_share(void **state)
     double sums[4] = {0.0}, wanted = whitecap_coverage(15.0);
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         foamy f;
-        create(&f, desc_of(15.0f, seed));
+        create(&f, windy(15.0f, seed));
         for (int k = 0; k < 4; k++) {
             uint64_t random = seed;
             for (int i = 0; i < PLACES; i++) {
@@ -118,7 +105,7 @@ static void foam_fades_where_nothing_breaks(void **state)
 {
     (void)state;
     foamy f;
-    create(&f, desc_of(12.0f, 5));
+    create(&f, windy(12.0f, 5));
     size_t count = texel_count(&f);
     float *before = malloc(count * sizeof *before);
     assert_non_null(before);
@@ -142,7 +129,7 @@ static void foam_is_a_function_of_the_time(void **state)
 {
     (void)state;
     foamy a, b;
-    facet_sea_desc d = desc_of(10.0f, 8);
+    facet_sea_desc d = windy(10.0f, 8);
     create(&a, d);
     d.thread_count = 3;
     create(&b, d);
@@ -161,7 +148,7 @@ static void foam_is_a_function_of_the_time(void **state)
 static void foam_loops(void **state)
 {
     (void)state;
-    facet_sea_desc d = desc_of(10.0f, 9);
+    facet_sea_desc d = windy(10.0f, 9);
     d.loop_s = 30.0;
     foamy a, b;
     create(&a, d);
@@ -182,15 +169,15 @@ static void calm_has_none(void **state)
 {
     (void)state;
     foamy f;
-    create(&f, desc_of(0.0f, 1));
+    create(&f, windy(0.0f, 1));
     assert_true(waves_foam_at(&f.foam, 1.0, 2.0, 0.1f).share == 0.0f);
     destroy(&f);
-    facet_sea_desc d = desc_of(10.0f, 1);
+    facet_sea_desc d = windy(10.0f, 1);
     d.choppiness = 0.0f;
     create(&f, d);
     assert_true(waves_foam_at(&f.foam, 1.0, 2.0, 0.1f).share == 0.0f);
     destroy(&f);
-    d = desc_of(40.0f, 1);
+    d = windy(40.0f, 1);
     d.cascade_count = 1; /* and no finer waves */
     create(&f, d);
     for (int i = 0; i < 100; i++)
@@ -202,7 +189,7 @@ static void calm_has_none(void **state)
 static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
-    facet_sea_desc d = desc_of(10.0f, 1);
+    facet_sea_desc d = windy(10.0f, 1);
     d.resolution = 32;
     sea_state s;
     assert_int_equal(sea_state_create(&d, &s, NULL), FACET_OK);

@@ -12,33 +12,11 @@
 #include "base/failing_allocator.h"
 #include "base/near_test.h"
 #include "base/test_effort.h"
-#include "ocean/sea_preset.h"
 #include "ocean/wave_amplitudes.h"
 #include "ocean/wave_patches.h"
-#include "ocean/waves.h"
+#include "ocean/waves_fixture.h"
 
 static const double TWO_PI = 6.28318530717958647693;
-
-static facet_sea_desc desc_of(uint32_t resolution, uint32_t cascade_count, uint64_t seed)
-{
-    facet_sea_desc d = sea_default();
-    d.fetch_m = 100e3f;
-    d.resolution = resolution;
-    d.cascade_count = cascade_count;
-    d.seed = seed;
-    d.thread_count = 2;
-    return d;
-}
-
-static waves waves_of(facet_sea_desc d)
-{
-    sea_state s;
-    waves w = {.tile_count = 0};
-    facet_error error = {.message = ""};
-    if (sea_state_create(&d, &s, &error) || waves_create(&d, &s, &w, &error))
-        fail_msg("%s", error.message);
-    return w;
-}
 
 static size_t texel_count(const wave_tile *t)
 {
@@ -59,12 +37,6 @@ static double variance(const waves *w, wave_field f)
     for (uint32_t i = 0; i < w->tile_count; i++)
         sum += mean_square(&w->tiles[i], f);
     return sum;
-}
-
-static double uniform(uint64_t *random)
-{
-    *random = *random * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*random >> 11) * 0x1p-53;
 }
 
 /* ---- the transform ---- */
