@@ -250,30 +250,25 @@ static void looks_are_refused_or_followed(void **state)
     begin(&p, &desc, 16, 8, NULL);
     p.d.render.integrator = FACET_INTEGRATOR_PATH;
     p.d.render.samples = 1;
-    for (int i = 0; i < 9; i++) {
-        facet_sea_render_desc d = p.d;
+    static const struct {
+        facet_sea_look look;
+        facet_result result;
+    } cases[] = {{{.before = FACET_SEA_BEFORE_INTENDED}, FACET_ERROR_ARGUMENT},
+                 {{.stage = 3}, FACET_ERROR_ARGUMENT},
+                 {{.normals = FACET_SEA_GGX}, FACET_ERROR_ARGUMENT},
+                 {{.masking = FACET_SEA_SCHLICK_KARIS}, FACET_ERROR_ARGUMENT},
+                 {{.no_glints = true}, FACET_ERROR_ARGUMENT},
+                 {{.no_caustics = true}, FACET_ERROR_ARGUMENT},
+                 {{.clamp = 10.0f}, FACET_ERROR_ARGUMENT},
+                 {{.no_foam = true}, FACET_OK},
+                 {{.schlick_fresnel = true}, FACET_OK},
+                 {{.perceptual_roughness = 0.3f}, FACET_OK}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         facet_image *made = NULL;
-        if (i == 0)
-            d.look.before = FACET_SEA_BEFORE_INTENDED;
-        if (i == 1)
-            d.look.stage = 3;
-        if (i == 2)
-            d.look.normals = FACET_SEA_GGX;
-        if (i == 3)
-            d.look.masking = FACET_SEA_SCHLICK_KARIS;
-        if (i == 4)
-            d.look.no_glints = true;
-        if (i == 5)
-            d.look.clamp = 10.0f;
-        if (i == 6)
-            d.look.no_foam = true;
-        if (i == 7)
-            d.look.schlick_fresnel = true;
-        if (i == 8)
-            d.look.perceptual_roughness = 0.3f;
-        facet_result result = facet_sea_render(p.sea, NULL, &d, &made, &failure);
-        assert_int_equal(result, i < 6 ? FACET_ERROR_ARGUMENT : FACET_OK);
-        if (i < 6)
+        p.d.look = cases[i].look;
+        facet_result result = facet_sea_render(p.sea, NULL, &p.d, &made, &failure);
+        assert_int_equal(result, cases[i].result);
+        if (result != FACET_OK)
             assert_non_null(strstr(failure.message, "path tracing"));
         facet_image_destroy(made);
     }
