@@ -1,7 +1,7 @@
 #!/bin/sh
 # run_all.sh - builds facet in four ways and runs every test in one ctest, whose summary comes last:
 #     gcc     optimised, gcc, warnings are errors: all tests
-#     clang   optimised, clang, warnings are errors: all tests but those of millions of paths
+#     clang   optimised, clang, warnings are errors: the modules' tests, those of millions of paths left out
 #     asan    clang with address and undefined behaviour sanitizers, and the fuzz targets: all tests
 #     tsan    clang with the thread sanitizer: the tests labelled threads
 # Arguments go to ctest, for example: ./run test -R brdf
