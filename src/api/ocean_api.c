@@ -66,6 +66,8 @@ facet_result facet_sea_set_time(facet_sea *sea, double time_s, facet_error *erro
     if (!isfinite(time_s))
         return fail(error, FACET_ERROR_ARGUMENT, "sea: its time is not a finite number");
     double loop = sea->waves.loop_s; /* to the last bit, and with it all that depends on time beside waves */
+    if (loop > 0.0 && fabs(time_s) >= 0x1p52 * loop) /* farther away than whole loops can be counted */
+        time_s = fmod(time_s, loop);
     time_s = loop > 0.0 ? time_s - loop * floor(time_s / loop) : time_s;
     if (time_s != sea->waves.time_s) /* else they are there */
         waves_set_time(&sea->waves, time_s);

@@ -309,6 +309,16 @@ static void numbers_far_away_are_answered(void **state)
         facet_image_destroy(image);
     }
     facet_sea_destroy(sea);
+    desc.loop_s = 0.1;
+    sea = make(&desc);
+    static const double ages[] = {1e300, -1.7e308, 1e15, -1e-300};
+    for (int i = 0; i < 4; i++) {
+        done(facet_sea_set_time(sea, ages[i], &failure));
+        facet_sea_get_points(sea, far_away + 1, 1, points);
+        assert_true(isfinite(points[0].height_m) && points[0].velocity_mps > -1e3f &&
+                    points[0].velocity_mps < 1e3f);
+    }
+    facet_sea_destroy(sea);
 }
 
 /* Still, fresh, pure water; and a loop of 2.4 s closes though no float is 2.4. */

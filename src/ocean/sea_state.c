@@ -83,8 +83,8 @@ static facet_result check_tiles(const facet_sea_desc *d, facet_error *error)
     if (!is_within(d->choppiness, 0.0f, 2.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "choppiness: %g is not within [0, 2]",
                     (double)d->choppiness);
-    if (!(d->loop_s >= 0.0) || !isfinite(d->loop_s))
-        return fail(error, FACET_ERROR_ARGUMENT, "loop: %g s is not 0 or more", d->loop_s);
+    if (d->loop_s != 0.0 && !(d->loop_s >= 0.1 && d->loop_s <= 1e6))
+        return fail(error, FACET_ERROR_ARGUMENT, "loop: %g s is neither 0 nor within [0.1, 1e6]", d->loop_s);
     if (d->resolution < 32 || d->resolution > 1024 || (d->resolution & (d->resolution - 1)))
         return fail(error, FACET_ERROR_ARGUMENT, "resolution: %u is no power of two within [32, 1024]",
                     (unsigned)d->resolution);

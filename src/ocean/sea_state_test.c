@@ -434,8 +434,8 @@ static void numbers_out_of_range_are_named(void **state)
     struct {
         const char *word;
         facet_sea_desc d;
-    } cases[14];
-    for (int i = 0; i < 14; i++)
+    } cases[17];
+    for (int i = 0; i < 17; i++)
         cases[i].d = sea_default();
     int n = 0;
     cases[n].word = "wind", cases[n++].d.wind_mps = 41.0f;
@@ -446,6 +446,9 @@ static void numbers_out_of_range_are_named(void **state)
     cases[n].word = "spectrum", cases[n++].d.spectrum = (facet_sea_spectrum)7;
     cases[n].word = "choppiness", cases[n++].d.choppiness = -0.1f;
     cases[n].word = "loop", cases[n++].d.loop_s = -1.0;
+    cases[n].word = "loop", cases[n++].d.loop_s = 0.09;
+    cases[n].word = "loop", cases[n++].d.loop_s = 1e-300;
+    cases[n].word = "loop", cases[n++].d.loop_s = 2e6;
     cases[n].word = "resolution", cases[n++].d.resolution = 100;
     cases[n].word = "cascades", cases[n++].d.cascade_count = 5;
     cases[n].word = "bed", cases[n++].d.bed.depth_m = -1.0f;
