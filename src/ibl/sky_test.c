@@ -292,6 +292,23 @@ static void test_horizon(void **state)
     destroy(&s);
 }
 
+/* Of any number of radians: nodes of the table, and weights that sum to one. */
+static void test_azimuths(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 400; i++) {
+        double radians =
+            (i % 2 ? -1.0 : 1.0) * (pow)(10.0, 0.2 * i - 40.0); /* to 6e39, more than floats hold */
+        sky_azimuth azimuth = sky_view_azimuth(radians);
+        float sum = 0.0f;
+        for (int k = 0; k < 4; k++) {
+            assert_in_range(azimuth.nodes[k], 0, SKY_VIEW_AZIMUTHS - 1);
+            sum += azimuth.weights[k];
+        }
+        assert_near((double)sum, 1.0, 1e-5);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_sun),
@@ -301,6 +318,7 @@ int main(void)
                                        cmocka_unit_test(test_all_orders),
                                        cmocka_unit_test(test_bright_ground),
                                        cmocka_unit_test(test_irradiance),
-                                       cmocka_unit_test(test_horizon)};
+                                       cmocka_unit_test(test_horizon),
+                                       cmocka_unit_test(test_azimuths)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -183,7 +183,7 @@ void sky_view_fetch_row(const sky_view *v, float zenith_angle, sky_light out[SKY
 sky_azimuth sky_view_azimuth(double radians)
 {
     const double turn = 6.283185307179586;
-    double a = fabs(radians - turn * (floor)(radians / turn + 0.5)); /* [0, pi] */
+    double a = fabs((remainder)(radians, turn)); /* [0, pi] */
     float x = (float)(a / (0.5 * turn) * (SKY_VIEW_AZIMUTHS - 1));
     int first = (int)x < SKY_VIEW_AZIMUTHS - 2 ? (int)x : SKY_VIEW_AZIMUTHS - 2;
     sky_azimuth out = {.cosine = cosf((float)a)};
