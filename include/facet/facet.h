@@ -325,6 +325,9 @@ FACET_API facet_result facet_scene_place(facet_scene *scene, const float matrix[
 typedef struct facet_scene_save_desc {
     facet_allocator allocator;
     facet_log log;
+    facet_progress
+        progress; /* stage "write": asked before a file is begun, and before all are put in their places; not
+                                before the first one is anything on the disk */
     uint32_t thread_count; /* 0: facet_thread_count() */
     bool is_glb;           /* a .glb file whatever the name is: for /dev/stdout and the like */
     bool keeps_inputs;     /* fails with _ARGUMENT rather than replace a file that the scene was read from */
@@ -1218,7 +1221,7 @@ typedef struct facet_sea_desc {
     float peakedness; /* JONSWAP's gamma, [1, 20]; 0: 3.3 */
     facet_swell swell;
     float choppiness;    /* how far water moves to and fro, over what physics has it, [0, 2]: 1 is physical */
-    double loop_s;       /* after which waves repeat; 0: never */
+    double loop_s;       /* after which waves repeat, [0.1, 1e6]; 0: never */
     uint32_t resolution; /* samples along the edge of a tile of waves, a power of two, [32, 1024]; 0: 256 */
     uint32_t cascade_count; /* tiles of different length, [1, 4]; 0: 3 */
     uint64_t seed;          /* another one: another sea of the same kind */

@@ -316,7 +316,7 @@ int cmd_bake(command_line *c)
     bake_run run = {.line = c};
     config storage = {0};
     facet_error error = {0};
-    interrupt_install();
+    interrupt_install(is_given(c, OPT_JSON));
     facet_result result = begin(&run, c, &storage, &error);
     if (result == FACET_OK && !is_all_kept(&run.plan))
         result = bake(&run, &error);

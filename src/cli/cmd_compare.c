@@ -303,7 +303,7 @@ int cmd_compare(command_line *c)
     compare_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
     facet_error error = {0};
     char failed[800] = "";
-    interrupt_install();
+    interrupt_install(is_given(c, OPT_JSON));
     facet_result result = begin(&run, &error);
     if (result == FACET_OK)
         result = load_all(&run, &error);

@@ -68,7 +68,7 @@ static facet_result save(convert_run *run, const char *model, const facet_scene 
     bool is_stdout = strcmp(output, "-") == 0;
     desc.is_glb = is_stdout;
     if (result == FACET_OK)
-        result = facet_scene_save(scene, is_stdout ? "/dev/stdout" : output, &desc, error);
+        result = output_write_scene(scene, is_stdout ? "/dev/stdout" : output, desc, error);
     if (result == FACET_OK && run->names.report)
         result = convert_report_write(scene, run->names.is_html, report, error);
     return result;
@@ -126,10 +126,8 @@ static facet_result convert_model(convert_run *run, const char *model, facet_err
         result = convert_materials(run, scene, error);
     interrupt_set_safe(NULL);
     messages_flush(&run->messages);
-    if (result == FACET_OK && interrupt_signal())
-        result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", output);
-    if (result == FACET_OK && interrupt_seconds_left() <= 0.0)
-        result = fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", output);
+    if (result == FACET_OK)
+        result = interrupt_check(output, error);
     if (result == FACET_OK)
         result = save(run, model, scene, output, error);
     messages_flush(&run->messages);
@@ -204,7 +202,7 @@ int cmd_convert(command_line *c)
     double start = interrupt_clock();
     convert_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
     facet_error error = {0};
-    interrupt_install();
+    interrupt_install(is_given(c, OPT_JSON));
     if (is_given(c, OPT_JSON)) {
         run.models = json_array();
         run.failures = json_array();

@@ -112,19 +112,19 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
     facet_sea_mesh_desc desc = run->options.mesh;
     desc.allocator = run->allocator;
     facet_scene *scene = NULL;
-    facet_result result = ocean_run_check_time(name, error);
+    facet_result result = interrupt_check(name, error);
     if (result != FACET_OK)
         return result;
+    const facet_scene_save_desc save = {.allocator = run->allocator, .log = messages_log(&run->messages)};
     interrupt_begin(name, "making it", false);
     result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
-    interrupt_set_safe(NULL);
-    if (result == FACET_OK)
-        result = ocean_run_check_time(name, error);
-    const facet_scene_save_desc save = {.allocator = run->allocator, .log = messages_log(&run->messages)};
     if (result == FACET_OK && !is_gltf(name))
         result = facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, &save.log, error);
+    interrupt_set_safe(NULL);
     if (result == FACET_OK)
-        result = facet_scene_save(scene, name, &save, error);
+        result = interrupt_check(name, error);
+    if (result == FACET_OK)
+        result = output_write_scene(scene, name, save, error);
     if (result == FACET_OK) {
         message_at(&run->messages, VERBOSITY_DETAILS, "%s: written", name);
         tell_file(o, name);
@@ -142,7 +142,7 @@ static facet_result make_map(ocean_output *o, uint32_t tile, const char *name, f
     snprintf(o->name, sizeof o->name, "%s", name);
     facet_result result = ocean_check_name(run, name, error);
     if (result == FACET_OK)
-        result = ocean_run_check_time(name, error);
+        result = interrupt_check(name, error);
     if (result == FACET_OK)
         result = facet_sea_create_maps(run->sea, tile, &run->allocator, &image, error);
     const facet_save_desc save = {.allocator = run->allocator,
@@ -188,7 +188,7 @@ static facet_result make_frame(ocean_output *o, uint32_t index, uint32_t number,
                                facet_error *error)
 {
     ocean_run *run = o->run;
-    facet_result result = ocean_run_check_time(*name ? name : "maps", error);
+    facet_result result = interrupt_check(*name ? name : "maps", error);
     if (result == FACET_OK)
         result = set_moment(o, number, error);
     if (result == FACET_OK && run->options.maps)
@@ -346,7 +346,7 @@ int cmd_ocean(command_line *c)
     ocean_output output = {.run = &run, .files = is_given(c, OPT_JSON) ? json_array() : NULL};
     config storage = {0};
     facet_error error = {0};
-    interrupt_install();
+    interrupt_install(is_given(c, OPT_JSON));
     facet_result result = begin(&run, c, &storage, &error);
     if (result == FACET_OK)
         result = make_all(&output, &error);

@@ -205,7 +205,7 @@ int cmd_plot(command_line *c)
     double start = interrupt_clock();
     plot_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
     facet_error error = {0};
-    interrupt_install();
+    interrupt_install(is_given(c, OPT_JSON));
     facet_result result = begin(&run, &error);
     bool is_kept = result == FACET_OK && is_given(c, OPT_NO_CLOBBER) && output_exists(run.path);
     if (is_kept)

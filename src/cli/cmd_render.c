@@ -403,7 +403,7 @@ int cmd_render(command_line *c)
     render_run run = {.line = c};
     config storage = {0};
     facet_error error = {0};
-    interrupt_install();
+    interrupt_install(is_given(c, OPT_JSON));
     if (is_given(c, OPT_JSON)) {
         run.pictures = json_array();
         run.failures = json_array();

@@ -3,7 +3,9 @@
 #include "cli/preset.h"
 
 #include "cli/failure.h"
+#include "cli/interrupt.h"
 #include "cli/suggest.h"
+#include "cli/value.h"
 
 #include <errno.h>
 #include <jansson.h>
@@ -140,7 +142,12 @@ facet_result config_apply(command_line *c, config *storage, facet_error *error)
         return FACET_OK;
     char *text = NULL;
     size_t size = 0;
+    double seconds;
+    if (is_given(c, OPT_TIME_LIMIT) && value_seconds(option_text(c, OPT_TIME_LIMIT, ""), &seconds))
+        interrupt_set_deadline(seconds);
+    interrupt_begin_reading(path);
     facet_result read = read_config(path, &text, &size, error);
+    interrupt_set_safe(NULL);
     if (read != FACET_OK)
         return read;
     json_error_t problem;

@@ -3,7 +3,9 @@
 #include "cli/interrupt.h"
 
 #include "cli/failure.h"
+#include "cli/render_report.h"
 
+#include <jansson.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -17,6 +19,8 @@
 static atomic_int pending_signal; /* lock-free: the handler writes it, all threads ask for it */
 static const char *volatile safe_message;
 static volatile double deadline; /* on interrupt_clock(); 0: none */
+static bool has_json;            /* standard output tells of the end, too */
+static char json_at_deadline[4096];
 
 double interrupt_clock(void)
 {
@@ -55,6 +59,7 @@ static void on_deadline(int number)
     if (!message)
         return;
     ssize_t ignored = write(STDERR_FILENO, message, strlen(message));
+    ignored = write(STDOUT_FILENO, json_at_deadline, strlen(json_at_deadline));
     (void)ignored;
     _exit(EXIT_LIMIT);
 }
@@ -74,8 +79,9 @@ static void install_stop(int number)
     install(number, on_stop);
 }
 
-void interrupt_install(void)
+void interrupt_install(bool tells_json)
 {
+    has_json = tells_json;
     install_stop(SIGINT);
     install_stop(SIGTERM);
     install_stop(SIGHUP);
@@ -107,8 +113,27 @@ double interrupt_seconds_left(void)
     return deadline > 0.0 ? deadline - interrupt_clock() : 1e30;
 }
 
+/* The report of an end at the time limit, as a handler cannot make it. */
+static void prepare_json(const char *message)
+{
+    facet_error error = {.result = FACET_ERROR_LIMIT};
+    const char *sentence =
+        strrchr(message, '\r') ? strchr(message, 'K') + 1 : message; /* behind "\r\033[K" */
+    snprintf(error.message, sizeof error.message, "%.*s", (int)strcspn(sentence, "\n"), sentence);
+    json_t *root = json_pack("{s:s, s:[o], s:i}", "facet", facet_version(), "failures",
+                             report_error_json(&error, NULL, EXIT_LIMIT), "exit_code", EXIT_LIMIT);
+    json_at_deadline[0] = 0;
+    size_t size = root ? json_dumpb(root, json_at_deadline, sizeof json_at_deadline - 2, 0) : 0;
+    size = size < sizeof json_at_deadline - 1 ? size : 0;
+    memcpy(json_at_deadline + size, "\n", size ? 2 : 0);
+    json_decref(root);
+}
+
 void interrupt_set_safe(const char *message_at_deadline)
 {
+    safe_message = NULL;
+    if (message_at_deadline && has_json)
+        prepare_json(message_at_deadline);
     safe_message = message_at_deadline;
     if (pending_signal && message_at_deadline)
         interrupt_exit();
@@ -125,6 +150,15 @@ void interrupt_begin(const char *name, const char *doing, bool has_bar)
 void interrupt_begin_reading(const char *name)
 {
     interrupt_begin(name, "reading", false);
+}
+
+facet_result interrupt_check(const char *name, facet_error *error)
+{
+    if (pending_signal)
+        return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
+    return interrupt_seconds_left() > 0.0
+               ? FACET_OK
+               : fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", name);
 }
 
 int interrupt_exit(void)

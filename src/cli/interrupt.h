@@ -8,7 +8,10 @@
 
 #include <stdbool.h>
 
-void interrupt_install(void);
+#include "facet/facet.h"
+
+/* tells_json: what ends the process at the time limit is told as one JSON object on standard output, too. */
+void interrupt_install(bool tells_json);
 /* The signal that came; 0: none. */
 int interrupt_signal(void);
 
@@ -24,6 +27,9 @@ void interrupt_set_safe(const char *message_at_deadline);
 /* The same with a sentence that the limit came while something was done for name; has_bar: over a bar of progress. */
 void interrupt_begin(const char *name, const char *doing, bool has_bar);
 void interrupt_begin_reading(const char *name);
+
+/* FACET_ERROR_CANCELLED after a signal, FACET_ERROR_LIMIT after the time limit; name is the file in work. */
+facet_result interrupt_check(const char *name, facet_error *error);
 
 /* The exit code after an interruption: EXIT_AGAIN for SIGTERM; for others the process ends here by that signal. */
 int interrupt_exit(void);

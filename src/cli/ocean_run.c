@@ -8,15 +8,6 @@
 
 static const float BLACK_EV = -200.0f; /* 2 to this power is 0 */
 
-facet_result ocean_run_check_time(const char *name, facet_error *error)
-{
-    if (interrupt_signal())
-        return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
-    return interrupt_seconds_left() > 0.0
-               ? FACET_OK
-               : fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", name);
-}
-
 facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error)
 {
     facet_sea_desc desc = options->sea;
@@ -68,7 +59,7 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
 {
     const facet_camera camera = ocean_run_camera(run, o);
     double left = interrupt_seconds_left();
-    facet_result result = ocean_run_check_time(shown->subject, error);
+    facet_result result = interrupt_check(shown->subject, error);
     if (result != FACET_OK)
         return result;
     facet_sea_render_desc d = desc_of(run, o, look);

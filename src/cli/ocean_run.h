@@ -36,9 +36,6 @@ typedef struct ocean_step {
     uint32_t index, count;
 } ocean_step;
 
-/* FACET_ERROR_LIMIT, _CANCELLED: there is no time left for the output name, or somebody wants an end. */
-facet_result ocean_run_check_time(const char *name, facet_error *error);
-
 /* Makes the sea of options, in place of the one before. */
 facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error);
 

@@ -38,6 +38,24 @@ char *output_identity(const char *path)
     return identity;
 }
 
+/* What is on the disk from now on is for who writes it to remove. */
+static bool may_go_on(void *user, const char *stage, double fraction)
+{
+    (void)user, (void)stage, (void)fraction;
+    interrupt_set_safe(NULL);
+    return !interrupt_signal() && interrupt_seconds_left() > 0.0;
+}
+
+facet_result output_write_scene(const facet_scene *scene, const char *path, facet_scene_save_desc desc,
+                                facet_error *error)
+{
+    desc.progress.report = may_go_on;
+    interrupt_begin(path, "writing it", false);
+    facet_result result = facet_scene_save(scene, path, &desc, error);
+    interrupt_set_safe(NULL);
+    return result == FACET_ERROR_CANCELLED ? interrupt_check(path, error) : result;
+}
+
 facet_result output_check(const char *path, facet_error *error)
 {
     if (strcmp(path, "-") == 0)

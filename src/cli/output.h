@@ -15,6 +15,11 @@ facet_result output_write(const facet_image *image, const char *path, const face
 /* Writes bytes to path ("-": standard output). */
 facet_result output_write_bytes(const void *bytes, size_t size, const char *path, facet_error *error);
 
+/* Writes scene to path ("/dev/stdout" too), desc.progress being its own: a signal or the time limit ends it, and the
+ * process at once while no file is begun (interrupt.h). */
+facet_result output_write_scene(const facet_scene *scene, const char *path, facet_scene_save_desc desc,
+                                facet_error *error);
+
 /* "FOLDER/NAME" with the folder by device and number: equal for all paths that mean the same file. For free(); NULL: no
  * memory. */
 char *output_identity(const char *path);

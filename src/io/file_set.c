@@ -14,13 +14,30 @@ static char *path_beside(const file_set *set, const char *name)
     return path;
 }
 
+file_set file_set_begin(const facet_scene *scene, const char *path, const facet_scene_save_desc *desc)
+{
+    return (file_set){.allocator = &desc->allocator,
+                      .main = path,
+                      .inputs = desc->keeps_inputs ? scene : NULL,
+                      .progress = desc->progress};
+}
+
+static facet_result ask(const file_set *set, double fraction, facet_error *error)
+{
+    return set->progress.report && !set->progress.report(set->progress.user, "write", fraction)
+               ? fail(error, FACET_ERROR_CANCELLED, "%s: cancelled", set->main)
+               : FACET_OK;
+}
+
 facet_result file_set_add(file_set *set, const char *name, const void *bytes, size_t size, facet_error *error)
 {
     char *beside = name && strchr(set->main, '/') ? path_beside(set, name) : NULL;
     const char *path = !name ? set->main : strchr(set->main, '/') ? beside : name;
-    facet_result result = FACET_OK;
-    if (!path || !mem_reserve(set->allocator, (void **)&set->stages, &set->capacity, set->count + 1,
-                              sizeof *set->stages))
+    facet_result result = ask(set, 0.0, error);
+    if (result != FACET_OK)
+        ;
+    else if (!path || !mem_reserve(set->allocator, (void **)&set->stages, &set->capacity, set->count + 1,
+                                   sizeof *set->stages))
         result = fail_memory(error, set->main, 0);
     else if (set->inputs && scene_has_file(set->inputs, path))
         result = name ? fail(error, FACET_ERROR_ARGUMENT,
@@ -37,7 +54,7 @@ facet_result file_set_add(file_set *set, const char *name, const void *bytes, si
 
 facet_result file_set_commit(file_set *set, facet_error *error)
 {
-    facet_result result = FACET_OK;
+    facet_result result = ask(set, 1.0, error);
     for (size_t i = 0; i < set->count && result == FACET_OK; i++)
         result = file_stage_commit(&set->stages[i], error);
     return result;

@@ -9,12 +9,16 @@ typedef struct file_set {
     const facet_allocator *allocator;
     const char *main;          /* path of the file that names the others; they go into its folder */
     const facet_scene *inputs; /* whose files must not be replaced; NULL: any may be */
+    facet_progress progress;   /* asked before each file, and before file_set_commit() does anything */
     file_stage *stages;        /* block of mem_alloc() */
     size_t count, capacity;
 } file_set;
 
+/* As desc has it, for the model path of a scene; nothing is on the disk yet. */
+file_set file_set_begin(const facet_scene *scene, const char *path, const facet_scene_save_desc *desc);
+
 /* Stages a file beside main (name NULL: main itself, which should come last: where it is, all that it names is). Fails as
- * file_stage_write(), with FACET_ERROR_MEMORY, and with _ARGUMENT where an input would be replaced. */
+ * file_stage_write(), with FACET_ERROR_MEMORY, with _ARGUMENT where an input would be replaced, and with _CANCELLED. */
 facet_result file_set_add(file_set *set, const char *name, const void *bytes, size_t size,
                           facet_error *error);
 /* Puts all in their places, in the order in which they were added. */

@@ -71,6 +71,36 @@ static void what_is_not_committed_is_gone(void **state)
     assert_false(is_there("b.mtl"));
 }
 
+/* Asked before each file and before the end: what is there at the nth no is nothing. */
+static bool until(void *user, const char *stage, double fraction)
+{
+    int *left = user;
+    assert_string_equal(stage, "write");
+    assert_true(fraction == 0.0 || fraction == 1.0);
+    return (*left)-- > 0;
+}
+
+static void cancelled_sets_leave_nothing(void **state)
+{
+    (void)state;
+    facet_error error;
+    char main_path[256];
+    snprintf(main_path, sizeof main_path, "%s/c.obj", folder);
+    for (int n = 0; n <= 3; n++) {
+        int left = n;
+        const facet_scene_save_desc desc = {.progress = {.user = &left, .report = until}};
+        file_set set = file_set_begin(NULL, main_path, &desc);
+        facet_result result = file_set_add(&set, "c.mtl", "m", 1, &error);
+        if (result == FACET_OK)
+            result = file_set_add(&set, NULL, "o", 1, &error);
+        if (result == FACET_OK)
+            result = file_set_commit(&set, &error);
+        file_set_destroy(&set);
+        assert_int_equal(result, n < 3 ? FACET_ERROR_CANCELLED : FACET_OK);
+        assert_true(is_there("c.mtl") == (n == 3) && is_there("c.obj") == (n == 3));
+    }
+}
+
 static void inputs_are_not_replaced(void **state)
 {
     (void)state;
@@ -98,6 +128,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_appear_together),
         cmocka_unit_test(what_is_not_committed_is_gone),
+        cmocka_unit_test(cancelled_sets_leave_nothing),
         cmocka_unit_test(inputs_are_not_replaced),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -114,4 +114,11 @@ for words in "convert - late.glb" "render - $small -o late.png" "inspect -"; do
     [ "$code" = 7 ] || failed "exit code $code, not 7: facet $words"
     says "stdin: the time limit (--time-limit) was reached while reading"
 done
+# and options
+if command -v mkfifo >/dev/null; then
+    mkfifo options
+    expect 7 render tri.gltf --config options -o late.png --time-limit 200ms
+    says "options: the time limit (--time-limit) was reached while reading"
+    rm options
+fi
 finish

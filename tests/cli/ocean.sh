@@ -129,6 +129,9 @@ says ".exr"
 expect 2 ocean --maps 'm_##.exr' --frames 1-2
 says "a folder"
 expect 7 ocean --maps maps --time-limit 1ms
+expect 7 ocean -o large.obj --mesh-samples 1024 --time-limit 1s
+says "the time limit (--time-limit) was reached"
+[ ! -e large.obj ] && [ ! -e large.mtl ] || failed "a mesh was written after the time limit"
 expect 7 ocean -o large.glb --time-limit 1ms
 rm -rf maps ./*.exr ./*.glb ./*.obj ./*.mtl ./*.png
 
@@ -220,6 +223,8 @@ expect 6 ocean -o nowhere/a.png
 expect 7 ocean -o a.png --max-memory 1M
 says "--max-memory"
 expect 7 ocean -o a.png --time-limit 1ms
+expect 7 ocean -o a.png --time-limit 1ms --json
+grep -q '"exit_code": *7' out || failed "--json does not tell of the time limit"
 printf '{"preset": "glass", "sweep": null}' >sea.json
 expect 2 ocean --config sea.json -o a.png
 printf '{"preset": "glass", "time": 3}' >sea.json

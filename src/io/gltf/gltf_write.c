@@ -134,7 +134,7 @@ static facet_result save_glb(writer *w, const char *path)
         add_chunk(&at, GLB_JSON, text, length, ' ');
         if (w->bin_size)
             add_chunk(&at, GLB_BIN, w->bin, w->bin_size, 0);
-        file_set set = {.allocator = w->allocator, .main = path, .inputs = w->inputs};
+        file_set set = file_set_begin(w->scene, path, w->desc);
         w->result = file_set_add(&set, NULL, file, size, w->error);
         if (writer_is_ok(w))
             w->result = file_set_commit(&set, w->error);
@@ -148,7 +148,7 @@ static facet_result save_glb(writer *w, const char *path)
 /* All files, or none where one cannot be written. */
 static void save_files(writer *w, const char *path, const char *text, const char *bin_name)
 {
-    file_set set = {.allocator = w->allocator, .main = path, .inputs = w->inputs};
+    file_set set = file_set_begin(w->scene, path, w->desc);
     for (size_t i = 0; i < w->file_count && writer_is_ok(w); i++)
         w->result = file_set_add(&set, w->files[i].name, w->files[i].bytes, w->files[i].size, w->error);
     if (writer_is_ok(w) && w->bin_size)
@@ -198,7 +198,7 @@ facet_result gltf_save(const facet_scene *scene, const char *path, const char *g
                 .generator = generator,
                 .allocator = &desc->allocator,
                 .log = &desc->log,
-                .inputs = desc->keeps_inputs ? scene : NULL,
+                .desc = desc,
                 .error = error,
                 .result = FACET_OK,
                 .thread_count = desc->thread_count,

@@ -25,7 +25,7 @@ typedef struct writer {
     const char *generator;
     const facet_allocator *allocator;
     const facet_log *log;
-    const facet_scene *inputs; /* whose files are not to be replaced; NULL: any may be */
+    const facet_scene_save_desc *desc;
     facet_error *error;
     facet_result result; /* FACET_OK, or the first error */
     uint32_t thread_count;

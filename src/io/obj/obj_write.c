@@ -156,21 +156,20 @@ static facet_result add_mtl(const obj_writer *w, const char *name, file_set *set
     return result;
 }
 
-static facet_result add_obj(const obj_writer *w, const char *mtl_name, file_set *set, facet_error *error)
+/* The text of the OBJ file, a block of mem_alloc(); NULL: no memory. */
+static char *print_obj(const obj_writer *w, const char *mtl_name, size_t *size)
 {
     text begin = {.allocator = w->desc->allocator};
-    size_t size = 0;
     text_addf(&begin, "# OBJ file written by %s\nmtllib %s\n", w->generator, mtl_name);
-    char *obj = begin.has_failed ? NULL
-                                 : obj_pieces_print(w->pieces, w->headings, w->pose.instance_count, &begin,
-                                                    w->desc, &size);
-    facet_result result = obj ? file_set_add(set, NULL, obj, size, error) : fail_memory(error, w->path, size);
-    mem_free(obj);
+    char *obj = begin.has_failed
+                    ? NULL
+                    : obj_pieces_print(w->pieces, w->headings, w->pose.instance_count, &begin, w->desc, size);
     text_destroy(&begin);
-    return result;
+    return obj;
 }
 
-/* The OBJ file comes last: where it is, all that it names is. */
+/* The OBJ file is printed before any file is begun, as it takes long, and is the last to be in its place: where it is, all
+ * that it names is. */
 static facet_result save(const obj_writer *w, facet_error *error)
 {
     char *mtl_name = mem_alloc(&w->desc->allocator, strlen(w->stem) + sizeof ".mtl", 1);
@@ -178,16 +177,18 @@ static facet_result save(const obj_writer *w, facet_error *error)
         return fail_memory(error, w->path, strlen(w->stem));
     strcpy(mtl_name, w->stem);
     strcat(mtl_name, ".mtl");
-    file_set set = {
-        .allocator = &w->desc->allocator, .main = w->path, .inputs = w->desc->keeps_inputs ? w->scene : NULL};
-    facet_result result = add_images(w, &set, error);
+    size_t size = 0;
+    char *obj = print_obj(w, mtl_name, &size);
+    file_set set = file_set_begin(w->scene, w->path, w->desc);
+    facet_result result = obj ? add_images(w, &set, error) : fail_memory(error, w->path, size);
     if (result == FACET_OK)
         result = add_mtl(w, mtl_name, &set, error);
     if (result == FACET_OK)
-        result = add_obj(w, mtl_name, &set, error);
+        result = file_set_add(&set, NULL, obj, size, error);
     if (result == FACET_OK)
         result = file_set_commit(&set, error);
     file_set_destroy(&set);
+    mem_free(obj);
     mem_free(mtl_name);
     return result;
 }

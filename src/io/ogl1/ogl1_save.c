@@ -11,6 +11,7 @@
 typedef struct saving {
     const facet_scene *scene;
     const char *path;
+    const facet_scene_save_desc *desc;
     const facet_allocator *allocator;
     facet_error *error;
     char **image_names; /* per image; NULL: not written. Blocks of mem_alloc() */
@@ -77,7 +78,8 @@ static facet_result name_images(saving *s, const facet_log *log)
 /* The document comes last: where it is, all that it names is. */
 static facet_result write_files(const saving *s, const text *document)
 {
-    file_set files = {.allocator = s->allocator, .main = s->path, .inputs = s->scene};
+    file_set files = file_set_begin(s->scene, s->path, s->desc);
+    files.inputs = s->scene;
     facet_result result = FACET_OK;
     for (uint32_t i = 0; i < s->scene->image_count && result == FACET_OK; i++)
         if (s->image_names[i])
@@ -96,7 +98,7 @@ facet_result ogl1_json_save(const facet_scene *scene, const char *path, const ch
 {
     const facet_scene_save_desc defaults = {0};
     desc = desc ? desc : &defaults;
-    saving s = {.scene = scene, .path = path, .allocator = &desc->allocator, .error = error};
+    saving s = {.scene = scene, .path = path, .desc = desc, .allocator = &desc->allocator, .error = error};
     text document = {.allocator = desc->allocator};
     facet_result result = FACET_OK;
     s.image_names = mem_zalloc(s.allocator, scene->image_count, sizeof *s.image_names);
