@@ -294,6 +294,27 @@ static facet_result load_environment(ocean_run *run, facet_error *error)
     return result;
 }
 
+/* A picture without units beside a sun in lux is black. */
+static void warn_of_sun(ocean_run *run)
+{
+    const facet_render_desc *d = &run->options.picture.desc;
+    facet_environment_info info;
+    if (!run->environment || facet_environment_get_info(run->environment, &info, NULL) != FACET_OK)
+        return;
+    double radiance = 0.2126 * info.mean[0] + 0.7152 * info.mean[1] + 0.0722 * info.mean[2];
+    double lux = 3.141592653589793 * radiance * exp2((double)d->environment_ev);
+    double times = (double)d->sun.illuminance_lux[1] / lux;
+    if (!(lux > 0.0) || times < 1000.0)
+        return;
+    char text[256];
+    facet_log log = messages_log(&run->messages);
+    snprintf(text, sizeof text,
+             "--sun: it has %.2g times the light of the environment, %.2g lx, which will be black; "
+             "--env-intensity scales that",
+             times, lux);
+    log.message(log.user, FACET_LOG_WARNING, text);
+}
+
 static facet_result begin(ocean_run *run, command_line *c, config *storage, facet_error *error)
 {
     ocean_options *o = &run->options;
@@ -312,6 +333,8 @@ static facet_result begin(ocean_run *run, command_line *c, config *storage, face
     interrupt_set_deadline(o->picture.limits.time_limit_s);
     if (o->has_picture)
         result = load_environment(run, error);
+    if (result == FACET_OK)
+        warn_of_sun(run);
     if (result == FACET_OK && o->model)
         result = ocean_float_load(run, error);
     if (result != FACET_OK)

@@ -11,11 +11,17 @@ static void print_rgb(const char *what, const double rgb[3], const char *unit)
     printf("%-18s %.4g %.4g %.4g%s\n", what, rgb[0], rgb[1], rgb[2], unit);
 }
 
+/* As --wind has it: degrees from +Z towards +X. */
+static double wind_azimuth(const facet_sea_desc *d)
+{
+    return remainder(90.0 - round((double)d->wind_direction_rad / DEGREE * 1e4) * 1e-4, 360.0);
+}
+
 void ocean_report_print(const ocean_run *run)
 {
     const facet_sea_desc *d = &run->options.sea;
     facet_sea_info i = facet_sea_get_info(run->sea);
-    printf("%-18s %g m/s", "wind", (double)d->wind_mps);
+    printf("%-18s %g m/s towards %g degrees", "wind", (double)d->wind_mps, wind_azimuth(d));
     if (isinf(d->fetch_m))
         printf(" without limit of fetch\n");
     else
@@ -56,9 +62,9 @@ json_t *ocean_report_json(const ocean_run *run)
     json_t *fetch = isinf(d->fetch_m) ? json_null() : json_real((double)d->fetch_m);
     return json_pack(
         "{s:f, s:f, s:o, s:f, s:f, s:f, s:f, s:[f, f], s:[f, f], s:f, s:f, s:o, s:o, s:o, s:o, s:f, s:o}",
-        "wind_mps", (double)d->wind_mps, "wind_direction_rad", (double)d->wind_direction_rad, "fetch_m",
-        fetch, "choppiness", (double)d->choppiness, "height_m", i.height_m, "peak_period_s", i.peak_period_s,
-        "peak_length_m", i.peak_length_m, "slope_variance", i.slope_variance[0], i.slope_variance[1],
+        "wind_mps", (double)d->wind_mps, "wind_azimuth_deg", wind_azimuth(d), "fetch_m", fetch, "choppiness",
+        (double)d->choppiness, "height_m", i.height_m, "peak_period_s", i.peak_period_s, "peak_length_m",
+        i.peak_length_m, "slope_variance", i.slope_variance[0], i.slope_variance[1],
         "resolved_slope_variance", i.resolved_slope_variance[0], i.resolved_slope_variance[1],
         "foam_coverage", i.foam_coverage, "ior", i.ior, "absorption", rgb_json(i.absorption), "scattering",
         rgb_json(i.scattering), "backscattering", rgb_json(i.backscattering), "reflectance",

@@ -51,7 +51,7 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
         return suggest_option(c->verb, *at, length, error);
     if (!takes_number(out->option))
         return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--sweep: --%s takes no number that changes the picture", out->option->name);
+                         "--sweep: --%s is not one number that changes the picture", out->option->name);
     *at += length + 1;
     double count = 0.0;
     bool is_range = scan_number(at, &out->from) && *(*at)++ == ':' && scan_number(at, &out->to) &&

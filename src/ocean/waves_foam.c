@@ -8,8 +8,6 @@
 #include "ocean/foam_pattern.h"
 #include "ocean/wave_patches.h"
 
-static const double MOST_COVER = 0.9; /* Beaufort 12: white with foam, and streaks are seen in it */
-
 double foam_decay_s(double salinity)
 {
     return 2.5 + 1.2 * fmin(salinity / 35.0, 1.0);
@@ -90,7 +88,7 @@ facet_result waves_foam_create(const waves *w, const foam_rule *rule, double dec
     }
     memcpy(out->patterns, (*history)->patterns, sizeof out->patterns);
     place_readings(w, out->readings);
-    scale_share(out->share.levels[0], (size_t)size * size, fmin((double)rule->coverage, MOST_COVER));
+    scale_share(out->share.levels[0], (size_t)size * size, (double)rule->coverage);
     foam_plane_reduce(&out->share);
     return FACET_OK;
 }

@@ -160,7 +160,7 @@ says "roughness"
 expect 2 ocean $small --sweep roughness=0.1:0.2 -o sheet.png
 says "NAME=FROM:TO:COUNT"
 expect 2 ocean $small --sweep output=1:2:2 -o sheet.png
-says "takes no number"
+says "is not one number"
 expect 2 ocean $small --sweep wind=3:5:2, -o sheet.png
 expect 2 ocean $small --sweep wind=3:5:2,wind=1:2:2 -o sheet.png
 says "both of its axes"
@@ -219,6 +219,12 @@ expect 2 ocean --renderer path --no-glints -o a.png
 says "says nothing to --renderer path"
 expect 2 ocean -o a.gif
 expect 2 ocean extra -o a.png
+expect 0 ocean -s 48x32 -o a.png -e white --sun 30,0,100000
+says "--env-intensity"
+expect 0 ocean $small -o a.png -e white --sun 30,0,100000 --env-intensity 10000
+! grep -q env-intensity err || failed "a warning of light that is there"
+expect 0 ocean --wind 9,-75 --info --json
+grep -q '"wind_azimuth_deg": *-75.0' out || failed "the wind blows elsewhere: $(cat out)"
 expect 6 ocean -o nowhere/a.png
 expect 7 ocean -o a.png --max-memory 1M
 says "--max-memory"
