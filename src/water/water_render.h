@@ -11,4 +11,7 @@
 facet_result water_render(const facet_sea *sea, const facet_scene *scene, const facet_sea_render_desc *desc,
                           film *film, facet_render_stats *stats, facet_error *error);
 
+/* Warns where the camera stands below the bed. It is drawn as it is: dark, as there is no light. */
+void water_warn_of_ground(const facet_sea_bed *bed, const facet_sea_render_desc *d);
+
 #endif

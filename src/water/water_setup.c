@@ -8,6 +8,7 @@
 #include "ibl/equirect.h"
 
 #include "water/caustic_plan.h"
+#include "water/water_render.h"
 
 static const float SHUTTER_S = 0.01f;
 enum { SURROUNDINGS_HEIGHT = 128 };
@@ -220,4 +221,13 @@ water_slopes water_slopes_at(const water_setup *s, float footprint_m)
                               vec3(max(resolved[0], 0.0f), max(resolved[1], 0.0f), resolved[2]) + least,
                           .curvature = mix(f->curvature[i], f->curvature[i + 1], share),
                           .rate = mix(f->rate[i], f->rate[i + 1], share)};
+}
+
+void water_warn_of_ground(const facet_sea_bed *bed, const facet_sea_render_desc *d)
+{
+    const float *eye = d->render.camera->eye;
+    double below = water_bed_height(bed, (double)eye[0], (double)eye[2]) - (double)eye[1];
+    if (bed->depth_m > 0.0f && isfinite(bed->depth_m) && below > 0.0)
+        log_warning(&d->render.log, "sea: the camera stands %.3g m below the bed, from where nothing is seen",
+                    below);
 }

@@ -223,6 +223,8 @@ expect 0 ocean -s 48x32 -o a.png -e white --sun 30,0,100000
 says "--env-intensity"
 expect 0 ocean $small -o a.png -e white --sun 30,0,100000 --env-intensity 10000
 ! grep -q env-intensity err || failed "a warning of light that is there"
+expect 0 ocean $small -o a.png --depth 5 --height-of-eye -6
+says "below the bed"
 expect 0 ocean --wind 9,-75 --info --json
 grep -q '"wind_azimuth_deg": *-75.0' out || failed "the wind blows elsewhere: $(cat out)"
 expect 6 ocean -o nowhere/a.png
