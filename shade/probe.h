@@ -983,7 +983,7 @@ FN vec3 probe_water_place(int which, vec2 u)
     if (which == 120) {
         vec3 beam = water_beam_below(w, light);
         return water_bed_lit(water_focused(w, light.downwelling, beam, sunward[1], 9.0f * u[0]),
-                             3.0f * u[1]) +
+                             3.0f * u[1], 0.5f + 0.5f * u[0]) +
                vec3(water_bed_footprint(w, N, V, down, C, u[0], 4.0f * u[1]),
                     caustic_cover(vec2(2.0f * u[0] - 1.0f, 0.1f)),
                     caustic_lod(9.0f * u[1]) + water_mirrored_spread(C));

@@ -19,10 +19,10 @@ FN vec3 water_focused(Water w, vec3 downwelling, vec3 beam, float mu, float dept
     return min(at_surface, 1.0f) * water_transmittance(faster, depth);
 }
 
-/* Light on the bed over its mean, where the beam's irradiance is `factor` times its own. */
-FN vec3 water_bed_lit(vec3 focused, float factor)
+/* Light on the bed over its mean, where the beam's irradiance is `factor` times its own, and that of all other light `rest` times. */
+FN vec3 water_bed_lit(vec3 focused, float factor, float rest)
 {
-    return focused * (factor - 1.0f) + 1.0f;
+    return focused * (factor - rest) + rest;
 }
 
 /* Width (m) of what a ray that is `width` m wide on the surface sees of the bed, `way` m along `down`: slopes C that it does not

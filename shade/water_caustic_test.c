@@ -45,12 +45,12 @@ static void test_lit(void **state)
 {
     (void)state;
     vec3 share = vec3(0.0f, 0.4f, 1.0f);
-    vec3 bright = water_bed_lit(share, 3.0f), dark = water_bed_lit(share, 0.0f);
+    vec3 bright = water_bed_lit(share, 3.0f, 1.0f), dark = water_bed_lit(share, 0.0f, 1.0f);
     expect_near((double)bright[0], 1.0, 1e-6, "all of it diffuse");
     expect_near((double)bright[1], 1.8, 1e-6, "some of it");
     expect_near((double)dark[2], 0.0, 1e-6, "all of it focused");
     for (int k = 0; k < 3; k++)
-        expect_near((double)(0.25f * bright[k] + 0.75f * water_bed_lit(share, 1.0f / 3.0f)[k]), 1.0, 1e-6,
+        expect_near((double)(0.25f * bright[k] + 0.75f * water_bed_lit(share, 1.0f / 3.0f, 1.0f)[k]), 1.0, 1e-6,
                     "mean");
 }
 

@@ -1,5 +1,5 @@
 /* ocean_path_test.c - a sea by path tracing beside the preview: the same waves where both resolve them (ocean reference 16.7), known light
- * on still water, rough water within what second hits explain, a model and its image in the right pixels, memory that runs out. */
+ * on still water, rough water within what second hits explain, a model, its image and its shadow in the right pixels, memory that runs out. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -241,6 +241,41 @@ static void a_model_is_seen_and_mirrored(void **state)
     facet_scene_destroy(scene);
 }
 
+/* A square lies 30 cm over a lagoon of 2 m: its shadow on the bed is 1.4 m away from the sun. Seen from
+ * the air and from the water, a fifth of the light is left: what paths find, and what the preview has. */
+static void a_model_shades_the_bed(void **state)
+{
+    (void)state;
+    static const float lying[16] = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, -7.7f, -3, 1};
+    facet_scene *scene = lamp();
+    done(facet_scene_place(scene, lying, &failure));
+    facet_sea_desc desc = sea_of(3.0f);
+    desc.bed = (facet_sea_bed){.depth_m = 2.0f, .albedo = {0.15f, 0.15f, 0.15f}};
+    for (int k = 0; k < 2; k++) {
+        pair p;
+        begin(&p, &desc, 12, 12, NULL);
+        p.d.look.no_foam = true;
+        p.d.sky = (facet_sky_desc){.sun_elevation_rad = 0.7f};
+        p.d.render.exposure_ev = -13.0f;
+        p.camera =
+            (facet_camera){.eye = {0.0f, 12.0f, -1.75f}, .target = {0.0f, 0.0f, -1.7f}, .fov_y_rad = 0.09f};
+        if (k) {
+            p.camera.eye[1] = -0.3f;
+            p.camera.target[1] = -2.0f;
+            p.camera.fov_y_rad = 0.6f;
+        }
+        draw(&p, 4, 1);
+        double without = rows_mean(p.preview, 0, 12);
+        p.scene = scene;
+        draw(&p, 4, IS_SLOW ? 40 : 150);
+        double share = rows_mean(p.preview, 0, 12) / without, ratio = rows_ratio(&p, 0, 12);
+        if (!(fabs(ratio - 1.0) < (IS_SLOW ? 0.3 : 0.2)) || !(share < 0.3))
+            fail_msg("eye %d: %g of the light, by paths %g of that", k, share, ratio);
+        end(&p);
+    }
+    facet_scene_destroy(scene);
+}
+
 /* Where a look has no meaning it is refused; foam, Fresnel's formula and the roughness of what no tile has are in both. */
 static void looks_are_refused_or_followed(void **state)
 {
@@ -311,6 +346,7 @@ int main(void)
                                        cmocka_unit_test(rough_water_is_darker_by_second_hits),
                                        cmocka_unit_test(a_gale_from_above_is_the_same),
                                        cmocka_unit_test(a_model_is_seen_and_mirrored),
+                                       cmocka_unit_test(a_model_shades_the_bed),
                                        cmocka_unit_test(looks_are_refused_or_followed),
                                        cmocka_unit_test(memory_runs_out)};
     return cmocka_run_group_tests(tests, NULL, NULL);

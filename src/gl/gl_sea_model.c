@@ -82,10 +82,13 @@ static void upload_touch(gl_sea_model *m, const sea_picture *p, const camera_ray
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16F, SEA_TOUCH_EDGE, SEA_TOUCH_EDGE, 0, GL_RG, GL_FLOAT, p->touch);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, SEA_TOUCH_EDGE, SEA_TOUCH_EDGE, 0, GL_RGBA, GL_FLOAT,
+                 p->touch);
     for (int i = 0; i < 2; i++) {
         b->touch[i] = p->touch_low[i] - camera->origin[2 * i];
         b->touch[2 + i] = 1.0f / (p->touch_high[i] - p->touch_low[i]);
+        b->shadow[i] = p->shadow_low[i] - camera->origin[2 * i];
+        b->shadow[2 + i] = p->has_shadow ? 1.0f / (p->shadow_high[i] - p->shadow_low[i]) : 0.0f;
     }
 }
 

@@ -232,9 +232,11 @@ static fixture spheres(void)
     return f;
 }
 
-static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float down_rad, double bound)
+static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float down_rad, float bed_m,
+                          double bound)
 {
     facet_sea_desc desc = small(wind_mps);
+    desc.bed = (facet_sea_bed){.depth_m = bed_m, .albedo = {0.4f, 0.4f, 0.3f}};
     facet_sea *sea = make_sea(&desc);
     fixture f = spheres();
     shot s;
@@ -256,8 +258,9 @@ static void models(void **state)
     if (IS_SLOW)
         skip();
     gl_sea *renderer = renderer_of(GL_API_CORE);
-    compare_model(renderer, 2.0f, 3.0f, 0.35f, 0.6);
-    compare_model(renderer, 0.0f, -2.0f, -0.2f, 0.1);
+    compare_model(renderer, 2.0f, 3.0f, 0.35f, 0.0f, 0.6);
+    compare_model(renderer, 0.0f, -2.0f, -0.2f, 0.0f, 0.1);
+    compare_model(renderer, 2.0f, 8.0f, 0.9f, 3.0f, 0.6); /* with shadows on the bed */
 }
 
 /* The same as a still of its time, whatever was drawn before. */

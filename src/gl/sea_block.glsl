@@ -46,6 +46,7 @@ layout(std140) uniform Sea
     vec4 sea_model_depth;  /* a, b of depth in clip space, a + b / depth; as sea_mirror_axis.w */
     vec4 sea_model_ball;   /* around it: middle, radius */
     vec4 sea_touch;        /* of the rectangle: x, z from the eye, 1 / lengths, 1/m */
+    vec4 sea_shadow;       /* the same of that on the bed; 0: there is no shadow */
 };
 
 Water sea_water()

@@ -48,7 +48,7 @@ vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
     float rise = dot(sea_bed_slope.xy, down.xz);
     vec3 albedo = sea_bed.xyz;
     vec3 mean_albedo = albedo;
-    if (sea_caustic_axis.z > 0.0) {
+    if (sea_has_light_on_bed()) {
         float way = water_way_to_bed(depth, rise, down);
         float width = water_bed_footprint(w, p.point.N, p.V, down, p.point.covariance, p.width * inversesqrt(p.cosine), way);
         albedo *= sea_bed_lit(w, p.at, down, way, width);

@@ -5,7 +5,6 @@ uniform highp sampler2D u_sea_model; /* premultiplied radiance, as the eye sees 
 uniform highp sampler2D u_sea_model_depth;
 uniform highp sampler2D u_sea_mirrored; /* from the eye's mirror image */
 uniform highp sampler2D u_sea_mirrored_depth;
-uniform highp sampler2D u_sea_touch; /* sea_touch */
 
 struct SeaModel
 {

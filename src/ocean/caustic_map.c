@@ -70,7 +70,7 @@ static float read_layer(const caustic_layer *layer, vec2 place, float footprint_
     return share > 0.0f ? mix(here, read_mip(layer, mip + 1, place), share) : here;
 }
 
-float caustic_map_at(const caustic_map *map, double X, double Z, float footprint_m)
+float caustic_map_within(const caustic_map *map, double X, double Z, float footprint_m, float *beyond)
 {
     float sum = 0.0f, open = 1.0f;
     for (uint32_t l = 0; map->is_there && l < CAUSTIC_LAYERS && open > 0.0f; l++) {
@@ -84,5 +84,12 @@ float caustic_map_at(const caustic_map *map, double X, double Z, float footprint
             sum += cover * read_layer(layer, place, footprint_m);
         open -= cover;
     }
+    *beyond = open;
+    return sum;
+}
+
+float caustic_map_at(const caustic_map *map, double X, double Z, float footprint_m)
+{
+    float open, sum = caustic_map_within(map, X, Z, footprint_m, &open);
     return sum + open;
 }

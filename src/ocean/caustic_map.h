@@ -31,5 +31,7 @@ void caustic_layer_reduce(caustic_layer *layer);
 
 /* The factor, >= 0, over a footprint (m) around (X, Z): 1 on average, and 1 beyond all layers. */
 float caustic_map_at(const caustic_map *map, double X, double Z, float footprint_m);
+/* Of layers only, weighted by their cover; *beyond: share that none of them has, [0, 1]. */
+float caustic_map_within(const caustic_map *map, double X, double Z, float footprint_m, float *beyond);
 
 #endif

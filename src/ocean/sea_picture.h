@@ -25,11 +25,13 @@ enum {
 };
 #define SEA_SKY_WAY_KM 20.0f
 
-/* What a model does to the water around it: over a rectangle of the plane, rows along z, texel middles at their places. */
+/* What a model does to the water around it, and to the light on the bed: over a rectangle of the plane each, rows along z, texel middles
+ * at their places. */
 enum { SEA_TOUCH_EDGE = 192 };
 typedef struct sea_touch {
-    float dry;  /* 1: a hull keeps the sea out */
-    float open; /* share of the sun's light that passes the model */
+    float dry;               /* 1: a hull keeps the sea out */
+    float open;              /* share of the sun's light that passes the model */
+    float bed_sun, bed_rest; /* of the beam's light on the bed, and of all other: bed_shadow.h */
 } sea_touch;
 
 typedef struct sea_picture {
@@ -59,6 +61,8 @@ typedef struct sea_picture {
     float model_water_m;                 /* height of the water there */
     const sea_touch *touch;              /* SEA_TOUCH_EDGE^2 */
     float touch_low[2], touch_high[2];   /* x, z of its rectangle, m */
+    bool has_shadow;                     /* of the model on the bed */
+    float shadow_low[2], shadow_high[2]; /* x, z of that rectangle, m */
 } sea_picture;
 
 #endif

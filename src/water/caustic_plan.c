@@ -224,6 +224,7 @@ static void begin(view *v, const water_setup *s)
                                  .bed_height = water_bed_height(bed, 0.0, 0.0),
                                  .bed_rise = {water_bed_rise(bed, vec3(1.0f, 0.0f, 0.0f)),
                                               water_bed_rise(bed, vec3(0.0f, 0.0f, 1.0f))},
+                                 .model = s->model.is_there ? &s->model : NULL,
                                  .thread_count = s->desc->render.thread_count,
                                  .allocator = s->desc->render.allocator};
     float level = sqrt(s->light.L[0] * s->light.L[0] + s->light.L[2] * s->light.L[2]);

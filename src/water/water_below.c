@@ -44,7 +44,11 @@ vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, f
         vec3 mean = water_bed_below(s->water, s->light.downwelling, vec3(albedo[0], albedo[1], albedo[2]),
                                     max(z - x * d[1], 0.0f));
         float width = (width_m + spread * x) * inversesqrt(clamp(-d[1], 0.05f, 1.0f));
-        vec3 bed = s->caustics.is_there ? mean * water_bed_lit_at(s, P, d, x, width) : mean;
+        vec3 bed = mean;
+        if (water_has_light_on_bed(s)) {
+            bed = mean * water_bed_lit_at(s, P, d, x, width);
+            mean = mean * water_bed_lit_at(s, P, d, x, max(width, 0.25f * x));
+        }
         ground = water_bed_through(s->water, bed, mean, x);
     }
     /* a ray that goes up for ever leaves water that would shine as it does near the surface */

@@ -24,7 +24,7 @@ typedef struct nodes {
     size_t count;   /* along an edge; one before the first that counts, two behind the last */
     float *u, *v, *weight;
     float *lowest, *highest; /* v of each row */
-    double *sums;            /* of each row's weights */
+    double *sums;            /* of each row's light, without a model */
 } nodes;
 
 typedef struct making {
@@ -61,9 +61,17 @@ static float light_on(const caustic_source *s, const wave_point *p, vec3 N)
     return facing > 0.0f ? facing * (1.0f - water_fresnel(s->water, clamp(dot(N, s->L), 0.0f, 1.0f))) : 0.0f;
 }
 
-/* Of the node whose light falls on (X, Z) where the water is still. */
-static void trace_node(const making *m, const caustic_layer *layer, double X, double Z, float footprint_m,
-                       float *u, float *v, float *weight)
+/* Share of light that passes the model on its way to a point of the surface, and from there `way` m along d. */
+static float passing_model(const caustic_source *s, const double P[3], vec3 d, double way)
+{
+    return s->model
+               ? water_model_opening(s->model, P, s->L, HUGE_VAL) * water_model_opening(s->model, P, d, way)
+               : 1.0f;
+}
+
+/* Of the node whose light falls on (X, Z) where the water is still. Returns the light that it would have without a model. */
+static float trace_node(const making *m, const caustic_layer *layer, double X, double Z, float footprint_m,
+                        float *u, float *v, float *weight)
 {
     const caustic_source *s = m->source;
     double back = fmax(-bed_at(s, X, Z), 0.0) / -(double)m->still[1];
@@ -71,14 +79,17 @@ static void trace_node(const making *m, const caustic_layer *layer, double X, do
     wave_point p = waves_at(s->waves, rest[0], rest[1], footprint_m);
     vec3 N = wave_normal(vec2(p.slope[0], p.slope[1]), vec3(p.Dxx, p.Dzz, p.Dxz));
     vec3 d = water_refracted(s->water, -s->L, N);
-    double from[2] = {rest[0] + (double)p.displacement[0], rest[1] + (double)p.displacement[1]};
-    double way = way_to_bed(s, d, (double)p.height_m - bed_at(s, from[0], from[1]));
+    const double from[3] = {rest[0] + (double)p.displacement[0], (double)p.height_m,
+                            rest[1] + (double)p.displacement[1]};
+    double way = way_to_bed(s, d, from[1] - bed_at(s, from[0], from[2]));
     float x = (float)(from[0] + way * (double)d[0] - layer->middle[0]);
-    float z = (float)(from[1] + way * (double)d[2] - layer->middle[1]);
+    float z = (float)(from[2] + way * (double)d[2] - layer->middle[1]);
     const float *axis = m->map->axis;
     *u = (x * axis[0] + z * axis[1]) / layer->texel_m + 0.5f * CAUSTIC_SIZE;
     *v = (z * axis[0] - x * axis[1]) / layer->texel_m + 0.5f * CAUSTIC_SIZE;
-    *weight = light_on(s, &p, N);
+    float light = light_on(s, &p, N);
+    *weight = light > 0.0f ? light * passing_model(s, from, d, way) : 0.0f;
+    return light;
 }
 
 static void trace_row(making *m, uint32_t l, size_t row)
@@ -96,11 +107,10 @@ static void trace_row(making *m, uint32_t l, size_t row)
         double along_u = (double)i - n->margin - 1 - half;
         double X = (along_u * (double)axis[0] - along_v * (double)axis[1]) * (double)spacing;
         double Z = (along_u * (double)axis[1] + along_v * (double)axis[0]) * (double)spacing;
-        trace_node(m, layer, layer->middle[0] + X, layer->middle[1] + Z, layer->texel_m, &u[i], &v[i],
-                   &weight[i]);
+        n->sums[row] += (double)trace_node(m, layer, layer->middle[0] + X, layer->middle[1] + Z,
+                                           layer->texel_m, &u[i], &v[i], &weight[i]);
         n->lowest[row] = fminf(n->lowest[row], v[i]);
         n->highest[row] = fmaxf(n->highest[row], v[i]);
-        n->sums[row] += (double)weight[i];
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "ocean/caustic_map.h"
 #include "ocean/waves.h"
+#include "water/water_model.h"
 
 #include "shade/shade.h"
 
@@ -15,6 +16,7 @@ typedef struct caustic_source {
     vec3 L;            /* to the sun, L.y > 0 */
     double bed_height; /* of the bed at the origin, m, and its rise along X and Z */
     double bed_rise[2];
+    const water_model *model; /* which keeps light out of the water, and from the bed; NULL: none */
     uint32_t thread_count;
     facet_allocator allocator;
 } caustic_source;
@@ -29,7 +31,7 @@ typedef struct caustic_plan {
 } caustic_plan;
 
 /* Fills a map along `axis` (unit) by its plans, the finest first. The mean over a wide layer is 1, on still water the factor is 1
- * everywhere. Same bytes for every number of threads. FACET_ERROR_MEMORY. */
+ * everywhere, but for what the model takes away. Same bytes for every number of threads. FACET_ERROR_MEMORY. */
 facet_result water_caustics_fill(const caustic_source *source, const float axis[2],
                                  const caustic_plan plans[CAUSTIC_LAYERS], caustic_map *map,
                                  facet_error *error);

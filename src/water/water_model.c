@@ -84,6 +84,23 @@ void water_model_destroy(water_model *m)
 
 /* ---- rays ---- */
 
+/* Slabs; a ray within a plane of them is neither in nor out, which keeps it (0 / 0 compares false). */
+bool water_model_may_meet(const water_model *m, const double P[3], vec3 d, double far_m)
+{
+    if (!m->is_there)
+        return false;
+    const float *low = m->prepared.pose.bounds_min, *high = m->prepared.pose.bounds_max;
+    double first = 0.0, last = far_m;
+    for (int i = 0; i < 3; i++) {
+        double per = 1.0 / (double)d[i], margin = 1e-6 * (fabs(P[i]) + 1.0);
+        double a = ((double)low[i] - margin - P[i]) * per, b = ((double)high[i] + margin - P[i]) * per;
+        double near = a < b ? a : b, far = a < b ? b : a;
+        first = near > first ? near : first;
+        last = far < last ? far : last;
+    }
+    return first <= last;
+}
+
 static shading_ray ray_from(const double P[3], vec3 d, double far_m)
 {
     float size = (float)fmax(fabs(P[0]), fmax(fabs(P[1]), fabs(P[2])));
@@ -108,8 +125,10 @@ static bool find(const water_model *m, double length, uint32_t random, model_hit
 bool water_model_find(const water_model *m, const double P[3], vec3 d, double far_m, uint32_t random,
                       model_hit *hit)
 {
+    if (!water_model_may_meet(m, P, d, far_m))
+        return false;
     hit->ray = ray_from(P, d, far_m);
-    return m->is_there && find(m, 1.0, random, hit);
+    return find(m, 1.0, random, hit);
 }
 
 bool water_model_find_seen(const water_model *m, float x, float y, float footprint, double far_m,
@@ -124,10 +143,12 @@ bool water_model_find_seen(const water_model *m, float x, float y, float footpri
     return find(m, scale, random, hit);
 }
 
-float water_model_opening(const water_model *m, const double P[3], vec3 d)
+float water_model_opening(const water_model *m, const double P[3], vec3 d, double far_m)
 {
-    shading_ray ray = ray_from(P, d, farthest);
-    return m->is_there ? ray_trace_opening(&m->setup.shading, &ray, NULL) : 1.0f;
+    if (!water_model_may_meet(m, P, d, far_m))
+        return 1.0f;
+    shading_ray ray = ray_from(P, d, far_m);
+    return ray_trace_opening(&m->setup.shading, &ray, NULL);
 }
 
 /* The sun's shadow begins off the surface, on the side that the sun is on. */
@@ -140,7 +161,7 @@ vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun)
     float size = max(max(abs(hit->P[0]), abs(hit->P[1])), abs(hit->P[2]));
     vec3 start = hit->P + N * (1e-4f + 4e-6f * size);
     const double P[3] = {(double)start[0], (double)start[1], (double)start[2]};
-    float share = sun[1] > 0.0f ? water_model_opening(m, P, sun) : 0.0f;
+    float share = sun[1] > 0.0f ? water_model_opening(m, P, sun, HUGE_VAL) : 0.0f;
     vec3 L = vec3(0.0f);
     if (share > 0.0f) {
         shading_shade(&m->setup.shading, &point, &lit);

@@ -106,6 +106,7 @@ static void touch_rows(void *context, size_t begin, size_t end)
     double width = (double)(p->touch_high[0] - p->touch_low[0]) / SEA_TOUCH_EDGE;
     double length = (double)(p->touch_high[1] - p->touch_low[1]) / SEA_TOUCH_EDGE;
     vec3 L = t->setup->light.L;
+    const bed_shadow *shadow = &t->setup->shadow;
     for (size_t z = begin; z < end; z++)
         for (size_t x = 0; x < SEA_TOUCH_EDGE; x++) {
             double P[3] = {(double)p->touch_low[0] + ((double)x + 0.5) * width, 0.0,
@@ -113,7 +114,12 @@ static void touch_rows(void *context, size_t begin, size_t end)
             P[1] = (double)waves_height(&p->sea->waves, P[0], P[2], (float)fmin(width, length)) + 1e-3;
             sea_touch *to = &t->touch[z * SEA_TOUCH_EDGE + x];
             to->dry = water_model_is_dry(&t->setup->model, P) ? 1.0f : 0.0f;
-            to->open = L[1] > 0.0f ? water_model_opening(&t->setup->model, P, L) : 1.0f;
+            to->open = L[1] > 0.0f ? water_model_opening(&t->setup->model, P, L, HUGE_VAL) : 1.0f;
+            bed_shadow_texel bed = {1.0f, 1.0f};
+            if (shadow->is_there)
+                bed = shadow->texels[z * BED_SHADOW_EDGE + x];
+            to->bed_sun = bed.sun;
+            to->bed_rest = bed.rest;
         }
 }
 
@@ -146,6 +152,11 @@ static facet_result describe_model(const water_setup *s, sea_touch **touch, sea_
         waves_height(&s->sea->waves, 0.5 * ((double)p->model_low[0] + (double)p->model_high[0]),
                      0.5 * ((double)p->model_low[2] + (double)p->model_high[2]), size);
     choose_rectangle(s->light.L, p);
+    p->has_shadow = s->shadow.is_there;
+    for (int i = 0; i < 2; i++) {
+        p->shadow_low[i] = (float)s->shadow.low[i];
+        p->shadow_high[i] = (float)s->shadow.high[i];
+    }
     touching t = {s, p, *touch};
     parallel_for(s->desc->render.thread_count, SEA_TOUCH_EDGE, 4, touch_rows, &t);
     p->touch = *touch;

@@ -186,16 +186,19 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     float perceptual_roughness = desc->look.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     s->trough_m = -2.0f * s->march.deviation_m;
-    if (r->integrator != FACET_INTEGRATOR_PATH) /* which finds them */
-        result = caustic_map_of_picture(s, &s->caustics, error);
-    if (result != FACET_OK)
+    if (scene)
+        result = add_model(s, scene, stats, error);
+    if (r->integrator == FACET_INTEGRATOR_PATH) /* which finds light on the bed by itself */
         return result;
-    return scene ? add_model(s, scene, stats, error) : FACET_OK;
+    if (result == FACET_OK)
+        result = caustic_map_of_picture(s, &s->caustics, error);
+    return result == FACET_OK ? bed_shadow_of_picture(s, &s->shadow, error) : result;
 }
 
 void water_setup_destroy(water_setup *s)
 {
     water_model_destroy(&s->model);
+    bed_shadow_destroy(&s->shadow);
     caustic_map_destroy(&s->caustics);
     water_profile_destroy(&s->profile);
     waves_foam_destroy(&s->foam);

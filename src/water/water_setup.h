@@ -6,6 +6,7 @@
 #include "ocean/caustic_map.h"
 #include "ocean/sea.h"
 #include "ocean/waves_foam.h"
+#include "water/bed_shadow.h"
 #include "water/water_light.h"
 #include "water/water_model.h"
 #include "water/water_profile.h"
@@ -29,6 +30,7 @@ typedef struct water_setup {
     vec3 beam;            /* irradiance across the sun's beam just below the surface, lx */
     vec3 sunward;         /* unit direction to the sun, below the surface */
     caustic_map caustics; /* of the bed */
+    bed_shadow shadow;    /* of the model, on it */
     vec3
         roughness; /* covariance of slopes that stands for waves finer than all tiles; xx < 0: by their slopes */
     float trough_m;  /* where troughs are, two standard deviations below the mean */
@@ -56,6 +58,11 @@ water_slopes water_slopes_at(const water_setup *s, float footprint_m);
 static inline bool water_has_bed(const water_setup *s)
 {
     return s->sea->desc.bed.depth_m > 0.0f && isfinite(s->sea->desc.bed.depth_m);
+}
+/* Whether light on it differs from place to place. */
+static inline bool water_has_light_on_bed(const water_setup *s)
+{
+    return s->caustics.is_there || s->shadow.is_there;
 }
 /* Height of it at (X, Z), and how much it rises along d. */
 static inline double water_bed_height(const facet_sea_bed *bed, double X, double Z)

@@ -11,7 +11,9 @@ vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way
     double X = P[0] + (double)way * (double)d[0], Z = P[2] + (double)way * (double)d[2];
     float depth = max((float)-water_bed_height(&s->sea->desc.bed, X, Z), 0.0f);
     vec3 focused = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], depth);
-    return water_bed_lit(focused, caustic_map_at(&s->caustics, X, Z, width_m));
+    bed_shadow_texel open = bed_shadow_at(&s->shadow, X, Z);
+    float beyond, factor = caustic_map_within(&s->caustics, X, Z, width_m, &beyond);
+    return water_bed_lit(focused, factor + beyond * open.sun, open.rest);
 }
 
 vec3 water_from_below(const water_setup *s, const water_place *p)
@@ -24,7 +26,7 @@ vec3 water_from_below(const water_setup *s, const water_place *p)
     float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2])),
           rise = (float)water_bed_rise(bed, down);
     vec3 albedo = vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]), mean_albedo = albedo;
-    if (s->caustics.is_there) {
+    if (water_has_light_on_bed(s)) {
         float way = water_way_to_bed(depth, rise, down), width = p->footprint_m * inversesqrt(p->cosine);
         width = water_bed_footprint(s->water, p->point.N, p->V, down, p->point.covariance, width, way);
         albedo = albedo * water_bed_lit_at(s, p->P, down, way, width);

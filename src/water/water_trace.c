@@ -88,7 +88,7 @@ static water_findings find_model(const water_sample *p, const water_place *place
         found.mirrored = water_model_radiance(&s->model, &hit, s->light.L);
     }
     if (s->light.L[1] > 0.0f) {
-        found.sun = water_model_opening(&s->model, P, s->light.L);
+        found.sun = water_model_opening(&s->model, P, s->light.L, HUGE_VAL);
         found.has_shadow = found.sun < 1.0f;
     }
     find_below(p, place, &found);

@@ -1,0 +1,239 @@
+/* bed_shadow.c - see bed_shadow.h. Rays from each texel of the bed to the still surface and on to where the light comes from: the sun
+ * through slopes of all waves; the sky through Snell's window; and the sun's light that was scattered on its way. They
+ * are the same rays for all texels; the steps that scattered light would show are smoothed. */
+#include "water/bed_shadow.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/result.h"
+
+#include "water/water_setup.h"
+
+/* Particles turn light by 23 degrees on average, somewhere on its way: half of that seen from the bed. Rad along an axis. */
+static const float SCATTERED_SPREAD = 0.16f;
+static const float LEAST_SEEN = 0.002f; /* of the light above, that comes back from the bed */
+static const float WIDEST = 1.13f;      /* tangent of the angle of total reflection: half of Snell's window */
+static const float LONGEST = 8.0f;      /* a shadow on the water, in sizes of what casts it */
+
+enum { SUN_RAYS = 8, SKY_RAYS = 24, SCATTERED_RAYS = 24 };
+enum { SMOOTHED = 3 }; /* texels */
+
+/* A way that light takes. */
+typedef struct light_way {
+    vec3 below, above; /* unit, towards where it comes from */
+    float weight;
+} light_way;
+
+typedef struct making {
+    const water_setup *s;
+    bed_shadow *out;
+    light_way sun[SUN_RAYS], sky[SKY_RAYS], scattered[SCATTERED_RAYS];
+} making;
+
+/* ---- ways ---- */
+
+/* Two normal numbers. */
+static vec2 normal_pair(uint i, uint n)
+{
+    vec2 u = hammersley(i, n) + 0.5f / (float)n; /* the middles of what each stands for */
+    return vec2(inverse_normal(u[0]), inverse_normal(u[1]));
+}
+
+static void choose_sun(making *m)
+{
+    const water_setup *s = m->s;
+    const slope_covariance *C = &s->sea->slopes.total;
+    float x = sqrt(max(C->xx, 0.0f)), mixed = x > 0.0f ? C->xz / x : 0.0f;
+    float z = sqrt(max(C->zz - mixed * mixed, 0.0f));
+    vec3 L = vec3(s->light.L[0], max(s->light.L[1], 1e-3f), s->light.L[2]);
+    for (uint i = 0; i < SUN_RAYS; i++) {
+        vec2 g = normal_pair(i, SUN_RAYS);
+        vec3 N = normal_from_slope(vec2(x * g[0], mixed * g[0] + z * g[1]));
+        vec3 down = dot(N, L) > 0.0f ? water_refracted(s->water, -normalize(L), N) : -s->sunward;
+        m->sun[i] = (light_way){.below = -down, .above = L, .weight = 1.0f / SUN_RAYS};
+    }
+}
+
+static void choose_sky(making *m)
+{
+    const Water w = m->s->water;
+    float sum = 0.0f;
+    for (uint i = 0; i < SKY_RAYS; i++) {
+        vec3 d = sample_cosine(hammersley(i, SKY_RAYS));
+        vec3 above = vec3(d[0], max(d[2], 0.02f), d[1]);
+        vec3 below = -water_refracted(w, -normalize(above), vec3(0.0f, 1.0f, 0.0f));
+        m->sky[i] = (light_way){below, normalize(above), 1.0f - water_fresnel(w, above[1])};
+        sum += m->sky[i].weight;
+    }
+    for (uint i = 0; i < SKY_RAYS; i++)
+        m->sky[i].weight *= 1.0f / sum;
+}
+
+static void choose_scattered(making *m)
+{
+    const water_setup *s = m->s;
+    mat3 frame = basis_from_normal(s->sunward);
+    for (uint i = 0; i < SCATTERED_RAYS; i++) {
+        vec2 g = normal_pair(i, SCATTERED_RAYS) * SCATTERED_SPREAD;
+        vec3 d = normalize(mul(frame, vec3(g[0], g[1], 1.0f)));
+        d[1] = max(d[1], 0.1f);
+        m->scattered[i] =
+            (light_way){.below = normalize(d), .above = m->sun[0].above, .weight = 1.0f / SCATTERED_RAYS};
+    }
+}
+
+/* ---- texels ---- */
+
+static float passing(const making *m, const double P[3], const light_way *way)
+{
+    const water_model *model = &m->s->model;
+    double length = -P[1] / (double)way->below[1], Q[3];
+    float open = water_model_opening(model, P, way->below, length);
+    if (open <= 0.0f)
+        return 0.0f;
+    for (int i = 0; i < 3; i++)
+        Q[i] = P[i] + length * (double)way->below[i];
+    return open * water_model_opening(model, Q, way->above, HUGE_VAL);
+}
+
+static float share_of(const making *m, const double P[3], const light_way *ways, uint32_t count)
+{
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < count; i++)
+        sum += ways[i].weight * passing(m, P, &ways[i]);
+    return min(sum, 1.0f);
+}
+
+static bed_shadow_texel texel_at(const making *m, double X, double Z)
+{
+    const water_setup *s = m->s;
+    const double P[3] = {X, water_bed_height(&s->sea->desc.bed, X, Z), Z};
+    bed_shadow_texel t = {1.0f, 1.0f};
+    if (P[1] >= 0.0)
+        return t;
+    float all = max(s->light.downwelling[1], 1e-20f);
+    float focused = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], (float)-P[1])[1];
+    float sky = s->light.sky_irradiance[1] * (1.0f - s->water.sky_reflectance) / all;
+    float scattered = max(1.0f - sky - focused, 0.0f);
+    if (s->light.L[1] > 0.0f)
+        t.sun = share_of(m, P, m->sun, SUN_RAYS);
+    float open = sky > 0.0f ? sky * share_of(m, P, m->sky, SKY_RAYS) : 0.0f;
+    open += scattered > 0.0f ? scattered * share_of(m, P, m->scattered, SCATTERED_RAYS) : 0.0f;
+    t.rest = sky + scattered > 0.0f ? open / (sky + scattered) : 1.0f;
+    return t;
+}
+
+static void fill_rows(void *context, size_t begin, size_t end)
+{
+    const making *m = context;
+    const bed_shadow *b = m->out;
+    double per_x = (b->high[0] - b->low[0]) / BED_SHADOW_EDGE,
+           per_z = (b->high[1] - b->low[1]) / BED_SHADOW_EDGE;
+    for (size_t z = begin; z < end; z++)
+        for (size_t x = 0; x < BED_SHADOW_EDGE; x++)
+            b->texels[z * BED_SHADOW_EDGE + x] =
+                texel_at(m, b->low[0] + ((double)x + 0.5) * per_x, b->low[1] + ((double)z + 0.5) * per_z);
+}
+
+/* Over a texel and SMOOTHED more to each side, along rows (step 1) or columns. */
+static void smooth_line(float *line, size_t step)
+{
+    float values[BED_SHADOW_EDGE];
+    for (size_t i = 0; i < BED_SHADOW_EDGE; i++)
+        values[i] = line[i * step];
+    for (int i = 0; i < BED_SHADOW_EDGE; i++) {
+        float sum = 0.0f;
+        for (int k = i - SMOOTHED; k <= i + SMOOTHED; k++)
+            sum += values[k < 0 ? 0 : k >= BED_SHADOW_EDGE ? BED_SHADOW_EDGE - 1 : k];
+        line[(size_t)i * step] = sum / (2 * SMOOTHED + 1);
+    }
+}
+
+static void smooth_rest(bed_shadow *b)
+{
+    const size_t row = BED_SHADOW_EDGE * sizeof *b->texels / sizeof(float),
+                 texel = sizeof *b->texels / sizeof(float);
+    for (size_t i = 0; i < BED_SHADOW_EDGE; i++)
+        smooth_line(&b->texels[i * BED_SHADOW_EDGE].rest, texel);
+    for (size_t i = 0; i < BED_SHADOW_EDGE; i++)
+        smooth_line(&b->texels[i].rest, row);
+}
+
+/* ---- where ---- */
+
+/* The bounds, what of the sky they hide, and their shadow, which on the water is no longer than LONGEST. */
+static void choose_rectangle(const water_setup *s, float depth, bed_shadow *b)
+{
+    const float *low = s->model.prepared.pose.bounds_min, *high = s->model.prepared.pose.bounds_max;
+    vec3 L = s->light.L;
+    float above = max(high[1], 0.0f), size = max(max(high[0] - low[0], high[2] - low[2]), above);
+    float in_air = L[1] > 0.0f ? min(above / L[1], LONGEST * size) : 0.0f;
+    float in_water = depth / max(s->sunward[1], 0.1f), edge = 0.05f * size + WIDEST * depth;
+    for (int i = 0; i < 2; i++) {
+        float shift = -L[2 * i] * in_air - s->sunward[2 * i] * in_water;
+        b->low[i] = (double)(low[2 * i] + min(shift, 0.0f) - edge);
+        b->high[i] = (double)(high[2 * i] + max(shift, 0.0f) + edge);
+    }
+}
+
+/* Whether the bed is seen through the water over it. */
+static bool is_worth_it(const water_setup *s, float depth)
+{
+    vec3 left = water_transmittance(water_K_d(s->water) + water_diffuse(s->water), depth);
+    return max(max(left[0], left[1]), left[2]) > LEAST_SEEN;
+}
+
+facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out, facet_error *error)
+{
+    *out = (bed_shadow){.is_there = false};
+    if (!s->model.is_there || !water_has_bed(s) || s->desc->look.before != FACET_SEA_PHYSICAL)
+        return FACET_OK;
+    const float *low = s->model.prepared.pose.bounds_min, *high = s->model.prepared.pose.bounds_max;
+    double X = 0.5 * ((double)low[0] + (double)high[0]), Z = 0.5 * ((double)low[2] + (double)high[2]);
+    float depth = (float)-water_bed_height(&s->sea->desc.bed, X, Z);
+    if (!(depth > 0.0f) || !is_worth_it(s, depth))
+        return FACET_OK;
+    out->texels =
+        mem_alloc(&s->desc->render.allocator, (size_t)BED_SHADOW_EDGE * BED_SHADOW_EDGE, sizeof *out->texels);
+    if (!out->texels)
+        return fail_memory(error, "a shadow on the bed",
+                           (size_t)BED_SHADOW_EDGE * BED_SHADOW_EDGE * sizeof *out->texels);
+    making m = {.s = s, .out = out};
+    choose_rectangle(s, depth, out);
+    choose_sun(&m);
+    choose_sky(&m);
+    choose_scattered(&m);
+    parallel_for(s->desc->render.thread_count, BED_SHADOW_EDGE, 4, fill_rows, &m);
+    smooth_rest(out);
+    out->is_there = true;
+    return FACET_OK;
+}
+
+void bed_shadow_destroy(bed_shadow *b)
+{
+    mem_free(b->texels);
+    *b = (bed_shadow){.is_there = false};
+}
+
+/* ---- reading ---- */
+
+static bed_shadow_texel between(bed_shadow_texel a, bed_shadow_texel b, float share)
+{
+    return (bed_shadow_texel){mix(a.sun, b.sun, share), mix(a.rest, b.rest, share)};
+}
+
+bed_shadow_texel bed_shadow_at(const bed_shadow *b, double X, double Z)
+{
+    const bed_shadow_texel open = {1.0f, 1.0f};
+    if (!b->is_there || !(X > b->low[0] && X < b->high[0] && Z > b->low[1] && Z < b->high[1]))
+        return open;
+    const float last = BED_SHADOW_EDGE - 1;
+    float u = clamp((float)((X - b->low[0]) / (b->high[0] - b->low[0])) * BED_SHADOW_EDGE - 0.5f, 0.0f, last);
+    float v = clamp((float)((Z - b->low[1]) / (b->high[1] - b->low[1])) * BED_SHADOW_EDGE - 0.5f, 0.0f, last);
+    size_t x = (size_t)min(u, last - 1.0f), z = (size_t)min(v, last - 1.0f);
+    const bed_shadow_texel *t = b->texels + z * BED_SHADOW_EDGE + x;
+    float fx = u - (float)x, fz = v - (float)z;
+    return between(between(t[0], t[1], fx), between(t[BED_SHADOW_EDGE], t[BED_SHADOW_EDGE + 1], fx), fz);
+}
