@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 121
+#define PROBE_COUNT 122
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -972,6 +972,14 @@ FN vec3 probe_water_place(int which, vec2 u)
         return wave_patch_weights(place) + wave_cubic_weights(u[0]) + N + 2.0f +
                vec3(extent[0], extent[1], water_footprint(u[0], V[1] * u[1], 0.3f));
     }
+    if (which == 121) {
+        FacetRange r =
+            facets_that_mirror(C, N, V, vec3(-1.0f, -0.5f, -9.0f), vec3(1.0f + u[0], 2.0f, -6.0f - u[1]));
+        Facet f = facet_drawn(facets_seen(C, N, V), N, u);
+        vec2 place = facet_place(r, N, f.m);
+        return f.m + vec3(f.weight + facets_share(r), r.low[0] + r.high[1], 0.1f * (place[0] + place[1])) +
+               10.0f;
+    }
     if (which == 118) {
         return vec3(1.0f + foam_share(0.6f * u[0] - 0.1f, 0.01f + 0.05f * u[1], 0.4f),
                     2.0f * water_foam_cover(0.5f * u[1], u[0]) + normal_below(3.0f * u[0] - 1.5f) +
@@ -982,8 +990,8 @@ FN vec3 probe_water_place(int which, vec2 u)
     vec3 sunward = normalize(vec3(0.3f, 1.0f, 0.1f));
     if (which == 120) {
         vec3 beam = water_beam_below(w, light);
-        return water_bed_lit(water_focused(w, light.downwelling, beam, sunward[1], 9.0f * u[0]),
-                             3.0f * u[1], 0.5f + 0.5f * u[0]) +
+        return water_bed_lit(water_focused(w, light.downwelling, beam, sunward[1], 9.0f * u[0]), 3.0f * u[1],
+                             0.5f + 0.5f * u[0]) +
                vec3(water_bed_footprint(w, N, V, down, C, u[0], 4.0f * u[1]),
                     caustic_cover(vec2(2.0f * u[0] - 1.0f, 0.1f)),
                     caustic_lod(9.0f * u[1]) + water_mirrored_spread(C));

@@ -50,8 +50,8 @@ static void test_lit(void **state)
     expect_near((double)bright[1], 1.8, 1e-6, "some of it");
     expect_near((double)dark[2], 0.0, 1e-6, "all of it focused");
     for (int k = 0; k < 3; k++)
-        expect_near((double)(0.25f * bright[k] + 0.75f * water_bed_lit(share, 1.0f / 3.0f, 1.0f)[k]), 1.0, 1e-6,
-                    "mean");
+        expect_near((double)(0.25f * bright[k] + 0.75f * water_bed_lit(share, 1.0f / 3.0f, 1.0f)[k]), 1.0,
+                    1e-6, "mean");
 }
 
 /* Beside refracted rays of tilted surfaces, by finite differences. */

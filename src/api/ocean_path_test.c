@@ -241,6 +241,37 @@ static void a_model_is_seen_and_mirrored(void **state)
     facet_scene_destroy(scene);
 }
 
+/* From pixel to pixel along rows, of the mean. */
+static double speckle(const facet_image *image, uint32_t from, uint32_t to)
+{
+    double sum = 0.0;
+    uint32_t width = facet_image_get_layer(image, 0).width;
+    for (uint32_t y = from; y < to; y++)
+        for (uint32_t x = 1; x < width; x++)
+            sum += fabs((double)pixel(image, x, y) - (double)pixel(image, x - 1, y));
+    return sum / ((double)(to - from) * (width - 1)) / rows_mean(image, from, to);
+}
+
+/* In rough water it is drawn out towards the eye, as bright as paths find it and as smooth, though slopes of what a pixel shows would
+ * mirror either it or the dark. */
+static void a_model_is_blurred_in_rough_water(void **state)
+{
+    (void)state;
+    facet_scene *scene = lamp();
+    facet_sea_desc desc = sea_of(4.0f);
+    pair p;
+    begin(&p, &desc, 24, 24, black);
+    p.scene = scene;
+    p.camera = (facet_camera){.eye = {0.0f, 3.0f, 4.0f}, .target = {0.0f, 0.0f, -3.0f}, .fov_y_rad = 0.3f};
+    draw(&p, 4, IS_SLOW ? 50 : 400);
+    double ratio = rows_ratio(&p, 0, 24), of_preview = speckle(p.preview, 0, 24),
+           of_path = speckle(p.path, 0, 24);
+    if (!(fabs(ratio - 1.0) < (IS_SLOW ? 0.3 : 0.1)) || !(of_preview < 0.55))
+        fail_msg("paths have %g of the light; speckle %g, of paths %g", ratio, of_preview, of_path);
+    end(&p);
+    facet_scene_destroy(scene);
+}
+
 /* A square lies 30 cm over a lagoon of 2 m: its shadow on the bed is 1.4 m away from the sun. Seen from
  * the air and from the water, a fifth of the light is left: what paths find, and what the preview has. */
 static void a_model_shades_the_bed(void **state)
@@ -346,6 +377,7 @@ int main(void)
                                        cmocka_unit_test(rough_water_is_darker_by_second_hits),
                                        cmocka_unit_test(a_gale_from_above_is_the_same),
                                        cmocka_unit_test(a_model_is_seen_and_mirrored),
+                                       cmocka_unit_test(a_model_is_blurred_in_rough_water),
                                        cmocka_unit_test(a_model_shades_the_bed),
                                        cmocka_unit_test(looks_are_refused_or_followed),
                                        cmocka_unit_test(memory_runs_out)};

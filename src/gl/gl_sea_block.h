@@ -20,7 +20,8 @@ typedef struct gl_sea_block {
     float bed[4], bed_slope[4], sky_at[4], caustic_axis[4], caustics[CAUSTIC_LAYERS][4];
     int32_t look[4];
     /* of a model: gl_sea_model.c */
-    float mirror[16], mirror_axis[4], mirror_plane[4], model_depth[4], model_ball[4], touch[4], shadow[4];
+    float mirror[16], mirror_axis[4], mirror_plane[4], model_depth[4], model_ball[4], model_half[4], touch[4],
+        shadow[4];
 } gl_sea_block;
 
 void gl_sea_block_fill(const sea_picture *picture, const camera_rays *camera, const gl_sea_fan *fan,

@@ -98,6 +98,7 @@ static void describe_ball(const sea_picture *p, const camera_rays *camera, gl_se
     for (int i = 0; i < 3; i++) {
         float half = 0.5f * (p->model_high[i] - p->model_low[i]);
         b->model_ball[i] = p->model_low[i] + half - camera->origin[i];
+        b->model_half[i] = half;
         square += half * half;
     }
     b->model_ball[3] = sqrtf(square);

@@ -45,6 +45,7 @@ layout(std140) uniform Sea
     vec4 sea_mirror_plane; /* nearness of a height at its depth; depth of the mirror image below the water, m */
     vec4 sea_model_depth;  /* a, b of depth in clip space, a + b / depth; as sea_mirror_axis.w */
     vec4 sea_model_ball;   /* around it: middle, radius */
+    vec4 sea_model_half;   /* half of its extents, m */
     vec4 sea_touch;        /* of the rectangle: x, z from the eye, 1 / lengths, 1/m */
     vec4 sea_shadow;       /* the same of that on the bed; 0: there is no shadow */
 };

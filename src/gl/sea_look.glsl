@@ -77,8 +77,12 @@ vec3 sea_shade(SeaPlace p)
     vec3 below = sea_from_below(p, w, light);
 #ifdef HAS_MODEL
     vec3 P = p.d * p.t;
-    vec4 mirrored = sea_model_mirrored(P, reflect(-p.V, p.point.N));
-    sky = sky * (1.0 - mirrored.w) + mirrored.xyz;
+    uvec2 at = uvec2(gl_FragCoord.xy);
+    vec4 mirrored = sea_model_in_facets(P, p.V, p.point, w, hash_uint(at.y * 65536u + at.x));
+    if (mirrored.w > 0.0) {
+        float share = min(mirrored.w / m.fresnel, 1.0);
+        sky = sky * (1.0 - share) + mirrored.xyz * (share / mirrored.w);
+    }
     SeaModel model = sea_model_below(P, water_refracted(w, -p.V, p.point.N));
     if (model.color.w > 0.0)
         below = mix(below, sea_model_through_water(model, P, w, light), model.color.w);

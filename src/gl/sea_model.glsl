@@ -13,6 +13,10 @@ struct SeaModel
 };
 
 const int SEA_MODEL_STEPS = 32;
+const int SEA_FACETS = 16;
+const int SEA_FACET_STEPS = 8;
+const float SEA_LEAST_FACETS = 1e-3; /* as in water_trace.c, these two */
+const float SEA_SMOOTH = 1e-3;
 
 /* d: at depth 1 m. What is but blended has no depth, and counts as nearest. */
 SeaModel sea_model_at(ivec2 pixel, vec3 d)
@@ -36,14 +40,14 @@ bool sea_is_within(ivec2 pixel, ivec2 size)
     return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size));
 }
 
-/* Where a ray passes the ball around the model: first way, and that of a step; 0: it does not. */
-vec2 sea_ball_steps(vec3 P, vec3 R)
+/* Where a ray passes the ball around the model: first way, and that of one of so many steps; 0: it does not. */
+vec2 sea_ball_steps(vec3 P, vec3 R, int count)
 {
     vec3 to = sea_model_ball.xyz - P;
     float middle = dot(to, R);
     float reach2 = sea_model_ball.w * sea_model_ball.w + middle * middle - dot(to, to);
     float first = max(middle - sqrt(max(reach2, 0.0)), 0.0);
-    return vec2(first, reach2 > 0.0 ? max(middle + sqrt(max(reach2, 0.0)) - first, 0.0) / float(SEA_MODEL_STEPS) : 0.0);
+    return vec2(first, reach2 > 0.0 ? max(middle + sqrt(max(reach2, 0.0)) - first, 0.0) / float(count) : 0.0);
 }
 
 /* What the eye's picture shows in the direction of Q; color.w 0: nothing that is below the height y. */
@@ -60,7 +64,7 @@ SeaModel sea_model_towards(vec3 Q, float y)
 /* Along the unit direction `down` from P in the surface, from the eye; color.w 0: nothing. */
 SeaModel sea_model_below(vec3 P, vec3 down)
 {
-    vec2 steps = sea_ball_steps(P, down);
+    vec2 steps = sea_ball_steps(P, down, SEA_MODEL_STEPS);
     float way = -1.0;
     for (int i = 0; i <= SEA_MODEL_STEPS; i++) {
         vec3 Q = P + down * (steps.x + steps.y * float(i));
@@ -98,13 +102,13 @@ vec4 sea_mirrored_at(vec3 Q, out float far)
 
 /* Premultiplied, along the unit direction R, upwards, from P: steps through the ball around the model until the ray is behind what is
  * shown, then to the place itself. */
-vec4 sea_model_mirrored(vec3 P, vec3 R)
+vec4 sea_model_mirrored(vec3 P, vec3 R, int count)
 {
-    vec2 steps = sea_ball_steps(P, R);
+    vec2 steps = sea_ball_steps(P, R, count);
     P.y += 2.0 * sea_mirror_plane.y; /* from the eye's mirror image */
     float far;
     float way = -1.0;
-    for (int i = 1; i <= SEA_MODEL_STEPS; i++) {
+    for (int i = 1; i <= count && steps.y > 0.0; i++) {
         vec3 Q = P + R * (steps.x + steps.y * float(i));
         vec4 color = sea_mirrored_at(Q, far);
         float behind = length(Q) - far;
@@ -122,6 +126,28 @@ vec4 sea_model_mirrored(vec3 P, vec3 R)
         }
     }
     return is_met ? color : vec4(0.0);
+}
+
+/* Of all light that is reflected, whatever it brings, the share of facets that show the model: .w; and its radiance. find_mirrored() of
+ * water_trace.c. */
+vec4 sea_model_in_facets(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
+{
+    vec3 from = sea_model_ball.xyz - P;
+    FacetRange r = facets_that_mirror(point.covariance, point.N, V, from - sea_model_half.xyz, from + sea_model_half.xyz);
+    if (facets_share(r) < SEA_LEAST_FACETS)
+        return vec4(0.0);
+    if (max(r.along, r.across) < SEA_SMOOTH)
+        return sea_model_mirrored(P, reflect(-V, point.N), SEA_MODEL_STEPS) * water_fresnel(w, clamp(dot(point.N, V), 0.0, 1.0));
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < SEA_FACETS; i++) {
+        Facet f = facet_drawn(r, point.N, sobol_scrambled(uint(i), seed));
+        vec3 R = reflect(-V, f.m);
+        R.y = max(abs(R.y), 1e-4);
+        float weight = f.weight * water_fresnel(w, clamp(dot(f.m, V), 0.0, 1.0));
+        if (weight > 0.0)
+            sum += sea_model_mirrored(P, R, SEA_FACET_STEPS) * weight;
+    }
+    return sum / float(SEA_FACETS);
 }
 
 /* Whether a hull keeps the sea out of a place; share of the sun's light there. */

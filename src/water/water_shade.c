@@ -72,8 +72,11 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
     Water w = s->water;
     WaterMirror m = water_mirror(w, p->point, p->V, means[0], means[1], means[2], means[3]);
     m.escape *= water_passing(p->slopes.resolved, normalize(m.R + vec3(0.0f, 1e-4f, 0.0f)));
-    vec3 sky =
-        found->has_mirrored ? found->mirrored : water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
+    vec3 sky = water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
+    if (found->covered > 0.0f) {
+        float share = min(found->covered / m.fresnel, 1.0f);
+        sky = sky * (1.0f - share) + found->mirrored * (share / found->covered);
+    }
     vec3 below = found->has_below ? found->below : water_from_below(s, p);
     WaterLight light = s->light;
     if (found->has_shadow)

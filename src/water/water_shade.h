@@ -6,9 +6,11 @@
 
 /* What others find along rays that leave the place; {0}: nothing but sky and water. */
 typedef struct water_findings {
-    bool has_mirrored, has_below, has_shadow;
-    float sun;     /* share of the sun's light that arrives */
-    vec3 mirrored; /* radiance that the mirror ray brings */
+    bool has_below, has_shadow;
+    float sun; /* share of the sun's light that arrives */
+    float
+        covered; /* share of all light that is reflected, whatever it brings, by facets that show something else than sky and sea */
+    vec3 mirrored; /* radiance of that */
     vec3 below;    /* radiance just below the surface, along the refracted ray */
 } water_findings;
 

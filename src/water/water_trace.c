@@ -8,6 +8,9 @@
 #include "water/water_look.h"
 
 static const double FAR_M = 1e7;
+static const float FACETS_PER_PIXEL = 64.0f;
+static const float LEAST_FACETS = 1e-3f; /* a share of them that is not worth a ray */
+static const float SMOOTH = 1e-3f;       /* slopes that turn a reflection by less than a pixel */
 
 water_sample water_sample_begin(const water_setup *s, float x, float y, float footprint, uint32_t random)
 {
@@ -73,20 +76,54 @@ static bool find_below(const water_sample *p, const water_place *place, water_fi
     return true;
 }
 
+/* What a facet shows of the model. What it sends down meets another wave and goes up. */
+static void look_into(const water_sample *p, const water_place *place, Facet f, const double P[3],
+                      water_findings *found)
+{
+    const water_setup *s = p->s;
+    model_hit hit;
+    vec3 R = reflect(-place->V, f.m);
+    R[1] = max(abs(R[1]), 1e-4f);
+    if (!water_model_find(&s->model, P, R, FAR_M, p->random, &hit))
+        return;
+    float weight = f.weight * water_fresnel(s->water, clamp(dot(f.m, place->V), 0.0f, 1.0f));
+    found->covered += weight;
+    found->mirrored = found->mirrored + water_model_radiance(&s->model, &hit, s->light.L) * weight;
+}
+
+/* Looks into as many facets of a pixel, whatever its number of samples. */
+static void find_mirrored(const water_sample *p, const water_place *place, const double P[3],
+                          water_findings *found)
+{
+    const water_setup *s = p->s;
+    const float *low = s->model.prepared.pose.bounds_min, *high = s->model.prepared.pose.bounds_max;
+    vec3 from = vec3((float)P[0], (float)P[1], (float)P[2]);
+    FacetRange r =
+        facets_that_mirror(place->point.covariance, place->point.N, place->V,
+                           vec3(low[0], low[1], low[2]) - from, vec3(high[0], high[1], high[2]) - from);
+    if (facets_share(r) < LEAST_FACETS)
+        return;
+    if (max(r.along, r.across) < SMOOTH) {
+        look_into(p, place, (Facet){place->point.N, 1.0f}, P, found);
+        return;
+    }
+    float count = clamp(FACETS_PER_PIXEL * s->footprint * s->footprint, 4.0f, 16.0f);
+    for (uint i = 0; i < (uint)count; i++) {
+        Facet f = facet_drawn(r, place->point.N, sobol_scrambled(i, p->random));
+        f.weight *= 1.0f / (float)(uint)count;
+        look_into(p, place, f, P, found);
+    }
+}
+
 static water_findings find_model(const water_sample *p, const water_place *place)
 {
     const water_setup *s = p->s;
-    water_findings found = {.has_mirrored = false};
+    water_findings found = {.has_below = false};
     if (!s->model.is_there)
         return found;
     double P[3];
-    model_hit hit;
-    vec3 R = reflect(-place->V, place->point.N);
     start_of(place, 1e-3f, P);
-    if (R[1] > 0.0f && water_model_find(&s->model, P, R, FAR_M, p->random, &hit)) {
-        found.has_mirrored = true;
-        found.mirrored = water_model_radiance(&s->model, &hit, s->light.L);
-    }
+    find_mirrored(p, place, P, &found);
     if (s->light.L[1] > 0.0f) {
         found.sun = water_model_opening(&s->model, P, s->light.L, HUGE_VAL);
         found.has_shadow = found.sun < 1.0f;

@@ -1,0 +1,98 @@
+/* water_facets_test.c - facets that mirror a box, beside all facets by chance: none that does is left out, and their shares are those
+ * of sample_slopes(). */
+#include "testing/test_support.h"
+
+enum { DRAWN = 1 << 14, POINTS = 1 << 12 };
+
+/* Whether a ray from the origin meets the box. */
+static bool meets(vec3 d, vec3 low, vec3 high)
+{
+    float first = 0.0f, last = 1e9f;
+    for (int i = 0; i < 3; i++) {
+        float a = low[i] / d[i], b = high[i] / d[i];
+        first = max(first, min(a, b));
+        last = min(last, max(a, b));
+    }
+    return first < last;
+}
+
+static bool shows(vec3 m, vec3 V, vec3 low, vec3 high)
+{
+    vec3 R = reflect(-V, m);
+    return meets(vec3(R[0], abs(R[1]), R[2]), low, high);
+}
+
+typedef struct scene {
+    vec3 C, N, V, low, high;
+} scene;
+
+/* Over hands of scenes: eyes from grazing to overhead, boxes before, beside and beyond. */
+static scene scene_of(uint k)
+{
+    vec2 a = sobol_scrambled(k, 1u), b = sobol_scrambled(k, 2u), c = sobol_scrambled(k, 3u);
+    float sd = 0.02f + 0.2f * a[0], height = 0.05f + 0.9f * a[1] * a[1];
+    scene s;
+    s.C = vec3(sd * sd, 0.6f * sd * sd, 0.3f * sd * sd);
+    s.N = normal_from_slope((b - 0.5f) * 0.2f);
+    s.V = normalize(vec3(0.3f, height, sqrt(1.0f - height * height)));
+    vec3 middle = vec3(8.0f * (c[0] - 0.5f), 0.0f, -3.0f - 12.0f * c[1]);
+    s.low = middle + vec3(-1.0f, -0.5f, -2.0f);
+    s.high = middle + vec3(1.0f, 2.5f, 2.0f);
+    return s;
+}
+
+static void test_share(void **state)
+{
+    (void)state;
+    int seen = 0, narrow = 0;
+    for (uint k = 0; k < 60u; k++) {
+        scene s = scene_of(k);
+        FacetRange r = facets_that_mirror(s.C, s.N, s.V, s.low, s.high);
+        double expected = 0.0, found = 0.0, outside = 0.0;
+        for (uint i = 0; i < (uint)DRAWN; i++) {
+            vec3 m = sample_slopes(sobol_scrambled(i, 7u), s.C, s.N, s.V);
+            if (!shows(m, s.V, s.low, s.high))
+                continue;
+            vec2 z = facet_place(r, s.N, m);
+            bool is_in = z[0] >= r.low[0] && z[0] <= r.high[0] && z[1] >= r.low[1] && z[1] <= r.high[1];
+            expected += 1.0 / DRAWN;
+            outside += is_in ? 0.0 : 1.0 / DRAWN;
+        }
+        for (uint i = 0; facets_share(r) > 0.0f && i < (uint)POINTS; i++) {
+            Facet f = facet_drawn(r, s.N, sobol_scrambled(i, 9u));
+            found += shows(f.m, s.V, s.low, s.high) ? (double)f.weight / POINTS : 0.0;
+        }
+        expect_near(found, expected, 2e-3 + 0.02 * expected, "share of scene %u", k);
+        expect_near(outside, 0.0, 1e-3 + 0.01 * expected, "left out of scene %u", k);
+        seen += expected > 0.01;
+        narrow += facets_share(r) < 0.3f;
+    }
+    if (!(seen >= 12 && narrow > 25))
+        fail_msg("%d are seen, %d look narrowly", seen, narrow);
+}
+
+/* All facets that are seen are worth 1, and a mirror has but one. */
+static void test_all(void **state)
+{
+    (void)state;
+    for (uint k = 0; k < 10u; k++) {
+        scene s = scene_of(k);
+        FacetRange r = facets_seen(s.C, s.N, s.V);
+        double sum = 0.0;
+        for (uint i = 0; i < (uint)POINTS; i++)
+            sum += (double)facet_drawn(r, s.N, sobol_scrambled(i, 5u)).weight / POINTS;
+        expect_near(sum, 1.0, 3e-3, "scene %u", k);
+    }
+    const vec3 still = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f), up = vec3(0.0f, 1.0f, 0.0f);
+    vec3 V = normalize(vec3(0.0f, 1.0f, 1.0f));
+    FacetRange in_it = facets_that_mirror(still, up, V, vec3(-1.0f, 2.0f, -4.0f), vec3(1.0f, 4.0f, -2.0f));
+    FacetRange beside = facets_that_mirror(still, up, V, vec3(3.0f, 2.0f, -4.0f), vec3(4.0f, 4.0f, -2.0f));
+    expect_near((double)facets_share(in_it), 1.0, 1e-3, "in the mirror image");
+    expect_near((double)facets_share(beside), 0.0, 1e-6, "beside it");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_share), cmocka_unit_test(test_all)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
