@@ -2,6 +2,7 @@
 #include "cli/ocean_run.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -129,8 +130,52 @@ static void find_berth(ocean_run *run)
     run->berth.numbers[1] = (double)camera.eye[2] + (level > 0.0 ? z / level * away : 0.0);
 }
 
+/* Degrees from +Z towards +X, [0, 360). */
+static double azimuth_of(double x, double z)
+{
+    double degrees = atan2(x, z) / DEGREE;
+    return degrees < -0.5 ? degrees + 360.0 : fabs(degrees);
+}
+
+/* A place that somebody gave may be where the camera does not look: by default it turns with the sun. All of the model, as a ball, is
+ * to be outside of the cone around the picture. */
+static void warn_of_view(ocean_run *run)
+{
+    const facet_camera camera = ocean_run_camera(run, &run->options);
+    const facet_render_desc *r = &run->options.picture.desc;
+    const float *low = run->model_low, *high = run->model_high;
+    double size[3], to[3], along[3];
+    const double at[3] = {run->berth.numbers[0], 0.0, run->berth.numbers[1]};
+    for (int i = 0; i < 3; i++) {
+        size[i] = fmax(fabs((double)low[i]), fabs((double)high[i]));
+        to[i] = at[i] - (double)camera.eye[i];
+        along[i] = (double)camera.target[i] - (double)camera.eye[i];
+    }
+    double radius = hypot(hypot(size[0], size[1]), size[2]);
+    double away = hypot(hypot(to[0], to[1]), to[2]), length = hypot(hypot(along[0], along[1]), along[2]);
+    if (away <= radius || !(length > 0.0))
+        return;
+    double width = r->height > 0 ? (double)r->width / (double)r->height : 1.0;
+    double half = atan(tan(0.5 * (double)camera.fov_y_rad) * hypot(1.0, width));
+    double apart = acos(
+        fmax(fmin((to[0] * along[0] + to[1] * along[1] + to[2] * along[2]) / (away * length), 1.0), -1.0));
+    if (apart - asin(radius / away) <= half)
+        return;
+    char text[256];
+    snprintf(text, sizeof text,
+             "--with: the model at %g, %g is not in the picture; it lies towards %.0f degrees, and the "
+             "camera looks "
+             "towards %.0f (--heading, --target)",
+             at[0], at[2], azimuth_of(to[0], to[2]), azimuth_of(along[0], along[2]));
+    facet_log log = messages_log(&run->messages);
+    log.message(log.user, FACET_LOG_WARNING, text);
+}
+
 facet_result ocean_float_place(ocean_run *run, facet_error *error)
 {
+    if (run->berth.has_place && !run->is_afloat && run->options.has_picture && !run->options.sweep)
+        warn_of_view(run);
+    run->is_afloat = true;
     if (!run->berth.has_place)
         find_berth(run);
     const ocean_berth b = run->berth;

@@ -25,6 +25,7 @@ typedef struct ocean_run {
     facet_scene *model;                /* NULL: none */
     float model_low[3], model_high[3]; /* where it is before it floats */
     ocean_berth berth;
+    bool is_afloat;       /* it has been placed before */
     float model_pose[16]; /* where it floats: columns of a matrix */
     double time_s;
     double ev100; /* that pictures are exposed for, --exposure included */

@@ -174,7 +174,10 @@ rm -f ./*.png
 # What floats
 write_triangle boat.gltf
 expect 0 ocean $small --with boat.gltf -o a.png
+expect 0 ocean $small --with boat.gltf@0,-20 -o a.png
+says "towards 180 degrees, and the camera looks towards 36"
 expect 0 ocean $small --with boat.gltf@3,5,90 -o a.png
+grep -q "in the picture" err && failed "a model in view is said to be out of it"
 expect 3 ocean $small --with missing.glb -o b.png
 says "missing.glb"
 expect 2 ocean $small --with boat.gltf@3,x -o b.png
