@@ -147,6 +147,7 @@ static void test_memory(void **state)
     fixture f = shining_sphere(0.0f, 0.0f, -6.0f);
     facet_sea_desc d = sea_default();
     d.resolution = 32;
+    d.bed = (facet_sea_bed){.depth_m = 3.0f, .albedo = {0.5f, 0.5f, 0.5f}};
     facet_sea *sea = make_sea(&d);
     int refused = 0;
     for (long at = 0; at < 4000; at += 1 + at / 4) {
