@@ -243,6 +243,22 @@ static void test_ior(void **state)
     assert_true(optics_of(water).ior == 1.4f);
 }
 
+/* What absorbs nothing sends all back; and as far as seas go nothing but Lee's equation is asked. */
+static void test_reflectance(void **state)
+{
+    (void)state;
+    expect_near(water_reflectance(0.0, 0.003), 1.0, 1e-12, "reflectance without absorption", 0.0, 0);
+    assert_true(water_reflectance(0.0, 0.0) == 0.0 && water_reflectance(1.0, 0.0) == 0.0);
+    double last = 1.0;
+    for (double a = 1e-6; a < 100.0; a *= 1.1) {
+        double is = water_reflectance(a, 0.01), u = 0.01 / (a + 0.01), r = (0.0895 + 0.1247 * u) * u;
+        assert_true(is < last && is > 0.0);
+        if (u < 0.9)
+            expect_near(is, 3.14159265358979 * 0.52 * r / (1.0 - 1.7 * r), 1e-12, "Lee's", a, 0);
+        last = is;
+    }
+}
+
 static void expect_refused(facet_water water, const char *word)
 {
     water_optics o;
@@ -290,8 +306,9 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_case1),  cmocka_unit_test(test_hue), cmocka_unit_test(test_pure),
-        cmocka_unit_test(test_jerlov), cmocka_unit_test(test_ior), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_case1),    cmocka_unit_test(test_hue), cmocka_unit_test(test_pure),
+        cmocka_unit_test(test_jerlov),   cmocka_unit_test(test_ior), cmocka_unit_test(test_reflectance),
+        cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -117,7 +117,11 @@ double water_reflectance(double a, double b_b)
 {
     double u = b_b > 0.0 ? b_b / (a + b_b) : 0.0;
     double r_rs = (0.0895 + 0.1247 * u) * u;
-    return 3.14159265358979324 * 0.52 * r_rs / (1.0 - 1.7 * r_rs);
+    double lee = 3.14159265358979324 * 0.52 * r_rs / (1.0 - 1.7 * r_rs);
+    /* 1 / (1 + K / S + ..) is 1 + K / S - .. without cancelling */
+    double K_S = b_b > 0.0 ? a / (2.0 * 3.14159265358979324 * 0.0895 * b_b) : HUGE_VAL;
+    double R = 1.0 / (1.0 + K_S + sqrt(K_S * (K_S + 2.0)));
+    return fmax(lee, 0.52 * R / (1.0 - 0.48 * R));
 }
 
 /* ---- colors ---- */

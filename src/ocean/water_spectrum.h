@@ -27,8 +27,11 @@ void jerlov_attenuation(int type, double K_d[SPECTRUM_COUNT]);
  * nearest in green and blue. */
 water_spectrum water_spectrum_jerlov(int type, double salinity);
 
-/* Diffuse reflectance pi R_rs just above deep water, per wavelength: u = b_b / (a + b_b), r_rs = (0.0895 + 0.1247 u) u,
- * R_rs = 0.52 r_rs / (1 - 1.7 r_rs). Gordon et al. 1988; Lee et al. 2002, equations 2 and 4. */
+/* Diffuse reflectance pi R_rs just above deep water, per wavelength, [0, 1]: u = b_b / (a + b_b), r_rs = (0.0895 + 0.1247 u) u,
+ * R_rs = 0.52 r_rs / (1 - 1.7 r_rs). Gordon et al. 1988; Lee et al. 2002, equations 2 and 4. They were fitted to seas; where hardly
+ * anything is absorbed, u > 0.92, a diffuser's is larger, and nothing absorbed is all sent back: pi R_rs = 0.52 R / (1 - 0.48 R),
+ *   R = 1 + K / S - sqrt((K / S)^2 + 2 K / S),  K / S = a / (2 pi 0.0895 b_b)
+ * Kubelka and Munk 1931, with the K / S that meets Gordon's where little is scattered. */
 double water_reflectance(double a, double b_b);
 
 /* ---- linear Rec.709 ---- */
