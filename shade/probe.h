@@ -913,7 +913,10 @@ FN vec3 probe_water(int which, vec2 u)
         bed.mean_albedo = vec3(0.4f);
         bed.depth = 20.0f * u[0];
         bed.way = bed.depth * 1.2f;
-        return water_from_bed(w, light.downwelling, bed) + water_beam(w) + water_diffuse(w) + water_K_d(w) +
+        vec3 R = water_bed_reflectance(w, bed.mean_albedo, bed.depth);
+        return water_from_bed(w, water_interreflected(w, light.downwelling, R), bed) + R +
+               water_deep_reflectance(w) + water_slab(vec3(5.0f * u[1])) + water_internal_reflectance(w) +
+               water_foam_below(w, light, R) + water_beam(w) + water_diffuse(w) + water_K_d(w) +
                water_from_deep(w, light.downwelling) + water_transmittance(w.absorption, u[1]);
     }
     if (which == 113)
@@ -969,7 +972,7 @@ FN vec3 probe_water_place(int which, vec2 u)
         vec2 extent = water_extent(V, 0.1f, water_seen_cosine(V, C));
         vec2 place =
             sel(abs(u[0] + u[1] - 1.0f) < 1e-3f, vec2(0.4f, 0.3f), u); /* its rhombus has an edge there */
-        return wave_patch_weights(place) + wave_cubic_weights(u[0]) + N + 2.0f +
+        return wave_patch_weights(place) + wave_cubic_weights(u[0]) + N + water_seen_normal(C, N, V) + 2.0f +
                vec3(extent[0], extent[1], water_footprint(u[0], V[1] * u[1], 0.3f));
     }
     if (which == 121) {
@@ -999,9 +1002,12 @@ FN vec3 probe_water_place(int which, vec2 u)
     return water_crest(w, light, N, V, down, u[0]) + 0.1f +
            water_over_bed(w, light.downwelling, vec3(0.5f, 0.4f, 0.3f), vec3(0.4f, 0.4f, 0.2f), 9.0f * u[0],
                           0.1f * u[1], down) +
-           0.1f * water_way_to_bed(9.0f * u[0], 0.1f * u[1], down) + water_land(light, vec3(0.5f), N) +
+           0.1f * water_way_to_bed(9.0f * u[0], 0.1f * u[1], down) +
+           0.1f * water_bed_depth(9.0f * u[0], 0.1f, u[1]) + water_land(light, vec3(0.5f), N) +
            water_through(w, light.downwelling, vec3(3.0f), sunward, vec3(1.0f), 2.0f * u[0], -V,
                          4.0f * u[1]) +
+           water_surface_through(w, light.downwelling, vec3(3.0f), sunward, vec3(1.0f), vec3(2.0f),
+                                 2.0f * u[0], -V, 4.0f * u[1]) +
            water_bed_below(w, light.downwelling, vec3(0.4f), u[0]) +
            water_bed_through(w, light.downwelling, vec3(2.0f), 9.0f * u[0]) +
            painted_water(light, N, V, 1.34f, 0.1f + u[0], painted_mirror(N, V)) +

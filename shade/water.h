@@ -6,15 +6,18 @@
  * y = 0. Nothing is painted: light is reflected, or goes into the water and is absorbed and scattered there.
  *
  * Order of use. Once per picture: water_downwelling(). At a point of the surface: sigma_towards() and water_table_place() tell
- * where to read the table of means, water_mirror() what to look up in the sky; water_from_deep() or water_from_bed() is what comes up;
+ * where to read the table of means, water_mirror() what to look up in the sky; water_from_deep(), or water_from_bed() by the light that
+ * water_interreflected() finds, is what comes up;
  * water_parts() puts them together, water_radiance() adds them up and lays foam over. */
 #ifndef SHADE_WATER_H
 #define SHADE_WATER_H
 
-/* Mean cosine of light that goes down: K_d = (a + b_b) / this. Mobley 1994, section 3.9, for the open ocean. */
+/* Mean cosine of light that goes down: see water_K_d(). Mobley 1994, section 3.9, for the open ocean. */
 #define WATER_MEAN_COSINE 0.86f
 /* Of Lee et al. 2002, equation 4: R_rs = 0.52 r_rs / (1 - 1.7 r_rs), both interfaces of a sea seen from above. */
 #define WATER_RRS_SHARE 0.52f
+/* Of that equation as well: what the surface sends back of light that comes up in a sea, 1.7 sr / Q of Gordon et al. 1988. */
+#define WATER_RRS_INTERNAL 0.48f
 /* Mean cosine of scattering by particles, for phase_HG(). */
 #define WATER_PARTICLE_G 0.92f
 
@@ -118,8 +121,17 @@ FN vec3 water_downwelling(Water w, WaterLight light)
     return light.sun_irradiance * sun + light.sky_irradiance * (1.0f - w.sky_reflectance);
 }
 
+/* Upward over downward irradiance below the surface of deep water, R in [0, 1]. R_rs counts what the surface sends back:
+ *   pi R_rs = 0.52 R / (1 - 0.48 R) */
+FN vec3 water_deep_reflectance(Water w)
+{
+    vec3 x = w.reflectance * (1.0f / WATER_RRS_SHARE);
+    return x / (1.0f + WATER_RRS_INTERNAL * x);
+}
+
 /* Attenuation in 1/m: of what is seen sharply, c = a + b; of diffuse light along a ray, a + b_b, as most scattering hardly turns
- * it (Gordon 1973); and of irradiance with depth, K_d = (a + b_b) / 0.86. */
+ * it (Gordon 1973); and of irradiance with depth, K_d = (a + b_b (1 - R)) / 0.86, as what comes up is scattered down again (Schuster 1905):
+ * water that absorbs nothing is as bright at any depth. In seas the last term is below 0.5 %. */
 FN vec3 water_beam(Water w)
 {
     return w.absorption + w.scattering;
@@ -130,7 +142,8 @@ FN vec3 water_diffuse(Water w)
 }
 FN vec3 water_K_d(Water w)
 {
-    return water_diffuse(w) * (1.0f / WATER_MEAN_COSINE);
+    vec3 returned = w.backscattering * water_deep_reflectance(w);
+    return (water_diffuse(w) - returned) * (1.0f / WATER_MEAN_COSINE);
 }
 
 /* Share of light left after x m, per channel. Beer and Lambert. */
@@ -150,11 +163,50 @@ FN vec3 water_phase(Water w, float cos_angle)
     return mix(vec3(phase_HG(cos_angle, WATER_PARTICLE_G)), vec3(water_phase_pure(cos_angle)), w.pure_share);
 }
 
-/* Radiance (cd/m^2) that goes up below the surface of deep water: reflectance / (pi 0.52) E_d(0-), which makes R_rs what it is with
- * 0.52 / n^2 for the way out. Gordon et al. 1988; Lee et al. 2002. */
+/* ---- between what is below and the surface ---- */
+
+/* Share of diffuse light from below that the surface sends back, 0.48 for sea water:
+ *   R_int = 1 - (1 - R_sky) / n^2
+ * Exact, as light goes both ways alike: what a uniform sky sends in comes out again through 1 / n^2 of the directions. Judd 1942. */
+FN float water_internal_reflectance(Water w)
+{
+    return 1.0f - (1.0f - w.sky_reflectance) / (w.ior * w.ior);
+}
+
+/* Share of diffuse light that a layer of the optical thickness t >= 0 lets through, 2 E_3(t). A fit between its bounds e^-t / (t + 3) <
+ * E_3(t) < e^-t / (t + 2) (Abramowitz and Stegun 1964, 5.1.19), exact at both ends, within 0.004. */
+FN vec3 water_slab(vec3 t)
+{
+    return 2.0f * exp(-t) / (t + 3.0f - 1.0f / (1.0f + 0.68f * t));
+}
+
+/* Upward over downward irradiance below the surface of water over a bed, `depth` m deep. What light may still do there that goes down, up
+ * and down again is weakened as much as nearly all of it that the surface sends back: beyond the critical angle, whose cosine is
+ * mu_c = sqrt(1 - 1 / n^2),
+ *   R + (albedo - R) 2 E_3(2 (a + b_b) H / mu_c)
+ * What of it comes back to the bed, R_int times that, is within 0.012 of the integral over all directions. */
+FN vec3 water_bed_reflectance(Water w, vec3 albedo, float depth)
+{
+    vec3 R = water_deep_reflectance(w);
+    float critical = sqrt(max(1.0f - 1.0f / (w.ior * w.ior), 1e-6f));
+    return R + (albedo - R) * water_slab(water_diffuse(w) * (2.0f * depth / critical));
+}
+
+/* Irradiance (lx) on a horizontal plane just below the surface: `downwelling`, what has come in, and all that goes to and fro between the
+ * surface and what reflects R of it below.
+ *   E_d(0-) / (1 - R_int R)
+ * A white bed below clear water shows as much as the sky does. Lee et al. 1998, equation 2; of a wet ground Lekner and Dorf 1988. */
+FN vec3 water_interreflected(Water w, vec3 downwelling, vec3 R)
+{
+    return downwelling / (1.0f - water_internal_reflectance(w) * R);
+}
+
+/* Radiance (cd/m^2) that goes up below the surface of deep water, the same in all directions: R / pi of the light there. Gordon et al.
+ * 1988; Lee et al. 2002. */
 FN vec3 water_from_deep(Water w, vec3 downwelling)
 {
-    return w.reflectance * downwelling * (INV_PI / WATER_RRS_SHARE);
+    vec3 R = water_deep_reflectance(w);
+    return R * water_interreflected(w, downwelling, R) * INV_PI;
 }
 
 /* Ground below, where the refracted ray meets it. */
@@ -167,17 +219,17 @@ STRUCT(WaterBed)
 };
 
 /* Radiance (cd/m^2) that goes up below the surface: the bed, sharp as far as light was not scattered and blurred as far as it was
- * scattered forward, and the water before it.
- *   E_bed = E_d e^(-K_d H)
- *   E_bed / pi (albedo e^(-c l) + mean (e^(-(a + b_b) l) - e^(-c l))) + L_deep (1 - e^(-K_d H - (a + b_b) l))
- * Goes to water_from_deep() with the depth, and to that of a dry bed without it. */
-FN vec3 water_from_bed(Water w, vec3 downwelling, WaterBed bed)
+ * scattered forward, and the water before it. light: water_interreflected() by water_bed_reflectance(), E.
+ *   E_bed = E e^(-K_d H)
+ *   E_bed / pi (albedo e^(-c l) + mean (e^(-(a + b_b) l) - e^(-c l))) + R E / pi (1 - e^(-K_d H - (a + b_b) l))
+ * Goes to water_from_deep() with the depth, and to that of a bed under a mere skin of water without it. Lee et al. 1998. */
+FN vec3 water_from_bed(Water w, vec3 light, WaterBed bed)
 {
     vec3 sharp = water_transmittance(water_beam(w), bed.way);
     vec3 blurred = water_transmittance(water_diffuse(w), bed.way);
     vec3 down = water_transmittance(water_K_d(w), bed.depth);
-    vec3 ground = downwelling * down * INV_PI * (bed.albedo * sharp + bed.mean_albedo * (blurred - sharp));
-    return ground + water_from_deep(w, downwelling) * (1.0f - down * blurred);
+    vec3 ground = down * (bed.albedo * sharp + bed.mean_albedo * (blurred - sharp));
+    return light * INV_PI * (ground + water_deep_reflectance(w) * (1.0f - down * blurred));
 }
 
 /* Radiance (cd/m^2) below the surface of sunlight scattered once, in water of the depth H: eye and sun at the cosines mu_v, mu_s
@@ -287,7 +339,7 @@ FN vec3 water_beam_below(Water w, WaterLight light)
 {
     float c = clamp(light.L[1], 0.0f, 1.0f);
     float mu = sqrt(1.0f - (1.0f - c * c) / (w.ior * w.ior));
-    return light.sun_irradiance * ((1.0f - light.sun_fresnel) * c / mu);
+    return light.sun_irradiance * ((1.0f - light.sun_fresnel) * c / max(mu, 1e-6f)); /* n = 1: 0 / 0 */
 }
 
 /* ---- all together ---- */
@@ -307,6 +359,16 @@ FN vec3 water_foam(Water w, WaterLight light, vec3 N)
 {
     float NdotL = max(dot(N, light.L), 0.0f);
     return (light.sun_irradiance * NdotL + light.sky_irradiance) * (w.foam_albedo * INV_PI);
+}
+
+/* From below, of `upwelling` (lx, just below the surface) and of the light that arrives: foam absorbs nothing, so that where there is n^2
+ * below a uniform sky of 1 it shows n^2.
+ *   (1 - albedo) / pi (E_n L.y + E_sky) + (1 - (1 - albedo) / n^2) / pi E_u */
+FN vec3 water_foam_below(Water w, WaterLight light, vec3 upwelling)
+{
+    float through = 1.0f - w.foam_albedo;
+    vec3 from_above = light.sun_irradiance * max(light.L[1], 0.0f) + light.sky_irradiance;
+    return (from_above * through + upwelling * (1.0f - through / (w.ior * w.ior))) * INV_PI;
 }
 
 /* sky: radiance read at m.R; sun: water_sun() times its glints; below: radiance that goes up just below the surface. What

@@ -96,6 +96,22 @@ FN float normal_below(float z)
     return sel(z < 0.0f, tail, 1.0f - tail);
 }
 
+/* Normal of the mean slope of those facets that V sees (unit, V.y > 0), of all whose slopes have the covariance C about that of N. A slope
+ * s counts by the area seen, as far as it faces V, which is t = V.y / l - s_N.u, l u being V's horizontal part. Of those along u
+ *   mean = -sigma / (a + phi(a) / Phi(a)),  a = t / sigma,  sigma^2 = u^T C u
+ * (Stein's lemma); across u they follow by C u / sigma^2. A grazing ray sees slopes of 1.25 sigma, and never the back of one. */
+FN vec3 water_seen_normal(vec3 C, vec3 N, vec3 V)
+{
+    float level = max(sqrt(V[0] * V[0] + V[2] * V[2]), 1e-4f);
+    vec2 u = vec2(V[0], V[2]) * (1.0f / level);
+    vec2 mean = slope_from_normal(N);
+    float sigma = sqrt(max(slope_variance(C, u), SLOPE_VARIANCE_MIN));
+    float a = clamp((V[1] / level - mean[0] * u[0] - mean[1] * u[1]) / sigma, -5.0f, 1e4f);
+    float tilt = 1.0f / (sigma * (a + 0.398942280f * exp(-0.5f * a * a) / normal_below(a)));
+    vec2 towards = vec2(C[0] * u[0] + C[2] * u[1], C[2] * u[0] + C[1] * u[1]);
+    return normal_from_slope(mean - towards * tilt);
+}
+
 /* Of a footprint whose water converges by `mean` with this variance, the share that breaks: where q is above the threshold. Areas are
  * seen from above, where water that converges has less of it: the mean Jacobian at q is 1 - q + (q^2 - sigma^2) / 4. */
 FN float foam_share(float mean, float variance, float threshold)
@@ -150,17 +166,22 @@ FN float water_way_to_bed(float depth, float rise, vec3 down)
     return max(sel(closing > 1e-6f, min(depth / closing, 1e6f), 1e6f), 0.0f);
 }
 
-/* That bed seen through the water: of the albedo `albedo`, and `mean_albedo` around, both as they are lit. See water_from_bed(). */
-FN vec3 water_over_bed(Water w, vec3 downwelling, vec3 albedo, vec3 mean_albedo, float depth, float rise,
-                       vec3 down)
+/* What water (m) lies over the place of that bed which is met after `way` m, as high as it is here. */
+FN float water_bed_depth(float depth, float rise, float way)
+{
+    return clamp(depth - way * rise, 0.0f, way);
+}
+
+/* That bed seen through the water: of the albedo `albedo`, and `mean_albedo` around, both as they are lit; light:
+ * water_interreflected(). See water_from_bed(). */
+FN vec3 water_over_bed(Water w, vec3 light, vec3 albedo, vec3 mean_albedo, float depth, float rise, vec3 down)
 {
     WaterBed b;
     b.albedo = albedo;
     b.mean_albedo = mean_albedo;
     b.way = water_way_to_bed(depth, rise, down);
-    /* what lies over the place that is seen, whose height over the water here is that of the bed there */
-    b.depth = clamp(depth - b.way * rise, 0.0f, b.way);
-    return water_from_bed(w, downwelling, b);
+    b.depth = water_bed_depth(depth, rise, b.way);
+    return water_from_bed(w, light, b);
 }
 
 /* Radiance (cd/m^2) of ground of normal N that the water leaves dry. */
@@ -182,10 +203,19 @@ FN vec3 water_through(Water w, vec3 downwelling, vec3 beam, vec3 sunward, vec3 b
     return behind * water_transmittance(water_beam(w), x) + inscatter;
 }
 
-/* The bed's radiance below a depth (m). */
-FN vec3 water_bed_below(Water w, vec3 downwelling, vec3 albedo, float depth)
+/* The surface from below, x m away: light that comes from many directions, `wide`, which scattering forward hardly weakens as it brings
+ * as much from around, and the sun, whose scattered light water_through() adds. Waves and the rim of Snell's window stay as sharp. */
+FN vec3 water_surface_through(Water w, vec3 downwelling, vec3 beam, vec3 sunward, vec3 wide, vec3 sun,
+                              float z, vec3 d, float x)
 {
-    return albedo * downwelling * INV_PI * water_transmittance(water_K_d(w), depth);
+    return wide * water_transmittance(water_diffuse(w), x) +
+           water_through(w, downwelling, beam, sunward, sun, z, d, x);
+}
+
+/* The bed's radiance below a depth (m); light: water_interreflected(). */
+FN vec3 water_bed_below(Water w, vec3 light, vec3 albedo, float depth)
+{
+    return albedo * light * INV_PI * water_transmittance(water_K_d(w), depth);
 }
 
 /* A wide bed behind x m of water, of which light that is scattered forward shows the mean, as in water_from_bed(). */

@@ -35,6 +35,36 @@ static void test_normal(void **state)
     expect_near((double)dot(same, tilted), 1.0, 1e-6, "seen as it is");
 }
 
+/* The mean slope of facets by the area of them that is seen, by a lattice of slopes in double. */
+static void test_seen_normal(void **state)
+{
+    (void)state;
+    const double C[3] = {0.02, 0.008, 0.005}, mean[2] = {0.05, -0.04};
+    const vec3 N = normal_from_slope(vec2((float)mean[0], (float)mean[1]));
+    double L11 = (sqrt)(C[0]), L21 = C[2] / L11, L22 = (sqrt)(C[1] - L21 * L21); /* of Cholesky */
+    for (int i = 0; i < 8; i++) {
+        double elevation = i == 7 ? 1.5 : 0.01 + 0.08 * i, azimuth = 0.9 * i;
+        double V[3] = {(cos)(elevation) * (cos)(azimuth), (sin)(elevation),
+                       (cos)(elevation) * (sin)(azimuth)};
+        double sum[3] = {0.0, 0.0, 0.0};
+        for (int x = -200; x <= 200; x++)
+            for (int y = -200; y <= 200; y++) {
+                double a = x * 0.03, b = y * 0.03;
+                double s = mean[0] + L11 * a, t = mean[1] + L21 * a + L22 * b;
+                double seen = fmax(V[1] - V[0] * s - V[2] * t, 0.0) * (exp)(-0.5 * (a * a + b * b));
+                sum[0] += seen;
+                sum[1] += seen * s;
+                sum[2] += seen * t;
+            }
+        vec3 is = water_seen_normal(vec3((float)C[0], (float)C[1], (float)C[2]), N,
+                                    vec3((float)V[0], (float)V[1], (float)V[2]));
+        vec2 slope = slope_from_normal(is);
+        expect_near((double)slope[0], sum[1] / sum[0], 2e-4, "x, eye %d", i);
+        expect_near((double)slope[1], sum[2] / sum[0], 2e-4, "z, eye %d", i);
+        assert_true(dot(is, vec3((float)V[0], (float)V[1], (float)V[2])) > 0.0f);
+    }
+}
+
 static void test_footprint(void **state)
 {
     (void)state;
@@ -110,8 +140,9 @@ static void test_passing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_weights),   cmocka_unit_test(test_normal),
-                                       cmocka_unit_test(test_footprint), cmocka_unit_test(test_foam),
-                                       cmocka_unit_test(test_lace),      cmocka_unit_test(test_passing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_weights),     cmocka_unit_test(test_normal),
+                                       cmocka_unit_test(test_seen_normal), cmocka_unit_test(test_footprint),
+                                       cmocka_unit_test(test_foam),        cmocka_unit_test(test_lace),
+                                       cmocka_unit_test(test_passing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

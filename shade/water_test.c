@@ -295,7 +295,7 @@ static void test_bed(void **state)
     vec3 seed = water_transmittance(vec3(0.1f, 0.2f, 0.3f), 5.0f); /* which takes water to be red */
     assert_true(fabs((double)seed[0] - golden[0]) > 0.4 && fabs((double)seed[2] - golden[2]) > 0.7);
 
-    vec3 E = vec3(PI);
+    vec3 E = vec3(PI), R = water_deep_reflectance(w);
     WaterBed bed = {.albedo = vec3(0.5f), .mean_albedo = vec3(0.5f), .depth = 0.0f, .way = 0.0f};
     vec3 dry = water_from_bed(w, E, bed);
     expect_near((double)dry[1], 0.5, 1e-6, "a bed without water");
@@ -308,7 +308,8 @@ static void test_bed(void **state)
         vec3 pebble = water_from_bed(w, E, bed);
         bed.albedo = vec3(0.5f);
         double seen = (double)(pebble[1] - here[1]);
-        double expected = 0.2 * (exp)(-(double)(w.absorption[1] + w.backscattering[1]) / 0.86 * (double)H) *
+        double K_d = (double)(w.absorption[1] + w.backscattering[1] * (1.0f - R[1])) / 0.86;
+        double expected = 0.2 * (exp)(-K_d * (double)H) *
                           (exp)(-(double)(w.absorption[1] + w.scattering[1]) * 1.3 * (double)H);
         expect_near(seen, expected, 1e-4 * expected + 2e-7, "contrast at %g m", (double)H);
         assert_true(seen <= contrast && (double)here[0] < brightness); /* deeper: fainter, darker in red */
@@ -317,12 +318,100 @@ static void test_bed(void **state)
     }
     vec3 deep = water_from_deep(w, E);
     bed.depth = bed.way = 1e6f;
+    vec3 over_abyss = water_interreflected(w, E, water_bed_reflectance(w, bed.albedo, bed.depth));
     for (int k = 0; k < 3; ++k)
-        expect_near((double)water_from_bed(w, E, bed)[k], (double)deep[k], 1e-7,
+        expect_near((double)water_from_bed(w, over_abyss, bed)[k], (double)deep[k], 1e-7,
                     "a bed out of sight, channel %d", k);
     w.absorption = w.scattering = w.backscattering = vec3(0.0f); /* glass: no attenuation, no NaN */
     assert_true(is_finite3(water_from_bed(w, E, bed)) &&
                 is_finite3(water_backlight(w, light_of(UP, 1.0f, 0.0f, w), -UP, 1.0f, 1.0f)));
+}
+
+/* Reflectance from either side in double: of light from everywhere. */
+static double fresnel_from_air(double mu, double n)
+{
+    double inside = (sqrt)(1.0 - (1.0 - mu * mu) / (n * n));
+    double s = (mu - n * inside) / (mu + n * inside), p = (n * mu - inside) / (n * mu + inside);
+    return 0.5 * (s * s + p * p);
+}
+static double fresnel_from_water(double mu, double n)
+{
+    double outside2 = 1.0 - (1.0 - mu * mu) * n * n;
+    return outside2 > 0.0 ? fresnel_from_air((sqrt)(outside2), n) : 1.0;
+}
+
+/* 2 int f(mu) mu dmu over what passes a layer of the optical thickness t once. */
+static double hemisphere(double (*reflectance)(double, double), double n, double t)
+{
+    const int count = 20000;
+    double sum = 0.0;
+    for (int i = 0; i < count; i++) {
+        double mu = (i + 0.5) / count;
+        sum += 2.0 * mu * (reflectance ? reflectance(mu, n) : 1.0) * (exp)(-t / mu) / count;
+    }
+    return sum;
+}
+
+static void test_internal_reflectance(void **state)
+{
+    (void)state;
+    const float iors[4] = {1.0f, 1.2f, 1.34f, 1.5f};
+    for (int i = 0; i < 4; i++) {
+        Water w = ocean(iors[i]);
+        double n = (double)w.ior;
+        w.sky_reflectance = (float)hemisphere(fresnel_from_air, n, 0.0);
+        expect_near((double)water_internal_reflectance(w), hemisphere(fresnel_from_water, n, 0.0), 1e-4,
+                    "ior %g", n);
+        for (double t = 0.0; t < 3.0; t += 0.11) { /* (a + b_b) H; a bed of 0.5, and nothing scattered */
+            w.absorption = vec3((float)t);
+            w.backscattering = w.scattering = w.reflectance = vec3(0.0f);
+            vec3 R = water_bed_reflectance(w, vec3(0.5f), 1.0f);
+            expect_near((double)(R[1] * water_internal_reflectance(w)),
+                        0.5 * hemisphere(fresnel_from_water, n, 2.0 * t), 0.006, "to and fro, %g, ior %g", t,
+                        n);
+            expect_near((double)water_slab(vec3((float)t))[1], hemisphere(NULL, n, t), 0.004, "a layer of %g",
+                        t);
+        }
+    }
+}
+
+/* Nothing absorbs: n^2 below a sky of 1, in deep water and over a white bed, from anywhere to anywhere, whatever the index. */
+static void test_furnace(void **state)
+{
+    (void)state;
+    const float iors[3] = {1.0f, 1.34f, 1.6f}, depths[4] = {0.0f, 0.3f, 4.0f, 1000.0f};
+    for (int i = 0; i < 12; i++) {
+        Water w = ocean(iors[i % 3]);
+        double n2 = (double)(w.ior * w.ior);
+        w.sky_reflectance = w.ior > 1.0f ? 0.06f : 0.0f;
+        w.absorption = vec3(0.0f);
+        w.reflectance = vec3(1.0f);
+        WaterLight sky = light_of(UP, 0.0f, PI, w);
+        vec3 bare = vec3(1.0f), R = water_bed_reflectance(w, bare, depths[i / 3]);
+        WaterBed bed = {
+            .albedo = bare, .mean_albedo = bare, .depth = depths[i / 3], .way = 1.4f * depths[i / 3]};
+        vec3 light = water_interreflected(w, sky.downwelling, R);
+        vec3 deep = water_from_deep(w, sky.downwelling), shallow = water_from_bed(w, light, bed);
+        vec3 foam = water_foam_below(w, sky, light * R), d = towards(15.0 * (i / 3), 0.0);
+        vec3 through = water_surface_through(w, sky.downwelling, vec3(0.0f), UP, foam, vec3(0.0f), bed.depth,
+                                             d, bed.way);
+        for (int k = 0; k < 3; k++) {
+            expect_relative(deep[k], n2, 2e-6, "deep, ior %g", (double)w.ior);
+            expect_relative(shallow[k], n2, 1e-5, "a bed %g m below", (double)bed.depth);
+            expect_relative(foam[k], n2, 1e-5, "foam from below");
+            expect_relative(through[k], n2, 1e-4, "after %g m of water", (double)bed.way);
+        }
+    }
+    /* and a skin of water on grey ground darkens it, as rain does: (1 - R) (1 - R_int) / (1 - R_int albedo) */
+    Water w = ocean(1.34f);
+    WaterLight sky = light_of(UP, 0.0f, PI, w);
+    vec3 grey = vec3(0.3f);
+    WaterBed skin = {.albedo = grey, .mean_albedo = grey};
+    vec3 light = water_interreflected(w, sky.downwelling, water_bed_reflectance(w, grey, 0.0f));
+    expect_relative(water_from_bed(w, light, skin)[1], 0.3 * 0.94 / (1.0 - 0.3 * (1.0 - 0.94 / 1.7956)), 1e-5,
+                    "wet ground");
+    Water none = ocean(1.0f);
+    assert_true(is_finite3(water_beam_below(none, light_of(vec3(1.0f, 0.0f, 0.0f), 0.0f, 1.0f, none))));
 }
 
 /* Light through a crest: only against the sun, only where there is a crest, blue-green. */
@@ -355,8 +444,9 @@ static void test_below(void **state)
     for (int k = 1; k < 3; ++k)
         expect_relative(down[k], deep[k], 1e-5, "straight down, channel %d", k);
     vec3 level = water_inscatter(w, E, 0.0f, vec3(1.0f, 0.0f, 0.0f), 1e4f);
-    vec3 expected = deep * (1.0f + 1.0f / WATER_MEAN_COSINE);
+    vec3 expected = deep * (1.0f + water_K_d(w) / water_diffuse(w));
     expect_relative(level[2], expected[2], 1e-5, "along the horizon");
+    expect_relative(level[2], deep[2] * (1.0f + 1.0f / WATER_MEAN_COSINE), 5e-3, "nearly as much again");
     vec3 ten = water_inscatter(w, E, 10.0f, vec3(1.0f, 0.0f, 0.0f), 1e4f);
     expect_relative(ten[2] / level[2], exp(-10.0f * water_K_d(w)[2]), 1e-5, "10 m deeper");
     assert_true(ten[0] < ten[1] && ten[1] < ten[2]);
@@ -424,10 +514,20 @@ static void test_edges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fresnel), cmocka_unit_test(test_refraction), cmocka_unit_test(test_closed_box),
-        cmocka_unit_test(test_flat),    cmocka_unit_test(test_bound),      cmocka_unit_test(test_volume),
-        cmocka_unit_test(test_deep),    cmocka_unit_test(test_bed),        cmocka_unit_test(test_backlight),
-        cmocka_unit_test(test_below),   cmocka_unit_test(test_foam),       cmocka_unit_test(test_edges),
+        cmocka_unit_test(test_fresnel),
+        cmocka_unit_test(test_refraction),
+        cmocka_unit_test(test_closed_box),
+        cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_volume),
+        cmocka_unit_test(test_deep),
+        cmocka_unit_test(test_bed),
+        cmocka_unit_test(test_backlight),
+        cmocka_unit_test(test_below),
+        cmocka_unit_test(test_foam),
+        cmocka_unit_test(test_edges),
+        cmocka_unit_test(test_internal_reflectance),
+        cmocka_unit_test(test_furnace),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,15 +46,16 @@ vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
 #ifdef HAS_BED
     float depth = p.at.y + sea_bed.w - dot(sea_bed_slope.xy, p.at.xz);
     float rise = dot(sea_bed_slope.xy, down.xz);
+    float way = water_way_to_bed(depth, rise, down);
+    vec3 lit = sea_light_over_bed(w, water_bed_depth(depth, rise, way));
     vec3 albedo = sea_bed.xyz;
     vec3 mean_albedo = albedo;
     if (sea_has_light_on_bed()) {
-        float way = water_way_to_bed(depth, rise, down);
         float width = water_bed_footprint(w, p.point.N, p.V, down, p.point.covariance, p.width * inversesqrt(p.cosine), way);
-        albedo *= sea_bed_lit(w, p.at, down, way, width);
-        mean_albedo *= sea_bed_lit(w, p.at, down, way, max(width, 0.25 * way));
+        albedo *= sea_bed_lit(w, lit, p.at, down, way, width);
+        mean_albedo *= sea_bed_lit(w, lit, p.at, down, way, max(width, 0.25 * way));
     }
-    return water_over_bed(w, light.downwelling, albedo, mean_albedo, depth, rise, down) + crest;
+    return water_over_bed(w, lit, albedo, mean_albedo, depth, rise, down) + crest;
 #else
     return water_from_deep(w, light.downwelling) + crest;
 #endif
@@ -96,19 +97,26 @@ vec3 sea_shade_below(SeaPlace p)
 {
     Water w = sea_water();
     WaterLight light = sea_light();
-    WaterWindow window = water_window(w, p.d, p.point.N);
+    WaterWindow window = water_window(w, p.d, water_seen_normal(p.point.covariance, p.point.N, p.d));
     vec3 mirrored = window.mirrored;
     if (mirrored.y > -1e-3)
         mirrored = normalize(vec3(mirrored.x, -1e-3, mirrored.z));
     vec3 L = vec3(0.0);
+    vec3 sun = vec3(0.0);
     if (window.fresnel > 0.0)
         L = sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.width, water_mirrored_spread(p.point.covariance)) * window.fresnel;
     if (window.fresnel < 1.0) {
         L += sea_sky_reflected(window.outside, roughness_from_slopes(p.point.covariance * 0.1)) * window.gain;
-        L += water_sun_through(w, p.point.covariance, light, window.outside, window.gain);
+        sun = water_sun_through(w, p.point.covariance, light, window.outside, window.gain);
     }
-    L = mix(L, light.downwelling * (w.foam_albedo * INV_PI), p.point.foam);
-    return water_through(w, light.downwelling, sea_beam.xyz, sea_sunward.xyz, L, max(-sea_eye.x, 0.0), p.d, p.t);
+#ifdef HAS_BED
+    vec3 R = water_bed_reflectance(w, sea_bed.xyz, max(p.at.y + sea_bed.w - dot(sea_bed_slope.xy, p.at.xz), 0.0));
+#else
+    vec3 R = water_deep_reflectance(w);
+#endif
+    vec3 foam = water_foam_below(w, light, R * water_interreflected(w, light.downwelling, R));
+    return water_surface_through(w, light.downwelling, sea_beam.xyz, sea_sunward.xyz, mix(L, foam, p.point.foam),
+                                 sun * (1.0 - p.point.foam), max(-sea_eye.x, 0.0), p.d, p.t);
 }
 
 /* The looks before, in numbers of a display. */

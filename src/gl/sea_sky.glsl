@@ -135,13 +135,15 @@ vec3 sea_seen_through_water(vec3 at, vec3 d, float width, float spread)
     float z = max(-at.y, 0.0);
     vec3 ground = vec3(0.0);
     if (x < 1e4) {
-        vec3 mean = water_bed_below(w, sea_downwelling.xyz, sea_bed.xyz, max(z - x * d.y, 0.0));
+        float depth = max(z - x * d.y, 0.0);
+        vec3 light = sea_light_over_bed(w, depth);
+        vec3 mean = water_bed_below(w, light, sea_bed.xyz, depth);
         vec3 bed = mean;
 #ifdef HAS_BED
         if (sea_has_light_on_bed()) {
             float wide = (width + spread * x) * inversesqrt(clamp(-d.y, 0.05, 1.0));
-            bed *= sea_bed_lit(w, at, d, x, wide);
-            mean *= sea_bed_lit(w, at, d, x, max(wide, 0.25 * x));
+            bed *= sea_bed_lit(w, light, at, d, x, wide);
+            mean *= sea_bed_lit(w, light, at, d, x, max(wide, 0.25 * x));
         }
 #endif
         ground = water_bed_through(w, bed, mean, x);

@@ -11,15 +11,9 @@ static float depth_of(const double P[3])
     return (float)fmax(-P[1], 0.0);
 }
 
-/* Light behind x m of water, as seen from a depth z along d. */
-static vec3 through_water(const water_setup *s, vec3 behind, float z, vec3 d, float x)
-{
-    return water_through(s->water, s->light.downwelling, s->beam, s->sunward, behind, z, d, x);
-}
-
 vec3 water_behind_water(const water_setup *s, vec3 radiance, const double P[3], vec3 d, float x)
 {
-    return through_water(s, radiance, depth_of(P), d, x);
+    return water_through(s->water, s->light.downwelling, s->beam, s->sunward, radiance, depth_of(P), d, x);
 }
 
 /* m to the bed; FAR_M: it is not met. */
@@ -41,29 +35,44 @@ vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, f
     vec3 ground = vec3(0.0f);
     if (x < FAR_M) {
         const float *albedo = s->sea->desc.bed.albedo;
-        vec3 mean = water_bed_below(s->water, s->light.downwelling, vec3(albedo[0], albedo[1], albedo[2]),
-                                    max(z - x * d[1], 0.0f));
+        float depth = max(z - x * d[1], 0.0f);
+        vec3 light = water_light_over_bed(s, depth);
+        vec3 mean = water_bed_below(s->water, light, vec3(albedo[0], albedo[1], albedo[2]), depth);
         float width = (width_m + spread * x) * inversesqrt(clamp(-d[1], 0.05f, 1.0f));
         vec3 bed = mean;
         if (water_has_light_on_bed(s)) {
-            bed = mean * water_bed_lit_at(s, P, d, x, width);
-            mean = mean * water_bed_lit_at(s, P, d, x, max(width, 0.25f * x));
+            bed = mean * water_bed_lit_at(s, light, P, d, x, width);
+            mean = mean * water_bed_lit_at(s, light, P, d, x, max(width, 0.25f * x));
         }
         ground = water_bed_through(s->water, bed, mean, x);
     }
     /* a ray that goes up for ever leaves water that would shine as it does near the surface */
     float reach = d[1] > 1e-4f ? min(x, z / d[1]) : x;
-    return ground + through_water(s, vec3(0.0f), z, d, reach);
+    return ground +
+           water_through(s->water, s->light.downwelling, s->beam, s->sunward, vec3(0.0f), z, d, reach);
 }
 
-static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 d)
+/* lx on a horizontal plane that looks down, just below the surface. */
+static vec3 upwelling(const water_setup *s, const double P[3])
 {
-    WaterWindow window = water_window(s->water, d, p->point.N);
+    const facet_sea_bed *bed = &s->sea->desc.bed;
+    float depth = (float)fmax(P[1] - water_bed_height(bed, P[0], P[2]), 0.0);
+    vec3 R =
+        water_has_bed(s)
+            ? water_bed_reflectance(s->water, vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]), depth)
+            : water_deep_reflectance(s->water);
+    return R * water_interreflected(s->water, s->light.downwelling, R);
+}
+
+/* The surface as it is seen x m along d from the depth z. */
+static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 d, float z, float x)
+{
+    WaterWindow window = water_window(s->water, d, water_seen_normal(p->point.covariance, p->point.N, d));
     vec3 mirrored = window.mirrored;
     if (mirrored[1] > -1e-3f)
         mirrored = normalize(vec3(mirrored[0], -1e-3f, mirrored[2]));
     const double below[3] = {p->P[0], fmin(p->P[1], 0.0), p->P[2]};
-    vec3 L = vec3(0.0f);
+    vec3 L = vec3(0.0f), sun = vec3(0.0f);
     if (window.fresnel > 0.0f)
         L = water_seen_through_water(s, below, mirrored, p->footprint_m,
                                      water_mirrored_spread(p->point.covariance)) *
@@ -71,10 +80,12 @@ static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 
     if (window.fresnel < 1.0f) {
         float perceptual_roughness = roughness_from_slopes(p->point.covariance * 0.1f);
         L = L + water_sky_reflected(&s->sky, window.outside, perceptual_roughness) * window.gain;
-        L = L + water_sun_through(s->water, p->point.covariance, s->light, window.outside, window.gain);
+        sun = water_sun_through(s->water, p->point.covariance, s->light, window.outside, window.gain);
     }
-    vec3 foam = s->light.downwelling * (s->water.foam_albedo * INV_PI);
-    return mix(L, foam, p->point.foam);
+    if (p->point.foam > 0.0f)
+        L = mix(L, water_foam_below(s->water, s->light, upwelling(s, p->P)), p->point.foam);
+    return water_surface_through(s->water, s->light.downwelling, s->beam, s->sunward, L,
+                                 sun * (1.0f - p->point.foam), z, d, x);
 }
 
 vec3 water_shade_from_below(const water_setup *s, const march_ray *ray, const march_hit *hit)
@@ -85,5 +96,5 @@ vec3 water_shade_from_below(const water_setup *s, const march_ray *ray, const ma
     if (!hit || (float)hit->t >= to_bed)
         return water_seen_through_water(s, o, d, (float)ray->width, (float)ray->spread);
     water_place p = water_place_of(s, ray, hit);
-    return through_water(s, surface_from_below(s, &p, d), depth_of(o), d, (float)hit->t);
+    return surface_from_below(s, &p, d, depth_of(o), (float)hit->t);
 }

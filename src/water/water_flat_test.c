@@ -130,17 +130,50 @@ static void test_closed_box(void **state)
         assert_int_equal(facet_environment_create_constant(one, NULL, &s.desc.render.environment, NULL),
                          FACET_OK);
         s.desc.render.camera = &s.camera;
-        water_setup setup;
-        assert_int_equal(water_setup_create(sea, NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
-        float n2 = setup.water.ior * setup.water.ior;
         for (int i = 0; i < 3; i++)
-            sea->optics.reflectance[i] = n2 * 0.52f / (1.0f - setup.water.sky_reflectance);
-        water_setup_destroy(&setup);
+            sea->optics.reflectance[i] = 1.0f;
         draw_shot(sea, &s);
         for (uint32_t i = 0; i < 24 * 48 * 4; i++)
             if (fabsf(s.film.layers[0].pixels[i] - 1.0f) > 0.01f)
                 fail_msg("wind %g: pixel %u, %u shows %g", (double)winds[k], i / 4 % 24, i / 96,
                          (double)s.film.layers[0].pixels[i]);
+        facet_environment_destroy(s.desc.render.environment);
+        film_destroy(&s.film);
+        sea_destroy(sea);
+    }
+}
+
+/* A sky of 1 over water that absorbs nothing: 1 above it and n^2 below, over the depth and over a white bed, whatever the index. */
+static void test_furnace(void **state)
+{
+    (void)state;
+    const float one[3] = {1.0f, 1.0f, 1.0f};
+    for (int k = 0; k < 8; k++) {
+        facet_sea_desc d = still_sea();
+        bool is_below = k & 1, has_bed = k & 2;
+        d.wind_mps = 6.0f;
+        d.water = (facet_water){.kind = FACET_WATER_COEFFICIENTS,
+                                .scattering = {0.1f, 0.2f, 0.3f},
+                                .backscattering = {0.005f, 0.01f, 0.1f},
+                                .ior = k & 4 ? 1.0f : 1.34f,
+                                .foam_albedo = 0.4f};
+        if (has_bed)
+            d.bed = (facet_sea_bed){.depth_m = 4.0f, .albedo = {1.0f, 1.0f, 1.0f}};
+        facet_sea *sea = make_sea(&d);
+        shot s;
+        make_shot(&s, 12, 24, 3.0f, 0.8f);
+        s.camera.fov_y_rad = 1.5f;
+        if (is_below)
+            s.camera.eye[1] = -2.0f, s.camera.target[1] = -1.9f;
+        s.desc.look.no_foam = !is_below;
+        assert_int_equal(facet_environment_create_constant(one, NULL, &s.desc.render.environment, NULL),
+                         FACET_OK);
+        draw_shot(sea, &s);
+        float expected = is_below ? sea->optics.ior * sea->optics.ior : 1.0f;
+        for (uint32_t i = 0; i < 12 * 24 * 4; i++)
+            if (i % 4 < 3 && fabsf(s.film.layers[0].pixels[i] / expected - 1.0f) > 2e-3f)
+                fail_msg("case %d: pixel %u, %u shows %g, not %g", k, i / 4 % 12, i / 48,
+                         (double)s.film.layers[0].pixels[i], (double)expected);
         facet_environment_destroy(s.desc.render.environment);
         film_destroy(&s.film);
         sea_destroy(sea);
@@ -171,10 +204,8 @@ static void test_night(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat),
-        cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_closed_box),
-        cmocka_unit_test(test_night),
+        cmocka_unit_test(test_flat),    cmocka_unit_test(test_sun),   cmocka_unit_test(test_closed_box),
+        cmocka_unit_test(test_furnace), cmocka_unit_test(test_night),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

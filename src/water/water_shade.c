@@ -6,11 +6,23 @@
 
 /* ---- below ---- */
 
-vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m)
+static vec3 bed_albedo(const water_setup *s)
+{
+    const float *albedo = s->sea->desc.bed.albedo;
+    return vec3(albedo[0], albedo[1], albedo[2]);
+}
+
+vec3 water_light_over_bed(const water_setup *s, float depth_m)
+{
+    return water_interreflected(s->water, s->light.downwelling,
+                                water_bed_reflectance(s->water, bed_albedo(s), depth_m));
+}
+
+vec3 water_bed_lit_at(const water_setup *s, vec3 light, const double P[3], vec3 d, float way, float width_m)
 {
     double X = P[0] + (double)way * (double)d[0], Z = P[2] + (double)way * (double)d[2];
     float depth = max((float)-water_bed_height(&s->sea->desc.bed, X, Z), 0.0f);
-    vec3 focused = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], depth);
+    vec3 focused = water_focused(s->water, light, s->beam, s->sunward[1], depth);
     bed_shadow_texel open = bed_shadow_at(&s->shadow, X, Z);
     float beyond, factor = caustic_map_within(&s->caustics, X, Z, width_m, &beyond);
     return water_bed_lit(focused, factor + beyond * open.sun, open.rest);
@@ -24,15 +36,16 @@ vec3 water_from_below(const water_setup *s, const water_place *p)
         return water_from_deep(s->water, s->light.downwelling) + crest;
     const facet_sea_bed *bed = &s->sea->desc.bed;
     float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2])),
-          rise = (float)water_bed_rise(bed, down);
-    vec3 albedo = vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]), mean_albedo = albedo;
+          rise = (float)water_bed_rise(bed, down), way = water_way_to_bed(depth, rise, down);
+    vec3 light = water_light_over_bed(s, water_bed_depth(depth, rise, way));
+    vec3 albedo = bed_albedo(s), mean_albedo = albedo;
     if (water_has_light_on_bed(s)) {
-        float way = water_way_to_bed(depth, rise, down), width = p->footprint_m * inversesqrt(p->cosine);
+        float width = p->footprint_m * inversesqrt(p->cosine);
         width = water_bed_footprint(s->water, p->point.N, p->V, down, p->point.covariance, width, way);
-        albedo = albedo * water_bed_lit_at(s, p->P, down, way, width);
-        mean_albedo = mean_albedo * water_bed_lit_at(s, p->P, down, way, max(width, 0.25f * way));
+        albedo = albedo * water_bed_lit_at(s, light, p->P, down, way, width);
+        mean_albedo = mean_albedo * water_bed_lit_at(s, light, p->P, down, way, max(width, 0.25f * way));
     }
-    return water_over_bed(s->water, s->light.downwelling, albedo, mean_albedo, depth, rise, down) + crest;
+    return water_over_bed(s->water, light, albedo, mean_albedo, depth, rise, down) + crest;
 }
 
 /* ---- the sun ---- */
@@ -87,7 +100,5 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
 
 vec3 water_shade_land(const water_setup *s)
 {
-    const facet_sea_bed *bed = &s->sea->desc.bed;
-    vec3 albedo = vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]);
-    return water_land(s->light, albedo, water_bed_normal(bed));
+    return water_land(s->light, bed_albedo(s), water_bed_normal(&s->sea->desc.bed));
 }

@@ -20,9 +20,12 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
 /* Radiance (cd/m^2) that goes up just below the place, towards the eye: of deep water, or of the bed through it. */
 vec3 water_from_below(const water_setup *s, const water_place *p);
 
+/* Light just below the surface where the bed lies depth_m below, lx on a horizontal plane, with what goes to and fro between both. */
+vec3 water_light_over_bed(const water_setup *s, float depth_m);
+
 /* Light on the bed over its mean, per channel, where the ray from P along the unit direction d meets it after `way` m, as wide as
- * width_m. */
-vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m);
+ * width_m. light: water_light_over_bed(). */
+vec3 water_bed_lit_at(const water_setup *s, vec3 light, const double P[3], vec3 d, float way, float width_m);
 
 /* Of ground that the water does not cover, where it is seen from the air. */
 vec3 water_shade_land(const water_setup *s);
