@@ -8,6 +8,9 @@
 
 static const float FARTHEST = 1e4f; /* m, more than any water lets see */
 
+/* Of what is so near to the index of air, facets turn light by less than directions are told apart. */
+static const float LEAST_BEND = 1e-4f;
+
 /* Bits of a number in [0, 1) as seed. */
 static uint bits_of(float u)
 {
@@ -53,6 +56,12 @@ static float index_beyond(const path_sea_point *p)
     return p->side > 0.0f ? p->sea->water.ior : 1.0f;
 }
 
+/* Whether there is no surface but its foam. */
+static bool is_straight(const path_sea_point *p)
+{
+    return p->sea->water.ior < 1.0f + LEAST_BEND;
+}
+
 /* Reflectance for light that meets a facet at a cosine, on the side of V. */
 static float reflectance(const path_sea_point *p, float cosine)
 {
@@ -85,6 +94,8 @@ static float reflect_value(const path_sea_point *p, vec3 V, vec3 L)
 
 static float transmit_value(const path_sea_point *p, vec3 V, vec3 L)
 {
+    if (is_straight(p))
+        return 0.0f;
     float here = index_here(p), beyond = index_beyond(p);
     vec3 h = V * here + L * beyond;
     vec3 m = normalize_or(h[1] < 0.0f ? -h : h, p->N);
@@ -173,6 +184,9 @@ path_sea_direction path_sea_sample(const path_sea_point *p, vec3 V, float u_lobe
 {
     if (u_lobe < p->foam)
         return sample_foam(p, V, u_lobe / p->foam, u);
+    if (is_straight(p))
+        return (path_sea_direction){
+            .L = kept_on(p, -V, -p->side), .weight = 1.0f, .is_through = true, .is_straight = true};
     vec3 v = V * p->side;
     vec3 m = sample_slopes(u, p->C, p->N, v);
     uint seed = hash_uint(bits_of(u_lobe) ^ hash_uint(bits_of(u[0]) + hash_uint(bits_of(u[1]))));
@@ -221,6 +235,13 @@ vec3 path_sea_glow(const path_sea *sea, vec3 P, vec3 D, float x)
     if (!sea->is_below && D[1] < 0.0f)
         diffuse *= (water_diffuse(w) - water_K_d(w) * D[1]) / max(water_diffuse(w) + water_K_d(w), 1e-9f);
     return diffuse + water_sun_glow(w, sea->beam, sea->sunward, z, D, way);
+}
+
+/* Light on its way back to the bed was scattered out of light that goes up, R times as much as goes down. */
+vec3 path_sea_glow_returned(const path_sea *sea, vec3 P, vec3 D, float x)
+{
+    float z = path_sea_depth(sea, P), way = min(x, D[1] > 1e-4f ? z / D[1] : FARTHEST);
+    return water_inscatter(sea->water, sea->downwelling, z, D, way) * water_deep_reflectance(sea->water);
 }
 
 /* ---- towards the sun ---- */

@@ -39,14 +39,16 @@ typedef struct path_sea_point {
 path_sea_point path_sea_point_make(const path_sea *sea, const shading_hit *h, const float triangle_normal[3],
                                    vec3 V);
 
-/* BSDF |N.L| in 1/sr for light from L, and the pdf with which path_sea_sample() finds it, but for light by way of a second facet. */
+/* BSDF |N.L| in 1/sr for light from L, and the pdf with which path_sea_sample() finds it, but for light by way of a second facet, and for
+ * light that goes straight on. */
 vec3 path_sea_scatter(const path_sea_point *p, vec3 V, vec3 L, float *pdf);
 
 typedef struct path_sea_direction {
     vec3 L;
     float weight, pdf; /* BSDF |N.L| / pdf */
     bool is_through;
-    bool is_second; /* by way of a second facet: not in path_sea_scatter() */
+    bool is_second;   /* by way of a second facet: not in path_sea_scatter() */
+    bool is_straight; /* through a surface between equal indices: neither */
 } path_sea_direction;
 path_sea_direction path_sea_sample(const path_sea_point *p, vec3 V, float u_lobe, vec2 u);
 
@@ -59,6 +61,9 @@ float path_sea_depth(const path_sea *sea, vec3 P);
 vec3 path_sea_transmittance(const path_sea *sea, float x);
 /* Radiance (cd/m^2) that the water adds along x m from P along D, as the eye sees it. */
 vec3 path_sea_glow(const path_sea *sea, vec3 P, vec3 D, float x);
+
+/* And to light that the bed sends back. */
+vec3 path_sea_glow_returned(const path_sea *sea, vec3 P, vec3 D, float x);
 
 /* A direction from below towards where the refracted sun is, and its pdf per sr. */
 vec3 path_sea_sunward(const path_sea *sea, vec2 u);

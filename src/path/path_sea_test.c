@@ -80,6 +80,28 @@ static void closed_box(void **state)
     }
 }
 
+/* Between equal indices there is no surface: the ray goes on, with all its light, but for foam. */
+static void equal_indices_let_through(void **state)
+{
+    (void)state;
+    path_sea s = sea_of_light();
+    s.water.ior = 1.0f;
+    for (int k = 0; k < 8; k++) {
+        float side = k % 2 ? -1.0f : 1.0f, pdf;
+        path_sea_point p = point_of(&s, 0.03f, k / 4 ? 0.3f : 0.0f, side);
+        vec3 V = seen_from(20.0f * (float)(k / 2), side);
+        for (uint32_t i = 0; i < 200; i++) {
+            float u = lattice(i, 2);
+            path_sea_direction d = path_sea_sample(&p, V, u, vec2(lattice(i, 0), lattice(i, 1)));
+            if (u < p.foam)
+                continue;
+            assert_true(d.is_straight && d.is_through && !d.is_second && d.weight == 1.0f);
+            assert_true(dot(d.L, V) < -0.999999f);
+        }
+        assert_true((path_sea_scatter(&p, V, -V, &pdf)[0] == 0.0f) == (p.foam == 0.0f));
+    }
+}
+
 /* Means of a function of the direction, by sampling and by quadrature over directions: both agree, but for second facets, whose share
  * is counted. */
 static void sampling_finds_what_is_scattered(void **state)
@@ -190,9 +212,11 @@ static void the_sun_is_aimed_at(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_box), cmocka_unit_test(sampling_finds_what_is_scattered),
-        cmocka_unit_test(light_goes_both_ways), cmocka_unit_test(deep_water_shines),
-        cmocka_unit_test(the_sun_is_aimed_at)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(closed_box),
+                                       cmocka_unit_test(equal_indices_let_through),
+                                       cmocka_unit_test(sampling_finds_what_is_scattered),
+                                       cmocka_unit_test(light_goes_both_ways),
+                                       cmocka_unit_test(deep_water_shines),
+                                       cmocka_unit_test(the_sun_is_aimed_at)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

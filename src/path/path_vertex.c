@@ -127,7 +127,7 @@ static bool sample_sea(const path_vertex *v, float u_lobe, vec2 u, path_directio
     *out = (path_direction){.L = d.L,
                             .weight = vec3(d.weight),
                             .pdf = d.pdf,
-                            .is_mirror = d.is_second,
+                            .is_mirror = d.is_second || d.is_straight,
                             .is_through = d.is_through,
                             .is_second = d.is_second};
     return d.weight > 0.0f;

@@ -121,8 +121,9 @@ static void pass_water(path *p, float distance_m)
 {
     const path_sea *sea = p->scene->sea;
     float way = distance_m + p->skipped_m;
-    if (!p->sees_no_glow)
-        path_add(p, p->throughput * path_sea_glow(sea, p->P, p->D, way));
+    vec3 glow =
+        p->sees_no_glow ? path_sea_glow_returned(sea, p->P, p->D, way) : path_sea_glow(sea, p->P, p->D, way);
+    path_add(p, p->throughput * glow);
     p->throughput *= path_sea_transmittance(sea, way);
 }
 
