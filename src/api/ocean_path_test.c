@@ -112,6 +112,62 @@ static void still_water_is_the_same(void **state)
     }
 }
 
+/* Where nothing absorbs, water and a white bed show as much as an even sky does, n^2 as much below; with an index of 1, too. */
+static void a_furnace_is_even(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        facet_sea_desc desc = sea_of(4.0f);
+        desc.water.kind = FACET_WATER_COEFFICIENTS;
+        for (int i = 0; i < 3; i++) {
+            desc.water.absorption[i] = 0.0f;
+            desc.water.scattering[i] = 0.1f;
+            desc.water.backscattering[i] = 0.02f;
+            desc.bed.albedo[i] = 1.0f;
+        }
+        desc.water.ior = k == 2 ? 1.0f : 1.34f;
+        desc.bed.depth_m = k == 2 ? 0.0f : 3.0f;
+        pair p;
+        begin(&p, &desc, 16, 18, white);
+        p.d.look.no_foam = true;
+        if (k == 1)
+            p.camera.eye[1] = -1.0f, p.camera.target[1] = -0.9f;
+        draw(&p, 4, IS_SLOW ? 16 : 64);
+        double expected = k == 1 ? 1.34 * 1.34 : 1.0;
+        for (uint32_t row = 0; row < 18; row += 6) {
+            double preview = rows_mean(p.preview, row, row + 6), path = rows_mean(p.path, row, row + 6);
+            if (!(fabs(preview / expected - 1.0) < 2e-3) ||
+                !(fabs(path / expected - 1.0) < (IS_SLOW ? 0.03 : 0.015)))
+                fail_msg("case %d, row %u: preview %g, paths %g, not %g", k, row, preview, path, expected);
+        }
+        end(&p);
+    }
+}
+
+/* What an eye in the water sees of the surface and of a bed in it: mirrored, and through the window. */
+static void below_it_is_the_same(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        facet_sea_desc desc = sea_of(k ? 3.0f : 0.0f);
+        if (k)
+            desc.fetch_m = 1500.0f, desc.bed.depth_m = 3.0f;
+        pair p;
+        begin(&p, &desc, 24, 18, NULL);
+        p.d.sky.has_no_disc = true;
+        p.d.render.exposure_ev = -11.0f;
+        p.camera.eye[1] = -1.0f;
+        p.camera.target[1] = -0.9f;
+        draw(&p, 16, IS_SLOW ? 24 : 96);
+        for (uint32_t row = 0; row < 18; row += 3) {
+            double ratio = rows_ratio(&p, row, row + 3);
+            if (!(fabs(ratio - 1.0) < (k ? 0.12 : 0.03)))
+                fail_msg("wind %d, row %u: %g", 3 * k, row, ratio);
+        }
+        end(&p);
+    }
+}
+
 /* A swell without wind hides no slopes and mirrors itself hardly ever: mean difference below 1 %, 95 of 100 pixels within 5 %,
  * noise included. */
 static void swell_is_where_it_is(void **state)
@@ -373,6 +429,8 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(still_water_is_the_same),
+                                       cmocka_unit_test(a_furnace_is_even),
+                                       cmocka_unit_test(below_it_is_the_same),
                                        cmocka_unit_test(swell_is_where_it_is),
                                        cmocka_unit_test(rough_water_is_darker_by_second_hits),
                                        cmocka_unit_test(a_gale_from_above_is_the_same),
