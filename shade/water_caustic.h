@@ -9,7 +9,7 @@
 
 /* Of the light on the bed, `depth` m below, the share that the sun's beam brings without having been scattered, [0, 1]:
  *   E_beam mu e^(-c H / mu) / (E_d e^(-K_d H))
- * beam: lx across it just below the surface, at the cosine mu; downwelling: all light there, water_interreflected(). Scattering by particles turns light by 23 degrees on average, over a
+ * beam: lx across it just below the surface, at the cosine mu; downwelling: what has come in. Scattering by particles turns light by 23 degrees on average, over a
  * metre of depth farther than waves focus it: what is scattered once counts as diffuse, as water_from_bed() has it on the way up
  * (Mobley 1994, section 3.9). Never more than the share at the surface, as K_d is that of all directions together. */
 FN vec3 water_focused(Water w, vec3 downwelling, vec3 beam, float mu, float depth)

@@ -52,8 +52,8 @@ vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
     vec3 mean_albedo = albedo;
     if (sea_has_light_on_bed()) {
         float width = water_bed_footprint(w, p.point.N, p.V, down, p.point.covariance, p.width * inversesqrt(p.cosine), way);
-        albedo *= sea_bed_lit(w, lit, p.at, down, way, width);
-        mean_albedo *= sea_bed_lit(w, lit, p.at, down, way, max(width, 0.25 * way));
+        albedo *= sea_bed_lit(w, p.at, down, way, width);
+        mean_albedo *= sea_bed_lit(w, p.at, down, way, max(width, 0.25 * way));
     }
     return water_over_bed(w, lit, albedo, mean_albedo, depth, rise, down) + crest;
 #else

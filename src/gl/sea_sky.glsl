@@ -142,8 +142,8 @@ vec3 sea_seen_through_water(vec3 at, vec3 d, float width, float spread)
 #ifdef HAS_BED
         if (sea_has_light_on_bed()) {
             float wide = (width + spread * x) * inversesqrt(clamp(-d.y, 0.05, 1.0));
-            bed *= sea_bed_lit(w, light, at, d, x, wide);
-            mean *= sea_bed_lit(w, light, at, d, x, max(wide, 0.25 * x));
+            bed *= sea_bed_lit(w, at, d, x, wide);
+            mean *= sea_bed_lit(w, at, d, x, max(wide, 0.25 * x));
         }
 #endif
         ground = water_bed_through(w, bed, mean, x);

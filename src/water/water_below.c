@@ -41,8 +41,8 @@ vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, f
         float width = (width_m + spread * x) * inversesqrt(clamp(-d[1], 0.05f, 1.0f));
         vec3 bed = mean;
         if (water_has_light_on_bed(s)) {
-            bed = mean * water_bed_lit_at(s, light, P, d, x, width);
-            mean = mean * water_bed_lit_at(s, light, P, d, x, max(width, 0.25f * x));
+            bed = mean * water_bed_lit_at(s, P, d, x, width);
+            mean = mean * water_bed_lit_at(s, P, d, x, max(width, 0.25f * x));
         }
         ground = water_bed_through(s->water, bed, mean, x);
     }

@@ -18,11 +18,11 @@ vec3 water_light_over_bed(const water_setup *s, float depth_m)
                                 water_bed_reflectance(s->water, bed_albedo(s), depth_m));
 }
 
-vec3 water_bed_lit_at(const water_setup *s, vec3 light, const double P[3], vec3 d, float way, float width_m)
+vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m)
 {
     double X = P[0] + (double)way * (double)d[0], Z = P[2] + (double)way * (double)d[2];
     float depth = max((float)-water_bed_height(&s->sea->desc.bed, X, Z), 0.0f);
-    vec3 focused = water_focused(s->water, light, s->beam, s->sunward[1], depth);
+    vec3 focused = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], depth);
     bed_shadow_texel open = bed_shadow_at(&s->shadow, X, Z);
     float beyond, factor = caustic_map_within(&s->caustics, X, Z, width_m, &beyond);
     return water_bed_lit(focused, factor + beyond * open.sun, open.rest);
@@ -42,8 +42,8 @@ vec3 water_from_below(const water_setup *s, const water_place *p)
     if (water_has_light_on_bed(s)) {
         float width = p->footprint_m * inversesqrt(p->cosine);
         width = water_bed_footprint(s->water, p->point.N, p->V, down, p->point.covariance, width, way);
-        albedo = albedo * water_bed_lit_at(s, light, p->P, down, way, width);
-        mean_albedo = mean_albedo * water_bed_lit_at(s, light, p->P, down, way, max(width, 0.25f * way));
+        albedo = albedo * water_bed_lit_at(s, p->P, down, way, width);
+        mean_albedo = mean_albedo * water_bed_lit_at(s, p->P, down, way, max(width, 0.25f * way));
     }
     return water_over_bed(s->water, light, albedo, mean_albedo, depth, rise, down) + crest;
 }
