@@ -664,7 +664,9 @@ FN vec3 probe_sky_tables(int which, vec2 u)
     float angle = sky_view_zenith_angle(p[0], 2.0f * u[1] - 1.0f);
     return air_column(ray[0], 0.05f + 0.95f * u[1], 8) * 0.01f +
            vec3(ray[0] * 0.01f, ray[1] + 2.0f, sun[0] * 0.01f) +
-           vec3(sun[1], angle + sky_view_row(p[0], 0.1f + 2.9f * u[0]), 3.0f);
+           vec3(sun[1], angle + sky_view_row(p[0], 0.1f + 2.9f * u[0]), 3.0f) +
+           vec3(sky_turned(u[0])[0] + sky_turned(u[0])[1], sky_turn(u[0] - 0.5f, 0.01f + u[1]),
+                sky_row(u[0]) + sky_rise(u[1]));
 }
 
 FN vec3 probe_air_light(int which, vec2 u)

@@ -526,4 +526,35 @@ FN float sky_view_row(float height_km, float zenith_angle)
     return sel(zenith_angle <= horizon, up, down);
 }
 
+/* ---- pictures of a half of the sky, for the GPU ---- */
+
+/* Column of a direction in [0, 1], once around from +X towards +Z: the share of its way along a square that stands on a corner.
+ * No more than a division, and nowhere 0.8 times as fine as angles of the same number. x = z = 0: any. */
+FN float sky_turn(float x, float z)
+{
+    float along = x / max(abs(x) + abs(z), 1e-30f);
+    return sel(z < 0.0f, 0.75f + 0.25f * along, 0.25f - 0.25f * along);
+}
+
+/* The level unit direction (x, z) of a column. */
+FN vec2 sky_turned(float turn)
+{
+    float along = sel(turn < 0.5f, 1.0f - 4.0f * turn, 4.0f * turn - 3.0f);
+    float aside = sel(turn < 0.5f, 1.0f - abs(along), abs(along) - 1.0f);
+    return vec2(along, aside) * inversesqrt(along * along + aside * aside);
+}
+
+/* Row in [0, 1] of a direction whose sine of elevation is the share h of the way from the horizon's, 0, to that of the zenith (or
+ * nadir), 1: the square of the row goes with the angle at both ends, so that rows are closest at the horizon. And back. */
+FN float sky_row(float h)
+{
+    float share = clamp(h, 0.0f, 1.0f);
+    return sqrt(share / (1.0f + sqrt(1.0f - share)));
+}
+FN float sky_rise(float row)
+{
+    float angle = row * row;
+    return angle * (2.0f - angle);
+}
+
 #endif

@@ -207,6 +207,40 @@ static void test_steps(void **state)
     }
 }
 
+/* Columns and rows of pictures are those of their directions; both grow all the way, and angles between neighbours stay small. */
+static void test_pictures(void **state)
+{
+    (void)state;
+    const int n = 512;
+    double widest = 0.0, tallest = 0.0, last_angle = -1.0;
+    for (int i = 0; i < n; i++) {
+        float turn = ((float)i + 0.5f) / (float)n;
+        vec2 d = sky_turned(turn), next = sky_turned(((float)((i + 1) % n) + 0.5f) / (float)n);
+        expect_near((double)(d[0] * d[0] + d[1] * d[1]), 1.0, 1e-6, "unit");
+        expect_near((double)sky_turn(3.0f * d[0], 3.0f * d[1]), (double)turn, 1e-6, "column %d", i);
+        double angle = (atan2)((double)d[1], (double)d[0]);
+        angle += angle < 0.0 ? 6.283185307179586 : 0.0;
+        assert_true(angle > last_angle);
+        last_angle = angle;
+        widest = fmax(widest, (acos)(fmin((double)dot(d, next), 1.0)));
+    }
+    assert_true(widest < 1.28 * 6.283185307179586 / n);
+    double last = 0.0;
+    for (int i = 1; i <= 128; i++) {
+        float row = (float)i / 128.0f, h = sky_rise(row);
+        double angle = (asin)(fmin((double)h, 1.0));
+        expect_near((double)sky_row(h), (double)row, i < 128 ? 2e-5 : 1e-3, "row %d", i);
+        tallest = fmax(tallest, angle - last);
+        assert_true(angle > last);
+        last = angle;
+    }
+    assert_true(tallest < 0.03); /* of evenly spaced squares: 0.025, at the zenith */
+    expect_near((double)sky_rise(0.0f), 0.0, 0.0, "the horizon");
+    expect_near((double)sky_rise(1.0f), 1.0, 0.0, "the zenith");
+    expect_near((double)sky_row(-0.1f), 0.0, 0.0, "below");
+    assert_true(sky_turn(0.0f, 0.0f) >= 0.0f && sky_turn(0.0f, 0.0f) <= 1.0f);
+}
+
 /* Where nothing absorbs and light comes equally from everywhere, the sky is as bright as that light. */
 static void test_closed_box(void **state)
 {
@@ -236,6 +270,7 @@ int main(void)
                                        cmocka_unit_test(test_rays),
                                        cmocka_unit_test(test_tables),
                                        cmocka_unit_test(test_steps),
+                                       cmocka_unit_test(test_pictures),
                                        cmocka_unit_test(test_closed_box)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

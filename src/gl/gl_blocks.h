@@ -55,7 +55,8 @@ enum {
     GL_UNIT_SEA_MEANS,
     GL_UNIT_SEA_GRID,
     GL_UNIT_SEA_SEEN,
-    GL_UNIT_SEA_CAUSTICS, /* the last that every driver has */
+    GL_UNIT_SEA_CAUSTICS,                    /* the last that every driver has */
+    GL_UNIT_SEA_LOBES = GL_UNIT_ENVIRONMENT, /* 3D: the atmosphere's sky, where there is no picture */
     /* of a model in it, in the places of what its own passes look up */
     GL_UNIT_SEA_MODEL = GL_UNIT_TABLES,
     GL_UNIT_SEA_MODEL_DEPTH,

@@ -199,6 +199,7 @@ static const struct {
                 {"u_sea_foam", GL_UNIT_SEA_FOAM},
                 {"u_sea_patches", GL_UNIT_SEA_PATCHES},
                 {"u_sea_sky", GL_UNIT_SEA_SKY},
+                {"u_sea_lobes", GL_UNIT_SEA_LOBES},
                 {"u_sea_means", GL_UNIT_SEA_MEANS},
                 {"u_sea_model", GL_UNIT_SEA_MODEL},
                 {"u_sea_model_depth", GL_UNIT_SEA_MODEL_DEPTH},

@@ -43,6 +43,7 @@ struct gl_sea {
 static void forget_light(gl_sea *s)
 {
     gl_light_atlas_destroy(&s->atlas);
+    gl_sea_textures_forget_light(&s->textures);
     for (int i = 0; i < 2; i++) {
         if (s->environments[i])
             environment_release(s->environments[i]);
@@ -55,7 +56,6 @@ static void stop(gl_sea *s)
 {
     if (s->context.context && gl_context_make_current(&s->context, NULL) == FACET_OK) {
         gl_programs_destroy(s->programs);
-        gl_sea_textures_destroy(&s->textures);
         gl_target_destroy(&s->grid);
         gl_target_destroy(&s->seen);
         gl_target_destroy(&s->target);
@@ -64,6 +64,7 @@ static void stop(gl_sea *s)
         glDeleteVertexArrays(1, &s->mesh_array);
         glDeleteVertexArrays(1, &s->empty_array);
         forget_light(s);
+        gl_sea_textures_destroy(&s->textures);
     }
     gl_context_destroy(&s->context);
     *s = (gl_sea){.allocator = s->allocator, .api = s->api};
@@ -132,7 +133,7 @@ static void set_block(GLuint buffer, GLuint point, const void *block, size_t siz
     glBindBufferBase(GL_UNIFORM_BUFFER, point, buffer);
 }
 
-/* The filtered sky, with the picture behind it where there is one. */
+/* Of a picture in the sky's place: itself and its filtered light. Of the atmosphere, gl_sea_textures.c has all. */
 static facet_result update_light(gl_sea *s, const sea_picture *p, facet_error *error)
 {
     ibl_light both = *p->reflected;
@@ -147,6 +148,8 @@ static facet_result update_light(gl_sea *s, const sea_picture *p, facet_error *e
                 environment_retain(wanted[i]);
         }
     }
+    if (!p->background)
+        return FACET_OK;
     gl_light_block block = {.atlas = {0.0f}};
     facet_result result = gl_light_atlas_update(&s->atlas, &s->context, &s->allocator, &both, error);
     if (result != FACET_OK)
@@ -160,14 +163,10 @@ static facet_result update_light(gl_sea *s, const sea_picture *p, facet_error *e
 static void bind_textures(const gl_sea *s)
 {
     gl_sea_textures_bind(&s->textures);
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_ENVIRONMENT);
-    glBindTexture(GL_TEXTURE_2D, s->atlas.texture);
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_SHARP);
-    glBindTexture(GL_TEXTURE_2D, s->atlas.background);
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_SEA_GRID);
-    glBindTexture(GL_TEXTURE_2D, s->grid.color);
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_SEA_SEEN);
-    glBindTexture(GL_TEXTURE_2D, s->seen.color);
+    gl_sea_texture_bind(GL_UNIT_ENVIRONMENT, GL_TEXTURE_2D, s->atlas.texture);
+    gl_sea_texture_bind(GL_UNIT_SHARP, GL_TEXTURE_2D, s->atlas.background);
+    gl_sea_texture_bind(GL_UNIT_SEA_GRID, GL_TEXTURE_2D, s->grid.color);
+    gl_sea_texture_bind(GL_UNIT_SEA_SEEN, GL_TEXTURE_2D, s->seen.color);
 }
 
 /* One strip of triangles from circle to circle, the nearest first, with two triangles of no size in between. */

@@ -92,8 +92,8 @@ static void fill_water(const sea_picture *p, gl_sea_block *b)
     set4(b->sky_irradiance, p->sky_irradiance, waves_glint_time(&p->sea->waves));
     set4(b->downwelling, p->downwelling, p->shutter_s);
     set4(b->beam, p->beam, p->disc_radius);
-    set4(b->sunward, p->sunward, p->sun_longitude);
-    b->sky_at[0] = p->eye_km;
+    set4(b->sunward, p->sunward, 0.0f);
+    b->sky_at[0] = p->horizon_mu;
     b->sky_at[1] = SEA_SKY_WAY_KM;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "gl/gl_sea_textures.h"
 
 static const uint32_t MOST_PIXELS = 2048; /* of the mirror image along an edge */
 
@@ -75,13 +76,8 @@ static facet_result draw_mirrored(gl_sea_model *m, const sea_picture *p, gl_sea_
 
 static void upload_touch(gl_sea_model *m, const sea_picture *p, const camera_rays *camera, gl_sea_block *b)
 {
-    glGenTextures(1, &m->touch);
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_SEA_TOUCH);
-    glBindTexture(GL_TEXTURE_2D, m->touch);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    m->touch =
+        gl_sea_texture_make(GL_UNIT_SEA_TOUCH, GL_TEXTURE_2D, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, SEA_TOUCH_EDGE, SEA_TOUCH_EDGE, 0, GL_RGBA, GL_FLOAT,
                  p->touch);
     for (int i = 0; i < 2; i++) {
@@ -166,19 +162,13 @@ facet_result gl_sea_model_draw(gl_sea_model *m, const sea_picture *p, const came
     return gl_frame_draw(&m->frame, &m->seen, &m->desc, &block, error);
 }
 
-static void bind(uint32_t unit, GLuint name)
-{
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, name);
-}
-
 void gl_sea_model_bind(const gl_sea_model *m)
 {
-    bind(GL_UNIT_SEA_MODEL, m->seen.color);
-    bind(GL_UNIT_SEA_MODEL_DEPTH, m->seen.depth);
-    bind(GL_UNIT_SEA_MIRRORED, m->mirrored.color);
-    bind(GL_UNIT_SEA_MIRRORED_DEPTH, m->mirrored.depth);
-    bind(GL_UNIT_SEA_TOUCH, m->touch);
+    gl_sea_texture_bind(GL_UNIT_SEA_MODEL, GL_TEXTURE_2D, m->seen.color);
+    gl_sea_texture_bind(GL_UNIT_SEA_MODEL_DEPTH, GL_TEXTURE_2D, m->seen.depth);
+    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED, GL_TEXTURE_2D, m->mirrored.color);
+    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED_DEPTH, GL_TEXTURE_2D, m->mirrored.depth);
+    gl_sea_texture_bind(GL_UNIT_SEA_TOUCH, GL_TEXTURE_2D, m->touch);
 }
 
 void gl_sea_model_end(gl_sea_model *m)

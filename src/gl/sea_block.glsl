@@ -32,10 +32,10 @@ layout(std140) uniform Sea
     vec4 sea_sun_irradiance;       /* lx; w: reflectance of light from all of the sky */
     vec4 sea_sky_irradiance;       /* w: time, s */
     vec4 sea_downwelling;          /* w: time that the shutter is open, s */
-    vec4 sea_beam, sea_sunward;    /* w: radius of the disc; azimuth of the sun, rad */
+    vec4 sea_beam, sea_sunward;    /* w: radius of the disc; not used */
     vec4 sea_bed;                  /* albedo; depth under the eye, m */
     vec4 sea_bed_slope;            /* rise along x, z; perceptual roughness of stages; clamp */
-    vec4 sea_sky_at;               /* height of the eye, km; way of clearness, km; 1: mirrors show the drawn sky */
+    vec4 sea_sky_at;               /* sine of the elevation of the horizon that the eye sees; way of clearness, km */
     vec4 sea_caustic_axis;         /* of layers of sunlight on the bed; z: 1: there are some */
     vec4 sea_caustics[SEA_CAUSTIC_LAYERS]; /* middle from the eye, 2 / width, width of a texel */
     ivec4 sea_look;                /* stage, variant of before; 1: foam, sparkles of before */

@@ -2,27 +2,20 @@
  * was filtered. Radiance in cd/m^2. */
 #define SEA_SKY_SEEN 0
 #define SEA_SKY_AIR 1
-#define SEA_SKY_MIRRORED 2
-#define SEA_SKY_CLEARNESS 3
-#define SEA_SKY_DISC 4
+#define SEA_SKY_CLEARNESS 2
+#define SEA_SKY_DISC 3
+#define SEA_LOBE_LAYERS 17
 
 uniform highp sampler2DArray u_sea_sky;
+#ifndef HAS_PICTURE
+uniform highp sampler3D u_sea_lobes; /* layers: perceptual roughness */
+#endif
 
-/* A picture at a direction, `share` of the way from the horizon. */
-vec3 sea_sky_at_share(int layer, vec3 d, float share)
+/* A picture at a direction, up (1) or down (-1) from the horizon. */
+vec4 sea_sky_at_side(int layer, vec3 d, float side)
 {
-    float turns = (atan(d.z, abs(d.x) + abs(d.z) > 0.0 ? d.x : 1.0) - sea_sunward.w) * (0.5 * INV_PI);
-    return textureLod(u_sea_sky, vec3(turns, sqrt(clamp(share, 0.0, 1.0)), layer), 0.0).xyz;
-}
-
-float sea_zenith(vec3 d)
-{
-    return atan(length(d.xz), d.y);
-}
-
-float sea_horizon()
-{
-    return acos(horizon_mu(sea_sky_at.x));
+    float h = (d.y - sea_sky_at.x) / (side - sea_sky_at.x);
+    return textureLod(u_sea_sky, vec3(sky_turn(d.x, d.z), sky_row(h), layer), 0.0);
 }
 
 /* The sun's disc. */
@@ -44,26 +37,18 @@ vec3 sea_sky_seen(vec3 d)
 #ifdef HAS_PICTURE
     vec3 sky = light_background(normalize(vec3(d.x, max(d.y, 0.0), d.z)));
 #else
-    float horizon = sea_horizon();
-    vec3 sky = sea_sky_at_share(SEA_SKY_SEEN, d, 1.0 - sea_zenith(d) / horizon);
+    vec3 sky = sea_sky_at_side(SEA_SKY_SEEN, d, 1.0).xyz;
 #endif
     return sky + sea_disc(d);
 }
 
-/* Lobes narrower than 0.02 in alpha are as good as mirrors under a sky without a disc. */
 vec3 sea_sky_reflected(vec3 R, float perceptual_roughness)
 {
-    vec3 up = vec3(R.x, abs(R.y), R.z);
 #ifdef HAS_PICTURE
-    return light_specular(up, perceptual_roughness);
+    return light_specular(vec3(R.x, abs(R.y), R.z), perceptual_roughness);
 #else
-    float share = clamp(perceptual_roughness / 0.14, 0.0, 1.0);
-    vec3 sum = vec3(0.0);
-    if (share < 1.0)
-        sum = sea_sky_at_share(SEA_SKY_MIRRORED, up, 1.0 - sea_zenith(up) * (2.0 * INV_PI)) * (1.0 - share);
-    if (share > 0.0)
-        sum += light_specular(up, perceptual_roughness) * share;
-    return sum;
+    float layer = clamp(perceptual_roughness, 0.0, 1.0) * float(SEA_LOBE_LAYERS - 1) + 0.5;
+    return textureLod(u_sea_lobes, vec3(sky_turn(R.x, R.z), sky_row(abs(R.y)), layer / float(SEA_LOBE_LAYERS)), 0.0).xyz;
 #endif
 }
 
@@ -80,18 +65,9 @@ vec3 sea_clearness(float way_km)
 vec3 sea_through_air(vec3 radiance, vec3 d, float t)
 {
     vec3 left = sea_clearness(t * 0.001);
-#ifdef HAS_PICTURE
-    vec3 share = 1.0 - left;
-#else
-    float horizon = horizon_mu(sea_sky_at.x);
-    float whole_km = ray_to_ground(sea_sky_at.x, min(d.y, horizon));
-    if (whole_km < 0.0)
-        whole_km = ray_to_ground(sea_sky_at.x, horizon - 1e-6);
-    vec3 whole = 1.0 - sea_clearness(max(whole_km, 1e-4));
-    vec3 share = min((1.0 - left) / max(whole, vec3(1e-12)), vec3(1.0));
-#endif
-    float angle = sea_horizon();
-    return radiance * left + sea_sky_at_share(SEA_SKY_AIR, d, (sea_zenith(d) - angle) / (PI - angle)) * share;
+    vec4 air = sea_sky_at_side(SEA_SKY_AIR, d, -1.0);
+    vec3 lost = 1.0 - left;
+    return radiance * left + air.xyz * lost * min(air.w / max(lost.y, 1e-12), 1.0); /* a crest may be farther than the level */
 }
 
 /* ---- the ground ---- */

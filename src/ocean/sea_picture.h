@@ -10,20 +10,23 @@
 
 struct ibl_light;
 
-/* Pictures of the sky, one behind the other, RGBA. Columns go once around from the azimuth of the sun, +X towards +Z, texel
- * middles at their places. Rows of the first three go with the root of the angle from the horizon. */
+/* Pictures of the sky, one behind the other, RGBA. Columns of the first two are sky_turn() of shade/sky.h, rows sky_row(), from the
+ * horizon that the eye sees; texel middles at their places. */
 enum {
     SEA_SKY_WIDTH = 512,
     SEA_SKY_HEIGHT = 128,
-    SEA_SKY_SEEN =
-        0, /* by the eye without the sun's disc, from the horizon that it sees up to the zenith; cd/m^2 */
-    SEA_SKY_AIR,      /* light of the air before the sea, down to the nadir; cd/m^2 */
-    SEA_SKY_MIRRORED, /* the sky over the sea, from the level up to the zenith; cd/m^2 */
+    SEA_SKY_SEEN = 0, /* by the eye without the sun's disc, up to the zenith; cd/m^2 */
+    SEA_SKY_AIR, /* down to the nadir: light of the air before the sea over the share of light that is lost on the whole way to it,
+                    cd/m^2; that share of green */
     SEA_SKY_CLEARNESS, /* share of light left after a way of x / (1 - x) SEA_SKY_WAY_KM, x along the columns, [0, 1) */
     SEA_SKY_DISC, /* the sun's disc over 2 x 2 radii, x to its right, y upwards; cd/m^2 */
     SEA_SKY_LAYERS
 };
 #define SEA_SKY_WAY_KM 20.0f
+
+/* What the surface mirrors of that sky, cd/m^2: layer by layer filtered for a perceptual roughness from 0 to 1, in equal steps. Columns
+ * and rows as above, from the level up to the zenith. */
+enum { SEA_LOBE_WIDTH = 256, SEA_LOBE_HEIGHT = 128, SEA_LOBE_LAYERS = 17 };
 
 /* What a model does to the water around it, and to the light on the bed: over a rectangle of the plane each, rows along z, texel middles
  * at their places. */
@@ -49,9 +52,10 @@ typedef struct sea_picture {
     float L[3], sun_irradiance[3], sky_irradiance[3], downwelling[3], sun_fresnel, sky_reflectance;
     float beam[3], sunward[3];
     /* the sky */
-    const float *sky;                         /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4 */
-    float sun_longitude, eye_km, disc_radius; /* disc_radius 0: no disc is seen */
-    bool is_mirror_sharp; /* SEA_SKY_MIRRORED is what mirrors show; else the picture's light */
+    const float *sky; /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4 */
+    const float *
+        lobes; /* SEA_LOBE_LAYERS x SEA_LOBE_HEIGHT x SEA_LOBE_WIDTH x 4; NULL: the picture's light is mirrored */
+    float horizon_mu, disc_radius; /* cosine from the zenith of the horizon; disc_radius 0: no disc is seen */
     const struct ibl_light *reflected, *background; /* filtered; background: of a picture, else NULL */
     float light_scale, rotation_cos, rotation_sin;  /* of both */
     /* what floats */

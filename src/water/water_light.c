@@ -16,6 +16,7 @@ static void destroy(sea_kept *kept)
     if (l->desc.render.environment)
         environment_release(l->desc.render.environment);
     mem_free(l->pictures);
+    mem_free(l->lobes);
     mem_free(l);
 }
 

@@ -25,11 +25,11 @@ typedef struct sky_drawing {
     float *texels;
 } sky_drawing;
 
-/* Unit direction of a column and an angle from the zenith. */
-static vec3 direction_of(const water_sky *sky, uint32_t column, float zenith)
+/* Unit direction of a column in [0, 1] and a sine of elevation. */
+static vec3 direction_of(float turn, float y)
 {
-    double a = sky->sun_longitude + (column + 0.5) / SEA_SKY_WIDTH * 6.283185307179586;
-    return vec3(sin(zenith) * (float)(cos)(a), cos(zenith), sin(zenith) * (float)(sin)(a));
+    vec2 level = sky_turned(turn) * sqrt(max(1.0f - y * y, 0.0f));
+    return vec3(level[0], y, level[1]);
 }
 
 static vec3 disc_at(const sky_drawing *s, float x, float y)
@@ -42,53 +42,94 @@ static vec3 disc_at(const sky_drawing *s, float x, float y)
     return water_sky_disc(&s->setup->sky, normalize(L + (right * x + up * y) * s->setup->sky.disc_radius));
 }
 
-static vec3 texel_of(const sky_drawing *s, uint32_t layer, uint32_t row, uint32_t column)
+static void store(vec3 color, float last, float *texel)
 {
-    float v = ((float)row + 0.5f) / SEA_SKY_HEIGHT, u = ((float)column + 0.5f) / SEA_SKY_WIDTH;
-    float horizon = s->sky.horizon_rad;
+    for (int k = 0; k < 3; k++)
+        texel[k] = color[k];
+    texel[3] = last;
+}
+
+/* The air's light without what depends on how far it is to the water. */
+static void store_air(const water_sky *sky, vec3 d, float *texel)
+{
+    vec3 light = water_sky_air(sky, d, 1e12f, 0.0f).light, lost = vec3(1.0f);
+    if (sky->has_views)
+        lost = max(water_sky_lost(sky, d), 1e-12f);
+    store(light / lost, lost[1], texel);
+}
+
+static void draw_texel(const sky_drawing *s, uint32_t layer, float u, float v, float *texel)
+{
+    const water_sky *sky = &s->sky;
+    float horizon = sky->horizon_mu;
     switch (layer) {
     case SEA_SKY_SEEN:
-        return water_sky_seen(&s->sky, direction_of(&s->sky, column, horizon * (1.0f - v * v)));
+        store(water_sky_seen(sky, direction_of(u, mix(horizon, 1.0f, sky_rise(v)))), 1.0f, texel);
+        break;
     case SEA_SKY_AIR:
-        return water_sky_air(&s->sky, direction_of(&s->sky, column, mix(horizon, PI, v * v)), 1e12f, 0.0f)
-            .light;
-    case SEA_SKY_MIRRORED:
-        return water_sky_reflected(&s->sky, direction_of(&s->sky, column, 0.5f * PI * (1.0f - v * v)), 0.0f);
-    case SEA_SKY_CLEARNESS:
-        return water_sky_air(&s->sky, vec3(1.0f, 0.0f, 0.0f), u / (1.0f - u) * SEA_SKY_WAY_KM * 1000.0f, 0.0f)
-            .transmittance;
+        store_air(sky, direction_of(u, mix(horizon, -1.0f, sky_rise(v))), texel);
+        break;
+    case SEA_SKY_CLEARNESS: {
+        float way_m = u / (1.0f - u) * SEA_SKY_WAY_KM * 1000.0f;
+        store(water_sky_air(sky, vec3(1.0f, 0.0f, 0.0f), way_m, 0.0f).transmittance, 1.0f, texel);
+        break;
+    }
     default:
-        return disc_at(s, 2.0f * u - 1.0f, 2.0f * v - 1.0f);
+        store(disc_at(s, 2.0f * u - 1.0f, 2.0f * v - 1.0f), 1.0f, texel);
     }
 }
 
 static void draw_rows(void *context, size_t begin, size_t end)
 {
     const sky_drawing *s = context;
-    for (size_t i = begin; i < end; i++)
-        for (uint32_t x = 0; x < SEA_SKY_WIDTH; x++) {
-            float *to = s->texels + 4 * (i * SEA_SKY_WIDTH + x);
-            vec3 c = texel_of(s, (uint32_t)(i / SEA_SKY_HEIGHT), (uint32_t)(i % SEA_SKY_HEIGHT), x);
-            for (int k = 0; k < 3; k++)
-                to[k] = c[k];
-            to[3] = 1.0f;
+    for (size_t i = begin; i < end; i++) {
+        float v = ((float)(i % SEA_SKY_HEIGHT) + 0.5f) / SEA_SKY_HEIGHT;
+        for (uint32_t x = 0; x < SEA_SKY_WIDTH; x++)
+            draw_texel(s, (uint32_t)(i / SEA_SKY_HEIGHT), ((float)x + 0.5f) / SEA_SKY_WIDTH, v,
+                       s->texels + 4 * (i * SEA_SKY_WIDTH + x));
+    }
+}
+
+static void draw_lobes(void *context, size_t begin, size_t end)
+{
+    const sky_drawing *s = context;
+    for (size_t i = begin; i < end; i++) {
+        float v = ((float)(i % SEA_LOBE_HEIGHT) + 0.5f) / SEA_LOBE_HEIGHT;
+        float perceptual_roughness = (float)(i / SEA_LOBE_HEIGHT) / (SEA_LOBE_LAYERS - 1);
+        for (uint32_t x = 0; x < SEA_LOBE_WIDTH; x++) {
+            vec3 R = direction_of(((float)x + 0.5f) / SEA_LOBE_WIDTH, sky_rise(v));
+            store(water_sky_reflected(&s->sky, R, perceptual_roughness), 1.0f,
+                  s->texels + 4 * (i * SEA_LOBE_WIDTH + x));
         }
+    }
+}
+
+/* Pictures of so many rows, unless they are there already. */
+static facet_result draw_once(const water_setup *setup, size_t row_count, size_t width,
+                              void (*draw)(void *, size_t, size_t), float **texels, facet_error *error)
+{
+    if (*texels)
+        return FACET_OK;
+    *texels = mem_alloc(&setup->sea->desc.allocator, row_count * width, 4 * sizeof(float));
+    if (!*texels)
+        return fail_memory(error, "pictures of the sky", row_count * width * 4 * sizeof(float));
+    sky_drawing s = {.sky = setup->sky, .setup = setup, .texels = *texels};
+    s.sky.disc_radius = 0.0f;
+    parallel_for(setup->desc->render.thread_count, row_count, 4, draw, &s);
+    return FACET_OK;
 }
 
 static facet_result draw_sky(const water_setup *setup, sea_picture *p, facet_error *error)
 {
-    enum { ROWS = SEA_SKY_LAYERS * SEA_SKY_HEIGHT, TEXELS = ROWS * SEA_SKY_WIDTH };
     water_light *lit = setup->lit;
-    if (!lit->pictures) {
-        lit->pictures = mem_alloc(&setup->sea->desc.allocator, TEXELS, 4 * sizeof(float));
-        if (!lit->pictures)
-            return fail_memory(error, "pictures of the sky", TEXELS * 4 * sizeof(float));
-        sky_drawing s = {.sky = setup->sky, .setup = setup, .texels = lit->pictures};
-        s.sky.disc_radius = 0.0f;
-        parallel_for(setup->desc->render.thread_count, ROWS, 4, draw_rows, &s);
-    }
+    facet_result result =
+        draw_once(setup, SEA_SKY_LAYERS * SEA_SKY_HEIGHT, SEA_SKY_WIDTH, draw_rows, &lit->pictures, error);
+    if (result == FACET_OK && setup->sky.has_views)
+        result = draw_once(setup, SEA_LOBE_LAYERS * SEA_LOBE_HEIGHT, SEA_LOBE_WIDTH, draw_lobes, &lit->lobes,
+                           error);
     p->sky = lit->pictures;
-    return FACET_OK;
+    p->lobes = lit->lobes;
+    return result;
 }
 
 /* ---- a model ---- */
@@ -194,10 +235,8 @@ static void describe(const water_setup *s, sea_picture *p)
     p->sky_reflectance = s->water.sky_reflectance;
     store3(s->beam, p->beam);
     store3(s->sunward, p->sunward);
-    p->sun_longitude = (float)sky->sun_longitude;
-    p->eye_km = sky->eye_km;
+    p->horizon_mu = sky->horizon_mu;
     p->disc_radius = sky->disc_radius;
-    p->is_mirror_sharp = sky->has_views;
     p->reflected = sky->reflected;
     p->background = sky->background;
     p->light_scale = sky->scale;

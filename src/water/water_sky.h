@@ -65,5 +65,8 @@ typedef struct water_air {
     vec3 light;         /* cd/m^2 that it adds */
 } water_air;
 water_air water_sky_air(const water_sky *s, vec3 d, float distance_m, float height_m);
+/* Share of white light that the way from the eye along d to the level of the sea loses; as far as the horizon where it does not meet it. For
+ * an atmosphere's sky. */
+vec3 water_sky_lost(const water_sky *s, vec3 d);
 
 #endif

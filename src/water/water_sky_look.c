@@ -103,6 +103,14 @@ static vec3 transmittance_over(const water_sky *s, float length_km, float height
     return clamp(color / s->white, 0.0f, 1.0f);
 }
 
+vec3 water_sky_lost(const water_sky *s, vec3 d)
+{
+    float whole_km = ray_to_ground(s->eye_km, min(d[1], s->horizon_mu));
+    if (whole_km < 0.0f)
+        whole_km = ray_to_ground(s->eye_km, s->horizon_mu - 1e-6f);
+    return 1.0f - transmittance_over(s, max(whole_km, 1e-4f), 0.0f);
+}
+
 /* The view holds the air's light as far as the sea; nearer things have as much less as less of what is behind is lost. */
 water_air water_sky_air(const water_sky *s, vec3 d, float distance_m, float height_m)
 {
@@ -113,12 +121,7 @@ water_air water_sky_air(const water_sky *s, vec3 d, float distance_m, float heig
         air.light = picture_at(s, normalize(vec3(d[0], 0.0f, d[2]) + vec3(1e-9f, 0.0f, 0.0f)), 0.1f) * lost;
         return air;
     }
-    float whole_km = ray_to_ground(s->eye_km, min(d[1], s->horizon_mu));
-    if (whole_km < 0.0f)
-        whole_km = ray_to_ground(s->eye_km, s->horizon_mu - 1e-6f);
-    whole_km = max(whole_km, 1e-4f);
-    vec3 whole = 1.0f - transmittance_over(s, whole_km, 0.0f);
-    vec3 share = min(lost / max(whole, 1e-12f), 1.0f);
+    vec3 share = min(lost / max(water_sky_lost(s, d), 1e-12f), 1.0f);
     air.light = view_at(s, &s->eye, d, s->horizon_rad + 1e-5f, PI) * share;
     return air;
 }
