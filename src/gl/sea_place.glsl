@@ -86,14 +86,15 @@ vec2 sea_foam(vec2 rest, float footprint)
         p = sea_rest(p);
     } while (p.weights.x > 0.0);
     share = clamp(share, 0.0, 1.0);
-    if (share <= 1e-4 || share >= 0.999)
-        return vec2(share);
+    bool is_even = share <= 1e-4 || share >= 0.999;
     vec2 field = vec2(0.0);
-    for (int i = 0; i < SEA_FOAM_READINGS; i++) {
+    int i = 0;
+    do { /* most of the sea needs none, and pays for one */
         float weight = sea_foam_places[i].w;
         field += sea_pattern(i, i > 0 ? 1 : 2, rest, footprint) * vec2(weight, weight * weight);
-    }
-    return vec2(foam_lace(share, field.x, field.y), share);
+        i++;
+    } while (i < SEA_FOAM_READINGS && !is_even);
+    return vec2(is_even ? share : foam_lace(share, field.x, field.y), share);
 }
 #endif
 
