@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -117,44 +118,80 @@ static const foam_pair *find_pair(foam_history *h, const waves *w, int64_t numbe
 
 /* ---- gathering ---- */
 
+/* Planes and how much of each is left. */
 typedef struct gathering {
-    const float *plane;
-    float fade;
-    float *share;
+    const float *planes[MOST_STEPS];
+    float fades[MOST_STEPS];
+    uint32_t count;
+    float *past;
 } gathering;
 
 static void gather(void *context, size_t begin, size_t end)
 {
     const gathering *g = context;
-    for (size_t i = begin; i < end; i++) {
-        float amount = g->fade * g->plane[i];
-        g->share[i] = g->share[i] > amount ? g->share[i] : amount;
-    }
+    for (uint32_t k = 0; k < g->count; k++)
+        for (size_t i = begin; i < end; i++) {
+            float amount = g->fades[k] * g->planes[k][i];
+            g->past[i] = g->past[i] > amount ? g->past[i] : amount;
+        }
 }
 
-static void add(const foam_history *h, const waves *w, const float *plane, double age_s, float *share)
+/* Into h->past, as of the last multiple: what fades from there on fades all by the same. */
+static facet_result gather_past(foam_history *h, const waves *w, int64_t last, facet_error *error)
 {
-    gathering g = {plane, (float)exp(-age_s / h->decay_s), share};
-    parallel_for(w->thread_count, (size_t)h->size * h->size, 16384, gather, &g);
+    size_t texels = (size_t)h->size * h->size;
+    gathering g = {.past = h->past};
+    if (h->has_past && h->past_multiple == last)
+        return FACET_OK;
+    h->has_past = false;
+    memset(h->past, 0, texels * sizeof *h->past);
+    for (uint32_t i = 0; i + 1 < h->count; i++) {
+        int64_t multiple = last - (int64_t)i, number = (multiple - (multiple & 1)) / 2;
+        const foam_pair *p = find_pair(h, w, number);
+        if (!p)
+            return fail_memory(error, "foam", 2 * texels * sizeof(float));
+        g.planes[g.count] = p->planes[multiple & 1];
+        g.fades[g.count++] = (float)exp(-(double)i * h->step_s / h->decay_s);
+        bool is_last = i + 2 == h->count;
+        if (is_last || h->pair_count == 1) { /* the next pair may lie in the place of this one */
+            parallel_for(w->thread_count, texels, 4096, gather, &g);
+            g.count = 0;
+        }
+    }
+    h->past_multiple = last;
+    h->has_past = true;
+    return FACET_OK;
+}
+
+/* Crests that break now, over what is left of the past. */
+typedef struct breaking {
+    const foam_history *history;
+    float fade;
+    float *share;
+} breaking;
+
+static void break_now(void *context, size_t begin, size_t end)
+{
+    const breaking *b = context;
+    const foam_history *h = b->history;
+    for (size_t i = begin; i < end; i++) {
+        float now = chance_of(h->chances, h->fields[0][i]), before = b->fade * h->past[i];
+        b->share[i] = now > before ? now : before;
+    }
 }
 
 facet_result foam_history_gather(foam_history *h, const waves *w, float *share, facet_error *error)
 {
     double now_s = wave_phase_time(w, w->time_s);
     double last = floor(now_s / h->step_s);
-    size_t texels = (size_t)h->size * h->size;
     if (!(fabs(last) < 0x1p50)) /* such times are no more apart than the steps */
         last = 0.0;
+    facet_result result = gather_past(h, w, (int64_t)last, error);
+    if (result != FACET_OK)
+        return result;
     converge(h, w, (const double[2]){now_s, now_s});
-    looking l = {h->chances, h->fields[0], share};
-    parallel_for(w->thread_count, texels, 16384, look_up, &l);
-    for (uint32_t i = 0; i + 1 < h->count; i++) {
-        int64_t multiple = (int64_t)last - (int64_t)i, number = (multiple - (multiple & 1)) / 2;
-        const foam_pair *p = find_pair(h, w, number);
-        if (!p)
-            return fail_memory(error, "foam", 2 * texels * sizeof(float));
-        add(h, w, p->planes[multiple & 1], now_s - (double)multiple * h->step_s, share);
-    }
+    breaking b = {h, (float)exp((last * h->step_s - now_s) / h->decay_s), share};
+    parallel_for(w->thread_count, (size_t)h->size * h->size, 16384, break_now, &b);
     return FACET_OK;
 }
 
@@ -178,7 +215,8 @@ static bool allocate(foam_history *h, const waves *w)
     h->rows = mem_alloc(&h->allocator, rows * size, sizeof *h->rows);
     h->chances = mem_alloc(&h->allocator, 1, sizeof *h->chances);
     h->pairs = mem_zalloc(&h->allocator, h->pair_count, sizeof *h->pairs);
-    bool is_there = h->coefficients && h->rows && h->chances && h->pairs;
+    h->past = mem_alloc(&h->allocator, size * size, sizeof *h->past);
+    bool is_there = h->coefficients && h->rows && h->chances && h->pairs && h->past;
     for (int i = 0; i < 2 && is_there; i++) {
         h->fields[i] = mem_alloc(&h->allocator, size * size, sizeof(float));
         is_there = h->fields[i];
@@ -235,6 +273,7 @@ void foam_history_destroy(foam_history *h)
     for (uint32_t i = 0; i < FOAM_PATTERNS; i++)
         foam_plane_destroy(&h->patterns[i]);
     mem_free(h->pairs);
+    mem_free(h->past);
     mem_free(h->chances);
     mem_free(h->coefficients);
     mem_free(h->rows);

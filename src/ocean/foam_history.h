@@ -22,6 +22,9 @@ typedef struct foam_history {
     foam_chances *chances;
     foam_pair *pairs; /* of multiples, as many as are kept */
     uint32_t pair_count;
+    float *past; /* has_past: the largest of what was active up to a multiple, as faded as then */
+    int64_t past_multiple;
+    bool has_past;
     float (*coefficients)[2][2], (*rows)[2], *fields[2]; /* to work in */
 } foam_history;
 

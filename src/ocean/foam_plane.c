@@ -39,10 +39,11 @@ static double mean_square_between(const float *values, size_t edge)
     for (size_t z = 0; z < edge; z++) {
         const float *row = values + z * edge, *next = values + (z + 1) % edge * edge;
         for (size_t x = 0; x < edge; x++) {
+            size_t right = x + 1 < edge ? x + 1 : 0;
             double here = (double)row[x];
             same += here * here;
-            beside += here * (double)(row[(x + 1) % edge] + next[x]);
-            across += here * (double)next[(x + 1) % edge] + (double)row[(x + 1) % edge] * (double)next[x];
+            beside += here * (double)(row[right] + next[x]);
+            across += here * (double)next[right] + (double)row[right] * (double)next[x];
         }
     }
     return (4.0 * same + 2.0 * beside + 0.5 * across) / (9.0 * (double)(edge * edge));
