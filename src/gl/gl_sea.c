@@ -169,24 +169,36 @@ static void bind_textures(const gl_sea *s)
     gl_sea_texture_bind(GL_UNIT_SEA_SEEN, GL_TEXTURE_2D, s->seen.color);
 }
 
-/* One strip of triangles from circle to circle, the nearest first, with two triangles of no size in between. */
+/* Columns of a band of the mesh: drivers on the CPU remember 256 vertices, two rows of it among them. */
+enum { BAND_COLUMNS = 64 };
+
+static size_t index_count(uint32_t columns, uint32_t rows)
+{
+    size_t bands = (columns - 1 + BAND_COLUMNS - 1) / BAND_COLUMNS;
+    return (size_t)(rows - 1) * (2 * ((size_t)columns - 1 + bands) + 2 * bands);
+}
+
+/* One strip of triangles in bands of columns, in each from circle to circle, the nearest first, with two triangles of no size in between. */
 static facet_result update_indices(gl_sea *s, const gl_sea_fan *fan, facet_error *error)
 {
     if (s->columns == fan->columns && s->rows == fan->rows)
         return FACET_OK;
-    size_t count = (size_t)(fan->rows - 1) * (2 * (size_t)fan->columns + 2), at = 0;
+    size_t count = index_count(fan->columns, fan->rows), at = 0;
     uint32_t *indices = mem_alloc(&s->allocator, count, sizeof *indices);
     if (!indices)
         return fail_memory(error, "a sea's mesh", count * sizeof *indices);
-    for (uint32_t row = 0; row + 1 < fan->rows; row++) {
-        uint32_t first = row * fan->columns;
-        indices[at++] = first;
-        for (uint32_t column = 0; column < fan->columns; column++) {
-            indices[at++] = first + column;
-            indices[at++] = first + fan->columns + column;
+    for (uint32_t begin = 0; begin + 1 < fan->columns; begin += BAND_COLUMNS) {
+        uint32_t left = fan->columns - 1 - begin, last = left < BAND_COLUMNS ? left : BAND_COLUMNS;
+        for (uint32_t row = 0; row + 1 < fan->rows; row++) {
+            uint32_t first = row * fan->columns + begin;
+            indices[at++] = first;
+            for (uint32_t column = 0; column <= last; column++) {
+                indices[at++] = first + column;
+                indices[at++] = first + fan->columns + column;
+            }
+            indices[at] = indices[at - 1];
+            at++;
         }
-        indices[at] = indices[at - 1];
-        at++;
     }
     glBindVertexArray(s->mesh_array);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, s->index_buffer);
@@ -348,9 +360,11 @@ static void draw_view(const drawing *d)
     glEnable(GL_DEPTH_TEST);
     bind_textures(s);
     glBindTexture(GL_TEXTURE_2D, s->grid.layers[0]); /* in the place of what is drawn now */
+    glEnable(GL_CULL_FACE); /* backs of waves are behind their fronts, and half of the mesh far away */
+    glCullFace(d->picture->is_below ? GL_FRONT : GL_BACK);
     glUseProgram(d->surface);
     glBindVertexArray(s->mesh_array);
-    size_t count = (size_t)(d->fan.rows - 1) * (2 * (size_t)d->fan.columns + 2);
+    size_t count = index_count(d->fan.columns, d->fan.rows);
     glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
     glBindTexture(GL_TEXTURE_2D, s->seen.color);
     if (d->has_model)

@@ -15,8 +15,8 @@ vec2 sea_seen_at(vec3 at)
 
 void main()
 {
-    int columns = int(sea_fan_ends.x);
-    ivec2 node = ivec2(gl_VertexID % columns, gl_VertexID / columns);
+    float row = floor((float(gl_VertexID) + 0.5) / sea_fan_ends.x); /* of 2^20 at most; whole numbers are divided one by one */
+    ivec2 node = ivec2(float(gl_VertexID) - row * sea_fan_ends.x, row);
     v_at = texelFetch(u_sea_grid, node, 0).xyz;
     v_rest = texelFetch(u_sea_rest, node, 0).xy;
     vec3 beyond = texelFetch(u_sea_grid, ivec2(node.x, min(node.y + 1, int(sea_fan_ends.z) - 1)), 0).xyz;
