@@ -78,7 +78,8 @@ enum {
     GL_SEA_HAS_GLINTS = 1u << 6,
     GL_SEA_HAS_CUBIC = 1u << 7, /* near enough that samples of waves are wider than pixels */
     GL_SEA_IS_BESIDE = 1u << 8, /* where the surface is not seen */
-    GL_SEA_HAS_MODEL = 1u << 9
+    GL_SEA_HAS_MODEL = 1u << 9,
+    GL_SEA_HAS_OTHER_FACETS = 1u << 10 /* than Gaussian ones with Smith's masking and exact Fresnel */
 };
 
 /* features: bits of the main's list of names in gl_program.c, each of which becomes a #define. */

@@ -218,9 +218,12 @@ static uint64_t features_of(const sea_picture *p)
         return GL_SEA_IS_BEFORE;
     bool is_shaded_whole = look->stage != 3 && look->stage != 4;
     bool has_bed = bed->depth_m > 0.0f && bed->depth_m < 1e30f;
+    bool has_other_facets =
+        look->normals == FACET_SEA_GGX || look->masking == FACET_SEA_SCHLICK_KARIS || look->schlick_fresnel;
     bool has_foam = is_shaded_whole && !look->no_foam && p->foam;
     bool has_glints = is_shaded_whole && !look->no_glints && !p->is_below;
     return (p->background ? GL_SEA_HAS_PICTURE : 0u) | (p->model ? GL_SEA_HAS_MODEL : 0u) |
+           (has_other_facets ? GL_SEA_HAS_OTHER_FACETS : 0u) |
            (look->stage == 3 && !p->is_below ? GL_SEA_IS_PAINTED : 0u) |
            (p->is_below ? GL_SEA_IS_BELOW : 0u) | (has_bed ? GL_SEA_HAS_BED : 0u) |
            (has_foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);

@@ -194,6 +194,35 @@ static void parts_and_depths(void **state)
     sea_destroy(sea);
 }
 
+/* Of GGX, with Schlick's masking and reflectance; not what the default facets look like. */
+static void other_facets(void **state)
+{
+    (void)state;
+    if (IS_SLOW)
+        skip();
+    gl_sea *renderer = renderer_of(GL_API_CORE);
+    facet_sea_desc desc = small(10.0f);
+    facet_sea *sea = make_sea(&desc);
+    shot s;
+    film gl;
+    double contrast;
+    make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.1f);
+    expose(&s);
+    s.desc.render.camera = &s.camera;
+    draw_gl(renderer, sea, &s, &gl);
+    s.desc.look.normals = FACET_SEA_GGX;
+    s.desc.look.masking = FACET_SEA_SCHLICK_KARIS;
+    s.desc.look.schlick_fresnel = true;
+    draw_shot(sea, &s);
+    double without = difference(&s, &gl, true, &contrast);
+    film_destroy(&gl);
+    film_destroy(&s.film);
+    print_message("default facets: %.3f of 255\n", without);
+    assert_true(compare(renderer, sea, &s, "GGX, Schlick") < 0.5);
+    assert_true(without > 4.0 * 0.5);
+    sea_destroy(sea);
+}
+
 /* A picture in the sky's place, turned, with a sun beside it. */
 static void environments(void **state)
 {
@@ -324,6 +353,7 @@ int main(void)
                                        cmocka_unit_test(opengl_es_draws_what_the_preview_does),
                                        cmocka_unit_test(still_and_shallow_water),
                                        cmocka_unit_test(parts_and_depths),
+                                       cmocka_unit_test(other_facets),
                                        cmocka_unit_test(environments),
                                        cmocka_unit_test(models),
                                        cmocka_unit_test(frames_are_stills),
