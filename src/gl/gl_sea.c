@@ -369,6 +369,7 @@ static void draw_view(const drawing *d)
     glBindVertexArray(s->mesh_array);
     size_t count = index_count(d->fan.columns, d->fan.rows);
     glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
+    glCullFace(GL_BACK); /* as all others take it to be */
     glBindTexture(GL_TEXTURE_2D, s->seen.color);
     if (d->has_model)
         gl_sea_model_bind(&d->model);
