@@ -188,6 +188,16 @@ static slope_covariance covariance_of(const sea_state *s, const double wind[2], 
                               .xz = (float)(c * z * (wind[0] - wind[1]) + swell[2])};
 }
 
+/* Curvature of slopes that Cox and Munk saw and no spectrum has: those of light winds know no capillary waves. Where a footprint
+ * hides them, they are shorter than twice the footprint and than all waves in tiles, with k^2 times the slope each; for no shorter are
+ * they taken than waves that run slowest. */
+static double curvature_unknown(double slopes, double footprint_m, double k_end)
+{
+    const double slowest = 370.0; /* rad/m; sqrt(g / 7.2e-5) */
+    double k = fmin(fmin(PI_D / footprint_m, k_end), slowest);
+    return k * k * fmax(slopes, 0.0);
+}
+
 void slope_filter_create(const waves *w, slope_filter *out)
 {
     const sea_state *s = &w->state;
@@ -215,7 +225,11 @@ void slope_filter_create(const waves *w, slope_filter *out)
         wind_residual(s, seen, all.resolved[i].slope[0], wind);
         out->residual[i] = covariance_of(s, wind, hidden->slope[1]);
         double slopes = hidden->slopes + beyond.slope[0] + beyond.slope[1];
-        out->curvature[i] = (float)(hidden->k4 + beyond.k4);
+        double unknown = (double)out->residual[i].xx + (double)out->residual[i].zz - slopes;
+        out->curvature[i] =
+            (float)(hidden->k4 + beyond.k4 + curvature_unknown(unknown, all.footprints_m[i], k_end));
+        if (i) /* what a narrower one hides, it hides */
+            out->curvature[i] = fmaxf(out->curvature[i], out->curvature[i - 1]);
         out->rate[i] = slopes > 0.0 ? (float)sqrt((hidden->omega2_k2 + beyond.omega2_k2) / slopes) : 0.0f;
         out->convergence_variance[i] = (float)(w->choppiness * w->choppiness * hidden->convergence);
     }
