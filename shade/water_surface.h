@@ -129,9 +129,9 @@ FN float V_slopes(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V)
 
 /* ---- the sun ---- */
 
-/* Slopes that bring light from the disc of the sun (angular radius SUN_RADIUS) to the eye, as a covariance about the slope of the
- * half vector h, L plus what belongs to the eye. The disc is taken for a Gaussian of its radiance in the middle and of its flux,
- * variance radius^2 / 2 along each axis of directions; s = -h_xz / h.y, so ds = -(dL_xz + s dL.y) / h.y. On flat water the
+/* Slopes that bring light from the disc of the sun (angular radius SUN_RADIUS) to the eye, about the slope of the half vector h, L plus
+ * what belongs to the eye: twice their covariance, that of a Gaussian which is as bright in the middle and has the same flux, with
+ * the variance radius^2 / 2 along each axis of directions; s = -h_xz / h.y, so ds = -(dL_xz + s dL.y) / h.y. On flat water the
  * image of the sun is as bright as F times its disc, whatever the angle; facing it, alpha^2 is radius^2 / 4. */
 FN vec3 sun_slopes_about(vec3 L, vec3 h)
 {
@@ -151,6 +151,37 @@ FN vec3 sun_slopes(vec3 L, vec3 V)
     return sun_slopes_about(L, V + L);
 }
 
+/* Density of slopes C about their mean, blurred by the disc of the sun whose slopes are S (sun_slopes(); 0: a point): of what brings light of
+ * it to the eye at a distance d. The disc is an ellipse of the area 2 pi sqrt |S| and the covariance S / 2. With its radius as unit, the slopes
+ * have the variance v = tr(S^-1 C) / 4. Where that is small, the disc is seen as it is, its edge blurred by them and, so
+ * that light is kept, at sqrt(1 - v); from 3/8 on it is as good as a Gaussian; between it is a mixture with one that is wide enough not to be
+ * brighter than the disc. The integral is 1, the covariance C + S / 2 within a fifth, and it is at most 1 / (2 pi sqrt |S|). */
+FN float sun_density(int normals, vec3 C, vec3 S, vec2 d)
+{
+    float det = max(S[0] * S[1] - S[2] * S[2], 0.0f);
+    float spread = 0.25f * (S[1] * C[0] + S[0] * C[1] - 2.0f * S[2] * C[2]);
+    if (spread >= 0.375f * det)
+        return slope_density(normals, C + S * 0.5f, d);
+    float v = spread / det;
+    float blur = min(v, 0.16f); /* a wider edge would reach the middle */
+    float off = S[1] * d[0] * d[0] + S[0] * d[1] * d[1] - 2.0f * S[2] * d[0] * d[1];
+    float inside = sqrt(1.0f - blur) - sqrt(max(0.5f * off / det, 0.0f));
+    float x = clamp(0.5f + 0.5f * inside * inversesqrt(5.0f * blur), 0.0f, 1.0f);
+    float disc = x * x * (3.0f - 2.0f * x) * 0.5f * INV_PI * inversesqrt(det);
+    float wide = clamp((v - 0.06f) * (1.0f / 0.315f), 0.0f, 1.0f);
+    if (wide <= 0.0f)
+        return disc;
+    return mix(disc, slope_density(normals, C + S * (1.0f - v * (4.0f / 3.0f)), d), wide);
+}
+
+/* D_slopes() of facets that bring light of the sun's disc. */
+FN float D_sun(int normals, vec3 C, vec3 S, vec3 N, vec3 m)
+{
+    float y = max(m[1], 1e-4f);
+    vec2 d = slope_from_normal(vec3(m[0], y, m[2])) - slope_from_normal(N);
+    return sel(m[1] > 0.0f, N[1] * sun_density(normals, C, S, d) / (y * y * y * y), 0.0f);
+}
+
 /* BRDF times N.L of facets that reflect all light, in 1/sr: D G / (4 N.V), D as wide as slopes and sun (sun: 1; 0: a point far
  * away) are together. Times F(V.H) and the sun's irradiance it is reflected radiance, at most F times that of the disc.
  * 0 where N.L <= 0 or L is below the horizon. */
@@ -159,7 +190,7 @@ FN float glitter(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V, float
     float NdotL = dot(N, L);
     if (NdotL <= 0.0f || L[1] <= 0.0f || dot(N, V) <= 0.0f)
         return 0.0f;
-    float D = D_slopes(normals, C + sun_slopes(L, V) * sun, N, normalize(V + L));
+    float D = D_sun(normals, C, sun_slopes(L, V) * sun, N, normalize(V + L));
     if (D < 1e-14f) /* most of the sea, most of the time: nothing of the sun would be seen of it */
         return 0.0f;
     return D * V_slopes(normals, masking, C, N, L, V) * NdotL;
@@ -179,7 +210,7 @@ FN float glitter_below(int normals, vec3 C, vec3 N, vec3 L, vec3 d, float n)
     float NdotD = dot(N, d);
     if (L[1] <= 0.0f || m[1] <= 0.0f || LdotM <= 0.0f || ddotM <= 0.0f || NdotD <= 0.0f || dot(N, L) <= 0.0f)
         return 0.0f;
-    float D = D_slopes(normals, C + sun_slopes_about(L, h), N, m);
+    float D = D_sun(normals, C, sun_slopes_about(L, h), N, m);
     float G = 1.0f / ((1.0f + Lambda_slopes(normals, smith_a(C, N, L))) *
                       (1.0f + Lambda_slopes(normals, smith_a(C, N, d))));
     float t = LdotM - n * ddotM;

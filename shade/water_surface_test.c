@@ -205,6 +205,43 @@ static void test_furnace(void **state)
     }
 }
 
+/* What is seen of the sun's disc in slopes from none to many: its integral is 1, it is nowhere brighter than the disc, and its covariance is that of
+ * slopes and disc; on still water it is 1 within the ellipse, and 0 beyond. */
+static void test_disc(void **state)
+{
+    (void)state;
+    const vec3 S = vec3(4e-6f, 2e-6f, 1e-6f);
+    const double det = 7e-12, peak = 1.0 / (2.0 * PI_DOUBLE * (sqrt)(det));
+    for (double variance = 1e-8; variance < 1e-3; variance *= 3.0) {
+        vec3 C = vec3((float)variance, (float)(0.6 * variance), (float)(-0.2 * variance));
+        double reach = 8.0 * (sqrt)(variance + 4e-6), sum = 0.0, square[3] = {0, 0, 0};
+        enum { STEPS = 400 };
+        double area = 4.0 * reach * reach / (STEPS * STEPS);
+        for (int i = 0; i < STEPS * STEPS; ++i) {
+            double x = reach * (2.0 * (i % STEPS + 0.5) / STEPS - 1.0),
+                   z = reach * (2.0 * (i / STEPS + 0.5) / STEPS - 1.0),
+                   p = (double)sun_density(WATER_BECKMANN, C, S, vec2((float)x, (float)z));
+            assert_true(p >= 0.0 && p < 1.001 * peak);
+            sum += p * area;
+            square[0] += x * x * p * area;
+            square[1] += z * z * p * area;
+            square[2] += x * z * p * area;
+        }
+        expect_relative(sum, 1.0, 0.005, "light of the disc in slopes %g", variance);
+        expect_relative(square[0], variance + 2e-6, 0.2, "xx in slopes %g", variance);
+        expect_relative(square[1], 0.6 * variance + 1e-6, 0.2, "zz in slopes %g", variance);
+        expect_near(square[2], -0.2 * variance + 0.5e-6, 0.2 * (variance + 2e-6), "xz in slopes %g",
+                    variance);
+    }
+    vec3 still = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
+    for (double angle = 0.0; angle < 6.28; angle += 0.3) { /* the edge: S = J J^T, twice its slopes */
+        double x = 2e-3 * (cos)(angle), z = 0.5e-3 * (cos)(angle) + (sqrt)(1.75e-6) * (sin)(angle);
+        vec2 edge = vec2((float)((sqrt)(2.0) * x), (float)((sqrt)(2.0) * z));
+        expect_relative(sun_density(WATER_BECKMANN, still, S, edge * 0.85f), peak, 1e-4, "within");
+        assert_true(sun_density(WATER_BECKMANN, still, S, edge * 1.15f) == 0.0f);
+    }
+}
+
 /* On flat water the sun is F times its disc, whatever the angle; nowhere is it brighter. Its flux is the same as that of a mirror. */
 static void test_sun(void **state)
 {
@@ -497,12 +534,11 @@ static void test_sun_below(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distribution), cmocka_unit_test(test_slopes),
-        cmocka_unit_test(test_masking),      cmocka_unit_test(test_reciprocity),
-        cmocka_unit_test(test_furnace),      cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_glitter),      cmocka_unit_test(test_means),
-        cmocka_unit_test(test_lookup),       cmocka_unit_test(test_sky),
-        cmocka_unit_test(test_sampling),     cmocka_unit_test(test_sun_below),
+        cmocka_unit_test(test_distribution), cmocka_unit_test(test_slopes),  cmocka_unit_test(test_masking),
+        cmocka_unit_test(test_reciprocity),  cmocka_unit_test(test_furnace), cmocka_unit_test(test_sun),
+        cmocka_unit_test(test_glitter),      cmocka_unit_test(test_disc),    cmocka_unit_test(test_means),
+        cmocka_unit_test(test_lookup),       cmocka_unit_test(test_sky),     cmocka_unit_test(test_sampling),
+        cmocka_unit_test(test_sun_below),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,6 +108,14 @@ static void test_sun(void **state)
     double middle = (double)shot_pixel(&s, 32, 32)[1];
     assert_true(fabs(middle / (F * disc) - 1.0) < 0.02);
     assert_true(fabs(flux / (F * E) - 1.0) < 0.02);
+    for (uint32_t y = 0; y < 65;
+         y++) /* as large as the sun, and sharp: white is a hundred thousandth of it */
+        for (uint32_t x = 0; x < 65; x++) {
+            double radii = hypot((double)x - 32.0, (double)y - 32.0) * pixel / 0.00465305;
+            double share = ((double)shot_pixel(&s, x, y)[1] - around) / (F * disc);
+            assert_true(radii < 1.15 || fabs(share) < 1e-5);
+            assert_true(radii > 0.85 || share > 0.98);
+        }
     water_setup_destroy(&setup);
     film_destroy(&s.film);
     sea_destroy(sea);
