@@ -19,7 +19,7 @@ enum { COUNT = 1024, PASSES = 40, RUNS = 41 };
 typedef struct hit {
     vec3 N, V, slopes, sky, table; /* table: fresnel, escape, lift */
     float spread, y, sparkle, count;
-    uint cell;
+    GlintCell cell;
 } hit;
 static hit hits[COUNT];
 static vec3 shaded[COUNT];
@@ -93,7 +93,8 @@ static void glints_alone(void)
 static void cells_alone(void)
 {
     for (int i = 0; i < COUNT; ++i)
-        shaded[i] = vec3(glint_uniform(glint_cell(vec2(hits[i].y, hits[i].spread), vec2(0.01f, 0.03f))));
+        shaded[i] = vec3(glint_uniform(
+            glint_cell(vec2(hits[i].y, hits[i].spread), vec2(0.01f, 0.03f), hits[i].count).key));
 }
 static void fit_alone(void)
 {
@@ -154,7 +155,7 @@ static void prepare(void)
         h->y = uniform();
         h->sparkle = uniform();
         h->count = 0.1f + 20.0f * uniform();
-        h->cell = glint_hash((uint)i);
+        h->cell = glint_cell(vec2(h->y, h->spread), vec2(0.01f, 0.03f), h->count);
     }
 }
 

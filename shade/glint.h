@@ -1,11 +1,12 @@
 /* glint.h - glints: few of the facets in a pixel mirror the sun, and how many is chance. Their expected number follows from the
- * spectrum of the waves that are not seen; the sun's reflection is multiplied with a variate of mean 1 and of the variance that the
- * number has, which stays with the water and changes as fast as its waves do.
+ * spectrum of the waves that are not seen; the sun's reflection is multiplied with a variate X of mean 1 and of the variance that what is
+ * mirrored has, which stays with the water and changes as fast as its waves do.
  *
  *   density = p(s) m4 / (2 sqrt 3),  m4 = int k^4 of the spectrum   glints per m^2; Longuet-Higgins 1960
  *   X = sum of Poisson(n) marks, each exponential, over n           mean 1, variance 2 / n
  *
- * A Gamma variate of the shape n / 2 has the same two moments and takes its place where n is large. */
+ * The sun is a disc: a share c of the facets shows it, and a glint is as large as facets stay within it. Of a piece of water that is smaller
+ * all is within or nothing, with the variance (1 - c) / c, 0 where the disc is seen as it is. */
 #ifndef SHADE_GLINT_H
 #define SHADE_GLINT_H
 
@@ -15,13 +16,22 @@
 
 /* ---- how many ---- */
 
-/* Expected number of glints in `area` m^2 of the sea with the normal N and slopes C (water_surface.h) that mirror the sun
- * where the half vector is H. m4 in 1/m^2, of the waves in C. exposure: time that the shutter is open over that which a glint
- * lives. */
-FN float glint_count(int normals, vec3 C, vec3 N, vec3 H, float m4, float area, float exposure)
+/* Number n for the variance 2 / n of the sun's light from `area` m^2 of the sea with the normal N and slopes C (water_surface.h), where the
+ * half vector is H and the disc of the sun has the slopes S (sun_slopes()). m4 in 1/m^2, of the waves in C. exposure: time that the
+ * shutter is open over that which a glint lives.
+ *   c = 2 pi sqrt |S| p,  2 / n = (1 - c) / c t / (1 + t)^2,  t = area (1 + exposure) / a
+ *   a = 4 pi 2 sqrt 3 / m4 / (1 / sqrt |S| + 2 / (C_xx + C_zz))
+ * a is twice the area within which facets show the disc, but no larger than waves are. For many of them, t > 1, and a sun that
+ * is a point n is the number of glints, p m4 / (2 sqrt 3) area. What is larger than a pixel, t < 1, is alike in pixels side by side, and no chance
+ * there: water so smooth mirrors the disc itself, and its slopes blur it. */
+FN float glint_count(int normals, vec3 C, vec3 S, vec3 N, vec3 H, float m4, float area, float exposure)
 {
     vec2 d = slope_from_normal(vec3(H[0], max(H[1], 1e-4f), H[2])) - slope_from_normal(N);
-    return slope_density(normals, C, d) * m4 * 0.288675135f * area * (1.0f + exposure);
+    float disc = sqrt(max(S[0] * S[1] - S[2] * S[2], 1e-30f));
+    float hidden = 0.5f * (C[0] + C[1]);
+    float c = 2.0f * PI * disc * sun_density(normals, C, S, d);
+    float t = max(area * (1.0f + exposure) * m4 * (1.0f / disc + 1.0f / hidden) * 0.022972037f, 1e-6f);
+    return 2.0f * c / max(1.0f - c, 1e-6f) * (2.0f + t + 1.0f / t);
 }
 
 /* ---- chance ---- */
@@ -58,24 +68,17 @@ FN float gamma_variate(float k, float normal)
     return k * t * t * t / (a * (a * a + 3.0f * b * b));
 }
 
-/* Sum of Poisson(mean) exponential variates: expectation mean, variance 2 mean. Up to 8 the number is drawn by inversion. */
-FN float glint_sum(uint key, float mean)
+/* Sum of Poisson(n) exponential variates over n: expectation 1, variance 2 / n. It is 0 with the chance e^-n, and otherwise a Gamma variate
+ * that has the mean and the variance which remain; one glint is exponential, as it must be. */
+FN float glint_sum(uint key, float n)
 {
-    uint size = glint_hash(key ^ 1779033703u);
-    if (mean > 8.0f)
-        return 2.0f * gamma_variate(0.5f * mean, glint_normal(size));
-    float u = glint_uniform(key);
-    float p = exp(-mean);
-    if (u < p)
+    float some = sel(n < 0.02f, n * (1.0f - 0.5f * n), 1.0f - exp(-n)); /* where 1 - exp would cancel */
+    if (glint_uniform(key) >= some)
         return 0.0f;
-    float below = p;
-    float count = 0.0f;
-    for (int i = 1; i <= 28 && u >= below; ++i) {
-        count += 1.0f;
-        p *= mean / count;
-        below += p;
-    }
-    return gamma_variate(count, glint_normal(size));
+    float mean = n / some;
+    float variance = mean * (n + 2.0f - mean);
+    return gamma_variate(max(mean * mean / variance, 1.0f), glint_normal(glint_hash(key ^ 1779033703u))) /
+           max(mean * mean / variance, 1.0f) / some;
 }
 
 /* ---- where and when ---- */
@@ -83,40 +86,101 @@ FN float glint_sum(uint key, float mean)
 /* Cells and slots beyond are one: they are numbered by integers. */
 #define GLINT_FAR 1e9f
 
-/* Cell of the water that a footprint takes for its own. rest: where the water is at rest (m), so that glints ride the waves; width: of
- * the footprint along x and z (m). Cells are powers of two wide; between two of them the choice is by chance, once per wider cell, as a
- * mean of two would have half the variance. */
-FN uint glint_cell(vec2 rest, vec2 width)
+/* Cells are at most so many footprints wide, where glints are few. */
+#define GLINT_CELL_MAX 4.0f
+
+/* Footprints that an image of a glint takes: the integral of its square is one over it, and so is the variance of a sum of images. */
+#define GLINT_IMAGE 1.75f
+
+/* A piece of water whose glints are drawn together. */
+STRUCT(GlintCell)
 {
-    vec2 level = vec2(log2(max(width[0], 1e-6f)), log2(max(width[1], 1e-6f)));
+    uint key;
+    vec2 at;     /* of what is seen in it, [0, 1] */
+    vec2 radius; /* of the image of a glint, a footprint wide and so at most 1/2 */
+    float area;  /* over that of the footprint, at least GLINT_IMAGE */
+};
+
+/* Where water is that rests at (x, z) from the eye: distance (m), azimuth. Footprints are long along the first and narrow along the other. */
+FN vec2 glint_place(vec2 rest)
+{
+    return vec2(length(rest), atan(rest[1], rest[0] + sel(rest[0] == 0.0f, 1e-20f, 0.0f)));
+}
+
+/* Extent there of a footprint that is `width` m wide across the ray; cosine: water_seen_cosine(). */
+FN vec2 glint_extent(vec2 place, float width, float cosine)
+{
+    return vec2(width / cosine, width / max(place[0], width));
+}
+
+/* Cell of a place that a footprint of this extent sees. Where the expected number in a footprint is less than 1, cells are wider, so that one
+ * has a glint at most as a rule. Cells are powers of two wide; between two of them the choice is by chance, once per wider cell. */
+FN GlintCell glint_cell(vec2 place, vec2 extent, float count)
+{
+    vec2 wanted = extent * clamp(inversesqrt(max(count, 1e-6f)), 1.0f, GLINT_CELL_MAX);
+    vec2 level = vec2(log2(max(wanted[0], 1e-9f)), log2(max(wanted[1], 1e-9f)));
     vec2 fine = floor(level);
     vec2 size = vec2(exp2(fine[0] + 1.0f), exp2(fine[1] + 1.0f));
-    vec2 at = clamp(floor(vec2(rest[0] / size[0], rest[1] / size[1])), -GLINT_FAR, GLINT_FAR);
+    vec2 grid = vec2(place[0] / size[0], clamp(place[1] / size[1], -GLINT_FAR, GLINT_FAR));
+    /* like bricks, so that no ring around the eye is all edges, where glints are fewer */
+    grid = vec2(clamp(grid[0] + glint_uniform(glint_hash(uint(int(floor(grid[1]))))), -GLINT_FAR, GLINT_FAR),
+                grid[1]);
+    vec2 at = floor(grid);
     uint wide =
         glint_hash2(glint_hash2(uint(int(at[0])), uint(int(at[1]))), uint(int(fine[0]) * 64 + int(fine[1])));
     vec2 more = level - fine;
-    float step_x = sel(more[0] > glint_uniform(wide), 1.0f, 2.0f);
-    float step_z = sel(more[1] > glint_uniform(glint_hash(wide)), 1.0f, 2.0f);
-    vec2 within = clamp(vec2(rest[0] / size[0] - at[0], rest[1] / size[1] - at[1]), 0.0f, 0.999f);
-    vec2 part = floor(within * vec2(step_x, step_z));
-    return glint_hash2(wide, uint(int(part[0] + 2.0f * part[1] + 4.0f * step_x + 16.0f * step_z)));
+    vec2 steps = vec2(sel(more[0] > glint_uniform(wide), 1.0f, 2.0f),
+                      sel(more[1] > glint_uniform(glint_hash(wide)), 1.0f, 2.0f));
+    vec2 within = clamp(grid - at, 0.0f, 0.9999f) * steps;
+    vec2 part = floor(within);
+    vec2 share = vec2(extent[0] * steps[0] / size[0], extent[1] * steps[1] / size[1]);
+    GlintCell r;
+    r.key = glint_hash2(wide, uint(int(part[0] + 2.0f * part[1] + 4.0f * steps[0] + 16.0f * steps[1])));
+    r.at = within - part;
+    r.radius = min(share, vec2(0.5f));
+    r.area = max(1.0f / (share[0] * share[1]), GLINT_IMAGE);
+    return r;
 }
 
-/* X of a cell at a time, for the expected number `count`; lifetime (s) of a glint. Glints of one slot of two lifetimes go one
- * by one as those of the next come, so X is made of Poisson(count) of them at any time. */
-FN float glint_variate(uint cell, float count, float time_s, float lifetime_s)
+/* Image of a glint somewhere in a cell: a paraboloid squared, of mean 1. In steps of its radius, its sum is the same within 6 %
+ * wherever it lies: pixels miss none. */
+FN float glint_image(GlintCell cell, uint key)
+{
+    uint along = glint_hash(key ^ 2654435769u);
+    uint across = glint_hash(along);
+    vec2 middle = mix(cell.radius, 1.0f - cell.radius, vec2(glint_uniform(along), glint_uniform(across)));
+    vec2 off = (cell.at - middle) / cell.radius;
+    float inside = max(1.0f - dot(off, off), 0.0f);
+    return inside * inside * 0.954929659f / (cell.radius[0] * cell.radius[1]);
+}
+
+/* X in a cell at a time, for the expected number `count` in a footprint; lifetime (s) of a glint. Glints of one slot of two
+ * lifetimes go one by one as those of the next come, so X is made of Poisson variates of them at any time. Each slot's glints have a place in
+ * the cell; where they are many, the cell shows them evenly. */
+FN float glint_variate(GlintCell cell, float count, float time_s, float lifetime_s)
+{
+    float t = time_s / (2.0f * lifetime_s) + glint_uniform(glint_hash(cell.key ^ 3144134277u));
+    float slot = clamp(floor(t), -GLINT_FAR, GLINT_FAR);
+    float share = clamp(t - slot, 0.0f, 1.0f);
+    float n = max(count * cell.area, 1e-5f);
+    uint now = glint_hash2(cell.key, uint(int(slot)));
+    uint next = glint_hash2(cell.key, uint(int(slot) + 1));
+    float even = clamp((count - 0.5f) * (1.0f / 1.5f), 0.0f, 1.0f);
+    float X = glint_sum(now, n * (1.0f - share)) * (1.0f - share) * mix(glint_image(cell, now), 1.0f, even) +
+              glint_sum(next, n * share) * share * mix(glint_image(cell, next), 1.0f, even);
+    float fade = clamp((GLINT_COUNT_MAX - count) / (GLINT_COUNT_MAX - GLINT_COUNT_FADE), 0.0f, 1.0f);
+    return mix(1.0f, X, fade);
+}
+
+/* X where water rests at (x, z) from the eye, for a pixel `width` m wide there. Samples of a pixel are to have its width and count, not
+ * their own: each sees its own part of the same glints. cosine: water_seen_cosine(). */
+FN float glint_seen(vec2 rest, float width, float cosine, float count, float time_s, float lifetime_s)
 {
     if (count > GLINT_COUNT_MAX)
         return 1.0f;
-    float t = time_s / (2.0f * lifetime_s) + glint_uniform(glint_hash(cell ^ 3144134277u));
-    float slot = clamp(floor(t), -GLINT_FAR, GLINT_FAR);
-    float share = clamp(t - slot, 0.0f, 1.0f);
-    float n = max(count, 1e-6f);
-    uint now = glint_hash2(cell, uint(int(slot)));
-    uint next = glint_hash2(cell, uint(int(slot) + 1));
-    float X = (glint_sum(now, n * (1.0f - share)) + glint_sum(next, n * share)) / n;
-    float fade = clamp((GLINT_COUNT_MAX - n) / (GLINT_COUNT_MAX - GLINT_COUNT_FADE), 0.0f, 1.0f);
-    return mix(1.0f, X, fade);
+    vec2 place = glint_place(rest);
+    GlintCell cell = glint_cell(place, glint_extent(place, width, cosine), count);
+    return glint_variate(cell, count, time_s, lifetime_s);
 }
 
 #endif

@@ -856,7 +856,10 @@ FN vec3 probe_sea(int which, vec2 u)
                         glitter_below(normals, C, N, L, -refract(-V, N, 0.75f), 1.34f));
     if (which == 103)
         return 4.0f + sample_slopes(u, C, N, V) + sun_slopes(L, V) * 1e4f +
-               sun_slopes_about(L, L + N) * 1e4f + slopes_from_roughness(u[1]) + roughness_from_slopes(C);
+               sun_slopes_about(L, L + N) * 1e4f +
+               sun_density(normals, C * (1e-4f * u[1]), sun_slopes(L, V), vec2(0.002f * u[0], 0.001f)) *
+                   1e-5f +
+               slopes_from_roughness(u[1]) + roughness_from_slopes(C);
     if (which == 104) {
         vec2 pair = water_table_pair(water_table_place(u[0], 0.4f * u[1]));
         return vec3(pair[0], pair[1], water_mean_fresnel_fit(u[0], 0.3f * u[1], 1.34f)) + 0.1f;
@@ -870,13 +873,17 @@ FN vec3 probe_sea(int which, vec2 u)
     if (which == 107)
         return vec3(m.spread, m.below + 1.0f, m.elevation);
     if (which == 108)
-        return vec3(glint_count(normals, C, N, H, 5000.0f, 0.01f, u[0]) + 0.1f,
+        return vec3(glint_count(normals, C, sun_slopes(L, V), N, H, 5000.0f, 0.01f, u[0]) + 0.1f,
                     gamma_variate(1.0f + 9.0f * u[0], 4.0f * u[1] - 2.0f),
                     glint_uniform(glint_hash2(uint(u[0] * 4096.0f), uint(u[1] * 4096.0f))));
-    uint cell = glint_cell(u * 7.3f, vec2(0.3f, 0.0113f + u[0]));
+    GlintCell cell = glint_cell(u * 7.3f, vec2(0.3f, 0.0113f + u[0]), 2.0f * u[1]);
     if (which == 109)
-        return vec3(glint_uniform(cell), 5.0f + glint_normal(cell), 1.0f + glint_sum(cell, 12.0f * u[1]));
-    return vec3(1.0f + glint_variate(glint_hash(uint(u[0] * 4096.0f)), 100.0f * u[1], 3.7f, 0.02f));
+        return vec3(glint_uniform(cell.key), 5.0f + glint_normal(cell.key),
+                    1.0f + glint_sum(cell.key, 12.0f * u[1]));
+    vec2 place = glint_place(u - 0.3f);
+    vec2 extent = glint_extent(place, 0.01f, 0.3f + u[1]);
+    return vec3(5.0f + glint_image(cell, 77u) + place[1], extent[0] + extent[1] + cell.area,
+                1.0f + glint_seen(vec2(3.0f, 4.0f), 0.3f, 0.7f, 2.0f + 100.0f * u[1], 3.7f, 0.02f));
 }
 
 FN vec3 probe_water(int which, vec2 u)

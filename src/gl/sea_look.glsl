@@ -21,10 +21,11 @@ float sea_glints(SeaPlace p, Water w)
     vec3 H = normalize(p.V + sea_sun.xyz);
     if (H.y <= 0.0 || p.moments.y <= 0.0)
         return 1.0;
-    float area = p.width * p.width / p.cosine;
+    float width = p.width / sea_ray.y;
+    float area = width * width / p.cosine;
     float lifetime = 1.0 / p.moments.y;
-    float count = glint_count(w.normals, p.point.covariance, p.point.N, H, p.moments.x, area, sea_downwelling.w / lifetime);
-    return glint_variate(glint_cell(sea_world_rest(p), water_extent(p.V, p.width, p.cosine)), count, sea_sky_irradiance.w, lifetime);
+    float count = glint_count(w.normals, p.point.covariance, sun_slopes(sea_sun.xyz, p.V), p.point.N, H, p.moments.x, area, sea_downwelling.w / lifetime);
+    return glint_seen(p.rest, width, p.cosine, count, sea_sky_irradiance.w, lifetime);
 #else
     return 1.0;
 #endif
@@ -125,7 +126,7 @@ vec3 sea_before(SeaPlace p)
     vec2 slope = slope_from_normal(p.point.N);
     float sparkle = 0.0;
     if (sea_look.w != 0) /* noise in the water, about one cell in ten */
-        sparkle = glint_uniform(glint_cell(sea_world_rest(p), vec2(p.width))) > 0.9 ? 1.0 : 0.0;
+        sparkle = glint_uniform(glint_cell(sea_world_rest(p), vec2(p.width), 1.0).key) > 0.9 ? 1.0 : 0.0;
     float foam = sea_look.z != 0 ? before_foam(length(slope)) : 0.0;
     return before_shade(sea_look.y, sea_look.x, p.d, p.point.N, sea_sun.xyz, p.at.y, sparkle, foam, sea_absorption.w, sea_bed_slope.z);
 }

@@ -31,8 +31,8 @@ vec3 water_look_shade(const water_setup *s, const water_place *p, vec3 d)
     vec2 slope = slope_from_normal(p->point.N);
     float sparkle = 0.0f;
     if (!look->no_glints) { /* noise in the water, about one cell in ten */
-        uint cell = glint_cell(vec2((float)p->rest[0], (float)p->rest[1]), vec2(p->footprint_m));
-        sparkle = glint_uniform(cell) > 0.9f ? 1.0f : 0.0f;
+        GlintCell cell = glint_cell(vec2((float)p->rest[0], (float)p->rest[1]), vec2(p->footprint_m), 1.0f);
+        sparkle = glint_uniform(cell.key) > 0.9f ? 1.0f : 0.0f;
     }
     float foam = look->no_foam ? 0.0f : before_foam(length(slope));
     return shown(before_shade(variant, stage, d, p->point.N, s->light.L, (float)p->P[1], sparkle, foam,

@@ -74,7 +74,7 @@ static float begin(const water_setup *s, const march_ray *ray, double t, float w
     float n = (float)count, width = count > 1 ? width_m * inversesqrt(n * sqrt(n)) : width_m;
     float seen = water_march_footprint(&s->march, width, rise);
     p->V = normalize(vec3((float)-d[0], (float)-rise, (float)-d[2]));
-    p->footprint_m = width_m;
+    p->footprint_m = p->pixel_m = width_m;
     p->cosine = water_seen_cosine(p->V * (ray->is_below ? -1.0f : 1.0f), water_slopes_at(s, seen).resolved);
     return max(seen, width * inversesqrt(p->cosine));
 }

@@ -11,6 +11,7 @@ typedef struct water_place {
     double rest[2];      /* of the water there, m */
     vec3 V;              /* unit, to the eye, against the level of the sea there */
     float footprint_m;   /* across the ray */
+    float pixel_m;       /* of all samples of the pixel; so wide are glints */
     water_slopes slopes; /* beyond the footprint */
     WaterPoint point;    /* N faces V */
     float height_m;      /* of the waves */

@@ -56,12 +56,12 @@ static float glints(const water_setup *s, const water_place *p)
     const facet_sea_look *look = &s->desc->look;
     if (look->no_glints || look->stage == 4 || H[1] <= 0.0f || p->slopes.rate <= 0.0f)
         return 1.0f;
-    float area = p->footprint_m * p->footprint_m / p->cosine, lifetime = 1.0f / p->slopes.rate;
-    float count = glint_count(s->water.normals, p->point.covariance, p->point.N, H, p->slopes.curvature, area,
-                              s->shutter_s / lifetime);
-    uint cell =
-        glint_cell(vec2((float)p->rest[0], (float)p->rest[1]), water_extent(p->V, p->footprint_m, p->cosine));
-    return glint_variate(cell, count, waves_glint_time(&s->sea->waves), lifetime);
+    float area = p->pixel_m * p->pixel_m / p->cosine, lifetime = 1.0f / p->slopes.rate;
+    float count = glint_count(s->water.normals, p->point.covariance, sun_slopes(s->light.L, p->V), p->point.N,
+                              H, p->slopes.curvature, area, s->shutter_s / lifetime);
+    vec2 rest = vec2((float)(p->rest[0] - (double)s->camera.origin[0]),
+                     (float)(p->rest[1] - (double)s->camera.origin[2]));
+    return glint_seen(rest, p->pixel_m, p->cosine, count, waves_glint_time(&s->sea->waves), lifetime);
 }
 
 static vec3 sun_in_water(const water_setup *s, const water_place *p, WaterLight light)

@@ -149,6 +149,7 @@ static vec3 shade_sea(const water_sample *p, const march_hit *hit)
 {
     const water_setup *s = p->s;
     water_place place = place_of(p, hit);
+    place.pixel_m = place.footprint_m / p->footprint;
     if (s->desc->look.stage == 3)
         return water_look_painted(s, &place);
     water_findings found = find_model(p, &place);
