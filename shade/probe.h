@@ -932,7 +932,7 @@ FN vec3 probe_water(int which, vec2 u)
         return water_single_scattering(w, light.sun_irradiance, u[0], 0.9f, 0.7f, 5.0f * u[1]) +
                water_phase(w, u[1]) + water_phase_pure(u[0]);
     if (which == 114)
-        return water_backlight(w, light, V, water_crest_way(u[0], u[1]), u[0]) + 0.01f +
+        return water_forward(w, 2.0f * u[0] - 1.0f, u[1], 0.7f) + water_sunlit_slope(u[0], 0.1f * u[1]) +
                water_foam(w, light, p.N);
     vec3 down = -V;
     if (which == 115) {
@@ -1008,7 +1008,15 @@ FN vec3 probe_water_place(int which, vec2 u)
                     caustic_cover(vec2(2.0f * u[0] - 1.0f, 0.1f)),
                     caustic_lod(9.0f * u[1]) + water_mirrored_spread(C));
     }
-    return water_crest(w, light, N, V, down, u[0]) + 0.1f +
+    vec3 low = normalize(vec3(-V[0], 0.05f + 0.3f * u[1], -V[2]));
+    light.L = low;
+    WaterCrest crest = water_crest_beam(w, light, 0.05f, 0.1f + u[1], 1.5f);
+    vec3 back = normal_from_slope(vec2(low[0], low[2]) * 0.4f * u[0]);
+    vec2 level = normalize(vec2(low[0], low[2]));
+    vec3 into = water_refracted(w, -V, back);
+    float way = water_crest_way(crest, level, into, 0.5f + u[0], 0.5f * u[1]);
+    return water_crest(w, light, crest, back, V, into, u[0]) + 0.1f + 0.1f * way +
+           water_crest_lit(w, crest, level, 0.3f * u[1], into, 1.4f * u[0]) +
            water_over_bed(w, light.downwelling, vec3(0.5f, 0.4f, 0.3f), vec3(0.4f, 0.4f, 0.2f), 9.0f * u[0],
                           0.1f * u[1], down) +
            0.1f * water_way_to_bed(9.0f * u[0], 0.1f * u[1], down) +

@@ -1,5 +1,5 @@
-/* water.h - the water of a sea: what its surface does to light that arrives, what comes up from the depth, from a bed, through a
- * crest, what the eye sees below, and foam. Which waves are seen is the caller's matter, who brings a normal for them, and
+/* water.h - the water of a sea: what its surface does to light that arrives, what comes up from the depth or from a bed, what
+ * the eye sees below, and foam. Which waves are seen is the caller's matter, who brings a normal for them, and
  * the covariance of slopes of those that are not (water_surface.h); glints of the sun on these are glint.h's.
  *
  * SI units; radiance in cd/m^2, linear Rec.709. V: from the surface to the eye, L: to the sun, both unit; still water lies in the plane
@@ -241,30 +241,6 @@ FN vec3 water_single_scattering(Water w, vec3 beam, float cos_angle, float mu_s,
     vec3 c = water_beam(w);
     vec3 left = exp(-c * (depth * (1.0f / mu_s + 1.0f / mu_v)));
     return beam * w.scattering * water_phase(w, cos_angle) * (1.0f - left) / (c * (1.0f + mu_v / mu_s));
-}
-
-/* ---- crests against the sun ---- */
-
-/* m of water between the sun and a point that lies `above` m over the trough before it, through a crest whose slope towards the sun is
- * `slope` (rise per m, >= 0). */
-FN float water_crest_way(float above, float slope)
-{
-    return max(above, 0.0f) / max(slope, 0.05f);
-}
-
-/* Radiance (cd/m^2) below the surface of sunlight that entered a crest behind and was scattered towards the eye, over a way of
- * `behind` m to the ray and `before` m along it:
- *   E (1 - F) b p(-L.V) (1 - e^(-c before)) / c e^(-(a + b_b) (behind + before))
- * Nothing where the sun stands behind the eye: what goes back is in the reflectance of the depth. */
-FN vec3 water_backlight(Water w, WaterLight light, vec3 V, float behind, float before)
-{
-    float forward = -dot(light.L, V);
-    vec3 c = water_beam(w);
-    vec3 gathered = (1.0f - exp(-c * before)) / max(c, 1e-9f);
-    vec3 left = water_transmittance(water_diffuse(w), behind + before);
-    vec3 L = light.sun_irradiance * (1.0f - light.sun_fresnel) * w.scattering * water_phase(w, forward) *
-             gathered * left;
-    return sel(forward > 0.0f && light.L[1] > 0.0f, L, vec3(0.0f));
 }
 
 /* ---- the eye below ---- */

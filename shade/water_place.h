@@ -148,17 +148,6 @@ FN float water_foam_cover(float share, float amount)
 
 /* ---- what comes from below ---- */
 
-/* Sunlight through the crest behind a place that is `above` m over the troughs; down: refracted from the eye. See water_backlight(). */
-FN vec3 water_crest(Water w, WaterLight light, vec3 N, vec3 V, vec3 down, float above)
-{
-    float level = sqrt(light.L[0] * light.L[0] + light.L[2] * light.L[2]);
-    vec2 slope = slope_from_normal(N);
-    float rise = (slope[0] * light.L[0] + slope[1] * light.L[2]) / max(level, 1e-4f);
-    bool is_behind = above > 0.0f && rise > 0.0f && level >= 1e-4f;
-    float before = max(above, 0.0f) / max(-down[1], 0.3f);
-    return sel(is_behind, water_backlight(w, light, V, water_crest_way(above, rise), before), vec3(0.0f));
-}
-
 /* How far (m) it is along `down` to a bed that is a plane, `depth` m below the place and rising by `rise` m per m along it. */
 FN float water_way_to_bed(float depth, float rise, vec3 down)
 {

@@ -183,9 +183,8 @@ static void test_closed_box(void **state)
     vec3 V = towards(70.0, 0.0); /* no light, nothing seen: there is no ambient */
     WaterPoint p = point(0.02f);
     p.foam = 0.5f;
-    vec3 dark = water_radiance(
-        water_parts(w, p, night, mirror_of(w, p, V), vec3(0.0f), water_sun(w, p, night, V),
-                    water_from_deep(w, night.downwelling) + water_backlight(w, night, V, 1.0f, 1.0f)));
+    vec3 dark = water_radiance(water_parts(w, p, night, mirror_of(w, p, V), vec3(0.0f),
+                                           water_sun(w, p, night, V), water_from_deep(w, night.downwelling)));
     assert_true(dark[0] == 0.0f && dark[1] == 0.0f && dark[2] == 0.0f);
 }
 
@@ -323,8 +322,7 @@ static void test_bed(void **state)
         expect_near((double)water_from_bed(w, over_abyss, bed)[k], (double)deep[k], 1e-7,
                     "a bed out of sight, channel %d", k);
     w.absorption = w.scattering = w.backscattering = vec3(0.0f); /* glass: no attenuation, no NaN */
-    assert_true(is_finite3(water_from_bed(w, E, bed)) &&
-                is_finite3(water_backlight(w, light_of(UP, 1.0f, 0.0f, w), -UP, 1.0f, 1.0f)));
+    assert_true(is_finite3(water_from_bed(w, E, bed)));
 }
 
 /* Reflectance from either side in double: of light from everywhere. */
@@ -414,26 +412,6 @@ static void test_furnace(void **state)
     assert_true(is_finite3(water_beam_below(none, light_of(vec3(1.0f, 0.0f, 0.0f), 0.0f, 1.0f, none))));
 }
 
-/* Light through a crest: only against the sun, only where there is a crest, blue-green. */
-static void test_backlight(void **state)
-{
-    (void)state;
-    Water w = ocean(1.34f);
-    WaterLight low = light_of(towards(80.0, 0.0), 30000.0f, 0.0f, w);
-    vec3 against = towards(85.0, 180.0), with_it = towards(85.0, 0.0);
-    vec3 L = water_backlight(w, low, against, 2.0f, 1.0f);
-    assert_true(L[1] > 0.0f && L[1] > L[0] && L[2] > L[0]);
-    assert_true(water_backlight(w, low, with_it, 2.0f, 1.0f)[1] == 0.0f);
-    assert_true(water_backlight(w, low, against, 0.0f, 0.0f)[1] == 0.0f); /* no waves */
-    assert_true(water_backlight(w, low, against, 200.0f, 1.0f)[1] < 1e-3f * L[1]);
-    low.sun_irradiance = vec3(0.0f);
-    assert_true(water_backlight(w, low, against, 2.0f, 1.0f)[1] == 0.0f);
-    /* what a metre of it scatters is less than the sun brought */
-    assert_true((double)L[2] * 2.0 * PI_DOUBLE < 30000.0 * 4.0);
-    assert_true(water_crest_way(-1.0f, 0.3f) == 0.0f && water_crest_way(1.0f, 0.0f) == 20.0f);
-    expect_near((double)water_crest_way(0.6f, 0.3f), 2.0, 1e-6, "way through a crest");
-}
-
 /* The eye below: looking down it sees what one sees from above, less the surface; the glow is around the sun. */
 static void test_below(void **state)
 {
@@ -514,19 +492,12 @@ static void test_edges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fresnel),
-        cmocka_unit_test(test_refraction),
-        cmocka_unit_test(test_closed_box),
-        cmocka_unit_test(test_flat),
-        cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_volume),
-        cmocka_unit_test(test_deep),
-        cmocka_unit_test(test_bed),
-        cmocka_unit_test(test_backlight),
-        cmocka_unit_test(test_below),
-        cmocka_unit_test(test_foam),
-        cmocka_unit_test(test_edges),
-        cmocka_unit_test(test_internal_reflectance),
+        cmocka_unit_test(test_fresnel),    cmocka_unit_test(test_refraction),
+        cmocka_unit_test(test_closed_box), cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_bound),      cmocka_unit_test(test_volume),
+        cmocka_unit_test(test_deep),       cmocka_unit_test(test_bed),
+        cmocka_unit_test(test_below),      cmocka_unit_test(test_foam),
+        cmocka_unit_test(test_edges),      cmocka_unit_test(test_internal_reflectance),
         cmocka_unit_test(test_furnace),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -85,20 +85,6 @@ static void turn_slopes(slope_covariance c, double direction, double out[2])
     out[1] = fmax(z * z * xx + x * x * zz - 2.0 * x * z * xz, 0.0);
 }
 
-/* The system that is higher. */
-static double peak_omega(const sea_state *s)
-{
-    double highest = 0.0, omega = 0.0;
-    for (uint32_t i = 0; i < SEA_SYSTEMS; i++) {
-        double height = s->systems[i].peak_omega > 0.0 ? sea_system_moments(s, i, 0.0, ENDLESS).height : 0.0;
-        if (height > highest) {
-            highest = height;
-            omega = s->systems[i].peak_omega;
-        }
-    }
-    return omega;
-}
-
 facet_sea_info facet_sea_get_info(const facet_sea *sea)
 {
     const waves *w = &sea->waves;
@@ -106,11 +92,11 @@ facet_sea_info facet_sea_get_info(const facet_sea *sea)
     const water_optics *o = &sea->optics;
     facet_sea_info info = {
         .foam_coverage = (double)sea->foam.coverage, .ior = (double)o->ior, .tile_count = w->tile_count};
-    double omega = peak_omega(s);
-    if (omega > 0.0) {
+    double peak_k = sea_state_peak_k(s);
+    if (peak_k > 0.0) {
         info.height_m = 4.0 * sqrt(sea_state_moments(s, 0.0, ENDLESS).height);
-        info.peak_period_s = 6.283185307179586 / omega;
-        info.peak_length_m = 6.283185307179586 / wave_k(omega, s->depth_m);
+        info.peak_period_s = 6.283185307179586 / wave_omega(peak_k, s->depth_m);
+        info.peak_length_m = 6.283185307179586 / peak_k;
     }
     const slope_covariance *total = &sea->slopes.total, *rest = &sea->slopes.residual[0];
     slope_covariance resolved = {total->xx - rest->xx, total->zz - rest->zz, total->xz - rest->xz};

@@ -51,9 +51,12 @@ static void draw(pair *p, uint32_t preview_samples, uint32_t path_samples)
     p->d.render.integrator = FACET_INTEGRATOR_PREVIEW;
     p->d.render.samples = preview_samples;
     done(facet_sea_render(p->sea, p->scene, &p->d, &p->preview, &failure));
+    bool no_glints = p->d.look.no_glints; /* which paths have none of, and refuse to be told */
+    p->d.look.no_glints = false;
     p->d.render.integrator = FACET_INTEGRATOR_PATH;
     p->d.render.samples = path_samples;
     done(facet_sea_render(p->sea, p->scene, &p->d, &p->path, &failure));
+    p->d.look.no_glints = no_glints;
 }
 
 static void end(pair *p)
@@ -233,6 +236,48 @@ static void a_gale_from_above_is_the_same(void **state)
         fail_msg("without foam: %g", ratio);
     assert_true(with_foam > 1.5 * rows_mean(p.path, 0, 32));
     end(&p);
+}
+
+/* Green over red of a block of 16 x 6 pixels. */
+static double hue_of(const facet_image *image, uint32_t x, uint32_t y)
+{
+    facet_image_view v = facet_image_get_layer(image, 0);
+    double red = 0.0, green = 0.0;
+    for (uint32_t i = 0; i < 16 * 6; i++) {
+        const float *at = v.pixels + 4 * ((size_t)(y + i / 16) * v.width + x + i % 16);
+        red += (double)at[0];
+        green += (double)at[1];
+    }
+    return green / red;
+}
+
+/* Towards a low sun, no wave that it shines through is greener than by paths; where it glitters more it is redder. */
+static void no_crest_glows_against_the_sun(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *preset;
+        float sun_deg;
+    } cases[] = {{"gale", 6.0f}, {"gale", 20.0f}, {"breeze", 6.0f}};
+    for (size_t i = 0; i < (IS_SLOW ? 1 : sizeof cases / sizeof *cases); i++) {
+        facet_sea_desc desc;
+        pair p;
+        done(facet_sea_preset(cases[i].preset, &desc, &failure));
+        begin(&p, &desc, 96, 54, NULL);
+        p.camera =
+            (facet_camera){.eye = {0.0f, 3.0f, 0.0f}, .target = {0.0f, 0.0f, 30.0f}, .fov_y_rad = 0.7f};
+        p.d.sky.sun_elevation_rad = cases[i].sun_deg * 0.017453293f;
+        p.d.render.exposure_ev = -13.0f;
+        p.d.look = (facet_sea_look){.no_foam = true, .no_glints = true};
+        draw(&p, 16, 24);
+        for (uint32_t y = 30; y + 6 <= 54; y += 6)
+            for (uint32_t x = 0; x < 96; x += 16) {
+                double ratio = hue_of(p.preview, x, y) / hue_of(p.path, x, y);
+                if (!(ratio < 1.08))
+                    fail_msg("case %zu, block %u, %u: %g", i, x, y, ratio);
+            }
+        end(&p);
+    }
 }
 
 /* A square of 2 x 2 m, 8 m before the eye and 2 to 4 m over the water, that shines with 1000 cd/m^2. */
@@ -434,6 +479,7 @@ int main(void)
                                        cmocka_unit_test(swell_is_where_it_is),
                                        cmocka_unit_test(rough_water_is_darker_by_second_hits),
                                        cmocka_unit_test(a_gale_from_above_is_the_same),
+                                       cmocka_unit_test(no_crest_glows_against_the_sun),
                                        cmocka_unit_test(a_model_is_seen_and_mirrored),
                                        cmocka_unit_test(a_model_is_blurred_in_rough_water),
                                        cmocka_unit_test(a_model_shades_the_bed),

@@ -37,9 +37,9 @@ const verb shaders_verb = {
     .words = WORDS("constants", "color", "brdf", "fresnel", "sampling", "sobol", "pixel_filter", "footprint",
                    "surface", "light", "area_light", "ibl", "sheen", "clearcoat", "anisotropy", "iridescence",
                    "dispersion", "transmission", "glass", "volume", "sky", "water_surface", "water_means",
-                   "glint", "water", "water_place", "water_facets", "water_before", "water_caustic",
-                   "specular_aa", "specular_glossiness", "layers", "layers_direct", "layers_ibl",
-                   "layers_lobes", "material", "layers_sample", "phong", "tonemap"),
+                   "glint", "water", "water_place", "water_crest", "water_facets", "water_before",
+                   "water_caustic", "specular_aa", "specular_glossiness", "layers", "layers_direct",
+                   "layers_ibl", "layers_lobes", "material", "layers_sample", "phong", "tonemap"),
     .description =
         "Prints the functions that facet shades with as one file of GLSL, or those parts of it that are "
         "named, with all "

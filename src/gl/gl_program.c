@@ -89,10 +89,12 @@ static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE", "IS_PAINT
                                            "IS_BESIDE",   "HAS_MODEL", "HAS_OTHER_FACETS", NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
+enum { MOST_PARTS = 12 };
+
 static const struct {
     const char *name, *vertex, *fragment;
-    const char *parts[8];      /* of the shared text; those that they use come with them */
-    const char *fragments[12]; /* files of this folder before the fragment shader's own */
+    const char *parts[MOST_PARTS]; /* of the shared text; those that they use come with them */
+    const char *fragments[12];     /* files of this folder before the fragment shader's own */
     const char *const *features;
     const char *vertex_parts[4]; /* files before the vertex shader's own */
 } mains[GL_MAIN_COUNT] = {
@@ -167,8 +169,8 @@ static const struct {
     [GL_MAIN_SEA] = {"sea",
                      "screen.vert",
                      "sea.frag",
-                     {"water_place", "water_facets", "water_caustic", "water_before", "glint", "ibl",
-                      "surface", "sobol"},
+                     {"water_place", "water_crest", "water_facets", "water_caustic", "water_before", "glint",
+                      "ibl", "surface", "sobol"},
                      {"sea_light.glsl", "light_block.glsl", "environment.glsl", "sea_block.glsl",
                       "sea_waves.glsl", "sea_caustics.glsl", "sea_sky.glsl", "sea_place.glsl",
                       "sea_model.glsl", "sea_look.glsl"},
@@ -276,7 +278,7 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
 {
     facet_shader_desc desc = {
         .allocator = out->allocator, .version = glsl_version, .parts = mains[key.main].parts};
-    while (desc.part_count < 8 && desc.parts[desc.part_count])
+    while (desc.part_count < MOST_PARTS && desc.parts[desc.part_count])
         desc.part_count++;
     unsigned char *shared;
     size_t size;

@@ -53,7 +53,7 @@ static void fill_slopes(const sea_picture *p, gl_sea_block *b)
     }
     const float total[3] = {f->total.xx, f->total.zz, f->total.xz};
     set4(b->total, total, p->roughness[0] >= 0.0f ? 1.0f : 0.0f);
-    set4(b->rough, p->roughness, p->trough_m);
+    set4(b->rough, p->roughness, 0.0f);
 }
 
 static void fill_foam(const sea_picture *p, const double eye[2], gl_sea_block *b)
@@ -94,6 +94,8 @@ static void fill_water(const sea_picture *p, gl_sea_block *b)
     set4(b->beam, p->beam, p->disc_radius);
     set4(b->sunward, p->sunward, 0.0f);
     b->sky_at[0] = p->horizon_mu;
+    set4(b->crest_beam, p->crest_beam, p->crest_wavenumber);
+    set4(b->crest_sunward, p->crest_sunward, p->crest_amplitude_m);
     b->sky_at[1] = SEA_SKY_WAY_KM;
 }
 

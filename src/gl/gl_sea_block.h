@@ -17,6 +17,7 @@ typedef struct gl_sea_block {
     float foam_hidden[WAVES_MAX_LEVELS][4];
     float absorption[4], scattering[4], backscattering[4], reflectance[4], pure_share[4];
     float sun[4], sun_irradiance[4], sky_irradiance[4], downwelling[4], beam[4], sunward[4];
+    float crest_beam[4], crest_sunward[4];
     float bed[4], bed_slope[4], sky_at[4], caustic_axis[4], caustics[CAUSTIC_LAYERS][4];
     int32_t look[4];
     /* of a model: gl_sea_model.c */

@@ -22,7 +22,7 @@ layout(std140) uniform Sea
     vec4 sea_residual[SEA_FOOTPRINTS]; /* slopes that a footprint hides: xx, zz, xz */
     vec4 sea_moments[SEA_FOOTPRINTS];  /* k4 of their waves, mean omega */
     vec4 sea_total;                /* slopes of all; w: 1: sea_rough stands for waves finer than all tiles */
-    vec4 sea_rough;                /* slopes; w: troughs, m */
+    vec4 sea_rough;                /* slopes */
     vec4 sea_foam_axes[SEA_FOAM_READINGS];   /* rows, columns of a pattern along x, z: samples per m */
     vec4 sea_foam_places[SEA_FOAM_READINGS]; /* of the eye in it, samples; samples per m of footprints; weight */
     vec4 sea_foam_hidden[SEA_LEVELS]; /* variance that a level hides, of each pattern, after the share */
@@ -33,6 +33,7 @@ layout(std140) uniform Sea
     vec4 sea_sky_irradiance;       /* w: time, s */
     vec4 sea_downwelling;          /* w: time that the shutter is open, s */
     vec4 sea_beam, sea_sunward;    /* w: radius of the disc; not used */
+    vec4 sea_crest_beam, sea_crest_sunward; /* w: wave number, 1/m, and amplitude, m, of a sine */
     vec4 sea_bed;                  /* albedo; depth under the eye, m */
     vec4 sea_bed_slope;            /* rise along x, z; perceptual roughness of stages; clamp */
     vec4 sea_sky_at;               /* sine of the elevation of the horizon that the eye sees; way of clearness, km */

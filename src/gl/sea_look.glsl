@@ -39,11 +39,16 @@ vec3 sea_sun_seen(SeaPlace p, Water w, WaterLight light)
     return sun.y > 0.0 ? sun * (water_passing(p.resolved, light.L) * sea_glints(p, w)) : sun;
 }
 
+WaterCrest sea_crest()
+{
+    return WaterCrest(sea_crest_beam.xyz, sea_crest_sunward.xyz, sea_crest_beam.w, sea_crest_sunward.w);
+}
+
 /* Radiance that goes up just below the surface, towards the eye. */
 vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
 {
     vec3 down = water_refracted(w, -p.V, p.point.N);
-    vec3 crest = water_crest(w, light, p.point.N, p.V, down, p.height - sea_rough.w);
+    vec3 crest = water_crest(w, light, sea_crest(), p.point.N, p.V, down, p.height);
 #ifdef HAS_BED
     float depth = p.at.y + sea_bed.w - dot(sea_bed_slope.xy, p.at.xz);
     float rise = dot(sea_bed_slope.xy, down.xz);

@@ -90,3 +90,16 @@ double whitecap_coverage(double wind_mps)
     double t = fmin(fmax((wind_mps - onset_mps) / (full_mps - onset_mps), 0.0), 1.0);
     return fmin(3.84e-6 * pow(wind_mps, 3.41), most) * t * t * (3.0 - 2.0 * t);
 }
+
+double sea_state_peak_k(const sea_state *s)
+{
+    double highest = 0.0, omega = 0.0;
+    for (uint32_t i = 0; i < SEA_SYSTEMS; i++) {
+        double height = s->systems[i].peak_omega > 0.0 ? sea_system_moments(s, i, 0.0, ENDLESS).height : 0.0;
+        if (height > highest) {
+            highest = height;
+            omega = s->systems[i].peak_omega;
+        }
+    }
+    return omega > 0.0 ? wave_k(omega, s->depth_m) : 0.0;
+}

@@ -45,12 +45,13 @@ typedef struct sea_picture {
     const caustic_map *caustics; /* NULL: the bed is lit evenly, or there is none */
     bool is_below;               /* the eye is in the water */
     double fall; /* 1/m, by which the sea falls away with the square of distance; 0: a plane */
-    float deviation_m, trough_m, shutter_s, exposure;
+    float deviation_m, shutter_s, exposure;
     float roughness
         [3]; /* covariance of slopes that stands for waves finer than all tiles; [0] < 0: by their slopes */
     /* WaterLight, and the sun below the surface (shade/water.h) */
     float L[3], sun_irradiance[3], sky_irradiance[3], downwelling[3], sun_fresnel, sky_reflectance;
     float beam[3], sunward[3];
+    float crest_beam[3], crest_sunward[3], crest_wavenumber, crest_amplitude_m; /* shade/water_crest.h */
     /* the sky */
     const float *sky; /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4 */
     const float *

@@ -104,6 +104,8 @@ typedef struct sea_moments {
 sea_moments sea_state_moments(const sea_state *s, double from, double to);
 /* Of one of its systems. */
 sea_moments sea_system_moments(const sea_state *s, uint32_t system, double from, double to);
+/* Wave number (rad/m) at the peak of the system that is higher; 0: there are no waves. */
+double sea_state_peak_k(const sea_state *s);
 
 /* ---- what was measured of seas ---- */
 

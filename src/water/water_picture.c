@@ -223,7 +223,6 @@ static void describe(const water_setup *s, sea_picture *p)
     p->is_below = s->is_below;
     p->fall = s->march.fall;
     p->deviation_m = s->march.deviation_m;
-    p->trough_m = s->trough_m;
     p->shutter_s = s->shutter_s;
     p->exposure = s->exposure;
     store3(s->roughness, p->roughness);
@@ -236,6 +235,10 @@ static void describe(const water_setup *s, sea_picture *p)
     store3(s->beam, p->beam);
     store3(s->sunward, p->sunward);
     p->horizon_mu = sky->horizon_mu;
+    store3(s->crest.beam, p->crest_beam);
+    store3(s->crest.sunward, p->crest_sunward);
+    p->crest_wavenumber = s->crest.wavenumber;
+    p->crest_amplitude_m = s->crest.amplitude;
     p->disc_radius = sky->disc_radius;
     p->reflected = sky->reflected;
     p->background = sky->background;

@@ -59,6 +59,16 @@ static void fill_light(water_setup *s)
     s->sunward = -water_refracted(*w, -normalize(L), vec3(0.0f, 1.0f, 0.0f));
 }
 
+/* A sine as high as the sea, as long as its highest waves. */
+static void fill_crest(water_setup *s)
+{
+    vec3 L = s->light.L, slopes = load_slopes(&s->sea->slopes.total);
+    float variance = slope_variance(slopes, vec2(L[0], L[2])) / max(L[0] * L[0] + L[2] * L[2], 1e-8f);
+    float wavenumber = (float)sea_state_peak_k(&s->sea->waves.state);
+    float amplitude = wavenumber > 0.0f ? sqrt(2.0f) * s->march.deviation_m : 0.0f;
+    s->crest = water_crest_beam(s->water, s->light, variance, wavenumber, amplitude);
+}
+
 static bool is_under_water(const water_setup *s)
 {
     const float *eye = s->camera.origin;
@@ -183,9 +193,9 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     s->table = s->lit->table;
     fill_water(s);
     fill_light(s);
+    fill_crest(s);
     float perceptual_roughness = desc->look.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
-    s->trough_m = -2.0f * s->march.deviation_m;
     if (scene)
         result = add_model(s, scene, stats, error);
     if (r->integrator == FACET_INTEGRATOR_PATH) /* which finds light on the bed by itself */

@@ -33,9 +33,9 @@ typedef struct water_setup {
     bed_shadow shadow;    /* of the model, on it */
     vec3
         roughness; /* covariance of slopes that stands for waves finer than all tiles; xx < 0: by their slopes */
-    float trough_m;  /* where troughs are, two standard deviations below the mean */
-    float exposure;  /* 2^exposure_ev */
-    float shutter_s; /* for which glints are seen */
+    WaterCrest crest; /* sunlight through waves */
+    float exposure;   /* 2^exposure_ev */
+    float shutter_s;  /* for which glints are seen */
 } water_setup;
 
 /* Stays where it is between create and destroy; scene NULL: nothing but water. Adds to stats what a model took. Fails as water_render(). What

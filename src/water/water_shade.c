@@ -31,7 +31,7 @@ vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way
 vec3 water_from_below(const water_setup *s, const water_place *p)
 {
     vec3 down = water_refracted(s->water, -p->V, p->point.N);
-    vec3 crest = water_crest(s->water, s->light, p->point.N, p->V, down, p->height_m - s->trough_m);
+    vec3 crest = water_crest(s->water, s->light, s->crest, p->point.N, p->V, down, p->height_m);
     if (!water_has_bed(s))
         return water_from_deep(s->water, s->light.downwelling) + crest;
     const facet_sea_bed *bed = &s->sea->desc.bed;

@@ -1,0 +1,109 @@
+/* water_crest.h - sunlight that enters the sunlit sides of waves and is scattered out of the sides that an eye sees against the sun. Which wave
+ * a place belongs to is not known: it counts as one of a sine as high as the sea and as long as its highest waves, at the height
+ * that the place has.
+ *
+ * Sun and eye are refracted downwards both, so that light is turned by some 50 to 90 degrees between, and no sun is seen
+ * through water without being scattered: that takes a prism of slopes over 41 degrees on either side, where waves
+ * break at 30. A side that the sun does not reach has water in front of the light, as wide as the wave. */
+#ifndef SHADE_WATER_CREST_H
+#define SHADE_WATER_CREST_H
+
+/* Of a picture. */
+STRUCT(WaterCrest)
+{
+    vec3 beam;        /* irradiance (lx) across the sun's beam in the water, 0: no sun */
+    vec3 sunward;     /* unit direction to the sun in it */
+    float wavenumber; /* of the sine, rad/m */
+    float amplitude;  /* m */
+};
+
+/* Mean slope towards the sun of what it shines on: of Gaussian slopes of that variance, each seen as tilt + slope, tilt the tangent of the
+ * sun's height. s^2 Phi(z) / (tilt Phi(z) + s phi(z)), z = tilt / s; 1.25 s at the horizon. */
+FN float water_sunlit_slope(float tilt, float variance)
+{
+    float z = max(tilt, 0.0f) * inversesqrt(max(variance, SLOPE_VARIANCE_MIN));
+    float above = exp(-0.5f * z * z); /* sqrt(2 pi) phi(z) */
+    float share = 1.0f - 0.5f * above * erfcx(z * 0.707106781f);
+    return max(variance, 0.0f) * share /
+           (max(tilt, 0.0f) * share + 0.398942280f * above * sqrt(max(variance, SLOPE_VARIANCE_MIN)));
+}
+
+/* variance: of all slopes along the sun's azimuth. The beam comes through water that is tilted as what it shines on is on average, and
+ * brings what level water lets in: E (1 - F) L.y = beam sunward.y. */
+FN WaterCrest water_crest_beam(Water w, WaterLight light, float variance, float wavenumber, float amplitude)
+{
+    float level = max(sqrt(light.L[0] * light.L[0] + light.L[2] * light.L[2]), 1e-4f);
+    float slope = -water_sunlit_slope(light.L[1] / level, variance);
+    vec3 N = normal_from_slope(vec2(light.L[0], light.L[2]) * (slope / level));
+    WaterCrest c;
+    c.sunward = -water_refracted(w, -light.L, N);
+    c.beam = light.sun_irradiance * ((1.0f - light.sun_fresnel) * max(light.L[1], 0.0f) / c.sunward[1]);
+    c.wavenumber = wavenumber;
+    c.amplitude = amplitude;
+    return c;
+}
+
+/* m of water from a place of that phase (rad, [0, pi]: from the crest on, away from the sun) to the beam of sunlight that enters at another
+ * before it, along the refracted ray `down`, and back along that beam. sun: unit and level, towards it. 0 from one place to itself. */
+FN float water_crest_way(WaterCrest c, vec2 sun, vec3 down, float phase, float entry)
+{
+    float across = max(phase - entry, 0.0f) / c.wavenumber; /* to where it enters, towards the sun */
+    float up = max(cos(entry) - cos(phase), 0.0f) * c.amplitude;
+    float level = max(c.sunward[0] * sun[0] + c.sunward[2] * sun[1], 1e-3f);
+    float along = down[0] * sun[0] + down[2] * sun[1];
+    float closing = max(c.sunward[1] * along - down[1] * level, 1e-3f);
+    float before = max(c.sunward[1] * across - up * level, 0.0f) / closing;
+    return before + max(across - before * along, 0.0f) / level;
+}
+
+/* Of the light that a place `height` m over the level would show in water that is lit as brightly all over as its crest, the share that it shows,
+ * per channel. tilt: tangent of the sun's height. Behind the crest sunlight fades with the slope and ends where that is the sun's height. A ray
+ * that first meets light at the way x and all of it at x + d, growing evenly between, gathers
+ *   e^(-K x) (r + (1 - r) (1 - e^(-K d)) / (K d)),  K = a + b_b
+ * where the place itself has the share r, or has x > 0. */
+FN vec3 water_crest_lit(Water w, WaterCrest c, vec2 sun, float tilt, vec3 down, float height)
+{
+    float cosine = clamp(height / c.amplitude, -1.0f, 1.0f);
+    float sine = sqrt(1.0f - cosine * cosine);
+    float phase = atan(sine, cosine);
+    float end = max(tilt, 0.0f) / (c.amplitude * c.wavenumber); /* sine of the phase where sunlight ends */
+    float end_phase = sel(end < 1.0f, atan(end, sqrt(max(1.0f - end * end, 0.0f))), PI);
+    float way = water_crest_way(c, sun, down, phase, min(end_phase, phase));
+    float more = max(water_crest_way(c, sun, down, phase, 0.0f) - way, 0.0f);
+    float here = sel(phase < end_phase, max(1.0f - sine / max(end, 1e-6f), 0.0f), 0.0f);
+    vec3 K = max(water_diffuse(w), 1e-9f);
+    vec3 growing = water_path(K, more) / max(more, 1e-6f);
+    growing = sel(more > 1e-6f, growing, vec3(1.0f));
+    return water_transmittance(K, way) * mix(growing, vec3(1.0f), here);
+}
+
+/* Irradiance on level water is 1: radiance (1/sr) of a beam that is scattered once, for cosines of the sun and the eye in the water,
+ *   b p / ((a + b_b) (mu_s + mu_v))
+ * as what is scattered by little counts as not scattered (Gordon 1973). p of angles up to 90 degrees: light that turns
+ * back is in the reflectance of the depth. */
+FN vec3 water_forward(Water w, float cos_angle, float mu_s, float mu_v)
+{
+    return w.scattering * water_phase(w, max(cos_angle, 0.0f)) /
+           (max(water_diffuse(w), 1e-9f) * max(mu_s + mu_v, 1e-3f));
+}
+
+/* Radiance (cd/m^2) below the surface that a place has beside the reflectance of the depth: of sunlight scattered forward, what is more than on level
+ * water. N: of the waves that are seen there; down: refracted from the eye; height: over the mean level, m. Nothing
+ * on level water, and where the sun stands behind the eye. */
+FN vec3 water_crest(Water w, WaterLight light, WaterCrest c, vec3 N, vec3 V, vec3 down, float height)
+{
+    float level = sqrt(light.L[0] * light.L[0] + light.L[2] * light.L[2]);
+    vec2 sun = vec2(light.L[0], light.L[2]) * (1.0f / max(level, 1e-4f));
+    bool is_against = sun[0] * V[0] + sun[1] * V[2] < 0.0f && N[0] * sun[0] + N[2] * sun[1] < 0.0f;
+    if (!is_against || light.L[1] <= 0.0f || level < 1e-4f || c.amplitude <= 0.0f)
+        return vec3(0.0f);
+    vec3 up = vec3(0.0f, 1.0f, 0.0f);
+    vec3 level_down = water_refracted(w, -normalize(vec3(V[0], max(V[1], 0.0f), V[2])), up);
+    vec3 level_sunward = -water_refracted(w, -light.L, up);
+    vec3 here = water_forward(w, dot(c.sunward, down), c.sunward[1], max(-down[1], 0.0f)) *
+                water_crest_lit(w, c, sun, light.L[1] / level, down, height);
+    vec3 there = water_forward(w, dot(level_sunward, level_down), level_sunward[1], -level_down[1]);
+    return c.beam * c.sunward[1] * max(here - there, 0.0f);
+}
+
+#endif
