@@ -848,11 +848,12 @@ FN vec3 probe_sea(int which, vec2 u)
     if (which == 101)
         return vec3(Lambda_Beckmann(0.1f + 2.0f * u[0]), Lambda_GGX(0.1f + 2.0f * u[0]),
                     Lambda_slopes(normals, smith_a(C, N, V)) + erfcx(u[1]) +
-                        seen_slopes(2.0f, 3.0f * u[0] - 1.0f) + 0.1f * inverse_normal(u[1]));
+                        tilts_seen(2.0f * u[1], 3.0f * u[0]) + slopes_seen(C, N, H, V) +
+                        0.1f * inverse_normal(u[1]));
     if (which == 102)
-        return vec3(V_slopes(normals, WATER_SMITH, C, N, N, V),
+        return vec3(V_slopes(normals, WATER_SMITH, C, N, N, V) + V_slopes(normals, WATER_SCALES, C, N, N, V),
                     V_slopes(normals, WATER_SCHLICK_KARIS, C, N, N, V),
-                    glitter(normals, WATER_SMITH, C, N, L, V, u[1]) +
+                    glitter(normals, WATER_SCALES, C, N, L, V, u[1]) +
                         glitter_below(normals, C, N, L, -refract(-V, N, 0.75f), 1.34f));
     if (which == 103)
         return 4.0f + sample_slopes(u, C, N, V) + sun_slopes(L, V) * 1e4f +
@@ -867,7 +868,8 @@ FN vec3 probe_sea(int which, vec2 u)
     if (which == 105)
         return raised_reflection(N, V, 0.3f * u[0]) + 2.0f +
                vec3(sigma_towards(C, N, V), roughness_from_spread(0.33f * u[1]), 0.0f);
-    WaterMeans m = integrate_water_means(normals, 0.05f + 0.9f * u[0], 0.05f + 0.3f * u[1], 1.34f, 6);
+    WaterMeans m =
+        integrate_water_means(normals, int(u[1] * 1.99f), 0.05f + 0.9f * u[0], 0.05f + 0.3f * u[1], 1.34f, 6);
     if (which == 106)
         return vec3(m.fresnel, m.escape, 1.0f + m.lift);
     if (which == 107)
@@ -898,7 +900,7 @@ FN vec3 probe_water(int which, vec2 u)
     w.sky_reflectance = 0.06f;
     w.foam_albedo = 0.5f;
     w.normals = WATER_BECKMANN;
-    w.masking = WATER_SMITH;
+    w.masking = WATER_SCALES;
     w.is_schlick = int(u[1] * 1.99f);
     WaterPoint p;
     p.N = normal_from_slope(vec2(0.2f * u[0], -0.3f * u[1]));
@@ -965,7 +967,7 @@ FN vec3 probe_water_place(int which, vec2 u)
     w.sky_reflectance = 0.06f;
     w.foam_albedo = 0.5f;
     w.normals = WATER_BECKMANN;
-    w.masking = WATER_SMITH;
+    w.masking = WATER_SCALES;
     w.is_schlick = 0;
     WaterLight light;
     light.L = probe_up(probe_L(u));
@@ -981,7 +983,8 @@ FN vec3 probe_water_place(int which, vec2 u)
         vec2 extent = water_extent(V, 0.1f, water_seen_cosine(V, C));
         vec2 place =
             sel(abs(u[0] + u[1] - 1.0f) < 1e-3f, vec2(0.4f, 0.3f), u); /* its rhombus has an edge there */
-        return wave_patch_weights(place) + wave_cubic_weights(u[0]) + N + water_seen_normal(C, N, V) + 2.0f +
+        return wave_patch_weights(place) + wave_cubic_weights(u[0]) + N + water_seen_normal(C, N, V) +
+               water_tilted(N, C, V) + 2.0f +
                vec3(extent[0], extent[1], water_footprint(u[0], V[1] * u[1], 0.3f));
     }
     if (which == 121) {
@@ -993,10 +996,17 @@ FN vec3 probe_water_place(int which, vec2 u)
                10.0f;
     }
     if (which == 118) {
+        WaterMirror m;
+        m.fresnel = 0.5f;
+        m.escape = 0.8f;
+        m.R = reflect(-V, N);
+        m.perceptual_roughness = 0.2f;
+        m.deviation = 0.1f + 0.2f * u[0];
         return vec3(1.0f + foam_share(0.6f * u[0] - 0.1f, 0.01f + 0.05f * u[1], 0.4f),
                     2.0f * water_foam_cover(0.5f * u[1], u[0]) + normal_below(3.0f * u[0] - 1.5f) +
                         foam_lace(0.05f + 0.9f * u[0], u[1], 0.3f),
-                    water_passing(C, light.L) + wave_jacobian(D));
+                    water_passing(C, N, light.L) + wave_jacobian(D)) +
+               water_mirror_passing(m, C, N).R * water_mirror_passing(m, C, N).escape;
     }
     vec3 down = water_refracted(w, -V, N);
     vec3 sunward = normalize(vec3(0.3f, 1.0f, 0.1f));

@@ -85,8 +85,9 @@ STRUCT(WaterMirror)
 {
     float fresnel;              /* mean reflectance of the facets that are seen */
     float escape;               /* share of the reflected light that comes from the sky */
-    vec3 R;                     /* where to look the sky up, unit, R.y >= 0 */
+    vec3 R;                     /* where to look the sky up, unit; after water_mirror_passing() R.y >= 0 */
     float perceptual_roughness; /* for which it is to be prefiltered */
+    float deviation;            /* rad, standard, of elevations within it */
 };
 
 /* From the table's fresnel, escape, lift and spread, read at water_table_place(N.V, sigma_towards(..)). */
@@ -94,10 +95,13 @@ FN WaterMirror water_mirror(Water w, WaterPoint p, vec3 V, float fresnel, float 
                             float spread)
 {
     WaterMirror r;
-    r.fresnel = min(fresnel * water_fresnel(w, clamp(dot(p.N, V), 1e-4f, 1.0f)), 1.0f);
+    float NdotV = clamp(dot(p.N, V), 1e-4f, 1.0f);
+    r.fresnel = min(fresnel * water_fresnel(w, NdotV), 1.0f);
     r.escape = escape;
     r.R = raised_reflection(p.N, V, lift);
     r.perceptual_roughness = roughness_from_spread(spread);
+    /* a slope along V turns what it mirrors by twice its angle, one across by N.V of that */
+    r.deviation = sqrt(2.0f * spread / (1.0f + NdotV * NdotV));
     return r;
 }
 

@@ -24,10 +24,10 @@ STRUCT(WaterMeans)
     float elevation; /* rad, mean over the light that is reflected from above the horizon */
 };
 
-/* The integral by n x n points. sigma 0 is flat water. Reflected directions, masked with Smith's G2 / G1 = (1 + Lambda(V)) /
- * (1 + Lambda(V) + Lambda(L)); points are spread evenly over azimuths of slope, and for their size by its distribution, closer where it is
+/* The integral by n x n points. sigma 0 is flat water. Facets and reflected directions are masked by slopes_seen() (WATER_SCALES, of
+ * Gaussian slopes), or else with Smith's G2 / G1 = (1 + Lambda(V)) / (1 + Lambda(V) + Lambda(L)); points are spread evenly over azimuths of slope, and for their size by its distribution, closer where it is
  * large. Ross, Dion and Potvin 2005, section 3. */
-FN WaterMeans integrate_water_means(int normals, float mu, float sigma, float ior, int n)
+FN WaterMeans integrate_water_means(int normals, int masking, float mu, float sigma, float ior, int n)
 {
     float s = max(sigma, 1e-4f);
     float NdotV = max(mu, 1e-4f);
@@ -36,6 +36,7 @@ FN WaterMeans integrate_water_means(int normals, float mu, float sigma, float io
     vec3 V = vec3(sqrt(max(1.0f - NdotV * NdotV, 0.0f)), NdotV, 0.0f);
     vec3 mirror = vec3(-V[0], V[1], 0.0f);
     vec3 across = vec3(V[1], V[0], 0.0f);
+    bool by_scales = masking == WATER_SCALES && normals == WATER_BECKMANN;
     float Lambda_V = Lambda_slopes(normals, smith_a(C, N, V));
     float area = 0.0f;
     float below = 0.0f;
@@ -54,11 +55,14 @@ FN WaterMeans integrate_water_means(int normals, float mu, float sigma, float io
             vec2 slope = vec2(radius * cos(phi), radius * sin(phi));
             vec3 m = normal_from_slope(slope);
             float VdotM = dot(V, m);
-            float seen = max(VdotM, 0.0f) / m[1] * tail;
+            float visible = sel(by_scales, slopes_seen(C, N, m, V), 1.0f);
+            float seen = sel(VdotM > 0.0f, VdotM / m[1] * tail * visible, 0.0f);
             float light = seen * F_dielectric(clamp(VdotM, 0.0f, 1.0f), ior);
             vec3 L = m * (2.0f * VdotM) - V;
             float Lambda_L = Lambda_slopes(normals, smith_a(C, N, L));
-            float to_sky = sel(L[1] > 0.0f, light * (1.0f + Lambda_V) / (1.0f + Lambda_V + Lambda_L), 0.0f);
+            float smith = (1.0f + Lambda_V) / (1.0f + Lambda_V + Lambda_L);
+            float passes = sel(by_scales, slopes_seen(C, N, m, L), smith);
+            float to_sky = sel(L[1] > 0.0f, light * passes, 0.0f);
             area += seen;
             below += sel(L[1] > 0.0f, 0.0f, seen);
             reflected += light;
@@ -126,16 +130,15 @@ FN float roughness_from_spread(float spread)
     return clamp(y * (0.49444f + 0.89477f * y * y) + 18.357f * d * d * d * d, 0.0f, 1.0f);
 }
 
-/* The direction that a surface of normal N reflects to the eye, raised by WaterMeans.lift in the plane of N and V; not below the
- * horizon. Unit. */
+/* The direction that a surface of normal N reflects to the eye, raised by WaterMeans.lift in the plane of N and V; unit, and perhaps below
+ * the horizon. */
 FN vec3 raised_reflection(vec3 N, vec3 V, float lift)
 {
     float NdotV = dot(N, V);
     vec3 tangent = V - N * NdotV; /* sin theta long, as the reflection's is */
     float sin_theta = sqrt(dot(tangent, tangent));
     vec3 across = tangent * (NdotV / max(sin_theta, 1e-6f)) + N * sin_theta;
-    vec3 R = (N * NdotV - tangent) * cos(lift) + across * sin(lift);
-    return normalize(vec3(R[0], max(R[1], 0.0f), R[2]));
+    return (N * NdotV - tangent) * cos(lift) + across * sin(lift);
 }
 
 #endif

@@ -79,38 +79,60 @@ FN vec3 water_faced(vec3 N, vec3 V)
     return sel(n[1] > least, n, normalize(vec3(n[0], least, n[2])));
 }
 
-/* Share of light along X that waves of the slopes C let pass: Smith's, about the mean level. */
-FN float water_passing(vec3 C, vec3 X)
+/* N as V sees it, of waves that are finer than the place is known at which they are read, of the slopes C: a slope that is found by area,
+ * not by what is seen of it, and may face away. What is seen has a tilt c that is the length of a vector in three dimensions (slopes_seen()):
+ * as N has one of them, the root of c^2 + 2 V_h^T C V_h on average. Where these slopes hardly matter beside c, the place is right, and N, too. */
+FN vec3 water_tilted(vec3 N, vec3 C, vec3 V)
 {
-    vec3 up = vec3(0.0f, 1.0f, 0.0f);
-    float Lambda = Lambda_slopes(WATER_BECKMANN, smith_a(C, up, X));
-    return sel(X[1] <= 0.0f, 0.0f, 1.0f / (1.0f + Lambda));
+    float variance = max(slope_variance(C, vec2(V[0], V[2])), 1e-14f);
+    float c = dot(N, V) / N[1];
+    float seen = sqrt(c * c + 2.0f * variance * exp(-0.25f * c * c / variance));
+    float change = (c - seen) / max(V[0] * V[0] + V[2] * V[2], 1e-8f);
+    return normal_from_slope(slope_from_normal(N) + vec2(V[0], V[2]) * change);
 }
 
-/* ---- foam ---- */
-
-/* Share of a normal distribution below z standard deviations. */
-FN float normal_below(float z)
+/* Share of light along X that comes to a place of normal N past waves of the slopes C, which N is one of; of Gaussian slopes, about the
+ * level. What passes the waves that are not in N, a masking has: the product is what passes all. */
+FN float water_passing(vec3 C, vec3 N, vec3 X)
 {
-    float tail = 0.5f * exp(-0.5f * z * z) * erfcx(abs(z) * 0.707106781f);
-    return sel(z < 0.0f, tail, 1.0f - tail);
+    bool is_up = X[1] > 0.0f && dot(N, X) > 0.0f;
+    return sel(is_up, slopes_seen(C, vec3(0.0f, 1.0f, 0.0f), N, X), 0.0f);
 }
 
-/* Normal of the mean slope of those facets that V sees (unit, V.y > 0), of all whose slopes have the covariance C about that of N. A slope
- * s counts by the area seen, as far as it faces V, which is t = V.y / l - s_N.u, l u being V's horizontal part. Of those along u
- *   mean = -sigma / (a + phi(a) / Phi(a)),  a = t / sigma,  sigma^2 = u^T C u
- * (Stein's lemma); across u they follow by C u / sigma^2. A grazing ray sees slopes of 1.25 sigma, and never the back of one. */
+/* What of a mirror image comes past waves of the slopes C, which N is one of. Elevations in it are normally distributed about that of R:
+ * what is below the horizon meets waves, and the rest, whose mean is higher by the deviation times phi / Phi, is hidden by them as it is
+ * there. Phi is taken for 1 / (1 + exp(-1.702 z)), which is within 0.01 (Haley 1952), and phi for what belongs to it. */
+FN WaterMirror water_mirror_passing(WaterMirror m, vec3 C, vec3 N)
+{
+    float level = max(sqrt(m.R[0] * m.R[0] + m.R[2] * m.R[2]), 1e-6f);
+    vec3 up = vec3(-m.R[0] * m.R[1] / level, level, -m.R[2] * m.R[1] / level);
+    float above = 1.0f / (1.0f + exp(-1.702f * max(m.R[1] / max(m.deviation, 1e-4f), -40.0f)));
+    vec3 R = m.R + up * (1.702f * m.deviation * (1.0f - above));
+    WaterMirror r = m;
+    r.R = normalize(vec3(R[0], max(R[1], 0.0f), R[2]));
+    r.escape = m.escape * above * water_passing(C, N, r.R);
+    return r;
+}
+
+/* Normal of the mean slope of those facets that V sees (unit, V.y > 0; slopes_seen()), of all whose slopes have the covariance C about that
+ * of N. Tilts to the eye, in deviations sigma = sqrt(u^T C u), u along V's horizontal part of the length l, begin at a = (V.y / l - s_N.u) / sigma
+ * and are lengths of a vector in three dimensions, longer by
+ *   (2 Phi(a) - 1) / a - 2 a Phi(-a) + 2 phi(a)
+ * on average; across u slopes follow by C u / sigma^2. A grazing ray sees tilts of 1.6 sigma, and never the back of one. */
 FN vec3 water_seen_normal(vec3 C, vec3 N, vec3 V)
 {
     float level = max(sqrt(V[0] * V[0] + V[2] * V[2]), 1e-4f);
     vec2 u = vec2(V[0], V[2]) * (1.0f / level);
     vec2 mean = slope_from_normal(N);
     float sigma = sqrt(max(slope_variance(C, u), SLOPE_VARIANCE_MIN));
-    float a = clamp((V[1] / level - mean[0] * u[0] - mean[1] * u[1]) / sigma, -5.0f, 1e4f);
-    float tilt = 1.0f / (sigma * (a + 0.398942280f * exp(-0.5f * a * a) / normal_below(a)));
+    float a = clamp((V[1] / level - mean[0] * u[0] - mean[1] * u[1]) / sigma, 0.01f, 1e4f);
+    float hidden = 2.0f * normal_below(-a);
+    float longer = (1.0f - hidden) / a - a * hidden + 0.797884561f * exp(-0.5f * a * a);
     vec2 towards = vec2(C[0] * u[0] + C[2] * u[1], C[2] * u[0] + C[1] * u[1]);
-    return normal_from_slope(mean - towards * tilt);
+    return normal_from_slope(mean - towards * (longer / sigma));
 }
+
+/* ---- foam ---- */
 
 /* Of a footprint whose water converges by `mean` with this variance, the share that breaks: where q is above the threshold. Areas are
  * seen from above, where water that converges has less of it: the mean Jacobian at q is 1 - q + (q^2 - sigma^2) / 4. */

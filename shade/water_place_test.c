@@ -46,12 +46,15 @@ static void test_seen_normal(void **state)
         double elevation = i == 7 ? 1.5 : 0.01 + 0.08 * i, azimuth = 0.9 * i;
         double V[3] = {(cos)(elevation) * (cos)(azimuth), (sin)(elevation),
                        (cos)(elevation) * (sin)(azimuth)};
+        double first = V[1] - V[0] * mean[0] - V[2] * mean[1];
+        double variance = C[0] * V[0] * V[0] + C[1] * V[2] * V[2] + 2.0 * C[2] * V[0] * V[2];
         double sum[3] = {0.0, 0.0, 0.0};
         for (int x = -200; x <= 200; x++)
             for (int y = -200; y <= 200; y++) {
                 double a = x * 0.03, b = y * 0.03;
                 double s = mean[0] + L11 * a, t = mean[1] + L21 * a + L22 * b;
-                double seen = fmax(V[1] - V[0] * s - V[2] * t, 0.0) * (exp)(-0.5 * (a * a + b * b));
+                double tilt = fmax(V[1] - V[0] * s - V[2] * t, 0.0);
+                double seen = tilt * -expm1(-2.0 * first * tilt / variance) * (exp)(-0.5 * (a * a + b * b));
                 sum[0] += seen;
                 sum[1] += seen * s;
                 sum[2] += seen * t;
@@ -132,17 +135,71 @@ static void test_lace(void **state)
 static void test_passing(void **state)
 {
     (void)state;
-    vec3 C = vec3(0.02f, 0.02f, 0.0f);
-    expect_near((double)water_passing(C, vec3(0.0f, 1.0f, 0.0f)), 1.0, 1e-6, "straight up");
-    assert_true(water_passing(C, vec3(1.0f, -0.01f, 0.0f)) == 0.0f);
-    assert_true(water_passing(C, normalize(vec3(1.0f, 0.02f, 0.0f))) < 0.5f);
+    vec3 C = vec3(0.02f, 0.02f, 0.0f), up = vec3(0.0f, 1.0f, 0.0f);
+    expect_near((double)water_passing(C, up, up), 1.0, 1e-6, "straight up");
+    assert_true(water_passing(C, up, vec3(1.0f, -0.01f, 0.0f)) == 0.0f);
+    assert_true(water_passing(C, up, normalize(vec3(1.0f, 0.02f, 0.0f))) < 0.1f);
+    assert_true(water_passing(C, normal_from_slope(vec2(0.3f, 0.0f)), normalize(vec3(1.0f, 0.2f, 0.0f))) ==
+                0.0f); /* behind the wave itself */
+}
+
+/* A lobe past waves: what stands high is all there, where it was; of one on the horizon half is left, whose elevations have the mean
+ * of half a normal distribution; nothing comes from below. In between, what a thousand directions of the lobe leave. */
+static void test_mirror_passing(void **state)
+{
+    (void)state;
+    vec3 C = vec3(0.005f, 0.005f, 0.0f), up = vec3(0.0f, 1.0f, 0.0f), calm = vec3(1e-6f, 1e-6f, 0.0f);
+    WaterMirror m;
+    m.fresnel = 0.5f;
+    m.escape = 0.8f;
+    m.perceptual_roughness = 0.2f;
+    m.deviation = 0.15f;
+    m.R = normalize(vec3(0.3f, 1.0f, 0.2f));
+    WaterMirror high = water_mirror_passing(m, C, up);
+    expect_near((double)high.escape, 0.8, 1e-4, "high above");
+    expect_near((double)dot(high.R, m.R), 1.0, 1e-6, "high above, direction");
+    m.R = vec3(1.0f, 0.0f, 0.0f);
+    WaterMirror half = water_mirror_passing(m, calm, up);
+    expect_near((double)half.escape, 0.4, 1e-5, "on the horizon");
+    expect_near((double)half.R[1], 0.15 * 0.7979, 0.15 * 0.07, "half of a normal distribution");
+    for (double e = -0.1; e < 0.5; e += 0.1) {
+        double passed = 0.0, all = 0.0;
+        for (int i = 0; i < 1000; ++i) {
+            double z = 0.01 * (i - 499.5), w = (exp)(-0.5 * z * z), at = e + 0.15 * z;
+            all += w;
+            passed += w * (double)water_passing(C, up, vec3((float)(cos)(at), (float)(sin)(at), 0.0f));
+        }
+        m.R = vec3((float)(cos)(e), (float)(sin)(e), 0.0f);
+        expect_near((double)water_mirror_passing(m, C, up).escape, 0.8 * passed / all, 0.1, "at %g", e);
+    }
+    m.R = vec3(0.8660254f, -0.5f, 0.0f);
+    WaterMirror below = water_mirror_passing(m, C, up);
+    assert_true(below.escape < 0.01f && below.R[1] >= 0.0f);
+    expect_near((double)length(below.R), 1.0, 1e-6, "unit");
+}
+
+/* A walk in three dimensions, of which N is one: the root mean square of tilts is exact where N faces the eye at a grazing angle; what is
+ * tilted much more than slopes vary stays. */
+static void test_tilted(void **state)
+{
+    (void)state;
+    vec3 C = vec3(0.01f, 0.02f, 0.003f), V = normalize(vec3(0.8f, 1e-4f, 0.6f));
+    double variance = (double)slope_variance(C, vec2(V[0], V[2]));
+    vec3 seen = water_tilted(vec3(0.0f, 1.0f, 0.0f), C, V);
+    expect_near((double)(dot(seen, V) / seen[1]), (sqrt)(2.0 * variance), 1e-3, "of a level place");
+    vec3 away = water_tilted(normalize(vec3(-0.1f, 1.0f, 0.0f)), C, V);
+    assert_true(dot(away, V) > 0.08f);
+    vec3 N = normalize(vec3(0.8f, 1.0f, 0.6f));
+    expect_near((double)dot(water_tilted(N, C, V), N), 1.0, 1e-6, "towards the eye");
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_weights),     cmocka_unit_test(test_normal),
-                                       cmocka_unit_test(test_seen_normal), cmocka_unit_test(test_footprint),
-                                       cmocka_unit_test(test_foam),        cmocka_unit_test(test_lace),
-                                       cmocka_unit_test(test_passing)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_weights),     cmocka_unit_test(test_normal),
+        cmocka_unit_test(test_seen_normal), cmocka_unit_test(test_footprint),
+        cmocka_unit_test(test_foam),        cmocka_unit_test(test_lace),
+        cmocka_unit_test(test_passing),     cmocka_unit_test(test_mirror_passing),
+        cmocka_unit_test(test_tilted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

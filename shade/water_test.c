@@ -31,7 +31,7 @@ static Water ocean(float ior)
     w.sky_reflectance = 0.06f;
     w.foam_albedo = 0.4f;
     w.normals = WATER_BECKMANN;
-    w.masking = WATER_SMITH;
+    w.masking = WATER_SCALES;
     w.is_schlick = 0;
     return w;
 }
@@ -59,8 +59,8 @@ static WaterLight light_of(vec3 L, float sun, float sky, Water w)
 /* What the renderer reads from its table. */
 static WaterMirror mirror_of(Water w, WaterPoint p, vec3 V)
 {
-    WaterMeans m =
-        integrate_water_means(w.normals, dot(p.N, V), sigma_towards(p.covariance, p.N, V), w.ior, 48);
+    WaterMeans m = integrate_water_means(w.normals, w.masking, dot(p.N, V),
+                                         sigma_towards(p.covariance, p.N, V), w.ior, 48);
     return water_mirror(w, p, V, m.fresnel, m.escape, m.lift, m.spread);
 }
 

@@ -1304,7 +1304,8 @@ typedef enum facet_sea_normals {
     FACET_SEA_GGX       /* the same width, with longer tails */
 } facet_sea_normals;
 typedef enum facet_sea_masking {
-    FACET_SEA_SMITH,        /* height-correlated */
+    FACET_SEA_SCALES, /* waves of all lengths on each other, whichever of them a pixel shows; GGX has Smith's */
+    FACET_SEA_SMITH,        /* height-correlated, of facets that do not know their neighbours */
     FACET_SEA_SCHLICK_KARIS /* separable, k = (r + 1)^2 / 8: too dark at grazing angles, for comparison */
 } facet_sea_masking;
 

@@ -253,7 +253,7 @@ static facet_result check_look(const facet_sea_look *look, facet_error *error)
 static bool is_physical(const facet_sea_look *look)
 {
     return look->before == FACET_SEA_PHYSICAL && look->stage == 0 && look->normals == FACET_SEA_BECKMANN &&
-           look->masking == FACET_SEA_SMITH && !look->no_glints && !look->no_caustics &&
+           look->masking == FACET_SEA_SCALES && !look->no_glints && !look->no_caustics &&
            !(look->clamp > 0.0f);
 }
 

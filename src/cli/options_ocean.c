@@ -194,9 +194,10 @@ static const option look_options[] = {
      .name = "masking",
      .kind = OPTION_CHOICE,
      .argument = "HOW",
-     .default_text = "smith",
-     .help = "of facets by each other: smith (height-correlated) or schlick (too dark at grazing angles)",
-     .choices = WORDS("smith", "schlick")},
+     .default_text = "scales",
+     .help = "of facets by each other: scales (waves of all lengths), smith (height-correlated, too bright "
+             "at the horizon) or schlick (too dark)",
+     .choices = WORDS("scales", "smith", "schlick")},
     {.id = OPT_FRESNEL,
      .name = "fresnel",
      .kind = OPTION_CHOICE,

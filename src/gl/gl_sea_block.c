@@ -84,8 +84,7 @@ static void fill_water(const sea_picture *p, gl_sea_block *b)
     set4(b->scattering, o->scattering, o->foam_albedo);
     set4(b->backscattering, o->backscattering,
          (float)(look->normals == FACET_SEA_GGX ? WATER_GGX : WATER_BECKMANN));
-    set4(b->reflectance, o->reflectance,
-         (float)(look->masking == FACET_SEA_SCHLICK_KARIS ? WATER_SCHLICK_KARIS : WATER_SMITH));
+    set4(b->reflectance, o->reflectance, (float)look->masking);
     set4(b->pure_share, o->pure_share, look->schlick_fresnel ? 1.0f : 0.0f);
     set4(b->sun, p->L, p->sun_fresnel);
     set4(b->sun_irradiance, p->sun_irradiance, p->sky_reflectance);

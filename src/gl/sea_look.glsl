@@ -36,7 +36,7 @@ vec3 sea_sun_seen(SeaPlace p, Water w, WaterLight light)
     if (light.L.y <= 0.0 || light.sun_irradiance.y <= 0.0)
         return vec3(0.0);
     vec3 sun = water_sun(w, p.point, light, p.V);
-    return sun.y > 0.0 ? sun * (water_passing(p.resolved, light.L) * sea_glints(p, w)) : sun;
+    return sun.y > 0.0 ? sun * (water_passing(p.resolved, p.point.N, light.L) * sea_glints(p, w)) : sun;
 }
 
 WaterCrest sea_crest()
@@ -79,7 +79,7 @@ vec3 sea_shade(SeaPlace p)
     if (sigma > 1e-6)
         means = sea_means(NdotV, sigma);
     WaterMirror m = water_mirror(w, p.point, p.V, means.x, means.y, means.z, means.w);
-    m.escape *= water_passing(p.resolved, normalize(m.R + vec3(0.0, 1e-4, 0.0)));
+    m = water_mirror_passing(m, p.resolved, p.point.N);
     vec3 sky = sea_sky_reflected(m.R, m.perceptual_roughness);
     vec3 below = sea_from_below(p, w, light);
 #ifdef HAS_MODEL

@@ -11,14 +11,14 @@ _Static_assert(WATER_TABLE_WIDTH == WATER_TABLE_COLUMNS && WATER_TABLE_HEIGHT ==
 
 typedef struct filling {
     water_table *table;
-    int normals;
+    int normals, masking;
 } filling;
 
 static void fill_row(const filling *f, size_t row)
 {
     for (int column = 0; column < WATER_TABLE_WIDTH; column++) {
         vec2 pair = water_table_pair(vec2((float)column, (float)row));
-        WaterMeans m = integrate_water_means(f->normals, pair[0], pair[1], f->table->ior, POINTS);
+        WaterMeans m = integrate_water_means(f->normals, f->masking, pair[0], pair[1], f->table->ior, POINTS);
         float *texel = f->table->texels[row][column];
         texel[0] = m.fresnel;
         texel[1] = m.escape;
@@ -33,10 +33,10 @@ static void fill_rows(void *context, size_t begin, size_t end)
         fill_row(context, row);
 }
 
-void water_table_create(int normals, float ior, uint32_t thread_count, water_table *out)
+void water_table_create(int normals, int masking, float ior, uint32_t thread_count, water_table *out)
 {
     out->ior = ior;
-    filling f = {out, normals};
+    filling f = {out, normals, masking};
     parallel_for(thread_count, WATER_TABLE_HEIGHT, 1, fill_rows, &f);
 }
 

@@ -13,8 +13,8 @@ typedef struct water_table {
     float ior;
 } water_table;
 
-/* normals: WATER_BECKMANN or WATER_GGX; ior in (1, 2]. Takes some 50 ms of processor time. */
-void water_table_create(int normals, float ior, uint32_t thread_count, water_table *out);
+/* normals: WATER_BECKMANN or WATER_GGX; masking: WATER_SCALES or WATER_SMITH, which the others have, too; ior in (1, 2]. Takes some 50 ms of processor time. */
+void water_table_create(int normals, int masking, float ior, uint32_t thread_count, water_table *out);
 
 /* The texel of a cosine in [0, 1] and a root of slope variance along one axis. */
 void water_table_at(const water_table *t, float mu, float sigma, float out[4]);

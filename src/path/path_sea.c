@@ -1,5 +1,5 @@
-/* path_sea.c - see path_sea.h. Reflection is F D G / (4 N.V), transmission Walter et al. 2007, equation 21, D and G of Gaussian slopes
- * about those of N (Heitz 2014). From below all is the same with both directions turned around, so that formulas see them above.
+/* path_sea.c - see path_sea.h. Reflection is F D G / (4 N.V), transmission Walter et al. 2007, equation 21, D of Gaussian slopes about
+ * those of N and G of waves of all lengths (slopes_seen()). From below all is the same with both directions turned around, so that formulas see them above.
  *
  * A facet is drawn from those that V sees, then what it does by Fresnel's equations, then whether other facets let the light
  * pass: sampling is as likely as what it finds is bright, and all weights are 1 or ratios of the index squared. What does not pass
@@ -40,11 +40,6 @@ path_sea_point path_sea_point_make(const path_sea *sea, const shading_hit *h, co
 }
 
 /* ---- facets ---- */
-
-static float Lambda(const path_sea_point *p, vec3 X)
-{
-    return Lambda_slopes(WATER_BECKMANN, smith_a(p->C, p->N, X));
-}
 
 static float index_here(const path_sea_point *p)
 {
@@ -89,7 +84,7 @@ static float reflect_value(const path_sea_point *p, vec3 V, vec3 L)
     if (!(l_N > 0.0f) || !(dot(v, p->N) > 0.0f) || !(m[1] > 0.0f))
         return 0.0f;
     float D = D_slopes(WATER_BECKMANN, p->C, p->N, m);
-    return D * V_slopes(WATER_BECKMANN, WATER_SMITH, p->C, p->N, l, v) * l_N * reflectance(p, dot(v, m));
+    return D * V_slopes(WATER_BECKMANN, WATER_SCALES, p->C, p->N, l, v) * l_N * reflectance(p, dot(v, m));
 }
 
 static float transmit_value(const path_sea_point *p, vec3 V, vec3 L)
@@ -104,7 +99,7 @@ static float transmit_value(const path_sea_point *p, vec3 V, vec3 L)
     if (!(v_m > 0.0f) || !(l_m > 0.0f) || !(v_N > 0.0f) || !(dot(l, p->N) > 0.0f))
         return 0.0f;
     float D = D_slopes(WATER_BECKMANN, p->C, p->N, m);
-    float G = 1.0f / ((1.0f + Lambda(p, v)) * (1.0f + Lambda(p, l)));
+    float G = slopes_seen(p->C, p->N, m, v) * slopes_seen(p->C, p->N, m, l);
     float t = here * v_m - beyond * l_m;
     float t2 = max(t * t, 1e-12f);
     return (1.0f - reflectance(p, v_m)) * D * G * v_m * l_m * here * here / (v_N * t2);
@@ -196,9 +191,7 @@ path_sea_direction path_sea_sample(const path_sea_point *p, vec3 V, float u_lobe
     vec3 l = is_back ? reflect(-v, m) : refract(-v, m, index_here(p) / index_beyond(p));
     out.L = l * p->side;
     bool is_out = is_reflected(p, out.L) == is_back && is_consistent(p, out.L);
-    float toward = Lambda(p, v), away = is_out ? Lambda(p, is_back ? l : -l) : 0.0f;
-    float passes = is_back ? (1.0f + toward) / (1.0f + toward + away) : 1.0f / (1.0f + away);
-    if (!is_out || number_of(seed) >= passes)
+    if (!is_out || number_of(seed) >= slopes_seen(p->C, p->N, m, is_back ? l : -l))
         return second_facet(p, out.L, !is_back,
                             vec2(number_of(hash_uint(seed + 1u)), number_of(hash_uint(seed + 2u))));
     vec3 f = path_sea_scatter(p, V, out.L, &out.pdf);

@@ -38,8 +38,8 @@ static facet_result create(const facet_sea *sea, const facet_sea_render_desc *de
         destroy(&l->kept);
         return result;
     }
-    water_table_create(desc->look.normals == FACET_SEA_GGX ? WATER_GGX : WATER_BECKMANN, sea->optics.ior,
-                       desc->render.thread_count, &l->table);
+    water_table_create(desc->look.normals == FACET_SEA_GGX ? WATER_GGX : WATER_BECKMANN,
+                       (int)desc->look.masking, sea->optics.ior, desc->render.thread_count, &l->table);
     *out = l;
     return FACET_OK;
 }
@@ -65,9 +65,9 @@ static bool is_made_for(const water_light *l, const facet_sea_render_desc *desc,
 {
     const facet_render_desc *a = &l->desc.render, *b = &desc->render;
     return l->eye_height_m == eye_height_m && (l->sky.has_views || l->rows_per_rad == rows_per_rad) &&
-           l->desc.look.normals == desc->look.normals && is_same_sky(&l->desc.sky, &desc->sky) &&
-           is_same_sun(&a->sun, &b->sun) && a->environment == b->environment &&
-           a->environment_rotation_rad == b->environment_rotation_rad &&
+           l->desc.look.normals == desc->look.normals && l->desc.look.masking == desc->look.masking &&
+           is_same_sky(&l->desc.sky, &desc->sky) && is_same_sun(&a->sun, &b->sun) &&
+           a->environment == b->environment && a->environment_rotation_rad == b->environment_rotation_rad &&
            a->environment_ev == b->environment_ev;
 }
 

@@ -10,6 +10,10 @@
 #include "water/caustic_plan.h"
 #include "water/water_render.h"
 
+_Static_assert(FACET_SEA_SCALES == WATER_SCALES && FACET_SEA_SMITH == WATER_SMITH &&
+                   FACET_SEA_SCHLICK_KARIS == WATER_SCHLICK_KARIS,
+               "looks and shaders have the same numbers");
+
 static const float SHUTTER_S = 0.01f;
 enum { SURROUNDINGS_HEIGHT = 128 };
 
@@ -40,7 +44,7 @@ static void fill_water(water_setup *s)
     s->water.pure_share = load3(o->pure_share);
     s->water.foam_albedo = o->foam_albedo;
     s->water.normals = look->normals == FACET_SEA_GGX ? WATER_GGX : WATER_BECKMANN;
-    s->water.masking = look->masking == FACET_SEA_SCHLICK_KARIS ? WATER_SCHLICK_KARIS : WATER_SMITH;
+    s->water.masking = (int)look->masking;
     s->water.is_schlick = look->schlick_fresnel;
 }
 

@@ -68,7 +68,8 @@ static vec3 sun_in_water(const water_setup *s, const water_place *p, WaterLight 
 {
     if (light.L[1] <= 0.0f || light.sun_irradiance[1] <= 0.0f)
         return vec3(0.0f);
-    vec3 sun = water_sun(s->water, p->point, light, p->V) * water_passing(p->slopes.resolved, s->light.L);
+    vec3 sun = water_sun(s->water, p->point, light, p->V) *
+               water_passing(p->slopes.resolved, p->point.N, s->light.L);
     return sun[1] > 0.0f ? sun * glints(s, p) : sun;
 }
 
@@ -84,7 +85,7 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
         water_table_at(&s->table, NdotV, sigma, means);
     Water w = s->water;
     WaterMirror m = water_mirror(w, p->point, p->V, means[0], means[1], means[2], means[3]);
-    m.escape *= water_passing(p->slopes.resolved, normalize(m.R + vec3(0.0f, 1e-4f, 0.0f)));
+    m = water_mirror_passing(m, p->slopes.resolved, p->point.N);
     vec3 sky = water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
     if (found->covered > 0.0f) {
         float share = min(found->covered / m.fresnel, 1.0f);

@@ -1,0 +1,162 @@
+/* water_scales_test.c - what is seen of waves of all lengths on each other (slopes_seen()): the area is that of the surface, a walk through
+ * three dimensions has the same slopes, and a surface that is divided into long and short waves shows what it shows at once. */
+#include "testing/test_support.h"
+
+static const double PI_DOUBLE = 3.14159265358979324;
+
+static const vec3 UP = {0.0f, 1.0f, 0.0f, 0.0f};
+
+static vec3 direction(double elevation_deg, double azimuth_deg)
+{
+    float e = (float)(elevation_deg * PI_DOUBLE / 180.0), a = (float)(azimuth_deg * PI_DOUBLE / 180.0);
+    return vec3(cos(e) * cos(a), sin(e), cos(e) * sin(a));
+}
+
+/* Density of slopes along X times what is seen of them, by tilt: D m.X G1 over N.X, integrated across. c0, c: tilts; variance: X_h^T C X_h. */
+static double seen_density(double c0, double c, double variance)
+{
+    double density = (exp)(-0.5 * (c - c0) * (c - c0) / variance) / (sqrt)(2.0 * PI_DOUBLE * variance);
+    vec3 X = vec3(1.0f, 0.0f, 0.0f); /* level: tilts are -slopes */
+    vec3 N = normal_from_slope(vec2((float)-c0, 0.0f)), m = normal_from_slope(vec2((float)-c, 0.0f));
+    return density * c / c0 * (double)slopes_seen(vec3((float)variance, 0.02f, 0.0f), N, m, X);
+}
+
+/* On flanks and askew: the area of all facets that X sees is that of the surface. */
+static void test_area(void **state)
+{
+    (void)state;
+    enum { STEPS = 300 };
+    vec3 C = vec3(0.03f, 0.012f, 0.008f);
+    for (int k = 0; k < 12; ++k) {
+        vec3 X = direction(1.0 + 7.0 * k, 35.0 + 30.0 * k),
+             N = normal_from_slope(vec2(0.05f, -0.03f) * (float)k);
+        if (dot(N, X) < 0.005f)
+            continue;
+        double area = 0.0;
+        for (int i = 0; i < STEPS; ++i) /* of slopes, within seven standard deviations */
+            for (int j = 0; j < STEPS; ++j) {
+                vec2 d = vec2((float)(14.0 * (i + 0.5) / STEPS - 7.0) * 0.1732f,
+                              (float)(14.0 * (j + 0.5) / STEPS - 7.0) * 0.1095f);
+                vec3 m = normal_from_slope(slope_from_normal(N) + d);
+                if (dot(X, m) > 0.0f)
+                    area += (double)(slope_density(WATER_BECKMANN, C, d) * dot(X, m) / m[1] *
+                                     slopes_seen(C, N, m, X));
+            }
+        area *= 14.0 * 0.1732 * 14.0 * 0.1095 / (STEPS * STEPS);
+        expect_relative(area, (double)(dot(N, X) / N[1]), 2e-3, "area seen, case %d", k);
+    }
+}
+
+/* Tilts of what is seen are lengths of (c0, 0, 0) + sigma times a vector of three normal numbers: moments, for eyes near the surface and
+ * far above it. From the surface they are 1.6 standard deviations, where Smith's are 1.25. */
+static void test_walk(void **state)
+{
+    (void)state;
+    const double sigma = 0.16;
+    for (double c0 = 1e-3; c0 < 1.0; c0 *= 2.3) {
+        double sum = 0.0, mean = 0.0, square = 0.0;
+        enum { STEPS = 20000 };
+        for (int i = 0; i < STEPS; ++i) {
+            double c = (c0 + 7.0 * sigma) * (i + 0.5) / STEPS;
+            double w = seen_density(c0, c, sigma * sigma) * (c0 + 7.0 * sigma) / STEPS;
+            sum += w;
+            mean += w * c;
+            square += w * c * c;
+        }
+        expect_relative(sum, 1.0, 2e-3, "all, from %g", c0);
+        expect_relative(square, c0 * c0 + 3.0 * sigma * sigma, 2e-3, "square, from %g", c0);
+        if (c0 < 2e-3)
+            expect_relative(mean, sigma * 2.0 * (sqrt)(2.0 / PI_DOUBLE), 2e-3, "mean at the surface");
+    }
+}
+
+/* Long waves that hide, and short waves on what is seen of them, are all waves at once, however they are divided: the same distribution of
+ * tilts. */
+static void test_division(void **state)
+{
+    (void)state;
+    const double variance = 0.03;
+    enum { STEPS = 4000 };
+    for (double share = 0.1; share < 1.0; share += 0.2)
+        for (double c0 = 0.003; c0 < 0.7; c0 *= 3.7)
+            for (double c = 0.02; c < 0.7; c *= 2.1) {
+                double divided = 0.0, width = c0 + 7.0 * (sqrt)(share * variance);
+                for (int i = 0; i < STEPS; ++i) {
+                    double middle = width * (i + 0.5) / STEPS;
+                    divided += seen_density(c0, middle, share * variance) *
+                               seen_density(middle, c, (1.0 - share) * variance) * width / STEPS;
+                }
+                double whole = seen_density(c0, c, variance);
+                expect_near(divided, whole, 3e-3 * whole + 1e-5, "divided at %g, from %g to %g", share, c0,
+                            c);
+            }
+}
+
+/* The share of tilts below one, from their density; and its inverse, which facets are drawn by. */
+static void test_tilts(void **state)
+{
+    (void)state;
+    for (double a = 1e-3; a < 20.0; a *= 3.1) {
+        enum { STEPS = 4000 };
+        double sum = 0.0, low = fmax(a - 7.0, 0.0), width = a + 7.0 - low;
+        for (int i = 0; i < STEPS; ++i) {
+            double x = low + width * (i + 0.5) / STEPS, e = (exp)(-0.5 * (x - a) * (x - a));
+            sum += x / a * e * -expm1(-2.0 * a * x) / (sqrt)(2.0 * PI_DOUBLE) * width / STEPS;
+            if (i % 200 == 0)
+                expect_near((double)tilts_seen((float)a, (float)(x + 0.5 * width / STEPS)), sum,
+                            3e-6 + 2e-6 * a, "tilts below %g, from %g", x, a);
+        }
+    }
+}
+
+/* What a sea of 5, 10 and 15 m/s reflects at a level eye, by facets that are drawn as lengths of three normal numbers and a slope across:
+ * independent of quadrature and of densities. */
+static void test_mean_reflectance(void **state)
+{
+    (void)state;
+    const double mss[3] = {0.0286, 0.0542, 0.0798};
+    for (int k = 0; k < 3; ++k)
+        for (double degrees = 0.5; degrees < 40.0; degrees *= 3.0) {
+            double sigma = (sqrt)(0.5 * mss[k]), e = degrees * PI_DOUBLE / 180.0, sum = 0.0;
+            enum { DRAWS = 100000 };
+            test_rng rng = {(uint64_t)(7 + k)};
+            for (int i = 0; i < DRAWS; ++i) {
+                double g[4];
+                for (int j = 0; j < 4; ++j)
+                    g[j] = sigma * (double)inverse_normal(clamp(rng_float(&rng), 1e-6f, 0.999999f));
+                double c0 = (sin)(e), level = (cos)(e);
+                double c = (sqrt)((c0 + level * g[0]) * (c0 + level * g[0]) +
+                                  level * level * (g[1] * g[1] + g[2] * g[2]));
+                double along = (c0 - c) / level;
+                sum += (double)F_dielectric((float)(c / (sqrt)(1.0 + along * along + g[3] * g[3])), 1.34f);
+            }
+            float mu = (float)(sin)(e);
+            WaterMeans m = integrate_water_means(WATER_BECKMANN, WATER_SCALES, mu, (float)sigma, 1.34f, 96);
+            expect_relative((double)(m.fresnel * F_dielectric(mu, 1.34f)), sum / DRAWS, 0.01,
+                            "mss %g, %g degrees", mss[k], degrees);
+            WaterMeans smith =
+                integrate_water_means(WATER_BECKMANN, WATER_SMITH, mu, (float)sigma, 1.34f, 96);
+            if (degrees < 1.0) /* a quarter more, and a third */
+                assert_true(smith.fresnel > 1.2f * m.fresnel && smith.fresnel < 1.4f * m.fresnel);
+        }
+}
+
+/* Where slopes are small, nothing is hidden; what faces away is for callers to leave out. */
+static void test_calm(void **state)
+{
+    (void)state;
+    vec3 C = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
+    assert_true(slopes_seen(C, UP, UP, direction(1.0, 20.0)) == 1.0f);
+    assert_true(slopes_seen(vec3(0.05f, 0.05f, 0.0f), UP, UP, UP) == 1.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_area),
+                                       cmocka_unit_test(test_walk),
+                                       cmocka_unit_test(test_division),
+                                       cmocka_unit_test(test_tilts),
+                                       cmocka_unit_test(test_mean_reflectance),
+                                       cmocka_unit_test(test_calm)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
