@@ -6,9 +6,7 @@ void main()
 {
     vec2 rest = sea_grid_rest(ivec2(gl_FragCoord.xy));
     float r = max(length(rest), 1e-3);
-    float width = sea_shift.w * length(vec2(r, sea_eye.x));
-    float rise = (sea_eye.x - r * r * sea_eye.y) / r;
-    vec3 D = sea_heave(rest, water_footprint(width, rise, sea_eye.z));
+    vec3 D = sea_heave(rest, sea_shift.w * length(vec2(r, sea_eye.x)));
     vec2 at = rest + D.xz;
     fragment = vec4(at.x, D.y - sea_eye.x - dot(at, at) * sea_eye.y, at.y, 1.0);
     fragment_rest = vec4(rest, 0.0, 1.0);

@@ -30,12 +30,16 @@ typedef struct sums {
     float height_m;
 } sums;
 
-static void add(sums *sum, const wave_point *at, vec3 facing, bool is_below)
+static vec3 normal_of(const wave_point *at)
+{
+    wave_shape shape = wave_shape_of(at);
+    return vec3(shape.normal[0], shape.normal[1], shape.normal[2]);
+}
+
+static void add(sums *sum, const wave_point *at, vec3 facing)
 {
     const float most = 4.0f; /* what is seen of a crest is not all of its water */
-    wave_shape shape = wave_shape_of(at);
-    vec3 N = vec3(shape.normal[0], shape.normal[1], shape.normal[2]);
-    N = is_below ? N : water_faced(N, facing);
+    vec3 N = water_faced(normal_of(at), facing);
     float weight = clamp(N[1] * abs(facing[1]) / max(dot(N, facing), 1e-6f), 1e-3f, most);
     vec2 slope = slope_from_normal(N);
     sum->weight += weight;
@@ -89,14 +93,21 @@ static void locate(const water_setup *s, const march_ray *ray, const march_hit *
         p->rest[i] = p->P[2 * i] - (double)hit->displacement[i];
 }
 
-static void finish(const water_setup *s, const march_ray *ray, const sums *mean, float footprint_m,
-                   water_place *p)
+static void finish(const water_setup *s, vec3 N, float height_m, float footprint_m, water_place *p)
 {
-    p->height_m = mean->height_m;
-    p->point.N = normal_from_slope(mean->slope);
-    p->point.N = ray->is_below ? p->point.N : water_faced(p->point.N, p->V);
+    p->height_m = height_m;
+    p->point.N = N;
     p->point.covariance = p->slopes.covariance;
     p->point.foam = water_foam_at(s, p->rest, footprint_m);
+}
+
+/* A profile finds places as well as it sees waves, a pixel wide: slopes of finer ones are those of water nearby. */
+static vec3 faced(const water_setup *s, const water_place *p, vec3 N, float footprint_m)
+{
+    float pixel_m = p->footprint_m / s->footprint;
+    if (s->profile.tangents && pixel_m > footprint_m)
+        N = water_tilted(N, water_slopes_at(s, pixel_m).covariance - p->slopes.covariance, p->V);
+    return water_faced(N, p->V);
 }
 
 water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit)
@@ -106,10 +117,8 @@ water_place water_place_of(const water_setup *s, const march_ray *ray, const mar
     p.slopes = water_slopes_at(s, footprint);
     locate(s, ray, hit, &p);
     wave_point at = waves_at(&s->sea->waves, p.rest[0], p.rest[1], footprint);
-    sums sum = {.weight = 0.0f};
-    add(&sum, &at, p.V * (ray->is_below ? -1.0f : 1.0f), ray->is_below);
-    sum = mean_of(sum);
-    finish(s, ray, &sum, footprint, &p);
+    vec3 N = normal_of(&at);
+    finish(s, ray->is_below ? N : faced(s, &p, N, footprint), at.height_m, footprint, &p);
     return p;
 }
 
@@ -170,7 +179,7 @@ water_place water_place_of_samples(const water_setup *s, const march_ray *ray,
         double place[3];
         float displacement[2];
         wave_point at = find(s, &r, ray, sights[i], &middle, place, displacement);
-        add(&sum, &at, p.V, false);
+        add(&sum, &at, p.V);
         hit->t += place[0] / count;
         hit->X += place[1] / count;
         hit->Z += place[2] / count;
@@ -183,6 +192,7 @@ water_place water_place_of_samples(const water_setup *s, const march_ray *ray,
         spread(&p.slopes, &sum);
     locate(s, ray, hit, &p);
     float n = (float)count; /* foam is read once, as wide as they are together: see begin() */
-    finish(s, ray, &sum, footprint * sqrt(n * sqrt(n)), &p);
+    finish(s, water_faced(normal_from_slope(sum.slope), p.V), sum.height_m, footprint * sqrt(n * sqrt(n)),
+           &p);
     return p;
 }

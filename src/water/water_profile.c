@@ -87,9 +87,7 @@ static void fill_samples(void *context, size_t begin, size_t end)
         float displacement[2] = {0.0f, 0.0f};
         for (uint32_t row = 0; row < p->row_count; row++) {
             double r = distance_of(p, row);
-            double rise = (p->origin[1] - r * r * p->march->fall) / r;
-            float width = (float)(0.5 * COARSE_PIXELS * f->pixel_rad * hypot(r, p->origin[1]));
-            float footprint = water_march_footprint(p->march, width, rise);
+            float footprint = (float)(0.5 * COARSE_PIXELS * f->pixel_rad * hypot(r, p->origin[1]));
             profile_sample *to = &p->samples[c * p->row_count + row];
             to->height_m = waves_height_near(p->march->waves, p->origin[0] + r * dx, p->origin[2] + r * dz,
                                              footprint, displacement);
