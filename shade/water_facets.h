@@ -88,8 +88,8 @@ STRUCT(Facet)
     float weight;
 };
 
-/* u: uniform in [0, 1)^2. Density phi(z.x) phi(z.y) in the rectangle; of facets that are seen it is (n - z.x) phi(z.x) phi(z.y), as
- * sample_slopes() has it. */
+/* u: uniform in [0, 1)^2. Density phi(z.x) phi(z.y) in the rectangle; of facets that are seen (slopes_seen()) it is
+ * (1 - z.x / n) (1 - exp(-2 n (n - z.x))) phi(z.x) phi(z.y), as sample_slopes() has it. */
 FN Facet facet_drawn(FacetRange r, vec3 N, vec2 u)
 {
     float x = mix(normal_below(r.low[0]), normal_below(r.high[0]), u[0]);
@@ -99,7 +99,9 @@ FN Facet facet_drawn(FacetRange r, vec3 N, vec2 u)
     Facet f;
     f.m = normal_from_slope(slope_from_normal(N) + r.towards * (z * r.along) +
                             vec2(-r.towards[1], r.towards[0]) * sideways);
-    f.weight = facets_share(r) * max(r.n - z, 0.0f) / max(seen_slopes(r.n, r.n), 1e-20f);
+    float n = max(r.n, 1e-3f);
+    float tilt = max(n - z, 0.0f);
+    f.weight = facets_share(r) * tilt / n * (1.0f - exp(-2.0f * n * tilt));
     return f;
 }
 
