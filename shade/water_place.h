@@ -115,7 +115,8 @@ FN WaterMirror water_mirror_passing(WaterMirror m, vec3 C, vec3 N)
 }
 
 /* Normal of the mean slope of those facets that V sees (unit, V.y > 0; slopes_seen()), of all whose slopes have the covariance C about that
- * of N. Tilts to the eye, in deviations sigma = sqrt(u^T C u), u along V's horizontal part of the length l, begin at a = (V.y / l - s_N.u) / sigma
+ * of N. Tilts to the eye, in deviations sigma = sqrt(u^T C u), u along V's horizontal part of the length l, begin at
+ * a = (V.y / l - s_N.u) / sigma
  * and are lengths of a vector in three dimensions, longer by
  *   (2 Phi(a) - 1) / a - 2 a Phi(-a) + 2 phi(a)
  * on average; across u slopes follow by C u / sigma^2. A grazing ray sees tilts of 1.6 sigma, and never the back of one. */
@@ -125,11 +126,12 @@ FN vec3 water_seen_normal(vec3 C, vec3 N, vec3 V)
     vec2 u = vec2(V[0], V[2]) * (1.0f / level);
     vec2 mean = slope_from_normal(N);
     float sigma = sqrt(max(slope_variance(C, u), SLOPE_VARIANCE_MIN));
-    float a = clamp((V[1] / level - mean[0] * u[0] - mean[1] * u[1]) / sigma, 0.01f, 1e4f);
+    float first = (V[1] / level - mean[0] * u[0] - mean[1] * u[1]) / sigma;
+    float a = clamp(first, 0.01f, 1e4f); /* N may face away */
     float hidden = 2.0f * normal_below(-a);
     float longer = (1.0f - hidden) / a - a * hidden + 0.797884561f * exp(-0.5f * a * a);
     vec2 towards = vec2(C[0] * u[0] + C[2] * u[1], C[2] * u[0] + C[1] * u[1]);
-    return normal_from_slope(mean - towards * (longer / sigma));
+    return normal_from_slope(mean - towards * ((longer + max(a - first, 0.0f)) / sigma));
 }
 
 /* ---- foam ---- */

@@ -43,7 +43,7 @@ static void test_seen_normal(void **state)
     const vec3 N = normal_from_slope(vec2((float)mean[0], (float)mean[1]));
     double L11 = (sqrt)(C[0]), L21 = C[2] / L11, L22 = (sqrt)(C[1] - L21 * L21); /* of Cholesky */
     for (int i = 0; i < 8; i++) {
-        double elevation = i == 7 ? 1.5 : 0.01 + 0.08 * i, azimuth = 0.9 * i;
+        double elevation = i == 7 ? 1.5 : 0.06 + 0.08 * i, azimuth = 0.9 * i;
         double V[3] = {(cos)(elevation) * (cos)(azimuth), (sin)(elevation),
                        (cos)(elevation) * (sin)(azimuth)};
         double first = V[1] - V[0] * mean[0] - V[2] * mean[1];
@@ -66,6 +66,9 @@ static void test_seen_normal(void **state)
         expect_near((double)slope[1], sum[2] / sum[0], 2e-4, "z, eye %d", i);
         assert_true(dot(is, vec3((float)V[0], (float)V[1], (float)V[2])) > 0.0f);
     }
+    vec3 low = normalize(vec3(1.0f, 0.01f, 0.0f)); /* behind a wave */
+    assert_true(dot(water_seen_normal(vec3(0.001f, 0.001f, 0.0f), normalize(vec3(-0.3f, 1.0f, 0.0f)), low),
+                    low) > 0.0f);
 }
 
 static void test_footprint(void **state)
