@@ -219,7 +219,7 @@ static uint64_t features_of(const sea_picture *p)
     bool is_shaded_whole = look->stage != 3 && look->stage != 4;
     bool has_bed = bed->depth_m > 0.0f && bed->depth_m < 1e30f;
     bool has_other_facets =
-        look->normals == FACET_SEA_GGX || look->masking == FACET_SEA_SCHLICK_KARIS || look->schlick_fresnel;
+        look->normals == FACET_SEA_GGX || look->masking != FACET_SEA_SCALES || look->schlick_fresnel;
     bool has_foam = is_shaded_whole && !look->no_foam && p->foam;
     bool has_glints = is_shaded_whole && !look->no_glints && !p->is_below;
     return (p->background ? GL_SEA_HAS_PICTURE : 0u) | (p->model ? GL_SEA_HAS_MODEL : 0u) |

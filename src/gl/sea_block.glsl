@@ -56,7 +56,7 @@ Water sea_water()
 #ifdef HAS_OTHER_FACETS
     ivec3 facets = ivec3(sea_backscattering.w, sea_reflectance.w, sea_pure_share.w);
 #else
-    const ivec3 facets = ivec3(WATER_BECKMANN, WATER_SMITH, 0); /* known to the compiler, what others take is left out */
+    const ivec3 facets = ivec3(WATER_BECKMANN, WATER_SCALES, 0); /* known to the compiler, what others take is left out */
 #endif
     return Water(sea_absorption.w, sea_absorption.xyz, sea_scattering.xyz, sea_backscattering.xyz, sea_reflectance.xyz, sea_pure_share.xyz,
                  sea_sun_irradiance.w, sea_scattering.w, facets.x, facets.y, facets.z);
