@@ -136,7 +136,7 @@ static void prepare(void)
     water.sky_reflectance = 0.06f;
     water.foam_albedo = 0.4f;
     water.normals = WATER_BECKMANN;
-    water.masking = WATER_SMITH;
+    water.masking = WATER_SCALES;
     water.is_schlick = 0;
     light.L = BEFORE_SUN_DIRECTION;
     light.sun_irradiance = vec3(1e5f, 9e4f, 8e4f);

@@ -34,7 +34,7 @@ STRUCT(Water)
         sky_reflectance; /* of the surface for light from all of the sky: 2 int F mu dmu, with the whole sea's slopes */
     float foam_albedo;
     int normals;    /* WATER_BECKMANN or WATER_GGX */
-    int masking;    /* WATER_SMITH or WATER_SCHLICK_KARIS */
+    int masking;    /* WATER_SCALES, WATER_SMITH or WATER_SCHLICK_KARIS */
     int is_schlick; /* 1: Schlick's Fresnel in place of the exact one */
 };
 
