@@ -843,7 +843,8 @@ FN vec3 probe_sea(int which, vec2 u)
     vec3 L = probe_up(probe_L(u));
     vec3 H = normalize(V + L);
     if (which == 100)
-        return vec3(slope_density(normals, C, vec2(0.3f * u[1], -0.1f)), D_slopes(normals, C, N, H),
+        return vec3(slope_density(normals, C, vec2(0.3f * u[1], -0.1f)),
+                    D_slopes(normals, C, N, H) + D_sun(normals, C, sun_slopes(L, V), N, H),
                     1.0f + slope_variance(C, slope_from_normal(H)));
     if (which == 101)
         return vec3(Lambda_Beckmann(0.1f + 2.0f * u[0]), Lambda_GGX(0.1f + 2.0f * u[0]),
