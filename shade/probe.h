@@ -878,7 +878,8 @@ FN vec3 probe_sea(int which, vec2 u)
     if (which == 108)
         return vec3(glint_count(normals, C, sun_slopes(L, V), N, H, 5000.0f, 0.01f, u[0]) + 0.1f,
                     gamma_variate(1.0f + 9.0f * u[0], 4.0f * u[1] - 2.0f),
-                    glint_uniform(glint_hash2(uint(u[0] * 4096.0f), uint(u[1] * 4096.0f))));
+                    glint_uniform(glint_hash(uint(u[1] * 4096.0f))) +
+                        glint_uniform(glint_hash2(uint(u[0] * 4096.0f), uint(u[1] * 4096.0f))));
     GlintCell cell = glint_cell(u * 7.3f, vec2(0.3f, 0.0113f + u[0]), 2.0f * u[1]);
     if (which == 109)
         return vec3(glint_uniform(cell.key), 5.0f + glint_normal(cell.key),
@@ -886,7 +887,8 @@ FN vec3 probe_sea(int which, vec2 u)
     vec2 place = glint_place(u - 0.3f);
     vec2 extent = glint_extent(place, 0.01f, 0.3f + u[1]);
     return vec3(5.0f + glint_image(cell, 77u) + place[1], extent[0] + extent[1] + cell.area,
-                1.0f + glint_seen(vec2(3.0f, 4.0f), 0.3f, 0.7f, 2.0f + 100.0f * u[1], 3.7f, 0.02f));
+                1.0f + glint_seen(vec2(3.0f, 4.0f), 0.3f, 0.7f, 2.0f + 100.0f * u[1], 3.7f, 0.02f) +
+                    glint_variate(cell, 2.0f + 100.0f * u[1], 3.7f, 0.02f));
 }
 
 FN vec3 probe_water(int which, vec2 u)
