@@ -13,6 +13,9 @@
 /* Expected numbers above which X is 1, and from which on it goes there: 18 % to 13 % of deviation. */
 #define GLINT_COUNT_MAX 128.0f
 #define GLINT_COUNT_FADE 64.0f
+/* Expected numbers from which on glints lose their places in a cell, and above which they have none. */
+#define GLINT_COUNT_APART 0.5f
+#define GLINT_COUNT_EVEN 2.0f
 
 /* ---- how many ---- */
 
@@ -165,7 +168,7 @@ FN float glint_variate(GlintCell cell, float count, float time_s, float lifetime
     float n = max(count * cell.area, 1e-5f);
     uint now = glint_hash2(cell.key, uint(int(slot)));
     uint next = glint_hash2(cell.key, uint(int(slot) + 1));
-    float even = clamp((count - 0.5f) * (1.0f / 1.5f), 0.0f, 1.0f);
+    float even = clamp((count - GLINT_COUNT_APART) / (GLINT_COUNT_EVEN - GLINT_COUNT_APART), 0.0f, 1.0f);
     float X = glint_sum(now, n * (1.0f - share)) * (1.0f - share) * mix(glint_image(cell, now), 1.0f, even) +
               glint_sum(next, n * share) * share * mix(glint_image(cell, next), 1.0f, even);
     float fade = clamp((GLINT_COUNT_MAX - count) / (GLINT_COUNT_MAX - GLINT_COUNT_FADE), 0.0f, 1.0f);
