@@ -164,8 +164,7 @@ static void warn_of_view(ocean_run *run)
     char text[256];
     snprintf(text, sizeof text,
              "--with: the model at %g, %g is not in the picture; it lies towards %.0f degrees, and the "
-             "camera looks "
-             "towards %.0f (--heading, --target)",
+             "camera looks towards %.0f (--heading, --target)",
              at[0], at[2], azimuth_of(to[0], to[2]), azimuth_of(along[0], along[2]));
     facet_log log = messages_log(&run->messages);
     log.message(log.user, FACET_LOG_WARNING, text);
