@@ -983,12 +983,11 @@ FN vec3 probe_water_place(int which, vec2 u)
     vec3 D = vec3(0.3f * u[0], -0.2f * u[1], 0.1f);
     vec3 N = water_faced(wave_normal(vec2(0.4f * u[1], -0.3f), D), V);
     if (which == 117) {
-        vec2 extent = water_extent(V, 0.1f, water_seen_cosine(V, C));
         vec2 place =
             sel(abs(u[0] + u[1] - 1.0f) < 1e-3f, vec2(0.4f, 0.3f), u); /* its rhombus has an edge there */
         return wave_patch_weights(place) + wave_cubic_weights(u[0]) + N + water_seen_normal(C, N, V) +
                water_tilted(N, C, V) + 2.0f +
-               vec3(extent[0], extent[1], water_footprint(u[0], V[1] * u[1], 0.3f));
+               vec3(water_seen_cosine(V, C), 0.0f, water_footprint(u[0], V[1] * u[1], 0.3f));
     }
     if (which == 121) {
         FacetRange r =

@@ -61,15 +61,6 @@ FN float water_seen_cosine(vec3 V, vec3 C)
     return clamp(sqrt(V[1] * V[1] + 1.5708f * variance * level2), 1e-3f, 1.0f);
 }
 
-/* Extent (m) of the footprint on the water along x and z; cosine: water_seen_cosine(). */
-FN vec2 water_extent(vec3 V, float width, float cosine)
-{
-    float level2 = max(V[0] * V[0] + V[2] * V[2], 1e-8f);
-    float longer = 1.0f / (cosine * cosine) - 1.0f;
-    return vec2(width * sqrt(1.0f + longer * V[0] * V[0] / level2),
-                width * sqrt(1.0f + longer * V[2] * V[2] / level2));
-}
-
 /* N turned to V as far as it takes to see it: facets that are not resolved do so. */
 FN vec3 water_faced(vec3 N, vec3 V)
 {

@@ -80,9 +80,6 @@ static void test_footprint(void **state)
     expect_near((double)water_footprint(0.01f, -1.0f, 0.0f), 0.01, 1e-8, "from below, straight");
     vec3 C = vec3(0.0f);
     expect_near((double)water_seen_cosine(vec3(0.6f, 0.8f, 0.0f), C), 0.8, 1e-6, "flat water");
-    vec2 extent = water_extent(vec3(0.6f, 0.8f, 0.0f), 1.0f, 0.8f);
-    expect_near((double)extent[0], 1.25, 1e-5, "along");
-    expect_near((double)extent[1], 1.0, 1e-6, "across");
 }
 
 /* Share of the area seen from above whose q is beyond the threshold, by the sum over q. */
