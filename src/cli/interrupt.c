@@ -15,6 +15,8 @@
 #include <time.h>
 #include <unistd.h>
 
+static const char OVER_BAR[] = "\r\033[K"; /* what sentences over a bar of progress begin with */
+
 /* What a signal handler shares with the process: the one place for state that is not passed along. */
 static atomic_int pending_signal; /* lock-free: the handler writes it, all threads ask for it */
 static const char *volatile safe_message;
@@ -117,9 +119,10 @@ double interrupt_seconds_left(void)
 static void prepare_json(const char *message)
 {
     facet_error error = {.result = FACET_ERROR_LIMIT};
-    const char *sentence =
-        strrchr(message, '\r') ? strchr(message, 'K') + 1 : message; /* behind "\r\033[K" */
-    snprintf(error.message, sizeof error.message, "%.*s", (int)strcspn(sentence, "\n"), sentence);
+    const char *sentence = message;
+    if (strncmp(sentence, OVER_BAR, strlen(OVER_BAR)) == 0)
+        sentence += strlen(OVER_BAR);
+    snprintf(error.message, sizeof error.message, "%.*s", (int)strlen(sentence) - 1, sentence); /* no "\n" */
     json_t *root = json_pack("{s:s, s:[o], s:i}", "facet", facet_version(), "failures",
                              report_error_json(&error, NULL, EXIT_LIMIT), "exit_code", EXIT_LIMIT);
     json_at_deadline[0] = 0;
@@ -143,7 +146,7 @@ void interrupt_begin(const char *name, const char *doing, bool has_bar)
 {
     static char sentence[512];
     snprintf(sentence, sizeof sentence, "%s%.400s: the time limit (--time-limit) was reached while %s\n",
-             has_bar ? "\r\033[K" : "", name, doing);
+             has_bar ? OVER_BAR : "", name, doing);
     interrupt_set_safe(sentence);
 }
 

@@ -120,5 +120,10 @@ if command -v mkfifo >/dev/null; then
     expect 7 render tri.gltf --config options -o late.png --time-limit 200ms
     says "options: the time limit (--time-limit) was reached while reading"
     rm options
+    odd=$(printf 'odd\roptions')
+    mkfifo "$odd"
+    expect 7 render tri.gltf --config "$odd" --json -o late.png --time-limit 200ms
+    grep -q '"message": "odd.roptions: the time limit' out || failed "--json tells of the end: $(cat out)"
+    rm "$odd"
 fi
 finish
