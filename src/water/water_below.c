@@ -34,10 +34,9 @@ vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, f
     float x = way_to_bed(s, P, d), z = depth_of(P);
     vec3 ground = vec3(0.0f);
     if (x < FAR_M) {
-        const float *albedo = s->sea->desc.bed.albedo;
         float depth = max(z - x * d[1], 0.0f);
         vec3 light = water_light_over_bed(s, depth);
-        vec3 mean = water_bed_below(s->water, light, vec3(albedo[0], albedo[1], albedo[2]), depth);
+        vec3 mean = water_bed_below(s->water, light, water_bed_albedo(&s->sea->desc.bed), depth);
         float width = (width_m + spread * x) * inversesqrt(clamp(-d[1], 0.05f, 1.0f));
         vec3 bed = mean;
         if (water_has_light_on_bed(s)) {
@@ -57,10 +56,8 @@ static vec3 upwelling(const water_setup *s, const double P[3])
 {
     const facet_sea_bed *bed = &s->sea->desc.bed;
     float depth = (float)fmax(P[1] - water_bed_height(bed, P[0], P[2]), 0.0);
-    vec3 R =
-        water_has_bed(s)
-            ? water_bed_reflectance(s->water, vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]), depth)
-            : water_deep_reflectance(s->water);
+    vec3 R = water_has_bed(s) ? water_bed_reflectance(s->water, water_bed_albedo(bed), depth)
+                              : water_deep_reflectance(s->water);
     return R * water_interreflected(s->water, s->light.downwelling, R);
 }
 

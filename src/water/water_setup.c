@@ -244,7 +244,7 @@ void water_warn_of_ground(const facet_sea_bed *bed, const facet_sea_render_desc 
 {
     const float *eye = d->render.camera->eye;
     double below = water_bed_height(bed, (double)eye[0], (double)eye[2]) - (double)eye[1];
-    if (bed->depth_m > 0.0f && isfinite(bed->depth_m) && below > 0.0)
+    if (water_is_bed(bed) && below > 0.0)
         log_warning(&d->render.log, "sea: the camera stands %.3g m below the bed, from where nothing is seen",
                     below);
 }

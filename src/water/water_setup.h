@@ -55,9 +55,13 @@ water_slopes water_slopes_at(const water_setup *s, float footprint_m);
 
 /* ---- the ground below ---- */
 
+static inline bool water_is_bed(const facet_sea_bed *bed)
+{
+    return bed->depth_m > 0.0f && isfinite(bed->depth_m);
+}
 static inline bool water_has_bed(const water_setup *s)
 {
-    return s->sea->desc.bed.depth_m > 0.0f && isfinite(s->sea->desc.bed.depth_m);
+    return water_is_bed(&s->sea->desc.bed);
 }
 /* Whether light on it differs from place to place. */
 static inline bool water_has_light_on_bed(const water_setup *s)
@@ -73,6 +77,10 @@ static inline double water_bed_height(const facet_sea_bed *bed, double X, double
 static inline double water_bed_rise(const facet_sea_bed *bed, vec3 d)
 {
     return (double)bed->slope * (double)(d[0] * cos(bed->direction_rad) + d[2] * sin(bed->direction_rad));
+}
+static inline vec3 water_bed_albedo(const facet_sea_bed *bed)
+{
+    return vec3(bed->albedo[0], bed->albedo[1], bed->albedo[2]);
 }
 static inline vec3 water_bed_normal(const facet_sea_bed *bed)
 {

@@ -6,16 +6,11 @@
 
 /* ---- below ---- */
 
-static vec3 bed_albedo(const water_setup *s)
-{
-    const float *albedo = s->sea->desc.bed.albedo;
-    return vec3(albedo[0], albedo[1], albedo[2]);
-}
-
 vec3 water_light_over_bed(const water_setup *s, float depth_m)
 {
-    return water_interreflected(s->water, s->light.downwelling,
-                                water_bed_reflectance(s->water, bed_albedo(s), depth_m));
+    return water_interreflected(
+        s->water, s->light.downwelling,
+        water_bed_reflectance(s->water, water_bed_albedo(&s->sea->desc.bed), depth_m));
 }
 
 vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m)
@@ -38,7 +33,7 @@ vec3 water_from_below(const water_setup *s, const water_place *p)
     float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2])),
           rise = (float)water_bed_rise(bed, down), way = water_way_to_bed(depth, rise, down);
     vec3 light = water_light_over_bed(s, water_bed_depth(depth, rise, way));
-    vec3 albedo = bed_albedo(s), mean_albedo = albedo;
+    vec3 albedo = water_bed_albedo(bed), mean_albedo = albedo;
     if (water_has_light_on_bed(s)) {
         float width = p->footprint_m * inversesqrt(p->cosine);
         width = water_bed_footprint(s->water, p->point.N, p->V, down, p->point.covariance, width, way);
@@ -101,5 +96,6 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
 
 vec3 water_shade_land(const water_setup *s)
 {
-    return water_land(s->light, bed_albedo(s), water_bed_normal(&s->sea->desc.bed));
+    const facet_sea_bed *bed = &s->sea->desc.bed;
+    return water_land(s->light, water_bed_albedo(bed), water_bed_normal(bed));
 }
