@@ -325,9 +325,9 @@ FACET_API facet_result facet_scene_place(facet_scene *scene, const float matrix[
 typedef struct facet_scene_save_desc {
     facet_allocator allocator;
     facet_log log;
-    facet_progress
-        progress; /* stage "write": asked before a file is begun, and before all are put in their places; not
-                                before the first one is anything on the disk */
+    /* Stage "write": asked before a file is begun, and before all are put in their places. Not before the first one is
+     * anything on the disk. */
+    facet_progress progress;
     uint32_t thread_count; /* 0: facet_thread_count() */
     bool is_glb;           /* a .glb file whatever the name is: for /dev/stdout and the like */
     bool keeps_inputs;     /* fails with _ARGUMENT rather than replace a file that the scene was read from */
