@@ -9,12 +9,12 @@ if(FACET_WERROR)
 endif()
 if(FACET_SANITIZE)
     target_compile_options(facet_flags INTERFACE -fsanitize=${FACET_SANITIZE} -fno-sanitize-recover=all
-        -fno-omit-frame-pointer -g)
+        -fno-omit-frame-pointer)
     # C programs link the one C++ file as well: what checks types at run time stays out of it.
     target_compile_options(facet_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fno-sanitize=vptr>)
     target_link_options(facet_flags INTERFACE -fsanitize=${FACET_SANITIZE})
 endif()
-if(FACET_FUZZ)
+if(FACET_FUZZ AND FACET_FUZZ_GUIDED)
     target_compile_options(facet_flags INTERFACE -fsanitize=fuzzer-no-link)
     target_link_options(facet_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
@@ -64,6 +64,9 @@ if(FACET_SANITIZE OR NOT FACET_TRUTH)
     set(FACET_QUICK_TESTS ON)
 endif()
 
+# What tests run: the target to build where nothing else is wanted. Tests that run the command add it themselves.
+add_custom_target(facet_tested)
+
 # facet_add_test(NAME [NUMBERS] [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test; NUMBERS: one that is about
 # numbers rather than about memory or threads, and long, in the build that does all cases only. It finds shared test data through
 # the environment variable FACET_TEST_DATA and skips (exit code 77) where it needs it and has none.
@@ -101,5 +104,6 @@ function(facet_test name)
     if(FACET_QUICK_TESTS)
         target_compile_definitions(${name}_test PRIVATE FACET_QUICK_TESTS)
     endif()
+    add_dependencies(facet_tested ${name}_test)
     facet_add_test(${name} COMMAND ${name}_test TIMEOUT ${T_TIMEOUT} LABELS ${T_LABELS})
 endfunction()
