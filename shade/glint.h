@@ -13,6 +13,8 @@
 /* Expected numbers above which X is 1, and from which on it goes there: 18 % to 13 % of deviation. */
 #define GLINT_COUNT_MAX 128.0f
 #define GLINT_COUNT_FADE 64.0f
+/* And below which it is 1: no picture has so many pixels that one would show a glint. */
+#define GLINT_COUNT_MIN 1e-6f
 /* Expected numbers from which on glints lose their places in a cell, and above which they have none. */
 #define GLINT_COUNT_APART 0.5f
 #define GLINT_COUNT_EVEN 2.0f
@@ -179,7 +181,7 @@ FN float glint_variate(GlintCell cell, float count, float time_s, float lifetime
  * their own: each sees its own part of the same glints. cosine: water_seen_cosine(). */
 FN float glint_seen(vec2 rest, float width, float cosine, float count, float time_s, float lifetime_s)
 {
-    if (count > GLINT_COUNT_MAX)
+    if (count > GLINT_COUNT_MAX || count < GLINT_COUNT_MIN)
         return 1.0f;
     vec2 place = glint_place(rest);
     GlintCell cell = glint_cell(place, glint_extent(place, width, cosine), count);
