@@ -85,7 +85,7 @@ void cox_munk_slopes(double wind_mps, double out[2])
 
 double whitecap_coverage(double wind_mps)
 {
-    const double onset_mps = 3.36, full_mps = 5.0;
+    const double onset_mps = 3.7, full_mps = 5.0;
     const double most = 0.9; /* Beaufort 12: white with foam, and streaks are seen in it */
     double t = fmin(fmax((wind_mps - onset_mps) / (full_mps - onset_mps), 0.0), 1.0);
     return fmin(3.84e-6 * pow(wind_mps, 3.41), most) * t * t * (3.0 - 2.0 * t);

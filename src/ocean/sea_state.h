@@ -112,8 +112,8 @@ double sea_state_peak_k(const sea_state *s);
 /* Variance of slopes of a clean sea along the wind and across, whose sum is 0.003 + 0.00512 U. Cox and Munk 1954. Below 1 m/s,
  * where they saw nothing, the 0.003 falls to 0: without wind the sea is a mirror. */
 void cox_munk_slopes(double wind_mps, double out[2]);
-/* Share of the area under foam, [0, 0.9], as some water is seen in any wind: 3.84e-6 U^3.41 (Monahan and O'Muircheartaigh 1980) from 5 m/s on. Below 3.36 m/s no crest breaks, where
- * air is as warm as water (1986); smooth between, as Beaufort's scale has scattered whitecaps from 3.4 m/s and many from 5.5. */
+/* Share of the area under foam, [0, 0.9], as some water is seen in any wind: 3.84e-6 U^3.41 (Monahan and O'Muircheartaigh 1980) from 5 m/s on.
+ * Below 3.7 m/s no crest breaks (Callaghan et al. 2008, whose law begins there); smooth between. */
 double whitecap_coverage(double wind_mps);
 
 #endif
