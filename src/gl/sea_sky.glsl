@@ -65,9 +65,7 @@ vec3 sea_clearness(float way_km)
 vec3 sea_through_air(vec3 radiance, vec3 d, float t)
 {
     vec3 left = sea_clearness(t * 0.001);
-    vec4 air = sea_sky_at_side(SEA_SKY_AIR, d, -1.0);
-    vec3 lost = 1.0 - left;
-    return radiance * left + air.xyz * lost * min(air.w / max(lost.y, 1e-12), 1.0); /* a crest may be farther than the level */
+    return radiance * left + sea_sky_at_side(SEA_SKY_AIR, d, -1.0).xyz * (1.0 - left);
 }
 
 /* ---- the ground ---- */

@@ -16,8 +16,7 @@ enum {
     SEA_SKY_WIDTH = 512,
     SEA_SKY_HEIGHT = 128,
     SEA_SKY_SEEN = 0, /* by the eye without the sun's disc, up to the zenith; cd/m^2 */
-    SEA_SKY_AIR, /* down to the nadir: light of the air before the sea over the share of light that is lost on the whole way to it,
-                    cd/m^2; that share of green */
+    SEA_SKY_AIR, /* down to the nadir: light of the air before the sea over the share of light that is lost there, cd/m^2 */
     SEA_SKY_CLEARNESS, /* share of light left after a way of x / (1 - x) SEA_SKY_WAY_KM, x along the columns, [0, 1) */
     SEA_SKY_DISC, /* the sun's disc over 2 x 2 radii, x to its right, y upwards; cd/m^2 */
     SEA_SKY_LAYERS

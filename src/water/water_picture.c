@@ -49,15 +49,6 @@ static void store(vec3 color, float last, float *texel)
     texel[3] = last;
 }
 
-/* The air's light without what depends on how far it is to the water. */
-static void store_air(const water_sky *sky, vec3 d, float *texel)
-{
-    vec3 light = water_sky_air(sky, d, 1e12f, 0.0f).light, lost = vec3(1.0f);
-    if (sky->has_views)
-        lost = max(water_sky_lost(sky, d), 1e-12f);
-    store(light / lost, lost[1], texel);
-}
-
 static void draw_texel(const sky_drawing *s, uint32_t layer, float u, float v, float *texel)
 {
     const water_sky *sky = &s->sky;
@@ -67,7 +58,7 @@ static void draw_texel(const sky_drawing *s, uint32_t layer, float u, float v, f
         store(water_sky_seen(sky, direction_of(u, mix(horizon, 1.0f, sky_rise(v)))), 1.0f, texel);
         break;
     case SEA_SKY_AIR:
-        store_air(sky, direction_of(u, mix(horizon, -1.0f, sky_rise(v))), texel);
+        store(water_sky_air_light(sky, direction_of(u, mix(horizon, -1.0f, sky_rise(v)))), 1.0f, texel);
         break;
     case SEA_SKY_CLEARNESS: {
         float way_m = u / (1.0f - u) * SEA_SKY_WAY_KM * 1000.0f;

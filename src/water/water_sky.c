@@ -261,7 +261,7 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
     s->eye_km = clamp(eye_height_m * 0.001f, LEAST_EYE_KM, MOST_EYE_KM);
     s->horizon_mu = horizon_mu(s->eye_km);
     s->horizon_rad = acos(s->horizon_mu);
-    s->density_to_sea = water_sky_density(s->eye_km, 0.0f);
+    water_sky_fill_ways(s);
     if (desc->render.environment) {
         rotate(&desc->render, s);
         result = use_picture(desc, desc->render.environment, rows_per_rad, s, error);
@@ -273,6 +273,8 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
         light_by_air(&desc->sky, s);
         result = use_views(desc, s, error);
         scale_light(&desc->sky, s);
+        if (result == FACET_OK)
+            result = water_sky_fill_air(s, &desc->render.allocator, desc->render.thread_count, error);
     }
     return result;
 }
@@ -281,6 +283,7 @@ void water_sky_destroy(water_sky *s)
 {
     sky_view_destroy(&s->eye);
     sky_view_destroy(&s->low);
+    mem_free(s->air_light);
     sky_tables_destroy(&s->tables);
     ibl_light_release(s->reflected);
     ibl_light_release(s->background);

@@ -12,11 +12,14 @@
 
 #include "shade/shade.h"
 
+enum { WATER_SKY_WAYS = 256 };
+
 typedef struct water_sky {
     bool has_views; /* the sky is the atmosphere's; else a picture */
     Atmosphere air[SKY_HALVES];
     sky_tables tables;    /* has_views */
-    sky_view eye;         /* as the eye sees it; below the horizon, what the air before the sea shines with */
+    sky_view eye;         /* as the eye sees it; below the horizon, what water_sky_air_light() is made of */
+    vec3 *air_light;      /* has_views: water_sky_air_light() */
     sky_view low;         /* as the surface does, where the eye is far above it; else {0} */
     sky_sun_light disc;   /* has_views: as the eye sees it */
     vec3 disc_radiance;   /* the other suns' */
@@ -28,11 +31,12 @@ typedef struct water_sky {
     float scale;                             /* of all light */
     float eye_km;                            /* height that eye is made for */
     float horizon_mu, horizon_rad;           /* where that eye sees it: cosine and angle from the zenith */
-    vec2 density_to_sea;                     /* water_sky_density() from there down to the sea */
-    vec3 white;                              /* color of sunlight outside the air, lx */
-    vec3 L;                                  /* to the sun, unit */
-    vec3 sun_irradiance;                     /* lx, facing it, at the sea */
-    vec3 sky_irradiance;                     /* lx, on a horizontal plane */
+    vec3 left[WATER_SKY_WAYS +
+              1];        /* share of light that the air leaves of it from there to the sea, by the way */
+    vec3 white;          /* color of sunlight outside the air, lx */
+    vec3 L;              /* to the sun, unit */
+    vec3 sun_irradiance; /* lx, facing it, at the sea */
+    vec3 sky_irradiance; /* lx, on a horizontal plane */
 } water_sky;
 
 /* What lights the surface itself. */
@@ -56,8 +60,19 @@ vec3 water_sky_disc(const water_sky *s, vec3 d);
 /* Radiance around the unit direction R (below the horizon: mirrored) over the lobe of a perceptual roughness, without the sun. */
 vec3 water_sky_reflected(const water_sky *s, vec3 R, float perceptual_roughness);
 
-/* Mean densities between two heights (km), over those at the sea: of air and of haze. */
-vec2 water_sky_density(float a_km, float b_km);
+/* Radiance of a view in a direction between two angles from the zenith (rad), and of the filtered picture. */
+vec3 water_sky_view(const water_sky *s, const sky_view *v, vec3 d, float least_angle, float most_angle);
+vec3 water_sky_picture(const water_sky *s, vec3 d, float perceptual_roughness);
+
+/* ---- water_air.c ---- */
+
+/* Make what water_sky_air() looks up, and water_sky_air_light(), of the eye's view. FACET_ERROR_MEMORY. */
+void water_sky_fill_ways(water_sky *s);
+facet_result water_sky_fill_air(water_sky *s, const facet_allocator *allocator, uint32_t thread_count,
+                                facet_error *error);
+
+/* Light of the air before the sea along d, over the share of light that is lost there: cd/m^2. Above the horizon, that of the horizon. */
+vec3 water_sky_air_light(const water_sky *s, vec3 d);
 
 /* The air on the way from the eye along the unit direction d to what is distance_m away, height_m high. */
 typedef struct water_air {
@@ -65,8 +80,5 @@ typedef struct water_air {
     vec3 light;         /* cd/m^2 that it adds */
 } water_air;
 water_air water_sky_air(const water_sky *s, vec3 d, float distance_m, float height_m);
-/* Share of white light that the way from the eye along d to the level of the sea loses; as far as the horizon where it does not meet it. For
- * an atmosphere's sky. */
-vec3 water_sky_lost(const water_sky *s, vec3 d);
 
 #endif

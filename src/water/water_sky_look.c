@@ -1,4 +1,4 @@
-/* water_sky_look.c - light from a direction, and the air on a way: looks up what water_sky.c has made. */
+/* water_sky_look.c - light from a direction: looks up what water_sky.c has made. */
 #include "ibl/equirect.h"
 
 #include "water/water_sky.h"
@@ -7,7 +7,7 @@ static const float LIMB_DARKENING = 0.6f; /* in green; Cox 2000 */
 
 /* ---- the sky ---- */
 
-static vec3 view_at(const water_sky *s, const sky_view *v, vec3 d, float least_angle, float most_angle)
+vec3 water_sky_view(const water_sky *s, const sky_view *v, vec3 d, float least_angle, float most_angle)
 {
     float angle = equirect_atan2(sqrt(d[0] * d[0] + d[2] * d[2]), d[1]);
     sky_azimuth azimuth = sky_view_azimuth((double)equirect_atan2(d[2], d[0]) - s->sun_longitude);
@@ -21,7 +21,7 @@ static vec3 rotated(const water_sky *s, vec3 d)
                 d[0] * s->rotation_sin + d[2] * s->rotation_cos);
 }
 
-static vec3 picture_at(const water_sky *s, vec3 d, float perceptual_roughness)
+vec3 water_sky_picture(const water_sky *s, vec3 d, float perceptual_roughness)
 {
     vec3 r = rotated(s, d);
     const float R[3] = {r[0], r[1], r[2]};
@@ -56,7 +56,7 @@ vec3 water_sky_seen(const water_sky *s, vec3 d)
 {
     vec3 disc = water_sky_disc(s, d);
     if (s->has_views)
-        return view_at(s, &s->eye, d, 0.0f, s->horizon_rad) + disc;
+        return water_sky_view(s, &s->eye, d, 0.0f, s->horizon_rad) + disc;
     vec3 r = rotated(s, normalize(vec3(d[0], max(d[1], 0.0f), d[2])));
     const float direction[3] = {r[0], r[1], r[2]};
     float out[3];
@@ -72,56 +72,8 @@ vec3 water_sky_reflected(const water_sky *s, vec3 R, float perceptual_roughness)
     float share = s->has_views ? clamp(perceptual_roughness / as_mirror, 0.0f, 1.0f) : 1.0f;
     vec3 sum = vec3(0.0f);
     if (share < 1.0f)
-        sum = view_at(s, water_sky_low(s), up, 0.0f, 0.5f * PI) * (1.0f - share);
+        sum = water_sky_view(s, water_sky_low(s), up, 0.0f, 0.5f * PI) * (1.0f - share);
     if (share > 0.0f)
-        sum = sum + picture_at(s, up, perceptual_roughness) * share;
+        sum = sum + water_sky_picture(s, up, perceptual_roughness) * share;
     return sum;
-}
-
-/* ---- air ---- */
-
-/* Mean of e^(-h / scale) between two heights (km); (1 - e^(-x)) / x is what a decay leaves of 1 on average. */
-static float mean_density(float a_km, float b_km, float scale_km)
-{
-    float low = min(a_km, b_km), high = max(a_km, b_km);
-    return exp(-low / scale_km) * air_path1((high - low) / scale_km, 1.0f);
-}
-
-vec2 water_sky_density(float a_km, float b_km)
-{
-    return vec2(mean_density(a_km, b_km, 8.0f), mean_density(a_km, b_km, 1.2f));
-}
-
-static vec3 transmittance_over(const water_sky *s, float length_km, float height_km)
-{
-    vec2 density = height_km > 0.0f ? water_sky_density(s->eye_km, height_km) : s->density_to_sea;
-    vec3 column = vec3(density[0], density[1], 0.0f) * length_km;
-    vec3 share[SKY_HALVES];
-    for (int half = 0; half < SKY_HALVES; half++)
-        share[half] = air_transmittance(s->air[half], column);
-    vec3 color = atmosphere_color(s->air[0], share[0]) + atmosphere_color(s->air[1], share[1]);
-    return clamp(color / s->white, 0.0f, 1.0f);
-}
-
-vec3 water_sky_lost(const water_sky *s, vec3 d)
-{
-    float whole_km = ray_to_ground(s->eye_km, min(d[1], s->horizon_mu));
-    if (whole_km < 0.0f)
-        whole_km = ray_to_ground(s->eye_km, s->horizon_mu - 1e-6f);
-    return 1.0f - transmittance_over(s, max(whole_km, 1e-4f), 0.0f);
-}
-
-/* The view holds the air's light as far as the sea; nearer things have as much less as less of what is behind is lost. */
-water_air water_sky_air(const water_sky *s, vec3 d, float distance_m, float height_m)
-{
-    float length_km = max(distance_m, 0.0f) * 0.001f;
-    water_air air = {transmittance_over(s, length_km, height_m * 0.001f), vec3(0.0f)};
-    vec3 lost = 1.0f - air.transmittance;
-    if (!s->has_views) {
-        air.light = picture_at(s, normalize(vec3(d[0], 0.0f, d[2]) + vec3(1e-9f, 0.0f, 0.0f)), 0.1f) * lost;
-        return air;
-    }
-    vec3 share = min(lost / max(water_sky_lost(s, d), 1e-12f), 1.0f);
-    air.light = view_at(s, &s->eye, d, s->horizon_rad + 1e-5f, PI) * share;
-    return air;
 }
