@@ -67,7 +67,7 @@ static void fill_foam(const sea_picture *p, const double eye[2], gl_sea_block *b
                                (float)r->across[1]};
         const float at[4] = {wrapped(eye[0] * r->along[0] + eye[1] * r->along[1], f->share.size),
                              wrapped(eye[0] * r->across[0] + eye[1] * r->across[1], f->share.size),
-                             r->samples_per_m, r->weight};
+                             log2f(r->samples_per_m), r->weight};
         memcpy(b->foam_axes[i], axes, sizeof axes);
         memcpy(b->foam_places[i], at, sizeof at);
     }

@@ -67,10 +67,10 @@ static GLint format_of(const gl_context *c, GLenum channels)
 
 /* With all mips, in the place of what is there; bound. */
 static void make_layers(uint32_t *name, uint32_t unit, const gl_context *c, GLenum channels, uint32_t size,
-                        uint32_t layers, GLenum wrap)
+                        uint32_t layers, GLenum filter, GLenum wrap)
 {
     glDeleteTextures(1, name);
-    *name = gl_sea_texture_make(unit, GL_TEXTURE_2D_ARRAY, GL_LINEAR_MIPMAP_LINEAR, wrap, wrap);
+    *name = gl_sea_texture_make(unit, GL_TEXTURE_2D_ARRAY, filter, wrap, wrap);
     GLint level = 0;
     for (uint32_t edge = size; edge; edge >>= 1)
         glTexImage3D(GL_TEXTURE_2D_ARRAY, level++, format_of(c, channels), (GLsizei)edge, (GLsizei)edge,
@@ -84,21 +84,24 @@ static void make_missing(gl_sea_textures *t, const gl_context *c, const sea_pict
     const waves *w = &p->sea->waves;
     uint32_t size = w->tile_count ? w->tiles[0].size : 1, tile_count = w->tile_count ? w->tile_count : 1;
     if (t->size != size || t->tile_count != tile_count) {
-        make_layers(&t->low, GL_UNIT_SEA_LOW, c, GL_RGBA, size, tile_count, GL_REPEAT);
-        make_layers(&t->high, GL_UNIT_SEA_HIGH, c, GL_RGBA, size, tile_count, GL_REPEAT);
+        make_layers(&t->low, GL_UNIT_SEA_LOW, c, GL_RGBA, size, tile_count, GL_LINEAR_MIPMAP_LINEAR,
+                    GL_REPEAT);
+        make_layers(&t->high, GL_UNIT_SEA_HIGH, c, GL_RGBA, size, tile_count, GL_LINEAR_MIPMAP_LINEAR,
+                    GL_REPEAT);
         t->size = size;
         t->tile_count = tile_count;
     }
     uint32_t foam_size = p->foam ? p->foam->share.size : 1;
     if (!t->foam || (p->foam && t->foam_size != foam_size)) {
-        make_layers(&t->foam, GL_UNIT_SEA_FOAM, c, GL_RED, foam_size, 1 + FOAM_PATTERNS, GL_REPEAT);
+        make_layers(&t->foam, GL_UNIT_SEA_FOAM, c, GL_RED, foam_size, 1 + FOAM_PATTERNS,
+                    GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT);
         t->foam_size = foam_size;
         t->has_patterns = false;
     }
     uint32_t caustic_size = p->caustics ? CAUSTIC_SIZE : 1;
     if (!t->caustics || (p->caustics && t->caustic_size != caustic_size)) {
         make_layers(&t->caustics, GL_UNIT_SEA_CAUSTICS, c, GL_RED, caustic_size, CAUSTIC_LAYERS,
-                    GL_CLAMP_TO_EDGE);
+                    GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE);
         t->caustic_size = caustic_size;
     }
 }

@@ -24,7 +24,7 @@ layout(std140) uniform Sea
     vec4 sea_total;                /* slopes of all; w: 1: sea_rough stands for waves finer than all tiles */
     vec4 sea_rough;                /* slopes */
     vec4 sea_foam_axes[SEA_FOAM_READINGS];   /* rows, columns of a pattern along x, z: samples per m */
-    vec4 sea_foam_places[SEA_FOAM_READINGS]; /* of the eye in it, samples; samples per m of footprints; weight */
+    vec4 sea_foam_places[SEA_FOAM_READINGS]; /* of the eye in it, samples; log2 of samples per m of footprints; weight */
     vec4 sea_foam_hidden[SEA_LEVELS]; /* variance that a level hides, of each pattern, after the share */
     vec4 sea_absorption, sea_scattering, sea_backscattering, sea_reflectance; /* w: ior, foam's albedo, normals, masking */
     vec4 sea_pure_share;           /* w: 1: Schlick's formula */

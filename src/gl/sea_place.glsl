@@ -42,44 +42,34 @@ vec3 sea_slopes(float footprint, out vec3 resolved, out vec2 moments)
 /* ---- foam ---- */
 
 #ifdef HAS_FOAM
-/* How a footprint as wide as `texels` reads planes: level, and the share of the next one. */
-vec2 sea_plane_level(float texels)
+/* foam_plane_read(): level of planes for a footprint as wide as 2^octave texels. */
+float sea_plane_level(float octave)
 {
-    float last = float(sea_counts.y - 1);
-    float whole = min(floor(log2(max(texels, 1.0))), last);
-    return vec2(whole, whole < last ? clamp(texels * exp2(-whole) - 1.0, 0.0, 1.0) : 0.0);
+    return clamp(floor(octave + 0.5), 0.0, float(sea_counts.y - 1));
 }
 
 /* Mean of a plane; at: in samples. */
-float sea_plane_mean(int layer, vec2 at, vec2 level)
+float sea_plane_mean(int layer, vec2 at, float level)
 {
-    return textureLod(u_sea_foam, vec3((at + 0.5) / float(sea_counts.z), layer), level.x + level.y).x;
+    return textureLod(u_sea_foam, vec3((at + 0.5) / float(sea_counts.z), layer), level).x;
 }
 
-/* The same, and the variance that is hidden. */
-vec2 sea_plane(int layer, vec2 at, float texels)
-{
-    vec2 level = sea_plane_level(texels);
-    int whole = int(level.x);
-    int next = min(whole + 1, sea_counts.y - 1);
-    return vec2(sea_plane_mean(layer, at, level), mix(sea_foam_hidden[whole][layer], sea_foam_hidden[next][layer], level.y));
-}
-
-/* read_pattern() */
-vec2 sea_pattern(int reading, int layer, vec2 rest, float footprint)
+/* read_pattern(): mean, and the variance that is hidden. */
+vec2 sea_pattern(int reading, int layer, vec2 rest, float octave)
 {
     vec4 axes = sea_foam_axes[reading];
     vec4 eye = sea_foam_places[reading];
-    float size = float(sea_counts.z);
+    float level = sea_plane_level(octave + eye.z);
     vec2 at = eye.xy + vec2(dot(rest, axes.xy), dot(rest, axes.zw));
-    return sea_plane(layer, at - floor(at / size) * size, footprint * eye.z);
+    return vec2(sea_plane_mean(layer, at, level), sea_foam_hidden[int(level)][layer]);
 }
 
 /* waves_foam_at(): share, amount. */
 vec2 sea_foam(vec2 rest, float footprint)
 {
     SeaPatches p = sea_patches(0, rest);
-    vec2 level = sea_plane_level(footprint * sea_axes[0].z);
+    float octave = log2(max(footprint, 1e-9));
+    float level = sea_plane_level(octave + log2(sea_axes[0].z));
     float share = 0.0;
     do {
         share += p.weights.x * p.weights.x * sea_plane_mean(0, sea_first(0, p), level);
@@ -91,7 +81,7 @@ vec2 sea_foam(vec2 rest, float footprint)
     int i = 0;
     do { /* most of the sea needs none, and pays for one */
         float weight = sea_foam_places[i].w;
-        field += sea_pattern(i, i > 0 ? 1 : 2, rest, footprint) * vec2(weight, weight * weight);
+        field += sea_pattern(i, i > 0 ? 1 : 2, rest, octave) * vec2(weight, weight * weight);
         i++;
     } while (i < SEA_FOAM_READINGS && !is_even);
     return vec2(is_even ? share : foam_lace(share, field.x, field.y), share);

@@ -84,15 +84,9 @@ static float plane_texel(const foam_plane *p, uint32_t level, double u, double v
 foam_plane_value foam_plane_read(const foam_plane *p, double u, double v, float texels)
 {
     uint32_t level = 0;
-    while (texels >= 2.0f && level + 1 < p->level_count) {
+    while (texels >= 1.41421356f && level + 1 < p->level_count) {
         texels *= 0.5f;
         level++;
     }
-    foam_plane_value value = {plane_texel(p, level, u, v), p->hidden[level]};
-    if (texels <= 1.0f || level + 1 >= p->level_count)
-        return value;
-    float mix = fminf(texels - 1.0f, 1.0f);
-    value.mean += mix * (plane_texel(p, level + 1, u, v) - value.mean);
-    value.hidden += mix * (p->hidden[level + 1] - value.hidden);
-    return value;
+    return (foam_plane_value){plane_texel(p, level, u, v), p->hidden[level]};
 }

@@ -19,7 +19,8 @@ void foam_plane_reduce(foam_plane *p);
 typedef struct foam_plane_value {
     float mean, hidden; /* variance within the footprint */
 } foam_plane_value;
-/* (u, v) in samples; texels: the footprint's width in them. */
+/* (u, v) in samples; texels: the footprint's width in them. Of the level whose texels are nearest to it in size: as foam is made of the mean and of
+ * what is hidden, it is as much of it to either side of where levels change, and no line is seen. */
 foam_plane_value foam_plane_read(const foam_plane *p, double u, double v, float texels);
 
 /* foam_lace() and inverse_normal() of the shared text. */
