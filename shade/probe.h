@@ -948,7 +948,9 @@ FN vec3 probe_water(int which, vec2 u)
                water_inscatter(w, light.downwelling, 3.0f, down, 20.0f * u[1]) +
                water_path1(u[0] - 0.5f, u[1]) + water_path(down, u[0]) +
                water_sun_glow(w, water_beam_below(w, light), normalize(vec3(0.3f, 1.0f, 0.1f)), 2.0f, d,
-                              10.0f * u[0]);
+                              10.0f * u[0]) +
+               vec3(water_mean_left1(5.0f * u[0], 4.0f * u[1]), water_glow_phase1(9.0f * u[0], 0.1f, u[1]),
+                    0.0f);
     }
     WaterMirror m = water_mirror(w, p, V, 0.9f, 0.95f, 0.1f * u[0], 0.3f * u[1]);
     vec3 before = before_shade(int(u[0] * 1.99f), int(u[1] * 2.99f), down, p.N, BEFORE_SUN_DIRECTION, u[0],
@@ -994,8 +996,13 @@ FN vec3 probe_water_place(int which, vec2 u)
             facets_that_mirror(C, N, V, vec3(-1.0f, -0.5f, -9.0f), vec3(1.0f + u[0], 2.0f, -6.0f - u[1]));
         Facet f = facet_drawn(facets_seen(C, N, V), N, u);
         vec2 place = facet_place(r, N, f.m);
+        Facet of_window = facet_of_window(facets_seen(C, N, V), N, V, water_critical_cosine(w),
+                                          int(u[0] * float(WINDOW_FACETS) * 0.999f));
         return f.m + vec3(f.weight + facets_share(r), r.low[0] + r.high[1], 0.1f * (place[0] + place[1])) +
-               10.0f;
+               10.0f + of_window.m * of_window.weight +
+               window_light(w, water_window(w, V, N), C, N, vec3(3.0f), vec3(0.5f)) +
+               vec3(min(window_rim(r, N, V, 0.6f, u[1]), 9.0f), min(window_middle(r), 9.0f),
+                    min(window_part(r, window_edge(r, 1), 1), 9.0f) + window_mean(u[0] - 1.0f, u[1] + 0.3f));
     }
     if (which == 118) {
         WaterMirror m;
@@ -1014,8 +1021,9 @@ FN vec3 probe_water_place(int which, vec2 u)
     vec3 sunward = normalize(vec3(0.3f, 1.0f, 0.1f));
     if (which == 120) {
         vec3 beam = water_beam_below(w, light);
-        return water_bed_lit(water_focused(w, light.downwelling, beam, sunward[1], 9.0f * u[0]), 3.0f * u[1],
-                             0.5f + 0.5f * u[0]) +
+        return water_bed_returned(w, vec3(0.4f), 9.0f * u[0]) +
+               water_bed_lit(water_focused(w, vec3(0.4f), light.downwelling, beam, sunward[1], 9.0f * u[0]),
+                             3.0f * u[1], 0.5f + 0.5f * u[0]) +
                vec3(water_bed_footprint(w, N, V, down, C, u[0], 4.0f * u[1]),
                     caustic_cover(vec2(2.0f * u[0] - 1.0f, 0.1f)),
                     caustic_lod(9.0f * u[1]) + water_mirrored_spread(C));
@@ -1040,7 +1048,7 @@ FN vec3 probe_water_place(int which, vec2 u)
            water_bed_below(w, light.downwelling, vec3(0.4f), u[0]) +
            water_bed_through(w, light.downwelling, vec3(2.0f), 9.0f * u[0]) +
            painted_water(light, N, V, 1.34f, 0.1f + u[0], painted_mirror(N, V)) +
-           water_sun_through(w, C, light, normalize(light.L + 0.1f * u[0]), 0.5f);
+           water_unscattered(w, 20.0f * u[1]);
 }
 
 FN vec3 probe(int which, vec2 u)

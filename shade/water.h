@@ -74,6 +74,12 @@ FN float water_fresnel_inside(Water w, float c)
     return sel(w.is_schlick == 1, sel(sin2 >= 1.0f, 1.0f, schlick), F_dielectric(c, 1.0f / w.ior));
 }
 
+/* Cosine of the angle from which on all light from below is reflected, > 0. */
+FN float water_critical_cosine(Water w)
+{
+    return sqrt(max(1.0f - 1.0f / (w.ior * w.ior), 1e-6f));
+}
+
 /* Unit direction in which a ray with the direction d (down) goes on below a surface of normal N (up). Snell. */
 FN vec3 water_refracted(Water w, vec3 d, vec3 N)
 {
@@ -192,7 +198,7 @@ FN vec3 water_slab(vec3 t)
 FN vec3 water_bed_reflectance(Water w, vec3 albedo, float depth)
 {
     vec3 R = water_deep_reflectance(w);
-    float critical = sqrt(max(1.0f - 1.0f / (w.ior * w.ior), 1e-6f));
+    float critical = water_critical_cosine(w);
     return R + (albedo - R) * water_slab(water_diffuse(w) * (2.0f * depth / critical));
 }
 
@@ -300,18 +306,57 @@ FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
     return S * water_path(along - K * d[1], x);
 }
 
-/* And of the sun's own beam, scattered forward once: the glow around it. What is scattered as much as sideways, or backwards, is diffuse
- * light's. sunward: unit direction to the sun below the surface;
- * beam: irradiance (lx) across it just below. */
+/* Mean of e^-t over t from `first` to `last`, both >= 0. */
+FN float water_mean_left1(float first, float last)
+{
+    float t = 0.5f * (last - first);
+    float middle = exp(-0.5f * (first + last)) * (1.0f + t * t * (1.0f / 6.0f)); /* where both ends cancel */
+    return sel(abs(t) < 0.05f, middle, 0.5f * (exp(-first) - exp(-last)) / sel(t == 0.0f, 1.0f, t));
+}
+
+/* Phase function (1/sr) of light that left the sun's beam in t of scattering, by particles but for pure_share. Of that which did,
+ *   t e^-t / (1 - e^-t)
+ * was scattered once, and the rest, of t / (1 - e^-t) times on average, as often as is left for it, m. Henyey and Greenstein's functions of
+ * g, one after the other, are one of g^m (their Legendre moments are g^l). */
+FN float water_glow_phase1(float t, float pure_share, float cos_angle)
+{
+    float x = max(t, 1e-3f);
+    float out_of_beam = 1.0f - exp(-x);
+    float once = x * exp(-x) / out_of_beam;
+    float times = (x / out_of_beam - once) / (1.0f - once);
+    float often = phase_HG(cos_angle, exp(log(WATER_PARTICLE_G) * times));
+    float particles = mix(often, phase_HG(cos_angle, WATER_PARTICLE_G), once);
+    return mix(particles, water_phase_pure(cos_angle), pure_share);
+}
+
+/* And of the sun's own beam, scattered forward: the glow around it. Light leaves the beam by c on the way down, turned a little, and
+ * from there on is weakened by a + b_b like all that is diffuse: with the beam it is what Gordon's quasi-single scattering lets through,
+ *   beam e^(-c x) + glow = beam e^(-(a + b_b) x) along the beam
+ * Within 4 % of photons that were counted up to 1.1 scatterings, 11 % up to 2.3 of them; 7 to 35 degrees from the sun 27 % up to 4.6, where what is
+ * scattered once alone has 0.1 to 0.01. What is scattered as much as sideways, or backwards, is diffuse light's. sunward: unit
+ * direction to the sun below the surface; beam: irradiance (lx) across it just below. */
 FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float x)
 {
     float forward = dot(sunward, d);
-    vec3 c = water_beam(w);
+    if (forward <= 0.0f) /* as all that the surface mirrors: most rays of an eye below */
+        return vec3(0.0f);
     float mu = max(sunward[1], 1e-3f);
-    vec3 E = beam * exp(-c * (z / mu));
-    vec3 glow = max(water_phase(w, forward) - water_phase(w, 0.0f), 0.0f);
-    vec3 L = E * w.scattering * glow * water_path(c * (1.0f - d[1] / mu), x);
-    return sel(forward > 0.0f, L, vec3(0.0f));
+    vec3 first = water_beam(w) * (z / mu); /* scattered here, and at the other end */
+    vec3 last = water_beam(w) * (max(z - x * d[1], 0.0f) / mu) + water_diffuse(w) * x;
+    vec3 t = w.scattering * (z / mu);
+    vec3 glow = vec3(0.0f);
+    for (int k = 0; k < 3; ++k) {
+        float more = water_glow_phase1(t[k], w.pure_share[k], forward) -
+                     water_glow_phase1(t[k], w.pure_share[k], 0.0f);
+        glow[k] = max(more, 0.0f) * water_mean_left1(first[k], last[k]);
+    }
+    return beam * w.scattering * glow * x;
+}
+
+/* What the beam of the sun has left of the light that a + b_b would leave it after x m: the rest is in its glow. */
+FN vec3 water_unscattered(Water w, float x)
+{
+    return exp((w.backscattering - w.scattering) * x);
 }
 
 /* Irradiance (lx) across the beam of the sun just below flat water: E (1 - F) L.y / mu', mu' its cosine there. */

@@ -7,16 +7,24 @@
 #ifndef SHADE_WATER_CAUSTIC_H
 #define SHADE_WATER_CAUSTIC_H
 
-/* Of the light on the bed, `depth` m below, the share that the sun's beam brings without having been scattered, [0, 1]:
- *   E_beam mu e^(-c H / mu) / (E_d e^(-K_d H))
+/* Of the light on a bed of that albedo, `depth` m below, the share that went up from it before and came back from the surface: R_int R. It comes
+ * from around, beyond 2 tan(48 degrees) of the depth where the surface mirrors all, and is even. */
+FN vec3 water_bed_returned(Water w, vec3 albedo, float depth)
+{
+    return water_internal_reflectance(w) * water_bed_reflectance(w, albedo, depth);
+}
+
+/* Of all the light there, the share that the sun's beam brings without having been scattered, [0, 1]:
+ *   (1 - R_int R) E_beam mu e^(-c H / mu) / (E_d e^(-K_d H))
  * beam: lx across it just below the surface, at the cosine mu; downwelling: what has come in. Scattering by particles turns light by 23 degrees on average, over a
  * metre of depth farther than waves focus it: what is scattered once counts as diffuse, as water_from_bed() has it on the way up
  * (Mobley 1994, section 3.9). Never more than the share at the surface, as K_d is that of all directions together. */
-FN vec3 water_focused(Water w, vec3 downwelling, vec3 beam, float mu, float depth)
+FN vec3 water_focused(Water w, vec3 albedo, vec3 downwelling, vec3 beam, float mu, float depth)
 {
     vec3 faster = max(water_beam(w) * (1.0f / mu) - water_K_d(w), 0.0f);
     vec3 at_surface = beam * mu / max(downwelling, 1e-20f);
-    return min(at_surface, 1.0f) * water_transmittance(faster, depth);
+    return (1.0f - water_bed_returned(w, albedo, depth)) * min(at_surface, 1.0f) *
+           water_transmittance(faster, depth);
 }
 
 /* Light on the bed over its mean, where the beam's irradiance is `factor` times its own, and that of all other light `rest` times. */

@@ -19,7 +19,7 @@ static void test_share(void **state)
     vec3 last = vec3(1.0f);
     for (int i = 0; i < 40; i++) {
         float depth = 0.5f * (float)i;
-        vec3 share = water_focused(w, down, beam, mu, depth);
+        vec3 share = water_focused(w, vec3(0.0f), down, beam, mu, depth);
         for (int k = 0; k < 3; k++) {
             double c = (double)(w.absorption[k] + w.scattering[k]), a = (double)w.absorption[k];
             double K = (a + (double)w.backscattering[k]) / 0.86;
@@ -30,13 +30,13 @@ static void test_share(void **state)
         }
         last = share;
     }
-    vec3 night = water_focused(w, vec3(0.0f), vec3(0.0f), 0.7f, 3.0f),
-         abyss = water_focused(w, down, beam, mu, 1e6f);
+    vec3 night = water_focused(w, vec3(0.0f), vec3(0.0f), vec3(0.0f), 0.7f, 3.0f),
+         abyss = water_focused(w, vec3(0.0f), down, beam, mu, 1e6f);
     for (int k = 0; k < 3; k++) {
         expect_near((double)night[k], 0.0, 1e-9, "without light");
         expect_near((double)abyss[k], 0.0, 1e-9, "deep down");
     }
-    vec3 pure = water_focused(w, beam, beam, 1.0f, 0.0f);
+    vec3 pure = water_focused(w, vec3(0.0f), beam, beam, 1.0f, 0.0f);
     expect_near((double)pure[0], 1.0, 1e-6, "nothing but sun, just below the surface");
 }
 

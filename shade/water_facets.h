@@ -1,5 +1,6 @@
 /* water_facets.h - facets of water in which something is to be seen: those of all that an eye sees that may mirror a box, and some of
- * them by chance. What is small, and is mirrored by few facets of a rough surface, is found by as many rays as what is large.
+ * them by chance. What is small, and is mirrored by few facets of a rough surface, is found by as many rays as what is large. And a few that
+ * stand for all that an eye in the water sees, inside of Snell's window and outside of it.
  *
  * Facets have Gaussian slopes (water_surface.h). Their places are in standard deviations from the mean: z.x along the eye's direction,
  * z.y across, about the regression on z.x, so that both are independent and normal. */
@@ -103,6 +104,97 @@ FN Facet facet_drawn(FacetRange r, vec3 N, vec2 u)
     float tilt = max(n - z, 0.0f);
     f.weight = facets_share(r) * tilt / n * (1.0f - exp(-2.0f * n * tilt));
     return f;
+}
+
+/* ---- the eye below ---- */
+
+#define WINDOW_CELLS 3
+#define WINDOW_FACETS 8
+/* Of so small deviations one facet stands for all: their window has an edge a tenth of a degree wide. */
+#define WINDOW_SHARP 1e-3f
+/* Of the variance of all slopes, what is left within a cell: 1.4^2 / 12, less, and what the rim does not divide. */
+#define WINDOW_BETWEEN 0.12f
+
+/* Tilt towards d, in deviations, from which on facets are transparent; 1e9: none is. d unit, up; critical: cosine of the angle of total
+ * reflection. c = x along |d_h| is compared with critical sqrt(1 + s_along^2 + s_across^2), side: deviations across. */
+FN float window_rim(FacetRange r, vec3 N, vec3 d, float critical, float side)
+{
+    vec2 t = r.towards;
+    vec2 mean = slope_from_normal(N);
+    float level2 = max(d[0] * d[0] + d[2] * d[2], 1e-12f);
+    float p = d[1] * inversesqrt(level2);
+    float A = t[0] * mean[1] - t[1] * mean[0] + r.lean * r.n + r.across * side;
+    float c2 = critical * critical;
+    float square = r.along * r.along * (level2 - c2) - c2 * r.lean * r.lean;
+    float linear = c2 * (p * r.along + A * r.lean);
+    float rest = c2 * (1.0f + p * p + A * A);
+    float root = linear + sqrt(max(linear * linear + square * rest, 0.0f));
+    return sel(linear * linear + square * rest < 0.0f || root <= 0.0f, 1e9f, rest / max(root, 1e-12f));
+}
+
+/* The middle of tilts that are seen, in deviations, which have one about it; and the edges of cells. */
+FN float window_middle(FacetRange r)
+{
+    float n = max(r.n, 0.0f);
+    return sqrt(n * n + 2.0f);
+}
+FN float window_edge(FacetRange r, int cell)
+{
+    float inner = float(2 * cell - WINDOW_CELLS) * 0.7f;
+    float outer = sel(cell == 0, -3.5f, 3.5f);
+    return max(window_middle(r) + sel(cell == 0 || cell == WINDOW_CELLS, outer, inner), 0.0f);
+}
+
+/* Mean of normally distributed numbers between two. */
+FN float window_mean(float from, float to)
+{
+    float share = normal_below(to) - normal_below(from);
+    float mean = 0.398942280f * (exp(-0.5f * from * from) - exp(-0.5f * to * to)) / max(share, 1e-4f);
+    return sel(to - from < 0.1f || share < 1e-4f, 0.5f * (from + to), clamp(mean, from, to));
+}
+
+/* Edge 0 to WINDOW_CELLS + 1 of what the rim of Snell's window makes of the cells: it divides the one that it is in. */
+FN float window_part(FacetRange r, float rim, int edge)
+{
+    float last = sel(edge > 0, window_edge(r, edge - 1), 0.0f);
+    float next = sel(edge <= WINDOW_CELLS, window_edge(r, edge), 1e9f);
+    return clamp(rim, last, next);
+}
+
+/* One of WINDOW_FACETS; r: facets_seen(). Their weights sum to 1 within 0.0015. Tilts towards d are in WINDOW_CELLS cells, one of them divided by the rim of
+ * Snell's window: a part's weight is exactly what is seen of it, so that light changes smoothly as a wave is tilted.
+ * Across, one deviation to either side has the moments of all (Gauss and Hermite). */
+FN Facet facet_of_window(FacetRange r, vec3 N, vec3 d, float critical, int k)
+{
+    float side = sel(k % 2 == 0, -1.0f, 1.0f);
+    float first = window_edge(r, 0);
+    float rim = clamp(window_rim(r, N, d, critical, side), first, window_edge(r, WINDOW_CELLS));
+    float from = window_part(r, rim, k / 2);
+    float to = window_part(r, rim, k / 2 + 1);
+    Facet f;
+    f.m = N;
+    f.weight = 0.0f;
+    if (from >= to)
+        return f;
+    float n = max(r.n, 1e-3f);
+    f.weight = 0.5f * max(tilts_seen(n, to) - tilts_seen(n, from), 0.0f);
+    float middle = window_middle(r);
+    float tilt = middle + window_mean(from - middle, to - middle);
+    if (from == rim && rim > first) /* light through the window grows ever slower from its rim on */
+        tilt -= 0.125f * (to - from);
+    float z = r.n - tilt;
+    f.m = normal_from_slope(slope_from_normal(N) + r.towards * (z * r.along) +
+                            vec2(-r.towards[1], r.towards[0]) * (r.lean * z + r.across * side));
+    return f;
+}
+
+/* Radiance (cd/m^2) through the window: the sky, and where waves of the slopes C, which N is one of, are in its way, these as they are seen from
+ * the air: mirrors of the sky, through which comes `upwards`, the radiance that goes up just below the surface. */
+FN vec3 window_light(Water w, WaterWindow window, vec3 C, vec3 N, vec3 sky, vec3 upwards)
+{
+    float F = water_fresnel(w, water_seen_cosine(window.outside, C));
+    vec3 others = mix(upwards * (1.0f / (w.ior * w.ior)), sky, F);
+    return mix(others, sky, water_passing(C, N, window.outside)) * window.gain;
 }
 
 #endif

@@ -1,5 +1,5 @@
 /* water_facets_test.c - facets that mirror a box, beside all facets by chance: none that does is left out, and their shares are those
- * of sample_slopes(). */
+ * of sample_slopes(); and facets that stand for all that an eye in the water sees. */
 #include "testing/test_support.h"
 
 enum { DRAWN = 1 << 14, POINTS = 1 << 12 };
@@ -91,8 +91,44 @@ static void test_all(void **state)
     expect_near((double)facets_share(beside), 0.0, 1e-6, "beside it");
 }
 
+/* What an eye in the water sees through the window, and how high the light comes from, beside all facets by chance: inside of the
+ * window, at its rim and outside of it, of rough water and of calm, on flanks, and askew. */
+static void test_window(void **state)
+{
+    (void)state;
+    Water w;
+    w.ior = 1.34f;
+    w.is_schlick = 0;
+    double worst = 0.0, worst_height = 0.0;
+    for (uint k = 0; k < 160u; k++) {
+        scene s = scene_of(k);
+        float sin_e = 0.3f + 0.68f * sobol_scrambled(k, 4u)[0], cos_e = sqrt(1.0f - sin_e * sin_e);
+        vec3 d = vec3(cos_e * 0.6f, sin_e, cos_e * 0.8f);
+        FacetRange all = facets_seen(s.C, s.N, d);
+        double share = 0.0, through = 0.0, height = 0.0, expected = 0.0, expected_height = 0.0;
+        for (int i = 0; i < WINDOW_FACETS; i++) {
+            Facet f = facet_of_window(all, s.N, d, water_critical_cosine(w), i);
+            WaterWindow window = water_window(w, d, f.m);
+            share += (double)f.weight;
+            through += (double)(f.weight * (1.0f - window.fresnel));
+            height += (double)(f.weight * (1.0f - window.fresnel) * window.outside[1]);
+        }
+        expect_near(share, 1.0, 1.5e-3, "all facets, case %u", k);
+        for (uint i = 0; i < (uint)POINTS; i++) {
+            WaterWindow window = water_window(w, d, sample_slopes(sobol_scrambled(i, 7u), s.C, s.N, d));
+            expected += (double)(1.0f - window.fresnel) / POINTS;
+            expected_height += (double)((1.0f - window.fresnel) * window.outside[1]) / POINTS;
+        }
+        worst = fmax(worst, fabs(through - expected));
+        worst_height = fmax(worst_height, fabs(height - expected_height));
+    }
+    if (!(worst < 0.025) || !(worst_height < 0.02))
+        fail_msg("light through the window is off by %g, its height by %g", worst, worst_height);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_share), cmocka_unit_test(test_all)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_window), cmocka_unit_test(test_share),
+                                       cmocka_unit_test(test_all)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

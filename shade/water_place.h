@@ -229,15 +229,4 @@ FN vec3 water_bed_through(Water w, vec3 bed, vec3 mean, float x)
     return bed * sharp + mean * (water_transmittance(water_diffuse(w), x) - sharp);
 }
 
-/* The sun through a surface of slopes C that spread its disc, for an eye below that sees `outside` through it: they turn the
- * refracted ray by about n - 1 of their angle. gain: WaterWindow's. */
-FN vec3 water_sun_through(Water w, vec3 C, WaterLight light, vec3 outside, float gain)
-{
-    float bend = (w.ior - 1.0f) * (w.ior - 1.0f);
-    float variance = 0.5f * bend * (C[0] + C[1]) + 0.5f * SUN_RADIUS * SUN_RADIUS;
-    vec3 off = outside - light.L;
-    float density = exp(-0.5f * dot(off, off) / variance) * (0.5f * INV_PI / variance);
-    return light.sun_irradiance * (gain * density);
-}
-
 #endif

@@ -1,6 +1,9 @@
 /* water_scales_test.c - what is seen of waves of all lengths on each other (slopes_seen()): the area is that of the surface, a walk through
- * three dimensions has the same slopes, and a surface that is divided into long and short waves shows what it shows at once. */
+ * three dimensions has the same slopes, and a surface that is divided into long and short waves shows what it shows at once; and surfaces of
+ * eleven octaves, and of one, whose hidden facets rays have found. */
 #include "testing/test_support.h"
+
+#include <complex.h> /* its I is a name in the shared text */
 
 static const double PI_DOUBLE = 3.14159265358979324;
 
@@ -150,6 +153,129 @@ static void test_calm(void **state)
     assert_true(slopes_seen(vec3(0.05f, 0.05f, 0.0f), UP, UP, UP) == 1.0f);
 }
 
+/* ---- rays ---- */
+
+enum { HEIGHTS = 1 << 18, SHORTEST = 16 };
+
+/* Two normal numbers. */
+static double complex normal_pair(test_rng *rng)
+{
+    double r = (sqrt)(-2.0 * (log)(1.0 - (double)rng_float(rng))),
+           phi = 2.0 * PI_DOUBLE * (double)rng_float(rng);
+    return r * (cos)(phi) + r * (sin)(phi) * (double complex)I;
+}
+
+/* Sum of a[i] e^(2 pi i j i / n), in place; n is a power of two. Cooley and Tukey 1965. */
+static void transform(double complex *a, size_t n)
+{
+    for (size_t i = 1, j = 0; i < n; i++) {
+        size_t bit = n >> 1;
+        for (; j & bit; bit >>= 1)
+            j ^= bit;
+        j ^= bit;
+        double complex t = a[i];
+        if (i < j)
+            a[i] = a[j], a[j] = t;
+    }
+    for (size_t half = 1; half < n; half *= 2)
+        for (size_t k = 0; k < half; k++) {
+            double complex turn = cexp(PI_DOUBLE * (double complex)I * (double)k / (double)half);
+            for (size_t i = k; i < n; i += 2 * half) {
+                double complex u = a[i], v = a[i + half] * turn;
+                a[i] = u + v;
+                a[i + half] = u - v;
+            }
+        }
+}
+
+/* Heights, a unit apart, of a cut through a periodic Gaussian sea whose slopes have the variance 1 and as much of it in each of its octaves: k^-3. */
+static void make_cut(double octaves, test_rng *rng, double complex *a, double *heights)
+{
+    size_t last = HEIGHTS / SHORTEST, first = (size_t)((double)last * (exp2)(-octaves));
+    for (size_t i = 0; i < HEIGHTS; i++)
+        a[i] = 0.0;
+    for (size_t i = first; i <= last; i++) {
+        double k = 2.0 * PI_DOUBLE * (double)i / HEIGHTS;
+        a[i] = normal_pair(rng) * 0.5 * (sqrt)(1.0 / ((log)(2.0) * octaves * (double)i)) / k;
+        a[HEIGHTS - i] = conj(a[i]);
+    }
+    transform(a, HEIGHTS);
+    for (size_t i = 0; i < HEIGHTS; i++)
+        heights[i] = creal(a[i]);
+}
+
+/* Whether a ray of the slope `rise` leaves for the right (step 1) or the left (-1) from each height. */
+static void find_seen(const double *heights, double rise, int step, bool *is_seen)
+{
+    double highest = -1e300;
+    for (int i = 2 * HEIGHTS - 1; i >= 0; i--) { /* all around twice */
+        size_t at = (size_t)(step > 0 ? i : -i - 1) & (HEIGHTS - 1);
+        double above = heights[at] - rise * i;
+        is_seen[at] = above > highest;
+        highest = fmax(highest, above);
+    }
+}
+
+typedef struct marched {
+    double mean_tilt; /* of the area seen, in deviations */
+    double both;      /* share of facets that mirror light from as low to the eye which both see */
+} marched;
+
+static marched march(double octaves, double rise, int cuts)
+{
+    double complex *a = malloc(HEIGHTS * sizeof *a);
+    double *heights = malloc(HEIGHTS * sizeof *heights);
+    bool *right = malloc(HEIGHTS), *left = malloc(HEIGHTS);
+    test_rng rng = {11u};
+    double area = 0.0, tilts = 0.0, mirrors = 0.0, both = 0.0;
+    for (int cut = 0; cut < cuts; cut++) {
+        make_cut(octaves, &rng, a, heights);
+        find_seen(heights, rise, 1, right);
+        find_seen(heights, rise, -1, left);
+        for (size_t i = 0; i < HEIGHTS; i++) {
+            double tilt = rise - 0.5 * (heights[(i + 1) & (HEIGHTS - 1)] - heights[(i - 1) & (HEIGHTS - 1)]);
+            bool is_mirror = fabs(tilt - rise) < 0.05;
+            area += right[i] && tilt > 0.0 ? tilt : 0.0;
+            tilts += right[i] && tilt > 0.0 ? tilt * tilt : 0.0;
+            mirrors += is_mirror;
+            both += is_mirror && right[i] && left[i];
+        }
+    }
+    expect_relative(area, rise * HEIGHTS * cuts, 0.01, "area seen, %g octaves", octaves);
+    free(a);
+    free(heights);
+    free(right);
+    free(left);
+    return (marched){tilts / area, both / mirrors};
+}
+
+/* Mean tilt of what is seen, of a sea; of one octave, Smith's. */
+static void test_marched(void **state)
+{
+    (void)state;
+    static const double rises[3] = {0.06, 0.5, 1.0};
+    for (int k = 0; k < 3; ++k) {
+        double r = rises[k], walk = 0.0;
+        for (int i = 0; i < 4000; ++i) {
+            double c = (r + 7.0) * (i + 0.5) / 4000.0;
+            walk += c * seen_density(r, c, 1.0) * (r + 7.0) / 4000.0;
+        }
+        double smith_area =
+            r * 0.5 * (1.0 + erf(r * (sqrt)(0.5))) + (exp)(-0.5 * r * r) / (sqrt)(2.0 * PI_DOUBLE);
+        double smith = (0.5 * (1.0 + erf(r * (sqrt)(0.5))) * (1.0 + r * r) +
+                        r * (exp)(-0.5 * r * r) / (sqrt)(2.0 * PI_DOUBLE)) /
+                       smith_area;
+        marched sea = march(11.0, r, 4);
+        double seen =
+            (double)slopes_seen(vec3(1.0f, 1.0f, 0.0f), UP, UP, normalize(vec3(1.0f, (float)r, 0.0f)));
+        expect_relative(sea.mean_tilt, walk, k ? 0.03 : 0.1, "tilts seen from %g", r);
+        assert_true(k == 2 || fabs(sea.mean_tilt - smith) > 1.5 * fabs(sea.mean_tilt - walk));
+        expect_near(sea.both, seen * seen, 0.06, "seen from both sides, %g", r);
+        double one = k ? smith : march(1.0, r, 1).mean_tilt;
+        assert_true(fabs(one - smith) < 0.5 * fabs(one - walk));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_area),
@@ -157,6 +283,7 @@ int main(void)
                                        cmocka_unit_test(test_division),
                                        cmocka_unit_test(test_tilts),
                                        cmocka_unit_test(test_mean_reflectance),
-                                       cmocka_unit_test(test_calm)};
+                                       cmocka_unit_test(test_calm),
+                                       cmocka_unit_test(test_marched)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

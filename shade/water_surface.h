@@ -82,7 +82,12 @@ FN float smith_a(vec3 C, vec3 N, vec3 X)
  * At grazing angles that is c^2 p(c), which looks steeper than Smith's c p(c): 1.6 standard deviations towards the eye on average
  * instead of 1.25, and a sea of 10 m/s mirrors a quarter less.
  *   As walks can be stopped on their way, a surface may be divided at any wave length: what is seen of long waves, and of short
- * ones on these, is what is seen of all at once. So a pixel shows the same light whichever waves it resolves. */
+ * ones on these, is what is seen of all at once. So a pixel shows the same light whichever waves it resolves.
+ *   It is a limit: heights are Gaussian, waves of one length know nothing of the others, and there are many octaves. Of surfaces that are as
+ * steep in every octave, rays that are marched (test_marched) find tilts of 1.51 deviations at grazing angles with 14 octaves, as many as a sea
+ * of 10 m/s has, 1.47 with 11, 1.37 with 6, and of a single one 1.15, for which Smith's are right. That V and L see a facet is taken
+ * for independent, which is exact where they stand across; face to face, as low as half a deviation, the product is 0.155 where
+ * 0.12 (14) to 0.16 (11) are found. */
 FN float slopes_seen(vec3 C, vec3 N, vec3 m, vec3 X)
 {
     float variance = max(slope_variance(C, vec2(X[0], X[2])), 1e-14f);

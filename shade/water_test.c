@@ -442,6 +442,59 @@ static void test_below(void **state)
     assert_true(aside[1] < 1e-3f * near[1]);
 }
 
+/* Mean over directions between two angles (degrees) from the zenith, of green. */
+static double ring_mean(Water w, float z, double from_deg, double to_deg)
+{
+    enum { STEPS = 64 };
+    double sum = 0.0, low = (cos)((double)radians(to_deg)), high = (cos)((double)radians(from_deg));
+    for (int i = 0; i < STEPS; ++i) {
+        float c = (float)(low + (high - low) * (i + 0.5) / STEPS);
+        vec3 d = vec3(sqrt(1.0f - c * c), c, 0.0f);
+        sum += (double)water_sun_glow(w, vec3(1.0f), UP, z, d, z / c)[1];
+    }
+    return sum / STEPS;
+}
+
+/* Light around a sun in the zenith, of 1 lx below the surface: photons that were followed through a = 0.062, b = 0.114 1/m and Henyey and
+ * Greenstein's function of 0.92 (6 million, by a program of its own); and what is left in the beam and in the glow together. */
+static void test_glow(void **state)
+{
+    (void)state;
+    static const double edges[7] = {0.0, 2.0, 4.0, 7.0, 11.0, 17.0, 25.0};
+    static const struct {
+        double depth, tolerance, radiance[6];
+    } counted[3] = {{4.0, 0.04, {5.1014, 3.4787, 1.7446, 0.7111, 0.2621, 0.0958}},
+                    {10.0, 0.05, {4.9575, 3.5072, 1.8894, 0.8586, 0.3554, 0.1410}},
+                    {20.0, 0.12, {2.1375, 1.5982, 0.9666, 0.5154, 0.2523, 0.1144}}};
+    Water w = ocean(1.34f);
+    w.backscattering = w.scattering * 0.017956f; /* of that function */
+    w.pure_share = vec3(0.0f);
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 6; ++i)
+            expect_relative(ring_mean(w, (float)counted[k].depth, edges[i], edges[i + 1]),
+                            counted[k].radiance[i], counted[k].tolerance, "%g m, from %g degrees",
+                            counted[k].depth, edges[i]);
+    for (float z = 0.1f; z < 40.0f;
+         z *= 3.0f) { /* by way of lengths that all are z: 2 pi of the zenith's, its phase integrated */
+        enum { STEPS = 4000 };
+        double phase = 0.0, t = (double)(w.scattering[1] * z);
+        for (int i = 0; i < STEPS; ++i)
+            phase += (double)water_glow_phase1((float)t, 0.0f, (float)(-1.0 + 2.0 * (i + 0.5) / STEPS));
+        expect_relative(phase * 4.0 * PI_DOUBLE / STEPS, 1.0, 0.02, "all directions at %g m", (double)z);
+        double through = (double)(water_transmittance(water_beam(w), z)[1] +
+                                  (w.scattering - w.backscattering)[1] * z *
+                                      water_mean_left1(water_beam(w)[1] * z, water_diffuse(w)[1] * z));
+        expect_relative(through, (double)water_transmittance(water_diffuse(w), z)[1], 1e-4,
+                        "what %g m let through", (double)z);
+        expect_relative(water_unscattered(w, z)[1] * water_transmittance(water_diffuse(w), z)[1],
+                        (double)water_transmittance(water_beam(w), z)[1], 1e-4, "the beam after %g m",
+                        (double)z);
+    }
+    w.absorption = vec3(3.0f); /* in murky water far below nothing is left, and no number fails */
+    assert_true(water_sun_glow(w, vec3(1e5f), UP, 500.0f, UP, 500.0f)[1] == 0.0f);
+    assert_true(is_finite3(water_sun_glow(w, vec3(1e5f), UP, 0.0f, vec3(1.0f, 0.0f, 0.0f), 1e4f)));
+}
+
 /* Foam covers: at 1 only foam is seen, as bright as its albedo allows. */
 static void test_foam(void **state)
 {
@@ -498,7 +551,7 @@ int main(void)
         cmocka_unit_test(test_deep),       cmocka_unit_test(test_bed),
         cmocka_unit_test(test_below),      cmocka_unit_test(test_foam),
         cmocka_unit_test(test_edges),      cmocka_unit_test(test_internal_reflectance),
-        cmocka_unit_test(test_furnace),
+        cmocka_unit_test(test_furnace),    cmocka_unit_test(test_glow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

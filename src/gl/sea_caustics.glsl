@@ -51,7 +51,7 @@ vec3 sea_bed_lit(Water w, vec3 at, vec3 d, float way, float width)
 {
     vec2 place = at.xz + way * d.xz;
     float depth = max(sea_bed.w - dot(sea_bed_slope.xy, place), 0.0);
-    vec3 focused = water_focused(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.y, depth);
+    vec3 focused = water_focused(w, sea_bed.xyz, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.y, depth);
     vec2 open = sea_shadow_at(place);
     return water_bed_lit(focused, sea_caustic(place, width, open.x), open.y);
 }

@@ -98,29 +98,59 @@ vec3 sea_shade(SeaPlace p)
     return water_radiance(water_parts(w, p.point, light, m, sky, sea_sun_seen(p, w, light), below));
 }
 
+/* Water as an eye in it sees it mirrored by facets of the mean normal m. */
+vec3 sea_mirrored_below(SeaPlace p, vec3 m)
+{
+    vec3 mirrored = reflect(p.d, m);
+    if (mirrored.y > -1e-3)
+        mirrored = normalize(vec3(mirrored.x, -1e-3, mirrored.z));
+    return sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.width, water_mirrored_spread(p.point.covariance));
+}
+
+/* What the facets show to it; upwards: radiance of what goes up below the surface. */
+vec3 sea_facets_below(SeaPlace p, Water w, vec3 upwards)
+{
+    vec3 C = p.point.covariance;
+    vec3 N = p.point.N;
+    FacetRange all = facets_seen(C, N, p.d);
+    bool is_sharp = all.along < WINDOW_SHARP;
+    float roughness = roughness_from_slopes(C * (is_sharp ? 0.1 : 0.1 * WINDOW_BETWEEN));
+    vec3 L = vec3(0.0);
+    vec3 mirrors = vec3(0.0);
+    float share = 0.0;
+    float fresnel = 0.0;
+    int k = 0;
+    do {
+        Facet f = facet_of_window(all, N, p.d, water_critical_cosine(w), k);
+        if (is_sharp)
+            f = Facet(water_seen_normal(C, N, p.d), 1.0);
+        WaterWindow window = water_window(w, p.d, f.m);
+        share += f.weight;
+        fresnel += f.weight * window.fresnel;
+        mirrors += f.m * (f.weight * window.fresnel);
+        if (f.weight > 0.0 && window.fresnel < 1.0)
+            L += window_light(w, window, p.resolved, N, sea_sky_reflected(window.outside, roughness), upwards) * f.weight;
+        k++;
+    } while (k < WINDOW_FACETS && !is_sharp);
+    if (fresnel > 0.0)
+        L += sea_mirrored_below(p, normalize(mirrors)) * fresnel;
+    return L / share;
+}
+
 /* To an eye in the water. */
 vec3 sea_shade_below(SeaPlace p)
 {
     Water w = sea_water();
     WaterLight light = sea_light();
-    WaterWindow window = water_window(w, p.d, water_seen_normal(p.point.covariance, p.point.N, p.d));
-    vec3 mirrored = window.mirrored;
-    if (mirrored.y > -1e-3)
-        mirrored = normalize(vec3(mirrored.x, -1e-3, mirrored.z));
-    vec3 L = vec3(0.0);
-    vec3 sun = vec3(0.0);
-    if (window.fresnel > 0.0)
-        L = sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.width, water_mirrored_spread(p.point.covariance)) * window.fresnel;
-    if (window.fresnel < 1.0) {
-        L += sea_sky_reflected(window.outside, roughness_from_slopes(p.point.covariance * 0.1)) * window.gain;
-        sun = water_sun_through(w, p.point.covariance, light, window.outside, window.gain);
-    }
 #ifdef HAS_BED
     vec3 R = water_bed_reflectance(w, sea_bed.xyz, max(p.at.y + sea_bed.w - dot(sea_bed_slope.xy, p.at.xz), 0.0));
 #else
     vec3 R = water_deep_reflectance(w);
 #endif
-    vec3 foam = water_foam_below(w, light, R * water_interreflected(w, light.downwelling, R));
+    vec3 upwelling = R * water_interreflected(w, light.downwelling, R);
+    vec3 L = sea_facets_below(p, w, upwelling * INV_PI);
+    vec3 sun = water_sun_below(w, p.point, light, p.d) * water_passing(p.resolved, p.point.N, light.L);
+    vec3 foam = water_foam_below(w, light, upwelling);
     return water_surface_through(w, light.downwelling, sea_beam.xyz, sea_sunward.xyz, mix(L, foam, p.point.foam),
                                  sun * (1.0 - p.point.foam), max(-sea_eye.x, 0.0), p.d, p.t);
 }

@@ -218,6 +218,11 @@ vec3 path_sea_transmittance(const path_sea *sea, float x)
     return x < 1e9f ? water_transmittance(k, x) : vec3(0.0f);
 }
 
+vec3 path_sea_unscattered(const path_sea *sea, float x)
+{
+    return water_unscattered(sea->water, min(x, FARTHEST));
+}
+
 /* Deep water seen from above shines alike in all directions, as R_rs has it: water_inscatter() times (K |d.y| + a + b_b) over what it is
  * straight down. An eye in the water sees what the preview shows it. Above the level nothing shines. */
 vec3 path_sea_glow(const path_sea *sea, vec3 P, vec3 D, float x)

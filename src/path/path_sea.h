@@ -59,6 +59,8 @@ float path_sea_albedo(const path_sea_point *p, vec3 V);
 float path_sea_depth(const path_sea *sea, vec3 P);
 /* Share of light left after x m, x up to INFINITY. */
 vec3 path_sea_transmittance(const path_sea *sea, float x);
+/* Of the sun's beam, over that: the rest is in its glow. */
+vec3 path_sea_unscattered(const path_sea *sea, float x);
 /* Radiance (cd/m^2) that the water adds along x m from P along D, as the eye sees it. */
 vec3 path_sea_glow(const path_sea *sea, vec3 P, vec3 D, float x);
 

@@ -102,6 +102,19 @@ static shading_ray ray_of(const path *p, const visibility_hit *hit, ray_spread *
     return ray;
 }
 
+/* Radiance of the surroundings, of which `environment` is no sun's. The sun that an eye sees through water is what has not been scattered,
+ * as the rest is in its glow. */
+static vec3 sunlit(const path *p, vec3 all, vec3 environment)
+{
+    return environment + (all - environment) * path_sea_unscattered(p->scene->sea, p->seen_through_m);
+}
+
+static vec3 surroundings_of(const path *p)
+{
+    vec3 all = path_lights_surroundings(p->scene->lights, p->D);
+    return p->seen_through_m > 0.0f ? sunlit(p, all, path_lights_environment(p->scene->lights, p->D)) : all;
+}
+
 static void meet_surroundings(path *p)
 {
     float pdf = 0.0f;
@@ -111,7 +124,7 @@ static void meet_surroundings(path *p)
     }
     if (p->from.is_chosen)
         pdf = path_lights_surroundings_pdf(p->scene->lights, p->from.P, p->from.N, p->D);
-    path_add(p, p->throughput * path_lights_surroundings(p->scene->lights, p->D) * path_met_weight(p, pdf));
+    path_add(p, p->throughput * surroundings_of(p) * path_met_weight(p, pdf));
 }
 
 /* ---- in a sea ---- */
@@ -125,6 +138,7 @@ static void pass_water(path *p, float distance_m)
         p->sees_no_glow ? path_sea_glow_returned(sea, p->P, p->D, way) : path_sea_glow(sea, p->P, p->D, way);
     path_add(p, p->throughput * glow);
     p->throughput *= path_sea_transmittance(sea, way);
+    p->seen_through_m += p->sees_no_glow ? 0.0f : way;
 }
 
 /* Whether a way from v into L is in the water. */
@@ -228,6 +242,8 @@ static void add_light(path *p, const path_vertex *v, const numbers *u)
     if (!path_lights_sample(p->scene->lights, v->s.P, path_vertex_light_normal(v), u->which_light, u->light,
                             &light))
         return;
+    if (v->is_sea && light.is_surroundings && p->seen_through_m > 0.0f)
+        light.radiance = sunlit(p, light.radiance, path_lights_environment(p->scene->lights, light.L));
     float pdf;
     vec3 f = value_for(p, v, &light, &pdf);
     vec3 contribution =
@@ -291,6 +307,7 @@ static bool scatter(path *p, path_vertex *v, const visibility_hit *hit, const nu
     if (d.is_through && v->s.m.layers & LAYER_VOLUME)
         p->media = v->behind;
     p->sees_no_glow = p->sees_no_glow || (p->is_in_sea && !v->is_sea);
+    p->seen_through_m = v->is_sea ? p->seen_through_m : 0.0f;
     if (v->is_sea && d.is_through)
         p->is_in_sea = !p->is_in_sea;
     p->sees_no_sun = d.is_second;

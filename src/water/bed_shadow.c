@@ -1,6 +1,7 @@
 /* bed_shadow.c - see bed_shadow.h. Rays from each texel of the bed to the still surface and on to where the light comes from: the sun
- * through slopes of all waves; the sky through Snell's window; and the sun's light that was scattered on its way. They
- * are the same rays for all texels; the steps that scattered light would show are smoothed. */
+ * through slopes of all waves; the sky through Snell's window, as bright as it is in each direction: where the sun is hidden, the bright sky around it
+ * is, too; and the sun's light that was scattered on its way. They are the same rays for all texels; the steps that scattered light would show are
+ * smoothed. Light that went up from the bed before comes from around. */
 #include "water/bed_shadow.h"
 
 #include <math.h>
@@ -11,13 +12,15 @@
 
 #include "water/water_setup.h"
 
-/* Particles turn light by 23 degrees on average, somewhere on its way: half of that seen from the bed. Rad along an axis. */
-static const float SCATTERED_SPREAD = 0.16f;
 static const float LEAST_SEEN = 0.002f; /* of the light above, that comes back from the bed */
 static const float WIDEST = 1.13f;      /* tangent of the angle of total reflection: half of Snell's window */
-static const float LONGEST = 8.0f;      /* a shadow on the water, in sizes of what casts it */
+static const float SKY_ROUGHNESS =
+    0.4f; /* perceptual, of a lobe as wide as a way through the sky stands for */
+static const float RETURN_M =
+    2.2f; /* how far light that the surface sends back to the bed goes, over the depth */
+static const float LONGEST = 8.0f; /* a shadow on the water, in sizes of what casts it */
 
-enum { SUN_RAYS = 8, SKY_RAYS = 24, SCATTERED_RAYS = 24 };
+enum { SUN_RAYS = 8, SKY_RAYS = 24, SCATTERED_RAYS = 32 };
 enum { SMOOTHED = 3 }; /* texels */
 
 /* A way that light takes. */
@@ -64,20 +67,25 @@ static void choose_sky(making *m)
         vec3 d = sample_cosine(hammersley(i, SKY_RAYS));
         vec3 above = vec3(d[0], max(d[2], 0.02f), d[1]);
         vec3 below = -water_refracted(w, -normalize(above), vec3(0.0f, 1.0f, 0.0f));
-        m->sky[i] = (light_way){below, normalize(above), 1.0f - water_fresnel(w, above[1])};
+        float radiance = water_sky_reflected(&m->s->sky, normalize(above), SKY_ROUGHNESS)[1];
+        m->sky[i] = (light_way){below, normalize(above), radiance * (1.0f - water_fresnel(w, above[1]))};
         sum += m->sky[i].weight;
     }
     for (uint i = 0; i < SKY_RAYS; i++)
-        m->sky[i].weight *= 1.0f / sum;
+        m->sky[i].weight *= 1.0f / max(sum, 1e-20f);
 }
 
+/* Scattered once, by particles, anywhere on its way: what is left of the way, over all of it, times the tangent of the angle is how far aside it
+ * falls. Half of it falls within 0.065 of the depth, a twentieth beyond half of it. */
 static void choose_scattered(making *m)
 {
     const water_setup *s = m->s;
     mat3 frame = basis_from_normal(s->sunward);
     for (uint i = 0; i < SCATTERED_RAYS; i++) {
-        vec2 g = normal_pair(i, SCATTERED_RAYS) * SCATTERED_SPREAD;
-        vec3 d = normalize(mul(frame, vec3(g[0], g[1], 1.0f)));
+        vec2 u = hammersley(i, SCATTERED_RAYS) + vec2(0.5f / (float)SCATTERED_RAYS, 0.0f);
+        vec3 turned = sample_phase_HG(vec2(u[1], u[0]), vec3(0.0f, 0.0f, 1.0f), WATER_PARTICLE_G);
+        float left = fract(0.5f + 0.618034f * (float)i) / max(turned[2], 0.1f); /* as even as u */
+        vec3 d = normalize(mul(frame, vec3(turned[0] * left, turned[1] * left, 1.0f)));
         d[1] = max(d[1], 0.1f);
         m->scattered[i] =
             (light_way){.below = normalize(d), .above = m->sun[0].above, .weight = 1.0f / SCATTERED_RAYS};
@@ -106,6 +114,23 @@ static float share_of(const making *m, const double P[3], const light_way *ways,
     return min(sum, 1.0f);
 }
 
+/* How the light of open water is made up, at the depth of one texel; shares sum to 1 with what is returned. */
+typedef struct light_shares {
+    float focused, sky, scattered, returned;
+} light_shares;
+
+static light_shares shares_at(const water_setup *s, float depth)
+{
+    vec3 albedo = water_bed_albedo(&s->sea->desc.bed);
+    float all = max(s->light.downwelling[1], 1e-20f);
+    light_shares l = {.returned = water_bed_returned(s->water, albedo, depth)[1]};
+    l.focused = water_focused(s->water, albedo, s->light.downwelling, s->beam, s->sunward[1], depth)[1];
+    l.sky = (1.0f - l.returned) * s->light.sky_irradiance[1] * (1.0f - s->water.sky_reflectance) / all;
+    l.scattered = max(1.0f - l.returned - l.sky - l.focused, 0.0f);
+    return l;
+}
+
+/* rest: of what comes down for the first time. */
 static bed_shadow_texel texel_at(const making *m, double X, double Z)
 {
     const water_setup *s = m->s;
@@ -113,15 +138,12 @@ static bed_shadow_texel texel_at(const making *m, double X, double Z)
     bed_shadow_texel t = {1.0f, 1.0f};
     if (P[1] >= 0.0)
         return t;
-    float all = max(s->light.downwelling[1], 1e-20f);
-    float focused = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], (float)-P[1])[1];
-    float sky = s->light.sky_irradiance[1] * (1.0f - s->water.sky_reflectance) / all;
-    float scattered = max(1.0f - sky - focused, 0.0f);
+    light_shares l = shares_at(s, (float)-P[1]);
     if (s->light.L[1] > 0.0f)
         t.sun = share_of(m, P, m->sun, SUN_RAYS);
-    float open = sky > 0.0f ? sky * share_of(m, P, m->sky, SKY_RAYS) : 0.0f;
-    open += scattered > 0.0f ? scattered * share_of(m, P, m->scattered, SCATTERED_RAYS) : 0.0f;
-    t.rest = sky + scattered > 0.0f ? open / (sky + scattered) : 1.0f;
+    float open = l.sky > 0.0f ? l.sky * share_of(m, P, m->sky, SKY_RAYS) : 0.0f;
+    open += l.scattered > 0.0f ? l.scattered * share_of(m, P, m->scattered, SCATTERED_RAYS) : 0.0f;
+    t.rest = l.sky + l.scattered > 0.0f ? open / (l.sky + l.scattered) : 1.0f;
     return t;
 }
 
@@ -137,17 +159,17 @@ static void fill_rows(void *context, size_t begin, size_t end)
                 texel_at(m, b->low[0] + ((double)x + 0.5) * per_x, b->low[1] + ((double)z + 0.5) * per_z);
 }
 
-/* Over a texel and SMOOTHED more to each side, along rows (step 1) or columns. */
-static void smooth_line(float *line, size_t step)
+/* Over a texel and `radius` more to each side, along rows (step 1) or columns; beyond all there is no shadow. */
+static void smooth_line(float *line, size_t step, int radius)
 {
     float values[BED_SHADOW_EDGE];
     for (size_t i = 0; i < BED_SHADOW_EDGE; i++)
         values[i] = line[i * step];
     for (int i = 0; i < BED_SHADOW_EDGE; i++) {
         float sum = 0.0f;
-        for (int k = i - SMOOTHED; k <= i + SMOOTHED; k++)
-            sum += values[k < 0 ? 0 : k >= BED_SHADOW_EDGE ? BED_SHADOW_EDGE - 1 : k];
-        line[(size_t)i * step] = sum / (2 * SMOOTHED + 1);
+        for (int k = i - radius; k <= i + radius; k++)
+            sum += k < 0 || k >= BED_SHADOW_EDGE ? 1.0f : values[k];
+        line[(size_t)i * step] = sum / (float)(2 * radius + 1);
     }
 }
 
@@ -156,9 +178,43 @@ static void smooth_rest(bed_shadow *b)
     const size_t row = BED_SHADOW_EDGE * sizeof *b->texels / sizeof(float),
                  texel = sizeof *b->texels / sizeof(float);
     for (size_t i = 0; i < BED_SHADOW_EDGE; i++)
-        smooth_line(&b->texels[i * BED_SHADOW_EDGE].rest, texel);
+        smooth_line(&b->texels[i * BED_SHADOW_EDGE].rest, texel, SMOOTHED);
     for (size_t i = 0; i < BED_SHADOW_EDGE; i++)
-        smooth_line(&b->texels[i].rest, row);
+        smooth_line(&b->texels[i].rest, row, SMOOTHED);
+}
+
+/* Depth over a texel, m; 0: it is dry. */
+static float depth_over(const making *m, size_t x, size_t z)
+{
+    const bed_shadow *b = m->out;
+    double X = b->low[0] + ((double)x + 0.5) * (b->high[0] - b->low[0]) / BED_SHADOW_EDGE;
+    double Z = b->low[1] + ((double)z + 0.5) * (b->high[1] - b->low[1]) / BED_SHADOW_EDGE;
+    return (float)fmax(-water_bed_height(&m->s->sea->desc.bed, X, Z), 0.0);
+}
+
+/* All that comes down for the first time, around each texel as far as light comes back from the surface, with the rest. around: BED_SHADOW_EDGE^2. */
+static void add_returned(making *m, float depth, float *around)
+{
+    bed_shadow *b = m->out;
+    const size_t edge = BED_SHADOW_EDGE;
+    for (size_t i = 0; i < edge * edge; i++) {
+        light_shares l = shares_at(m->s, depth_over(m, i % edge, i / edge));
+        const bed_shadow_texel *t = &b->texels[i];
+        float first = l.focused + l.sky + l.scattered;
+        around[i] = (l.focused * t->sun + (l.sky + l.scattered) * t->rest) / max(first, 1e-6f);
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        double texel_m = (b->high[axis] - b->low[axis]) / BED_SHADOW_EDGE;
+        int radius = (int)fmin((double)(RETURN_M * depth) / texel_m, 4.0 * BED_SHADOW_EDGE);
+        for (size_t i = 0; i < edge; i++)
+            smooth_line(around + i * (axis ? 1 : edge), axis ? edge : 1, radius);
+    }
+    for (size_t i = 0; i < edge * edge; i++) {
+        light_shares l = shares_at(m->s, depth_over(m, i % edge, i / edge));
+        float other = l.sky + l.scattered + l.returned;
+        if (other > 0.0f)
+            b->texels[i].rest += (around[i] - b->texels[i].rest) * l.returned / other;
+    }
 }
 
 /* ---- where ---- */
@@ -195,11 +251,14 @@ facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out,
     float depth = (float)-water_bed_height(&s->sea->desc.bed, X, Z);
     if (!(depth > 0.0f) || !is_worth_it(s, depth))
         return FACET_OK;
-    out->texels =
-        mem_alloc(&s->desc->render.allocator, (size_t)BED_SHADOW_EDGE * BED_SHADOW_EDGE, sizeof *out->texels);
-    if (!out->texels)
-        return fail_memory(error, "a shadow on the bed",
-                           (size_t)BED_SHADOW_EDGE * BED_SHADOW_EDGE * sizeof *out->texels);
+    const facet_allocator *allocator = &s->desc->render.allocator;
+    const size_t count = (size_t)BED_SHADOW_EDGE * BED_SHADOW_EDGE;
+    out->texels = mem_alloc(allocator, count, sizeof *out->texels);
+    float *around = mem_alloc(allocator, count, sizeof *around);
+    if (!out->texels || !around) {
+        mem_free(around);
+        return fail_memory(error, "a shadow on the bed", count * sizeof *out->texels);
+    }
     making m = {.s = s, .out = out};
     choose_rectangle(s, depth, out);
     choose_sun(&m);
@@ -207,6 +266,8 @@ facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out,
     choose_scattered(&m);
     parallel_for(s->desc->render.thread_count, BED_SHADOW_EDGE, 4, fill_rows, &m);
     smooth_rest(out);
+    add_returned(&m, depth, around);
+    mem_free(around);
     out->is_there = true;
     return FACET_OK;
 }

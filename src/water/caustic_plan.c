@@ -117,7 +117,8 @@ static bool is_worth_it(const view *v)
     float depth = v->depth_m;
     for (uint32_t i = 0; i < v->count; i++)
         depth = min(depth, v->places[i].depth_m);
-    vec3 left = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], depth) *
+    vec3 left = water_focused(s->water, water_bed_albedo(&s->sea->desc.bed), s->light.downwelling, s->beam,
+                              s->sunward[1], depth) *
                 water_transmittance(water_beam(s->water), depth);
     return max(max(left[0], left[1]), left[2]) > LEAST_SEEN;
 }

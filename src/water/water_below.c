@@ -61,26 +61,52 @@ static vec3 upwelling(const water_setup *s, const double P[3])
     return R * water_interreflected(s->water, s->light.downwelling, R);
 }
 
-/* The surface as it is seen x m along d from the depth z. */
-static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 d, float z, float x)
+/* Water as it is mirrored by facets of the mean normal m. */
+static vec3 mirrored_from_below(const water_setup *s, const water_place *p, vec3 d, vec3 m)
 {
-    WaterWindow window = water_window(s->water, d, water_seen_normal(p->point.covariance, p->point.N, d));
-    vec3 mirrored = window.mirrored;
+    vec3 mirrored = reflect(d, m);
     if (mirrored[1] > -1e-3f)
         mirrored = normalize(vec3(mirrored[0], -1e-3f, mirrored[2]));
     const double below[3] = {p->P[0], fmin(p->P[1], 0.0), p->P[2]};
-    vec3 L = vec3(0.0f), sun = vec3(0.0f);
-    if (window.fresnel > 0.0f)
-        L = water_seen_through_water(s, below, mirrored, p->footprint_m,
-                                     water_mirrored_spread(p->point.covariance)) *
-            window.fresnel;
-    if (window.fresnel < 1.0f) {
-        float perceptual_roughness = roughness_from_slopes(p->point.covariance * 0.1f);
-        L = L + water_sky_reflected(&s->sky, window.outside, perceptual_roughness) * window.gain;
-        sun = water_sun_through(s->water, p->point.covariance, s->light, window.outside, window.gain);
+    return water_seen_through_water(s, below, mirrored, p->footprint_m,
+                                    water_mirrored_spread(p->point.covariance));
+}
+
+/* What the facets show: water, mirrored, and the sky through Snell's window. upwards: radiance of what goes up below the surface. The
+ * window has a rim, and so each facet its own sky; water is much the same in all mirrors. */
+static vec3 facets_from_below(const water_setup *s, const water_place *p, vec3 d, vec3 upwards)
+{
+    vec3 C = p->point.covariance, N = p->point.N, L = vec3(0.0f), mirrors = vec3(0.0f);
+    FacetRange all = facets_seen(C, N, d);
+    bool is_sharp = all.along < WINDOW_SHARP;
+    float critical = water_critical_cosine(s->water), share = 0.0f, fresnel = 0.0f;
+    float roughness = roughness_from_slopes(C * (is_sharp ? 0.1f : 0.1f * WINDOW_BETWEEN));
+    for (int k = 0; k < (is_sharp ? 1 : WINDOW_FACETS); k++) {
+        Facet f = {water_seen_normal(C, N, d), 1.0f};
+        if (!is_sharp)
+            f = facet_of_window(all, N, d, critical, k);
+        WaterWindow window = water_window(s->water, d, f.m);
+        share += f.weight;
+        fresnel += f.weight * window.fresnel;
+        mirrors = mirrors + f.m * (f.weight * window.fresnel);
+        if (f.weight <= 0.0f || window.fresnel >= 1.0f)
+            continue;
+        vec3 sky = water_sky_reflected(&s->sky, window.outside, roughness);
+        L = L + window_light(s->water, window, p->slopes.resolved, N, sky, upwards) * f.weight;
     }
+    if (fresnel > 0.0f)
+        L = L + mirrored_from_below(s, p, d, normalize(mirrors)) * fresnel;
+    return L * (1.0f / share);
+}
+
+/* The surface as it is seen x m along d from the depth z. */
+static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 d, float z, float x)
+{
+    vec3 E = upwelling(s, p->P), L = facets_from_below(s, p, d, E * INV_PI);
+    vec3 sun = water_sun_below(s->water, p->point, s->light, d) *
+               water_passing(p->slopes.resolved, p->point.N, s->light.L);
     if (p->point.foam > 0.0f)
-        L = mix(L, water_foam_below(s->water, s->light, upwelling(s, p->P)), p->point.foam);
+        L = mix(L, water_foam_below(s->water, s->light, E), p->point.foam);
     return water_surface_through(s->water, s->light.downwelling, s->beam, s->sunward, L,
                                  sun * (1.0f - p->point.foam), z, d, x);
 }

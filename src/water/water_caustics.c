@@ -64,9 +64,21 @@ static float light_on(const caustic_source *s, const wave_point *p, vec3 N)
 /* Share of light that passes the model on its way to a point of the surface, and from there `way` m along d. */
 static float passing_model(const caustic_source *s, const double P[3], vec3 d, double way)
 {
-    return s->model
-               ? water_model_opening(s->model, P, s->L, HUGE_VAL) * water_model_opening(s->model, P, d, way)
-               : 1.0f;
+    return water_model_opening(s->model, P, s->L, HUGE_VAL) * water_model_opening(s->model, P, d, way);
+}
+
+/* The mean over four points of a node's share of the surface: an edge of the model's shadow lies where it does, not at the next node. */
+static float passing_around(const caustic_source *s, const double P[3], vec3 d, double way, double spacing_m)
+{
+    float sum = 0.0f;
+    if (!s->model)
+        return 1.0f;
+    for (int i = 0; i < 4; i++) {
+        const double at[3] = {P[0] + spacing_m * (i % 2 ? 0.25 : -0.25), P[1],
+                              P[2] + spacing_m * (i / 2 ? 0.25 : -0.25)};
+        sum += 0.25f * passing_model(s, at, d, way);
+    }
+    return sum;
 }
 
 /* Of the node whose light falls on (X, Z) where the water is still. Returns the light that it would have without a model. */
@@ -88,7 +100,9 @@ static float trace_node(const making *m, const caustic_layer *layer, double X, d
     *u = (x * axis[0] + z * axis[1]) / layer->texel_m + 0.5f * CAUSTIC_SIZE;
     *v = (z * axis[0] - x * axis[1]) / layer->texel_m + 0.5f * CAUSTIC_SIZE;
     float light = light_on(s, &p, N);
-    *weight = light > 0.0f ? light * passing_model(s, from, d, way) : 0.0f;
+    *weight = light > 0.0f
+                  ? light * passing_around(s, from, d, way, (double)(TEXELS_PER_NODE * layer->texel_m))
+                  : 0.0f;
     return light;
 }
 

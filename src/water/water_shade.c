@@ -17,7 +17,8 @@ vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way
 {
     double X = P[0] + (double)way * (double)d[0], Z = P[2] + (double)way * (double)d[2];
     float depth = max((float)-water_bed_height(&s->sea->desc.bed, X, Z), 0.0f);
-    vec3 focused = water_focused(s->water, s->light.downwelling, s->beam, s->sunward[1], depth);
+    vec3 focused = water_focused(s->water, water_bed_albedo(&s->sea->desc.bed), s->light.downwelling, s->beam,
+                                 s->sunward[1], depth);
     bed_shadow_texel open = bed_shadow_at(&s->shadow, X, Z);
     float beyond, factor = caustic_map_within(&s->caustics, X, Z, width_m, &beyond);
     return water_bed_lit(focused, factor + beyond * open.sun, open.rest);
