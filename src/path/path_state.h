@@ -35,10 +35,9 @@ typedef struct path {
     bool has_crossed;     /* what transmits, since from: straight shadows find the light behind it */
     bool follows_mirrors; /* nothing but mirrors and clear glass so far: albedo, normal are to come */
     bool is_in_sea;       /* P is in the water of scene->sea */
-    float
-        seen_through_m; /* of water before P, through which the eye sees, mirrored perhaps by the surface, but by nothing else */
-    bool sees_no_glow; /* something in the water is behind: what lights it includes what water scatters */
-    bool sees_no_sun;  /* it came by way of a second facet, from which the sun is seldom met, and bright */
+    float seen_through_m; /* of water that the eye sees through, by the surface's mirrors and windows only */
+    bool sees_no_glow;    /* something in the water is behind: what lights it includes what water scatters */
+    bool sees_no_sun;     /* it came by way of a second facet, from which the sun is seldom met, and bright */
     path_sample *out;
     vec3 radiance;
 } path;

@@ -14,11 +14,9 @@
 
 static const float LEAST_SEEN = 0.002f; /* of the light above, that comes back from the bed */
 static const float WIDEST = 1.13f;      /* tangent of the angle of total reflection: half of Snell's window */
-static const float SKY_ROUGHNESS =
-    0.4f; /* perceptual, of a lobe as wide as a way through the sky stands for */
-static const float RETURN_M =
-    2.2f; /* how far light that the surface sends back to the bed goes, over the depth */
-static const float LONGEST = 8.0f; /* a shadow on the water, in sizes of what casts it */
+static const float SKY_ROUGHNESS = 0.4f;  /* perceptual, of a lobe as wide as what a way stands for */
+static const float RETURNED_WIDTH = 2.2f; /* of what the surface sends back to the bed, over the depth */
+static const float LONGEST = 8.0f;        /* a shadow on the water, in sizes of what casts it */
 
 enum { SUN_RAYS = 8, SKY_RAYS = 24, SCATTERED_RAYS = 32 };
 enum { SMOOTHED = 3 }; /* texels */
@@ -205,7 +203,7 @@ static void add_returned(making *m, float depth, float *around)
     }
     for (int axis = 0; axis < 2; axis++) {
         double texel_m = (b->high[axis] - b->low[axis]) / BED_SHADOW_EDGE;
-        int radius = (int)fmin((double)(RETURN_M * depth) / texel_m, 4.0 * BED_SHADOW_EDGE);
+        int radius = (int)fmin((double)(RETURNED_WIDTH * depth) / texel_m, 4.0 * BED_SHADOW_EDGE);
         for (size_t i = 0; i < edge; i++)
             smooth_line(around + i * (axis ? 1 : edge), axis ? edge : 1, radius);
     }

@@ -12,9 +12,8 @@ enum { BED_SHADOW_EDGE = SEA_TOUCH_EDGE };
 
 /* Shares, [0, 1]. */
 typedef struct bed_shadow_texel {
-    float sun; /* of the beam that was not scattered */
-    float
-        rest; /* of the sky's light, of the sun's that was scattered, and of both that went up from the bed before */
+    float sun;  /* of the beam that was not scattered */
+    float rest; /* of the sky's light, of the sun's that was scattered, of what went up from the bed before */
 } bed_shadow_texel;
 
 typedef struct bed_shadow {

@@ -38,17 +38,18 @@ static vec3 transmittance_over(const water_sky *s, float length_km, float height
 
 /* Ways of x / (1 - x) WAY_KM, x from 0 to 1 in even steps. */
 static const float WAY_KM = 20.0f;
+enum { LAST_WAY = WATER_SKY_WAYS - 1 };
 
 void water_sky_fill_ways(water_sky *s)
 {
-    for (int i = 0; i <= WATER_SKY_WAYS; i++)
-        s->left[i] = transmittance_over(s, WAY_KM * (float)i / max((float)(WATER_SKY_WAYS - i), 1e-6f), 0.0f);
+    for (int i = 0; i < WATER_SKY_WAYS; i++)
+        s->left[i] = transmittance_over(s, WAY_KM * (float)i / max((float)(LAST_WAY - i), 1e-6f), 0.0f);
 }
 
 static vec3 transmittance_to_sea(const water_sky *s, float length_km)
 {
-    float x = length_km / (length_km + WAY_KM) * WATER_SKY_WAYS;
-    int i = (int)min(x, WATER_SKY_WAYS - 1.0f);
+    float x = length_km / (length_km + WAY_KM) * LAST_WAY;
+    int i = (int)min(x, LAST_WAY - 1.0f);
     return mix(s->left[i], s->left[i + 1], x - (float)i);
 }
 

@@ -12,7 +12,7 @@
 
 #include "shade/shade.h"
 
-enum { WATER_SKY_WAYS = 256 };
+enum { WATER_SKY_WAYS = 257 };
 
 typedef struct water_sky {
     bool has_views; /* the sky is the atmosphere's; else a picture */
@@ -31,12 +31,11 @@ typedef struct water_sky {
     float scale;                             /* of all light */
     float eye_km;                            /* height that eye is made for */
     float horizon_mu, horizon_rad;           /* where that eye sees it: cosine and angle from the zenith */
-    vec3 left[WATER_SKY_WAYS +
-              1];        /* share of light that the air leaves of it from there to the sea, by the way */
-    vec3 white;          /* color of sunlight outside the air, lx */
-    vec3 L;              /* to the sun, unit */
-    vec3 sun_irradiance; /* lx, facing it, at the sea */
-    vec3 sky_irradiance; /* lx, on a horizontal plane */
+    vec3 left[WATER_SKY_WAYS];               /* share that the air leaves from there to the sea, by the way */
+    vec3 white;                              /* color of sunlight outside the air, lx */
+    vec3 L;                                  /* to the sun, unit */
+    vec3 sun_irradiance;                     /* lx, facing it, at the sea */
+    vec3 sky_irradiance;                     /* lx, on a horizontal plane */
 } water_sky;
 
 /* What lights the surface itself. */
