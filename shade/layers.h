@@ -28,8 +28,8 @@ STRUCT(Layers)
     Surface base;
     uint layers; /* LAYER_* that are active: their factor, after textures, is above 0 */
     float ior;   /* of the dielectric, >= 1; 0: infinite, F = 1 */
-    float
-        eta; /* ior beyond the surface / ior on the eye's side: ior seen from outside, 1 / ior from inside */
+    /* ior beyond the surface / ior on the eye's side: ior seen from outside, 1 / ior from inside */
+    float eta;
     /* LAYER_CLEARCOAT */
     float clearcoat;           /* [0, 1] */
     float clearcoat_roughness; /* [0, 1], perceptual */

@@ -28,8 +28,8 @@ STRUCT(LayersSample)
     vec3 L;      /* unit */
     float pdf;   /* per sr, of all lobes that are not mirrors; of a mirror 0 */
     vec3 weight; /* of a mirror: f |N.L| / pdf, with the probability of its choice in it; else 0 */
-    bool
-        is_mirror; /* the lobe is too narrow to be evaluated: no other way of finding L has a density for it */
+    /* the lobe is too narrow to be evaluated: no other way of finding L has a density for it */
+    bool is_mirror;
     bool is_through; /* L is on the other side of the surface: N.L < 0 */
     bool is_valid;   /* false: the path ends here */
 };

@@ -31,8 +31,8 @@ STRUCT(PhongRules)
     bool has_attenuation;     /* lights have attenuation and spots */
     bool is_lit_at_vertices;  /* colors are interpolated (Gouraud), and clamped to [0, 1] before */
     bool has_fixed_fog;       /* glFog's curves, not the shaders' */
-    float
-        direction_w; /* of the world's directions as they go to eye space; 1 is an error: see seeds_test.c */
+    /* of the world's directions as they go to eye space; 1 is an error: see seeds_test.c */
+    float direction_w;
     vec3 global_ambient; /* times the material's ambient color */
 };
 

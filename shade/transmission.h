@@ -87,8 +87,8 @@ STRUCT(TransmissionSample)
 {
     vec3 L;      /* unit, z < 0; towards where the light comes from, the way a ray from V goes on */
     float VdotH; /* of the microfacet, for 1 - F */
-    float
-        weight; /* BTDF |N.L| / pdf = G2 / G1(V), in [0, 1]; 0: no direction (total reflection, or not below) */
+    /* BTDF |N.L| / pdf = G2 / G1(V), in [0, 1]; 0: no direction (total reflection, or not below) */
+    float weight;
     float pdf; /* of L, per sr */
 };
 

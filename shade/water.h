@@ -30,8 +30,8 @@ STRUCT(Water)
     vec3 backscattering; /* b_b, 1/m, the part of scattering that goes backwards */
     vec3 reflectance;    /* of deep water just above its surface, pi R_rs: upward over downward irradiance */
     vec3 pure_share;     /* of scattering that is the water's own and not strongly forward, [0, 1] */
-    float
-        sky_reflectance; /* of the surface for light from all of the sky: 2 int F mu dmu, with the whole sea's slopes */
+    /* of the surface for light from all of the sky: 2 int F mu dmu, with the whole sea's slopes */
+    float sky_reflectance;
     float foam_albedo;
     int normals;    /* WATER_BECKMANN or WATER_GGX */
     int masking;    /* WATER_SCALES, WATER_SMITH or WATER_SCHLICK_KARIS */
@@ -42,8 +42,8 @@ STRUCT(Water)
 STRUCT(WaterPoint)
 {
     vec3 N; /* unit normal of the waves that are seen, N.y > 0 */
-    vec3
-        covariance; /* xx, zz, xz of the slopes that are not, in world axes, with SLOPE_VARIANCE_MIN on xx and zz */
+    /* xx, zz, xz of the slopes that are not, in world axes, with SLOPE_VARIANCE_MIN on xx and zz */
+    vec3 covariance;
     float foam; /* share of it that foam covers, [0, 1] */
 };
 
@@ -54,8 +54,8 @@ STRUCT(WaterLight)
     vec3 sun_irradiance; /* lx on a plane that faces it; 0 where it is below the horizon */
     vec3 sky_irradiance; /* lx on a horizontal plane, without the sun */
     vec3 downwelling;    /* lx on a horizontal plane just below the surface: water_downwelling() */
-    float
-        sun_fresnel; /* share of the sun's light that the whole sea reflects: its mean reflectance seen from L */
+    /* share of the sun's light that the whole sea reflects: its mean reflectance seen from L */
+    float sun_fresnel;
 };
 
 /* ---- the interface ---- */

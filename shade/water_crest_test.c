@@ -32,8 +32,8 @@ enum { PHASES = 16 };
 typedef struct count {
     double length, amplitude, k, sun; /* m, m, 1/m, rad */
     double horizontal;                /* irradiance that enters, over that of the sun */
-    double
-        radiance[PHASES]; /* below the surface, towards eyes 4 to 12 degrees high, within 20 degrees of +x */
+    /* below the surface, towards eyes 4 to 12 degrees high, within 20 degrees of +x */
+    double radiance[PHASES];
 } count;
 
 typedef struct photon {

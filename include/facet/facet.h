@@ -169,19 +169,19 @@ typedef struct facet_legacy_desc {
     facet_mtl_dialect dialect;
     facet_mtl_illum illum;
     facet_legacy_ambient ambient;
-    bool
-        keeps_materials; /* of reading: legacy materials are not converted, glTF's are defaults: for OpenGL 1 only */
+    /* of reading: legacy materials are not converted, glTF's are defaults: for OpenGL 1 only */
+    bool keeps_materials;
     bool has_glass; /* Ni, Tf and illum 4, 6, 7, 9 become transmission; false: opacity becomes alpha */
-    bool
-        has_mirrors; /* illum 3, 5, 7, 8: Ks is a reflectance, and the surroundings are reflected; false: a highlight */
+    /* illum 3, 5, 7, 8: Ks is a reflectance, and the surroundings are reflected; false: a highlight */
+    bool has_mirrors;
     /* Textures that only the old materials use leave the scene; the way back is then fitted for them. Once some have
      * left, FACET_MATERIALS_METALLIC_ROUGHNESS leaves the materials as they are. */
     bool drops_sources;
-    bool
-        keeps_light; /* legacy lights keep their numbers; false: times pi, which makes the two models agree */
+    /* legacy lights keep their numbers; false: times pi, which makes the two models agree */
+    bool keeps_light;
     bool bakes_occlusion; /* to OGL1: the occlusion texture darkens the diffuse one */
-    bool
-        ignores_source; /* to OGL1: fits anew even where a material still is what a conversion made of known values */
+    /* to OGL1: fits anew even where a material still is what a conversion made of known values */
+    bool ignores_source;
 } facet_legacy_desc;
 
 /* How a model is read. {0}: with malloc, silently, all threads, files only from the model's folder. */
@@ -195,8 +195,8 @@ typedef struct facet_scene_desc {
     facet_legacy_desc legacy;  /* OBJ, MTL, rgl's parameters: how they are understood and converted */
     facet_obj_normals obj_normals;
     bool has_flipped_texcoords; /* OBJ: v points down already (the format says up) */
-    const char *
-        parameters; /* a JSON file of rgl's material parameters that take the place of the model's; NULL: none */
+    /* a JSON file of rgl's material parameters that take the place of the model's; NULL: none */
+    const char *parameters;
 } facet_scene_desc;
 
 /* Reads a .glb or .gltf file, an .obj file with its .mtl files, or a .json file of rgl's material and light parameters
@@ -248,8 +248,8 @@ typedef enum facet_conversion_grade {
 typedef struct facet_conversion {
     const char *name;   /* of the material; as long as the scene lives, as all here */
     const char *source; /* "mtl", "ogl1", "metallic-roughness", "specular-glossiness" */
-    const char
-        *method; /* "closed", "fit", "exact" (nothing is lost), "source" (known from where it came), "none" */
+    /* "closed", "fit", "exact" (nothing is lost), "source" (known from where it came), "none" */
+    const char *method;
     const char *profile;   /* "specular+ior", "core", "ogl1", .. */
     double error;          /* E */
     double error_display;  /* E of radiance clamped to [0, 1] */
@@ -374,9 +374,8 @@ typedef struct facet_orbit {
     bool is_z_up;           /* the model has +Z up; the camera rises along it */
     bool fits_all_azimuths; /* radius 0: frames the model from every azimuth at once, for turntables that keep
                                the model's size */
-    bool
-        fits_all_times; /* frames (and aims at the middle of) all that the pose's animations move through, not
-                               only time_s */
+    /* frames (and aims at the middle of) all that the pose's animations move through, not only time_s */
+    bool fits_all_times;
 } facet_orbit;
 FACET_API facet_orbit facet_orbit_default(void); /* azimuth 0, polar 75 deg, 105 %, fov 30 deg */
 
@@ -469,9 +468,9 @@ typedef struct facet_sky_desc {
     float altitude_m;       /* of the eye above the ground, [0, 50 000]; the atmosphere only */
     bool has_no_disc;       /* leaves the sun's disc out, not its light in the air */
     uint32_t height;        /* texels; 0: 512 */
-    float
-        illuminance_lux; /* to which all is scaled, of the surface that gets most; less than 1 lx counts as 1. 0: units
-                            stay physical. pi: white in this light has 1 cd/m^2 */
+    /* to which all is scaled, of the surface that gets most; less than 1 lx counts as 1. 0: units stay physical. pi:
+     * white in this light has 1 cd/m^2 */
+    float illuminance_lux;
 } facet_sky_desc;
 
 /* Texels are cd/m^2: some 10^4 for a blue sky, 10^9 for the sun. The disc's energy is that of the sun, spread over the
@@ -484,9 +483,9 @@ FACET_API facet_result facet_environment_create_sky(const facet_sky_desc *sky,
 typedef struct facet_environment_info {
     facet_layout layout;
     uint32_t width, height; /* of the picture, or of a face where the layout is one of cube maps */
-    uint64_t
-        repaired_texels; /* that held NaN, infinity or less than 0: taken as 0, infinity as the largest number */
-    double mean[3];      /* radiance over the sphere, cd/m^2 */
+    /* that held NaN, infinity or less than 0: taken as 0, infinity as the largest number */
+    uint64_t repaired_texels;
+    double mean[3];     /* radiance over the sphere, cd/m^2 */
     float max_radiance; /* of any channel */
 } facet_environment_info;
 FACET_API facet_result facet_environment_get_info(const facet_environment *environment,
@@ -534,13 +533,13 @@ typedef enum facet_ogl1_variant {
 /* {0}: vignette, as the display's numbers. */
 typedef struct facet_ogl1_desc {
     facet_ogl1_variant variant;
-    bool
-        is_linear; /* light is computed and surfaces are blended as linear light, without clamping; false: with the
-                       display's encoded numbers, as then */
+    /* light is computed and surfaces are blended as linear light, without clamping; false: with the display's encoded
+     * numbers, as then */
+    bool is_linear;
     bool ignores_fog;
-    bool
-        translates_directions; /* FACET_OGL1_VIGNETTE: directional lights of the world are transformed as the vignette
-                                   prints it, with w = 1, which adds the camera's position; false: as is meant */
+    /* FACET_OGL1_VIGNETTE: directional lights of the world are transformed as the vignette prints it, with w = 1,
+     * which adds the camera's position; false: as is meant */
+    bool translates_directions;
 } facet_ogl1_desc;
 
 /* How light is carried to the camera. */
@@ -582,29 +581,28 @@ typedef struct facet_sun {
 
 /* What FACET_INTEGRATOR_PATH reads beside facet_render_desc. {0}: unbiased. */
 typedef struct facet_path_desc {
-    uint32_t
-        max_depth; /* surfaces and scattering events that a path may have; 1: direct light only; 0: 64. What a
-                           longer path would bring is missing */
+    /* surfaces and scattering events that a path may have; 1: direct light only; 0: 64. What a longer path would
+     * bring is missing */
+    uint32_t max_depth;
     uint32_t seed; /* another one gives other noise */
     facet_filter filter;
     facet_light_sampling light_sampling;
-    float
-        noise; /* adaptive: a region is done when its standard error, relative to what a display shows of it, is below
-                    this; samples is then the most. 0: all get as many */
+    /* adaptive: a region is done when its standard error, relative to what a display shows of it, is below this;
+     * samples is then the most. 0: all get as many */
+    float noise;
     float clamp; /* biased: no indirect contribution to a sample above this (cd/m^2); 0: none */
-    bool
-        straight_shadows; /* biased: light that is aimed at passes transmissive surfaces straight on, tinted; else only
-                              real paths find light through them */
+    /* biased: light that is aimed at passes transmissive surfaces straight on, tinted; else only real paths find
+     * light through them */
+    bool straight_shadows;
     bool denoises;   /* biased: noise is filtered out under guidance of albedo and normal */
     float shutter_s; /* the picture is the mean over pose.time_s to time_s + shutter_s; 0: an instant */
-    const char *
-        checkpoint_path; /* an .exr: what is drawn so far is kept there every checkpoint_interval_s, at the time
-                                    limit, when cancelled, at the end. NULL: none. FACET_ERROR_ARGUMENT: one is there
-                                    already, and resumes is false */
+    /* an .exr: what is drawn so far is kept there every checkpoint_interval_s, at the time limit, when cancelled, at
+     * the end. NULL: none. FACET_ERROR_ARGUMENT: one is there already, and resumes is false */
+    const char *checkpoint_path;
     double checkpoint_interval_s; /* 0: 60 */
-    bool
-        resumes; /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there
-                     is none it starts */
+    /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there is none it
+     * starts */
+    bool resumes;
     /* Told after passes, while there are more to come: the picture so far, which is gone when it returns, as it is with that
      * many samples; denoised ones, but for the shadow on the ground, at 2, 4, 8 .. samples. From a thread of the
      * renderer's. NULL: nobody */
@@ -701,27 +699,26 @@ typedef struct facet_render_desc {
     facet_path_desc path;
     facet_gl_desc gl;
     facet_quality quality;
-    uint32_t
-        samples; /* per pixel; 0: as quality has it. Preview: of visibility, draft 1, normal 4, final 16, at most
-                         4096. Path: of light, draft 16, normal 64, final 512, at most 2^24 */
+    /* per pixel; 0: as quality has it. Preview: of visibility, draft 1, normal 4, final 16, at most 4096. Path: of
+     * light, draft 16, normal 64, final 512, at most 2^24 */
+    uint32_t samples;
     facet_energy energy;
-    facet_shading
-        shading; /* FACET_SHADING_OGL1: FACET_ERROR_ARGUMENT without legacy materials, and for the environment as
-                    background; its picture is made for FACET_TONEMAP_NONE */
+    /* FACET_SHADING_OGL1: FACET_ERROR_ARGUMENT without legacy materials, and for the environment as background; its
+     * picture is made for FACET_TONEMAP_NONE */
+    facet_shading shading;
     facet_ogl1_desc ogl1;
-    bool
-        specular_antialiasing; /* widen highlights by how much normals turn within a pixel (Kaplanyan and Tokuyoshi
-                                   2019): fewer sparkles, and no longer what real-time viewers show */
-    bool
-        whole_textures; /* decode textures in full where a part of their texels would do: the mips of a JPEG that is
-                                  decoded at half size are not quite those of the whole. Slower; path tracing and OpenGL do
-                                  it always */
+    /* widen highlights by how much normals turn within a pixel (Kaplanyan and Tokuyoshi 2019): fewer sparkles, and no
+     * longer what real-time viewers show */
+    bool specular_antialiasing;
+    /* decode textures in full where a part of their texels would do: the mips of a JPEG that is decoded at half size
+     * are not quite those of the whole. Slower; path tracing and OpenGL do it always */
+    bool whole_textures;
     float exposure_ev; /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
     facet_tonemap tonemap;
     uint32_t aovs; /* facet_aov or-ed */
-    double
-        time_limit_s; /* 0: none; past it FACET_ERROR_LIMIT. FACET_INTEGRATOR_PATH gives what it has, unless that is
-                            not a sample for each pixel */
+    /* 0: none; past it FACET_ERROR_LIMIT. FACET_INTEGRATOR_PATH gives what it has, unless that is not a sample for
+     * each pixel */
+    double time_limit_s;
 } facet_render_desc;
 
 /* Renders on the CPU with prefiltered light: what real-time viewers show. The image has the layer "" (RGBA,
@@ -788,9 +785,9 @@ typedef struct facet_image_load_desc {
     uint32_t thread_count;   /* 0: facet_thread_count() */
     uint64_t max_file_bytes; /* 0: 4 GiB; larger files are refused */
     uint32_t max_size;       /* pixels along an edge; 0: 16384; larger pictures are refused */
-    const char *
-        layer; /* of an OpenEXR file: "albedo", "normal", "depth" ..; its channels become R, G, B, opacity, one all
-                          three, of two the third is 0. NULL: the picture */
+    /* of an OpenEXR file: "albedo", "normal", "depth" ..; its channels become R, G, B, opacity, one all three, of two
+     * the third is 0. NULL: the picture */
+    const char *layer;
 } facet_image_load_desc;
 
 /* Reads a PNG, JPEG, WebP, AVIF, KTX2, Radiance HDR, OpenEXR or PFM file, told apart by content, into layer "" as
@@ -877,15 +874,15 @@ typedef struct facet_bake_desc {
     uint32_t thread_count; /* 0: facet_thread_count(); the texels do not depend on it */
     facet_lobe lobe;
     uint32_t size; /* texels along an edge of level 0, [1, 8192], a power of two; 0: 256; Lambert 64 */
-    uint32_t
-        level_count; /* 0: down to 16 texels, but five where there are as many; Lambert: 1. At most log2(size) + 1 */
+    /* 0: down to 16 texels, but five where there are as many; Lambert: 1. At most log2(size) + 1 */
+    uint32_t level_count;
     facet_roughness_mapping mapping;
     facet_bake_method method;
     uint32_t samples;   /* per texel, of sampling; 0: 1024 */
     float rotation_rad; /* of the environment around +Y, as facet_render_desc.environment_rotation_rad */
     float ev;           /* stops: radiance is scaled by 2^ev */
-    float
-        clamp; /* radiance (before ev) is cut off here, which loses light: facet_bake_stats tells how much. 0: not */
+    /* radiance (before ev) is cut off here, which loses light: facet_bake_stats tells how much. 0: not */
+    float clamp;
 } facet_bake_desc;
 
 typedef struct facet_bake_stats {
@@ -947,8 +944,8 @@ typedef struct facet_ktx2_desc {
     facet_allocator allocator;
     uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
     facet_texel_format format;
-    uint32_t
-        zstd_level; /* supercompression: 1 to 19; 0: none. FACET_ERROR_UNSUPPORTED where facet was built without Zstandard */
+    /* supercompression: 1 to 19; 0: none. FACET_ERROR_UNSUPPORTED where facet was built without Zstandard */
+    uint32_t zstd_level;
 } facet_ktx2_desc;
 
 /* A KTX 2.0 file; facet_bytes_destroy(). What a format cannot hold becomes its largest number. */
@@ -1027,9 +1024,9 @@ typedef struct facet_sh_desc {
     uint32_t thread_count;
     facet_sh_form form;
     float rotation_rad, ev, clamp; /* as facet_bake_desc */
-    bool
-        is_windowed; /* lowers bands 1 and 2, all channels alike, as little as leaves the irradiance nowhere below 0 (Sloan
-                        2017): rings around a sun go */
+    /* lowers bands 1 and 2, all channels alike, as little as leaves the irradiance nowhere below 0 (Sloan 2017):
+     * rings around a sun go */
+    bool is_windowed;
 } facet_sh_desc;
 /* desc NULL: {0}. FACET_ERROR_ARGUMENT, _MEMORY. */
 FACET_API facet_result facet_environment_project_sh(const facet_environment *environment,
@@ -1055,8 +1052,8 @@ FACET_API facet_result facet_cube_draw_sheet(const facet_cube *cube, facet_envir
 /* GLSL of the functions that facet itself shades with (shade/): what other renderers put before their own shaders. */
 typedef struct facet_shader_desc {
     facet_allocator allocator;
-    const char *
-        version; /* a line "#version ..": "300 es" to "320 es", "330" to "460", also "330 core"; NULL: no such line */
+    /* a line "#version ..": "300 es" to "320 es", "330" to "460", also "330 core"; NULL: no such line */
+    const char *version;
     const char *const *parts; /* facet_shader_get_part_name()s; they come with all that they use */
     uint32_t part_count;      /* 0: all parts */
 } facet_shader_desc;
@@ -1126,13 +1123,13 @@ typedef struct facet_plot_desc {
     facet_plot_kind kind;
     uint32_t material_count; /* at most FACET_PLOT_MAX_MATERIALS; 0: what suits the kind */
     const facet_plot_material *materials;
-    uint32_t
-        angle_count; /* of the view; at most FACET_PLOT_MAX_ANGLES; 0: 30 degrees, or what suits the kind */
+    /* of the view; at most FACET_PLOT_MAX_ANGLES; 0: 30 degrees, or what suits the kind */
+    uint32_t angle_count;
     const float *angles_rad; /* from the normal, [0, pi/2) */
     bool has_heaviside_ramp; /* FACET_PLOT_LEGACY: the vignette's max(x, 0) where glTF has a step */
-    bool
-        has_separable_smith; /* masking and shadowing independent, as the vignette has it; false: height-correlated */
-    bool has_fit;            /* the best fit of the other model beside each material; MERL: of PBR */
+    /* masking and shadowing independent, as the vignette has it; false: height-correlated */
+    bool has_separable_smith;
+    bool has_fit;        /* the best fit of the other model beside each material; MERL: of PBR */
     bool is_logarithmic; /* the axis of values */
     bool has_cosine;     /* BRDF times the light's cosine, where a kind shows a BRDF */
     facet_energy energy;
@@ -1411,8 +1408,8 @@ typedef struct facet_view_desc {
      * progress, pose, camera, environment and crop are not read. */
     facet_render_desc render;
     uint32_t path_samples; /* per pixel, at which path tracing ends; 0: 4096 */
-    const char
-        *script; /* a file of input that is played with a clock of its own (docs/view.md); NULL: none */
+    /* a file of input that is played with a clock of its own (docs/view.md); NULL: none */
+    const char *script;
 } facet_view_desc;
 
 /* A window that shows models until it is closed. On the process' first thread. Fails with FACET_ERROR_ENVIRONMENT: there is
@@ -1454,9 +1451,9 @@ typedef struct facet_compare_desc {
     facet_compare_alpha alpha;
     float background[3]; /* linear Rec.709, as a display shows it */
     uint32_t crop[4];    /* x, y, width, height of the part that is compared; {0}: all */
-    const facet_image
-        *mask; /* of the same size; pixels count where it is at least half as bright as white is for an eye
-                                (sRGB 0.5). NULL: all */
+    /* of the same size; pixels count where it is at least half as bright as white is for an eye (sRGB 0.5). NULL: all
+     * */
+    const facet_image *mask;
     float
         pixels_per_degree;  /* FLIP: of the eye's field, [1, 1000]; 0: 67, a 4k display of 0.7 m from 0.7 m */
     float relative_epsilon; /* mse_relative: added to a^2; 0: 0.01 */
@@ -1477,9 +1474,9 @@ typedef struct facet_comparison {
     uint64_t pixel_count;              /* that the mask lets count */
     bool is_equal;                     /* to the last bit, as linear premultiplied floats */
     uint64_t nonfinite_a, nonfinite_b; /* pixels with NaN or infinity */
-    uint64_t
-        invalid_count; /* pixels whose NaN or infinity is not the same in both: in no mean, but among those that
-                               differ, infinitely far, and with a FLIP of 1 */
+    /* pixels whose NaN or infinity is not the same in both: in no mean, but among those that differ, infinitely far,
+     * and with a FLIP of 1 */
+    uint64_t invalid_count;
     double mse, rmse;
     double mse_relative, rmse_relative; /* mean of (b - a)^2 / (a^2 + relative_epsilon), and its root */
     double nrmse;                       /* rmse over the root mean square of a */

@@ -38,8 +38,8 @@ static void files_come_back(void **state)
     static const struct {
         facet_file_format format;
         bool has_alpha, is_display;
-        double
-            tolerance; /* of premultiplied light; for displays that of sRGB codes, in linear light at its steepest */
+        /* of premultiplied light; for displays that of sRGB codes, in linear light at its steepest */
+        double tolerance;
     } formats[] = {
         {FACET_FORMAT_PNG, true, true, 0.6 / 255 * 2.3}, {FACET_FORMAT_PNG16, true, true, 0.6 / 65535 * 2.3},
         {FACET_FORMAT_EXR, true, false, 0x1p-11},        {FACET_FORMAT_EXR_FLOAT, true, false, 0.0},

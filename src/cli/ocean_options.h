@@ -5,8 +5,8 @@
 #include "cli/render_options.h"
 
 typedef struct ocean_options {
-    render_options
-        picture; /* output, format, size, environment, frames, limits; desc.exposure_ev: beside the meter */
+    /* output, format, size, environment, frames, limits; desc.exposure_ev: beside the meter */
+    render_options picture;
     facet_sea_desc sea;
     facet_sky_desc sky;
     facet_sea_look look;

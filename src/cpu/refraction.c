@@ -33,8 +33,8 @@ typedef struct branch {
     vec3 weight;  /* of the radiance that it brings */
     media media;  /* where it starts */
     float alpha2; /* squared GGX width of the lobe of directions around it */
-    float
-        shift; /* of the indices of refraction: -1 red, 0 green, 1 blue (dispersion.h), and between and beyond */
+    /* of the indices of refraction: -1 red, 0 green, 1 blue (dispersion.h), and between and beyond */
+    float shift;
     bool is_white;
     uint32_t depth; /* surfaces before it */
 } branch;

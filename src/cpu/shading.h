@@ -23,8 +23,8 @@ typedef struct shading_scene {
     facet_energy energy;
     facet_quality quality;
     bool specular_antialiasing;
-    float
-        background_blur; /* perceptual roughness of the environment where it is drawn; 0: sharp, or not drawn */
+    /* perceptual roughness of the environment where it is drawn; 0: sharp, or not drawn */
+    float background_blur;
 } shading_scene;
 
 /* Sets camera_spread, from camera, and all members behind it. */

@@ -7,9 +7,9 @@
 
 typedef struct surface_light {
     vec3 radiance; /* cd/m^2 towards the eye, without what rays bring from behind the surface */
-    vec3
-        through; /* share of the radiance that rays bring which goes on towards the eye: the boundary's tint and what
-                      its layers leave; 0 where the surface lets none through */
+    /* share of the radiance that rays bring which goes on towards the eye: the boundary's tint and what its layers
+     * leave; 0 where the surface lets none through */
+    vec3 through;
     uint64_t rays; /* traced for it */
 } surface_light;
 

@@ -11,10 +11,10 @@ typedef struct material_plan {
     uint32_t layers;   /* LAYER_* of shade/layers.h that some of its points may have; 0: a plain surface */
     bool lets_rays_through; /* LAYER_TRANSMISSION */
     bool reads_changes;     /* over the footprint: of textures, or of what rays refract by */
-    uint32_t
-        legacy_maps; /* bits of legacy_map_slot: what a shade of a legacy material looks up; ogl1_setup.h */
-    bool is_volume;  /* the boundary of a body that rays go through, not a thin wall: both sides are seen */
-    bool is_body;    /* the same, or of one that light enters diffusely */
+    /* bits of legacy_map_slot: what a shade of a legacy material looks up; ogl1_setup.h */
+    uint32_t legacy_maps;
+    bool is_volume; /* the boundary of a body that rays go through, not a thin wall: both sides are seen */
+    bool is_body;   /* the same, or of one that light enters diffusely */
     bool may_pass_straight; /* light may go on through it without a change of direction */
 } material_plan;
 

@@ -23,8 +23,8 @@ typedef struct render_geometry {
      * space, 4 per index, x y z radius, such that they are a pixel wide where they are. */
     float *vertices;
     const mat4 *world; /* RENDER_INSTANCED: of the pose. NULL: vertices are in world space */
-    const float
-        *positions; /* object space (of the pose), 3 per vertex; not the primitive's where it is deformed */
+    /* object space (of the pose), 3 per vertex; not the primitive's where it is deformed */
+    const float *positions;
     const float *normals;    /* the same; NULL: none */
     const float *tangents;   /* the same, 4 per vertex, or per index where has_corner_tangents; NULL: none */
     float normal_matrix[9];  /* object to world, rows; keeps normals outward; scaled to about 1 */

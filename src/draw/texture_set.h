@@ -16,8 +16,8 @@ typedef struct texture_binding {
 struct texture_set {
     uint32_t binding_count, image_count;
     texture_binding *bindings; /* one per scene texture */
-    texture_pyramid
-        *pyramids; /* two per scene image: color, data; level_count 0: not there. Texels are the store's */
+    /* two per scene image: color, data; level_count 0: not there. Texels are the store's */
+    texture_pyramid *pyramids;
     texture_store *own_store; /* NULL: it stays behind */
     uint64_t decoded_texels;
 };

@@ -17,8 +17,8 @@ typedef struct texture_want {
     bool is_read[2];      /* as data, as color */
     float min_lod;        /* finest mip that will be looked up; negative or 0: all */
     uint32_t first_level; /* the answer: what min_lod is as a level */
-    const texture_pyramid
-        *pyramid[2]; /* the answer: has first_level, and maybe finer levels; NULL: reads as white */
+    /* the answer: has first_level, and maybe finer levels; NULL: reads as white */
+    const texture_pyramid *pyramid[2];
 } texture_want;
 
 /* Fails with FACET_ERROR_MEMORY. scene outlives the store. */

@@ -30,8 +30,8 @@ typedef struct gl_frame_block {
     float background_blur; /* perceptual roughness */
     float tonemap;
     float far_depth; /* gl_Position.z / w of what is infinitely far away: 1, or 0 where depth is reversed */
-    float
-        pixel_scale; /* pixels that are drawn, in a row, for one of the picture: 2 with FACET_QUALITY_FINAL */
+    /* pixels that are drawn, in a row, for one of the picture: 2 with FACET_QUALITY_FINAL */
+    float pixel_scale;
     float background[4]; /* display-linear color that is laid behind for a window; w: 0: none */
 } gl_frame_block;
 

@@ -8,8 +8,8 @@ typedef enum gl_api { GL_API_ANY, GL_API_CORE, GL_API_ES } gl_api; /* any: core,
 
 typedef struct gl_context {
     void *display, *context, *surface; /* EGL's; NULL: the context is a window's (gl_context_adopt()) */
-    void *
-        previous[4]; /* what was current: display, surfaces for drawing and reading, context; NULL: nothing */
+    /* what was current: display, surfaces for drawing and reading, context; NULL: nothing */
+    void *previous[4];
     bool is_es;
     int version;              /* 33, 46; 30, 32 with is_es */
     const char *glsl_version; /* "330", "300 es": for facet_shader_text() */

@@ -23,8 +23,8 @@ struct gl_light {
     gl_shadow *shadow;
     gl_ground ground;
     GLuint caster_block;
-    facet_environment
-        *environment; /* whose parts are in the atlas: as long as it lives they stay what they are */
+    /* whose parts are in the atlas: as long as it lives they stay what they are */
+    facet_environment *environment;
     bool has_environment;
     uint32_t light_count;
     float scale, rotation_cos, rotation_sin;

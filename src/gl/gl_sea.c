@@ -32,8 +32,8 @@ struct gl_sea {
     gl_sea_textures textures;
     gl_light_atlas atlas;
     gl_target grid, seen, target;
-    facet_environment
-        *environments[2]; /* whose parts are in the atlas: as long as they live they stay what they are */
+    /* whose parts are in the atlas: as long as they live they stay what they are */
+    facet_environment *environments[2];
     GLuint frame_buffer, light_buffer, sea_buffer, index_buffer, mesh_array, empty_array;
     uint32_t columns, rows; /* of the indices */
 };

@@ -23,8 +23,8 @@ typedef struct gl_layers {
     uint32_t sum, layer;       /* peeled: what was put together so far, one layer; weighted: light, weights */
     uint32_t depths[2];        /* peeled: of the last layer and of this one, in turns */
     uint32_t renderbuffers[2]; /* weighted, several samples: of sum and layer */
-    uint32_t
-        framebuffers[3]; /* peeled: a layer with either depth, sum; weighted: both, sum, layer resolved */
+    /* peeled: a layer with either depth, sum; weighted: both, sum, layer resolved */
+    uint32_t framebuffers[3];
 } gl_layers;
 
 struct gl_transparency {

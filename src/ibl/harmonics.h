@@ -20,8 +20,8 @@ enum { HARMONICS_MAX_DEGREE = 1344 }; /* three columns of a grid for each, at mo
 typedef struct harmonics {
     facet_allocator allocator;
     uint32_t degree; /* the highest that is kept, a multiple of 32 */
-    uint32_t
-        column_count; /* of the grid of the analysis, whose middle of column 0 is phi = 0 of the coefficients */
+    /* of the grid of the analysis, whose middle of column 0 is phi = 0 of the coefficients */
+    uint32_t column_count;
     float mean[3];
     float least[3];      /* of the picture, below which no mean of it can be */
     float *coefficients; /* of order m: [l - m][R G B][re im]; orders follow each other */

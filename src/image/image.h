@@ -64,14 +64,14 @@ typedef struct image_decode_desc {
                                directions (rounded up) where the codec does that cheaply (JPEG: k <= 3; KTX2: the
                                levels in the file that are of that size) */
     uint32_t channel_count; /* 0: the file's own; 3 or 4: as asked, 8-bit formats only */
-    const char *
-        layer; /* EXR: one of its layers by name, see exr_shim_layer(), of 2, 3 or 4 channels (one becomes 3);
-                               NULL: the picture */
-    bool
-        keeps_nonfinite; /* EXR, PFM, KTX2: NaN and infinity stay: for a picture to be looked at, not to be lit by,
-                               or where the caller counts them */
-    float *
-        largest; /* NULL: not wanted. What infinity becomes: 65504 where the file holds half, else the largest float */
+    /* EXR: one of its layers by name, see exr_shim_layer(), of 2, 3 or 4 channels (one becomes 3); NULL: the picture
+     * */
+    const char *layer;
+    /* EXR, PFM, KTX2: NaN and infinity stay: for a picture to be looked at, not to be lit by, or where the caller
+     * counts them */
+    bool keeps_nonfinite;
+    /* NULL: not wanted. What infinity becomes: 65504 where the file holds half, else the largest float */
+    float *largest;
 } image_decode_desc;
 
 /* What the header says; nothing else is read. width and height are those of the whole picture. */

@@ -9,8 +9,8 @@
 typedef struct ktx2_texel {
     uint32_t vk_format;
     uint32_t size; /* bytes of a texel */
-    uint32_t
-        type_size; /* bytes of what is swapped on a machine of the other byte order: a number or a packed word */
+    /* bytes of what is swapped on a machine of the other byte order: a number or a packed word */
+    uint32_t type_size;
     uint32_t component_count; /* that are kept: R, RG, RGB or RGBA */
 } ktx2_texel;
 

@@ -90,8 +90,8 @@ typedef struct writing {
     size_t start;     /* of the first level in the file */
     size_t alignment; /* of levels in the file */
     level levels[KTX2_MAX_LEVELS];
-    unsigned char
-        *packed; /* of all levels: the file itself, or a buffer of its own where they are compressed */
+    /* of all levels: the file itself, or a buffer of its own where they are compressed */
+    unsigned char *packed;
     bool has_failed[KTX2_MAX_LEVELS];
     uint32_t packing; /* the level that pack_rows() is at */
 } writing;

@@ -49,8 +49,8 @@ typedef void texture_row(const void *parameters, uint32_t width, const uint8_t *
 enum { TEXTURE_INPUTS = 4 };
 typedef struct texture_bake {
     const char *name; /* of the image that comes out */
-    uint32_t
-        inputs[TEXTURE_INPUTS]; /* textures; SCENE_NONE: none. At least one; sampled as their images repeat */
+    /* textures; SCENE_NONE: none. At least one; sampled as their images repeat */
+    uint32_t inputs[TEXTURE_INPUTS];
     uint32_t input_count;
     uint32_t channel_count; /* 1, 3 or 4 */
     texture_row *row;

@@ -18,8 +18,8 @@ typedef struct caustic_layer {
 typedef struct caustic_map {
     bool is_there; /* else the bed is lit evenly */
     float axis[2];
-    caustic_layer
-        layers[CAUSTIC_LAYERS]; /* the finest first, each CAUSTIC_WIDER times as wide as the one before */
+    /* the finest first, each CAUSTIC_WIDER times as wide as the one before */
+    caustic_layer layers[CAUSTIC_LAYERS];
 } caustic_map;
 
 /* Layers without contents. FACET_ERROR_MEMORY; what is there is to be destroyed, even then. */

@@ -53,8 +53,8 @@ typedef struct sea_picture {
     float crest_beam[3], crest_sunward[3], crest_wavenumber, crest_amplitude_m; /* shade/water_crest.h */
     /* the sky */
     const float *sky; /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4 */
-    const float *
-        lobes; /* SEA_LOBE_LAYERS x SEA_LOBE_HEIGHT x SEA_LOBE_WIDTH x 4; NULL: the picture's light is mirrored */
+    /* SEA_LOBE_LAYERS x SEA_LOBE_HEIGHT x SEA_LOBE_WIDTH x 4; NULL: the picture's light is mirrored */
+    const float *lobes;
     float horizon_mu, disc_radius; /* cosine from the zenith of the horizon; disc_radius 0: no disc is seen */
     const struct ibl_light *reflected, *background; /* filtered; background: of a picture, else NULL */
     float light_scale, rotation_cos, rotation_sin;  /* of both */

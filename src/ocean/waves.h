@@ -36,8 +36,8 @@ typedef struct wave_tile {
     double k_from, k_to;
     uint32_t size;        /* samples along an edge */
     uint32_t level_count; /* means of 2 x 2, down to one texel */
-    float
-        *levels[WAVES_MAX_LEVELS]; /* each size >> l squared, WAVE_FIELDS a texel; rows along the tile's z */
+    /* each size >> l squared, WAVE_FIELDS a texel; rows along the tile's z */
+    float *levels[WAVES_MAX_LEVELS];
     wave_bounds bounds[WAVES_MAX_LEVELS];
     double samples_per_m;        /* size / length_m */
     double cos_per_m, sin_per_m; /* of turn, times samples_per_m: from the world to samples */
@@ -114,8 +114,8 @@ typedef struct slope_covariance {
 /* Tables over the footprint, made once per sea. */
 typedef struct slope_filter {
     slope_covariance total; /* Cox and Munk's, along the wind */
-    slope_covariance
-        residual[64]; /* total less what a footprint resolves; footprints of slope_filter_footprint(i) */
+    /* total less what a footprint resolves; footprints of slope_filter_footprint(i) */
+    slope_covariance residual[64];
     float curvature[64], rate[64]; /* sea_moments.k4 (1/m^2) and mean omega (rad/s) of what is not resolved */
     float convergence_variance[64]; /* of q within the footprint */
 } slope_filter;

@@ -14,8 +14,8 @@
 
 typedef struct light_emitter {
     uint32_t geometry, primitive; /* as in hits */
-    float
-        intensity; /* cd along the normal, mean of the channels, of one side: radiance times area, above 0 */
+    /* cd along the normal, mean of the channels, of one side: radiance times area, above 0 */
+    float intensity;
 } light_emitter;
 
 typedef struct light_emitters {

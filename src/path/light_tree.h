@@ -21,9 +21,9 @@ typedef struct light_bounds {
     float cos_spread; /* of that cone's half-angle */
     float dark,
         full; /* cosines of angles from a normal: nothing from dark on, all up to full, in between linear */
-    float
-        slack; /* m that it stands out behind the plane through center that axis is normal to, beyond which it does
-                          not shine; INFINITY: it may */
+    /* m that it stands out behind the plane through center that axis is normal to, beyond which it does not shine;
+     * INFINITY: it may */
+    float slack;
     float reach;       /* m from center, from where on there is nothing; INFINITY */
     float intensity;   /* cd along a normal, above 0; finite, as are the others but where INFINITY is said */
     bool is_two_sided; /* shines against its normals as well */

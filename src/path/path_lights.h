@@ -22,8 +22,8 @@ typedef struct path_light_sample {
     vec3 L;           /* unit, towards it */
     float distance_m; /* INFINITY: the surroundings */
     vec3 radiance;    /* cd/m^2; of a light without size: illuminance of a surface that faces it, lux */
-    float
-        pdf; /* per sr that path_lights_sample() gives this direction; without size: the probability of this light */
+    /* per sr that path_lights_sample() gives this direction; without size: the probability of this light */
+    float pdf;
     bool is_point;        /* has no size: paths never meet it */
     bool is_surroundings; /* environment or sun */
     uint32_t geometry,

@@ -41,8 +41,8 @@ typedef struct path_picture {
     path_scene scene;
     /* of one pass */
     uint32_t goal; /* samples that a pixel has behind it */
-    uint32_t
-        cut_off_at; /* samples of the pixels that are drawn; 0: those that path_film_needs_more() names */
+    /* samples of the pixels that are drawn; 0: those that path_film_needs_more() names */
+    uint32_t cut_off_at;
     uint32_t tile_columns;
     render_watch watch;
     _Atomic uint64_t rays;

@@ -13,9 +13,9 @@ typedef struct path_sea {
     Water water;
     vec3 downwelling;   /* lx on a horizontal plane just below the surface */
     vec3 beam, sunward; /* irradiance (lx) across the refracted sun's beam there; unit direction to it */
-    float
-        sun_spread; /* tangent of the angle about sunward within which waves bring the sun; 0: there is none */
-    bool is_below;  /* the eye is in the water */
+    /* tangent of the angle about sunward within which waves bring the sun; 0: there is none */
+    float sun_spread;
+    bool is_below;   /* the eye is in the water */
     float center[2]; /* m, X and Z around which the sea falls away */
     float fall;      /* 1/m, by which it does with the square of distance */
     const void *sky; /* for both: */

@@ -13,8 +13,8 @@ typedef struct path_origin {
     vec3 P;    /* m */
     vec3 N;    /* as path_lights_sample() was given */
     float pdf; /* per sr, of the direction that was taken */
-    bool
-        is_chosen; /* false: by a mirror or from the camera: no light was, or could have been, aimed at that way */
+    /* false: by a mirror or from the camera: no light was, or could have been, aimed at that way */
+    bool is_chosen;
 } path_origin;
 
 typedef struct path {

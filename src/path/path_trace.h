@@ -21,9 +21,8 @@ typedef struct path_scene {
 typedef struct path_sample {
     float radiance[3]; /* cd/m^2, premultiplied with opacity; not yet checked for being finite */
     float opacity;     /* [0, 1]: 0: the background, where it is not drawn */
-    float
-        filter_excess; /* of the filter's weight, which is in radiance and opacity, over 1; 0 but for filters with
-                            negative lobes */
+    /* of the filter's weight, which is in radiance and opacity, over 1; 0 but for filters with negative lobes */
+    float filter_excess;
     float albedo[3]; /* of the first surface that is no mirror and no clear glass, [0, 1]; 0: there is none */
     float normal[3]; /* its unit shading normal, world space */
     /* On the shadow-catching ground: illuminance / pi that comes, and that would come without the model. 0: not there */

@@ -37,8 +37,8 @@ typedef struct plot {
     uint32_t subject_count; /* materials and, where asked for, their fits behind each */
     const plot_subject *subjects;
     bool has_default_materials, has_default_angles;
-    bool
-        has_cosine; /* asked for, or an OpenGL 1 material is there: its highlight has no cosine to divide out */
+    /* asked for, or an OpenGL 1 material is there: its highlight has no cosine to divide out */
+    bool has_cosine;
     bool has_channels; /* one material, so that there may be a curve per channel; else luminance */
     uint32_t panel_count;
     plot_panel *panels; /* has room for PLOT_MAX_PANELS */

@@ -20,9 +20,9 @@ typedef struct deformed {
 typedef struct deform_set {
     size_t count;
     deformed *items;
-    uint32_t *
-        first; /* per shown node of the hierarchy: its mesh's first primitive in items, SCENE_NONE: nothing moves
-                        it; NULL: nothing moves any */
+    /* per shown node of the hierarchy: its mesh's first primitive in items, SCENE_NONE: nothing moves it; NULL:
+     * nothing moves any */
+    uint32_t *first;
     float *block;     /* what arrays point into */
     skin_pose *skins; /* per skin of the scene, those that are used */
     uint32_t skin_count;

@@ -55,11 +55,10 @@ typedef enum legacy_map_slot {
 
 /* A texture of a legacy material, with the options of its MTL statement. legacy_map_default(). */
 typedef struct legacy_map {
-    scene_texture_ref
-        ref; /* texture SCENE_NONE: no map. Offset and scale (-o, -s) are those of glTF's uv, whose v points
-                              down */
-    const char
-        *path; /* as written; NULL: no such statement. Stated without ref.texture: the file is missing */
+    /* texture SCENE_NONE: no map. Offset and scale (-o, -s) are those of glTF's uv, whose v points down */
+    scene_texture_ref ref;
+    /* as written; NULL: no such statement. Stated without ref.texture: the file is missing */
+    const char *path;
     float base, gain;      /* -mm: value' = base + gain value; 0, 1 */
     char channel;          /* -imfchan: r g b m l z; 0: the default of the statement */
     float bump_multiplier; /* -bm; 1 */
@@ -111,10 +110,10 @@ typedef struct legacy_material {
     legacy_map maps[LEGACY_MAP_COUNT];
     bool is_rma;         /* LEGACY_ORM_MAP: red holds roughness, green metallic, blue occlusion (map_RMA) */
     const char *unknown; /* statements that mean nothing to facet, as lines; NULL: none */
-    const char
-        *kept; /* where in unknown those begin that the format knows: rgl's size, lwd, ..; NULL: none */
-    const char
-        *gltf_json; /* of a comment "#facet-gltf": the glTF material that these values were made of; NULL */
+    /* where in unknown those begin that the format knows: rgl's size, lwd, ..; NULL: none */
+    const char *kept;
+    /* of a comment "#facet-gltf": the glTF material that these values were made of; NULL */
+    const char *gltf_json;
     bool is_gltf_restored; /* the scene's glTF material is that one, exactly: there is nothing to convert */
 } legacy_material;
 
@@ -229,8 +228,8 @@ typedef struct scene_conversion {
     uint32_t warning_count; /* of the whole scene: lights, fog */
     const conversion_warning *warnings;
     const scene_conversion_source *before; /* NULL: no picture left */
-    double
-        light_scale; /* what legacy lights were, or are to be, multiplied with: pi, or 1 where not asked for */
+    /* what legacy lights were, or are to be, multiplied with: pi, or 1 where not asked for */
+    double light_scale;
 } scene_conversion;
 
 #endif

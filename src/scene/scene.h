@@ -50,8 +50,8 @@ typedef struct scene_primitive {
     uint32_t texcoord_count; /* sets */
     const float *const *texcoords; /* per set 2 per vertex; (0, 0) is the top left of an image */
     const float *colors;           /* 4 per vertex, linear, [0, 1]; NULL: white */
-    const float
-        *water; /* SCENE_WATER_VALUES per vertex, of the surface of scene->sea; NULL: none. No file has it */
+    /* SCENE_WATER_VALUES per vertex, of the surface of scene->sea; NULL: none. No file has it */
+    const float *water;
     uint32_t material;                  /* SCENE_NONE: the default material */
     float bounds_min[3], bounds_max[3]; /* of the positions that indices use; 0 where there are none */
     bool has_flat_normals;              /* the file had none: vertices are not shared between triangles */
@@ -60,8 +60,8 @@ typedef struct scene_primitive {
     const float *weights;               /* the same; >= 0, finite, their sum 1 */
     uint32_t target_count;
     const scene_morph_target *targets;
-    const uint32_t
-        *variant_materials; /* per variant of the scene; SCENE_NONE: material as above. NULL: none */
+    /* per variant of the scene; SCENE_NONE: material as above. NULL: none */
+    const uint32_t *variant_materials;
     scene_meta meta;
 } scene_primitive;
 

@@ -70,8 +70,8 @@ typedef struct march {
     double level;       /* length of the level part of the direction */
     float looked_m;     /* footprint for which the following were found */
     wave_bounds bounds; /* of this footprint, and all wider ones */
-    double
-        steepest; /* slope that no wave exceeds: five standard deviations where tiles at once could have more */
+    /* slope that no wave exceeds: five standard deviations where tiles at once could have more */
+    double steepest;
     march_hit last;
 } march;
 

@@ -15,8 +15,8 @@ typedef struct water_place {
     water_slopes slopes; /* beyond the footprint */
     WaterPoint point;    /* N faces V */
     float height_m;      /* of the waves */
-    float
-        cosine; /* about N.V, waves of all lengths considered: how much longer the footprint is on the water */
+    /* about N.V, waves of all lengths considered: how much longer the footprint is on the water */
+    float cosine;
 } water_place;
 
 /* Share of a footprint (m) that foam hides; of water that rests at (x, z). */

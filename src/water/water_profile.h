@@ -23,8 +23,8 @@ typedef struct water_profile {
     double first_azimuth, columns_per_rad;
     uint32_t column_count, row_count; /* 0: there is none */
     double first_m, rows_per_log;     /* distance of row 0; rows per natural logarithm of distance */
-    float *
-        tangents; /* column_count columns of row_count: greatest e so far (from below: of -e); block of mem_alloc() */
+    /* column_count columns of row_count: greatest e so far (from below: of -e); block of mem_alloc() */
+    float *tangents;
     uint32_t finer;          /* columns per column of samples */
     profile_sample *samples; /* column_count / finer + 1 columns of row_count */
 } water_profile;

@@ -31,8 +31,8 @@ typedef struct water_setup {
     vec3 sunward;         /* unit direction to the sun, below the surface */
     caustic_map caustics; /* of the bed */
     bed_shadow shadow;    /* of the model, on it */
-    vec3
-        roughness; /* covariance of slopes that stands for waves finer than all tiles; xx < 0: by their slopes */
+    /* covariance of slopes that stands for waves finer than all tiles; xx < 0: by their slopes */
+    vec3 roughness;
     WaterCrest crest; /* sunlight through waves */
     float exposure;   /* 2^exposure_ev */
     float shutter_s;  /* for which glints are seen */

@@ -8,8 +8,9 @@
 typedef struct water_findings {
     bool has_below, has_shadow;
     float sun; /* share of the sun's light that arrives */
-    float
-        covered; /* share of all light that is reflected, whatever it brings, by facets that show something else than sky and sea */
+    /* share of all light that is reflected, whatever it brings, by facets that show something else than sky and sea
+     * */
+    float covered;
     vec3 mirrored; /* radiance of that */
     vec3 below;    /* radiance just below the surface, along the refracted ray */
 } water_findings;

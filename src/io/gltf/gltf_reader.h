@@ -106,8 +106,8 @@ typedef struct reader {
     bool has_quantization;
     bool has_decoded_views; /* compressed ones */
     draco_state *draco;     /* NULL: no primitive has asked for it yet */
-    const uint32_t
-        *faces; /* of the primitive that is being read, from its bitstream: corners; NULL: it has none */
+    /* of the primitive that is being read, from its bitstream: corners; NULL: it has none */
+    const uint32_t *faces;
     uint32_t face_count;
 } reader;
 
