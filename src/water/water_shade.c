@@ -64,9 +64,10 @@ static vec3 sun_in_water(const water_setup *s, const water_place *p, WaterLight 
 {
     if (light.L[1] <= 0.0f || light.sun_irradiance[1] <= 0.0f)
         return vec3(0.0f);
-    vec3 sun = water_sun(s->water, p->point, light, p->V) *
-               water_passing(p->slopes.resolved, p->point.N, s->light.L);
-    return sun[1] > 0.0f ? sun * glints(s, p) : sun;
+    vec3 sun = water_sun(s->water, p->point, light, p->V);
+    if (!(sun[1] > 0.0f))
+        return vec3(0.0f);
+    return sun * (water_passing(p->slopes.resolved, p->point.N, s->light.L) * glints(s, p));
 }
 
 /* ---- all ---- */
