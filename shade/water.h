@@ -296,22 +296,26 @@ FN vec3 water_path(vec3 q, float x)
     return vec3(water_path1(q[0], x), water_path1(q[1], x), water_path1(q[2], x));
 }
 
-/* Radiance (cd/m^2) that water adds along a ray of x m below the surface, from an eye at the depth z (m) in the unit direction d.
- * Diffuse light scatters so much that deep water seen from above shines as it does: S = L_deep (K_d + a + b_b) e^(-K_d z). */
-FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
-{
-    vec3 K = water_K_d(w);
-    vec3 along = water_diffuse(w);
-    vec3 S = water_from_deep(w, downwelling) * (K + along) * exp(-K * z);
-    return S * water_path(along - K * d[1], x);
-}
-
 /* Mean of e^-t over t from `first` to `last`, both >= 0. */
 FN float water_mean_left1(float first, float last)
 {
     float t = 0.5f * (last - first);
     float middle = exp(-0.5f * (first + last)) * (1.0f + t * t * (1.0f / 6.0f)); /* where both ends cancel */
     return sel(abs(t) < 0.05f, middle, 0.5f * (exp(-first) - exp(-last)) / sel(t == 0.0f, 1.0f, t));
+}
+
+/* Radiance (cd/m^2) that water adds along a ray of x m below the surface, from an eye at the depth z (m) in the unit direction d.
+ * Diffuse light scatters so much that deep water seen from above shines as it does: at the depth h L_deep (K_d + a + b_b) e^(-K_d h).
+ * Looking up, it grows by more than the way takes from it; so the two are one exponent, never above 0. */
+FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
+{
+    vec3 K = water_K_d(w);
+    vec3 along = water_diffuse(w);
+    vec3 last = K * max(z - x * d[1], 0.0f) + along * x;
+    vec3 mean = vec3(0.0f);
+    for (int k = 0; k < 3; ++k)
+        mean[k] = water_mean_left1(K[k] * z, last[k]);
+    return water_from_deep(w, downwelling) * (K + along) * mean * x;
 }
 
 /* Phase function (1/sr) of light that left the sun's beam in t of scattering, by particles but for pure_share. Of that which did,

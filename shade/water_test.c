@@ -412,6 +412,34 @@ static void test_furnace(void **state)
     assert_true(is_finite3(water_beam_below(none, light_of(vec3(1.0f, 0.0f, 0.0f), 0.0f, 1.0f, none))));
 }
 
+/* Light of diffuse light on a way, by Simpson's rule; through water that is as good as black it fades to 0. */
+static void test_inscatter(void **state)
+{
+    (void)state;
+    const double ways[][3] = {
+        {5.0, 0.9, 5.5}, {5.0, 0.2, 20.0}, {40.0, 1.0, 40.0}, {3.0, -0.5, 60.0}, {0.0, 0.0, 9.0}};
+    Water w = ocean(1.34f);
+    vec3 E = vec3(1000.0f), from_deep = water_from_deep(w, E), K = water_K_d(w), along = water_diffuse(w);
+    for (int i = 0; i < 5; i++) {
+        double z = ways[i][0], up = ways[i][1], x = ways[i][2];
+        vec3 d = vec3((float)(sqrt)(1.0 - up * up), (float)up, 0.0f);
+        vec3 seen = water_inscatter(w, E, (float)z, d, (float)x);
+        for (int k = 0; k < 3; k++) {
+            double sum = 0.0;
+            for (int n = 0; n <= 2000; n++) {
+                double t = x * n / 2000.0, weight = n % 2000 == 0 ? 1.0 : n % 2 ? 4.0 : 2.0;
+                sum += weight * (exp)(-(double)K[k] * (z - t * up) - (double)along[k] * t) * x / 6000.0;
+            }
+            expect_relative(seen[k], (double)(from_deep[k] * (K[k] + along[k])) * sum, 1e-4,
+                            "way %d, channel %d", i, k);
+        }
+    }
+    w.absorption = vec3(30.0f, 5.0f, 1e6f);
+    vec3 black = water_inscatter(w, E, 100.0f, UP, 100.0f);
+    for (int k = 0; k < 3; k++)
+        assert_true(black[k] >= 0.0f && black[k] < 1e-20f);
+}
+
 /* The eye below: looking down it sees what one sees from above, less the surface; the glow is around the sun. */
 static void test_below(void **state)
 {
@@ -545,13 +573,21 @@ static void test_edges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fresnel),    cmocka_unit_test(test_refraction),
-        cmocka_unit_test(test_closed_box), cmocka_unit_test(test_flat),
-        cmocka_unit_test(test_bound),      cmocka_unit_test(test_volume),
-        cmocka_unit_test(test_deep),       cmocka_unit_test(test_bed),
-        cmocka_unit_test(test_below),      cmocka_unit_test(test_foam),
-        cmocka_unit_test(test_edges),      cmocka_unit_test(test_internal_reflectance),
-        cmocka_unit_test(test_furnace),    cmocka_unit_test(test_glow),
+        cmocka_unit_test(test_fresnel),
+        cmocka_unit_test(test_refraction),
+        cmocka_unit_test(test_closed_box),
+        cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_volume),
+        cmocka_unit_test(test_deep),
+        cmocka_unit_test(test_bed),
+        cmocka_unit_test(test_inscatter),
+        cmocka_unit_test(test_below),
+        cmocka_unit_test(test_foam),
+        cmocka_unit_test(test_edges),
+        cmocka_unit_test(test_internal_reflectance),
+        cmocka_unit_test(test_furnace),
+        cmocka_unit_test(test_glow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
