@@ -492,6 +492,24 @@ static void a_model_shades_the_bed(void **state)
     facet_scene_destroy(scene);
 }
 
+/* A wall over a bright bed, in even light: half of what it sees is the sea. Paths have 0.93 of it, as the wall shades the bed;
+ * over deep water it would have a fifth less. */
+static void a_bed_lights_a_model(void **state)
+{
+    (void)state;
+    facet_scene *scene = square(false);
+    facet_sea_desc desc = sea_of(3.0f);
+    desc.bed = (facet_sea_bed){.depth_m = 2.0f, .albedo = {0.8f, 0.8f, 0.8f}};
+    pair p;
+    begin(&p, &desc, 8, 8, white);
+    p.scene = scene;
+    p.camera = (facet_camera){.eye = {0.0f, 3.0f, 0.0f}, .target = {0.0f, 3.0f, -8.0f}, .fov_y_rad = 0.1f};
+    draw(&p, 1, 1000);
+    expect_bands(&p, 3.0, 0, 8, 8, 0.1);
+    end(&p);
+    facet_scene_destroy(scene);
+}
+
 /* Where a look has no meaning it is refused; foam, Fresnel's formula and the roughness of what no tile has are in both. */
 static void looks_are_refused_or_followed(void **state)
 {
@@ -558,11 +576,11 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_is_the_same), cmocka_unit_test(a_furnace_is_even),
-        cmocka_unit_test(below_it_is_the_same),    cmocka_unit_test(the_sun_below_is_the_same),
-        cmocka_unit_test(the_window_is_the_same),  cmocka_unit_test(a_model_is_seen_and_mirrored),
-        cmocka_unit_test(a_model_shades_the_bed),  cmocka_unit_test(looks_are_refused_or_followed),
-        cmocka_unit_test(memory_runs_out)};
+        cmocka_unit_test(still_water_is_the_same),       cmocka_unit_test(a_furnace_is_even),
+        cmocka_unit_test(below_it_is_the_same),          cmocka_unit_test(the_sun_below_is_the_same),
+        cmocka_unit_test(the_window_is_the_same),        cmocka_unit_test(a_model_is_seen_and_mirrored),
+        cmocka_unit_test(a_model_shades_the_bed),        cmocka_unit_test(a_bed_lights_a_model),
+        cmocka_unit_test(looks_are_refused_or_followed), cmocka_unit_test(memory_runs_out)};
     const struct CMUnitTest numbers[] = {cmocka_unit_test(swell_is_where_it_is),
                                          cmocka_unit_test(rough_water_is_the_same),
                                          cmocka_unit_test(a_bright_horizon_is_mirrored_alike),

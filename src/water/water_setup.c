@@ -2,12 +2,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/parallel.h"
 #include "base/result.h"
-#include "ibl/environment.h"
-#include "ibl/equirect.h"
 
 #include "water/caustic_plan.h"
+#include "water/water_around.h"
 #include "water/water_render.h"
 
 _Static_assert(FACET_SEA_SCALES == WATER_SCALES && FACET_SEA_SMITH == WATER_SMITH &&
@@ -15,21 +13,10 @@ _Static_assert(FACET_SEA_SCALES == WATER_SCALES && FACET_SEA_SMITH == WATER_SMIT
                "looks and shaders have the same numbers");
 
 static const float SHUTTER_S = 0.01f;
-enum { SURROUNDINGS_HEIGHT = 128 };
 
 static inline vec3 load3(const float *v)
 {
     return vec3(v[0], v[1], v[2]);
-}
-
-static vec3 load_slopes(const slope_covariance *c)
-{
-    return vec3(c->xx, c->zz, c->xz);
-}
-
-static float sigma_of(vec3 C)
-{
-    return sqrt(max(0.5f * (C[0] + C[1]), 0.0f));
 }
 
 static void fill_water(water_setup *s)
@@ -50,7 +37,7 @@ static void fill_water(water_setup *s)
 
 static void fill_light(water_setup *s)
 {
-    float sigma = sigma_of(load_slopes(&s->sea->slopes.total));
+    float sigma = water_sigma_of(water_slopes_of(&s->sea->slopes.total));
     Water *w = &s->water;
     w->sky_reflectance = water_table_sky_reflectance(&s->table, sigma);
     s->light.L = s->sky.L;
@@ -66,7 +53,7 @@ static void fill_light(water_setup *s)
 /* A sine as high as the sea, as long as its highest waves. */
 static void fill_crest(water_setup *s)
 {
-    vec3 L = s->light.L, slopes = load_slopes(&s->sea->slopes.total);
+    vec3 L = s->light.L, slopes = water_slopes_of(&s->sea->slopes.total);
     float variance = slope_variance(slopes, vec2(L[0], L[2])) / max(L[0] * L[0] + L[2] * L[2], 1e-8f);
     float wavenumber = (float)sea_state_peak_k(&s->sea->waves.state);
     float amplitude = wavenumber > 0.0f ? sqrt(2.0f) * s->march.deviation_m : 0.0f;
@@ -81,67 +68,10 @@ static bool is_under_water(const water_setup *s)
 
 /* ---- what a model sees ---- */
 
-/* Radiance from a direction: the sky, or the whole sea on average. */
-static vec3 surroundings(const water_setup *s, vec3 d)
-{
-    if (d[1] >= 0.0f)
-        return water_sky_reflected(&s->sky, d, 0.0f);
-    float means[4], mu = max(-d[1], 1e-3f);
-    WaterPoint point;
-    point.N = vec3(0.0f, 1.0f, 0.0f);
-    point.covariance = load_slopes(&s->sea->slopes.total);
-    point.foam = 0.0f;
-    water_table_at(&s->table, mu, sigma_of(point.covariance), means);
-    WaterMirror m = water_mirror(s->water, point, -d, means[0], means[1], means[2], means[3]);
-    vec3 sky = water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
-    vec3 below = water_from_deep(s->water, s->light.downwelling) * (1.0f / (s->water.ior * s->water.ior));
-    return mix(below, sky, m.fresnel);
-}
-
-static void draw_surroundings(void *context, size_t begin, size_t end)
-{
-    const water_setup *s = ((const void *const *)context)[0];
-    const image *picture = ((const void *const *)context)[1];
-    for (size_t y = begin; y < end; y++) {
-        float *texel = (float *)picture->pixels + y * picture->width * 3;
-        for (uint32_t x = 0; x < picture->width; x++, texel += 3) {
-            float d[3];
-            equirect_direction(picture->width, picture->height, (double)x, (double)y, d);
-            vec3 L = surroundings(s, load3(d));
-            for (int i = 0; i < 3; i++)
-                texel[i] = L[i];
-        }
-    }
-}
-
-/* Made once for a light. */
-static facet_result prepare_around(water_setup *s, facet_error *error)
-{
-    const facet_render_desc *r = &s->desc->render;
-    const facet_environment_desc desc = {.allocator = s->sea->desc.allocator};
-    facet_environment *around;
-    if (s->lit->around)
-        return FACET_OK;
-    facet_result result = environment_create(&desc, &around, error);
-    if (result == FACET_OK)
-        result = image_create(&desc.allocator, 2 * SURROUNDINGS_HEIGHT, SURROUNDINGS_HEIGHT, 3, IMAGE_F32,
-                              &around->picture, error);
-    if (result != FACET_OK) {
-        if (around)
-            environment_release(around);
-        return result;
-    }
-    const void *context[2] = {s, &around->picture};
-    parallel_for(r->thread_count, SURROUNDINGS_HEIGHT, 8, draw_surroundings, (void *)(uintptr_t)context);
-    environment_limit(around, r->thread_count);
-    s->lit->around = around;
-    return FACET_OK;
-}
-
 static facet_result add_model(water_setup *s, const facet_scene *scene, facet_render_stats *stats,
                               facet_error *error)
 {
-    facet_result result = prepare_around(s, error);
+    facet_result result = water_around_prepare(s, error);
     return result == FACET_OK
                ? water_model_create(scene, s->desc, &s->sky, s->lit->around, stats, &s->model, error)
                : result;
@@ -228,10 +158,10 @@ water_slopes water_slopes_at(const water_setup *s, float footprint_m)
     float place = slope_filter_place(footprint_m);
     uint32_t i = place < 62.0f ? (uint32_t)place : 62;
     float share = place - (float)i;
-    vec3 C = mix(load_slopes(&f->residual[i]), load_slopes(&f->residual[i + 1]), share);
-    vec3 resolved = load_slopes(&f->total) - C;
+    vec3 C = mix(water_slopes_of(&f->residual[i]), water_slopes_of(&f->residual[i + 1]), share);
+    vec3 resolved = water_slopes_of(&f->total) - C;
     if (s->roughness[0] >= 0.0f)
-        C = C - load_slopes(&f->residual[0]) + s->roughness;
+        C = C - water_slopes_of(&f->residual[0]) + s->roughness;
     vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
     return (water_slopes){.covariance = vec3(max(C[0], 0.0f), max(C[1], 0.0f), C[2]) + least,
                           .resolved =

@@ -52,6 +52,15 @@ typedef struct water_slopes {
     float curvature, rate;
 } water_slopes;
 water_slopes water_slopes_at(const water_setup *s, float footprint_m);
+static inline vec3 water_slopes_of(const slope_covariance *c)
+{
+    return vec3(c->xx, c->zz, c->xz);
+}
+/* Deviation of one slope, as water_table_at() asks for it. */
+static inline float water_sigma_of(vec3 covariance)
+{
+    return sqrt(max(0.5f * (covariance[0] + covariance[1]), 0.0f));
+}
 
 /* ---- the ground below ---- */
 

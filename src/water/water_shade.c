@@ -24,24 +24,37 @@ vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way
     return water_bed_lit(focused, factor + beyond * open.sun, open.rest);
 }
 
+/* lit, mean_lit: light on the bed over its mean where the ray meets it, and around. */
+static vec3 over_bed(const water_setup *s, float depth, vec3 down, vec3 lit, vec3 mean_lit)
+{
+    const facet_sea_bed *bed = &s->sea->desc.bed;
+    float rise = (float)water_bed_rise(bed, down), way = water_way_to_bed(depth, rise, down);
+    vec3 light = water_light_over_bed(s, water_bed_depth(depth, rise, way)), albedo = water_bed_albedo(bed);
+    return water_over_bed(s->water, light, albedo * lit, albedo * mean_lit, depth, rise, down);
+}
+
+vec3 water_from_still(const water_setup *s, float depth_m, vec3 down)
+{
+    return water_has_bed(s) ? over_bed(s, depth_m, down, vec3(1.0f), vec3(1.0f))
+                            : water_from_deep(s->water, s->light.downwelling);
+}
+
 vec3 water_from_below(const water_setup *s, const water_place *p)
 {
-    vec3 down = water_refracted(s->water, -p->V, p->point.N);
+    vec3 down = water_refracted(s->water, -p->V, p->point.N), lit = vec3(1.0f), mean_lit = lit;
     vec3 crest = water_crest(s->water, s->light, s->crest, p->point.N, p->V, down, p->height_m);
     if (!water_has_bed(s))
         return water_from_deep(s->water, s->light.downwelling) + crest;
     const facet_sea_bed *bed = &s->sea->desc.bed;
-    float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2])),
-          rise = (float)water_bed_rise(bed, down), way = water_way_to_bed(depth, rise, down);
-    vec3 light = water_light_over_bed(s, water_bed_depth(depth, rise, way));
-    vec3 albedo = water_bed_albedo(bed), mean_albedo = albedo;
+    float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2]));
     if (water_has_light_on_bed(s)) {
+        float way = water_way_to_bed(depth, (float)water_bed_rise(bed, down), down);
         float width = p->footprint_m * inversesqrt(p->cosine);
         width = water_bed_footprint(s->water, p->point.N, p->V, down, p->point.covariance, width, way);
-        albedo = albedo * water_bed_lit_at(s, p->P, down, way, width);
-        mean_albedo = mean_albedo * water_bed_lit_at(s, p->P, down, way, max(width, 0.25f * way));
+        lit = water_bed_lit_at(s, p->P, down, way, width);
+        mean_lit = water_bed_lit_at(s, p->P, down, way, max(width, 0.25f * way));
     }
-    return water_over_bed(s->water, light, albedo, mean_albedo, depth, rise, down) + crest;
+    return over_bed(s, depth, down, lit, mean_lit) + crest;
 }
 
 /* ---- the sun ---- */

@@ -21,12 +21,14 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
 /* Radiance (cd/m^2) that goes up just below the place, towards the eye: of deep water, or of the bed through it. */
 vec3 water_from_below(const water_setup *s, const water_place *p);
 
+/* The same of still water that is depth_m deep and evenly lit, along the refracted ray `down`. */
+vec3 water_from_still(const water_setup *s, float depth_m, vec3 down);
+
 /* Light just below the surface where the bed lies depth_m below, lx on a horizontal plane, with what goes to and fro between both. */
 vec3 water_light_over_bed(const water_setup *s, float depth_m);
 
 /* Light on the bed over its mean, per channel, where the ray from P along the unit direction d meets it after `way` m, as wide as
- * width_m. What goes to and fro between bed and surface counts as lit like what has come in: a model's shadow is 0.84 of the
- * preview's by paths, and 0.80 if that light were even. */
+ * width_m. */
 vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m);
 
 /* Of ground that the water does not cover, where it is seen from the air. */
