@@ -1163,7 +1163,7 @@ typedef enum facet_sea_spreading {
 
 /* Waves from far away, beside those of the wind. {0}: none. */
 typedef struct facet_swell {
-    float height_m; /* significant height, [0, 30] */
+    float height_m; /* significant height, [0, 30], at most 0.142 of the peak's length over deep water */
     float period_s; /* of the peak, (0, 40] */
     float direction_rad;
     float peakedness; /* JONSWAP's gamma, [1, 20]; 0: 7 */
@@ -1328,7 +1328,8 @@ typedef struct facet_sea_look {
 
 /* Draws the sea, and a model in it. render: as for facet_render(), of which size, crop, camera, exposure, tone mapping, quality,
  * samples, environment, sun, threads, progress and time limit are followed. environment NULL: the sky of `sky`, with its sun.
- * camera NULL: facet_sea_camera(). scene NULL: nothing but water; its pose is followed, its cameras and lights are not.
+ * camera NULL: facet_sea_camera(); at most 50 km high under the atmosphere's sky. scene NULL: nothing but water; its
+ * pose is followed, its cameras and lights are not.
  *
  * integrator FACET_INTEGRATOR_PREVIEW draws the endless sea. _PATH traces paths through the waves as triangles, out to the horizon, with
  * foam and scene, whose lamps it follows; of looks it knows no_foam, schlick_fresnel and perceptual_roughness. _GL draws what

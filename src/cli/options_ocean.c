@@ -125,8 +125,9 @@ static const option camera_options[] = {
      .kind = OPTION_NUMBER,
      .argument = "M",
      .default_text = "3, or as high as the waves",
-     .help = "of the camera above the still water, and at least 1 m above the water below it; below 0: under "
-             "water",
+     .help =
+         "of the camera above the still water, and at least 1 m above the water below it, to 50 km under the "
+         "atmosphere's sky; below 0: under water",
      .minimum = -1000,
      .maximum = 1e6},
     {.id = OPT_HEADING,

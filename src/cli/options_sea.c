@@ -25,7 +25,8 @@ static const option sea_options[] = {
      .kind = OPTION_TEXT,
      .argument = "H,T[,DIR]",
      .default_text = "none",
-     .help = "waves from far away: significant height in m, period in s, the way they go to"},
+     .help = "waves from far away: significant height in m, at most 0.142 of their length, period in s, the "
+             "way they go to"},
     {.id = OPT_SPECTRUM,
      .name = "spectrum",
      .kind = OPTION_CHOICE,

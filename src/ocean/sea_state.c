@@ -37,6 +37,15 @@ static facet_result check_wind(const facet_sea_desc *d, facet_error *error)
     return FACET_OK;
 }
 
+/* Height over length of the steepest waves: Michell 1893. */
+static const double STEEPEST = 0.142;
+
+/* m, of waves over deep water. */
+static double length_of(float period_s)
+{
+    return GRAVITY * (double)period_s * (double)period_s / 6.28318530717958647693;
+}
+
 static facet_result check_swell(const facet_swell *s, facet_error *error)
 {
     if (!is_within(s->height_m, 0.0f, 30.0f))
@@ -47,6 +56,12 @@ static facet_result check_swell(const facet_swell *s, facet_error *error)
     if (!(s->period_s >= 0.1f && s->period_s <= 40.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "swell: a period of %g s is not within [0.1, 40]",
                     (double)s->period_s);
+    float highest = (float)(STEEPEST * length_of(s->period_s));
+    if (s->height_m > highest)
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "swell: with a period of %g s it breaks before it is %g m high; at most %.3g m are possible",
+            (double)s->period_s, (double)s->height_m, (double)highest);
     if (!isfinite(s->direction_rad))
         return fail(error, FACET_ERROR_ARGUMENT, "swell: its direction is no finite number");
     if (s->peakedness != 0.0f && !is_within(s->peakedness, 1.0f, 20.0f))

@@ -435,8 +435,8 @@ static void numbers_out_of_range_are_named(void **state)
     struct {
         const char *word;
         facet_sea_desc d;
-    } cases[17];
-    for (int i = 0; i < 17; i++)
+    } cases[18];
+    for (int i = 0; i < 18; i++)
         cases[i].d = sea_default();
     int n = 0;
     cases[n].word = "wind", cases[n++].d.wind_mps = 41.0f;
@@ -456,6 +456,7 @@ static void numbers_out_of_range_are_named(void **state)
     cases[n].word = "bed", cases[n].d.bed.depth_m = 1.0f, cases[n++].d.bed.slope = 2.0f;
     cases[n].word = "swell", cases[n++].d.swell.height_m = 31.0f;
     cases[n].word = "swell", cases[n++].d.swell.height_m = 1.0f; /* without a period */
+    cases[n].word = "at most 2 m", cases[n++].d.swell = (facet_swell){.height_m = 2.1f, .period_s = 3.0f};
     for (int i = 0; i < n; i++) {
         sea_state s;
         facet_error error;

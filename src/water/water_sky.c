@@ -15,7 +15,7 @@ enum { PICTURE_HEIGHT = 256 };
 /* Clear air over a sea, haze of depth 0.06, and what a sea sends up of the light that falls on it. */
 static const float MARITIME_TURBIDITY = 1.55f, SEA_ALBEDO = 0.06f;
 static const float LEAST_EYE_KM = 0.001f; /* lower eyes see no farther in a table of floats */
-static const float MOST_EYE_KM = 50.0f;
+static const float MOST_EYE_KM = 50.0f;   /* as of facet_sky_desc.altitude_m */
 static const float SAME_VIEW_KM =
     0.05f; /* up to which the eye's sky is that of the sea, but for the horizon */
 
@@ -49,7 +49,7 @@ static void take_sun(water_sky *s, const facet_sun *sun)
 
 /* ---- the atmosphere ---- */
 
-static facet_result check(const facet_sky_desc *sky, facet_error *error)
+static facet_result check(const facet_sky_desc *sky, float eye_height_m, facet_error *error)
 {
     static const float right_angle = 1.57079637f;
     if (!(fabsf(sky->sun_elevation_rad) <= right_angle) || !isfinite(sky->sun_azimuth_rad))
@@ -67,6 +67,10 @@ static facet_result check(const facet_sky_desc *sky, facet_error *error)
     if (!(sky->illuminance_lux >= 0.0f) || !isfinite(sky->illuminance_lux))
         return fail(error, FACET_ERROR_ARGUMENT, "sky: the illuminance is %g lx; 0 or more is possible",
                     (double)sky->illuminance_lux);
+    if (sky->model != FACET_SKY_PREETHAM && eye_height_m > 1000.0f * MOST_EYE_KM)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "sky: the eye is %g km high; %g are possible, as the air is not seen from outside",
+                    (double)eye_height_m * 0.001, (double)MOST_EYE_KM);
     return FACET_OK;
 }
 
@@ -229,11 +233,12 @@ static void scale_light(const facet_sky_desc *sky, water_sky *s)
 
 /* ---- making ---- */
 
-static facet_result begin(const facet_sea_render_desc *desc, water_sky *s, facet_error *error)
+static facet_result begin(const facet_sea_render_desc *desc, float eye_height_m, water_sky *s,
+                          facet_error *error)
 {
     memset(s, 0, sizeof *s);
     s->scale = s->rotation_cos = 1.0f;
-    facet_result result = desc->render.environment ? FACET_OK : check(&desc->sky, error);
+    facet_result result = desc->render.environment ? FACET_OK : check(&desc->sky, eye_height_m, error);
     if (result != FACET_OK)
         return result;
     place_sun(s, desc->sky.sun_elevation_rad, desc->sky.sun_azimuth_rad);
@@ -255,7 +260,7 @@ static void rotate(const facet_render_desc *r, water_sky *s)
 facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_height_m, float rows_per_rad,
                               water_sky *s, facet_error *error)
 {
-    facet_result result = begin(desc, s, error);
+    facet_result result = begin(desc, eye_height_m, s, error);
     if (result != FACET_OK)
         return result;
     s->eye_km = clamp(eye_height_m * 0.001f, LEAST_EYE_KM, MOST_EYE_KM);

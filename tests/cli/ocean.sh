@@ -212,6 +212,12 @@ says "lux"
 expect 2 ocean --sun 10,0 -e white -o a.png
 says "as 30,15,100000"
 expect 2 ocean --absorption 0.1,0.2 -o a.png
+expect 2 ocean --swell 30,3 -o a.png
+says "at most 2 m"
+expect 2 ocean -s 16x9 --height-of-eye 50001 -o a.png
+says "50.001 km high"
+expect 0 ocean $small --height-of-eye 50001 -o a.png
+rm a.png
 expect 2 ocean --eye 0,1,0 --height-of-eye 2 -o a.png
 expect 2 ocean --target 0,1,0 --heading 2 -o a.png
 expect 2 ocean --before A --stage 2 -o a.png
