@@ -4,6 +4,8 @@
 #include "api/api.h"
 #include "api/ocean_path.h"
 
+#include "base/clock.h"
+
 #include "water/water_mesh.h"
 
 #include "path/path_sea.h"
@@ -42,8 +44,9 @@ static path_sea sea_of(const water_setup *s)
     return p;
 }
 
-/* The light that the preview has: the sky without its lower half and without the sun, which is a disc beside it. */
-static facet_render_desc desc_of(const water_setup *s)
+/* The light that the preview has: the sky without its lower half and without the sun, which is a disc beside it. deadline_s: of the time limit,
+ * of which some has gone. */
+static facet_render_desc desc_of(const water_setup *s, double deadline_s)
 {
     facet_render_desc r = s->desc->render;
     vec3 L = s->sky.L, E = s->sky.sun_irradiance;
@@ -55,6 +58,8 @@ static facet_render_desc desc_of(const water_setup *s)
     r.sun.illuminance_lux[0] = E[0];
     r.sun.illuminance_lux[1] = E[1];
     r.sun.illuminance_lux[2] = E[2];
+    if (deadline_s > 0.0)
+        r.time_limit_s = fmax(deadline_s - clock_seconds(), 1e-6);
     return r;
 }
 
@@ -64,12 +69,13 @@ facet_result ocean_path_render(const facet_sea *sea, const facet_scene *scene,
     water_setup setup;
     facet_render_stats stats = {0};
     facet_scene *all = NULL;
+    double limit_s = desc->render.time_limit_s, deadline_s = limit_s > 0.0 ? clock_seconds() + limit_s : 0.0;
     facet_result result = water_setup_create(sea, scene, desc, &setup, &stats, error);
     if (result == FACET_OK)
-        result = water_mesh_scene(&setup, scene, &all, error);
+        result = water_mesh_scene(&setup, scene, deadline_s, &all, error);
     if (result == FACET_OK) {
         const path_sea water = sea_of(&setup);
-        const facet_render_desc r = desc_of(&setup);
+        const facet_render_desc r = desc_of(&setup, deadline_s);
         all->sea = &water;
         result = facet_render(all, &r, out, error);
     }

@@ -15,6 +15,7 @@ enum { HALVINGS = 14 };
 typedef struct surface {
     const water_setup *s;
     const water_mesh_lattice *l;
+    render_watch *watch; /* NULL: nothing ends it early */
     float *positions, *normals, *water;
     unsigned char *is_dry;
     uint32_t *indices;
@@ -59,9 +60,12 @@ static void fill_vertex(const surface *f, uint32_t row, uint32_t column)
 static void fill_rows(void *context, size_t begin, size_t end)
 {
     const surface *f = context;
-    for (size_t row = begin; row < end; row++)
+    for (size_t row = begin; row < end && !(f->watch && render_watch_is_stopped(f->watch)); row++) {
         for (uint32_t column = 0; column < f->l->column_count; column++)
             fill_vertex(f, (uint32_t)row, column);
+        if (f->watch)
+            render_watch_look(f->watch);
+    }
 }
 
 /* The last column is the first: no seam. */
@@ -232,20 +236,23 @@ static scene_primitive primitive_of(const surface *f)
     return p;
 }
 
-bool water_mesh_surface(const water_setup *s, const water_mesh_lattice *l, arena *memory,
+bool water_mesh_surface(const water_setup *s, const water_mesh_lattice *l, render_watch *watch, arena *memory,
                         scene_primitive *out)
 {
     size_t vertices = (size_t)l->column_count * l->row_count;
     size_t triangles = 2 * (size_t)(l->column_count - 1) * (l->row_count - 1), cuts = 0;
     uint32_t threads = s->desc->render.thread_count;
-    surface f = {.s = s, .l = l, .vertex_count = (uint32_t)vertices};
+    surface f = {.s = s, .l = l, .watch = watch, .vertex_count = (uint32_t)vertices};
     f.positions = arena_alloc(memory, vertices, 3 * sizeof(float));
     f.normals = arena_alloc(memory, vertices, 3 * sizeof(float));
     f.water = arena_alloc(memory, vertices, SCENE_WATER_VALUES * sizeof(float));
     f.is_dry = arena_zalloc(memory, vertices, 1);
     if (!f.positions || !f.normals || !f.water || !f.is_dry)
         return false;
+    *out = (scene_primitive){0};
     parallel_for(threads, l->row_count, 4, fill_rows, &f);
+    if (watch && render_watch_is_stopped(watch))
+        return true;
     close_circle(&f);
     if (s->model.is_there) {
         parallel_for(threads, vertices, 256, find_dry, &f);

@@ -101,7 +101,7 @@ static bool add(facet_scene *scene, const scene_primitive *p, const scene_materi
     return true;
 }
 
-static bool fill(const water_setup *s, facet_scene *scene, const facet_scene *with)
+static bool fill(const water_setup *s, facet_scene *scene, const facet_scene *with, render_watch *watch)
 {
     static const facet_scene nothing;
     uint32_t first = with ? with->node_count : 0;
@@ -110,23 +110,27 @@ static bool fill(const water_setup *s, facet_scene *scene, const facet_scene *wi
     const scene_material water = water_material(), ground = bed_material(&s->sea->desc.bed);
     return borrow(scene, with ? with : &nothing, 2) &&
            water_mesh_lattice_create(s, MOST_VERTICES, scene->arena, &l) &&
-           water_mesh_surface(s, &l, scene->arena, &surface) && add(scene, &surface, &water) &&
+           water_mesh_surface(s, &l, watch, scene->arena, &surface) && add(scene, &surface, &water) &&
            (!water_has_bed(s) || (water_mesh_bed(s, &l, scene->arena, &bed) && add(scene, &bed, &ground))) &&
            show(scene, first);
 }
 
-facet_result water_mesh_scene(const water_setup *s, const facet_scene *with, facet_scene **out,
-                              facet_error *error)
+facet_result water_mesh_scene(const water_setup *s, const facet_scene *with, double deadline_s,
+                              facet_scene **out, facet_error *error)
 {
     *out = NULL;
+    render_watch watch;
+    render_watch_init(&watch, &s->desc->render.progress, "prepare", deadline_s, 1.0);
     facet_scene *scene;
     facet_result result = scene_create(&s->desc->render.allocator, "sea", &scene, error);
     if (result != FACET_OK)
         return result;
-    if (!fill(s, scene, with)) {
+    result = fill(s, scene, with, &watch)
+                 ? render_watch_explain(&watch, error)
+                 : fail_memory(error, "triangles of a sea", (size_t)MOST_VERTICES * 70);
+    if (result == FACET_OK)
+        *out = scene;
+    else
         scene_destroy(scene);
-        return fail_memory(error, "triangles of a sea", (size_t)MOST_VERTICES * 70);
-    }
-    *out = scene;
-    return FACET_OK;
+    return result;
 }

@@ -2,6 +2,7 @@
  * distances, foam covers what the wind says, the horizon falls away, a hull keeps the water out. */
 #include "water/water_fixture.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "cpu/preview_fixture.h"
 
@@ -30,7 +31,7 @@ static void make(made *m, const facet_sea_desc *desc, const facet_scene *scene, 
         fail_msg("%s", error.message);
     m->memory = arena_create(&plain);
     assert_true(water_mesh_lattice_create(&m->setup, most, m->memory, &m->lattice));
-    assert_true(water_mesh_surface(&m->setup, &m->lattice, m->memory, &m->surface));
+    assert_true(water_mesh_surface(&m->setup, &m->lattice, NULL, m->memory, &m->surface));
 }
 
 static void end(made *m)
@@ -227,10 +228,38 @@ static void a_hull_keeps_water_out(void **state)
     fixture_destroy(&f);
 }
 
+/* Past the time limit, and where the caller's progress says no, there is no scene. */
+static bool refuse(void *user, const char *stage, double fraction)
+{
+    (void)user;
+    (void)stage;
+    (void)fraction;
+    return false;
+}
+
+static void it_ends_early(void **state)
+{
+    (void)state;
+    facet_sea_desc d = sea_default();
+    d.resolution = 64;
+    made m;
+    make(&m, &d, NULL, 3.0f, 60000);
+    facet_scene *scene;
+    facet_error error;
+    assert_int_equal(water_mesh_scene(&m.setup, NULL, clock_seconds() - 1.0, &scene, &error),
+                     FACET_ERROR_LIMIT);
+    assert_null(scene);
+    m.shot.desc.render.progress.report = refuse;
+    assert_int_equal(water_mesh_scene(&m.setup, NULL, 0.0, &scene, &error), FACET_ERROR_CANCELLED);
+    assert_null(scene);
+    end(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_are_handed_over), cmocka_unit_test(foam_covers_what_it_should),
-        cmocka_unit_test(it_reaches_beyond_the_horizon), cmocka_unit_test(a_hull_keeps_water_out)};
+        cmocka_unit_test(it_reaches_beyond_the_horizon), cmocka_unit_test(a_hull_keeps_water_out),
+        cmocka_unit_test(it_ends_early)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
