@@ -328,7 +328,7 @@ facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
     facet_result result = resolve_sea(sea, desc, &d, &camera, error);
     if (result != FACET_OK)
         return result;
-    water_warn_of_ground(&sea->desc.bed, &d);
+    water_warn_of_eye(sea, &d);
     if (d.render.integrator == FACET_INTEGRATOR_PATH)
         return ocean_path_render(sea, scene, &d, image, error);
     facet_image *made = mem_zalloc(&d.render.allocator, 1, sizeof *made);

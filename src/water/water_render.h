@@ -11,7 +11,8 @@
 facet_result water_render(const facet_sea *sea, const facet_scene *scene, const facet_sea_render_desc *desc,
                           film *film, facet_render_stats *stats, facet_error *error);
 
-/* Warns where the camera stands below the bed. It is drawn as it is: dark, as there is no light. */
-void water_warn_of_ground(const facet_sea_bed *bed, const facet_sea_render_desc *d);
+/* Warns where the camera stands below the bed, which is drawn as it is: dark, as there is no light; and where waves have it on the other side of the
+ * surface than still water would. */
+void water_warn_of_eye(const facet_sea *sea, const facet_sea_render_desc *d);
 
 #endif

@@ -60,10 +60,9 @@ static void fill_crest(water_setup *s)
     s->crest = water_crest_beam(s->water, s->light, variance, wavenumber, amplitude);
 }
 
-static bool is_under_water(const water_setup *s)
+static bool is_under_water(const facet_sea *sea, const float eye[3])
 {
-    const float *eye = s->camera.origin;
-    return eye[1] < waves_height(&s->sea->waves, (double)eye[0], (double)eye[2], 0.0f);
+    return eye[1] < waves_height(&sea->waves, (double)eye[0], (double)eye[2], 0.0f);
 }
 
 /* ---- what a model sees ---- */
@@ -107,7 +106,7 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     if (result != FACET_OK)
         return result;
     s->footprint = inversesqrt((float)(r->samples ? r->samples : 1));
-    s->is_below = is_under_water(s);
+    s->is_below = is_under_water(sea, s->camera.origin);
     s->march = water_march_of(&sea->waves, &sea->slopes, !s->camera.is_orthographic);
     const uint32_t whole[4] = {0, 0, r->width, r->height}; /* so that a part shows the same */
     if (r->integrator == FACET_INTEGRATOR_PREVIEW)
@@ -170,11 +169,17 @@ water_slopes water_slopes_at(const water_setup *s, float footprint_m)
                           .rate = mix(f->rate[i], f->rate[i + 1], share)};
 }
 
-void water_warn_of_ground(const facet_sea_bed *bed, const facet_sea_render_desc *d)
+void water_warn_of_eye(const facet_sea *sea, const facet_sea_render_desc *d)
 {
     const float *eye = d->render.camera->eye;
+    const facet_sea_bed *bed = &sea->desc.bed;
     double below = water_bed_height(bed, (double)eye[0], (double)eye[2]) - (double)eye[1];
+    bool is_below = is_under_water(sea, eye);
     if (water_is_bed(bed) && below > 0.0)
         log_warning(&d->render.log, "sea: the camera stands %.3g m below the bed, from where nothing is seen",
                     below);
+    else if (is_below != (eye[1] < 0.0f))
+        log_warning(&d->render.log, "sea: the camera, %.3g m %s still water, is %s", fabs((double)eye[1]),
+                    is_below ? "above" : "below",
+                    is_below ? "inside of a wave" : "over a trough, in the air");
 }

@@ -234,6 +234,12 @@ expect 0 ocean $small -o a.png -e white --sun 30,0,100000 --env-intensity 10000
 ! grep -q env-intensity err || failed "a warning of light that is there"
 expect 0 ocean $small -o a.png --depth 5 --height-of-eye -6
 says "below the bed"
+expect 0 ocean $small -o a.png --wind 0 --swell 4,8 --eye 0,-0.2,0
+says "over a trough"
+expect 0 ocean $small -o a.png --wind 0 --swell 4,8 --eye 0,0.2,0
+! grep -q camera err || failed "a warning of a camera in the air"
+expect 0 ocean $small -o a.png --wind 0 --swell 4,8 --time 4 --eye 0,0.2,0
+says "inside of a wave"
 expect 0 ocean --wind 9,-75 --info --json
 grep -q '"wind_azimuth_deg": *-75.0' out || failed "the wind blows elsewhere: $(cat out)"
 expect 6 ocean -o nowhere/a.png
