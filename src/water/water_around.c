@@ -9,6 +9,17 @@
 
 enum { HEIGHT = 128 };
 
+static bool has_foam(const water_setup *s)
+{
+    return s->foam.share.level_count > 0;
+}
+
+/* What foam hides of all water. Foam's amount is a quarter where there is any: of a share of 0.105 at 20 m/s, the mean square is 0.025. */
+static float foam_on_average(const water_setup *s)
+{
+    return water_foam_cover(s->sea->foam.coverage, 0.25f);
+}
+
 /* Radiance from a direction: the sky, or the whole sea on average; over a bed, as deep as it is at the origin. */
 static vec3 surroundings(const water_setup *s, vec3 d)
 {
@@ -23,7 +34,8 @@ static vec3 surroundings(const water_setup *s, vec3 d)
     WaterMirror m = water_mirror(s->water, point, -d, means[0], means[1], means[2], means[3]);
     vec3 sky = water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
     vec3 below = water_from_still(s, s->sea->desc.bed.depth_m, water_refracted(s->water, d, point.N));
-    return mix(below * (1.0f / (s->water.ior * s->water.ior)), sky, m.fresnel);
+    vec3 L = mix(below * (1.0f / (s->water.ior * s->water.ior)), sky, m.fresnel);
+    return has_foam(s) ? mix(L, water_foam(s->water, s->light, point.N), foam_on_average(s)) : L;
 }
 
 static void draw_surroundings(void *context, size_t begin, size_t end)
@@ -47,7 +59,7 @@ facet_result water_around_prepare(water_setup *s, facet_error *error)
     const facet_render_desc *r = &s->desc->render;
     const facet_environment_desc desc = {.allocator = s->sea->desc.allocator};
     facet_environment *around;
-    if (s->lit->around)
+    if (s->lit->around && s->lit->around_has_foam == has_foam(s))
         return FACET_OK;
     facet_result result = environment_create(&desc, &around, error);
     if (result == FACET_OK)
@@ -60,6 +72,9 @@ facet_result water_around_prepare(water_setup *s, facet_error *error)
     const void *context[2] = {s, &around->picture};
     parallel_for(r->thread_count, HEIGHT, 8, draw_surroundings, (void *)(uintptr_t)context);
     environment_limit(around, r->thread_count);
+    if (s->lit->around)
+        environment_release(s->lit->around);
     s->lit->around = around;
+    s->lit->around_has_foam = has_foam(s);
     return FACET_OK;
 }

@@ -15,7 +15,8 @@ typedef struct water_light {
     water_sky sky;
     water_table table;
     facet_environment *around; /* the sky and the sea, as a model sees them; NULL: no model asked for it */
-    float *pictures, *lobes;   /* of sea_picture.h; NULL: nobody asked for them, or there are none */
+    bool around_has_foam;
+    float *pictures, *lobes; /* of sea_picture.h; NULL: nobody asked for them, or there are none */
 } water_light;
 
 /* The one that the sea keeps, if it was made for the same, or another: the same to the last bit. The caller's until

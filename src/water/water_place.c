@@ -12,9 +12,6 @@ float water_march_footprint(const water_march *m, float width_m, double rise)
 
 float water_foam_at(const water_setup *s, const double rest[2], float footprint_m)
 {
-    const facet_sea_look *look = &s->desc->look;
-    if (look->no_foam || look->stage == 4 || !(s->sea->foam.threshold < INFINITY))
-        return 0.0f;
     foam_seen foam = waves_foam_at(&s->foam, rest[0], rest[1], footprint_m);
     return water_foam_cover(foam.share, foam.amount);
 }
