@@ -291,6 +291,7 @@ static void models(void **state)
     compare_model(renderer, 2.0f, 3.0f, 0.35f, 0.0f, 0.6);
     compare_model(renderer, 0.0f, -2.0f, -0.2f, 0.0f, 0.1);
     compare_model(renderer, 2.0f, 8.0f, 0.9f, 3.0f, 0.6); /* with shadows on the bed */
+    compare_model(renderer, 0.0f, 8.0f, 0.9f, 3.0f, 0.5); /* below still water */
 }
 
 /* The same as a still of its time, whatever was drawn before. */

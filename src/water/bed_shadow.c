@@ -1,7 +1,7 @@
 /* bed_shadow.c - see bed_shadow.h. Rays from each texel of the bed to the still surface and on to where the light comes from: the sun
- * through slopes of all waves; the sky through Snell's window, as bright as it is in each direction: where the sun is hidden, the bright sky around it
- * is, too; and the sun's light that was scattered on its way. They are the same rays for all texels; the steps that scattered light would show are
- * smoothed. Light that went up from the bed before comes from around. */
+ * through slopes of all waves, from all of its disc, over what a texel stands for; the sky through Snell's window, as bright as it is in each
+ * direction: where the sun is hidden, the bright sky around it is, too; and the sun's light that was scattered on its way. They are the same rays
+ * for all texels; the steps that scattered light would show are smoothed. Light that went up from the bed before comes from around. */
 #include "water/bed_shadow.h"
 
 #include <math.h>
@@ -12,48 +12,53 @@
 
 #include "water/water_setup.h"
 
+#include "water/shadow_points.h"
+
 static const float LEAST_SEEN = 0.002f; /* of the light above, that comes back from the bed */
 static const float WIDEST = 1.13f;      /* tangent of the angle of total reflection: half of Snell's window */
 static const float SKY_ROUGHNESS = 0.4f;  /* perceptual, of a lobe as wide as what a way stands for */
 static const float RETURNED_WIDTH = 2.2f; /* of what the surface sends back to the bed, over the depth */
 static const float LONGEST = 8.0f;        /* a shadow on the water, in sizes of what casts it */
 
-enum { SUN_RAYS = 8, SKY_RAYS = 24, SCATTERED_RAYS = 32 };
+enum { SUN_RAYS_FIRST = 8, SUN_RAYS = SHADOW_POINTS, SKY_RAYS = 24, SCATTERED_RAYS = 32 };
 enum { SMOOTHED = 3 }; /* texels */
 
 /* A way that light takes. */
 typedef struct light_way {
     vec3 below, above; /* unit, towards where it comes from */
-    float weight;
+    float weight;      /* but of the sun's, which count alike */
+    float aside[2];    /* of the sun's: where they end, in texels from the middle of one */
 } light_way;
 
 typedef struct making {
     const water_setup *s;
     bed_shadow *out;
+    double texel_m[2];
+    float *finer; /* of each texel, the beam's share */
     light_way sun[SUN_RAYS], sky[SKY_RAYS], scattered[SCATTERED_RAYS];
 } making;
 
 /* ---- ways ---- */
 
-/* Two normal numbers. */
-static vec2 normal_pair(uint i, uint n)
+static vec3 sun_above(const water_setup *s)
 {
-    vec2 u = hammersley(i, n) + 0.5f / (float)n; /* the middles of what each stands for */
-    return vec2(inverse_normal(u[0]), inverse_normal(u[1]));
+    return normalize(vec3(s->light.L[0], max(s->light.L[1], 1e-3f), s->light.L[2]));
 }
 
+/* From all of the disc, over a texel and half of its neighbours. */
 static void choose_sun(making *m)
 {
     const water_setup *s = m->s;
     const slope_covariance *C = &s->sea->slopes.total;
     float x = sqrt(max(C->xx, 0.0f)), mixed = x > 0.0f ? C->xz / x : 0.0f;
     float z = sqrt(max(C->zz - mixed * mixed, 0.0f));
-    vec3 L = vec3(s->light.L[0], max(s->light.L[1], 1e-3f), s->light.L[2]);
     for (uint i = 0; i < SUN_RAYS; i++) {
-        vec2 g = normal_pair(i, SUN_RAYS);
+        shadow_point p = shadow_point_at(i, sun_above(s));
+        vec2 g = vec2(inverse_normal(shadow_point_coordinate(i, 2)),
+                      inverse_normal(shadow_point_coordinate(i, 3)));
         vec3 N = normal_from_slope(vec2(x * g[0], mixed * g[0] + z * g[1]));
-        vec3 down = dot(N, L) > 0.0f ? water_refracted(s->water, -normalize(L), N) : -s->sunward;
-        m->sun[i] = (light_way){.below = -down, .above = L, .weight = 1.0f / SUN_RAYS};
+        vec3 down = dot(N, p.L) > 0.0f ? water_refracted(s->water, -p.L, N) : -s->sunward;
+        m->sun[i] = (light_way){.below = -down, .above = p.L, .aside = {p.aside[0], p.aside[1]}};
     }
 }
 
@@ -66,7 +71,9 @@ static void choose_sky(making *m)
         vec3 above = vec3(d[0], max(d[2], 0.02f), d[1]);
         vec3 below = -water_refracted(w, -normalize(above), vec3(0.0f, 1.0f, 0.0f));
         float radiance = water_sky_reflected(&m->s->sky, normalize(above), SKY_ROUGHNESS)[1];
-        m->sky[i] = (light_way){below, normalize(above), radiance * (1.0f - water_fresnel(w, above[1]))};
+        m->sky[i] = (light_way){.below = below,
+                                .above = normalize(above),
+                                .weight = radiance * (1.0f - water_fresnel(w, above[1]))};
         sum += m->sky[i].weight;
     }
     for (uint i = 0; i < SKY_RAYS; i++)
@@ -86,7 +93,7 @@ static void choose_scattered(making *m)
         vec3 d = normalize(mul(frame, vec3(turned[0] * left, turned[1] * left, 1.0f)));
         d[1] = max(d[1], 0.1f);
         m->scattered[i] =
-            (light_way){.below = normalize(d), .above = m->sun[0].above, .weight = 1.0f / SCATTERED_RAYS};
+            (light_way){.below = normalize(d), .above = sun_above(s), .weight = 1.0f / SCATTERED_RAYS};
     }
 }
 
@@ -110,6 +117,19 @@ static float share_of(const making *m, const double P[3], const light_way *ways,
     for (uint32_t i = 0; i < count; i++)
         sum += ways[i].weight * passing(m, P, &ways[i]);
     return min(sum, 1.0f);
+}
+
+/* Of the beam, by the first `count` rays to around (X, Z). */
+static float sun_share(const making *m, double X, double Z, uint32_t count)
+{
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < count; i++) {
+        double x = X + m->texel_m[0] * (double)m->sun[i].aside[0],
+               z = Z + m->texel_m[1] * (double)m->sun[i].aside[1];
+        const double P[3] = {x, water_bed_height(&m->s->sea->desc.bed, x, z), z};
+        sum += P[1] < 0.0 ? passing(m, P, &m->sun[i]) : 1.0f;
+    }
+    return sum / (float)count;
 }
 
 /* How the light of open water is made up, at the depth of one texel; shares sum to 1 with what is returned. */
@@ -138,23 +158,62 @@ static bed_shadow_texel texel_at(const making *m, double X, double Z)
         return t;
     light_shares l = shares_at(s, (float)-P[1]);
     if (s->light.L[1] > 0.0f)
-        t.sun = share_of(m, P, m->sun, SUN_RAYS);
+        t.sun = sun_share(m, X, Z, SUN_RAYS_FIRST);
     float open = l.sky > 0.0f ? l.sky * share_of(m, P, m->sky, SKY_RAYS) : 0.0f;
     open += l.scattered > 0.0f ? l.scattered * share_of(m, P, m->scattered, SCATTERED_RAYS) : 0.0f;
     t.rest = l.sky + l.scattered > 0.0f ? open / (l.sky + l.scattered) : 1.0f;
     return t;
 }
 
+/* X or Z of a texel's middle. */
+static double middle_of(const making *m, int axis, size_t i)
+{
+    return m->out->low[axis] + ((double)i + 0.5) * m->texel_m[axis];
+}
+
 static void fill_rows(void *context, size_t begin, size_t end)
 {
     const making *m = context;
-    const bed_shadow *b = m->out;
-    double per_x = (b->high[0] - b->low[0]) / BED_SHADOW_EDGE,
-           per_z = (b->high[1] - b->low[1]) / BED_SHADOW_EDGE;
     for (size_t z = begin; z < end; z++)
         for (size_t x = 0; x < BED_SHADOW_EDGE; x++)
-            b->texels[z * BED_SHADOW_EDGE + x] =
-                texel_at(m, b->low[0] + ((double)x + 0.5) * per_x, b->low[1] + ((double)z + 0.5) * per_z);
+            m->out->texels[z * BED_SHADOW_EDGE + x] = texel_at(m, middle_of(m, 0, x), middle_of(m, 1, z));
+}
+
+/* Whether a texel or a neighbour differs from another. */
+static bool is_at_edge(const bed_shadow *b, size_t x, size_t z)
+{
+    const size_t edge = BED_SHADOW_EDGE;
+    float here = b->texels[z * edge + x].sun;
+    if (here > 0.0f && here < 1.0f)
+        return true;
+    for (size_t k = z > 0 ? z - 1 : 0; k <= z + 1 && k < edge; k++)
+        for (size_t i = x > 0 ? x - 1 : 0; i <= x + 1 && i < edge; i++)
+            if (b->texels[k * edge + i].sun != here)
+                return true;
+    return false;
+}
+
+/* To m->finer: the beam's share, by all rays where its shadow has an edge. */
+static void refine_rows(void *context, size_t begin, size_t end)
+{
+    const making *m = context;
+    const bed_shadow *b = m->out;
+    for (size_t z = begin; z < end; z++)
+        for (size_t x = 0; x < BED_SHADOW_EDGE; x++)
+            m->finer[z * BED_SHADOW_EDGE + x] =
+                is_at_edge(b, x, z) ? sun_share(m, middle_of(m, 0, x), middle_of(m, 1, z), SUN_RAYS)
+                                    : b->texels[z * BED_SHADOW_EDGE + x].sun;
+}
+
+static void fill_texels(making *m)
+{
+    uint32_t threads = m->s->desc->render.thread_count;
+    parallel_for(threads, BED_SHADOW_EDGE, 4, fill_rows, m);
+    if (!(m->s->light.L[1] > 0.0f))
+        return;
+    parallel_for(threads, BED_SHADOW_EDGE, 4, refine_rows, m);
+    for (size_t i = 0; i < (size_t)BED_SHADOW_EDGE * BED_SHADOW_EDGE; i++)
+        m->out->texels[i].sun = m->finer[i];
 }
 
 /* Over a texel and `radius` more to each side, along rows (step 1) or columns; beyond all there is no shadow. */
@@ -184,9 +243,7 @@ static void smooth_rest(bed_shadow *b)
 /* Depth over a texel, m; 0: it is dry. */
 static float depth_over(const making *m, size_t x, size_t z)
 {
-    const bed_shadow *b = m->out;
-    double X = b->low[0] + ((double)x + 0.5) * (b->high[0] - b->low[0]) / BED_SHADOW_EDGE;
-    double Z = b->low[1] + ((double)z + 0.5) * (b->high[1] - b->low[1]) / BED_SHADOW_EDGE;
+    double X = middle_of(m, 0, x), Z = middle_of(m, 1, z);
     return (float)fmax(-water_bed_height(&m->s->sea->desc.bed, X, Z), 0.0);
 }
 
@@ -202,8 +259,7 @@ static void add_returned(making *m, float depth, float *around)
         around[i] = (l.focused * t->sun + (l.sky + l.scattered) * t->rest) / max(first, 1e-6f);
     }
     for (int axis = 0; axis < 2; axis++) {
-        double texel_m = (b->high[axis] - b->low[axis]) / BED_SHADOW_EDGE;
-        int radius = (int)fmin((double)(RETURNED_WIDTH * depth) / texel_m, 4.0 * BED_SHADOW_EDGE);
+        int radius = (int)fmin((double)(RETURNED_WIDTH * depth) / m->texel_m[axis], 4.0 * BED_SHADOW_EDGE);
         for (size_t i = 0; i < edge; i++)
             smooth_line(around + i * (axis ? 1 : edge), axis ? edge : 1, radius);
     }
@@ -217,18 +273,27 @@ static void add_returned(making *m, float depth, float *around)
 
 /* ---- where ---- */
 
-/* The bounds, what of the sky they hide, and their shadow, which on the water is no longer than LONGEST. */
-static void choose_rectangle(const water_setup *s, float depth, bed_shadow *b)
+void bed_shadow_of_beam(const struct water_setup *s, float depth, double low[2], double high[2])
 {
-    const float *low = s->model.prepared.pose.bounds_min, *high = s->model.prepared.pose.bounds_max;
+    const float *from = s->model.prepared.pose.bounds_min, *to = s->model.prepared.pose.bounds_max;
     vec3 L = s->light.L;
-    float above = max(high[1], 0.0f), size = max(max(high[0] - low[0], high[2] - low[2]), above);
+    float above = max(to[1], 0.0f), size = max(max(to[0] - from[0], to[2] - from[2]), above);
     float in_air = L[1] > 0.0f ? min(above / L[1], LONGEST * size) : 0.0f;
-    float in_water = depth / max(s->sunward[1], 0.1f), edge = 0.05f * size + WIDEST * depth;
+    float in_water = depth / max(s->sunward[1], 0.1f), edge = 0.05f * size;
     for (int i = 0; i < 2; i++) {
         float shift = -L[2 * i] * in_air - s->sunward[2 * i] * in_water;
-        b->low[i] = (double)(low[2 * i] + min(shift, 0.0f) - edge);
-        b->high[i] = (double)(high[2 * i] + max(shift, 0.0f) + edge);
+        low[i] = (double)(from[2 * i] + min(shift, 0.0f) - edge);
+        high[i] = (double)(to[2 * i] + max(shift, 0.0f) + edge);
+    }
+}
+
+/* The beam's shadow, and what of the sky the model hides. */
+static void choose_rectangle(const water_setup *s, float depth, bed_shadow *b)
+{
+    bed_shadow_of_beam(s, depth, b->low, b->high);
+    for (int i = 0; i < 2; i++) {
+        b->low[i] -= (double)(WIDEST * depth);
+        b->high[i] += (double)(WIDEST * depth);
     }
 }
 
@@ -257,12 +322,14 @@ facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out,
         mem_free(around);
         return fail_memory(error, "a shadow on the bed", count * sizeof *out->texels);
     }
-    making m = {.s = s, .out = out};
+    making m = {.s = s, .out = out, .finer = around};
     choose_rectangle(s, depth, out);
+    for (int i = 0; i < 2; i++)
+        m.texel_m[i] = (out->high[i] - out->low[i]) / BED_SHADOW_EDGE;
     choose_sun(&m);
     choose_sky(&m);
     choose_scattered(&m);
-    parallel_for(s->desc->render.thread_count, BED_SHADOW_EDGE, 4, fill_rows, &m);
+    fill_texels(&m);
     smooth_rest(out);
     add_returned(&m, depth, around);
     mem_free(around);

@@ -26,6 +26,9 @@ typedef struct bed_shadow {
 facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out, facet_error *error);
 void bed_shadow_destroy(bed_shadow *b); /* {0} is allowed */
 
+/* Rectangle in X, Z (m) in which the beam's shadow lies on a bed `depth` m below; on the water it is no longer than eight times its model. */
+void bed_shadow_of_beam(const struct water_setup *s, float depth, double low[2], double high[2]);
+
 /* At (X, Z), between texels; 1 beyond the rectangle. */
 bed_shadow_texel bed_shadow_at(const bed_shadow *b, double X, double Z);
 

@@ -1,4 +1,5 @@
-/* caustic_plan.c - see caustic_plan.h. Rays through the whole picture, whatever part of it is drawn, tell where the bed is seen. */
+/* caustic_plan.c - see caustic_plan.h. Rays through the whole picture, whatever part of it is drawn, tell where the bed is seen; below still
+ * water, where a model may shade it. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -87,6 +88,21 @@ static int nearer(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
+static bool has_waves(const water_setup *s)
+{
+    return s->sea->waves.tile_count > 0;
+}
+
+/* Whether sunlight there may differ from the light of open, still water. */
+static bool has_structure(const water_setup *s, const seen_place *place)
+{
+    double low[2], high[2];
+    if (has_waves(s))
+        return true;
+    bed_shadow_of_beam(s, place->depth_m, low, high);
+    return place->X > low[0] && place->X < high[0] && place->Z > low[1] && place->Z < high[1];
+}
+
 /* What is below the eye stands for a bed that is not seen but mirrored. */
 static void look_around(view *v)
 {
@@ -95,10 +111,11 @@ static void look_around(view *v)
     for (uint32_t i = 0; i < MOST_SEEN; i++) {
         float x = (float)(i % RAYS) / (RAYS - 1) * (float)r->width;
         float y = (float)(i / RAYS) / (RAYS - 1) * (float)r->height;
-        v->count += see(s, x, y, &v->places[v->count]);
+        seen_place *place = &v->places[v->count];
+        v->count += see(s, x, y, place) && has_structure(s, place);
     }
     qsort(v->places, v->count, sizeof *v->places, nearer);
-    if (v->count == 0) {
+    if (v->count == 0 && has_waves(s)) {
         const float *eye = s->camera.origin;
         double X = (double)eye[0], Z = (double)eye[2], bed = water_bed_height(&s->sea->desc.bed, X, Z);
         v->places[v->count++] = (seen_place){.distance_m = fabs((double)eye[1] - bed),
@@ -107,7 +124,7 @@ static void look_around(view *v)
                                              .depth_m = (float)fmax(-bed, 0.0),
                                              .width_m = width_at(s, fabs((double)eye[1] - bed))};
     }
-    v->depth_m = v->places[0].depth_m;
+    v->depth_m = v->count > 0 ? v->places[0].depth_m : 0.0f;
 }
 
 /* Whether the sun's beam, and what the bed sends back of it, come through the water at the shallowest place. */
@@ -192,10 +209,10 @@ static void place_layer(const view *v, caustic_plan *p)
 }
 
 /* Of the finest layer: a power of 2 that shows what pixels do, and no finer than light is focused, or than waves let see the bed;
- * not mostly margin. */
+ * not mostly margin. Below still water a quarter of that: an edge of a shadow is as wide as four texels, and nothing else is there to see. */
 static float finest_texel(const view *v)
 {
-    int power = (int)ceilf(log2(clamp(v->places[0].width_m, 1e-4f, 1e4f)));
+    int power = (int)ceilf(log2(clamp(v->places[0].width_m, 1e-4f, 1e4f))) - (has_waves(v->s) ? 0 : 2);
     for (; power < 14; power++) {
         caustic_plan p = plan_for(v, exp2((float)power), v->depth_m);
         if (p.texel_m >= 0.5f * min(p.sigma_m[0], p.sigma_m[1]) &&
@@ -211,7 +228,7 @@ static bool has_caustics(const water_setup *s)
 {
     const facet_sea_look *look = &s->desc->look;
     bool is_whole = !look->before && (look->stage == 0 || look->stage == 5);
-    return is_whole && !look->no_caustics && water_has_bed(s) && s->sea->waves.tile_count > 0 &&
+    return is_whole && !look->no_caustics && water_has_bed(s) && (has_waves(s) || s->model.is_there) &&
            s->light.L[1] > 0.0f && max(max(s->beam[0], s->beam[1]), s->beam[2]) > 0.0f;
 }
 
@@ -244,7 +261,7 @@ facet_result caustic_map_of_picture(const water_setup *s, caustic_map *map, face
     const caustic_source *source = &v.source;
     double closing = source->bed_rise[0] * -(double)s->sunward[0] +
                      source->bed_rise[1] * -(double)s->sunward[2] + (double)s->sunward[1];
-    if (closing < 0.1 || !is_worth_it(&v)) /* less: light goes along the bed */
+    if (v.count == 0 || closing < 0.1 || !is_worth_it(&v)) /* less: light goes along the bed */
         return FACET_OK;
     caustic_plan plans[CAUSTIC_LAYERS];
     float texel = finest_texel(&v);

@@ -5,7 +5,7 @@
 
 #include "water/water_setup.h"
 
-/* The map of a picture, whose light, camera and waves are in s already; empty where there is no bed or no sun, where water is still, where
+/* The map of a picture, whose light, camera and waves are in s already; empty where there is no bed or no sun, where water is still and no model's shadow is seen, where
  * too little of the focused light would come to the eye, or the look has none. FACET_ERROR_MEMORY; *map is to be destroyed, even then. */
 facet_result caustic_map_of_picture(const water_setup *s, caustic_map *map, facet_error *error);
 

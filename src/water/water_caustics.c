@@ -1,12 +1,14 @@
 /* water_caustics.c - see water_caustics.h. Points of still water whose light would fall on a regular grid of the bed are moved by the waves,
  * with the light that falls on the water there; what lies between is interpolated, and each point is laid onto the four
- * texels around it. Watt 1990 has the beams, Yuksel and Keyser 2009 the grid. */
+ * texels around it. Watt 1990 has the beams, Yuksel and Keyser 2009 the grid. A model takes of each point's light what rays to a few places around it
+ * say; many, where the points around differ. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
 
+#include "water/shadow_points.h"
 #include "water/water_caustics.h"
 
 enum {
@@ -15,7 +17,8 @@ enum {
     BAND = 64,           /* rows of a layer that are filled together */
     BANDS = CAUSTIC_SIZE / BAND,
     MOST_MARGIN = CAUSTIC_SIZE / TEXELS_PER_NODE / 2, /* nodes */
-    MOST_NODES = CAUSTIC_SIZE / TEXELS_PER_NODE + 2 * MOST_MARGIN + 3
+    MOST_NODES = CAUSTIC_SIZE / TEXELS_PER_NODE + 2 * MOST_MARGIN + 3,
+    MOST_REACH = 8 /* nodes */
 };
 
 /* Where light of each node lies, in texels from the layer's corner, and how much: planes of count x count. */
@@ -25,6 +28,9 @@ typedef struct nodes {
     float *u, *v, *weight;
     float *lowest, *highest; /* v of each row */
     double *sums;            /* of each row's light, without a model */
+    /* With a model: what it lets pass at each node, and the least and most of that along the row, as far as an edge reaches. */
+    float *open, *least, *most;
+    int32_t reach; /* nodes from where the sun's middle is hidden to where all of its disc is seen */
 } nodes;
 
 typedef struct making {
@@ -35,6 +41,7 @@ typedef struct making {
     float *scratch[CAUSTIC_LAYERS]; /* CAUSTIC_SIZE^2 */
     float per_point;                /* what a point of mean weight adds to a texel */
     vec3 still;                     /* direction of light below still water */
+    shadow_point points[SHADOW_POINTS];
 } making;
 
 /* ---- rays ---- */
@@ -61,71 +68,167 @@ static float light_on(const caustic_source *s, const wave_point *p, vec3 N)
     return facing > 0.0f ? facing * (1.0f - water_fresnel(s->water, clamp(dot(N, s->L), 0.0f, 1.0f))) : 0.0f;
 }
 
-/* Share of light that passes the model on its way to a point of the surface, and from there `way` m along d. */
-static float passing_model(const caustic_source *s, const double P[3], vec3 d, double way)
-{
-    return water_model_opening(s->model, P, s->L, HUGE_VAL) * water_model_opening(s->model, P, d, way);
-}
+/* How light goes from a node: through the surface, and to the bed. */
+typedef struct node_ray {
+    double from[3], way; /* m */
+    vec3 d;
+    float light; /* without a model */
+} node_ray;
 
-/* The mean over four points of a node's share of the surface: an edge of the model's shadow lies where it does, not at the next node. */
-static float passing_around(const caustic_source *s, const double P[3], vec3 d, double way, double spacing_m)
-{
-    float sum = 0.0f;
-    if (!s->model)
-        return 1.0f;
-    for (int i = 0; i < 4; i++) {
-        const double at[3] = {P[0] + spacing_m * (i % 2 ? 0.25 : -0.25), P[1],
-                              P[2] + spacing_m * (i / 2 ? 0.25 : -0.25)};
-        sum += 0.25f * passing_model(s, at, d, way);
-    }
-    return sum;
-}
-
-/* Of the node whose light falls on (X, Z) where the water is still. Returns the light that it would have without a model. */
-static float trace_node(const making *m, const caustic_layer *layer, double X, double Z, float footprint_m,
-                        float *u, float *v, float *weight)
+/* Of the node whose light falls on (X, Z) where the water is still. */
+static node_ray trace_node(const making *m, double X, double Z, float footprint_m)
 {
     const caustic_source *s = m->source;
     double back = fmax(-bed_at(s, X, Z), 0.0) / -(double)m->still[1];
     double rest[2] = {X - back * (double)m->still[0], Z - back * (double)m->still[2]};
     wave_point p = waves_at(s->waves, rest[0], rest[1], footprint_m);
     vec3 N = wave_normal(vec2(p.slope[0], p.slope[1]), vec3(p.Dxx, p.Dzz, p.Dxz));
-    vec3 d = water_refracted(s->water, -s->L, N);
-    const double from[3] = {rest[0] + (double)p.displacement[0], (double)p.height_m,
-                            rest[1] + (double)p.displacement[1]};
-    double way = way_to_bed(s, d, from[1] - bed_at(s, from[0], from[2]));
-    float x = (float)(from[0] + way * (double)d[0] - layer->middle[0]);
-    float z = (float)(from[2] + way * (double)d[2] - layer->middle[1]);
+    node_ray r = {.from = {rest[0] + (double)p.displacement[0], (double)p.height_m,
+                           rest[1] + (double)p.displacement[1]}};
+    r.d = water_refracted(s->water, -s->L, N);
+    r.way = way_to_bed(s, r.d, r.from[1] - bed_at(s, r.from[0], r.from[2]));
+    r.light = light_on(s, &p, N);
+    return r;
+}
+
+/* Node i of a row. */
+static node_ray trace_at(const making *m, uint32_t l, size_t i, size_t row)
+{
+    const caustic_layer *layer = &m->map->layers[l];
+    const float *axis = m->map->axis;
+    double spacing = (double)(TEXELS_PER_NODE * layer->texel_m), half = 0.5 * CAUSTIC_SIZE / TEXELS_PER_NODE;
+    double u = ((double)i - m->nodes[l].margin - 1 - half) * spacing;
+    double v = ((double)row - m->nodes[l].margin - 1 - half) * spacing;
+    return trace_node(m, layer->middle[0] + u * (double)axis[0] - v * (double)axis[1],
+                      layer->middle[1] + u * (double)axis[1] + v * (double)axis[0], layer->texel_m);
+}
+
+/* ---- a model's shadow ---- */
+
+/* Share of light from L that passes the model on its way to a point (u, v) m beside a node, and from there to the bed. */
+static float passing_model(const making *m, const node_ray *r, double u, double v, vec3 L)
+{
+    const caustic_source *s = m->source;
+    const double a = (double)m->map->axis[0], b = (double)m->map->axis[1];
+    const double P[3] = {r->from[0] + u * a - v * b, r->from[1], r->from[2] + u * b + v * a};
+    float open = water_model_opening(s->model, P, L, HUGE_VAL);
+    return open > 0.0f ? open * water_model_opening(s->model, P, r->d, r->way) : 0.0f;
+}
+
+/* From the sun's middle to four points of a node's share, one in each quarter of it; others for each node, so that what is
+ * thinner than they lie apart is not missed by a whole row of them. */
+static float passing_few(const making *m, const node_ray *r, size_t i, size_t row, double spacing_m)
+{
+    const float shift[2] = {fract(0.7548777f * (float)i + 0.5698403f * (float)row),
+                            fract(0.5698403f * (float)i + 0.7548777f * (float)row)};
+    float sum = 0.0f;
+    for (int k = 0; k < 4; k++)
+        sum += 0.25f * passing_model(m, r, spacing_m * (double)(0.5f * ((float)(k % 2) + shift[0]) - 0.5f),
+                                     spacing_m * (double)(0.5f * ((float)(k / 2) + shift[1]) - 0.5f),
+                                     m->source->L);
+    return sum;
+}
+
+static float passing_many(const making *m, const node_ray *r, double spacing_m)
+{
+    float sum = 0.0f;
+    for (int k = 0; k < SHADOW_POINTS; k++)
+        sum += passing_model(m, r, spacing_m * (double)m->points[k].aside[0],
+                             spacing_m * (double)m->points[k].aside[1], m->points[k].L);
+    return sum / SHADOW_POINTS;
+}
+
+/* The least and most along a row, from as far to each side as an edge reaches. */
+static void range_along(const nodes *n, size_t row)
+{
+    const float *open = n->open + row * n->count;
+    for (size_t i = 0; i < n->count; i++) {
+        size_t reach = (size_t)n->reach, first = i > reach ? i - reach : 0;
+        size_t last = i + reach < n->count ? i + reach : n->count - 1;
+        float low = open[first], high = open[first];
+        for (size_t k = first + 1; k <= last; k++) {
+            low = fminf(low, open[k]);
+            high = fmaxf(high, open[k]);
+        }
+        n->least[row * n->count + i] = low;
+        n->most[row * n->count + i] = high;
+    }
+}
+
+static bool is_at_edge(const nodes *n, size_t i, size_t row)
+{
+    size_t reach = (size_t)n->reach, last = row + reach < n->count ? row + reach : n->count - 1;
+    float low = INFINITY, high = -INFINITY;
+    for (size_t k = row > reach ? row - reach : 0; k <= last; k++) {
+        low = fminf(low, n->least[k * n->count + i]);
+        high = fmaxf(high, n->most[k * n->count + i]);
+    }
+    return low < high;
+}
+
+/* A node's light is less by what the model takes; near its shadow's edges, by the mean over the node's share and the sun's disc. */
+static void shade_row(const making *m, uint32_t l, size_t row)
+{
+    const nodes *n = &m->nodes[l];
+    double spacing = (double)(TEXELS_PER_NODE * m->map->layers[l].texel_m);
+    for (size_t i = 0; i < n->count; i++) {
+        float *weight = &n->weight[row * n->count + i], open = n->open[row * n->count + i];
+        if (*weight > 0.0f && is_at_edge(n, i, row)) {
+            node_ray r = trace_at(m, l, i, row);
+            open = passing_many(m, &r, spacing);
+        }
+        *weight *= open;
+    }
+}
+
+static void shade_rows(void *context, size_t begin, size_t end)
+{
+    const making *m = context;
+    for (size_t i = begin; i < end; i++)
+        if (i / CAUSTIC_LAYERS < m->nodes[i % CAUSTIC_LAYERS].count)
+            shade_row(m, (uint32_t)(i % CAUSTIC_LAYERS), i / CAUSTIC_LAYERS);
+}
+
+/* How far, in nodes, the disc moves the shadow of the model's top over the water. */
+static int32_t reach_of(const caustic_source *s, float spacing_m)
+{
+    float above = max(s->model->prepared.pose.bounds_max[1], 0.0f), sine = max(s->L[1], 0.01f);
+    return 1 + (int32_t)fminf(ceilf(SUN_RADIUS * above / (sine * sine * spacing_m)), MOST_REACH - 1);
+}
+
+/* ---- all nodes ---- */
+
+/* Where light falls, in texels. */
+static void place_on_layer(const making *m, const caustic_layer *layer, const node_ray *r, float *u, float *v)
+{
+    float x = (float)(r->from[0] + r->way * (double)r->d[0] - layer->middle[0]);
+    float z = (float)(r->from[2] + r->way * (double)r->d[2] - layer->middle[1]);
     const float *axis = m->map->axis;
     *u = (x * axis[0] + z * axis[1]) / layer->texel_m + 0.5f * CAUSTIC_SIZE;
     *v = (z * axis[0] - x * axis[1]) / layer->texel_m + 0.5f * CAUSTIC_SIZE;
-    float light = light_on(s, &p, N);
-    *weight = light > 0.0f
-                  ? light * passing_around(s, from, d, way, (double)(TEXELS_PER_NODE * layer->texel_m))
-                  : 0.0f;
-    return light;
 }
 
 static void trace_row(making *m, uint32_t l, size_t row)
 {
     nodes *n = &m->nodes[l];
     const caustic_layer *layer = &m->map->layers[l];
-    const float *axis = m->map->axis;
-    float spacing = TEXELS_PER_NODE * layer->texel_m;
-    double half = 0.5 * CAUSTIC_SIZE / TEXELS_PER_NODE, along_v = (double)row - n->margin - 1 - half;
     float *u = n->u + row * n->count, *v = n->v + row * n->count, *weight = n->weight + row * n->count;
     n->lowest[row] = INFINITY;
     n->highest[row] = -INFINITY;
     n->sums[row] = 0.0;
     for (size_t i = 0; i < n->count; i++) {
-        double along_u = (double)i - n->margin - 1 - half;
-        double X = (along_u * (double)axis[0] - along_v * (double)axis[1]) * (double)spacing;
-        double Z = (along_u * (double)axis[1] + along_v * (double)axis[0]) * (double)spacing;
-        n->sums[row] += (double)trace_node(m, layer, layer->middle[0] + X, layer->middle[1] + Z,
-                                           layer->texel_m, &u[i], &v[i], &weight[i]);
+        node_ray r = trace_at(m, l, i, row);
+        place_on_layer(m, layer, &r, &u[i], &v[i]);
+        weight[i] = r.light;
+        if (n->open)
+            n->open[row * n->count + i] =
+                passing_few(m, &r, i, row, (double)(TEXELS_PER_NODE * layer->texel_m));
+        n->sums[row] += (double)r.light;
         n->lowest[row] = fminf(n->lowest[row], v[i]);
         n->highest[row] = fmaxf(n->highest[row], v[i]);
     }
+    if (n->open)
+        range_along(n, row);
 }
 
 static void trace_rows(void *context, size_t begin, size_t end)
@@ -311,7 +414,7 @@ static facet_result take_memory(making *m, facet_error *error)
         float spacing = TEXELS_PER_NODE * m->plans[l].texel_m;
         n->margin = (int32_t)fminf(ceilf(m->plans[l].margin_m / spacing) + 1.0f, MOST_MARGIN);
         n->count = CAUSTIC_SIZE / TEXELS_PER_NODE + 2 * (size_t)n->margin + 3;
-        size_t plane = n->count * n->count, floats = 3 * plane + 2 * n->count;
+        size_t plane = n->count * n->count, floats = (m->source->model ? 6 : 3) * plane + 2 * n->count;
         n->u = mem_alloc(allocator, floats, sizeof(float));
         n->sums = mem_alloc(allocator, n->count, sizeof(double));
         m->scratch[l] = mem_alloc(allocator, (size_t)CAUSTIC_SIZE * CAUSTIC_SIZE, sizeof(float));
@@ -321,6 +424,12 @@ static facet_result take_memory(making *m, facet_error *error)
         n->weight = n->v + plane;
         n->lowest = n->weight + plane;
         n->highest = n->lowest + n->count;
+        if (m->source->model) {
+            n->open = n->highest + n->count;
+            n->least = n->open + plane;
+            n->most = n->least + plane;
+            n->reach = reach_of(m->source, spacing);
+        }
     }
     return FACET_OK;
 }
@@ -341,6 +450,8 @@ static void fill(making *m)
     double mean = mean_light(&m->nodes[CAUSTIC_LAYERS - 1]);
     if (!(mean > 0.0))
         return;
+    if (m->source->model)
+        parallel_for(threads, (size_t)MOST_NODES * CAUSTIC_LAYERS, 8, shade_rows, m);
     const float points = (float)POINTS_PER_NODE / TEXELS_PER_NODE; /* per texel, along each axis */
     m->per_point = (float)(1.0 / (mean * (double)(points * points)));
     parallel_for(threads, (size_t)CAUSTIC_LAYERS * BANDS, 1, fill_bands, m);
@@ -357,6 +468,8 @@ facet_result water_caustics_fill(const caustic_source *source, const float axis[
 {
     making m = {.source = source, .plans = plans, .map = map};
     m.still = water_refracted(source->water, -source->L, vec3(0.0f, 1.0f, 0.0f));
+    for (uint32_t k = 0; source->model && k < SHADOW_POINTS; k++)
+        m.points[k] = shadow_point_at(k, source->L);
     facet_result result = caustic_map_create(&source->allocator, map, error);
     for (int i = 0; i < 2; i++)
         map->axis[i] = axis[i];

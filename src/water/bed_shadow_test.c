@@ -1,0 +1,218 @@
+/* bed_shadow_test.c - edges of a model's shadow on the bed below still water: straight where what casts them is, where rays say, from light to
+ * dark without a step back, and as wide as the sun's disc makes them where maps are finer. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "water/water_fixture.h"
+
+#include "cpu/preview_fixture.h"
+#include "water/caustic_plan.h"
+#include "water/water_caustics.h"
+
+static const float DEPTH_M = 3.0f, ABOVE_M = 1.0f, TURNED = 0.4f, ELEVATION = 0.8f, AZIMUTH = 1.0f;
+
+/* A level square of 2 m over a lagoon without waves, and all that a picture of it has. */
+typedef struct lagoon {
+    fixture f;
+    facet_sea *sea;
+    shot s;
+    water_setup setup;
+} lagoon;
+
+static void add_square(fixture *f)
+{
+    scene_material material = scene_material_default();
+    material.is_double_sided = true;
+    uint32_t square = fixture_add_quad(f, fixture_add_material(f, material));
+    scene_node *node = fixture_place(f, square, 0.0f, ABOVE_M, 0.0f, 1.0f);
+    float s = sinf(0.5f * TURNED), c = cosf(0.5f * TURNED),
+          half = sqrtf(0.5f); /* lies down, then is turned */
+    const float rotation[4] = {-c * half, s * half, s * half, c * half};
+    memcpy(node->rotation, rotation, sizeof rotation);
+}
+
+/* sky: of one radiance, with a sun of 1e5 lx; NULL: the atmosphere. */
+static void begin(lagoon *l, float eye_m, const float *sky)
+{
+    l->f = fixture_create();
+    add_square(&l->f);
+    facet_sea_desc d;
+    assert_int_equal(sea_preset("lagoon", &d, NULL), FACET_OK);
+    d.wind_mps = 0.0f;
+    d.bed.depth_m = DEPTH_M;
+    l->sea = make_sea(&d);
+    make_shot(&l->s, 160, 120, eye_m, 1.5f);
+    facet_render_desc *r = &l->s.desc.render;
+    l->s.desc.sky.sun_elevation_rad = ELEVATION;
+    l->s.desc.sky.sun_azimuth_rad = AZIMUTH;
+    if (sky) {
+        assert_int_equal(facet_environment_create_constant(sky, NULL, &r->environment, NULL), FACET_OK);
+        r->sun = (facet_sun){
+            .azimuth_rad = AZIMUTH, .elevation_rad = ELEVATION, .illuminance_lux = {1e5f, 1e5f, 1e5f}};
+    }
+    r->camera = &l->s.camera;
+    l->s.camera.eye[0] = l->s.camera.target[0] = -1.5f;
+    facet_error error;
+    if (water_setup_create(l->sea, l->f.scene, &l->s.desc, &l->setup, &l->s.stats, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+}
+
+static void end(lagoon *l)
+{
+    water_setup_destroy(&l->setup);
+    facet_environment_destroy(l->s.desc.render.environment);
+    sea_destroy(l->sea);
+    fixture_destroy(&l->f);
+}
+
+/* ---- edges ---- */
+
+/* The beam's share at a place of the bed. */
+typedef float reading(const void *what, double X, double Z);
+
+/* Of the four edges: where half of the light is, m from where it should be; and from 0.1 to 0.9 of it, m. */
+typedef struct edges {
+    double mean, farthest, width, back; /* back: the largest step into the dark on the way out */
+} edges;
+
+/* Where light is `share` of all on the way out of an edge. */
+static double place_of(const float *shares, int count, double step, float share)
+{
+    for (int i = 1; i < count; i++)
+        if (shares[i] >= share)
+            return step * (i - (double)((shares[i] - share) / fmaxf(shares[i] - shares[i - 1], 1e-6f)) -
+                           0.5 * (count - 1));
+    return INFINITY;
+}
+
+enum { PLACES = 160, STEPS = 401 };
+
+/* Of the square's shadow on the bed. */
+static void find_middle(const lagoon *l, double P[3])
+{
+    const water_setup *s = &l->setup;
+    for (int i = 0; i < 3; i++)
+        P[i] = -(double)(ABOVE_M / s->light.L[1] * s->light.L[i] + DEPTH_M / s->sunward[1] * s->sunward[i]);
+    P[1] = -(double)DEPTH_M;
+}
+
+static edges edges_of(const lagoon *l, reading *read, const void *what, double reach_m)
+{
+    double middle[3];
+    find_middle(l, middle);
+    edges e = {0};
+    for (int k = 0; k < 4 * PLACES; k++) {
+        double a = (double)TURNED + (k / PLACES) * 0.5 * 3.14159265358979,
+               along = (k % PLACES) / (double)PLACES - 0.5;
+        double nx = (cos)(a), nz = -(sin)(a), step = 2.0 * reach_m / (STEPS - 1);
+        float shares[STEPS];
+        for (int i = 0; i < STEPS; i++) {
+            double out = 1.0 + step * (i - 0.5 * (STEPS - 1));
+            shares[i] = read(what, middle[0] + out * nx - along * nz, middle[2] + out * nz + along * nx);
+            e.back = fmax(e.back, i ? (double)(shares[i - 1] - shares[i]) : 0.0);
+        }
+        if (!(shares[0] < 1e-3f) || !(shares[STEPS - 1] > 0.999f))
+            fail_msg("%g m within an edge %g, beyond %g", reach_m, (double)shares[0],
+                     (double)shares[STEPS - 1]);
+        double half = place_of(shares, STEPS, step, 0.5f);
+        e.mean += half / (4 * PLACES);
+        e.farthest = fmax(e.farthest, fabs(half));
+        e.width += (place_of(shares, STEPS, step, 0.9f) - place_of(shares, STEPS, step, 0.1f)) / (4 * PLACES);
+    }
+    return e;
+}
+
+static void expect_below(double found, double bound, const char *what)
+{
+    if (!(found < bound))
+        fail_msg("%s: %g, bound %g", what, found, bound);
+}
+
+/* ---- maps ---- */
+
+static float read_texels(const void *what, double X, double Z)
+{
+    return bed_shadow_at(what, X, Z).sun;
+}
+
+static float read_map(const void *what, double X, double Z)
+{
+    return caustic_map_at(what, X, Z, 0.0f);
+}
+
+/* What a picture has. */
+static float read_both(const void *what, double X, double Z)
+{
+    const water_setup *s = what;
+    float beyond, factor = caustic_map_within(&s->caustics, X, Z, 0.0f, &beyond);
+    return factor + beyond * bed_shadow_at(&s->shadow, X, Z).sun;
+}
+
+/* The map of the whole shadow, which is coarse: nothing of its texels shows. */
+static void test_texels(void **state)
+{
+    (void)state;
+    lagoon l;
+    begin(&l, 12.0f, NULL);
+    const bed_shadow *b = &l.setup.shadow;
+    assert_true(b->is_there);
+    double texel = (b->high[0] - b->low[0]) / BED_SHADOW_EDGE;
+    edges e = edges_of(&l, read_texels, b, 0.3);
+    expect_below(e.farthest, 0.2 * texel, "farthest of the half");
+    expect_below(fabs(e.mean), 0.02 * texel, "mean of the half");
+    expect_below(e.width, 2.0 * texel, "width");
+    expect_below(e.back, 1e-3, "back into the dark");
+    end(&l);
+}
+
+/* Rays through the grid, here as coarse as a wide picture has it. */
+static void test_grid(void **state)
+{
+    (void)state;
+    lagoon l;
+    begin(&l, 12.0f, NULL);
+    const waves still = {.tile_count = 0};
+    const float axis[2] = {sinf(AZIMUTH), cosf(AZIMUTH)}, texel = 1.0f / 16.0f;
+    caustic_source source = {.waves = &still,
+                             .water = l.setup.water,
+                             .L = l.setup.light.L,
+                             .bed_height = -(double)DEPTH_M,
+                             .model = &l.setup.model,
+                             .thread_count = 2};
+    caustic_plan plans[CAUSTIC_LAYERS];
+    for (uint32_t k = 0; k < CAUSTIC_LAYERS; k++)
+        plans[k] = (caustic_plan){.texel_m = texel * (float)(1 << k), .margin_m = 0.5f};
+    caustic_map map;
+    assert_int_equal(water_caustics_fill(&source, axis, plans, &map, NULL), FACET_OK);
+    edges e = edges_of(&l, read_map, &map, 0.4);
+    expect_below(e.farthest, 0.2 * (double)texel, "farthest of the half");
+    expect_below(fabs(e.mean), 0.02 * (double)texel, "mean of the half");
+    expect_below(e.width, 4.0 * (double)texel, "width");
+    expect_below(e.back, 1e-3, "back into the dark");
+    caustic_map_destroy(&map);
+    end(&l);
+}
+
+/* Near the bed, a picture's edge is little wider than the sun's penumbra, 2.7 cm from 0.1 to 0.9 of the light. */
+static void test_picture(void **state)
+{
+    (void)state;
+    lagoon l;
+    begin(&l, -1.0f, NULL);
+    assert_true(l.setup.caustics.is_there);
+    edges e = edges_of(&l, read_both, &l.setup, 0.3);
+    expect_below(e.farthest, 0.005, "farthest of the half");
+    expect_below(e.width, 0.05, "width");
+    expect_below(e.back, 1e-3, "back into the dark");
+    end(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_texels),
+        cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_picture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
