@@ -46,32 +46,79 @@ FN vec2 facet_place(FacetRange r, vec3 N, vec3 m)
     return vec2(z, (r.towards[0] * d[1] - r.towards[1] * d[0] - r.lean * z) / r.across);
 }
 
+/* The rectangle about places, with a margin, as edges of a box are bent; of a box that is wide it is all. */
+FN FacetRange facets_about(FacetRange all, vec2 low, vec2 high, bool is_wide)
+{
+    FacetRange r = all;
+    vec2 margin = (high - low) * 0.1f + 0.01f;
+    if (is_wide)
+        return r;
+    r.low = max(low - margin, all.low);
+    r.high = min(high + margin, all.high);
+    return r;
+}
+
+/* Whether a box about the direction `middle` is too wide for its corners to tell which facets show it; D: to a corner. */
+FN bool is_wide_box(vec3 middle, vec3 D)
+{
+    return dot(vec2(D[0], D[2]), vec2(middle[0], middle[2])) < 0.5f;
+}
+
 /* Of those, which may mirror a box; low, high: its corners from the place of the surface. What facets send down meets another wave and
- * goes up again: they show the box as if it stood upside down as well. Larger than need be where the box is wide. */
+ * goes up again: they show the box as if it stood upside down as well. Larger than need be where the box is wide. An eye in the water
+ * that looks along V sees what they mirror of the box -high to -low. */
 FN FacetRange facets_that_mirror(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
 {
     FacetRange all = facets_seen(C, N, V);
-    FacetRange r = all;
     vec3 middle = normalize(0.5f * (low + high) + vec3(0.0f, 1e-6f, 0.0f));
     float bottom = min(low[1], -high[1]);
     bool is_wide = false;
-    r.low = vec2(1e9f);
-    r.high = vec2(-1e9f);
+    vec2 first = vec2(1e9f);
+    vec2 last = vec2(-1e9f);
     for (int i = 0; i < 8; ++i) {
         vec3 D = normalize(vec3(sel(i % 2 == 0, low[0], high[0]), sel(i < 4, bottom, high[1]),
                                 sel(i / 2 % 2 == 0, low[2], high[2])));
-        is_wide = is_wide || dot(vec2(D[0], D[2]), vec2(middle[0], middle[2])) < 0.5f;
+        is_wide = is_wide || is_wide_box(middle, D);
         vec3 H = V + normalize(vec3(D[0], max(D[1], -0.5f * V[1]), D[2])); /* seen edge on, the lowest */
         vec2 z = facet_place(all, N, vec3(H[0], max(H[1], 1e-4f), H[2]));
-        r.low = min(r.low, z);
-        r.high = max(r.high, z);
+        first = min(first, z);
+        last = max(last, z);
     }
-    if (is_wide)
-        return all;
-    vec2 margin = (r.high - r.low) * 0.1f + 0.01f; /* edges of the box are bent */
-    r.low = max(r.low - margin, all.low);
-    r.high = min(r.high + margin, all.high);
-    return r;
+    return facets_about(all, first, last, is_wide);
+}
+
+/* Normal, not of unit length, of the facet that bends light from D, in the air, to an eye in the water that looks along d; both unit:
+ *   n d - D
+ * Of light that none bends so far it is that of the rim, where D is nearest. */
+FN vec3 facet_that_bends(vec3 d, vec3 D, float ior)
+{
+    float least = 1.0f / ior;
+    float c = dot(d, D);
+    vec3 beside = D - d * c;
+    vec3 rim = d * least + beside * (sqrt(max(1.0f - least * least, 0.0f)) *
+                                     inversesqrt(max(dot(beside, beside), 1e-12f)));
+    return d * ior - sel(c < least, rim, D);
+}
+
+/* Of those that an eye sees which looks along d (unit, up) in the water, which may show a box through Snell's window; low, high: its corners
+ * from the place of the surface, none below it. */
+FN FacetRange facets_that_bend(vec3 C, vec3 N, vec3 d, vec3 low, vec3 high, float ior)
+{
+    FacetRange all = facets_seen(C, N, d);
+    vec3 middle = normalize(0.5f * (low + high) + vec3(0.0f, 1e-6f, 0.0f));
+    bool is_wide = false;
+    vec2 first = vec2(1e9f);
+    vec2 last = vec2(-1e9f);
+    for (int i = 0; i < 8; ++i) {
+        vec3 D = normalize(vec3(sel(i % 2 == 0, low[0], high[0]), sel(i < 4, low[1], high[1]),
+                                sel(i / 2 % 2 == 0, low[2], high[2])));
+        is_wide = is_wide || is_wide_box(middle, D);
+        vec3 m = facet_that_bends(d, D, ior);
+        vec2 z = facet_place(all, N, vec3(m[0], max(m[1], 1e-4f), m[2]));
+        first = min(first, z);
+        last = max(last, z);
+    }
+    return facets_about(all, first, last, is_wide);
 }
 
 /* Share of all facets that is in the rectangle, seen or not; 0: it is empty. */
@@ -159,6 +206,12 @@ FN float window_part(FacetRange r, float rim, int edge)
     float last = sel(edge > 0, window_edge(r, edge - 1), 0.0f);
     float next = sel(edge <= WINDOW_CELLS, window_edge(r, edge), 1e9f);
     return clamp(rim, last, next);
+}
+
+/* Perceptual roughness of what one of them shows; C: of all slopes. */
+FN float window_roughness(FacetRange r, vec3 C)
+{
+    return roughness_from_slopes(C * sel(r.along < WINDOW_SHARP, 0.1f, 0.1f * WINDOW_BETWEEN));
 }
 
 /* One of WINDOW_FACETS; r: facets_seen(). Their weights sum to 1 within 0.0015. Tilts towards d are in WINDOW_CELLS cells, one of them divided by the rim of

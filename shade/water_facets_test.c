@@ -1,5 +1,5 @@
-/* water_facets_test.c - facets that mirror a box, beside all facets by chance: none that does is left out, and their shares are those
- * of sample_slopes(); and facets that stand for all that an eye in the water sees. */
+/* water_facets_test.c - facets that mirror a box, or show it through Snell's window, beside all facets by chance: none that does is left out,
+ * and their shares are those of sample_slopes(); and facets that stand for all that an eye in the water sees. */
 #include "testing/test_support.h"
 
 enum { DRAWN = 1 << 14, POINTS = 1 << 12 };
@@ -71,6 +71,51 @@ static void test_share(void **state)
         fail_msg("%d are seen, %d look narrowly", seen, narrow);
 }
 
+/* Whether a facet shows what stands over the water in the box to an eye in it. */
+static bool bends(Water w, vec3 m, vec3 d, vec3 low, vec3 high)
+{
+    WaterWindow window = water_window(w, d, m);
+    return window.fresnel < 1.0f && window.outside[1] > 0.0f && meets(window.outside, low, high);
+}
+
+/* The same through Snell's window: no facet is left out which shows the box, and their shares are those of all. */
+static void test_bent(void **state)
+{
+    (void)state;
+    Water w;
+    w.ior = 1.34f;
+    w.is_schlick = 0;
+    int seen = 0, narrow = 0;
+    for (uint k = 0; k < 200u; k++) {
+        scene s = scene_of(k);
+        float sin_e = 0.4f + 0.58f * sobol_scrambled(k, 4u)[0], cos_e = sqrt(1.0f - sin_e * sin_e);
+        vec3 d = vec3(-cos_e * 0.3f, sin_e, -cos_e * sqrt(1.0f - 0.09f));
+        s.low[1] = 0.0f;
+        s.high[1] = 0.5f + 6.0f * sobol_scrambled(k, 3u)[1];
+        FacetRange r = facets_that_bend(s.C, s.N, d, s.low, s.high, w.ior);
+        double expected = 0.0, found = 0.0, outside = 0.0;
+        for (uint i = 0; i < (uint)DRAWN; i++) {
+            vec3 m = sample_slopes(sobol_scrambled(i, 7u), s.C, s.N, d);
+            if (!bends(w, m, d, s.low, s.high))
+                continue;
+            vec2 z = facet_place(r, s.N, m);
+            bool is_in = z[0] >= r.low[0] && z[0] <= r.high[0] && z[1] >= r.low[1] && z[1] <= r.high[1];
+            expected += 1.0 / DRAWN;
+            outside += is_in ? 0.0 : 1.0 / DRAWN;
+        }
+        for (uint i = 0; facets_share(r) > 0.0f && i < (uint)POINTS; i++) {
+            Facet f = facet_drawn(r, s.N, sobol_scrambled(i, 9u));
+            found += bends(w, f.m, d, s.low, s.high) ? (double)f.weight / POINTS : 0.0;
+        }
+        expect_near(found, expected, 2e-3 + 0.02 * expected, "share of scene %u", k);
+        expect_near(outside, 0.0, 1e-3 + 0.01 * expected, "left out of scene %u", k);
+        seen += expected > 0.01;
+        narrow += facets_share(r) < 0.3f;
+    }
+    if (!(seen >= 24 && narrow > 40))
+        fail_msg("%d are seen, %d look narrowly", seen, narrow);
+}
+
 /* All facets that are seen are worth 1, and a mirror has but one. */
 static void test_all(void **state)
 {
@@ -129,6 +174,6 @@ static void test_window(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_window), cmocka_unit_test(test_share),
-                                       cmocka_unit_test(test_all)};
+                                       cmocka_unit_test(test_bent), cmocka_unit_test(test_all)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
