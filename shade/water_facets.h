@@ -1,6 +1,6 @@
-/* water_facets.h - facets of water in which something is to be seen: those of all that an eye sees that may mirror a box, and some of
- * them by chance. What is small, and is mirrored by few facets of a rough surface, is found by as many rays as what is large. And a few that
- * stand for all that an eye in the water sees, inside of Snell's window and outside of it.
+/* water_facets.h - facets of water in which something is to be seen: those of all that an eye sees that may mirror a box, or show it
+ * through Snell's window, and some of them by chance. What is small, and is shown by few facets of a rough surface, is found by as many rays
+ * as what is large. And a few that stand for all that an eye in the water sees, inside of Snell's window and outside of it.
  *
  * Facets have Gaussian slopes (water_surface.h). Their places are in standard deviations from the mean: z.x along the eye's direction,
  * z.y across, about the regression on z.x, so that both are independent and normal. */

@@ -452,6 +452,53 @@ static void a_model_is_blurred_in_rough_water(void **state)
     facet_scene_destroy(scene);
 }
 
+/* Water that takes little of the light and scatters hardly any, where paths and preview differ in what is scattered forward. */
+static facet_water clear_water(float red, float green, float blue)
+{
+    return (facet_water){.kind = FACET_WATER_COEFFICIENTS,
+                         .absorption = {red, green, blue},
+                         .scattering = {1e-4f, 1e-4f, 1e-4f},
+                         .backscattering = {5e-5f, 5e-5f, 5e-5f}};
+}
+
+/* An eye 3 m deep sees the square in the surface: mirrored, if it is as deep, beyond the critical angle by all of it, and through Snell's
+ * window, n^2 (1 - F) times as bright, if it hangs over the water. Waves blur both; of the square in still water a pixel knows how bright. */
+static void a_model_is_seen_in_the_surface_from_below(void **state)
+{
+    (void)state;
+    static const float lower[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -6, 0, 1};
+    static const struct {
+        float wind_mps, place_z; /* of the surface where still water shows the middle */
+        bool is_mirrored;
+        double seen; /* cd/m^2 in still water */
+    } cases[] = {{0.0f, -2.0f, true, 1000.0},
+                 {0.0f, 0.993f, false, 1000.0 * 1.34 * 1.34 * 0.8444},
+                 {4.0f, -2.0f, true, 0.0},
+                 {4.0f, 0.993f, false, 0.0}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        facet_scene *scene = lamp();
+        if (cases[k].is_mirrored)
+            done(facet_scene_place(scene, lower, &failure));
+        facet_sea_desc desc = sea_of(cases[k].wind_mps);
+        desc.water = clear_water(1e-4f, 1e-4f, 1e-4f);
+        desc.water.ior = 1.34f;
+        pair p;
+        begin(&p, &desc, 25, 25, black);
+        p.scene = scene;
+        p.d.look.no_foam = true;
+        p.camera = (facet_camera){
+            .eye = {0.0f, -3.0f, 4.0f}, .target = {0.0f, 0.0f, cases[k].place_z}, .fov_y_rad = 0.3f};
+        draw(&p, 4, IS_SLOW ? 100 : 400);
+        double ratio = rows_ratio(&p, 0, 25), seen = (double)pixel(p.preview, 12, 12);
+        if (!(fabs(ratio - 1.0) < 0.1))
+            fail_msg("case %zu: paths have %g of the light", k, ratio);
+        if (cases[k].seen > 0.0 && !(fabs(seen / cases[k].seen - 1.0) < 0.01))
+            fail_msg("case %zu: the middle has %g of %g cd/m^2", k, seen, cases[k].seen);
+        end(&p);
+        facet_scene_destroy(scene);
+    }
+}
+
 /* A square lies 30 cm over a lagoon of 2 m: its shadow on the bed is 1.4 m away from the sun. Seen from
  * the air and from the water, a fifth of the light is left: what paths find, and what the preview has. In clear water, as paths know no
  * light that is scattered into shadows; the sky around the sun is hidden with it, and a twentieth of the light comes back from the surface. */
@@ -463,10 +510,7 @@ static void a_model_shades_the_bed(void **state)
     done(facet_scene_place(scene, lying, &failure));
     facet_sea_desc desc = sea_of(3.0f);
     desc.bed = (facet_sea_bed){.depth_m = 2.0f, .albedo = {0.15f, 0.15f, 0.15f}};
-    desc.water = (facet_water){.kind = FACET_WATER_COEFFICIENTS,
-                               .absorption = {0.33f, 0.06f, 0.02f},
-                               .scattering = {1e-4f, 1e-4f, 1e-4f},
-                               .backscattering = {5e-5f, 5e-5f, 5e-5f}};
+    desc.water = clear_water(0.33f, 0.06f, 0.02f);
     for (int k = 0; k < 2; k++) {
         pair p;
         begin(&p, &desc, 12, 12, NULL);
@@ -575,12 +619,17 @@ static void memory_runs_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_is_the_same),       cmocka_unit_test(a_furnace_is_even),
-        cmocka_unit_test(below_it_is_the_same),          cmocka_unit_test(the_sun_below_is_the_same),
-        cmocka_unit_test(the_window_is_the_same),        cmocka_unit_test(a_model_is_seen_and_mirrored),
-        cmocka_unit_test(a_model_shades_the_bed),        cmocka_unit_test(a_bed_lights_a_model),
-        cmocka_unit_test(looks_are_refused_or_followed), cmocka_unit_test(memory_runs_out)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(still_water_is_the_same),
+                                       cmocka_unit_test(a_furnace_is_even),
+                                       cmocka_unit_test(below_it_is_the_same),
+                                       cmocka_unit_test(the_sun_below_is_the_same),
+                                       cmocka_unit_test(the_window_is_the_same),
+                                       cmocka_unit_test(a_model_is_seen_and_mirrored),
+                                       cmocka_unit_test(a_model_is_seen_in_the_surface_from_below),
+                                       cmocka_unit_test(a_model_shades_the_bed),
+                                       cmocka_unit_test(a_bed_lights_a_model),
+                                       cmocka_unit_test(looks_are_refused_or_followed),
+                                       cmocka_unit_test(memory_runs_out)};
     const struct CMUnitTest numbers[] = {cmocka_unit_test(swell_is_where_it_is),
                                          cmocka_unit_test(rough_water_is_the_same),
                                          cmocka_unit_test(a_bright_horizon_is_mirrored_alike),

@@ -62,7 +62,10 @@ enum {
     GL_UNIT_SEA_MODEL_DEPTH,
     GL_UNIT_SEA_MIRRORED,
     GL_UNIT_SEA_MIRRORED_DEPTH,
-    GL_UNIT_SEA_TOUCH
+    GL_UNIT_SEA_TOUCH,
+    /* and for an eye in the water, in the places of what others look up */
+    GL_UNIT_SEA_WINDOW = GL_UNIT_SEA_MEANS,
+    GL_UNIT_SEA_WINDOW_DEPTH = GL_UNIT_SEA_GRID
 };
 
 /* Vertex attributes. */

@@ -207,6 +207,8 @@ static const struct {
                 {"u_sea_model_depth", GL_UNIT_SEA_MODEL_DEPTH},
                 {"u_sea_mirrored", GL_UNIT_SEA_MIRRORED},
                 {"u_sea_mirrored_depth", GL_UNIT_SEA_MIRRORED_DEPTH},
+                {"u_sea_window", GL_UNIT_SEA_WINDOW},
+                {"u_sea_window_depth", GL_UNIT_SEA_WINDOW_DEPTH},
                 {"u_sea_touch", GL_UNIT_SEA_TOUCH},
                 {"u_sea_grid", GL_UNIT_SEA_GRID},
                 {"u_sea_rest", GL_UNIT_SEA_SEEN},

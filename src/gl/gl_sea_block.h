@@ -8,6 +8,10 @@
 
 enum { GL_SEA_PATCHES = 128, GL_SEA_FOOTPRINTS = 64 }; /* corners of patches along an edge around the eye */
 
+/* Pictures of a model whose near plane is the water: of what the eye's mirror image sees on the eye's side, and, of what is over the
+ * water, for an eye in it. */
+enum { GL_SEA_MIRRORED, GL_SEA_WINDOW, GL_SEA_CUTS };
+
 typedef struct gl_sea_block {
     float axes[WAVES_MAX_TILES][4], places[WAVES_MAX_TILES][4], lengths[WAVES_MAX_TILES][4];
     int32_t counts[4];
@@ -21,8 +25,8 @@ typedef struct gl_sea_block {
     float bed[4], bed_slope[4], sky_at[4], caustic_axis[4], caustics[CAUSTIC_LAYERS][4];
     int32_t look[4];
     /* of a model: gl_sea_model.c */
-    float mirror[16], mirror_axis[4], mirror_plane[4], model_depth[4], model_ball[4], model_half[4], touch[4],
-        shadow[4];
+    float cut[GL_SEA_CUTS][16], cut_axis[GL_SEA_CUTS][4], cut_plane[GL_SEA_CUTS][4];
+    float model_depth[4], model_ball[4], model_half[4], touch[4], shadow[4];
 } gl_sea_block;
 
 void gl_sea_block_fill(const sea_picture *picture, const camera_rays *camera, const gl_sea_fan *fan,

@@ -8,11 +8,11 @@
 #include "base/result.h"
 #include "gl/gl_sea_textures.h"
 
-static const uint32_t MOST_PIXELS = 2048; /* of the mirror image along an edge */
+static const uint32_t MOST_PIXELS = 2048; /* of a cut along an edge */
 
-/* ---- the mirror image ---- */
+/* ---- cuts: gl_sea_block.h ---- */
 
-/* The eye below the water's plane sees what a mirror there shows; turned around its axis, so that it is not left-handed. */
+/* What a mirror in the water's plane shows to the eye; turned around its axis, so that it is not left-handed. */
 static camera_rays mirrored(const camera_rays *c, float plane_m)
 {
     camera_rays m = *c;
@@ -24,22 +24,57 @@ static camera_rays mirrored(const camera_rays *c, float plane_m)
     return m;
 }
 
-/* The near plane lies in the water, so that what is below does not stand before what is above (Lengyel 2005): how much nearer than far a
- * point is, is scale times its height over the plane, over its depth. Such that the whole model is nearer than far. */
-static float plane_scale(const sea_picture *p, const camera_rays *m)
+/* The depth, over that of an eye, at which it would see the same without water: of a point so high over flat water, both in m, as are
+ * away_m. Snell's law by halving. */
+static double apparent_depth(double depth_m, double height_m, double away_m, double ior)
+{
+    double low = 0.0, high = 1.0; /* sine in the air */
+    for (int i = 0; i < 40; i++) {
+        double out = 0.5 * (low + high), in = out / ior;
+        double reach = depth_m * in / sqrt(1.0 - in * in) + height_m * out / sqrt(1.0 - out * out);
+        *(reach < away_m ? &low : &high) = out;
+    }
+    double in = low / ior;
+    return sqrt(1.0 - low * low) / (ior * sqrt(1.0 - in * in));
+}
+
+/* Over the eye, as deep as flat water lifts it for the middle of what is over the water; no wider than it takes to see that. */
+static facet_camera window_camera(const sea_picture *p, const float eye[3], float ior)
+{
+    facet_camera c = {.eye = {eye[0], 0.0f, eye[2]}, .fov_y_rad = 0.0f};
+    float low = fmaxf(p->model_low[1], p->model_water_m), radius = 0.0f;
+    float depth = fmaxf(p->model_water_m - eye[1], 1e-3f);
+    for (int i = 0; i < 3; i++) {
+        float first = i == 1 ? low : p->model_low[i], half = 0.5f * fmaxf(p->model_high[i] - first, 1e-3f);
+        c.target[i] = first + half;
+        radius += half * half;
+    }
+    float away = hypotf(c.target[0] - eye[0], c.target[2] - eye[2]);
+    double lifted =
+        apparent_depth((double)depth, (double)(c.target[1] - p->model_water_m), (double)away, (double)ior);
+    c.eye[1] = p->model_water_m - depth * fmaxf((float)lifted, 0.1f);
+    float distance = hypotf(away, c.target[1] - c.eye[1]), sine = sqrtf(radius) / fmaxf(distance, 1e-3f);
+    c.fov_y_rad = sine < 0.95f ? 2.0f * asinf(sine) : 2.5f;
+    return c;
+}
+
+/* The near plane lies in the water, so that what is on its other side does not stand before the rest (Lengyel 2005): how much nearer than
+ * far a point is, is scale times its height over the plane, over its depth. Such that the whole model is nearer than far. side: 1: what is
+ * above is seen, -1: below. */
+static float plane_scale(const sea_picture *p, const camera_rays *c, float side)
 {
     double scale = 1.0;
     for (int corner = 0; corner < 8; corner++) {
         double depth = 0.0, height = 0.0;
         for (int i = 0; i < 3; i++) {
             double at = (double)(corner >> i & 1 ? p->model_high[i] : p->model_low[i]);
-            depth += (at - (double)m->origin[i]) * (double)m->direction[i];
-            height = i == 1 ? at - (double)p->model_water_m : height;
+            depth += (at - (double)c->origin[i]) * (double)c->direction[i];
+            height = i == 1 ? (double)side * (at - (double)p->model_water_m) : height;
         }
         if (height > 0.0)
             scale = fmin(scale, 0.9 * fmax(depth, 1e-3) / height);
     }
-    return (float)scale;
+    return side * (float)scale;
 }
 
 static void lay_near_plane(gl_frame_block *block, float scale, float below_m, bool is_reversed)
@@ -51,25 +86,56 @@ static void lay_near_plane(gl_frame_block *block, float scale, float below_m, bo
     m[4 * 3 + 2] += sign * scale * below_m;
 }
 
-static facet_result draw_mirrored(gl_sea_model *m, const sea_picture *p, gl_sea_block *b, facet_error *error)
+/* As large as the picture, if it is not too large. */
+static gl_view view_of(const facet_render_desc *r)
 {
-    const gl_view *v = &m->mirror_view;
-    facet_result result =
-        gl_target_update(&m->mirrored, m->context, GL_TARGET_FILM, v->width, v->height, 1, error);
+    double edge = r->width > r->height ? r->width : r->height;
+    double share = fmin(1.0, (double)MOST_PIXELS / edge);
+    return (gl_view){.scale = 1,
+                     .width = (uint32_t)fmax((double)r->width * share, 1.0),
+                     .height = (uint32_t)fmax((double)r->height * share, 1.0)};
+}
+
+/* c: from where; eye: the picture's. */
+static facet_result draw_cut(gl_sea_model *m, const sea_picture *p, const camera_rays *c, const gl_view *v,
+                             const float eye[3], int cut, gl_sea_block *b, facet_error *error)
+{
+    gl_target *target = &m->cuts[cut];
+    facet_result result = gl_target_update(target, m->context, GL_TARGET_FILM, v->width, v->height, 1, error);
     if (result != FACET_OK)
         return result;
     gl_frame_block block = {.channel = 0};
     bool is_reversed = gl_camera_is_top_down(m->context);
-    float scale = plane_scale(p, &m->mirror), below_m = p->model_water_m - m->mirror.origin[1];
-    gl_camera_set(m->context, &m->mirror, p->model_low, p->model_high, v->width, v->height, v, &block);
+    float side = p->is_below && cut == GL_SEA_MIRRORED ? -1.0f : 1.0f;
+    float scale = plane_scale(p, c, side), below_m = p->model_water_m - c->origin[1];
+    gl_camera_set(m->context, c, p->model_low, p->model_high, v->width, v->height, v, &block);
     lay_near_plane(&block, scale, below_m, is_reversed);
-    result = gl_frame_draw(&m->frame, &m->mirrored, &m->desc, &block, error);
-    memcpy(b->mirror, block.view_projection, sizeof b->mirror);
-    memcpy(b->mirror_axis, m->mirror.direction, sizeof m->mirror.direction);
-    b->mirror_axis[3] = is_reversed ? 1.0f : 0.0f;
-    b->mirror_plane[0] = scale;
-    b->mirror_plane[1] = below_m;
+    result = gl_frame_draw(&m->frame, target, &m->desc, &block, error);
+    memcpy(b->cut[cut], block.view_projection, sizeof b->cut[cut]);
+    memcpy(b->cut_axis[cut], c->direction, sizeof c->direction);
+    b->cut_axis[cut][3] = is_reversed ? 1.0f : 0.0f;
+    b->cut_plane[cut][0] = scale;
+    b->cut_plane[cut][1] = below_m;
+    b->cut_plane[cut][2] = eye[1] - c->origin[1];
     return result;
+}
+
+static facet_result draw_cuts(gl_sea_model *m, const sea_picture *p, gl_sea_block *b, facet_error *error)
+{
+    gl_view v = view_of(&p->desc->render);
+    camera_rays eye, window;
+    facet_result result = camera_rays_create(p->desc->render.camera, v.width, v.height, &eye, error);
+    if (result != FACET_OK)
+        return result;
+    camera_rays mirror = mirrored(&eye, p->model_water_m);
+    result = draw_cut(m, p, &mirror, &v, eye.origin, GL_SEA_MIRRORED, b, error);
+    if (result != FACET_OK || !p->is_below)
+        return result;
+    facet_camera camera = window_camera(p, eye.origin, p->sea->optics.ior);
+    float edge = 2.0f * tanf(0.5f * camera.fov_y_rad) / eye.pixel_size; /* pixels as large as the picture's */
+    v.width = v.height = (uint32_t)fminf(fmaxf(edge, 1.0f), (float)MOST_PIXELS);
+    result = camera_rays_create(&camera, v.width, v.height, &window, error);
+    return result == FACET_OK ? draw_cut(m, p, &window, &v, eye.origin, GL_SEA_WINDOW, b, error) : result;
 }
 
 /* ---- the water around ---- */
@@ -118,26 +184,15 @@ facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const sea_
 {
     const facet_render_desc *r = &p->desc->render;
     *m = (gl_sea_model){.context = context, .allocator = r->allocator, .desc = desc_of(p)};
-    uint32_t edge = r->width > r->height ? r->width : r->height;
-    double share = fmin(1.0, (double)MOST_PIXELS / (double)edge);
-    m->mirror_view = (gl_view){.scale = 1,
-                               .width = (uint32_t)fmax((double)r->width * share, 1.0),
-                               .height = (uint32_t)fmax((double)r->height * share, 1.0)};
-    camera_rays small;
-    facet_result result =
-        camera_rays_create(r->camera, m->mirror_view.width, m->mirror_view.height, &small, error);
-    if (result != FACET_OK)
-        return result;
-    m->mirror = mirrored(&small, p->model_water_m);
     describe_ball(p, camera, b);
     gl_scene_init(&m->prepared, p->model, &m->allocator);
-    result = gl_frame_create(&m->frame, context, p->model, &m->allocator, error);
+    facet_result result = gl_frame_create(&m->frame, context, p->model, &m->allocator, error);
     if (result == FACET_OK)
         result = gl_scene_update(&m->prepared, &m->desc, error);
     if (result == FACET_OK)
         result = gl_frame_update(&m->frame, &m->prepared, camera, &m->desc, stats, error);
-    if (result == FACET_OK && !p->is_below)
-        result = draw_mirrored(m, p, b, error);
+    if (result == FACET_OK)
+        result = draw_cuts(m, p, b, error);
     if (result == FACET_OK)
         upload_touch(m, p, camera, b);
     return result;
@@ -166,8 +221,12 @@ void gl_sea_model_bind(const gl_sea_model *m)
 {
     gl_sea_texture_bind(GL_UNIT_SEA_MODEL, GL_TEXTURE_2D, m->seen.color);
     gl_sea_texture_bind(GL_UNIT_SEA_MODEL_DEPTH, GL_TEXTURE_2D, m->seen.depth);
-    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED, GL_TEXTURE_2D, m->mirrored.color);
-    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED_DEPTH, GL_TEXTURE_2D, m->mirrored.depth);
+    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED, GL_TEXTURE_2D, m->cuts[GL_SEA_MIRRORED].color);
+    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED_DEPTH, GL_TEXTURE_2D, m->cuts[GL_SEA_MIRRORED].depth);
+    if (m->cuts[GL_SEA_WINDOW].color) {
+        gl_sea_texture_bind(GL_UNIT_SEA_WINDOW, GL_TEXTURE_2D, m->cuts[GL_SEA_WINDOW].color);
+        gl_sea_texture_bind(GL_UNIT_SEA_WINDOW_DEPTH, GL_TEXTURE_2D, m->cuts[GL_SEA_WINDOW].depth);
+    }
     gl_sea_texture_bind(GL_UNIT_SEA_TOUCH, GL_TEXTURE_2D, m->touch);
 }
 
@@ -178,7 +237,8 @@ void gl_sea_model_end(gl_sea_model *m)
     gl_frame_destroy(&m->frame);
     gl_scene_clear(&m->prepared);
     gl_target_destroy(&m->seen);
-    gl_target_destroy(&m->mirrored);
+    for (int i = 0; i < GL_SEA_CUTS; i++)
+        gl_target_destroy(&m->cuts[i]);
     glDeleteTextures(1, &m->touch);
     *m = (gl_sea_model){.context = NULL};
 }

@@ -290,8 +290,19 @@ static void models(void **state)
     gl_sea *renderer = renderer_of(GL_API_CORE);
     compare_model(renderer, 2.0f, 3.0f, 0.35f, 0.0f, 0.6);
     compare_model(renderer, 0.0f, -2.0f, -0.2f, 0.0f, 0.1);
+    compare_model(renderer, 2.0f, -2.0f, -0.2f, 0.0f, 0.2);  /* mirrored in the surface from below */
+    compare_model(renderer, 0.0f, -2.0f, -0.65f, 0.0f, 0.2); /* and through Snell's window */
+    compare_model(renderer, 2.0f, -2.0f, -0.65f, 0.0f, 0.35);
     compare_model(renderer, 2.0f, 8.0f, 0.9f, 3.0f, 0.6); /* with shadows on the bed */
     compare_model(renderer, 0.0f, 8.0f, 0.9f, 3.0f, 0.5); /* below still water */
+}
+
+static void a_model_from_below_in_opengl_es(void **state)
+{
+    (void)state;
+    if (IS_SLOW)
+        skip();
+    compare_model(renderer_of(GL_API_ES), 0.0f, -2.0f, -0.65f, 0.0f, 0.2);
 }
 
 /* The same as a still of its time, whatever was drawn before. */
@@ -358,6 +369,7 @@ int main(void)
                                        cmocka_unit_test(other_facets),
                                        cmocka_unit_test(environments),
                                        cmocka_unit_test(models),
+                                       cmocka_unit_test(a_model_from_below_in_opengl_es),
                                        cmocka_unit_test(frames_are_stills),
                                        cmocka_unit_test(what_cannot_be_drawn_is_said)};
     return cmocka_run_group_tests(tests, NULL, destroy_renderers);

@@ -6,6 +6,7 @@
 #define SEA_CLASSES 512
 #define SEA_CAUSTIC_LAYERS 3
 #define SEA_FOAM_READINGS 4
+#define SEA_CUTS 2 /* gl_sea_block.h */
 
 layout(std140) uniform Sea
 {
@@ -41,10 +42,10 @@ layout(std140) uniform Sea
     vec4 sea_caustics[SEA_CAUSTIC_LAYERS]; /* middle from the eye, 2 / width, width of a texel */
     ivec4 sea_look;                /* stage, variant of before; 1: foam, sparkles of before */
     /* of a model; places from the eye */
-    mat4 sea_mirror;       /* of places from the eye's mirror image */
-    vec4 sea_mirror_axis;  /* unit; w: 1: depth is reversed, rows run from the top */
-    vec4 sea_mirror_plane; /* nearness of a height at its depth; depth of the mirror image below the water, m */
-    vec4 sea_model_depth;  /* a, b of depth in clip space, a + b / depth; as sea_mirror_axis.w */
+    mat4 sea_cut[SEA_CUTS];       /* of places from where these pictures are seen from */
+    vec4 sea_cut_axis[SEA_CUTS];  /* unit; w: 1: depth is reversed, rows run from the top */
+    vec4 sea_cut_plane[SEA_CUTS]; /* nearness of a height at its depth, < 0: below the water; plane and eye over that place, m */
+    vec4 sea_model_depth;  /* a, b of depth in clip space, a + b / depth; as sea_cut_axis.w */
     vec4 sea_model_ball;   /* around it: middle, radius */
     vec4 sea_model_half;   /* half of its extents, m */
     vec4 sea_touch;        /* of the rectangle: x, z from the eye, 1 / lengths, 1/m */

@@ -107,18 +107,25 @@ vec3 sea_mirrored_below(SeaPlace p, vec3 m)
     return sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.width, water_mirrored_spread(p.point.covariance));
 }
 
-/* What the facets show to it; upwards: radiance of what goes up below the surface. */
-vec3 sea_facets_below(SeaPlace p, Water w, vec3 upwards)
+/* What the facets show to it: facets_light of water_below.c. */
+struct SeaFacets
+{
+    vec3 window;
+    float fresnel;
+    vec3 mirrored;
+};
+
+/* upwards: radiance of what goes up below the surface. */
+SeaFacets sea_facets_below(SeaPlace p, Water w, vec3 upwards)
 {
     vec3 C = p.point.covariance;
     vec3 N = p.point.N;
     FacetRange all = facets_seen(C, N, p.d);
     bool is_sharp = all.along < WINDOW_SHARP;
-    float roughness = roughness_from_slopes(C * (is_sharp ? 0.1 : 0.1 * WINDOW_BETWEEN));
-    vec3 L = vec3(0.0);
+    float roughness = window_roughness(all, C);
+    SeaFacets L = SeaFacets(vec3(0.0), 0.0, vec3(0.0));
     vec3 mirrors = vec3(0.0);
     float share = 0.0;
-    float fresnel = 0.0;
     int k = 0;
     do {
         Facet f = facet_of_window(all, N, p.d, water_critical_cosine(w), k);
@@ -126,15 +133,17 @@ vec3 sea_facets_below(SeaPlace p, Water w, vec3 upwards)
             f = Facet(water_seen_normal(C, N, p.d), 1.0);
         WaterWindow window = water_window(w, p.d, f.m);
         share += f.weight;
-        fresnel += f.weight * window.fresnel;
+        L.fresnel += f.weight * window.fresnel;
         mirrors += f.m * (f.weight * window.fresnel);
         if (f.weight > 0.0 && window.fresnel < 1.0)
-            L += window_light(w, window, p.resolved, N, sea_sky_reflected(window.outside, roughness), upwards) * f.weight;
+            L.window += window_light(w, window, p.resolved, N, sea_sky_reflected(window.outside, roughness), upwards) * f.weight;
         k++;
     } while (k < WINDOW_FACETS && !is_sharp);
-    if (fresnel > 0.0)
-        L += sea_mirrored_below(p, normalize(mirrors)) * fresnel;
-    return L / share;
+    if (L.fresnel > 0.0)
+        L.mirrored = sea_mirrored_below(p, normalize(mirrors));
+    L.window /= share;
+    L.fresnel /= share;
+    return L;
 }
 
 /* To an eye in the water. */
@@ -148,11 +157,19 @@ vec3 sea_shade_below(SeaPlace p)
     vec3 R = water_deep_reflectance(w);
 #endif
     vec3 upwelling = R * water_interreflected(w, light.downwelling, R);
-    vec3 L = sea_facets_below(p, w, upwelling * INV_PI);
-    vec3 sun = water_sun_below(w, p.point, light, p.d) * water_passing(p.resolved, p.point.N, light.L);
+    SeaFacets facets = sea_facets_below(p, w, upwelling * INV_PI);
+    vec3 L = facets.window + facets.mirrored * facets.fresnel;
+    vec3 sharp = water_sun_below(w, p.point, light, p.d) * water_passing(p.resolved, p.point.N, light.L);
+#if defined(HAS_MODEL) && defined(IS_BELOW)
+    uvec2 at = uvec2(gl_FragCoord.xy);
+    SeaFound found = sea_find_below(p, hash_uint(at.y * 65536u + at.x));
+    float share = found.covered > facets.fresnel ? facets.fresnel / found.covered : 1.0;
+    L = max(facets.window - found.hidden, 0.0) + facets.mirrored * (facets.fresnel - share * found.covered);
+    sharp = sharp * sea_touched(p.at.xz).y + found.through + found.mirrored * share;
+#endif
     vec3 foam = water_foam_below(w, light, upwelling);
     return water_surface_through(w, light.downwelling, sea_beam.xyz, sea_sunward.xyz, mix(L, foam, p.point.foam),
-                                 sun * (1.0 - p.point.foam), max(-sea_eye.x, 0.0), p.d, p.t);
+                                 sharp * (1.0 - p.point.foam), max(-sea_eye.x, 0.0), p.d, p.t);
 }
 
 /* The looks before, in numbers of a display. */

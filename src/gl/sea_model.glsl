@@ -1,10 +1,14 @@
-/* sea_model.glsl - a model in the sea, looked up in pictures of it (gl_sea_model.h): before the surface, behind it, and mirrored in it. Rays that
+/* sea_model.glsl - a model in the sea, looked up in pictures of it (gl_sea_model.h): before the surface, behind it, and in its facets. Rays that
  * the surface bends look for it step by step: a place on the ray, what the picture shows in its direction, the place as far away as that. */
 #ifdef HAS_MODEL
 uniform highp sampler2D u_sea_model; /* premultiplied radiance, as the eye sees it */
 uniform highp sampler2D u_sea_model_depth;
-uniform highp sampler2D u_sea_mirrored; /* from the eye's mirror image */
+uniform highp sampler2D u_sea_mirrored; /* cuts: gl_sea_block.h */
 uniform highp sampler2D u_sea_mirrored_depth;
+#ifdef IS_BELOW
+uniform highp sampler2D u_sea_window;
+uniform highp sampler2D u_sea_window_depth;
+#endif
 
 struct SeaModel
 {
@@ -15,7 +19,7 @@ struct SeaModel
 const int SEA_MODEL_STEPS = 32;
 const int SEA_FACETS = 16;
 const int SEA_FACET_STEPS = 8;
-const float SEA_LEAST_FACETS = 1e-3; /* as in water_trace.c, these two */
+const float SEA_LEAST_FACETS = 1e-3; /* as in water_find.c, these two */
 const float SEA_SMOOTH = 1e-3;
 
 /* d: at depth 1 m. What is but blended has no depth, and counts as nearest. */
@@ -85,59 +89,89 @@ SeaModel sea_model_below(vec3 P, vec3 down)
     return found;
 }
 
-/* What the mirror image shows in the direction of Q, from its eye; *far: distance of that along Q, m. */
-vec4 sea_mirrored_at(vec3 Q, out float far)
+const int SEA_MIRRORED = 0; /* cuts */
+const int SEA_WINDOW = 1;
+
+/* Color and depth of a cut at a place in clip space; color.w 0: nothing. */
+vec4 sea_cut_texel(int cut, vec4 clip, out float z)
 {
+    bool is_top_down = sea_cut_axis[cut].w > 0.0;
     ivec2 size = textureSize(u_sea_mirrored, 0);
-    bool is_reversed = sea_mirror_axis.w > 0.0;
-    ivec2 at = sea_pixel_of(sea_mirror * vec4(Q, 1.0), size, is_reversed);
+#ifdef IS_BELOW
+    if (cut == SEA_WINDOW) {
+        size = textureSize(u_sea_window, 0);
+        ivec2 at = sea_pixel_of(clip, size, is_top_down);
+        ivec2 pixel = clamp(at, ivec2(0), size - 1);
+        z = texelFetch(u_sea_window_depth, pixel, 0).x;
+        return at == pixel ? texelFetch(u_sea_window, pixel, 0) : vec4(0.0);
+    }
+#endif
+    ivec2 at = sea_pixel_of(clip, size, is_top_down);
     ivec2 pixel = clamp(at, ivec2(0), size - 1);
-    float z = texelFetch(u_sea_mirrored_depth, pixel, 0).x;
-    float nearness = is_reversed ? 1.0 - z : 2.0 * z; /* scale * height / depth */
-    vec3 d = normalize(Q);
-    float closing = sea_mirror_plane.x * d.y - nearness * dot(d, sea_mirror_axis.xyz);
-    far = closing > 0.0 ? sea_mirror_plane.x * sea_mirror_plane.y / closing : 0.0;
-    return at == pixel && closing > 0.0 ? texelFetch(u_sea_mirrored, pixel, 0) : vec4(0.0);
+    z = texelFetch(u_sea_mirrored_depth, pixel, 0).x;
+    return at == pixel ? texelFetch(u_sea_mirrored, pixel, 0) : vec4(0.0);
 }
 
-/* Premultiplied, along the unit direction R, upwards, from P: steps through the ball around the model until the ray is behind what is
- * shown, then to the place itself. */
-vec4 sea_model_mirrored(vec3 P, vec3 R, int count)
+/* What a cut shows in the direction of Q, from where it is seen from; *far: distance of that along Q, m. */
+vec4 sea_cut_at(int cut, vec3 Q, out float far)
 {
-    vec2 steps = sea_ball_steps(P, R, count);
-    P.y += 2.0 * sea_mirror_plane.y; /* from the eye's mirror image */
+    float z;
+    vec4 plane = sea_cut_plane[cut];
+    vec4 color = sea_cut_texel(cut, sea_cut[cut] * vec4(Q, 1.0), z);
+    float nearness = sea_cut_axis[cut].w > 0.0 ? 1.0 - z : 2.0 * z; /* scale * height / depth */
+    vec3 d = normalize(Q);
+    float closing = plane.x * d.y - nearness * dot(d, sea_cut_axis[cut].xyz);
+    far = closing > 0.0 ? plane.x * plane.y / closing : 0.0;
+    return closing > 0.0 ? color : vec4(0.0);
+}
+
+/* Premultiplied, along the unit direction R from P: steps through the ball around the model until the ray is behind what is
+ * shown, then to the place itself, which *way m of it lead to. From within the ball the first are short, as what floats begins beside P. */
+vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
+{
+    vec2 ball = sea_ball_steps(P, R, 1);
+    P.y += sea_cut_plane[cut].z;
     float far;
-    float way = -1.0;
-    for (int i = 1; i <= count && steps.y > 0.0; i++) {
-        vec3 Q = P + R * (steps.x + steps.y * float(i));
-        vec4 color = sea_mirrored_at(Q, far);
+    float before = ball.x;
+    float first = -1.0;
+    way = -1.0;
+    for (int i = 1; i <= count && ball.y > 0.0; i++) {
+        float share = float(i) / float(count);
+        float next = ball.x + ball.y * (ball.x > 0.0 ? share : share * share);
+        vec3 Q = P + R * next;
+        vec4 color = sea_cut_at(cut, Q, far);
         float behind = length(Q) - far;
-        if (way < 0.0 && color.w > 0.0 && behind > 0.0 && behind < 1.5 * steps.y)
-            way = steps.x + steps.y * float(i);
+        if (way < 0.0 && color.w > 0.0 && behind > 0.0 && behind < 1.5 * (next - before)) {
+            way = next;
+            first = before;
+        }
+        before = next;
     }
-    bool is_met = way >= 0.0 && R.y > 0.0 && steps.y > 0.0;
+    bool is_met = way >= 0.0 && R.y * sea_cut_plane[cut].x > 0.0;
     vec4 color = vec4(0.0);
-    for (int i = 0; i < 3; i++) {
-        vec3 Q = P + R * max(way, 0.0);
-        vec4 here = sea_mirrored_at(Q, far);
+    float last = way;
+    for (int i = 0; i < 3 && is_met; i++) {
+        vec3 Q = P + R * way;
+        vec4 here = sea_cut_at(cut, Q, far);
         if (here.w > 0.0) {
             color = here;
-            way = length(Q * (far / length(Q)) - P);
+            way = clamp(length(Q * (far / length(Q)) - P), first, last);
         }
     }
-    return is_met ? color : vec4(0.0);
+    return color;
 }
 
-/* Of all light that is reflected, whatever it brings, the share of facets that show the model: .w; and its radiance. find_mirrored() of
- * water_trace.c. */
+/* Of all light that is reflected, whatever it brings, the share of facets that show the model: .w; and its radiance. water_find() of
+ * water_find.c. */
 vec4 sea_model_in_facets(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
 {
+    float way;
     vec3 from = sea_model_ball.xyz - P;
     FacetRange r = facets_that_mirror(point.covariance, point.N, V, from - sea_model_half.xyz, from + sea_model_half.xyz);
     if (facets_share(r) < SEA_LEAST_FACETS)
         return vec4(0.0);
     if (max(r.along, r.across) < SEA_SMOOTH)
-        return sea_model_mirrored(P, reflect(-V, point.N), SEA_MODEL_STEPS) * water_fresnel(w, clamp(dot(point.N, V), 0.0, 1.0));
+        return sea_model_in_cut(SEA_MIRRORED, P, reflect(-V, point.N), SEA_MODEL_STEPS, way) * water_fresnel(w, clamp(dot(point.N, V), 0.0, 1.0));
     vec4 sum = vec4(0.0);
     for (int i = 0; i < SEA_FACETS; i++) {
         Facet f = facet_drawn(r, point.N, sobol_scrambled(uint(i), seed));
@@ -145,10 +179,92 @@ vec4 sea_model_in_facets(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
         R.y = max(abs(R.y), 1e-4);
         float weight = f.weight * water_fresnel(w, clamp(dot(f.m, V), 0.0, 1.0));
         if (weight > 0.0)
-            sum += sea_model_mirrored(P, R, SEA_FACET_STEPS) * weight;
+            sum += sea_model_in_cut(SEA_MIRRORED, P, R, SEA_FACET_STEPS, way) * weight;
     }
     return sum / float(SEA_FACETS);
 }
+
+#ifdef IS_BELOW
+/* water_findings_below of water_below.h; water: what the facets mirror of it. */
+struct SeaFound
+{
+    float covered;
+    vec3 mirrored;
+    vec3 through;
+    vec3 hidden;
+};
+
+/* A model's color, met in the water `way` m along d from the place `at`: water_model_behind_water(). */
+vec3 sea_model_behind_water(vec3 color, vec3 at, vec3 d, float way)
+{
+    Water w = sea_water();
+    vec3 L = color * water_transmittance(water_K_d(w), max(-(at.y + d.y * way), 0.0));
+    return water_through(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, L, max(-at.y, 0.0), d, way);
+}
+
+/* look_down(), look_through() of water_find.c. */
+SeaFound sea_look_down(SeaFound found, SeaPlace p, Facet f, int count)
+{
+    float way;
+    vec3 R = reflect(p.d, f.m);
+    R.y = -max(abs(R.y), 1e-4);
+    float weight = f.weight * water_fresnel_inside(sea_water(), clamp(dot(f.m, p.d), 0.0, 1.0));
+    if (weight <= 0.0)
+        return found;
+    vec4 color = sea_model_in_cut(SEA_MIRRORED, p.d * p.t, R, count, way);
+    if (color.w > 0.0) {
+        found.covered += weight * color.w;
+        found.mirrored += sea_model_behind_water(color.xyz / color.w, p.at, R, way) * (weight * color.w);
+    }
+    return found;
+}
+SeaFound sea_look_through(SeaFound found, SeaPlace p, Facet f, float roughness, int count)
+{
+    float way;
+    WaterWindow window = water_window(sea_water(), p.d, f.m);
+    float weight = f.weight * water_passing(p.resolved, p.point.N, window.outside);
+    if (weight <= 0.0 || window.fresnel >= 1.0)
+        return found;
+    vec4 color = sea_model_in_cut(SEA_WINDOW, p.d * p.t, window.outside, count, way);
+    found.through += color.xyz * (weight * window.gain);
+    found.hidden += sea_sky_reflected(window.outside, roughness) * (weight * window.gain * color.w);
+    return found;
+}
+
+/* water_find_below() of water_find.c. */
+SeaFound sea_find_below(SeaPlace p, uint seed)
+{
+    SeaFound found = SeaFound(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+    vec3 C = p.point.covariance;
+    vec3 N = water_faced(p.point.N, p.d);
+    vec3 from = sea_model_ball.xyz - p.d * p.t;
+    vec3 low = from - sea_model_half.xyz;
+    vec3 high = from + sea_model_half.xyz;
+    float roughness = window_roughness(facets_seen(C, p.point.N, p.d), C);
+    FacetRange mirror = facets_that_mirror(C, N, p.d, -vec3(high.x, min(high.y, 0.0), high.z), -low);
+    FacetRange window = facets_that_bend(C, N, p.d, vec3(low.x, max(low.y, 0.0), low.z), high, sea_water().ior);
+    bool is_mirrored = low.y < 0.0 && facets_share(mirror) >= SEA_LEAST_FACETS;
+    bool is_through = high.y > 0.0 && facets_share(window) >= SEA_LEAST_FACETS;
+    bool is_smooth = max(mirror.along, mirror.across) < SEA_SMOOTH;
+    Facet smoothed = Facet(water_seen_normal(C, p.point.N, p.d), 1.0);
+    if (is_smooth && is_mirrored)
+        found = sea_look_down(found, p, smoothed, SEA_MODEL_STEPS);
+    if (is_smooth && is_through)
+        found = sea_look_through(found, p, smoothed, roughness, SEA_MODEL_STEPS);
+    for (int i = 0; i < SEA_FACETS && !is_smooth && (is_mirrored || is_through); i++) {
+        vec2 u = sobol_scrambled(uint(i), seed);
+        Facet f = facet_drawn(mirror, N, u);
+        f.weight /= float(SEA_FACETS);
+        if (is_mirrored)
+            found = sea_look_down(found, p, f, SEA_FACET_STEPS);
+        f = facet_drawn(window, N, u);
+        f.weight /= float(SEA_FACETS);
+        if (is_through)
+            found = sea_look_through(found, p, f, roughness, SEA_FACET_STEPS);
+    }
+    return found;
+}
+#endif
 
 /* Whether a hull keeps the sea out of a place; share of the sun's light there. */
 vec2 sea_touched(vec2 at)
@@ -159,7 +275,7 @@ vec2 sea_touched(vec2 at)
     return is_within ? touch : vec2(0.0, 1.0);
 }
 
-/* Light that comes up through the surface from the model below P: find_below() of water_trace.c. */
+/* Light that comes up through the surface from the model below P: find_refracted() of water_find.c. */
 vec3 sea_model_through_water(SeaModel m, vec3 P, Water w, WaterLight light)
 {
     float way = length(m.at - P);

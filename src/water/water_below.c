@@ -11,13 +11,15 @@ static float depth_of(const double P[3])
     return (float)fmax(-P[1], 0.0);
 }
 
-vec3 water_behind_water(const water_setup *s, vec3 radiance, const double P[3], vec3 d, float x)
+vec3 water_model_behind_water(const water_setup *s, const model_hit *hit, const double P[3], vec3 d)
 {
-    return water_through(s->water, s->light.downwelling, s->beam, s->sunward, radiance, depth_of(P), d, x);
+    vec3 down = water_transmittance(water_K_d(s->water), max(-hit->P[1], 0.0f));
+    vec3 L = water_model_radiance(&s->model, hit, s->light.L) * down;
+    return water_through(s->water, s->light.downwelling, s->beam, s->sunward, L, depth_of(P), d,
+                         (float)hit->distance_m);
 }
 
-/* m to the bed; FAR_M: it is not met. */
-static float way_to_bed(const water_setup *s, const double P[3], vec3 d)
+float water_way_to_bed_below(const water_setup *s, const double P[3], vec3 d)
 {
     const facet_sea_bed *bed = &s->sea->desc.bed;
     if (!water_has_bed(s))
@@ -31,7 +33,7 @@ static float way_to_bed(const water_setup *s, const double P[3], vec3 d)
 
 vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, float width_m, float spread)
 {
-    float x = way_to_bed(s, P, d), z = depth_of(P);
+    float x = water_way_to_bed_below(s, P, d), z = depth_of(P);
     vec3 ground = vec3(0.0f);
     if (x < FAR_M) {
         float depth = max(z - x * d[1], 0.0f);
@@ -72,52 +74,63 @@ static vec3 mirrored_from_below(const water_setup *s, const water_place *p, vec3
                                     water_mirrored_spread(p->point.covariance));
 }
 
-/* What the facets show: water, mirrored, and the sky through Snell's window. upwards: radiance of what goes up below the surface. The
- * window has a rim, and so each facet its own sky; water is much the same in all mirrors. */
-static vec3 facets_from_below(const water_setup *s, const water_place *p, vec3 d, vec3 upwards)
+/* What the facets show. */
+typedef struct facets_light {
+    vec3 window;   /* radiance of the sky, through Snell's window */
+    float fresnel; /* share of light that they mirror */
+    vec3 mirrored; /* radiance of the water where they do */
+} facets_light;
+
+/* upwards: radiance of what goes up below the surface. The window has a rim, and so each facet its own sky; water is much the same in
+ * all mirrors. */
+static facets_light facets_from_below(const water_setup *s, const water_place *p, vec3 d, vec3 upwards)
 {
-    vec3 C = p->point.covariance, N = p->point.N, L = vec3(0.0f), mirrors = vec3(0.0f);
+    vec3 C = p->point.covariance, N = p->point.N, mirrors = vec3(0.0f);
     FacetRange all = facets_seen(C, N, d);
     bool is_sharp = all.along < WINDOW_SHARP;
-    float critical = water_critical_cosine(s->water), share = 0.0f, fresnel = 0.0f;
-    float roughness = roughness_from_slopes(C * (is_sharp ? 0.1f : 0.1f * WINDOW_BETWEEN));
+    float critical = water_critical_cosine(s->water), share = 0.0f;
+    float roughness = window_roughness(all, C);
+    facets_light L = {.window = vec3(0.0f), .mirrored = vec3(0.0f)};
     for (int k = 0; k < (is_sharp ? 1 : WINDOW_FACETS); k++) {
         Facet f = {water_seen_normal(C, N, d), 1.0f};
         if (!is_sharp)
             f = facet_of_window(all, N, d, critical, k);
         WaterWindow window = water_window(s->water, d, f.m);
         share += f.weight;
-        fresnel += f.weight * window.fresnel;
+        L.fresnel += f.weight * window.fresnel;
         mirrors = mirrors + f.m * (f.weight * window.fresnel);
         if (f.weight <= 0.0f || window.fresnel >= 1.0f)
             continue;
         vec3 sky = water_sky_reflected(&s->sky, window.outside, roughness);
-        L = L + window_light(s->water, window, p->slopes.resolved, N, sky, upwards) * f.weight;
+        L.window = L.window + window_light(s->water, window, p->slopes.resolved, N, sky, upwards) * f.weight;
     }
-    if (fresnel > 0.0f)
-        L = L + mirrored_from_below(s, p, d, normalize(mirrors)) * fresnel;
-    return L * (1.0f / share);
+    if (L.fresnel > 0.0f)
+        L.mirrored = mirrored_from_below(s, p, d, normalize(mirrors));
+    L.window = L.window * (1.0f / share);
+    L.fresnel *= 1.0f / share;
+    return L;
 }
 
-/* The surface as it is seen x m along d from the depth z. */
-static vec3 surface_from_below(const water_setup *s, const water_place *p, vec3 d, float z, float x)
+/* Radiance of something else than sky and water, which is seen as sharply as it is without a surface; *wide: what is left of both. */
+static vec3 found_in(const facets_light *L, const water_findings_below *found, vec3 *wide)
 {
-    vec3 E = upwelling(s, p->P), L = facets_from_below(s, p, d, E * INV_PI);
-    vec3 sun = water_sun_below(s->water, p->point, s->light, d) *
-               water_passing(p->slopes.resolved, p->point.N, s->light.L);
+    float share = found->covered > L->fresnel ? L->fresnel / found->covered : 1.0f; /* both are by chance */
+    *wide = max(L->window - found->hidden, 0.0f) + L->mirrored * (L->fresnel - share * found->covered);
+    return found->through + found->mirrored * share;
+}
+
+vec3 water_shade_from_below(const water_setup *s, const water_place *p, const water_findings_below *found,
+                            const double E[3], vec3 d, float x)
+{
+    vec3 up = upwelling(s, p->P);
+    facets_light facets = facets_from_below(s, p, d, up * INV_PI);
+    vec3 L = facets.window + facets.mirrored * facets.fresnel;
+    vec3 sharp = water_sun_below(s->water, p->point, s->light, d) *
+                 water_passing(p->slopes.resolved, p->point.N, s->light.L);
+    if (s->model.is_there)
+        sharp = sharp * found->sun + found_in(&facets, found, &L);
     if (p->point.foam > 0.0f)
-        L = mix(L, water_foam_below(s->water, s->light, E), p->point.foam);
+        L = mix(L, water_foam_below(s->water, s->light, up), p->point.foam);
     return water_surface_through(s->water, s->light.downwelling, s->beam, s->sunward, L,
-                                 sun * (1.0f - p->point.foam), z, d, x);
-}
-
-vec3 water_shade_from_below(const water_setup *s, const march_ray *ray, const march_hit *hit)
-{
-    const double *o = ray->origin, *e = ray->direction;
-    vec3 d = vec3((float)e[0], (float)e[1], (float)e[2]);
-    float to_bed = way_to_bed(s, o, d);
-    if (!hit || (float)hit->t >= to_bed)
-        return water_seen_through_water(s, o, d, (float)ray->width, (float)ray->spread);
-    water_place p = water_place_of(s, ray, hit);
-    return surface_from_below(s, &p, d, depth_of(o), (float)hit->t);
+                                 sharp * (1.0f - p->point.foam), depth_of(E), d, x);
 }

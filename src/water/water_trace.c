@@ -5,12 +5,10 @@
 #include "water/water_trace.h"
 
 #include "water/water_below.h"
+#include "water/water_find.h"
 #include "water/water_look.h"
 
 static const double FAR_M = 1e7;
-static const float FACETS_PER_PIXEL = 64.0f;
-static const float LEAST_FACETS = 1e-3f; /* a share of them that is not worth a ray */
-static const float SMOOTH = 1e-3f;       /* slopes that turn a reflection by less than a pixel */
 
 water_sample water_sample_begin(const water_setup *s, float x, float y, float footprint, uint32_t random)
 {
@@ -46,92 +44,6 @@ static double land_before(const water_setup *s, const march_ray *ray, vec3 d, do
     return land > ray->near_m && land < t ? land : HUGE_VAL;
 }
 
-/* ---- a model in and over the water ---- */
-
-/* A place of the surface, off it so that rays that leave it do not meet what floats there from the wrong side. */
-static void start_of(const water_place *p, float up_m, double out[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = p->P[i];
-    out[1] += (double)up_m;
-}
-
-/* The model below the surface, seen along the refracted ray: lit by what of the light comes down to it, and weakened on its way. */
-static bool find_below(const water_sample *p, const water_place *place, water_findings *found)
-{
-    const water_setup *s = p->s;
-    Water w = s->water;
-    vec3 down = water_refracted(w, -place->V, place->point.N);
-    double P[3];
-    model_hit hit;
-    start_of(place, -1e-3f, P);
-    if (!water_model_find(&s->model, P, down, FAR_M, p->random, &hit))
-        return false;
-    float way = (float)hit.distance_m, depth = max((float)place->P[1] - hit.P[1], 0.0f);
-    vec3 lit = water_model_radiance(&s->model, &hit, s->light.L) * water_transmittance(water_K_d(w), depth);
-    vec3 gone = water_transmittance(water_K_d(w), depth) * water_transmittance(water_diffuse(w), way);
-    found->below = lit * water_transmittance(water_beam(w), way) +
-                   water_from_deep(w, s->light.downwelling) * (1.0f - gone);
-    found->has_below = true;
-    return true;
-}
-
-/* What a facet shows of the model. What it sends down meets another wave and goes up. */
-static void look_into(const water_sample *p, const water_place *place, Facet f, const double P[3],
-                      water_findings *found)
-{
-    const water_setup *s = p->s;
-    model_hit hit;
-    vec3 R = reflect(-place->V, f.m);
-    R[1] = max(abs(R[1]), 1e-4f);
-    if (!water_model_find(&s->model, P, R, FAR_M, p->random, &hit))
-        return;
-    float weight = f.weight * water_fresnel(s->water, clamp(dot(f.m, place->V), 0.0f, 1.0f));
-    found->covered += weight;
-    found->mirrored = found->mirrored + water_model_radiance(&s->model, &hit, s->light.L) * weight;
-}
-
-/* Looks into as many facets of a pixel, whatever its number of samples. */
-static void find_mirrored(const water_sample *p, const water_place *place, const double P[3],
-                          water_findings *found)
-{
-    const water_setup *s = p->s;
-    const float *low = s->model.prepared.pose.bounds_min, *high = s->model.prepared.pose.bounds_max;
-    vec3 from = vec3((float)P[0], (float)P[1], (float)P[2]);
-    FacetRange r =
-        facets_that_mirror(place->point.covariance, place->point.N, place->V,
-                           vec3(low[0], low[1], low[2]) - from, vec3(high[0], high[1], high[2]) - from);
-    if (facets_share(r) < LEAST_FACETS)
-        return;
-    if (max(r.along, r.across) < SMOOTH) {
-        look_into(p, place, (Facet){place->point.N, 1.0f}, P, found);
-        return;
-    }
-    float count = clamp(FACETS_PER_PIXEL * s->footprint * s->footprint, 4.0f, 16.0f);
-    for (uint i = 0; i < (uint)count; i++) {
-        Facet f = facet_drawn(r, place->point.N, sobol_scrambled(i, p->random));
-        f.weight *= 1.0f / (float)(uint)count;
-        look_into(p, place, f, P, found);
-    }
-}
-
-static water_findings find_model(const water_sample *p, const water_place *place)
-{
-    const water_setup *s = p->s;
-    water_findings found = {.has_below = false};
-    if (!s->model.is_there)
-        return found;
-    double P[3];
-    start_of(place, 1e-3f, P);
-    find_mirrored(p, place, P, &found);
-    if (s->light.L[1] > 0.0f) {
-        found.sun = water_model_opening(&s->model, P, s->light.L, HUGE_VAL);
-        found.has_shadow = found.sun < 1.0f;
-    }
-    find_below(p, place, &found);
-    return found;
-}
-
 /* ---- above ---- */
 
 static vec3 through_air(const water_sample *p, vec3 L, double t, double height)
@@ -152,7 +64,7 @@ static vec3 shade_sea(const water_sample *p, const march_hit *hit)
     place.pixel_m = place.footprint_m / p->footprint;
     if (s->desc->look.stage == 3)
         return water_look_painted(s, &place);
-    water_findings found = find_model(p, &place);
+    water_findings found = water_find(s, &place, p->footprint, p->random);
     return water_shade(s, &place, &found);
 }
 
@@ -183,11 +95,13 @@ static vec3 from_below(const water_sample *p, bool is_met, const march_hit *sea)
     const water_setup *s = p->s;
     model_hit hit;
     double far_m = is_met ? sea->t : FAR_M;
-    if (!water_model_find_seen(&s->model, p->x, p->y, p->footprint, far_m, p->random, &hit))
-        return water_shade_from_below(s, &p->ray, is_met ? sea : NULL);
-    vec3 down = water_transmittance(water_K_d(s->water), max(-hit.P[1], 0.0f));
-    vec3 L = water_model_radiance(&s->model, &hit, s->light.L) * down;
-    return water_behind_water(s, L, p->ray.origin, p->d, (float)hit.distance_m);
+    if (water_model_find_seen(&s->model, p->x, p->y, p->footprint, far_m, p->random, &hit))
+        return water_model_behind_water(s, &hit, p->ray.origin, p->d);
+    if (!is_met || sea->t >= (double)water_way_to_bed_below(s, p->ray.origin, p->d))
+        return water_seen_through_water(s, p->ray.origin, p->d, (float)p->ray.width, (float)p->ray.spread);
+    water_place place = water_place_of(s, &p->ray, sea);
+    water_findings_below found = water_find_below(s, &place, p->d, p->footprint, p->random);
+    return water_shade_from_below(s, &place, &found, p->ray.origin, p->d, (float)sea->t);
 }
 
 /* ---- all ---- */
