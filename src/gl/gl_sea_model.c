@@ -53,15 +53,23 @@ static facet_camera window_camera(const sea_picture *p, const float eye[3], floa
     double lifted =
         apparent_depth((double)depth, (double)(c.target[1] - p->model_water_m), (double)away, (double)ior);
     c.eye[1] = p->model_water_m - depth * fmaxf((float)lifted, 0.1f);
+    c.eye[1] = fmaxf(fminf(c.eye[1], p->model_water_low_m - 0.05f * depth), eye[1]);
     float distance = hypotf(away, c.target[1] - c.eye[1]), sine = sqrtf(radius) / fmaxf(distance, 1e-3f);
     c.fov_y_rad = sine < 0.95f ? 2.0f * asinf(sine) : 2.5f;
     return c;
 }
 
+/* Height of a near plane that leaves the eye at y on the other side of it and all that water around the model leaves free on this one. */
+static float cut_height(const sea_picture *p, float y, float side)
+{
+    float middle = p->model_water_m, least = y + 0.1f * (middle - y);
+    return side > 0.0f ? fmaxf(p->model_water_low_m, least) : fminf(p->model_water_high_m, least);
+}
+
 /* The near plane lies in the water, so that what is on its other side does not stand before the rest (Lengyel 2005): how much nearer than
  * far a point is, is scale times its height over the plane, over its depth. Such that the whole model is nearer than far. side: 1: what is
  * above is seen, -1: below. */
-static float plane_scale(const sea_picture *p, const camera_rays *c, float side)
+static float plane_scale(const sea_picture *p, const camera_rays *c, float plane_m, float side)
 {
     double scale = 1.0;
     for (int corner = 0; corner < 8; corner++) {
@@ -69,7 +77,7 @@ static float plane_scale(const sea_picture *p, const camera_rays *c, float side)
         for (int i = 0; i < 3; i++) {
             double at = (double)(corner >> i & 1 ? p->model_high[i] : p->model_low[i]);
             depth += (at - (double)c->origin[i]) * (double)c->direction[i];
-            height = i == 1 ? (double)side * (at - (double)p->model_water_m) : height;
+            height = i == 1 ? (double)side * (at - (double)plane_m) : height;
         }
         if (height > 0.0)
             scale = fmin(scale, 0.9 * fmax(depth, 1e-3) / height);
@@ -107,7 +115,8 @@ static facet_result draw_cut(gl_sea_model *m, const sea_picture *p, const camera
     gl_frame_block block = {.channel = 0};
     bool is_reversed = gl_camera_is_top_down(m->context);
     float side = p->is_below && cut == GL_SEA_MIRRORED ? -1.0f : 1.0f;
-    float scale = plane_scale(p, c, side), below_m = p->model_water_m - c->origin[1];
+    float plane_m = cut_height(p, c->origin[1], side), below_m = plane_m - c->origin[1];
+    float scale = plane_scale(p, c, plane_m, side);
     gl_camera_set(m->context, c, p->model_low, p->model_high, v->width, v->height, v, &block);
     lay_near_plane(&block, scale, below_m, is_reversed);
     result = gl_frame_draw(&m->frame, target, &m->desc, &block, error);

@@ -282,6 +282,29 @@ static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float d
     fixture_destroy(&f);
 }
 
+/* An eye in the water sees a sphere afloat through the window from where waves begin, in troughs as well. */
+static void a_hull_in_waves(void **state)
+{
+    (void)state;
+    if (IS_SLOW)
+        skip();
+    gl_sea *renderer = renderer_of(GL_API_CORE);
+    facet_sea_desc desc = small(6.0f);
+    facet_sea *sea = make_sea(&desc);
+    fixture f = fixture_create();
+    fixture_place(&f, fixture_add_sphere(&f, 48, fixture_add_material(&f, scene_material_default())), 0.0f,
+                  0.4f, -3.6f, 1.6f);
+    shot s;
+    make_shot(&s, WIDTH, HEIGHT, -3.0f, -0.85f);
+    s.camera.fov_y_rad = 0.9f;
+    s.scene = f.scene;
+    s.desc.look.no_glints = true;
+    expose(&s);
+    assert_true(compare(renderer, sea, &s, "a hull in waves") < 0.28);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
 static void models(void **state)
 {
     (void)state;
@@ -369,6 +392,7 @@ int main(void)
                                        cmocka_unit_test(other_facets),
                                        cmocka_unit_test(environments),
                                        cmocka_unit_test(models),
+                                       cmocka_unit_test(a_hull_in_waves),
                                        cmocka_unit_test(a_model_from_below_in_opengl_es),
                                        cmocka_unit_test(frames_are_stills),
                                        cmocka_unit_test(what_cannot_be_drawn_is_said)};

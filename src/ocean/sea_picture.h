@@ -62,7 +62,8 @@ typedef struct sea_picture {
     const facet_scene *model;            /* NULL: nothing */
     const facet_render_desc *model_desc; /* its light: the sky over the sea around it, the sun */
     float model_low[3], model_high[3];   /* m */
-    float model_water_m;                 /* height of the water there */
+    float model_water_m;                 /* mean height of the water there */
+    float model_water_low_m, model_water_high_m;
     const sea_touch *touch;              /* SEA_TOUCH_EDGE^2 */
     float touch_low[2], touch_high[2];   /* x, z of its rectangle, m */
     bool has_shadow;                     /* of the model on the bed */

@@ -169,6 +169,22 @@ static void choose_rectangle(const vec3 L, sea_picture *p)
     }
 }
 
+enum { LEVELS_EDGE = 24 };
+
+/* Between which heights the water is that the model stands in, read as wide as width_m. */
+static void find_water_around(const water_setup *s, float width_m, sea_picture *p)
+{
+    p->model_water_low_m = p->model_water_high_m = p->model_water_m;
+    for (int i = 0; i < LEVELS_EDGE * LEVELS_EDGE; i++) {
+        float at[2] = {(float)(i % LEVELS_EDGE), (float)(i / LEVELS_EDGE)};
+        for (int k = 0; k < 2; k++)
+            at[k] = mix(p->model_low[2 * k], p->model_high[2 * k], at[k] / (LEVELS_EDGE - 1));
+        float y = waves_height(&s->sea->waves, (double)at[0], (double)at[1], width_m);
+        p->model_water_low_m = min(p->model_water_low_m, y);
+        p->model_water_high_m = max(p->model_water_high_m, y);
+    }
+}
+
 static facet_result describe_model(const water_setup *s, sea_touch **touch, sea_picture *p,
                                    facet_error *error)
 {
@@ -183,6 +199,7 @@ static facet_result describe_model(const water_setup *s, sea_touch **touch, sea_
     p->model_water_m =
         waves_height(&s->sea->waves, 0.5 * ((double)p->model_low[0] + (double)p->model_high[0]),
                      0.5 * ((double)p->model_low[2] + (double)p->model_high[2]), size);
+    find_water_around(s, size / LEVELS_EDGE, p);
     choose_rectangle(s->light.L, p);
     p->has_shadow = s->shadow.is_there;
     for (int i = 0; i < 2; i++) {
