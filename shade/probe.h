@@ -1,6 +1,6 @@
 /* probe.h - three results of shared functions over u in (0, 1)^2, for each number below PROBE_COUNT; together they
  * call every function of the shared text. Itself shared text: parity_test.c runs it in C and on the GPU. */
-#define PROBE_COUNT 122
+#define PROBE_COUNT 124
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 probe_V(vec2 u)
@@ -960,7 +960,7 @@ FN vec3 probe_water(int which, vec2 u)
            water_radiance(water_parts(w, p, light, m, vec3(1.0f, 2.0f, 3.0f), vec3(0.5f), light.downwelling));
 }
 
-FN vec3 probe_water_place(int which, vec2 u)
+FN Water probe_clear_water(vec2 u)
 {
     Water w;
     w.ior = 1.34f;
@@ -974,6 +974,12 @@ FN vec3 probe_water_place(int which, vec2 u)
     w.normals = WATER_BECKMANN;
     w.masking = WATER_SCALES;
     w.is_schlick = 0;
+    return w;
+}
+
+FN vec3 probe_water_place(int which, vec2 u)
+{
+    Water w = probe_clear_water(u);
     WaterLight light;
     light.L = probe_up(probe_L(u));
     light.sun_irradiance = vec3(5.0f, 4.0f, 3.0f);
@@ -990,19 +996,6 @@ FN vec3 probe_water_place(int which, vec2 u)
         return wave_patch_weights(place) + wave_cubic_weights(u[0]) + N + water_seen_normal(C, N, V) +
                water_tilted(N, C, V) + 2.0f +
                vec3(water_seen_cosine(V, C), 0.0f, water_footprint(u[0], V[1] * u[1], 0.3f));
-    }
-    if (which == 121) {
-        FacetRange r =
-            facets_that_mirror(C, N, V, vec3(-1.0f, -0.5f, -9.0f), vec3(1.0f + u[0], 2.0f, -6.0f - u[1]));
-        Facet f = facet_drawn(facets_seen(C, N, V), N, u);
-        vec2 place = facet_place(r, N, f.m);
-        Facet of_window = facet_of_window(facets_seen(C, N, V), N, V, water_critical_cosine(w),
-                                          int(u[0] * float(WINDOW_FACETS) * 0.999f));
-        return f.m + vec3(f.weight + facets_share(r), r.low[0] + r.high[1], 0.1f * (place[0] + place[1])) +
-               10.0f + of_window.m * of_window.weight +
-               window_light(w, water_window(w, V, N), C, N, vec3(3.0f), vec3(0.5f)) +
-               vec3(min(window_rim(r, N, V, 0.6f, u[1]), 9.0f), min(window_middle(r), 9.0f),
-                    min(window_part(r, window_edge(r, 1), 1), 9.0f) + window_mean(u[0] - 1.0f, u[1] + 0.3f));
     }
     if (which == 118) {
         WaterMirror m;
@@ -1051,6 +1044,37 @@ FN vec3 probe_water_place(int which, vec2 u)
            water_unscattered(w, 20.0f * u[1]);
 }
 
+FN vec3 probe_facets(int which, vec2 u)
+{
+    Water w = probe_clear_water(u);
+    vec3 V = probe_up(probe_V(u));
+    vec3 C = probe_slopes(u);
+    vec3 N = water_faced(wave_normal(vec2(0.4f * u[1], -0.3f), vec3(0.3f * u[0], -0.2f * u[1], 0.1f)), V);
+    FacetRange all = facets_seen(C, N, V);
+    if (which == 121) {
+        vec3 low = vec3(-1.0f, -0.5f, -9.0f);
+        FacetRange r = facets_that_mirror(C, N, V, low, vec3(1.0f + u[0], 2.0f, -6.0f - u[1]));
+        Facet f = facet_drawn(all, N, u);
+        vec2 place = facet_place(r, N, f.m);
+        return f.m + vec3(f.weight + facets_share(r), r.low[0] + r.high[1], 0.1f * (place[0] + place[1])) +
+               10.0f;
+    }
+    if (which == 122) {
+        vec3 low = vec3(-1.0f, 0.5f, -9.0f);
+        FacetRange r = facets_that_bend(C, N, V, low, vec3(1.0f + u[0], 3.0f, -6.0f), w.ior);
+        bool is_wide = is_wide_box(vec3(1.0f, 0.0f, 0.0f), vec3(0.9f - 0.1f * u[0], 0.0f, 0.0f));
+        FacetRange part = facets_about(all, -u, u, is_wide);
+        return facet_that_bends(V, normalize(vec3(0.3f, 0.5f + u[0], u[1])), w.ior) +
+               vec3(part.low[0], part.high[1], window_roughness(r, C)) +
+               vec3(r.low[0], r.high[1], facets_share(r)) + 10.0f;
+    }
+    Facet f = facet_of_window(all, N, V, water_critical_cosine(w), int(u[0] * float(WINDOW_FACETS) * 0.999f));
+    return f.m * f.weight + window_light(w, water_window(w, V, N), C, N, vec3(3.0f), vec3(0.5f)) +
+           vec3(min(window_rim(all, N, V, 0.6f, u[1]), 9.0f), min(window_middle(all), 9.0f),
+                min(window_part(all, window_edge(all, 1), 1), 9.0f) + window_mean(u[0] - 1.0f, u[1] + 0.3f)) +
+           10.0f;
+}
+
 FN vec3 probe(int which, vec2 u)
 {
     if (which < 6)
@@ -1095,5 +1119,7 @@ FN vec3 probe(int which, vec2 u)
         return probe_sea(which, u);
     if (which < 117)
         return probe_water(which, u);
-    return probe_water_place(which, u);
+    if (which < 121)
+        return probe_water_place(which, u);
+    return probe_facets(which, u);
 }
