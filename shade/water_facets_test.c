@@ -3,6 +3,7 @@
 #include "testing/test_support.h"
 
 enum { DRAWN = 1 << 14, POINTS = 1 << 12 };
+static const float IOR = 1.34f;
 
 /* Whether a ray from the origin meets the box. */
 static bool meets(vec3 d, vec3 low, vec3 high)
@@ -41,79 +42,72 @@ static scene scene_of(uint k)
     return s;
 }
 
-static void test_share(void **state)
+/* Whether a facet shows what stands over the water in the box to an eye in it that looks along d. */
+static bool bends(vec3 m, vec3 d, vec3 low, vec3 high)
 {
-    (void)state;
-    int seen = 0, narrow = 0;
-    for (uint k = 0; k < 60u; k++) {
-        scene s = scene_of(k);
-        FacetRange r = facets_that_mirror(s.C, s.N, s.V, s.low, s.high);
-        double expected = 0.0, found = 0.0, outside = 0.0;
-        for (uint i = 0; i < (uint)DRAWN; i++) {
-            vec3 m = sample_slopes(sobol_scrambled(i, 7u), s.C, s.N, s.V);
-            if (!shows(m, s.V, s.low, s.high))
-                continue;
-            vec2 z = facet_place(r, s.N, m);
-            bool is_in = z[0] >= r.low[0] && z[0] <= r.high[0] && z[1] >= r.low[1] && z[1] <= r.high[1];
-            expected += 1.0 / DRAWN;
-            outside += is_in ? 0.0 : 1.0 / DRAWN;
-        }
-        for (uint i = 0; facets_share(r) > 0.0f && i < (uint)POINTS; i++) {
-            Facet f = facet_drawn(r, s.N, sobol_scrambled(i, 9u));
-            found += shows(f.m, s.V, s.low, s.high) ? (double)f.weight / POINTS : 0.0;
-        }
-        expect_near(found, expected, 2e-3 + 0.02 * expected, "share of scene %u", k);
-        expect_near(outside, 0.0, 1e-3 + 0.01 * expected, "left out of scene %u", k);
-        seen += expected > 0.01;
-        narrow += facets_share(r) < 0.3f;
-    }
-    if (!(seen >= 12 && narrow > 25))
-        fail_msg("%d are seen, %d look narrowly", seen, narrow);
-}
-
-/* Whether a facet shows what stands over the water in the box to an eye in it. */
-static bool bends(Water w, vec3 m, vec3 d, vec3 low, vec3 high)
-{
+    Water w;
+    w.ior = IOR;
+    w.is_schlick = 0;
     WaterWindow window = water_window(w, d, m);
     return window.fresnel < 1.0f && window.outside[1] > 0.0f && meets(window.outside, low, high);
 }
 
-/* The same through Snell's window: no facet is left out which shows the box, and their shares are those of all. */
+/* How many scenes show the box, and how many of their ranges are less than a third of all. */
+typedef struct tally {
+    int seen, narrow;
+} tally;
+
+/* Of an eye along s->V: no facet is out of the range that shows the box, and the shares of those that do are those of all. */
+static void expect_range(const scene *s, FacetRange r, bool (*shown)(vec3 m, vec3 V, vec3 low, vec3 high),
+                         uint k, tally *t)
+{
+    double expected = 0.0, found = 0.0, outside = 0.0;
+    for (uint i = 0; i < (uint)DRAWN; i++) {
+        vec3 m = sample_slopes(sobol_scrambled(i, 7u), s->C, s->N, s->V);
+        if (!shown(m, s->V, s->low, s->high))
+            continue;
+        vec2 z = facet_place(r, s->N, m);
+        bool is_in = z[0] >= r.low[0] && z[0] <= r.high[0] && z[1] >= r.low[1] && z[1] <= r.high[1];
+        expected += 1.0 / DRAWN;
+        outside += is_in ? 0.0 : 1.0 / DRAWN;
+    }
+    for (uint i = 0; facets_share(r) > 0.0f && i < (uint)POINTS; i++) {
+        Facet f = facet_drawn(r, s->N, sobol_scrambled(i, 9u));
+        found += shown(f.m, s->V, s->low, s->high) ? (double)f.weight / POINTS : 0.0;
+    }
+    expect_near(found, expected, 2e-3 + 0.02 * expected, "share of scene %u", k);
+    expect_near(outside, 0.0, 1e-3 + 0.01 * expected, "left out of scene %u", k);
+    t->seen += expected > 0.01;
+    t->narrow += facets_share(r) < 0.3f;
+}
+
+static void test_share(void **state)
+{
+    (void)state;
+    tally t = {0, 0};
+    for (uint k = 0; k < 60u; k++) {
+        scene s = scene_of(k);
+        expect_range(&s, facets_that_mirror(s.C, s.N, s.V, s.low, s.high), shows, k, &t);
+    }
+    if (!(t.seen >= 12 && t.narrow > 25))
+        fail_msg("%d are seen, %d look narrowly", t.seen, t.narrow);
+}
+
+/* Through Snell's window. */
 static void test_bent(void **state)
 {
     (void)state;
-    Water w;
-    w.ior = 1.34f;
-    w.is_schlick = 0;
-    int seen = 0, narrow = 0;
+    tally t = {0, 0};
     for (uint k = 0; k < 200u; k++) {
         scene s = scene_of(k);
         float sin_e = 0.4f + 0.58f * sobol_scrambled(k, 4u)[0], cos_e = sqrt(1.0f - sin_e * sin_e);
-        vec3 d = vec3(-cos_e * 0.3f, sin_e, -cos_e * sqrt(1.0f - 0.09f));
+        s.V = vec3(-cos_e * 0.3f, sin_e, -cos_e * sqrt(1.0f - 0.09f));
         s.low[1] = 0.0f;
         s.high[1] = 0.5f + 6.0f * sobol_scrambled(k, 3u)[1];
-        FacetRange r = facets_that_bend(s.C, s.N, d, s.low, s.high, w.ior);
-        double expected = 0.0, found = 0.0, outside = 0.0;
-        for (uint i = 0; i < (uint)DRAWN; i++) {
-            vec3 m = sample_slopes(sobol_scrambled(i, 7u), s.C, s.N, d);
-            if (!bends(w, m, d, s.low, s.high))
-                continue;
-            vec2 z = facet_place(r, s.N, m);
-            bool is_in = z[0] >= r.low[0] && z[0] <= r.high[0] && z[1] >= r.low[1] && z[1] <= r.high[1];
-            expected += 1.0 / DRAWN;
-            outside += is_in ? 0.0 : 1.0 / DRAWN;
-        }
-        for (uint i = 0; facets_share(r) > 0.0f && i < (uint)POINTS; i++) {
-            Facet f = facet_drawn(r, s.N, sobol_scrambled(i, 9u));
-            found += bends(w, f.m, d, s.low, s.high) ? (double)f.weight / POINTS : 0.0;
-        }
-        expect_near(found, expected, 2e-3 + 0.02 * expected, "share of scene %u", k);
-        expect_near(outside, 0.0, 1e-3 + 0.01 * expected, "left out of scene %u", k);
-        seen += expected > 0.01;
-        narrow += facets_share(r) < 0.3f;
+        expect_range(&s, facets_that_bend(s.C, s.N, s.V, s.low, s.high, IOR), bends, k, &t);
     }
-    if (!(seen >= 24 && narrow > 40))
-        fail_msg("%d are seen, %d look narrowly", seen, narrow);
+    if (!(t.seen >= 24 && t.narrow > 40))
+        fail_msg("%d are seen, %d look narrowly", t.seen, t.narrow);
 }
 
 /* All facets that are seen are worth 1, and a mirror has but one. */
