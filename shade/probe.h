@@ -946,7 +946,7 @@ FN vec3 probe_water(int which, vec2 u)
         return window.mirrored + window.outside * 0.1f +
                vec3(2.0f + window.fresnel, 2.0f + window.gain, 2.0f) +
                water_inscatter(w, light.downwelling, 3.0f, down, 20.0f * u[1]) +
-               water_path1(u[0] - 0.5f, u[1]) + water_path(down, u[0]) +
+               water_mean_left(vec3(0.0f), down * u[0]) +
                water_sun_glow(w, water_beam_below(w, light), normalize(vec3(0.3f, 1.0f, 0.1f)), 2.0f, d,
                               10.0f * u[0]) +
                vec3(water_mean_left1(5.0f * u[0], 4.0f * u[1]), water_glow_phase1(9.0f * u[0], 0.1f, u[1]),

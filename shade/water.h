@@ -284,24 +284,17 @@ FN vec3 water_sun_below(Water w, WaterPoint p, WaterLight light, vec3 d)
     return light.sun_irradiance * ((1.0f - water_fresnel(w, clamp(LdotM, 0.0f, 1.0f))) * through);
 }
 
-/* int_0^x e^(-q t) dt per channel, for any sign of q. */
-FN float water_path1(float q, float x)
-{
-    float t = q * x;
-    float series = x * (1.0f - t * (0.5f - t * (1.0f / 6.0f))); /* where 1 - exp would cancel */
-    return sel(abs(t) < 1e-2f, series, (1.0f - exp(-t)) / sel(q == 0.0f, 1.0f, q));
-}
-FN vec3 water_path(vec3 q, float x)
-{
-    return vec3(water_path1(q[0], x), water_path1(q[1], x), water_path1(q[2], x));
-}
-
-/* Mean of e^-t over t from `first` to `last`, both >= 0. */
+/* Mean of e^-t over t from `first` to `last`, of any sign: what of light is left on average where so much is lost at the ends of a way. */
 FN float water_mean_left1(float first, float last)
 {
     float t = 0.5f * (last - first);
     float middle = exp(-0.5f * (first + last)) * (1.0f + t * t * (1.0f / 6.0f)); /* where both ends cancel */
     return sel(abs(t) < 0.05f, middle, 0.5f * (exp(-first) - exp(-last)) / sel(t == 0.0f, 1.0f, t));
+}
+FN vec3 water_mean_left(vec3 first, vec3 last)
+{
+    return vec3(water_mean_left1(first[0], last[0]), water_mean_left1(first[1], last[1]),
+                water_mean_left1(first[2], last[2]));
 }
 
 /* Radiance (cd/m^2) that water adds along a ray of x m below the surface, from an eye at the depth z (m) in the unit direction d.
@@ -312,10 +305,7 @@ FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
     vec3 K = water_K_d(w);
     vec3 along = water_diffuse(w);
     vec3 last = K * max(z - x * d[1], 0.0f) + along * x;
-    vec3 mean = vec3(0.0f);
-    for (int k = 0; k < 3; ++k)
-        mean[k] = water_mean_left1(K[k] * z, last[k]);
-    return water_from_deep(w, downwelling) * (K + along) * mean * x;
+    return water_from_deep(w, downwelling) * (K + along) * water_mean_left(K * z, last) * x;
 }
 
 /* Phase function (1/sr) of light that left the sun's beam in t of scattering, by particles but for pure_share. Of that which did,

@@ -72,8 +72,7 @@ FN vec3 water_crest_lit(Water w, WaterCrest c, vec2 sun, float tilt, vec3 down, 
     float more = max(water_crest_way(c, sun, down, phase, 0.0f) - way, 0.0f);
     float here = sel(phase < end_phase, max(1.0f - sine / max(end, 1e-6f), 0.0f), 0.0f);
     vec3 K = max(water_diffuse(w), 1e-9f);
-    vec3 growing = water_path(K, more) / max(more, 1e-6f);
-    growing = sel(more > 1e-6f, growing, vec3(1.0f));
+    vec3 growing = water_mean_left(vec3(0.0f), K * more);
     return water_transmittance(K, way) * mix(growing, vec3(1.0f), here);
 }
 

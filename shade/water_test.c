@@ -257,11 +257,11 @@ static void test_volume(void **state)
     expect_relative(thin[1], w.scattering[1] * water_phase_pure(-1.0f) * 0.001f, 1e-3, "a thin layer");
     for (double q = -2.0; q < 2.0; q += 0.0993) { /* the path integral, either sign */
         double exact = (1.0 - (exp)(-q * 3.0)) / q;
-        expect_relative(water_path1((float)q, 3.0f), exact, 1e-5, "path at %g", q);
+        expect_relative(3.0f * water_mean_left1(0.0f, 3.0f * (float)q), exact, 1e-5, "path at %g", q);
     }
-    expect_relative(water_path1(0.0f, 3.0f), 3.0, 1e-6, "path without attenuation");
-    expect_relative(water_path1(3.3e-3f, 3.0f), 3.0 * (1.0 - 0.00495 + 0.0099 * 0.0099 / 6.0), 1e-6,
-                    "path, nearly without");
+    expect_relative(3.0f * water_mean_left1(0.0f, 0.0f), 3.0, 1e-6, "path without attenuation");
+    expect_relative(3.0f * water_mean_left1(0.0f, 3.0f * 3.3e-3f),
+                    3.0 * (1.0 - 0.00495 + 0.0099 * 0.0099 / 6.0), 1e-6, "path, nearly without");
 }
 
 /* Deep water just above the surface shines with pi R_rs, for the factors that R_rs was made with. */

@@ -3,7 +3,6 @@
 
 #include "water/water_find.h"
 
-static const double FAR_M = 1e7;
 static const float FACETS_PER_PIXEL = 64.0f;
 static const float LEAST_FACETS = 1e-3f; /* a share of them that is not worth a ray */
 static const float SMOOTH = 1e-3f;       /* slopes that turn a reflection by less than a pixel */
@@ -80,7 +79,7 @@ static bool find_refracted(const looking *l, water_findings *found)
     double P[3];
     model_hit hit;
     start_of(place, -1e-3f, P);
-    if (!water_model_find(&s->model, P, down, FAR_M, l->random, &hit))
+    if (!water_model_find(&s->model, P, down, HUGE_VAL, l->random, &hit))
         return false;
     float way = (float)hit.distance_m, depth = max((float)place->P[1] - hit.P[1], 0.0f);
     vec3 lit = water_model_radiance(&s->model, &hit, s->light.L) * water_transmittance(water_K_d(w), depth);
@@ -99,7 +98,7 @@ static void look_up(const looking *l, Facet f, const double P[3], void *out)
     model_hit hit;
     vec3 V = l->place->V, R = reflect(-V, f.m);
     R[1] = max(abs(R[1]), 1e-4f);
-    if (!water_model_find(&s->model, P, R, FAR_M, l->random, &hit))
+    if (!water_model_find(&s->model, P, R, HUGE_VAL, l->random, &hit))
         return;
     float weight = f.weight * water_fresnel(s->water, clamp(dot(f.m, V), 0.0f, 1.0f));
     found->covered += weight;
@@ -140,7 +139,7 @@ static void look_down(const looking *l, Facet f, const double P[3], void *out)
     model_hit hit;
     vec3 R = reflect(b->d, f.m);
     R[1] = -max(abs(R[1]), 1e-4f);
-    if (f.weight <= 0.0f || !water_model_find(&s->model, P, R, FAR_M, l->random, &hit))
+    if (f.weight <= 0.0f || !water_model_find(&s->model, P, R, HUGE_VAL, l->random, &hit))
         return;
     float weight = f.weight * water_fresnel_inside(s->water, clamp(dot(f.m, b->d), 0.0f, 1.0f));
     b->found.covered += weight;
@@ -156,7 +155,7 @@ static void look_through(const looking *l, Facet f, const double P[3], void *out
     WaterWindow window = water_window(s->water, b->d, f.m);
     float passing = water_passing(l->place->slopes.resolved, l->place->point.N, window.outside);
     if (f.weight * passing <= 0.0f || window.fresnel >= 1.0f ||
-        !water_model_find(&s->model, P, window.outside, FAR_M, l->random, &hit))
+        !water_model_find(&s->model, P, window.outside, HUGE_VAL, l->random, &hit))
         return;
     float weight = f.weight * window.gain * passing;
     b->found.through = b->found.through + water_model_radiance(&s->model, &hit, s->light.L) * weight;
