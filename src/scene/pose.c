@@ -107,25 +107,34 @@ static mat4 copy_matrix(const scene_instancing *instancing, uint32_t i)
                          instancing->scales ? instancing->scales + 3 * (size_t)i : unscaled);
 }
 
+/* How many times a primitive of the mesh of a shown node is drawn. allocate() and fill() both go by it. The vertices of
+ * a skin do not follow the node that has it (glTF 2.0 section 3.7.3.3), so all of its instances are the same one. */
+static uint32_t count_copies(const pose_parts *parts, uint32_t shown, uint32_t index)
+{
+    const deformed *moved = deform_get(&parts->deformed, shown, index);
+    const scene_node *node = &parts->state.nodes[parts->nodes.shown[shown]];
+    if (parts->scene->meshes[node->mesh].primitives[index].index_count == 0 || (moved && moved->is_endless))
+        return 0;
+    if (!node->instancing)
+        return 1;
+    return moved && moved->skin && node->instancing->count > 1 ? 1 : node->instancing->count;
+}
+
 static void add_primitive(scene_pose *pose, const pose_parts *parts, uint32_t shown, uint32_t index)
 {
     const deformed *moved = deform_get(&parts->deformed, shown, index);
     uint32_t node = parts->nodes.shown[shown];
     const scene_node *at = &parts->state.nodes[node];
-    const mat4 *world = &parts->nodes.worlds[node];
-    if (parts->scene->meshes[at->mesh].primitives[index].index_count == 0 || (moved && moved->is_endless))
-        return;
+    uint32_t copies = count_copies(parts, shown, index);
+    mat4 world = parts->nodes.worlds[node];
     if (moved && moved->skin) {
-        mat4 mirror = mat4_identity();
-        mirror.m[0] = moved->skin->is_mirrored ? -1.0f : 1.0f;
-        add_instance(pose, parts, shown, index, moved, &mirror);
-    } else if (!at->instancing) {
-        add_instance(pose, parts, shown, index, moved, world);
-    } else {
-        for (uint32_t i = 0; i < at->instancing->count; i++) {
-            mat4 copy = mat4_multiply(*world, copy_matrix(at->instancing, i));
-            add_instance(pose, parts, shown, index, moved, &copy);
-        }
+        world = mat4_identity();
+        world.m[0] = moved->skin->is_mirrored ? -1.0f : 1.0f;
+    }
+    for (uint32_t i = 0; i < copies; i++) {
+        bool is_placed = at->instancing && !(moved && moved->skin);
+        mat4 copy = is_placed ? mat4_multiply(world, copy_matrix(at->instancing, i)) : world;
+        add_instance(pose, parts, shown, index, moved, &copy);
     }
 }
 
@@ -175,9 +184,9 @@ static facet_result allocate(scene_pose *pose, const pose_parts *parts, const fa
     size_t cameras = 0;
     for (uint32_t i = 0; i < parts->nodes.count; i++) {
         const scene_node *node = &parts->state.nodes[parts->nodes.shown[i]];
-        size_t copies = node->instancing ? node->instancing->count : 1;
-        if (node->mesh != SCENE_NONE)
-            instances += copies * parts->scene->meshes[node->mesh].primitive_count;
+        uint32_t primitives = node->mesh == SCENE_NONE ? 0 : parts->scene->meshes[node->mesh].primitive_count;
+        for (uint32_t k = 0; k < primitives && instances <= MAX_INSTANCES; k++)
+            instances += count_copies(parts, i, k);
         lights += node->light != SCENE_NONE;
         cameras += node->camera != SCENE_NONE;
         if (instances > MAX_INSTANCES)

@@ -451,6 +451,27 @@ static void memory_that_runs_out_leaks_nothing(void **state)
     scene_destroy(scene);
 }
 
+/* A skin's vertices do not follow the node: all instances are at one place, and as many as fit the memory are written. */
+static void instances_of_a_skin_are_one(void **state)
+{
+    (void)state;
+    facet_scene *scene = make_motion();
+    static const float translations[9] = {1, 0, 0, 2, 0, 0, 3, 0, 0};
+    scene_instancing instancing = {.translations = translations};
+    scene->nodes[0].instancing = &instancing;
+    for (uint32_t count = 0; count <= 3; count++) {
+        instancing.count = count;
+        scene_pose pose = test_pose_at(scene, 1, 0.5, 2);
+        uint32_t drawn = count > 0; /* and the node without a skin, which comes last */
+        assert_int_equal(pose.instance_count, drawn + 1);
+        for (uint32_t i = 0; i < drawn; i++)
+            assert_near(pose.instances[i].world.m[12], 0, 0);
+        assert_int_equal(pose.instances[drawn].node, 3);
+        scene_pose_destroy(&pose);
+    }
+    scene_destroy(scene);
+}
+
 static void the_same_mesh_under_a_skin_and_a_node_differs(void **state)
 {
     (void)state;
@@ -486,6 +507,7 @@ int main(void)
         cmocka_unit_test(variants_choose_materials),
         cmocka_unit_test(moved_materials_are_the_pose_s_own),
         cmocka_unit_test(memory_that_runs_out_leaks_nothing),
+        cmocka_unit_test(instances_of_a_skin_are_one),
         cmocka_unit_test(the_same_mesh_under_a_skin_and_a_node_differs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,6 +4,9 @@
 # case's own folder. Prints a line per case.
 set -eu
 cases=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
+program=$(readlink -f -- "$1")
+shift
+set -- "$program" "$@"
 . "$cases/../cli/lib.sh"
 shift
 count=0

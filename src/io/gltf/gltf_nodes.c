@@ -212,6 +212,9 @@ static void read_node(reader *r, const json_place *at, scene_node *out, uint32_t
     out->instancing = read_instancing(r, at);
     if (out->mesh == SCENE_NONE && out->instancing)
         reader_warn(r, at, NULL, "has instances, but no mesh");
+    if (out->skin != SCENE_NONE && out->instancing)
+        reader_warn(r, at, NULL, "has instances of a skinned mesh, which its joints place; it is drawn %s",
+                    out->instancing->count ? "once" : "nowhere, as there are 0 of them");
     if (out->mesh != SCENE_NONE)
         out->weights = read_weights(r, at, r->scene->meshes[out->mesh].weight_count);
     else if (has_member(at, "weights"))
