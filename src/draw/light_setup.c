@@ -10,6 +10,11 @@
 
 /* ---- what has to be prepared ---- */
 
+facet_energy light_energy(const facet_render_desc *desc)
+{
+    return desc->gl.brdf == FACET_BRDF_MULTISCATTER ? FACET_ENERGY_CONSERVING : desc->energy;
+}
+
 static bool is_entirely_metallic(const scene_material *material)
 {
     return material->metallic >= 1.0f &&
@@ -71,7 +76,7 @@ static void add_material(ibl_light_desc *needs, const scene_material *material, 
     if (desc->specular_antialiasing)
         add_lobe(needs, needs->max_roughness, false, true);
     /* A metal scatters no light below its surface; the conserving mode takes multiple scattering from it. */
-    if (is_glossy || !is_entirely_metallic(material) || desc->energy == FACET_ENERGY_CONSERVING)
+    if (is_glossy || !is_entirely_metallic(material) || light_energy(desc) == FACET_ENERGY_CONSERVING)
         needs->needs_irradiance = true;
     add_layers(needs, material, desc);
 }

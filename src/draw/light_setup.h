@@ -18,6 +18,9 @@ typedef struct light_setup {
     light_grid grid; /* which of them reach a point */
 } light_setup;
 
+/* The energy mode that a render's surfaces are shaded with: FACET_BRDF_MULTISCATTER conserves whatever desc->energy says. */
+facet_energy light_energy(const facet_render_desc *desc);
+
 /* Prepares what the materials of the drawn geometries and the background read; with FACET_SHADING_OGL1 the punctual
  * lights only, with FACET_INTEGRATOR_PATH those and a blurred background. Fails as ibl_light_prepare(). */
 facet_result light_setup_create(const render_geometry_set *set, const scene_pose *pose,

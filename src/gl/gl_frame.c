@@ -203,9 +203,7 @@ static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_fram
     const float *behind = desc->background_color;
     bool is_light = gl_channel_is_light(desc->gl.channel);
     block->exposure = is_light ? exp2f(desc->exposure_ev) : 1.0f;
-    block->energy = (int32_t)desc->energy;
-    if (desc->gl.brdf == FACET_BRDF_MULTISCATTER)
-        block->energy = (int32_t)FACET_ENERGY_CONSERVING;
+    block->energy = (int32_t)light_energy(desc);
     block->channel = (int32_t)desc->gl.channel;
     block->background_blur = desc->background_blur;
     block->tonemap = is_light ? (float)desc->tonemap : (float)FACET_TONEMAP_NONE;

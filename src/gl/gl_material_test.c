@@ -497,6 +497,24 @@ static void test_formulas(void **state)
     fixture_destroy(&f);
 }
 
+/* A scene of nothing but metal reads irradiance for its multiple scattering only: white metal in a white room is white. */
+static void multiscatter_keeps_the_light_of_metal(void **state)
+{
+    (void)state;
+    for (int i = 1; i < 5; i++) {
+        fixture f = fixture_create();
+        scene_material m = scene_material_default();
+        m.metallic = 1.0f;
+        m.perceptual_roughness = 0.25f * (float)i;
+        fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, m)), 0, 0, 0, 0.9f);
+        f.desc.gl.brdf = FACET_BRDF_MULTISCATTER;
+        film picture = gl_fixture_render(&f, &contexts.items[0]);
+        gl_fixture_assert_pixel(&picture, 32, 32, (float[4]){1.0f, 1.0f, 1.0f, 1.0f}, 4e-3f);
+        film_destroy(&picture);
+        fixture_destroy(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_extensions),
@@ -510,6 +528,7 @@ int main(void)
                                        cmocka_unit_test(test_mask_samples),
                                        cmocka_unit_test(test_lobes),
                                        cmocka_unit_test(test_furnace),
+                                       cmocka_unit_test(multiscatter_keeps_the_light_of_metal),
                                        cmocka_unit_test(test_parameters),
                                        cmocka_unit_test(test_formulas)};
     /* Mesa's llvmpipe filters 8-bit data with weights of 8 bits, which mirrors show, unless it is told not to. */
