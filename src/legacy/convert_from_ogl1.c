@@ -138,10 +138,9 @@ facet_result convert_from_ogl1(conversion *c, facet_error *error)
     solve_item *items = mem_zalloc(&scene->allocator, count, sizeof *items);
     c->materials = arena_alloc(scene->arena, count, sizeof *c->materials);
     bool *has_vertex_colors = mem_zalloc(&scene->allocator, count, sizeof *has_vertex_colors);
-    if (has_vertex_colors && scene->legacy->is_rgl) {
+    if (has_vertex_colors)
         find_vertex_colors(scene, has_vertex_colors);
-        c->has_vertex_colors = has_vertex_colors;
-    }
+    c->has_vertex_colors = has_vertex_colors;
     facet_result result = readings && items && c->materials && has_vertex_colors
                               ? survey(c, error)
                               : fail_memory(error, "materials", count * sizeof *readings);

@@ -70,7 +70,8 @@ static void read_diffuse(conversion *c, uint32_t material, legacy_reading *r, fa
 {
     legacy_material *m = &r->m;
     legacy_color_to_linear(m->diffuse, colors, r->surface.diffuse);
-    if (c->has_vertex_colors && c->has_vertex_colors[material]) /* which take its place */
+    bool yields = c->scene->legacy->is_rgl || !legacy_has(m, LEGACY_DIFFUSE);
+    if (yields && c->has_vertex_colors[material]) /* which take its place */
         memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
     if (!legacy_has_map(m, LEGACY_DIFFUSE_MAP))
         return;

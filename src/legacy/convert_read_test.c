@@ -56,6 +56,27 @@ static void blinn_phong_becomes_specular_and_ior(void **state)
     scene_destroy(scene);
 }
 
+/* Vertex colors stand for a Kd that no statement gives, and multiply one that is stated. */
+static void vertex_colors_replace_a_default(void **state)
+{
+    (void)state;
+    static const float colors[4] = {1, 1, 1, 1};
+    for (int is_stated = 0; is_stated < 2; is_stated++) {
+        scene_primitive primitive = {.vertex_count = 1, .colors = colors};
+        scene_mesh mesh = {.primitives = &primitive, .primitive_count = 1};
+        facet_scene *scene = legacy_scene(1);
+        scene->meshes = &mesh;
+        scene->mesh_count = 1;
+        legacy_material m = legacy_material_default();
+        m.fields = is_stated ? LEGACY_DIFFUSE : 0;
+        scene->legacy->materials[0] = m;
+        convert(scene, &PLAIN);
+        float wanted = is_stated ? .8f : 1.0f; /* PLAIN reads linear colors */
+        assert_color(scene->materials[0].base_color, wanted, wanted, wanted, 1e-4);
+        scene_destroy(scene);
+    }
+}
+
 static void fit_and_core_are_options(void **state)
 {
     (void)state;
@@ -513,6 +534,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blinn_phong_becomes_specular_and_ior),
+        cmocka_unit_test(vertex_colors_replace_a_default),
         cmocka_unit_test(fit_and_core_are_options),
         cmocka_unit_test(black_becomes_the_darkest_of_the_core),
         cmocka_unit_test(colors_are_srgb_or_linear),

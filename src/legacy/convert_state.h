@@ -33,7 +33,7 @@ typedef struct conversion {
     scene_conversion *out;       /* in the scene's arena; becomes the scene's where all went well */
     scene_material *materials;   /* the new ones, in the scene's arena; NULL: the scene's stay */
     struct scene_legacy *legacy; /* the same */
-    bool *has_vertex_colors;     /* per material, of a scene with rgl's rules; NULL: vertex colors multiply */
+    bool *has_vertex_colors;     /* per material: some primitive with it has them */
     drop_plan drop;              /* of desc.drops_sources */
 } conversion;
 

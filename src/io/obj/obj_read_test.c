@@ -38,7 +38,10 @@ static void test_triangle(void **state)
     assert_string_equal(scene->meshes[0].name, "thing");
     assert_string_equal(scene->nodes[0].name, "thing");
     assert_int_equal(p->vertex_count, 3);
-    assert_int_equal(p->material, SCENE_NONE);
+    assert_int_equal(p->material, 0); /* OBJ has no surface without a material */
+    assert_int_equal(scene->material_count, 1);
+    assert_string_equal(scene->materials[0].name, "");
+    assert_false(scene->legacy->materials[0].is_culled);
     const uint32_t indices[3] = {0, 1, 2};
     assert_memory_equal(p->indices, indices, sizeof indices);
     assert_true(p->positions[3] == 2.0f && p->positions[7] == 3.0f);
@@ -150,8 +153,8 @@ static void test_objects_and_materials(void **state)
     assert_int_equal(one->primitives[2].index_count, 6);
     assert_int_equal(one->primitives[3].mode, SCENE_POINTS);
     assert_int_equal(two->primitives[0].material, one->primitives[1].material);
-    assert_int_equal(two->primitives[1].material, SCENE_NONE);
-    assert_int_equal(scene->material_count, 2);
+    assert_string_equal(scene->materials[two->primitives[1].material].name, "");
+    assert_int_equal(scene->material_count, 3);
     assert_true(obj_has_warning(scene, "material \"red\" and 1 more are in no library"));
     scene_destroy(scene);
 }

@@ -115,7 +115,7 @@ typedef struct obj_run {
 } obj_run;
 
 typedef struct obj_primitive {
-    uint32_t object, material; /* number of a name; SCENE_NONE: no material */
+    uint32_t object, material; /* number of a name; SCENE_NONE: no material (points of a cloud) */
     scene_mode mode;
     size_t begin, count; /* corners */
     uint32_t v_minimum, v_maximum;

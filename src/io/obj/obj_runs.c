@@ -54,8 +54,7 @@ static bool know_names(obj_reader *r, state *s)
         s->is_object_known = true;
     }
     if (!s->is_material_known) {
-        s->material_number = SCENE_NONE;
-        if (s->material.length > 0 && !number_name(r, &r->material_names, &s->material, &s->material_number))
+        if (!number_name(r, &r->material_names, &s->material, &s->material_number))
             return false;
         s->is_material_known = true;
     }
@@ -206,6 +205,8 @@ static bool load_libraries(obj_reader *r)
     return true;
 }
 
+/* Elements before any usemtl have the material without a name: default values as well, since OBJ draws all surfaces from
+ * both sides, which a primitive without a material would not be in glTF. */
 static bool find_materials(obj_reader *r)
 {
     size_t count = r->material_names.count;
@@ -223,7 +224,8 @@ static bool find_materials(obj_reader *r)
         r->material_numbers[i] = mtl_reader_add(r->materials, name, length);
         if (r->material_numbers[i] == SCENE_NONE)
             return obj_fail_memory(r, "materials", length);
-        first_unknown = unknown++ ? first_unknown : name;
+        if (length > 0)
+            first_unknown = unknown++ ? first_unknown : name;
     }
     if (unknown == 1)
         scene_warn(r->scene, &r->desc->log,

@@ -400,7 +400,7 @@ static void assert_same_scene(const facet_scene *a, const facet_scene *b)
     for (uint32_t i = 0; i < a->material_count; i++) {
         const legacy_material *m = &a->legacy->materials[i];
         const legacy_material *n = &b->legacy->materials[i];
-        assert_string_equal(m->name, n->name);
+        assert_string_equal(m->name[0] ? m->name : "material", n->name); /* faces without usemtl */
         assert_int_equal(m->fields | LEGACY_ILLUM, n->fields);
         assert_memory_equal(m->diffuse, n->diffuse, sizeof m->diffuse);
         assert_memory_equal(m->specular, n->specular, sizeof m->specular);
