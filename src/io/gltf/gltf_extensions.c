@@ -31,6 +31,8 @@ typedef struct known_extension {
 static const known_extension KNOWN[] = {
     {"EXT_lights_image_based", SCENE_SUPPORTED, ROOT | SCENE, NULL, 0},
     {"EXT_mesh_gpu_instancing", SCENE_SUPPORTED, NODE, NULL, 0},
+    /* Says which primitives may be drawn in one call: they are ordinary ones, and are drawn. */
+    {"EXT_mesh_primitive_restart", SCENE_SUPPORTED, ELSEWHERE, NULL, 0},
     {"EXT_meshopt_compression", SCENE_SUPPORTED, BUFFER | VIEW, NULL, 0},
     {"EXT_texture_avif", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
      IMAGE_CODEC_AVIF},

@@ -86,24 +86,85 @@ static void too_few_vertices_draw_nothing(void **state)
     }
 }
 
-static void indices_beyond_the_vertices_are_refused(void **state)
+/* A mesh of some vertices whose index list are bytes; members: of the primitive. */
+static facet_scene *load_byte_indices(uint32_t vertex_count, const unsigned char *indices, size_t count,
+                                      const char *members)
+{
+    test_bin bin = {0};
+    char all[64];
+    char view[96];
+    char accessor[96];
+    bin_add(&bin, indices, count);
+    snprintf(all, sizeof all, ",'indices':1%s", members);
+    snprintf(view, sizeof view, ",{'buffer':0,'byteOffset':%u,'byteLength':%zu}", 12 * vertex_count, count);
+    snprintf(accessor, sizeof accessor, ",{'bufferView':1,'componentType':5121,'count':%zu,'type':'SCALAR'}",
+             count);
+    return load_mesh(vertex_count, "", all, &bin, view, accessor);
+}
+
+static void what_uses_a_missing_vertex_is_left_out(void **state)
 {
     (void)state;
+    facet_scene *scene = load_byte_indices(3, (const unsigned char[]){0, 1, 3, 0, 1, 2}, 6, "");
+    assert_int_equal(first_primitive(scene)->index_count, 3);
+    assert_true(has_warning(scene, "indices: index 2 is 3, but there are 3 vertices"));
+    assert_int_equal(scene->warning_count, 1);
+    scene_destroy(scene);
+
+    scene = load_byte_indices(3, (const unsigned char[]){255, 1, 2, 0, 1, 2}, 6, "");
+    assert_int_equal(first_primitive(scene)->index_count, 3);
+    assert_true(has_warning(scene, "index 0 is 255, but there are 3 vertices"));
+    scene_destroy(scene);
+
+    scene = load_byte_indices(3, (const unsigned char[]){7, 8, 9}, 3, "");
+    assert_int_equal(first_primitive(scene)->index_count, 0);
+    scene_destroy(scene);
+}
+
+/* The bytes of test_bin are enough for 256 vertices. */
+static void the_last_index_is_a_vertex_where_there_is_one(void **state)
+{
+    (void)state;
+    const unsigned char indices[3] = {0, 1, 255};
+    for (int mode = 0; mode < 7; mode++) {
+        char members[32];
+        snprintf(members, sizeof members, ",'mode':%d", mode);
+        facet_scene *scene = load_byte_indices(256, indices, 3, members);
+        const scene_primitive *p = first_primitive(scene);
+        assert_true(has_warning(scene, "has the index 255, which glTF keeps for primitive restart"));
+        static const uint32_t counts[7] = {3, 2, 6, 4, 3, 3, 3};
+        assert_int_equal(p->index_count, counts[mode]);
+        bool is_used = false;
+        for (uint32_t i = 0; i < p->index_count; i++)
+            is_used |= p->positions[3 * p->indices[i]] == 255.0f;
+        assert_true(is_used == (mode != 1));
+        scene_destroy(scene);
+    }
+}
+
+/* Each strip begins anew with the first triangle's winding, each fan with its own center. */
+static void the_last_index_restarts_where_there_is_no_vertex(void **state)
+{
+    (void)state;
+    static const unsigned char indices[] = {0, 1, 2, 3, 255, 4, 5, 6, 255, 255, 7};
     static const struct {
-        unsigned char indices[3];
-        const char *message;
-    } cases[] = {{{0, 1, 3}, "indices: index 2 is 3, but there are 3 vertices"},
-                 {{255, 1, 2}, "indices: uses the index 255, which is reserved for primitive restart"}};
-    for (int i = 0; i < 2; i++) {
-        test_bin bin = {0};
-        bin_add(&bin, cases[i].indices, 3);
-        facet_scene *scene = NULL;
-        facet_error error;
-        assert_int_equal(try_mesh(3, "", ",'indices':1", &bin, ",{'buffer':0,'byteOffset':36,'byteLength':3}",
-                                  ",{'bufferView':1,'componentType':5121,'count':3,'type':'SCALAR'}", &scene,
-                                  &error),
-                         FACET_ERROR_INVALID);
-        assert_non_null(strstr(error.message, cases[i].message));
+        int mode;
+        uint32_t count, indices[16];
+    } expected[] = {{2, 14, {0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 4}},
+                    {3, 10, {0, 1, 1, 2, 2, 3, 4, 5, 5, 6}},
+                    {5, 9, {0, 1, 2, 1, 3, 2, 4, 5, 6}},
+                    {6, 9, {1, 2, 0, 2, 3, 0, 5, 6, 4}}};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        char members[32];
+        snprintf(members, sizeof members, ",'mode':%d", expected[i].mode);
+        facet_scene *scene = load_byte_indices(8, indices, sizeof indices, members);
+        const scene_primitive *p = first_primitive(scene);
+        assert_true(has_warning(scene, "has the index 255, which is taken as a primitive restart"));
+        assert_int_equal(scene->warning_count, 1);
+        assert_int_equal(p->index_count, expected[i].count);
+        for (uint32_t k = 0; k < p->index_count; k++)
+            assert_int_equal((int)p->positions[3 * p->indices[k]], expected[i].indices[k]);
+        scene_destroy(scene);
     }
 }
 
@@ -292,7 +353,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(modes_become_lists),
         cmocka_unit_test(too_few_vertices_draw_nothing),
-        cmocka_unit_test(indices_beyond_the_vertices_are_refused),
+        cmocka_unit_test(what_uses_a_missing_vertex_is_left_out),
+        cmocka_unit_test(the_last_index_is_a_vertex_where_there_is_one),
+        cmocka_unit_test(the_last_index_restarts_where_there_is_no_vertex),
         cmocka_unit_test(missing_normals_become_flat),
         cmocka_unit_test(points_and_lines_stay_without_normals),
         cmocka_unit_test(normals_are_made_unit),
