@@ -154,6 +154,24 @@ static void read_accessor(reader *r, const json_place *at, gltf_accessor *a)
     read_sparse(r, at, a);
 }
 
+bool is_zero_accessor(const reader *r, uint32_t accessor)
+{
+    const gltf_accessor *a = &r->accessors[accessor];
+    return a->view == SCENE_NONE && a->sparse_count == 0 && !a->decoded;
+}
+
+bool check_claim(reader *r, const json_place *at, const gltf_accessor *a)
+{
+    const uint64_t free_count = 1 << 16; /* of elements, at most 4 MiB */
+    const uint64_t per_value = 64;
+    if (a->view != SCENE_NONE || a->decoded || a->count <= free_count || a->count <= r->backed_count ||
+        a->count <= per_value * a->sparse_count)
+        return true;
+    return reader_fail(r, at, "count", FACET_ERROR_LIMIT,
+                       "%u elements are claimed without a buffer view; at most %llu are allowed here",
+                       a->count, (unsigned long long)free_count);
+}
+
 void read_accessors(reader *r, const json_place *root)
 {
     json_place array = get_array(r, root, "accessors");
@@ -163,5 +181,7 @@ void read_accessors(reader *r, const json_place *root)
         json_place at = get_element_object(r, &array, i);
         read_accessor(r, &at, &r->accessors[i]);
         r->accessor_count = (uint32_t)(i + 1);
+        if (r->accessors[i].view != SCENE_NONE && r->accessors[i].count > r->backed_count)
+            r->backed_count = r->accessors[i].count;
     }
 }

@@ -166,6 +166,38 @@ static void sparse_indices_are_checked(void **state)
         &bin, FACET_ERROR_INVALID, "accessors[0]: sparse index 0 is 3, but the accessor has 3 elements");
 }
 
+static void claims_without_data_are_bounded(void **state)
+{
+    (void)state;
+    const float value[3] = {1, 2, 3};
+    const unsigned char index = 3;
+    test_bin bin = {0};
+    bin_add(&bin, value, sizeof value);
+    bin_add(&bin, &index, 1);
+    static const char format[] =
+        "'bufferViews':[{'buffer':0,'byteLength':12},{'buffer':0,'byteOffset':12,'byteLength':1}],'accessors'"
+        ":[{'componentType':5126,'count':%u,'type':'VEC3'%s}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'mode':0}]}]";
+    static const char sparse[] = ",'sparse':{'count':1,'indices':{'bufferView':1,'componentType':5121},"
+                                 "'values':{'bufferView':0}}";
+    char body[1024];
+    /* Vertices that are all at 0, however many: nothing to draw, nothing to store. */
+    snprintf(body, sizeof body, format, 30000000u, "");
+    facet_scene *scene = load(body, &bin);
+    assert_int_equal(first_primitive(scene)->index_count, 0);
+    assert_true(has_warning(scene, "POSITION: is without data"));
+    scene_destroy(scene);
+    /* With one sparse value the others count, up to a limit. */
+    snprintf(body, sizeof body, format, 65536u, sparse);
+    scene = load(body, &bin);
+    assert_int_equal(first_primitive(scene)->vertex_count, 65536);
+    assert_near(first_primitive(scene)->positions[11], 3, 0);
+    scene_destroy(scene);
+    snprintf(body, sizeof body, format, 65537u, sparse);
+    assert_refused(body, &bin, FACET_ERROR_LIMIT,
+                   "accessors[0].count: 65537 elements are claimed without a buffer view");
+}
+
 static void what_leaves_its_buffer_is_refused(void **state)
 {
     (void)state;
@@ -220,22 +252,29 @@ static void wrong_types_are_refused(void **state)
     }
 }
 
-static void claims_without_bytes_are_limited(void **state)
+/* Many primitives that use the same few bytes add up. */
+static void work_beyond_the_bytes_is_limited(void **state)
 {
     (void)state;
-    assert_refused("'accessors':[{'componentType':5126,'count':4000000000,'type':'VEC3'}],"
-                   "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]",
-                   NULL, FACET_ERROR_LIMIT, "more than 268435456 elements");
-    /* Many small claims on the same accessor add up as well. */
+    const float value[3] = {1, 2, 3};
+    const unsigned char index = 3;
+    test_bin bin = {0};
+    bin_add(&bin, value, sizeof value);
+    bin_add(&bin, &index, 1);
     static char body[400000];
-    size_t length = (size_t)snprintf(body, sizeof body,
-                                     "'accessors':[{'componentType':5126,'count':100000,'type':'VEC3'}],"
-                                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}");
+    size_t length = (size_t)snprintf(
+        body, sizeof body,
+        "'bufferViews':[{'buffer':0,'byteLength':12},{'buffer':0,'byteOffset':12,'byteLength':1}],'accessors'"
+        ":"
+        "[{'componentType':5126,'count':65536,'type':'VEC3','sparse':{'count':1,'indices':{'bufferView':1,"
+        "'componentType':5121},'values':{'bufferView':0}}}],'meshes':[{'primitives':[{'attributes':{'"
+        "POSITION'"
+        ":0},'mode':0}");
     for (int i = 0; i < 5000; i++)
         length +=
             (size_t)snprintf(body + length, sizeof body - length, ",{'attributes':{'POSITION':0},'mode':0}");
     snprintf(body + length, sizeof body - length, "]}]");
-    assert_refused(body, NULL, FACET_ERROR_LIMIT, "more than 268435456 elements");
+    assert_refused(body, &bin, FACET_ERROR_LIMIT, "more than 268435456 elements");
 }
 
 static void index_types_are_equal(void **state)
@@ -277,9 +316,10 @@ int main(void)
         cmocka_unit_test(misaligned_floats_are_read_with_a_warning),
         cmocka_unit_test(sparse_elements_replace),
         cmocka_unit_test(sparse_indices_are_checked),
+        cmocka_unit_test(claims_without_data_are_bounded),
         cmocka_unit_test(what_leaves_its_buffer_is_refused),
         cmocka_unit_test(wrong_types_are_refused),
-        cmocka_unit_test(claims_without_bytes_are_limited),
+        cmocka_unit_test(work_beyond_the_bytes_is_limited),
         cmocka_unit_test(index_types_are_equal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -191,7 +191,7 @@ const float *get_accessor_floats(reader *r, const json_place *at, uint32_t index
         return NULL;
     ACCESSOR_PLACE(place, index);
     const unsigned char *bytes;
-    if (!get_dense_bytes(r, &place, a, &bytes))
+    if (!check_claim(r, &place, a) || !get_dense_bytes(r, &place, a, &bytes))
         return NULL;
     if (a->count > 0 && is_plain_array(r, a, bytes, GLTF_F32)) {
         a->floats = (const float *)(const void *)bytes;
@@ -255,7 +255,7 @@ const uint32_t *get_accessor_indices(reader *r, const json_place *at, uint32_t i
     if (!reader_spend(r, at, a->count))
         return NULL;
     const unsigned char *bytes;
-    if (!get_dense_bytes(r, &place, a, &bytes))
+    if (!check_claim(r, &place, a) || !get_dense_bytes(r, &place, a, &bytes))
         return NULL;
     if (bytes && !a->decoded && r->views[a->view].stride)
         reader_warn(r, &place, NULL, "holds indices, but its buffer view has a byteStride");

@@ -84,6 +84,29 @@ static void instances_arrive(void **state)
                          1);
 }
 
+/* A few bytes of JSON that claim a million instances take nothing: without data, all of them are the same. */
+static void instances_without_data_are_one(void **state)
+{
+    (void)state;
+    static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    test_model m = {0};
+    model_add_floats(&m, corners, 3, "VEC3");
+    static const char body[] =
+        "'extensionsUsed':['EXT_mesh_gpu_instancing'],'meshes':[{'primitives':[{'attributes':{"
+        "'POSITION':0}}]}],'nodes':[{'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{"
+        "'%s':1}}}}]";
+    strcpy(m.accessors + strlen(m.accessors), ",{'componentType':5126,'count':1000000,'type':'VEC3'}");
+    static const char *const names[2] = {"TRANSLATION", "SCALE"};
+    for (int i = 0; i < 2; i++) {
+        facet_scene *scene = model_load(&m, body, names[i]);
+        assert_int_equal(scene->nodes[0].instancing->count, 1);
+        assert_null(scene->nodes[0].instancing->translations);
+        assert_true((scene->nodes[0].instancing->scales != NULL) == (i == 1)); /* of size 0 */
+        assert_true(has_warning(scene, "1000000 instances without data are at one place; one is drawn"));
+        scene_destroy(scene);
+    }
+}
+
 /* ---- lights that are images ---- */
 
 #define PNG                                                                                                  \
@@ -233,6 +256,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(variants_name_materials),
         cmocka_unit_test(instances_arrive),
+        cmocka_unit_test(instances_without_data_are_one),
         cmocka_unit_test(image_lights_arrive),
         cmocka_unit_test(extras_stay_as_they_are),
         cmocka_unit_test(xmp_is_kept),

@@ -79,6 +79,17 @@ const scene_instancing *read_instancing(reader *r, const json_place *node)
     scene_instancing *out = reader_alloc(r, "instances", 1, sizeof *out);
     if (!out)
         return NULL;
+    bool has_data = false;
+    for (int i = 0; i < 3; i++)
+        has_data |= accessors[i] != SCENE_NONE && !is_zero_accessor(r, accessors[i]);
+    if (!has_data) { /* all zeros: where the node is, or of size 0 */
+        static const float zeros[3] = {0, 0, 0};
+        if (count > 1)
+            reader_warn(r, &attributes, NULL, "%u instances without data are at one place; one is drawn",
+                        count);
+        *out = (scene_instancing){.count = count ? 1 : 0, .scales = scale != SCENE_NONE ? zeros : NULL};
+        return out;
+    }
     out->count = count;
     if (translation != SCENE_NONE)
         out->translations = get_finite(r, &attributes, translation, "translations");

@@ -151,6 +151,13 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
         make_empty(p);
         return;
     }
+    uint32_t position = get_index(r, &attributes, "POSITION", r->accessor_count, "accessor");
+    if (position != SCENE_NONE && is_zero_accessor(r, position) && !has_member(at, "targets")) {
+        reader_warn(r, &attributes, "POSITION",
+                    "is without data, so that all vertices are at 0; it is not drawn");
+        make_empty(p);
+        return;
+    }
     const uint8_t *is_lost = NULL;
     bool has_missing_normals = false;
     if (!read_attributes(r, &attributes, p, &is_lost, &has_missing_normals)) {

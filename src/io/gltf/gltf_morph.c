@@ -36,12 +36,6 @@ static void check_target(reader *r, const json_place *target, const json_place *
     }
 }
 
-/* What changes nothing takes no memory, however many elements the file says it has. */
-static bool is_all_zeros(const gltf_accessor *a)
-{
-    return a->view == SCENE_NONE && a->sparse_count == 0 && !a->decoded;
-}
-
 static bool read_target(reader *r, const json_place *target, const scene_primitive *p,
                         scene_morph_target *out)
 {
@@ -49,8 +43,8 @@ static bool read_target(reader *r, const json_place *target, const scene_primiti
     const bool is_used[3] = {true, p->normals != NULL, p->tangents != NULL};
     for (int i = 0; i < 3; i++) {
         uint32_t accessor = get_attribute(r, target, DELTAS[i].name, DELTAS[i].attribute, p->vertex_count);
-        if (accessor == SCENE_NONE || !is_used[i] || is_all_zeros(&r->accessors[accessor]))
-            continue;
+        if (accessor == SCENE_NONE || !is_used[i] || is_zero_accessor(r, accessor))
+            continue; /* what changes nothing takes no memory */
         if (!has_accessor_source(r, accessor))
             reader_warn(r, target, DELTAS[i].name, "is in a buffer without bytes and changes nothing");
         else

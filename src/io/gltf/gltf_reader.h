@@ -97,6 +97,7 @@ typedef struct reader {
     size_t bin_size;
 
     uint32_t buffer_count, view_count, accessor_count;
+    uint32_t backed_count; /* elements of the longest accessor that has a buffer view */
     gltf_buffer *buffers;
     gltf_view *views;
     gltf_accessor *accessors;
@@ -197,6 +198,11 @@ const unsigned char *get_buffer_bytes(reader *r, uint32_t buffer);
 bool has_buffer_source(const reader *r, uint32_t buffer);
 bool has_view_source(const reader *r, uint32_t view);
 bool has_accessor_source(const reader *r, uint32_t accessor);
+/* Whether all elements are 0 because the file gives none: neither a buffer view nor sparse values. */
+bool is_zero_accessor(const reader *r, uint32_t accessor);
+/* Refuses (FACET_ERROR_LIMIT) an accessor without a buffer view that has many more elements than any array in the file
+ * and than its sparse values: a few bytes of JSON must not take gigabytes. */
+bool check_claim(reader *r, const json_place *at, const gltf_accessor *a);
 /* Warns about the URIs of buffers that nothing used and that could not have been read. */
 void check_unused_buffers(reader *r);
 
