@@ -19,16 +19,31 @@ static facet_result fail_jpeg(facet_error *error, const char *name, tjhandle han
     return fail(error, FACET_ERROR_INVALID, "%s: JPEG: %s", name, message);
 }
 
+/* Whether the call that just failed only warned, and of something that leaves the image whole: stray bytes before a
+ * marker, parameters that a decoder ignores. Damage to the image is an error. TurboJPEG tells warnings from errors by the
+ * first of them only, so the text of the last one decides. */
+static bool is_harmless(tjhandle handle)
+{
+    static const char *const harmless[] = {"extraneous bytes", "unknown JFIF revision", "Unknown Adobe color",
+                                           "Invalid SOS parameters"};
+    for (size_t i = 0; i < sizeof harmless / sizeof *harmless; i++)
+        if (tjGetErrorCode(handle) == TJERR_WARNING && strstr(tjGetErrorStr2(handle), harmless[i]))
+            return true;
+    return false;
+}
+
 static facet_result read_header(tjhandle handle, const unsigned char *bytes, size_t size, const char *name,
                                 int *width, int *height, int *color_space, facet_error *error)
 {
     int subsampling;
     *width = *height = *color_space = 0;
-    if (size > ULONG_MAX || tjDecompressHeader3(handle, bytes, (unsigned long)size, width, height,
-                                                &subsampling, color_space) != 0)
+    if (size > ULONG_MAX || (tjDecompressHeader3(handle, bytes, (unsigned long)size, width, height,
+                                                 &subsampling, color_space) != 0 &&
+                             !is_harmless(handle)))
         return fail_jpeg(error, name, handle);
-    if (*width <= 0 || *height <= 0) /* libjpeg takes files of tables alone, and leaves the rest as it was */
-        return fail(error, FACET_ERROR_INVALID, "%s: JPEG: holds no picture", name);
+    if (*width <= 0 ||
+        *height <= 0) /* libjpeg accepts files of tables alone, and leaves the sizes as they were */
+        return fail(error, FACET_ERROR_INVALID, "%s: JPEG: holds no image", name);
     return FACET_OK;
 }
 
@@ -51,35 +66,23 @@ facet_result jpeg_probe(const unsigned char *bytes, size_t size, const char *nam
 }
 
 /* Whether an APP14 segment of Adobe stands before the first scan: its four-component files hold inks
- * inverted, 255 for none. */
+ * inverted, 255 for none. Bytes before a marker are skipped, as libjpeg does. */
 static bool is_adobe(const unsigned char *bytes, size_t size)
 {
     size_t at = 2;
-    while (at + 4 <= size && bytes[at] == 0xff) {
-        unsigned marker = bytes[at + 1];
-        if (marker == 0xff) { /* a fill byte */
+    while (at + 4 <= size) {
+        if (bytes[at] != 0xff || bytes[at + 1] == 0xff || bytes[at + 1] == 0) { /* stray or a fill byte */
             at++;
             continue;
         }
+        const unsigned marker = bytes[at + 1];
         if (marker == 0xda)
             return false;
-        size_t length = (size_t)bytes[at + 2] << 8 | bytes[at + 3];
+        const size_t length = (size_t)bytes[at + 2] << 8 | bytes[at + 3];
         if (marker == 0xee && length >= 14 && at + 9 <= size && memcmp(bytes + at + 4, "Adobe", 5) == 0)
             return true;
         at += 2 + length;
     }
-    return false;
-}
-
-/* Whether the last warning is about bytes that do not belong to the picture; damage to it is an error.
- * TurboJPEG tells warnings and errors apart by the first of them only, so the message has to say. */
-static bool is_harmless(tjhandle handle)
-{
-    static const char *const harmless[] = {"extraneous bytes", "unknown JFIF revision",
-                                           "Unknown Adobe color"};
-    for (size_t i = 0; i < sizeof harmless / sizeof *harmless; i++)
-        if (tjGetErrorCode(handle) == TJERR_WARNING && strstr(tjGetErrorStr2(handle), harmless[i]))
-            return true;
     return false;
 }
 

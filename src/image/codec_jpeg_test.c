@@ -177,6 +177,40 @@ static void jpeg_without_a_picture_is_refused(void **state)
     }
 }
 
+/* Stray bytes before a marker, wherever it stands, leave the image as it is: zeros, and FF 00, which libjpeg skips too. */
+static void jpeg_skips_stray_bytes(void **state)
+{
+    (void)state;
+    static const unsigned char stray[2][4] = {{0, 0, 0, 0}, {0xff, 0, 0x12, 0}};
+    file_bytes file = read_file(TEST_DATA "cmyk.jpg"); /* its colors depend on a marker of the header, too */
+    image whole = decode_file(TEST_DATA "cmyk.jpg");
+    unsigned char *longer = malloc(file.size + 4);
+    size_t marker_count = 0;
+    for (size_t at = 2; at + 4 < file.size && file.data[at] == 0xff;
+         at += 2 + ((size_t)file.data[at + 2] << 8 | file.data[at + 3])) {
+        for (int kind = 0; kind < 2; kind++) {
+            memcpy(longer, file.data, at);
+            memcpy(longer + at, stray[kind], 4);
+            memcpy(longer + at + 4, file.data + at, file.size - at);
+            image i, header;
+            facet_error error;
+            if (image_probe(longer, file.size + 4, "stray", &header, NULL, &error) != FACET_OK ||
+                image_decode(longer, file.size + 4, "stray", NULL, &i, &error) != FACET_OK)
+                fail_msg("before byte %zu: %s", at, error.message);
+            assert_int_equal(header.width, whole.width);
+            assert_same_texels(&whole, &i);
+            image_destroy(&i);
+        }
+        marker_count++;
+        if (file.data[at + 1] == 0xda)
+            break;
+    }
+    assert_true(marker_count >= 4);
+    free(longer);
+    image_destroy(&whole);
+    file_close(&file);
+}
+
 static void webp_is_lossless_at_100(void **state)
 {
     (void)state;
@@ -213,10 +247,11 @@ static void webp_is_close(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(jpeg_is_close),           cmocka_unit_test(jpeg_keeps_chroma),
-        cmocka_unit_test(jpeg_is_reduced),         cmocka_unit_test(jpeg_color_spaces),
-        cmocka_unit_test(jpeg_takes_what_it_can),  cmocka_unit_test(jpeg_without_a_picture_is_refused),
-        cmocka_unit_test(webp_is_lossless_at_100), cmocka_unit_test(webp_is_close),
+        cmocka_unit_test(jpeg_is_close),          cmocka_unit_test(jpeg_keeps_chroma),
+        cmocka_unit_test(jpeg_is_reduced),        cmocka_unit_test(jpeg_color_spaces),
+        cmocka_unit_test(jpeg_takes_what_it_can), cmocka_unit_test(jpeg_without_a_picture_is_refused),
+        cmocka_unit_test(jpeg_skips_stray_bytes), cmocka_unit_test(webp_is_lossless_at_100),
+        cmocka_unit_test(webp_is_close),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
