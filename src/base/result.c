@@ -34,17 +34,29 @@ facet_result fail_memory(facet_error *error, const char *what, size_t size)
                 : fail(error, FACET_ERROR_MEMORY, "out of memory: %s", what);
 }
 
-void log_warning(const facet_log *log, const char *format, ...)
+static void send_message(const facet_log *log, facet_log_level level, const char *format, va_list arguments)
 {
     if (!log || !log->message)
         return;
     char text[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    int length = vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    if (length < 0)
+    if (vsnprintf(text, sizeof text, format, arguments) < 0)
         return;
     make_one_line(text);
-    log->message(log->user, FACET_LOG_WARNING, text);
+    log->message(log->user, level, text);
+}
+
+void log_message(const facet_log *log, facet_log_level level, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    send_message(log, level, format, arguments);
+    va_end(arguments);
+}
+
+void log_warning(const facet_log *log, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    send_message(log, FACET_LOG_WARNING, format, arguments);
+    va_end(arguments);
 }

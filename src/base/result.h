@@ -14,7 +14,10 @@ facet_result fail(facet_error *error, facet_result result, const char *format, .
 /* fail() for memory that was not there: "out of memory: WHAT (SIZE bytes)"; size 0, where a library asked for it: without them. */
 facet_result fail_memory(facet_error *error, const char *what, size_t size);
 
-/* Sends one formatted warning to log, if there is one. */
+/* Sends one formatted message to log, if there is one. Control characters become '?'. */
+void log_message(const facet_log *log, facet_log_level level, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* log_message() of FACET_LOG_WARNING. */
 void log_warning(const facet_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

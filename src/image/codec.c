@@ -3,6 +3,8 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/result.h"
@@ -47,7 +49,7 @@ image_codec image_codec_detect(const void *bytes, size_t size)
         const char *bytes;
     } magics[] = {
         {IMAGE_CODEC_PNG, 0, 8, "\x89PNG\r\n\x1a\n"},
-        {IMAGE_CODEC_JPEG, 0, 3, "\xff\xd8\xff"},
+        {IMAGE_CODEC_JPEG, 0, 2, "\xff\xd8"}, /* stray bytes may stand before the next marker */
         {IMAGE_CODEC_WEBP, 8, 4, "WEBP"},
         {IMAGE_CODEC_HDR, 0, 11, "#?RADIANCE\n"},
         {IMAGE_CODEC_HDR, 0, 11, "#?RADIANCE\r"},
@@ -175,6 +177,23 @@ facet_result image_probe(const void *bytes, size_t size, const char *name, image
     return result == FACET_OK ? codecs[id].probe(bytes, size, name, header, error) : result;
 }
 
+void image_note_set(image_note *note, facet_log_level level, const char *format, ...)
+{
+    if (!note)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(note->text, sizeof note->text, format, arguments);
+    va_end(arguments);
+    note->level = level;
+}
+
+void image_note_log(const image_note *note, const char *name, const facet_log *log)
+{
+    if (note->text[0])
+        log_message(log, note->level, "%s: %s", name, note->text);
+}
+
 facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
                           image *out, facet_error *error)
 {
@@ -190,6 +209,8 @@ facet_result image_decode(const void *bytes, size_t size, const char *name, cons
     float largest;
     d.largest = d.largest ? d.largest : &largest;
     *d.largest = FLT_MAX;
+    if (d.note)
+        *d.note = (image_note){0};
     image_codec id;
     facet_result result = find_codec(bytes, size, name, &id, error);
     if (result == FACET_OK && d.layer && id != IMAGE_CODEC_EXR)

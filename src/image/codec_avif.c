@@ -1,5 +1,5 @@
 /* codec_avif.c - AVIF through libavif, whose own memory comes from malloc; only built where libavif is. The first
- * picture of a sequence counts; rotations and crops that a file may ask for are not applied.
+ * image of a sequence counts. libavif leaves clean aperture, rotation and mirroring to the caller: oriented here.
  *
  * libavif is opened when a file needs it: it brings 23 libraries along, which would cost every start of a program
  * that is linked with them 1.5 ms. */
@@ -8,6 +8,7 @@
 #include <avif/avif.h>
 #include <dlfcn.h>
 
+#include <math.h>
 #include <string.h>
 
 #include "base/result.h"
@@ -103,6 +104,98 @@ static facet_result open_file(const unsigned char *bytes, size_t size, const cha
     return codec_check_size(name, decoder->image->width, decoder->image->height, UINT32_MAX, error);
 }
 
+/* ---- clean aperture, rotation, mirroring: ISO/IEC 23008-12:2022, 6.5.9, 6.5.10 and 6.5.12, in this order ---- */
+
+typedef struct crop {
+    uint32_t x, y, width, height;
+} crop;
+
+/* One axis of a clean aperture: size and centre offset from the middle of count texels, as fractions, rounded to whole
+ * texels. False: not inside the image, or nothing. */
+static bool find_aperture(uint32_t count, uint32_t size_n, uint32_t size_d, uint32_t offset_n,
+                          uint32_t offset_d, uint32_t *first, uint32_t *size)
+{
+    if (size_d == 0 || offset_d == 0)
+        return false;
+    const double n = floor((double)size_n / size_d + 0.5);
+    const double offset = (double)(int32_t)offset_n / (double)(int32_t)offset_d;
+    const double begin = floor(offset + (count - n) / 2.0 + 0.5);
+    if (!(n >= 1.0 && begin >= 0.0 && begin + n <= count))
+        return false;
+    *first = (uint32_t)begin;
+    *size = (uint32_t)n;
+    return true;
+}
+
+/* False: there is an aperture that does not fit, and *out is the whole image. */
+static bool find_crop(const avifImage *i, crop *out)
+{
+    *out = (crop){0, 0, i->width, i->height};
+    if (!(i->transformFlags & AVIF_TRANSFORM_CLAP))
+        return true;
+    const avifCleanApertureBox *c = &i->clap;
+    crop found;
+    if (!find_aperture(i->width, c->widthN, c->widthD, c->horizOffN, c->horizOffD, &found.x, &found.width) ||
+        !find_aperture(i->height, c->heightN, c->heightD, c->vertOffN, c->vertOffD, &found.y, &found.height))
+        return false;
+    *out = found;
+    return true;
+}
+
+/* Quarter turns anticlockwise. */
+static uint32_t get_turns(const avifImage *i)
+{
+    return i->transformFlags & AVIF_TRANSFORM_IROT ? i->irot.angle & 3u : 0;
+}
+
+typedef enum mirroring { MIRROR_NONE, MIRROR_ROWS, MIRROR_COLUMNS } mirroring;
+
+static mirroring get_mirroring(const avifImage *i)
+{
+#if AVIF_VERSION >= 1000000
+    const uint8_t axis = i->imir.axis;
+#else
+    const uint8_t axis = i->imir.mode;
+#endif
+    return !(i->transformFlags & AVIF_TRANSFORM_IMIR) ? MIRROR_NONE : axis ? MIRROR_COLUMNS : MIRROR_ROWS;
+}
+
+/* The decoded image as the file's properties have it shown; in is released. */
+static facet_result orient(image *in, const avifImage *properties, const facet_allocator *allocator,
+                           image *out, facet_error *error)
+{
+    crop c;
+    find_crop(properties, &c);
+    const uint32_t turns = get_turns(properties);
+    const mirroring m = get_mirroring(properties);
+    if (c.width == in->width && c.height == in->height && turns == 0 && m == MIRROR_NONE) {
+        *out = *in;
+        *in = (image){0};
+        return FACET_OK;
+    }
+    const uint32_t width = turns % 2 ? c.height : c.width;
+    const uint32_t height = turns % 2 ? c.width : c.height;
+    facet_result result = image_create(allocator, width, height, in->channel_count, in->type, out, error);
+    const size_t texel_size = image_texel_size(in);
+    unsigned char *to = out->pixels;
+    for (uint32_t row = 0; row < height && result == FACET_OK; row++) {
+        const uint32_t y = m == MIRROR_ROWS ? height - 1 - row : row;
+        for (uint32_t column = 0; column < width; column++, to += texel_size) {
+            const uint32_t x = m == MIRROR_COLUMNS ? width - 1 - column : column;
+            const uint32_t from_x[4] = {x, c.width - 1 - y, c.width - 1 - x, y};
+            const uint32_t from_y[4] = {y, x, c.height - 1 - y, c.height - 1 - x};
+            const size_t texel = (size_t)(c.y + from_y[turns]) * in->width + c.x + from_x[turns];
+            memcpy(to, (const unsigned char *)in->pixels + texel * texel_size, texel_size);
+        }
+    }
+    out->is_srgb = in->is_srgb;
+    image_destroy(in);
+    return result;
+}
+
+/* ---- probing and decoding ---- */
+
+/* As it is stored. */
 static image make_header(const avifDecoder *decoder)
 {
     return (image){.width = decoder->image->width,
@@ -117,10 +210,33 @@ facet_result avif_probe(const unsigned char *bytes, size_t size, const char *nam
 {
     avif_file file;
     facet_result result = open_file(bytes, size, name, &file, error);
-    if (result == FACET_OK)
+    if (result == FACET_OK) {
+        crop c;
+        find_crop(file.decoder->image, &c);
+        const bool is_upright = get_turns(file.decoder->image) % 2 == 0;
         *header = make_header(file.decoder);
+        header->width = is_upright ? c.width : c.height;
+        header->height = is_upright ? c.height : c.width;
+    }
     close_file(&file);
     return result;
+}
+
+/* Color as libavif cannot convert it: the reason; NULL: it can. */
+static const char *get_unread_matrix(const avifImage *i)
+{
+    switch (i->matrixCoefficients) {
+    case AVIF_MATRIX_COEFFICIENTS_BT2020_CL:
+        return "BT.2020 with constant luminance";
+    case AVIF_MATRIX_COEFFICIENTS_SMPTE2085:
+        return "SMPTE ST 2085";
+    case AVIF_MATRIX_COEFFICIENTS_CHROMA_DERIVED_CL:
+        return "constant luminance derived from the chromaticities";
+    case AVIF_MATRIX_COEFFICIENTS_ICTCP:
+        return "ICtCp";
+    default:
+        return NULL;
+    }
 }
 
 /* The decoded planes as RGB or RGBA of all bits that out has. */
@@ -136,8 +252,9 @@ static avifResult convert(const avif_library *l, const avifImage *from, image *o
     return l->to_rgb(from, &rgb);
 }
 
-static facet_result decode(const avif_file *file, const char *name, const image_decode_desc *desc, image *out,
-                           facet_error *error)
+/* The image as it is stored, in its own channels. */
+static facet_result decode_stored(const avif_file *file, const char *name, const image_decode_desc *desc,
+                                  image *out, facet_error *error)
 {
     const avif_library *l = &file->library;
     avifDecoder *decoder = file->decoder;
@@ -145,6 +262,11 @@ static facet_result decode(const avif_file *file, const char *name, const image_
     facet_result result = codec_check_size(name, header.width, header.height, desc->max_size, error);
     if (result != FACET_OK)
         return result;
+    const char *matrix = get_unread_matrix(decoder->image);
+    if (matrix)
+        return fail(error, FACET_ERROR_UNSUPPORTED,
+                    "%s: AVIF: matrix coefficients %u (%s): colors of this kind are not converted to RGB",
+                    name, decoder->image->matrixCoefficients, matrix);
     decoder->maxThreads = (int)desc->thread_count;
     avifResult status = l->next_image(decoder);
     if (status != AVIF_RESULT_OK)
@@ -159,10 +281,24 @@ static facet_result decode(const avif_file *file, const char *name, const image_
         return result;
     out->is_srgb = true;
     status = convert(l, decoder->image, out);
-    if (status != AVIF_RESULT_OK)
-        return fail_avif(l, error, name, status);
-    if (desc->channel_count == 0 || desc->channel_count == header.channel_count || header.type != IMAGE_U8)
-        return FACET_OK;
+    return status == AVIF_RESULT_OK ? FACET_OK : fail_avif(l, error, name, status);
+}
+
+static facet_result decode(const avif_file *file, const char *name, const image_decode_desc *desc, image *out,
+                           facet_error *error)
+{
+    image stored = {0};
+    crop c;
+    facet_result result = decode_stored(file, name, desc, &stored, error);
+    if (result == FACET_OK && !find_crop(file->decoder->image, &c))
+        image_note_set(desc->note, FACET_LOG_WARNING,
+                       "its clean aperture (clap) is not inside the image and is ignored");
+    if (result == FACET_OK)
+        result = orient(&stored, file->decoder->image, &desc->allocator, out, error);
+    image_destroy(&stored);
+    if (result != FACET_OK || desc->channel_count == 0 || desc->channel_count == out->channel_count ||
+        out->type != IMAGE_U8)
+        return result;
     /* libavif would multiply colors by an alpha that it leaves out */
     image asked;
     result = image_convert(out, &desc->allocator, desc->thread_count, desc->channel_count, IMAGE_U8, true,

@@ -54,6 +54,19 @@ image_codec image_codec_detect(const void *bytes, size_t size); /* by the first 
 const char *image_codec_name(image_codec codec);                /* "PNG" .. */
 bool image_codec_is_built(image_codec codec);                   /* whether this build can decode such files */
 
+/* One sentence about what a decoder did that the user may want to know, or what the file asks for and does not get.
+ * text[0] is 0 where there is nothing to report. */
+typedef struct image_note {
+    facet_log_level level;
+    char text[256];
+} image_note;
+
+/* Replaces the note. note may be NULL. */
+void image_note_set(image_note *note, facet_log_level level, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Sends a note that is set to log, as "NAME: TEXT". */
+void image_note_log(const image_note *note, const char *name, const facet_log *log);
+
 /* How a file is decoded. {0}: as it is, largest edge 16384. */
 typedef struct image_decode_desc {
     facet_allocator allocator;
@@ -72,13 +85,15 @@ typedef struct image_decode_desc {
     bool keeps_nonfinite;
     /* NULL: not wanted. What infinity becomes: 65504 where the file holds half, else the largest float */
     float *largest;
+    image_note *note; /* set or cleared by image_decode(); NULL: not wanted */
 } image_decode_desc;
 
-/* What the header says; nothing else is read. width and height are those of the whole picture. */
+/* What the header says; nothing else is read. width and height are those of the whole image as it is decoded. */
 facet_result image_probe(const void *bytes, size_t size, const char *name, image *header /* pixels NULL */,
                          image_codec *codec, facet_error *error);
 /* Decodes. name stands first in messages. PNG, AVIF: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits;
- * all of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2). HDR, EXR, PFM: F32 RGB
+ * all of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2); AVIF's crop, rotation and
+ * mirroring are applied. HDR, EXR, PFM: F32 RGB
  * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where a file holds
  * half), unless desc says otherwise; so in KTX2. KTX2: the first layer and face (ktx2.h has them all), of the type that holds
  * the format's values, is_srgb as the file says; channels that its format lacks are 0, as samplers read them. */
