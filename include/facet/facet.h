@@ -132,7 +132,7 @@ typedef enum facet_legacy_colors {
 /* Programs that wrote MTL files in ways of their own. */
 typedef enum facet_mtl_dialect {
     FACET_MTL_AUTO,        /* by the file's first comment; else SPEC */
-    FACET_MTL_SPEC,        /* as Wavefront has it */
+    FACET_MTL_SPEC,        /* as Wavefront has it, to the letter: Ns 0 is a highlight everywhere */
     FACET_MTL_BLENDER27,   /* Ns = 1.96078 (hardness - 1) */
     FACET_MTL_BLENDER28,   /* Ns = (30 (1 - r))^2 */
     FACET_MTL_BLENDER3,    /* Ns = 1000 (1 - r)^2, metallic in Ka */

@@ -150,7 +150,8 @@ static const option legacy_options[] = {
      .kind = OPTION_CHOICE,
      .argument = "NAME",
      .default_text = "auto, by the first comment",
-     .help = "the program whose habits an MTL file follows",
+     .help = "the program whose habits an MTL file follows; spec: none, a highlight over the whole "
+             "surface (Ns 0) counts as well",
      .choices = WORDS("auto", "spec", "blender27", "blender28", "blender3", "obj2gltf-mr", "obj2gltf-sg")},
     {.id = OPT_ILLUM,
      .name = "illum",

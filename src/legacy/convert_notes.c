@@ -24,6 +24,7 @@ static const struct {
     [NOTE_SPECULAR_CLAMPED] = {"specular-clamped", true},
     [NOTE_SHININESS_CLAMPED] = {"shininess-clamped", true},
     [NOTE_LOW_EXPONENT] = {"low-exponent", false},
+    [NOTE_HIGHLIGHT_IGNORED] = {"highlight-ignored", true},
     [NOTE_METAL_WITHOUT_DIFFUSE] = {"metal-without-diffuse", false},
     [NOTE_AMBIENT_DROPPED] = {"ambient-dropped", true},
     [NOTE_ILLUM_IGNORED] = {"illum-ignored", true},

@@ -170,6 +170,11 @@ static void read_ambient(conversion *c, uint32_t material, legacy_reading *r, fa
 
 /* ---- illum ---- */
 
+static bool reflects_surroundings(int illum)
+{
+    return illum == 3 || illum == 5 || illum == 7 || illum == 8;
+}
+
 static bool is_known_good(facet_mtl_dialect dialect)
 {
     return dialect == FACET_MTL_BLENDER27 || dialect == FACET_MTL_BLENDER28 || dialect == FACET_MTL_BLENDER3;
@@ -203,6 +208,36 @@ static void read_illum(conversion *c, uint32_t material, legacy_reading *r, face
         remove_map(&m->maps[LEGACY_SHININESS_MAP]);
         note_add(&c->notes, material, NOTE_ILLUM_HONOURED, "illum 1: Ks and Ns do not count");
     }
+}
+
+/* ---- highlights as wide as the surface ---- */
+
+/* At an exponent of 0 the highlight is everywhere and lays Ks over the whole surface. The format says so, also where Ns is
+ * not stated, but no author has seen it: exporters that know no highlight write 0, those that count from 0 to 1 a
+ * fraction, and today's programs read both as a matte surface. Where a mirror was asked for, Ks is its reflectance. rgl's
+ * parameters were seen as they are. */
+#define LEAST_EXPONENT 1.0f
+
+static void read_widest_highlight(conversion *c, uint32_t material, legacy_reading *r)
+{
+    legacy_material *m = &r->m;
+    bool is_mirror = c->desc.has_mirrors && reflects_surroundings(m->illum);
+    if (r->kind != READING_OGL1 || c->scene->legacy->is_rgl || c->desc.dialect == FACET_MTL_SPEC ||
+        is_mirror || m->shininess > LEAST_EXPONENT || is_black(r->surface.specular))
+        return;
+    if (legacy_has(m, LEGACY_SHININESS))
+        note_add(
+            &c->notes, material, NOTE_HIGHLIGHT_IGNORED,
+            "Ns %g spreads the highlight over the whole surface; it is left out (--dialect spec keeps it)",
+            (double)m->shininess);
+    else
+        note_add(
+            &c->notes, material, NOTE_HIGHLIGHT_IGNORED,
+            "Ks without Ns is a highlight over the whole surface; it is left out (--dialect spec keeps it)");
+    memset(r->surface.specular, 0, sizeof r->surface.specular);
+    r->surface.shininess = 0.0f; /* rough to viewers without the extensions, too */
+    remove_map(&m->maps[LEGACY_SPECULAR_MAP]);
+    remove_map(&m->maps[LEGACY_SHININESS_MAP]);
 }
 
 /* ---- rgl's kinds of textures and their modes: docs/legacy.md, "Textures of rgl" ---- */
@@ -327,6 +362,8 @@ static void read_dialect(legacy_reading *r, facet_mtl_dialect dialect)
     if (r->has_shininess_as_roughness && !legacy_has(m, LEGACY_SHININESS) &&
         legacy_has_map(m, LEGACY_SHININESS_MAP))
         r->glossiness = r->perceptual_roughness = 1.0f;
+    if (dialect == FACET_MTL_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SHININESS))
+        r->perceptual_roughness = 1.0f; /* obj2gltf's default, where Ns is a roughness */
     if (dialect == FACET_MTL_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SPECULAR) &&
         legacy_has_map(m, LEGACY_SPECULAR_MAP))
         r->metallic = 1.0f;
@@ -399,11 +436,6 @@ static void read_glass(conversion *c, legacy_reading *r, facet_legacy_colors col
  * too. */
 #define MIRROR_BLACK 0.02f
 
-static bool reflects_surroundings(int illum)
-{
-    return illum == 3 || illum == 5 || illum == 7 || illum == 8;
-}
-
 static void note_mirror(conversion *c, uint32_t material, const legacy_material *m)
 {
     bool is_bright = legacy_has(m, LEGACY_SPECULAR) ? highest_of(m->specular) > 0.5f : true;
@@ -419,7 +451,7 @@ static void note_mirror(conversion *c, uint32_t material, const legacy_material 
  * taken at its word. Between 100, where a highlight is as wide as that of brushed metal, and 500 the two are mixed. */
 static float mirror_roughness(const legacy_material *m, float shininess)
 {
-    if (!legacy_has(m, LEGACY_SHININESS))
+    if (!legacy_has(m, LEGACY_SHININESS) || m->shininess <= LEAST_EXPONENT)
         return 0.0f;
     return perceptual_roughness_from_shininess(shininess) * unit_of((500.0f - shininess) / 400.0f);
 }
@@ -521,6 +553,7 @@ void legacy_read(conversion *c, uint32_t material, legacy_reading *out)
     read_illum(c, material, out, legacy->dialect);
     if (!m->is_lit)
         out->kind = READING_UNLIT;
+    read_widest_highlight(c, material, out);
     read_glass(c, out, colors);
     read_mirror(c, material, out);
 }

@@ -71,7 +71,7 @@ static void vertex_colors_replace_a_default(void **state)
         m.fields = is_stated ? LEGACY_DIFFUSE : 0;
         scene->legacy->materials[0] = m;
         convert(scene, &PLAIN);
-        float wanted = is_stated ? .8f : 1.0f; /* PLAIN reads linear colors */
+        float wanted = is_stated ? .8f : 1.0f; /* its colors are linear */
         assert_color(scene->materials[0].base_color, wanted, wanted, wanted, 1e-4);
         scene_destroy(scene);
     }
@@ -414,6 +414,41 @@ static void dialects_put_roughness_elsewhere(void **state)
     scene_destroy(scene);
 }
 
+/* A highlight over the whole surface is left out, whatever program wrote it, but where the format is asked for to the
+ * letter; Blender's newer exporters and obj2gltf have a roughness there. */
+static void widest_highlights_are_left_out(void **state)
+{
+    (void)state;
+    static const facet_mtl_dialect dialects[] = {
+        FACET_MTL_AUTO,     FACET_MTL_SPEC,        FACET_MTL_BLENDER27,  FACET_MTL_BLENDER28,
+        FACET_MTL_BLENDER3, FACET_MTL_OBJ2GLTF_MR, FACET_MTL_OBJ2GLTF_SG};
+    static const float exponents[] = {0, .25f, 1};
+    for (size_t d = 0; d < sizeof dialects / sizeof *dialects; d++)
+        for (int i = -1; i < 3; i++) { /* -1: not stated */
+            legacy_material m = legacy_material_default();
+            m.fields = LEGACY_DIFFUSE | LEGACY_SPECULAR | (i >= 0 ? LEGACY_SHININESS : 0);
+            set_color(m.diffuse, .8f, .2f, .2f);
+            set_color(m.specular, .9f, .9f, .9f);
+            m.shininess = i >= 0 ? exponents[i] : 0;
+            facet_scene *scene = in_dialect(m, dialects[d]);
+            const scene_material *out = &scene->materials[0];
+            bool is_exponent = dialects[d] <= FACET_MTL_BLENDER27;
+            bool is_literal = dialects[d] == FACET_MTL_SPEC;
+            assert_true(has_warning(scene, 0, "highlight-ignored") == (is_exponent && !is_literal));
+            if (is_literal)
+                assert_true(out->base_color[1] > .4f); /* washed out */
+            else if (is_exponent)
+                assert_near(out->specular, 0, 0);
+            if (!is_literal)
+                assert_color(out->base_color, .8f, .2f, .2f, 1e-6);
+            if (dialects[d] == FACET_MTL_OBJ2GLTF_MR)
+                assert_near(out->perceptual_roughness, i >= 0 ? m.shininess : 1, 1e-6);
+            else if (!is_literal && dialects[d] != FACET_MTL_OBJ2GLTF_SG)
+                assert_true(out->perceptual_roughness > .94f);
+            scene_destroy(scene);
+        }
+}
+
 static void guessed_dialects_are_told(void **state)
 {
     (void)state;
@@ -547,6 +582,7 @@ int main(void)
         cmocka_unit_test(what_is_not_lit_is_unlit),
         cmocka_unit_test(pbr_statements_win),
         cmocka_unit_test(dialects_put_roughness_elsewhere),
+        cmocka_unit_test(widest_highlights_are_left_out),
         cmocka_unit_test(guessed_dialects_are_told),
         cmocka_unit_test(losses_are_told_and_kept),
         cmocka_unit_test(restored_materials_are_left_alone),
