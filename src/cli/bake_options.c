@@ -2,6 +2,7 @@
 #include "cli/bake_options.h"
 
 #include "cli/failure.h"
+#include "cli/output_name.h"
 #include "cli/terminal.h"
 #include "cli/value.h"
 
@@ -57,6 +58,10 @@ static facet_result read_environment(const command_line *c, bake_options *out, f
             error, FACET_ERROR_ARGUMENT,
             "bake: which environment? facet bake studio.hdr -o studio.ktx2; or neutral, sun:40,135, "
             "--dfg");
+    if (c->argument_count == 2 && !out->output &&
+        output_name_has_type(c->arguments[1], c->verb->output_types))
+        return fail_with(error, FACET_ERROR_ARGUMENT, "bake: it takes one environment; did you mean -o %s?",
+                         c->arguments[1]);
     if (c->argument_count != 1 && c->argument_count != 6)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "bake: it takes one environment, or the six faces +X -X +Y -Y +Z -Z, not %zu files",
@@ -162,9 +167,13 @@ static facet_result read_table(const command_line *c, bake_options *out, facet_e
     if (!out->is_table)
         return refuse(c, tables_only, COUNT(tables_only), "without --dfg; of cube maps the lobe is --lobe",
                       error);
+    bool is_output =
+        c->argument_count && !out->output && output_name_has_type(c->arguments[0], c->verb->output_types);
     if (c->argument_count)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--dfg: the table needs no environment, but got \"%s\"",
-                         c->arguments[0]);
+        return fail_with(error, FACET_ERROR_ARGUMENT,
+                         "--dfg: the table needs no environment, but got \"%s\"%s%s%s", c->arguments[0],
+                         is_output ? "; did you mean -o " : "", is_output ? c->arguments[0] : "",
+                         is_output ? "?" : "");
     return refuse(c, idle, COUNT(idle), "about a table (--dfg)", error);
 }
 

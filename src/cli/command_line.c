@@ -2,6 +2,8 @@
 #include "cli/command_line.h"
 
 #include "cli/failure.h"
+#include "cli/output.h"
+#include "cli/output_name.h"
 #include "cli/suggest.h"
 #include "cli/value.h"
 
@@ -171,6 +173,37 @@ static facet_result parse_letters(command_line *c, int argc, char **argv, int *a
     return FACET_OK;
 }
 
+/* ---- arguments ---- */
+
+/* Whether an argument is rather the name of an output: "render in.glb out.png". Where inputs and outputs have the same
+ * extensions only the one argument too many tells. */
+static bool is_output(const command_line *c, size_t index)
+{
+    const verb *v = c->verb;
+    const char *word = c->arguments[index];
+    if (is_given(c, OPT_OUTPUT) || !v->output_types || !output_name_has_type(word, v->output_types))
+        return false;
+    if (index >= v->max_arguments)
+        return true;
+    bool is_input_type = v->file_types && output_name_has_type(word, v->file_types);
+    return !is_input_type && (index > 0 || !output_exists(word));
+}
+
+static facet_result check_arguments(const command_line *c, facet_error *error)
+{
+    const verb *v = c->verb;
+    for (size_t i = 0; i < c->argument_count; i++)
+        if (is_output(c, i))
+            return fail_with(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not an input; did you mean %s %s?",
+                             v->name, c->arguments[i], v->output_hint ? v->output_hint : "-o",
+                             c->arguments[i]);
+    if (c->argument_count > v->max_arguments)
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: it takes at most %zu word%s, but got \"%s\"",
+                         v->name, v->max_arguments, v->max_arguments == 1 ? "" : "s",
+                         c->arguments[v->max_arguments]);
+    return FACET_OK;
+}
+
 facet_result command_line_parse(const verb *v, int argc, char **argv, command_line *out, facet_error *error)
 {
     *out = (command_line){.verb = v};
@@ -194,11 +227,7 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
         if (is_given(out, OPT_HELP)) /* whatever else there is: the user wants to read */
             return FACET_OK;
     }
-    if (out->argument_count > v->max_arguments)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: it takes at most %zu word%s, but got \"%s\"",
-                         v->name, v->max_arguments, v->max_arguments == 1 ? "" : "s",
-                         out->arguments[v->max_arguments]);
-    return FACET_OK;
+    return check_arguments(out, error);
 }
 
 void command_line_destroy(command_line *c)

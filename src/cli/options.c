@@ -13,6 +13,8 @@ static const verb inspect_verb = {
     .arguments = "MODEL...",
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj json",
+    .output_types = "txt",
+    .output_hint = ">",
     .description = "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .json of rgl's parameters; - is "
                    "standard input) and prints counts, bounds, materials, "
                    "textures, images, cameras, lights, the extensions with what facet makes of them, and the "

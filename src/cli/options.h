@@ -233,10 +233,12 @@ typedef struct verb {
     const char *summary;   /* one line */
     const char *arguments; /* "[MODEL...]"; "" none */
     size_t max_arguments;
-    const char *file_types;   /* extensions of the arguments for completion: "glb gltf"; NULL: no files */
-    const char *const *words; /* words that an argument may be, for completion; NULL: none */
-    const char *description;  /* paragraphs, separated by empty lines; for the man page and --help */
-    const example *examples;  /* ends with {NULL} */
+    const char *file_types;            /* extensions of the arguments: "glb gltf"; NULL: no files */
+    const char *output_types;          /* extensions of what it writes: "png jpg"; NULL: it writes no files */
+    const char *output_hint;           /* what goes before the name of an output; NULL: -o */
+    const char *const *words;          /* words that an argument may be, for completion; NULL: none */
+    const char *description;           /* paragraphs, separated by empty lines; for the man page and --help */
+    const example *examples;           /* ends with {NULL} */
     const option_group *const *groups; /* ends with NULL */
 } verb;
 

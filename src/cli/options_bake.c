@@ -237,6 +237,7 @@ const verb bake_verb = {
     .arguments = "ENVIRONMENT",
     .max_arguments = 6,
     .file_types = "hdr exr ktx2 png jpg jpeg pfm webp avif",
+    .output_types = "ktx2 exr hdr pfm png json h txt html raw",
     .words = WORDS("neutral", "white", "sun:40,135", "preetham:40,135", "gradient:"),
     .description =
         "ENVIRONMENT is a picture (.hdr .exr .pfm .ktx2 .png .jpg .webp .avif): equirectangular, a cross or "

@@ -160,6 +160,7 @@ const verb compare_verb = {
     .arguments = "A B",
     .max_arguments = 2,
     .file_types = "png jpg jpeg webp avif exr hdr pfm ktx2",
+    .output_types = "png jpg jpeg webp exr hdr pfm",
     .description =
         "A is the reference, B what is compared with it; both are .png .jpg .webp .avif .exr .hdr .pfm "
         ".ktx2, told "

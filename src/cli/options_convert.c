@@ -93,6 +93,7 @@ const verb convert_verb = {
     .arguments = "MODEL NEW",
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj json",
+    .output_types = "glb gltf obj json",
     .description =
         "Reads MODEL (.glb, .gltf, .obj with its .mtl, .json of rgl's parameters; - is standard input) and "
         "writes it as NEW (.glb, .gltf, .obj, .json).\n\n"

@@ -314,6 +314,7 @@ const verb ocean_verb = {
     .name = "ocean",
     .summary = "draw the sea, or write it as maps and meshes",
     .arguments = "",
+    .output_types = "png jpg jpeg webp exr hdr pfm y4m glb gltf obj",
     .description =
         "Draws a sea by what is known of seas: waves by wind and fetch, water by what is in it, under a sky "
         "or an "

@@ -104,6 +104,7 @@ const verb plot_verb = {
     .arguments = "KIND [MATERIAL...]",
     .max_arguments = FACET_PLOT_MAX_MATERIALS + 1,
     .file_types = "glb gltf obj json binary",
+    .output_types = "svg pdf png csv",
     .words = WORDS("legacy", "brdf", "slice", "hemisphere", "lobe", "terms", "albedo", "furnace", "dfg",
                    "tone", "fresnel", "error"),
     .description =

@@ -327,6 +327,7 @@ const verb render_verb = {
     .arguments = "[MODEL...]",
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj json",
+    .output_types = "png png16 jpg jpeg webp exr hdr pfm y4m",
     .description = "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .json of rgl's parameters; - is "
                    "standard input) and draws it on the CPU, or with --renderer gl on a GPU: no GPU, "
                    "display or network "

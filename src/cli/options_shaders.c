@@ -34,6 +34,7 @@ const verb shaders_verb = {
     .summary = "print the shading text as GLSL, for other renderers",
     .arguments = "[PART...]",
     .max_arguments = SIZE_MAX,
+    .output_types = "glsl",
     .words = WORDS("constants", "color", "brdf", "fresnel", "sampling", "sobol", "pixel_filter", "footprint",
                    "surface", "light", "area_light", "ibl", "sheen", "clearcoat", "anisotropy", "iridescence",
                    "dispersion", "transmission", "glass", "volume", "sky", "water_surface", "water_means",

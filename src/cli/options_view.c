@@ -34,6 +34,8 @@ const verb view_verb = {
     .arguments = "[MODEL|FOLDER...]",
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj json",
+    .output_types = "png jpg jpeg webp exr hdr pfm y4m",
+    .output_hint = "facet render MODEL -o",
     .description =
         "Opens a window that shows the MODEL; the arrow keys go through the others of its folder, or through "
         "all that are "

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const char stem_mark[] = "{stem}";
 
@@ -78,6 +79,18 @@ bool output_name_expand(const char *pattern, const char *stem, uint32_t frame, c
 bool output_name_expand_stem(const char *pattern, const char *stem, char *name, size_t size)
 {
     return expand(pattern, stem, NULL, name, size);
+}
+
+bool output_name_has_type(const char *path, const char *types)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    for (; dot && *types; types += strspn(types, " ")) {
+        size_t length = strcspn(types, " ");
+        if (strlen(dot + 1) == length && strncasecmp(dot + 1, types, length) == 0)
+            return true;
+        types += length;
+    }
+    return false;
 }
 
 bool output_name_stem(const char *path, char *stem, size_t size)

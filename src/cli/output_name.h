@@ -17,6 +17,9 @@ bool output_name_expand(const char *pattern, const char *stem, uint32_t frame, c
 /* The same for names of which there is one per model: {stem} only, #### and %04d stay. */
 bool output_name_expand_stem(const char *pattern, const char *stem, char *name, size_t size);
 
+/* Whether path ends in one of types, extensions separated by blanks ("png jpg"), in upper or lower case. */
+bool output_name_has_type(const char *path, const char *types);
+
 /* Base name of path without its extension, "model" where that is empty. False: it does not fit. */
 bool output_name_stem(const char *path, char *stem, size_t size);
 

@@ -72,6 +72,32 @@ says "add --format png"
 expect 2 render -o - --format png --json
 expect 2 version word
 expect 2 inspect
+
+# An output without -o is refused before any work, and not taken for an input.
+write_triangle tri.gltf
+misplaced() {
+    hint=$1
+    shift
+    expect 2 "$@"
+    says "$hint"
+    [ ! -s out ] || failed "facet $* printed something"
+    [ "$(wc -l <err)" = 1 ] || failed "facet $* says more than one sentence"
+}
+misplaced "did you mean -o out.png?" render tri.gltf out.png
+misplaced "did you mean -o out.PNG?" render out.PNG
+misplaced "did you mean -o out.y4m?" render tri.gltf --turntable 3 out.y4m
+touch out.exr
+misplaced "did you mean -o out.exr?" render tri.gltf out.exr
+misplaced "did you mean -o sea.png?" ocean sea.png
+misplaced "did you mean -o out.ktx2?" bake neutral out.ktx2
+misplaced "did you mean -o out.ktx2?" bake --dfg out.ktx2
+misplaced "did you mean -o out.svg?" plot brdf roughness=0.5 out.svg
+misplaced "did you mean -o d.png?" compare a.png b.png d.png
+misplaced "did you mean -o out.glsl?" shaders brdf out.glsl
+misplaced "did you mean > out.txt?" inspect tri.gltf out.txt
+misplaced "did you mean facet render MODEL -o out.png?" view tri.gltf out.png
+only tri.gltf out.exr
+rm tri.gltf out.exr
 only
 
 # help of a verb mentions all its options, and fits its width
