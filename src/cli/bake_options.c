@@ -58,14 +58,14 @@ static facet_result read_environment(const command_line *c, bake_options *out, f
             error, FACET_ERROR_ARGUMENT,
             "bake: which environment? facet bake studio.hdr -o studio.ktx2; or neutral, sun:40,135, "
             "--dfg");
-    if (c->argument_count == 2 && !out->output &&
-        output_name_has_type(c->arguments[1], c->verb->output_types))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "bake: it takes one environment; did you mean -o %s?",
-                         c->arguments[1]);
+    bool is_output = c->argument_count == 2 && !out->output &&
+                     output_name_has_type(c->arguments[1], c->verb->output_types);
     if (c->argument_count != 1 && c->argument_count != 6)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "bake: it takes one environment, or the six faces +X -X +Y -Y +Z -Z, not %zu files",
-                         c->argument_count);
+        return fail_with(
+            error, FACET_ERROR_ARGUMENT,
+            "bake: it takes one environment, or the six faces +X -X +Y -Y +Z -Z, not %zu files%s%s%s",
+            c->argument_count, is_output ? "; did you mean -o " : "", is_output ? c->arguments[1] : "",
+            is_output ? "?" : "");
     out->word = c->arguments[0];
     if (c->argument_count == 1)
         return environment_input_parse("bake", out->word, ENVIRONMENT_TAKES_STDIN, &out->environment, error);

@@ -48,7 +48,6 @@ static facet_result load(bake_run *run, facet_error *error)
                                          .thread_count = o->limits.thread_count,
                                          .max_size = o->limits.max_texture_size,
                                          .layout = o->input_layout};
-    interrupt_begin_reading(bake_input_name(o));
     facet_result result = o->has_faces
                               ? facet_environment_load_faces(o->faces, &desc, &run->environment, error)
                               : environment_input_load(&o->environment, &desc, &run->environment, error);
@@ -204,15 +203,14 @@ static facet_result bake(bake_run *run, facet_error *error)
     const bool has_bar = run->shown.mode == PROGRESS_BAR;
     facet_result result = run->options.is_table ? FACET_OK : load(run, error);
     messages_flush(&run->messages);
-    interrupt_set_safe(has_bar ? "\r\033[Kfacet: the time limit (--time-limit) was reached while baking\n"
-                               : "facet: the time limit (--time-limit) was reached while baking\n");
+    interrupt_begin("facet", "baking", has_bar);
     if (result == FACET_OK)
         result = bake_cubes(run, error);
     if (result == FACET_OK)
         result = project(run, error);
     if (result == FACET_OK)
         result = make_files(run, error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     progress_clear();
     if (result != FACET_OK)
         failure_complete(error, bake_plan_subject(&run->plan), run->options.limits.max_memory_bytes);
@@ -316,7 +314,6 @@ int cmd_bake(command_line *c)
     bake_run run = {.line = c};
     config storage = {0};
     facet_error error = {0};
-    interrupt_install(is_given(c, OPT_JSON));
     facet_result result = begin(&run, c, &storage, &error);
     if (result == FACET_OK && !is_all_kept(&run.plan))
         result = bake(&run, &error);

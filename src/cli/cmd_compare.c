@@ -207,13 +207,13 @@ static void tell(compare_run *run)
 
 static facet_result compare(compare_run *run, facet_error *error)
 {
-    interrupt_set_safe("facet: the time limit (--time-limit) was reached while comparing\n");
+    interrupt_begin("facet", "comparing", false);
     run->is_kept = run->output && is_given(run->line, OPT_NO_CLOBBER) && output_exists(run->output);
     const bool is_drawn = run->output && !run->is_kept;
     facet_result result = facet_compare(run->a, run->b, &run->desc, &run->comparison,
                                         is_drawn ? &run->difference : NULL, error);
     run->is_measured = result == FACET_OK;
-    interrupt_set_safe(NULL);
+    interrupt_end();
     if (result != FACET_OK)
         failure_complete(error, "compare", run->limits.max_memory_bytes);
     if (result == FACET_OK && interrupt_signal())
@@ -303,13 +303,12 @@ int cmd_compare(command_line *c)
     compare_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
     facet_error error = {0};
     char failed[800] = "";
-    interrupt_install(is_given(c, OPT_JSON));
     facet_result result = begin(&run, &error);
     if (result == FACET_OK)
         result = load_all(&run, &error);
     if (result == FACET_OK)
         result = compare(&run, &error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     if (run.is_measured) {
         print_table(&run);
         compare_report_failures(&run.wish, &run.comparison, failed, sizeof failed);

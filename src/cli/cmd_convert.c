@@ -124,7 +124,7 @@ static facet_result convert_model(convert_run *run, const char *model, facet_err
     result = input_load(model, &desc, &scene, error);
     if (result == FACET_OK)
         result = convert_materials(run, scene, error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     messages_flush(&run->messages);
     if (result == FACET_OK)
         result = interrupt_check(output, error);
@@ -202,7 +202,6 @@ int cmd_convert(command_line *c)
     double start = interrupt_clock();
     convert_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
     facet_error error = {0};
-    interrupt_install(is_given(c, OPT_JSON));
     if (is_given(c, OPT_JSON)) {
         run.models = json_array();
         run.failures = json_array();

@@ -69,7 +69,7 @@ static int inspect_all(inspect_run *run)
             putchar('\n');
         interrupt_begin_reading(input_name(c->arguments[i]));
         facet_result result = inspect_model(run, c->arguments[i], &error);
-        interrupt_set_safe(NULL);
+        interrupt_end();
         if (result != FACET_OK) {
             fflush(stdout);
             failure_complete(&error, input_name(c->arguments[i]), run->limits.max_memory_bytes);

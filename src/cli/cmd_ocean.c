@@ -120,7 +120,7 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
     result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
     if (result == FACET_OK && !is_gltf(name))
         result = facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, &save.log, error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     if (result == FACET_OK)
         result = interrupt_check(name, error);
     if (result == FACET_OK)
@@ -287,10 +287,7 @@ static facet_result load_environment(ocean_run *run, facet_error *error)
                                          .log = messages_log(&run->messages),
                                          .thread_count = p->limits.thread_count,
                                          .cache_folder = p->environment_cache};
-    if (!p->environment_cache) /* the cache writes files */
-        interrupt_begin_reading(environment_input_name(&input));
     facet_result result = environment_input_load(&input, &desc, &run->environment, error);
-    interrupt_set_safe(NULL);
     return result;
 }
 
@@ -343,7 +340,7 @@ static facet_result begin(ocean_run *run, command_line *c, config *storage, face
     result = ocean_run_set_sea(run, o, error);
     if (result == FACET_OK && o->has_picture && !o->sweep)
         result = ocean_run_meter(run, o, error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     return result;
 }
 
@@ -369,7 +366,6 @@ int cmd_ocean(command_line *c)
     ocean_output output = {.run = &run, .files = is_given(c, OPT_JSON) ? json_array() : NULL};
     config storage = {0};
     facet_error error = {0};
-    interrupt_install(is_given(c, OPT_JSON));
     facet_result result = begin(&run, c, &storage, &error);
     if (result == FACET_OK)
         result = make_all(&output, &error);

@@ -195,9 +195,8 @@ static facet_result begin(plot_run *run, facet_error *error)
         return result;
     run->desc.allocator = facet_budget_allocator(run->budget);
     interrupt_set_deadline(run->limits.time_limit_s);
-    interrupt_set_safe("facet: the time limit (--time-limit) was reached\n");
-    result = read_desc(run, error);
-    return result;
+    interrupt_begin("facet", "plotting", false);
+    return read_desc(run, error);
 }
 
 int cmd_plot(command_line *c)
@@ -205,14 +204,13 @@ int cmd_plot(command_line *c)
     double start = interrupt_clock();
     plot_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
     facet_error error = {0};
-    interrupt_install(is_given(c, OPT_JSON));
     facet_result result = begin(&run, &error);
     bool is_kept = result == FACET_OK && is_given(c, OPT_NO_CLOBBER) && output_exists(run.path);
     if (is_kept)
         message_at(&run.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run.path);
     else if (result == FACET_OK)
         result = plot(&run, &error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     messages_flush(&run.messages);
     int exit_code = result != FACET_OK                                      ? exit_code_of(result)
                     : run.messages.warning_count && is_given(c, OPT_STRICT) ? EXIT_NEGATIVE

@@ -50,10 +50,7 @@ static facet_result load_environment(render_run *run, facet_error *error)
     const render_options *o = &run->options;
     const facet_environment_desc desc = environment_desc(run);
     const environment_input *input = &o->environment;
-    if (!o->environment_cache) /* the cache writes files */
-        interrupt_begin_reading(environment_input_name(input));
     facet_result result = environment_input_load(input, &desc, &run->environment, error);
-    interrupt_set_safe(NULL);
     run->has_environment = result == FACET_OK;
     run->environment_failed = result != FACET_OK;
     return result;
@@ -69,7 +66,7 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
     facet_result result = input_load(model, &desc, scene, error);
     if (result == FACET_OK && run->options.desc.shading == FACET_SHADING_OGL1)
         result = facet_scene_convert_materials(*scene, FACET_MATERIALS_OGL1, &desc.legacy, &desc.log, error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     return result;
 }
 
@@ -172,12 +169,10 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
     facet_image *image = NULL;
     /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. */
-    bool may_end = desc.integrator == FACET_INTEGRATOR_GL && !m->video;
-    if (may_end)
+    if (desc.integrator == FACET_INTEGRATOR_GL)
         interrupt_begin(report->output, "OpenGL drew", shown.mode == PROGRESS_BAR);
     result = facet_renderer_render(m->renderer, &desc, &image, error);
-    if (may_end)
-        interrupt_set_safe(NULL);
+    interrupt_end();
     progress_clear();
     if (result == FACET_ERROR_CANCELLED && o->checkpoint)
         message_at(&run->messages, VERBOSITY_NORMAL, "%s: interrupted; --resume goes on with %s",
@@ -403,7 +398,6 @@ int cmd_render(command_line *c)
     render_run run = {.line = c};
     config storage = {0};
     facet_error error = {0};
-    interrupt_install(is_given(c, OPT_JSON));
     if (is_given(c, OPT_JSON)) {
         run.pictures = json_array();
         run.failures = json_array();

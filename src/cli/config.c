@@ -147,7 +147,7 @@ facet_result config_apply(command_line *c, config *storage, facet_error *error)
         interrupt_set_deadline(seconds);
     interrupt_begin_reading(path);
     facet_result read = read_config(path, &text, &size, error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     if (read != FACET_OK)
         return read;
     json_error_t problem;

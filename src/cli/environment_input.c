@@ -11,6 +11,7 @@
 #include "cli/color.h"
 #include "cli/failure.h"
 #include "cli/input.h"
+#include "cli/interrupt.h"
 #include "cli/value.h"
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
@@ -324,10 +325,9 @@ facet_result environment_input_parse(const char *place, const char *text, unsign
     return FACET_OK;
 }
 
-facet_result environment_input_load(const environment_input *input, const facet_environment_desc *desc,
-                                    facet_environment **environment, facet_error *error)
+static facet_result load(const environment_input *input, const facet_environment_desc *desc,
+                         facet_environment **environment, facet_error *error)
 {
-    *environment = NULL;
     switch (input->kind) {
     case ENVIRONMENT_STUDIO:
         return facet_environment_create_studio(desc, environment, error);
@@ -346,6 +346,17 @@ facet_result environment_input_load(const environment_input *input, const facet_
         break;
     }
     return FACET_OK;
+}
+
+facet_result environment_input_load(const environment_input *input, const facet_environment_desc *desc,
+                                    facet_environment **environment, facet_error *error)
+{
+    *environment = NULL;
+    if (!desc->cache_folder) /* the cache writes files */
+        interrupt_begin_reading(environment_input_name(input));
+    facet_result result = load(input, desc, environment, error);
+    interrupt_end();
+    return result;
 }
 
 const char *environment_input_name(const environment_input *input)

@@ -42,7 +42,7 @@ typedef struct environment_input {
 facet_result environment_input_parse(const char *place, const char *text, unsigned takes,
                                      environment_input *out, facet_error *error);
 
-/* Reads or makes it. desc->allocator must be one where standard input is read. *environment is NULL for ENVIRONMENT_NONE. */
+/* Reads or makes it; a signal or the time limit ends the process meanwhile (interrupt.h). desc->allocator must be one where standard input is read. *environment is NULL for ENVIRONMENT_NONE. */
 facet_result environment_input_load(const environment_input *input, const facet_environment_desc *desc,
                                     facet_environment **environment, facet_error *error);
 

@@ -18,8 +18,9 @@
 static const char OVER_BAR[] = "\r\033[K"; /* what sentences over a bar of progress begin with */
 
 /* What a signal handler shares with the process: the one place for state that is not passed along. */
-static atomic_int pending_signal; /* lock-free: the handler writes it, all threads ask for it */
-static const char *volatile safe_message;
+static atomic_int pending_signal;         /* lock-free: the handler writes it, all threads ask for it */
+static const char *volatile safe_message; /* NULL: no section is open */
+static int open_file_count;
 static volatile double deadline; /* on interrupt_clock(); 0: none */
 static bool has_json;            /* standard output tells of the end, too */
 static char json_at_deadline[4096];
@@ -132,22 +133,35 @@ static void prepare_json(const char *message)
     json_decref(root);
 }
 
-void interrupt_set_safe(const char *message_at_deadline)
+void interrupt_end(void)
 {
     safe_message = NULL;
-    if (message_at_deadline && has_json)
-        prepare_json(message_at_deadline);
-    safe_message = message_at_deadline;
-    if (pending_signal && message_at_deadline)
-        interrupt_exit();
+}
+
+void interrupt_file_begin(void)
+{
+    open_file_count++;
+    interrupt_end();
+}
+
+void interrupt_file_end(void)
+{
+    open_file_count--;
 }
 
 void interrupt_begin(const char *name, const char *doing, bool has_bar)
 {
     static char sentence[512];
+    interrupt_end(); /* the handler must not print a sentence that is half written */
+    if (open_file_count)
+        return;
     snprintf(sentence, sizeof sentence, "%s%.400s: the time limit (--time-limit) was reached while %s\n",
              has_bar ? OVER_BAR : "", name, doing);
-    interrupt_set_safe(sentence);
+    if (has_json)
+        prepare_json(sentence);
+    safe_message = sentence;
+    if (pending_signal) /* it came before the section, whose work is then not begun */
+        exit(interrupt_exit());
 }
 
 void interrupt_begin_reading(const char *name)

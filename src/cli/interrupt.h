@@ -1,8 +1,10 @@
 /* interrupt.h - signals and the time limit: how the command is asked to stop, and how it then ends.
  *
- * SIGINT, SIGTERM, SIGHUP and SIGPIPE set a flag; whoever works on something long asks for it and cleans up. A second SIGINT
- * kills. While nothing that must be cleaned up is open (interrupt_set_safe()), the time limit ends the process from
- * the signal handler: reading a model cannot be cancelled in another way. */
+ * SIGINT, SIGTERM, SIGHUP and SIGPIPE set a flag; long work polls it and cleans up. A second SIGINT kills. Between
+ * interrupt_begin() and interrupt_end() nothing needs to be cleaned up, and a signal or the time limit ends the process
+ * from the signal handler: reading a model cannot be cancelled in another way. Between interrupt_file_begin() and
+ * interrupt_file_end() there is a file to complete or remove, and no section is open, whatever a command began: these
+ * are called by what writes files (output.c, video.c), so that commands cannot get it wrong. */
 #ifndef CLI_INTERRUPT_H
 #define CLI_INTERRUPT_H
 
@@ -10,7 +12,7 @@
 
 #include "facet/facet.h"
 
-/* tells_json: what ends the process at the time limit is told as one JSON object on standard output, too. */
+/* tells_json: an end at the time limit is reported as one JSON object on standard output, too. */
 void interrupt_install(bool tells_json);
 /* The signal that came; 0: none. */
 int interrupt_signal(void);
@@ -20,13 +22,17 @@ void interrupt_set_deadline(double seconds);
 /* Seconds that are left; a very large number where there is no limit. */
 double interrupt_seconds_left(void);
 
-/* From now on it is safe to end the process at once, with exit code and the static sentence message, when a signal
- * or the time limit says so; message NULL: no longer. */
-void interrupt_set_safe(const char *message_at_deadline);
-
-/* The same with a sentence that the limit came while something was done for name; has_bar: over a bar of progress. */
+/* From now on a signal or the time limit ends the process at once; the sentence for the latter is "NAME: the time limit
+ * (--time-limit) was reached while DOING". has_bar: it replaces a progress bar. A section takes the place of one that is
+ * open. */
 void interrupt_begin(const char *name, const char *doing, bool has_bar);
 void interrupt_begin_reading(const char *name);
+/* Ends the section, if one is open. */
+void interrupt_end(void);
+
+/* A file is begun, and later complete or removed. These nest. */
+void interrupt_file_begin(void);
+void interrupt_file_end(void);
 
 /* FACET_ERROR_CANCELLED after a signal, FACET_ERROR_LIMIT after the time limit; name is the file in work. */
 facet_result interrupt_check(const char *name, facet_error *error);

@@ -97,6 +97,8 @@ static int run_verb(const verb *v, int argc, char **argv)
         help_print_verb(stdout, v);
         exit_code = EXIT_DONE;
     } else {
+        if (strcmp(v->name, "view") != 0) /* a window is closed by its own means */
+            interrupt_install(is_given(&line, OPT_JSON));
         for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
             if (strcmp(commands[i].name, v->name) == 0)
                 exit_code = commands[i].run(&line);

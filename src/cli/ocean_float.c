@@ -51,7 +51,7 @@ facet_result ocean_float_load(ocean_run *run, facet_error *error)
                                    .max_texture_size = run->options.picture.limits.max_texture_size};
     interrupt_begin_reading(path);
     result = input_load(path, &desc, &run->model, error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     if (result != FACET_OK)
         return result;
     /* where it is, before it is put elsewhere */

@@ -38,11 +38,11 @@ char *output_identity(const char *path)
     return identity;
 }
 
-/* What is on the disk from now on is for who writes it to remove. */
+/* From the first report on there are files that the library removes when it fails. */
 static bool may_go_on(void *user, const char *stage, double fraction)
 {
     (void)user, (void)stage, (void)fraction;
-    interrupt_set_safe(NULL);
+    interrupt_end();
     return !interrupt_signal() && interrupt_seconds_left() > 0.0;
 }
 
@@ -52,7 +52,7 @@ facet_result output_write_scene(const facet_scene *scene, const char *path, face
     desc.progress.report = may_go_on;
     interrupt_begin(path, "writing it", false);
     facet_result result = facet_scene_save(scene, path, &desc, error);
-    interrupt_set_safe(NULL);
+    interrupt_end();
     return result == FACET_ERROR_CANCELLED ? interrupt_check(path, error) : result;
 }
 
@@ -86,26 +86,36 @@ facet_result output_check(const char *path, facet_error *error)
     return FACET_OK;
 }
 
-static const char late[] = "facet: the time limit (--time-limit) was reached while writing\n";
-
-/* A stream: nothing need be cleaned up, and who reads a pipe may never come. */
-static bool is_stream(const char *path)
+/* A stream, whose reader may never come, needs no cleaning up; a file does. Returns whether it is a file. */
+static bool begin_writing(const char *path)
 {
     struct stat info;
-    return lstat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISLNK(info.st_mode);
+    bool is_stream = strcmp(path, "-") == 0 ||
+                     (lstat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISLNK(info.st_mode));
+    if (is_stream)
+        interrupt_begin("facet", "writing", false);
+    else
+        interrupt_file_begin();
+    return !is_stream;
+}
+
+static void end_writing(bool is_file)
+{
+    if (is_file)
+        interrupt_file_end();
+    else
+        interrupt_end();
 }
 
 facet_result output_write_bytes(const void *bytes, size_t size, const char *path, facet_error *error)
 {
     facet_result result = FACET_OK;
-    bool is_stdout = strcmp(path, "-") == 0;
-    if (is_stdout || is_stream(path))
-        interrupt_set_safe(late);
-    if (!is_stdout)
+    bool is_file = begin_writing(path);
+    if (strcmp(path, "-") != 0)
         result = facet_bytes_save(bytes, size, path, error);
     else if (fwrite(bytes, 1, size, stdout) != size || fflush(stdout) != 0)
         result = fail_with(error, FACET_ERROR_WRITE, "stdout: %s", strerror(errno));
-    interrupt_set_safe(NULL);
+    end_writing(is_file);
     return result;
 }
 
@@ -113,10 +123,9 @@ facet_result output_write(const facet_image *image, const char *path, const face
                           facet_error *error)
 {
     if (strcmp(path, "-") != 0) {
-        if (is_stream(path))
-            interrupt_set_safe(late);
+        bool is_file = begin_writing(path);
         facet_result saved = facet_image_save(image, path, desc, error);
-        interrupt_set_safe(NULL);
+        end_writing(is_file);
         return saved;
     }
     unsigned char *bytes;

@@ -38,6 +38,7 @@ static FILE *open_beside(video *v)
     v->temporary = malloc(size);
     if (!v->temporary)
         return NULL;
+    interrupt_file_begin();
     snprintf(v->temporary, size, "%.*s%.*s.XXXXXX", (int)(base - v->path), v->path, LONGEST, base);
     int fd = mkstemp(v->temporary);
     if (fd < 0)
@@ -82,6 +83,8 @@ facet_result video_open(const char *path, video_format format, double fps, video
     v->file = open_output(v);
     if (!v->file) {
         facet_result result = fail_write(v, error);
+        if (v->temporary)
+            interrupt_file_end();
         free(v->temporary);
         free(v->path);
         free(v);
@@ -156,7 +159,7 @@ facet_result video_add(video *v, const facet_image *image, const facet_allocator
         return result;
     errno = 0;
     if (!v->temporary) /* who reads a pipe may never come */
-        interrupt_set_safe("facet: the time limit (--time-limit) was reached while writing\n");
+        interrupt_begin("facet", "writing", false);
     bool is_written;
     if (v->format == VIDEO_Y4M) {
         convert(v, bytes);
@@ -165,7 +168,7 @@ facet_result video_add(video *v, const facet_image *image, const facet_allocator
         is_written = fwrite(bytes, size, 1, v->file) == 1;
     }
     is_written = is_written && fflush(v->file) == 0;
-    interrupt_set_safe(NULL);
+    interrupt_end();
     facet_bytes_destroy(bytes);
     return is_written ? FACET_OK : fail_write(v, error);
 }
@@ -183,6 +186,8 @@ facet_result video_close(video *v, bool keep, facet_error *error)
         is_written = rename(v->temporary, v->path) == 0;
     if (v->temporary && (!keep || !is_written))
         unlink(v->temporary);
+    if (v->temporary)
+        interrupt_file_end();
     if (keep && !is_written)
         result = fail_write(v, error);
     free(v->temporary);

@@ -83,6 +83,14 @@ seen_only '(EGL|GL|GLES[0-9]?|epoxy)/' gl view
 seen_only 'GLFW/' view
 seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zlib|zstd|avif/|astcenc)' image
 
+# The command writes files in output.c and video.c only, which keep signals from ending it meanwhile (interrupt.h).
+found=$(grep -nE '\<facet_(bytes|image|scene)_save\(|fopen\([^)]*"[wa]' src/cli/*.c |
+    grep -vE '^src/cli/(output|video)\.c:' || true)
+if [ -n "$found" ]; then
+    echo "files are written by output.c and video.c: $found"
+    status=1
+fi
+
 # shade/ includes nothing but itself.
 found=$(grep -nE '^#include' shade/*.h | grep -vE '^shade/shade\.h:' || true)
 if [ -n "$found" ]; then
