@@ -177,6 +177,18 @@ void text_json_floats(text *t, const char *key, const float *values, size_t coun
     text_json_end_array(t);
 }
 
+void text_json_doubles(text *t, const char *key, const double *values, size_t count)
+{
+    text_json_begin_array(t, key);
+    for (size_t i = 0; i < count; i++) {
+        char digits[TEXT_FLOAT_SIZE] = "null";
+        if (isfinite(values[i]))
+            text_shortest_double(values[i], digits);
+        text_json_raw(t, NULL, digits);
+    }
+    text_json_end_array(t);
+}
+
 void text_json_raw(text *t, const char *key, const char *json)
 {
     begin_value(t, key);

@@ -142,3 +142,17 @@ void text_shortest_float(float value, char digits[TEXT_FLOAT_SIZE])
         n /= 10;
     put_decimal(digits, n, count, exponent);
 }
+
+void text_shortest_double(double value, char digits[TEXT_FLOAT_SIZE])
+{
+    const double plain = 4096.0;
+    if (value > -plain && value < plain && (double)(float)value == value) {
+        text_shortest_float((float)value, digits);
+        return;
+    }
+    for (int precision = 15; precision <= 17; precision++) {
+        snprintf(digits, TEXT_FLOAT_SIZE, "%.*g", precision, value);
+        if (strtod(digits, NULL) == value)
+            return;
+    }
+}

@@ -124,11 +124,43 @@ static void shortest_floats_are_those_of_printf(void **state)
     }
 }
 
+static void shortest_doubles_keep_what_floats_lose(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        const char *digits;
+    } cases[] = {{0.0, "0"},
+                 {0.1, "0.1"},
+                 {(double)0.1f, "0.1"}, /* what was a float is one again */
+                 {-2.5, "-2.5"},
+                 {1000000.0625, "1000000.0625"},
+                 {1e8 + 0.001, "100000000.001"},
+                 {-4526331.337, "-4526331.337"},
+                 {1e30, "1e+30"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char digits[TEXT_FLOAT_SIZE];
+        text_shortest_double(cases[i].value, digits);
+        assert_string_equal(digits, cases[i].digits);
+    }
+    uint64_t random = 1;
+    for (int i = 0; i < 100000; i++) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        double value = 4096.0 + (double)(random >> 11) * 0x1p-53 * 1e9;
+        char digits[TEXT_FLOAT_SIZE];
+        text_shortest_double(value, digits);
+        assert_true(strtod(digits, NULL) == value);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(json_has_commas_where_they_belong),   cmocka_unit_test(numbers_read_back),
-        cmocka_unit_test(shortest_floats_are_those_of_printf), cmocka_unit_test(strings_are_valid_utf8),
+        cmocka_unit_test(json_has_commas_where_they_belong),
+        cmocka_unit_test(numbers_read_back),
+        cmocka_unit_test(shortest_floats_are_those_of_printf),
+        cmocka_unit_test(shortest_doubles_keep_what_floats_lose),
+        cmocka_unit_test(strings_are_valid_utf8),
         cmocka_unit_test(long_text_grows_and_failure_sticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -186,3 +186,71 @@ void mat4_normal_matrix(const mat4 *a, float out[9])
     out[7] = m[1] * m[8] - m[0] * m[9];
     out[8] = m[0] * m[5] - m[1] * m[4];
 }
+
+/* ---- in double ---- */
+
+dmat4 dmat4_identity(void)
+{
+    return (dmat4){{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+}
+
+dmat4 dmat4_multiply(const dmat4 *a, const dmat4 *b)
+{
+    dmat4 out;
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            double sum = 0.0;
+            for (int k = 0; k < 4; k++)
+                sum += a->m[4 * k + row] * b->m[4 * column + k];
+            out.m[4 * column + row] = sum;
+        }
+    return out;
+}
+
+dmat4 dmat4_translation(const double translation[3])
+{
+    dmat4 out = dmat4_identity();
+    memcpy(out.m + 12, translation, 3 * sizeof *translation);
+    return out;
+}
+
+dmat4 dmat4_from_trs(const double translation[3], const float rotation[4], const float scale[3])
+{
+    double q[4] = {(double)rotation[0], (double)rotation[1], (double)rotation[2], (double)rotation[3]};
+    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int i = 0; i < 4; i++)
+        q[i] = length > 0.0 ? q[i] / length : i == 3;
+    double x = q[0], y = q[1], z = q[2], w = q[3];
+    const double axes[9] = {
+        1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w),       2.0 * (x * z - y * w),
+        2.0 * (x * y - z * w),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w),
+        2.0 * (x * z + y * w),       2.0 * (y * z - x * w),       1.0 - 2.0 * (x * x + y * y)};
+    dmat4 out = dmat4_translation(translation);
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            out.m[4 * column + row] = axes[3 * column + row] * (double)scale[column];
+    return out;
+}
+
+dmat4 dmat4_from_float(const mat4 *a)
+{
+    dmat4 out;
+    for (int i = 0; i < 16; i++)
+        out.m[i] = (double)a->m[i];
+    return out;
+}
+
+mat4 mat4_from_double(const dmat4 *a)
+{
+    mat4 out;
+    for (int i = 0; i < 16; i++)
+        out.m[i] = (float)a->m[i];
+    return out;
+}
+
+void dmat4_transform_point(const dmat4 *a, const double p[3], double out[3])
+{
+    double x = p[0], y = p[1], z = p[2];
+    for (int row = 0; row < 3; row++)
+        out[row] = a->m[row] * x + a->m[4 + row] * y + a->m[8 + row] * z + a->m[12 + row];
+}

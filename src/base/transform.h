@@ -1,4 +1,4 @@
-/* transform.h - 4x4 matrices of float, column-major as in glTF: m[4 * column + row], points are columns. */
+/* transform.h - 4x4 matrices, column-major as in glTF: m[4 * column + row], points are columns. */
 #ifndef BASE_TRANSFORM_H
 #define BASE_TRANSFORM_H
 
@@ -20,5 +20,19 @@ void mat4_transform_vector(const mat4 *a, const float v[3], float out[3]); /* w 
 /* The cofactor matrix of the upper left 3x3 (rows out[0..2], ..): transforms normals, up to a positive factor
  * times the sign of the determinant. */
 void mat4_normal_matrix(const mat4 *a, float out[9]);
+
+/* The same layout in double: for what lies so far out that floats would lose its place. */
+typedef struct dmat4 {
+    double m[16];
+} dmat4;
+
+dmat4 dmat4_identity(void);
+dmat4 dmat4_multiply(const dmat4 *a, const dmat4 *b);
+dmat4 dmat4_translation(const double translation[3]);
+/* The rotation need not be unit to the precision of a double; one of length 0 counts as none. */
+dmat4 dmat4_from_trs(const double translation[3], const float rotation[4], const float scale[3]);
+dmat4 dmat4_from_float(const mat4 *a);
+mat4 mat4_from_double(const dmat4 *a); /* rounded; beyond the largest float: infinite */
+void dmat4_transform_point(const dmat4 *a, const double p[3], double out[3]);
 
 #endif

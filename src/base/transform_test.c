@@ -91,10 +91,37 @@ static void sheared_matrices_keep_lengths_and_the_first_axis(void **state)
     assert_true(mat4_determinant3(again) * mat4_determinant3(m) > 0.0f);
 }
 
+static void doubles_agree_with_floats_and_keep_what_is_far(void **state)
+{
+    (void)state;
+    const float rotation[4] = {0.1f, 0.7f, -0.1f, 0.7f}; /* of length 1 */
+    const float scale[3] = {2, -3, 0.5f};
+    const double here[3] = {1, 2, 3}, there[3] = {1e8 + 0.125, -1e6 - 0.25, 1e7};
+    mat4 a = mat4_from_trs((float[3]){1, 2, 3}, rotation, scale);
+    dmat4 wide = dmat4_from_trs(here, rotation, scale);
+    dmat4 product = dmat4_multiply(&wide, &wide);
+    mat4 rounded = mat4_from_double(&product);
+    mat4 expected = mat4_multiply(a, a);
+    for (int i = 0; i < 16; i++) {
+        assert_near(wide.m[i], a.m[i], 1e-6);
+        assert_near(rounded.m[i], expected.m[i], 1e-5);
+    }
+    dmat4 out = dmat4_translation(there);
+    const double back[3] = {-1e8, 1e6, -1e7};
+    dmat4 home = dmat4_translation(back);
+    dmat4 both = dmat4_multiply(&out, &home);
+    double p[3];
+    dmat4_transform_point(&both, (double[3]){1, 1, 1}, p);
+    assert_near(p[0], 1.125, 0);
+    assert_near(p[1], 0.75, 0);
+    assert_near(p[2], 1.0, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(matrices_without_shear_come_apart_and_together),
+        cmocka_unit_test(doubles_agree_with_floats_and_keep_what_is_far),
         cmocka_unit_test(sheared_matrices_keep_lengths_and_the_first_axis),
         cmocka_unit_test(trs_scales_then_rotates_then_moves),
         cmocka_unit_test(normals_stay_perpendicular),

@@ -187,7 +187,7 @@ scene_node *fixture_place(fixture *f, uint32_t mesh, float x, float y, float z, 
     scene_node *node = &f->scene->nodes[f->scene->node_count++];
     *node = (scene_node){.name = "",
                          .parent = SCENE_NONE,
-                         .translation = {x, y, z},
+                         .translation = {(double)x, (double)y, (double)z},
                          .rotation = {0.0f, 0.0f, 0.0f, 1.0f},
                          .scale = {scale, scale, scale},
                          .mesh = mesh,

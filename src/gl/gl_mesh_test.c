@@ -362,7 +362,7 @@ static void far_from_the_origin(void **state)
         .eye = {1048576.0f, 0.0f, -2097151.0f}, .target = {1048576.0f, 0.0f, -2097152.0f}, .fov_y_rad = 0.4f};
     film there = gl_fixture_render(&f, &contexts.items[0]);
     for (int i = 0; i < 3; i++)
-        f.scene->nodes[0].translation[i] = 0.0f;
+        f.scene->nodes[0].translation[i] = 0.0;
     f.camera = (facet_camera){.eye = {0.0f, 0.0f, 1.0f}, .fov_y_rad = 0.4f};
     film here = gl_fixture_render(&f, &contexts.items[0]);
     assert_true(gl_fixture_compare(&there, &here, 2e-3f).share < 0.005);

@@ -323,6 +323,18 @@ bool get_floats_value(reader *r, const json_place *at, float *out, size_t count)
     return true;
 }
 
+bool get_doubles(reader *r, const json_place *object, const char *key, double *out, size_t count)
+{
+    float rounded[16];
+    if (!get_floats(r, object, key, rounded, count))
+        return false;
+    json_place at = get_member(object, key);
+    for (size_t i = 0; i < count; i++)
+        out[i] =
+            fabsf(rounded[i]) < FLT_MAX ? json_number_value(json_array_get(at.value, i)) : (double)rounded[i];
+    return true;
+}
+
 bool get_floats(reader *r, const json_place *object, const char *key, float *out, size_t count)
 {
     json_place at = get_array(r, object, key);

@@ -131,10 +131,11 @@ static void make_light(conversion *c, const stage *s, const legacy_light *in, sc
                          .camera = SCENE_NONE,
                          .skin = SCENE_NONE};
     if (in->is_point) {
+        float at[3];
         for (int k = 0; k < 3; k++)
-            node->translation[k] = (float)place[k];
+            node->translation[k] = (double)(at[k] = (float)place[k]);
         /* Within the scene there is no one distance: a light in its middle is right at half its reach. */
-        double reach = fmax(distance(node->translation, s->center), 0.5 * s->radius);
+        double reach = fmax(distance(at, s->center), 0.5 * s->radius);
         light->type = SCENE_LIGHT_POINT;
         light->intensity = (float)(illuminance * reach * reach);
         note_add(

@@ -38,9 +38,29 @@ static void store_value(const scene_channel *channel, const scene_sampler *sampl
 /* The specification forbids to animate a node with a matrix; one that is moves from where its matrix puts it. */
 static void leave_matrix(scene_node *node)
 {
-    if (node->has_matrix)
-        mat4_to_trs(&node->matrix, node->translation, node->rotation, node->scale);
+    if (node->has_matrix) {
+        mat4 matrix = mat4_from_double(&node->matrix);
+        float rounded[3];
+        mat4_to_trs(&matrix, rounded, node->rotation, node->scale);
+        memcpy(node->translation, node->matrix.m + 12, sizeof node->translation);
+    }
     node->has_matrix = false;
+}
+
+static void store_transform(const scene_channel *channel, const scene_sampler *sampler, double time_s,
+                            scene_node *node)
+{
+    leave_matrix(node);
+    if (channel->offset != offsetof(scene_node, translation)) {
+        store_value(channel, sampler, time_s, node, sizeof *node);
+        return;
+    }
+    sampler_blend blend = sampler_at(sampler, time_s, false);
+    for (size_t i = 0; i < 3 && i < sampler->width; i++) {
+        double value = sampler_blend_value(&blend, i) * (double)channel->scale;
+        if (fabs(value) <= (double)FLT_MAX)
+            node->translation[i] = value;
+    }
 }
 
 static bool has_weights(const facet_scene *scene, const scene_node *node)
@@ -96,8 +116,7 @@ static void apply_channel(const facet_scene *scene, scene_state *state, const sc
     uint32_t i = channel->index;
     switch (channel->kind) {
     case SCENE_TARGET_NODE:
-        leave_matrix(&state->node_copies[i]);
-        store_value(channel, sampler, time_s, &state->node_copies[i], sizeof(scene_node));
+        store_transform(channel, sampler, time_s, &state->node_copies[i]);
         break;
     case SCENE_TARGET_VISIBLE:
         store_visibility(sampler, time_s, &state->node_copies[i]);

@@ -77,12 +77,12 @@ static void a_matrix_comes_apart_where_a_part_of_it_moves(void **state)
     facet_scene *scene = test_scene(1);
     const float turn[4] = {0.5f, 0.5f, -0.5f, 0.5f};
     scene->nodes[0].has_matrix = true;
-    scene->nodes[0].matrix = mat4_from_trs((float[3]){7, 8, 9}, turn, (float[3]){2, 3, 4});
+    scene->nodes[0].matrix = dmat4_from_trs((double[3]){7, 8, 9}, turn, (float[3]){2, 3, 4});
     test_animation(scene, &(test_channel){{.offset = NODE(translation)}, line(3, translations)}, 1);
     scene_state s = state_at(scene, 1.0);
     const scene_node *n = &s.nodes[0];
     assert_false(n->has_matrix);
-    mat4 m = mat4_from_trs(n->translation, n->rotation, n->scale);
+    dmat4 m = dmat4_from_trs(n->translation, n->rotation, n->scale);
     for (int i = 0; i < 12; i++)
         assert_near(m.m[i], scene->nodes[0].matrix.m[i], 1e-6);
     for (int i = 0; i < 3; i++)

@@ -199,7 +199,7 @@ static void place(builder *b, scene_primitive primitive, uint32_t material, floa
     b->scene->meshes[i] = (scene_mesh){.name = name, .primitive_count = 1, .primitives = own};
     b->scene->nodes[i] = (scene_node){.name = name,
                                       .parent = SCENE_NONE,
-                                      .translation = {x, y, z},
+                                      .translation = {(double)x, (double)y, (double)z},
                                       .rotation = {0, 0, 0, 1},
                                       .scale = {radius, radius, radius},
                                       .mesh = i,

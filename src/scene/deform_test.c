@@ -75,7 +75,8 @@ static mat4 to_mat4(matrix m)
 static matrix world_of(const facet_scene *scene, uint32_t node)
 {
     const scene_node *n = &scene->nodes[node];
-    mat4 local = mat4_from_trs(n->translation, n->rotation, n->scale);
+    dmat4 wide = dmat4_from_trs(n->translation, n->rotation, n->scale);
+    mat4 local = mat4_from_double(&wide);
     matrix m = from_mat4(&local);
     return n->parent == SCENE_NONE ? m : multiply(world_of(scene, n->parent), m);
 }
@@ -407,7 +408,7 @@ static void joints_far_out_take_their_primitive_with_them(void **state)
     static const float far_out[4] = {2e17f, 3e38f, INFINITY, NAN};
     for (int i = 0; i < 4; i++) {
         facet_scene *scene = make_skinned(30, 4);
-        scene->nodes[5].translation[0] = far_out[i];
+        scene->nodes[5].translation[0] = (double)far_out[i];
         scene_pose pose = rest(scene);
         assert_int_equal(pose.instance_count, 0);
         assert_false(pose.has_bounds);

@@ -120,9 +120,9 @@ static void write_node(text *t, const scene_node *node)
     describe_index(t, "parent", node->parent);
     describe_indices(t, "children", node->children, node->child_count);
     if (node->has_matrix) {
-        text_json_floats(t, "matrix", node->matrix.m, 16);
+        text_json_doubles(t, "matrix", node->matrix.m, 16);
     } else {
-        text_json_floats(t, "translation", node->translation, 3);
+        text_json_doubles(t, "translation", node->translation, 3);
         text_json_floats(t, "rotation", node->rotation, 4);
         text_json_floats(t, "scale", node->scale, 3);
     }

@@ -3,7 +3,11 @@
 
 static mat4 local_matrix(const scene_node *node)
 {
-    return node->has_matrix ? node->matrix : mat4_from_trs(node->translation, node->rotation, node->scale);
+    if (node->has_matrix)
+        return mat4_from_double(&node->matrix);
+    const float translation[3] = {(float)node->translation[0], (float)node->translation[1],
+                                  (float)node->translation[2]};
+    return mat4_from_trs(translation, node->rotation, node->scale);
 }
 
 static void set_world(hierarchy *h, uint32_t node, const mat4 *parent)

@@ -76,6 +76,7 @@ facet_result scene_place(facet_scene *scene, const float matrix[16], facet_error
                     scene->source);
     facet_result result = scene->is_placed ? FACET_OK : add_root(scene, error);
     if (result == FACET_OK)
-        memcpy(scene->nodes[scene->node_count - 1].matrix.m, matrix, sizeof(mat4));
+        for (int i = 0; i < 16; i++)
+            scene->nodes[scene->node_count - 1].matrix.m[i] = (double)matrix[i];
     return result;
 }

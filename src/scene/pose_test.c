@@ -22,7 +22,7 @@ static facet_scene *make_scene(mat4 matrix)
                                                        .material = SCENE_NONE,
                                                        .bounds_max = {1, 2, 0}};
     scene->nodes[0].has_matrix = true;
-    scene->nodes[0].matrix = matrix;
+    scene->nodes[0].matrix = dmat4_from_float(&matrix);
     return scene;
 }
 

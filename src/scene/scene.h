@@ -253,8 +253,9 @@ typedef struct scene_node {
     const uint32_t *children;
     bool is_hidden;  /* KHR_node_visibility; with all below it */
     bool has_matrix; /* matrix instead of translation, rotation, scale */
-    mat4 matrix;
-    float translation[3], rotation[4], scale[3]; /* rotation a unit quaternion x y z w */
+    dmat4 matrix;
+    double translation[3];       /* m; in double, as a model may be far from the origin (scene/origin.h) */
+    float rotation[4], scale[3]; /* rotation a unit quaternion x y z w */
     uint32_t mesh, camera, light, skin;
     const float *weights;               /* of morph targets, as many as the mesh has; NULL: the mesh's */
     const scene_instancing *instancing; /* NULL: drawn once */

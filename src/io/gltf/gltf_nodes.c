@@ -155,21 +155,21 @@ static void read_rotation(reader *r, const json_place *at, float rotation[4])
 
 static void read_transform(reader *r, const json_place *at, scene_node *out)
 {
-    out->matrix = mat4_identity();
+    out->matrix = dmat4_identity();
     out->rotation[3] = out->scale[0] = out->scale[1] = out->scale[2] = 1.0f;
-    out->has_matrix = get_floats(r, at, "matrix", out->matrix.m, 16);
-    get_floats(r, at, "translation", out->translation, 3);
+    out->has_matrix = get_doubles(r, at, "matrix", out->matrix.m, 16);
+    get_doubles(r, at, "translation", out->translation, 3);
     read_rotation(r, at, out->rotation);
     get_floats(r, at, "scale", out->scale, 3);
     if (!out->has_matrix)
         return;
     if (has_member(at, "translation") || has_member(at, "rotation") || has_member(at, "scale"))
         reader_warn(r, at, NULL, "has a matrix beside translation, rotation or scale; the matrix is used");
-    const float *m = out->matrix.m;
-    if (m[3] != 0.0f || m[7] != 0.0f || m[11] != 0.0f || m[15] != 1.0f) {
+    const double *m = out->matrix.m;
+    if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
         reader_warn(r, at, "matrix", "has a last row other than 0 0 0 1, which is ignored");
-        out->matrix.m[3] = out->matrix.m[7] = out->matrix.m[11] = 0.0f;
-        out->matrix.m[15] = 1.0f;
+        out->matrix.m[3] = out->matrix.m[7] = out->matrix.m[11] = 0.0;
+        out->matrix.m[15] = 1.0;
     }
 }
 

@@ -174,7 +174,9 @@ float get_float_in(reader *r, const json_place *object, const char *key, float m
                    float fallback);
 /* Fills out with exactly count numbers. False: absent (out stays) or (recorded) wrong. */
 bool get_floats(reader *r, const json_place *object, const char *key, float *out, size_t count);
-/* The same of a place itself, which must be an array. */
+/* get_floats() to the precision that the text has; at most 16 numbers. */
+bool get_doubles(reader *r, const json_place *object, const char *key, double *out, size_t count);
+/* get_floats() of a place itself, which must be an array. */
 bool get_floats_value(reader *r, const json_place *at, float *out, size_t count);
 void get_floats_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
                    float *out, size_t count);

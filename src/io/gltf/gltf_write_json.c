@@ -47,16 +47,21 @@ json_t *put_array(writer *w, json_t *object, const char *key)
     return json_object_get(object, key);
 }
 
-/* The double that is nearest to the shortest decimal of the float, which is printed with 9 digits. */
-json_t *json_float(float value)
+static json_t *json_decimal(const char digits[TEXT_FLOAT_SIZE])
 {
-    char digits[TEXT_FLOAT_SIZE];
-    text_shortest_float(value, digits);
     double number = strtod(digits, NULL);
     if (number >= -1e9 && number <= 1e9 && number == (double)(json_int_t)number &&
         !(number == 0.0 && digits[0] == '-'))
         return json_integer((json_int_t)number);
     return json_real(number);
+}
+
+/* The double that is nearest to the shortest decimal of the float, which is printed with 9 digits. */
+json_t *json_float(float value)
+{
+    char digits[TEXT_FLOAT_SIZE];
+    text_shortest_float(value, digits);
+    return json_decimal(digits);
 }
 
 json_t *json_floats(const float *values, size_t count)
@@ -67,6 +72,20 @@ json_t *json_floats(const float *values, size_t count)
             json_decref(array);
             return NULL;
         }
+    return array;
+}
+
+json_t *json_doubles(const double *values, size_t count)
+{
+    json_t *array = json_array();
+    for (size_t i = 0; i < count; i++) {
+        char digits[TEXT_FLOAT_SIZE];
+        text_shortest_double(values[i], digits);
+        if (json_array_append_new(array, json_decimal(digits)) != 0) {
+            json_decref(array);
+            return NULL;
+        }
+    }
     return array;
 }
 

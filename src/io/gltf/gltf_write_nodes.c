@@ -4,7 +4,6 @@
 
 #include "io/gltf/gltf_writer.h"
 
-static const float ZERO[4] = {0, 0, 0, 0};
 static const float ONE[3] = {1, 1, 1};
 static const float IDENTITY[4] = {0, 0, 0, 1};
 
@@ -114,9 +113,10 @@ static void write_node(writer *w, const scene_node *node)
     if (node->child_count)
         put(w, out, "children", json_indices(node->children, node->child_count));
     if (node->has_matrix) {
-        put(w, out, "matrix", json_floats(node->matrix.m, 16));
+        put(w, out, "matrix", json_doubles(node->matrix.m, 16));
     } else {
-        put_floats(w, out, "translation", node->translation, ZERO, 3);
+        if (node->translation[0] != 0.0 || node->translation[1] != 0.0 || node->translation[2] != 0.0)
+            put(w, out, "translation", json_doubles(node->translation, 3));
         put_floats(w, out, "rotation", node->rotation, IDENTITY, 4);
         put_floats(w, out, "scale", node->scale, ONE, 3);
     }

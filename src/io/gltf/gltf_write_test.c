@@ -39,6 +39,14 @@ static void same_floats(const float *a, const float *b, size_t count, const char
                      (double)b[i]);
 }
 
+/* Numbers of the JSON are written with 15 digits, those below 4096 that are floats as floats. */
+static void same_doubles(const double *a, const double *b, size_t count, const char *what, uint32_t index)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!(fabs(a[i] - b[i]) <= (fabs(a[i]) < 4096.0 ? 1e-7 : 1e-14) * fmax(1.0, fabs(a[i]))))
+            fail_msg("%s: %s %u: value %zu was %.17g and is %.17g", model, what, index, i, a[i], b[i]);
+}
+
 static void same_text(const char *a, const char *b, const char *what, uint32_t index)
 {
     same((a != NULL) == (b != NULL) && (!a || strcmp(a, b) == 0), what, index);
@@ -171,9 +179,9 @@ static void same_nodes(const facet_scene *a, const facet_scene *b)
         for (uint32_t k = 0; k < m->child_count; k++)
             same(m->children[k] == n->children[k], "children of node", i);
         if (m->has_matrix) {
-            same_floats(m->matrix.m, n->matrix.m, 16, "matrix of node", i);
+            same_doubles(m->matrix.m, n->matrix.m, 16, "matrix of node", i);
         } else {
-            same_floats(m->translation, n->translation, 3, "translation of node", i);
+            same_doubles(m->translation, n->translation, 3, "translation of node", i);
             same_floats(m->rotation, n->rotation, 4, "rotation of node", i);
             same_floats(m->scale, n->scale, 3, "scale of node", i);
         }

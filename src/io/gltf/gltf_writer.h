@@ -65,6 +65,7 @@ json_t *put_array(writer *w, json_t *object, const char *key);
 /* A number that reads back as the same float and prints as short as can be. */
 json_t *json_float(float value);
 json_t *json_floats(const float *values, size_t count);
+json_t *json_doubles(const double *values, size_t count); /* with 15 digits or more */
 json_t *json_indices(const uint32_t *indices, size_t count);
 void put_name(writer *w, json_t *object, const char *name); /* unless it is "" */
 void put_index(writer *w, json_t *object, const char *key, uint32_t index);

@@ -133,7 +133,7 @@ static void objects_follow_one_another(void **state)
     scene->nodes[1].name = "same";
     scene->nodes[2].name = "a\nb\\";
     scene->meshes[3].name = "of the mesh";
-    scene->nodes[0].translation[1] = 0.1f;
+    scene->nodes[0].translation[1] = 0.1;
     scene->nodes[1].scale[0] = -2;
     add_quad(scene, 0, 1)->colors = COLORS;
     add_quad(scene, 1, 1);

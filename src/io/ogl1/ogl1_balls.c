@@ -37,8 +37,8 @@ static void place(reader *r, const scene_primitive *sphere, uint32_t i, uint32_t
     scene->nodes[i] = (scene_node){
         .name = name,
         .parent = SCENE_NONE,
-        .translation = {SPACING * ((float)(i % columns) - 0.5f * (float)(columns - 1)),
-                        SPACING * (0.5f * (float)(rows - 1) - (float)(i / columns)), 0.0f},
+        .translation = {(double)(SPACING * ((float)(i % columns) - 0.5f * (float)(columns - 1))),
+                        (double)(SPACING * (0.5f * (float)(rows - 1) - (float)(i / columns))), 0.0},
         .rotation = {0, 0, 0, 1},
         .scale = {1, 1, 1},
         .mesh = i,

@@ -396,8 +396,8 @@ static void test_balls(void **state)
     assert_string_equal(scene->nodes[2].name, "x");
     assert_string_equal(scene->nodes[3].name, "material 4");
     /* 3 columns, 2 rows, in the middle of nothing */
-    assert_true(scene->nodes[0].translation[0] == -2.5f && scene->nodes[0].translation[1] == 1.25f);
-    assert_true(scene->nodes[4].translation[0] == 0.0f && scene->nodes[4].translation[1] == -1.25f);
+    assert_true(scene->nodes[0].translation[0] == -2.5 && scene->nodes[0].translation[1] == 1.25);
+    assert_true(scene->nodes[4].translation[0] == 0.0 && scene->nodes[4].translation[1] == -1.25);
     for (uint32_t i = 0; i < 5; i++) {
         const scene_primitive *p = &scene->meshes[scene->nodes[i].mesh].primitives[0];
         assert_int_equal(p->material, i);
