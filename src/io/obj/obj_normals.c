@@ -1,6 +1,9 @@
 /* obj_normals.c - normals that the file does not have: where faces are smooth, corners at one position share the sum of
  * their triangles' normals, weighted by the angle that each has there (Thuermer and Wuethrich 1998, "Computing vertex
- * normals from polygonal facets"): how a face is cut into triangles does not matter then. */
+ * normals from polygonal facets"): how a face is cut into triangles does not matter then.
+ *
+ * A smoothing group smooths across edges, from a triangle to the one that continues its surface. Sheets are often modeled
+ * twice, once each way round, in one group: front and back share positions and edges, and their normals cancel out. */
 #include <math.h>
 #include <string.h>
 
@@ -10,11 +13,12 @@
 
 /* Of the angle across which AUTO smooths, 45 degrees. */
 static const double CREASE_COSINE = 0.70710678118654752;
-/* Triangles along one edge that are compared with each other; more than 2 are rare. */
-enum { MOST_ALONG_EDGE = 8 };
+/* Of the sharpest fold within a smoothing group, 150 degrees: beyond are the two sides of a sheet, which need not be
+ * exactly opposite where their polygons are cut along different diagonals. */
+static const double FOLD_COSINE = -0.86602540378443865;
+/* Triangles along one edge that are compared with each other; more than 2 are rare. And fans at one position. */
+enum { MOST_ALONG_EDGE = 8, MOST_FANS = 16 };
 enum { BLOCK_GRAIN = 4, FEW_KEYS = 64 };
-
-typedef enum smoothing { SMOOTH_ALL, SMOOTH_GROUPS, SMOOTH_ANGLES } smoothing;
 
 /* What one block of positions came to. */
 typedef struct block {
@@ -24,7 +28,7 @@ typedef struct block {
 
 typedef struct making {
     obj_reader *r;
-    smoothing kind;
+    bool has_angles; /* angles decide; else groups, or all is one */
     obj_partition partition;
     block *blocks;
 } making;
@@ -36,6 +40,7 @@ typedef struct spoke {
     uint32_t number; /* of the class, in the block */
     float normal[3]; /* of the triangle, unit; 0: it has no area */
     float angle;     /* rad */
+    float fan[3];    /* the first of a class: the sum of its normals by angle */
 } spoke;
 
 /* What a block is worked at with. */
@@ -141,41 +146,139 @@ static void sort_keys(uint64_t *keys, uint64_t *spare, size_t count)
     }
 }
 
-static void unite_groups(const obj_reader *r, workspace *w, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++)
-        w->keys[i] = (uint64_t)r->groups[w->spokes[i].corner / 3] << 32 | i;
-    sort_keys(w->keys, w->keys + count, count);
-    for (uint32_t i = 1; i < count; i++)
-        if (w->keys[i] >> 32 == w->keys[i - 1] >> 32)
-            unite(w->spokes, (uint32_t)w->keys[i - 1], (uint32_t)w->keys[i]);
-}
-
-static bool is_smooth_between(const spoke *a, const spoke *b)
+static double cosine_between(const spoke *a, const spoke *b)
 {
     double cosine = 0.0;
     for (int k = 0; k < 3; k++)
         cosine += (double)a->normal[k] * (double)b->normal[k];
-    return cosine > CREASE_COSINE;
+    return cosine;
+}
+
+/* Keys of the edges from here, two per spoke: the position at the other end, then the spoke and whether the edge leads
+ * here. Those of one edge stand together then. */
+static void sort_edges(const obj_reader *r, workspace *w, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t corner = w->spokes[i].corner;
+        uint32_t first = corner - corner % 3;
+        w->keys[2 * i] = (uint64_t)r->v[first + (corner + 1 - first) % 3] << 32 | i << 1;
+        w->keys[2 * i + 1] = (uint64_t)r->v[first + (corner + 2 - first) % 3] << 32 | i << 1 | 1u;
+    }
+    sort_keys(w->keys, w->keys + 2 * (size_t)count, 2 * (size_t)count);
+}
+
+static uint32_t spoke_of(uint64_t key)
+{
+    return (uint32_t)key >> 1;
 }
 
 /* Spokes whose triangles share an edge from here, and bend little there. */
 static void unite_smooth_edges(const obj_reader *r, workspace *w, uint32_t count)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t corner = w->spokes[i].corner;
-        uint32_t first = corner - corner % 3;
-        w->keys[2 * i] = (uint64_t)r->v[first + (corner + 1 - first) % 3] << 32 | i;
-        w->keys[2 * i + 1] = (uint64_t)r->v[first + (corner + 2 - first) % 3] << 32 | i;
-    }
-    sort_keys(w->keys, w->keys + 2 * (size_t)count, 2 * (size_t)count);
+    sort_edges(r, w, count);
     for (size_t i = 1; i < 2 * (size_t)count; i++)
         for (size_t k = i; k-- > 0 && i - k < MOST_ALONG_EDGE && w->keys[k] >> 32 == w->keys[i] >> 32;) {
-            uint32_t a = (uint32_t)w->keys[k];
-            uint32_t b = (uint32_t)w->keys[i];
-            if (a != b && is_smooth_between(&w->spokes[a], &w->spokes[b]))
+            uint32_t a = spoke_of(w->keys[k]);
+            uint32_t b = spoke_of(w->keys[i]);
+            if (a != b && cosine_between(&w->spokes[a], &w->spokes[b]) > CREASE_COSINE)
                 unite(w->spokes, a, b);
         }
+}
+
+/* ---- smoothing groups ---- */
+
+static uint32_t group_of(const obj_reader *r, const spoke *s)
+{
+    return r->groups ? r->groups[s->corner / 3] : 0;
+}
+
+/* Whether the triangles of two keys continue each other: the edge leads here in one and away in the other, so that they
+ * are seen from the same side. The cosine of their fold, or -1. */
+static double continues(const obj_reader *r, const workspace *w, uint64_t a, uint64_t b)
+{
+    const spoke *s = &w->spokes[spoke_of(a)];
+    const spoke *t = &w->spokes[spoke_of(b)];
+    bool is_opposite = ((a ^ b) & 1u) != 0 && s != t;
+    return is_opposite && group_of(r, s) == group_of(r, t) ? cosine_between(s, t) : -1.0;
+}
+
+/* The pair of triangles along one edge that folds least, which is united and leaves the list. False: there is none. */
+static bool unite_best_pair(const obj_reader *r, workspace *w, uint64_t *keys, size_t *count)
+{
+    double best = FOLD_COSINE;
+    size_t first = 0;
+    size_t second = 0;
+    for (size_t i = 0; i < *count; i++)
+        for (size_t k = i + 1; k < *count; k++) {
+            double cosine = continues(r, w, keys[i], keys[k]);
+            if (cosine > best) {
+                best = cosine;
+                first = i;
+                second = k;
+            }
+        }
+    if (second == 0)
+        return false;
+    unite(w->spokes, spoke_of(keys[first]), spoke_of(keys[second]));
+    size_t left = 0;
+    for (size_t i = 0; i < *count; i++)
+        if (i != first && i != second)
+            keys[left++] = keys[i];
+    *count = left;
+    return true;
+}
+
+/* Whether two fans of a group bend less than AUTO smooths. */
+static bool are_alike(const obj_reader *r, const spoke *a, const spoke *b)
+{
+    double dot = 0.0;
+    double lengths[2] = {0.0, 0.0};
+    for (int k = 0; k < 3; k++) {
+        dot += (double)a->fan[k] * (double)b->fan[k];
+        lengths[0] += (double)a->fan[k] * (double)a->fan[k];
+        lengths[1] += (double)b->fan[k] * (double)b->fan[k];
+    }
+    return group_of(r, a) == group_of(r, b) && dot > CREASE_COSINE * sqrt(lengths[0] * lengths[1]);
+}
+
+/* Fans that share no edge, as where an edge meets the middle of another, are smoothed where they bend little. */
+static void unite_fans(const obj_reader *r, spoke *spokes, uint32_t count)
+{
+    uint32_t leaders[MOST_FANS];
+    size_t leader_count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        spoke *first = &spokes[find_first(spokes, i)];
+        for (size_t k = 0; k < 3; k++)
+            first->fan[k] += spokes[i].angle * spokes[i].normal[k];
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        size_t k = 0;
+        if (spokes[i].next != i)
+            continue;
+        while (k < leader_count && !are_alike(r, &spokes[leaders[k]], &spokes[i]))
+            k++;
+        if (k < leader_count)
+            unite(spokes, leaders[k], i);
+        else if (leader_count < MOST_FANS)
+            leaders[leader_count++] = i;
+    }
+}
+
+/* Along each edge in pairs, so that of two sheets that cross there each stays with itself. */
+static void unite_groups(const obj_reader *r, workspace *w, uint32_t count)
+{
+    size_t end;
+    sort_edges(r, w, count);
+    for (size_t begin = 0; begin < 2 * (size_t)count; begin = end) {
+        end = begin + 1;
+        while (end < 2 * (size_t)count && end - begin < MOST_ALONG_EDGE &&
+               w->keys[end] >> 32 == w->keys[begin] >> 32)
+            end++;
+        size_t left = end - begin;
+        while (left > 1 && unite_best_pair(r, w, w->keys + begin, &left))
+            continue;
+    }
+    unite_fans(r, w->spokes, count);
 }
 
 /* ---- sums ---- */
@@ -221,13 +324,10 @@ static bool do_position(const making *m, block *b, workspace *w, const uint32_t 
 {
     for (uint32_t i = 0; i < count; i++)
         w->spokes[i] = make_spoke(m->r, corners[i], i);
-    if (m->kind == SMOOTH_GROUPS)
-        unite_groups(m->r, w, count);
-    else if (m->kind == SMOOTH_ANGLES)
+    if (m->has_angles)
         unite_smooth_edges(m->r, w, count);
     else
-        for (uint32_t i = 1; i < count; i++)
-            w->spokes[i].next = 0;
+        unite_groups(m->r, w, count);
     return sum_classes(m, b, w->spokes, count);
 }
 
@@ -350,9 +450,7 @@ void obj_make_normals(obj_reader *r)
     if (!r->n || r->triangle_corner_count == 0 || r->desc->obj_normals == FACET_OBJ_NORMALS_FLAT)
         return;
     making m = {.r = r,
-                .kind = r->groups                                          ? SMOOTH_GROUPS
-                        : r->desc->obj_normals == FACET_OBJ_NORMALS_SMOOTH ? SMOOTH_ALL
-                                                                           : SMOOTH_ANGLES,
+                .has_angles = !r->groups && r->desc->obj_normals != FACET_OBJ_NORMALS_SMOOTH,
                 .partition = {.order = r->indices, /* which get their values later */
                               .v = r->v,
                               .end = r->triangle_corner_count,
