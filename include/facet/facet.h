@@ -676,6 +676,19 @@ typedef enum facet_aov {
     FACET_AOV_SAMPLES = 1u << 7 /* light samples in the pixel; 1 channel "samples.N" */
 } facet_aov;
 
+/* Instruction set of the kernels that intersect rays with triangles, on x86-64; elsewhere there is one. Those of AVX2 and
+ * AVX-512 use fused multiply-adds, which round otherwise: a few pixels of an image differ by a code. Fails with
+ * FACET_ERROR_ENVIRONMENT where the processor lacks the one that is named. */
+typedef enum facet_isa {
+    FACET_ISA_PORTABLE, /* the widest without fused multiply-adds: SSE2, SSE4.2 and AVX give the same bytes */
+    FACET_ISA_NATIVE,   /* the widest of this processor: up to a sixth faster */
+    FACET_ISA_SSE2,
+    FACET_ISA_SSE4_2,
+    FACET_ISA_AVX,
+    FACET_ISA_AVX2,
+    FACET_ISA_AVX512
+} facet_isa;
+
 /* How facet_render() draws. {0}: 1024 x 768, the whole model in its own lights only, transparent, linear. */
 typedef struct facet_render_desc {
     facet_allocator allocator;
@@ -713,6 +726,7 @@ typedef struct facet_render_desc {
     /* decode textures in full where a part of their texels would do: the mips of a JPEG that is decoded at half size
      * are not quite those of the whole. Slower; path tracing and OpenGL do it always */
     bool whole_textures;
+    facet_isa isa;
     float exposure_ev; /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
     facet_tonemap tonemap;
     uint32_t aovs; /* facet_aov or-ed */

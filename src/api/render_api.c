@@ -122,6 +122,8 @@ facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_des
     if ((unsigned)out->shading > FACET_SHADING_OGL1 || (unsigned)out->ogl1.variant > FACET_OGL1_RGL_DESKTOP)
         return fail(error, FACET_ERROR_ARGUMENT, "shading: %d, variant %d; there is no such",
                     (int)out->shading, (int)out->ogl1.variant);
+    if ((unsigned)out->isa > FACET_ISA_AVX512)
+        return fail(error, FACET_ERROR_ARGUMENT, "isa: %d is no instruction set", (int)out->isa);
     facet_result result = check_numbers(out, error);
     if (result == FACET_OK)
         result = resolve_integrator(out, error);

@@ -55,6 +55,7 @@ typedef enum option_id {
     OPT_EXPOSURE,
     OPT_TONE_MAPPING,
     OPT_ENERGY,
+    OPT_ISA,
     OPT_QUALITY,
     OPT_SAMPLES,
     OPT_RENDERER,

@@ -229,6 +229,7 @@ static void read_defaults(const command_line *c, render_options *out)
     int quality = option_choice(c, OPT_QUALITY, 1);
     const uint32_t *samples = is_path ? path_samples : preview_samples;
     out->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, samples[quality]);
+    out->desc.isa = (facet_isa)option_choice(c, OPT_ISA, FACET_ISA_PORTABLE);
     out->desc.energy =
         option_choice(c, OPT_ENERGY, is_path ? 1 : 0) ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF;
 }

@@ -33,7 +33,9 @@ static facet_result fail_embree(enum RTCError code, facet_error *error)
     if (code == RTC_ERROR_OUT_OF_MEMORY)
         return fail(error, FACET_ERROR_MEMORY, "out of memory: bounding volume hierarchy");
     if (code == RTC_ERROR_UNSUPPORTED_CPU)
-        return fail(error, FACET_ERROR_ENVIRONMENT, "Embree does not run on this CPU");
+        return fail(
+            error, FACET_ERROR_ENVIRONMENT,
+            "Embree does not run on this processor, or not with the instruction set that was asked for");
     return fail(error, FACET_ERROR_BUG, "Embree: error %d while building the hierarchy", (int)code);
 }
 
@@ -217,6 +219,20 @@ static uint32_t choose_threads(uint32_t thread_count)
     return startable >= wanted ? thread_count : startable >= LEAST ? 1 : 0;
 }
 
+/* Embree's configuration of a device: "max_isa" leaves the choice up to it, "isa" is that one or none. */
+static void write_config(uint32_t thread_count, facet_isa isa, char *config, size_t size)
+{
+#if defined(__x86_64__)
+    static const char *const settings[] = {
+        [FACET_ISA_PORTABLE] = ",max_isa=avx", [FACET_ISA_NATIVE] = "",      [FACET_ISA_SSE2] = ",isa=sse2",
+        [FACET_ISA_SSE4_2] = ",isa=sse4.2",    [FACET_ISA_AVX] = ",isa=avx", [FACET_ISA_AVX2] = ",isa=avx2",
+        [FACET_ISA_AVX512] = ",isa=avx512"};
+#else
+    static const char *const settings[FACET_ISA_AVX512 + 1] = {"", "", "", "", "", "", ""};
+#endif
+    snprintf(config, size, "threads=%u%s", thread_count, settings[isa]);
+}
+
 static void release_shapes(embree_scene *e)
 {
     for (uint32_t i = 0; i < e->shape_count; i++)
@@ -291,7 +307,7 @@ static facet_result build(embree_scene *e, uint64_t ray_count, facet_error *erro
 }
 
 facet_result embree_scene_create(const render_geometry_set *set, const facet_allocator *allocator,
-                                 uint64_t ray_count, uint32_t thread_count, embree_scene *out,
+                                 uint64_t ray_count, uint32_t thread_count, facet_isa isa, embree_scene *out,
                                  facet_error *error)
 {
     *out = (embree_scene){.geometries = set};
@@ -302,7 +318,7 @@ facet_result embree_scene_create(const render_geometry_set *set, const facet_all
         return fail(error, FACET_ERROR_ENVIRONMENT,
                     "threads: the system allows too few; Embree needs some (ulimit -u)");
     char config[64];
-    snprintf(config, sizeof config, "threads=%u", thread_count);
+    write_config(thread_count, isa, config, sizeof config);
     out->device = rtcNewDevice(config);
     if (!out->device)
         return fail_embree(rtcGetDeviceError(NULL), error);

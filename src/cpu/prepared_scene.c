@@ -136,12 +136,13 @@ facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc 
 
 facet_result prepared_scene_hierarchy(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
 {
-    if (p->embree.scene && p->thread_count == desc->thread_count)
+    if (p->embree.scene && p->thread_count == desc->thread_count && p->isa == desc->isa)
         return embree_scene_update(&p->embree, p->likeness, p->has_moved_sprites, p->ray_count, error);
     embree_scene_destroy(&p->embree);
     p->thread_count = desc->thread_count;
-    return embree_scene_create(&p->geometries, &p->allocator, p->ray_count, desc->thread_count, &p->embree,
-                               error);
+    p->isa = desc->isa;
+    return embree_scene_create(&p->geometries, &p->allocator, p->ray_count, desc->thread_count, desc->isa,
+                               &p->embree, error);
 }
 
 facet_result prepared_scene_tangents(prepared_scene *p, const facet_render_desc *desc, facet_error *error)

@@ -34,6 +34,7 @@ typedef struct prepared_scene {
     bool has_moved_sprites;
     embree_scene embree;
     uint32_t thread_count; /* of embree */
+    facet_isa isa;         /* of embree */
     tangent_store tangents;
     struct texture_store *textures; /* NULL: none was read yet */
 } prepared_scene;

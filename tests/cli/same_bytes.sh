@@ -1,5 +1,6 @@
 #!/bin/sh
-# same_bytes.sh - the bytes of a picture do not depend on the number of threads, nor on the run.
+# same_bytes.sh - the bytes of an image do not depend on the number of threads, on the run, nor on how wide the vectors
+# are that the processor has for rays.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -13,4 +14,19 @@ for options in "--size 160x120" "--size 97x61 --format exr --aov depth,normal --
         cmp -s picture.1 picture.$other || failed "-j $other differs from -j 1: $options"
     done
 done
+
+# Instruction sets without fused multiply-adds, which --isa portable chooses from. The built-in scene has pixels that
+# AVX2 and AVX-512 change.
+for options in "--size 160x120" "--size 97x61 --renderer path --samples 8"; do
+    expect 0 render $options -o picture.portable --format png
+    for isa in sse2 sse4.2 avx; do
+        "$facet" render $options -o picture.$isa --format png --isa $isa 2>err || {
+            says "instruction set" # this processor lacks it
+            continue
+        }
+        cmp -s picture.portable picture.$isa || failed "--isa $isa differs from portable: $options"
+    done
+done
+expect 0 render --size 48 -o picture.native --format png --isa native
+expect 2 render --size 48 -o picture.none --isa mmx
 finish
