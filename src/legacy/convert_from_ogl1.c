@@ -124,6 +124,20 @@ static void find_vertex_colors(const facet_scene *scene, bool *out)
         }
 }
 
+/* Whether all that is drawn has opacity 0. rgl's parameters mean it: a scene there may have hidden parts only. */
+static bool hides_everything(const facet_scene *scene)
+{
+    bool has_primitive = false;
+    for (uint32_t i = 0; i < scene->mesh_count && !scene->legacy->is_rgl; i++)
+        for (uint32_t j = 0; j < scene->meshes[i].primitive_count; j++) {
+            uint32_t material = scene->meshes[i].primitives[j].material;
+            if (material >= scene->material_count || scene->legacy->materials[material].opacity > 0.0f)
+                return false;
+            has_primitive = true;
+        }
+    return has_primitive;
+}
+
 facet_result convert_from_ogl1(conversion *c, facet_error *error)
 {
     facet_scene *scene = c->scene;
@@ -141,6 +155,7 @@ facet_result convert_from_ogl1(conversion *c, facet_error *error)
     if (has_vertex_colors)
         find_vertex_colors(scene, has_vertex_colors);
     c->has_vertex_colors = has_vertex_colors;
+    c->hides_everything = hides_everything(scene);
     facet_result result = readings && items && c->materials && has_vertex_colors
                               ? survey(c, error)
                               : fail_memory(error, "materials", count * sizeof *readings);

@@ -119,10 +119,13 @@ static void read_opacity(conversion *c, uint32_t material, legacy_reading *r)
             "Tr means transparency to most programs and opacity to some; it is read such that opacity is %g",
             (double)r->opacity);
     bool has_picture = legacy_has_map(m, LEGACY_OPACITY_MAP) || legacy_has_map(m, LEGACY_DIFFUSE_MAP);
-    if (r->opacity == 0.0f && has_picture) {
+    if (r->opacity == 0.0f && (has_picture || c->hides_everything)) {
         r->opacity = 1.0f;
         note_add(&c->notes, material, NOTE_ZERO_ALPHA,
-                 "an opacity of 0 would hide its texture; it counts as 1, as some exporters meant it");
+                 has_picture
+                     ? "an opacity of 0 would hide its texture; it counts as 1, as some exporters meant it"
+                     : "an opacity of 0 in all materials would hide the whole model; it counts as 1, as "
+                       "some exporters meant it");
     }
 }
 

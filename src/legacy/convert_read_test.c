@@ -230,6 +230,36 @@ static void opacity_becomes_alpha(void **state)
     scene_destroy(scene);
 }
 
+/* Two primitives; the second one has no material, the same, or one of another opacity. */
+static void opacity_0_of_all_that_is_drawn_counts_as_1(void **state)
+{
+    (void)state;
+    static const struct {
+        uint32_t second;
+        float opacity;
+        bool is_rgl;
+        double wanted;
+    } cases[] = {
+        {0, 0, false, 1}, {1, 0, false, 1}, {1, .5f, false, 0}, {SCENE_NONE, 0, false, 0}, {1, 0, true, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scene_primitive primitives[2] = {{.material = 0}, {.material = cases[i].second}};
+        scene_mesh mesh = {.primitives = primitives, .primitive_count = 2};
+        facet_scene *scene = legacy_scene(2);
+        scene->meshes = &mesh;
+        scene->mesh_count = 1;
+        scene->legacy->is_rgl = cases[i].is_rgl;
+        for (int k = 0; k < 2; k++) {
+            scene->legacy->materials[k] = gold();
+            scene->legacy->materials[k].fields |= LEGACY_OPACITY;
+            scene->legacy->materials[k].opacity = k ? cases[i].opacity : 0;
+        }
+        convert(scene, &PLAIN);
+        assert_near(scene->materials[0].base_color[3], cases[i].wanted, 0);
+        assert_true(has_warning(scene, 0, "zero-alpha") == (cases[i].wanted > 0));
+        scene_destroy(scene);
+    }
+}
+
 static void glass_becomes_transmission_where_asked_for(void **state)
 {
     (void)state;
@@ -577,6 +607,7 @@ int main(void)
         cmocka_unit_test(emission_above_one_becomes_strength),
         cmocka_unit_test(ambient_is_dropped_or_emitted),
         cmocka_unit_test(opacity_becomes_alpha),
+        cmocka_unit_test(opacity_0_of_all_that_is_drawn_counts_as_1),
         cmocka_unit_test(glass_becomes_transmission_where_asked_for),
         cmocka_unit_test(illum_counts_where_nothing_speaks_against_it),
         cmocka_unit_test(what_is_not_lit_is_unlit),

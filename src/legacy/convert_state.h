@@ -34,6 +34,7 @@ typedef struct conversion {
     scene_material *materials;   /* the new ones, in the scene's arena; NULL: the scene's stay */
     struct scene_legacy *legacy; /* the same */
     bool *has_vertex_colors;     /* per material: some primitive with it has them */
+    bool hides_everything;       /* MTL: every material that a primitive has is of opacity 0 */
     drop_plan drop;              /* of desc.drops_sources */
 } conversion;
 
