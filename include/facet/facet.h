@@ -71,7 +71,7 @@ FACET_API uint64_t facet_budget_peak_bytes(const facet_budget *budget);
 
 typedef enum facet_log_level {
     FACET_LOG_WARNING,
-    FACET_LOG_DETAIL /* for who wants to know: the driver that draws */
+    FACET_LOG_DETAIL /* on request: the driver that draws, rules that a file breaks without harm */
 } facet_log_level;   /* others may come */
 
 /* Receives messages about what is lost but survivable. {0}: silent. May be called from any thread, one call at

@@ -366,16 +366,16 @@ static void print_extensions(FILE *stream, const json_t *extensions)
     table_print(&t, stream, 2);
 }
 
-static void print_warnings(FILE *stream, const char *name, const json_t *warnings)
+static void print_messages(FILE *stream, const char *name, const char *heading, const json_t *messages)
 {
-    size_t count = json_array_size(warnings);
+    size_t count = json_array_size(messages);
     if (!count)
         return;
-    print_heading(stream, "Warnings", count);
+    print_heading(stream, heading, count);
     table t = {.column_count = 1};
     size_t length = strlen(name);
     for (size_t i = 0; i < count; i++) {
-        const char *text = json_string_value(json_array_get(warnings, i));
+        const char *text = json_string_value(json_array_get(messages, i));
         bool has_name = strncmp(text, name, length) == 0 && strncmp(text + length, ": ", 2) == 0;
         table_add(&t, "%s", text + (has_name ? length + 2 : 0));
     }
@@ -412,5 +412,6 @@ void inspect_print_text(FILE *stream, const char *name, const json_t *model, boo
     print_animations(stream, json_object_get(model, "animations"), all);
     print_variants(stream, json_object_get(model, "variants"));
     print_extensions(stream, json_object_get(model, "extensions"));
-    print_warnings(stream, name, json_object_get(model, "warnings"));
+    print_messages(stream, name, "Warnings", json_object_get(model, "warnings"));
+    print_messages(stream, name, "Notes", json_object_get(model, "notes"));
 }

@@ -1,78 +1,14 @@
-/* json_access.c - typed members of JSON objects, and messages that say where; see gltf_reader.h. */
+/* json_access.c - typed members of JSON objects; see gltf_reader.h. */
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/result.h"
 #include "io/gltf/gltf_reader.h"
 
-/* ---- messages ---- */
+/* ---- memory and work ---- */
 
-enum { PLACE_SIZE = 256, LIMIT_ELEMENTS = 1 << 28 };
-
-/* Appends the way to a place, "meshes[3].primitives[0]"; a way that is too long loses its end. */
-static void append_place(char *text, const json_place *at)
-{
-    if (!at)
-        return;
-    append_place(text, at->parent); /* as deep as the calls that built the chain */
-    size_t length = strlen(text);
-    if (at->key)
-        snprintf(text + length, PLACE_SIZE - length, "%s%s", length ? "." : "", at->key);
-    else if (at->parent)
-        snprintf(text + length, PLACE_SIZE - length, "[%zu]", at->index);
-}
-
-static void format_message(char *out, size_t size, const reader *r, const json_place *at, const char *key,
-                           const char *format, va_list arguments)
-{
-    char place[PLACE_SIZE] = "";
-    append_place(place, at);
-    size_t length = strlen(place);
-    if (key)
-        snprintf(place + length, PLACE_SIZE - length, "%s%s", length ? "." : "", key);
-    char what[768];
-    vsnprintf(what, sizeof what, format, arguments);
-    snprintf(out, size, "%s: %s%s%s", r->scene->source, place, place[0] ? ": " : "", what);
-}
-
-bool reader_is_ok(const reader *r)
-{
-    return r->result == FACET_OK;
-}
-
-bool reader_fail(reader *r, const json_place *at, const char *key, facet_result result, const char *format,
-                 ...)
-{
-    if (r->result != FACET_OK)
-        return false;
-    char message[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    format_message(message, sizeof message, r, at, key, format, arguments);
-    va_end(arguments);
-    r->result = fail(r->error, result, "%s", message);
-    return false;
-}
-
-bool reader_fail_memory(reader *r, const char *what, size_t size)
-{
-    if (r->result == FACET_OK)
-        r->result = fail_memory(r->error, what, size);
-    return false;
-}
-
-void reader_warn(reader *r, const json_place *at, const char *key, const char *format, ...)
-{
-    char message[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    format_message(message, sizeof message, r, at, key, format, arguments);
-    va_end(arguments);
-    scene_warn(r->scene, r->log, "%s", message);
-}
+enum { LIMIT_ELEMENTS = 1 << 28 };
 
 void *reader_alloc_raw(reader *r, const char *what, size_t count, size_t size)
 {
@@ -158,7 +94,7 @@ json_place get_array(reader *r, const json_place *object, const char *key)
         fail_type(r, &at, "an array");
         at.value = NULL;
     } else if (at.value && json_array_size(at.value) == 0) {
-        reader_warn(r, &at, NULL, "is empty, which glTF does not allow");
+        reader_note(r, &at, NULL, "is empty, which glTF does not allow");
     } else if (at.value && json_array_size(at.value) >= SCENE_NONE) {
         reader_fail(r, &at, NULL, FACET_ERROR_LIMIT, "has more than 2^32 - 2 elements");
         at.value = NULL;
@@ -390,7 +326,7 @@ const char *get_name(reader *r, const json_place *object)
     if (!at.value)
         return "";
     if (!json_is_string(at.value)) {
-        reader_warn(r, &at, NULL, "must be a string, but is %s", type_name(at.value));
+        reader_note(r, &at, NULL, "must be a string, but is %s", type_name(at.value));
         return "";
     }
     char *copy = arena_strdup(r->scene->arena, json_string_value(at.value));

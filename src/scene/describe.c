@@ -386,5 +386,9 @@ void scene_describe_json(const facet_scene *scene, struct text *t)
     for (uint32_t i = 0; i < scene->warning_count; i++)
         text_json_string(t, NULL, scene->warnings[i]);
     text_json_end_array(t);
+    text_json_begin_array(t, "notes");
+    for (uint32_t i = 0; i < scene->note_count; i++)
+        text_json_string(t, NULL, scene->notes[i]);
+    text_json_end_array(t);
     text_json_end_object(t);
 }

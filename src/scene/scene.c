@@ -57,7 +57,7 @@ void scene_texture_ref_update(scene_texture_ref *ref)
 typedef struct scene_store {
     facet_scene scene; /* first: the public pointer is this one */
     scene_material default_material;
-    size_t warning_capacity;
+    size_t warning_capacity, note_capacity;
     size_t file_capacity;
     index_table kept_files; /* those of scene.files whose bytes are there, by device and number */
 } scene_store;
@@ -94,6 +94,7 @@ void scene_destroy(facet_scene *scene)
     mem_free(scene->files);
     index_table_release(&((scene_store *)scene)->kept_files);
     mem_free(scene->warnings);
+    mem_free(scene->notes);
     arena_destroy(scene->arena);
     mem_free(scene);
 }
@@ -143,6 +144,32 @@ bool scene_has_file(const facet_scene *scene, const char *path)
     return false;
 }
 
+/* A list of messages of the scene; the same text is kept once. */
+typedef struct message_list {
+    const char ***texts;
+    uint32_t *count;
+    size_t *capacity;
+} message_list;
+
+/* Adds a message unless it is there. False: it is, or the list is full. */
+static bool keep_message(facet_scene *scene, const message_list *list, char *message, size_t size)
+{
+    /* A broken file can say the same thing for each of a million elements: such a list has an end. */
+    enum { MOST_MESSAGES = 1000 };
+    if (*list->count >= MOST_MESSAGES)
+        return false;
+    for (uint32_t i = 0; i < *list->count; i++)
+        if (strcmp((*list->texts)[i], message) == 0)
+            return false;
+    if (*list->count + 1 == MOST_MESSAGES)
+        snprintf(message, size, "%s: has more to warn about; this is the last one", scene->source);
+    const char *copy = arena_strdup(scene->arena, message);
+    if (copy && mem_reserve(&scene->allocator, (void **)list->texts, list->capacity, (size_t)*list->count + 1,
+                            sizeof **list->texts))
+        (*list->texts)[(*list->count)++] = copy;
+    return true;
+}
+
 void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ...)
 {
     char message[1024];
@@ -150,22 +177,22 @@ void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ..
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    /* A broken file can say the same thing for each of a million elements: such a list has an end. */
-    enum { MOST_WARNINGS = 1000 };
-    if (scene->warning_count >= MOST_WARNINGS)
-        return;
-    for (uint32_t i = 0; i < scene->warning_count; i++)
-        if (strcmp(scene->warnings[i], message) == 0)
-            return;
-    if (scene->warning_count + 1 == MOST_WARNINGS)
-        snprintf(message, sizeof message, "%s: has more to warn about; this is the last one", scene->source);
-    log_warning(log, "%s", message);
+    const message_list list = {&scene->warnings, &scene->warning_count,
+                               &((scene_store *)scene)->warning_capacity};
+    if (keep_message(scene, &list, message, sizeof message))
+        log_warning(log, "%s", message);
+}
 
-    scene_store *store = (scene_store *)scene;
-    const char *copy = arena_strdup(scene->arena, message);
-    if (copy && mem_reserve(&scene->allocator, (void **)&scene->warnings, &store->warning_capacity,
-                            (size_t)scene->warning_count + 1, sizeof *scene->warnings))
-        scene->warnings[scene->warning_count++] = copy;
+void scene_note(facet_scene *scene, const facet_log *log, const char *format, ...)
+{
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    const message_list list = {&scene->notes, &scene->note_count, &((scene_store *)scene)->note_capacity};
+    if (keep_message(scene, &list, message, sizeof message))
+        log_message(log, FACET_LOG_DETAIL, "%s", message);
 }
 
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index)

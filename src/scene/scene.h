@@ -326,7 +326,7 @@ typedef enum scene_support { SCENE_SUPPORTED, SCENE_APPROXIMATED, SCENE_IGNORED 
 
 typedef struct scene_extension {
     const char *name;
-    bool is_required;
+    bool is_required, is_present; /* present: some object of the file has it */
     scene_support support;
 } scene_extension;
 
@@ -340,7 +340,7 @@ typedef struct facet_scene {
 
     uint32_t mesh_count, material_count, texture_count, image_count, node_count, camera_count, light_count;
     uint32_t scene_count, extension_count, warning_count, skin_count, animation_count, variant_count;
-    uint32_t image_light_count;
+    uint32_t image_light_count, note_count;
     scene_mesh *meshes;
     scene_material *materials;
     scene_texture *textures;
@@ -358,6 +358,7 @@ typedef struct facet_scene {
     uint32_t default_scene; /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
     const char **warnings; /* what log got while reading */
+    const char **notes;    /* where the file breaks a rule of its format and nothing comes of it */
 
     struct scene_legacy *legacy;         /* scene/legacy.h; NULL: materials of glTF only */
     struct scene_conversion *conversion; /* the last one; NULL: none */
@@ -384,6 +385,9 @@ bool scene_note_file(facet_scene *scene, const file_bytes *file);
 bool scene_has_file(const facet_scene *scene, const char *path);
 /* Appends to scene->warnings and tells log; the same text is kept once. */
 void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The same of scene->notes; log gets a detail. */
+void scene_note(facet_scene *scene, const facet_log *log, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Looks up scene->materials[index], or the default material for SCENE_NONE. */
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index);

@@ -30,7 +30,7 @@ expect 1 render $small tri.gltf missing.glb -o '{stem}.png'
 [ -s tri.png ] || failed "the good one of two models is missing"
 [ ! -e missing.png ] || failed "a picture of nothing"
 rm tri.png
-sed 's/"scene":0/"extensionsUsed":["X_unknown"],"scene":0/' tri.gltf >warns.gltf
+sed 's/"scene":0/"extensionsUsed":["X_unknown"],"extensions":{"X_unknown":{}},"scene":0/' tri.gltf >warns.gltf
 expect 0 render $small warns.gltf -o w.png
 says "X_unknown"
 [ "$(grep -c X_unknown err)" = 1 ] || failed "a warning came more than once"

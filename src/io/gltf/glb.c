@@ -31,7 +31,7 @@ static bool check_header(reader *r, const unsigned char *bytes, size_t *size)
         return reader_fail(r, NULL, NULL, FACET_ERROR_INVALID,
                            "is cut off: its header says %u bytes, but there are %zu", length, *size);
     if (length < *size) {
-        reader_warn(r, NULL, NULL, "has %zu bytes behind the %u that its header says; they are ignored",
+        reader_note(r, NULL, NULL, "has %zu bytes behind the %u that its header says; they are ignored",
                     *size - length, length);
         *size = length;
     }
@@ -56,7 +56,7 @@ bool split_glb(reader *r, const unsigned char *bytes, size_t size, const char **
                                "is cut off: chunk %u says %u bytes, but %zu follow", number, length,
                                size - at);
         if (length % 4)
-            reader_warn(r, NULL, NULL, "chunk %u has %u bytes, which is not a multiple of 4", number, length);
+            reader_note(r, NULL, NULL, "chunk %u has %u bytes, which is not a multiple of 4", number, length);
         if (number == 0 && type != CHUNK_JSON)
             return reader_fail(r, NULL, NULL, FACET_ERROR_INVALID,
                                "the first chunk must be JSON, but is of type 0x%08x", type);

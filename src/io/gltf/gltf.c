@@ -20,7 +20,7 @@ size_t json_memory_estimate(const char *text, size_t size)
 static json_t *parse(reader *r, const char *text, size_t size)
 {
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) {
-        reader_warn(r, NULL, NULL, "begins with a byte order mark, which glTF does not allow");
+        reader_note(r, NULL, NULL, "begins with a byte order mark, which glTF does not allow");
         text += 3;
         size -= 3;
     }
@@ -168,7 +168,9 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
                 .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
                 .folder = folder,
                 .root = desc->root};
+    reader_begin_remarks(&r);
     read_bytes(&r, bytes, size);
+    reader_end_remarks(&r);
     if (r.result != FACET_OK) {
         scene_destroy(scene);
         return r.result;

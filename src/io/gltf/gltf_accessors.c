@@ -133,9 +133,9 @@ static void read_accessor(reader *r, const json_place *at, gltf_accessor *a)
     if (!reader_is_ok(r))
         return;
     if (a->count == 0)
-        reader_warn(r, at, "count", "must be at least 1, but is 0");
+        reader_note(r, at, "count", "must be at least 1, but is 0");
     if (a->is_normalized && (a->component == GLTF_F32 || a->component == GLTF_U32)) {
-        reader_warn(r, at, "normalized", "means nothing for this componentType and is ignored");
+        reader_note(r, at, "normalized", "means nothing for this componentType and is ignored");
         a->is_normalized = false;
     }
     if (a->view != SCENE_NONE) {
@@ -149,7 +149,7 @@ static void read_accessor(reader *r, const json_place *at, gltf_accessor *a)
         check_extent(r, at, a->view, a->offset, a->count, gltf_accessor_stride(r, a), size);
         if (reader_is_ok(r) && (a->offset % gltf_component_size(a->component) ||
                                 (a->offset + view->offset) % gltf_component_size(a->component)))
-            reader_warn(r, at, "byteOffset", "%zu is not aligned to its components", a->offset);
+            reader_note(r, at, "byteOffset", "%zu is not aligned to its components", a->offset);
     }
     read_sparse(r, at, a);
 }

@@ -121,7 +121,7 @@ void check_animation_sampler(reader *r, const json_place *at)
             return;
         const gltf_accessor *a = &r->accessors[index];
         if (a->view != SCENE_NONE && r->views[a->view].stride)
-            reader_warn(r, at, keys[i], "accessor %u is in a buffer view with byteStride", index);
+            reader_note(r, at, keys[i], "accessor %u is in a buffer view with byteStride", index);
     }
     get_string(r, at, "interpolation", NULL);
 }
@@ -184,6 +184,6 @@ bool read_animation_sampler(reader *r, const json_place *at, bool is_rotation, s
     if (!is_increasing(out->times, out->key_count) && !repair_times(r, at, out))
         return false;
     if (out->times[0] < 0.0f)
-        reader_warn(r, at, "input", "begins before 0 s");
+        reader_note(r, at, "input", "begins before 0 s");
     return !is_rotation || out->width != 4 || repair_rotations(r, at, out);
 }

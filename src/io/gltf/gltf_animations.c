@@ -100,7 +100,7 @@ static bool find_pointed_target(reader *r, const json_place *target, gltf_target
         return false;
     }
     if (has_member(target, "node"))
-        reader_warn(r, target, "node", "is there beside a pointer; it is ignored");
+        reader_note(r, target, "node", "is there beside a pointer; it is ignored");
     const char *message = resolve_pointer(r, pointer, out);
     if (message && reader_is_ok(r))
         reader_warn(r, &extension, "pointer", "\"%.200s\" %s; it is ignored", pointer, message);

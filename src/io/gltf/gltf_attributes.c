@@ -146,7 +146,7 @@ const float *get_normals(reader *r, const json_place *at, uint32_t index, bool *
     if (repairs == 0)
         return a->normals = in;
     if (warnings && a->component == GLTF_F32)
-        reader_warn(r, at, NULL, "%zu normals of accessor %u are not of length 1", warnings, index);
+        reader_note(r, at, NULL, "%zu normals of accessor %u are not of length 1", warnings, index);
     float *out = reader_alloc_raw(r, "normals", a->count, 3 * sizeof *out);
     if (!out)
         return NULL;
@@ -184,7 +184,7 @@ const float *get_tangents(reader *r, const json_place *at, uint32_t index)
     if (repairs == 0)
         return a->tangents = in;
     if (warnings && a->component == GLTF_F32)
-        reader_warn(r, at, NULL, "tangents of accessor %u are not all of length 1 with w 1 or -1", index);
+        reader_note(r, at, NULL, "tangents of accessor %u are not all of length 1 with w 1 or -1", index);
     float *out = reader_alloc_raw(r, "tangents", a->count, 4 * sizeof *out);
     if (!out)
         return NULL;
@@ -197,7 +197,7 @@ const float *get_tangents(reader *r, const json_place *at, uint32_t index)
     }
     a->tangents = out;
     if (!a->has_tangents)
-        reader_warn(r, at, NULL, "tangents of accessor %u have no direction; they are computed instead",
+        reader_note(r, at, NULL, "tangents of accessor %u have no direction; they are computed instead",
                     index);
     return a->has_tangents ? out : NULL;
 }

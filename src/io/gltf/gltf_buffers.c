@@ -15,7 +15,7 @@ void read_buffers(reader *r, const json_place *root)
         buffer->uri = get_string(r, &at, "uri", NULL);
         buffer->is_fallback = is_meshopt_fallback(r, &at);
         if (reader_is_ok(r) && buffer->byte_length == 0)
-            reader_warn(r, &at, "byteLength", "must be at least 1, but is 0");
+            reader_note(r, &at, "byteLength", "must be at least 1, but is 0");
         r->buffer_count = (uint32_t)(i + 1);
     }
 }
@@ -44,9 +44,9 @@ void read_views(reader *r, const json_place *root)
                         "%zu from offset %zu goes past the end of buffer %u (%zu bytes)", view->length,
                         view->offset, view->buffer, size);
         if (view->stride && (view->stride < 4 || view->stride > 252 || view->stride % 4))
-            reader_warn(r, &at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
+            reader_note(r, &at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
         if (view->stride && target == 34963)
-            reader_warn(r, &at, "byteStride", "means nothing for indices");
+            reader_note(r, &at, "byteStride", "means nothing for indices");
         read_meshopt(r, &at, view);
         r->view_count = (uint32_t)(i + 1);
     }
@@ -99,7 +99,7 @@ static bool load_buffer(reader *r, uint32_t index)
                            buffer->byte_length, size);
     }
     if (size - buffer->byte_length > (buffer->uri ? 0u : 3u))
-        reader_warn(r, &at, "byteLength", "says %zu bytes, but there are %zu; the rest is ignored",
+        reader_note(r, &at, "byteLength", "says %zu bytes, but there are %zu; the rest is ignored",
                     buffer->byte_length, size);
     return true;
 }
@@ -129,6 +129,6 @@ void check_unused_buffers(reader *r)
         uri_bytes bytes;
         if (!r->buffers[i].data && r->buffers[i].uri && !r->buffers[i].is_fallback &&
             !load_uri(r, r->buffers[i].uri, &bytes))
-            reader_warn(r, &at, "uri", "%s; nothing uses it", bytes.message);
+            reader_note(r, &at, "uri", "%s; nothing uses it", bytes.message);
     }
 }

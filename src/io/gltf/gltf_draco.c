@@ -230,7 +230,7 @@ static bool bind_faces(reader *r, const json_place *primitive, bitstream *s, uin
     uint32_t faces = draco_shim_face_count(s->mesh);
     uint32_t accessor = get_index(r, primitive, "indices", r->accessor_count, "accessor");
     if (accessor == SCENE_NONE)
-        reader_warn(r, primitive, NULL, "has no indices, but the bitstream in buffer view %u has", view);
+        reader_note(r, primitive, NULL, "has no indices, but the bitstream in buffer view %u has", view);
     else if (mode == 4 && r->accessors[accessor].count != (uint64_t)faces * 3)
         return reader_fail(
             r, primitive, "indices", FACET_ERROR_INVALID,
@@ -266,7 +266,7 @@ static bool bind(reader *r, const json_place *primitive, const json_place *exten
         uint32_t id = (uint32_t)get_uint(r, &ids, name, UINT32_MAX, 0);
         uint32_t accessor = get_index(r, &attributes, name, r->accessor_count, "accessor");
         if (accessor == SCENE_NONE)
-            reader_warn(r, &at, NULL, "is not among the attributes of the primitive");
+            reader_note(r, &at, NULL, "is not among the attributes of the primitive");
         else if (!reader_is_ok(r) || !bind_attribute(r, &at, s, view, id, accessor))
             return false;
     }

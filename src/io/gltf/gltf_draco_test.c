@@ -159,12 +159,12 @@ static void oddities_get_warnings(void **state)
     const test_bin bin = make_bin(EDGEBREAKER, sizeof EDGEBREAKER);
     facet_scene *scene = load(make_body(bin.size, "'indices':2,", ""), &bin);
     assert_square(first_primitive(scene));
-    assert_true(has_warning(scene, "has no indices, but the bitstream in buffer view 0 has"));
+    assert_true(has_note(scene, "has no indices, but the bitstream in buffer view 0 has"));
     scene_destroy(scene);
     scene = load(make_body(bin.size, "{'POSITION':0,'COLOR_0':1},", "{'POSITION':0},"), &bin);
     assert_square(first_primitive(scene));
     assert_null(first_primitive(scene)->colors);
-    assert_true(has_warning(scene, "COLOR_0: is not among the attributes of the primitive"));
+    assert_true(has_note(scene, "COLOR_0: is not among the attributes of the primitive"));
     scene_destroy(scene);
 }
 

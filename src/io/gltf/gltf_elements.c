@@ -258,7 +258,7 @@ const uint32_t *get_accessor_indices(reader *r, const json_place *at, uint32_t i
     if (!check_claim(r, &place, a) || !get_dense_bytes(r, &place, a, &bytes))
         return NULL;
     if (bytes && !a->decoded && r->views[a->view].stride)
-        reader_warn(r, &place, NULL, "holds indices, but its buffer view has a byteStride");
+        reader_note(r, &place, NULL, "holds indices, but its buffer view has a byteStride");
     conversion c = make_conversion(r, a, bytes);
     const uint32_t *indices;
     if (is_plain_array(r, a, bytes, GLTF_U32)) {

@@ -68,11 +68,32 @@ static const known_extension KNOWN[] = {
     {"KHR_texture_transform", SCENE_SUPPORTED, TEXTURE_INFO, NULL, 0},
     {"KHR_xmp", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
     {"KHR_xmp_json_ld", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
-    /* Metadata and hints for editors that do not outlive another order of vertices: nothing to see. */
+    /* Metadata, behavior, sound, and hints for editors, which do not outlive another order of vertices: nothing to see. */
+    {"AGI_articulations", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"AGI_stk_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"EXT_feature_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"EXT_instance_features", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"EXT_mesh_features", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"EXT_mesh_manifold", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"EXT_property_animation", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"EXT_structural_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"FB_ngon_encoding", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"KHR_audio_emitter", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"KHR_implicit_shapes", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"KHR_interactivity", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"KHR_node_hoverability", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"KHR_node_selectability", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"KHR_physics_rigid_bodies", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"MSFT_audio_emitter", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"MSFT_lod", SCENE_IGNORED, ANYWHERE, NULL, 0}, /* the finest level is the node itself */
+    {"MSFT_packing_normalRoughnessMetallic", SCENE_IGNORED, ANYWHERE, NULL,
+     0}, /* of textures that are there twice */
+    {"MSFT_packing_occlusionRoughnessMetallic", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"OMI_audio_emitter", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"OMI_collider", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"OMI_physics_body", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"OMI_physics_shape", SCENE_IGNORED, ANYWHERE, NULL, 0},
+    {"OMI_spawn_point", SCENE_IGNORED, ANYWHERE, NULL, 0},
     /* Left out; docs/gltf-support.md says why. */
     {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "its lights are left out", 0},
     {"MSFT_texture_dds", SCENE_IGNORED, ANYWHERE, "other images are used where there are any", 0},
@@ -155,12 +176,16 @@ static void check_extensions_of(reader *r, json_t *extensions, int place)
     json_object_foreach(extensions, name, extension)
     {
         const known_extension *known = find_known(name);
-        if (!find_listed(r, name))
-            reader_warn(r, NULL, NULL, "uses %.100s without naming it in extensionsUsed", name);
-        else if (known && !(known->places & place))
-            reader_warn(r, NULL, NULL, "has %.100s in an object that it does not extend", name);
+        scene_extension *listed = find_listed(r, name);
+        if (listed)
+            listed->is_present = true;
+        else
+            (known ? reader_note_each : reader_warn_each)(
+                r, NULL, NULL, "uses %.100s without naming it in extensionsUsed", name);
+        if (listed && known && !(known->places & place))
+            reader_note_each(r, NULL, NULL, "has %.100s in an object that it does not extend", name);
         if (!json_is_object(extension))
-            reader_warn(r, NULL, NULL, "has an extension %.100s that is no object", name);
+            reader_note_each(r, NULL, NULL, "has an extension %.100s that is no object", name);
     }
 }
 
@@ -186,6 +211,24 @@ static void check_objects(reader *r, json_t *value, int place, int depth)
     }
 }
 
+/* Of what an image lacks; an extension that no object has is lost to none. */
+static void warn_ignored(reader *r)
+{
+    for (uint32_t i = 0; i < r->scene->extension_count; i++) {
+        const scene_extension *extension = &r->scene->extensions[i];
+        const known_extension *known = find_known(extension->name);
+        if (!known && !extension->is_present)
+            reader_note_each(r, NULL, NULL, "lists the extension %.100s, which no object has",
+                             extension->name);
+        else if (!known)
+            reader_warn_each(r, NULL, NULL, "uses the extension %.100s, which facet does not know",
+                             extension->name);
+        else if (extension->is_present && extension->support == SCENE_IGNORED && known->effect)
+            reader_warn_each(r, NULL, NULL, "uses %s, which is not drawn: %s", extension->name,
+                             known->effect);
+    }
+}
+
 void read_extensions(reader *r, const json_place *root)
 {
     json_place used = get_array(r, root, "extensionsUsed");
@@ -202,7 +245,7 @@ void read_extensions(reader *r, const json_place *root)
         uint32_t before = r->scene->extension_count;
         scene_extension *extension = list(r, &at);
         if (extension && r->scene->extension_count == before)
-            reader_warn(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
+            reader_note(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
     }
     for (size_t i = 0; i < get_count(&required) && reader_is_ok(r); i++) {
         json_place at = get_element(&required, i);
@@ -211,28 +254,21 @@ void read_extensions(reader *r, const json_place *root)
         if (!extension)
             return;
         if (r->scene->extension_count != before)
-            reader_warn(r, &at, NULL, "\"%.100s\" is not in extensionsUsed", extension->name);
+            reader_note(r, &at, NULL, "\"%.100s\" is not in extensionsUsed", extension->name);
         else if (extension->is_required)
-            reader_warn(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
+            reader_note(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
         extension->is_required = true;
         const known_extension *known = find_known(extension->name);
         if (!known || !is_built(known) || (known->support == SCENE_IGNORED && known->effect))
             reader_fail(r, NULL, NULL, FACET_ERROR_UNSUPPORTED,
                         "requires the extension %.100s, which facet lacks", extension->name);
     }
-    for (uint32_t i = 0; i < r->scene->extension_count && reader_is_ok(r); i++) {
-        const scene_extension *extension = &r->scene->extensions[i];
-        const known_extension *known = find_known(extension->name);
-        if (!known)
-            reader_warn(r, NULL, NULL, "uses the extension %.100s, which facet does not know",
-                        extension->name);
-        else if (extension->support == SCENE_IGNORED && known->effect)
-            reader_warn(r, NULL, NULL, "uses %s, which is not drawn: %s", extension->name, known->effect);
-    }
     scene_extension *quantization = find_listed(r, "KHR_mesh_quantization");
     r->has_quantization = quantization != NULL;
     if (quantization && !quantization->is_required)
-        reader_warn(r, NULL, NULL, "uses KHR_mesh_quantization, which must be among extensionsRequired");
-    if (reader_is_ok(r))
+        reader_note(r, NULL, NULL, "uses KHR_mesh_quantization, which must be among extensionsRequired");
+    if (reader_is_ok(r)) {
         check_objects(r, (json_t *)(uintptr_t)root->value, ROOT, 12);
+        warn_ignored(r);
+    }
 }

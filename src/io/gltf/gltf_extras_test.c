@@ -29,8 +29,8 @@ static void variants_name_materials(void **state)
     assert_int_equal(p[0].variant_materials[1], 2); /* the first one is kept */
     assert_int_equal(p[0].variant_materials[2], SCENE_NONE);
     assert_null(p[1].variant_materials);
-    assert_true(has_warning(scene, "mappings[1].variants[1]: variant 1 has a material already"));
-    assert_true(has_warning(scene, "variants[2].name: is missing"));
+    assert_true(has_note(scene, "mappings[1].variants[1]: variant 1 has a material already"));
+    assert_true(has_note(scene, "variants[2].name: is missing"));
     scene_destroy(scene);
     static const char body[] =
         "'extensionsUsed':['KHR_materials_variants'],'materials':[{}],"
@@ -195,7 +195,7 @@ static void xmp_is_kept(void **state)
              NULL);
     assert_string_equal(scene->meta.extensions, "{\"KHR_xmp_json_ld\":{\"packets\":[{\"dc:title\":\"t\"}]}}");
     assert_string_equal(scene->nodes[0].meta.extensions, "{\"KHR_xmp_json_ld\":{\"packet\":0}}");
-    assert_true(has_warning(scene, "nodes[1].KHR_xmp_json_ld.packet: is the number of no packet"));
+    assert_true(has_note(scene, "nodes[1].KHR_xmp_json_ld.packet: is the number of no packet"));
     assert_int_equal(scene->extensions[0].support, SCENE_SUPPORTED);
     scene_destroy(scene);
 }
@@ -221,7 +221,7 @@ static void extensions_in_wrong_places_are_named(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char text[128];
         snprintf(text, sizeof text, "has %s in an object that it does not extend", wrong[i]);
-        assert_true(has_warning(scene, text));
+        assert_true(has_note(scene, text));
     }
     scene_destroy(scene);
 }

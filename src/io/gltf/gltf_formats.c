@@ -68,7 +68,7 @@ uint32_t get_attribute(reader *r, const json_place *attributes, const char *name
         return SCENE_NONE;
     }
     if (!(format & RULES[attribute].formats) && !r->has_quantization)
-        reader_warn(
+        reader_note(
             r, attributes, name,
             "accessor %u has a componentType that needs KHR_mesh_quantization, which the file does not "
             "declare",
@@ -118,10 +118,10 @@ void check_attribute_names(reader *r, const json_place *attributes)
                 reader_warn(r, attributes, name, "is there without %s", previous);
         }
         if (!is_known)
-            reader_warn(r, attributes, name, "is no attribute of glTF and is ignored");
+            reader_note(r, attributes, name, "is no attribute of glTF and is ignored");
         uint32_t accessor = get_index(r, attributes, name, r->accessor_count, "accessor");
         if (accessor != SCENE_NONE && r->accessors[accessor].component == GLTF_U32)
-            reader_warn(r, attributes, name,
+            reader_note(r, attributes, name,
                         "accessor %u has componentType 5125, which attributes cannot have", accessor);
     }
 }

@@ -47,7 +47,7 @@ void read_image_lights(reader *r, const json_place *root)
     json_place array = get_array(r, &extension, "lights");
     size_t count = get_count(&array);
     if (extension.value && !array.value)
-        reader_warn(r, &extension, "lights", "is missing");
+        reader_note(r, &extension, "lights", "is missing");
     r->scene->image_lights = reader_alloc(r, "lights", count, sizeof *r->scene->image_lights);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);

@@ -210,7 +210,7 @@ bool read_primitive_indices(reader *r, const json_place *at, scene_primitive *p,
     uint64_t count = total_length(mode, &in);
     p->mode = mode == POINTS ? SCENE_POINTS : mode < TRIANGLES ? SCENE_LINES : SCENE_TRIANGLES;
     if ((mode == LINES || mode == TRIANGLES) ? count != in.count : count == 0)
-        reader_warn(r, at, NULL, "%u vertices do not make whole %s", in.count,
+        reader_note(r, at, NULL, "%u vertices do not make whole %s", in.count,
                     p->mode == SCENE_LINES ? "lines" : "triangles");
     if (!reader_spend(r, at, count)) /* also what follows is linear in it: bounds, flat normals */
         return false;

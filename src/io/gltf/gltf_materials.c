@@ -139,7 +139,7 @@ static uint32_t exclude(reader *r, const json_place *material, uint32_t bits, ui
         return bits;
     for (size_t i = 0; i < MATERIAL_EXTENSION_COUNT; i++)
         if (bits & others & material_extensions[i].bit)
-            reader_warn(r, material, NULL, "has %s, which excludes %s; that one is ignored", winner_name,
+            reader_note(r, material, NULL, "has %s, which excludes %s; that one is ignored", winner_name,
                         material_extensions[i].name);
     return bits & ~others;
 }
@@ -183,7 +183,7 @@ void read_material(reader *r, const json_place *at, scene_material *m)
     /* Factors above 1 were common before emissive_strength; all viewers draw them. */
     for (int i = 0; i < 3; i++)
         if (m->emissive[i] > 1.0f)
-            reader_warn(r, at, "emissiveFactor", "is above 1, which needs KHR_materials_emissive_strength");
+            reader_note(r, at, "emissiveFactor", "is above 1, which needs KHR_materials_emissive_strength");
     for (size_t i = 0; i < MATERIAL_EXTENSION_COUNT; i++) {
         uint32_t bit = material_extensions[i].bit;
         if (!(m->extensions & bit))

@@ -142,7 +142,7 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
         return;
     }
     if (json_object_size(attributes.value) == 0)
-        reader_warn(r, &attributes, NULL, "is empty, which glTF does not allow");
+        reader_note(r, &attributes, NULL, "is empty, which glTF does not allow");
     check_attribute_names(r, &attributes);
     if (!prepare_draco(r, at))
         return;

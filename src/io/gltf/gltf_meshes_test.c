@@ -81,7 +81,7 @@ static void too_few_vertices_draw_nothing(void **state)
         facet_scene *scene = load_mesh(1, "", members, NULL, "", "");
         assert_int_equal(first_primitive(scene)->index_count, 0);
         assert_non_null(first_primitive(scene)->indices);
-        assert_true(has_warning(scene, "do not make whole"));
+        assert_true(has_note(scene, "do not make whole"));
         scene_destroy(scene);
     }
 }
@@ -216,7 +216,7 @@ static void normals_are_made_unit(void **state)
     /* The second one has no direction and takes that of the triangle, +Z. */
     const float expected[9] = {0, 0, 1, 0, 0, 1, 1, 0, 0};
     assert_floats(first_primitive(scene)->normals, expected, 9, 1e-6);
-    assert_true(has_warning(scene, "3 normals of accessor 1 are not of length 1"));
+    assert_true(has_note(scene, "3 normals of accessor 1 are not of length 1"));
     scene_destroy(scene);
 }
 
@@ -294,7 +294,7 @@ static void tangents_without_use_are_dropped(void **state)
     memset(bin.bytes, 0, 16);
     scene = load_mesh(3, ",'TANGENT':1,'NORMAL':2", "", &bin, views, accessor);
     assert_null(first_primitive(scene)->tangents);
-    assert_true(has_warning(scene, "computed instead"));
+    assert_true(has_note(scene, "computed instead"));
     scene_destroy(scene);
 }
 

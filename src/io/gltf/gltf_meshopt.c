@@ -89,7 +89,7 @@ void read_meshopt(reader *r, const json_place *view_place, gltf_view *view)
         if (!at.value)
             continue;
         if (view->compressed) {
-            reader_warn(r, &at, NULL, "stands beside %s, which is read instead", NAMES[KHR]);
+            reader_note(r, &at, NULL, "stands beside %s, which is read instead", NAMES[KHR]);
             return;
         }
         compressed_view *v = reader_alloc(r, "buffer view", 1, sizeof *v);
@@ -99,7 +99,7 @@ void read_meshopt(reader *r, const json_place *view_place, gltf_view *view)
         if (!reader_is_ok(r) || !check_stream(r, &at, v, view->length))
             return;
         if (i == EXT && v->stream.filter == MESHOPT_COLOR)
-            reader_warn(r, &at, "filter", "COLOR belongs to %s", NAMES[KHR]);
+            reader_note(r, &at, "filter", "COLOR belongs to %s", NAMES[KHR]);
         view->compressed = v;
     }
 }

@@ -186,7 +186,7 @@ static void oddities_get_warnings(void **state)
     snprintf(one, sizeof one, "{'KHR_meshopt_compression':{'buffer':0,'byteLength':%zu", p.attributes_size);
     facet_scene *scene = load(make_body(&p, one, twice), &p.bin);
     assert_drawn(scene);
-    assert_true(has_warning(scene, "stands beside KHR_meshopt_compression"));
+    assert_true(has_note(scene, "stands beside KHR_meshopt_compression"));
     scene_destroy(scene);
 }
 

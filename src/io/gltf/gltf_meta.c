@@ -48,7 +48,7 @@ static void check_packet(reader *r, const json_place *extension)
     const json_t *packet = json_object_get(extension->value, "packet");
     json_int_t index = json_is_integer(packet) ? json_integer_value(packet) : -1;
     if (packet && (index < 0 || (uint64_t)index >= get_count(&list)))
-        reader_warn(r, extension, "packet", "is the number of no packet");
+        reader_note(r, extension, "packet", "is the number of no packet");
 }
 
 scene_meta get_meta(reader *r, const json_place *object)

@@ -28,11 +28,11 @@ static void check_target(reader *r, const json_place *target, const json_place *
         for (int i = 0; i < 3; i++)
             is_read |= strcmp(name, DELTAS[i].name) == 0;
         if (!has_member(attributes, name))
-            reader_warn(r, target, name, "is not among the attributes of the primitive");
+            reader_note(r, target, name, "is not among the attributes of the primitive");
         else if (strncmp(name, "TEXCOORD_", 9) == 0 || strncmp(name, "COLOR_", 6) == 0)
             reader_warn(r, target, name, "is not morphed");
         else if (!is_read && name[0] != '_')
-            reader_warn(r, target, name, "is nothing that a morph target can change");
+            reader_note(r, target, name, "is nothing that a morph target can change");
     }
 }
 

@@ -57,11 +57,11 @@ static void read_camera(reader *r, const json_place *at, scene_camera *out)
     }
     out->near_m = get_required_float(r, &lens, "znear");
     if (out->near_m < 0.0f || (out->near_m == 0.0f && !out->is_orthographic)) {
-        reader_warn(r, &lens, "znear", "%g must be above 0", (double)out->near_m);
+        reader_note(r, &lens, "znear", "%g must be above 0", (double)out->near_m);
         out->near_m = 0.0f;
     }
     if ((out->far_m != 0.0f || has_member(&lens, "zfar")) && !(out->far_m > out->near_m)) {
-        reader_warn(r, &lens, "zfar", "%g must be above znear; it is taken as infinite", (double)out->far_m);
+        reader_note(r, &lens, "zfar", "%g must be above znear; it is taken as infinite", (double)out->far_m);
         out->far_m = 0.0f;
     }
 }
@@ -91,7 +91,7 @@ static void read_spot(reader *r, const json_place *light, scene_light *out)
     out->inner_cone_rad = get_float_in(r, &at, "innerConeAngle", 0.0f, right_angle, 0.0f);
     if (out->inner_cone_rad < out->outer_cone_rad)
         return;
-    reader_warn(r, &at, "innerConeAngle", "must be below outerConeAngle");
+    reader_note(r, &at, "innerConeAngle", "must be below outerConeAngle");
     out->inner_cone_rad = out->outer_cone_rad;
 }
 
@@ -124,7 +124,7 @@ void read_lights(reader *r, const json_place *root)
     json_place array = get_array(r, &extension, "lights");
     size_t count = get_count(&array);
     if (extension.value && !array.value)
-        reader_warn(r, &extension, "lights", "is missing");
+        reader_note(r, &extension, "lights", "is missing");
     r->scene->lights = reader_alloc(r, "lights", count, sizeof *r->scene->lights);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
@@ -208,17 +208,17 @@ static void read_node(reader *r, const json_place *at, scene_node *out, uint32_t
     json_place visibility = get_extension(r, at, "KHR_node_visibility");
     out->is_hidden = !get_bool(r, &visibility, "visible", true);
     if (out->mesh == SCENE_NONE && out->skin != SCENE_NONE)
-        reader_warn(r, at, "skin", "is there without a mesh");
+        reader_note(r, at, "skin", "is there without a mesh");
     out->instancing = read_instancing(r, at);
     if (out->mesh == SCENE_NONE && out->instancing)
-        reader_warn(r, at, NULL, "has instances, but no mesh");
+        reader_note(r, at, NULL, "has instances, but no mesh");
     if (out->skin != SCENE_NONE && out->instancing)
         reader_warn(r, at, NULL, "has instances of a skinned mesh, which its joints place; it is drawn %s",
                     out->instancing->count ? "once" : "nowhere, as there are 0 of them");
     if (out->mesh != SCENE_NONE)
         out->weights = read_weights(r, at, r->scene->meshes[out->mesh].weight_count);
     else if (has_member(at, "weights"))
-        reader_warn(r, at, "weights", "are there without a mesh");
+        reader_note(r, at, "weights", "are there without a mesh");
     out->meta = get_meta(r, at);
 }
 
@@ -292,7 +292,7 @@ static void read_scene(reader *r, const json_place *at, scene_root *out, bool *i
                         r->scene->nodes[node].parent);
         }
         if (is_listed[node]) {
-            reader_warn(r, &element, NULL, "node %u is listed twice", node);
+            reader_note(r, &element, NULL, "node %u is listed twice", node);
             continue;
         }
         is_listed[node] = true;
@@ -321,5 +321,5 @@ void read_scenes(reader *r, const json_place *root)
     if (r->scene->default_scene == SCENE_NONE && r->scene->scene_count)
         r->scene->default_scene = 0;
     if (reader_is_ok(r) && r->scene->scene_count == 0 && r->scene->node_count)
-        reader_warn(r, NULL, NULL, "has no scene; all its nodes are drawn");
+        reader_note(r, NULL, NULL, "has no scene; all its nodes are drawn");
 }

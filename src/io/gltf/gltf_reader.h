@@ -105,8 +105,9 @@ typedef struct reader {
     uint32_t iota_count;
     uint64_t work; /* elements read so far; see reader_spend() */
     bool has_quantization;
-    bool has_decoded_views; /* compressed ones */
-    draco_state *draco;     /* NULL: no primitive has asked for it yet */
+    bool has_decoded_views;         /* compressed ones */
+    draco_state *draco;             /* NULL: no primitive has asked for it yet */
+    struct reader_remarks *remarks; /* json_messages.c; NULL: each one is passed on at once */
     /* of the primitive that is being read, from its bitstream: corners; NULL: it has none */
     const uint32_t *faces;
     uint32_t face_count;
@@ -128,9 +129,22 @@ bool reader_is_ok(const reader *r);
 bool reader_fail(reader *r, const json_place *at, const char *key, facet_result result, const char *format,
                  ...) __attribute__((format(printf, 5, 6)));
 bool reader_fail_memory(reader *r, const char *what, size_t size);
-/* A warning of the same form; see scene_warn(). */
+
+/* Remarks, of the same form. Those that one call makes about the same key are one line with a count, of the first place,
+ * where the reader counts: between reader_begin_remarks() and reader_end_remarks(), which passes them on. format must be
+ * a literal. A warning says that the image may not be what the file means; a note, that the file breaks a rule and
+ * nothing comes of it. See scene_warn(), scene_note(). */
 void reader_warn(reader *r, const json_place *at, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+void reader_note(reader *r, const json_place *at, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* A line for each: of files and extensions, of which the user wants to know all. */
+void reader_warn_each(reader *r, const json_place *at, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void reader_note_each(reader *r, const json_place *at, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void reader_begin_remarks(reader *r);
+void reader_end_remarks(reader *r);
 
 /* arena_zalloc() that records the error. count of 0 is allowed. */
 void *reader_alloc(reader *r, const char *what, size_t count, size_t size);

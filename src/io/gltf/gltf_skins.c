@@ -46,7 +46,7 @@ static void read_joints(reader *r, const json_place *at, const uint32_t *roots, 
             has_several_roots |= roots[joints[i]] != roots[joints[0]];
     }
     if (has_several_roots)
-        reader_warn(r, &array, NULL, "have no common root");
+        reader_note(r, &array, NULL, "have no common root");
     out->joints = joints;
     out->joint_count = (uint32_t)count;
 }
@@ -107,7 +107,7 @@ static void read_bind_matrices(reader *r, const json_place *skin, scene_skin *ou
     if (!reader_is_ok(r))
         return;
     if (a->view != SCENE_NONE && r->views[a->view].stride)
-        reader_warn(r, skin, "inverseBindMatrices", "is in a buffer view with byteStride");
+        reader_note(r, skin, "inverseBindMatrices", "is in a buffer view with byteStride");
     if (has_accessor_source(r, index))
         out->inverse_bind = get_matrices(r, skin, index, out->joint_count);
     else

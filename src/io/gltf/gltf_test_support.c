@@ -91,6 +91,14 @@ bool has_warning(const facet_scene *scene, const char *text)
     return false;
 }
 
+bool has_note(const facet_scene *scene, const char *text)
+{
+    for (uint32_t i = 0; i < scene->note_count; i++)
+        if (strstr(scene->notes[i], text))
+            return true;
+    return false;
+}
+
 const scene_primitive *first_primitive(const facet_scene *scene)
 {
     assert_true(scene->mesh_count > 0 && scene->meshes[0].primitive_count > 0);

@@ -27,8 +27,9 @@ facet_result try_load(const char *body, const test_bin *bin, facet_scene **scene
 facet_scene *load(const char *body, const test_bin *bin);
 /* The same, which must fail with that result and a message that contains text. */
 void assert_refused(const char *body, const test_bin *bin, facet_result result, const char *text);
-/* Whether a warning of scene contains text. */
+/* Whether a warning or a note of scene contains text. */
 bool has_warning(const facet_scene *scene, const char *text);
+bool has_note(const facet_scene *scene, const char *text);
 /* The first primitive. */
 const scene_primitive *first_primitive(const facet_scene *scene);
 /* Loads JSON text as it is, ' for ", as a .gltf. */

@@ -18,15 +18,16 @@ static bool find_bytes(reader *r, const json_place *at, scene_image *out)
     const char *mime_type = get_string(r, at, "mimeType", NULL);
     if (!reader_is_ok(r))
         return false;
-    if ((uri != NULL) == (view != SCENE_NONE)) {
-        reader_warn(r, at, NULL, "must have either a uri or a bufferView");
-        if (!uri)
-            return false;
+    if (!uri && view == SCENE_NONE) {
+        reader_warn(r, at, NULL, "has neither a uri nor a bufferView; white is used");
+        return false;
     }
+    if (uri && view != SCENE_NONE)
+        reader_note(r, at, NULL, "has a bufferView beside the uri, which is used");
     if (view != SCENE_NONE && !mime_type)
-        reader_warn(r, at, "mimeType", "is missing beside the bufferView");
+        reader_note(r, at, "mimeType", "is missing beside the bufferView");
     if (view != SCENE_NONE && r->views[view].stride)
-        reader_warn(r, at, "bufferView", "has a byteStride, which means nothing for an image");
+        reader_note(r, at, "bufferView", "has a byteStride, which means nothing for an image");
     if (!uri && !has_view_source(r, view)) {
         reader_warn(r, at, "bufferView", "is in a buffer without bytes; white is used");
         return false;
@@ -36,7 +37,7 @@ static bool find_bytes(reader *r, const json_place *at, scene_image *out)
         if (!load_uri(r, uri, &bytes)) {
             if (bytes.result == FACET_ERROR_MEMORY)
                 return reader_fail(r, at, "uri", bytes.result, "%s", bytes.message);
-            reader_warn(r, at, "uri", "%s; white is used", bytes.message);
+            reader_warn_each(r, at, "uri", "%s; white is used", bytes.message);
             return false;
         }
         out->bytes = bytes.data;
@@ -55,7 +56,7 @@ static void check_ktx2(reader *r, const json_place *at, const scene_image *i)
     if (ktx2_open(i->bytes, i->size, "", &k, NULL) != FACET_OK)
         return; /* read_size() tells */
     if (k.format->kind != KTX2_ETC1S && k.format->decode != uastc_decode)
-        reader_warn(r, at, NULL, "holds %s, where KHR_texture_basisu has ETC1S or UASTC", k.format->name);
+        reader_note(r, at, NULL, "holds %s, where KHR_texture_basisu has ETC1S or UASTC", k.format->name);
     if (k.is_cube)
         reader_warn(r, at, NULL, "is a cube; its first face is used");
     else if (k.is_array)
@@ -81,7 +82,7 @@ static void read_size(reader *r, const json_place *at, const image_kind *kind, s
     } else if (result == FACET_ERROR_MEMORY) {
         reader_fail(r, at, NULL, result, "%s", error.message);
     } else if (kind->gltf_extension) {
-        reader_warn(r, at, NULL, "%s", error.message);
+        reader_warn_each(r, at, NULL, "%s", error.message);
     }
 }
 
@@ -113,11 +114,11 @@ static void read_image(reader *r, const json_place *at, scene_image *out)
     if (out->mime_type[0] == 0)
         reader_warn(r, at, NULL, "is no PNG, JPEG, WebP, AVIF or KTX2 file; white is used");
     else if (said && strcmp(said, out->mime_type) != 0)
-        reader_warn(r, at, "mimeType", "says \"%.40s\", but the image is %s", said, out->mime_type);
+        reader_note(r, at, "mimeType", "says \"%.40s\", but the image is %s", said, out->mime_type);
     if (!kind)
         return;
     if (kind->gltf_extension && !is_extension_listed(r, kind->gltf_extension))
-        reader_warn(r, at, NULL, "is a %s file, which needs %s", kind->name, kind->gltf_extension);
+        reader_note(r, at, NULL, "is a %s file, which needs %s", kind->name, kind->gltf_extension);
     if (kind->codec == IMAGE_CODEC_KTX2)
         check_ktx2(r, at, out);
     read_size(r, at, kind, out);

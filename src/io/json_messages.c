@@ -1,0 +1,165 @@
+/* json_messages.c - errors, warnings and notes of the readers of JSON, which say where; see gltf_reader.h. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "io/gltf/gltf_reader.h"
+
+enum { PLACE_SIZE = 256, MAX_REMARKS = 256, KEY_SIZE = 32 };
+
+/* Appends the way to a place, "meshes[3].primitives[0]"; a way that is too long loses its end. */
+static void append_place(char *text, const json_place *at)
+{
+    if (!at)
+        return;
+    append_place(text, at->parent); /* as deep as the calls that built the chain */
+    size_t length = strlen(text);
+    if (at->key)
+        snprintf(text + length, PLACE_SIZE - length, "%s%s", length ? "." : "", at->key);
+    else if (at->parent)
+        snprintf(text + length, PLACE_SIZE - length, "[%zu]", at->index);
+}
+
+static void format_message(char *out, size_t size, const reader *r, const json_place *at, const char *key,
+                           const char *format, va_list arguments)
+{
+    char place[PLACE_SIZE] = "";
+    append_place(place, at);
+    size_t length = strlen(place);
+    if (key)
+        snprintf(place + length, PLACE_SIZE - length, "%s%s", length ? "." : "", key);
+    char what[768];
+    vsnprintf(what, sizeof what, format, arguments);
+    snprintf(out, size, "%s: %s%s%s", r->scene->source, place, place[0] ? ": " : "", what);
+}
+
+bool reader_is_ok(const reader *r)
+{
+    return r->result == FACET_OK;
+}
+
+bool reader_fail(reader *r, const json_place *at, const char *key, facet_result result, const char *format,
+                 ...)
+{
+    if (r->result != FACET_OK)
+        return false;
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    format_message(message, sizeof message, r, at, key, format, arguments);
+    va_end(arguments);
+    r->result = fail(r->error, result, "%s", message);
+    return false;
+}
+
+bool reader_fail_memory(reader *r, const char *what, size_t size)
+{
+    if (r->result == FACET_OK)
+        r->result = fail_memory(r->error, what, size);
+    return false;
+}
+
+/* ---- remarks ---- */
+
+/* A kind of warning or note: where it was made and about which member. */
+typedef struct remark {
+    const char *format; /* of the call: a literal, so its address stands for the place in the reader */
+    char key[KEY_SIZE];
+    bool is_note;
+    size_t count;
+    const char *text; /* the first one */
+} remark;
+
+struct reader_remarks {
+    size_t count;
+    remark all[MAX_REMARKS];
+};
+
+static void pass_on(reader *r, bool is_note, const char *message)
+{
+    (is_note ? scene_note : scene_warn)(r->scene, r->log, "%s", message);
+}
+
+/* Counts a remark. False: it is the first of its kind, and there is no room to keep it. */
+static bool count_remark(reader *r, bool is_note, const char *key, const char *format, const char *message)
+{
+    struct reader_remarks *list = r->remarks;
+    if (!list)
+        return false;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->all[i].format == format && strncmp(list->all[i].key, key, KEY_SIZE - 1) == 0) {
+            list->all[i].count++;
+            return true;
+        }
+    remark first = {.format = format,
+                    .is_note = is_note,
+                    .count = 1,
+                    .text = list->count < MAX_REMARKS ? arena_strdup(r->scene->arena, message) : NULL};
+    if (!first.text)
+        return false;
+    snprintf(first.key, sizeof first.key, "%s", key);
+    list->all[list->count++] = first;
+    return true;
+}
+
+void reader_begin_remarks(reader *r)
+{
+    r->remarks = mem_zalloc(r->allocator, 1, sizeof *r->remarks);
+}
+
+void reader_end_remarks(reader *r)
+{
+    for (size_t i = 0; r->remarks && i < r->remarks->count; i++) {
+        const remark *of = &r->remarks->all[i];
+        char message[1088];
+        if (of->count == 1)
+            snprintf(message, sizeof message, "%s", of->text);
+        else
+            snprintf(message, sizeof message, "%s (%zu times in all)", of->text, of->count);
+        pass_on(r, of->is_note, message);
+    }
+    mem_free(r->remarks);
+    r->remarks = NULL;
+}
+
+static void add_remark(reader *r, bool is_note, bool is_counted, const json_place *at, const char *key,
+                       const char *format, va_list arguments)
+{
+    char message[1024];
+    format_message(message, sizeof message, r, at, key, format, arguments);
+    if (!is_counted || !count_remark(r, is_note, key ? key : "", format, message))
+        pass_on(r, is_note, message);
+}
+
+void reader_warn(reader *r, const json_place *at, const char *key, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    add_remark(r, false, true, at, key, format, arguments);
+    va_end(arguments);
+}
+
+void reader_note(reader *r, const json_place *at, const char *key, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    add_remark(r, true, true, at, key, format, arguments);
+    va_end(arguments);
+}
+
+void reader_warn_each(reader *r, const json_place *at, const char *key, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    add_remark(r, false, false, at, key, format, arguments);
+    va_end(arguments);
+}
+
+void reader_note_each(reader *r, const json_place *at, const char *key, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    add_remark(r, true, false, at, key, format, arguments);
+    va_end(arguments);
+}
