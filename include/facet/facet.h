@@ -603,6 +603,9 @@ typedef struct facet_path_desc {
     /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there is none it
      * starts */
     bool resumes;
+    /* what is cancelled gives the image so far where each pixel has a sample (facet_render_stats.is_partial), as the
+     * time limit does; false: FACET_ERROR_CANCELLED */
+    bool keeps_cancelled;
     /* Told after passes, while there are more to come: the picture so far, which is gone when it returns, as it is with that
      * many samples; denoised ones, but for the shadow on the ground, at 2, 4, 8 .. samples. From a thread of the
      * renderer's. NULL: nobody */
@@ -760,7 +763,7 @@ typedef struct facet_render_stats {
     /* FACET_INTEGRATOR_PATH: */
     uint64_t samples;         /* light samples that the picture is the mean of, over all pixels */
     uint64_t dropped_samples; /* not finite, counted as black: a NaN in the model, or a fault */
-    bool is_partial;          /* the time limit came before the samples, or the noise, that were asked for */
+    bool is_partial; /* the time limit, or keeps_cancelled, came before the samples or the noise asked for */
     double denoise_s;
 } facet_render_stats;
 FACET_API facet_render_stats facet_image_get_render_stats(const facet_image *image);

@@ -174,6 +174,40 @@ static void after_a_cancelled_picture_there_are_others(void **state)
     facet_scene_destroy(scene);
 }
 
+/* Refuses from the share *user on. */
+static bool refuse_from(void *user, const char *stage, double fraction)
+{
+    return strcmp(stage, "sample") != 0 || fraction < *(const double *)user;
+}
+
+/* A path traced image that is cancelled late is what there is so far; one that is cancelled at once is none. */
+static void a_cancelled_path_trace_is_partial(void **state)
+{
+    (void)state;
+    facet_scene *scene;
+    facet_image *image;
+    double from = 0.3;
+    assert_int_equal(facet_scene_create_builtin(NULL, &scene, NULL), FACET_OK);
+    facet_render_desc desc = {.width = 32,
+                              .height = 24,
+                              .samples = 64,
+                              .integrator = FACET_INTEGRATOR_PATH,
+                              .progress = {.user = &from, .report = refuse_from}};
+    assert_int_equal(facet_render(scene, &desc, &image, NULL), FACET_ERROR_CANCELLED);
+    desc.path.keeps_cancelled = true;
+    assert_int_equal(facet_render(scene, &desc, &image, NULL), FACET_OK);
+    facet_render_stats stats = facet_image_get_render_stats(image);
+    assert_true(stats.is_partial);
+    assert_true(stats.samples >= 32 * 24 && stats.samples < 64 * 32 * 24);
+    facet_image_destroy(image);
+    from = 0.0;
+    facet_error error;
+    assert_int_equal(facet_render(scene, &desc, &image, &error), FACET_ERROR_CANCELLED);
+    assert_null(image);
+    assert_non_null(strstr(error.message, "before every pixel had a sample"));
+    facet_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -181,6 +215,7 @@ int main(void)
         cmocka_unit_test(animations_of_models),
         cmocka_unit_test(a_renderer_fits_into_a_budget_or_fails),
         cmocka_unit_test(after_a_cancelled_picture_there_are_others),
+        cmocka_unit_test(a_cancelled_path_trace_is_partial),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,7 @@ typedef struct convert_run {
     size_t warning_count, failure_count;
     uint32_t large_error_count; /* materials beyond --max-error */
     int exit_code;              /* of the last failure */
+    bool is_interrupted;        /* by a signal, before all was done */
 } convert_run;
 
 /* ---- one model ---- */
@@ -143,6 +144,15 @@ static facet_result convert_model(convert_run *run, const char *model, facet_err
 
 /* ---- the run ---- */
 
+static void report_failure(convert_run *run, const char *model, const facet_error *error)
+{
+    message_error("%s", error->message);
+    run->failure_count++;
+    run->exit_code = exit_code_of(error->result);
+    if (run->failures)
+        json_array_append_new(run->failures, report_error_json(error, input_name(model), run->exit_code));
+}
+
 static int convert_all(convert_run *run)
 {
     for (size_t i = 0; i < run->names.model_count; i++) {
@@ -150,16 +160,11 @@ static int convert_all(convert_run *run)
         facet_error error = {0};
         facet_result result = convert_model(run, model, &error);
         run->warning_count += report_end_model(&run->messages, run->warnings);
-        if (result == FACET_ERROR_CANCELLED || (result != FACET_OK && interrupt_signal()))
-            return interrupt_exit();
-        if (result == FACET_OK)
-            continue;
-        message_error("%s", error.message);
-        run->failure_count++;
-        run->exit_code = exit_code_of(result);
-        if (run->failures)
-            json_array_append_new(run->failures,
-                                  report_error_json(&error, input_name(model), run->exit_code));
+        if (result != FACET_OK)
+            report_failure(run, model, &error);
+        run->is_interrupted = interrupt_signal() && (result != FACET_OK || i + 1 < run->names.model_count);
+        if (run->is_interrupted)
+            return interrupt_exit_code();
     }
     if (run->failure_count)
         return run->names.model_count == 1 ? run->exit_code : EXIT_NEGATIVE;
@@ -226,5 +231,5 @@ int cmd_convert(command_line *c)
     json_decref(run.failures);
     json_decref(run.warnings);
     facet_budget_destroy(run.budget);
-    return exit_code;
+    return run.is_interrupted ? interrupt_exit() : exit_code;
 }

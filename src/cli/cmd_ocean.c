@@ -91,7 +91,10 @@ static facet_result make_picture(ocean_output *o, uint32_t index, const char *na
                                  .stats = facet_image_get_render_stats(image),
                                  .save_s = interrupt_clock() - drawn,
                                  .total_s = interrupt_clock() - start};
+        report_partial(&run->messages, &report, NULL);
         tell(o, &report);
+        if (report.stats.is_partial && interrupt_signal())
+            result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted; the image is partial", name);
     }
     facet_image_destroy(image);
     return result;

@@ -31,8 +31,9 @@ typedef struct render_run {
     json_t *pictures, *failures; /* NULL: nobody asked for JSON */
     json_t *warnings;
     size_t warning_count, failure_count;
-    size_t models_left; /* with the one that is drawn */
-    int exit_code;      /* of the last failure */
+    size_t models_left;  /* with the one that is drawn */
+    bool is_interrupted; /* by a signal, before all was done */
+    int exit_code;       /* of the last failure */
 } render_run;
 
 /* ---- reading ---- */
@@ -167,6 +168,7 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     if (result != FACET_OK)
         return result;
     desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
+    desc.path.keeps_cancelled = true;
     facet_image *image = NULL;
     /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. */
     if (desc.integrator == FACET_INTEGRATOR_GL)
@@ -174,9 +176,9 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     result = facet_renderer_render(m->renderer, &desc, &image, error);
     interrupt_end();
     progress_clear();
-    if (result == FACET_ERROR_CANCELLED && o->checkpoint)
-        message_at(&run->messages, VERBOSITY_NORMAL, "%s: interrupted; --resume goes on with %s",
-                   report->output, checkpoint);
+    if (result == FACET_ERROR_CANCELLED)
+        return fail_with(error, result, "%.400s: interrupted before there was an image%s%.400s",
+                         report->output, *checkpoint ? "; --resume goes on with " : "", checkpoint);
     if (result != FACET_OK)
         return result;
     double rendered = interrupt_clock();
@@ -188,6 +190,8 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     report->stats = facet_image_get_render_stats(image);
     report->save_s = interrupt_clock() - rendered;
     report->total_s = interrupt_clock() - start + report->load_s;
+    report_partial(&run->messages, report, checkpoint);
+    run->is_interrupted = report->stats.is_partial && interrupt_signal();
     facet_image_destroy(image);
     return result;
 }
@@ -347,13 +351,13 @@ static int render_all(render_run *run)
         facet_error error = {0};
         run->models_left = count - i;
         facet_result result = render_model(run, model, &error);
-        if (result == FACET_ERROR_CANCELLED || interrupt_signal()) {
-            run->warning_count += report_end_model(&run->messages, run->warnings);
-            return result == FACET_OK && i + 1 == count ? EXIT_DONE : interrupt_exit();
-        }
         if (result != FACET_OK)
             report_failure(run, model, &error);
         run->warning_count += report_end_model(&run->messages, run->warnings);
+        if (interrupt_signal() && (result != FACET_OK || i + 1 < count))
+            run->is_interrupted = true;
+        if (run->is_interrupted)
+            return interrupt_exit_code();
         if (result == FACET_ERROR_WRITE && run->options.is_stdout)
             break;
     }
@@ -422,5 +426,5 @@ int cmd_render(command_line *c)
     facet_environment_destroy(run.environment);
     facet_budget_destroy(run.budget);
     config_destroy(&storage);
-    return exit_code;
+    return run.is_interrupted ? interrupt_exit() : exit_code;
 }

@@ -1,6 +1,8 @@
 /* failure.c - results become sentences and exit codes. */
 #include "cli/failure.h"
 
+#include "cli/interrupt.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -44,7 +46,7 @@ int exit_code_of(facet_result result)
     case FACET_ERROR_ENVIRONMENT:
         return EXIT_ENVIRONMENT;
     case FACET_ERROR_CANCELLED:
-        return EXIT_AGAIN;
+        return interrupt_exit_code();
     case FACET_ERROR_BUG:
         break;
     }

@@ -26,7 +26,7 @@ typedef struct exit_meaning {
 } exit_meaning;
 extern const exit_meaning exit_meanings[]; /* ends with {NULL} */
 
-/* The exit code for a result; FACET_ERROR_CANCELLED is EXIT_AGAIN. */
+/* The exit code for a result; of FACET_ERROR_CANCELLED that of the signal. */
 int exit_code_of(facet_result result);
 
 /* Writes one sentence to error and returns result: return fail_with(error, FACET_ERROR_ARGUMENT, ...). */

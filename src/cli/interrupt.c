@@ -178,11 +178,17 @@ facet_result interrupt_check(const char *name, facet_error *error)
                : fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", name);
 }
 
-int interrupt_exit(void)
+int interrupt_exit_code(void)
 {
     int number = pending_signal;
-    if (number == SIGTERM || number == 0)
-        return EXIT_AGAIN;
-    end_by(number);
-    return 128 + number;
+    return number == SIGTERM || number == 0 ? EXIT_AGAIN : 128 + number;
+}
+
+int interrupt_exit(void)
+{
+    int exit_code = interrupt_exit_code();
+    fflush(stdout);
+    if (exit_code != EXIT_AGAIN)
+        end_by(pending_signal);
+    return exit_code;
 }

@@ -37,7 +37,9 @@ void interrupt_file_end(void);
 /* FACET_ERROR_CANCELLED after a signal, FACET_ERROR_LIMIT after the time limit; name is the file in work. */
 facet_result interrupt_check(const char *name, facet_error *error);
 
-/* The exit code after an interruption: EXIT_AGAIN for SIGTERM; for others the process ends here by that signal. */
+/* The exit code after an interruption: EXIT_AGAIN for SIGTERM, 128+N for others. */
+int interrupt_exit_code(void);
+/* Ends an interrupted command: returns the exit code for SIGTERM; for other signals the process ends here by that signal. */
 int interrupt_exit(void);
 
 /* Seconds since the process began, as far as it matters. */

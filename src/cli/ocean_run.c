@@ -54,8 +54,10 @@ facet_result ocean_run_meter(ocean_run *run, const ocean_options *o, facet_error
     return result;
 }
 
+/* images_left: with this one; path tracing takes all the time that it gets, so they share it evenly. */
 static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea_look *look,
-                         facet_tonemap tonemap, progress *shown, facet_image **image, facet_error *error)
+                         facet_tonemap tonemap, uint32_t images_left, progress *shown, facet_image **image,
+                         facet_error *error)
 {
     const facet_camera camera = ocean_run_camera(run, o);
     double left = interrupt_seconds_left();
@@ -66,7 +68,9 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     d.render.camera = &camera;
     d.render.progress = progress_callback(shown);
     d.render.tonemap = tonemap;
-    d.render.time_limit_s = left < 1e29 ? left : 0.0;
+    bool is_path = d.render.integrator == FACET_INTEGRATOR_PATH;
+    d.render.time_limit_s = left > 1e29 ? 0.0 : is_path ? left / images_left : left;
+    d.render.path.keeps_cancelled = true;
     d.render.exposure_ev = facet_exposure_from_ev100(run->ev100);
     result = facet_sea_render(run->sea, run->model, &d, image, error);
     progress_clear();
@@ -84,12 +88,12 @@ static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *
     if (!before.before)
         before.before = FACET_SEA_BEFORE_INTENDED;
     before.stage = 0;
-    facet_result result = draw(run, o, &before, FACET_TONEMAP_NONE, shown, &halves[0], error);
+    facet_result result = draw(run, o, &before, FACET_TONEMAP_NONE, 1, shown, &halves[0], error);
     facet_tonemap tonemap = o->look.before && !is_given(run->line, OPT_TONE_MAPPING)
                                 ? FACET_TONEMAP_AGX
                                 : o->picture.desc.tonemap;
     if (result == FACET_OK)
-        result = draw(run, o, &now, tonemap, shown, &halves[1], error);
+        result = draw(run, o, &now, tonemap, 1, shown, &halves[1], error);
     const facet_contact_sheet_desc sheet = {.allocator = run->allocator,
                                             .log = messages_log(&run->messages),
                                             .column_count = 2,
@@ -112,5 +116,6 @@ facet_result ocean_run_draw(ocean_run *run, const ocean_options *o, ocean_step s
                       .share = 1.0 / step.count,
                       .last_percent = -10};
     return o->is_before_after ? draw_both(run, o, &shown, image, error)
-                              : draw(run, o, &o->look, o->picture.desc.tonemap, &shown, image, error);
+                              : draw(run, o, &o->look, o->picture.desc.tonemap, step.count - step.index,
+                                     &shown, image, error);
 }

@@ -29,8 +29,9 @@ static const option machine_options[] = {
      .name = "time-limit",
      .kind = OPTION_TEXT,
      .argument = "TIME",
-     .help = "for the whole command: 500ms, 30s, 5m; then exit 7, but path tracing gives the picture that it "
-             "has"},
+     .help =
+         "for the whole command: 500ms, 30s, 5m; then exit 7. Path tracing writes the image so far, with a "
+         "warning (exit 0), unless a pixel has no sample yet"},
 };
 
 static const option message_options[] = {

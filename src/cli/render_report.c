@@ -1,10 +1,32 @@
 /* render_report.c - what facet render did. */
 #include "cli/render_report.h"
 
+#include "cli/interrupt.h"
 #include "cli/terminal.h"
 
 #include <stdio.h>
 #include <string.h>
+
+/* Per pixel, the mean. */
+static double samples_taken(const picture_report *p)
+{
+    double pixels = (double)p->width * p->height;
+    return p->stats.samples && pixels > 0.0 ? (double)p->stats.samples / pixels : p->samples;
+}
+
+void report_partial(messages *m, const picture_report *p, const char *resume_with)
+{
+    if (!p->stats.is_partial)
+        return;
+    char text[1200];
+    const char *checkpoint = resume_with ? resume_with : "";
+    const facet_log log = messages_log(m);
+    snprintf(text, sizeof text, "%.400s: the image is partial: %s after %.1f of %u samples per pixel%s%.400s",
+             strcmp(p->output, "-") == 0 ? "stdout" : p->output,
+             interrupt_signal() ? "interrupted" : "the time limit came", samples_taken(p), p->samples,
+             *checkpoint ? "; --resume goes on with " : "", checkpoint);
+    log.message(log.user, FACET_LOG_WARNING, text);
+}
 
 void report_picture(const messages *m, const picture_report *p, bool is_news)
 {
@@ -17,12 +39,9 @@ void report_picture(const messages *m, const picture_report *p, bool is_news)
         return;
     }
     const facet_render_stats *s = &p->stats;
-    double drawn = s->samples ? (double)s->samples / ((double)p->width * p->height) : p->samples;
+    double drawn = samples_taken(p);
     message_at(m, least, "%s: %ux%u, %.4g %s, %.2f s", name, p->width, p->height, drawn,
                drawn < 1.5 ? "sample" : "samples", p->total_s);
-    if (s->is_partial)
-        message_at(m, VERBOSITY_NORMAL, "%s: the time limit came after %.1f of %u samples per pixel", name,
-                   drawn, p->samples);
     if (s->samples)
         message_at(m, VERBOSITY_DETAILS, "%s: %.1f of %u samples per pixel on average, %.2f M rays/s", name,
                    drawn, p->samples, 1e-6 * (double)s->rays / s->shade_s);
@@ -47,7 +66,7 @@ json_t *report_picture_json(const picture_report *p)
         return json_pack("{s:o, s:o, s:b}", "model", report_string_json(p->model), "output",
                          report_string_json(p->output), "kept", 1);
     return json_pack("{s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}, "
-                     "s:I, s:I, s:I, s:I, s:b}",
+                     "s:I, s:I, s:I, s:I, s:f, s:b}",
                      "model", report_string_json(p->model), "output", report_string_json(p->output), "width",
                      (json_int_t)p->width, "height", (json_int_t)p->height, "samples", (json_int_t)p->samples,
                      "rays", (json_int_t)s->rays, "shades", (json_int_t)s->shades, "seconds", "total",
@@ -55,7 +74,8 @@ json_t *report_picture_json(const picture_report *p)
                      "light", s->light_s, "shade", s->shade_s, "render", s->total_s, "denoise", s->denoise_s,
                      "save", p->save_s, "decoded_texels", (json_int_t)s->decoded_texels, "threads",
                      (json_int_t)s->thread_count, "light_samples", (json_int_t)s->samples, "dropped_samples",
-                     (json_int_t)s->dropped_samples, "partial", (int)s->is_partial);
+                     (json_int_t)s->dropped_samples, "samples_taken", samples_taken(p), "partial",
+                     (int)s->is_partial);
 }
 
 json_t *report_warnings_json(const messages *m)

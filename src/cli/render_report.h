@@ -25,6 +25,10 @@ json_t *report_picture_json(const picture_report *p);
 json_t *report_warnings_json(const messages *m);
 json_t *report_error_json(const facet_error *error, const char *model /* NULL: none */, int exit_code);
 
+/* Warns of an image that has less samples than were asked for; resume_with: the checkpoint that has them, "" or NULL:
+ * none. */
+void report_partial(messages *m, const picture_report *p, const char *resume_with);
+
 /* Prints the warnings of a model that were not yet, appends them to all (NULL: nobody asked for JSON) and forgets them.
  * Returns how many there were. */
 size_t report_end_model(messages *m, json_t *all);

@@ -311,18 +311,22 @@ static facet_result draw_passes(path_picture *p, facet_error *error)
     return result;
 }
 
-/* What ended the passes. The time limit leaves a picture where each pixel has a sample. */
+/* What ended the passes. The time limit, and a cancellation that asks for it, leave an image where each pixel has a
+ * sample. */
 static facet_result conclude(path_picture *p, facet_error *error)
 {
-    int ended = atomic_load(&p->watch.result);
+    facet_result ended = (facet_result)atomic_load(&p->watch.result);
     save(p);
     if (ended == FACET_OK)
         return FACET_OK;
-    if (ended == FACET_ERROR_LIMIT && count_samples(p).fewest > 0) {
-        p->stats->is_partial = true;
-        return FACET_OK;
-    }
-    return render_watch_explain(&p->watch, error);
+    bool is_limit = ended == FACET_ERROR_LIMIT;
+    if (!is_limit && !(ended == FACET_ERROR_CANCELLED && p->desc->path.keeps_cancelled))
+        return render_watch_explain(&p->watch, error);
+    if (count_samples(p).fewest == 0)
+        return fail(error, ended, "%s before every pixel had a sample; there is no image",
+                    is_limit ? "the time limit was reached" : "interrupted");
+    p->stats->is_partial = true;
+    return FACET_OK;
 }
 
 static facet_result draw(path_picture *p, facet_error *error)
@@ -416,7 +420,7 @@ static facet_result attempt(prepared_scene *prepared, const facet_render_desc *d
         result = draw(&p, error);
     if (result == FACET_OK)
         result = develop(&p, error);
-    if (result == FACET_OK)
+    if (result == FACET_OK && !stats->is_partial)
         result = render_check_limits(desc, "sample", 1.0, 0.0, error);
     path_film_destroy(p.sums);
     end_instant(&p);

@@ -51,6 +51,47 @@ expect 0 render --renderer path --size 64 --samples 10000000 --time-limit 2s -o 
 says "the time limit came after"
 expect 0 render --renderer path --size 64 --samples 10000000 --time-limit 2s --json -o late.png
 grep -q '"partial": true' out || failed "JSON does not say that it is partial"
+grep -q '"samples_taken": [1-9]' out || failed "JSON does not say how many samples were taken"
+grep -q '"warnings": .*the image is partial: the time limit came after' out || failed "JSON does not warn"
+expect 1 render --renderer path --size 64 --samples 10000000 --time-limit 1s --strict -o late.png
+expect 7 render --renderer path --size 8192 --time-limit 300ms -o never.png
+says "the time limit"
+[ ! -e never.png ] || failed "an image without a sample for each pixel was written"
+# Images of a sequence share the time, and so do those of a sea.
+for words in "render --turntable 3" "ocean --frames 1-3"; do
+    expect 0 $words --renderer path --size 24 --samples 10000000 --time-limit 3s --json -o 'frame_##.png'
+    [ "$(grep -o '"partial": true' out | wc -l)" = 3 ] || failed "not all of three images are partial: $words"
+    [ "$(grep -o '"text": "frame_0[123].png: the image is partial' out | wc -l)" = 3 ] || failed "warnings: $words"
+    for i in 1 2 3; do is_type frame_0$i.png "PNG image data, 24 x 24"; done
+    rm -f frame_*.png
+done
+
+# What a signal cuts off is written, too: exit code 75 after SIGTERM, and by the signal after others.
+cut_off() {
+    signal=$1
+    wanted=$2
+    shift 2
+    rm -f cut*.png
+    "$facet" "$@" --renderer path --size 24 --samples 16000000 --json >out 2>err &
+    process=$!
+    for i in 1 2 3 4 5 6 7 8 9 10; do sleep 0.2; [ -e cut_01.png ] && break; done
+    kill -"$signal" $process
+    code=0
+    wait $process || code=$?
+    [ $code = "$wanted" ] || failed "exit code $code, not $wanted, after SIG$signal: facet $*"
+    grep -q '"partial": true' out || failed "JSON does not say that it is partial: facet $*"
+    grep -q "\"exit_code\": $wanted}" out || failed "JSON says another exit code: facet $*"
+    says "the image is partial: interrupted after"
+}
+cut_off TERM 75 render -o cut.png
+is_type cut.png "PNG image data, 24 x 24"
+cut_off HUP 129 render -o cut.png
+is_type cut.png "PNG image data, 24 x 24"
+cut_off TERM 75 render --turntable 3 -o 'cut_##.png'
+is_type cut_01.png "PNG image data, 24 x 24"
+[ ! -e cut_02.png ] || failed "images after the one that was cut off"
+cut_off TERM 75 ocean -o cut.png
+is_type cut.png "PNG image data, 24 x 24"
 
 # Resumed is as if it had never stopped; more samples; another picture.
 if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
@@ -100,7 +141,9 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     code=0
     wait $! || code=$?
     [ $code = 75 ] || failed "exit code $code after SIGTERM, not 75"
-    [ ! -e cut_off.png ] || failed "an interrupted picture was written"
+    is_type cut_off.png "PNG image data, 48 x 32"
+    says "; --resume goes on with cut_off.exr"
+    rm -f cut_off.png
     expect 0 render --renderer path --size 48x32 --samples 1 --checkpoint cut_off.exr --resume -o cut_off.png
     is_type cut_off.png "PNG image data, 48 x 32"
 fi
