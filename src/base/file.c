@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,13 +78,10 @@ static facet_result read_sized(int fd, const char *path, size_t size, const face
     return FACET_OK;
 }
 
-facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,
-                       file_bytes *file, facet_error *error)
+facet_result file_open_descriptor(int fd, const char *path, uint64_t max_bytes,
+                                  const facet_allocator *allocator, file_bytes *file, facet_error *error)
 {
     *file = (file_bytes){0};
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (fd < 0)
-        return fail(error, FACET_ERROR_READ, "%s: cannot be opened: %s", path, strerror(errno));
     facet_result result;
     struct stat status;
     if (fstat(fd, &status) != 0) {
@@ -114,6 +112,17 @@ facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocat
         file->device = (uint64_t)status.st_dev;
         file->number = (uint64_t)status.st_ino;
     }
+    return result;
+}
+
+facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,
+                       file_bytes *file, facet_error *error)
+{
+    *file = (file_bytes){0};
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return fail(error, FACET_ERROR_READ, "%s: cannot be opened: %s", path, strerror(errno));
+    facet_result result = file_open_descriptor(fd, path, max_bytes, allocator, file, error);
     close(fd);
     return result;
 }
@@ -331,18 +340,57 @@ const char *path_extension(const char *path)
     return point ? point + 1 : "";
 }
 
-bool path_is_inside(const char *path, const char *folder)
+/* The part of real_path behind real_folder, both without links; NULL: it is not below. */
+static const char *path_below(const char *real_path, const char *real_folder)
+{
+    size_t length = strlen(real_folder);
+    if (length == 1) /* "/" */
+        return real_path + 1;
+    bool is_below = strncmp(real_path, real_folder, length) == 0 && strchr("/", real_path[length]);
+    return is_below ? real_path + length + (real_path[length] == '/') : NULL;
+}
+
+/* Opens a path below a folder, which has no links, and follows none: there is one now where it was put meanwhile. */
+static int open_without_links(const char *real_folder, const char *below)
+{
+    int at = open(real_folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    for (bool is_last = false; at >= 0 && !is_last;) {
+        char name[NAME_MAX + 1];
+        size_t length = strcspn(below, "/");
+        is_last = below[length] == 0;
+        int flags = O_NOFOLLOW | O_CLOEXEC | (is_last ? O_RDONLY | O_NONBLOCK : O_PATH | O_DIRECTORY);
+        int next = -1;
+        if (length < sizeof name) {
+            memcpy(name, below, length);
+            name[length] = 0;
+            next = openat(at, length ? name : ".", flags);
+        } else {
+            errno = ENAMETOOLONG;
+        }
+        int code = errno;
+        close(at);
+        errno = code;
+        at = next;
+        below += length + !is_last;
+    }
+    return at;
+}
+
+int path_open_inside(const char *path, const char *folder)
 {
     char *real_path = realpath(path, NULL);
-    char *real_folder = realpath(folder, NULL);
-    bool inside = false;
-    if (real_path && real_folder) {
-        size_t length = strlen(real_folder);
-        inside =
-            strncmp(real_path, real_folder, length) == 0 &&
-            (real_path[length] == '/' || real_path[length] == 0 || (length == 1 && real_folder[0] == '/'));
+    char *real_folder = real_path ? realpath(folder, NULL) : NULL;
+    int fd = -1;
+    if (real_folder) {
+        const char *below = path_below(real_path, real_folder);
+        if (below)
+            fd = open_without_links(real_folder, below);
+        else
+            errno = EXDEV;
     }
+    int code = errno;
     free(real_path);
     free(real_folder);
-    return inside;
+    errno = code;
+    return fd;
 }

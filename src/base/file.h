@@ -17,6 +17,9 @@ typedef struct file_bytes {
  * where it is larger than max_bytes (0: no limit), _MEMORY. A mapped file must not shrink while it is open. */
 facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,
                        file_bytes *file, facet_error *error);
+/* The same of an open file descriptor, which stays open; path is for messages. */
+facet_result file_open_descriptor(int fd, const char *path, uint64_t max_bytes,
+                                  const facet_allocator *allocator, file_bytes *file, facet_error *error);
 void file_close(file_bytes *file); /* {0} is allowed; leaves {0} */
 /* Whether the file at path is the one that file was opened from: path may be another name of it. */
 bool file_is_at(const file_bytes *file, const char *path);
@@ -49,7 +52,9 @@ char *path_folder(const facet_allocator *allocator, const char *path);
 const char *path_base_name(const char *path);
 /* From the last point of the base name on, without it, or "". */
 const char *path_extension(const char *path);
-/* Whether path, with links resolved, is folder or below it. False also where either does not exist. */
-bool path_is_inside(const char *path, const char *folder);
+/* Opens path for reading (a pipe without waiting for a writer) if it is folder or below it once links are resolved. What
+ * is opened is what was checked: a link that is exchanged in between makes it fail. Returns a file descriptor, or -1 with
+ * errno, which is EXDEV where path leads out of folder. */
+int path_open_inside(const char *path, const char *folder);
 
 #endif

@@ -1,8 +1,11 @@
 /* Tests of file.h: whole files or nothing, and names. */
 #define _GNU_SOURCE
+#include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -249,14 +252,81 @@ static void links_do_not_lead_out(void **state)
     assert_int_equal(file_write(file, "x", 1, NULL), FACET_OK);
     assert_int_equal(file_write(outside, "x", 1, NULL), FACET_OK);
     assert_int_equal(symlink(outside, link), 0);
-    assert_true(path_is_inside(file, inner));
-    assert_true(path_is_inside(inner, inner));
-    assert_false(path_is_inside(link, inner));
-    assert_false(path_is_inside(sibling, inner));
-    assert_false(path_is_inside(outside, inner));
-    assert_true(path_is_inside(file, "/"));
-    char *all[] = {inner, file, link, outside, sibling};
-    for (int i = 0; i < 5; i++)
+    char *deeper = in_folder("inner/deeper");
+    char *back = in_folder("inner/deeper/back");
+    char *through = in_folder("inner/deeper/back/file");
+    assert_int_equal(mkdir(deeper, 0777), 0);
+    assert_int_equal(symlink("..", back), 0);
+    char *inside[] = {file, inner, through};
+    for (int i = 0; i < 3; i++) {
+        int fd = path_open_inside(inside[i], inner);
+        assert_true(fd >= 0);
+        close(fd);
+    }
+    char *refused[] = {link, sibling, outside};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(path_open_inside(refused[i], inner), -1);
+        assert_int_equal(errno, EXDEV);
+    }
+    int fd = path_open_inside(file, "/");
+    assert_true(fd >= 0);
+    close(fd);
+    char *all[] = {inner, file, link, outside, sibling, deeper, back, through};
+    for (int i = 0; i < 8; i++)
+        mem_free(all[i]);
+}
+
+/* A folder that is a link in turn to one with a file of one byte, 'i', and to one outside of the root with 'o'. */
+typedef struct swap {
+    char *link, *spare, *targets[2];
+    atomic_bool is_done;
+} swap;
+
+static void *keep_swapping(void *context)
+{
+    swap *s = context;
+    for (unsigned i = 0; !atomic_load(&s->is_done); i++)
+        if (symlink(s->targets[i % 2], s->spare) == 0)
+            rename(s->spare, s->link);
+    return NULL;
+}
+
+static void a_link_that_is_swapped_does_not_lead_out(void **state)
+{
+    (void)state;
+    static const char *const folders[] = {"swap", "swap/real", "swapped_out"};
+    char *paths[3];
+    for (int i = 0; i < 3; i++) {
+        paths[i] = in_folder(folders[i]);
+        assert_int_equal(mkdir(paths[i], 0777), 0);
+    }
+    swap s = {
+        .link = in_folder("swap/link"), .spare = in_folder("swap/spare"), .targets = {paths[1], paths[2]}};
+    char *file = in_folder("swap/link/file");
+    for (int i = 0; i < 2; i++) {
+        char *target = path_join(NULL, s.targets[i], "file");
+        assert_int_equal(file_write(target, i ? "o" : "i", 1, NULL), FACET_OK);
+        mem_free(target);
+    }
+    assert_int_equal(symlink(s.targets[0], s.link), 0);
+    pthread_t thread;
+    assert_int_equal(pthread_create(&thread, NULL, keep_swapping, &s), 0);
+    int opened = 0;
+    for (int i = 0; i < 20000; i++) {
+        int fd = path_open_inside(file, paths[0]);
+        if (fd < 0)
+            continue;
+        char byte = 0;
+        assert_int_equal(read(fd, &byte, 1), 1);
+        assert_int_equal(byte, 'i');
+        opened++;
+        close(fd);
+    }
+    atomic_store(&s.is_done, true);
+    pthread_join(thread, NULL);
+    assert_true(opened > 0);
+    char *all[] = {paths[0], paths[1], paths[2], s.link, s.spare, file};
+    for (int i = 0; i < 6; i++)
         mem_free(all[i]);
 }
 
@@ -301,6 +371,7 @@ int main(void)
         cmocka_unit_test(staged_files_wait),
         cmocka_unit_test(names_are_taken_apart),
         cmocka_unit_test(links_do_not_lead_out),
+        cmocka_unit_test(a_link_that_is_swapped_does_not_lead_out),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

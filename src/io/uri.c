@@ -1,10 +1,12 @@
 /* uri.c - what a URI in a model stands for: base64 data inside it, or a file below the model's folder. Nothing else
  * is ever opened. */
 #define _POSIX_C_SOURCE 200809L
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "io/gltf/gltf_reader.h"
 
@@ -146,15 +148,17 @@ static bool climbs_out(const char *path)
     return false;
 }
 
-/* Maps the file at path unless the scene has it already. */
-static bool open_once(const file_scope *scope, const char *path, const struct stat *status, uri_bytes *out)
+/* Reads the open file unless the scene has it already. */
+static bool read_once(const file_scope *scope, int fd, const char *path, const struct stat *status,
+                      uri_bytes *out)
 {
     facet_scene *scene = scope->scene;
     facet_error error;
     out->file = scene_find_file(scene, (uint64_t)status->st_dev, (uint64_t)status->st_ino);
     if (out->file == SCENE_NONE) {
         file_bytes file = {0};
-        if (file_open(path, scope->max_file_bytes, scope->allocator, &file, &error) != FACET_OK)
+        if (file_open_descriptor(fd, path, scope->max_file_bytes, scope->allocator, &file, &error) !=
+            FACET_OK)
             return uri_fail(out, error.result, "%.400s", error.message);
         out->file = scene->file_count;
         if (!scene_keep_file(scene, &file)) {
@@ -185,14 +189,19 @@ bool file_scope_open(const file_scope *scope, const char *name, const char *show
         return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
     bool done = false;
     struct stat status;
-    if (stat(path, &status) != 0)
+    int fd = path_open_inside(path, allowed);
+    if (fd < 0 && errno == EXDEV)
+        uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the folder that the model may read", shown);
+    else if (fd < 0 && errno == ENOENT)
         uri_fail(out, FACET_ERROR_READ, "there is no file \"%.200s\"", name);
+    else if (fd < 0 || fstat(fd, &status) != 0)
+        uri_fail(out, FACET_ERROR_READ, "\"%.200s\" cannot be opened: %s", name, strerror(errno));
     else if (!S_ISREG(status.st_mode)) /* a pipe could keep us waiting for ever */
         uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is no regular file", name);
-    else if (!path_is_inside(path, allowed))
-        uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the folder that the model may read", shown);
     else
-        done = open_once(scope, path, &status, out);
+        done = read_once(scope, fd, path, &status, out);
+    if (fd >= 0)
+        close(fd);
     mem_free(path);
     return done;
 }
