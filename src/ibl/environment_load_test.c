@@ -439,7 +439,7 @@ static void what_is_no_radiance(void **state)
     for (int k = 0; k < 2; k++) {
         bytes b;
         const char *const names[] = {"R", "G", "B"};
-        const image_layer layer = {names, 3, i.pixels, image_row_size(&i)};
+        const image_layer layer = {names, 3, i.pixels, image_row_size(&i), false};
         b = encode_pfm(&i);
         if (k == 1) {
             mem_free(b.data);

@@ -207,7 +207,8 @@ static facet_result list_channels(const image_layer *layers, uint32_t layer_coun
             channels[count++] = (exr_channel){.name = layers[l].channel_names[k],
                                               .first = (float *)(uintptr_t)(layers[l].pixels + k),
                                               .texel_stride = layers[l].channel_count * sizeof(float),
-                                              .row_stride = layers[l].row_stride_bytes};
+                                              .row_stride = layers[l].row_stride_bytes,
+                                              .needs_float = layers[l].needs_float};
     qsort(channels, count, sizeof *channels, compare_names);
     for (uint32_t c = 0; c < count; c++) {
         const size_t length = strlen(channels[c].name);

@@ -74,8 +74,8 @@ static void write_layers(uint32_t threads, bool as_half, const image *rgba, cons
 {
     static const char *const color_names[] = {"R", "G", "B", "A"};
     static const char *const depth_names[] = {"Z"};
-    image_layer layers[] = {{color_names, 4, rgba->pixels, image_row_size(rgba)},
-                            {depth_names, 1, depth->pixels, image_row_size(depth)}};
+    image_layer layers[] = {{color_names, 4, rgba->pixels, image_row_size(rgba), false},
+                            {depth_names, 1, depth->pixels, image_row_size(depth), true}};
     facet_error error;
     if (image_encode_exr(rgba->width, rgba->height, layers, 2, as_half,
                          &(image_encode_desc){.thread_count = threads}, bytes, size, &error) != FACET_OK)
@@ -107,6 +107,12 @@ static void written_layers_come_back(void **state)
                 *x = half_to_float(half_from_float(*x));
             }
             assert_same_texels(&rgba, &back);
+            image_destroy(&back); /* what needs floats keeps every bit beside halves */
+            assert_int_equal(
+                image_decode(bytes, size, "p", &(image_decode_desc){.layer = "depth"}, &back, NULL),
+                FACET_OK);
+            for (size_t t = 0; t < (size_t)depth.width * depth.height; t++)
+                assert_memory_equal((float *)back.pixels + 3 * t, (float *)depth.pixels + t, sizeof(float));
             mem_free(bytes);
             mem_free(again);
             image_destroy(&back);
@@ -133,7 +139,7 @@ static void channels_are_chosen(void **state)
                  {only, 1, 3, {1, 1, 1, 0}},
                  {nothing, 2, 0, {0}}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        image_layer l = {cases[k].names, cases[k].count, texels, sizeof texels};
+        image_layer l = {cases[k].names, cases[k].count, texels, sizeof texels, false};
         unsigned char *bytes;
         size_t size;
         image i;
@@ -157,7 +163,7 @@ static void odd_numbers(void **state)
     (void)state;
     static const float values[] = {NAN, INFINITY, -INFINITY, -2.0f, 1e6f, 0.5f};
     static const char *const names[] = {"R", "G", "B"};
-    image_layer l = {names, 3, values, sizeof values};
+    image_layer l = {names, 3, values, sizeof values, false};
     for (int as_half = 0; as_half < 2; as_half++) {
         unsigned char *bytes;
         size_t size;
@@ -181,7 +187,7 @@ static void what_cannot_be_written(void **state)
     static const char *const empty[] = {"R", ""};
     unsigned char *bytes;
     size_t size;
-    image_layer l = {twice, 2, texels, 8};
+    image_layer l = {twice, 2, texels, 8, false};
     assert_int_equal(image_encode_exr(1, 1, &l, 1, true, NULL, &bytes, &size, NULL), FACET_ERROR_ARGUMENT);
     l.channel_names = empty;
     assert_int_equal(image_encode_exr(1, 1, &l, 1, true, NULL, &bytes, &size, NULL), FACET_ERROR_ARGUMENT);

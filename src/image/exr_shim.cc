@@ -496,6 +496,13 @@ struct block_deleter {
     }
 };
 
+/* Floats as they stand in memory. */
+Imf::Slice slice_of(const exr_channel &channel)
+{
+    return Imf::Slice(Imf::FLOAT, reinterpret_cast<char *>(channel.first), channel.texel_stride,
+                      channel.row_stride);
+}
+
 void write_halves(Imf::OutputFile &file, uint32_t width, uint32_t height, const exr_channel *channels,
                   uint32_t channel_count, const facet_allocator *allocator)
 {
@@ -509,6 +516,10 @@ void write_halves(Imf::OutputFile &file, uint32_t width, uint32_t height, const 
         Imf::FrameBuffer buffer;
         uint16_t *to = strip.get();
         for (uint32_t c = 0; c < channel_count; c++) {
+            if (channels[c].needs_float) {
+                buffer.insert(channels[c].name, slice_of(channels[c]));
+                continue;
+            }
             const intptr_t base = reinterpret_cast<intptr_t>(to) - static_cast<intptr_t>(y * row_size);
             buffer.insert(channels[c].name,
                           Imf::Slice(Imf::HALF, reinterpret_cast<char *>(base), sizeof(uint16_t), row_size));
@@ -531,8 +542,7 @@ void write_floats(Imf::OutputFile &file, uint32_t height, const exr_channel *cha
 {
     Imf::FrameBuffer buffer;
     for (uint32_t c = 0; c < channel_count; c++) /* the library only reads */
-        buffer.insert(channels[c].name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char *>(channels[c].first),
-                                                   channels[c].texel_stride, channels[c].row_stride));
+        buffer.insert(channels[c].name, slice_of(channels[c]));
     file.setFrameBuffer(buffer);
     file.writePixels(static_cast<int>(height));
 }
@@ -549,7 +559,9 @@ facet_result exr_shim_write(const exr_writing *how, const exr_channel *channels,
         header.compression() = how->is_stored ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
         header.zipCompressionLevel() = static_cast<int>(how->level);
         for (uint32_t c = 0; c < channel_count; c++)
-            header.channels().insert(channels[c].name, Imf::Channel(how->as_half ? Imf::HALF : Imf::FLOAT));
+            header.channels().insert(
+                channels[c].name,
+                Imf::Channel(how->as_half && !channels[c].needs_float ? Imf::HALF : Imf::FLOAT));
         for (uint32_t t = 0; t < how->text_count; t++)
             header.insert(how->texts[t].name, Imf::StringAttribute(how->texts[t].value));
         {

@@ -26,6 +26,7 @@ typedef struct exr_channel {
     const char *name;
     float *first; /* what is written from is left alone */
     size_t texel_stride, row_stride;
+    bool needs_float; /* written as floats in a file of halves, too */
 } exr_channel;
 
 /* What the header of the first part says. Nothing of it has been checked. */

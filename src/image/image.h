@@ -106,6 +106,7 @@ typedef struct image_layer {
     uint32_t channel_count;
     const float *pixels; /* interleaved */
     size_t row_stride_bytes;
+    bool needs_float; /* numbers that halves would round: IDs, counts */
 } image_layer;
 
 /* A named text in an EXR file: an attribute of the type "string". */
@@ -127,7 +128,7 @@ typedef struct image_encode_desc {
  * the samples as they are; HDR and PFM take F32 RGB. */
 facet_result image_encode(const image *i, image_codec codec, const image_encode_desc *desc,
                           unsigned char **bytes, size_t *size, facet_error *error);
-/* Scanline OpenEXR, ZIP or stored, half or float. Floats are written bit for bit. */
+/* Scanline OpenEXR, ZIP or stored, half (but for layers that need floats) or float. Floats are written bit for bit. */
 facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer *layers,
                               uint32_t layer_count, bool as_half, const image_encode_desc *desc,
                               unsigned char **bytes, size_t *size, facet_error *error);

@@ -84,8 +84,8 @@ facet_result path_film_save(const path_film *f, const char *key, const char *pat
     const image_text texts[] = {
         {"facetCheckpoint", VERSION}, {"facetKey", key}, {"facetDropped", dropped}, {"facetDigest", digest}};
     const image_layer layers[] = {
-        {pixel_names, PIXEL_CHANNELS, (const float *)f->pixels, f->width * sizeof *f->pixels},
-        {ground_names, GROUND_CHANNELS, (const float *)f->ground, f->width * sizeof *f->ground}};
+        {pixel_names, PIXEL_CHANNELS, (const float *)f->pixels, f->width * sizeof *f->pixels, true},
+        {ground_names, GROUND_CHANNELS, (const float *)f->ground, f->width * sizeof *f->ground, true}};
     const image_encode_desc desc = {.allocator = f->allocator,
                                     .thread_count = thread_count,
                                     .is_stored = true,

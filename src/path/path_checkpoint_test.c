@@ -204,7 +204,7 @@ static void other_files_are_refused(void **state)
     expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "is no checkpoint of a picture");
     static const char *const names[] = {"R", "G", "B"};
     static const float texels[WIDTH * HEIGHT * 3];
-    const image_layer layer = {names, 3, texels, WIDTH * 3 * sizeof(float)};
+    const image_layer layer = {names, 3, texels, WIDTH * 3 * sizeof(float), false};
     unsigned char *bytes;
     size_t size;
     assert_int_equal(image_encode_exr(WIDTH, HEIGHT, &layer, 1, false, NULL, &bytes, &size, NULL), FACET_OK);
