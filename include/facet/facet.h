@@ -673,10 +673,23 @@ typedef enum facet_aov {
     FACET_AOV_UV = 1u << 4,          /* TEXCOORD_0; 2 channels "uv.U", "uv.V" */
     FACET_AOV_OCCLUSION = 1u << 5,   /* occlusion texture, 1: open; 1 channel "occlusion.A" */
     /* FACET_INTEGRATOR_PATH only: */
-    FACET_AOV_VARIANCE =
-        1u << 6, /* of the mean that a pixel is, estimated per channel, in the picture's unit squared; 3
-                                     channels "variance.R" .. */
-    FACET_AOV_SAMPLES = 1u << 7 /* light samples in the pixel; 1 channel "samples.N" */
+    /* of the mean that a pixel is, estimated per channel, in the picture's unit squared; 3 channels "variance.R" .. */
+    FACET_AOV_VARIANCE = 1u << 6,
+    FACET_AOV_SAMPLES = 1u << 7, /* light samples in the pixel; 1 channel "samples.N" */
+    /* Every integrator: */
+    FACET_AOV_OBJECT_ID = 1u << 8, /* index of the node plus 1; 1 channel "object.id" */
+    /* number of the copy, from 1, among all copies of all nodes with a mesh (EXT_mesh_gpu_instancing draws several of a
+     * node); 1 channel "instance.id" */
+    FACET_AOV_INSTANCE_ID = 1u << 9,
+    /* Cryptomatte 1.2.0, of the names of nodes, of materials, of instances ("NODE#NUMBER"): the six IDs that cover most of a
+     * pixel, each with its share of the pixel, in 3 layers "CryptoObject00" .. "02" of 4 channels, ID, share, ID, share. The
+     * shares add up to the image's opacity (OpenGL: of the nearest surfaces of 16 samples). The manifest and what else
+     * Cryptomatte needs is in the metadata of an .exr. FACET_INTEGRATOR_PATH: not together with path.resumes, and complete
+     * in the final image only */
+    FACET_AOV_CRYPTO_OBJECT = 1u << 10,
+    FACET_AOV_CRYPTO_MATERIAL = 1u << 11,
+    FACET_AOV_CRYPTO_INSTANCE = 1u << 12,
+    FACET_AOV_CRYPTOMATTE = FACET_AOV_CRYPTO_OBJECT | FACET_AOV_CRYPTO_MATERIAL | FACET_AOV_CRYPTO_INSTANCE
 } facet_aov;
 
 /* Instruction set of the kernels that intersect rays with triangles, on x86-64; elsewhere there is one. Those of AVX2 and

@@ -134,7 +134,10 @@ static void add_primitive(scene_pose *pose, const pose_parts *parts, uint32_t sh
     for (uint32_t i = 0; i < copies; i++) {
         bool is_placed = at->instancing && !(moved && moved->skin);
         mat4 copy = is_placed ? mat4_multiply(world, copy_matrix(at->instancing, i)) : world;
+        uint32_t before = pose->instance_count;
         add_instance(pose, parts, shown, index, moved, &copy);
+        if (pose->instance_count > before)
+            pose->instances[before].copy = i;
     }
 }
 

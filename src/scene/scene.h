@@ -412,6 +412,7 @@ typedef struct scene_instance {
     bool is_deformed;
     /* EXT_mesh_gpu_instancing: of the instance before it, which has the same node and primitive. */
     bool is_copy;
+    uint32_t copy;     /* its number among the copies of the node, those that are not drawn included */
     uint32_t material; /* with the variant; SCENE_NONE: the default material */
     mat4 world;
     float normal_matrix[9]; /* cofactor matrix, rows; normalise after use; sign already such that a mirrored
