@@ -107,13 +107,21 @@ static facet_result encode_exr(const film *f, bool as_half, const image_encode_d
                                unsigned char **bytes, size_t *size, facet_error *error)
 {
     image_layer layers[FILM_MAX_LAYERS];
+    image_text texts[FILM_MAX_TEXTS];
+    image_encode_desc with_texts = *desc;
+    with_texts.texts = texts;
+    with_texts.text_count = f->text_count;
+    for (uint32_t i = 0; i < f->text_count; i++)
+        texts[i] = (image_text){f->texts[i].name, f->texts[i].value};
     for (uint32_t i = 0; i < f->layer_count; i++)
         layers[i] =
             (image_layer){.channel_names = f->layers[i].channel_names,
                           .channel_count = f->layers[i].channel_count,
                           .pixels = f->layers[i].pixels,
-                          .row_stride_bytes = (size_t)f->width * f->layers[i].channel_count * sizeof(float)};
-    return image_encode_exr(f->width, f->height, layers, f->layer_count, as_half, desc, bytes, size, error);
+                          .row_stride_bytes = (size_t)f->width * f->layers[i].channel_count * sizeof(float),
+                          .needs_float = f->layers[i].needs_float};
+    return image_encode_exr(f->width, f->height, layers, f->layer_count, as_half, &with_texts, bytes, size,
+                            error);
 }
 
 static facet_result encode_raw(const film *f, const image_encode_desc *desc, unsigned char **bytes,

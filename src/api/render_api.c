@@ -3,9 +3,12 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "base/text.h"
 #include "api/gl_library.h"
 #include "cpu/preview.h"
+#include "film/matte.h"
 #include "path/path_render.h"
+#include "scene/identity.h"
 
 #include <math.h>
 #include <string.h>
@@ -68,6 +71,9 @@ static facet_result resolve_integrator(facet_render_desc *d, facet_error *error)
     if (!is_path && d->aovs & (FACET_AOV_VARIANCE | FACET_AOV_SAMPLES))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "layers: variance and samples are known to path tracing only");
+    if (is_path && d->path.resumes && d->aovs & FACET_AOV_CRYPTOMATTE)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "layers: a checkpoint does not keep Cryptomatte's; render them without resuming");
     if (is_path && d->shading != FACET_SHADING_GLTF)
         return fail(error, FACET_ERROR_ARGUMENT, "shading: path tracing knows that of glTF only");
     if (!d->path.max_depth)
@@ -158,6 +164,25 @@ static void develop(const facet_render_desc *desc, film *picture)
         film_blend_encoded(picture, behind, desc->thread_count);
 }
 
+/* Cryptomatte's metadata. */
+static facet_result describe_mattes(const facet_scene *scene, const facet_render_desc *desc, film *picture,
+                                    facet_error *error)
+{
+    static const uint32_t aovs[SCENE_IDENTITY_KINDS] = {FACET_AOV_CRYPTO_OBJECT, FACET_AOV_CRYPTO_MATERIAL,
+                                                        FACET_AOV_CRYPTO_INSTANCE};
+    facet_result result = FACET_OK;
+    for (uint32_t kind = 0; kind < SCENE_IDENTITY_KINDS && result == FACET_OK; kind++) {
+        if (!(desc->aovs & aovs[kind]))
+            continue;
+        text manifest = {.allocator = desc->allocator};
+        result = scene_identity_manifest(scene, (scene_identity_kind)kind, &manifest, error);
+        if (result == FACET_OK)
+            result = matte_describe(picture, kind, manifest.data, &desc->allocator, error);
+        text_destroy(&manifest);
+    }
+    return result;
+}
+
 struct facet_renderer {
     prepared_scene prepared;
     gl_renderer *gl; /* NULL: not asked for yet */
@@ -222,6 +247,8 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
         result = preview_render_prepared(prepared, &desc, &image->film, &image->stats, error);
     if (result == FACET_OK)
         develop(&desc, &image->film);
+    if (result == FACET_OK && desc.aovs & FACET_AOV_CRYPTOMATTE)
+        result = describe_mattes(prepared->scene, &desc, &image->film, error);
     return result;
 }
 

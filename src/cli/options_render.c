@@ -55,8 +55,16 @@ static const option image_options[] = {
      .name = "aov",
      .kind = OPTION_CHOICES,
      .argument = "LIST",
-     .help = "further layers of an .exr file, separated by commas",
-     .choices = WORDS("depth", "normal", "albedo", "material", "uv", "occlusion", "variance", "samples")},
+     .help = "further layers of an .exr file, separated by commas, or all that the renderer has: material, "
+             "object "
+             "(node) and instance are numbers from 1; cryptomatte is crypto-object, -material and -instance: "
+             "names "
+             "with the share of each pixel that they cover, for compositing; variance and samples with "
+             "--renderer "
+             "path only",
+     .choices =
+         WORDS("all", "depth", "normal", "albedo", "material", "object", "instance", "uv", "occlusion",
+               "variance", "samples", "cryptomatte", "crypto-object", "crypto-material", "crypto-instance")},
     {.id = OPT_JPEG_QUALITY,
      .name = "jpeg-quality",
      .kind = OPTION_INTEGER,

@@ -60,12 +60,7 @@ static facet_result check_renderer(const command_line *c, const render_options *
                            "--ground: it says something only with --renderer path or gl");
     if (result == FACET_OK && is_path)
         result = refuse(c, not_path, "it says nothing to --renderer path", error);
-    if (result != FACET_OK)
-        return result;
-    if (!is_path && o->desc.aovs & (FACET_AOV_VARIANCE | FACET_AOV_SAMPLES))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--aov: variance and samples are layers of --renderer path only");
-    return FACET_OK;
+    return result;
 }
 
 /* ---- light ---- */

@@ -3,6 +3,7 @@
 
 #include "cli/legacy_options.h"
 
+#include "cli/aov_options.h"
 #include "cli/color.h"
 #include "cli/failure.h"
 #include "cli/orbit.h"
@@ -36,35 +37,6 @@ static facet_result read_background(const command_line *c, render_options *out, 
         d->background = FACET_BACKGROUND_COLOR;
     else
         return option_fail(c, OPT_BACKGROUND, "transparent, env, #rgb, #rrggbb or a CSS color name", error);
-    return FACET_OK;
-}
-
-static facet_result read_aovs(const command_line *c, render_options *out, facet_error *error)
-{
-    static const struct {
-        const char *name;
-        facet_aov bit;
-    } aovs[] = {{"depth", FACET_AOV_DEPTH},
-                {"normal", FACET_AOV_NORMAL},
-                {"albedo", FACET_AOV_ALBEDO},
-                {"material", FACET_AOV_MATERIAL_ID},
-                {"uv", FACET_AOV_UV},
-                {"occlusion", FACET_AOV_OCCLUSION},
-                {"variance", FACET_AOV_VARIANCE},
-                {"samples", FACET_AOV_SAMPLES}};
-    const char *text = option_text(c, OPT_AOV, "");
-    while (*text) {
-        size_t length = strcspn(text, ",");
-        for (size_t i = 0; i < sizeof aovs / sizeof *aovs; i++)
-            if (strlen(aovs[i].name) == length && memcmp(aovs[i].name, text, length) == 0)
-                out->desc.aovs |= aovs[i].bit;
-        text += length;
-        text += *text == ',';
-    }
-    bool is_exr = out->save.format == FACET_FORMAT_EXR || out->save.format == FACET_FORMAT_EXR_FLOAT;
-    if (out->desc.aovs && !is_exr)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--aov: only .exr files have layers; write -o NAME.exr");
     return FACET_OK;
 }
 
@@ -173,12 +145,12 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
                                                       picture_options_format,
                                                       read_size,
                                                       read_background,
-                                                      read_aovs,
                                                       read_look,
                                                       read_camera,
                                                       read_motion,
                                                       picture_options_environment,
-                                                      path_options_read};
+                                                      path_options_read,
+                                                      aov_options_read};
     facet_result result = limits_read(c, &out->limits, error);
     for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
         result = readers[i](c, out, error);

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "cpu/ogl1_shade.h"
+#include "scene/identity.h"
 
 #include "shade/shade.h"
 
@@ -272,6 +273,23 @@ bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_h
     for (int c = 0; c < 3; c++)
         rgba[c] *= r->scale;
     return true;
+}
+
+/* The weights are those of composite(): shares add up to the picture's opacity. */
+void pixel_add_mattes(const pixel_resolver *r, const scene_identity *identities, const matte_layers *mattes,
+                      size_t number)
+{
+    for (size_t i = 0; i < r->fragment_count;) {
+        uint32_t sample = r->fragments[i].sample;
+        float passed = 1.0f;
+        for (; i < r->fragment_count && r->fragments[i].sample == sample; i++) {
+            const pixel_fragment *f = &r->fragments[i];
+            float opacity = r->surfaces[f->surface].opacity;
+            matte_add(mattes, number, identities[f->hit.geometry].hashes, passed * opacity);
+            passed *= 1.0f - opacity;
+        }
+    }
+    matte_finish(mattes, number, 1.0f / (float)r->pattern->sample_count);
 }
 
 bool pixel_nearest_surface(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hit,

@@ -3,6 +3,9 @@
 #define CPU_PIXEL_H
 
 #include "cpu/see_through.h"
+#include "film/matte.h"
+
+struct scene_identity; /* scene/identity.h */
 
 /* One surface of one sample; those of a sample follow each other from front to back. */
 typedef struct pixel_fragment {
@@ -40,6 +43,10 @@ typedef struct pixel_resolver {
  * False: no memory. */
 bool pixel_resolve(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hits,
                    float rgba[4]);
+/* Adds the shares of that pixel, which pixel_resolve() has just resolved without failing, to Cryptomatte's layers. identities:
+ * per geometry. number: of the pixel in the layers. */
+void pixel_add_mattes(const pixel_resolver *resolver, const struct scene_identity *identities,
+                      const matte_layers *mattes, size_t number);
 /* The nearest surface under the middle of the pixel; false: there is none. depth_m along the camera's axis. */
 bool pixel_nearest_surface(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hit,
                            shading_description *result, float *depth_m, uint32_t *geometry);

@@ -19,7 +19,8 @@ static facet_result draw(render_setup *setup, double deadline_s, film *target, f
         result = ogl1_setup_create(&source, &setup->camera, desc, &setup->light, &setup->plans, &ogl1, error);
         setup->shading.ogl1 = &ogl1;
     }
-    tiles_desc tiles = {.render = desc, .scene = &setup->shading, .deadline_s = deadline_s};
+    tiles_desc tiles = {
+        .render = desc, .scene = &setup->shading, .identities = setup->identities, .deadline_s = deadline_s};
     if (result == FACET_OK)
         result = tiles_draw(&tiles, target, setup->stats, error);
     ogl1_setup_destroy(&ogl1);

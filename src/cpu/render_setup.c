@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "cpu/texture_need.h"
 #include "draw/texture_set.h"
+#include "scene/identity.h"
 
 #include <math.h>
 
@@ -134,6 +135,9 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
     result = run_all_stages(p, error);
     if (result == FACET_OK)
         result = material_plans_create(&p->prepared->geometries, &desc->allocator, &p->plans, error);
+    if (result == FACET_OK && desc->aovs & SCENE_IDENTITY_AOVS)
+        result = scene_identities_create(p->prepared->scene, &p->prepared->pose, &desc->allocator,
+                                         &p->identities, error);
     p->shading = (shading_scene){.geometries = &p->prepared->geometries,
                                  .embree = &p->prepared->embree,
                                  .plans = &p->plans,
@@ -152,6 +156,8 @@ void render_setup_destroy(render_setup *p)
     light_setup_destroy(&p->light);
     texture_set_destroy(p->textures);
     mem_free(p->uses);
+    mem_free(p->identities);
+    p->identities = NULL;
     p->textures = NULL;
     p->uses = NULL;
 }

@@ -18,7 +18,8 @@ typedef struct render_setup {
     texture_set *textures;
     light_setup light;
     material_plan_set plans;
-    shading_scene shading; /* without ogl1 */
+    struct scene_identity *identities; /* per geometry; NULL: no layer asks for them */
+    shading_scene shading;             /* without ogl1 */
     double hierarchy_s, tangents_s;
 } render_setup;
 

@@ -11,13 +11,14 @@
 #include "base/result.h"
 #include "cpu/pixel.h"
 #include "draw/render_watch.h"
+#include "scene/identity.h"
 
 enum { TILE = 32 };
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
 
 /* The layers of the film; NULL: not asked for. */
 typedef struct layers {
-    film_layer *color, *depth, *normal, *albedo, *material, *uv, *occlusion;
+    film_layer *color, *depth, *normal, *albedo, *material, *object, *instance, *uv, *occlusion;
 } layers;
 
 typedef struct picture {
@@ -26,6 +27,7 @@ typedef struct picture {
     uint32_t tile_columns, tile_count;
     visibility_pattern pattern, middle;
     layers layers;
+    matte_layers mattes;
     bool has_picture, wants_aovs;
     /* shared by the threads */
     render_watch watch;
@@ -55,13 +57,17 @@ static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, c
     uint32_t geometry;
     if (!pixel_nearest_surface(&w->resolver, x, y, hit, &surface, &depth_m, &geometry))
         return; /* the film starts with what stands for nothing */
-    float material = (float)p->desc->scene->geometries->items[geometry].material_id;
     store(p->layers.depth, pixel, &depth_m);
     store(p->layers.normal, pixel, surface.normal);
     store(p->layers.albedo, pixel, surface.base_color);
-    store(p->layers.material, pixel, &material);
     store(p->layers.uv, pixel, surface.uv);
     store(p->layers.occlusion, pixel, &surface.occlusion);
+    if (!p->desc->identities)
+        return;
+    const float *numbers = p->desc->identities[geometry].numbers;
+    store(p->layers.material, pixel, &numbers[SCENE_IDENTITY_MATERIAL]);
+    store(p->layers.object, pixel, &numbers[SCENE_IDENTITY_OBJECT]);
+    store(p->layers.instance, pixel, &numbers[SCENE_IDENTITY_INSTANCE]);
 }
 
 static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
@@ -86,6 +92,8 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
         if (p->has_picture &&
             !pixel_resolve(&w->resolver, px, py, w->hits + visibility_first_hit(&p->pattern, i), rgba))
             return false;
+        if (p->has_picture && p->mattes.aovs)
+            pixel_add_mattes(&w->resolver, p->desc->identities, &p->mattes, pixel);
         if (p->wants_aovs)
             write_aovs(p, w, px, py, &w->middle_hits[visibility_first_hit(&p->middle, i)], pixel);
     }
@@ -152,9 +160,13 @@ static facet_result draw(const tiles_desc *desc, bool has_picture, film *target,
                  .tile_columns = (crop[0] + target->width - 1) / TILE - crop[0] / TILE + 1,
                  .layers = {film_find(target, ""), film_find(target, "depth"), film_find(target, "normal"),
                             film_find(target, "albedo"), film_find(target, "material"),
+                            film_find(target, "object"), film_find(target, "instance"),
                             film_find(target, "uv"), film_find(target, "occlusion")},
+                 .mattes = matte_find(target),
                  .has_picture = has_picture,
-                 .wants_aovs = render->aovs != 0};
+                 .wants_aovs = (render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE) != 0};
+    if (has_picture)
+        matte_clear(&p.mattes, (size_t)target->width * target->height); /* an attempt may have failed */
     p.tile_count = p.tile_columns * ((crop[1] + target->height - 1) / TILE - crop[1] / TILE + 1);
     render_watch_init(&p.watch, &render->progress, "shade", desc->deadline_s, p.tile_count);
     bool has_memory =

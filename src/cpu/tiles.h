@@ -9,13 +9,14 @@
 typedef struct tiles_desc {
     const facet_render_desc *render;
     const shading_scene *scene;
-    double deadline_s; /* of clock_seconds(); 0: none */
+    const struct scene_identity *identities; /* per geometry; NULL: no layer asks for them */
+    double deadline_s;                       /* of clock_seconds(); 0: none */
 } tiles_desc;
 
 /* Fills every layer of film. Adds to stats->rays and ->shades. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past
  * the deadline, FACET_ERROR_CANCELLED. */
 facet_result tiles_draw(const tiles_desc *desc, film *film, facet_render_stats *stats, facet_error *error);
-/* All layers but the picture, layer "". */
+/* All layers of one sample: neither the picture, layer "", nor Cryptomatte's. */
 facet_result tiles_draw_aovs(const tiles_desc *desc, film *film, facet_render_stats *stats,
                              facet_error *error);
 

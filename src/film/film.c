@@ -19,18 +19,35 @@ typedef struct layer_kind {
     uint32_t channel_count;
     const char *channel_names[4];
     float background;
+    bool needs_float;
 } layer_kind;
 
+#define CRYPTOMATTE_RANKS(NAME, RANK)                                                                        \
+    {                                                                                                        \
+        NAME RANK ".R", NAME RANK ".G", NAME RANK ".B", NAME RANK ".A"                                       \
+    }
+#define CRYPTOMATTE_LAYER(AOV, NAME, RANK)                                                                   \
+    {                                                                                                        \
+        AOV, NAME RANK, 4, CRYPTOMATTE_RANKS(NAME, RANK), 0.0f, true                                         \
+    }
+#define CRYPTOMATTE_LAYERS(AOV, NAME)                                                                        \
+    CRYPTOMATTE_LAYER(AOV, NAME, "00"), CRYPTOMATTE_LAYER(AOV, NAME, "01"), CRYPTOMATTE_LAYER(AOV, NAME, "02")
+
 static const layer_kind layer_kinds[] = {
-    {0, "", 4, {"R", "G", "B", "A"}, 0.0f},
-    {FACET_AOV_DEPTH, "depth", 1, {"Z"}, INFINITY},
-    {FACET_AOV_NORMAL, "normal", 3, {"normal.X", "normal.Y", "normal.Z"}, 0.0f},
-    {FACET_AOV_ALBEDO, "albedo", 3, {"albedo.R", "albedo.G", "albedo.B"}, 0.0f},
-    {FACET_AOV_MATERIAL_ID, "material", 1, {"material.id"}, 0.0f},
-    {FACET_AOV_UV, "uv", 2, {"uv.U", "uv.V"}, 0.0f},
-    {FACET_AOV_OCCLUSION, "occlusion", 1, {"occlusion.A"}, 0.0f},
-    {FACET_AOV_VARIANCE, "variance", 3, {"variance.R", "variance.G", "variance.B"}, 0.0f},
-    {FACET_AOV_SAMPLES, "samples", 1, {"samples.N"}, 0.0f},
+    {0, "", 4, {"R", "G", "B", "A"}, 0.0f, false},
+    {FACET_AOV_DEPTH, "depth", 1, {"Z"}, INFINITY, false},
+    {FACET_AOV_NORMAL, "normal", 3, {"normal.X", "normal.Y", "normal.Z"}, 0.0f, false},
+    {FACET_AOV_ALBEDO, "albedo", 3, {"albedo.R", "albedo.G", "albedo.B"}, 0.0f, false},
+    {FACET_AOV_MATERIAL_ID, "material", 1, {"material.id"}, 0.0f, true},
+    {FACET_AOV_OBJECT_ID, "object", 1, {"object.id"}, 0.0f, true},
+    {FACET_AOV_INSTANCE_ID, "instance", 1, {"instance.id"}, 0.0f, true},
+    {FACET_AOV_UV, "uv", 2, {"uv.U", "uv.V"}, 0.0f, false},
+    {FACET_AOV_OCCLUSION, "occlusion", 1, {"occlusion.A"}, 0.0f, false},
+    {FACET_AOV_VARIANCE, "variance", 3, {"variance.R", "variance.G", "variance.B"}, 0.0f, false},
+    {FACET_AOV_SAMPLES, "samples", 1, {"samples.N"}, 0.0f, true},
+    CRYPTOMATTE_LAYERS(FACET_AOV_CRYPTO_OBJECT, "CryptoObject"),
+    CRYPTOMATTE_LAYERS(FACET_AOV_CRYPTO_MATERIAL, "CryptoMaterial"),
+    CRYPTOMATTE_LAYERS(FACET_AOV_CRYPTO_INSTANCE, "CryptoInstance"),
 };
 enum { LAYER_KIND_COUNT = sizeof layer_kinds / sizeof *layer_kinds };
 _Static_assert((int)LAYER_KIND_COUNT <= (int)FILM_MAX_LAYERS, "a film has room for every layer");
@@ -61,6 +78,7 @@ facet_result film_create(const facet_allocator *allocator, uint32_t width, uint3
         f.layers[f.layer_count++] = (film_layer){.name = kind->name,
                                                  .channel_names = kind->channel_names,
                                                  .channel_count = kind->channel_count,
+                                                 .needs_float = kind->needs_float,
                                                  .pixels = pixels};
     }
     *out = f;
@@ -71,6 +89,10 @@ void film_destroy(film *f)
 {
     for (uint32_t i = 0; i < f->layer_count; i++)
         mem_free(f->layers[i].pixels);
+    for (uint32_t i = 0; i < f->text_count; i++) {
+        mem_free(f->texts[i].name);
+        mem_free(f->texts[i].value);
+    }
     *f = (film){0};
 }
 
@@ -80,6 +102,22 @@ film_layer *film_find(film *f, const char *name)
         if (strcmp(f->layers[i].name, name) == 0)
             return &f->layers[i];
     return NULL;
+}
+
+static char *copy_text(const char *from, const facet_allocator *allocator)
+{
+    size_t size = strlen(from) + 1;
+    char *copy = mem_alloc(allocator, size, 1);
+    return copy ? memcpy(copy, from, size) : NULL;
+}
+
+facet_result film_add_text(film *f, const char *name, const char *value, const facet_allocator *allocator,
+                           facet_error *error)
+{
+    film_text *text = &f->texts[f->text_count++]; /* film_destroy() releases what there is of it */
+    text->name = copy_text(name, allocator);
+    text->value = copy_text(value, allocator);
+    return text->name && text->value ? FACET_OK : fail_memory(error, "metadata", strlen(value));
 }
 
 /* ---- development ---- */

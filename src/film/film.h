@@ -4,20 +4,28 @@
 
 #include "facet/facet.h"
 
-enum { FILM_MAX_LAYERS = 9 };
+enum { FILM_MAX_LAYERS = 20, FILM_MAX_TEXTS = 12 };
 
 typedef struct film_layer {
     const char *name;                 /* "", "normal" .. */
     const char *const *channel_names; /* full names as in an EXR file */
     uint32_t channel_count;
-    float *pixels; /* interleaved, width * height * channel_count; block of mem_alloc() */
+    bool needs_float; /* IDs and counts, which halves would round */
+    float *pixels;    /* interleaved, width * height * channel_count; block of mem_alloc() */
 } film_layer;
+
+/* What a file says of layers: an attribute of an EXR file. */
+typedef struct film_text {
+    char *name, *value; /* blocks of mem_alloc() */
+} film_text;
 
 /* Layer 0 is the picture, RGBA premultiplied. */
 typedef struct film {
     uint32_t width, height;
     uint32_t layer_count;
     film_layer layers[FILM_MAX_LAYERS];
+    uint32_t text_count;
+    film_text texts[FILM_MAX_TEXTS];
 } film;
 
 /* Layers for the facet_aov bits of aovs, all 0 (depth: infinity). */
@@ -25,6 +33,9 @@ facet_result film_create(const facet_allocator *allocator, uint32_t width, uint3
                          film *out, facet_error *error);
 void film_destroy(film *f);                       /* {0} is allowed */
 film_layer *film_find(film *f, const char *name); /* NULL: not asked for */
+/* Adds copies. FACET_ERROR_MEMORY. */
+facet_result film_add_text(film *f, const char *name, const char *value, const facet_allocator *allocator,
+                           facet_error *error);
 
 /* Tone-maps the picture in place: un-premultiplies, applies operator, clamps negative values to 0, premultiplies
  * again, and lays it over color (display-linear RGB; NULL: stays transparent). */

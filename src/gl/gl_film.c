@@ -5,8 +5,11 @@
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "draw/sample_pattern.h"
+#include "film/matte.h"
 #include "gl/gl_camera.h"
 #include "gl/gl_sampling.h"
+#include "scene/identity.h"
 
 /* Pixels that are drawn at once: some 170 MB with 4 samples; between tiles the caller may cancel. */
 static const uint64_t TILE_PIXELS = 1u << 21;
@@ -24,6 +27,8 @@ typedef struct drawing {
     uint32_t tile_width, tile_height, columns, rows;
     bool looks_around; /* passes read pixels of others: of the whole picture, as far as it can be had */
     gl_target layers;
+    scene_identity *identities; /* per geometry; NULL: no layer asks for them */
+    matte_layers mattes;
     float *pixels; /* of a tile, as drawn */
     film *film;
     render_watch watch;
@@ -154,36 +159,77 @@ static facet_result draw_picture(drawing *d, const tile *t, facet_error *error)
 
 /* ---- layers ---- */
 
+enum { NUMBER_LAYER = 2, MATTE_SAMPLES = 16 };
+
 /* Which numbers of what was drawn are a layer. */
 static const struct layer_source {
     const char *name;
     uint8_t layer, first, count;
-} layer_sources[] = {{"normal", 0, 0, 3},    {"depth", 0, 3, 1},    {"albedo", 1, 0, 3},
-                     {"occlusion", 1, 3, 1}, {"material", 2, 0, 1}, {"uv", 2, 1, 2}};
+} layer_sources[] = {{"normal", 0, 0, 3},
+                     {"depth", 0, 3, 1},
+                     {"albedo", 1, 0, 3},
+                     {"occlusion", 1, 3, 1},
+                     {"uv", NUMBER_LAYER, 1, 2}};
+
+/* Which number of an identity is a layer. */
+static const struct identity_source {
+    const char *name;
+    scene_identity_kind kind;
+} identity_sources[] = {{"object", SCENE_IDENTITY_OBJECT},
+                        {"material", SCENE_IDENTITY_MATERIAL},
+                        {"instance", SCENE_IDENTITY_INSTANCE}};
+
+/* Where pixel (x, y) of a tile is in the film. */
+static size_t place_of(const drawing *d, const tile *t, uint32_t x, uint32_t y)
+{
+    const uint32_t *crop = d->desc->render->crop;
+    return (size_t)(t->y - crop[1] + y) * crop[2] + (t->x - crop[0]) + x;
+}
 
 /* The film has what stands for nothing; that stays where nothing was drawn. */
 static void store_layer(const drawing *d, const struct layer_source *source, const tile *t,
                         const uint8_t *is_there)
 {
     const film_layer *layer = film_find(d->film, source->name);
-    const uint32_t *crop = d->desc->render->crop;
     if (!layer)
         return;
     for (uint32_t y = 0; y < t->height; y++)
         for (uint32_t x = 0; x < t->width; x++) {
             size_t from = (size_t)y * t->width + x;
-            size_t to = (size_t)(t->y - crop[1] + y) * crop[2] + (t->x - crop[0]) + x;
             if (is_there[from])
-                memcpy(layer->pixels + to * layer->channel_count, d->pixels + 4 * from + source->first,
-                       source->count * sizeof(float));
+                memcpy(layer->pixels + place_of(d, t, x, y) * layer->channel_count,
+                       d->pixels + 4 * from + source->first, source->count * sizeof(float));
+        }
+}
+
+/* What was drawn at a pixel of the layer with the numbers of geometries; NULL: nothing. */
+static const scene_identity *find_identity(const drawing *d, const float *pixel)
+{
+    return pixel[3] > 0.0f && pixel[0] < (float)d->desc->scene->geometries.count
+               ? &d->identities[(uint32_t)(pixel[0] + 0.5f)]
+               : NULL;
+}
+
+static void store_identities(const drawing *d, const struct identity_source *source, const tile *t)
+{
+    const film_layer *layer = film_find(d->film, source->name);
+    if (!layer)
+        return;
+    for (uint32_t y = 0; y < t->height; y++)
+        for (uint32_t x = 0; x < t->width; x++) {
+            const scene_identity *one = find_identity(d, d->pixels + 4 * ((size_t)y * t->width + x));
+            if (one)
+                layer->pixels[place_of(d, t, x, y)] = one->numbers[source->kind];
         }
 }
 
 static void store_layers(const drawing *d, const tile *t, uint8_t *is_there)
 {
-    read_tile(d, &d->layers, 2, t, 1);
+    read_tile(d, &d->layers, NUMBER_LAYER, t, 1);
     for (size_t i = 0; i < (size_t)t->width * t->height; i++)
         is_there[i] = d->pixels[4 * i + 3] > 0.0f;
+    for (size_t i = 0; d->identities && i < sizeof identity_sources / sizeof *identity_sources; i++)
+        store_identities(d, &identity_sources[i], t);
     for (uint8_t layer = 0; layer < GL_TARGET_LAYERS; layer++) {
         read_tile(d, &d->layers, layer, t, 1);
         for (size_t i = 0; i < sizeof layer_sources / sizeof *layer_sources; i++)
@@ -192,23 +238,69 @@ static void store_layers(const drawing *d, const tile *t, uint8_t *is_there)
     }
 }
 
-/* One sample at the middle of each pixel. */
-static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
+/* Adds one sample of each pixel of the tile to Cryptomatte's layers. */
+static void add_mattes(const drawing *d, const tile *t)
+{
+    read_tile(d, &d->layers, NUMBER_LAYER, t, 1);
+    for (uint32_t y = 0; y < t->height; y++)
+        for (uint32_t x = 0; x < t->width; x++) {
+            const float *pixel = d->pixels + 4 * ((size_t)y * t->width + x);
+            const scene_identity *one = find_identity(d, pixel);
+            if (one)
+                matte_add(&d->mattes, place_of(d, t, x, y), one->hashes, pixel[3]);
+        }
+}
+
+/* Draws one sample per pixel, jitter pixels beside the middle. */
+static facet_result sample_layers(drawing *d, const tile *t, const float jitter[2], facet_error *error)
 {
     const gl_film_desc *desc = d->desc;
     gl_view view = view_of(t, 1);
     gl_frame_block block = {.channel = 0};
-    uint8_t *is_there = mem_alloc(&desc->render->allocator, (size_t)t->width * t->height, 1);
-    if (!is_there)
-        return fail_memory(error, "layers", (size_t)t->width * t->height);
+    memcpy(view.jitter, jitter, sizeof view.jitter);
     gl_camera_set(desc->frame->context, desc->camera, desc->scene->pose.bounds_min,
                   desc->scene->pose.bounds_max, desc->render->width, desc->render->height, &view, &block);
     facet_result result = gl_target_update(&d->layers, desc->frame->context, GL_TARGET_LAYERED, view.width,
                                            view.height, 1, error);
-    if (result == FACET_OK)
-        result = gl_frame_draw_layers(desc->frame, &d->layers, desc->render, &block, error);
-    if (result == FACET_OK)
+    return result == FACET_OK ? gl_frame_draw_layers(desc->frame, &d->layers, desc->render, &block, error)
+                              : result;
+}
+
+/* Opaque surfaces and the nearest of those that are not: what is behind one that light passes counts as nothing. */
+static facet_result draw_mattes(drawing *d, const tile *t, facet_error *error)
+{
+    float points[2 * MATTE_SAMPLES];
+    facet_result result = FACET_OK;
+    sample_pattern(MATTE_SAMPLES, points);
+    for (int i = 0; i < MATTE_SAMPLES && result == FACET_OK; i++) {
+        const float jitter[2] = {points[2 * i] - 0.5f, points[2 * i + 1] - 0.5f};
+        result = sample_layers(d, t, jitter, error);
+        if (result == FACET_OK)
+            add_mattes(d, t);
+        if (result == FACET_OK)
+            result = check_watch(d, error);
+    }
+    for (uint32_t y = 0; y < t->height && result == FACET_OK; y++)
+        for (uint32_t x = 0; x < t->width; x++)
+            matte_finish(&d->mattes, place_of(d, t, x, y), 1.0f / (float)MATTE_SAMPLES);
+    return result;
+}
+
+/* One sample at the middle of each pixel, and those of Cryptomatte. */
+static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
+{
+    static const float middle[2] = {0.0f, 0.0f};
+    const gl_film_desc *desc = d->desc;
+    uint8_t *is_there = mem_alloc(&desc->render->allocator, (size_t)t->width * t->height, 1);
+    if (!is_there)
+        return fail_memory(error, "layers", (size_t)t->width * t->height);
+    facet_result result = FACET_OK;
+    if (desc->render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE)
+        result = sample_layers(d, t, middle, error);
+    if (result == FACET_OK && desc->render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE)
         store_layers(d, t, is_there);
+    if (result == FACET_OK && d->mattes.aovs)
+        result = draw_mattes(d, t, error);
     if (result == FACET_OK)
         result = gl_context_check(desc->frame->context, "the layers", error);
     mem_free(is_there);
@@ -235,9 +327,14 @@ static facet_result prepare(drawing *d, facet_error *error)
     gl_sampling_jitter(&d->sampling, d->jitter);
     memset(d->film->layers[0].pixels, 0,
            4 * sizeof(float) * (size_t)d->film->width * d->film->height); /* an attempt may have failed */
+    d->mattes = matte_find(d->film);
+    matte_clear(&d->mattes, (size_t)d->film->width * d->film->height);
     render_watch_init(&d->watch, &r->progress, "shade", d->desc->deadline_s,
                       (double)r->crop[2] * (double)r->crop[3] * (double)d->sampling.passes);
-    return FACET_OK;
+    if (!(r->aovs & SCENE_IDENTITY_AOVS))
+        return FACET_OK;
+    const gl_scene *scene = d->desc->scene;
+    return scene_identities_create(scene->scene, &scene->pose, &r->allocator, &d->identities, error);
 }
 
 facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *error)
@@ -253,6 +350,7 @@ facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *e
             result = check_watch(&d, error);
     }
     gl_target_destroy(&d.layers);
+    mem_free(d.identities);
     mem_free(d.pixels);
     mem_free(d.jitter);
     return result;

@@ -44,7 +44,7 @@ uint32_t gl_frame_max_samples(const gl_frame *frame, const facet_render_desc *de
 facet_result gl_frame_draw(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
                            gl_frame_block *block, facet_error *error);
 /* The AOVs of the nearest surfaces into the layers of a GL_TARGET_LAYERED: normal and depth (m; 0: nothing is there); base
- * color and occlusion; material id plus 1, texture coordinates, 1. */
+ * color and occlusion; number of the geometry, texture coordinates, opacity. */
 facet_result gl_frame_draw_layers(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
                                   gl_frame_block *block, facet_error *error);
 /* A resolved picture as a window's numbers into the framebuffer that is bound, its lower left corner at x, y. */

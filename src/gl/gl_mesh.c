@@ -59,7 +59,7 @@ void gl_mesh_destroy(gl_mesh_set *set)
 
 /* ---- instances ---- */
 
-static void load_instance(const render_geometry *g, gl_instance *out)
+static void load_instance(const render_geometry *g, uint32_t number, gl_instance *out)
 {
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 4; column++)
@@ -67,7 +67,7 @@ static void load_instance(const render_geometry *g, gl_instance *out)
     memcpy(out->normal_matrix, g->normal_matrix, sizeof out->normal_matrix);
     out->scale = g->scale;
     out->bitangent_sign = g->bitangent_sign;
-    out->material_id = (float)g->material_id;
+    out->number = (float)number;
     out->sprite_radius =
         g->primitive->mode == SCENE_TRIANGLES ? 0.0f : render_geometry_sprite_radius(g->primitive->mode);
     if (g->primitive->mode == SCENE_POINTS)
@@ -151,7 +151,7 @@ static void place_instances(gl_mesh_set *set, const gl_scene *scene, const uint3
     for (uint32_t i = 0; i < scene->geometries.count; i++) {
         gl_batch *b = &set->batches[batch_of[i]];
         uint32_t place = b->first_instance + b->instance_count++;
-        load_instance(&scene->geometries.items[i], &set->instances[place]);
+        load_instance(&scene->geometries.items[i], i, &set->instances[place]);
         set->instance_geometries[place] = i;
     }
 }

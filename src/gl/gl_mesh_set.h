@@ -7,8 +7,8 @@
 /* What an instance is drawn with; matrices by rows. */
 typedef struct gl_instance {
     float world[12], normal_matrix[9];
-    float scale, bitangent_sign, material_id; /* one attribute, with what follows */
-    float sprite_radius;                      /* pixels */
+    float scale, bitangent_sign, number; /* of the scene's geometry; one attribute, with what follows */
+    float sprite_radius;                 /* pixels */
 } gl_instance;
 
 /* An array object, and what it was made from. */

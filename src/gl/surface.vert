@@ -7,7 +7,7 @@ in vec2 texcoord1;
 in vec4 world0; /* rows of the instance's matrix */
 in vec4 world1;
 in vec4 world2;
-in vec4 instance; /* scale, sign of bitangents, material id + 1, radius of sprites in pixels */
+in vec4 instance; /* scale, sign of bitangents, number of the geometry, radius of sprites in pixels */
 #ifdef IS_SPRITE
 in vec3 position_end; /* of a line; that of a point is where it begins */
 in vec3 normal_end;

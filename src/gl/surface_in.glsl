@@ -9,7 +9,7 @@ in vec4 v_texcoord23;
 in vec3 v_tangent;
 flat in float v_handedness;
 #endif
-flat in vec4 v_instance; /* scale, sign of bitangents, material id + 1 */
+flat in vec4 v_instance; /* scale, sign of bitangents, number of the geometry */
 
 /* 1: the side with counter-clockwise vertices is seen, -1: the other one. */
 float seen_side()

@@ -13,9 +13,11 @@
 #include "draw/render_watch.h"
 #include "cpu/tiles.h"
 #include "film/denoise.h"
+#include "film/matte.h"
 #include "path/path_film.h"
 #include "path/path_key.h"
 #include "path/path_lights.h"
+#include "scene/identity.h"
 
 enum {
     TILE = 16,          /* pixels along a side */
@@ -34,6 +36,7 @@ typedef struct path_picture {
     path_key key;
     double saved_s; /* when the checkpoint was written, or the picture begun */
     float ground_y;
+    matte_layers mattes; /* of target: sums until develop() */
     /* of one instant */
     facet_render_desc instant; /* desc at its time */
     render_setup setup;
@@ -59,6 +62,9 @@ static uint64_t draw_pixel(path_picture *p, uint32_t x, uint32_t y, size_t pixel
         path_sample sample;
         path_trace(&p->scene, crop[0] + x, crop[1] + y, i, &sample);
         path_film_add(p->sums, pixel, &sample);
+        if (p->mattes.aovs && sample.first_share != 0.0f)
+            matte_add(&p->mattes, pixel, p->setup.identities[sample.first_geometry].hashes,
+                      sample.first_share);
         rays += sample.rays;
     }
     return rays;
@@ -130,7 +136,8 @@ static facet_result begin_instant(path_picture *p, facet_error *error)
                             .has_ground = desc->ground == FACET_GROUND_SHADOW,
                             .ground_y = p->ground_y,
                             .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT,
-                            .sea = p->prepared->scene->sea};
+                            .sea = p->prepared->scene->sea,
+                            .finds_first = p->mattes.aovs != 0};
     return result;
 }
 
@@ -353,11 +360,21 @@ static facet_result draw(path_picture *p, facet_error *error)
 static facet_result draw_aovs(path_picture *p, facet_error *error)
 {
     facet_render_desc desc = *p->desc;
-    desc.aovs &= ~(uint32_t)(GUIDES | FACET_AOV_SAMPLES);
+    desc.aovs &= ~(uint32_t)(GUIDES | FACET_AOV_SAMPLES | FACET_AOV_CRYPTOMATTE);
     if (!desc.aovs)
         return FACET_OK;
-    tiles_desc tiles = {.render = &desc, .scene = &p->setup.shading};
+    tiles_desc tiles = {.render = &desc, .scene = &p->setup.shading, .identities = p->setup.identities};
     return tiles_draw_aovs(&tiles, p->target, p->stats, error);
+}
+
+/* From sums over a pixel's samples to shares of it. */
+static void finish_mattes(path_picture *p)
+{
+    size_t pixel_count = (size_t)p->target->width * p->target->height;
+    for (size_t pixel = 0; p->mattes.aovs && pixel < pixel_count; pixel++) {
+        uint32_t samples = path_film_samples(p->sums, pixel);
+        matte_finish(&p->mattes, pixel, samples ? 1.0f / (float)samples : 0.0f);
+    }
 }
 
 static void tell_dropped(const path_picture *p)
@@ -384,6 +401,7 @@ static facet_result develop(path_picture *p, facet_error *error)
             return result;
     }
     path_film_resolve(p->sums, scale, p->target, desc->thread_count);
+    finish_mattes(p);
     p->stats->samples = path_film_total_samples(p->sums);
     p->stats->dropped_samples = path_film_dropped(p->sums);
     p->stats->rays += atomic_load(&p->rays);
@@ -401,7 +419,9 @@ static facet_result attempt(prepared_scene *prepared, const facet_render_desc *d
                       .prepared = prepared,
                       .target = target,
                       .stats = stats,
+                      .mattes = matte_find(target),
                       .deadline_s = deadline_s};
+    matte_clear(&p.mattes, (size_t)target->width * target->height); /* an attempt may have failed */
     facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
     if (result == FACET_OK)
         result = prepared_scene_pose(prepared, desc, error);

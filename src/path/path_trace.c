@@ -43,9 +43,22 @@ static path start(const path_scene *scene, const path_camera_ray *camera, path_s
                   .out = out};
 }
 
-/* A camera in a body sees through it, and all beyond is seen through something. */
-static void trace_inside(path *p)
+static ray_first find_first(path *p, const path_camera_ray *camera)
 {
+    ray_first first = ray_trace_first(p->shading, &camera->ray, path_sampler_number(&p->sampler));
+    p->out->rays += first.rays;
+    p->out->first_geometry = first.hit.geometry;
+    p->out->first_share = first.opacity * camera->weight;
+    return first;
+}
+
+/* A camera in a body sees through it, and all beyond is seen through something. */
+static void trace_inside(path *p, const path_camera_ray *camera)
+{
+    path_sampler sampler = p->sampler;
+    if (p->scene->finds_first)
+        find_first(p, camera);
+    p->sampler = sampler; /* the path is the same one */
     path_walk(p);
     p->out->opacity = 1.0f;
 }
@@ -63,8 +76,7 @@ static void add_air(path *p, const path_camera_ray *camera, const ray_first *fir
 
 static void trace_outside(path *p, const path_camera_ray *camera)
 {
-    ray_first first = ray_trace_first(p->shading, &camera->ray, path_sampler_number(&p->sampler));
-    p->out->rays += first.rays;
+    ray_first first = find_first(p, camera);
     p->out->opacity = first.opacity;
     p->throughput = vec3(first.opacity);
     if (!(first.opacity > 0.0f))
@@ -85,7 +97,7 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
     out->rays += ray_trace_media_at(p.shading, camera.ray.origin, &p.media);
     p.is_in_sea = scene->sea && scene->sea->is_below;
     if (p.media.count || p.is_in_sea)
-        trace_inside(&p);
+        trace_inside(&p, &camera);
     else
         trace_outside(&p, &camera);
     vec3 ground;

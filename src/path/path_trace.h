@@ -15,6 +15,7 @@ typedef struct path_scene {
     float ground_y; /* m: the plane of FACET_GROUND_SHADOW (along the up axis of the scene: +Y) */
     bool draws_background;
     const struct path_sea *sea; /* NULL: there is none */
+    bool finds_first;           /* path_sample.first_geometry is wanted where it costs a ray, too */
 } path_scene;
 
 /* One sample of a pixel. */
@@ -27,6 +28,10 @@ typedef struct path_sample {
     float normal[3]; /* its unit shading normal, world space */
     /* On the shadow-catching ground: illuminance / pi that comes, and that would come without the model. 0: not there */
     float ground_lit[3], ground_open[3];
+    /* What the camera's ray sees first, and the opacity of all surfaces that it sees there in a row, times the filter's
+     * weight; 0: it sees none */
+    uint32_t first_geometry;
+    float first_share;
     uint64_t rays; /* traced for it */
 } path_sample;
 

@@ -103,10 +103,13 @@ for how in '' '--samples 16' '--samples 64' '--quality final' '--crop 30,25,60,5
     expect 0 render model.gltf -o gpu.exr --size 120x90 --background '#345' $how --renderer gl
     near cpu.exr gpu.exr
 done
-expect 0 render -o cpu.exr --size 96x64 --aov depth,normal,albedo,material,uv,occlusion
-expect 0 render -o gpu.exr --size 96x64 --aov depth,normal,albedo,material,uv,occlusion --renderer gl
+expect 0 render -o cpu.exr --size 96x64 --aov all
+expect 0 render -o gpu.exr --size 96x64 --aov all --renderer gl
 for layer in normal albedo material occlusion uv; do
     "$facet" compare cpu.exr gpu.exr --layer $layer --max mae=0.005 >out 2>err || failed "layer $layer differs"
+done
+for layer in object instance; do # numbers of 32 balls: one pixel in two hundred may show another one at an edge
+    "$facet" compare cpu.exr gpu.exr --layer $layer --max mae=0.1 >out 2>err || failed "layer $layer differs"
 done
 
 # Deterministic; every format; several models; a sequence is drawn by one renderer.

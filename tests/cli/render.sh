@@ -17,8 +17,9 @@ for case in "a.png:PNG image data, 48 x 32" "a.jpg:JPEG image data" "a.JPEG:JPEG
 done
 expect 0 render $small -o a.dat --format png16
 is_type a.dat "PNG image data, 48 x 32, 16-bit/color RGB"
-expect 0 render $small -o a.exr --format exr32 --aov depth,normal,albedo,material,uv,occlusion
-for channel in Z normal.X albedo.R material.id uv.U occlusion.A; do
+expect 0 render $small -o a.exr --aov all
+for channel in Z normal.X albedo.R material.id object.id instance.id uv.U occlusion.A CryptoObject00.R \
+    CryptoInstance02.A cryptomatte/3ae39a5/manifest MurmurHash3_32; do
     grep -qaF $channel a.exr || failed "a.exr lacks the channel $channel"
 done
 expect 0 render $small -o a.png --background transparent

@@ -4,7 +4,7 @@
 set -eu
 . "$(dirname "$0")/lib.sh"
 
-for options in "--size 160x120" "--size 97x61 --format exr --aov depth,normal --env-rotation 30" \
+for options in "--size 160x120" "--size 97x61 --format exr --aov all --env-rotation 30" \
     "--size 64 --quality final --background env --format webp"; do
     for threads in 1 2 3 7; do
         expect 0 render $options -j $threads -o picture.$threads --format png $options

@@ -58,7 +58,13 @@ says "is not preview, path or gl"
 expect 2 render -o x.bmp
 says ".png, .jpg, .webp, .exr, .hdr, .pfm or .y4m"
 expect 2 render --aov depth -o x.png
-says "only .exr files have layers"
+says "only .exr files hold layers"
+expect 2 render --aov depth,variance -o x.exr
+says "--renderer preview has depth, normal, albedo, material, object, instance, uv, occlusion, cryptomatte"
+expect 2 render --aov samples -o x.exr --renderer gl
+says "--renderer gl has depth, normal"
+expect 2 render --aov cryptomatte -o x.exr --renderer path --checkpoint y.exr --resume
+says "a checkpoint does not keep cryptomatte"
 expect 2 render --max-memory lots
 expect 2 render --time-limit 0
 expect 2 render --turntable 3 -o a.png

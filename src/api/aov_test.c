@@ -1,0 +1,206 @@
+/* Tests of layers as a program of somebody else uses them: IDs and Cryptomatte of all renderers beside each other. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "facet/facet.h"
+
+/* A blended square before an opaque one that is wider, both in the plane of the picture; no other node has a mesh. */
+static const char two_squares[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[1,2]}],\"nodes\":[{\"name\":"
+    "\"empty\"},{\"name\":\"wall\",\"mesh\":0,\"scale\":[2,2,1]},{\"name\":\"glass\",\"mesh\":1,"
+    "\"translation\":[0.5,0,1]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":5,"
+    "\"material\":0}]},{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":5,\"material\":1}]}],"
+    "\"materials\":[{\"name\":\"brick\",\"extensions\":{\"KHR_materials_unlit\":{}}},{\"name\":\"film\","
+    "\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0,0,0.25]},\"extensions\":"
+    "{\"KHR_materials_unlit\":{}}}],\"extensionsUsed\":[\"KHR_materials_unlit\"],\"accessors\":[{"
+    "\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48}],\"buffers\":[{\"byteLength\":48,\"uri\":"
+    "\"data:application/octet-stream;base64,"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAACAPwAAgD8AAAAA\"}]}";
+
+enum { WIDTH = 48, HEIGHT = 40, PIXELS = WIDTH * HEIGHT };
+static const uint32_t every_renderer =
+    FACET_AOV_MATERIAL_ID | FACET_AOV_OBJECT_ID | FACET_AOV_INSTANCE_ID | FACET_AOV_CRYPTOMATTE;
+static const char *const kinds[] = {"CryptoObject", "CryptoMaterial", "CryptoInstance"};
+
+/* NULL: there is no OpenGL. */
+static facet_image *draw(const facet_scene *scene, facet_integrator integrator)
+{
+    facet_camera camera = {
+        .eye = {1.2f, 1.1f, 5}, .target = {1.2f, 1.1f, 0}, .up = {0, 1, 0}, .fov_y_rad = 0.6f};
+    facet_image *image = NULL;
+    facet_error error = {0};
+    facet_render_desc desc = {.width = WIDTH,
+                              .height = HEIGHT,
+                              .camera = &camera,
+                              .integrator = integrator,
+                              .samples = 16,
+                              .aovs = every_renderer};
+    facet_result result = facet_render(scene, &desc, &image, &error);
+    if (result == FACET_ERROR_ENVIRONMENT && integrator == FACET_INTEGRATOR_GL) {
+        printf("without OpenGL: %s\n", error.message);
+        return NULL;
+    }
+    if (result != FACET_OK)
+        fail_msg("%s", error.message);
+    return image;
+}
+
+static const float *find(const facet_image *image, const char *name)
+{
+    for (uint32_t i = 0; i < facet_image_get_layer_count(image); i++) {
+        facet_image_view view = facet_image_get_layer(image, i);
+        if (strcmp(view.name, name) == 0)
+            return view.pixels;
+    }
+    fail_msg("there is no layer %s", name);
+    return NULL;
+}
+
+/* ID and share of a rank. */
+static const float *rank_of(const facet_image *image, const char *kind, uint32_t rank, size_t pixel)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%s%02u", kind, rank / 2);
+    return find(image, name) + 4 * pixel + 2 * (rank % 2);
+}
+
+static float share_of_all(const facet_image *image, const char *kind, size_t pixel)
+{
+    float sum = 0.0f, last = 1.0f;
+    for (uint32_t rank = 0; rank < 6; rank++) {
+        const float *r = rank_of(image, kind, rank, pixel);
+        assert_true(r[1] <= last && r[1] >= 0.0f && (r[1] > 0.0f || r[0] == 0.0f));
+        sum += last = r[1];
+    }
+    return sum;
+}
+
+static facet_scene *load_squares(void)
+{
+    facet_scene *scene = NULL;
+    facet_error error;
+    if (facet_scene_load_memory(two_squares, sizeof two_squares - 1, "two.gltf", NULL, &scene, &error) !=
+        FACET_OK)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+/* Of the CPU's renderers for every pixel; OpenGL has other samples, and sees no further than the nearest surface. */
+static void shares_add_up_to_the_opacity(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_squares();
+    for (int renderer = FACET_INTEGRATOR_PREVIEW; renderer <= (int)FACET_INTEGRATOR_PATH; renderer++) {
+        facet_image *image = draw(scene, (facet_integrator)renderer);
+        const float *rgba = find(image, "");
+        double covered = 0.0;
+        for (size_t i = 0; i < PIXELS; i++) {
+            covered += (double)rgba[4 * i + 3];
+            for (int kind = 0; kind < 3; kind++)
+                assert_true(fabsf(share_of_all(image, kinds[kind], i) - rgba[4 * i + 3]) < 1e-5f);
+        }
+        assert_true(covered > 0.25 * PIXELS && covered < 0.95 * PIXELS);
+        facet_image_destroy(image);
+    }
+    facet_scene_destroy(scene);
+}
+
+/* Where the blended square covers the other one it has a quarter of the pixel, in each renderer. */
+static void what_blends_shares_pixels(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_squares();
+    for (int renderer = FACET_INTEGRATOR_PREVIEW; renderer <= (int)FACET_INTEGRATOR_GL; renderer++) {
+        facet_image *image = draw(scene, (facet_integrator)renderer);
+        if (!image)
+            continue;
+        const float *object = find(image, "object"), *material = find(image, "material"),
+                    *instance = find(image, "instance");
+        size_t shared = 0, alone = 0;
+        for (size_t i = 0; i < PIXELS; i++) {
+            const float *most = rank_of(image, kinds[0], 0, i), *second = rank_of(image, kinds[0], 1, i);
+            bool is_shared = object[i] == 3.0f && material[i] == 2.0f && instance[i] == 2.0f;
+            bool is_alone = object[i] == 2.0f && material[i] == 1.0f && instance[i] == 1.0f;
+            assert_true(is_shared || is_alone || object[i] + material[i] + instance[i] == 0.0f);
+            bool is_gl = renderer == (int)FACET_INTEGRATOR_GL;
+            float share = is_gl ? most[1] : second[1];
+            shared += is_shared && fabsf(share - 0.25f) < (renderer == 1 ? 0.25f : 1e-4f);
+            alone += is_alone && most[1] == 1.0f && second[1] == 0.0f;
+        }
+        if (shared < 150 || alone < 300)
+            fail_msg("renderer %d: %zu shared pixels, %zu of one object", renderer, shared, alone);
+        facet_image_destroy(image);
+    }
+    facet_scene_destroy(scene);
+}
+
+static bool contains(const unsigned char *bytes, size_t size, const char *text)
+{
+    size_t length = strlen(text);
+    for (size_t i = 0; i + length <= size; i++)
+        if (memcmp(bytes + i, text, length) == 0)
+            return true;
+    return false;
+}
+
+/* A header of OpenEXR is not compressed. c17feb92 is MurmurHash3 of "glass". */
+static void files_have_the_manifest(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_squares();
+    facet_image *image = draw(scene, FACET_INTEGRATOR_PREVIEW);
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    facet_error error;
+    facet_result result =
+        facet_image_encode(image, &(facet_save_desc){.format = FACET_FORMAT_EXR}, &bytes, &size, &error);
+    if (result == FACET_ERROR_UNSUPPORTED) {
+        printf("skipped: %s\n", error.message);
+    } else {
+        assert_int_equal(result, FACET_OK);
+        assert_true(contains(bytes, size, "cryptomatte/3ae39a5/manifest"));
+        assert_true(contains(bytes, size, "{\"glass\":\"c17feb92\",\"wall\":\""));
+        assert_true(contains(bytes, size, "\"wall#1\":\""));
+        assert_true(contains(bytes, size, "{\"brick\":\""));
+        assert_true(contains(bytes, size, "CryptoInstance02.A"));
+    }
+    facet_bytes_destroy(bytes);
+    facet_image_destroy(image);
+    facet_scene_destroy(scene);
+}
+
+static void checkpoints_keep_no_shares(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_squares();
+    facet_image *image = NULL;
+    facet_error error;
+    facet_render_desc desc = {.width = 8,
+                              .height = 8,
+                              .integrator = FACET_INTEGRATOR_PATH,
+                              .path = {.checkpoint_path = "no.exr", .resumes = true},
+                              .aovs = FACET_AOV_CRYPTO_MATERIAL};
+    assert_int_equal(facet_render(scene, &desc, &image, &error), FACET_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "checkpoint"));
+    assert_null(image);
+    facet_scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shares_add_up_to_the_opacity),
+        cmocka_unit_test(what_blends_shares_pixels),
+        cmocka_unit_test(files_have_the_manifest),
+        cmocka_unit_test(checkpoints_keep_no_shares),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
