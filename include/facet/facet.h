@@ -818,6 +818,7 @@ typedef struct facet_image_load_desc {
     /* of an OpenEXR file: "albedo", "normal", "depth" ..; its channels become R, G, B, opacity, one all three, of two
      * the third is 0. NULL: the picture */
     const char *layer;
+    facet_log log; /* what the file asks for and does not get; conversions of color */
 } facet_image_load_desc;
 
 /* Reads a PNG, JPEG, WebP, AVIF, KTX2, Radiance HDR, OpenEXR or PFM file, told apart by content, into layer "" as

@@ -102,15 +102,18 @@ facet_result facet_image_load_memory(const void *bytes, size_t size, const char 
     desc = desc ? desc : &defaults;
     *picture = NULL;
     const uint32_t thread_count = desc->thread_count ? desc->thread_count : facet_thread_count();
+    image_note note;
     const image_decode_desc decode = {.allocator = desc->allocator,
                                       .thread_count = thread_count,
                                       .max_size = desc->max_size,
                                       .layer = desc->layer,
-                                      .keeps_nonfinite = true};
+                                      .keeps_nonfinite = true,
+                                      .note = &note};
     image decoded = {0}, rgba = {0};
     facet_result result = image_decode(bytes, size, name, &decode, &decoded, error);
     if (result != FACET_OK)
         return result;
+    image_note_log(&note, name, &desc->log);
     const bool is_associated = image_codec_detect(bytes, size) == IMAGE_CODEC_EXR; /* the format says so */
     const bool is_straight = decoded.channel_count % 2 == 0 && !is_associated;
     const bool is_for_display = decoded.is_srgb;

@@ -151,7 +151,8 @@ static facet_result load(compare_run *run, const char *path, const char *layer, 
     const facet_image_load_desc desc = {.allocator = run->desc.allocator,
                                         .thread_count = run->limits.thread_count,
                                         .max_size = run->limits.max_texture_size,
-                                        .layer = layer};
+                                        .layer = layer,
+                                        .log = messages_log(&run->messages)};
     interrupt_begin_reading(input_name(path));
     facet_result result = input_load_image(path, &desc, image, error);
     if (result != FACET_OK) {

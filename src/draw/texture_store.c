@@ -37,6 +37,7 @@ typedef struct job {
     texture_want *want;
     stored_image *made; /* NULL: it failed */
     uint64_t texel_count, decoded_texels;
+    image_note note; /* of an image that was decoded */
     facet_result result;
     facet_error error;
 } job;
@@ -143,7 +144,8 @@ static facet_result decode(const texture_store *store, job *j, const char *name,
     image_decode_desc desc = {.allocator = store->allocator,
                               .thread_count = 1,
                               .max_size = store->scene->max_texture_size,
-                              .max_reduction = reduction};
+                              .max_reduction = reduction,
+                              .note = &j->note};
     facet_result result = image_decode(i->bytes, i->size, name, &desc, out, &j->error);
     if (result != FACET_OK)
         return result;
@@ -317,8 +319,8 @@ static void keep(image_record *record, stored_image *made)
     destroy_stored(old);
 }
 
-/* Warns of images that cannot be decoded; fails for those that say more of the machine than of the image. */
-static facet_result judge(texture_store *store, const job *jobs, size_t count, const facet_log *log,
+/* Reports the notes of images, and warns of those that cannot be decoded; fails for those that say more of the machine than of the image. */
+static facet_result report_jobs(texture_store *store, const job *jobs, size_t count, const facet_log *log,
                           facet_error *error)
 {
     for (size_t i = 0; i < count; i++)
@@ -331,6 +333,10 @@ static facet_result judge(texture_store *store, const job *jobs, size_t count, c
         if (jobs[i].result != FACET_OK) {
             store->records[jobs[i].want->image].has_failed = true;
             log_warning(log, "%s; it reads as white", jobs[i].error.message);
+        } else if (jobs[i].note.text[0]) {
+            char name[256];
+            name_image(store->scene, jobs[i].want->image, name, sizeof name);
+            image_note_log(&jobs[i].note, name, log);
         }
     return FACET_OK;
 }
@@ -354,7 +360,7 @@ facet_result texture_store_get(texture_store *store, texture_want *wants, size_t
         if (jobs[i].made)
             keep(&store->records[jobs[i].want->image], jobs[i].made);
     }
-    facet_result result = judge(store, jobs, job_count, log, error);
+    facet_result result = report_jobs(store, jobs, job_count, log, error);
     mem_free(jobs);
     for (size_t i = 0; i < count && result == FACET_OK; i++) {
         const image_record *record = &store->records[wants[i].image];

@@ -18,6 +18,7 @@ static void decode_faces(void *context, size_t begin, size_t end)
         cube_face *f = &job->faces[i];
         image_decode_desc how = environment_decode_desc(job->desc, &f->largest);
         how.thread_count = 1;
+        how.note = &f->note;
         f->result = image_decode(f->bytes, f->size, f->name, &how, &f->picture, &f->error);
         if (f->result == FACET_OK && f->picture.width != f->picture.height)
             f->result = fail(&f->error, FACET_ERROR_INVALID, "%s: %u x %u texels: faces of a cube are square",
@@ -36,6 +37,8 @@ facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc 
         else if (faces[i].picture.width != faces[0].picture.width)
             result = fail(error, FACET_ERROR_INVALID, "%s has %u texels along an edge, face +X has %u",
                           faces[i].name, faces[i].picture.width, faces[0].picture.width);
+        else
+            image_note_log(&faces[i].note, faces[i].name, &desc->log);
     }
     if (result != FACET_OK)
         cube_faces_destroy(faces);

@@ -12,6 +12,7 @@ typedef struct cube_face {
     const char *name; /* for messages */
     image picture;    /* decoded, with what is not finite */
     float largest;    /* what infinity becomes */
+    image_note note;  /* of decoding */
     facet_result result;
     facet_error error;
 } cube_face;
