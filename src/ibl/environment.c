@@ -133,18 +133,22 @@ static facet_result load_picture(facet_environment *e, const void *bytes, size_t
                                  const facet_environment_desc *desc, facet_error *error)
 {
     float largest;
+    image_note note;
     image header, decoded = {0}, rgb = {0};
     environment_repairs repairs = {.first = UINT64_MAX};
     facet_layout layout;
     image_decode_desc how = environment_decode_desc(desc, &largest);
+    how.note = &note;
     facet_result result = image_probe(bytes, size, name, &header, NULL, error);
     if (result == FACET_OK) /* before memory is taken */
         result = choose_layout(desc, &header, name, &layout, error);
     if (result == FACET_OK)
         result = image_decode(bytes, size, name, &how, &decoded, error);
-    if (result == FACET_OK)
+    if (result == FACET_OK) {
+        image_note_log(&note, name, &e->log);
         result = environment_repair(&decoded, largest, 0, &e->allocator, desc->thread_count, &rgb, &repairs,
                                     error);
+    }
     if (result == FACET_OK) {
         environment_report(e, &repairs, name, NULL, (uint32_t)(repairs.first % rgb.width),
                            (uint32_t)(repairs.first / rgb.width));
@@ -170,10 +174,14 @@ static facet_result load_ktx2(facet_environment *e, const void *bytes, size_t si
                      : load_picture(e, bytes, size, name, desc, error);
 }
 
+/* To be raised whenever the same file is read to other texels than before: what a cache holds of it is then not used. */
+enum { READER_VERSION = 1 };
+
 void environment_identify(facet_environment *environment, const void *bytes, size_t size)
 {
     if (environment->cache_folder)
-        environment->hash = cache_hash(environment->hash + environment->layout, bytes, size);
+        environment->hash =
+            cache_hash(environment->hash + environment->layout + (READER_VERSION << 8), bytes, size);
 }
 
 /* ---- the functions of facet.h ---- */

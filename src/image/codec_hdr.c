@@ -22,7 +22,8 @@ typedef struct hdr_header {
     uint32_t scan_count, scan_length;
     bool is_x_first;            /* scanlines are columns */
     bool is_x_falling, is_y_up; /* against the usual: left to right, top to bottom */
-    double exposure;            /* product of all EXPOSURE lines; texels were multiplied by it */
+    bool is_plain;              /* exactly four bytes per texel, without runs */
+    double exposure[3]; /* product of all EXPOSURE and COLORCORR lines; texels were multiplied by it */
     const unsigned char *data;
     size_t data_size;
 } hdr_header;
@@ -92,12 +93,32 @@ static bool parse_resolution(const char *line, size_t length, hdr_header *h)
     return true;
 }
 
+/* Multiplies h->exposure by what stands behind the key of a line: one number, or three for COLORCORR. */
+static facet_result parse_exposure(const char *line, size_t length, bool is_color, const char *name,
+                                   hdr_header *h, facet_error *error)
+{
+    const char *end = line + length;
+    const char *number = (const char *)memchr(line, '=', length) + 1;
+    double factor = 1.0;
+    for (int c = 0; c < 3; c++) {
+        while (number < end && *number == ' ')
+            number++;
+        if (c == 0 || is_color)
+            factor = codec_parse_number(number, end, &number);
+        h->exposure[c] *= factor;
+        if (!(h->exposure[c] > 1e-30 && h->exposure[c] < 1e30)) /* NaN too */
+            return fail(error, FACET_ERROR_INVALID, "%s: %.*s: %s expected", name,
+                        length < 40 ? (int)length : 40, line,
+                        is_color ? "three positive numbers were" : "a positive number was");
+    }
+    return FACET_OK;
+}
+
 static facet_result parse_header(const unsigned char *bytes, size_t size, const char *name, hdr_header *h,
                                  facet_error *error)
 {
     static const char format_key[] = "FORMAT=";
-    static const char exposure_key[] = "EXPOSURE=";
-    *h = (hdr_header){.exposure = 1.0};
+    *h = (hdr_header){.exposure = {1.0, 1.0, 1.0}};
     const unsigned char *p = bytes;
     const unsigned char *end = bytes + size;
     const char *line;
@@ -114,15 +135,10 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
             if (!starts_with(line, length, "32-bit_rle_rgbe"))
                 return fail(error, FACET_ERROR_UNSUPPORTED, "%s: FORMAT %.*s is not 32-bit_rle_rgbe", name,
                             length < 40 ? (int)length : 40, line);
-        } else if (starts_with(line, length, exposure_key)) {
-            const char *number = line + sizeof exposure_key - 1;
-            while (number < line + length && *number == ' ')
-                number++;
-            double exposure = codec_parse_number(number, line + length, NULL);
-            h->exposure *= exposure;
-            if (!(h->exposure > 1e-30 && h->exposure < 1e30)) /* NaN too */
-                return fail(error, FACET_ERROR_INVALID, "%s: %.*s: a positive number was expected", name,
-                            length < 40 ? (int)length : 40, line);
+        } else if (starts_with(line, length, "EXPOSURE=") || starts_with(line, length, "COLORCORR=")) {
+            facet_result result = parse_exposure(line, length, line[0] == 'C', name, h, error);
+            if (result != FACET_OK)
+                return result;
         }
     }
     if (!next_line(&p, end, &line, &length) || !parse_resolution(line, length, h))
@@ -151,13 +167,13 @@ facet_result hdr_probe(const unsigned char *bytes, size_t size, const char *name
  * never begins so, its largest component is 128 or more. */
 static bool is_coded(const hdr_header *h, const unsigned char *p)
 {
-    return p[0] == 2 && p[1] == 2 && p[2] < 128 && h->scan_length >= MIN_CODED_LENGTH &&
+    return !h->is_plain && p[0] == 2 && p[1] == 2 && p[2] < 128 && h->scan_length >= MIN_CODED_LENGTH &&
            h->scan_length <= MAX_CODED_LENGTH;
 }
 
-static bool is_repeat(const unsigned char *p)
+static bool is_repeat(const hdr_header *h, const unsigned char *p)
 {
-    return p[0] == 1 && p[1] == 1 && p[2] == 1;
+    return !h->is_plain && p[0] == 1 && p[1] == 1 && p[2] == 1;
 }
 
 /* Behind the coded scanline at p, NULL: it is damaged. Codes: 1 to 128 bytes that follow, or 129 to 255: one
@@ -191,7 +207,7 @@ static const unsigned char *skip_flat(const hdr_header *h, const unsigned char *
         if (end - p < 4)
             return NULL;
         uint64_t count = 1;
-        if (is_repeat(p)) {
+        if (is_repeat(h, p)) {
             count = shift < 32 ? (uint64_t)p[3] << shift : 0;
             shift += 8;
             if (t == 0 || shift > 32 || count > h->scan_length - t)
@@ -208,7 +224,7 @@ typedef struct hdr_reading {
     const hdr_header *header;
     const facet_allocator *allocator;
     const size_t *offsets; /* of the scanlines in the data */
-    float scales[256];     /* light of one unit of the mantissa, per exponent */
+    float scales[3][256];  /* radiance of one unit of the mantissa, per channel and exponent */
     float *texels;         /* of scanline 0, texel 0 */
     ptrdiff_t scan_step, texel_step;
     _Atomic bool has_no_memory;
@@ -240,7 +256,7 @@ static void read_flat(const hdr_header *h, const unsigned char *p, unsigned char
     uint32_t shift = 0;
     for (size_t t = 0; t < length; p += 4) {
         size_t count = 1;
-        if (is_repeat(p)) {
+        if (is_repeat(h, p)) {
             count = (size_t)p[3] << shift;
             shift += 8;
         } else {
@@ -253,8 +269,8 @@ static void read_flat(const hdr_header *h, const unsigned char *p, unsigned char
     }
 }
 
-/* Light of a component m under exponent e: (m + 0.5) / 256 * 2^(e - 128), the middle of what writers, who
- * truncate, may have meant; 0 where e is 0. */
+/* Radiance of a component m under exponent e: m / 256 * 2^(e - 128); 0 where e is 0. Radiance itself takes m + 0.5, the
+ * middle of what a writer that truncates may have meant; most other programs take m, which keeps 0 and 1 exact. */
 static void read_scans(void *context, size_t begin, size_t end)
 {
     hdr_reading *r = context;
@@ -272,18 +288,30 @@ static void read_scans(void *context, size_t begin, size_t end)
             read_flat(r->header, p, planes);
         float *texel = r->texels + (ptrdiff_t)s * r->scan_step;
         for (size_t t = 0; t < length; t++, texel += r->texel_step) {
-            float scale = r->scales[planes[3 * length + t]];
-            texel[0] = ((float)planes[t] + 0.5f) * scale;
-            texel[1] = ((float)planes[length + t] + 0.5f) * scale;
-            texel[2] = ((float)planes[2 * length + t] + 0.5f) * scale;
+            const unsigned char exponent = planes[3 * length + t];
+            texel[0] = (float)planes[t] * r->scales[0][exponent];
+            texel[1] = (float)planes[length + t] * r->scales[1][exponent];
+            texel[2] = (float)planes[2 * length + t] * r->scales[2][exponent];
         }
     }
     mem_free(planes);
 }
 
-/* Where each scanline begins; every one is complete afterwards. */
-static facet_result find_scans(const hdr_header *h, const char *name, size_t *offsets, facet_error *error)
+/* Whether scanlines of component runs fill the data to its last byte. */
+static bool is_coded_throughout(const hdr_header *h)
 {
+    const unsigned char *p = h->data;
+    const unsigned char *end = h->data + h->data_size;
+    for (uint32_t s = 0; s < h->scan_count && p; s++)
+        p = end - p >= 4 && is_coded(h, p) ? skip_coded(h, p, end) : NULL;
+    return p == end;
+}
+
+/* Where each scanline begins; every one is complete afterwards. Data of exactly four bytes per texel are texels, though
+ * one may look like a run where a writer does not normalize mantissas: (1, 1, 1, 128). */
+static facet_result find_scans(hdr_header *h, const char *name, size_t *offsets, facet_error *error)
+{
+    h->is_plain = h->data_size == 4 * (uint64_t)h->width * h->height && !is_coded_throughout(h);
     const unsigned char *p = h->data;
     const unsigned char *end = h->data + h->data_size;
     for (uint32_t s = 0; s < h->scan_count; s++) {
@@ -336,7 +364,8 @@ facet_result hdr_decode(const unsigned char *bytes, size_t size, const char *nam
 
     hdr_reading r = {.header = &h, .allocator = &desc->allocator, .offsets = offsets};
     for (int e = 1; e < 256; e++)
-        r.scales[e] = (float)fmin(ldexp(1.0, e - 128 - 8) / h.exposure, 0x1p119);
+        for (int c = 0; c < 3; c++)
+            r.scales[c][e] = (float)fmin(ldexp(1.0, e - 128 - 8) / h.exposure[c], 0x1p119);
     set_directions(&r, &h, made.pixels);
     parallel_for(desc->thread_count, h.scan_count, 32768 / h.scan_length + 1, read_scans, &r);
     if (atomic_load(&r.has_no_memory))
@@ -352,8 +381,7 @@ done:
 
 /* ---- writing ---- */
 
-/* The components as Radiance truncates them; what is not positive (NaN too) is 0, what is too bright for the
- * format is its brightest. */
+/* The nearest components; what is not positive (NaN too) is 0, what is too bright for the format is its brightest. */
 static void texel_to_rgbe(const float rgb[3], unsigned char rgbe[4])
 {
     const float brightest = 0x1.fep126f; /* 255 / 256 2^127 */
@@ -368,8 +396,12 @@ static void texel_to_rgbe(const float rgb[3], unsigned char rgbe[4])
         return;
     int exponent = (int)(float_bits(largest) >> 23) - 126; /* largest = f 2^exponent, f in [0.5, 1) */
     float scale = float_from_bits((uint32_t)(127 + 7 - exponent) << 23) * 2.0f; /* 2^(8 - exponent) */
+    if (largest * scale >= 255.5f) { /* rounds to 256, which is 128 of the next exponent */
+        scale *= 0.5f;
+        exponent++;
+    }
     for (int i = 0; i < 3; i++)
-        rgbe[i] = (unsigned char)(c[i] * scale);
+        rgbe[i] = (unsigned char)(c[i] * scale + 0.5f);
     rgbe[3] = (unsigned char)(exponent + 128);
 }
 

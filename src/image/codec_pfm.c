@@ -14,6 +14,7 @@ typedef struct pfm_header {
     uint32_t width, height;
     uint32_t channel_count; /* 1 or 3 */
     bool is_big_endian;
+    float scale; /* samples are multiplied by it */
     size_t data_offset;
 } pfm_header;
 
@@ -33,8 +34,7 @@ static double next_number(const unsigned char **p, const unsigned char *end)
     return *p < end && is_space(**p) ? x : (double)NAN;
 }
 
-/* The third number is negative for little-endian data; its size is a scale without agreed meaning, ignored as
- * most readers do. */
+/* The third number is negative for little-endian data; its size is the unit of the samples. */
 static facet_result parse_header(const unsigned char *bytes, size_t size, const char *name, pfm_header *h,
                                  facet_error *error)
 {
@@ -44,13 +44,15 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
     double width = next_number(&p, end);
     double height = next_number(&p, end);
     double scale = next_number(&p, end);
-    if (!(width >= 1 && width <= 1e9 && height >= 1 && height <= 1e9) || isnan(scale) || fabs(scale) <= 0)
+    if (!(width >= 1 && width <= 1e9 && height >= 1 && height <= 1e9) ||
+        !(fabs(scale) > 1e-30 && fabs(scale) < 1e30))
         return fail(error, FACET_ERROR_INVALID,
                     "%s: header: width, height and a scale that is not 0 were expected", name);
     *h = (pfm_header){.width = (uint32_t)width,
                       .height = (uint32_t)height,
                       .channel_count = bytes[1] == 'F' ? 3 : 1,
                       .is_big_endian = scale > 0,
+                      .scale = (float)fabs(scale),
                       .data_offset = (size_t)(p + 1 - bytes)};
     return FACET_OK;
 }
@@ -85,7 +87,7 @@ facet_result pfm_decode(const unsigned char *bytes, size_t size, const char *nam
     for (uint32_t y = 0; y < h.height; y++) {
         const unsigned char *from = bytes + h.data_offset + row_size * (h.height - 1 - y);
         for (size_t k = 0; k < (size_t)h.width * h.channel_count; k++, from += 4) {
-            float x = float_from_bits(h.is_big_endian ? load_u32_be(from) : load_u32_le(from));
+            float x = h.scale * float_from_bits(h.is_big_endian ? load_u32_be(from) : load_u32_le(from));
             x = desc->keeps_nonfinite ? x : codec_finite(x);
             *to++ = x;
             if (h.channel_count == 1) {
