@@ -240,6 +240,12 @@ facet_result image_encode(const image *i, image_codec codec_id, const image_enco
 }
 
 #ifndef HAVE_OPENEXR
+image_envmap image_get_envmap(const void *bytes, size_t size)
+{
+    (void)bytes, (void)size;
+    return IMAGE_ENVMAP_NONE;
+}
+
 static facet_result fail_without_openexr(const char *what, facet_error *error)
 {
     return fail(error, FACET_ERROR_UNSUPPORTED,

@@ -6,11 +6,13 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
 #include "image/exr_check.h"
+#include "image/primaries.h"
 
 enum {
     STRIP_ROWS = 16,        /* of a ZIP chunk */
@@ -154,6 +156,39 @@ static facet_result decode(reading *r, const char *name, const image_decode_desc
                 name, (unsigned long long)(failure >> 8), s->data_height);
 }
 
+image_envmap image_get_envmap(const void *bytes, size_t size)
+{
+    static const exr_channel none = {0};
+    exr_info info;
+    exr_sizes s;
+    return image_codec_detect(bytes, size) == IMAGE_CODEC_EXR &&
+                   exr_check(bytes, size, "", INT32_MAX, &none, 0, &info, &s, NULL) == FACET_OK
+               ? info.envmap
+               : IMAGE_ENVMAP_NONE;
+}
+
+/* Whether the first three channels are R, G and B, of whatever layer: not numbers of another kind, not one for all. */
+static bool is_rgb(const exr_info *info)
+{
+    for (uint32_t k = 0; k < 3; k++) {
+        const char *name = k < info->channel_count ? info->sources[k].name : "";
+        const char *point = strrchr(name, '.');
+        if (strcasecmp(point ? point + 1 : name, (const char *[]){"R", "G", "B"}[k]) != 0)
+            return false;
+    }
+    return true;
+}
+
+static void convert_color(const exr_info *info, image *i, const image_decode_desc *desc)
+{
+    primaries p;
+    if (!info->has_chromaticities || !is_rgb(info))
+        return;
+    for (int k = 0; k < 8; k++)
+        p.xy[k / 2][k % 2] = (double)info->chromaticities[k];
+    primaries_convert(i, &p, desc);
+}
+
 facet_result exr_decode(const unsigned char *bytes, size_t size, const char *name,
                         const image_decode_desc *desc, image *out, facet_error *error)
 {
@@ -184,10 +219,12 @@ facet_result exr_decode(const unsigned char *bytes, size_t size, const char *nam
     *desc->largest = is_half ? 65504.0f : FLT_MAX;
     atomic_init(&r.failure, UINT64_MAX);
     result = decode(&r, name, desc, error);
-    if (result == FACET_OK)
+    if (result == FACET_OK) {
+        convert_color(&info, &made, desc);
         *out = made;
-    else
+    } else {
         image_destroy(&made);
+    }
     return result;
 }
 

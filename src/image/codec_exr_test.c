@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "image/exr_test_file.h"
 #include "image/half.h"
 
 /* The sample of testdata/README.md; exact in half. */
@@ -119,6 +120,77 @@ static void written_layers_come_back(void **state)
             image_destroy(&rgba);
             image_destroy(&depth);
         }
+}
+
+/* ---- chromaticities ---- */
+
+static void put_floats(const float *values, int count, unsigned char *out)
+{
+    for (int i = 0; i < count; i++)
+        store_u32_le(out + 4 * i, float_bits(values[i]));
+}
+
+/* A texel (1, 2, 4) in channels of these names, with the attribute chromaticities. */
+static image through_chromaticities(const char *const names[3], const char *layer, const char *type,
+                                    const float values[8], image_note *note)
+{
+    static const float texel[3] = {1, 2, 4};
+    const image_layer l = {names, 3, texel, sizeof texel};
+    unsigned char *plain, value[32];
+    size_t size;
+    facet_error error;
+    assert_int_equal(image_encode_exr(1, 1, &l, 1, false, NULL, &plain, &size, NULL), FACET_OK);
+    put_floats(values, 8, value);
+    unsigned char *bytes =
+        exr_with_attribute(plain, size, 1, "chromaticities", type, value, sizeof value, &size);
+    mem_free(plain);
+    image i;
+    if (image_decode(bytes, size, "c", &(image_decode_desc){.layer = layer, .note = note}, &i, &error) !=
+        FACET_OK)
+        fail_msg("%s", error.message);
+    free(bytes);
+    return i;
+}
+
+/* Rec.2020 by Recommendation ITU-R BT.2407's matrix, of R, G, B of any layer; positions are no colors. */
+static void chromaticities_are_converted(void **state)
+{
+    (void)state;
+    static const float rec2020[8] = {0.708f, 0.292f, 0.170f, 0.797f, 0.131f, 0.046f, 0.3127f, 0.3290f};
+    static const float expected[3] = {1.6605f - 2 * 0.5876f - 4 * 0.0728f,
+                                      -0.1246f + 2 * 1.1329f - 4 * 0.0083f,
+                                      -0.0182f - 2 * 0.1006f + 4 * 1.1187f};
+    static const char *const colors[3] = {"R", "G", "B"}, *const albedo[3] = {"a.R", "a.G", "a.B"},
+                             *const position[3] = {"p.X", "p.Y", "p.Z"};
+    image_note note;
+    for (int k = 0; k < 2; k++) {
+        image i =
+            through_chromaticities(k ? albedo : colors, k ? "a" : NULL, "chromaticities", rec2020, &note);
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(((float *)i.pixels)[c], expected[c], 1e-3f);
+        assert_int_equal(note.level, FACET_LOG_DETAIL);
+        assert_non_null(strstr(note.text, "Rec.2020"));
+        image_destroy(&i);
+    }
+    image i = through_chromaticities(position, "p", "chromaticities", rec2020, &note);
+    assert_memory_equal(i.pixels, ((float[]){1, 2, 4}), 12);
+    assert_int_equal(note.text[0], 0);
+    image_destroy(&i);
+}
+
+/* All zeros, and another type: one warning, and the numbers stay. */
+static void unreadable_chromaticities_are_a_warning(void **state)
+{
+    (void)state;
+    static const float none[8] = {0};
+    static const char *const colors[3] = {"R", "G", "B"};
+    for (int k = 0; k < 2; k++) {
+        image_note note;
+        image i = through_chromaticities(colors, NULL, k ? "blob" : "chromaticities", none, &note);
+        assert_memory_equal(i.pixels, ((float[]){1, 2, 4}), 12);
+        assert_int_equal(note.level, FACET_LOG_WARNING);
+        image_destroy(&i);
+    }
 }
 
 /* A picture without R, G, B shows Y, a layer's colors, or its only channel. */
@@ -317,6 +389,8 @@ int main(void)
         cmocka_unit_test(attributes_stay_inside_the_file),
         cmocka_unit_test(dwa_environments),
         cmocka_unit_test(damaged_files_do_no_harm),
+        cmocka_unit_test(chromaticities_are_converted),
+        cmocka_unit_test(unreadable_chromaticities_are_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "image/half.h"
+#include "image/primaries.h"
 
 enum { MIN_CODED_LENGTH = 8, MAX_CODED_LENGTH = 0x7fff }; /* scanlines that may have the four-run coding */
 
@@ -24,6 +25,8 @@ typedef struct hdr_header {
     bool is_x_falling, is_y_up; /* against the usual: left to right, top to bottom */
     bool is_plain;              /* exactly four bytes per texel, without runs */
     double exposure[3]; /* product of all EXPOSURE and COLORCORR lines; texels were multiplied by it */
+    bool has_primaries;
+    primaries primaries; /* NaN where the line is no eight numbers */
     const unsigned char *data;
     size_t data_size;
 } hdr_header;
@@ -114,6 +117,18 @@ static facet_result parse_exposure(const char *line, size_t length, bool is_colo
     return FACET_OK;
 }
 
+static void parse_primaries(const char *line, size_t length, hdr_header *h)
+{
+    const char *end = line + length;
+    const char *number = (const char *)memchr(line, '=', length) + 1;
+    h->has_primaries = true;
+    for (int i = 0; i < 8; i++) {
+        while (number < end && (*number == ' ' || *number == '\t'))
+            number++;
+        h->primaries.xy[i / 2][i % 2] = codec_parse_number(number, end, &number);
+    }
+}
+
 static facet_result parse_header(const unsigned char *bytes, size_t size, const char *name, hdr_header *h,
                                  facet_error *error)
 {
@@ -139,6 +154,8 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
             facet_result result = parse_exposure(line, length, line[0] == 'C', name, h, error);
             if (result != FACET_OK)
                 return result;
+        } else if (starts_with(line, length, "PRIMARIES=")) {
+            parse_primaries(line, length, h);
         }
     }
     if (!next_line(&p, end, &line, &length) || !parse_resolution(line, length, h))
@@ -370,6 +387,8 @@ facet_result hdr_decode(const unsigned char *bytes, size_t size, const char *nam
     parallel_for(desc->thread_count, h.scan_count, 32768 / h.scan_length + 1, read_scans, &r);
     if (atomic_load(&r.has_no_memory))
         result = fail_memory(error, "scanline", 4 * (size_t)h.scan_length);
+    else if (h.has_primaries)
+        primaries_convert(&made, &h.primaries, desc);
 done:
     mem_free(offsets);
     if (result == FACET_OK)

@@ -76,6 +76,36 @@ static void color_correction_is_divided_out(void **state)
     assert_non_null(strstr(error.message, "COLORCORR=2 1: three positive numbers"));
 }
 
+/* XYZ by IEC 61966-2-1's matrix; what is no color space is a warning, and the numbers stay. */
+static void primaries_are_converted(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line;
+        float expected[3];
+        facet_log_level level;
+    } cases[] = {{"1 0 0 1 0 0 .3333 .3333",
+                  {3.2406f - 0.7686f - 0.1247f, -0.9689f + 0.9379f + 0.0104f, 0.0557f - 0.1020f + 0.2643f},
+                  FACET_LOG_DETAIL},
+                 {"0 0 0 0 0 0 0 0", {1, 0.5f, 0.25f}, FACET_LOG_WARNING},
+                 {".64 .33 .3 .6", {1, 0.5f, 0.25f}, FACET_LOG_WARNING}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char file[128];
+        const int header =
+            snprintf(file, sizeof file, "#?RADIANCE\nPRIMARIES= %s\n\n-Y 1 +X 1\n", cases[k].line);
+        memcpy(file + header, ((unsigned char[]){128, 64, 32, 129}), 4);
+        image i;
+        image_note note;
+        assert_int_equal(
+            image_decode(file, (size_t)header + 4, "p.hdr", &(image_decode_desc){.note = &note}, &i, NULL),
+            FACET_OK);
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(((float *)i.pixels)[c], cases[k].expected[c], 1e-3f);
+        assert_true(note.text[0] && note.level == cases[k].level);
+        image_destroy(&i);
+    }
+}
+
 /* Four bytes per texel, exactly: what looks like a run, or like the beginning of a coded scanline, is a texel; coded
  * scanlines that happen to be as long stay coded. */
 static void plain_texels_are_no_runs(void **state)
@@ -404,6 +434,7 @@ int main(void)
         cmocka_unit_test(pfm_by_hand),
         cmocka_unit_test(color_correction_is_divided_out),
         cmocka_unit_test(plain_texels_are_no_runs),
+        cmocka_unit_test(primaries_are_converted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

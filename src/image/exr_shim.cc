@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -13,6 +14,8 @@
 
 #include <Iex.h>
 #include <ImfChannelList.h>
+#include <ImfChromaticitiesAttribute.h>
+#include <ImfEnvmapAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
@@ -324,6 +327,33 @@ facet_result find_named(const Imf::ChannelList &list, const exr_channel *named, 
     return FACET_OK;
 }
 
+/* The attribute of this name and type; NULL: there is none. Not findTypedAttribute(), whose instance would be a name that
+ * the library exports. */
+template <class type> const type *find_attribute(const Imf::Header &header, const char *name)
+{
+    const auto place = header.find(name);
+    return place == header.end() ? nullptr : dynamic_cast<const type *>(&place.attribute());
+}
+
+void fill_color(const Imf::Header &header, exr_info *out)
+{
+    out->has_chromaticities = header.find("chromaticities") != header.end();
+    for (float &x : out->chromaticities)
+        x = std::numeric_limits<float>::quiet_NaN();
+    if (const auto *found = find_attribute<Imf::ChromaticitiesAttribute>(header, "chromaticities")) {
+        const Imf::Chromaticities &c = found->value();
+        const Imath::V2f *const colors[] = {&c.red, &c.green, &c.blue, &c.white};
+        for (int i = 0; i < 4; i++) {
+            out->chromaticities[2 * i] = colors[i]->x;
+            out->chromaticities[2 * i + 1] = colors[i]->y;
+        }
+    }
+    if (const auto *found = find_attribute<Imf::EnvmapAttribute>(header, "envmap"))
+        out->envmap = found->value() == Imf::ENVMAP_CUBE      ? IMAGE_ENVMAP_CUBE
+                      : found->value() == Imf::ENVMAP_LATLONG ? IMAGE_ENVMAP_LATLONG
+                                                              : IMAGE_ENVMAP_NONE;
+}
+
 facet_result fill_info(const unsigned char *bytes, size_t size, const exr_channel *named,
                        uint32_t named_count, exr_info *out, char *message)
 {
@@ -334,6 +364,7 @@ facet_result fill_info(const unsigned char *bytes, size_t size, const exr_channe
         return say(message, FACET_ERROR_UNSUPPORTED, "deep pictures are not read");
     out->data = window(header.dataWindow());
     out->display = window(header.displayWindow());
+    fill_color(header, out);
     out->is_tiled =
         Imf::isMultiPart(version) ? header.hasType() && Imf::isTiled(header.type()) : Imf::isTiled(version);
     const Imf::Compression compression = header.compression();
@@ -385,10 +416,7 @@ facet_result exr_shim_text(const unsigned char *bytes, size_t size, const char *
     try {
         Imf::Header header;
         read_header(bytes, size, header);
-        /* Not findTypedAttribute(), whose instance would be a name that the library exports. */
-        const auto place = header.find(attribute);
-        const auto *found =
-            place == header.end() ? nullptr : dynamic_cast<const Imf::StringAttribute *>(&place.attribute());
+        const auto *found = find_attribute<Imf::StringAttribute>(header, attribute);
         if (!found || found->value().size() >= value_size) {
             std::snprintf(message, EXR_MESSAGE, "the text %s is %s", attribute,
                           found ? "too long" : "missing");

@@ -36,8 +36,11 @@ typedef struct exr_info {
     uint32_t tile_width, tile_height; /* where is_tiled */
     uint32_t chunk_rows;              /* rows that are coded together */
     uint32_t texel_size;              /* bytes of the samples of all channels */
-    uint32_t channel_count;           /* of the picture: 3 or 4; of those that were named */
-    exr_source sources[4]; /* of a picture: R, G, B, A; the same one three times where it is grey */
+    bool has_chromaticities;          /* the attribute of that name */
+    float chromaticities[8]; /* x, y of red, green, blue and white; NaN where it is of another type */
+    image_envmap envmap;
+    uint32_t channel_count; /* of the picture: 3 or 4; of those that were named */
+    exr_source sources[4];  /* of a picture: R, G, B, A; the same one three times where it is grey */
 } exr_info;
 
 /* Reads the first header of a file whose headers are whole (see exr_check()). named: the channels that are wanted; NULL:

@@ -85,6 +85,8 @@ typedef struct image_decode_desc {
     bool keeps_nonfinite;
     /* NULL: not wanted. What infinity becomes: 65504 where the file holds half, else the largest float */
     float *largest;
+    /* EXR, HDR: colors of other primaries that are outside of Rec.709 lose their negative components: for light */
+    bool clips_gamut;
     image_note *note; /* set or cleared by image_decode(); NULL: not wanted */
 } image_decode_desc;
 
@@ -99,6 +101,16 @@ facet_result image_probe(const void *bytes, size_t size, const char *name, image
  * the format's values, is_srgb as the file says; channels that its format lacks are 0, as samplers read them. */
 facet_result image_decode(const void *bytes, size_t size, const char *name, const image_decode_desc *desc,
                           image *out, facet_error *error);
+
+/* What an EXR file says it shows of all directions: its attribute envmap (ImfEnvmap.h). */
+typedef enum image_envmap {
+    IMAGE_ENVMAP_NONE,
+    IMAGE_ENVMAP_LATLONG,
+    IMAGE_ENVMAP_CUBE /* six faces from the top, each as it is seen from inside */
+} image_envmap;
+
+/* IMAGE_ENVMAP_NONE too where the bytes are no EXR file or damaged, which decoding them reports. */
+image_envmap image_get_envmap(const void *bytes, size_t size);
 
 /* One named layer of an EXR file, float. */
 typedef struct image_layer {

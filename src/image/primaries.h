@@ -1,0 +1,23 @@
+/* primaries.h - colors of other RGB spaces as linear Rec.709. */
+#ifndef IMAGE_PRIMARIES_H
+#define IMAGE_PRIMARIES_H
+
+#include "image/image.h"
+
+/* CIE 1931 x and y of red, green, blue and white. */
+typedef struct primaries {
+    double xy[4][2];
+} primaries;
+
+/* The matrix from linear RGB of these primaries to linear Rec.709: to XYZ (SMPTE RP 177), white adapted to D65 by
+ * Bradford's transform (as ICC v4 and OpenColorIO's configurations for ACES have it), to Rec.709. XYZ themselves, which
+ * is what red (1, 0), green (0, 1), blue (0, 0) with the white of equal energy stand for, are not adapted: their white is
+ * a unit, not a light. False: they make no color space (not finite, on one line, white outside). */
+bool primaries_to_rec709(const primaries *p, double matrix[3][3]);
+
+/* Converts the first three channels of an F32 image in place, unless the primaries are those of Rec.709, and sets
+ * desc->note: a detail that names the space; a warning where there is none, and the colors stay. Texels that are not
+ * finite stay. */
+void primaries_convert(image *i, const primaries *p, const image_decode_desc *desc);
+
+#endif
