@@ -123,6 +123,32 @@ facet_result layout_read(const image *picture, facet_layout layout, const char *
     return result;
 }
 
+static void swap_texels(image *i, size_t a, size_t b)
+{
+    unsigned char kept[16];
+    const size_t size = image_texel_size(i);
+    unsigned char *first = (unsigned char *)i->pixels + a * size,
+                  *second = (unsigned char *)i->pixels + b * size;
+    memcpy(kept, first, size);
+    memcpy(first, second, size);
+    memcpy(second, kept, size);
+}
+
+/* ImfEnvmap.h: +X is to the right where +Y and -Y are seen, up and down are the other way round than in OpenGL; the other
+ * faces are mirrored. */
+void layout_flip_seen_faces(image *strip)
+{
+    const size_t n = strip->width;
+    for (size_t face = 0; face < 6; face++) {
+        const bool is_pole = face == 2 || face == 3;
+        const size_t first = face * n * n;
+        for (size_t y = 0; y < (is_pole ? n / 2 : n); y++)
+            for (size_t x = 0; x < (is_pole ? n : n / 2); x++)
+                swap_texels(strip, first + y * n + x,
+                            first + (is_pole ? (n - 1 - y) * n + x : y * n + n - 1 - x));
+    }
+}
+
 /* ---- writing ---- */
 
 static void write_faces(const cube *c, const unfolding *u, image *out)

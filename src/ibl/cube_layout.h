@@ -21,6 +21,10 @@ facet_result layout_read(const image *picture, facet_layout layout, const char *
                          const facet_allocator *allocator, uint32_t thread_count, cube *out,
                          facet_error *error);
 
+/* Turns a vertical strip as OpenEXR has it, each face as it is seen from inside, into one of faces as OpenGL has them, in
+ * place; and back. */
+void layout_flip_seen_faces(image *strip);
+
 /* A cube map with borders as a picture (F32 RGBA, alpha 0 where a cross is empty). height: of equirectangular and octahedral
  * ones; 0: twice the cube's size. FACET_ERROR_ARGUMENT: FACET_LAYOUT_AUTO or _FACES. */
 facet_result layout_write(const cube *c, facet_layout layout, uint32_t height,

@@ -102,12 +102,15 @@ void environment_limit(facet_environment *environment, uint32_t thread_count)
     parallel_for(thread_count, environment->picture.height, 16, limit_rows, &environment->picture);
 }
 
-/* The layout of a picture: as desc says, or by its edges. */
-static facet_result choose_layout(const facet_environment_desc *desc, const image *picture, const char *name,
-                                  facet_layout *layout, facet_error *error)
+/* The layout of a picture: as desc says, as an OpenEXR file says, or by its edges. */
+static facet_result choose_layout(const facet_environment_desc *desc, image_envmap envmap,
+                                  const image *picture, const char *name, facet_layout *layout,
+                                  facet_error *error)
 {
     uint32_t width = picture->width, height = picture->height;
-    *layout = desc->layout ? desc->layout : layout_detect(width, height);
+    *layout = desc->layout                     ? desc->layout
+              : envmap == IMAGE_ENVMAP_LATLONG ? FACET_LAYOUT_EQUIRECTANGULAR
+                                               : layout_detect(width, height); /* of a cube, too: 1:6 */
     if (*layout == FACET_LAYOUT_FACES)
         return fail(error, FACET_ERROR_ARGUMENT, "%s: six faces are six pictures, this is one", name);
     double ratio = width / (2.0 * height);
@@ -137,11 +140,12 @@ static facet_result load_picture(facet_environment *e, const void *bytes, size_t
     image header, decoded = {0}, rgb = {0};
     environment_repairs repairs = {.first = UINT64_MAX};
     facet_layout layout;
+    const image_envmap envmap = image_get_envmap(bytes, size);
     image_decode_desc how = environment_decode_desc(desc, &largest);
     how.note = &note;
     facet_result result = image_probe(bytes, size, name, &header, NULL, error);
     if (result == FACET_OK) /* before memory is taken */
-        result = choose_layout(desc, &header, name, &layout, error);
+        result = choose_layout(desc, envmap, &header, name, &layout, error);
     if (result == FACET_OK)
         result = image_decode(bytes, size, name, &how, &decoded, error);
     if (result == FACET_OK) {
@@ -152,6 +156,8 @@ static facet_result load_picture(facet_environment *e, const void *bytes, size_t
     if (result == FACET_OK) {
         environment_report(e, &repairs, name, NULL, (uint32_t)(repairs.first % rgb.width),
                            (uint32_t)(repairs.first / rgb.width));
+        if (envmap == IMAGE_ENVMAP_CUBE && layout == FACET_LAYOUT_STRIP_VERTICAL)
+            layout_flip_seen_faces(&rgb);
         result = environment_take_picture(e, &rgb, layout, name, desc->thread_count, error);
     }
     image_destroy(&decoded);

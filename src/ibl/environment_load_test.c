@@ -21,6 +21,7 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "image/codec.h"
+#include "image/exr_test_file.h"
 #include "image/ktx2_test_file.h"
 #include "image/ktx2_write.h"
 
@@ -174,6 +175,72 @@ static void check_mean(const facet_environment *e, const cube *c, double toleran
         assert_true(fabs(info.mean[k] / mean[k] - 1.0) < tolerance);
         assert_true(fabs(picture[k] / whole / mean[k] - 1.0) < tolerance);
     }
+}
+
+/* A picture as an OpenEXR file with the attribute envmap. */
+static bytes encode_exr(const image *rgb, unsigned char envmap)
+{
+    static const char *const names[3] = {"R", "G", "B"};
+    const image_layer layer = {names, 3, rgb->pixels, image_row_size(rgb)};
+    bytes plain, b;
+    assert_int_equal(
+        image_encode_exr(rgb->width, rgb->height, &layer, 1, false, NULL, &plain.data, &plain.size, NULL),
+        FACET_OK);
+    b.data = exr_with_attribute(plain.data, plain.size, (rgb->height + 15) / 16, "envmap", "envmap", &envmap,
+                                1, &b.size);
+    mem_free(plain.data);
+    return b;
+}
+
+/* CubeMap::direction() and CubeMap::pixelPosition() of OpenEXR's ImfEnvmap.cpp: column and row of a face grow with these
+ * axes, 1 to 3 for x to z, negative against them; texels at their centres, as everywhere in facet. */
+static void openexr_cubes_are_not_mirrored(void **state)
+{
+    (void)state;
+    if (!image_codec_is_built(IMAGE_CODEC_EXR))
+        skip();
+    static const signed char column[6] = {3, -3, 1, 1, -1, 1}, row[6] = {-2, -2, -3, 3, -2, -2};
+    image strip = make_image(SIZE, 6 * SIZE, 0.0f);
+    for (uint32_t i = 0; i < 6 * SIZE * SIZE; i++) {
+        const uint32_t face = i / SIZE / SIZE;
+        const double u = (2.0 * (i % SIZE) + 1.0) / SIZE - 1.0,
+                     v = (2.0 * (i / SIZE % SIZE) + 1.0) / SIZE - 1.0;
+        double d[3];
+        d[face / 2] = face % 2 ? -1.0 : 1.0;
+        d[abs(column[face]) - 1] = column[face] > 0 ? u : -u;
+        d[abs(row[face]) - 1] = row[face] > 0 ? v : -v;
+        get_radiance(d, (float *)strip.pixels + 3 * (size_t)i);
+    }
+    cube c = make_cube(SIZE);
+    bytes b = encode_exr(&strip, 1);
+    messages m = {0};
+    facet_environment *e = load(b, FACET_LAYOUT_AUTO, &m);
+    assert_int_equal(get_info(e).layout, FACET_LAYOUT_STRIP_VERTICAL);
+    assert_int_equal(m.count, 0);
+    check_picture(e, 0.006);
+    check_mean(e, &c, 1e-5);
+    facet_environment_destroy(e);
+    cube_destroy(&c);
+    free(b.data);
+    image_destroy(&strip);
+}
+
+/* A panorama that says so is none of a cross, whatever its edges. */
+static void openexr_panoramas_are_told_by_their_attribute(void **state)
+{
+    (void)state;
+    if (!image_codec_is_built(IMAGE_CODEC_EXR))
+        skip();
+    image i = make_image(16, 12, 1.0f);
+    for (unsigned char envmap = 0; envmap < 3; envmap++) { /* lat-long, a cube that is none, unknown */
+        bytes b = encode_exr(&i, envmap);
+        facet_environment *e = load(b, FACET_LAYOUT_AUTO, NULL);
+        assert_int_equal(get_info(e).layout,
+                         envmap == 0 ? FACET_LAYOUT_EQUIRECTANGULAR : FACET_LAYOUT_CROSS_HORIZONTAL);
+        facet_environment_destroy(e);
+        free(b.data);
+    }
+    image_destroy(&i);
 }
 
 static void layouts_are_told_by_their_edges(void **state)
@@ -649,6 +716,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layouts_are_told_by_their_edges),
+        cmocka_unit_test(openexr_cubes_are_not_mirrored),
+        cmocka_unit_test(openexr_panoramas_are_told_by_their_attribute),
         cmocka_unit_test(suns_keep_their_energy),
         cmocka_unit_test(cubes_of_ktx2),
         cmocka_unit_test(ktx2_that_is_no_environment),

@@ -15,6 +15,7 @@ image_decode_desc environment_decode_desc(const facet_environment_desc *desc, fl
                                .thread_count = desc->thread_count ? desc->thread_count : facet_thread_count(),
                                .max_size = desc->max_size ? desc->max_size : ENVIRONMENT_DEFAULT_MAX_SIZE,
                                .keeps_nonfinite = true,
+                               .clips_gamut = true,
                                .largest = largest};
 }
 
