@@ -321,7 +321,7 @@ static void keep(image_record *record, stored_image *made)
 
 /* Reports the notes of images, and warns of those that cannot be decoded; fails for those that say more of the machine than of the image. */
 static facet_result report_jobs(texture_store *store, const job *jobs, size_t count, const facet_log *log,
-                          facet_error *error)
+                                facet_error *error)
 {
     for (size_t i = 0; i < count; i++)
         if (jobs[i].result == FACET_ERROR_LIMIT || jobs[i].result == FACET_ERROR_MEMORY) {
