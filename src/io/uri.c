@@ -1,5 +1,5 @@
-/* uri.c - what a URI in a model stands for: base64 data inside it, or a file below the model's folder. Nothing else
- * is ever opened. */
+/* uri.c - what a URI or name in a model stands for: base64 data inside it, or a file below the model's folder. Nothing
+ * else is ever opened. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <stdarg.h>
@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/file_alike.h"
 #include "io/gltf/gltf_reader.h"
 
 static bool uri_fail(uri_bytes *out, facet_result result, const char *format, ...)
@@ -171,20 +172,29 @@ static bool read_once(const file_scope *scope, int fd, const char *path, const s
     return true;
 }
 
-bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+/* Whether a name may be looked for at all. */
+static bool may_look_for(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
-    const char *folder = scope->folder ? scope->folder : scope->root;
-    const char *allowed = scope->root ? scope->root : scope->folder;
     bool is_absolute = name[0] == '/';
-    *out = (uri_bytes){0};
-    if (!folder)
+    if (!scope->folder && !scope->root)
         return uri_fail(out, FACET_ERROR_READ,
                         "\"%.200s\" cannot be found: the model was not read from a folder", shown);
     if (name[0] == 0)
         return uri_fail(out, FACET_ERROR_INVALID, "names no file");
     if (is_absolute ? !scope->allows_absolute : !scope->root && climbs_out(name))
         return uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the model's folder", shown);
-    char *path = path_join(scope->allocator, is_absolute ? "" : folder, name);
+    return true;
+}
+
+/* The file of exactly that name. */
+static bool open_exact(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+{
+    const char *folder = scope->folder ? scope->folder : scope->root;
+    const char *allowed = scope->root ? scope->root : scope->folder;
+    *out = (uri_bytes){0};
+    if (!may_look_for(scope, name, shown, out))
+        return false;
+    char *path = path_join(scope->allocator, name[0] == '/' ? "" : folder, name);
     if (!path)
         return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
     bool done = false;
@@ -203,7 +213,89 @@ bool file_scope_open(const file_scope *scope, const char *name, const char *show
     if (fd >= 0)
         close(fd);
     mem_free(path);
+    out->name = done ? arena_strdup(scope->scene->arena, name) : NULL;
+    return done && !out->name ? uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path") : done;
+}
+
+/* The only file whose name differs in upper and lower case, or in the form of its letters. */
+static bool open_alike(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+{
+    *out = (uri_bytes){0};
+    if (!may_look_for(scope, name, shown, out))
+        return false;
+    bool has_failed;
+    char *found = file_find_alike(scope->allocator, scope->folder ? scope->folder : scope->root, name,
+                                  &scope->scene->search_budget, &has_failed);
+    if (has_failed)
+        return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
+    bool done = found ? open_exact(scope, found, shown, out)
+                      : uri_fail(out, FACET_ERROR_READ, "there is no file \"%.200s\"", name);
+    mem_free(found);
     return done;
+}
+
+/* What a name may mean, the more literal first. */
+typedef enum name_reading {
+    NAME_AS_WRITTEN,
+    NAME_OF_WINDOWS,      /* backslashes between folders */
+    NAME_WITHOUT_ESCAPES, /* a backslash before a blank, as in a shell */
+    NAME_WITHOUT_QUERY,   /* "a.png?v=1", "a.png#b": from a web site */
+    NAME_DECODED,         /* %20 is a blank */
+    NAME_READING_COUNT
+} name_reading;
+
+/* Puts name as it is read into out, of strlen(name) + 1 bytes. False: as the readings before. */
+static bool read_name(const char *name, name_reading reading, char *out)
+{
+    size_t length = strcspn(name, reading == NAME_WITHOUT_QUERY ? "?#" : "");
+    size_t count = 0;
+    bool differs =
+        reading == NAME_AS_WRITTEN || (reading == NAME_WITHOUT_QUERY && length > 0 && name[length]);
+    if (reading == NAME_DECODED)
+        return strchr(name, '%') && decode_percent(name, out);
+    for (size_t i = 0; i < length; i++) {
+        bool is_escape = reading == NAME_WITHOUT_ESCAPES && name[i] == '\\' && name[i + 1] == ' ';
+        bool is_separator = reading != NAME_AS_WRITTEN && name[i] == '\\' && !is_escape;
+        if (!is_escape)
+            out[count++] = is_separator ? '/' : name[i];
+        differs |= is_escape || (is_separator && reading == NAME_OF_WINDOWS);
+    }
+    out[count] = 0;
+    return differs;
+}
+
+/* The other readings of a name, exactly and then, unless the scope is literal, alike. *out: the failure of the first. */
+static bool open_otherwise(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+{
+    char *text = mem_alloc(scope->allocator, strlen(name) + 1, 1);
+    int count = (scope->is_literal ? 1 : 2) * NAME_READING_COUNT;
+    bool done = false;
+    if (!text)
+        return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
+    for (int i = NAME_AS_WRITTEN + 1; i < count && !done; i++) {
+        name_reading reading = (name_reading)(i % NAME_READING_COUNT);
+        bool is_alike = i >= NAME_READING_COUNT;
+        uri_bytes bytes;
+        if (!read_name(name, reading, text))
+            continue;
+        done = is_alike ? open_alike(scope, text, shown, &bytes) : open_exact(scope, text, shown, &bytes);
+        if (done && (is_alike || reading == NAME_WITHOUT_ESCAPES || reading == NAME_WITHOUT_QUERY))
+            scene_warn(scope->scene, scope->log,
+                       "%s: there is no file \"%.200s\"; \"%.200s\" is read instead", scope->scene->source,
+                       shown, bytes.name);
+        if (done || bytes.result != FACET_ERROR_READ)
+            *out = bytes;
+        if (!done && bytes.result != FACET_ERROR_READ)
+            break;
+    }
+    mem_free(text);
+    return done;
+}
+
+bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+{
+    return open_exact(scope, name, shown, out) ||
+           (out->result == FACET_ERROR_READ && open_otherwise(scope, name, shown, out));
 }
 
 static bool open_below(reader *r, const char *name, const char *uri, uri_bytes *out)
@@ -212,6 +304,7 @@ static bool open_below(reader *r, const char *name, const char *uri, uri_bytes *
                               .allocator = r->allocator,
                               .folder = r->folder,
                               .root = r->root,
+                              .log = r->log,
                               .max_file_bytes = r->max_file_bytes};
     return file_scope_open(&scope, name, uri, out);
 }
@@ -234,15 +327,6 @@ bool load_uri(reader *r, const char *uri, uri_bytes *out)
         uri_bytes raw = {0}; /* a name that was written without escaping its % */
         if (open_below(r, uri, uri, &raw)) {
             *out = raw;
-            done = true;
-        }
-    }
-    if (!done && out->result == FACET_ERROR_READ && strchr(name, '\\')) {
-        uri_bytes slashed = {0}; /* Windows' separators */
-        for (char *c = name; *c; c++)
-            *c = *c == '\\' ? '/' : *c;
-        if (open_below(r, name, uri, &slashed)) {
-            *out = slashed;
             done = true;
         }
     }

@@ -8,23 +8,29 @@
 typedef struct file_scope {
     facet_scene *scene; /* keeps what is opened */
     const facet_allocator *allocator;
+    const facet_log *log;
     const char *folder;      /* of the model; NULL: read from memory, there is none */
     const char *root;        /* folder that names may reach; NULL: folder */
     uint64_t max_file_bytes; /* larger files are refused */
     bool allows_absolute;    /* names that begin with a slash are looked at: they may lead below the root */
+    bool is_literal;         /* names that are only alike do not count */
 } file_scope;
 
 /* The bytes that a name stands for. */
 typedef struct uri_bytes {
     const unsigned char *data;
     size_t size;
-    uint32_t file; /* of file_scope_open(): index in the scene's files, one for all names of a file */
+    const char *name; /* of file_scope_open(): the file's own, below the folder; in the scene's arena */
+    uint32_t file;    /* of file_scope_open(): index in the scene's files, one for all names of a file */
     facet_result result;
     char message[512]; /* without the place */
 } uri_bytes;
 
-/* Maps a regular file below the root, once for all its names; it is closed with the scene. shown: the name for messages. False: *message says
- * why, and *result. */
+/* Maps a regular file below the root, once for all its names; it is closed with the scene. The name is taken as it is
+ * written; where there is no such file, with the separators of Windows, with a blank for a backslash and a blank, without
+ * "?.." or "#..", with %20 decoded; then as the only name in its folder that differs in upper and lower case or in
+ * Unicode's form. A warning says where another name than the written one is read, separators apart. shown: the name for
+ * messages. False: *message says why, and *result. */
 bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out);
 
 #endif

@@ -62,6 +62,9 @@ typedef struct scene_store {
     index_table kept_files; /* those of scene.files whose bytes are there, by device and number */
 } scene_store;
 
+/* A second or two. */
+enum { SEARCH_BUDGET = 1 << 20 };
+
 facet_result scene_create(const facet_allocator *allocator, const char *source, facet_scene **out,
                           facet_error *error)
 {
@@ -72,6 +75,7 @@ facet_result scene_create(const facet_allocator *allocator, const char *source, 
     facet_scene *scene = &store->scene;
     if (allocator)
         scene->allocator = *allocator;
+    scene->search_budget = SEARCH_BUDGET;
     scene->arena = arena_create(allocator);
     scene->source = scene->arena ? arena_strdup(scene->arena, source) : NULL;
     if (!scene->source) {

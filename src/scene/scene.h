@@ -369,6 +369,8 @@ typedef struct facet_scene {
     uint32_t thread_count;     /* from the desc, for questions about the scene; 0: facet_thread_count() */
     uint32_t file_count;       /* files that arrays and images point into */
     file_bytes *files;
+    size_t
+        search_budget; /* entries of folders that may still be looked at for files that are named otherwise */
 } facet_scene;
 
 /* An empty scene with its arena. */

@@ -107,6 +107,24 @@ static void files_below_the_model_are_read(void **state)
     }
 }
 
+static void files_named_otherwise_are_read_with_a_warning(void **state)
+{
+    static const char *const uris[] = {"Inside.BIN",   "DEEP/inside.bin", "inside.bin?v=1", "inside.bin#a",
+                                       "deep/A%20B.x", "a\\\\ b.bin",     "A%20b.bin?x"};
+    for (size_t i = 0; i < sizeof uris / sizeof *uris; i++) {
+        facet_scene *scene = NULL;
+        facet_error error = {0};
+        facet_result result = load_uri_model(*state, uris[i], NULL, &scene, &error);
+        if ((result == FACET_OK) != (i != 4))
+            fail_msg("%s: %s", uris[i], error.message);
+        if (result == FACET_OK) {
+            assert_int_equal(scene->warning_count, 1);
+            assert_non_null(strstr(scene->warnings[0], "is read instead"));
+        }
+        scene_destroy(scene);
+    }
+}
+
 static void files_elsewhere_are_not(void **state)
 {
     const folder *f = *state;
@@ -117,6 +135,9 @@ static void files_elsewhere_are_not(void **state)
                                 "%2e%2e/outside.bin",
                                 "..%2Foutside.bin",
                                 "..\\\\outside.bin",
+                                "../OUTSIDE.bin",
+                                "../outside.bin?v=1",
+                                "LINK.bin",
                                 "link.bin",
                                 absolute,
                                 "file:///etc/passwd",
@@ -344,6 +365,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_below_the_model_are_read),
+        cmocka_unit_test(files_named_otherwise_are_read_with_a_warning),
         cmocka_unit_test(files_elsewhere_are_not),
         cmocka_unit_test(a_root_widens_what_may_be_read),
         cmocka_unit_test(files_that_are_too_short_are_refused),

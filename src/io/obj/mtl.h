@@ -14,9 +14,11 @@ facet_result mtl_reader_create(facet_scene *scene, const facet_scene_desc *desc,
                                mtl_reader **out, facet_error *error);
 void mtl_reader_destroy(mtl_reader *reader); /* NULL is allowed */
 /* The arguments of an mtllib statement: one or more names; names with spaces and Windows paths are found where the
- * literal reading finds no file. A library that is missing is a warning; one that was read already is not read again.
- * Fails with FACET_ERROR_MEMORY only. */
+ * literal reading finds no file. One that was read already is not read again. Fails with FACET_ERROR_MEMORY only. */
 facet_result mtl_reader_load(mtl_reader *reader, const char *names, size_t length, facet_error *error);
+/* After the last statement: warns of libraries that are missing. Where none was read and materials are needed, the one
+ * that is named like the OBJ file is read. Fails with FACET_ERROR_MEMORY only. */
+facet_result mtl_reader_settle(mtl_reader *reader, bool needs_materials, facet_error *error);
 /* A comment of the OBJ file, without its #: the first ones name the program that wrote it. Libraries that name one
  * themselves count more. */
 void mtl_reader_hint(mtl_reader *reader, const char *comment, size_t length);

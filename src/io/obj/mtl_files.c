@@ -22,11 +22,6 @@ static const char *base_name(const char *name)
     return base;
 }
 
-static bool is_of_windows(const char *name)
-{
-    return strchr(name, '\\') || (name[0] && name[1] == ':');
-}
-
 /* Takes the last folder off [path, end), for "..". False: there is none to take. */
 static bool go_up(const char *path, char **end)
 {
@@ -43,7 +38,7 @@ static bool go_up(const char *path, char **end)
 
 /* folder and name with slashes, without "./", doubled slashes and "folder/../", so that a file has one name; in the
  * arena. */
-static const char *join(mtl_files *f, const char *folder, const char *name, bool is_as_written)
+static const char *join(mtl_files *f, const char *folder, const char *name)
 {
     size_t folder_length = name[0] == '/' ? 0 : strlen(folder);
     char *path = arena_alloc(f->scope.scene->arena, folder_length + strlen(name) + 2, 1);
@@ -53,9 +48,8 @@ static const char *join(mtl_files *f, const char *folder, const char *name, bool
     }
     memcpy(path, folder, folder_length);
     char *out = path + folder_length;
-    const char *separators = is_as_written ? "/" : "/\\";
     for (const char *c = name; *c;) {
-        size_t length = strcspn(c, separators);
+        size_t length = strcspn(c, "/");
         bool is_up = length == 2 && c[0] == '.' && c[1] == '.';
         bool is_here = length == 1 && c[0] == '.' && c[1];
         bool is_empty = length == 0 && out > path;
@@ -72,17 +66,17 @@ static const char *join(mtl_files *f, const char *folder, const char *name, bool
 }
 
 /* One place. The first message stays: it is about what the file says. */
-static bool try_place(mtl_files *f, const char *folder, const char *name, bool is_as_written,
-                      const char *shown, uri_bytes *out, const char **found)
+static bool try_place(mtl_files *f, const char *folder, const char *name, const char *shown, uri_bytes *out,
+                      const char **found)
 {
-    const char *path = join(f, folder, name, is_as_written);
+    const char *path = join(f, folder, name);
     if (!path)
         return false;
     uri_bytes bytes;
     if (file_scope_open(&f->scope, path, shown, &bytes)) {
         *out = bytes;
-        *found = path;
-        return true;
+        *found = join(f, "", bytes.name);
+        return *found != NULL;
     }
     f->has_failed = f->has_failed || bytes.result == FACET_ERROR_MEMORY;
     if (out->result == FACET_OK)
@@ -95,11 +89,8 @@ bool mtl_files_open_named(mtl_files *f, const char *folder, const char *name, ur
 {
     *out = (uri_bytes){0};
     *found = NULL;
-    /* As written, in which a backslash may be part of a name; then as Windows means it. A drive's letter leads nowhere
-     * here but to a file of that name. */
-    return try_place(f, folder, name, true, name, out, found) ||
-           (is_of_windows(name) && try_place(f, folder, name, false, name, out, found)) ||
-           (folder[0] && try_place(f, "", name, false, name, out, found));
+    return try_place(f, folder, name, name, out, found) ||
+           (folder[0] && try_place(f, "", name, name, out, found));
 }
 
 bool mtl_files_open(mtl_files *f, const char *folder, const char *name, uri_bytes *out, const char **found)
@@ -107,8 +98,8 @@ bool mtl_files_open(mtl_files *f, const char *folder, const char *name, uri_byte
     const char *base = base_name(name);
     return mtl_files_open_named(f, folder, name, out, found) ||
            (base > name && base[0] &&
-            (try_place(f, folder, base, false, name, out, found) ||
-             (folder[0] && try_place(f, "", base, false, name, out, found))));
+            (try_place(f, folder, base, name, out, found) ||
+             (folder[0] && try_place(f, "", base, name, out, found))));
 }
 
 /* ---- images ---- */

@@ -114,8 +114,7 @@ typedef struct mtl_files {
     bool has_failed;
 } mtl_files;
 
-/* Finds the file of a name as libraries write it: below folder ("" or "materials/") or beside the OBJ file, with
- * Windows' separators. *found: where, below the OBJ file's folder; in the scene's arena. NULL in *found: out->message says
+/* Finds the file of a name as libraries write it: below folder ("" or "materials/") or beside the OBJ file. *found: where, below the OBJ file's folder; in the scene's arena. NULL in *found: out->message says
  * why. */
 bool mtl_files_open_named(mtl_files *f, const char *folder, const char *name, uri_bytes *out,
                           const char **found);

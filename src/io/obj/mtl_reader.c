@@ -15,6 +15,9 @@ struct mtl_reader {
     uint32_t *table; /* hash table of names; a power of two, 0 or at least twice count */
     size_t table_size;
     index_table libraries; /* those read, by file */
+    size_t library_count;
+    const char **missing; /* why libraries that are named cannot be read; block of mem_alloc() */
+    size_t missing_count, missing_capacity;
     mtl_spectra spectra;
     bool has_failed;
 };
@@ -33,6 +36,7 @@ facet_result mtl_reader_create(facet_scene *scene, const facet_scene_desc *desc,
         .allocator = &r->desc.allocator,
         .folder = folder,
         .root = desc->root,
+        .log = &r->desc.log,
         .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
         .allows_absolute = true,
     };
@@ -50,6 +54,7 @@ void mtl_reader_destroy(mtl_reader *r)
     mtl_files_destroy(&r->files);
     mem_free(r->drafts);
     mem_free(r->table);
+    mem_free(r->missing);
     index_table_release(&r->libraries);
     mtl_spectra_destroy(&r->spectra);
     mem_free(r);
@@ -274,12 +279,21 @@ facet_result mtl_reader_load_bytes(mtl_reader *r, const char *name, const void *
 
 /* ---- mtllib ---- */
 
+/* How a name may be read. */
+typedef enum name_leeway {
+    NAME_LITERAL,
+    NAME_ALIKE, /* as file_scope_open() has it */
+    NAME_BASE   /* the same, and beside the OBJ file wherever it is said to be */
+} name_leeway;
+
 /* Reads the library of a name unless it was read already. False: there is none; *why is filled. */
-static bool load_library(mtl_reader *r, const char *name, bool is_base_enough, uri_bytes *why)
+static bool load_library(mtl_reader *r, const char *name, name_leeway leeway, uri_bytes *why)
 {
     const char *found;
-    bool is_open = is_base_enough ? mtl_files_open(&r->files, "", name, why, &found)
-                                  : mtl_files_open_named(&r->files, "", name, why, &found);
+    r->files.scope.is_literal = leeway == NAME_LITERAL;
+    bool is_open = leeway == NAME_BASE ? mtl_files_open(&r->files, "", name, why, &found)
+                                       : mtl_files_open_named(&r->files, "", name, why, &found);
+    r->files.scope.is_literal = false; /* for its maps */
     if (!is_open) {
         r->has_failed = r->has_failed || r->files.has_failed;
         return false;
@@ -290,13 +304,14 @@ static bool load_library(mtl_reader *r, const char *name, bool is_base_enough, u
         r->has_failed = true;
         return true;
     }
+    r->library_count++;
     read_library(r, found, why);
     return true;
 }
 
 /* Loads the shortest name of up to MOST_WORDS words at the front of *rest that is a file's, and moves *rest behind it.
  * Words are names by the letter of the format; names with spaces are common all the same. */
-static bool load_front(mtl_reader *r, mtl_span *rest, mtl_parser *p)
+static bool load_front(mtl_reader *r, mtl_span *rest, name_leeway leeway, mtl_parser *p)
 {
     enum { MOST_WORDS = 16 };
     mtl_span all = mtl_trim(*rest);
@@ -311,7 +326,7 @@ static bool load_front(mtl_reader *r, mtl_span *rest, mtl_parser *p)
         }
         uri_bytes why;
         const char *kept = mtl_keep(p, name);
-        if (!p->has_failed && load_library(r, kept, false, &why)) {
+        if (!p->has_failed && load_library(r, kept, leeway, &why)) {
             *rest = ahead;
             return true;
         }
@@ -334,22 +349,71 @@ static mtl_span missing_name(mtl_span *rest)
     return first;
 }
 
+/* Remembers why a library cannot be read. */
+static void add_missing(mtl_reader *r, mtl_parser *p, const char *message)
+{
+    const char *kept = mtl_keep(p, (mtl_span){message, message + strlen(message)});
+    if (p->has_failed || !mem_reserve(&r->desc.allocator, (void **)&r->missing, &r->missing_capacity,
+                                      r->missing_count + 1, sizeof *r->missing))
+        r->has_failed = true;
+    else
+        r->missing[r->missing_count++] = kept;
+}
+
 facet_result mtl_reader_load(mtl_reader *r, const char *names, size_t length, facet_error *error)
 {
     enum { MOST_LIBRARIES = 256 }; /* of one statement: each that is missing costs questions to the system */
     mtl_span rest = {names, names + length};
     mtl_parser p = {.arena = r->scene->arena};
     for (int i = 0; i < MOST_LIBRARIES && mtl_length(mtl_trim(rest)) > 0 && !r->has_failed; i++) {
-        if (load_front(r, &rest, &p) || r->has_failed || p.has_failed)
+        if (load_front(r, &rest, NAME_LITERAL, &p) || load_front(r, &rest, NAME_ALIKE, &p) || r->has_failed ||
+            p.has_failed)
             continue;
         mtl_span name = missing_name(&rest);
         uri_bytes why;
         const char *kept = mtl_keep(&p, name);
-        if (!load_library(r, kept, true, &why) && !r->has_failed)
-            scene_warn(r->scene, &r->desc.log, "%s: mtllib: %s; its materials are defaults", r->scene->source,
-                       why.message);
+        if (!load_library(r, kept, NAME_BASE, &why) && !r->has_failed)
+            add_missing(r, &p, why.message);
     }
     r->has_failed = r->has_failed || p.has_failed || r->files.has_failed;
+    return r->has_failed ? fail_memory(error, "materials", r->count * sizeof *r->drafts) : FACET_OK;
+}
+
+/* Exporters write the library's name into the OBJ file; people rename both. False: there is no such file. */
+static bool load_namesake(mtl_reader *r)
+{
+    const char *base = path_base_name(r->scene->source);
+    size_t length = strlen(base);
+    const char *extension = path_extension(base);
+    length -= *extension ? strlen(extension) + 1 : 0;
+    char *name = arena_alloc(r->scene->arena, length + sizeof ".mtl", 1);
+    if (!name) {
+        r->has_failed = true;
+        return false;
+    }
+    memcpy(name, base, length);
+    memcpy(name + length, ".mtl", sizeof ".mtl");
+    uri_bytes why;
+    if (!load_library(r, name, NAME_ALIKE, &why))
+        return false;
+    if (r->missing_count)
+        scene_warn(r->scene, &r->desc.log,
+                   "%s: mtllib: %s; \"%.200s\", which is named like the model, is read instead",
+                   r->scene->source, r->missing[0], why.name);
+    else
+        scene_warn(r->scene, &r->desc.log,
+                   "%s: names no library of materials; \"%.200s\", which is named like the model, is read",
+                   r->scene->source, why.name);
+    return true;
+}
+
+facet_result mtl_reader_settle(mtl_reader *r, bool needs_materials, facet_error *error)
+{
+    bool is_found = needs_materials && r->library_count == 0 && r->files.scope.folder && load_namesake(r);
+    for (size_t i = 0; i < r->missing_count && !is_found; i++)
+        scene_warn(r->scene, &r->desc.log, "%s: mtllib: %s; its materials are defaults", r->scene->source,
+                   r->missing[i]);
+    r->has_failed = r->has_failed || r->files.has_failed;
     return r->has_failed ? fail_memory(error, "materials", r->count * sizeof *r->drafts) : FACET_OK;
 }
 

@@ -279,6 +279,57 @@ static void options_are_read(void **state)
     scene_destroy(scene);
 }
 
+/* What differs from the names on the disk as people's files do; each is read, with one warning per file. */
+static void names_are_read_as_they_are_meant(void **state)
+{
+    (void)state;
+    test_folder folder = test_folder_make();
+    static const char *const names[] = {"sub/WOOD.PNG",  "sub\\Wood.png",   "SUB\\wood.PNG",
+                                        "my\\ wood.png", "wood.png?v=1",    "wood.png#top",
+                                        "my%20wood.png", "t\xc3\xa9te.png", "Two.png"};
+    static const char *const found[] = {"sub/wood.png", "sub/wood.png",     "sub/wood.png",
+                                        "my wood.png",  "wood.png",         "wood.png",
+                                        "my wood.png",  "te\xcc\x81te.png", NULL};
+    test_put_png(&folder, "sub/wood.png");
+    test_put_png(&folder, "wood.png");
+    test_put_png(&folder, "my wood.png");
+    test_put_png(&folder, "te\xcc\x81te.png");
+    test_put_png(&folder, "two.png");
+    test_put_png(&folder, "two.PNG");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char library[256];
+        snprintf(library, sizeof library, "newmtl a\nmap_Kd %s\nmap_Ks %s\n", names[i], names[i]);
+        test_put_text(&folder, "a.mtl", library);
+        facet_scene *scene = mtl_load(folder.path, "A.mtl", NULL);
+        assert_int_equal(
+            mtl_count_warnings(scene, "test.obj: there is no file \"A.mtl\"; \"a.mtl\" is read instead"), 1);
+        assert_int_equal(scene->image_count, found[i] != NULL);
+        if (found[i])
+            assert_string_equal(scene->images[0].uri, found[i]);
+        /* A name of a web page means nothing else; any other file may be another one. */
+        assert_int_equal(scene->warning_count, i == 6 ? 1 : found[i] ? 2 : 3);
+        scene_destroy(scene);
+    }
+    test_folder_remove(&folder);
+}
+
+/* No name leads out of the folder because it is only alike. */
+static void names_that_are_alike_stay_inside(void **state)
+{
+    (void)state;
+    test_folder folder = test_folder_make();
+    test_put_png(&folder, "out/wood.png");
+    test_put_text(&folder, "in/a.mtl", "newmtl a\nmap_Kd ../OUT/WOOD.PNG\nmap_Ks ..\\Out\\wood.png\n");
+    facet_scene *scene = mtl_load(test_path(&folder, "in"), "a.mtl", NULL);
+    assert_int_equal(scene->image_count, 0);
+    assert_int_equal(mtl_count_warnings(scene, "leads out of the model's folder"), 1);
+    scene_destroy(scene);
+    scene = mtl_load(test_path(&folder, "in"), "a.mtl", &(facet_scene_desc){.root = folder.path});
+    assert_int_equal(scene->image_count, 1);
+    scene_destroy(scene);
+    test_folder_remove(&folder);
+}
+
 static void textures_are_found_and_shared(void **state)
 {
     (void)state;
@@ -397,6 +448,33 @@ static void one_set_of_coordinates_comes_back(void **state)
 }
 
 /* ---- libraries ---- */
+
+/* Where no library is there, the one that has the model's name, however many are named. */
+static void a_library_named_like_the_model_is_found(void **state)
+{
+    (void)state;
+    static const char *const statements[] = {"old.mtl", "old.mtl other.mtl", ""};
+    static const char *const warnings[] = {
+        "mtllib: there is no file \"old.mtl\"; \"Test.MTL\", which is named like the model, is read instead",
+        "mtllib: there is no file \"old.mtl\"; \"Test.MTL\", which is named like the model, is read instead",
+        "test.obj: names no library of materials; \"Test.MTL\", which is named like the model, is read"};
+    test_folder folder = test_folder_make();
+    test_put_text(&folder, "Test.MTL", "newmtl a\n");
+    for (size_t i = 0; i < 3; i++) {
+        facet_scene *scene = mtl_load(folder.path, statements[i], NULL);
+        assert_int_equal(scene->material_count, 1);
+        assert_int_equal(mtl_count_warnings(scene, warnings[i]), 1);
+        scene_destroy(scene);
+    }
+    test_put_text(&folder, "there.mtl", "newmtl b\n");
+    facet_scene *scene = mtl_load(folder.path, "gone.mtl there.mtl", NULL);
+    assert_string_equal(scene->materials[0].name, "b");
+    assert_int_equal(scene->material_count, 1);
+    assert_int_equal(mtl_count_warnings(scene, "there is no file \"gone.mtl\"; its materials are defaults"),
+                     1);
+    scene_destroy(scene);
+    test_folder_remove(&folder);
+}
 
 static void libraries_are_found(void **state)
 {
@@ -672,9 +750,12 @@ int main(void)
         cmocka_unit_test(colors_may_be_spectra),
         cmocka_unit_test(offset_and_scale_are_converted),
         cmocka_unit_test(options_are_read),
+        cmocka_unit_test(names_are_read_as_they_are_meant),
+        cmocka_unit_test(names_that_are_alike_stay_inside),
         cmocka_unit_test(textures_are_found_and_shared),
         cmocka_unit_test(unknown_textures_stay_alone),
         cmocka_unit_test(one_set_of_coordinates_comes_back),
+        cmocka_unit_test(a_library_named_like_the_model_is_found),
         cmocka_unit_test(libraries_are_found),
         cmocka_unit_test(files_are_opened_once),
         cmocka_unit_test(materials_are_found_by_name),

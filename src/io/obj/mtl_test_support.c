@@ -87,6 +87,7 @@ facet_scene *mtl_load(const char *folder, const char *names, const facet_scene_d
     assert_int_equal(scene_create(&desc->allocator, "test.obj", &scene, NULL), FACET_OK);
     assert_int_equal(mtl_reader_create(scene, desc, folder, &reader, NULL), FACET_OK);
     assert_int_equal(mtl_reader_load(reader, names, strlen(names), NULL), FACET_OK);
+    assert_int_equal(mtl_reader_settle(reader, true, NULL), FACET_OK);
     assert_int_equal(mtl_reader_finish(reader, NULL), FACET_OK);
     mtl_reader_destroy(reader);
     return scene;

@@ -183,6 +183,14 @@ static bool place_primitives(obj_reader *r)
 
 /* ---- materials ---- */
 
+static bool has_named_material(const obj_reader *r)
+{
+    size_t length = 0;
+    for (size_t i = 0; i < r->material_names.count && length == 0; i++)
+        obj_names_get(&r->material_names, (uint32_t)i, &length);
+    return length > 0;
+}
+
 /* Libraries first: usemtl may stand before mtllib. */
 static bool load_libraries(obj_reader *r)
 {
@@ -202,7 +210,8 @@ static bool load_libraries(obj_reader *r)
                 return false;
             }
         }
-    return true;
+    r->result = mtl_reader_settle(r->materials, has_named_material(r), r->error);
+    return obj_is_ok(r);
 }
 
 /* Elements before any usemtl have the material without a name: default values as well, since OBJ draws all surfaces from

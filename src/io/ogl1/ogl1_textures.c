@@ -123,6 +123,7 @@ void ogl1_find_textures(ogl1_document *d)
                                       .allocator = r->allocator,
                                       .folder = r->folder,
                                       .root = r->root,
+                                      .log = r->log,
                                       .max_file_bytes = r->max_file_bytes,
                                       .allows_absolute = true}}};
     for (uint32_t i = 0; i < d->entry_count && reader_is_ok(r); i++) {
