@@ -125,12 +125,31 @@ static void broken_files_are_refused(void **state)
     }
 }
 
+/* Red and green in two slices: the same with the swizzle that toktx writes, in which alpha is the second one. */
+static void red_and_green_of_toktx(void **state)
+{
+    (void)state;
+    image plain = decode_file("tests/cases/29-etc1s-swizzle/rg.ktx2");
+    image swizzled = decode_file("tests/cases/29-etc1s-swizzle/rg_swizzle_ra01.ktx2");
+    const uint8_t *texel = plain.pixels;
+    uint8_t least = 255, most = 0;
+    for (size_t i = 0; i < (size_t)plain.width * plain.height; i++, texel += plain.channel_count) {
+        least = texel[1] < least ? texel[1] : least;
+        most = texel[1] > most ? texel[1] : most;
+    }
+    assert_true(least < 200 && most > least); /* green shows something */
+    assert_same_texels(&plain, &swizzled);
+    image_destroy(&plain);
+    image_destroy(&swizzled);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_are_those_of_the_transcoder),
         cmocka_unit_test(files_of_other_makers),
         cmocka_unit_test(broken_files_are_refused),
+        cmocka_unit_test(red_and_green_of_toktx),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

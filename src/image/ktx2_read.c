@@ -76,13 +76,17 @@ void ktx2_data_destroy(ktx2_data *d)
 
 /* ---- channels ---- */
 
-/* Where RGBA of the picture come from: numbers of decoded channels; 4: 0, 5: 1. */
+/* Where RGBA of the picture come from: numbers of decoded channels; 4: 0, 5: 1. Transcoders put the second channel of red
+ * and green into alpha, and toktx writes "ra01" of what they give: there, a is that channel, and not the 1 of a format
+ * without opacity. */
 static void compose_channels(const ktx2 *k, unsigned char from[4])
 {
     static const char letters[] = "rgba01";
+    const bool is_green_in_alpha = k->format->from[1] == 3;
     for (int c = 0; c < 4; c++) {
         const unsigned source = (unsigned)(strchr(letters, k->swizzle[c]) - letters);
-        from[c] = (unsigned char)(source < 4 ? k->format->from[source] : source);
+        const bool is_kept = source >= 4 || (source == 3 && is_green_in_alpha);
+        from[c] = (unsigned char)(is_kept ? source : k->format->from[source]);
     }
 }
 
