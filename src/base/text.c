@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/utf8.h"
 
 void text_add_bytes(text *t, const void *bytes, size_t size)
 {
@@ -60,30 +61,12 @@ void text_destroy(text *t)
 
 /* ---- JSON ---- */
 
-/* Length of the UTF-8 sequence at s (1 to 4), 0 where it is none. Overlong forms, surrogates and what lies
- * above U+10FFFF are none. */
-static size_t utf8_length(const unsigned char *s)
-{
-    if (s[0] < 0x80)
-        return 1;
-    size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : s[0] >= 0xc2 ? 2 : 0;
-    if (s[0] > 0xf4)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((s[i] & 0xc0) != 0x80)
-            return 0;
-    if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f) || (s[0] == 0xf0 && s[1] < 0x90) ||
-        (s[0] == 0xf4 && s[1] > 0x8f))
-        return 0;
-    return length;
-}
-
 static void add_quoted(text *t, const char *value)
 {
     text_add(t, "\"");
     const unsigned char *s = (const unsigned char *)value;
     while (*s) {
-        size_t length = utf8_length(s);
+        size_t length = utf8_length(s, SIZE_MAX);
         if (length == 0) {
             text_add(t, "\xef\xbf\xbd");
             length = 1;

@@ -2,6 +2,7 @@
 #include "cli/bake_text.h"
 
 #include "cli/output_name.h"
+#include "cli/render_report.h"
 
 #include <jansson.h>
 #include <stdarg.h>
@@ -57,7 +58,7 @@ static json_t *coefficients_json(const float c[9][3])
 
 void bake_text_sh_json(bake_text *t, const float sh[3][9][3], const char *source, bool is_windowed)
 {
-    json_t *name = json_string(source), *order = json_array(), *list = json_array();
+    json_t *name = report_string_json(source), *order = json_array(), *list = json_array();
     for (int i = 0; i < 9; i++)
         json_array_append_new(order, json_string(orders[i]));
     for (int form = 0; form < 3; form++)
@@ -65,8 +66,8 @@ void bake_text_sh_json(bake_text *t, const float sh[3][9][3], const char *source
                               json_pack("{s:s, s:s, s:o}", "form", forms[form].name, "meaning",
                                         forms[form].meaning, "coefficients", coefficients_json(sh[form])));
     json_t *root = json_pack("{s:s, s:s, s:o, s:s, s:o, s:b, s:o}", "generator", "facet", "version",
-                             facet_version(), "source", name ? name : json_null(), "basis", basis, "order",
-                             order, "windowed", (int)is_windowed, "forms", list);
+                             facet_version(), "source", name, "basis", basis, "order", order, "windowed",
+                             (int)is_windowed, "forms", list);
     char *text = root ? json_dumps(root, JSON_INDENT(1) | JSON_REAL_PRECISION(9)) : NULL;
     if (text)
         add(t, "%s\n", text);

@@ -3,6 +3,7 @@
 
 #include "cli/failure.h"
 #include "cli/output.h"
+#include "cli/render_report.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -102,7 +103,7 @@ json_t *convert_report_json(const facet_scene *scene)
     for (int i = 0; i <= FACET_GRADE_BAD; i++)
         json_object_set_new(root, grade_names[i], json_integer(t.grades[i]));
     json_object_set_new(root, "mean_E", t.told ? json_real(t.mean_error) : json_null());
-    json_object_set_new(root, "worst", t.told ? json_string(t.worst.name) : json_null());
+    json_object_set_new(root, "worst", t.told ? report_string_json(t.worst.name) : json_null());
     json_object_set_new(root, "worst_E", t.told ? json_real(t.worst.error) : json_null());
     json_object_set_new(root, "worst_E_display", t.told ? json_real(t.worst_display) : json_null());
     return root;

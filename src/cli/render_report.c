@@ -5,6 +5,7 @@
 #include "cli/terminal.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Per pixel, the mean. */
@@ -53,9 +54,32 @@ void report_picture(const messages *m, const picture_report *p, bool is_news)
         1e3 * s->total_s, 1e3 * p->save_s, s->thread_count);
 }
 
+/* text with U+FFFD for each byte that is no UTF-8; jansson tells what is. */
+static json_t *replace_others(const char *text)
+{
+    const char replacement[] = "\xef\xbf\xbd";
+    char *copy = malloc(3 * strlen(text) + 1);
+    size_t used = 0;
+    while (copy && *text) {
+        size_t length = 1;
+        json_t *character = NULL;
+        while (length <= 4 && !memchr(text, 0, length) && !(character = json_stringn(text, length)))
+            length++;
+        memcpy(copy + used, character ? text : replacement, character ? length : 3);
+        used += character ? length : 3;
+        text += character ? length : 1;
+        json_decref(character);
+    }
+    json_t *string = copy ? json_stringn(copy, used) : NULL;
+    free(copy);
+    return string;
+}
+
 json_t *report_string_json(const char *text)
 {
     json_t *string = text ? json_string(text) : NULL;
+    if (text && !string)
+        string = replace_others(text);
     return string ? string : json_null();
 }
 

@@ -33,7 +33,7 @@ void report_partial(messages *m, const picture_report *p, const char *resume_wit
  * Returns how many there were. */
 size_t report_end_model(messages *m, json_t *all);
 
-/* A JSON string; null where text is NULL or not UTF-8, as names of files need not be. */
+/* A JSON string; null where text is NULL. Bytes that are no UTF-8, as names of files may have, become U+FFFD. */
 json_t *report_string_json(const char *text);
 
 /* Prints root as one line on standard output. */

@@ -2,25 +2,12 @@
 #include "plot/chart_text.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
-static const char ELLIPSIS[] = "\xe2\x80\xa6", REPLACEMENT[] = "\xef\xbf\xbd";
+#include "base/utf8.h"
 
-/* Length of the UTF-8 sequence at s, which ends with 0; 0: it is none (overlong, surrogate, above U+10FFFF). */
-static size_t sequence_length(const unsigned char *s)
-{
-    if (s[0] < 0x80)
-        return 1;
-    if (s[0] < 0xc2 || s[0] > 0xf4)
-        return 0;
-    const size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
-    for (size_t i = 1; i < length; i++)
-        if ((s[i] & 0xc0) != 0x80)
-            return 0;
-    const bool is_overlong = (s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xf0 && s[1] < 0x90);
-    const bool is_beyond = (s[0] == 0xed && s[1] > 0x9f) || (s[0] == 0xf4 && s[1] > 0x8f);
-    return is_overlong || is_beyond ? 0 : length;
-}
+static const char ELLIPSIS[] = "\xe2\x80\xa6", REPLACEMENT[] = "\xef\xbf\xbd";
 
 /* Characters that have no glyph and would break lines: controls, U+FFFE and U+FFFF, which XML forbids. */
 static bool is_control(const unsigned char *s, size_t length)
@@ -33,7 +20,7 @@ void label_clean(const char *text, char out[LABEL_SIZE])
 {
     size_t used = 0;
     for (const unsigned char *s = (const unsigned char *)(text ? text : ""); *s;) {
-        size_t length = sequence_length(s), taken = length ? length : 1;
+        size_t length = utf8_length(s, SIZE_MAX), taken = length ? length : 1;
         const char *from = length ? (const char *)s : REPLACEMENT;
         length = length ? length : strlen(REPLACEMENT);
         if (is_control((const unsigned char *)from, length)) {

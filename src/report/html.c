@@ -2,32 +2,17 @@
 #include "report/html.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
-/* ---- text ---- */
+#include "base/utf8.h"
 
-/* Bytes of the UTF-8 sequence at s; 0: it is none. */
-static size_t sequence_length(const unsigned char *s)
-{
-    size_t length = s[0] < 0x80   ? 1
-                    : s[0] < 0xc2 ? 0
-                    : s[0] < 0xe0 ? 2
-                    : s[0] < 0xf0 ? 3
-                    : s[0] < 0xf5 ? 4
-                                  : 0;
-    for (size_t i = 1; i < length; i++)
-        if ((s[i] & 0xc0) != 0x80)
-            return 0;
-    if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] >= 0xa0) || (s[0] == 0xf0 && s[1] < 0x90) ||
-        (s[0] == 0xf4 && s[1] >= 0x90))
-        return 0;
-    return length;
-}
+/* ---- text ---- */
 
 void html_text(text *out, const char *string)
 {
     for (const unsigned char *s = (const unsigned char *)string; *s;) {
-        size_t length = sequence_length(s);
+        size_t length = utf8_length(s, SIZE_MAX);
         const char *entity = *s == '&'                                                ? "&amp;"
                              : *s == '<'                                              ? "&lt;"
                              : *s == '>'                                              ? "&gt;"

@@ -9,14 +9,6 @@
 
 /* ---- JSON ---- */
 
-size_t json_memory_estimate(const char *text, size_t size)
-{
-    size_t memory = size;
-    for (size_t i = 0; i < size; i++)
-        memory += text[i] == '{' ? 300 : text[i] == '[' ? 160 : text[i] == ':' ? 96 : text[i] == ',' ? 48 : 0;
-    return memory;
-}
-
 static json_t *parse(reader *r, const char *text, size_t size)
 {
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) {
@@ -24,14 +16,8 @@ static json_t *parse(reader *r, const char *text, size_t size)
         text += 3;
         size -= 3;
     }
-    json_error_t error;
-    json_t *json = json_loadb(text, size, JSON_ALLOW_NUL, &error);
-    if (!json && json_error_code(&error) == json_error_out_of_memory)
-        reader_fail_memory(r, "JSON", size);
-    else if (!json)
-        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is not valid JSON: line %d, column %d: %s",
-                    error.line, error.column, error.text);
-    else if (!json_is_object(json))
+    json_t *json = reader_parse(r, text, size);
+    if (json && !json_is_object(json))
         reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "must be a JSON object");
     return json;
 }

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "base/text.h"
@@ -14,7 +15,7 @@
 static const char *data_folder(void)
 {
     const char *folder = getenv("FACET_TEST_DATA");
-    return folder && path_is_inside(folder, "/") ? folder : NULL;
+    return folder && access(folder, R_OK) == 0 ? folder : NULL;
 }
 
 /* ---- lists of files ---- */

@@ -289,6 +289,42 @@ static void json_counts_against_a_budget(void **state)
     free(json);
 }
 
+/* Latin-1; GBK, whose second bytes may be a backslash, before a letter and before the quote; half of a surrogate pair. */
+static void text_of_other_encodings_is_read(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *names[2], *read[2];
+    } cases[] = {
+        {{"caf\xe9", "caf\xea"}, {"caf\xc3\xa9", "caf\xc3\xaa"}},
+        {{"caf\xe9\\n", "\xe9\\u0041"},
+         {"caf\xc3\xa9\n", "\xc3\xa9"
+                           "A"}},
+        {{"\xbd\xf0\xca\xf4", "\xd6\xd0"}, {"\xc2\xbd\xc3\xb0\xc3\x8a\xc3\xb4", "\xc3\x96\xc3\x90"}},
+        {{"\xe5\\x", "\x95\\"}, {"\xc3\xa5\\x", "\xc2\x95\\"}},
+        {{"\\ud83d", "\\ud83d\\ude00"}, {"\xef\xbf\xbd", "\xf0\x9f\x98\x80"}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char json[256];
+        snprintf(json, sizeof json, "{'asset':{'version':'2.0'},'materials':[{'name':'%s'},{'name':'%s'}]}",
+                 cases[i].names[0], cases[i].names[1]);
+        facet_scene *scene = NULL;
+        facet_error error = {0};
+        if (try_load_text(json, &scene, &error) != FACET_OK)
+            fail_msg("%s", error.message);
+        assert_string_equal(scene->materials[0].name, cases[i].read[0]);
+        assert_string_equal(scene->materials[1].name, cases[i].read[1]);
+        assert_int_equal(scene->warning_count, 1);
+        assert_true(has_warning(scene, "has text that is not UTF-8; its bytes are taken as Latin-1"));
+        scene_destroy(scene);
+    }
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    assert_int_equal(try_load_text("{'asset':{'version':'2.0','x':'\xe9'}", &scene, &error),
+                     FACET_ERROR_INVALID);
+    assert_non_null(strstr(error.message, "is not valid JSON"));
+}
+
 static void versions_are_looked_at(void **state)
 {
     (void)state;
@@ -374,6 +410,7 @@ int main(void)
         cmocka_unit_test(broken_containers_say_what_is_wrong),
         cmocka_unit_test(deep_json_is_refused),
         cmocka_unit_test(json_counts_against_a_budget),
+        cmocka_unit_test(text_of_other_encodings_is_read),
         cmocka_unit_test(versions_are_looked_at),
         cmocka_unit_test(extensions_are_named),
         cmocka_unit_test(asset_and_names_are_kept),

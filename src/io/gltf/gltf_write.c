@@ -17,9 +17,9 @@ static void write_asset(writer *w)
     const facet_scene *scene = w->scene;
     json_t *asset = put_object(w, w->root, "asset");
     put(w, asset, "version", json_string("2.0"));
-    put(w, asset, "generator", json_string(w->generator));
+    put(w, asset, "generator", json_text(w, w->generator));
     if (scene->copyright[0])
-        put(w, asset, "copyright", json_string(scene->copyright));
+        put(w, asset, "copyright", json_text(w, scene->copyright));
     put_meta(w, asset, &scene->asset_meta);
 }
 
@@ -27,7 +27,7 @@ static void write_variant_names(writer *w)
 {
     for (uint32_t i = 0; i < w->scene->variant_count; i++) {
         json_t *variant = json_object();
-        put(w, variant, "name", json_string(w->scene->variants[i]));
+        put(w, variant, "name", json_text(w, w->scene->variants[i]));
         append(w, put_array(w, put_extension(w, w->root, "KHR_materials_variants"), "variants"), variant);
     }
 }
@@ -44,9 +44,9 @@ static void write_extension_names(writer *w)
     }
     json_object_foreach(w->extensions_used, name, is_required)
     {
-        append(w, put_array(w, w->root, "extensionsUsed"), json_string(name));
+        append(w, put_array(w, w->root, "extensionsUsed"), json_text(w, name));
         if (json_is_true(is_required))
-            append(w, put_array(w, w->root, "extensionsRequired"), json_string(name));
+            append(w, put_array(w, w->root, "extensionsRequired"), json_text(w, name));
     }
 }
 

@@ -1,9 +1,12 @@
 /* gltf_write_json.c - JSON as the glTF writer needs it. */
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/result.h"
 #include "base/text.h"
+#include "base/utf8.h"
 #include "io/gltf/gltf_writer.h"
 
 bool writer_is_ok(const writer *w)
@@ -29,6 +32,21 @@ void append(writer *w, json_t *array, json_t *value)
         writer_fail_memory(w, 0);
 }
 
+json_t *json_text(writer *w, const char *words)
+{
+    size_t size = strlen(words);
+    if (utf8_is_valid(words, size))
+        return json_stringn(words, size);
+    if (!w->has_other_text)
+        log_warning(w->log, "%s: \"%.200s\" is not UTF-8, which glTF needs; its bytes are taken as Latin-1",
+                    w->scene->source, words);
+    w->has_other_text = true;
+    char *copy = mem_alloc(w->allocator, size, 2);
+    json_t *string = copy ? json_stringn(copy, utf8_from_latin1(words, size, copy)) : NULL;
+    mem_free(copy);
+    return string;
+}
+
 json_t *put_object(writer *w, json_t *object, const char *key)
 {
     json_t *there = json_object_get(object, key);
@@ -47,9 +65,11 @@ json_t *put_array(writer *w, json_t *object, const char *key)
     return json_object_get(object, key);
 }
 
+/* JSON has neither infinities, which become the largest number that every reader takes, nor NaN, which becomes 0. */
 static json_t *json_decimal(const char digits[TEXT_FLOAT_SIZE])
 {
     double number = strtod(digits, NULL);
+    number = isnan(number) ? 0.0 : fmax(-(double)FLT_MAX, fmin(number, (double)FLT_MAX));
     if (number >= -1e9 && number <= 1e9 && number == (double)(json_int_t)number &&
         !(number == 0.0 && digits[0] == '-'))
         return json_integer((json_int_t)number);
@@ -103,7 +123,7 @@ json_t *json_indices(const uint32_t *indices, size_t count)
 void put_name(writer *w, json_t *object, const char *name)
 {
     if (name && name[0])
-        put(w, object, "name", json_string(name));
+        put(w, object, "name", json_text(w, name));
 }
 
 void put_index(writer *w, json_t *object, const char *key, uint32_t index)
@@ -175,18 +195,11 @@ static json_t *parse(writer *w, const char *json)
     return value;
 }
 
-static bool is_utf8(const char *name)
-{
-    json_t *string = json_string(name);
-    json_decref(string);
-    return string != NULL;
-}
-
 /* RFC 3986: what is neither unreserved nor a character of UTF-8 is escaped; of a name that is not UTF-8, which files
  * may have, all bytes beyond ASCII. */
 void put_uri(writer *w, json_t *object, const char *name)
 {
-    const bool has_characters = is_utf8(name);
+    const bool has_characters = utf8_is_valid(name, strlen(name));
     char *uri = mem_alloc(w->allocator, 3 * strlen(name) + 1, 1);
     char *at = uri;
     if (!uri) {

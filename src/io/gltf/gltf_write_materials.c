@@ -28,7 +28,7 @@ static void put_named_texture(writer *w, json_t *info, uint32_t texture)
 {
     const scene_texture *t = &w->scene->textures[texture];
     const char *file = t->image == SCENE_NONE || !w->image_names ? NULL : w->image_names[t->image];
-    put(w, info, "image", file ? json_string(file) : json_null());
+    put(w, info, "image", file ? json_text(w, file) : json_null());
     put(w, info, "sampler", new_sampler(w, t));
     put_name(w, info, t->name);
 }

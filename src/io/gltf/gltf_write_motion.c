@@ -96,7 +96,7 @@ static void write_channel(writer *w, json_t *channels, const scene_channel *c)
     json_t *target = put_object(w, out, "target");
     if (c->pointer) {
         put(w, target, "path", json_string("pointer"));
-        put(w, put_extension(w, target, "KHR_animation_pointer"), "pointer", json_string(c->pointer));
+        put(w, put_extension(w, target, "KHR_animation_pointer"), "pointer", json_text(w, c->pointer));
     } else {
         put_index(w, target, "node", c->index);
         put(w, target, "path", json_string(path_of(c)));

@@ -33,6 +33,7 @@ typedef struct writer {
     json_t *root, *accessors, *views;
     json_t *extensions_used; /* an object: names in the order of their first use; true: required */
     bool needs_all_digits;   /* some number of the metadata has more than 15 */
+    bool has_other_text;     /* that is not UTF-8; a warning said so */
     unsigned char *bin;
     size_t bin_size, bin_capacity;
 
@@ -60,6 +61,9 @@ void writer_fail_memory(writer *w, size_t size); /* bytes that were asked for; 0
 
 void put(writer *w, json_t *object, const char *key, json_t *value);
 void append(writer *w, json_t *array, json_t *value);
+/* A string of text of the scene, or of a file's name, which need not be UTF-8: other bytes are taken for Latin-1, with one
+ * warning per file. */
+json_t *json_text(writer *w, const char *words);
 json_t *put_object(writer *w, json_t *object, const char *key); /* borrowed; made where it is not there */
 json_t *put_array(writer *w, json_t *object, const char *key);
 /* A number that reads back as the same float and prints as short as can be. */

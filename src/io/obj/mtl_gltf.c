@@ -135,7 +135,8 @@ static void settle_name(mtl_parser *p, json_t *json, const legacy_material *m)
     const json_t *name = json_object_get(json_object_get(json, "facet"), "newmtl");
     if (json_is_string(name) && strcmp(json_string_value(name), m->name) == 0)
         return;
-    json_t *new = json_string(m->name); /* NULL also where it is no UTF-8 */
+    json_t *new =
+        json_string(m->name); /* NULL also where it is no UTF-8; mtl_reader_finish() names it then */
     if (new &&json_object_set_new(json, "name", new) != 0)
         p->has_failed = true;
 }

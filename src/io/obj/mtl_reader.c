@@ -3,6 +3,8 @@
 #include <strings.h>
 
 #include "base/result.h"
+#include "base/utf8.h"
+#include "io/name_table.h"
 #include "io/obj/mtl_parts.h"
 
 struct mtl_reader {
@@ -460,6 +462,49 @@ static void fill_material(mtl_reader *r, scene_legacy *legacy, size_t i)
     legacy->materials[i] = draft->m;
 }
 
+/* The name as UTF-8, told from those in the table; NULL: no memory. */
+static const char *settle_name(const mtl_reader *r, name_table *names, const char *name)
+{
+    size_t size = strlen(name);
+    char *copy = arena_alloc(r->scene->arena, 2 * size + NAME_NUMBER_ROOM, 1);
+    if (!copy)
+        return NULL;
+    copy[utf8_from_latin1(name, size, copy)] = 0;
+    name_table_add_numbered(names, copy, 2);
+    return copy;
+}
+
+/* Statements found materials by the bytes of their names; from here on names are UTF-8. Bytes of another encoding are
+ * taken for Latin-1, with one warning. */
+static bool settle_names(mtl_reader *r, scene_legacy *legacy)
+{
+    size_t others = 0;
+    const char *first = NULL;
+    name_table names = {0};
+    bool is_done = name_table_create(&names, r->count, false, &r->desc.allocator);
+    for (size_t i = 0; i < r->count && is_done; i++) {
+        const char *name = legacy->materials[i].name;
+        if (utf8_is_valid(name, strlen(name)))
+            name_table_add(&names, name);
+        else
+            first = others++ ? first : name;
+    }
+    if (others)
+        scene_warn(r->scene, &r->desc.log,
+                   "%s: the name of material \"%.200s\" is not UTF-8; its bytes are taken as Latin-1%s",
+                   r->scene->source, first, others > 1 ? ", as those of others" : "");
+    for (size_t i = 0; i < r->count && is_done && others; i++) {
+        const char *name = legacy->materials[i].name;
+        if (utf8_is_valid(name, strlen(name)))
+            continue;
+        name = settle_name(r, &names, name);
+        is_done = name != NULL;
+        legacy->materials[i].name = r->scene->materials[i].name = name;
+    }
+    name_table_destroy(&names);
+    return is_done;
+}
+
 facet_result mtl_reader_finish(mtl_reader *r, facet_error *error)
 {
     facet_scene *scene = r->scene;
@@ -469,7 +514,7 @@ facet_result mtl_reader_finish(mtl_reader *r, facet_error *error)
         return fail_memory(error, "materials", r->count * sizeof *scene->materials);
     for (size_t i = 0; i < r->count; i++)
         fill_material(r, legacy, i);
-    if (r->has_failed)
+    if (r->has_failed || !settle_names(r, legacy))
         return fail_memory(error, "materials", r->count * sizeof *scene->materials);
     scene->material_count = (uint32_t)r->count;
     scene->legacy = legacy;

@@ -135,6 +135,21 @@ static void names_count_once(void **state)
     scene_destroy(scene);
 }
 
+/* Latin-1, and a name in UTF-8 that is the same word: three materials stay three. */
+static void names_become_utf8(void **state)
+{
+    (void)state;
+    facet_scene *scene = mtl_load_text("newmtl caf\xe9\nnewmtl caf\xc3\xa9\nnewmtl caf\xea\n", NULL);
+    assert_int_equal(scene->material_count, 3);
+    assert_string_equal(scene->materials[0].name, "caf\xc3\xa9_2");
+    assert_string_equal(scene->materials[1].name, "caf\xc3\xa9");
+    assert_string_equal(scene->materials[2].name, "caf\xc3\xaa");
+    assert_string_equal(scene->legacy->materials[2].name, "caf\xc3\xaa");
+    assert_int_equal(
+        mtl_count_warnings(scene, "is not UTF-8; its bytes are taken as Latin-1, as those of others"), 1);
+    scene_destroy(scene);
+}
+
 static void transparency_is_settled(void **state)
 {
     (void)state;
@@ -745,6 +760,7 @@ int main(void)
         cmocka_unit_test(lines_may_be_written_oddly),
         cmocka_unit_test(wrong_values_are_clamped_or_ignored),
         cmocka_unit_test(names_count_once),
+        cmocka_unit_test(names_become_utf8),
         cmocka_unit_test(transparency_is_settled),
         cmocka_unit_test(colors_may_be_xyz),
         cmocka_unit_test(colors_may_be_spectra),

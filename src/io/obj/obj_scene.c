@@ -1,6 +1,7 @@
 /* obj_scene.c - nodes and meshes: one of each per object, with its primitives. */
 #include <string.h>
 
+#include "base/utf8.h"
 #include "io/obj/obj_reader.h"
 
 static void *take(obj_reader *r, size_t count, size_t size)
@@ -11,45 +12,15 @@ static void *take(obj_reader *r, size_t count, size_t size)
     return block;
 }
 
-/* Bytes of a UTF-8 sequence of 2 to 4 that stands at p; 0: none does. */
-static size_t sequence_length(const unsigned char *p, size_t size)
-{
-    size_t length = p[0] >= 0xc2 && p[0] <= 0xdf   ? 2
-                    : p[0] >= 0xe0 && p[0] <= 0xef ? 3
-                    : p[0] >= 0xf0 && p[0] <= 0xf4 ? 4
-                                                   : 0;
-    if (length == 0 || length > size)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((p[i] & 0xc0) != 0x80)
-            return 0;
-    bool is_long = (p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xf0 && p[1] < 0x90);
-    bool is_outside = (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf4 && p[1] > 0x8f);
-    return is_long || is_outside ? 0 : length;
-}
-
 char *obj_copy_name(obj_reader *r, const char *bytes, size_t size)
 {
-    const unsigned char *p = (const unsigned char *)bytes;
+    const char *end = size ? memchr(bytes, 0, size) : NULL;
+    size = end ? (size_t)(end - bytes) : size;
     char *copy = arena_alloc(r->scene->arena, 2 * size + 1, 1);
-    if (!copy) {
+    if (copy)
+        copy[utf8_from_latin1(bytes, size, copy)] = 0;
+    else
         obj_fail_memory(r, "names", 2 * size + 1);
-        return NULL;
-    }
-    size_t length = 0;
-    for (size_t i = 0; i < size && p[i];) {
-        size_t sequence = p[i] < 0x80 ? 1 : sequence_length(p + i, size - i);
-        if (sequence) {
-            memcpy(copy + length, p + i, sequence);
-            length += sequence;
-            i += sequence;
-        } else {
-            copy[length++] = (char)(0xc0 | p[i] >> 6);
-            copy[length++] = (char)(0x80 | (p[i] & 0x3f));
-            i++;
-        }
-    }
-    copy[length] = 0;
     return copy;
 }
 

@@ -82,14 +82,8 @@ bool ogl1_json_detect(const void *bytes, size_t size)
 static json_t *parse(reader *r, const char *bytes, size_t size)
 {
     size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    json_error_t error;
-    json_t *json = json_loadb(bytes + mark, size - mark, JSON_ALLOW_NUL, &error);
-    if (!json && json_error_code(&error) == json_error_out_of_memory)
-        reader_fail_memory(r, "JSON", size);
-    else if (!json)
-        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is not valid JSON: line %d, column %d: %s",
-                    error.line, error.column, error.text);
-    else if (!json_is_object(json))
+    json_t *json = reader_parse(r, bytes + mark, size - mark);
+    if (json && !json_is_object(json))
         reader_fail(r, NULL, NULL, FACET_ERROR_INVALID,
                     "must be a JSON object with \"materials\" or \"material3d\"");
     return json;
