@@ -1,0 +1,76 @@
+#!/bin/sh
+# fresh.sh - the README's two commands on a Debian 12 with nothing installed: a debootstrap of variant minbase, a clone of
+# this checkout's HEAD in it, then ./run render and ./run test in a chroot with /proc and /dev of its own. Prints how long each
+# took, and what was skipped. Needs root, debootstrap, git, and some 6 GB of disk.
+#
+#     tests/fresh.sh [FOLDER]    FOLDER (a new one below /var/tmp) keeps the chroot; given again, its packages serve again
+#
+# MIRROR names another Debian mirror. FACET_TEST_DATA is shown to the tests where it is set. The apt sources and settings and
+# the certificates of this machine hold in the chroot as well.
+set -eu
+here=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
+[ "$(id -u)" = 0 ] || { echo "fresh: chroot and mount need root"; exit 1; }
+for tool in debootstrap git unshare chroot; do
+    command -v $tool >/dev/null || { echo "fresh: $tool is missing"; exit 1; }
+done
+folder=${1:-$(mktemp -d /var/tmp/facet-fresh-XXXXXX)}
+system=$folder/system
+base=$folder/base.tar
+mkdir -p "$folder"
+if [ ! -f "$base" ]; then
+    rm -rf "$system"
+    debootstrap --variant=minbase bookworm "$system" "${MIRROR:-http://deb.debian.org/debian}" >"$folder/debootstrap.log" 2>&1 ||
+        { tail -n 5 "$folder/debootstrap.log"; exit 1; }
+    tar -C "$system" -cf "$base.part" . && mv "$base.part" "$base"
+fi
+rm -rf "$system"
+mkdir -p "$system"
+tar -C "$system" -xf "$base"
+
+# How this machine reaches its packages: names, apt, certificates.
+cp /etc/resolv.conf "$system/etc/resolv.conf"
+if [ -z "${MIRROR:-}" ]; then
+    cp /etc/apt/sources.list "$system/etc/apt/" 2>/dev/null || true
+    cp /etc/apt/sources.list.d/debian* "$system/etc/apt/sources.list.d/" 2>/dev/null || true
+fi
+grep -l Acquire /etc/apt/apt.conf.d/* 2>/dev/null | while read -r file; do cp "$file" "$system/etc/apt/apt.conf.d/"; done
+certificates=
+if [ -n "${NODE_EXTRA_CA_CERTS:-}" ]; then
+    certificates=/root/certificates.crt
+    cp "$NODE_EXTRA_CA_CERTS" "$system$certificates"
+fi
+
+git clone -q "$here" "$system/root/facet"
+data=
+if [ -n "${FACET_TEST_DATA:-}" ]; then
+    data=/root/data
+    mkdir "$system$data"
+fi
+
+# inside SECONDS_FILE COMMAND: runs it in the clone. Mounts are those of a namespace that ends with it.
+inside() {
+    begin=$(date +%s)
+    code=0
+    unshare --mount --pid --fork sh -euc '
+        mount --make-rprivate /
+        mount -t proc proc "$1/proc"
+        mount --rbind /dev "$1/dev"
+        [ -z "$3" ] || { mount --bind "$FACET_TEST_DATA" "$1$3"; mount -o remount,bind,ro "$1$3"; }
+        exec chroot "$1" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
+            ${4:+NODE_EXTRA_CA_CERTS="$4"} ${3:+FACET_TEST_DATA="$3"} sh -c "cd /root/facet && $2"
+    ' sh "$system" "$1" "$data" "$certificates" || code=$?
+    echo "fresh: $1: exit $code, $(($(date +%s) - begin)) s"
+    return $code
+}
+
+status=0
+inside "./run render -o image.png" || status=1
+[ -s "$system/root/facet/image.png" ] || { echo "fresh: ./run render left no image"; status=1; }
+inside "./run test" >"$folder/test.log" 2>&1 || status=1
+tail -n 40 "$folder/test.log"
+if grep -E '\*\*\*Skipped|\(Skipped\)' "$folder/test.log"; then
+    echo "fresh: the tests above were skipped"
+    [ -z "$data" ] || status=1
+fi
+echo "fresh: $(chroot "$system" dpkg-query -f '.\n' -W | wc -l) packages, log in $folder/test.log"
+exit $status
