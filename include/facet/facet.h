@@ -108,7 +108,7 @@ typedef enum facet_material_model {
 } facet_material_model;
 
 typedef enum facet_legacy_method {
-    FACET_LEGACY_CLOSED, /* tables and formulas: quick */
+    FACET_LEGACY_CLOSED, /* tables and formulas where the target is linear radiance, else a search */
     FACET_LEGACY_FIT     /* searched for the smallest error */
 } facet_legacy_method;
 
@@ -117,9 +117,14 @@ typedef enum facet_legacy_profile {
     FACET_LEGACY_CORE          /* base color, metallic and roughness only */
 } facet_legacy_profile;
 
+/* Which difference between the two models a conversion minimises (docs/legacy.md, "The error"). */
 typedef enum facet_legacy_target {
-    FACET_LEGACY_TARGET_LINEAR, /* the least error of radiance */
-    FACET_LEGACY_TARGET_DISPLAY /* the least error of radiance clamped to [0, 1], what a screen shows */
+    /* _DRAWN to OpenGL 1 and from rgl's parameters, whose programs add light in display numbers; _LINEAR from MTL,
+     * whose readers today add light as light */
+    FACET_LEGACY_TARGET_AUTO,
+    FACET_LEGACY_TARGET_LINEAR,  /* of radiance */
+    FACET_LEGACY_TARGET_DISPLAY, /* of radiance clamped to [0, 1] */
+    FACET_LEGACY_TARGET_DRAWN    /* of what an OpenGL 1 program draws: sums of display numbers, clamped */
 } facet_legacy_target;
 
 /* What the colors of MTL and rgl files are. */
@@ -164,11 +169,14 @@ typedef enum facet_obj_normals {
 typedef struct facet_legacy_desc {
     facet_legacy_method method;
     facet_legacy_profile profile;
-    facet_legacy_target target; /* of FACET_LEGACY_FIT, and to FACET_MATERIALS_OGL1 */
+    facet_legacy_target target;
     facet_legacy_colors colors;
     facet_mtl_dialect dialect;
     facet_mtl_illum illum;
     facet_legacy_ambient ambient;
+    /* from OGL1: where a broad white highlight would make the material white, the hue of the diffuse color is kept, at the
+     * price of a larger error, which the report states */
+    bool keeps_hue;
     /* of reading: legacy materials are not converted, glTF's are defaults: for OpenGL 1 only */
     bool keeps_materials;
     bool has_glass; /* Ni, Tf and illum 4, 6, 7, 9 become transmission; false: opacity becomes alpha */
@@ -236,8 +244,9 @@ FACET_API void facet_text_destroy(char *text);
 
 /* ---- materials of OpenGL 1 and of glTF ---- */
 
+/* Of error_graded. */
 typedef enum facet_conversion_grade {
-    FACET_GRADE_GOOD, /* E_display < 0.05 */
+    FACET_GRADE_GOOD, /* < 0.05 */
     FACET_GRADE_FAIR, /* < 0.12 */
     FACET_GRADE_POOR, /* < 0.30 */
     FACET_GRADE_BAD
@@ -253,10 +262,14 @@ typedef struct facet_conversion {
     const char *profile;   /* "specular+ior", "core", "ogl1", .. */
     double error;          /* E */
     double error_display;  /* E of radiance clamped to [0, 1] */
+    double error_drawn;    /* the same with OpenGL 1 adding display numbers, as its programs did */
+    double error_graded;   /* error_drawn where the target is FACET_LEGACY_TARGET_DRAWN, else error_display */
     double error_naive;    /* E of the formula that most converters use */
     double error_core;     /* E of what viewers without the extensions show */
     double error_views[3]; /* E of each view alone */
     facet_conversion_grade grade;
+    facet_conversion_grade grade_drawn; /* of error_drawn */
+    bool is_graded_as_drawn;            /* which of the two error_graded is */
     uint32_t warning_count;
 } facet_conversion;
 

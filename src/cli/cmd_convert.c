@@ -83,7 +83,7 @@ static uint32_t count_large_errors(const convert_run *run, const facet_scene *sc
     if (!is_given(run->line, OPT_MAX_ERROR))
         return 0;
     for (uint32_t i = 0; i < facet_scene_get_conversion_count(scene); i++)
-        count += facet_scene_get_conversion(scene, i).error_display > limit;
+        count += facet_scene_get_conversion(scene, i).error_graded > limit;
     return count;
 }
 

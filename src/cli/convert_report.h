@@ -11,8 +11,8 @@
 typedef struct conversion_totals {
     uint32_t count, grades[FACET_GRADE_BAD + 1];
     uint32_t told; /* materials that have an error to tell */
-    double mean_error, mean_display, worst_display;
-    facet_conversion worst; /* by E_display */
+    double mean_error, mean_display, mean_drawn;
+    facet_conversion worst; /* by the error that is graded */
 } conversion_totals;
 
 conversion_totals conversion_sum(const facet_scene *scene);

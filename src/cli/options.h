@@ -87,6 +87,7 @@ typedef enum option_id {
     OPT_METHOD,
     OPT_PROFILE,
     OPT_FIT_TARGET,
+    OPT_KEEP_HUE,
     OPT_MTL_COLORS,
     OPT_DIALECT,
     OPT_ILLUM,

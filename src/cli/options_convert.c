@@ -76,9 +76,9 @@ static const option report_options[] = {
      .name = "max-error",
      .kind = OPTION_NUMBER,
      .argument = "E",
-     .help =
-         "exit code 1, after writing, where a material's error on a screen (E_display; below 0.05 is good, "
-         "above 0.3 is bad) is larger",
+     .help = "exit code 1, after writing, where the graded error of a material is larger (below 0.05 is "
+             "good, above 0.3 is "
+             "bad): as drawn where the fit's target is, else on a screen",
      .minimum = 0,
      .maximum = 1e9},
 };

@@ -123,7 +123,9 @@ static const option legacy_options[] = {
      .kind = OPTION_CHOICE,
      .argument = "HOW",
      .default_text = "closed",
-     .help = "closed: by formulas and tables; fit: searched for the least error",
+     .help = "closed: by formulas and tables where the target is linear light, else as fit; fit: searched "
+             "for the "
+             "least error",
      .choices = WORDS("closed", "fit")},
     {.id = OPT_PROFILE,
      .name = "profile",
@@ -136,9 +138,18 @@ static const option legacy_options[] = {
      .name = "fit-target",
      .kind = OPTION_CHOICE,
      .argument = "WHAT",
-     .default_text = "linear",
-     .help = "what a fit makes small: the error of light, or of what a screen shows of it",
-     .choices = WORDS("linear", "display")},
+     .default_text = "auto",
+     .help = "which error is made small: linear: of light; display: of light clamped as a screen does; "
+             "drawn: of what an "
+             "OpenGL 1 program draws, which adds display numbers; auto: drawn to OpenGL 1 and from rgl's "
+             "parameters, "
+             "linear from MTL",
+     .choices = WORDS("auto", "linear", "display", "drawn")},
+    {.id = OPT_KEEP_HUE,
+     .name = "keep-hue",
+     .help = "where a broad white highlight would make a material white, keep the hue of its diffuse color; "
+             "the report "
+             "states by how much the error grows"},
     {.id = OPT_MTL_COLORS,
      .name = "mtl-colors",
      .kind = OPTION_CHOICE,

@@ -2,7 +2,8 @@
 #include "legacy/convert_test_support.h"
 
 static const facet_legacy_desc PLAIN = {0};
-static const facet_legacy_desc LINEAR = {.colors = FACET_LEGACY_COLORS_LINEAR};
+static const facet_legacy_desc LINEAR = {.colors = FACET_LEGACY_COLORS_LINEAR,
+                                         .target = FACET_LEGACY_TARGET_LINEAR};
 
 static void to_ogl1(facet_scene *scene, const facet_legacy_desc *desc)
 {
@@ -78,9 +79,14 @@ static void colors_are_encoded(void **state)
     to_ogl1(scene, &LINEAR);
     float diffuse = scene->legacy->materials[0].diffuse[0];
     assert_color(scene->legacy->materials[0].emission, 1, .5f, 0, 1e-6);
-    to_ogl1(scene, &PLAIN); /* what was made so before is made anew: the colors that are there stay */
+    to_ogl1(
+        scene,
+        &(facet_legacy_desc){
+            .target =
+                FACET_LEGACY_TARGET_LINEAR}); /* what was made so before is made anew: the colors that are there stay */
     assert_int_equal(scene->legacy->colors, FACET_LEGACY_COLORS_LINEAR);
-    to_ogl1(scene, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_SRGB});
+    to_ogl1(scene,
+            &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_SRGB, .target = FACET_LEGACY_TARGET_LINEAR});
     assert_near(scene->legacy->materials[0].diffuse[0], srgb_encode((double)diffuse), 1e-5);
     assert_near(scene->legacy->materials[0].emission[1], srgb_encode(.5), 1e-5);
     scene_destroy(scene);

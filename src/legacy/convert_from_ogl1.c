@@ -55,12 +55,11 @@ static void report(const conversion *c, uint32_t material, const legacy_reading 
     out->summary.source = c->scene->legacy->is_rgl ? "ogl1" : "mtl";
     out->summary.profile = profile_of(out->pbr.extensions);
     if (item->is_asked) {
-        summary_solved(&out->summary, item);
+        summary_solved(c, &out->summary, item);
         out->has_surfaces = true;
         out->ogl1_surface = item->question.ogl1;
         out->pbr_surface = item->pbr;
-        bool is_closed = c->desc.method == FACET_LEGACY_CLOSED || item->question.is_closed > 0.0f;
-        out->summary.method = is_closed ? "closed" : "fit";
+        out->summary.method = solve_is_closed(c, FACET_MATERIALS_METALLIC_ROUGHNESS, item) ? "closed" : "fit";
     } else if (r->has_roughness_from_shininess) {
         /* Glass: OpenGL 1 has nothing to compare with. */
         summary_exact(&out->summary, "closed");

@@ -241,9 +241,10 @@ static void measure(conversion *c, uint32_t material, const pbr_surface *before,
     facet_conversion *summary = &c->out->materials[material].summary;
     fit_error error = compare_pbr(before, after);
     summary->error = error.E;
-    summary->error_display = error.E_display;
+    summary->error_display = summary->error_graded = error.E_display;
+    summary->error_drawn = (double)NAN; /* neither is drawn by OpenGL 1 */
     memcpy(summary->error_views, error.views, sizeof summary->error_views);
-    summary->grade = grade_of(error.E_display);
+    summary->grade = summary->grade_drawn = grade_of(error.E_display);
 }
 
 static void keep(conversion *c, uint32_t material)

@@ -25,6 +25,8 @@ static const struct {
     [NOTE_SHININESS_CLAMPED] = {"shininess-clamped", true},
     [NOTE_LOW_EXPONENT] = {"low-exponent", false},
     [NOTE_HIGHLIGHT_IGNORED] = {"highlight-ignored", true},
+    [NOTE_HUE_LOST] = {"hue-lost", true},
+    [NOTE_HUE_KEPT] = {"hue-kept", false},
     [NOTE_METAL_WITHOUT_DIFFUSE] = {"metal-without-diffuse", false},
     [NOTE_AMBIENT_DROPPED] = {"ambient-dropped", true},
     [NOTE_ILLUM_IGNORED] = {"illum-ignored", true},

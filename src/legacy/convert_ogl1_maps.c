@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "legacy/convert_ogl1_grid.h"
 #include "legacy/convert_texels.h"
 
 /* ---- texels as surfaces ---- */
@@ -19,7 +20,9 @@ typedef struct pbr_parameters {
     int is_glossy;            /* input 1 is a specular-glossiness texture */
     int is_specular;          /* what comes out: the specular color; else the diffuse one */
     float occlusion_strength; /* input 2 is an occlusion texture; 0: it is not */
+    int target;               /* facet_legacy_target */
     const srgb_tables *srgb;
+    const ogl1_grid *grid; /* last: of the members above, and so no part of the key; NULL: the closed form */
 } pbr_parameters;
 
 bool ogl1_reads_slot(scene_texture_slot slot)
@@ -66,7 +69,10 @@ static void pbr_row(const void *parameters, uint32_t width, const uint8_t *const
         pbr_surface s = surface_of(p, texels);
         if (memcmp(&s, &last, sizeof s) != 0) { /* neighbours are often equal */
             last = s;
-            pbr_to_ogl1_closed_at(&s, p->shininess, &answer);
+            if (p->grid)
+                ogl1_grid_look_up(p->grid, &s, &answer);
+            else
+                pbr_to_ogl1_closed_at(&s, p->shininess, &answer);
         }
         float scale = 1.0f;
         if (!p->is_specular && p->occlusion_strength > 0.0f && texels[PBR_SPECULAR])
@@ -203,7 +209,7 @@ static facet_result bake_color(pbr_job *job, bool is_specular, facet_error *erro
                          .channel_count = 3,
                          .row = pbr_row,
                          .parameters = &job->p,
-                         .parameter_size = sizeof job->p};
+                         .parameter_size = offsetof(pbr_parameters, grid)};
     memcpy(bake.inputs, job->inputs, sizeof bake.inputs);
     if (!is_specular && bakes_occlusion(job->c, job->m) && bake.inputs[PBR_SPECULAR] == SCENE_NONE &&
         take(job, PBR_SPECULAR, SCENE_OCCLUSION_TEXTURE)) {
@@ -329,6 +335,22 @@ static facet_result build_split(conversion *c, const scene_material *m, legacy_m
     return result;
 }
 
+/* A grid where the target is not linear radiance and texels differ in no more than it has axes for. */
+static facet_result make_grid(pbr_job *job, ogl1_grid **grid, facet_error *error)
+{
+    const pbr_surface *f = &job->p.factors;
+    bool is_gray =
+        f->specular_color[0] == f->specular_color[1] && f->specular_color[1] == f->specular_color[2];
+    bool has_specular_texels =
+        job->inputs[PBR_SPECULAR] != SCENE_NONE || job->inputs[PBR_SPECULAR_COLOR] != SCENE_NONE;
+    job->p.target = (int)job->c->target;
+    if (job->c->target == FACET_LEGACY_TARGET_LINEAR || has_specular_texels ||
+        (!job->p.is_glossy && !is_gray))
+        return FACET_OK;
+    return ogl1_grid_make(&job->c->scene->allocator, job->c->scene->thread_count, f, job->p.shininess,
+                          job->p.is_glossy, job->c->target, grid, error);
+}
+
 facet_result ogl1_build_maps(conversion *c, uint32_t material, const scene_material *m,
                              const solve_item *item, legacy_material *out, facet_error *error)
 {
@@ -356,12 +378,17 @@ facet_result ogl1_build_maps(conversion *c, uint32_t material, const scene_mater
     job.p.srgb = texture_bench_srgb(c->bench);
     take_inputs(&job);
     note_spread(&job, item->ogl1.shininess);
-    result = bake_color(&job, false, error);
+    ogl1_grid *grid = NULL;
+    result = make_grid(&job, &grid, error);
+    job.p.grid = grid;
+    if (result == FACET_OK)
+        result = bake_color(&job, false, error);
     /* The base color takes part in the highlight of a metal only. */
     bool is_varying = m->metallic > 0.0f && !job.p.is_glossy && job.inputs[PBR_BASE] != SCENE_NONE;
     for (int i = PBR_METALLIC_ROUGHNESS; i < PBR_INPUTS; i++)
         is_varying |= job.inputs[i] != SCENE_NONE;
     if (result == FACET_OK && is_varying && !is_black(item->ogl1.specular))
         result = bake_color(&job, true, error);
+    ogl1_grid_destroy(grid);
     return result == FACET_OK ? build_split(c, m, out, error) : result;
 }

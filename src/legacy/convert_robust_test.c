@@ -121,7 +121,8 @@ static void memory_runs_out(void **state)
     (void)state;
     run_out(FACET_MATERIALS_METALLIC_ROUGHNESS, true, &(facet_legacy_desc){0});
     run_out(FACET_MATERIALS_METALLIC_ROUGHNESS, true, &(facet_legacy_desc){.profile = FACET_LEGACY_CORE});
-    run_out(FACET_MATERIALS_OGL1, false, &(facet_legacy_desc){.bakes_occlusion = true});
+    run_out(FACET_MATERIALS_OGL1, false,
+            &(facet_legacy_desc){.bakes_occlusion = true, .target = FACET_LEGACY_TARGET_LINEAR});
     run_out(FACET_MATERIALS_METALLIC_ROUGHNESS, false, &(facet_legacy_desc){0});
     run_out(FACET_MATERIALS_SPECULAR_GLOSSINESS, false, &(facet_legacy_desc){0});
 }

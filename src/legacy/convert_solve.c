@@ -27,6 +27,7 @@ static int by_question(const void *a, const void *b)
 }
 
 typedef struct solver {
+    const conversion *c;
     const facet_legacy_desc *desc;
     const fit_metric *metric;
     facet_material_model to;
@@ -34,21 +35,46 @@ typedef struct solver {
     const asked *distinct;
 } solver;
 
+/* A program that reads linear colors adds them as light. */
+static facet_legacy_target target_of(const conversion *c, facet_material_model to)
+{
+    const struct scene_legacy *legacy = to == FACET_MATERIALS_OGL1 ? c->legacy : c->scene->legacy;
+    facet_legacy_target target = c->desc.target;
+    if (target == FACET_LEGACY_TARGET_AUTO)
+        target = to == FACET_MATERIALS_OGL1 || legacy->is_rgl ? FACET_LEGACY_TARGET_DRAWN
+                                                              : FACET_LEGACY_TARGET_LINEAR;
+    if (target == FACET_LEGACY_TARGET_DRAWN && legacy->colors == FACET_LEGACY_COLORS_LINEAR)
+        target = FACET_LEGACY_TARGET_DISPLAY;
+    return target;
+}
+
+bool solve_is_closed(const conversion *c, facet_material_model to, const solve_item *item)
+{
+    bool is_linear = c->target == FACET_LEGACY_TARGET_LINEAR;
+    if (to == FACET_MATERIALS_OGL1)
+        return item->question.is_closed > 0.0f && is_linear;
+    return item->question.is_closed > 0.0f || (c->desc.method == FACET_LEGACY_CLOSED && is_linear);
+}
+
 static void solve_from_ogl1(const solver *s, solve_item *item)
 {
     const ogl1_surface *in = &item->question.ogl1;
-    bool is_closed = s->desc->method == FACET_LEGACY_CLOSED || item->question.is_closed > 0.0f;
+    bool is_closed = solve_is_closed(s->c, s->to, item);
     bool is_core = s->desc->profile == FACET_LEGACY_CORE;
     if (is_closed)
         item->remarks =
             is_core ? ogl1_to_pbr_core_closed(in, &item->pbr) : ogl1_to_pbr_closed(in, &item->pbr);
     else
-        item->remarks = is_core ? ogl1_to_pbr_core_fit(s->metric, in, s->desc->target, &item->pbr)
-                                : ogl1_to_pbr_fit(s->metric, in, s->desc->target, &item->pbr);
+        item->remarks = is_core ? ogl1_to_pbr_core_fit(s->metric, in, s->c->target, &item->pbr)
+                                : ogl1_to_pbr_fit(s->metric, in, s->c->target, &item->pbr);
     if (item->question.is_closed > 0.0f && !is_core)
         item->pbr = texel_surface(in); /* as its textures will have it */
     item->ogl1 = *in;
-    item->error = fit_compare(s->metric, in, &item->pbr, FIT_FROM_OGL1);
+    item->hue_error = fit_compare(s->metric, in, &item->pbr, FIT_FROM_OGL1);
+    item->is_hue_kept = s->desc->keeps_hue && item->question.is_closed == 0.0f &&
+                        fit_keep_hue(s->metric, in, s->c->target, &item->pbr);
+    item->error = item->is_hue_kept ? fit_compare(s->metric, in, &item->pbr, FIT_FROM_OGL1) : item->hue_error;
+    item->hue_share = fit_hue_share(in, &item->pbr);
     pbr_surface naive;
     ogl1_to_pbr_naive(in, &naive);
     item->naive = fit_compare(s->metric, in, &naive, FIT_FROM_OGL1).E;
@@ -64,15 +90,17 @@ static void solve_to_ogl1(const solver *s, solve_item *item)
 {
     const pbr_surface *in = &item->question.pbr;
     item->pbr = *in;
-    if (item->question.is_closed > 0.0f)
+    if (solve_is_closed(s->c, s->to, item))
         item->remarks = pbr_to_ogl1_closed(in, &item->ogl1);
     else
-        item->remarks = pbr_to_ogl1_fit(s->metric, in, s->desc->target, FIT_DISPLAYABLE, &item->ogl1);
+        item->remarks = pbr_to_ogl1_fit(s->metric, in, s->c->target, FIT_DISPLAYABLE, &item->ogl1);
     item->error = fit_compare(s->metric, &item->ogl1, in, FIT_FROM_PBR);
     ogl1_surface naive;
     pbr_to_ogl1_naive(in, &naive);
     item->naive = fit_compare(s->metric, &naive, in, FIT_FROM_PBR).E;
     item->core = (double)NAN;
+    item->hue_share = 1.0;
+    item->is_hue_kept = false;
 }
 
 static void solve_range(void *context, size_t begin, size_t end)
@@ -109,6 +137,7 @@ facet_result solve_all(conversion *c, facet_material_model to, solve_item *items
     asked *all = mem_alloc(allocator, (size_t)count + 1, sizeof *all);
     uint32_t *answers = mem_alloc(allocator, (size_t)count + 1, sizeof *answers);
     size_t asked_count = 0;
+    c->target = target_of(c, to);
     if (!all || !answers)
         result = fail_memory(error, "materials", count * sizeof *all);
     for (uint32_t i = 0; i < count && result == FACET_OK; i++)
@@ -118,7 +147,7 @@ facet_result solve_all(conversion *c, facet_material_model to, solve_item *items
         result = fit_metric_create(allocator, PBR_CORRELATED, &metric, error);
     if (result == FACET_OK && asked_count > 0) {
         size_t distinct = sort_out(all, asked_count, answers);
-        solver s = {.desc = &c->desc, .metric = metric, .to = to, .items = items, .distinct = all};
+        solver s = {.c = c, .desc = &c->desc, .metric = metric, .to = to, .items = items, .distinct = all};
         parallel_for(c->scene->thread_count, distinct, 1, solve_range, &s);
         for (uint32_t i = 0; i < count; i++)
             if (items[i].is_asked)
@@ -145,6 +174,19 @@ void solve_note(conversion *c, uint32_t material, const solve_item *item)
     if (item->remarks & FIT_LOW_EXPONENT)
         note_add(notes, material, NOTE_LOW_EXPONENT,
                  "a shininess of %g is no highlight but a second diffuse term", (double)s->shininess);
+    if (item->is_hue_kept)
+        note_add(notes, material, NOTE_HUE_KEPT,
+                 "the hue of the diffuse color is kept: E is %.3f instead of %.3f, on a screen %.3f instead "
+                 "of %.3f, "
+                 "as drawn %.3f instead of %.3f",
+                 item->error.E, item->hue_error.E, item->error.E_display, item->hue_error.E_display,
+                 item->error.E_drawn, item->hue_error.E_drawn);
+    else if (item->hue_share < 0.25 && item->question.is_closed == 0.0f)
+        note_add(
+            notes, material, NOTE_HUE_LOST,
+            "its highlight of shininess %g is so broad that %.0f %% of the hue of its diffuse color is left; "
+            "--keep-hue keeps it",
+            (double)s->shininess, 100.0 * fmax(item->hue_share, 0.0));
     if (item->remarks & FIT_ENERGY_GAIN) {
         double most = 0;
         for (int k = 0; k < 3; k++)
@@ -159,32 +201,39 @@ void solve_note(conversion *c, uint32_t material, const solve_item *item)
             "a metal has no diffuse part; it is given one, which stands for the wide part of its highlight");
 }
 
-facet_conversion_grade grade_of(double error_display)
+facet_conversion_grade grade_of(double error)
 {
-    return error_display < 0.05   ? FACET_GRADE_GOOD
-           : error_display < 0.12 ? FACET_GRADE_FAIR
-           : error_display < 0.30 ? FACET_GRADE_POOR
-                                  : FACET_GRADE_BAD;
+    return error < 0.05   ? FACET_GRADE_GOOD
+           : error < 0.12 ? FACET_GRADE_FAIR
+           : error < 0.30 ? FACET_GRADE_POOR
+                          : FACET_GRADE_BAD;
 }
 
-void summary_solved(facet_conversion *summary, const solve_item *item)
+void summary_solved(const conversion *c, facet_conversion *summary, const solve_item *item)
 {
+    const struct scene_legacy *legacy = c->legacy ? c->legacy : c->scene->legacy;
+    bool is_light = legacy->colors == FACET_LEGACY_COLORS_LINEAR;
+    bool is_drawn = c->target == FACET_LEGACY_TARGET_DRAWN;
     summary->error = item->error.E;
     summary->error_display = item->error.E_display;
+    summary->error_drawn = is_light ? item->error.E_display : item->error.E_drawn;
+    summary->is_graded_as_drawn = is_drawn;
+    summary->error_graded = is_drawn ? summary->error_drawn : summary->error_display;
     summary->error_naive = item->naive;
     summary->error_core = item->core;
     for (int i = 0; i < 3; i++)
         summary->error_views[i] = item->error.views[i];
-    summary->grade = grade_of(item->error.E_display);
+    summary->grade = grade_of(summary->error_graded);
+    summary->grade_drawn = grade_of(summary->error_drawn);
 }
 
 void summary_exact(facet_conversion *summary, const char *method)
 {
     double error = strcmp(method, "exact") == 0 ? 0.0 : (double)NAN;
     summary->method = method;
-    summary->error = summary->error_display = error;
+    summary->error = summary->error_display = summary->error_drawn = summary->error_graded = error;
     summary->error_naive = summary->error_core = (double)NAN;
     for (int i = 0; i < 3; i++)
         summary->error_views[i] = error;
-    summary->grade = FACET_GRADE_GOOD;
+    summary->grade = summary->grade_drawn = FACET_GRADE_GOOD;
 }

@@ -36,6 +36,7 @@ typedef struct conversion {
     bool *has_vertex_colors;     /* per material: some primitive with it has them */
     bool hides_everything;       /* MTL: every material that a primitive has is of opacity 0 */
     drop_plan drop;              /* of desc.drops_sources */
+    facet_legacy_target target;  /* what fits minimise; set by solve_all(), never _AUTO */
 } conversion;
 
 /* ---- legacy materials, understood ---- */
@@ -76,7 +77,7 @@ typedef struct solve_item {
     struct solve_question {
         ogl1_surface ogl1; /* from OpenGL 1 */
         pbr_surface pbr;   /* to OpenGL 1 */
-        float is_closed;   /* 1: whatever the desc says, tables */
+        float is_closed;   /* 1: with textures, whose texels go by tables */
     } question;
     bool is_asked;
     pbr_surface pbr;   /* the answer */
@@ -84,19 +85,24 @@ typedef struct solve_item {
     uint32_t remarks;  /* fit_remark */
     fit_error error;
     double naive, core;
+    double hue_share;    /* fit_hue_share() */
+    bool is_hue_kept;    /* by desc.keeps_hue; then: */
+    fit_error hue_error; /* without it */
 } solve_item;
 
 /* Answers those that are asked. to: FACET_MATERIALS_METALLIC_ROUGHNESS or _OGL1. */
 facet_result solve_all(conversion *c, facet_material_model to, solve_item *items, uint32_t count,
                        facet_error *error);
+/* Whether an item was answered by tables rather than by a search. */
+bool solve_is_closed(const conversion *c, facet_material_model to, const solve_item *item);
 /* Remarks of a fit as notes. */
 void solve_note(conversion *c, uint32_t material, const solve_item *item);
 
 /* Fills in a report's line from an answer. */
-void summary_solved(facet_conversion *summary, const solve_item *item);
+void summary_solved(const conversion *c, facet_conversion *summary, const solve_item *item);
 /* Nothing is lost, or nothing is to be told. */
 void summary_exact(facet_conversion *summary, const char *method);
-facet_conversion_grade grade_of(double error_display);
+facet_conversion_grade grade_of(double error);
 
 /* ---- glTF materials of legacy ones ---- */
 

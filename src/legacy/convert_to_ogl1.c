@@ -228,7 +228,7 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
         m->extensions & SCENE_SPECULAR_GLOSSINESS ? "specular-glossiness" : "metallic-roughness";
     report->summary.profile = "ogl1";
     if (item->is_asked)
-        summary_solved(&report->summary, item);
+        summary_solved(c, &report->summary, item);
     else
         summary_exact(&report->summary, "exact");
     if (known)
@@ -237,7 +237,7 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
     report->ogl1_surface = item->ogl1;
     report->pbr_surface = item->question.pbr;
     if (item->is_asked)
-        report->summary.method = item->question.is_closed > 0.0f ? "closed" : "fit";
+        report->summary.method = solve_is_closed(c, FACET_MATERIALS_OGL1, item) ? "closed" : "fit";
     return result;
 }
 

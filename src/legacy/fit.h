@@ -25,8 +25,11 @@ void fit_metric_destroy(fit_metric *metric); /* NULL is allowed */
 typedef struct fit_error {
     double E;         /* relative to the source's RMS; to 1e-4 */
     double E_display; /* the same with both clamped to [0, 1]; to 1e-3 */
-    double views[3];  /* E of 0, 30, 60 degrees alone */
-} fit_error;          /* finite: a source darker than a thousandth of white counts as that */
+    /* the same with OpenGL 1 as its programs draw it: Cd and Cs encoded as sRGB, summed and clamped as display numbers,
+     * and decoded to the light that the screen emits; to 1e-3 */
+    double E_drawn;
+    double views[3]; /* E of 0, 30, 60 degrees alone */
+} fit_error;         /* finite: a source darker than a thousandth of white counts as that */
 
 /* Which of the two is the source: errors are relative to it. */
 typedef enum fit_source { FIT_FROM_OGL1, FIT_FROM_PBR } fit_source;
@@ -52,16 +55,30 @@ uint32_t ogl1_to_pbr_fit(const fit_metric *metric, const ogl1_surface *in, facet
 uint32_t ogl1_to_pbr_core_fit(const fit_metric *metric, const ogl1_surface *in, facet_legacy_target target,
                               pbr_surface *out);
 
+/* The share of the hue of Cd that is left in the light that out reflects of white surroundings: 0 white, 1 all; 1 of grays. */
+double fit_hue_share(const ogl1_surface *in, const pbr_surface *out);
+#define FIT_HUE_KEPT 0.5
+/* Where less than FIT_HUE_KEPT is left, replaces out by the material of least error that keeps so much; its base color is
+ * proportional to Cd. Whether it did. */
+bool fit_keep_hue(const fit_metric *metric, const ogl1_surface *in, facet_legacy_target target,
+                  pbr_surface *out);
+
 /* The closed form's roughness of an exponent and share of Cs that becomes F0, for textures: monotonic, any s >= 0. */
 float perceptual_roughness_from_shininess(float shininess);
 float shininess_from_perceptual_roughness(float perceptual_roughness); /* its inverse, [0, 1e5] */
 float reflectance_share_from_shininess(float shininess);               /* F0 / Cs */
+
+/* target is any of facet_legacy_target but _AUTO. With _DRAWN colors are still linear here: the light of the display
+ * numbers. */
 
 /* PBR to OpenGL 1 within the box s <= 128, Cd, Cs <= 1 (or without upper limits). */
 typedef enum fit_range { FIT_DISPLAYABLE, FIT_UNLIMITED } fit_range;
 uint32_t pbr_to_ogl1_naive(const pbr_surface *in, ogl1_surface *out);
 uint32_t pbr_to_ogl1_fit(const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
                          fit_range range, ogl1_surface *out);
+/* The best colors within the box for a given exponent. */
+void pbr_to_ogl1_fit_at(const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
+                        float shininess, ogl1_surface *out);
 /* The same within the box by a table of integrals, and for textures, whose exponent is one for all texels: the best
  * colors for a given one. Linear target; within a few percent of the fit. */
 uint32_t pbr_to_ogl1_closed(const pbr_surface *in, ogl1_surface *out);

@@ -127,6 +127,80 @@ DISPATCH_AVX2 static void display_moments_of(const fit_problem *p, int k, const 
     *square = sum[6];
 }
 
+/* ---- sums of display numbers ---- */
+
+/* The same with the model as a program draws it: its sum is a display number, whose light is linearised at factor (Gauss and
+ * Newton). Where both model and source are beyond white nothing is wanted. *square is that of light. */
+DISPATCH_AVX2 static void drawn_moments_of(const fit_problem *p, int k, const double factor[2],
+                                           fit_moments *out, double *square)
+{
+    double lane[7][FIT_LANES] = {{0.0}};
+    const float *T = p->source[k];
+    const float *display = p->metric->display;
+    float u = (float)factor[0];
+    float v = (float)factor[1];
+    size_t count = p->metric->node_begin[FIT_VIEWS];
+    for (size_t i = 0; i < count; i += FIT_LANES) {
+        for (size_t j = 0; j < FIT_LANES; j++) {
+            float x = p->shape[0][i + j];
+            float y = p->shape[1][i + j];
+            float M = u * x + v * y;
+            float place = min(M, 1.0f) * (float)DISPLAY_STEPS;
+            int first = (int)min(place, (float)(DISPLAY_STEPS - 1));
+            float height = display[first + 1] - display[first];
+            float light = display[first] + (place - (float)first) * height;
+            float slope = height * (float)DISPLAY_STEPS;
+            float is_free = M >= 1.0f && T[i + j] >= 1.0f ? 0.0f : 1.0f;
+            double full = (double)p->metric->weight[i + j];
+            double a = (double)(slope * x);
+            double b = (double)(slope * y);
+            double d = (double)(T[i + j] - light);
+            double t = (double)(slope * min(M, 1.0f)) + d; /* slope times the number that would be right */
+            double w = full * (double)is_free;
+            double w_a = w * a;
+            double w_b = w * b;
+            lane[0][j] += w_a * a;
+            lane[1][j] += w_a * b;
+            lane[2][j] += w_b * b;
+            lane[3][j] += w_a * t;
+            lane[4][j] += w_b * t;
+            lane[5][j] += w * t * t;
+            lane[6][j] += full * d * d;
+        }
+    }
+    double sum[7] = {0.0};
+    for (int i = 0; i < 7; i++)
+        for (int j = 0; j < FIT_LANES; j++)
+            sum[i] += lane[i][j];
+    *out = (fit_moments){{sum[0], sum[1], sum[2]}, {sum[3], sum[4]}, sum[5]};
+    *square = sum[6];
+}
+
+/* A start: the least squares of numbers whose squares are light, which is near to what a display shows. */
+DISPATCH_AVX2 static void start_of(const fit_problem *p, int k, fit_moments *out)
+{
+    double lane[5][FIT_LANES] = {{0.0}};
+    size_t count = p->metric->node_begin[FIT_VIEWS];
+    for (size_t i = 0; i < count; i += FIT_LANES) {
+        for (size_t j = 0; j < FIT_LANES; j++) {
+            double w = (double)p->metric->weight[i + j];
+            double a = (double)p->shape[0][i + j];
+            double b = (double)p->shape[1][i + j];
+            double t = (double)sqrt(p->source[k][i + j]);
+            lane[0][j] += w * a * a;
+            lane[1][j] += w * a * b;
+            lane[2][j] += w * b * b;
+            lane[3][j] += w * a * t;
+            lane[4][j] += w * b * t;
+        }
+    }
+    double sum[5] = {0.0};
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < FIT_LANES; j++)
+            sum[i] += lane[i][j];
+    *out = (fit_moments){{sum[0], sum[1], sum[2]}, {sum[3], sum[4]}, 0.0};
+}
+
 /* ---- factors ---- */
 
 static void keep_best(double square, const double now[2], double *best, double factor[2])
@@ -172,6 +246,36 @@ static double display_factors(const fit_problem *p, int k, const fit_bounds *bou
     return best;
 }
 
+/* From numbers of gamma 2 on, with steps that are halved until the square of light falls. */
+static double drawn_factors(const fit_problem *p, int k, const fit_bounds *bounds, double factor[2])
+{
+    fit_moments m;
+    double best = (double)INFINITY;
+    double square;
+    double now[2];
+    start_of(p, k, &m);
+    fit_box(&m, bounds, now);
+    drawn_moments_of(p, k, now, &m, &square);
+    keep_best(square, now, &best, factor);
+    for (int newton = 0; newton < 8; newton++) {
+        fit_moments next_m = m;
+        double before = best;
+        double from[2] = {factor[0], factor[1]};
+        double to[2];
+        fit_box(&m, bounds, to);
+        for (double share = 1.0; share > 0.1 && best == before; share *= 0.5) {
+            for (int i = 0; i < 2; i++)
+                now[i] = from[i] + share * (to[i] - from[i]);
+            drawn_moments_of(p, k, now, &next_m, &square);
+            keep_best(square, now, &best, factor);
+        }
+        if (best > before * (1.0 - 1e-5))
+            break;
+        m = next_m;
+    }
+    return best;
+}
+
 double fit_factors(const fit_problem *p, const fit_bounds bounds[3], double factor[3][2])
 {
     double sum = 0.0;
@@ -179,6 +283,8 @@ double fit_factors(const fit_problem *p, const fit_bounds bounds[3], double fact
     for (int k = 0; k < 3; k++) {
         if (p->is_same[k] && memcmp(&bounds[k], &bounds[k - 1], sizeof bounds[k]) == 0) {
             memcpy(factor[k], factor[k - 1], sizeof factor[k]);
+        } else if (p->target == FACET_LEGACY_TARGET_DRAWN) {
+            square = drawn_factors(p, k, &bounds[k], factor[k]);
         } else {
             fit_moments m;
             moments_of(p, k, &m);
@@ -211,7 +317,7 @@ DISPATCH_AVX2 static double clamp_and_square(const fit_metric *metric, float hig
 static void finish_source(fit_problem *p)
 {
     size_t size = p->metric->node_begin[FIT_VIEWS] * sizeof(float);
-    float highest = p->target == FACET_LEGACY_TARGET_DISPLAY ? 1.0f : INFINITY;
+    float highest = p->target == FACET_LEGACY_TARGET_LINEAR ? INFINITY : 1.0f;
     p->source_square = FIT_DARKEST * FIT_DARKEST * 1.5 * (double)PI * FIT_VIEWS;
     double sum = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -228,8 +334,13 @@ void fit_problem_from_ogl1(fit_problem *p, const fit_metric *metric, facet_legac
     p->target = target;
     fit_highlight(metric, source->shininess, p->lobe);
     for (int k = 0; k < 3; k++)
-        fit_radiance_ogl1(metric, source, p->lobe, k, p->source[k]);
+        if (target == FACET_LEGACY_TARGET_DRAWN)
+            fit_radiance_drawn(metric, source, p->lobe, k, p->source[k]);
+        else
+            fit_radiance_ogl1(metric, source, p->lobe, k, p->source[k]);
     finish_source(p);
+    if (target == FACET_LEGACY_TARGET_DRAWN)
+        p->target = FACET_LEGACY_TARGET_DISPLAY;
 }
 
 void fit_problem_from_pbr(fit_problem *p, const fit_metric *metric, facet_legacy_target target,
@@ -239,7 +350,13 @@ void fit_problem_from_pbr(fit_problem *p, const fit_metric *metric, facet_legacy
     p->target = target;
     fit_lobes lobes = fit_lobes_of(source);
     fit_specular_lobe(metric, source->perceptual_roughness, p->lobe);
-    for (int k = 0; k < 3; k++)
-        fit_radiance_pbr(metric, &lobes, p->lobe, k, p->source[k]);
+    for (int k = 0; k < 3; k++) {
+        bool is_same = k > 0 && lobes.diffuse[k] == lobes.diffuse[k - 1] && lobes.F0[k] == lobes.F0[k - 1] &&
+                       lobes.F90[k] == lobes.F90[k - 1];
+        if (is_same)
+            memcpy(p->source[k], p->source[k - 1], metric->node_begin[FIT_VIEWS] * sizeof(float));
+        else
+            fit_radiance_pbr(metric, &lobes, p->lobe, k, p->source[k]);
+    }
     finish_source(p);
 }

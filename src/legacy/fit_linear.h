@@ -28,13 +28,14 @@ typedef struct fit_problem {
     const fit_metric *metric;
     facet_legacy_target target;
     double source_square;           /* of all channels */
-    float source[3][FIT_MAX_NODES]; /* clamped where target is the display */
+    float source[3][FIT_MAX_NODES]; /* clamped where target is not linear radiance */
     bool is_same[3];                /* as the channel before it */
     float lobe[FIT_MAX_NODES];
     float shape[2][FIT_MAX_NODES];
     float rest[FIT_MAX_NODES];
 } fit_problem;
 
+/* Of OpenGL 1 as it is drawn the source is its light, and target becomes _DISPLAY: that of the model. */
 void fit_problem_from_ogl1(fit_problem *p, const fit_metric *metric, facet_legacy_target target,
                            const ogl1_surface *source);
 void fit_problem_from_pbr(fit_problem *p, const fit_metric *metric, facet_legacy_target target,

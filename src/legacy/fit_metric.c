@@ -23,6 +23,8 @@ facet_result fit_metric_create(const facet_allocator *allocator, pbr_masking mas
     fit_quadrature(metric);
     for (size_t i = 0; i < metric->node_begin[FIT_VIEWS]; i++)
         metric->fresnel[i] = schlick_weight(metric->VdotH[i]);
+    for (int i = 0; i < DISPLAY_STEPS + 2; i++)
+        metric->display[i] = linear_from_srgb1(min((float)i / (float)DISPLAY_STEPS, 1.0f));
     *out = metric;
     return FACET_OK;
 }
@@ -128,6 +130,31 @@ void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const fl
     add_lobes(metric, lobes, lobe, k, out);
 }
 
+/* ---- OpenGL 1 as its programs draw it ---- */
+
+float fit_display_number(float linear)
+{
+    return srgb_from_linear1(linear);
+}
+
+float fit_display_light(float number)
+{
+    return linear_from_srgb1(number);
+}
+
+void fit_radiance_drawn(const fit_metric *metric, const ogl1_surface *surface, const float *highlight, int k,
+                        float *out)
+{
+    const float *table = metric->display;
+    float Cd = fit_display_number(surface->diffuse[k]);
+    float Cs = fit_display_number(surface->specular[k]);
+    for (size_t i = 0; i < metric->node_begin[FIT_VIEWS]; i++) {
+        float place = min(metric->NdotL[i] * Cd + highlight[i] * Cs, 1.0f) * (float)DISPLAY_STEPS;
+        int step_at = (int)place;
+        out[i] = table[step_at] + (place - (float)step_at) * (table[step_at + 1] - table[step_at]);
+    }
+}
+
 /* ---- errors ---- */
 
 /* Sums of squares with the weights of nodes: of the difference and of the source, as they are and clamped. */
@@ -176,6 +203,25 @@ DISPATCH_AVX2 static void add_squares(size_t count, const float *weight, const f
     }
 }
 
+/* The same of two that are clamped already. */
+DISPATCH_AVX2 static void add_squares_shown(size_t count, const float *weight, const float *source,
+                                            const float *model, double *difference_sum, double *source_sum)
+{
+    double lane[2][FIT_LANES] = {{0.0}};
+    for (size_t i = 0; i < count; i += FIT_LANES)
+        for (size_t j = 0; j < FIT_LANES; j++) {
+            float w = weight[i + j];
+            float T = source[i + j];
+            float d = model[i + j] - T;
+            lane[0][j] += (double)(w * d * d);
+            lane[1][j] += (double)(w * T * T);
+        }
+    for (size_t j = 0; j < FIT_LANES; j++) {
+        *difference_sum += lane[0][j];
+        *source_sum += lane[1][j];
+    }
+}
+
 /* A view of white integrates to 3 pi / 2 over three channels. */
 static double relative(double difference, double source, double view_count)
 {
@@ -190,6 +236,9 @@ fit_error fit_compare(const fit_metric *metric, const ogl1_surface *ogl1, const 
     float lobe[FIT_MAX_NODES];
     float old[FIT_MAX_NODES];
     float new[FIT_MAX_NODES];
+    float drawn[FIT_MAX_NODES];
+    double drawn_difference = 0.0, drawn_source = 0.0;
+    size_t count = metric->node_begin[FIT_VIEWS];
     fit_lobes lobes = fit_lobes_of(pbr);
     squares view[FIT_VIEWS];
     memset(view, 0, sizeof view);
@@ -205,6 +254,11 @@ fit_error fit_compare(const fit_metric *metric, const ogl1_surface *ogl1, const 
             add_squares(metric->node_begin[v + 1] - begin, metric->weight + begin, T + begin, M + begin,
                         &view[v]);
         }
+        fit_radiance_drawn(metric, ogl1, highlight, k, drawn);
+        for (size_t i = 0; i < count; i++)
+            new[i] = min(new[i], 1.0f);
+        add_squares_shown(count, metric->weight, source == FIT_FROM_OGL1 ? drawn : new,
+                          source == FIT_FROM_OGL1 ? new : drawn, &drawn_difference, &drawn_source);
     }
     fit_error error;
     squares all = {0.0, 0.0, 0.0, 0.0};
@@ -217,5 +271,6 @@ fit_error fit_compare(const fit_metric *metric, const ogl1_surface *ogl1, const 
     }
     error.E = relative(all.difference, all.source, FIT_VIEWS);
     error.E_display = relative(all.difference_display, all.source_display, FIT_VIEWS);
+    error.E_drawn = relative(drawn_difference, drawn_source, FIT_VIEWS);
     return error;
 }

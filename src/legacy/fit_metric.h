@@ -9,7 +9,8 @@ enum {
     FIT_VIEWS = 3,
     FIT_LANES = 16,      /* nodes of a view are a multiple of this, so that sums have a fixed order */
     FIT_MAX_RINGS = 448, /* angles between N and H */
-    FIT_MAX_NODES = 4096
+    FIT_MAX_NODES = 4096,
+    DISPLAY_STEPS = 1024
 };
 
 /* Nodes of a quadrature over half vectors, view by view. A ring is one angle between N and H; D and the highlight of
@@ -25,9 +26,11 @@ struct fit_metric {
     float VdotH[FIT_MAX_NODES];
     float fresnel[FIT_MAX_NODES]; /* Schlick's weight */
     float weight[FIT_MAX_NODES];  /* N.L dL; 0 of the nodes that fill up a view */
+    /* light of display numbers at even distances in [0, 1], and once more the last; linear between them within 5e-7 */
+    float display[DISPLAY_STEPS + 2];
 };
 
-/* Fills in the nodes: all but masking and fresnel. */
+/* Fills in the nodes: all but masking, fresnel and display. */
 void fit_quadrature(fit_metric *metric);
 
 /* pi D V N.L at every node, and N.H^s. */
@@ -46,6 +49,16 @@ fit_lobes fit_lobes_of(const pbr_surface *surface);
 void fit_radiance_ogl1(const fit_metric *metric, const ogl1_surface *surface, const float *highlight, int k,
                        float *out);
 void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const float *lobe, int k, float *out);
+
+/* ---- OpenGL 1 as its programs draw it ---- */
+
+/* Display numbers (sRGB) of linear colors, and back: any value >= 0. */
+float fit_display_number(float linear);
+float fit_display_light(float number);
+
+/* Light at every node of what a program shows, at most 1: the sum of display numbers, clamped. */
+void fit_radiance_drawn(const fit_metric *metric, const ogl1_surface *surface, const float *highlight, int k,
+                        float *out);
 
 /* What conversions tell, by comparing what went in with what came out. */
 uint32_t fit_remarks_to_pbr(const ogl1_surface *in, const pbr_surface *out);

@@ -91,7 +91,8 @@ static void check_pbr(const ogl1_surface *in, const pbr_surface *out)
     assert_true(out->perceptual_roughness >= 0.0f && out->perceptual_roughness <= 1.0f);
     assert_true(out->specular >= 0.0f && out->specular <= 1.0f);
     fit_error e = fit_compare(metric, in, out, FIT_FROM_OGL1);
-    assert_true(isfinite(e.E) && isfinite(e.E_display) && isfinite(e.views[0]) && isfinite(e.views[2]));
+    assert_true(isfinite(e.E) && isfinite(e.E_display) && isfinite(e.E_drawn) && isfinite(e.views[0]) &&
+                isfinite(e.views[2]));
 }
 
 static void check_ogl1(const pbr_surface *in, const ogl1_surface *out)
@@ -100,7 +101,8 @@ static void check_ogl1(const pbr_surface *in, const ogl1_surface *out)
     assert_color(out->specular);
     assert_true(out->shininess >= 0.0f && out->shininess <= 128.0f);
     fit_error e = fit_compare(metric, out, in, FIT_FROM_PBR);
-    assert_true(isfinite(e.E) && isfinite(e.E_display) && isfinite(e.views[0]) && isfinite(e.views[2]));
+    assert_true(isfinite(e.E) && isfinite(e.E_display) && isfinite(e.E_drawn) && isfinite(e.views[0]) &&
+                isfinite(e.views[2]));
 }
 
 static void check_all_to_pbr(const ogl1_surface *in)
@@ -112,7 +114,7 @@ static void check_all_to_pbr(const ogl1_surface *in)
     check_pbr(in, &out);
     ogl1_to_pbr_core_closed(in, &out);
     check_pbr(in, &out);
-    for (int target = FACET_LEGACY_TARGET_LINEAR; target <= FACET_LEGACY_TARGET_DISPLAY; target++) {
+    for (int target = FACET_LEGACY_TARGET_LINEAR; target <= FACET_LEGACY_TARGET_DRAWN; target++) {
         ogl1_to_pbr_fit(metric, in, (facet_legacy_target)target, &out);
         check_pbr(in, &out);
         ogl1_to_pbr_core_fit(metric, in, (facet_legacy_target)target, &out);
@@ -130,7 +132,7 @@ static void check_all_to_ogl1(const pbr_surface *in)
     pbr_to_ogl1_closed_at(in, 30.0f, &out);
     check_ogl1(in, &out);
     assert_true(out.shininess == 30.0f);
-    for (int target = FACET_LEGACY_TARGET_LINEAR; target <= FACET_LEGACY_TARGET_DISPLAY; target++) {
+    for (int target = FACET_LEGACY_TARGET_LINEAR; target <= FACET_LEGACY_TARGET_DRAWN; target++) {
         pbr_to_ogl1_fit(metric, in, (facet_legacy_target)target, FIT_DISPLAYABLE, &out);
         check_ogl1(in, &out);
     }

@@ -10,6 +10,10 @@
 
 static const double unlimited_shininess = 1e9; /* beyond that of the smoothest GGX lobe that is drawn */
 
+/* The least exponent where display numbers are added. A broader highlight would imitate the brighter shadow side of light that
+ * is added as light, but programs that do not gate highlights by N.L show it where no light falls, and others as white. */
+static const double least_drawn_shininess = 2.0;
+
 typedef struct search {
     fit_problem problem;
     fit_bounds bounds[3];
@@ -36,26 +40,50 @@ uint32_t fit_remarks_to_ogl1(const pbr_surface *in, const ogl1_surface *out)
     return remarks | (out->shininess > 0.998f * OGL1_MOST_SHININESS ? (uint32_t)FIT_SHININESS_CLAMPED : 0u);
 }
 
+static void begin(search *s, const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
+                  double highest)
+{
+    fit_problem_from_pbr(&s->problem, metric, target, in);
+    memcpy(s->problem.shape[0], metric->NdotL, sizeof metric->NdotL);
+    memset(s->problem.rest, 0, sizeof s->problem.rest);
+    for (int k = 0; k < 3; k++)
+        s->bounds[k] = (fit_bounds){{0.0, 0.0}, {highest, highest}};
+}
+
+/* The colors found; whether there is a highlight. */
+static bool read_colors(const search *s, facet_legacy_target target, ogl1_surface *out)
+{
+    bool has_highlight = false;
+    bool is_drawn = target == FACET_LEGACY_TARGET_DRAWN;
+    for (int k = 0; k < 3; k++) {
+        float Cd = (float)s->factor[k][0];
+        float Cs = (float)s->factor[k][1];
+        out->diffuse[k] = is_drawn ? fit_display_light(Cd) : Cd;
+        out->specular[k] = is_drawn ? fit_display_light(Cs) : Cs;
+        has_highlight = has_highlight || out->specular[k] > 0.0f;
+    }
+    return has_highlight;
+}
+
 uint32_t pbr_to_ogl1_fit(const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
                          fit_range range, ogl1_surface *out)
 {
     search s;
-    fit_problem_from_pbr(&s.problem, metric, target, in);
-    memcpy(s.problem.shape[0], metric->NdotL, sizeof metric->NdotL);
-    memset(s.problem.rest, 0, sizeof s.problem.rest);
-    double most = range == FIT_DISPLAYABLE ? (double)OGL1_MOST_SHININESS : unlimited_shininess;
-    double highest = range == FIT_DISPLAYABLE ? 1.0 : 1e12;
-    for (int k = 0; k < 3; k++)
-        s.bounds[k] = (fit_bounds){{0.0, 0.0}, {highest, highest}};
     double x;
-    int count = range == FIT_DISPLAYABLE ? 25 : 65;
-    fit_minimize_1(error_at, &s, 0.0, log1p(most), count, 1e-3, &x);
-    bool has_highlight = false;
-    for (int k = 0; k < 3; k++) {
-        out->diffuse[k] = (float)s.factor[k][0];
-        out->specular[k] = (float)s.factor[k][1];
-        has_highlight = has_highlight || out->specular[k] > 0.0f;
-    }
-    out->shininess = has_highlight ? (float)fmin(expm1(x), most) : 0.0f;
+    double most = range == FIT_DISPLAYABLE ? (double)OGL1_MOST_SHININESS : unlimited_shininess;
+    double least = target == FACET_LEGACY_TARGET_DRAWN ? log1p(least_drawn_shininess) : 0.0;
+    begin(&s, metric, in, target, range == FIT_DISPLAYABLE ? 1.0 : 1e12);
+    fit_minimize_1(error_at, &s, least, log1p(most), range == FIT_DISPLAYABLE ? 25 : 65, 1e-3, &x);
+    out->shininess = read_colors(&s, target, out) ? (float)fmin(expm1(x), most) : 0.0f;
     return range == FIT_DISPLAYABLE ? fit_remarks_to_ogl1(in, out) : 0u;
+}
+
+void pbr_to_ogl1_fit_at(const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
+                        float shininess, ogl1_surface *out)
+{
+    search s;
+    begin(&s, metric, in, target, 1.0);
+    error_at(&s, (const double[1]){log1p((double)shininess)});
+    read_colors(&s, target, out);
+    out->shininess = shininess;
 }

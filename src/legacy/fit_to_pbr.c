@@ -80,24 +80,44 @@ static void set_target(search *s, const fit_metric *metric, const ogl1_surface *
 {
     float brightest = max(in->specular[0], max(in->specular[1], in->specular[2]));
     fit_problem_from_ogl1(&s->problem, metric, target, in);
-    for (int k = 0; k < 3; k++)
+    float most = 0.0f;
+    for (int k = 0; k < 3; k++) {
         s->is_brightest[k] = in->specular[k] == brightest;
+        if (s->is_brightest[k])
+            most = max(most, in->diffuse[k]);
+    }
+    /* In display numbers a white highlight adds more light to a bright channel. */
+    for (int k = 0; k < 3 && target == FACET_LEGACY_TARGET_DRAWN; k++)
+        s->is_brightest[k] = s->is_brightest[k] && in->diffuse[k] == most;
     s->roughness = -1.0;
+}
+
+/* A first search is linear and quick: along the radiance of the source, or along the light that a program draws. */
+static void begin_linear(search *s, const fit_metric *metric, const ogl1_surface *in,
+                         facet_legacy_target target)
+{
+    bool is_drawn = target == FACET_LEGACY_TARGET_DRAWN;
+    set_target(s, metric, in, is_drawn ? target : FACET_LEGACY_TARGET_LINEAR);
+    s->problem.target = FACET_LEGACY_TARGET_LINEAR;
 }
 
 /* From x on, from an ordinary dielectric and from the closed form: a broad highlight is a second diffuse term, of which the
  * first may have lost its lobe, or kept one where a grazing sheen is nearer. Narrow ones have one valley only. */
-static void search_specular(search *s, const ogl1_surface *in, double x[3])
+static void search_specular(search *s, const ogl1_surface *in, facet_legacy_target target, double x[3])
 {
     static const double step[3] = {0.05, 0.05, 0.1};
     static const float broad = 8.0f; /* of 300 random materials none with a higher exponent gained 1 % */
     pbr_surface closed;
     ogl1_to_pbr_closed(in, &closed);
-    double starts[2][3] = {{0.5, (double)dielectric_F0(1.5f, 1.0f, vec3(1.0f))[0], 1.0},
-                           {(double)closed.perceptual_roughness, (double)closed.specular, 0.0}};
+    double starts[3][3] = {
+        {0.5, (double)dielectric_F0(1.5f, 1.0f, vec3(1.0f))[0], 1.0},
+        {(double)closed.perceptual_roughness, (double)closed.specular, 0.0},
+        {0.7 * (double)closed.perceptual_roughness, fmin(4.0 * (double)closed.specular, 1.0), 0.0}};
+    int count =
+        target == FACET_LEGACY_TARGET_DRAWN ? 3 : 2; /* a sum that is clamped early has a small bright core */
     double error = fit_minimize_n(specular_error, s, 3, x, step, 1e-5, 120);
-    for (int i = 0; i < 2; i++) {
-        if (in->shininess > broad && specular_error(s, starts[i]) >= error)
+    for (int i = 0; i < count; i++) {
+        if (i < 2 && in->shininess > broad && specular_error(s, starts[i]) >= error)
             continue;
         double other = fit_minimize_n(specular_error, s, 3, starts[i], step, 1e-5, 120);
         if (other < error) {
@@ -112,14 +132,14 @@ uint32_t ogl1_to_pbr_fit(const fit_metric *metric, const ogl1_surface *in, facet
                          pbr_surface *out)
 {
     search s;
-    set_target(&s, metric, in, FACET_LEGACY_TARGET_LINEAR);
     double x[3];
+    begin_linear(&s, metric, in, target);
     fit_minimize_1(flat_error, &s, 0.0, 1.0, 21, 1e-3, x);
     x[1] = s.F0;
     x[2] = 0.0;
-    if (target == FACET_LEGACY_TARGET_DISPLAY)
+    if (target != FACET_LEGACY_TARGET_LINEAR)
         set_target(&s, metric, in, target);
-    search_specular(&s, in, x);
+    search_specular(&s, in, target, x);
     *out = pbr_surface_default();
     out->perceptual_roughness = (float)x[0];
     out->ior = 0.0f;
@@ -188,13 +208,13 @@ uint32_t ogl1_to_pbr_core_fit(const fit_metric *metric, const ogl1_surface *in, 
     search s;
     line l = {.search = &s};
     double x[2];
-    set_target(&s, metric, in, FACET_LEGACY_TARGET_LINEAR);
+    begin_linear(&s, metric, in, target);
     memset(s.problem.shape[1], 0, sizeof s.problem.shape[1]);
     fit_minimize_1(core_error_along_roughness, &l, 0.0, 1.0, 15, 0.05, x);
     x[1] = l.metallic;
     ogl1_to_pbr_core_closed(in, out);
     search_core(&s, (const double[2]){(double)out->perceptual_roughness, (double)out->metallic}, false, x);
-    if (target == FACET_LEGACY_TARGET_DISPLAY) { /* where the peak is clamped a narrower lobe may be better */
+    if (target != FACET_LEGACY_TARGET_LINEAR) { /* where the peak is clamped a narrower lobe may be better */
         set_target(&s, metric, in, target);
         search_core(&s, (const double[2]){0.75 * x[0], x[1]}, true, x);
     }

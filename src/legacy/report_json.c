@@ -1,15 +1,16 @@
 /* report_json.c - the report of a conversion as JSON (reference, section 10).
  *
  * {"to": "metallic-roughness" | "specular-glossiness" | "ogl1", "light_scale": 3.14..,
- *  "materials": [ worst first: by E_disp, those without an error last, then in the order of the scene
+ *  "materials": [ worst first: by the error that is graded, those without an error last, then in the order of the scene
  *    {"material": name, "index": of the scene, "source", "method", "profile": as in facet_conversion,
  *     "in": the source's values, "out": what they became (see below),
- *     "error": {"E", "E_disp", "naive_E", "core_E": number or null, "views": [0, 30, 60 degrees]},
- *     "grade": "good" | "fair" | "poor" | "bad" | null where nothing was compared,
+ *     "error": {"E", "E_disp", "E_drawn", "naive_E", "core_E": number or null, "views": [0, 30, 60 degrees]},
+ *     "graded": "E_disp" | "E_drawn", "grade": "good" | "fair" | "poor" | "bad" | null where nothing was compared,
+ *     "grade_drawn": the same of E_drawn, whatever is graded,
  *     "light_scale": as above, "warnings": [{"code", "text"}]}],
  *  "warnings": of the scene, the same,
  *  "summary": {"materials": count, "grades": {"good", "fair", "poor", "bad", "none"}, "mean_E": null or number,
- *    "worst": {"material", "index", "E", "E_disp"} or null}}
+ *    "worst": {"material", "index", "E", "E_disp", "E_drawn"} or null}}
  *
  * Values of OpenGL 1: Kd Ks Ke as the file has them, Ns, d, illum, and the maps by their statements; "colors" and
  * "dialect" where they are the source. Of glTF: baseColor metallic roughness, ior specularFactor specularColor where the
@@ -119,7 +120,7 @@ static void add_warnings(const conversion_warning *warnings, uint32_t count, tex
 
 static bool has_error(const facet_conversion *s)
 {
-    return s->error_display == s->error_display;
+    return s->error_graded == s->error_graded;
 }
 
 static void add_error(const facet_conversion *s, text *t)
@@ -127,6 +128,7 @@ static void add_error(const facet_conversion *s, text *t)
     text_json_begin_object(t, "error");
     add_double(t, "E", s->error);
     add_double(t, "E_disp", s->error_display);
+    add_double(t, "E_drawn", s->error_drawn);
     add_double(t, "naive_E", s->error_naive);
     add_double(t, "core_E", s->error_core);
     text_json_begin_array(t, "views");
@@ -167,7 +169,10 @@ static void add_material(const facet_scene *scene, uint32_t index, text *t)
     text_json_string(t, "profile", m->summary.profile);
     add_values(scene, m, t);
     add_error(&m->summary, t);
+    bool has_drawn = has_error(&m->summary) && m->summary.error_drawn == m->summary.error_drawn;
+    text_json_string(t, "graded", m->summary.is_graded_as_drawn ? "E_drawn" : "E_disp");
     text_json_string(t, "grade", has_error(&m->summary) ? GRADES[m->summary.grade] : NULL);
+    text_json_string(t, "grade_drawn", has_drawn ? GRADES[m->summary.grade_drawn] : NULL);
     add_double(t, "light_scale", scene->conversion->light_scale);
     add_warnings(m->warnings, m->warning_count, t);
     text_json_end_object(t);
@@ -215,6 +220,7 @@ static void add_summary(const scene_conversion *c, const ranked *order, text *t)
         text_json_integer(t, "index", order[0].index);
         add_double(t, "E", worst->error);
         add_double(t, "E_disp", worst->error_display);
+        add_double(t, "E_drawn", worst->error_drawn);
         text_json_end_object(t);
     } else {
         text_json_string(t, "worst", NULL);
@@ -234,7 +240,7 @@ void legacy_report_json(const facet_scene *scene, text *out)
     }
     for (uint32_t i = 0; i < c->material_count; i++) {
         const facet_conversion *s = &c->materials[i].summary;
-        order[i] = (ranked){.error = has_error(s) ? s->error_display : -1.0, .index = i};
+        order[i] = (ranked){.error = has_error(s) ? s->error_graded : -1.0, .index = i};
     }
     qsort(order, c->material_count, sizeof *order, by_error);
     text_json_begin_object(out, NULL);

@@ -72,6 +72,7 @@ static void worst_first_with_a_summary(void **state)
                                  "\"extensions\":[\"KHR_materials_ior\",\"KHR_materials_specular\"]",
                                  "\"error\":{\"E\":",
                                  "\"E_disp\":",
+                                 "\"E_drawn\":",
                                  "\"naive_E\":",
                                  "\"core_E\":",
                                  "\"views\":[",

@@ -178,5 +178,6 @@ fit_error compare_pbr(const pbr_surface *source, const pbr_surface *other)
     }
     error.E = relative(all.difference, all.source);
     error.E_display = relative(all.shown_difference, all.shown_source);
+    error.E_drawn = error.E_display;
     return error;
 }

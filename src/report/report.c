@@ -25,7 +25,7 @@ typedef struct page {
 
 static bool has_error(const facet_conversion *c)
 {
-    return !isnan(c->error_display);
+    return !isnan(c->error_graded);
 }
 
 /* ---- the head ---- */
@@ -63,12 +63,14 @@ static void add_summary(const page *p)
         "</p>\n<p class=\"dim\">E is the difference of the radiance of both models, as a share of that of "
         "the "
         "source (root mean square over lights from the hemisphere and views at 0&deg;, 30&deg; and 60&deg;). "
-        "E on a screen is the same with both clamped to what a screen shows; it gives the grade: below 0.05 "
+        "E on a screen is the same with both clamped to what a screen shows. E as drawn is the same with "
+        "OpenGL "
+        "1 as its programs draw it: they add a screen's numbers, not light, which darkens the shadow side. "
+        "The "
+        "grade is of E as drawn where the conversion aims at such a program, else of E on a screen: below "
+        "0.05 "
         "good, 0.12 fair, 0.30 poor. \"Without extensions\" is what a viewer shows that does not know them, "
-        "\"usual formula\" what most converters write. The error compares glTF with OpenGL 1 in linear "
-        "light; "
-        "an old program adds light in its screen's numbers instead, which darkens the shadow side of its "
-        "ball.</p>\n");
+        "\"usual formula\" what most converters write.</p>\n");
 }
 
 static void add_warnings(text *out, const conversion_warning *warnings, uint32_t count)
@@ -210,6 +212,7 @@ static void add_errors(text *out, const facet_conversion *c)
         double value;
     } rows[] = {{"E", c->error},
                 {"E on a screen", c->error_display},
+                {"E as drawn", c->error_drawn},
                 {"seen at 0&deg;", c->error_views[0]},
                 {"seen at 30&deg;", c->error_views[1]},
                 {"seen at 60&deg;", c->error_views[2]},
@@ -217,6 +220,9 @@ static void add_errors(text *out, const facet_conversion *c)
                 {"usual formula", c->error_naive}};
     text_addf(out, "<table><tr><th colspan=\"2\">error</th></tr>\n<tr><th>method</th><td>%s, %s</td></tr>\n",
               c->method, c->profile);
+    if (has_error(c) && !isnan(c->error_drawn) && c->grade_drawn != c->grade)
+        text_addf(out, "<tr><th>as drawn</th><td><span class=\"grade %s\">%s</span></td></tr>\n",
+                  GRADES[c->grade_drawn], GRADES[c->grade_drawn]);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         if (isnan(rows[i].value))
             continue;
@@ -320,7 +326,7 @@ static facet_result add_materials(page *p, facet_error *error)
         return fail_memory(error, "report", count * sizeof *ranks);
     for (uint32_t i = 0; i < count; i++) {
         const facet_conversion *c = &p->conversion->materials[i].summary;
-        ranks[i] = (rank){has_error(c) ? c->error_display : -1.0, i};
+        ranks[i] = (rank){has_error(c) ? c->error_graded : -1.0, i};
     }
     qsort(ranks, count, sizeof *ranks, compare_ranks);
     facet_result result = FACET_OK;

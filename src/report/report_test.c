@@ -27,7 +27,7 @@ static facet_scene *make_scene(void)
 {
     facet_scene *scene = NULL;
     facet_error error;
-    const facet_scene_desc desc = {0};
+    const facet_scene_desc desc = {.legacy = {.target = FACET_LEGACY_TARGET_LINEAR}};
     const facet_log silent = {0};
     assert_int_equal(
         model_file_load_memory(PARAMETERS, sizeof PARAMETERS - 1, "test.json", &desc, &scene, &error),

@@ -47,11 +47,37 @@ expect 0 convert old.obj quiet.glb -q
 cmp -s new.glb quiet.glb || failed "the same command gives other bytes"
 expect 0 convert old.obj one.glb -j 1
 cmp -s new.glb one.glb || failed "the file depends on the threads"
-for how in "--method fit" "--profile core" "--mtl-colors linear" "--method fit --fit-target display"; do
+for how in "--method fit" "--profile core" "--mtl-colors linear" "--method fit --fit-target display" "--fit-target drawn"; do
     # shellcheck disable=SC2086
     expect 0 convert old.obj other.glb $how
     cmp -s new.glb other.glb && failed "$how changes nothing"
 done
+
+# What OpenGL 1 programs draw: a metal is converted for it by default, and the report has its figure both ways.
+cat >metal.gltf <<'END'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+"materials":[{"name":"metal","pbrMetallicRoughness":{"roughnessFactor":0.4}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}]}
+END
+expect 0 convert metal.gltf metal.obj --report metal.json
+says "on a screen 0.252, as drawn 0.158"
+grep -q '"graded":"E_drawn"' metal.json || failed "the grade of a metal is not of what is drawn"
+expect 0 convert metal.gltf metal.obj --fit-target display
+says "on a screen 0.219"
+expect 0 convert metal.gltf metal.obj --max-error 0.2
+expect 1 convert metal.gltf metal.obj --max-error 0.1
+
+# The hue under a broad white highlight.
+printf 'newmtl steelblue\nKd .2745 .5098 .7059\nKs 1 1 1\nNs 5\nillum 2\n' >hue.mtl
+printf 'mtllib hue.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl steelblue\nf 1 2 3\n' >hue.obj
+expect 0 convert hue.obj hue.glb
+says "keep-hue keeps it"
+expect 0 convert hue.obj hue.glb --keep-hue --report hue.json
+grep -q '"code":"hue-kept"' hue.json || failed "the report does not say what keeping the hue costs"
+grep -q '"baseColor":\[0.13' hue.json || failed "--keep-hue loses the hue"
 
 # There and back: what was known is known.
 expect 0 convert new.glb back.obj
@@ -126,7 +152,7 @@ cmp -s mapped.glb same.glb || failed "--materials metallic-roughness converts tw
 expect 0 convert kept.glb way.obj -v
 says "(source, ogl1)"
 expect 0 convert mapped.glb way.obj -v
-says "(closed, ogl1)"
+says "(fit, ogl1)"
 expect 0 render mapped.obj -o h.png $small --shading ogl1
 expect 0 render kept.glb -o i.png $small --shading ogl1
 cmp -s h.png i.png || failed "a kept picture is not drawn in OpenGL 1"
