@@ -88,6 +88,16 @@ static int compare_with_middle(const decimal *d, uint32_t bits)
     return big_compare(&left, &right);
 }
 
+/* Times 10^power. */
+static double scale(double value, long power)
+{
+    for (; power > 0; power -= power > MOST_TENS ? MOST_TENS : power)
+        value *= TENS[power > MOST_TENS ? MOST_TENS : power];
+    for (; power<0; power += -power> MOST_TENS ? MOST_TENS : -power)
+        value /= TENS[-power > MOST_TENS ? MOST_TENS : -power];
+    return value;
+}
+
 /* The nearest float of a decimal that is not 0. */
 static float round_exactly(const decimal *d)
 {
@@ -98,11 +108,7 @@ static float round_exactly(const decimal *d)
     double guess = 0.0;
     for (int i = 0; i < d->count && i < 19; i++)
         guess = 10.0 * guess + (double)d->digits[i];
-    long power = d->exponent + (d->count > 19 ? d->count - 19 : 0);
-    for (; power > 0; power -= power > MOST_TENS ? MOST_TENS : power)
-        guess *= TENS[power > MOST_TENS ? MOST_TENS : power];
-    for (; power<0; power += -power> MOST_TENS ? MOST_TENS : -power)
-        guess /= TENS[-power > MOST_TENS ? MOST_TENS : -power];
+    guess = scale(guess, d->exponent + (d->count > 19 ? d->count - 19 : 0));
 
     float value = guess < (double)FLT_MAX ? (float)guess : FLT_MAX;
     uint32_t bits;
@@ -261,4 +267,33 @@ const char *number_read_float(const char *text, float *value)
     }
     *value = is_negative ? -result : result;
     return p;
+}
+
+/* Digits, point and exponent of a number that number_read_float() has read. */
+static double read_finite(const char *digits)
+{
+    const char *p = digits;
+    long exponent = 0;
+    while ((*p >= '0' && *p <= '9') || *p == '.')
+        p++;
+    if ((*p | 0x20) == 'e' || (*p | 0x20) == 'd')
+        read_exponent(p, &exponent);
+    const decimal d = collect(digits, exponent);
+    uint64_t m = 0;
+    for (int i = 0; i < d.count && i < 19; i++)
+        m = 10 * m + d.digits[i];
+    return scale((double)m, d.exponent + (d.count > 19 ? d.count - 19 : 0));
+}
+
+const char *number_read_double(const char *text, double *value)
+{
+    float rounded;
+    const char *end = number_read_float(text, &rounded);
+    if (!end)
+        return NULL;
+    const char *digits = text + (*text == '-' || *text == '+');
+    *value = (double)rounded;
+    if (fabsf(rounded) <= FLT_MAX)
+        *value = *text == '-' ? -read_finite(digits) : read_finite(digits);
+    return end;
 }

@@ -38,5 +38,7 @@ static inline unsigned number_read_digits(const char *text, uint32_t *value)
  * behind the number; NULL: there is none, *value is as it was. A character that belongs to no number must follow
  * somewhere. */
 const char *number_read_float(const char *text, float *value);
+/* The same in double, within a unit of its last place; infinite or not a number as the float is. */
+const char *number_read_double(const char *text, double *value);
 
 #endif

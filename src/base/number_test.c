@@ -41,6 +41,55 @@ static uint64_t next_random(uint64_t *state)
     return mix64(*state += MIX64_STEP);
 }
 
+/* Within a unit of the last place of what the C library reads. */
+static void check_double(const char *text)
+{
+    char room[128] = {0};
+    double actual = 7.0;
+    assert_true(strlen(text) + NUMBER_TAIL < sizeof room);
+    strcpy(room, text);
+    strcat(room, "\n");
+    char *end;
+    double expected = strtod(text, &end);
+    assert_ptr_equal(number_read_double(room, &actual), room + (end - text));
+    if (!(fabs(actual - expected) <= 2.3e-16 * fabs(expected)))
+        fail_msg("\"%s\": read %.17g, not %.17g", text, actual, expected);
+}
+
+static void test_doubles(void **state)
+{
+    (void)state;
+    const char *texts[] = {"0",
+                           "-0.0",
+                           "1000000.0625",
+                           "-4526331.337",
+                           "100000000.125",
+                           "1e8",
+                           "1.25e-3",
+                           ".5",
+                           "5.",
+                           "-00012345678.9012345678901234567890",
+                           "123456789012345678901234567890",
+                           "0.000000000000000000000000000012345",
+                           "4526331.33700000000000000001e0",
+                           "1e+30",
+                           "1E-30"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        check_double(texts[i]);
+    uint64_t random = 1;
+    for (int i = 0; i < 100000; i++) {
+        char text[64];
+        double value = (double)(int64_t)next_random(&random) * 0x1p-63 * pow(10.0, (double)(i % 12));
+        snprintf(text, sizeof text, i % 3 ? "%.9f" : "%.16e", value);
+        check_double(text);
+    }
+    double value = 7.0;
+    assert_null(number_read_double("x\n       ", &value));
+    assert_true(value == 7.0);
+    assert_non_null(number_read_double("-inf\n       ", &value));
+    assert_true(value == -HUGE_VAL);
+}
+
 static void test_forms(void **state)
 {
     (void)state;
@@ -205,6 +254,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_forms),
+        cmocka_unit_test(test_doubles),
         cmocka_unit_test(test_what_is_no_number),
         cmocka_unit_test(test_words),
         cmocka_unit_test(test_random_decimals),

@@ -172,6 +172,17 @@ void text_json_doubles(text *t, const char *key, const double *values, size_t co
     text_json_end_array(t);
 }
 
+void text_json_place(text *t, const char *key, const float values[3], const double origin[3])
+{
+    text_json_begin_array(t, key);
+    for (size_t i = 0; i < 3; i++) {
+        char digits[TEXT_FLOAT_SIZE];
+        text_shortest_place(values[i], origin[i], digits);
+        text_json_raw(t, NULL, digits);
+    }
+    text_json_end_array(t);
+}
+
 void text_json_raw(text *t, const char *key, const char *json)
 {
     begin_value(t, key);

@@ -25,6 +25,9 @@ void text_shortest_float(float value, char digits[TEXT_FLOAT_SIZE]);
 /* The same for doubles, from 15 digits on. A double below 4096 that is a float is printed as that float: 0.1f is
  * 0.1, not 0.10000000149011612. */
 void text_shortest_double(double value, char digits[TEXT_FLOAT_SIZE]);
+/* A short decimal of origin + value, from which the same float comes back when the origin is subtracted, as far as a double
+ * can say it. */
+void text_shortest_place(float value, double origin, char digits[TEXT_FLOAT_SIZE]);
 
 /* JSON: keys are NULL inside arrays and at the top. Numbers print the shortest decimal that reads back as the
  * same float; NaN and infinities, which JSON lacks, become null. Strings are UTF-8; bytes that are not
@@ -40,5 +43,7 @@ void text_json_float(text *t, const char *key, float value);
 void text_json_raw(text *t, const char *key, const char *json); /* a value as JSON text; NULL: null */
 void text_json_floats(text *t, const char *key, const float *values, size_t count);
 void text_json_doubles(text *t, const char *key, const double *values, size_t count);
+/* Three numbers by text_shortest_place(). */
+void text_json_place(text *t, const char *key, const float values[3], const double origin[3]);
 
 #endif

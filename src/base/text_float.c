@@ -4,6 +4,7 @@
  * digits; they are a decimal that reads back as the float where n 2^s is within half a unit of m, 10^p / 2, from m 10^p.
  * All of these are whole numbers below 2^100, so that nothing is rounded but what should be; the result is that of
  * printf("%.*g") with the least precision from 6 on that reads back, 20 times as fast. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,4 +156,28 @@ void text_shortest_double(double value, char digits[TEXT_FLOAT_SIZE])
         if (strtod(digits, NULL) == value)
             return;
     }
+}
+
+void text_shortest_place(float value, double origin, char digits[TEXT_FLOAT_SIZE])
+{
+    if (origin == 0.0) {
+        text_shortest_float(value, digits);
+        return;
+    }
+    double place = origin + (double)value;
+    int decimals = value != 0.0f ? (int)floor(-log10(fabs((double)value))) + 5 : 0;
+    decimals = decimals < 0 ? 0 : decimals;
+    for (int last = decimals + 5; decimals < last && decimals < 16 && fabs(place) < 1e17; decimals++) {
+        snprintf(digits, TEXT_FLOAT_SIZE, "%.*f", decimals, place);
+        if ((float)(strtod(digits, NULL) - origin) != value)
+            continue;
+        if (decimals > 0) {
+            size_t length = strlen(digits);
+            while (digits[length - 1] == '0')
+                length--;
+            digits[length - (digits[length - 1] == '.')] = 0;
+        }
+        return;
+    }
+    text_shortest_double(place, digits);
 }

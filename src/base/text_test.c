@@ -153,6 +153,34 @@ static void shortest_doubles_keep_what_floats_lose(void **state)
     }
 }
 
+static void places_keep_both_their_parts(void **state)
+{
+    (void)state;
+    static const struct {
+        float value;
+        double origin;
+        const char *digits;
+    } cases[] = {{0.1f, 0.0, "0.1"},         {0.1234567f, 1e6, "1000000.1234567"},
+                 {-0.5f, 1e8, "99999999.5"}, {0.0f, -4096.0, "-4096"},
+                 {100.0f, 1e6, "1000100"},   {0.25f, -1e6, "-999999.75"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char digits[TEXT_FLOAT_SIZE];
+        text_shortest_place(cases[i].value, cases[i].origin, digits);
+        assert_string_equal(digits, cases[i].digits);
+    }
+    uint64_t random = 1;
+    for (int i = 0; i < 100000; i++) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        float value = (float)((int64_t)random >> 20) * 0x1p-40f;
+        double origin = (double)(1 << (10 + i % 17));
+        char digits[TEXT_FLOAT_SIZE];
+        text_shortest_place(value, origin, digits);
+        double back = strtod(digits, NULL) - origin;
+        assert_true((float)back == value ||
+                    fabs(back - (double)value) < 1e-8); /* half a step of a double there */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +188,7 @@ int main(void)
         cmocka_unit_test(numbers_read_back),
         cmocka_unit_test(shortest_floats_are_those_of_printf),
         cmocka_unit_test(shortest_doubles_keep_what_floats_lose),
+        cmocka_unit_test(places_keep_both_their_parts),
         cmocka_unit_test(strings_are_valid_utf8),
         cmocka_unit_test(long_text_grows_and_failure_sticks),
     };
