@@ -325,12 +325,19 @@ typedef struct facet_pose_desc {
     double time_s; /* of the animations; they rest before their first and after their last key */
 } facet_pose_desc;
 
+/* What world space is relative to, m, in the coordinates of the file: {0, 0, 0}, or a point near a model that is so far
+ * from the file's origin, as on a map, that floats would not hold its shape. All places that the library takes and
+ * gives as floats (cameras, orbits, bounds) are relative to it: add it for coordinates of the file, subtract it from
+ * those, in double. It is the same whenever the file is read. */
+FACET_API void facet_scene_get_origin(const facet_scene *scene, double origin[3]);
+
 /* Axis-aligned bounds in world space of what is drawn, m; pose NULL: {0}. False: nothing, both are 0. */
 FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *pose, float minimum[3],
                                       float maximum[3]);
 
 /* Moves what the default scene draws: puts a node above its roots with that matrix (columns, as in glTF; the last row is 0 0 0 1),
- * or changes that of the node that an earlier call has put there. Skins go along. Not while others use the scene.
+ * or changes that of the node that an earlier call has put there. The matrix is from the world space that there was before the
+ * first call, whose origin becomes that of the file: facet_scene_get_origin() is 0 from then on. Skins go along. Not while others use the scene.
  * FACET_ERROR_ARGUMENT: not such a matrix; _MEMORY: the scene is as it was. */
 FACET_API facet_result facet_scene_place(facet_scene *scene, const float matrix[16], facet_error *error);
 
@@ -360,7 +367,7 @@ FACET_API facet_result facet_scene_save(const facet_scene *scene, const char *pa
 
 /* ---- cameras ---- */
 
-/* A camera in world space. */
+/* A camera in world space, which facet_scene_get_origin() is the origin of. */
 typedef struct facet_camera {
     float eye[3];        /* m */
     float target[3];     /* m; any point in front along the axis */
@@ -1421,6 +1428,7 @@ typedef struct facet_view_picture {
     const facet_render_desc *render; /* complete */
     const facet_orbit *orbit;        /* with radius and target; NULL: a camera of the file */
     uint32_t camera;                 /* of the file */
+    double origin[3];                /* facet_scene_get_origin() of the model */
 } facet_view_picture;
 
 /* What a window asks of who opened it, which makes it show what they would render. load_model and load_environment are

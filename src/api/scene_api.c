@@ -187,6 +187,11 @@ facet_result facet_scene_save(const facet_scene *scene, const char *path, const 
     return model_file_save(scene, path, generator, desc, error);
 }
 
+void facet_scene_get_origin(const facet_scene *scene, double origin[3])
+{
+    memcpy(origin, scene->origin, sizeof scene->origin);
+}
+
 bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *desc, float minimum[3],
                             float maximum[3])
 {

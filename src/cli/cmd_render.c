@@ -106,7 +106,7 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
         .pose = &s->pose, .turn = frame->turn, .turns = s->turns > 0, .moves = s->moves};
     facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
     if (result == FACET_OK && index == 0 && is_sequence)
-        render_keep_framing(&m->options, camera);
+        render_keep_framing(&m->options, m->scene, camera);
     if (result == FACET_OK)
         path_options_set_lens(&m->options, m->scene, &s->pose, camera);
     return result;

@@ -52,6 +52,7 @@ static facet_result choose_camera(view_run_state *run, facet_view_model *model, 
     render_options o = run->options;
     const render_view view = {.pose = &model->pose};
     bool aims = o.has_target[0] || o.has_target[1] || o.has_target[2];
+    bool aims_fully = o.has_target[0] && o.has_target[1] && o.has_target[2];
     facet_camera camera;
     facet_result result = FACET_OK;
     if (o.camera) {
@@ -62,12 +63,12 @@ static facet_result choose_camera(view_run_state *run, facet_view_model *model, 
     } else if (o.has_eye) {
         result = render_camera(model->scene, &view, &o, &model->eye, error);
         model->has_eye = true;
-    } else if (aims && !o.orbit.has_target) { /* one coordinate is given, the others are the model's */
+    } else if (aims && !aims_fully) { /* one coordinate is given, the others are the model's */
         result = render_camera(model->scene, &view, &o, &camera, error);
         if (result == FACET_OK)
-            render_keep_framing(&o, &camera);
+            render_keep_framing(&o, model->scene, &camera);
     }
-    model->orbit = o.orbit;
+    model->orbit = render_orbit(model->scene, &model->pose, &o);
     /* who gave no view will turn the model first: the distance is one that holds all around */
     model->orbit.fits_all_azimuths = !is_given(run->line, OPT_ORBIT);
     return result;

@@ -4,6 +4,7 @@
 #include "cli/table.h"
 #include "cli/terminal.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { FEW = 20 };
@@ -86,13 +87,19 @@ static void print_bounds(FILE *stream, const json_t *bounds)
         fprintf(stream, "  size       nothing to see\n");
         return;
     }
-    double a[3], b[3];
+    double a[3], b[3], size = 0.0, farthest = 0.0;
     for (size_t i = 0; i < 3; i++) {
         a[i] = element_of(low, i);
         b[i] = element_of(high, i);
+        size = fmax(size, b[i] - a[i]);
+        farthest = fmax(farthest, fmax(fabs(a[i]), fabs(b[i])));
     }
-    fprintf(stream, "  size       %.4g x %.4g x %.4g m, from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g)\n",
-            b[0] - a[0], b[1] - a[1], b[2] - a[2], a[0], a[1], a[2], b[0], b[1], b[2]);
+    /* four digits of the model, however far from the origin it is */
+    int digits = size > 0.0 && farthest > 100.0 * size ? 4 + (int)ceil(log10(farthest / size)) : 4;
+    digits = digits < 15 ? digits : 15;
+    fprintf(stream, "  size       %.4g x %.4g x %.4g m, from (%.*g, %.*g, %.*g) to (%.*g, %.*g, %.*g)\n",
+            b[0] - a[0], b[1] - a[1], b[2] - a[2], digits, a[0], digits, a[1], digits, a[2], digits, b[0],
+            digits, b[1], digits, b[2]);
 }
 
 /* "base_color 0, normal 2": the members that are texture infos, with the number of the texture. */

@@ -307,7 +307,7 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
             !are_within(numbers, 3, -FARTHEST, FARTHEST))
             return option_fail(c, OPT_EYE, "X,Y,Z in metres, each from -1e6 to 1e6", error);
         for (int i = 0; i < 3; i++)
-            out->picture.eye[i] = (float)numbers[i];
+            out->picture.eye[i] = numbers[i];
     }
     out->has_target = is_given(c, OPT_TARGET);
     if (out->has_target) {

@@ -21,8 +21,8 @@ facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
 {
     facet_camera camera = facet_sea_camera(run->sea, o->eye_height_m, o->heading_rad);
     for (int i = 0; i < 3 && o->picture.has_eye; i++) {
-        camera.target[i] += o->picture.eye[i] - camera.eye[i];
-        camera.eye[i] = o->picture.eye[i];
+        camera.target[i] += (float)o->picture.eye[i] - camera.eye[i];
+        camera.eye[i] = (float)o->picture.eye[i];
     }
     if (o->has_target)
         memcpy(camera.target, o->target, sizeof camera.target);

@@ -107,7 +107,7 @@ bool orbit_parse(const char *text, facet_orbit *orbit)
     return true;
 }
 
-bool target_parse(const char *text, float target[3], bool is_given[3])
+bool target_parse(const char *text, double target[3], bool is_given[3])
 {
     if (strcasecmp(text, "auto") == 0) {
         is_given[0] = is_given[1] = is_given[2] = false;
@@ -122,7 +122,7 @@ bool target_parse(const char *text, float target[3], bool is_given[3])
     for (int i = 0; i < 3; i++) {
         is_given[i] = parts[i].kind == PART_NUMBER;
         if (is_given[i])
-            target[i] = (float)parts[i].number;
+            target[i] = parts[i].number;
     }
     return true;
 }

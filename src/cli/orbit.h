@@ -11,6 +11,6 @@
 bool orbit_parse(const char *text, facet_orbit *orbit);
 
 /* "X,Y,Z" in m (also without unit), cm, mm; "auto" for all or for one keeps target[i] and clears is_given[i]. */
-bool target_parse(const char *text, float target[3], bool is_given[3]);
+bool target_parse(const char *text, double target[3], bool is_given[3]);
 
 #endif

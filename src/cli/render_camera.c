@@ -7,14 +7,17 @@
 
 #define TWO_PI 6.283185307179586
 
-/* orbit->target in full: what is not given is the middle of the model. */
+/* The target in full, relative to the origin of the scene: what is not given is the middle of the model. */
 static void resolve_target(const facet_scene *scene, const facet_pose_desc *pose,
                            const render_options *options, float target[3])
 {
     float low[3], high[3];
+    double origin[3];
     facet_scene_get_bounds(scene, pose, low, high);
+    facet_scene_get_origin(scene, origin);
     for (int i = 0; i < 3; i++)
-        target[i] = options->has_target[i] ? options->orbit.target[i] : 0.5f * low[i] + 0.5f * high[i];
+        target[i] =
+            options->has_target[i] ? (float)(options->target[i] - origin[i]) : 0.5f * low[i] + 0.5f * high[i];
 }
 
 static float aspect_of(const render_options *options)
@@ -22,15 +25,19 @@ static float aspect_of(const render_options *options)
     return (float)options->desc.width / (float)options->desc.height;
 }
 
+facet_orbit render_orbit(const facet_scene *scene, const facet_pose_desc *pose, const render_options *options)
+{
+    facet_orbit orbit = options->orbit;
+    orbit.has_target = options->has_target[0] || options->has_target[1] || options->has_target[2];
+    if (orbit.has_target)
+        resolve_target(scene, pose, options, orbit.target);
+    return orbit;
+}
+
 static facet_orbit orbit_of_view(const facet_scene *scene, const render_view *view,
                                  const render_options *options)
 {
-    facet_orbit orbit = options->orbit;
-    bool is_partly_given = options->has_target[0] || options->has_target[1] || options->has_target[2];
-    if (is_partly_given) {
-        resolve_target(scene, view->pose, options, orbit.target);
-        orbit.has_target = true;
-    }
+    facet_orbit orbit = render_orbit(scene, view->pose, options);
     orbit.azimuth_rad += (float)(TWO_PI * view->turn);
     orbit.fits_all_azimuths = view->turns;
     orbit.fits_all_times = view->moves;
@@ -48,13 +55,15 @@ static facet_result camera_from_eye(const facet_scene *scene, const facet_pose_d
 {
     *camera = (facet_camera){.fov_y_rad = options->orbit.fov_y_rad};
     resolve_target(scene, pose, options, camera->target);
+    double origin[3];
+    facet_scene_get_origin(scene, origin);
     for (int i = 0; i < 3; i++)
-        camera->eye[i] = options->eye[i];
+        camera->eye[i] = (float)(options->eye[i] - origin[i]);
     float far_away = distance(camera->eye, camera->target);
     if (!(far_away > 0.0f))
         return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--eye: the camera stands on what it looks at (%g,%g,%g)", (double)camera->target[0],
-                         (double)camera->target[1], (double)camera->target[2]);
+                         "--eye: the camera stands on what it looks at (%.9g,%.9g,%.9g)", options->eye[0],
+                         options->eye[1], options->eye[2]);
     if (options->orbit.orthographic) {
         camera->ortho_height = 2.0f * far_away * tanf(0.5f * camera->fov_y_rad);
         camera->fov_y_rad = 0.0f;
@@ -82,16 +91,17 @@ facet_result render_camera(const facet_scene *scene, const render_view *view, co
     return facet_camera_from_orbit(scene, view->pose, &orbit, aspect_of(options), camera, error);
 }
 
-void render_keep_framing(render_options *options, const facet_camera *camera)
+void render_keep_framing(render_options *options, const facet_scene *scene, const facet_camera *camera)
 {
     facet_orbit *orbit = &options->orbit;
+    double origin[3];
     if (options->camera || options->has_eye)
         return;
+    facet_scene_get_origin(scene, origin);
     for (int i = 0; i < 3; i++) {
-        orbit->target[i] = camera->target[i];
+        options->target[i] = (double)camera->target[i] + origin[i];
         options->has_target[i] = true;
     }
-    orbit->has_target = true;
     orbit->radius = orbit->orthographic ? 0.5f * camera->ortho_height / tanf(0.5f * orbit->fov_y_rad)
                                         : distance(camera->eye, camera->target);
 }

@@ -14,7 +14,10 @@ typedef struct render_view {
 facet_result render_camera(const facet_scene *scene, const render_view *view, const render_options *options,
                            facet_camera *camera, facet_error *error);
 
+/* The orbit of the options with their target, if any of it is given. */
+facet_orbit render_orbit(const facet_scene *scene, const facet_pose_desc *pose,
+                         const render_options *options);
 /* For the pictures that follow: the target and distance of a camera that frames all of them, found once. */
-void render_keep_framing(render_options *options, const facet_camera *camera);
+void render_keep_framing(render_options *options, const facet_scene *scene, const facet_camera *camera);
 
 #endif

@@ -77,9 +77,8 @@ static facet_result read_orbit(const command_line *c, render_options *out, facet
             c, OPT_ORBIT,
             "AZIMUTH,POLAR,RADIUS such as 30,75,105% or \"30deg 75deg 2m\" (polar: 0 to 180 degrees)", error);
     text = option_text(c, OPT_TARGET, "auto");
-    if (!target_parse(text, orbit->target, out->has_target))
+    if (!target_parse(text, out->target, out->has_target))
         return option_fail(c, OPT_TARGET, "X,Y,Z in metres, or auto", error);
-    orbit->has_target = out->has_target[0] && out->has_target[1] && out->has_target[2];
     text = option_text(c, OPT_FOV, "auto");
     double fov = (double)orbit->fov_y_rad;
     if (strcasecmp(text, "auto") != 0 &&
@@ -107,11 +106,8 @@ static facet_result read_camera(const command_line *c, render_options *out, face
     out->has_eye = is_given(c, OPT_EYE);
     if (!out->has_eye)
         return FACET_OK;
-    double eye[3];
-    if (!value_numbers(option_text(c, OPT_EYE, ""), 3, eye))
+    if (!value_numbers(option_text(c, OPT_EYE, ""), 3, out->eye))
         return option_fail(c, OPT_EYE, "X,Y,Z in metres", error);
-    for (int i = 0; i < 3; i++)
-        out->eye[i] = (float)eye[i];
     if (is_given(c, OPT_ORBIT) || out->turntable)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--eye: it does not go together with --%s; give one of them",

@@ -22,10 +22,11 @@ typedef struct render_options {
 
     /* camera */
     const char *camera; /* NULL: orbit or eye */
-    facet_orbit orbit;  /* has_target: has_target[0 .. 2] are all true */
+    facet_orbit orbit;  /* without target */
     bool has_target[3];
+    double target[3]; /* target and eye are in the file's coordinates: facet_scene_get_origin() */
     bool has_eye;
-    float eye[3];
+    double eye[3];
     uint32_t turntable; /* frames; 0: none */
     float aperture;     /* diameter of the lens: m, or a share of the focus distance; 0: a pinhole */
     bool aperture_is_relative;

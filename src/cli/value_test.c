@@ -155,12 +155,14 @@ static void test_orbits(void **state)
 static void test_targets(void **state)
 {
     (void)state;
-    float t[3] = {7, 7, 7};
+    double t[3] = {7, 7, 7};
     bool is_given[3];
     assert_true(target_parse("0m 1.5m -20cm", t, is_given));
-    expect_near((double)t[1], 1.5, 1e-6);
-    expect_near((double)t[2], -0.2, 1e-6);
+    expect_near(t[1], 1.5, 1e-6);
+    expect_near(t[2], -0.2, 1e-6);
     assert_true(is_given[0] && is_given[1] && is_given[2]);
+    assert_true(target_parse("4526331.337,100000000.125,0", t, is_given));
+    assert_true(t[0] == 4526331.337 && t[1] == 100000000.125);
     assert_true(target_parse("auto", t, is_given) && !is_given[0] && !is_given[2]);
     assert_true(target_parse("auto,1,auto", t, is_given) && !is_given[0] && is_given[1]);
     assert_false(target_parse("1,2", t, is_given) || target_parse("1,2,3,4", t, is_given) ||

@@ -141,6 +141,19 @@ static void write_degrees(float radians, char out[48])
     write_number((double)radians / DEGREE, (double)radians, read_degrees, out);
 }
 
+/* In the file's coordinates: the fewest digits that are the same place relative to the origin. */
+static void write_coordinate(float x, double origin, char out[48])
+{
+    double place = origin + (double)x;
+    if (place == 0.0)
+        place = 0.0; /* without a sign */
+    for (int digits = 1; digits <= 17; digits++) {
+        write_digits(place, digits, out);
+        if ((float)(strtod(out, NULL) - origin) == x)
+            return;
+    }
+}
+
 /* ---- parts of a picture ---- */
 
 static void add_float(line *l, option_id id, float x)
@@ -170,7 +183,7 @@ static void add_camera(line *l, const render_options *o, const facet_view_pictur
     write_float(orbit->radius, words[2]);
     add_option(l, OPT_ORBIT, "%s,%s,%s", words[0], words[1], words[2]);
     for (int i = 0; i < 3; i++)
-        write_float(orbit->target[i], words[i]);
+        write_coordinate(orbit->target[i], p->origin[i], words[i]);
     add_option(l, OPT_TARGET, "%s,%s,%s", words[0], words[1], words[2]);
     if (orbit->fov_y_rad != facet_orbit_default().fov_y_rad)
         add_degrees(l, OPT_FOV, orbit->fov_y_rad);

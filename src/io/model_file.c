@@ -8,6 +8,7 @@
 #include "io/obj/obj.h"
 #include "io/ogl1/ogl1_json.h"
 #include "scene/legacy.h"
+#include "scene/origin.h"
 
 typedef enum model_kind { MODEL_GLTF, MODEL_OBJ, MODEL_PARAMETERS } model_kind;
 
@@ -17,6 +18,19 @@ static model_kind detect(const void *bytes, size_t size)
     if (ogl1_json_detect(bytes, size))
         return MODEL_PARAMETERS;
     return obj_detect(bytes, size) ? MODEL_OBJ : MODEL_GLTF;
+}
+
+/* Ends every reader's work. */
+static facet_result settle(facet_result result, const facet_scene_desc *desc, facet_scene **scene,
+                           facet_error *error)
+{
+    if (result == FACET_OK)
+        result = scene_settle_origin(*scene, &desc->log, error);
+    if (result != FACET_OK && *scene) {
+        scene_destroy(*scene);
+        *scene = NULL;
+    }
+    return result;
 }
 
 facet_result model_file_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
@@ -29,18 +43,21 @@ facet_result model_file_load(const char *path, const facet_scene_desc *desc, fac
         return result;
     model_kind kind = detect(file.data, file.size);
     file_close(&file);
-    return kind == MODEL_OBJ          ? obj_load(path, desc, scene, error)
-           : kind == MODEL_PARAMETERS ? ogl1_json_load(path, desc, scene, error)
-                                      : gltf_load(path, desc, scene, error);
+    result = kind == MODEL_OBJ          ? obj_load(path, desc, scene, error)
+             : kind == MODEL_PARAMETERS ? ogl1_json_load(path, desc, scene, error)
+                                        : gltf_load(path, desc, scene, error);
+    return settle(result, desc, scene, error);
 }
 
 facet_result model_file_load_memory(const void *bytes, size_t size, const char *name,
                                     const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
 {
     model_kind kind = detect(bytes, size);
-    return kind == MODEL_OBJ          ? obj_load_memory(bytes, size, name, desc, scene, error)
-           : kind == MODEL_PARAMETERS ? ogl1_json_load_memory(bytes, size, name, desc, scene, error)
-                                      : gltf_load_memory(bytes, size, name, desc, scene, error);
+    facet_result result = kind == MODEL_OBJ ? obj_load_memory(bytes, size, name, desc, scene, error)
+                          : kind == MODEL_PARAMETERS
+                              ? ogl1_json_load_memory(bytes, size, name, desc, scene, error)
+                              : gltf_load_memory(bytes, size, name, desc, scene, error);
+    return settle(result, desc, scene, error);
 }
 
 facet_result model_file_save(const facet_scene *scene, const char *path, const char *generator,

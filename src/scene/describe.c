@@ -78,6 +78,15 @@ static void write_counts(text *t, const facet_scene *scene)
     text_json_end_object(t);
 }
 
+/* In the file's coordinates: low and high are relative to origin. */
+static void write_box(text *t, const float low[3], const float high[3], const double origin[3])
+{
+    text_json_begin_object(t, "bounds");
+    text_json_place(t, "min", low, origin);
+    text_json_place(t, "max", high, origin);
+    text_json_end_object(t);
+}
+
 /* Of what one scene draws; null for nothing. */
 static void write_bounds(text *t, const facet_scene *scene, const facet_pose_desc *desc)
 {
@@ -86,10 +95,7 @@ static void write_bounds(text *t, const facet_scene *scene, const facet_pose_des
     if (result != FACET_OK || !pose.has_bounds) {
         text_json_string(t, "bounds", NULL);
     } else {
-        text_json_begin_object(t, "bounds");
-        text_json_floats(t, "min", pose.bounds_min, 3);
-        text_json_floats(t, "max", pose.bounds_max, 3);
-        text_json_end_object(t);
+        write_box(t, pose.bounds_min, pose.bounds_max, scene->origin);
     }
     scene_pose_destroy(&pose);
 }
@@ -163,7 +169,8 @@ static void write_attributes(text *t, const scene_primitive *p)
     text_json_end_array(t);
 }
 
-static void write_primitive(text *t, const facet_scene *scene, const scene_primitive *p)
+static void write_primitive(text *t, const facet_scene *scene, const scene_mesh *mesh,
+                            const scene_primitive *p)
 {
     static const char *const modes[] = {"points", "lines", "triangles"};
     text_json_begin_object(t, NULL);
@@ -181,10 +188,7 @@ static void write_primitive(text *t, const facet_scene *scene, const scene_primi
     text_json_integer(t, "morph_targets", p->target_count);
     text_json_bool(t, "flat_normals", p->has_flat_normals);
     if (p->index_count) {
-        text_json_begin_object(t, "bounds");
-        text_json_floats(t, "min", p->bounds_min, 3);
-        text_json_floats(t, "max", p->bounds_max, 3);
-        text_json_end_object(t);
+        write_box(t, p->bounds_min, p->bounds_max, mesh->origin);
     } else {
         text_json_string(t, "bounds", NULL);
     }
@@ -201,7 +205,7 @@ static void write_meshes(text *t, const facet_scene *scene)
         text_json_string(t, "name", mesh->name);
         text_json_begin_array(t, "primitives");
         for (uint32_t k = 0; k < mesh->primitive_count; k++)
-            write_primitive(t, scene, &mesh->primitives[k]);
+            write_primitive(t, scene, mesh, &mesh->primitives[k]);
         text_json_end_array(t);
         if (mesh->weight_count)
             text_json_floats(t, "weights", mesh->weights, mesh->weight_count);

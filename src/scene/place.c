@@ -66,6 +66,8 @@ static facet_result add_root(facet_scene *s, facet_error *error)
     s->scenes = scenes;
     s->scene_count += s->scene_count == 0;
     s->is_placed = true;
+    memcpy(s->placed_origin, s->origin, sizeof s->origin);
+    memset(s->origin, 0, sizeof s->origin);
     return FACET_OK;
 }
 
@@ -75,8 +77,13 @@ facet_result scene_place(facet_scene *scene, const float matrix[16], facet_error
         return fail(error, FACET_ERROR_ARGUMENT, "%s: a matrix whose last row is 0 0 0 1 was expected",
                     scene->source);
     facet_result result = scene->is_placed ? FACET_OK : add_root(scene, error);
-    if (result == FACET_OK)
-        for (int i = 0; i < 16; i++)
-            scene->nodes[scene->node_count - 1].matrix.m[i] = (double)matrix[i];
-    return result;
+    if (result != FACET_OK)
+        return result;
+    dmat4 place;
+    for (int i = 0; i < 16; i++)
+        place.m[i] = (double)matrix[i];
+    const double back[3] = {-scene->placed_origin[0], -scene->placed_origin[1], -scene->placed_origin[2]};
+    dmat4 to_world = dmat4_translation(back);
+    scene->nodes[scene->node_count - 1].matrix = dmat4_multiply(&place, &to_world);
+    return FACET_OK;
 }

@@ -96,15 +96,21 @@ static void add_instance(scene_pose *pose, const pose_parts *parts, uint32_t sho
     instance->tangents = moved->arrays.tangents ? moved->arrays.tangents : p->tangents;
 }
 
-/* Where EXT_mesh_gpu_instancing puts copy number i in the node's space. */
-static mat4 copy_matrix(const scene_instancing *instancing, uint32_t i)
+/* From the mesh's positions to the world. copy: NULL: the node is drawn once. */
+static mat4 instance_world(const dmat4 *node, const copy_place *copy, bool is_far, const double origin[3])
 {
-    static const float nowhere[3] = {0, 0, 0};
-    static const float unturned[4] = {0, 0, 0, 1};
-    static const float unscaled[3] = {1, 1, 1};
-    return mat4_from_trs(instancing->translations ? instancing->translations + 3 * (size_t)i : nowhere,
-                         instancing->rotations ? instancing->rotations + 4 * (size_t)i : unturned,
-                         instancing->scales ? instancing->scales + 3 * (size_t)i : unscaled);
+    if (!is_far) {
+        mat4 world = mat4_from_double(node);
+        return copy ? mat4_multiply(world, mat4_from_trs(copy->translation, copy->rotation, copy->scale))
+                    : world;
+    }
+    dmat4 inner = dmat4_translation(origin);
+    if (copy) {
+        dmat4 outer = copy_place_matrix(copy);
+        inner = dmat4_multiply(&outer, &inner);
+    }
+    dmat4 world = dmat4_multiply(node, &inner);
+    return mat4_from_double(&world);
 }
 
 /* How many times a primitive of the mesh of a shown node is drawn. allocate() and fill() both go by it. The vertices of
@@ -126,16 +132,19 @@ static void add_primitive(scene_pose *pose, const pose_parts *parts, uint32_t sh
     uint32_t node = parts->nodes.shown[shown];
     const scene_node *at = &parts->state.nodes[node];
     uint32_t copies = count_copies(parts, shown, index);
-    mat4 world = parts->nodes.worlds[node];
-    if (moved && moved->skin) {
-        world = mat4_identity();
-        world.m[0] = moved->skin->is_mirrored ? -1.0f : 1.0f;
-    }
+    const double *origin = parts->scene->meshes[at->mesh].origin;
+    dmat4 node_world = hierarchy_shown_world(&parts->nodes, node);
     for (uint32_t i = 0; i < copies; i++) {
-        bool is_placed = at->instancing && !(moved && moved->skin);
-        mat4 copy = is_placed ? mat4_multiply(world, copy_matrix(at->instancing, i)) : world;
+        copy_place copy = {0};
+        if (at->instancing)
+            copy = hierarchy_copy(at->instancing, i);
+        mat4 world = mat4_identity();
+        if (moved && moved->skin)
+            world.m[0] = moved->skin->is_mirrored ? -1.0f : 1.0f;
+        else
+            world = instance_world(&node_world, at->instancing ? &copy : NULL, parts->scene->is_far, origin);
         uint32_t before = pose->instance_count;
-        add_instance(pose, parts, shown, index, moved, &copy);
+        add_instance(pose, parts, shown, index, moved, &world);
         if (pose->instance_count > before)
             pose->instances[before].copy = i;
     }
@@ -209,11 +218,12 @@ static void fill(scene_pose *pose, const pose_parts *parts)
     for (uint32_t i = 0; i < parts->nodes.count; i++) {
         uint32_t index = parts->nodes.shown[i];
         const scene_node *node = &parts->state.nodes[index];
-        const mat4 *world = &parts->nodes.worlds[index];
+        const dmat4 exact = hierarchy_shown_world(&parts->nodes, index);
+        const mat4 world = mat4_from_double(&exact);
         if (node->light != SCENE_NONE)
-            add_light(pose, &parts->state.lights[node->light], index, world);
+            add_light(pose, &parts->state.lights[node->light], index, &world);
         if (node->camera != SCENE_NONE)
-            add_camera(pose, &parts->state.cameras[node->camera], node->camera, index, world);
+            add_camera(pose, &parts->state.cameras[node->camera], node->camera, index, &world);
         if (node->mesh != SCENE_NONE)
             for (uint32_t k = 0; k < parts->scene->meshes[node->mesh].primitive_count; k++)
                 add_primitive(pose, parts, i, k);
@@ -251,7 +261,7 @@ facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *
     if (result == FACET_OK)
         result = scene_state_create(scene, desc, allocator, &parts.state, error);
     if (result == FACET_OK && !hierarchy_create(scene, &parts.state, index, allocator, &parts.nodes))
-        result = fail_memory(error, "world matrices", scene->node_count * sizeof(mat4));
+        result = fail_memory(error, "world matrices", scene->node_count * sizeof(dmat4));
     if (result == FACET_OK)
         result =
             deform_create(scene, &parts.state, &parts.nodes, allocator, thread_count, &parts.deformed, error);

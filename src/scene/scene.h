@@ -71,6 +71,7 @@ typedef struct scene_mesh {
     scene_primitive *primitives;
     uint32_t weight_count; /* of morph targets: that of the primitive that has the most */
     const float *weights;  /* as the file stores them, 0 where it does not; NULL: there are none */
+    double origin[3];      /* of the positions of its primitives, m: scene/origin.h */
     scene_meta meta;
 } scene_mesh;
 
@@ -354,8 +355,13 @@ typedef struct facet_scene {
     const char **variants; /* KHR_materials_variants: names */
     scene_root *scenes;
     scene_meta meta, asset_meta; /* of the root object: xmp packets; of "asset" */
+    /* scene/origin.h: the place in the file's world that everything posed is relative to, m; 0 unless the model is far
+     * from it. is_far: worlds of nodes are composed in double. */
+    double origin[3];
+    bool is_far;
     bool is_placed; /* the default scene has one root, the last node, which facet_scene_place() made */
-    uint32_t default_scene; /* 0 where the file names none; SCENE_NONE: the file has no scene */
+    double placed_origin[3]; /* then: what origin was before */
+    uint32_t default_scene;  /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
     const char **warnings; /* what log got while reading */
     const char **notes;    /* where the file breaks a rule of its format and nothing comes of it */
@@ -401,7 +407,7 @@ facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **ou
 facet_scene_counts scene_count(const facet_scene *scene);
 void scene_describe_json(const facet_scene *scene, struct text *out);
 
-/* ---- a scene at one moment, in world space ---- */
+/* ---- a scene at one moment, in world space: relative to the scene's origin ---- */
 
 /* One primitive where it is drawn. */
 typedef struct scene_instance {

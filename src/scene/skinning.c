@@ -9,20 +9,16 @@
 
 /* ---- joints ---- */
 
-/* a b in double; what is not finite is the largest float, which moves a vertex that listens to it out of the scene,
- * and times a weight of 0 is 0. */
-static mat4 multiply_finite(const mat4 *a, const mat4 *b)
+/* a b; what is not finite is the largest float, which moves a vertex that listens to it out of the scene, and times a
+ * weight of 0 is 0. */
+static mat4 multiply_finite(const dmat4 *a, const mat4 *b)
 {
-    mat4 out;
+    const dmat4 wide = dmat4_from_float(b);
+    const dmat4 product = dmat4_multiply(a, &wide);
+    mat4 out = mat4_from_double(&product);
     bool is_finite = true;
-    for (int column = 0; column < 4; column++)
-        for (int row = 0; row < 4; row++) {
-            double sum = 0.0;
-            for (int k = 0; k < 4; k++)
-                sum += (double)a->m[4 * k + row] * (double)b->m[4 * column + k];
-            out.m[4 * column + row] = (float)sum;
-            is_finite = is_finite && fabs(sum) <= (double)FLT_MAX;
-        }
+    for (int i = 0; i < 16; i++)
+        is_finite = is_finite && fabs(product.m[i]) <= (double)FLT_MAX;
     for (int i = 0; i < 16 && !is_finite; i++)
         out.m[i] = FLT_MAX;
     return out;
@@ -49,7 +45,8 @@ bool skin_pose_create(const scene_skin *skin, hierarchy *h, const facet_allocato
     long balance = 0;
     for (uint32_t i = 0; i < skin->joint_count; i++) {
         const mat4 *bind = skin->inverse_bind ? &skin->inverse_bind[i] : &identity;
-        out->matrices[i] = multiply_finite(hierarchy_world(h, skin->joints[i]), bind);
+        const dmat4 world = hierarchy_world(h, skin->joints[i]);
+        out->matrices[i] = multiply_finite(&world, bind);
         balance += handedness(&out->matrices[i]);
     }
     out->matrices[skin->joint_count] = identity;

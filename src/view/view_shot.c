@@ -95,13 +95,13 @@ static char *describe(view_app *a)
         desc.samples = a->trace_samples;
     const view_state *s = &a->state;
     const facet_orbit orbit = view_camera_round(&s->orbit);
-    return a->desc->source.describe(
-        a->desc->source.user,
-        &(facet_view_picture){.model = a->path,
-                              .environment = a->environment_name,
-                              .render = &desc,
-                              .orbit = s->camera == VIEW_NO_CAMERA ? &orbit : NULL,
-                              .camera = s->camera == VIEW_NO_CAMERA ? 0 : (uint32_t)s->camera});
+    facet_view_picture picture = {.model = a->path,
+                                  .environment = a->environment_name,
+                                  .render = &desc,
+                                  .orbit = s->camera == VIEW_NO_CAMERA ? &orbit : NULL,
+                                  .camera = s->camera == VIEW_NO_CAMERA ? 0 : (uint32_t)s->camera};
+    memcpy(picture.origin, a->scene->origin, sizeof picture.origin);
+    return a->desc->source.describe(a->desc->source.user, &picture);
 }
 
 void view_shot_copy(view_app *a)

@@ -155,6 +155,27 @@ uint32_t write_floats(writer *w, const float *values, size_t count, write_type t
     return last_accessor(w);
 }
 
+uint32_t write_positions(writer *w, const float *values, size_t count, const double origin[3])
+{
+    if (origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0)
+        return write_floats(w, values, count, WRITE_VEC3, WRITE_VERTICES, true);
+    size_t size = 3 * count * sizeof(float);
+    uint32_t found = find_or_note(w, values, size, 5u << 8);
+    if (found != SCENE_NONE)
+        return found;
+    float *moved = mem_alloc(w->allocator, count, 3 * sizeof *moved);
+    if (!moved) {
+        writer_fail_memory(w, size);
+        return 0;
+    }
+    for (size_t i = 0; i < 3 * count; i++)
+        moved[i] = (float)(origin[i % 3] + (double)values[i]);
+    json_t *accessor = add_accessor(w, write_view(w, moved, size, WRITE_VERTICES), FLOAT, count, WRITE_VEC3);
+    put_bounds(w, accessor, moved, count, 3);
+    mem_free(moved);
+    return last_accessor(w);
+}
+
 uint32_t write_zeros(writer *w, size_t count, write_type type)
 {
     static const float zeros[16] = {0};

@@ -42,11 +42,11 @@ static void write_empty(writer *w, json_t *out, uint32_t target_count)
 }
 
 /* Normals that facet made are made again by whoever reads the file. */
-static void write_attributes(writer *w, json_t *out, const scene_primitive *p)
+static void write_attributes(writer *w, json_t *out, const scene_mesh *mesh, const scene_primitive *p)
 {
     json_t *attributes = put_object(w, out, "attributes");
     size_t n = p->vertex_count;
-    put_floats_attribute(w, attributes, "POSITION", 0, p->positions, n, WRITE_VEC3);
+    put_attribute(w, attributes, "POSITION", 0, write_positions(w, p->positions, n, mesh->origin));
     if (!p->has_flat_normals) {
         put_floats_attribute(w, attributes, "NORMAL", 0, p->normals, n, WRITE_VEC3);
         put_floats_attribute(w, attributes, "TANGENT", 0, p->tangents, n, WRITE_VEC4);
@@ -104,13 +104,14 @@ static void write_variants(writer *w, json_t *out, const scene_primitive *p)
     }
 }
 
-static void write_primitive(writer *w, json_t *primitives, const scene_primitive *p, uint32_t target_count)
+static void write_primitive(writer *w, json_t *primitives, const scene_mesh *mesh, const scene_primitive *p,
+                            uint32_t target_count)
 {
     json_t *out = json_object();
     if (p->index_count == 0) {
         write_empty(w, out, target_count);
     } else {
-        write_attributes(w, out, p);
+        write_attributes(w, out, mesh, p);
         put(w, out, "indices", json_integer(write_indices(w, p->indices, p->index_count)));
         if (p->mode != SCENE_TRIANGLES)
             put(w, out, "mode", json_integer(modes[p->mode]));
@@ -130,7 +131,7 @@ void write_meshes(writer *w)
         put_name(w, out, mesh->name);
         json_t *primitives = put_array(w, out, "primitives");
         for (uint32_t k = 0; k < mesh->primitive_count; k++)
-            write_primitive(w, primitives, &mesh->primitives[k], mesh->weight_count);
+            write_primitive(w, primitives, mesh, &mesh->primitives[k], mesh->weight_count);
         if (mesh->weight_count && mesh->weights)
             put(w, out, "weights", json_floats(mesh->weights, mesh->weight_count));
         put_meta(w, out, &mesh->meta);

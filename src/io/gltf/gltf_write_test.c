@@ -14,6 +14,7 @@
 #include "base/failing_allocator.h"
 #include "base/file.h"
 #include "scene/material_table.h"
+#include "scene/origin.h"
 
 /* ---- equality; the first difference fails the test with its name ---- */
 
@@ -43,7 +44,7 @@ static void same_floats(const float *a, const float *b, size_t count, const char
 static void same_doubles(const double *a, const double *b, size_t count, const char *what, uint32_t index)
 {
     for (size_t i = 0; i < count; i++)
-        if (!(fabs(a[i] - b[i]) <= (fabs(a[i]) < 4096.0 ? 1e-7 : 1e-14) * fmax(1.0, fabs(a[i]))))
+        if (!(fabs(a[i] - b[i]) <= (fabs(a[i]) < 4096.0 ? 1e-7 : 2e-15) * fmax(1.0, fabs(a[i]))))
             fail_msg("%s: %s %u: value %zu was %.17g and is %.17g", model, what, index, i, a[i], b[i]);
 }
 
@@ -367,6 +368,8 @@ static void small_scenes_survive(void **state)
 {
     (void)state;
     static const char *const documents[] = {
+        "'scenes':[{'nodes':[0]}],'nodes':[{'translation':[4526331.337,-100000000.0625,0.1],'children':[1]},"
+        "{'matrix':[1,0,0,0,0,1,0,0,0,0,1,0,-4526331.0001,1e-9,123456789.123456,1]}]",
         "'scenes':[{'name':'a','nodes':[0],'extras':{'x':0.1,'y':0.12345678901234567,'z':[1,true,null,'"
         "\\u00e9']}},{}],"
         "'scene':1,'nodes':[{'name':'top','children':[1],'translation':[0.1,2,3e-7],'rotation':[0,0.6,0,0.8]}"
@@ -444,6 +447,31 @@ static void targets_that_move_nothing_keep_their_place(void **state)
     assert_non_null(mesh->primitives[0].targets[1].positions);
     assert_null(mesh->primitives[1].targets[1].positions);
     scene_destroy(s);
+}
+
+/* In floats, as they were before the scene was made relative to an origin near it. */
+static void far_vertices_come_back_as_they_were(void **state)
+{
+    (void)state;
+    static const float triangle[] = {1048576.0f, 0.0f,         0.125f, 1048577.5f, 0.1f,
+                                     -2.0f,      1048578.125f, 1.0f,   0.3f};
+    test_model m = {0};
+    char path[256];
+    facet_scene *again = NULL;
+    model_add_floats(&m, triangle, 3, "VEC3");
+    facet_scene *scene = model_load(&m, "%s",
+                                    "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{'"
+                                    "mesh':0}],'scenes':[{'nodes':[0]}]");
+    assert_int_equal(scene_settle_origin(scene, NULL, NULL), FACET_OK);
+    assert_true(scene->meshes[0].origin[0] > 1e6);
+    assert_true(fabsf(scene->meshes[0].primitives[0].positions[0]) < 16.0f);
+    snprintf(path, sizeof path, "%s/a.glb", folder);
+    assert_int_equal(gltf_save(scene, path, "a test", NULL, NULL), FACET_OK);
+    assert_int_equal(gltf_load(path, NULL, &again, NULL), FACET_OK);
+    assert_memory_equal(again->meshes[0].primitives[0].positions, triangle, sizeof triangle);
+    scene_destroy(again);
+    scene_destroy(scene);
+    empty_folder();
 }
 
 static void characters_0_in_extras_survive(void **state)
@@ -598,6 +626,7 @@ int main(void)
         cmocka_unit_test(small_scenes_survive),
         cmocka_unit_test(what_glTF_forbids_is_not_written),
         cmocka_unit_test(targets_that_move_nothing_keep_their_place),
+        cmocka_unit_test(far_vertices_come_back_as_they_were),
         cmocka_unit_test(characters_0_in_extras_survive),
         cmocka_unit_test(names_need_not_be_UTF_8),
         cmocka_unit_test(all_files_or_none),

@@ -92,7 +92,9 @@ typedef enum write_type { WRITE_SCALAR, WRITE_VEC2, WRITE_VEC3, WRITE_VEC4, WRIT
 /* Index of an accessor with count elements of floats; arrays that were written before are shared. bounds: with min and
  * max. */
 uint32_t write_floats(writer *w, const float *values, size_t count, write_type type, int target, bool bounds);
-/* The same of zeros, which take no bytes, with min and max. */
+/* Positions of a mesh in the coordinates of the file, with bounds. */
+uint32_t write_positions(writer *w, const float *values, size_t count, const double origin[3]);
+/* write_floats() of zeros, which take no bytes, with min and max. */
 uint32_t write_zeros(writer *w, size_t count, write_type type);
 /* Of 32-bit values, stored in as many bytes as the largest needs, but for 8 bits where they are indices. */
 uint32_t write_indices(writer *w, const uint32_t *values, size_t count);

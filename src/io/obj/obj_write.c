@@ -161,9 +161,9 @@ static char *print_obj(const obj_writer *w, const char *mtl_name, size_t *size)
 {
     text begin = {.allocator = w->desc->allocator};
     text_addf(&begin, "# OBJ file written by %s\nmtllib %s\n", w->generator, mtl_name);
-    char *obj = begin.has_failed
-                    ? NULL
-                    : obj_pieces_print(w->pieces, w->headings, w->pose.instance_count, &begin, w->desc, size);
+    char *obj = begin.has_failed ? NULL
+                                 : obj_pieces_print(w->pieces, w->headings, w->pose.instance_count, &begin,
+                                                    w->scene->origin, w->desc, size);
     text_destroy(&begin);
     return obj;
 }

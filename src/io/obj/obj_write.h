@@ -29,10 +29,10 @@ bool obj_pieces_fill(obj_piece *pieces, size_t count, const facet_scene *scene,
                      const facet_scene_save_desc *desc);
 void obj_pieces_destroy(obj_piece *pieces, size_t count);
 
-/* obj_write_text.c: the statements of all pieces, each behind its heading ("o ..", "usemtl .."), behind begin. The block is
- * of mem_alloc(), *size bytes; NULL: no memory. */
+/* obj_write_text.c: the statements of all pieces, each behind its heading ("o ..", "usemtl .."), behind begin. Positions are
+ * printed in the file's coordinates: origin is the scene's. The block is of mem_alloc(), *size bytes; NULL: no memory. */
 char *obj_pieces_print(const obj_piece *pieces, const text *headings, size_t count, const text *begin,
-                       const facet_scene_save_desc *desc, size_t *size);
+                       const double origin[3], const facet_scene_save_desc *desc, size_t *size);
 
 /* obj_write_images.c: names of files for the images that materials use, and which of them are to be written. */
 typedef struct obj_images {

@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "image/srgb.h"
 #include "io/obj/obj_write.h"
+#include "scene/origin.h"
 
 /* ---- a scene by hand ---- */
 
@@ -115,6 +116,26 @@ static void a_quad_is_written(void **state)
     const facet_scene_save_desc flipped = {.has_flipped_texcoords = true};
     obj = save(&folder, scene, &flipped);
     assert_non_null(strstr(obj, "vt 0 1\nvt 1 1\nvt 1 0\nvt 0 0.25\n"));
+    free(obj);
+    scene_destroy(scene);
+    test_folder_remove(&folder);
+}
+
+/* In the coordinates of the file, with the digits that floats lack. */
+static void far_scenes_are_written_in_doubles(void **state)
+{
+    (void)state;
+    test_folder folder = test_folder_make();
+    facet_scene *scene = make_scene(1, 1);
+    scene_primitive *p = add_quad(scene, 0, 0);
+    p->bounds_max[0] = p->bounds_max[1] = 1.0f;
+    scene->nodes[0].translation[0] = 4526331.25;
+    scene->nodes[0].translation[2] = -1e8 - 0.0625;
+    assert_int_equal(scene_settle_origin(scene, NULL, NULL), FACET_OK);
+    assert_true(scene->is_far);
+    char *obj = save(&folder, scene, NULL);
+    assert_non_null(strstr(obj, "\nv 4526331.25 0 -100000000.0625\nv 4526332.25 0 -100000000.0625\n"));
+    assert_non_null(strstr(obj, "\nvt 0 0\n"));
     free(obj);
     scene_destroy(scene);
     test_folder_remove(&folder);
@@ -528,11 +549,17 @@ static void threads_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_quad_is_written),           cmocka_unit_test(objects_follow_one_another),
-        cmocka_unit_test(images_are_beside),           cmocka_unit_test(scenes_without_legacy_are_refused),
-        cmocka_unit_test(nothing_stays_of_what_fails), cmocka_unit_test(real_files_come_back),
-        cmocka_unit_test(threads_change_nothing),      cmocka_unit_test(what_is_no_file_is_not_opened),
-        cmocka_unit_test(many_names_take_no_time),     cmocka_unit_test(odd_names_are_found_again),
+        cmocka_unit_test(a_quad_is_written),
+        cmocka_unit_test(far_scenes_are_written_in_doubles),
+        cmocka_unit_test(objects_follow_one_another),
+        cmocka_unit_test(images_are_beside),
+        cmocka_unit_test(scenes_without_legacy_are_refused),
+        cmocka_unit_test(nothing_stays_of_what_fails),
+        cmocka_unit_test(real_files_come_back),
+        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(what_is_no_file_is_not_opened),
+        cmocka_unit_test(many_names_take_no_time),
+        cmocka_unit_test(odd_names_are_found_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,6 +19,7 @@ typedef struct block {
 enum {
     BLOCK_LINES = 8192,
     FLOAT_ROOM = 16, /* " -1.23456789e-10" */
+    PLACE_ROOM = 1 + TEXT_FLOAT_SIZE,
     INDEX_ROOM = 21, /* " 18446744073709551615" */
     CORNER_ROOM = 3 * INDEX_ROOM
 };
@@ -38,14 +39,16 @@ static char *put_index(char *out, size_t index)
     return out;
 }
 
-static char *put_values(char *out, const char *keyword, const float *values, uint32_t width)
+/* origin: of the first three values; NULL: they are no place. */
+static char *put_values(char *out, const char *keyword, const float *values, uint32_t width,
+                        const double *origin)
 {
     size_t length = strlen(keyword);
     memcpy(out, keyword, length);
     out += length;
     for (uint32_t i = 0; i < width; i++) {
         char digits[TEXT_FLOAT_SIZE];
-        text_shortest_float(values[i], digits);
+        text_shortest_place(values[i], origin && i < 3 ? origin[i] : 0.0, digits);
         length = strlen(digits);
         *out++ = ' ';
         memcpy(out, digits, length);
@@ -94,12 +97,13 @@ static char *put_element(char *out, const obj_piece *piece, size_t element)
 
 static size_t line_room(const block *b)
 {
-    return b->list == OBJ_LIST_COUNT ? 2 + 3 * CORNER_ROOM : 4 + 6 * FLOAT_ROOM;
+    return b->list == OBJ_LIST_COUNT ? 2 + 3 * CORNER_ROOM : 4 + 3 * PLACE_ROOM + 3 * FLOAT_ROOM;
 }
 
 typedef struct print_job {
     block *blocks;
     const facet_allocator *allocator;
+    const double *origin; /* of positions */
     char *file;
 } print_job;
 
@@ -119,7 +123,8 @@ static void print_block(const print_job *job, block *b)
             out = put_element(out, b->piece, i);
         } else {
             const obj_values *values = &b->piece->lists[b->list];
-            out = put_values(out, keywords[b->list], values->values + i * values->width, values->width);
+            out = put_values(out, keywords[b->list], values->values + i * values->width, values->width,
+                             b->list == OBJ_POSITIONS ? job->origin : NULL);
         }
     }
     b->size = (size_t)(out - data);
@@ -175,10 +180,10 @@ static size_t cut_blocks(const obj_piece *pieces, const text *headings, size_t c
 }
 
 char *obj_pieces_print(const obj_piece *pieces, const text *headings, size_t count, const text *begin,
-                       const facet_scene_save_desc *desc, size_t *size)
+                       const double origin[3], const facet_scene_save_desc *desc, size_t *size)
 {
     size_t block_count = cut_blocks(pieces, headings, count, NULL);
-    print_job job = {.allocator = &desc->allocator};
+    print_job job = {.allocator = &desc->allocator, .origin = origin};
     job.blocks = mem_alloc(&desc->allocator, block_count, sizeof *job.blocks);
     if (!job.blocks)
         return NULL;

@@ -1,0 +1,336 @@
+/* origin.c - see origin.h. */
+#include "scene/origin.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "scene/bounds.h"
+#include "scene/hierarchy.h"
+
+enum {
+    SAMPLES = 4096,    /* vertices by which a scene is judged */
+    MAX_ANCESTORS = 64 /* of a node that are looked at */
+};
+
+/* Beyond so many times its size from the origin a model is far. Positions of a mesh are cheaper to move, and hurt
+ * earlier: normals and tangents are found between neighbours. */
+static const double FAR_RATIO = 256.0, MESH_RATIO = 4.0;
+/* Steps of floats above this share of a mesh can be seen in its shading. */
+static const double COARSE = 0x1p-15;
+
+/* ---- where points lie ---- */
+
+typedef struct samples {
+    double axes[3][SAMPLES];
+    double reach[SAMPLES]; /* the farthest that anything was from its origin on the way to the point */
+    size_t count;
+} samples;
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The middle of a cloud per axis, and its size, but for a twentieth of the points at either end of each axis. A point
+ * without size counts as 1 m, as it is framed. Sorts. */
+static double measure(samples *s, double middle[3])
+{
+    double square = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        double *values = s->axes[axis];
+        size_t few = (s->count - 1) / 20;
+        qsort(values, s->count, sizeof *values, compare);
+        double low = values[few], high = values[s->count - 1 - few];
+        middle[axis] = 0.5 * (low + high);
+        square += (high - low) * (high - low);
+    }
+    double size = sqrt(square);
+    return size > 0.0 ? size : 1.0;
+}
+
+/* 0 for what is near. Else a multiple of a power of two of about the size: what is subtracted leaves no rounding, and
+ * people can read it. */
+static double choose(double middle, double size, double ratio)
+{
+    if (!(fabs(middle) > ratio * size && fabs(middle) < (double)SCENE_FARTHEST))
+        return 0.0;
+    double unit = exp2(ceil(log2(size)));
+    return round(middle / unit) * unit;
+}
+
+bool scene_find_origin(const float *positions, size_t count, const facet_allocator *allocator,
+                       double origin[3])
+{
+    samples *s = mem_alloc(allocator, 1, sizeof *s);
+    memset(origin, 0, 3 * sizeof *origin);
+    if (!s)
+        return false;
+    s->count = 0;
+    size_t step = count / SAMPLES + 1;
+    for (size_t i = 0; i < count; i += step) {
+        const float *p = positions + 3 * i;
+        if (!(fabsf(p[0]) <= SCENE_FARTHEST && fabsf(p[1]) <= SCENE_FARTHEST &&
+              fabsf(p[2]) <= SCENE_FARTHEST))
+            continue;
+        for (int axis = 0; axis < 3; axis++)
+            s->axes[axis][s->count] = (double)p[axis];
+        s->count++;
+    }
+    if (s->count > 0) {
+        double middle[3];
+        double size = measure(s, middle);
+        for (int axis = 0; axis < 3; axis++)
+            origin[axis] = choose(middle[axis], size, FAR_RATIO);
+    }
+    mem_free(s);
+    return origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
+}
+
+/* ---- a scene ---- */
+
+/* Indices of a primitive in all its copies. */
+static uint64_t drawn_indices(const scene_node *node, const scene_primitive *p)
+{
+    bool is_skinned = node->skin != SCENE_NONE && p->influence_count > 0;
+    uint64_t copies = node->instancing && !is_skinned ? node->instancing->count : 1;
+    return copies * p->index_count;
+}
+
+/* From the mesh to the file's world: of vertex number vertex of copy number copy. */
+static dmat4 vertex_matrix(const facet_scene *scene, hierarchy *h, uint32_t node, const scene_primitive *p,
+                           uint32_t vertex, uint32_t copy)
+{
+    const scene_node *n = &h->nodes[node];
+    if (n->skin != SCENE_NONE && p->influence_count > 0) {
+        const scene_skin *skin = &scene->skins[n->skin];
+        uint32_t joint = p->joints[(size_t)p->influence_count * vertex];
+        if (joint >= skin->joint_count)
+            return dmat4_identity();
+        dmat4 world = hierarchy_world(h, skin->joints[joint]);
+        dmat4 bind = skin->inverse_bind ? dmat4_from_float(&skin->inverse_bind[joint]) : dmat4_identity();
+        return dmat4_multiply(&world, &bind);
+    }
+    dmat4 world = hierarchy_shown_world(h, node);
+    if (!n->instancing)
+        return world;
+    copy_place place = hierarchy_copy(n->instancing, copy);
+    dmat4 inner = copy_place_matrix(&place);
+    return dmat4_multiply(&world, &inner);
+}
+
+static double farthest(const double p[3])
+{
+    return fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
+}
+
+static void add_sample(samples *s, const dmat4 *world, const double local[3], double ancestors)
+{
+    double p[3];
+    dmat4_transform_point(world, local, p);
+    double at = farthest(p), moved = farthest(world->m + 12);
+    if (!(at <= (double)SCENE_FARTHEST) || s->count == SAMPLES)
+        return;
+    const double inner[3] = {p[0] - world->m[12], p[1] - world->m[13], p[2] - world->m[14]};
+    for (int axis = 0; axis < 3; axis++)
+        s->axes[axis][s->count] = p[axis];
+    s->reach[s->count++] = fmax(fmax(moved, farthest(inner)), ancestors);
+}
+
+/* Where the worlds of the nodes above are. */
+static double reach_of_ancestors(hierarchy *h, uint32_t node)
+{
+    double reach = 0.0;
+    uint32_t up = h->nodes[node].parent;
+    for (int i = 0; i < MAX_ANCESTORS && up != SCENE_NONE; i++, up = h->nodes[up].parent) {
+        dmat4 world = hierarchy_world(h, up);
+        reach = fmax(reach, farthest(world.m + 12));
+    }
+    return reach;
+}
+
+typedef struct sampling {
+    const facet_scene *scene;
+    hierarchy *h;
+    samples *out;
+    uint64_t step, next; /* of the indices of all that is drawn, behind one another */
+    uint64_t begin;      /* where the primitive's are */
+} sampling;
+
+static void sample_primitive(sampling *g, uint32_t node, const scene_mesh *mesh, const scene_primitive *p)
+{
+    uint64_t end = g->begin + drawn_indices(&g->h->nodes[node], p);
+    double ancestors = g->next < end ? reach_of_ancestors(g->h, node) : 0.0;
+    for (; g->next < end; g->next += g->step) {
+        uint32_t vertex = p->indices[(g->next - g->begin) % p->index_count];
+        uint32_t copy = (uint32_t)((g->next - g->begin) / p->index_count);
+        dmat4 world = vertex_matrix(g->scene, g->h, node, p, vertex, copy);
+        double local[3];
+        for (int axis = 0; axis < 3; axis++)
+            local[axis] = mesh->origin[axis] + (double)p->positions[3 * (size_t)vertex + (size_t)axis];
+        add_sample(g->out, &world, local, ancestors);
+    }
+    g->begin = end;
+}
+
+static void sample_scene(const facet_scene *scene, hierarchy *h, samples *out)
+{
+    uint64_t total = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        sampling g = {.scene = scene, .h = h, .out = out, .step = total / SAMPLES + 1};
+        for (uint32_t i = 0; i < h->count; i++) {
+            const scene_node *node = &h->nodes[h->shown[i]];
+            const scene_mesh *mesh = node->mesh == SCENE_NONE ? NULL : &scene->meshes[node->mesh];
+            for (uint32_t k = 0; mesh && k < mesh->primitive_count; k++)
+                if (pass == 0)
+                    total += drawn_indices(node, &mesh->primitives[k]);
+                else
+                    sample_primitive(&g, h->shown[i], mesh, &mesh->primitives[k]);
+        }
+    }
+}
+
+/* What the samples say. They are in double, whatever the scene does otherwise. */
+static facet_result find_scene_origin(facet_scene *scene, samples *s, facet_error *error)
+{
+    scene_state state;
+    hierarchy h = {0};
+    uint32_t index = scene->default_scene == SCENE_NONE ? 0 : scene->default_scene;
+    s->count = 0;
+    memset(scene->origin, 0, sizeof scene->origin);
+    scene->is_far = true;
+    facet_result result = scene_state_create(scene, NULL, &scene->allocator, &state, error);
+    if (result == FACET_OK && !hierarchy_create(scene, &state, index, &scene->allocator, &h))
+        result = fail_memory(error, "world matrices", scene->node_count * sizeof(dmat4));
+    if (result == FACET_OK)
+        sample_scene(scene, &h, s);
+    hierarchy_destroy(&h);
+    scene_state_destroy(&state);
+    scene->is_far = false;
+    if (s->count == 0)
+        return result;
+    double middle[3];
+    double size = measure(s, middle);
+    for (int axis = 0; axis < 3; axis++) {
+        scene->origin[axis] = choose(middle[axis], size, FAR_RATIO);
+        scene->is_far |= scene->origin[axis] != 0.0;
+    }
+    qsort(s->reach, s->count, sizeof *s->reach, compare);
+    scene->is_far |= s->reach[s->count / 2] > FAR_RATIO * size;
+    return result;
+}
+
+/* ---- meshes ---- */
+
+/* The mesh that has lost most detail. */
+typedef struct coarseness {
+    const scene_mesh *mesh;
+    double distance, step, share;
+} coarseness;
+
+/* Bounds of what is drawn of a mesh. */
+static box bound_mesh(const scene_mesh *mesh)
+{
+    box b = box_empty();
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const scene_primitive *p = &mesh->primitives[i];
+        if (p->index_count > 0) {
+            box_add(&b, p->bounds_min);
+            box_add(&b, p->bounds_max);
+        }
+    }
+    return b;
+}
+
+static void note_steps(coarseness *worst, const scene_mesh *mesh, double distance, double size)
+{
+    float at = (float)distance;
+    double step = (double)nextafterf(at, INFINITY) - (double)at;
+    if (step > COARSE * size && step > worst->share * size)
+        *worst = (coarseness){mesh, distance, step, step / size};
+}
+
+/* Primitives that share positions still do then. */
+static bool subtract(facet_scene *scene, scene_mesh *mesh, const double origin[3])
+{
+    const float *before = NULL, *after = NULL;
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        scene_primitive *p = &mesh->primitives[i];
+        if (p->positions != before) {
+            float *moved = arena_alloc(scene->arena, p->vertex_count, 3 * sizeof *moved);
+            if (!moved)
+                return false;
+            for (size_t k = 0; k < 3 * (size_t)p->vertex_count; k++)
+                moved[k] = (float)((double)p->positions[k] - origin[k % 3]);
+            before = p->positions;
+            after = moved;
+        }
+        p->positions = after;
+        for (int axis = 0; axis < 3 && p->index_count > 0; axis++) {
+            p->bounds_min[axis] = (float)((double)p->bounds_min[axis] - origin[axis]);
+            p->bounds_max[axis] = (float)((double)p->bounds_max[axis] - origin[axis]);
+        }
+    }
+    for (int axis = 0; axis < 3; axis++)
+        mesh->origin[axis] += origin[axis];
+    return true;
+}
+
+static bool move_mesh(facet_scene *scene, scene_mesh *mesh, coarseness *worst)
+{
+    const box b = bound_mesh(mesh);
+    double origin[3], size = 0.0, distance = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        double low = (double)b.minimum[axis], high = (double)b.maximum[axis];
+        size = hypot(size, high - low);
+        distance = fmax(distance, fmax(fabs(low), fabs(high)));
+    }
+    if (!box_is_near(&b) || !(size > 0.0))
+        return true;
+    bool is_far = false;
+    for (int axis = 0; axis < 3; axis++) {
+        double middle = 0.5 * ((double)b.minimum[axis] + (double)b.maximum[axis]);
+        origin[axis] = choose(middle, size, MESH_RATIO);
+        is_far |= origin[axis] != 0.0;
+    }
+    if (!is_far)
+        return true;
+    note_steps(worst, mesh, distance, size);
+    return subtract(scene, mesh, origin);
+}
+
+/* Vertices of skins stay: the matrices of several meshes' joints are the same. */
+static facet_result move_meshes(facet_scene *scene, const facet_log *log, facet_error *error)
+{
+    coarseness worst = {.share = 0.0};
+    bool *is_skinned = mem_zalloc(&scene->allocator, scene->mesh_count, sizeof *is_skinned);
+    bool is_ok = is_skinned != NULL;
+    for (uint32_t i = 0; is_ok && i < scene->node_count; i++)
+        if (scene->nodes[i].mesh != SCENE_NONE && scene->nodes[i].skin != SCENE_NONE)
+            is_skinned[scene->nodes[i].mesh] = true;
+    for (uint32_t i = 0; is_ok && i < scene->mesh_count; i++)
+        if (!is_skinned[i])
+            is_ok = move_mesh(scene, &scene->meshes[i], &worst);
+    mem_free(is_skinned);
+    if (!is_ok)
+        return fail_memory(error, "positions", scene->mesh_count * sizeof *is_skinned);
+    if (worst.mesh)
+        scene_warn(
+            scene, log,
+            "%s: mesh \"%s\" has vertices %.3g m from its origin, where 32-bit numbers have steps of %.2g m: "
+            "finer detail is lost in the file",
+            scene->source, worst.mesh->name, worst.distance, worst.step);
+    return FACET_OK;
+}
+
+facet_result scene_settle_origin(facet_scene *scene, const facet_log *log, facet_error *error)
+{
+    samples *s = mem_alloc(&scene->allocator, 1, sizeof *s);
+    if (!s)
+        return fail_memory(error, "samples", sizeof *s);
+    facet_result result = find_scene_origin(scene, s, error);
+    mem_free(s);
+    return result == FACET_OK && scene->is_far ? move_meshes(scene, log, error) : result;
+}
