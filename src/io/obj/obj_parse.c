@@ -101,6 +101,19 @@ static void store_color(obj_chunk *c, const float *numbers, unsigned count, cons
     }
 }
 
+/* The three numbers at p, relative to origin. */
+static void read_far_position(const char *p, const double origin[3], float out[3])
+{
+    for (unsigned k = 0; k < 3; k++) {
+        double value;
+        p = obj_skip_blanks(p);
+        const char *end = number_read_double(p, &value);
+        if (end)
+            out[k] = (float)(value - origin[k]);
+        p = end && obj_ends_word(end) ? end : obj_skip_word(p);
+    }
+}
+
 static const char *read_position(obj_chunk *c, const char *p, const facet_allocator *allocator)
 {
     obj_floats *list = &c->positions;
@@ -109,9 +122,11 @@ static const char *read_position(obj_chunk *c, const char *p, const facet_alloca
     if (list->count == list->capacity && !obj_floats_grow(c, list, 3, allocator))
         return p;
     const char *end = read_numbers(c, p, numbers, 8, &count);
+    if (c->origin && count >= 3)
+        read_far_position(p, c->origin, numbers);
     for (; count < 3; count++) {
         note(c, OBJ_VERTEX_SHORT, p);
-        numbers[count] = 0.0f;
+        numbers[count] = c->origin ? (float)-c->origin[count] : 0.0f;
     }
     float *out = list->data + 3 * list->count++;
     for (unsigned k = 0; k < 3; k++)

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "io/obj/obj_parse.h"
+#include "scene/origin.h"
 
 /* ---- failures ---- */
 
@@ -39,6 +40,45 @@ static void parse_chunks(void *context, size_t begin, size_t end)
         if (r->chunks[i].has_failed)
             atomic_store(&r->has_failed, true);
     }
+}
+
+/* A few positions of all chunks, of which the origin is found. */
+static bool find_origin(obj_reader *r)
+{
+    enum { MOST = 4096 };
+    size_t total = 0, count = 0, next = 0, before = 0;
+    for (size_t i = 0; i < r->chunk_count; i++)
+        total += r->chunks[i].positions.count;
+    size_t step = total / MOST + 1;
+    float *few = mem_alloc(r->allocator, MOST, 3 * sizeof *few);
+    for (size_t i = 0; few && i < r->chunk_count; i++) {
+        const obj_floats *list = &r->chunks[i].positions;
+        for (; next < before + list->count; next += step)
+            memcpy(few + 3 * count++, list->data + 3 * (next - before), 3 * sizeof *few);
+        before += list->count;
+    }
+    bool is_far = few && scene_find_origin(few, count, r->allocator, r->origin);
+    mem_free(few);
+    return few ? is_far : obj_fail_memory(r, "positions", MOST * 3 * sizeof *few);
+}
+
+/* Numbers of a model that is far from the origin are read once more, as floats have not held them. */
+static void parse(obj_reader *r)
+{
+    parallel_for(r->thread_count, r->chunk_count, 1, parse_chunks, r);
+    if (!obj_check_memory(r, "statements") || !find_origin(r))
+        return;
+    for (size_t i = 0; i < r->chunk_count; i++) {
+        obj_chunk *c = &r->chunks[i];
+        obj_chunk_release(c);
+        *c = (obj_chunk){.text = c->text,
+                         .size = c->size,
+                         .offset = c->offset,
+                         .origin = r->origin,
+                         .wanted_element = SIZE_MAX};
+    }
+    parallel_for(r->thread_count, r->chunk_count, 1, parse_chunks, r);
+    obj_check_memory(r, "statements");
 }
 
 static void check_chunks(void *context, size_t begin, size_t end)
@@ -137,8 +177,8 @@ static void read_all(obj_reader *r, const char *bytes, size_t size)
     obj_cut_chunks(r, bytes, size);
     if (!obj_is_ok(r))
         return;
-    parallel_for(r->thread_count, r->chunk_count, 1, parse_chunks, r);
-    if (!obj_check_memory(r, "statements") || !look_at_statements(r, &has_elements))
+    parse(r);
+    if (!obj_is_ok(r) || !look_at_statements(r, &has_elements))
         return;
     read_head(r);
     make_geometry(r, has_elements);

@@ -52,6 +52,38 @@ static void test_triangle(void **state)
     scene_destroy(scene);
 }
 
+/* Positions are relative to the node's place, with all digits that the text has. */
+static void test_far_from_the_origin(void **state)
+{
+    (void)state;
+    facet_scene *near =
+        obj_load_text("o a\nv 0 0 0 1 0 0\nv 2.0000625 0 0.25\nv 0 3 1\nf 1 2 3\no b\nv 5 0 1e-3\n"
+                      "f 1 2 -1\n",
+                      NULL);
+    facet_scene *far =
+        obj_load_text("o a\nv 4526331 -1e8 0 1 0 0\nv 4526333.0000625 -1e8 0.25\nv +4526331 -99999997.000 1\n"
+                      "f 1 2 3\no b\nv 4526336 -100000000 1e-3\nf 1 2 -1\n",
+                      NULL);
+    assert_int_equal(far->node_count, 2);
+    for (uint32_t i = 0; i < 2; i++) {
+        const double *at = far->nodes[i].translation;
+        assert_near(at[0], 4526331.0, 16.0);
+        assert_near(at[1], -1e8, 16.0);
+        assert_true(at[0] == floor(at[0]) && at[1] == floor(at[1]) && at[2] == 0.0);
+        const scene_primitive *p = &near->meshes[i].primitives[0], *q = &far->meshes[i].primitives[0];
+        assert_int_equal(p->vertex_count, q->vertex_count);
+        for (size_t k = 0; k < 3 * (size_t)p->vertex_count; k++) {
+            const double move[3] = {4526331.0, -1e8, 0.0};
+            assert_near((double)q->positions[k] + at[k % 3] - move[k % 3], p->positions[k], 2e-7);
+            assert_near(q->normals[k], p->normals[k], 1e-6);
+        }
+        assert_memory_equal(p->colors, q->colors, 4 * p->vertex_count * sizeof(float));
+    }
+    assert_int_equal(far->warning_count, 0);
+    scene_destroy(near);
+    scene_destroy(far);
+}
+
 static void test_texcoords_as_they_are(void **state)
 {
     (void)state;
@@ -433,6 +465,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_detect),
         cmocka_unit_test(test_triangle),
+        cmocka_unit_test(test_far_from_the_origin),
         cmocka_unit_test(test_texcoords_as_they_are),
         cmocka_unit_test(test_ways_to_write),
         cmocka_unit_test(test_vertices_are_shared),

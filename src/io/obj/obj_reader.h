@@ -1,7 +1,8 @@
 /* obj_reader.h - what the files of the OBJ reader share. They are called in this order:
  *
  *   obj_cut_chunks      the text in pieces of whole lines
- *   obj_parse_chunk     numbers and statements of one piece, which knows nothing of the others
+ *   obj_parse_chunk     numbers and statements of one piece, which knows nothing of the others; again, where the
+ *                       positions turn out to be far from the origin
  *   obj_join_chunks     lists of positions, texture coordinates, normals for the whole file
  *   obj_check_chunk     faces whose indices are right, counted from 0
  *   obj_make_runs       names of objects and materials, and the primitives that they make
@@ -84,6 +85,7 @@ typedef struct obj_indices {
 typedef struct obj_chunk {
     const char *text; /* ends with a line */
     size_t size, offset;
+    const double *origin;                     /* that positions are relative to; NULL: (0, 0, 0) */
     obj_floats positions, texcoords, normals; /* 3, 2, 3 per element */
     obj_floats colors;                        /* 4 per position, < 0: none; none at all: empty */
     obj_indices mrgb;                         /* ZBrush: 0xMMRRGGBB per position of the file */
@@ -154,6 +156,7 @@ typedef struct obj_reader {
     size_t chunk_count;
     char *tail; /* text of the last chunk, with room behind it */
 
+    double origin[3]; /* subtracted from positions before they are floats; scene/origin.h */
     float *positions, *texcoords, *normals, *colors; /* colors NULL: none; linear */
     size_t position_count, texcoord_count, normal_count;
     bool has_object, has_smoothing, has_zero_normals, has_lost_positions;

@@ -106,6 +106,7 @@ static void make_nodes(obj_reader *r)
         roots[i] = i;
         scene->nodes[i] = (scene_node){.name = scene->meshes[i].name,
                                        .parent = SCENE_NONE,
+                                       .translation = {r->origin[0], r->origin[1], r->origin[2]},
                                        .rotation = {0, 0, 0, 1},
                                        .scale = {1, 1, 1},
                                        .mesh = i,
