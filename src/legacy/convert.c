@@ -62,7 +62,7 @@ facet_result legacy_convert(facet_scene *scene, facet_material_model to, const f
 {
     if (to == FACET_MATERIALS_METALLIC_ROUGHNESS && has_lost_pictures(scene))
         return FACET_OK;
-    conversion c = {.scene = scene, .desc = *desc, .notes = {.scene = scene}};
+    conversion c = {.scene = scene, .desc = *desc, .log = log, .notes = {.scene = scene}};
     facet_result result = begin(&c, to, error);
     if (result == FACET_OK)
         result = convert_all(&c, to, error);

@@ -281,7 +281,7 @@ static facet_result survey(conversion *c, bool is_glossy, facet_error *error)
                 ((m->extensions & SCENE_SPECULAR_GLOSSINESS) != 0) == is_glossy)
                 is_wanted[texture] = true;
         }
-    facet_result result = texture_bench_survey(c->bench, is_wanted, error);
+    facet_result result = texture_bench_survey(c->bench, is_wanted, c->log, error);
     mem_free(is_wanted);
     return result;
 }

@@ -28,6 +28,7 @@ typedef struct drop_plan {
 typedef struct conversion {
     facet_scene *scene;
     facet_legacy_desc desc;
+    const facet_log *log;
     texture_bench *bench;
     note_list notes;
     scene_conversion *out;       /* in the scene's arena; becomes the scene's where all went well */

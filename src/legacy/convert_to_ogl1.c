@@ -47,7 +47,7 @@ static facet_result survey(conversion *c, facet_error *error)
                 is_wanted[texture] = true;
         }
     }
-    facet_result result = texture_bench_survey(c->bench, is_wanted, error);
+    facet_result result = texture_bench_survey(c->bench, is_wanted, c->log, error);
     mem_free(is_wanted);
     return result;
 }

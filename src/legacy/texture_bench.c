@@ -69,19 +69,17 @@ static uint32_t image_of(const texture_bench *bench, uint32_t texture)
 typedef struct survey {
     const texture_bench *bench;
     const uint32_t *images;
-    facet_result *results;
+    facet_error *errors; /* one per image; .result FACET_OK: there is none */
 } survey;
 
-/* One thread per image: decoders differ in what they make of several. An image that is no image is not a failure. */
+/* One thread per image: decoders differ in what they make of several. */
 static void survey_images(void *context, size_t begin, size_t end)
 {
     const survey *s = context;
     for (size_t i = begin; i < end; i++) {
         image texels;
         texture_statistics *out = s->bench->statistics[s->images[i]];
-        facet_result result = texels_decode(s->bench->scene, s->images[i], 3, 1, &texels, NULL);
-        s->results[i] = result == FACET_ERROR_MEMORY ? result : FACET_OK;
-        if (result != FACET_OK)
+        if (texels_decode(s->bench->scene, s->images[i], 3, 1, &texels, &s->errors[i]) != FACET_OK)
             continue;
         texels_count(&texels, out);
         out->width = texels.width;
@@ -90,14 +88,29 @@ static void survey_images(void *context, size_t begin, size_t end)
     }
 }
 
-facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, facet_error *error)
+/* The first failure that ends the conversion; the others are warnings. One without bytes was warned of by the reader. */
+static facet_result judge_survey(const survey *s, size_t count, const facet_log *log, facet_error *error)
+{
+    facet_scene *scene = s->bench->scene;
+    for (size_t i = 0; i < count; i++) {
+        const facet_error *e = &s->errors[i];
+        if (e->result == FACET_ERROR_MEMORY || e->result == FACET_ERROR_LIMIT)
+            return fail(error, e->result, "%s", e->message);
+        if (e->result != FACET_OK && scene->images[s->images[i]].bytes)
+            scene_warn(scene, log, "%s: %s; the map is left out", scene->source, e->message);
+    }
+    return FACET_OK;
+}
+
+facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, const facet_log *log,
+                                  facet_error *error)
 {
     facet_scene *scene = bench->scene;
     size_t count = 0;
     facet_result result = FACET_OK;
     uint32_t *images = mem_alloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *images);
-    facet_result *results = mem_zalloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *results);
-    if (!images || !results)
+    facet_error *errors = NULL;
+    if (!images)
         result = FACET_ERROR_MEMORY;
     for (uint32_t i = 0; i < scene->texture_count && result == FACET_OK; i++) {
         uint32_t index = is_wanted[i] ? image_of(bench, i) : SCENE_NONE;
@@ -109,15 +122,18 @@ facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, f
         else
             images[count++] = index;
     }
+    if (result == FACET_OK && !(errors = mem_zalloc(&scene->allocator, count + 1, sizeof *errors)))
+        result = FACET_ERROR_MEMORY;
     if (result == FACET_OK) {
-        survey s = {.bench = bench, .images = images, .results = results};
+        survey s = {.bench = bench, .images = images, .errors = errors};
         parallel_for(scene->thread_count, count, 1, survey_images, &s);
-        for (size_t i = 0; i < count && result == FACET_OK; i++)
-            result = results[i];
+        result = judge_survey(&s, count, log, error);
+    } else {
+        result = fail_memory(error, "textures", sizeof(texture_statistics));
     }
     mem_free(images);
-    mem_free(results);
-    return result == FACET_OK ? result : fail_memory(error, "textures", sizeof(texture_statistics));
+    mem_free(errors);
+    return result;
 }
 
 const texture_statistics *texture_bench_statistics(const texture_bench *bench, uint32_t texture)

@@ -37,8 +37,10 @@ void texture_bench_destroy(texture_bench *bench); /* NULL is allowed */
 const srgb_tables *texture_bench_srgb(const texture_bench *bench);
 
 /* Looks at all images of the textures that are marked (one flag per texture of the scene), several at once. Large JPEG
- * files are looked at in an eighth of their size. */
-facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, facet_error *error);
+ * files are looked at in an eighth of their size. An image that cannot be read is a warning; fails with
+ * FACET_ERROR_MEMORY, and with _LIMIT where one is larger than the scene may have. */
+facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, const facet_log *log,
+                                  facet_error *error);
 /* NULL: the texture was not surveyed, or its image cannot be read. */
 const texture_statistics *texture_bench_statistics(const texture_bench *bench, uint32_t texture);
 

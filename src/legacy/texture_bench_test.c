@@ -9,8 +9,40 @@ static texture_bench *bench_of(facet_scene *scene)
     texture_bench *bench = NULL;
     const bool wanted[TEST_MOST] = {true, true, true, true};
     assert_int_equal(texture_bench_create(scene, &bench, NULL), FACET_OK);
-    assert_int_equal(texture_bench_survey(bench, wanted, NULL), FACET_OK);
+    assert_int_equal(texture_bench_survey(bench, wanted, &(facet_log){0}, NULL), FACET_OK);
     return bench;
+}
+
+static unsigned count_lines;
+static void count_line(void *user, facet_log_level level, const char *message)
+{
+    (void)user, (void)level, (void)message;
+    count_lines++;
+}
+
+/* What cannot be read is one warning; what is larger than allowed is a failure, not a white texture. */
+static void unreadable_images_are_reported(void **state)
+{
+    (void)state;
+    facet_scene *scene = gltf_scene(0);
+    add_texels(scene, 2, 2, 4, TEXELS);
+    add_texels(scene, 2, 2, 4, TEXELS);
+    scene->images[1].size = 50;
+    const bool wanted[TEST_MOST] = {true, true, true, true};
+    const facet_log log = {.message = count_line};
+    texture_bench *bench = NULL;
+    facet_error error;
+    count_lines = 0;
+    assert_int_equal(texture_bench_create(scene, &bench, NULL), FACET_OK);
+    assert_int_equal(texture_bench_survey(bench, wanted, &log, NULL), FACET_OK);
+    assert_int_equal(count_lines, 1);
+    texture_bench_destroy(bench);
+    scene->max_texture_size = 1;
+    assert_int_equal(texture_bench_create(scene, &bench, NULL), FACET_OK);
+    assert_int_equal(texture_bench_survey(bench, wanted, &log, &error), FACET_ERROR_LIMIT);
+    assert_non_null(strstr(error.message, "2 x 2 texels, more than 1 along an edge"));
+    texture_bench_destroy(bench);
+    scene_destroy(scene);
 }
 
 static void statistics_count_codes(void **state)
@@ -162,9 +194,8 @@ static void flat_heights_point_up_and_edges_wrap(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(statistics_count_codes),
-        cmocka_unit_test(bakes_are_shared_and_sized),
-        cmocka_unit_test(resizing_wraps),
+        cmocka_unit_test(unreadable_images_are_reported),       cmocka_unit_test(statistics_count_codes),
+        cmocka_unit_test(bakes_are_shared_and_sized),           cmocka_unit_test(resizing_wraps),
         cmocka_unit_test(flat_heights_point_up_and_edges_wrap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

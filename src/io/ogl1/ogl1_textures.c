@@ -44,7 +44,8 @@ static uint32_t find_image(reader *r, findings *f, const char *path)
     if (!kind) {
         const char *foreign = image_foreign_kind(bytes.data, bytes.size, path);
         char what[80];
-        snprintf(what, sizeof what, "is a %s file; " IMAGE_KINDS_TEXT " was expected", foreign);
+        snprintf(what, sizeof what, "is a %s file; " IMAGE_KINDS_TEXT " was expected",
+                 foreign ? foreign : "");
         warn(r, path, foreign ? what : "is no " IMAGE_KINDS_TEXT " file");
         return SCENE_NONE;
     }
