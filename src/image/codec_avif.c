@@ -9,8 +9,10 @@
 #include <dlfcn.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "base/library.h"
 #include "base/result.h"
 
 /* The functions of libavif that are called. */
@@ -34,9 +36,13 @@ typedef struct avif_file {
 
 static facet_result open_library(avif_library *out, const char *name, facet_error *error)
 {
-    out->handle = dlopen(FACET_AVIF_SONAME, RTLD_NOW | RTLD_LOCAL);
-    if (!out->handle)
-        return fail(error, FACET_ERROR_UNSUPPORTED, "%s: AVIF: %s is not installed", name, FACET_AVIF_SONAME);
+    char subject[512];
+    snprintf(subject, sizeof subject, "%.400s: AVIF", name);
+    const library_desc desc = {
+        .subject = subject, .advice = " is not installed", .missing = FACET_ERROR_UNSUPPORTED};
+    facet_result result = library_open(FACET_AVIF_SONAME, &desc, &out->handle, error);
+    if (result != FACET_OK)
+        return result;
     const struct {
         const char *symbol;
         void *place; /* of the pointer */

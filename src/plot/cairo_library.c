@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "base/library.h"
 #include "base/result.h"
 
 static facet_result find_functions(cairo_library *out, const char *soname, facet_error *error)
@@ -74,14 +75,15 @@ facet_result cairo_library_open(const char *soname, cairo_library *out, facet_er
 {
     *out = (cairo_library){0};
     /* RTLD_NODELETE: it and its font libraries keep caches that unloading would leak */
-    out->handle = dlopen(soname, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (!out->handle)
-        return fail(
-            error, FACET_ERROR_ENVIRONMENT,
-            "plot: %s, which draws SVG, PDF and PNG, is not installed; install it (Debian: libcairo2) "
-            "or write CSV, which needs no graphics library",
-            soname);
-    facet_result result = find_functions(out, soname, error);
+    const library_desc desc = {
+        .subject = "plot",
+        .advice = ", which draws SVG, PDF and PNG, is not installed; install it (Debian: libcairo2) or write "
+                  "CSV, which needs no graphics library",
+        .missing = FACET_ERROR_ENVIRONMENT,
+        .stays = true};
+    facet_result result = library_open(soname, &desc, &out->handle, error);
+    if (result == FACET_OK)
+        result = find_functions(out, soname, error);
     if (result != FACET_OK)
         cairo_library_close(out);
     return result;

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <string.h>
 
+#include "base/library.h"
 #include "base/result.h"
 
 facet_result glfw_library_open(const char *name, glfw_library *out, facet_error *error)
@@ -55,10 +56,13 @@ facet_result glfw_library_open(const char *name, glfw_library *out, facet_error 
                      {"glfwSetWindowRefreshCallback", &out->set_window_refresh_callback}};
     *out = (glfw_library){0};
     /* RTLD_NODELETE: it opens libraries of the display that do not bear being unloaded */
-    out->handle = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (!out->handle)
-        return fail(error, FACET_ERROR_ENVIRONMENT,
-                    "window: %s, which opens windows, is not installed (Debian: libglfw3)", name);
+    const library_desc desc = {.subject = "window",
+                               .advice = ", which opens windows, is not installed (Debian: libglfw3)",
+                               .missing = FACET_ERROR_ENVIRONMENT,
+                               .stays = true};
+    facet_result result = library_open(name, &desc, &out->handle, error);
+    if (result != FACET_OK)
+        return result;
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
         void *symbol = dlsym(out->handle, functions[i].symbol);
         if (!symbol)

@@ -1,0 +1,34 @@
+/* library.c - see library.h. */
+#include "base/library.h"
+
+#include <dlfcn.h>
+#include <string.h>
+
+#include "base/result.h"
+
+/* Whether a message of dlerror() is about memory; glibc has no code for it. */
+static bool is_about_memory(const char *reason)
+{
+    static const char *const words[] = {"llocate", "failed to map segment", "out of memory"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strstr(reason, words[i]))
+            return true;
+    return false;
+}
+
+facet_result library_open(const char *name, const library_desc *desc, void **handle, facet_error *error)
+{
+    *handle = dlopen(name, RTLD_NOW | RTLD_LOCAL | (desc->stays ? RTLD_NODELETE : 0));
+    if (*handle)
+        return FACET_OK;
+    const char *reason = dlerror();
+    reason = reason ? reason : "";
+    if (is_about_memory(reason))
+        return fail(error, FACET_ERROR_MEMORY, "%s: out of memory: opening %s", desc->subject, name);
+    /* "libX.so.2: cannot open shared object file: No such file or directory": it, not another one that it needs */
+    bool is_missing = strncmp(reason, name, strlen(name)) == 0 && strstr(reason, "No such file");
+    if (is_missing)
+        return fail(error, desc->missing, "%s: %s%s", desc->subject, name, desc->advice);
+    return fail(error, FACET_ERROR_ENVIRONMENT, "%s: %s cannot be opened: %.400s", desc->subject, name,
+                reason);
+}
