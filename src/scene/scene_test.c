@@ -121,6 +121,43 @@ static void the_description_names_everything(void **state)
     scene_destroy(scene);
 }
 
+/* Extras of a file may nest as deep as it likes; programs that read descriptions do not. */
+static void a_description_is_not_deep(void **state)
+{
+    (void)state;
+    enum { LEVELS = 500 };
+    facet_scene *scene = make_builtin();
+    char extras[16 * LEVELS] = "{\"kept\":\"[[[[\\\"\",\"deep\":";
+    for (int i = 0; i < LEVELS; i++)
+        strcat(extras, i % 2 ? "{\"a\":" : "[");
+    strcat(extras, "\"}]\\\\\"");
+    for (int i = LEVELS; i-- > 0;)
+        strcat(extras, i % 2 ? "}" : "]");
+    strcat(extras, ",\"last\":1}");
+    scene->nodes[0].meta.extras = extras;
+    text t = {0};
+    scene_describe_json(scene, &t);
+    assert_false(t.has_failed);
+    int depth = 0, deepest = 0;
+    bool is_in_string = false;
+    for (const char *c = t.data; *c; c++) {
+        if (is_in_string && *c == '\\')
+            c++;
+        else if (*c == '"')
+            is_in_string = !is_in_string;
+        else if (!is_in_string)
+            depth += (*c == '[' || *c == '{') - (*c == ']' || *c == '}');
+        deepest = depth > deepest ? depth : deepest;
+    }
+    assert_int_equal(depth, 0);
+    assert_true(deepest > 32 && deepest <= 40);
+    assert_non_null(strstr(t.data, "\"extras\":{\"kept\":\"[[[[\\\"\",\"deep\":[{\"a\":["));
+    assert_non_null(strstr(t.data, "[\"(nested too deep to show)\"]}"));
+    assert_non_null(strstr(t.data, "}],\"last\":1}"));
+    text_destroy(&t);
+    scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -128,6 +165,7 @@ int main(void)
         cmocka_unit_test(the_builtin_scene_is_sound),
         cmocka_unit_test(the_builtin_scene_stands_on_its_plate),
         cmocka_unit_test(the_description_names_everything),
+        cmocka_unit_test(a_description_is_not_deep),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
