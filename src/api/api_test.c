@@ -224,6 +224,45 @@ static void small_questions_are_answered(void **state)
     facet_bytes_destroy(NULL);
 }
 
+/* NULL in the place of a desc is {0}: no function reads it. */
+static void a_desc_may_be_null(void **state)
+{
+    (void)state;
+    facet_error error;
+    facet_image *image;
+    facet_cube *cube;
+    facet_sea *sea;
+    facet_environment *environment;
+    unsigned char *bytes;
+    size_t size;
+    float coefficients[9][3];
+    double ev100;
+    assert_int_equal(facet_dfg_bake(NULL, &image, NULL), FACET_OK);
+    assert_int_equal(facet_image_encode(image, NULL, &bytes, &size, &error), FACET_ERROR_ARGUMENT);
+    assert_null(bytes);
+    assert_int_equal(facet_image_encode_ktx2(image, NULL, &bytes, &size, NULL), FACET_OK);
+    facet_bytes_destroy(bytes);
+    facet_image_destroy(image);
+    assert_int_equal(facet_environment_create_studio(NULL, &environment, NULL), FACET_OK);
+    assert_int_equal(facet_environment_project_sh(environment, NULL, coefficients, NULL), FACET_OK);
+    assert_int_equal(facet_cube_bake(environment, NULL, &cube, NULL), FACET_OK);
+    assert_int_equal(facet_cube_encode_ktx2(cube, NULL, &bytes, &size, NULL), FACET_OK);
+    facet_bytes_destroy(bytes);
+    assert_int_equal(facet_cube_encode_ktx1(cube, NULL, &bytes, &size, NULL), FACET_OK);
+    facet_bytes_destroy(bytes);
+    facet_cube_destroy(cube);
+    facet_environment_destroy(environment);
+    assert_int_equal(facet_sea_create(NULL, &sea, NULL), FACET_OK);
+    assert_int_equal(facet_sea_meter(sea, NULL, &ev100, NULL), FACET_OK);
+    facet_sea_destroy(sea);
+    assert_int_equal(facet_shader_text(NULL, &bytes, &size, NULL), FACET_OK);
+    facet_bytes_destroy(bytes);
+    facet_scene *scene;
+    assert_int_equal(facet_scene_create_builtin(NULL, &scene, NULL), FACET_OK);
+    assert_int_equal(facet_scene_save(scene, "no/such/folder/a.glb", NULL, &error), FACET_ERROR_WRITE);
+    facet_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -232,6 +271,7 @@ int main(void)
         cmocka_unit_test(layers_are_those_asked_for),
         cmocka_unit_test(every_format_is_written),
         cmocka_unit_test(a_render_can_be_cancelled),
+        cmocka_unit_test(a_desc_may_be_null),
         cmocka_unit_test(everything_fits_into_a_budget_or_fails),
         cmocka_unit_test(small_questions_are_answered),
     };

@@ -68,7 +68,9 @@ facet_result facet_cube_copy_face(const facet_cube *c, uint32_t level, uint32_t 
 
 facet_result facet_dfg_bake(const facet_dfg_desc *desc, facet_image **out, facet_error *error)
 {
+    static const facet_dfg_desc defaults;
     *out = NULL;
+    desc = desc ? desc : &defaults;
     image table = {0};
     facet_result result = bake_dfg(desc, &table, error);
     return result == FACET_OK ? give(&table, &desc->allocator, out, error) : result;

@@ -143,8 +143,10 @@ static facet_result encode_raw(const film *f, const image_encode_desc *desc, uns
 facet_result facet_image_encode(const facet_image *picture, const facet_save_desc *desc,
                                 unsigned char **bytes, size_t *size, facet_error *error)
 {
+    static const facet_save_desc defaults = {.format = FACET_FORMAT_FROM_NAME};
     *bytes = NULL;
     *size = 0;
+    desc = desc ? desc : &defaults;
     const film *f = &picture->film;
     image_encode_desc encode = {.allocator = desc->allocator,
                                 .thread_count =

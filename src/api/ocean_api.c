@@ -42,7 +42,8 @@ facet_result facet_sea_preset(const char *name, facet_sea_desc *desc, facet_erro
 
 facet_result facet_sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error)
 {
-    return sea_create(desc, sea, error);
+    static const facet_sea_desc defaults;
+    return sea_create(desc ? desc : &defaults, sea, error);
 }
 
 /* Keeps what draws a sea, or gives up the one that was kept. */
