@@ -5,7 +5,8 @@
  *   Units      m, rad, s, cd, lx, cd/m^2; +Y up, right-handed, cameras look along -Z, as in glTF
  *   Color      linear Rec.709 unless a name says _srgb
  *   Images     texel (0, 0) is the top left one; rows from top to bottom
- *   Descs      {0} is valid for every desc struct and means the defaults that the comments give
+ *   Descs      {0} is valid for every desc struct and means the defaults that the comments give, and so does NULL in the
+ *              place of a desc
  *   Failure    a function that can fail returns a facet_result and writes one sentence to *error (NULL: not
  *              wanted); its outputs are NULL then and nothing leaks
  *   Threads    different objects may be used from different threads, one object may be read from several;
@@ -617,7 +618,7 @@ typedef struct facet_path_desc {
     bool denoises;   /* biased: noise is filtered out under guidance of albedo and normal */
     float shutter_s; /* the picture is the mean over pose.time_s to time_s + shutter_s; 0: an instant */
     /* an .exr: what is drawn so far is kept there every checkpoint_interval_s, at the time limit, when cancelled, at
-     * the end. NULL: none. FACET_ERROR_ARGUMENT: one is there already, and resumes is false */
+     * the end; where it cannot be written there is a warning, and has_lost_checkpoint. NULL: none. FACET_ERROR_ARGUMENT: one is there already, and resumes is false */
     const char *checkpoint_path;
     double checkpoint_interval_s; /* 0: 60 */
     /* goes on with the checkpoint, which has to be of the same picture (FACET_ERROR_ARGUMENT); where there is none it
@@ -796,6 +797,7 @@ typedef struct facet_render_stats {
     /* FACET_INTEGRATOR_PATH: */
     uint64_t samples;         /* light samples that the picture is the mean of, over all pixels */
     uint64_t dropped_samples; /* not finite, counted as black: a NaN in the model, or a fault */
+    bool has_lost_checkpoint; /* the checkpoint that was wanted at the end could not be written */
     bool is_partial; /* the time limit, or keeps_cancelled, came before the samples or the noise asked for */
     double denoise_s;
 } facet_render_stats;

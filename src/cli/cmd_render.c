@@ -84,6 +84,7 @@ typedef struct model_run {
     sequence sequence;
     video *video; /* NULL: files */
     double load_s;
+    bool has_lost_checkpoint;
 } model_run;
 
 static facet_result write_picture(model_run *m, const facet_image *image, const char *name,
@@ -226,7 +227,11 @@ static facet_result render_frames(model_run *m, facet_error *error)
         messages_flush(&m->run->messages);
         if (result == FACET_OK)
             report_frame(m->run, &report);
+        m->has_lost_checkpoint = m->has_lost_checkpoint || report.stats.has_lost_checkpoint;
     }
+    if (result == FACET_OK && m->has_lost_checkpoint)
+        return fail_with(error, FACET_ERROR_WRITE,
+                         "--checkpoint: %s could not be written; the image is complete", o->checkpoint);
     return result;
 }
 

@@ -154,11 +154,11 @@ facet_result config_apply(command_line *c, config *storage, facet_error *error)
     json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &problem);
     free(text);
     if (!root)
-        return fail_with(error, FACET_ERROR_INVALID, "%s: line %d: %s", path, problem.line, problem.text);
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: line %d: %s", path, problem.line, problem.text);
     facet_result result = FACET_OK;
     c->config_name = path;
     if (!json_is_object(root))
-        result = fail_with(error, FACET_ERROR_INVALID, "%s: it must hold one JSON object", path);
+        result = fail_with(error, FACET_ERROR_ARGUMENT, "%s: it must hold one JSON object", path);
     const char *name;
     json_t *value;
     json_object_foreach(root, name, value)

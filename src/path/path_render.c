@@ -179,15 +179,17 @@ static facet_result next_instant(path_picture *p, uint32_t goal, facet_error *er
 
 /* ---- checkpoints ---- */
 
-/* A picture is not given up because its checkpoint cannot be written. */
+/* An image is not given up because its checkpoint cannot be written. */
 static void save(path_picture *p)
 {
     const char *path = p->desc->path.checkpoint_path;
     facet_error error;
     p->saved_s = clock_seconds();
-    if (!path || path_film_save(p->sums, p->key.hex, path, p->desc->thread_count, &error) == FACET_OK)
+    if (!path)
         return;
-    if (p->desc->log.message)
+    p->stats->has_lost_checkpoint =
+        path_film_save(p->sums, p->key.hex, path, p->desc->thread_count, &error) != FACET_OK;
+    if (p->stats->has_lost_checkpoint && p->desc->log.message)
         p->desc->log.message(p->desc->log.user, FACET_LOG_WARNING, error.message);
 }
 

@@ -81,6 +81,22 @@ says "my tri.png: it is an input, too"
 [ "$(cat 'my tri.png')" = texture ] || failed "a texture was overwritten"
 rm 'my tri.png' 'my tri.gltf'
 
+if command -v file >/dev/null && "$facet" version -v | grep -q 'OpenEXR [0-9]'; then # the image fits, its checkpoint does not
+    code=0
+    (ulimit -f 40 && exec "$facet" render --renderer path -n 1 --size 48x32 --checkpoint c.exr -o c.png 2>err) || code=$?
+    [ $code = 6 ] || failed "exit code $code, not 6, where the checkpoint does not fit"
+    says "c.exr could not be written; the image is complete"
+    is_type c.png "PNG image data, 48 x 32"
+    rm c.png
+fi
+echo '{"size": 64' >bad.json
+expect 2 render --config bad.json -o x.png
+says "bad.json: line "
+echo '[1]' >bad.json
+expect 2 render --config bad.json -o x.png
+says "bad.json: it must hold one JSON object"
+rm bad.json
+
 # 7: limits
 expect 7 render --size 4096 -o x.png --max-memory 8M
 says "--max-memory"
