@@ -1169,6 +1169,18 @@ typedef enum facet_plot_format {
 
 enum { FACET_PLOT_MAX_MATERIALS = 16, FACET_PLOT_MAX_ANGLES = 8 };
 
+/* What the fit beside a material is. */
+typedef struct facet_plot_fit {
+    bool is_found;              /* false: there is no such material, or the kind shows no fits */
+    char name[96];              /* of the material, as it is drawn */
+    char description[160];      /* of the fit: "metal (1, 0.77, 0.34), diffuse 0.02, roughness 0.3" */
+    facet_plot_material fitted; /* label: NULL */
+    bool is_of_measured;        /* log_rms is its error; else the three below */
+    /* over all directions, relative to the RMS of the material, as conversions report them (docs/legacy.md) */
+    float E, E_display, E_drawn;
+    float log_rms; /* RMS of the difference of log(1 + f cos) over that of the measured values */
+} facet_plot_fit;
+
 /* What is plotted, and how. {0}: the vignette with its own values. */
 typedef struct facet_plot_desc {
     facet_allocator allocator;
@@ -1182,9 +1194,13 @@ typedef struct facet_plot_desc {
     bool has_heaviside_ramp; /* FACET_PLOT_LEGACY: the vignette's max(x, 0) where glTF has a step */
     /* masking and shadowing independent, as the vignette has it; false: height-correlated */
     bool has_separable_smith;
-    bool has_fit;        /* the best fit of the other model beside each material; MERL: of PBR */
+    bool has_fit; /* the best fit of the other model beside each material; MERL: of PBR */
+    facet_plot_fit *
+        fits; /* has_fit: FACET_PLOT_MAX_MATERIALS of them, filled by number of the material; NULL: not wanted */
     bool is_logarithmic; /* the axis of values */
     bool has_cosine;     /* BRDF times the light's cosine, where a kind shows a BRDF */
+    bool
+        has_shared_scale; /* FACET_PLOT_BRDF: one scale for all lobes of all views; false: each over its own peak */
     facet_energy energy;
     const char *title;      /* NULL: of the kind; "": none */
     uint32_t width, height; /* pixels, or 1/96 inch; 0: 960 x 640 or what suits the kind */

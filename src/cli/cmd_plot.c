@@ -30,6 +30,7 @@ typedef struct plot_run {
     facet_plot_desc desc;
     plot_materials materials;
     float angles[FACET_PLOT_MAX_ANGLES];
+    facet_plot_fit fits[FACET_PLOT_MAX_MATERIALS];
     facet_plot_format format;
     char output[64]; /* where none is named */
     const char *path;
@@ -121,6 +122,8 @@ static facet_result read_desc(plot_run *run, facet_error *error)
     d->has_heaviside_ramp = option_choice(c, OPT_HEAVISIDE, 0) == 1;
     d->has_separable_smith = option_choice(c, OPT_SMITH, d->kind == FACET_PLOT_LEGACY) == 1;
     d->has_fit = is_given(c, OPT_FIT);
+    d->fits = run->fits;
+    d->has_shared_scale = option_choice(c, OPT_SCALE, 0) == 1;
     d->is_logarithmic = is_given(c, OPT_LOG);
     d->has_cosine = is_given(c, OPT_COSINE);
     d->energy = (facet_energy)option_choice(c, OPT_ENERGY, FACET_ENERGY_GLTF);
@@ -148,6 +151,52 @@ static bool is_an_input(const plot_run *run)
     return false;
 }
 
+enum { MATERIAL_TEXT = 512 };
+
+/* What was fitted, how near it is, and the parameters as a MATERIAL. */
+static void print_fits(const plot_run *run)
+{
+    for (int i = 0; i < FACET_PLOT_MAX_MATERIALS; i++) {
+        const facet_plot_fit *fit = &run->fits[i];
+        char text[MATERIAL_TEXT], error[96];
+        if (!fit->is_found)
+            continue;
+        plot_material_write(&fit->fitted, text, sizeof text);
+        if (fit->is_of_measured)
+            snprintf(error, sizeof error, "RMS of log(1 + f cos) %.3f", (double)fit->log_rms);
+        else
+            snprintf(error, sizeof error, "E %.3f, E_display %.3f, E_drawn %.3f", (double)fit->E,
+                     (double)fit->E_display, (double)fit->E_drawn);
+        message_at(&run->messages, VERBOSITY_NORMAL, "%s: fit: %s (%s): %s", fit->name, fit->description,
+                   error, text);
+    }
+}
+
+static json_t *fits_json(const plot_run *run)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < FACET_PLOT_MAX_MATERIALS; i++) {
+        const facet_plot_fit *fit = &run->fits[i];
+        char text[MATERIAL_TEXT];
+        if (!fit->is_found)
+            continue;
+        plot_material_write(&fit->fitted, text, sizeof text);
+        json_t *one =
+            json_pack("{s:i, s:o, s:o, s:s, s:s}", "material", i, "name", report_string_json(fit->name),
+                      "fit", report_string_json(fit->description), "model",
+                      fit->fitted.model == FACET_PLOT_OGL1 ? "ogl1" : "pbr", "parameters", text);
+        if (fit->is_of_measured) {
+            json_object_set_new(one, "log_rms", json_real((double)fit->log_rms));
+        } else {
+            json_object_set_new(one, "E", json_real((double)fit->E));
+            json_object_set_new(one, "E_display", json_real((double)fit->E_display));
+            json_object_set_new(one, "E_drawn", json_real((double)fit->E_drawn));
+        }
+        json_array_append_new(list, one);
+    }
+    return list;
+}
+
 static facet_result plot(plot_run *run, facet_error *error)
 {
     if (strcmp(run->path, "-") != 0 && is_an_input(run))
@@ -164,6 +213,8 @@ static facet_result plot(plot_run *run, facet_error *error)
     if (result == FACET_OK)
         message_at(&run->messages, is_given(run->line, OPT_OUTPUT) ? VERBOSITY_DETAILS : VERBOSITY_NORMAL,
                    "%s: %zu bytes", run->path, size);
+    if (result == FACET_OK)
+        print_fits(run);
     facet_bytes_destroy(bytes);
     return result;
 }
@@ -175,9 +226,10 @@ static void print_json(const plot_run *run, double start, facet_result result, c
     if (result != FACET_OK)
         json_array_append_new(failures, report_error_json(error, NULL, exit_code));
     json_t *root = json_pack(
-        "{s:s, s:s, s:o, s:o, s:o, s:f, s:i}", "facet", facet_version(), "kind", kind_names[run->desc.kind],
-        "output", report_string_json(result == FACET_OK ? run->path : NULL), "failures", failures, "warnings",
-        report_warnings_json(&run->messages), "seconds", interrupt_clock() - start, "exit_code", exit_code);
+        "{s:s, s:s, s:o, s:o, s:o, s:o, s:f, s:i}", "facet", facet_version(), "kind",
+        kind_names[run->desc.kind], "output", report_string_json(result == FACET_OK ? run->path : NULL),
+        "fits", fits_json(run), "failures", failures, "warnings", report_warnings_json(&run->messages),
+        "seconds", interrupt_clock() - start, "exit_code", exit_code);
     report_print_json(root);
     json_decref(root);
 }

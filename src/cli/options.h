@@ -112,6 +112,7 @@ typedef enum option_id {
     OPT_ANGLE,
     OPT_HEAVISIDE,
     OPT_SMITH,
+    OPT_SCALE,
     OPT_FIT,
     OPT_LOG,
     OPT_COSINE,

@@ -67,7 +67,14 @@ static const option material_options[] = {
     {.id = OPT_FIT,
      .name = "fit",
      .kind = OPTION_FLAG,
-     .help = "beside each material its best fit by the other model"},
+     .help = "beside each material its best fit by the other model, whose parameters and error are printed"},
+    {.id = OPT_SCALE,
+     .name = "scale",
+     .kind = OPTION_CHOICE,
+     .argument = "SCALE",
+     .default_text = "own",
+     .help = "brdf: own: each lobe over its own peak; shared: all lobes on one scale",
+     .choices = WORDS("own", "shared")},
     {.id = OPT_COSINE,
      .name = "cosine",
      .kind = OPTION_FLAG,
@@ -120,7 +127,10 @@ const verb plot_verb = {
         "approximation\n\n"
         "error: how near PBR and OpenGL 1 come to each other, over roughness\n\n"
         "A MATERIAL is a list of parameters (roughness=0.3,metallic=1,color=gold; or "
-        "ogl1,diffuse=#808080,specular=white,shininess=50), a model file, optionally with #NAME of one of "
+        "ogl1,diffuse=#808080,specular=white,shininess=50), the name of a model alone or before them (ggx, "
+        "pbr; "
+        "blinn-phong, phong, ogl1: the highlight of OpenGL 1, which is Blinn's), a model file, optionally "
+        "with #NAME of one of "
         "its "
         "materials, or a measured BRDF in MERL's format (.binary). Several are drawn over one another.\n\n"
         "Parameters are color, metallic, roughness, ior, specular, specular-color, clearcoat, "

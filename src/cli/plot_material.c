@@ -120,6 +120,23 @@ static facet_result set_parameter(const char *text, const char *key, const char 
     return fail_parameter(text, key, out->model, error);
 }
 
+/* Names of models; OpenGL 1's highlight is Blinn's, which many call Phong's. */
+static bool find_model(const char *word, size_t length, facet_plot_model *out)
+{
+    static const struct {
+        const char *name;
+        facet_plot_model model;
+    } names[] = {{"pbr", FACET_PLOT_PBR},          {"gltf", FACET_PLOT_PBR},    {"ggx", FACET_PLOT_PBR},
+                 {"ogl1", FACET_PLOT_OGL1},        {"phong", FACET_PLOT_OGL1},  {"blinn", FACET_PLOT_OGL1},
+                 {"blinn-phong", FACET_PLOT_OGL1}, {"opengl1", FACET_PLOT_OGL1}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strlen(names[i].name) == length && strncasecmp(word, names[i].name, length) == 0) {
+            *out = names[i].model;
+            return true;
+        }
+    return false;
+}
+
 /* "ogl1,diffuse=..", "roughness=..". */
 static facet_result read_parameters(const char *text, facet_plot_material *out, facet_error *error)
 {
@@ -135,10 +152,8 @@ static facet_result read_parameters(const char *text, facet_plot_material *out, 
         if (next)
             *next++ = 0;
         char *value = strchr(word, '=');
-        if (!value && is_first && (strcasecmp(word, "ogl1") == 0 || strcasecmp(word, "pbr") == 0)) {
-            out->model = strcasecmp(word, "ogl1") == 0 ? FACET_PLOT_OGL1 : FACET_PLOT_PBR;
+        if (!value && is_first && find_model(word, strlen(word), &out->model))
             continue;
-        }
         if (!value)
             return fail_with(error, FACET_ERROR_ARGUMENT,
                              "plot: \"%.200s\": \"%.60s\" is no parameter; NAME=VALUE was expected", text,
@@ -149,6 +164,34 @@ static facet_result read_parameters(const char *text, facet_plot_material *out, 
             return result;
     }
     return FACET_OK;
+}
+
+static void write_value(const parameter *p, const float *value, char *text, size_t size)
+{
+    size_t used = strlen(text);
+    bool is_grey = !p->is_color || (memcmp(value, value + 1, sizeof *value) == 0 &&
+                                    memcmp(value, value + 2, sizeof *value) == 0);
+    if (is_grey)
+        snprintf(text + used, size - used, ",%s=%.6g", p->name, (double)value[0]);
+    else
+        snprintf(text + used, size - used, ",%s=%.6g/%.6g/%.6g", p->name, (double)value[0], (double)value[1],
+                 (double)value[2]);
+}
+
+void plot_material_write(const facet_plot_material *m, char *text, size_t size)
+{
+    const facet_plot_material defaults = facet_plot_material_default();
+    snprintf(text, size, "%s", m->model == FACET_PLOT_OGL1 ? "ogl1" : "pbr");
+    for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
+        const parameter *p = &parameters[i];
+        bool is_synonym = i > 0 && parameters[i - 1].offset == p->offset;
+        float value[3], usual[3];
+        size_t bytes = (p->is_color ? 3 : 1) * sizeof *value;
+        memcpy(value, (const char *)m + p->offset, bytes);
+        memcpy(usual, (const char *)&defaults + p->offset, bytes);
+        if (p->model == m->model && !is_synonym && !p->is_angle && memcmp(value, usual, bytes) != 0)
+            write_value(p, value, text, size);
+    }
 }
 
 /* ---- files ---- */
@@ -217,9 +260,8 @@ static bool ends_with(const char *text, const char *end)
 /* "ogl1", "pbr,...". */
 static bool begins_with_model(const char *text)
 {
-    size_t length = strcspn(text, ",");
-    return (length == 4 && strncasecmp(text, "ogl1", 4) == 0) ||
-           (length == 3 && strncasecmp(text, "pbr", 3) == 0);
+    facet_plot_model model;
+    return find_model(text, strcspn(text, ","), &model);
 }
 
 facet_result plot_materials_add(plot_materials *m, const char *text, const facet_scene_desc *desc,

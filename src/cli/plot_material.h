@@ -19,6 +19,8 @@ facet_result plot_materials_add(plot_materials *m, const char *text, const facet
                                 facet_error *error);
 /* Those of --roughness, --metallic and --base-color. */
 facet_result plot_materials_add_options(plot_materials *m, const command_line *c, facet_error *error);
+/* The text that plot_materials_add() reads as m, parameters with their usual values left out; PBR or OpenGL 1, without angles. */
+void plot_material_write(const facet_plot_material *m, char *text, size_t size);
 void plot_materials_destroy(plot_materials *m);
 
 #endif

@@ -192,6 +192,20 @@ static void labels_say_what_matters(void **state)
     m.clearcoat = 1.0f;
     assert_string_equal(material_describe(&m, &malloc_, memory),
                         "metal (1, 1, 0.25), roughness 0.5, clearcoat 1");
+    m.clearcoat = 0.0f;
+    m.metallic = 0.75f;
+    assert_string_equal(material_describe(&m, &malloc_, memory),
+                        "metal (1, 1, 0.25), metallic 0.75, roughness 0.5");
+    /* what a fit finds: F0 is free, and says whether it is one */
+    m.metallic = m.ior = 0.0f;
+    m.base_color[0] = m.base_color[1] = m.base_color[2] = 0.0625f;
+    m.specular_color[2] = 0.25f;
+    m.specular = 0.75f;
+    assert_string_equal(material_describe(&m, &malloc_, memory),
+                        "metal (0.75, 0.75, 0.188), diffuse 0.0625, roughness 0.5");
+    m.base_color[0] = m.base_color[1] = m.base_color[2] = 0.5f;
+    assert_string_equal(material_describe(&m, &malloc_, memory),
+                        "dielectric 0.5, F0 (0.75, 0.75, 0.188), roughness 0.5");
     m.model = FACET_PLOT_OGL1;
     assert_string_equal(material_describe(&m, &malloc_, memory),
                         "OpenGL 1, diffuse 0.8, specular 1, shininess 50");

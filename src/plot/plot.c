@@ -86,6 +86,7 @@ static facet_result open_subjects(plot *p, const plot_kind *kind, merl *files[FA
         return fail_memory(p->error, "plot", 0);
     p->subjects = subjects;
     p->has_channels = count == 1;
+    p->material_count = count;
     for (uint32_t i = 0; i < count; i++) {
         plot_subject *subject = &subjects[p->subject_count++];
         *subject = (plot_subject){.number = i};
@@ -94,6 +95,8 @@ static facet_result open_subjects(plot *p, const plot_kind *kind, merl *files[FA
             facet_plot_model to = list[i].model == FACET_PLOT_PBR ? FACET_PLOT_OGL1 : FACET_PLOT_PBR;
             plot_conversion conversion;
             result = plot_convert(p, &subject->material, to, true, &conversion);
+            if (result == FACET_OK)
+                plot_report_fit(p, i, &subject->material, &conversion);
             subjects[p->subject_count++] =
                 (plot_subject){.material = conversion.material, .number = i, .is_fit = true};
         }
@@ -113,6 +116,8 @@ facet_result plot_create(const facet_plot_desc *desc, arena *memory, chart *out,
     if (result != FACET_OK)
         return result;
     const plot_kind *kind = &kinds[desc->kind];
+    for (uint32_t i = 0; desc->fits && i < FACET_PLOT_MAX_MATERIALS; i++)
+        desc->fits[i] = (facet_plot_fit){.is_found = false};
     merl *files[FACET_PLOT_MAX_MATERIALS] = {NULL};
     float angles[3];
     for (uint32_t i = 0; i < kind->angle_count; i++)

@@ -38,16 +38,14 @@ static void add_subject(plot *p, plot_panel *panel, const plot_subject *subject,
                         const double (*albedo)[3])
 {
     static const char *const channels[3] = {"red", "green", "blue"};
-    int dash = subject->is_fit ? 1 : 0;
     bool is_colored = false;
     for (int i = 0; i < POINTS && p->has_channels; i++)
         is_colored =
             is_colored || fabs(albedo[i][0] - albedo[i][1]) + fabs(albedo[i][1] - albedo[i][2]) > 2e-3;
     for (int c = 0; c < (is_colored ? 3 : 1); c++) {
         const char *label = subject->material.label;
-        double *y =
-            plot_add_curve(p, panel, is_colored ? plot_text(p, "%s, %s", label, channels[c]) : label,
-                           is_colored ? plot_channel(c, dash) : plot_color(subject->number, dash), POINTS, x);
+        double *y = plot_add_curve(p, panel, is_colored ? plot_text(p, "%s, %s", label, channels[c]) : label,
+                                   plot_subject_style(p, subject, is_colored ? c : -1), POINTS, x);
         for (int i = 0; y && i < POINTS; i++)
             y[i] = is_colored ? albedo[i][c] : material_luminance(albedo[i]);
     }

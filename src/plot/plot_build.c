@@ -147,6 +147,19 @@ chart_style plot_channel(int channel, int dash)
     return style;
 }
 
+chart_style plot_subject_style(const plot *p, const plot_subject *subject, int channel)
+{
+    static const float fit_rgb[3][3] = {
+        {0.93f, 0.50f, 0.05f}, {0.47f, 0.67f, 0.05f}, {0.10f, 0.63f, 0.80f}}; /* beside those of channels */
+    if (channel < 0) /* fits behind all materials in the palette, so that few of both share no color */
+        return plot_color(subject->is_fit ? p->material_count + subject->number : subject->number,
+                          subject->is_fit ? 1 : 0);
+    chart_style style = plot_channel(channel, subject->is_fit ? 1 : 0);
+    for (int c = 0; subject->is_fit && c < 3; c++)
+        style.rgb[c] = fit_rgb[channel][c];
+    return style;
+}
+
 chart_style plot_faint(int dash)
 {
     chart_style style = plot_channel(3, dash);

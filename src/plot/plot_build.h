@@ -14,8 +14,8 @@
 /* A material as one kind of curves, or the fit of one beside it. */
 typedef struct plot_subject {
     material material;
-    uint32_t number; /* of the material in the desc: its color in the palette */
-    bool is_fit;     /* dashed */
+    uint32_t number; /* of the material in the desc */
+    bool is_fit;
 } plot_subject;
 
 /* A panel that curves are added to. */
@@ -34,6 +34,7 @@ typedef struct plot {
     facet_error *error;
     uint32_t angle_count; /* of the view, rad */
     const float *angles;
+    uint32_t material_count;
     uint32_t subject_count; /* materials and, where asked for, their fits behind each */
     const plot_subject *subjects;
     bool has_default_materials, has_default_angles;
@@ -44,6 +45,7 @@ typedef struct plot {
     plot_panel *panels; /* has room for PLOT_MAX_PANELS */
     fit_metric *metric; /* of plot_metric() */
     bool has_failed;
+    double highest; /* of a scale that all lobes share; 0: each has its own */
 } plot;
 
 enum { PLOT_MAX_PANELS = FACET_PLOT_MAX_MATERIALS * 2 * (FACET_PLOT_MAX_ANGLES + 1) };
@@ -80,8 +82,10 @@ facet_result plot_finish(plot *p, const char *title, uint32_t columns, uint32_t 
 
 chart_style plot_color(uint32_t number, int dash); /* of the palette */
 chart_style plot_channel(int channel, int dash);   /* red, green, blue; 3: gray */
-chart_style plot_faint(int dash);                  /* a thin gray line: directions, limits */
-chart_scale plot_scale(const plot *p);             /* of values: as desc->is_logarithmic says */
+/* Of a material, or its fit, which is dashed and has a color of its own; channel as above, -1: of all. */
+chart_style plot_subject_style(const plot *p, const plot_subject *subject, int channel);
+chart_style plot_faint(int dash);      /* a thin gray line: directions, limits */
+chart_scale plot_scale(const plot *p); /* of values: as desc->is_logarithmic says */
 
 /* ---- numbers ---- */
 
@@ -107,6 +111,7 @@ const fit_metric *plot_metric(plot *p);
 /* A material in the other model. */
 typedef struct plot_conversion {
     material material; /* its label says what it is */
+    const char *what;  /* its description alone */
     bool has_error;    /* false: of a measured BRDF, with layers, .. */
     fit_error error;
     double rms; /* measured: of material_fit() */
@@ -115,6 +120,9 @@ typedef struct plot_conversion {
  * Fails with FACET_ERROR_MEMORY. */
 facet_result plot_convert(plot *p, const material *source, facet_plot_model to, bool is_fit,
                           plot_conversion *out);
+
+/* Fills the desc's fit of material number, if it is wanted; source is the material. */
+void plot_report_fit(const plot *p, uint32_t number, const material *source, const plot_conversion *fit);
 
 /* Adds the panel of errors of all methods over roughness (PBR) or shininess (OpenGL 1) of a material whose other
  * parameters stay; point_count of them. */

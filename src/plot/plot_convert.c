@@ -1,4 +1,6 @@
 /* plot_convert.c - materials in the other model, beside themselves. See plot_build.h. */
+#include <stdio.h>
+
 #include "base/result.h"
 #include "plot/plot_build.h"
 
@@ -63,6 +65,26 @@ facet_result plot_convert(plot *p, const material *source, facet_plot_model to, 
     const char *what = material_describe(&out->material.parameters, &p->desc->allocator, p->memory);
     if (!what)
         return fail_memory(p->error, "plot", 0);
-    out->material.label = plot_text(p, "%s: %s", is_fit || source->measured ? "fit" : "converted", what);
+    out->what = what;
+    double error = out->has_error ? out->error.E : out->rms;
+    out->material.label = plot_text(p, "%s (%s %.3f): %s", is_fit || source->measured ? "fit" : "converted",
+                                    out->has_error ? "E" : "RMS of logarithms", error, what);
     return FACET_OK;
+}
+
+void plot_report_fit(const plot *p, uint32_t number, const material *source, const plot_conversion *fit)
+{
+    facet_plot_fit *out = p->desc->fits ? &p->desc->fits[number] : NULL;
+    if (!out)
+        return;
+    *out = (facet_plot_fit){.is_found = true,
+                            .fitted = fit->material.parameters,
+                            .is_of_measured = !fit->has_error,
+                            .E = (float)fit->error.E,
+                            .E_display = (float)fit->error.E_display,
+                            .E_drawn = (float)fit->error.E_drawn,
+                            .log_rms = (float)fit->rms};
+    out->fitted.label = NULL;
+    snprintf(out->name, sizeof out->name, "%s", source->label);
+    snprintf(out->description, sizeof out->description, "%s", fit->what);
 }

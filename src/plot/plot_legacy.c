@@ -156,8 +156,8 @@ static void add_pair(plot *p, const material *source, const plot_conversion *con
     panel->panel.note = conversion->material.label;
     for (int i = 0; conversion->has_error && i < 3; i++) /* the views that errors are found for */
         if (fabs(view - 30.0 * i * PLOT_DEGREE) < 1e-4)
-            panel->panel.note =
-                plot_text(p, "E %.3f; dashed, %s", conversion->error.views[i], conversion->material.label);
+            panel->panel.note = plot_text(p, "E %.3f here; dashed, %s", conversion->error.views[i],
+                                          conversion->material.label);
 }
 
 /* The curves of all views less their sources', in one panel. */
@@ -250,6 +250,8 @@ static facet_result make_conversions(plot *p)
         facet_result result = plot_convert(p, source, to, p->desc->has_fit, &conversion);
         if (result != FACET_OK)
             return result;
+        if (p->desc->has_fit)
+            plot_report_fit(p, k, source, &conversion);
         for (uint32_t a = 0; a < p->angle_count; a++)
             add_pair(
                 p, source, &conversion, (double)p->angles[a],

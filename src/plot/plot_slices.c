@@ -34,9 +34,8 @@ static void add_slice(plot *p, plot_panel *panel, const plot_subject *subject, c
                       const double *x, double scale, const char *name)
 {
     static const char *const channels[3] = {"red", "green", "blue"};
-    int dash = subject->is_fit ? 1 : 0;
     for (int c = 0; c < (s->is_colored ? 3 : 1); c++) {
-        chart_style style = s->is_colored ? plot_channel(c, dash) : plot_color(subject->number, dash);
+        chart_style style = plot_subject_style(p, subject, s->is_colored ? c : -1);
         const char *label = s->is_colored ? plot_text(p, "%s, %s", name, channels[c]) : name;
         double *y = plot_add_curve(p, panel, label, style, s->count, x);
         for (size_t i = 0; y && i < s->count; i++)
@@ -70,14 +69,35 @@ static void add_ray(plot *p, plot_panel *panel, double angle, double from, doubl
     y[1] = to;
 }
 
+/* The highest value of all lobes. */
+static double find_highest(plot *p)
+{
+    double highest = 0.0;
+    for (uint32_t a = 0; a < p->angle_count; a++) {
+        size_t count;
+        double view = (double)p->angles[a];
+        const double *angles = plot_light_angles(p, view, &count);
+        for (uint32_t k = 0; k < p->subject_count && !p->has_failed; k++)
+            highest = fmax(highest, make_slice(p, &p->subjects[k], view, count, angles).peak);
+    }
+    return highest;
+}
+
+/* The next of 1, 1.5, 2, 2.5 .. 10 times a power of ten. */
+static double round_up(double x)
+{
+    double decade = pow(10.0, floor(log10(fmax(x, 1e-12))));
+    return 0.5 * ceil(2.0 * x / decade) * decade;
+}
+
 static void add_polar(plot *p, double view)
 {
     size_t count;
     const double *angles = plot_light_angles(p, view, &count);
-    bool is_log = p->desc->is_logarithmic;
+    bool is_log = p->desc->is_logarithmic, is_absolute = is_log || p->highest > 0.0;
     plot_panel *panel =
         plot_add_panel(p, CHART_POLAR, plot_text(p, "eye at %s degrees", plot_degrees(p, view)), "",
-                       is_log ? quantity(p) : plot_text(p, "%s, over its peak", quantity(p)));
+                       is_absolute ? quantity(p) : plot_text(p, "%s, over its peak", quantity(p)));
     double highest = 0.0;
     for (uint32_t k = 0; k < p->subject_count && !p->has_failed; k++) {
         const plot_subject *subject = &p->subjects[k];
@@ -85,14 +105,14 @@ static void add_polar(plot *p, double view)
         const char *name = subject->material.label;
         if (!is_log)
             name = plot_text(p, "%s (peak %.3g)", name, s.peak);
-        add_slice(p, panel, subject, &s, angles, is_log || !(s.peak > 0.0) ? 1.0 : 1.0 / s.peak, name);
+        add_slice(p, panel, subject, &s, angles, is_absolute || !(s.peak > 0.0) ? 1.0 : 1.0 / s.peak, name);
         highest = fmax(highest, s.peak);
     }
     if (p->has_failed)
         return;
-    double decade = pow(10.0, ceil(log10(fmax(highest, 1e-12))));
+    double decade = pow(10.0, ceil(log10(fmax(fmax(highest, p->highest), 1e-12))));
     double low = is_log ? decade * 1e-5 : 0.0;
-    double high = is_log ? decade : 1.0;
+    double high = is_log ? decade : is_absolute ? round_up(p->highest) : 1.0;
     panel->panel.y.scale = plot_scale(p);
     plot_set_range(&panel->panel.y, low, high);
     add_ray(p, panel, view, low, high, 2);
@@ -131,6 +151,8 @@ static void add_curves(plot *p, double view)
 facet_result plot_make_slices(plot *p)
 {
     bool is_polar = p->desc->kind == FACET_PLOT_BRDF;
+    if (is_polar && p->desc->has_shared_scale)
+        p->highest = find_highest(p);
     for (uint32_t a = 0; a < p->angle_count; a++) {
         double view = (double)p->angles[a];
         if (is_polar)

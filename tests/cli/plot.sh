@@ -46,6 +46,30 @@ rm -f ./*.svg ./*.pdf ./*.png
 write_triangle in.gltf
 expect 0 plot slice roughness=0.3,metallic=1,color=gold ogl1,diffuse=0.5,specular=1,shininess=20 -o a.csv
 expect 0 plot slice ogl1,diffuse=#808080,specular=0.1/0.2/0.3 --fit -o b.csv
+# Fits say what they are and how near, in text, as JSON and in the chart; their parameters are a MATERIAL.
+expect 0 plot slice ogl1,diffuse=0.05,specular=gold,shininess=20 --fit -o fit.csv
+says "fit: metal ("
+says "E_display "
+grep -q 'fit (E 0\.[0-9]*): metal' fit.csv || failed "the chart has no error"
+fitted=$(sed -n 's/.*): \(pbr,[^ ]*\)$/\1/p' err)
+expect 0 plot slice "$fitted" -o again.csv
+expect 0 plot slice metallic=1,roughness=0.4 --fit -o fit.csv --json
+grep -q '"model": *"ogl1"' out && grep -q '"parameters": *"ogl1,' out && grep -q '"E_display"' out ||
+    failed "the JSON lacks the fit"
+expect 0 plot slice metallic=1,roughness=0.4 -o fit.csv --json
+grep -q '"fits": *\[\]' out || failed "a fit that was not asked for"
+for name in ggx phong blinn-phong; do
+    expect 0 plot brdf $name -o $name.csv
+done
+cmp -s phong.csv blinn-phong.csv || failed "phong is another model than blinn-phong"
+expect 0 plot brdf GGX,roughness=0.3 Phong,shininess=9 -o lobes.csv
+# One scale: the lobe of roughness 0.2 is beyond 1, that of 0.6 below it.
+expect 0 plot brdf --roughness 0.2,0.6 --metallic 1 --angle 0 --scale shared -o shared.csv
+grep -q 'over its peak' shared.csv && failed "a shared scale has peaks of its own"
+expect 0 plot brdf --roughness 0.2,0.6 --metallic 1 --angle 0 -o own.csv
+cmp -s own.csv shared.csv && failed "--scale shared changes nothing"
+expect 2 plot brdf --scale both -o c.csv
+
 expect 2 plot slice roughness=2 -o c.csv
 says 'roughness: "2" is not a number from 0 to 1'
 expect 2 plot slice rougness=.2 -o c.csv
