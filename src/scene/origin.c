@@ -16,7 +16,7 @@ enum {
 
 /* Beyond so many times its size from the origin a model is far. Positions of a mesh are cheaper to move, and hurt
  * earlier: normals and tangents are found between neighbours. */
-static const double FAR_RATIO = 256.0, MESH_RATIO = 4.0;
+static const double FAR_RATIO = 64.0, MESH_RATIO = 4.0;
 /* Steps of floats above this share of a mesh can be seen in its shading. */
 static const double COARSE = 0x1p-15;
 
