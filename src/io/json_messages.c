@@ -163,3 +163,55 @@ void reader_note_each(reader *r, const json_place *at, const char *key, const ch
     add_remark(r, true, false, at, key, format, arguments);
     va_end(arguments);
 }
+
+/* ---- parts that an image may do without ---- */
+
+static bool is_of_the_part(const reader *r)
+{
+    return r->result != FACET_OK && r->result != FACET_ERROR_MEMORY && r->result != FACET_ERROR_LIMIT &&
+           r->error;
+}
+
+bool reader_leave_out(reader *r, const char *consequence)
+{
+    char message[1088];
+    if (!is_of_the_part(r))
+        return false;
+    r->result = FACET_OK;
+    snprintf(message, sizeof message, "%s; %s", r->error->message, consequence);
+    if (!count_remark(r, false, "", consequence, message))
+        pass_on(r, false, message);
+    return true;
+}
+
+bool reader_defer(reader *r, reader_problem *problem)
+{
+    if (!is_of_the_part(r))
+        return false;
+    problem->result = r->result;
+    r->result = FACET_OK;
+    problem->message = arena_strdup(r->scene->arena, r->error->message);
+    if (!problem->message)
+        reader_fail_memory(r, "message", strlen(r->error->message));
+    return true;
+}
+
+bool reader_fail_deferred(reader *r, reader_problem *problem)
+{
+    problem->is_told = true;
+    if (r->result == FACET_OK)
+        r->result = fail(r->error, problem->result, "%s", problem->message);
+    return false;
+}
+
+void reader_warn_deferred(reader *r, reader_problem *problem)
+{
+    static const char consequence[] = "nothing that is drawn uses it";
+    char message[1088];
+    if (!problem->message || problem->is_told)
+        return;
+    problem->is_told = true;
+    snprintf(message, sizeof message, "%s; %s", problem->message, consequence);
+    if (!count_remark(r, false, "", consequence, message))
+        pass_on(r, false, message);
+}

@@ -33,7 +33,10 @@ static bool parse_version(const char *text, unsigned *major, unsigned *minor)
 
 static const char *copy_string(reader *r, const json_place *object, const char *key)
 {
-    char *copy = arena_strdup(r->scene->arena, get_string(r, object, key, ""));
+    const char *string = get_string(r, object, key, "");
+    if (reader_leave_out(r, "it is not kept"))
+        string = "";
+    char *copy = arena_strdup(r->scene->arena, string);
     if (!copy)
         reader_fail_memory(r, key, 0);
     return copy ? copy : "";
@@ -43,7 +46,9 @@ static void read_asset(reader *r, const json_place *root)
 {
     json_place asset = get_object(r, root, "asset");
     const char *version = get_string(r, &asset, "version", NULL);
-    const char *minimum = get_string(r, &asset, "minVersion", NULL);
+    const char *minimum = reader_is_ok(r) ? get_string(r, &asset, "minVersion", NULL) : NULL;
+    if (version)
+        reader_leave_out(r, "it does not count");
     unsigned major = 0;
     unsigned minor = 0;
     if (!reader_is_ok(r))
@@ -65,12 +70,14 @@ static void read_asset(reader *r, const json_place *root)
     if (minor != 0)
         reader_warn(r, &asset, "version", "is glTF %u.%u; it is read as glTF 2.0", major, minor);
     if (minimum && !parse_version(minimum, &major, &minor))
-        reader_fail(r, &asset, "minVersion", FACET_ERROR_INVALID, "\"%.40s\" is no version", minimum);
+        reader_note(r, &asset, "minVersion", "\"%.40s\" is no version", minimum);
     else if (minimum && (major > 2 || minor > 0))
         reader_fail(r, &asset, "minVersion", FACET_ERROR_UNSUPPORTED,
                     "asks for a reader of glTF %u.%u; facet "
                     "reads 2.0",
                     major, minor);
+    if (!reader_is_ok(r))
+        return;
     r->scene->version = copy_string(r, &asset, "version");
     r->scene->generator = copy_string(r, &asset, "generator");
     r->scene->copyright = copy_string(r, &asset, "copyright");
@@ -92,7 +99,7 @@ static void read_document(reader *r)
     for (size_t i = 0; i < sizeof concerns / sizeof *concerns && reader_is_ok(r); i++)
         concerns[i](r, &root);
     if (reader_is_ok(r))
-        check_unused_buffers(r);
+        check_unused_parts(r);
 }
 
 static void read_bytes(reader *r, const unsigned char *bytes, size_t size)

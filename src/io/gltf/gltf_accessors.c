@@ -114,6 +114,11 @@ static void read_sparse(reader *r, const json_place *accessor, gltf_accessor *a)
                     a->sparse_count, a->count);
         return;
     }
+    if (r->views[a->sparse_index_view].problem.message || r->views[a->sparse_value_view].problem.message) {
+        bool is_index = r->views[a->sparse_index_view].problem.message != NULL;
+        reader_fail_deferred(r, &r->views[is_index ? a->sparse_index_view : a->sparse_value_view].problem);
+        return;
+    }
     if (r->views[a->sparse_index_view].stride || r->views[a->sparse_value_view].stride)
         reader_warn(r, &at, NULL, "uses a buffer view with byteStride, which is ignored");
     size_t size = gltf_component_size(c);
@@ -130,6 +135,8 @@ static void read_accessor(reader *r, const json_place *at, gltf_accessor *a)
     a->is_normalized = get_bool(r, at, "normalized", false);
     a->view = get_index(r, at, "bufferView", r->view_count, "buffer view");
     a->offset = get_uint(r, at, "byteOffset", (uint64_t)1 << 53, 0);
+    if (reader_is_ok(r) && a->view != SCENE_NONE && r->views[a->view].problem.message)
+        reader_fail_deferred(r, &r->views[a->view].problem);
     if (!reader_is_ok(r))
         return;
     if (a->count == 0)
@@ -180,8 +187,10 @@ void read_accessors(reader *r, const json_place *root)
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
         read_accessor(r, &at, &r->accessors[i]);
+        reader_defer(r, &r->accessors[i].problem);
         r->accessor_count = (uint32_t)(i + 1);
-        if (r->accessors[i].view != SCENE_NONE && r->accessors[i].count > r->backed_count)
+        if (!r->accessors[i].problem.message && r->accessors[i].view != SCENE_NONE &&
+            r->accessors[i].count > r->backed_count)
             r->backed_count = r->accessors[i].count;
     }
 }

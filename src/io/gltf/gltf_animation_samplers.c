@@ -116,14 +116,13 @@ void check_animation_sampler(reader *r, const json_place *at)
 {
     static const char *const keys[2] = {"input", "output"};
     for (int i = 0; i < 2; i++) {
-        uint32_t index = get_required_index(r, at, keys[i], r->accessor_count, "accessor");
+        uint32_t index = get_required_accessor(r, at, keys[i]);
         if (index == SCENE_NONE)
             return;
         const gltf_accessor *a = &r->accessors[index];
         if (a->view != SCENE_NONE && r->views[a->view].stride)
             reader_note(r, at, keys[i], "accessor %u is in a buffer view with byteStride", index);
     }
-    get_string(r, at, "interpolation", NULL);
 }
 
 static scene_interpolation get_interpolation(reader *r, const json_place *at)
@@ -131,6 +130,8 @@ static scene_interpolation get_interpolation(reader *r, const json_place *at)
     static const char *const names[] = {
         [SCENE_STEP] = "STEP", [SCENE_LINEAR] = "LINEAR", [SCENE_CUBIC_SPLINE] = "CUBICSPLINE"};
     const char *name = get_string(r, at, "interpolation", "LINEAR");
+    if (reader_leave_out(r, "LINEAR is used"))
+        return SCENE_LINEAR;
     for (int i = 0; i < 3; i++)
         if (strcmp(name, names[i]) == 0)
             return (scene_interpolation)i;
@@ -142,8 +143,8 @@ static scene_interpolation get_interpolation(reader *r, const json_place *at)
 /* The keys as the file has them. False: an error is recorded, or a warning says what is wrong with them. */
 static bool read_sampler(reader *r, const json_place *at, scene_sampler *out)
 {
-    uint32_t input = get_required_index(r, at, "input", r->accessor_count, "accessor");
-    uint32_t output = get_required_index(r, at, "output", r->accessor_count, "accessor");
+    uint32_t input = get_required_accessor(r, at, "input");
+    uint32_t output = get_required_accessor(r, at, "output");
     if (!reader_is_ok(r))
         return false;
     const gltf_accessor *times = &r->accessors[input];

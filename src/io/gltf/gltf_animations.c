@@ -185,16 +185,15 @@ static void finish_animation(reader *r, const animation_reader *a, scene_animati
 
 static void read_animation(reader *r, const json_place *at, scene_animation *out)
 {
+    static const char consequence[] = "nothing moves by it";
     animation_reader a = {.samplers = get_array(r, at, "samplers")};
     json_place channels = get_array(r, at, "channels");
     out->name = get_name(r, at);
     if (reader_is_ok(r) && (!a.samplers.value || !channels.value))
         reader_fail(r, at, a.samplers.value ? "channels" : "samplers", FACET_ERROR_INVALID, "is missing");
+    if (reader_leave_out(r, consequence))
+        a.samplers.value = channels.value = NULL;
     size_t count = get_count(&a.samplers);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place sampler = get_element_object(r, &a.samplers, i);
-        check_animation_sampler(r, &sampler);
-    }
     a.made = reader_alloc(r, "animation", count, 2 * sizeof *a.made);
     a.numbers = mem_alloc(r->allocator, count, sizeof *a.numbers);
     if (!a.numbers)
@@ -204,6 +203,13 @@ static void read_animation(reader *r, const json_place *at, scene_animation *out
     for (size_t i = 0; i < get_count(&channels) && reader_is_ok(r); i++) {
         json_place channel = get_element_object(r, &channels, i);
         read_channel(r, &a, &channel);
+        reader_leave_out(r, consequence);
+    }
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place sampler = get_element_object(r, &a.samplers, i);
+        if (a.numbers[i][0] != USELESS && a.numbers[i][1] != USELESS)
+            check_animation_sampler(r, &sampler);
+        reader_leave_out(r, consequence);
     }
     if (reader_is_ok(r))
         finish_animation(r, &a, out);
@@ -216,10 +222,13 @@ void read_animations(reader *r, const json_place *root)
 {
     json_place array = get_array(r, root, "animations");
     size_t count = get_count(&array);
+    reader_leave_out(r, "nothing moves by them");
     r->scene->animations = reader_alloc(r, "animations", count, sizeof *r->scene->animations);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
-        read_animation(r, &at, &r->scene->animations[i]);
+        r->scene->animations[i].name = "";
+        if (!reader_leave_out(r, "nothing moves by it"))
+            read_animation(r, &at, &r->scene->animations[i]);
         r->scene->animation_count = (uint32_t)(i + 1);
     }
 }

@@ -9,6 +9,7 @@
 /* A buffer view with a bitstream; primitives may share it. */
 typedef struct bitstream {
     const unsigned char *bytes; /* NULL: they cannot be had */
+    reader_problem missing;     /* why */
     size_t size;
     draco_limits limits;
     uint32_t user_count; /* primitives that are still to be read */
@@ -33,17 +34,18 @@ enum { VALUES_PER_BYTE = 4096, VALUES_OF_NOTHING = 1 << 20 };
 
 /* ---- all bitstreams at once ---- */
 
-/* Calls visit for each primitive of the file that has the extension, until one is false. */
+/* Calls visit for each primitive of the file that has the extension, until one is false. What is wrong with other
+ * primitives is told when they are read. */
 static bool for_each_primitive(reader *r, bool (*visit)(reader *, const json_place *primitive,
                                                         const json_place *extension))
 {
-    const json_place root = {.value = r->json};
-    json_place meshes = get_array(r, &root, "meshes");
-    for (size_t i = 0; i < get_count(&meshes) && reader_is_ok(r); i++) {
-        json_place mesh = get_element_object(r, &meshes, i);
-        json_place primitives = get_array(r, &mesh, "primitives");
-        for (size_t k = 0; k < get_count(&primitives) && reader_is_ok(r); k++) {
-            json_place primitive = get_element_object(r, &primitives, k);
+    const json_place meshes = {.key = "meshes", .value = json_object_get(r->json, "meshes")};
+    for (size_t i = 0; i < get_count(&meshes); i++) {
+        const json_place mesh = get_element(&meshes, i);
+        const json_place primitives = {
+            .parent = &mesh, .key = "primitives", .value = json_object_get(mesh.value, "primitives")};
+        for (size_t k = 0; k < get_count(&primitives); k++) {
+            const json_place primitive = get_element(&primitives, k);
             json_place extension = get_extension(r, &primitive, NAME);
             if (extension.value && !visit(r, &primitive, &extension))
                 return false;
@@ -63,8 +65,8 @@ static bool list_stream(reader *r, const json_place *primitive, const json_place
 {
     (void)primitive;
     draco_state *d = r->draco;
-    uint32_t view = get_required_index(r, extension, "bufferView", r->view_count, "buffer view");
-    if (reader_is_ok(r) && d->stream_of_view[view] == SCENE_NONE)
+    uint32_t view = peek_index(extension, "bufferView", r->view_count);
+    if (view != SCENE_NONE && d->stream_of_view[view] == SCENE_NONE)
         d->stream_of_view[view] = d->stream_count++;
     return reader_is_ok(r);
 }
@@ -72,21 +74,22 @@ static bool list_stream(reader *r, const json_place *primitive, const json_place
 /* Counts a primitive among the users of its bitstream, and what its accessors say into the limits. */
 static bool note_user(reader *r, const json_place *primitive, const json_place *extension)
 {
-    bitstream *s = find_stream(r, extension);
-    json_place attributes = get_object(r, primitive, "attributes");
+    uint32_t view = peek_index(extension, "bufferView", r->view_count);
+    const json_place attributes = {.value = json_object_get(primitive->value, "attributes")};
     const char *name;
     json_t *value;
     uint32_t points = 0;
-    if (!s)
-        return false;
+    if (view == SCENE_NONE)
+        return true;
+    bitstream *s = &r->draco->streams[r->draco->stream_of_view[view]];
     json_object_foreach((json_t *)(uintptr_t)attributes.value, name, value)
     {
-        uint32_t accessor = get_index(r, &attributes, name, r->accessor_count, "accessor");
+        uint32_t accessor = peek_index(&attributes, name, r->accessor_count);
         if (accessor != SCENE_NONE && r->accessors[accessor].count > points)
             points = r->accessors[accessor].count;
     }
-    uint32_t indices = get_index(r, primitive, "indices", r->accessor_count, "accessor");
-    uint64_t mode = get_uint(r, primitive, "mode", 6, 4);
+    uint32_t indices = peek_index(primitive, "indices", r->accessor_count);
+    uint32_t mode = has_member(primitive, "mode") ? peek_index(primitive, "mode", 7) : 4;
     /* of a strip each index may close a triangle; without indices the faces may be any */
     uint32_t faces = indices == SCENE_NONE ? points : r->accessors[indices].count;
     faces = mode == 5 || indices == SCENE_NONE ? faces : faces / 3;
@@ -111,8 +114,10 @@ static bool find_bytes(reader *r)
         s->limits.value_count = VALUES_OF_NOTHING + VALUES_PER_BYTE * (uint64_t)s->size;
         if (!has_view_source(r, view))
             continue;
-        if (!reader_spend(r, &at, (uint64_t)s->limits.point_count + s->limits.face_count) ||
-            !(s->bytes = get_view_bytes(r, &at, view)))
+        if (!reader_spend(r, &at, (uint64_t)s->limits.point_count + s->limits.face_count))
+            return false;
+        s->bytes = get_view_bytes(r, &at, view);
+        if (!reader_defer(r, &s->missing) && !s->bytes)
             return false;
     }
     return true;
@@ -228,7 +233,7 @@ static bool bind_attribute(reader *r, const json_place *at, const bitstream *s, 
 static bool bind_faces(reader *r, const json_place *primitive, bitstream *s, uint32_t view, uint64_t mode)
 {
     uint32_t faces = draco_shim_face_count(s->mesh);
-    uint32_t accessor = get_index(r, primitive, "indices", r->accessor_count, "accessor");
+    uint32_t accessor = get_accessor(r, primitive, "indices");
     if (accessor == SCENE_NONE)
         reader_note(r, primitive, NULL, "has no indices, but the bitstream in buffer view %u has", view);
     else if (mode == 4 && r->accessors[accessor].count != (uint64_t)faces * 3)
@@ -264,13 +269,13 @@ static bool bind(reader *r, const json_place *primitive, const json_place *exten
     {
         json_place at = {.parent = &ids, .key = name, .value = value};
         uint32_t id = (uint32_t)get_uint(r, &ids, name, UINT32_MAX, 0);
-        uint32_t accessor = get_index(r, &attributes, name, r->accessor_count, "accessor");
+        uint32_t accessor = get_accessor(r, &attributes, name);
         if (accessor == SCENE_NONE)
             reader_note(r, &at, NULL, "is not among the attributes of the primitive");
         else if (!reader_is_ok(r) || !bind_attribute(r, &at, s, view, id, accessor))
             return false;
     }
-    uint32_t position = get_index(r, &attributes, "POSITION", r->accessor_count, "accessor");
+    uint32_t position = get_accessor(r, &attributes, "POSITION");
     if (position != SCENE_NONE && r->accessors[position].count != draco_shim_point_count(s->mesh))
         return reader_fail(r, &attributes, "POSITION", FACET_ERROR_INVALID,
                            "accessor %u has %u elements, but the bitstream in buffer view %u has %u vertices",
@@ -293,6 +298,8 @@ bool prepare_draco(reader *r, const json_place *primitive)
     bitstream *s = find_stream(r, &extension);
     if (!s)
         return false;
+    if (s->missing.message)
+        return reader_fail_deferred(r, &s->missing);
     if (!s->bytes)
         return reader_fail(r, &extension, "bufferView", FACET_ERROR_INVALID, "is in a buffer without bytes");
     if (!s->mesh)

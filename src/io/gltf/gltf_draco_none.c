@@ -14,13 +14,13 @@ bool prepare_draco(reader *r, const json_place *primitive)
     if (!extension.value)
         return reader_is_ok(r);
     json_place attributes = get_object(r, primitive, "attributes");
-    uint32_t indices = get_index(r, primitive, "indices", r->accessor_count, "accessor");
+    uint32_t indices = get_accessor(r, primitive, "indices");
     bool has_all = indices == SCENE_NONE || has_elements(r, indices);
     const char *name;
     json_t *value;
     json_object_foreach((json_t *)(uintptr_t)attributes.value, name, value)
     {
-        uint32_t accessor = get_index(r, &attributes, name, r->accessor_count, "accessor");
+        uint32_t accessor = get_accessor(r, &attributes, name);
         has_all = has_all && (accessor == SCENE_NONE || has_elements(r, accessor));
     }
     if (!has_all)

@@ -125,11 +125,11 @@ bool is_extension_listed(const reader *r, const char *name)
     return find_listed(r, name) != NULL;
 }
 
-/* Takes a name from extensionsUsed or extensionsRequired into the list; NULL: an error is recorded. */
+/* Takes a name from extensionsUsed or extensionsRequired into the list; NULL: it is no name, or an error is recorded. */
 static scene_extension *list(reader *r, const json_place *at)
 {
     if (!json_is_string(at->value)) {
-        reader_fail(r, at, NULL, FACET_ERROR_INVALID, "must be a string");
+        reader_warn(r, at, NULL, "must be a string; it is ignored");
         return NULL;
     }
     const char *name = json_string_value(at->value);
@@ -232,7 +232,9 @@ static void warn_ignored(reader *r)
 void read_extensions(reader *r, const json_place *root)
 {
     json_place used = get_array(r, root, "extensionsUsed");
+    reader_leave_out(r, "extensions count where they are");
     json_place required = get_array(r, root, "extensionsRequired");
+    reader_leave_out(r, "none is required");
     size_t most = get_count(&used) + get_count(&required);
     enum { MOST_EXTENSIONS = 1000 }; /* lookups are linear */
     if (most > MOST_EXTENSIONS) {
@@ -252,7 +254,7 @@ void read_extensions(reader *r, const json_place *root)
         uint32_t before = r->scene->extension_count;
         scene_extension *extension = list(r, &at);
         if (!extension)
-            return;
+            continue;
         if (r->scene->extension_count != before)
             reader_note(r, &at, NULL, "\"%.100s\" is not in extensionsUsed", extension->name);
         else if (extension->is_required)

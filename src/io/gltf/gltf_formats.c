@@ -51,7 +51,7 @@ static unsigned format_of(const gltf_accessor *a)
 uint32_t get_attribute(reader *r, const json_place *attributes, const char *name, gltf_attribute attribute,
                        uint32_t vertex_count)
 {
-    uint32_t index = get_index(r, attributes, name, r->accessor_count, "accessor");
+    uint32_t index = get_accessor(r, attributes, name);
     if (index == SCENE_NONE)
         return SCENE_NONE;
     gltf_accessor *a = &r->accessors[index];
@@ -95,6 +95,16 @@ uint32_t count_sets(const json_place *attributes, const char *prefix)
 
 /* ---- names ---- */
 
+bool is_read_attribute(const char *name)
+{
+    static const char *const read[] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
+    for (size_t i = 0; i < sizeof read / sizeof *read; i++)
+        if (strcmp(name, read[i]) == 0)
+            return true;
+    return strncmp(name, "TEXCOORD_", 9) == 0 || strncmp(name, "JOINTS_", 7) == 0 ||
+           strncmp(name, "WEIGHTS_", 8) == 0;
+}
+
 void check_attribute_names(reader *r, const json_place *attributes)
 {
     static const char *const numbered[] = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
@@ -119,7 +129,11 @@ void check_attribute_names(reader *r, const json_place *attributes)
         }
         if (!is_known)
             reader_note(r, attributes, name, "is no attribute of glTF and is ignored");
-        uint32_t accessor = get_index(r, attributes, name, r->accessor_count, "accessor");
+        if (!is_read_attribute(name) && reader_is_ok(r)) {
+            get_accessor(r, attributes, name);
+            reader_leave_out(r, "nothing reads it");
+        }
+        uint32_t accessor = peek_index(attributes, name, r->accessor_count);
         if (accessor != SCENE_NONE && r->accessors[accessor].component == GLTF_U32)
             reader_note(r, attributes, name,
                         "accessor %u has componentType 5125, which attributes cannot have", accessor);

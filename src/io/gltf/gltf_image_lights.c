@@ -46,8 +46,9 @@ void read_image_lights(reader *r, const json_place *root)
     json_place extension = get_extension(r, root, NAME);
     json_place array = get_array(r, &extension, "lights");
     size_t count = get_count(&array);
-    if (extension.value && !array.value)
+    if (reader_is_ok(r) && extension.value && !array.value)
         reader_note(r, &extension, "lights", "is missing");
+    reader_leave_out(r, "there is no light of images");
     r->scene->image_lights = reader_alloc(r, "lights", count, sizeof *r->scene->image_lights);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
@@ -58,6 +59,8 @@ void read_image_lights(reader *r, const json_place *root)
         out->intensity = get_float_in(r, &at, "intensity", 0.0f, FLT_MAX, 1.0f);
         read_irradiance(r, &at, out);
         read_cube(r, &at, out);
+        if (reader_leave_out(r, "the light of images is left out"))
+            *out = (scene_image_light){.name = get_name(r, &at), .rotation = {0, 0, 0, 1}};
         out->meta = get_meta(r, &at);
         r->scene->image_light_count = (uint32_t)(i + 1);
     }

@@ -179,7 +179,7 @@ static void warn_missing_vertex(reader *r, const json_place *at, const index_sou
  * faces, whatever mode they were stored in: each corner is a vertex. */
 static index_source find_indices(reader *r, const json_place *at, uint32_t vertex_count, unsigned *mode)
 {
-    uint32_t accessor = get_index(r, at, "indices", r->accessor_count, "accessor");
+    uint32_t accessor = get_accessor(r, at, "indices");
     index_source s = {.count = vertex_count};
     if (r->faces) {
         s.indices = r->faces;

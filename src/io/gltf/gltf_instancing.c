@@ -9,7 +9,7 @@
 static uint32_t get_instances(reader *r, const json_place *attributes, const char *name, gltf_type type,
                               uint32_t *count)
 {
-    uint32_t index = get_index(r, attributes, name, r->accessor_count, "accessor");
+    uint32_t index = get_accessor(r, attributes, name);
     if (index == SCENE_NONE)
         return SCENE_NONE;
     const gltf_accessor *a = &r->accessors[index];

@@ -201,9 +201,16 @@ void read_materials(reader *r, const json_place *root)
     json_place array = get_array(r, root, "materials");
     size_t count = get_count(&array);
     r->scene->materials = reader_alloc(r, "materials", count, sizeof *r->scene->materials);
+    r->material_problems = reader_alloc(r, "materials", count, sizeof *r->material_problems);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
-        read_material(r, &at, &r->scene->materials[i]);
+        scene_material *m = &r->scene->materials[i];
+        read_material(r, &at, m);
+        if (reader_defer(r, &r->material_problems[i])) {
+            const char *name = m->name;
+            *m = scene_material_default();
+            m->name = name;
+        }
         r->scene->material_count = (uint32_t)(i + 1);
     }
 }

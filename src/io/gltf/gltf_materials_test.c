@@ -323,7 +323,7 @@ static void values_out_of_range_are_clamped_with_a_warning(void **state)
     scene_destroy(scene);
 }
 
-static void wrong_members_are_refused(void **state)
+static void wrong_members_are_refused_where_they_are_used(void **state)
 {
     (void)state;
     static const char *const cases[][2] = {
@@ -334,13 +334,21 @@ static void wrong_members_are_refused(void **state)
         {"'materials':[{'pbrMetallicRoughness':{'metallicFactor':'1'}}]",
          "must be a number, but is a string"},
         {"'materials':[{'doubleSided':1}]", "doubleSided: must be a boolean, but is a number"},
-        {"'materials':{}", "materials: must be an array, but is an object"},
         {"'materials':[3]", "materials[0]: must be an object, but is a number"},
-        {"'textures':[{'sampler':0}]", "textures[0].sampler: 0 is the number of no sampler"},
-        {"'images':[{'bufferView':0}]", "images[0].bufferView: 0 is the number of no buffer view"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_left_out(cases[i][0], NULL, cases[i][1]);
         assert_refused(cases[i][0], NULL, FACET_ERROR_INVALID, cases[i][1]);
+    }
+    assert_refused("'materials':{}", NULL, FACET_ERROR_INVALID,
+                   "materials: must be an array, but is an object");
+    assert_left_out("'textures':[{'sampler':0}]", NULL,
+                    "textures[0].sampler: 0 is the number of no sampler (there are 0); the texture has the "
+                    "default sampler");
+    assert_left_out("'textures':[{'source':0}]", NULL,
+                    "textures[0].source: 0 is the number of no image (there are 0); white is used");
+    assert_left_out("'images':[{'bufferView':0}]", NULL,
+                    "images[0].bufferView: 0 is the number of no buffer view (there are 0); white is used");
 }
 
 static void samplers_translate(void **state)
@@ -422,7 +430,7 @@ int main(void)
         cmocka_unit_test(texture_transform_turns_as_its_example_says),
         cmocka_unit_test(a_transform_that_does_nothing_is_none),
         cmocka_unit_test(values_out_of_range_are_clamped_with_a_warning),
-        cmocka_unit_test(wrong_members_are_refused),
+        cmocka_unit_test(wrong_members_are_refused_where_they_are_used),
         cmocka_unit_test(samplers_translate),
         cmocka_unit_test(images_are_found_and_probed),
         cmocka_unit_test(pictures_that_cannot_be_had_are_white),

@@ -8,43 +8,66 @@
 
 enum { GRAIN = 1 << 15 };
 
-static bool read_texcoords(reader *r, const json_place *attributes, scene_primitive *p)
+/* Whether a texture of the material reads a set of texture coordinates; the materials of variants may. */
+static bool is_set_read(const reader *r, const json_place *at, const scene_primitive *p, uint32_t set)
+{
+    const scene_material *m = scene_get_material(r->scene, p->material);
+    bool is_read = has_member(at, "extensions");
+    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
+        is_read |= m->textures[i].texture != SCENE_NONE && m->textures[i].texcoord == set;
+    return is_read;
+}
+
+/* at: the primitive. */
+static bool read_texcoords(reader *r, const json_place *at, const json_place *attributes, scene_primitive *p)
 {
     uint32_t count = count_sets(attributes, "TEXCOORD_");
     const float **sets = reader_alloc(r, "texture coordinates", count, sizeof *sets);
-    if (!sets)
-        return false;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && reader_is_ok(r); i++) {
         char name[24];
         snprintf(name, sizeof name, "TEXCOORD_%u", i);
         uint32_t accessor = get_attribute(r, attributes, name, GLTF_TEXCOORD, p->vertex_count);
-        if (accessor == SCENE_NONE || !(sets[i] = get_finite(r, attributes, accessor, "texture coordinates")))
-            return false;
+        if (accessor != SCENE_NONE)
+            sets[i] = get_finite(r, attributes, accessor, "texture coordinates");
+        if (!is_set_read(r, at, p, i) && reader_leave_out(r, "no texture reads it"))
+            sets[i] = reader_alloc(r, "texture coordinates", p->vertex_count, 2 * sizeof **sets);
     }
     p->texcoords = sets;
     p->texcoord_count = count;
-    return true;
+    return reader_is_ok(r);
 }
 
-/* Whether all that the primitive reads has bytes somewhere. */
+/* Joints are needed where a skin moves the mesh, which is known later. */
+static bool read_joints(reader *r, const json_place *attributes, scene_primitive *p)
+{
+    if (!read_influences(r, attributes, p) && reader_defer(r, &r->mesh->joints)) {
+        p->influence_count = 0;
+        p->joints = NULL;
+        p->weights = NULL;
+    }
+    return reader_is_ok(r);
+}
+
+/* Whether all that the primitive reads has bytes somewhere. What is wrong with an accessor is told when it is read. */
 static bool has_sources(reader *r, const json_place *at, const json_place *attributes)
 {
     const char *name;
     json_t *value;
-    uint32_t indices = get_index(r, at, "indices", r->accessor_count, "accessor");
+    uint32_t indices = peek_index(at, "indices", r->accessor_count);
     bool has_all = indices == SCENE_NONE || has_accessor_source(r, indices);
     json_object_foreach((json_t *)(uintptr_t)attributes->value, name, value)
     {
-        uint32_t accessor = get_index(r, attributes, name, r->accessor_count, "accessor");
+        uint32_t accessor =
+            is_read_attribute(name) ? peek_index(attributes, name, r->accessor_count) : SCENE_NONE;
         has_all = has_all && (accessor == SCENE_NONE || has_accessor_source(r, accessor));
     }
     return has_all;
 }
 
-static bool read_attributes(reader *r, const json_place *attributes, scene_primitive *p,
+static bool read_attributes(reader *r, const json_place *at, const json_place *attributes, scene_primitive *p,
                             const uint8_t **is_lost, bool *has_missing_normals)
 {
-    uint32_t position = get_index(r, attributes, "POSITION", r->accessor_count, "accessor");
+    uint32_t position = get_accessor(r, attributes, "POSITION");
     if (position == SCENE_NONE)
         return false;
     p->vertex_count = r->accessors[position].count;
@@ -54,13 +77,17 @@ static bool read_attributes(reader *r, const json_place *attributes, scene_primi
     accessor = get_attribute(r, attributes, "NORMAL", GLTF_NORMAL, p->vertex_count);
     if (accessor != SCENE_NONE && !(p->normals = get_normals(r, attributes, accessor, has_missing_normals)))
         return false;
+    if (!reader_is_ok(r))
+        return false;
     accessor = get_attribute(r, attributes, "TANGENT", GLTF_TANGENT, p->vertex_count);
     if (accessor != SCENE_NONE && p->normals)
         p->tangents = get_tangents(r, attributes, accessor);
+    if (reader_leave_out(r, "tangents are computed"))
+        p->tangents = NULL;
     accessor = get_attribute(r, attributes, "COLOR_0", GLTF_COLOR, p->vertex_count);
     if (accessor != SCENE_NONE && !(p->colors = get_colors(r, attributes, accessor)))
         return false;
-    return reader_is_ok(r) && read_texcoords(r, attributes, p) && read_influences(r, attributes, p);
+    return reader_is_ok(r) && read_texcoords(r, at, attributes, p) && read_joints(r, attributes, p);
 }
 
 /* ---- bounds ---- */
@@ -136,6 +163,8 @@ static void check_texcoords(reader *r, const json_place *at, const scene_primiti
 static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
 {
     p->material = get_index(r, at, "material", r->scene->material_count, "material");
+    if (p->material != SCENE_NONE && r->material_problems[p->material].message)
+        reader_fail_deferred(r, &r->material_problems[p->material]);
     json_place attributes = get_object(r, at, "attributes");
     if (!attributes.value) {
         reader_fail(r, at, "attributes", FACET_ERROR_INVALID, "is missing");
@@ -151,7 +180,9 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
         make_empty(p);
         return;
     }
-    uint32_t position = get_index(r, &attributes, "POSITION", r->accessor_count, "accessor");
+    uint32_t position = get_accessor(r, &attributes, "POSITION");
+    if (!reader_is_ok(r))
+        return;
     if (position != SCENE_NONE && is_zero_accessor(r, position) && !has_member(at, "targets")) {
         reader_warn(r, &attributes, "POSITION",
                     "is without data, so that all vertices are at 0; it is not drawn");
@@ -160,10 +191,9 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
     }
     const uint8_t *is_lost = NULL;
     bool has_missing_normals = false;
-    if (!read_attributes(r, &attributes, p, &is_lost, &has_missing_normals)) {
+    if (!read_attributes(r, at, &attributes, p, &is_lost, &has_missing_normals)) {
         if (reader_is_ok(r))
             reader_warn(r, at, NULL, "has no POSITION and is not drawn");
-        get_index(r, at, "indices", r->accessor_count, "accessor");
         make_empty(p);
         return;
     }
@@ -186,10 +216,8 @@ static void read_mesh(reader *r, const json_place *at, scene_mesh *mesh)
 {
     mesh->name = get_name(r, at);
     json_place array = get_array(r, at, "primitives");
-    if (!array.value) {
+    if (reader_is_ok(r) && !array.value)
         reader_fail(r, at, "primitives", FACET_ERROR_INVALID, "is missing");
-        return;
-    }
     size_t count = get_count(&array);
     mesh->primitives = reader_alloc(r, "primitives", count, sizeof *mesh->primitives);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
@@ -205,10 +233,31 @@ static void read_mesh(reader *r, const json_place *at, scene_mesh *mesh)
         mesh->weight_count = target_count > mesh->weight_count ? target_count : mesh->weight_count;
         mesh->primitive_count = (uint32_t)(i + 1);
     }
+    if (!reader_is_ok(r))
+        return;
     mesh->weights = read_weights(r, at, mesh->weight_count);
+    if (reader_leave_out(r, "no morph target counts"))
+        mesh->weights = NULL;
     if (!mesh->weights && mesh->weight_count)
         mesh->weights = reader_alloc(r, "weights", mesh->weight_count, sizeof *mesh->weights);
     mesh->meta = get_meta(r, at);
+}
+
+/* A mesh that cannot be read, and may not be needed, keeps its number. */
+static void read_or_defer_mesh(reader *r, const json_place *at, uint32_t index)
+{
+    scene_mesh *mesh = &r->scene->meshes[index];
+    r->mesh = &r->meshes[index];
+    read_mesh(r, at, mesh);
+    if (!reader_defer(r, &r->mesh->problem))
+        return;
+    *mesh = (scene_mesh){.name = mesh->name,
+                         .primitives = reader_alloc(r, "primitives", 1, sizeof *mesh->primitives),
+                         .primitive_count = 1};
+    if (mesh->primitives) {
+        mesh->primitives->material = SCENE_NONE;
+        make_empty(mesh->primitives);
+    }
 }
 
 void read_meshes(reader *r, const json_place *root)
@@ -216,9 +265,10 @@ void read_meshes(reader *r, const json_place *root)
     json_place array = get_array(r, root, "meshes");
     size_t count = get_count(&array);
     r->scene->meshes = reader_alloc(r, "meshes", count, sizeof *r->scene->meshes);
+    r->meshes = reader_alloc(r, "meshes", count, sizeof *r->meshes);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
-        read_mesh(r, &at, &r->scene->meshes[i]);
+        read_or_defer_mesh(r, &at, (uint32_t)i);
         r->scene->mesh_count = (uint32_t)(i + 1);
     }
 }

@@ -320,12 +320,11 @@ static void attributes_must_fit_together(void **state)
     static const struct {
         const char *attributes, *rest, *message;
     } cases[] = {
-        {",'TEXCOORD_0':1", ",{'componentType':5126,'count':2,'type':'VEC2'}",
-         "TEXCOORD_0: accessor 1 has 2 elements, but POSITION has 3"},
-        {",'TEXCOORD_0':1", ",{'componentType':5126,'count':3,'type':'VEC3'}",
-         "accessor 1 has a type and componentType that TEXCOORD_0 cannot have"},
+        {",'COLOR_0':1", ",{'componentType':5126,'count':2,'type':'VEC3'}",
+         "COLOR_0: accessor 1 has 2 elements, but POSITION has 3"},
+        {",'COLOR_0':1", ",{'componentType':5126,'count':3,'type':'VEC2'}",
+         "accessor 1 has a type and componentType that COLOR_0 cannot have"},
         {",'NORMAL':9", "", "attributes.NORMAL: 9 is the number of no accessor"},
-        {",'_X':9", "", "attributes._X: 9 is the number of no accessor"},
         {",'NORMAL':1", ",{'componentType':5125,'count':3,'type':'VEC3'}", "that NORMAL cannot have"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -335,6 +334,29 @@ static void attributes_must_fit_together(void **state)
                          FACET_ERROR_INVALID);
         if (!strstr(error.message, cases[i].message))
             fail_msg("%s", error.message);
+    }
+}
+
+static void attributes_that_nothing_reads_are_left_out(void **state)
+{
+    (void)state;
+    static const char *const cases[][3] = {
+        {",'_X':9", "", "attributes._X: 9 is the number of no accessor (there is 1); nothing reads it"},
+        {",'COLOR_1':'a'", "", "attributes.COLOR_1: must be a number, but is a string; nothing reads it"},
+        {",'TEXCOORD_0':1", ",{'componentType':5126,'count':2,'type':'VEC2'}",
+         "TEXCOORD_0: accessor 1 has 2 elements, but POSITION has 3; no texture reads it"},
+        {",'NORMAL':0,'TANGENT':9", "",
+         "TANGENT: 9 is the number of no accessor (there is 1); tangents are computed"},
+        {",'JOINTS_0':9,'WEIGHTS_0':9", "",
+         "JOINTS_0: 9 is the number of no accessor (there is 1); nothing that is drawn uses it"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        facet_scene *scene = load_mesh(3, cases[i][0], "", NULL, "", cases[i][1]);
+        assert_int_equal(first_primitive(scene)->index_count, 3);
+        assert_null(first_primitive(scene)->tangents);
+        if (!has_warning(scene, cases[i][2]))
+            fail_msg("%s", scene->warning_count ? scene->warnings[0] : "no warning");
+        scene_destroy(scene);
     }
 }
 
@@ -365,6 +387,7 @@ int main(void)
         cmocka_unit_test(tangents_without_use_are_dropped),
         cmocka_unit_test(bounds_are_those_of_used_vertices),
         cmocka_unit_test(attributes_must_fit_together),
+        cmocka_unit_test(attributes_that_nothing_reads_are_left_out),
         cmocka_unit_test(texcoord_sets_are_all_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

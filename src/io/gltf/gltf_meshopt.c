@@ -13,6 +13,7 @@ struct compressed_view {
     meshopt_stream stream; /* bytes: NULL: they cannot be had */
     uint8_t *decoded;      /* NULL: not asked for yet, or problem says why */
     const char *problem;
+    reader_problem missing; /* why its stream cannot be had */
 };
 
 static const char *const NAMES[] = {"KHR_meshopt_compression", "EXT_meshopt_compression"};
@@ -118,9 +119,9 @@ static bool prepare(reader *r, const json_place *at, compressed_view *v)
     meshopt_stream *s = &v->stream;
     if (!has_buffer_source(r, v->buffer))
         return true;
-    const unsigned char *bytes = get_buffer_bytes(r, v->buffer);
-    if (!bytes)
-        return false;
+    const unsigned char *bytes = get_buffer_bytes(r, v->buffer, v->offset + s->size);
+    if (reader_defer(r, &v->missing) || !bytes)
+        return reader_is_ok(r);
     s->bytes = bytes + v->offset;
     if (s->size < meshopt_smallest_size(s)) {
         v->problem = MESHOPT_TOO_SHORT;
@@ -147,7 +148,7 @@ const unsigned char *get_meshopt_bytes(reader *r, const json_place *at, uint32_t
     const json_place root = {.value = r->json};
     const json_place array = {.parent = &root, .key = "bufferViews"};
     const json_place view = {.parent = &array, .index = index};
-    const compressed_view *v = r->views[index].compressed;
+    compressed_view *v = r->views[index].compressed;
     if (!r->has_decoded_views) {
         for (uint32_t i = 0; i < r->view_count; i++) {
             const json_place place = {.parent = &array, .index = i};
@@ -159,6 +160,8 @@ const unsigned char *get_meshopt_bytes(reader *r, const json_place *at, uint32_t
     }
     if (v->problem)
         reader_fail(r, &view, NULL, FACET_ERROR_INVALID, "has a compressed stream that %s", v->problem);
+    else if (v->missing.message)
+        reader_fail_deferred(r, &v->missing);
     else if (!v->decoded)
         reader_fail(r, at, NULL, FACET_ERROR_INVALID,
                     "bufferViews[%u] has its stream in a buffer without bytes", index);

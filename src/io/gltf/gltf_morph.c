@@ -21,12 +21,13 @@ static void check_target(reader *r, const json_place *target, const json_place *
     json_t *value;
     json_object_foreach((json_t *)(uintptr_t)target->value, name, value)
     {
-        uint32_t accessor = get_index(r, target, name, r->accessor_count, "accessor");
-        if (accessor == SCENE_NONE)
-            return;
         bool is_read = false;
         for (int i = 0; i < 3; i++)
             is_read |= strcmp(name, DELTAS[i].name) == 0;
+        if (!is_read) {
+            get_accessor(r, target, name);
+            reader_leave_out(r, "nothing reads it");
+        }
         if (!has_member(attributes, name))
             reader_note(r, target, name, "is not among the attributes of the primitive");
         else if (strncmp(name, "TEXCOORD_", 9) == 0 || strncmp(name, "COLOR_", 6) == 0)
@@ -66,6 +67,8 @@ bool read_targets(reader *r, const json_place *at, scene_primitive *p)
         check_target(r, &target, &attributes);
         if (reader_is_ok(r))
             read_target(r, &target, p, &targets[i]);
+        if (reader_leave_out(r, "the morph target changes nothing"))
+            targets[i] = (scene_morph_target){0};
     }
     p->targets = targets;
     p->target_count = (uint32_t)count;

@@ -70,10 +70,13 @@ void read_cameras(reader *r, const json_place *root)
 {
     json_place array = get_array(r, root, "cameras");
     size_t count = get_count(&array);
+    reader_leave_out(r, "there are no cameras");
     r->scene->cameras = reader_alloc(r, "cameras", count, sizeof *r->scene->cameras);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
         read_camera(r, &at, &r->scene->cameras[i]);
+        if (reader_leave_out(r, "the camera gets an angle of 0.8"))
+            r->scene->cameras[i] = (scene_camera){.name = get_name(r, &at), .fov_y_rad = 0.8f};
         r->scene->cameras[i].meta = get_meta(r, &at);
         r->scene->camera_count = (uint32_t)(i + 1);
     }
@@ -123,12 +126,15 @@ void read_lights(reader *r, const json_place *root)
     json_place extension = get_extension(r, root, "KHR_lights_punctual");
     json_place array = get_array(r, &extension, "lights");
     size_t count = get_count(&array);
-    if (extension.value && !array.value)
+    if (reader_is_ok(r) && extension.value && !array.value)
         reader_note(r, &extension, "lights", "is missing");
+    reader_leave_out(r, "there are no lights");
     r->scene->lights = reader_alloc(r, "lights", count, sizeof *r->scene->lights);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
         read_light(r, &at, &r->scene->lights[i]);
+        if (reader_leave_out(r, "the light is dark"))
+            r->scene->lights[i] = (scene_light){.name = get_name(r, &at), .type = SCENE_LIGHT_POINT};
         r->scene->lights[i].meta = get_meta(r, &at);
         r->scene->light_count = (uint32_t)(i + 1);
     }
@@ -196,29 +202,48 @@ static void read_children(reader *r, const json_place *at, uint32_t index, uint3
     nodes[index].child_count = (uint32_t)count;
 }
 
-static void read_node(reader *r, const json_place *at, scene_node *out, uint32_t skin_count)
+/* What a node has beside its mesh: what of that is wrong is left out. */
+static void read_attachments(reader *r, const json_place *at, scene_node *out)
 {
-    out->name = get_name(r, at);
-    read_transform(r, at, out);
-    out->mesh = get_index(r, at, "mesh", r->scene->mesh_count, "mesh");
     out->camera = get_index(r, at, "camera", r->scene->camera_count, "camera");
-    out->skin = get_index(r, at, "skin", skin_count, "skin");
+    reader_leave_out(r, "the node has no camera");
     json_place light = get_extension(r, at, "KHR_lights_punctual");
     out->light = get_required_index(r, &light, "light", r->scene->light_count, "light");
+    reader_leave_out(r, "the node has no light");
     json_place visibility = get_extension(r, at, "KHR_node_visibility");
     out->is_hidden = !get_bool(r, &visibility, "visible", true);
-    if (out->mesh == SCENE_NONE && out->skin != SCENE_NONE)
-        reader_note(r, at, "skin", "is there without a mesh");
-    out->instancing = read_instancing(r, at);
-    if (out->mesh == SCENE_NONE && out->instancing)
-        reader_note(r, at, NULL, "has instances, but no mesh");
-    if (out->skin != SCENE_NONE && out->instancing)
-        reader_warn(r, at, NULL, "has instances of a skinned mesh, which its joints place; it is drawn %s",
-                    out->instancing->count ? "once" : "nowhere, as there are 0 of them");
+    reader_leave_out(r, "the node is visible");
     if (out->mesh != SCENE_NONE)
         out->weights = read_weights(r, at, r->scene->meshes[out->mesh].weight_count);
     else if (has_member(at, "weights"))
         reader_note(r, at, "weights", "are there without a mesh");
+    if (reader_leave_out(r, "the node has the weights of its mesh"))
+        out->weights = NULL;
+}
+
+static void read_node(reader *r, const json_place *at, scene_node *out, uint32_t skin_count)
+{
+    out->name = get_name(r, at);
+    out->mesh = out->camera = out->skin = out->light = SCENE_NONE;
+    read_transform(r, at, out);
+    out->mesh = get_index(r, at, "mesh", r->scene->mesh_count, "mesh");
+    if (out->mesh != SCENE_NONE && r->meshes[out->mesh].problem.message)
+        reader_fail_deferred(r, &r->meshes[out->mesh].problem);
+    if (!reader_is_ok(r))
+        return;
+    read_attachments(r, at, out);
+    out->skin = get_index(r, at, "skin", skin_count, "skin");
+    out->instancing = read_instancing(r, at);
+    if (out->mesh == SCENE_NONE) {
+        reader_leave_out(r, "the node has no mesh");
+        if (out->skin != SCENE_NONE)
+            reader_note(r, at, "skin", "is there without a mesh");
+        if (out->instancing)
+            reader_note(r, at, NULL, "has instances, but no mesh");
+    } else if (out->skin != SCENE_NONE && out->instancing) {
+        reader_warn(r, at, NULL, "has instances of a skinned mesh, which its joints place; it is drawn %s",
+                    out->instancing->count ? "once" : "nowhere, as there are 0 of them");
+    }
     out->meta = get_meta(r, at);
 }
 
@@ -298,8 +323,14 @@ static void read_scene(reader *r, const json_place *at, scene_root *out, bool *i
         is_listed[node] = true;
         nodes[out->node_count++] = node;
     }
+    if (!reader_is_ok(r))
+        return;
     json_place light = get_extension(r, at, "EXT_lights_image_based");
     out->image_light = get_required_index(r, &light, "light", r->scene->image_light_count, "light");
+    if (out->image_light != SCENE_NONE && r->scene->image_lights[out->image_light].mip_count == 0)
+        out->image_light = SCENE_NONE; /* a warning said why */
+    if (reader_leave_out(r, "the scene has no light of images"))
+        out->image_light = SCENE_NONE;
     out->meta = get_meta(r, at);
 }
 
@@ -308,18 +339,23 @@ void read_scenes(reader *r, const json_place *root)
     json_place array = get_array(r, root, "scenes");
     size_t count = get_count(&array);
     r->scene->scenes = reader_alloc(r, "scenes", count, sizeof *r->scene->scenes);
+    uint32_t drawn = get_index(r, root, "scene", (uint32_t)count, "scene");
+    if (count && (reader_leave_out(r, "the first scene is drawn") || drawn == SCENE_NONE))
+        drawn = 0;
     bool *is_listed = mem_alloc(r->allocator, r->scene->node_count, sizeof *is_listed);
     if (!is_listed)
         reader_fail_memory(r, "scenes", r->scene->node_count);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
-        read_scene(r, &at, &r->scene->scenes[i], is_listed);
+        scene_root *scene = &r->scene->scenes[i];
+        scene->image_light = SCENE_NONE;
+        read_scene(r, &at, scene, is_listed);
+        if (i != drawn && reader_leave_out(r, "that scene is empty"))
+            scene->node_count = 0;
         r->scene->scene_count = (uint32_t)(i + 1);
     }
     mem_free(is_listed);
-    r->scene->default_scene = get_index(r, root, "scene", r->scene->scene_count, "scene");
-    if (r->scene->default_scene == SCENE_NONE && r->scene->scene_count)
-        r->scene->default_scene = 0;
+    r->scene->default_scene = drawn;
     if (reader_is_ok(r) && r->scene->scene_count == 0 && r->scene->node_count)
         reader_note(r, NULL, NULL, "has no scene; all its nodes are drawn");
 }

@@ -13,8 +13,17 @@
 
 /* ---- parsed tables of the binary data ---- */
 
+/* Why a part of the file cannot be had, of which it is not known yet whether the image needs it. */
+typedef struct reader_problem {
+    const char *message; /* NULL: none */
+    facet_result result;
+    bool is_told; /* by an error or a warning */
+} reader_problem;
+
 typedef struct gltf_buffer {
     size_t byte_length;
+    size_t available; /* bytes of data, at most byte_length */
+    reader_problem problem;
     const char *uri;           /* NULL: the binary chunk of a .glb, or nothing */
     const unsigned char *data; /* NULL: not asked for yet */
     bool is_fallback;          /* of a compression extension: for readers without it */
@@ -23,6 +32,7 @@ typedef struct gltf_buffer {
 typedef struct compressed_view compressed_view; /* gltf_meshopt.c */
 
 typedef struct gltf_view {
+    reader_problem problem; /* the rest counts where there is none */
     uint32_t buffer;
     size_t offset, length;
     size_t stride;               /* 0: tight */
@@ -50,7 +60,8 @@ typedef enum gltf_type {
 } gltf_type;
 
 typedef struct gltf_accessor {
-    uint32_t view; /* SCENE_NONE: zeros */
+    reader_problem problem; /* the rest counts where there is none */
+    uint32_t view;          /* SCENE_NONE: zeros */
     size_t offset;
     gltf_component component;
     gltf_type type;
@@ -77,6 +88,12 @@ typedef struct gltf_accessor {
     bool has_missing_normals; /* some have no direction and are 0 here */
 } gltf_accessor;
 
+/* What the reader knows of a mesh beside the scene's. */
+typedef struct gltf_mesh {
+    reader_problem problem; /* it has one primitive that draws nothing */
+    reader_problem joints;  /* it has none */
+} gltf_mesh;
+
 /* ---- state ---- */
 
 typedef struct draco_state draco_state; /* gltf_draco.c */
@@ -101,7 +118,11 @@ typedef struct reader {
     gltf_buffer *buffers;
     gltf_view *views;
     gltf_accessor *accessors;
-    const uint32_t *iota; /* 0, 1, 2, .. */
+    gltf_mesh *meshes; /* as many as the scene's */
+    gltf_mesh *mesh;   /* the one that is being read */
+    reader_problem
+        *material_problems; /* as many as the scene's materials, which are defaults where there is one */
+    const uint32_t *iota;   /* 0, 1, 2, .. */
     uint32_t iota_count;
     uint64_t work; /* elements read so far; see reader_spend() */
     bool has_quantization;
@@ -146,6 +167,20 @@ void reader_note_each(reader *r, const json_place *at, const char *key, const ch
 void reader_begin_remarks(reader *r);
 void reader_end_remarks(reader *r);
 
+/* ---- parts that an image may do without ----
+ *
+ * An error in one of them is taken back. That memory is short or a limit is reached remains an error. */
+
+/* Makes a recorded error a warning, with what comes of it: "..; CONSEQUENCE". Those of one consequence, a literal, are
+ * one line with a count. True: there was one, and the caller leaves out the part. */
+bool reader_leave_out(reader *r, const char *consequence);
+/* Keeps a recorded error as the problem of a part that may not be needed. True: there was one. */
+bool reader_defer(reader *r, reader_problem *problem);
+/* Records the problem as an error: the part is needed. Returns false. */
+bool reader_fail_deferred(reader *r, reader_problem *problem);
+/* Warns about a problem that no error and no warning has told. */
+void reader_warn_deferred(reader *r, reader_problem *problem);
+
 /* arena_zalloc() that records the error. count of 0 is allowed. */
 void *reader_alloc(reader *r, const char *what, size_t count, size_t size);
 /* The same without clearing. */
@@ -185,6 +220,11 @@ uint32_t get_required_index(reader *r, const json_place *object, const char *key
                             const char *what);
 /* The value of a place itself as an index, for elements of arrays. */
 uint32_t get_index_value(reader *r, const json_place *at, uint32_t count, const char *what);
+/* get_index() of accessors; one that has a problem is an error. */
+uint32_t get_accessor(reader *r, const json_place *object, const char *key);
+uint32_t get_required_accessor(reader *r, const json_place *object, const char *key);
+/* An index below count; SCENE_NONE where it is absent, or (not recorded) wrong. */
+uint32_t peek_index(const json_place *object, const char *key, uint32_t count);
 float get_float(reader *r, const json_place *object, const char *key, float fallback);
 /* The same; outside [minimum, maximum] it is clamped with a warning. */
 float get_float_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
@@ -210,7 +250,8 @@ void read_buffers(reader *r, const json_place *root);
 void read_views(reader *r, const json_place *root);
 /* The bytes of a view or a whole buffer; NULL, with the error recorded, where they cannot be had. */
 const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t view);
-const unsigned char *get_buffer_bytes(reader *r, uint32_t buffer);
+/* end: how many of a buffer's bytes must be there. */
+const unsigned char *get_buffer_bytes(reader *r, uint32_t buffer, size_t end);
 
 /* Whether there is something that a buffer, a view or an accessor (with its sparse parts) could be read from. A buffer
  * with neither a uri nor the binary chunk behind it is valid, but empty. */
@@ -222,8 +263,8 @@ bool is_zero_accessor(const reader *r, uint32_t accessor);
 /* Refuses (FACET_ERROR_LIMIT) an accessor without a buffer view that has many more elements than any array in the file
  * and than its sparse values: a few bytes of JSON must not take gigabytes. */
 bool check_claim(reader *r, const json_place *at, const gltf_accessor *a);
-/* Warns about the URIs of buffers that nothing used and that could not have been read. */
-void check_unused_buffers(reader *r);
+/* Warns about parts that have a problem that came up nowhere, as nothing uses them. */
+void check_unused_parts(reader *r);
 
 /* gltf_meshopt.c: EXT_meshopt_compression and KHR_meshopt_compression. */
 bool is_meshopt_fallback(reader *r, const json_place *buffer);
@@ -278,6 +319,8 @@ uint32_t get_attribute(reader *r, const json_place *attributes, const char *name
                        uint32_t vertex_count);
 /* How many of PREFIX0, PREFIX1, .. are there; at most 64. */
 uint32_t count_sets(const json_place *attributes, const char *prefix);
+/* Whether a primitive is drawn by the attribute of that name. */
+bool is_read_attribute(const char *name);
 /* Names that glTF reserves must be ones it knows, without gaps in their numbers, and all must name accessors. */
 void check_attribute_names(reader *r, const json_place *attributes);
 

@@ -93,7 +93,7 @@ static const mat4 *get_matrices(reader *r, const json_place *skin, uint32_t acce
 
 static void read_bind_matrices(reader *r, const json_place *skin, scene_skin *out)
 {
-    uint32_t index = get_index(r, skin, "inverseBindMatrices", r->accessor_count, "accessor");
+    uint32_t index = get_accessor(r, skin, "inverseBindMatrices");
     if (index == SCENE_NONE)
         return;
     const gltf_accessor *a = &r->accessors[index];
@@ -112,6 +112,14 @@ static void read_bind_matrices(reader *r, const json_place *skin, scene_skin *ou
         out->inverse_bind = get_matrices(r, skin, index, out->joint_count);
     else
         reader_warn(r, skin, "inverseBindMatrices", "is in a buffer without bytes; identities are used");
+}
+
+/* A skin that cannot be read, and may not be needed, keeps its number: it has one joint where there is a node. */
+static void make_unused_skin(reader *r, scene_skin *out)
+{
+    *out = (scene_skin){.name = out->name, .skeleton = SCENE_NONE};
+    out->joints = reader_alloc(r, "joints", 1, sizeof *out->joints);
+    out->joint_count = r->scene->node_count > 0;
 }
 
 static void read_skin(reader *r, const json_place *at, const uint32_t *roots, scene_skin *out)
@@ -140,7 +148,7 @@ static uint32_t count_joints(const scene_mesh *mesh)
 }
 
 /* Every vertex must name joints that the skins of its mesh have. */
-static void check_users(reader *r, const json_place *root)
+static void check_users(reader *r, const json_place *root, reader_problem *problems)
 {
     const facet_scene *scene = r->scene;
     json_place array = get_array(r, root, "nodes");
@@ -154,6 +162,10 @@ static void check_users(reader *r, const json_place *root)
         const scene_node *node = &scene->nodes[i];
         if (node->mesh == SCENE_NONE || node->skin == SCENE_NONE)
             continue;
+        if (problems[node->skin].message)
+            reader_fail_deferred(r, &problems[node->skin]);
+        else if (r->meshes[node->mesh].joints.message)
+            reader_fail_deferred(r, &r->meshes[node->mesh].joints);
         uint32_t *count = &joint_counts[node->mesh];
         if (*count == SCENE_NONE)
             *count = count_joints(&scene->meshes[node->mesh]);
@@ -175,13 +187,18 @@ void read_skins(reader *r, const json_place *root)
     if (count == 0)
         return;
     r->scene->skins = reader_alloc(r, "skins", count, sizeof *r->scene->skins);
+    reader_problem *problems = reader_alloc(r, "skins", count, sizeof *problems);
     uint32_t *roots = find_roots(r);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
         read_skin(r, &at, roots, &r->scene->skins[i]);
+        if (reader_defer(r, &problems[i]))
+            make_unused_skin(r, &r->scene->skins[i]);
         r->scene->skin_count = (uint32_t)(i + 1);
     }
     mem_free(roots);
     if (reader_is_ok(r))
-        check_users(r, root);
+        check_users(r, root, problems);
+    for (size_t i = 0; i < count && reader_is_ok(r); i++)
+        reader_warn_deferred(r, &problems[i]);
 }

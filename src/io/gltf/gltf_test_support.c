@@ -72,7 +72,27 @@ facet_scene *load(const char *body, const test_bin *bin)
     return scene;
 }
 
-void assert_refused(const char *body, const test_bin *bin, facet_result result, const char *text)
+/* What uses the first mesh, or the first material, of a body that says nothing of nodes. */
+static const char *use_of(const char *body)
+{
+    if (strstr(body, "'nodes'"))
+        return "";
+    return strstr(body, "'meshes'")      ? ",'nodes':[{'mesh':0}]"
+           : strstr(body, "'materials'") ? ",'nodes':[{'mesh':0}],'meshes':[{'primitives':[{'attributes':{},"
+                                           "'material':0}]}]"
+                                         : "";
+}
+
+void assert_left_out(const char *body, const test_bin *bin, const char *text)
+{
+    facet_scene *scene = load(body, bin);
+    if (!has_warning(scene, text))
+        fail_msg("no warning says \"%s\", but the first \"%s\"", text,
+                 scene->warning_count ? scene->warnings[0] : "");
+    scene_destroy(scene);
+}
+
+static void refuse(const char *body, const test_bin *bin, facet_result result, const char *text)
 {
     facet_scene *scene = (facet_scene *)1;
     facet_error error = {0};
@@ -81,6 +101,13 @@ void assert_refused(const char *body, const test_bin *bin, facet_result result, 
     assert_int_equal(error.result, result);
     if (!strstr(error.message, text))
         fail_msg("\"%s\" does not contain \"%s\"", error.message, text);
+}
+
+void assert_refused(const char *part, const test_bin *bin, facet_result result, const char *text)
+{
+    static char body[1 << 19];
+    snprintf(body, sizeof body, "%s%s", part, use_of(part));
+    refuse(body, bin, result, text);
 }
 
 bool has_warning(const facet_scene *scene, const char *text)
@@ -191,6 +218,16 @@ void model_assert_refused(const test_model *model, const char *text, const char 
     char *body = model_body(model, format, arguments);
     va_end(arguments);
     assert_refused(body, &model->bin, FACET_ERROR_INVALID, text);
+    free(body);
+}
+
+void model_assert_left_out(const test_model *model, const char *text, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *body = model_body(model, format, arguments);
+    va_end(arguments);
+    assert_left_out(body, &model->bin, text);
     free(body);
 }
 

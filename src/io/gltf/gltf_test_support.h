@@ -25,7 +25,10 @@ size_t bin_add(test_bin *bin, const void *bytes, size_t size);
 facet_result try_load(const char *body, const test_bin *bin, facet_scene **scene, facet_error *error);
 /* The same, which must succeed. */
 facet_scene *load(const char *body, const test_bin *bin);
-/* The same, which must fail with that result and a message that contains text. */
+/* The same, which must succeed with a warning that contains text. */
+void assert_left_out(const char *body, const test_bin *bin, const char *text);
+/* The same, which must fail with that result and a message that contains text. Where the body has no nodes, one uses the
+ * first mesh, or the first material. */
 void assert_refused(const char *body, const test_bin *bin, facet_result result, const char *text);
 /* Whether a warning or a note of scene contains text. */
 bool has_warning(const facet_scene *scene, const char *text);
@@ -52,6 +55,8 @@ uint32_t model_add_floats(test_model *model, const float *floats, size_t count, 
 /* load() and try_load() of BODY (a format) with the model's buffer views and accessors. */
 facet_scene *model_load(const test_model *model, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+void model_assert_left_out(const test_model *model, const char *text, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 void model_assert_refused(const test_model *model, const char *text, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* A model from the shared test data, "animation/Fox.glb"; skips the test where there is none. */

@@ -131,7 +131,10 @@ void read_images(reader *r, const json_place *root)
     r->scene->images = reader_alloc(r, "images", count, sizeof *r->scene->images);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
-        read_image(r, &at, &r->scene->images[i]);
+        scene_image *out = &r->scene->images[i];
+        read_image(r, &at, out);
+        if (reader_leave_out(r, "white is used"))
+            *out = (scene_image){.name = out->name ? out->name : "", .mime_type = "", .uri = out->uri};
         r->scene->image_count = (uint32_t)(i + 1);
     }
 }
@@ -216,7 +219,11 @@ static void read_texture(reader *r, const json_place *root, const json_place *at
     uint32_t sampler = get_index(r, at, "sampler", (uint32_t)get_count(&samplers), "sampler");
     json_place element = sampler == SCENE_NONE ? none : get_element_object(r, &samplers, sampler);
     read_texture_sampler(r, &element, out);
+    if (reader_leave_out(r, "the texture has the default sampler"))
+        read_texture_sampler(r, &none, out);
     find_source(r, at, out);
+    if (reader_leave_out(r, "white is used"))
+        out->image = SCENE_NONE;
 }
 
 void read_textures(reader *r, const json_place *root)
@@ -224,6 +231,7 @@ void read_textures(reader *r, const json_place *root)
     json_place array = get_array(r, root, "textures");
     size_t count = get_count(&array);
     get_array(r, root, "samplers"); /* checked even where nothing uses it */
+    reader_leave_out(r, "textures have the default sampler");
     r->scene->textures = reader_alloc(r, "textures", count, sizeof *r->scene->textures);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);

@@ -26,6 +26,8 @@ void read_variants(reader *r, const json_place *root)
 static void read_mapping(reader *r, const json_place *at, uint32_t *materials)
 {
     uint32_t material = get_required_index(r, at, "material", r->scene->material_count, "material");
+    if (reader_is_ok(r) && material != SCENE_NONE && r->material_problems[material].message)
+        reader_fail_deferred(r, &r->material_problems[material]);
     json_place array = get_array(r, at, "variants");
     if (reader_is_ok(r) && !array.value)
         reader_note(r, at, "variants", "is missing");
@@ -57,6 +59,7 @@ const uint32_t *read_mappings(reader *r, const json_place *primitive)
     for (size_t i = 0; i < get_count(&array) && reader_is_ok(r); i++) {
         json_place at = get_element_object(r, &array, i);
         read_mapping(r, &at, materials);
+        reader_leave_out(r, "the primitive keeps its material in that variant");
     }
     return materials;
 }
