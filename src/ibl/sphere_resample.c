@@ -31,6 +31,10 @@ typedef struct resampling {
     uint32_t *hot_numbers; /* of the source's texels, from 1 on; NULL: none is hot */
     hot_texel *hot;
     size_t hot_count;
+    uint32_t span;       /* texels of a row that are resampled at a time */
+    uint32_t span_count; /* of a row */
+    bool *is_near_hot; /* per row and span of the target: a lookup of it takes something hot, or may do so */
+    bool has_hot_excesses; /* they are known, and only what is near them is resampled, a second time */
 } resampling;
 
 /* ---- the parts of a target's texels ---- */
@@ -229,8 +233,10 @@ static bool find_hot(resampling *r, const facet_allocator *allocator)
     r->limit = choose_limit(r->source);
     for (size_t i = 0; i < count; i++)
         r->hot_count += is_hot(sphere_texel(r->source, i), r->limit);
-    if (r->hot_count == 0)
+    if (r->hot_count == 0) {
+        r->limit = INFINITY;
         return true;
+    }
     r->hot_numbers = mem_zalloc(allocator, count, sizeof *r->hot_numbers);
     r->hot = mem_alloc(allocator, r->hot_count, sizeof *r->hot);
     if (!r->hot_numbers || !r->hot)
@@ -273,17 +279,17 @@ static void cover(const resampling *r, const sphere_footprint *f, double solid_a
     }
 }
 
-static void cover_rows(void *context, size_t begin, size_t end)
+/* What the parts of a span of texels in a row cover of hot texels. */
+static void cover_span(const resampling *r, uint32_t face, uint32_t y, uint32_t x, uint32_t count)
 {
-    const resampling *r = context;
-    uint32_t rows = r->target->height * r->parts, columns = r->target->width * r->parts;
-    for (size_t i = begin * r->parts; i < end * r->parts; i++) {
-        part_row p = start_row(r, (uint32_t)(i / rows), (uint32_t)(i % rows));
-        for (uint32_t x = 0; x < columns; x += SPHERE_BATCH) {
+    const uint32_t end = (x + count) * r->parts;
+    for (uint32_t row = 0; row < r->parts; row++) {
+        part_row p = start_row(r, face, y * r->parts + row);
+        for (uint32_t i = x * r->parts; i < end; i += SPHERE_BATCH) {
             sphere_batch b;
-            uint32_t count = columns - x < SPHERE_BATCH ? columns - x : SPHERE_BATCH;
-            look_up_parts(r, &p, x, count, &b);
-            for (uint32_t k = 0; k < count; k++) {
+            const uint32_t parts = end - i < SPHERE_BATCH ? end - i : SPHERE_BATCH;
+            look_up_parts(r, &p, i, parts, &b);
+            for (uint32_t k = 0; k < parts; k++) {
                 sphere_footprint f;
                 if (!b.is_cut[k])
                     continue;
@@ -292,6 +298,17 @@ static void cover_rows(void *context, size_t begin, size_t end)
             }
         }
     }
+}
+
+static void cover_rows(void *context, size_t begin, size_t end)
+{
+    const resampling *r = context;
+    const sphere *t = r->target;
+    for (size_t i = begin; i < end; i++)
+        for (uint32_t s = 0, x = 0; s < r->span_count; s++, x += r->span)
+            if (r->is_near_hot[i * r->span_count + s])
+                cover_span(r, (uint32_t)(i / t->height), (uint32_t)(i % t->height), x,
+                           t->width - x < r->span ? t->width - x : r->span);
 }
 
 /* From excess radiance to what a lookup takes: all of them together the texel's energy. */
@@ -341,14 +358,16 @@ typedef struct texel_sum {
 } texel_sum;
 
 /* Adds a row of parts, from column first on, to the sums of their texels: a row by itself first, which keeps rounding
- * small. */
-static void add_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count, texel_sum *sums)
+ * small. Whether something hot was cut off. */
+static bool add_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count, texel_sum *sums)
 {
     sphere_batch b;
+    bool is_any_cut = false;
     look_up_parts(r, p, first, count, &b);
-    for (uint32_t k = 0; k < count && r->hot; k++) {
+    for (uint32_t k = 0; k < count; k++) {
         sphere_footprint f;
-        if (!b.is_cut[k])
+        is_any_cut |= b.is_cut[k];
+        if (!b.is_cut[k] || !r->has_hot_excesses)
             continue;
         find_part(r, &b, k, &f);
         b.radiance[k] = look_up_hot(r, &f);
@@ -365,34 +384,41 @@ static void add_parts(const resampling *r, const part_row *p, uint32_t first, ui
         s->flux += flux;
         s->solid_angle += solid_angle;
     }
+    return is_any_cut;
 }
 
-/* Texels x .. x + count - 1 of a row; all of their parts in a row are a batch, or one texel's are several. */
-static void resample_texels(const resampling *r, uint32_t face, uint32_t y, uint32_t x, uint32_t count)
+/* Texels x .. x + count - 1 of a row; all of their parts in a row are a batch, or one texel's are several. Whether
+ * something hot was cut off. */
+static bool resample_span(const resampling *r, uint32_t face, uint32_t y, uint32_t x, uint32_t count)
 {
     texel_sum sums[SPHERE_BATCH];
+    bool is_any_cut = false;
     for (uint32_t i = 0; i < count; i++)
         sums[i] = (texel_sum){{0.0f, 0.0f, 0.0f, 0.0f}, 0.0f};
     for (uint32_t row = 0; row < r->parts; row++) {
         part_row p = start_row(r, face, y * r->parts + row);
         uint32_t parts = count * r->parts;
         for (uint32_t k = 0; k < parts; k += SPHERE_BATCH)
-            add_parts(r, &p, x * r->parts + k, parts - k < SPHERE_BATCH ? parts - k : SPHERE_BATCH, sums);
+            is_any_cut |=
+                add_parts(r, &p, x * r->parts + k, parts - k < SPHERE_BATCH ? parts - k : SPHERE_BATCH, sums);
     }
     for (uint32_t i = 0; i < count; i++)
         store_texel(r->target, face, x + i, y,
                     sums[i].flux * rgbx_splat(r->turn->scale / sums[i].solid_angle));
+    return is_any_cut;
 }
 
 static void resample_rows(void *context, size_t begin, size_t end)
 {
     const resampling *r = context;
     const sphere *t = r->target;
-    uint32_t step = r->parts < SPHERE_BATCH ? SPHERE_BATCH / r->parts : 1;
     for (size_t i = begin; i < end; i++)
-        for (uint32_t x = 0; x < t->width; x += step)
-            resample_texels(r, (uint32_t)(i / t->height), (uint32_t)(i % t->height), x,
-                            t->width - x < step ? t->width - x : step);
+        for (uint32_t s = 0, x = 0; s < r->span_count; s++, x += r->span) {
+            bool *is_near_hot = &r->is_near_hot[i * r->span_count + s];
+            if (*is_near_hot || !r->has_hot_excesses)
+                *is_near_hot = resample_span(r, (uint32_t)(i / t->height), (uint32_t)(i % t->height), x,
+                                             t->width - x < r->span ? t->width - x : r->span);
+        }
 }
 
 facet_result sphere_resample(const sphere *source, const sphere_turn *turn, const facet_allocator *allocator,
@@ -405,15 +431,21 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
                     .parts = choose_parts(source, target)};
     size_t rows = (size_t)target->height * (target->kind == SPHERE_CUBE ? 6 : 1);
     facet_result result = FACET_OK;
-    if (!make_columns(&r, allocator) || !find_hot(&r, allocator)) {
+    r.span = r.parts < SPHERE_BATCH ? SPHERE_BATCH / r.parts : 1;
+    r.span_count = (target->width - 1) / r.span + 1;
+    r.is_near_hot = mem_zalloc(allocator, rows, r.span_count);
+    if (!r.is_near_hot || !make_columns(&r, allocator) || !find_hot(&r, allocator)) {
         result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.hot_numbers);
     } else {
-        if (r.hot) {
+        parallel_for(thread_count, rows, 2, resample_rows, &r);
+        if (r.hot) { /* where it is near, once more */
             parallel_for(thread_count, rows, 2, cover_rows, &r);
             scale_hot(&r);
+            r.has_hot_excesses = true;
+            parallel_for(thread_count, rows, 2, resample_rows, &r);
         }
-        parallel_for(thread_count, rows, 2, resample_rows, &r);
     }
+    mem_free(r.is_near_hot);
     mem_free(r.columns);
     mem_free(r.hot_numbers);
     mem_free(r.hot);
