@@ -181,7 +181,10 @@ static void check_mean(const facet_environment *e, const cube *c, double toleran
 static bytes encode_exr(const image *rgb, unsigned char envmap)
 {
     static const char *const names[3] = {"R", "G", "B"};
-    const image_layer layer = {names, 3, rgb->pixels, image_row_size(rgb)};
+    const image_layer layer = {.channel_names = names,
+                               .channel_count = 3,
+                               .pixels = rgb->pixels,
+                               .row_stride_bytes = image_row_size(rgb)};
     bytes plain, b;
     assert_int_equal(
         image_encode_exr(rgb->width, rgb->height, &layer, 1, false, NULL, &plain.data, &plain.size, NULL),

@@ -135,7 +135,8 @@ static image through_chromaticities(const char *const names[3], const char *laye
                                     const float values[8], image_note *note)
 {
     static const float texel[3] = {1, 2, 4};
-    const image_layer l = {names, 3, texel, sizeof texel};
+    const image_layer l = {
+        .channel_names = names, .channel_count = 3, .pixels = texel, .row_stride_bytes = sizeof texel};
     unsigned char *plain, value[32];
     size_t size;
     facet_error error;
