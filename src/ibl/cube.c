@@ -72,7 +72,7 @@ void cube_fill_borders(cube *c)
     }
 }
 
-static double corner_angle(double s, double t)
+double cube_corner_angle(double s, double t)
 {
     return atan2(s * t, sqrt(s * s + t * t + 1.0));
 }
@@ -84,7 +84,8 @@ double cube_texel_solid_angle(uint32_t size, uint32_t x, uint32_t y)
     double t0 = y * step - 1.0;
     double s1 = (x + 1) * step - 1.0;
     double t1 = (y + 1) * step - 1.0;
-    return corner_angle(s1, t1) - corner_angle(s0, t1) - corner_angle(s1, t0) + corner_angle(s0, t0);
+    return cube_corner_angle(s1, t1) - cube_corner_angle(s0, t1) - cube_corner_angle(s1, t0) +
+           cube_corner_angle(s0, t0);
 }
 
 void cube_mean(const cube *c, double mean[3])

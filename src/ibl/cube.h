@@ -79,6 +79,8 @@ static inline rgbx cube_fetch(const cube *c, cube_point p)
 /* Solid angle of a texel, sr; those of six faces add up to 4 pi. Exact: differences of
  * atan2(s t, sqrt(s^2 + t^2 + 1)) at the corners (Driscoll 2012, "Cubemap Texel Solid Angle"). */
 double cube_texel_solid_angle(uint32_t size, uint32_t x, uint32_t y);
+/* Solid angle of the face from its middle to (s, t); texels are differences of these. */
+double cube_corner_angle(double s, double t);
 /* Mean radiance over the sphere, texels weighted with their solid angle. */
 void cube_mean(const cube *c, double mean[3]);
 

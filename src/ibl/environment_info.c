@@ -27,25 +27,41 @@ static void add_texel(row_sum *r, const float *c, double solid_angle)
     r->solid_angle += solid_angle;
 }
 
-/* The faces where there are any, else the picture. */
-static void measure_rows(void *context, size_t begin, size_t end)
+/* Row y of all six faces, whose texels have the same solid angles: as cube_texel_solid_angle() has them, each corner
+ * computed once in a row. */
+static void measure_face_rows(void *context, size_t begin, size_t end)
 {
     const measuring *m = context;
     const cube *c = &m->environment->faces;
+    const double step = 2.0 / c->size;
+    for (size_t y = begin; y < end; y++) {
+        const double above = (double)y * step - 1.0, below = (double)(y + 1) * step - 1.0;
+        double left_above = cube_corner_angle(-1.0, above), left_below = cube_corner_angle(-1.0, below);
+        row_sum sums[6] = {{{0.0}, 0.0, 0.0f}};
+        for (uint32_t x = 0; x < c->size; x++) {
+            const double right = (x + 1) * step - 1.0;
+            const double right_above = cube_corner_angle(right, above),
+                         right_below = cube_corner_angle(right, below);
+            const double solid_angle = right_below - left_below - right_above + left_above;
+            for (uint32_t face = 0; face < 6; face++)
+                add_texel(&sums[face], (const float *)cube_texel(c, face, (int)x, (int)y), solid_angle);
+            left_above = right_above;
+            left_below = right_below;
+        }
+        for (uint32_t face = 0; face < 6; face++)
+            m->rows[face * c->size + y] = sums[face];
+    }
+}
+
+static void measure_picture_rows(void *context, size_t begin, size_t end)
+{
+    const measuring *m = context;
     const image *p = &m->environment->picture;
     for (size_t row = begin; row < end; row++) {
         row_sum sum = {0};
-        if (c->texels) {
-            uint32_t y = (uint32_t)(row % c->size);
-            for (uint32_t x = 0; x < c->size; x++) {
-                rgbx texel = *cube_texel(c, (uint32_t)(row / c->size), (int)x, (int)y);
-                add_texel(&sum, (const float *)&texel, cube_texel_solid_angle(c->size, x, y));
-            }
-        } else {
-            double solid_angle = equirect_texel_solid_angle(p->width, p->height, (uint32_t)row);
-            for (size_t x = 0; x < p->width; x++)
-                add_texel(&sum, (const float *)p->pixels + 3 * (row * p->width + x), solid_angle);
-        }
+        double solid_angle = equirect_texel_solid_angle(p->width, p->height, (uint32_t)row);
+        for (size_t x = 0; x < p->width; x++)
+            add_texel(&sum, (const float *)p->pixels + 3 * (row * p->width + x), solid_angle);
         m->rows[row] = sum;
     }
 }
@@ -63,7 +79,10 @@ facet_result facet_environment_get_info(const facet_environment *environment, fa
     measuring m = {e, mem_alloc(&e->allocator, count, sizeof(row_sum))};
     if (!m.rows)
         return fail_memory(error, "environment", count * sizeof(row_sum));
-    parallel_for(0, count, 16, measure_rows, &m);
+    if (e->faces.texels) /* else the picture */
+        parallel_for(0, e->faces.size, 16, measure_face_rows, &m);
+    else
+        parallel_for(0, count, 16, measure_picture_rows, &m);
     double solid_angle = 0.0;
     for (size_t row = 0; row < count; row++) {
         for (int i = 0; i < 3; i++)
