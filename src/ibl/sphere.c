@@ -138,16 +138,20 @@ static inline rgbx interpolate(const rgbx c[4], float wx, float wy)
 
 typedef int32_t rgbx_mask __attribute__((vector_size(16)));
 
+typedef int64_t rgbx_halves __attribute__((vector_size(16)));
+
 /* Cuts four texels off at limit, whose fourth lane is infinite; whether there was need. */
 static inline bool cut_off(rgbx c[4], rgbx limit)
 {
-    rgbx_mask is_above = {0, 0, 0, 0};
+    const rgbx_halves is_above =
+        (rgbx_halves)((c[0] > limit) | (c[1] > limit) | (c[2] > limit) | (c[3] > limit));
+    if (!(is_above[0] | is_above[1]))
+        return false;
     for (int i = 0; i < 4; i++) {
         rgbx_mask m = c[i] > limit;
         c[i] = (rgbx)((m & (rgbx_mask)limit) | (~m & (rgbx_mask)c[i]));
-        is_above |= m;
     }
-    return is_above[0] | is_above[1] | is_above[2];
+    return true;
 }
 
 /* The four texels of each lookup of a batch. */
@@ -168,22 +172,31 @@ DISPATCH_AVX2 static void sphere_find_places(float size, const sphere_batch *bat
     }
 }
 
-static inline void look_up_cube(const sphere *s, sphere_batch *batch, uint32_t count, bool is_limited,
-                                rgbx limit)
+DISPATCH_AVX2 static void sphere_look_up_places(const sphere *s, const places *p, uint32_t count,
+                                                bool is_limited, const float limits[4], sphere_batch *batch)
 {
-    int last = (int)s->width - 1;
+    const int last = (int)s->width - 1;
+    const size_t pitch = s->width + 2;
+    const rgbx *const first = cube_texel(s->cube, 0, 0, 0);
+    const rgbx limit = {limits[0], limits[1], limits[2], limits[3]};
+    for (uint32_t i = 0; i < count; i++) {
+        const int x = p->x[i], y = p->y[i];
+        const rgbx *row = first + ((ptrdiff_t)((size_t)p->face[i] * pitch) + y) * (ptrdiff_t)pitch + x;
+        const rgbx *next = row + pitch;
+        rgbx c[4] = {row[0], row[1], next[0], next[1]};
+        /* the border's corner is a mean, which may be below the limit where one of three texels is not */
+        batch->is_cut[i] =
+            is_limited && (cut_off(c, limit) | (((x < 0) | (x == last)) & ((y < 0) | (y == last))));
+        batch->radiance[i] = interpolate(c, p->wx[i], p->wy[i]);
+    }
+}
+
+static void look_up_cube(const sphere *s, sphere_batch *batch, uint32_t count, float limit)
+{
     places p;
     sphere_find_places((float)s->width, batch, count, &p);
-    for (uint32_t i = 0; i < count; i++) {
-        int x = p.x[i], y = p.y[i];
-        const rgbx *row = cube_texel(s->cube, (uint32_t)p.face[i], x, y);
-        const rgbx *next = row + s->width + 2;
-        rgbx c[4] = {row[0], row[1], next[0], next[1]};
-        batch->is_cut[i] = is_limited && cut_off(c, limit);
-        /* the border's corner is a mean, which may be below the limit where one of three texels is not */
-        batch->is_cut[i] |= is_limited && (x < 0 || x == last) && (y < 0 || y == last);
-        batch->radiance[i] = interpolate(c, p.wx[i], p.wy[i]);
-    }
+    sphere_look_up_places(s, &p, count, limit < INFINITY, (const float[4]){limit, limit, limit, INFINITY},
+                          batch);
 }
 
 static void look_up_picture(const sphere *s, sphere_batch *batch, uint32_t count, rgbx limit)
@@ -201,12 +214,10 @@ static void look_up_picture(const sphere *s, sphere_batch *batch, uint32_t count
 void sphere_look_up(const sphere *s, sphere_batch *batch, uint32_t count, float limit)
 {
     const rgbx limits = {limit, limit, limit, INFINITY};
-    if (s->kind != SPHERE_CUBE)
-        look_up_picture(s, batch, count, limits);
-    else if (limit < INFINITY)
-        look_up_cube(s, batch, count, true, limits);
+    if (s->kind == SPHERE_CUBE)
+        look_up_cube(s, batch, count, limit);
     else
-        look_up_cube(s, batch, count, false, limits);
+        look_up_picture(s, batch, count, limits);
 }
 
 /* ---- footprints ---- */

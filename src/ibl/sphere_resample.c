@@ -194,65 +194,114 @@ static uint32_t choose_parts(const sphere *source, const sphere *target)
 
 /* ---- what is hot ---- */
 
-static bool is_hot(rgbx c, float limit)
-{
-    return c[0] > limit || c[1] > limit || c[2] > limit;
-}
+/* What a row of the source holds. */
+typedef struct row_survey {
+    double sum;         /* of all numbers, each cut off at the limit */
+    uint32_t hot_count; /* texels above it */
+} row_survey;
 
-/* Of all numbers, each cut off at limit. Not weighted with solid angles: it decides nothing but how exact the sum is. */
-static double mean_below(const sphere *s, float limit)
+typedef struct survey {
+    const sphere *source;
+    float limit;
+    row_survey *rows;
+} survey;
+
+/* The first texel of a row, and how many floats are from one to the next. */
+static const float *get_row(const sphere *s, size_t row, size_t *step)
 {
-    size_t count = sphere_texel_count(s);
-    double sum = 0.0;
-    for (size_t i = 0; i < count; i++) {
-        rgbx c = sphere_texel(s, i);
-        for (int k = 0; k < 3; k++)
-            sum += (double)(c[k] < limit ? c[k] : limit);
+    if (s->kind == SPHERE_CUBE) {
+        *step = sizeof(rgbx) / sizeof(float);
+        return (const float *)cube_texel(s->cube, (uint32_t)(row / s->height), 0, (int)(row % s->height));
     }
-    return sum / (3.0 * (double)count);
+    *step = s->channel_count;
+    return s->pixels + row * s->width * s->channel_count;
 }
 
-/* hot_contrast times the mean of what is not hot, nearly: a sun that is most of the light counts little; infinite in the
- * dark. No more than a part in hot_contrast of all texels is above. */
-static float choose_limit(const sphere *s)
+static bool is_hot(const float *c, float limit)
+{
+    return (c[0] > limit) | (c[1] > limit) | (c[2] > limit);
+}
+
+static void survey_rows(void *context, size_t begin, size_t end)
+{
+    const survey *v = context;
+    const float limit = v->limit;
+    for (size_t row = begin; row < end; row++) {
+        double sums[3] = {0.0, 0.0, 0.0};
+        uint32_t hot_count = 0;
+        size_t step;
+        const float *c = get_row(v->source, row, &step);
+        for (uint32_t x = 0; x < v->source->width; x++, c += step) {
+            for (int k = 0; k < 3; k++)
+                sums[k] += (double)(c[k] < limit ? c[k] : limit);
+            hot_count += is_hot(c, limit);
+        }
+        v->rows[row] = (row_survey){sums[0] + sums[1] + sums[2], hot_count};
+    }
+}
+
+static size_t count_rows(const sphere *s)
+{
+    return (size_t)s->height * (s->kind == SPHERE_CUBE ? 6 : 1);
+}
+
+/* The limit: hot_contrast times the mean of what is not hot, nearly: a sun that is most of the light counts little;
+ * infinite in the dark. No more than a part in hot_contrast of all texels is above. The mean is not weighted with solid
+ * angles: it decides nothing but how exact the sum is. Leaves the hot texels of each row counted in v->rows. */
+static void choose_limit(survey *v, uint32_t thread_count)
 {
     enum { ROUNDS = 4 };
-    double limit = (double)INFINITY;
-    for (int round = 0; round < ROUNDS; round++) {
-        limit = hot_contrast * mean_below(s, (float)limit);
-        if (!(limit > 0.0))
-            return INFINITY;
+    const size_t rows = count_rows(v->source);
+    v->limit = INFINITY;
+    for (int round = 0; round <= ROUNDS; round++) {
+        parallel_for(thread_count, rows, 16, survey_rows, v);
+        double sum = 0.0;
+        for (size_t row = 0; row < rows; row++)
+            sum += v->rows[row].sum;
+        const double limit = hot_contrast * sum / (3.0 * (double)sphere_texel_count(v->source));
+        if (round < ROUNDS)
+            v->limit = limit > 0.0 ? (float)limit : INFINITY;
     }
-    return (float)limit;
+}
+
+/* Lists what is hot of the rows that have some. */
+static void list_hot(resampling *r, const row_survey *rows)
+{
+    uint32_t number = 0;
+    for (size_t row = 0; number < r->hot_count; row++) {
+        size_t step;
+        const float *c = get_row(r->source, row, &step);
+        for (uint32_t x = 0; x < r->source->width && rows[row].hot_count > 0; x++, c += step) {
+            if (!is_hot(c, r->limit))
+                continue;
+            hot_texel *h = &r->hot[number];
+            h->texel = row * r->source->width + x;
+            h->excess = rgbx_not_negative((rgbx){c[0], c[1], c[2], 0.0f} - rgbx_splat(r->limit));
+            atomic_init(&h->covered, 0);
+            r->hot_numbers[h->texel] = ++number;
+        }
+    }
 }
 
 /* Numbers what is hot. False: no memory. */
-static bool find_hot(resampling *r, const facet_allocator *allocator)
+static bool find_hot(resampling *r, const facet_allocator *allocator, uint32_t thread_count)
 {
-    size_t count = sphere_texel_count(r->source);
-    r->limit = choose_limit(r->source);
-    for (size_t i = 0; i < count; i++)
-        r->hot_count += is_hot(sphere_texel(r->source, i), r->limit);
-    if (r->hot_count == 0) {
-        r->limit = INFINITY;
-        return true;
-    }
-    r->hot_numbers = mem_zalloc(allocator, count, sizeof *r->hot_numbers);
-    r->hot = mem_alloc(allocator, r->hot_count, sizeof *r->hot);
-    if (!r->hot_numbers || !r->hot)
+    const size_t rows = count_rows(r->source);
+    survey v = {.source = r->source, .rows = mem_alloc(allocator, rows, sizeof *v.rows)};
+    if (!v.rows)
         return false;
-    uint32_t number = 0;
-    for (size_t i = 0; i < count; i++) {
-        rgbx c = sphere_texel(r->source, i);
-        if (!is_hot(c, r->limit))
-            continue;
-        hot_texel *h = &r->hot[number];
-        h->texel = i;
-        h->excess = rgbx_not_negative(c - rgbx_splat(r->limit));
-        atomic_init(&h->covered, 0);
-        r->hot_numbers[i] = ++number;
+    choose_limit(&v, thread_count);
+    for (size_t row = 0; row < rows; row++)
+        r->hot_count += v.rows[row].hot_count;
+    r->limit = r->hot_count ? v.limit : INFINITY;
+    if (r->hot_count) {
+        r->hot_numbers = mem_zalloc(allocator, sphere_texel_count(r->source), sizeof *r->hot_numbers);
+        r->hot = mem_alloc(allocator, r->hot_count, sizeof *r->hot);
+        if (r->hot_numbers && r->hot)
+            list_hot(r, v.rows);
     }
-    return true;
+    mem_free(v.rows);
+    return r->hot_count == 0 || (r->hot_numbers && r->hot);
 }
 
 /* The hot texel of a number of the source; NULL: it is not hot. */
@@ -428,13 +477,13 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
     resampling r = {.source = source,
                     .target = target,
                     .turn = turn ? turn : &as_it_is,
-                    .parts = choose_parts(source, target)};
-    size_t rows = (size_t)target->height * (target->kind == SPHERE_CUBE ? 6 : 1);
+                    .parts = turn && turn->parts ? turn->parts : choose_parts(source, target)};
+    const size_t rows = count_rows(target);
     facet_result result = FACET_OK;
     r.span = r.parts < SPHERE_BATCH ? SPHERE_BATCH / r.parts : 1;
     r.span_count = (target->width - 1) / r.span + 1;
     r.is_near_hot = mem_zalloc(allocator, rows, r.span_count);
-    if (!r.is_near_hot || !make_columns(&r, allocator) || !find_hot(&r, allocator)) {
+    if (!r.is_near_hot || !make_columns(&r, allocator) || !find_hot(&r, allocator, thread_count)) {
         result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.hot_numbers);
     } else {
         parallel_for(thread_count, rows, 2, resample_rows, &r);
