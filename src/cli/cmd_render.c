@@ -397,6 +397,8 @@ static facet_result begin(render_run *run, command_line *c, config *storage, fac
         return result;
     run->allocator = facet_budget_allocator(run->budget);
     run->messages.verbosity = messages_verbosity(c);
+    if (run->options.note[0])
+        message_at(&run->messages, VERBOSITY_NORMAL, "%s", run->options.note);
     run->progress = progress_choose(option_choice(c, OPT_PROGRESS, 0), is_given(c, OPT_QUIET));
     return FACET_OK;
 }

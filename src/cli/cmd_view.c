@@ -163,6 +163,8 @@ static facet_result begin(view_run_state *run, command_line *c, config *storage,
         return result;
     run->allocator = facet_budget_allocator(run->budget);
     run->messages.verbosity = messages_verbosity(c);
+    if (run->options.note[0])
+        message_at(&run->messages, VERBOSITY_NORMAL, "%s", run->options.note);
     return FACET_OK;
 }
 

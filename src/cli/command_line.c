@@ -134,6 +134,10 @@ static facet_result parse_long(command_line *c, int argc, char **argv, int *at, 
     size_t length = strcspn(name, "=");
     const char *value = name[length] == '=' ? name + length + 1 : NULL;
     const option *o = option_find(c->verb, name, length);
+    if (!o) {
+        o = option_find_attribute(c->verb, name, length);
+        c->has_attributes = c->has_attributes || o;
+    }
     if (!o)
         return suggest_option(c->verb, name, length, error);
     if (option_takes_value(o)) {

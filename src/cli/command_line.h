@@ -21,6 +21,7 @@ typedef struct command_line {
     const char **arguments; /* what is no option, in order */
     size_t argument_count;
     const char *config_name; /* for messages on values from there */
+    bool has_attributes;     /* some options were given by the names that <model-viewer> has for them */
 } command_line;
 
 /* Reads argv (without program and verb). Options stand anywhere until "--"; --name=value, --name value, -xvalue,

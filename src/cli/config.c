@@ -83,6 +83,10 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
     const char *path = c->config_name;
     const option *o = option_find(c->verb, name, strlen(name));
     if (!o) {
+        o = option_find_attribute(c->verb, name, strlen(name));
+        c->has_attributes = c->has_attributes || o;
+    }
+    if (!o) {
         facet_error suggestion;
         suggest_option(c->verb, name, strlen(name), &suggestion);
         return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %.900s", path, suggestion.message);

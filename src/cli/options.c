@@ -99,6 +99,22 @@ bool option_is_planned(const char *name)
     return is_among(name, WORDS("material-override", "shard"));
 }
 
+/* Attributes of <model-viewer> whose values are those of an option here. */
+static const struct {
+    const char *name;
+    option_id id;
+} attributes[] = {{"camera-orbit", OPT_ORBIT},   {"camera-target", OPT_TARGET},
+                  {"field-of-view", OPT_FOV},    {"environment-image", OPT_ENV},
+                  {"variant-name", OPT_VARIANT}, {"animation-name", OPT_ANIMATION}};
+
+const option *option_find_attribute(const verb *v, const char *name, size_t length)
+{
+    for (size_t i = 0; i < sizeof attributes / sizeof *attributes; i++)
+        if (strlen(attributes[i].name) == length && memcmp(attributes[i].name, name, length) == 0)
+            return option_find_id(v, attributes[i].id);
+    return NULL;
+}
+
 const option *option_find(const verb *v, const char *name, size_t length)
 {
     for (const option_group *const *g = v->groups; *g; g++)

@@ -252,6 +252,8 @@ bool verb_is_planned(const char *name);
 bool option_is_planned(const char *name);
 
 const option *option_find(const verb *v, const char *name, size_t length); /* NULL: none */
+/* The option that an attribute of <model-viewer> is another name for, as camera-orbit of orbit; NULL: none. */
+const option *option_find_attribute(const verb *v, const char *name, size_t length);
 const option *option_find_letter(const verb *v, char letter);
 const option *option_find_id(const verb *v, option_id id);
 static inline bool option_takes_value(const option *o)

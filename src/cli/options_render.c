@@ -182,7 +182,7 @@ static const option color_options[] = {
      .kind = OPTION_TEXT,
      .argument = "STOPS",
      .default_text = "0",
-     .help = "+1 is twice as bright; 2x is the factor 2, as exposure=\"2\" of model-viewer"},
+     .help = "+1 is twice as bright; 2x is the factor 2, which exposure=\"2\" of model-viewer means"},
     {.id = OPT_TONE_MAPPING,
      .name = "tone-mapping",
      .kind = OPTION_CHOICE,

@@ -2,6 +2,7 @@
 #include "cli/picture_options.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -119,6 +120,13 @@ facet_result picture_options_exposure(const command_line *c, render_options *out
     double stops = 0.0;
     if (is_given(c, OPT_EXPOSURE) && !value_exposure(option_text(c, OPT_EXPOSURE, ""), &stops))
         return option_fail(c, OPT_EXPOSURE, "stops such as +0.5, or a factor such as 2x", error);
+    const char *text = option_text(c, OPT_EXPOSURE, "+0");
+    double plain;
+    if (c->has_attributes && text[0] != '+' && text[0] != '-' && value_number(text, &plain))
+        snprintf(out->note, sizeof out->note,
+                 "--exposure %s: read as stops, a factor of %.4g; model-viewer's exposure is the factor: for "
+                 "that write --exposure %sx",
+                 text, exp2(stops), text);
     out->desc.exposure_ev = (float)stops;
     return FACET_OK;
 }

@@ -10,6 +10,7 @@
 #include "facet/facet.h"
 
 typedef struct render_options {
+    char note[256]; /* how an option was read that might mean something else; "": nothing to say */
     /* picture */
     const char *output; /* pattern; NULL: named after the model */
     bool is_stdout;

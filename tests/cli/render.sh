@@ -55,6 +55,17 @@ compare differ "" "--target 0.5,0,0"
 compare differ "" "--eye 1,1,5"
 compare differ "" "--exposure 1"
 compare same "--exposure 1" "--exposure 2x"
+
+# Attributes of model-viewer; its exposure is a factor, which is said once and only where it may be meant.
+expect 0 render $small -o a.png --camera-orbit "45deg 55deg 4m" --camera-target "0m 0m auto" --field-of-view 30deg
+expect 0 render $small -o b.png --orbit 45,55,4m --target 0,0,auto --fov 30
+cmp -s a.png b.png || failed "attributes of model-viewer are other options"
+expect 0 render $small -o a.png --camera-orbit 45deg --exposure 1.2 --strict
+says "exposure is the factor: for that write --exposure 1.2x"
+for plain in "--exposure 1.2" "--camera-orbit 45deg --exposure 1.2x" "--camera-orbit 45deg --exposure +1.2"; do
+    expect 0 render $small -o a.png $plain
+    grep -q 'the factor' err && failed "a note on what is plain: $plain"
+done
 compare differ "" "--tone-mapping agx"
 compare same "" "--tone-mapping neutral"
 compare differ "" "--env white"

@@ -39,7 +39,7 @@ says "the command comes first"
 
 expect 2 render --resolution=640,480
 says "did you mean --size 640x480?"
-for option in --hdri-file --output-file --width --environment-image --camera-orbit --no-background --tonemap --spp; do
+for option in --hdri-file --output-file --width --skybox-image --no-background --tonemap --spp; do
     expect 2 render $option x
     says "did you mean --"
 done
