@@ -234,9 +234,9 @@ static void test_bad_config(void **state)
         {"{\"json\": \"yes\"}", "true or false", FACET_ERROR_ARGUMENT},
         {"{\"config\": \"x\"}", "cannot stand", FACET_ERROR_ARGUMENT},
         {"{\"output\": [[1]]}", "must be text", FACET_ERROR_ARGUMENT},
-        {"[]", "one JSON object", FACET_ERROR_INVALID},
-        {"{\"size\": 1,\n \"size\": 2}", "line 2", FACET_ERROR_INVALID},
-        {"{", "line 1", FACET_ERROR_INVALID},
+        {"[]", "one JSON object", FACET_ERROR_ARGUMENT},
+        {"{\"size\": 1,\n \"size\": 2}", "line 2", FACET_ERROR_ARGUMENT},
+        {"{", "line 1", FACET_ERROR_ARGUMENT},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         config storage = {0};

@@ -133,6 +133,6 @@ printf '{"siez": 3}' >c.json
 expect 2 render --config c.json
 says "c.json: unknown option --siez; did you mean --size?"
 printf '{"size": ' >c.json
-expect 4 render --config c.json
+expect 2 render --config c.json
 expect 3 render --config missing.json
 finish
