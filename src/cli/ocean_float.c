@@ -39,6 +39,22 @@ static facet_result read_berth(const ocean_run *run, char *path, size_t size, oc
     return FACET_OK;
 }
 
+/* Waves are around the origin of the sea. */
+static void warn_of_origin(ocean_run *run, const char *path)
+{
+    double origin[3];
+    facet_scene_get_origin(run->model, origin);
+    if (origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0)
+        return;
+    char text[4400];
+    snprintf(
+        text, sizeof text,
+        "--with: %s is far from the origin of its file; it floats as if that were at %.15g, %.15g, %.15g",
+        path, origin[0], origin[1], origin[2]);
+    facet_log log = messages_log(&run->messages);
+    log.message(log.user, FACET_LOG_WARNING, text);
+}
+
 facet_result ocean_float_load(ocean_run *run, facet_error *error)
 {
     char path[4096];
@@ -57,6 +73,7 @@ facet_result ocean_float_load(ocean_run *run, facet_error *error)
     /* where it is, before it is put elsewhere */
     if (!facet_scene_get_bounds(run->model, NULL, run->model_low, run->model_high))
         return fail_with(error, FACET_ERROR_ARGUMENT, "%s: there is nothing in it that floats", path);
+    warn_of_origin(run, path);
     return FACET_OK;
 }
 

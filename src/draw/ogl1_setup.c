@@ -84,10 +84,13 @@ static void set_view(ogl1_setup *s, const camera_rays *camera)
 
 /* ---- lights ---- */
 
-static PhongLight make_light(const ogl1_setup *s, const legacy_light *l)
+/* origin: the scene's, as places of lights are in the file's coordinates. */
+static PhongLight make_light(const ogl1_setup *s, const legacy_light *l, const double origin[3])
 {
     float w = l->is_point ? 1.0f : s->rules.direction_w;
     vec3 position = load3(l->position);
+    for (int k = 0; k < 3 && l->is_point && !l->is_viewpoint_relative; k++)
+        position[k] = (float)((double)l->position[k] - origin[k]);
     if (!l->is_viewpoint_relative)
         position = phong_to_eye(s->view, s->translation, position, w);
     vec3 ambient = computed(s, l->ambient);
@@ -108,8 +111,8 @@ static legacy_light fallback_light(const ogl1_setup *s)
     return light;
 }
 
-static facet_result make_lights(ogl1_setup *s, const scene_legacy *legacy, const facet_render_desc *desc,
-                                const light_setup *light, facet_error *error)
+static facet_result make_lights(ogl1_setup *s, const scene_legacy *legacy, const double origin[3],
+                                const facet_render_desc *desc, const light_setup *light, facet_error *error)
 {
     legacy_light default_light = fallback_light(s);
     const legacy_light *lights = legacy->lights;
@@ -125,7 +128,7 @@ static facet_result make_lights(ogl1_setup *s, const scene_legacy *legacy, const
         return fail_memory(error, "lights", count * sizeof *s->lights);
     s->light_count = count;
     for (uint32_t i = 0; i < count; i++)
-        s->lights[i] = make_light(s, &lights[i]);
+        s->lights[i] = make_light(s, &lights[i], origin);
     return FACET_OK;
 }
 
@@ -185,7 +188,7 @@ facet_result ogl1_setup_create(const ogl1_source *source, const camera_rays *cam
         plans->items[i].legacy_maps = maps;
         plans->items[i].reads_changes = maps != 0;
     }
-    facet_result result = make_lights(out, legacy, desc, light, error);
+    facet_result result = make_lights(out, legacy, scene->origin, desc, light, error);
     if (result != FACET_OK)
         ogl1_setup_destroy(out);
     return result;

@@ -36,6 +36,7 @@ typedef struct stage {
     double radius;
     float eye[3];
     double axes[3][3]; /* right, up, backward: unit, world space */
+    double origin[3];  /* the scene's: lights of OpenGL 1 stand in the file's coordinates, as nodes do */
 } stage;
 
 static void set_camera(stage *s, const facet_camera *camera)
@@ -62,6 +63,7 @@ static void set_camera(stage *s, const facet_camera *camera)
 static facet_result set_stage(const facet_scene *scene, stage *s, facet_error *error)
 {
     *s = (stage){.radius = 1};
+    memcpy(s->origin, scene->origin, sizeof s->origin);
     facet_camera camera = {.eye = {0, 0, 1}};
     const facet_orbit orbit = scene_orbit_default();
     scene_pose pose;
@@ -132,8 +134,10 @@ static void make_light(conversion *c, const stage *s, const legacy_light *in, sc
                          .skin = SCENE_NONE};
     if (in->is_point) {
         float at[3];
-        for (int k = 0; k < 3; k++)
-            node->translation[k] = (double)(at[k] = (float)place[k]);
+        for (int k = 0; k < 3; k++) {
+            at[k] = (float)(in->is_viewpoint_relative ? place[k] : place[k] - s->origin[k]);
+            node->translation[k] = s->origin[k] + (double)at[k];
+        }
         /* Within the scene there is no one distance: a light in its middle is right at half its reach. */
         double reach = fmax(distance(at, s->center), 0.5 * s->radius);
         light->type = SCENE_LIGHT_POINT;
@@ -254,7 +258,8 @@ static void make_legacy(conversion *c, const stage *s, const scene_posed_light *
     out->is_viewpoint_relative = false;
     out->is_point = light->type != SCENE_LIGHT_DIRECTIONAL;
     for (int k = 0; k < 3; k++)
-        out->position[k] = out->is_point ? in->position[k] : -in->direction[k];
+        out->position[k] =
+            out->is_point ? (float)(s->origin[k] + (double)in->position[k]) : -in->direction[k];
     if (out->is_point) {
         double reach = fmax(distance(in->position, s->center), 0.5 * s->radius);
         illuminance /= reach > 0 ? reach * reach : 1.0;

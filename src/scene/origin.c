@@ -224,9 +224,9 @@ static facet_result find_scene_origin(facet_scene *scene, samples *s, facet_erro
 
 /* ---- meshes ---- */
 
-/* The mesh that has lost most detail. */
+/* What has lost most detail: vertices of a mesh, or copies of a node. */
 typedef struct coarseness {
-    const scene_mesh *mesh;
+    const char *owner, *name, *parts; /* "mesh", its name, "vertices"; NULL: nothing has */
     double distance, step, share;
 } coarseness;
 
@@ -244,12 +244,36 @@ static box bound_mesh(const scene_mesh *mesh)
     return b;
 }
 
-static void note_steps(coarseness *worst, const scene_mesh *mesh, double distance, double size)
+static double size_of(const box *b)
 {
-    float at = (float)distance;
-    double step = (double)nextafterf(at, INFINITY) - (double)at;
+    double size = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        size = hypot(size, (double)b->maximum[axis] - (double)b->minimum[axis]);
+    return size;
+}
+
+/* size: of what stands in b, which may be more than b. */
+static void note_steps(coarseness *worst, const box *b, double size, const char *owner, const char *name,
+                       const char *parts)
+{
+    float distance = 0.0f;
+    for (int axis = 0; axis < 3; axis++)
+        distance = fmaxf(distance, fmaxf(fabsf(b->minimum[axis]), fabsf(b->maximum[axis])));
+    double step = (double)nextafterf(distance, INFINITY) - (double)distance;
     if (step > COARSE * size && step > worst->share * size)
-        *worst = (coarseness){mesh, distance, step, step / size};
+        *worst = (coarseness){owner, name, parts, (double)distance, step, step / size};
+}
+
+static void note_copies(const facet_scene *scene, const scene_node *node, coarseness *worst)
+{
+    if (!node->instancing || !node->instancing->translations || node->mesh == SCENE_NONE)
+        return;
+    box b = box_empty();
+    for (size_t i = 0; i < node->instancing->count; i++)
+        box_add(&b, node->instancing->translations + 3 * i);
+    const box mesh = bound_mesh(&scene->meshes[node->mesh]);
+    if (box_is_near(&b) && box_is_near(&mesh))
+        note_steps(worst, &b, size_of(&b) + size_of(&mesh), "node", node->name, "instances");
 }
 
 /* Primitives that share positions still do then. */
@@ -281,12 +305,7 @@ static bool subtract(facet_scene *scene, scene_mesh *mesh, const double origin[3
 static bool move_mesh(facet_scene *scene, scene_mesh *mesh, coarseness *worst)
 {
     const box b = bound_mesh(mesh);
-    double origin[3], size = 0.0, distance = 0.0;
-    for (int axis = 0; axis < 3; axis++) {
-        double low = (double)b.minimum[axis], high = (double)b.maximum[axis];
-        size = hypot(size, high - low);
-        distance = fmax(distance, fmax(fabs(low), fabs(high)));
-    }
+    double origin[3], size = size_of(&b);
     if (!box_is_near(&b) || !(size > 0.0))
         return true;
     bool is_far = false;
@@ -297,7 +316,7 @@ static bool move_mesh(facet_scene *scene, scene_mesh *mesh, coarseness *worst)
     }
     if (!is_far)
         return true;
-    note_steps(worst, mesh, distance, size);
+    note_steps(worst, &b, size, "mesh", mesh->name, "vertices");
     return subtract(scene, mesh, origin);
 }
 
@@ -307,21 +326,23 @@ static facet_result move_meshes(facet_scene *scene, const facet_log *log, facet_
     coarseness worst = {.share = 0.0};
     bool *is_skinned = mem_zalloc(&scene->allocator, scene->mesh_count, sizeof *is_skinned);
     bool is_ok = is_skinned != NULL;
-    for (uint32_t i = 0; is_ok && i < scene->node_count; i++)
+    for (uint32_t i = 0; is_ok && i < scene->node_count; i++) {
         if (scene->nodes[i].mesh != SCENE_NONE && scene->nodes[i].skin != SCENE_NONE)
             is_skinned[scene->nodes[i].mesh] = true;
+        note_copies(scene, &scene->nodes[i], &worst);
+    }
     for (uint32_t i = 0; is_ok && i < scene->mesh_count; i++)
         if (!is_skinned[i])
             is_ok = move_mesh(scene, &scene->meshes[i], &worst);
     mem_free(is_skinned);
     if (!is_ok)
         return fail_memory(error, "positions", scene->mesh_count * sizeof *is_skinned);
-    if (worst.mesh)
+    if (worst.owner)
         scene_warn(
             scene, log,
-            "%s: mesh \"%s\" has vertices %.3g m from its origin, where 32-bit numbers have steps of %.2g m: "
-            "finer detail is lost in the file",
-            scene->source, worst.mesh->name, worst.distance, worst.step);
+            "%s: %s \"%s\" has %s %.3g m from its origin, where 32-bit numbers have steps of %.2g m: finer "
+            "detail is lost in the file",
+            scene->source, worst.owner, worst.name, worst.parts, worst.distance, worst.step);
     return FACET_OK;
 }
 

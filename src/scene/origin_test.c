@@ -170,6 +170,8 @@ static void copies_are_placed_in_double(void **state)
     scene->nodes[1].instancing = &copies;
     scene_pose pose = settle_and_pose(scene);
     expect_same_places(scene, &pose, move, 1e-6);
+    assert_int_equal(scene->warning_count, 1);
+    assert_non_null(strstr(scene->warnings[0], "has instances 1.05e+06 m from its origin"));
     scene_pose_destroy(&pose);
     scene_destroy(scene);
 }

@@ -39,6 +39,25 @@ grep -q -- '--ortho' command || failed "the parallel view is not in $(cat comman
 grep -q -- '--env white' command || failed "the next environment is not in $(cat command)"
 grep -q -- '--tone-mapping' command || failed "the tone mapping is not in $(cat command)"
 
+# far from the origin: the window is as it is there, and the command says coordinates of the file
+sed 's/"mesh":0/"translation":[1e8,-4526331.25,1000000],"mesh":0/; s/\[0.3,0.3,3\]/[100000000.3,-4526330.95,1000003]/' triangle.gltf >far.gltf
+cat >script <<'END'
+load
+picture far_first.png
+drag left 40 40 52 48
+drag Shift+left 40 40 60 50
+picture far_moved.png
+print
+END
+view far.gltf
+rendered far_moved.png far.png
+grep -q -- '--target [0-9]*[.]*[0-9]*,-45263[0-9.]*,' command || failed "the target is not the file's in $(cat command)"
+sed 's/far/near/' script >script.near
+mv script.near script
+view triangle.gltf
+rendered near_moved.png triangle.png
+same near_moved.png far_moved.png 0.01
+
 # what OpenGL alone knows
 cat >script <<'END'
 load
