@@ -18,6 +18,8 @@ if(FACET_FUZZ AND FACET_FUZZ_GUIDED)
     target_compile_options(facet_flags INTERFACE -fsanitize=fuzzer-no-link)
     target_link_options(facet_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
+# facet's own C files are written in the dialect of shade/, whose names have no prefix.
+target_compile_definitions(facet_flags INTERFACE FACET_SHADE_DIALECT)
 target_include_directories(facet_flags INTERFACE
     ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}
     ${PROJECT_BINARY_DIR}/generated)

@@ -8,7 +8,7 @@ tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 side=${1:?c or glsl}
 compiler=${2:-cc}
-strict="-std=c11 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes -Werror"
+strict="-DFACET_SHADE_DIALECT -std=c11 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes -Werror"
 headers=$(sed -n 's/^#include "\([a-z_]*\.h\)"$/\1/p' "$here/shade.h")
 passed=0
 

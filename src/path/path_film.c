@@ -184,7 +184,7 @@ float path_ground_opacity(const path_ground *g)
 float path_ground_share(const path_ground *g, const path_pixel *p)
 {
     float share = p->samples > 0.0f ? (float)((double)g->samples / (double)p->samples) : 0.0f;
-    float left = 1.0f - f_clamp(p->mean[3] * path_pixel_scale(p), 0.0f, 1.0f);
+    float left = 1.0f - shade_f_clamp(p->mean[3] * path_pixel_scale(p), 0.0f, 1.0f);
     return share < left ? share : left;
 }
 
@@ -213,8 +213,8 @@ static void resolve_color(const resolving *r, size_t i, float out[4])
     const path_pixel *p = &r->film->pixels[i];
     float scale = path_pixel_scale(p);
     for (int c = 0; c < 3; c++)
-        out[c] = f_clamp(p->mean[c] * (r->scale * scale), -FLT_MAX, FLT_MAX);
-    out[3] = f_clamp(p->mean[3] * scale, 0.0f, 1.0f);
+        out[c] = shade_f_clamp(p->mean[c] * (r->scale * scale), -FLT_MAX, FLT_MAX);
+    out[3] = shade_f_clamp(p->mean[3] * scale, 0.0f, 1.0f);
     if (r->film->ground) { /* black under the model, so its premultiplied color is none */
         const path_ground *g = &r->film->ground[i];
         out[3] += path_ground_share(g, p) * path_ground_opacity(g);

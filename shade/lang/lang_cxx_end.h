@@ -1,0 +1,3 @@
+/* lang_cxx_end.h - closes the namespace that lang_cxx.h opens around the shared text. */
+} /* namespace facet */
+} /* extern "C++" */
