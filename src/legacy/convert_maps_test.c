@@ -107,9 +107,17 @@ static void a_factor_above_one_is_baked(void **state)
 static void black_and_unstated_factors_are_white_with_a_map(void **state)
 {
     (void)state;
-    facet_scene *scene = legacy_scene(2);
+    facet_scene *scene = legacy_scene(4);
     uint32_t wood = add_texels(scene, 2, 2, 3, WOOD);
     legacy_material m = legacy_material_default();
+    set_map(&m, LEGACY_DIFFUSE_MAP, SCENE_NONE); /* lost maps */
+    scene->legacy->materials[2] = m;
+    m.fields = LEGACY_DIFFUSE | LEGACY_EMISSION | LEGACY_OPACITY;
+    m.opacity = 0;
+    set_color(m.diffuse, 0, 0, 0);
+    set_map(&m, LEGACY_EMISSION_MAP, SCENE_NONE);
+    scene->legacy->materials[3] = m;
+    m = legacy_material_default();
     set_map(&m, LEGACY_DIFFUSE_MAP, wood);
     scene->legacy->materials[0] = m; /* nothing stated */
     m.fields = LEGACY_DIFFUSE | LEGACY_EMISSION;
@@ -120,8 +128,11 @@ static void black_and_unstated_factors_are_white_with_a_map(void **state)
     assert_false(has_warning(scene, 0, "black-kd-with-map"));
     assert_true(has_warning(scene, 1, "black-kd-with-map"));
     assert_true(has_warning(scene, 1, "black-ke-with-map"));
-    for (uint32_t i = 0; i < 2; i++)
+    assert_true(has_warning(scene, 3, "black-kd-with-map"));
+    for (uint32_t i = 0; i < 4; i++)
         assert_color(scene->materials[i].base_color, 1, 1, 1, 1e-6);
+    assert_near(scene->materials[3].base_color[3], 1, 0);
+    assert_color(scene->materials[3].emissive, 0, 0, 0, 0);
     assert_color(scene->materials[1].emissive, 1, 1, 1, 1e-6);
     assert_int_equal(scene->materials[1].textures[SCENE_EMISSIVE_TEXTURE].texture, wood);
     scene_destroy(scene);

@@ -62,7 +62,10 @@ static void note_losses(conversion *c, uint32_t material, const legacy_material 
                  "d -halo, which is opaque towards the silhouette, becomes the same opacity everywhere");
 }
 
-/* ---- factors that exporters leave black ---- */
+/* ---- factors that exporters leave black ----
+ *
+ * A map that cannot be read leaves the diffuse color and the opacity that it would have been multiplied with: white, as
+ * lost images are in glTF. Highlights and light do not come from a map that is lost. */
 
 static const float WHITE[3] = {1, 1, 1};
 
@@ -73,14 +76,16 @@ static void read_diffuse(conversion *c, uint32_t material, legacy_reading *r, fa
     bool yields = c->scene->legacy->is_rgl || !legacy_has(m, LEGACY_DIFFUSE);
     if (yields && c->has_vertex_colors[material]) /* which take its place */
         memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
-    if (!legacy_has_map(m, LEGACY_DIFFUSE_MAP))
+    bool has_map = legacy_has_map(m, LEGACY_DIFFUSE_MAP);
+    if (!has_map && !m->maps[LEGACY_DIFFUSE_MAP].path)
         return;
     if (!legacy_has(m, LEGACY_DIFFUSE)) {
         memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
     } else if (is_black(r->surface.diffuse)) {
         memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
         note_add(&c->notes, material, NOTE_BLACK_KD_WITH_MAP,
-                 "a black Kd would make its map black; it counts as white");
+                 has_map ? "a black Kd would make its map black; it counts as white"
+                         : "a black Kd counts as white, as it does beside a map that can be read");
     }
 }
 
@@ -118,7 +123,8 @@ static void read_opacity(conversion *c, uint32_t material, legacy_reading *r)
             &c->notes, material, NOTE_TR_AMBIGUOUS,
             "Tr means transparency to most programs and opacity to some; it is read such that opacity is %g",
             (double)r->opacity);
-    bool has_picture = legacy_has_map(m, LEGACY_OPACITY_MAP) || legacy_has_map(m, LEGACY_DIFFUSE_MAP);
+    bool has_picture = legacy_has_map(m, LEGACY_OPACITY_MAP) || legacy_has_map(m, LEGACY_DIFFUSE_MAP) ||
+                       m->maps[LEGACY_OPACITY_MAP].path || m->maps[LEGACY_DIFFUSE_MAP].path;
     if (r->opacity == 0.0f && (has_picture || c->hides_everything)) {
         r->opacity = 1.0f;
         note_add(&c->notes, material, NOTE_ZERO_ALPHA,
