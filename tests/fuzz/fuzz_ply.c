@@ -1,0 +1,32 @@
+/* fuzz_ply.c - the PLY reader over any bytes; the first byte chooses how normals are made. */
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "fuzz_scene.h"
+#include "io/ply/ply.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    facet_budget *budget = NULL;
+    if (size == 0 || facet_budget_create((uint64_t)64 << 20, &budget, NULL) != FACET_OK)
+        return 0;
+    facet_allocator allocator = facet_budget_allocator(budget);
+    facet_scene_desc desc = {.allocator = allocator,
+                             .log = {.message = fuzz_ignore},
+                             .thread_count = 1,
+                             .obj_normals = (facet_obj_normals)(data[0] % 3)};
+    facet_scene *scene = NULL;
+    facet_error error = {0};
+    ply_detect(data + 1, size - 1);
+    if (ply_load_memory(data + 1, size - 1, "fuzz", NULL, &desc, &scene, &error) == FACET_OK)
+        fuzz_use_scene(scene, &allocator);
+    else if (scene || error.message[0] == 0)
+        abort();
+    scene_destroy(scene);
+    if (facet_budget_used_bytes(budget) != 0)
+        abort();
+    facet_budget_destroy(budget);
+    return 0;
+}
