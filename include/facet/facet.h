@@ -158,7 +158,7 @@ typedef enum facet_legacy_ambient {
     FACET_AMBIENT_OCCLUSION /* its map becomes the occlusion texture */
 } facet_legacy_ambient;
 
-/* Vertex normals of an OBJ file that has none. */
+/* Vertex normals of an OBJ, STL or PLY file that has none. */
 typedef enum facet_obj_normals {
     FACET_OBJ_NORMALS_AUTO, /* by its smoothing groups; where it has none either, across edges of less than 45 degrees */
     FACET_OBJ_NORMALS_FLAT,  /* one per face */
@@ -208,8 +208,8 @@ typedef struct facet_scene_desc {
     const char *parameters;
 } facet_scene_desc;
 
-/* Reads a .glb or .gltf file, an .obj file with its .mtl files, or a .json file of rgl's material and light parameters
- * (one ball per material then); told apart by content. Legacy materials are converted as desc->legacy says, and kept
+/* Reads a .glb or .gltf file, an .obj file with its .mtl files, a .stl or .ply file, or a .json file of rgl's material and
+ * light parameters (one ball per material then); told apart by content. Legacy materials are converted as desc->legacy says, and kept
  * beside. Texels are decoded when a renderer asks for them. */
 FACET_API facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                                         facet_error *error);

@@ -156,9 +156,10 @@ static void print_overview(FILE *stream)
     print_text(stream, help_summary);
     fputs(".SH SYNOPSIS\n.B facet\n\\fICOMMAND\\fR [\\fIMODEL\\fR...] [\\fIoptions\\fR]\n.SH DESCRIPTION\n",
           stream);
-    print_text(stream, "Reads glTF 2.0 and OBJ models and draws them on the CPU, without a GPU, display or "
-                       "network; converts between "
-                       "them, and plots reflectance. Begin with:");
+    print_text(stream,
+               "Reads glTF 2.0, OBJ, STL and PLY models and draws them on the CPU, without a GPU, display or "
+               "network; converts between "
+               "them, and plots reflectance. Begin with:");
     fputs(".PP\n.RS\n.B ", stream);
     print_text(stream, help_first_use);
     fputs(".RE\n.SH COMMANDS\n", stream);

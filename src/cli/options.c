@@ -12,14 +12,15 @@ static const verb inspect_verb = {
     .summary = "say what is in a model",
     .arguments = "MODEL...",
     .max_arguments = SIZE_MAX,
-    .file_types = "glb gltf obj json",
+    .file_types = "glb gltf obj stl ply json",
     .output_types = "txt",
     .output_hint = ">",
-    .description = "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .json of rgl's parameters; - is "
-                   "standard input) and prints counts, bounds, materials, "
-                   "textures, images, cameras, lights, the extensions with what facet makes of them, and the "
-                   "warnings of reading. With -v lists are printed to their end.\n\n"
-                   "The exit code is 0 when the model can be read, also with warnings (--strict: 1).",
+    .description =
+        "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .stl, .ply, .json of rgl's parameters; - is "
+        "standard input) and prints counts, bounds, materials, "
+        "textures, images, cameras, lights, the extensions with what facet makes of them, and the "
+        "warnings of reading. With -v lists are printed to their end.\n\n"
+        "The exit code is 0 when the model can be read, also with warnings (--strict: 1).",
     .examples = (const example[]){{"facet inspect helmet.glb", "for reading"},
                                   {"facet inspect helmet.glb --json | jq .materials", "for a program"},
                                   {"facet inspect --strict models/*.glb", "check many"},

@@ -92,10 +92,11 @@ const verb convert_verb = {
     .summary = "write a model in another form: glTF, OBJ, rgl's parameters",
     .arguments = "MODEL NEW",
     .max_arguments = SIZE_MAX,
-    .file_types = "glb gltf obj json",
+    .file_types = "glb gltf obj stl ply json",
     .output_types = "glb gltf obj json",
     .description =
-        "Reads MODEL (.glb, .gltf, .obj with its .mtl, .json of rgl's parameters; - is standard input) and "
+        "Reads MODEL (.glb, .gltf, .obj with its .mtl, .stl, .ply, .json of rgl's parameters; - is standard "
+        "input) and "
         "writes it as NEW (.glb, .gltf, .obj, .json).\n\n"
         "From glTF to glTF: meshes, materials with all their extensions, textures as they are, motion, "
         "cameras, "

@@ -343,16 +343,17 @@ const verb render_verb = {
     .summary = "draw a model to a picture",
     .arguments = "[MODEL...]",
     .max_arguments = SIZE_MAX,
-    .file_types = "glb gltf obj json",
+    .file_types = "glb gltf obj stl ply json",
     .output_types = "png png16 jpg jpeg webp exr hdr pfm y4m",
-    .description = "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .json of rgl's parameters; - is "
-                   "standard input) and draws it on the CPU, or with --renderer gl on a GPU: no GPU, "
-                   "display or network "
-                   "is needed. The whole model is in the picture unless --orbit, --eye or --camera say "
-                   "otherwise. Without a "
-                   "MODEL the built-in scene is drawn.\n\n"
-                   "The output appears whole or not at all. The same command gives the same bytes for every "
-                   "number of threads.",
+    .description =
+        "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .stl, .ply, .json of rgl's parameters; - is "
+        "standard input) and draws it on the CPU, or with --renderer gl on a GPU: no GPU, "
+        "display or network "
+        "is needed. The whole model is in the picture unless --orbit, --eye or --camera say "
+        "otherwise. Without a "
+        "MODEL the built-in scene is drawn.\n\n"
+        "The output appears whole or not at all. The same command gives the same bytes for every "
+        "number of threads.",
     .examples =
         (const example[]){
             {"facet render helmet.glb -o helmet.png", "the whole model, on white"},

@@ -201,7 +201,8 @@ static const option legacy_options[] = {
      .argument = "HOW",
      .default_text = "auto",
      .help =
-         "of OBJ files without normals: auto goes by smoothing groups, else smooths edges below 45 degrees",
+         "of OBJ, STL and PLY files without normals: auto goes by smoothing groups, else smooths edges below "
+         "45 degrees",
      .choices = WORDS("auto", "flat", "smooth")},
     {.id = OPT_FLIP_TEXTURES,
      .name = "flip-textures",

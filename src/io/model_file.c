@@ -1,23 +1,53 @@
 /* model_file.c - see model_file.h. */
 #include "io/model_file.h"
 
+#include <string.h>
 #include <strings.h>
 
 #include "base/result.h"
 #include "io/gltf/gltf.h"
+#include "io/model_kind.h"
 #include "io/obj/obj.h"
 #include "io/ogl1/ogl1_json.h"
+#include "io/ply/ply.h"
+#include "io/stl/stl.h"
 #include "scene/legacy.h"
 #include "scene/origin.h"
 
-typedef enum model_kind { MODEL_GLTF, MODEL_OBJ, MODEL_PARAMETERS } model_kind;
-
-/* What is none of them is left to the glTF reader, whose message says what was expected. */
-static model_kind detect(const void *bytes, size_t size)
+/* STL and PLY, from a file that is open. folder: of the file; NULL: from memory. */
+static facet_result load_bytes(model_kind kind, const void *bytes, size_t size, const char *name,
+                               const char *folder, const facet_scene_desc *desc, facet_scene **scene,
+                               facet_error *error)
 {
-    if (ogl1_json_detect(bytes, size))
-        return MODEL_PARAMETERS;
-    return obj_detect(bytes, size) ? MODEL_OBJ : MODEL_GLTF;
+    return kind == MODEL_STL ? stl_load_memory(bytes, size, name, desc, scene, error)
+                             : ply_load_memory(bytes, size, name, folder, desc, scene, error);
+}
+
+/* The same from an open file, which the scene remembers. */
+static facet_result load_open(model_kind kind, const file_bytes *file, const char *path,
+                              const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
+{
+    char *folder = path_folder(&desc->allocator, path);
+    facet_result result = folder ? load_bytes(kind, file->data, file->size, path, folder, desc, scene, error)
+                                 : fail_memory(error, "path", strlen(path));
+    if (result == FACET_OK && !scene_note_file(*scene, file)) {
+        scene_destroy(*scene);
+        *scene = NULL;
+        result = fail_memory(error, "files", sizeof *file);
+    }
+    mem_free(folder);
+    return result;
+}
+
+/* An empty file is left to the glTF reader, which says so. */
+static bool is_refused(model_kind kind, size_t size)
+{
+    return kind == MODEL_FOREIGN || (kind == MODEL_UNKNOWN && size > 0);
+}
+
+static bool is_url(const char *path)
+{
+    return strncasecmp(path, "http://", 7) == 0 || strncasecmp(path, "https://", 8) == 0;
 }
 
 /* Ends every reader's work. */
@@ -37,26 +67,45 @@ facet_result model_file_load(const char *path, const facet_scene_desc *desc, fac
                              facet_error *error)
 {
     file_bytes file = {0};
+    *scene = NULL;
     facet_result result = file_open(path, desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
                                     &desc->allocator, &file, error);
+    if (result == FACET_ERROR_READ && is_url(path))
+        return fail(error, FACET_ERROR_READ,
+                    "%s: facet reads files, not addresses; try: curl -s %s | facet render - -o out.png", path,
+                    path);
     if (result != FACET_OK)
         return result;
-    model_kind kind = detect(file.data, file.size);
+    model_kind kind = model_kind_detect(file.data, file.size, path);
+    bool is_here = true;
+    if (is_refused(kind, file.size))
+        result = model_kind_refuse(file.data, file.size, path, error);
+    else if (kind == MODEL_STL || kind == MODEL_PLY)
+        result = load_open(kind, &file, path, desc, scene, error);
+    else
+        is_here = false;
     file_close(&file);
-    result = kind == MODEL_OBJ          ? obj_load(path, desc, scene, error)
-             : kind == MODEL_PARAMETERS ? ogl1_json_load(path, desc, scene, error)
-                                        : gltf_load(path, desc, scene, error);
+    if (!is_here) /* they open it themselves */
+        result = kind == MODEL_OBJ          ? obj_load(path, desc, scene, error)
+                 : kind == MODEL_PARAMETERS ? ogl1_json_load(path, desc, scene, error)
+                                            : gltf_load(path, desc, scene, error);
     return settle(result, desc, scene, error);
 }
 
 facet_result model_file_load_memory(const void *bytes, size_t size, const char *name,
                                     const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
 {
-    model_kind kind = detect(bytes, size);
-    facet_result result = kind == MODEL_OBJ ? obj_load_memory(bytes, size, name, desc, scene, error)
-                          : kind == MODEL_PARAMETERS
-                              ? ogl1_json_load_memory(bytes, size, name, desc, scene, error)
-                              : gltf_load_memory(bytes, size, name, desc, scene, error);
+    model_kind kind = model_kind_detect(bytes, size, name);
+    facet_result result;
+    *scene = NULL;
+    if (is_refused(kind, size))
+        result = model_kind_refuse(bytes, size, name, error);
+    else if (kind == MODEL_STL || kind == MODEL_PLY)
+        result = load_bytes(kind, bytes, size, name, NULL, desc, scene, error);
+    else
+        result = kind == MODEL_OBJ          ? obj_load_memory(bytes, size, name, desc, scene, error)
+                 : kind == MODEL_PARAMETERS ? ogl1_json_load_memory(bytes, size, name, desc, scene, error)
+                                            : gltf_load_memory(bytes, size, name, desc, scene, error);
     return settle(result, desc, scene, error);
 }
 

@@ -4,7 +4,7 @@
 
 #include "scene/scene.h"
 
-/* Reads a glTF, OBJ or rgl parameter file, told apart by content, as facet_scene_load() does but for desc->parameters and
+/* Reads a glTF, OBJ, STL, PLY or rgl parameter file, told apart by content (model_kind.h), as facet_scene_load() does but for desc->parameters and
  * the conversion of materials. */
 facet_result model_file_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                              facet_error *error);

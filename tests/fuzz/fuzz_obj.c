@@ -21,6 +21,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     facet_scene *scene = NULL;
     facet_error error = {0};
     obj_detect(data + 1, size - 1);
+    obj_has_faces(data + 1, size - 1);
     if (obj_load_memory(data + 1, size - 1, "fuzz", &desc, &scene, &error) == FACET_OK)
         fuzz_use_scene(scene, &allocator);
     else if (scene || error.message[0] == 0)

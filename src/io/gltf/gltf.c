@@ -117,9 +117,8 @@ static void read_bytes(reader *r, const unsigned char *bytes, size_t size)
     while (at < json_size && strchr(" \t\r\n", json[at]) && json[at])
         at++;
     if (!is_glb && (at == json_size || json[at] != '{')) {
-        reader_fail(
-            r, NULL, NULL, FACET_ERROR_INVALID,
-            "is neither a .glb file nor the JSON of a .gltf file, nor an .obj file nor rgl's parameters");
+        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID,
+                    "is neither a .glb file nor the JSON of a .gltf file");
         return;
     }
     size_t estimate = json_memory_estimate(json, json_size);

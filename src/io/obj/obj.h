@@ -6,6 +6,8 @@
 
 /* Whether bytes look like an OBJ file: its first statement is one of OBJ's. */
 bool obj_detect(const void *bytes, size_t size);
+/* Whether there is a line of a vertex and one of a face, line or point, whatever stands before them. */
+bool obj_has_faces(const void *bytes, size_t size);
 
 /* Reads an OBJ file: geometry and, through mtl.h, scene->legacy; the glTF materials are defaults with the names of the
  * legacy ones, for legacy_convert(). One node and mesh per object (o, or g where there is no o), one primitive per

@@ -82,6 +82,37 @@ bool obj_detect(const void *bytes, size_t size)
     return length > 0 && find_statement(start + i, length) >= 0;
 }
 
+/* Whether a line is a statement of that name, with a number behind it. */
+static bool is_numbers(const char *line, const char *end, char name)
+{
+    if (end - line < 3 || line[0] != name || !obj_is_blank(line[1]))
+        return false;
+    for (line++; line < end && obj_is_blank(*line);)
+        line++;
+    line += line < end && (*line == '-' || *line == '+');
+    line += line < end && *line == '.';
+    return line < end && *line >= '0' && *line <= '9';
+}
+
+bool obj_has_faces(const void *bytes, size_t size)
+{
+    const char *p = bytes;
+    const char *end = p + size;
+    bool has_vertex = false;
+    bool has_element = false;
+    while (p < end && !(has_vertex && has_element)) {
+        const char *line = p;
+        while (p < end && !obj_is_line_end(*p))
+            p++;
+        while (line < p && obj_is_blank(*line))
+            line++;
+        has_vertex |= is_numbers(line, p, 'v');
+        has_element |= is_numbers(line, p, 'f') || is_numbers(line, p, 'l') || is_numbers(line, p, 'p');
+        p++;
+    }
+    return has_vertex && has_element;
+}
+
 /* ---- arguments ---- */
 
 const char *obj_skip_statement(const char *p)
