@@ -18,6 +18,7 @@ void view_app_say(view_app *a, const char *text, double seconds)
 {
     snprintf(a->message, sizeof a->message, "%s", text);
     a->message_until_s = a->time_s + seconds;
+    a->is_hint = false;
     a->needs_frame = true;
     if (a->has_no_text)
         a->desc->source.print(a->desc->source.user, text);
@@ -113,10 +114,21 @@ static void press_key(view_app *a, const view_event *e)
     }
 }
 
+/* The hint at the start goes with the first input; a pointer that passes over the window is none. */
+static void end_hint(view_app *a, const view_event *e)
+{
+    if (!a->is_hint || e->kind == VIEW_MOVE || e->kind == VIEW_RELEASE)
+        return;
+    a->is_hint = false;
+    a->message[0] = 0;
+    a->needs_frame = true;
+}
+
 static void handle_events(view_app *a)
 {
     view_event e;
     while (view_queue_take(&a->queue, &e)) {
+        end_hint(a, &e);
         bool was_held = a->state.is_held;
         switch (e.kind) {
         case VIEW_KEY:
@@ -262,7 +274,9 @@ static facet_result begin(view_app *a, facet_error *error)
     if (result == FACET_OK)
         result = view_draw_create(&a->context, &d->allocator, &a->draw, error);
     if (result == FACET_OK)
-        result = view_trace_create(a->host, &d->allocator, wake, a, &a->tracer, error);
+        result = view_trace_create(a->host, &d->allocator, wake, a, &a->traced[0].tracer, error);
+    if (result == FACET_OK)
+        result = view_trace_create(a->host, &d->allocator, wake, a, &a->traced[1].tracer, error);
     if (result == FACET_OK)
         result = view_watch_create(&d->allocator, wake, a, &a->watcher, error);
     return result;
@@ -271,7 +285,8 @@ static facet_result begin(view_app *a, facet_error *error)
 static void end(view_app *a)
 {
     view_window *window = atomic_load(&a->window);
-    view_trace_destroy(a->tracer);
+    for (int i = 0; i < 2; i++)
+        view_trace_destroy(a->traced[i].tracer);
     view_load_destroy(a->loader);
     view_watch_destroy(a->watcher);
     if (window) {

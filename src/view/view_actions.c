@@ -164,6 +164,8 @@ static void step_renderer(view_state *s)
     s->render.integrator = is_path ? FACET_INTEGRATOR_GL : FACET_INTEGRATOR_PATH;
     if (!is_path)
         s->render.gl.channel = FACET_CHANNEL_LIGHT;
+    if (!is_path && s->divider.comparison == VIEW_COMPARE_MASKING) /* which paths do not have */
+        s->divider.comparison = VIEW_COMPARE_NOTHING;
     say(s, "Renderer: %s", is_path ? "OpenGL" : "path tracing");
 }
 
@@ -189,7 +191,8 @@ static uint32_t find_variant(const facet_scene *scene)
 
 static void step_divider(view_state *s, int steps)
 {
-    view_divider_step(&s->divider, steps, s->counts.variants > 0);
+    view_divider_step(&s->divider, steps, s->counts.variants > 0,
+                      s->render.integrator == FACET_INTEGRATOR_PATH);
     s->divider.variant = s->scene ? find_variant(s->scene) : 0;
     if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* else the sides have labels */
         say(s, "No comparison");

@@ -27,10 +27,19 @@ typedef struct view_shown_panel {
     bool is_there;
 } view_shown_panel;
 
+/* What is path traced for one side. */
+typedef struct view_traced {
+    view_tracer *tracer;
+    view_surface surface;
+    bool is_current;  /* surface shows what is wanted */
+    uint32_t samples; /* per pixel, of surface */
+} view_traced;
+
 typedef enum view_panel_id {
     VIEW_PANEL_HELP,
     VIEW_PANEL_VALUES,
     VIEW_PANEL_MESSAGE,
+    VIEW_PANEL_SAMPLES,
     VIEW_PANEL_LEFT,
     VIEW_PANEL_RIGHT,
     VIEW_PANEL_COUNT
@@ -45,7 +54,6 @@ typedef struct view_app {
     view_draw *draw;
     view_state state;
     view_loader *loader;
-    view_tracer *tracer;
     view_watcher *watcher;
 
     /* files */
@@ -59,10 +67,9 @@ typedef struct view_app {
     uint32_t reload_count; /* models that were read again as their files had changed */
 
     /* the picture */
-    view_surface sides[2], traced, shot;
-    bool trace_is_current; /* traced shows what is wanted */
-    uint32_t trace_samples;
-    double frame_s; /* of the last frame; while something moves smoothed; 0: none yet */
+    view_surface sides[2], shot;
+    view_traced traced[2]; /* left, right; without a divider the right one */
+    double frame_s;        /* of the last frame; while something moves smoothed; 0: none yet */
     view_pace pace;
     uint32_t divisor;     /* of the resolution in which it was drawn */
     double moves_until_s; /* on the clock; the hand rests when it has not moved the camera for a moment */
@@ -77,6 +84,7 @@ typedef struct view_app {
     /* messages */
     char message[1024];
     double message_until_s;
+    bool is_hint;                  /* the message is the hint at the start, which goes with the first input */
     pthread_mutex_t warning_mutex; /* guards: */
     char warning[256],
         said_warning[256]; /* what a renderer says, from any thread; the last one that was shown */
@@ -118,6 +126,8 @@ void view_show_end(view_app *a);
 facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, facet_camera *camera);
 
 /* view_values.c: what Z shows, rows of a name, a tab and a value. */
+/* The counter while paths are traced; "": there are none. */
+void view_values_write_samples(const view_app *a, char *out, size_t size);
 void view_values_write(view_app *a, uint32_t width, uint32_t height, char *out, size_t size);
 
 /* view_shot.c */

@@ -26,7 +26,6 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
         sides[0].gl.brdf = sides[1].gl.brdf = FACET_BRDF_ENERGY;
         sides[0].energy = FACET_ENERGY_GLTF;
         sides[1].energy = FACET_ENERGY_CONSERVING;
-        sides[0].integrator = sides[1].integrator = FACET_INTEGRATOR_GL;
         break;
     case VIEW_COMPARE_RENDERER:
         sides[0].integrator = FACET_INTEGRATOR_GL;
@@ -36,14 +35,12 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
         sides[0].tonemap = FACET_TONEMAP_NONE;
         if (base->tonemap == FACET_TONEMAP_NONE)
             sides[1].tonemap = FACET_TONEMAP_NEUTRAL;
-        sides[0].integrator = sides[1].integrator = FACET_INTEGRATOR_GL;
         break;
     case VIEW_COMPARE_VARIANT:
         sides[0].pose.has_variant = false;
         if (!base->pose.has_variant)
             sides[1].pose.variant = d->variant;
         sides[1].pose.has_variant = true;
-        sides[0].integrator = sides[1].integrator = FACET_INTEGRATOR_GL;
         break;
     default:
         break;
@@ -60,10 +57,17 @@ void view_divider_drag(view_divider *d, double x, uint32_t width)
     d->position = width ? fmin(fmax(x / width, 0.02), 0.98) : 0.5;
 }
 
-void view_divider_step(view_divider *d, int steps, bool has_variants)
+static view_comparison step(view_comparison from, int steps, int count)
+{
+    return (view_comparison)((((int)from + steps) % count + count) % count);
+}
+
+void view_divider_step(view_divider *d, int steps, bool has_variants, bool traces_paths)
 {
     int count = has_variants ? VIEW_COMPARISON_COUNT : VIEW_COMPARE_VARIANT;
-    d->comparison = (view_comparison)((((int)d->comparison + steps) % count + count) % count);
+    d->comparison = step(d->comparison, steps, count);
+    if (traces_paths && d->comparison == VIEW_COMPARE_MASKING)
+        d->comparison = step(d->comparison, steps, count);
 }
 
 bool view_divider_labels(int border, int width, int margin, const int widths[2], int x[2])

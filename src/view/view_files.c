@@ -122,11 +122,20 @@ static void tell_environment(view_app *a)
     view_app_say(a, text, 2.0);
 }
 
+/* Before the model or the environment goes that paths are traced in. */
+static void stop_traces(view_app *a)
+{
+    for (int i = 0; i < 2; i++) {
+        view_trace_stop(a->traced[i].tracer);
+        a->traced[i].is_current = false;
+    }
+}
+
 static void show_environment(view_app *a, view_loaded *l)
 {
     if (!l->has_environment)
         return;
-    view_trace_stop(a->tracer);
+    stop_traces(a);
     a->host->environment_destroy(a->environment);
     a->environment = l->environment;
     l->environment = NULL;
@@ -152,22 +161,27 @@ static void find_in_list(view_app *a)
     }
 }
 
-/* The first message says, too, where the keys are; and what was asked for and does nothing. */
+static const double HINT_S = 10.0; /* at the start, unless there is input before */
+
+/* The first message says, too, which keys to begin with; and what was asked for and does nothing. */
 static void tell_model(view_app *a, bool is_again, bool is_first)
 {
     char text[512];
-    const char *help = is_first ? "\nH: help" : "";
+    static const char hint[] =
+        "H: help    R: path tracing    Tab: compare    Drag: orbit    Wheel: nearer, farther";
     if (is_again) {
         view_app_say(a, "The model was read again", 2.0);
     } else if (!a->path) {
-        view_app_say(a, "Drop a model here. H: help", 8.0);
+        snprintf(text, sizeof text, "Drop a model here\n%s", hint);
+        view_app_say(a, text, HINT_S);
     } else if (a->models.count > 1) {
-        snprintf(text, sizeof text, "%.400s\t%zu of %zu%s", path_base_name(a->path), a->models.at + 1,
-                 a->models.count, help);
-        view_app_say(a, text, is_first ? 5.0 : 2.0);
+        snprintf(text, sizeof text, "%.400s\t%zu of %zu%s%s", path_base_name(a->path), a->models.at + 1,
+                 a->models.count, is_first ? "\n" : "", is_first ? hint : "");
+        view_app_say(a, text, is_first ? HINT_S : 2.0);
     } else if (is_first) {
-        view_app_say(a, help + 1, 5.0);
+        view_app_say(a, hint, HINT_S);
     }
+    a->is_hint = is_first;
     if (is_first && a->state.render.gl.shadows && !view_state_has_casters(&a->state))
         view_app_say(a, "--shadows: the model has no lights, and there is no --sun to cast any", 6.0);
 }
@@ -181,8 +195,7 @@ static facet_result show_model(view_app *a, view_loaded *l, facet_error *error)
         return result;
     bool is_again = a->scene && a->is_reloading;
     bool is_first = !a->scene;
-    view_trace_stop(a->tracer);
-    a->trace_is_current = false;
+    stop_traces(a);
     gl_renderer_destroy(a->renderer);
     a->renderer = renderer;
     view_state_set_model(&a->state, &l->model, l->low, l->high, is_again);

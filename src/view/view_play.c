@@ -35,7 +35,7 @@ static void give_up(view_app *a, const view_step *s)
 {
     char what[96] = "the model";
     if (s->kind == VIEW_STEP_TRACE) {
-        view_trace_state trace = view_trace_get(a->tracer);
+        view_trace_state trace = view_trace_get(a->traced[1].tracer);
         uint32_t wanted = s->numbers[0] > 0.0 ? (uint32_t)fmin(s->numbers[0], 4e9) : trace.wanted;
         snprintf(what, sizeof what, "the path traced picture (%u of %u samples)", trace.samples, wanted);
     }
@@ -43,23 +43,35 @@ static void give_up(view_app *a, const view_step *s)
                      a->desc->script, s->line, what, patience_of(s));
 }
 
+/* Whether a side has the samples that a step waits for. */
+static bool is_traced(view_app *a, const view_step *s, int side)
+{
+    const view_traced *t = &a->traced[side];
+    view_trace_state trace = view_trace_get(t->tracer);
+    if (trace.error.result != FACET_OK) {
+        a->result = trace.error.result;
+        a->error = trace.error;
+    }
+    return t->is_current && (trace.is_done || (s->numbers[0] > 0.0 && t->samples >= s->numbers[0]));
+}
+
+static bool traces_both(const view_app *a)
+{
+    const view_state *s = &a->state;
+    return s->render.integrator == FACET_INTEGRATOR_PATH && s->divider.comparison != VIEW_COMPARE_NOTHING &&
+           s->divider.comparison != VIEW_COMPARE_RENDERER;
+}
+
 /* Whether what a step waits for is there. */
 static bool is_ready(view_app *a, const view_step *s)
 {
-    view_trace_state trace;
     switch (s->kind) {
     case VIEW_STEP_LOAD:
         return a->scene && !view_load_is_busy(a->loader);
     case VIEW_STEP_RELOAD:
         return a->reload_count > a->script_reload_count;
     case VIEW_STEP_TRACE:
-        trace = view_trace_get(a->tracer);
-        if (trace.error.result != FACET_OK) {
-            a->result = trace.error.result;
-            a->error = trace.error;
-        }
-        return a->trace_is_current &&
-               (trace.is_done || (s->numbers[0] > 0.0 && a->trace_samples >= s->numbers[0]));
+        return is_traced(a, s, 1) && (!traces_both(a) || is_traced(a, s, 0));
     default:
         return true;
     }

@@ -91,8 +91,8 @@ static char *describe(view_app *a)
     if (!a->scene || !width)
         return NULL;
     facet_render_desc desc = view_show_desc(a, width, height, &camera);
-    if (desc.integrator == FACET_INTEGRATOR_PATH && a->trace_is_current)
-        desc.samples = a->trace_samples;
+    if (desc.integrator == FACET_INTEGRATOR_PATH && a->traced[1].is_current)
+        desc.samples = a->traced[1].samples;
     const view_state *s = &a->state;
     const facet_orbit orbit = view_camera_round(&s->orbit);
     facet_view_picture picture = {.model = a->path,

@@ -37,26 +37,34 @@ facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, f
 }
 
 /* Traces what is still, and draws with OpenGL what moves: a picture that is one sample old says less than one that keeps
- * up. */
-static bool trace(view_app *a, const facet_render_desc *side)
+ * up. What a held pointer does not change, as where the divider is, is traced on. */
+static bool trace(view_app *a, int side, const facet_render_desc *wanted)
 {
-    facet_render_desc desc = *side;
-    if (a->state.is_held || a->state.is_playing) {
-        if (a->trace_is_current)
-            view_trace_stop(a->tracer);
-        a->trace_is_current = false;
+    facet_render_desc desc = *wanted;
+    view_traced *t = &a->traced[side];
+    desc.samples = a->state.path_samples;
+    if (a->state.is_playing || (a->state.is_held && !view_trace_is_of(t->tracer, a->scene, &desc))) {
+        if (t->is_current)
+            view_trace_stop(t->tracer);
+        t->is_current = false;
         return false;
     }
-    desc.samples = a->state.path_samples;
-    if (view_trace_start(a->tracer, a->scene, &desc))
-        a->trace_is_current = false;
+    if (view_trace_start(t->tracer, a->scene, &desc))
+        t->is_current = false;
     view_picture picture;
-    if (view_trace_take(a->tracer, &picture, &a->trace_samples)) {
-        view_surface_upload(&a->traced, picture.width, picture.height, picture.pixels);
+    if (view_trace_take(t->tracer, &picture, &t->samples)) {
+        view_surface_upload(&t->surface, picture.width, picture.height, picture.pixels);
         view_picture_destroy(&picture);
-        a->trace_is_current = true;
+        t->is_current = true;
     }
-    return a->trace_is_current;
+    return t->is_current;
+}
+
+/* The left side is traced only beside the right one. */
+static void stop_left(view_app *a)
+{
+    view_trace_stop(a->traced[0].tracer);
+    a->traced[0].is_current = false;
 }
 
 /* As facet render draws it: in floats of 32 bits, and with the eye of a parallel view where it has it. */
@@ -119,11 +127,13 @@ static facet_result draw_picture(view_app *a, uint32_t width, uint32_t height, c
         snprintf(a->variant, sizeof a->variant, "Variant: %.100s", a->scene->variants[sides[1].pose.variant]);
         labels[1] = a->variant;
     }
+    if (!is_divided || sides[0].integrator != FACET_INTEGRATOR_PATH)
+        stop_left(a);
     for (int i = is_divided ? 0 : 1; i < 2 && result == FACET_OK; i++) {
         shown[i] = &a->sides[i];
         bool is_path = sides[i].integrator == FACET_INTEGRATOR_PATH;
-        if (is_path && trace(a, &sides[i]))
-            shown[i] = &a->traced;
+        if (is_path && trace(a, i, &sides[i]))
+            shown[i] = &a->traced[i].surface;
         else if (a->needs_picture || is_path)
             result = draw_side(a, i, &sides[i], error);
     }
@@ -196,16 +206,19 @@ static void make_help(view_app *a, uint32_t width, uint32_t height)
 
 static void make_panels(view_app *a, uint32_t width, uint32_t height, const char *const labels[2])
 {
-    char values[2048] = "";
+    char values[2048] = "", samples[96] = "";
     float scale = a->state.scale;
     uint32_t margin = (uint32_t)(12.0f * a->state.scale);
     uint32_t inside = width > 2 * margin ? width - 2 * margin : 1;
     uint32_t inside_height = height > 2 * margin ? height - 2 * margin : 1;
     if (a->state.shows_values && a->scene && !a->state.help_page)
         view_values_write(a, width, height, values, sizeof values);
+    else if (a->scene && !a->state.help_page)
+        view_values_write_samples(a, samples, sizeof samples);
     make_help(a, inside, inside_height);
     make_panel(a, VIEW_PANEL_VALUES, values, scale_of_values(a, values, height), inside * 2 / 3, 0);
     make_panel(a, VIEW_PANEL_MESSAGE, a->message, scale, inside, 0);
+    make_panel(a, VIEW_PANEL_SAMPLES, samples, scale, inside, 0);
     make_panel(a, VIEW_PANEL_LEFT, labels[0], scale, inside / 2, 0);
     make_panel(a, VIEW_PANEL_RIGHT, labels[1], scale, inside / 2, 0);
 }
@@ -235,6 +248,18 @@ static int draw_labels(view_app *a, int width, int border, int margin)
     return y + (int)right->height + margin;
 }
 
+/* Bottom left; above a message that is too wide to leave room beside it. */
+static void draw_samples(view_app *a, int width, int height, int margin)
+{
+    const view_shown_panel *samples = &a->panels[VIEW_PANEL_SAMPLES],
+                           *message = &a->panels[VIEW_PANEL_MESSAGE];
+    int y = height - margin - (int)samples->surface.height;
+    if (message->is_there &&
+        (int)message->surface.width / 2 + (int)samples->surface.width + 2 * margin > width / 2)
+        y -= margin + (int)message->surface.height;
+    draw_panel(a, VIEW_PANEL_SAMPLES, margin, y, 0, width);
+}
+
 /* Values top right, messages bottom middle, what the sides are at the top, help in the middle. */
 static void draw_panels(view_app *a, uint32_t width, uint32_t height)
 {
@@ -247,6 +272,7 @@ static void draw_panels(view_app *a, uint32_t width, uint32_t height)
     draw_panel(a, VIEW_PANEL_VALUES, w - margin - (int)p[VIEW_PANEL_VALUES].surface.width, y, 0, w);
     draw_panel(a, VIEW_PANEL_HELP, (w - (int)p[VIEW_PANEL_HELP].surface.width) / 2,
                (h - (int)p[VIEW_PANEL_HELP].surface.height) / 2, 0, w);
+    draw_samples(a, w, h, margin);
     draw_panel(a, VIEW_PANEL_MESSAGE, (w - (int)p[VIEW_PANEL_MESSAGE].surface.width) / 2,
                h - margin - (int)p[VIEW_PANEL_MESSAGE].surface.height, 0, w);
 }
@@ -355,9 +381,10 @@ facet_result view_show_into(view_app *a, bool has_panels, facet_error *error)
 
 void view_show_end(view_app *a)
 {
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         view_surface_destroy(&a->sides[i]);
-    view_surface_destroy(&a->traced);
+        view_surface_destroy(&a->traced[i].surface);
+    }
     view_surface_destroy(&a->shot);
     for (int i = 0; i < VIEW_PANEL_COUNT; i++)
         view_surface_destroy(&a->panels[i].surface);

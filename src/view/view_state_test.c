@@ -260,9 +260,38 @@ static void sides_differ_in_one_thing(void **state)
     }
 }
 
+/* A divider leaves path tracing on, and passes over what only OpenGL has. */
+static void comparisons_keep_tracing_paths(void **state)
+{
+    (void)state;
+    view_state s;
+    begin(&s);
+    press(&s, "r");
+    assert_int_equal(s.render.integrator, FACET_INTEGRATOR_PATH);
+    for (int i = 0; i < 2 * VIEW_COMPARISON_COUNT; i++) {
+        facet_render_desc sides[2];
+        const char *labels[2];
+        press(&s, i < VIEW_COMPARISON_COUNT ? "Tab" : "Shift+Tab");
+        assert_int_not_equal(s.divider.comparison, VIEW_COMPARE_MASKING);
+        view_divider_sides(&s.divider, &s.render, sides, labels);
+        assert_int_equal(sides[1].integrator, FACET_INTEGRATOR_PATH);
+        assert_int_equal(sides[0].integrator, s.divider.comparison == VIEW_COMPARE_RENDERER
+                                                  ? FACET_INTEGRATOR_GL
+                                                  : FACET_INTEGRATOR_PATH);
+    }
+    /* the other way round: what only OpenGL has goes when paths are traced */
+    press(&s, "0");
+    press(&s, "r");
+    press(&s, "Tab");
+    assert_int_equal(s.divider.comparison, VIEW_COMPARE_MASKING);
+    press(&s, "r");
+    assert_int_equal(s.divider.comparison, VIEW_COMPARE_NOTHING);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(keys_go_around),
+                                       cmocka_unit_test(comparisons_keep_tracing_paths),
                                        cmocka_unit_test(what_is_not_there_is_said),
                                        cmocka_unit_test(keys_without_a_model),
                                        cmocka_unit_test(what_does_nothing_is_said),

@@ -220,6 +220,16 @@ bool view_trace_start(view_tracer *t, const facet_scene *scene, const facet_rend
     return is_new;
 }
 
+bool view_trace_is_of(view_tracer *t, const facet_scene *scene, const facet_render_desc *desc)
+{
+    trace_job job;
+    fill_job(&job, scene, desc);
+    pthread_mutex_lock(&t->mutex);
+    bool is_same = t->has_last && memcmp(&t->last, &job, sizeof job) == 0;
+    pthread_mutex_unlock(&t->mutex);
+    return is_same;
+}
+
 void view_trace_stop(view_tracer *t)
 {
     pthread_mutex_lock(&t->mutex);

@@ -16,6 +16,8 @@ void view_trace_destroy(view_tracer *t); /* NULL is allowed */
 /* Begins anew, if desc is not what is traced already. scene, environment stay until view_trace_stop(); camera and
  * animations are copied. True: it begins anew, and pictures that were taken are of something else. */
 bool view_trace_start(view_tracer *t, const facet_scene *scene, const facet_render_desc *desc);
+/* Whether that is what is traced, so that view_trace_start() would go on with it. */
+bool view_trace_is_of(view_tracer *t, const facet_scene *scene, const facet_render_desc *desc);
 /* Gives up what is traced, and returns when it has; what was kept of the scene is released. */
 void view_trace_stop(view_tracer *t);
 

@@ -62,14 +62,37 @@ static void add_camera(values *v, const view_state *s)
         s->orbit.orthographic ? ", parallel" : "");
 }
 
+static uint32_t samples_of(const view_traced *t)
+{
+    return t->is_current ? t->samples : 0;
+}
+
+void view_values_write_samples(const view_app *a, char *out, size_t size)
+{
+    const view_state *s = &a->state;
+    bool is_divided = s->divider.comparison != VIEW_COMPARE_NOTHING;
+    bool is_both = is_divided && s->divider.comparison != VIEW_COMPARE_RENDERER;
+    bool is_path =
+        s->render.integrator == FACET_INTEGRATOR_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
+    uint32_t left = samples_of(&a->traced[0]), right = samples_of(&a->traced[1]);
+    out[0] = 0;
+    if (!is_path)
+        return;
+    if (right >= s->path_samples && (!is_both || left >= s->path_samples))
+        snprintf(out, size, "Path tracing: %u samples", s->path_samples);
+    else if (is_both)
+        snprintf(out, size, "Path tracing: %u | %u of %u samples", left, right, s->path_samples);
+    else
+        snprintf(out, size, "Path tracing: %u of %u samples", right, s->path_samples);
+}
+
 static void add_renderer(values *v, const view_app *a)
 {
     const view_state *s = &a->state;
     const facet_render_desc *r = &s->render;
     bool is_path = r->integrator == FACET_INTEGRATOR_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
     if (is_path)
-        add(v, "Path tracing", "%u of %u samples", a->trace_is_current ? a->trace_samples : 0,
-            s->path_samples);
+        add(v, "Path tracing", "%u of %u samples", samples_of(&a->traced[1]), s->path_samples);
     else
         add(v, "OpenGL", "%u samples", r->samples ? r->samples : 4);
     add(v, "Driver", "%.200s", (const char *)glGetString(GL_RENDERER));

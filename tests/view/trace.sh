@@ -47,6 +47,49 @@ for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do
         failed "the $side side is another picture: $(cat compared)"
 done
 
+# The divider does not stop path tracing: both sides are traced, dragging the border begins nothing anew, and each side is what it
+# is alone. 32 samples of a picture that is begun anew with each step of the border would not come.
+cat >script <<'END'
+load
+key Tab
+trace
+picture sides.png
+drag left 48 30 70 30
+trace 32 0.5
+picture moved.png
+key 0
+key Shift+F
+trace
+picture alone.png
+END
+view triangle.gltf --renderer path --energy gltf --samples 32
+"$facet" compare sides.png alone.png --crop 50,0,46,72 --max max=0.004 -q >compared 2>&1 ||
+    failed "the right side is not what is traced alone: $(cat compared)"
+"$facet" compare sides.png moved.png --crop 72,0,24,72 --max max=0 -q >compared 2>&1 ||
+    failed "dragging the border changes what is traced: $(cat compared)"
+
+# The window counts the samples; the hint at the start goes with the first input, or in time.
+cat >script <<'END'
+load
+window hint.png
+key z
+key z
+window none.png
+key r
+key r
+key r
+trace 8
+wait 20
+window counted.png
+picture traced.png
+END
+view triangle.gltf --samples 8
+differ hint.png none.png
+differ traced.png counted.png
+printf 'load\nwait 20\nwindow later.png\n' >script
+view triangle.gltf
+same later.png none.png 0
+
 # what does not come in time ends the script, and so does what cannot be written
 cat >script <<'END'
 load
