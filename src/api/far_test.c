@@ -210,27 +210,39 @@ static facet_scene *load(model m)
     return scene;
 }
 
+static facet_environment *studio;
+
+static int make_studio(void **state)
+{
+    (void)state;
+    return facet_environment_create_studio(NULL, &studio, NULL) == FACET_OK ? 0 : -1;
+}
+
+static int end_studio(void **state)
+{
+    (void)state;
+    facet_environment_destroy(studio);
+    return 0;
+}
+
 /* By the camera of the file, if it has one. NULL: there is no OpenGL. */
 static facet_image *draw(const facet_scene *scene, facet_integrator integrator, bool is_animated)
 {
     static const uint32_t first = 0;
-    facet_environment *studio;
     facet_camera camera;
     facet_image *image = NULL;
     facet_error error = {0};
     facet_render_desc desc = {.width = SIZE,
                               .height = SIZE,
                               .integrator = integrator,
+                              .environment = studio,
                               .samples = 4,
                               .pose = {.animation_count = is_animated, .animations = &first}};
     if (facet_scene_get_counts(scene).cameras > 0) {
         assert_int_equal(facet_camera_from_scene(scene, &desc.pose, 0, &camera, NULL), FACET_OK);
         desc.camera = &camera;
     }
-    assert_int_equal(facet_environment_create_studio(NULL, &studio, NULL), FACET_OK);
-    desc.environment = studio;
     facet_result result = facet_render(scene, &desc, &image, &error);
-    facet_environment_destroy(studio);
     if (result == FACET_ERROR_ENVIRONMENT && integrator == FACET_INTEGRATOR_GL)
         printf("without OpenGL: %s\n", error.message);
     else if (result != FACET_OK)
@@ -355,5 +367,5 @@ int main(void)
         cmocka_unit_test(moved_vertices_look_the_same),
         cmocka_unit_test(places_are_relative_to_the_origin),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_studio, end_studio);
 }

@@ -10,13 +10,13 @@
 #include "scene/hierarchy.h"
 
 enum {
-    SAMPLES = 4096,    /* vertices by which a scene is judged */
+    SAMPLES = 1024,    /* vertices by which a scene is judged */
     MAX_ANCESTORS = 64 /* of a node that are looked at */
 };
 
 /* Beyond so many times its size from the origin a model is far. Positions of a mesh are cheaper to move, and hurt
  * earlier: normals and tangents are found between neighbours. */
-static const double FAR_RATIO = 64.0, MESH_RATIO = 4.0;
+static const double FAR_RATIO = 16.0, MESH_RATIO = 4.0;
 /* Steps of floats above this share of a mesh can be seen in its shading. */
 static const double COARSE = 0x1p-15;
 

@@ -11,7 +11,7 @@
  * and writers of numbers that people know (the command line, reports, files) add or subtract the origin.
  *
  * Near models have the origins 0 and worlds composed in float: near is what is not farther out than FAR_RATIO times its
- * size, where the steps of floats are 1/131072 of the model at most. */
+ * size, where the steps of floats are 1/524288 of the model at most. */
 #ifndef SCENE_ORIGIN_H
 #define SCENE_ORIGIN_H
 

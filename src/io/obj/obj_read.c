@@ -45,7 +45,7 @@ static void parse_chunks(void *context, size_t begin, size_t end)
 /* A few positions of all chunks, of which the origin is found. */
 static bool find_origin(obj_reader *r)
 {
-    enum { MOST = 4096 };
+    enum { MOST = 1024 };
     size_t total = 0, count = 0, next = 0, before = 0;
     for (size_t i = 0; i < r->chunk_count; i++)
         total += r->chunks[i].positions.count;
