@@ -92,9 +92,9 @@ static void read_document(reader *r)
     if (reader_is_ok(r))
         read_extensions(r, &root);
     void (*const concerns[])(reader *, const json_place *) = {
-        read_buffers,  read_views,  read_accessors,  read_images,       read_textures,      read_materials,
-        read_variants, read_meshes, read_lights,     read_image_lights, read_cameras,       read_nodes,
-        read_scenes,   read_skins,  read_animations, read_meta,         read_legacy_extras,
+        read_buffers,  read_views,  read_accessors, read_images,       read_textures, read_materials,
+        read_variants, read_meshes, read_lights,    read_image_lights, read_cameras,  read_nodes,
+        read_scenes,   read_center, read_skins,     read_animations,   read_meta,     read_legacy_extras,
     };
     for (size_t i = 0; i < sizeof concerns / sizeof *concerns && reader_is_ok(r); i++)
         concerns[i](r, &root);

@@ -124,7 +124,7 @@ static const char *resolve_node(reader *r, const pointer_path *p, gltf_target *o
                    {"scale", offsetof(scene_node, scale), 3}};
     static const char *const visible[] = {"extensions", "KHR_node_visibility", "visible"};
     uint32_t index;
-    if (!get_number(p, 1, r->scene->node_count, &index))
+    if (!get_number(p, 1, r->file_node_count, &index))
         return "names a node that is not there";
     if (p->count >= 3 && strcmp(p->tokens[2], "weights") == 0)
         return resolve_weights(r->scene, p, index, r->scene->nodes[index].mesh, out);

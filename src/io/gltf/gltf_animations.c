@@ -64,7 +64,7 @@ static bool find_core_target(reader *r, const json_place *target, const char *pa
                  {"rotation", SCENE_TARGET_NODE, 4, offsetof(scene_node, rotation)},
                  {"scale", SCENE_TARGET_NODE, 3, offsetof(scene_node, scale)},
                  {"weights", SCENE_TARGET_WEIGHTS, 0, 0}};
-    uint32_t node = get_index(r, target, "node", r->scene->node_count, "node");
+    uint32_t node = get_index(r, target, "node", r->file_node_count, "node");
     size_t i = 0;
     while (i < 4 && strcmp(path, paths[i].path) != 0)
         i++;
@@ -129,6 +129,29 @@ static void add_mesh_channels(reader *r, animation_reader *a, const scene_channe
     }
 }
 
+/* Copies of a node, which has several parents, move with it. */
+static void add_node_channels(reader *r, animation_reader *a, const scene_channel *channel)
+{
+    add_channel(r, a, channel);
+    if (channel->kind != SCENE_TARGET_NODE && channel->kind != SCENE_TARGET_WEIGHTS &&
+        channel->kind != SCENE_TARGET_VISIBLE)
+        return;
+    const char *rest = channel->pointer ? strchr(channel->pointer + strlen("/nodes/"), '/') : NULL;
+    for (uint32_t i = next_node_copy(r, channel->index); i != SCENE_NONE && reader_spend(r, NULL, 1);
+         i = next_node_copy(r, i)) {
+        scene_channel own = *channel;
+        own.index = i;
+        if (rest) {
+            char *pointer = reader_alloc_raw(r, "animation", strlen(rest) + sizeof "/nodes/4294967295", 1);
+            if (!pointer)
+                return;
+            sprintf(pointer, "/nodes/%u%s", i, rest);
+            own.pointer = pointer;
+        }
+        add_channel(r, a, &own);
+    }
+}
+
 static void read_channel(reader *r, animation_reader *a, const json_place *at)
 {
     uint32_t sampler = get_required_index(r, at, "sampler", (uint32_t)get_count(&a->samplers), "sampler");
@@ -159,7 +182,7 @@ static void read_channel(reader *r, animation_reader *a, const json_place *at)
     if (found.is_of_mesh)
         add_mesh_channels(r, a, &found.channel, s->width);
     else
-        add_channel(r, a, &found.channel);
+        add_node_channels(r, a, &found.channel);
 }
 
 /* ---- animations ---- */

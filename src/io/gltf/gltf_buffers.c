@@ -80,6 +80,8 @@ bool has_view_source(const reader *r, uint32_t view)
 bool has_accessor_source(const reader *r, uint32_t accessor)
 {
     const gltf_accessor *a = &r->accessors[accessor];
+    if (a->problem.message) /* which is told when the elements are asked for */
+        return true;
     return (a->decoded || a->indices || a->view == SCENE_NONE || has_view_source(r, a->view)) &&
            (a->sparse_count == 0 ||
             (has_view_source(r, a->sparse_index_view) && has_view_source(r, a->sparse_value_view)));

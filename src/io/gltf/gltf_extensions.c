@@ -29,6 +29,7 @@ typedef struct known_extension {
 } known_extension;
 
 static const known_extension KNOWN[] = {
+    {"CESIUM_RTC", SCENE_SUPPORTED, ROOT, NULL, 0},
     {"EXT_lights_image_based", SCENE_SUPPORTED, ROOT | SCENE, NULL, 0},
     {"EXT_mesh_gpu_instancing", SCENE_SUPPORTED, NODE, NULL, 0},
     /* Says which primitives may be drawn in one call: they are ordinary ones, and are drawn. */

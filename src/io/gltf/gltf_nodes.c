@@ -179,29 +179,6 @@ static void read_transform(reader *r, const json_place *at, scene_node *out)
     }
 }
 
-static void read_children(reader *r, const json_place *at, uint32_t index, uint32_t node_count)
-{
-    json_place array = get_array(r, at, "children");
-    size_t count = get_count(&array);
-    uint32_t *children = reader_alloc(r, "nodes", count, sizeof *children);
-    scene_node *nodes = r->scene->nodes;
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place element = get_element(&array, i);
-        uint32_t child = get_index_value(r, &element, node_count, "node");
-        if (child == SCENE_NONE)
-            return;
-        if (nodes[child].parent != SCENE_NONE) {
-            reader_fail(r, &element, NULL, FACET_ERROR_INVALID, "node %u is a child of node %u already",
-                        child, nodes[child].parent);
-            return;
-        }
-        nodes[child].parent = index;
-        children[i] = child;
-    }
-    nodes[index].children = children;
-    nodes[index].child_count = (uint32_t)count;
-}
-
 /* What a node has beside its mesh: what of that is wrong is left out. */
 static void read_attachments(reader *r, const json_place *at, scene_node *out)
 {
@@ -247,36 +224,6 @@ static void read_node(reader *r, const json_place *at, scene_node *out, uint32_t
     out->meta = get_meta(r, at);
 }
 
-/* Every node has one parent at most, so what no root reaches is in a loop. */
-static void check_loops(reader *r, const json_place *array)
-{
-    uint32_t count = r->scene->node_count;
-    const scene_node *nodes = r->scene->nodes;
-    uint32_t *queue = mem_alloc(r->allocator, count, sizeof *queue);
-    bool *is_reached = mem_zalloc(r->allocator, count, sizeof *is_reached);
-    size_t queued = 0;
-    if (!queue || !is_reached) {
-        reader_fail_memory(r, "nodes", count * sizeof *queue);
-        goto done;
-    }
-    for (uint32_t i = 0; i < count; i++)
-        if (nodes[i].parent == SCENE_NONE)
-            queue[queued++] = i;
-    for (size_t i = 0; i < queued; i++) {
-        is_reached[queue[i]] = true;
-        for (uint32_t k = 0; k < nodes[queue[i]].child_count; k++)
-            queue[queued++] = nodes[queue[i]].children[k];
-    }
-    for (uint32_t i = 0; queued < count && i < count; i++)
-        if (!is_reached[i]) {
-            json_place at = get_element(array, i);
-            reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "is its own ancestor");
-        }
-done:
-    mem_free(queue);
-    mem_free(is_reached);
-}
-
 void read_nodes(reader *r, const json_place *root)
 {
     json_place array = get_array(r, root, "nodes");
@@ -294,7 +241,7 @@ void read_nodes(reader *r, const json_place *root)
         r->scene->node_count = i + 1;
     }
     if (reader_is_ok(r))
-        check_loops(r, &array);
+        settle_hierarchy(r, &array);
 }
 
 /* ---- scenes ---- */
@@ -309,7 +256,7 @@ static void read_scene(reader *r, const json_place *at, scene_root *out, bool *i
     memset(is_listed, 0, r->scene->node_count * sizeof *is_listed);
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place element = get_element(&array, i);
-        uint32_t node = get_index_value(r, &element, r->scene->node_count, "node");
+        uint32_t node = get_index_value(r, &element, r->file_node_count, "node");
         if (node == SCENE_NONE)
             return;
         if (r->scene->nodes[node].parent != SCENE_NONE) {
@@ -340,7 +287,8 @@ void read_scenes(reader *r, const json_place *root)
     size_t count = get_count(&array);
     r->scene->scenes = reader_alloc(r, "scenes", count, sizeof *r->scene->scenes);
     uint32_t drawn = get_index(r, root, "scene", (uint32_t)count, "scene");
-    if (count && (reader_leave_out(r, "the first scene is drawn") || drawn == SCENE_NONE))
+    bool is_wrong = reader_leave_out(r, count ? "the first scene is drawn" : "all nodes are drawn");
+    if (count && (is_wrong || drawn == SCENE_NONE))
         drawn = 0;
     bool *is_listed = mem_alloc(r->allocator, r->scene->node_count, sizeof *is_listed);
     if (!is_listed)

@@ -53,17 +53,85 @@ static void broken_hierarchies_are_refused(void **state)
     static const char *const cases[][2] = {
         {"'nodes':[{'children':[0]}]", "nodes[0]: is its own ancestor"},
         {"'nodes':[{'children':[1]},{'children':[0]}]", "nodes[0]: is its own ancestor"},
-        {"'nodes':[{'children':[2]},{'children':[2]},{}]",
-         "nodes[1].children[0]: node 2 is a child of node 0 already"},
-        {"'nodes':[{'children':[1,1]},{}]", "node 1 is a child of node 0 already"},
         {"'nodes':[{'children':[7]}]", "nodes[0].children[0]: 7 is the number of no node (there is 1)"},
         {"'nodes':[{'mesh':0}]", "nodes[0].mesh: 0 is the number of no mesh (there are 0)"},
         {"'nodes':[{'matrix':[1,2,3]}]", "must have 16 numbers, but has 3"},
         {"'nodes':[{}],'scenes':[{'nodes':[1]}]", "scenes[0].nodes[0]: 1 is the number of no node"},
-        {"'scene':0", "scene: 0 is the number of no scene"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_refused(cases[i][0], NULL, FACET_ERROR_INVALID, cases[i][1]);
+}
+
+/* 3 has the parents 1 and 2, and a child. */
+static void shared_nodes_are_copied(void **state)
+{
+    (void)state;
+    test_model m = {0};
+    const float times[2] = {0, 1};
+    const float ways[6] = {0, 0, 0, 0, 5, 0};
+    model_add_floats(&m, times, 2, "SCALAR");
+    model_add_floats(&m, ways, 2, "VEC3");
+    facet_scene *scene = model_load(
+        &m, "'meshes':[{'primitives':[{'attributes':{}}]}],'cameras':[{'type':'perspective','perspective':{"
+            "'yfov':1,'znear':1}}],'nodes':[{'children':[1,2]},{'translation':[1,0,0],'children':[3]},"
+            "{'translation':[2,0,0],'children':[3,3]},{'children':[4],'camera':0},{'mesh':0}],'animations':[{"
+            "'samplers':[{'input':0,'output':1}],'channels':[{'sampler':0,'target':{'node':4,'path':"
+            "'translation'}}]}]");
+    assert_int_equal(scene->node_count, 7);
+    assert_true(has_warning(scene,
+                            "nodes[2].children[0]: node 3 is a child of node 1 already; it is drawn under "
+                            "each parent"));
+    assert_true(has_note(scene, "nodes[2].children[1]: node 3 is listed twice"));
+    const scene_node *n = scene->nodes;
+    assert_int_equal(n[3].parent, 1);
+    assert_int_equal(n[2].child_count, 1);
+    assert_int_equal(n[2].children[0], 5);
+    assert_int_equal(n[5].parent, 2);
+    assert_int_equal(n[5].camera, SCENE_NONE);
+    assert_int_equal(n[5].children[0], 6);
+    assert_int_equal(n[6].parent, 5);
+    assert_int_equal(n[6].mesh, 0);
+    assert_int_equal(scene->animations[0].channel_count, 2);
+    assert_int_equal(scene->animations[0].channels[1].index, 6);
+    scene_destroy(scene);
+}
+
+/* Each of a chain has two ways to the next: 2^20 of them to the last. */
+static void copies_of_copies_have_a_limit(void **state)
+{
+    (void)state;
+    char body[8192];
+    size_t length = (size_t)snprintf(body, sizeof body, "'nodes':[");
+    for (int i = 0; i < 20; i++) /* 3 i has 3 i + 1 and 3 i + 2, and both have 3 i + 3 */
+        length += (size_t)snprintf(body + length, sizeof body - length,
+                                   "{'children':[%d,%d]},{'children':[%d]},{'children':[%d]},", 3 * i + 1,
+                                   3 * i + 2, 3 * i + 3, 3 * i + 3);
+    snprintf(body + length, sizeof body - length, "{}]");
+    assert_refused(body, NULL, FACET_ERROR_LIMIT, "with several parents make more than 65536 copies");
+    assert_refused("'nodes':[{'children':[1,2]},{'children':[3]},{'children':[3]},{'children':[1]}]", NULL,
+                   FACET_ERROR_INVALID, "is its own ancestor");
+}
+
+/* Of a file that says where it is in the world. */
+static void a_center_moves_the_roots(void **state)
+{
+    (void)state;
+    facet_scene *scene =
+        load("'extensionsUsed':['CESIUM_RTC'],'extensionsRequired':['CESIUM_RTC'],'extensions':{"
+             "'CESIUM_RTC':{'center':[6378137.125,3,4]}},'nodes':[{'children':[1]},{},{}],"
+             "'scenes':[{'nodes':[0]},{'nodes':[2]}]",
+             NULL);
+    assert_int_equal(scene->node_count, 5);
+    assert_int_equal(scene->warning_count, 0);
+    assert_int_equal(scene->scenes[0].nodes[0], 3);
+    assert_int_equal(scene->scenes[1].nodes[0], 4);
+    assert_int_equal(scene->nodes[0].parent, 3);
+    assert_int_equal(scene->nodes[1].parent, 0);
+    assert_int_equal(scene->nodes[3].children[0], 0);
+    assert_true(scene->nodes[3].translation[0] == 6378137.125);
+    scene_destroy(scene);
+    assert_left_out("'extensionsUsed':['CESIUM_RTC'],'extensions':{'CESIUM_RTC':{'center':[1]}}", NULL,
+                    "center: must have 3 numbers, but has 1; the model is not moved");
 }
 
 static void scenes_and_hidden_nodes(void **state)
@@ -213,6 +281,9 @@ int main(void)
         cmocka_unit_test(trs_and_matrix_say_the_same),
         cmocka_unit_test(worlds_are_products_down_the_tree),
         cmocka_unit_test(broken_hierarchies_are_refused),
+        cmocka_unit_test(shared_nodes_are_copied),
+        cmocka_unit_test(copies_of_copies_have_a_limit),
+        cmocka_unit_test(a_center_moves_the_roots),
         cmocka_unit_test(scenes_and_hidden_nodes),
         cmocka_unit_test(cameras_arrive),
         cmocka_unit_test(lights_arrive_and_shine_along_minus_z),

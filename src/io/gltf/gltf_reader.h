@@ -118,8 +118,10 @@ typedef struct reader {
     gltf_buffer *buffers;
     gltf_view *views;
     gltf_accessor *accessors;
-    gltf_mesh *meshes; /* as many as the scene's */
-    gltf_mesh *mesh;   /* the one that is being read */
+    uint32_t file_node_count;      /* nodes of the file, which are the first of the scene's */
+    uint32_t *copy_of, *next_copy; /* gltf_hierarchy.c, per node; NULL: there are no copies */
+    gltf_mesh *meshes;             /* as many as the scene's */
+    gltf_mesh *mesh;               /* the one that is being read */
     reader_problem
         *material_problems; /* as many as the scene's materials, which are defaults where there is one */
     const uint32_t *iota;   /* 0, 1, 2, .. */
@@ -371,6 +373,15 @@ void read_nodes(reader *r, const json_place *root);
 void read_scenes(reader *r, const json_place *root);
 void read_skins(reader *r, const json_place *root); /* also checks the meshes that use them */
 void read_animations(reader *r, const json_place *root);
+
+/* gltf_hierarchy.c */
+/* The children of node number index; its place is not asked for yet. */
+void read_children(reader *r, const json_place *at, uint32_t index, uint32_t node_count);
+/* When all nodes are read: gives each its parent. A node with several is copied for each but the first. */
+void settle_hierarchy(reader *r, const json_place *array);
+/* The copies of a node of the file, one after the other; node: the file's or the last one. SCENE_NONE: no more. */
+uint32_t next_node_copy(const reader *r, uint32_t node);
+void read_center(reader *r, const json_place *root); /* CESIUM_RTC; after the scenes */
 
 /* gltf_instancing.c: EXT_mesh_gpu_instancing of a node; NULL: it has none, or an error is recorded. */
 const scene_instancing *read_instancing(reader *r, const json_place *node);

@@ -32,7 +32,6 @@ static uint32_t *find_roots(reader *r)
 
 static void read_joints(reader *r, const json_place *at, const uint32_t *roots, scene_skin *out)
 {
-    const facet_scene *scene = r->scene;
     json_place array = get_array(r, at, "joints");
     if (reader_is_ok(r) && !array.value)
         reader_fail(r, at, "joints", FACET_ERROR_INVALID, "is missing");
@@ -41,7 +40,7 @@ static void read_joints(reader *r, const json_place *at, const uint32_t *roots, 
     bool has_several_roots = false;
     for (size_t i = 0; i < count && reader_is_ok(r); i++) {
         json_place element = get_element(&array, i);
-        joints[i] = get_index_value(r, &element, scene->node_count, "node");
+        joints[i] = get_index_value(r, &element, r->file_node_count, "node");
         if (joints[i] != SCENE_NONE)
             has_several_roots |= roots[joints[i]] != roots[joints[0]];
     }
@@ -126,7 +125,7 @@ static void read_skin(reader *r, const json_place *at, const uint32_t *roots, sc
 {
     out->name = get_name(r, at);
     read_joints(r, at, roots, out);
-    out->skeleton = get_index(r, at, "skeleton", r->scene->node_count, "node");
+    out->skeleton = get_index(r, at, "skeleton", r->file_node_count, "node");
     if (reader_is_ok(r))
         read_bind_matrices(r, at, out);
     out->meta = get_meta(r, at);

@@ -1,0 +1,216 @@
+/* gltf_hierarchy.c - which node is below which. The specification allows a node one parent; some exporters give it
+ * several and mean instances, so that the second parent and all after it get copies of the node and what is below it.
+ * Copies are behind the nodes of the file, whose numbers stay. Loops are an error. */
+#include <stdio.h>
+#include <string.h>
+
+#include "io/gltf/gltf_reader.h"
+
+/* Copies of copies can be exponentially many. */
+enum { MAX_COPIES = 1 << 16 };
+
+void read_children(reader *r, const json_place *at, uint32_t index, uint32_t node_count)
+{
+    json_place array = get_array(r, at, "children");
+    size_t count = get_count(&array);
+    uint32_t *children = reader_alloc(r, "nodes", count, sizeof *children);
+    uint32_t used = 0;
+    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+        json_place element = get_element(&array, i);
+        uint32_t child = get_index_value(r, &element, node_count, "node");
+        if (child == SCENE_NONE)
+            return;
+        if (r->scene->nodes[child].parent == index) { /* for now: who listed it last */
+            reader_note(r, &element, NULL, "node %u is listed twice", child);
+            continue;
+        }
+        r->scene->nodes[child].parent = index;
+        children[used++] = child;
+    }
+    r->scene->nodes[index].children = children;
+    r->scene->nodes[index].child_count = used;
+}
+
+/* ---- how many there are ---- */
+
+typedef struct way_count {
+    uint32_t *waiting, *queue; /* parents that were not looked at; nodes without such */
+    uint64_t *ways;            /* from roots to a node; more than MAX_COPIES count as MAX_COPIES + 1 */
+} way_count;
+
+/* Looks at parents before children. Returns how many nodes that reached: all, where there are no loops. */
+static uint32_t follow_ways(const scene_node *nodes, uint32_t count, way_count *w, uint64_t *total)
+{
+    uint32_t queued = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < nodes[i].child_count; k++)
+            w->waiting[nodes[i].children[k]]++;
+    for (uint32_t i = 0; i < count; i++)
+        if (w->waiting[i] == 0) {
+            w->ways[i] = 1;
+            w->queue[queued++] = i;
+        }
+    for (uint32_t i = 0; i < queued; i++) {
+        const scene_node *node = &nodes[w->queue[i]];
+        uint64_t ways = w->ways[w->queue[i]];
+        *total += ways;
+        for (uint32_t k = 0; k < node->child_count; k++) {
+            uint32_t child = node->children[k];
+            uint64_t sum = w->ways[child] + ways;
+            w->ways[child] = sum > MAX_COPIES ? MAX_COPIES + 1 : sum;
+            if (--w->waiting[child] == 0)
+                w->queue[queued++] = child;
+        }
+    }
+    return queued;
+}
+
+/* How many nodes there are when each is there once for every way from a root to it. False: an error is recorded. */
+static bool count_nodes(reader *r, const json_place *array, uint64_t *total)
+{
+    uint32_t count = r->scene->node_count;
+    way_count w = {.waiting = mem_zalloc(r->allocator, count, sizeof *w.waiting),
+                   .queue = mem_alloc(r->allocator, count, sizeof *w.queue),
+                   .ways = mem_zalloc(r->allocator, count, sizeof *w.ways)};
+    *total = 0;
+    if (!w.waiting || !w.queue || !w.ways) {
+        reader_fail_memory(r, "nodes", count * (2 * sizeof *w.queue + sizeof *w.ways));
+    } else if (follow_ways(r->scene->nodes, count, &w, total) < count) {
+        uint32_t i = 0;
+        while (w.waiting[i] == 0)
+            i++;
+        json_place at = get_element(array, i);
+        reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "is its own ancestor");
+    } else if (*total > (uint64_t)count + MAX_COPIES) {
+        reader_fail(r, array, NULL, FACET_ERROR_LIMIT, "with several parents make more than %d copies",
+                    (int)MAX_COPIES);
+    }
+    mem_free(w.waiting);
+    mem_free(w.queue);
+    mem_free(w.ways);
+    return reader_is_ok(r);
+}
+
+/* ---- copies ---- */
+
+static void warn_shared(reader *r, const json_place *array, uint32_t parent, uint32_t k, uint32_t child)
+{
+    const json_place node = get_element(array, parent);
+    const json_place children = {.parent = &node, .key = "children"};
+    const json_place at = {.parent = &children, .index = k};
+    reader_warn(r, &at, NULL, "node %u is a child of node %u already; it is drawn under each parent", child,
+                r->scene->nodes[child].parent);
+}
+
+/* A copy has no camera, as choosing one is choosing a node, and draws no mesh that joints place: that would be drawn
+ * again where it is. */
+static void make_copy(reader *r, uint32_t copy, uint32_t of, uint32_t parent)
+{
+    scene_node *node = &r->scene->nodes[copy];
+    *node = r->scene->nodes[of];
+    node->parent = parent;
+    node->camera = SCENE_NONE;
+    if (node->skin != SCENE_NONE)
+        node->mesh = node->skin = SCENE_NONE;
+    uint32_t original = of < r->file_node_count ? of : r->copy_of[of];
+    r->copy_of[copy] = original;
+    r->next_copy[copy] = r->next_copy[original];
+    r->next_copy[original] = copy;
+}
+
+/* Gives a node its children: those of the file that have no parent yet, and copies of the others. */
+static void adopt(reader *r, const json_place *array, uint32_t index, uint32_t *used)
+{
+    scene_node *nodes = r->scene->nodes;
+    uint32_t count = nodes[index].child_count;
+    uint32_t *children = reader_alloc_raw(r, "nodes", count, sizeof *children);
+    bool is_copy = index >= r->file_node_count;
+    const uint32_t *originals = nodes[is_copy ? r->copy_of[index] : index].children;
+    for (uint32_t k = 0; k < count && children; k++) {
+        uint32_t child = originals[k] < r->file_node_count ? originals[k] : r->copy_of[originals[k]];
+        if (!is_copy && nodes[child].parent == SCENE_NONE) {
+            nodes[child].parent = index;
+            children[k] = child;
+            continue;
+        }
+        if (!is_copy)
+            warn_shared(r, array, index, k, child);
+        children[k] = *used;
+        make_copy(r, (*used)++, child, index);
+    }
+    if (children)
+        nodes[index].children = children;
+}
+
+void settle_hierarchy(reader *r, const json_place *array)
+{
+    uint64_t total;
+    uint32_t count = r->scene->node_count;
+    r->file_node_count = count;
+    if (!count_nodes(r, array, &total))
+        return;
+    if (total > count) {
+        scene_node *nodes = reader_alloc_raw(r, "nodes", total, sizeof *nodes);
+        r->copy_of = reader_alloc(r, "nodes", total, sizeof *r->copy_of);
+        r->next_copy = reader_alloc(r, "nodes", total, sizeof *r->next_copy);
+        if (!nodes || !r->copy_of || !r->next_copy)
+            return;
+        memcpy(nodes, r->scene->nodes, count * sizeof *nodes);
+        r->scene->nodes = nodes;
+    }
+    uint32_t used = count;
+    for (uint32_t i = 0; i < count; i++)
+        r->scene->nodes[i].parent = SCENE_NONE;
+    for (uint32_t i = 0; i < used && reader_is_ok(r); i++)
+        adopt(r, array, i, &used);
+    r->scene->node_count = used;
+}
+
+uint32_t next_node_copy(const reader *r, uint32_t node)
+{
+    return r->next_copy && r->next_copy[node] ? r->next_copy[node] : SCENE_NONE;
+}
+
+/* ---- CESIUM_RTC ---- */
+
+/* Every root gets a node above it that is at the center: its own place may be animated. */
+void read_center(reader *r, const json_place *root)
+{
+    double center[3];
+    json_place at = get_extension(r, root, "CESIUM_RTC");
+    bool is_there = get_doubles(r, &at, "center", center, 3);
+    facet_scene *scene = r->scene;
+    if (reader_leave_out(r, "the model is not moved") || !is_there || !reader_is_ok(r))
+        return;
+    uint32_t count = scene->node_count;
+    scene_node *nodes = reader_alloc_raw(r, "nodes", 2 * (size_t)count, sizeof *nodes);
+    uint32_t *children = reader_alloc_raw(r, "nodes", count, sizeof *children);
+    if (!nodes || !children)
+        return;
+    memcpy(nodes, scene->nodes, count * sizeof *nodes);
+    for (uint32_t i = 0; i < count; i++) {
+        if (nodes[i].parent != SCENE_NONE)
+            continue;
+        children[i] = i;
+        nodes[i].parent = scene->node_count;
+        nodes[scene->node_count++] = (scene_node){.name = "CESIUM_RTC",
+                                                  .parent = SCENE_NONE,
+                                                  .child_count = 1,
+                                                  .children = &children[i],
+                                                  .translation = {center[0], center[1], center[2]},
+                                                  .rotation = {0, 0, 0, 1},
+                                                  .scale = {1, 1, 1},
+                                                  .mesh = SCENE_NONE,
+                                                  .camera = SCENE_NONE,
+                                                  .light = SCENE_NONE,
+                                                  .skin = SCENE_NONE};
+    }
+    scene->nodes = nodes;
+    for (uint32_t i = 0; i < scene->scene_count; i++)
+        for (uint32_t k = 0; k < scene->scenes[i].node_count; k++) {
+            uint32_t *listed =
+                (uint32_t *)(uintptr_t)&scene->scenes[i].nodes[k]; /* the reader made the list */
+            uint32_t parent = nodes[*listed].parent;
+            *listed = parent != SCENE_NONE && parent >= count ? parent : *listed;
+        }
+}
