@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "io/obj/obj_reader.h"
+#include "scene/origin.h"
 
 obj_soup obj_soup_begin(facet_scene *scene, const facet_scene_desc *desc)
 {
@@ -141,15 +142,22 @@ static bool make_material(obj_reader *r, const obj_soup *soup)
     return true;
 }
 
-/* Places as floats. */
+static void round_places(obj_reader *r, const obj_soup *soup)
+{
+    for (size_t i = 0; i < 3 * soup->place_count; i++)
+        r->positions[i] = (float)(soup->places[i] - r->origin[i % 3]);
+}
+
+/* Places as floats, relative to an origin near them where they are far from that of the file. */
 static bool set_positions(obj_reader *r, const obj_soup *soup)
 {
     r->position_count = soup->place_count;
     r->positions = mem_alloc(r->allocator, soup->place_count, 3 * sizeof *r->positions);
     if (!r->positions)
         return obj_fail_memory(r, "positions", soup->place_count * 3 * sizeof *r->positions);
-    for (size_t i = 0; i < 3 * soup->place_count; i++)
-        r->positions[i] = (float)soup->places[i];
+    round_places(r, soup);
+    if (scene_find_origin(r->positions, r->position_count, r->allocator, r->origin))
+        round_places(r, soup);
     return true;
 }
 

@@ -118,6 +118,24 @@ static void all_forms_and_types_are_the_same(void **state)
         }
 }
 
+/* All digits of a place in double count, however far it is from the origin. */
+static void far_places_are_exact(void **state)
+{
+    (void)state;
+    facet_scene *scene =
+        load_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                  "property double z\nelement face 1\n" CORNERS "end_header\n"
+                  "4500000.125 -1e7 0\n4500001.0625 -1e7 0\n4500000.125 -9999999.5 0.001\n3 0 1 2\n");
+    const scene_primitive *p = obj_only_primitive(scene);
+    const double *at = scene->nodes[0].translation;
+    static const double places[3][3] = {
+        {4500000.125, -1e7, 0}, {4500001.0625, -1e7, 0}, {4500000.125, -9999999.5, 0.001}};
+    for (size_t i = 0; i < 3; i++)
+        for (size_t k = 0; k < 3; k++)
+            assert_near((double)obj_position(p, i)[k] + at[k], places[i][k], 1e-6);
+    scene_destroy(scene);
+}
+
 /* ---- attributes ---- */
 
 static void attributes_of_vertices_are_read(void **state)
@@ -308,6 +326,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_forms_and_types_are_the_same),
+        cmocka_unit_test(far_places_are_exact),
         cmocka_unit_test(attributes_of_vertices_are_read),
         cmocka_unit_test(colors_are_of_many_types),
         cmocka_unit_test(texture_coordinates_of_faces_and_an_image_are_read),

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "base/mix64.h"
 #include "base/result.h"
 #include "image/codec.h"
 #include "io/obj/obj_soup.h"
@@ -18,7 +19,7 @@ typedef struct stl_reader {
     const facet_scene_desc *desc;
     facet_error *error;
     obj_soup soup;
-    obj_table table; /* places by their floats, to find equal ones */
+    obj_table table; /* places, to find equal ones */
 } stl_reader;
 
 /* ---- text ---- */
@@ -99,30 +100,33 @@ bool stl_detect(const void *bytes, size_t size)
 
 /* ---- corners ---- */
 
-/* Appends a corner at a place, one with those before that are at the same. False: no memory. */
-static bool add_corner(stl_reader *r, const double place[3])
+/* What equal places have in common, and others hardly ever. */
+static obj_key key_of(const double place[3], uint32_t number)
+{
+    uint64_t hash = 0;
+    for (int k = 0; k < 3; k++) {
+        uint64_t bits;
+        memcpy(&bits, &place[k], sizeof bits);
+        hash = mix64(hash ^ bits);
+    }
+    return (obj_key){.v = (uint32_t)hash, .t = (uint32_t)(hash >> 32), .vertex = number};
+}
+
+/* Appends a corner, at the place before that is the same, if there is one. False: no memory. */
+static bool add_corner(stl_reader *r, const double at[3])
 {
     obj_soup *s = &r->soup;
-    obj_key key = {.vertex = (uint32_t)s->place_count};
-    uint32_t bits[3];
-    for (int k = 0; k < 3; k++) {
-        float x = (float)place[k] + 0.0f; /* -0 is 0 */
-        memcpy(&bits[k], &x, sizeof x);
-    }
-    key.v = bits[0] * 0x9e3779b1u ^ bits[1] * 0x85ebca77u ^
-            bits[2] * 0xc2b2ae3du; /* its low bits choose the slot */
-    key.v ^= key.v >> 15;
-    key.t = bits[1];
-    key.n = bits[2];
-    uint32_t v = obj_table_find(&r->table, key);
+    const double place[3] = {at[0] + 0.0, at[1] + 0.0, at[2] + 0.0}; /* -0 is 0 */
+    uint32_t v = obj_table_find(&r->table, key_of(place, (uint32_t)s->place_count));
     if (v == UINT32_MAX || !mem_reserve(&r->desc->allocator, (void **)&s->v, &s->corner_capacity,
                                         s->corner_count + 1, sizeof *s->v))
         return false;
-    if (v == s->place_count) {
+    if (v == s->place_count || memcmp(s->places + 3 * (size_t)v, place, sizeof place) != 0) {
         if (!mem_reserve(&r->desc->allocator, (void **)&s->places, &s->place_capacity, s->place_count + 1,
                          3 * sizeof *s->places))
             return false;
-        memcpy(s->places + 3 * s->place_count++, place, 3 * sizeof *place);
+        v = (uint32_t)s->place_count;
+        memcpy(s->places + 3 * s->place_count++, place, sizeof place);
     }
     s->v[s->corner_count++] = v;
     return true;

@@ -133,6 +133,22 @@ static void solids_are_objects(void **state)
     scene_destroy(scene);
 }
 
+/* Corners that are one as floats stay apart where the text says so, relative to the place of the node. */
+static void far_places_are_exact(void **state)
+{
+    (void)state;
+    static const char bytes[] =
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 4500000.125 0 0\n"
+        "vertex 4500000.25 0 0\nvertex 4500000.125 0.1 0\nendloop\nendfacet\nendsolid a\n";
+    facet_scene *scene = load(bytes, sizeof bytes - 1, NULL);
+    const scene_primitive *p = obj_only_primitive(scene);
+    double at = scene->nodes[0].translation[0];
+    assert_int_equal(p->vertex_count, 3);
+    assert_near((double)obj_position(p, 0)[0] + at, 4500000.125, 1e-7);
+    assert_near((double)obj_position(p, 1)[0] + at, 4500000.25, 1e-7);
+    scene_destroy(scene);
+}
+
 static void damage_is_told(void **state)
 {
     (void)state;
@@ -170,9 +186,8 @@ static void damage_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_forms_are_read),
-        cmocka_unit_test(other_files_are_not),
-        cmocka_unit_test(solids_are_objects),
+        cmocka_unit_test(both_forms_are_read), cmocka_unit_test(other_files_are_not),
+        cmocka_unit_test(solids_are_objects),  cmocka_unit_test(far_places_are_exact),
         cmocka_unit_test(damage_is_told),
     };
     return cmocka_run_group_tests_name("stl", tests, NULL, NULL);
