@@ -14,19 +14,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static bool is_planned_folder(const bake_plan *plan, const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    for (size_t i = 0; slash && i < plan->folder_count; i++) {
-        size_t length = strlen(plan->folders[i]);
-        while (length > 1 && plan->folders[i][length - 1] == '/')
-            length--;
-        if (length == (size_t)(slash - path) && memcmp(plan->folders[i], path, length) == 0)
-            return true;
-    }
-    return false;
-}
-
 /* A folder that is there and open, or one above it in which it can be made. */
 static facet_result check_folder(const char *folder, facet_error *error)
 {
@@ -140,8 +127,7 @@ facet_result bake_plan_check(const command_line *c, const bake_options *o, bake_
     for (size_t i = 0; i < plan->file_count && result == FACET_OK; i++) {
         bake_file *file = &plan->files[i];
         const bool exists = strcmp(file->path, "-") != 0 && output_exists(file->path);
-        if (exists || !is_planned_folder(plan, file->path))
-            result = output_check(file->path, error);
+        result = output_check(file->path, error);
         file->is_kept = result == FACET_OK && o->keeps_existing && exists;
         if (result == FACET_OK && exists && !file->is_kept && is_read(c, o, file->path))
             result = fail_with(error, FACET_ERROR_ARGUMENT,
@@ -152,13 +138,4 @@ facet_result bake_plan_check(const command_line *c, const bake_options *o, bake_
         result = check_twice(plan, error);
     drop_idle_cubes(plan);
     return result;
-}
-
-facet_result bake_plan_make_folders(const bake_plan *plan, facet_error *error)
-{
-    for (size_t i = 0; i < plan->folder_count; i++)
-        if (mkdir(plan->folders[i], 0777) != 0 && errno != EEXIST)
-            return fail_with(error, FACET_ERROR_WRITE, "%s: the folder cannot be made: %s", plan->folders[i],
-                             strerror(errno));
-    return FACET_OK;
 }

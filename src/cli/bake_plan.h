@@ -64,9 +64,6 @@ void bake_plan_destroy(bake_plan *plan); /* {0} is allowed */
 facet_result bake_plan_check(const command_line *c, const bake_options *o, bake_plan *plan,
                              facet_error *error);
 
-/* Makes the folders. FACET_ERROR_WRITE. */
-facet_result bake_plan_make_folders(const bake_plan *plan, facet_error *error);
-
 /* The file that stands for the run in messages. */
 const char *bake_plan_subject(const bake_plan *plan);
 

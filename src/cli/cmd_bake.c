@@ -226,7 +226,7 @@ static facet_result bake(bake_run *run, facet_error *error)
 
 static facet_result write_files(bake_run *run, facet_error *error)
 {
-    facet_result result = bake_plan_make_folders(&run->plan, error);
+    facet_result result = FACET_OK;
     for (size_t i = 0; i < run->plan.file_count && result == FACET_OK; i++) {
         const bake_file *file = &run->plan.files[i];
         if (!file->is_kept)

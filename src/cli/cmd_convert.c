@@ -47,8 +47,8 @@ static facet_result convert_materials(convert_run *run, facet_scene *scene, face
         &log, error);
 }
 
-static facet_result save(convert_run *run, const char *model, const facet_scene *scene, const char *output,
-                         facet_error *error)
+static facet_result save(convert_run *run, const model_name *model, const facet_scene *scene,
+                         const char *output, facet_error *error)
 {
     const command_line *c = run->line;
     facet_scene_save_desc desc = {.allocator = run->allocator,
@@ -107,7 +107,7 @@ static void tell_model(convert_run *run, const char *model, const char *output, 
     }
 }
 
-static facet_result convert_model(convert_run *run, const char *model, facet_error *error)
+static facet_result convert_model(convert_run *run, const model_name *model, facet_error *error)
 {
     char output[CONVERT_NAME_SIZE];
     double start = interrupt_clock();
@@ -121,8 +121,8 @@ static facet_result convert_model(convert_run *run, const char *model, facet_err
     facet_scene *scene = NULL;
     facet_scene_desc desc = run->scene_desc;
     desc.log = messages_log(&run->messages);
-    interrupt_begin_reading(input_name(model));
-    result = input_load(model, &desc, &scene, error);
+    interrupt_begin_reading(input_name(model->path));
+    result = input_load(model->path, &desc, &scene, error);
     if (result == FACET_OK)
         result = convert_materials(run, scene, error);
     interrupt_end();
@@ -133,12 +133,12 @@ static facet_result convert_model(convert_run *run, const char *model, facet_err
         result = save(run, model, scene, output, error);
     messages_flush(&run->messages);
     if (result == FACET_OK)
-        tell_model(run, model, output, scene, start);
+        tell_model(run, model->path, output, scene, start);
     facet_scene_destroy(scene);
     if (result != FACET_OK)
-        failure_complete(error,
-                         strncmp(error->message, output, strlen(output)) == 0 ? output : input_name(model),
-                         run->limits.max_memory_bytes);
+        failure_complete(
+            error, strncmp(error->message, output, strlen(output)) == 0 ? output : input_name(model->path),
+            run->limits.max_memory_bytes);
     return result;
 }
 
@@ -153,21 +153,32 @@ static void report_failure(convert_run *run, const char *model, const facet_erro
         json_array_append_new(run->failures, report_error_json(error, input_name(model), run->exit_code));
 }
 
+/* Whether another model has the same output: neither is converted, and the others are. */
+static facet_result check_clash(const convert_run *run, size_t i, facet_error *error)
+{
+    char name[CONVERT_NAME_SIZE];
+    facet_result result = convert_name(&run->names, &run->names.models.models[i], false, name, error);
+    return result == FACET_OK ? model_list_check_clash(&run->names.models, i, name, error) : result;
+}
+
 static int convert_all(convert_run *run)
 {
-    for (size_t i = 0; i < run->names.model_count; i++) {
-        const char *model = run->names.models[i];
+    const model_list *models = &run->names.models;
+    for (size_t i = 0; i < models->count; i++) {
+        const model_name *model = &models->models[i];
         facet_error error = {0};
-        facet_result result = convert_model(run, model, &error);
+        facet_result result = check_clash(run, i, &error);
+        if (result == FACET_OK)
+            result = convert_model(run, model, &error);
         run->warning_count += report_end_model(&run->messages, run->warnings);
         if (result != FACET_OK)
-            report_failure(run, model, &error);
-        run->is_interrupted = interrupt_signal() && (result != FACET_OK || i + 1 < run->names.model_count);
+            report_failure(run, model->path, &error);
+        run->is_interrupted = interrupt_signal() && (result != FACET_OK || i + 1 < models->count);
         if (run->is_interrupted)
             return interrupt_exit_code();
     }
     if (run->failure_count)
-        return run->names.model_count == 1 ? run->exit_code : EXIT_NEGATIVE;
+        return models->count == 1 ? run->exit_code : EXIT_NEGATIVE;
     return run->large_error_count || (run->warning_count && is_given(run->line, OPT_STRICT)) ? EXIT_NEGATIVE
                                                                                              : EXIT_DONE;
 }
@@ -230,6 +241,7 @@ int cmd_convert(command_line *c)
     json_decref(run.models);
     json_decref(run.failures);
     json_decref(run.warnings);
+    convert_names_destroy(&run.names);
     facet_budget_destroy(run.budget);
     return run.is_interrupted ? interrupt_exit() : exit_code;
 }

@@ -8,12 +8,14 @@
 #include "cli/legacy_options.h"
 #include "cli/limits.h"
 #include "cli/messages.h"
+#include "cli/model_list.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* What all models share. */
 typedef struct inspect_run {
-    const command_line *line;
+    const command_line *line; /* its arguments are all models */
     limits limits;
     messages messages;
     facet_allocator allocator;
@@ -91,20 +93,28 @@ int cmd_inspect(command_line *c)
         .line = c, .messages = {.verbosity = is_given(c, OPT_QUIET) ? VERBOSITY_QUIET : VERBOSITY_NORMAL}};
     facet_error error = {0};
     facet_budget *budget = NULL;
+    model_list models = {0};
     facet_result result = FACET_OK;
-    if (c->argument_count == 0)
+    if (c->argument_count == 0 && !is_given(c, OPT_FILES_FROM))
         result = fail_with(&error, FACET_ERROR_ARGUMENT, "inspect: which model? facet inspect helmet.glb");
     if (result == FACET_OK)
         result = limits_read(c, &run.limits, &error);
     if (result == FACET_OK)
+        interrupt_set_deadline(run.limits.time_limit_s);
+    if (result == FACET_OK)
+        result = model_list_create(c, c->argument_count, &models, &error);
+    if (result == FACET_OK)
         result = facet_budget_create(run.limits.max_memory_bytes, &budget, &error);
     if (result != FACET_OK) {
-        message_error("facet: %s", error.message);
+        bool is_ours = error.message[0] == '-' || strncmp(error.message, "inspect:", 8) == 0;
+        message_error("%s%s", is_ours ? "facet: " : "", error.message);
+        model_list_destroy(&models);
+        facet_budget_destroy(budget);
         return exit_code_of(result);
     }
-    interrupt_set_deadline(run.limits.time_limit_s);
     run.allocator = facet_budget_allocator(budget);
     int exit_code = inspect_all(&run);
+    model_list_destroy(&models);
     facet_budget_destroy(budget);
     return exit_code;
 }

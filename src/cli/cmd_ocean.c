@@ -218,7 +218,7 @@ static facet_result make_frames(ocean_output *o, facet_error *error)
         uint32_t number = frame_list_at(&p->frames, i);
         char name[RENDER_NAME_SIZE] = "";
         if (p->output)
-            result = render_name(p, "sea", number, name, sizeof name, error);
+            result = render_name(p, &(model_name){.path = "sea"}, number, name, sizeof name, error);
         if (result != FACET_OK)
             return result;
         if (*name && is_kept(o, name)) {
@@ -315,6 +315,14 @@ static void warn_of_sun(ocean_run *run)
     log.message(log.user, FACET_LOG_WARNING, text);
 }
 
+static facet_result check_names(const command_line *c, const ocean_options *o, facet_error *error)
+{
+    model_name sea = {.number = 1, .count = 1};
+    size_t no_clash = MODEL_NO_CLASH;
+    model_list one = {.models = &sea, .count = 1, .clashes = &no_clash};
+    return render_names_check(c, &o->picture, &one, error);
+}
+
 static facet_result begin(ocean_run *run, command_line *c, config *storage, facet_error *error)
 {
     ocean_options *o = &run->options;
@@ -322,7 +330,7 @@ static facet_result begin(ocean_run *run, command_line *c, config *storage, face
     if (result == FACET_OK)
         result = ocean_options_read(c, o, error);
     if (result == FACET_OK && o->picture.output && !o->picture.has_frames)
-        result = render_names_check(c, &o->picture, error); /* before what takes long is read */
+        result = check_names(c, o, error); /* before what takes long is read */
     if (result == FACET_OK)
         result = facet_budget_create(o->picture.limits.max_memory_bytes, &run->budget, error);
     if (result != FACET_OK)

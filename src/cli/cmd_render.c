@@ -22,6 +22,7 @@
 typedef struct render_run {
     const command_line *line;
     render_options options;
+    model_list models;
     messages messages;
     progress_mode progress;
     facet_budget *budget;
@@ -77,7 +78,7 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
 typedef struct model_run {
     render_run *run;
     render_options options; /* the framing of a sequence is found with its first picture */
-    const char *model;
+    const model_name *model;
     const facet_scene *scene;
     facet_renderer *renderer;
     facet_environment *environment, *own_environment; /* what lights it; NULL, or the one that it brings */
@@ -168,6 +169,8 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     result = render_checkpoint_name(o, m->model, frame->number, checkpoint, sizeof checkpoint, error);
     if (result != FACET_OK)
         return result;
+    if (o->checkpoint && output_make_folders(checkpoint, error) != FACET_OK)
+        return FACET_ERROR_WRITE;
     desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
     desc.path.keeps_cancelled = true;
     facet_image *image = NULL;
@@ -215,7 +218,7 @@ static facet_result render_frames(model_run *m, facet_error *error)
         if (result != FACET_OK)
             break;
         picture_report report = {
-            .model = input_name(m->model), .output = name, .load_s = i ? 0.0 : m->load_s};
+            .model = input_name(m->model->path), .output = name, .load_s = i ? 0.0 : m->load_s};
         if (interrupt_signal())
             return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
         result = check_inputs(m, name, error);
@@ -267,7 +270,7 @@ static void tell_late_frames(const model_run *m)
     if (s->frame_count_there && last > s->frame_count_there + 1)
         message_at(&m->run->messages, VERBOSITY_NORMAL,
                    "%s: frame %u is after the end of the animation, which has %u frames at %g a second",
-                   input_name(m->model), last, s->frame_count_there, m->options.fps);
+                   input_name(m->model->path), last, s->frame_count_there, m->options.fps);
 }
 
 static facet_result open_video(model_run *m, facet_error *error)
@@ -280,11 +283,11 @@ static facet_result open_video(model_run *m, facet_error *error)
 }
 
 /* All pictures of a model that is loaded. */
-static facet_result render_scene(render_run *run, const char *model, const facet_scene *scene, double start,
-                                 facet_error *error)
+static facet_result render_scene(render_run *run, const model_name *model, const facet_scene *scene,
+                                 double start, facet_error *error)
 {
     model_run m = {.run = run, .options = run->options, .model = model, .scene = scene};
-    facet_result result = sequence_create(scene, input_name(model), &m.options, &m.sequence, error);
+    facet_result result = sequence_create(scene, input_name(model->path), &m.options, &m.sequence, error);
     if (result == FACET_OK)
         tell_late_frames(&m);
     if (result == FACET_OK)
@@ -305,7 +308,7 @@ static facet_result render_scene(render_run *run, const char *model, const facet
 }
 
 /* --no-clobber for a file of its own: nothing need be read. True: the picture was there, and that is reported. */
-static bool is_kept(render_run *run, const char *model)
+static bool is_kept(render_run *run, const model_name *model)
 {
     char name[RENDER_NAME_SIZE];
     facet_error ignored;
@@ -313,17 +316,17 @@ static bool is_kept(render_run *run, const char *model)
         (run->options.is_sequence && !run->options.video) ||
         render_name(&run->options, model, 1, name, sizeof name, &ignored) != FACET_OK || !output_exists(name))
         return false;
-    report_frame(run, &(picture_report){.model = input_name(model), .output = name, .is_kept = true});
+    report_frame(run, &(picture_report){.model = input_name(model->path), .output = name, .is_kept = true});
     return true;
 }
 
-static facet_result render_model(render_run *run, const char *model, facet_error *error)
+static facet_result render_model(render_run *run, const model_name *model, facet_error *error)
 {
     if (is_kept(run, model))
         return FACET_OK;
     double start = interrupt_clock();
     facet_scene *scene = NULL;
-    facet_result result = load_model(run, model, &scene, error);
+    facet_result result = load_model(run, model->path, &scene, error);
     messages_flush(&run->messages);
     if (result == FACET_OK)
         result = render_scene(run, model, scene, start, error);
@@ -347,17 +350,27 @@ static void report_failure(render_run *run, const char *model, facet_error *erro
         json_array_append_new(run->failures, report_error_json(error, name, run->exit_code));
 }
 
+/* Whether another model has the same output: neither is drawn, and the others are. */
+static facet_result check_clash(const render_run *run, size_t i, facet_error *error)
+{
+    char name[RENDER_NAME_SIZE];
+    facet_result result = render_name(&run->options, &run->models.models[i], 1, name, sizeof name, error);
+    return result == FACET_OK ? model_list_check_clash(&run->models, i, name, error) : result;
+}
+
 static int render_all(render_run *run)
 {
     const command_line *c = run->line;
-    size_t count = c->argument_count ? c->argument_count : 1;
+    size_t count = run->models.count;
     for (size_t i = 0; i < count; i++) {
-        const char *model = c->argument_count ? c->arguments[i] : NULL;
+        const model_name *model = &run->models.models[i];
         facet_error error = {0};
         run->models_left = count - i;
-        facet_result result = render_model(run, model, &error);
+        facet_result result = check_clash(run, i, &error);
+        if (result == FACET_OK)
+            result = render_model(run, model, &error);
         if (result != FACET_OK)
-            report_failure(run, model, &error);
+            report_failure(run, model->path, &error);
         run->warning_count += report_end_model(&run->messages, run->warnings);
         if (interrupt_signal() && (result != FACET_OK || i + 1 < count))
             run->is_interrupted = true;
@@ -386,11 +399,13 @@ static facet_result begin(render_run *run, command_line *c, config *storage, fac
 {
     facet_result result = config_apply(c, storage, error);
     if (result == FACET_OK)
+        result = model_list_create(c, c->argument_count, &run->models, error);
+    if (result == FACET_OK)
         result = preset_apply(c, error);
     if (result == FACET_OK)
         result = render_options_read(c, &run->options, error);
     if (result == FACET_OK)
-        result = render_names_check(c, &run->options, error);
+        result = render_names_check(c, &run->options, &run->models, error);
     if (result == FACET_OK)
         result = facet_budget_create(run->options.limits.max_memory_bytes, &run->budget, error);
     if (result != FACET_OK)
@@ -432,6 +447,7 @@ int cmd_render(command_line *c)
     json_decref(run.warnings);
     facet_environment_destroy(run.environment);
     facet_budget_destroy(run.budget);
+    model_list_destroy(&run.models);
     config_destroy(&storage);
     return run.is_interrupted ? interrupt_exit() : exit_code;
 }

@@ -68,7 +68,7 @@ static facet_result read_report(const command_line *c, convert_names *out, facet
     out->is_html = dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0);
     if (!out->is_html && !(dot && strcasecmp(dot, ".json") == 0))
         return option_fail(c, OPT_REPORT, "a name that ends in .html or .json", error);
-    if (out->model_count > 1 && !output_name_has_stem(out->report))
+    if (out->models.count > 1 && !output_name_has_model(out->report))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--report: several models need a name with {stem}, as in 'reports/{stem}.html'");
     return FACET_OK;
@@ -76,79 +76,72 @@ static facet_result read_report(const command_line *c, convert_names *out, facet
 
 /* ---- names ---- */
 
-facet_result convert_name(const convert_names *n, const char *model, bool report,
+facet_result convert_name(const convert_names *n, const model_name *model, bool report,
                           char name[CONVERT_NAME_SIZE], facet_error *error)
 {
-    char stem[1024];
-    const char *pattern = report ? n->report : n->output;
-    bool fits = output_name_stem(strcmp(model, "-") == 0 ? "stdin" : model, stem, sizeof stem);
-    if (fits)
-        fits = output_name_expand_stem(pattern, stem, name, CONVERT_NAME_SIZE);
-    if (!fits)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: the name for %s is too long",
-                         report ? "--report" : "--output", input_name(model));
-    return FACET_OK;
+    if (output_name_expand(report ? n->report : n->output, model, NULL, name, CONVERT_NAME_SIZE))
+        return FACET_OK;
+    return fail_with(error, FACET_ERROR_ARGUMENT, "%s: the name for %s is too long",
+                     report ? "--report" : "--output", input_name(model->path));
 }
 
-static facet_result check_name(const convert_names *n, const char *model, bool report, char **copy,
-                               facet_error *error)
+static facet_result check_name(const convert_names *n, const model_name *model, bool report,
+                               output_claim *claim, facet_error *error)
 {
     char name[CONVERT_NAME_SIZE];
     facet_result result = convert_name(n, model, report, name, error);
-    if (result == FACET_OK && input_is_same_file(model, name) && !(n->keeps_existing && !report))
+    if (result == FACET_OK && input_is_same_file(model->path, name) && !(n->keeps_existing && !report))
         result = fail_with(error, FACET_ERROR_ARGUMENT,
                            "%s: it is an input, too, and would be overwritten; name another output", name);
     if (result == FACET_OK)
         result = output_check(name, error);
-    if (result != FACET_OK)
-        return result;
-    *copy = output_identity(name);
-    return *copy ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
-}
-
-static int compare_names(const void *a, const void *b)
-{
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-static facet_result check_names(const convert_names *n, facet_error *error)
-{
-    size_t count = n->model_count * (n->report ? 2 : 1), done = 0;
-    char **names = calloc(count, sizeof *names);
-    facet_result result = names ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
-    for (; done < count && result == FACET_OK; done += result == FACET_OK)
-        result = check_name(n, n->models[done % n->model_count], done >= n->model_count, &names[done], error);
-    if (result == FACET_OK)
-        qsort(names, count, sizeof *names, compare_names);
-    for (size_t i = 1; i < count && result == FACET_OK; i++)
-        if (strcmp(names[i - 1], names[i]) == 0)
-            result = fail_with(error, FACET_ERROR_ARGUMENT, "convert: two files would both be written to %s",
-                               strchr(names[i], '/') + 1);
-    for (size_t i = 0; i < done; i++)
-        free(names[i]);
-    free(names);
+    if (result == FACET_OK && !(claim->identity = output_identity(name)))
+        result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
     return result;
 }
 
-facet_result convert_names_read(const command_line *c, convert_names *out, facet_error *error)
+static facet_result check_names(convert_names *n, facet_error *error)
 {
-    *out = (convert_names){.models = c->arguments,
-                           .model_count = c->argument_count,
-                           .output = option_text(c, OPT_OUTPUT, NULL),
-                           .keeps_existing = is_given(c, OPT_NO_CLOBBER)};
-    bool is_pair = !out->output && c->argument_count == 2;
-    if (is_pair) {
-        out->output = c->arguments[1];
-        out->model_count = 1;
+    size_t models = n->models.count, count = models * (n->report ? 2 : 1);
+    output_claim *claims = calloc(count, sizeof *claims);
+    facet_result result = claims ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    for (size_t i = 0; i < count && result == FACET_OK; i++) {
+        claims[i].model = i % models;
+        result = check_name(n, &n->models.models[i % models], i >= models, &claims[i], error);
     }
-    if (!out->output || out->model_count == 0)
+    if (result == FACET_OK)
+        model_list_find_clashes(&n->models, claims, count);
+    for (size_t i = 0; claims && i < count; i++)
+        free(claims[i].identity);
+    free(claims);
+    return result;
+}
+
+void convert_names_destroy(convert_names *n)
+{
+    model_list_destroy(&n->models);
+    *n = (convert_names){0};
+}
+
+facet_result convert_names_read(command_line *c, convert_names *out, facet_error *error)
+{
+    *out = (convert_names){.output = option_text(c, OPT_OUTPUT, NULL),
+                           .keeps_existing = is_given(c, OPT_NO_CLOBBER)};
+    size_t argument_count = c->argument_count;
+    bool is_pair = !out->output && argument_count == 2;
+    if (is_pair)
+        out->output = c->arguments[--argument_count];
+    if (!out->output || (argument_count == 0 && !is_given(c, OPT_FILES_FROM)))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "convert: one model and the name of the new one were expected, as in facet convert "
-                         "old.gltf new.glb; several go with -o '{stem}.glb'");
-    if (out->model_count > 1 && !output_name_has_stem(out->output))
+                         "old.gltf new.glb; several go with -o 'new/{stem}.glb'");
+    facet_result result = model_list_create(c, argument_count, &out->models, error);
+    if (result != FACET_OK)
+        return result;
+    if (out->models.count > 1 && !output_name_has_model(out->output))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--output: several models need a name with {stem}, as in -o 'new/{stem}.glb'");
-    facet_result result = read_format(c, out, error);
+    result = read_format(c, out, error);
     if (result == FACET_OK)
         result = read_report(c, out, error);
     return result == FACET_OK ? check_names(out, error) : result;

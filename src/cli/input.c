@@ -75,6 +75,8 @@ static facet_result check(const char *path, const char *root, facet_error *error
     struct stat info;
     if (path && !path[0])
         return fail_with(error, FACET_ERROR_ARGUMENT, "facet: the name of a model is empty");
+    if (path && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) /* others were replaced by what is in them */
+        return fail_with(error, FACET_ERROR_READ, "%s: there is no model in this folder, nor below it", path);
     if (root && (stat(root, &info) != 0 || !S_ISDIR(info.st_mode)))
         return fail_with(error, FACET_ERROR_READ, "%s: there is no such folder (--root)", root);
     return FACET_OK;

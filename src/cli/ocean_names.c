@@ -28,7 +28,7 @@ facet_result ocean_map_name(const ocean_options *o, uint32_t tile, uint32_t fram
 {
     char pattern[RENDER_NAME_SIZE];
     return find_pattern(o, frame, pattern, sizeof pattern) &&
-                   output_name_expand(pattern, "sea", tile, name, size)
+                   output_name_expand(pattern, &(model_name){.path = "sea"}, &tile, name, size)
                ? FACET_OK
                : fail_with(error, FACET_ERROR_ARGUMENT, "--maps: the names are too long");
 }

@@ -10,7 +10,7 @@
 static const verb inspect_verb = {
     .name = "inspect",
     .summary = "say what is in a model",
-    .arguments = "MODEL...",
+    .arguments = "MODEL|FOLDER...",
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj stl ply json",
     .output_types = "txt",
@@ -23,7 +23,7 @@ static const verb inspect_verb = {
         "The exit code is 0 when the model can be read, also with warnings (--strict: 1).",
     .examples = (const example[]){{"facet inspect helmet.glb", "for reading"},
                                   {"facet inspect helmet.glb --json | jq .materials", "for a program"},
-                                  {"facet inspect --strict models/*.glb", "check many"},
+                                  {"facet inspect --strict models/", "check all in a folder and below it"},
                                   {NULL, NULL}},
     .groups =
         (const option_group *const[]){&model_group, &legacy_group, &machine_group, &message_group, NULL},

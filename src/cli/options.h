@@ -82,6 +82,7 @@ typedef enum option_id {
     OPT_OGL1_SPACE,
     OPT_FOG,
     OPT_SCENE,
+    OPT_FILES_FROM,
     OPT_ROOT,
     OPT_PARAMETERS,
     OPT_METHOD,

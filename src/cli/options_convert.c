@@ -9,8 +9,9 @@ static const option convert_options[] = {
      .argument = "FILE",
      .help =
          "the new model, instead of a second name: .glb; .gltf with a .bin and the images beside it; .obj "
-         "with a .mtl; .json, rgl's parameters. With {stem}, which becomes the model's name, several models "
-         "can be given"},
+         "with a .mtl; .json, rgl's parameters. With {stem}, {name}, {dir} or {index}, as facet render has "
+         "them, "
+         "several models or a folder can be given"},
     {.id = OPT_NO_CLOBBER,
      .name = "no-clobber",
      .kind = OPTION_FLAG,
@@ -113,7 +114,8 @@ const verb convert_verb = {
                                    "old materials to new ones, and how well that went"},
                                   {"facet convert old.obj new.glb --method fit --profile core",
                                    "for viewers that know no extensions"},
-                                  {"facet convert *.obj -o 'new/{stem}.glb' --max-error 0.3", "many"},
+                                  {"facet convert models/ -o 'new/{dir}/{stem}.glb' --max-error 0.3",
+                                   "all in a folder and below it"},
                                   {"facet convert new.glb old.obj", "the way back"},
                                   {"facet convert scene.glb scene.json", "parameters for R's rgl"},
                                   {"facet convert specgloss.glb new.glb --materials metallic-roughness",

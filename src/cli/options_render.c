@@ -10,7 +10,9 @@ static const option image_options[] = {
      .default_text = "the model's name with .png, in the current folder",
      .help = "the picture: .png .jpg .webp .exr .hdr .pfm, .y4m for a video, or - for standard output. "
              "{stem} becomes the model's "
-             "name, #### or %04d the frame's number"},
+             "name, {name} that with its extension, {dir} its folder, {index} its number, #### or %04d the "
+             "frame's "
+             "number; missing folders are made"},
     {.id = OPT_NO_CLOBBER,
      .name = "no-clobber",
      .kind = OPTION_FLAG,
@@ -341,7 +343,7 @@ const option_group window_motion_group = {"Motion", motion_options, 2};
 const verb render_verb = {
     .name = "render",
     .summary = "draw a model to a picture",
-    .arguments = "[MODEL...]",
+    .arguments = "[MODEL|FOLDER...]",
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj stl ply json",
     .output_types = "png png16 jpg jpeg webp exr hdr pfm y4m",
@@ -350,7 +352,7 @@ const verb render_verb = {
         "standard input) and draws it on the CPU, or with --renderer gl on a GPU: no GPU, "
         "display or network "
         "is needed. The whole model is in the picture unless --orbit, --eye or --camera say "
-        "otherwise. Without a "
+        "otherwise. A FOLDER stands for the models in it and below it. Without a "
         "MODEL the built-in scene is drawn.\n\n"
         "The output appears whole or not at all. The same command gives the same bytes for every "
         "number of threads.",
@@ -368,8 +370,9 @@ const verb render_verb = {
             {"facet render walk.glb -o 'walk_####.png' --animation Walk", "the frames of an animation"},
             {"facet render fox.glb -o - --format y4m --animation Run | ffmpeg -i - -pix_fmt yuv420p fox.mp4",
              "a video; with --turntable 120 seen from all around"},
-            {"facet render *.glb -o 'thumbs/{stem}.png' --preset thumbnail",
-             "small pictures of many models, into a folder that exists"},
+            {"facet render *.glb -o 'thumbs/{stem}.png' --preset thumbnail", "small pictures of many models"},
+            {"facet render models/ -o 'thumbs/{dir}/{stem}.png' --size 256",
+             "of all models in a folder and below it, in the same folders"},
             {"facet render ring.glb -o ring.png --renderer path --samples 256 --ground shadow --denoise",
              "path traced, with its shadow"},
             {"facet render shoe.glb -o 'turn_####.png' --turntable 360 --renderer gl",

@@ -104,6 +104,13 @@ static const option environment_options[] = {
 const option_group environment_group = {"Environment", environment_options, COUNT(environment_options)};
 
 static const option model_options[] = {
+    {.id = OPT_FILES_FROM,
+     .name = "files-from",
+     .kind = OPTION_FILE,
+     .argument = "LIST",
+     .help = "also the models that this file names, one a line (or separated by zero bytes, as find -print0 "
+             "writes "
+             "them); - is standard input"},
     {.id = OPT_ROOT,
      .name = "root",
      .kind = OPTION_FOLDER,
@@ -211,4 +218,6 @@ static const option legacy_options[] = {
 };
 
 const option_group model_group = {"Files", model_options, COUNT(model_options)};
+/* Without the first one, --files-from. */
+const option_group root_group = {"Files", model_options + 1, COUNT(model_options) - 1};
 const option_group legacy_group = {"OBJ files and old materials", legacy_options, COUNT(legacy_options)};

@@ -14,7 +14,7 @@
         __VA_ARGS__, NULL                                                                                    \
     }
 
-extern const option_group machine_group, message_group, running_group, working_group, model_group,
+extern const option_group machine_group, message_group, running_group, working_group, model_group, root_group,
     legacy_group, path_group, gl_group, light_group, environment_group, color_group, shading_group,
     quality_group, scene_group, sea_group, water_group, window_group, window_camera_group,
     window_motion_group, window_path_group;

@@ -58,6 +58,6 @@ const verb view_verb = {
     .groups = (const option_group *const[]){&window_group, &window_camera_group, &light_group,
                                             &environment_group, &color_group, &quality_group, &gl_group,
                                             &window_path_group, &shading_group, &window_motion_group,
-                                            &scene_group, &model_group, &legacy_group, &machine_group,
+                                            &scene_group, &root_group, &legacy_group, &machine_group,
                                             &view_message_group, &script_group, NULL},
 };

@@ -17,25 +17,54 @@ bool output_exists(const char *path)
     return access(path, F_OK) == 0;
 }
 
+/* Writes to folder the nearest folder above path that is there, without a slash at its end; returns what of path is below
+ * it. NULL: it does not fit. */
+static const char *find_folder(const char *path, char *folder, size_t size)
+{
+    struct stat info;
+    size_t length = strlen(path);
+    if (length >= size)
+        return NULL;
+    for (size_t i = length; i > 0; i--) {
+        if (path[i - 1] != '/')
+            continue;
+        snprintf(folder, size, "%.*s", i > 1 ? (int)i - 1 : 1, path);
+        if (stat(folder, &info) == 0)
+            return path + i;
+    }
+    snprintf(folder, size, ".");
+    return path;
+}
+
 char *output_identity(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *base = slash ? slash + 1 : path;
+    char folder[4096];
     struct stat info = {0};
+    const char *rest = find_folder(path, folder, sizeof folder);
     size_t size = strlen(path) + 64;
-    char *folder = malloc(size), *identity = malloc(size);
-    if (folder && identity) {
-        snprintf(folder, size, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
-        if (stat(folder, &info) != 0) /* there is no such folder, which is said elsewhere */
-            info.st_ino = 0;
-        snprintf(identity, size, "%llx.%llx/%s", (unsigned long long)info.st_dev,
-                 (unsigned long long)info.st_ino, base);
-    } else {
-        free(identity);
-        identity = NULL;
-    }
-    free(folder);
+    char *identity = malloc(size);
+    if (!identity)
+        return NULL;
+    if (!rest || stat(folder, &info) != 0) /* which is reported elsewhere */
+        info.st_ino = 0;
+    snprintf(identity, size, "%llx.%llx/%s", (unsigned long long)info.st_dev, (unsigned long long)info.st_ino,
+             rest ? rest : path);
     return identity;
+}
+
+facet_result output_make_folders(const char *path, facet_error *error)
+{
+    char folder[4096];
+    if (strcmp(path, "-") == 0)
+        return FACET_OK;
+    const char *rest = find_folder(path, folder, sizeof folder);
+    for (const char *slash = rest; slash && (slash = strchr(slash, '/')); slash++) {
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
+        if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+            return fail_with(error, FACET_ERROR_WRITE, "%s: the folder %s cannot be made: %s", path, folder,
+                             strerror(errno));
+    }
+    return FACET_OK;
 }
 
 /* From the first report on there are files that the library removes when it fails. */
@@ -49,6 +78,8 @@ static bool may_go_on(void *user, const char *stage, double fraction)
 facet_result output_write_scene(const facet_scene *scene, const char *path, facet_scene_save_desc desc,
                                 facet_error *error)
 {
+    if (output_make_folders(path, error) != FACET_OK)
+        return FACET_ERROR_WRITE;
     desc.progress.report = may_go_on;
     interrupt_begin(path, "writing it", false);
     facet_result result = facet_scene_save(scene, path, &desc, error);
@@ -71,11 +102,9 @@ facet_result output_check(const char *path, facet_error *error)
                        : fail_with(error, FACET_ERROR_WRITE, "%s: %s", path, strerror(errno));
     }
     char folder[4096];
-    const char *slash = strrchr(path, '/');
-    if (!slash)
-        snprintf(folder, sizeof folder, ".");
-    else
-        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+    const char *rest = find_folder(path, folder, sizeof folder);
+    if (!rest)
+        return fail_with(error, FACET_ERROR_WRITE, "%s: the name is too long", path);
     if (stat(folder, &info) != 0)
         return fail_with(error, FACET_ERROR_WRITE, "%s: there is no folder %s", path, folder);
     if (!S_ISDIR(info.st_mode))
@@ -109,7 +138,9 @@ static void end_writing(bool is_file)
 
 facet_result output_write_bytes(const void *bytes, size_t size, const char *path, facet_error *error)
 {
-    facet_result result = FACET_OK;
+    facet_result result = output_make_folders(path, error);
+    if (result != FACET_OK)
+        return result;
     bool is_file = begin_writing(path);
     if (strcmp(path, "-") != 0)
         result = facet_bytes_save(bytes, size, path, error);
@@ -123,6 +154,8 @@ facet_result output_write(const facet_image *image, const char *path, const face
                           facet_error *error)
 {
     if (strcmp(path, "-") != 0) {
+        if (output_make_folders(path, error) != FACET_OK)
+            return FACET_ERROR_WRITE;
         bool is_file = begin_writing(path);
         facet_result saved = facet_image_save(image, path, desc, error);
         end_writing(is_file);

@@ -4,9 +4,12 @@
 
 #include "facet/facet.h"
 
-/* Whether a picture can be written to path ("-": standard output), found out before the work: FACET_ERROR_WRITE names
- * the folder that is missing or closed. */
+/* Whether path ("-": standard output) can be written, found out before the work: FACET_ERROR_WRITE names the folder that
+ * is closed. Folders that are missing are made by what writes. */
 facet_result output_check(const char *path, facet_error *error);
+
+/* Makes the folders above path that are missing: for what the library writes while it works. FACET_ERROR_WRITE. */
+facet_result output_make_folders(const char *path, facet_error *error);
 
 /* Writes image to path ("-": standard output). */
 facet_result output_write(const facet_image *image, const char *path, const facet_save_desc *desc,

@@ -1,4 +1,4 @@
-/* output_name.c - the names of pictures: {stem}, #### and %04d. */
+/* output_name.c - see output_name.h. */
 #include "cli/output_name.h"
 
 #include <stdio.h>
@@ -6,7 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
-static const char stem_mark[] = "{stem}";
+enum { MARK_STEM, MARK_NAME, MARK_DIR, MARK_INDEX, MARK_COUNT };
+static const char *const marks[] = {"{stem}", "{name}", "{dir}", "{index}"};
 
 /* Length of the place for a frame number that begins at text, 0: none; *width is how many digits it asks for. A
  * single # is part of a name: people call files "part#2.png". */
@@ -35,51 +36,102 @@ bool output_name_has_frame(const char *pattern)
     return false;
 }
 
-bool output_name_has_stem(const char *pattern)
+bool output_name_has_model(const char *pattern)
 {
-    return strstr(pattern, stem_mark) != NULL;
+    for (int i = 0; i < MARK_COUNT; i++)
+        if (strstr(pattern, marks[i]))
+            return true;
+    return false;
 }
 
-/* frame NULL: marks of a frame number are part of the name. */
-static bool expand(const char *pattern, const char *stem, const uint32_t *frame, char *name, size_t size)
+/* ---- filling in ---- */
+
+/* Text that grows in a block of fixed size. */
+typedef struct filling {
+    char *name;
+    size_t used, size;
+    bool is_full;
+} filling;
+
+static void put(filling *f, const char *text, size_t length)
 {
-    size_t used = 0;
-    while (*pattern) {
-        char number[128];
-        const char *piece = pattern;
-        size_t length = 1, consumed = 1;
-        int width;
-        size_t mark = frame ? frame_mark(pattern, &width) : 0;
-        if (mark) {
-            length = (size_t)snprintf(number, sizeof number, "%0*u", width, *frame);
-            piece = number;
-            consumed = mark;
-        } else if (strncmp(pattern, stem_mark, sizeof stem_mark - 1) == 0) {
-            piece = stem;
-            length = strlen(stem);
-            consumed = sizeof stem_mark - 1;
-        }
-        if (length >= size - used)
-            return false;
-        memcpy(name + used, piece, length);
-        used += length;
-        pattern += consumed;
+    f->is_full = f->is_full || length >= f->size - f->used;
+    if (f->is_full)
+        return;
+    memcpy(f->name + f->used, text, length);
+    f->used += length;
+}
+
+/* The number of the model, as wide as the last one. */
+static void put_index(filling *f, const model_name *model)
+{
+    char number[32], last[32];
+    int width = snprintf(last, sizeof last, "%zu", model->count ? model->count : 1);
+    int length = snprintf(number, sizeof number, "%0*zu", width, model->number ? model->number : 1);
+    put(f, number, (size_t)length);
+}
+
+/* Puts in what mark stands for. */
+static void put_model(filling *f, int mark, const model_name *model)
+{
+    const char *path = !model->path ? "facet" : strcmp(model->path, "-") == 0 ? "stdin" : model->path;
+    const char *slash = strrchr(path, '/');
+    const char *folder = model->folder ? model->folder : "";
+    char stem[1024];
+    switch (mark) {
+    case MARK_STEM:
+        f->is_full = f->is_full || !output_name_stem(path, stem, sizeof stem);
+        if (!f->is_full)
+            put(f, stem, strlen(stem));
+        return;
+    case MARK_NAME:
+        put(f, slash ? slash + 1 : path, strlen(slash ? slash + 1 : path));
+        return;
+    case MARK_DIR:
+        put(f, folder, strlen(folder));
+        return;
+    default:
+        put_index(f, model);
     }
-    if (used >= size)
+}
+
+/* The number of the mark that text begins with; MARK_COUNT: none. */
+static int find_mark(const char *text)
+{
+    for (int i = 0; i < MARK_COUNT; i++)
+        if (strncmp(text, marks[i], strlen(marks[i])) == 0)
+            return i;
+    return MARK_COUNT;
+}
+
+bool output_name_expand(const char *pattern, const model_name *model, const uint32_t *frame, char *name,
+                        size_t size)
+{
+    filling f = {.name = name, .size = size};
+    while (*pattern && !f.is_full) {
+        char number[128];
+        int width, mark = find_mark(pattern);
+        size_t place = frame ? frame_mark(pattern, &width) : 0;
+        if (place) {
+            put(&f, number, (size_t)snprintf(number, sizeof number, "%0*u", width, *frame));
+            pattern += place;
+        } else if (mark < MARK_COUNT) {
+            size_t before = f.used;
+            put_model(&f, mark, model);
+            pattern += strlen(marks[mark]);
+            /* no folder and no slash: '{dir}/{stem}.png' stays below the current one */
+            pattern += mark == MARK_DIR && f.used == before && *pattern == '/';
+        } else {
+            put(&f, pattern++, 1);
+        }
+    }
+    if (f.is_full || f.used >= size)
         return false;
-    name[used] = 0;
+    name[f.used] = 0;
     return true;
 }
 
-bool output_name_expand(const char *pattern, const char *stem, uint32_t frame, char *name, size_t size)
-{
-    return expand(pattern, stem, &frame, name, size);
-}
-
-bool output_name_expand_stem(const char *pattern, const char *stem, char *name, size_t size)
-{
-    return expand(pattern, stem, NULL, name, size);
-}
+/* ---- parts of names ---- */
 
 bool output_name_has_type(const char *path, const char *types)
 {

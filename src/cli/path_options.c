@@ -181,7 +181,7 @@ static facet_result read_checkpoint(const command_line *c, render_options *out, 
     const char *dot = strrchr(out->checkpoint, '.');
     if (!dot || strcmp(dot, ".exr") != 0)
         return option_fail(c, OPT_CHECKPOINT, "a name that ends in .exr", error);
-    if (c->argument_count > 1 && !output_name_has_stem(out->checkpoint))
+    if (c->argument_count > 1 && !output_name_has_model(out->checkpoint))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--checkpoint: \"%s\" is one name for %zu models; put {stem} in it", out->checkpoint,
                          c->argument_count);

@@ -29,7 +29,7 @@ facet_result picture_options_output(const command_line *c, render_options *out, 
             return fail_with(
                 error, FACET_ERROR_ARGUMENT,
                 "--json: it writes to standard output, and so does --output -; give one of them");
-    } else if (c->argument_count > 1 && !output_name_has_stem(out->output)) {
+    } else if (c->argument_count > 1 && !output_name_has_model(out->output)) {
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--output: \"%s\" is one name for %zu models; put {stem} in it, as in {stem}.png",
                          out->output, c->argument_count);

@@ -15,7 +15,7 @@ typedef struct config {
 
 /* Sets what the file of --config says, where it is not set already: an object whose members are long names of options;
  * true for flags (a number for those that count), text, numbers, or arrays that stand for values with commas. Fails
- * with FACET_ERROR_READ, _INVALID (no JSON object) or _ARGUMENT (no such option, wrong value). */
+ * with FACET_ERROR_READ, _LIMIT, or _ARGUMENT (no JSON object, no such option, wrong value). */
 facet_result config_apply(command_line *c, config *storage, facet_error *error);
 void config_destroy(config *storage);
 

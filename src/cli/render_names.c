@@ -10,50 +10,34 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool find_stem(const char *model, char *stem, size_t size)
+facet_result render_checkpoint_name(const render_options *o, const model_name *model, uint32_t number,
+                                    char *name, size_t size, facet_error *error)
 {
-    const char *path = !model ? "facet" : strcmp(model, "-") == 0 ? "stdin" : model;
-    return output_name_stem(path, stem, size);
-}
-
-facet_result render_checkpoint_name(const render_options *o, const char *model, uint32_t number, char *name,
-                                    size_t size, facet_error *error)
-{
-    char stem[1024];
     *name = 0;
-    if (!o->checkpoint ||
-        (find_stem(model, stem, sizeof stem) && output_name_expand(o->checkpoint, stem, number, name, size)))
+    if (!o->checkpoint || output_name_expand(o->checkpoint, model, &number, name, size))
         return FACET_OK;
     return fail_with(error, FACET_ERROR_ARGUMENT, "--checkpoint: the name for %s is too long",
-                     input_name(model));
+                     input_name(model->path));
 }
 
-facet_result render_name(const render_options *o, const char *model, uint32_t number, char *name, size_t size,
-                         facet_error *error)
+facet_result render_name(const render_options *o, const model_name *model, uint32_t number, char *name,
+                         size_t size, facet_error *error)
 {
     if (o->is_stdout) {
         memcpy(name, "-", 2);
         return FACET_OK;
     }
-    char stem[1024], pattern[64];
+    char pattern[64];
     const char *used = o->output;
-    bool fits = find_stem(model, stem, sizeof stem);
     if (!used) {
         snprintf(pattern, sizeof pattern, o->is_sequence && !o->video ? "{stem}_####.%s" : "{stem}.%s",
                  o->video == VIDEO_Y4M ? "y4m" : render_extension(o->save.format));
         used = pattern;
     }
-    if (fits)
-        fits = output_name_expand(used, stem, number, name, size);
-    if (!fits)
+    if (!output_name_expand(used, model, &number, name, size))
         return fail_with(error, FACET_ERROR_ARGUMENT, "--output: the name for %s is too long",
-                         input_name(model));
+                         input_name(model->path));
     return FACET_OK;
-}
-
-static int compare_names(const void *a, const void *b)
-{
-    return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
 bool render_name_is_input(const command_line *c, const render_options *o, const char *model, const char *name)
@@ -67,7 +51,7 @@ bool render_name_is_input(const command_line *c, const render_options *o, const 
 }
 
 /* A checkpoint takes the place of nothing but an earlier one; that it is one is found when it is read. */
-static facet_result check_checkpoint(const command_line *c, const render_options *o, const char *model,
+static facet_result check_checkpoint(const command_line *c, const render_options *o, const model_name *model,
                                      const char *picture, facet_error *error)
 {
     char name[RENDER_NAME_SIZE];
@@ -76,7 +60,7 @@ static facet_result check_checkpoint(const command_line *c, const render_options
         return result;
     result = output_check(name, error);
     if (result == FACET_OK && output_exists(name) &&
-        (render_name_is_input(c, o, model, name) ||
+        (render_name_is_input(c, o, model->path, name) ||
          (output_exists(picture) && input_is_same_file(name, picture))))
         result =
             fail_with(error, FACET_ERROR_ARGUMENT,
@@ -84,41 +68,39 @@ static facet_result check_checkpoint(const command_line *c, const render_options
     return result;
 }
 
-facet_result render_names_check(const command_line *c, const render_options *o, facet_error *error)
+/* The first picture of a model, or, of a clash, nothing more than its name. */
+static facet_result check_model(const command_line *c, const render_options *o, const model_name *model,
+                                output_claim *claim, facet_error *error)
 {
-    size_t count = c->argument_count ? c->argument_count : 1, done = 0;
-    char **names = calloc(count, sizeof *names);
-    facet_result result = names ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    char name[RENDER_NAME_SIZE];
+    facet_result result = render_name(o, model, 1, name, sizeof name, error);
+    if (result == FACET_OK)
+        result = output_check(name, error);
+    if (result == FACET_OK && render_name_is_input(c, o, model->path, name))
+        result =
+            fail_with(error, FACET_ERROR_ARGUMENT,
+                      "%s: it is an input, too, and would be overwritten; name another output with -o", name);
+    if (result == FACET_OK)
+        result = check_checkpoint(c, o, model, name, error);
+    if (result == FACET_OK && !(claim->identity = output_identity(name)))
+        result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    return result;
+}
+
+facet_result render_names_check(const command_line *c, const render_options *o, model_list *models,
+                                facet_error *error)
+{
+    size_t count = models->count;
+    output_claim *claims = calloc(count, sizeof *claims);
+    facet_result result = claims ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
     for (size_t i = 0; i < count && result == FACET_OK; i++) {
-        const char *model = c->argument_count ? c->arguments[i] : NULL;
-        char name[RENDER_NAME_SIZE];
-        result = render_name(o, model, 1, name, sizeof name, error);
-        if (result == FACET_OK)
-            result = output_check(name, error);
-        if (result == FACET_OK && render_name_is_input(c, o, model, name))
-            result = fail_with(
-                error, FACET_ERROR_ARGUMENT,
-                "%s: it is an input, too, and would be overwritten; name another output with -o", name);
-        if (result == FACET_OK)
-            result = check_checkpoint(c, o, model, name, error);
-        if (result == FACET_OK) {
-            names[i] = malloc(strlen(name) + 1);
-            if (names[i])
-                memcpy(names[i], name, strlen(name) + 1);
-            else
-                result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
-            done += names[i] != NULL;
-        }
+        claims[i].model = i;
+        result = check_model(c, o, &models->models[i], &claims[i], error);
     }
-    if (result == FACET_OK && !o->is_stdout) {
-        qsort(names, count, sizeof *names, compare_names);
-        for (size_t i = 1; i < count && result == FACET_OK; i++)
-            if (strcmp(names[i - 1], names[i]) == 0)
-                result = fail_with(error, FACET_ERROR_ARGUMENT,
-                                   "--output: two models would both be written to %s", names[i]);
-    }
-    for (size_t i = 0; i < done; i++)
-        free(names[i]);
-    free(names);
+    if (result == FACET_OK && !o->is_stdout)
+        model_list_find_clashes(models, claims, count);
+    for (size_t i = 0; claims && i < count; i++)
+        free(claims[i].identity);
+    free(claims);
     return result;
 }

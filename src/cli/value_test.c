@@ -196,24 +196,34 @@ static void test_output_names(void **state)
         {"turn_%04d.png", "turn_0007.png"},
         {"t%d.png", "t7.png"},
         {"part#2.png", "part#2.png"},
-        {"out/{stem}.png", "out/helmet.png"},
-        {"{stem}_##.png", "helmet_07.png"},
+        {"out/{stem}.png", "out/helmet.v1.png"},
+        {"{stem}_##.png", "helmet.v1_07.png"},
+        {"out/{dir}/{name}.png", "out/old/helmet.v1.glb.png"},
+        {"{dir}{index}.png", "old007.png"},
         {"100%.png", "100%.png"},
         {"%s%x.png", "%s%x.png"},
-        {"{stem}/{stem}.png", "helmet/helmet.png"},
+        {"{stem}/{stem}.png", "helmet.v1/helmet.v1.png"},
     };
+    const model_name model = {"models/old/helmet.v1.glb", "old", 7, 120}, flat = {.path = "helmet.glb"};
+    const uint32_t frame = 7, large = 123456, one = 1;
     char name[64];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_true(output_name_expand(cases[i].pattern, "helmet", 7, name, sizeof name));
+        assert_true(output_name_expand(cases[i].pattern, &model, &frame, name, sizeof name));
         assert_string_equal(name, cases[i].name);
     }
-    assert_true(output_name_expand("####", "x", 123456, name, sizeof name));
+    assert_true(output_name_expand("####", &model, &large, name, sizeof name));
     assert_string_equal(name, "123456");
     assert_true(output_name_has_frame("a##") && output_name_has_frame("%04d") &&
                 !output_name_has_frame("a#%s%%"));
     char small[8];
-    assert_false(output_name_expand("12345678", "x", 1, small, sizeof small));
-    assert_true(output_name_expand("1234567", "x", 1, small, sizeof small));
+    assert_false(output_name_expand("12345678", &model, &one, small, sizeof small));
+    assert_true(output_name_expand("1234567", &model, &one, small, sizeof small));
+    assert_false(output_name_expand("12345{dir}", &model, &one, small, sizeof small));
+    assert_true(output_name_expand("{dir}/{stem}_{index}_##.png", &flat, NULL, name, sizeof name));
+    assert_string_equal(name, "helmet_1_##.png");
+    assert_true(output_name_expand("{stem}{dir}", &(model_name){.path = NULL}, NULL, name, sizeof name));
+    assert_string_equal(name, "facet");
+    assert_true(output_name_has_model("a{dir}b") && !output_name_has_model("{}{stems"));
     assert_true(output_name_stem("dir.d/helmet.v2.glb", name, sizeof name));
     assert_string_equal(name, "helmet.v2");
     assert_true(output_name_stem("a/.hidden", name, sizeof name));

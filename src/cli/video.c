@@ -4,6 +4,7 @@
 
 #include "cli/failure.h"
 #include "cli/interrupt.h"
+#include "cli/output.h"
 
 #include <errno.h>
 #include <math.h>
@@ -69,6 +70,8 @@ static FILE *open_output(video *v)
 facet_result video_open(const char *path, video_format format, double fps, video **out, facet_error *error)
 {
     *out = NULL;
+    if (output_make_folders(path, error) != FACET_OK)
+        return FACET_ERROR_WRITE;
     video *v = calloc(1, sizeof *v);
     if (v)
         v->path = malloc(strlen(path) + 1);

@@ -223,7 +223,7 @@ expect 2 compare b.png a.png -o a.png
 says "it is an input, too"
 expect 2 compare b.png a.png --heat-map
 says "the picture of -o only"
-expect 6 compare b.png a.png -o nowhere/d.png
+expect 6 compare b.png a.png -o /dev/null/d.png
 rm -f d.* piped.png saved.png
 
 # ---- inputs ----

@@ -37,8 +37,8 @@ says "--report"
 expect 2 convert in.gltf in.gltf
 says "it is an input, too"
 expect 3 convert missing.glb out.glb
-expect 6 convert in.gltf nowhere/out.glb
-says "there is no folder nowhere"
+expect 6 convert in.gltf /dev/null/out.glb
+says "/dev/null is not a folder"
 printf 'glTF' >broken.glb
 expect 4 convert broken.glb out.glb
 expect 4 convert broken.glb out.glb --json

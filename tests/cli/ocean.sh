@@ -120,7 +120,7 @@ expect 0 ocean --resolution 32 --cascades 2 --maps maps
 [ -s maps/tile_00.exr ] && [ -s maps/tile_01.exr ] || failed "there are no maps"
 expect 0 ocean --resolution 32 --cascades 1 --maps 'm_##.exr'
 cmp -s m_00.exr maps/tile_00.exr && failed "another number of tiles has the same first one"
-expect 6 ocean --maps nowhere
+expect 6 ocean --maps /dev/null/maps
 expect 0 ocean $small --resolution 32 --cascades 1 --maps maps --frames 1-2 -o 'f_##.png'
 [ -s maps/tile_00_0002.exr ] || failed "there is no map of the second frame"
 cmp -s maps/tile_00_0001.exr maps/tile_00_0002.exr && failed "maps of two frames are the same"
@@ -242,7 +242,7 @@ expect 0 ocean $small -o a.png --wind 0 --swell 4,8 --time 4 --eye 0,0.2,0
 says "inside of a wave"
 expect 0 ocean --wind 9,-75 --info --json
 grep -q '"wind_azimuth_deg": *-75.0' out || failed "the wind blows elsewhere: $(cat out)"
-expect 6 ocean -o nowhere/a.png
+expect 6 ocean -o /dev/null/a.png
 expect 7 ocean -o a.png --max-memory 1M
 says "--max-memory"
 expect 7 ocean -o a.png --time-limit 1ms

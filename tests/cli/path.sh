@@ -109,7 +109,10 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     head -c 700 state.exr >cut.exr
     expect 4 $path --checkpoint cut.exr --resume -o other.exr
     says "cut.exr"
-    expect 6 $path --checkpoint no/such/folder/state.exr -o other.exr
+    expect 6 $path --checkpoint /proc/no/such/folder/state.exr -o other.exr
+    expect 0 $path --checkpoint new/folder/state.exr -o new/images/a.png
+    is_type new/images/a.png "PNG image data"
+    [ -s new/folder/state.exr ] || failed "no checkpoint in a new folder"
     expect 0 $path --checkpoint new.exr --resume -o first.exr
     expect 2 $path --checkpoint new.exr -o first.exr
     says "new.exr: it is there already"

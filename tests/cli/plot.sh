@@ -102,7 +102,7 @@ expect 2 plot tone -o tone.gif
 says "does not end in .svg, .pdf, .png or .csv"
 expect 2 plot tone -o -
 says "needs --format"
-expect 6 plot tone -o nowhere/tone.csv
+expect 6 plot tone -o /dev/null/tone.csv
 expect 0 plot tone -o t.csv --json
 grep -qE '"kind": ?"tone"' out || failed "--json does not name the kind"
 finish

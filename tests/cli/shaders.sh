@@ -22,7 +22,7 @@ expect 0 shaders --no-clobber -o facet.glsl
 expect 2 shaders radiosity
 says 'the shading text has no part "radiosity"'
 expect 2 shaders --glsl 120
-expect 6 shaders -o no/such/folder.glsl
+expect 6 shaders -o /dev/null/folder.glsl
 [ ! -c /dev/full ] || expect 6 shaders -o /dev/full
 
 expect 0 shaders --list

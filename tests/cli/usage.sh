@@ -71,8 +71,9 @@ expect 2 render --turntable 3 -o a.png
 says "put #### in it"
 expect 2 render a.glb b.glb -o a.png
 says "put {stem} in it"
-expect 2 render a/x.glb b/x.glb
-says "two models would both be written to x.png"
+expect 1 render a/x.glb b/x.glb
+says "a/x.glb: it and b/x.glb would both be written to x.png"
+says "b/x.glb: it and a/x.glb would both be written to x.png"
 expect 2 render -o - </dev/null
 says "add --format png"
 expect 2 render -o - --format png --json
