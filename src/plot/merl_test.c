@@ -284,7 +284,7 @@ static void plots_show_measured_beside_fit(void **state)
         .kind = FACET_PLOT_SLICE, .material_count = 1, .materials = &measured, .has_fit = true});
     const chart_panel *panel = &p.drawing.panels[0];
     assert_int_equal(panel->curve_count, 6);
-    const chart_curve *a = find_curve(panel, "measured, green"), *b = find_curve(panel, "fit (");
+    const chart_curve *a = find_curve(panel, "measured, green"), *b = find_curve(panel, "fit, ");
     for (int i = -6; i < 7; i++) {
         double x = i * 10.0;
         assert_near(value_at(a, x, 0.3) / value_at(panel->curves + 4, x, 0.3), 1.0, 0.03);

@@ -37,14 +37,12 @@ static double *view_angles(plot *p)
 static void add_subject(plot *p, plot_panel *panel, const plot_subject *subject, const double *x,
                         const double (*albedo)[3])
 {
-    static const char *const channels[3] = {"red", "green", "blue"};
     bool is_colored = false;
     for (int i = 0; i < POINTS && p->has_channels; i++)
         is_colored =
             is_colored || fabs(albedo[i][0] - albedo[i][1]) + fabs(albedo[i][1] - albedo[i][2]) > 2e-3;
     for (int c = 0; c < (is_colored ? 3 : 1); c++) {
-        const char *label = subject->material.label;
-        double *y = plot_add_curve(p, panel, is_colored ? plot_text(p, "%s, %s", label, channels[c]) : label,
+        double *y = plot_add_curve(p, panel, plot_curve_name(p, subject, "", is_colored ? c : -1),
                                    plot_subject_style(p, subject, is_colored ? c : -1), POINTS, x);
         for (int i = 0; y && i < POINTS; i++)
             y[i] = is_colored ? albedo[i][c] : material_luminance(albedo[i]);
@@ -72,7 +70,7 @@ facet_result plot_make_albedo(plot *p)
     if (!p->desc->is_logarithmic)
         plot_set_range(&panel->panel.y, 0.0, highest > 1.005 ? ceil(highest * 5.0) / 5.0 : 1.0);
     panel->panel.note =
-        plot_text(p, "integral of BRDF times N.L over the light, within 0.001%s; %s",
+        plot_text(p, "%sintegral of BRDF times N.L over the light, within 0.001%s; %s", plot_fit_note(p),
                   p->has_channels ? "" : "; luminance",
                   p->desc->energy == FACET_ENERGY_CONSERVING
                       ? "energy-conserving"

@@ -160,6 +160,20 @@ chart_style plot_subject_style(const plot *p, const plot_subject *subject, int c
     return style;
 }
 
+const char *plot_curve_name(plot *p, const plot_subject *subject, const char *remark, int channel)
+{
+    static const char *const channels[3] = {"red", "green", "blue"};
+    const char *name = subject->is_fit && p->material_count == 1 ? "fit" : subject->material.label;
+    return channel < 0 ? plot_text(p, "%s%s", name, remark)
+                       : plot_text(p, "%s%s, %s", name, remark, channels[channel]);
+}
+
+const char *plot_fit_note(plot *p)
+{
+    bool has_fit = p->material_count == 1 && p->subject_count == 2;
+    return has_fit ? plot_text(p, "%s; ", p->subjects[1].material.label) : "";
+}
+
 chart_style plot_faint(int dash)
 {
     chart_style style = plot_channel(3, dash);

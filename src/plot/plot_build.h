@@ -82,6 +82,10 @@ facet_result plot_finish(plot *p, const char *title, uint32_t columns, uint32_t 
 
 chart_style plot_color(uint32_t number, int dash); /* of the palette */
 chart_style plot_channel(int channel, int dash);   /* red, green, blue; 3: gray */
+/* The name of a curve of a subject with what is to be said of the subject (""); channel -1: of all. Where there is one material, its fit is "fit", and what it is stands in
+ * the note, which has room for it: plot_fit_note() is that, to be put before the rest; "" where there are several. */
+const char *plot_curve_name(plot *p, const plot_subject *subject, const char *remark, int channel);
+const char *plot_fit_note(plot *p);
 /* Of a material, or its fit, which is dashed and has a color of its own; channel as above, -1: of all. */
 chart_style plot_subject_style(const plot *p, const plot_subject *subject, int channel);
 chart_style plot_faint(int dash);      /* a thin gray line: directions, limits */

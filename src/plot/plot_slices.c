@@ -31,12 +31,12 @@ static slice make_slice(plot *p, const plot_subject *subject, double view, size_
 
 /* Adds a curve, or three, of values times scale over x. */
 static void add_slice(plot *p, plot_panel *panel, const plot_subject *subject, const slice *s,
-                      const double *x, double scale, const char *name)
+                      const double *x, double scale, bool has_peak)
 {
-    static const char *const channels[3] = {"red", "green", "blue"};
+    const char *peak = has_peak ? plot_text(p, " (peak %.3g)", s->peak) : "";
     for (int c = 0; c < (s->is_colored ? 3 : 1); c++) {
         chart_style style = plot_subject_style(p, subject, s->is_colored ? c : -1);
-        const char *label = s->is_colored ? plot_text(p, "%s, %s", name, channels[c]) : name;
+        const char *label = plot_curve_name(p, subject, peak, s->is_colored ? c : -1);
         double *y = plot_add_curve(p, panel, label, style, s->count, x);
         for (size_t i = 0; y && i < s->count; i++)
             y[i] = scale * (s->is_colored ? s->f[i][c] : material_luminance(s->f[i]));
@@ -52,8 +52,8 @@ static const char *note_of(plot *p, double view)
 {
     const char *degrees = plot_degrees(p, view);
     bool is_forced = p->has_cosine && !p->desc->has_cosine;
-    return plot_text(p, "mirror direction at %s%s, the eye at %s degrees%s%s", view > 0.0 ? "-" : "", degrees,
-                     degrees, p->has_channels ? "" : "; luminance",
+    return plot_text(p, "%smirror direction at %s%s, the eye at %s degrees%s%s", plot_fit_note(p),
+                     view > 0.0 ? "-" : "", degrees, degrees, p->has_channels ? "" : "; luminance",
                      is_forced ? "; times N.L, which OpenGL 1's highlight lacks" : "");
 }
 
@@ -102,10 +102,8 @@ static void add_polar(plot *p, double view)
     for (uint32_t k = 0; k < p->subject_count && !p->has_failed; k++) {
         const plot_subject *subject = &p->subjects[k];
         slice s = make_slice(p, subject, view, count, angles);
-        const char *name = subject->material.label;
-        if (!is_log)
-            name = plot_text(p, "%s (peak %.3g)", name, s.peak);
-        add_slice(p, panel, subject, &s, angles, is_absolute || !(s.peak > 0.0) ? 1.0 : 1.0 / s.peak, name);
+        add_slice(p, panel, subject, &s, angles, is_absolute || !(s.peak > 0.0) ? 1.0 : 1.0 / s.peak,
+                  !is_log);
         highest = fmax(highest, s.peak);
     }
     if (p->has_failed)
@@ -133,7 +131,7 @@ static void add_curves(plot *p, double view)
     for (uint32_t k = 0; k < p->subject_count && !p->has_failed; k++) {
         const plot_subject *subject = &p->subjects[k];
         slice s = make_slice(p, subject, view, count, angles);
-        add_slice(p, panel, subject, &s, degrees, 1.0, subject->material.label);
+        add_slice(p, panel, subject, &s, degrees, 1.0, false);
         highest = fmax(highest, s.peak);
     }
     if (p->has_failed)
