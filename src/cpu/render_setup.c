@@ -113,6 +113,40 @@ static facet_result run_all_stages(render_setup *p, facet_error *error)
     return FACET_OK;
 }
 
+/* ---- what is known of textures only when they are decoded ---- */
+
+static bool lacks_red(const texture_set *textures, uint32_t texture)
+{
+    const texture_pyramid *data = texture < textures->binding_count ? textures->bindings[texture].data : NULL;
+    return data && data->lacks_red;
+}
+
+/* Leaves out occlusion textures that are black throughout, with a warning for each material: once for all pictures of a
+ * scene, and not where paths are traced, which need no occlusion. */
+static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
+{
+    const uint32_t bit = 1u << SCENE_OCCLUSION_TEXTURE;
+    const facet_scene *scene = p->prepared->scene;
+    bool tells = !p->prepared->has_told_occlusion && p->desc->integrator != FACET_INTEGRATOR_PATH;
+    bool *is_told = mem_zalloc(&p->desc->allocator, (size_t)scene->material_count + 1, sizeof *is_told);
+    if (!is_told)
+        return fail_memory(error, "materials", scene->material_count);
+    for (uint32_t i = 0; i < p->prepared->geometries.count; i++) {
+        const render_geometry *g = &p->prepared->geometries.items[i];
+        if (!(p->plans.items[i].textures & bit) ||
+            !material_plan_drops_occlusion(
+                g->material, lacks_red(p->textures, g->material->textures[SCENE_OCCLUSION_TEXTURE].texture)))
+            continue;
+        p->plans.items[i].textures &= ~bit;
+        if (tells && !is_told[g->material_id])
+            material_plan_warn_occlusion(scene, g->material_id - 1, &p->desc->log);
+        is_told[g->material_id] = true;
+    }
+    p->prepared->has_told_occlusion |= tells;
+    mem_free(is_told);
+    return FACET_OK;
+}
+
 /* ---- all ---- */
 
 facet_result render_setup_create(render_setup *p, facet_error *error)
@@ -135,6 +169,8 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
     result = run_all_stages(p, error);
     if (result == FACET_OK)
         result = material_plans_create(&p->prepared->geometries, &desc->allocator, &p->plans, error);
+    if (result == FACET_OK)
+        result = drop_black_occlusion(p, error);
     if (result == FACET_OK && desc->aovs & SCENE_IDENTITY_AOVS)
         result = scene_identities_create(p->prepared->scene, &p->prepared->pose, &desc->allocator,
                                          &p->identities, error);

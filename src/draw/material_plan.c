@@ -158,6 +158,20 @@ facet_result material_plans_create(const render_geometry_set *set, const facet_a
     return FACET_OK;
 }
 
+bool material_plan_drops_occlusion(const scene_material *m, bool lacks_red)
+{
+    return lacks_red && m->occlusion_strength >= 1.0f && scene_material_has(m, SCENE_OCCLUSION_TEXTURE);
+}
+
+void material_plan_warn_occlusion(const facet_scene *scene, uint32_t material, const facet_log *log)
+{
+    log_warning(log,
+                "%s: the occlusion texture of material %u is black throughout: environment light does not "
+                "reach it, so "
+                "the texture is left out",
+                scene->source, material);
+}
+
 void material_plans_destroy(material_plan_set *plans)
 {
     mem_free(plans->items);

@@ -34,6 +34,11 @@ uint32_t material_plan_layers(const scene_material *m);
 /* Needs the tangents of set. Those of geometries that are drawn with legacy materials are 0. Fails with FACET_ERROR_MEMORY. */
 facet_result material_plans_create(const render_geometry_set *set, const facet_allocator *allocator,
                                    material_plan_set *out, facet_error *error);
+/* Whether the occlusion texture of a material counts as absent: exporters name a texture of roughness whose red is empty,
+ * and without environment light the model would be black. lacks_red: of the texture's texels. */
+bool material_plan_drops_occlusion(const scene_material *m, bool lacks_red);
+/* Says so, of material number material. */
+void material_plan_warn_occlusion(const facet_scene *scene, uint32_t material, const facet_log *log);
 void material_plans_destroy(material_plan_set *plans); /* {0} is allowed */
 
 #endif

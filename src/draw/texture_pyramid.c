@@ -212,6 +212,20 @@ static void grow_levels(texture_pyramid *p, const image *source, uint32_t source
     }
 }
 
+/* Images that have red show it soon; only those without are looked at to the end. */
+static bool lacks_red(const texture_pyramid *p)
+{
+    const texture_level *l = &p->levels[p->first_level];
+    size_t count = (size_t)l->width * l->height * p->channel_count;
+    for (size_t i = 0; i < count; i += p->channel_count) {
+        float red = p->type == IMAGE_U8 ? (float)l->texels[i] / 255.0f
+                                        : (float)((const uint16_t *)(const void *)l->texels)[i] / 65535.0f;
+        if (red > TEXTURE_BLACK)
+            return false;
+    }
+    return true;
+}
+
 facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32_t width, uint32_t height,
                                     uint32_t first_level, bool as_color, const texture_tables *tables,
                                     const facet_allocator *allocator, texture_pyramid *out,
@@ -251,6 +265,8 @@ facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32
         place_level(out, source_level, &at);
         *source = (image){0};
     }
+
+    out->lacks_red = !as_color && lacks_red(out);
 
 done:
     mem_free(work);

@@ -5,6 +5,7 @@
 #include "image/image.h"
 
 enum { TEXTURE_MAX_LEVELS = 32 };
+#define TEXTURE_BLACK (4.0f / 255.0f) /* what lossy codecs make of 0, and no light that one sees */
 
 /* What 8-bit codes stand for, and back. One per texture_set. */
 typedef struct texture_tables {
@@ -28,7 +29,8 @@ typedef struct texture_pyramid {
     float texel_size[2];               /* 1 / width, 1 / height */
     uint32_t first_level, level_count; /* levels first_level to level_count - 1 are there */
     uint32_t channel_count;
-    image_type type;                          /* IMAGE_U8 or IMAGE_U16 */
+    image_type type; /* IMAGE_U8 or IMAGE_U16 */
+    bool lacks_red;  /* of data: no texel of the finest level has red above TEXTURE_BLACK */
     const float *color_values, *alpha_values; /* IMAGE_U8: what the codes stand for */
     texture_level levels[TEXTURE_MAX_LEVELS];
     void *blocks[2]; /* of mem_alloc(): the finest level, the others */

@@ -277,6 +277,34 @@ static void pyramids_start_at_any_level(void **state)
     texture_pyramid_destroy(&all);
 }
 
+static void data_without_red_are_known(void **state)
+{
+    (void)state;
+    for (int is_16 = 0; is_16 < 2; is_16++)
+        for (uint32_t channels = 1; channels <= 4; channels++) {
+            image i = make_image(5, 3, channels, is_16 ? IMAGE_U16 : IMAGE_U8);
+            for (size_t k = 0; k < (size_t)15 * channels; k++) { /* 4 codes of red, all of the others */
+                unsigned value = k % channels ? 255 : 4;
+                if (is_16)
+                    ((uint16_t *)i.pixels)[k] = (uint16_t)(257 * value);
+                else
+                    ((uint8_t *)i.pixels)[k] = (uint8_t)value;
+            }
+            image one_red = make_image(5, 3, channels, i.type);
+            memcpy(one_red.pixels, i.pixels, (size_t)15 * channels * (is_16 ? 2 : 1));
+            ((uint8_t *)one_red.pixels)[(size_t)14 * channels * (is_16 ? 2 : 1) + (is_16 ? 1 : 0)] = 5;
+            texture_pyramid without = make_pyramid(i, 0, false);
+            texture_pyramid with = make_pyramid(one_red, 0, false);
+            assert_true(without.lacks_red);
+            assert_false(with.lacks_red);
+            texture_pyramid_destroy(&without);
+            texture_pyramid_destroy(&with);
+        }
+    texture_pyramid color = make_pyramid(make_image(1, 1, 3, IMAGE_U8), 0, true);
+    assert_false(color.lacks_red);
+    texture_pyramid_destroy(&color);
+}
+
 static void every_refused_block_is_an_error(void **state)
 {
     (void)state;
@@ -317,6 +345,7 @@ int main(void)
         cmocka_unit_test(channels_are_independent),
         cmocka_unit_test(levels_do_not_depend_on_the_first),
         cmocka_unit_test(pyramids_start_at_any_level),
+        cmocka_unit_test(data_without_red_are_known),
         cmocka_unit_test(every_refused_block_is_an_error),
     };
     return cmocka_run_group_tests(tests, prepare, NULL);

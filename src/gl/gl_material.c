@@ -20,7 +20,8 @@ _Static_assert((int)GL_SURFACE_PAIRS == (int)GL_SURFACE_TEXTURES + (int)SCENE_TE
 typedef struct gl_material {
     gl_material_block block;
     bool is_known;
-    bool is_told; /* that it has more textures than there are units */
+    bool is_told;           /* that it has more textures than there are units */
+    bool is_occlusion_told; /* that its occlusion texture is left out */
 } gl_material;
 
 struct gl_material_set {
@@ -121,9 +122,13 @@ static uint64_t pair_features(const gl_material_set *set, const gl_batch *batch,
 
 /* The textures that a batch reads, as bits of slots. Where rays have real distances the thickness is not read; here bodies of
  * glass are as thick as it says. */
-static uint32_t slots_of(const gl_batch *batch)
+static uint32_t slots_of(const gl_material_set *set, const gl_batch *batch)
 {
     uint32_t slots = batch->plan->textures;
+    uint32_t occlusion = ref_of(batch, SCENE_OCCLUSION_TEXTURE)->texture;
+    if (material_plan_drops_occlusion(batch->geometry->material,
+                                      gl_texture_lacks_red(set->textures, occlusion)))
+        slots &= ~(1u << SCENE_OCCLUSION_TEXTURE);
     if (batch->plan->is_volume && scene_material_has(batch->geometry->material, SCENE_THICKNESS_TEXTURE))
         slots |= 1u << SCENE_THICKNESS_TEXTURE;
     return slots;
@@ -132,7 +137,7 @@ static uint32_t slots_of(const gl_batch *batch)
 /* Features of the textures of a batch. *lost: slots that are given up because there are not enough units. */
 static uint64_t texture_features(const gl_material_set *set, const gl_batch *batch, uint32_t *lost)
 {
-    uint32_t slots = slots_of(batch);
+    uint32_t slots = slots_of(set, batch);
     uint64_t pairs = pair_features(set, batch, slots);
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
         if (!(slots >> slot & 1) || name_of(set, batch, slot))
@@ -164,7 +169,7 @@ static uint64_t texture_features(const gl_material_set *set, const gl_batch *bat
 /* Notes what the batch reads. */
 static void add_uses(gl_material_set *set, const gl_batch *batch)
 {
-    uint32_t slots = slots_of(batch);
+    uint32_t slots = slots_of(set, batch);
     uint64_t pairs = pair_features(set, batch, slots);
     for (int i = 0; i < GL_SLOT_PAIR_COUNT; i++)
         if (pairs >> (GL_SURFACE_PAIRS + i) & 1)
@@ -199,6 +204,11 @@ static void tell_lost(gl_material_set *set, const gl_batch *batch, const facet_l
 {
     gl_material *item = &set->items[batch->geometry->material_id];
     uint32_t lost;
+    if ((batch->plan->textures & ~slots_of(set, batch)) >> SCENE_OCCLUSION_TEXTURE & 1 &&
+        !item->is_occlusion_told) {
+        item->is_occlusion_told = true;
+        material_plan_warn_occlusion(set->scene, batch->geometry->material_id - 1, log);
+    }
     texture_features(set, batch, &lost);
     if (!lost || item->is_told)
         return;

@@ -20,6 +20,7 @@ enum {
 typedef struct gl_image {
     GLuint names[2];
     bool is_known[2]; /* uploaded, or cannot be */
+    bool lacks_red;   /* as data */
 } gl_image;
 
 struct gl_texture_set {
@@ -193,6 +194,7 @@ static facet_result upload_want(gl_texture_set *set, const texture_want *want, c
                 return result;
         }
         record->is_known[as_color] = true;
+        record->lacks_red |= p && p->lacks_red;
     }
     return FACET_OK;
 }
@@ -221,6 +223,12 @@ uint32_t gl_texture_name(const gl_texture_set *set, uint32_t texture, bool as_co
 {
     uint32_t number = texture < set->scene->texture_count ? set->scene->textures[texture].image : SCENE_NONE;
     return number < set->scene->image_count ? set->images[number].names[as_color] : 0;
+}
+
+bool gl_texture_lacks_red(const gl_texture_set *set, uint32_t texture)
+{
+    uint32_t number = texture < set->scene->texture_count ? set->scene->textures[texture].image : SCENE_NONE;
+    return number < set->scene->image_count && set->images[number].lacks_red;
 }
 
 uint64_t gl_texture_decoded_texels(const gl_texture_set *set)

@@ -22,6 +22,7 @@ facet_result gl_texture_update(gl_texture_set *set, const texture_use *uses, con
 /* OpenGL's names of a texture and its sampler; texture may be any number. Texture 0: it reads as white, or was not asked
  * for. Samplers are isotropic: material.glsl makes several lookups where the CPU does. */
 uint32_t gl_texture_name(const gl_texture_set *set, uint32_t texture, bool as_color);
+bool gl_texture_lacks_red(const gl_texture_set *set, uint32_t texture); /* read as data, and known */
 uint32_t gl_texture_sampler(gl_texture_set *set, uint32_t texture);
 uint64_t gl_texture_decoded_texels(const gl_texture_set *set); /* since the set was made */
 
