@@ -332,7 +332,7 @@ typedef struct facet_pose_desc {
  * those, in double. It is the same whenever the file is read. */
 FACET_API void facet_scene_get_origin(const facet_scene *scene, double origin[3]);
 
-/* Axis-aligned bounds in world space of what is drawn, m; pose NULL: {0}. False: nothing, both are 0. */
+/* Axis-aligned bounds in world space of what is drawn and can be seen, m; pose NULL: {0}. False: nothing, both are 0. */
 FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *pose, float minimum[3],
                                       float maximum[3]);
 
@@ -397,11 +397,16 @@ typedef struct facet_orbit {
                                the model's size */
     /* frames (and aims at the middle of) all that the pose's animations move through, not only time_s */
     bool fits_all_times;
+    /* true: few parts that lie so far away that the rest would be a dot count for the middle and the distance, too; false:
+     * they are left out, and log gets a warning */
+    bool includes_far_parts;
+    facet_log log;
 } facet_orbit;
 FACET_API facet_orbit facet_orbit_default(void); /* azimuth 0, polar 75 deg, 105 %, fov 30 deg */
 
-/* The camera that orbit describes, such that the whole of what pose (NULL: {0}) shows is in a picture of that aspect
- * (width / height): every vertex is tried, not only the corners of the bounds. */
+/* The camera that orbit describes, such that the whole of what pose (NULL: {0}) shows is in an image of that aspect
+ * (width / height): every vertex counts, not only the corners of the bounds, except those that no camera sees (of triangles
+ * without area, of opacity 0 throughout). */
 FACET_API facet_result facet_camera_from_orbit(const facet_scene *scene, const facet_pose_desc *pose,
                                                const facet_orbit *orbit, float aspect, facet_camera *camera,
                                                facet_error *error);

@@ -143,6 +143,7 @@ static facet_result fit_camera(prepared_scene *prepared, const facet_render_desc
                                facet_error *error)
 {
     facet_orbit orbit = facet_orbit_default();
+    orbit.log = desc->log;
     facet_result result = prepared_scene_pose(prepared, desc, error);
     if (result == FACET_ERROR_MEMORY) {
         prepared_scene_clear(prepared);
@@ -150,7 +151,7 @@ static facet_result fit_camera(prepared_scene *prepared, const facet_render_desc
     }
     if (result != FACET_OK)
         return result;
-    return scene_fit_pose(&prepared->pose, &orbit, (float)desc->width / (float)desc->height,
+    return scene_fit_pose(prepared->scene, &prepared->pose, &orbit, (float)desc->width / (float)desc->height,
                           desc->thread_count, camera, error);
 }
 

@@ -38,6 +38,7 @@ typedef enum option_id {
     OPT_EYE,
     OPT_UP,
     OPT_ORTHO,
+    OPT_FRAMING,
     OPT_TURNTABLE,
     OPT_ANIMATION,
     OPT_TIME,

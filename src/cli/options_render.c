@@ -119,6 +119,16 @@ static const option camera_options[] = {
      .help = "the model's upward axis; z for models from CAD and Blender that were not converted",
      .choices = WORDS("y", "z")},
     {.id = OPT_ORTHO, .name = "ortho", .kind = OPTION_FLAG, .help = "parallel projection"},
+    {.id = OPT_FRAMING,
+     .name = "framing",
+     .kind = OPTION_CHOICE,
+     .argument = "WHAT",
+     .default_text = "dense",
+     .help =
+         "what the camera's distance and the middle are found for. dense: the model without few parts that "
+         "lie so "
+         "far away that the rest would be a dot, which a warning reports; all: everything that can be seen",
+     .choices = WORDS("dense", "all")},
     {.id = OPT_CAMERA,
      .name = "camera",
      .kind = OPTION_TEXT,

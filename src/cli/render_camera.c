@@ -7,22 +7,25 @@
 
 #define TWO_PI 6.283185307179586
 
-/* The target in full, relative to the origin of the scene: what is not given is the middle of the model. */
-static void resolve_target(const facet_scene *scene, const facet_pose_desc *pose,
-                           const render_options *options, float target[3])
-{
-    float low[3], high[3];
-    double origin[3];
-    facet_scene_get_bounds(scene, pose, low, high);
-    facet_scene_get_origin(scene, origin);
-    for (int i = 0; i < 3; i++)
-        target[i] =
-            options->has_target[i] ? (float)(options->target[i] - origin[i]) : 0.5f * low[i] + 0.5f * high[i];
-}
-
 static float aspect_of(const render_options *options)
 {
     return (float)options->desc.width / (float)options->desc.height;
+}
+
+/* The target in full, relative to the origin of the scene: what is not given is the middle of what is framed. */
+static void resolve_target(const facet_scene *scene, const facet_pose_desc *pose,
+                           const render_options *options, float target[3])
+{
+    facet_orbit orbit = options->orbit;
+    facet_camera camera;
+    double origin[3];
+    orbit.has_target = false;
+    orbit.orthographic = false;
+    orbit.radius = 1.0f; /* only the middle is asked for */
+    facet_camera_from_orbit(scene, pose, &orbit, aspect_of(options), &camera, NULL);
+    facet_scene_get_origin(scene, origin);
+    for (int i = 0; i < 3; i++)
+        target[i] = options->has_target[i] ? (float)(options->target[i] - origin[i]) : camera.target[i];
 }
 
 facet_orbit render_orbit(const facet_scene *scene, const facet_pose_desc *pose, const render_options *options)

@@ -71,6 +71,7 @@ static facet_result read_orbit(const command_line *c, render_options *out, facet
     *orbit = facet_orbit_default();
     orbit->is_z_up = option_choice(c, OPT_UP, 0) == 1;
     orbit->orthographic = is_given(c, OPT_ORTHO);
+    orbit->includes_far_parts = option_choice(c, OPT_FRAMING, 0) == 1;
     const char *text = option_text(c, OPT_ORBIT, NULL);
     if (text && !orbit_parse(text, orbit))
         return option_fail(
@@ -90,8 +91,8 @@ static facet_result read_orbit(const command_line *c, render_options *out, facet
 
 static facet_result read_camera(const command_line *c, render_options *out, facet_error *error)
 {
-    static const option_id orbit_options[] = {OPT_ORBIT, OPT_TARGET, OPT_FOV,      OPT_EYE,
-                                              OPT_UP,    OPT_ORTHO,  OPT_TURNTABLE};
+    static const option_id orbit_options[] = {OPT_ORBIT, OPT_TARGET, OPT_FOV,     OPT_EYE,
+                                              OPT_UP,    OPT_ORTHO,  OPT_FRAMING, OPT_TURNTABLE};
     out->camera = option_text(c, OPT_CAMERA, NULL);
     for (size_t i = 0; out->camera && i < sizeof orbit_options / sizeof *orbit_options; i++)
         if (is_given(c, orbit_options[i]))

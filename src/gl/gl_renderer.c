@@ -109,10 +109,11 @@ static facet_result make_camera(gl_renderer *r, const facet_render_desc *desc, c
 {
     facet_camera fitted;
     facet_orbit orbit = scene_orbit_default();
+    orbit.log = desc->log;
     facet_result result = FACET_OK;
     if (!desc->camera)
-        result = scene_fit_pose(&r->prepared.pose, &orbit, (float)desc->width / (float)desc->height,
-                                desc->thread_count, &fitted, error);
+        result = scene_fit_pose(r->prepared.scene, &r->prepared.pose, &orbit,
+                                (float)desc->width / (float)desc->height, desc->thread_count, &fitted, error);
     return result == FACET_OK ? camera_rays_create(desc->camera ? desc->camera : &fitted, desc->width,
                                                    desc->height, rays, error)
                               : result;

@@ -13,6 +13,7 @@
 #include "io/stl/stl.h"
 #include "scene/legacy.h"
 #include "scene/origin.h"
+#include "scene/unseen.h"
 
 /* STL and PLY, from a file that is open. folder: of the file; NULL: from memory. */
 static facet_result load_bytes(model_kind kind, const void *bytes, size_t size, const char *name,
@@ -54,8 +55,10 @@ static bool is_url(const char *path)
 static facet_result settle(facet_result result, const facet_scene_desc *desc, facet_scene **scene,
                            facet_error *error)
 {
-    if (result == FACET_OK)
+    if (result == FACET_OK) {
+        unseen_tighten_bounds(*scene);
         result = scene_settle_origin(*scene, &desc->log, error);
+    }
     if (result != FACET_OK && *scene) {
         scene_destroy(*scene);
         *scene = NULL;

@@ -75,7 +75,7 @@ static facet_result set_stage(const facet_scene *scene, stage *s, facet_error *e
         for (int k = 0; k < 3; k++)
             s->center[k] = 0.5f * pose.bounds_min[k] + 0.5f * pose.bounds_max[k];
         s->radius = 0.5 * distance(pose.bounds_min, pose.bounds_max);
-        result = scene_fit_pose(&pose, &orbit, 4.0f / 3.0f, scene->thread_count, &camera, error);
+        result = scene_fit_pose(scene, &pose, &orbit, 4.0f / 3.0f, scene->thread_count, &camera, error);
     }
     scene_pose_destroy(&pose);
     set_camera(s, &camera);

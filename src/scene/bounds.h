@@ -23,8 +23,14 @@ static inline void box_add(box *b, const float p[3])
         b->maximum[axis] = p[axis] > b->maximum[axis] ? p[axis] : b->maximum[axis];
     }
 }
+static inline bool box_is_empty(const box *b)
+{
+    return b->minimum[0] > b->maximum[0];
+}
 static inline void box_join(box *b, const box *other)
 {
+    if (box_is_empty(other))
+        return;
     box_add(b, other->minimum);
     box_add(b, other->maximum);
 }
@@ -37,9 +43,39 @@ static inline bool box_is_near(const box *b)
     return true;
 }
 
-/* Finds the world bounds of the pose's instances, exactly, and drops those that leave the space where floats can be
- * squared. Fails with FACET_ERROR_MEMORY. */
-facet_result bound_instances(scene_pose *pose, const facet_allocator *allocator, uint32_t thread_count,
-                             facet_error *error);
+/* Whether p is in it, its surface included. */
+static inline bool box_holds(const box *b, const float p[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (!(p[axis] >= b->minimum[axis] && p[axis] <= b->maximum[axis]))
+            return false;
+    return true;
+}
+static inline double box_diagonal(const box *b)
+{
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        double size = (double)b->maximum[axis] - (double)b->minimum[axis];
+        sum += size * size;
+    }
+    return sqrt(sum);
+}
+
+/* A box in world space around `local` of the instance, in double, with a margin for the rounding of vertices. */
+typedef struct wide_box {
+    double minimum[3], maximum[3];
+} wide_box;
+wide_box box_enclose(const scene_instance *instance, const float local_min[3], const float local_max[3]);
+
+/* Whether an instance counts for what is framed. */
+static inline bool bounds_count(const scene_pose *pose, const scene_instance *instance)
+{
+    return !instance->is_unseen || pose->is_unseen;
+}
+
+/* Finds which instances are unseen, and the bounds of the pose, and drops instances that leave the space where floats can be
+ * squared. The pose has its materials. Fails with FACET_ERROR_MEMORY. */
+facet_result bound_instances(const facet_scene *scene, scene_pose *pose, const facet_allocator *allocator,
+                             uint32_t thread_count, facet_error *error);
 
 #endif

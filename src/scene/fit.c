@@ -3,8 +3,10 @@
 
 #include "base/parallel.h"
 #include "base/result.h"
-#include "scene/bounds.h"
 #include "scene/fit_times.h"
+#include "scene/stray.h"
+#include "scene/unseen.h"
+#include "scene/vertex_tree.h"
 
 facet_orbit scene_orbit_default(void)
 {
@@ -77,7 +79,9 @@ static void add_point(const view *v, const double p[3], extent *e)
     double x = dot(p, v->right);
     double y = dot(p, v->up);
     double z = dot(p, v->back);
-    double sideways = fmax(fabs(x) / v->tan_x, fabs(y) / v->tan_y);
+    double x_size = fabs(x) / v->tan_x;
+    double y_size = fabs(y) / v->tan_y;
+    double sideways = x_size > y_size ? x_size : y_size;
     extent_add(e, v->orthographic ? sideways : z + sideways, z);
 }
 
@@ -113,48 +117,114 @@ static void add_vertex(const view *v, const float world[3], extent *e)
         add_point(v, p, e);
 }
 
-enum { GRAIN = 1 << 14 };
-
-typedef struct fit_job {
+/* What vertices of an instance are looked for. */
+typedef struct search {
     const view *view;
     const scene_instance *instance;
-    extent *extents; /* one per GRAIN indices */
-} fit_job;
+    const box *kept; /* NULL: all count */
+    extent *extent;
+} search;
 
-static void fit_body(void *context, size_t begin, size_t end)
+static void search_vertex(void *context, const float position[3])
 {
-    const fit_job *job = context;
-    const scene_primitive *primitive = job->instance->primitive;
-    const view *v = job->view;
-    extent e = {-HUGE_VAL, -HUGE_VAL};
-    for (size_t i = begin; i < end; i++) {
-        float world[3];
-        mat4_transform_point(&job->instance->world,
-                             job->instance->positions + 3 * (size_t)primitive->indices[i], world);
-        add_vertex(v, world, &e);
-    }
-    job->extents[begin / GRAIN] = e;
+    const search *s = context;
+    float world[3];
+    mat4_transform_point(&s->instance->world, position, world);
+    if (!s->kept || box_holds(s->kept, world))
+        add_vertex(s->view, world, s->extent);
 }
 
-/* Whether an instance cannot widen e, judged by the box around it: all bounds are convex, so they are largest at a
- * corner. The margin covers the rounding of corners. Most instances of a scene of many are inside. */
-static bool is_inside(const view *v, const scene_instance *instance, const extent *e)
+static void search_blocks(void *context, const vertex_block *blocks, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++)
+        for (int i = 0; i < VERTEX_LANES; i++)
+            search_vertex(context,
+                          (const float[3]){blocks[k].xyz[0][i], blocks[k].xyz[1][i], blocks[k].xyz[2][i]});
+}
+
+/* How far a vertex in float may be from where it is: four roundings of the products and their sum. */
+static double rounding(const mat4 *world, const float low[3], const float high[3])
+{
+    double largest = 0.0;
+    for (int row = 0; row < 3; row++) {
+        double size = fabs((double)world->m[12 + row]);
+        for (int k = 0; k < 3; k++)
+            size += fabs((double)world->m[4 * k + row]) * fmax(fabs((double)low[k]), fabs((double)high[k]));
+        largest = fmax(largest, size);
+    }
+    return 4.0 * 0x1p-24 * largest;
+}
+
+/* How much vertices in a box may widen e: all bounds are convex, so they are largest at a corner. The margin covers the
+ * rounding of vertices and corners: bounds change at most sqrt(2) (1 + 1 / tan) times as fast as a point moves, which is up
+ * to sqrt(3) from its place. Most instances of a scene of many are inside. */
+static double excess(const search *s, const float low[3], const float high[3], const extent *e)
 {
     extent corners = {-HUGE_VAL, -HUGE_VAL};
     for (unsigned corner = 0; corner < 8; corner++) {
         float local[3];
         float world[3];
         for (unsigned axis = 0; axis < 3; axis++)
-            local[axis] = corner >> axis & 1 ? instance->bounds_max[axis] : instance->bounds_min[axis];
-        mat4_transform_point(&instance->world, local, world);
-        add_vertex(v, world, &corners);
+            local[axis] = corner >> axis & 1 ? high[axis] : low[axis];
+        mat4_transform_point(&s->instance->world, local, world);
+        add_vertex(s->view, world, &corners);
     }
-    double margin = 1e-5 * (fabs(corners.extent) + fabs(corners.nearest));
-    return corners.extent + margin < e->extent && corners.nearest + margin < e->nearest;
+    double margin = 2.0 * 2.5 * rounding(&s->instance->world, low, high);
+    double narrow = fmin(s->view->tan_x, s->view->tan_y);
+    double wider = corners.extent + margin * (1.0 + 1.0 / narrow) - e->extent;
+    double nearer = corners.nearest + margin - e->nearest;
+    return s->view->orthographic && nearer > wider ? nearer
+                                                   : wider; /* else nothing asks for what is nearest */
 }
 
-/* Widens *out by what the pose shows. False: no memory. */
-static bool measure(const scene_pose *pose, const view *v, uint32_t thread_count, extent *out)
+static double gain(void *context, const box *local)
+{
+    const search *s = context;
+    return excess(s, local->minimum, local->maximum, s->extent);
+}
+
+enum { GRAIN = 1 << 14 };
+
+typedef struct fit_job {
+    search search;
+    extent *extents; /* one per GRAIN indices */
+} fit_job;
+
+static void fit_body(void *context, size_t begin, size_t end)
+{
+    const fit_job *job = context;
+    const scene_instance *instance = job->search.instance;
+    const scene_primitive *primitive = instance->primitive;
+    extent e = {-HUGE_VAL, -HUGE_VAL};
+    search s = job->search;
+    s.extent = &e;
+    for (size_t i = begin; i < end; i++) {
+        if (primitive->has_flat_triangles &&
+            unseen_is_flat(instance->positions, primitive->indices + i / 3 * 3))
+            continue;
+        search_vertex(&s, instance->positions + 3 * (size_t)primitive->indices[i]);
+    }
+    job->extents[begin / GRAIN] = e;
+}
+
+static void measure_instance(const search *s, vertex_trees *trees, extent *extents, uint32_t thread_count)
+{
+    const vertex_tree *tree = vertex_trees_get(trees, s->instance);
+    if (tree) {
+        search found = *s;
+        vertex_tree_visit(tree, &(vertex_visitor){&found, gain, search_blocks});
+        return;
+    }
+    size_t count = s->instance->primitive->index_count;
+    fit_job job = {.search = *s, .extents = extents};
+    parallel_for(thread_count, count, GRAIN, fit_body, &job);
+    for (size_t k = 0; k < (count + GRAIN - 1) / GRAIN; k++)
+        extent_add(s->extent, extents[k].extent, extents[k].nearest);
+}
+
+/* Widens *out by what the pose shows in kept (NULL: anywhere). False: no memory. */
+static bool measure(const facet_scene *scene, const scene_pose *pose, const view *v, const box *kept,
+                    uint32_t thread_count, extent *out)
 {
     size_t most = 0;
     for (uint32_t i = 0; i < pose->instance_count; i++)
@@ -163,15 +233,14 @@ static bool measure(const scene_pose *pose, const view *v, uint32_t thread_count
     extent *extents = mem_alloc(NULL, most / GRAIN + 1, sizeof *extents);
     if (!extents)
         return false;
+    vertex_trees trees = {.scene = scene};
     for (uint32_t i = 0; i < pose->instance_count; i++) {
-        size_t count = pose->instances[i].primitive->index_count;
-        if (is_inside(v, &pose->instances[i], out))
-            continue;
-        fit_job job = {.view = v, .instance = &pose->instances[i], .extents = extents};
-        parallel_for(thread_count, count, GRAIN, fit_body, &job);
-        for (size_t k = 0; k < (count + GRAIN - 1) / GRAIN; k++)
-            extent_add(out, extents[k].extent, extents[k].nearest);
+        const scene_instance *instance = &pose->instances[i];
+        const search s = {.view = v, .instance = instance, .kept = kept, .extent = out};
+        if (bounds_count(pose, instance) && excess(&s, instance->bounds_min, instance->bounds_max, out) > 0.0)
+            measure_instance(&s, &trees, extents, thread_count);
     }
+    vertex_trees_destroy(&trees);
     mem_free(extents);
     return true;
 }
@@ -210,6 +279,7 @@ typedef struct subject {
     box bounds;
     bool has_bounds;
     extent extent;
+    stray_parts stray; /* count 0: none at any time */
 } subject;
 
 static subject empty_subject(void)
@@ -217,13 +287,35 @@ static subject empty_subject(void)
     return (subject){.bounds = box_empty(), .extent = {-HUGE_VAL, -HUGE_VAL}};
 }
 
-static void add_bounds(subject *s, const scene_pose *pose)
+/* Which part of a pose is framed: in *kept, or where that is NULL all. */
+static void add_bounds(subject *s, const scene_pose *pose, const facet_orbit *orbit, stray_parts *stray,
+                       const box **kept)
 {
+    *kept = NULL;
     if (!pose->has_bounds)
         return;
+    s->has_bounds = true;
+    if (!orbit->includes_far_parts && stray_find(pose, stray)) {
+        *kept = &stray->kept;
+        box_join(&s->bounds, &stray->kept);
+        if (stray->count > s->stray.count)
+            s->stray = *stray;
+        return;
+    }
     box_add(&s->bounds, pose->bounds_min);
     box_add(&s->bounds, pose->bounds_max);
-    s->has_bounds = true;
+}
+
+static void warn_of_stray(const facet_scene *scene, const facet_orbit *orbit, const stray_parts *stray)
+{
+    if (!stray->count)
+        return;
+    log_warning(&orbit->log,
+                "%s: the frame leaves out %.2g %% of the model, which lies %.3g m from the rest, that is "
+                "%.3g m wide; "
+                "--framing all includes it, --orbit and --target look elsewhere",
+                scene->source, 100.0 * (double)stray->count / (double)stray->whole, stray->distance_m,
+                stray->diagonal_m);
 }
 
 static view make_view(const facet_orbit *orbit, float aspect, const subject *s)
@@ -276,18 +368,28 @@ static facet_result stand(const view *v, const subject *s, const facet_orbit *or
     return FACET_OK;
 }
 
-facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect,
-                            uint32_t thread_count, facet_camera *camera, facet_error *error)
+/* A camera that stands at a given distance needs no look at the model. Parallel rays begin in front of all of it. */
+static bool is_measured(const facet_orbit *orbit)
+{
+    return orbit->orthographic || !(orbit->radius > 0.0f);
+}
+
+facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, const facet_orbit *orbit,
+                            float aspect, uint32_t thread_count, facet_camera *camera, facet_error *error)
 {
     *camera = (facet_camera){0};
     facet_result result = check(orbit, aspect, error);
     if (result != FACET_OK)
         return result;
     subject s = empty_subject();
-    add_bounds(&s, pose);
+    stray_parts stray;
+    const box *kept = NULL;
+    if (is_measured(orbit) || !orbit->has_target)
+        add_bounds(&s, pose, orbit, &stray, &kept);
     view v = make_view(orbit, aspect, &s);
-    if (s.has_bounds && !measure(pose, &v, thread_count, &s.extent))
+    if (s.has_bounds && is_measured(orbit) && !measure(scene, pose, &v, kept, thread_count, &s.extent))
         return fail_memory(error, "camera", sizeof s.extent);
+    warn_of_stray(scene, orbit, &s.stray);
     return stand(&v, &s, orbit, aspect, camera, error);
 }
 
@@ -295,18 +397,21 @@ facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, fl
 
 /* Bounds of the scene at all times, and with a view what it takes to frame them. */
 static facet_result look_at_times(const facet_scene *scene, const facet_pose_desc *desc,
-                                  const fit_times *list, const view *v, subject *s, facet_error *error)
+                                  const fit_times *list, const facet_orbit *orbit, const view *v, subject *s,
+                                  facet_error *error)
 {
     facet_result result = FACET_OK;
     facet_pose_desc at = *desc;
     for (uint32_t i = 0; result == FACET_OK && i < list->count; i++) {
         scene_pose pose;
+        stray_parts stray;
+        const box *kept;
         at.time_s = list->times[i];
         result = scene_pose_create(scene, &at, &scene->allocator, scene->thread_count, &pose, error);
         if (result != FACET_OK)
             return result;
-        add_bounds(s, &pose);
-        if (v && pose.has_bounds && !measure(&pose, v, scene->thread_count, &s->extent))
+        add_bounds(s, &pose, orbit, &stray, &kept);
+        if (v && pose.has_bounds && !measure(scene, &pose, v, kept, scene->thread_count, &s->extent))
             result = fail_memory(error, "camera", sizeof s->extent);
         scene_pose_destroy(&pose);
     }
@@ -328,10 +433,12 @@ static facet_result fit_motion(const facet_scene *scene, const facet_pose_desc *
     fit_times_list(scene, desc, &list);
     subject s = empty_subject();
     if (!orbit->has_target)
-        result = look_at_times(scene, desc, &list, NULL, &s, error);
+        result = look_at_times(scene, desc, &list, orbit, NULL, &s, error);
     view v = make_view(orbit, aspect, &s);
+    if (result == FACET_OK && is_measured(orbit))
+        result = look_at_times(scene, desc, &list, orbit, &v, &s, error);
     if (result == FACET_OK)
-        result = look_at_times(scene, desc, &list, &v, &s, error);
+        warn_of_stray(scene, orbit, &s.stray);
     return result == FACET_OK ? stand(&v, &s, orbit, aspect, camera, error) : result;
 }
 
@@ -345,7 +452,7 @@ facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *de
     facet_result result =
         scene_pose_create(scene, desc, &scene->allocator, scene->thread_count, &pose, error);
     if (result == FACET_OK)
-        result = scene_fit_pose(&pose, orbit, aspect, scene->thread_count, camera, error);
+        result = scene_fit_pose(scene, &pose, orbit, aspect, scene->thread_count, camera, error);
     scene_pose_destroy(&pose);
     return result;
 }

@@ -122,7 +122,7 @@ static void a_turntable_keeps_its_distance_and_cuts_nothing(void **state)
                                  .orthographic = i >= ANGLE_COUNT,
                                  .fits_all_azimuths = true};
             facet_camera camera;
-            assert_int_equal(scene_fit_pose(&pose, &orbit, 1.5f, 1, &camera, NULL), FACET_OK);
+            assert_int_equal(scene_fit_pose(scene, &pose, &orbit, 1.5f, 1, &camera, NULL), FACET_OK);
             double own = 0.0;
             for (int k = 0; k < 3; k++)
                 own += pow((double)camera.eye[k] - (double)camera.target[k], 2);

@@ -269,11 +269,11 @@ facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *
         result = allocate(pose, &parts, allocator, error);
     if (result == FACET_OK) {
         fill(pose, &parts);
-        result = bound_instances(pose, allocator, thread_count, error);
+        pose->materials = parts.state.materials;
+        result = bound_instances(scene, pose, allocator, thread_count, error);
     }
     if (result == FACET_OK) {
         mark_copies(pose);
-        pose->materials = parts.state.materials;
         pose->material_copies = parts.state.material_copies;
         pose->deformed = parts.deformed.block;
         parts.state.material_copies = NULL;

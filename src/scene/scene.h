@@ -52,12 +52,16 @@ typedef struct scene_primitive {
     const float *colors;           /* 4 per vertex, linear, [0, 1]; NULL: white */
     /* SCENE_WATER_VALUES per vertex, of the surface of scene->sea; NULL: none. No file has it */
     const float *water;
-    uint32_t material;                  /* SCENE_NONE: the default material */
-    float bounds_min[3], bounds_max[3]; /* of the positions that indices use; 0 where there are none */
-    bool has_flat_normals;              /* the file had none: vertices are not shared between triangles */
-    uint32_t influence_count;           /* joints that move a vertex: a multiple of 4; 0: no skin */
-    const uint16_t *joints;             /* influence_count per vertex: numbers in the node's skin */
-    const float *weights;               /* the same; >= 0, finite, their sum 1 */
+    uint32_t material; /* SCENE_NONE: the default material */
+    /* of the positions that indices use, without triangles that have no area (unseen_tighten_bounds()); 0 where there are
+     * none */
+    float bounds_min[3], bounds_max[3];
+    bool has_flat_triangles;  /* some that have no area lie outside of the bounds */
+    bool is_flat;             /* none of its triangles has an area */
+    bool has_flat_normals;    /* the file had none: vertices are not shared between triangles */
+    uint32_t influence_count; /* joints that move a vertex: a multiple of 4; 0: no skin */
+    const uint16_t *joints;   /* influence_count per vertex: numbers in the node's skin */
+    const float *weights;     /* the same; >= 0, finite, their sum 1 */
     uint32_t target_count;
     const scene_morph_target *targets;
     /* per variant of the scene; SCENE_NONE: material as above. NULL: none */
@@ -426,6 +430,7 @@ typedef struct scene_instance {
     float normal_matrix[9]; /* cofactor matrix, rows; normalise after use; sign already such that a mirrored
                                 instance keeps outward normals */
     bool is_mirrored;       /* determinant < 0: winding is reversed */
+    bool is_unseen;         /* no camera sees anything of it: scene/unseen.h */
     uint32_t node, mesh, primitive_index;
 } scene_instance;
 
@@ -449,9 +454,11 @@ typedef struct scene_pose {
     scene_instance *instances;
     scene_posed_light *lights;
     scene_posed_camera *cameras;
-    const scene_material *materials;    /* the scene's, or copies where an animation changes some */
-    float bounds_min[3], bounds_max[3]; /* of all instances, world space, from every used vertex; 0: none */
+    const scene_material *materials; /* the scene's, or copies where an animation changes some */
+    /* of all instances that can be seen (of all where none can), world space, exactly; 0: none */
+    float bounds_min[3], bounds_max[3];
     bool has_bounds;
+    bool is_unseen;                   /* all of it is */
     void *deformed, *material_copies; /* what the pose owns */
 } scene_pose;
 
@@ -475,8 +482,8 @@ facet_orbit scene_orbit_default(void);
 /* facet_camera_from_orbit() for a pose that is there (it may draw nothing): for that one, whatever fits_all_times says.
  * The distance is exact: at radius_scale 1 the outermost vertex is on the border of the picture. Fails with
  * FACET_ERROR_ARGUMENT for numbers that are no camera. */
-facet_result scene_fit_pose(const scene_pose *pose, const facet_orbit *orbit, float aspect,
-                            uint32_t thread_count, facet_camera *camera, facet_error *error);
+facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, const facet_orbit *orbit,
+                            float aspect, uint32_t thread_count, facet_camera *camera, facet_error *error);
 /* facet_camera_from_orbit(). Where the orbit fits all times, the motion is looked at at every key of the animations
  * and 24 times per second, or at SCENE_FIT_TIMES even steps where that would be more. */
 enum { SCENE_FIT_TIMES = 256 };
