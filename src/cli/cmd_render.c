@@ -106,7 +106,10 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
     bool is_sequence = s->frames.frame_count > 1;
     const render_view view = {
         .pose = &s->pose, .turn = frame->turn, .turns = s->turns > 0, .moves = s->moves};
+    m->options.orbit.log = messages_log(&m->run->messages);
+    interrupt_begin(input_name(m->model->path), "finding a camera for it", m->run->progress == PROGRESS_BAR);
     facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
+    interrupt_end();
     if (result == FACET_OK && index == 0 && is_sequence)
         render_keep_framing(&m->options, m->scene, camera);
     if (result == FACET_OK)
@@ -174,9 +177,12 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
     desc.path.keeps_cancelled = true;
     facet_image *image = NULL;
-    /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. */
-    if (desc.integrator == FACET_INTEGRATOR_GL)
-        interrupt_begin(report->output, "OpenGL drew", shown.mode == PROGRESS_BAR);
+    /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. The others look at it
+     * from where they begin to draw. */
+    bool is_gl = desc.integrator == FACET_INTEGRATOR_GL;
+    shown.is_preparing = !is_gl;
+    interrupt_begin(report->output, is_gl ? "OpenGL drew" : "preparing the scene",
+                    shown.mode == PROGRESS_BAR);
     result = facet_renderer_render(m->renderer, &desc, &image, error);
     interrupt_end();
     progress_clear();
@@ -287,7 +293,9 @@ static facet_result render_scene(render_run *run, const model_name *model, const
                                  double start, facet_error *error)
 {
     model_run m = {.run = run, .options = run->options, .model = model, .scene = scene};
+    interrupt_begin(input_name(model->path), "looking for its frames", run->progress == PROGRESS_BAR);
     facet_result result = sequence_create(scene, input_name(model->path), &m.options, &m.sequence, error);
+    interrupt_end();
     if (result == FACET_OK)
         tell_late_frames(&m);
     if (result == FACET_OK)

@@ -14,10 +14,10 @@
 static facet_result choose_animations(const facet_scene *scene, const char *name, const render_options *o,
                                       sequence *out, facet_error *error)
 {
-    uint32_t there = facet_scene_get_counts(scene).animations;
     bool wants_motion = o->animation || o->has_time || o->has_frames || o->has_fps;
     if (!wants_motion || (o->animation && strcmp(o->animation, "none") == 0))
         return FACET_OK;
+    uint32_t there = facet_scene_get_counts(scene).animations;
     if (there == 0)
         return o->turntable && !o->animation
                    ? FACET_OK
