@@ -196,6 +196,12 @@ float path_pixel_scale(const path_pixel *p)
     return fabsf(weight) > 0.25f ? 1.0f / weight : 1.0f; /* a few samples may all but cancel */
 }
 
+float path_film_share(const path_film *f, size_t pixel)
+{
+    const path_pixel *p = &f->pixels[pixel];
+    return p->samples > 0.0f ? path_pixel_scale(p) / p->samples : 0.0f;
+}
+
 typedef struct resolving {
     const path_film *film;
     float scale;

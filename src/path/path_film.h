@@ -18,6 +18,9 @@ void path_film_destroy(path_film *f); /* NULL is allowed */
  * be added to at the same time; the order of a pixel's samples counts in the last bits. */
 void path_film_add(path_film *f, size_t pixel, const path_sample *sample);
 uint32_t path_film_samples(const path_film *f, size_t pixel);
+/* What a sum over the samples of a pixel, each with the weight of its filter, is multiplied by to become the mean that
+ * path_film_resolve() takes; 0 without samples. */
+float path_film_share(const path_film *f, size_t pixel);
 uint64_t path_film_total_samples(const path_film *f);
 uint64_t path_film_dropped(const path_film *f);
 

@@ -373,10 +373,8 @@ static facet_result draw_aovs(path_picture *p, facet_error *error)
 static void finish_mattes(path_picture *p)
 {
     size_t pixel_count = (size_t)p->target->width * p->target->height;
-    for (size_t pixel = 0; p->mattes.aovs && pixel < pixel_count; pixel++) {
-        uint32_t samples = path_film_samples(p->sums, pixel);
-        matte_finish(&p->mattes, pixel, samples ? 1.0f / (float)samples : 0.0f);
-    }
+    for (size_t pixel = 0; p->mattes.aovs && pixel < pixel_count; pixel++)
+        matte_finish(&p->mattes, pixel, path_film_share(p->sums, pixel));
 }
 
 static void tell_dropped(const path_picture *p)
