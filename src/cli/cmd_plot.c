@@ -50,6 +50,11 @@ static facet_result read_kind(plot_run *run, facet_error *error)
     char names[256] = "";
     for (int i = 0; i < KIND_COUNT; i++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", kind_names[i]);
+    if (c->argument_count && plot_material_is_parameters(c->arguments[0]))
+        return fail_with(
+            error, FACET_ERROR_ARGUMENT,
+            "plot: \"%.200s\" is a material; the kind of plot comes first, as in facet plot brdf %.200s",
+            c->arguments[0], c->arguments[0]);
     return c->argument_count
                ? fail_with(error, FACET_ERROR_ARGUMENT, "plot: there is no plot \"%.60s\"; those are %s",
                            c->arguments[0], names)

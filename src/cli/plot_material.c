@@ -264,6 +264,11 @@ static bool begins_with_model(const char *text)
     return find_model(text, strcspn(text, ","), &model);
 }
 
+bool plot_material_is_parameters(const char *text)
+{
+    return strchr(text, '=') || begins_with_model(text);
+}
+
 facet_result plot_materials_add(plot_materials *m, const char *text, const facet_scene_desc *desc,
                                 facet_error *error)
 {
@@ -273,7 +278,7 @@ facet_result plot_materials_add(plot_materials *m, const char *text, const facet
         one.path = text;
         return append(m, &one, error);
     }
-    if (!strchr(text, '=') && !begins_with_model(text))
+    if (!plot_material_is_parameters(text))
         return add_file(m, text, desc, error);
     facet_result result = read_parameters(text, &one, error);
     return result == FACET_OK ? append(m, &one, error) : result;

@@ -17,6 +17,8 @@ typedef struct plot_materials {
  * with FACET_ERROR_ARGUMENT, and as facet_scene_load(). text must stay. */
 facet_result plot_materials_add(plot_materials *m, const char *text, const facet_scene_desc *desc,
                                 facet_error *error);
+/* Whether text is a list of parameters rather than a file: "ggx", "roughness=0.3", "ogl1,shininess=20". */
+bool plot_material_is_parameters(const char *text);
 /* Those of --roughness, --metallic and --base-color. */
 facet_result plot_materials_add_options(plot_materials *m, const command_line *c, facet_error *error);
 /* The text that plot_materials_add() reads as m, parameters with their usual values left out; PBR or OpenGL 1, without angles. */
