@@ -39,6 +39,10 @@ static const codec codecs[] = {
 #else
     [IMAGE_CODEC_AVIF] = {.name = "AVIF", .library = "libavif"},
 #endif
+    [IMAGE_CODEC_TGA] = {"TGA", tga_probe, tga_decode, NULL, NULL},
+    [IMAGE_CODEC_BMP] = {"BMP", bmp_probe, bmp_decode, NULL, NULL},
+    [IMAGE_CODEC_GIF] = {"GIF", gif_probe, gif_decode, NULL, NULL},
+    [IMAGE_CODEC_DDS] = {"DDS", dds_probe, dds_decode, NULL, NULL},
 };
 
 image_codec image_codec_detect(const void *bytes, size_t size)
@@ -65,6 +69,8 @@ image_codec image_codec_detect(const void *bytes, size_t size)
         {IMAGE_CODEC_KTX2, 0, 12, "\xabKTX 20\xbb\r\n\x1a\n"},
         {IMAGE_CODEC_AVIF, 4, 8, "ftypavif"},
         {IMAGE_CODEC_AVIF, 4, 8, "ftypavis"},
+        {IMAGE_CODEC_GIF, 0, 6, "GIF87a"},
+        {IMAGE_CODEC_GIF, 0, 6, "GIF89a"},
     };
     const unsigned char *b = bytes;
     for (size_t i = 0; i < sizeof magics / sizeof *magics; i++) {
@@ -73,7 +79,10 @@ image_codec image_codec_detect(const void *bytes, size_t size)
             (m->codec != IMAGE_CODEC_WEBP || memcmp(b, "RIFF", 4) == 0))
             return m->codec;
     }
-    return IMAGE_CODEC_UNKNOWN;
+    return dds_detect(b, size)   ? IMAGE_CODEC_DDS
+           : bmp_detect(b, size) ? IMAGE_CODEC_BMP
+           : tga_detect(b, size) ? IMAGE_CODEC_TGA
+                                 : IMAGE_CODEC_UNKNOWN;
 }
 
 const char *image_codec_name(image_codec codec_id)
@@ -107,6 +116,39 @@ facet_result codec_check_input(const image *i, const char *codec_name, bool is_t
         return fail(error, FACET_ERROR_ARGUMENT, "%s: images of %s channels are written, not %u of type %d",
                     codec_name, types, i->channel_count, (int)i->type);
     return FACET_OK;
+}
+
+static void swap_bytes(unsigned char *a, unsigned char *b, size_t size)
+{
+    for (size_t i = 0; i < size; i++) {
+        const unsigned char kept = a[i];
+        a[i] = b[i];
+        b[i] = kept;
+    }
+}
+
+void codec_flip(image *i, bool has_flipped_columns, bool has_flipped_rows)
+{
+    const size_t row_size = image_row_size(i), texel_size = image_texel_size(i);
+    unsigned char *pixels = i->pixels;
+    for (size_t y = 0; has_flipped_rows && y < i->height / 2; y++)
+        swap_bytes(pixels + y * row_size, pixels + (i->height - 1 - y) * row_size, row_size);
+    for (size_t y = 0; has_flipped_columns && y < i->height; y++)
+        for (size_t x = 0; x < i->width / 2; x++)
+            swap_bytes(pixels + y * row_size + x * texel_size,
+                       pixels + (y + 1) * row_size - (x + 1) * texel_size, texel_size);
+}
+
+facet_result codec_set_channels(image *i, const image_decode_desc *desc, facet_error *error)
+{
+    if (desc->channel_count == 0 || desc->channel_count == i->channel_count || i->type != IMAGE_U8)
+        return FACET_OK;
+    image asked = {0};
+    facet_result result = image_convert(i, &desc->allocator, desc->thread_count, desc->channel_count,
+                                        IMAGE_U8, i->is_srgb, &asked, error);
+    image_destroy(i);
+    *i = asked;
+    return result;
 }
 
 double codec_parse_number(const char *text, const char *end, const char **after)
@@ -155,10 +197,11 @@ static facet_result find_codec(const void *bytes, size_t size, const char *name,
     if (size == 0)
         return fail(error, FACET_ERROR_INVALID, "%s: the file is empty", name);
     if (*id == IMAGE_CODEC_UNKNOWN)
-        return fail(
-            error, FACET_ERROR_INVALID,
-            "%s: first bytes: a PNG, JPEG, WebP, AVIF, KTX2, Radiance HDR, OpenEXR or PFM file was expected",
-            name);
+        return fail(error, FACET_ERROR_INVALID,
+                    "%s: first bytes: a PNG, JPEG, WebP, AVIF, KTX2, TGA, BMP, GIF, DDS, Radiance HDR, "
+                    "OpenEXR or PFM file was "
+                    "expected",
+                    name);
     if (!codecs[*id].decode)
         return fail(error, FACET_ERROR_UNSUPPORTED,
                     "%s: this build of facet does not read %s files: %s was not there when it was made", name,

@@ -18,10 +18,16 @@ typedef facet_result codec_decode(const unsigned char *bytes, size_t size, const
 typedef facet_result codec_encode(const image *i, const image_encode_desc *desc, unsigned char **bytes,
                                   size_t *size, facet_error *error);
 
-codec_probe png_probe, jpeg_probe, webp_probe, hdr_probe, exr_probe, pfm_probe, ktx2_probe, avif_probe;
+codec_probe png_probe, jpeg_probe, webp_probe, hdr_probe, exr_probe, pfm_probe, ktx2_probe, avif_probe,
+    tga_probe, bmp_probe, gif_probe, dds_probe;
 codec_decode png_decode, jpeg_decode, webp_decode, hdr_decode, exr_decode, pfm_decode, ktx2_decode_file,
-    avif_decode;
+    avif_decode, tga_decode, bmp_decode, gif_decode, dds_decode;
 codec_encode png_encode, jpeg_encode, webp_encode, hdr_encode, pfm_encode;
+
+/* Whether the bytes begin like a file of a format that a short magic does not tell, or none: by its whole header. */
+bool tga_detect(const unsigned char *bytes, size_t size);
+bool bmp_detect(const unsigned char *bytes, size_t size);
+bool dds_detect(const unsigned char *bytes, size_t size);
 
 /* FACET_ERROR_LIMIT where an edge is longer than max_size, FACET_ERROR_INVALID where one is 0. */
 facet_result codec_check_size(const char *name, uint64_t width, uint64_t height, uint32_t max_size,
@@ -30,6 +36,11 @@ facet_result codec_check_size(const char *name, uint64_t width, uint64_t height,
  * takes. */
 facet_result codec_check_input(const image *i, const char *codec, bool is_type_right, const char *types,
                                uint32_t channel_counts, facet_error *error);
+
+/* Mirrors an image in place: columns, rows. */
+void codec_flip(image *i, bool has_flipped_columns, bool has_flipped_rows);
+/* Brings an image of 8 bits to desc->channel_count. On failure nothing is left in it. */
+facet_result codec_set_channels(image *i, const image_decode_desc *desc, facet_error *error);
 
 /* The decimal number at the start of [text, end), whatever the locale: sign, digits, point, exponent; NaN:
  * there is none. Right to 1e-15. *after (NULL: not wanted) is behind it. */

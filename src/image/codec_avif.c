@@ -302,16 +302,8 @@ static facet_result decode(const avif_file *file, const char *name, const image_
     if (result == FACET_OK)
         result = orient(&stored, file->decoder->image, &desc->allocator, out, error);
     image_destroy(&stored);
-    if (result != FACET_OK || desc->channel_count == 0 || desc->channel_count == out->channel_count ||
-        out->type != IMAGE_U8)
-        return result;
     /* libavif would multiply colors by an alpha that it leaves out */
-    image asked;
-    result = image_convert(out, &desc->allocator, desc->thread_count, desc->channel_count, IMAGE_U8, true,
-                           &asked, error);
-    image_destroy(out);
-    *out = asked;
-    return result;
+    return result == FACET_OK ? codec_set_channels(out, desc, error) : result;
 }
 
 facet_result avif_decode(const unsigned char *bytes, size_t size, const char *name,

@@ -47,7 +47,11 @@ typedef enum image_codec {
     IMAGE_CODEC_EXR,
     IMAGE_CODEC_PFM,
     IMAGE_CODEC_KTX2,
-    IMAGE_CODEC_AVIF
+    IMAGE_CODEC_AVIF,
+    IMAGE_CODEC_TGA,
+    IMAGE_CODEC_BMP,
+    IMAGE_CODEC_GIF, /* the first image */
+    IMAGE_CODEC_DDS  /* the largest level of the first texture */
 } image_codec;
 
 image_codec image_codec_detect(const void *bytes, size_t size); /* by the first bytes */
@@ -93,7 +97,8 @@ typedef struct image_decode_desc {
 /* What the header says; nothing else is read. width and height are those of the whole image as it is decoded. */
 facet_result image_probe(const void *bytes, size_t size, const char *name, image *header /* pixels NULL */,
                          image_codec *codec, facet_error *error);
-/* Decodes. name stands first in messages. PNG, AVIF: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP: 8 bits;
+/* Decodes. name stands first in messages. PNG, AVIF: 8 bits up to 8 bits a channel, 16 above; JPEG, WebP,
+ * TGA, BMP, GIF, DDS: 8 bits;
  * all of them is_srgb = true (gamma chunks and profiles are ignored, glTF 2.0 section 3.8.2); AVIF's crop, rotation and
  * mirroring are applied. HDR, EXR, PFM: F32 RGB
  * or RGBA, linear; NaN and negative infinity become 0, infinity the largest finite value (65504 where a file holds

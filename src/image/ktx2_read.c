@@ -374,26 +374,6 @@ static facet_result decode_astc(const ktx2 *k, const unsigned char *bytes, size_
 
 /* ---- pictures ---- */
 
-static void swap_texels(unsigned char *a, unsigned char *b, size_t size)
-{
-    for (size_t i = 0; i < size; i++) {
-        unsigned char x = a[i];
-        a[i] = b[i];
-        b[i] = x;
-    }
-}
-
-/* From the order of the file to top left first. */
-static void turn(const ktx2 *k, image *i)
-{
-    const size_t row_size = image_row_size(i), texel_size = image_texel_size(i);
-    for (uint32_t y = 0; k->is_bottom_up && y < i->height / 2; y++)
-        swap_texels(get_texel(i, 0, y), get_texel(i, 0, i->height - 1 - y), row_size);
-    for (uint32_t y = 0; k->is_right_to_left && y < i->height; y++)
-        for (uint32_t x = 0; x < i->width / 2; x++)
-            swap_texels(get_texel(i, x, y), get_texel(i, i->width - 1 - x, y), texel_size);
-}
-
 facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, uint32_t layer, uint32_t face,
                          const image_decode_desc *desc, image *out, facet_error *error)
 {
@@ -432,7 +412,8 @@ facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, u
         image_destroy(&made);
         return result;
     }
-    turn(k, &made);
+    codec_flip(&made, k->is_right_to_left,
+               k->is_bottom_up); /* from the order of the file to top left first */
     *out = made;
     return FACET_OK;
 }
