@@ -236,13 +236,13 @@ const verb bake_verb = {
     .summary = "filter an environment for real-time renderers: cube maps, irradiance, tables",
     .arguments = "ENVIRONMENT",
     .max_arguments = 6,
-    .file_types = "hdr exr ktx2 png jpg jpeg pfm webp avif",
+    .file_types = "hdr exr ktx2 png jpg jpeg pfm webp avif tga bmp gif dds",
     .output_types = "ktx2 exr hdr pfm png json h txt html raw",
     .words = WORDS("neutral", "white", "sun:40,135", "preetham:40,135", "gradient:"),
     .description =
-        "ENVIRONMENT is a picture (.hdr .exr .pfm .ktx2 .png .jpg .webp .avif): equirectangular, a cross or "
-        "strip "
-        "of faces, or a KTX2 cube map; or six pictures, the faces +X -X +Y -Y +Z -Z; or one that needs no "
+        "ENVIRONMENT is a picture (.hdr .exr .pfm .ktx2 .png .jpg .webp .avif .tga .bmp .gif .dds): "
+        "equirectangular, a cross or strip of faces, or a KTX2 cube map; or six pictures, the faces +X -X +Y "
+        "-Y +Z -Z; or one that needs no "
         "file: "
         "neutral (the built-in studio), white, #rrggbb, gradient:ZENITH,HORIZON[,NADIR], "
         "sun:ELEVATION[,AZIMUTH] or preetham:ELEVATION[,AZIMUTH], in degrees, for a clear sky "

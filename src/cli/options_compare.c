@@ -159,12 +159,12 @@ const verb compare_verb = {
     .summary = "measure how far two pictures are apart",
     .arguments = "A B",
     .max_arguments = 2,
-    .file_types = "png jpg jpeg webp avif exr hdr pfm ktx2",
+    .file_types = "png jpg jpeg webp avif tga bmp gif dds exr hdr pfm ktx2",
     .output_types = "png jpg jpeg webp exr hdr pfm",
     .description =
-        "A is the reference, B what is compared with it; both are .png .jpg .webp .avif .exr .hdr .pfm "
-        ".ktx2, told "
-        "apart by content; - is standard input, once. They have to be of the same size.\n\n"
+        "A is the reference, B what is compared with it; both are .png .jpg .webp .avif .tga .bmp .gif "
+        ".dds .exr .hdr .pfm .ktx2, told apart by content; - is standard input, once. They have to be of the "
+        "same size.\n\n"
         "Without limits the exit code is 0, however different they are. With --max or --min it is 1 where "
         "one is "
         "exceeded, and one line says by what; then numbers are printed only with --metric or -v.\n\n"

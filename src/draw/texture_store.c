@@ -117,8 +117,17 @@ static uint32_t get_exact_reduction(const image_record *record, uint32_t wanted)
 {
     uint32_t edges = record->header.width | record->header.height;
     uint32_t r = 0;
-    if (record->codec == IMAGE_CODEC_PNG || record->codec == IMAGE_CODEC_WEBP) /* come whole */
+    switch (record->codec) {
+    case IMAGE_CODEC_PNG:
+    case IMAGE_CODEC_WEBP:
+    case IMAGE_CODEC_TGA:
+    case IMAGE_CODEC_BMP:
+    case IMAGE_CODEC_GIF:
+    case IMAGE_CODEC_DDS: /* come whole */
         return 0;
+    default:
+        break;
+    }
     while (r < wanted && r < TEXTURE_MAX_LEVELS - 1 && (edges & ((2u << r) - 1)) == 0)
         r++;
     return r;
@@ -153,9 +162,8 @@ static facet_result decode(const texture_store *store, job *j, const char *name,
     if (out->type == IMAGE_U8 || out->type == IMAGE_U16)
         return FACET_OK;
     if (record->codec != IMAGE_CODEC_KTX2)
-        return fail(&j->error, FACET_ERROR_UNSUPPORTED,
-                    "%s: expected a PNG, JPEG, WebP, AVIF or KTX2 picture, this is %s", name,
-                    image_codec_name(record->codec));
+        return fail(&j->error, FACET_ERROR_UNSUPPORTED, "%s: expected an image for displays, this is %s",
+                    name, image_codec_name(record->codec));
     /* Floats, which glTF does not have: in [0, 1], coded as what reads them expects. */
     image codes;
     result = image_convert(out, &store->allocator, 1, out->channel_count, IMAGE_U16, !j->want->is_read[0],

@@ -7,11 +7,15 @@
 #include "base/file.h"
 
 static const image_kind KINDS[] = {
-    {IMAGE_CODEC_PNG, "image/png", "PNG", "png", NULL},
-    {IMAGE_CODEC_JPEG, "image/jpeg", "JPEG", "jpg", NULL},
-    {IMAGE_CODEC_KTX2, "image/ktx2", "KTX2", "ktx2", "KHR_texture_basisu"},
-    {IMAGE_CODEC_WEBP, "image/webp", "WebP", "webp", "EXT_texture_webp"},
-    {IMAGE_CODEC_AVIF, "image/avif", "AVIF", "avif", "EXT_texture_avif"},
+    {IMAGE_CODEC_PNG, "image/png", "PNG", "png", NULL, false},
+    {IMAGE_CODEC_JPEG, "image/jpeg", "JPEG", "jpg", NULL, false},
+    {IMAGE_CODEC_KTX2, "image/ktx2", "KTX2", "ktx2", "KHR_texture_basisu", false},
+    {IMAGE_CODEC_WEBP, "image/webp", "WebP", "webp", "EXT_texture_webp", false},
+    {IMAGE_CODEC_AVIF, "image/avif", "AVIF", "avif", "EXT_texture_avif", false},
+    {IMAGE_CODEC_TGA, "image/x-tga", "TGA", "tga", NULL, true},
+    {IMAGE_CODEC_BMP, "image/bmp", "BMP", "bmp", NULL, true},
+    {IMAGE_CODEC_GIF, "image/gif", "GIF", "gif", NULL, true},
+    {IMAGE_CODEC_DDS, "image/vnd-ms.dds", "DDS", "dds", "MSFT_texture_dds", true},
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
@@ -38,11 +42,10 @@ const char *image_foreign_kind(const void *bytes, size_t size, const char *file_
         const char *magic;
         size_t length;
         const char *name;
-    } magics[] = {{"GIF8", 4, "GIF"},        {"BM", 2, "BMP"},          {"8BPS", 4, "PSD"},
-                  {"DDS ", 4, "DDS"},        {"II*", 3, "TIFF"},        {"MM\0*", 4, "TIFF"},
+    } magics[] = {{"8BPS", 4, "PSD"},        {"II*", 3, "TIFF"},        {"MM\0*", 4, "TIFF"},
                   {"#?", 2, "Radiance HDR"}, {"v/1\x01", 4, "OpenEXR"}, {"PF", 2, "PFM"},
                   {"\x01\xda", 2, "SGI"},    {"P6", 2, "PPM"},          {"P5", 2, "PGM"}};
-    static const char *const names[][2] = {{"tga", "TGA"}, {"pcx", "PCX"}, {"pct", "PICT"}};
+    static const char *const names[][2] = {{"pcx", "PCX"}, {"pct", "PICT"}};
     for (size_t i = 0; i < sizeof magics / sizeof *magics; i++)
         if (size >= magics[i].length && memcmp(bytes, magics[i].magic, magics[i].length) == 0)
             return magics[i].name;

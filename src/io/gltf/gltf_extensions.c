@@ -97,7 +97,8 @@ static const known_extension KNOWN[] = {
     {"OMI_spawn_point", SCENE_IGNORED, ANYWHERE, NULL, 0},
     /* Left out; docs/gltf-support.md says why. */
     {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "its lights are left out", 0},
-    {"MSFT_texture_dds", SCENE_IGNORED, ANYWHERE, "other images are used where there are any", 0},
+    {"MSFT_texture_dds", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
+     IMAGE_CODEC_DDS},
 };
 
 static bool is_built(const known_extension *known)

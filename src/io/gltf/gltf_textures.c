@@ -1,5 +1,5 @@
 /* gltf_textures.c - images, found but not decoded, and textures with their samplers (glTF 2.0 sections 3.8, 5.18,
- * 5.29; KHR_texture_basisu, EXT_texture_webp, EXT_texture_avif). A picture that cannot be had costs a warning and is
+ * 5.29; KHR_texture_basisu, EXT_texture_webp, EXT_texture_avif, MSFT_texture_dds). A picture that cannot be had costs a warning and is
  * white, as viewers do it. */
 #include <string.h>
 
@@ -8,8 +8,6 @@
 #include "io/image_kind.h"
 
 /* ---- images ---- */
-
-static const char DDS_TYPE[] = "image/vnd-ms.dds"; /* known by name only */
 
 static bool find_bytes(reader *r, const json_place *at, scene_image *out)
 {
@@ -81,7 +79,7 @@ static void read_size(reader *r, const json_place *at, const image_kind *kind, s
         out->height = header.height;
     } else if (result == FACET_ERROR_MEMORY) {
         reader_fail(r, at, NULL, result, "%s", error.message);
-    } else if (kind->gltf_extension) {
+    } else if (kind->gltf_extension || kind->is_converted) {
         reader_warn_each(r, at, NULL, "%s", error.message);
     }
 }
@@ -108,17 +106,18 @@ static void read_image(reader *r, const json_place *at, scene_image *out)
     const image_kind *kind = image_kind_of_bytes(out->bytes, out->size);
     if (kind)
         out->mime_type = kind->mime_type;
-    else if (out->size >= 4 && memcmp(out->bytes, "DDS ", 4) == 0)
-        out->mime_type = DDS_TYPE;
     const char *said = get_string(r, at, "mimeType", NULL);
     if (out->mime_type[0] == 0)
-        reader_warn(r, at, NULL, "is no PNG, JPEG, WebP, AVIF or KTX2 file; white is used");
+        reader_warn(r, at, NULL, "is no " IMAGE_KINDS_TEXT " file; white is used");
     else if (said && strcmp(said, out->mime_type) != 0)
         reader_note(r, at, "mimeType", "says \"%.40s\", but the image is %s", said, out->mime_type);
     if (!kind)
         return;
     if (kind->gltf_extension && !is_extension_listed(r, kind->gltf_extension))
         reader_note(r, at, NULL, "is a %s file, which needs %s", kind->name, kind->gltf_extension);
+    if (kind->is_converted && !kind->gltf_extension)
+        reader_note(r, at, NULL, "is a %s file, which glTF does not have; it is read all the same",
+                    kind->name);
     if (kind->codec == IMAGE_CODEC_KTX2)
         check_ktx2(r, at, out);
     read_size(r, at, kind, out);
@@ -192,22 +191,17 @@ static void find_source(reader *r, const json_place *at, scene_texture *out)
     static const char *const names[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", NULL,
                                         "MSFT_texture_dds"};
     bool has_source = false;
-    bool has_dds = false;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         uint32_t source = get_source(r, at, names[i]); /* all of them: each is checked */
         if (source == SCENE_NONE)
             continue;
         has_source = true;
-        has_dds |= strcmp(r->scene->images[source].mime_type, DDS_TYPE) == 0;
         if (out->image == SCENE_NONE && is_readable(&r->scene->images[source]))
             out->image = source;
     }
     if (!reader_is_ok(r) || out->image != SCENE_NONE)
         return;
-    if (has_dds)
-        reader_warn(r, at, NULL,
-                    "has only a DDS image (MSFT_texture_dds), which facet does not read; white is used");
-    else if (!has_source)
+    if (!has_source)
         reader_warn(r, at, NULL, "has no source; white is used");
 }
 

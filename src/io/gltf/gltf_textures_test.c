@@ -65,44 +65,53 @@ static void the_first_source_that_can_be_read_wins(void **state)
 {
     (void)state;
     image_files m = {0};
-    unsigned char dds[128] = "DDS |";
+    unsigned char dds[128] = "DDS |", block[136] = {0};
+    dds[76 + 4] = 4; /* letters, which are none that facet knows */
+    memcpy(block, dds, 128);
+    memcpy(block + 84, "DXT1", 4);
+    block[12] = block[16] = 4;
     add_bytes(&m, "image/png", white_png, sizeof white_png);     /* 0 */
     add_file(&m, "image/ktx2", "etc1s_alpha.ktx2");              /* 1 */
     add_bytes(&m, "image/ktx2", "\xabKTX 20\xbb\r\n\x1a\n", 12); /* 2: broken */
     add_file(&m, "image/avif", "rgba_lossless.avif");            /* 3 */
     add_bytes(&m, "image/vnd-ms.dds", dds, sizeof dds);          /* 4 */
-    facet_scene *scene =
-        load_model(&m, "'KHR_texture_basisu','EXT_texture_avif','MSFT_texture_dds'",
-                   "{'source':0,'extensions':{" SOURCE(
-                       "KHR_texture_basisu",
-                       "1") "}},"
-                            "{'source':0,'extensions':{" SOURCE(
-                                "KHR_texture_basisu",
-                                "2") "}},"
-                                     "{'extensions':{" SOURCE("KHR_texture_basisu", "1") "," SOURCE(
-                                         "EXT_texture_avif",
-                                         "3") "}},"
-                                              "{'source':0,'extensions':{" SOURCE(
-                                                  "EXT_texture_avif",
-                                                  "3") "}},"
-                                                       "{'source':0,'extensions':{" SOURCE(
-                                                           "MSFT_texture_dds",
-                                                           "4") "}},"
-                                                                "{'extensions':{" SOURCE(
-                                                                    "MSFT_texture_dds",
-                                                                    "4") "}},"
-                                                                         "{'extensions':{" SOURCE(
-                                                                             "KHR_texture_basisu", "2") "}}");
-    const uint32_t expected[] = {1, 0, 1, has_avif() ? 3 : 0, 0, SCENE_NONE, SCENE_NONE};
+    add_bytes(&m, "image/vnd-ms.dds", block, sizeof block);      /* 5 */
+    facet_scene *scene = load_model(
+        &m, "'KHR_texture_basisu','EXT_texture_avif','MSFT_texture_dds'",
+        "{'source':0,'extensions':{" SOURCE(
+            "KHR_texture_basisu",
+            "1") "}},"
+                 "{'source':0,'extensions':{" SOURCE(
+                     "KHR_texture_basisu",
+                     "2") "}},"
+                          "{'extensions':{" SOURCE("KHR_texture_basisu", "1") "," SOURCE(
+                              "EXT_texture_avif",
+                              "3") "}},"
+                                   "{'source':0,'extensions':{" SOURCE(
+                                       "EXT_texture_avif",
+                                       "3") "}},"
+                                            "{'source':0,'extensions':{" SOURCE(
+                                                "MSFT_texture_dds",
+                                                "4") "}},"
+                                                     "{'extensions':{" SOURCE(
+                                                         "MSFT_texture_dds",
+                                                         "4") "}},"
+                                                              "{'extensions':{" SOURCE(
+                                                                  "KHR_texture_basisu",
+                                                                  "2") "}},"
+                                                                       "{'extensions':{" SOURCE(
+                                                                           "MSFT_texture_dds", "5") "}}");
+    const uint32_t expected[] = {1, 0, 1, has_avif() ? 3 : 0, 0, SCENE_NONE, SCENE_NONE, 5};
     for (size_t t = 0; t < sizeof expected / sizeof *expected; t++)
         assert_int_equal(scene->textures[t].image, expected[t]);
     assert_string_equal(scene->images[1].mime_type, "image/ktx2");
     assert_int_equal(scene->images[1].width, 60);
     assert_int_equal(scene->images[1].height, 44);
     assert_string_equal(scene->images[3].mime_type, "image/avif");
+    assert_string_equal(scene->images[5].mime_type, "image/vnd-ms.dds");
+    assert_int_equal(scene->images[5].width, 4);
     assert_true(has_warning(scene, "images[2]: the picture: KTX2: the file ends in its header"));
-    assert_true(has_warning(
-        scene, "textures[5]: has only a DDS image (MSFT_texture_dds), which facet does not read"));
+    assert_true(has_warning(scene, "images[4]: the picture: DDS: texels of the kind"));
     assert_false(has_warning(scene, "images[1]"));
     assert_false(has_warning(scene, "textures[4]"));
     scene_destroy(scene);

@@ -212,8 +212,10 @@ facet_result gltf_save(const facet_scene *scene, const char *path, const char *g
         save_glb(&w, path);
     else
         save_gltf(&w, path);
-    for (size_t i = 0; i < w.file_count; i++)
+    for (size_t i = 0; i < w.file_count; i++) {
         mem_free(w.files[i].name);
+        mem_free(w.files[i].made);
+    }
     mem_free(w.files);
     mem_free(w.written);
     mem_free(w.bin);

@@ -1,6 +1,8 @@
-/* gltf_write_textures.c - images, as their files are, and textures with their samplers. */
+/* gltf_write_textures.c - images, as their files are or as PNG where glTF has no such files, and textures with their
+ * samplers. */
 #include <string.h>
 
+#include "base/result.h"
 #include "io/gltf/gltf_writer.h"
 #include "io/image_kind.h"
 
@@ -19,8 +21,9 @@ static const unsigned char WHITE[] = {
     0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0xf8, 0x0f, 0x00, 0x01, 0x01, 0x01, 0x00,
     0x1c, 0xb0, 0x8c, 0x99, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
+/* Takes made, which is NULL where bytes are the scene's. */
 static void add_file(writer *w, json_t *object, uint32_t index, const char *extension,
-                     const unsigned char *bytes, size_t size)
+                     const unsigned char *bytes, size_t size, unsigned char *made)
 {
     char number[48];
     snprintf(number, sizeof number, "_image%u.%s", index, extension);
@@ -29,30 +32,68 @@ static void add_file(writer *w, json_t *object, uint32_t index, const char *exte
     if (!name || !mem_reserve(w->allocator, (void **)&w->files, &w->file_capacity, w->file_count + 1,
                               sizeof *w->files)) {
         mem_free(name);
+        mem_free(made);
         writer_fail_memory(w, length);
         return;
     }
     snprintf(name, length, "%s%s", w->stem, number);
-    w->files[w->file_count++] = (written_file){.name = name, .bytes = bytes, .size = size};
+    w->files[w->file_count++] = (written_file){.name = name, .bytes = bytes, .size = size, .made = made};
     put_uri(w, object, name);
+}
+
+/* An image as the bytes of a PNG file, a block of mem_alloc(). NULL: it cannot be read, which is a warning, or there is no
+ * memory. */
+static unsigned char *convert_to_png(writer *w, uint32_t index, size_t *size)
+{
+    const scene_image *source = &w->scene->images[index];
+    image decoded;
+    unsigned char *bytes = NULL;
+    facet_error error;
+    char name[256];
+    snprintf(name, sizeof name, "image %u \"%s\"", index, source->name);
+    const image_decode_desc desc = {
+        .allocator = *w->allocator, .thread_count = w->thread_count, .max_size = w->scene->max_texture_size};
+    facet_result result = image_decode(source->bytes, source->size, name, &desc, &decoded, &error);
+    if (result == FACET_OK)
+        result =
+            image_encode(&decoded, IMAGE_CODEC_PNG,
+                         &(image_encode_desc){.allocator = *w->allocator, .thread_count = w->thread_count},
+                         &bytes, size, &error);
+    image_destroy(&decoded);
+    if (result == FACET_ERROR_MEMORY)
+        writer_fail_memory(w, source->size);
+    else if (result != FACET_OK)
+        log_warning(w->log, "%s; it is written as white", error.message);
+    return result == FACET_OK ? bytes : NULL;
 }
 
 void write_images(writer *w)
 {
     const facet_scene *scene = w->scene;
+    const image_kind *png = image_kind_of_bytes(WHITE, sizeof WHITE);
     for (uint32_t i = 0; i < scene->image_count; i++) {
         const scene_image *source = &scene->images[i];
         const image_kind *kind = kind_of(source);
-        const unsigned char *bytes = kind ? source->bytes : WHITE;
-        size_t size = kind ? source->size : sizeof WHITE;
-        kind = kind ? kind : image_kind_of_bytes(WHITE, sizeof WHITE);
+        const unsigned char *bytes = source->bytes;
+        size_t size = source->size;
+        unsigned char *made = NULL;
+        if (kind && kind->is_converted) {
+            bytes = made = convert_to_png(w, i, &size);
+            kind = made ? png : NULL;
+        }
+        if (!kind) {
+            bytes = WHITE;
+            size = sizeof WHITE;
+            kind = png;
+        }
         json_t *out = json_object();
         put_name(w, out, source->name);
         if (w->stem) {
-            add_file(w, out, i, kind->file_extension, bytes, size);
+            add_file(w, out, i, kind->file_extension, bytes, size, made);
         } else {
             put(w, out, "bufferView", json_integer(write_view(w, bytes, size, WRITE_NO_TARGET)));
             put(w, out, "mimeType", json_string(kind->mime_type));
+            mem_free(made);
         }
         put_meta(w, out, &source->meta);
         append(w, put_array(w, w->root, "images"), out);
@@ -115,7 +156,7 @@ void write_textures(writer *w)
         put(w, out, "sampler", json_integer(write_sampler(w, texture)));
         const image_kind *kind =
             texture->image == SCENE_NONE ? NULL : kind_of(&scene->images[texture->image]);
-        if (kind && kind->gltf_extension) {
+        if (kind && kind->gltf_extension && !kind->is_converted) {
             json_t *extension = put_extension(w, out, kind->gltf_extension);
             put_index(w, extension, "source", texture->image);
             require_extension(w, kind->gltf_extension);

@@ -52,6 +52,7 @@ typedef struct written_file {
     char *name; /* block of mem_alloc() */
     const unsigned char *bytes;
     size_t size;
+    unsigned char *made; /* bytes that are not of the scene; block of mem_alloc() */
 } written_file;
 
 bool writer_is_ok(const writer *w);

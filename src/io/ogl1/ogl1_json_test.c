@@ -418,7 +418,7 @@ static void test_textures(void **state)
     facet_error error = {0};
     facet_scene *scene = NULL;
     ogl1_write_png(f, "a.png");
-    ogl1_write(f, "b.png", "GIF89a", 6);
+    ogl1_write(f, "b.png", "8BPS\0\1", 6);
     const char *path = ogl1_write_json(
         f, "p.json",
         "{'materials':[{'texture':'a.png','texmipmap':true,'texminfilter':'nearest.mipmap.linear'},"
@@ -447,7 +447,7 @@ static void test_textures(void **state)
         assert_false(legacy_has_map(&m[i], LEGACY_DIFFUSE_MAP));
     assert_string_equal(m[5].maps[LEGACY_DIFFUSE_MAP].path, "gone.png");
     assert_null(m[6].maps[LEGACY_DIFFUSE_MAP].path);
-    assert_true(has_warning(scene, "texture \"b.png\": is a GIF file"));
+    assert_true(has_warning(scene, "texture \"b.png\": is a PSD file"));
     assert_true(has_warning(scene, "texture \"gone.png\": there is no file"));
     assert_true(has_warning(scene, "texture \"../../etc/passwd\": "));
     scene_destroy(scene);

@@ -43,7 +43,7 @@ static uint32_t find_image(reader *r, findings *f, const char *path)
     const image_kind *kind = image_kind_of_bytes(bytes.data, bytes.size);
     if (!kind) {
         const char *foreign = image_foreign_kind(bytes.data, bytes.size, path);
-        char what[80];
+        char what[160];
         snprintf(what, sizeof what, "is a %s file; " IMAGE_KINDS_TEXT " was expected",
                  foreign ? foreign : "");
         warn(r, path, foreign ? what : "is no " IMAGE_KINDS_TEXT " file");
