@@ -1107,13 +1107,23 @@ FACET_API facet_result facet_cube_draw_sheet(const facet_cube *cube, facet_envir
 
 /* ---- the shading text ---- */
 
+/* Names of functions in GLSL. */
+typedef enum facet_shader_names {
+    FACET_SHADER_NAMES_FACET,
+    /* beside them those of Khronos' Sample Viewer, with its arguments: V_GGX, BRDF_lambertian, Schlick_to_F0, ..; they come
+     * with the parts that they use. D_Charlie is the viewer's then */
+    FACET_SHADER_NAMES_KHRONOS
+} facet_shader_names;
+
 /* GLSL of the functions that facet itself shades with (shade/): what other renderers put before their own shaders. */
 typedef struct facet_shader_desc {
     facet_allocator allocator;
     /* a line "#version ..": "300 es" to "320 es", "330" to "460", also "330 core"; NULL: no such line */
     const char *version;
     const char *const *parts; /* facet_shader_get_part_name()s; they come with all that they use */
-    uint32_t part_count;      /* 0: all parts */
+    /* 0: all parts; with FACET_SHADER_NAMES_KHRONOS those that these names use */
+    uint32_t part_count;
+    facet_shader_names names;
 } facet_shader_desc;
 
 /* Functions, structures and macros without main(); one unit of text that any stage may begin with. Release with

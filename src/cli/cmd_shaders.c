@@ -53,7 +53,8 @@ static facet_result write_text(const command_line *c, facet_error *error)
     }
     const facet_shader_desc desc = {.version = versions[option_choice(c, OPT_GLSL, 0)],
                                     .parts = parts,
-                                    .part_count = (uint32_t)c->argument_count};
+                                    .part_count = (uint32_t)c->argument_count,
+                                    .names = (facet_shader_names)option_choice(c, OPT_NAMES, 0)};
     unsigned char *bytes = NULL;
     size_t size = 0;
     result = facet_shader_text(&desc, &bytes, &size, error);

@@ -121,6 +121,7 @@ typedef enum option_id {
     OPT_TITLE,
     OPT_DARK,
     OPT_GLSL,
+    OPT_NAMES,
     OPT_LIST,
     OPT_METRIC,
     OPT_MAX,

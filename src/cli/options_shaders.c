@@ -20,6 +20,15 @@ static const option shaders_options[] = {
      .default_text = "300es",
      .help = "what the #version line says; none: no such line, to be put behind one's own",
      .choices = WORDS("300es", "310es", "320es", "330", "410", "450", "460", "none")},
+    {.id = OPT_NAMES,
+     .name = "names",
+     .kind = OPTION_CHOICE,
+     .argument = "WHOSE",
+     .default_text = "facet",
+     .help = "khronos: beside facet's names those of Khronos' Sample Viewer, with its arguments (V_GGX, "
+             "BRDF_lambertian, "
+             "D_Charlie, Schlick_to_F0 ..), and of the text the parts that they use",
+     .choices = WORDS("facet", "khronos")},
     {.id = OPT_LIST,
      .name = "list",
      .kind = OPTION_FLAG,

@@ -143,20 +143,32 @@ static bool is_version(const char *version)
     return false;
 }
 
+/* PART_COUNT: there is none. */
+static size_t part_index(const char *name)
+{
+    size_t i = 0;
+    while (i < PART_COUNT && strcmp(parts[i].name, name) != 0)
+        i++;
+    return i;
+}
+
 static facet_result find_parts(const facet_shader_desc *desc, bool is_wanted[PART_COUNT], facet_error *error)
 {
+    static const char *const khronos[] = {"brdf", "fresnel", "anisotropy", "sheen"};
+    bool is_khronos = desc->names == FACET_SHADER_NAMES_KHRONOS;
+    bool is_whole = desc->part_count == 0 && !is_khronos;
     for (size_t i = 0; i < PART_COUNT; i++)
-        is_wanted[i] = desc->part_count == 0;
+        is_wanted[i] = is_whole;
+    for (size_t k = 0; is_khronos && k < sizeof khronos / sizeof *khronos; k++)
+        is_wanted[part_index(khronos[k])] = true;
     for (uint32_t k = 0; k < desc->part_count; k++) {
-        size_t i = 0;
-        while (i < PART_COUNT && strcmp(parts[i].name, desc->parts[k]) != 0)
-            i++;
+        size_t i = part_index(desc->parts[k]);
         if (i == PART_COUNT)
             return fail(error, FACET_ERROR_ARGUMENT, "the shading text has no part \"%.60s\"",
                         desc->parts[k]);
         is_wanted[i] = true;
     }
-    return desc->part_count == 0 || close_parts(&desc->allocator, is_wanted)
+    return is_whole || close_parts(&desc->allocator, is_wanted)
                ? FACET_OK
                : fail_memory(error, "shading text", PART_COUNT * sizeof *parts);
 }
@@ -179,10 +191,15 @@ facet_result facet_shader_text(const facet_shader_desc *desc, unsigned char **by
     if (desc->version)
         text_addf(&t, "#version %s\n", desc->version);
     text_add(&t, "/* The shading text of facet " FACET_VERSION ", under the Apache License 2.0. */\n");
+    bool is_khronos = desc->names == FACET_SHADER_NAMES_KHRONOS;
     text_add(&t, (const char *)text_0);
+    if (is_khronos)
+        text_add(&t, (const char *)khronos_begin);
     for (size_t i = 0; i < PART_COUNT; i++)
         if (is_wanted[i])
             text_add(&t, parts[i].text);
+    if (is_khronos)
+        text_add(&t, (const char *)khronos_end);
     if (t.has_failed) {
         text_destroy(&t);
         return fail_memory(error, "shading text", t.length);

@@ -26,12 +26,12 @@ static FILE *open_text(const char *folder, const char *name)
     return file;
 }
 
-/* The file's lines, without those for C alone, as the array text_INDEX. */
-static void put_text(FILE *out, const char *folder, const char *name, int index)
+/* The file's lines, without those for C alone, as an array. */
+static void put_text(FILE *out, const char *folder, const char *name, const char *array)
 {
     FILE *file = open_text(folder, name);
     char line[MAX_LINE];
-    fprintf(out, "static const unsigned char text_%d[] = {", index);
+    fprintf(out, "static const unsigned char %s[] = {", array);
     while (fgets(line, sizeof line, file)) {
         if (!strchr(line, '\n'))
             stop(name, "has a line that is too long");
@@ -45,13 +45,23 @@ static void put_text(FILE *out, const char *folder, const char *name, int index)
     fclose(file);
 }
 
+/* The same as text_INDEX. */
+static void put_part(FILE *out, const char *folder, const char *name, int index)
+{
+    char array[32];
+    snprintf(array, sizeof array, "text_%d", index);
+    put_text(out, folder, name, array);
+}
+
 /* What puts the parts of shade.h; returns how many there are. */
 static int put_shared(FILE *out, const char *folder, char names[MAX_PARTS][MAX_NAME])
 {
     int count = 0;
     FILE *order = open_text(folder, "shade.h");
     char line[MAX_LINE];
-    put_text(out, folder, "lang/lang_glsl.glsl", 0);
+    put_part(out, folder, "lang/lang_glsl.glsl", 0);
+    put_text(out, folder, "lang/khronos_begin.glsl", "khronos_begin");
+    put_text(out, folder, "lang/khronos_end.glsl", "khronos_end");
     while (fgets(line, sizeof line, order)) {
         char *name = names[count];
         int end = 0;
@@ -61,7 +71,7 @@ static int put_shared(FILE *out, const char *folder, char names[MAX_PARTS][MAX_N
         snprintf(file, sizeof file, "%s.h", name);
         if (++count == MAX_PARTS)
             stop("shade.h", "has too many headers");
-        put_text(out, folder, file, count);
+        put_part(out, folder, file, count);
     }
     fclose(order);
     return count;
@@ -80,7 +90,7 @@ int main(int argc, char **argv)
     int count = argc - 3;
     for (int i = 0; i < count; i++) {
         snprintf(names[i], sizeof names[i], "%s", argv[3 + i]);
-        put_text(out, argv[2], argv[3 + i], i + 1);
+        put_part(out, argv[2], argv[3 + i], i + 1);
     }
     if (count == 0)
         count = put_shared(out, argv[2], names);
