@@ -53,6 +53,8 @@ static void other_formats_come_with_advice(void **state)
         {"BLENDER-v300", "a", "Blender files are not read; run: blender -b"},
         {"\x1f\x8b compressed", "a.blend", "Blender files are not read"},
         {"MM", "a.3ds", "3DS files are not read"},
+        {"b3dm\1", "tile", "3D Tiles files are not read; run: npx 3d-tiles-tools b3dmToGlb"},
+        {"LASF", "a.laz", "LAS files are not read; run: pdal translate"},
         {"<!DOCTYPE html>", "a.glb", "a.glb: is a web page, not a model"},
         {"version https://git-lfs.github.com/spec/v1\n", "a.glb", "is a Git LFS pointer, not a model; fetch"},
     };
