@@ -64,7 +64,7 @@ bool reader_fail_memory(reader *r, const char *what, size_t size)
 
 /* A kind of warning or note: where it was made and about which member. */
 typedef struct remark {
-    const char *format; /* of the call: a literal, so its address stands for the place in the reader */
+    const char *format; /* of the call: a literal, which stands for the kind */
     char key[KEY_SIZE];
     bool is_note;
     size_t count;
@@ -88,7 +88,7 @@ static bool count_remark(reader *r, bool is_note, const char *key, const char *f
     if (!list)
         return false;
     for (size_t i = 0; i < list->count; i++)
-        if (list->all[i].format == format && strncmp(list->all[i].key, key, KEY_SIZE - 1) == 0) {
+        if (strcmp(list->all[i].format, format) == 0 && strncmp(list->all[i].key, key, KEY_SIZE - 1) == 0) {
             list->all[i].count++;
             return true;
         }

@@ -108,6 +108,11 @@ json_t *reader_parse(reader *r, const char *text, size_t size)
     json_error_t error;
     json_error_t second;
     json_t *json = json_loadb(text, size, JSON_ALLOW_NUL, &error);
+    if (!json && json_error_code(&error) == json_error_numeric_overflow) { /* an id of 64 bits in extras */
+        json = json_loadb(text, size, JSON_ALLOW_NUL | JSON_DECODE_INT_AS_REAL, &error);
+        if (json)
+            reader_note(r, NULL, NULL, "has whole numbers beyond 2^63; they are rounded");
+    }
     if (!json && json_error_code(&error) != json_error_out_of_memory) {
         json = parse_mended(r, text, size, false, &error);
         if (!json && reader_is_ok(r))

@@ -57,7 +57,12 @@ static void read_asset(reader *r, const json_place *root)
         reader_fail(r, &asset, "version", FACET_ERROR_INVALID, "is missing; this is no glTF 2.0 file");
         return;
     }
-    if (!parse_version(version, &major, &minor)) {
+    bool is_2 = version[0] == '2' && version[1] != '0' && strspn(version + 1, ".0") == strlen(version + 1);
+    if (is_2 && !parse_version(version, &major, &minor)) { /* "2", "2.0.0" */
+        reader_note(r, &asset, "version", "\"%.40s\" is no version, as \"2.0\" is", version);
+        major = 2;
+        minor = 0;
+    } else if (!parse_version(version, &major, &minor)) {
         reader_fail(r, &asset, "version", FACET_ERROR_INVALID, "\"%.40s\" is no version, as \"2.0\" is",
                     version);
         return;

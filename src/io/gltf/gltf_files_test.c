@@ -325,6 +325,34 @@ static void text_of_other_encodings_is_read(void **state)
     assert_non_null(strstr(error.message, "is not valid JSON"));
 }
 
+static void versions_of_two_written_otherwise_are_read(void **state)
+{
+    (void)state;
+    static const char *const versions[] = {"2", "2.0.0"};
+    for (int i = 0; i < 2; i++) {
+        char json[64];
+        facet_scene *scene = NULL;
+        facet_error error = {0};
+        snprintf(json, sizeof json, "{'asset':{'version':'%s'}}", versions[i]);
+        if (try_load_text(json, &scene, &error) != FACET_OK)
+            fail_msg("%s", error.message);
+        assert_true(has_note(scene, "is no version, as \"2.0\" is"));
+        scene_destroy(scene);
+    }
+}
+
+static void large_numbers_are_rounded(void **state)
+{
+    (void)state;
+    facet_scene *scene = load("'materials':[{'name':'a','extras':{'id':18446744073709551615}}],'nodes':[{}],"
+                              "'scenes':[{'nodes':[0]}],'scene':0",
+                              NULL);
+    assert_string_equal(scene->materials[0].meta.extras, "{\"id\":1.8446744073709552e19}");
+    assert_int_equal(scene->warning_count, 0);
+    assert_true(has_note(scene, "has whole numbers beyond 2^63; they are rounded"));
+    scene_destroy(scene);
+}
+
 static void versions_are_looked_at(void **state)
 {
     (void)state;
@@ -337,6 +365,7 @@ static void versions_are_looked_at(void **state)
          "asset.version: is glTF 1.0; only glTF 2.0 is read"},
         {"{'asset':{'version':'3.1'}}", FACET_ERROR_UNSUPPORTED, "is glTF 3.1"},
         {"{'asset':{'version':'two'}}", FACET_ERROR_INVALID, "is no version"},
+        {"{'asset':{'version':'20'}}", FACET_ERROR_INVALID, "is no version"},
         {"{'asset':{'version':2}}", FACET_ERROR_INVALID, "must be a string, but is a number"},
         {"{'asset':{'version':'2.0','minVersion':'2.1'}}", FACET_ERROR_UNSUPPORTED,
          "asks for a reader of glTF 2.1"},
@@ -409,6 +438,8 @@ int main(void)
         cmocka_unit_test(deep_json_is_refused),
         cmocka_unit_test(json_counts_against_a_budget),
         cmocka_unit_test(text_of_other_encodings_is_read),
+        cmocka_unit_test(versions_of_two_written_otherwise_are_read),
+        cmocka_unit_test(large_numbers_are_rounded),
         cmocka_unit_test(versions_are_looked_at),
         cmocka_unit_test(extensions_are_named),
         cmocka_unit_test(asset_and_names_are_kept),
