@@ -863,6 +863,12 @@ FACET_API facet_result facet_image_load_memory(const void *bytes, size_t size, c
 FACET_API facet_result facet_image_create(const facet_image_view *pixels,
                                           const facet_allocator *allocator /* NULL: {0} */,
                                           facet_image **image, facet_error *error);
+/* A layer of IDs ("object", "material" or "instance") of a rendered image in false color: in an 8-bit RGB file the color is
+ * 0x3779b1 times the number, modulo 2^24, as 0xRRGGBB, which is another one for each number. Transparent where nothing is.
+ * FACET_ERROR_ARGUMENT: the image lacks that layer, or "instance", which tells where something is. */
+FACET_API facet_result facet_image_create_id_colors(const facet_image *image, const char *layer,
+                                                    const facet_allocator *allocator /* NULL: {0} */,
+                                                    facet_image **colors, facet_error *error);
 /* Whether the picture was read from a file for displays (integers, sRGB): its colors are those of a screen, [0, 1], rather
  * than light. */
 FACET_API bool facet_image_is_for_display(const facet_image *image);

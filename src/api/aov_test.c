@@ -155,6 +155,36 @@ static void what_blends_shares_pixels(void **state)
     facet_scene_destroy(scene);
 }
 
+/* The second object's color is 2 * 0x3779b1; each number has its own, and what is empty stays transparent. */
+static void ids_have_colors(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_squares();
+    facet_image *image = draw(scene, FACET_INTEGRATOR_PREVIEW, FACET_FILTER_BOX), *colors = NULL;
+    unsigned char *bytes = NULL;
+    size_t size = 0, seen[3] = {0};
+    facet_save_desc raw = {.format = FACET_FORMAT_RAW};
+    assert_int_equal(facet_image_create_id_colors(image, "object", NULL, &colors, NULL), FACET_OK);
+    assert_int_equal(facet_image_encode(colors, &raw, &bytes, &size, NULL), FACET_OK);
+    assert_int_equal(size, 4 * PIXELS);
+    const float *object = find(image, "object");
+    static const unsigned char expected[3][4] = {
+        {0, 0, 0, 0}, {0x6e, 0xf3, 0x62, 255}, {0xa6, 0x6d, 0x13, 255}};
+    for (size_t i = 0; i < PIXELS; i++) {
+        size_t which = object[i] > 0.0f ? (size_t)object[i] - 1 : 0; /* nothing, wall, glass */
+        assert_memory_equal(bytes + 4 * i, expected[which], 4);
+        seen[which]++;
+    }
+    assert_true(seen[0] > 100 && seen[1] > 100 && seen[2] > 100);
+    facet_bytes_destroy(bytes);
+    facet_image_destroy(colors);
+    assert_int_equal(facet_image_create_id_colors(image, "", NULL, &colors, NULL), FACET_ERROR_ARGUMENT);
+    assert_int_equal(facet_image_create_id_colors(image, "depth", NULL, &colors, NULL), FACET_ERROR_ARGUMENT);
+    assert_null(colors);
+    facet_image_destroy(image);
+    facet_scene_destroy(scene);
+}
+
 static bool contains(const unsigned char *bytes, size_t size, const char *text)
 {
     size_t length = strlen(text);
@@ -212,6 +242,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shares_add_up_to_the_opacity),
         cmocka_unit_test(what_blends_shares_pixels),
+        cmocka_unit_test(ids_have_colors),
         cmocka_unit_test(files_have_the_manifest),
         cmocka_unit_test(checkpoints_keep_no_shares),
     };

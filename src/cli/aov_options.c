@@ -81,13 +81,29 @@ static facet_result check_renderer(const char *text, const render_options *o, fa
     return FACET_OK;
 }
 
+/* A .png holds one layer of IDs: false colors, which are lossless, in place of the image. */
+static facet_result read_id_layer(const char *text, render_options *out, facet_error *error)
+{
+    static const uint32_t ids = FACET_AOV_OBJECT_ID | FACET_AOV_MATERIAL_ID | FACET_AOV_INSTANCE_ID;
+    bool is_png = out->save.format == FACET_FORMAT_PNG && out->video == VIDEO_NONE;
+    for (size_t i = 0; i < AOV_NAMES && is_png; i++)
+        if (strcmp(text, aov_names[i].name) == 0 && aov_names[i].aovs & ids) {
+            out->id_layer = aov_names[i].name;
+            out->desc.aovs = aov_names[i].aovs | FACET_AOV_INSTANCE_ID;
+            return FACET_OK;
+        }
+    return fail_with(
+        error, FACET_ERROR_ARGUMENT,
+        "--aov: only .exr files hold layers beside the image, write -o NAME.exr; a .png holds one of object, "
+        "material and instance alone, in false color");
+}
+
 facet_result aov_options_read(const command_line *c, render_options *out, facet_error *error)
 {
     const char *text = option_text(c, OPT_AOV, "");
     bool is_exr = out->save.format == FACET_FORMAT_EXR || out->save.format == FACET_FORMAT_EXR_FLOAT;
     if (*text && !is_exr)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--aov: only .exr files hold layers, IDs among them; write -o NAME.exr");
+        return read_id_layer(text, out, error);
     facet_result result = check_renderer(text, out, error);
     if (result != FACET_OK)
         return result;

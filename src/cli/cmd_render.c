@@ -96,7 +96,15 @@ static facet_result write_picture(model_run *m, const facet_image *image, const 
         return video_add(m->video, image, &run->allocator, m->options.limits.thread_count, error);
     facet_save_desc save = m->options.save;
     save.allocator = run->allocator;
-    return output_write(image, name, &save, error);
+    if (!m->options.id_layer)
+        return output_write(image, name, &save, error);
+    facet_image *colors = NULL;
+    facet_result result =
+        facet_image_create_id_colors(image, m->options.id_layer, &run->allocator, &colors, error);
+    if (result == FACET_OK)
+        result = output_write(colors, name, &save, error);
+    facet_image_destroy(colors);
+    return result;
 }
 
 static facet_result frame_camera(model_run *m, uint32_t index, const sequence_frame *frame,

@@ -61,7 +61,9 @@ static const option image_options[] = {
              "object "
              "(node) and instance are numbers from 1; cryptomatte is crypto-object, -material and -instance: "
              "names "
-             "with the share of each pixel that they cover, for compositing; variance and samples with "
+             "with the share of each pixel that they cover, for compositing; one of object, material and "
+             "instance into a "
+             ".png: false color in place of the image; variance and samples with "
              "--renderer "
              "path only",
      .choices =

@@ -12,7 +12,8 @@
 typedef struct render_options {
     char note[256]; /* how an option was read that might mean something else; "": nothing to say */
     /* picture */
-    const char *output; /* pattern; NULL: named after the model */
+    const char *output;   /* pattern; NULL: named after the model */
+    const char *id_layer; /* IDs that are written in false color in place of the image; NULL: none */
     bool is_stdout;
     bool is_sequence;       /* several pictures of a model, as far as the options tell */
     video_format video;     /* all of them in one file */

@@ -59,6 +59,9 @@ expect 2 render -o x.bmp
 says ".png, .jpg, .webp, .exr, .hdr, .pfm or .y4m"
 expect 2 render --aov depth -o x.png
 says "only .exr files hold layers"
+says "a .png holds one of object, material and instance alone, in false color"
+expect 2 render --aov object,material -o x.png
+expect 2 render --aov object -o x.jpg
 expect 2 render --aov depth,variance -o x.exr
 says "--renderer preview has depth, normal, albedo, material, object, instance, uv, occlusion, cryptomatte"
 expect 2 render --aov samples -o x.exr --renderer gl
