@@ -9,6 +9,7 @@
 #include "cli/limits.h"
 #include "cli/messages.h"
 #include "cli/model_list.h"
+#include "cli/render_report.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -78,6 +79,8 @@ static int inspect_all(inspect_run *run)
             message_error("%s", error.message);
             run->failure_count++;
             exit_code = exit_code_of(result);
+            if (is_given(c, OPT_JSON))
+                report_print_failure_json(&error, exit_code);
         }
         run->warning_count += run->messages.warning_count;
         messages_clear(&run->messages);
@@ -108,6 +111,8 @@ int cmd_inspect(command_line *c)
     if (result != FACET_OK) {
         bool is_ours = error.message[0] == '-' || strncmp(error.message, "inspect:", 8) == 0;
         message_error("%s%s", is_ours ? "facet: " : "", error.message);
+        if (is_given(c, OPT_JSON))
+            report_print_failure_json(&error, exit_code_of(result));
         model_list_destroy(&models);
         facet_budget_destroy(budget);
         return exit_code_of(result);

@@ -8,6 +8,7 @@
 #include "cli/messages.h"
 #include "cli/output.h"
 #include "cli/output_name.h"
+#include "cli/render_report.h"
 #include "cli/suggest.h"
 
 #include <stdio.h>
@@ -39,35 +40,56 @@ static bool looks_like_light(const char *word)
     return false;
 }
 
+/* Whether the words ask for JSON, as far as they can be understood. */
+static bool wants_json(int argc, char **argv)
+{
+    for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; i++)
+        if (strcmp(argv[i], "--json") == 0)
+            return true;
+    return false;
+}
+
+/* Reports a command line that cannot be run, on standard output, too, where JSON was asked for. Returns the exit code. */
+static int refuse(int argc, char **argv, const facet_error *error)
+{
+    int exit_code = exit_code_of(error->result);
+    message_error("facet: %s", error->message);
+    if (wants_json(argc, argv))
+        report_print_failure_json(error, exit_code);
+    return exit_code;
+}
+
 /* One sentence, or two lines, for a first word that is no verb. */
-static int explain_verb(const char *word)
+static int explain_verb(const char *word, int argc, char **argv)
 {
     const char *near = suggest_verb(word);
+    facet_error error;
     if (verb_is_planned(word)) {
-        message_error("facet: this version does not have the command %s yet; facet help lists those it has",
-                      word);
+        fail_with(&error, FACET_ERROR_ARGUMENT,
+                  "this version does not have the command %.60s yet; facet help lists those it has", word);
     } else if (word[0] == '-') {
-        message_error("facet: the command comes first, as in facet render %s; facet help lists the commands",
-                      word);
+        fail_with(&error, FACET_ERROR_ARGUMENT,
+                  "the command comes first, as in facet render %.300s; facet help lists the commands", word);
     } else if (looks_like_file(word)) {
         char stem[256];
         if (!output_name_stem(word, stem, sizeof stem))
             memcpy(stem, "model", 6);
-        if (looks_like_light(word)) {
-            message_error(
-                "facet: which command? To filter it for real-time renderers: facet bake %s -o %s.ktx2", word,
-                stem);
-            fprintf(stderr, "                  as light for a model: facet render model.glb --env %s\n",
-                    word);
-        } else {
-            message_error("facet: which command? For a picture: facet render %s -o %s.png", word, stem);
-            fprintf(stderr, "                  to see what is in it: facet inspect %s\n", word);
-        }
+        if (looks_like_light(word))
+            fail_with(&error, FACET_ERROR_ARGUMENT,
+                      "which command? To filter it for real-time renderers: facet bake %.300s -o %s.ktx2; as "
+                      "light for a model: facet render model.glb --env %.300s",
+                      word, stem, word);
+        else
+            fail_with(&error, FACET_ERROR_ARGUMENT,
+                      "which command? For a picture: facet render %.300s -o %s.png; to see what is in it: "
+                      "facet inspect %.300s",
+                      word, stem, word);
     } else {
-        message_error("facet: there is no command \"%s\"%s%s%s", word, near ? "; did you mean " : "",
-                      near ? near : "; facet help lists those there are", near ? "?" : "");
+        fail_with(&error, FACET_ERROR_ARGUMENT, "there is no command \"%.300s\"%s%s%s", word,
+                  near ? "; did you mean " : "", near ? near : "; facet help lists those there are",
+                  near ? "?" : "");
     }
-    return EXIT_USAGE;
+    return refuse(argc, argv, &error);
 }
 
 /* Hidden: what the build makes from the option table. */
@@ -91,8 +113,7 @@ static int run_verb(const verb *v, int argc, char **argv)
     int exit_code = EXIT_BUG;
     facet_result result = command_line_parse(v, argc, argv, &line, &error);
     if (result != FACET_OK) {
-        message_error("facet: %s", error.message);
-        exit_code = exit_code_of(result);
+        exit_code = refuse(option_find_id(v, OPT_JSON) ? argc : 0, argv, &error);
     } else if (is_given(&line, OPT_HELP)) {
         help_print_verb(stdout, v);
         exit_code = EXIT_DONE;
@@ -121,7 +142,7 @@ static int run(int argc, char **argv)
     if (argc == 3 && strncmp(word, "--generate-", 11) == 0)
         return generate(word, argv[2]);
     const verb *v = verb_find(word);
-    return v ? run_verb(v, argc - 2, argv + 2) : explain_verb(word);
+    return v ? run_verb(v, argc - 2, argv + 2) : explain_verb(word, argc - 2, argv + 2);
 }
 
 int main(int argc, char **argv)

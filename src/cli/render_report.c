@@ -138,3 +138,11 @@ void report_print_json(const json_t *root)
     json_dumpf(root, stdout, JSON_REAL_PRECISION(9));
     putchar('\n');
 }
+
+void report_print_failure_json(const facet_error *error, int exit_code)
+{
+    json_t *root = json_pack("{s:s, s:[o], s:i}", "facet", facet_version(), "failures",
+                             report_error_json(error, NULL, exit_code), "exit_code", exit_code);
+    report_print_json(root);
+    json_decref(root);
+}

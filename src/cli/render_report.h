@@ -36,6 +36,9 @@ size_t report_end_model(messages *m, json_t *all);
 /* A JSON string; null where text is NULL. Bytes that are no UTF-8, as names of files may have, become U+FFFD. */
 json_t *report_string_json(const char *text);
 
+/* Prints the object of a command that did nothing but fail: facet, failures, exit_code. */
+void report_print_failure_json(const facet_error *error, int exit_code);
+
 /* Prints root as one line on standard output. */
 void report_print_json(const json_t *root);
 

@@ -17,7 +17,7 @@ expect 0 help exit-codes
 grep -q '75' out || failed "help exit-codes lacks 75"
 
 expect 2 model.glb
-says "facet: which command? For a picture: facet render model.glb -o model.png"
+says "facet: which command? For a picture: facet render model.glb -o model.png; to see what is in it: facet inspect"
 expect 2 studio.hdr
 says "facet bake studio.hdr -o studio.ktx2"
 expect 2 cmgen
@@ -82,6 +82,27 @@ says "add --format png"
 expect 2 render -o - --format png --json
 expect 2 version word
 expect 2 inspect
+
+# With --json a command line that is wrong is reported as JSON, too.
+fails_json() {
+    wanted=$1
+    shift
+    expect "$wanted" "$@"
+    [ "$(wc -l <out)" = 1 ] && grep -q "^{\"facet\": .*\"failures\": \[{\"message\": .*\"exit_code\": $wanted}\$" out ||
+        failed "facet $* prints $(cat out)"
+}
+for verb in render bake convert inspect plot compare ocean version; do
+    fails_json 2 $verb --json --no-such-option
+done
+fails_json 2 rendr --json
+fails_json 2 render --json --size 12y
+fails_json 2 inspect --json
+fails_json 2 compare --json a.png
+fails_json 2 convert --json a.glb
+fails_json 2 render --json in.glb out.png
+fails_json 3 inspect --json missing.glb
+expect 2 render --no-such-option -- --json
+[ ! -s out ] || failed "--json behind -- is an argument"
 
 # An output without -o is refused before any work, and not taken for an input.
 write_triangle tri.gltf
