@@ -228,8 +228,8 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
             result = parse_letters(out, argc, argv, &at, error);
         if (result != FACET_OK)
             return result;
-        if (is_given(out, OPT_HELP)) /* whatever else there is: the user wants to read */
-            return FACET_OK;
+        if (is_given(out, OPT_HELP) || (is_given(out, OPT_HELP_ALL) && strcmp(v->name, "help") != 0))
+            return FACET_OK; /* whatever else there is: the user wants to read */
     }
     return check_arguments(out, error);
 }

@@ -91,7 +91,7 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
         suggest_option(c->verb, name, strlen(name), &suggestion);
         return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %.900s", path, suggestion.message);
     }
-    if (o->id == OPT_CONFIG || o->id == OPT_HELP)
+    if (o->id == OPT_CONFIG || o->id == OPT_HELP || o->id == OPT_HELP_ALL)
         return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %s: it cannot stand in a file", path, name);
     if (is_given(c, o->id))
         return FACET_OK;

@@ -4,9 +4,10 @@
 #include "cli/failure.h"
 #include "cli/terminal.h"
 
+#include <stdint.h>
 #include <string.h>
 
-enum { TEXT_COLUMN = 31, OPTION_COLUMN = 2, VERB_COLUMN = 12 };
+enum { OPTION_COLUMN = 2, VERB_COLUMN = 12, SHORT_EXAMPLES = 5 };
 
 const char help_summary[] = "physically based pictures of models on any CPU, conversions, plots";
 const char help_first_use[] = "facet render helmet.glb -o helmet.png";
@@ -29,8 +30,9 @@ static void print_paragraphs(FILE *stream, const char *text, int indent, int wid
 }
 
 /* "  -s, --size WxH      width and height ... [1024x768]" */
-static void print_option(FILE *stream, const option *o, int width)
+void help_print_option_line(FILE *stream, const option *o)
 {
+    int width = terminal_width(stream);
     char left[96], text[1024];
     int n = o->letter ? snprintf(left, sizeof left, "-%c, --%s", o->letter, o->name)
                       : snprintf(left, sizeof left, "    --%s", o->name);
@@ -46,11 +48,11 @@ static void print_option(FILE *stream, const option *o, int width)
     if (o->default_text && used < sizeof text)
         snprintf(text + used, sizeof text - used, " [%s]", o->default_text);
     int column = fprintf(stream, "%*s%s", OPTION_COLUMN, "", left);
-    if (column >= TEXT_COLUMN) {
+    if (column >= HELP_TEXT_COLUMN) {
         fputc('\n', stream);
         column = 0;
     }
-    terminal_wrap(stream, text, TEXT_COLUMN, width, &column);
+    terminal_wrap(stream, text, HELP_TEXT_COLUMN, width, &column);
     fputc('\n', stream);
 }
 
@@ -59,26 +61,54 @@ static void print_heading(FILE *stream, const char *title)
     fprintf(stream, terminal_has_color(stream) ? "\n\033[1m%s\033[0m\n" : "\n%s\n", title);
 }
 
-void help_print_verb(FILE *stream, const verb *v)
+static void print_examples(FILE *stream, const verb *v, size_t most)
 {
-    int width = terminal_width(stream);
-    fprintf(stream, "facet %s - %s\n\n  facet %s%s%s [options]\n", v->name, v->summary, v->name,
-            *v->arguments ? " " : "", v->arguments);
     print_heading(stream, "Examples");
-    for (const example *e = v->examples; e->command; e++) {
+    for (size_t i = 0; v->examples[i].command && i < most; i++) {
         int column = 0;
-        terminal_wrap(stream, e->command, 2, 1 << 20, &column); /* not wrapped: to be copied */
+        terminal_wrap(stream, v->examples[i].command, 2, 1 << 20, &column); /* not wrapped: to be copied */
         fputc('\n', stream);
         column = 0;
-        terminal_wrap(stream, e->what, 6, width, &column);
+        terminal_wrap(stream, v->examples[i].what, 6, terminal_width(stream), &column);
         fputc('\n', stream);
     }
+}
+
+static size_t count_options(const verb *v)
+{
+    size_t count = 0;
+    for (const option_group *const *g = v->groups; *g; g++)
+        count += (*g)->option_count;
+    return count;
+}
+
+static void print_basics(FILE *stream, const verb *v)
+{
+    print_examples(stream, v, SHORT_EXAMPLES);
+    print_heading(stream, "Options that matter most");
+    for (const option_id *id = v->basics; *id != OPTION_ID_COUNT; id++)
+        help_print_option_line(stream, option_find_id(v, *id));
+    fprintf(stream,
+            "\nfacet %s --help-all has all %zu options and says more; facet help OPTION explains one, and\n"
+            "facet help --search WORD finds them.\n",
+            v->name, count_options(v));
+}
+
+void help_print_verb(FILE *stream, const verb *v, bool all)
+{
+    fprintf(stream, "facet %s - %s\n\n  facet %s%s%s [options]\n", v->name, v->summary, v->name,
+            *v->arguments ? " " : "", v->arguments);
+    if (v->basics && !all) {
+        print_basics(stream, v);
+        return;
+    }
+    print_examples(stream, v, SIZE_MAX);
     fputc('\n', stream);
-    print_paragraphs(stream, v->description, 0, width);
+    print_paragraphs(stream, v->description, 0, terminal_width(stream));
     for (const option_group *const *g = v->groups; *g; g++) {
         print_heading(stream, (*g)->title);
         for (size_t i = 0; i < (*g)->option_count; i++)
-            print_option(stream, &(*g)->options[i], width);
+            help_print_option_line(stream, &(*g)->options[i]);
     }
 }
 
@@ -98,8 +128,11 @@ void help_print_overview(FILE *stream)
         terminal_wrap(stream, (*v)->summary, VERB_COLUMN, width, &column);
         fputc('\n', stream);
     }
-    fprintf(stream,
-            "\nfacet help COMMAND lists the options of one; facet help exit-codes says what 0 to 75 mean.\n");
+    fprintf(stream, "\nfacet help COMMAND explains one, facet help OPTION an option (facet help orbit), "
+                    "facet help --search "
+                    "WORD\nfinds what there is; facet help documents says where the manual is, facet help "
+                    "exit-codes what 0 "
+                    "to 75 mean.\n");
 }
 
 void help_print_exit_codes(FILE *stream)

@@ -114,8 +114,9 @@ static int run_verb(const verb *v, int argc, char **argv)
     facet_result result = command_line_parse(v, argc, argv, &line, &error);
     if (result != FACET_OK) {
         exit_code = refuse(option_find_id(v, OPT_JSON) ? argc : 0, argv, &error);
-    } else if (is_given(&line, OPT_HELP)) {
-        help_print_verb(stdout, v);
+    } else if (is_given(&line, OPT_HELP) ||
+               (is_given(&line, OPT_HELP_ALL) && (v != verb_find("help") || !line.argument_count))) {
+        help_print_verb(stdout, v, is_given(&line, OPT_HELP_ALL));
         exit_code = EXIT_DONE;
     } else {
         if (strcmp(v->name, "view") != 0) /* a window is closed by its own means */
@@ -142,6 +143,9 @@ static int run(int argc, char **argv)
     if (argc == 3 && strncmp(word, "--generate-", 11) == 0)
         return generate(word, argv[2]);
     const verb *v = verb_find(word);
+    if (v && v == verb_find("help") && argc > 2 && strncmp(argv[2], "--", 2) == 0 &&
+        !option_find(v, argv[2] + 2, strcspn(argv[2] + 2, "=")))
+        argv[2] += 2; /* facet help --orbit */
     return v ? run_verb(v, argc - 2, argv + 2) : explain_verb(word, argc - 2, argv + 2);
 }
 

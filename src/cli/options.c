@@ -25,6 +25,8 @@ static const verb inspect_verb = {
                                   {"facet inspect helmet.glb --json | jq .materials", "for a program"},
                                   {"facet inspect --strict models/", "check all in a folder and below it"},
                                   {NULL, NULL}},
+    .basics = (const option_id[]){OPT_JSON, OPT_VERBOSE, OPT_STRICT, OPT_FILES_FROM, OPT_ROOT, OPT_TIME_LIMIT,
+                                  OPT_MAX_MEMORY, OPTION_ID_COUNT},
     .groups =
         (const option_group *const[]){&model_group, &legacy_group, &machine_group, &message_group, NULL},
 };
@@ -37,6 +39,7 @@ static const option version_options[] = {
      .help = "also compiler, libraries, CPU and threads: what a bug report needs"},
     {.id = OPT_JSON, .name = "json", .kind = OPTION_FLAG, .help = "as one JSON object"},
     {.id = OPT_HELP, .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "this text"},
+    {.id = OPT_HELP_ALL, .name = "help-all", .kind = OPTION_FLAG, .help = "help with all options"},
 };
 static const option_group version_group = {"Options", version_options, COUNT(version_options)};
 
@@ -50,21 +53,33 @@ static const verb version_verb = {
 };
 
 static const option help_options[] = {
+    {.id = OPT_SEARCH,
+     .name = "search",
+     .kind = OPTION_TEXT,
+     .argument = "WORD",
+     .help = "all options, examples and documents that mention a word"},
     {.id = OPT_HELP, .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "this text"},
+    {.id = OPT_HELP_ALL, .name = "help-all", .kind = OPTION_FLAG, .help = "help with all options"},
 };
 static const option_group help_group = {"Options", help_options, COUNT(help_options)};
 
 static const verb help_verb = {
     .name = "help",
     .summary = "explain facet or one of its commands",
-    .arguments = "[COMMAND]",
+    .arguments = "[COMMAND|OPTION|WORD]",
     .max_arguments = 1,
     .words = WORDS("render", "ocean", "view", "bake", "convert", "inspect", "plot", "compare", "shaders",
-                   "version", "help", "exit-codes"),
-    .description = "Prints what facet --help or facet COMMAND --help print; exit-codes explains those.",
-    .examples = (const example[]){{"facet help render", "all options of render"},
-                                  {"facet help exit-codes", "what 0 to 75 mean"},
-                                  {NULL, NULL}},
+                   "version", "help", "exit-codes", "documents"),
+    .description =
+        "Prints what facet --help or facet COMMAND --help print; of an option what it means and which "
+        "commands have it; of another word all that mentions it. exit-codes and documents are topics.",
+    .examples =
+        (const example[]){{"facet help render", "render in short; with --help-all all of its options"},
+                          {"facet help orbit", "an option, in all commands that have it"},
+                          {"facet help --search ground", "all that mentions a word"},
+                          {"facet help documents", "where the manual is"},
+                          {"facet help exit-codes", "what 0 to 75 mean"},
+                          {NULL, NULL}},
     .groups = (const option_group *const[]){&help_group, NULL},
 };
 

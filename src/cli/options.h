@@ -207,6 +207,8 @@ typedef enum option_id {
     OPT_PRESET,
     OPT_CONFIG,
     OPT_HELP,
+    OPT_HELP_ALL,
+    OPT_SEARCH,
     OPTION_ID_COUNT
 } option_id;
 
@@ -239,12 +241,13 @@ typedef struct verb {
     const char *summary;   /* one line */
     const char *arguments; /* "[MODEL...]"; "" none */
     size_t max_arguments;
-    const char *file_types;            /* extensions of the arguments: "glb gltf"; NULL: no files */
-    const char *output_types;          /* extensions of what it writes: "png jpg"; NULL: it writes no files */
-    const char *output_hint;           /* what goes before the name of an output; NULL: -o */
-    const char *const *words;          /* words that an argument may be, for completion; NULL: none */
-    const char *description;           /* paragraphs, separated by empty lines; for the man page and --help */
-    const example *examples;           /* ends with {NULL} */
+    const char *file_types;   /* extensions of the arguments: "glb gltf"; NULL: no files */
+    const char *output_types; /* extensions of what it writes: "png jpg"; NULL: it writes no files */
+    const char *output_hint;  /* what goes before the name of an output; NULL: -o */
+    const char *const *words; /* words that an argument may be, for completion; NULL: none */
+    const char *description;  /* paragraphs, separated by empty lines; for the man page and --help */
+    const example *examples;  /* ends with {NULL} */
+    const option_id *basics;  /* what its help shows first, ends with OPTION_ID_COUNT; NULL: everything */
     const option_group *const *groups; /* ends with NULL */
 } verb;
 

@@ -246,14 +246,21 @@ const verb bake_verb = {
         "file: "
         "neutral (the built-in studio), white, #rrggbb, gradient:ZENITH,HORIZON[,NADIR], "
         "sun:ELEVATION[,AZIMUTH] or preetham:ELEVATION[,AZIMUTH], in degrees, for a clear sky "
-        "(docs/environments.md). - is standard input.\n\n"
+        "(environments.md of facet help documents). - is standard input.\n\n"
         "The result is what image based lighting looks up: for each perceptual roughness a level of a cube "
         "map, the "
         "environment weighted with the lobe of GGX for a view along the normal (the split sum of Karis "
         "2013). All "
         "levels are in one KTX2 file. Texels are linear Rec.709 radiance; what is at which direction, and "
         "which "
-        "engine wants what, is in docs/bake.md.\n\n"
+        "engine wants what, is in bake.md (facet help documents).\n\n"
+        "three.js: -o FOLDER --layout three writes environment.hdr, which HDRLoader reads and "
+        "scene.environment "
+        "takes, and pmrem.ktx2, what PMREMGenerator would make of it (r187 or later): load it with "
+        "KTX2Loader, make a "
+        "CompressedCubeTexture of its six faces with isPMREMTexture = true, and give it to "
+        "scene.environment; "
+        "bake.md has the ten lines. MeshStandardMaterial does the rest.\n\n"
         "Texels of the input that are not a number, infinite or less than 0 are repaired and counted in a "
         "warning. "
         "The bytes do not depend on the number of threads. Every output is computed before the first one is "
@@ -263,6 +270,11 @@ const verb bake_verb = {
             {"facet bake studio.hdr -o studio.ktx2", "reflections: prefiltered GGX, all levels, one file"},
             {"facet bake studio.hdr -o studio.ktx2 --diffuse studio_diffuse.ktx2 --sh studio_sh.json",
              "diffuse light beside them"},
+            {"facet bake studio.hdr -o studio --layout three",
+             "for three.js: new HDRLoader().load('studio/environment.hdr', t => { t.mapping = "
+             "EquirectangularReflectionMapping; scene.environment = t; }); studio/pmrem.ktx2 is the same "
+             "already "
+             "filtered (r187 or later; bake.md has its loader)"},
             {"facet bake studio.hdr -o studio.ktx2 --preview sheet.png --verify", "and how good that is"},
             {"facet bake sun:40,135 -o sky.ktx2 --format rgb9e5 --zstd 9", "a clear sky, in a small file"},
             {"facet bake px.hdr nx.hdr py.hdr ny.hdr pz.hdr nz.hdr -o room.ktx2", "from six faces"},
@@ -271,6 +283,9 @@ const verb bake_verb = {
              "studio/studio_ibl.ktx, studio_skybox.ktx, sh.txt: what cmgen -x studio -f ktx writes"},
             {"facet bake --dfg -o dfg.ktx2", "the table for split-sum light"},
             {NULL, NULL}},
+    .basics = (const option_id[]){OPT_OUTPUT, OPT_FORMAT, OPT_LAYOUT, OPT_SIZE, OPT_LOBE, OPT_DIFFUSE, OPT_SH,
+                                  OPT_DFG, OPT_ROTATION, OPT_EXPOSURE, OPT_PREVIEW, OPT_VERIFY, OPT_JSON,
+                                  OPTION_ID_COUNT},
     .groups = (const option_group *const[]){&bake_output_group, &bake_filter_group, &bake_environment_group,
                                             &bake_table_group, &working_group, &machine_group, &message_group,
                                             NULL},

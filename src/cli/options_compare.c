@@ -188,6 +188,9 @@ const verb compare_verb = {
             {"facet render shoe.glb -o - --format png | facet compare golden.png - --max differing=0",
              "every bit that a file holds"},
             {NULL, NULL}},
+    .basics =
+        (const option_id[]){OPT_METRIC, OPT_MAX, OPT_MIN, OPT_OUTPUT, OPT_HEAT_MAP, OPT_GAIN, OPT_MASK,
+                            OPT_LAYER, OPT_SPACE, OPT_EXPOSURE, OPT_TONE_MAPPING, OPT_JSON, OPTION_ID_COUNT},
     .groups = (const option_group *const[]){&metric_group, &picture_group, &difference_group, &machine_group,
                                             &message_group, NULL},
 };

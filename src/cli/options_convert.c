@@ -105,7 +105,7 @@ const verb convert_verb = {
         "Materials of OpenGL 1 (MTL, rgl: ambient, diffuse, specular, shininess) become physically based "
         "ones "
         "and back, and facet says how near they come: E is the relative error of light over views and lights "
-        "(docs/legacy.md).\n\n"
+        "(legacy.md of facet help documents).\n\n"
         "The output appears whole or not at all; the files beside it come first.",
     .examples = (const example[]){{"facet convert scene.gltf scene.glb", "many files into one"},
                                   {"facet convert scene.glb scene.gltf", "to look at the JSON"},
@@ -121,6 +121,9 @@ const verb convert_verb = {
                                   {"facet convert specgloss.glb new.glb --materials metallic-roughness",
                                    "for viewers that dropped the old extension"},
                                   {NULL, NULL}},
+    .basics = (const option_id[]){OPT_OUTPUT, OPT_MATERIALS, OPT_METHOD, OPT_PROFILE, OPT_GLASS, OPT_MIRRORS,
+                                  OPT_FLIP_TEXTURES, OPT_REPORT, OPT_MAX_ERROR, OPT_FILES_FROM,
+                                  OPT_NO_CLOBBER, OPT_JSON, OPT_STRICT, OPTION_ID_COUNT},
     .groups = (const option_group *const[]){&convert_group, &legacy_group, &to_legacy_group, &report_group,
                                             &model_group, &machine_group, &message_group, NULL},
 };

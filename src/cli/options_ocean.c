@@ -338,6 +338,9 @@ const verb ocean_verb = {
             {"facet ocean --preset harbour --info", "heights, periods, colors"},
             {"facet ocean --wind 8 -o sea.glb --maps maps", "a mesh, and maps in a folder that exists"},
             {NULL, NULL}},
+    .basics = (const option_id[]){OPT_OUTPUT, OPT_SIZE, OPT_PRESET, OPT_WIND, OPT_WATER, OPT_DEPTH, OPT_SUN,
+                                  OPT_HEADING, OPT_EYE_HEIGHT, OPT_FRAMES, OPT_LOOP, OPT_EXPOSURE,
+                                  OPT_RENDERER, OPT_WITH, OPT_MAPS, OPT_JSON, OPTION_ID_COUNT},
     .groups =
         (const option_group *const[]){&output_group, &sea_group, &water_group, &sky_group, &environment_group,
                                       &eye_group, &look_group, &fine_group, &time_group, &machine_group,

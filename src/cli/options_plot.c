@@ -152,6 +152,9 @@ const verb plot_verb = {
              "an old material and its PBR"},
             {"facet plot tone -o tone.csv", "the numbers"},
             {NULL, NULL}},
+    .basics = (const option_id[]){OPT_OUTPUT, OPT_FORMAT, OPT_ROUGHNESS, OPT_METALLIC, OPT_BASE_COLOR,
+                                  OPT_ANGLE, OPT_FIT, OPT_LOG, OPT_ENERGY, OPT_SIZE, OPT_TITLE, OPT_DARK,
+                                  OPT_JSON, OPTION_ID_COUNT},
     .groups =
         (const option_group *const[]){&plot_group, &material_group, &machine_group, &message_group, NULL},
 };

@@ -161,7 +161,7 @@ static const option light_options[] = {
              "none, a clear sky sun:ELEVATION,AZIMUTH (degrees, elevation first; preetham:.. by another "
              "formula), "
              "constant:COLOR, gradient:ZENITH,HORIZON. Skies are exposed for a camera; see "
-             "docs/environments.md",
+             "environments.md of facet help documents",
      .choices = WORDS("neutral", "white", "none")},
     {.id = OPT_LIGHTS,
      .name = "lights",
@@ -392,6 +392,10 @@ const verb render_verb = {
             {"facet render old.obj -o old.png --shading ogl1", "as an OpenGL 1 program showed it"},
             {"curl -s URL | facet render - -o - --format png > out.png", "without files"},
             {NULL, NULL}},
+    .basics =
+        (const option_id[]){OPT_OUTPUT, OPT_SIZE, OPT_BACKGROUND, OPT_ORBIT, OPT_CAMERA, OPT_TURNTABLE,
+                            OPT_ANIMATION, OPT_ENV, OPT_SUN, OPT_EXPOSURE, OPT_TONE_MAPPING, OPT_RENDERER,
+                            OPT_SAMPLES, OPT_DENOISE, OPT_GROUND, OPT_TIME_LIMIT, OPT_JSON, OPTION_ID_COUNT},
     .groups =
         (const option_group *const[]){&image_group, &camera_group, &light_group, &environment_group,
                                       &color_group, &quality_group, &path_group, &gl_group, &shading_group,

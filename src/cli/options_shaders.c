@@ -35,6 +35,7 @@ static const option shaders_options[] = {
      .help = "print the names of the parts, in their order"},
     {.id = OPT_QUIET, .name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "errors only"},
     {.id = OPT_HELP, .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "this text"},
+    {.id = OPT_HELP_ALL, .name = "help-all", .kind = OPTION_FLAG, .help = "help with all options"},
 };
 static const option_group shaders_group = {"Options", shaders_options, COUNT(shaders_options)};
 

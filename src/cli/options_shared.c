@@ -46,7 +46,12 @@ static const option message_options[] = {
      .kind = OPTION_FLAG,
      .help = "the result as one JSON object on standard output"},
     {.id = OPT_STRICT, .name = "strict", .kind = OPTION_FLAG, .help = "warnings become exit code 1"},
-    {.id = OPT_HELP, .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "this text"},
+    {.id = OPT_HELP,
+     .name = "help",
+     .letter = 'h',
+     .kind = OPTION_FLAG,
+     .help = "help with the options that matter most"},
+    {.id = OPT_HELP_ALL, .name = "help-all", .kind = OPTION_FLAG, .help = "help with all options"},
 };
 
 static const option running_options[] = {
@@ -124,7 +129,8 @@ static const option legacy_options[] = {
      .name = "parameters",
      .kind = OPTION_FILE,
      .argument = "FILE.json",
-     .help = "rgl's parameters of materials, lights and fog in place of the model's (docs/r.md)"},
+     .help = "rgl's parameters of materials, lights and fog in place of the model's (r.md of facet help "
+             "documents)"},
     {.id = OPT_METHOD,
      .name = "method",
      .kind = OPTION_CHOICE,

@@ -7,7 +7,7 @@ static const option script_options[] = {
      .kind = OPTION_FILE,
      .argument = "FILE",
      .help = "play the input in this file (-: standard input) instead of waiting for a person, then close; "
-             "docs/view.md has the words"},
+             "view.md of facet help documents has the words"},
     {.id = OPT_CONFIG,
      .name = "config",
      .kind = OPTION_FILE,
@@ -23,7 +23,12 @@ static const option view_message_options[] = {
      .letter = 'v',
      .kind = OPTION_COUNT,
      .help = "details of what is read"},
-    {.id = OPT_HELP, .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "this text"},
+    {.id = OPT_HELP,
+     .name = "help",
+     .letter = 'h',
+     .kind = OPTION_FLAG,
+     .help = "help with the options that matter most"},
+    {.id = OPT_HELP_ALL, .name = "help-all", .kind = OPTION_FLAG, .help = "help with all options"},
 };
 static const option_group view_message_group = {"Messages", view_message_options,
                                                 COUNT(view_message_options)};
@@ -55,6 +60,9 @@ const verb view_verb = {
                                    "a folder, in a light of your own"},
                                   {"facet view ring.glb --renderer path --ground shadow", "path traced"},
                                   {NULL, NULL}},
+    .basics =
+        (const option_id[]){OPT_ENV, OPT_BACKGROUND, OPT_EXPOSURE, OPT_TONE_MAPPING, OPT_ORBIT, OPT_RENDERER,
+                            OPT_GROUND, OPT_ANIMATION, OPT_SIZE, OPT_SHADING, OPTION_ID_COUNT},
     .groups = (const option_group *const[]){&window_group, &window_camera_group, &light_group,
                                             &environment_group, &color_group, &quality_group, &gl_group,
                                             &window_path_group, &shading_group, &window_motion_group,

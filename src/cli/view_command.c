@@ -324,6 +324,7 @@ static bool is_known(option_id id)
                                     OPT_QUIET,
                                     OPT_VERBOSE,
                                     OPT_HELP,
+                                    OPT_HELP_ALL,
                                     OPT_SCRIPT,
                                     OPT_CONFIG,
                                     OPT_ENV_CACHE,

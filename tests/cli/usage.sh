@@ -22,7 +22,7 @@ expect 2 studio.hdr
 says "facet bake studio.hdr -o studio.ktx2"
 expect 2 cmgen
 says "did you mean bake?"
-expect 2 help path
+expect 2 help raytrace
 says "did you mean facet help render?"
 for verb in batch serve merge; do
     expect 2 $verb
@@ -131,6 +131,39 @@ only tri.gltf out.exr
 rm tri.gltf out.exr
 only
 
+# Help by word: an option in all commands that have it, another tool's name for one, whatever mentions a word.
+expect 0 help orbit
+grep -q -- '--orbit AZ,POLAR,RADIUS' out && grep -q 'in facet render, facet view' out || failed "help orbit: $(cat out)"
+expect 0 help --orbit
+expect 0 help hdri-file
+grep -q 'hdri-file is, in facet render: --env FILE' out || failed "help hdri-file: $(cat out)"
+expect 0 help --search ground
+grep -q -- '--ground WHAT' out || failed "help --search ground lacks --ground"
+! grep -q -- '--background-blur' out || failed "help --search ground has --background-blur"
+expect 0 help three.js
+grep -q 'bake.md' out || failed "help three.js names no document"
+expect 2 help --search xyzzy
+says 'mentions "xyzzy"'
+expect 2 help xyzzy
+expect 0 help documents
+grep -q 'not installed beside this command' out || failed "help documents names documents that are not there"
+
+expect 0 bake --help
+grep -q "HDRLoader().load('studio/environment.hdr'" out || failed "bake --help does not say how three.js loads its files"
+
+# The first help is short, and --help-all has everything.
+for verb in render ocean bake convert compare plot view inspect; do
+    expect 0 help $verb
+    [ "$(wc -l <out)" -le 80 ] || failed "help $verb has $(wc -l <out) lines"
+    grep -q "facet $verb --help-all has all" out || failed "help $verb does not name --help-all"
+    expect 0 $verb --help-all
+    cp out all
+    grep -q '^Messages' all && grep -q -- '--help-all' all || failed "$verb --help-all is not all"
+    expect 0 help $verb --help-all
+    cmp -s out all || failed "help $verb --help-all differs from $verb --help-all"
+done
+rm all
+
 # help of a verb mentions all its options, and fits its width
 for verb in render inspect compare version help; do
     expect 0 $verb --help
@@ -142,11 +175,11 @@ for verb in render inspect compare version help; do
 done
 "$facet" --generate-completion bash | awk '/^    render\)/, /^        ;;/' | grep -oE -- '--[a-z0-9-]+' | sort -u >names
 [ "$(wc -l <names)" -gt 30 ] || failed "few options in the completion"
-expect 0 help render
+expect 0 help render --help-all
 while read -r name; do
     grep -qE -- "(^ .*)$name( |$)" out || failed "help render lacks $name"
 done <names
-COLUMNS=60 "$facet" help render >out
+COLUMNS=60 "$facet" help render --help-all >out
 [ "$(sed -n '/^Picture/,$p' out | awk '{ if (length($0) > w) w = length($0) } END { print w }')" -le 60 ] ||
     failed "help does not wrap to 60 columns"
 finish

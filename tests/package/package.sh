@@ -9,7 +9,7 @@ trap 'rm -rf "$prefix"' EXIT
 cmake --install "$build" --prefix "$prefix/usr" >/dev/null
 for file in bin/facet include/facet/facet.h share/man/man1/facet.1 share/man/man1/facet-render.1 \
     share/bash-completion/completions/facet share/zsh/site-functions/_facet \
-    share/fish/vendor_completions.d/facet.fish include/facet/shade/brdf.h; do
+    share/fish/vendor_completions.d/facet.fish include/facet/shade/brdf.h share/doc/facet/cli.md share/doc/facet/bake.md; do
     [ -e "$prefix/usr/$file" ] || { echo "not installed: $file"; exit 1; }
 done
 pc=$(dirname "$(find "$prefix/usr" -name facet.pc)")
@@ -37,6 +37,11 @@ cmake --build cmake >/dev/null
 LD_LIBRARY_PATH=$lib cmake/consumer cmake.png
 cmp shared.png static.png && cmp shared.png cmake.png
 LD_LIBRARY_PATH=$lib usr/bin/facet version
+LD_LIBRARY_PATH=$lib usr/bin/facet help documents >documents
+for document in $(grep -oE '[^ ]*/share/doc/facet/[a-z-]*\.md' documents); do
+    [ -r "$document" ] || { echo "help names $document, which is not installed"; exit 1; }
+done
+[ "$(grep -c '/share/doc/facet/[a-z0-9-]*\.md' documents)" -ge 20 ] || { echo "help documents: $(cat documents)"; exit 1; }
 # The module that draws with OpenGL: found beside the installed library and command, and beside a program that has the
 # library inside. Nothing but its entry is to be seen of it.
 if grep -q 'FACET_HAS_GL 1' "$build/generated/build_config.h"; then
