@@ -92,6 +92,8 @@ if command -v glslangValidator >/dev/null; then
     for version in 300es 330 460; do
         { "$facet" shaders --glsl $version light ibl tonemap; cat "$root/docs/examples/glsl/lit.frag"; } >lit.frag
         glslangValidator lit.frag >log || failed "docs/examples/glsl/lit.frag, $version: $(head -5 log)"
+        { "$facet" shaders --glsl $version water ibl tonemap; cat "$root/docs/examples/glsl/ocean.frag"; } >ocean.frag
+        glslangValidator ocean.frag >log || failed "docs/examples/glsl/ocean.frag, $version: $(head -5 log)"
     done
 else
     echo "glslangValidator is missing (Debian: glslang-tools): GLSL was not compiled"
