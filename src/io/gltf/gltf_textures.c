@@ -9,13 +9,20 @@
 
 /* ---- images ---- */
 
+/* What the file says that an image is; NULL: nothing. The bytes say so themselves. */
+static const char *get_mime_type(reader *r, const json_place *at)
+{
+    const char *type = get_string(r, at, "mimeType", NULL);
+    return reader_leave_out(r, "the bytes say what they are") ? NULL : type;
+}
+
 static bool find_bytes(reader *r, const json_place *at, scene_image *out)
 {
     const char *uri = get_string(r, at, "uri", NULL);
     uint32_t view = get_index(r, at, "bufferView", r->view_count, "buffer view");
-    const char *mime_type = get_string(r, at, "mimeType", NULL);
     if (!reader_is_ok(r))
         return false;
+    const char *mime_type = get_mime_type(r, at);
     if (!uri && view == SCENE_NONE) {
         reader_warn(r, at, NULL, "has neither a uri nor a bufferView; white is used");
         return false;
@@ -106,7 +113,7 @@ static void read_image(reader *r, const json_place *at, scene_image *out)
     const image_kind *kind = image_kind_of_bytes(out->bytes, out->size);
     if (kind)
         out->mime_type = kind->mime_type;
-    const char *said = get_string(r, at, "mimeType", NULL);
+    const char *said = json_string_value(json_object_get(at->value, "mimeType"));
     if (out->mime_type[0] == 0)
         reader_warn(r, at, NULL, "is no " IMAGE_KINDS_TEXT " file; white is used");
     else if (said && strcmp(said, out->mime_type) != 0)
