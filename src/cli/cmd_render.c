@@ -147,27 +147,28 @@ static double time_for_frame(const model_run *m, uint32_t index, double left)
     return left / (frames_left * (double)m->run->models_left);
 }
 
-static facet_result render_frame(model_run *m, uint32_t index, const sequence_frame *frame,
-                                 picture_report *report, facet_error *error)
+/* The image of a frame; checkpoint gets the name of its checkpoint, RENDER_NAME_SIZE characters, "" for none. */
+static facet_result draw_frame(model_run *m, uint32_t index, const sequence_frame *frame, const char *output,
+                               char *checkpoint, facet_image **image, facet_error *error)
 {
     render_run *run = m->run;
     const render_options *o = &m->options;
-    double start = interrupt_clock();
     uint32_t frame_count = m->sequence.frames.frame_count;
-    facet_camera camera;
-    facet_result result = frame_camera(m, index, frame, &camera, error);
-    if (result != FACET_OK)
-        return result;
     progress shown = {.mode = run->progress,
-                      .subject = report->output,
-                      .start = start,
+                      .subject = output,
+                      .start = interrupt_clock(),
                       .done_before = (double)index / frame_count,
                       .share = 1.0 / frame_count,
                       .last_percent = -10};
+    facet_camera camera;
+    facet_result result = frame_camera(m, index, frame, &camera, error);
     double left = interrupt_seconds_left();
-    if (left <= 0.0)
-        return fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached",
-                         report->output);
+    if (result == FACET_OK && left <= 0.0)
+        result = fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", output);
+    if (result == FACET_OK)
+        result = render_checkpoint_name(o, m->model, frame->number, checkpoint, RENDER_NAME_SIZE, error);
+    if (result != FACET_OK)
+        return result;
     facet_render_desc desc = o->desc;
     desc.allocator = run->allocator;
     desc.log = messages_log(&run->messages);
@@ -176,24 +177,31 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     desc.camera = &camera;
     desc.environment = m->environment;
     desc.time_limit_s = time_for_frame(m, index, left);
-    char checkpoint[RENDER_NAME_SIZE];
-    result = render_checkpoint_name(o, m->model, frame->number, checkpoint, sizeof checkpoint, error);
-    if (result != FACET_OK)
-        return result;
     if (o->checkpoint && output_make_folders(checkpoint, error) != FACET_OK)
         return FACET_ERROR_WRITE;
     desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
     desc.path.keeps_cancelled = true;
-    facet_image *image = NULL;
-    /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. The others look at it
-     * from where they begin to draw. */
-    bool is_gl = desc.integrator == FACET_INTEGRATOR_GL;
-    shown.is_preparing = !is_gl;
-    interrupt_begin(report->output, is_gl ? "OpenGL drew" : "preparing the scene",
-                    shown.mode == PROGRESS_BAR);
-    result = facet_renderer_render(m->renderer, &desc, &image, error);
+    bool has_bar = shown.mode == PROGRESS_BAR;
+    /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. */
+    if (desc.integrator == FACET_INTEGRATOR_GL)
+        interrupt_begin(output, "OpenGL drew", has_bar);
+    else
+        interrupt_begin_polling(output, "drawing", has_bar);
+    result = facet_renderer_render(m->renderer, &desc, image, error);
     interrupt_end();
     progress_clear();
+    return result;
+}
+
+static facet_result render_frame(model_run *m, uint32_t index, const sequence_frame *frame,
+                                 picture_report *report, facet_error *error)
+{
+    render_run *run = m->run;
+    const render_options *o = &m->options;
+    double start = interrupt_clock();
+    char checkpoint[RENDER_NAME_SIZE] = "";
+    facet_image *image = NULL;
+    facet_result result = draw_frame(m, index, frame, report->output, checkpoint, &image, error);
     if (result == FACET_ERROR_CANCELLED)
         return fail_with(error, result, "%.400s: interrupted before there was an image%s%.400s",
                          report->output, *checkpoint ? "; --resume goes on with " : "", checkpoint);
@@ -204,7 +212,7 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     facet_image_view view = facet_image_get_layer(image, 0);
     report->width = view.width;
     report->height = view.height;
-    report->samples = desc.samples;
+    report->samples = o->desc.samples;
     report->stats = facet_image_get_render_stats(image);
     report->save_s = interrupt_clock() - rendered;
     report->total_s = interrupt_clock() - start + report->load_s;

@@ -18,11 +18,13 @@
 static const char OVER_BAR[] = "\r\033[K"; /* what sentences over a bar of progress begin with */
 
 /* What a signal handler shares with the process: the one place for state that is not passed along. */
-static atomic_int pending_signal;         /* lock-free: the handler writes it, all threads ask for it */
-static const char *volatile safe_message; /* NULL: no section is open */
+static atomic_int pending_signal;          /* lock-free: the handler writes it, all threads ask for it */
+static _Atomic(const char *) safe_message; /* NULL: no section is open; threads of a renderer close it, too */
 static int open_file_count;
-static volatile double deadline; /* on interrupt_clock(); 0: none */
-static bool has_json;            /* standard output tells of the end, too */
+static volatile double deadline;      /* on interrupt_clock(); 0: none */
+static volatile double signal_time;   /* on interrupt_clock(), of pending_signal */
+static volatile double section_grace; /* s that the open section has to end by itself */
+static bool has_json;                 /* standard output tells of the end, too */
 static char json_at_deadline[4096];
 
 double interrupt_clock(void)
@@ -43,28 +45,50 @@ static void end_by(int number)
     _exit(128 + number);
 }
 
-static void on_stop(int number)
+/* Ends the process where a section is open, by the signal or at the time limit. */
+static void end_section(void)
 {
-    if (safe_message) {
-        if (number == SIGTERM)
-            _exit(EXIT_AGAIN);
-        end_by(number);
-    }
-    pending_signal = number;
-    if (number == SIGINT)
-        signal(SIGINT, SIG_DFL);
-}
-
-static void on_deadline(int number)
-{
-    (void)number;
     const char *message = safe_message;
+    double now = interrupt_clock();
     if (!message)
+        return;
+    if (pending_signal && now >= signal_time + section_grace) {
+        if (pending_signal == SIGTERM)
+            _exit(EXIT_AGAIN);
+        end_by(pending_signal);
+    }
+    if (!(deadline > 0.0) || now < deadline + section_grace)
         return;
     ssize_t ignored = write(STDERR_FILENO, message, strlen(message));
     ignored = write(STDOUT_FILENO, json_at_deadline, strlen(json_at_deadline));
     (void)ignored;
     _exit(EXIT_LIMIT);
+}
+
+static void on_tick(int number)
+{
+    (void)number;
+    end_section();
+}
+
+/* Has on_tick() called in delay_s and then every 50 ms: the first may come while it is not safe to end. */
+static void start_ticks(double delay_s)
+{
+    struct itimerval timer = {{0, 50000}, {0, 0}};
+    timer.it_value.tv_sec = (time_t)delay_s;
+    timer.it_value.tv_usec = (suseconds_t)((delay_s - (double)(time_t)delay_s) * 1e6) + 1;
+    setitimer(ITIMER_REAL, &timer, NULL);
+}
+
+static void on_stop(int number)
+{
+    signal_time = interrupt_clock();
+    pending_signal = number;
+    if (number == SIGINT)
+        signal(SIGINT, SIG_DFL);
+    end_section();
+    if (safe_message)
+        start_ticks(section_grace);
 }
 
 static void install(int number, void (*handler)(int))
@@ -85,6 +109,7 @@ static void install_stop(int number)
 void interrupt_install(bool tells_json)
 {
     has_json = tells_json;
+    install(SIGALRM, on_tick);
     install_stop(SIGINT);
     install_stop(SIGTERM);
     install_stop(SIGHUP);
@@ -100,15 +125,12 @@ int interrupt_signal(void)
 void interrupt_set_deadline(double seconds)
 {
     deadline = seconds > 0.0 ? interrupt_clock() + seconds : 0.0;
-    struct itimerval timer = {{0, 0}, {0, 0}};
     if (seconds > 0.0) {
-        timer.it_value.tv_sec = (time_t)seconds;
-        timer.it_value.tv_usec = (suseconds_t)((seconds - (double)(time_t)seconds) * 1e6) + 1;
-        /* and again: the first may come while it is not safe to end */
-        timer.it_interval.tv_usec = 50000;
-        install(SIGALRM, on_deadline);
+        start_ticks(seconds);
+    } else {
+        const struct itimerval none = {{0, 0}, {0, 0}};
+        setitimer(ITIMER_REAL, &none, NULL);
     }
-    setitimer(ITIMER_REAL, &timer, NULL);
 }
 
 double interrupt_seconds_left(void)
@@ -149,7 +171,7 @@ void interrupt_file_end(void)
     open_file_count--;
 }
 
-void interrupt_begin(const char *name, const char *doing, bool has_bar)
+static void begin(const char *name, const char *doing, bool has_bar, double grace)
 {
     static char sentence[512];
     interrupt_end(); /* the handler must not print a sentence that is half written */
@@ -159,9 +181,20 @@ void interrupt_begin(const char *name, const char *doing, bool has_bar)
              has_bar ? OVER_BAR : "", name, doing);
     if (has_json)
         prepare_json(sentence);
+    section_grace = grace;
     safe_message = sentence;
     if (pending_signal) /* it came before the section, whose work is then not begun */
         exit(interrupt_exit());
+}
+
+void interrupt_begin(const char *name, const char *doing, bool has_bar)
+{
+    begin(name, doing, has_bar, 0.0);
+}
+
+void interrupt_begin_polling(const char *name, const char *doing, bool has_bar)
+{
+    begin(name, doing, has_bar, 0.3);
 }
 
 void interrupt_begin_reading(const char *name)

@@ -27,6 +27,9 @@ double interrupt_seconds_left(void);
  * open. */
 void interrupt_begin(const char *name, const char *doing, bool has_bar);
 void interrupt_begin_reading(const char *name);
+/* The same for work that asks for signals and the time by itself, to end with a sentence of its own: it has 0.3 s for that. A
+ * part of it that does not ask, as the ray tracer's construction of its tree, cannot hold the process up longer. */
+void interrupt_begin_polling(const char *name, const char *doing, bool has_bar);
 /* Ends the section, if one is open. */
 void interrupt_end(void);
 

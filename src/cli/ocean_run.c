@@ -72,7 +72,9 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     d.render.time_limit_s = left > 1e29 ? 0.0 : is_path ? left / images_left : left;
     d.render.path.keeps_cancelled = true;
     d.render.exposure_ev = facet_exposure_from_ev100(run->ev100);
+    interrupt_begin_polling(shown->subject, "drawing", shown->mode == PROGRESS_BAR);
     result = facet_sea_render(run->sea, run->model, &d, image, error);
+    interrupt_end();
     progress_clear();
     return result;
 }

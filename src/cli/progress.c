@@ -81,7 +81,7 @@ static void show_line(progress *p, const char *stage, double fraction, double no
 static bool report(void *user, const char *stage, double fraction)
 {
     progress *p = user;
-    if (p->is_preparing && strcmp(stage, "prepare") != 0)
+    if (fraction > 0.0 && strcmp(stage, "sample") == 0) /* there is something to keep */
         interrupt_end();
     if (p->mode != PROGRESS_NONE && !atomic_flag_test_and_set(&is_showing)) {
         fraction = fraction < 0.0 ? 0.0 : fraction > 1.0 ? 1.0 : fraction;

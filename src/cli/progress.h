@@ -19,7 +19,6 @@ typedef struct progress {
     double last_shown;         /* interrupt_clock() */
     int last_percent;
     const char *last_stage;
-    bool is_preparing; /* the section of interrupt.h that is open ends with the stage "prepare" */
 } progress;
 
 /* A callback that shows p and cancels when a signal has come. */

@@ -28,8 +28,8 @@ typedef struct embree_scene {
     embree_part still, *shapes;            /* of RENDER_STILL; per shape of the set */
     uint32_t shape_count;
     bool has_instances;
-    ptrdiff_t instance_bytes; /* counted for Embree's own objects */
-    uint32_t packet_width;    /* 16, 8 or 4: what this machine traces at once */
+    ptrdiff_t object_bytes; /* counted for Embree's own objects */
+    uint32_t packet_width;  /* 16, 8 or 4: what this machine traces at once */
     embree_memory memory;
 } embree_scene;
 
