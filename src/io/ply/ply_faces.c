@@ -204,6 +204,14 @@ static void warn_faces(faces *f, uint64_t announced, uint64_t count)
                    r->scene->source, f->rough_count);
 }
 
+static void warn_face_colors(const ply_reader *r, const ply_element *e)
+{
+    for (size_t k = 0; k < e->property_count && !r->soup.colors; k++)
+        if (strcmp(e->properties[k].name, "red") == 0)
+            scene_warn(r->scene, &r->desc->log, "%s: colors of faces are not read, but of vertices only",
+                       r->scene->source);
+}
+
 bool ply_read_faces(ply_reader *r, const ply_element *e, bool are_strips)
 {
     faces f = {.r = r, .polygon.allocator = r->desc->allocator};
@@ -220,8 +228,10 @@ bool ply_read_faces(ply_reader *r, const ply_element *e, bool are_strips)
         count++;
     }
     is_ok = is_ok && r->result == FACET_OK;
-    if (is_ok)
+    if (is_ok) {
         warn_faces(&f, e->count, count);
+        warn_face_colors(r, e);
+    }
     mem_free(f.list);
     mem_free(f.uvs);
     mem_free(f.triangles);

@@ -283,6 +283,10 @@ static void damage_is_told(void **state)
         {"ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 99\n" CORNERS "end_header\n" SQUARE
          "3 0 1 2\n3 0 1",
          "99 faces were announced, 1 are there"},
+        {"ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 1\n" CORNERS
+         "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n" SQUARE
+         "3 0 1 2 255 0 0\n",
+         "colors of faces are not read"},
         {"ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 4\n" CORNERS "end_header\n" SQUARE
          "3 0 1 2\n3 0 1 4\n3 -1 1 2\n3 0 1.5 2\n",
          "3 faces name a vertex that is not there"},
