@@ -14,6 +14,7 @@
 #include "ocean/sea_maps.h"
 #include "ocean/sea_mesh.h"
 #include "ocean/sea_preset.h"
+#include "film/meter.h"
 #include "water/water_exposure.h"
 #include "water/water_picture.h"
 #include "water/water_render.h"
@@ -355,5 +356,5 @@ facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *
 
 float facet_exposure_from_ev100(double ev100)
 {
-    return (float)water_exposure_ev(ev100);
+    return (float)meter_exposure_ev(ev100);
 }

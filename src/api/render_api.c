@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "base/text.h"
 #include "api/gl_library.h"
+#include "api/render_check.h"
 #include "cpu/preview.h"
 #include "film/matte.h"
 #include "path/path_render.h"
@@ -185,8 +186,9 @@ static facet_result describe_mattes(const facet_scene *scene, const facet_render
 }
 
 struct facet_renderer {
-    prepared_scene prepared;
-    gl_renderer *gl; /* NULL: not asked for yet */
+    prepared_scene prepared; /* scene NULL: of a window's images, which people look at */
+    gl_renderer *gl;         /* NULL: not asked for yet */
+    render_check check;
 };
 
 static facet_result render_gl(facet_renderer *renderer, const facet_render_desc *desc, facet_image *image,
@@ -246,6 +248,10 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
         result = render_path(renderer, &desc, image, error);
     else if (result == FACET_OK)
         result = preview_render_prepared(prepared, &desc, &image->film, &image->stats, error);
+    if (result == FACET_OK && prepared->scene)
+        render_check_film(&renderer->check, prepared->scene,
+                          desc.integrator == FACET_INTEGRATOR_GL ? NULL : &prepared->pose, &desc,
+                          &image->film);
     if (result == FACET_OK)
         develop(&desc, &image->film);
     if (result == FACET_OK && desc.aovs & FACET_AOV_CRYPTOMATTE)

@@ -6,7 +6,7 @@
 #include "base/test_effort.h"
 #include "cpu/preview_fixture.h"
 #include "gl/gl_sea.h"
-#include "water/water_exposure.h"
+#include "film/meter.h"
 #include "water/water_picture.h"
 
 enum { WIDTH = 160, HEIGHT = 96 };
@@ -43,7 +43,7 @@ static int destroy_renderers(void **state)
 
 static void expose(shot *s)
 {
-    s->desc.render.exposure_ev = (float)water_exposure_ev(13.3); /* a sun 22 degrees high */
+    s->desc.render.exposure_ev = (float)meter_exposure_ev(13.3); /* a sun 22 degrees high */
 }
 
 /* A display's number: Reinhard's operator, gamma 2.2; looks of before are for displays already. */

@@ -4,11 +4,11 @@
 #include <math.h>
 
 #include "base/result.h"
-#include "film/film.h"
+#include "film/meter.h"
 #include "water/water_render.h"
 
-static const double KEY = 0.22, SATURATION = 1.2, DARKEST = 1e-3; /* cd/m^2 */
-enum { METER_SIZE = 64 };                                         /* pixels along the longer edge */
+static const double DARKEST = 1e-3; /* cd/m^2 */
+enum { METER_SIZE = 64 };           /* pixels along the longer edge */
 
 /* The same view, small. */
 static facet_sea_render_desc meter_desc(const facet_sea_render_desc *desc)
@@ -30,18 +30,6 @@ static facet_sea_render_desc meter_desc(const facet_sea_render_desc *desc)
     return d;
 }
 
-static double log_average(film *f)
-{
-    const float *p = film_find(f, "")->pixels;
-    size_t count = (size_t)f->width * f->height;
-    double sum = 0.0;
-    for (size_t i = 0; i < count; i++, p += 4) {
-        double L = 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
-        sum += log(fmax(L, 1e-6));
-    }
-    return exp(sum / (double)count);
-}
-
 facet_result water_exposure_ev100(const facet_sea *sea, const facet_sea_render_desc *desc, double *ev100,
                                   facet_error *error)
 {
@@ -53,18 +41,13 @@ facet_result water_exposure_ev100(const facet_sea *sea, const facet_sea_render_d
     if (result == FACET_OK)
         result = water_render(sea, NULL, &d, &f, &stats, error);
     if (result == FACET_OK) {
-        double L = log_average(&f);
+        double L = film_log_average(&f, 1e-6);
         if (L < DARKEST)
             log_warning(
                 &d.render.log,
                 "sea: there is hardly any light, and the picture dark: say what the exposure is to be");
-        *ev100 = log2(fmax(L, DARKEST) / (SATURATION * KEY));
+        *ev100 = meter_ev100(fmax(L, DARKEST));
     }
     film_destroy(&f);
     return result;
-}
-
-double water_exposure_ev(double ev100)
-{
-    return -ev100 - log2(SATURATION);
 }

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/test_effort.h"
-#include "water/water_exposure.h"
+#include "film/meter.h"
 
 enum { WIDTH = 40, HEIGHT = 32, FEW = 4, MANY = 64 };
 
@@ -20,7 +20,7 @@ static void make_view(shot *s, float down_rad)
     assert_int_equal(facet_environment_create_gradient(zenith, horizon, nadir, NULL, &r->environment, NULL),
                      FACET_OK);
     r->sun = (facet_sun){.azimuth_rad = 2.8f, .elevation_rad = 0.384f, .illuminance_lux = {7e4f, 6e4f, 5e4f}};
-    r->exposure_ev = (float)water_exposure_ev(14.0);
+    r->exposure_ev = (float)meter_exposure_ev(14.0);
 }
 
 static void draw_view(const facet_sea *sea, shot *s, uint32_t samples, facet_quality quality)

@@ -2,6 +2,7 @@
  * difference; limits; the profile finds what marching finds. */
 #include "water/water_fixture.h"
 
+#include "film/meter.h"
 #include "water/water_exposure.h"
 #include "water/water_setup.h"
 
@@ -246,7 +247,7 @@ static void test_exposure(void **state)
     s.desc.render.camera = &s.camera;
     s.desc.look.no_glints = true;
     double day = metered(sea, &s.desc), sum = 0.0;
-    s.desc.render.exposure_ev = (float)water_exposure_ev(day);
+    s.desc.render.exposure_ev = (float)meter_exposure_ev(day);
     draw_shot(sea, &s);
     for (uint32_t i = 0; i < 96 * 64; i++) {
         const float *p = shot_pixel(&s, i % 96, i / 96);
@@ -265,7 +266,7 @@ static void test_exposure(void **state)
     s.desc.sky.sun_elevation_rad = -1.5f;
     assert_true(fabs(metered(sea, &s.desc) - (log2)(1e-3 / 0.264)) < 1e-6);
     assert_int_equal(warning_count, 1);
-    assert_true(fabs((exp2)(water_exposure_ev(15.0)) * 1.2 * 32768.0 - 1.0) < 1e-12);
+    assert_true(fabs((exp2)(meter_exposure_ev(15.0)) * 1.2 * 32768.0 - 1.0) < 1e-12);
     sea_destroy(sea);
 }
 
