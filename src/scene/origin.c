@@ -130,13 +130,15 @@ static void add_sample(samples *s, const dmat4 *world, const double local[3], do
 {
     double p[3];
     dmat4_transform_point(world, local, p);
-    double at = farthest(p), moved = farthest(world->m + 12);
-    if (!(at <= (double)SCENE_FARTHEST) || s->count == SAMPLES)
+    for (int axis = 0; axis < 3; axis++)
+        if (!(fabs(p[axis]) <= (double)SCENE_FARTHEST)) /* nor a number */
+            return;
+    if (s->count == SAMPLES)
         return;
     const double inner[3] = {p[0] - world->m[12], p[1] - world->m[13], p[2] - world->m[14]};
     for (int axis = 0; axis < 3; axis++)
         s->axes[axis][s->count] = p[axis];
-    s->reach[s->count++] = fmax(fmax(moved, farthest(inner)), ancestors);
+    s->reach[s->count++] = fmax(fmax(farthest(world->m + 12), farthest(inner)), ancestors);
 }
 
 /* Where the worlds of the nodes above are. */
