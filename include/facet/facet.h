@@ -331,6 +331,11 @@ typedef struct facet_pose_desc {
  * gives as floats (cameras, orbits, bounds) are relative to it: add it for coordinates of the file, subtract it from
  * those, in double. It is the same whenever the file is read. */
 FACET_API void facet_scene_get_origin(const facet_scene *scene, double origin[3]);
+/* When a file is read, the origin is chosen by what its default scene shows at rest. This chooses it by another pose, where
+ * an animation or another scene of the file takes the model elsewhere. Not while others use the scene.
+ * FACET_ERROR_ARGUMENT: there is no such pose; _MEMORY. */
+FACET_API facet_result facet_scene_choose_origin(facet_scene *scene, const facet_pose_desc *pose,
+                                                 facet_error *error);
 
 /* Axis-aligned bounds in world space of what is drawn and can be seen, m; pose NULL: {0}. False: nothing, both are 0. */
 FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *pose, float minimum[3],

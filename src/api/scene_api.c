@@ -4,6 +4,7 @@
 #include "io/model_file.h"
 #include "io/ogl1/ogl1_json.h"
 #include "legacy/convert.h"
+#include "scene/origin.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -190,6 +191,11 @@ facet_result facet_scene_save(const facet_scene *scene, const char *path, const 
 void facet_scene_get_origin(const facet_scene *scene, double origin[3])
 {
     memcpy(origin, scene->origin, sizeof scene->origin);
+}
+
+facet_result facet_scene_choose_origin(facet_scene *scene, const facet_pose_desc *pose, facet_error *error)
+{
+    return scene_settle_origin(scene, pose, NULL, error);
 }
 
 bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *desc, float minimum[3],

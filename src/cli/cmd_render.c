@@ -79,7 +79,7 @@ typedef struct model_run {
     render_run *run;
     render_options options; /* the framing of a sequence is found with its first picture */
     const model_name *model;
-    const facet_scene *scene;
+    facet_scene *scene;
     facet_renderer *renderer;
     facet_environment *environment, *own_environment; /* what lights it; NULL, or the one that it brings */
     sequence sequence;
@@ -305,8 +305,8 @@ static facet_result open_video(model_run *m, facet_error *error)
 }
 
 /* All pictures of a model that is loaded. */
-static facet_result render_scene(render_run *run, const model_name *model, const facet_scene *scene,
-                                 double start, facet_error *error)
+static facet_result render_scene(render_run *run, const model_name *model, facet_scene *scene, double start,
+                                 facet_error *error)
 {
     model_run m = {.run = run, .options = run->options, .model = model, .scene = scene};
     interrupt_begin(input_name(model->path), "looking for its frames", run->progress == PROGRESS_BAR);

@@ -78,7 +78,7 @@ static facet_result choose_frames(const char *name, const render_options *o, seq
     return FACET_OK;
 }
 
-facet_result sequence_create(const facet_scene *scene, const char *name, const render_options *options,
+facet_result sequence_create(facet_scene *scene, const char *name, const render_options *options,
                              sequence *out, facet_error *error)
 {
     facet_result result = FACET_OK;
@@ -92,6 +92,8 @@ facet_result sequence_create(const facet_scene *scene, const char *name, const r
         result = choose_animations(scene, name, options, out, error);
     if (result == FACET_OK)
         result = choose_frames(name, options, out, error);
+    if (result == FACET_OK && (options->scene || out->pose.animation_count > 0))
+        result = facet_scene_choose_origin(scene, &out->pose, error);
     if (result != FACET_OK)
         sequence_destroy(out);
     return result;

@@ -57,7 +57,7 @@ static facet_result settle(facet_result result, const facet_scene_desc *desc, fa
 {
     if (result == FACET_OK) {
         unseen_tighten_bounds(*scene);
-        result = scene_settle_origin(*scene, &desc->log, error);
+        result = scene_settle_origin(*scene, NULL, &desc->log, error);
     }
     if (result != FACET_OK && *scene) {
         scene_destroy(*scene);

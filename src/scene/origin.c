@@ -195,15 +195,15 @@ static void sample_scene(const facet_scene *scene, hierarchy *h, samples *out)
 }
 
 /* What the samples say. They are in double, whatever the scene does otherwise. */
-static facet_result find_scene_origin(facet_scene *scene, samples *s, facet_error *error)
+static facet_result find_scene_origin(facet_scene *scene, uint32_t index, const facet_pose_desc *desc,
+                                      samples *s, facet_error *error)
 {
     scene_state state;
     hierarchy h = {0};
-    uint32_t index = scene->default_scene == SCENE_NONE ? 0 : scene->default_scene;
     s->count = 0;
     memset(scene->origin, 0, sizeof scene->origin);
     scene->is_far = true;
-    facet_result result = scene_state_create(scene, NULL, &scene->allocator, &state, error);
+    facet_result result = scene_state_create(scene, desc, &scene->allocator, &state, error);
     if (result == FACET_OK && !hierarchy_create(scene, &state, index, &scene->allocator, &h))
         result = fail_memory(error, "world matrices", scene->node_count * sizeof(dmat4));
     if (result == FACET_OK)
@@ -211,6 +211,8 @@ static facet_result find_scene_origin(facet_scene *scene, samples *s, facet_erro
     hierarchy_destroy(&h);
     scene_state_destroy(&state);
     scene->is_far = false;
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        scene->is_far |= farthest(scene->meshes[i].origin) > 0.0;
     if (s->count == 0)
         return result;
     double middle[3];
@@ -348,12 +350,17 @@ static facet_result move_meshes(facet_scene *scene, const facet_log *log, facet_
     return FACET_OK;
 }
 
-facet_result scene_settle_origin(facet_scene *scene, const facet_log *log, facet_error *error)
+facet_result scene_settle_origin(facet_scene *scene, const facet_pose_desc *desc, const facet_log *log,
+                                 facet_error *error)
 {
+    uint32_t index;
+    facet_result result = scene_pose_check(scene, desc, &index, error);
+    if (result != FACET_OK || scene->is_placed)
+        return result;
     samples *s = mem_alloc(&scene->allocator, 1, sizeof *s);
     if (!s)
         return fail_memory(error, "samples", sizeof *s);
-    facet_result result = find_scene_origin(scene, s, error);
+    result = find_scene_origin(scene, index, desc, s, error);
     mem_free(s);
     return result == FACET_OK && scene->is_far ? move_meshes(scene, log, error) : result;
 }

@@ -17,10 +17,12 @@
 
 #include "scene/scene.h"
 
-/* Sets the origins of a scene that was read, and makes positions relative to that of their mesh; their arrays are new then. By
- * the vertices of the default scene at rest, but for what lies apart from nine tenths of them. Warns, once, where
- * positions have lost detail in the file. */
-facet_result scene_settle_origin(facet_scene *scene, const facet_log *log, facet_error *error);
+/* Sets the origins of a scene by the vertices that a pose shows (NULL: {0}, for a scene that was just read), but for what lies
+ * apart from nine tenths of them, and makes positions relative to that of their mesh; their arrays are new then. The
+ * origin of a scene that was placed stays. Warns, once, where positions have lost detail in the file. Fails as
+ * scene_pose_create(). */
+facet_result scene_settle_origin(facet_scene *scene, const facet_pose_desc *desc, const facet_log *log,
+                                 facet_error *error);
 
 /* The same for readers whose files have more digits than a float: where count positions, rounded to floats, lie. Non-zero:
  * what is to be subtracted from the file's numbers before they are rounded. False: nothing is, or no memory. */

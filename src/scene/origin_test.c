@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "scene/origin.h"
+#include "scene/motion_test_support.h"
 #include "scene/scene_test_support.h"
 
 /* Two squares of 1 m, which differ in how they are turned. */
@@ -48,7 +49,7 @@ static facet_scene *make_scene(void)
 static scene_pose settle_and_pose(facet_scene *scene)
 {
     scene_pose pose;
-    assert_int_equal(scene_settle_origin(scene, NULL, NULL), FACET_OK);
+    assert_int_equal(scene_settle_origin(scene, NULL, NULL, NULL), FACET_OK);
     assert_int_equal(scene_pose_create(scene, NULL, NULL, 1, &pose, NULL), FACET_OK);
     return pose;
 }
@@ -208,6 +209,36 @@ static void lights_and_cameras_go_along(void **state)
     scene_destroy(scene);
 }
 
+/* A model that rests at the origin and is elsewhere where it moves: the origin goes along, and comes back. */
+static void the_origin_follows_what_is_shown(void **state)
+{
+    (void)state;
+    static const float times[2] = {0, 1},
+                       places[6] = {8388608.0f, 0, -1048576.0f, 8388609.0f, 0, -1048576.0f};
+    static const uint32_t first = 0;
+    const double move[3] = {8388608.5, 0, -1048576.0}; /* half-way between keys, which floats would round */
+    const facet_pose_desc desc = {.animation_count = 1, .animations = &first, .time_s = 0.5};
+    const facet_pose_desc missing = {.has_scene_index = true, .scene_index = 7};
+    facet_scene *scene = make_scene();
+    const test_channel channel = {{.offset = offsetof(scene_node, translation)},
+                                  {SCENE_LINEAR, 2, times, 3, places}};
+    test_animation(scene, &channel, 1);
+    scene_pose pose = settle_and_pose(scene);
+    assert_false(scene->is_far);
+    scene_pose_destroy(&pose);
+    assert_int_equal(scene_settle_origin(scene, &desc, NULL, NULL), FACET_OK);
+    assert_near(scene->origin[0], move[0], 8.0);
+    assert_int_equal(scene_pose_create(scene, &desc, NULL, 1, &pose, NULL), FACET_OK);
+    expect_same_places(scene, &pose, move, 1e-6);
+    scene_pose_destroy(&pose);
+    assert_int_equal(scene_settle_origin(scene, &missing, NULL, NULL), FACET_ERROR_ARGUMENT);
+    pose = settle_and_pose(scene);
+    assert_true(!scene->is_far && scene->origin[0] == 0.0);
+    expect_same_places(scene, &pose, (double[3]){0, 0, 0}, 0);
+    scene_pose_destroy(&pose);
+    scene_destroy(scene);
+}
+
 /* A matrix for the world that one sees goes on meaning that. */
 static void a_placed_model_has_the_origin_of_its_place(void **state)
 {
@@ -261,6 +292,7 @@ int main(void)
         cmocka_unit_test(copies_are_placed_in_double),
         cmocka_unit_test(what_lies_apart_does_not_count),
         cmocka_unit_test(lights_and_cameras_go_along),
+        cmocka_unit_test(the_origin_follows_what_is_shown),
         cmocka_unit_test(a_placed_model_has_the_origin_of_its_place),
         cmocka_unit_test(points_are_judged_without_outliers),
     };

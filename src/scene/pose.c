@@ -230,9 +230,8 @@ static void fill(scene_pose *pose, const pose_parts *parts)
     }
 }
 
-/* Which of the file's scenes, and whether there are that one and the variant. */
-static facet_result check(const facet_scene *scene, const facet_pose_desc *desc, uint32_t *index,
-                          facet_error *error)
+facet_result scene_pose_check(const facet_scene *scene, const facet_pose_desc *desc, uint32_t *index,
+                              facet_error *error)
 {
     *index = scene->default_scene == SCENE_NONE ? 0 : scene->default_scene;
     if (desc && desc->has_scene_index)
@@ -257,7 +256,7 @@ facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *
     *pose = (scene_pose){.materials = scene->materials};
     pose_parts parts = {.scene = scene, .variant = desc && desc->has_variant ? desc->variant : SCENE_NONE};
     uint32_t index;
-    facet_result result = check(scene, desc, &index, error);
+    facet_result result = scene_pose_check(scene, desc, &index, error);
     if (result == FACET_OK)
         result = scene_state_create(scene, desc, allocator, &parts.state, error);
     if (result == FACET_OK && !hierarchy_create(scene, &parts.state, index, allocator, &parts.nodes))

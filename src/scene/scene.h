@@ -470,6 +470,9 @@ facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *
                                const facet_allocator *allocator, uint32_t thread_count, scene_pose *pose,
                                facet_error *error);
 void scene_pose_destroy(scene_pose *pose); /* {0} is allowed */
+/* Which of the file's scenes desc asks for; FACET_ERROR_ARGUMENT where that or the variant is not there. */
+facet_result scene_pose_check(const facet_scene *scene, const facet_pose_desc *desc, uint32_t *index,
+                              facet_error *error);
 /* The material of an instance, as it is at that moment. */
 const scene_material *scene_pose_material(const facet_scene *scene, const scene_pose *pose,
                                           const scene_instance *instance);

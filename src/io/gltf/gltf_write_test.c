@@ -462,7 +462,7 @@ static void far_vertices_come_back_as_they_were(void **state)
     facet_scene *scene = model_load(&m, "%s",
                                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{'"
                                     "mesh':0}],'scenes':[{'nodes':[0]}]");
-    assert_int_equal(scene_settle_origin(scene, NULL, NULL), FACET_OK);
+    assert_int_equal(scene_settle_origin(scene, NULL, NULL, NULL), FACET_OK);
     assert_true(scene->meshes[0].origin[0] > 1e6);
     assert_true(fabsf(scene->meshes[0].primitives[0].positions[0]) < 16.0f);
     snprintf(path, sizeof path, "%s/a.glb", folder);

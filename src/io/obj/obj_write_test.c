@@ -131,7 +131,7 @@ static void far_scenes_are_written_in_doubles(void **state)
     p->bounds_max[0] = p->bounds_max[1] = 1.0f;
     scene->nodes[0].translation[0] = 4526331.25;
     scene->nodes[0].translation[2] = -1e8 - 0.0625;
-    assert_int_equal(scene_settle_origin(scene, NULL, NULL), FACET_OK);
+    assert_int_equal(scene_settle_origin(scene, NULL, NULL, NULL), FACET_OK);
     assert_true(scene->is_far);
     char *obj = save(&folder, scene, NULL);
     assert_non_null(strstr(obj, "\nv 4526331.25 0 -100000000.0625\nv 4526332.25 0 -100000000.0625\n"));
