@@ -17,6 +17,9 @@
  * water in the picture. */
 static const double FARTHEST = 1e6, SIZE_AWAY = 1.2, NEAREST = 1.15;
 
+/* When a size is a warning: m; in lengths of the highest waves; pixels. The longest ship has 458 m. */
+static const double LARGEST = 1000.0, MOST_WAVES = 30.0, LEAST_PIXELS = 2.0;
+
 enum { GRID = 9 }; /* points along an edge of the footprint */
 
 /* MODEL[@X,Z[,HEADING]]; an @ before a file's extension is part of its name. */
@@ -187,13 +190,59 @@ static void warn_of_view(ocean_run *run)
     log.message(log.user, FACET_LOG_WARNING, text);
 }
 
+/* Height in the image, in pixels, of a ball around the model; it may stand around the camera. */
+static double pixels_of(const ocean_run *run, double size)
+{
+    const facet_camera camera = ocean_run_camera(run, &run->options);
+    double x = run->berth.numbers[0] - (double)camera.eye[0],
+           z = run->berth.numbers[1] - (double)camera.eye[2];
+    double away = fmax(hypot(hypot(x, z), (double)camera.eye[1]), 0.5 * size);
+    return size / away / (2.0 * tan(0.5 * (double)camera.fov_y_rad)) * run->options.picture.desc.height;
+}
+
+/* A model in millimetres is a thousand times too large, one in kilometres cannot be seen, and either is a surprise. */
+static void warn_of_size(ocean_run *run)
+{
+    const float *low = run->model_low, *high = run->model_high;
+    double size = 0.0;
+    for (int i = 0; i < 3; i++)
+        size = fmax(size, (double)high[i] - (double)low[i]);
+    const facet_sea_info sea = facet_sea_get_info(run->sea);
+    double pixels = pixels_of(run, size);
+    char text[512] = "";
+    if (size > LARGEST || (sea.peak_length_m > 0.0 && size > MOST_WAVES * sea.peak_length_m))
+        snprintf(text, sizeof text,
+                 "--with: the model is %.3g m large, and the highest waves are %.2g m high and %.3g m long; "
+                 "a model "
+                 "is in metres",
+                 size, sea.height_m, sea.peak_length_m);
+    else if (pixels < LEAST_PIXELS)
+        snprintf(text, sizeof text,
+                 "--with: the model is %.3g m large, which is %.2g pixels of the image where it floats; a "
+                 "model is in "
+                 "metres, and MODEL@X,Z puts it nearer",
+                 size, pixels);
+    else if (high[1] < 0.0f)
+        snprintf(
+            text, sizeof text,
+            "--with: the model is %.3g m large and %.3g m or more under water: its water line is y = 0, and "
+            "it reaches from y = %.3g to %.3g m",
+            size, -(double)high[1], (double)low[1], (double)high[1]);
+    facet_log log = messages_log(&run->messages);
+    if (*text)
+        log.message(log.user, FACET_LOG_WARNING, text);
+}
+
 facet_result ocean_float_place(ocean_run *run, facet_error *error)
 {
-    if (run->berth.has_place && !run->is_afloat && run->options.has_picture && !run->options.sweep)
+    bool is_first = !run->is_afloat && run->options.has_picture && !run->options.sweep;
+    if (run->berth.has_place && is_first)
         warn_of_view(run);
     run->is_afloat = true;
     if (!run->berth.has_place)
         find_berth(run);
+    if (is_first)
+        warn_of_size(run);
     const ocean_berth b = run->berth;
     double c = cos(b.numbers[2] * DEGREE), s = sin(b.numbers[2] * DEGREE);
     double around[GRID * GRID][2], places[GRID * GRID][2];

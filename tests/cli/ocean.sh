@@ -16,7 +16,7 @@ if ! "$facet" ocean --info >out 2>err; then # without a library of transforms th
     finish
     exit
 fi
-expect 0 help ocean
+expect 0 help ocean --help-all
 for option in preset wind chl before-after sweep with maps; do
     grep -q -- "--$option" out || failed "the help does not tell of --$option"
 done
@@ -178,6 +178,20 @@ expect 0 ocean $small --with boat.gltf@0,-20 -o a.png
 says "towards 180 degrees, and the camera looks towards 36"
 expect 0 ocean $small --with boat.gltf@3,5,90 -o a.png
 grep -q "in the picture" err && failed "a model in view is said to be out of it"
+# A model of another unit is reported with its size; a boat is not.
+expect 0 ocean $small --with boat.gltf -o a.png --strict
+for scale in 5000 0.002; do
+    sed "s/\"mesh\":0/\"mesh\":0,\"scale\":[$scale,$scale,$scale]/" boat.gltf >scaled.gltf
+    place=
+    [ $scale = 5000 ] || place=@0,-20
+    expect 1 ocean $small --with scaled.gltf$place -o a.png --strict
+    says "--with: the model is"
+    says "m large"
+done
+sed 's/"mesh":0/"mesh":0,"translation":[0,-2,0]/' boat.gltf >sunk.gltf
+expect 0 ocean $small --with sunk.gltf -o a.png
+says "m or more under water"
+rm -f scaled.gltf sunk.gltf
 expect 3 ocean $small --with missing.glb -o b.png
 says "missing.glb"
 expect 2 ocean $small --with boat.gltf@3,x -o b.png
