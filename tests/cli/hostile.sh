@@ -48,7 +48,8 @@ rm -r models secret.bin
 # inputs that are no files, or have no end
 within 10 2 render $small '' -o x.png
 one_sentence "an empty name"
-for input in /dev/zero "$work"; do
+mkdir nothing
+for input in /dev/zero "$work/nothing"; do
     for option in '' --env --config; do
         code=0
         timeout -s KILL 20 "$facet" render $small $option "$input" -o x.png --max-memory 64M >out 2>err || code=$?

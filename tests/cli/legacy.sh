@@ -189,7 +189,7 @@ grep -qE '"materials": ?\[\]' r.json || failed "a report of nothing is not empty
 expect 0 convert pure.gltf r.glb --report r.html
 
 expect 2 convert old.obj x.json --report ./x.json
-says "two files would both be written to x.json"
+says "it and its report would both be written to x.json"
 
 # To standard output
 "$facet" convert old.obj -o - 2>err | cat >piped.glb
