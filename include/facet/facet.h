@@ -853,10 +853,11 @@ typedef struct facet_image_load_desc {
     facet_log log; /* what the file asks for and does not get; conversions of color */
 } facet_image_load_desc;
 
-/* Reads a PNG, JPEG, WebP, AVIF, KTX2, TGA, BMP, GIF, DDS, Radiance HDR, OpenEXR or PFM file, told apart by content, into layer "" as
- * facet_render() makes it: RGBA, float, linear Rec.709, premultiplied, rows from the top. Numbers of files for displays
- * are decoded from sRGB (profiles are ignored) and multiplied by alpha; those of HDR, EXR, PFM and float KTX2 files
- * stay, NaN and infinity among them; those of an EXR or HDR file with other primaries are converted to Rec.709. Alpha that a file lacks is 1. */
+/* Reads a PNG, JPEG, WebP, AVIF, KTX2, TGA, BMP, GIF, DDS, Radiance HDR, OpenEXR or PFM file, told apart by content, into
+ * layer "" as facet_render() makes it: RGBA, float, linear Rec.709, premultiplied, rows from the top. Numbers of files for
+ * displays are decoded from sRGB (profiles are ignored) and multiplied by alpha; those of HDR, EXR, PFM and float KTX2 files
+ * stay, NaN and infinity among them; those of an EXR or HDR file with other primaries are converted to Rec.709. Alpha that
+ * a file lacks is 1. */
 FACET_API facet_result facet_image_load(const char *path, const facet_image_load_desc *desc /* NULL: {0} */,
                                         facet_image **image, facet_error *error);
 /* The same from memory, which may go afterwards. name stands for the file in messages. */

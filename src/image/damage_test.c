@@ -21,10 +21,10 @@ static void add_sample(const char *name, unsigned char *bytes, size_t size)
     s->size = size;
 }
 
-static void add_file(const char *name)
+static void add_file(const char *folder, const char *name)
 {
     char path[256];
-    snprintf(path, sizeof path, TEST_DATA "%s", name);
+    snprintf(path, sizeof path, "%s%s", folder, name);
     file_bytes file = read_file(path);
     unsigned char *copy = mem_alloc(NULL, file.size, 1);
     memcpy(copy, file.data, file.size);
@@ -63,7 +63,11 @@ static int make_samples(void **state)
                                         "uastc_zstd.ktx2",   "uastc_modes.ktx2",
                                         "rgba_lossless.avif"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++)
-        add_file(files[k]);
+        add_file(TEST_DATA, files[k]);
+    static const char *const textures[] = {"runs.tga",       "mapped_runs.tga", "four_bits.bmp", "rle8.bmp",
+                                           "interlaced.gif", "bc3.dds",         "bgra.dds"};
+    for (size_t k = 0; k < sizeof textures / sizeof *textures; k++)
+        add_file("tests/fuzz/corpus_image/", textures[k]);
     add_encoded("grey.png", IMAGE_CODEC_PNG, 1, IMAGE_U8, 0);
     add_encoded("rgba.png", IMAGE_CODEC_PNG, 4, IMAGE_U8, 0);
     add_encoded("rgb16.png", IMAGE_CODEC_PNG, 3, IMAGE_U16, 0);
@@ -201,7 +205,10 @@ static void memory_that_runs_out_while_writing(void **state)
             size_t size;
             if (cases[k].codec == IMAGE_CODEC_EXR) {
                 static const char *const names[] = {"R", "G", "B"};
-                image_layer layer = {names, 3, i.pixels, image_row_size(&i)};
+                image_layer layer = {.channel_names = names,
+                                     .channel_count = 3,
+                                     .pixels = i.pixels,
+                                     .row_stride_bytes = image_row_size(&i)};
                 result = image_encode_exr(i.width, i.height, &layer, 1, true, &desc, &bytes, &size, NULL);
             } else {
                 result = image_encode(&i, cases[k].codec, &desc, &bytes, &size, NULL);

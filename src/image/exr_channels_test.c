@@ -30,7 +30,7 @@ static int make_numbers(void **state)
 static unsigned char *encode(bool is_stored, bool as_half, size_t *size)
 {
     const image_text texts[] = {{"first", "one"}, {"second", ""}};
-    image_layer layer = {names, CHANNELS, numbers, WIDTH * CHANNELS * sizeof(float)};
+    image_layer layer = {names, CHANNELS, numbers, WIDTH * CHANNELS * sizeof(float), false};
     unsigned char *bytes;
     facet_error error;
     if (image_encode_exr(WIDTH, HEIGHT, &layer, 1, as_half,
