@@ -39,8 +39,8 @@ facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc 
         else if (faces[i].picture.width != faces[0].picture.width)
             result = fail(error, FACET_ERROR_INVALID, "%s has %u texels along an edge, face +X has %u",
                           faces[i].name, faces[i].picture.width, faces[0].picture.width);
-        else if (i == 0 || strcmp(faces[i].note.text, faces[0].note.text) != 0) /* once for all that are alike */
-            image_note_log(&faces[i].note, faces[i].name, &desc->log);
+        else if (i == 0 || strcmp(faces[i].note.text, faces[0].note.text) != 0)
+            image_note_log(&faces[i].note, faces[i].name, &desc->log); /* alike ones once */
     }
     if (result != FACET_OK)
         cube_faces_destroy(faces);
