@@ -232,6 +232,7 @@ static facet_result find_scene_origin(facet_scene *scene, uint32_t index, const 
 typedef struct coarseness {
     const char *owner, *name, *parts; /* "mesh", its name, "vertices"; NULL: nothing has */
     double distance, step, share;
+    uint64_t indices; /* of all that have; a few parts far from the others do not matter */
 } coarseness;
 
 /* Bounds of what is drawn of a mesh. */
@@ -248,6 +249,14 @@ static box bound_mesh(const scene_mesh *mesh)
     return b;
 }
 
+static uint64_t count_indices(const scene_mesh *mesh)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < mesh->primitive_count; i++)
+        count += mesh->primitives[i].index_count;
+    return count;
+}
+
 static double size_of(const box *b)
 {
     double size = 0.0;
@@ -257,15 +266,19 @@ static double size_of(const box *b)
 }
 
 /* size: of what stands in b, which may be more than b. */
-static void note_steps(coarseness *worst, const box *b, double size, const char *owner, const char *name,
-                       const char *parts)
+static void note_steps(coarseness *worst, const box *b, double size, const scene_mesh *mesh,
+                       const char *owner, const char *name, const char *parts)
 {
     float distance = 0.0f;
     for (int axis = 0; axis < 3; axis++)
         distance = fmaxf(distance, fmaxf(fabsf(b->minimum[axis]), fabsf(b->maximum[axis])));
     double step = (double)nextafterf(distance, INFINITY) - (double)distance;
-    if (step > COARSE * size && step > worst->share * size)
-        *worst = (coarseness){owner, name, parts, (double)distance, step, step / size};
+    if (!(step > COARSE * size))
+        return;
+    uint64_t indices = worst->indices + count_indices(mesh);
+    if (step > worst->share * size)
+        *worst = (coarseness){owner, name, parts, (double)distance, step, step / size, 0};
+    worst->indices = indices;
 }
 
 static void note_copies(const facet_scene *scene, const scene_node *node, coarseness *worst)
@@ -277,7 +290,8 @@ static void note_copies(const facet_scene *scene, const scene_node *node, coarse
         box_add(&b, node->instancing->translations + 3 * i);
     const box mesh = bound_mesh(&scene->meshes[node->mesh]);
     if (box_is_near(&b) && box_is_near(&mesh))
-        note_steps(worst, &b, size_of(&b) + size_of(&mesh), "node", node->name, "instances");
+        note_steps(worst, &b, size_of(&b) + size_of(&mesh), &scene->meshes[node->mesh], "node", node->name,
+                   "instances");
 }
 
 /* Primitives that share positions still do then. */
@@ -320,7 +334,7 @@ static bool move_mesh(facet_scene *scene, scene_mesh *mesh, coarseness *worst)
     }
     if (!is_far)
         return true;
-    note_steps(worst, &b, size, "mesh", mesh->name, "vertices");
+    note_steps(worst, &b, size, mesh, "mesh", mesh->name, "vertices");
     return subtract(scene, mesh, origin);
 }
 
@@ -335,13 +349,16 @@ static facet_result move_meshes(facet_scene *scene, const facet_log *log, facet_
             is_skinned[scene->nodes[i].mesh] = true;
         note_copies(scene, &scene->nodes[i], &worst);
     }
-    for (uint32_t i = 0; is_ok && i < scene->mesh_count; i++)
+    uint64_t indices = 0;
+    for (uint32_t i = 0; is_ok && i < scene->mesh_count; i++) {
+        indices += count_indices(&scene->meshes[i]);
         if (!is_skinned[i])
             is_ok = move_mesh(scene, &scene->meshes[i], &worst);
+    }
     mem_free(is_skinned);
     if (!is_ok)
         return fail_memory(error, "positions", scene->mesh_count * sizeof *is_skinned);
-    if (worst.owner)
+    if (worst.owner && worst.indices > indices / 20)
         scene_warn(
             scene, log,
             "%s: %s \"%s\" has %s %.3g m from its origin, where 32-bit numbers have steps of %.2g m: finer "

@@ -63,6 +63,12 @@ done
 expect 0 inspect far.obj
 grep -qF 'from (-100000001, 99999999.9688, 4526330) to' out || failed "inspect: the digits of bounds do not show a place"
 
+# A few parts that are elsewhere move neither the frame nor the origin.
+{ cat far.obj; printf 'o stray\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n'; } >stray.obj
+expect 0 render stray.obj -o stray.png $small
+cmp -s near.png stray.png || failed "one triangle elsewhere changes the image"
+grep -q "32-bit" err && failed "one triangle elsewhere is what a warning is about"
+
 # Vertices that a file has as floats have lost what lies between: one warning says how much.
 cat >coarse.gltf <<'END'
 {"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
