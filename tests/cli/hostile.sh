@@ -58,6 +58,7 @@ for input in /dev/zero "$work/nothing"; do
         grep -qF "$input: " err || failed "$input is not named"
     done
 done
+rmdir nothing
 code=0
 timeout -s KILL 20 "$facet" render - --json -o x.png --max-memory 64M </dev/zero >out 2>err || code=$?
 [ $code = 7 ] || failed "exit code $code, not 7, for a standard input without end"
