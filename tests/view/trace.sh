@@ -47,8 +47,8 @@ for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do
         failed "the $side side is another picture: $(cat compared)"
 done
 
-# The divider does not stop path tracing: both sides are traced, dragging the border begins nothing anew, and each side is what it
-# is alone. 32 samples of a picture that is begun anew with each step of the border would not come.
+# The divider does not stop path tracing: both sides are traced, each is what it is alone, and moving the border begins nothing
+# anew. (Holding it: window.sh.)
 cat >script <<'END'
 load
 key Tab

@@ -76,4 +76,28 @@ code=0
 wait $viewer || code=$?
 [ $code = 0 ] || failed "exit code $code at the end: $(cat err)"
 
+# Whoever holds the border of a divider does not stop path tracing: the printed command has the samples that are there, which go
+# on, while without any it would have those that were asked for.
+"$program" view triangle.gltf $size --renderer path --samples 16000000 >shown 2>err &
+viewer=$!
+until_it 'xdotool search --onlyvisible --name "^triangle.gltf - facet" >/dev/null 2>&1'
+xdotool mousemove 80 60
+until_it 'last_has "^facet render"'
+xdotool key Tab
+samples() {
+    xdotool key question
+    sleep 0.3
+    tail -n 1 shown | sed -n 's/.*--samples \([0-9]*\).*/\1/p'
+}
+until_it 'before=$(samples) && [ "${before:-16000000}" -lt 16000000 ]'
+xdotool mousemove 80 60 mousedown 1 mousemove 84 60 mousemove 90 62
+sleep 0.5
+held=$(samples)
+[ "${held:-16000000}" -lt 16000000 ] && [ "$held" -gt "$before" ] ||
+    failed "holding the border stops path tracing: $before, then $held samples"
+xdotool mouseup 1 key q
+code=0
+wait $viewer || code=$?
+[ $code = 0 ] || failed "exit code $code at the end: $(cat err)"
+
 finish
