@@ -36,6 +36,8 @@ typedef enum option_id {
     OPT_TARGET,
     OPT_FOV,
     OPT_EYE,
+    OPT_CAMERA_MATRIX,
+    OPT_VIEW_MATRIX,
     OPT_UP,
     OPT_ORTHO,
     OPT_FRAMING,

@@ -145,6 +145,18 @@ static const option camera_options[] = {
          "named needs #### or %04d",
      .minimum = 1,
      .maximum = 100000},
+    {.id = OPT_CAMERA_MATRIX,
+     .name = "camera-matrix",
+     .kind = OPTION_TEXT,
+     .argument = "M0,..,M15",
+     .help = "the camera as another renderer has it, instead of all these but --fov: 16 numbers, column by "
+             "column, as "
+             "the matrix of a glTF node; it looks along its -Z axis, +Y is up in the image"},
+    {.id = OPT_VIEW_MATRIX,
+     .name = "view-matrix",
+     .kind = OPTION_TEXT,
+     .argument = "M0,..,M15",
+     .help = "the inverse of that, from the world to the camera, as OpenGL programs have it"},
 };
 
 static const option light_options[] = {
@@ -347,9 +359,9 @@ const option_group quality_group = {"Quality", quality_options, COUNT(quality_op
 static const option_group motion_group = {"Motion", motion_options, COUNT(motion_options)};
 const option_group scene_group = {"Scene", scene_options, COUNT(scene_options)};
 
-/* Of facet view: --size, --background, --background-blur; not --turntable; --animation, --time. */
+/* Of facet view: --size, --background, --background-blur; not --turntable and what is after it; --animation, --time. */
 const option_group window_group = {"Window", image_options + 3, 3};
-const option_group window_camera_group = {"Camera", camera_options, COUNT(camera_options) - 1};
+const option_group window_camera_group = {"Camera", camera_options, COUNT(camera_options) - 3};
 const option_group window_motion_group = {"Motion", motion_options, 2};
 
 const verb render_verb = {

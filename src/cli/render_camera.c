@@ -71,6 +71,8 @@ static facet_result camera_from_eye(const facet_scene *scene, const facet_pose_d
         camera->ortho_height = 2.0f * far_away * tanf(0.5f * camera->fov_y_rad);
         camera->fov_y_rad = 0.0f;
     }
+    for (int i = 0; i < 3; i++)
+        camera->up[i] = options->up[i];
     if (options->orbit.is_z_up) {
         bool looks_along_z = fabsf(camera->target[2] - camera->eye[2]) > 0.99999f * far_away;
         camera->up[looks_along_z ? 1 : 2] = 1.0f;

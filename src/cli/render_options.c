@@ -4,6 +4,7 @@
 #include "cli/legacy_options.h"
 
 #include "cli/aov_options.h"
+#include "cli/camera_matrix.h"
 #include "cli/color.h"
 #include "cli/failure.h"
 #include "cli/orbit.h"
@@ -106,7 +107,7 @@ static facet_result read_camera(const command_line *c, render_options *out, face
     out->turntable = (uint32_t)option_number(c, OPT_TURNTABLE, 0.0);
     out->has_eye = is_given(c, OPT_EYE);
     if (!out->has_eye)
-        return FACET_OK;
+        return camera_matrix_read(c, out, error);
     if (!value_numbers(option_text(c, OPT_EYE, ""), 3, out->eye))
         return option_fail(c, OPT_EYE, "X,Y,Z in metres", error);
     if (is_given(c, OPT_ORBIT) || out->turntable)

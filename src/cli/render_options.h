@@ -29,6 +29,7 @@ typedef struct render_options {
     double target[3]; /* target and eye are in the file's coordinates: facet_scene_get_origin() */
     bool has_eye;
     double eye[3];
+    float up[3];        /* of a camera given as a matrix; {0}: by orbit.is_z_up */
     uint32_t turntable; /* frames; 0: none */
     float aperture;     /* diameter of the lens: m, or a share of the focus distance; 0: a pinhole */
     bool aperture_is_relative;

@@ -51,7 +51,7 @@ bool value_number(const char *text, double *number)
 
 bool value_numbers(const char *text, size_t count, double *numbers)
 {
-    double parsed[8];
+    double parsed[16];
     for (size_t i = 0; i < count; i++) {
         if (i > 0) {
             text = skip_blanks(text);

@@ -11,7 +11,7 @@
 bool scan_number(const char **text, double *number);
 
 bool value_number(const char *text, double *number);
-/* count numbers separated by commas or blanks. */
+/* count numbers, at most 16, separated by commas or blanks. */
 bool value_numbers(const char *text, size_t count, double *numbers);
 /* "640x480", "640,480", "512" (a square); 1 to 65536. */
 bool value_size(const char *text, uint32_t *width, uint32_t *height);

@@ -111,6 +111,32 @@ only tri.gltf turn_01.png turn_02.png turn_03.png t_01.png t_02.png
 expect 0 render $small --turntable 3 -o '{stem}_%d.png' --orbit 0,75,4m --target 0,0,0
 rm ./*.png
 
+# A camera as a matrix is the same camera.
+write_triangle matrix.gltf
+expect 0 render $small matrix.gltf --camera Hero -o hero.png
+for words in "--camera-matrix 1,0,0,0,0,1,0,0,0,0,1,0,0.3,0.3,3,1" "--view-matrix 1,0,0,0,0,1,0,0,0,0,1,0,-0.3,-0.3,-3,1" \
+    "--camera-matrix [2,0,0,0,0,2,0,0,0,0,2,0,0.3,0.3,3,1]"; do
+    expect 0 render $small matrix.gltf $words --fov 0.6rad -o matrix.png
+    cmp -s hero.png matrix.png || failed "another image: $words"
+done
+# rolled by 90 degrees and turned: a matrix and its inverse
+expect 0 render $small matrix.gltf --camera-matrix 0,1,0,0,-1,0,0,0,0,0,1,0,0.3,0.2,4,1 -o rolled.png
+expect 0 render $small matrix.gltf --view-matrix 0,-1,0,0,1,0,0,0,0,0,1,0,-0.2,0.3,-4,1 -o rolled_view.png
+cmp -s rolled.png rolled_view.png || failed "a view matrix is not the inverse"
+cmp -s hero.png rolled.png && failed "a rolled camera shows the same"
+expect 2 render matrix.gltf --camera-matrix 1,2,3 -o x.png
+says "16 numbers, column by column"
+expect 2 render matrix.gltf --camera-matrix 1,0,0,0.3,0,1,0,0.3,0,0,1,3,0,0,0,1 -o x.png
+says "written column by column"
+expect 2 render matrix.gltf --camera-matrix 1,0,0,0,0,1,0,0,0,0,-1,0,0,0,3,1 -o x.png
+says "it mirrors"
+expect 2 render matrix.gltf --camera-matrix 1,0,0,0,1,1,0,0,0,0,1,0,0,0,3,1 -o x.png
+says "not at right angles"
+expect 2 render matrix.gltf --view-matrix 0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1 -o x.png
+expect 2 render matrix.gltf --camera-matrix 1,0,0,0,0,1,0,0,0,0,1,0,0,0,3,1 --orbit 30 -o x.png
+says "does not go together with --orbit"
+rm -f hero.png matrix.png matrix.gltf rolled.png rolled_view.png
+
 # --no-clobber and --config
 echo keep >a.png
 expect 0 render $small -o a.png --no-clobber
