@@ -13,7 +13,7 @@
 
 enum { MAX_WORDS = 64 };
 
-static facet_result read_values(const command_line *c, facet_error *error)
+static facet_result read_values(command_line *c, facet_error *error)
 {
     const char *name = c->verb->name;
     if (strcmp(name, "render") == 0) {
