@@ -6,8 +6,9 @@
 
 #include "io/gltf/gltf_reader.h"
 
-/* Copies of copies can be exponentially many. */
-enum { MAX_COPIES = 1 << 16 };
+/* Copies of copies can be exponentially many. The first way to a node is the node itself, and each other one a copy: WAYS_ENOUGH
+ * ways are too many copies already. */
+enum { MAX_COPIES = 1 << 16, WAYS_ENOUGH = MAX_COPIES + 2 };
 
 void read_children(reader *r, const json_place *at, uint32_t index, uint32_t node_count)
 {
@@ -35,7 +36,7 @@ void read_children(reader *r, const json_place *at, uint32_t index, uint32_t nod
 
 typedef struct way_count {
     uint32_t *waiting, *queue; /* parents that were not looked at; nodes without such */
-    uint64_t *ways;            /* from roots to a node; more than MAX_COPIES count as MAX_COPIES + 1 */
+    uint64_t *ways;            /* from roots to a node; more than WAYS_ENOUGH count as WAYS_ENOUGH */
 } way_count;
 
 /* Looks at parents before children. Returns how many nodes that reached: all, where there are no loops. */
@@ -57,7 +58,7 @@ static uint32_t follow_ways(const scene_node *nodes, uint32_t count, way_count *
         for (uint32_t k = 0; k < node->child_count; k++) {
             uint32_t child = node->children[k];
             uint64_t sum = w->ways[child] + ways;
-            w->ways[child] = sum > MAX_COPIES ? MAX_COPIES + 1 : sum;
+            w->ways[child] = sum < WAYS_ENOUGH ? sum : WAYS_ENOUGH;
             if (--w->waiting[child] == 0)
                 w->queue[queued++] = child;
         }

@@ -2,6 +2,7 @@
 #include "io/gltf/gltf_test_support.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static scene_pose pose_of(const facet_scene *scene, uint32_t index)
@@ -110,6 +111,23 @@ static void copies_of_copies_have_a_limit(void **state)
     assert_refused(body, NULL, FACET_ERROR_LIMIT, "with several parents make more than 65536 copies");
     assert_refused("'nodes':[{'children':[1,2]},{'children':[3]},{'children':[3]},{'children':[1]}]", NULL,
                    FACET_ERROR_INVALID, "is its own ancestor");
+}
+
+/* One node has more parents than there may be copies, and nothing else is copied: counting stops at the limit, where the
+ * copies do not. */
+static void one_node_has_a_limit_of_parents(void **state)
+{
+    static const char parent[] = ",{'children':[0]}";
+    enum { PARENTS = 70000 };
+    (void)state;
+    char *body = malloc(16 + PARENTS * (sizeof parent - 1));
+    assert_non_null(body);
+    size_t length = (size_t)sprintf(body, "'nodes':[{}");
+    for (int i = 0; i < PARENTS; i++, length += sizeof parent - 1)
+        memcpy(body + length, parent, sizeof parent - 1);
+    strcpy(body + length, "]");
+    assert_refused(body, NULL, FACET_ERROR_LIMIT, "with several parents make more than 65536 copies");
+    free(body);
 }
 
 /* Of a file that says where it is in the world. */
@@ -283,6 +301,7 @@ int main(void)
         cmocka_unit_test(broken_hierarchies_are_refused),
         cmocka_unit_test(shared_nodes_are_copied),
         cmocka_unit_test(copies_of_copies_have_a_limit),
+        cmocka_unit_test(one_node_has_a_limit_of_parents),
         cmocka_unit_test(a_center_moves_the_roots),
         cmocka_unit_test(scenes_and_hidden_nodes),
         cmocka_unit_test(cameras_arrive),

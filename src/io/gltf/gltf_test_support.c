@@ -105,9 +105,12 @@ static void refuse(const char *body, const test_bin *bin, facet_result result, c
 
 void assert_refused(const char *part, const test_bin *bin, facet_result result, const char *text)
 {
-    static char body[1 << 19];
-    snprintf(body, sizeof body, "%s%s", part, use_of(part));
+    size_t size = strlen(part) + strlen(use_of(part)) + 1;
+    char *body = malloc(size);
+    assert_non_null(body);
+    snprintf(body, size, "%s%s", part, use_of(part));
     refuse(body, bin, result, text);
+    free(body);
 }
 
 bool has_warning(const facet_scene *scene, const char *text)
