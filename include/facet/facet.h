@@ -775,6 +775,8 @@ typedef struct facet_render_desc {
     bool whole_textures;
     facet_isa isa;
     float exposure_ev; /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
+    /* facet_render() and facet_renderer_render(): exposure_ev is added to what facet_renderer_meter() reads of this image */
+    bool meters_exposure;
     facet_tonemap tonemap;
     uint32_t aovs; /* facet_aov or-ed */
     /* 0: none; past it FACET_ERROR_LIMIT. FACET_INTEGRATOR_PATH gives what it has, unless that is not a sample for
@@ -798,6 +800,16 @@ FACET_API facet_result facet_renderer_create(const facet_scene *scene,
 FACET_API facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_desc *desc,
                                              facet_image **image, facet_error *error);
 FACET_API void facet_renderer_destroy(facet_renderer *renderer); /* NULL is allowed */
+
+/* What a camera's light meter reads of that image, whatever integrator desc has: EV at ISO 100 that brings the log-average of the
+ * luminance of what is seen (the model, and the environment where it is the background) to 0.22 of white, as facet_sea_meter() does;
+ * facet_exposure_from_ev100() makes an exposure_ev of it. A small preview is metered, without shadows and light between surfaces,
+ * so that all integrators have the same exposure. Sequences are best metered once, as their frames would flicker. Where nothing is
+ * seen, or all is black, the exposure is 0 and desc's log is told. Fails as facet_render(); FACET_ERROR_ARGUMENT for
+ * FACET_SHADING_OGL1, whose numbers are a display's. */
+FACET_API facet_result facet_renderer_meter(facet_renderer *renderer,
+                                            const facet_render_desc *desc /* NULL: {0} */, double *ev100,
+                                            facet_error *error);
 
 /* Seconds that the stages of the facet_render() that made an image took, and the work done. */
 typedef struct facet_render_stats {

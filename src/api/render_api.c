@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "api/gl_library.h"
 #include "api/render_check.h"
+#include "film/meter.h"
 #include "cpu/preview.h"
 #include "film/matte.h"
 #include "path/path_render.h"
@@ -228,6 +229,69 @@ static facet_result render_path(facet_renderer *renderer, const facet_render_des
     return path_render_prepared(&renderer->prepared, &with_film, &image->film, &image->stats, error);
 }
 
+/* ---- the meter ---- */
+
+enum { METER_SIZE = 128 }; /* pixels along the longer edge */
+
+/* The same view, small, by the preview. Warnings are those of the image itself. */
+static facet_render_desc meter_desc(const facet_render_desc *desc)
+{
+    facet_render_desc d = *desc;
+    double longer = d.width > d.height ? d.width : d.height;
+    d.width = (uint32_t)ceil(METER_SIZE * d.width / longer);
+    d.height = (uint32_t)ceil(METER_SIZE * d.height / longer);
+    d.crop[0] = d.crop[1] = 0;
+    d.crop[2] = d.width;
+    d.crop[3] = d.height;
+    d.samples = 1;
+    d.quality = FACET_QUALITY_DRAFT;
+    d.integrator = FACET_INTEGRATOR_PREVIEW;
+    d.energy = FACET_ENERGY_GLTF;
+    d.ground = FACET_GROUND_NONE;
+    d.exposure_ev = 0.0f;
+    d.aovs = 0;
+    d.log = (facet_log){0};
+    d.progress = (facet_progress){0};
+    return d;
+}
+
+static facet_result meter(facet_renderer *renderer, const facet_render_desc *resolved, double *ev100,
+                          facet_error *error)
+{
+    prepared_scene *prepared = &renderer->prepared;
+    facet_render_desc desc = meter_desc(resolved);
+    facet_camera camera;
+    facet_render_stats stats;
+    film metered = {0};
+    facet_result result = FACET_OK;
+    *ev100 = meter_exposure_ev(0.0); /* an exposure of 0 */
+    if (desc.shading == FACET_SHADING_OGL1)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "exposure: the numbers of OpenGL 1 are a display's, and no light that can be metered");
+    if (!desc.camera) { /* that of the image, to the last bit of its proportions */
+        facet_render_desc whole = *resolved;
+        whole.log = desc.log;
+        result = fit_camera(prepared, &whole, &camera, error);
+        desc.camera = &camera;
+    }
+    if (result == FACET_OK)
+        result = film_create(&desc.allocator, desc.width, desc.height, 0, &metered, error);
+    if (result == FACET_OK)
+        result = preview_render_prepared(prepared, &desc, &metered, &stats, error);
+    if (result == FACET_OK) {
+        double average = film_meter(&metered);
+        if (average > 0.0)
+            *ev100 = meter_ev100(average);
+        else
+            log_warning(&resolved->log, "%s: nothing is seen that could be metered: the exposure is 0",
+                        prepared->scene->source);
+    }
+    film_destroy(&metered);
+    return result;
+}
+
+/* ---- one image ---- */
+
 static facet_result render(facet_renderer *renderer, const facet_render_desc *resolved, facet_image *image,
                            facet_error *error)
 {
@@ -240,6 +304,13 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
         if (result != FACET_OK)
             return result;
         desc.camera = &camera;
+    }
+    if (desc.meters_exposure && prepared->scene) {
+        double ev100;
+        result = meter(renderer, &desc, &ev100, error);
+        if (result != FACET_OK)
+            return result;
+        desc.exposure_ev += (float)meter_exposure_ev(ev100);
     }
     result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &image->film, error);
     if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_GL)
@@ -331,6 +402,15 @@ facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_
     facet_render_desc resolved;
     facet_result result = render_desc_resolve(desc ? desc : &default_desc, &resolved, error);
     return result == FACET_OK ? render_image(renderer, &resolved, image, error) : result;
+}
+
+facet_result facet_renderer_meter(facet_renderer *renderer, const facet_render_desc *desc, double *ev100,
+                                  facet_error *error)
+{
+    *ev100 = 0.0;
+    facet_render_desc resolved;
+    facet_result result = render_desc_resolve(desc ? desc : &default_desc, &resolved, error);
+    return result == FACET_OK ? meter(renderer, &resolved, ev100, error) : result;
 }
 
 void facet_renderer_destroy(facet_renderer *renderer)

@@ -71,6 +71,59 @@ static void a_turntable_of_the_builtin_scene(void **state)
     facet_scene_destroy(scene);
 }
 
+static void count_warning(void *user, facet_log_level level, const char *text)
+{
+    (void)text;
+    *(int *)user += level == FACET_LOG_WARNING;
+}
+
+/* 16 times the light is 4 stops; meters_exposure is the exposure that the meter reads; OpenGL 1 has no light. */
+static void the_meter_follows_the_light(void **state)
+{
+    (void)state;
+    facet_scene *scene;
+    facet_environment *studio;
+    facet_renderer *renderer;
+    facet_image *images[2];
+    double read[3];
+    int warnings = 0;
+    assert_int_equal(facet_scene_create_builtin(NULL, &scene, NULL), FACET_OK);
+    assert_int_equal(facet_environment_create_studio(NULL, &studio, NULL), FACET_OK);
+    assert_int_equal(facet_renderer_create(scene, NULL, &renderer, NULL), FACET_OK);
+    facet_render_desc desc = {.width = 96,
+                              .height = 64,
+                              .environment = studio,
+                              .tonemap = FACET_TONEMAP_NEUTRAL,
+                              .log = {&warnings, count_warning}};
+    assert_int_equal(facet_renderer_meter(renderer, &desc, &read[0], NULL), FACET_OK);
+    desc.environment_ev = 4.0f;
+    desc.integrator = FACET_INTEGRATOR_PATH;
+    desc.samples = 2;
+    assert_int_equal(facet_renderer_meter(renderer, &desc, &read[1], NULL), FACET_OK);
+    assert_true(read[1] - read[0] > 3.9 && read[1] - read[0] < 4.0); /* one of the balls glows */
+    desc.meters_exposure = true;
+    assert_int_equal(facet_renderer_render(renderer, &desc, &images[0], NULL), FACET_OK);
+    assert_int_equal(warnings, 0);
+    desc.meters_exposure = false;
+    desc.exposure_ev = facet_exposure_from_ev100(read[1]);
+    assert_int_equal(facet_render(scene, &desc, &images[1], NULL), FACET_OK);
+    assert_same_image(images[0], images[1]);
+    facet_image_destroy(images[0]);
+    facet_image_destroy(images[1]);
+    desc.exposure_ev = 0.0f; /* 3 stops beyond white: one warning for all images of a renderer */
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(facet_renderer_render(renderer, &desc, &images[0], NULL), FACET_OK);
+        facet_image_destroy(images[0]);
+    }
+    assert_int_equal(warnings, 1);
+    desc.shading = FACET_SHADING_OGL1;
+    desc.integrator = FACET_INTEGRATOR_PREVIEW;
+    assert_int_equal(facet_renderer_meter(renderer, &desc, &read[2], NULL), FACET_ERROR_ARGUMENT);
+    facet_renderer_destroy(renderer);
+    facet_environment_destroy(studio);
+    facet_scene_destroy(scene);
+}
+
 /* Frames of real models: skins, morph targets, rigid parts, materials. */
 static void animations_of_models(void **state)
 {
@@ -212,6 +265,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_turntable_of_the_builtin_scene),
+        cmocka_unit_test(the_meter_follows_the_light),
         cmocka_unit_test(animations_of_models),
         cmocka_unit_test(a_renderer_fits_into_a_budget_or_fails),
         cmocka_unit_test(after_a_cancelled_picture_there_are_others),

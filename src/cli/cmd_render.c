@@ -86,6 +86,7 @@ typedef struct model_run {
     video *video; /* NULL: files */
     double load_s;
     bool has_lost_checkpoint;
+    bool is_framed; /* a camera was found, and what framing had to say was said */
 } model_run;
 
 static facet_result write_picture(model_run *m, const facet_image *image, const char *name,
@@ -114,7 +115,8 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
     bool is_sequence = s->frames.frame_count > 1;
     const render_view view = {
         .pose = &s->pose, .turn = frame->turn, .turns = s->turns > 0, .moves = s->moves};
-    m->options.orbit.log = messages_log(&m->run->messages);
+    m->options.orbit.log = m->is_framed ? (facet_log){0} : messages_log(&m->run->messages);
+    m->is_framed = true;
     interrupt_begin(input_name(m->model->path), "finding a camera for it", m->run->progress == PROGRESS_BAR);
     facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
     interrupt_end();
@@ -212,6 +214,7 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     facet_image_view view = facet_image_get_layer(image, 0);
     report->width = view.width;
     report->height = view.height;
+    report->exposure_ev = (double)o->desc.exposure_ev;
     report->samples = o->desc.samples;
     report->stats = facet_image_get_render_stats(image);
     report->save_s = interrupt_clock() - rendered;
@@ -304,6 +307,32 @@ static facet_result open_video(model_run *m, facet_error *error)
     return result == FACET_OK ? video_open(name, m->options.video, m->options.fps, &m->video, error) : result;
 }
 
+/* --exposure auto: one for all frames, so that they do not flicker, by the first one of the whole sequence, so that it does not
+ * depend on which of them are drawn. */
+static facet_result meter(model_run *m, facet_error *error)
+{
+    render_run *run = m->run;
+    const sequence_frame first = sequence_first(&m->sequence);
+    facet_camera camera;
+    double ev100 = 0.0;
+    facet_result result = frame_camera(m, 0, &first, &camera, error);
+    if (result != FACET_OK)
+        return result;
+    facet_render_desc desc = m->options.desc;
+    desc.allocator = run->allocator;
+    desc.log = messages_log(&run->messages);
+    desc.pose = m->sequence.pose;
+    desc.camera = &camera;
+    desc.environment = m->environment;
+    interrupt_begin(input_name(m->model->path), "metering its light", run->progress == PROGRESS_BAR);
+    result = facet_renderer_meter(m->renderer, &desc, &ev100, error);
+    interrupt_end();
+    m->options.desc.exposure_ev += facet_exposure_from_ev100(ev100);
+    message_at(&run->messages, VERBOSITY_DETAILS, "%s: metered: --exposure %+.2f", input_name(m->model->path),
+               (double)m->options.desc.exposure_ev);
+    return result;
+}
+
 /* All pictures of a model that is loaded. */
 static facet_result render_scene(render_run *run, const model_name *model, facet_scene *scene, double start,
                                  facet_error *error)
@@ -320,6 +349,8 @@ static facet_result render_scene(render_run *run, const model_name *model, facet
     m.load_s = interrupt_clock() - start;
     if (result == FACET_OK)
         result = facet_renderer_create(scene, &run->allocator, &m.renderer, error);
+    if (result == FACET_OK && m.options.meters_exposure)
+        result = meter(&m, error);
     if (result == FACET_OK && m.options.video)
         result = open_video(&m, error);
     if (result == FACET_OK)

@@ -155,6 +155,10 @@ static facet_result begin(view_run_state *run, command_line *c, config *storage,
         result = command_line_set(c, option_find_id(c->verb, OPT_RENDERER), "gl", SOURCE_PRESET, error);
     if (result == FACET_OK)
         result = render_options_read(c, &run->options, error);
+    if (result == FACET_OK && run->options.meters_exposure)
+        result =
+            option_fail(c, OPT_EXPOSURE,
+                        "stops or a factor; the window has no meter, + and - change its exposure", error);
     if (result == FACET_OK && run->options.desc.integrator == FACET_INTEGRATOR_PREVIEW)
         result = option_fail(c, OPT_RENDERER, "gl or path; facet render has the preview", error);
     if (result == FACET_OK)

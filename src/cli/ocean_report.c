@@ -86,6 +86,7 @@ json_t *ocean_report_picture_json(const ocean_run *run, const picture_report *p)
     if (!all || run->options.sweep) /* of whose pictures each has its own */
         return all;
     json_object_set_new(all, "ev100", json_real(run->ev100));
+    json_object_set_new(all, "exposure", json_real((double)facet_exposure_from_ev100(run->ev100)));
     json_object_set_new(all, "time_s", json_real(run->time_s));
     json_object_set_new(all, "camera",
                         json_pack("{s:o, s:o, s:f}", "eye", numbers_json(camera.eye, 3), "target",

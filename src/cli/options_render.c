@@ -208,7 +208,11 @@ static const option color_options[] = {
      .kind = OPTION_TEXT,
      .argument = "STOPS",
      .default_text = "0",
-     .help = "+1 is twice as bright; 2x is the factor 2, which exposure=\"2\" of model-viewer means"},
+     .help = "+1 is twice as bright; 2x is the factor 2, which exposure=\"2\" of model-viewer means; auto "
+             "meters what is "
+             "seen, as a camera does, with the same result for every renderer and one for all frames; auto+1 "
+             "is a stop "
+             "brighter"},
     {.id = OPT_TONE_MAPPING,
      .name = "tone-mapping",
      .kind = OPTION_CHOICE,

@@ -10,7 +10,8 @@
 #include "facet/facet.h"
 
 typedef struct render_options {
-    char note[256]; /* how an option was read that might mean something else; "": nothing to say */
+    bool meters_exposure; /* --exposure auto: desc.exposure_ev is added to what is metered */
+    char note[256];       /* how an option was read that might mean something else; "": nothing to say */
     /* picture */
     const char *output;   /* pattern; NULL: named after the model */
     const char *id_layer; /* IDs that are written in false color in place of the image; NULL: none */

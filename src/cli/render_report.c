@@ -90,7 +90,7 @@ json_t *report_picture_json(const picture_report *p)
         return json_pack("{s:o, s:o, s:b}", "model", report_string_json(p->model), "output",
                          report_string_json(p->output), "kept", 1);
     return json_pack("{s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}, "
-                     "s:I, s:I, s:I, s:I, s:f, s:b}",
+                     "s:I, s:I, s:I, s:I, s:f, s:b, s:f}",
                      "model", report_string_json(p->model), "output", report_string_json(p->output), "width",
                      (json_int_t)p->width, "height", (json_int_t)p->height, "samples", (json_int_t)p->samples,
                      "rays", (json_int_t)s->rays, "shades", (json_int_t)s->shades, "seconds", "total",
@@ -99,7 +99,7 @@ json_t *report_picture_json(const picture_report *p)
                      "save", p->save_s, "decoded_texels", (json_int_t)s->decoded_texels, "threads",
                      (json_int_t)s->thread_count, "light_samples", (json_int_t)s->samples, "dropped_samples",
                      (json_int_t)s->dropped_samples, "samples_taken", samples_taken(p), "partial",
-                     (int)s->is_partial);
+                     (int)s->is_partial, "exposure", p->exposure_ev);
 }
 
 json_t *report_warnings_json(const messages *m)

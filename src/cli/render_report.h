@@ -11,6 +11,7 @@
 typedef struct picture_report {
     const char *model, *output;
     uint32_t width, height, samples;
+    double exposure_ev;       /* stops */
     bool is_kept;             /* --no-clobber: it was there */
     facet_render_stats stats; /* of facet_render() */
     double load_s, save_s, total_s;

@@ -105,9 +105,9 @@ void sequence_destroy(sequence *s)
     *s = (sequence){0};
 }
 
-sequence_frame sequence_at(sequence *s, uint32_t index)
+static sequence_frame frame_of(sequence *s, uint32_t number)
 {
-    sequence_frame frame = {.number = frame_list_at(&s->frames, index)};
+    sequence_frame frame = {.number = number};
     uint32_t passed = frame.number - 1;
     if (s->moves) {
         double time = passed * s->frame_s;
@@ -119,4 +119,14 @@ sequence_frame sequence_at(sequence *s, uint32_t index)
     if (s->turns)
         frame.turn = (double)(passed % s->turns) / s->turns;
     return frame;
+}
+
+sequence_frame sequence_at(sequence *s, uint32_t index)
+{
+    return frame_of(s, frame_list_at(&s->frames, index));
+}
+
+sequence_frame sequence_first(sequence *s)
+{
+    return frame_of(s, 1);
 }

@@ -28,5 +28,7 @@ facet_result sequence_create(facet_scene *scene, const char *name, const render_
 void sequence_destroy(sequence *s); /* {0} is allowed */
 /* Picture number index; sets s->pose. */
 sequence_frame sequence_at(sequence *s, uint32_t index);
+/* Frame number 1, whichever are drawn. */
+sequence_frame sequence_first(sequence *s);
 
 #endif
