@@ -4,8 +4,8 @@
 
 #include "cli/failure.h"
 #include "cli/interrupt.h"
+#include "cli/limits.h"
 #include "cli/suggest.h"
-#include "cli/value.h"
 
 #include <errno.h>
 #include <jansson.h>
@@ -146,12 +146,12 @@ facet_result config_apply(command_line *c, config *storage, facet_error *error)
         return FACET_OK;
     char *text = NULL;
     size_t size = 0;
-    double seconds;
-    if (is_given(c, OPT_TIME_LIMIT) && value_seconds(option_text(c, OPT_TIME_LIMIT, ""), &seconds))
-        interrupt_set_deadline(seconds);
-    interrupt_begin_reading(path);
-    facet_result read = read_config(path, &text, &size, error);
-    interrupt_end();
+    facet_result read = limits_start_clock(c, error);
+    if (read == FACET_OK) {
+        interrupt_begin_reading(path);
+        read = read_config(path, &text, &size, error);
+        interrupt_end();
+    }
     if (read != FACET_OK)
         return read;
     json_error_t problem;

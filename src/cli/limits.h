@@ -12,5 +12,8 @@ typedef struct limits {
 
 /* Reads --threads, --max-memory, --max-texture, --time-limit. Fails with FACET_ERROR_ARGUMENT. */
 facet_result limits_read(const command_line *c, limits *out, facet_error *error);
+/* Starts the clock of --time-limit, where it is given, for what is read before the other options: configurations and
+ * lists of models may be pipes that nothing is written to. Fails with FACET_ERROR_ARGUMENT. */
+facet_result limits_start_clock(const command_line *c, facet_error *error);
 
 #endif

@@ -12,6 +12,7 @@
 #include "cli/failure.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
+#include "cli/limits.h"
 
 enum { MAX_DEPTH = 64, MAX_LIST_BYTES = 64 << 20 };
 
@@ -253,7 +254,7 @@ static facet_result replace_arguments(command_line *c, size_t argument_count, co
 facet_result model_list_create(command_line *c, size_t argument_count, model_list *out, facet_error *error)
 {
     *out = (model_list){0};
-    facet_result result = FACET_OK;
+    facet_result result = limits_start_clock(c, error);
     interrupt_begin("facet", "looking for models", false);
     for (size_t i = 0; i < argument_count && result == FACET_OK; i++)
         result = add_argument(c, c->arguments[i], out, error);

@@ -138,6 +138,14 @@ code=0
 wait $process || code=$?
 [ $code = 75 ] || failed "exit code $code, not 75, after SIGTERM while waiting for a reader"
 rm pipe.png
+# nor who writes a list of models or a configuration
+mkfifo pipe
+for verb in "render $small -o {stem}.png" 'convert -o {stem}.glb' inspect; do
+    within 10 7 $verb --files-from pipe --time-limit 300ms
+    says "pipe: the time limit"
+done
+within 10 7 render $small --config pipe --time-limit 300ms
+rm pipe
 
 # what stands in the cache of lights in the place of an entry is neither followed nor waited for
 printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n' >sky.hdr
