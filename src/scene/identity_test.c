@@ -81,6 +81,24 @@ static void manifests_have_every_name_once(void **state)
     scene_destroy(scene);
 }
 
+/* Of instances that a few bytes of a file stand for, and that no image shows. */
+static void manifests_have_an_end(void **state)
+{
+    (void)state;
+    facet_scene *scene = make_scene();
+    const scene_instancing many = {.count = UINT32_MAX};
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        scene->nodes[i].instancing = scene->nodes[i].mesh == SCENE_NONE ? NULL : &many;
+    text manifest = {0};
+    assert_int_equal(scene_identity_manifest(scene, SCENE_IDENTITY_INSTANCE, &manifest, NULL), FACET_OK);
+    size_t names = 0;
+    for (const char *c = manifest.data; *c; c++)
+        names += *c == ':';
+    assert_int_equal(names, SCENE_IDENTITY_MOST_NAMES);
+    text_destroy(&manifest);
+    scene_destroy(scene);
+}
+
 /* The bits of an ID are a float that every program compares and copies without change. */
 static void ids_are_ordinary_floats(void **state)
 {
@@ -126,6 +144,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_do_not_depend_on_what_is_drawn),
         cmocka_unit_test(manifests_have_every_name_once),
+        cmocka_unit_test(manifests_have_an_end),
         cmocka_unit_test(ids_are_ordinary_floats),
         cmocka_unit_test(every_refused_block_is_an_error),
     };
