@@ -185,7 +185,8 @@ int main(int argc, char **argv)
         look_at(&s, (float[3]){-1, -1, -1}, (float[3]){1, 1, 1});
     }
     double start = clock_seconds();
-    if (embree_scene_create(&s.set, &allocator, UINT64_MAX, 2, &s.embree, &error) != FACET_OK)
+    if (embree_scene_create(&s.set, &allocator, UINT64_MAX, 2, FACET_ISA_NATIVE, &s.embree, &error) !=
+        FACET_OK)
         die(&error);
     double build_s = clock_seconds() - start;
 
