@@ -256,6 +256,7 @@ static facet_result read_text(stl_reader *r, const void *bytes, size_t size)
             result = r->soup.part_count || add_part(r, "", 0) ? read_vertex(r, &w, bytes, &in_loop)
                                                               : fail_triangles(r);
         } else if (is_word(word, length, "solid")) {
+            end_loop(r, &in_loop, &short_count); /* a loop that is cut off belongs to the solid before */
             const char *end = line_end(&w);
             while (w.at < end && is_space(*w.at))
                 w.at++;

@@ -133,6 +133,20 @@ static void solids_are_objects(void **state)
     scene_destroy(scene);
 }
 
+/* The triangles behind it are not those of the solid before. */
+static void a_solid_ends_a_loop(void **state)
+{
+    (void)state;
+    static const char bytes[] = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                                "solid b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex 1 0 1\n"
+                                "vertex 0 1 1\nendloop\nendfacet\nendsolid b\n";
+    facet_scene *scene = load(bytes, sizeof bytes - 1, NULL);
+    assert_int_equal(scene->mesh_count, 1);
+    assert_string_equal(scene->meshes[0].name, "b");
+    assert_true(obj_has_warning(scene, "1 facets have fewer than 3 vertices"));
+    scene_destroy(scene);
+}
+
 /* Corners that are one as floats stay apart where the text says so, relative to the place of the node. */
 static void far_places_are_exact(void **state)
 {
@@ -186,9 +200,9 @@ static void damage_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_forms_are_read), cmocka_unit_test(other_files_are_not),
-        cmocka_unit_test(solids_are_objects),  cmocka_unit_test(far_places_are_exact),
-        cmocka_unit_test(damage_is_told),
+        cmocka_unit_test(both_forms_are_read),  cmocka_unit_test(other_files_are_not),
+        cmocka_unit_test(solids_are_objects),   cmocka_unit_test(a_solid_ends_a_loop),
+        cmocka_unit_test(far_places_are_exact), cmocka_unit_test(damage_is_told),
     };
     return cmocka_run_group_tests_name("stl", tests, NULL, NULL);
 }
