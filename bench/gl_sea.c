@@ -16,11 +16,11 @@
 
 #include "base/clock.h"
 #include "film/film.h"
+#include "film/meter.h"
 #include "gl/gl_sea.h"
 #include "median.h"
 #include "ocean/sea.h"
 #include "ocean/sea_preset.h"
-#include "water/water_exposure.h"
 #include "water/water_picture.h"
 
 enum { MOST_FRAMES = 1000, UNTIMED_FRAMES = 2, LOOKS = 2 };
@@ -133,7 +133,7 @@ int main(int argc, char **argv)
                                       .samples = 1,
                                       .camera = &camera,
                                       .crop = {0, 0, options.width, options.height},
-                                      .exposure_ev = (float)water_exposure_ev(13.3),
+                                      .exposure_ev = (float)meter_exposure_ev(13.3),
                                       .integrator = FACET_INTEGRATOR_GL,
                                       .thread_count = facet_thread_count()};
     film target = {.width = 0};
