@@ -23,22 +23,24 @@ void texture_tables_fill(texture_tables *tables)
         tables->color_from_16[v] = srgb_encode_u8(&srgb, (float)v / 65535.0f);
 }
 
-/* Makes a 16-bit image linear, in place. */
-static facet_result decode_16(image *i, const facet_allocator *allocator, facet_error *error)
+/* Linear values of 16-bit sRGB codes; NULL: out of memory. */
+static uint16_t *make_linear(const facet_allocator *allocator, facet_error *error)
 {
     uint16_t *linear = mem_alloc(allocator, 65536, sizeof *linear);
     if (!linear)
-        return fail_memory(error, "table of 16-bit colors", 65536 * sizeof *linear);
-    for (uint32_t v = 0; v < 65536; v++)
+        fail_memory(error, "table of 16-bit colors", 65536 * sizeof *linear);
+    for (uint32_t v = 0; linear && v < 65536; v++)
         linear[v] = (uint16_t)(srgb_decode(v / 65535.0) * 65535.0 + 0.5);
-    size_t texel_count = (size_t)i->width * i->height;
-    uint32_t color_count = i->channel_count < 3 ? 1 : 3;
-    uint16_t *texel = i->pixels;
-    for (size_t t = 0; t < texel_count; t++, texel += i->channel_count)
+    return linear;
+}
+
+/* Makes the colors of 16-bit texels linear, in place. */
+static void decode_16(uint16_t *texel, size_t texel_count, uint32_t channel_count, const uint16_t *linear)
+{
+    uint32_t color_count = channel_count < 3 ? 1 : 3;
+    for (size_t t = 0; t < texel_count; t++, texel += channel_count)
         for (uint32_t c = 0; c < color_count; c++)
             texel[c] = linear[texel[c]];
-    mem_free(linear);
-    return FACET_OK;
 }
 
 /* ---- the pyramid ---- */
@@ -91,16 +93,23 @@ typedef struct growing_level {
 } growing_level;
 
 /* Levels are made row by row, all of them at once: as soon as a row has all that it covers of the level above, it
- * is there. So nothing but the result leaves the cache. */
-typedef struct growth {
-    const texture_pyramid *pyramid;
-    const image *source;
+ * is there. So nothing but the result leaves the cache, and the source need not be held whole. */
+struct texture_growth {
+    texture_pyramid *pyramid;
     uint32_t source_level;
     bool as_color;
     const texture_tables *tables;
-    uint16_t *room; /* a row of the source */
+    uint16_t *work;                /* block of growth_room() values, shared out to room and levels */
+    uint16_t *room;                /* a row of the source */
+    const unsigned char *source;   /* row y of the source is row y % source_rows here */
+    size_t source_row_size;        /* bytes */
+    uint32_t source_rows;          /* all, or WINDOW_ROWS while rows are added */
+    unsigned char *window;         /* block of the latest rows that were added */
+    uint16_t *linear;              /* block: values of their codes; NULL: the codes stay */
+    uint32_t added_rows, next_row; /* next_row: of the level below the source, which is not made yet */
     growing_level levels[TEXTURE_MAX_LEVELS];
-} growth;
+};
+typedef struct texture_growth growth;
 
 /* Values of a row of a level, with what texture_reduce_rows() writes behind it. */
 static size_t row_room(const texture_pyramid *p, uint32_t level)
@@ -157,59 +166,75 @@ static void add_row(growth *g, uint32_t number, uint32_t y)
 static void make_first_row(growth *g, uint32_t y)
 {
     const texture_pyramid *p = g->pyramid;
-    const image *source = g->source;
     growing_level *above = &g->levels[g->source_level];
     growing_level *below = above + 1;
     uint16_t *out = below->rows[y % WINDOW_ROWS];
-    texture_coverage covered = texture_cover(source->height, y);
-    size_t row_count = (size_t)source->width * p->channel_count;
-    if (p->type == IMAGE_U8 && covered.count == 2 && source->width % 2 == 0) {
-        const unsigned char *codes = source->pixels;
-        const unsigned char *const rows[2] = {codes + covered.begin * row_count,
-                                              codes + (covered.begin + 1) * row_count};
-        texture_halve_codes(g->tables, g->as_color, rows, source->width, p->channel_count, g->room, out);
+    texture_coverage covered = texture_cover(above->height, y);
+    const unsigned char *codes[3] = {NULL, NULL, NULL};
+    for (uint32_t j = 0; j < covered.count; j++)
+        codes[j] = g->source + (covered.begin + j) % g->source_rows * g->source_row_size;
+    if (p->type == IMAGE_U8 && covered.count == 2 && above->width % 2 == 0) {
+        texture_halve_codes(g->tables, g->as_color, codes, above->width, p->channel_count, g->room, out);
         return;
     }
     const uint16_t *rows[3] = {NULL, NULL, NULL};
     for (uint32_t j = 0; j < covered.count; j++) {
-        size_t first = (covered.begin + j) * row_count;
         if (p->type == IMAGE_U16) {
-            rows[j] = (const uint16_t *)source->pixels + first;
+            rows[j] = (const uint16_t *)(const void *)codes[j];
             continue;
         }
-        texture_row_from_8(g->tables, g->as_color, (const unsigned char *)source->pixels + first,
-                           source->width, p->channel_count, above->rows[j]);
+        texture_row_from_8(g->tables, g->as_color, codes[j], above->width, p->channel_count, above->rows[j]);
         rows[j] = above->rows[j];
     }
-    texture_reduce_rows(rows, covered, source->width, below->width, p->channel_count, g->room, out);
+    texture_reduce_rows(rows, covered, above->width, below->width, p->channel_count, g->room, out);
 }
 
-/* Makes and stores all levels below source, which is level number source_level and there is one below.
- * work: growth_room() values. */
-static void grow_levels(texture_pyramid *p, const image *source, uint32_t source_level, bool as_color,
-                        const texture_tables *tables, uint16_t *work)
+/* Makes and stores what the source's first row_count rows, and no fewer, are enough for. */
+static void grow(growth *g, uint32_t row_count)
 {
-    growth g = {.pyramid = p,
-                .source = source,
-                .source_level = source_level,
-                .as_color = as_color,
-                .tables = tables,
-                .room = work};
+    const uint32_t first = g->source_level + 1;
+    for (; g->next_row < g->levels[first].height; g->next_row++) {
+        texture_coverage covered = texture_cover(g->levels[g->source_level].height, g->next_row);
+        if (covered.begin + covered.count > row_count)
+            return;
+        make_first_row(g, g->next_row);
+        add_row(g, first, g->next_row);
+    }
+}
+
+/* Takes the memory for growing p below source_level, where there is a level. On failure growth_end() releases it. */
+static facet_result growth_begin(growth *g, texture_pyramid *p, uint32_t source_level, bool as_color,
+                                 const texture_tables *tables, const facet_allocator *allocator,
+                                 facet_error *error)
+{
+    const uint32_t first_kept = source_level == p->first_level ? source_level + 1 : p->first_level;
+    const size_t size = levels_size(p, first_kept), work_size = growth_room(p, source_level);
+    *g = (growth){.pyramid = p, .source_level = source_level, .as_color = as_color, .tables = tables};
+    p->blocks[1] = mem_alloc(allocator, size, 1);
+    uint16_t *work = g->work = mem_alloc(allocator, work_size, sizeof *work);
+    if (!p->blocks[1] || !work)
+        return fail_memory(error, "texture mips", size + work_size * sizeof *work);
+    g->room = work;
     work += row_room(p, source_level);
     unsigned char *at = p->blocks[1];
     for (uint32_t number = source_level; number < p->level_count; number++) {
-        growing_level *level = &g.levels[number];
+        growing_level *level = &g->levels[number];
         level->width = level_size(p->width, number);
         level->height = level_size(p->height, number);
         for (int i = 0; i < WINDOW_ROWS; i++, work += row_room(p, number))
             level->rows[i] = work;
-        if (number > source_level && number >= p->first_level)
+        if (number >= first_kept)
             level->out = place_level(p, number, &at);
     }
-    for (uint32_t y = 0; y < g.levels[source_level + 1].height; y++) {
-        make_first_row(&g, y);
-        add_row(&g, source_level + 1, y);
-    }
+    g->source_row_size = (size_t)g->levels[source_level].width * p->channel_count * image_type_size(p->type);
+    return FACET_OK;
+}
+
+static void growth_end(growth *g)
+{
+    mem_free(g->work);
+    mem_free(g->window);
+    mem_free(g->linear);
 }
 
 /* Images that have red show it soon; only those without are looked at to the end. */
@@ -226,12 +251,11 @@ static bool lacks_red(const texture_pyramid *p)
     return true;
 }
 
-facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32_t width, uint32_t height,
-                                    uint32_t first_level, bool as_color, const texture_tables *tables,
-                                    const facet_allocator *allocator, texture_pyramid *out,
-                                    facet_error *error)
+/* A pyramid without levels yet. */
+static texture_pyramid describe(const image *source, uint32_t width, uint32_t height, uint32_t first_level,
+                                bool as_color, const texture_tables *tables)
 {
-    *out = (texture_pyramid){.width = width,
+    return (texture_pyramid){.width = width,
                              .height = height,
                              .texel_size = {1.0f / (float)width, 1.0f / (float)height},
                              .first_level = first_level,
@@ -240,26 +264,40 @@ facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32
                              .type = source->type,
                              .color_values = as_color ? tables->color : tables->data,
                              .alpha_values = tables->data};
+}
+
+/* Whether codes have to be made linear before they are averaged: only those of 8 bits have tables for that. */
+static bool is_coded_16(const image *source, bool as_color)
+{
+    return as_color && source->type == IMAGE_U16 && source->is_srgb;
+}
+
+facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32_t width, uint32_t height,
+                                    uint32_t first_level, bool as_color, const texture_tables *tables,
+                                    const facet_allocator *allocator, texture_pyramid *out,
+                                    facet_error *error)
+{
+    *out = describe(source, width, height, first_level, as_color, tables);
     facet_result result = FACET_OK;
-    uint16_t *work = NULL;
-    if (as_color && source->type == IMAGE_U16 && source->is_srgb) {
-        result = decode_16(source, allocator, error);
-        if (result != FACET_OK)
-            goto done;
-    }
-    bool keeps_source = source_level == first_level;
-    if (source_level + 1 < out->level_count) {
-        size_t size = levels_size(out, keeps_source ? source_level + 1 : first_level);
-        out->blocks[1] = mem_alloc(allocator, size, 1);
-        size_t work_size = growth_room(out, source_level);
-        work = mem_alloc(allocator, work_size, sizeof *work);
-        if (!out->blocks[1] || !work) {
-            result = fail_memory(error, "texture mips", size + work_size * sizeof *work);
+    growth g = {0};
+    if (is_coded_16(source, as_color)) {
+        uint16_t *linear = make_linear(allocator, error);
+        if (!linear) {
+            result = FACET_ERROR_MEMORY;
             goto done;
         }
-        grow_levels(out, source, source_level, as_color, tables, work);
+        decode_16(source->pixels, (size_t)source->width * source->height, source->channel_count, linear);
+        mem_free(linear);
     }
-    if (keeps_source) {
+    if (source_level + 1 < out->level_count) {
+        result = growth_begin(&g, out, source_level, as_color, tables, allocator, error);
+        if (result != FACET_OK)
+            goto done;
+        g.source = source->pixels;
+        g.source_rows = source->height;
+        grow(&g, source->height);
+    }
+    if (source_level == first_level) {
         unsigned char *at = source->pixels;
         out->blocks[0] = source->pixels;
         place_level(out, source_level, &at);
@@ -269,11 +307,59 @@ facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32
     out->lacks_red = !as_color && lacks_red(out);
 
 done:
-    mem_free(work);
+    growth_end(&g);
     image_destroy(source);
     if (result != FACET_OK)
         texture_pyramid_destroy(out);
     return result;
+}
+
+/* ---- from rows as they come ---- */
+
+facet_result texture_growth_create(const image *header, uint32_t first_level, bool as_color,
+                                   const texture_tables *tables, const facet_allocator *allocator,
+                                   texture_pyramid *out, texture_growth **grown, facet_error *error)
+{
+    *out = describe(header, header->width, header->height, first_level, as_color, tables);
+    *grown = NULL;
+    growth *g = mem_alloc(allocator, 1, sizeof *g);
+    if (!g)
+        return fail_memory(error, "texture mips", sizeof *g);
+    facet_result result = growth_begin(g, out, 0, as_color, tables, allocator, error);
+    if (result == FACET_OK) {
+        g->source_rows = WINDOW_ROWS;
+        g->source = g->window = mem_alloc(allocator, WINDOW_ROWS, g->source_row_size);
+        result = g->window ? FACET_OK : fail_memory(error, "texture mips", WINDOW_ROWS * g->source_row_size);
+    }
+    if (result == FACET_OK && is_coded_16(header, as_color)) {
+        g->linear = make_linear(allocator, error);
+        result = g->linear ? FACET_OK : FACET_ERROR_MEMORY;
+    }
+    if (result == FACET_OK) {
+        *grown = g;
+        return FACET_OK;
+    }
+    texture_growth_destroy(g);
+    texture_pyramid_destroy(out);
+    return result;
+}
+
+void texture_growth_add_row(texture_growth *g, const void *texels)
+{
+    unsigned char *row = g->window + g->added_rows % WINDOW_ROWS * g->source_row_size;
+    memcpy(row, texels, g->source_row_size);
+    if (g->linear)
+        decode_16((uint16_t *)(void *)row, g->pyramid->width, g->pyramid->channel_count, g->linear);
+    grow(g, ++g->added_rows);
+    if (g->added_rows == g->pyramid->height)
+        g->pyramid->lacks_red = !g->as_color && lacks_red(g->pyramid);
+}
+
+void texture_growth_destroy(texture_growth *g)
+{
+    if (g)
+        growth_end(g);
+    mem_free(g);
 }
 
 void texture_pyramid_destroy(texture_pyramid *p)

@@ -54,6 +54,20 @@ facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32
                                     uint32_t first_level, bool as_color, const texture_tables *tables,
                                     const facet_allocator *allocator, texture_pyramid *out,
                                     facet_error *error);
+
+/* The same pyramid from an image of which one row after the other is known, as a decoder gives them: what is held besides
+ * the result is a few rows. */
+typedef struct texture_growth texture_growth;
+
+/* header: the whole image (level 0), U8 or U16; its pixels are not read. first_level: at least 1, less than
+ * texture_level_count(). out stays in its place until it is complete. Fails with FACET_ERROR_MEMORY. */
+facet_result texture_growth_create(const image *header, uint32_t first_level, bool as_color,
+                                   const texture_tables *tables, const facet_allocator *allocator,
+                                   texture_pyramid *out, texture_growth **grown, facet_error *error);
+/* The next row from the top. After the last one the pyramid is complete. */
+void texture_growth_add_row(texture_growth *g, const void *texels);
+void texture_growth_destroy(texture_growth *g); /* NULL is allowed; the pyramid stays */
+
 void texture_pyramid_destroy(texture_pyramid *p); /* {0} is allowed; leaves {0} */
 
 #endif

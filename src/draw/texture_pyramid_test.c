@@ -325,6 +325,78 @@ static void every_refused_block_is_an_error(void **state)
     }
 }
 
+static texture_pyramid grow_pyramid(const image *source, uint32_t first_level, bool as_color)
+{
+    texture_pyramid p;
+    texture_growth *g;
+    image header = *source;
+    header.pixels = NULL;
+    assert_int_equal(texture_growth_create(&header, first_level, as_color, &tables, NULL, &p, &g, NULL),
+                     FACET_OK);
+    for (uint32_t y = 0; y < source->height; y++)
+        texture_growth_add_row(g, (const char *)source->pixels + y * image_row_size(source));
+    texture_growth_destroy(g);
+    return p;
+}
+
+static void assert_same_levels(const texture_pyramid *a, const texture_pyramid *b)
+{
+    assert_int_equal(a->first_level, b->first_level);
+    assert_int_equal(a->level_count, b->level_count);
+    assert_int_equal(a->lacks_red, b->lacks_red);
+    for (uint32_t level = a->first_level; level < a->level_count; level++) {
+        const texture_level *l = &a->levels[level];
+        assert_int_equal(l->width, b->levels[level].width);
+        assert_int_equal(l->height, b->levels[level].height);
+        assert_memory_equal(l->texels, b->levels[level].texels,
+                            (size_t)l->width * l->height * a->channel_count * image_type_size(a->type));
+    }
+}
+
+/* Rows that come one after the other give what the whole image gives. */
+static void rows_give_the_same_pyramid(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[][2] = {{64, 32}, {100, 51}, {51, 100}, {17, 17},
+                                        {1, 9},   {9, 1},    {2, 2},    {3, 1}};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++)
+        for (uint32_t channels = 1; channels <= 4; channels++)
+            for (image_type type = IMAGE_U8; type <= IMAGE_U16; type++)
+                for (int as_color = 0; as_color < 2; as_color++) {
+                    const uint32_t level_count = texture_level_count(sizes[s][0], sizes[s][1]);
+                    for (uint32_t first = 1; first < level_count; first++) {
+                        image i = make_noise(sizes[s][0], sizes[s][1], channels, type);
+                        texture_pyramid grown = grow_pyramid(&i, first, as_color);
+                        texture_pyramid whole = make_pyramid(i, first, as_color);
+                        assert_same_levels(&whole, &grown);
+                        texture_pyramid_destroy(&whole);
+                        texture_pyramid_destroy(&grown);
+                    }
+                }
+}
+
+static void a_growth_reports_every_refused_block(void **state)
+{
+    (void)state;
+    const image header = {.width = 9, .height = 9, .channel_count = 4, .type = IMAGE_U16, .is_srgb = true};
+    for (int count = 0;; count++) {
+        failing_allocator memory = {.fail_at = count};
+        facet_allocator allocator = failing_allocator_get(&memory);
+        texture_pyramid p;
+        texture_growth *g;
+        facet_result result = texture_growth_create(&header, 1, true, &tables, &allocator, &p, &g, NULL);
+        texture_growth_destroy(g);
+        texture_pyramid_destroy(&p);
+        assert_int_equal(memory.blocks, 0);
+        if (result == FACET_OK) {
+            assert_int_equal(count, 5);
+            break;
+        }
+        assert_int_equal(result, FACET_ERROR_MEMORY);
+        assert_null(g);
+    }
+}
+
 static int prepare(void **state)
 {
     (void)state;
@@ -347,6 +419,8 @@ int main(void)
         cmocka_unit_test(pyramids_start_at_any_level),
         cmocka_unit_test(data_without_red_are_known),
         cmocka_unit_test(every_refused_block_is_an_error),
+        cmocka_unit_test(rows_give_the_same_pyramid),
+        cmocka_unit_test(a_growth_reports_every_refused_block),
     };
     return cmocka_run_group_tests(tests, prepare, NULL);
 }

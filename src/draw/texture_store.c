@@ -145,8 +145,39 @@ static facet_result copy_image(const image *in, const facet_allocator *allocator
     return FACET_OK;
 }
 
+/* Pyramids that grow while their image is decoded. */
+typedef struct row_growth {
+    const texture_store *store;
+    bool is_read[2];
+    uint32_t first_level;
+    stored_image *made;
+    texture_growth *growths[2]; /* NULL: not read that way */
+} row_growth;
+
+static facet_result begin_rows(void *user, const image *header, facet_error *error)
+{
+    row_growth *r = user;
+    facet_result result = FACET_OK;
+    for (int as_color = 0; as_color < 2 && result == FACET_OK; as_color++)
+        if (r->is_read[as_color])
+            result = texture_growth_create(header, r->first_level, as_color, r->store->tables,
+                                           &r->store->allocator, &r->made->pyramids[as_color],
+                                           &r->growths[as_color], error);
+    return result;
+}
+
+static facet_result add_row(void *user, const void *texels, facet_error *error)
+{
+    row_growth *r = user;
+    (void)error;
+    for (int as_color = 0; as_color < 2; as_color++)
+        if (r->growths[as_color])
+            texture_growth_add_row(r->growths[as_color], texels);
+    return FACET_OK;
+}
+
 static facet_result decode(const texture_store *store, job *j, const char *name, uint32_t reduction,
-                           image *out)
+                           const image_row_sink *sink, image *out)
 {
     const scene_image *i = &store->scene->images[j->want->image];
     const image_record *record = &store->records[j->want->image];
@@ -154,7 +185,8 @@ static facet_result decode(const texture_store *store, job *j, const char *name,
                               .thread_count = 1,
                               .max_size = store->scene->max_texture_size,
                               .max_reduction = reduction,
-                              .note = &j->note};
+                              .note = &j->note,
+                              .sink = sink};
     facet_result result = image_decode(i->bytes, i->size, name, &desc, out, &j->error);
     if (result != FACET_OK)
         return result;
@@ -234,13 +266,18 @@ static void run_job(const texture_store *store, job *j)
         return;
     }
     made->reduction = reduction;
-    j->result = decode(store, j, name, reduction, &decoded);
+    row_growth rows = {
+        .store = store, .is_read = {is_read[0], is_read[1]}, .first_level = first_level, .made = made};
+    const image_row_sink sink = {.user = &rows, .begin = begin_rows, .add_row = add_row};
+    j->result = decode(store, j, name, reduction, first_level > 0 ? &sink : NULL, &decoded);
     if (j->result == FACET_OK && !find_reduction(&record->header, &decoded, &made->source_level))
         j->result = fail(&j->error, FACET_ERROR_INVALID, "%s: expected %u x %u texels, decoded %u x %u", name,
                          record->header.width, record->header.height, decoded.width, decoded.height);
-    if (j->result == FACET_OK)
+    if (j->result == FACET_OK && decoded.pixels)
         j->result = build(store, j, is_read, first_level, &record->header, &decoded, made);
     image_destroy(&decoded);
+    texture_growth_destroy(rows.growths[0]);
+    texture_growth_destroy(rows.growths[1]);
     if (j->result == FACET_OK)
         j->made = made;
     else

@@ -192,12 +192,48 @@ static void a_store_survives_running_out_of_memory(void **state)
     tear_down(&f);
 }
 
+/* A small image of a large PNG needs neither its texels nor its finest mips: 48 MiB here, 8 bits or 16. */
+static void large_images_are_not_held_whole(void **state)
+{
+    (void)state;
+    for (image_type type = IMAGE_U8; type <= IMAGE_U16; type++) {
+        const uint32_t size = type == IMAGE_U8 ? 4096 : 2048;
+        image i;
+        assert_int_equal(image_create(NULL, size, size, type == IMAGE_U8 ? 3 : 4, type, &i, NULL), FACET_OK);
+        memset(i.pixels, 100, image_row_size(&i) * size);
+        unsigned char *bytes;
+        scene_image source = {.name = ""};
+        assert_int_equal(image_encode(&i, IMAGE_CODEC_PNG, NULL, &bytes, &source.size, NULL), FACET_OK);
+        image_destroy(&i);
+        source.bytes = bytes;
+        scene_texture texture = {.image = 0};
+        const facet_scene scene = {.source = "model.glb",
+                                   .image_count = 1,
+                                   .texture_count = 1,
+                                   .images = &source,
+                                   .textures = &texture};
+        const texture_use use = {.is_read_as_color = true, .is_read_as_data = true, .min_lod = 4.0f};
+        facet_budget *budget;
+        assert_int_equal(facet_budget_create(4 << 20, &budget, NULL), FACET_OK);
+        const facet_allocator allocator = facet_budget_allocator(budget);
+        texture_set *set;
+        facet_error error = {0};
+        if (texture_set_create(&scene, &use, &allocator, NULL, 1, &set, &error) != FACET_OK)
+            fail_msg("%s", error.message);
+        assert_int_equal(texture_set_decoded_texels(set), (uint64_t)size * size);
+        texture_set_destroy(set);
+        facet_budget_destroy(budget);
+        mem_free(bytes);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_store_gives_what_a_set_of_its_own_has),
         cmocka_unit_test(nothing_is_decoded_twice),
         cmocka_unit_test(a_store_survives_running_out_of_memory),
+        cmocka_unit_test(large_images_are_not_held_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

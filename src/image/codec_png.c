@@ -230,6 +230,29 @@ static int choose_format(const png_header *h, uint32_t channel_count)
     }
 }
 
+/* Hands the rows to sink one by one, so that the image is never held whole. */
+static facet_result decode_rows(spng_ctx *context, const image *header, int format, int flags,
+                                const char *name, const image_decode_desc *desc, facet_error *error)
+{
+    const size_t row_size = image_row_size(header);
+    void *row = mem_alloc(&desc->allocator, row_size, 1);
+    if (!row)
+        return fail_memory(error, "row of a PNG image", row_size);
+    facet_result result = desc->sink->begin(desc->sink->user, header, error);
+    int code = 0;
+    if (result == FACET_OK)
+        code = spng_decode_image(context, NULL, 0, format, flags | SPNG_DECODE_PROGRESSIVE);
+    for (uint32_t y = 0; y < header->height && result == FACET_OK && code == 0; y++) {
+        code = spng_decode_row(context, row, row_size);
+        if (code == SPNG_EOI && y + 1 == header->height)
+            code = 0; /* this is how the last row comes */
+        if (code == 0)
+            result = desc->sink->add_row(desc->sink->user, row, error);
+    }
+    mem_free(row);
+    return code == 0 ? result : fail_png(error, name, code);
+}
+
 static facet_result decode(spng_ctx *context, const png_header *h, source *s, const char *name,
                            const image_decode_desc *desc, image *out, facet_error *error)
 {
@@ -245,17 +268,28 @@ static facet_result decode(spng_ctx *context, const png_header *h, source *s, co
         desc->channel_count && !is_deep ? desc->channel_count : own_channel_count(h);
     const int flags = h->has_transparency && (is_deep || channel_count != 3) ? SPNG_DECODE_TRNS : 0;
     const int format = choose_format(h, channel_count);
-    result = image_create(&desc->allocator, h->width, h->height, channel_count,
-                          is_deep ? IMAGE_U16 : IMAGE_U8, out, error);
-    if (result != FACET_OK)
-        return result;
-    out->is_srgb = true;
+    image header = {.width = h->width,
+                    .height = h->height,
+                    .channel_count = channel_count,
+                    .type = is_deep ? IMAGE_U16 : IMAGE_U8,
+                    .is_srgb = true};
     size_t decoded_size;
     code = spng_decoded_image_size(context, format, &decoded_size);
-    if (code == 0 && decoded_size != image_row_size(out) * out->height)
+    if (code == 0 && decoded_size != image_row_size(&header) * header.height)
         return fail(error, FACET_ERROR_BUG, "%s: PNG: %zu bytes are not %u channels", name, decoded_size,
                     channel_count);
-    if (code == 0)
+    const bool in_rows = desc->sink && ihdr.interlace_method == SPNG_INTERLACE_NONE &&
+                         (desc->channel_count == 0 || desc->channel_count == channel_count);
+    if (code == 0 && in_rows)
+        result = decode_rows(context, &header, format, flags, name, desc, error);
+    else if (code == 0)
+        result = image_create(&desc->allocator, header.width, header.height, channel_count, header.type, out,
+                              error);
+    if (result != FACET_OK)
+        return result;
+    header.pixels = out->pixels;
+    *out = header;
+    if (code == 0 && !in_rows)
         code = spng_decode_image(context, out->pixels, decoded_size, format, flags);
     if (code == 0)
         code = spng_decode_chunks(context); /* to the end, so that the last CRCs count */

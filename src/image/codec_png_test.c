@@ -290,6 +290,70 @@ static void limits_hold(void **state)
     image_destroy(&i);
 }
 
+/* A sink that assembles what it gets, and refuses the row fail_at. */
+typedef struct gathering {
+    image made;
+    uint32_t row_count, fail_at;
+} gathering;
+
+static facet_result begin_gathering(void *user, const image *header, facet_error *error)
+{
+    gathering *g = user;
+    assert_null(header->pixels);
+    assert_int_equal(image_create(NULL, header->width, header->height, header->channel_count, header->type,
+                                  &g->made, error),
+                     FACET_OK);
+    g->made.is_srgb = header->is_srgb;
+    return FACET_OK;
+}
+
+static facet_result gather_row(void *user, const void *texels, facet_error *error)
+{
+    gathering *g = user;
+    assert_true(g->row_count < g->made.height);
+    if (g->row_count == g->fail_at)
+        return (void)error, FACET_ERROR_MEMORY;
+    const size_t row_size = image_row_size(&g->made);
+    memcpy((char *)g->made.pixels + g->row_count++ * row_size, texels, row_size);
+    return FACET_OK;
+}
+
+static void rows_are_those_of_the_whole(void **state)
+{
+    (void)state;
+    for (uint32_t channels = 1; channels <= 4; channels++)
+        for (int type = IMAGE_U8; type <= IMAGE_U16; type++) {
+            image i = make_picture(37, 19, channels, (image_type)type);
+            unsigned char *bytes;
+            size_t size;
+            facet_error error;
+            encode(&i, 1, 4, &bytes, &size);
+            gathering g = {.fail_at = UINT32_MAX};
+            const image_row_sink sink = {.user = &g, .begin = begin_gathering, .add_row = gather_row};
+            image back;
+            assert_int_equal(
+                image_decode(bytes, size, "p", &(image_decode_desc){.sink = &sink}, &back, &error), FACET_OK);
+            assert_null(back.pixels);
+            assert_int_equal(back.height, 19);
+            assert_int_equal(g.row_count, 19);
+            assert_same_texels(&i, &g.made);
+            image_destroy(&g.made);
+            g = (gathering){.fail_at = 18};
+            assert_int_equal(
+                image_decode(bytes, size, "p", &(image_decode_desc){.sink = &sink}, &back, &error),
+                FACET_ERROR_MEMORY);
+            image_destroy(&g.made);
+            bytes[size - 20] ^= 1; /* in the data or its CRC */
+            g = (gathering){.fail_at = UINT32_MAX};
+            assert_int_equal(
+                image_decode(bytes, size, "p", &(image_decode_desc){.sink = &sink}, &back, &error),
+                FACET_ERROR_INVALID);
+            image_destroy(&g.made);
+            mem_free(bytes);
+            image_destroy(&i);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -298,6 +362,7 @@ int main(void)
         cmocka_unit_test(channel_counts_as_asked),      cmocka_unit_test(pngsuite_is_read),
         cmocka_unit_test(corrupt_files_are_refused),    cmocka_unit_test(every_changed_byte_is_noticed),
         cmocka_unit_test(other_chunks_are_passed_over), cmocka_unit_test(limits_hold),
+        cmocka_unit_test(rows_are_those_of_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

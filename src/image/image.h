@@ -71,6 +71,15 @@ void image_note_set(image_note *note, facet_log_level level, const char *format,
 /* Sends a note that is set to log, as "NAME: TEXT". */
 void image_note_log(const image_note *note, const char *name, const facet_log *log);
 
+/* Receives an image row by row while it is decoded. */
+typedef struct image_row_sink {
+    void *user;
+    /* Called once, before the rows: header is the image to come, pixels NULL. A failure ends decoding, of add_row() too. */
+    facet_result (*begin)(void *user, const image *header, facet_error *error);
+    /* From the top; texels are valid during the call. */
+    facet_result (*add_row)(void *user, const void *texels, facet_error *error);
+} image_row_sink;
+
 /* How a file is decoded. {0}: as it is, largest edge 16384. */
 typedef struct image_decode_desc {
     facet_allocator allocator;
@@ -92,6 +101,9 @@ typedef struct image_decode_desc {
     /* EXR, HDR: colors of other primaries that are outside of Rec.709 lose their negative components: for light */
     bool clips_gamut;
     image_note *note; /* set or cleared by image_decode(); NULL: not wanted */
+    /* NULL: the image comes whole. Otherwise codecs that decode from the top (PNG that is not interlaced, in its own channels)
+     * may hand over rows and leave out->pixels NULL; on failure some rows may have been handed over. */
+    const image_row_sink *sink;
 } image_decode_desc;
 
 /* What the header says; nothing else is read. width and height are those of the whole image as it is decoded. */
