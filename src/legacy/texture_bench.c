@@ -77,14 +77,8 @@ static void survey_images(void *context, size_t begin, size_t end)
 {
     const survey *s = context;
     for (size_t i = begin; i < end; i++) {
-        image texels;
         texture_statistics *out = s->bench->statistics[s->images[i]];
-        if (texels_decode(s->bench->scene, s->images[i], 3, 1, &texels, &s->errors[i]) != FACET_OK)
-            continue;
-        texels_count(&texels, out);
-        out->width = texels.width;
-        out->height = texels.height;
-        image_destroy(&texels);
+        texels_count(s->bench->scene, s->images[i], 3, 1, out, &s->errors[i]);
     }
 }
 

@@ -77,6 +77,44 @@ static void statistics_count_codes(void **state)
     scene_destroy(scene);
 }
 
+/* Pictures are counted row by row, the same whatever their layout, without memory for all their texels. */
+static void large_images_are_counted_in_little_memory(void **state)
+{
+    (void)state;
+    for (image_type type = IMAGE_U8; type <= IMAGE_U16; type++)
+        for (uint32_t channels = 1; channels <= 4; channels++) {
+            facet_scene *scene = gltf_scene(0);
+            uint32_t texture = add_texels(scene, 2, 2, 4, TEXELS);
+            image i;
+            unsigned char *bytes;
+            assert_int_equal(image_create(NULL, 1024, 512, channels, type, &i, NULL), FACET_OK);
+            i.is_srgb = true;
+            memset(i.pixels, 100, image_row_size(&i) * i.height);
+            assert_int_equal(image_encode(&i, IMAGE_CODEC_PNG, NULL, &bytes, &scene->images[0].size, NULL),
+                             FACET_OK);
+            image_destroy(&i);
+            scene->images[0].bytes = bytes;
+            facet_budget *budget;
+            assert_int_equal(facet_budget_create(400 << 10, &budget, NULL), FACET_OK);
+            const facet_allocator kept = scene->allocator;
+            scene->allocator = facet_budget_allocator(budget);
+            texture_bench *bench = bench_of(scene);
+            const texture_statistics *s = texture_bench_statistics(bench, texture);
+            assert_non_null(s);
+            assert_int_equal(s->texel_count, 1024 * 512);
+            assert_int_equal(s->width, 1024);
+            assert_int_equal(s->height, 512);
+            assert_int_equal(s->histogram[TEXTURE_RED][100], 1024 * 512);
+            assert_int_equal(s->histogram[TEXTURE_GREY][100], 1024 * 512);
+            assert_int_equal(s->has_alpha, channels % 2 == 0);
+            texture_bench_destroy(bench);
+            scene->allocator = kept;
+            facet_budget_destroy(budget);
+            scene_destroy(scene);
+            mem_free(bytes);
+        }
+}
+
 /* Inputs side by side, plus what the parameter says. */
 static void add_row(const void *parameters, uint32_t width, const uint8_t *const *in, uint8_t *out)
 {
@@ -194,8 +232,11 @@ static void flat_heights_point_up_and_edges_wrap(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unreadable_images_are_reported),       cmocka_unit_test(statistics_count_codes),
-        cmocka_unit_test(bakes_are_shared_and_sized),           cmocka_unit_test(resizing_wraps),
+        cmocka_unit_test(unreadable_images_are_reported),
+        cmocka_unit_test(statistics_count_codes),
+        cmocka_unit_test(large_images_are_counted_in_little_memory),
+        cmocka_unit_test(bakes_are_shared_and_sized),
+        cmocka_unit_test(resizing_wraps),
         cmocka_unit_test(flat_heights_point_up_and_edges_wrap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

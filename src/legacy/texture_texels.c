@@ -9,8 +9,9 @@
 
 /* ---- decoding ---- */
 
-facet_result texels_decode_raw(const facet_scene *scene, uint32_t index, uint32_t max_reduction,
-                               uint32_t thread_count, struct image *out, facet_error *error)
+static facet_result decode(const facet_scene *scene, uint32_t index, uint32_t max_reduction,
+                           uint32_t thread_count, const image_row_sink *sink, struct image *out,
+                           facet_error *error)
 {
     const scene_image *source = &scene->images[index];
     *out = (image){0};
@@ -19,9 +20,32 @@ facet_result texels_decode_raw(const facet_scene *scene, uint32_t index, uint32_
     image_decode_desc desc = {.allocator = scene->allocator,
                               .thread_count = thread_count,
                               .max_size = scene->max_texture_size,
-                              .max_reduction = max_reduction};
+                              .max_reduction = max_reduction,
+                              .sink = sink};
     return image_decode(source->bytes, source->size, source->uri ? source->uri : source->name, &desc, out,
                         error);
+}
+
+facet_result texels_decode_raw(const facet_scene *scene, uint32_t index, uint32_t max_reduction,
+                               uint32_t thread_count, struct image *out, facet_error *error)
+{
+    return decode(scene, index, max_reduction, thread_count, NULL, out, error);
+}
+
+/* To RGBA of 8 bits; takes raw over. */
+static facet_result make_rgba(struct image *raw, const facet_scene *scene, uint32_t thread_count,
+                              struct image *out, facet_error *error)
+{
+    bool is_float = raw->type == IMAGE_F16 || raw->type == IMAGE_F32;
+    if (raw->type == IMAGE_U8 && raw->channel_count == 4) {
+        *out = *raw;
+        *raw = (image){0};
+        return FACET_OK;
+    }
+    facet_result result = image_convert(raw, &scene->allocator, thread_count, 4, IMAGE_U8,
+                                        is_float || raw->is_srgb, out, error);
+    image_destroy(raw);
+    return result;
 }
 
 facet_result texels_decode(const facet_scene *scene, uint32_t index, uint32_t max_reduction,
@@ -32,15 +56,7 @@ facet_result texels_decode(const facet_scene *scene, uint32_t index, uint32_t ma
     facet_result result = texels_decode_raw(scene, index, max_reduction, thread_count, &raw, error);
     if (result != FACET_OK)
         return result;
-    bool is_float = raw.type == IMAGE_F16 || raw.type == IMAGE_F32;
-    if (raw.type == IMAGE_U8 && raw.channel_count == 4) {
-        *out = raw;
-        return FACET_OK;
-    }
-    result = image_convert(&raw, &scene->allocator, thread_count, 4, IMAGE_U8, is_float || raw.is_srgb, out,
-                           error);
-    image_destroy(&raw);
-    return result;
+    return make_rgba(&raw, scene, thread_count, out, error);
 }
 
 /* ---- another size ---- */
@@ -102,19 +118,77 @@ facet_result texels_resize(const struct image *in, const scene_texture *texture,
     return FACET_OK;
 }
 
-void texels_count(const struct image *texels, texture_statistics *out)
+/* ---- counting ---- */
+
+/* RGBA texels of 8 bits. */
+static void add_texels(const uint8_t *texel, size_t count, texture_statistics *out)
 {
-    const uint8_t *texel = texels->pixels;
-    size_t count = (size_t)texels->width * texels->height;
-    memset(out->histogram, 0, sizeof out->histogram);
     for (size_t i = 0; i < count; i++, texel += 4) {
         for (int k = 0; k < 4; k++)
             out->histogram[k][texel[k]]++;
         out->histogram[TEXTURE_GREY][texture_grey(texel)]++;
     }
-    out->texel_count = (uint32_t)count;
+}
+
+/* An image that is counted while it is decoded. */
+typedef struct row_count {
+    const facet_scene *scene;
+    image row; /* pixels: a block of a row */
+    texture_statistics *out;
+} row_count;
+
+static facet_result begin_count(void *user, const struct image *header, facet_error *error)
+{
+    row_count *r = user;
+    facet_result result = image_create(&r->scene->allocator, header->width, 1, header->channel_count,
+                                       header->type, &r->row, error);
+    r->row.is_srgb = header->is_srgb;
+    return result;
+}
+
+static facet_result count_row(void *user, const void *texels, facet_error *error)
+{
+    row_count *r = user;
+    if (r->row.type == IMAGE_U8 && r->row.channel_count == 4) {
+        add_texels(texels, r->row.width, r->out);
+        return FACET_OK;
+    }
+    image rgba;
+    memcpy(r->row.pixels, texels, image_row_size(&r->row));
+    facet_result result =
+        image_convert(&r->row, &r->scene->allocator, 1, 4, IMAGE_U8, r->row.is_srgb, &rgba, error);
+    if (result == FACET_OK)
+        add_texels(rgba.pixels, rgba.width, r->out);
+    image_destroy(&rgba);
+    return result;
+}
+
+facet_result texels_count(const facet_scene *scene, uint32_t index, uint32_t max_reduction,
+                          uint32_t thread_count, texture_statistics *out, facet_error *error)
+{
+    image raw, rgba = {0};
+    row_count rows = {.scene = scene, .out = out};
+    const image_row_sink sink = {.user = &rows, .begin = begin_count, .add_row = count_row};
+    *out = (texture_statistics){0};
+    facet_result result = decode(scene, index, max_reduction, thread_count, &sink, &raw, error);
+    const uint32_t width = raw.width, height = raw.height;
+    if (result == FACET_OK && raw.pixels) {
+        result = make_rgba(&raw, scene, thread_count, &rgba, error);
+        if (result == FACET_OK)
+            add_texels(rgba.pixels, (size_t)width * height, out);
+    }
+    image_destroy(&rows.row);
+    image_destroy(&rgba);
+    if (result != FACET_OK) {
+        *out = (texture_statistics){0};
+        return result;
+    }
+    out->width = width;
+    out->height = height;
+    out->texel_count = width * height;
     out->has_alpha = out->histogram[TEXTURE_ALPHA][255] != out->texel_count;
-    out->is_readable = count > 0;
+    out->is_readable = out->texel_count > 0;
+    return FACET_OK;
 }
 
 /* ---- those that were used last ---- */

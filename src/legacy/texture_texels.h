@@ -19,7 +19,10 @@ facet_result texels_resize(const struct image *in, const scene_texture *texture,
                            uint32_t height, uint32_t thread_count, const facet_allocator *allocator,
                            struct image *out, facet_error *error);
 
-void texels_count(const struct image *texels, texture_statistics *out);
+/* Counts the codes of texels_decode(), without holding the image whole where its codec can do that. out is {0} on
+ * failure. */
+facet_result texels_count(const facet_scene *scene, uint32_t image, uint32_t max_reduction,
+                          uint32_t thread_count, texture_statistics *out, facet_error *error);
 
 /* Decoded images, the last used of which are kept, up to a number of bytes. */
 typedef struct texels_cache texels_cache;
