@@ -12,6 +12,7 @@
 enum {
     WRAPS = 3,
     FILTERS = 2,
+    BAND_TEXELS = 1 << 20, /* that are brought to the form of OpenGL at a time */
     MIP_FILTERS = 3,
     SAMPLER_COUNT = WRAPS * WRAPS * FILTERS * FILTERS * MIP_FILTERS
 };
@@ -88,23 +89,37 @@ static void expand_16(const uint16_t *in, size_t count, uint32_t channel_count, 
     }
 }
 
-/* One level; buffer has room for it. */
+/* Rows of a band of an image of that width. */
+static uint32_t band_rows(uint32_t width)
+{
+    return width < BAND_TEXELS ? BAND_TEXELS / width : 1;
+}
+
+/* One level; buffer has room for a band of it. */
 static void upload_level(const texture_pyramid *p, uint32_t level, GLint gl_level, bool as_color,
                          void *buffer)
 {
     const texture_level *l = &p->levels[level];
-    size_t count = (size_t)l->width * l->height;
-    bool is_8 = p->type == IMAGE_U8;
-    const void *texels = buffer;
-    if (!is_8)
-        expand_16((const uint16_t *)(const void *)l->texels, count, p->channel_count, buffer);
-    else if (p->channel_count == 4)
-        texels = l->texels;
-    else
-        expand_8(l->texels, count, p->channel_count, buffer);
-    GLint format = !is_8 ? GL_RGBA16F : as_color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
-    glTexImage2D(GL_TEXTURE_2D, gl_level, format, (GLsizei)l->width, (GLsizei)l->height, 0, GL_RGBA,
-                 is_8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT, texels);
+    const bool is_8 = p->type == IMAGE_U8;
+    const GLenum type = is_8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT;
+    const GLint format = !is_8 ? GL_RGBA16F : as_color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+    const size_t row_size = (size_t)l->width * p->channel_count * image_type_size(p->type);
+    glTexImage2D(GL_TEXTURE_2D, gl_level, format, (GLsizei)l->width, (GLsizei)l->height, 0, GL_RGBA, type,
+                 NULL);
+    for (uint32_t y = 0, rows; y < l->height; y += rows) {
+        const unsigned char *from = l->texels + y * row_size;
+        const void *texels = buffer;
+        rows = band_rows(l->width) < l->height - y ? band_rows(l->width) : l->height - y;
+        const size_t count = (size_t)l->width * rows;
+        if (!is_8)
+            expand_16((const uint16_t *)(const void *)from, count, p->channel_count, buffer);
+        else if (p->channel_count == 4)
+            texels = from;
+        else
+            expand_8(from, count, p->channel_count, buffer);
+        glTexSubImage2D(GL_TEXTURE_2D, gl_level, 0, (GLint)y, (GLsizei)l->width, (GLsizei)rows, GL_RGBA, type,
+                        texels);
+    }
 }
 
 /* Levels from first on. */
@@ -112,7 +127,10 @@ static facet_result upload(gl_texture_set *set, const texture_pyramid *p, uint32
                            GLuint *name, facet_error *error)
 {
     size_t texel_size = p->type == IMAGE_U8 ? 4 : 8;
-    size_t count = (size_t)p->levels[first].width * p->levels[first].height;
+    const texture_level *l = &p->levels[first];
+    const size_t whole = (size_t)l->width * l->height;
+    const size_t band = l->width < BAND_TEXELS ? BAND_TEXELS : l->width;
+    const size_t count = band < whole ? band : whole;
     void *buffer = mem_alloc(&set->allocator, count, texel_size);
     if (!buffer)
         return fail_memory(error, "textures", count * texel_size);
