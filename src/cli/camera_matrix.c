@@ -110,7 +110,7 @@ facet_result camera_matrix_read(const command_line *c, render_options *out, face
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
         return option_fail(c, id,
                            m[12] == 0.0 && m[13] == 0.0 && m[14] == 0.0
-                               ? "written column by column, as glTF has it (the place is numbers 13 to 15)"
+                               ? "in column-major order, as in glTF (the translation is numbers 13 to 15)"
                                : "a matrix with the last row 0 0 0 1",
                            error);
     if (is_view && !invert(m, inverse))

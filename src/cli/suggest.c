@@ -112,6 +112,8 @@ static const struct {
     {"background-color", OPT_BACKGROUND, "--background '#rrggbb'"},
     {"bg-color", OPT_BACKGROUND, "--background '#rrggbb'"},
     {"bg", OPT_BACKGROUND, "--background '#rrggbb'"},
+    {"shadow-intensity", OPT_GROUND, "--renderer path --ground shadow"},
+    {"shadow-softness", OPT_GROUND, "--renderer path --ground shadow"},
     {"blur-background", OPT_BACKGROUND_BLUR, "--background-blur 0.3"},
     {"camera-azimuth-angle", OPT_ORBIT, "--orbit AZIMUTH"},
     {"azimuth", OPT_ORBIT, "--orbit AZIMUTH"},

@@ -251,8 +251,8 @@ static void explain(const view *v, const scene_pose *pose, const facet_render_de
                                              "the other side only; move the camera out, "
                                              "or set doubleSided in its materials"
                                            : "it is seen from behind, and its surfaces are drawn from the "
-                                             "front only; look from the other side, as "
-                                             "with --orbit 180, or set doubleSided in its materials",
+                                             "front only; look from the opposite side, "
+                                             "--orbit AZ+180,180-POLAR, or set doubleSided in its materials",
         [REASON_EDGE_ON] = "it is flat and seen edge-on; look from another direction, as with --orbit 30,45",
         [REASON_TRANSPARENT] =
             "its opacity is 0; give its materials or vertex colors an alpha above 0, or alphaMode "

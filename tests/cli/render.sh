@@ -127,7 +127,7 @@ cmp -s hero.png rolled.png && failed "a rolled camera shows the same"
 expect 2 render matrix.gltf --camera-matrix 1,2,3 -o x.png
 says "16 numbers, column by column"
 expect 2 render matrix.gltf --camera-matrix 1,0,0,0.3,0,1,0,0.3,0,0,1,3,0,0,0,1 -o x.png
-says "written column by column"
+says "in column-major order"
 expect 2 render matrix.gltf --camera-matrix 1,0,0,0,0,1,0,0,0,0,-1,0,0,0,3,1 -o x.png
 says "it mirrors"
 expect 2 render matrix.gltf --camera-matrix 1,0,0,0,1,1,0,0,0,0,1,0,0,0,3,1 -o x.png

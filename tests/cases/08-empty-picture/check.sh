@@ -21,6 +21,8 @@ empty() {
     grep -q "nothing of the model is seen: $reason" out || failed "--json does not say: $reason"
 }
 empty "it is seen from behind" tri.gltf --orbit 180
+grep -q -e "--orbit 180" out && failed "the advice repeats the orbit that was given"
+expect 0 render tri.gltf -o a.png --size 32 --strict --orbit 360,105 # the advice followed: --orbit AZ+180,180-POLAR
 empty "it is seen from behind" tri.gltf --orbit 180 --background env
 empty "it is seen from behind" tri.gltf --orbit 180 --ortho
 empty "it is flat and seen edge-on" tri.gltf --orbit 90,90
