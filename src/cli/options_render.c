@@ -406,7 +406,7 @@ const verb render_verb = {
             {"facet render shoe.glb -o 'turn_####.png' --turntable 360 --renderer gl",
              "the same picture, on a GPU"},
             {"facet render old.obj -o old.png --shading ogl1", "as an OpenGL 1 program showed it"},
-            {"curl -s URL | facet render - -o - --format png > out.png", "without files"},
+            {"curl -sL URL | facet render - -o - --format png > out.png", "without files"},
             {NULL, NULL}},
     .basics =
         (const option_id[]){OPT_OUTPUT, OPT_SIZE, OPT_BACKGROUND, OPT_ORBIT, OPT_CAMERA, OPT_TURNTABLE,

@@ -118,8 +118,9 @@ static facet_result choose_layout(const facet_environment_desc *desc, image_envm
         return fail(
             error, FACET_ERROR_INVALID,
             "%s: %u x %u texels: an environment is 2:1 (equirectangular), 4:3 or 3:4 (cross), 6:1 or 1:6 "
-            "(strip of faces); what is one of them all the same, or octahedral, has to be said to be "
-            "(facet_environment_desc.layout; facet bake --input-layout)",
+            "(strip of faces), or six files NAME{face}.EXT; for any other shape, or an octahedral map, name "
+            "the "
+            "layout (facet_environment_desc.layout; facet bake --input-layout)",
             name, width, height);
     if (*layout == FACET_LAYOUT_AUTO)
         *layout = FACET_LAYOUT_EQUIRECTANGULAR;

@@ -577,7 +577,7 @@ static void other_ratios(void **state)
         {7, 5, FACET_LAYOUT_AUTO, FACET_ERROR_INVALID, 0,
          "7 x 5 texels: an environment is 2:1 (equirectangular), 4:3 or 3:4 (cross), 6:1 or 1:6 (strip of "
          "faces)"},
-        {1, 1, FACET_LAYOUT_AUTO, FACET_ERROR_INVALID, 0, "facet bake --input-layout"},
+        {1, 1, FACET_LAYOUT_AUTO, FACET_ERROR_INVALID, 0, "NAME{face}.EXT; for any other shape"},
         {19, 9, FACET_LAYOUT_AUTO, FACET_ERROR_INVALID, 0, "19 x 9"},
         {41, 20, FACET_LAYOUT_AUTO, FACET_OK, 1,
          "41 x 20 texels: an equirectangular picture is twice as wide"},

@@ -46,7 +46,7 @@ for model in cube.stl square.ply points.ply; do
 done
 expect 0 convert square.ply square.obj
 expect 3 render https://example.com/model.glb -o x.png
-says 'curl -s https://example.com/model.glb | facet render - -o out.png'
+says 'curl -sL https://example.com/model.glb | facet render - -o out.png'
 printf 'Kaydara FBX Binary  ' >model.fbx
 expect 5 render model.fbx -o x.png
 says 'model.fbx: FBX files are not read; import it in Blender and export it as glTF 2.0'
