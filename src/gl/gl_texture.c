@@ -95,17 +95,36 @@ static uint32_t band_rows(uint32_t width)
     return width < BAND_TEXELS ? BAND_TEXELS / width : 1;
 }
 
+static GLenum internal_format(const texture_pyramid *p, bool as_color)
+{
+    return p->type != IMAGE_U8 ? GL_RGBA16F : as_color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+}
+
+/* Memory for the levels from first on, without contents. All at once where OpenGL can: Mesa otherwise holds two copies of
+ * the finest level for a while. */
+static void allocate_levels(const gl_context *c, const texture_pyramid *p, uint32_t first, bool as_color)
+{
+    const GLenum format = internal_format(p, as_color);
+    const bool is_8 = p->type == IMAGE_U8;
+    const GLsizei count = (GLsizei)(p->level_count - first);
+    if (c->version >= (c->is_es ? 30 : 42) || epoxy_has_gl_extension("GL_ARB_texture_storage")) {
+        glTexStorage2D(GL_TEXTURE_2D, count, format, (GLsizei)p->levels[first].width,
+                       (GLsizei)p->levels[first].height);
+        return;
+    }
+    for (GLsizei i = 0; i < count; i++)
+        glTexImage2D(GL_TEXTURE_2D, i, (GLint)format, (GLsizei)p->levels[first + (uint32_t)i].width,
+                     (GLsizei)p->levels[first + (uint32_t)i].height, 0, GL_RGBA,
+                     is_8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT, NULL);
+}
+
 /* One level; buffer has room for a band of it. */
-static void upload_level(const texture_pyramid *p, uint32_t level, GLint gl_level, bool as_color,
-                         void *buffer)
+static void upload_level(const texture_pyramid *p, uint32_t level, GLint gl_level, void *buffer)
 {
     const texture_level *l = &p->levels[level];
     const bool is_8 = p->type == IMAGE_U8;
     const GLenum type = is_8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT;
-    const GLint format = !is_8 ? GL_RGBA16F : as_color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
     const size_t row_size = (size_t)l->width * p->channel_count * image_type_size(p->type);
-    glTexImage2D(GL_TEXTURE_2D, gl_level, format, (GLsizei)l->width, (GLsizei)l->height, 0, GL_RGBA, type,
-                 NULL);
     for (uint32_t y = 0, rows; y < l->height; y += rows) {
         const unsigned char *from = l->texels + y * row_size;
         const void *texels = buffer;
@@ -138,8 +157,9 @@ static facet_result upload(gl_texture_set *set, const texture_pyramid *p, uint32
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, *name);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    allocate_levels(set->context, p, first, as_color);
     for (uint32_t level = first; level < p->level_count; level++)
-        upload_level(p, level, (GLint)(level - first), as_color, buffer);
+        upload_level(p, level, (GLint)(level - first), buffer);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, (GLint)(p->level_count - 1 - first));
     mem_free(buffer);
     return gl_context_check(set->context, "textures", error);
