@@ -120,6 +120,7 @@ static void test_mistakes(void **state)
     expect_sentence(PARSE("--hdri-file", "x.hdr"), "did you mean --env FILE?");
     expect_sentence(PARSE("--skybox-image=x"), "--background env");
     expect_sentence(PARSE("--shadow-intensity", "1"), "--renderer path --ground shadow?");
+    expect_sentence(PARSE("--tone-mapping", "commerce"), "did you mean neutral?");
     expect_sentence(PARSE("--width", "3"), "--size");
     expect_sentence(PARSE("--no-background"), "--background transparent");
     expect_sentence(PARSE("--out", "x"), "--output");

@@ -259,8 +259,27 @@ static bool is_near(const char *text, const char *word, unsigned *badness)
     return distance <= (length <= 3 ? 1u : length <= 7 ? 2u : 3u) && distance < length;
 }
 
+/* Values that other programs give to an option; ours counts only where it is a choice. */
+static const struct {
+    const char *theirs, *ours;
+} foreign_words[] = {{"commerce", "neutral"}, /* model-viewer */
+                     {"pbr-neutral", "neutral"},
+                     {"khronos-pbr-neutral", "neutral"}};
+
+static const char *find_foreign_word(const char *text, const char *const *words)
+{
+    for (size_t i = 0; i < sizeof foreign_words / sizeof *foreign_words; i++)
+        for (const char *const *word = words; *word && strcmp(text, foreign_words[i].theirs) == 0; word++)
+            if (strcmp(*word, foreign_words[i].ours) == 0)
+                return *word;
+    return NULL;
+}
+
 const char *suggest_word(const char *text, const char *const *words)
 {
+    const char *foreign = find_foreign_word(text, words);
+    if (foreign)
+        return foreign;
     const char *best = NULL;
     unsigned least_bad = ~0u, badness;
     for (; *words; words++)
