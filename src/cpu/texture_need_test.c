@@ -88,12 +88,12 @@ static void the_nearest_vertex_counts(void **state)
     setup s = setup_create();
     s.f.camera.fov_y_rad = 2.0f * atanf(0.1f); /* 2 m high at 10 m */
     assert_lod(&s, 2.0f);
-    s.node->translation[2] = 5.0f;
+    s.node->translation[2] = 5.0;
     assert_lod(&s, 1.0f);
     s.node->rotation[0] = sinf(0.75f); /* lies nearly flat, from behind the camera to far away */
     s.node->rotation[3] = cosf(0.75f);
     s.node->scale[0] = s.node->scale[1] = s.node->scale[2] = 20.0f;
-    s.node->translation[1] = -1.0f;
+    s.node->translation[1] = -1.0;
     s.material->is_double_sided = true;
     assert_true(lod_of(&s, 1.0f) <= 0.0f);
     fixture_destroy(&s.f);
@@ -103,9 +103,9 @@ static void what_cannot_be_seen_needs_nothing(void **state)
 {
     (void)state;
     setup s = setup_create();
-    s.node->translation[0] = 5.0f;
+    s.node->translation[0] = 5.0;
     assert_true(lod_of(&s, 1.0f) > 8.0f);
-    s.node->translation[0] = 0.0f;
+    s.node->translation[0] = 0.0;
     s.node->rotation[1] = 1.0f; /* its back */
     s.node->rotation[3] = 0.0f;
     assert_true(lod_of(&s, 1.0f) > 8.0f);

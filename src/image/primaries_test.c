@@ -83,7 +83,7 @@ static void images_are_converted(void **state)
         const float *p = i.pixels;
         for (int c = 0; c < 3; c++)
             assert_float_equal(p[c], 1.0f, 1e-6f);
-        assert_float_equal(p[3], clips ? 0.0f : -0.5876f, 1e-4f);
+        assert_float_equal(p[3], (clips ? 0.0f : -0.5876f), 1e-4f);
         assert_float_equal(p[4], 1.1329f, 1e-4f);
         assert_true(isnan(p[6]) && p[7] == 1.0f && p[8] == 2.0f);
         assert_float_equal(p[10], -1.1329f, 1e-4f);

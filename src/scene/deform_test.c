@@ -157,7 +157,7 @@ static facet_scene *make_skinned(uint32_t vertex_count, uint32_t influence_count
         scene_node *n = &scene->nodes[i + 1];
         float away[3], rotation[4];
         for (int k = 0; k < 3; k++) {
-            n->translation[k] = test_random(&random);
+            n->translation[k] = (double)test_random(&random);
             n->scale[k] = 1.0f + 0.4f * test_random(&random);
             away[k] = test_random(&random);
         }
