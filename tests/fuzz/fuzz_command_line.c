@@ -33,8 +33,10 @@ static facet_result read_values(command_line *c, facet_error *error)
         return compare_wish_read(c, &wish, error);
     }
     if (strcmp(name, "convert") == 0) {
-        convert_names names;
-        return convert_names_read(c, &names, error);
+        convert_names names = {0};
+        facet_result result = convert_names_read(c, &names, error);
+        convert_names_destroy(&names);
+        return result;
     }
     if (strcmp(name, "plot") == 0) {
         plot_materials materials = {0};
