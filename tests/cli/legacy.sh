@@ -260,4 +260,10 @@ printf 'v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >nan.obj
 code=0
 "$facet" convert nan.obj nan.glb 2>err >out || code=$?
 says "line 1"
+# Parameters that name each object leave no material behind for faces that had none.
+printf 'o ball\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >unnamed.obj
+printf '{"materials":[{"name":"red","objects":["ball"],"color":"#FF0000"}]}' >unnamed.json
+expect 0 inspect --json --parameters unnamed.json unnamed.obj
+[ "$(jq -c '[.. | .materials? | arrays | map(.name)] | first' out)" = '["red"]' ] ||
+    failed "the materials are $(jq -c '[.. | .materials? | arrays | map(.name)] | first' out)"
 finish

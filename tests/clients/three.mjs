@@ -73,7 +73,9 @@ try {
     const probe = await call('generate_probe', 128);
     const sh = JSON.parse(readFileSync(file('three/sh.json'))).forms.find(({ form }) => form === 'radiance').coefficients;
     const scale = Math.max(...probe.flat().map(Math.abs));
-    probe.forEach((rgb, i) => rgb.forEach((x, c) => report.near(sh[i][c], x, 2e-3 * scale, `harmonic ${i}, channel ${c}, by LightProbeGenerator`)));
+    const hdr_step = 256 / 255; // three.js divides the mantissas of .hdr by 255, facet, as most programs, by 256
+    probe.forEach((rgb, i) => rgb.forEach((x, c) => report.near(sh[i][c], x / hdr_step, 2e-3 * scale,
+        `harmonic ${i}, channel ${c}, by LightProbeGenerator`)));
 
     await call('load_environment', 'room.ktx2', false);
     const pictures = [{ is_facet: false }, { is_facet: true }, { probe: sh }, { probe }];

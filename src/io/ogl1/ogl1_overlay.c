@@ -256,6 +256,38 @@ static void assign_rest(overlay *o)
                 scene->meshes[i].primitives[k].material = material_of(o, o->all);
 }
 
+static bool is_used(const facet_scene *scene, uint32_t material)
+{
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++)
+            if (scene->meshes[i].primitives[k].material == material)
+                return true;
+    return false;
+}
+
+/* The material without a name, which OBJ's reader gives to faces before any usemtl, goes where objects of the file took
+ * all of its faces. */
+static void drop_unnamed(overlay *o)
+{
+    facet_scene *scene = o->d.r.scene;
+    uint32_t at = 0;
+    while (at < scene->material_count &&
+           (scene->materials[at].name[0] || o->is_set[at] || scene->legacy->materials[at].is_gltf_restored))
+        at++;
+    if (at == scene->material_count || is_used(scene, at))
+        return;
+    uint32_t behind = --scene->material_count - at;
+    memmove(scene->materials + at, scene->materials + at + 1, behind * sizeof *scene->materials);
+    memmove(scene->legacy->materials + at, scene->legacy->materials + at + 1,
+            behind * sizeof *scene->legacy->materials);
+    memmove(o->is_set + at, o->is_set + at + 1, behind * sizeof *o->is_set);
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++) {
+            uint32_t *material = &scene->meshes[i].primitives[k].material;
+            *material -= *material != SCENE_NONE && *material > at;
+        }
+}
+
 /* rgl's rules for vertex colors and textures hold where all that is drawn has parameters of rgl. */
 static void decide_rules(overlay *o)
 {
@@ -292,8 +324,9 @@ static void warn_unmet(overlay *o)
 static void lay(overlay *o, const facet_scene_desc *desc)
 {
     reader *r = &o->d.r;
-    void (*const steps[])(overlay *) = {make_room,      replace_materials, find_uses,    make_mesh_room,
-                                        assign_objects, assign_rest,       decide_rules, warn_unmet};
+    void (*const steps[])(overlay *) = {make_room,      replace_materials, find_uses,
+                                        make_mesh_room, assign_objects,    assign_rest,
+                                        drop_unnamed,   decide_rules,      warn_unmet};
     ogl1_find_textures(&o->d);
     if (reader_is_ok(r))
         take_memory(o);
