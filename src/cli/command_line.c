@@ -202,9 +202,9 @@ static facet_result check_arguments(const command_line *c, facet_error *error)
                              v->name, c->arguments[i], v->output_hint ? v->output_hint : "-o",
                              c->arguments[i]);
     if (c->argument_count > v->max_arguments)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: it takes at most %zu word%s, but got \"%s\"",
-                         v->name, v->max_arguments, v->max_arguments == 1 ? "" : "s",
-                         c->arguments[v->max_arguments]);
+        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: it takes at most %zu %s%s, but got \"%s\"",
+                         v->name, v->max_arguments, v->file_types ? "file" : "argument",
+                         v->max_arguments == 1 ? "" : "s", c->arguments[v->max_arguments]);
     return FACET_OK;
 }
 

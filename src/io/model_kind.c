@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/result.h"
+#include "image/image.h"
 #include "io/obj/obj.h"
 #include "io/ogl1/ogl1_json.h"
 #include "io/ply/ply.h"
@@ -170,6 +171,12 @@ facet_result model_kind_refuse(const void *bytes, size_t size, const char *name,
     if (kind)
         return fail(error, FACET_ERROR_UNSUPPORTED, "%s: %s files are not read; %s", name, kind->name,
                     kind->advice);
+    image_codec codec = image_codec_detect(bytes, size);
+    if (codec != IMAGE_CODEC_UNKNOWN && codec != IMAGE_CODEC_TGA) /* which begins with no word of its own */
+        return fail(error, FACET_ERROR_UNSUPPORTED,
+                    "%s: is an image (%s), not a model; facet render --env and facet bake take it as an "
+                    "environment, facet compare as an image",
+                    name, image_codec_name(codec));
     return fail(
         error, FACET_ERROR_INVALID,
         "%s: is neither a .glb file nor the JSON of a .gltf file, nor an .obj, .stl or .ply file nor rgl's "

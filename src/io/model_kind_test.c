@@ -68,6 +68,9 @@ static void other_formats_come_with_advice(void **state)
             fail_msg("%s", error.message);
     }
     facet_error error = {0};
+    static const char png[] = "\x89PNG\r\n\x1a\n";
+    assert_int_equal(model_kind_refuse(png, sizeof png - 1, "a.png", &error), FACET_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.message, "a.png: is an image (PNG), not a model; facet render --env"));
     assert_int_equal(model_kind_refuse("hello", 5, "a.txt", &error), FACET_ERROR_INVALID);
     assert_non_null(strstr(error.message, "a.txt: is neither a .glb file nor"));
 }
