@@ -728,7 +728,7 @@ typedef enum facet_aov {
  * FACET_ERROR_ENVIRONMENT where the processor lacks the one that is named. */
 typedef enum facet_isa {
     FACET_ISA_PORTABLE, /* the widest without fused multiply-adds: SSE2, SSE4.2 and AVX give the same bytes */
-    FACET_ISA_NATIVE,   /* the widest of this processor: up to a sixth faster */
+    FACET_ISA_NATIVE,   /* the widest of this processor: previews take 7 to 19 % less time */
     FACET_ISA_SSE2,
     FACET_ISA_SSE4_2,
     FACET_ISA_AVX,

@@ -265,7 +265,8 @@ static const option quality_options[] = {
      .default_text = "portable",
      .help =
          "instruction set that intersects rays: portable gives the same bytes on every x86-64 processor of a "
-         "maker; native is the widest, up to a sixth faster; others fail where the processor lacks them",
+         "maker; native is the widest, a tenth to a fifth quicker; others fail where the processor lacks "
+         "them",
      .choices = WORDS("portable", "native", "sse2", "sse4.2", "avx", "avx2", "avx512")},
     {.id = OPT_SPECULAR_AA,
      .name = "specular-aa",
