@@ -9,13 +9,6 @@
 #include "base/text.h"
 #include "scene/scene.h"
 
-static inline void fuzz_ignore(void *user, facet_log_level level, const char *message)
-{
-    (void)user;
-    (void)level;
-    (void)message;
-}
-
 /* What scene_primitive promises. */
 static inline void fuzz_check_primitive(const facet_scene *scene, const scene_primitive *p)
 {

@@ -1,17 +1,14 @@
 /* fuzz_stl.c - the STL reader over any bytes; the first byte chooses how normals are made. */
-#include <stdint.h>
-#include <stdlib.h>
+#include "fuzz_support.h"
 
 #include "fuzz_scene.h"
 #include "io/stl/stl.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    facet_budget *budget = NULL;
-    if (size == 0 || facet_budget_create((uint64_t)64 << 20, &budget, NULL) != FACET_OK)
+    if (size == 0)
         return 0;
+    facet_budget *budget = fuzz_begin((uint64_t)64 << 20);
     facet_allocator allocator = facet_budget_allocator(budget);
     facet_scene_desc desc = {.allocator = allocator,
                              .log = {.message = fuzz_ignore},
@@ -25,8 +22,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     else if (scene || error.message[0] == 0)
         abort();
     scene_destroy(scene);
-    if (facet_budget_used_bytes(budget) != 0)
-        abort();
-    facet_budget_destroy(budget);
+    fuzz_end(budget);
     return 0;
 }
