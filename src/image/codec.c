@@ -107,6 +107,17 @@ facet_result codec_check_size(const char *name, uint64_t width, uint64_t height,
     return FACET_OK;
 }
 
+facet_result codec_check_texels(const char *name, const char *format, uint32_t width, uint32_t height,
+                                uint32_t max_size, uint64_t needed, size_t size, facet_error *error)
+{
+    facet_result result = codec_check_size(name, width, height, max_size, error);
+    if (result == FACET_OK && needed > size)
+        return fail(error, FACET_ERROR_INVALID,
+                    "%s: %s: %u x %u texels need %llu bytes or more, the file has %zu", name, format, width,
+                    height, (unsigned long long)needed, size);
+    return result;
+}
+
 facet_result codec_check_input(const image *i, const char *codec_name, bool is_type_right, const char *types,
                                uint32_t channel_counts, facet_error *error)
 {

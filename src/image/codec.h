@@ -32,6 +32,9 @@ bool dds_detect(const unsigned char *bytes, size_t size);
 /* FACET_ERROR_LIMIT where an edge is longer than max_size, FACET_ERROR_INVALID where one is 0. */
 facet_result codec_check_size(const char *name, uint64_t width, uint64_t height, uint32_t max_size,
                               facet_error *error);
+/* The same, and FACET_ERROR_INVALID where width x height texels of format need more than the size bytes that are there. */
+facet_result codec_check_texels(const char *name, const char *format, uint32_t width, uint32_t height,
+                                uint32_t max_size, uint64_t needed, size_t size, facet_error *error);
 /* FACET_ERROR_ARGUMENT where i is not of the type and channel counts (a bit each: 1 << count) that codec
  * takes. */
 facet_result codec_check_input(const image *i, const char *codec, bool is_type_right, const char *types,

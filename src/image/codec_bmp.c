@@ -115,20 +115,13 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
 /* Whether the bytes can hold the texels. A pair of bytes of RLE makes 255 texels at most. */
 static facet_result check(const bmp_header *h, const char *name, uint32_t max_size, facet_error *error)
 {
-    facet_result result = codec_check_size(name, h->width, h->height, max_size, error);
-    if (result != FACET_OK)
-        return result;
     const bool has_runs = h->compression == RLE8 || h->compression == RLE4;
     const uint64_t texels = (uint64_t)h->width * h->height;
     /* the last row may lack its padding */
     const uint64_t least =
         has_runs ? (texels + 254) / 255 * 2
                  : (uint64_t)h->row_size * (h->height - 1) + ((uint64_t)h->width * h->bits + 7) / 8;
-    if (least > h->data_size)
-        return fail(error, FACET_ERROR_INVALID,
-                    "%s: BMP: %u x %u texels need %llu bytes or more, the file has %zu", name, h->width,
-                    h->height, (unsigned long long)least, h->data_size);
-    return FACET_OK;
+    return codec_check_texels(name, "BMP", h->width, h->height, max_size, least, h->data_size, error);
 }
 
 facet_result bmp_probe(const unsigned char *bytes, size_t size, const char *name, image *header,

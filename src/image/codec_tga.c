@@ -97,16 +97,9 @@ bool tga_detect(const unsigned char *bytes, size_t size)
 /* Whether the bytes can hold the texels; FACET_ERROR_LIMIT where an edge is too long. */
 static facet_result check(const tga_header *h, const char *name, uint32_t max_size, facet_error *error)
 {
-    facet_result result = codec_check_size(name, h->width, h->height, max_size, error);
-    if (result != FACET_OK)
-        return result;
     const uint64_t texels = (uint64_t)h->width * h->height;
     const uint64_t least = h->has_runs ? (texels + 127) / 128 * (1 + h->word_size) : texels * h->word_size;
-    if (least > h->data_size)
-        return fail(error, FACET_ERROR_INVALID,
-                    "%s: TGA: %u x %u texels need %llu bytes or more, the file has %zu", name, h->width,
-                    h->height, (unsigned long long)least, h->data_size);
-    return FACET_OK;
+    return codec_check_texels(name, "TGA", h->width, h->height, max_size, least, h->data_size, error);
 }
 
 facet_result tga_probe(const unsigned char *bytes, size_t size, const char *name, image *header,
