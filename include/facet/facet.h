@@ -805,7 +805,7 @@ FACET_API void facet_renderer_destroy(facet_renderer *renderer); /* NULL is allo
  * luminance of what is seen (the model, and the environment where it is the background) to 0.22 of white, as facet_sea_meter() does;
  * facet_exposure_from_ev100() makes an exposure_ev of it. A small preview is metered, without shadows and light between surfaces,
  * so that all integrators have the same exposure. Sequences are best metered once, as their frames would flicker. Where nothing is
- * seen, or all is black, the exposure is 0 and desc's log is told. Fails as facet_render(); FACET_ERROR_ARGUMENT for
+ * seen, or all is black, the exposure is 0 and desc's log gets a warning. Fails as facet_render(); FACET_ERROR_ARGUMENT for
  * FACET_SHADING_OGL1, whose numbers are a display's. */
 FACET_API facet_result facet_renderer_meter(facet_renderer *renderer,
                                             const facet_render_desc *desc /* NULL: {0} */, double *ev100,
@@ -1458,7 +1458,7 @@ FACET_API facet_camera facet_sea_camera(const facet_sea *sea, float height_m, fl
 
 /* What a camera's light meter reads of that picture of the sea as it is: EV at ISO 100 that brings the log-average of the radiance to 0.22 of
  * white (Reinhard et al. 2002); and the exposure_ev that a camera set so has (ISO 12232, Lagarde and de Rousiers 2014). Sequences are best
- * metered once. Where there is hardly any light, desc's log is told. Fails as facet_sea_render(). */
+ * metered once. Where there is hardly any light, desc's log gets a warning. Fails as facet_sea_render(). */
 FACET_API facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *desc, double *ev100,
                                        facet_error *error);
 FACET_API float facet_exposure_from_ev100(double ev100);

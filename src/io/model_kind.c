@@ -124,7 +124,7 @@ static const foreign_kind *find_foreign(const char *bytes, size_t size, const ch
             bool is_found = pass == 0 ? is_named && is_alike : pass == 1 ? is_sure : is_named;
             found = is_found ? kind : NULL;
         }
-    /* Archives of other kinds are told by their extension only. */
+    /* Archives of other kinds are recognised by their extension only. */
     if (found && strcmp(found->magic ? found->magic : "", "PK\x03\x04") == 0 && !has_extension(found, name))
         for (int i = 0; i < FOREIGN_COUNT; i++)
             if (strcmp(FOREIGN[i].name, "zip") == 0)

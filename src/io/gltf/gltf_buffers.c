@@ -73,14 +73,14 @@ bool has_buffer_source(const reader *r, uint32_t buffer)
 bool has_view_source(const reader *r, uint32_t view)
 {
     const gltf_view *v = &r->views[view];
-    return v->problem.message || /* which is told when the bytes are asked for */
+    return v->problem.message || /* reported when the bytes are requested */
            has_buffer_source(r, v->compressed ? get_meshopt_buffer(v->compressed) : v->buffer);
 }
 
 bool has_accessor_source(const reader *r, uint32_t accessor)
 {
     const gltf_accessor *a = &r->accessors[accessor];
-    if (a->problem.message) /* which is told when the elements are asked for */
+    if (a->problem.message) /* reported when the elements are requested */
         return true;
     return (a->decoded || a->indices || a->view == SCENE_NONE || has_view_source(r, a->view)) &&
            (a->sparse_count == 0 ||

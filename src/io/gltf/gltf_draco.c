@@ -35,7 +35,7 @@ enum { VALUES_PER_BYTE = 4096, VALUES_OF_NOTHING = 1 << 20 };
 /* ---- all bitstreams at once ---- */
 
 /* Calls visit for each primitive of the file that has the extension, until one is false. What is wrong with other
- * primitives is told when they are read. */
+ * primitives is reported when they are read. */
 static bool for_each_primitive(reader *r, bool (*visit)(reader *, const json_place *primitive,
                                                         const json_place *extension))
 {

@@ -21,7 +21,7 @@ void read_children(reader *r, const json_place *at, uint32_t index, uint32_t nod
         uint32_t child = get_index_value(r, &element, node_count, "node");
         if (child == SCENE_NONE)
             return;
-        if (r->scene->nodes[child].parent == index) { /* for now: who listed it last */
+        if (r->scene->nodes[child].parent == index) { /* the last node that listed it */
             reader_note(r, &element, NULL, "node %u is listed twice", child);
             continue;
         }

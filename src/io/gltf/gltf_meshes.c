@@ -48,7 +48,7 @@ static bool read_joints(reader *r, const json_place *attributes, scene_primitive
     return reader_is_ok(r);
 }
 
-/* Whether all that the primitive reads has bytes somewhere. What is wrong with an accessor is told when it is read. */
+/* Whether all that the primitive reads has bytes somewhere. Errors of an accessor are reported when it is read. */
 static bool has_sources(reader *r, const json_place *at, const json_place *attributes)
 {
     const char *name;
