@@ -11,8 +11,17 @@
 facet_result fail(facet_error *error, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* fail() for memory that was not there: "out of memory: WHAT (SIZE bytes)"; size 0, where a library asked for it: without them. */
+/* fail() for a failed allocation: "out of memory: WHAT (SIZE bytes)", without the bytes where size is 0 (unknown). */
 facet_result fail_memory(facet_error *error, const char *what, size_t size);
+
+/* Returns from the calling function with call's result unless that is FACET_OK. For functions of type facet_result
+ * that have nothing to release at that point; the others use goto done. */
+#define TRY(call)                                                                                            \
+    do {                                                                                                     \
+        facet_result try_result = (call);                                                                    \
+        if (try_result != FACET_OK)                                                                          \
+            return try_result;                                                                               \
+    } while (0)
 
 /* Sends one formatted message to log, if there is one. Control characters become '?'. */
 void log_message(const facet_log *log, facet_log_level level, const char *format, ...)

@@ -42,6 +42,24 @@ static void stays_one_line_and_in_bounds(void **state)
     assert_int_equal(strlen(error.message), sizeof error.message - 1);
 }
 
+static facet_result add_twice(int *sum, facet_result first)
+{
+    *sum += 1;
+    TRY(first);
+    *sum += 1;
+    return FACET_OK;
+}
+
+static void try_returns_the_first_failure(void **state)
+{
+    (void)state;
+    int sum = 0;
+    assert_int_equal(add_twice(&sum, FACET_OK), FACET_OK);
+    assert_int_equal(sum, 2);
+    assert_int_equal(add_twice(&sum, FACET_ERROR_READ), FACET_ERROR_READ);
+    assert_int_equal(sum, 3);
+}
+
 static void keep_message(void *user, facet_log_level level, const char *text)
 {
     (void)level;
@@ -62,9 +80,8 @@ static void log_sends_formatted_text(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(writes_code_and_sentence),
-        cmocka_unit_test(missing_memory_has_a_size_if_known),
-        cmocka_unit_test(stays_one_line_and_in_bounds),
+        cmocka_unit_test(writes_code_and_sentence),     cmocka_unit_test(missing_memory_has_a_size_if_known),
+        cmocka_unit_test(stays_one_line_and_in_bounds), cmocka_unit_test(try_returns_the_first_failure),
         cmocka_unit_test(log_sends_formatted_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
