@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "gl/gl_renderer.h"
+#include "gl/scene/gl_renderer.h"
 #include "median.h"
 
 enum { MOST_FRAMES = 10000, UNTIMED_FRAMES = 5 };

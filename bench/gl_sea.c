@@ -17,7 +17,7 @@
 #include "base/clock.h"
 #include "film/film.h"
 #include "film/meter.h"
-#include "gl/gl_sea.h"
+#include "gl/sea/gl_sea.h"
 #include "median.h"
 #include "ocean/sea.h"
 #include "ocean/sea_preset.h"

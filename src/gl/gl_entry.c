@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "gl/gl_build.h"
-#include "gl/gl_renderer.h"
-#include "gl/gl_sea.h"
+#include "gl/scene/gl_renderer.h"
+#include "gl/sea/gl_sea.h"
 
 static facet_result create(const facet_scene *scene, const facet_allocator *allocator, gl_renderer **out,
                            facet_error *error)

@@ -6,7 +6,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "gl/gl_renderer.h"
+#include "gl/scene/gl_renderer.h"
 #include "view/view_draw.h"
 #include "view/view_folder.h"
 #include "view/view_load.h"

@@ -2,7 +2,7 @@
 #ifndef VIEW_VIEW_DRAW_H
 #define VIEW_VIEW_DRAW_H
 
-#include "gl/gl_context.h"
+#include "gl/core/gl_context.h"
 
 /* A texture of RGBA8, and where it is drawn into, its framebuffer. {0}: none. */
 typedef struct view_surface {

@@ -1,0 +1,126 @@
+/* gl_context.c - see gl_context.h: what any context can do. Where contexts come from: gl_context_egl.c. */
+#include "gl/core/gl_context.h"
+
+#include <dlfcn.h>
+#include <epoxy/gl.h>
+#include <stdio.h>
+
+#include "base/result.h"
+
+/* ---- what a context can do ---- */
+
+static bool has_any(const char *a, const char *b)
+{
+    return epoxy_has_gl_extension(a) || epoxy_has_gl_extension(b);
+}
+
+/* Function pointers of epoxy are variables; these are functions. */
+static unsigned core_reset_status(void)
+{
+    return glGetGraphicsResetStatus();
+}
+
+static unsigned khr_reset_status(void)
+{
+    return glGetGraphicsResetStatusKHR();
+}
+
+static unsigned arb_reset_status(void)
+{
+    return glGetGraphicsResetStatusARB();
+}
+
+static unsigned ext_reset_status(void)
+{
+    return glGetGraphicsResetStatusEXT();
+}
+
+static void find_reset_status(gl_context *c)
+{
+    if (c->version >= (c->is_es ? 32 : 45))
+        c->reset_status = core_reset_status;
+    else if (epoxy_has_gl_extension("GL_KHR_robustness"))
+        c->reset_status = khr_reset_status;
+    else if (!c->is_es && epoxy_has_gl_extension("GL_ARB_robustness"))
+        c->reset_status = arb_reset_status;
+    else if (c->is_es && epoxy_has_gl_extension("GL_EXT_robustness"))
+        c->reset_status = ext_reset_status;
+}
+
+static void read_limits(gl_context *c)
+{
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &c->max_texture_size);
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &c->max_array_layers);
+    glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &c->max_texture_units);
+    glGetIntegerv(GL_MAX_SAMPLES, &c->max_samples);
+    c->max_anisotropy = 1.0f;
+    if (has_any("GL_EXT_texture_filter_anisotropic", "GL_ARB_texture_filter_anisotropic") ||
+        (!c->is_es && c->version >= 46))
+        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &c->max_anisotropy);
+    c->has_parallel_compile = epoxy_has_gl_extension("GL_KHR_parallel_shader_compile");
+    c->has_timer_query = !c->is_es || epoxy_has_gl_extension("GL_EXT_disjoint_timer_query");
+    c->has_float_linear = !c->is_es || epoxy_has_gl_extension("GL_OES_texture_float_linear");
+    c->has_float_target = !c->is_es || epoxy_has_gl_extension("GL_EXT_color_buffer_float");
+    c->has_half_target =
+        c->has_float_target || has_any("GL_EXT_color_buffer_half_float", "GL_EXT_color_buffer_float");
+    c->has_clip_control =
+        has_any("GL_ARB_clip_control", "GL_EXT_clip_control") || (!c->is_es && c->version >= 45);
+    find_reset_status(c);
+    c->has_debug_output = epoxy_has_gl_extension("GL_KHR_debug");
+}
+
+/* epoxy ends the process where it finds neither. libEGL may be there alone. */
+static bool has_client_library(void)
+{
+    static const char *const names[] = {"libOpenGL.so.0", "libGL.so.1"};
+    for (int i = 0; i < 2; i++) {
+        void *library = dlopen(names[i], RTLD_LAZY | RTLD_LOCAL);
+        if (library) {
+            dlclose(library);
+            return true;
+        }
+    }
+    return false;
+}
+
+facet_result gl_context_adopt(gl_context *c, facet_error *error)
+{
+    if (!has_client_library())
+        return fail(error, FACET_ERROR_ENVIRONMENT,
+                    "OpenGL: neither libOpenGL.so.0 nor libGL.so.1 is installed");
+    c->is_es = !epoxy_is_desktop_gl();
+    c->version = epoxy_gl_version();
+    snprintf(c->name, sizeof c->name, "%s, %s", (const char *)glGetString(GL_RENDERER),
+             (const char *)glGetString(GL_VERSION));
+    if (c->version < (c->is_es ? 30 : 33))
+        return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL: %s is older than OpenGL 3.3 and OpenGL ES 3.0",
+                    c->name);
+    c->glsl_version = c->is_es ? "300 es" : "330";
+    read_limits(c);
+    return FACET_OK;
+}
+
+/* Errors stay until they are asked for; a lost context gives the same one for ever. */
+static GLenum take_error(void)
+{
+    GLenum first = glGetError();
+    for (int i = 0; i < 16 && first != GL_NO_ERROR && glGetError() != GL_NO_ERROR; i++)
+        continue;
+    return first;
+}
+
+facet_result gl_context_check(gl_context *c, const char *while_doing, facet_error *error)
+{
+    GLenum code = take_error();
+    if (code == GL_CONTEXT_LOST || (c->reset_status && c->reset_status() != GL_NO_ERROR))
+        c->is_lost = true;
+    if (c->is_lost)
+        return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): the driver was reset (%s); try again",
+                    c->name, while_doing);
+    if (code == GL_NO_ERROR)
+        return FACET_OK;
+    if (code == GL_OUT_OF_MEMORY)
+        return fail(error, FACET_ERROR_MEMORY, "OpenGL (%s): there is no memory for %s", c->name,
+                    while_doing);
+    return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): error 0x%04x (%s)", c->name, code, while_doing);
+}

@@ -1,0 +1,489 @@
+/* gl_program.c - see gl_program.h. */
+#include "gl/core/gl_program.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "gl/core/gl_blocks.h"
+#include "gl/scene/gl_material_slots.h"
+
+typedef struct glsl_part {
+    const char *name, *text;
+} glsl_part;
+
+#include "gl_text.h"
+
+/* ---- what the mains are made of ---- */
+
+/* Names of features become #defines; bit 0 first: gl_program.h has the first ones as numbers. */
+static const char *const surface_features[] = {"HAS_TANGENTS",
+                                               "HAS_ENVIRONMENT",
+                                               "HAS_LIGHTS",
+                                               "HAS_SHADOWS",
+                                               "HAS_BASE_COLOR_TEXTURE",
+                                               "HAS_METALLIC_ROUGHNESS_TEXTURE",
+                                               "HAS_NORMAL_TEXTURE",
+                                               "HAS_OCCLUSION_TEXTURE",
+                                               "HAS_EMISSIVE_TEXTURE",
+                                               "HAS_SPECULAR_TEXTURE",
+                                               "HAS_SPECULAR_COLOR_TEXTURE",
+                                               "HAS_CLEARCOAT_TEXTURE",
+                                               "HAS_CLEARCOAT_ROUGHNESS_TEXTURE",
+                                               "HAS_CLEARCOAT_NORMAL_TEXTURE",
+                                               "HAS_SHEEN_COLOR_TEXTURE",
+                                               "HAS_SHEEN_ROUGHNESS_TEXTURE",
+                                               "HAS_TRANSMISSION_TEXTURE",
+                                               "HAS_THICKNESS_TEXTURE",
+                                               "HAS_IRIDESCENCE_TEXTURE",
+                                               "HAS_IRIDESCENCE_THICKNESS_TEXTURE",
+                                               "HAS_ANISOTROPY_TEXTURE",
+                                               "HAS_DIFFUSE_TRANSMISSION_TEXTURE",
+                                               "HAS_DIFFUSE_TRANSMISSION_COLOR_TEXTURE",
+                                               "HAS_SPECULAR_GLOSSINESS_TEXTURE",
+                                               "IS_OCCLUSION_PAIRED",
+                                               "IS_SPECULAR_PAIRED",
+                                               "IS_CLEARCOAT_ROUGHNESS_PAIRED",
+                                               "IS_CLEARCOAT_NORMAL_PAIRED",
+                                               "IS_SHEEN_ROUGHNESS_PAIRED",
+                                               "IS_IRIDESCENCE_THICKNESS_PAIRED",
+                                               "IS_DIFFUSE_TRANSMISSION_PAIRED",
+                                               "HAS_CLEARCOAT",
+                                               "HAS_SHEEN",
+                                               "HAS_ANISOTROPY",
+                                               "HAS_IRIDESCENCE",
+                                               "HAS_TRANSMISSION",
+                                               "HAS_DIFFUSE_TRANSMISSION",
+                                               "HAS_VOLUME",
+                                               "HAS_DISPERSION",
+                                               "HAS_SCATTER",
+                                               "IS_LIT",
+                                               "IS_UNLIT",
+                                               "IS_GLOSSY",
+                                               "HAS_ALPHA_MASK",
+                                               "HAS_ALPHA_BLEND",
+                                               "HAS_COLORS",
+                                               "IS_VOLUME",
+                                               "HAS_SPECULAR_ANTIALIASING",
+                                               "IS_SPRITE",
+                                               "AOVS",
+                                               "IS_WEIGHTED",
+                                               "IS_PEELED",
+                                               "HAS_CHANNEL",
+                                               "HAS_SCHLICK_GGX",
+                                               NULL};
+/* From GL_SURFACE_TEXTURES on; the other ones are those of surfaces. */
+static const char *const phong_features[] = {"HAS_AMBIENT_MAP",  "HAS_DIFFUSE_MAP",   "HAS_SPECULAR_MAP",
+                                             "HAS_EMISSION_MAP", "HAS_SHININESS_MAP", "HAS_OPACITY_MAP",
+                                             "HAS_NORMAL_MAP",   "IS_SPHERE_MAP",     "IS_AT_VERTICES",
+                                             "IS_FLAT",          "IS_SEE_THROUGH"};
+static const char *const halve_features[] = {"IS_COPY", NULL};
+static const char *const no_features[] = {NULL};
+static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
+static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
+static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
+static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE", "IS_PAINTED",       "IS_BELOW",
+                                           "HAS_BED",     "HAS_FOAM",  "HAS_GLINTS",       "HAS_CUBIC",
+                                           "IS_BESIDE",   "HAS_MODEL", "HAS_OTHER_FACETS", NULL};
+static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
+
+enum { MOST_PARTS = 12 };
+
+static const struct {
+    const char *name, *vertex, *fragment;
+    const char *parts[MOST_PARTS]; /* of the shared text; those that they use come with them */
+    const char *fragments[12];     /* files of this folder before the fragment shader's own */
+    const char *const *features;
+    const char *vertex_parts[4]; /* files before the vertex shader's own */
+} mains[GL_MAIN_COUNT] = {
+    [GL_MAIN_SURFACE] = {"surface",
+                         "surface.vert",
+                         "surface.frag",
+                         {"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material",
+                          "footprint"},
+                         {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl",
+                          "surface_in.glsl", "texel.glsl", "material.glsl", "transmission.glsl",
+                          "radiance.glsl", "channels.glsl", "transparency.glsl", "aovs.glsl"},
+                         surface_features,
+                         {0}},
+    [GL_MAIN_SHADOW] = {"shadow",
+                        "surface.vert",
+                        "shadow.frag",
+                        {"surface", "light", "layers_direct", "layers_ibl", "material", "footprint"},
+                        {"surface_in.glsl", "texel.glsl", "material.glsl"},
+                        surface_features,
+                        {0}},
+    [GL_MAIN_PHONG] = {"phong",
+                       "surface.vert",
+                       "phong.frag",
+                       {"phong", "light", "color", "material", "footprint"},
+                       {"light_block.glsl", "shadow.glsl", "lights.glsl", "surface_in.glsl", "texel.glsl",
+                        "phong.glsl", "transparency.glsl", "aovs.glsl"},
+                       surface_features,
+                       {"light_block.glsl", "lights.glsl", "phong.glsl", "phong_vertex.glsl"}},
+    [GL_MAIN_GROUND_MAP] = {"ground_map",
+                            "screen.vert",
+                            "ground_map.frag",
+                            {"constants"},
+                            {"light_block.glsl"},
+                            no_features,
+                            {0}},
+    [GL_MAIN_GROUND] = {"ground",
+                        "screen.vert",
+                        "ground.frag",
+                        {"surface", "light", "color"},
+                        {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl"},
+                        ground_features,
+                        {0}},
+    [GL_MAIN_BACKGROUND] = {"background",
+                            "screen.vert",
+                            "background.frag",
+                            {"surface"},
+                            {"light_block.glsl", "environment.glsl"},
+                            background_features,
+                            {0}},
+    [GL_MAIN_COMPOSE] = {"compose", "screen.vert", "compose.frag", {"constants"}, {0}, compose_features, {0}},
+    [GL_MAIN_PRESENT] =
+        {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, present_features, {0}},
+    [GL_MAIN_HALVE] = {"halve", "screen.vert", "halve.frag", {"constants"}, {0}, halve_features, {0}},
+    [GL_MAIN_SPREAD] = {"spread", "screen.vert", "spread.frag", {"constants"}, {0}, no_features, {0}},
+    [GL_MAIN_DEVELOP] = {"develop", "screen.vert", "develop.frag", {"color"}, {0}, no_features, {0}},
+    [GL_MAIN_SEA_GRID] = {"sea_grid",
+                          "screen.vert",
+                          "sea_grid.frag",
+                          {"water_place"},
+                          {"sea_block.glsl", "sea_waves.glsl", "sea_grid.glsl"},
+                          no_features,
+                          {0}},
+    [GL_MAIN_SEA_SURFACE] = {"sea_surface",
+                             "sea.vert",
+                             "sea_surface.frag",
+                             {"water_place"},
+                             {0},
+                             no_features,
+                             {"sea_block.glsl"}},
+    [GL_MAIN_SEA_CLASS] =
+        {"sea_class", "screen.vert", "sea_class.frag", {"water_place"}, {"sea_block.glsl"}, no_features, {0}},
+    [GL_MAIN_SEA] = {"sea",
+                     "screen.vert",
+                     "sea.frag",
+                     {"water_place", "water_crest", "water_facets", "water_caustic", "water_before", "glint",
+                      "ibl", "surface", "sobol"},
+                     {"sea_light.glsl", "light_block.glsl", "environment.glsl", "sea_block.glsl",
+                      "sea_waves.glsl", "sea_caustics.glsl", "sea_sky.glsl", "sea_place.glsl",
+                      "sea_model.glsl", "sea_look.glsl"},
+                     sea_features,
+                     {0}},
+};
+
+/* Samplers and their units. */
+static const struct {
+    const char *name;
+    int unit;
+} samplers[] = {{"u_environment", GL_UNIT_ENVIRONMENT},
+                {"u_sharp", GL_UNIT_SHARP},
+                {"u_tables", GL_UNIT_TABLES},
+                {"u_glass", GL_UNIT_GLASS},
+                {"u_lights", GL_UNIT_LIGHTS},
+                {"u_shadows", GL_UNIT_SHADOWS},
+                {"u_opaque", GL_UNIT_OPAQUE},
+                {"u_level", GL_UNIT_OPAQUE},
+                {"u_picture", 0},
+                {"u_heights", GL_UNIT_MATERIAL},
+                {"u_ground", GL_UNIT_MATERIAL},
+                {"u_sum", GL_UNIT_MATERIAL},
+                {"u_weights", GL_UNIT_MATERIAL + 1},
+                {"u_peeled", GL_UNIT_PEELED},
+                {"u_sea_low", GL_UNIT_SEA_LOW},
+                {"u_sea_high", GL_UNIT_SEA_HIGH},
+                {"u_sea_foam", GL_UNIT_SEA_FOAM},
+                {"u_sea_patches", GL_UNIT_SEA_PATCHES},
+                {"u_sea_sky", GL_UNIT_SEA_SKY},
+                {"u_sea_lobes", GL_UNIT_SEA_LOBES},
+                {"u_sea_means", GL_UNIT_SEA_MEANS},
+                {"u_sea_model", GL_UNIT_SEA_MODEL},
+                {"u_sea_model_depth", GL_UNIT_SEA_MODEL_DEPTH},
+                {"u_sea_mirrored", GL_UNIT_SEA_MIRRORED},
+                {"u_sea_mirrored_depth", GL_UNIT_SEA_MIRRORED_DEPTH},
+                {"u_sea_window", GL_UNIT_SEA_WINDOW},
+                {"u_sea_window_depth", GL_UNIT_SEA_WINDOW_DEPTH},
+                {"u_sea_touch", GL_UNIT_SEA_TOUCH},
+                {"u_sea_grid", GL_UNIT_SEA_GRID},
+                {"u_sea_rest", GL_UNIT_SEA_SEEN},
+                {"u_sea_seen", GL_UNIT_SEA_SEEN},
+                {"u_sea_caustics", GL_UNIT_SEA_CAUSTICS},
+                {"u_material0", GL_UNIT_MATERIAL},
+                {"u_material1", GL_UNIT_MATERIAL + 1},
+                {"u_material2", GL_UNIT_MATERIAL + 2},
+                {"u_material3", GL_UNIT_MATERIAL + 3},
+                {"u_material4", GL_UNIT_MATERIAL + 4},
+                {"u_material5", GL_UNIT_MATERIAL + 5},
+                {"u_material6", GL_UNIT_MATERIAL + 6},
+                {"u_material7", GL_UNIT_MATERIAL + 7},
+                {"u_material8", GL_UNIT_MATERIAL + 8}};
+
+static const char *const attributes[GL_ATTRIBUTE_COUNT] = {
+    "position",  "normal",         "tangent",        "color",          "texcoord0",
+    "texcoord1", "texcoord2",      "texcoord3",      "world0",         "world1",
+    "world2",    "normal_matrix0", "normal_matrix1", "normal_matrix2", "instance"};
+/* What sprites have in the same places. */
+static const char *const sprite_attributes[GL_ATTRIBUTE_COUNT] = {
+    [GL_ATTRIBUTE_TANGENT] = "position_end",
+    [GL_ATTRIBUTE_NORMAL_MATRIX] = "normal_end",
+    [GL_ATTRIBUTE_NORMAL_MATRIX + 1] = "color_end",
+    [GL_ATTRIBUTE_TEXCOORD + 2] = "texcoord0_end",
+    [GL_ATTRIBUTE_TEXCOORD + 3] = "texcoord1_end"};
+
+const char *gl_program_main_name(gl_main main)
+{
+    return mains[main].name;
+}
+
+uint32_t gl_program_feature_count(gl_main main)
+{
+    uint32_t count = 0;
+    while (mains[main].features[count])
+        count++;
+    return count;
+}
+
+const char *gl_program_feature_name(gl_main main, uint32_t feature)
+{
+    const uint32_t own = sizeof phong_features / sizeof *phong_features;
+    if (main == GL_MAIN_PHONG && UINT64_C(1) << feature == GL_SURFACE_HAS_SHADOWS) /* OpenGL 1 has none */
+        return "";
+    if (main == GL_MAIN_PHONG && feature >= GL_SURFACE_TEXTURES && feature < GL_SURFACE_IS_LIT)
+        return feature - GL_SURFACE_TEXTURES < own ? phong_features[feature - GL_SURFACE_TEXTURES] : "";
+    return mains[main].features[feature];
+}
+
+uint64_t gl_program_feature(gl_main main, const char *name)
+{
+    for (uint32_t i = 0; mains[main].features[i]; i++)
+        if (strcmp(gl_program_feature_name(main, i), name) == 0)
+            return UINT64_C(1) << i;
+    return 0;
+}
+
+static const char *file_text(const char *name)
+{
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (strcmp(parts[i].name, name) == 0)
+            return parts[i].text;
+    return "#error there is no such file\n";
+}
+
+facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint32_t stage, text *out,
+                             facet_error *error)
+{
+    facet_shader_desc desc = {
+        .allocator = out->allocator, .version = glsl_version, .parts = mains[key.main].parts};
+    while (desc.part_count < MOST_PARTS && desc.parts[desc.part_count])
+        desc.part_count++;
+    unsigned char *shared;
+    size_t size;
+    facet_result result = facet_shader_text(&desc, &shared, &size, error);
+    if (result != FACET_OK)
+        return result;
+    text_add(out, (const char *)shared);
+    mem_free(shared);
+    for (uint32_t i = 0; i < gl_program_feature_count(key.main); i++)
+        if (key.features >> i & 1 && gl_program_feature_name(key.main, i)[0])
+            text_addf(out, "#define %s\n", gl_program_feature_name(key.main, i));
+    if (key.main == GL_MAIN_PHONG)
+        text_add(out, "#define IS_PHONG\n");
+    if ((key.main == GL_MAIN_SURFACE || key.main == GL_MAIN_SHADOW) && stage == GL_FRAGMENT_SHADER)
+        gl_material_slot_text(key.features, out);
+    text_add(out, file_text("blocks.glsl"));
+    for (int i = 0; stage == GL_FRAGMENT_SHADER && i < 12 && mains[key.main].fragments[i]; i++)
+        text_add(out, file_text(mains[key.main].fragments[i]));
+    for (int i = 0; stage == GL_VERTEX_SHADER && i < 4 && mains[key.main].vertex_parts[i]; i++)
+        text_add(out, file_text(mains[key.main].vertex_parts[i]));
+    text_add(out, file_text(stage == GL_VERTEX_SHADER ? mains[key.main].vertex : mains[key.main].fragment));
+    return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;
+}
+
+/* ---- programs ---- */
+
+typedef struct gl_program {
+    gl_program_key key;
+    GLuint name, shaders[2];
+    bool is_linked;
+} gl_program;
+
+struct gl_programs {
+    gl_context *context;
+    facet_allocator allocator;
+    facet_log log;
+    const char *prelude;
+    gl_program *items;
+    size_t count, capacity;
+};
+
+facet_result gl_programs_create(gl_context *context, const facet_allocator *allocator, const facet_log *log,
+                                gl_programs **out, facet_error *error)
+{
+    *out = mem_zalloc(allocator, 1, sizeof **out);
+    if (!*out)
+        return fail_memory(error, "programs", sizeof **out);
+    (*out)->context = context;
+    (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
+    gl_programs_set_log(*out, log);
+    if (context->has_parallel_compile)
+        glMaxShaderCompilerThreadsKHR(0xffffffff); /* as many as the driver likes */
+    return FACET_OK;
+}
+
+void gl_programs_set_log(gl_programs *programs, const facet_log *log)
+{
+    programs->log = log ? *log : (facet_log){0};
+}
+
+void gl_programs_set_prelude(gl_programs *programs, const char *prelude)
+{
+    programs->prelude = prelude;
+}
+
+void gl_programs_destroy(gl_programs *programs)
+{
+    if (!programs)
+        return;
+    if (programs->count > 0)
+        glUseProgram(0); /* one that is in use would stay */
+    for (size_t i = 0; i < programs->count; i++)
+        glDeleteProgram(programs->items[i].name);
+    mem_free(programs->items);
+    mem_free(programs);
+}
+
+static gl_program *find(gl_programs *programs, gl_program_key key)
+{
+    for (size_t i = 0; i < programs->count; i++)
+        if (programs->items[i].key.main == key.main && programs->items[i].key.features == key.features)
+            return &programs->items[i];
+    return NULL;
+}
+
+/* The text of a shader of programs, with the prelude behind its line of version. */
+static facet_result source_text(const gl_programs *programs, gl_program_key key, GLenum stage, text *out,
+                                facet_error *error)
+{
+    facet_result result = gl_program_text(programs->context->glsl_version, key, stage, out, error);
+    if (result != FACET_OK || !programs->prelude)
+        return result;
+    text whole = {.allocator = programs->allocator};
+    size_t version = strcspn(out->data, "\n") + 1;
+    text_add_bytes(&whole, out->data, version);
+    text_add(&whole, programs->prelude);
+    text_add(&whole, out->data + version);
+    text_destroy(out);
+    *out = whole;
+    return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;
+}
+
+facet_result gl_programs_request(gl_programs *programs, gl_program_key key, facet_error *error)
+{
+    static const GLenum stages[2] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER};
+    if (find(programs, key))
+        return FACET_OK;
+    if (!mem_reserve(&programs->allocator, (void **)&programs->items, &programs->capacity,
+                     programs->count + 1, sizeof *programs->items))
+        return fail_memory(error, "programs", (programs->count + 1) * sizeof *programs->items);
+    gl_program *p = &programs->items[programs->count];
+    *p = (gl_program){.key = key, .name = glCreateProgram()};
+    facet_result result = FACET_OK;
+    for (int i = 0; i < 2 && result == FACET_OK; i++) {
+        text t = {.allocator = programs->allocator};
+        result = source_text(programs, key, stages[i], &t, error);
+        if (result == FACET_OK) {
+            p->shaders[i] = glCreateShader(stages[i]);
+            const char *source = t.data;
+            glShaderSource(p->shaders[i], 1, &source, NULL);
+            glCompileShader(p->shaders[i]);
+            glAttachShader(p->name, p->shaders[i]);
+            glDeleteShader(p->shaders[i]); /* with the program */
+        }
+        text_destroy(&t);
+    }
+    for (GLuint i = 0; i < GL_ATTRIBUTE_COUNT; i++)
+        glBindAttribLocation(p->name, i, attributes[i]);
+    for (GLuint i = 0; i < GL_ATTRIBUTE_COUNT; i++)
+        if (sprite_attributes[i])
+            glBindAttribLocation(p->name, i, sprite_attributes[i]);
+    glLinkProgram(p->name);
+    programs->count += result == FACET_OK;
+    if (result != FACET_OK)
+        glDeleteProgram(p->name);
+    return result;
+}
+
+/* The text with numbers before its lines, a message for each: people are to find line 812. */
+static void tell_source(const gl_programs *programs, const char *source)
+{
+    char line[320];
+    int number = 1;
+    for (const char *at = source; *at && programs->log.message; number++) {
+        int length = (int)strcspn(at, "\n");
+        snprintf(line, sizeof line, "%4d  %.*s", number, length < 300 ? length : 300, at);
+        programs->log.message(programs->log.user, FACET_LOG_WARNING, line);
+        at += length + (at[length] == '\n');
+    }
+}
+
+static facet_result fail_link(gl_programs *programs, const gl_program *p, facet_error *error)
+{
+    static const GLenum stages[2] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER};
+    char message[512] = "";
+    for (int i = 0; i < 2 && !message[0]; i++) {
+        GLint is_compiled = 0;
+        glGetShaderiv(p->shaders[i], GL_COMPILE_STATUS, &is_compiled);
+        if (is_compiled)
+            continue;
+        glGetShaderInfoLog(p->shaders[i], sizeof message, NULL, message);
+        text t = {.allocator = programs->allocator};
+        if (source_text(programs, p->key, stages[i], &t, NULL) == FACET_OK)
+            tell_source(programs, t.data);
+        text_destroy(&t);
+    }
+    if (!message[0])
+        glGetProgramInfoLog(p->name, sizeof message, NULL, message);
+    message[strcspn(message, "\n")] = 0;
+    return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): the shader \"%s\" does not compile: %.300s",
+                programs->context->name, mains[p->key.main].name, message);
+}
+
+static void bind_names(const gl_program *p)
+{
+    static const char *const blocks[GL_BLOCK_COUNT] = {"Frame", "Material", "Lighting", "Ogl1", "Sea"};
+    for (GLuint i = 0; i < GL_BLOCK_COUNT; i++) {
+        GLuint index = glGetUniformBlockIndex(p->name, blocks[i]);
+        if (index != GL_INVALID_INDEX)
+            glUniformBlockBinding(p->name, index, i);
+    }
+    glUseProgram(p->name);
+    for (size_t i = 0; i < sizeof samplers / sizeof *samplers; i++) {
+        GLint location = glGetUniformLocation(p->name, samplers[i].name);
+        if (location >= 0)
+            glUniform1i(location, samplers[i].unit);
+    }
+}
+
+facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t *name, facet_error *error)
+{
+    facet_result result = gl_programs_request(programs, key, error);
+    if (result != FACET_OK)
+        return result;
+    gl_program *p = find(programs, key);
+    if (!p->is_linked) {
+        GLint is_linked = 0;
+        glGetProgramiv(p->name, GL_LINK_STATUS, &is_linked);
+        if (!is_linked)
+            return fail_link(programs, p, error);
+        bind_names(p);
+        p->is_linked = true;
+    }
+    *name = p->name;
+    return FACET_OK;
+}

@@ -1,0 +1,363 @@
+/* Tests of gl_program.h: the text of every program in every configuration that a picture may ask for, by a scan of its own
+ * (glsl_order.h), by the drivers at hand, by glslangValidator where it is installed. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include <epoxy/gl.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/test_effort.h"
+#include "gl/core/gl_blocks.h"
+#include "gl/scene/gl_material_slots.h"
+#include "gl/core/gl_program.h"
+#include "gl/core/glsl_order.h"
+
+static const char *const versions[] = {"330", "300 es"};
+static const uint32_t stages[] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER};
+enum { MAX_KEYS = 512, RANDOM_KEYS = 48, COMPILED_RANDOM_KEYS = 8 };
+
+/* ---- configurations ---- */
+
+/* A material has no more textures than there are units; gl_material.c drops those that matter least. */
+static uint64_t drop_textures(uint64_t features)
+{
+    int8_t units[SCENE_TEXTURE_SLOT_COUNT];
+    for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
+        if (gl_material_slot_units(features, units) > GL_MATERIAL_UNITS)
+            features &= ~(UINT64_C(1) << (GL_SURFACE_TEXTURES + gl_slots_by_loss[i]));
+    return features;
+}
+
+static uint64_t all_features(gl_main main)
+{
+    uint32_t count = gl_program_feature_count(main);
+    assert_true(count < 64);
+    return (UINT64_C(1) << count) - 1;
+}
+
+static uint64_t next_random(uint64_t *state) /* xorshift64*, Vigna 2016 */
+{
+    *state ^= *state >> 12;
+    *state ^= *state << 25;
+    *state ^= *state >> 27;
+    return *state * UINT64_C(2685821657736338717);
+}
+
+/* None, each alone, all; then, for surfaces, each with what lit materials have, and random ones. */
+static size_t list_keys(gl_program_key keys[MAX_KEYS])
+{
+    size_t count = 0;
+    uint64_t state = 1;
+    for (gl_main main = 0; main < GL_MAIN_COUNT; main++) {
+        uint64_t all = all_features(main);
+        keys[count++] = (gl_program_key){main, 0};
+        keys[count++] = (gl_program_key){main, main == GL_MAIN_SURFACE ? drop_textures(all) : all};
+        for (uint32_t i = 0; i < gl_program_feature_count(main); i++)
+            if (gl_program_feature_name(main, i)[0])
+                keys[count++] = (gl_program_key){main, UINT64_C(1) << i};
+        if (main != GL_MAIN_SURFACE)
+            continue;
+        uint64_t lit = UINT64_C(1) << GL_SURFACE_IS_LIT | GL_SURFACE_HAS_ENVIRONMENT | GL_SURFACE_HAS_LIGHTS |
+                       GL_SURFACE_HAS_TANGENTS;
+        for (uint32_t i = 0; i < gl_program_feature_count(main); i++)
+            keys[count++] = (gl_program_key){main, lit | UINT64_C(1) << i};
+        for (int i = 0; i < RANDOM_KEYS; i++)
+            keys[count++] = (gl_program_key){main, drop_textures((lit | next_random(&state)) & all)};
+    }
+    assert_true(count <= MAX_KEYS);
+    return count;
+}
+
+static text assemble(const char *version, gl_program_key key, uint32_t stage)
+{
+    text t = {.data = NULL};
+    facet_error error;
+    if (gl_program_text(version, key, stage, &t, &error) != FACET_OK)
+        fail_msg("%s", error.message);
+    return t;
+}
+
+/* ---- order ---- */
+
+static void each_text_defines_before_it_uses(void **state)
+{
+    (void)state;
+    static gl_program_key keys[MAX_KEYS];
+    size_t count = list_keys(keys);
+    char complaint[256];
+    for (size_t i = 0; i < count; i += IS_SLOW ? 5 : 1)
+        for (int v = 0; v < 2; v++)
+            for (int s = 0; s < 2; s++) {
+                text t = assemble(versions[v], keys[i], stages[s]);
+                if (!glsl_order_check(t.data, complaint, sizeof complaint))
+                    fail_msg("%s with features %llx, %s, GLSL %s: %s", gl_program_main_name(keys[i].main),
+                             (unsigned long long)keys[i].features, s ? "fragment" : "vertex", versions[v],
+                             complaint);
+                text_destroy(&t);
+            }
+}
+
+/* The text with the lines from the one that begins with head to the one that is tail behind the rest; NULL: there are none. */
+static char *move_behind(const char *whole, const char *head, const char *tail)
+{
+    const char *begin = strstr(whole, head);
+    const char *end = begin ? strstr(begin, tail) : NULL;
+    char *moved = end ? malloc(strlen(whole) + 1) : NULL;
+    if (!moved)
+        return NULL;
+    end += strlen(tail);
+    sprintf(moved, "%.*s%s%.*s", (int)(begin - whole), whole, end, (int)(end - begin), begin);
+    return moved;
+}
+
+static void a_definition_behind_its_use_is_noticed(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *head, *tail, *name;
+    } moves[] = {{"\nFN float D_GGX(", "\n}\n", "D_GGX"},
+                 {"\nSTRUCT(Surface)", "\n};\n", "Surface"},
+                 {"\nFN vec3 layers_direct(", "\n}\n", "layers_direct"},
+                 {"\n#define PI ", "\n", NULL}};
+    gl_program_key key = {GL_MAIN_SURFACE, drop_textures(all_features(GL_MAIN_SURFACE) &
+                                                         ~gl_program_feature(GL_MAIN_SURFACE, "IS_UNLIT"))};
+    text t = assemble("330", key, GL_FRAGMENT_SHADER);
+    char complaint[256];
+    int moved_count = 0;
+    for (size_t i = 0; i < sizeof moves / sizeof *moves; i++) {
+        char *moved = move_behind(t.data, moves[i].head, moves[i].tail);
+        if (!moved)
+            continue;
+        moved_count++;
+        bool is_good = glsl_order_check(moved, complaint, sizeof complaint);
+        if (moves[i].name) {
+            assert_false(is_good);
+            assert_non_null(strstr(complaint, moves[i].name));
+        }
+        free(moved);
+    }
+    assert_true(moved_count >= 2);
+    text_destroy(&t);
+    assert_false(
+        glsl_order_check("void main()\n{\n    float x = f(1.0);\n}\nfloat f(float y) { return y; }\n",
+                         complaint, sizeof complaint));
+    assert_string_equal(complaint, "line 3: not defined before it is called: \"f\"");
+    assert_false(glsl_order_check("#ifdef A\nfloat f() { return 1.0; }\n#endif\nvoid main() { f(); }\n",
+                                  complaint, sizeof complaint));
+    assert_true(
+        glsl_order_check("#define A\n#if defined(A) && !defined(B)\nfloat f() { return 1.0; }\n#endif\n"
+                         "void main() { f(); }\n",
+                         complaint, sizeof complaint));
+    assert_false(glsl_order_check("#define USE(x) later(x)\nfloat g() { return USE(1.0); }\n"
+                                  "float later(float x) { return x; }\n",
+                                  complaint, sizeof complaint));
+}
+
+/* ---- compilers ---- */
+
+typedef struct heard {
+    size_t count;
+    char first[128], all[1 << 20];
+    size_t length;
+} heard;
+
+static void hear(void *user, facet_log_level level, const char *said)
+{
+    heard *h = user;
+    (void)level;
+    if (h->count++ == 0)
+        snprintf(h->first, sizeof h->first, "%s", said);
+    int length = snprintf(h->all + h->length, sizeof h->all - h->length, "%s\n", said);
+    h->length += (size_t)length < sizeof h->all - h->length ? (size_t)length : 0;
+}
+
+static gl_api apis[] = {GL_API_CORE, GL_API_ES};
+
+static int run_on_drivers(void (*check)(gl_context *context))
+{
+    int count = 0;
+    for (int i = 0; i < 2; i++) {
+        gl_context context;
+        if (gl_context_create_api(&context, apis[i], NULL) != FACET_OK)
+            continue;
+        assert_int_equal(context.is_es, apis[i] == GL_API_ES);
+        check(&context);
+        gl_context_destroy(&context);
+        count++;
+    }
+    if (count == 0)
+        skip();
+    return count;
+}
+
+static void compile_all(gl_context *context)
+{
+    static gl_program_key keys[MAX_KEYS];
+    size_t count = list_keys(keys), kept = 0;
+    gl_programs *programs;
+    facet_error error;
+    assert_int_equal(gl_programs_create(context, NULL, NULL, &programs, &error), FACET_OK);
+    uint32_t surfaces = gl_program_feature_count(GL_MAIN_SURFACE);
+    for (size_t i = 0; i < count; i++) { /* of those with light, a sixth: the order of all was checked */
+        bool is_rest = keys[i].main == GL_MAIN_SURFACE && i >= 2 + surfaces;
+        if (i % (IS_SLOW ? 10 : is_rest ? 6 : 1) == 0)
+            keys[kept++] = keys[i];
+    }
+    for (size_t i = 0; i < kept; i++)
+        assert_int_equal(gl_programs_request(programs, keys[i], &error), FACET_OK);
+    for (size_t i = 0; i < kept; i++) {
+        uint32_t name, again;
+        if (gl_programs_get(programs, keys[i], &name, &error) != FACET_OK)
+            fail_msg("features %llx: %s", (unsigned long long)keys[i].features, error.message);
+        assert_int_equal(gl_programs_get(programs, keys[i], &again, &error), FACET_OK);
+        assert_int_equal(name, again);
+    }
+    gl_programs_destroy(programs);
+    assert_int_equal(gl_context_check(context, "test", &error), FACET_OK);
+}
+
+static void programs_compile(void **state)
+{
+    (void)state;
+    run_on_drivers(compile_all);
+}
+
+/* What does not compile is told in a sentence, and its text with numbers of lines. */
+static void compile_broken(gl_context *context)
+{
+    static heard h;
+    memset(&h, 0, sizeof h);
+    const facet_log log = {.user = &h, .message = hear};
+    gl_programs *programs;
+    facet_error error;
+    uint32_t name = 0;
+    assert_int_equal(gl_programs_create(context, NULL, NULL, &programs, &error), FACET_OK);
+    gl_programs_set_log(programs, &log);
+    gl_programs_set_prelude(programs,
+                            "precision highp float;\nfloat broken() { return no_such_function(1.0); }\n");
+    gl_program_key key = {GL_MAIN_PRESENT, 0};
+    assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_ERROR_ENVIRONMENT);
+    assert_non_null(strstr(error.message, "the shader \"present\" does not compile"));
+    assert_non_null(strstr(error.message, "no_such_function"));
+    assert_null(strchr(error.message, '\n'));
+    assert_non_null(strstr(h.all, "   1  #version "));
+    const char *line = strstr(h.all, "  float broken()");
+    assert_non_null(line);
+    int number = 0; /* that the driver names is that of the log */
+    while (line > h.all && line[-1] != '\n')
+        line--;
+    number = atoi(line);
+    assert_int_equal(number, 3);
+    char place[32];
+    snprintf(place, sizeof place, ":%d(", number); /* Mesa; others write it otherwise */
+    if (strstr(context->name, "Mesa"))
+        assert_non_null(strstr(error.message, place));
+    assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_ERROR_ENVIRONMENT);
+    gl_programs_set_prelude(programs, NULL);
+    key.main = GL_MAIN_BACKGROUND;
+    assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_OK);
+    gl_programs_destroy(programs);
+}
+
+static void a_broken_program_is_told_with_its_text(void **state)
+{
+    (void)state;
+    run_on_drivers(compile_broken);
+}
+
+/* Blocks are laid out in shaders as in C. */
+static void check_frame_block(gl_context *context)
+{
+    static const struct {
+        const char *name;
+        size_t offset;
+    } members[] = {{"eye", offsetof(gl_frame_block, eye)},
+                   {"frame_size", offsetof(gl_frame_block, size)},
+                   {"frame_light", offsetof(gl_frame_block, light)},
+                   {"exposure", offsetof(gl_frame_block, exposure)},
+                   {"channel", offsetof(gl_frame_block, channel)},
+                   {"background_blur", offsetof(gl_frame_block, background_blur)},
+                   {"tonemap_operator", offsetof(gl_frame_block, tonemap)},
+                   {"far_depth", offsetof(gl_frame_block, far_depth)},
+                   {"pixel_scale", offsetof(gl_frame_block, pixel_scale)},
+                   {"background", offsetof(gl_frame_block, background)}};
+    gl_programs *programs;
+    uint32_t name;
+    facet_error error;
+    assert_int_equal(gl_programs_create(context, NULL, NULL, &programs, &error), FACET_OK);
+    assert_int_equal(gl_programs_get(programs, (gl_program_key){GL_MAIN_PRESENT, 0}, &name, &error),
+                     FACET_OK);
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        GLuint index = GL_INVALID_INDEX;
+        GLint offset = -1;
+        const char *const names[] = {members[i].name};
+        glGetUniformIndices(name, 1, names, &index);
+        if (index == GL_INVALID_INDEX)
+            fail_msg("the block Frame has no \"%s\"", members[i].name);
+        glGetActiveUniformsiv(name, 1, &index, GL_UNIFORM_OFFSET, &offset);
+        assert_int_equal(offset, (int)members[i].offset);
+    }
+    GLint size = 0;
+    glGetActiveUniformBlockiv(name, glGetUniformBlockIndex(name, "Frame"), GL_UNIFORM_BLOCK_DATA_SIZE, &size);
+    assert_int_equal(size, (int)sizeof(gl_frame_block));
+    gl_programs_destroy(programs);
+}
+
+static void the_frame_block_is_the_same_in_shaders(void **state)
+{
+    (void)state;
+    run_on_drivers(check_frame_block);
+}
+
+/* ---- glslangValidator ---- */
+
+static void write_text(const char *path, const text *t)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_int_equal(fwrite(t->data, 1, t->length, file), t->length);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void the_reference_compiler_agrees(void **state)
+{
+    (void)state;
+    if (system("command -v glslangValidator >/dev/null 2>&1") != 0) {
+        print_message("glslangValidator is not installed\n");
+        skip();
+    }
+    char folder[] = "/tmp/facet_gl_program_XXXXXX", path[128], command[256];
+    assert_non_null(mkdtemp(folder));
+    int number = 0;
+    for (gl_main main = 0; main < GL_MAIN_COUNT; main++) {
+        uint64_t all = all_features(main);
+        const uint64_t features[] = {0, main == GL_MAIN_SURFACE ? drop_textures(all) : all};
+        for (int k = 0; k < 8; k++) { /* which configuration, version, stage */
+            text t = assemble(versions[k >> 1 & 1], (gl_program_key){main, features[k >> 2]}, stages[k & 1]);
+            snprintf(path, sizeof path, "%s/%03d.%s", folder, number++, k & 1 ? "frag" : "vert");
+            write_text(path, &t);
+            text_destroy(&t);
+        }
+    }
+    snprintf(command, sizeof command, "cd %s && for f in *; do glslangValidator $f || exit 1; done", folder);
+    assert_int_equal(system(command), 0);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(each_text_defines_before_it_uses),
+                                       cmocka_unit_test(a_definition_behind_its_use_is_noticed),
+                                       cmocka_unit_test(programs_compile),
+                                       cmocka_unit_test(a_broken_program_is_told_with_its_text),
+                                       cmocka_unit_test(the_frame_block_is_the_same_in_shaders),
+                                       cmocka_unit_test(the_reference_compiler_agrees)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,313 @@
+/* gl_texture.c - see gl_texture.h. An image is one texture for each way of reading it, however many textures of the scene
+ * show it; how they wrap and filter is in sampler objects. */
+#include "gl/core/gl_texture.h"
+
+#include <epoxy/gl.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "draw/texture_store.h"
+#include "image/half.h"
+
+enum {
+    WRAPS = 3,
+    FILTERS = 2,
+    BAND_TEXELS = 1 << 20, /* that are brought to the form of OpenGL at a time */
+    MIP_FILTERS = 3,
+    SAMPLER_COUNT = WRAPS * WRAPS * FILTERS * FILTERS * MIP_FILTERS
+};
+
+/* An image as data and as color. */
+typedef struct gl_image {
+    GLuint names[2];
+    bool is_known[2]; /* uploaded, or cannot be */
+    bool lacks_red;   /* as data */
+} gl_image;
+
+struct gl_texture_set {
+    gl_context *context;
+    const facet_scene *scene;
+    facet_allocator allocator;
+    gl_image *images; /* of the scene */
+    GLuint samplers[SAMPLER_COUNT];
+    uint64_t decoded_texels;
+};
+
+facet_result gl_texture_create(gl_context *context, const facet_scene *scene,
+                               const facet_allocator *allocator, gl_texture_set **out, facet_error *error)
+{
+    gl_texture_set *set = mem_zalloc(allocator, 1, sizeof *set);
+    *out = set;
+    if (!set)
+        return fail_memory(error, "textures", sizeof *set);
+    set->context = context;
+    set->scene = scene;
+    set->allocator = allocator ? *allocator : (facet_allocator){0};
+    set->images = mem_zalloc(allocator, scene->image_count, sizeof *set->images);
+    if (set->images)
+        return FACET_OK;
+    gl_texture_destroy(set);
+    *out = NULL;
+    return fail_memory(error, "textures", scene->image_count * sizeof *set->images);
+}
+
+void gl_texture_destroy(gl_texture_set *set)
+{
+    if (!set)
+        return;
+    for (uint32_t i = 0; set->images && i < set->scene->image_count; i++)
+        glDeleteTextures(2, set->images[i].names);
+    glDeleteSamplers(SAMPLER_COUNT, set->samplers);
+    mem_free(set->images);
+    mem_free(set);
+}
+
+/* ---- texels as they are uploaded ---- */
+
+/* Gray to RGB, no alpha to 1: not every OpenGL reads a channel in the place of another. */
+static void expand_8(const unsigned char *in, size_t count, uint32_t channel_count, unsigned char *out)
+{
+    bool is_gray = channel_count < 3;
+    bool has_alpha = channel_count == 2 || channel_count == 4;
+    for (size_t i = 0; i < count; i++, in += channel_count, out += 4) {
+        out[0] = in[0];
+        out[1] = in[is_gray ? 0 : 1];
+        out[2] = in[is_gray ? 0 : 2];
+        out[3] = has_alpha ? in[channel_count - 1] : 255;
+    }
+}
+
+static void expand_16(const uint16_t *in, size_t count, uint32_t channel_count, uint16_t *out)
+{
+    bool is_gray = channel_count < 3;
+    bool has_alpha = channel_count == 2 || channel_count == 4;
+    for (size_t i = 0; i < count; i++, in += channel_count, out += 4) {
+        const uint16_t rgba[4] = {in[0], in[is_gray ? 0 : 1], in[is_gray ? 0 : 2],
+                                  has_alpha ? in[channel_count - 1] : 65535};
+        for (int c = 0; c < 4; c++)
+            out[c] = half_from_float((float)rgba[c] * (1.0f / 65535.0f));
+    }
+}
+
+/* Rows of a band of an image of that width. */
+static uint32_t band_rows(uint32_t width)
+{
+    return width < BAND_TEXELS ? BAND_TEXELS / width : 1;
+}
+
+static GLenum internal_format(const texture_pyramid *p, bool as_color)
+{
+    return p->type != IMAGE_U8 ? GL_RGBA16F : as_color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+}
+
+/* Memory for the levels from first on, without contents. All at once where OpenGL can: Mesa otherwise holds two copies of
+ * the finest level for a while. */
+static void allocate_levels(const gl_context *c, const texture_pyramid *p, uint32_t first, bool as_color)
+{
+    const GLenum format = internal_format(p, as_color);
+    const bool is_8 = p->type == IMAGE_U8;
+    const GLsizei count = (GLsizei)(p->level_count - first);
+    if (c->version >= (c->is_es ? 30 : 42) || epoxy_has_gl_extension("GL_ARB_texture_storage")) {
+        glTexStorage2D(GL_TEXTURE_2D, count, format, (GLsizei)p->levels[first].width,
+                       (GLsizei)p->levels[first].height);
+        return;
+    }
+    for (GLsizei i = 0; i < count; i++)
+        glTexImage2D(GL_TEXTURE_2D, i, (GLint)format, (GLsizei)p->levels[first + (uint32_t)i].width,
+                     (GLsizei)p->levels[first + (uint32_t)i].height, 0, GL_RGBA,
+                     is_8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT, NULL);
+}
+
+/* One level; buffer has room for a band of it. */
+static void upload_level(const texture_pyramid *p, uint32_t level, GLint gl_level, void *buffer)
+{
+    const texture_level *l = &p->levels[level];
+    const bool is_8 = p->type == IMAGE_U8;
+    const GLenum type = is_8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT;
+    const size_t row_size = (size_t)l->width * p->channel_count * image_type_size(p->type);
+    for (uint32_t y = 0, rows; y < l->height; y += rows) {
+        const unsigned char *from = l->texels + y * row_size;
+        const void *texels = buffer;
+        rows = band_rows(l->width) < l->height - y ? band_rows(l->width) : l->height - y;
+        const size_t count = (size_t)l->width * rows;
+        if (!is_8)
+            expand_16((const uint16_t *)(const void *)from, count, p->channel_count, buffer);
+        else if (p->channel_count == 4)
+            texels = from;
+        else
+            expand_8(from, count, p->channel_count, buffer);
+        glTexSubImage2D(GL_TEXTURE_2D, gl_level, 0, (GLint)y, (GLsizei)l->width, (GLsizei)rows, GL_RGBA, type,
+                        texels);
+    }
+}
+
+/* Levels from first on. */
+static facet_result upload(gl_texture_set *set, const texture_pyramid *p, uint32_t first, bool as_color,
+                           GLuint *name, facet_error *error)
+{
+    size_t texel_size = p->type == IMAGE_U8 ? 4 : 8;
+    const texture_level *l = &p->levels[first];
+    const size_t whole = (size_t)l->width * l->height;
+    const size_t band = l->width < BAND_TEXELS ? BAND_TEXELS : l->width;
+    const size_t count = band < whole ? band : whole;
+    void *buffer = mem_alloc(&set->allocator, count, texel_size);
+    if (!buffer)
+        return fail_memory(error, "textures", count * texel_size);
+    glGenTextures(1, name);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, *name);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    allocate_levels(set->context, p, first, as_color);
+    for (uint32_t level = first; level < p->level_count; level++)
+        upload_level(p, level, (GLint)(level - first), buffer);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, (GLint)(p->level_count - 1 - first));
+    mem_free(buffer);
+    return gl_context_check(set->context, "textures", error);
+}
+
+/* ---- which ---- */
+
+/* The finest level that OpenGL can hold. */
+static uint32_t find_first_level(const gl_texture_set *set, uint32_t width, uint32_t height)
+{
+    uint32_t most = (uint32_t)set->context->max_texture_size;
+    uint32_t level = 0;
+    while (width >> level > most || height >> level > most)
+        level++;
+    return level;
+}
+
+/* Adds to wants, one per image, what is not there; returns their number. */
+static size_t collect_wants(const gl_texture_set *set, const texture_use *uses, texture_want *wants)
+{
+    const facet_scene *scene = set->scene;
+    for (uint32_t t = 0; t < scene->texture_count; t++) {
+        uint32_t number = scene->textures[t].image;
+        if (number >= scene->image_count || !scene->images[number].bytes)
+            continue;
+        const bool is_read[2] = {uses[t].is_read_as_data, uses[t].is_read_as_color};
+        for (int as_color = 0; as_color < 2; as_color++) {
+            if (!is_read[as_color] || set->images[number].is_known[as_color])
+                continue;
+            wants[number].is_read[as_color] = true;
+            float size[2];
+            if (texture_full_size(scene, t, size))
+                wants[number].min_lod = (float)find_first_level(set, (uint32_t)size[0], (uint32_t)size[1]);
+        }
+    }
+    size_t count = 0;
+    for (uint32_t i = 0; i < scene->image_count; i++)
+        if (wants[i].is_read[0] || wants[i].is_read[1]) {
+            wants[count] = wants[i];
+            wants[count++].image = i;
+        }
+    return count;
+}
+
+static void tell_reduced(const gl_texture_set *set, const texture_want *want, const texture_pyramid *p,
+                         const facet_log *log)
+{
+    const texture_level *l = &p->levels[want->first_level];
+    log_warning(log, "%s: image %u: %u x %u texels are more than OpenGL's %d; it is drawn with %u x %u",
+                set->scene->source, want->image, p->width, p->height, set->context->max_texture_size,
+                l->width, l->height);
+}
+
+static facet_result upload_want(gl_texture_set *set, const texture_want *want, const facet_log *log,
+                                facet_error *error)
+{
+    gl_image *record = &set->images[want->image];
+    bool is_told = false;
+    for (int as_color = 0; as_color < 2; as_color++) {
+        if (!want->is_read[as_color])
+            continue;
+        const texture_pyramid *p = want->pyramid[as_color];
+        if (p) {
+            if (want->first_level && !is_told)
+                tell_reduced(set, want, p, log);
+            is_told = true;
+            facet_result result =
+                upload(set, p, want->first_level, as_color, &record->names[as_color], error);
+            if (result != FACET_OK)
+                return result;
+        }
+        record->is_known[as_color] = true;
+        record->lacks_red |= p && p->lacks_red;
+    }
+    return FACET_OK;
+}
+
+facet_result gl_texture_update(gl_texture_set *set, const texture_use *uses, const facet_log *log,
+                               uint32_t thread_count, facet_error *error)
+{
+    texture_store *store = NULL; /* goes when all is uploaded */
+    texture_want *wants = mem_zalloc(&set->allocator, set->scene->image_count, sizeof *wants);
+    if (!wants)
+        return fail_memory(error, "textures", set->scene->image_count * sizeof *wants);
+    size_t count = collect_wants(set, uses, wants);
+    facet_result result = FACET_OK;
+    if (count)
+        result = texture_store_create(set->scene, &set->allocator, &store, error);
+    if (count && result == FACET_OK)
+        result = texture_store_get(store, wants, count, log, thread_count, &set->decoded_texels, error);
+    for (size_t i = 0; i < count && result == FACET_OK; i++)
+        result = upload_want(set, &wants[i], log, error);
+    texture_store_destroy(store);
+    mem_free(wants);
+    return result;
+}
+
+uint32_t gl_texture_name(const gl_texture_set *set, uint32_t texture, bool as_color)
+{
+    uint32_t number = texture < set->scene->texture_count ? set->scene->textures[texture].image : SCENE_NONE;
+    return number < set->scene->image_count ? set->images[number].names[as_color] : 0;
+}
+
+bool gl_texture_lacks_red(const gl_texture_set *set, uint32_t texture)
+{
+    uint32_t number = texture < set->scene->texture_count ? set->scene->textures[texture].image : SCENE_NONE;
+    return number < set->scene->image_count && set->images[number].lacks_red;
+}
+
+uint64_t gl_texture_decoded_texels(const gl_texture_set *set)
+{
+    return set->decoded_texels;
+}
+
+/* ---- samplers ---- */
+
+static void set_sampler(GLuint name, const scene_texture *t)
+{
+    static const GLint wraps[WRAPS] = {[SCENE_WRAP_REPEAT] = GL_REPEAT,
+                                       [SCENE_WRAP_CLAMP] = GL_CLAMP_TO_EDGE,
+                                       [SCENE_WRAP_MIRROR] = GL_MIRRORED_REPEAT};
+    static const GLint filters[FILTERS] = {
+        [SCENE_FILTER_LINEAR] = GL_LINEAR, [SCENE_FILTER_NEAREST] = GL_NEAREST};
+    static const GLint minifiers[FILTERS][MIP_FILTERS] = {
+        [SCENE_FILTER_LINEAR] = {[SCENE_MIP_LINEAR] = GL_LINEAR_MIPMAP_LINEAR,
+                                 [SCENE_MIP_NEAREST] = GL_LINEAR_MIPMAP_NEAREST,
+                                 [SCENE_MIP_NONE] = GL_LINEAR},
+        [SCENE_FILTER_NEAREST] = {[SCENE_MIP_LINEAR] = GL_NEAREST_MIPMAP_LINEAR,
+                                  [SCENE_MIP_NEAREST] = GL_NEAREST_MIPMAP_NEAREST,
+                                  [SCENE_MIP_NONE] = GL_NEAREST}};
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_S, wraps[t->wrap_u]);
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_T, wraps[t->wrap_v]);
+    glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, filters[t->mag_filter]);
+    glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, minifiers[t->min_filter][t->mip_filter]);
+}
+
+uint32_t gl_texture_sampler(gl_texture_set *set, uint32_t texture)
+{
+    static const scene_texture plain = {.wrap_u = SCENE_WRAP_REPEAT};
+    const scene_texture *t = texture < set->scene->texture_count ? &set->scene->textures[texture] : &plain;
+    uint32_t i = (uint32_t)t->wrap_u;
+    i = WRAPS * i + (uint32_t)t->wrap_v;
+    i = FILTERS * i + (uint32_t)t->mag_filter;
+    i = FILTERS * i + (uint32_t)t->min_filter;
+    i = MIP_FILTERS * i + (uint32_t)t->mip_filter;
+    if (!set->samplers[i]) {
+        glGenSamplers(1, &set->samplers[i]);
+        set_sampler(set->samplers[i], t);
+    }
+    return set->samplers[i];
+}

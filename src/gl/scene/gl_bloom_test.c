@@ -1,0 +1,193 @@
+/* gl_bloom_test.c - light that is spread is all there, has the shape it should, and none is where nobody asked. Exits with 77
+ * where there is no OpenGL. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "gl/scene/gl_fixture_test.h"
+
+static gl_fixture_contexts contexts;
+
+/* An unlit square in the middle, of edge 2 `scale` in a picture that is 2 m high. */
+static fixture lamp_fixture(uint32_t width, uint32_t height, float scale)
+{
+    fixture f = fixture_create();
+    f.desc.width = width;
+    f.desc.height = height;
+    scene_material lamp = gl_fixture_unlit(1.0f, 0.5f, 0.25f, 1.0f);
+    fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, lamp)), 0.0f, 0.0f, 0.0f, scale);
+    return f;
+}
+
+static double sum_of(const film *picture, int channel)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < (size_t)picture->width * picture->height; i++)
+        sum += (double)picture->layers[0].pixels[4 * i + (size_t)channel];
+    return sum;
+}
+
+static size_t bytes_of(const film *picture)
+{
+    return (size_t)picture->width * picture->height * 4 * sizeof(float);
+}
+
+/* Odd sizes too, whose halves are not whole. */
+static void light_is_kept(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[][2] = {{128, 96}, {129, 97}, {200, 61}};
+    for (int c = 0; c < contexts.count; c++)
+        for (int size = 0; size < 3; size++) {
+            fixture f = lamp_fixture(sizes[size][0], sizes[size][1], 0.05f);
+            film without = gl_fixture_render(&f, &contexts.items[c]);
+            f.desc.gl.bloom = 0.25f;
+            film with = gl_fixture_render(&f, &contexts.items[c]);
+            for (int channel = 0; channel < 4; channel++) {
+                double all = sum_of(&without, channel);
+                assert_true(all > 0.5);
+                assert_true(fabs(sum_of(&with, channel) / all - 1.0) < 0.01);
+            }
+            /* In the middle it is missing. */
+            float middle = fixture_pixel(&without, "", sizes[size][0] / 2, sizes[size][1] / 2)[0];
+            float left = fixture_pixel(&with, "", sizes[size][0] / 2, sizes[size][1] / 2)[0];
+            assert_true(left < 0.95f * middle && left > 0.75f * middle);
+            film_destroy(&without);
+            film_destroy(&with);
+            fixture_destroy(&f);
+        }
+}
+
+static void none_is_off(void **state)
+{
+    (void)state;
+    for (int c = 0; c < contexts.count; c++) {
+        fixture f = lamp_fixture(64, 64, 0.3f);
+        gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[c]);
+        film before = gl_fixture_draw(&f, renderer);
+        f.desc.gl.bloom = 0.5f;
+        film with = gl_fixture_draw(&f, renderer);
+        f.desc.gl.bloom = 0.0f;
+        film after = gl_fixture_draw(&f, renderer);
+        assert_memory_equal(before.layers[0].pixels, after.layers[0].pixels, bytes_of(&before));
+        assert_true(memcmp(before.layers[0].pixels, with.layers[0].pixels, bytes_of(&before)) != 0);
+        film_destroy(&before);
+        film_destroy(&with);
+        film_destroy(&after);
+        gl_renderer_destroy(renderer);
+        fixture_destroy(&f);
+    }
+}
+
+static void even_light_stays_even(void **state)
+{
+    (void)state;
+    static const float wanted[4] = {1.0f, 0.5f, 0.25f, 1.0f};
+    for (int c = 0; c < contexts.count; c++) {
+        fixture f = lamp_fixture(100, 70, 4.0f);
+        f.desc.gl.bloom = 1.0f;
+        film picture = gl_fixture_render(&f, &contexts.items[c]);
+        for (uint32_t i = 0; i < 70; i += 3)
+            gl_fixture_assert_pixel(&picture, i, i, wanted, 1e-3f);
+        film_destroy(&picture);
+        fixture_destroy(&f);
+    }
+}
+
+/* Mean of a ring of pixels around the middle. */
+static double ring(const film *picture, double radius)
+{
+    double sum = 0.0;
+    for (int i = 0; i < 64; i++) {
+        double angle = 6.283185307179586 * i / 64.0;
+        double x = 0.5 * picture->width + radius * cos(angle),
+               y = 0.5 * picture->height + radius * sin(angle);
+        sum += (double)fixture_pixel(picture, "", (uint32_t)x, (uint32_t)y)[0] / 64.0;
+    }
+    return sum;
+}
+
+/* Power laws between the distances that the filters cover: -2.5 as long as they are. */
+static void light_falls_with_distance(void **state)
+{
+    (void)state;
+    for (int c = 0; c < contexts.count; c++) {
+        fixture f = lamp_fixture(512, 512, 0.01f);
+        f.desc.gl.bloom = 1.0f;
+        film picture = gl_fixture_render(&f, &contexts.items[c]);
+        double last = ring(&picture, 4.0);
+        for (double radius = 6.0; radius < 220.0; radius *= 1.5) {
+            double here = ring(&picture, radius);
+            assert_true(here > 0.0 && here < last);
+            last = here;
+        }
+        double power = log2(ring(&picture, 64.0) / ring(&picture, 16.0)) / 2.0;
+        assert_true(power > -2.8 && power < -2.2);
+        film_destroy(&picture);
+        fixture_destroy(&f);
+    }
+}
+
+/* A picture over a background is what it would be with the background in it. */
+static void coverage_is_spread_too(void **state)
+{
+    (void)state;
+    for (int c = 0; c < contexts.count; c++) {
+        fixture f = lamp_fixture(96, 96, 0.4f);
+        f.desc.gl.bloom = 0.3f;
+        film over = gl_fixture_render(&f, &contexts.items[c]);
+        scene_material wall = gl_fixture_unlit(0.75f, 0.75f, 0.75f, 1.0f);
+        fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, wall)), 0.0f, 0.0f, -1.0f, 4.0f);
+        film in = gl_fixture_render(&f, &contexts.items[c]);
+        for (uint32_t i = 0; i < 96; i += 2) {
+            const float *p = fixture_pixel(&over, "", i, 95 - i);
+            float wanted[4] = {0, 0, 0, 1.0f};
+            for (int k = 0; k < 3; k++)
+                wanted[k] = p[k] + (1.0f - p[3]) * 0.75f;
+            gl_fixture_assert_pixel(&in, i, 95 - i, wanted, 2e-3f);
+        }
+        film_destroy(&over);
+        film_destroy(&in);
+        fixture_destroy(&f);
+    }
+}
+
+/* In a picture of twice the size light is spread twice as many pixels. */
+static void size_does_not_matter(void **state)
+{
+    (void)state;
+    for (int c = 0; c < contexts.count; c++) {
+        film pictures[2];
+        for (int i = 0; i < 2; i++) {
+            fixture f = lamp_fixture(512u << i, 512u << i, 0.05f);
+            f.desc.samples = 1;
+            f.desc.gl.bloom = 1.0f;
+            pictures[i] = gl_fixture_render(&f, &contexts.items[c]);
+            fixture_destroy(&f);
+        }
+        for (double radius = 32.0; radius < 220.0; radius += 20.0) {
+            double small = ring(&pictures[0], radius), large = ring(&pictures[1], 2.0 * radius);
+            assert_true(fabs(large / small - 1.0) < 0.1);
+        }
+        film_destroy(&pictures[0]);
+        film_destroy(&pictures[1]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_is_kept),          cmocka_unit_test(none_is_off),
+        cmocka_unit_test(even_light_stays_even),  cmocka_unit_test(light_falls_with_distance),
+        cmocka_unit_test(coverage_is_spread_too), cmocka_unit_test(size_does_not_matter),
+    };
+    if (gl_fixture_open(&contexts) == 0)
+        return 77;
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    gl_fixture_close(&contexts);
+    return failed;
+}

@@ -1,0 +1,123 @@
+/* gl_camera.c - see gl_camera.h. */
+#include "gl/scene/gl_camera.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+static const double NEAREST = 1e-6;        /* of the largest depth: what is nearer is cut off */
+static const double NEAREST_COARSE = 1e-4; /* the same where depth is not reversed */
+
+/* Depths along the axis between which the scene lies. */
+static void depth_range(const camera_rays *c, const float bounds_min[3], const float bounds_max[3],
+                        double *low, double *high)
+{
+    *low = (double)INFINITY;
+    *high = -(double)INFINITY;
+    for (int corner = 0; corner < 8; corner++) {
+        double depth = 0.0;
+        for (int i = 0; i < 3; i++) {
+            float at = corner >> i & 1 ? bounds_max[i] : bounds_min[i];
+            depth += ((double)at - (double)c->origin[i]) * (double)c->direction[i];
+        }
+        *low = fmin(*low, depth);
+        *high = fmax(*high, depth);
+    }
+}
+
+/* z of clip space is a * depth + b, where w is depth (orthographic: 1). The scene's ground may lie as far behind it as it
+ * is deep. */
+static void depth_terms(const gl_context *context, const camera_rays *c, double low, double high, double *a,
+                        double *b)
+{
+    bool is_reversed = context->has_clip_control;
+    /* A flat scene seen from the front has no depth, but depths of its points are rounded. */
+    double size = fmax(high - low, fmax(1e-3 * fmax(fabs(low), fabs(high)), 1e-6));
+    double far = fmin((double)c->far_m, fmax(high, 0.0) + size);
+    double near = fmax((double)c->near_m, low - 0.01 * size);
+    if (!c->is_orthographic) {
+        near = is_reversed ? fmax((double)c->near_m, NEAREST * far) : fmax(near, NEAREST_COARSE * far);
+        far = is_reversed ? (double)c->far_m : far;
+    }
+    far = far > near ? far : near + fmax(1.0, fabs(near));
+    double depth = far - near;
+    if (c->is_orthographic) {
+        *a = is_reversed ? -1.0 / depth : 2.0 / depth;
+        *b = is_reversed ? far / depth : -(far + near) / depth;
+    } else if (isinf(far)) {
+        *a = 0.0;
+        *b = near;
+    } else {
+        *a = is_reversed ? -near / depth : (far + near) / depth;
+        *b = is_reversed ? far * near / depth : -2.0 * far * near / depth;
+    }
+}
+
+void gl_camera_set(const gl_context *context, const camera_rays *c, const float bounds_min[3],
+                   const float bounds_max[3], uint32_t width, uint32_t height, const gl_view *view,
+                   gl_frame_block *block)
+{
+    const float *dx = c->is_orthographic ? c->origin_dx : c->direction_dx;
+    const float *dy = c->is_orthographic ? c->origin_dy : c->direction_dy;
+    double scale = view->scale, low, high, a, b;
+    double corner_x = (double)view->x + (double)view->jitter[0];
+    double top = (double)view->y + (double)view->jitter[1];
+    double corner_y = height * scale - top - view->height; /* from the bottom */
+    bool is_top_down = gl_camera_is_top_down(context);
+    for (int i = 0; i < 3; i++) {
+        block->right[i] = (float)((double)dx[i] / scale);
+        block->up[i] = (is_top_down ? 1.0f : -1.0f) * (float)((double)dy[i] / scale);
+        block->forward[i] = c->direction[i];
+        block->eye[i] = c->origin[i];
+    }
+    block->eye[3] = c->is_orthographic ? 1.0f : 0.0f;
+    block->size[0] = (float)(width * scale);
+    block->size[1] = (float)(height * scale);
+    block->size[2] = (float)corner_x;
+    block->size[3] = (float)(is_top_down ? top : corner_y);
+    block->pixel_scale = (float)scale;
+    block->far_depth = context->has_clip_control ? 0.0f : 1.0f;
+    depth_range(c, bounds_min, bounds_max, &low, &high);
+    depth_terms(context, c, low, high, &a, &b);
+    /* A point is at drawn pixel size / 2 + dot(point, d) / (pixel^2 w), d being as long as a pixel. */
+    double pixel2 = (double)c->pixel_size * (double)c->pixel_size / scale;
+    double step_x = 2.0 / (double)view->width, step_y = 2.0 / (double)view->height;
+    double middle_x = (0.5 * width * scale - corner_x) * step_x - 1.0;
+    double middle_y = (0.5 * height * scale - corner_y) * step_y - 1.0;
+    double along = c->is_orthographic ? 0.0 : 1.0;
+    float *m = block->view_projection;
+    for (int i = 0; i < 3; i++) {
+        double forward = (double)c->direction[i];
+        m[4 * i + 0] = (float)((double)dx[i] * step_x / pixel2 + along * middle_x * forward);
+        m[4 * i + 1] = (float)((double)-dy[i] * step_y / pixel2 + along * middle_y * forward);
+        m[4 * i + 2] = (float)(forward * a);
+        m[4 * i + 3] = (float)(along * forward);
+    }
+    m[12] = (float)((1.0 - along) * middle_x);
+    m[13] = (float)((1.0 - along) * middle_y);
+    m[14] = (float)b;
+    m[15] = (float)(1.0 - along);
+}
+
+static void clear_depth(const gl_context *context, float depth)
+{
+    if (context->is_es)
+        glClearDepthf(depth);
+    else
+        glClearDepth((double)depth);
+}
+
+void gl_camera_begin_depth(const gl_context *context)
+{
+    if (context->has_clip_control)
+        glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+    clear_depth(context, context->has_clip_control ? 0.0f : 1.0f);
+    glDepthFunc(context->has_clip_control ? GL_GEQUAL : GL_LEQUAL);
+}
+
+void gl_camera_end_depth(const gl_context *context)
+{
+    if (context->has_clip_control)
+        glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    clear_depth(context, 1.0f);
+    glDepthFunc(GL_LESS);
+}

@@ -1,0 +1,357 @@
+/* gl_film.c - see gl_film.h. Radiance of passes and of finer grids is added up on the CPU, in floats, in a fixed order. */
+#include "gl/scene/gl_film.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "draw/sample_pattern.h"
+#include "film/matte.h"
+#include "gl/scene/gl_camera.h"
+#include "gl/scene/gl_sampling.h"
+#include "scene/identity.h"
+
+/* Pixels that are drawn at once: some 170 MB with 4 samples; between tiles the caller may cancel. */
+static const uint64_t TILE_PIXELS = 1u << 21;
+
+/* A part of the picture in its own pixels. */
+typedef struct tile {
+    uint32_t x, y, width, height; /* what is taken over */
+    uint32_t margin[4];           /* left, top, right, bottom: drawn beside it */
+} tile;
+
+typedef struct drawing {
+    const gl_film_desc *desc;
+    gl_sampling sampling;
+    float *jitter; /* of passes */
+    uint32_t tile_width, tile_height, columns, rows;
+    bool looks_around; /* passes read pixels of others: of the whole picture, as far as it can be had */
+    gl_target layers;
+    scene_identity *identities; /* per geometry; NULL: no layer asks for them */
+    matte_layers mattes;
+    float *pixels; /* of a tile, as drawn */
+    film *film;
+    render_watch watch;
+} drawing;
+
+static uint32_t smaller(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* ---- tiles ---- */
+
+/* Tiles as wide as the crop where they can be: their edges cost vertices. */
+static void plan_tiles(drawing *d)
+{
+    const uint32_t *crop = d->desc->render->crop;
+    uint32_t scale = d->sampling.scale;
+    uint32_t most = (uint32_t)d->desc->frame->context->max_texture_size / scale;
+    uint64_t pixels = d->looks_around ? UINT64_MAX : TILE_PIXELS / ((uint64_t)scale * scale);
+    if (d->looks_around && (d->desc->render->width > most || d->desc->render->height > most))
+        most /= 2; /* the other half is for what lies around */
+    d->tile_width = smaller(crop[2], most);
+    uint64_t height = pixels / d->tile_width;
+    d->tile_height = smaller(crop[3], height < most ? (uint32_t)(height ? height : 1) : most);
+    d->columns = (crop[2] + d->tile_width - 1) / d->tile_width;
+    d->rows = (crop[3] + d->tile_height - 1) / d->tile_height;
+}
+
+/* How far the drawn part may reach beyond [begin, begin + size) before and behind, so that it is no larger than most. */
+static void choose_margin(uint32_t begin, uint32_t size, uint32_t whole, uint32_t most, uint32_t *before,
+                          uint32_t *behind)
+{
+    uint32_t room = most - size;
+    *before = smaller(begin, whole <= most ? begin : room / 2);
+    *behind = smaller(whole - begin - size, room - *before);
+}
+
+static tile get_tile(const drawing *d, uint32_t number)
+{
+    const facet_render_desc *r = d->desc->render;
+    uint32_t left = number % d->columns * d->tile_width, top = number / d->columns * d->tile_height;
+    tile t = {.x = r->crop[0] + left,
+              .y = r->crop[1] + top,
+              .width = smaller(d->tile_width, r->crop[2] - left),
+              .height = smaller(d->tile_height, r->crop[3] - top)};
+    uint32_t most = (uint32_t)d->desc->frame->context->max_texture_size / d->sampling.scale;
+    if (d->looks_around) {
+        choose_margin(t.x, t.width, r->width, most, &t.margin[0], &t.margin[2]);
+        choose_margin(t.y, t.height, r->height, most, &t.margin[1], &t.margin[3]);
+    }
+    return t;
+}
+
+static gl_view view_of(const tile *t, uint32_t scale)
+{
+    return (gl_view){.scale = scale,
+                     .x = (t->x - t->margin[0]) * scale,
+                     .y = (t->y - t->margin[1]) * scale,
+                     .width = (t->width + t->margin[0] + t->margin[2]) * scale,
+                     .height = (t->height + t->margin[1] + t->margin[3]) * scale};
+}
+
+/* Reads the tile without its margin, as it was drawn: rows from the top in the end. */
+static void read_tile(const drawing *d, const gl_target *target, uint32_t layer, const tile *t,
+                      uint32_t scale)
+{
+    bool is_top_down = gl_camera_is_top_down(d->desc->frame->context);
+    uint32_t w = t->width * scale, h = t->height * scale;
+    gl_target_read(target, layer, t->margin[0] * scale, t->margin[is_top_down ? 1 : 3] * scale, w, h,
+                   d->pixels);
+    for (uint32_t y = 0; !is_top_down && y < h / 2; y++) {
+        float *a = d->pixels + 4 * (size_t)w * y, *b = d->pixels + 4 * (size_t)w * (h - 1 - y);
+        for (size_t i = 0; i < 4 * (size_t)w; i++) {
+            float kept = a[i];
+            a[i] = b[i];
+            b[i] = kept;
+        }
+    }
+}
+
+/* ---- the picture ---- */
+
+static void add_tile(const drawing *d, const tile *t)
+{
+    const uint32_t *crop = d->desc->render->crop;
+    uint32_t scale = d->sampling.scale;
+    float weight = 1.0f / (float)(scale * scale * d->sampling.passes);
+    for (uint32_t y = 0; y < t->height * scale; y++) {
+        const float *from = d->pixels + 4 * (size_t)y * t->width * scale;
+        size_t row = (size_t)(t->y - crop[1]) + y / scale;
+        float *to = d->film->layers[0].pixels + 4 * (row * crop[2] + (t->x - crop[0]));
+        for (size_t x = 0; x < t->width; x++)
+            for (size_t k = 0; k < 4 * (size_t)scale; k++)
+                to[4 * x + k % 4] += weight * from[4 * x * scale + k];
+    }
+}
+
+static facet_result check_watch(drawing *d, facet_error *error)
+{
+    render_watch_look(&d->watch);
+    return render_watch_explain(&d->watch, error);
+}
+
+static facet_result draw_picture(drawing *d, const tile *t, facet_error *error)
+{
+    const gl_film_desc *desc = d->desc;
+    gl_view view = view_of(t, d->sampling.scale);
+    facet_result result = gl_target_update(desc->target, desc->frame->context, GL_TARGET_FILM, view.width,
+                                           view.height, d->sampling.samples, error);
+    for (uint32_t pass = 0; pass < d->sampling.passes && result == FACET_OK; pass++) {
+        gl_frame_block block = {.channel = 0};
+        memcpy(view.jitter, d->jitter + 2 * pass, sizeof view.jitter);
+        gl_camera_set(desc->frame->context, desc->camera, desc->scene->pose.bounds_min,
+                      desc->scene->pose.bounds_max, desc->render->width, desc->render->height, &view, &block);
+        result = gl_frame_draw(desc->frame, desc->target, desc->render, &block, error);
+        if (result == FACET_OK)
+            read_tile(d, desc->target, 0, t, d->sampling.scale);
+        if (result == FACET_OK)
+            result = gl_context_check(desc->frame->context, "the picture", error);
+        if (result == FACET_OK)
+            add_tile(d, t);
+        render_watch_add(&d->watch, (uint64_t)t->width * t->height);
+        if (result == FACET_OK)
+            result = check_watch(d, error);
+    }
+    return result;
+}
+
+/* ---- layers ---- */
+
+enum { NUMBER_LAYER = 2, MATTE_SAMPLES = 16 };
+
+/* Which numbers of what was drawn are a layer. */
+static const struct layer_source {
+    const char *name;
+    uint8_t layer, first, count;
+} layer_sources[] = {{"normal", 0, 0, 3},
+                     {"depth", 0, 3, 1},
+                     {"albedo", 1, 0, 3},
+                     {"occlusion", 1, 3, 1},
+                     {"uv", NUMBER_LAYER, 1, 2}};
+
+/* Which number of an identity is a layer. */
+static const struct identity_source {
+    const char *name;
+    scene_identity_kind kind;
+} identity_sources[] = {{"object", SCENE_IDENTITY_OBJECT},
+                        {"material", SCENE_IDENTITY_MATERIAL},
+                        {"instance", SCENE_IDENTITY_INSTANCE}};
+
+/* Where pixel (x, y) of a tile is in the film. */
+static size_t place_of(const drawing *d, const tile *t, uint32_t x, uint32_t y)
+{
+    const uint32_t *crop = d->desc->render->crop;
+    return (size_t)(t->y - crop[1] + y) * crop[2] + (t->x - crop[0]) + x;
+}
+
+/* The film has what stands for nothing; that stays where nothing was drawn. */
+static void store_layer(const drawing *d, const struct layer_source *source, const tile *t,
+                        const uint8_t *is_there)
+{
+    const film_layer *layer = film_find(d->film, source->name);
+    if (!layer)
+        return;
+    for (uint32_t y = 0; y < t->height; y++)
+        for (uint32_t x = 0; x < t->width; x++) {
+            size_t from = (size_t)y * t->width + x;
+            if (is_there[from])
+                memcpy(layer->pixels + place_of(d, t, x, y) * layer->channel_count,
+                       d->pixels + 4 * from + source->first, source->count * sizeof(float));
+        }
+}
+
+/* What was drawn at a pixel of the layer with the numbers of geometries; NULL: nothing. */
+static const scene_identity *find_identity(const drawing *d, const float *pixel)
+{
+    return pixel[3] > 0.0f && pixel[0] < (float)d->desc->scene->geometries.count
+               ? &d->identities[(uint32_t)(pixel[0] + 0.5f)]
+               : NULL;
+}
+
+static void store_identities(const drawing *d, const struct identity_source *source, const tile *t)
+{
+    const film_layer *layer = film_find(d->film, source->name);
+    if (!layer)
+        return;
+    for (uint32_t y = 0; y < t->height; y++)
+        for (uint32_t x = 0; x < t->width; x++) {
+            const scene_identity *one = find_identity(d, d->pixels + 4 * ((size_t)y * t->width + x));
+            if (one)
+                layer->pixels[place_of(d, t, x, y)] = one->numbers[source->kind];
+        }
+}
+
+static void store_layers(const drawing *d, const tile *t, uint8_t *is_there)
+{
+    read_tile(d, &d->layers, NUMBER_LAYER, t, 1);
+    for (size_t i = 0; i < (size_t)t->width * t->height; i++)
+        is_there[i] = d->pixels[4 * i + 3] > 0.0f;
+    for (size_t i = 0; d->identities && i < sizeof identity_sources / sizeof *identity_sources; i++)
+        store_identities(d, &identity_sources[i], t);
+    for (uint8_t layer = 0; layer < GL_TARGET_LAYERS; layer++) {
+        read_tile(d, &d->layers, layer, t, 1);
+        for (size_t i = 0; i < sizeof layer_sources / sizeof *layer_sources; i++)
+            if (layer_sources[i].layer == layer)
+                store_layer(d, &layer_sources[i], t, is_there);
+    }
+}
+
+/* Adds one sample of each pixel of the tile to Cryptomatte's layers. */
+static void add_mattes(const drawing *d, const tile *t)
+{
+    read_tile(d, &d->layers, NUMBER_LAYER, t, 1);
+    for (uint32_t y = 0; y < t->height; y++)
+        for (uint32_t x = 0; x < t->width; x++) {
+            const float *pixel = d->pixels + 4 * ((size_t)y * t->width + x);
+            const scene_identity *one = find_identity(d, pixel);
+            if (one)
+                matte_add(&d->mattes, place_of(d, t, x, y), one->hashes, pixel[3]);
+        }
+}
+
+/* Draws one sample per pixel, jitter pixels beside the middle. */
+static facet_result sample_layers(drawing *d, const tile *t, const float jitter[2], facet_error *error)
+{
+    const gl_film_desc *desc = d->desc;
+    gl_view view = view_of(t, 1);
+    gl_frame_block block = {.channel = 0};
+    memcpy(view.jitter, jitter, sizeof view.jitter);
+    gl_camera_set(desc->frame->context, desc->camera, desc->scene->pose.bounds_min,
+                  desc->scene->pose.bounds_max, desc->render->width, desc->render->height, &view, &block);
+    facet_result result = gl_target_update(&d->layers, desc->frame->context, GL_TARGET_LAYERED, view.width,
+                                           view.height, 1, error);
+    return result == FACET_OK ? gl_frame_draw_layers(desc->frame, &d->layers, desc->render, &block, error)
+                              : result;
+}
+
+/* Opaque surfaces and the nearest of those that are not: what is behind one that light passes counts as nothing. */
+static facet_result draw_mattes(drawing *d, const tile *t, facet_error *error)
+{
+    float points[2 * MATTE_SAMPLES];
+    facet_result result = FACET_OK;
+    sample_pattern(MATTE_SAMPLES, points);
+    for (int i = 0; i < MATTE_SAMPLES && result == FACET_OK; i++) {
+        const float jitter[2] = {points[2 * i] - 0.5f, points[2 * i + 1] - 0.5f};
+        result = sample_layers(d, t, jitter, error);
+        if (result == FACET_OK)
+            add_mattes(d, t);
+        if (result == FACET_OK)
+            result = check_watch(d, error);
+    }
+    for (uint32_t y = 0; y < t->height && result == FACET_OK; y++)
+        for (uint32_t x = 0; x < t->width; x++)
+            matte_finish(&d->mattes, place_of(d, t, x, y), 1.0f / (float)MATTE_SAMPLES);
+    return result;
+}
+
+/* One sample at the middle of each pixel, and those of Cryptomatte. */
+static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
+{
+    static const float middle[2] = {0.0f, 0.0f};
+    const gl_film_desc *desc = d->desc;
+    uint8_t *is_there = mem_alloc(&desc->render->allocator, (size_t)t->width * t->height, 1);
+    if (!is_there)
+        return fail_memory(error, "layers", (size_t)t->width * t->height);
+    facet_result result = FACET_OK;
+    if (desc->render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE)
+        result = sample_layers(d, t, middle, error);
+    if (result == FACET_OK && desc->render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE)
+        store_layers(d, t, is_there);
+    if (result == FACET_OK && d->mattes.aovs)
+        result = draw_mattes(d, t, error);
+    if (result == FACET_OK)
+        result = gl_context_check(desc->frame->context, "the layers", error);
+    mem_free(is_there);
+    return result;
+}
+
+/* ---- all ---- */
+
+static facet_result prepare(drawing *d, facet_error *error)
+{
+    const facet_render_desc *r = d->desc->render;
+    const gl_frame *frame = d->desc->frame;
+    d->sampling =
+        gl_sampling_plan(r->samples, r->quality,
+                         gl_transparency_max_samples(frame->context, r->gl.transparency, frame->meshes));
+    d->looks_around = d->desc->scene->plans.lets_rays_through || r->gl.bloom > 0.0f;
+    plan_tiles(d);
+    size_t scale = d->sampling.scale;
+    size_t count = (size_t)d->tile_width * d->tile_height * scale * scale;
+    d->pixels = mem_alloc(&r->allocator, count, 4 * sizeof *d->pixels);
+    d->jitter = mem_alloc(&r->allocator, d->sampling.passes, 2 * sizeof *d->jitter);
+    if (!d->pixels || !d->jitter)
+        return fail_memory(error, "picture", count * 4 * sizeof *d->pixels);
+    gl_sampling_jitter(&d->sampling, d->jitter);
+    memset(d->film->layers[0].pixels, 0,
+           4 * sizeof(float) * (size_t)d->film->width * d->film->height); /* an attempt may have failed */
+    d->mattes = matte_find(d->film);
+    matte_clear(&d->mattes, (size_t)d->film->width * d->film->height);
+    render_watch_init(&d->watch, &r->progress, "shade", d->desc->deadline_s,
+                      (double)r->crop[2] * (double)r->crop[3] * (double)d->sampling.passes);
+    if (!(r->aovs & SCENE_IDENTITY_AOVS))
+        return FACET_OK;
+    const gl_scene *scene = d->desc->scene;
+    return scene_identities_create(scene->scene, &scene->pose, &r->allocator, &d->identities, error);
+}
+
+facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *error)
+{
+    drawing d = {.desc = desc, .film = target};
+    facet_result result = prepare(&d, error);
+    for (uint32_t i = 0; result == FACET_OK && i < d.columns * d.rows; i++) {
+        tile t = get_tile(&d, i);
+        result = draw_picture(&d, &t, error);
+        if (result == FACET_OK && desc->render->aovs)
+            result = draw_layers(&d, &t, error);
+        if (result == FACET_OK)
+            result = check_watch(&d, error);
+    }
+    gl_target_destroy(&d.layers);
+    mem_free(d.identities);
+    mem_free(d.pixels);
+    mem_free(d.jitter);
+    return result;
+}

@@ -1,0 +1,396 @@
+/* gl_frame.c - see gl_frame.h. */
+#include "gl/scene/gl_frame.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+#include "base/clock.h"
+#include "gl/scene/gl_camera.h"
+#include "gl/gl_entry.h"
+
+/* ---- what is in OpenGL's memory ---- */
+
+facet_result gl_frame_create(gl_frame *f, gl_context *context, const facet_scene *scene,
+                             const facet_allocator *allocator, facet_error *error)
+{
+    *f = (gl_frame){.context = context, .timers.context = context};
+    facet_result result = gl_programs_create(context, allocator, NULL, &f->programs, error);
+    if (result == FACET_OK)
+        result = gl_mesh_create(context, allocator, &f->meshes, error);
+    if (result == FACET_OK)
+        result = gl_material_create(context, scene, allocator, &f->materials, error);
+    if (result == FACET_OK)
+        result = gl_light_create(context, allocator, &f->light, error);
+    if (result == FACET_OK)
+        result = gl_transparency_create(context, allocator, &f->transparency, error);
+    if (result != FACET_OK)
+        return result;
+    glGenBuffers(1, &f->frame_buffer);
+    glGenVertexArrays(1, &f->empty_array);
+    return FACET_OK;
+}
+
+void gl_frame_destroy(gl_frame *f)
+{
+    if (!f->context)
+        return;
+    gl_timers_destroy(&f->timers);
+    gl_bloom_destroy(&f->bloom);
+    gl_phong_destroy(f->phong);
+    gl_opaque_destroy(&f->opaque);
+    gl_transparency_destroy(f->transparency);
+    gl_light_destroy(f->light);
+    gl_material_destroy(f->materials);
+    gl_mesh_destroy(f->meshes);
+    gl_programs_destroy(f->programs);
+    glDeleteBuffers(1, &f->frame_buffer);
+    glDeleteVertexArrays(1, &f->empty_array);
+    *f = (gl_frame){.context = NULL};
+}
+
+/* ---- programs ---- */
+
+static gl_program_key key_of(const gl_frame *f, const gl_batch *batch, bool is_layers)
+{
+    uint64_t features = gl_material_features(f->materials, batch) | gl_mesh_features(f->meshes, batch) |
+                        gl_light_features(f->light);
+    if (is_layers)
+        features |= gl_program_feature(GL_MAIN_SURFACE, "AOVS");
+    return (gl_program_key){gl_material_main(f->materials, batch), features};
+}
+
+static gl_transparency_view transparency_of(const gl_frame *f, const facet_render_desc *desc)
+{
+    return (gl_transparency_view){.mode = desc->gl.transparency,
+                                  .programs = f->programs,
+                                  .materials = f->materials,
+                                  .meshes = f->meshes,
+                                  .scene = f->scene,
+                                  .features = gl_light_features(f->light),
+                                  .thread_count = desc->thread_count};
+}
+
+static facet_result request_batches(gl_frame *f, bool is_layers, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    gl_pass end = is_layers ? GL_PASS_COUNT : GL_PASS_BLENDED;
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < end; pass++) {
+        uint32_t count;
+        const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
+        for (uint32_t i = 0; i < count && result == FACET_OK; i++)
+            result = gl_programs_request(f->programs, key_of(f, &batches[i], is_layers), error);
+    }
+    return result;
+}
+
+/* Of all that the picture will draw, before any of them is waited for: the driver compiles them at the same time. */
+static facet_result request_programs(gl_frame *f, const facet_render_desc *desc, facet_error *error)
+{
+    gl_programs_set_log(f->programs, &desc->log);
+    gl_transparency_view blended = transparency_of(f, desc);
+    facet_result result = request_batches(f, false, error);
+    if (result == FACET_OK)
+        result = gl_transparency_request(f->transparency, &blended, error);
+    if (result == FACET_OK && desc->aovs)
+        result = request_batches(f, true, error);
+    if (result == FACET_OK && desc->background == FACET_BACKGROUND_ENVIRONMENT) {
+        gl_program_key key = {GL_MAIN_BACKGROUND, gl_light_background_features(f->light, desc)};
+        result = gl_programs_request(f->programs, key, error);
+    }
+    if (result == FACET_OK)
+        result = gl_light_request_programs(f->light, f->programs, error);
+    return result;
+}
+
+static facet_result update_phong(gl_frame *f, const gl_phong_view *view, facet_error *error)
+{
+    gl_material_use_phong(f->materials, NULL);
+    if (view->render->shading != FACET_SHADING_OGL1)
+        return FACET_OK;
+    facet_result result = FACET_OK;
+    if (!f->phong)
+        result = gl_phong_create(f->context, view->scene->scene, &view->scene->allocator, &f->phong, error);
+    if (result == FACET_OK)
+        result = gl_phong_update(f->phong, view, error);
+    if (result == FACET_OK)
+        gl_material_use_phong(f->materials, f->phong);
+    return result;
+}
+
+facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_rays *camera,
+                             const facet_render_desc *desc, facet_render_stats *stats, facet_error *error)
+{
+    double start = clock_seconds();
+    light_setup light = {0};
+    f->scene = scene;
+    facet_result result = light_setup_create(&scene->geometries, &scene->pose, camera, desc, &light, error);
+    if (result == FACET_OK)
+        result =
+            gl_light_update(f->light, &light, desc, scene->pose.bounds_min, scene->pose.bounds_max, error);
+    if (result == FACET_OK && gl_channel_is_light(desc->gl.channel))
+        light_setup_tell_dark(&light, &scene->geometries, desc);
+    stats->light_s += clock_seconds() - start;
+    start = clock_seconds();
+    if (result == FACET_OK)
+        result = gl_mesh_update(f->meshes, scene, &desc->log, error);
+    stats->geometry_s += clock_seconds() - start;
+    start = clock_seconds();
+    if (result == FACET_OK)
+        result = gl_material_update(f->materials, f->meshes, desc, error);
+    if (result == FACET_OK)
+        result = update_phong(f, &(gl_phong_view){scene, camera, &light, f->meshes, desc}, error);
+    light_setup_destroy(&light);
+    stats->textures_s += clock_seconds() - start;
+    stats->decoded_texels += result == FACET_OK ? gl_material_decoded_texels(f->materials) : 0;
+    if (result == FACET_OK)
+        result = request_programs(f, desc, error);
+    gl_timers_begin(&f->timers, GL_TIMER_SHADOWS);
+    if (result == FACET_OK)
+        result = gl_light_draw_shadows(f->light, f->programs, f->meshes, f->materials, camera->origin,
+                                       scene->revision, error);
+    gl_timers_end(&f->timers);
+    return result == FACET_OK ? gl_context_check(f->context, "the scene", error) : result;
+}
+
+uint32_t gl_frame_max_samples(const gl_frame *f, const facet_render_desc *desc)
+{
+    return gl_transparency_max_samples(f->context, desc->gl.transparency, f->meshes);
+}
+
+/* ---- passes ---- */
+
+static facet_result draw_batches(gl_frame *f, gl_pass pass, bool is_layers, facet_error *error)
+{
+    uint32_t count;
+    const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t program;
+        if (batches[i].is_outside)
+            continue;
+        facet_result result =
+            gl_programs_get(f->programs, key_of(f, &batches[i], is_layers), &program, error);
+        if (result != FACET_OK)
+            return result;
+        glUseProgram(program);
+        gl_material_bind(f->materials, &batches[i]);
+        gl_mesh_draw(f->meshes, &batches[i]);
+    }
+    return FACET_OK;
+}
+
+/* What covers the picture. */
+static facet_result draw_screen(gl_frame *f, gl_main main, uint64_t features, facet_error *error)
+{
+    uint32_t program;
+    facet_result result = gl_programs_get(f->programs, (gl_program_key){main, features}, &program, error);
+    if (result != FACET_OK)
+        return result;
+    glUseProgram(program);
+    glBindVertexArray(f->empty_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    return FACET_OK;
+}
+
+static void set_block(gl_frame *f, const gl_frame_block *block)
+{
+    glBindBuffer(GL_UNIFORM_BUFFER, f->frame_buffer);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_DYNAMIC_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_FRAME, f->frame_buffer);
+}
+
+static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_frame_block *block)
+{
+    const float *behind = desc->background_color;
+    bool is_light = gl_channel_is_light(desc->gl.channel);
+    block->exposure = is_light ? exp2f(desc->exposure_ev) : 1.0f;
+    block->energy = (int32_t)light_energy(desc);
+    block->channel = (int32_t)desc->gl.channel;
+    block->background_blur = desc->background_blur;
+    block->tonemap = is_light ? (float)desc->tonemap : (float)FACET_TONEMAP_NONE;
+    for (int i = 0; i < 3; i++)
+        block->background[i] = is_light ? behind[i] : 0.0f;
+    block->background[3] = !is_light || desc->background == FACET_BACKGROUND_COLOR;
+    gl_light_bind(f->light, block);
+}
+
+static void begin(gl_frame *f, const gl_target *target, const facet_render_desc *desc, gl_frame_block *block)
+{
+    fill_block(f, desc, block);
+    block->has_coverage = target->samples > 1 && gl_material_has_coverage(f->context);
+    set_block(f, block);
+    gl_mesh_order(f->meshes, block, f->materials);
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+    glViewport(0, 0, (GLsizei)target->width, (GLsizei)target->height);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    gl_camera_begin_depth(f->context);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+static facet_result draw_pass(gl_frame *f, gl_pass pass, gl_timer timer, facet_error *error)
+{
+    gl_timers_begin(&f->timers, timer);
+    facet_result result = draw_batches(f, pass, false, error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+static facet_result draw_blended(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                                 const gl_frame_block *block, facet_error *error)
+{
+    gl_transparency_view view = transparency_of(f, desc);
+    view.target = target;
+    view.frame = block;
+    gl_timers_begin(&f->timers, GL_TIMER_BLENDED);
+    facet_result result = gl_transparency_draw(f->transparency, &view, error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+static facet_result draw_background(gl_frame *f, const facet_render_desc *desc, facet_error *error)
+{
+    if (desc->background != FACET_BACKGROUND_ENVIRONMENT || !gl_channel_is_light(desc->gl.channel))
+        return FACET_OK;
+    gl_timers_begin(&f->timers, GL_TIMER_BACKGROUND);
+    glDisable(GL_CULL_FACE);
+    facet_result result =
+        draw_screen(f, GL_MAIN_BACKGROUND, gl_light_background_features(f->light, desc), error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+/* Behind the model, as it never is above what stands on it. */
+static facet_result draw_ground(gl_frame *f, const facet_render_desc *desc, facet_error *error)
+{
+    if (!gl_light_has_ground(f->light) || !gl_channel_is_light(desc->gl.channel))
+        return FACET_OK;
+    gl_timers_begin(&f->timers, GL_TIMER_BACKGROUND);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    gl_light_bind_ground(f->light);
+    facet_result result = draw_screen(f, GL_MAIN_GROUND, gl_light_ground_features(f->light), error);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+static bool has_transmissive(const gl_frame *f)
+{
+    uint32_t count;
+    gl_mesh_batches(f->meshes, GL_PASS_TRANSMISSIVE, &count);
+    return count > 0;
+}
+
+/* The picture of what is opaque that glass shows. */
+static facet_result take_opaque(gl_frame *f, const gl_target *target, facet_error *error)
+{
+    const gl_pyramid_brush brush = {f->programs, f->empty_array};
+    gl_timers_begin(&f->timers, GL_TIMER_TRANSMISSION);
+    facet_result result = gl_opaque_take(&f->opaque, f->context, &brush, target, error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+/* What glass shows is light, also in a picture of one lobe alone, which is drawn over it. */
+static facet_result draw_opaque(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                                facet_error *error)
+{
+    facet_channel channel = desc->gl.channel;
+    bool takes = has_transmissive(f) && gl_channel_is_light(channel);
+    gl_material_show(f->materials, takes ? FACET_CHANNEL_LIGHT : channel);
+    facet_result result = draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
+    if (result == FACET_OK && takes)
+        result = take_opaque(f, target, error);
+    if (result != FACET_OK || !takes || channel == FACET_CHANNEL_LIGHT)
+        return result;
+    gl_material_show(f->materials, channel);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    return draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
+}
+
+/* After what is opaque, of which it shows a picture. */
+static facet_result draw_transmissive(gl_frame *f, facet_error *error)
+{
+    if (!has_transmissive(f))
+        return FACET_OK;
+    gl_opaque_bind(&f->opaque);
+    return draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
+}
+
+static facet_result draw_bloom(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                               facet_error *error)
+{
+    if (!(desc->gl.bloom > 0.0f) || !gl_channel_is_light(desc->gl.channel))
+        return FACET_OK;
+    gl_timers_begin(&f->timers, GL_TIMER_BLOOM);
+    const gl_pyramid_brush brush = {f->programs, f->empty_array};
+    facet_result result =
+        gl_bloom_draw(&f->bloom, f->context, &brush, target, fminf(desc->gl.bloom, 1.0f), error);
+    gl_timers_end(&f->timers);
+    return result;
+}
+
+facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                           gl_frame_block *block, facet_error *error)
+{
+    begin(f, target, desc, block);
+    facet_result result = draw_opaque(f, target, desc, error);
+    if (result == FACET_OK)
+        result = draw_transmissive(f, error);
+    if (result == FACET_OK)
+        result = draw_background(f, desc, error);
+    if (result == FACET_OK)
+        result = draw_ground(f, desc, error);
+    if (result == FACET_OK)
+        result = draw_blended(f, target, desc, block, error);
+    gl_camera_end_depth(f->context);
+    gl_timers_begin(&f->timers, GL_TIMER_RESOLVE);
+    gl_target_resolve(target);
+    gl_timers_end(&f->timers);
+    const gl_pyramid_brush brush = {f->programs, f->empty_array};
+    if (result == FACET_OK && desc->shading == FACET_SHADING_OGL1)
+        result = gl_phong_develop(f->phong, &brush, target, error);
+    if (result == FACET_OK)
+        result = draw_bloom(f, target, desc, error);
+    return result;
+}
+
+facet_result gl_frame_draw_layers(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                                  gl_frame_block *block, facet_error *error)
+{
+    begin(f, target, desc, block);
+    gl_timers_begin(&f->timers, GL_TIMER_LAYERS);
+    facet_result result = FACET_OK;
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT && result == FACET_OK; pass++)
+        result = draw_batches(f, pass, true, error);
+    gl_timers_end(&f->timers);
+    gl_camera_end_depth(f->context);
+    return result;
+}
+
+facet_result gl_frame_present(gl_frame *f, const gl_target *target, const facet_render_desc *desc, int x,
+                              int y, facet_error *error)
+{
+    gl_frame_block block = {.size = {(float)target->width, (float)target->height, (float)x, (float)y}};
+    fill_block(f, desc, &block);
+    set_block(f, &block);
+    gl_timers_begin(&f->timers, GL_TIMER_PRESENT);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, target->color);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glViewport(x, y, (GLsizei)target->width, (GLsizei)target->height);
+    uint64_t features =
+        gl_camera_is_top_down(f->context) ? gl_program_feature(GL_MAIN_PRESENT, "IS_TOP_DOWN") : 0;
+    facet_result result = draw_screen(f, GL_MAIN_PRESENT, features, error);
+    gl_timers_end(&f->timers);
+    return result;
+}

@@ -1,0 +1,135 @@
+/* gl_ground.c - see gl_ground.h. */
+#include "gl/scene/gl_ground.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <string.h>
+
+static const float DEPTH_MARGIN = 0.01f; /* of the height: what lies in the plane is not cut off */
+
+void gl_ground_destroy(gl_ground *g)
+{
+    glDeleteTextures(1, &g->heights);
+    glDeleteTextures(1, &g->map);
+    glDeleteFramebuffers(1, &g->heights_framebuffer);
+    glDeleteFramebuffers(1, &g->map_framebuffer);
+    glDeleteVertexArrays(1, &g->empty_array);
+    *g = (gl_ground){.context = g->context};
+}
+
+/* What hides the sky does so to twice its size at least, and as far as its height makes it seen. */
+void gl_ground_plan(gl_ground *g, const facet_render_desc *desc, const float bounds_min[3],
+                    const float bounds_max[3])
+{
+    float extent[3];
+    g->is_wanted = desc->ground == FACET_GROUND_SHADOW && bounds_min[0] <= bounds_max[0];
+    if (!g->is_wanted)
+        return;
+    for (int i = 0; i < 3; i++)
+        extent[i] = bounds_max[i] - bounds_min[i];
+    float half = fmaxf(0.5f * fmaxf(extent[0], extent[2]), 0.05f * extent[1]);
+    half = fmaxf(half + fminf(fmaxf(1.5f * extent[1], 0.75f * half), 2.0f * half), 1e-6f);
+    float height = fmaxf(extent[1], 1e-6f * half);
+    float place[4] = {0.5f * (bounds_min[0] + bounds_max[0]), 0.5f * (bounds_min[2] + bounds_max[2]), half,
+                      bounds_min[1]};
+    float heights[2] = {-DEPTH_MARGIN * height, (1.0f + DEPTH_MARGIN) * height};
+    if (memcmp(place, g->place, sizeof place) != 0 || memcmp(heights, g->height, sizeof heights) != 0)
+        g->drawn_revision = 0;
+    memcpy(g->place, place, sizeof place);
+    memcpy(g->height, heights, sizeof heights);
+}
+
+void gl_ground_describe(const gl_ground *g, gl_light_block *block)
+{
+    memcpy(block->ground, g->place, sizeof g->place);
+    memcpy(block->ground_height, g->height, sizeof g->height);
+}
+
+/* ---- drawing ---- */
+
+static facet_result make_textures(gl_ground *g, facet_error *error)
+{
+    if (g->map)
+        return FACET_OK;
+    facet_result result = gl_casters_make_texture(g->context, 4 * GL_GROUND_EDGE, false, &g->heights,
+                                                  &g->heights_framebuffer, error);
+    if (result != FACET_OK)
+        return result;
+    bool is_half = g->context->has_half_target;
+    glGenTextures(1, &g->map);
+    glBindTexture(GL_TEXTURE_2D, g->map);
+    glTexImage2D(GL_TEXTURE_2D, 0, is_half ? GL_R16F : GL_R8, GL_GROUND_EDGE, GL_GROUND_EDGE, 0, GL_RED,
+                 is_half ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glGenFramebuffers(1, &g->map_framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, g->map_framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, g->map, 0);
+    glGenVertexArrays(1, &g->empty_array);
+    return gl_context_check(g->context, "the ground", error);
+}
+
+/* As seen from straight below, or from above in the same place: x and z of the world are x and y of clip space. */
+static void height_matrix(const gl_ground *g, bool is_above, const float eye[3], float out[16])
+{
+    double scale = 1.0 / (double)g->place[2];
+    double depth = 2.0 / ((double)g->height[1] - (double)g->height[0]);
+    double low = (double)g->place[3] + (double)g->height[0]; /* world */
+    double sign = is_above ? -1.0 : 1.0;
+    memset(out, 0, 16 * sizeof *out);
+    out[0] = (float)scale;
+    out[12] = (float)(((double)eye[0] - (double)g->place[0]) * scale);
+    out[9] = (float)scale;
+    out[13] = (float)(((double)eye[2] - (double)g->place[1]) * scale);
+    out[6] = (float)(sign * depth);
+    out[14] = (float)(sign * (((double)eye[1] - low) * depth - 1.0));
+    out[15] = 1.0f;
+}
+
+static facet_result draw_heights(const gl_ground *g, gl_casters *casters, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    gl_casters_begin(casters, g->heights_framebuffer, 4 * GL_GROUND_EDGE);
+    for (uint32_t side = 0; side < 2 && result == FACET_OK; side++) {
+        float matrix[16];
+        height_matrix(g, side == 1, casters->eye, matrix);
+        result = gl_casters_draw(casters, matrix, side * 2 * GL_GROUND_EDGE, 0, 2 * GL_GROUND_EDGE, error);
+    }
+    return result;
+}
+
+static facet_result draw_map(const gl_ground *g, gl_casters *casters, facet_error *error)
+{
+    uint32_t program;
+    facet_result result =
+        gl_programs_get(casters->programs, (gl_program_key){GL_MAIN_GROUND_MAP, 0}, &program, error);
+    if (result != FACET_OK)
+        return result;
+    glBindFramebuffer(GL_FRAMEBUFFER, g->map_framebuffer);
+    glViewport(0, 0, GL_GROUND_EDGE, GL_GROUND_EDGE);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glActiveTexture(GL_TEXTURE0 + GL_UNIT_MATERIAL);
+    glBindTexture(GL_TEXTURE_2D, g->heights);
+    glBindSampler(GL_UNIT_MATERIAL, 0);
+    glUseProgram(program);
+    glBindVertexArray(g->empty_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    return gl_context_check(g->context, "the ground", error);
+}
+
+facet_result gl_ground_draw(gl_ground *g, gl_casters *casters, facet_error *error)
+{
+    if (!g->is_wanted || g->drawn_revision == casters->revision)
+        return FACET_OK;
+    g->drawn_revision = 0;
+    facet_result result = make_textures(g, error);
+    if (result == FACET_OK)
+        result = draw_heights(g, casters, error);
+    if (result == FACET_OK)
+        result = draw_map(g, casters, error);
+    g->drawn_revision = result == FACET_OK ? casters->revision : 0;
+    return result;
+}

@@ -1,0 +1,358 @@
+/* gl_material.c - see gl_material.h. Materials are numbered as render_geometry has them: a pose changes the factors of
+ * one, never its textures. */
+#include "gl/scene/gl_material.h"
+
+#include <epoxy/gl.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "gl/scene/gl_material_block.h"
+#include "gl/scene/gl_material_slots.h"
+#include "gl/core/gl_texture.h"
+#include "scene/material_table.h"
+
+_Static_assert((int)GL_SURFACE_PAIRS == (int)GL_SURFACE_TEXTURES + (int)SCENE_TEXTURE_SLOT_COUNT &&
+                   (int)GL_SURFACE_LAYERS == (int)GL_SURFACE_PAIRS + (int)GL_SLOT_PAIR_COUNT,
+               "features of gl_program.h stand where slots and pairs do");
+
+/* As it was uploaded. */
+typedef struct gl_material {
+    gl_material_block block;
+    bool is_known;
+    bool is_told;           /* that it has more textures than there are units */
+    bool is_occlusion_told; /* that its occlusion texture is left out */
+} gl_material;
+
+struct gl_material_set {
+    gl_context *context;
+    const facet_scene *scene;
+    facet_allocator allocator;
+    gl_texture_set *textures;
+    const gl_phong *phong; /* of legacy materials; NULL: they are drawn as glTF's */
+    gl_material *items;    /* by material_id */
+    texture_use *uses;     /* by texture */
+    GLuint buffer;
+    size_t stride;             /* of blocks in the buffer, bytes */
+    uint64_t picture_features; /* of what is lit */
+    uint64_t channel_feature;
+};
+
+facet_result gl_material_create(gl_context *context, const facet_scene *scene,
+                                const facet_allocator *allocator, gl_material_set **out, facet_error *error)
+{
+    gl_material_set *set = mem_zalloc(allocator, 1, sizeof *set);
+    size_t count = (size_t)scene->material_count + 1;
+    *out = NULL;
+    if (!set)
+        return fail_memory(error, "materials", sizeof *set);
+    set->context = context;
+    set->scene = scene;
+    set->allocator = allocator ? *allocator : (facet_allocator){0};
+    set->items = mem_zalloc(allocator, count, sizeof *set->items);
+    set->uses = mem_zalloc(allocator, scene->texture_count, sizeof *set->uses);
+    facet_result result = FACET_OK;
+    if (!set->items || !set->uses)
+        result = fail_memory(error, "materials", count * sizeof *set->items);
+    if (result == FACET_OK)
+        result = gl_texture_create(context, scene, allocator, &set->textures, error);
+    if (result != FACET_OK) {
+        gl_material_destroy(set);
+        return result;
+    }
+    GLint alignment = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    size_t step = alignment > 0 ? (size_t)alignment : 256;
+    set->stride = (sizeof(gl_material_block) + step - 1) / step * step;
+    glGenBuffers(1, &set->buffer);
+    glBindBuffer(GL_UNIFORM_BUFFER, set->buffer);
+    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)(count * set->stride), NULL, GL_DYNAMIC_DRAW);
+    *out = set;
+    return gl_context_check(context, "materials", error);
+}
+
+void gl_material_destroy(gl_material_set *set)
+{
+    if (!set)
+        return;
+    if (set->buffer)
+        glDeleteBuffers(1, &set->buffer);
+    gl_texture_destroy(set->textures);
+    mem_free(set->items);
+    mem_free(set->uses);
+    mem_free(set);
+}
+
+/* ---- which textures are read, and how ---- */
+
+static const scene_texture_ref *ref_of(const gl_batch *batch, int slot)
+{
+    return &batch->geometry->material->textures[slot];
+}
+
+static uint32_t name_of(const gl_material_set *set, const gl_batch *batch, int slot)
+{
+    return gl_texture_name(set->textures, ref_of(batch, slot)->texture, material_textures[slot].is_color);
+}
+
+/* Whether both show the same texels at the same place. Of what is color, alpha is as it is in the data. */
+static bool is_pair(const gl_material_set *set, const scene_texture_ref *a, const scene_texture_ref *b)
+{
+    const scene_texture *textures = set->scene->textures;
+    uint32_t count = set->scene->texture_count;
+    return a->texture < count && b->texture < count &&
+           textures[a->texture].image == textures[b->texture].image &&
+           gl_texture_sampler(set->textures, a->texture) == gl_texture_sampler(set->textures, b->texture) &&
+           a->texcoord == b->texcoord && a->has_transform == b->has_transform &&
+           (!a->has_transform || memcmp(a->transform, b->transform, sizeof a->transform) == 0);
+}
+
+/* Features of pairs among the slots that are read (bits). */
+static uint64_t pair_features(const gl_material_set *set, const gl_batch *batch, uint32_t slots)
+{
+    uint64_t features = 0;
+    for (int i = 0; i < GL_SLOT_PAIR_COUNT; i++) {
+        const gl_slot_pair *p = &gl_slot_pairs[i];
+        if (slots >> p->first & slots >> p->second & 1 &&
+            is_pair(set, ref_of(batch, (int)p->first), ref_of(batch, (int)p->second)))
+            features |= 1ull << (GL_SURFACE_PAIRS + i);
+    }
+    return features;
+}
+
+/* The textures that a batch reads, as bits of slots. Where rays have real distances the thickness is not read; here bodies of
+ * glass are as thick as it says. */
+static uint32_t slots_of(const gl_material_set *set, const gl_batch *batch)
+{
+    uint32_t slots = batch->plan->textures;
+    uint32_t occlusion = ref_of(batch, SCENE_OCCLUSION_TEXTURE)->texture;
+    if (material_plan_drops_occlusion(batch->geometry->material,
+                                      gl_texture_lacks_red(set->textures, occlusion)))
+        slots &= ~(1u << SCENE_OCCLUSION_TEXTURE);
+    if (batch->plan->is_volume && scene_material_has(batch->geometry->material, SCENE_THICKNESS_TEXTURE))
+        slots |= 1u << SCENE_THICKNESS_TEXTURE;
+    return slots;
+}
+
+/* Features of the textures of a batch. *lost: slots that are given up because there are not enough units. */
+static uint64_t texture_features(const gl_material_set *set, const gl_batch *batch, uint32_t *lost)
+{
+    uint32_t slots = slots_of(set, batch);
+    uint64_t pairs = pair_features(set, batch, slots);
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
+        if (!(slots >> slot & 1) || name_of(set, batch, slot))
+            continue;
+        bool is_read_elsewhere = false;
+        for (int i = 0; i < GL_SLOT_PAIR_COUNT; i++)
+            is_read_elsewhere |= (int)gl_slot_pairs[i].second == slot &&
+                                 pairs >> (GL_SURFACE_PAIRS + i) & 1 &&
+                                 name_of(set, batch, (int)gl_slot_pairs[i].first);
+        if (!is_read_elsewhere)
+            slots &= ~(1u << slot);
+    }
+    *lost = 0;
+    for (int i = 0; i <= SCENE_TEXTURE_SLOT_COUNT; i++) {
+        uint64_t features = (uint64_t)slots << GL_SURFACE_TEXTURES | pair_features(set, batch, slots);
+        int8_t units[SCENE_TEXTURE_SLOT_COUNT];
+        if (gl_material_slot_units(features, units) <= GL_MATERIAL_UNITS || i == SCENE_TEXTURE_SLOT_COUNT)
+            return features;
+        uint32_t given_up = 1u << gl_slots_by_loss[i];
+        for (int k = 0; k < GL_SLOT_PAIR_COUNT; k++) /* what reads its texel may have none of its own */
+            if (gl_slot_pairs[k].first == gl_slots_by_loss[i] && features >> (GL_SURFACE_PAIRS + k) & 1)
+                given_up |= 1u << gl_slot_pairs[k].second;
+        *lost |= slots & given_up;
+        slots &= ~given_up;
+    }
+    return 0;
+}
+
+/* Notes what the batch reads. */
+static void add_uses(gl_material_set *set, const gl_batch *batch)
+{
+    uint32_t slots = slots_of(set, batch);
+    uint64_t pairs = pair_features(set, batch, slots);
+    for (int i = 0; i < GL_SLOT_PAIR_COUNT; i++)
+        if (pairs >> (GL_SURFACE_PAIRS + i) & 1)
+            slots &= ~(1u << gl_slot_pairs[i].second);
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
+        uint32_t texture = ref_of(batch, slot)->texture;
+        if (!(slots >> slot & 1) || texture >= set->scene->texture_count)
+            continue;
+        if (material_textures[slot].is_color)
+            set->uses[texture].is_read_as_color = true;
+        else
+            set->uses[texture].is_read_as_data = true;
+    }
+}
+
+/* ---- what a picture needs ---- */
+
+static void update_block(gl_material_set *set, const gl_batch *batch)
+{
+    gl_material *item = &set->items[batch->geometry->material_id];
+    gl_material_block block;
+    gl_material_block_fill(set->scene, batch->geometry->material, &block);
+    if (item->is_known && memcmp(&block, &item->block, sizeof block) == 0)
+        return;
+    item->block = block;
+    item->is_known = true;
+    glBufferSubData(GL_UNIFORM_BUFFER, (GLintptr)(batch->geometry->material_id * set->stride), sizeof block,
+                    &block);
+}
+
+static void tell_lost(gl_material_set *set, const gl_batch *batch, const facet_log *log)
+{
+    gl_material *item = &set->items[batch->geometry->material_id];
+    uint32_t lost;
+    if ((batch->plan->textures & ~slots_of(set, batch)) >> SCENE_OCCLUSION_TEXTURE & 1 &&
+        !item->is_occlusion_told) {
+        item->is_occlusion_told = true;
+        material_plan_warn_occlusion(set->scene, batch->geometry->material_id - 1, log);
+    }
+    texture_features(set, batch, &lost);
+    if (!lost || item->is_told)
+        return;
+    item->is_told = true;
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+        if (lost >> slot & 1)
+            log_warning(
+                log, "%s: material %u \"%s\": more textures than OpenGL's %d units: it is drawn without %s",
+                set->scene->source, batch->geometry->material_id - 1,
+                batch->geometry->material->name ? batch->geometry->material->name : "", GL_MATERIAL_UNITS,
+                material_textures[slot].key);
+}
+
+typedef void batch_function(gl_material_set *set, const gl_batch *batch);
+
+static void for_each_batch(gl_material_set *set, const gl_mesh_set *meshes, batch_function *call)
+{
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {
+        uint32_t count;
+        const gl_batch *batches = gl_mesh_batches(meshes, pass, &count);
+        for (uint32_t i = 0; i < count; i++)
+            call(set, &batches[i]);
+    }
+}
+
+void gl_material_show(gl_material_set *set, facet_channel channel)
+{
+    set->channel_feature =
+        channel == FACET_CHANNEL_LIGHT ? 0 : gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL");
+}
+
+facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
+                                const facet_render_desc *desc, facet_error *error)
+{
+    set->picture_features = 0;
+    if (desc->specular_antialiasing)
+        set->picture_features |= 1ull << GL_SURFACE_HAS_SPECULAR_ANTIALIASING;
+    if (desc->gl.brdf == FACET_BRDF_SCHLICK_GGX)
+        set->picture_features |= gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
+    gl_material_show(set, desc->gl.channel);
+    memset(set->uses, 0, set->scene->texture_count * sizeof *set->uses);
+    for_each_batch(set, meshes, add_uses);
+    facet_result result = gl_texture_update(set->textures, set->uses, &desc->log, desc->thread_count, error);
+    if (result != FACET_OK)
+        return result;
+    glBindBuffer(GL_UNIFORM_BUFFER, set->buffer);
+    for_each_batch(set, meshes, update_block);
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {
+        uint32_t count;
+        const gl_batch *batches = gl_mesh_batches(meshes, pass, &count);
+        for (uint32_t i = 0; i < count; i++)
+            tell_lost(set, &batches[i], &desc->log);
+    }
+    return gl_context_check(set->context, "materials", error);
+}
+
+/* ---- a batch ---- */
+
+void gl_material_use_phong(gl_material_set *set, const gl_phong *phong)
+{
+    set->phong = phong;
+}
+
+gl_main gl_material_main(const gl_material_set *set, const gl_batch *batch)
+{
+    return set->phong && batch->geometry->legacy ? GL_MAIN_PHONG : GL_MAIN_SURFACE;
+}
+
+uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch)
+{
+    if (gl_material_main(set, batch) == GL_MAIN_PHONG)
+        return gl_phong_features(set->phong, batch);
+    const render_geometry *g = batch->geometry;
+    const scene_material *m = g->material;
+    uint32_t lost;
+    uint64_t features = texture_features(set, batch, &lost) | set->channel_feature;
+    features |= (uint64_t)batch->plan->layers << GL_SURFACE_LAYERS;
+    if (g->tangents)
+        features |= GL_SURFACE_HAS_TANGENTS;
+    if (g->is_lit)
+        features |= set->picture_features | 1ull << GL_SURFACE_IS_LIT;
+    if (m->extensions & SCENE_UNLIT)
+        features |= 1ull << GL_SURFACE_IS_UNLIT;
+    if (m->extensions & SCENE_SPECULAR_GLOSSINESS)
+        features |= 1ull << GL_SURFACE_IS_GLOSSY;
+    if (g->is_see_through && m->alpha_mode == SCENE_ALPHA_MASK)
+        features |= 1ull << GL_SURFACE_HAS_ALPHA_MASK;
+    if (g->is_see_through && m->alpha_mode == SCENE_ALPHA_BLEND)
+        features |= 1ull << GL_SURFACE_HAS_ALPHA_BLEND;
+    if (g->primitive->colors)
+        features |= 1ull << GL_SURFACE_HAS_COLORS;
+    if (batch->plan->is_volume)
+        features |= 1ull << GL_SURFACE_IS_VOLUME;
+    return features;
+}
+
+bool gl_material_has_coverage(const gl_context *context)
+{
+    return !context->is_es;
+}
+
+static void set_coverage(const gl_material_set *set, const gl_batch *batch)
+{
+    bool is_mask = batch->geometry->is_see_through && !batch->geometry->legacy &&
+                   batch->geometry->material->alpha_mode == SCENE_ALPHA_MASK;
+    if (!gl_material_has_coverage(set->context))
+        return;
+    if (is_mask) {
+        glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glEnable(GL_SAMPLE_ALPHA_TO_ONE);
+    } else {
+        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+    }
+}
+
+void gl_material_bind(const gl_material_set *set, const gl_batch *batch)
+{
+    set_coverage(set, batch);
+    if (gl_material_main(set, batch) == GL_MAIN_PHONG) {
+        gl_phong_bind(set->phong, batch);
+        return;
+    }
+    uint32_t lost;
+    int8_t units[SCENE_TEXTURE_SLOT_COUNT];
+    gl_material_slot_units(texture_features(set, batch, &lost), units);
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
+        if (units[slot] < 0)
+            continue;
+        GLuint unit = (GLuint)GL_UNIT_MATERIAL + (GLuint)units[slot];
+        glActiveTexture(GL_TEXTURE0 + unit);
+        glBindTexture(GL_TEXTURE_2D, name_of(set, batch, slot));
+        glBindSampler(unit, gl_texture_sampler(set->textures, ref_of(batch, slot)->texture));
+    }
+    glBindBufferRange(GL_UNIFORM_BUFFER, GL_BLOCK_MATERIAL, set->buffer,
+                      (GLintptr)(batch->geometry->material_id * set->stride), sizeof(gl_material_block));
+    if (batch->geometry->is_double_sided || batch->plan->is_volume)
+        glDisable(GL_CULL_FACE);
+    else
+        glEnable(GL_CULL_FACE);
+    glFrontFace(batch->geometry->is_mirrored ? GL_CW : GL_CCW);
+}
+
+uint64_t gl_material_decoded_texels(const gl_material_set *set)
+{
+    return gl_texture_decoded_texels(set->textures);
+}

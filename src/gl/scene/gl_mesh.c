@@ -1,0 +1,459 @@
+/* gl_mesh.c - see gl_mesh.h: which instances make a batch, and how one is drawn. The vertices: gl_mesh_vertices.h; the
+ * order: gl_mesh_order.c. */
+#include "gl/scene/gl_mesh_set.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+#include "gl/core/gl_program.h"
+
+/* Two for each of the eight places along the outline of a sprite: surface.vert. */
+enum { SPRITE_VERTICES = 16 };
+/* A disc is drawn as a regular polygon of twelve sides with its area: sqrt(pi / (6 sin(pi / 6))). */
+static const float DISC_OF_TWELVE = 1.0233267f;
+
+facet_result gl_mesh_create(gl_context *context, const facet_allocator *allocator, gl_mesh_set **out,
+                            facet_error *error)
+{
+    *out = mem_zalloc(allocator, 1, sizeof **out);
+    if (!*out)
+        return fail_memory(error, "geometry", sizeof **out);
+    (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
+    (*out)->store = (gl_vertex_store){.context = context, .allocator = (*out)->allocator};
+    (*out)->sprite_feature = gl_program_feature(GL_MAIN_SURFACE, "IS_SPRITE");
+    glGenBuffers(1, &(*out)->instance_buffer);
+    return FACET_OK;
+}
+
+/* The pose's, but for what is kept for the next one. */
+static void clear(gl_mesh_set *set)
+{
+    mem_free(set->batches);
+    mem_free(set->instances);
+    mem_free(set->instance_geometries);
+    set->batches = NULL;
+    set->instances = NULL;
+    set->instance_geometries = NULL;
+    set->count = 0;
+    set->revision = 0;
+    memset(set->first, 0, sizeof set->first);
+}
+
+void gl_mesh_destroy(gl_mesh_set *set)
+{
+    if (!set)
+        return;
+    clear(set);
+    for (size_t i = 0; i < set->array_count; i++)
+        glDeleteVertexArrays(1, &set->arrays[i].name);
+    mem_free(set->arrays);
+    gl_vertex_store_destroy(&set->store);
+    glDeleteBuffers(1, &set->instance_buffer);
+    mem_free(set);
+}
+
+/* ---- instances ---- */
+
+static void load_instance(const render_geometry *g, uint32_t number, gl_instance *out)
+{
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++)
+            out->world[4 * row + column] = g->world->m[4 * column + row];
+    memcpy(out->normal_matrix, g->normal_matrix, sizeof out->normal_matrix);
+    out->scale = g->scale;
+    out->bitangent_sign = g->bitangent_sign;
+    out->number = (float)number;
+    out->sprite_radius =
+        g->primitive->mode == SCENE_TRIANGLES ? 0.0f : render_geometry_sprite_radius(g->primitive->mode);
+    if (g->primitive->mode == SCENE_POINTS)
+        out->sprite_radius *= DISC_OF_TWELVE;
+}
+
+/* Of the world box around the box of an instance. */
+static void add_bounds(const scene_instance *instance, gl_batch *b)
+{
+    for (int row = 0; row < 3; row++) {
+        float middle = instance->world.m[12 + row], extent = 0.0f;
+        for (int k = 0; k < 3; k++) {
+            float m = instance->world.m[4 * k + row];
+            middle += m * 0.5f * (instance->bounds_min[k] + instance->bounds_max[k]);
+            extent += fabsf(m) * 0.5f * (instance->bounds_max[k] - instance->bounds_min[k]);
+        }
+        b->bounds_min[row] = fminf(b->bounds_min[row], middle - extent);
+        b->bounds_max[row] = fmaxf(b->bounds_max[row], middle + extent);
+    }
+}
+
+/* ---- batches ---- */
+
+static gl_pass pass_of(const render_geometry *g, const material_plan *plan)
+{
+    if (g->is_see_through && (g->legacy || g->material->alpha_mode == SCENE_ALPHA_BLEND))
+        return GL_PASS_BLENDED;
+    return plan->lets_rays_through ? GL_PASS_TRANSMISSIVE : GL_PASS_OPAQUE;
+}
+
+static bool may_share(const render_geometry *a, const render_geometry *b)
+{
+    return a->primitive == b->primitive && a->positions == b->positions && a->normals == b->normals &&
+           a->tangents == b->tangents && a->material_id == b->material_id &&
+           a->is_mirrored == b->is_mirrored && a->primitive->mode == SCENE_TRIANGLES;
+}
+
+static uint64_t hash_of(const render_geometry *g)
+{
+    uint64_t hash = (uint64_t)(uintptr_t)g->primitive * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ (uint64_t)(uintptr_t)g->positions ^ (hash >> 31)) * 0x9e3779b97f4a7c15u;
+    hash ^= (uint64_t)g->material_id << 1 ^ (uint64_t)g->is_mirrored;
+    hash *= 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 32;
+}
+
+/* Finds what is drawn together. batch_of: per geometry. slots: room for a power of two of them, more than there are. */
+static void group(gl_mesh_set *set, const gl_scene *scene, uint32_t *batch_of, uint32_t *slots,
+                  size_t slot_count)
+{
+    const render_geometry_set *geometries = &scene->geometries;
+    for (uint32_t i = 0; i < geometries->count; i++) {
+        const render_geometry *g = &geometries->items[i];
+        size_t slot = hash_of(g) & (slot_count - 1);
+        while (slots[slot] && !may_share(set->batches[slots[slot] - 1].geometry, g))
+            slot = (slot + 1) & (slot_count - 1);
+        if (!slots[slot]) {
+            slots[slot] = ++set->count;
+            set->batches[set->count - 1] = (gl_batch){.geometry = g,
+                                                      .plan = &scene->plans.items[i],
+                                                      .is_sprites = g->primitive->mode != SCENE_TRIANGLES,
+                                                      .bounds_min = {INFINITY, INFINITY, INFINITY},
+                                                      .bounds_max = {-INFINITY, -INFINITY, -INFINITY}};
+        }
+        gl_batch *b = &set->batches[slots[slot] - 1];
+        batch_of[i] = slots[slot] - 1;
+        b->instance_count++;
+        add_bounds(&scene->pose.instances[i], b);
+    }
+}
+
+/* Puts the instances of each batch behind each other. */
+static void place_instances(gl_mesh_set *set, const gl_scene *scene, const uint32_t *batch_of)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < set->count; i++) {
+        set->batches[i].first_instance = count;
+        count += set->batches[i].instance_count;
+        set->batches[i].instance_count = 0;
+    }
+    for (uint32_t i = 0; i < scene->geometries.count; i++) {
+        gl_batch *b = &set->batches[batch_of[i]];
+        uint32_t place = b->first_instance + b->instance_count++;
+        load_instance(&scene->geometries.items[i], i, &set->instances[place]);
+        set->instance_geometries[place] = i;
+    }
+}
+
+static facet_result make_batches(gl_mesh_set *set, const gl_scene *scene, facet_error *error)
+{
+    uint32_t count = scene->geometries.count;
+    size_t slot_count = 16;
+    while (slot_count < 2 * (size_t)count)
+        slot_count *= 2;
+    set->batches = mem_zalloc(&set->allocator, count, sizeof *set->batches);
+    set->instances = mem_alloc(&set->allocator, count, sizeof *set->instances);
+    set->instance_geometries = mem_alloc(&set->allocator, count, sizeof *set->instance_geometries);
+    uint32_t *batch_of = mem_alloc(&set->allocator, count, sizeof *batch_of);
+    uint32_t *slots = mem_zalloc(&set->allocator, slot_count, sizeof *slots);
+    bool has_memory = set->batches && set->instances && set->instance_geometries && batch_of && slots;
+    if (has_memory) {
+        group(set, scene, batch_of, slots, slot_count);
+        place_instances(set, scene, batch_of);
+    }
+    mem_free(batch_of);
+    mem_free(slots);
+    return has_memory ? FACET_OK : fail_memory(error, "geometry", count * sizeof *set->batches);
+}
+
+/* ---- array objects ---- */
+
+static void point_array(GLuint index, GLint size, size_t offset, GLsizei stride, GLuint divisor)
+{
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, stride, (const void *)(uintptr_t)offset);
+    glVertexAttribDivisor(index, divisor);
+}
+
+/* Where the arrays of a sprite's second end go, in the place of what sprites have not. */
+static const GLuint end_attributes[GL_VERTEX_ARRAYS] = {
+    [GL_ATTRIBUTE_POSITION] = GL_ATTRIBUTE_TANGENT,
+    [GL_ATTRIBUTE_NORMAL] = GL_ATTRIBUTE_NORMAL_MATRIX,
+    [GL_ATTRIBUTE_COLOR] = GL_ATTRIBUTE_NORMAL_MATRIX + 1,
+    [GL_ATTRIBUTE_TEXCOORD] = GL_ATTRIBUTE_TEXCOORD + 2,
+    [GL_ATTRIBUTE_TEXCOORD + 1] = GL_ATTRIBUTE_TEXCOORD + 3,
+};
+
+static void point_arrays(const gl_vertices *v, scene_mode mode, size_t first)
+{
+    static const GLint widths[GL_VERTEX_ARRAYS] = {3, 3, 4, 4, 2, 2, 2, 2};
+    glBindBuffer(GL_ARRAY_BUFFER, v->buffer);
+    for (GLuint i = 0; i < GL_VERTEX_ARRAYS; i++) {
+        if (!(v->arrays >> i & 1))
+            continue;
+        GLsizei size = widths[i] * (GLsizei)sizeof(float);
+        size_t offset = v->offsets[i];
+        if (mode == SCENE_TRIANGLES) {
+            point_array(i, widths[i], offset, size, 0);
+        } else if (i < GL_ATTRIBUTE_TEXCOORD + 2) {
+            bool is_line = mode == SCENE_LINES;
+            GLsizei stride = is_line ? 2 * size : size;
+            offset += first * (size_t)stride;
+            point_array(i, widths[i], offset, stride, 1);
+            point_array(end_attributes[i], widths[i], offset + (is_line ? (size_t)size : 0), stride, 1);
+        }
+    }
+}
+
+void gl_mesh_point_arrays(const gl_batch *b, size_t first)
+{
+    scene_mode mode = b->geometry->primitive->mode;
+    if (b->vertices.fixed.arrays)
+        point_arrays(&b->vertices.fixed, mode, first);
+    if (b->vertices.streamed.arrays)
+        point_arrays(&b->vertices.streamed, mode, first);
+}
+
+static void point_instances(size_t first)
+{
+    enum { SIZE = sizeof(gl_instance) };
+    size_t offset = first * SIZE;
+    for (GLuint k = 0; k < 3; k++) {
+        point_array(GL_ATTRIBUTE_WORLD + k, 4, offset + offsetof(gl_instance, world) + 16 * k, SIZE, 1);
+        point_array(GL_ATTRIBUTE_NORMAL_MATRIX + k, 3, offset + offsetof(gl_instance, normal_matrix) + 12 * k,
+                    SIZE, 1);
+    }
+    point_array(GL_ATTRIBUTE_INSTANCE, 4, offset + offsetof(gl_instance, scale), SIZE, 1);
+}
+
+static gl_mesh_array array_of(const gl_batch *b)
+{
+    gl_mesh_array array;
+    memset(&array, 0, sizeof array);
+    array.fixed = b->vertices.fixed;
+    array.streamed = b->vertices.streamed;
+    array.elements = b->vertices.elements.buffer;
+    array.mode = b->geometry->primitive->mode;
+    array.first_instance = b->is_sprites ? 0 : b->first_instance;
+    return array;
+}
+
+static bool is_same_array(const gl_mesh_array *a, const gl_mesh_array *b)
+{
+    return a->fixed.buffer == b->fixed.buffer && a->fixed.arrays == b->fixed.arrays &&
+           memcmp(a->fixed.offsets, b->fixed.offsets, sizeof a->fixed.offsets) == 0 &&
+           a->streamed.buffer == b->streamed.buffer && a->streamed.arrays == b->streamed.arrays &&
+           memcmp(a->streamed.offsets, b->streamed.offsets, sizeof a->streamed.offsets) == 0 &&
+           a->elements == b->elements && a->mode == b->mode && a->first_instance == b->first_instance;
+}
+
+/* The array object of batch number i: mostly that of the pose before. */
+static void set_array(gl_mesh_set *set, uint32_t i)
+{
+    gl_batch *b = &set->batches[i];
+    gl_mesh_array wanted = array_of(b), *array = &set->arrays[i];
+    b->vertex_array = array->name;
+    if (array->name && is_same_array(array, &wanted))
+        return;
+    glDeleteVertexArrays(1, &array->name);
+    *array = wanted;
+    glGenVertexArrays(1, &array->name);
+    glBindVertexArray(array->name);
+    b->vertex_array = array->name;
+    gl_mesh_point_arrays(b, 0);
+    if (!b->is_sprites) {
+        glBindBuffer(GL_ARRAY_BUFFER, set->instance_buffer);
+        point_instances(b->first_instance);
+    }
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, array->elements);
+}
+
+static facet_result make_arrays(gl_mesh_set *set, facet_error *error)
+{
+    if (!mem_reserve(&set->allocator, (void **)&set->arrays, &set->array_capacity, set->count,
+                     sizeof *set->arrays))
+        return fail_memory(error, "geometry", set->count * sizeof *set->arrays);
+    for (; set->array_count < set->count; set->array_count++)
+        memset(&set->arrays[set->array_count], 0, sizeof *set->arrays);
+    for (uint32_t i = 0; i < set->count; i++)
+        set_array(set, i);
+    glBindVertexArray(0);
+    return FACET_OK;
+}
+
+/* ---- all ---- */
+
+static facet_result upload_batch(gl_mesh_set *set, gl_batch *b, facet_error *error)
+{
+    facet_result result = gl_vertex_store_use(&set->store, b->geometry, &b->vertices, error);
+    if (result != FACET_OK)
+        return result;
+    if (b->is_sprites) {
+        b->mode = GL_TRIANGLE_STRIP;
+        b->element_count = SPRITE_VERTICES;
+        b->instance_count =
+            b->geometry->primitive->index_count / (b->geometry->primitive->mode == SCENE_LINES ? 2 : 1);
+    } else {
+        b->mode = GL_TRIANGLES;
+        b->has_elements = true;
+        b->element_count = b->vertices.elements.count;
+    }
+    return FACET_OK;
+}
+
+static int compare_passes(const void *a, const void *b)
+{
+    const gl_batch *x = a, *y = b;
+    gl_pass p = pass_of(x->geometry, x->plan), q = pass_of(y->geometry, y->plan);
+    return p != q ? (p > q) - (p < q) : (x->geometry > y->geometry) - (x->geometry < y->geometry);
+}
+
+static void find_passes(gl_mesh_set *set)
+{
+    if (set->count)
+        qsort(set->batches, set->count, sizeof *set->batches, compare_passes);
+    for (uint32_t i = 0; i < set->count; i++)
+        for (gl_pass p = pass_of(set->batches[i].geometry, set->batches[i].plan); p < GL_PASS_COUNT; p++)
+            set->first[p + 1] = i + 1;
+}
+
+static void warn(const gl_mesh_set *set, const gl_scene *scene, const facet_log *log)
+{
+    uint32_t sets[GL_TEXCOORD_SETS];
+    for (uint32_t i = 0; i < set->count; i++) {
+        const render_geometry *g = set->batches[i].geometry;
+        uint32_t most = set->batches[i].is_sprites ? 2 : GL_TEXCOORD_SETS;
+        bool fits = gl_texcoord_sets(g->material, sets);
+        for (scene_texture_slot slot = 0; fits && slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+            fits = !scene_material_has(g->material, slot) ||
+                   gl_texcoord_attribute(g->material, g->material->textures[slot].texcoord) < most;
+        if (fits)
+            continue;
+        log_warning(
+            log,
+            "%s: material \"%s\": reads more sets of texture coordinates than the %u that OpenGL gets; the "
+            "others are 0",
+            scene->scene->source, g->material->name ? g->material->name : "", most);
+        return;
+    }
+}
+
+facet_result gl_mesh_update(gl_mesh_set *set, const gl_scene *scene, const facet_log *log, facet_error *error)
+{
+    if (set->revision && set->revision == scene->revision)
+        return FACET_OK;
+    clear(set);
+    if (set->generation != scene->generation)
+        gl_vertex_store_destroy(&set->store);
+    set->generation = scene->generation;
+    set->store.source = scene->scene->source;
+    gl_vertex_store_begin(&set->store);
+    facet_result result = make_batches(set, scene, error);
+    for (uint32_t i = 0; i < set->count && result == FACET_OK; i++)
+        result = upload_batch(set, &set->batches[i], error);
+    if (result == FACET_OK) {
+        size_t bytes = scene->geometries.count * sizeof *set->instances;
+        glBindBuffer(GL_ARRAY_BUFFER, set->instance_buffer);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, set->instances, GL_DYNAMIC_DRAW);
+        set->store.stats.bytes += bytes;
+        set->store.stats.uploads++;
+        result = make_arrays(set, error);
+    }
+    if (result == FACET_OK)
+        result = gl_context_check(set->store.context, "geometry", error);
+    if (result != FACET_OK) {
+        clear(set);
+        return result;
+    }
+    find_passes(set);
+    warn(set, scene, log);
+    set->revision = scene->revision;
+    return FACET_OK;
+}
+
+const gl_batch *gl_mesh_batches(const gl_mesh_set *set, gl_pass pass, uint32_t *count)
+{
+    *count = set->first[pass + 1] - set->first[pass];
+    return set->batches + set->first[pass];
+}
+
+gl_upload_stats gl_mesh_uploads(const gl_mesh_set *set)
+{
+    return set->store.stats;
+}
+
+/* ---- drawing ---- */
+
+uint64_t gl_mesh_features(const gl_mesh_set *set, const gl_batch *b)
+{
+    return b->is_sprites ? set->sprite_feature : 0;
+}
+
+uint32_t gl_mesh_instance_geometry(const gl_mesh_set *set, uint32_t instance)
+{
+    return set->instance_geometries[instance];
+}
+
+/* What a primitive has no array for: white, and no matter what else. OpenGL may forget such constants where an array was in
+ * their place. */
+static void set_absent(const gl_batch *b)
+{
+    static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f}, zero[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    uint32_t arrays = b->vertices.fixed.arrays | b->vertices.streamed.arrays;
+    for (GLuint i = GL_ATTRIBUTE_NORMAL; i < GL_VERTEX_ARRAYS; i++) {
+        if (arrays >> i & 1)
+            continue;
+        const float *value = i == GL_ATTRIBUTE_COLOR ? white : zero;
+        if (!b->is_sprites)
+            glVertexAttrib4fv(i, value);
+        else if (end_attributes[i]) {
+            glVertexAttrib4fv(i, value);
+            glVertexAttrib4fv(end_attributes[i], value);
+        }
+    }
+}
+
+static void set_instance(const gl_instance *one, bool is_sprite)
+{
+    for (GLuint k = 0; k < 3; k++)
+        glVertexAttrib4fv(GL_ATTRIBUTE_WORLD + k, one->world + 4 * k);
+    for (GLuint k = 0; k < 3 && !is_sprite; k++)
+        glVertexAttrib3fv(GL_ATTRIBUTE_NORMAL_MATRIX + k, one->normal_matrix + 3 * k);
+    glVertexAttrib4fv(GL_ATTRIBUTE_INSTANCE, &one->scale);
+}
+
+void gl_mesh_set_constants(const gl_mesh_set *set, const gl_batch *b, uint32_t instance)
+{
+    set_absent(b);
+    set_instance(&set->instances[instance], b->is_sprites);
+}
+
+facet_result gl_mesh_reorder(gl_mesh_set *set, const gl_batch *b, const uint32_t *order, gl_vertices *out,
+                             facet_error *error)
+{
+    return gl_vertex_store_reorder(&set->store, b->geometry, order, out, error);
+}
+
+void gl_mesh_draw(const gl_mesh_set *set, const gl_batch *b)
+{
+    glBindVertexArray(b->vertex_array);
+    set_absent(b);
+    if (b->is_sprites)
+        set_instance(&set->instances[b->first_instance], true);
+    if (b->has_elements)
+        glDrawElementsInstanced(b->mode, (GLsizei)b->element_count, GL_UNSIGNED_INT, NULL,
+                                (GLsizei)b->instance_count);
+    else
+        glDrawArraysInstanced(b->mode, 0, (GLsizei)b->element_count, (GLsizei)b->instance_count);
+}

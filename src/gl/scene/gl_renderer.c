@@ -1,0 +1,246 @@
+/* gl_renderer.c - see gl_renderer.h: what is kept from picture to picture, and what is done when that breaks. */
+#include "gl/scene/gl_renderer.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/result.h"
+#include "gl/scene/gl_camera.h"
+#include "gl/scene/gl_film.h"
+#include "gl/scene/gl_frame.h"
+#include "gl/scene/gl_sampling.h"
+#include "scene/scene.h"
+
+#include "draw/ogl1_setup.h"
+
+struct gl_renderer {
+    facet_allocator allocator;
+    gl_context own, *context; /* own: {0} where there is none yet, or it was lost */
+    gl_scene prepared;
+    gl_frame frame;
+    gl_target target;
+    gl_times times;
+    bool has_told_driver;
+};
+
+/* ---- what is kept ---- */
+
+/* Forgets all that is in OpenGL's memory, and a context of its own: the next picture starts with a new one. A context that
+ * is lost can still be current; where it cannot, names are released in an empty one, where they mean nothing. */
+static void stop(gl_renderer *r)
+{
+    gl_context spare = {.context = NULL};
+    bool is_own = r->context == &r->own;
+    bool is_current = (!is_own || r->own.context) && gl_context_make_current(r->context, NULL) == FACET_OK;
+    if (!is_current && r->frame.context)
+        is_current = gl_context_create(&spare, NULL) == FACET_OK;
+    if (is_current) {
+        gl_frame_destroy(&r->frame);
+        gl_target_destroy(&r->target);
+    }
+    gl_context_destroy(&spare);
+    r->has_told_driver = false;
+    if (is_own)
+        gl_context_destroy(&r->own);
+}
+
+/* A context that is current, and all that hangs on it. */
+static facet_result start(gl_renderer *r, facet_error *error)
+{
+    bool is_own = r->context == &r->own;
+    if (is_own && r->own.is_lost)
+        stop(r);
+    facet_result result = is_own && !r->own.context ? gl_context_create(&r->own, error)
+                                                    : gl_context_make_current(r->context, error);
+    if (result == FACET_OK && !r->frame.context)
+        result = gl_frame_create(&r->frame, r->context, r->prepared.scene, &r->allocator, error);
+    if (result != FACET_OK)
+        stop(r);
+    return result;
+}
+
+facet_result gl_renderer_create(const facet_scene *scene, gl_context *context,
+                                const facet_allocator *allocator, gl_renderer **out, facet_error *error)
+{
+    gl_renderer *r = mem_zalloc(allocator, 1, sizeof *r);
+    *out = NULL;
+    if (!r)
+        return fail_memory(error, "renderer", sizeof *r);
+    r->allocator = allocator ? *allocator : (facet_allocator){0};
+    r->context = context ? context : &r->own;
+    gl_scene_init(&r->prepared, scene, &r->allocator);
+    facet_result result = start(r, error);
+    if (result != FACET_OK) {
+        gl_renderer_destroy(r);
+        return result;
+    }
+    gl_context_release(r->context);
+    *out = r;
+    return FACET_OK;
+}
+
+void gl_renderer_destroy(gl_renderer *r)
+{
+    if (!r)
+        return;
+    stop(r);
+    gl_scene_clear(&r->prepared);
+    mem_free(r);
+}
+
+/* ---- a picture ---- */
+
+/* What goes together: OpenGL 1 has no shadows, and channels are those of glTF's materials. */
+static facet_render_desc settle(const facet_render_desc *desc)
+{
+    facet_render_desc settled = *desc;
+    if (desc->gl.channel != FACET_CHANNEL_LIGHT)
+        settled.shading = FACET_SHADING_GLTF;
+    if (settled.shading == FACET_SHADING_OGL1)
+        settled.gl.shadows = false;
+    return settled;
+}
+
+/* Rays of the camera, or of one that shows the whole scene. */
+static facet_result make_camera(gl_renderer *r, const facet_render_desc *desc, camera_rays *rays,
+                                facet_error *error)
+{
+    facet_camera fitted;
+    facet_orbit orbit = scene_orbit_default();
+    orbit.log = desc->log;
+    facet_result result = FACET_OK;
+    if (!desc->camera)
+        result = scene_fit_pose(r->prepared.scene, &r->prepared.pose, &orbit,
+                                (float)desc->width / (float)desc->height, desc->thread_count, &fitted, error);
+    return result == FACET_OK ? camera_rays_create(desc->camera ? desc->camera : &fitted, desc->width,
+                                                   desc->height, rays, error)
+                              : result;
+}
+
+/* All that comes before drawing: the scene, and what of it is in OpenGL's memory. */
+static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camera_rays *camera,
+                            double deadline_s, facet_render_stats *stats, facet_error *error)
+{
+    double begin = clock_seconds();
+    facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
+    if (result == FACET_OK)
+        result = ogl1_check(r->prepared.scene, desc, error);
+    if (result == FACET_OK)
+        result = gl_scene_update(&r->prepared, desc, error);
+    if (result == FACET_OK)
+        result = make_camera(r, desc, camera, error);
+    stats->geometry_s += clock_seconds() - begin;
+    if (result == FACET_OK)
+        result = gl_frame_update(&r->frame, &r->prepared, camera, desc, stats, error);
+    if (result == FACET_OK)
+        result = render_check_limits(desc, "shade", 0.0, deadline_s, error);
+    return result;
+}
+
+/* Once for a context. */
+static void tell_driver(gl_renderer *r, const facet_log *log)
+{
+    char line[sizeof r->context->name + 16];
+    if (r->has_told_driver || !log->message)
+        return;
+    snprintf(line, sizeof line, "OpenGL: %s", r->context->name);
+    log->message(log->user, FACET_LOG_DETAIL, line);
+    r->has_told_driver = true;
+}
+
+static facet_result attempt(gl_renderer *r, const facet_render_desc *desc, double deadline_s, film *target,
+                            facet_render_stats *stats, facet_error *error)
+{
+    camera_rays camera;
+    *stats = (facet_render_stats){.thread_count = desc->thread_count};
+    facet_result result = start(r, error);
+    if (result == FACET_OK)
+        tell_driver(r, &desc->log);
+    if (result == FACET_OK)
+        result = prepare(r, desc, &camera, deadline_s, stats, error);
+    double begin = clock_seconds();
+    const gl_film_desc drawn = {.frame = &r->frame,
+                                .scene = &r->prepared,
+                                .camera = &camera,
+                                .render = desc,
+                                .target = &r->target,
+                                .deadline_s = deadline_s};
+    if (result == FACET_OK)
+        result = gl_film_draw(&drawn, target, error);
+    if (result == FACET_OK) {
+        r->times = gl_timers_finish(&r->frame.timers, true);
+        result = render_check_limits(desc, "shade", 1.0, 0.0, error);
+    }
+    stats->shade_s += clock_seconds() - begin;
+    return result;
+}
+
+facet_result gl_renderer_render(gl_renderer *r, const facet_render_desc *wanted, film *target,
+                                facet_render_stats *stats, facet_error *error)
+{
+    const facet_render_desc settled = settle(wanted), *desc = &settled;
+    double begin = clock_seconds();
+    double deadline_s = desc->time_limit_s > 0.0 ? begin + desc->time_limit_s : 0.0;
+    bool was_used = r->prepared.revision > 0;
+    facet_result result = attempt(r, desc, deadline_s, target, stats, error);
+    if (result == FACET_ERROR_MEMORY && was_used) { /* once more without what earlier pictures left */
+        stop(r);
+        gl_scene_clear(&r->prepared);
+        result = attempt(r, desc, deadline_s, target, stats, error);
+    }
+    if (result == FACET_ERROR_MEMORY || r->context->is_lost)
+        stop(r);
+    gl_context_release(r->context);
+    stats->total_s = clock_seconds() - begin;
+    return result;
+}
+
+gl_context *gl_renderer_get_context(gl_renderer *r)
+{
+    return r->context;
+}
+
+gl_times gl_renderer_get_times(const gl_renderer *r)
+{
+    return r->times;
+}
+
+/* ---- a frame of a window ---- */
+
+facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted, uint32_t framebuffer, int x,
+                                 int y, facet_render_stats *stats, facet_error *error)
+{
+    const facet_render_desc settled = settle(wanted), *desc = &settled;
+    camera_rays camera;
+    gl_frame_block block = {.channel = 0};
+    *stats = (facet_render_stats){.thread_count = desc->thread_count};
+    if (!desc->width || !desc->height)
+        return FACET_OK; /* a window that is closed up to its title */
+    facet_result result = start(r, error);
+    if (result == FACET_OK)
+        result = prepare(r, desc, &camera, 0.0, stats, error);
+    double begin = clock_seconds();
+    uint32_t most = result == FACET_OK ? gl_frame_max_samples(&r->frame, desc) : 1;
+    gl_sampling sampling = gl_sampling_plan(desc->samples ? desc->samples : 4, FACET_QUALITY_NORMAL, most);
+    if (result == FACET_OK)
+        result = gl_target_update(&r->target, r->context, GL_TARGET_WINDOW, desc->width, desc->height,
+                                  sampling.samples, error);
+    if (result == FACET_OK) {
+        const gl_view all = {.scale = 1, .width = desc->width, .height = desc->height};
+        gl_camera_set(r->context, &camera, r->prepared.pose.bounds_min, r->prepared.pose.bounds_max,
+                      desc->width, desc->height, &all, &block);
+        result = gl_frame_draw(&r->frame, &r->target, desc, &block, error);
+    }
+    if (result == FACET_OK) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        result = gl_frame_present(&r->frame, &r->target, desc, x, y, error);
+    }
+    if (result == FACET_OK) {
+        r->times = gl_timers_finish(&r->frame.timers, false);
+        result = gl_context_check(r->context, "the window", error);
+    }
+    stats->shade_s += clock_seconds() - begin;
+    return result;
+}

@@ -1,0 +1,344 @@
+/* gl_renderer_test.c - pictures of gl_renderer.h: parts, tiles, samples, layers as the preview's, windows. Exits with 77 where
+ * there is no OpenGL. */
+#include <epoxy/gl.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "gl/scene/gl_fixture_test.h"
+#include "gl/scene/gl_sampling.h"
+
+static gl_fixture_contexts contexts;
+
+static void on_each(void (*check)(fixture *f, gl_context *context))
+{
+    for (int i = 0; i < contexts.count; i++) {
+        fixture f = gl_fixture_scene();
+        check(&f, &contexts.items[i]);
+        fixture_destroy(&f);
+    }
+}
+
+/* ---- the preview ---- */
+
+static void check_preview(fixture *f, gl_context *context)
+{
+    static const uint32_t samples[] = {1, 4};
+    for (int i = 0; i < 2; i++) {
+        f->desc.samples = samples[i];
+        film ours = gl_fixture_render(f, context), theirs = fixture_render(f);
+        picture_difference d = gl_fixture_compare(&ours, &theirs, 0.02f);
+        if (d.mean > 0.002 || d.share > 0.02)
+            fail_msg("%u samples: mean difference %g, %g of the pixels by more than 0.02", samples[i], d.mean,
+                     d.share);
+        size_t different = 0; /* the very same samples; some lie within 1 / 256 of an edge */
+        for (size_t k = 0; k < 96 * 64; k++)
+            different += fabsf(ours.layers[0].pixels[4 * k + 3] - theirs.layers[0].pixels[4 * k + 3]) > 1e-5f;
+        if (context->has_clip_control)
+            assert_in_range(different, 0, 6);
+        film_destroy(&ours);
+        film_destroy(&theirs);
+    }
+}
+
+static void pictures_are_the_previews(void **state)
+{
+    (void)state;
+    on_each(check_preview);
+}
+
+static void check_layers(fixture *f, gl_context *context)
+{
+    f->desc.aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_ALBEDO | FACET_AOV_MATERIAL_ID |
+                   FACET_AOV_UV | FACET_AOV_OCCLUSION;
+    f->desc.crop[0] = 10, f->desc.crop[1] = 6, f->desc.crop[2] = 80, f->desc.crop[3] = 50;
+    film ours = gl_fixture_render(f, context), theirs = fixture_render(f);
+    assert_int_equal(ours.layer_count, 7);
+    size_t shown = 0;
+    for (uint32_t k = 1; k < ours.layer_count; k++) {
+        const film_layer *a = &ours.layers[k], *b = &theirs.layers[k];
+        assert_string_equal(a->name, b->name);
+        size_t count = (size_t)80 * 50 * a->channel_count, different = 0;
+        for (size_t i = 0; i < count; i++) {
+            float tolerance = strcmp(a->name, "albedo") == 0 ? 0.05f : 2e-3f; /* a texture's filter */
+            bool is_equal = a->pixels[i] == b->pixels[i] || fabsf(a->pixels[i] - b->pixels[i]) < tolerance;
+            different += !is_equal;
+            shown += strcmp(a->name, "depth") == 0 && isfinite(a->pixels[i]);
+        }
+        if (different > count / 100) /* an edge goes through a pixel's middle here and there */
+            fail_msg("layer %s: %zu of %zu numbers differ", a->name, different, count);
+    }
+    assert_in_range(shown, 1000, 3900);
+    film_destroy(&ours);
+    film_destroy(&theirs);
+}
+
+static void layers_are_the_previews(void **state)
+{
+    (void)state;
+    on_each(check_layers);
+}
+
+/* ---- parts ---- */
+
+/* A part of a picture is that part: as far as vertices fall on the same 256ths of a pixel. */
+static void check_crop(fixture *f, gl_context *context)
+{
+    film whole = gl_fixture_render(f, context);
+    const uint32_t crop[4] = {31, 17, 40, 23};
+    memcpy(f->desc.crop, crop, sizeof crop);
+    film part = gl_fixture_render(f, context);
+    size_t different = 0;
+    for (uint32_t y = 0; y < crop[3]; y++)
+        for (uint32_t x = 0; x < crop[2]; x++)
+            for (int c = 0; c < 4; c++)
+                different += fabsf(fixture_pixel(&part, "", x, y)[c] -
+                                   fixture_pixel(&whole, "", crop[0] + x, crop[1] + y)[c]) > 2e-3f;
+    assert_in_range(different, 0, 4 * 9);
+    film_destroy(&whole);
+    film_destroy(&part);
+}
+
+static void a_crop_is_a_part_of_the_picture(void **state)
+{
+    (void)state;
+    on_each(check_crop);
+}
+
+/* As if OpenGL had no textures above 40 texels: nine tiles, or 30 of twice as many pixels. */
+static void check_tiles(fixture *f, gl_context *context)
+{
+    for (int is_final = 0; is_final < 2; is_final++) {
+        f->desc.quality = is_final ? FACET_QUALITY_FINAL : FACET_QUALITY_NORMAL;
+        f->desc.samples = is_final ? 16 : 4;
+        film whole = gl_fixture_render(f, context);
+        gl_context small = *context;
+        small.max_texture_size = 40;
+        film tiled = gl_fixture_render(f, &small);
+        picture_difference d = gl_fixture_compare(&whole, &tiled, 2e-3f);
+        assert_true(d.share < 0.01);
+        film_destroy(&whole);
+        film_destroy(&tiled);
+    }
+}
+
+static void tiles_make_the_same_picture(void **state)
+{
+    (void)state;
+    on_each(check_tiles);
+}
+
+/* ---- samples ---- */
+
+static void samples_are_as_many_as_asked_for(void **state)
+{
+    (void)state;
+    for (uint32_t most = 1; most <= 32; most *= 2)
+        for (uint32_t samples = 1; samples <= 300; samples++)
+            for (int q = FACET_QUALITY_NORMAL; q <= FACET_QUALITY_FINAL; q++) {
+                gl_sampling s = gl_sampling_plan(samples, (facet_quality)q, most);
+                uint32_t made = s.scale * s.scale * s.samples * s.passes;
+                assert_true(made >= samples && made < 2 * samples + 4);
+                assert_true(s.samples <= most);
+            }
+    gl_sampling plan = gl_sampling_plan(16, FACET_QUALITY_FINAL, 4);
+    assert_int_equal(plan.scale, 2);
+    assert_int_equal(plan.passes, 1);
+    plan = gl_sampling_plan(64, FACET_QUALITY_NORMAL, 4);
+    float jitter[2 * 16], sum[2] = {0.0f, 0.0f};
+    assert_int_equal(plan.passes, 16);
+    gl_sampling_jitter(&plan, jitter);
+    for (int i = 0; i < 32; i++) {
+        assert_true(fabsf(jitter[i]) < 0.25f);
+        sum[i & 1] += jitter[i];
+    }
+    assert_true(fabsf(sum[0]) < 1e-5f && fabsf(sum[1]) < 1e-5f);
+}
+
+/* More samples come closer to what the preview finds with very many. */
+static void check_samples(fixture *f, gl_context *context)
+{
+    f->desc.samples = 256;
+    film truth = fixture_render(f);
+    double before = 1.0;
+    static const uint32_t samples[] = {1, 4, 64};
+    for (int i = 0; i < 3; i++) {
+        f->desc.samples = samples[i];
+        film ours = gl_fixture_render(f, context);
+        double sum = 0.0; /* coverage alone: shading is elsewhere */
+        for (size_t k = 0; k < 96 * 64; k++)
+            sum += (double)fabsf(ours.layers[0].pixels[4 * k + 3] - truth.layers[0].pixels[4 * k + 3]);
+        assert_true(sum < 0.6 * before || i == 0);
+        before = sum;
+        film_destroy(&ours);
+    }
+    film_destroy(&truth);
+}
+
+static void more_samples_are_closer(void **state)
+{
+    (void)state;
+    on_each(check_samples);
+}
+
+/* ---- drivers that have less ---- */
+
+static void check_poor_driver(fixture *f, gl_context *context)
+{
+    film rich = gl_fixture_render(f, context);
+    gl_context poor = *context;
+    poor.has_clip_control = false; /* rows from the bottom, depth between planes that follow the scene */
+    film bottom_up = gl_fixture_render(f, &poor);
+    poor.has_float_target = false;
+    film half = gl_fixture_render(f, &poor);
+    picture_difference d = gl_fixture_compare(&rich, &bottom_up, 0.02f);
+    assert_true(d.mean < 0.01 && d.share < 0.1); /* edges: other samples */
+    d = gl_fixture_compare(&bottom_up, &half, 1e-2f);
+    assert_true(d.mean < 1e-3 && d.share < 1e-3);
+    film_destroy(&rich);
+    film_destroy(&bottom_up);
+    film_destroy(&half);
+}
+
+static void drivers_that_have_less_draw_the_same(void **state)
+{
+    (void)state;
+    on_each(check_poor_driver);
+}
+
+/* ---- depth ---- */
+
+/* Two quads 1 mm apart, 1 km away, seen by an eye that has something 1 cm before it: the nearer one is seen. */
+static void check_depth(fixture *f, gl_context *context)
+{
+    fixture g = fixture_create();
+    (void)f;
+    uint32_t red = fixture_add_material(&g, gl_fixture_unlit(1.0f, 0.0f, 0.0f, 1.0f));
+    uint32_t green = fixture_add_material(&g, gl_fixture_unlit(0.0f, 1.0f, 0.0f, 1.0f));
+    fixture_place(&g, fixture_add_quad(&g, red), 0.0f, 0.0f, -0.001f, 1.0f);
+    fixture_place(&g, fixture_add_quad(&g, green), 0.0f, 0.0f, 0.0f, 1.0f);
+    fixture_place(&g, fixture_add_quad(&g, red), 0.0f, 0.006f, 999.99f, 1e-3f);
+    g.camera = (facet_camera){.eye = {0.0f, 0.0f, 1000.0f}, .fov_y_rad = 0.0022f};
+    film picture = gl_fixture_render(&g, context);
+    size_t seen = 0;
+    for (uint32_t y = 0; y < 64; y++)
+        for (uint32_t x = 0; x < 64; x++) {
+            const float *p = fixture_pixel(&picture, "", x, y);
+            seen += p[3] > 0.99f && p[1] > 0.99f && p[0] < 0.01f;
+        }
+    if (context->has_clip_control)
+        assert_true(seen > 50 * 50);
+    film_destroy(&picture);
+    fixture_destroy(&g);
+}
+
+static void nothing_flickers_far_away(void **state)
+{
+    (void)state;
+    on_each(check_depth);
+}
+
+/* ---- windows ---- */
+
+/* Numbers of a window are those that a file of the picture has: sRGB, straight; upright, in its place. */
+static void check_window(fixture *f, gl_context *context)
+{
+    enum { W = 96, H = 64, LEFT = 5, BELOW = 3 };
+    gl_renderer *renderer = gl_fixture_renderer(f, context);
+    GLuint texture, framebuffer;
+    assert_int_equal(gl_context_make_current(context, NULL), FACET_OK);
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W + LEFT, H + BELOW, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    facet_render_stats stats;
+    f->desc.camera = &f->camera;
+    f->desc.environment = f->environment;
+    f->desc.tonemap = FACET_TONEMAP_NEUTRAL;
+    f->desc.background = FACET_BACKGROUND_COLOR;
+    f->desc.background_color[2] = 0.25f;
+    assert_int_equal(gl_renderer_present(renderer, &f->desc, framebuffer, LEFT, BELOW, &stats, NULL),
+                     FACET_OK);
+    static unsigned char window[H][W][4];
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glReadPixels(LEFT, BELOW, W, H, GL_RGBA, GL_UNSIGNED_BYTE, window);
+    film picture = gl_fixture_draw(f, renderer);
+    film_develop(&picture, FACET_TONEMAP_NEUTRAL, f->desc.background_color, 1);
+    size_t different = 0;
+    for (uint32_t y = 0; y < H; y++)
+        for (uint32_t x = 0; x < W; x++)
+            for (int c = 0; c < 3; c++) {
+                double linear = (double)fixture_pixel(&picture, "", x, y)[c];
+                double wanted =
+                    linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(fmin(linear, 1.0), 1.0 / 2.4) - 0.055;
+                different += fabs(255.0 * wanted - (double)window[H - 1 - y][x][c]) > 1.01;
+            }
+    assert_int_equal(different, 0);
+    assert_int_equal(gl_context_make_current(context, NULL), FACET_OK);
+    f->desc.width = 0;
+    assert_int_equal(gl_renderer_present(renderer, &f->desc, framebuffer, 0, 0, &stats, NULL), FACET_OK);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    gl_renderer_destroy(renderer);
+    gl_context_release(context);
+    film_destroy(&picture);
+}
+
+static void a_window_shows_the_picture(void **state)
+{
+    (void)state;
+    on_each(check_window);
+}
+
+/* ---- times ---- */
+
+static void check_times(fixture *f, gl_context *context)
+{
+    gl_renderer *renderer = gl_fixture_renderer(f, context);
+    film picture = gl_fixture_draw(f, renderer);
+    gl_times times = gl_renderer_get_times(renderer);
+    assert_int_equal(times.is_known, context->has_timer_query);
+    if (times.is_known) {
+        assert_true(times.ms[GL_TIMER_OPAQUE] > 0.0);
+        assert_true(times.ms[GL_TIMER_OPAQUE] < 60e3);
+        assert_true(times.ms[GL_TIMER_LAYERS] <= 0.0);
+    }
+    for (int i = 0; i < GL_TIMER_COUNT; i++)
+        assert_true(strlen(gl_timer_name((gl_timer)i)) > 3);
+    assert_int_equal(gl_context_make_current(context, NULL), FACET_OK);
+    gl_renderer_destroy(renderer);
+    gl_context_release(context);
+    film_destroy(&picture);
+}
+
+static void passes_are_timed(void **state)
+{
+    (void)state;
+    on_each(check_times);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_are_the_previews),
+                                       cmocka_unit_test(layers_are_the_previews),
+                                       cmocka_unit_test(a_crop_is_a_part_of_the_picture),
+                                       cmocka_unit_test(tiles_make_the_same_picture),
+                                       cmocka_unit_test(samples_are_as_many_as_asked_for),
+                                       cmocka_unit_test(more_samples_are_closer),
+                                       cmocka_unit_test(drivers_that_have_less_draw_the_same),
+                                       cmocka_unit_test(nothing_flickers_far_away),
+                                       cmocka_unit_test(a_window_shows_the_picture),
+                                       cmocka_unit_test(passes_are_timed)};
+    if (!gl_fixture_open(&contexts))
+        return 77;
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    gl_fixture_close(&contexts);
+    return failed;
+}

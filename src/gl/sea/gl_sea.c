@@ -1,0 +1,534 @@
+/* gl_sea.c - see gl_sea.h: what is kept from picture to picture, and the passes of one. */
+#include "gl/sea/gl_sea.h"
+
+#include <epoxy/gl.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/result.h"
+#include "draw/render_watch.h"
+#include "draw/sample_pattern.h"
+#include "gl/core/gl_blocks.h"
+#include "gl/scene/gl_camera.h"
+#include "gl/scene/gl_light_atlas.h"
+#include "gl/core/gl_program.h"
+#include "gl/sea/gl_sea_block.h"
+#include "gl/sea/gl_sea_classes.h"
+#include "gl/sea/gl_sea_model.h"
+#include "gl/sea/gl_sea_textures.h"
+#include "gl/core/gl_target.h"
+#include "ibl/environment.h"
+#include "ibl/light.h"
+
+/* Pixels that are drawn at once; between tiles the caller may cancel. */
+static const uint64_t TILE_PIXELS = 1u << 21;
+
+struct gl_sea {
+    facet_allocator allocator;
+    gl_context context;
+    gl_api api;
+    gl_programs *programs;
+    gl_sea_textures textures;
+    gl_light_atlas atlas;
+    gl_target grid, seen, target;
+    /* whose parts are in the atlas: as long as they live they stay what they are */
+    facet_environment *environments[2];
+    GLuint frame_buffer, light_buffer, sea_buffer, index_buffer, mesh_array, empty_array;
+    uint32_t columns, rows; /* of the indices */
+};
+
+/* ---- what is kept ---- */
+
+static void forget_light(gl_sea *s)
+{
+    gl_light_atlas_destroy(&s->atlas);
+    gl_sea_textures_forget_light(&s->textures);
+    for (int i = 0; i < 2; i++) {
+        if (s->environments[i])
+            environment_release(s->environments[i]);
+        s->environments[i] = NULL;
+    }
+}
+
+/* Forgets all that is in OpenGL's memory, and the context. */
+static void stop(gl_sea *s)
+{
+    if (s->context.context && gl_context_make_current(&s->context, NULL) == FACET_OK) {
+        gl_programs_destroy(s->programs);
+        gl_target_destroy(&s->grid);
+        gl_target_destroy(&s->seen);
+        gl_target_destroy(&s->target);
+        const GLuint buffers[] = {s->frame_buffer, s->light_buffer, s->sea_buffer, s->index_buffer};
+        glDeleteBuffers(4, buffers);
+        glDeleteVertexArrays(1, &s->mesh_array);
+        glDeleteVertexArrays(1, &s->empty_array);
+        forget_light(s);
+        gl_sea_textures_destroy(&s->textures);
+    }
+    gl_context_destroy(&s->context);
+    *s = (gl_sea){.allocator = s->allocator, .api = s->api};
+}
+
+static facet_result start(gl_sea *s, facet_error *error)
+{
+    if (s->context.is_lost)
+        stop(s);
+    if (s->context.context)
+        return gl_context_make_current(&s->context, error);
+    facet_result result = gl_context_create_api(&s->context, s->api, error);
+    if (result == FACET_OK)
+        result = gl_programs_create(&s->context, &s->allocator, NULL, &s->programs, error);
+    if (result != FACET_OK)
+        return result;
+    GLuint buffers[4];
+    glGenBuffers(4, buffers);
+    s->frame_buffer = buffers[0];
+    s->light_buffer = buffers[1];
+    s->sea_buffer = buffers[2];
+    s->index_buffer = buffers[3];
+    glGenVertexArrays(1, &s->mesh_array);
+    glGenVertexArrays(1, &s->empty_array);
+    return FACET_OK;
+}
+
+facet_result gl_sea_create_api(gl_api wanted, const facet_allocator *allocator, gl_sea **out,
+                               facet_error *error)
+{
+    gl_sea *s = mem_zalloc(allocator, 1, sizeof *s);
+    *out = NULL;
+    if (!s)
+        return fail_memory(error, "renderer", sizeof *s);
+    s->allocator = allocator ? *allocator : (facet_allocator){0};
+    s->api = wanted;
+    facet_result result = start(s, error);
+    if (result != FACET_OK) {
+        gl_sea_destroy(s);
+        return result;
+    }
+    gl_context_release(&s->context);
+    *out = s;
+    return FACET_OK;
+}
+
+facet_result gl_sea_create(const facet_allocator *allocator, gl_sea **out, facet_error *error)
+{
+    return gl_sea_create_api(GL_API_ANY, allocator, out, error);
+}
+
+void gl_sea_destroy(gl_sea *s)
+{
+    if (!s)
+        return;
+    stop(s);
+    mem_free(s);
+}
+
+/* ---- what a picture needs ---- */
+
+static void set_block(GLuint buffer, GLuint point, const void *block, size_t size)
+{
+    glBindBuffer(GL_UNIFORM_BUFFER, buffer);
+    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)size, block, GL_DYNAMIC_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, point, buffer);
+}
+
+/* Of a picture in the sky's place: itself and its filtered light. Of the atmosphere, gl_sea_textures.c has all. */
+static facet_result update_light(gl_sea *s, const sea_picture *p, facet_error *error)
+{
+    ibl_light both = *p->reflected;
+    if (p->background)
+        both.background = p->background->background;
+    facet_environment *wanted[2] = {both.environment, p->background ? p->background->environment : NULL};
+    if (wanted[0] != s->environments[0] || wanted[1] != s->environments[1]) {
+        forget_light(s);
+        for (int i = 0; i < 2; i++) {
+            s->environments[i] = wanted[i];
+            if (wanted[i])
+                environment_retain(wanted[i]);
+        }
+    }
+    if (!p->background)
+        return FACET_OK;
+    gl_light_block block = {.atlas = {0.0f}};
+    facet_result result = gl_light_atlas_update(&s->atlas, &s->context, &s->allocator, &both, error);
+    if (result != FACET_OK)
+        return result;
+    gl_light_atlas_describe(&s->atlas, &both, &block);
+    set_block(s->light_buffer, GL_BLOCK_LIGHT, &block, sizeof block);
+    return FACET_OK;
+}
+
+/* Making a texture binds it to some unit: this comes behind all of that. */
+static void bind_textures(const gl_sea *s)
+{
+    gl_sea_textures_bind(&s->textures);
+    gl_sea_texture_bind(GL_UNIT_ENVIRONMENT, GL_TEXTURE_2D, s->atlas.texture);
+    gl_sea_texture_bind(GL_UNIT_SHARP, GL_TEXTURE_2D, s->atlas.background);
+    gl_sea_texture_bind(GL_UNIT_SEA_GRID, GL_TEXTURE_2D, s->grid.color);
+    gl_sea_texture_bind(GL_UNIT_SEA_SEEN, GL_TEXTURE_2D, s->seen.color);
+}
+
+/* Columns of a band of the mesh: drivers on the CPU remember 256 vertices, two rows of it among them. */
+enum { BAND_COLUMNS = 64 };
+
+static size_t index_count(uint32_t columns, uint32_t rows)
+{
+    size_t bands = (columns - 1 + BAND_COLUMNS - 1) / BAND_COLUMNS;
+    return (size_t)(rows - 1) * (2 * ((size_t)columns - 1 + bands) + 2 * bands);
+}
+
+/* One strip of triangles in bands of columns, in each from circle to circle, the nearest first, with two triangles of no size in between. */
+static facet_result update_indices(gl_sea *s, const gl_sea_fan *fan, facet_error *error)
+{
+    if (s->columns == fan->columns && s->rows == fan->rows)
+        return FACET_OK;
+    size_t count = index_count(fan->columns, fan->rows), at = 0;
+    uint32_t *indices = mem_alloc(&s->allocator, count, sizeof *indices);
+    if (!indices)
+        return fail_memory(error, "a sea's mesh", count * sizeof *indices);
+    for (uint32_t begin = 0; begin + 1 < fan->columns; begin += BAND_COLUMNS) {
+        uint32_t left = fan->columns - 1 - begin, last = left < BAND_COLUMNS ? left : BAND_COLUMNS;
+        for (uint32_t row = 0; row + 1 < fan->rows; row++) {
+            uint32_t first = row * fan->columns + begin;
+            indices[at++] = first;
+            for (uint32_t column = 0; column <= last; column++) {
+                indices[at++] = first + column;
+                indices[at++] = first + fan->columns + column;
+            }
+            indices[at] = indices[at - 1];
+            at++;
+        }
+    }
+    glBindVertexArray(s->mesh_array);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, s->index_buffer);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *indices), indices, GL_STATIC_DRAW);
+    glBindVertexArray(0);
+    mem_free(indices);
+    s->columns = fan->columns;
+    s->rows = fan->rows;
+    return gl_context_check(&s->context, "a sea's mesh", error);
+}
+
+static uint64_t features_of(const sea_picture *p)
+{
+    const facet_sea_look *look = &p->desc->look;
+    const facet_sea_bed *bed = &p->sea->desc.bed;
+    if (look->before != FACET_SEA_PHYSICAL || look->stage == 1 || look->stage == 2)
+        return GL_SEA_IS_BEFORE;
+    bool is_shaded_whole = look->stage != 3 && look->stage != 4;
+    bool has_bed = bed->depth_m > 0.0f && bed->depth_m < 1e30f;
+    bool has_other_facets =
+        look->normals == FACET_SEA_GGX || look->masking != FACET_SEA_SCALES || look->schlick_fresnel;
+    bool has_foam = is_shaded_whole && !look->no_foam && p->foam;
+    bool has_glints = is_shaded_whole && !look->no_glints && !p->is_below;
+    return (p->background ? GL_SEA_HAS_PICTURE : 0u) | (p->model ? GL_SEA_HAS_MODEL : 0u) |
+           (has_other_facets ? GL_SEA_HAS_OTHER_FACETS : 0u) |
+           (look->stage == 3 && !p->is_below ? GL_SEA_IS_PAINTED : 0u) |
+           (p->is_below ? GL_SEA_IS_BELOW : 0u) | (has_bed ? GL_SEA_HAS_BED : 0u) |
+           (has_foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);
+}
+
+/* Features that what is not water has, too. */
+static const uint64_t BESIDE =
+    GL_SEA_HAS_PICTURE | GL_SEA_IS_BEFORE | GL_SEA_IS_BELOW | GL_SEA_HAS_BED | GL_SEA_HAS_MODEL;
+
+/* ---- passes ---- */
+
+/* A picture on its way. */
+typedef struct drawing {
+    gl_sea *s;
+    const sea_picture *picture;
+    camera_rays camera;
+    gl_sea_fan fan;
+    gl_sea_block block;
+    gl_sea_model model;
+    bool has_model;
+    GLuint grid, surface, sorting, smooth, linear, beside; /* programs */
+    float *pattern, *pixels;
+    film *film;
+    render_watch watch;
+} drawing;
+
+static facet_result get_programs(drawing *d, facet_error *error)
+{
+    uint64_t features = features_of(d->picture);
+    enum { COUNT = 6 };
+    const gl_program_key keys[COUNT] = {
+        {GL_MAIN_SEA_GRID, 0},   {GL_MAIN_SEA_SURFACE, 0},
+        {GL_MAIN_SEA_CLASS, 0},  {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
+        {GL_MAIN_SEA, features}, {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE}};
+    GLuint *names[COUNT] = {&d->grid, &d->surface, &d->sorting, &d->smooth, &d->linear, &d->beside};
+    facet_result result = FACET_OK;
+    gl_programs_set_log(d->s->programs, &d->picture->desc->render.log);
+    for (int i = 0; i < COUNT && result == FACET_OK; i++)
+        result = gl_programs_request(d->s->programs, keys[i], error);
+    for (int i = 0; i < COUNT && result == FACET_OK; i++)
+        result = gl_programs_get(d->s->programs, keys[i], names[i], error);
+    return result;
+}
+
+static void begin_pass(const gl_target *t)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
+    glViewport(0, 0, (GLsizei)t->width, (GLsizei)t->height);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+static void use(GLuint program, gl_sea_class reading)
+{
+    glUseProgram(program);
+    glUniform3i(glGetUniformLocation(program, "u_sea_reading"), reading.cubic_end, reading.linear_begin,
+                reading.linear_end);
+}
+
+/* Where nodes are. */
+static facet_result draw_grid(drawing *d, facet_error *error)
+{
+    gl_sea *s = d->s;
+    facet_result result =
+        gl_target_update(&s->grid, &s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error);
+    if (result != FACET_OK)
+        return result;
+    begin_pass(&s->grid);
+    gl_sea_textures_bind(&s->textures);
+    use(d->grid, (gl_sea_class){.linear_end = (int32_t)d->picture->sea->waves.tile_count});
+    glBindVertexArray(s->empty_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    return gl_context_check(&s->context, "a sea's mesh", error);
+}
+
+static void set_frame(const drawing *d, const gl_view *view)
+{
+    const sea_picture *p = d->picture;
+    const float *eye = d->camera.origin;
+    const float low[3] = {eye[0] - 1000.0f, eye[1] - 1000.0f, eye[2] - 1000.0f};
+    const float high[3] = {eye[0] + 1000.0f, eye[1] + 1000.0f, eye[2] + 1000.0f};
+    gl_frame_block block = {.channel = 0};
+    gl_camera_set(&d->s->context, &d->camera, low, high, p->desc->render.width, p->desc->render.height, view,
+                  &block);
+    block.light[0] = p->light_scale;
+    block.light[1] = p->rotation_cos;
+    block.light[2] = p->rotation_sin;
+    block.exposure = p->exposure;
+    set_block(d->s->frame_buffer, GL_BLOCK_FRAME, &block, sizeof block);
+}
+
+/* Whatever a triangle's depth is, it is taken for this one. */
+static void set_depths(const gl_context *context, double nearest, double farthest)
+{
+    if (context->is_es)
+        glDepthRangef((GLfloat)nearest, (GLfloat)farthest);
+    else
+        glDepthRange(nearest, farthest);
+}
+
+/* Of pixels of a class. */
+static void draw_class(const drawing *d, double depth)
+{
+    set_depths(&d->s->context, depth, depth);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/* What all pixels look like, whose classes are the target's depths. */
+static void draw_classes(const drawing *d)
+{
+    gl_sea_class classes[GL_SEA_MOST_CLASSES];
+    uint32_t count = gl_sea_classes(d->picture->sea->waves.tile_count, classes);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_EQUAL);
+    glUseProgram(d->beside);
+    draw_class(d, 0.0);
+    for (uint32_t i = 0; i < count; i++) {
+        use(classes[i].cubic_end ? d->smooth : d->linear, classes[i]);
+        draw_class(d, gl_sea_class_depth(classes[i]));
+    }
+    set_depths(&d->s->context, 0.0, 1.0);
+    glDepthMask(GL_TRUE);
+}
+
+/* Which water is seen, what is to be done for it, then what that looks like. */
+static void draw_view(const drawing *d)
+{
+    const gl_sea *s = d->s;
+    begin_pass(&s->seen);
+    gl_camera_begin_depth(&s->context);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    bind_textures(s);
+    glBindTexture(GL_TEXTURE_2D, s->grid.layers[0]); /* in the place of what is drawn now */
+    glEnable(GL_CULL_FACE); /* backs of waves are behind their fronts, and half of the mesh far away */
+    glCullFace(d->picture->is_below ? GL_FRONT : GL_BACK);
+    glUseProgram(d->surface);
+    glBindVertexArray(s->mesh_array);
+    size_t count = index_count(d->fan.columns, d->fan.rows);
+    glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
+    glCullFace(GL_BACK); /* as all others take it to be */
+    glBindTexture(GL_TEXTURE_2D, s->seen.color);
+    if (d->has_model)
+        gl_sea_model_bind(&d->model);
+    begin_pass(&s->target);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glUseProgram(d->sorting);
+    glBindVertexArray(s->empty_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    draw_classes(d);
+    gl_camera_end_depth(&s->context);
+}
+
+/* ---- the film ---- */
+
+/* In pixels of the whole picture. */
+typedef struct tile {
+    uint32_t x, y, width, height;
+} tile;
+
+static void add_tile(const drawing *d, const tile *t, uint32_t sample_count)
+{
+    const uint32_t *crop = d->picture->desc->render.crop;
+    float *film_pixels = film_find(d->film, "")->pixels, weight = 1.0f / (float)sample_count;
+    bool is_top_down = gl_camera_is_top_down(&d->s->context);
+    for (uint32_t y = 0; y < t->height; y++) {
+        const float *from = d->pixels + 4 * (size_t)t->width * (is_top_down ? y : t->height - 1 - y);
+        float *to = film_pixels + 4 * ((size_t)(t->y - crop[1] + y) * crop[2] + (t->x - crop[0]));
+        for (size_t i = 0; i < 4 * (size_t)t->width; i++)
+            to[i] += weight * from[i];
+    }
+}
+
+/* And what was bound before. */
+static facet_result draw_model(drawing *d, const gl_view *view, facet_error *error)
+{
+    gl_sea *s = d->s;
+    facet_result result = gl_sea_model_draw(&d->model, d->picture, &d->camera, view, &d->block, error);
+    set_block(s->sea_buffer, GL_BLOCK_SEA, &d->block, sizeof d->block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, s->light_buffer);
+    return result;
+}
+
+static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
+{
+    gl_sea *s = d->s;
+    uint32_t sample_count = d->picture->desc->render.samples ? d->picture->desc->render.samples : 1;
+    facet_result result =
+        gl_target_update(&s->seen, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
+    if (result == FACET_OK)
+        result = gl_target_update(&s->target, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
+    for (uint32_t i = 0; i < sample_count && result == FACET_OK; i++) {
+        const gl_view view = {.scale = 1,
+                              .x = t->x,
+                              .y = t->y,
+                              .width = t->width,
+                              .height = t->height,
+                              .jitter = {d->pattern[2 * i] - 0.5f, d->pattern[2 * i + 1] - 0.5f}};
+        if (d->has_model)
+            result = draw_model(d, &view, error);
+        if (result != FACET_OK)
+            return result;
+        set_frame(d, &view);
+        draw_view(d);
+        gl_target_read(&s->target, 0, 0, 0, t->width, t->height, d->pixels);
+        result = gl_context_check(&s->context, "the picture", error);
+        if (result == FACET_OK)
+            add_tile(d, t, sample_count);
+        render_watch_add(&d->watch, (uint64_t)t->width * t->height);
+        render_watch_look(&d->watch);
+        if (result == FACET_OK)
+            result = render_watch_explain(&d->watch, error);
+    }
+    return result;
+}
+
+static facet_result draw_tiles(drawing *d, double deadline_s, facet_error *error)
+{
+    const facet_render_desc *r = &d->picture->desc->render;
+    uint32_t most = (uint32_t)d->s->context.max_texture_size, samples = r->samples ? r->samples : 1;
+    uint32_t width = r->crop[2] < most ? r->crop[2] : most;
+    uint64_t lines = TILE_PIXELS / width;
+    uint32_t height = lines < r->crop[3] ? (uint32_t)(lines ? lines : 1) : r->crop[3];
+    height = height < most ? height : most;
+    d->pattern = mem_alloc(&r->allocator, samples, 2 * sizeof *d->pattern);
+    d->pixels = mem_alloc(&r->allocator, (size_t)width * height, 4 * sizeof *d->pixels);
+    if (!d->pattern || !d->pixels)
+        return fail_memory(error, "picture", (size_t)width * height * 4 * sizeof *d->pixels);
+    sample_pattern(samples, d->pattern);
+    memset(film_find(d->film, "")->pixels, 0, 4 * sizeof(float) * (size_t)d->film->width * d->film->height);
+    render_watch_init(&d->watch, &r->progress, "shade", deadline_s,
+                      (double)r->crop[2] * (double)r->crop[3] * (double)samples);
+    facet_result result = FACET_OK;
+    for (uint32_t y = 0; y < r->crop[3] && result == FACET_OK; y += height)
+        for (uint32_t x = 0; x < r->crop[2] && result == FACET_OK; x += width) {
+            const tile t = {r->crop[0] + x, r->crop[1] + y, r->crop[2] - x < width ? r->crop[2] - x : width,
+                            r->crop[3] - y < height ? r->crop[3] - y : height};
+            result = draw_tile(d, &t, error);
+        }
+    return result;
+}
+
+/* ---- all ---- */
+
+static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *error)
+{
+    gl_sea *s = d->s;
+    const sea_picture *p = d->picture;
+    const facet_render_desc *r = &p->desc->render;
+    facet_result result = camera_rays_create(r->camera, r->width, r->height, &d->camera, error);
+    if (result == FACET_OK && d->camera.is_orthographic)
+        result = fail(error, FACET_ERROR_UNSUPPORTED,
+                      "sea: OpenGL draws it for cameras with a field of view only");
+    if (result == FACET_OK)
+        result = start(s, error);
+    if (result == FACET_OK)
+        result = get_programs(d, error);
+    if (result != FACET_OK)
+        return result;
+    d->fan = gl_sea_fan_of(p, &d->camera, (uint32_t)s->context.max_texture_size);
+    gl_sea_block_fill(p, &d->camera, &d->fan, &d->block);
+    d->has_model = (features_of(p) & GL_SEA_HAS_MODEL) != 0;
+    if (d->has_model)
+        result = gl_sea_model_begin(&d->model, &s->context, p, &d->camera, &d->block, stats, error);
+    if (result == FACET_OK)
+        result = update_light(s, p, error);
+    set_block(s->sea_buffer, GL_BLOCK_SEA, &d->block, sizeof d->block);
+    if (result == FACET_OK)
+        result = gl_sea_textures_update(&s->textures, &s->context, p, &d->camera, error);
+    if (result == FACET_OK)
+        result = update_indices(s, &d->fan, error);
+    return result;
+}
+
+facet_result gl_sea_draw(gl_sea *s, const sea_picture *picture, film *target, facet_render_stats *stats,
+                         facet_error *error)
+{
+    double begin = clock_seconds();
+    const facet_render_desc *r = &picture->desc->render;
+    double deadline_s = r->time_limit_s > 0.0 ? begin + r->time_limit_s : 0.0;
+    drawing d = {.s = s, .picture = picture, .film = target};
+    facet_result result = render_check_limits(r, "prepare", 0.0, deadline_s, error);
+    if (result == FACET_OK)
+        result = prepare(&d, stats, error);
+    double drawing_begin = clock_seconds();
+    stats->geometry_s += drawing_begin - begin;
+    if (result == FACET_OK)
+        result = draw_grid(&d, error);
+    if (result == FACET_OK)
+        result = draw_tiles(&d, deadline_s, error);
+    if (result == FACET_OK)
+        result = render_check_limits(r, "shade", 1.0, 0.0, error);
+    stats->shade_s += clock_seconds() - drawing_begin;
+    stats->total_s = stats->light_s + (clock_seconds() - begin);
+    mem_free(d.pattern);
+    mem_free(d.pixels);
+    gl_sea_model_end(&d.model);
+    if (result == FACET_ERROR_MEMORY || s->context.is_lost)
+        stop(s);
+    gl_context_release(&s->context);
+    return result;
+}

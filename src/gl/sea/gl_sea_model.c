@@ -1,0 +1,253 @@
+/* gl_sea_model.c - see gl_sea_model.h. */
+#include "gl/sea/gl_sea_model.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "gl/sea/gl_sea_textures.h"
+
+static const uint32_t MOST_PIXELS = 2048; /* of a cut along an edge */
+
+/* ---- cuts: gl_sea_block.h ---- */
+
+/* What a mirror in the water's plane shows to the eye; turned around its axis, so that it is not left-handed. */
+static camera_rays mirrored(const camera_rays *c, float plane_m)
+{
+    camera_rays m = *c;
+    m.origin[1] = 2.0f * plane_m - c->origin[1];
+    m.direction[1] = -c->direction[1];
+    m.direction_dx[1] = -c->direction_dx[1];
+    m.direction_dy[0] = -c->direction_dy[0];
+    m.direction_dy[2] = -c->direction_dy[2];
+    return m;
+}
+
+/* The depth, over that of an eye, at which it would see the same without water: of a point so high over flat water, both in m, as are
+ * away_m. Snell's law by halving. */
+static double apparent_depth(double depth_m, double height_m, double away_m, double ior)
+{
+    double low = 0.0, high = 1.0; /* sine in the air */
+    for (int i = 0; i < 40; i++) {
+        double out = 0.5 * (low + high), in = out / ior;
+        double reach = depth_m * in / sqrt(1.0 - in * in) + height_m * out / sqrt(1.0 - out * out);
+        *(reach < away_m ? &low : &high) = out;
+    }
+    double in = low / ior;
+    return sqrt(1.0 - low * low) / (ior * sqrt(1.0 - in * in));
+}
+
+/* Over the eye, as deep as flat water lifts it for the middle of what is over the water; no wider than it takes to see that. */
+static facet_camera window_camera(const sea_picture *p, const float eye[3], float ior)
+{
+    facet_camera c = {.eye = {eye[0], 0.0f, eye[2]}, .fov_y_rad = 0.0f};
+    float low = fmaxf(p->model_low[1], p->model_water_m), radius = 0.0f;
+    float depth = fmaxf(p->model_water_m - eye[1], 1e-3f);
+    for (int i = 0; i < 3; i++) {
+        float first = i == 1 ? low : p->model_low[i], half = 0.5f * fmaxf(p->model_high[i] - first, 1e-3f);
+        c.target[i] = first + half;
+        radius += half * half;
+    }
+    float away = hypotf(c.target[0] - eye[0], c.target[2] - eye[2]);
+    double lifted =
+        apparent_depth((double)depth, (double)(c.target[1] - p->model_water_m), (double)away, (double)ior);
+    c.eye[1] = p->model_water_m - depth * fmaxf((float)lifted, 0.1f);
+    c.eye[1] = fmaxf(fminf(c.eye[1], p->model_water_low_m - 0.05f * depth), eye[1]);
+    float distance = hypotf(away, c.target[1] - c.eye[1]), sine = sqrtf(radius) / fmaxf(distance, 1e-3f);
+    c.fov_y_rad = sine < 0.95f ? 2.0f * asinf(sine) : 2.5f;
+    return c;
+}
+
+/* Height of a near plane that leaves the eye at y on the other side of it and all that water around the model leaves free on this one. */
+static float cut_height(const sea_picture *p, float y, float side)
+{
+    float middle = p->model_water_m, least = y + 0.1f * (middle - y);
+    return side > 0.0f ? fmaxf(p->model_water_low_m, least) : fminf(p->model_water_high_m, least);
+}
+
+/* The near plane lies in the water, so that what is on its other side does not stand before the rest (Lengyel 2005): how much nearer than
+ * far a point is, is scale times its height over the plane, over its depth. Such that the whole model is nearer than far. side: 1: what is
+ * above is seen, -1: below. */
+static float plane_scale(const sea_picture *p, const camera_rays *c, float plane_m, float side)
+{
+    double scale = 1.0;
+    for (int corner = 0; corner < 8; corner++) {
+        double depth = 0.0, height = 0.0;
+        for (int i = 0; i < 3; i++) {
+            double at = (double)(corner >> i & 1 ? p->model_high[i] : p->model_low[i]);
+            depth += (at - (double)c->origin[i]) * (double)c->direction[i];
+            height = i == 1 ? (double)side * (at - (double)plane_m) : height;
+        }
+        if (height > 0.0)
+            scale = fmin(scale, 0.9 * fmax(depth, 1e-3) / height);
+    }
+    return side * (float)scale;
+}
+
+static void lay_near_plane(gl_frame_block *block, float scale, float below_m, bool is_reversed)
+{
+    float *m = block->view_projection, sign = is_reversed ? 1.0f : -1.0f;
+    for (int i = 0; i < 4; i++)
+        m[4 * i + 2] = sign * m[4 * i + 3];
+    m[4 * 1 + 2] -= sign * scale;
+    m[4 * 3 + 2] += sign * scale * below_m;
+}
+
+/* As large as the picture, if it is not too large. */
+static gl_view view_of(const facet_render_desc *r)
+{
+    double edge = r->width > r->height ? r->width : r->height;
+    double share = fmin(1.0, (double)MOST_PIXELS / edge);
+    return (gl_view){.scale = 1,
+                     .width = (uint32_t)fmax((double)r->width * share, 1.0),
+                     .height = (uint32_t)fmax((double)r->height * share, 1.0)};
+}
+
+/* c: from where; eye: the picture's. */
+static facet_result draw_cut(gl_sea_model *m, const sea_picture *p, const camera_rays *c, const gl_view *v,
+                             const float eye[3], int cut, gl_sea_block *b, facet_error *error)
+{
+    gl_target *target = &m->cuts[cut];
+    facet_result result = gl_target_update(target, m->context, GL_TARGET_FILM, v->width, v->height, 1, error);
+    if (result != FACET_OK)
+        return result;
+    gl_frame_block block = {.channel = 0};
+    bool is_reversed = gl_camera_is_top_down(m->context);
+    float side = p->is_below && cut == GL_SEA_MIRRORED ? -1.0f : 1.0f;
+    float plane_m = cut_height(p, c->origin[1], side), below_m = plane_m - c->origin[1];
+    float scale = plane_scale(p, c, plane_m, side);
+    gl_camera_set(m->context, c, p->model_low, p->model_high, v->width, v->height, v, &block);
+    lay_near_plane(&block, scale, below_m, is_reversed);
+    result = gl_frame_draw(&m->frame, target, &m->desc, &block, error);
+    memcpy(b->cut[cut], block.view_projection, sizeof b->cut[cut]);
+    memcpy(b->cut_axis[cut], c->direction, sizeof c->direction);
+    b->cut_axis[cut][3] = is_reversed ? 1.0f : 0.0f;
+    b->cut_plane[cut][0] = scale;
+    b->cut_plane[cut][1] = below_m;
+    b->cut_plane[cut][2] = eye[1] - c->origin[1];
+    return result;
+}
+
+static facet_result draw_cuts(gl_sea_model *m, const sea_picture *p, gl_sea_block *b, facet_error *error)
+{
+    gl_view v = view_of(&p->desc->render);
+    camera_rays eye, window;
+    facet_result result = camera_rays_create(p->desc->render.camera, v.width, v.height, &eye, error);
+    if (result != FACET_OK)
+        return result;
+    camera_rays mirror = mirrored(&eye, p->model_water_m);
+    result = draw_cut(m, p, &mirror, &v, eye.origin, GL_SEA_MIRRORED, b, error);
+    if (result != FACET_OK || !p->is_below)
+        return result;
+    facet_camera camera = window_camera(p, eye.origin, p->sea->optics.ior);
+    float edge = 2.0f * tanf(0.5f * camera.fov_y_rad) / eye.pixel_size; /* pixels as large as the picture's */
+    v.width = v.height = (uint32_t)fminf(fmaxf(edge, 1.0f), (float)MOST_PIXELS);
+    result = camera_rays_create(&camera, v.width, v.height, &window, error);
+    return result == FACET_OK ? draw_cut(m, p, &window, &v, eye.origin, GL_SEA_WINDOW, b, error) : result;
+}
+
+/* ---- the water around ---- */
+
+static void upload_touch(gl_sea_model *m, const sea_picture *p, const camera_rays *camera, gl_sea_block *b)
+{
+    m->touch =
+        gl_sea_texture_make(GL_UNIT_SEA_TOUCH, GL_TEXTURE_2D, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, SEA_TOUCH_EDGE, SEA_TOUCH_EDGE, 0, GL_RGBA, GL_FLOAT,
+                 p->touch);
+    for (int i = 0; i < 2; i++) {
+        b->touch[i] = p->touch_low[i] - camera->origin[2 * i];
+        b->touch[2 + i] = 1.0f / (p->touch_high[i] - p->touch_low[i]);
+        b->shadow[i] = p->shadow_low[i] - camera->origin[2 * i];
+        b->shadow[2 + i] = p->has_shadow ? 1.0f / (p->shadow_high[i] - p->shadow_low[i]) : 0.0f;
+    }
+}
+
+static void describe_ball(const sea_picture *p, const camera_rays *camera, gl_sea_block *b)
+{
+    float square = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        float half = 0.5f * (p->model_high[i] - p->model_low[i]);
+        b->model_ball[i] = p->model_low[i] + half - camera->origin[i];
+        b->model_half[i] = half;
+        square += half * half;
+    }
+    b->model_ball[3] = sqrtf(square);
+}
+
+/* ---- all ---- */
+
+static facet_render_desc desc_of(const sea_picture *p)
+{
+    facet_render_desc d = *p->model_desc;
+    d.integrator = FACET_INTEGRATOR_GL;
+    d.exposure_ev = 0.0f;
+    d.gl = (facet_gl_desc){.shadows = true};
+    d.aovs = 0;
+    return d;
+}
+
+facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const sea_picture *p,
+                                const camera_rays *camera, gl_sea_block *b, facet_render_stats *stats,
+                                facet_error *error)
+{
+    const facet_render_desc *r = &p->desc->render;
+    *m = (gl_sea_model){.context = context, .allocator = r->allocator, .desc = desc_of(p)};
+    describe_ball(p, camera, b);
+    gl_scene_init(&m->prepared, p->model, &m->allocator);
+    facet_result result = gl_frame_create(&m->frame, context, p->model, &m->allocator, error);
+    if (result == FACET_OK)
+        result = gl_scene_update(&m->prepared, &m->desc, error);
+    if (result == FACET_OK)
+        result = gl_frame_update(&m->frame, &m->prepared, camera, &m->desc, stats, error);
+    if (result == FACET_OK)
+        result = draw_cuts(m, p, b, error);
+    if (result == FACET_OK)
+        upload_touch(m, p, camera, b);
+    return result;
+}
+
+facet_result gl_sea_model_draw(gl_sea_model *m, const sea_picture *p, const camera_rays *camera,
+                               const gl_view *view, gl_sea_block *b, facet_error *error)
+{
+    gl_frame_block block = {.channel = 0};
+    facet_result result =
+        gl_target_update(&m->seen, m->context, GL_TARGET_FILM, view->width, view->height, 1, error);
+    if (result != FACET_OK)
+        return result;
+    gl_camera_set(m->context, camera, p->model_low, p->model_high, p->desc->render.width,
+                  p->desc->render.height, view, &block);
+    float along = 0.0f; /* depth in clip space is along * depth + block.view_projection[14] */
+    for (int i = 0; i < 3; i++)
+        along += block.view_projection[4 * i + 2] * block.forward[i];
+    b->model_depth[0] = along;
+    b->model_depth[1] = block.view_projection[14];
+    b->model_depth[2] = gl_camera_is_top_down(m->context) ? 1.0f : 0.0f;
+    return gl_frame_draw(&m->frame, &m->seen, &m->desc, &block, error);
+}
+
+void gl_sea_model_bind(const gl_sea_model *m)
+{
+    gl_sea_texture_bind(GL_UNIT_SEA_MODEL, GL_TEXTURE_2D, m->seen.color);
+    gl_sea_texture_bind(GL_UNIT_SEA_MODEL_DEPTH, GL_TEXTURE_2D, m->seen.depth);
+    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED, GL_TEXTURE_2D, m->cuts[GL_SEA_MIRRORED].color);
+    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED_DEPTH, GL_TEXTURE_2D, m->cuts[GL_SEA_MIRRORED].depth);
+    if (m->cuts[GL_SEA_WINDOW].color) {
+        gl_sea_texture_bind(GL_UNIT_SEA_WINDOW, GL_TEXTURE_2D, m->cuts[GL_SEA_WINDOW].color);
+        gl_sea_texture_bind(GL_UNIT_SEA_WINDOW_DEPTH, GL_TEXTURE_2D, m->cuts[GL_SEA_WINDOW].depth);
+    }
+    gl_sea_texture_bind(GL_UNIT_SEA_TOUCH, GL_TEXTURE_2D, m->touch);
+}
+
+void gl_sea_model_end(gl_sea_model *m)
+{
+    if (!m->context)
+        return;
+    gl_frame_destroy(&m->frame);
+    gl_scene_clear(&m->prepared);
+    gl_target_destroy(&m->seen);
+    for (int i = 0; i < GL_SEA_CUTS; i++)
+        gl_target_destroy(&m->cuts[i]);
+    glDeleteTextures(1, &m->touch);
+    *m = (gl_sea_model){.context = NULL};
+}
