@@ -167,23 +167,22 @@ static void test_table(void **state)
     for (const verb *const *v = verbs; *v; v++) {
         bool seen_letters[128] = {false};
         assert_non_null(option_find_id(*v, OPT_HELP));
-        for (const option_group *const *g = (*v)->groups; *g; g++)
-            for (size_t i = 0; i < (*g)->option_count; i++) {
-                const option *o = &(*g)->options[i];
-                assert_ptr_equal(option_find(*v, o->name, strlen(o->name)), o);
-                assert_ptr_equal(option_find_id(*v, o->id), o);
-                assert_int_equal(option_takes_value(o), o->argument != NULL);
-                assert_true(*o->help && o->help[strlen(o->help) - 1] != '.');
-                if (o->kind == OPTION_CHOICE || o->kind == OPTION_CHOICES)
-                    assert_non_null(o->choices);
-                if (o->kind == OPTION_NUMBER || o->kind == OPTION_INTEGER)
-                    assert_true(o->maximum > o->minimum);
-                if (o->letter) {
-                    assert_false(seen_letters[(int)o->letter]);
-                    seen_letters[(int)o->letter] = true;
-                }
-                assert_false(option_is_planned(o->name));
+        const option *o;
+        for (size_t i = 0; (o = option_at(*v, i)); i++) {
+            assert_ptr_equal(option_find(*v, o->name, strlen(o->name)), o);
+            assert_ptr_equal(option_find_id(*v, o->id), o);
+            assert_int_equal(option_takes_value(o), o->argument != NULL);
+            assert_true(*o->help && o->help[strlen(o->help) - 1] != '.');
+            if (o->kind == OPTION_CHOICE || o->kind == OPTION_CHOICES)
+                assert_non_null(o->choices);
+            if (o->kind == OPTION_NUMBER || o->kind == OPTION_INTEGER)
+                assert_true(o->maximum > o->minimum);
+            if (o->letter) {
+                assert_false(seen_letters[(int)o->letter]);
+                seen_letters[(int)o->letter] = true;
             }
+            assert_false(option_is_planned(o->name));
+        }
         assert_false(verb_is_planned((*v)->name));
     }
 }

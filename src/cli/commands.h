@@ -1,19 +1,14 @@
-/* commands.h - the verbs; cmd_NAME.c each. They return the exit code and have said what went wrong. */
+/* commands.h - what each verb of verbs.def defines in its folder: NAME_verb, its options and texts, and cmd_NAME(), which
+ * runs it. cmd_NAME() returns the exit code and has reported what went wrong. */
 #ifndef CLI_COMMANDS_H
 #define CLI_COMMANDS_H
 
 #include "cli/command_line.h"
 
-int cmd_render(command_line *c);
-int cmd_ocean(command_line *c);
-int cmd_view(command_line *c);
-int cmd_bake(command_line *c);
-int cmd_convert(command_line *c);
-int cmd_inspect(command_line *c);
-int cmd_plot(command_line *c);
-int cmd_compare(command_line *c);
-int cmd_shaders(command_line *c);
-int cmd_version(command_line *c);
-int cmd_help(command_line *c);
+#define VERB(name)                                                                                           \
+    extern const verb name##_verb;                                                                           \
+    int cmd_##name(command_line *c);
+#include "cli/verbs.def"
+#undef VERB
 
 #endif

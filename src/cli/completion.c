@@ -9,9 +9,9 @@ typedef void print_option_function(FILE *stream, const verb *v, const option *o)
 
 static void for_each_option(FILE *stream, const verb *v, print_option_function *print)
 {
-    for (const option_group *const *g = v->groups; *g; g++)
-        for (size_t i = 0; i < (*g)->option_count; i++)
-            print(stream, v, &(*g)->options[i]);
+    const option *o;
+    for (size_t i = 0; (o = option_at(v, i)); i++)
+        print(stream, v, o);
 }
 
 static void print_words(FILE *stream, const char *const *words, const char *separator)

@@ -77,8 +77,8 @@ static void print_examples(FILE *stream, const verb *v, size_t most)
 static size_t count_options(const verb *v)
 {
     size_t count = 0;
-    for (const option_group *const *g = v->groups; *g; g++)
-        count += (*g)->option_count;
+    while (option_at(v, count))
+        count++;
     return count;
 }
 
@@ -107,8 +107,8 @@ void help_print_verb(FILE *stream, const verb *v, bool all)
     print_paragraphs(stream, v->description, 0, terminal_width(stream));
     for (const option_group *const *g = v->groups; *g; g++) {
         print_heading(stream, (*g)->title);
-        for (size_t i = 0; i < (*g)->option_count; i++)
-            help_print_option_line(stream, &(*g)->options[i]);
+        for (const option_id *id = (*g)->ids; *id != OPTION_ID_COUNT; id++)
+            help_print_option_line(stream, option_find_id(v, *id));
     }
 }
 

@@ -132,16 +132,15 @@ typedef bool option_test(const option *o, const char *word);
 static size_t print_options(FILE *stream, option_test *passes, const char *word)
 {
     size_t printed = 0;
+    const option *o;
     for (const verb *const *v = verbs; *v; v++)
-        for (const option_group *const *g = (*v)->groups; *g; g++)
-            for (size_t i = 0; i < (*g)->option_count; i++) {
-                const option *o = &(*g)->options[i];
-                const verb *found[MAX_VERBS];
-                if (!passes(o, word) || find_verbs(o, found) == 0 || found[0] != *v)
-                    continue;
-                print_option_of(stream, o);
-                printed++;
-            }
+        for (size_t i = 0; (o = option_at(*v, i)); i++) {
+            const verb *found[MAX_VERBS];
+            if (!passes(o, word) || find_verbs(o, found) == 0 || found[0] != *v)
+                continue;
+            print_option_of(stream, o);
+            printed++;
+        }
     return printed;
 }
 

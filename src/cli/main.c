@@ -18,10 +18,11 @@
 static const struct {
     const char *name;
     int (*run)(command_line *c);
-} commands[] = {{"render", cmd_render},   {"ocean", cmd_ocean},     {"view", cmd_view},
-                {"bake", cmd_bake},       {"convert", cmd_convert}, {"inspect", cmd_inspect},
-                {"plot", cmd_plot},       {"compare", cmd_compare}, {"shaders", cmd_shaders},
-                {"version", cmd_version}, {"help", cmd_help}};
+} commands[] = {
+#define VERB(name) {#name, cmd_##name},
+#include "cli/verbs.def"
+#undef VERB
+};
 
 /* Whether a word in the place of the verb is rather a file. */
 static bool looks_like_file(const char *word)

@@ -145,8 +145,8 @@ static void print_verb(FILE *stream, const verb *v)
           stream);
     for (const option_group *const *g = v->groups; *g; g++) {
         fprintf(stream, ".SS %s\n", (*g)->title);
-        for (size_t i = 0; i < (*g)->option_count; i++)
-            print_option(stream, &(*g)->options[i]);
+        for (const option_id *id = (*g)->ids; *id != OPTION_ID_COUNT; id++)
+            print_option(stream, option_find_id(v, *id));
     }
 }
 

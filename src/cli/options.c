@@ -1,93 +1,79 @@
-/* options.c - the verbs of this version, and how their options are found. */
+/* options.c - the tables of options and verbs, and how options are found. */
 #include "cli/options.h"
 
-#include "cli/options_table.h"
+#include "cli/commands.h"
 
 #include <string.h>
 
-/* ---- inspect, version, help ---- */
+/* ---- the table of options ---- */
 
-static const verb inspect_verb = {
-    .name = "inspect",
-    .summary = "say what is in a model",
-    .arguments = "MODEL|FOLDER...",
-    .max_arguments = SIZE_MAX,
-    .file_types = "glb gltf obj stl ply json",
-    .output_types = "txt",
-    .output_hint = ">",
-    .description =
-        "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .stl, .ply, .json of rgl's parameters; - is "
-        "standard input) and prints counts, bounds, materials, "
-        "textures, images, cameras, lights, the extensions with what facet makes of them, and the "
-        "warnings of reading. With -v lists are printed to their end.\n\n"
-        "The exit code is 0 when the model can be read, also with warnings (--strict: 1).",
-    .examples = (const example[]){{"facet inspect helmet.glb", "for reading"},
-                                  {"facet inspect helmet.glb --json | jq .materials", "for a program"},
-                                  {"facet inspect --strict models/", "check all in a folder and below it"},
-                                  {NULL, NULL}},
-    .basics = (const option_id[]){OPT_JSON, OPT_VERBOSE, OPT_STRICT, OPT_FILES_FROM, OPT_ROOT, OPT_TIME_LIMIT,
-                                  OPT_MAX_MEMORY, OPTION_ID_COUNT},
-    .groups =
-        (const option_group *const[]){&model_group, &legacy_group, &machine_group, &message_group, NULL},
+#define OPTION(id, name, letter, ...)                                                                        \
+    static const char name_of_##id[] = name;                                                                 \
+    enum { LETTER_OF_##id = letter };
+#define IN(verbs, ...)
+#include "cli/options.def"
+#undef OPTION
+#undef IN
+
+/* Choices of several options. */
+#define IMAGE_FORMATS "png", "png16", "jpg", "webp", "exr", "exr32", "hdr", "pfm"
+#define TONE_MAPPINGS                                                                                        \
+    "neutral", "aces", "aces-narkowicz", "agx", "reinhard", "reinhard-extended", "hable", "none"
+
+#define KIND_FLAG OPTION_FLAG, 0, 0, 0
+#define KIND_COUNT OPTION_COUNT, 0, 0, 0
+#define KIND_TEXT OPTION_TEXT, 0, 0, 0
+#define KIND_FILE OPTION_FILE, 0, 0, 0
+#define KIND_FOLDER OPTION_FOLDER, 0, 0, 0
+#define KIND_NUMBER(minimum, maximum) OPTION_NUMBER, 0, minimum, maximum
+#define KIND_INTEGER(minimum, maximum) OPTION_INTEGER, 0, minimum, maximum
+#define KIND_TEXT_OR(...) OPTION_TEXT, OPTION_WORDS(__VA_ARGS__), 0, 0
+#define KIND_FILE_OR(...) OPTION_FILE, OPTION_WORDS(__VA_ARGS__), 0, 0
+#define KIND_CHOICE(...) OPTION_CHOICE, OPTION_WORDS(__VA_ARGS__), 0, 0
+#define KIND_CHOICES(...) OPTION_CHOICES, OPTION_WORDS(__VA_ARGS__), 0, 0
+
+#define OPTION(id, name, letter, kind, argument, default_text, help)                                         \
+    {OPT_##id, NULL, name, letter, argument, default_text, help, KIND_##kind},
+#define IN(verbs, id, kind, argument, default_text, help)                                                    \
+    {OPT_##id, verbs, name_of_##id, LETTER_OF_##id, argument, default_text, help, KIND_##kind},
+
+static const option options[] = {
+#include "cli/options.def"
 };
 
-static const option version_options[] = {
-    {.id = OPT_VERBOSE,
-     .name = "verbose",
-     .letter = 'v',
-     .kind = OPTION_COUNT,
-     .help = "also compiler, libraries, CPU and threads: what a bug report needs"},
-    {.id = OPT_JSON, .name = "json", .kind = OPTION_FLAG, .help = "as one JSON object"},
-    {.id = OPT_HELP, .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "this text"},
-    {.id = OPT_HELP_ALL, .name = "help-all", .kind = OPTION_FLAG, .help = "help with all options"},
-};
-static const option_group version_group = {"Options", version_options, COUNT(version_options)};
+enum { ROW_COUNT = sizeof options / sizeof *options };
 
-static const verb version_verb = {
-    .name = "version",
-    .summary = "say which facet this is",
-    .arguments = "",
-    .description = "Prints the version; with -v also how it was built and what it found on this machine.",
-    .examples = (const example[]){{"facet version -v", "for a bug report"}, {NULL, NULL}},
-    .groups = (const option_group *const[]){&version_group, NULL},
-};
+/* ---- groups that verbs share ---- */
 
-static const option help_options[] = {
-    {.id = OPT_SEARCH,
-     .name = "search",
-     .kind = OPTION_TEXT,
-     .argument = "WORD",
-     .help = "all options, examples and documents that mention a word"},
-    {.id = OPT_HELP, .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "this text"},
-    {.id = OPT_HELP_ALL, .name = "help-all", .kind = OPTION_FLAG, .help = "help with all options"},
-};
-static const option_group help_group = {"Options", help_options, COUNT(help_options)};
+const option_group limits_group = {"Limits",
+                                   OPTION_IDS(OPT_THREADS, OPT_MAX_MEMORY, OPT_MAX_TEXTURE, OPT_TIME_LIMIT)};
+const option_group messages_group = {
+    "Messages", OPTION_IDS(OPT_QUIET, OPT_VERBOSE, OPT_JSON, OPT_STRICT, OPT_HELP, OPT_HELP_ALL)};
+const option_group environment_group = {"Environment",
+                                        OPTION_IDS(OPT_ENV_ROTATION, OPT_ENV_INTENSITY, OPT_ENV_CACHE)};
+const option_group light_group = {"Light", OPTION_IDS(OPT_ENV, OPT_LIGHTS, OPT_SUN, OPT_GROUND)};
+const option_group color_group = {"Color", OPTION_IDS(OPT_EXPOSURE, OPT_TONE_MAPPING)};
+const option_group quality_group = {
+    "Quality", OPTION_IDS(OPT_QUALITY, OPT_SAMPLES, OPT_RENDERER, OPT_ENERGY, OPT_ISA, OPT_SPECULAR_AA)};
+const option_group gl_group = {"OpenGL (--renderer gl)",
+                               OPTION_IDS(OPT_SHADOWS, OPT_TRANSPARENCY, OPT_BLOOM, OPT_CHANNEL, OPT_BRDF)};
+const option_group shading_group = {"Shading",
+                                    OPTION_IDS(OPT_SHADING, OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG)};
+const option_group scene_group = {"Scene", OPTION_IDS(OPT_SCENE, OPT_VARIANT)};
+const option_group files_group = {"Files", OPTION_IDS(OPT_FILES_FROM, OPT_ROOT)};
+const option_group legacy_group = {"OBJ files and old materials",
+                                   OPTION_IDS(OPT_PARAMETERS, OPT_METHOD, OPT_PROFILE, OPT_FIT_TARGET,
+                                              OPT_KEEP_HUE, OPT_MTL_COLORS, OPT_DIALECT, OPT_ILLUM,
+                                              OPT_AMBIENT, OPT_GLASS, OPT_MIRRORS, OPT_LIGHT_SCALE,
+                                              OPT_NORMALS, OPT_FLIP_TEXTURES)};
 
-static const verb help_verb = {
-    .name = "help",
-    .summary = "explain facet or one of its commands",
-    .arguments = "[COMMAND|OPTION|WORD]",
-    .max_arguments = 1,
-    .words = WORDS("render", "ocean", "view", "bake", "convert", "inspect", "plot", "compare", "shaders",
-                   "version", "help", "exit-codes", "documents"),
-    .description =
-        "Prints what facet --help or facet COMMAND --help print; of an option what it means and which "
-        "commands have it; of another word all that mentions it. exit-codes and documents are topics.",
-    .examples =
-        (const example[]){{"facet help render", "render in short; with --help-all all of its options"},
-                          {"facet help orbit", "an option, in all commands that have it"},
-                          {"facet help --search ground", "all that mentions a word"},
-                          {"facet help documents", "where the manual is"},
-                          {"facet help exit-codes", "what 0 to 75 mean"},
-                          {NULL, NULL}},
-    .groups = (const option_group *const[]){&help_group, NULL},
-};
+/* ---- verbs ---- */
 
-const verb *const verbs[] = {&render_verb,  &ocean_verb,   &view_verb, &bake_verb,
-                             &convert_verb, &inspect_verb, &plot_verb, &compare_verb,
-                             &shaders_verb, &version_verb, &help_verb, NULL};
-
-/* ---- looking up ---- */
+#define VERB(name) &name##_verb,
+const verb *const verbs[] = {
+#include "cli/verbs.def"
+    NULL};
+#undef VERB
 
 const verb *verb_find(const char *name)
 {
@@ -107,12 +93,72 @@ static bool is_among(const char *name, const char *const *words)
 
 bool verb_is_planned(const char *name)
 {
-    return is_among(name, WORDS("batch", "serve", "merge"));
+    return is_among(name, OPTION_WORDS("batch", "serve", "merge"));
 }
 
 bool option_is_planned(const char *name)
 {
-    return is_among(name, WORDS("material-override", "shard"));
+    return is_among(name, OPTION_WORDS("material-override", "shard"));
+}
+
+/* ---- options of a verb ---- */
+
+/* Whether a list of words separated by blanks has that one. */
+static bool has_word(const char *list, const char *word)
+{
+    size_t length = strlen(word);
+    for (; *list; list += strspn(list, " ")) {
+        size_t n = strcspn(list, " ");
+        if (n == length && memcmp(list, word, n) == 0)
+            return true;
+        list += n;
+    }
+    return false;
+}
+
+/* The row of an option that describes it for v: the one that names v, else the general one. */
+static const option *find_row(const verb *v, option_id id)
+{
+    const option *found = NULL;
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        if (options[i].id == id && (!options[i].verbs || has_word(options[i].verbs, v->name)))
+            found = &options[i];
+    return found;
+}
+
+const option *option_at(const verb *v, size_t index)
+{
+    for (const option_group *const *g = v->groups; *g; g++)
+        for (const option_id *id = (*g)->ids; *id != OPTION_ID_COUNT; id++)
+            if (index-- == 0)
+                return find_row(v, *id);
+    return NULL;
+}
+
+const option *option_find_id(const verb *v, option_id id)
+{
+    for (const option_group *const *g = v->groups; *g; g++)
+        for (const option_id *i = (*g)->ids; *i != OPTION_ID_COUNT; i++)
+            if (*i == id)
+                return find_row(v, id);
+    return NULL;
+}
+
+const option *option_find(const verb *v, const char *name, size_t length)
+{
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        if (!options[i].verbs && strlen(options[i].name) == length &&
+            memcmp(options[i].name, name, length) == 0 && option_find_id(v, options[i].id))
+            return option_find_id(v, options[i].id);
+    return NULL;
+}
+
+const option *option_find_letter(const verb *v, char letter)
+{
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        if (!options[i].verbs && options[i].letter == letter && option_find_id(v, options[i].id))
+            return option_find_id(v, options[i].id);
+    return NULL;
 }
 
 /* Attributes of <model-viewer> whose values are those of an option here. */
@@ -128,34 +174,5 @@ const option *option_find_attribute(const verb *v, const char *name, size_t leng
     for (size_t i = 0; i < sizeof attributes / sizeof *attributes; i++)
         if (strlen(attributes[i].name) == length && memcmp(attributes[i].name, name, length) == 0)
             return option_find_id(v, attributes[i].id);
-    return NULL;
-}
-
-const option *option_find(const verb *v, const char *name, size_t length)
-{
-    for (const option_group *const *g = v->groups; *g; g++)
-        for (size_t i = 0; i < (*g)->option_count; i++) {
-            const option *o = &(*g)->options[i];
-            if (strlen(o->name) == length && memcmp(o->name, name, length) == 0)
-                return o;
-        }
-    return NULL;
-}
-
-const option *option_find_letter(const verb *v, char letter)
-{
-    for (const option_group *const *g = v->groups; *g; g++)
-        for (size_t i = 0; i < (*g)->option_count; i++)
-            if ((*g)->options[i].letter == letter)
-                return &(*g)->options[i];
-    return NULL;
-}
-
-const option *option_find_id(const verb *v, option_id id)
-{
-    for (const option_group *const *g = v->groups; *g; g++)
-        for (size_t i = 0; i < (*g)->option_count; i++)
-            if ((*g)->options[i].id == id)
-                return &(*g)->options[i];
     return NULL;
 }

@@ -333,12 +333,12 @@ facet_result suggest_option(const verb *v, const char *name, size_t length, face
                          text);
     const char *best = NULL;
     unsigned least_bad = ~0u, badness;
-    for (const option_group *const *g = v->groups; *g; g++)
-        for (size_t i = 0; i < (*g)->option_count; i++)
-            if (is_near(folded, (*g)->options[i].name, &badness) && badness < least_bad) {
-                least_bad = badness;
-                best = (*g)->options[i].name;
-            }
+    const option *o;
+    for (size_t i = 0; (o = option_at(v, i)); i++)
+        if (is_near(folded, o->name, &badness) && badness < least_bad) {
+            least_bad = badness;
+            best = o->name;
+        }
     if (best)
         return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean --%s?", text, best);
     return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; facet help %s lists those there are",

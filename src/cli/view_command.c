@@ -1,7 +1,6 @@
 /* view_command.c - see view_command.h. What is as facet render has it anyway is left out, so that the line can be read. */
 #include "cli/view_command.h"
 
-#include "cli/options_table.h"
 #include "cli/output_name.h"
 
 #include <math.h>
@@ -340,24 +339,23 @@ static bool is_known(option_id id)
 }
 
 /* Options that path tracing alone reads are refused elsewhere. */
-static bool is_of_group(const option_group *group, option_id id)
+static bool is_of_paths(option_id id)
 {
-    for (size_t i = 0; i < group->option_count; i++)
-        if (group->options[i].id == id)
+    static const option_id ids[] = {PATH_OPTIONS};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (ids[i] == id)
             return true;
     return false;
 }
 
 static void add_others(line *l, const command_line *c, bool is_path)
 {
-    for (const option_group *const *g = c->verb->groups; *g; g++)
-        for (size_t i = 0; i < (*g)->option_count; i++) {
-            const option *o = &(*g)->options[i];
-            bool is_left_out = is_known(o->id) || !is_given(c, o->id) ||
-                               (is_of_group(&window_path_group, o->id) && !is_path);
-            if (!is_left_out)
-                add_option(l, o->id, "%s", option_text(c, o->id, ""));
-        }
+    const option *o;
+    for (size_t i = 0; (o = option_at(c->verb, i)); i++) {
+        bool is_left_out = is_known(o->id) || !is_given(c, o->id) || (is_of_paths(o->id) && !is_path);
+        if (!is_left_out)
+            add_option(l, o->id, "%s", option_text(c, o->id, ""));
+    }
 }
 
 char *view_command(const command_line *c, const render_options *options, const facet_view_picture *p)
