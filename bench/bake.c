@@ -334,7 +334,7 @@ static void time_cubes(facet_environment *environment, int runs, bool has_errors
     static const struct {
         facet_bake_method method;
         const char *name;
-    } methods[] = {{FACET_BAKE_AUTO, "auto"}, {FACET_BAKE_SAMPLING, "sampling"}};
+    } methods[] = {{FACET_BAKE_METHOD_AUTO, "auto"}, {FACET_BAKE_METHOD_SAMPLING, "sampling"}};
     double cpu[2][2] = {{0.0}};
     uint64_t samples = 0;
     print_head("GGX cube maps, 1024 samples", true);
@@ -377,9 +377,9 @@ static void time_tables(int runs)
     static const struct {
         facet_dfg_kind kind;
         const char *name;
-    } kinds[] = {{FACET_DFG_CORRELATED, "GGX, correlated"},
-                 {FACET_DFG_CHARLIE, "Charlie"},
-                 {FACET_DFG_FILAMENT, "Filament's three channels"}};
+    } kinds[] = {{FACET_DFG_KIND_CORRELATED, "GGX, correlated"},
+                 {FACET_DFG_KIND_CHARLIE, "Charlie"},
+                 {FACET_DFG_KIND_FILAMENT, "Filament's three channels"}};
     static const uint32_t sizes[] = {128, 512, 1024};
     print_head("tables", false);
     for (int k = 0; k < 3; k++)

@@ -37,7 +37,7 @@ static void check(facet_result result, const facet_error *error)
     if (result == FACET_OK)
         return;
     fprintf(stderr, "gl: %s\n", error->message);
-    exit(result == FACET_ERROR_ENVIRONMENT ? 8 : 1);
+    exit(result == FACET_ERROR_SYSTEM ? 8 : 1);
 }
 
 static void read_options(int argc, char **argv)
@@ -82,7 +82,7 @@ static facet_scene *load(facet_error *error)
                         : facet_scene_create_builtin(NULL, &scene, error),
           error);
     if (options.is_ogl1)
-        check(facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, NULL, error), error);
+        check(facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, NULL, error), error);
     return scene;
 }
 
@@ -153,7 +153,7 @@ int main(int argc, char **argv)
                                     .environment = options.is_ogl1 ? NULL : studio,
                                     .camera = &camera,
                                     .tonemap = FACET_TONEMAP_NEUTRAL,
-                                    .integrator = FACET_INTEGRATOR_GL,
+                                    .renderer = FACET_RENDERER_KIND_GL,
                                     .shading = options.is_ogl1 ? FACET_SHADING_OGL1 : FACET_SHADING_GLTF,
                                     .background = options.has_background ? FACET_BACKGROUND_ENVIRONMENT
                                                                          : FACET_BACKGROUND_TRANSPARENT,

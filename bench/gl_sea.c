@@ -39,7 +39,7 @@ static void check(facet_result result, const facet_error *error)
     if (result == FACET_OK)
         return;
     fprintf(stderr, "gl_sea: %s\n", error->message);
-    exit(result == FACET_ERROR_ENVIRONMENT ? 8 : 1);
+    exit(result == FACET_ERROR_SYSTEM ? 8 : 1);
 }
 
 static void read_options(int argc, char **argv)
@@ -134,7 +134,7 @@ int main(int argc, char **argv)
                                       .camera = &camera,
                                       .crop = {0, 0, options.width, options.height},
                                       .exposure_ev = (float)meter_exposure_ev(13.3),
-                                      .integrator = FACET_INTEGRATOR_GL,
+                                      .renderer = FACET_RENDERER_KIND_GL,
                                       .thread_count = facet_thread_count()};
     film target = {.width = 0};
     check(film_create(NULL, options.width, options.height, 0, &target, &error), &error);
@@ -143,7 +143,7 @@ int main(int argc, char **argv)
     double first_s = clock_seconds() - begin;
     for (uint32_t i = 0; i < UNTIMED_FRAMES + options.frames; i++)
         for (int look = 0; look < LOOKS; look++) {
-            desc.look.before = look ? FACET_SEA_BEFORE_INTENDED : FACET_SEA_PHYSICAL;
+            desc.shading.style = look ? FACET_SEA_STYLE_LEGACY_INTENDED : FACET_SEA_STYLE_PHYSICAL;
             double *to[PART_COUNT];
             for (int p = 0; p < PART_COUNT; p++)
                 to[p] = &times[look][p][i < UNTIMED_FRAMES ? 0 : i - UNTIMED_FRAMES];

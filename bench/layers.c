@@ -174,7 +174,7 @@ int main(int argc, char **argv)
                ((double)stats.rays - (double)SIZE * SIZE) / shades);
     }
     material = plain();
-    desc.specular_antialiasing = true;
+    desc.has_specular_antialiasing = true;
     printf("%-44s %7.0f ns per shade\n", "plain, specular anti-aliasing",
            1e9 * (draw(scene, &desc, runs, &stats) - least) / shades);
 

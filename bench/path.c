@@ -58,7 +58,7 @@ static void prepare(picture *p, const char *model, const char *light, uint32_t s
                                   .width = size,
                                   .height = size,
                                   .crop = {0, 0, size, size},
-                                  .integrator = FACET_INTEGRATOR_PATH,
+                                  .renderer = FACET_RENDERER_KIND_PATH,
                                   .samples = 64,
                                   .camera = &p->camera,
                                   .environment = p->environment,

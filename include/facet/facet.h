@@ -41,7 +41,7 @@ typedef enum facet_result {
     FACET_ERROR_WRITE,       /* an output cannot be written */
     FACET_ERROR_LIMIT,       /* a limit that the caller set is reached: memory, texture size, time */
     FACET_ERROR_MEMORY,      /* out of memory */
-    FACET_ERROR_ENVIRONMENT, /* the machine lacks something: a display, a library */
+    FACET_ERROR_SYSTEM,      /* the machine lacks something: a display, a library */
     FACET_ERROR_CANCELLED,   /* the progress callback asked to stop */
     FACET_ERROR_BUG          /* facet contradicted itself; please report */
 } facet_result;
@@ -71,9 +71,9 @@ FACET_API uint64_t facet_budget_used_bytes(const facet_budget *budget);
 FACET_API uint64_t facet_budget_peak_bytes(const facet_budget *budget);
 
 typedef enum facet_log_level {
-    FACET_LOG_WARNING,
-    FACET_LOG_DETAIL /* on request: the driver that draws, rules that a file breaks without harm */
-} facet_log_level;   /* others may come */
+    FACET_LOG_LEVEL_WARNING,
+    FACET_LOG_LEVEL_DETAIL /* on request: the driver that draws, rules that a file breaks without harm */
+} facet_log_level;         /* others may come */
 
 /* Receives messages about what is lost but survivable. {0}: silent. May be called from any thread, one call at
  * a time per operation. */
@@ -103,19 +103,19 @@ typedef struct facet_scene facet_scene;
 
 /* What the materials of a model are made of. */
 typedef enum facet_material_model {
-    FACET_MATERIALS_METALLIC_ROUGHNESS,  /* glTF 2.0, with its extensions */
-    FACET_MATERIALS_SPECULAR_GLOSSINESS, /* KHR_materials_pbrSpecularGlossiness */
-    FACET_MATERIALS_OGL1 /* OpenGL 1: Blinn-Phong as fixed-function programs, MTL and rgl have it */
+    FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS,  /* glTF 2.0, with its extensions */
+    FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS, /* KHR_materials_pbrSpecularGlossiness */
+    FACET_MATERIAL_MODEL_OGL1 /* OpenGL 1: Blinn-Phong as fixed-function programs, MTL and rgl have it */
 } facet_material_model;
 
 typedef enum facet_legacy_method {
-    FACET_LEGACY_CLOSED, /* tables and formulas where the target is linear radiance, else a search */
-    FACET_LEGACY_FIT     /* searched for the smallest error */
+    FACET_LEGACY_METHOD_CLOSED, /* tables and formulas where the target is linear radiance, else a search */
+    FACET_LEGACY_METHOD_FIT     /* searched for the smallest error */
 } facet_legacy_method;
 
 typedef enum facet_legacy_profile {
-    FACET_LEGACY_SPECULAR_IOR, /* with KHR_materials_specular and KHR_materials_ior: nearest to the old look */
-    FACET_LEGACY_CORE          /* base color, metallic and roughness only */
+    FACET_LEGACY_PROFILE_SPECULAR_IOR, /* with KHR_materials_specular and KHR_materials_ior: nearest to the old look */
+    FACET_LEGACY_PROFILE_CORE          /* base color, metallic and roughness only */
 } facet_legacy_profile;
 
 /* Which difference between the two models a conversion minimises (docs/legacy.md, "The error"). */
@@ -137,25 +137,25 @@ typedef enum facet_legacy_colors {
 
 /* Programs that wrote MTL files in ways of their own. */
 typedef enum facet_mtl_dialect {
-    FACET_MTL_AUTO,        /* by the file's first comment; else SPEC */
-    FACET_MTL_SPEC,        /* as Wavefront has it, to the letter: Ns 0 is a highlight everywhere */
-    FACET_MTL_BLENDER27,   /* Ns = 1.96078 (hardness - 1) */
-    FACET_MTL_BLENDER28,   /* Ns = (30 (1 - r))^2 */
-    FACET_MTL_BLENDER3,    /* Ns = 1000 (1 - r)^2, metallic in Ka */
-    FACET_MTL_OBJ2GLTF_MR, /* obj2gltf --metallicRoughness: metallic in Ks, roughness in Ns */
-    FACET_MTL_OBJ2GLTF_SG  /* obj2gltf --specularGlossiness: glossiness in Ns */
+    FACET_MTL_DIALECT_AUTO,        /* by the file's first comment; else SPEC */
+    FACET_MTL_DIALECT_SPEC,        /* as Wavefront has it, to the letter: Ns 0 is a highlight everywhere */
+    FACET_MTL_DIALECT_BLENDER27,   /* Ns = 1.96078 (hardness - 1) */
+    FACET_MTL_DIALECT_BLENDER28,   /* Ns = (30 (1 - r))^2 */
+    FACET_MTL_DIALECT_BLENDER3,    /* Ns = 1000 (1 - r)^2, metallic in Ka */
+    FACET_MTL_DIALECT_OBJ2GLTF_MR, /* obj2gltf --metallicRoughness: metallic in Ks, roughness in Ns */
+    FACET_MTL_DIALECT_OBJ2GLTF_SG  /* obj2gltf --specularGlossiness: glossiness in Ns */
 } facet_mtl_dialect;
 
 typedef enum facet_mtl_illum {
-    FACET_ILLUM_AUTO,  /* 0 and 1 count only where Ks is black or the program is known to mean them */
-    FACET_ILLUM_HONOR, /* always */
-    FACET_ILLUM_IGNORE /* never */
+    FACET_MTL_ILLUM_AUTO,  /* 0 and 1 count only where Ks is black or the program is known to mean them */
+    FACET_MTL_ILLUM_HONOR, /* always */
+    FACET_MTL_ILLUM_IGNORE /* never */
 } facet_mtl_illum;
 
 typedef enum facet_legacy_ambient {
-    FACET_AMBIENT_DROP,     /* ambient light is the scene's, not the material's */
-    FACET_AMBIENT_EMISSIVE, /* added to the emission, as under ambient light of 1 */
-    FACET_AMBIENT_OCCLUSION /* its map becomes the occlusion texture */
+    FACET_LEGACY_AMBIENT_DROP,     /* ambient light is the scene's, not the material's */
+    FACET_LEGACY_AMBIENT_EMISSIVE, /* added to the emission, as under ambient light of 1 */
+    FACET_LEGACY_AMBIENT_OCCLUSION /* its map becomes the occlusion texture */
 } facet_legacy_ambient;
 
 /* Vertex normals of an OBJ, STL or PLY file that has none. */
@@ -184,7 +184,7 @@ typedef struct facet_legacy_desc {
     /* illum 3, 5, 7, 8: Ks is a reflectance, and the surroundings are reflected; false: a highlight */
     bool has_mirrors;
     /* Textures that only the old materials use leave the scene; the way back is then fitted for them. Once some have
-     * left, FACET_MATERIALS_METALLIC_ROUGHNESS leaves the materials as they are. */
+     * left, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS leaves the materials as they are. */
     bool drops_sources;
     /* legacy lights keep their numbers; false: times pi, which makes the two models agree */
     bool keeps_light;
@@ -247,10 +247,10 @@ FACET_API void facet_text_destroy(char *text);
 
 /* Of error_graded. */
 typedef enum facet_conversion_grade {
-    FACET_GRADE_GOOD, /* < 0.05 */
-    FACET_GRADE_FAIR, /* < 0.12 */
-    FACET_GRADE_POOR, /* < 0.30 */
-    FACET_GRADE_BAD
+    FACET_CONVERSION_GRADE_GOOD, /* < 0.05 */
+    FACET_CONVERSION_GRADE_FAIR, /* < 0.12 */
+    FACET_CONVERSION_GRADE_POOR, /* < 0.30 */
+    FACET_CONVERSION_GRADE_BAD
 } facet_conversion_grade;
 
 /* How one material was converted. Errors are relative RMS of radiance over lights from the hemisphere and views at 0, 30
@@ -274,7 +274,7 @@ typedef struct facet_conversion {
     uint32_t warning_count;
 } facet_conversion;
 
-/* Converts all materials of a scene that nothing else uses meanwhile. To FACET_MATERIALS_OGL1 the glTF materials stay
+/* Converts all materials of a scene that nothing else uses meanwhile. To FACET_MATERIAL_MODEL_OGL1 the glTF materials stay
  * and their counterparts are put beside them, for facet_scene_save() and FACET_SHADING_OGL1. Fails with _MEMORY; what
  * is lost goes to log and into the report. */
 FACET_API facet_result facet_scene_convert_materials(facet_scene *scene, facet_material_model to,
@@ -287,7 +287,7 @@ FACET_API uint32_t facet_scene_get_conversion_count(const facet_scene *scene);
 FACET_API facet_conversion facet_scene_get_conversion(const facet_scene *scene,
                                                       uint32_t index); /* {0}: no such */
 
-typedef enum facet_report_format { FACET_REPORT_JSON, FACET_REPORT_HTML } facet_report_format;
+typedef enum facet_report_format { FACET_REPORT_FORMAT_JSON, FACET_REPORT_FORMAT_HTML } facet_report_format;
 /* The last conversion as text: values before and after, errors, warnings. HTML is one file without others, with a pair of
  * spheres and the curves of both models for each material. *text is released with facet_text_destroy(). */
 FACET_API facet_result facet_scene_report_conversion(const facet_scene *scene, facet_report_format format,
@@ -358,7 +358,7 @@ typedef struct facet_scene_save_desc {
     bool is_glb;           /* a .glb file whatever the name is: for /dev/stdout and the like */
     bool keeps_inputs;     /* fails with _ARGUMENT rather than replace a file that the scene was read from */
     bool has_flipped_texcoords; /* OBJ: v stays as in glTF, pointing down (the format says up) */
-    bool without_mtl_pbr;       /* MTL: only what Wavefront defined, no Pr, Pm, .. and no glTF comment */
+    bool omits_mtl_pbr;         /* MTL: only what Wavefront defined, no Pr, Pm, .. and no glTF comment */
     float mtl_shininess_scale;  /* MTL: Ns is shininess times this; 0: 1 */
 } facet_scene_save_desc;
 /* Writes the whole scene, by the end of the name:
@@ -382,7 +382,7 @@ typedef struct facet_camera {
     float ortho_height;  /* m, the full height of the picture at any distance */
     float aspect;        /* width / height for which the camera was made; 0: the picture's */
     float near_m, far_m; /* clipping distances along the axis; 0: none */
-    float lens_radius_m; /* of a thin lens, FACET_INTEGRATOR_PATH only; 0: a pinhole, all is sharp */
+    float lens_radius_m; /* of a thin lens, FACET_RENDERER_KIND_PATH only; 0: a pinhole, all is sharp */
     float focus_m;       /* distance along the axis that is sharp; 0: that of target */
 } facet_camera;
 
@@ -395,7 +395,7 @@ typedef struct facet_orbit {
     float radius_scale; /* 1 touches the border of the picture */
     float target[3];    /* m, where has_target */
     bool has_target;    /* false: the middle of the bounds */
-    bool orthographic;
+    bool is_orthographic;
     float fov_y_rad;
     bool is_z_up;           /* the model has +Z up; the camera rises along it */
     bool fits_all_azimuths; /* radius 0: frames the model from every azimuth at once, for turntables that keep
@@ -484,8 +484,8 @@ FACET_API facet_result facet_environment_create_gradient(const float zenith[3], 
                                                          facet_environment **environment, facet_error *error);
 
 typedef enum facet_sky_model {
-    FACET_SKY_ATMOSPHERE, /* scattering of the Earth's atmosphere, all orders (Hillaire 2020) */
-    FACET_SKY_PREETHAM    /* the formula of Preetham, Shirley and Smits (1999) */
+    FACET_SKY_MODEL_ATMOSPHERE, /* scattering of the Earth's atmosphere, all orders (Hillaire 2020) */
+    FACET_SKY_MODEL_PREETHAM    /* the formula of Preetham, Shirley and Smits (1999) */
 } facet_sky_model;
 
 /* A clear sky by day. {0}: sun on the horizon towards +Z, standard air. */
@@ -497,7 +497,7 @@ typedef struct facet_sky_desc {
     float turbidity;        /* [1.7, 10], of the atmosphere from 1, no haze; 0: 2.5 */
     float ground_albedo[3]; /* [0, 1], seen below the horizon and, by the atmosphere, in the sky */
     float altitude_m;       /* of the eye above the ground, [0, 50 000]; the atmosphere only */
-    bool has_no_disc;       /* leaves the sun's disc out, not its light in the air */
+    bool omits_disc;        /* leaves the sun's disc out, not its light in the air */
     uint32_t height;        /* texels; 0: 512 */
     /* to which all is scaled, of the surface that gets most; less than 1 lx counts as 1. 0: units stay physical. pi:
      * white in this light has 1 cd/m^2 */
@@ -554,11 +554,11 @@ typedef enum facet_shading {
 
 /* Variants of FACET_SHADING_OGL1; docs/shading-model.md, "OpenGL 1". */
 typedef enum facet_ogl1_variant {
-    FACET_OGL1_VIGNETTE, /* per pixel, normals turned towards the eye, highlights without a gate */
-    FACET_OGL1_WEBGL, /* rgl's present WebGL shader: normals turned where they point away from the view plane */
-    FACET_OGL1_FIXED, /* fixed-function OpenGL 1: light at the vertices, on the side that the normals show, infinite
+    FACET_OGL1_VARIANT_VIGNETTE, /* per pixel, normals turned towards the eye, highlights without a gate */
+    FACET_OGL1_VARIANT_WEBGL, /* rgl's present WebGL shader: normals turned where they point away from the view plane */
+    FACET_OGL1_VARIANT_FIXED, /* fixed-function OpenGL 1: light at the vertices, on the side that the normals show, infinite
                             viewer, highlight only where light falls, global ambient light of 0.2 */
-    FACET_OGL1_RGL_DESKTOP /* the same as rgl's windows set it up: both sides, local viewer, no global ambient light */
+    FACET_OGL1_VARIANT_RGL_DESKTOP /* the same as rgl's windows set it up: both sides, local viewer, no global ambient light */
 } facet_ogl1_variant;
 
 /* {0}: vignette, as the display's numbers. */
@@ -568,17 +568,17 @@ typedef struct facet_ogl1_desc {
      * numbers, as then */
     bool is_linear;
     bool ignores_fog;
-    /* FACET_OGL1_VIGNETTE: directional lights of the world are transformed as the vignette prints it, with w = 1,
+    /* FACET_OGL1_VARIANT_VIGNETTE: directional lights of the world are transformed as the vignette prints it, with w = 1,
      * which adds the camera's position; false: as is meant */
     bool translates_directions;
 } facet_ogl1_desc;
 
 /* How light is carried to the camera. */
-typedef enum facet_integrator {
-    FACET_INTEGRATOR_PREVIEW, /* one bounce of prefiltered light, no shadows: what real-time viewers show */
-    FACET_INTEGRATOR_PATH,    /* path tracing: unbiased but for what facet_path_desc says is not */
-    FACET_INTEGRATOR_GL /* as the preview, drawn with OpenGL; FACET_ERROR_ENVIRONMENT where there is none */
-} facet_integrator;
+typedef enum facet_renderer_kind {
+    FACET_RENDERER_KIND_PREVIEW, /* one bounce of prefiltered light, no shadows: what real-time viewers show */
+    FACET_RENDERER_KIND_PATH,    /* path tracing: unbiased but for what facet_path_desc says is not */
+    FACET_RENDERER_KIND_GL /* as the preview, drawn with OpenGL; FACET_ERROR_SYSTEM where there is none */
+} facet_renderer_kind;
 
 /* Reconstruction filter of a pixel, sampled by importance: a sample belongs to one pixel. */
 typedef enum facet_filter {
@@ -598,8 +598,8 @@ typedef enum facet_light_sampling {
 typedef enum facet_ground {
     FACET_GROUND_NONE,
     FACET_GROUND_SHADOW /* an unseen plane under the lowest point, of which only what the model takes from its light is
-                           drawn: dark with opacity over what is behind. FACET_INTEGRATOR_PREVIEW has none; that of
-                           FACET_INTEGRATOR_GL is a soft contact shadow */
+                           drawn: dark with opacity over what is behind. FACET_RENDERER_KIND_PREVIEW has none; that of
+                           FACET_RENDERER_KIND_GL is a soft contact shadow */
 } facet_ground;
 
 /* A disc of uniform radiance at infinite distance. {0}: none. */
@@ -610,7 +610,7 @@ typedef struct facet_sun {
     float diameter_rad;       /* 0: 0.53 deg, the real one's */
 } facet_sun;
 
-/* What FACET_INTEGRATOR_PATH reads beside facet_render_desc. {0}: unbiased. */
+/* What FACET_RENDERER_KIND_PATH reads beside facet_render_desc. {0}: unbiased. */
 typedef struct facet_path_desc {
     /* surfaces and scattering events that a path may have; 1: direct light only; 0: 64. What a longer path would
      * bring is missing */
@@ -624,7 +624,7 @@ typedef struct facet_path_desc {
     float clamp; /* biased: no indirect contribution to a sample above this (cd/m^2); 0: none */
     /* biased: light that is aimed at passes transmissive surfaces straight on, tinted; else only real paths find
      * light through them */
-    bool straight_shadows;
+    bool has_straight_shadows;
     bool denoises;   /* biased: noise is filtered out under guidance of albedo and normal */
     float shutter_s; /* the picture is the mean over pose.time_s to time_s + shutter_s; 0: an instant */
     /* an .exr: what is drawn so far is kept there every checkpoint_interval_s, at the time limit, when cancelled, at
@@ -678,13 +678,13 @@ typedef enum facet_transparency {
     FACET_TRANSPARENCY_WEIGHTED /* no order (McGuire and Bavoil 2013): approximate, quickest */
 } facet_transparency;
 
-/* What FACET_INTEGRATOR_GL reads beside facet_render_desc. {0}: as the preview. */
+/* What FACET_RENDERER_KIND_GL reads beside facet_render_desc. {0}: as the preview. */
 typedef struct facet_gl_desc {
     facet_channel channel;
     facet_brdf brdf;
     facet_transparency transparency;
-    bool shadows; /* of punctual lights and the sun, by shadow maps; the preview has none */
-    float bloom;  /* share of the light that is spread as by a lens, [0, 1]; 0: none */
+    bool has_shadows; /* of punctual lights and the sun, by shadow maps; the preview has none */
+    float bloom;      /* share of the light that is spread as by a lens, [0, 1]; 0: none */
 } facet_gl_desc;
 
 typedef enum facet_background {
@@ -694,7 +694,7 @@ typedef enum facet_background {
 } facet_background;
 
 /* Arbitrary output variables: layers beside the picture; or them. Each is that of the nearest surface under
- * the pixel's middle, not filtered; 0 where there is none (depth: infinity). With FACET_INTEGRATOR_PATH normal and albedo
+ * the pixel's middle, not filtered; 0 where there is none (depth: infinity). With FACET_RENDERER_KIND_PATH normal and albedo
  * are the means over the pixel's samples, as denoisers want them: of what is behind mirrors and clear glass. */
 typedef enum facet_aov {
     FACET_AOV_DEPTH = 1u << 0,       /* m along the camera's axis; 1 channel "Z" */
@@ -703,11 +703,11 @@ typedef enum facet_aov {
     FACET_AOV_MATERIAL_ID = 1u << 3, /* index of the material plus 1; 1 channel "material.id" */
     FACET_AOV_UV = 1u << 4,          /* TEXCOORD_0; 2 channels "uv.U", "uv.V" */
     FACET_AOV_OCCLUSION = 1u << 5,   /* occlusion texture, 1: open; 1 channel "occlusion.A" */
-    /* FACET_INTEGRATOR_PATH only: */
+    /* FACET_RENDERER_KIND_PATH only: */
     /* of the mean that a pixel is, estimated per channel, in the picture's unit squared; 3 channels "variance.R" .. */
     FACET_AOV_VARIANCE = 1u << 6,
     FACET_AOV_SAMPLES = 1u << 7, /* light samples in the pixel; 1 channel "samples.N" */
-    /* Every integrator: */
+    /* Every renderer: */
     FACET_AOV_OBJECT_ID = 1u << 8, /* index of the node plus 1; 1 channel "object.id" */
     /* number of the copy, from 1, among all copies of all nodes with a mesh (EXT_mesh_gpu_instancing draws several of a
      * node); 1 channel "instance.id" */
@@ -715,7 +715,7 @@ typedef enum facet_aov {
     /* Cryptomatte 1.2.0, of the names of nodes, of materials, of instances ("NODE#NUMBER"): the six IDs that cover most of a
      * pixel, each with its share of the pixel, in 3 layers "CryptoObject00" .. "02" of 4 channels, ID, share, ID, share. The
      * shares add up to the image's opacity (OpenGL: of the nearest surfaces of 16 samples). The manifest and what else
-     * Cryptomatte needs is in the metadata of an .exr. FACET_INTEGRATOR_PATH: not together with path.resumes, and complete
+     * Cryptomatte needs is in the metadata of an .exr. FACET_RENDERER_KIND_PATH: not together with path.resumes, and complete
      * in the final image only */
     FACET_AOV_CRYPTO_OBJECT = 1u << 10,
     FACET_AOV_CRYPTO_MATERIAL = 1u << 11,
@@ -725,7 +725,7 @@ typedef enum facet_aov {
 
 /* Instruction set of the kernels that intersect rays with triangles, on x86-64; elsewhere there is one. Those of AVX2 and
  * AVX-512 use fused multiply-adds, which round otherwise: a few pixels of an image differ by a code. Fails with
- * FACET_ERROR_ENVIRONMENT where the processor lacks the one that is named. */
+ * FACET_ERROR_SYSTEM where the processor lacks the one that is named. */
 typedef enum facet_isa {
     FACET_ISA_PORTABLE, /* the widest without fused multiply-adds: SSE2, SSE4.2 and AVX give the same bytes */
     FACET_ISA_NATIVE,   /* the widest of this processor: previews take 7 to 19 % less time */
@@ -749,13 +749,13 @@ typedef struct facet_render_desc {
     facet_environment *environment; /* NULL: none, black */
     float environment_rotation_rad; /* around +Y, positive turns the light from +Z towards +X */
     float environment_ev;           /* stops; the environment is scaled by 2^environment_ev */
-    bool ignore_scene_lights;       /* true: no KHR_lights_punctual, nor lights of legacy materials' files */
+    bool ignores_scene_lights;      /* true: no KHR_lights_punctual, nor lights of legacy materials' files */
     facet_background background;
     float background_color[3]; /* linear Rec.709, [0, 1] */
     float background_blur;     /* perceptual roughness of the environment seen as background, [0, 1] */
     facet_sun sun;
     facet_ground ground;
-    facet_integrator integrator;
+    facet_renderer_kind renderer;
     facet_path_desc path;
     facet_gl_desc gl;
     facet_quality quality;
@@ -769,17 +769,17 @@ typedef struct facet_render_desc {
     facet_ogl1_desc ogl1;
     /* widen highlights by how much normals turn within a pixel (Kaplanyan and Tokuyoshi 2019): fewer sparkles, and no
      * longer what real-time viewers show */
-    bool specular_antialiasing;
+    bool has_specular_antialiasing;
     /* decode textures in full where a part of their texels would do: the mips of a JPEG that is decoded at half size
      * are not quite those of the whole. Slower; path tracing and OpenGL do it always */
-    bool whole_textures;
+    bool decodes_whole_textures;
     facet_isa isa;
     float exposure_ev; /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
     /* facet_render() and facet_renderer_render(): exposure_ev is added to what facet_renderer_meter() reads of this image */
     bool meters_exposure;
     facet_tonemap tonemap;
     uint32_t aovs; /* facet_aov or-ed */
-    /* 0: none; past it FACET_ERROR_LIMIT. FACET_INTEGRATOR_PATH gives what it has, unless that is not a sample for
+    /* 0: none; past it FACET_ERROR_LIMIT. FACET_RENDERER_KIND_PATH gives what it has, unless that is not a sample for
      * each pixel */
     double time_limit_s;
 } facet_render_desc;
@@ -801,10 +801,10 @@ FACET_API facet_result facet_renderer_render(facet_renderer *renderer, const fac
                                              facet_image **image, facet_error *error);
 FACET_API void facet_renderer_destroy(facet_renderer *renderer); /* NULL is allowed */
 
-/* What a camera's light meter reads of that image, whatever integrator desc has: EV at ISO 100 that brings the log-average of the
+/* What a camera's light meter reads of that image, whatever renderer desc has: EV at ISO 100 that brings the log-average of the
  * luminance of what is seen (the model, and the environment where it is the background) to 0.22 of white, as facet_sea_meter() does;
  * facet_exposure_from_ev100() makes an exposure_ev of it. A small preview is metered, without shadows and light between surfaces,
- * so that all integrators have the same exposure. Sequences are best metered once, as their frames would flicker. Where nothing is
+ * so that all renderers have the same exposure. Sequences are best metered once, as their frames would flicker. Where nothing is
  * seen, or all is black, the exposure is 0 and desc's log gets a warning. Fails as facet_render(); FACET_ERROR_ARGUMENT for
  * FACET_SHADING_OGL1, whose numbers are a display's. */
 FACET_API facet_result facet_renderer_meter(facet_renderer *renderer,
@@ -816,7 +816,7 @@ typedef struct facet_render_stats {
     double textures_s, geometry_s, light_s, shade_s, total_s; /* geometry: tangents and BVH; stages overlap */
     uint64_t rays, shades, decoded_texels;
     uint32_t thread_count;
-    /* FACET_INTEGRATOR_PATH: */
+    /* FACET_RENDERER_KIND_PATH: */
     uint64_t samples;         /* light samples that the picture is the mean of, over all pixels */
     uint64_t dropped_samples; /* not finite, counted as black: a NaN in the model, or a fault */
     bool has_lost_checkpoint; /* the checkpoint that was wanted at the end could not be written */
@@ -894,33 +894,33 @@ FACET_API bool facet_image_is_for_display(const facet_image *image);
 /* One channel of a color as files and style sheets write it (sRGB, [0, 1]) to linear light: IEC 61966-2-1. */
 FACET_API float facet_linear_from_srgb(float encoded);
 
-typedef enum facet_file_format {
-    FACET_FORMAT_FROM_NAME, /* by the extension of the path */
-    FACET_FORMAT_PNG,       /* 8 bits, sRGB, straight alpha */
-    FACET_FORMAT_PNG16,
-    FACET_FORMAT_JPEG, /* no alpha: over white */
-    FACET_FORMAT_WEBP,
-    FACET_FORMAT_EXR, /* half; all layers, premultiplied alpha */
-    FACET_FORMAT_EXR_FLOAT,
-    FACET_FORMAT_HDR, /* Radiance RGBE; no alpha: over black, as in PFM */
-    FACET_FORMAT_PFM,
-    FACET_FORMAT_RAW /* bare RGBA of 8 bits, sRGB, straight alpha: rows from the top, no header */
-} facet_file_format;
+typedef enum facet_image_format {
+    FACET_IMAGE_FORMAT_FROM_NAME, /* by the extension of the path */
+    FACET_IMAGE_FORMAT_PNG,       /* 8 bits, sRGB, straight alpha */
+    FACET_IMAGE_FORMAT_PNG16,
+    FACET_IMAGE_FORMAT_JPEG, /* no alpha: over white */
+    FACET_IMAGE_FORMAT_WEBP,
+    FACET_IMAGE_FORMAT_EXR, /* half; all layers, premultiplied alpha */
+    FACET_IMAGE_FORMAT_EXR_FLOAT,
+    FACET_IMAGE_FORMAT_HDR, /* Radiance RGBE; no alpha: over black, as in PFM */
+    FACET_IMAGE_FORMAT_PFM,
+    FACET_IMAGE_FORMAT_RAW /* bare RGBA of 8 bits, sRGB, straight alpha: rows from the top, no header */
+} facet_image_format;
 
-typedef struct facet_save_desc {
+typedef struct facet_image_save_desc {
     facet_allocator allocator;
     uint32_t thread_count; /* 0: facet_thread_count() */
-    facet_file_format format;
+    facet_image_format format;
     uint32_t jpeg_quality;    /* 1 to 100; 0: 92; also for WebP, where 100 is lossless */
     uint32_t png_compression; /* 1 (fast) to 9 (small); 0: 4 */
-} facet_save_desc;
+} facet_image_save_desc;
 
 /* Writes the whole file or nothing: to a temporary beside it, then renamed. */
 FACET_API facet_result facet_image_save(const facet_image *image, const char *path,
-                                        const facet_save_desc *desc, facet_error *error);
+                                        const facet_image_save_desc *desc, facet_error *error);
 /* The bytes that facet_image_save() would write, for a format that is named. Release with
  * facet_bytes_destroy(). */
-FACET_API facet_result facet_image_encode(const facet_image *image, const facet_save_desc *desc,
+FACET_API facet_result facet_image_encode(const facet_image *image, const facet_image_save_desc *desc,
                                           unsigned char **bytes, size_t *size, facet_error *error);
 FACET_API void facet_bytes_destroy(unsigned char *bytes);
 /* Writes bytes to path as facet_image_save() does: the whole file or nothing. */
@@ -937,14 +937,14 @@ typedef enum facet_lobe {
 
 /* Which perceptual roughness level k of n is for. */
 typedef enum facet_roughness_mapping {
-    FACET_MAPPING_LINEAR,  /* k / (n - 1): Khronos' viewer */
-    FACET_MAPPING_FILAMENT /* 1 - sqrt(1 - k / (n - 1)), so that k = (n - 1) r (2 - r): Filament */
+    FACET_ROUGHNESS_MAPPING_LINEAR,  /* k / (n - 1): Khronos' viewer */
+    FACET_ROUGHNESS_MAPPING_FILAMENT /* 1 - sqrt(1 - k / (n - 1)), so that k = (n - 1) r (2 - r): Filament */
 } facet_roughness_mapping;
 
 typedef enum facet_bake_method {
-    FACET_BAKE_AUTO,     /* harmonics where the lobe is wide enough for them, sampling where it is narrower */
-    FACET_BAKE_SAMPLING, /* filtered importance sampling (Krivanek and Colbert 2008) */
-    FACET_BAKE_REFERENCE /* every texel of the environment weighted, which is slow: what the others are measured against */
+    FACET_BAKE_METHOD_AUTO, /* harmonics where the lobe is wide enough for them, sampling where it is narrower */
+    FACET_BAKE_METHOD_SAMPLING, /* filtered importance sampling (Krivanek and Colbert 2008) */
+    FACET_BAKE_METHOD_REFERENCE /* every texel of the environment weighted, which is slow: what the others are measured against */
 } facet_bake_method;
 
 enum { FACET_CUBE_MAX_LEVELS = 14 };
@@ -1012,14 +1012,14 @@ FACET_API facet_result facet_cube_copy_face(const facet_cube *cube, uint32_t lev
 
 /* Texels of KTX2 files, by the names of Vulkan's formats. */
 typedef enum facet_texel_format {
-    FACET_TEXEL_RGBA16F,
-    FACET_TEXEL_RGBA32F,
-    FACET_TEXEL_RGB9E5,    /* E5B9G9R9_UFLOAT_PACK32 */
-    FACET_TEXEL_B10G11R11, /* B10G11R11_UFLOAT_PACK32 */
-    FACET_TEXEL_RG16F,
-    FACET_TEXEL_RG32F,
-    FACET_TEXEL_R16F,
-    FACET_TEXEL_R32F
+    FACET_TEXEL_FORMAT_RGBA16F,
+    FACET_TEXEL_FORMAT_RGBA32F,
+    FACET_TEXEL_FORMAT_RGB9E5,    /* E5B9G9R9_UFLOAT_PACK32 */
+    FACET_TEXEL_FORMAT_B10G11R11, /* B10G11R11_UFLOAT_PACK32 */
+    FACET_TEXEL_FORMAT_RG16F,
+    FACET_TEXEL_FORMAT_RG32F,
+    FACET_TEXEL_FORMAT_R16F,
+    FACET_TEXEL_FORMAT_R32F
 } facet_texel_format;
 
 typedef struct facet_ktx2_desc {
@@ -1035,8 +1035,9 @@ FACET_API facet_result facet_cube_encode_ktx2(const facet_cube *cube, const face
                                               unsigned char **bytes, size_t *size, facet_error *error);
 typedef struct facet_ktx1_desc {
     facet_allocator allocator;
-    uint32_t thread_count;       /* 0: facet_thread_count(); the bytes do not depend on it */
-    const float (*harmonics)[3]; /* nine of FACET_SH_FOLDED, kept as text under the key "sh"; NULL: none */
+    uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
+    const float (
+        *harmonics)[3]; /* nine of FACET_SH_FORM_FOLDED, kept as text under the key "sh"; NULL: none */
 } facet_ktx1_desc;
 
 /* A KTX 1 file with texels R11F_G11F_B10F, as Filament's cmgen writes and its loaders of light want them; facet_bytes_destroy(). */
@@ -1054,19 +1055,19 @@ FACET_API facet_result facet_image_encode_ktx2(const facet_image *image, const f
  * Karis 2009; three.js' RGBMToLinear()). A PNG file: facet_image_save() would apply sRGB, so this encodes by itself. range: the
  * largest value, above 0; what is above becomes range. FACET_ERROR_ARGUMENT, _MEMORY. */
 FACET_API facet_result facet_image_encode_rgbm(const facet_image *image, float range,
-                                               const facet_save_desc *desc, unsigned char **bytes,
+                                               const facet_image_save_desc *desc, unsigned char **bytes,
                                                size_t *size, facet_error *error);
 
 /* Tables of reflectance over N.V (x) and perceptual roughness (y), both at texel middles (i + 0.5) / size, rows from
  * roughness 0. */
 typedef enum facet_dfg_kind {
-    FACET_DFG_SCHLICK,    /* R, G: scale and bias of F0, Schlick's masking with k = alpha / 2 (Karis 2013) */
-    FACET_DFG_CORRELATED, /* R, G: the same, height-correlated Smith (Heitz 2014) */
-    FACET_DFG_MULTISCATTER, /* R: integral of Fc, G: of 1, height-correlated: Filament's layout for energy compensation */
-    FACET_DFG_CHARLIE,         /* R: albedo of sheen, Charlie with its own masking (Estevez and Kulla 2017) */
-    FACET_DFG_CHARLIE_NEUBELT, /* R: the same with Neubelt's masking, which Filament and Khronos' lookup have */
-    FACET_DFG_GGX_AVERAGE, /* R: albedo of GGX averaged over the cosine, of roughness alone: every column is the same */
-    FACET_DFG_FILAMENT /* R, G: as MULTISCATTER, B: as CHARLIE_NEUBELT: what Filament loads */
+    FACET_DFG_KIND_SCHLICK, /* R, G: scale and bias of F0, Schlick's masking with k = alpha / 2 (Karis 2013) */
+    FACET_DFG_KIND_CORRELATED, /* R, G: the same, height-correlated Smith (Heitz 2014) */
+    FACET_DFG_KIND_MULTISCATTER, /* R: integral of Fc, G: of 1, height-correlated: Filament's layout for energy compensation */
+    FACET_DFG_KIND_CHARLIE, /* R: albedo of sheen, Charlie with its own masking (Estevez and Kulla 2017) */
+    FACET_DFG_KIND_CHARLIE_NEUBELT, /* R: the same with Neubelt's masking, which Filament and Khronos' lookup have */
+    FACET_DFG_KIND_GGX_AVERAGE, /* R: albedo of GGX averaged over the cosine, of roughness alone: every column is the same */
+    FACET_DFG_KIND_FILAMENT /* R, G: as MULTISCATTER, B: as CHARLIE_NEUBELT: what Filament loads */
 } facet_dfg_kind;
 
 typedef struct facet_dfg_desc {
@@ -1095,9 +1096,9 @@ FACET_API uint32_t facet_dfg_get_channel_count(facet_dfg_kind kind);
  *   Khronos    IRRADIANCE as irradianceCoefficients of EXT_lights_image_based (Babylon.js reads 1-1, 11, 2-1, 21 negated).
  *              Khronos' viewer takes no harmonics but a cube map: FACET_LOBE_LAMBERT. */
 typedef enum facet_sh_form {
-    FACET_SH_RADIANCE,   /* L_lm = integral of L Y_lm */
-    FACET_SH_IRRADIANCE, /* E_lm = A_l L_lm, A = pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan 2001) */
-    FACET_SH_FOLDED /* irradiance / pi, the basis' constants folded in: sum of c times 1, y, z, x, xy, yz, 3z^2 - 1, zx,
+    FACET_SH_FORM_RADIANCE,   /* L_lm = integral of L Y_lm */
+    FACET_SH_FORM_IRRADIANCE, /* E_lm = A_l L_lm, A = pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan 2001) */
+    FACET_SH_FORM_FOLDED /* irradiance / pi, the basis' constants folded in: sum of c times 1, y, z, x, xy, yz, 3z^2 - 1, zx,
                        x^2 - y^2: Filament's "pre-scaled" */
 } facet_sh_form;
 
@@ -1160,50 +1161,54 @@ FACET_API const char *facet_shader_get_part_name(uint32_t index); /* "fresnel"; 
 /* ---- plots ---- */
 
 typedef enum facet_plot_kind {
-    FACET_PLOT_LEGACY, /* PBR and OpenGL 1 over the angle of the light, the best fit, their difference (Murdoch's
+    FACET_PLOT_KIND_LEGACY, /* PBR and OpenGL 1 over the angle of the light, the best fit, their difference (Murdoch's
                               vignette "Shininess in OpenGL 1 versus glTF PBR", and what it lacked) */
-    FACET_PLOT_BRDF,       /* the lobes in the plane of incidence, as polar slices */
-    FACET_PLOT_SLICE,      /* the same over the angle of the light, as curves */
-    FACET_PLOT_HEMISPHERE, /* over all directions of the light, in false color */
-    FACET_PLOT_LOBE,       /* over all directions, as a surface in space */
-    FACET_PLOT_TERMS,      /* D, V and F over their cosines */
-    FACET_PLOT_ALBEDO,     /* directional albedo over the angle of the view */
-    FACET_PLOT_FURNACE,    /* what a surface returns of light from everywhere, over roughness */
-    FACET_PLOT_DFG,        /* the tables of split-sum light */
-    FACET_PLOT_TONE,       /* tone mapping: display over scene light */
-    FACET_PLOT_FRESNEL,    /* of water and other media over the angle, exact beside Schlick's */
-    FACET_PLOT_ERROR       /* error of the fits between the models over roughness */
+    FACET_PLOT_KIND_BRDF,       /* the lobes in the plane of incidence, as polar slices */
+    FACET_PLOT_KIND_SLICE,      /* the same over the angle of the light, as curves */
+    FACET_PLOT_KIND_HEMISPHERE, /* over all directions of the light, in false color */
+    FACET_PLOT_KIND_LOBE,       /* over all directions, as a surface in space */
+    FACET_PLOT_KIND_TERMS,      /* D, V and F over their cosines */
+    FACET_PLOT_KIND_ALBEDO,     /* directional albedo over the angle of the view */
+    FACET_PLOT_KIND_FURNACE,    /* what a surface returns of light from everywhere, over roughness */
+    FACET_PLOT_KIND_DFG,        /* the tables of split-sum light */
+    FACET_PLOT_KIND_TONE,       /* tone mapping: display over scene light */
+    FACET_PLOT_KIND_FRESNEL,    /* of water and other media over the angle, exact beside Schlick's */
+    FACET_PLOT_KIND_ERROR       /* error of the fits between the models over roughness */
 } facet_plot_kind;
 
-typedef enum facet_plot_model { FACET_PLOT_PBR, FACET_PLOT_OGL1, FACET_PLOT_MERL } facet_plot_model;
+typedef enum facet_plot_model {
+    FACET_PLOT_MODEL_PBR,
+    FACET_PLOT_MODEL_OGL1,
+    FACET_PLOT_MODEL_MERL
+} facet_plot_model;
 
 /* A material to plot; start from facet_plot_material_default(). Colors linear, [0, 1]. */
 typedef struct facet_plot_material {
     const char *label; /* NULL: made of what it is */
     facet_plot_model model;
-    /* FACET_PLOT_PBR, the parameters of glTF */
+    /* FACET_PLOT_MODEL_PBR, the parameters of glTF */
     float base_color[3], metallic, perceptual_roughness;          /* 1; 0; 0.5 */
     float ior, specular, specular_color[3];                       /* 1.5; 1; 1 */
     float clearcoat, clearcoat_roughness;                         /* 0 */
     float sheen_color[3], sheen_roughness;                        /* 0 */
     float anisotropy, anisotropy_rotation_rad;                    /* 0 */
     float iridescence, iridescence_ior, iridescence_thickness_nm; /* 0; 1.3; 400 */
-    /* FACET_PLOT_OGL1 */
+    /* FACET_PLOT_MODEL_OGL1 */
     float diffuse[3], ogl1_specular[3], shininess; /* 0.8; 1; 50 */
-    const char *path; /* FACET_PLOT_MERL: a measured BRDF in the format of Matusik et al. 2003 */
+    const char *path; /* FACET_PLOT_MODEL_MERL: a measured BRDF in the format of Matusik et al. 2003 */
 } facet_plot_material;
 FACET_API facet_plot_material facet_plot_material_default(void);
 /* A material of a scene, as far as it is one number for the whole surface: its factors, without textures. The legacy
- * one where model is FACET_PLOT_OGL1. */
+ * one where model is FACET_PLOT_MODEL_OGL1. */
 FACET_API facet_result facet_plot_material_from_scene(const facet_scene *scene, uint32_t material,
                                                       facet_plot_model model, facet_plot_material *out,
                                                       facet_error *error);
 
 typedef enum facet_plot_format {
-    FACET_PLOT_SVG,
-    FACET_PLOT_PDF,
-    FACET_PLOT_PNG,
-    FACET_PLOT_CSV /* the numbers that are drawn; needs no graphics library */
+    FACET_PLOT_FORMAT_SVG,
+    FACET_PLOT_FORMAT_PDF,
+    FACET_PLOT_FORMAT_PNG,
+    FACET_PLOT_FORMAT_CSV /* the numbers that are drawn; needs no graphics library */
 } facet_plot_format;
 
 enum { FACET_PLOT_MAX_MATERIALS = 16, FACET_PLOT_MAX_ANGLES = 8 };
@@ -1230,7 +1235,7 @@ typedef struct facet_plot_desc {
     /* of the view; at most FACET_PLOT_MAX_ANGLES; 0: 30 degrees, or what suits the kind */
     uint32_t angle_count;
     const float *angles_rad; /* from the normal, [0, pi/2) */
-    bool has_heaviside_ramp; /* FACET_PLOT_LEGACY: the vignette's max(x, 0) where glTF has a step */
+    bool has_heaviside_ramp; /* FACET_PLOT_KIND_LEGACY: the vignette's max(x, 0) where glTF has a step */
     /* masking and shadowing independent, as the vignette has it; false: height-correlated */
     bool has_separable_smith;
     bool has_fit; /* the best fit of the other model beside each material; MERL: of PBR */
@@ -1239,14 +1244,14 @@ typedef struct facet_plot_desc {
     bool is_logarithmic; /* the axis of values */
     bool has_cosine;     /* BRDF times the light's cosine, where a kind shows a BRDF */
     bool
-        has_shared_scale; /* FACET_PLOT_BRDF: one scale for all lobes of all views; false: each over its own peak */
+        has_shared_scale; /* FACET_PLOT_KIND_BRDF: one scale for all lobes of all views; false: each over its own peak */
     facet_energy energy;
     const char *title;      /* NULL: of the kind; "": none */
     uint32_t width, height; /* pixels, or 1/96 inch; 0: 960 x 640 or what suits the kind */
     bool is_dark;           /* light lines on dark */
 } facet_plot_desc;
 
-/* The file's bytes; facet_bytes_destroy(). FACET_ERROR_ENVIRONMENT: the graphics library is not there (CSV does without).
+/* The file's bytes; facet_bytes_destroy(). FACET_ERROR_SYSTEM: the graphics library is not there (CSV does without).
  * FACET_ERROR_READ, _INVALID: of a measured BRDF. */
 FACET_API facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format format,
                                          unsigned char **bytes, size_t *size, facet_error *error);
@@ -1257,16 +1262,16 @@ FACET_API facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot
  * waves go to. docs/ocean.md has the formulas and their sources. */
 
 typedef enum facet_sea_spectrum {
-    FACET_SEA_JONSWAP, /* Hasselmann et al. 1973, growth ending where the sea is fully developed; in shallow water with the
+    FACET_SEA_SPECTRUM_JONSWAP, /* Hasselmann et al. 1973, growth ending where the sea is fully developed; in shallow water with the
                           factor of Bouws et al. 1985 (TMA) */
-    FACET_SEA_PIERSON_MOSKOWITZ, /* fully developed, whatever the fetch (1964) */
-    FACET_SEA_ELFOUHAILY         /* et al. 1997: one spectrum down to capillary waves */
+    FACET_SEA_SPECTRUM_PIERSON_MOSKOWITZ, /* fully developed, whatever the fetch (1964) */
+    FACET_SEA_SPECTRUM_ELFOUHAILY         /* et al. 1997: one spectrum down to capillary waves */
 } facet_sea_spectrum;
 
 typedef enum facet_sea_spreading {
-    FACET_SPREADING_HASSELMANN,     /* et al. 1980 */
-    FACET_SPREADING_DONELAN_BANNER, /* Donelan, Hamilton and Hui 1985; Banner 1990 */
-    FACET_SPREADING_COSINE          /* 2 / pi cos^2, down the wind only */
+    FACET_SEA_SPREADING_HASSELMANN,     /* et al. 1980 */
+    FACET_SEA_SPREADING_DONELAN_BANNER, /* Donelan, Hamilton and Hui 1985; Banner 1990 */
+    FACET_SEA_SPREADING_COSINE          /* 2 / pi cos^2, down the wind only */
 } facet_sea_spreading;
 
 /* Waves from far away, beside those of the wind. {0}: none. */
@@ -1280,25 +1285,25 @@ typedef struct facet_swell {
 
 /* What the water is, by Jerlov's types or by what is in it. */
 typedef enum facet_water_kind {
-    FACET_WATER_CHLOROPHYLL, /* of the open ocean: Morel 1988; a content of 0 is pure sea water */
-    FACET_WATER_JERLOV_I,
-    FACET_WATER_JERLOV_IA,
-    FACET_WATER_JERLOV_IB,
-    FACET_WATER_JERLOV_II,
-    FACET_WATER_JERLOV_III,
-    FACET_WATER_JERLOV_1C,
-    FACET_WATER_JERLOV_3C,
-    FACET_WATER_JERLOV_5C,
-    FACET_WATER_JERLOV_7C,
-    FACET_WATER_JERLOV_9C,
-    FACET_WATER_COEFFICIENTS /* absorption, scattering and backscattering as they are given */
+    FACET_WATER_KIND_CHLOROPHYLL, /* of the open ocean: Morel 1988; a content of 0 is pure sea water */
+    FACET_WATER_KIND_JERLOV_I,
+    FACET_WATER_KIND_JERLOV_IA,
+    FACET_WATER_KIND_JERLOV_IB,
+    FACET_WATER_KIND_JERLOV_II,
+    FACET_WATER_KIND_JERLOV_III,
+    FACET_WATER_KIND_JERLOV_1C,
+    FACET_WATER_KIND_JERLOV_3C,
+    FACET_WATER_KIND_JERLOV_5C,
+    FACET_WATER_KIND_JERLOV_7C,
+    FACET_WATER_KIND_JERLOV_9C,
+    FACET_WATER_KIND_COEFFICIENTS /* absorption, scattering and backscattering as they are given */
 } facet_water_kind;
 
 typedef struct facet_water {
     facet_water_kind kind;
     float chlorophyll_mg_m3; /* [0, 30] */
     float absorption[3], scattering[3],
-        backscattering[3]; /* 1/m, linear Rec.709; FACET_WATER_COEFFICIENTS only */
+        backscattering[3]; /* 1/m, linear Rec.709; FACET_WATER_KIND_COEFFICIENTS only */
     float salinity;        /* g of salt per kg, [0, 40] */
     float temperature_C;
     float ior;         /* [1, 2]; 0: by salinity and temperature at 550 nm (Quan and Fry 1995) */
@@ -1398,54 +1403,54 @@ typedef struct facet_sea_mesh_desc {
     uint32_t samples;   /* vertices along an edge, [2, 4096]; 0: 512 */
     double center_m[2]; /* along X and Z */
     float refinement;   /* how much closer vertices are at the center than evenly, [1, 1000]; 0: 1, evenly */
-    bool no_bed;
+    bool omits_bed;
 } facet_sea_mesh_desc;
 FACET_API facet_result facet_sea_create_mesh(const facet_sea *sea,
                                              const facet_sea_mesh_desc *desc /* NULL: {0} */,
                                              facet_scene **scene, facet_error *error);
 
 typedef enum facet_sea_normals {
-    FACET_SEA_BECKMANN, /* slopes are Gaussian, which those of the sea nearly are */
-    FACET_SEA_GGX       /* the same width, with longer tails */
+    FACET_SEA_NORMALS_BECKMANN, /* slopes are Gaussian, which those of the sea nearly are */
+    FACET_SEA_NORMALS_GGX       /* the same width, with longer tails */
 } facet_sea_normals;
 typedef enum facet_sea_masking {
-    FACET_SEA_SCALES, /* waves of all lengths on each other, whichever of them a pixel shows; GGX has Smith's */
-    FACET_SEA_SMITH,        /* height-correlated, of facets that do not know their neighbours */
-    FACET_SEA_SCHLICK_KARIS /* separable, k = (r + 1)^2 / 8: too dark at grazing angles, for comparison */
+    FACET_SEA_MASKING_SCALES, /* waves of all lengths on each other, whichever of them a pixel shows; GGX has Smith's */
+    FACET_SEA_MASKING_SMITH,        /* height-correlated, of facets that do not know their neighbours */
+    FACET_SEA_MASKING_SCHLICK_KARIS /* separable, k = (r + 1)^2 / 8: too dark at grazing angles, for comparison */
 } facet_sea_masking;
 
 /* Looks of before, without physics. docs/ocean.md, "Before". */
-typedef enum facet_sea_before {
-    FACET_SEA_PHYSICAL,
-    FACET_SEA_BEFORE_WRITTEN, /* A: the formulas as they were written */
-    FACET_SEA_BEFORE_INTENDED /* B: with the signs that they were meant to have */
-} facet_sea_before;
+typedef enum facet_sea_style {
+    FACET_SEA_STYLE_PHYSICAL,
+    FACET_SEA_STYLE_LEGACY_WRITTEN, /* A: the formulas as they were written */
+    FACET_SEA_STYLE_LEGACY_INTENDED /* B: with the signs that they were meant to have */
+} facet_sea_style;
 
 /* How the surface is shaded. {0}: physically. */
-typedef struct facet_sea_look {
-    facet_sea_before before;
+typedef struct facet_sea_shading {
+    facet_sea_style style;
     facet_sea_normals normals;
     facet_sea_masking masking;
-    bool schlick_fresnel;       /* in place of the exact formula */
+    bool has_schlick_fresnel;   /* in place of the exact formula */
     float perceptual_roughness; /* of the finest waves, [0.001, 1]; 0: by their slopes */
-    bool no_glints, no_foam;
-    bool no_caustics; /* the bed is lit evenly, as if waves focused no light */
-    uint32_t stage;   /* 1 to 5: only so much of the way from before to now; 0: all */
-    float clamp;      /* radiance times exposure is cut off here; 0: not */
-} facet_sea_look;
+    bool omits_glints, omits_foam;
+    bool omits_caustics; /* the bed is lit evenly, as if waves focused no light */
+    uint32_t stage;      /* 1 to 5: only so much of the way from before to now; 0: all */
+    float clamp;         /* radiance times exposure is cut off here; 0: not */
+} facet_sea_shading;
 
 /* Draws the sea, and a model in it. render: as for facet_render(), of which size, crop, camera, exposure, tone mapping, quality,
  * samples, environment, sun, threads, progress and time limit are followed. environment NULL: the sky of `sky`, with its sun.
  * camera NULL: facet_sea_camera(); at most 50 km high under the atmosphere's sky. scene NULL: nothing but water; its
  * pose is followed, its cameras and lights are not.
  *
- * integrator FACET_INTEGRATOR_PREVIEW draws the endless sea. _PATH traces paths through the waves as triangles, out to the horizon, with
- * foam and scene, whose lamps it follows; of looks it knows no_foam, schlick_fresnel and perceptual_roughness. _GL draws what
+ * renderer FACET_RENDERER_KIND_PREVIEW draws the endless sea. _PATH traces paths through the waves as triangles, out to the horizon, with
+ * foam and scene, whose lamps it follows; of looks it knows omits_foam, has_schlick_fresnel and perceptual_roughness. _GL draws what
  * _PREVIEW does, for cameras with a field of view; the sea keeps OpenGL's programs for its next picture. */
 typedef struct facet_sea_render_desc {
     facet_render_desc render;
     facet_sky_desc sky;
-    facet_sea_look look;
+    facet_sea_shading shading;
 } facet_sea_render_desc;
 FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
                                         const facet_sea_render_desc *desc, facet_image **image,
@@ -1479,14 +1484,14 @@ typedef struct facet_view_model {
 } facet_view_model;
 
 /* What a window shows, as facet_render() is asked for the same picture. */
-typedef struct facet_view_picture {
+typedef struct facet_view_image {
     const char *model;               /* its path; NULL: the built-in scene */
     const char *environment;         /* as load_environment() got it */
     const facet_render_desc *render; /* complete */
     const facet_orbit *orbit;        /* with radius and target; NULL: a camera of the file */
     uint32_t camera;                 /* of the file */
     double origin[3];                /* facet_scene_get_origin() of the model */
-} facet_view_picture;
+} facet_view_image;
 
 /* What a window asks of who opened it, which makes it show what they would render. load_model and load_environment are
  * called from a thread of their own, one at a time, the others from that of facet_view(). NULL: what the library does
@@ -1499,7 +1504,7 @@ typedef struct facet_view_source {
     facet_result (*load_environment)(void *user, const char *name, const facet_view_model *model,
                                      facet_environment **environment, facet_error *error);
     /* The command line that renders the picture; a block of malloc(), NULL: there is none */
-    char *(*describe)(void *user, const facet_view_picture *picture);
+    char *(*describe)(void *user, const facet_view_image *picture);
     /* What was asked for to be printed: a line. */
     void (*print)(void *user, const char *text);
 } facet_view_source;
@@ -1514,7 +1519,7 @@ typedef struct facet_view_desc {
     const char *const *environments; /* names to choose from beside those in a named file's folder */
     uint32_t environment_count;
     const char *environment; /* which is shown at first; NULL: as load_environment() has it */
-    /* As the window begins: size (0: 1024 x 768), background, exposure, .. Its integrator is _GL or _PATH; allocator, log,
+    /* As the window begins: size (0: 1024 x 768), background, exposure, .. Its renderer is _GL or _PATH; allocator, log,
      * progress, pose, camera, environment and crop are not read. */
     facet_render_desc render;
     uint32_t path_samples; /* per pixel, at which path tracing ends; 0: 4096 */
@@ -1522,7 +1527,7 @@ typedef struct facet_view_desc {
     const char *script;
 } facet_view_desc;
 
-/* A window that shows models until it is closed. On the process' first thread. Fails with FACET_ERROR_ENVIRONMENT: there is
+/* A window that shows models until it is closed. On the process' first thread. Fails with FACET_ERROR_SYSTEM: there is
  * no display, GLFW or OpenGL; FACET_ERROR_ARGUMENT: the script; or as the first model does. */
 FACET_API facet_result facet_view(const facet_view_desc *desc /* NULL: {0} */, facet_error *error);
 
@@ -1530,9 +1535,9 @@ FACET_API facet_result facet_view(const facet_view_desc *desc /* NULL: {0} */, f
 
 /* What the numbers of pictures are when they are compared. */
 typedef enum facet_compare_space {
-    FACET_COMPARE_AUTO,   /* display, unless both pictures are linear and there is no tone mapping */
-    FACET_COMPARE_LINEAR, /* linear Rec.709 */
-    FACET_COMPARE_DISPLAY /* tone-mapped, clamped to [0, 1], sRGB-encoded */
+    FACET_COMPARE_SPACE_AUTO,   /* display, unless both pictures are linear and there is no tone mapping */
+    FACET_COMPARE_SPACE_LINEAR, /* linear Rec.709 */
+    FACET_COMPARE_SPACE_DISPLAY /* tone-mapped, clamped to [0, 1], sRGB-encoded */
 } facet_compare_space;
 
 typedef enum facet_compare_alpha {
@@ -1542,7 +1547,7 @@ typedef enum facet_compare_alpha {
 } facet_compare_alpha;
 
 /* Metrics that take time; the others are always there. */
-enum { FACET_METRIC_SSIM = 1 << 0, FACET_METRIC_FLIP = 1 << 1 };
+typedef enum facet_metric { FACET_METRIC_SSIM = 1 << 0, FACET_METRIC_FLIP = 1 << 1 } facet_metric;
 
 typedef enum facet_difference {
     FACET_DIFFERENCE_ABSOLUTE, /* |b - a| times gain, per channel; opacity's added to all three */
@@ -1601,7 +1606,7 @@ typedef struct facet_comparison {
     double ssim; /* of luminance (in display space luma), 1: the same; NAN also below 11 x 11 pixels */
     double ssim_channels;  /* mean over the channels */
     double flip, flip_max; /* [0, 1], mean and largest */
-    bool flip_is_hdr;      /* the largest over exposures: in linear space */
+    bool is_flip_hdr;      /* the largest over exposures: in linear space */
     double flip_start_ev, flip_stop_ev;
     uint32_t flip_exposure_count;
 } facet_comparison;

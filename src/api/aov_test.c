@@ -31,7 +31,7 @@ static const uint32_t every_renderer =
 static const char *const kinds[] = {"CryptoObject", "CryptoMaterial", "CryptoInstance"};
 
 /* NULL: there is no OpenGL. */
-static facet_image *draw(const facet_scene *scene, facet_integrator integrator, facet_filter filter)
+static facet_image *draw(const facet_scene *scene, facet_renderer_kind renderer, facet_filter filter)
 {
     facet_camera camera = {
         .eye = {1.2f, 1.1f, 5}, .target = {1.2f, 1.1f, 0}, .up = {0, 1, 0}, .fov_y_rad = 0.6f};
@@ -40,12 +40,12 @@ static facet_image *draw(const facet_scene *scene, facet_integrator integrator, 
     facet_render_desc desc = {.width = WIDTH,
                               .height = HEIGHT,
                               .camera = &camera,
-                              .integrator = integrator,
+                              .renderer = renderer,
                               .samples = 16,
                               .path = {.filter = filter},
                               .aovs = every_renderer};
     facet_result result = facet_render(scene, &desc, &image, &error);
-    if (result == FACET_ERROR_ENVIRONMENT && integrator == FACET_INTEGRATOR_GL) {
+    if (result == FACET_ERROR_SYSTEM && renderer == FACET_RENDERER_KIND_GL) {
         printf("without OpenGL: %s\n", error.message);
         return NULL;
     }
@@ -100,11 +100,11 @@ static void shares_add_up_to_the_opacity(void **state)
     (void)state;
     facet_scene *scene = load_squares();
     static const struct {
-        facet_integrator renderer;
+        facet_renderer_kind renderer;
         facet_filter filter;
-    } cases[] = {{FACET_INTEGRATOR_PREVIEW, FACET_FILTER_BOX},
-                 {FACET_INTEGRATOR_PATH, FACET_FILTER_BLACKMAN_HARRIS},
-                 {FACET_INTEGRATOR_PATH, FACET_FILTER_MITCHELL}}; /* with weights of its own */
+    } cases[] = {{FACET_RENDERER_KIND_PREVIEW, FACET_FILTER_BOX},
+                 {FACET_RENDERER_KIND_PATH, FACET_FILTER_BLACKMAN_HARRIS},
+                 {FACET_RENDERER_KIND_PATH, FACET_FILTER_MITCHELL}}; /* with weights of its own */
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         facet_image *image = draw(scene, cases[k].renderer, cases[k].filter);
         const float *rgba = find(image, "");
@@ -131,8 +131,8 @@ static void what_blends_shares_pixels(void **state)
 {
     (void)state;
     facet_scene *scene = load_squares();
-    for (int renderer = FACET_INTEGRATOR_PREVIEW; renderer <= (int)FACET_INTEGRATOR_GL; renderer++) {
-        facet_image *image = draw(scene, (facet_integrator)renderer, FACET_FILTER_BLACKMAN_HARRIS);
+    for (int renderer = FACET_RENDERER_KIND_PREVIEW; renderer <= (int)FACET_RENDERER_KIND_GL; renderer++) {
+        facet_image *image = draw(scene, (facet_renderer_kind)renderer, FACET_FILTER_BLACKMAN_HARRIS);
         if (!image)
             continue;
         const float *object = find(image, "object"), *material = find(image, "material"),
@@ -143,7 +143,7 @@ static void what_blends_shares_pixels(void **state)
             bool is_shared = object[i] == 3.0f && material[i] == 2.0f && instance[i] == 2.0f;
             bool is_alone = object[i] == 2.0f && material[i] == 1.0f && instance[i] == 1.0f;
             assert_true(is_shared || is_alone || object[i] + material[i] + instance[i] == 0.0f);
-            bool is_gl = renderer == (int)FACET_INTEGRATOR_GL;
+            bool is_gl = renderer == (int)FACET_RENDERER_KIND_GL;
             float share = is_gl ? most[1] : second[1];
             shared += is_shared && fabsf(share - 0.25f) < (renderer == 1 ? 0.25f : 1e-4f);
             alone += is_alone && most[1] == 1.0f && second[1] == 0.0f;
@@ -160,10 +160,10 @@ static void ids_have_colors(void **state)
 {
     (void)state;
     facet_scene *scene = load_squares();
-    facet_image *image = draw(scene, FACET_INTEGRATOR_PREVIEW, FACET_FILTER_BOX), *colors = NULL;
+    facet_image *image = draw(scene, FACET_RENDERER_KIND_PREVIEW, FACET_FILTER_BOX), *colors = NULL;
     unsigned char *bytes = NULL;
     size_t size = 0, seen[3] = {0};
-    facet_save_desc raw = {.format = FACET_FORMAT_RAW};
+    facet_image_save_desc raw = {.format = FACET_IMAGE_FORMAT_RAW};
     assert_int_equal(facet_image_create_id_colors(image, "object", NULL, &colors, NULL), FACET_OK);
     assert_int_equal(facet_image_encode(colors, &raw, &bytes, &size, NULL), FACET_OK);
     assert_int_equal(size, 4 * PIXELS);
@@ -199,12 +199,12 @@ static void files_have_the_manifest(void **state)
 {
     (void)state;
     facet_scene *scene = load_squares();
-    facet_image *image = draw(scene, FACET_INTEGRATOR_PREVIEW, FACET_FILTER_BOX);
+    facet_image *image = draw(scene, FACET_RENDERER_KIND_PREVIEW, FACET_FILTER_BOX);
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_error error;
-    facet_result result =
-        facet_image_encode(image, &(facet_save_desc){.format = FACET_FORMAT_EXR}, &bytes, &size, &error);
+    facet_result result = facet_image_encode(
+        image, &(facet_image_save_desc){.format = FACET_IMAGE_FORMAT_EXR}, &bytes, &size, &error);
     if (result == FACET_ERROR_UNSUPPORTED) {
         printf("skipped: %s\n", error.message);
     } else {
@@ -228,7 +228,7 @@ static void checkpoints_keep_no_shares(void **state)
     facet_error error;
     facet_render_desc desc = {.width = 8,
                               .height = 8,
-                              .integrator = FACET_INTEGRATOR_PATH,
+                              .renderer = FACET_RENDERER_KIND_PATH,
                               .path = {.checkpoint_path = "no.exr", .resumes = true},
                               .aovs = FACET_AOV_CRYPTO_MATERIAL};
     assert_int_equal(facet_render(scene, &desc, &image, &error), FACET_ERROR_ARGUMENT);

@@ -114,16 +114,16 @@ static void every_format_is_written(void **state)
 {
     (void)state;
     static const struct {
-        facet_file_format format;
+        facet_image_format format;
         const char *magic;
-    } formats[] = {{FACET_FORMAT_PNG, "\x89PNG"},
-                   {FACET_FORMAT_PNG16, "\x89PNG"},
-                   {FACET_FORMAT_JPEG, "\xff\xd8\xff"},
-                   {FACET_FORMAT_HDR, "#?"},
-                   {FACET_FORMAT_PFM, "PF"},
-                   {FACET_FORMAT_EXR, "\x76\x2f\x31\x01"},
-                   {FACET_FORMAT_EXR_FLOAT, "\x76\x2f\x31\x01"},
-                   {FACET_FORMAT_WEBP, "RIFF"}};
+    } formats[] = {{FACET_IMAGE_FORMAT_PNG, "\x89PNG"},
+                   {FACET_IMAGE_FORMAT_PNG16, "\x89PNG"},
+                   {FACET_IMAGE_FORMAT_JPEG, "\xff\xd8\xff"},
+                   {FACET_IMAGE_FORMAT_HDR, "#?"},
+                   {FACET_IMAGE_FORMAT_PFM, "PF"},
+                   {FACET_IMAGE_FORMAT_EXR, "\x76\x2f\x31\x01"},
+                   {FACET_IMAGE_FORMAT_EXR_FLOAT, "\x76\x2f\x31\x01"},
+                   {FACET_IMAGE_FORMAT_WEBP, "RIFF"}};
     facet_scene *scene = load_two_scenes();
     facet_image *image = NULL;
     assert_int_equal(facet_render(scene, &(facet_render_desc){.width = 9, .height = 7}, &image, NULL),
@@ -132,8 +132,8 @@ static void every_format_is_written(void **state)
         unsigned char *bytes;
         size_t size;
         facet_error error;
-        facet_result result =
-            facet_image_encode(image, &(facet_save_desc){.format = formats[i].format}, &bytes, &size, &error);
+        facet_result result = facet_image_encode(image, &(facet_image_save_desc){.format = formats[i].format},
+                                                 &bytes, &size, &error);
         if (result == FACET_ERROR_UNSUPPORTED) { /* built without that library */
             assert_true(bytes == NULL && strlen(error.message) > 10);
             continue;

@@ -88,10 +88,11 @@ facet_result facet_image_encode_ktx2(const facet_image *picture, const facet_ktx
     return bake_image_ktx2(&rgba, desc, bytes, size, error);
 }
 
-facet_result facet_image_encode_rgbm(const facet_image *picture, float range, const facet_save_desc *desc,
-                                     unsigned char **bytes, size_t *size, facet_error *error)
+facet_result facet_image_encode_rgbm(const facet_image *picture, float range,
+                                     const facet_image_save_desc *desc, unsigned char **bytes, size_t *size,
+                                     facet_error *error)
 {
-    static const facet_save_desc default_save_desc;
+    static const facet_image_save_desc default_save_desc;
     desc = desc ? desc : &default_save_desc;
     *bytes = NULL;
     *size = 0;

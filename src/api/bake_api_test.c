@@ -29,8 +29,8 @@ static facet_cube *bake(void)
 static void cubes_are_environments(void **state)
 {
     (void)state;
-    static const facet_texel_format formats[] = {FACET_TEXEL_RGBA16F, FACET_TEXEL_RGBA32F, FACET_TEXEL_RGB9E5,
-                                                 FACET_TEXEL_B10G11R11};
+    static const facet_texel_format formats[] = {FACET_TEXEL_FORMAT_RGBA16F, FACET_TEXEL_FORMAT_RGBA32F,
+                                                 FACET_TEXEL_FORMAT_RGB9E5, FACET_TEXEL_FORMAT_B10G11R11};
     facet_cube *c = bake();
     facet_environment_info infos[8];
     for (uint32_t k = 0; k < 8; k++) {
@@ -79,9 +79,10 @@ static void layouts_are_environments(void **state)
         facet_error error;
         if (facet_cube_unfold(c, 0, (facet_layout)layout, 0, NULL, &picture, &error) != FACET_OK)
             fail_msg("%s", error.message);
-        assert_int_equal(
-            facet_image_encode(picture, &(facet_save_desc){.format = FACET_FORMAT_PFM}, &bytes, &size, NULL),
-            FACET_OK);
+        assert_int_equal(facet_image_encode(picture,
+                                            &(facet_image_save_desc){.format = FACET_IMAGE_FORMAT_PFM},
+                                            &bytes, &size, NULL),
+                         FACET_OK);
         const facet_environment_desc desc = {
             .layout = layout == FACET_LAYOUT_OCTAHEDRAL ? FACET_LAYOUT_OCTAHEDRAL : FACET_LAYOUT_AUTO};
         if (facet_environment_load_memory(bytes, size, "layout", &desc, &e, &error) != FACET_OK)

@@ -36,22 +36,25 @@ static void files_come_back(void **state)
 {
     (void)state;
     static const struct {
-        facet_file_format format;
+        facet_image_format format;
         bool has_alpha, is_display;
         /* of premultiplied light; for displays that of sRGB codes, in linear light at its steepest */
         double tolerance;
     } formats[] = {
-        {FACET_FORMAT_PNG, true, true, 0.6 / 255 * 2.3}, {FACET_FORMAT_PNG16, true, true, 0.6 / 65535 * 2.3},
-        {FACET_FORMAT_EXR, true, false, 0x1p-11},        {FACET_FORMAT_EXR_FLOAT, true, false, 0.0},
-        {FACET_FORMAT_HDR, false, false, 1.0 / 256},     {FACET_FORMAT_PFM, false, false, 0.0},
+        {FACET_IMAGE_FORMAT_PNG, true, true, 0.6 / 255 * 2.3},
+        {FACET_IMAGE_FORMAT_PNG16, true, true, 0.6 / 65535 * 2.3},
+        {FACET_IMAGE_FORMAT_EXR, true, false, 0x1p-11},
+        {FACET_IMAGE_FORMAT_EXR_FLOAT, true, false, 0.0},
+        {FACET_IMAGE_FORMAT_HDR, false, false, 1.0 / 256},
+        {FACET_IMAGE_FORMAT_PFM, false, false, 0.0},
     };
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         facet_image *image = draw(1.0f, !formats[i].has_alpha), *back = NULL;
         unsigned char *bytes = NULL;
         size_t size = 0;
         facet_error error = {0};
-        facet_result result =
-            facet_image_encode(image, &(facet_save_desc){.format = formats[i].format}, &bytes, &size, &error);
+        facet_result result = facet_image_encode(image, &(facet_image_save_desc){.format = formats[i].format},
+                                                 &bytes, &size, &error);
         if (result == FACET_ERROR_UNSUPPORTED) { /* this build lacks the format */
             facet_image_destroy(image);
             continue;
@@ -61,9 +64,10 @@ static void files_come_back(void **state)
             fail_msg("%s", error.message);
         assert_int_equal(facet_image_is_for_display(back), formats[i].is_display);
         facet_comparison c;
-        assert_int_equal(
-            facet_compare(image, back, &(facet_compare_desc){.space = FACET_COMPARE_LINEAR}, &c, NULL, NULL),
-            FACET_OK);
+        assert_int_equal(facet_compare(image, back,
+                                       &(facet_compare_desc){.space = FACET_COMPARE_SPACE_LINEAR}, &c, NULL,
+                                       NULL),
+                         FACET_OK);
         if (!(c.max_error <= formats[i].tolerance))
             fail_msg("format %d: %g is more than %g", (int)formats[i].format, c.max_error,
                      formats[i].tolerance);
@@ -79,7 +83,8 @@ static void files_come_back(void **state)
 static void not_a_number_survives_files_of_light(void **state)
 {
     (void)state;
-    const facet_file_format formats[] = {FACET_FORMAT_PFM, FACET_FORMAT_EXR, FACET_FORMAT_EXR_FLOAT};
+    const facet_image_format formats[] = {FACET_IMAGE_FORMAT_PFM, FACET_IMAGE_FORMAT_EXR,
+                                          FACET_IMAGE_FORMAT_EXR_FLOAT};
     for (int i = 0; i < 3; i++) {
         float pixels[] = {NAN, 1.0f, 2.0f, 0.5f, INFINITY, 0.25f};
         const facet_image_view view = {.width = 2, .height = 1, .channel_count = 3, .pixels = pixels};
@@ -88,7 +93,7 @@ static void not_a_number_survives_files_of_light(void **state)
         size_t size = 0;
         assert_int_equal(facet_image_create(&view, NULL, &image, NULL), FACET_OK);
         facet_result result =
-            facet_image_encode(image, &(facet_save_desc){.format = formats[i]}, &bytes, &size, NULL);
+            facet_image_encode(image, &(facet_image_save_desc){.format = formats[i]}, &bytes, &size, NULL);
         if (result == FACET_OK) {
             assert_int_equal(facet_image_load_memory(bytes, size, "light", NULL, &back, NULL), FACET_OK);
             facet_comparison c;
@@ -132,14 +137,15 @@ static void the_difference_is_a_picture(void **state)
     facet_image *a = draw(1.0f, true), *b = draw(0.5f, true), *difference = NULL;
     facet_comparison c;
     facet_error error;
-    assert_int_equal(
-        facet_compare(a, b, &(facet_compare_desc){.space = FACET_COMPARE_DISPLAY}, &c, &difference, &error),
-        FACET_OK);
+    assert_int_equal(facet_compare(a, b, &(facet_compare_desc){.space = FACET_COMPARE_SPACE_DISPLAY}, &c,
+                                   &difference, &error),
+                     FACET_OK);
     unsigned char *raw = NULL;
     size_t size = 0;
-    assert_int_equal(
-        facet_image_encode(difference, &(facet_save_desc){.format = FACET_FORMAT_RAW}, &raw, &size, &error),
-        FACET_OK);
+    assert_int_equal(facet_image_encode(difference,
+                                        &(facet_image_save_desc){.format = FACET_IMAGE_FORMAT_RAW}, &raw,
+                                        &size, &error),
+                     FACET_OK);
     int largest = 0;
     for (size_t i = 0; i < size; i++)
         largest = i % 4 != 3 && raw[i] > largest ? raw[i] : largest;
@@ -185,8 +191,9 @@ static void memory_that_runs_out_is_a_result(void **state)
     facet_image *a = draw(1.0f, false), *image = NULL, *difference = NULL;
     unsigned char *bytes = NULL;
     size_t size = 0;
-    assert_int_equal(
-        facet_image_encode(a, &(facet_save_desc){.format = FACET_FORMAT_PNG}, &bytes, &size, NULL), FACET_OK);
+    assert_int_equal(facet_image_encode(a, &(facet_image_save_desc){.format = FACET_IMAGE_FORMAT_PNG}, &bytes,
+                                        &size, NULL),
+                     FACET_OK);
     long calls = 1;
     for (long at = -1; at < calls; at++) {
         failing_allocator memory = {.fail_at = at};

@@ -226,7 +226,7 @@ static int end_studio(void **state)
 }
 
 /* By the camera of the file, if it has one. NULL: there is no OpenGL. */
-static facet_image *draw(const facet_scene *scene, facet_integrator integrator, bool is_animated)
+static facet_image *draw(const facet_scene *scene, facet_renderer_kind renderer, bool is_animated)
 {
     static const uint32_t first = 0;
     facet_camera camera;
@@ -234,7 +234,7 @@ static facet_image *draw(const facet_scene *scene, facet_integrator integrator, 
     facet_error error = {0};
     facet_render_desc desc = {.width = SIZE,
                               .height = SIZE,
-                              .integrator = integrator,
+                              .renderer = renderer,
                               .environment = studio,
                               .samples = 4,
                               .pose = {.animation_count = is_animated, .animations = &first}};
@@ -243,7 +243,7 @@ static facet_image *draw(const facet_scene *scene, facet_integrator integrator, 
         desc.camera = &camera;
     }
     facet_result result = facet_render(scene, &desc, &image, &error);
-    if (result == FACET_ERROR_ENVIRONMENT && integrator == FACET_INTEGRATOR_GL)
+    if (result == FACET_ERROR_SYSTEM && renderer == FACET_RENDERER_KIND_GL)
         printf("without OpenGL: %s\n", error.message);
     else if (result != FACET_OK)
         fail_msg("%s", error.message);
@@ -279,9 +279,9 @@ static void compare(const ball *b, how h, const double move[3], bool is_obj)
     const double nowhere[3] = {0, 0, 0};
     facet_scene *near_scene = load(is_obj ? make_obj(b, nowhere) : make_gltf(b, nowhere, h));
     facet_scene *far_scene = load(is_obj ? make_obj(b, move) : make_gltf(b, move, h));
-    for (int renderer = 0; renderer <= (int)FACET_INTEGRATOR_GL; renderer++) {
-        facet_image *a = draw(near_scene, (facet_integrator)renderer, h == BY_ANIMATION);
-        facet_image *c = draw(far_scene, (facet_integrator)renderer, h == BY_ANIMATION);
+    for (int renderer = 0; renderer <= (int)FACET_RENDERER_KIND_GL; renderer++) {
+        facet_image *a = draw(near_scene, (facet_renderer_kind)renderer, h == BY_ANIMATION);
+        facet_image *c = draw(far_scene, (facet_renderer_kind)renderer, h == BY_ANIMATION);
         if (a && c)
             assert_alike(a, c, move, renderer);
         facet_image_destroy(a);

@@ -98,8 +98,8 @@ facet_result gl_library_open(const gl_entry **entry, facet_error *error)
     if (opened)
         return FACET_OK;
     if (!FACET_HAS_GL && !why[0])
-        return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL: this facet was built without it (libepoxy)");
-    return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL: facet's module %s cannot be opened%s%s%s", name,
+        return fail(error, FACET_ERROR_SYSTEM, "OpenGL: this facet was built without it (libepoxy)");
+    return fail(error, FACET_ERROR_SYSTEM, "OpenGL: facet's module %s cannot be opened%s%s%s", name,
                 why[0] ? " (" : ": it is not installed", why, why[0] ? ")" : "");
 }
 

@@ -4,7 +4,7 @@
 
 #include "gl/gl_entry.h"
 
-/* Its functions; it stays open until the process ends. Safe from several threads. Fails with FACET_ERROR_ENVIRONMENT: the
+/* Its functions; it stays open until the process ends. Safe from several threads. Fails with FACET_ERROR_SYSTEM: the
  * module is not there, or not this build's. */
 facet_result gl_library_open(const gl_entry **entry, facet_error *error);
 /* What the module was given of libfacet. */

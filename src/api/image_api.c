@@ -69,34 +69,34 @@ float facet_linear_from_srgb(float encoded)
 
 typedef struct format_name {
     const char *extension;
-    facet_file_format format;
+    facet_image_format format;
 } format_name;
 
 static const format_name format_names[] = {
-    {"png", FACET_FORMAT_PNG},   {"jpg", FACET_FORMAT_JPEG}, {"jpeg", FACET_FORMAT_JPEG},
-    {"webp", FACET_FORMAT_WEBP}, {"exr", FACET_FORMAT_EXR},  {"hdr", FACET_FORMAT_HDR},
-    {"pfm", FACET_FORMAT_PFM},
+    {"png", FACET_IMAGE_FORMAT_PNG},   {"jpg", FACET_IMAGE_FORMAT_JPEG}, {"jpeg", FACET_IMAGE_FORMAT_JPEG},
+    {"webp", FACET_IMAGE_FORMAT_WEBP}, {"exr", FACET_IMAGE_FORMAT_EXR},  {"hdr", FACET_IMAGE_FORMAT_HDR},
+    {"pfm", FACET_IMAGE_FORMAT_PFM},
 };
 
-static facet_file_format format_from_name(const char *path)
+static facet_image_format format_from_name(const char *path)
 {
     const char *extension = path_extension(path);
     for (size_t i = 0; i < sizeof format_names / sizeof *format_names; i++)
         if (strcasecmp(extension, format_names[i].extension) == 0)
             return format_names[i].format;
-    return FACET_FORMAT_FROM_NAME;
+    return FACET_IMAGE_FORMAT_FROM_NAME;
 }
 
-static image_codec codec_of(facet_file_format format)
+static image_codec codec_of(facet_image_format format)
 {
     switch (format) {
-    case FACET_FORMAT_JPEG:
+    case FACET_IMAGE_FORMAT_JPEG:
         return IMAGE_CODEC_JPEG;
-    case FACET_FORMAT_WEBP:
+    case FACET_IMAGE_FORMAT_WEBP:
         return IMAGE_CODEC_WEBP;
-    case FACET_FORMAT_HDR:
+    case FACET_IMAGE_FORMAT_HDR:
         return IMAGE_CODEC_HDR;
-    case FACET_FORMAT_PFM:
+    case FACET_IMAGE_FORMAT_PFM:
         return IMAGE_CODEC_PFM;
     default:
         return IMAGE_CODEC_PNG;
@@ -140,10 +140,10 @@ static facet_result encode_raw(const film *f, const image_encode_desc *desc, uns
     return result;
 }
 
-facet_result facet_image_encode(const facet_image *picture, const facet_save_desc *desc,
+facet_result facet_image_encode(const facet_image *picture, const facet_image_save_desc *desc,
                                 unsigned char **bytes, size_t *size, facet_error *error)
 {
-    static const facet_save_desc defaults = {.format = FACET_FORMAT_FROM_NAME};
+    static const facet_image_save_desc defaults = {.format = FACET_IMAGE_FORMAT_FROM_NAME};
     *bytes = NULL;
     *size = 0;
     desc = desc ? desc : &defaults;
@@ -156,21 +156,21 @@ facet_result facet_image_encode(const facet_image *picture, const facet_save_des
     image converted = {0};
     facet_result result;
     switch (desc->format) {
-    case FACET_FORMAT_RAW:
+    case FACET_IMAGE_FORMAT_RAW:
         return encode_raw(f, &encode, bytes, size, error);
-    case FACET_FORMAT_EXR:
-    case FACET_FORMAT_EXR_FLOAT:
-        return encode_exr(f, desc->format == FACET_FORMAT_EXR, &encode, bytes, size, error);
-    case FACET_FORMAT_HDR:
-    case FACET_FORMAT_PFM:
+    case FACET_IMAGE_FORMAT_EXR:
+    case FACET_IMAGE_FORMAT_EXR_FLOAT:
+        return encode_exr(f, desc->format == FACET_IMAGE_FORMAT_EXR, &encode, bytes, size, error);
+    case FACET_IMAGE_FORMAT_HDR:
+    case FACET_IMAGE_FORMAT_PFM:
         result = film_to_linear_image(f, &encode.allocator, encode.thread_count, &converted, error);
         break;
-    case FACET_FORMAT_PNG:
-    case FACET_FORMAT_PNG16:
-    case FACET_FORMAT_WEBP:
-    case FACET_FORMAT_JPEG:
-        result = film_to_display_image(f, desc->format == FACET_FORMAT_PNG16 ? IMAGE_U16 : IMAGE_U8,
-                                       desc->format != FACET_FORMAT_JPEG, &encode.allocator,
+    case FACET_IMAGE_FORMAT_PNG:
+    case FACET_IMAGE_FORMAT_PNG16:
+    case FACET_IMAGE_FORMAT_WEBP:
+    case FACET_IMAGE_FORMAT_JPEG:
+        result = film_to_display_image(f, desc->format == FACET_IMAGE_FORMAT_PNG16 ? IMAGE_U16 : IMAGE_U8,
+                                       desc->format != FACET_IMAGE_FORMAT_JPEG, &encode.allocator,
                                        encode.thread_count, &converted, error);
         break;
     default:
@@ -192,13 +192,13 @@ facet_result facet_bytes_save(const void *bytes, size_t size, const char *path, 
     return file_write(path, bytes, size, error);
 }
 
-facet_result facet_image_save(const facet_image *picture, const char *path, const facet_save_desc *desc,
+facet_result facet_image_save(const facet_image *picture, const char *path, const facet_image_save_desc *desc,
                               facet_error *error)
 {
-    facet_save_desc resolved = desc ? *desc : (facet_save_desc){0};
-    if (resolved.format == FACET_FORMAT_FROM_NAME)
+    facet_image_save_desc resolved = desc ? *desc : (facet_image_save_desc){0};
+    if (resolved.format == FACET_IMAGE_FORMAT_FROM_NAME)
         resolved.format = format_from_name(path);
-    if (resolved.format == FACET_FORMAT_FROM_NAME)
+    if (resolved.format == FACET_IMAGE_FORMAT_FROM_NAME)
         return fail(
             error, FACET_ERROR_ARGUMENT,
             "%s: the name does not end in a picture format that facet writes: .png, .jpg, .webp, .exr, .hdr, "

@@ -35,7 +35,7 @@ facet_result facet_scene_report_conversion(const facet_scene *scene, facet_repor
     *out = NULL;
     text t = {.allocator = scene->allocator};
     facet_result result = FACET_OK;
-    if (format == FACET_REPORT_HTML)
+    if (format == FACET_REPORT_FORMAT_HTML)
         result = report_html(scene, &t, error);
     else
         legacy_report_json(scene, &t);

@@ -236,12 +236,13 @@ facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimut
     return (facet_camera){.eye = {0.0f, y, 0.0f}, .target = {x, y - sinf(DIP_RAD), z}, .fov_y_rad = FOV_RAD};
 }
 
-static facet_result check_look(const facet_sea_look *look, facet_error *error)
+static facet_result check_look(const facet_sea_shading *look, facet_error *error)
 {
-    if ((unsigned)look->before > FACET_SEA_BEFORE_INTENDED || (unsigned)look->normals > FACET_SEA_GGX ||
-        (unsigned)look->masking > FACET_SEA_SCHLICK_KARIS || look->stage > 5)
+    if ((unsigned)look->style > FACET_SEA_STYLE_LEGACY_INTENDED ||
+        (unsigned)look->normals > FACET_SEA_NORMALS_GGX ||
+        (unsigned)look->masking > FACET_SEA_MASKING_SCHLICK_KARIS || look->stage > 5)
         return fail(error, FACET_ERROR_ARGUMENT, "look: before %d, normals %d, masking %d, stage %u; no such",
-                    (int)look->before, (int)look->normals, (int)look->masking, look->stage);
+                    (int)look->style, (int)look->normals, (int)look->masking, look->stage);
     float r = look->perceptual_roughness;
     if (r != 0.0f && !(r >= 0.001f && r <= 1.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "look: a roughness of %g is not within [0.001, 1]",
@@ -252,11 +253,11 @@ static facet_result check_look(const facet_sea_look *look, facet_error *error)
 }
 
 /* Whether path tracing has it: what is there, and nothing in its place. */
-static bool is_physical(const facet_sea_look *look)
+static bool is_physical(const facet_sea_shading *look)
 {
-    return look->before == FACET_SEA_PHYSICAL && look->stage == 0 && look->normals == FACET_SEA_BECKMANN &&
-           look->masking == FACET_SEA_SCALES && !look->no_glints && !look->no_caustics &&
-           !(look->clamp > 0.0f);
+    return look->style == FACET_SEA_STYLE_PHYSICAL && look->stage == 0 &&
+           look->normals == FACET_SEA_NORMALS_BECKMANN && look->masking == FACET_SEA_MASKING_SCALES &&
+           !look->omits_glints && !look->omits_caustics && !(look->clamp > 0.0f);
 }
 
 /* The desc (NULL: defaults) with nothing left open; *camera is where the camera of one that has none is kept. */
@@ -265,16 +266,16 @@ static facet_result resolve_sea(const facet_sea *sea, const facet_sea_render_des
 {
     const facet_sea_render_desc defaults = {0}, *desc = asked ? asked : &defaults;
     *out = *desc;
-    facet_integrator integrator = desc->render.integrator;
-    facet_result result = check_look(&desc->look, error);
-    if (result == FACET_OK && integrator == FACET_INTEGRATOR_PATH && !is_physical(&desc->look))
+    facet_renderer_kind renderer = desc->render.renderer;
+    facet_result result = check_look(&desc->shading, error);
+    if (result == FACET_OK && renderer == FACET_RENDERER_KIND_PATH && !is_physical(&desc->shading))
         result =
             fail(error, FACET_ERROR_ARGUMENT,
                  "look: path tracing knows no stages, no look of before, no other normals or masking, no "
                  "glints or caustics to leave out and no clamp");
-    if (result == FACET_OK && integrator != FACET_INTEGRATOR_PATH && integrator != FACET_INTEGRATOR_PREVIEW &&
-        integrator != FACET_INTEGRATOR_GL)
-        result = fail(error, FACET_ERROR_ARGUMENT, "sea: integrator %d does not draw it", (int)integrator);
+    if (result == FACET_OK && renderer != FACET_RENDERER_KIND_PATH &&
+        renderer != FACET_RENDERER_KIND_PREVIEW && renderer != FACET_RENDERER_KIND_GL)
+        result = fail(error, FACET_ERROR_ARGUMENT, "sea: renderer %d does not draw it", (int)renderer);
     if (result == FACET_OK)
         result = render_desc_resolve(&desc->render, &out->render, error);
     if (result == FACET_OK && !out->render.camera) {
@@ -313,7 +314,7 @@ static facet_result draw(const facet_sea *sea, const facet_scene *scene, const f
     const facet_render_desc *r = &d->render;
     facet_result result = film_create(&r->allocator, r->crop[2], r->crop[3], 0, &image->film, error);
     if (result == FACET_OK)
-        result = r->integrator == FACET_INTEGRATOR_GL
+        result = r->renderer == FACET_RENDERER_KIND_GL
                      ? draw_gl(sea, scene, d, image, error)
                      : water_render(sea, scene, d, &image->film, &image->stats, error);
     if (result == FACET_OK)
@@ -331,7 +332,7 @@ facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
     if (result != FACET_OK)
         return result;
     water_warn_of_eye(sea, &d);
-    if (d.render.integrator == FACET_INTEGRATOR_PATH)
+    if (d.render.renderer == FACET_RENDERER_KIND_PATH)
         return ocean_path_render(sea, scene, &d, image, error);
     facet_image *made = mem_zalloc(&d.render.allocator, 1, sizeof *made);
     if (!made)

@@ -355,19 +355,19 @@ static void what_is_wrong_is_said(void **state)
     for (int i = 0; i < 9; i++) {
         facet_sea_render_desc d = picture();
         if (i == 0)
-            d.look.stage = 6;
+            d.shading.stage = 6;
         if (i == 1)
-            d.look.perceptual_roughness = 2.0f;
+            d.shading.perceptual_roughness = 2.0f;
         if (i == 2)
-            d.look.clamp = -1.0f;
+            d.shading.clamp = -1.0f;
         if (i == 3)
-            d.render.integrator = (facet_integrator)9;
+            d.render.renderer = (facet_renderer_kind)9;
         if (i == 4)
             d.render.crop[2] = 100, d.render.crop[3] = 100;
         if (i == 5)
-            d.look.before = (facet_sea_before)9;
+            d.shading.style = (facet_sea_style)9;
         if (i == 6)
-            d.render.integrator = FACET_INTEGRATOR_PATH, d.look.before = FACET_SEA_BEFORE_INTENDED;
+            d.render.renderer = FACET_RENDERER_KIND_PATH, d.shading.style = FACET_SEA_STYLE_LEGACY_INTENDED;
         if (i == 7)
             d.render.environment_ev = INFINITY;
         if (i == 8)

@@ -48,15 +48,15 @@ static void draw(pair *p, uint32_t preview_samples, uint32_t path_samples)
     facet_image_destroy(p->path);
     p->d.render.camera = &p->camera;
     p->d.render.quality = FACET_QUALITY_FINAL;
-    p->d.render.integrator = FACET_INTEGRATOR_PREVIEW;
+    p->d.render.renderer = FACET_RENDERER_KIND_PREVIEW;
     p->d.render.samples = preview_samples;
     done(facet_sea_render(p->sea, p->scene, &p->d, &p->preview, &failure));
-    bool no_glints = p->d.look.no_glints; /* which paths have none of, and refuse to be told */
-    p->d.look.no_glints = false;
-    p->d.render.integrator = FACET_INTEGRATOR_PATH;
+    bool omits_glints = p->d.shading.omits_glints; /* which paths have none of, and refuse to be told */
+    p->d.shading.omits_glints = false;
+    p->d.render.renderer = FACET_RENDERER_KIND_PATH;
     p->d.render.samples = path_samples;
     done(facet_sea_render(p->sea, p->scene, &p->d, &p->path, &failure));
-    p->d.look.no_glints = no_glints;
+    p->d.shading.omits_glints = omits_glints;
 }
 
 static void end(pair *p)
@@ -112,7 +112,7 @@ static void still_water_is_the_same(void **state)
         facet_sea_desc desc = sea_of(0.0f);
         pair p;
         begin(&p, &desc, 24, 27, NULL);
-        p.d.sky.has_no_disc = true;
+        p.d.sky.omits_disc = true;
         p.d.sky.sun_azimuth_rad = 3.0f;
         if (k)
             p.camera.eye[1] = 300.0f, p.camera.target[1] += 297.0f;
@@ -130,7 +130,7 @@ static void a_furnace_is_even(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         facet_sea_desc desc = sea_of(4.0f);
-        desc.water.kind = FACET_WATER_COEFFICIENTS;
+        desc.water.kind = FACET_WATER_KIND_COEFFICIENTS;
         for (int i = 0; i < 3; i++) {
             desc.water.absorption[i] = 0.0f;
             desc.water.scattering[i] = 0.1f;
@@ -141,7 +141,7 @@ static void a_furnace_is_even(void **state)
         desc.bed.depth_m = k == 2 ? 0.0f : 3.0f;
         pair p;
         begin(&p, &desc, 16, 18, white);
-        p.d.look.no_foam = true;
+        p.d.shading.omits_foam = true;
         if (k == 1)
             p.camera.eye[1] = -1.0f, p.camera.target[1] = -0.9f;
         draw(&p, 4, IS_SLOW ? 16 : 64);
@@ -166,7 +166,7 @@ static void below_it_is_the_same(void **state)
             desc.fetch_m = 1500.0f, desc.bed.depth_m = 3.0f;
         pair p;
         begin(&p, &desc, 24, 18, NULL);
-        p.d.sky.has_no_disc = true;
+        p.d.sky.omits_disc = true;
         p.d.render.exposure_ev = -11.0f;
         p.camera.eye[1] = -1.0f;
         p.camera.target[1] = -0.9f;
@@ -185,7 +185,7 @@ static void the_sun_below_is_the_same(void **state)
         pair p;
         begin(&p, &desc, 12, 12, NULL);
         float depth = k ? 15.0f : 5.0f;
-        p.d.look.no_foam = true;
+        p.d.shading.omits_foam = true;
         p.d.sky = (facet_sky_desc){.sun_elevation_rad = 0.8727f};
         p.d.render.exposure_ev = -13.0f;
         p.camera = (facet_camera){
@@ -205,7 +205,7 @@ static void the_window_is_the_same(void **state)
     facet_sea_desc desc = sea_of(8.0f);
     pair p;
     begin(&p, &desc, 12, 60, white);
-    p.d.look.no_foam = true;
+    p.d.shading.omits_foam = true;
     p.camera =
         (facet_camera){.eye = {0.0f, -10.0f, 0.0f}, .target = {0.0f, -9.3572f, 0.766f}, .fov_y_rad = 0.8727f};
     draw(&p, 8, 200);
@@ -245,7 +245,7 @@ static void rough_water_is_the_same(void **state)
         facet_sea_desc desc = sea_of(winds[k]);
         pair p;
         begin(&p, &desc, 80, 45, white);
-        p.d.look.no_foam = true;
+        p.d.shading.omits_foam = true;
         draw(&p, 16, 24);
         expect_bands(&p, (double)winds[k], 18, 45, 9, 0.05);
         end(&p);
@@ -262,8 +262,8 @@ static void a_bright_horizon_is_mirrored_alike(void **state)
     facet_sea_desc desc = sea_of(10.0f);
     pair p;
     begin(&p, &desc, 0, 0, NULL);
-    p.d.look.no_foam = true;
-    p.d.sky.has_no_disc = true;
+    p.d.shading.omits_foam = true;
+    p.d.sky.omits_disc = true;
     p.d.render.exposure_ev = -13.0f;
     for (int k = 0; k < 2; k++) {
         p.d.render.width = sizes[k][0];
@@ -299,7 +299,7 @@ static void a_gale_from_above_is_the_same(void **state)
     double with_foam = rows_mean(p.path, 0, 32), ratio = rows_ratio(&p, 0, 32);
     if (!(ratio > 0.92 && ratio < 1.02))
         fail_msg("with foam: %g", ratio);
-    p.d.look.no_foam = true;
+    p.d.shading.omits_foam = true;
     draw(&p, 16, 32);
     ratio = rows_ratio(&p, 0, 32);
     if (!(fabs(ratio - 1.0) < 0.04))
@@ -338,7 +338,7 @@ static void no_crest_glows_against_the_sun(void **state)
             (facet_camera){.eye = {0.0f, 3.0f, 0.0f}, .target = {0.0f, 0.0f, 30.0f}, .fov_y_rad = 0.7f};
         p.d.sky.sun_elevation_rad = cases[i].sun_deg * 0.017453293f;
         p.d.render.exposure_ev = -13.0f;
-        p.d.look = (facet_sea_look){.no_foam = true, .no_glints = true};
+        p.d.shading = (facet_sea_shading){.omits_foam = true, .omits_glints = true};
         draw(&p, 16, 24);
         for (uint32_t y = 30; y + 6 <= 54; y += 6)
             for (uint32_t x = 0; x < 96; x += 16) {
@@ -455,7 +455,7 @@ static void a_model_is_blurred_in_rough_water(void **state)
 /* Water that takes little of the light and scatters hardly any, where paths and preview differ in what is scattered forward. */
 static facet_water clear_water(float red, float green, float blue)
 {
-    return (facet_water){.kind = FACET_WATER_COEFFICIENTS,
+    return (facet_water){.kind = FACET_WATER_KIND_COEFFICIENTS,
                          .absorption = {red, green, blue},
                          .scattering = {1e-4f, 1e-4f, 1e-4f},
                          .backscattering = {5e-5f, 5e-5f, 5e-5f}};
@@ -485,7 +485,7 @@ static void a_model_is_seen_in_the_surface_from_below(void **state)
         pair p;
         begin(&p, &desc, 25, 25, black);
         p.scene = scene;
-        p.d.look.no_foam = true;
+        p.d.shading.omits_foam = true;
         p.camera = (facet_camera){
             .eye = {0.0f, -3.0f, 4.0f}, .target = {0.0f, 0.0f, cases[k].place_z}, .fov_y_rad = 0.3f};
         draw(&p, 4, IS_SLOW ? 100 : 400);
@@ -514,7 +514,7 @@ static void a_model_shades_the_bed(void **state)
     for (int k = 0; k < 2; k++) {
         pair p;
         begin(&p, &desc, 12, 12, NULL);
-        p.d.look.no_foam = true;
+        p.d.shading.omits_foam = true;
         p.d.sky = (facet_sky_desc){.sun_elevation_rad = 0.7f};
         p.d.render.exposure_ev = -13.0f;
         p.camera =
@@ -561,24 +561,24 @@ static void looks_are_refused_or_followed(void **state)
     facet_sea_desc desc = sea_of(10.0f);
     pair p;
     begin(&p, &desc, 16, 8, NULL);
-    p.d.render.integrator = FACET_INTEGRATOR_PATH;
+    p.d.render.renderer = FACET_RENDERER_KIND_PATH;
     p.d.render.samples = 1;
     static const struct {
-        facet_sea_look look;
+        facet_sea_shading shading;
         facet_result result;
-    } cases[] = {{{.before = FACET_SEA_BEFORE_INTENDED}, FACET_ERROR_ARGUMENT},
+    } cases[] = {{{.style = FACET_SEA_STYLE_LEGACY_INTENDED}, FACET_ERROR_ARGUMENT},
                  {{.stage = 3}, FACET_ERROR_ARGUMENT},
-                 {{.normals = FACET_SEA_GGX}, FACET_ERROR_ARGUMENT},
-                 {{.masking = FACET_SEA_SCHLICK_KARIS}, FACET_ERROR_ARGUMENT},
-                 {{.no_glints = true}, FACET_ERROR_ARGUMENT},
-                 {{.no_caustics = true}, FACET_ERROR_ARGUMENT},
+                 {{.normals = FACET_SEA_NORMALS_GGX}, FACET_ERROR_ARGUMENT},
+                 {{.masking = FACET_SEA_MASKING_SCHLICK_KARIS}, FACET_ERROR_ARGUMENT},
+                 {{.omits_glints = true}, FACET_ERROR_ARGUMENT},
+                 {{.omits_caustics = true}, FACET_ERROR_ARGUMENT},
                  {{.clamp = 10.0f}, FACET_ERROR_ARGUMENT},
-                 {{.no_foam = true}, FACET_OK},
-                 {{.schlick_fresnel = true}, FACET_OK},
+                 {{.omits_foam = true}, FACET_OK},
+                 {{.has_schlick_fresnel = true}, FACET_OK},
                  {{.perceptual_roughness = 0.3f}, FACET_OK}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         facet_image *made = NULL;
-        p.d.look = cases[i].look;
+        p.d.shading = cases[i].shading;
         facet_result result = facet_sea_render(p.sea, NULL, &p.d, &made, &failure);
         assert_int_equal(result, cases[i].result);
         if (result != FACET_OK)
@@ -602,7 +602,7 @@ static void memory_runs_out(void **state)
         facet_sea_render_desc d = p.d;
         facet_image *made = NULL;
         d.render.allocator = failing_allocator_get(&f);
-        d.render.integrator = FACET_INTEGRATOR_PATH;
+        d.render.renderer = FACET_RENDERER_KIND_PATH;
         d.render.samples = 1;
         facet_result result = facet_sea_render(p.sea, scene, &d, &made, &failure);
         if (result != FACET_OK && result != FACET_ERROR_MEMORY)

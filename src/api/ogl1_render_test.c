@@ -22,7 +22,7 @@ static facet_scene *unlit_scene(float red, float green, float blue, float opacit
     scene_legacy *legacy = arena_zalloc(scene->arena, 1, sizeof *legacy);
     assert_non_null(legacy);
     legacy->colors = FACET_LEGACY_COLORS_SRGB;
-    legacy->dialect = FACET_MTL_SPEC;
+    legacy->dialect = FACET_MTL_DIALECT_SPEC;
     legacy->materials = arena_zalloc(scene->arena, scene->material_count, sizeof *legacy->materials);
     assert_non_null(legacy->materials);
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -50,7 +50,7 @@ static unsigned char *render_codes(const facet_scene *scene, const facet_render_
     size_t size;
     if (facet_render(scene, desc, &image, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    facet_save_desc raw = {.format = FACET_FORMAT_RAW};
+    facet_image_save_desc raw = {.format = FACET_IMAGE_FORMAT_RAW};
     assert_int_equal(facet_image_encode(image, &raw, &bytes, &size, &error), FACET_OK);
     assert_int_equal(size, SIZE * SIZE * 4);
     facet_image_destroy(image);
@@ -78,7 +78,7 @@ static void colors_come_back_as_codes(void **state)
                               .shading = FACET_SHADING_OGL1,
                               .background = FACET_BACKGROUND_COLOR,
                               .background_color = {1.0f, 1.0f, 1.0f}};
-    for (int variant = FACET_OGL1_VIGNETTE; variant <= FACET_OGL1_RGL_DESKTOP; variant++)
+    for (int variant = FACET_OGL1_VARIANT_VIGNETTE; variant <= FACET_OGL1_VARIANT_RGL_DESKTOP; variant++)
         for (int is_linear = 0; is_linear < 2; is_linear++) {
             desc.ogl1 = (facet_ogl1_desc){.variant = (facet_ogl1_variant)variant, .is_linear = is_linear};
             unsigned char *bytes = render_codes(scene, &desc);

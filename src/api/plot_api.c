@@ -36,16 +36,16 @@ facet_result facet_plot_material_from_scene(const facet_scene *scene, uint32_t i
                     "%s: there is no material %u; the model has %u, counted from 0", scene->source, index,
                     scene->material_count);
     const scene_material *gltf = &scene->materials[index];
-    if (model == FACET_PLOT_PBR) {
+    if (model == FACET_PLOT_MODEL_PBR) {
         pbr_surface surface;
         legacy_surface_of_pbr(gltf, &surface);
         *out = material_from_pbr(&surface);
         add_layers(gltf, out);
-    } else if (model == FACET_PLOT_OGL1 && scene->legacy) {
+    } else if (model == FACET_PLOT_MODEL_OGL1 && scene->legacy) {
         ogl1_surface surface;
         legacy_surface_of_ogl1(&scene->legacy->materials[index], scene->legacy->colors, &surface);
         *out = material_from_ogl1(&surface);
-    } else if (model == FACET_PLOT_OGL1)
+    } else if (model == FACET_PLOT_MODEL_OGL1)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "%s: the model has no materials of OpenGL 1; they come with OBJ files or by a conversion",
                     scene->source);
@@ -63,16 +63,16 @@ facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format fo
     desc = desc ? desc : &defaults;
     *bytes = NULL;
     *size = 0;
-    if ((int)format < 0 || format > FACET_PLOT_CSV)
+    if ((int)format < 0 || format > FACET_PLOT_FORMAT_CSV)
         return fail(error, FACET_ERROR_ARGUMENT, "plot: there is no format %d; 0 to %d expected", (int)format,
-                    (int)FACET_PLOT_CSV);
+                    (int)FACET_PLOT_FORMAT_CSV);
     arena *memory = arena_create(&desc->allocator);
     if (!memory)
         return fail_memory(error, "plot", 0);
     chart drawing = {0};
     facet_result result = plot_create(desc, memory, &drawing, error);
     if (result == FACET_OK)
-        result = format == FACET_PLOT_CSV
+        result = format == FACET_PLOT_FORMAT_CSV
                      ? chart_write_csv(&drawing, &desc->allocator, bytes, size, error)
                      : chart_draw(&drawing, format, &desc->allocator, bytes, size, error);
     arena_destroy(memory);

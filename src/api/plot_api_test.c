@@ -50,13 +50,13 @@ static void factors_are_taken_from_scenes(void **state)
     (void)state;
     facet_scene *scene = load();
     facet_plot_material m;
-    assert_int_equal(facet_plot_material_from_scene(scene, 0, FACET_PLOT_PBR, &m, NULL), FACET_OK);
+    assert_int_equal(facet_plot_material_from_scene(scene, 0, FACET_PLOT_MODEL_PBR, &m, NULL), FACET_OK);
     assert_string_equal(m.label, "gold");
     expect(m.base_color, 3, (float[]){1, 0.75f, 0.25f});
     expect(&m.metallic, 1, (float[]){1});
     expect(&m.perceptual_roughness, 1, (float[]){0.25f});
     expect(&m.clearcoat, 1, (float[]){0});
-    assert_int_equal(facet_plot_material_from_scene(scene, 1, FACET_PLOT_PBR, &m, NULL), FACET_OK);
+    assert_int_equal(facet_plot_material_from_scene(scene, 1, FACET_PLOT_MODEL_PBR, &m, NULL), FACET_OK);
     assert_null(m.label);
     expect(&m.ior, 1, (float[]){1.25f});
     expect(&m.specular, 1, (float[]){0.5f});
@@ -79,13 +79,13 @@ static void what_a_scene_has_not_is_refused(void **state)
     facet_scene *scene = load();
     facet_plot_material m;
     facet_error error;
-    assert_int_equal(facet_plot_material_from_scene(scene, 2, FACET_PLOT_PBR, &m, &error),
+    assert_int_equal(facet_plot_material_from_scene(scene, 2, FACET_PLOT_MODEL_PBR, &m, &error),
                      FACET_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "material 2"));
-    assert_int_equal(facet_plot_material_from_scene(scene, 0, FACET_PLOT_OGL1, &m, &error),
+    assert_int_equal(facet_plot_material_from_scene(scene, 0, FACET_PLOT_MODEL_OGL1, &m, &error),
                      FACET_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "OpenGL 1"));
-    assert_int_equal(facet_plot_material_from_scene(scene, 0, FACET_PLOT_MERL, &m, &error),
+    assert_int_equal(facet_plot_material_from_scene(scene, 0, FACET_PLOT_MODEL_MERL, &m, &error),
                      FACET_ERROR_ARGUMENT);
     facet_scene_destroy(scene);
 }
@@ -97,10 +97,10 @@ static void converted_materials_are_taken(void **state)
     facet_scene *scene = load();
     facet_plot_material m;
     facet_error error = {0};
-    if (facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, NULL, &error) != FACET_OK)
+    if (facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, NULL, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    assert_int_equal(facet_plot_material_from_scene(scene, 0, FACET_PLOT_OGL1, &m, &error), FACET_OK);
-    assert_int_equal(m.model, FACET_PLOT_OGL1);
+    assert_int_equal(facet_plot_material_from_scene(scene, 0, FACET_PLOT_MODEL_OGL1, &m, &error), FACET_OK);
+    assert_int_equal(m.model, FACET_PLOT_MODEL_OGL1);
     assert_string_equal(m.label, "gold");
     assert_true(m.shininess > 20.0f && m.shininess <= 128.0f);
     assert_true(m.ogl1_specular[0] > 0.9f && m.ogl1_specular[0] <= 1.0f);
@@ -114,17 +114,17 @@ static void plots_are_files(void **state)
     unsigned char *bytes;
     size_t size;
     facet_error error = {0};
-    if (facet_plot_encode(NULL, FACET_PLOT_CSV, &bytes, &size, &error) != FACET_OK)
+    if (facet_plot_encode(NULL, FACET_PLOT_FORMAT_CSV, &bytes, &size, &error) != FACET_OK)
         fail_msg("%s", error.message);
     assert_true(size > 1000);
     assert_non_null(strstr((const char *)bytes, "phi"));
     facet_bytes_destroy(bytes);
-    for (int format = 0; format <= FACET_PLOT_CSV; format++) {
+    for (int format = 0; format <= FACET_PLOT_FORMAT_CSV; format++) {
         static const char *const magic[] = {"<?xml", "%PDF-", "\x89PNG", ""};
-        facet_plot_desc desc = {.kind = FACET_PLOT_TONE};
+        facet_plot_desc desc = {.kind = FACET_PLOT_KIND_TONE};
         facet_result result = facet_plot_encode(&desc, (facet_plot_format)format, &bytes, &size, &error);
-        if (result == FACET_ERROR_ENVIRONMENT) { /* no cairo: CSV does without */
-            assert_int_not_equal(format, FACET_PLOT_CSV);
+        if (result == FACET_ERROR_SYSTEM) { /* no cairo: CSV does without */
+            assert_int_not_equal(format, FACET_PLOT_FORMAT_CSV);
             assert_null(bytes);
             continue;
         }
@@ -136,7 +136,7 @@ static void plots_are_files(void **state)
     assert_int_equal(facet_plot_encode(NULL, (facet_plot_format)17, &bytes, &size, &error),
                      FACET_ERROR_ARGUMENT);
     assert_null(bytes);
-    assert_int_equal(facet_plot_encode(&(facet_plot_desc){.kind = (facet_plot_kind)-1}, FACET_PLOT_CSV,
+    assert_int_equal(facet_plot_encode(&(facet_plot_desc){.kind = (facet_plot_kind)-1}, FACET_PLOT_FORMAT_CSV,
                                        &bytes, &size, &error),
                      FACET_ERROR_ARGUMENT);
     assert_null(bytes);

@@ -58,16 +58,16 @@ static facet_result resolve_gl(facet_render_desc *d, facet_error *error)
     return FACET_OK;
 }
 
-/* What the integrators ask of a desc, its numbers being finite. */
-static facet_result resolve_integrator(facet_render_desc *d, facet_error *error)
+/* What the renderers ask of a desc, its numbers being finite. */
+static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
 {
-    bool is_path = d->integrator == FACET_INTEGRATOR_PATH;
+    bool is_path = d->renderer == FACET_RENDERER_KIND_PATH;
     uint32_t most = is_path ? MAX_PATH_SAMPLES : MAX_PREVIEW_SAMPLES;
     if (!d->samples)
         d->samples = samples_of(d->quality, is_path);
     if (d->samples > most)
         return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %u", d->samples, most);
-    if (d->integrator == FACET_INTEGRATOR_PREVIEW && d->ground != FACET_GROUND_NONE)
+    if (d->renderer == FACET_RENDERER_KIND_PREVIEW && d->ground != FACET_GROUND_NONE)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "ground: the preview finds no shadow; path tracing does, and OpenGL");
     if (!is_path && d->aovs & (FACET_AOV_VARIANCE | FACET_AOV_SAMPLES))
@@ -80,7 +80,7 @@ static facet_result resolve_integrator(facet_render_desc *d, facet_error *error)
         return fail(error, FACET_ERROR_ARGUMENT, "shading: path tracing knows that of glTF only");
     if (!d->path.max_depth)
         d->path.max_depth = DEFAULT_DEPTH;
-    return d->integrator == FACET_INTEGRATOR_GL ? resolve_gl(d, error) : FACET_OK;
+    return d->renderer == FACET_RENDERER_KIND_GL ? resolve_gl(d, error) : FACET_OK;
 }
 
 static facet_result check_numbers(const facet_render_desc *d, facet_error *error)
@@ -97,12 +97,12 @@ static facet_result check_numbers(const facet_render_desc *d, facet_error *error
         if (!isfinite(path[i]) || path[i] < 0.0f)
             return fail(error, FACET_ERROR_ARGUMENT,
                         "noise, clamp, shutter, lens: a value is negative or not a finite number");
-    if ((unsigned)d->integrator > FACET_INTEGRATOR_GL || (unsigned)d->ground > FACET_GROUND_SHADOW ||
+    if ((unsigned)d->renderer > FACET_RENDERER_KIND_GL || (unsigned)d->ground > FACET_GROUND_SHADOW ||
         (unsigned)d->path.filter > FACET_FILTER_MITCHELL ||
         (unsigned)d->path.light_sampling > FACET_LIGHT_SAMPLING_LIGHTS)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "integrator %d, ground %d, filter %d, light sampling %d; there is no such",
-                    (int)d->integrator, (int)d->ground, (int)d->path.filter, (int)d->path.light_sampling);
+                    "renderer %d, ground %d, filter %d, light sampling %d; there is no such",
+                    (int)d->renderer, (int)d->ground, (int)d->path.filter, (int)d->path.light_sampling);
     return FACET_OK;
 }
 
@@ -127,14 +127,15 @@ facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_des
         out->crop[2] = out->width;
         out->crop[3] = out->height;
     }
-    if ((unsigned)out->shading > FACET_SHADING_OGL1 || (unsigned)out->ogl1.variant > FACET_OGL1_RGL_DESKTOP)
+    if ((unsigned)out->shading > FACET_SHADING_OGL1 ||
+        (unsigned)out->ogl1.variant > FACET_OGL1_VARIANT_RGL_DESKTOP)
         return fail(error, FACET_ERROR_ARGUMENT, "shading: %d, variant %d; there is no such",
                     (int)out->shading, (int)out->ogl1.variant);
     if ((unsigned)out->isa > FACET_ISA_AVX512)
         return fail(error, FACET_ERROR_ARGUMENT, "isa: %d is no instruction set", (int)out->isa);
     facet_result result = check_numbers(out, error);
     if (result == FACET_OK)
-        result = resolve_integrator(out, error);
+        result = resolve_renderer(out, error);
     if (!out->thread_count)
         out->thread_count = facet_thread_count();
     return result;
@@ -245,7 +246,7 @@ static facet_render_desc meter_desc(const facet_render_desc *desc)
     d.crop[3] = d.height;
     d.samples = 1;
     d.quality = FACET_QUALITY_DRAFT;
-    d.integrator = FACET_INTEGRATOR_PREVIEW;
+    d.renderer = FACET_RENDERER_KIND_PREVIEW;
     d.energy = FACET_ENERGY_GLTF;
     d.ground = FACET_GROUND_NONE;
     d.exposure_ev = 0.0f;
@@ -299,7 +300,7 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
     facet_render_desc desc = *resolved;
     facet_camera camera;
     facet_result result = FACET_OK;
-    if (!desc.camera && desc.integrator != FACET_INTEGRATOR_GL) { /* OpenGL's poses the scene for itself */
+    if (!desc.camera && desc.renderer != FACET_RENDERER_KIND_GL) { /* OpenGL's poses the scene for itself */
         result = fit_camera(prepared, &desc, &camera, error);
         if (result != FACET_OK)
             return result;
@@ -313,15 +314,15 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
         desc.exposure_ev += (float)meter_exposure_ev(ev100);
     }
     result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &image->film, error);
-    if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_GL)
+    if (result == FACET_OK && desc.renderer == FACET_RENDERER_KIND_GL)
         result = render_gl(renderer, &desc, image, error);
-    else if (result == FACET_OK && desc.integrator == FACET_INTEGRATOR_PATH)
+    else if (result == FACET_OK && desc.renderer == FACET_RENDERER_KIND_PATH)
         result = render_path(renderer, &desc, image, error);
     else if (result == FACET_OK)
         result = preview_render_prepared(prepared, &desc, &image->film, &image->stats, error);
     if (result == FACET_OK && prepared->scene)
         render_check_film(&renderer->check, prepared->scene,
-                          desc.integrator == FACET_INTEGRATOR_GL ? NULL : &prepared->pose, &desc,
+                          desc.renderer == FACET_RENDERER_KIND_GL ? NULL : &prepared->pose, &desc,
                           &image->film);
     if (result == FACET_OK)
         develop(&desc, &image->film);

@@ -56,7 +56,7 @@ static void check_white(render_check *check, const facet_scene *scene, const fac
         desc->shading == FACET_SHADING_OGL1 || !film_is_beyond(drawn, most))
         return;
     double stops = (double)desc->exposure_ev - log2(film_meter(drawn) / METER_KEY);
-    bool has_lights = scene->light_count && !desc->ignore_scene_lights;
+    bool has_lights = scene->light_count && !desc->ignores_scene_lights;
     log_warning(
         &desc->log,
         "%s: most of what is seen is far beyond white: --exposure %+.1f shows it, and --exposure auto "

@@ -74,7 +74,7 @@ static void a_turntable_of_the_builtin_scene(void **state)
 static void count_warning(void *user, facet_log_level level, const char *text)
 {
     (void)text;
-    *(int *)user += level == FACET_LOG_WARNING;
+    *(int *)user += level == FACET_LOG_LEVEL_WARNING;
 }
 
 /* 16 times the light is 4 stops; meters_exposure is the exposure that the meter reads; OpenGL 1 has no light. */
@@ -97,7 +97,7 @@ static void the_meter_follows_the_light(void **state)
                               .log = {&warnings, count_warning}};
     assert_int_equal(facet_renderer_meter(renderer, &desc, &read[0], NULL), FACET_OK);
     desc.environment_ev = 4.0f;
-    desc.integrator = FACET_INTEGRATOR_PATH;
+    desc.renderer = FACET_RENDERER_KIND_PATH;
     desc.samples = 2;
     assert_int_equal(facet_renderer_meter(renderer, &desc, &read[1], NULL), FACET_OK);
     assert_true(read[1] - read[0] > 3.9 && read[1] - read[0] < 4.0); /* one of the balls glows */
@@ -117,7 +117,7 @@ static void the_meter_follows_the_light(void **state)
     }
     assert_int_equal(warnings, 1);
     desc.shading = FACET_SHADING_OGL1;
-    desc.integrator = FACET_INTEGRATOR_PREVIEW;
+    desc.renderer = FACET_RENDERER_KIND_PREVIEW;
     assert_int_equal(facet_renderer_meter(renderer, &desc, &read[2], NULL), FACET_ERROR_ARGUMENT);
     facet_renderer_destroy(renderer);
     facet_environment_destroy(studio);
@@ -244,7 +244,7 @@ static void a_cancelled_path_trace_is_partial(void **state)
     facet_render_desc desc = {.width = 32,
                               .height = 24,
                               .samples = 64,
-                              .integrator = FACET_INTEGRATOR_PATH,
+                              .renderer = FACET_RENDERER_KIND_PATH,
                               .progress = {.user = &from, .report = refuse_from}};
     assert_int_equal(facet_render(scene, &desc, &image, NULL), FACET_ERROR_CANCELLED);
     desc.path.keeps_cancelled = true;

@@ -21,7 +21,8 @@ static facet_result complete(facet_scene **scene, const facet_scene_desc *desc, 
         result = ogl1_json_overlay(*scene, desc->parameters, desc, error);
     if (result == FACET_OK && (*scene)->legacy && (*scene)->legacy->is_source &&
         !desc->legacy.keeps_materials)
-        result = legacy_convert(*scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &desc->legacy, &desc->log, error);
+        result =
+            legacy_convert(*scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &desc->legacy, &desc->log, error);
     if (result != FACET_OK) {
         facet_scene_destroy(*scene);
         *scene = NULL;

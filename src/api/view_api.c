@@ -29,7 +29,7 @@ static facet_result load_environment(void *user, const char *name, const facet_v
     return facet_environment_create_studio(&desc, environment, error);
 }
 
-static char *describe(void *user, const facet_view_picture *picture)
+static char *describe(void *user, const facet_view_image *picture)
 {
     (void)user;
     (void)picture;
@@ -48,9 +48,9 @@ static facet_result check(const facet_view_desc *d, facet_error *error)
     if (r->width > 16384 || r->height > 16384)
         return fail(error, FACET_ERROR_ARGUMENT, "window: %u x %u pixels; each side must be 1 to 16384",
                     r->width, r->height);
-    if (r->integrator != FACET_INTEGRATOR_GL && r->integrator != FACET_INTEGRATOR_PATH)
-        return fail(error, FACET_ERROR_ARGUMENT, "window: integrator %d; OpenGL or path tracing was expected",
-                    (int)r->integrator);
+    if (r->renderer != FACET_RENDERER_KIND_GL && r->renderer != FACET_RENDERER_KIND_PATH)
+        return fail(error, FACET_ERROR_ARGUMENT, "window: renderer %d; OpenGL or path tracing was expected",
+                    (int)r->renderer);
     if (!isfinite(r->exposure_ev) || !isfinite(r->environment_ev) || !isfinite(r->environment_rotation_rad))
         return fail(error, FACET_ERROR_ARGUMENT, "exposure, light: a value is not a finite number");
     return FACET_OK;
@@ -58,7 +58,7 @@ static facet_result check(const facet_view_desc *d, facet_error *error)
 
 facet_result facet_view(const facet_view_desc *desc, facet_error *error)
 {
-    static const facet_view_desc default_desc = {.render = {.integrator = FACET_INTEGRATOR_GL}};
+    static const facet_view_desc default_desc = {.render = {.renderer = FACET_RENDERER_KIND_GL}};
     facet_view_desc d = desc ? *desc : default_desc;
     const gl_entry *gl;
     facet_result result = check(&d, error);

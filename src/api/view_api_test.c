@@ -13,9 +13,9 @@ static void what_cannot_be_is_refused(void **state)
 {
     (void)state;
     const facet_view_desc wrong[] = {
-        {.render = {.integrator = FACET_INTEGRATOR_PREVIEW}},
-        {.render = {.integrator = FACET_INTEGRATOR_GL, .width = 20000, .height = 100}},
-        {.render = {.integrator = FACET_INTEGRATOR_GL, .exposure_ev = NAN}}};
+        {.render = {.renderer = FACET_RENDERER_KIND_PREVIEW}},
+        {.render = {.renderer = FACET_RENDERER_KIND_GL, .width = 20000, .height = 100}},
+        {.render = {.renderer = FACET_RENDERER_KIND_GL, .exposure_ev = NAN}}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         facet_error error;
         assert_int_equal(facet_view(&wrong[i], &error), FACET_ERROR_ARGUMENT);
@@ -54,7 +54,7 @@ static facet_render_desc path_desc(uint32_t samples)
 {
     return (facet_render_desc){.width = WIDTH,
                                .height = HEIGHT,
-                               .integrator = FACET_INTEGRATOR_PATH,
+                               .renderer = FACET_RENDERER_KIND_PATH,
                                .samples = samples,
                                .background = FACET_BACKGROUND_COLOR,
                                .background_color = {0.5f, 0.2f, 0.1f},

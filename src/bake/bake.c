@@ -32,14 +32,15 @@ static const facet_bake_desc default_desc;
 float bake_roughness(facet_roughness_mapping mapping, uint32_t level, uint32_t level_count)
 {
     float x = level_count > 1 ? (float)level / (float)(level_count - 1) : 0.0f;
-    return mapping == FACET_MAPPING_FILAMENT ? 1.0f - sqrtf(1.0f - x) : x;
+    return mapping == FACET_ROUGHNESS_MAPPING_FILAMENT ? 1.0f - sqrtf(1.0f - x) : x;
 }
 
 facet_result bake_complete(facet_bake_desc *desc, facet_error *error)
 {
     bool is_lambert = desc->lobe == FACET_LOBE_LAMBERT;
-    if ((uint32_t)desc->lobe > FACET_LOBE_NONE || (uint32_t)desc->mapping > FACET_MAPPING_FILAMENT ||
-        (uint32_t)desc->method > FACET_BAKE_REFERENCE)
+    if ((uint32_t)desc->lobe > FACET_LOBE_NONE ||
+        (uint32_t)desc->mapping > FACET_ROUGHNESS_MAPPING_FILAMENT ||
+        (uint32_t)desc->method > FACET_BAKE_METHOD_REFERENCE)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "bake: lobe %u, mapping %u, method %u: one of facet.h's was expected",
                     (uint32_t)desc->lobe, (uint32_t)desc->mapping, (uint32_t)desc->method);
@@ -99,8 +100,8 @@ static void plan_lobe(const facet_bake_desc *desc, const bake_source *source, fl
                       bake_plans *plans, level_plan *plan)
 {
     plan->lobe = bake_lobe_create(desc->lobe, roughness);
-    plan->kind = desc->method == FACET_BAKE_REFERENCE ? LEVEL_REFERENCE : LEVEL_SAMPLED;
-    if (desc->method == FACET_BAKE_AUTO) {
+    plan->kind = desc->method == FACET_BAKE_METHOD_REFERENCE ? LEVEL_REFERENCE : LEVEL_SAMPLED;
+    if (desc->method == FACET_BAKE_METHOD_AUTO) {
         double cut;
         bool is_ring = desc->lobe == FACET_LOBE_CHARLIE;
         double aim = is_ring ? aimed_cut_of_ring : aimed_cut;

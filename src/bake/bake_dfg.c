@@ -16,13 +16,13 @@ static const struct kind {
     uint32_t channel_count;
     bool has_split_sum, has_sheen;
     dfg_masking masking;
-} kinds[] = {[FACET_DFG_SCHLICK] = {2, true, false, DFG_SCHLICK_IBL},
-             [FACET_DFG_CORRELATED] = {2, true, false, DFG_SMITH_CORRELATED},
-             [FACET_DFG_MULTISCATTER] = {2, true, false, DFG_SMITH_CORRELATED},
-             [FACET_DFG_CHARLIE] = {1, false, true, DFG_SMITH_CORRELATED},
-             [FACET_DFG_CHARLIE_NEUBELT] = {1, false, true, DFG_SMITH_CORRELATED},
-             [FACET_DFG_GGX_AVERAGE] = {1, false, false, DFG_SMITH_CORRELATED},
-             [FACET_DFG_FILAMENT] = {3, true, true, DFG_SMITH_CORRELATED}};
+} kinds[] = {[FACET_DFG_KIND_SCHLICK] = {2, true, false, DFG_SCHLICK_IBL},
+             [FACET_DFG_KIND_CORRELATED] = {2, true, false, DFG_SMITH_CORRELATED},
+             [FACET_DFG_KIND_MULTISCATTER] = {2, true, false, DFG_SMITH_CORRELATED},
+             [FACET_DFG_KIND_CHARLIE] = {1, false, true, DFG_SMITH_CORRELATED},
+             [FACET_DFG_KIND_CHARLIE_NEUBELT] = {1, false, true, DFG_SMITH_CORRELATED},
+             [FACET_DFG_KIND_GGX_AVERAGE] = {1, false, false, DFG_SMITH_CORRELATED},
+             [FACET_DFG_KIND_FILAMENT] = {3, true, true, DFG_SMITH_CORRELATED}};
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };
 
 uint32_t facet_dfg_get_channel_count(facet_dfg_kind kind)
@@ -63,25 +63,25 @@ static void fill_node(facet_dfg_kind kind, float roughness, const sheen_nodes *n
     if (kinds[kind].has_sheen)
         sheen = sheen_integrate(nodes, NdotV);
     switch (kind) {
-    case FACET_DFG_SCHLICK:
-    case FACET_DFG_CORRELATED:
+    case FACET_DFG_KIND_SCHLICK:
+    case FACET_DFG_KIND_CORRELATED:
         out[0] = (float)split.scale;
         out[1] = (float)split.bias;
         break;
-    case FACET_DFG_FILAMENT:
+    case FACET_DFG_KIND_FILAMENT:
         out[2] = (float)sheen.neubelt;
         __attribute__((fallthrough));
-    case FACET_DFG_MULTISCATTER:
+    case FACET_DFG_KIND_MULTISCATTER:
         out[0] = (float)split.bias;
         out[1] = (float)(split.scale + split.bias);
         break;
-    case FACET_DFG_CHARLIE:
+    case FACET_DFG_KIND_CHARLIE:
         out[0] = (float)sheen.charlie;
         break;
-    case FACET_DFG_CHARLIE_NEUBELT:
+    case FACET_DFG_KIND_CHARLIE_NEUBELT:
         out[0] = (float)sheen.neubelt;
         break;
-    case FACET_DFG_GGX_AVERAGE: /* fill_rows() */
+    case FACET_DFG_KIND_GGX_AVERAGE: /* fill_rows() */
         break;
     }
 }
@@ -95,14 +95,14 @@ static void fill_rows(void *context, size_t begin, size_t end)
         float *row = (float *)job->table->pixels + y * size * channels;
         float roughness = ((float)y + 0.5f) / (float)size;
         float average = 0.0f;
-        if (job->kind == FACET_DFG_GGX_AVERAGE)
+        if (job->kind == FACET_DFG_KIND_GGX_AVERAGE)
             average = (float)dfg_integrate_average(kinds[job->kind].masking, roughness);
         sheen_nodes nodes;
         if (kinds[job->kind].has_sheen)
             sheen_prepare(roughness, &nodes);
         for (uint32_t x = 0; x < size; x++) {
             float node[MAX_CHANNELS] = {average};
-            if (job->kind != FACET_DFG_GGX_AVERAGE)
+            if (job->kind != FACET_DFG_KIND_GGX_AVERAGE)
                 fill_node(job->kind, roughness, &nodes, (x + 0.5) / size, node);
             for (uint32_t c = 0; c < channels; c++)
                 row[channels * x + c] = node[c];

@@ -42,7 +42,7 @@ static void test_shape(void **state)
         assert_int_equal(table.type, IMAGE_F32);
         image_destroy(&table);
     }
-    image table = bake(FACET_DFG_GGX_AVERAGE, 0, 0);
+    image table = bake(FACET_DFG_KIND_GGX_AVERAGE, 0, 0);
     assert_int_equal(table.width, 128);
     image_destroy(&table);
 }
@@ -52,9 +52,9 @@ static void test_nodes(void **state)
 {
     (void)state;
     enum { SIZE = 40 };
-    image correlated = bake(FACET_DFG_CORRELATED, SIZE, 0);
-    image schlick = bake(FACET_DFG_SCHLICK, SIZE, 0);
-    image charlie = bake(FACET_DFG_CHARLIE, SIZE, 0);
+    image correlated = bake(FACET_DFG_KIND_CORRELATED, SIZE, 0);
+    image schlick = bake(FACET_DFG_KIND_SCHLICK, SIZE, 0);
+    image charlie = bake(FACET_DFG_KIND_CHARLIE, SIZE, 0);
     static const uint32_t places[4][2] = {{0, 39}, {39, 0}, {7, 20}, {33, 3}};
     for (int i = 0; i < 4; i++) {
         uint32_t x = places[i][0];
@@ -81,10 +81,10 @@ static void test_kinds_agree(void **state)
 {
     (void)state;
     enum { SIZE = 24 };
-    image correlated = bake(FACET_DFG_CORRELATED, SIZE, 0);
-    image multiscatter = bake(FACET_DFG_MULTISCATTER, SIZE, 0);
-    image neubelt = bake(FACET_DFG_CHARLIE_NEUBELT, SIZE, 0);
-    image filament = bake(FACET_DFG_FILAMENT, SIZE, 0);
+    image correlated = bake(FACET_DFG_KIND_CORRELATED, SIZE, 0);
+    image multiscatter = bake(FACET_DFG_KIND_MULTISCATTER, SIZE, 0);
+    image neubelt = bake(FACET_DFG_KIND_CHARLIE_NEUBELT, SIZE, 0);
+    image filament = bake(FACET_DFG_KIND_FILAMENT, SIZE, 0);
     for (uint32_t y = 0; y < SIZE; y++)
         for (uint32_t x = 0; x < SIZE; x++) {
             const float *c = node(&correlated, x, y);
@@ -106,8 +106,8 @@ static void test_average_of_table(void **state)
 {
     (void)state;
     enum { SIZE = 128 };
-    image albedo = bake(FACET_DFG_MULTISCATTER, SIZE, 0);
-    image average = bake(FACET_DFG_GGX_AVERAGE, SIZE, 0);
+    image albedo = bake(FACET_DFG_KIND_MULTISCATTER, SIZE, 0);
+    image average = bake(FACET_DFG_KIND_GGX_AVERAGE, SIZE, 0);
     for (uint32_t y = 0; y < SIZE; y++) {
         double sum = 0.0;
         for (uint32_t x = 0; x < SIZE; x++) {
@@ -123,8 +123,8 @@ static void test_average_of_table(void **state)
 static void test_threads_do_not_matter(void **state)
 {
     (void)state;
-    image a = bake(FACET_DFG_FILAMENT, 33, 1);
-    image b = bake(FACET_DFG_FILAMENT, 33, 5);
+    image a = bake(FACET_DFG_KIND_FILAMENT, 33, 1);
+    image b = bake(FACET_DFG_KIND_FILAMENT, 33, 5);
     assert_memory_equal(a.pixels, b.pixels, image_row_size(&a) * a.height);
     image_destroy(&a);
     image_destroy(&b);

@@ -12,7 +12,7 @@
 /* Rings take harmonics of a high degree, seconds where nothing is optimised: the tests of rings are enough there. */
 static inline bool is_slow_ring(int lobe, int method)
 {
-    return IS_SLOW && lobe == FACET_LOBE_CHARLIE && method == FACET_BAKE_AUTO;
+    return IS_SLOW && lobe == FACET_LOBE_CHARLIE && method == FACET_BAKE_METHOD_AUTO;
 }
 
 static inline facet_cube *bake(facet_environment *e, facet_bake_desc desc)

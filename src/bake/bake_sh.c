@@ -15,9 +15,9 @@ facet_result facet_environment_project_sh(const facet_environment *environment, 
 {
     assert(environment && coefficients);
     desc = desc ? desc : &default_desc;
-    if ((uint32_t)desc->form > FACET_SH_FOLDED)
+    if ((uint32_t)desc->form > FACET_SH_FORM_FOLDED)
         return fail(error, FACET_ERROR_ARGUMENT, "harmonics: form %u: 0 to %d were expected",
-                    (uint32_t)desc->form, FACET_SH_FOLDED);
+                    (uint32_t)desc->form, FACET_SH_FORM_FOLDED);
     if (!isfinite(desc->rotation_rad) || !isfinite(desc->ev) || !isfinite(desc->clamp) || desc->clamp < 0.0f)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "harmonics: rotation %g, ev %g, clamp %g: finite numbers, and 0 or more to clamp at, "
@@ -38,13 +38,13 @@ facet_result facet_environment_project_sh(const facet_environment *environment, 
         sh_dering(radiance);
     double irradiance[SH_COUNT][3];
     sh_irradiance((const double(*)[3])radiance, irradiance);
-    if (desc->form == FACET_SH_FOLDED) {
+    if (desc->form == FACET_SH_FORM_FOLDED) {
         sh_fold_over_pi((const double(*)[3])irradiance, coefficients);
         return FACET_OK;
     }
     for (int k = 0; k < SH_COUNT; k++)
         for (int i = 0; i < 3; i++)
             coefficients[k][i] =
-                (float)(desc->form == FACET_SH_IRRADIANCE ? irradiance[k][i] : radiance[k][i]);
+                (float)(desc->form == FACET_SH_FORM_IRRADIANCE ? irradiance[k][i] : radiance[k][i]);
     return FACET_OK;
 }

@@ -80,8 +80,8 @@ static void test_cosine_lobe(void **state)
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, cosine_lobe);
     float c[9][3], E[9][3];
-    project(e, (facet_sh_desc){.form = FACET_SH_FOLDED}, c);
-    project(e, (facet_sh_desc){.form = FACET_SH_IRRADIANCE}, E);
+    project(e, (facet_sh_desc){.form = FACET_SH_FORM_FOLDED}, c);
+    project(e, (facet_sh_desc){.form = FACET_SH_FORM_IRRADIANCE}, E);
     static const double golden[5][2] = {{1.0, 2.0780326407},
                                         {0.5, 1.2783173232},
                                         {0.0, 0.6626797004},
@@ -101,7 +101,7 @@ static void test_cosine_lobe(void **state)
     }
     /* the window lifts the last one and changes nothing else than bands */
     float windowed[9][3];
-    project(e, (facet_sh_desc){.form = FACET_SH_FOLDED, .is_windowed = true}, windowed);
+    project(e, (facet_sh_desc){.form = FACET_SH_FORM_FOLDED, .is_windowed = true}, windowed);
     assert_true(windowed[0][0] == c[0][0]);
     double band = (double)windowed[2][0] / (double)c[2][0];
     assert_true(band < 1.0 && band > 0.9);
@@ -115,7 +115,7 @@ static void test_basis(void **state)
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, polynomial);
     float c[9][3];
-    project(e, (facet_sh_desc){.form = FACET_SH_RADIANCE}, c);
+    project(e, (facet_sh_desc){.form = FACET_SH_FORM_RADIANCE}, c);
     const double want[9] = {2.0 / 0.2820947918,
                             -0.5 / 0.4886025119,
                             0.25 / 0.4886025119,
@@ -128,7 +128,7 @@ static void test_basis(void **state)
     for (int k = 0; k < 9; k++)
         assert_near(c[k][0], want[k], 2e-4);
     /* folded: a band over its share of the cosine, 1, 2/3, 1/4 */
-    project(e, (facet_sh_desc){.form = FACET_SH_FOLDED}, c);
+    project(e, (facet_sh_desc){.form = FACET_SH_FORM_FOLDED}, c);
     static const double folded[9] = {2.0, -0.5 * 2 / 3, 0.25 * 2 / 3, 2.0 / 3, 0.25, -0.25, 0, 0, 0};
     for (int k = 0; k < 9; k++)
         assert_near(c[k][0], folded[k], 2e-4);
@@ -183,8 +183,8 @@ static void test_window_under_a_sun(void **state)
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, sun);
     float plain[9][3], c[9][3];
-    project(e, (facet_sh_desc){.form = FACET_SH_FOLDED}, plain);
-    project(e, (facet_sh_desc){.form = FACET_SH_FOLDED, .is_windowed = true}, c);
+    project(e, (facet_sh_desc){.form = FACET_SH_FORM_FOLDED}, plain);
+    project(e, (facet_sh_desc){.form = FACET_SH_FORM_FOLDED, .is_windowed = true}, c);
     float least = INFINITY;
     float least_plain = INFINITY;
     for (uint32_t y = 0; y < HEIGHT; y++)

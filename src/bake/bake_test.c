@@ -29,7 +29,7 @@ static void test_constant(void **state)
     facet_environment *e = NULL;
     assert_int_equal(facet_environment_create_constant(radiance, NULL, &e, NULL), FACET_OK);
     for (int lobe = 0; lobe <= FACET_LOBE_NONE; lobe++)
-        for (int method = 0; method <= FACET_BAKE_REFERENCE; method++) {
+        for (int method = 0; method <= FACET_BAKE_METHOD_REFERENCE; method++) {
             if (is_slow_ring(lobe, method))
                 continue;
             facet_cube *c = bake(e, (facet_bake_desc){.lobe = (facet_lobe)lobe,
@@ -129,7 +129,7 @@ static void test_bands(void **state)
     facet_environment_destroy(high);
     low = make_environment(64, 32, low_bands);
     for (int lobe = IS_SLOW; lobe < 2; lobe++) {
-        double a = worst_of_bands(low, (facet_lobe)lobe, FACET_BAKE_REFERENCE, false);
+        double a = worst_of_bands(low, (facet_lobe)lobe, FACET_BAKE_METHOD_REFERENCE, false);
         print_message("lobe %d, reference, 64 x 32: largest deviation %.1e\n", lobe, a);
         assert_true(a < 5e-3); /* the picture's texels are 0.1 rad wide */
     }
@@ -247,7 +247,10 @@ static void check_sun(facet_lobe kind, facet_bake_method method, uint32_t x, uin
         assert_true(worst <= tolerance * peak);
         assert_true(sqrt(square / whole) <= rms_tolerance);
         /* samples of a lone sun are 4 % noise, and a sum over 16^2 texels is no integral */
-        assert_near(energy, 1.0, method == FACET_BAKE_SAMPLING ? 4e-3 : texels->size < 32 ? 2e-3 : 1e-3);
+        assert_near(energy, 1.0,
+                    method == FACET_BAKE_METHOD_SAMPLING ? 4e-3
+                    : texels->size < 32                  ? 2e-3
+                                                         : 1e-3);
     }
     facet_cube_destroy(c);
     facet_environment_destroy(e);
@@ -256,19 +259,19 @@ static void check_sun(facet_lobe kind, facet_bake_method method, uint32_t x, uin
 static void test_sun(void **state)
 {
     (void)state;
-    check_sun(FACET_LOBE_GGX, FACET_BAKE_AUTO, 768, 5, 0.01, 5e-3); /* at a pole */
+    check_sun(FACET_LOBE_GGX, FACET_BAKE_METHOD_AUTO, 768, 5, 0.01, 5e-3); /* at a pole */
     if (IS_SLOW)
         return;
-    check_sun(FACET_LOBE_GGX, FACET_BAKE_AUTO, 200, 154, 0.01, 5e-3);
-    check_sun(FACET_LOBE_GGX, FACET_BAKE_SAMPLING, 200, 154, 0.2, 0.06);
-    check_sun(FACET_LOBE_NONE, FACET_BAKE_AUTO, 666, 505, 0.0, 0.0);
+    check_sun(FACET_LOBE_GGX, FACET_BAKE_METHOD_AUTO, 200, 154, 0.01, 5e-3);
+    check_sun(FACET_LOBE_GGX, FACET_BAKE_METHOD_SAMPLING, 200, 154, 0.2, 0.06);
+    check_sun(FACET_LOBE_NONE, FACET_BAKE_METHOD_AUTO, 666, 505, 0.0, 0.0);
 }
 
 static void test_sun_in_a_ring(void **state)
 {
     (void)state;
     /* harmonics round the outer edge of a ring off, where it falls to nothing within a texel or two */
-    check_sun(FACET_LOBE_CHARLIE, FACET_BAKE_AUTO, 200, 154, 0.2, 0.02);
+    check_sun(FACET_LOBE_CHARLIE, FACET_BAKE_METHOD_AUTO, 200, 154, 0.2, 0.02);
 }
 
 /* ---- means over texels ---- */
@@ -323,7 +326,7 @@ static void test_quarter_turn(void **state)
     (void)state;
     facet_environment *e = make_environment(256, 128, smooth);
     for (int lobe = 0; lobe <= FACET_LOBE_NONE; lobe++) {
-        if (is_slow_ring(lobe, FACET_BAKE_AUTO))
+        if (is_slow_ring(lobe, FACET_BAKE_METHOD_AUTO))
             continue;
         facet_bake_desc desc = {.lobe = (facet_lobe)lobe, .size = 32, .level_count = 3};
         facet_cube *straight = bake(e, desc);
@@ -441,13 +444,13 @@ static void test_threads(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(200, 100, smooth);
-    for (int method = 0; method <= FACET_BAKE_REFERENCE; method++)
+    for (int method = 0; method <= FACET_BAKE_METHOD_REFERENCE; method++)
         for (int lobe = 0; lobe < 2; lobe++) {
             if (is_slow_ring(lobe, method))
                 continue;
             facet_bake_desc desc = {.lobe = (facet_lobe)lobe,
                                     .method = (facet_bake_method)method,
-                                    .size = method == FACET_BAKE_REFERENCE ? 8 : 32,
+                                    .size = method == FACET_BAKE_METHOD_REFERENCE ? 8 : 32,
                                     .level_count = 3,
                                     .samples = 64,
                                     .thread_count = 1};
@@ -483,7 +486,7 @@ static void test_cancel(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, smooth);
-    for (int method = 0; method <= FACET_BAKE_REFERENCE; method++)
+    for (int method = 0; method <= FACET_BAKE_METHOD_REFERENCE; method++)
         for (int left = 0; left < 1000; left = 3 * left + 1) {
             failing_allocator f = {.fail_at = -1};
             patience p = {.left = left};
@@ -516,7 +519,7 @@ static void test_memory_runs_out(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, smooth);
-    for (int method = 0; method <= FACET_BAKE_REFERENCE; method++)
+    for (int method = 0; method <= FACET_BAKE_METHOD_REFERENCE; method++)
         for (long fail_at = 0;; fail_at = next_failure(fail_at)) {
             failing_allocator f = {.fail_at = fail_at};
             facet_bake_desc desc = {.allocator = failing_allocator_get(&f),
@@ -570,7 +573,7 @@ static void test_arguments(void **state)
     assert_int_equal(facet_cube_get_level_count(c), 5);
     assert_int_equal(facet_cube_get_size(c, 4), 16);
     facet_cube_destroy(c);
-    c = bake(e, (facet_bake_desc){.size = 64, .level_count = 4, .mapping = FACET_MAPPING_FILAMENT});
+    c = bake(e, (facet_bake_desc){.size = 64, .level_count = 4, .mapping = FACET_ROUGHNESS_MAPPING_FILAMENT});
     for (uint32_t k = 0; k < 4; k++) { /* k = (n - 1) r (2 - r) */
         double r = (double)facet_cube_get_roughness(c, k);
         assert_near(3.0 * r * (2.0 - r), k, 1e-6);

@@ -67,7 +67,7 @@ static void test_sampling_converges(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(128, 64, lamps);
-    facet_bake_desc desc = {.method = FACET_BAKE_SAMPLING, .size = 16, .level_count = 3};
+    facet_bake_desc desc = {.method = FACET_BAKE_METHOD_SAMPLING, .size = 16, .level_count = 3};
     double rms[3];
     for (int i = 0; i < 3; i++) {
         desc.samples = 64u << (4 * i);
@@ -85,7 +85,7 @@ static void test_method(void **state)
     facet_environment *e = make_environment(64, 32, lamps);
     for (int lobe = 0; lobe < 3; lobe++) {
         facet_bake_desc desc = {
-            .lobe = (facet_lobe)lobe, .method = FACET_BAKE_REFERENCE, .size = 8, .level_count = 3};
+            .lobe = (facet_lobe)lobe, .method = FACET_BAKE_METHOD_REFERENCE, .size = 8, .level_count = 3};
         facet_cube *c = bake(e, desc);
         facet_cube_error errors[3];
         assert_int_equal(facet_cube_verify(c, e, &desc, errors, NULL), FACET_OK);
@@ -162,7 +162,8 @@ static void test_real_environments(void **state)
         assert_int_equal(facet_environment_load(path, NULL, &e, NULL), FACET_OK);
         check_real(e, names[i], (facet_bake_desc){.size = 256}, 32);
         if (i < 2)
-            check_real(e, names[i], (facet_bake_desc){.size = 256, .mapping = FACET_MAPPING_FILAMENT}, 32);
+            check_real(e, names[i],
+                       (facet_bake_desc){.size = 256, .mapping = FACET_ROUGHNESS_MAPPING_FILAMENT}, 32);
         check_real(e, names[i], (facet_bake_desc){.size = 64, .level_count = 3, .lobe = FACET_LOBE_LAMBERT},
                    16);
         if (i == 1)
@@ -170,7 +171,8 @@ static void test_real_environments(void **state)
                        (facet_bake_desc){.size = 32, .level_count = 3, .lobe = FACET_LOBE_CHARLIE}, 16);
         if (i == 1)
             check_real(e, names[i],
-                       (facet_bake_desc){.size = 1024, .level_count = 9, .mapping = FACET_MAPPING_FILAMENT},
+                       (facet_bake_desc){
+                           .size = 1024, .level_count = 9, .mapping = FACET_ROUGHNESS_MAPPING_FILAMENT},
                        16);
         facet_environment_destroy(e);
     }

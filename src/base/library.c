@@ -29,6 +29,5 @@ facet_result library_open(const char *name, const library_desc *desc, void **han
     bool is_missing = strncmp(reason, name, strlen(name)) == 0 && strstr(reason, "No such file");
     if (is_missing)
         return fail(error, desc->missing, "%s: %s%s", desc->subject, name, desc->advice);
-    return fail(error, FACET_ERROR_ENVIRONMENT, "%s: %s cannot be opened: %.400s", desc->subject, name,
-                reason);
+    return fail(error, FACET_ERROR_SYSTEM, "%s: %s cannot be opened: %.400s", desc->subject, name, reason);
 }

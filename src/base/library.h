@@ -13,7 +13,7 @@ typedef struct library_desc {
 } library_desc;
 
 /* Opens the library name as *handle, for dlsym() and dlclose(). Fails with desc->missing, with FACET_ERROR_MEMORY where
- * there is no memory for it or for the libraries that it needs, and with FACET_ERROR_ENVIRONMENT and the reason where it
+ * there is no memory for it or for the libraries that it needs, and with FACET_ERROR_SYSTEM and the reason where it
  * is there but cannot be opened. */
 facet_result library_open(const char *name, const library_desc *desc, void **handle, facet_error *error);
 

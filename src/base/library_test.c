@@ -40,7 +40,7 @@ static void a_broken_library_is_there(void **state)
     facet_error error;
     facet_result result = library_open(path, &DESC, &handle, &error);
     unlink(path);
-    assert_int_equal(result, FACET_ERROR_ENVIRONMENT);
+    assert_int_equal(result, FACET_ERROR_SYSTEM);
     assert_non_null(strstr(error.message, "cannot be opened"));
 }
 

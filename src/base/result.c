@@ -57,6 +57,6 @@ void log_warning(const facet_log *log, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    send_message(log, FACET_LOG_WARNING, format, arguments);
+    send_message(log, FACET_LOG_LEVEL_WARNING, format, arguments);
     va_end(arguments);
 }

@@ -26,7 +26,7 @@ facet_result fail_memory(facet_error *error, const char *what, size_t size);
 /* Sends one formatted message to log, if there is one. Control characters become '?'. */
 void log_message(const facet_log *log, facet_log_level level, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* log_message() of FACET_LOG_WARNING. */
+/* log_message() of FACET_LOG_LEVEL_WARNING. */
 void log_warning(const facet_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -45,7 +45,7 @@ static uint32_t all_aovs(const render_options *o)
     uint32_t all = 0;
     for (size_t i = 0; i < AOV_NAMES; i++)
         all |= aov_names[i].aovs;
-    if (o->desc.integrator != FACET_INTEGRATOR_PATH)
+    if (o->desc.renderer != FACET_RENDERER_KIND_PATH)
         all &= ~path_only;
     if (o->desc.path.resumes)
         all &= ~(uint32_t)FACET_AOV_CRYPTOMATTE;
@@ -76,7 +76,7 @@ static facet_result check_renderer(const char *text, const render_options *o, fa
         list_names(all, list, sizeof list);
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--aov: %s is a layer of --renderer path only; --renderer %s has %s, or all",
-                         aov_names[i].name, renderers[o->desc.integrator], list);
+                         aov_names[i].name, renderers[o->desc.renderer], list);
     }
     return FACET_OK;
 }
@@ -85,7 +85,7 @@ static facet_result check_renderer(const char *text, const render_options *o, fa
 static facet_result read_id_layer(const char *text, render_options *out, facet_error *error)
 {
     static const uint32_t ids = FACET_AOV_OBJECT_ID | FACET_AOV_MATERIAL_ID | FACET_AOV_INSTANCE_ID;
-    bool is_png = out->save.format == FACET_FORMAT_PNG && out->video == VIDEO_NONE;
+    bool is_png = out->save.format == FACET_IMAGE_FORMAT_PNG && out->video == VIDEO_NONE;
     for (size_t i = 0; i < AOV_NAMES && is_png; i++)
         if (strcmp(text, aov_names[i].name) == 0 && aov_names[i].aovs & ids) {
             out->id_layer = aov_names[i].name;
@@ -101,7 +101,8 @@ static facet_result read_id_layer(const char *text, render_options *out, facet_e
 facet_result aov_options_read(const command_line *c, render_options *out, facet_error *error)
 {
     const char *text = option_text(c, OPT_AOV, "");
-    bool is_exr = out->save.format == FACET_FORMAT_EXR || out->save.format == FACET_FORMAT_EXR_FLOAT;
+    bool is_exr =
+        out->save.format == FACET_IMAGE_FORMAT_EXR || out->save.format == FACET_IMAGE_FORMAT_EXR_FLOAT;
     if (*text && !is_exr)
         return read_id_layer(text, out, error);
     facet_result result = check_renderer(text, out, error);

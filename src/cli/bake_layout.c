@@ -91,7 +91,7 @@ static void add_filament(adding *a)
         add_faces(a, skybox, 0, false, o->container, false);
     } else {
         const bake_file file = {
-            .content = BAKE_CUBE, .container = CONTAINER_KTX1, .texels = FACET_TEXEL_B10G11R11};
+            .content = BAKE_CUBE, .container = CONTAINER_KTX1, .texels = FACET_TEXEL_FORMAT_B10G11R11};
         bake_file one = file;
         one.cube = ibl;
         snprintf(name, sizeof name, "%s_ibl.ktx", folder_name);
@@ -108,7 +108,7 @@ static void add_khronos(adding *a)
 {
     const bake_options *o = a->options;
     const uint32_t size = o->bake.size, levels = o->bake.level_count;
-    const facet_texel_format texels = o->has_texels ? o->texels : FACET_TEXEL_RGBA16F;
+    const facet_texel_format texels = o->has_texels ? o->texels : FACET_TEXEL_FORMAT_RGBA16F;
     const struct {
         const char *folder, *name;
         facet_lobe lobe;
@@ -120,9 +120,9 @@ static void add_khronos(adding *a)
         const char *name;
         facet_dfg_kind kind;
         int channel;
-    } tables[] = {{"lut_ggx.png", FACET_DFG_CORRELATED, -1},
-                  {"lut_charlie.png", FACET_DFG_CHARLIE_NEUBELT, 2},
-                  {"lut_sheen_E.png", FACET_DFG_CHARLIE, 0}};
+    } tables[] = {{"lut_ggx.png", FACET_DFG_KIND_CORRELATED, -1},
+                  {"lut_charlie.png", FACET_DFG_KIND_CHARLIE_NEUBELT, 2},
+                  {"lut_sheen_E.png", FACET_DFG_KIND_CHARLIE, 0}};
     add_folder(a, "");
     for (size_t i = 0; i < sizeof cubes / sizeof *cubes; i++) {
         add_folder(a, cubes[i].folder);
@@ -159,7 +159,7 @@ static void add_three(adding *a)
         (bake_file){.content = BAKE_CUBE,
                     .container = CONTAINER_KTX2,
                     .cube = add_cube(a, FACET_LOBE_GGX, o->bake.size, o->bake.level_count),
-                    .texels = o->has_texels ? o->texels : FACET_TEXEL_RGBA16F,
+                    .texels = o->has_texels ? o->texels : FACET_TEXEL_FORMAT_RGBA16F,
                     .is_mirrored = true});
     add_faces(a, cube_index, 0, false, CONTAINER_HDR, true);
     add(a, "sh.json", (bake_file){.content = BAKE_SH, .container = CONTAINER_JSON});

@@ -9,29 +9,29 @@
 
 /* ---- pictures ---- */
 
-static facet_file_format picture_format(bake_container container)
+static facet_image_format picture_format(bake_container container)
 {
     switch (container) {
     case CONTAINER_EXR:
-        return FACET_FORMAT_EXR;
+        return FACET_IMAGE_FORMAT_EXR;
     case CONTAINER_EXR_FLOAT:
-        return FACET_FORMAT_EXR_FLOAT;
+        return FACET_IMAGE_FORMAT_EXR_FLOAT;
     case CONTAINER_HDR:
-        return FACET_FORMAT_HDR;
+        return FACET_IMAGE_FORMAT_HDR;
     case CONTAINER_PFM:
-        return FACET_FORMAT_PFM;
+        return FACET_IMAGE_FORMAT_PFM;
     case CONTAINER_JPEG:
-        return FACET_FORMAT_JPEG;
+        return FACET_IMAGE_FORMAT_JPEG;
     case CONTAINER_WEBP:
-        return FACET_FORMAT_WEBP;
+        return FACET_IMAGE_FORMAT_WEBP;
     default:
-        return FACET_FORMAT_PNG;
+        return FACET_IMAGE_FORMAT_PNG;
     }
 }
 
-static facet_save_desc save_desc(const bake_making *m, facet_file_format format)
+static facet_image_save_desc save_desc(const bake_making *m, facet_image_format format)
 {
-    return (facet_save_desc){
+    return (facet_image_save_desc){
         .allocator = m->allocator, .thread_count = m->options->limits.thread_count, .format = format};
 }
 
@@ -39,7 +39,7 @@ static facet_save_desc save_desc(const bake_making *m, facet_file_format format)
 static facet_result encode_picture(const bake_making *m, const facet_image *picture, bake_file *file,
                                    facet_error *error)
 {
-    const facet_save_desc desc = save_desc(m, picture_format(file->container));
+    const facet_image_save_desc desc = save_desc(m, picture_format(file->container));
     if (file->container == CONTAINER_PNG && file->content != BAKE_SHEET)
         return facet_image_encode_rgbm(picture, m->options->rgbm_range, &desc, &file->bytes, &file->size,
                                        error);
@@ -90,7 +90,7 @@ static facet_result make_cube(const bake_making *m, bake_file *file, facet_error
         const bool has_sh = m->plan->cubes[file->cube].desc.lobe == FACET_LOBE_GGX;
         const facet_ktx1_desc desc = {.allocator = m->allocator,
                                       .thread_count = m->options->limits.thread_count,
-                                      .harmonics = has_sh ? m->plan->sh[FACET_SH_FOLDED] : NULL};
+                                      .harmonics = has_sh ? m->plan->sh[FACET_SH_FORM_FOLDED] : NULL};
         return facet_cube_encode_ktx1(cube_of(m, file), &desc, &file->bytes, &file->size, error);
     }
     const facet_ktx2_desc desc = ktx2_desc(m, file);
@@ -120,7 +120,7 @@ static facet_result make_sh(const bake_making *m, bake_file *file, facet_error *
     else if (file->container == CONTAINER_HEADER)
         bake_text_sh_header(&text, sh, source, symbol);
     else
-        bake_text_sh_filament(&text, sh[FACET_SH_FOLDED]);
+        bake_text_sh_filament(&text, sh[FACET_SH_FORM_FOLDED]);
     return take_text(file, &text, error);
 }
 
@@ -129,13 +129,15 @@ static facet_result make_sh(const bake_making *m, bake_file *file, facet_error *
 static const char *table_meaning(facet_dfg_kind kind)
 {
     static const char *const meanings[] = {
-        [FACET_DFG_SCHLICK] = "Scale and bias of F0 (split sum), GGX with Schlick's masking, k = alpha / 2",
-        [FACET_DFG_CORRELATED] = "Scale and bias of F0 (split sum), GGX with height-correlated Smith masking",
-        [FACET_DFG_MULTISCATTER] = "Integral of Fc and of 1, GGX, height-correlated: Filament's layout",
-        [FACET_DFG_CHARLIE] = "Albedo of sheen, Charlie with Estevez and Kulla's masking",
-        [FACET_DFG_CHARLIE_NEUBELT] = "Albedo of sheen, Charlie with Neubelt's masking",
-        [FACET_DFG_GGX_AVERAGE] = "Albedo of GGX averaged over the cosine; equal along x",
-        [FACET_DFG_FILAMENT] =
+        [FACET_DFG_KIND_SCHLICK] =
+            "Scale and bias of F0 (split sum), GGX with Schlick's masking, k = alpha / 2",
+        [FACET_DFG_KIND_CORRELATED] =
+            "Scale and bias of F0 (split sum), GGX with height-correlated Smith masking",
+        [FACET_DFG_KIND_MULTISCATTER] = "Integral of Fc and of 1, GGX, height-correlated: Filament's layout",
+        [FACET_DFG_KIND_CHARLIE] = "Albedo of sheen, Charlie with Estevez and Kulla's masking",
+        [FACET_DFG_KIND_CHARLIE_NEUBELT] = "Albedo of sheen, Charlie with Neubelt's masking",
+        [FACET_DFG_KIND_GGX_AVERAGE] = "Albedo of GGX averaged over the cosine; equal along x",
+        [FACET_DFG_KIND_FILAMENT] =
             "Integral of Fc and of 1, GGX; albedo of sheen with Neubelt's masking: Filament's"};
     return meanings[kind];
 }
@@ -154,7 +156,7 @@ static void linear_row(int channel, const float *from, float *to, uint32_t width
 static facet_result encode_linear_png(const bake_making *m, const facet_image_view *view, bake_file *file,
                                       facet_error *error)
 {
-    const facet_save_desc desc = save_desc(m, FACET_FORMAT_PNG16);
+    const facet_image_save_desc desc = save_desc(m, FACET_IMAGE_FORMAT_PNG16);
     const size_t row = (size_t)view->width * 4, size = row * view->height * sizeof(float);
     float *pixels = m->allocator.allocate(m->allocator.user, size);
     facet_image *picture = NULL;

@@ -127,18 +127,19 @@ static facet_result read_filter(const command_line *c, bake_options *out, facet_
     static const option_id idle_reference[] = {OPT_SAMPLES, OPT_QUICK};
     facet_bake_desc *d = &out->bake;
     d->lobe = (facet_lobe)option_choice(c, OPT_LOBE, FACET_LOBE_GGX);
-    d->mapping = (facet_roughness_mapping)option_choice(
-        c, OPT_MAPPING,
-        out->layout == BAKE_LAYOUT_FILAMENT || out->layout == BAKE_LAYOUT_THREE ? FACET_MAPPING_FILAMENT
-                                                                                : FACET_MAPPING_LINEAR);
-    d->method = (facet_bake_method)option_choice(c, OPT_METHOD, FACET_BAKE_AUTO);
+    d->mapping = (facet_roughness_mapping)option_choice(c, OPT_MAPPING,
+                                                        out->layout == BAKE_LAYOUT_FILAMENT ||
+                                                                out->layout == BAKE_LAYOUT_THREE
+                                                            ? FACET_ROUGHNESS_MAPPING_FILAMENT
+                                                            : FACET_ROUGHNESS_MAPPING_LINEAR);
+    d->method = (facet_bake_method)option_choice(c, OPT_METHOD, FACET_BAKE_METHOD_AUTO);
     if (is_given(c, OPT_REFERENCE)) {
-        if (is_given(c, OPT_METHOD) && d->method != FACET_BAKE_REFERENCE)
+        if (is_given(c, OPT_METHOD) && d->method != FACET_BAKE_METHOD_REFERENCE)
             return fail_with(error, FACET_ERROR_ARGUMENT, "--reference: it is not --method %s",
                              option_text(c, OPT_METHOD, ""));
-        d->method = FACET_BAKE_REFERENCE;
+        d->method = FACET_BAKE_METHOD_REFERENCE;
     }
-    if (d->method == FACET_BAKE_REFERENCE &&
+    if (d->method == FACET_BAKE_METHOD_REFERENCE &&
         refuse(c, idle_reference, COUNT(idle_reference), "about the reference, which takes no samples",
                error) != FACET_OK)
         return error->result;
@@ -153,9 +154,10 @@ static facet_result read_filter(const command_line *c, bake_options *out, facet_
 
 static facet_result read_table(const command_line *c, bake_options *out, facet_error *error)
 {
-    static const facet_dfg_kind kinds[] = {
-        FACET_DFG_CORRELATED, FACET_DFG_CORRELATED,      FACET_DFG_SCHLICK,     FACET_DFG_MULTISCATTER,
-        FACET_DFG_CHARLIE,    FACET_DFG_CHARLIE_NEUBELT, FACET_DFG_GGX_AVERAGE, FACET_DFG_FILAMENT};
+    static const facet_dfg_kind kinds[] = {FACET_DFG_KIND_CORRELATED,  FACET_DFG_KIND_CORRELATED,
+                                           FACET_DFG_KIND_SCHLICK,     FACET_DFG_KIND_MULTISCATTER,
+                                           FACET_DFG_KIND_CHARLIE,     FACET_DFG_KIND_CHARLIE_NEUBELT,
+                                           FACET_DFG_KIND_GGX_AVERAGE, FACET_DFG_KIND_FILAMENT};
     static const option_id idle[] = {
         OPT_DIFFUSE,   OPT_SHEEN,   OPT_SH,        OPT_PREVIEW,      OPT_LAYOUT,      OPT_PROJECTION,
         OPT_LEVEL,     OPT_RGBM,    OPT_MIPS,      OPT_MAPPING,      OPT_LOBE,        OPT_METHOD,
@@ -181,9 +183,10 @@ static facet_result read_table(const command_line *c, bake_options *out, facet_e
 
 static facet_result read_format(const command_line *c, bake_options *out, facet_error *error)
 {
-    static const facet_texel_format texels[] = {
-        FACET_TEXEL_RGBA16F, FACET_TEXEL_RGB9E5, FACET_TEXEL_B10G11R11, FACET_TEXEL_RGBA32F,
-        FACET_TEXEL_RG16F,   FACET_TEXEL_RG32F,  FACET_TEXEL_R16F,      FACET_TEXEL_R32F};
+    static const facet_texel_format texels[] = {FACET_TEXEL_FORMAT_RGBA16F,   FACET_TEXEL_FORMAT_RGB9E5,
+                                                FACET_TEXEL_FORMAT_B10G11R11, FACET_TEXEL_FORMAT_RGBA32F,
+                                                FACET_TEXEL_FORMAT_RG16F,     FACET_TEXEL_FORMAT_RG32F,
+                                                FACET_TEXEL_FORMAT_R16F,      FACET_TEXEL_FORMAT_R32F};
     static const bake_container containers[] = {CONTAINER_KTX2,  CONTAINER_EXR, CONTAINER_EXR_FLOAT,
                                                 CONTAINER_HDR,   CONTAINER_PFM, CONTAINER_PNG,
                                                 CONTAINER_HEADER};
@@ -239,7 +242,7 @@ static facet_result check_layout(const command_line *c, const bake_options *o, f
     if (o->layout == BAKE_LAYOUT_NONE)
         return FACET_OK;
     if (is_given(c, OPT_MAPPING) &&
-        (o->bake.mapping == FACET_MAPPING_LINEAR) != (o->layout == BAKE_LAYOUT_KHRONOS))
+        (o->bake.mapping == FACET_ROUGHNESS_MAPPING_LINEAR) != (o->layout == BAKE_LAYOUT_KHRONOS))
         return fail_with(error, FACET_ERROR_ARGUMENT, "--mapping: %s it is %s", why[o->layout],
                          o->layout == BAKE_LAYOUT_KHRONOS ? "linear" : "filament");
     const bool takes_texels = o->layout != BAKE_LAYOUT_FILAMENT;

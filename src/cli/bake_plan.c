@@ -158,7 +158,7 @@ static facet_result add_cube_files(const bake_options *o, bake_plan *plan, const
     const bake_file what = {.container = container,
                             .content = BAKE_CUBE,
                             .cube = bake_plan_add_cube(plan, &w->desc, is_verified),
-                            .texels = o->has_texels ? o->texels : FACET_TEXEL_RGBA16F,
+                            .texels = o->has_texels ? o->texels : FACET_TEXEL_FORMAT_RGBA16F,
                             .table_channel = -1};
     if (container != CONTAINER_KTX2)
         return add_pictures(o, plan, w->pattern, stem, what, error);
@@ -217,8 +217,8 @@ static facet_result add_side_files(const bake_options *o, bake_plan *plan, const
 
 static facet_texel_format table_texels(facet_dfg_kind kind)
 {
-    static const facet_texel_format by_channels[] = {FACET_TEXEL_R16F, FACET_TEXEL_RG16F,
-                                                     FACET_TEXEL_RGBA16F};
+    static const facet_texel_format by_channels[] = {FACET_TEXEL_FORMAT_R16F, FACET_TEXEL_FORMAT_RG16F,
+                                                     FACET_TEXEL_FORMAT_RGBA16F};
     return by_channels[facet_dfg_get_channel_count(kind) - 1];
 }
 

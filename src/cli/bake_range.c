@@ -5,10 +5,10 @@
 
 float bake_file_limit(const bake_file *file)
 {
-    static const float largest[] = {[FACET_TEXEL_RGBA16F] = 65504.0f,
-                                    [FACET_TEXEL_RGB9E5] = 65408.0f,
-                                    [FACET_TEXEL_B10G11R11] = 64512.0f,
-                                    [FACET_TEXEL_RGBA32F] = 0.0f};
+    static const float largest[] = {[FACET_TEXEL_FORMAT_RGBA16F] = 65504.0f,
+                                    [FACET_TEXEL_FORMAT_RGB9E5] = 65408.0f,
+                                    [FACET_TEXEL_FORMAT_B10G11R11] = 64512.0f,
+                                    [FACET_TEXEL_FORMAT_RGBA32F] = 0.0f};
     if (file->container == CONTAINER_KTX2)
         return file->texels < sizeof largest / sizeof *largest ? largest[file->texels]
                                                                : 0.0f; /* r, rg: tables */

@@ -77,7 +77,7 @@ static double cost_of(bake_step step, const facet_bake_desc *desc)
     double cost = costs[step];
     if (desc && (desc->lobe == FACET_LOBE_LAMBERT || desc->lobe == FACET_LOBE_NONE))
         cost *= 0.1;
-    if (step == STEP_BAKE && desc && desc->method == FACET_BAKE_REFERENCE)
+    if (step == STEP_BAKE && desc && desc->method == FACET_BAKE_METHOD_REFERENCE)
         cost *= 100.0;
     return cost;
 }
@@ -128,7 +128,7 @@ static void warn_of_cut(bake_run *run, const bake_file *file)
              "%.800s: its numbers end at %g, which cuts off %.3g %% of the light; full floats "
              "(--format rgba32f or exr32) keep it, or lower it with --exposure",
              file->path, (double)limit, 100.0 * share);
-    log.message(log.user, FACET_LOG_WARNING, text);
+    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
 static bool needs_mirrored(const bake_plan *plan, uint32_t cube_index)

@@ -22,7 +22,7 @@ typedef struct compare_run {
     facet_budget *budget;
     compare_wish wish;
     facet_compare_desc desc;
-    facet_save_desc save;
+    facet_image_save_desc save;
     const char *output; /* NULL: none */
     facet_image *a, *b, *mask, *difference;
     facet_comparison comparison;
@@ -80,7 +80,8 @@ static facet_result read_output(compare_run *run, facet_error *error)
         return fail_with(
             error, FACET_ERROR_ARGUMENT,
             "--json: standard output is taken by the picture (-o -); write one of them elsewhere");
-    run->save.format = format >= 0 ? (facet_file_format)(FACET_FORMAT_PNG + format) : FACET_FORMAT_FROM_NAME;
+    run->save.format =
+        format >= 0 ? (facet_image_format)(FACET_IMAGE_FORMAT_PNG + format) : FACET_IMAGE_FORMAT_FROM_NAME;
     const char *inputs[] = {c->arguments[0], c->arguments[1], option_text(c, OPT_MASK, NULL)};
     for (int i = 0; i < 3; i++)
         if (inputs[i] && !is_stdout && input_is_same_file(inputs[i], run->output))
@@ -99,9 +100,9 @@ static facet_result read_look(compare_run *run, facet_error *error)
     const command_line *c = run->line;
     facet_compare_desc *d = &run->desc;
     double stops = 0.0;
-    d->space = (facet_compare_space)option_choice(c, OPT_SPACE, FACET_COMPARE_AUTO);
+    d->space = (facet_compare_space)option_choice(c, OPT_SPACE, FACET_COMPARE_SPACE_AUTO);
     d->tonemap = tonemaps[option_choice(c, OPT_TONE_MAPPING, 7)];
-    if (d->space == FACET_COMPARE_LINEAR && d->tonemap != FACET_TONEMAP_NONE)
+    if (d->space == FACET_COMPARE_SPACE_LINEAR && d->tonemap != FACET_TONEMAP_NONE)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--tone-mapping: it is for displays, not for --space linear");
     if (is_given(c, OPT_EXPOSURE) && !value_exposure(option_text(c, OPT_EXPOSURE, ""), &stops))
@@ -202,7 +203,7 @@ static void tell(compare_run *run)
                  nonfinite[i] == 1 ? "%.400s: %llu pixel is not finite"
                                    : "%.400s: %llu pixels are not finite",
                  input_name(names[i]), (unsigned long long)nonfinite[i]);
-        log.message(log.user, FACET_LOG_WARNING, text);
+        log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
     }
 }
 

@@ -39,12 +39,13 @@ static facet_result convert_materials(convert_run *run, facet_scene *scene, face
     const facet_legacy_desc *desc = &run->scene_desc.legacy;
     int asked = option_choice(run->line, OPT_MATERIALS, 0);
     if (format_is_legacy(run->names.format))
-        return facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, desc, &log, error);
+        return facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, desc, &log, error);
     if (asked == 0)
         return FACET_OK;
-    return facet_scene_convert_materials(
-        scene, asked == 1 ? FACET_MATERIALS_METALLIC_ROUGHNESS : FACET_MATERIALS_SPECULAR_GLOSSINESS, desc,
-        &log, error);
+    return facet_scene_convert_materials(scene,
+                                         asked == 1 ? FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS
+                                                    : FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS,
+                                         desc, &log, error);
 }
 
 static facet_result save(convert_run *run, const model_name *model, const facet_scene *scene,
@@ -56,7 +57,7 @@ static facet_result save(convert_run *run, const model_name *model, const facet_
                                   .thread_count = run->limits.thread_count,
                                   .keeps_inputs = true,
                                   .has_flipped_texcoords = is_given(c, OPT_FLIP_TEXTURES),
-                                  .without_mtl_pbr = option_choice(c, OPT_MTL_PBR, 0) == 1,
+                                  .omits_mtl_pbr = option_choice(c, OPT_MTL_PBR, 0) == 1,
                                   .mtl_shininess_scale =
                                       (float)option_number(c, OPT_MTL_SHININESS_SCALE, 0.0)};
     char report[CONVERT_NAME_SIZE];

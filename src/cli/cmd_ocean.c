@@ -58,7 +58,7 @@ static facet_result write_picture(ocean_output *o, const facet_image *image, con
                                   facet_error *error)
 {
     const render_options *p = &o->run->options.picture;
-    facet_save_desc save = p->save;
+    facet_image_save_desc save = p->save;
     save.allocator = o->run->allocator;
     return o->video ? video_add(o->video, image, &o->run->allocator, p->limits.thread_count, error)
                     : output_write(image, name, &save, error);
@@ -80,7 +80,7 @@ static facet_result make_picture(ocean_output *o, uint32_t index, const char *na
         facet_image_view view = facet_image_get_layer(image, 0);
         static const uint32_t samples[] = {4, 1, 16}, path_samples[] = {64, 16, 512}; /* of facet_quality */
         const facet_render_desc *d = &options->picture.desc;
-        bool is_path = d->integrator == FACET_INTEGRATOR_PATH;
+        bool is_path = d->renderer == FACET_RENDERER_KIND_PATH;
         picture_report report = {.model = "sea",
                                  .output = name,
                                  .width = view.width,
@@ -122,7 +122,7 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
     interrupt_begin(name, "making it", false);
     result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
     if (result == FACET_OK && !is_gltf(name))
-        result = facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, &save.log, error);
+        result = facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, &save.log, error);
     interrupt_end();
     if (result == FACET_OK)
         result = interrupt_check(name, error);
@@ -148,9 +148,9 @@ static facet_result make_map(ocean_output *o, uint32_t tile, const char *name, f
         result = interrupt_check(name, error);
     if (result == FACET_OK)
         result = facet_sea_create_maps(run->sea, tile, &run->allocator, &image, error);
-    const facet_save_desc save = {.allocator = run->allocator,
-                                  .format = FACET_FORMAT_EXR_FLOAT,
-                                  .thread_count = run->options.picture.limits.thread_count};
+    const facet_image_save_desc save = {.allocator = run->allocator,
+                                        .format = FACET_IMAGE_FORMAT_EXR_FLOAT,
+                                        .thread_count = run->options.picture.limits.thread_count};
     if (result == FACET_OK)
         result = output_write(image, name, &save, error);
     if (result == FACET_OK)
@@ -248,7 +248,7 @@ static void warn_of_loop(ocean_run *run)
         snprintf(text, sizeof text, "--loop: %g s are %g frames; the last one does not join the first", loop,
                  frames);
     if (*text)
-        log.message(log.user, FACET_LOG_WARNING, text);
+        log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
 /* What is known is that of the first moment. */
@@ -312,7 +312,7 @@ static void warn_of_sun(ocean_run *run)
              "--sun: it has %.2g times the light of the environment, %.2g lx, which will be black; "
              "--env-intensity scales that",
              times, lux);
-    log.message(log.user, FACET_LOG_WARNING, text);
+    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
 static facet_result check_names(const command_line *c, const ocean_options *o, facet_error *error)

@@ -68,7 +68,7 @@ static facet_result read_output(plot_run *run, facet_error *error)
     run->path = option_text(c, OPT_OUTPUT, NULL);
     if (!run->path) {
         snprintf(run->output, sizeof run->output, "%s.%s", kind_names[run->desc.kind],
-                 format_names[format < 0 ? FACET_PLOT_SVG : format]);
+                 format_names[format < 0 ? FACET_PLOT_FORMAT_SVG : format]);
         run->path = run->output;
     }
     const char *dot = strrchr(run->path, '.');
@@ -125,7 +125,7 @@ static facet_result read_desc(plot_run *run, facet_error *error)
     facet_plot_desc *d = &run->desc;
     d->thread_count = run->limits.thread_count;
     d->has_heaviside_ramp = option_choice(c, OPT_HEAVISIDE, 0) == 1;
-    d->has_separable_smith = option_choice(c, OPT_SMITH, d->kind == FACET_PLOT_LEGACY) == 1;
+    d->has_separable_smith = option_choice(c, OPT_SMITH, d->kind == FACET_PLOT_KIND_LEGACY) == 1;
     d->has_fit = is_given(c, OPT_FIT);
     d->fits = run->fits;
     d->has_shared_scale = option_choice(c, OPT_SCALE, 0) == 1;
@@ -189,7 +189,7 @@ static json_t *fits_json(const plot_run *run)
         json_t *one =
             json_pack("{s:i, s:o, s:o, s:s, s:s}", "material", i, "name", report_string_json(fit->name),
                       "fit", report_string_json(fit->description), "model",
-                      fit->fitted.model == FACET_PLOT_OGL1 ? "ogl1" : "pbr", "parameters", text);
+                      fit->fitted.model == FACET_PLOT_MODEL_OGL1 ? "ogl1" : "pbr", "parameters", text);
         if (fit->is_of_measured) {
             json_object_set_new(one, "log_rms", json_real((double)fit->log_rms));
         } else {

@@ -67,7 +67,8 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
     interrupt_begin_reading(input_name(model));
     facet_result result = input_load(model, &desc, scene, error);
     if (result == FACET_OK && run->options.desc.shading == FACET_SHADING_OGL1)
-        result = facet_scene_convert_materials(*scene, FACET_MATERIALS_OGL1, &desc.legacy, &desc.log, error);
+        result =
+            facet_scene_convert_materials(*scene, FACET_MATERIAL_MODEL_OGL1, &desc.legacy, &desc.log, error);
     interrupt_end();
     return result;
 }
@@ -95,7 +96,7 @@ static facet_result write_picture(model_run *m, const facet_image *image, const 
     const render_run *run = m->run;
     if (m->video)
         return video_add(m->video, image, &run->allocator, m->options.limits.thread_count, error);
-    facet_save_desc save = m->options.save;
+    facet_image_save_desc save = m->options.save;
     save.allocator = run->allocator;
     if (!m->options.id_layer)
         return output_write(image, name, &save, error);
@@ -143,7 +144,7 @@ static double time_for_frame(const model_run *m, uint32_t index, double left)
 {
     if (!(left < 1e29))
         return 0.0;
-    if (m->options.desc.integrator != FACET_INTEGRATOR_PATH)
+    if (m->options.desc.renderer != FACET_RENDERER_KIND_PATH)
         return left;
     double frames_left = (double)(m->sequence.frames.frame_count - index);
     return left / (frames_left * (double)m->run->models_left);
@@ -185,7 +186,7 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
     desc.path.keeps_cancelled = true;
     bool has_bar = shown.mode == PROGRESS_BAR;
     /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. */
-    if (desc.integrator == FACET_INTEGRATOR_GL)
+    if (desc.renderer == FACET_RENDERER_KIND_GL)
         interrupt_begin(output, "OpenGL drew", has_bar);
     else
         interrupt_begin_polling(output, "drawing", has_bar);
@@ -271,7 +272,7 @@ static facet_result choose_environment(model_run *m, facet_error *error)
     facet_result result = FACET_OK;
     if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
         return FACET_OK;
-    if (!o->has_environment && o->environment.kind != ENVIRONMENT_NONE && !o->desc.ignore_scene_lights &&
+    if (!o->has_environment && o->environment.kind != ENVIRONMENT_NONE && !o->desc.ignores_scene_lights &&
         facet_scene_has_environment(m->scene, &m->sequence.pose)) {
         const facet_environment_desc desc = environment_desc(run);
         result = facet_environment_create_from_scene(m->scene, &m->sequence.pose, &desc, &m->own_environment,

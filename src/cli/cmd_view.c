@@ -85,8 +85,8 @@ static facet_result load_model(void *user, const char *path, facet_view_model *m
     *model = (facet_view_model){.scene = NULL};
     facet_result result = input_load(path, &desc, &model->scene, error);
     if (result == FACET_OK && is_ogl1)
-        result =
-            facet_scene_convert_materials(model->scene, FACET_MATERIALS_OGL1, &desc.legacy, &desc.log, error);
+        result = facet_scene_convert_materials(model->scene, FACET_MATERIAL_MODEL_OGL1, &desc.legacy,
+                                               &desc.log, error);
     if (result == FACET_OK)
         result = choose_pose(run, path, model, error);
     if (result == FACET_OK)
@@ -122,7 +122,7 @@ static facet_result load_environment(void *user, const char *name, const facet_v
     if (name)
         result = environment_input_parse("environment", name, ENVIRONMENT_TAKES_NONE, &input, error);
     bool is_own = !name && !o->has_environment && input.kind != ENVIRONMENT_NONE &&
-                  !o->desc.ignore_scene_lights && facet_scene_has_environment(model->scene, &model->pose);
+                  !o->desc.ignores_scene_lights && facet_scene_has_environment(model->scene, &model->pose);
     if (result == FACET_OK && is_own)
         result = facet_environment_create_from_scene(model->scene, &model->pose, &desc, environment, error);
     else if (result == FACET_OK)
@@ -135,7 +135,7 @@ static facet_result load_environment(void *user, const char *name, const facet_v
 
 /* ---- the run ---- */
 
-static char *describe(void *user, const facet_view_picture *picture)
+static char *describe(void *user, const facet_view_image *picture)
 {
     const view_run_state *run = user;
     return view_command(run->line, &run->options, picture);
@@ -159,7 +159,7 @@ static facet_result begin(view_run_state *run, command_line *c, config *storage,
         result =
             option_fail(c, OPT_EXPOSURE,
                         "stops or a factor; the window has no meter, + and - change its exposure", error);
-    if (result == FACET_OK && run->options.desc.integrator == FACET_INTEGRATOR_PREVIEW)
+    if (result == FACET_OK && run->options.desc.renderer == FACET_RENDERER_KIND_PREVIEW)
         result = option_fail(c, OPT_RENDERER, "gl or path; facet render has the preview", error);
     if (result == FACET_OK)
         result = facet_budget_create(run->options.limits.max_memory_bytes, &run->budget, error);
@@ -177,7 +177,7 @@ static facet_result show(view_run_state *run, facet_error *error)
     static const char *const environments[] = {"neutral", "white", "sun:45,135", "sun:6,120", "none"};
     const command_line *c = run->line;
     const render_options *o = &run->options;
-    bool is_path = o->desc.integrator == FACET_INTEGRATOR_PATH;
+    bool is_path = o->desc.renderer == FACET_RENDERER_KIND_PATH;
     const char *script = option_text(c, OPT_SCRIPT, NULL);
     facet_view_desc desc = {
         .allocator = run->allocator,

@@ -38,12 +38,12 @@ void compare_report_table(FILE *stream, const compare_wish *wish, const facet_co
     }
     if (!wish->has_choice)
         fprintf(stream, "%u x %u pixels, %s, %s\n", c->width, c->height,
-                c->space == FACET_COMPARE_LINEAR ? "as light" : "as a display shows them",
+                c->space == FACET_COMPARE_SPACE_LINEAR ? "as light" : "as a display shows them",
                 c->is_equal ? "equal" : "different");
     table_print(&t, stream, wish->has_choice ? 0 : 2);
-    if (!wish->has_choice && c->space == FACET_COMPARE_LINEAR)
+    if (!wish->has_choice && c->space == FACET_COMPARE_SPACE_LINEAR)
         fprintf(stream, "psnr and ssim: of the largest value, %.6g\n", c->peak);
-    if (!wish->has_choice && c->flip_is_hdr)
+    if (!wish->has_choice && c->is_flip_hdr)
         fprintf(stream, "flip: the largest of %u exposures from %+.2f to %+.2f stops\n",
                 c->flip_exposure_count, c->flip_start_ev, c->flip_stop_ev);
     if (!wish->has_choice && c->differing_count)
@@ -117,16 +117,17 @@ json_t *compare_report_json(const compare_wish *wish, const facet_comparison *c)
                             is_count ? json_integer((json_int_t)c->differing_count) : number_json(value));
     }
     json_t *exposures = json_null();
-    if (c->flip_is_hdr)
+    if (c->is_flip_hdr)
         exposures = json_pack("{s:f, s:f, s:I}", "start", c->flip_start_ev, "stop", c->flip_stop_ev, "count",
                               (json_int_t)c->flip_exposure_count);
     json_t *largest =
         c->differing_count ? json_pack("[I, I]", (json_int_t)c->max_x, (json_int_t)c->max_y) : json_null();
-    return json_pack(
-        "{s:I, s:I, s:s, s:I, s:I, s:b, s:o, s:o, s:o, s:f, s:{s:I, s:I, s:I}, s:o}", "width",
-        (json_int_t)c->width, "height", (json_int_t)c->height, "space",
-        c->space == FACET_COMPARE_LINEAR ? "linear" : "display", "channels", (json_int_t)c->channel_count,
-        "pixels", (json_int_t)c->pixel_count, "equal", (int)c->is_equal, "metrics", metrics, "flip_exposures",
-        exposures, "max_at", largest, "peak", c->peak, "nonfinite", "a", (json_int_t)c->nonfinite_a, "b",
-        (json_int_t)c->nonfinite_b, "invalid", (json_int_t)c->invalid_count, "limits", limits_json(wish, c));
+    return json_pack("{s:I, s:I, s:s, s:I, s:I, s:b, s:o, s:o, s:o, s:f, s:{s:I, s:I, s:I}, s:o}", "width",
+                     (json_int_t)c->width, "height", (json_int_t)c->height, "space",
+                     c->space == FACET_COMPARE_SPACE_LINEAR ? "linear" : "display", "channels",
+                     (json_int_t)c->channel_count, "pixels", (json_int_t)c->pixel_count, "equal",
+                     (int)c->is_equal, "metrics", metrics, "flip_exposures", exposures, "max_at", largest,
+                     "peak", c->peak, "nonfinite", "a", (json_int_t)c->nonfinite_a, "b",
+                     (json_int_t)c->nonfinite_b, "invalid", (json_int_t)c->invalid_count, "limits",
+                     limits_json(wish, c));
 }

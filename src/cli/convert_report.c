@@ -70,7 +70,7 @@ static void print_materials(const messages *m, const char *model, const facet_sc
         all[i] = facet_scene_get_conversion(scene, i);
     qsort(all, count, sizeof *all, compare_errors);
     for (uint32_t i = 0; i < count; i++) {
-        bool is_news = i < MOST_LINES && !isnan(all[i].error) && all[i].grade >= FACET_GRADE_POOR;
+        bool is_news = i < MOST_LINES && !isnan(all[i].error) && all[i].grade >= FACET_CONVERSION_GRADE_POOR;
         print_material(m, is_news ? VERBOSITY_NORMAL : VERBOSITY_DETAILS, model, &all[i]);
     }
     free(all);
@@ -85,7 +85,7 @@ void convert_report_print(const messages *m, const char *model, const facet_scen
     if (t.told == 0)
         return;
     char grades[128] = "";
-    for (int i = 0; i <= FACET_GRADE_BAD; i++)
+    for (int i = 0; i <= FACET_CONVERSION_GRADE_BAD; i++)
         if (t.grades[i]) {
             size_t used = strlen(grades);
             snprintf(grades + used, sizeof grades - used, "%s%u %s", used ? ", " : "", t.grades[i],
@@ -111,7 +111,7 @@ json_t *convert_report_json(const facet_scene *scene)
         return json_null();
     json_t *root = json_object();
     json_object_set_new(root, "count", json_integer(t.count));
-    for (int i = 0; i <= FACET_GRADE_BAD; i++)
+    for (int i = 0; i <= FACET_CONVERSION_GRADE_BAD; i++)
         json_object_set_new(root, grade_names[i], json_integer(t.grades[i]));
     json_object_set_new(root, "mean_E", t.told ? json_real(t.mean_error) : json_null());
     json_object_set_new(root, "worst", t.told ? report_string_json(t.worst.name) : json_null());
@@ -127,8 +127,8 @@ facet_result convert_report_write(const facet_scene *scene, bool is_html, const 
                                   facet_error *error)
 {
     char *text = NULL;
-    facet_result result =
-        facet_scene_report_conversion(scene, is_html ? FACET_REPORT_HTML : FACET_REPORT_JSON, &text, error);
+    facet_result result = facet_scene_report_conversion(
+        scene, is_html ? FACET_REPORT_FORMAT_HTML : FACET_REPORT_FORMAT_JSON, &text, error);
     if (result == FACET_OK)
         result = output_write_bytes(text, strlen(text), path, error);
     facet_text_destroy(text);

@@ -9,7 +9,7 @@
 
 /* Of the last conversion of a scene. */
 typedef struct conversion_totals {
-    uint32_t count, grades[FACET_GRADE_BAD + 1];
+    uint32_t count, grades[FACET_CONVERSION_GRADE_BAD + 1];
     uint32_t told; /* materials that have an error to tell */
     double mean_error, mean_display, mean_drawn;
     facet_conversion worst; /* by the error that is graded */

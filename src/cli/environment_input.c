@@ -124,10 +124,10 @@ static bool read_sky_word(const char *word, facet_sky_desc *sky)
     if (strcmp(word, "lux") == 0)
         sky->illuminance_lux = 0.0f;
     else if (strcmp(word, "nodisc") == 0)
-        sky->has_no_disc = true;
+        sky->omits_disc = true;
     else if (begins(word, "albedo="))
         return read_albedo(word + strlen("albedo="), sky->ground_albedo);
-    else if (begins(word, "altitude=") && sky->model == FACET_SKY_ATMOSPHERE)
+    else if (begins(word, "altitude=") && sky->model == FACET_SKY_MODEL_ATMOSPHERE)
         return number_in(word + strlen("altitude="), 0.0, 50000.0, &sky->altitude_m);
     else if (begins(word, "height=") && number_in(word + strlen("height="), 16.0, 16384.0, &height))
         sky->height = (uint32_t)height;
@@ -142,7 +142,7 @@ static bool read_sky(const char *text, facet_sky_model model, environment_input 
     double angles[2] = {0.0, 0.0};
     size_t i = 0;
     facet_sky_desc *sky = &out->sky;
-    bool is_atmosphere = model == FACET_SKY_ATMOSPHERE;
+    bool is_atmosphere = model == FACET_SKY_MODEL_ATMOSPHERE;
     out->kind = ENVIRONMENT_SKY;
     *sky = (facet_sky_desc){.model = model,
                             .ground_albedo = {default_albedo, default_albedo, default_albedo},
@@ -166,12 +166,12 @@ static bool read_sky(const char *text, facet_sky_model model, environment_input 
 
 static bool read_sun(const char *text, environment_input *out)
 {
-    return read_sky(text, FACET_SKY_ATMOSPHERE, out);
+    return read_sky(text, FACET_SKY_MODEL_ATMOSPHERE, out);
 }
 
 static bool read_preetham(const char *text, environment_input *out)
 {
-    return read_sky(text, FACET_SKY_PREETHAM, out);
+    return read_sky(text, FACET_SKY_MODEL_PREETHAM, out);
 }
 
 /* ---- faces ---- */

@@ -43,7 +43,7 @@ int exit_code_of(facet_result result)
     case FACET_ERROR_LIMIT:
     case FACET_ERROR_MEMORY:
         return EXIT_LIMIT;
-    case FACET_ERROR_ENVIRONMENT:
+    case FACET_ERROR_SYSTEM:
         return EXIT_ENVIRONMENT;
     case FACET_ERROR_CANCELLED:
         return interrupt_exit_code();

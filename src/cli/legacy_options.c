@@ -4,13 +4,13 @@
 void legacy_options_read(const command_line *c, facet_scene_desc *out)
 {
     facet_legacy_desc *l = &out->legacy;
-    l->method = (facet_legacy_method)option_choice(c, OPT_METHOD, FACET_LEGACY_CLOSED);
-    l->profile = (facet_legacy_profile)option_choice(c, OPT_PROFILE, FACET_LEGACY_SPECULAR_IOR);
+    l->method = (facet_legacy_method)option_choice(c, OPT_METHOD, FACET_LEGACY_METHOD_CLOSED);
+    l->profile = (facet_legacy_profile)option_choice(c, OPT_PROFILE, FACET_LEGACY_PROFILE_SPECULAR_IOR);
     l->target = (facet_legacy_target)option_choice(c, OPT_FIT_TARGET, FACET_LEGACY_TARGET_AUTO);
     l->colors = option_choice(c, OPT_MTL_COLORS, 0) ? FACET_LEGACY_COLORS_LINEAR : FACET_LEGACY_COLORS_SRGB;
-    l->dialect = (facet_mtl_dialect)option_choice(c, OPT_DIALECT, FACET_MTL_AUTO);
-    l->illum = (facet_mtl_illum)option_choice(c, OPT_ILLUM, FACET_ILLUM_AUTO);
-    l->ambient = (facet_legacy_ambient)option_choice(c, OPT_AMBIENT, FACET_AMBIENT_DROP);
+    l->dialect = (facet_mtl_dialect)option_choice(c, OPT_DIALECT, FACET_MTL_DIALECT_AUTO);
+    l->illum = (facet_mtl_illum)option_choice(c, OPT_ILLUM, FACET_MTL_ILLUM_AUTO);
+    l->ambient = (facet_legacy_ambient)option_choice(c, OPT_AMBIENT, FACET_LEGACY_AMBIENT_DROP);
     l->keeps_hue = is_given(c, OPT_KEEP_HUE);
     l->has_glass = is_given(c, OPT_GLASS);
     l->has_mirrors = is_given(c, OPT_MIRRORS);

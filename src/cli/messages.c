@@ -86,7 +86,7 @@ static void add_warning(messages *m, const char *text)
 static void receive(void *user, facet_log_level level, const char *text)
 {
     messages *m = user;
-    if (level == FACET_LOG_WARNING)
+    if (level == FACET_LOG_LEVEL_WARNING)
         add_warning(m, text);
     else
         message_at(m, VERBOSITY_DETAILS, "%s", text);

@@ -55,7 +55,7 @@ static void warn_of_origin(ocean_run *run, const char *path)
         "--with: %s is far from the origin of its file; it floats as if that were at %.15g, %.15g, %.15g",
         path, origin[0], origin[1], origin[2]);
     facet_log log = messages_log(&run->messages);
-    log.message(log.user, FACET_LOG_WARNING, text);
+    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
 facet_result ocean_float_load(ocean_run *run, facet_error *error)
@@ -187,7 +187,7 @@ static void warn_of_view(ocean_run *run)
              "camera looks towards %.0f (--heading, --target)",
              at[0], at[2], azimuth_of(to[0], to[2]), azimuth_of(along[0], along[2]));
     facet_log log = messages_log(&run->messages);
-    log.message(log.user, FACET_LOG_WARNING, text);
+    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
 /* Height in the image, in pixels, of a ball around the model; it may stand around the camera. */
@@ -230,7 +230,7 @@ static void warn_of_size(ocean_run *run)
             size, -(double)high[1], (double)low[1], (double)high[1]);
     facet_log log = messages_log(&run->messages);
     if (*text)
-        log.message(log.user, FACET_LOG_WARNING, text);
+        log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
 facet_result ocean_float_place(ocean_run *run, facet_error *error)

@@ -145,7 +145,7 @@ static facet_result read_absorption(const command_line *c, facet_sea_desc *d, fa
         return result;
     facet_sea_info info = facet_sea_get_info(sea);
     facet_sea_destroy(sea);
-    d->water.kind = FACET_WATER_COEFFICIENTS;
+    d->water.kind = FACET_WATER_KIND_COEFFICIENTS;
     for (int i = 0; i < 3; i++) {
         d->water.absorption[i] = (float)numbers[i];
         d->water.scattering[i] = (float)info.scattering[i];
@@ -162,9 +162,9 @@ static facet_result read_water(const command_line *c, ocean_options *out, facet_
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--water: a type of Jerlov's does not go together with --chl; give one of them");
     if (type >= 0)
-        w->kind = (facet_water_kind)(FACET_WATER_JERLOV_I + type);
+        w->kind = (facet_water_kind)(FACET_WATER_KIND_JERLOV_I + type);
     if (is_given(c, OPT_CHLOROPHYLL)) {
-        w->kind = FACET_WATER_CHLOROPHYLL;
+        w->kind = FACET_WATER_KIND_CHLOROPHYLL;
         w->chlorophyll_mg_m3 = (float)option_number(c, OPT_CHLOROPHYLL, 0.0);
     }
     w->salinity = (float)option_number(c, OPT_SALINITY, (double)w->salinity);
@@ -255,33 +255,33 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
     render_options *o = &out->picture;
     int before = option_choice(c, OPT_BEFORE, -1);
     out->is_before_after = is_given(c, OPT_BEFORE_AFTER);
-    out->look = (facet_sea_look){
-        .before = (facet_sea_before)(before + 1),
+    out->shading = (facet_sea_shading){
+        .style = (facet_sea_style)(before + 1),
         .normals = (facet_sea_normals)option_choice(c, OPT_NORMALS, 0),
         .masking = (facet_sea_masking)option_choice(c, OPT_MASKING, 0),
-        .schlick_fresnel = option_choice(c, OPT_FRESNEL, 0) == 1,
+        .has_schlick_fresnel = option_choice(c, OPT_FRESNEL, 0) == 1,
         .perceptual_roughness = (float)option_number(c, OPT_ROUGHNESS, 0.0),
-        .no_glints = is_given(c, OPT_NO_GLINTS),
-        .no_foam = is_given(c, OPT_NO_FOAM),
-        .no_caustics = is_given(c, OPT_NO_CAUSTICS),
+        .omits_glints = is_given(c, OPT_NO_GLINTS),
+        .omits_foam = is_given(c, OPT_NO_FOAM),
+        .omits_caustics = is_given(c, OPT_NO_CAUSTICS),
         .stage = (uint32_t)option_number(c, OPT_STAGE, 0.0),
         .clamp = (float)option_number(c, OPT_CLAMP, 0.0),
     };
-    if (out->look.before && is_given(c, OPT_STAGE))
+    if (out->shading.style && is_given(c, OPT_STAGE))
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--before: it is the look before all stages; give it or --stage");
     o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
-    static const facet_integrator integrators[] = {FACET_INTEGRATOR_PREVIEW, FACET_INTEGRATOR_PATH,
-                                                   FACET_INTEGRATOR_GL};
-    o->desc.integrator = integrators[option_choice(c, OPT_RENDERER, 0)];
+    static const facet_renderer_kind renderers[] = {FACET_RENDERER_KIND_PREVIEW, FACET_RENDERER_KIND_PATH,
+                                                    FACET_RENDERER_KIND_GL};
+    o->desc.renderer = renderers[option_choice(c, OPT_RENDERER, 0)];
     static const option_id preview_only[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,       OPT_NORMALS,
                                              OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS, OPT_CLAMP};
     o->desc.path.denoises = is_given(c, OPT_DENOISE);
-    if (o->desc.path.denoises && o->desc.integrator != FACET_INTEGRATOR_PATH)
+    if (o->desc.path.denoises && o->desc.renderer != FACET_RENDERER_KIND_PATH)
         return fail_with(error, FACET_ERROR_ARGUMENT, "--denoise: only --renderer path has noise");
     const option *other =
         first_given(c, preview_only, sizeof preview_only / sizeof *preview_only, SOURCE_PRESET);
-    if (other && o->desc.integrator == FACET_INTEGRATOR_PATH)
+    if (other && o->desc.renderer == FACET_RENDERER_KIND_PATH)
         return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path",
                          other->name);
     return FACET_OK;
@@ -450,7 +450,7 @@ facet_result ocean_options_read(const command_line *c, ocean_options *out, facet
         result = check_output(c, out, error);
     if (result != FACET_OK)
         return result;
-    bool is_before = out->look.before || (out->look.stage && out->look.stage <= 2);
+    bool is_before = out->shading.style || (out->shading.stage && out->shading.stage <= 2);
     picture_options_look(c, is_before ? FACET_TONEMAP_NONE : FACET_TONEMAP_AGX, &out->picture);
     out->picture.desc.thread_count = out->picture.save.thread_count = out->picture.limits.thread_count;
     out->sea.thread_count = out->picture.limits.thread_count;

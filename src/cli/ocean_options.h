@@ -9,7 +9,7 @@ typedef struct ocean_options {
     render_options picture;
     facet_sea_desc sea;
     facet_sky_desc sky;
-    facet_sea_look look;
+    facet_sea_shading shading;
     bool has_ev100;
     double ev100;
 

@@ -32,9 +32,9 @@ facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
 }
 
 /* But for exposure and camera. */
-static facet_sea_render_desc desc_of(ocean_run *run, const ocean_options *o, const facet_sea_look *look)
+static facet_sea_render_desc desc_of(ocean_run *run, const ocean_options *o, const facet_sea_shading *look)
 {
-    facet_sea_render_desc d = {.render = o->picture.desc, .sky = o->sky, .look = *look};
+    facet_sea_render_desc d = {.render = o->picture.desc, .sky = o->sky, .shading = *look};
     d.render.allocator = run->allocator;
     d.render.log = messages_log(&run->messages);
     d.render.environment = run->environment;
@@ -46,7 +46,7 @@ static facet_sea_render_desc desc_of(ocean_run *run, const ocean_options *o, con
 facet_result ocean_run_meter(ocean_run *run, const ocean_options *o, facet_error *error)
 {
     const facet_camera camera = ocean_run_camera(run, o);
-    facet_sea_render_desc d = desc_of(run, o, &o->look);
+    facet_sea_render_desc d = desc_of(run, o, &o->shading);
     d.render.camera = &camera;
     run->ev100 = o->ev100;
     facet_result result = o->has_ev100 ? FACET_OK : facet_sea_meter(run->sea, &d, &run->ev100, error);
@@ -55,7 +55,7 @@ facet_result ocean_run_meter(ocean_run *run, const ocean_options *o, facet_error
 }
 
 /* images_left: with this one; path tracing takes all the time that it gets, so they share it evenly. */
-static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea_look *look,
+static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea_shading *look,
                          facet_tonemap tonemap, uint32_t images_left, progress *shown, facet_image **image,
                          facet_error *error)
 {
@@ -68,7 +68,7 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     d.render.camera = &camera;
     d.render.progress = progress_callback(shown);
     d.render.tonemap = tonemap;
-    bool is_path = d.render.integrator == FACET_INTEGRATOR_PATH;
+    bool is_path = d.render.renderer == FACET_RENDERER_KIND_PATH;
     d.render.time_limit_s = left > 1e29 ? 0.0 : is_path ? left / images_left : left;
     d.render.path.keeps_cancelled = true;
     d.render.exposure_ev = facet_exposure_from_ev100(run->ev100);
@@ -85,13 +85,13 @@ static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *
 {
     facet_image *halves[2] = {NULL, NULL};
     static const char *const labels[] = {"before", "now"};
-    facet_sea_look before = o->look, now = o->look;
-    now.before = FACET_SEA_PHYSICAL;
-    if (!before.before)
-        before.before = FACET_SEA_BEFORE_INTENDED;
+    facet_sea_shading before = o->shading, now = o->shading;
+    now.style = FACET_SEA_STYLE_PHYSICAL;
+    if (!before.style)
+        before.style = FACET_SEA_STYLE_LEGACY_INTENDED;
     before.stage = 0;
     facet_result result = draw(run, o, &before, FACET_TONEMAP_NONE, 1, shown, &halves[0], error);
-    facet_tonemap tonemap = o->look.before && !is_given(run->line, OPT_TONE_MAPPING)
+    facet_tonemap tonemap = o->shading.style && !is_given(run->line, OPT_TONE_MAPPING)
                                 ? FACET_TONEMAP_AGX
                                 : o->picture.desc.tonemap;
     if (result == FACET_OK)
@@ -118,6 +118,6 @@ facet_result ocean_run_draw(ocean_run *run, const ocean_options *o, ocean_step s
                       .share = 1.0 / step.count,
                       .last_percent = -10};
     return o->is_before_after ? draw_both(run, o, &shown, image, error)
-                              : draw(run, o, &o->look, o->picture.desc.tonemap, step.count - step.index,
+                              : draw(run, o, &o->shading, o->picture.desc.tonemap, step.count - step.index,
                                      &shown, image, error);
 }

@@ -150,7 +150,7 @@ facet_result output_write_bytes(const void *bytes, size_t size, const char *path
     return result;
 }
 
-facet_result output_write(const facet_image *image, const char *path, const facet_save_desc *desc,
+facet_result output_write(const facet_image *image, const char *path, const facet_image_save_desc *desc,
                           facet_error *error)
 {
     if (strcmp(path, "-") != 0) {

@@ -12,7 +12,7 @@ facet_result output_check(const char *path, facet_error *error);
 facet_result output_make_folders(const char *path, facet_error *error);
 
 /* Writes image to path ("-": standard output). */
-facet_result output_write(const facet_image *image, const char *path, const facet_save_desc *desc,
+facet_result output_write(const facet_image *image, const char *path, const facet_image_save_desc *desc,
                           facet_error *error);
 
 /* Writes bytes to path ("-": standard output). */

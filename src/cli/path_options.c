@@ -19,11 +19,11 @@ static facet_result read_renderer(const command_line *c, render_options *out, fa
 {
     const char *renderer = option_text(c, OPT_RENDERER, "preview");
     if (strcmp(renderer, "preview") == 0)
-        out->desc.integrator = FACET_INTEGRATOR_PREVIEW;
+        out->desc.renderer = FACET_RENDERER_KIND_PREVIEW;
     else if (strcmp(renderer, "path") == 0)
-        out->desc.integrator = FACET_INTEGRATOR_PATH;
+        out->desc.renderer = FACET_RENDERER_KIND_PATH;
     else if (strcmp(renderer, "gl") == 0)
-        out->desc.integrator = FACET_INTEGRATOR_GL;
+        out->desc.renderer = FACET_RENDERER_KIND_GL;
     else
         return option_fail(c, OPT_RENDERER, "preview, path or gl", error);
     return FACET_OK;
@@ -48,8 +48,8 @@ static facet_result refuse(const command_line *c, const option_id *list, const c
 
 static facet_result check_renderer(const command_line *c, const render_options *o, facet_error *error)
 {
-    bool is_path = o->desc.integrator == FACET_INTEGRATOR_PATH,
-         is_gl = o->desc.integrator == FACET_INTEGRATOR_GL;
+    bool is_path = o->desc.renderer == FACET_RENDERER_KIND_PATH,
+         is_gl = o->desc.renderer == FACET_RENDERER_KIND_GL;
     facet_result result = FACET_OK;
     if (!is_path)
         result = refuse(c, path_only, "it says something only with --renderer path", error);
@@ -203,14 +203,14 @@ static void read_sampling(const command_line *c, render_options *out)
     p->light_sampling = (facet_light_sampling)option_choice(c, OPT_LIGHT_SAMPLING, FACET_LIGHT_SAMPLING_MIS);
     p->noise = (float)option_number(c, OPT_NOISE, 0.0);
     p->clamp = (float)option_number(c, OPT_CLAMP, 0.0);
-    p->straight_shadows = option_choice(c, OPT_GLASS_SHADOWS, 0) == 1;
+    p->has_straight_shadows = option_choice(c, OPT_GLASS_SHADOWS, 0) == 1;
     p->denoises = is_given(c, OPT_DENOISE);
 }
 
 static void read_gl(const command_line *c, render_options *out)
 {
     facet_gl_desc *gl = &out->desc.gl;
-    gl->shadows = is_given(c, OPT_SHADOWS);
+    gl->has_shadows = is_given(c, OPT_SHADOWS);
     gl->transparency = (facet_transparency)option_choice(c, OPT_TRANSPARENCY, FACET_TRANSPARENCY_SORTED);
     gl->bloom = (float)option_number(c, OPT_BLOOM, 0.0);
     gl->channel = (facet_channel)option_choice(c, OPT_CHANNEL, FACET_CHANNEL_LIGHT);
@@ -220,7 +220,7 @@ static void read_gl(const command_line *c, render_options *out)
 /* What has another default with each renderer. */
 static void read_defaults(const command_line *c, render_options *out)
 {
-    bool is_path = out->desc.integrator == FACET_INTEGRATOR_PATH;
+    bool is_path = out->desc.renderer == FACET_RENDERER_KIND_PATH;
     int quality = option_choice(c, OPT_QUALITY, 1);
     const uint32_t *samples = is_path ? path_samples : preview_samples;
     out->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, samples[quality]);
@@ -239,12 +239,12 @@ facet_result path_options_read(const command_line *c, render_options *out, facet
     if (result != FACET_OK)
         return result;
     read_defaults(c, out);
-    if (out->desc.integrator != FACET_INTEGRATOR_PATH && out->desc.samples > 4096)
+    if (out->desc.renderer != FACET_RENDERER_KIND_PATH && out->desc.samples > 4096)
         return option_fail(c, OPT_SAMPLES, "a number from 1 to 4096 (--renderer path takes more)", error);
     result = read_ground(c, out, error);
-    if (out->desc.integrator == FACET_INTEGRATOR_GL)
+    if (out->desc.renderer == FACET_RENDERER_KIND_GL)
         read_gl(c, out);
-    if (out->desc.integrator != FACET_INTEGRATOR_PATH)
+    if (out->desc.renderer != FACET_RENDERER_KIND_PATH)
         return result;
     read_sampling(c, out);
     facet_result (*const readers[])(const command_line *, render_options *,

@@ -40,14 +40,16 @@ facet_result picture_options_output(const command_line *c, render_options *out, 
 /* In the order of --format's choices; then other names of the same. */
 static const struct {
     const char *extension;
-    facet_file_format format;
-} formats[] = {{"png", FACET_FORMAT_PNG},   {"png", FACET_FORMAT_PNG16}, {"jpg", FACET_FORMAT_JPEG},
-               {"webp", FACET_FORMAT_WEBP}, {"exr", FACET_FORMAT_EXR},   {"exr", FACET_FORMAT_EXR_FLOAT},
-               {"hdr", FACET_FORMAT_HDR},   {"pfm", FACET_FORMAT_PFM},   {"y4m", FACET_FORMAT_RAW},
-               {"raw", FACET_FORMAT_RAW},   {"jpeg", FACET_FORMAT_JPEG}};
+    facet_image_format format;
+} formats[] = {{"png", FACET_IMAGE_FORMAT_PNG},  {"png", FACET_IMAGE_FORMAT_PNG16},
+               {"jpg", FACET_IMAGE_FORMAT_JPEG}, {"webp", FACET_IMAGE_FORMAT_WEBP},
+               {"exr", FACET_IMAGE_FORMAT_EXR},  {"exr", FACET_IMAGE_FORMAT_EXR_FLOAT},
+               {"hdr", FACET_IMAGE_FORMAT_HDR},  {"pfm", FACET_IMAGE_FORMAT_PFM},
+               {"y4m", FACET_IMAGE_FORMAT_RAW},  {"raw", FACET_IMAGE_FORMAT_RAW},
+               {"jpeg", FACET_IMAGE_FORMAT_JPEG}};
 enum { Y4M = 8, RAW = 9 }; /* in formats */
 
-const char *render_extension(facet_file_format format)
+const char *render_extension(facet_image_format format)
 {
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
         if (formats[i].format == format)
@@ -61,10 +63,10 @@ static void set_format(render_options *out, size_t number)
     out->video = number == Y4M ? VIDEO_Y4M : number == RAW ? VIDEO_RAW : VIDEO_NONE;
 }
 
-static bool is_linear(facet_file_format format)
+static bool is_linear(facet_image_format format)
 {
-    return format == FACET_FORMAT_EXR || format == FACET_FORMAT_EXR_FLOAT || format == FACET_FORMAT_HDR ||
-           format == FACET_FORMAT_PFM;
+    return format == FACET_IMAGE_FORMAT_EXR || format == FACET_IMAGE_FORMAT_EXR_FLOAT ||
+           format == FACET_IMAGE_FORMAT_HDR || format == FACET_IMAGE_FORMAT_PFM;
 }
 
 facet_result picture_options_format(const command_line *c, render_options *out, facet_error *error)
@@ -75,7 +77,7 @@ facet_result picture_options_format(const command_line *c, render_options *out, 
         return FACET_OK;
     }
     if (!out->output) {
-        out->save.format = FACET_FORMAT_PNG;
+        out->save.format = FACET_IMAGE_FORMAT_PNG;
         return FACET_OK;
     }
     if (out->is_stdout)

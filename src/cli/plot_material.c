@@ -23,25 +23,25 @@ typedef struct parameter {
 
 #define AT(member) offsetof(facet_plot_material, member)
 static const parameter parameters[] = {
-    {"color", FACET_PLOT_PBR, AT(base_color), .is_color = true},
-    {"base-color", FACET_PLOT_PBR, AT(base_color), .is_color = true},
-    {"metallic", FACET_PLOT_PBR, AT(metallic), .maximum = 1},
-    {"roughness", FACET_PLOT_PBR, AT(perceptual_roughness), .maximum = 1},
-    {"ior", FACET_PLOT_PBR, AT(ior), .maximum = 100},
-    {"specular", FACET_PLOT_PBR, AT(specular), .maximum = 1},
-    {"specular-color", FACET_PLOT_PBR, AT(specular_color), .is_color = true},
-    {"clearcoat", FACET_PLOT_PBR, AT(clearcoat), .maximum = 1},
-    {"clearcoat-roughness", FACET_PLOT_PBR, AT(clearcoat_roughness), .maximum = 1},
-    {"sheen-color", FACET_PLOT_PBR, AT(sheen_color), .is_color = true},
-    {"sheen-roughness", FACET_PLOT_PBR, AT(sheen_roughness), .maximum = 1},
-    {"anisotropy", FACET_PLOT_PBR, AT(anisotropy), .maximum = 1},
-    {"anisotropy-rotation", FACET_PLOT_PBR, AT(anisotropy_rotation_rad), .is_angle = true},
-    {"iridescence", FACET_PLOT_PBR, AT(iridescence), .maximum = 1},
-    {"iridescence-ior", FACET_PLOT_PBR, AT(iridescence_ior), .minimum = 1, .maximum = 100},
-    {"iridescence-thickness", FACET_PLOT_PBR, AT(iridescence_thickness_nm), .maximum = 1e5},
-    {"diffuse", FACET_PLOT_OGL1, AT(diffuse), .is_color = true},
-    {"specular", FACET_PLOT_OGL1, AT(ogl1_specular), .is_color = true},
-    {"shininess", FACET_PLOT_OGL1, AT(shininess), .maximum = 1e6},
+    {"color", FACET_PLOT_MODEL_PBR, AT(base_color), .is_color = true},
+    {"base-color", FACET_PLOT_MODEL_PBR, AT(base_color), .is_color = true},
+    {"metallic", FACET_PLOT_MODEL_PBR, AT(metallic), .maximum = 1},
+    {"roughness", FACET_PLOT_MODEL_PBR, AT(perceptual_roughness), .maximum = 1},
+    {"ior", FACET_PLOT_MODEL_PBR, AT(ior), .maximum = 100},
+    {"specular", FACET_PLOT_MODEL_PBR, AT(specular), .maximum = 1},
+    {"specular-color", FACET_PLOT_MODEL_PBR, AT(specular_color), .is_color = true},
+    {"clearcoat", FACET_PLOT_MODEL_PBR, AT(clearcoat), .maximum = 1},
+    {"clearcoat-roughness", FACET_PLOT_MODEL_PBR, AT(clearcoat_roughness), .maximum = 1},
+    {"sheen-color", FACET_PLOT_MODEL_PBR, AT(sheen_color), .is_color = true},
+    {"sheen-roughness", FACET_PLOT_MODEL_PBR, AT(sheen_roughness), .maximum = 1},
+    {"anisotropy", FACET_PLOT_MODEL_PBR, AT(anisotropy), .maximum = 1},
+    {"anisotropy-rotation", FACET_PLOT_MODEL_PBR, AT(anisotropy_rotation_rad), .is_angle = true},
+    {"iridescence", FACET_PLOT_MODEL_PBR, AT(iridescence), .maximum = 1},
+    {"iridescence-ior", FACET_PLOT_MODEL_PBR, AT(iridescence_ior), .minimum = 1, .maximum = 100},
+    {"iridescence-thickness", FACET_PLOT_MODEL_PBR, AT(iridescence_thickness_nm), .maximum = 1e5},
+    {"diffuse", FACET_PLOT_MODEL_OGL1, AT(diffuse), .is_color = true},
+    {"specular", FACET_PLOT_MODEL_OGL1, AT(ogl1_specular), .is_color = true},
+    {"shininess", FACET_PLOT_MODEL_OGL1, AT(shininess), .maximum = 1e6},
 };
 
 /* "#808080", "gold"; one linear number for a grey, three with slashes. */
@@ -126,9 +126,10 @@ static bool find_model(const char *word, size_t length, facet_plot_model *out)
     static const struct {
         const char *name;
         facet_plot_model model;
-    } names[] = {{"pbr", FACET_PLOT_PBR},          {"gltf", FACET_PLOT_PBR},    {"ggx", FACET_PLOT_PBR},
-                 {"ogl1", FACET_PLOT_OGL1},        {"phong", FACET_PLOT_OGL1},  {"blinn", FACET_PLOT_OGL1},
-                 {"blinn-phong", FACET_PLOT_OGL1}, {"opengl1", FACET_PLOT_OGL1}};
+    } names[] = {{"pbr", FACET_PLOT_MODEL_PBR},          {"gltf", FACET_PLOT_MODEL_PBR},
+                 {"ggx", FACET_PLOT_MODEL_PBR},          {"ogl1", FACET_PLOT_MODEL_OGL1},
+                 {"phong", FACET_PLOT_MODEL_OGL1},       {"blinn", FACET_PLOT_MODEL_OGL1},
+                 {"blinn-phong", FACET_PLOT_MODEL_OGL1}, {"opengl1", FACET_PLOT_MODEL_OGL1}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strlen(names[i].name) == length && strncasecmp(word, names[i].name, length) == 0) {
             *out = names[i].model;
@@ -181,7 +182,7 @@ static void write_value(const parameter *p, const float *value, char *text, size
 void plot_material_write(const facet_plot_material *m, char *text, size_t size)
 {
     const facet_plot_material defaults = facet_plot_material_default();
-    snprintf(text, size, "%s", m->model == FACET_PLOT_OGL1 ? "ogl1" : "pbr");
+    snprintf(text, size, "%s", m->model == FACET_PLOT_MODEL_OGL1 ? "ogl1" : "pbr");
     for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
         const parameter *p = &parameters[i];
         bool is_synonym = i > 0 && parameters[i - 1].offset == p->offset;
@@ -211,7 +212,8 @@ static facet_result add_scene(plot_materials *m, const facet_scene *scene, const
     uint32_t count = facet_scene_get_counts(scene).materials, found = 0;
     char names[512] = "";
     facet_result result = FACET_OK;
-    facet_plot_model model = facet_scene_has_legacy_materials(scene) ? FACET_PLOT_OGL1 : FACET_PLOT_PBR;
+    facet_plot_model model =
+        facet_scene_has_legacy_materials(scene) ? FACET_PLOT_MODEL_OGL1 : FACET_PLOT_MODEL_PBR;
     for (uint32_t i = 0; i < count && result == FACET_OK; i++) {
         facet_plot_material one;
         result = facet_plot_material_from_scene(scene, i, model, &one, error);
@@ -274,7 +276,7 @@ facet_result plot_materials_add(plot_materials *m, const char *text, const facet
 {
     facet_plot_material one = facet_plot_material_default();
     if (ends_with(text, ".binary")) {
-        one.model = FACET_PLOT_MERL;
+        one.model = FACET_PLOT_MODEL_MERL;
         one.path = text;
         return append(m, &one, error);
     }

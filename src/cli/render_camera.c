@@ -20,7 +20,7 @@ static void resolve_target(const facet_scene *scene, const facet_pose_desc *pose
     facet_camera camera;
     double origin[3];
     orbit.has_target = false;
-    orbit.orthographic = false;
+    orbit.is_orthographic = false;
     orbit.radius = 1.0f; /* only the middle is asked for */
     facet_camera_from_orbit(scene, pose, &orbit, aspect_of(options), &camera, NULL);
     facet_scene_get_origin(scene, origin);
@@ -67,7 +67,7 @@ static facet_result camera_from_eye(const facet_scene *scene, const facet_pose_d
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--eye: the camera stands on what it looks at (%.9g,%.9g,%.9g)", options->eye[0],
                          options->eye[1], options->eye[2]);
-    if (options->orbit.orthographic) {
+    if (options->orbit.is_orthographic) {
         camera->ortho_height = 2.0f * far_away * tanf(0.5f * camera->fov_y_rad);
         camera->fov_y_rad = 0.0f;
     }
@@ -107,6 +107,6 @@ void render_keep_framing(render_options *options, const facet_scene *scene, cons
         options->target[i] = (double)camera->target[i] + origin[i];
         options->has_target[i] = true;
     }
-    orbit->radius = orbit->orthographic ? 0.5f * camera->ortho_height / tanf(0.5f * orbit->fov_y_rad)
-                                        : distance(camera->eye, camera->target);
+    orbit->radius = orbit->is_orthographic ? 0.5f * camera->ortho_height / tanf(0.5f * orbit->fov_y_rad)
+                                           : distance(camera->eye, camera->target);
 }

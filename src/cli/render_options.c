@@ -59,8 +59,8 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
     d->ogl1 = (facet_ogl1_desc){.variant = (facet_ogl1_variant)option_choice(c, OPT_OGL1_VARIANT, 0),
                                 .is_linear = option_choice(c, OPT_OGL1_SPACE, 0) == 1,
                                 .ignores_fog = option_choice(c, OPT_FOG, 0) == 1};
-    d->specular_antialiasing = is_given(c, OPT_SPECULAR_AA);
-    d->ignore_scene_lights = option_choice(c, OPT_LIGHTS, 0) == 1;
+    d->has_specular_antialiasing = is_given(c, OPT_SPECULAR_AA);
+    d->ignores_scene_lights = option_choice(c, OPT_LIGHTS, 0) == 1;
     return FACET_OK;
 }
 
@@ -71,7 +71,7 @@ static facet_result read_orbit(const command_line *c, render_options *out, facet
     facet_orbit *orbit = &out->orbit;
     *orbit = facet_orbit_default();
     orbit->is_z_up = option_choice(c, OPT_UP, 0) == 1;
-    orbit->orthographic = is_given(c, OPT_ORTHO);
+    orbit->is_orthographic = is_given(c, OPT_ORTHO);
     orbit->includes_far_parts = option_choice(c, OPT_FRAMING, 0) == 1;
     const char *text = option_text(c, OPT_ORBIT, NULL);
     if (text && !orbit_parse(text, orbit))

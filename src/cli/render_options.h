@@ -16,12 +16,12 @@ typedef struct render_options {
     const char *output;   /* pattern; NULL: named after the model */
     const char *id_layer; /* IDs that are written in false color in place of the image; NULL: none */
     bool is_stdout;
-    bool is_sequence;       /* several pictures of a model, as far as the options tell */
-    video_format video;     /* all of them in one file */
-    bool keeps_existing;    /* --no-clobber */
-    const char *checkpoint; /* pattern; NULL: none */
-    facet_save_desc save;   /* format is always named */
-    facet_render_desc desc; /* without allocator, log, progress, pose, camera, environment */
+    bool is_sequence;           /* several pictures of a model, as far as the options tell */
+    video_format video;         /* all of them in one file */
+    bool keeps_existing;        /* --no-clobber */
+    const char *checkpoint;     /* pattern; NULL: none */
+    facet_image_save_desc save; /* format is always named */
+    facet_render_desc desc;     /* without allocator, log, progress, pose, camera, environment */
 
     /* camera */
     const char *camera; /* NULL: orbit or eye */
@@ -58,6 +58,6 @@ typedef struct render_options {
 facet_result render_options_read(const command_line *c, render_options *out, facet_error *error);
 
 /* The extension, without point, that files of a format have. */
-const char *render_extension(facet_file_format format);
+const char *render_extension(facet_image_format format);
 
 #endif

@@ -26,7 +26,7 @@ void report_partial(messages *m, const picture_report *p, const char *resume_wit
              strcmp(p->output, "-") == 0 ? "stdout" : p->output,
              interrupt_signal() ? "interrupted" : "the time limit came", samples_taken(p), p->samples,
              *checkpoint ? "; --resume goes on with " : "", checkpoint);
-    log.message(log.user, FACET_LOG_WARNING, text);
+    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
 void report_picture(const messages *m, const picture_report *p, bool is_news)

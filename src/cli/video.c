@@ -151,8 +151,8 @@ facet_result video_add(video *v, const facet_image *image, const facet_allocator
                        uint32_t thread_count, facet_error *error)
 {
     facet_image_view view = facet_image_get_layer(image, 0);
-    const facet_save_desc desc = {
-        .allocator = *allocator, .thread_count = thread_count, .format = FACET_FORMAT_RAW};
+    const facet_image_save_desc desc = {
+        .allocator = *allocator, .thread_count = thread_count, .format = FACET_IMAGE_FORMAT_RAW};
     unsigned char *bytes = NULL;
     size_t size;
     facet_result result = begin(v, view.width, view.height, error);

@@ -169,7 +169,7 @@ static void add_degrees(line *l, option_id id, float radians)
     add_option(l, id, "%s", word);
 }
 
-static void add_camera(line *l, const render_options *o, const facet_view_picture *p)
+static void add_camera(line *l, const render_options *o, const facet_view_image *p)
 {
     const facet_orbit *orbit = p->orbit;
     if (!orbit) {
@@ -186,13 +186,13 @@ static void add_camera(line *l, const render_options *o, const facet_view_pictur
     add_option(l, OPT_TARGET, "%s,%s,%s", words[0], words[1], words[2]);
     if (orbit->fov_y_rad != facet_orbit_default().fov_y_rad)
         add_degrees(l, OPT_FOV, orbit->fov_y_rad);
-    if (orbit->orthographic)
+    if (orbit->is_orthographic)
         add_option(l, OPT_ORTHO, "%s", "");
     if (o->orbit.is_z_up)
         add_option(l, OPT_UP, "z");
 }
 
-static void add_light(line *l, const command_line *c, const facet_view_picture *p)
+static void add_light(line *l, const command_line *c, const facet_view_image *p)
 {
     const facet_render_desc *d = p->render;
     const char *name = p->environment ? p->environment : option_text(c, OPT_ENV, NULL);
@@ -205,7 +205,7 @@ static void add_light(line *l, const command_line *c, const facet_view_picture *
         write_number(exp2((double)d->environment_ev), (double)d->environment_ev, read_factor, factor);
         add_option(l, OPT_ENV_INTENSITY, "%s", factor);
     }
-    if (d->ignore_scene_lights)
+    if (d->ignores_scene_lights)
         add_option(l, OPT_LIGHTS, "none");
     if (d->ground == FACET_GROUND_SHADOW)
         add_option(l, OPT_GROUND, "shadow");
@@ -247,7 +247,7 @@ static void add_gl(line *l, const facet_gl_desc *gl)
     add_choice(l, OPT_CHANNEL, (int)gl->channel);
     add_choice(l, OPT_BRDF, (int)gl->brdf);
     add_choice(l, OPT_TRANSPARENCY, (int)gl->transparency);
-    if (gl->shadows)
+    if (gl->has_shadows)
         add_option(l, OPT_SHADOWS, "%s", "");
     if (gl->bloom > 0.0f)
         add_float(l, OPT_BLOOM, gl->bloom);
@@ -255,7 +255,7 @@ static void add_gl(line *l, const facet_gl_desc *gl)
 
 static void add_rendering(line *l, const facet_render_desc *d)
 {
-    bool is_path = d->integrator == FACET_INTEGRATOR_PATH;
+    bool is_path = d->renderer == FACET_RENDERER_KIND_PATH;
     bool is_conserving = d->energy == FACET_ENERGY_CONSERVING;
     add_option(l, OPT_RENDERER, "%s", is_path ? "path" : "gl");
     if (is_conserving != is_path)
@@ -358,7 +358,7 @@ static void add_others(line *l, const command_line *c, bool is_path)
     }
 }
 
-char *view_command(const command_line *c, const render_options *options, const facet_view_picture *p)
+char *view_command(const command_line *c, const render_options *options, const facet_view_image *p)
 {
     line l = {0};
     char stem[1024];
@@ -380,7 +380,7 @@ char *view_command(const command_line *c, const render_options *options, const f
     add_light(&l, c, p);
     add_background(&l, c, d);
     add_look(&l, d);
-    add_others(&l, c, d->integrator == FACET_INTEGRATOR_PATH);
+    add_others(&l, c, d->renderer == FACET_RENDERER_KIND_PATH);
     if (l.has_failed) {
         free(l.text);
         return NULL;

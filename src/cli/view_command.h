@@ -6,6 +6,6 @@
 
 /* A block of malloc(), ready for a shell; NULL: no memory. c: how facet view was called, whose options that no key changes go
  * along; options: what they were read as. */
-char *view_command(const command_line *c, const render_options *options, const facet_view_picture *picture);
+char *view_command(const command_line *c, const render_options *options, const facet_view_image *picture);
 
 #endif

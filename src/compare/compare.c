@@ -14,7 +14,7 @@
 
 static facet_result check_desc(const facet_compare_desc *desc, facet_error *error)
 {
-    if ((int)desc->space < 0 || desc->space > FACET_COMPARE_DISPLAY || (int)desc->alpha < 0 ||
+    if ((int)desc->space < 0 || desc->space > FACET_COMPARE_SPACE_DISPLAY || (int)desc->alpha < 0 ||
         desc->alpha > FACET_COMPARE_ALPHA_BACKGROUND || (int)desc->difference < 0 ||
         desc->difference > FACET_DIFFERENCE_HEAT_MAP || (int)desc->tonemap < 0 ||
         desc->tonemap > FACET_TONEMAP_HABLE)
@@ -34,7 +34,7 @@ static facet_result check_desc(const facet_compare_desc *desc, facet_error *erro
                     "compare: threshold, gain, relative_epsilon or peak is below 0 or no number, or "
                     "exposure_ev beyond "
                     "100 stops");
-    if (desc->space == FACET_COMPARE_LINEAR && desc->tonemap != FACET_TONEMAP_NONE)
+    if (desc->space == FACET_COMPARE_SPACE_LINEAR && desc->tonemap != FACET_TONEMAP_NONE)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "compare: tone mapping is for the display, not for linear space");
     return FACET_OK;
@@ -61,20 +61,21 @@ static facet_result percentiles(const float *errors, size_t count, const facet_c
 static void begin(const compare_source *s, const compare_survey *survey, const facet_compare_desc *desc,
                   facet_comparison *out)
 {
-    *out = (facet_comparison){.width = s->width,
-                              .height = s->height,
-                              .space = s->is_display ? FACET_COMPARE_DISPLAY : FACET_COMPARE_LINEAR,
-                              .channel_count = s->has_opacity && survey->has_opacity ? 4 : 3,
-                              .pixel_count = survey->pixel_count,
-                              .is_equal = survey->is_equal,
-                              .nonfinite_a = survey->nonfinite_a,
-                              .nonfinite_b = survey->nonfinite_b,
-                              .invalid_count = survey->invalid_count,
-                              .percentile = (double)NAN,
-                              .ssim = (double)NAN,
-                              .ssim_channels = (double)NAN,
-                              .flip = (double)NAN,
-                              .flip_max = (double)NAN};
+    *out =
+        (facet_comparison){.width = s->width,
+                           .height = s->height,
+                           .space = s->is_display ? FACET_COMPARE_SPACE_DISPLAY : FACET_COMPARE_SPACE_LINEAR,
+                           .channel_count = s->has_opacity && survey->has_opacity ? 4 : 3,
+                           .pixel_count = survey->pixel_count,
+                           .is_equal = survey->is_equal,
+                           .nonfinite_a = survey->nonfinite_a,
+                           .nonfinite_b = survey->nonfinite_b,
+                           .invalid_count = survey->invalid_count,
+                           .percentile = (double)NAN,
+                           .ssim = (double)NAN,
+                           .ssim_channels = (double)NAN,
+                           .flip = (double)NAN,
+                           .flip_max = (double)NAN};
     const double largest =
         survey->largest > 0.0f ? (double)survey->largest : 1.0; /* of black: anything serves */
     out->peak = desc->peak > 0.0f ? (double)desc->peak : s->is_display ? 1.0 : largest;

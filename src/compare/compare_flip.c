@@ -332,6 +332,6 @@ facet_result compare_flip_make(const compare_source *s, const facet_compare_desc
         return fail_memory(error, "tile", sizeof(flip_work));
     out->flip = sums.sum / (double)out->pixel_count;
     out->flip_max = (double)sums.largest;
-    out->flip_is_hdr = job.is_hdr;
+    out->is_flip_hdr = job.is_hdr;
     return FACET_OK;
 }

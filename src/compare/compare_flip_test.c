@@ -200,7 +200,7 @@ static void agrees_with_the_paper_written_down_again(void **state)
             largest = fmax(largest, map[k]);
         assert_near(c.flip, wanted, 2e-6);
         assert_near(c.flip_max, largest, 1e-5);
-        assert_true(c.flip > 0.05 && !c.flip_is_hdr);
+        assert_true(c.flip > 0.05 && !c.is_flip_hdr);
         free(map);
     }
     free(pa.at);
@@ -223,7 +223,7 @@ static void of_light_it_is_the_largest_over_exposures(void **state)
         }
     }
     facet_comparison c = fixture_compare(a, b, &flip_only);
-    assert_true(c.flip_is_hdr);
+    assert_true(c.is_flip_hdr);
     double luminance[WIDTH * HEIGHT], sorted[WIDTH * HEIGHT], largest = 0.0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         luminance[i] = 0.2126 * (double)a->rgba[4 * i] + 0.7152 * (double)a->rgba[4 * i + 1] +

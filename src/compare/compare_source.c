@@ -56,8 +56,8 @@ facet_result compare_source_open(const compare_picture *a, const compare_picture
                             .has_opacity = desc->alpha == FACET_COMPARE_ALPHA_CHANNEL,
                             .tonemap = desc->tonemap,
                             .scale = exp2f(desc->exposure_ev)};
-    out->is_display = desc->space == FACET_COMPARE_DISPLAY ||
-                      (desc->space == FACET_COMPARE_AUTO &&
+    out->is_display = desc->space == FACET_COMPARE_SPACE_DISPLAY ||
+                      (desc->space == FACET_COMPARE_SPACE_AUTO &&
                        (a->is_display || b->is_display || desc->tonemap != FACET_TONEMAP_NONE));
     if (desc->alpha == FACET_COMPARE_ALPHA_BACKGROUND)
         for (int k = 0; k < 3; k++)

@@ -30,7 +30,7 @@ static void of_an_offset_everything_is_known(void **state)
     fixture_fill(a, 0.5f, 0.25f, 2.0f, 1.0f);
     fixture_fill(b, 0.75f, 0.5f, 2.25f, 1.0f);
     facet_comparison c = fixture_compare(a, b, &(facet_compare_desc){.percentile = 12.5});
-    assert_true(c.space == FACET_COMPARE_LINEAR && c.channel_count == 3 && c.pixel_count == 2000);
+    assert_true(c.space == FACET_COMPARE_SPACE_LINEAR && c.channel_count == 3 && c.pixel_count == 2000);
     assert_near(c.mse, 0.0625, 1e-15);
     assert_near(c.rmse, 0.25, 1e-15);
     assert_near(c.mae, 0.25, 1e-15);
@@ -69,7 +69,7 @@ static void codes_are_what_a_file_has(void **state)
                 fixture_at(b, x, y)[k] = (float)srgb_decode((x < 255 ? x + 1 : x - 1) / 255.0);
             }
     facet_comparison c = fixture_compare(a, b, &errors_only);
-    assert_true(c.space == FACET_COMPARE_DISPLAY && c.peak == 1.0);
+    assert_true(c.space == FACET_COMPARE_SPACE_DISPLAY && c.peak == 1.0);
     assert_near(c.rmse * 255.0, 1.0, 1e-4);
     assert_near(c.max_error * 255.0, 1.0, 2e-4);
     assert_near(c.percentile_50 * 255.0, 1.0, 2e-4);
@@ -309,7 +309,7 @@ static void light_meets_what_a_display_shows(void **state)
     fixture_fill(shown, 0.75f, 0.3333333f, 0.2f, 1.0f); /* Reinhard's c / (1 + c) */
     facet_compare_desc desc = {.tonemap = FACET_TONEMAP_REINHARD};
     facet_comparison c = fixture_compare(light, shown, &desc);
-    assert_true(c.space == FACET_COMPARE_DISPLAY && !c.flip_is_hdr);
+    assert_true(c.space == FACET_COMPARE_SPACE_DISPLAY && !c.is_flip_hdr);
     assert_near(c.max_error, 0.0, 1e-6);
     fixture_fill(light, 1.5f, 0.25f, 0.125f, 1.0f);
     desc.exposure_ev = 1.0f;
@@ -317,11 +317,11 @@ static void light_meets_what_a_display_shows(void **state)
     assert_near(fixture_compare(shown, light, &desc).max_error, 0.0, 1e-6);
     desc.tonemap = FACET_TONEMAP_NONE; /* clamped: 1, 0.5, 0.25 */
     c = fixture_compare(light, shown, &desc);
-    assert_true(c.space == FACET_COMPARE_DISPLAY);
+    assert_true(c.space == FACET_COMPARE_SPACE_DISPLAY);
     assert_near(c.max_error, srgb_encode(0.5) - srgb_encode(1.0 / 3.0), 1e-6);
     fixture_fill(light, 0.75f, 0.3333333f, 0.2f, 1.0f); /* as it is, in linear space */
-    c = fixture_compare(light, shown, &(facet_compare_desc){.space = FACET_COMPARE_LINEAR});
-    assert_true(c.space == FACET_COMPARE_LINEAR && c.max_error == 0.0 && c.flip_is_hdr);
+    c = fixture_compare(light, shown, &(facet_compare_desc){.space = FACET_COMPARE_SPACE_LINEAR});
+    assert_true(c.space == FACET_COMPARE_SPACE_LINEAR && c.max_error == 0.0 && c.is_flip_hdr);
     free(light);
     free(shown);
 }
@@ -451,7 +451,7 @@ static void what_cannot_be_is_refused(void **state)
                                         {.peak = NAN},
                                         {.space = (facet_compare_space)7},
                                         {.exposure_ev = NAN},
-                                        {.space = FACET_COMPARE_LINEAR, .tonemap = FACET_TONEMAP_ACES},
+                                        {.space = FACET_COMPARE_SPACE_LINEAR, .tonemap = FACET_TONEMAP_ACES},
                                         {.alpha = (facet_compare_alpha)9}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         assert_int_equal(compare_pictures(&a->picture, &a->picture, NULL, &wrong[i], &c, NULL, &error),

@@ -34,7 +34,7 @@ static facet_result fail_embree(enum RTCError code, facet_error *error)
         return fail(error, FACET_ERROR_MEMORY, "out of memory: bounding volume hierarchy");
     if (code == RTC_ERROR_UNSUPPORTED_CPU)
         return fail(
-            error, FACET_ERROR_ENVIRONMENT,
+            error, FACET_ERROR_SYSTEM,
             "Embree does not run on this processor, or not with the instruction set that was asked for");
     return fail(error, FACET_ERROR_BUG, "Embree: error %d while building the hierarchy", (int)code);
 }
@@ -317,7 +317,7 @@ facet_result embree_scene_create(const render_geometry_set *set, const facet_all
     atomic_init(&out->memory.used, 0);
     thread_count = choose_threads(thread_count);
     if (thread_count == 0)
-        return fail(error, FACET_ERROR_ENVIRONMENT,
+        return fail(error, FACET_ERROR_SYSTEM,
                     "threads: the system allows too few; Embree needs some (ulimit -u)");
     char config[64];
     write_config(thread_count, isa, config, sizeof config);

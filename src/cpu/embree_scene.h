@@ -40,7 +40,7 @@ static inline uint32_t embree_still_number(const render_geometry_set *set)
 }
 
 /* Builds over the geometries, which have their vertices and outlive it, as well as ray_count rays are worth it. The
- * hierarchy does not depend on thread_count. Fails with FACET_ERROR_MEMORY, FACET_ERROR_ENVIRONMENT where Embree, or
+ * hierarchy does not depend on thread_count. Fails with FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM where Embree, or
  * that instruction set of it, does not run. */
 facet_result embree_scene_create(const render_geometry_set *set, const facet_allocator *allocator,
                                  uint64_t ray_count, uint32_t thread_count, facet_isa isa, embree_scene *out,

@@ -32,7 +32,7 @@ static scene_material base(void)
 static film render_ball(scene_material material, fixture *f, bool is_antialiased)
 {
     f->desc.width = f->desc.height = SIZE;
-    f->desc.specular_antialiasing = is_antialiased;
+    f->desc.has_specular_antialiasing = is_antialiased;
     scene_material wall = scene_material_default();
     wall.extensions = SCENE_UNLIT;
     wall.base_color[0] = 0.2f;
@@ -436,7 +436,7 @@ static float highlight(float perceptual_roughness, bool is_antialiased)
     no_environment(&f);
     f.desc.width = f.desc.height = 9;
     f.desc.samples = 1;
-    f.desc.specular_antialiasing = is_antialiased;
+    f.desc.has_specular_antialiasing = is_antialiased;
     scene_material m = scene_material_default();
     m.perceptual_roughness = perceptual_roughness;
     fixture_place(&f, fixture_add_sphere(&f, 512, fixture_add_material(&f, m)), 0, 0, 0, 20.0f / 9.0f);
@@ -467,7 +467,7 @@ static void flat_surfaces_stay_as_they_are(void **state)
     for (int i = 0; i < 2; i++) {
         fixture f = fixture_create();
         f.desc.width = f.desc.height = SIZE;
-        f.desc.specular_antialiasing = i;
+        f.desc.has_specular_antialiasing = i;
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, base())), 0, 0, 0, 1.0f);
         scene_light lamp = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 3.0f};
         fixture_add_light(&f, lamp, 0.3f, 0.1f, 1.0f);
@@ -494,7 +494,7 @@ static void normal_textures_count(void **state)
         fixture f = fixture_create();
         no_environment(&f);
         f.desc.width = f.desc.height = 33;
-        f.desc.specular_antialiasing = i;
+        f.desc.has_specular_antialiasing = i;
         scene_material m = scene_material_default();
         m.perceptual_roughness = 0.3f;
         m.textures[SCENE_NORMAL_TEXTURE].texture = fixture_add_texture(&f, 64, 64, bumps);

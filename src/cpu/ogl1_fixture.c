@@ -23,7 +23,7 @@ scene_legacy *ogl1_fixture_legacy(fixture *f)
         legacy->materials[i] = legacy_material_default();
     legacy->fog.scale = 1.0f;
     legacy->colors = FACET_LEGACY_COLORS_SRGB;
-    legacy->dialect = FACET_MTL_SPEC;
+    legacy->dialect = FACET_MTL_DIALECT_SPEC;
     f->scene->legacy = legacy;
     return legacy;
 }
@@ -113,14 +113,14 @@ static void to_eye(const view *v, const double p[3], double w, double out[3])
 static void light_point(const ogl1_quad *q, const view *v, const double P[3], const double normal[3],
                         const double diffuse[3], bool is_front, double rgb[3])
 {
-    bool is_fixed = q->variant == FACET_OGL1_FIXED || q->variant == FACET_OGL1_RGL_DESKTOP;
+    bool is_fixed = q->variant == FACET_OGL1_VARIANT_FIXED || q->variant == FACET_OGL1_VARIANT_RGL_DESKTOP;
     double V[3] = {-P[0], -P[1], -P[2]};
     normalize3(V);
     double N[3] = {normal[0], normal[1], normal[2]};
     normalize3(N);
-    bool turns = (q->variant == FACET_OGL1_VIGNETTE && dot3(N, V) < 0.0) ||
-                 (q->variant == FACET_OGL1_WEBGL && N[2] < 0.0) ||
-                 (q->variant == FACET_OGL1_RGL_DESKTOP && !is_front);
+    bool turns = (q->variant == FACET_OGL1_VARIANT_VIGNETTE && dot3(N, V) < 0.0) ||
+                 (q->variant == FACET_OGL1_VARIANT_WEBGL && N[2] < 0.0) ||
+                 (q->variant == FACET_OGL1_VARIANT_RGL_DESKTOP && !is_front);
     for (int i = 0; i < 3; i++)
         N[i] = turns ? -N[i] : N[i];
     for (int c = 0; c < 3; c++)
@@ -138,7 +138,7 @@ static void light_point(const ogl1_quad *q, const view *v, const double P[3], co
         }
         double H[3];
         for (int i = 0; i < 3; i++)
-            H[i] = L[i] + (q->variant == FACET_OGL1_FIXED ? (i == 2) : V[i]);
+            H[i] = L[i] + (q->variant == FACET_OGL1_VARIANT_FIXED ? (i == 2) : V[i]);
         normalize3(H);
         double NL = dot3(N, L);
         double lobe = pow(fmax(dot3(N, H), 0.0), q->shininess);
@@ -156,7 +156,7 @@ static double fog_share(const ogl1_quad *q, double d)
     double scale = (double)q->fog.scale;
     double c = (d - q->near_m) / (q->far_m - q->near_m);
     double c2 = q->fog_w * (1.0 - c) + c;
-    if (q->variant >= FACET_OGL1_FIXED)
+    if (q->variant >= FACET_OGL1_VARIANT_FIXED)
         c2 = d / q->far_m;
     double f = scale * c;
     if (q->fog.mode == LEGACY_FOG_EXP)
@@ -231,7 +231,7 @@ bool ogl1_quad_color(const ogl1_quad *q, uint32_t x, uint32_t y, double rgb[3])
     double weight[3];
     if (!hit(q, &v, x, y, vertex, weight))
         return false;
-    if (q->variant < FACET_OGL1_FIXED) {
+    if (q->variant < FACET_OGL1_VARIANT_FIXED) {
         shade(q, &v, vertex, weight, rgb);
     } else {
         rgb[0] = rgb[1] = rgb[2] = 0.0;

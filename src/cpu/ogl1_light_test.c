@@ -31,7 +31,7 @@ static ogl1_quad make_quad(facet_ogl1_variant variant)
                    .specular = {0.4, 0.6, 0.25},
                    .emission = {0.02, 0.08, 0.0},
                    .shininess = 20.0,
-                   .global_ambient = variant == FACET_OGL1_FIXED ? 0.2 : 0.0};
+                   .global_ambient = variant == FACET_OGL1_VARIANT_FIXED ? 0.2 : 0.0};
     static const double tilts[4][2] = {{-0.9, -0.6}, {1.2, -0.4}, {-0.7, 1.0}, {0.8, 0.9}};
     for (int i = 0; i < 4; i++) {
         double n[3] = {tilts[i][0], tilts[i][1], 1.0};
@@ -166,7 +166,7 @@ static void lights_that_move_with_the_camera(void **state)
     for (int relative = 0; relative < 2; relative++) {
         float first = 0.0f;
         for (int i = 0; i < 5; i++) {
-            ogl1_quad q = make_quad(FACET_OGL1_VIGNETTE);
+            ogl1_quad q = make_quad(FACET_OGL1_VARIANT_VIGNETTE);
             for (int k = 0; k < 12; k++)
                 q.normals[k / 3][k % 3] = k % 3 == 2;
             q.shininess = 0.0;
@@ -194,7 +194,7 @@ static void lights_that_move_with_the_camera(void **state)
 static void directions_as_the_vignette_prints_them(void **state)
 {
     (void)state;
-    ogl1_quad q = make_quad(FACET_OGL1_VIGNETTE);
+    ogl1_quad q = make_quad(FACET_OGL1_VARIANT_VIGNETTE);
     q.direction_w = 1.0;
     q.lights[q.light_count++] = directional(false, 0.3f, 0.2f);
     q.lights[q.light_count++] = directional(true, 0.3f, 0.2f); /* stays */
@@ -212,13 +212,13 @@ static void without_lights_there_is_rgls_default(void **state)
     (void)state;
     for (int i = 0; i < 8; i++) {
         bool ignores = i & 1, is_rgl = i & 2, is_fixed = i & 4;
-        ogl1_quad q = make_quad(is_fixed ? FACET_OGL1_FIXED : FACET_OGL1_VIGNETTE);
+        ogl1_quad q = make_quad(is_fixed ? FACET_OGL1_VARIANT_FIXED : FACET_OGL1_VARIANT_VIGNETTE);
         float ambient = is_rgl ? 1.0f : is_fixed ? 0.0f : 0.2f;
         if (ignores)
             q.lights[q.light_count++] = directional(false, 0.3f, 0.2f);
         fixture f = show(&q);
         f.scene->legacy->is_rgl = is_rgl;
-        f.desc.ignore_scene_lights = ignores;
+        f.desc.ignores_scene_lights = ignores;
         q.light_count = 1;
         q.lights[0] = (legacy_light){.is_viewpoint_relative = true,
                                      .position = {0.0f, (float)sin(15.0 * DEGREE), (float)cos(15.0 * DEGREE)},
@@ -236,7 +236,7 @@ static void directional_lamps_of_gltf(void **state)
     (void)state;
     for (int is_linear = 0; is_linear < 2; is_linear++) {
         const float factor = 0.3f;
-        ogl1_quad q = make_quad(FACET_OGL1_WEBGL);
+        ogl1_quad q = make_quad(FACET_OGL1_VARIANT_WEBGL);
         q.is_linear = is_linear;
         if (is_linear)
             for (int c = 0; c < 3; c++) {
@@ -247,7 +247,7 @@ static void directional_lamps_of_gltf(void **state)
             }
         fixture f = show(&q);
         if (is_linear) { /* the file's numbers are those of make_quad() */
-            ogl1_quad file = make_quad(FACET_OGL1_WEBGL);
+            ogl1_quad file = make_quad(FACET_OGL1_VARIANT_WEBGL);
             copy3(file.ambient, f.scene->legacy->materials[0].ambient);
             copy3(file.diffuse, f.scene->legacy->materials[0].diffuse);
             copy3(file.specular, f.scene->legacy->materials[0].specular);
@@ -275,7 +275,7 @@ static void lamps_with_falloff(void **state)
 {
     (void)state;
     for (int is_spot = 0; is_spot < 2; is_spot++) {
-        ogl1_quad q = make_quad(FACET_OGL1_VIGNETTE);
+        ogl1_quad q = make_quad(FACET_OGL1_VARIANT_VIGNETTE);
         q.is_linear = true;
         fixture f = show(&q);
         f.scene->legacy->colors = FACET_LEGACY_COLORS_LINEAR;
@@ -354,7 +354,7 @@ static void linear_light(void **state)
 static void encoded_numbers_have_no_color_space(void **state)
 {
     (void)state;
-    ogl1_quad q = make_quad(FACET_OGL1_VIGNETTE);
+    ogl1_quad q = make_quad(FACET_OGL1_VARIANT_VIGNETTE);
     add_lights(&q, 4);
     fixture f = show(&q);
     f.scene->legacy->colors = FACET_LEGACY_COLORS_LINEAR;

@@ -110,7 +110,7 @@ static void every_texture_type_and_mode(void **state)
                 m->texture_mode = (legacy_texture_mode)mode;
                 set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
                 f.desc.ogl1.variant = (facet_ogl1_variant)variant;
-                bool is_separate = variant >= FACET_OGL1_FIXED;
+                bool is_separate = variant >= FACET_OGL1_VARIANT_FIXED;
                 const double light[3] = {0.35, 0.2, 0.25}, highlight[3] = {0.1, 0.25, 0.4};
                 double E[4] = {0, 0, 0, 0.75};
                 double out[4];

@@ -180,7 +180,7 @@ static void settings_may_change_between_pictures(void **state)
         f.desc.aovs = i % 2 ? FACET_AOV_NORMAL | FACET_AOV_UV : 0;
         f.desc.background = i % 3 == 1 ? FACET_BACKGROUND_ENVIRONMENT : FACET_BACKGROUND_TRANSPARENT;
         f.desc.energy = i % 2 ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF;
-        f.desc.ignore_scene_lights = i % 4 == 0;
+        f.desc.ignores_scene_lights = i % 4 == 0;
         f.desc.exposure_ev = (float)(i % 3);
         f.environment = i % 4 == 3 ? NULL : i % 2 ? other : first;
         memset(f.desc.crop, 0, sizeof f.desc.crop);

@@ -35,7 +35,7 @@ static facet_result find_texture_need(render_setup *p, facet_error *error)
                               .thread_count = desc->thread_count};
     facet_result result =
         texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error);
-    if (result == FACET_OK && (p->reads_everywhere || desc->whole_textures))
+    if (result == FACET_OK && (p->reads_everywhere || desc->decodes_whole_textures))
         read_everywhere(scene, p->uses);
     return result;
 }
@@ -127,7 +127,7 @@ static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
 {
     const uint32_t bit = 1u << SCENE_OCCLUSION_TEXTURE;
     const facet_scene *scene = p->prepared->scene;
-    bool tells = !p->prepared->has_told_occlusion && p->desc->integrator != FACET_INTEGRATOR_PATH;
+    bool tells = !p->prepared->has_told_occlusion && p->desc->renderer != FACET_RENDERER_KIND_PATH;
     bool *is_told = mem_zalloc(&p->desc->allocator, (size_t)scene->material_count + 1, sizeof *is_told);
     if (!is_told)
         return fail_memory(error, "materials", scene->material_count);

@@ -11,7 +11,7 @@ void shading_scene_set_options(shading_scene *scene, const facet_render_desc *de
     scene->camera_spread = ray_spread_of_camera(scene->camera);
     scene->energy = desc->energy;
     scene->quality = desc->quality;
-    scene->specular_antialiasing = desc->specular_antialiasing;
+    scene->has_specular_antialiasing = desc->has_specular_antialiasing;
     scene->background_blur = desc->background == FACET_BACKGROUND_ENVIRONMENT ? desc->background_blur : 0.0f;
 }
 

@@ -22,7 +22,7 @@ typedef struct shading_scene {
     ray_spread camera_spread;
     facet_energy energy;
     facet_quality quality;
-    bool specular_antialiasing;
+    bool has_specular_antialiasing;
     /* perceptual roughness of the environment where it is drawn; 0: sharp, or not drawn */
     float background_blur;
 } shading_scene;

@@ -116,7 +116,7 @@ static void a_directional_light_on_lambert(void **state)
     float E = 2.0f * cosf(1.0f) / 3.14159265f;
     assert_color(fixture_pixel(&picture, "", 10, 50), E, 0.5f * E, 0.25f * E, 1e-5f);
     film_destroy(&picture);
-    f.desc.ignore_scene_lights = true;
+    f.desc.ignores_scene_lights = true;
     picture = fixture_render(&f);
     assert_color(fixture_pixel(&picture, "", 10, 50), 0, 0, 0, 0.0f);
     assert_true(fixture_pixel(&picture, "", 10, 50)[3] == 1.0f);

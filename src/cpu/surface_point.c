@@ -214,7 +214,7 @@ void surface_point_make(const shading_scene *scene, const shading_point *point, 
         return;
     if (s->plan->layers)
         s->m = make_layers(s, texels);
-    if (scene->specular_antialiasing) {
+    if (scene->has_specular_antialiasing) {
         s->dN_dx = normal_change(scene, s, 0);
         s->dN_dy = normal_change(scene, s, 1);
         antialias(s);

@@ -46,7 +46,7 @@ static void add_layers(ibl_light_desc *needs, const scene_material *m, const fac
     uint32_t layers = material_plan_layers(m);
     if (layers & LAYER_CLEARCOAT)
         add_lobe(needs, m->clearcoat_roughness, scene_material_has(m, SCENE_CLEARCOAT_ROUGHNESS_TEXTURE),
-                 desc->specular_antialiasing);
+                 desc->has_specular_antialiasing);
     if (layers & LAYER_SHEEN) {
         bool is_textured = scene_material_has(m, SCENE_SHEEN_ROUGHNESS_TEXTURE);
         float lowest = is_textured ? 0.0f : m->sheen_roughness;
@@ -73,7 +73,7 @@ static void add_material(ibl_light_desc *needs, const scene_material *material, 
         add_range(needs, 1.0f - material->glossiness, is_textured ? 1.0f : 1.0f - material->glossiness);
     else
         add_lobe(needs, material->perceptual_roughness, is_textured, false);
-    if (desc->specular_antialiasing)
+    if (desc->has_specular_antialiasing)
         add_lobe(needs, needs->max_roughness, false, true);
     /* A metal scatters no light below its surface; the conserving mode takes multiple scattering from it. */
     if (is_glossy || !is_entirely_metallic(material) || light_energy(desc) == FACET_ENERGY_CONSERVING)
@@ -85,7 +85,7 @@ static ibl_light_desc light_needs(const render_geometry_set *set, const camera_r
                                   const facet_render_desc *desc)
 {
     ibl_light_desc needs = {.thread_count = desc->thread_count, .min_roughness = 1.0f};
-    bool is_path = desc->integrator == FACET_INTEGRATOR_PATH; /* whose paths meet the picture itself */
+    bool is_path = desc->renderer == FACET_RENDERER_KIND_PATH; /* whose paths meet the picture itself */
     for (uint32_t i = 0; i < set->count && !is_path; i++)
         if (set->items[i].is_lit)
             add_material(&needs, set->items[i].material, desc);
@@ -131,7 +131,7 @@ static bool preview_sun(const facet_render_desc *desc, Light *out)
 {
     const facet_sun *sun = &desc->sun;
     vec3 E = load3(sun->illuminance_lux);
-    if (desc->integrator == FACET_INTEGRATOR_PATH || !(max3(E) > 0.0f))
+    if (desc->renderer == FACET_RENDERER_KIND_PATH || !(max3(E) > 0.0f))
         return false;
     float level = cos(sun->elevation_rad);
     *out = light_directional(
@@ -144,7 +144,7 @@ static facet_result create_punctual(const scene_pose *pose, const facet_render_d
 {
     Light sun;
     bool has_sun = preview_sun(desc, &sun);
-    uint32_t of_scene = desc->ignore_scene_lights ? 0 : pose->light_count;
+    uint32_t of_scene = desc->ignores_scene_lights ? 0 : pose->light_count;
     uint32_t count = of_scene + (has_sun ? 1 : 0);
     if (count == 0)
         return FACET_OK;
@@ -217,7 +217,7 @@ void light_setup_tell_dark(const light_setup *light, const render_geometry_set *
             return;
     if (set->count)
         desc->log.message(
-            desc->log.user, FACET_LOG_WARNING,
+            desc->log.user, FACET_LOG_LEVEL_WARNING,
             "the picture is black: there is no environment, and the model has no light of its own");
 }
 

@@ -22,7 +22,7 @@ typedef struct light_setup {
 facet_energy light_energy(const facet_render_desc *desc);
 
 /* Prepares what the materials of the drawn geometries and the background read; with FACET_SHADING_OGL1 the punctual
- * lights only, with FACET_INTEGRATOR_PATH those and a blurred background. Fails as ibl_light_prepare(). */
+ * lights only, with FACET_RENDERER_KIND_PATH those and a blurred background. Fails as ibl_light_prepare(). */
 facet_result light_setup_create(const render_geometry_set *set, const scene_pose *pose,
                                 const camera_rays *camera, const facet_render_desc *desc, light_setup *out,
                                 facet_error *error);

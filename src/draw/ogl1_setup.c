@@ -7,8 +7,10 @@
 
 #include "draw/ogl1_setup.h"
 
-_Static_assert(PHONG_VIGNETTE == (int)FACET_OGL1_VIGNETTE && PHONG_WEBGL == (int)FACET_OGL1_WEBGL &&
-                   PHONG_FIXED == (int)FACET_OGL1_FIXED && PHONG_RGL_DESKTOP == (int)FACET_OGL1_RGL_DESKTOP,
+_Static_assert(PHONG_VIGNETTE == (int)FACET_OGL1_VARIANT_VIGNETTE &&
+                   PHONG_WEBGL == (int)FACET_OGL1_VARIANT_WEBGL &&
+                   PHONG_FIXED == (int)FACET_OGL1_VARIANT_FIXED &&
+                   PHONG_RGL_DESKTOP == (int)FACET_OGL1_VARIANT_RGL_DESKTOP,
                "the shared text numbers variants as the interface does");
 _Static_assert(PHONG_FOG_NONE == (int)LEGACY_FOG_NONE && PHONG_FOG_LINEAR == (int)LEGACY_FOG_LINEAR &&
                    PHONG_FOG_EXP == (int)LEGACY_FOG_EXP && PHONG_FOG_EXP2 == (int)LEGACY_FOG_EXP2,
@@ -28,7 +30,7 @@ facet_result ogl1_check(const facet_scene *scene, const facet_render_desc *desc,
         return fail(
             error, FACET_ERROR_ARGUMENT,
             "shading: the scene has no materials of OpenGL 1; convert it with "
-            "facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, ..) before, or draw it as glTF");
+            "facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, ..) before, or draw it as glTF");
     if (desc->background == FACET_BACKGROUND_ENVIRONMENT)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "background: OpenGL 1 has no environment to show behind the model; expected a color or "
@@ -116,7 +118,7 @@ static facet_result make_lights(ogl1_setup *s, const scene_legacy *legacy, const
 {
     legacy_light default_light = fallback_light(s);
     const legacy_light *lights = legacy->lights;
-    uint32_t count = desc->ignore_scene_lights ? 0 : legacy->light_count;
+    uint32_t count = desc->ignores_scene_lights ? 0 : legacy->light_count;
     if (count == 0 && light->punctual_count)
         return FACET_OK;
     if (count == 0) {

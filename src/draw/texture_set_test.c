@@ -35,7 +35,7 @@ typedef struct fixture {
 static void note_warning(void *user, facet_log_level level, const char *text)
 {
     fixture *f = user;
-    assert_int_equal(level, FACET_LOG_WARNING);
+    assert_int_equal(level, FACET_LOG_LEVEL_WARNING);
     snprintf(f->warnings, sizeof f->warnings, "%s", text);
     f->warning_count++;
 }

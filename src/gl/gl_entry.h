@@ -22,7 +22,7 @@ typedef struct gl_host {
                               facet_error *error);
     uint32_t (*image_get_layer_count)(const facet_image *image);
     facet_image_view (*image_get_layer)(const facet_image *image, uint32_t layer);
-    facet_result (*image_save)(const facet_image *image, const char *path, const facet_save_desc *desc,
+    facet_result (*image_save)(const facet_image *image, const char *path, const facet_image_save_desc *desc,
                                facet_error *error);
     void (*image_destroy)(facet_image *image);
     facet_result (*image_create)(const facet_image_view *pixels, const facet_allocator *allocator,
@@ -42,7 +42,7 @@ static inline bool gl_channel_is_light(facet_channel channel)
 
 typedef struct gl_entry {
     /* A context without a window, and what is prepared of a scene for it. The scene outlives it. Fails with
-     * FACET_ERROR_ENVIRONMENT where there is no OpenGL, FACET_ERROR_MEMORY. */
+     * FACET_ERROR_SYSTEM where there is no OpenGL, FACET_ERROR_MEMORY. */
     facet_result (*create)(const facet_scene *scene, const facet_allocator *allocator, gl_renderer **out,
                            facet_error *error);
     /* As preview_render_prepared(): desc is resolved but for its camera, which may be NULL. Calls may come from different

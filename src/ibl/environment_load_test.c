@@ -312,7 +312,8 @@ static void cubes_of_ktx2(void **state)
     (void)state;
     for (int k = 0; k < 4; k++) {
         cube c = make_cube(SIZE);
-        bytes b = encode_ktx2(&c, k < 2 ? FACET_TEXEL_RGBA32F : FACET_TEXEL_RGB9E5, k % 2 ? 3 : 0);
+        bytes b =
+            encode_ktx2(&c, k < 2 ? FACET_TEXEL_FORMAT_RGBA32F : FACET_TEXEL_FORMAT_RGB9E5, k % 2 ? 3 : 0);
         messages m = {0};
         if (b.data) {
             facet_environment *e = load(b, k == 1 ? FACET_LAYOUT_CROSS_VERTICAL : FACET_LAYOUT_AUTO, &m);
@@ -399,7 +400,7 @@ static void files_that_end_early(void **state)
     cube c = make_cube(4);
     for (int k = 0; k < 3; k++) {
         bytes b = k == 0 ? encode_layout(&c, FACET_LAYOUT_CROSS_HORIZONTAL)
-                         : encode_ktx2(&c, FACET_TEXEL_B10G11R11, k == 1 ? 0 : 3);
+                         : encode_ktx2(&c, FACET_TEXEL_FORMAT_B10G11R11, k == 1 ? 0 : 3);
         for (size_t cut = 0; cut < b.size; cut++) {
             facet_environment *e = NULL;
             if (facet_environment_load_memory(b.data, cut, "cut", NULL, &e, NULL) == FACET_OK)
@@ -648,7 +649,7 @@ static void memory_runs_out(void **state)
     for (int k = 0; k < 4; k++) {
         bytes b = k == 0   ? encode_layout(&c, FACET_LAYOUT_CROSS_HORIZONTAL)
                   : k == 1 ? encode_layout(&c, FACET_LAYOUT_OCTAHEDRAL)
-                           : encode_ktx2(&c, FACET_TEXEL_RGBA16F, k == 2 ? 0 : 1);
+                           : encode_ktx2(&c, FACET_TEXEL_FORMAT_RGBA16F, k == 2 ? 0 : 1);
         for (long fail_at = 0; b.data; fail_at = next_failure(fail_at)) {
             failing_allocator f = {.fail_at = fail_at};
             facet_environment_desc desc = {.allocator = failing_allocator_get(&f),
@@ -673,7 +674,7 @@ static void threads_do_not_matter(void **state)
     (void)state;
     cube c = make_cube(40);
     *cube_texel(&c, 1, 1, 1) = rgbx_splat(1e4f);
-    bytes b = encode_ktx2(&c, FACET_TEXEL_RGBA32F, 0);
+    bytes b = encode_ktx2(&c, FACET_TEXEL_FORMAT_RGBA32F, 0);
     facet_environment *e[2];
     for (uint32_t k = 0; k < 2; k++)
         assert_int_equal(facet_environment_load_memory(b.data, b.size, "made",

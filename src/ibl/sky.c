@@ -22,7 +22,7 @@ static bool is_within(float x, float minimum, float maximum)
 
 static facet_result check(const facet_sky_desc *sky, uint32_t max_size, facet_error *error)
 {
-    bool is_preetham = sky->model == FACET_SKY_PREETHAM;
+    bool is_preetham = sky->model == FACET_SKY_MODEL_PREETHAM;
     float least = is_preetham ? min_preetham_turbidity : 1.0f;
     double degrees = (double)sky->sun_elevation_rad * 57.29577951308232;
     if (!is_within(sky->sun_elevation_rad, -right_angle, right_angle) || !isfinite(sky->sun_azimuth_rad))
@@ -70,7 +70,7 @@ static facet_result draw_atmosphere(const facet_sky_desc *sky, const facet_envir
     if (result == FACET_OK)
         result = sky_picture_atmosphere(&view, sky->sun_azimuth_rad, &desc->allocator, desc->thread_count,
                                         picture, error);
-    if (result == FACET_OK && !sky->has_no_disc) {
+    if (result == FACET_OK && !sky->omits_disc) {
         sky_sun_light sun =
             sky_sun_through_air(air, altitude_km, sky->sun_elevation_rad, sky->sun_azimuth_rad);
         sky_sun_draw(&sun, picture);
@@ -86,7 +86,7 @@ static facet_result draw_preetham(const facet_sky_desc *sky, const facet_environ
     sky_sun_light sun = sky_sun_preetham(sky->turbidity, sky->sun_elevation_rad, sky->sun_azimuth_rad);
     facet_result result = sky_picture_preetham(sky->turbidity, &sun, sky->ground_albedo, &desc->allocator,
                                                desc->thread_count, picture, error);
-    if (result == FACET_OK && !sky->has_no_disc)
+    if (result == FACET_OK && !sky->omits_disc)
         sky_sun_draw(&sun, picture);
     return result;
 }
@@ -138,8 +138,8 @@ facet_result facet_environment_create_sky(const facet_sky_desc *sky, const facet
     s.height = s.height ? s.height : DEFAULT_HEIGHT;
     result = image_create(&e->allocator, 2 * s.height, s.height, 3, IMAGE_F32, &e->picture, error);
     if (result == FACET_OK)
-        result =
-            (s.model == FACET_SKY_PREETHAM ? draw_preetham : draw_atmosphere)(&s, desc, &e->picture, error);
+        result = (s.model == FACET_SKY_MODEL_PREETHAM ? draw_preetham : draw_atmosphere)(&s, desc,
+                                                                                         &e->picture, error);
     if (result == FACET_OK)
         result = expose(&s, desc, &e->picture, error);
     if (result != FACET_OK) {

@@ -138,7 +138,7 @@ static void test_disc_in_sky(void **state)
         double n[3] = {(cos)(35.0 * degree) * (sin)(-2.0), (sin)(35.0 * degree),
                        (cos)(35.0 * degree) * (cos)(-2.0)};
         facet_environment *with = create(sky);
-        sky.has_no_disc = true;
+        sky.omits_disc = true;
         facet_environment *without = create(sky);
         double sun = illuminance(&with->picture, n) - illuminance(&without->picture, n);
         assert_true(sun > 80000.0 &&
@@ -174,7 +174,7 @@ static void test_symmetry(void **state)
                               .sun_elevation_rad = 0.3f,
                               .ground_albedo = {0.2f, 0.3f, 0.1f},
                               .altitude_m = model ? 0.0f : 2000.0f,
-                              .has_no_disc = true, /* which may cross a texel's edge here and not there */
+                              .omits_disc = true, /* which may cross a texel's edge here and not there */
                               .height = SIZE};
         facet_environment *e = create(sky); /* the sun between columns 3/4 - 1 and 3/4 of the width */
         sky.sun_azimuth_rad = (float)(-0.5 * pi);
@@ -203,7 +203,7 @@ static void test_smooth(void **state)
     facet_sky_desc sky = {.sun_elevation_rad = 0.2f,
                           .sun_azimuth_rad = 1.0f,
                           .ground_albedo = {0.2f, 0.2f, 0.2f},
-                          .has_no_disc = true,
+                          .omits_disc = true,
                           .height = SIZE};
     facet_environment *e = create(sky);
     const image *p = &e->picture;
@@ -281,7 +281,7 @@ static void test_ground(void **state)
         float albedo = 0.45f * (float)i;
         facet_environment *e = create((facet_sky_desc){.sun_elevation_rad = 0.7f,
                                                        .ground_albedo = {albedo, albedo, albedo},
-                                                       .has_no_disc = true,
+                                                       .omits_disc = true,
                                                        .height = 64});
         double sky = illuminance(&e->picture, (double[3]){0.0, 1.0, 0.0});
         double up = illuminance(&e->picture, (double[3]){0.0, -1.0, 0.0});
@@ -372,8 +372,8 @@ static void test_arguments(void **state)
         {{.sun_elevation_rad = 1.6f}, "91.6"},
         {{.sun_elevation_rad = NAN}, "the sun is"},
         {{.sun_azimuth_rad = INFINITY}, "the sun is"},
-        {{.model = FACET_SKY_PREETHAM, .sun_elevation_rad = -0.1f}, "5.73 degrees below the horizon"},
-        {{.model = FACET_SKY_PREETHAM, .sun_elevation_rad = 0.1f, .turbidity = 1.5f}, "1.7 to 10"},
+        {{.model = FACET_SKY_MODEL_PREETHAM, .sun_elevation_rad = -0.1f}, "5.73 degrees below the horizon"},
+        {{.model = FACET_SKY_MODEL_PREETHAM, .sun_elevation_rad = 0.1f, .turbidity = 1.5f}, "1.7 to 10"},
         {{.turbidity = 0.5f}, "1 to 10"},
         {{.turbidity = NAN}, "turbidity"},
         {{.ground_albedo = {0.0f, 1.5f, 0.0f}}, "albedo"},

@@ -297,7 +297,7 @@ static facet_result decode(const avif_file *file, const char *name, const image_
     crop c;
     facet_result result = decode_stored(file, name, desc, &stored, error);
     if (result == FACET_OK && !find_crop(file->decoder->image, &c))
-        image_note_set(desc->note, FACET_LOG_WARNING,
+        image_note_set(desc->note, FACET_LOG_LEVEL_WARNING,
                        "its clean aperture (clap) is not inside the image and is ignored");
     if (result == FACET_OK)
         result = orient(&stored, file->decoder->image, &desc->allocator, out, error);

@@ -176,7 +176,7 @@ static void clean_apertures_are_cut_out(void **state)
         put_u32(clap + 4, denominator);
         bytes = with_property("clap", clap, sizeof clap, &size);
         expect_places(bytes, size, 64, 32, (const int[]){0, 1, 0}, (const int[]){0, 0, 1}, &note);
-        assert_int_equal(note.level, FACET_LOG_WARNING);
+        assert_int_equal(note.level, FACET_LOG_LEVEL_WARNING);
         assert_non_null(strstr(note.text, "clean aperture"));
         free(bytes);
     }

@@ -169,7 +169,7 @@ static void chromaticities_are_converted(void **state)
             through_chromaticities(k ? albedo : colors, k ? "a" : NULL, "chromaticities", rec2020, &note);
         for (int c = 0; c < 3; c++)
             assert_float_equal(((float *)i.pixels)[c], expected[c], 1e-3f);
-        assert_int_equal(note.level, FACET_LOG_DETAIL);
+        assert_int_equal(note.level, FACET_LOG_LEVEL_DETAIL);
         assert_non_null(strstr(note.text, "Rec.2020"));
         image_destroy(&i);
     }
@@ -189,7 +189,7 @@ static void unreadable_chromaticities_are_a_warning(void **state)
         image_note note;
         image i = through_chromaticities(colors, NULL, k ? "blob" : "chromaticities", none, &note);
         assert_memory_equal(i.pixels, ((float[]){1, 2, 4}), 12);
-        assert_int_equal(note.level, FACET_LOG_WARNING);
+        assert_int_equal(note.level, FACET_LOG_LEVEL_WARNING);
         image_destroy(&i);
     }
 }

@@ -86,9 +86,9 @@ static void primaries_are_converted(void **state)
         facet_log_level level;
     } cases[] = {{"1 0 0 1 0 0 .3333 .3333",
                   {3.2406f - 0.7686f - 0.1247f, -0.9689f + 0.9379f + 0.0104f, 0.0557f - 0.1020f + 0.2643f},
-                  FACET_LOG_DETAIL},
-                 {"0 0 0 0 0 0 0 0", {1, 0.5f, 0.25f}, FACET_LOG_WARNING},
-                 {".64 .33 .3 .6", {1, 0.5f, 0.25f}, FACET_LOG_WARNING}};
+                  FACET_LOG_LEVEL_DETAIL},
+                 {"0 0 0 0 0 0 0 0", {1, 0.5f, 0.25f}, FACET_LOG_LEVEL_WARNING},
+                 {".64 .33 .3 .6", {1, 0.5f, 0.25f}, FACET_LOG_LEVEL_WARNING}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char file[128];
         const int header =

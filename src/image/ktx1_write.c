@@ -42,7 +42,7 @@ static void pack_rows(void *context, size_t begin, size_t end)
     for (size_t i = begin; i < end; i++) {
         const facet_image_view *v = &w->desc->pictures[w->level * FACES + i / w->edge];
         const float *row = (const float *)((const char *)v->pixels + i % w->edge * v->row_stride_bytes);
-        ktx2_pack(FACET_TEXEL_B10G11R11, row, v->channel_count, w->edge, true,
+        ktx2_pack(FACET_TEXEL_FORMAT_B10G11R11, row, v->channel_count, w->edge, true,
                   w->to + i * w->edge * TEXEL_SIZE);
     }
 }

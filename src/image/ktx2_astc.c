@@ -48,7 +48,7 @@ facet_result ktx2_decode_astc(const ktx2 *k, const unsigned char *bytes, size_t 
     if (failure == ASTC_SHIM_MEMORY)
         return fail_memory(error, "ASTC decoder", 0);
     if (failure)
-        return fail(error, FACET_ERROR_ENVIRONMENT, "%s: KTX2: libastcenc does not decode %s here", k->name,
+        return fail(error, FACET_ERROR_SYSTEM, "%s: KTX2: libastcenc does not decode %s here", k->name,
                     f->name);
     return FACET_OK;
 }

@@ -27,7 +27,7 @@ static const uint32_t one_bits = 0x3f800000, minus_one_bits = 0xbf800000;
 
 static uint32_t count_samples(facet_texel_format format)
 {
-    return format == FACET_TEXEL_RGB9E5 ? 6 : ktx2_find_texel(format)->component_count;
+    return format == FACET_TEXEL_FORMAT_RGB9E5 ? 6 : ktx2_find_texel(format)->component_count;
 }
 
 static void put_sample(unsigned char **o, uint32_t first_bit, uint32_t bit_count, uint32_t channel,
@@ -45,12 +45,12 @@ static void put_sample(unsigned char **o, uint32_t first_bit, uint32_t bit_count
 static void put_samples(unsigned char **o, facet_texel_format format)
 {
     const ktx2_texel *t = ktx2_find_texel(format);
-    if (format == FACET_TEXEL_RGB9E5) {
+    if (format == FACET_TEXEL_FORMAT_RGB9E5) {
         for (uint32_t c = 0; c < 3; c++) {
             put_sample(o, 9 * c, 9, c, 0, 16 << 9 | 256);
             put_sample(o, 27, 5, c | KDF_EXPONENT, 15, 31);
         }
-    } else if (format == FACET_TEXEL_B10G11R11) {
+    } else if (format == FACET_TEXEL_FORMAT_B10G11R11) {
         put_sample(o, 0, 11, 0 | KDF_FLOAT, 0, one_bits);
         put_sample(o, 11, 11, 1 | KDF_FLOAT, 0, one_bits);
         put_sample(o, 22, 10, 2 | KDF_FLOAT, 0, one_bits);

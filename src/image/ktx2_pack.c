@@ -5,10 +5,10 @@
 #include "image/half.h"
 
 static const ktx2_texel texels_of_formats[] = {
-    [FACET_TEXEL_RGBA16F] = {97, 8, 2, 4}, [FACET_TEXEL_RGBA32F] = {109, 16, 4, 4},
-    [FACET_TEXEL_RGB9E5] = {123, 4, 4, 3}, [FACET_TEXEL_B10G11R11] = {122, 4, 4, 3},
-    [FACET_TEXEL_RG16F] = {83, 4, 2, 2},   [FACET_TEXEL_RG32F] = {103, 8, 4, 2},
-    [FACET_TEXEL_R16F] = {76, 2, 2, 1},    [FACET_TEXEL_R32F] = {100, 4, 4, 1},
+    [FACET_TEXEL_FORMAT_RGBA16F] = {97, 8, 2, 4}, [FACET_TEXEL_FORMAT_RGBA32F] = {109, 16, 4, 4},
+    [FACET_TEXEL_FORMAT_RGB9E5] = {123, 4, 4, 3}, [FACET_TEXEL_FORMAT_B10G11R11] = {122, 4, 4, 3},
+    [FACET_TEXEL_FORMAT_RG16F] = {83, 4, 2, 2},   [FACET_TEXEL_FORMAT_RG32F] = {103, 8, 4, 2},
+    [FACET_TEXEL_FORMAT_R16F] = {76, 2, 2, 1},    [FACET_TEXEL_FORMAT_R32F] = {100, 4, 4, 1},
 };
 
 const ktx2_texel *ktx2_find_texel(facet_texel_format format)
@@ -90,29 +90,29 @@ static void pack_floats(const float *x, int count, unsigned char *out)
 static void pack_texel(facet_texel_format format, const float rgba[4], unsigned char *out)
 {
     switch (format) {
-    case FACET_TEXEL_RGB9E5:
+    case FACET_TEXEL_FORMAT_RGB9E5:
         store_u32_le(out, pack_shared(rgba));
         break;
-    case FACET_TEXEL_B10G11R11:
+    case FACET_TEXEL_FORMAT_B10G11R11:
         store_u32_le(out,
                      pack_small(rgba[0], 6) | pack_small(rgba[1], 6) << 11 | pack_small(rgba[2], 5) << 22);
         break;
-    case FACET_TEXEL_RGBA16F:
+    case FACET_TEXEL_FORMAT_RGBA16F:
         pack_halfs(rgba, 4, out);
         break;
-    case FACET_TEXEL_RG16F:
+    case FACET_TEXEL_FORMAT_RG16F:
         pack_halfs(rgba, 2, out);
         break;
-    case FACET_TEXEL_R16F:
+    case FACET_TEXEL_FORMAT_R16F:
         pack_halfs(rgba, 1, out);
         break;
-    case FACET_TEXEL_RGBA32F:
+    case FACET_TEXEL_FORMAT_RGBA32F:
         pack_floats(rgba, 4, out);
         break;
-    case FACET_TEXEL_RG32F:
+    case FACET_TEXEL_FORMAT_RG32F:
         pack_floats(rgba, 2, out);
         break;
-    case FACET_TEXEL_R32F:
+    case FACET_TEXEL_FORMAT_R32F:
         pack_floats(rgba, 1, out);
         break;
     }

@@ -187,7 +187,7 @@ static facet_result check(const ktx2_write_desc *d, facet_error *error)
 {
     const uint32_t width = d->pictures[0].width, height = d->pictures[0].height;
     const uint32_t larger = width > height ? width : height;
-    if ((unsigned)d->format > FACET_TEXEL_R32F)
+    if ((unsigned)d->format > FACET_TEXEL_FORMAT_R32F)
         return fail(error, FACET_ERROR_ARGUMENT, "KTX2: %u is no facet_texel_format", (unsigned)d->format);
     if (width == 0 || height == 0 || (d->face_count != 1 && d->face_count != 6) ||
         (d->face_count == 6 && width != height))

@@ -66,7 +66,7 @@ static void small_floats_are_nearest(void **state)
             const float x = (float)(values[code] + share * (next - values[code]));
             const float rgb[3] = {digits == 6 ? x : 0.0f, digits == 6 ? x : 0.0f, digits == 5 ? x : 0.0f};
             unsigned char packed[4];
-            ktx2_pack(FACET_TEXEL_B10G11R11, rgb, 3, 1, false, packed);
+            ktx2_pack(FACET_TEXEL_FORMAT_B10G11R11, rgb, 3, 1, false, packed);
             const uint32_t word = load_u32_le(packed), wanted = nearest_code((double)x, values, count);
             if (word != (digits == 6 ? wanted | wanted << 11 : wanted << 22))
                 fail_msg("%.9g with %d digits: %08x instead of code %u", (double)x, digits, word, wanted);
@@ -110,7 +110,7 @@ static void shared_exponents_are_the_smallest(void **state)
                                                      : ldexpf((float)(r & 4095), (int)(r >> 20) % 40 - 34);
         }
         unsigned char packed[4];
-        ktx2_pack(FACET_TEXEL_RGB9E5, rgb, 3, 1, false, packed);
+        ktx2_pack(FACET_TEXEL_FORMAT_RGB9E5, rgb, 3, 1, false, packed);
         if (load_u32_le(packed) != pack_shared_slowly(rgb))
             fail_msg("%.9g %.9g %.9g: %08x instead of %08x", (double)rgb[0], (double)rgb[1], (double)rgb[2],
                      load_u32_le(packed), pack_shared_slowly(rgb));
@@ -122,22 +122,22 @@ static void what_formats_cannot_hold(void **state)
     (void)state;
     const float in[4] = {INFINITY, -INFINITY, NAN, -2.0f};
     unsigned char out[16];
-    ktx2_pack(FACET_TEXEL_RGBA16F, in, 4, 1, false, out);
+    ktx2_pack(FACET_TEXEL_FORMAT_RGBA16F, in, 4, 1, false, out);
     assert_memory_equal(out, "\xff\x7b\xff\xfb\x00\x00\x00\xc0", 8); /* 65504, -65504, 0, -2 */
-    ktx2_pack(FACET_TEXEL_RGBA16F, in, 4, 1, true, out);
+    ktx2_pack(FACET_TEXEL_FORMAT_RGBA16F, in, 4, 1, true, out);
     assert_memory_equal(out + 6, "\x00\x3c", 2); /* 1 */
-    ktx2_pack(FACET_TEXEL_RGBA32F, in, 4, 1, false, out);
+    ktx2_pack(FACET_TEXEL_FORMAT_RGBA32F, in, 4, 1, false, out);
     assert_memory_equal(out, "\xff\xff\x7f\x7f\xff\xff\x7f\xff\0\0\0\0\0\0\0\xc0", 16);
-    ktx2_pack(FACET_TEXEL_B10G11R11, in, 3, 1, false, out);
+    ktx2_pack(FACET_TEXEL_FORMAT_B10G11R11, in, 3, 1, false, out);
     assert_int_equal(load_u32_le(out), 0x7bf); /* 65024 */
-    ktx2_pack(FACET_TEXEL_B10G11R11, (const float[3]){-0.0f, 1e9f, 1e9f}, 3, 1, false, out);
+    ktx2_pack(FACET_TEXEL_FORMAT_B10G11R11, (const float[3]){-0.0f, 1e9f, 1e9f}, 3, 1, false, out);
     assert_int_equal(load_u32_le(out), 0x7bfu << 11 | 0x3dfu << 22); /* 64512 */
-    ktx2_pack(FACET_TEXEL_RGB9E5, in, 3, 1, false, out);
+    ktx2_pack(FACET_TEXEL_FORMAT_RGB9E5, in, 3, 1, false, out);
     assert_int_equal(load_u32_le(out), 31u << 27 | 511u);
-    ktx2_pack(FACET_TEXEL_R16F, (const float[1]){65519.99f}, 1, 1, false, out);
+    ktx2_pack(FACET_TEXEL_FORMAT_R16F, (const float[1]){65519.99f}, 1, 1, false, out);
     assert_memory_equal(out, "\xff\x7b", 2);
     /* channels that are not there */
-    ktx2_pack(FACET_TEXEL_RGBA16F, (const float[1]){1.0f}, 1, 1, false, out);
+    ktx2_pack(FACET_TEXEL_FORMAT_RGBA16F, (const float[1]){1.0f}, 1, 1, false, out);
     assert_memory_equal(out, "\x00\x3c\x00\x00\x00\x00\x00\x3c", 8);
 }
 
@@ -405,7 +405,7 @@ static void bytes_do_not_depend_on_threads(void **state)
 {
     (void)state;
     for (uint32_t zstd = 0; zstd <= 3; zstd += 3) {
-        texture t = make_texture(FACET_TEXEL_RGB9E5, 256, 256, 6, 9, 4);
+        texture t = make_texture(FACET_TEXEL_FORMAT_RGB9E5, 256, 256, 6, 9, 4);
         t.desc.zstd_level = zstd;
         t.desc.pictures = t.pictures;
         unsigned char *first = NULL;
@@ -438,7 +438,7 @@ static void what_is_no_texture(void **state)
 {
     (void)state;
     for (int k = 0; k < 9; k++) {
-        texture t = make_texture(FACET_TEXEL_RGBA16F, 8, 8, 6, 2, 4);
+        texture t = make_texture(FACET_TEXEL_FORMAT_RGBA16F, 8, 8, 6, 2, 4);
         t.desc.pictures = t.pictures;
         switch (k) {
         case 0:
@@ -484,7 +484,7 @@ static void memory_runs_out(void **state)
     (void)state;
     for (uint32_t zstd = 0; zstd <= 1; zstd++)
         for (long calls = 0;; calls = next_failure(calls)) {
-            texture t = make_texture(FACET_TEXEL_RGBA16F, 8, 8, 6, 4, 4);
+            texture t = make_texture(FACET_TEXEL_FORMAT_RGBA16F, 8, 8, 6, 4, 4);
             failing counter = {.calls_left = calls};
             t.desc.allocator = failing_allocator(&counter);
             t.desc.thread_count = 1;
@@ -508,7 +508,7 @@ static void memory_runs_out(void **state)
 static void zstandard_stays_within_a_budget(void **state)
 {
     (void)state;
-    texture t = make_texture(FACET_TEXEL_RGBA32F, 256, 256, 1, 1, 4);
+    texture t = make_texture(FACET_TEXEL_FORMAT_RGBA32F, 256, 256, 1, 1, 4);
     t.desc.zstd_level = 19;
     t.desc.pictures = t.pictures;
     facet_budget *budget;
@@ -533,8 +533,9 @@ static void rows_may_lie_anywhere(void **state)
 {
     (void)state;
     static const float texels[] = {1, 2, 99, 3, 4, 99};
-    texture t = {.pictures = {{"", 2, 2, 1, texels, 3 * sizeof(float)}},
-                 .desc = {.format = FACET_TEXEL_R32F, .level_count = 1, .face_count = 1, .writer = "x"}};
+    texture t = {
+        .pictures = {{"", 2, 2, 1, texels, 3 * sizeof(float)}},
+        .desc = {.format = FACET_TEXEL_FORMAT_R32F, .level_count = 1, .face_count = 1, .writer = "x"}};
     size_t size;
     unsigned char *bytes = write_texture(&t, &size);
     static const float wanted[] = {1, 2, 3, 4};

@@ -178,7 +178,7 @@ void primaries_convert(image *i, const primaries *p, const image_decode_desc *de
         return;
     if (!primaries_to_rec709(p, matrix)) {
         image_note_set(
-            desc->note, FACET_LOG_WARNING,
+            desc->note, FACET_LOG_LEVEL_WARNING,
             "its primaries make no color space (x, y of red %g, %g, green %g, %g, blue %g, %g, white "
             "%g, %g): colors are taken as linear Rec.709",
             p->xy[0][0], p->xy[0][1], p->xy[1][0], p->xy[1][1], p->xy[2][0], p->xy[2][1], p->xy[3][0],
@@ -191,10 +191,11 @@ void primaries_convert(image *i, const primaries *p, const image_decode_desc *de
     parallel_for(desc->thread_count, i->height, 32768 / i->width + 1, convert_rows, &c);
     const char *name = get_name(p);
     if (name)
-        image_note_set(desc->note, FACET_LOG_DETAIL, "colors of %s are converted to linear Rec.709", name);
+        image_note_set(desc->note, FACET_LOG_LEVEL_DETAIL, "colors of %s are converted to linear Rec.709",
+                       name);
     else
         image_note_set(
-            desc->note, FACET_LOG_DETAIL,
+            desc->note, FACET_LOG_LEVEL_DETAIL,
             "colors of the primaries red %g, %g, green %g, %g, blue %g, %g, white %g, %g are converted "
             "to linear Rec.709",
             p->xy[0][0], p->xy[0][1], p->xy[1][0], p->xy[1][1], p->xy[2][0], p->xy[2][1], p->xy[3][0],

@@ -87,7 +87,7 @@ static void images_are_converted(void **state)
         assert_float_equal(p[4], 1.1329f, 1e-4f);
         assert_true(isnan(p[6]) && p[7] == 1.0f && p[8] == 2.0f);
         assert_float_equal(p[10], -1.1329f, 1e-4f);
-        assert_int_equal(note.level, FACET_LOG_DETAIL);
+        assert_int_equal(note.level, FACET_LOG_LEVEL_DETAIL);
         assert_non_null(strstr(note.text, "Rec.2020"));
         image_destroy(&i);
     }
@@ -112,7 +112,7 @@ static void what_is_no_space_is_a_warning(void **state)
         image_note note = {0};
         primaries_convert(&i, &bad[k], &(image_decode_desc){.note = &note, .thread_count = 1});
         assert_memory_equal(i.pixels, texels, sizeof texels);
-        assert_int_equal(note.level, FACET_LOG_WARNING);
+        assert_int_equal(note.level, FACET_LOG_LEVEL_WARNING);
         assert_non_null(strstr(note.text, "no color space"));
         image_destroy(&i);
     }

@@ -11,7 +11,7 @@
 
 static void note_light(conversion *c, facet_material_model to)
 {
-    bool is_legacy = to == FACET_MATERIALS_OGL1 || (c->scene->legacy && c->scene->legacy->is_source);
+    bool is_legacy = to == FACET_MATERIAL_MODEL_OGL1 || (c->scene->legacy && c->scene->legacy->is_source);
     c->out->light_scale = is_legacy && !c->desc.keeps_light ? PI : 1.0;
     if (is_legacy && !c->desc.keeps_light)
         note_add(&c->notes, SCENE_NONE, NOTE_LEGACY_LIGHT_PI,
@@ -36,11 +36,11 @@ static facet_result convert_all(conversion *c, facet_material_model to, facet_er
 {
     bool is_source = c->scene->legacy && c->scene->legacy->is_source;
     switch (to) {
-    case FACET_MATERIALS_OGL1:
+    case FACET_MATERIAL_MODEL_OGL1:
         return convert_to_ogl1(c, error);
-    case FACET_MATERIALS_SPECULAR_GLOSSINESS:
+    case FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS:
         return convert_to_glossiness(c, error);
-    case FACET_MATERIALS_METALLIC_ROUGHNESS:
+    case FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS:
         break;
     }
     return is_source ? convert_from_ogl1(c, error) : convert_from_glossiness(c, error);
@@ -60,7 +60,7 @@ static bool has_lost_pictures(const facet_scene *scene)
 facet_result legacy_convert(facet_scene *scene, facet_material_model to, const facet_legacy_desc *desc,
                             const facet_log *log, facet_error *error)
 {
-    if (to == FACET_MATERIALS_METALLIC_ROUGHNESS && has_lost_pictures(scene))
+    if (to == FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS && has_lost_pictures(scene))
         return FACET_OK;
     conversion c = {.scene = scene, .desc = *desc, .log = log, .notes = {.scene = scene}};
     facet_result result = begin(&c, to, error);
@@ -70,7 +70,8 @@ facet_result legacy_convert(facet_scene *scene, facet_material_model to, const f
         note_light(&c, to);
     /* Nothing of the scene is touched before all is there. */
     bool has_legacy = c.materials && scene->legacy && scene->legacy->is_source;
-    if (result == FACET_OK && has_legacy && desc->drops_sources && to == FACET_MATERIALS_METALLIC_ROUGHNESS)
+    if (result == FACET_OK && has_legacy && desc->drops_sources &&
+        to == FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS)
         result = drop_plan_make(&c, error);
     if (result == FACET_OK && has_legacy)
         result = convert_extras(&c, error);

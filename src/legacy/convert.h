@@ -8,7 +8,7 @@
 
 /* facet_scene_convert_materials(). Leaves scene->conversion; textures that it makes are PNG files in memory, appended to
  * the scene's images and textures. A scene read from OBJ or rgl's parameters comes with legacy materials and glTF
- * defaults; FACET_MATERIALS_METALLIC_ROUGHNESS fills the latter. Fails with FACET_ERROR_MEMORY, _CANCELLED never; a
+ * defaults; FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS fills the latter. Fails with FACET_ERROR_MEMORY, _CANCELLED never; a
  * texture that cannot be decoded is a warning and counts as absent. */
 facet_result legacy_convert(facet_scene *scene, facet_material_model to, const facet_legacy_desc *desc,
                             const facet_log *log, facet_error *error);

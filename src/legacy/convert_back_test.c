@@ -7,7 +7,7 @@ static const facet_legacy_desc LINEAR = {.colors = FACET_LEGACY_COLORS_LINEAR,
 
 static void to_ogl1(facet_scene *scene, const facet_legacy_desc *desc)
 {
-    convert_to(scene, FACET_MATERIALS_OGL1, desc);
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, desc);
     assert_non_null(scene->legacy);
 }
 
@@ -333,7 +333,7 @@ static void known_values_lose_nothing_and_a_fit_little(void **state)
     set_color(in.diffuse, .5f, .4f, .3f);
     set_color(in.specular, .2f, .2f, .2f);
     scene->legacy->materials[0] = in;
-    convert(scene, &(facet_legacy_desc){.method = FACET_LEGACY_FIT});
+    convert(scene, &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT});
     as_read_again(scene);
     to_ogl1(scene, &PLAIN);
     assert_string_equal(scene->conversion->materials[0].summary.method, "source");

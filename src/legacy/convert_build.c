@@ -200,7 +200,7 @@ static void build_coat(const conversion *c, const legacy_reading *r, scene_mater
 {
     const legacy_material *m = &r->m;
     /* Blender stores its coat weight times 4. */
-    float share = c->scene->legacy->dialect == FACET_MTL_BLENDER3 ? 0.25f : 1.0f;
+    float share = c->scene->legacy->dialect == FACET_MTL_DIALECT_BLENDER3 ? 0.25f : 1.0f;
     if (legacy_has(m, LEGACY_CLEARCOAT) && m->clearcoat > 0.0f) {
         out->extensions |= SCENE_CLEARCOAT;
         out->clearcoat = unit_of(m->clearcoat * share);
@@ -273,7 +273,7 @@ static void build_factors(const conversion *c, const legacy_reading *r, const so
     case READING_METALLIC:
         out->metallic = r->metallic;
         out->perceptual_roughness = r->perceptual_roughness;
-        if (c->desc.profile == FACET_LEGACY_SPECULAR_IOR)
+        if (c->desc.profile == FACET_LEGACY_PROFILE_SPECULAR_IOR)
             build_specular_level(r, out);
         break;
     case READING_GLOSSY: /* shade/specular_glossiness.h */
@@ -290,7 +290,7 @@ static void build_factors(const conversion *c, const legacy_reading *r, const so
         out->ior = item->pbr.ior;
         out->specular = item->pbr.specular;
         memcpy(out->specular_color, item->pbr.specular_color, sizeof out->specular_color);
-        if (c->desc.profile == FACET_LEGACY_SPECULAR_IOR)
+        if (c->desc.profile == FACET_LEGACY_PROFILE_SPECULAR_IOR)
             out->extensions |= SCENE_SPECULAR | SCENE_IOR;
         break;
     case READING_KEPT:
@@ -312,7 +312,7 @@ facet_result build_material(conversion *c, uint32_t material, legacy_reading *r,
         return result;
     build_coat(c, r, out);
     build_glass(c, material, r, out);
-    if (c->desc.ambient == FACET_AMBIENT_OCCLUSION && legacy_has_map(&r->m, LEGACY_AMBIENT_MAP))
+    if (c->desc.ambient == FACET_LEGACY_AMBIENT_OCCLUSION && legacy_has_map(&r->m, LEGACY_AMBIENT_MAP))
         out->textures[SCENE_OCCLUSION_TEXTURE] = r->m.maps[LEGACY_AMBIENT_MAP].ref;
     result = build_emission(c, r, out, error);
     if (result == FACET_OK)

@@ -284,7 +284,7 @@ static void make_tables(surface_job *job)
     texel_parameters *p = &job->p;
     const ogl1_surface *s = &job->r->surface;
     p->srgb = texture_bench_srgb(bench);
-    p->is_core = is_varying(job) && job->c->desc.profile == FACET_LEGACY_CORE;
+    p->is_core = is_varying(job) && job->c->desc.profile == FACET_LEGACY_PROFILE_CORE;
     p->diffuse = color_table_make(bench, &job->r->m.maps[LEGACY_DIFFUSE_MAP], s->diffuse);
     p->specular = color_table_make(bench, &job->specular, s->specular);
     p->shininess = scalar_table_make(bench, &job->shininess, s->shininess, TEXTURE_GREY);

@@ -82,7 +82,7 @@ static void check_round_trip(const facet_scene *scene, const char *path)
         fail_msg("%s: %s", path, error.message);
     remove(name);
     assert_int_equal(again->material_count, scene->material_count);
-    convert_to(again, FACET_MATERIALS_OGL1, &(facet_legacy_desc){0});
+    convert_to(again, FACET_MATERIAL_MODEL_OGL1, &(facet_legacy_desc){0});
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const legacy_material *before = &scene->legacy->materials[i];
         const legacy_material *after = &again->legacy->materials[i];
@@ -100,7 +100,7 @@ static void check_round_trip(const facet_scene *scene, const char *path)
 
 static void check_model(const char *path)
 {
-    const facet_legacy_desc descs[] = {{0}, {.profile = FACET_LEGACY_CORE, .has_glass = true}};
+    const facet_legacy_desc descs[] = {{0}, {.profile = FACET_LEGACY_PROFILE_CORE, .has_glass = true}};
     facet_scene *scene = NULL;
     facet_error error;
     if (model_file_load(path, &(facet_scene_desc){.thread_count = 2}, &scene, &error) != FACET_OK)
@@ -118,14 +118,14 @@ static void check_model(const char *path)
         read = test_malloc(((size_t)scene->material_count + 1) * sizeof *read);
         memcpy(read, scene->legacy->materials, scene->material_count * sizeof *read);
     }
-    convert_to(scene, FACET_MATERIALS_OGL1, &(facet_legacy_desc){0});
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &(facet_legacy_desc){0});
     check_legacy(scene, path);
     check_report(scene, path);
     for (uint32_t i = 0; i < scene->material_count && is_legacy; i++)
         assert_memory_equal(&scene->legacy->materials[i].diffuse, read[i].diffuse, sizeof read[i].diffuse);
     if (read)
         test_free(read);
-    convert_to(scene, FACET_MATERIALS_SPECULAR_GLOSSINESS, &(facet_legacy_desc){0});
+    convert_to(scene, FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS, &(facet_legacy_desc){0});
     check_pbr(scene, path);
     check_report(scene, path);
     scene_destroy(scene);

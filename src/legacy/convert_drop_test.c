@@ -140,11 +140,11 @@ static void what_is_not_known_whole_is_fitted(void **state)
     (void)state;
     facet_scene *scene = dropped();
     const uint32_t images = scene->image_count;
-    convert_to(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &DROPS); /* once is enough */
+    convert_to(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &DROPS); /* once is enough */
     assert_int_equal(scene->image_count, images);
     assert_string_equal(scene->conversion->materials[BAKED].summary.method, "closed");
     assert_true(scene_material_has(&scene->materials[BAKED], SCENE_SPECULAR_TEXTURE));
-    convert_to(scene, FACET_MATERIALS_OGL1, &(facet_legacy_desc){0});
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &(facet_legacy_desc){0});
     const material_conversion *report = scene->conversion->materials;
     const legacy_material *m = scene->legacy->materials;
     assert_string_equal(report[PLAIN_MAP].summary.method, "source");
@@ -207,7 +207,7 @@ static void memory_runs_out(void **state)
         const uint32_t images = scene->image_count;
         failing.fail_at = atomic_load(&failing.calls) + at;
         facet_result result =
-            legacy_convert(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &DROPS, &(facet_log){0}, NULL);
+            legacy_convert(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &DROPS, &(facet_log){0}, NULL);
         bool has_failed = atomic_load(&failing.calls) > failing.fail_at;
         if (result == FACET_OK) {
             assert_all_used(scene);

@@ -59,11 +59,12 @@ static void report(const conversion *c, uint32_t material, const legacy_reading 
         out->has_surfaces = true;
         out->ogl1_surface = item->question.ogl1;
         out->pbr_surface = item->pbr;
-        out->summary.method = solve_is_closed(c, FACET_MATERIALS_METALLIC_ROUGHNESS, item) ? "closed" : "fit";
+        out->summary.method =
+            solve_is_closed(c, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, item) ? "closed" : "fit";
     } else if (r->has_roughness_from_shininess) {
         /* Glass: OpenGL 1 has nothing to compare with. */
         summary_exact(&out->summary, "closed");
-        out->summary.grade = FACET_GRADE_FAIR;
+        out->summary.grade = FACET_CONVERSION_GRADE_FAIR;
     } else {
         summary_exact(&out->summary, r->kind == READING_KEPT ? "source" : "exact");
     }
@@ -83,7 +84,7 @@ static void note_file(conversion *c)
         note_add(&c->notes, SCENE_NONE, NOTE_COLOR_SPACE_ASSUMED,
                  "the format does not say what its colors are; they are taken as %s",
                  legacy->colors == FACET_LEGACY_COLORS_LINEAR ? "linear light" : "sRGB");
-    if (legacy->is_dialect_guessed && legacy->dialect > FACET_MTL_SPEC)
+    if (legacy->is_dialect_guessed && legacy->dialect > FACET_MTL_DIALECT_SPEC)
         note_add(&c->notes, SCENE_NONE, NOTE_DIALECT_GUESSED,
                  "by its first comment the file is one of %s, and is understood as such",
                  dialects[legacy->dialect]);
@@ -99,7 +100,7 @@ static facet_result build_all(conversion *c, legacy_reading *readings, solve_ite
         ask(c, &readings[i], &items[i]);
     }
     facet_result result =
-        solve_all(c, FACET_MATERIALS_METALLIC_ROUGHNESS, items, scene->material_count, error);
+        solve_all(c, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, items, scene->material_count, error);
     for (uint32_t i = 0; i < scene->material_count && result == FACET_OK; i++) {
         if (items[i].is_asked)
             solve_note(c, i, &items[i]);
@@ -143,7 +144,7 @@ facet_result convert_from_ogl1(conversion *c, facet_error *error)
     size_t count = (size_t)scene->material_count + 1;
     if (c->desc.colors != FACET_LEGACY_COLORS_DEFAULT)
         scene->legacy->colors = c->desc.colors;
-    if (c->desc.dialect != FACET_MTL_AUTO) {
+    if (c->desc.dialect != FACET_MTL_DIALECT_AUTO) {
         scene->legacy->dialect = c->desc.dialect;
         scene->legacy->is_dialect_guessed = false;
     }

@@ -138,7 +138,7 @@ static gloss_job begin(conversion *c, uint32_t material, scene_material *out)
     *out = *in;
     legacy_surface_of_pbr(in, &job.p.factors);
     job.p.is_glossy = (in->extensions & SCENE_SPECULAR_GLOSSINESS) != 0;
-    job.p.is_core = c->desc.profile == FACET_LEGACY_CORE;
+    job.p.is_core = c->desc.profile == FACET_LEGACY_PROFILE_CORE;
     job.p.srgb = texture_bench_srgb(c->bench);
     take(&job, GLOSS_BASE, SCENE_BASE_COLOR_TEXTURE);
     take(&job, GLOSS_SECOND,
@@ -304,7 +304,7 @@ static pbr_surface mean_surface(const conversion *c, const scene_material *m)
 facet_result convert_from_glossiness(conversion *c, facet_error *error)
 {
     facet_scene *scene = c->scene;
-    bool is_core = c->desc.profile == FACET_LEGACY_CORE;
+    bool is_core = c->desc.profile == FACET_LEGACY_PROFILE_CORE;
     facet_result result = survey(c, true, error);
     for (uint32_t i = 0; i < scene->material_count && result == FACET_OK; i++) {
         const scene_material *in = &scene->materials[i];

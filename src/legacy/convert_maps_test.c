@@ -187,7 +187,7 @@ static void the_core_profile_packs_metallic_and_roughness(void **state)
     legacy_material m = shiny();
     set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 2, 2, 3, GLOW));
     scene->legacy->materials[0] = m;
-    convert(scene, &(facet_legacy_desc){.profile = FACET_LEGACY_CORE});
+    convert(scene, &(facet_legacy_desc){.profile = FACET_LEGACY_PROFILE_CORE});
     assert_int_equal(scene->materials[0].extensions, 0);
     fit_metric *metric = NULL;
     assert_int_equal(fit_metric_create(NULL, PBR_CORRELATED, &metric, NULL), FACET_OK);
@@ -495,13 +495,13 @@ static void obj2gltf_puts_them_into_ks_and_ns(void **state)
     set_map(&m, LEGACY_SHININESS_MAP, add_texels(scene, 2, 2, 1, values));
     set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 2, 2, 3, GLOW));
     scene->legacy->materials[0] = m;
-    convert(scene, &(facet_legacy_desc){.dialect = FACET_MTL_OBJ2GLTF_MR});
+    convert(scene, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_OBJ2GLTF_MR});
     uint8_t t[4];
     assert_near(scene->materials[0].metallic, 1, 0);
     texel_at(scene, scene->materials[0].textures[SCENE_METALLIC_ROUGHNESS_TEXTURE].texture, 1, t);
     assert_int_equal(t[1], 50);
     assert_int_equal(t[2], 20);
-    convert(scene, &(facet_legacy_desc){.dialect = FACET_MTL_OBJ2GLTF_SG});
+    convert(scene, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_OBJ2GLTF_SG});
     assert_int_equal(scene->materials[0].textures[SCENE_SPECULAR_COLOR_TEXTURE].texture,
                      scene->legacy->materials[0].maps[LEGACY_SPECULAR_MAP].ref.texture);
     pbr_surface s = surface_at(scene, 0, 1);
@@ -518,9 +518,9 @@ static void ambient_maps_become_occlusion(void **state)
     scene->legacy->materials[0] = scene->legacy->materials[1] = m;
     scene->legacy->materials[1].fields |= LEGACY_EMISSION;
     set_color(scene->legacy->materials[1].emission, .5f, .5f, .5f);
-    convert(scene, &(facet_legacy_desc){.ambient = FACET_AMBIENT_OCCLUSION});
+    convert(scene, &(facet_legacy_desc){.ambient = FACET_LEGACY_AMBIENT_OCCLUSION});
     assert_int_equal(scene->materials[0].textures[SCENE_OCCLUSION_TEXTURE].texture, 0);
-    convert(scene, &(facet_legacy_desc){.ambient = FACET_AMBIENT_EMISSIVE});
+    convert(scene, &(facet_legacy_desc){.ambient = FACET_LEGACY_AMBIENT_EMISSIVE});
     assert_false(scene_material_has(&scene->materials[0], SCENE_OCCLUSION_TEXTURE));
     assert_int_equal(scene->materials[0].textures[SCENE_EMISSIVE_TEXTURE].texture, 0);
     assert_false(has_warning(scene, 0, "ambient-dropped"));

@@ -41,7 +41,7 @@ static void a_mirror_without_color_is_a_metal(void **state)
     assert_string_equal(c->method, "closed");
     assert_false(has_warning(scene, 0, "mirror-ignored"));
     /* The way back: the values are known, and a mirror is nothing that a highlight could be compared with. */
-    convert_to(scene, FACET_MATERIALS_OGL1, &PLAIN);
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &PLAIN);
     assert_string_equal(scene->conversion->materials[0].summary.method, "source");
     assert_true(!(scene->conversion->materials[0].summary.error > 0));
     assert_near(scene->legacy->materials[0].specular[0], .95, 1e-6);
@@ -130,7 +130,8 @@ static void mirrors_without_extensions(void **state)
     legacy_material in = mirror();
     set_color(in.diffuse, .05f, .05f, .05f);
     set_color(in.specular, .8f, .6f, .4f);
-    facet_scene *scene = one(in, &(facet_legacy_desc){.has_mirrors = true, .profile = FACET_LEGACY_CORE});
+    facet_scene *scene =
+        one(in, &(facet_legacy_desc){.has_mirrors = true, .profile = FACET_LEGACY_PROFILE_CORE});
     const scene_material *m = &scene->materials[0];
     assert_int_equal(m->extensions, 0);
     assert_true(m->metallic > .9f);
@@ -188,7 +189,7 @@ static void ignored_mirrors_are_told(void **state)
         set_color(m.diffuse, 0, 0, 0);
         m.illum = cases[i].illum;
         scene->legacy->materials[0] = m;
-        assert_int_equal(legacy_convert(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &PLAIN,
+        assert_int_equal(legacy_convert(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &PLAIN,
                                         &(facet_log){&lines, logged}, NULL),
                          FACET_OK);
         assert_int_equal(has_warning(scene, 0, "mirror-ignored"), cases[i].is_noted);
@@ -198,7 +199,8 @@ static void ignored_mirrors_are_told(void **state)
     /* Blender's illum 3 is a metal's, which has a metallic. */
     legacy_material m = mirror();
     m.illum = 3;
-    facet_scene *scene = one(m, &(facet_legacy_desc){.dialect = FACET_MTL_BLENDER3, .has_mirrors = true});
+    facet_scene *scene =
+        one(m, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_BLENDER3, .has_mirrors = true});
     assert_false(has_warning(scene, 0, "mirror-ignored"));
     assert_near(scene->materials[0].metallic, 0, 0); /* of Ka, which is black */
     scene_destroy(scene);

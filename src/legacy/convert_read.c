@@ -150,13 +150,13 @@ static void read_ambient(conversion *c, uint32_t material, legacy_reading *r, fa
     legacy_color_to_linear(m->ambient, colors, ambient);
     if (has_map && !legacy_has(m, LEGACY_AMBIENT))
         memcpy(ambient, WHITE, sizeof WHITE);
-    if (c->desc.ambient == FACET_AMBIENT_OCCLUSION && has_map)
+    if (c->desc.ambient == FACET_LEGACY_AMBIENT_OCCLUSION && has_map)
         return;
     if (is_black(ambient)) {
         remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
         return;
     }
-    if (c->desc.ambient == FACET_AMBIENT_EMISSIVE) {
+    if (c->desc.ambient == FACET_LEGACY_AMBIENT_EMISSIVE) {
         /* One emissive texture: the ambient map takes it where there is no other. */
         if (has_map && !legacy_has_map(m, LEGACY_EMISSION_MAP) && is_black(r->emission)) {
             m->maps[LEGACY_EMISSION_MAP] = m->maps[LEGACY_AMBIENT_MAP];
@@ -186,7 +186,8 @@ static bool reflects_surroundings(int illum)
 
 static bool is_known_good(facet_mtl_dialect dialect)
 {
-    return dialect == FACET_MTL_BLENDER27 || dialect == FACET_MTL_BLENDER28 || dialect == FACET_MTL_BLENDER3;
+    return dialect == FACET_MTL_DIALECT_BLENDER27 || dialect == FACET_MTL_DIALECT_BLENDER28 ||
+           dialect == FACET_MTL_DIALECT_BLENDER3;
 }
 
 /* Exporters write illum 0 and 1 for materials that shine, so that these count where nothing speaks against them. */
@@ -199,8 +200,8 @@ static void read_illum(conversion *c, uint32_t material, legacy_reading *r, face
                  "illum 10, which only catches shadows, has no counterpart in glTF");
     if (m->illum != 0 && m->illum != 1)
         return;
-    bool is_honoured = c->desc.illum == FACET_ILLUM_HONOR ||
-                       (c->desc.illum == FACET_ILLUM_AUTO && (!has_highlight || is_known_good(dialect)));
+    bool is_honoured = c->desc.illum == FACET_MTL_ILLUM_HONOR ||
+                       (c->desc.illum == FACET_MTL_ILLUM_AUTO && (!has_highlight || is_known_good(dialect)));
     if (!is_honoured) {
         if (has_highlight || m->illum == 0)
             note_add(&c->notes, material, NOTE_ILLUM_IGNORED, "illum %d would %s, but %s: it is ignored",
@@ -231,7 +232,7 @@ static void read_widest_highlight(conversion *c, uint32_t material, legacy_readi
 {
     legacy_material *m = &r->m;
     bool is_mirror = c->desc.has_mirrors && reflects_surroundings(m->illum);
-    if (r->kind != READING_OGL1 || c->scene->legacy->is_rgl || c->desc.dialect == FACET_MTL_SPEC ||
+    if (r->kind != READING_OGL1 || c->scene->legacy->is_rgl || c->desc.dialect == FACET_MTL_DIALECT_SPEC ||
         is_mirror || m->shininess > LEAST_EXPONENT || is_black(r->surface.specular))
         return;
     if (legacy_has(m, LEGACY_SHININESS))
@@ -333,8 +334,9 @@ static void read_blender_principled(legacy_reading *r, facet_mtl_dialect dialect
     const legacy_material *m = &r->m;
     float shininess = r->surface.shininess;
     r->kind = READING_METALLIC;
-    r->perceptual_roughness = dialect == FACET_MTL_BLENDER28 ? unit_of(1.0f - sqrtf(shininess) / 30.0f)
-                                                             : unit_of(1.0f - sqrtf(shininess / 1000.0f));
+    r->perceptual_roughness = dialect == FACET_MTL_DIALECT_BLENDER28
+                                  ? unit_of(1.0f - sqrtf(shininess) / 30.0f)
+                                  : unit_of(1.0f - sqrtf(shininess / 1000.0f));
     /* Ka is metallic only where illum says that there is a mirror; else it is 1, and says nothing. */
     r->metallic = m->illum == 3 || m->illum == 6 || m->illum == 7 ? unit_of(m->ambient[0]) : 0.0f;
     /* Ks is the level of the principled shader: F0 = 0.08 level. */
@@ -345,24 +347,24 @@ static void read_dialect(legacy_reading *r, facet_mtl_dialect dialect)
 {
     legacy_material *m = &r->m;
     switch (dialect) {
-    case FACET_MTL_AUTO:
-    case FACET_MTL_SPEC:
+    case FACET_MTL_DIALECT_AUTO:
+    case FACET_MTL_DIALECT_SPEC:
         break;
-    case FACET_MTL_BLENDER27: /* the exponent is the hardness, of which Ns is 1.96078 times one less */
+    case FACET_MTL_DIALECT_BLENDER27: /* the exponent is the hardness, of which Ns is 1.96078 times one less */
         if (legacy_has(m, LEGACY_SHININESS))
             r->surface.shininess = r->surface.shininess / 1.9607843f + 1.0f;
         break;
-    case FACET_MTL_BLENDER28:
-    case FACET_MTL_BLENDER3:
+    case FACET_MTL_DIALECT_BLENDER28:
+    case FACET_MTL_DIALECT_BLENDER3:
         read_blender_principled(r, dialect);
         break;
-    case FACET_MTL_OBJ2GLTF_MR:
+    case FACET_MTL_DIALECT_OBJ2GLTF_MR:
         r->kind = READING_METALLIC;
         r->metallic = unit_of(m->specular[0]);
         r->perceptual_roughness = unit_of(m->shininess);
         r->has_shininess_as_roughness = true;
         break;
-    case FACET_MTL_OBJ2GLTF_SG:
+    case FACET_MTL_DIALECT_OBJ2GLTF_SG:
         r->kind = READING_GLOSSY;
         r->glossiness = unit_of(m->shininess);
         r->has_shininess_as_roughness = true;
@@ -371,9 +373,9 @@ static void read_dialect(legacy_reading *r, facet_mtl_dialect dialect)
     if (r->has_shininess_as_roughness && !legacy_has(m, LEGACY_SHININESS) &&
         legacy_has_map(m, LEGACY_SHININESS_MAP))
         r->glossiness = r->perceptual_roughness = 1.0f;
-    if (dialect == FACET_MTL_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SHININESS))
+    if (dialect == FACET_MTL_DIALECT_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SHININESS))
         r->perceptual_roughness = 1.0f; /* obj2gltf's default, where Ns is a roughness */
-    if (dialect == FACET_MTL_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SPECULAR) &&
+    if (dialect == FACET_MTL_DIALECT_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SPECULAR) &&
         legacy_has_map(m, LEGACY_SPECULAR_MAP))
         r->metallic = 1.0f;
 }
@@ -529,7 +531,7 @@ static void read_mirror(conversion *c, uint32_t material, legacy_reading *r)
     /* With Fresnel, illum 5 and 7, all light that grazes is reflected; without, as much as elsewhere. */
     r->F90 = m->illum == 5 || m->illum == 7 ? 1.0f : most;
     r->kind = READING_GLOSSY;
-    if (c->desc.profile == FACET_LEGACY_CORE)
+    if (c->desc.profile == FACET_LEGACY_PROFILE_CORE)
         read_core_mirror(c, material, r);
 }
 
@@ -555,7 +557,7 @@ void legacy_read(conversion *c, uint32_t material, legacy_reading *out)
     if (out->kind != READING_METALLIC)
         read_specular(c, material, out, colors);
     /* Ka is metallic to the programs that write a principled material. */
-    if (legacy->dialect != FACET_MTL_BLENDER28 && legacy->dialect != FACET_MTL_BLENDER3)
+    if (legacy->dialect != FACET_MTL_DIALECT_BLENDER28 && legacy->dialect != FACET_MTL_DIALECT_BLENDER3)
         read_ambient(c, material, out, colors);
     else
         remove_map(&m->maps[LEGACY_AMBIENT_MAP]);

@@ -51,7 +51,8 @@ static void blinn_phong_becomes_specular_and_ior(void **state)
     assert_near(c->error, .070, .0075); /* reference, section 11 */
     assert_near(c->error_naive, .160, .005);
     assert_true(c->error_core > c->error && c->error_core < 1);
-    assert_int_equal(c->grade, c->error_display < .05 ? FACET_GRADE_GOOD : FACET_GRADE_FAIR);
+    assert_int_equal(c->grade,
+                     c->error_display < .05 ? FACET_CONVERSION_GRADE_GOOD : FACET_CONVERSION_GRADE_FAIR);
     assert_near(scene->conversion->light_scale, 3.14159265, 1e-8);
     scene_destroy(scene);
 }
@@ -80,11 +81,11 @@ static void vertex_colors_replace_a_default(void **state)
 static void fit_and_core_are_options(void **state)
 {
     (void)state;
-    facet_scene *fit = one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_FIT});
+    facet_scene *fit = one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT});
     assert_string_equal(fit->conversion->materials[0].summary.method, "fit");
     assert_near(fit->conversion->materials[0].summary.error, .068, .0064);
-    facet_scene *core =
-        one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_FIT, .profile = FACET_LEGACY_CORE});
+    facet_scene *core = one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT,
+                                                         .profile = FACET_LEGACY_PROFILE_CORE});
     const facet_conversion *c = &core->conversion->materials[0].summary;
     assert_int_equal(core->materials[0].extensions, 0);
     assert_string_equal(c->profile, "core");
@@ -101,7 +102,7 @@ static void black_becomes_the_darkest_of_the_core(void **state)
     legacy_material m = gold();
     set_color(m.diffuse, 0, 0, 0);
     set_color(m.specular, 0, 0, 0);
-    facet_scene *scene = one(m, &(facet_legacy_desc){.profile = FACET_LEGACY_CORE});
+    facet_scene *scene = one(m, &(facet_legacy_desc){.profile = FACET_LEGACY_PROFILE_CORE});
     const scene_material *out = &scene->materials[0];
     double E = scene->conversion->materials[0].summary.error;
     fit_metric *metric;
@@ -192,7 +193,7 @@ static void ambient_is_dropped_or_emitted(void **state)
     facet_scene *dropped = one(m, &PLAIN);
     assert_true(has_warning(dropped, 0, "ambient-dropped"));
     assert_near(dropped->materials[0].emissive[0], 0, 0);
-    facet_scene *emitted = one(m, &(facet_legacy_desc){.ambient = FACET_AMBIENT_EMISSIVE});
+    facet_scene *emitted = one(m, &(facet_legacy_desc){.ambient = FACET_LEGACY_AMBIENT_EMISSIVE});
     assert_false(has_warning(emitted, 0, "ambient-dropped"));
     assert_color(emitted->materials[0].emissive, .2f, .1f, 0, 1e-6);
     /* Ka of 0, or equal to Kd, is what exporters write who mean nothing by it. */
@@ -315,18 +316,18 @@ static void illum_counts_where_nothing_speaks_against_it(void **state)
     assert_true(has_warning(scene, 0, "illum-ignored"));
     assert_false(scene->materials[0].extensions & SCENE_UNLIT);
     scene_destroy(scene);
-    scene = one(m, &(facet_legacy_desc){.illum = FACET_ILLUM_HONOR});
+    scene = one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_HONOR});
     assert_true(has_warning(scene, 0, "illum-honoured"));
     assert_int_equal(scene->materials[0].extensions, SCENE_UNLIT);
     assert_near(scene->materials[0].base_color[0], .75164, 1e-6);
     assert_string_equal(scene->conversion->materials[0].summary.method, "exact");
     scene_destroy(scene);
     m.illum = 1;
-    scene = one(m, &(facet_legacy_desc){.illum = FACET_ILLUM_HONOR});
+    scene = one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_HONOR});
     assert_true(has_warning(scene, 0, "illum-honoured"));
     assert_near(scene->materials[0].specular, 0, 0);
     scene_destroy(scene);
-    scene = one(m, &(facet_legacy_desc){.dialect = FACET_MTL_BLENDER27}); /* known to mean it */
+    scene = one(m, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_BLENDER27}); /* known to mean it */
     assert_true(has_warning(scene, 0, "illum-honoured"));
     scene_destroy(scene);
     set_color(m.specular, 0, 0, 0);
@@ -334,7 +335,7 @@ static void illum_counts_where_nothing_speaks_against_it(void **state)
     scene = one(m, &PLAIN);
     assert_true(scene->materials[0].extensions & SCENE_UNLIT);
     scene_destroy(scene);
-    scene = one(m, &(facet_legacy_desc){.illum = FACET_ILLUM_IGNORE});
+    scene = one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_IGNORE});
     assert_false(scene->materials[0].extensions & SCENE_UNLIT);
     assert_true(has_warning(scene, 0, "illum-ignored"));
     scene_destroy(scene);
@@ -407,7 +408,7 @@ static void dialects_put_roughness_elsewhere(void **state)
     set_color(m.ambient, .7f, .7f, .7f);
     m.illum = 3;
     m.shininess = 225; /* roughness .5 of Blender 2.8 */
-    facet_scene *scene = in_dialect(m, FACET_MTL_BLENDER28);
+    facet_scene *scene = in_dialect(m, FACET_MTL_DIALECT_BLENDER28);
     assert_near(scene->materials[0].perceptual_roughness, .5, 1e-5);
     assert_near(scene->materials[0].metallic, .7, 1e-6);
     assert_false(scene->materials[0].extensions & SCENE_SPECULAR); /* a level of .5 is glTF's 0.04 */
@@ -418,7 +419,7 @@ static void dialects_put_roughness_elsewhere(void **state)
     set_color(m.specular, .25f, .25f, .25f);
     m.fields |= LEGACY_CLEARCOAT;
     m.clearcoat = 1;
-    scene = in_dialect(m, FACET_MTL_BLENDER3);
+    scene = in_dialect(m, FACET_MTL_DIALECT_BLENDER3);
     assert_near(scene->materials[0].perceptual_roughness, .5, 1e-5);
     assert_near(scene->materials[0].metallic, 0, 0);
     assert_true(scene->materials[0].extensions & SCENE_SPECULAR);
@@ -427,16 +428,16 @@ static void dialects_put_roughness_elsewhere(void **state)
     scene_destroy(scene);
     m = gold();
     m.shininess = 96.078431f; /* hardness 50 */
-    scene = in_dialect(m, FACET_MTL_BLENDER27);
+    scene = in_dialect(m, FACET_MTL_DIALECT_BLENDER27);
     assert_near(scene->materials[0].perceptual_roughness, perceptual_roughness_from_shininess(50), 1e-4);
     scene_destroy(scene);
     m.shininess = .3f;
     set_color(m.specular, .9f, .9f, .9f);
-    scene = in_dialect(m, FACET_MTL_OBJ2GLTF_MR);
+    scene = in_dialect(m, FACET_MTL_DIALECT_OBJ2GLTF_MR);
     assert_near(scene->materials[0].perceptual_roughness, .3, 1e-6);
     assert_near(scene->materials[0].metallic, .9, 1e-6);
     scene_destroy(scene);
-    scene = in_dialect(m, FACET_MTL_OBJ2GLTF_SG);
+    scene = in_dialect(m, FACET_MTL_DIALECT_OBJ2GLTF_SG);
     assert_int_equal(scene->materials[0].extensions, SCENE_SPECULAR | SCENE_IOR);
     assert_near(scene->materials[0].perceptual_roughness, .7, 1e-6);
     assert_near(scene->materials[0].ior, 0, 0);
@@ -449,9 +450,10 @@ static void dialects_put_roughness_elsewhere(void **state)
 static void widest_highlights_are_left_out(void **state)
 {
     (void)state;
-    static const facet_mtl_dialect dialects[] = {
-        FACET_MTL_AUTO,     FACET_MTL_SPEC,        FACET_MTL_BLENDER27,  FACET_MTL_BLENDER28,
-        FACET_MTL_BLENDER3, FACET_MTL_OBJ2GLTF_MR, FACET_MTL_OBJ2GLTF_SG};
+    static const facet_mtl_dialect dialects[] = {FACET_MTL_DIALECT_AUTO,       FACET_MTL_DIALECT_SPEC,
+                                                 FACET_MTL_DIALECT_BLENDER27,  FACET_MTL_DIALECT_BLENDER28,
+                                                 FACET_MTL_DIALECT_BLENDER3,   FACET_MTL_DIALECT_OBJ2GLTF_MR,
+                                                 FACET_MTL_DIALECT_OBJ2GLTF_SG};
     static const float exponents[] = {0, .25f, 1};
     for (size_t d = 0; d < sizeof dialects / sizeof *dialects; d++)
         for (int i = -1; i < 3; i++) { /* -1: not stated */
@@ -462,8 +464,8 @@ static void widest_highlights_are_left_out(void **state)
             m.shininess = i >= 0 ? exponents[i] : 0;
             facet_scene *scene = in_dialect(m, dialects[d]);
             const scene_material *out = &scene->materials[0];
-            bool is_exponent = dialects[d] <= FACET_MTL_BLENDER27;
-            bool is_literal = dialects[d] == FACET_MTL_SPEC;
+            bool is_exponent = dialects[d] <= FACET_MTL_DIALECT_BLENDER27;
+            bool is_literal = dialects[d] == FACET_MTL_DIALECT_SPEC;
             assert_true(has_warning(scene, 0, "highlight-ignored") == (is_exponent && !is_literal));
             if (is_literal)
                 assert_true(out->base_color[1] > .4f); /* washed out */
@@ -471,9 +473,9 @@ static void widest_highlights_are_left_out(void **state)
                 assert_near(out->specular, 0, 0);
             if (!is_literal)
                 assert_color(out->base_color, .8f, .2f, .2f, 1e-6);
-            if (dialects[d] == FACET_MTL_OBJ2GLTF_MR)
+            if (dialects[d] == FACET_MTL_DIALECT_OBJ2GLTF_MR)
                 assert_near(out->perceptual_roughness, i >= 0 ? m.shininess : 1, 1e-6);
-            else if (!is_literal && dialects[d] != FACET_MTL_OBJ2GLTF_SG)
+            else if (!is_literal && dialects[d] != FACET_MTL_DIALECT_OBJ2GLTF_SG)
                 assert_true(out->perceptual_roughness > .94f);
             scene_destroy(scene);
         }
@@ -483,7 +485,7 @@ static void guessed_dialects_are_told(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
-    scene->legacy->dialect = FACET_MTL_BLENDER3;
+    scene->legacy->dialect = FACET_MTL_DIALECT_BLENDER3;
     scene->legacy->is_dialect_guessed = true;
     convert(scene, &PLAIN);
     assert_true(has_warning(scene, SCENE_NONE, "dialect-guessed"));
@@ -579,9 +581,9 @@ static void the_log_is_short(void **state)
         scene->legacy->materials[i].fields |= LEGACY_AMBIENT;
         set_color(scene->legacy->materials[i].ambient, .1f, .1f, .1f);
     }
-    assert_int_equal(
-        legacy_convert(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &PLAIN, &(facet_log){log, logged}, NULL),
-        FACET_OK);
+    assert_int_equal(legacy_convert(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &PLAIN,
+                                    &(facet_log){log, logged}, NULL),
+                     FACET_OK);
     assert_true(has_warning(scene, SCENE_NONE, "legacy-light-pi"));
     assert_null(strstr(log, "pi"));
     assert_null(strstr(log, "sRGB"));

@@ -119,12 +119,13 @@ static void run_out(facet_material_model to, bool is_legacy, const facet_legacy_
 static void memory_runs_out(void **state)
 {
     (void)state;
-    run_out(FACET_MATERIALS_METALLIC_ROUGHNESS, true, &(facet_legacy_desc){0});
-    run_out(FACET_MATERIALS_METALLIC_ROUGHNESS, true, &(facet_legacy_desc){.profile = FACET_LEGACY_CORE});
-    run_out(FACET_MATERIALS_OGL1, false,
+    run_out(FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, true, &(facet_legacy_desc){0});
+    run_out(FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, true,
+            &(facet_legacy_desc){.profile = FACET_LEGACY_PROFILE_CORE});
+    run_out(FACET_MATERIAL_MODEL_OGL1, false,
             &(facet_legacy_desc){.bakes_occlusion = true, .target = FACET_LEGACY_TARGET_LINEAR});
-    run_out(FACET_MATERIALS_METALLIC_ROUGHNESS, false, &(facet_legacy_desc){0});
-    run_out(FACET_MATERIALS_SPECULAR_GLOSSINESS, false, &(facet_legacy_desc){0});
+    run_out(FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, false, &(facet_legacy_desc){0});
+    run_out(FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS, false, &(facet_legacy_desc){0});
 }
 
 /* Equal materials cost one search: ten thousand of five kinds are fitted in the time of five, not of an hour. */
@@ -141,7 +142,7 @@ static void equal_materials_are_solved_once(void **state)
         m->shininess = 40;
     }
     double begin = clock_seconds();
-    convert(scene, &(facet_legacy_desc){.method = FACET_LEGACY_FIT});
+    convert(scene, &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT});
     double seconds = clock_seconds() - begin;
     print_message("%d materials of 5 kinds fitted in %.3f s\n", COUNT, seconds);
     /* One search takes milliseconds, which is half a minute for all. */

@@ -38,11 +38,11 @@ typedef struct solver {
 /* A program that reads linear colors adds them as light. */
 static facet_legacy_target target_of(const conversion *c, facet_material_model to)
 {
-    const struct scene_legacy *legacy = to == FACET_MATERIALS_OGL1 ? c->legacy : c->scene->legacy;
+    const struct scene_legacy *legacy = to == FACET_MATERIAL_MODEL_OGL1 ? c->legacy : c->scene->legacy;
     facet_legacy_target target = c->desc.target;
     if (target == FACET_LEGACY_TARGET_AUTO)
-        target = to == FACET_MATERIALS_OGL1 || legacy->is_rgl ? FACET_LEGACY_TARGET_DRAWN
-                                                              : FACET_LEGACY_TARGET_LINEAR;
+        target = to == FACET_MATERIAL_MODEL_OGL1 || legacy->is_rgl ? FACET_LEGACY_TARGET_DRAWN
+                                                                   : FACET_LEGACY_TARGET_LINEAR;
     if (target == FACET_LEGACY_TARGET_DRAWN && legacy->colors == FACET_LEGACY_COLORS_LINEAR)
         target = FACET_LEGACY_TARGET_DISPLAY;
     return target;
@@ -51,16 +51,16 @@ static facet_legacy_target target_of(const conversion *c, facet_material_model t
 bool solve_is_closed(const conversion *c, facet_material_model to, const solve_item *item)
 {
     bool is_linear = c->target == FACET_LEGACY_TARGET_LINEAR;
-    if (to == FACET_MATERIALS_OGL1)
+    if (to == FACET_MATERIAL_MODEL_OGL1)
         return item->question.is_closed > 0.0f && is_linear;
-    return item->question.is_closed > 0.0f || (c->desc.method == FACET_LEGACY_CLOSED && is_linear);
+    return item->question.is_closed > 0.0f || (c->desc.method == FACET_LEGACY_METHOD_CLOSED && is_linear);
 }
 
 static void solve_from_ogl1(const solver *s, solve_item *item)
 {
     const ogl1_surface *in = &item->question.ogl1;
     bool is_closed = solve_is_closed(s->c, s->to, item);
-    bool is_core = s->desc->profile == FACET_LEGACY_CORE;
+    bool is_core = s->desc->profile == FACET_LEGACY_PROFILE_CORE;
     if (is_closed)
         item->remarks =
             is_core ? ogl1_to_pbr_core_closed(in, &item->pbr) : ogl1_to_pbr_closed(in, &item->pbr);
@@ -108,7 +108,7 @@ static void solve_range(void *context, size_t begin, size_t end)
     const solver *s = context;
     for (size_t i = begin; i < end; i++) {
         solve_item *item = &s->items[s->distinct[i].item];
-        if (s->to == FACET_MATERIALS_OGL1)
+        if (s->to == FACET_MATERIAL_MODEL_OGL1)
             solve_to_ogl1(s, item);
         else
             solve_from_ogl1(s, item);
@@ -203,10 +203,10 @@ void solve_note(conversion *c, uint32_t material, const solve_item *item)
 
 facet_conversion_grade grade_of(double error)
 {
-    return error < 0.05   ? FACET_GRADE_GOOD
-           : error < 0.12 ? FACET_GRADE_FAIR
-           : error < 0.30 ? FACET_GRADE_POOR
-                          : FACET_GRADE_BAD;
+    return error < 0.05   ? FACET_CONVERSION_GRADE_GOOD
+           : error < 0.12 ? FACET_CONVERSION_GRADE_FAIR
+           : error < 0.30 ? FACET_CONVERSION_GRADE_POOR
+                          : FACET_CONVERSION_GRADE_BAD;
 }
 
 void summary_solved(const conversion *c, facet_conversion *summary, const solve_item *item)
@@ -235,5 +235,5 @@ void summary_exact(facet_conversion *summary, const char *method)
     summary->error_naive = summary->error_core = (double)NAN;
     for (int i = 0; i < 3; i++)
         summary->error_views[i] = error;
-    summary->grade = summary->grade_drawn = FACET_GRADE_GOOD;
+    summary->grade = summary->grade_drawn = FACET_CONVERSION_GRADE_GOOD;
 }

@@ -91,7 +91,7 @@ typedef struct solve_item {
     fit_error hue_error; /* without it */
 } solve_item;
 
-/* Answers those that are asked. to: FACET_MATERIALS_METALLIC_ROUGHNESS or _OGL1. */
+/* Answers those that are asked. to: FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS or _OGL1. */
 facet_result solve_all(conversion *c, facet_material_model to, solve_item *items, uint32_t count,
                        facet_error *error);
 /* Whether an item was answered by tables rather than by a search. */

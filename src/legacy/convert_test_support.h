@@ -39,7 +39,7 @@ static inline facet_scene *legacy_scene_in(const facet_allocator *allocator, uin
     *scene->legacy = (struct scene_legacy){.materials = materials,
                                            .fog = {.scale = 1},
                                            .colors = FACET_LEGACY_COLORS_LINEAR,
-                                           .dialect = FACET_MTL_SPEC,
+                                           .dialect = FACET_MTL_DIALECT_SPEC,
                                            .is_source = true};
     for (uint32_t i = 0; i < count; i++) {
         materials[i] = legacy_material_default();
@@ -126,7 +126,7 @@ static inline void convert_to(facet_scene *scene, facet_material_model to, const
 
 static inline void convert(facet_scene *scene, const facet_legacy_desc *desc)
 {
-    convert_to(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, desc);
+    convert_to(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, desc);
 }
 
 /* material SCENE_NONE: the scene's. */

@@ -23,7 +23,7 @@ static bool is_known(const conversion *c, uint32_t material)
         return false;
     if (scene->legacy->is_source)
         return !m->is_gltf_restored || m->fields != 0;
-    if (last && last->to == FACET_MATERIALS_OGL1 && material < last->material_count &&
+    if (last && last->to == FACET_MATERIAL_MODEL_OGL1 && material < last->material_count &&
         strcmp(last->materials[material].summary.method, "source") != 0)
         return false;
     return m->fields != 0;
@@ -181,7 +181,7 @@ static bool begin_legacy(conversion *c)
         *c->legacy = *scene->legacy;
     else
         *c->legacy = (struct scene_legacy){
-            .fog = {.scale = 1.0f}, .colors = FACET_LEGACY_COLORS_SRGB, .dialect = FACET_MTL_SPEC};
+            .fog = {.scale = 1.0f}, .colors = FACET_LEGACY_COLORS_SRGB, .dialect = FACET_MTL_DIALECT_SPEC};
     bool is_read = scene->legacy && scene->legacy->is_source;
     if (c->desc.colors != FACET_LEGACY_COLORS_DEFAULT && !is_read)
         c->legacy->colors = c->desc.colors;
@@ -237,7 +237,7 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
     report->ogl1_surface = item->ogl1;
     report->pbr_surface = item->question.pbr;
     if (item->is_asked)
-        report->summary.method = solve_is_closed(c, FACET_MATERIALS_OGL1, item) ? "closed" : "fit";
+        report->summary.method = solve_is_closed(c, FACET_MATERIAL_MODEL_OGL1, item) ? "closed" : "fit";
     return result;
 }
 
@@ -253,7 +253,7 @@ facet_result convert_to_ogl1(conversion *c, facet_error *error)
     for (uint32_t i = 0; i < scene->material_count && result == FACET_OK; i++)
         ask(c, i, &known[i], &items[i]);
     if (result == FACET_OK)
-        result = solve_all(c, FACET_MATERIALS_OGL1, items, scene->material_count, error);
+        result = solve_all(c, FACET_MATERIAL_MODEL_OGL1, items, scene->material_count, error);
     for (uint32_t i = 0; i < scene->material_count && result == FACET_OK; i++)
         result = make(c, i, known[i], &items[i], error);
     if (result == FACET_OK)

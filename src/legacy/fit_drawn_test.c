@@ -259,7 +259,7 @@ static void test_textured_metal(void **state)
     scene_material m = scene_material_default();
     m.textures[SCENE_METALLIC_ROUGHNESS_TEXTURE].texture = add_texels(scene, 2, 2, 3, packed);
     scene->materials[0] = m;
-    convert_to(scene, FACET_MATERIALS_OGL1, &(facet_legacy_desc){0});
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &(facet_legacy_desc){0});
     const facet_conversion *c = &scene->conversion->materials[0].summary;
     assert_string_equal(c->method, "fit");
     assert_near(c->error_drawn, .158, .003);
@@ -283,14 +283,14 @@ static void test_default_to_ogl1(void **state)
     scene->materials[0] = scene_material_default();
     scene->materials[0].metallic = 1;
     scene->materials[0].perceptual_roughness = .4f;
-    convert_to(scene, FACET_MATERIALS_OGL1, &(facet_legacy_desc){0});
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &(facet_legacy_desc){0});
     const facet_conversion *c = &scene->conversion->materials[0].summary;
     assert_near(c->error_drawn, .158, .003);
     assert_near(c->error_display, .252, .005);
     assert_true(c->is_graded_as_drawn);
     assert_near(c->error_graded, c->error_drawn, 0);
-    assert_int_equal(c->grade, FACET_GRADE_POOR);
-    convert_to(scene, FACET_MATERIALS_OGL1, &(facet_legacy_desc){.target = FACET_LEGACY_TARGET_DISPLAY});
+    assert_int_equal(c->grade, FACET_CONVERSION_GRADE_POOR);
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &(facet_legacy_desc){.target = FACET_LEGACY_TARGET_DISPLAY});
     c = &scene->conversion->materials[0].summary;
     assert_near(c->error_display, .219, .003);
     assert_false(c->is_graded_as_drawn);
@@ -310,19 +310,19 @@ static void test_default_from_ogl1(void **state)
         set_color(m->diffuse, .07568f, .61424f, .07568f);
         set_color(m->specular, .633f, .727811f, .633f);
         m->shininess = 76.8f;
-        convert_to(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &(facet_legacy_desc){0});
+        convert_to(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &(facet_legacy_desc){0});
         const facet_conversion *c = &scene->conversion->materials[0].summary;
         assert_string_equal(c->method, is_rgl ? "fit" : "closed");
         assert_near(c->error_drawn, is_rgl ? .233 : .3705, .003);
-        assert_int_equal(c->grade, is_rgl ? FACET_GRADE_POOR : FACET_GRADE_FAIR);
-        assert_int_equal(c->grade_drawn, is_rgl ? FACET_GRADE_POOR : FACET_GRADE_BAD);
+        assert_int_equal(c->grade, is_rgl ? FACET_CONVERSION_GRADE_POOR : FACET_CONVERSION_GRADE_FAIR);
+        assert_int_equal(c->grade_drawn, is_rgl ? FACET_CONVERSION_GRADE_POOR : FACET_CONVERSION_GRADE_BAD);
         scene_destroy(scene);
     }
     /* Colors that are light are added as light. */
     facet_scene *scene = legacy_scene(1);
     scene->legacy->is_rgl = true;
     scene->legacy->materials[0].fields = LEGACY_DIFFUSE;
-    convert_to(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &(facet_legacy_desc){0});
+    convert_to(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &(facet_legacy_desc){0});
     assert_near(scene->conversion->materials[0].summary.error_drawn, 0, 1e-3);
     scene_destroy(scene);
 }
@@ -365,7 +365,7 @@ static void test_hue_is_reported(void **state)
         set_color(m->diffuse, .061f, .223f, .456f);
         set_color(m->specular, 1, 1, 1);
         m->shininess = 5;
-        convert_to(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &(facet_legacy_desc){.keeps_hue = keeps});
+        convert_to(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &(facet_legacy_desc){.keeps_hue = keeps});
         assert_int_equal(has_warning(scene, 0, "hue-lost"), !keeps);
         assert_int_equal(has_warning(scene, 0, "hue-kept"), keeps);
         assert_int_equal(scene->materials[0].base_color[0] < .2f, keeps);

@@ -136,7 +136,7 @@ static void there_and_back(void **state)
     const legacy_light wanted[2] = {lights[0], lights[1]};
     scene->legacy = NULL;
     scene->conversion = NULL;
-    convert_to(scene, FACET_MATERIALS_OGL1, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_LINEAR});
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_LINEAR});
     assert_int_equal(scene->legacy->light_count, 2);
     for (int i = 0; i < 2; i++) {
         const legacy_light *found = &scene->legacy->lights[i];

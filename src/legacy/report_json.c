@@ -143,7 +143,7 @@ static void add_values(const facet_scene *scene, const material_conversion *m, t
 {
     const scene_conversion *c = scene->conversion;
     bool is_from_legacy = strcmp(m->summary.source, "mtl") == 0 || strcmp(m->summary.source, "ogl1") == 0;
-    bool is_to_legacy = c->to == FACET_MATERIALS_OGL1;
+    bool is_to_legacy = c->to == FACET_MATERIAL_MODEL_OGL1;
     text_json_begin_object(t, "in");
     if (is_from_legacy)
         add_legacy(scene->legacy, &m->legacy, true, t);

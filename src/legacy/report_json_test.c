@@ -104,7 +104,7 @@ static void the_other_directions(void **state)
     (void)state;
     facet_scene *scene = gltf_scene(1);
     scene->materials[0].metallic = 0;
-    convert_to(scene, FACET_MATERIALS_OGL1, &(facet_legacy_desc){0});
+    convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &(facet_legacy_desc){0});
     char *report = report_of(scene);
     const char *const ogl1[] = {"\"to\":\"ogl1\"",      "\"source\":\"metallic-roughness\"",
                                 "\"profile\":\"ogl1\"", "\"in\":{\"baseColor\":[1,1,1,1]",
@@ -112,7 +112,7 @@ static void the_other_directions(void **state)
                                 "\"core_E\":null",      NULL};
     assert_in_order(report, ogl1);
     test_free(report);
-    convert_to(scene, FACET_MATERIALS_SPECULAR_GLOSSINESS, &(facet_legacy_desc){0});
+    convert_to(scene, FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS, &(facet_legacy_desc){0});
     report = report_of(scene);
     const char *const glossy[] = {"\"to\":\"specular-glossiness\"",
                                   "\"method\":\"exact\"",

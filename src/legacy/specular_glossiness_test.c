@@ -3,7 +3,7 @@
 #include "legacy/specular_glossiness.h"
 
 static const facet_legacy_desc PLAIN = {0};
-static const facet_legacy_desc CORE = {.profile = FACET_LEGACY_CORE};
+static const facet_legacy_desc CORE = {.profile = FACET_LEGACY_PROFILE_CORE};
 
 static scene_material glossy(void)
 {
@@ -174,7 +174,7 @@ static void what_is_not_exact_is_told(void **state)
     scene->materials[1].specular = .5f; /* F90 of 1/2 cannot be said */
     scene->materials[1].perceptual_roughness = .3f;
     scene->materials[2].extensions = SCENE_UNLIT;
-    convert_to(scene, FACET_MATERIALS_SPECULAR_GLOSSINESS, &PLAIN);
+    convert_to(scene, FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS, &PLAIN);
     const struct scene_conversion *c = scene->conversion;
     assert_int_equal(scene->materials[0].extensions, SCENE_SPECULAR_GLOSSINESS);
     assert_string_equal(c->materials[0].summary.method, "exact");
@@ -200,7 +200,7 @@ static void there_and_back_with_textures(void **state)
     pbr_surface before[4];
     for (size_t i = 0; i < 4; i++)
         before[i] = surface_at(scene, 0, i);
-    convert_to(scene, FACET_MATERIALS_SPECULAR_GLOSSINESS, &PLAIN);
+    convert_to(scene, FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS, &PLAIN);
     assert_true(scene_material_has(&scene->materials[0], SCENE_SPECULAR_GLOSSINESS_TEXTURE));
     convert(scene, &PLAIN);
     assert_int_equal(scene->materials[0].extensions, SCENE_SPECULAR | SCENE_IOR);

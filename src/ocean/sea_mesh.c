@@ -298,7 +298,7 @@ facet_result sea_mesh_create(const facet_sea *sea, const facet_sea_mesh_desc *de
                .bend = bend_of((double)desc->refinement)};
     scene->generator = "facet";
     scene->version = "2.0";
-    if (!fill(scene, &s, !desc->no_bed)) {
+    if (!fill(scene, &s, !desc->omits_bed)) {
         scene_destroy(scene);
         return fail_memory(error, "mesh of a sea",
                            (size_t)s.samples * s.samples * (8 * sizeof(float) + 6 * sizeof(uint32_t)));

@@ -72,7 +72,7 @@ static void harbour(facet_sea_desc *d)
 {
     d->wind_mps = 3.0f;
     d->fetch_m = 800.0f;
-    d->water.kind = FACET_WATER_JERLOV_3C;
+    d->water.kind = FACET_WATER_KIND_JERLOV_3C;
     d->water.salinity = 30.0f;
     d->water.temperature_C = 14.0f;
     d->bed = (facet_sea_bed){.depth_m = 8.0f, .albedo = {0.12f, 0.10f, 0.07f}};

@@ -70,7 +70,7 @@ double wave_spectrum(const wave_system *w, double omega, double depth_m)
     if (!(w->peak_omega > 0.0) || !(omega > 0.15 * w->peak_omega)) /* exp(-1.25 / 0.15^4) is 0 */
         return 0.0;
     double density;
-    if (w->spectrum == FACET_SEA_ELFOUHAILY) {
+    if (w->spectrum == FACET_SEA_SPECTRUM_ELFOUHAILY) {
         double k = wave_k(omega, ENDLESS);
         density = elfouhaily(w, k) / wave_domega_dk(k, ENDLESS);
     } else {

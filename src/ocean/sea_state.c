@@ -27,9 +27,9 @@ static facet_result check_wind(const facet_sea_desc *d, facet_error *error)
         return fail(error, FACET_ERROR_ARGUMENT, "wind: its direction is no finite number");
     if (!(d->fetch_m >= 100.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "fetch: %g m is not 100 m or more", (double)d->fetch_m);
-    if ((unsigned)d->spectrum > FACET_SEA_ELFOUHAILY)
+    if ((unsigned)d->spectrum > FACET_SEA_SPECTRUM_ELFOUHAILY)
         return fail(error, FACET_ERROR_ARGUMENT, "spectrum: there is no number %d", (int)d->spectrum);
-    if ((unsigned)d->spreading > FACET_SPREADING_COSINE)
+    if ((unsigned)d->spreading > FACET_SEA_SPREADING_COSINE)
         return fail(error, FACET_ERROR_ARGUMENT, "spreading: there is no number %d", (int)d->spreading);
     if (!is_within(d->peakedness, 1.0f, 20.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "peakedness: %g is not within [1, 20]",
@@ -129,18 +129,18 @@ static wave_system wind_sea(const facet_sea_desc *d)
         return w;
     double chi = GRAVITY * (double)d->fetch_m / (U * U);
     switch (d->spectrum) {
-    case FACET_SEA_JONSWAP:
+    case FACET_SEA_SPECTRUM_JONSWAP:
         chi = fmin(chi, LARGEST_FETCH);
         w.alpha = 0.076 * pow(chi, -0.22);
         w.inverse_age = 22.0 * pow(chi, -1.0 / 3.0);
         w.gamma = (double)d->peakedness;
         break;
-    case FACET_SEA_PIERSON_MOSKOWITZ:
+    case FACET_SEA_SPECTRUM_PIERSON_MOSKOWITZ:
         w.alpha = 0.0081;
         w.inverse_age = 0.855;
         w.gamma = 1.0;
         break;
-    case FACET_SEA_ELFOUHAILY:
+    case FACET_SEA_SPECTRUM_ELFOUHAILY:
         w.inverse_age = elfouhaily_age(chi);
         break;
     }
@@ -154,8 +154,8 @@ static wave_system wind_sea(const facet_sea_desc *d)
 /* alpha: such that the height is what was asked for, depth and all. */
 static wave_system swell_sea(const facet_swell *d, double depth_m)
 {
-    wave_system w = {.spectrum = FACET_SEA_JONSWAP,
-                     .spreading = FACET_SPREADING_HASSELMANN,
+    wave_system w = {.spectrum = FACET_SEA_SPECTRUM_JONSWAP,
+                     .spreading = FACET_SEA_SPREADING_HASSELMANN,
                      .direction = (double)d->direction_rad,
                      .gamma = d->peakedness > 0.0f ? (double)d->peakedness : 7.0,
                      .inverse_age = 1.17,

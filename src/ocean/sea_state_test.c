@@ -142,7 +142,7 @@ static void growth_ends_without_a_step(void **state)
     assert_near(height_of(&before), height_of(&at), 2e-4);
     assert_near(height_of(&after), height_of(&at), 1e-6);
     facet_sea_desc d = sea_default();
-    d.spectrum = FACET_SEA_PIERSON_MOSKOWITZ;
+    d.spectrum = FACET_SEA_SPECTRUM_PIERSON_MOSKOWITZ;
     sea_state developed = state_of(d);
     assert_near(height_of(&after), height_of(&developed), 0.002); /* that is where it ends */
 }
@@ -185,7 +185,8 @@ static void other_spectra_have_their_heights(void **state)
     static const float winds[5] = {3.0f, 5.0f, 10.0f, 15.0f, 20.0f};
     static const double heights[2][5] = {{0.0, 0.561, 2.245, 5.051, 8.980}, {0.23, 0.64, 2.60, 5.84, 10.37}};
     static const double periods[5] = {0.0, 3.75, 7.49, 11.24, 14.98};
-    static const facet_sea_spectrum spectra[2] = {FACET_SEA_PIERSON_MOSKOWITZ, FACET_SEA_ELFOUHAILY};
+    static const facet_sea_spectrum spectra[2] = {FACET_SEA_SPECTRUM_PIERSON_MOSKOWITZ,
+                                                  FACET_SEA_SPECTRUM_ELFOUHAILY};
     for (int k = 0; k < 2; k++)
         for (int i = 1 - k; i < 5; i++) {
             facet_sea_desc d = sea_default();
@@ -235,7 +236,7 @@ static double integral_of(const wave_system *w, double omega, double from, doubl
 static void directions_sum_to_one(void **state)
 {
     (void)state;
-    for (int kind = FACET_SPREADING_HASSELMANN; kind <= FACET_SPREADING_COSINE; kind++)
+    for (int kind = FACET_SEA_SPREADING_HASSELMANN; kind <= FACET_SEA_SPREADING_COSINE; kind++)
         for (double x = 0.4; x < 60.0; x *= 1.3)
             for (double elongation = 0.0; elongation <= 1.0; elongation += 0.5) {
                 wave_system w = {.spreading = (facet_sea_spreading)kind,
@@ -327,7 +328,7 @@ static void elfouhaily_has_capillary_waves(void **state)
     static const double slopes[3][3] = {
         {5.0, 0.0289, 0.0321}, {10.0, 0.0504, 0.0620}, {15.0, 0.0671, 0.0851}};
     facet_sea_desc d = sea_default();
-    d.spectrum = FACET_SEA_ELFOUHAILY;
+    d.spectrum = FACET_SEA_SPECTRUM_ELFOUHAILY;
     for (int i = 0; i < 7; i++) {
         d.wind_mps = (float)curvature[i][0];
         sea_state s = bare_state(d);

@@ -156,8 +156,8 @@ static sea_moments beyond_tiles(const sea_state *s, double k_from)
 {
     sea_state capillary = *s;
     wave_system *w = &capillary.systems[0];
-    if (w->spectrum != FACET_SEA_ELFOUHAILY && s->wind_mps > 0.0) {
-        w->spectrum = FACET_SEA_ELFOUHAILY;
+    if (w->spectrum != FACET_SEA_SPECTRUM_ELFOUHAILY && s->wind_mps > 0.0) {
+        w->spectrum = FACET_SEA_SPECTRUM_ELFOUHAILY;
         w->inverse_age = 0.84;
         w->peak_omega = 0.84 * GRAVITY / s->wind_mps;
         w->scale = 1.0;

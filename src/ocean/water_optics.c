@@ -87,9 +87,9 @@ static facet_result check(const facet_water *water, facet_error *error)
         result = check_range("index of refraction", (double)water->ior, 1.0, 2.0, error);
     if (!result)
         result = check_range("foam albedo", (double)water->foam_albedo, 0.0, 1.0, error);
-    if (!result && (unsigned)water->kind > FACET_WATER_COEFFICIENTS)
+    if (!result && (unsigned)water->kind > FACET_WATER_KIND_COEFFICIENTS)
         result = fail(error, FACET_ERROR_ARGUMENT, "water: there is no kind %d", (int)water->kind);
-    if (!result && water->kind == FACET_WATER_COEFFICIENTS)
+    if (!result && water->kind == FACET_WATER_KIND_COEFFICIENTS)
         result = check_coefficients(water, error);
     return result;
 }
@@ -104,15 +104,15 @@ facet_result water_optics_create(const facet_water *water, water_optics *out, fa
     out->ior =
         water->ior != 0.0f ? water->ior : (float)water_ior(550.0, salinity, (double)water->temperature_C);
     out->foam_albedo = water->foam_albedo;
-    if (water->kind == FACET_WATER_COEFFICIENTS) {
+    if (water->kind == FACET_WATER_KIND_COEFFICIENTS) {
         from_coefficients(water, out);
         return FACET_OK;
     }
-    bool is_jerlov = water->kind != FACET_WATER_CHLOROPHYLL;
+    bool is_jerlov = water->kind != FACET_WATER_KIND_CHLOROPHYLL;
     bool is_pure = !is_jerlov && water->chlorophyll_mg_m3 == 0.0f;
-    water_spectrum s = is_jerlov
-                           ? water_spectrum_jerlov((int)water->kind - (int)FACET_WATER_JERLOV_I, salinity)
-                           : water_spectrum_case1((double)water->chlorophyll_mg_m3, salinity);
+    water_spectrum s =
+        is_jerlov ? water_spectrum_jerlov((int)water->kind - (int)FACET_WATER_KIND_JERLOV_I, salinity)
+                  : water_spectrum_case1((double)water->chlorophyll_mg_m3, salinity);
     from_spectrum(&s, is_pure ? 50.0 : 20.0, out); /* one sees farther through pure water */
     return FACET_OK;
 }

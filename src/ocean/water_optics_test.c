@@ -23,7 +23,7 @@ static void expect_near(double value, double expected, double tolerance, const c
                  tolerance);
 }
 
-static const facet_water clear_sea = {.kind = FACET_WATER_CHLOROPHYLL,
+static const facet_water clear_sea = {.kind = FACET_WATER_KIND_CHLOROPHYLL,
                                       .chlorophyll_mg_m3 = 0.2f,
                                       .salinity = 35.0f,
                                       .temperature_C = 20.0f,
@@ -201,7 +201,7 @@ static void test_jerlov(void **state)
         jerlov_attenuation(type, K_d);
         spectrum_attenuation(K_d, 20.0, rgb);
         facet_water water = clear_sea;
-        water.kind = (facet_water_kind)((int)FACET_WATER_JERLOV_I + type);
+        water.kind = (facet_water_kind)((int)FACET_WATER_KIND_JERLOV_I + type);
         water_optics o = optics_of(water);
         for (int k = 0; k < 3; k++) {
             expect_near(rgb[k], jerlov_rows[type][k], fmax(0.001, 0.004 * rgb[k]), "K_d of Jerlov's type",
@@ -286,13 +286,13 @@ static void test_refusals(void **state)
     w = clear_sea;
     w.kind = (facet_water_kind)99;
     expect_refused(w, "kind");
-    w = (facet_water){.kind = FACET_WATER_COEFFICIENTS, .absorption = {0.1f, 0.2f, -0.3f}};
+    w = (facet_water){.kind = FACET_WATER_KIND_COEFFICIENTS, .absorption = {0.1f, 0.2f, -0.3f}};
     expect_refused(w, "absorption");
-    w = (facet_water){.kind = FACET_WATER_COEFFICIENTS,
+    w = (facet_water){.kind = FACET_WATER_KIND_COEFFICIENTS,
                       .scattering = {0.1f, 0.2f, 0.3f},
                       .backscattering = {0.2f, 0.0f, 0.0f}};
     expect_refused(w, "scattering");
-    w = (facet_water){.kind = FACET_WATER_COEFFICIENTS,
+    w = (facet_water){.kind = FACET_WATER_KIND_COEFFICIENTS,
                       .absorption = {0.1f, 0.2f, 0.3f},
                       .scattering = {0.1f, 0.2f, 0.0f},
                       .backscattering = {0.05f, 0.002f, 0.0f}};

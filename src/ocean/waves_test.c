@@ -135,7 +135,7 @@ static void waves_go_down_the_wind(void **state)
     (void)state;
     for (int turn = 0; turn < 4; turn++) {
         facet_sea_desc d = desc_of(64, 2, 3);
-        d.spreading = FACET_SPREADING_COSINE;
+        d.spreading = FACET_SEA_SPREADING_COSINE;
         d.wind_direction_rad = (float)(0.3 + 1.7 * turn);
         waves w = waves_of(d);
         for (uint32_t tile = 0; tile < 2; tile++) {

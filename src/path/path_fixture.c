@@ -24,7 +24,7 @@ fixture truth_create(void)
                                  .height = 4,
                                  .samples = 64,
                                  .thread_count = 1,
-                                 .integrator = FACET_INTEGRATOR_PATH,
+                                 .renderer = FACET_RENDERER_KIND_PATH,
                                  .energy = FACET_ENERGY_CONSERVING,
                                  .background = FACET_BACKGROUND_ENVIRONMENT,
                                  .path = {.max_depth = 64, .filter = FACET_FILTER_BOX}};
@@ -292,8 +292,8 @@ static facet_result try_prepared(fixture *f, prepared_scene *p, film *out, facet
     facet_result result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, out, error);
     if (result != FACET_OK)
         return result;
-    return desc.integrator == FACET_INTEGRATOR_PATH ? path_render_prepared(p, &desc, out, stats, error)
-                                                    : preview_render_prepared(p, &desc, out, stats, error);
+    return desc.renderer == FACET_RENDERER_KIND_PATH ? path_render_prepared(p, &desc, out, stats, error)
+                                                     : preview_render_prepared(p, &desc, out, stats, error);
 }
 
 facet_result truth_try_render(fixture *f, film *out, facet_render_stats *stats, facet_error *error)

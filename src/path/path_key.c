@@ -68,7 +68,7 @@ static void add_desc(key_state *k, const facet_render_desc *desc)
                               desc->crop[1],
                               desc->crop[2],
                               desc->crop[3],
-                              desc->ignore_scene_lights,
+                              desc->ignores_scene_lights,
                               desc->background == FACET_BACKGROUND_ENVIRONMENT,
                               (double)desc->background_blur,
                               (double)desc->ground,
@@ -78,7 +78,7 @@ static void add_desc(key_state *k, const facet_render_desc *desc)
                               (double)path->filter,
                               (double)path->light_sampling,
                               (double)path->clamp,
-                              path->straight_shadows,
+                              path->has_straight_shadows,
                               (double)path->shutter_s};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         add_number(k, numbers[i]);

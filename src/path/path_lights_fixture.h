@@ -34,7 +34,7 @@ static inline facet_result stage_try(stage *s, const facet_allocator *allocator)
     s->desc = s->f.desc;
     s->desc.camera = &s->f.camera;
     s->desc.environment = s->f.environment;
-    s->desc.integrator = FACET_INTEGRATOR_PATH;
+    s->desc.renderer = FACET_RENDERER_KIND_PATH;
     s->desc.crop[2] = s->desc.width;
     s->desc.crop[3] = s->desc.height;
     facet_error error = {0};

@@ -190,7 +190,7 @@ static void save(path_picture *p)
     p->stats->has_lost_checkpoint =
         path_film_save(p->sums, p->key.hex, path, p->desc->thread_count, &error) != FACET_OK;
     if (p->stats->has_lost_checkpoint && p->desc->log.message)
-        p->desc->log.message(p->desc->log.user, FACET_LOG_WARNING, error.message);
+        p->desc->log.message(p->desc->log.user, FACET_LOG_LEVEL_WARNING, error.message);
 }
 
 static void save_from_time_to_time(path_picture *p)
@@ -388,7 +388,7 @@ static void tell_dropped(const path_picture *p)
         "%llu of %llu light samples were not finite and count as black: the model or a light holds numbers "
         "that are none",
         (unsigned long long)p->stats->dropped_samples, (unsigned long long)p->stats->samples);
-    log->message(log->user, FACET_LOG_WARNING, message);
+    log->message(log->user, FACET_LOG_LEVEL_WARNING, message);
 }
 
 static facet_result develop(path_picture *p, facet_error *error)

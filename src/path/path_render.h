@@ -4,7 +4,7 @@
 
 #include "cpu/render_setup.h"
 
-/* As preview_render_prepared(), for desc->integrator FACET_INTEGRATOR_PATH. Past the time limit, or cancelled with
+/* As preview_render_prepared(), for desc->renderer FACET_RENDERER_KIND_PATH. Past the time limit, or cancelled with
  * keeps_cancelled, the film has what there is and stats->is_partial is set; FACET_ERROR_LIMIT, _CANCELLED where that is
  * not a sample for each pixel. Fails also as path_film_load(), path_checkpoint_check(); a checkpoint that cannot be written is a warning. desc->path.pass is told of
  * passes with NULL for the image: the picture so far is in the film. */

@@ -39,7 +39,7 @@ static shading_ray ray_to(const path *p, vec3 at, vec3 P, const path_light_sampl
     return ray;
 }
 
-/* What a surface that transmits lets pass. straight_shadows: as if it did not refract, and looked at face to face. */
+/* What a surface that transmits lets pass. has_straight_shadows: as if it did not refract, and looked at face to face. */
 static vec3 share_passed(const path *p, const path_vertex *v)
 {
     const surface_point *s = &v->s;

@@ -54,7 +54,7 @@ static inline float path_skipped(vec3 offset, vec3 D)
 static inline bool path_has_straight_shadows(const path *p)
 {
     const facet_path_desc *desc = &p->scene->setup->desc->path;
-    return desc->straight_shadows && desc->light_sampling != FACET_LIGHT_SAMPLING_BSDF &&
+    return desc->has_straight_shadows && desc->light_sampling != FACET_LIGHT_SAMPLING_BSDF &&
            p->shading->plans->lets_rays_through;
 }
 

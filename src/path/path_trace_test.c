@@ -36,7 +36,7 @@ static void stage_begin(stage *s)
                                     .height = 8,
                                     .samples = 16,
                                     .thread_count = 1,
-                                    .integrator = FACET_INTEGRATOR_PATH,
+                                    .renderer = FACET_RENDERER_KIND_PATH,
                                     .path = {.filter = FACET_FILTER_BOX, .max_depth = 64}};
     s->f.camera = (facet_camera){.eye = {0.0f, 0.0f, 0.5f}, .ortho_height = 0.01f};
 }
@@ -359,7 +359,7 @@ static void straight_shadows_are_tinted(void **state)
         s.f.camera.eye[2] = -1.5f;
         s.f.camera.target[2] = -2.0f;
         s.f.desc.path.max_depth = 1;
-        s.f.desc.path.straight_shadows = is_straight;
+        s.f.desc.path.has_straight_shadows = is_straight;
         double expected = is_straight ? LIT * 0.0625 * 0.96 * 0.96 : 0.0;
         assert_near(measure(&s).radiance[0], expected, 0.002 * expected + 1e-7);
         fixture_destroy(&s.f);

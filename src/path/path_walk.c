@@ -90,7 +90,7 @@ static shading_ray ray_of(const path *p, const visibility_hit *hit, ray_spread *
 {
     const scene_material *m = p->shading->geometries->items[hit->geometry].material;
     bool shines = scene_material_has(m, SCENE_EMISSIVE_TEXTURE) && max3(load3(m->emissive)) > 0.0f;
-    bool is_fine = shines || (p->shading->specular_antialiasing && p->from.is_chosen);
+    bool is_fine = shines || (p->shading->has_specular_antialiasing && p->from.is_chosen);
     shading_ray ray = {.far_t = INFINITY, .spread = spread, .footprint = 2.0f};
     mat3 frame = basis_from_normal(p->D);
     float width = is_fine ? 0.0f : p->width_m + p->angle * hit->t;

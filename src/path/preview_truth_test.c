@@ -79,9 +79,9 @@ static fixture body(int material, facet_energy energy)
 /* The two pictures of f, both the means over pixels. */
 static void draw_both(fixture *f, film *preview, film *path)
 {
-    f->desc.integrator = FACET_INTEGRATOR_PATH;
+    f->desc.renderer = FACET_RENDERER_KIND_PATH;
     *path = truth_render(f, NULL);
-    f->desc.integrator = FACET_INTEGRATOR_PREVIEW;
+    f->desc.renderer = FACET_RENDERER_KIND_PREVIEW;
     f->desc.samples = 1;
     f->desc.width = f->desc.height = FINE * SIZE;
     film fine = truth_render(f, NULL);

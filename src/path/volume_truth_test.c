@@ -117,7 +117,7 @@ static void single_scattering_of_a_beam(void **state)
         float *r = f.scene->nodes[f.scene->node_count - 1].rotation;
         r[0] = -0.70710678f;
         r[3] = 0.70710678f;
-        f.desc.path.straight_shadows = true;
+        f.desc.path.has_straight_shadows = true;
         f.desc.path.max_depth = 1;
         truth_value v = truth_measure(&f, 16);
         double L = 10.0 * single_albedo((double)0.7f) * phase(-mu, g) * (1.0 - exp(-tau * (1.0 + 1.0 / mu))) /

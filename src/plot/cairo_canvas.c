@@ -36,11 +36,11 @@ static bool create_surface(canvas *c)
 {
     const double width = c->desc.width, height = c->desc.height;
     switch (c->desc.format) {
-    case FACET_PLOT_SVG:
+    case FACET_PLOT_FORMAT_SVG:
         c->surface = c->cairo.svg_surface_create_for_stream(write_bytes, &c->file, width, height);
         c->cairo.svg_surface_set_document_unit(c->surface, CAIRO_SVG_UNIT_PX);
         return true;
-    case FACET_PLOT_PDF:
+    case FACET_PLOT_FORMAT_PDF:
         c->surface = c->cairo.pdf_surface_create_for_stream(write_bytes, &c->file, width * POINTS_PER_PIXEL,
                                                             height * POINTS_PER_PIXEL);
         /* the time of writing would make each file another one */
@@ -93,7 +93,7 @@ facet_result canvas_create(const canvas_desc *desc, canvas **out, facet_error *e
         return fail_memory(error, "pixels of a plot", (size_t)desc->width * desc->height * 4);
     }
     c->context = c->cairo.create(c->surface); /* never NULL; errors stay in it until the end */
-    if (desc->format == FACET_PLOT_PDF)
+    if (desc->format == FACET_PLOT_FORMAT_PDF)
         c->cairo.scale(c->context, POINTS_PER_PIXEL, POINTS_PER_PIXEL);
     c->cairo.set_line_join(c->context, CAIRO_LINE_JOIN_ROUND);
     set_font(c);
@@ -140,7 +140,7 @@ static facet_result encode_png(canvas *c, unsigned char **bytes, size_t *size, f
 
 static facet_result take_file(canvas *c, unsigned char **bytes, size_t *size, facet_error *error)
 {
-    if (c->desc.format == FACET_PLOT_SVG && !cairo_svg_tidy(&c->file, c->desc.title))
+    if (c->desc.format == FACET_PLOT_FORMAT_SVG && !cairo_svg_tidy(&c->file, c->desc.title))
         return fail_memory(error, "SVG", c->file.length);
     *bytes = (unsigned char *)c->file.data;
     *size = c->file.length;
@@ -161,7 +161,7 @@ static facet_result finish_drawing(canvas *c, facet_error *error)
     if (c->has_failed || c->file.has_failed || status == CAIRO_STATUS_NO_MEMORY)
         return fail_memory(error, "plot", c->file.length);
     if (status != CAIRO_STATUS_SUCCESS)
-        return fail(error, FACET_ERROR_ENVIRONMENT, "plot: cairo: %s", c->cairo.status_to_string(status));
+        return fail(error, FACET_ERROR_SYSTEM, "plot: cairo: %s", c->cairo.status_to_string(status));
     return FACET_OK;
 }
 

@@ -39,7 +39,7 @@ typedef struct canvas_desc {
 
 enum { CANVAS_MAX_SIZE = 16384 };
 
-/* FACET_ERROR_ENVIRONMENT, FACET_ERROR_UNSUPPORTED: there is no cairo; FACET_ERROR_MEMORY. */
+/* FACET_ERROR_SYSTEM, FACET_ERROR_UNSUPPORTED: there is no cairo; FACET_ERROR_MEMORY. */
 facet_result canvas_create(const canvas_desc *desc, canvas **out, facet_error *error);
 void canvas_destroy(canvas *c); /* NULL is allowed */
 /* The file: a block of mem_alloc() and its used size. Nothing can be drawn after it. */

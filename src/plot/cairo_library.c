@@ -63,7 +63,7 @@ static facet_result find_functions(cairo_library *out, const char *soname, facet
         void *symbol = dlsym(out->handle, functions[i].symbol);
         if (!symbol)
             return fail(
-                error, FACET_ERROR_ENVIRONMENT,
+                error, FACET_ERROR_SYSTEM,
                 "plot: %s has no %s; cairo 1.16 or later was expected (CSV needs no graphics library)",
                 soname, functions[i].symbol);
         memcpy(functions[i].place, &symbol, sizeof symbol);
@@ -79,7 +79,7 @@ facet_result cairo_library_open(const char *soname, cairo_library *out, facet_er
         .subject = "plot",
         .advice = ", which draws SVG, PDF and PNG, is not installed; install it (Debian: libcairo2) or write "
                   "CSV, which needs no graphics library",
-        .missing = FACET_ERROR_ENVIRONMENT,
+        .missing = FACET_ERROR_SYSTEM,
         .stays = true};
     facet_result result = library_open(soname, &desc, &out->handle, error);
     if (result == FACET_OK)

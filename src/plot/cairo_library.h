@@ -60,7 +60,7 @@ typedef struct cairo_library {
     void (*show_text)(cairo_t *, const char *);
 } cairo_library;
 
-/* soname: "libcairo.so.2". FACET_ERROR_ENVIRONMENT: it is not installed, or lacks a function. */
+/* soname: "libcairo.so.2". FACET_ERROR_SYSTEM: it is not installed, or lacks a function. */
 facet_result cairo_library_open(const char *soname, cairo_library *out, facet_error *error);
 void cairo_library_close(cairo_library *l); /* {0} is allowed; leaves {0} */
 

@@ -91,7 +91,7 @@ facet_result chart_draw_with(const chart *c, facet_plot_format format, const cha
 {
     *bytes = NULL;
     *size = 0;
-    if (format == FACET_PLOT_CSV)
+    if (format == FACET_PLOT_FORMAT_CSV)
         return chart_write_csv(c, allocator, bytes, size, error);
     char title[LABEL_SIZE];
     label_clean(c->title, title);

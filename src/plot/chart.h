@@ -85,7 +85,7 @@ typedef struct chart {
     const chart_panel *panels; /* row by row */
 } chart;
 
-/* Draws a chart: SVG, PDF, PNG. Fails with FACET_ERROR_ENVIRONMENT where cairo is not there. Same chart, same bytes. */
+/* Draws a chart: SVG, PDF, PNG. Fails with FACET_ERROR_SYSTEM where cairo is not there. Same chart, same bytes. */
 facet_result chart_draw(const chart *c, facet_plot_format format, const facet_allocator *allocator,
                         unsigned char **bytes, size_t *size, facet_error *error);
 /* Its numbers: a header line, then one row per x; curves of a panel share x where they have the same one. Panels are

@@ -8,7 +8,7 @@ facet_result chart_draw(const chart *c, facet_plot_format format, const facet_al
 {
     *bytes = NULL;
     *size = 0;
-    if (format == FACET_PLOT_CSV)
+    if (format == FACET_PLOT_FORMAT_CSV)
         return chart_write_csv(c, allocator, bytes, size, error);
     return fail(error, FACET_ERROR_UNSUPPORTED,
                 "plot: this build draws no SVG, PDF or PNG; build it with cairo 1.16 or later (Debian: "

@@ -12,7 +12,7 @@ static scene_data data;
 
 static void expect_svg(const chart *c)
 {
-    const drawn d = draw(c, FACET_PLOT_SVG);
+    const drawn d = draw(c, FACET_PLOT_FORMAT_SVG);
     char head[80];
     assert_int_equal(strlen((const char *)d.bytes), d.size);
     expect_well_formed((const char *)d.bytes);
@@ -28,7 +28,7 @@ static void svg_is_well_formed(void **state)
     for (int kind = 0; kind < SCENE_KINDS; kind++) {
         const chart c = scene_chart(&data.panels[kind]);
         expect_svg(&c);
-        const drawn d = draw(&c, FACET_PLOT_SVG);
+        const drawn d = draw(&c, FACET_PLOT_FORMAT_SVG);
         assert_non_null(strstr((const char *)d.bytes, "<title>A chart</title>"));
         if (kind == CHART_XY)
             expect_references((const char *)d.bytes);
@@ -41,7 +41,8 @@ static void svg_is_well_formed(void **state)
 static void same_chart_same_bytes(void **state)
 {
     (void)state;
-    static const facet_plot_format FORMATS[3] = {FACET_PLOT_SVG, FACET_PLOT_PDF, FACET_PLOT_PNG};
+    static const facet_plot_format FORMATS[3] = {FACET_PLOT_FORMAT_SVG, FACET_PLOT_FORMAT_PDF,
+                                                 FACET_PLOT_FORMAT_PNG};
     drawn first[SCENE_KINDS][3];
     for (int round = 0; round < 2; round++)
         for (int kind = 0; kind < SCENE_KINDS; kind++)
@@ -64,7 +65,7 @@ static void *draw_in_thread(void *result)
     const chart c = scene_chart(&data.panels[CHART_DISC]);
     facet_error error;
     drawn *d = result;
-    if (chart_draw(&c, FACET_PLOT_SVG, NULL, &d->bytes, &d->size, &error) != FACET_OK)
+    if (chart_draw(&c, FACET_PLOT_FORMAT_SVG, NULL, &d->bytes, &d->size, &error) != FACET_OK)
         d->bytes = NULL;
     return NULL;
 }
@@ -104,7 +105,7 @@ static void pdf_has_a_title_and_no_date(void **state)
 {
     (void)state;
     const chart c = scene_chart(&data.panels[CHART_XY]);
-    const drawn d = draw(&c, FACET_PLOT_PDF);
+    const drawn d = draw(&c, FACET_PLOT_FORMAT_PDF);
     assert_memory_equal(d.bytes, "%PDF-", 5);
     assert_true(contains(&d, "/Title (A chart)"));
     assert_true(contains(&d, "/MediaBox [ 0 0 300 225 ]")); /* 400 x 300 px of 1/96 inch */
@@ -145,12 +146,12 @@ static void all_labels_are_survived(void **state)
         expect_svg(&c);
         image picture = draw_picture(&c);
         image_destroy(&picture);
-        const drawn pdf = draw(&c, FACET_PLOT_PDF);
+        const drawn pdf = draw(&c, FACET_PLOT_FORMAT_PDF);
         mem_free(pdf.bytes);
     }
     chart c = scene_chart(&(chart_panel){.kind = CHART_XY}); /* NULL wherever there may be a label */
     c.title = labels[0];
-    const drawn d = draw(&c, FACET_PLOT_SVG);
+    const drawn d = draw(&c, FACET_PLOT_FORMAT_SVG);
     assert_non_null(strstr((const char *)d.bytes, "<title>&lt;b&gt;&amp;amp;\"'&lt;/b&gt;]]&gt;</title>"));
     mem_free(d.bytes);
     free(endless);
@@ -237,7 +238,7 @@ static void all_ranges_are_survived(void **state)
                 chart c = scene_chart(panels);
                 c.panel_count = 3;
                 c.columns = 2;
-                const drawn d = draw(&c, FACET_PLOT_SVG);
+                const drawn d = draw(&c, FACET_PLOT_FORMAT_SVG);
                 mem_free(d.bytes);
             }
 }
@@ -263,7 +264,7 @@ static void all_sizes_are_survived(void **state)
         drawn d;
         facet_error error;
         c.width = wrong[i];
-        assert_int_equal(chart_draw(&c, FACET_PLOT_PNG, NULL, &d.bytes, &d.size, &error),
+        assert_int_equal(chart_draw(&c, FACET_PLOT_FORMAT_PNG, NULL, &d.bytes, &d.size, &error),
                          FACET_ERROR_ARGUMENT);
         assert_null(d.bytes);
         assert_non_null(strstr(error.message, "pixels"));
@@ -310,21 +311,21 @@ static void without_cairo_it_says_what_to_do(void **state)
     const chart c = scene_chart(&data.panels[CHART_XY]);
     drawn d;
     facet_error error;
-    assert_int_equal(
-        chart_draw_with(&c, FACET_PLOT_SVG, "libcairo-is-missing.so.2", NULL, &d.bytes, &d.size, &error),
-        FACET_ERROR_ENVIRONMENT);
+    assert_int_equal(chart_draw_with(&c, FACET_PLOT_FORMAT_SVG, "libcairo-is-missing.so.2", NULL, &d.bytes,
+                                     &d.size, &error),
+                     FACET_ERROR_SYSTEM);
     assert_null(d.bytes);
     assert_int_equal(d.size, 0);
     assert_non_null(strstr(error.message, "libcairo-is-missing.so.2"));
     assert_non_null(strstr(error.message, "libcairo2"));
     assert_non_null(strstr(error.message, "CSV"));
     /* a library, but not this one */
-    assert_int_equal(chart_draw_with(&c, FACET_PLOT_PNG, "libm.so.6", NULL, &d.bytes, &d.size, &error),
-                     FACET_ERROR_ENVIRONMENT);
+    assert_int_equal(chart_draw_with(&c, FACET_PLOT_FORMAT_PNG, "libm.so.6", NULL, &d.bytes, &d.size, &error),
+                     FACET_ERROR_SYSTEM);
     assert_non_null(strstr(error.message, "cairo_"));
-    assert_int_equal(
-        chart_draw_with(&c, FACET_PLOT_CSV, "libcairo-is-missing.so.2", NULL, &d.bytes, &d.size, &error),
-        FACET_OK);
+    assert_int_equal(chart_draw_with(&c, FACET_PLOT_FORMAT_CSV, "libcairo-is-missing.so.2", NULL, &d.bytes,
+                                     &d.size, &error),
+                     FACET_OK);
     assert_true(contains(&d, "# Slices\n"));
     mem_free(d.bytes);
 }
@@ -332,7 +333,8 @@ static void without_cairo_it_says_what_to_do(void **state)
 static void memory_may_run_out_anywhere(void **state)
 {
     (void)state;
-    static const facet_plot_format FORMATS[3] = {FACET_PLOT_SVG, FACET_PLOT_PDF, FACET_PLOT_PNG};
+    static const facet_plot_format FORMATS[3] = {FACET_PLOT_FORMAT_SVG, FACET_PLOT_FORMAT_PDF,
+                                                 FACET_PLOT_FORMAT_PNG};
     for (int f = 0; f < 3; f++)
         for (int kind = 0; kind < SCENE_KINDS; kind++) {
             chart c = scene_chart(&data.panels[kind]);

@@ -137,7 +137,7 @@ static inline drawn draw(const chart *c, facet_plot_format format)
 
 static inline image draw_picture(const chart *c)
 {
-    const drawn d = draw(c, FACET_PLOT_PNG);
+    const drawn d = draw(c, FACET_PLOT_FORMAT_PNG);
     image picture;
     facet_error error;
     assert_int_equal(
@@ -171,7 +171,7 @@ static inline panel_view *lay_out(const chart *c)
     assert_non_null(views);
     for (uint32_t i = 0; i < c->panel_count; i++)
         views[i].panel = &c->panels[i];
-    if (canvas_create(&(canvas_desc){.format = FACET_PLOT_PNG, .width = c->width, .height = c->height},
+    if (canvas_create(&(canvas_desc){.format = FACET_PLOT_FORMAT_PNG, .width = c->width, .height = c->height},
                       &d.canvas, &error) != FACET_OK)
         fail_msg("%s", error.message);
     assert_int_equal(layout_create(&d, views, &error), FACET_OK);

@@ -17,8 +17,8 @@ static int set_up(void **state)
 {
     (void)state;
     facet_error error;
-    if (canvas_create(&(canvas_desc){.format = FACET_PLOT_SVG, .width = 100, .height = 100}, &page, &error) !=
-        FACET_OK) {
+    if (canvas_create(&(canvas_desc){.format = FACET_PLOT_FORMAT_SVG, .width = 100, .height = 100}, &page,
+                      &error) != FACET_OK) {
         print_message("%s\n", error.message);
         return -1;
     }

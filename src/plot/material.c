@@ -12,7 +12,7 @@
 facet_plot_material material_default(void)
 {
     return (facet_plot_material){
-        .model = FACET_PLOT_PBR,
+        .model = FACET_PLOT_MODEL_PBR,
         .base_color = {1, 1, 1},
         .perceptual_roughness = 0.5f,
         .ior = 1.5f,
@@ -163,7 +163,7 @@ void material_albedo_image_based(const material *m, const float V_[3], double ou
 void material_brdf_cos(const material *m, const float V[3], size_t count, const float (*L)[3],
                        double (*out)[3])
 {
-    if (m->parameters.model == FACET_PLOT_PBR) {
+    if (m->parameters.model == FACET_PLOT_MODEL_PBR) {
         pbr_slice(m, V, count, L, out);
         return;
     }
@@ -194,11 +194,11 @@ double material_width(const material *m)
 {
     const facet_plot_material *p = &m->parameters;
     float alpha = 1.0f;
-    if (p->model == FACET_PLOT_PBR) {
+    if (p->model == FACET_PLOT_MODEL_PBR) {
         alpha = alpha_from_roughness(p->perceptual_roughness);
         if (p->clearcoat > 0.0f)
             alpha = min(alpha, alpha_from_roughness(p->clearcoat_roughness));
-    } else if (p->model == FACET_PLOT_OGL1)
+    } else if (p->model == FACET_PLOT_MODEL_OGL1)
         alpha = alpha_from_roughness(perceptual_roughness_from_shininess(p->shininess));
     else
         alpha =
@@ -242,7 +242,7 @@ facet_plot_material material_from_pbr(const pbr_surface *s)
 facet_plot_material material_from_ogl1(const ogl1_surface *s)
 {
     facet_plot_material p = material_default();
-    p.model = FACET_PLOT_OGL1;
+    p.model = FACET_PLOT_MODEL_OGL1;
     p.shininess = s->shininess;
     memcpy(p.diffuse, s->diffuse, sizeof p.diffuse);
     memcpy(p.ogl1_specular, s->specular, sizeof p.ogl1_specular);

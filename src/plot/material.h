@@ -10,11 +10,11 @@
 struct merl; /* plot/merl.h */
 
 typedef struct material {
-    facet_plot_material parameters; /* of FACET_PLOT_MERL: path only */
+    facet_plot_material parameters; /* of FACET_PLOT_MODEL_MERL: path only */
     const char *label;              /* never NULL */
     facet_energy energy;            /* of PBR, as the next */
     bool has_separable_smith;
-    const struct merl *measured; /* FACET_PLOT_MERL, else NULL */
+    const struct merl *measured; /* FACET_PLOT_MODEL_MERL, else NULL */
 } material;
 
 facet_plot_material material_default(void); /* facet_plot_material_default() */
@@ -31,7 +31,7 @@ void material_brdf_cos(const material *m, const float V[3], size_t count, const 
 void material_albedo(const material *m, const float V[3], double out[3]);
 
 /* What leaves towards V where light of radiance 1 comes from everywhere and is looked up as prefiltered light
- * (shade/layers_ibl.h); FACET_PLOT_PBR only. */
+ * (shade/layers_ibl.h); FACET_PLOT_MODEL_PBR only. */
 void material_albedo_image_based(const material *m, const float V[3], double out[3]);
 
 /* Relative luminance of linear Rec.709. */

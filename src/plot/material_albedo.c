@@ -34,11 +34,11 @@ static lobe_set lobes_of(const material *m)
     const facet_plot_material *p = &m->parameters;
     lobe_set set = {0};
     add_lobe(&set, (lobe){.kind = LOBE_COSINE});
-    if (p->model == FACET_PLOT_MERL) { /* whatever was measured: mirrors to velvet */
+    if (p->model == FACET_PLOT_MODEL_MERL) { /* whatever was measured: mirrors to velvet */
         add_ggx(&set, 0.02f);
         add_ggx(&set, 0.1f);
         add_ggx(&set, 0.4f);
-    } else if (p->model == FACET_PLOT_OGL1) {
+    } else if (p->model == FACET_PLOT_MODEL_OGL1) {
         add_ggx(&set, alpha_from_roughness(perceptual_roughness_from_shininess(p->shininess)));
         add_ggx(&set,
                 1.0f); /* its highlight reaches the horizon undiminished, where the cosine's density is 0 */

@@ -80,7 +80,7 @@ static void take_target(fit_state *s, const material *measured)
 static material candidate(facet_plot_model model, const double p[PARAMETERS])
 {
     material m = {.label = "", .energy = FACET_ENERGY_GLTF};
-    if (model == FACET_PLOT_PBR) {
+    if (model == FACET_PLOT_MODEL_PBR) {
         pbr_surface s = {.perceptual_roughness = (float)p[0], .specular = 1.0f};
         for (int c = 0; c < 3; c++) {
             s.base_color[c] = (float)p[1 + c];

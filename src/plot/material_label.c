@@ -70,9 +70,9 @@ static void describe_pbr(const facet_plot_material *p, text *t)
 const char *material_describe(const facet_plot_material *p, const facet_allocator *allocator, arena *memory)
 {
     text t = {.allocator = *allocator};
-    if (p->model == FACET_PLOT_PBR)
+    if (p->model == FACET_PLOT_MODEL_PBR)
         describe_pbr(p, &t);
-    else if (p->model == FACET_PLOT_OGL1) {
+    else if (p->model == FACET_PLOT_MODEL_OGL1) {
         add_color(&t, "OpenGL 1, diffuse ", p->diffuse);
         add_color(&t, ", specular ", p->ogl1_specular);
         add_number(&t, ", shininess ", p->shininess);

@@ -18,7 +18,7 @@ static material pbr(float roughness, float metallic, float base)
 static material ogl1(float diffuse, float specular, float shininess)
 {
     material m = {.parameters = material_default(), .label = ""};
-    m.parameters.model = FACET_PLOT_OGL1;
+    m.parameters.model = FACET_PLOT_MODEL_OGL1;
     m.parameters.shininess = shininess;
     for (int c = 0; c < 3; c++) {
         m.parameters.diffuse[c] = diffuse;
@@ -206,10 +206,10 @@ static void labels_say_what_matters(void **state)
     m.base_color[0] = m.base_color[1] = m.base_color[2] = 0.5f;
     assert_string_equal(material_describe(&m, &malloc_, memory),
                         "dielectric 0.5, F0 (0.75, 0.75, 0.188), roughness 0.5");
-    m.model = FACET_PLOT_OGL1;
+    m.model = FACET_PLOT_MODEL_OGL1;
     assert_string_equal(material_describe(&m, &malloc_, memory),
                         "OpenGL 1, diffuse 0.8, specular 1, shininess 50");
-    m.model = FACET_PLOT_MERL;
+    m.model = FACET_PLOT_MODEL_MERL;
     m.path = "brdfs/gold-metallic-paint.binary";
     assert_string_equal(material_describe(&m, &malloc_, memory), "gold-metallic-paint.binary");
     arena_destroy(memory);

@@ -179,10 +179,11 @@ static void parameters_are_recovered(void **state)
         write_material(f, &parameters);
         merl *file = open_file(f);
         material measured = {
-            .parameters = {.model = FACET_PLOT_MERL, .path = f->path}, .label = "", .measured = file};
+            .parameters = {.model = FACET_PLOT_MODEL_MERL, .path = f->path}, .label = "", .measured = file};
         double rms;
         facet_allocator malloc_ = {0};
-        assert_int_equal(material_fit(&measured, FACET_PLOT_PBR, &malloc_, &found, &rms, NULL), FACET_OK);
+        assert_int_equal(material_fit(&measured, FACET_PLOT_MODEL_PBR, &malloc_, &found, &rms, NULL),
+                         FACET_OK);
         assert_near(found.perceptual_roughness, roughness[r], 0.005);
         for (int c = 0; c < 3; c++) {
             assert_near(found.specular_color[c], 0.04, 0.002);
@@ -203,10 +204,10 @@ static void metals_are_recovered(void **state)
     write_material(f, &parameters);
     merl *file = open_file(f);
     material measured = {
-        .parameters = {.model = FACET_PLOT_MERL, .path = f->path}, .label = "", .measured = file};
+        .parameters = {.model = FACET_PLOT_MODEL_MERL, .path = f->path}, .label = "", .measured = file};
     double rms;
     facet_allocator malloc_ = {0};
-    assert_int_equal(material_fit(&measured, FACET_PLOT_PBR, &malloc_, &found, &rms, NULL), FACET_OK);
+    assert_int_equal(material_fit(&measured, FACET_PLOT_MODEL_PBR, &malloc_, &found, &rms, NULL), FACET_OK);
     assert_near(found.perceptual_roughness, 0.35, 0.005);
     for (int c = 0; c < 3; c++)
         assert_near(found.specular_color[c], gold[c], 0.01);
@@ -219,16 +220,16 @@ static void legacy_materials_are_recovered(void **state)
 {
     fixture *f = *state;
     facet_plot_material parameters = material_default(), found;
-    parameters.model = FACET_PLOT_OGL1;
+    parameters.model = FACET_PLOT_MODEL_OGL1;
     parameters.diffuse[0] = 0.3f;
     parameters.ogl1_specular[1] = 0.5f;
     write_material(f, &parameters);
     merl *file = open_file(f);
     material measured = {
-        .parameters = {.model = FACET_PLOT_MERL, .path = f->path}, .label = "", .measured = file};
+        .parameters = {.model = FACET_PLOT_MODEL_MERL, .path = f->path}, .label = "", .measured = file};
     double rms;
     facet_allocator malloc_ = {0};
-    assert_int_equal(material_fit(&measured, FACET_PLOT_OGL1, &malloc_, &found, &rms, NULL), FACET_OK);
+    assert_int_equal(material_fit(&measured, FACET_PLOT_MODEL_OGL1, &malloc_, &found, &rms, NULL), FACET_OK);
     assert_near(found.shininess / 50.0f, 1.0, 0.03);
     for (int c = 0; c < 3; c++) {
         assert_near(found.diffuse[c], parameters.diffuse[c], 0.01);
@@ -279,9 +280,9 @@ static void plots_show_measured_beside_fit(void **state)
     fixture *f = *state;
     facet_plot_material parameters = shiny(0.4f);
     write_material(f, &parameters);
-    facet_plot_material measured = {.model = FACET_PLOT_MERL, .path = f->path, .label = "measured"};
+    facet_plot_material measured = {.model = FACET_PLOT_MODEL_MERL, .path = f->path, .label = "measured"};
     plot_fixture p = make_plot(&(facet_plot_desc){
-        .kind = FACET_PLOT_SLICE, .material_count = 1, .materials = &measured, .has_fit = true});
+        .kind = FACET_PLOT_KIND_SLICE, .material_count = 1, .materials = &measured, .has_fit = true});
     const chart_panel *panel = &p.drawing.panels[0];
     assert_int_equal(panel->curve_count, 6);
     const chart_curve *a = find_curve(panel, "measured, green"), *b = find_curve(panel, "fit, ");
@@ -291,15 +292,18 @@ static void plots_show_measured_beside_fit(void **state)
     }
     assert_int_equal(b->style.dash, 1);
     free_plot(&p);
-    p = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_LEGACY, .material_count = 1, .materials = &measured});
+    p = make_plot(
+        &(facet_plot_desc){.kind = FACET_PLOT_KIND_LEGACY, .material_count = 1, .materials = &measured});
     assert_non_null(find_curve(&p.drawing.panels[0], "measured times pi, red"));
     assert_non_null(find_curve(&p.drawing.panels[0], "OpenGL 1, red"));
     free_plot(&p);
-    plot_failure(&(facet_plot_desc){.kind = FACET_PLOT_ERROR, .material_count = 1, .materials = &measured},
-                 FACET_ERROR_ARGUMENT);
+    plot_failure(
+        &(facet_plot_desc){.kind = FACET_PLOT_KIND_ERROR, .material_count = 1, .materials = &measured},
+        FACET_ERROR_ARGUMENT);
     measured.path = "/tmp/facet-no-such-file.binary";
-    plot_failure(&(facet_plot_desc){.kind = FACET_PLOT_BRDF, .material_count = 1, .materials = &measured},
-                 FACET_ERROR_READ);
+    plot_failure(
+        &(facet_plot_desc){.kind = FACET_PLOT_KIND_BRDF, .material_count = 1, .materials = &measured},
+        FACET_ERROR_READ);
 }
 
 int main(void)

@@ -15,18 +15,18 @@ typedef struct plot_kind {
 } plot_kind;
 
 static const plot_kind kinds[] = {
-    [FACET_PLOT_LEGACY] = {plot_make_legacy, false, 3, {0.0f, 30.0f, 60.0f}},
-    [FACET_PLOT_BRDF] = {plot_make_slices, true, 2, {30.0f, 60.0f}},
-    [FACET_PLOT_SLICE] = {plot_make_slices, true, 1, {30.0f}},
-    [FACET_PLOT_HEMISPHERE] = {plot_make_hemisphere, true, 1, {45.0f}},
-    [FACET_PLOT_LOBE] = {plot_make_hemisphere, true, 1, {45.0f}},
-    [FACET_PLOT_TERMS] = {plot_make_terms, false, 1, {45.0f}},
-    [FACET_PLOT_ALBEDO] = {plot_make_albedo, true, 1, {0.0f}},
-    [FACET_PLOT_FURNACE] = {plot_make_furnace, false, 2, {30.0f, 75.0f}},
-    [FACET_PLOT_DFG] = {plot_make_dfg, false, 1, {0.0f}},
-    [FACET_PLOT_TONE] = {plot_make_tone, false, 1, {0.0f}},
-    [FACET_PLOT_FRESNEL] = {plot_make_fresnel, false, 1, {0.0f}},
-    [FACET_PLOT_ERROR] = {plot_make_error, false, 1, {0.0f}},
+    [FACET_PLOT_KIND_LEGACY] = {plot_make_legacy, false, 3, {0.0f, 30.0f, 60.0f}},
+    [FACET_PLOT_KIND_BRDF] = {plot_make_slices, true, 2, {30.0f, 60.0f}},
+    [FACET_PLOT_KIND_SLICE] = {plot_make_slices, true, 1, {30.0f}},
+    [FACET_PLOT_KIND_HEMISPHERE] = {plot_make_hemisphere, true, 1, {45.0f}},
+    [FACET_PLOT_KIND_LOBE] = {plot_make_hemisphere, true, 1, {45.0f}},
+    [FACET_PLOT_KIND_TERMS] = {plot_make_terms, false, 1, {45.0f}},
+    [FACET_PLOT_KIND_ALBEDO] = {plot_make_albedo, true, 1, {0.0f}},
+    [FACET_PLOT_KIND_FURNACE] = {plot_make_furnace, false, 2, {30.0f, 75.0f}},
+    [FACET_PLOT_KIND_DFG] = {plot_make_dfg, false, 1, {0.0f}},
+    [FACET_PLOT_KIND_TONE] = {plot_make_tone, false, 1, {0.0f}},
+    [FACET_PLOT_KIND_FRESNEL] = {plot_make_fresnel, false, 1, {0.0f}},
+    [FACET_PLOT_KIND_ERROR] = {plot_make_error, false, 1, {0.0f}},
 };
 
 enum { DEFAULT_MATERIALS = 6 };
@@ -63,7 +63,7 @@ static facet_result open_material(plot *p, const facet_plot_material *from, merl
                              : material_describe(from, &desc->allocator, p->memory);
     if (!out->label)
         return fail_memory(p->error, "plot", 0);
-    if (from->model != FACET_PLOT_MERL)
+    if (from->model != FACET_PLOT_MODEL_MERL)
         return FACET_OK;
     facet_result result = merl_open(from->path, &desc->allocator, file, p->error);
     out->measured = *file;
@@ -92,7 +92,8 @@ static facet_result open_subjects(plot *p, const plot_kind *kind, merl *files[FA
         *subject = (plot_subject){.number = i};
         facet_result result = open_material(p, &list[i], &files[i], &subject->material);
         if (result == FACET_OK && p->desc->has_fit && kind->shows_reflectance) {
-            facet_plot_model to = list[i].model == FACET_PLOT_PBR ? FACET_PLOT_OGL1 : FACET_PLOT_PBR;
+            facet_plot_model to =
+                list[i].model == FACET_PLOT_MODEL_PBR ? FACET_PLOT_MODEL_OGL1 : FACET_PLOT_MODEL_PBR;
             plot_conversion conversion;
             result = plot_convert(p, &subject->material, to, true, &conversion);
             if (result == FACET_OK)
@@ -105,7 +106,7 @@ static facet_result open_subjects(plot *p, const plot_kind *kind, merl *files[FA
     }
     p->has_cosine = p->desc->has_cosine;
     for (uint32_t i = 0; i < p->subject_count; i++)
-        p->has_cosine = p->has_cosine || subjects[i].material.parameters.model == FACET_PLOT_OGL1;
+        p->has_cosine = p->has_cosine || subjects[i].material.parameters.model == FACET_PLOT_MODEL_OGL1;
     return FACET_OK;
 }
 

@@ -60,11 +60,11 @@ static facet_result check_numbers(const facet_plot_material *m, const parameter 
 static facet_result check_material(const facet_plot_material *m, uint32_t number, facet_error *error)
 {
     switch (m->model) {
-    case FACET_PLOT_PBR:
+    case FACET_PLOT_MODEL_PBR:
         return check_numbers(m, pbr_parameters, number, error);
-    case FACET_PLOT_OGL1:
+    case FACET_PLOT_MODEL_OGL1:
         return check_numbers(m, ogl1_parameters, number, error);
-    case FACET_PLOT_MERL:
+    case FACET_PLOT_MODEL_MERL:
         if (m->path && *m->path)
             return FACET_OK;
         return fail(error, FACET_ERROR_ARGUMENT,
@@ -79,13 +79,14 @@ static facet_result check_kind(facet_plot_kind kind, const facet_plot_material *
                                facet_error *error)
 {
     static const char *const names[] = {"PBR", "OpenGL 1", "measured"};
-    bool is_pbr = m->model == FACET_PLOT_PBR;
+    bool is_pbr = m->model == FACET_PLOT_MODEL_PBR;
     const char *expected = NULL;
-    if (kind == FACET_PLOT_TERMS && !is_pbr)
+    if (kind == FACET_PLOT_KIND_TERMS && !is_pbr)
         expected = "terms are those of PBR materials";
-    else if ((kind == FACET_PLOT_ERROR || kind == FACET_PLOT_FURNACE) && m->model == FACET_PLOT_MERL)
+    else if ((kind == FACET_PLOT_KIND_ERROR || kind == FACET_PLOT_KIND_FURNACE) &&
+             m->model == FACET_PLOT_MODEL_MERL)
         expected = "one whose roughness can be varied expected";
-    else if (kind == FACET_PLOT_DFG || kind == FACET_PLOT_TONE)
+    else if (kind == FACET_PLOT_KIND_DFG || kind == FACET_PLOT_KIND_TONE)
         expected = "this kind of plot shows no materials";
     if (!expected)
         return FACET_OK;
@@ -95,9 +96,9 @@ static facet_result check_kind(facet_plot_kind kind, const facet_plot_material *
 
 facet_result plot_check(const facet_plot_desc *desc, facet_error *error)
 {
-    if ((int)desc->kind < 0 || desc->kind > FACET_PLOT_ERROR)
+    if ((int)desc->kind < 0 || desc->kind > FACET_PLOT_KIND_ERROR)
         return fail(error, FACET_ERROR_ARGUMENT, "plot: there is no kind %d; 0 to %d expected",
-                    (int)desc->kind, (int)FACET_PLOT_ERROR);
+                    (int)desc->kind, (int)FACET_PLOT_KIND_ERROR);
     if (desc->material_count > FACET_PLOT_MAX_MATERIALS)
         return fail(error, FACET_ERROR_ARGUMENT, "plot: %u materials; at most %d expected",
                     desc->material_count, FACET_PLOT_MAX_MATERIALS);

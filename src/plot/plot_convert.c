@@ -9,7 +9,7 @@ const fit_metric *plot_metric(plot *p)
     if (!p->metric && !p->has_failed) {
         pbr_masking masking = p->desc->has_separable_smith ? PBR_SEPARABLE : PBR_CORRELATED;
         /* the vignette's own material is seen with its own formula */
-        if (p->desc->kind == FACET_PLOT_LEGACY && p->has_default_materials)
+        if (p->desc->kind == FACET_PLOT_KIND_LEGACY && p->has_default_materials)
             masking = PBR_SEPARABLE;
         if (fit_metric_create(&p->desc->allocator, masking, &p->metric, NULL) != FACET_OK)
             p->has_failed = true;
@@ -57,7 +57,7 @@ facet_result plot_convert(plot *p, const material *source, facet_plot_model to, 
         const fit_metric *metric = plot_metric(p);
         if (!metric)
             return fail_memory(p->error, "directions of a fit", 0);
-        if (source->parameters.model == FACET_PLOT_PBR)
+        if (source->parameters.model == FACET_PLOT_MODEL_PBR)
             convert_pbr(metric, source, is_fit, out);
         else
             convert_ogl1(metric, source, is_fit, out);

@@ -63,7 +63,7 @@ static void convert_points(void *context, size_t begin, size_t end)
 {
     const error_work *work = context;
     for (size_t i = begin; i < end; i++)
-        if (work->material->model == FACET_PLOT_PBR)
+        if (work->material->model == FACET_PLOT_MODEL_PBR)
             to_ogl1(work, (uint32_t)i);
         else
             to_pbr(work, (uint32_t)i);
@@ -71,7 +71,7 @@ static void convert_points(void *context, size_t begin, size_t end)
 
 plot_panel *plot_add_errors(plot *p, const facet_plot_material *m, const char *title, uint32_t point_count)
 {
-    bool is_pbr = m->model == FACET_PLOT_PBR;
+    bool is_pbr = m->model == FACET_PLOT_MODEL_PBR;
     double *x = plot_numbers(p, point_count);
     error_work work = {.metric = plot_metric(p),
                        .material = m,
@@ -108,10 +108,10 @@ facet_result plot_make_error(plot *p)
             facet_plot_model model;
             const char *title;
             float metallic, diffuse, specular; /* PBR: diffuse is the base color */
-        } defaults[4] = {{FACET_PLOT_PBR, "gray dielectric", 0.0f, 0.5f, 0.0f},
-                         {FACET_PLOT_PBR, "white metal", 1.0f, 1.0f, 0.0f},
-                         {FACET_PLOT_OGL1, "OpenGL 1: diffuse 0.5, specular 0.5", 0.0f, 0.5f, 0.5f},
-                         {FACET_PLOT_OGL1, "OpenGL 1: diffuse 0.5, specular 1", 0.0f, 0.5f, 1.0f}};
+        } defaults[4] = {{FACET_PLOT_MODEL_PBR, "gray dielectric", 0.0f, 0.5f, 0.0f},
+                         {FACET_PLOT_MODEL_PBR, "white metal", 1.0f, 1.0f, 0.0f},
+                         {FACET_PLOT_MODEL_OGL1, "OpenGL 1: diffuse 0.5, specular 0.5", 0.0f, 0.5f, 0.5f},
+                         {FACET_PLOT_MODEL_OGL1, "OpenGL 1: diffuse 0.5, specular 1", 0.0f, 0.5f, 1.0f}};
         for (count = 0; count < 4; count++) {
             facet_plot_material m = material_default();
             m.model = defaults[count].model;
@@ -121,13 +121,13 @@ facet_result plot_make_error(plot *p)
                 m.ogl1_specular[c] = defaults[count].specular;
             }
             plot_add_errors(p, &m, defaults[count].title,
-                            m.model == FACET_PLOT_PBR ? POINTS_PBR : POINTS_OGL1);
+                            m.model == FACET_PLOT_MODEL_PBR ? POINTS_PBR : POINTS_OGL1);
         }
     }
     for (uint32_t k = 0; !p->has_default_materials && k < p->subject_count; k++, count++) {
         const material *m = &p->subjects[k].material;
         plot_add_errors(p, &m->parameters, m->label,
-                        m->parameters.model == FACET_PLOT_PBR ? POINTS_PBR : POINTS_OGL1);
+                        m->parameters.model == FACET_PLOT_MODEL_PBR ? POINTS_PBR : POINTS_OGL1);
     }
     uint32_t columns = count < 2 ? 1 : count < 5 ? 2 : 3;
     uint32_t rows = count ? (count + columns - 1) / columns : 1;

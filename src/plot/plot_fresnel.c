@@ -119,7 +119,7 @@ static facet_result media_of(plot *p, dielectric *media, uint32_t *count)
     for (uint32_t k = 0; k < p->subject_count; k++) {
         const material *m = &p->subjects[k].material;
         const facet_plot_material *q = &m->parameters;
-        if (q->model != FACET_PLOT_PBR || !(q->ior >= 1.0f) || q->metallic >= 1.0f)
+        if (q->model != FACET_PLOT_MODEL_PBR || !(q->ior >= 1.0f) || q->metallic >= 1.0f)
             return fail(
                 p->error, FACET_ERROR_ARGUMENT,
                 "plot: material %u (%s) has no index of refraction; dielectrics of ior 1 or more expected",

@@ -52,7 +52,7 @@ static void integrate(void *context, size_t begin, size_t end)
         float V[3];
         double albedo[3];
         plot_direction((double)work->plot->angles[angle], 0.0, V);
-        if (m.parameters.model != FACET_PLOT_PBR && series % (WAYS * MODES) > 0)
+        if (m.parameters.model != FACET_PLOT_MODEL_PBR && series % (WAYS * MODES) > 0)
             continue; /* OpenGL 1 has one way and one mode */
         if (is_image_based)
             material_albedo_image_based(&m, V, albedo);
@@ -93,7 +93,7 @@ static void add_panel(plot *p, const furnace_subject *subject, const double *x, 
 {
     static const char *const names[MODES][WAYS] = {{"glTF, lamps", "glTF, environment"},
                                                    {"conserving, lamps", "conserving, environment"}};
-    bool is_pbr = subject->parameters.model == FACET_PLOT_PBR;
+    bool is_pbr = subject->parameters.model == FACET_PLOT_MODEL_PBR;
     plot_panel *panel =
         plot_add_panel(p, CHART_XY, subject->title,
                        is_pbr ? "perceptual roughness" : "perceptual roughness that its shininess stands for",

@@ -145,7 +145,7 @@ static void add_lobe(plot *p, const plot_subject *subject, double view)
 
 facet_result plot_make_hemisphere(plot *p)
 {
-    bool is_disc = p->desc->kind == FACET_PLOT_HEMISPHERE;
+    bool is_disc = p->desc->kind == FACET_PLOT_KIND_HEMISPHERE;
     for (uint32_t k = 0; k < p->subject_count; k++)
         for (uint32_t a = 0; a < p->angle_count; a++)
             if (is_disc)

@@ -129,7 +129,8 @@ static const char *describe_error(plot *p, const material *source, const plot_co
 {
     if (!conversion->has_error)
         return plot_text(p, "RMS of log(1 + f cos) %.3f of the measured", conversion->rms);
-    bool has_layers = source->parameters.model == FACET_PLOT_PBR && material_has_layers(&source->parameters);
+    bool has_layers =
+        source->parameters.model == FACET_PLOT_MODEL_PBR && material_has_layers(&source->parameters);
     return plot_text(p, "E %.3f, E_display %.3f%s%s", conversion->error.E, conversion->error.E_display,
                      has_dashes ? "; views in order: solid, dashed, dotted" : "",
                      has_layers ? "; of the base: coat, sheen, film and grain have no counterpart" : "");
@@ -137,9 +138,9 @@ static const char *describe_error(plot *p, const material *source, const plot_co
 
 static const char *scaled(const material *m)
 {
-    return m->parameters.model == FACET_PLOT_PBR ? "PBR times pi"
-           : m->measured                         ? "measured times pi"
-                                                 : "OpenGL 1";
+    return m->parameters.model == FACET_PLOT_MODEL_PBR ? "PBR times pi"
+           : m->measured                               ? "measured times pi"
+                                                       : "OpenGL 1";
 }
 
 static void add_pair(plot *p, const material *source, const plot_conversion *conversion, double view,
@@ -213,7 +214,7 @@ static facet_result make_vignette(plot *p)
     white.perceptual_roughness = (float)ROUGHNESS;
     material source = {.parameters = white, .label = "the vignette's PBR", .has_separable_smith = true};
     plot_conversion conversion;
-    facet_result result = plot_convert(p, &source, FACET_PLOT_OGL1, true, &conversion);
+    facet_result result = plot_convert(p, &source, FACET_PLOT_MODEL_OGL1, true, &conversion);
     if (result != FACET_OK)
         return result;
 
@@ -245,7 +246,8 @@ static facet_result make_conversions(plot *p)
 {
     for (uint32_t k = 0; k < p->subject_count; k++) {
         const material *source = &p->subjects[k].material;
-        facet_plot_model to = source->parameters.model == FACET_PLOT_OGL1 ? FACET_PLOT_PBR : FACET_PLOT_OGL1;
+        facet_plot_model to =
+            source->parameters.model == FACET_PLOT_MODEL_OGL1 ? FACET_PLOT_MODEL_PBR : FACET_PLOT_MODEL_OGL1;
         plot_conversion conversion;
         facet_result result = plot_convert(p, source, to, p->desc->has_fit, &conversion);
         if (result != FACET_OK)

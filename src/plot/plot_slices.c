@@ -148,7 +148,7 @@ static void add_curves(plot *p, double view)
 
 facet_result plot_make_slices(plot *p)
 {
-    bool is_polar = p->desc->kind == FACET_PLOT_BRDF;
+    bool is_polar = p->desc->kind == FACET_PLOT_KIND_BRDF;
     if (is_polar && p->desc->has_shared_scale)
         p->highest = find_highest(p);
     for (uint32_t a = 0; a < p->angle_count; a++) {

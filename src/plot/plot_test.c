@@ -8,12 +8,12 @@
 
 #include "shade/shade.h"
 
-static const facet_plot_kind all_kinds[] = {FACET_PLOT_LEGACY,     FACET_PLOT_BRDF,    FACET_PLOT_SLICE,
-                                            FACET_PLOT_HEMISPHERE, FACET_PLOT_LOBE,    FACET_PLOT_TERMS,
-                                            FACET_PLOT_ALBEDO,     FACET_PLOT_FURNACE, FACET_PLOT_DFG,
-                                            FACET_PLOT_TONE,       FACET_PLOT_FRESNEL, FACET_PLOT_ERROR};
+static const facet_plot_kind all_kinds[] = {
+    FACET_PLOT_KIND_LEGACY, FACET_PLOT_KIND_BRDF,  FACET_PLOT_KIND_SLICE,   FACET_PLOT_KIND_HEMISPHERE,
+    FACET_PLOT_KIND_LOBE,   FACET_PLOT_KIND_TERMS, FACET_PLOT_KIND_ALBEDO,  FACET_PLOT_KIND_FURNACE,
+    FACET_PLOT_KIND_DFG,    FACET_PLOT_KIND_TONE,  FACET_PLOT_KIND_FRESNEL, FACET_PLOT_KIND_ERROR};
 enum { KINDS = sizeof all_kinds / sizeof *all_kinds };
-_Static_assert(KINDS == FACET_PLOT_ERROR + 1, "every kind");
+_Static_assert(KINDS == FACET_PLOT_KIND_ERROR + 1, "every kind");
 
 /* ---- all kinds ---- */
 
@@ -59,8 +59,8 @@ static void check_panel(const chart_panel *panel)
 /* Kinds that integrate or search, for which logarithms are an axis alone. */
 static bool makes_much(facet_plot_kind kind)
 {
-    return kind == FACET_PLOT_LEGACY || kind == FACET_PLOT_ALBEDO || kind == FACET_PLOT_FURNACE ||
-           kind == FACET_PLOT_ERROR;
+    return kind == FACET_PLOT_KIND_LEGACY || kind == FACET_PLOT_KIND_ALBEDO ||
+           kind == FACET_PLOT_KIND_FURNACE || kind == FACET_PLOT_KIND_ERROR;
 }
 
 static void every_kind_is_drawn_from_nothing(void **state)
@@ -88,13 +88,13 @@ static void every_kind_shows_several_materials(void **state)
         m[i] = material_default();
     m[0].perceptual_roughness = 0.0f;
     m[1].clearcoat = m[1].sheen_color[0] = m[1].iridescence = m[1].anisotropy = 1.0f;
-    m[2].model = m[3].model = FACET_PLOT_OGL1;
+    m[2].model = m[3].model = FACET_PLOT_MODEL_OGL1;
     m[3].shininess = 0.0f;
     for (int k = 0; k < KINDS; k++) {
-        bool only_pbr = all_kinds[k] == FACET_PLOT_TERMS || all_kinds[k] == FACET_PLOT_FRESNEL;
-        if (all_kinds[k] == FACET_PLOT_TONE || all_kinds[k] == FACET_PLOT_DFG)
+        bool only_pbr = all_kinds[k] == FACET_PLOT_KIND_TERMS || all_kinds[k] == FACET_PLOT_KIND_FRESNEL;
+        if (all_kinds[k] == FACET_PLOT_KIND_TONE || all_kinds[k] == FACET_PLOT_KIND_DFG)
             continue;
-        m[0].metallic = all_kinds[k] == FACET_PLOT_FRESNEL ? 0.5f : 1.0f;
+        m[0].metallic = all_kinds[k] == FACET_PLOT_KIND_FRESNEL ? 0.5f : 1.0f;
         plot_fixture f = make_plot(&(facet_plot_desc){.kind = all_kinds[k],
                                                       .material_count = only_pbr ? 2 : 4,
                                                       .materials = m,
@@ -117,7 +117,8 @@ static void every_kind_shows_several_materials(void **state)
 static void threads_do_not_change_numbers(void **state)
 {
     (void)state;
-    static const facet_plot_kind kinds[] = {FACET_PLOT_ALBEDO, FACET_PLOT_FURNACE, FACET_PLOT_ERROR};
+    static const facet_plot_kind kinds[] = {FACET_PLOT_KIND_ALBEDO, FACET_PLOT_KIND_FURNACE,
+                                            FACET_PLOT_KIND_ERROR};
     static const float angle = 0.5f;
     facet_plot_material m = material_default();
     for (int k = 0; k < 3; k++) {
@@ -167,7 +168,7 @@ static void matte_slice_is_flat(void **state)
     m.base_color[0] = m.base_color[1] = m.base_color[2] = 0.5f;
     for (int cosine = 0; cosine < 2; cosine++) {
         plot_fixture f = make_plot(&(facet_plot_desc){
-            .kind = FACET_PLOT_SLICE, .material_count = 1, .materials = &m, .has_cosine = cosine});
+            .kind = FACET_PLOT_KIND_SLICE, .material_count = 1, .materials = &m, .has_cosine = cosine});
         const chart_panel *panel = &f.drawing.panels[0];
         assert_int_equal(panel->curve_count, 1);
         for (size_t i = 0; i < panel->curves[0].count; i++)
@@ -187,7 +188,7 @@ static void peaks_are_not_cut(void **state)
         facet_plot_material m = material_default();
         m.metallic = 1.0f;
         m.perceptual_roughness = roughness[i];
-        plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_SLICE,
+        plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_SLICE,
                                                       .material_count = 1,
                                                       .materials = &m,
                                                       .angle_count = 1,
@@ -209,7 +210,7 @@ static void peaks_are_not_cut(void **state)
 static void polar_lobes_reach_one(void **state)
 {
     (void)state;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_BRDF});
+    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_BRDF});
     assert_int_equal(f.drawing.panel_count, 2);
     for (uint32_t i = 0; i < 2; i++) {
         const chart_panel *panel = &f.drawing.panels[i];
@@ -230,15 +231,15 @@ static void curves_per_channel_or_luminance(void **state)
     (void)state;
     facet_plot_material m[2] = {material_default(), material_default()};
     m[0].base_color[2] = 0.1f;
-    m[1].model = FACET_PLOT_OGL1;
+    m[1].model = FACET_PLOT_MODEL_OGL1;
     plot_fixture f =
-        make_plot(&(facet_plot_desc){.kind = FACET_PLOT_SLICE, .material_count = 1, .materials = m});
+        make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_SLICE, .material_count = 1, .materials = m});
     const chart_panel *panel = &f.drawing.panels[0];
     assert_int_equal(panel->curve_count, 3);
     assert_string_equal(panel->y.label, "BRDF, 1/sr");
     assert_true(value_at(&panel->curves[2], 60, 0.3) < value_at(&panel->curves[0], 60, 0.3));
     free_plot(&f);
-    f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_SLICE, .material_count = 2, .materials = m});
+    f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_SLICE, .material_count = 2, .materials = m});
     panel = &f.drawing.panels[0];
     assert_int_equal(panel->curve_count, 2);
     assert_string_equal(panel->y.label, "BRDF times N.L, 1/sr");
@@ -252,7 +253,7 @@ static void disc_has_the_slice_in_it(void **state)
     static const float view = 0.5f;
     facet_plot_material m = material_default();
     m.metallic = 1.0f;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_HEMISPHERE,
+    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_HEMISPHERE,
                                                   .material_count = 1,
                                                   .materials = &m,
                                                   .angle_count = 1,
@@ -276,7 +277,7 @@ static void disc_has_the_slice_in_it(void **state)
 static void lobe_is_as_long_as_the_root_of_its_value(void **state)
 {
     (void)state;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_LOBE});
+    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_LOBE});
     for (uint32_t i = 0; i < f.drawing.panel_count; i++) {
         const chart_surface *s = f.drawing.panels[i].surface;
         double peak = 0.0, longest = 0.0;
@@ -301,7 +302,7 @@ static void terms_are_shades(void **state)
     facet_plot_material m = material_default();
     m.perceptual_roughness = 0.4f;
     static const float view = 1.0f;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_TERMS,
+    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_TERMS,
                                                   .material_count = 1,
                                                   .materials = &m,
                                                   .angle_count = 1,
@@ -333,7 +334,7 @@ static void albedo_of_white_metal_is_the_tables_sum(void **state)
     m.metallic = 1.0f;
     m.perceptual_roughness = 0.7f;
     plot_fixture f =
-        make_plot(&(facet_plot_desc){.kind = FACET_PLOT_ALBEDO, .material_count = 1, .materials = &m});
+        make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_ALBEDO, .material_count = 1, .materials = &m});
     const chart_curve *c = &f.drawing.panels[0].curves[0];
     for (size_t i = 0; i < c->count; i++) {
         float terms[2];
@@ -346,7 +347,7 @@ static void albedo_of_white_metal_is_the_tables_sum(void **state)
 static void furnace_conserves_where_it_says_so(void **state)
 {
     (void)state;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_FURNACE});
+    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_FURNACE});
     assert_int_equal(f.drawing.panel_count, 4);
     for (uint32_t i = 0; i < 4; i++) {
         const chart_panel *panel = &f.drawing.panels[i];
@@ -368,7 +369,7 @@ static void furnace_conserves_where_it_says_so(void **state)
 static void tables_are_those_of_ibl(void **state)
 {
     (void)state;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_DFG});
+    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_DFG});
     assert_int_equal(f.drawing.panel_count, 4);
     for (uint32_t row = 3; row < 192; row += 17)
         for (uint32_t column = 5; column < 192; column += 19) {
@@ -387,7 +388,7 @@ static void tables_are_those_of_ibl(void **state)
 static void tone_curves_rise(void **state)
 {
     (void)state;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_TONE});
+    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_TONE});
     for (uint32_t i = 0; i < 2; i++) {
         const chart_panel *panel = &f.drawing.panels[i];
         assert_int_equal(panel->curve_count, TONEMAP_HABLE + 1);
@@ -405,7 +406,7 @@ static void tone_curves_rise(void **state)
 static void fresnel_has_its_ends(void **state)
 {
     (void)state;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_FRESNEL});
+    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_FRESNEL});
     assert_int_equal(f.drawing.panel_count, 6);
     const chart_panel *p = f.drawing.panels;
     static const struct {
@@ -451,7 +452,8 @@ static void fresnel_has_its_ends(void **state)
 static void errors_are_the_fits(void **state)
 {
     (void)state;
-    plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_ERROR, .has_separable_smith = true});
+    plot_fixture f =
+        make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_ERROR, .has_separable_smith = true});
     assert_int_equal(f.drawing.panel_count, 4);
     fit_metric *metric;
     assert_int_equal(fit_metric_create(NULL, PBR_SEPARABLE, &metric, NULL), FACET_OK);
@@ -497,7 +499,7 @@ static void conversions_stand_beside_their_sources(void **state)
     (void)state;
     facet_plot_material m[2] = {material_default(), material_default()};
     m[0].base_color[0] = m[0].base_color[1] = m[0].base_color[2] = 0.5f;
-    m[1].model = FACET_PLOT_OGL1;
+    m[1].model = FACET_PLOT_MODEL_OGL1;
     plot_fixture f = make_plot(&(facet_plot_desc){.material_count = 2, .materials = m, .has_fit = true});
     assert_int_equal(f.drawing.panel_count, 8);
     assert_int_equal(f.drawing.columns, 4);
@@ -526,7 +528,7 @@ static void wrong_descs_are_refused(void **state)
     facet_plot_desc desc = {.kind = (facet_plot_kind)99};
     plot_failure(&desc, FACET_ERROR_ARGUMENT);
     desc = (facet_plot_desc){
-        .kind = FACET_PLOT_BRDF, .material_count = FACET_PLOT_MAX_MATERIALS + 1, .materials = m};
+        .kind = FACET_PLOT_KIND_BRDF, .material_count = FACET_PLOT_MAX_MATERIALS + 1, .materials = m};
     assert_non_null(strstr(plot_failure(&desc, FACET_ERROR_ARGUMENT).message, "17 materials"));
     desc.material_count = 2;
     static const float angles[4] = {0.3f, 1.5708f, -0.1f, NAN};
@@ -550,20 +552,20 @@ static void wrong_descs_are_refused(void **state)
     m[1].ior = 0.0f; /* infinite */
     plot_fixture f = make_plot(&desc);
     free_plot(&f);
-    desc.kind = FACET_PLOT_FRESNEL;
+    desc.kind = FACET_PLOT_KIND_FRESNEL;
     plot_failure(&desc, FACET_ERROR_ARGUMENT);
     m[1].ior = 1.5f;
     m[1].metallic = 1.0f;
     plot_failure(&desc, FACET_ERROR_ARGUMENT);
-    desc.kind = FACET_PLOT_TONE;
+    desc.kind = FACET_PLOT_KIND_TONE;
     plot_failure(&desc, FACET_ERROR_ARGUMENT);
-    desc.kind = FACET_PLOT_BRDF;
+    desc.kind = FACET_PLOT_KIND_BRDF;
     m[1].model = (facet_plot_model)7;
     plot_failure(&desc, FACET_ERROR_ARGUMENT);
-    m[1].model = FACET_PLOT_OGL1;
+    m[1].model = FACET_PLOT_MODEL_OGL1;
     m[1].shininess = -1.0f;
     plot_failure(&desc, FACET_ERROR_ARGUMENT);
-    m[1].model = FACET_PLOT_MERL;
+    m[1].model = FACET_PLOT_MODEL_MERL;
     assert_non_null(strstr(plot_failure(&desc, FACET_ERROR_ARGUMENT).message, "path"));
 }
 

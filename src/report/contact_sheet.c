@@ -112,7 +112,7 @@ facet_result contact_sheet_create(const film *const *pictures, uint32_t count,
     facet_error remark;
     if (desc->labels)
         result = write_labels(&l, count, desc, out, &remark);
-    if (result == FACET_ERROR_ENVIRONMENT || result == FACET_ERROR_UNSUPPORTED) {
+    if (result == FACET_ERROR_SYSTEM || result == FACET_ERROR_UNSUPPORTED) {
         log_warning(&desc->log, "sheet: no labels: %s", remark.message);
         return FACET_OK;
     }

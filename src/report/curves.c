@@ -73,7 +73,7 @@ facet_result curves_draw(const facet_scene *scene, uint32_t material, unsigned c
                          facet_error *error)
 {
     const material_conversion *m = &scene->conversion->materials[material];
-    pair p = {.is_from_ogl1 = scene->conversion->to != FACET_MATERIALS_OGL1};
+    pair p = {.is_from_ogl1 = scene->conversion->to != FACET_MATERIAL_MODEL_OGL1};
     p.ogl1 = m->ogl1_surface;
     p.pbr = m->pbr_surface;
     *bytes = NULL;
@@ -90,8 +90,9 @@ facet_result curves_draw(const facet_scene *scene, uint32_t material, unsigned c
                      .columns = VIEWS,
                      .panel_count = VIEWS,
                      .panels = panels};
-    facet_result result = is_made ? chart_draw(&c, FACET_PLOT_SVG, &scene->allocator, bytes, size, error)
-                                  : fail_memory(error, "report", 0);
+    facet_result result = is_made
+                              ? chart_draw(&c, FACET_PLOT_FORMAT_SVG, &scene->allocator, bytes, size, error)
+                              : fail_memory(error, "report", 0);
     arena_destroy(memory);
     return result;
 }

@@ -54,7 +54,7 @@ static void write_title(sheet *s)
     char mapping[64] = "";
     if (last > 0 && c->lobe <= FACET_LOBE_CHARLIE)
         snprintf(mapping, sizeof mapping,
-                 s->bake->mapping == FACET_MAPPING_FILAMENT
+                 s->bake->mapping == FACET_ROUGHNESS_MAPPING_FILAMENT
                      ? "  \xc2\xb7  roughness of level k: 1 \xe2\x88\x92 \xe2\x88\x9a(1 \xe2\x88\x92 k/%u)"
                      : "  \xc2\xb7  roughness of level k: k/%u",
                  last);
@@ -232,7 +232,7 @@ facet_result ibl_sheet_draw(const facet_cube *cube_map, const facet_environment 
     s->film.layers[0].pixels = NULL;
     facet_error remark;
     result = sheet_write_words(s->words, s->word_count, &desc->allocator, out, &remark);
-    if (result == FACET_ERROR_ENVIRONMENT || result == FACET_ERROR_UNSUPPORTED) {
+    if (result == FACET_ERROR_SYSTEM || result == FACET_ERROR_UNSUPPORTED) {
         log_warning(&environment->log, "sheet: no words: %s", remark.message);
         result = FACET_OK;
     }

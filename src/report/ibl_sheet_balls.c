@@ -66,7 +66,8 @@ static float ball_roughness(facet_lobe lobe, uint32_t i)
 static float lod_of(const sheet *s, float roughness)
 {
     float last = (float)(s->cube_map->level_count - 1);
-    return last * (s->bake->mapping == FACET_MAPPING_FILAMENT ? roughness * (2.0f - roughness) : roughness);
+    return last * (s->bake->mapping == FACET_ROUGHNESS_MAPPING_FILAMENT ? roughness * (2.0f - roughness)
+                                                                        : roughness);
 }
 
 /* Whether there is a ball for each of several roughnesses; else the one that there is stands beside those of harmonics. */

@@ -43,7 +43,7 @@ facet_result sheet_write_words(const sheet_word *words, uint32_t count, const fa
 {
     canvas *c = NULL;
     facet_result result = canvas_create(&(canvas_desc){.allocator = *allocator,
-                                                       .format = FACET_PLOT_PNG,
+                                                       .format = FACET_PLOT_FORMAT_PNG,
                                                        .width = picture->width,
                                                        .height = picture->height},
                                         &c, error);

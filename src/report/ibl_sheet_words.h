@@ -18,7 +18,7 @@ typedef struct sheet_word {
     char text[160]; /* UTF-8 */
 } sheet_word;
 
-/* Writes them on a picture (F32 RGBA, linear light of a display). FACET_ERROR_ENVIRONMENT, _UNSUPPORTED: there is no cairo, and
+/* Writes them on a picture (F32 RGBA, linear light of a display). FACET_ERROR_SYSTEM, _UNSUPPORTED: there is no cairo, and
  * the picture is as it was; _MEMORY. */
 facet_result sheet_write_words(const sheet_word *words, uint32_t count, const facet_allocator *allocator,
                                image *picture, facet_error *error);

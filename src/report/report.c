@@ -46,9 +46,9 @@ static void add_summary(const page *p)
     html_text(p->out, p->scene->source);
     text_addf(p->out, "</h1>\n<p class=\"dim\">%u converted to %s by facet %s</p>\n<p>",
               p->conversion->material_count,
-              p->conversion->to == FACET_MATERIALS_OGL1                  ? "OpenGL 1"
-              : p->conversion->to == FACET_MATERIALS_SPECULAR_GLOSSINESS ? "specular-glossiness"
-                                                                         : "physically based ones",
+              p->conversion->to == FACET_MATERIAL_MODEL_OGL1                  ? "OpenGL 1"
+              : p->conversion->to == FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS ? "specular-glossiness"
+                                                                              : "physically based ones",
               facet_version());
     for (int i = 0; i < 4; i++)
         text_addf(p->out, "<b class=\"%s\">%u %s</b>%s", GRADES[i], grades[i], GRADES[i],
@@ -195,7 +195,7 @@ static void add_pbr_values(text *out, const char *title, const scene_material *m
 static void add_values(const page *p, const material_conversion *m)
 {
     bool has_legacy = scene_has_legacy_materials(p->scene) && !m->before;
-    bool is_back = p->conversion->to == FACET_MATERIALS_OGL1;
+    bool is_back = p->conversion->to == FACET_MATERIAL_MODEL_OGL1;
     if (m->before)
         add_pbr_values(p->out, "glTF, before", m->before);
     if (has_legacy && !is_back)
@@ -237,7 +237,7 @@ static facet_result add_spheres(page *p, uint32_t material, facet_error *error)
 {
     static const char *const captions[SPHERE_LOOK_COUNT] = {"OpenGL 1, on its screen",
                                                             "OpenGL 1, in linear light", "glTF"};
-    bool is_back = p->conversion->to == FACET_MATERIALS_OGL1; /* the source stands first */
+    bool is_back = p->conversion->to == FACET_MATERIAL_MODEL_OGL1; /* the source stands first */
     for (int i = 0; i < SPHERE_LOOK_COUNT; i++) {
         int look = is_back ? SPHERE_LOOK_COUNT - 1 - i : i;
         unsigned char *bytes = NULL;

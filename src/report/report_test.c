@@ -32,8 +32,9 @@ static facet_scene *make_scene(void)
     assert_int_equal(
         model_file_load_memory(PARAMETERS, sizeof PARAMETERS - 1, "test.json", &desc, &scene, &error),
         FACET_OK);
-    assert_int_equal(legacy_convert(scene, FACET_MATERIALS_METALLIC_ROUGHNESS, &desc.legacy, &silent, &error),
-                     FACET_OK);
+    assert_int_equal(
+        legacy_convert(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &desc.legacy, &silent, &error),
+        FACET_OK);
     return scene;
 }
 

@@ -21,7 +21,7 @@ typedef struct view {
     double vertical[3];              /* the axis of the orbit */
     double sin_polar, cos_polar;
     double tan_x, tan_y; /* orthographic: the proportion aspect : 1 */
-    bool orthographic;
+    bool is_orthographic;
     bool fits_all_azimuths;
 } view;
 
@@ -53,8 +53,8 @@ static void aim(view *v, const facet_orbit *orbit, float aspect)
     orient(up, orbit->is_z_up, v->up);
     orient(right, orbit->is_z_up, v->right);
     orient(vertical, orbit->is_z_up, v->vertical);
-    v->orthographic = orbit->orthographic;
-    v->tan_y = orbit->orthographic ? 1.0 : tan(0.5 * (double)orbit->fov_y_rad);
+    v->is_orthographic = orbit->is_orthographic;
+    v->tan_y = orbit->is_orthographic ? 1.0 : tan(0.5 * (double)orbit->fov_y_rad);
     v->tan_x = v->tan_y * (double)aspect;
 }
 
@@ -82,7 +82,7 @@ static void add_point(const view *v, const double p[3], extent *e)
     double x_size = fabs(x) / v->tan_x;
     double y_size = fabs(y) / v->tan_y;
     double sideways = x_size > y_size ? x_size : y_size;
-    extent_add(e, v->orthographic ? sideways : z + sideways, z);
+    extent_add(e, v->is_orthographic ? sideways : z + sideways, z);
 }
 
 /* The same for all azimuths. With height h and distance r from the vertical, and phi the angle between the vertex
@@ -96,7 +96,7 @@ static void add_circle(const view *v, const double p[3], extent *e)
     double s = v->sin_polar;
     double c = v->cos_polar;
     double nearest = h * c + r * fabs(s);
-    if (v->orthographic) {
+    if (v->is_orthographic) {
         extent_add(e, fmax(r / v->tan_x, (fabs(h * s) + r * fabs(c)) / v->tan_y), nearest);
         return;
     }
@@ -173,8 +173,8 @@ static double excess(const search *s, const float low[3], const float high[3], c
     double narrow = fmin(s->view->tan_x, s->view->tan_y);
     double wider = corners.extent + margin * (1.0 + 1.0 / narrow) - e->extent;
     double nearer = corners.nearest + margin - e->nearest;
-    return s->view->orthographic && nearer > wider ? nearer
-                                                   : wider; /* else nothing asks for what is nearest */
+    return s->view->is_orthographic && nearer > wider ? nearer
+                                                      : wider; /* else nothing asks for what is nearest */
 }
 
 static double gain(void *context, const box *local)
@@ -263,7 +263,7 @@ static facet_result check(const facet_orbit *orbit, float aspect, facet_error *e
     if (orbit->radius == 0.0f && !is_in(orbit->radius_scale, 1e-6f, 1e6f))
         return fail(error, FACET_ERROR_ARGUMENT, "orbit: radius scale %g is not in [1e-6, 1e6]",
                     (double)orbit->radius_scale);
-    if (!is_in(orbit->fov_y_rad, 1e-4f, 3.1f) && !orbit->orthographic)
+    if (!is_in(orbit->fov_y_rad, 1e-4f, 3.1f) && !orbit->is_orthographic)
         return fail(error, FACET_ERROR_ARGUMENT, "orbit: field of view %g is not in [0.0001, 3.1] rad",
                     (double)orbit->fov_y_rad);
     for (int i = 0; i < 3; i++)
@@ -336,7 +336,7 @@ static facet_result stand(const view *v, const subject *s, const facet_orbit *or
     /* Nothing to see is framed as a ball of 1 m would be, a single point (extent 0) as well. */
     extent e = s->extent;
     double narrow = fmin(1.0, (double)aspect);
-    double smallest = v->orthographic ? 1.0 / narrow : 1.0 / sin(atan(v->tan_y * narrow));
+    double smallest = v->is_orthographic ? 1.0 / narrow : 1.0 / sin(atan(v->tan_y * narrow));
     double diagonal = 0.0;
     for (int i = 0; i < 3 && s->has_bounds; i++)
         diagonal = fmax(diagonal, (double)s->bounds.maximum[i] - (double)s->bounds.minimum[i]);
@@ -344,7 +344,7 @@ static facet_result stand(const view *v, const subject *s, const facet_orbit *or
         e = (extent){smallest, 1.0};
 
     double distance = e.extent * (double)orbit->radius_scale;
-    if (v->orthographic) {
+    if (v->is_orthographic) {
         double half =
             orbit->radius > 0.0f ? (double)orbit->radius * tan(0.5 * (double)orbit->fov_y_rad) : distance;
         if (!(half > 0.0))
@@ -371,7 +371,7 @@ static facet_result stand(const view *v, const subject *s, const facet_orbit *or
 /* A camera that stands at a given distance needs no look at the model. Parallel rays begin in front of all of it. */
 static bool is_measured(const facet_orbit *orbit)
 {
-    return orbit->orthographic || !(orbit->radius > 0.0f);
+    return orbit->is_orthographic || !(orbit->radius > 0.0f);
 }
 
 facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, const facet_orbit *orbit,

@@ -95,7 +95,7 @@ static void the_outermost_vertex_touches_the_border(void **state)
                              .polar_rad = ANGLES[i % ANGLE_COUNT][1],
                              .radius_scale = 1.0f,
                              .fov_y_rad = 0.6f,
-                             .orthographic = i / ANGLE_COUNT % 2 != 0,
+                             .is_orthographic = i / ANGLE_COUNT % 2 != 0,
                              .is_z_up = i / ANGLE_COUNT / 2 % 2 != 0};
         float aspect = aspects[i / ANGLE_COUNT / 4];
         facet_camera camera;
@@ -119,7 +119,7 @@ static void a_turntable_keeps_its_distance_and_cuts_nothing(void **state)
                                  .polar_rad = ANGLES[i % ANGLE_COUNT][1],
                                  .radius_scale = 1.0f,
                                  .fov_y_rad = 0.6f,
-                                 .orthographic = i >= ANGLE_COUNT,
+                                 .is_orthographic = i >= ANGLE_COUNT,
                                  .fits_all_azimuths = true};
             facet_camera camera;
             assert_int_equal(scene_fit_pose(scene, &pose, &orbit, 1.5f, 1, &camera, NULL), FACET_OK);
@@ -199,7 +199,7 @@ static void nothing_and_a_single_point_have_a_camera(void **state)
             facet_orbit orbit = {.polar_rad = 1.3f,
                                  .radius_scale = 1.05f,
                                  .fov_y_rad = 0.5f,
-                                 .orthographic = orthographic != 0};
+                                 .is_orthographic = orthographic != 0};
             facet_camera camera;
             assert_int_equal(scene_fit_orbit(scene, NULL, &orbit, 1, &camera, NULL), FACET_OK);
             double distance = 0.0;
@@ -284,7 +284,7 @@ static void a_whole_motion_touches_the_border(void **state)
                              .polar_rad = ANGLES[i % ANGLE_COUNT][1],
                              .radius_scale = 1.0f,
                              .fov_y_rad = 0.6f,
-                             .orthographic = i / ANGLE_COUNT % 2 != 0,
+                             .is_orthographic = i / ANGLE_COUNT % 2 != 0,
                              .has_target = i / ANGLE_COUNT / 2 != 0,
                              .target = {3, 2, 1},
                              .fits_all_times = true};

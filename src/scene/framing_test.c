@@ -38,7 +38,7 @@ static facet_camera fit(const facet_scene *scene, bool includes_far_parts, const
 
 static void count_warning(void *user, facet_log_level level, const char *text)
 {
-    assert_int_equal(level, FACET_LOG_WARNING);
+    assert_int_equal(level, FACET_LOG_LEVEL_WARNING);
     assert_non_null(strstr(text, "--framing all"));
     ++*(int *)user;
 }
@@ -279,7 +279,7 @@ static void shared_vertices_are_bounded_exactly(void **state)
         for (int i = 0; i < 3; i++) {
             facet_orbit orbit = scene_orbit_default();
             orbit.azimuth_rad = (float)i;
-            orbit.orthographic = i == 1;
+            orbit.is_orthographic = i == 1;
             orbit.fits_all_azimuths = i == 2;
             assert_int_equal(scene_fit_orbit(scene, NULL, &orbit, 1.5f, &cameras[is_shared][i], NULL),
                              FACET_OK);

@@ -62,6 +62,6 @@ bool legacy_lacks_pictures(const legacy_material *m)
 
 bool scene_has_legacy_materials(const facet_scene *scene)
 {
-    return scene->legacy &&
-           (scene->legacy->is_source || (scene->conversion && scene->conversion->to == FACET_MATERIALS_OGL1));
+    return scene->legacy && (scene->legacy->is_source ||
+                             (scene->conversion && scene->conversion->to == FACET_MATERIAL_MODEL_OGL1));
 }

@@ -163,7 +163,7 @@ typedef struct scene_legacy {
     legacy_light *lights;
     legacy_fog fog;
     facet_legacy_colors colors; /* how they were read; never FACET_LEGACY_COLORS_DEFAULT */
-    facet_mtl_dialect dialect;  /* never FACET_MTL_AUTO */
+    facet_mtl_dialect dialect;  /* never FACET_MTL_DIALECT_AUTO */
     bool is_dialect_guessed;    /* by the file's first comment */
     bool is_source;             /* read from a file; false: made from the glTF materials */
     /* rgl's rules: vertex colors take the place of diffuse ones, the texture is laid over all of the light. False: those

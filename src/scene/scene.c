@@ -196,7 +196,7 @@ void scene_note(facet_scene *scene, const facet_log *log, const char *format, ..
     va_end(arguments);
     const message_list list = {&scene->notes, &scene->note_count, &((scene_store *)scene)->note_capacity};
     if (keep_message(scene, &list, message, sizeof message))
-        log_message(log, FACET_LOG_DETAIL, "%s", message);
+        log_message(log, FACET_LOG_LEVEL_DETAIL, "%s", message);
 }
 
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index)

@@ -9,7 +9,7 @@
 static void count_message(void *user, facet_log_level level, const char *message)
 {
     (void)message;
-    assert_int_equal(level, FACET_LOG_WARNING);
+    assert_int_equal(level, FACET_LOG_LEVEL_WARNING);
     ++*(int *)user;
 }
 

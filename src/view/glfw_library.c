@@ -58,7 +58,7 @@ facet_result glfw_library_open(const char *name, glfw_library *out, facet_error 
     /* RTLD_NODELETE: it opens libraries of the display that do not bear being unloaded */
     const library_desc desc = {.subject = "window",
                                .advice = ", which opens windows, is not installed (Debian: libglfw3)",
-                               .missing = FACET_ERROR_ENVIRONMENT,
+                               .missing = FACET_ERROR_SYSTEM,
                                .stays = true};
     facet_result result = library_open(name, &desc, &out->handle, error);
     if (result != FACET_OK)
@@ -66,8 +66,8 @@ facet_result glfw_library_open(const char *name, glfw_library *out, facet_error 
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
         void *symbol = dlsym(out->handle, functions[i].symbol);
         if (!symbol)
-            return fail(error, FACET_ERROR_ENVIRONMENT,
-                        "window: %s has no %s; GLFW 3.3 or later was expected", name, functions[i].symbol);
+            return fail(error, FACET_ERROR_SYSTEM, "window: %s has no %s; GLFW 3.3 or later was expected",
+                        name, functions[i].symbol);
         memcpy(functions[i].place, &symbol, sizeof symbol);
     }
     return FACET_OK;

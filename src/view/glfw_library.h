@@ -56,7 +56,7 @@ typedef struct glfw_library {
     GLFWwindowrefreshfun (*set_window_refresh_callback)(GLFWwindow *window, GLFWwindowrefreshfun function);
 } glfw_library;
 
-/* name: of the library, such as "libglfw.so.3". Fails with FACET_ERROR_ENVIRONMENT: it is not installed, or too old. */
+/* name: of the library, such as "libglfw.so.3". Fails with FACET_ERROR_SYSTEM: it is not installed, or too old. */
 facet_result glfw_library_open(const char *name, glfw_library *out, facet_error *error);
 
 #endif

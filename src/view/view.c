@@ -31,7 +31,7 @@ static void wake(void *user);
 static void receive_warning(void *user, facet_log_level level, const char *text)
 {
     view_app *a = user;
-    if (level != FACET_LOG_WARNING)
+    if (level != FACET_LOG_LEVEL_WARNING)
         return;
     pthread_mutex_lock(&a->warning_mutex);
     snprintf(a->warning, sizeof a->warning, "%s", text);
@@ -210,7 +210,7 @@ static void draw(view_app *a)
     }
     if (view_window_needs_drawing(a->window))
         a->needs_picture = true;
-    bool traces = a->state.render.integrator == FACET_INTEGRATOR_PATH ||
+    bool traces = a->state.render.renderer == FACET_RENDERER_KIND_PATH ||
                   a->state.divider.comparison == VIEW_COMPARE_RENDERER;
     if (traces)
         a->needs_frame = true; /* the tracer may have more */

@@ -154,14 +154,14 @@ static void step_channel(view_state *s, int steps)
     facet_gl_desc *gl = &s->render.gl;
     gl->channel = (facet_channel)wrap((int)gl->channel + steps, FACET_CHANNEL_COUNT);
     if (gl->channel != FACET_CHANNEL_LIGHT)
-        s->render.integrator = FACET_INTEGRATOR_GL;
+        s->render.renderer = FACET_RENDERER_KIND_GL;
     say(s, "Channel: %s", view_channel_name(gl->channel));
 }
 
 static void step_renderer(view_state *s)
 {
-    bool is_path = s->render.integrator == FACET_INTEGRATOR_PATH;
-    s->render.integrator = is_path ? FACET_INTEGRATOR_GL : FACET_INTEGRATOR_PATH;
+    bool is_path = s->render.renderer == FACET_RENDERER_KIND_PATH;
+    s->render.renderer = is_path ? FACET_RENDERER_KIND_GL : FACET_RENDERER_KIND_PATH;
     if (!is_path)
         s->render.gl.channel = FACET_CHANNEL_LIGHT;
     if (!is_path && s->divider.comparison == VIEW_COMPARE_MASKING) /* which paths do not have */
@@ -172,7 +172,7 @@ static void step_renderer(view_state *s)
 bool view_state_has_casters(const view_state *s)
 {
     const float *sun = s->render.sun.illuminance_lux;
-    return (s->counts.lights && !s->render.ignore_scene_lights) || sun[0] + sun[1] + sun[2] > 0.0f;
+    return (s->counts.lights && !s->render.ignores_scene_lights) || sun[0] + sun[1] + sun[2] > 0.0f;
 }
 
 /* The first variant that looks otherwise than the file without: often the first one is its default. */
@@ -192,7 +192,7 @@ static uint32_t find_variant(const facet_scene *scene)
 static void step_divider(view_state *s, int steps)
 {
     view_divider_step(&s->divider, steps, s->counts.variants > 0,
-                      s->render.integrator == FACET_INTEGRATOR_PATH);
+                      s->render.renderer == FACET_RENDERER_KIND_PATH);
     s->divider.variant = s->scene ? find_variant(s->scene) : 0;
     if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* else the sides have labels */
         say(s, "No comparison");
@@ -210,8 +210,8 @@ static bool apply_camera(view_state *s, view_action action, int amount)
         break;
     case VIEW_ACTION_PROJECTION:
         view_state_leave_file_camera(s);
-        s->orbit.orthographic = !s->orbit.orthographic;
-        say(s, "Projection: %s", s->orbit.orthographic ? "parallel" : "perspective");
+        s->orbit.is_orthographic = !s->orbit.is_orthographic;
+        say(s, "Projection: %s", s->orbit.is_orthographic ? "parallel" : "perspective");
         break;
     case VIEW_ACTION_CAMERA:
         step_camera(s, amount);
@@ -284,13 +284,13 @@ static bool apply_light(view_state *s, view_action action, int amount)
         say(s, "Light of the environment: %.2f", exp2((double)r->environment_ev));
         break;
     case VIEW_ACTION_LIGHTS:
-        r->ignore_scene_lights = !r->ignore_scene_lights;
-        say(s, "Lights of the file: %s%s", r->ignore_scene_lights ? "off" : "on",
+        r->ignores_scene_lights = !r->ignores_scene_lights;
+        say(s, "Lights of the file: %s%s", r->ignores_scene_lights ? "off" : "on",
             s->counts.lights || s->counts.image_lights ? "" : "; it has none");
         break;
     case VIEW_ACTION_SHADOWS:
-        r->gl.shadows = !r->gl.shadows;
-        say(s, "Shadows of lights: %s%s", r->gl.shadows ? "on" : "off",
+        r->gl.has_shadows = !r->gl.has_shadows;
+        say(s, "Shadows of lights: %s%s", r->gl.has_shadows ? "on" : "off",
             view_state_has_casters(s) ? "" : "; there is no light of the file and no sun to cast any");
         break;
     case VIEW_ACTION_GROUND:

@@ -70,7 +70,7 @@ facet_camera view_camera_of(const facet_orbit *o, float aspect, const float low[
     view_axes axes = axes_of(o);
     facet_camera camera = {.aspect = aspect};
     double distance = (double)o->radius;
-    if (o->orthographic) {
+    if (o->is_orthographic) {
         camera.ortho_height = (float)(2.0 * distance * tan(0.5 * (double)o->fov_y_rad));
         double reach = 0.0; /* of the bounds from the target */
         for (int i = 0; i < 3; i++) {
@@ -143,8 +143,8 @@ facet_orbit view_camera_orbit(const facet_camera *c, const facet_orbit *like, co
     o.polar_rad = (float)acos(fmin(fmax(y, -1.0), 1.0));
     if (fabs(y) < 0.999999)
         o.azimuth_rad = (float)atan2(back[0], z);
-    o.orthographic = c->fov_y_rad == 0.0f;
-    if (o.orthographic) /* the height tells the radius; the eye may stand anywhere */
+    o.is_orthographic = c->fov_y_rad == 0.0f;
+    if (o.is_orthographic) /* the height tells the radius; the eye may stand anywhere */
         o.radius = (float)(0.5 * (double)c->ortho_height / tan(0.5 * (double)o.fov_y_rad));
     else
         o.fov_y_rad = round_angle(c->fov_y_rad);

@@ -74,7 +74,7 @@ static void what_is_held_stays_under_the_pointer(void **state)
     (void)state;
     for (int variant = 0; variant < 4; variant++) {
         facet_orbit o = start(variant & 1);
-        o.orthographic = (variant & 2) != 0;
+        o.is_orthographic = (variant & 2) != 0;
         const double held[3] = {(double)o.target[0], (double)o.target[1], (double)o.target[2]};
         view_camera_pan(&o, 17.0, -9.0, 100);
         facet_camera c = view_camera_of(&o, 2.0f, low, high);
@@ -122,13 +122,13 @@ static void an_orbit_survives_being_a_camera(void **state)
     (void)state;
     for (int variant = 0; variant < 4; variant++) {
         facet_orbit o = start(variant & 1);
-        o.orthographic = (variant & 2) != 0;
+        o.is_orthographic = (variant & 2) != 0;
         facet_camera c = view_camera_of(&o, 2.0f, low, high);
         facet_orbit again = view_camera_orbit(&c, &o, o.target);
         assert_true(fabsf(again.azimuth_rad - o.azimuth_rad) < 1e-5f);
         assert_true(fabsf(again.polar_rad - o.polar_rad) < 1e-5f);
         assert_true(fabsf(again.radius - o.radius) < 1e-4f);
-        assert_int_equal(again.orthographic, o.orthographic);
+        assert_int_equal(again.is_orthographic, o.is_orthographic);
         for (int i = 0; i < 3; i++)
             assert_true(fabsf(again.target[i] - o.target[i]) < 1e-5f);
     }
@@ -162,7 +162,7 @@ static void a_parallel_eye_is_outside(void **state)
 {
     (void)state;
     facet_orbit o = start(false);
-    o.orthographic = true;
+    o.is_orthographic = true;
     o.radius = 0.01f;
     facet_camera c = view_camera_of(&o, 1.0f, low, high);
     double distance2 = 0.0;

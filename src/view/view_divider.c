@@ -18,7 +18,7 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
     labels[1] = names[d->comparison][1];
     switch (d->comparison) {
     case VIEW_COMPARE_MASKING:
-        sides[0].integrator = sides[1].integrator = FACET_INTEGRATOR_GL;
+        sides[0].renderer = sides[1].renderer = FACET_RENDERER_KIND_GL;
         sides[0].gl.brdf = FACET_BRDF_SCHLICK_GGX;
         sides[1].gl.brdf = FACET_BRDF_ENERGY;
         break;
@@ -28,8 +28,8 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
         sides[1].energy = FACET_ENERGY_CONSERVING;
         break;
     case VIEW_COMPARE_RENDERER:
-        sides[0].integrator = FACET_INTEGRATOR_GL;
-        sides[1].integrator = FACET_INTEGRATOR_PATH;
+        sides[0].renderer = FACET_RENDERER_KIND_GL;
+        sides[1].renderer = FACET_RENDERER_KIND_PATH;
         break;
     case VIEW_COMPARE_TONEMAP:
         sides[0].tonemap = FACET_TONEMAP_NONE;

@@ -47,7 +47,7 @@ facet_result view_surface_resize(view_surface *s, gl_context *context, uint32_t 
     s->width = width;
     s->height = height;
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): pictures of %u x %u pixels cannot be drawn",
+        return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): pictures of %u x %u pixels cannot be drawn",
                     context->name, width, height);
     return gl_context_check(context, "the window's picture", error);
 }
@@ -138,8 +138,7 @@ static GLuint compile(const gl_context *context, GLenum stage, const char *text,
     char why[512] = "";
     glGetShaderInfoLog(shader, sizeof why, NULL, why);
     glDeleteShader(shader);
-    fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): the window's shader was refused: %s", context->name,
-         why);
+    fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): the window's shader was refused: %s", context->name, why);
     return 0;
 }
 
@@ -155,13 +154,13 @@ static facet_result link_program(view_draw *d, facet_error *error)
         glLinkProgram(d->program);
         glGetProgramiv(d->program, GL_LINK_STATUS, &is_linked);
         if (!is_linked)
-            fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): the window's program was refused",
+            fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): the window's program was refused",
                  d->context->name);
     }
     glDeleteShader(vertex);
     glDeleteShader(fragment);
     if (!is_linked)
-        return FACET_ERROR_ENVIRONMENT;
+        return FACET_ERROR_SYSTEM;
     d->place = glGetUniformLocation(d->program, "u_place");
     d->is_upside_down = glGetUniformLocation(d->program, "u_is_upside_down");
     d->color = glGetUniformLocation(d->program, "u_color");

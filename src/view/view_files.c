@@ -182,7 +182,7 @@ static void tell_model(view_app *a, bool is_again, bool is_first)
         view_app_say(a, hint, HINT_S);
     }
     a->is_hint = is_first;
-    if (is_first && a->state.render.gl.shadows && !view_state_has_casters(&a->state))
+    if (is_first && a->state.render.gl.has_shadows && !view_state_has_casters(&a->state))
         view_app_say(a, "--shadows: the model has no lights, and there is no --sun to cast any", 6.0);
 }
 

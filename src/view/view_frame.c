@@ -22,8 +22,9 @@ facet_result view_state_frame(view_state *s, float aspect, facet_error *error)
         o->target[i] = camera.target[i];
         distance2 += d * d;
     }
-    o->radius = o->orthographic ? (float)(0.5 * (double)camera.ortho_height / tan(0.5 * (double)o->fov_y_rad))
-                                : (float)sqrt(distance2);
+    o->radius = o->is_orthographic
+                    ? (float)(0.5 * (double)camera.ortho_height / tan(0.5 * (double)o->fov_y_rad))
+                    : (float)sqrt(distance2);
     o->has_target = true;
     s->needs_framing = false;
     s->is_framed = true;
@@ -36,7 +37,7 @@ void view_state_show_whole(view_state *s)
     view_state_leave_file_camera(s);
     whole.azimuth_rad = s->orbit.azimuth_rad;
     whole.polar_rad = s->orbit.polar_rad;
-    whole.orthographic = s->orbit.orthographic;
+    whole.is_orthographic = s->orbit.is_orthographic;
     whole.is_z_up = s->orbit.is_z_up;
     whole.fov_y_rad = s->orbit.fov_y_rad;
     s->orbit = whole;
@@ -47,8 +48,8 @@ void view_state_follow_motion(view_state *s)
 {
     if (!s->is_framed || s->needs_framing)
         return;
-    bool is_orthographic = s->orbit.orthographic;
+    bool is_orthographic = s->orbit.is_orthographic;
     s->orbit = s->framing;
-    s->orbit.orthographic = is_orthographic;
+    s->orbit.is_orthographic = is_orthographic;
     s->needs_framing = true;
 }

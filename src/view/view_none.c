@@ -6,6 +6,5 @@ facet_result view_run(const gl_host *host, const facet_view_desc *desc, facet_er
 {
     (void)host;
     (void)desc;
-    return fail(error, FACET_ERROR_ENVIRONMENT,
-                "window: this facet was built without GLFW, which opens windows");
+    return fail(error, FACET_ERROR_SYSTEM, "window: this facet was built without GLFW, which opens windows");
 }

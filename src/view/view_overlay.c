@@ -96,7 +96,8 @@ static facet_result open_canvas(const facet_allocator *allocator, uint32_t width
                                 facet_error *error)
 {
     return canvas_create(
-        &(canvas_desc){.allocator = *allocator, .format = FACET_PLOT_PNG, .width = width, .height = height},
+        &(canvas_desc){
+            .allocator = *allocator, .format = FACET_PLOT_FORMAT_PNG, .width = width, .height = height},
         c, error);
 }
 

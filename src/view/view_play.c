@@ -58,7 +58,7 @@ static bool is_traced(view_app *a, const view_step *s, int side)
 static bool traces_both(const view_app *a)
 {
     const view_state *s = &a->state;
-    return s->render.integrator == FACET_INTEGRATOR_PATH && s->divider.comparison != VIEW_COMPARE_NOTHING &&
+    return s->render.renderer == FACET_RENDERER_KIND_PATH && s->divider.comparison != VIEW_COMPARE_NOTHING &&
            s->divider.comparison != VIEW_COMPARE_RENDERER;
 }
 

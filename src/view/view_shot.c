@@ -28,7 +28,8 @@ static facet_result save(view_app *a, const view_picture *picture, const char *p
     facet_result result = a->host->image_create(&view, allocator, &image, error);
     if (result == FACET_OK)
         result = a->host->image_save(
-            image, path, &(facet_save_desc){.allocator = *allocator, .format = FACET_FORMAT_PNG}, error);
+            image, path, &(facet_image_save_desc){.allocator = *allocator, .format = FACET_IMAGE_FORMAT_PNG},
+            error);
     a->host->image_destroy(image);
     mem_free(linear);
     return result;
@@ -91,15 +92,15 @@ static char *describe(view_app *a)
     if (!a->scene || !width)
         return NULL;
     facet_render_desc desc = view_show_desc(a, width, height, &camera);
-    if (desc.integrator == FACET_INTEGRATOR_PATH && a->traced[1].is_current)
+    if (desc.renderer == FACET_RENDERER_KIND_PATH && a->traced[1].is_current)
         desc.samples = a->traced[1].samples;
     const view_state *s = &a->state;
     const facet_orbit orbit = view_camera_round(&s->orbit);
-    facet_view_picture picture = {.model = a->path,
-                                  .environment = a->environment_name,
-                                  .render = &desc,
-                                  .orbit = s->camera == VIEW_NO_CAMERA ? &orbit : NULL,
-                                  .camera = s->camera == VIEW_NO_CAMERA ? 0 : (uint32_t)s->camera};
+    facet_view_image picture = {.model = a->path,
+                                .environment = a->environment_name,
+                                .render = &desc,
+                                .orbit = s->camera == VIEW_NO_CAMERA ? &orbit : NULL,
+                                .camera = s->camera == VIEW_NO_CAMERA ? 0 : (uint32_t)s->camera};
     memcpy(picture.origin, a->scene->origin, sizeof picture.origin);
     return a->desc->source.describe(a->desc->source.user, &picture);
 }

@@ -31,7 +31,7 @@ facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, f
     facet_render_desc base = view_state_desc(&a->state, width, height, camera);
     base.environment = a->environment;
     view_divider_sides(&a->state.divider, &base, sides, labels);
-    if (sides[1].integrator == FACET_INTEGRATOR_PATH)
+    if (sides[1].renderer == FACET_RENDERER_KIND_PATH)
         sides[1].samples = a->state.path_samples;
     return sides[1];
 }
@@ -99,7 +99,7 @@ static facet_result draw_side(view_app *a, int side, facet_render_desc *desc, fa
 {
     view_surface *s = &a->sides[side];
     facet_render_stats stats;
-    desc->integrator = FACET_INTEGRATOR_GL;
+    desc->renderer = FACET_RENDERER_KIND_GL;
     a->has_drawn = true;
     if (a->is_for_file)
         return draw_for_file(a, s, desc, error);
@@ -127,11 +127,11 @@ static facet_result draw_picture(view_app *a, uint32_t width, uint32_t height, c
         snprintf(a->variant, sizeof a->variant, "Variant: %.100s", a->scene->variants[sides[1].pose.variant]);
         labels[1] = a->variant;
     }
-    if (!is_divided || sides[0].integrator != FACET_INTEGRATOR_PATH)
+    if (!is_divided || sides[0].renderer != FACET_RENDERER_KIND_PATH)
         stop_left(a);
     for (int i = is_divided ? 0 : 1; i < 2 && result == FACET_OK; i++) {
         shown[i] = &a->sides[i];
-        bool is_path = sides[i].integrator == FACET_INTEGRATOR_PATH;
+        bool is_path = sides[i].renderer == FACET_RENDERER_KIND_PATH;
         if (is_path && trace(a, i, &sides[i]))
             shown[i] = &a->traced[i].surface;
         else if (a->needs_picture || is_path)
@@ -174,7 +174,7 @@ static void make_panel(view_app *a, view_panel_id id, const char *text, float sc
     if (result != FACET_OK) {
         a->has_no_text = true;
         if (a->desc->log.message)
-            a->desc->log.message(a->desc->log.user, FACET_LOG_WARNING, error.message);
+            a->desc->log.message(a->desc->log.user, FACET_LOG_LEVEL_WARNING, error.message);
         return;
     }
     snprintf(p->text, sizeof p->text, "%s", text);

@@ -28,7 +28,7 @@ typedef struct view_state {
     facet_orbit framing; /* what they were found for, as long as is_framed: the orbit was not moved since */
     bool is_framed;
 
-    facet_render_desc render; /* integrator: GL or PATH; without what belongs to the model and the window */
+    facet_render_desc render; /* renderer: GL or PATH; without what belongs to the model and the window */
     uint32_t path_samples;
     view_divider divider;
     uint32_t help_page, help_pages; /* which is shown, from 1, of how many; 0: none */

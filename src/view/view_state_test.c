@@ -31,7 +31,7 @@ static void begin(view_state *s)
     static const float low[3] = {-1.0f, -1.0f, -1.0f};
     static const float high[3] = {1.0f, 1.0f, 1.0f};
     view_state_create(
-        s, &(facet_view_desc){.render = {.integrator = FACET_INTEGRATOR_GL, .width = 100, .height = 50},
+        s, &(facet_view_desc){.render = {.renderer = FACET_RENDERER_KIND_GL, .width = 100, .height = 50},
                               .path_samples = 16});
     view_state_set_model(s, &(facet_view_model){.scene = scene, .orbit = scene_orbit_default()}, low, high,
                          false);
@@ -100,7 +100,7 @@ static void keys_without_a_model(void **state)
 {
     (void)state;
     view_state s;
-    view_state_create(&s, &(facet_view_desc){.render = {.integrator = FACET_INTEGRATOR_GL}});
+    view_state_create(&s, &(facet_view_desc){.render = {.renderer = FACET_RENDERER_KIND_GL}});
     for (uint32_t i = 0; i < view_binding_count; i++)
         view_state_apply(&s, view_bindings[i].action, view_bindings[i].amount);
     assert_false(view_state_point(&s, &(view_event){.kind = VIEW_SCROLL, .y = 1.0}));
@@ -160,9 +160,9 @@ static void channels_and_path_tracing_exclude_each_other(void **state)
     view_state s;
     begin(&s);
     press(&s, "r");
-    assert_int_equal(s.render.integrator, FACET_INTEGRATOR_PATH);
+    assert_int_equal(s.render.renderer, FACET_RENDERER_KIND_PATH);
     press(&s, "n");
-    assert_int_equal(s.render.integrator, FACET_INTEGRATOR_GL);
+    assert_int_equal(s.render.renderer, FACET_RENDERER_KIND_GL);
     press(&s, "r");
     assert_int_equal(s.render.gl.channel, FACET_CHANNEL_LIGHT);
 }
@@ -241,7 +241,7 @@ static void views_show_the_whole_model(void **state)
 static void sides_differ_in_one_thing(void **state)
 {
     (void)state;
-    const facet_render_desc base = {.integrator = FACET_INTEGRATOR_GL, .tonemap = FACET_TONEMAP_AGX};
+    const facet_render_desc base = {.renderer = FACET_RENDERER_KIND_GL, .tonemap = FACET_TONEMAP_AGX};
     for (int i = 0; i < VIEW_COMPARISON_COUNT; i++) {
         facet_render_desc sides[2];
         const char *labels[2];
@@ -250,7 +250,7 @@ static void sides_differ_in_one_thing(void **state)
             false,
             sides[0].gl.brdf != sides[1].gl.brdf,
             sides[0].energy != sides[1].energy,
-            sides[0].integrator != sides[1].integrator,
+            sides[0].renderer != sides[1].renderer,
             sides[0].tonemap != sides[1].tonemap,
             sides[0].pose.has_variant != sides[1].pose.has_variant,
         };
@@ -267,17 +267,17 @@ static void comparisons_keep_tracing_paths(void **state)
     view_state s;
     begin(&s);
     press(&s, "r");
-    assert_int_equal(s.render.integrator, FACET_INTEGRATOR_PATH);
+    assert_int_equal(s.render.renderer, FACET_RENDERER_KIND_PATH);
     for (int i = 0; i < 2 * VIEW_COMPARISON_COUNT; i++) {
         facet_render_desc sides[2];
         const char *labels[2];
         press(&s, i < VIEW_COMPARISON_COUNT ? "Tab" : "Shift+Tab");
         assert_int_not_equal(s.divider.comparison, VIEW_COMPARE_MASKING);
         view_divider_sides(&s.divider, &s.render, sides, labels);
-        assert_int_equal(sides[1].integrator, FACET_INTEGRATOR_PATH);
-        assert_int_equal(sides[0].integrator, s.divider.comparison == VIEW_COMPARE_RENDERER
-                                                  ? FACET_INTEGRATOR_GL
-                                                  : FACET_INTEGRATOR_PATH);
+        assert_int_equal(sides[1].renderer, FACET_RENDERER_KIND_PATH);
+        assert_int_equal(sides[0].renderer, s.divider.comparison == VIEW_COMPARE_RENDERER
+                                                ? FACET_RENDERER_KIND_GL
+                                                : FACET_RENDERER_KIND_PATH);
     }
     /* the other way round: what only OpenGL has goes when paths are traced */
     press(&s, "0");

@@ -59,7 +59,7 @@ static void add_camera(values *v, const view_state *s)
     }
     add(v, "Camera", "%.0f, %.0f degrees, %.3g m%s", (double)s->orbit.azimuth_rad / degree,
         (double)s->orbit.polar_rad / degree, (double)s->orbit.radius,
-        s->orbit.orthographic ? ", parallel" : "");
+        s->orbit.is_orthographic ? ", parallel" : "");
 }
 
 static uint32_t samples_of(const view_traced *t)
@@ -73,7 +73,7 @@ void view_values_write_samples(const view_app *a, char *out, size_t size)
     bool is_divided = s->divider.comparison != VIEW_COMPARE_NOTHING;
     bool is_both = is_divided && s->divider.comparison != VIEW_COMPARE_RENDERER;
     bool is_path =
-        s->render.integrator == FACET_INTEGRATOR_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
+        s->render.renderer == FACET_RENDERER_KIND_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
     uint32_t left = samples_of(&a->traced[0]), right = samples_of(&a->traced[1]);
     out[0] = 0;
     if (!is_path)
@@ -90,7 +90,7 @@ static void add_renderer(values *v, const view_app *a)
 {
     const view_state *s = &a->state;
     const facet_render_desc *r = &s->render;
-    bool is_path = r->integrator == FACET_INTEGRATOR_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
+    bool is_path = r->renderer == FACET_RENDERER_KIND_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
     if (is_path)
         add(v, "Path tracing", "%u of %u samples", samples_of(&a->traced[1]), s->path_samples);
     else

@@ -181,7 +181,7 @@ facet_result view_watch_create(const facet_allocator *allocator, void (*wake)(vo
         w->is_started = pthread_create(&w->thread, NULL, run, w) == 0;
     if (!w->is_started) {
         view_watch_destroy(w);
-        return fail(error, FACET_ERROR_ENVIRONMENT, "window: the system cannot watch files (inotify)");
+        return fail(error, FACET_ERROR_SYSTEM, "window: the system cannot watch files (inotify)");
     }
     *out = w;
     return FACET_OK;

@@ -6,7 +6,7 @@
 
 typedef struct view_watcher view_watcher;
 
-/* wake is called after a change, from another thread. Fails with FACET_ERROR_MEMORY, FACET_ERROR_ENVIRONMENT (no inotify). */
+/* wake is called after a change, from another thread. Fails with FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM (no inotify). */
 facet_result view_watch_create(const facet_allocator *allocator, void (*wake)(void *user), void *user,
                                view_watcher **out, facet_error *error);
 void view_watch_destroy(view_watcher *w); /* NULL is allowed */

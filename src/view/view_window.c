@@ -179,7 +179,7 @@ static facet_result fail_glfw(const view_window *w, const char *what, facet_erro
     size_t length = why ? strlen(why) : 0;
     while (length && why[length - 1] == ' ') /* behind which a name was to stand */
         length--;
-    return fail(error, FACET_ERROR_ENVIRONMENT, "window: %s (%.*s)", what, (int)length, why ? why : "");
+    return fail(error, FACET_ERROR_SYSTEM, "window: %s (%.*s)", what, (int)length, why ? why : "");
 }
 
 /* OpenGL 3.3, else ES 3.0. */

@@ -307,7 +307,7 @@ static bool is_worth_it(const water_setup *s, float depth)
 facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out, facet_error *error)
 {
     *out = (bed_shadow){.is_there = false};
-    if (!s->model.is_there || !water_has_bed(s) || s->desc->look.before != FACET_SEA_PHYSICAL)
+    if (!s->model.is_there || !water_has_bed(s) || s->desc->shading.style != FACET_SEA_STYLE_PHYSICAL)
         return FACET_OK;
     const float *low = s->model.prepared.pose.bounds_min, *high = s->model.prepared.pose.bounds_max;
     double X = 0.5 * ((double)low[0] + (double)high[0]), Z = 0.5 * ((double)low[2] + (double)high[2]);

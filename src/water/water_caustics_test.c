@@ -224,7 +224,7 @@ static void light_by_picture(shot *s, float elevation_rad)
                      FACET_OK);
     r->sun = (facet_sun){
         .azimuth_rad = 1.0f, .elevation_rad = elevation_rad, .illuminance_lux = {1e5f, 9e4f, 8e4f}};
-    s->desc.look.no_glints = s->desc.look.no_foam = true;
+    s->desc.shading.omits_glints = s->desc.shading.omits_foam = true;
 }
 
 /* Sums over all pixels, per channel. */
@@ -252,7 +252,7 @@ static void test_picture_mean(void **state)
     float *pixels = malloc((size_t)120 * 120 * 4 * sizeof(float));
     assert_non_null(pixels);
     memcpy(pixels, s.film.layers[0].pixels, (size_t)120 * 120 * 4 * sizeof(float));
-    s.desc.look.no_caustics = true;
+    s.desc.shading.omits_caustics = true;
     draw_shot(sea, &s);
     sum_shot(&s, without);
     for (size_t i = 1; i < (size_t)120 * 120 * 4; i += 4)

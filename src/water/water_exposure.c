@@ -23,10 +23,10 @@ static facet_sea_render_desc meter_desc(const facet_sea_render_desc *desc)
     r->crop[3] = r->height;
     r->samples = 1;
     r->quality = FACET_QUALITY_DRAFT;
-    r->integrator = FACET_INTEGRATOR_PREVIEW;
+    r->renderer = FACET_RENDERER_KIND_PREVIEW;
     r->exposure_ev = 0.0f;
     r->progress = (facet_progress){0};
-    d.look = (facet_sea_look){.no_glints = true};
+    d.shading = (facet_sea_shading){.omits_glints = true};
     return d;
 }
 

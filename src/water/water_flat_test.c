@@ -134,7 +134,7 @@ static void test_closed_box(void **state)
         shot s;
         make_shot(&s, 24, 48, 30.0f, 0.8f);
         s.camera.fov_y_rad = 1.5f;
-        s.desc.look.no_foam = true;
+        s.desc.shading.omits_foam = true;
         assert_int_equal(facet_environment_create_constant(one, NULL, &s.desc.render.environment, NULL),
                          FACET_OK);
         s.desc.render.camera = &s.camera;
@@ -160,7 +160,7 @@ static void test_furnace(void **state)
         facet_sea_desc d = still_sea();
         bool is_below = k & 1, has_bed = k & 2;
         d.wind_mps = 6.0f;
-        d.water = (facet_water){.kind = FACET_WATER_COEFFICIENTS,
+        d.water = (facet_water){.kind = FACET_WATER_KIND_COEFFICIENTS,
                                 .scattering = {0.1f, 0.2f, 0.3f},
                                 .backscattering = {0.005f, 0.01f, 0.1f},
                                 .ior = k & 4 ? 1.0f : 1.34f,
@@ -173,7 +173,7 @@ static void test_furnace(void **state)
         s.camera.fov_y_rad = 1.5f;
         if (is_below)
             s.camera.eye[1] = -2.0f, s.camera.target[1] = -1.9f;
-        s.desc.look.no_foam = !is_below;
+        s.desc.shading.omits_foam = !is_below;
         assert_int_equal(facet_environment_create_constant(one, NULL, &s.desc.render.environment, NULL),
                          FACET_OK);
         draw_shot(sea, &s);

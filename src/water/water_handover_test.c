@@ -35,7 +35,7 @@ static void compare_view(const facet_sea *sea, const view *v)
     shot rough, flat;
     make_shot(&rough, WIDTH, HEIGHT, v->eye_m, v->down_rad);
     rough.desc.render.samples = 4;
-    rough.desc.look.no_foam = true;
+    rough.desc.shading.omits_foam = true;
     rough.desc.sky.sun_azimuth_rad = v->azimuth_rad;
     rough.camera.fov_y_rad = v->fov_rad;
     flat = rough;

@@ -38,8 +38,8 @@ static facet_result create(const facet_sea *sea, const facet_sea_render_desc *de
         destroy(&l->kept);
         return result;
     }
-    water_table_create(desc->look.normals == FACET_SEA_GGX ? WATER_GGX : WATER_BECKMANN,
-                       (int)desc->look.masking, sea->optics.ior, desc->render.thread_count, &l->table);
+    water_table_create(desc->shading.normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN,
+                       (int)desc->shading.masking, sea->optics.ior, desc->render.thread_count, &l->table);
     *out = l;
     return FACET_OK;
 }
@@ -49,7 +49,7 @@ static bool is_same_sky(const facet_sky_desc *a, const facet_sky_desc *b)
     return a->model == b->model && a->sun_elevation_rad == b->sun_elevation_rad &&
            a->sun_azimuth_rad == b->sun_azimuth_rad && a->turbidity == b->turbidity &&
            memcmp(a->ground_albedo, b->ground_albedo, sizeof a->ground_albedo) == 0 &&
-           a->has_no_disc == b->has_no_disc && a->illuminance_lux == b->illuminance_lux;
+           a->omits_disc == b->omits_disc && a->illuminance_lux == b->illuminance_lux;
 }
 
 static bool is_same_sun(const facet_sun *a, const facet_sun *b)
@@ -65,9 +65,10 @@ static bool is_made_for(const water_light *l, const facet_sea_render_desc *desc,
 {
     const facet_render_desc *a = &l->desc.render, *b = &desc->render;
     return l->eye_height_m == eye_height_m && (l->sky.has_views || l->rows_per_rad == rows_per_rad) &&
-           l->desc.look.normals == desc->look.normals && l->desc.look.masking == desc->look.masking &&
-           is_same_sky(&l->desc.sky, &desc->sky) && is_same_sun(&a->sun, &b->sun) &&
-           a->environment == b->environment && a->environment_rotation_rad == b->environment_rotation_rad &&
+           l->desc.shading.normals == desc->shading.normals &&
+           l->desc.shading.masking == desc->shading.masking && is_same_sky(&l->desc.sky, &desc->sky) &&
+           is_same_sun(&a->sun, &b->sun) && a->environment == b->environment &&
+           a->environment_rotation_rad == b->environment_rotation_rad &&
            a->environment_ev == b->environment_ev;
 }
 

@@ -16,7 +16,7 @@ static void make_view(shot *s, float down_rad)
     facet_render_desc *r = &s->desc.render;
     make_shot(s, WIDTH, HEIGHT, 3.0f, down_rad);
     s->camera.fov_y_rad = 0.0013f * HEIGHT;
-    s->desc.look.no_glints = true;
+    s->desc.shading.omits_glints = true;
     assert_int_equal(facet_environment_create_gradient(zenith, horizon, nadir, NULL, &r->environment, NULL),
                      FACET_OK);
     r->sun = (facet_sun){.azimuth_rad = 2.8f, .elevation_rad = 0.384f, .illuminance_lux = {7e4f, 6e4f, 5e4f}};

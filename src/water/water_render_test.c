@@ -226,7 +226,7 @@ static unsigned warning_count;
 static void count_warning(void *user, facet_log_level level, const char *words)
 {
     (void)user, (void)words;
-    warning_count += level == FACET_LOG_WARNING;
+    warning_count += level == FACET_LOG_LEVEL_WARNING;
 }
 
 static double metered(const facet_sea *sea, const facet_sea_render_desc *desc)
@@ -245,7 +245,7 @@ static void test_exposure(void **state)
     shot s;
     make_shot(&s, 96, 64, 3.0f, 0.1f);
     s.desc.render.camera = &s.camera;
-    s.desc.look.no_glints = true;
+    s.desc.shading.omits_glints = true;
     double day = metered(sea, &s.desc), sum = 0.0;
     s.desc.render.exposure_ev = (float)meter_exposure_ev(day);
     draw_shot(sea, &s);

@@ -8,8 +8,8 @@
 #include "water/water_around.h"
 #include "water/water_render.h"
 
-_Static_assert(FACET_SEA_SCALES == WATER_SCALES && FACET_SEA_SMITH == WATER_SMITH &&
-                   FACET_SEA_SCHLICK_KARIS == WATER_SCHLICK_KARIS,
+_Static_assert(FACET_SEA_MASKING_SCALES == WATER_SCALES && FACET_SEA_MASKING_SMITH == WATER_SMITH &&
+                   FACET_SEA_MASKING_SCHLICK_KARIS == WATER_SCHLICK_KARIS,
                "looks and shaders have the same numbers");
 
 static const float SHUTTER_S = 0.01f;
@@ -22,7 +22,7 @@ static inline vec3 load3(const float *v)
 static void fill_water(water_setup *s)
 {
     const water_optics *o = &s->sea->optics;
-    const facet_sea_look *look = &s->desc->look;
+    const facet_sea_shading *look = &s->desc->shading;
     s->water.ior = o->ior;
     s->water.absorption = load3(o->absorption);
     s->water.scattering = load3(o->scattering);
@@ -30,9 +30,9 @@ static void fill_water(water_setup *s)
     s->water.reflectance = load3(o->reflectance);
     s->water.pure_share = load3(o->pure_share);
     s->water.foam_albedo = o->foam_albedo;
-    s->water.normals = look->normals == FACET_SEA_GGX ? WATER_GGX : WATER_BECKMANN;
+    s->water.normals = look->normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN;
     s->water.masking = (int)look->masking;
-    s->water.is_schlick = look->schlick_fresnel;
+    s->water.is_schlick = look->has_schlick_fresnel;
 }
 
 static void fill_light(water_setup *s)
@@ -109,12 +109,12 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     s->is_below = is_under_water(sea, s->camera.origin);
     s->march = water_march_of(&sea->waves, &sea->slopes, !s->camera.is_orthographic);
     const uint32_t whole[4] = {0, 0, r->width, r->height}; /* so that a part shows the same */
-    if (r->integrator == FACET_INTEGRATOR_PREVIEW)
+    if (r->renderer == FACET_RENDERER_KIND_PREVIEW)
         result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count,
                                       &r->allocator, &s->profile, error);
-    const facet_sea_look *look = &desc->look;
-    bool has_foam = look->before == FACET_SEA_PHYSICAL && (look->stage == 0 || look->stage == 5) &&
-                    !look->no_foam && sea->foam.threshold < HUGE_VALF;
+    const facet_sea_shading *look = &desc->shading;
+    bool has_foam = look->style == FACET_SEA_STYLE_PHYSICAL && (look->stage == 0 || look->stage == 5) &&
+                    !look->omits_foam && sea->foam.threshold < HUGE_VALF;
     if (result == FACET_OK && has_foam)
         result = make_foam(s, error);
     float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
@@ -127,11 +127,11 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     fill_water(s);
     fill_light(s);
     fill_crest(s);
-    float perceptual_roughness = desc->look.perceptual_roughness;
+    float perceptual_roughness = desc->shading.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     if (scene)
         result = add_model(s, scene, stats, error);
-    if (r->integrator == FACET_INTEGRATOR_PATH) /* which finds light on the bed by itself */
+    if (r->renderer == FACET_RENDERER_KIND_PATH) /* which finds light on the bed by itself */
         return result;
     if (result == FACET_OK)
         result = caustic_map_of_picture(s, &s->caustics, error);

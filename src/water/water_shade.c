@@ -62,8 +62,8 @@ vec3 water_from_below(const water_setup *s, const water_place *p)
 static float glints(const water_setup *s, const water_place *p)
 {
     vec3 H = normalize(p->V + s->light.L);
-    const facet_sea_look *look = &s->desc->look;
-    if (look->no_glints || look->stage == 4 || H[1] <= 0.0f || p->slopes.rate <= 0.0f)
+    const facet_sea_shading *look = &s->desc->shading;
+    if (look->omits_glints || look->stage == 4 || H[1] <= 0.0f || p->slopes.rate <= 0.0f)
         return 1.0f;
     float area = p->pixel_m * p->pixel_m / p->cosine, lifetime = 1.0f / p->slopes.rate;
     float count = glint_count(s->water.normals, p->point.covariance, sun_slopes(s->light.L, p->V), p->point.N,

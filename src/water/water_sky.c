@@ -67,7 +67,7 @@ static facet_result check(const facet_sky_desc *sky, float eye_height_m, facet_e
     if (!(sky->illuminance_lux >= 0.0f) || !isfinite(sky->illuminance_lux))
         return fail(error, FACET_ERROR_ARGUMENT, "sky: the illuminance is %g lx; 0 or more is possible",
                     (double)sky->illuminance_lux);
-    if (sky->model != FACET_SKY_PREETHAM && eye_height_m > 1000.0f * MOST_EYE_KM)
+    if (sky->model != FACET_SKY_MODEL_PREETHAM && eye_height_m > 1000.0f * MOST_EYE_KM)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "sky: the eye is %g km high; %g are possible, as the air is not seen from outside",
                     (double)eye_height_m * 0.001, (double)MOST_EYE_KM);
@@ -160,7 +160,7 @@ static facet_result use_views(const facet_sea_render_desc *desc, water_sky *s, f
                                         r->thread_count, &s->mirrored->picture, error);
     if (result == FACET_OK)
         result = prepare_reflections(desc, s, error);
-    if (result == FACET_OK && !desc->sky.has_no_disc && s->L[1] > -SUN_RADIUS - 0.2f) {
+    if (result == FACET_OK && !desc->sky.omits_disc && s->L[1] > -SUN_RADIUS - 0.2f) {
         s->disc =
             sky_sun_through_air(s->air, s->eye_km, desc->sky.sun_elevation_rad, desc->sky.sun_azimuth_rad);
         s->disc_radius = SUN_RADIUS;
@@ -200,7 +200,7 @@ static facet_result use_preetham(const facet_sea_render_desc *desc, float rows_p
                                                      .thread_count = desc->render.thread_count};
     facet_environment *sky = NULL;
     facet_sky_desc without = desc->sky;
-    without.has_no_disc = true;
+    without.omits_disc = true;
     without.illuminance_lux = 0.0f;
     facet_result result = facet_environment_create_sky(&without, &environment_desc, &sky, error);
     if (result == FACET_OK)
@@ -215,7 +215,7 @@ static facet_result use_preetham(const facet_sea_render_desc *desc, float rows_p
                                 .elevation_rad = desc->sky.sun_elevation_rad,
                                 .illuminance_lux = {E[0], E[1], E[2]}};
         take_sun(s, &disc);
-        s->disc_radius = desc->sky.has_no_disc ? 0.0f : s->disc_radius;
+        s->disc_radius = desc->sky.omits_disc ? 0.0f : s->disc_radius;
     }
     return result;
 }
@@ -243,7 +243,7 @@ static facet_result begin(const facet_sea_render_desc *desc, float eye_height_m,
         return result;
     place_sun(s, desc->sky.sun_elevation_rad, desc->sky.sun_azimuth_rad);
     fill_air(&desc->sky, s);
-    s->has_views = !desc->render.environment && desc->sky.model != FACET_SKY_PREETHAM;
+    s->has_views = !desc->render.environment && desc->sky.model != FACET_SKY_MODEL_PREETHAM;
     if (s->has_views)
         result =
             sky_tables_create(s->air, &desc->render.allocator, desc->render.thread_count, &s->tables, error);
@@ -271,7 +271,7 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
         rotate(&desc->render, s);
         result = use_picture(desc, desc->render.environment, rows_per_rad, s, error);
         take_sun(s, &desc->render.sun);
-    } else if (desc->sky.model == FACET_SKY_PREETHAM) {
+    } else if (desc->sky.model == FACET_SKY_MODEL_PREETHAM) {
         result = use_preetham(desc, rows_per_rad, s, error);
         scale_light(&desc->sky, s);
     } else {

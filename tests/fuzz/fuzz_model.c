@@ -18,7 +18,8 @@ static void render(const facet_scene *scene, const facet_pose_desc *pose, const 
                                         .height = 1,
                                         .pose = *pose,
                                         .camera = &camera,
-                                        .integrator = i ? FACET_INTEGRATOR_PATH : FACET_INTEGRATOR_PREVIEW,
+                                        .renderer =
+                                            i ? FACET_RENDERER_KIND_PATH : FACET_RENDERER_KIND_PREVIEW,
                                         .samples = 1,
                                         .path = {.max_depth = 4}};
         facet_image *image = NULL;
@@ -47,7 +48,7 @@ static void convert(facet_scene *scene, const facet_scene_desc *desc)
     if (result == FACET_OK)
         read_again(path, desc);
     unlink(path);
-    result = facet_scene_convert_materials(scene, FACET_MATERIALS_OGL1, NULL, &desc->log, &error);
+    result = facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, &desc->log, &error);
     fuzz_check_error(result, &error);
 }
 

@@ -31,7 +31,7 @@ static void check(const char *name, const facet_image *got)
     facet_image *wanted = NULL, *difference = NULL;
     facet_comparison c;
     const facet_compare_desc desc = {.alpha = FACET_COMPARE_ALPHA_IGNORE,
-                                     .space = FACET_COMPARE_LINEAR,
+                                     .space = FACET_COMPARE_SPACE_LINEAR,
                                      .difference = FACET_DIFFERENCE_HEAT_MAP,
                                      .is_sheet = true};
     snprintf(path, sizeof path, "%s/%s.pfm", folder, name);

@@ -18,7 +18,7 @@ int main(int argc, char **argv)
         facet_render_desc desc = {
             .width = 64, .height = 48, .environment = studio, .tonemap = FACET_TONEMAP_NEUTRAL};
         if (argc > 2 && strcmp(argv[2], "gl") == 0)
-            desc.integrator = FACET_INTEGRATOR_GL;
+            desc.renderer = FACET_RENDERER_KIND_GL;
         result = facet_render(scene, &desc, &image, &error);
     }
     if (result == FACET_OK)
@@ -28,5 +28,5 @@ int main(int argc, char **argv)
     facet_image_destroy(image);
     facet_environment_destroy(studio);
     facet_scene_destroy(scene);
-    return result == FACET_OK ? 0 : result == FACET_ERROR_ENVIRONMENT ? 77 : 1;
+    return result == FACET_OK ? 0 : result == FACET_ERROR_SYSTEM ? 77 : 1;
 }

@@ -47,18 +47,18 @@ static int compare_names(const void *a, const void *b)
 /* ---- two pictures ---- */
 
 static facet_result draw(const facet_scene *scene, facet_environment *environment,
-                         facet_integrator integrator, uint32_t samples, facet_image **drawn,
+                         facet_renderer_kind renderer, uint32_t samples, facet_image **drawn,
                          facet_error *error)
 {
     facet_render_desc desc = {.width = WIDTH,
                               .height = HEIGHT,
                               .environment = environment,
-                              .integrator = integrator,
+                              .renderer = renderer,
                               .background = FACET_BACKGROUND_ENVIRONMENT,
-                              .whole_textures = true,
+                              .decodes_whole_textures = true,
                               .samples = samples,
                               .quality = samples > 4 ? FACET_QUALITY_FINAL : FACET_QUALITY_NORMAL,
-                              .aovs = integrator == FACET_INTEGRATOR_PREVIEW
+                              .aovs = renderer == FACET_RENDERER_KIND_PREVIEW
                                           ? FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_MATERIAL_ID
                                           : 0,
                               .pose.time_s = 0.4};
@@ -197,18 +197,18 @@ static facet_result measure(const facet_scene *scene, facet_environment *environ
                             comparison *out, facet_error *error)
 {
     static const struct {
-        facet_integrator integrator;
+        facet_renderer_kind renderer;
         uint32_t samples;
-    } pictures[] = {{FACET_INTEGRATOR_GL, 1},
-                    {FACET_INTEGRATOR_PREVIEW, 1},
-                    {FACET_INTEGRATOR_GL, 4},
-                    {FACET_INTEGRATOR_PREVIEW, 4},
-                    {FACET_INTEGRATOR_PREVIEW, 64}};
+    } pictures[] = {{FACET_RENDERER_KIND_GL, 1},
+                    {FACET_RENDERER_KIND_PREVIEW, 1},
+                    {FACET_RENDERER_KIND_GL, 4},
+                    {FACET_RENDERER_KIND_PREVIEW, 4},
+                    {FACET_RENDERER_KIND_PREVIEW, 64}};
     facet_image *drawn[5] = {NULL};
     facet_result result = FACET_OK;
     int count = is_whole ? 5 : 2;
     for (int i = 0; i < count && result == FACET_OK; i++)
-        result = draw(scene, environment, pictures[i].integrator, pictures[i].samples, &drawn[i], error);
+        result = draw(scene, environment, pictures[i].renderer, pictures[i].samples, &drawn[i], error);
     if (result == FACET_OK && is_whole)
         *out = (comparison){compare_pixels(drawn[1], drawn[0]), mean_error(drawn[4], drawn[2]),
                             mean_error(drawn[4], drawn[3])};
@@ -245,7 +245,7 @@ static verdict check(const char *path, facet_environment *environment, bool is_v
     facet_result result = measure(scene, environment, !is_clear || is_verbose, &c, &error);
     verdict v;
     if (result != FACET_OK) {
-        v = result == FACET_ERROR_ENVIRONMENT ? NO_GL : DIFFERENT;
+        v = result == FACET_ERROR_SYSTEM ? NO_GL : DIFFERENT;
         printf("%s: %s\n", name, error.message);
     } else {
         v = is_same(&c, name) ? SAME : is_clear ? LISTED : DIFFERENT;

@@ -344,7 +344,7 @@ double picture_distance(const picture *a, const picture *b)
     facet_image *first = image_of(a), *second = image_of(b);
     facet_comparison c;
     facet_error error;
-    const facet_compare_desc desc = {.space = FACET_COMPARE_LINEAR,
+    const facet_compare_desc desc = {.space = FACET_COMPARE_SPACE_LINEAR,
                                      .skipped_metrics = FACET_METRIC_SSIM | FACET_METRIC_FLIP};
     if (facet_compare(first, second, &desc, &c, NULL, &error) != FACET_OK)
         fail_msg("%s", error.message);

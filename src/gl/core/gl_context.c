@@ -86,14 +86,13 @@ static bool has_client_library(void)
 facet_result gl_context_adopt(gl_context *c, facet_error *error)
 {
     if (!has_client_library())
-        return fail(error, FACET_ERROR_ENVIRONMENT,
-                    "OpenGL: neither libOpenGL.so.0 nor libGL.so.1 is installed");
+        return fail(error, FACET_ERROR_SYSTEM, "OpenGL: neither libOpenGL.so.0 nor libGL.so.1 is installed");
     c->is_es = !epoxy_is_desktop_gl();
     c->version = epoxy_gl_version();
     snprintf(c->name, sizeof c->name, "%s, %s", (const char *)glGetString(GL_RENDERER),
              (const char *)glGetString(GL_VERSION));
     if (c->version < (c->is_es ? 30 : 33))
-        return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL: %s is older than OpenGL 3.3 and OpenGL ES 3.0",
+        return fail(error, FACET_ERROR_SYSTEM, "OpenGL: %s is older than OpenGL 3.3 and OpenGL ES 3.0",
                     c->name);
     c->glsl_version = c->is_es ? "300 es" : "330";
     read_limits(c);
@@ -115,12 +114,12 @@ facet_result gl_context_check(gl_context *c, const char *while_doing, facet_erro
     if (code == GL_CONTEXT_LOST || (c->reset_status && c->reset_status() != GL_NO_ERROR))
         c->is_lost = true;
     if (c->is_lost)
-        return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): the driver was reset (%s); try again",
-                    c->name, while_doing);
+        return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): the driver was reset (%s); try again", c->name,
+                    while_doing);
     if (code == GL_NO_ERROR)
         return FACET_OK;
     if (code == GL_OUT_OF_MEMORY)
         return fail(error, FACET_ERROR_MEMORY, "OpenGL (%s): there is no memory for %s", c->name,
                     while_doing);
-    return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): error 0x%04x (%s)", c->name, code, while_doing);
+    return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): error 0x%04x (%s)", c->name, code, while_doing);
 }

@@ -27,18 +27,18 @@ typedef struct gl_context {
 } gl_context;
 
 /* A context without a window, current afterwards: on a device of its own, else Mesa's surfaceless platform, else a pbuffer.
- * Fails with FACET_ERROR_ENVIRONMENT: one sentence that says what is missing. */
+ * Fails with FACET_ERROR_SYSTEM: one sentence that says what is missing. */
 facet_result gl_context_create(gl_context *context, facet_error *error);
 facet_result gl_context_create_api(gl_context *context, gl_api wanted, facet_error *error);
-/* That of a window, which is current and stays the window's. FACET_ERROR_ENVIRONMENT: it is older than 3.3 (ES: 3.0). */
+/* That of a window, which is current and stays the window's. FACET_ERROR_SYSTEM: it is older than 3.3 (ES: 3.0). */
 facet_result gl_context_adopt(gl_context *context, facet_error *error);
-/* Current for the calling thread. A window's context is its owner's business: nothing happens. FACET_ERROR_ENVIRONMENT. */
+/* Current for the calling thread. A window's context is its owner's business: nothing happens. FACET_ERROR_SYSTEM. */
 facet_result gl_context_make_current(gl_context *context, facet_error *error);
 /* Not current for any thread: another one may take it. What was current before is again, where it was EGL's. */
 void gl_context_release(gl_context *context);
 void gl_context_destroy(gl_context *context); /* {0} is allowed; leaves {0} */
 
-/* FACET_OK, or what OpenGL says went wrong since the last call: FACET_ERROR_MEMORY, FACET_ERROR_ENVIRONMENT (the context
+/* FACET_OK, or what OpenGL says went wrong since the last call: FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM (the context
  * was lost; or a fault of facet's own, with OpenGL's name for it). while_doing: "textures". */
 facet_result gl_context_check(gl_context *context, const char *while_doing, facet_error *error);
 

@@ -30,7 +30,7 @@ facet_result gl_context_make_current(gl_context *c, facet_error *error)
         EGLint code = eglGetError();
         c->is_lost = c->is_lost || code == EGL_CONTEXT_LOST;
         return fail(
-            error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): the context cannot be used%s (0x%04x)", c->name,
+            error, FACET_ERROR_SYSTEM, "OpenGL (%s): the context cannot be used%s (0x%04x)", c->name,
             code == EGL_BAD_ACCESS ? ", because this thread draws with another one, or another with it" : "",
             (unsigned)code);
     }
@@ -147,7 +147,7 @@ facet_result gl_context_create_api(gl_context *c, gl_api wanted, facet_error *er
         eglBindAPI(api);
     if (!is_created)
         return fail(
-            error, FACET_ERROR_ENVIRONMENT,
+            error, FACET_ERROR_SYSTEM,
             "OpenGL: there is no driver that draws without a window (EGL with OpenGL 3.3 or OpenGL ES 3.0)");
     facet_result result = gl_context_adopt(c, error);
     if (result != FACET_OK)

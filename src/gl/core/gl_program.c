@@ -427,7 +427,7 @@ static void tell_source(const gl_programs *programs, const char *source)
     for (const char *at = source; *at && programs->log.message; number++) {
         int length = (int)strcspn(at, "\n");
         snprintf(line, sizeof line, "%4d  %.*s", number, length < 300 ? length : 300, at);
-        programs->log.message(programs->log.user, FACET_LOG_WARNING, line);
+        programs->log.message(programs->log.user, FACET_LOG_LEVEL_WARNING, line);
         at += length + (at[length] == '\n');
     }
 }
@@ -450,7 +450,7 @@ static facet_result fail_link(gl_programs *programs, const gl_program *p, facet_
     if (!message[0])
         glGetProgramInfoLog(p->name, sizeof message, NULL, message);
     message[strcspn(message, "\n")] = 0;
-    return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): the shader \"%s\" does not compile: %.300s",
+    return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): the shader \"%s\" does not compile: %.300s",
                 programs->context->name, mains[p->key.main].name, message);
 }
 

@@ -101,7 +101,7 @@ void gl_programs_destroy(gl_programs *programs); /* NULL is allowed; the context
 /* Starts to compile, in the background where the driver does that, so that several programs compile at once. */
 facet_result gl_programs_request(gl_programs *programs, gl_program_key key, facet_error *error);
 /* Compiled and linked: its OpenGL name. Samplers are bound to the units of gl_units.h, blocks to those of gl_blocks.h. Fails
- * with FACET_ERROR_ENVIRONMENT: what the compiler says; the assembled text, with line numbers, goes to the log. */
+ * with FACET_ERROR_SYSTEM: what the compiler says; the assembled text, with line numbers, goes to the log. */
 facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t *name, facet_error *error);
 
 /* The whole text of a shader, as it is compiled. stage: GL_VERTEX_SHADER or GL_FRAGMENT_SHADER. FACET_ERROR_MEMORY. */

@@ -242,7 +242,7 @@ static void compile_broken(gl_context *context)
     gl_programs_set_prelude(programs,
                             "precision highp float;\nfloat broken() { return no_such_function(1.0); }\n");
     gl_program_key key = {GL_MAIN_PRESENT, 0};
-    assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_ERROR_ENVIRONMENT);
+    assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_ERROR_SYSTEM);
     assert_non_null(strstr(error.message, "the shader \"present\" does not compile"));
     assert_non_null(strstr(error.message, "no_such_function"));
     assert_null(strchr(error.message, '\n'));
@@ -258,7 +258,7 @@ static void compile_broken(gl_context *context)
     snprintf(place, sizeof place, ":%d(", number); /* Mesa; others write it otherwise */
     if (strstr(context->name, "Mesa"))
         assert_non_null(strstr(error.message, place));
-    assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_ERROR_ENVIRONMENT);
+    assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_ERROR_SYSTEM);
     gl_programs_set_prelude(programs, NULL);
     key.main = GL_MAIN_BACKGROUND;
     assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_OK);

@@ -58,8 +58,8 @@ facet_result gl_pyramid_update(gl_pyramid *p, gl_context *context, uint32_t widt
     bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     facet_result result = gl_context_check(context, "the levels of a picture", error);
     if (result == FACET_OK && !is_complete)
-        result = fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): half floats cannot be drawn into",
-                      context->name);
+        result =
+            fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): half floats cannot be drawn into", context->name);
     if (result != FACET_OK)
         gl_pyramid_destroy(p);
     return result;

@@ -18,13 +18,13 @@ typedef struct gl_pyramid_brush {
 } gl_pyramid_brush;
 
 /* Makes it, or makes it anew where the size or the number of levels differ. level_count 0: down to 1 x 1. Fails with
- * FACET_ERROR_MEMORY, FACET_ERROR_ENVIRONMENT. */
+ * FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM. */
 facet_result gl_pyramid_update(gl_pyramid *pyramid, gl_context *context, uint32_t width, uint32_t height,
                                uint32_t level_count, facet_error *error);
 void gl_pyramid_destroy(gl_pyramid *pyramid); /* {0} is allowed; leaves {0} */
 
 /* Fills its levels from a texture of its size; level 0 is the picture as far as half floats reach. Leaves its framebuffer
- * bound, without tests and blending. FACET_ERROR_ENVIRONMENT. */
+ * bound, without tests and blending. FACET_ERROR_SYSTEM. */
 facet_result gl_pyramid_fill(const gl_pyramid *pyramid, const gl_pyramid_brush *brush, uint32_t picture,
                              facet_error *error);
 

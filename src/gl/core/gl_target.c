@@ -129,7 +129,7 @@ facet_result gl_target_update(gl_target *t, gl_context *context, gl_target_kind 
         }
     }
     gl_target_destroy(t);
-    return fail(error, FACET_ERROR_ENVIRONMENT, "OpenGL (%s): floating point pictures cannot be drawn",
+    return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): floating point pictures cannot be drawn",
                 context->name);
 }
 

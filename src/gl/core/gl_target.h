@@ -25,7 +25,7 @@ typedef struct gl_target {
 } gl_target;
 
 /* Makes it, or makes it anew where kind, size or samples differ. samples: as many or the next fewer that OpenGL has. Fails
- * with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT (larger than OpenGL's textures), FACET_ERROR_ENVIRONMENT. */
+ * with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT (larger than OpenGL's textures), FACET_ERROR_SYSTEM. */
 facet_result gl_target_update(gl_target *target, gl_context *context, gl_target_kind kind, uint32_t width,
                               uint32_t height, uint32_t samples, facet_error *error);
 void gl_target_destroy(gl_target *target); /* {0} is allowed */

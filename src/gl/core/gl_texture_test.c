@@ -24,7 +24,7 @@ static char warning[512];
 static void note_warning(void *user, facet_log_level level, const char *text)
 {
     (void)user;
-    assert_int_equal(level, FACET_LOG_WARNING);
+    assert_int_equal(level, FACET_LOG_LEVEL_WARNING);
     snprintf(warning, sizeof warning, "%s", text);
     warning_count++;
 }

@@ -17,7 +17,7 @@ typedef struct gl_film_desc {
 } gl_film_desc;
 
 /* Fills every layer of the film. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past the deadline, FACET_ERROR_CANCELLED,
- * FACET_ERROR_ENVIRONMENT. */
+ * FACET_ERROR_SYSTEM. */
 facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *error);
 
 #endif

@@ -244,7 +244,7 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
                                 const facet_render_desc *desc, facet_error *error)
 {
     set->picture_features = 0;
-    if (desc->specular_antialiasing)
+    if (desc->has_specular_antialiasing)
         set->picture_features |= 1ull << GL_SURFACE_HAS_SPECULAR_ANTIALIASING;
     if (desc->gl.brdf == FACET_BRDF_SCHLICK_GGX)
         set->picture_features |= gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");

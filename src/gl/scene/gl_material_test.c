@@ -272,7 +272,7 @@ static int warning_count;
 static void note_warning(void *user, facet_log_level level, const char *message)
 {
     (void)user;
-    if (level != FACET_LOG_WARNING)
+    if (level != FACET_LOG_LEVEL_WARNING)
         return;
     assert_non_null(strstr(message, "more textures than OpenGL's 9 units"));
     warning_count++;

@@ -11,7 +11,7 @@ typedef struct gl_opaque {
 } gl_opaque;
 
 /* Takes over what has been drawn into the target, which is bound again afterwards. Fails with FACET_ERROR_MEMORY,
- * FACET_ERROR_ENVIRONMENT. */
+ * FACET_ERROR_SYSTEM. */
 facet_result gl_opaque_take(gl_opaque *opaque, gl_context *context, const gl_pyramid_brush *brush,
                             const gl_target *target, facet_error *error);
 /* Binds it to its unit. */

@@ -53,7 +53,7 @@ static ogl1_quad make_quad(facet_ogl1_variant variant, bool is_linear, bool is_f
                    .shininess = 20.0,
                    .is_flat = is_flat,
                    .is_linear = is_linear,
-                   .global_ambient = variant == FACET_OGL1_FIXED ? 0.2 : 0.0};
+                   .global_ambient = variant == FACET_OGL1_VARIANT_FIXED ? 0.2 : 0.0};
     static const double tilts[4][2] = {{-0.9, -0.6}, {1.2, -0.4}, {-0.7, 1.0}, {0.8, 0.9}};
     for (int i = 0; i < 4; i++) {
         double length = sqrt(tilts[i][0] * tilts[i][0] + tilts[i][1] * tilts[i][1] + 1.0);
@@ -221,7 +221,7 @@ static void maps_of_the_terms(void **state)
         m->maps[LEGACY_OPACITY_MAP].channel = channels[channel];
         m->maps[LEGACY_OPACITY_MAP].base = 0.05f;
         f.desc.ogl1.is_linear = channel & 1;
-        f.desc.ogl1.variant = channel & 2 ? FACET_OGL1_WEBGL : FACET_OGL1_VIGNETTE;
+        f.desc.ogl1.variant = channel & 2 ? FACET_OGL1_VARIANT_WEBGL : FACET_OGL1_VARIANT_VIGNETTE;
         assert_same(&f, 2e-4f, 0.0, "maps");
         fixture_destroy(&f);
     }

@@ -99,7 +99,7 @@ static facet_render_desc settle(const facet_render_desc *desc)
     if (desc->gl.channel != FACET_CHANNEL_LIGHT)
         settled.shading = FACET_SHADING_GLTF;
     if (settled.shading == FACET_SHADING_OGL1)
-        settled.gl.shadows = false;
+        settled.gl.has_shadows = false;
     return settled;
 }
 
@@ -146,7 +146,7 @@ static void tell_driver(gl_renderer *r, const facet_log *log)
     if (r->has_told_driver || !log->message)
         return;
     snprintf(line, sizeof line, "OpenGL: %s", r->context->name);
-    log->message(log->user, FACET_LOG_DETAIL, line);
+    log->message(log->user, FACET_LOG_LEVEL_DETAIL, line);
     r->has_told_driver = true;
 }
 

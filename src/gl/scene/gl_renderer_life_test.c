@@ -219,7 +219,7 @@ static void a_lost_context_is_followed_by_a_new_one(void **state)
     facet_error error;
     film before = gl_fixture_draw(&f, renderer);
     gl_renderer_get_context(renderer)->reset_status = is_reset;
-    assert_int_equal(try_draw(&f, renderer, &error), FACET_ERROR_ENVIRONMENT);
+    assert_int_equal(try_draw(&f, renderer, &error), FACET_ERROR_SYSTEM);
     assert_non_null(strstr(error.message, "the driver was reset"));
     film after = gl_fixture_draw(&f, renderer);
     gl_fixture_assert_same(&before, &after);

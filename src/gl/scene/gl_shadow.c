@@ -108,7 +108,7 @@ static void tell_lost(gl_shadow *s, const facet_log *log, uint32_t lost, uint32_
         snprintf(message, sizeof message,
                  "shadows: %u of %u lights cast none; the map has room for the %u brightest", lost, all,
                  all - lost);
-        log->message(log->user, FACET_LOG_WARNING, message);
+        log->message(log->user, FACET_LOG_LEVEL_WARNING, message);
     }
     s->untold = lost;
 }
@@ -139,7 +139,7 @@ facet_result gl_shadow_plan(gl_shadow *s, const facet_render_desc *desc, const l
 {
     memcpy(s->bounds.min, bounds_min, sizeof s->bounds.min);
     memcpy(s->bounds.max, bounds_max, sizeof s->bounds.max);
-    if (!desc->gl.shadows || setup->punctual_count == 0 || !(bounds_min[0] <= bounds_max[0])) {
+    if (!desc->gl.has_shadows || setup->punctual_count == 0 || !(bounds_min[0] <= bounds_max[0])) {
         s->record_count = s->light_count = 0;
         return FACET_OK;
     }

@@ -58,9 +58,9 @@ static shares picture;
 
 static void find_shares_by(fixture *f, gl_renderer *renderer)
 {
-    f->desc.gl.shadows = false;
+    f->desc.gl.has_shadows = false;
     film open = gl_fixture_draw(f, renderer);
-    f->desc.gl.shadows = true;
+    f->desc.gl.has_shadows = true;
     film shadowed = gl_fixture_draw(f, renderer);
     for (uint32_t y = 0; y < SIZE; y++)
         for (uint32_t x = 0; x < SIZE; x++) {
@@ -252,7 +252,7 @@ typedef struct told {
 static void note(void *user, facet_log_level level, const char *message)
 {
     told *t = user;
-    if (level != FACET_LOG_WARNING || !strstr(message, "shadows: "))
+    if (level != FACET_LOG_LEVEL_WARNING || !strstr(message, "shadows: "))
         return;
     t->count++;
     snprintf(t->last, sizeof t->last, "%s", message);
@@ -265,7 +265,7 @@ static void too_many_lights_are_told_once(void **state)
     fixture f = wall_fixture(true);
     told t = {0};
     f.desc.log = (facet_log){.message = note, .user = &t};
-    f.desc.gl.shadows = true;
+    f.desc.gl.has_shadows = true;
     f.desc.width = f.desc.height = 32;
     for (int i = 0; i < 50; i++) {
         scene_light l = lamp(SCENE_LIGHT_POINT);
@@ -294,9 +294,9 @@ static void without_shadows_nothing_is_left_of_them(void **state)
     fixture_add_light(&f, lamp(SCENE_LIGHT_POINT), 0.3f, 0.0f, 3.0f);
     film fresh = gl_fixture_render(&f, &contexts.items[0]);
     gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[0]);
-    f.desc.gl.shadows = true;
+    f.desc.gl.has_shadows = true;
     film shadowed = gl_fixture_draw(&f, renderer);
-    f.desc.gl.shadows = false;
+    f.desc.gl.has_shadows = false;
     film again = gl_fixture_draw(&f, renderer);
     size_t size = 32 * 32 * 4 * sizeof(float);
     assert_memory_equal(fresh.layers[0].pixels, again.layers[0].pixels, size);

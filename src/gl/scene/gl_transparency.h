@@ -41,7 +41,7 @@ uint32_t gl_transparency_max_samples(const gl_context *context, facet_transparen
 facet_result gl_transparency_request(const gl_transparency *t, const gl_transparency_view *view,
                                      facet_error *error);
 /* Draws GL_PASS_BLENDED, with the depth test of gl_camera_begin_depth(); leaves the target bound, nothing blended, depth
- * written. Fails with FACET_ERROR_MEMORY, FACET_ERROR_ENVIRONMENT, FACET_ERROR_LIMIT. */
+ * written. Fails with FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM, FACET_ERROR_LIMIT. */
 facet_result gl_transparency_draw(gl_transparency *t, const gl_transparency_view *view, facet_error *error);
 
 #endif

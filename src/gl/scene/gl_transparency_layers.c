@@ -96,7 +96,7 @@ facet_result gl_layers_update(gl_transparency *t, const gl_transparency_view *vi
     bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     facet_result result = gl_context_check(t->context, "blended surfaces", error);
     if (result == FACET_OK && !is_complete)
-        result = fail(error, FACET_ERROR_ENVIRONMENT,
+        result = fail(error, FACET_ERROR_SYSTEM,
                       "OpenGL (%s): floating point pictures of blended surfaces cannot be drawn",
                       t->context->name);
     if (result != FACET_OK)

@@ -212,16 +212,16 @@ static facet_result update_indices(gl_sea *s, const gl_sea_fan *fan, facet_error
 
 static uint64_t features_of(const sea_picture *p)
 {
-    const facet_sea_look *look = &p->desc->look;
+    const facet_sea_shading *look = &p->desc->shading;
     const facet_sea_bed *bed = &p->sea->desc.bed;
-    if (look->before != FACET_SEA_PHYSICAL || look->stage == 1 || look->stage == 2)
+    if (look->style != FACET_SEA_STYLE_PHYSICAL || look->stage == 1 || look->stage == 2)
         return GL_SEA_IS_BEFORE;
     bool is_shaded_whole = look->stage != 3 && look->stage != 4;
     bool has_bed = bed->depth_m > 0.0f && bed->depth_m < 1e30f;
-    bool has_other_facets =
-        look->normals == FACET_SEA_GGX || look->masking != FACET_SEA_SCALES || look->schlick_fresnel;
-    bool has_foam = is_shaded_whole && !look->no_foam && p->foam;
-    bool has_glints = is_shaded_whole && !look->no_glints && !p->is_below;
+    bool has_other_facets = look->normals == FACET_SEA_NORMALS_GGX ||
+                            look->masking != FACET_SEA_MASKING_SCALES || look->has_schlick_fresnel;
+    bool has_foam = is_shaded_whole && !look->omits_foam && p->foam;
+    bool has_glints = is_shaded_whole && !look->omits_glints && !p->is_below;
     return (p->background ? GL_SEA_HAS_PICTURE : 0u) | (p->model ? GL_SEA_HAS_MODEL : 0u) |
            (has_other_facets ? GL_SEA_HAS_OTHER_FACETS : 0u) |
            (look->stage == 3 && !p->is_below ? GL_SEA_IS_PAINTED : 0u) |

@@ -10,14 +10,14 @@
 #include "gl/gl_entry.h"
 #include "ocean/sea_picture.h"
 
-/* With a context of its own, current for no thread between calls. FACET_ERROR_ENVIRONMENT, _MEMORY. */
+/* With a context of its own, current for no thread between calls. FACET_ERROR_SYSTEM, _MEMORY. */
 facet_result gl_sea_create(const facet_allocator *allocator, gl_sea **out, facet_error *error);
 facet_result gl_sea_create_api(gl_api wanted, const facet_allocator *allocator, gl_sea **out,
                                facet_error *error);
 void gl_sea_destroy(gl_sea *sea); /* NULL is allowed */
 
 /* Linear radiance times exposure, as the preview has it, or a display's numbers with looks of before. film: of the desc's crop. Fails as
- * water_render(), with FACET_ERROR_UNSUPPORTED: parallel rays; with FACET_ERROR_ENVIRONMENT. */
+ * water_render(), with FACET_ERROR_UNSUPPORTED: parallel rays; with FACET_ERROR_SYSTEM. */
 facet_result gl_sea_draw(gl_sea *sea, const sea_picture *picture, film *target, facet_render_stats *stats,
                          facet_error *error);
 

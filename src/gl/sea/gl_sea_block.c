@@ -79,13 +79,13 @@ static void fill_foam(const sea_picture *p, const double eye[2], gl_sea_block *b
 static void fill_water(const sea_picture *p, gl_sea_block *b)
 {
     const water_optics *o = &p->sea->optics;
-    const facet_sea_look *look = &p->desc->look;
+    const facet_sea_shading *look = &p->desc->shading;
     set4(b->absorption, o->absorption, o->ior);
     set4(b->scattering, o->scattering, o->foam_albedo);
     set4(b->backscattering, o->backscattering,
-         (float)(look->normals == FACET_SEA_GGX ? WATER_GGX : WATER_BECKMANN));
+         (float)(look->normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN));
     set4(b->reflectance, o->reflectance, (float)look->masking);
-    set4(b->pure_share, o->pure_share, look->schlick_fresnel ? 1.0f : 0.0f);
+    set4(b->pure_share, o->pure_share, look->has_schlick_fresnel ? 1.0f : 0.0f);
     set4(b->sun, p->L, p->sun_fresnel);
     set4(b->sun_irradiance, p->sun_irradiance, p->sky_reflectance);
     set4(b->sky_irradiance, p->sky_irradiance, waves_glint_time(&p->sea->waves));
@@ -122,16 +122,16 @@ static void fill_caustics(const caustic_map *map, const double eye[2], gl_sea_bl
     }
 }
 
-static void fill_look(const facet_sea_look *look, gl_sea_block *b)
+static void fill_look(const facet_sea_shading *look, gl_sea_block *b)
 {
     b->bed_slope[2] = look->perceptual_roughness > 0.0f ? look->perceptual_roughness : BEFORE_ROUGHNESS;
     b->bed_slope[3] = look->clamp;
-    b->look[0] = look->before != FACET_SEA_PHYSICAL ? BEFORE_STAGE_NONE
-                 : look->stage == 1                 ? BEFORE_STAGE_FRESNEL
-                                                    : BEFORE_STAGE_COOK_TORRANCE;
-    b->look[1] = look->before == FACET_SEA_BEFORE_WRITTEN ? BEFORE_WRITTEN : BEFORE_INTENDED;
-    b->look[2] = !look->no_foam;
-    b->look[3] = !look->no_glints;
+    b->look[0] = look->style != FACET_SEA_STYLE_PHYSICAL ? BEFORE_STAGE_NONE
+                 : look->stage == 1                      ? BEFORE_STAGE_FRESNEL
+                                                         : BEFORE_STAGE_COOK_TORRANCE;
+    b->look[1] = look->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? BEFORE_WRITTEN : BEFORE_INTENDED;
+    b->look[2] = !look->omits_foam;
+    b->look[3] = !look->omits_glints;
 }
 
 void gl_sea_block_fill(const sea_picture *p, const camera_rays *camera, const gl_sea_fan *fan,
@@ -152,5 +152,5 @@ void gl_sea_block_fill(const sea_picture *p, const camera_rays *camera, const gl
     fill_water(p, b);
     fill_bed(p, eye, b);
     fill_caustics(p->caustics, eye, b);
-    fill_look(&p->desc->look, b);
+    fill_look(&p->desc->shading, b);
 }

@@ -180,9 +180,9 @@ static void describe_ball(const sea_picture *p, const camera_rays *camera, gl_se
 static facet_render_desc desc_of(const sea_picture *p)
 {
     facet_render_desc d = *p->model_desc;
-    d.integrator = FACET_INTEGRATOR_GL;
+    d.renderer = FACET_RENDERER_KIND_GL;
     d.exposure_ev = 0.0f;
-    d.gl = (facet_gl_desc){.shadows = true};
+    d.gl = (facet_gl_desc){.has_shadows = true};
     d.aovs = 0;
     return d;
 }

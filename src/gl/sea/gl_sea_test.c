@@ -60,7 +60,7 @@ static void draw_gl(gl_sea *renderer, const facet_sea *sea, const shot *s, film 
     facet_render_stats stats = {.total_s = 0.0};
     facet_error error;
     water_picture *picture;
-    desc.render.integrator = FACET_INTEGRATOR_GL;
+    desc.render.renderer = FACET_RENDERER_KIND_GL;
     desc.render.crop[2] = WIDTH;
     desc.render.crop[3] = HEIGHT;
     *out = (film){.width = 0};
@@ -108,7 +108,7 @@ static double compare(gl_sea *renderer, const facet_sea *sea, shot *s, const cha
 {
     film gl;
     double contrast;
-    bool is_light = s->desc.look.before == FACET_SEA_PHYSICAL;
+    bool is_light = s->desc.shading.style == FACET_SEA_STYLE_PHYSICAL;
     draw_shot(sea, s);
     draw_gl(renderer, sea, s, &gl);
     double apart = difference(s, &gl, is_light, &contrast);
@@ -129,7 +129,7 @@ static void compare_breeze(gl_api api)
     expose(&s);
     assert_true(compare(renderer, sea, &s, "10 m/s") < 0.5);
     if (api == GL_API_CORE) {
-        s.desc.look.before = FACET_SEA_BEFORE_INTENDED;
+        s.desc.shading.style = FACET_SEA_STYLE_LEGACY_INTENDED;
         assert_true(compare(renderer, sea, &s, "before") < 0.3);
     }
     sea_destroy(sea);
@@ -210,9 +210,9 @@ static void other_facets(void **state)
     expose(&s);
     s.desc.render.camera = &s.camera;
     draw_gl(renderer, sea, &s, &gl);
-    s.desc.look.normals = FACET_SEA_GGX;
-    s.desc.look.masking = FACET_SEA_SCHLICK_KARIS;
-    s.desc.look.schlick_fresnel = true;
+    s.desc.shading.normals = FACET_SEA_NORMALS_GGX;
+    s.desc.shading.masking = FACET_SEA_MASKING_SCHLICK_KARIS;
+    s.desc.shading.has_schlick_fresnel = true;
     draw_shot(sea, &s);
     double without = difference(&s, &gl, true, &contrast);
     film_destroy(&gl);
@@ -272,7 +272,7 @@ static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float d
     make_shot(&s, WIDTH, HEIGHT, eye_m, down_rad);
     s.desc.sky.sun_azimuth_rad = 2.6f;
     s.scene = f.scene;
-    s.desc.look.no_glints = true; /* which of them are drawn hangs by a bit of where the water rests */
+    s.desc.shading.omits_glints = true; /* which of them are drawn hangs by a bit of where the water rests */
     expose(&s);
     assert_true(compare(renderer, sea, &s, eye_m > 0.0f ? "spheres" : "spheres from below") < bound);
     double without = without_model(renderer, sea, &s);
@@ -298,7 +298,7 @@ static void a_hull_in_waves(void **state)
     make_shot(&s, WIDTH, HEIGHT, -3.0f, -0.85f);
     s.camera.fov_y_rad = 0.9f;
     s.scene = f.scene;
-    s.desc.look.no_glints = true;
+    s.desc.shading.omits_glints = true;
     expose(&s);
     assert_true(compare(renderer, sea, &s, "a hull in waves") < 0.28);
     sea_destroy(sea);
@@ -372,7 +372,7 @@ static void what_cannot_be_drawn_is_said(void **state)
     s.desc.render.camera = &s.camera;
     s.desc.render.crop[2] = WIDTH;
     s.desc.render.crop[3] = HEIGHT;
-    s.desc.render.integrator = FACET_INTEGRATOR_GL;
+    s.desc.render.renderer = FACET_RENDERER_KIND_GL;
     assert_int_equal(film_create(&s.desc.render.allocator, WIDTH, HEIGHT, 0, &s.film, &error), FACET_OK);
     assert_int_equal(water_picture_create(sea, NULL, &s.desc, &picture, &stats, &error), FACET_OK);
     assert_int_equal(gl_sea_draw(renderer, water_picture_get(picture), &s.film, &stats, &error),

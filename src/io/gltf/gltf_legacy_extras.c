@@ -177,9 +177,9 @@ static void get_scene(reader *r, const json_t *object, scene_legacy *legacy)
     if (legacy->colors == FACET_LEGACY_COLORS_DEFAULT)
         legacy->colors = FACET_LEGACY_COLORS_SRGB;
     legacy->dialect = (facet_mtl_dialect)get_choice(json_object_get(object, "dialect"), legacy_dialect_names,
-                                                    FACET_MTL_SPEC);
-    if (legacy->dialect == FACET_MTL_AUTO)
-        legacy->dialect = FACET_MTL_SPEC;
+                                                    FACET_MTL_DIALECT_SPEC);
+    if (legacy->dialect == FACET_MTL_DIALECT_AUTO)
+        legacy->dialect = FACET_MTL_DIALECT_SPEC;
     get_flag(json_object_get(object, "rgl"), &legacy->is_rgl);
 }
 

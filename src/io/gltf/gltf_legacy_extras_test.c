@@ -101,7 +101,7 @@ static void values_come_back(void **state)
     assert_non_null(scene->legacy);
     assert_false(scene->legacy->is_source);
     assert_int_equal(scene->legacy->colors, FACET_LEGACY_COLORS_SRGB);
-    assert_int_equal(scene->legacy->dialect, FACET_MTL_SPEC);
+    assert_int_equal(scene->legacy->dialect, FACET_MTL_DIALECT_SPEC);
     assert_same(&m, &scene->legacy->materials[1]);
     assert_memory_equal(m.maps[LEGACY_DIFFUSE_MAP].ref.transform,
                         scene->legacy->materials[1].maps[LEGACY_DIFFUSE_MAP].ref.transform,
@@ -163,7 +163,7 @@ static void lights_and_fog_come_back(void **state)
                                  .lights = lights,
                                  .fog = {.mode = LEGACY_FOG_EXP2, .color = {0.1f, 0, 1}, .scale = 2},
                                  .colors = FACET_LEGACY_COLORS_LINEAR,
-                                 .dialect = FACET_MTL_BLENDER28,
+                                 .dialect = FACET_MTL_DIALECT_BLENDER28,
                                  .is_rgl = true};
     text object = {0};
     text extras = {0};
@@ -188,7 +188,7 @@ static void lights_and_fog_come_back(void **state)
     assert_near(read->fog.scale, 2, 0);
     assert_near(read->fog.color[0], 0.1, 1e-8);
     assert_int_equal(read->colors, FACET_LEGACY_COLORS_LINEAR);
-    assert_int_equal(read->dialect, FACET_MTL_BLENDER28);
+    assert_int_equal(read->dialect, FACET_MTL_DIALECT_BLENDER28);
     assert_true(read->is_rgl);
     assert_int_equal(read->materials[1].fields, 0);
     text_destroy(&object);
@@ -234,7 +234,7 @@ static void strange_extras_are_left_alone(void **state)
     assert_null(m->maps[LEGACY_DIFFUSE_MAP].path);
     assert_int_equal(scene->legacy->light_count, 2);
     assert_int_equal(scene->legacy->colors, FACET_LEGACY_COLORS_SRGB);
-    assert_int_equal(scene->legacy->dialect, FACET_MTL_SPEC);
+    assert_int_equal(scene->legacy->dialect, FACET_MTL_DIALECT_SPEC);
     scene_destroy(scene);
 }
 

@@ -42,28 +42,28 @@ static facet_mtl_dialect dialect_of_blender(mtl_span comment, const char *at)
     bool is_old_exporter = at < comment.end && *at == 'v';
     int version = parse_version(at + is_old_exporter, comment.end);
     if (version == 0)
-        return FACET_MTL_AUTO;
-    return version < 280                      ? FACET_MTL_BLENDER27
-           : is_old_exporter || version < 300 ? FACET_MTL_BLENDER28
-                                              : FACET_MTL_BLENDER3;
+        return FACET_MTL_DIALECT_AUTO;
+    return version < 280                      ? FACET_MTL_DIALECT_BLENDER27
+           : is_old_exporter || version < 300 ? FACET_MTL_DIALECT_BLENDER28
+                                              : FACET_MTL_DIALECT_BLENDER3;
 }
 
 void mtl_clues_comment(mtl_clues *clues, mtl_span comment, bool is_obj)
 {
     facet_mtl_dialect *out = is_obj ? &clues->obj : &clues->mtl;
-    if (*out != FACET_MTL_AUTO)
+    if (*out != FACET_MTL_DIALECT_AUTO)
         return;
     const char *blender = find_word(comment, "blender ");
     if (blender) {
         *out = dialect_of_blender(comment, blender);
-        clues->is_old_blender |= !is_obj && *out == FACET_MTL_AUTO && find_word(comment, "MTL File");
+        clues->is_old_blender |= !is_obj && *out == FACET_MTL_DIALECT_AUTO && find_word(comment, "MTL File");
     } else if (find_word(comment, "obj2gltf")) {
-        *out = find_word(comment, "specularGlossiness")  ? FACET_MTL_OBJ2GLTF_SG
-               : find_word(comment, "metallicRoughness") ? FACET_MTL_OBJ2GLTF_MR
-                                                         : FACET_MTL_AUTO;
+        *out = find_word(comment, "specularGlossiness")  ? FACET_MTL_DIALECT_OBJ2GLTF_SG
+               : find_word(comment, "metallicRoughness") ? FACET_MTL_DIALECT_OBJ2GLTF_MR
+                                                         : FACET_MTL_DIALECT_AUTO;
     } else if (find_word(comment, "3ds max") || find_word(comment, "assimp") ||
                find_word(comment, "Open Asset Import Library") || find_word(comment, "written by facet")) {
-        *out = FACET_MTL_SPEC;
+        *out = FACET_MTL_DIALECT_SPEC;
     }
 }
 
@@ -76,10 +76,10 @@ void mtl_clues_shininess(mtl_clues *clues, float shininess)
 
 facet_mtl_dialect mtl_clues_decide(const mtl_clues *clues, bool *is_known)
 {
-    facet_mtl_dialect dialect = clues->mtl != FACET_MTL_AUTO ? clues->mtl : clues->obj;
-    bool is_27_or_28 = dialect == FACET_MTL_BLENDER27 || dialect == FACET_MTL_BLENDER28;
-    if (clues->mtl == FACET_MTL_AUTO && clues->is_old_blender && !is_27_or_28)
-        dialect = clues->has_odd_shininess ? FACET_MTL_BLENDER28 : FACET_MTL_BLENDER27;
-    *is_known = dialect != FACET_MTL_AUTO;
-    return *is_known ? dialect : FACET_MTL_SPEC;
+    facet_mtl_dialect dialect = clues->mtl != FACET_MTL_DIALECT_AUTO ? clues->mtl : clues->obj;
+    bool is_27_or_28 = dialect == FACET_MTL_DIALECT_BLENDER27 || dialect == FACET_MTL_DIALECT_BLENDER28;
+    if (clues->mtl == FACET_MTL_DIALECT_AUTO && clues->is_old_blender && !is_27_or_28)
+        dialect = clues->has_odd_shininess ? FACET_MTL_DIALECT_BLENDER28 : FACET_MTL_DIALECT_BLENDER27;
+    *is_known = dialect != FACET_MTL_DIALECT_AUTO;
+    return *is_known ? dialect : FACET_MTL_DIALECT_SPEC;
 }

@@ -437,7 +437,7 @@ static scene_legacy *new_legacy(mtl_reader *r)
     legacy->colors = r->desc.legacy.colors == FACET_LEGACY_COLORS_LINEAR ? FACET_LEGACY_COLORS_LINEAR
                                                                          : FACET_LEGACY_COLORS_SRGB;
     legacy->dialect = r->desc.legacy.dialect;
-    if (legacy->dialect == FACET_MTL_AUTO)
+    if (legacy->dialect == FACET_MTL_DIALECT_AUTO)
         legacy->dialect = mtl_clues_decide(&r->clues, &legacy->is_dialect_guessed);
     return legacy->materials ? legacy : NULL;
 }

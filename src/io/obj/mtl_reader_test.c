@@ -605,22 +605,23 @@ static void dialects_are_known_by_comments(void **state)
         facet_mtl_dialect dialect;
         bool is_guessed;
     } cases[] = {
-        {"", "# made by hand\nnewmtl a\n", FACET_MTL_SPEC, false},
-        {"", "# 3ds Max Wavefront OBJ Exporter v0.97b\nnewmtl a\n", FACET_MTL_SPEC, true},
-        {"", "# Blender MTL File: 'None'\nnewmtl a\nNs 96.078431\n", FACET_MTL_BLENDER27, true},
-        {"", "# Blender MTL File: 'None'\nnewmtl a\nNs 225.000000\n", FACET_MTL_BLENDER28, true},
-        {"", "# Blender MTL File: 'None'\nnewmtl a\nNs 0\n", FACET_MTL_BLENDER27, true},
+        {"", "# made by hand\nnewmtl a\n", FACET_MTL_DIALECT_SPEC, false},
+        {"", "# 3ds Max Wavefront OBJ Exporter v0.97b\nnewmtl a\n", FACET_MTL_DIALECT_SPEC, true},
+        {"", "# Blender MTL File: 'None'\nnewmtl a\nNs 96.078431\n", FACET_MTL_DIALECT_BLENDER27, true},
+        {"", "# Blender MTL File: 'None'\nnewmtl a\nNs 225.000000\n", FACET_MTL_DIALECT_BLENDER28, true},
+        {"", "# Blender MTL File: 'None'\nnewmtl a\nNs 0\n", FACET_MTL_DIALECT_BLENDER27, true},
         {" Blender v2.78 (sub 0) OBJ File: ''", "# Blender MTL File: ''\nnewmtl a\nNs 225\n",
-         FACET_MTL_BLENDER27, true},
-        {" Blender v2.93.1 OBJ File: ''", "# Blender MTL File: ''\nnewmtl a\n", FACET_MTL_BLENDER28, true},
-        {" Blender v3.0.0 OBJ File: ''", "newmtl a\n", FACET_MTL_BLENDER28, true},
-        {" Blender 3.3.0", "newmtl a\n", FACET_MTL_BLENDER3, true},
-        {"", "# Blender 4.2.1 LTS MTL File: 'a.blend'\nnewmtl a\n", FACET_MTL_BLENDER3, true},
-        {" Blender v2.79 (sub 0)", "# Blender 3.3.0 MTL File: 'a.blend'\nnewmtl a\n", FACET_MTL_BLENDER3,
+         FACET_MTL_DIALECT_BLENDER27, true},
+        {" Blender v2.93.1 OBJ File: ''", "# Blender MTL File: ''\nnewmtl a\n", FACET_MTL_DIALECT_BLENDER28,
          true},
-        {"", "# obj2gltf --metallicRoughness\nnewmtl a\n", FACET_MTL_OBJ2GLTF_MR, true},
-        {"", "# for obj2gltf --specularGlossiness\nnewmtl a\n", FACET_MTL_OBJ2GLTF_SG, true},
-        {"", "newmtl a\n# Blender 3.3.0 MTL File: ''\n", FACET_MTL_SPEC, false},
+        {" Blender v3.0.0 OBJ File: ''", "newmtl a\n", FACET_MTL_DIALECT_BLENDER28, true},
+        {" Blender 3.3.0", "newmtl a\n", FACET_MTL_DIALECT_BLENDER3, true},
+        {"", "# Blender 4.2.1 LTS MTL File: 'a.blend'\nnewmtl a\n", FACET_MTL_DIALECT_BLENDER3, true},
+        {" Blender v2.79 (sub 0)", "# Blender 3.3.0 MTL File: 'a.blend'\nnewmtl a\n",
+         FACET_MTL_DIALECT_BLENDER3, true},
+        {"", "# obj2gltf --metallicRoughness\nnewmtl a\n", FACET_MTL_DIALECT_OBJ2GLTF_MR, true},
+        {"", "# for obj2gltf --specularGlossiness\nnewmtl a\n", FACET_MTL_DIALECT_OBJ2GLTF_SG, true},
+        {"", "newmtl a\n# Blender 3.3.0 MTL File: ''\n", FACET_MTL_DIALECT_SPEC, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         test_folder folder = test_folder_make();
@@ -639,9 +640,9 @@ static void dialects_are_known_by_comments(void **state)
         scene_destroy(scene);
         test_folder_remove(&folder);
     }
-    const facet_scene_desc chosen = {.legacy = {.dialect = FACET_MTL_BLENDER28}};
+    const facet_scene_desc chosen = {.legacy = {.dialect = FACET_MTL_DIALECT_BLENDER28}};
     facet_scene *scene = mtl_load_text("# Blender 3.3.0 MTL File: ''\nnewmtl a\n", &chosen);
-    assert_int_equal(scene->legacy->dialect, FACET_MTL_BLENDER28);
+    assert_int_equal(scene->legacy->dialect, FACET_MTL_DIALECT_BLENDER28);
     assert_false(scene->legacy->is_dialect_guessed);
     scene_destroy(scene);
 }
@@ -737,7 +738,7 @@ static void real_files_are_read(void **state)
     scene = mtl_load(path, "materials\\\\box-windows-paths.mtl", NULL);
     assert_int_equal(scene->warning_count, 0);
     assert_true(legacy_has_map(mtl_get(scene, 0), LEGACY_DIFFUSE_MAP));
-    assert_int_equal(scene->legacy->dialect, FACET_MTL_BLENDER27);
+    assert_int_equal(scene->legacy->dialect, FACET_MTL_DIALECT_BLENDER27);
     scene_destroy(scene);
 
     snprintf(path, sizeof path, "%s/obj/obj2gltf/box-complex-material", data);

@@ -95,7 +95,7 @@ static void write_parameters(mtl_writer *w, const legacy_material *m)
     for (int i = 0; i < LEGACY_PARAMETER_COUNT; i++) {
         const legacy_parameter *row = &legacy_parameters[i];
         float values[3];
-        if (!legacy_has(m, row->field) || (w->desc->without_mtl_pbr && is_of_pbr(row->field)))
+        if (!legacy_has(m, row->field) || (w->desc->omits_mtl_pbr && is_of_pbr(row->field)))
             continue;
         memcpy(values, legacy_floats_const(m, row), row->count * sizeof *values);
         if (row->field == LEGACY_SHININESS)
@@ -277,7 +277,7 @@ static void write_map(mtl_writer *w, const legacy_map *map, const char *key)
 static void write_maps(mtl_writer *w, const legacy_material *m)
 {
     for (int i = 0; i < LEGACY_MAP_COUNT; i++)
-        if (!w->desc->without_mtl_pbr || i < LEGACY_NORMAL_MAP)
+        if (!w->desc->omits_mtl_pbr || i < LEGACY_NORMAL_MAP)
             write_map(w, &m->maps[i], i == LEGACY_ORM_MAP && m->is_rma ? "map_RMA" : legacy_map_keys[i]);
 }
 
@@ -317,7 +317,7 @@ static void write_unknown(const mtl_writer *w, const legacy_material *m)
 /* What the glTF material of a scene is written for: it came from glTF, or was restored from such a comment. */
 static bool has_gltf(const mtl_writer *w, const legacy_material *m)
 {
-    return !w->desc->without_mtl_pbr && (!w->scene->legacy->is_source || m->is_gltf_restored);
+    return !w->desc->omits_mtl_pbr && (!w->scene->legacy->is_source || m->is_gltf_restored);
 }
 
 static void write_material(mtl_writer *w, uint32_t index)

@@ -79,7 +79,7 @@ static void all_statements_come_back(void **state)
     test_put_text(&folder, "b.mtl", written);
     facet_scene *again = mtl_load(folder.path, "b.mtl", NULL);
     assert_same_material(mtl_get(scene, 0), mtl_get(again, 0));
-    assert_int_equal(again->legacy->dialect, FACET_MTL_SPEC);
+    assert_int_equal(again->legacy->dialect, FACET_MTL_DIALECT_SPEC);
     char *second = write_mtl(again, names, NULL);
     assert_string_equal(written, second);
     free(written);
@@ -121,7 +121,7 @@ static void what_was_asked_for_is_left_out(void **state)
 {
     (void)state;
     facet_scene *scene = mtl_load_text(LIBRARY, NULL);
-    const facet_scene_save_desc desc = {.without_mtl_pbr = true, .mtl_shininess_scale = 2};
+    const facet_scene_save_desc desc = {.omits_mtl_pbr = true, .mtl_shininess_scale = 2};
     scene->legacy->is_source = false;
     char *written = write_mtl(scene, NULL, &desc);
     const char *const absent[] = {"Pr ",   "Pm ",   "Ps ",   "Pc ",     "Pcr ",
@@ -278,7 +278,7 @@ static facet_scene *load_rich(test_folder *folder)
     scene_legacy *legacy = arena_zalloc(scene->arena, 1, sizeof *legacy);
     legacy->materials = arena_alloc(scene->arena, scene->material_count, sizeof *legacy->materials);
     legacy->colors = FACET_LEGACY_COLORS_SRGB;
-    legacy->dialect = FACET_MTL_SPEC;
+    legacy->dialect = FACET_MTL_DIALECT_SPEC;
     for (uint32_t i = 0; i < scene->material_count; i++) { /* what a conversion would put there */
         legacy_material *m = &legacy->materials[i];
         *m = legacy_material_default();

@@ -25,8 +25,8 @@ static void find_used(const facet_scene *scene, const facet_scene_save_desc *des
     const scene_legacy *legacy = scene->legacy;
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const legacy_material *m = &legacy->materials[i];
-        bool has_gltf = !desc->without_mtl_pbr && (!legacy->is_source || m->is_gltf_restored);
-        for (int slot = 0; slot < (desc->without_mtl_pbr ? (int)LEGACY_NORMAL_MAP : (int)LEGACY_MAP_COUNT);
+        bool has_gltf = !desc->omits_mtl_pbr && (!legacy->is_source || m->is_gltf_restored);
+        for (int slot = 0; slot < (desc->omits_mtl_pbr ? (int)LEGACY_NORMAL_MAP : (int)LEGACY_MAP_COUNT);
              slot++)
             use_texture(scene, m->maps[slot].ref.texture, is_used);
         for (int slot = 0; has_gltf && slot < SCENE_TEXTURE_SLOT_COUNT; slot++)

@@ -19,7 +19,7 @@ void ogl1_set_surroundings(const ogl1_document *d, const facet_legacy_desc *desc
     if (stated || !legacy->colors)
         legacy->colors = stated ? stated : FACET_LEGACY_COLORS_SRGB;
     if (!legacy->dialect)
-        legacy->dialect = FACET_MTL_SPEC;
+        legacy->dialect = FACET_MTL_DIALECT_SPEC;
     legacy->is_source = true;
 }
 
