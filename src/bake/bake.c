@@ -22,11 +22,6 @@ enum {
     LEAST_DEGREE = 256  /* of the analysis of a fine picture */
 };
 
-/* Shares of a lobe's root mean square that harmonics may cut off. Twice as much is still better than sampling. A sun alone in
- * the dark is off by so much; the edge of a ring takes twice the degrees for every third of it. */
-static const double aimed_cut = 2e-3;
-static const double aimed_cut_of_ring = 6e-3;
-
 static const facet_bake_desc default_desc;
 
 float bake_roughness(facet_roughness_mapping mapping, uint32_t level, uint32_t level_count)
@@ -101,17 +96,10 @@ static void plan_lobe(const facet_bake_desc *desc, const bake_source *source, fl
 {
     plan->lobe = bake_lobe_create(desc->lobe, roughness);
     plan->kind = desc->method == FACET_BAKE_METHOD_REFERENCE ? LEVEL_REFERENCE : LEVEL_SAMPLED;
-    if (desc->method == FACET_BAKE_METHOD_AUTO) {
-        double cut;
-        bool is_ring = desc->lobe == FACET_LOBE_CHARLIE;
-        double aim = is_ring ? aimed_cut_of_ring : aimed_cut;
-        plan->degree = prefilter_choose_degree(is_ring ? PREFILTER_CHARLIE : PREFILTER_GGX,
-                                               (float)sqrt(plan->lobe.alpha), aim, plan->kernel, &cut);
-        if (cut <= 2.0 * aim) {
-            prefilter_taper(plan->degree, plan->kernel);
-            plan->kind = LEVEL_HARMONICS;
-            plans->degree = plan->degree > plans->degree ? plan->degree : plans->degree;
-        }
+    if (desc->method == FACET_BAKE_METHOD_AUTO &&
+        bake_lobe_kernel(&plan->lobe, plan->kernel, &plan->degree)) {
+        plan->kind = LEVEL_HARMONICS;
+        plans->degree = plan->degree > plans->degree ? plan->degree : plans->degree;
     }
     if (plan->kind == LEVEL_SAMPLED) {
         uint32_t most = desc->size > MAX_PYRAMID ? desc->size : MAX_PYRAMID;

@@ -5,6 +5,7 @@
 
 #include "bake/bake.h"
 #include "ibl/gauss.h"
+#include "ibl/prefilter.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -26,6 +27,24 @@ double bake_lobe_weight(const bake_lobe *lobe, double s2)
     double a2 = lobe->alpha * lobe->alpha;
     double d = a2 + (1.0 - a2) * s2;
     return x / (d * d);
+}
+
+/* Shares of a lobe's root mean square that harmonics may cut off. Twice as much is still better than sampling. A sun alone in
+ * the dark is off by so much; the edge of a ring takes twice the degrees for every third of it. */
+static const double aimed_cut = 2e-3;
+static const double aimed_cut_of_ring = 6e-3;
+
+bool bake_lobe_kernel(const bake_lobe *lobe, float *kernel, uint32_t *degree)
+{
+    double cut;
+    bool is_ring = lobe->kind == FACET_LOBE_CHARLIE;
+    double aim = is_ring ? aimed_cut_of_ring : aimed_cut;
+    *degree = prefilter_choose_degree(is_ring ? PREFILTER_CHARLIE : PREFILTER_GGX, (float)sqrt(lobe->alpha),
+                                      aim, kernel, &cut);
+    if (cut > 2.0 * aim)
+        return false;
+    prefilter_taper(*degree, kernel);
+    return true;
 }
 
 /* ---- shares ---- */

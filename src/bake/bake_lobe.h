@@ -22,6 +22,10 @@ bake_lobe bake_lobe_create(facet_lobe kind, float perceptual_roughness);
 /* Weight of a direction, from s^2 in [0, 1/2]: without cancellation near the middle. */
 double bake_lobe_weight(const bake_lobe *lobe, double s2);
 
+/* The kernel of the lobe over the degrees of harmonics (prefilter.h), as far as it differs from 0; it has
+ * HARMONICS_MAX_DEGREE + 1 places. False: the lobe is too narrow for HARMONICS_MAX_DEGREE, and the kernel is not usable. */
+bool bake_lobe_kernel(const bake_lobe *lobe, float *kernel, uint32_t *degree);
+
 /* The lobe's weight from R outwards, to be looked up by its share. */
 enum { BAKE_LOBE_PANELS = 1024 };
 typedef struct bake_lobe_shares {

@@ -1,5 +1,6 @@
-/* ibl_sheet.c - see ibl_sheet.h. From the top: what the cube map is; its levels as crosses; balls lit by it over the same balls
- * lit by sums over the environment's texels, and how far apart they are; the same for diffuse light by nine harmonics. */
+/* ibl_sheet.c - see ibl_sheet.h. From the top: the title; the levels as crosses; spheres lit by the cube map above the same
+ * spheres lit by the environment filtered for exactly their roughness, and the difference; diffuse spheres lit by nine
+ * harmonics. */
 #include "report/ibl_sheet.h"
 
 #include <math.h>
@@ -76,12 +77,14 @@ static void write_title(sheet *s)
 
 /* ---- progress ---- */
 
-/* False: to be cancelled. */
-bool sheet_go_on(sheet *s)
+facet_result sheet_step(sheet *s, facet_error *error)
 {
     s->step++;
     const facet_progress *p = &s->desc->progress;
-    return !p->report || p->report(p->user, "sheet", (double)s->step / s->step_count);
+    if (!p->report || p->report(p->user, "sheet", (double)s->step / s->step_count))
+        return FACET_OK;
+    return fail(error, FACET_ERROR_CANCELLED, "sheet: cancelled after %u of %u steps", s->step,
+                s->step_count);
 }
 
 /* ---- levels ---- */
@@ -139,7 +142,7 @@ static level_grid plan_levels(const facet_cube *c)
     return best;
 }
 
-static bool draw_levels(sheet *s)
+static facet_result draw_levels(sheet *s, facet_error *error)
 {
     sheet_write_section(s, "Levels", "");
     const facet_cube *c = s->cube_map;
@@ -155,7 +158,7 @@ static bool draw_levels(sheet *s)
         write_level(s, i + 1, place);
     }
     s->y += g.height + SECTION_GAP;
-    return sheet_go_on(s);
+    return sheet_step(s, error);
 }
 
 /* ---- the sheet ---- */
@@ -166,10 +169,7 @@ static facet_result prepare(sheet *s, facet_error *error)
     const image *whole = &s->environment->picture;
     s->picture = whole;
     if (s->bake->clamp > 0.0f) {
-        facet_result result =
-            image_create(allocator, whole->width, whole->height, 3, IMAGE_F32, &s->cut, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(image_create(allocator, whole->width, whole->height, 3, IMAGE_F32, &s->cut, error));
         const float *from = whole->pixels;
         float *to = s->cut.pixels;
         for (size_t k = 0; k < (size_t)whole->width * whole->height * 3; k++)
@@ -180,15 +180,14 @@ static facet_result prepare(sheet *s, facet_error *error)
     if (!s->values)
         return fail_memory(error, "sheet", BALL * BALL * 6 * sizeof(float));
     s->reference = s->values + BALL * BALL * 3;
-    facet_result result =
-        lobe_sum_create(s->picture, INFINITY, allocator, s->desc->thread_count, &s->sums, error);
-    if (result == FACET_OK)
-        result = sh_project(s->picture, allocator, s->desc->thread_count, s->harmonics, error);
+    TRY(harmonics_create(s->picture, sheet_analysis_degree(s->cube_map), allocator, s->desc->thread_count,
+                         &s->analysis, error));
+    TRY(sh_project(s->picture, allocator, s->desc->thread_count, s->harmonics, error));
     sh_rotate(s->harmonics, (double)s->bake->rotation_rad);
     for (int k = 0; k < SH_COUNT; k++)
         for (int i = 0; i < 3; i++)
             s->harmonics[k][i] *= exp2((double)s->bake->ev);
-    return result;
+    return FACET_OK;
 }
 
 static uint32_t sheet_height(const facet_cube *c)
@@ -209,7 +208,6 @@ facet_result ibl_sheet_draw(const facet_cube *cube_map, const facet_environment 
     s->bake = &desc->bake;
     s->step_count = 1 + sheet_ball_steps(cube_map);
     s->y = MARGIN;
-    bool is_drawn = false;
     facet_result result = film_create(&desc->allocator, WIDTH, sheet_height(cube_map), 0, &s->film, error);
     if (result == FACET_OK)
         result = prepare(s, error);
@@ -217,12 +215,11 @@ facet_result ibl_sheet_draw(const facet_cube *cube_map, const facet_environment 
         goto done;
     s->canvas = (sheet_canvas){&s->film, exp2f(desc->exposure_ev), desc->thread_count};
     write_title(s);
-    is_drawn = draw_levels(s) && sheet_draw_balls(s);
-    if (!is_drawn) {
-        result = fail(error, FACET_ERROR_CANCELLED, "sheet: cancelled after %u of %u steps", s->step,
-                      s->step_count);
+    result = draw_levels(s, error);
+    if (result == FACET_OK)
+        result = sheet_draw_balls(s, error);
+    if (result != FACET_OK)
         goto done;
-    }
     film_develop(&s->film, desc->tonemap, BACKGROUND, desc->thread_count);
     *out = (image){.pixels = s->film.layers[0].pixels,
                    .width = WIDTH,
@@ -243,7 +240,8 @@ facet_result ibl_sheet_draw(const facet_cube *cube_map, const facet_environment 
 done:
     film_destroy(&s->film);
     image_destroy(&s->cut);
-    lobe_sum_destroy(&s->sums);
+    harmonics_destroy(&s->analysis);
+    cube_destroy(&s->filtered.levels[0]);
     mem_free(s->values);
     mem_free(s);
     return result;

@@ -69,20 +69,13 @@ static rgbx read_cube(const facet_cube *c, float lod, const float d[3])
 
 static rgbx light_along(const sheet_ball *b, const float d[3])
 {
-    float e[3] = {d[0] * b->rotation_cos - d[2] * b->rotation_sin, d[1],
-                  d[0] * b->rotation_sin + d[2] * b->rotation_cos};
+    const float e[3] = {d[0] * b->rotation_cos - d[2] * b->rotation_sin, d[1],
+                        d[0] * b->rotation_sin + d[2] * b->rotation_cos};
     float out[3];
-    switch (b->kind) {
-    case BALL_CUBE:
+    if (b->kind == BALL_CUBE)
         return read_cube(b->cube_map, b->lod, d);
-    case BALL_PICTURE:
+    if (b->kind == BALL_PICTURE)
         return equirect_fetch(b->picture, equirect_locate(e)) * b->environment_scale;
-    case BALL_LOBE:
-        lobe_plan_gather(b->lobe, e, out);
-        return (rgbx){out[0], out[1], out[2], 0.0f} * b->environment_scale;
-    case BALL_HARMONICS:
-        break;
-    }
     sh_evaluate(b->harmonics, d, out);
     return (rgbx){out[0], out[1], out[2], 0.0f};
 }

@@ -5,7 +5,6 @@
 
 #include "bake/bake.h"
 #include "film/film.h"
-#include "ibl/lobe_sum.h"
 #include "ibl/sh.h"
 
 /* Where on the film; pixels. A cross is 4 to 3, a ball square. */
@@ -26,7 +25,6 @@ void sheet_draw_cross(const sheet_canvas *canvas, sheet_place place, const cube 
 typedef enum ball_kind {
     BALL_CUBE,     /* levels of a cube map, read as a GPU does, along the mirror direction or the normal */
     BALL_PICTURE,  /* the environment's picture in the mirror direction */
-    BALL_LOBE,     /* sums over its texels, along either */
     BALL_HARMONICS /* along the normal */
 } ball_kind;
 
@@ -37,10 +35,9 @@ typedef struct sheet_ball {
     const facet_cube *cube_map;
     float lod; /* level with fraction */
     const image *picture;
-    float rotation_cos, rotation_sin, environment_scale; /* of picture and lobe */
-    const lobe_plan *lobe;
-    const float (*harmonics)[3]; /* SH_COUNT of them, folded */
-    uint32_t samples;            /* each way in a pixel; 0: 1 */
+    float rotation_cos, rotation_sin, environment_scale; /* of picture */
+    const float (*harmonics)[3];                         /* SH_COUNT of them, folded */
+    uint32_t samples;                                    /* each way in a pixel; 0: 1 */
 } sheet_ball;
 
 /* values: width^2 x RGB of place, radiance, 0 outside of the ball. */

@@ -2,6 +2,7 @@
 #ifndef REPORT_IBL_SHEET_STATE_H
 #define REPORT_IBL_SHEET_STATE_H
 
+#include "ibl/harmonics.h"
 #include "plot/chart_number.h"
 #include "report/ibl_sheet_draw.h"
 #include "report/ibl_sheet_words.h"
@@ -41,8 +42,9 @@ typedef struct sheet {
     sheet_canvas canvas;
     image cut; /* the environment where desc->bake.clamp cuts it */
     const image *picture;
-    lobe_sum sums;
-    float *values, *reference; /* of a ball each */
+    harmonics analysis;        /* of picture */
+    facet_cube filtered;       /* one level: the environment filtered for the reference of one sphere */
+    float *values, *reference; /* of a sphere each */
     double harmonics[SH_COUNT][3];
     sheet_word words[MAX_WORDS];
     uint32_t word_count;
@@ -55,12 +57,14 @@ void sheet_write(sheet *s, sheet_word style, float x, float y, const char *forma
     __attribute__((format(printf, 5, 6)));
 /* A line over the sheet, a title and a remark on the right under it. */
 void sheet_write_section(sheet *s, const char *title, const char *remark);
-/* One more step is done. False: the caller is to be obeyed, who wants no more. */
-bool sheet_go_on(sheet *s);
+/* Reports one more step to the caller's progress callback. FACET_ERROR_CANCELLED. */
+facet_result sheet_step(sheet *s, facet_error *error);
 
-/* Balls lit by the cube map over the same lit by the environment, and diffuse ones by harmonics, from s->y on, which they
- * move. False: cancelled. */
-bool sheet_draw_balls(sheet *s);
+/* The degree of s->analysis that the spheres need. */
+uint32_t sheet_analysis_degree(const facet_cube *c);
+/* Spheres lit by the cube map above the same spheres lit by the environment, and diffuse ones lit by nine harmonics; they start
+ * at s->y and advance it. FACET_ERROR_CANCELLED, _MEMORY. */
+facet_result sheet_draw_balls(sheet *s, facet_error *error);
 uint32_t sheet_balls_height(const facet_cube *c);
 uint32_t sheet_ball_steps(const facet_cube *c);
 
