@@ -176,7 +176,7 @@ static size_t spell(const char *name, uint32_t out[MOST_LETTERS])
     return count;
 }
 
-bool names_are_alike(const char *a, const char *b)
+bool file_names_are_alike(const char *a, const char *b)
 {
     uint32_t x[MOST_LETTERS];
     uint32_t y[MOST_LETTERS];

@@ -7,7 +7,7 @@
 
 /* Whether two names differ in nothing else. Bytes that are no UTF-8 count as Latin-1. Knows the letters of Latin, Greek,
  * Cyrillic, kana and Hangul. */
-bool names_are_alike(const char *a, const char *b);
+bool file_names_are_alike(const char *a, const char *b);
 
 /* The path below folder of the regular file that path means: part by part the name that is there, else the only one alike.
  * A block of mem_alloc(). NULL: there is none, there are several, or (*has_failed) no memory. *budget: entries of folders

@@ -45,15 +45,16 @@ static void names_differ_in_case_and_form_only(void **state)
         {"\xe3\x81\xa4", "\xe3\x81\xa3"}, /* tsu, small tsu */
     };
     for (size_t i = 0; i < sizeof alike / sizeof *alike; i++)
-        if (!names_are_alike(alike[i][0], alike[i][1]) || !names_are_alike(alike[i][1], alike[i][0]))
+        if (!file_names_are_alike(alike[i][0], alike[i][1]) ||
+            !file_names_are_alike(alike[i][1], alike[i][0]))
             fail_msg("%s and %s are alike", alike[i][0], alike[i][1]);
     for (size_t i = 0; i < sizeof different / sizeof *different; i++)
-        if (names_are_alike(different[i][0], different[i][1]))
+        if (file_names_are_alike(different[i][0], different[i][1]))
             fail_msg("%s and %s are different", different[i][0], different[i][1]);
     char longest[300];
     memset(longest, 'a', sizeof longest);
     longest[299] = 0;
-    assert_false(names_are_alike(longest, longest)); /* no file has such a name */
+    assert_false(file_names_are_alike(longest, longest)); /* no file has such a name */
 }
 
 static char folder[] = "/tmp/facet_file_alike_test_XXXXXX";

@@ -1,41 +1,40 @@
-/* json_access.c - typed members of JSON objects; see gltf_reader.h. */
+/* json_access.c - typed members of JSON objects; see json_reader.h. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/result.h"
-#include "io/gltf/gltf_reader.h"
+#include "io/json_reader.h"
 
 /* ---- memory and work ---- */
 
 enum { LIMIT_ELEMENTS = 1 << 28 };
 
-void *reader_alloc_raw(reader *r, const char *what, size_t count, size_t size)
+void *io_alloc_raw(io_reader *r, const char *what, size_t count, size_t size)
 {
-    if (!reader_is_ok(r))
+    if (!io_is_ok(r))
         return NULL;
     void *memory = arena_alloc(r->scene->arena, count, size);
     if (!memory)
-        reader_fail_memory(r, what, count > SIZE_MAX / size ? SIZE_MAX : count * size);
+        io_fail_memory(r, what, count > SIZE_MAX / size ? SIZE_MAX : count * size);
     return memory;
 }
 
-void *reader_alloc(reader *r, const char *what, size_t count, size_t size)
+void *io_alloc(io_reader *r, const char *what, size_t count, size_t size)
 {
-    void *memory = reader_alloc_raw(r, what, count, size);
+    void *memory = io_alloc_raw(r, what, count, size);
     if (memory)
         memset(memory, 0, count * size);
     return memory;
 }
 
-bool reader_spend(reader *r, const json_place *at, uint64_t elements)
+bool io_spend(io_reader *r, const json_place *at, uint64_t elements)
 {
     r->work += elements;
     if (r->work <= LIMIT_ELEMENTS)
-        return reader_is_ok(r);
-    return reader_fail(r, at, NULL, FACET_ERROR_LIMIT,
-                       "the model refers to more than %d elements of vertices and indices",
-                       (int)LIMIT_ELEMENTS);
+        return io_is_ok(r);
+    return io_fail(r, at, NULL, FACET_ERROR_LIMIT,
+                   "the model refers to more than %d elements of vertices and indices", (int)LIMIT_ELEMENTS);
 }
 
 /* ---- members ---- */
@@ -67,17 +66,17 @@ static json_place get_member(const json_place *object, const char *key)
                         .value = json_is_object(object->value) ? json_object_get(object->value, key) : NULL};
 }
 
-static void fail_type(reader *r, const json_place *at, const char *wanted)
+static void fail_type(io_reader *r, const json_place *at, const char *wanted)
 {
-    reader_fail(r, at, NULL, FACET_ERROR_INVALID, "must be %s, but is %s", wanted, type_name(at->value));
+    io_fail(r, at, NULL, FACET_ERROR_INVALID, "must be %s, but is %s", wanted, type_name(at->value));
 }
 
-bool has_member(const json_place *object, const char *key)
+bool io_has_member(const json_place *object, const char *key)
 {
     return get_member(object, key).value != NULL;
 }
 
-json_place get_object(reader *r, const json_place *object, const char *key)
+json_place io_get_object(io_reader *r, const json_place *object, const char *key)
 {
     json_place at = get_member(object, key);
     if (at.value && !json_is_object(at.value)) {
@@ -87,34 +86,34 @@ json_place get_object(reader *r, const json_place *object, const char *key)
     return at;
 }
 
-json_place get_array(reader *r, const json_place *object, const char *key)
+json_place io_get_array(io_reader *r, const json_place *object, const char *key)
 {
     json_place at = get_member(object, key);
     if (at.value && !json_is_array(at.value)) {
         fail_type(r, &at, "an array");
         at.value = NULL;
     } else if (at.value && json_array_size(at.value) == 0) {
-        reader_note(r, &at, NULL, "is empty, which glTF does not allow");
+        io_note(r, &at, NULL, "is empty, which glTF does not allow");
     } else if (at.value && json_array_size(at.value) >= SCENE_NONE) {
-        reader_fail(r, &at, NULL, FACET_ERROR_LIMIT, "has more than 2^32 - 2 elements");
+        io_fail(r, &at, NULL, FACET_ERROR_LIMIT, "has more than 2^32 - 2 elements");
         at.value = NULL;
     }
     return at;
 }
 
-size_t get_count(const json_place *array)
+size_t io_get_count(const json_place *array)
 {
     return array->value ? json_array_size(array->value) : 0;
 }
 
-json_place get_element(const json_place *array, size_t index)
+json_place io_get_element(const json_place *array, size_t index)
 {
     return (json_place){.parent = array, .index = index, .value = json_array_get(array->value, index)};
 }
 
-json_place get_element_object(reader *r, const json_place *array, size_t index)
+json_place io_get_element_object(io_reader *r, const json_place *array, size_t index)
 {
-    json_place at = get_element(array, index);
+    json_place at = io_get_element(array, index);
     if (at.value && !json_is_object(at.value)) {
         fail_type(r, &at, "an object");
         at.value = NULL;
@@ -122,7 +121,7 @@ json_place get_element_object(reader *r, const json_place *array, size_t index)
     return at;
 }
 
-json_place get_extension(reader *r, const json_place *object, const char *name)
+json_place io_get_extension(io_reader *r, const json_place *object, const char *name)
 {
     /* The chain must outlive this call, so "extensions" and the name are one link in messages. What is no object extends
      * nothing; gltf_extensions.c says so. */
@@ -157,68 +156,54 @@ static bool to_uint(const json_t *value, uint64_t maximum, uint64_t *out)
     return true;
 }
 
-uint64_t get_uint(reader *r, const json_place *object, const char *key, uint64_t maximum, uint64_t fallback)
+uint64_t io_get_uint(io_reader *r, const json_place *object, const char *key, uint64_t maximum,
+                     uint64_t fallback)
 {
     json_place at = get_member(object, key);
     uint64_t out = 0;
-    if (!at.value && fallback != REQUIRED_UINT)
+    if (!at.value && fallback != IO_REQUIRED_UINT)
         return fallback;
     if (!at.value)
-        reader_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
+        io_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
     else if (!json_is_number(at.value))
         fail_type(r, &at, "a number");
     else if (!to_uint(at.value, maximum, &out))
-        reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "%.17g is not a whole number from 0 to %llu",
-                    json_number_value(at.value), (unsigned long long)maximum);
+        io_fail(r, &at, NULL, FACET_ERROR_INVALID, "%.17g is not a whole number from 0 to %llu",
+                json_number_value(at.value), (unsigned long long)maximum);
     else
         return out;
-    return fallback == REQUIRED_UINT ? 0 : fallback;
+    return fallback == IO_REQUIRED_UINT ? 0 : fallback;
 }
 
-uint32_t get_index_value(reader *r, const json_place *at, uint32_t count, const char *what)
+uint32_t io_get_index_value(io_reader *r, const json_place *at, uint32_t count, const char *what)
 {
     uint64_t index;
     if (!json_is_number(at->value))
         fail_type(r, at, "a number");
     else if (!to_uint(at->value, SCENE_NONE - 1, &index) || index >= count)
-        reader_fail(r, at, NULL, FACET_ERROR_INVALID, "%.17g is the number of no %s (there %s %u)",
-                    json_number_value(at->value), what, count == 1 ? "is" : "are", count);
+        io_fail(r, at, NULL, FACET_ERROR_INVALID, "%.17g is the number of no %s (there %s %u)",
+                json_number_value(at->value), what, count == 1 ? "is" : "are", count);
     else
         return (uint32_t)index;
     return SCENE_NONE;
 }
 
-uint32_t get_index(reader *r, const json_place *object, const char *key, uint32_t count, const char *what)
+uint32_t io_get_index(io_reader *r, const json_place *object, const char *key, uint32_t count,
+                      const char *what)
 {
     json_place at = get_member(object, key);
-    return at.value ? get_index_value(r, &at, count, what) : SCENE_NONE;
+    return at.value ? io_get_index_value(r, &at, count, what) : SCENE_NONE;
 }
 
-uint32_t get_required_index(reader *r, const json_place *object, const char *key, uint32_t count,
-                            const char *what)
+uint32_t io_get_required_index(io_reader *r, const json_place *object, const char *key, uint32_t count,
+                               const char *what)
 {
-    if (object->value && !has_member(object, key))
-        reader_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
-    return get_index(r, object, key, count, what);
+    if (object->value && !io_has_member(object, key))
+        io_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
+    return io_get_index(r, object, key, count, what);
 }
 
-uint32_t get_accessor(reader *r, const json_place *object, const char *key)
-{
-    uint32_t index = get_index(r, object, key, r->accessor_count, "accessor");
-    if (index == SCENE_NONE || !r->accessors[index].problem.message)
-        return index;
-    reader_fail_deferred(r, &r->accessors[index].problem);
-    return SCENE_NONE;
-}
-
-uint32_t get_required_accessor(reader *r, const json_place *object, const char *key)
-{
-    if (object->value && !has_member(object, key))
-        reader_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
-    return get_accessor(r, object, key);
-}
-
-uint32_t peek_index(const json_place *object, const char *key, uint32_t count)
+uint32_t io_peek_index(const json_place *object, const char *key, uint32_t count)
 {
     const json_t *value = json_object_get(object->value, key);
     uint64_t index;
@@ -226,7 +211,7 @@ uint32_t peek_index(const json_place *object, const char *key, uint32_t count)
 }
 
 /* False: recorded. Doubles beyond float are the largest float. */
-static bool to_float(reader *r, const json_place *at, float *out)
+static bool to_float(io_reader *r, const json_place *at, float *out)
 {
     if (!json_is_number(at->value)) {
         fail_type(r, at, "a number");
@@ -237,7 +222,7 @@ static bool to_float(reader *r, const json_place *at, float *out)
     return true;
 }
 
-float get_float(reader *r, const json_place *object, const char *key, float fallback)
+float io_get_float(io_reader *r, const json_place *object, const char *key, float fallback)
 {
     json_place at = get_member(object, key);
     float out = fallback;
@@ -246,17 +231,17 @@ float get_float(reader *r, const json_place *object, const char *key, float fall
     return out;
 }
 
-static float clamp_with_warning(reader *r, const json_place *at, float value, float minimum, float maximum)
+static float clamp_with_warning(io_reader *r, const json_place *at, float value, float minimum, float maximum)
 {
     if (value >= minimum && value <= maximum)
         return value;
     float clamped = value < minimum ? minimum : maximum;
-    reader_warn(r, at, NULL, "%g is out of range; %g is used", (double)value, (double)clamped);
+    io_warn(r, at, NULL, "%g is out of range; %g is used", (double)value, (double)clamped);
     return clamped;
 }
 
-float get_float_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
-                   float fallback)
+float io_get_float_in(io_reader *r, const json_place *object, const char *key, float minimum, float maximum,
+                      float fallback)
 {
     json_place at = get_member(object, key);
     float out = fallback;
@@ -265,27 +250,27 @@ float get_float_in(reader *r, const json_place *object, const char *key, float m
     return clamp_with_warning(r, &at, out, minimum, maximum);
 }
 
-bool get_floats_value(reader *r, const json_place *at, float *out, size_t count)
+bool io_get_floats_value(io_reader *r, const json_place *at, float *out, size_t count)
 {
     if (!json_is_array(at->value)) {
         fail_type(r, at, "an array");
         return false;
     }
-    if (get_count(at) != count)
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID, "must have %zu numbers, but has %zu", count,
-                           get_count(at));
+    if (io_get_count(at) != count)
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID, "must have %zu numbers, but has %zu", count,
+                       io_get_count(at));
     for (size_t i = 0; i < count; i++) {
-        json_place element = get_element(at, i);
+        json_place element = io_get_element(at, i);
         if (!to_float(r, &element, &out[i]))
             return false;
     }
     return true;
 }
 
-bool get_doubles(reader *r, const json_place *object, const char *key, double *out, size_t count)
+bool io_get_doubles(io_reader *r, const json_place *object, const char *key, double *out, size_t count)
 {
     float rounded[16];
-    if (!get_floats(r, object, key, rounded, count))
+    if (!io_get_floats(r, object, key, rounded, count))
         return false;
     json_place at = get_member(object, key);
     for (size_t i = 0; i < count; i++)
@@ -294,27 +279,27 @@ bool get_doubles(reader *r, const json_place *object, const char *key, double *o
     return true;
 }
 
-bool get_floats(reader *r, const json_place *object, const char *key, float *out, size_t count)
+bool io_get_floats(io_reader *r, const json_place *object, const char *key, float *out, size_t count)
 {
-    json_place at = get_array(r, object, key);
-    return at.value && get_floats_value(r, &at, out, count);
+    json_place at = io_get_array(r, object, key);
+    return at.value && io_get_floats_value(r, &at, out, count);
 }
 
-void get_floats_in(reader *r, const json_place *object, const char *key, float minimum, float maximum,
-                   float *out, size_t count)
+void io_get_floats_in(io_reader *r, const json_place *object, const char *key, float minimum, float maximum,
+                      float *out, size_t count)
 {
-    if (!get_floats(r, object, key, out, count))
+    if (!io_get_floats(r, object, key, out, count))
         return;
     json_place at = get_member(object, key);
     for (size_t i = 0; i < count; i++) {
-        json_place element = get_element(&at, i);
+        json_place element = io_get_element(&at, i);
         out[i] = clamp_with_warning(r, &element, out[i], minimum, maximum);
     }
 }
 
 /* ---- others ---- */
 
-bool get_bool(reader *r, const json_place *object, const char *key, bool fallback)
+bool io_get_bool(io_reader *r, const json_place *object, const char *key, bool fallback)
 {
     json_place at = get_member(object, key);
     if (!at.value)
@@ -326,7 +311,7 @@ bool get_bool(reader *r, const json_place *object, const char *key, bool fallbac
     return json_is_true(at.value);
 }
 
-const char *get_string(reader *r, const json_place *object, const char *key, const char *fallback)
+const char *io_get_string(io_reader *r, const json_place *object, const char *key, const char *fallback)
 {
     json_place at = get_member(object, key);
     if (!at.value)
@@ -337,23 +322,23 @@ const char *get_string(reader *r, const json_place *object, const char *key, con
     }
     const char *string = json_string_value(at.value);
     if (strlen(string) != json_string_length(at.value)) {
-        reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "has a character 0 inside");
+        io_fail(r, &at, NULL, FACET_ERROR_INVALID, "has a character 0 inside");
         return fallback;
     }
     return string;
 }
 
-const char *get_name(reader *r, const json_place *object)
+const char *io_get_name(io_reader *r, const json_place *object)
 {
     json_place at = get_member(object, "name");
     if (!at.value)
         return "";
     if (!json_is_string(at.value)) {
-        reader_note(r, &at, NULL, "must be a string, but is %s", type_name(at.value));
+        io_note(r, &at, NULL, "must be a string, but is %s", type_name(at.value));
         return "";
     }
     char *copy = arena_strdup(r->scene->arena, json_string_value(at.value));
     if (!copy)
-        reader_fail_memory(r, "name", json_string_length(at.value));
+        io_fail_memory(r, "name", json_string_length(at.value));
     return copy ? copy : "";
 }

@@ -1,10 +1,10 @@
-/* json_messages.c - errors, warnings and notes of the readers of JSON, which say where; see gltf_reader.h. */
+/* json_messages.c - errors, warnings and notes of the readers of JSON, which say where; see json_reader.h. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/result.h"
-#include "io/gltf/gltf_reader.h"
+#include "io/json_reader.h"
 
 enum { PLACE_SIZE = 256, MAX_REMARKS = 256, KEY_SIZE = 32 };
 
@@ -21,7 +21,7 @@ static void append_place(char *text, const json_place *at)
         snprintf(text + length, PLACE_SIZE - length, "[%zu]", at->index);
 }
 
-static void format_message(char *out, size_t size, const reader *r, const json_place *at, const char *key,
+static void format_message(char *out, size_t size, const io_reader *r, const json_place *at, const char *key,
                            const char *format, va_list arguments)
 {
     char place[PLACE_SIZE] = "";
@@ -34,13 +34,13 @@ static void format_message(char *out, size_t size, const reader *r, const json_p
     snprintf(out, size, "%s: %s%s%s", r->scene->source, place, place[0] ? ": " : "", what);
 }
 
-bool reader_is_ok(const reader *r)
+bool io_is_ok(const io_reader *r)
 {
     return r->result == FACET_OK;
 }
 
-bool reader_fail(reader *r, const json_place *at, const char *key, facet_result result, const char *format,
-                 ...)
+bool io_fail(io_reader *r, const json_place *at, const char *key, facet_result result, const char *format,
+             ...)
 {
     if (r->result != FACET_OK)
         return false;
@@ -53,7 +53,7 @@ bool reader_fail(reader *r, const json_place *at, const char *key, facet_result 
     return false;
 }
 
-bool reader_fail_memory(reader *r, const char *what, size_t size)
+bool io_fail_memory(io_reader *r, const char *what, size_t size)
 {
     if (r->result == FACET_OK)
         r->result = fail_memory(r->error, what, size);
@@ -71,20 +71,20 @@ typedef struct remark {
     const char *text; /* the first one */
 } remark;
 
-struct reader_remarks {
+struct io_remarks {
     size_t count;
     remark all[MAX_REMARKS];
 };
 
-static void pass_on(reader *r, bool is_note, const char *message)
+static void pass_on(io_reader *r, bool is_note, const char *message)
 {
     (is_note ? scene_note : scene_warn)(r->scene, r->log, "%s", message);
 }
 
 /* Counts a remark. False: it is the first of its kind, and there is no room to keep it. */
-static bool count_remark(reader *r, bool is_note, const char *key, const char *format, const char *message)
+static bool count_remark(io_reader *r, bool is_note, const char *key, const char *format, const char *message)
 {
-    struct reader_remarks *list = r->remarks;
+    struct io_remarks *list = r->remarks;
     if (!list)
         return false;
     for (size_t i = 0; i < list->count; i++)
@@ -103,12 +103,12 @@ static bool count_remark(reader *r, bool is_note, const char *key, const char *f
     return true;
 }
 
-void reader_begin_remarks(reader *r)
+void io_begin_remarks(io_reader *r)
 {
     r->remarks = mem_zalloc(r->allocator, 1, sizeof *r->remarks);
 }
 
-void reader_end_remarks(reader *r)
+void io_end_remarks(io_reader *r)
 {
     for (size_t i = 0; r->remarks && i < r->remarks->count; i++) {
         const remark *of = &r->remarks->all[i];
@@ -123,7 +123,7 @@ void reader_end_remarks(reader *r)
     r->remarks = NULL;
 }
 
-static void add_remark(reader *r, bool is_note, bool is_counted, const json_place *at, const char *key,
+static void add_remark(io_reader *r, bool is_note, bool is_counted, const json_place *at, const char *key,
                        const char *format, va_list arguments)
 {
     char message[1024];
@@ -132,7 +132,7 @@ static void add_remark(reader *r, bool is_note, bool is_counted, const json_plac
         pass_on(r, is_note, message);
 }
 
-void reader_warn(reader *r, const json_place *at, const char *key, const char *format, ...)
+void io_warn(io_reader *r, const json_place *at, const char *key, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -140,7 +140,7 @@ void reader_warn(reader *r, const json_place *at, const char *key, const char *f
     va_end(arguments);
 }
 
-void reader_note(reader *r, const json_place *at, const char *key, const char *format, ...)
+void io_note(io_reader *r, const json_place *at, const char *key, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -148,7 +148,7 @@ void reader_note(reader *r, const json_place *at, const char *key, const char *f
     va_end(arguments);
 }
 
-void reader_warn_each(reader *r, const json_place *at, const char *key, const char *format, ...)
+void io_warn_each(io_reader *r, const json_place *at, const char *key, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -156,7 +156,7 @@ void reader_warn_each(reader *r, const json_place *at, const char *key, const ch
     va_end(arguments);
 }
 
-void reader_note_each(reader *r, const json_place *at, const char *key, const char *format, ...)
+void io_note_each(io_reader *r, const json_place *at, const char *key, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -166,13 +166,13 @@ void reader_note_each(reader *r, const json_place *at, const char *key, const ch
 
 /* ---- parts that an image may do without ---- */
 
-static bool is_of_the_part(const reader *r)
+static bool is_of_the_part(const io_reader *r)
 {
     return r->result != FACET_OK && r->result != FACET_ERROR_MEMORY && r->result != FACET_ERROR_LIMIT &&
            r->error;
 }
 
-bool reader_leave_out(reader *r, const char *consequence)
+bool io_leave_out(io_reader *r, const char *consequence)
 {
     char message[1088];
     if (!is_of_the_part(r))
@@ -184,7 +184,7 @@ bool reader_leave_out(reader *r, const char *consequence)
     return true;
 }
 
-bool reader_defer(reader *r, reader_problem *problem)
+bool io_defer(io_reader *r, io_problem *problem)
 {
     if (!is_of_the_part(r))
         return false;
@@ -192,11 +192,11 @@ bool reader_defer(reader *r, reader_problem *problem)
     r->result = FACET_OK;
     problem->message = arena_strdup(r->scene->arena, r->error->message);
     if (!problem->message)
-        reader_fail_memory(r, "message", strlen(r->error->message));
+        io_fail_memory(r, "message", strlen(r->error->message));
     return true;
 }
 
-bool reader_fail_deferred(reader *r, reader_problem *problem)
+bool io_fail_deferred(io_reader *r, io_problem *problem)
 {
     problem->is_told = true;
     if (r->result == FACET_OK)
@@ -204,7 +204,7 @@ bool reader_fail_deferred(reader *r, reader_problem *problem)
     return false;
 }
 
-void reader_warn_deferred(reader *r, reader_problem *problem)
+void io_warn_deferred(io_reader *r, io_problem *problem)
 {
     static const char consequence[] = "nothing that is drawn uses it";
     char message[1088];

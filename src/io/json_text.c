@@ -1,10 +1,10 @@
-/* json_text.c - JSON text as a tree, also where exporters wrote it in another encoding than UTF-8; see gltf_reader.h. */
+/* json_text.c - JSON text as a tree, also where exporters wrote it in another encoding than UTF-8; see json_reader.h. */
 #include <string.h>
 
 #include "base/utf8.h"
-#include "io/gltf/gltf_reader.h"
+#include "io/json_reader.h"
 
-size_t json_memory_estimate(const char *text, size_t size)
+size_t io_json_memory_estimate(const char *text, size_t size)
 {
     size_t memory = size;
     for (size_t i = 0; i < size; i++)
@@ -85,25 +85,25 @@ static size_t mend(const char *text, size_t size, bool has_pairs, char *out, siz
 }
 
 /* Parses mended text; NULL: there was nothing to mend (*error stays), it is still no JSON, or (recorded) no memory. */
-static json_t *parse_mended(reader *r, const char *text, size_t size, bool has_pairs, json_error_t *error)
+static json_t *parse_mended(io_reader *r, const char *text, size_t size, bool has_pairs, json_error_t *error)
 {
     size_t mends;
     json_t *json = NULL;
     char *mended = mem_alloc(r->allocator, size, 2);
     if (!mended) {
-        reader_fail_memory(r, "JSON", 2 * size);
+        io_fail_memory(r, "JSON", 2 * size);
         return NULL;
     }
     size_t length = mend(text, size, has_pairs, mended, &mends);
     if (mends)
         json = json_loadb(mended, length, JSON_ALLOW_NUL, error);
     if (json)
-        reader_warn(r, NULL, NULL, "has text that is not UTF-8; its bytes are taken as Latin-1");
+        io_warn(r, NULL, NULL, "has text that is not UTF-8; its bytes are taken as Latin-1");
     mem_free(mended);
     return json;
 }
 
-json_t *reader_parse(reader *r, const char *text, size_t size)
+json_t *io_parse_json(io_reader *r, const char *text, size_t size)
 {
     json_error_t error;
     json_error_t second;
@@ -111,17 +111,17 @@ json_t *reader_parse(reader *r, const char *text, size_t size)
     if (!json && json_error_code(&error) == json_error_numeric_overflow) { /* an id of 64 bits in extras */
         json = json_loadb(text, size, JSON_ALLOW_NUL | JSON_DECODE_INT_AS_REAL, &error);
         if (json)
-            reader_note(r, NULL, NULL, "has whole numbers beyond 2^63; they are rounded");
+            io_note(r, NULL, NULL, "has whole numbers beyond 2^63; they are rounded");
     }
     if (!json && json_error_code(&error) != json_error_out_of_memory) {
         json = parse_mended(r, text, size, false, &error);
-        if (!json && reader_is_ok(r))
+        if (!json && io_is_ok(r))
             json = parse_mended(r, text, size, true, &second);
     }
     if (!json && json_error_code(&error) == json_error_out_of_memory)
-        reader_fail_memory(r, "JSON", size);
+        io_fail_memory(r, "JSON", size);
     else if (!json)
-        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is not valid JSON: line %d, column %d: %s",
-                    error.line, error.column, error.text);
+        io_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is not valid JSON: line %d, column %d: %s", error.line,
+                error.column, error.text);
     return json;
 }

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "io/file_alike.h"
-#include "io/gltf/gltf_reader.h"
+#include "io/json_reader.h"
 
 static bool uri_fail(uri_bytes *out, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -79,7 +79,7 @@ static bool decode_base64(const char *text, size_t length, unsigned char *out, s
     return true;
 }
 
-static bool load_data_uri(reader *r, const char *uri, uri_bytes *out)
+static bool load_data_uri(io_reader *r, const char *uri, uri_bytes *out)
 {
     const char *comma = strchr(uri, ',');
     if (!comma || comma - uri < 7 || strncmp(comma - 7, ";base64", 7) != 0)
@@ -298,7 +298,7 @@ bool file_scope_open(const file_scope *scope, const char *name, const char *show
            (out->result == FACET_ERROR_READ && open_otherwise(scope, name, shown, out));
 }
 
-static bool open_below(reader *r, const char *name, const char *uri, uri_bytes *out)
+static bool open_below(io_reader *r, const char *name, const char *uri, uri_bytes *out)
 {
     const file_scope scope = {.scene = r->scene,
                               .allocator = r->allocator,
@@ -309,7 +309,7 @@ static bool open_below(reader *r, const char *name, const char *uri, uri_bytes *
     return file_scope_open(&scope, name, uri, out);
 }
 
-bool load_uri(reader *r, const char *uri, uri_bytes *out)
+bool io_load_uri(io_reader *r, const char *uri, uri_bytes *out)
 {
     *out = (uri_bytes){0};
     if (strncmp(uri, "data:", 5) == 0)

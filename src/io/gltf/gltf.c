@@ -9,16 +9,16 @@
 
 /* ---- JSON ---- */
 
-static json_t *parse(reader *r, const char *text, size_t size)
+static json_t *parse(io_reader *r, const char *text, size_t size)
 {
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) {
-        reader_note(r, NULL, NULL, "begins with a byte order mark, which glTF does not allow");
+        io_note(r, NULL, NULL, "begins with a byte order mark, which glTF does not allow");
         text += 3;
         size -= 3;
     }
-    json_t *json = reader_parse(r, text, size);
+    json_t *json = io_parse_json(r, text, size);
     if (json && !json_is_object(json))
-        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "must be a JSON object");
+        io_fail(r, NULL, NULL, FACET_ERROR_INVALID, "must be a JSON object");
     return json;
 }
 
@@ -31,57 +31,56 @@ static bool parse_version(const char *text, unsigned *major, unsigned *minor)
            used > 0 && text[used] == 0 && strspn(text, "0123456789.") == strlen(text);
 }
 
-static const char *copy_string(reader *r, const json_place *object, const char *key)
+static const char *copy_string(io_reader *r, const json_place *object, const char *key)
 {
-    const char *string = get_string(r, object, key, "");
-    if (reader_leave_out(r, "it is not kept"))
+    const char *string = io_get_string(r, object, key, "");
+    if (io_leave_out(r, "it is not kept"))
         string = "";
     char *copy = arena_strdup(r->scene->arena, string);
     if (!copy)
-        reader_fail_memory(r, key, 0);
+        io_fail_memory(r, key, 0);
     return copy ? copy : "";
 }
 
-static void read_asset(reader *r, const json_place *root)
+static void read_asset(io_reader *r, const json_place *root)
 {
-    json_place asset = get_object(r, root, "asset");
-    const char *version = get_string(r, &asset, "version", NULL);
-    const char *minimum = reader_is_ok(r) ? get_string(r, &asset, "minVersion", NULL) : NULL;
+    json_place asset = io_get_object(r, root, "asset");
+    const char *version = io_get_string(r, &asset, "version", NULL);
+    const char *minimum = io_is_ok(r) ? io_get_string(r, &asset, "minVersion", NULL) : NULL;
     if (version)
-        reader_leave_out(r, "it does not count");
+        io_leave_out(r, "it does not count");
     unsigned major = 0;
     unsigned minor = 0;
-    if (!reader_is_ok(r))
+    if (!io_is_ok(r))
         return;
     if (!version) {
-        reader_fail(r, &asset, "version", FACET_ERROR_INVALID, "is missing; this is no glTF 2.0 file");
+        io_fail(r, &asset, "version", FACET_ERROR_INVALID, "is missing; this is no glTF 2.0 file");
         return;
     }
     bool is_2 = version[0] == '2' && version[1] != '0' && strspn(version + 1, ".0") == strlen(version + 1);
     if (is_2 && !parse_version(version, &major, &minor)) { /* "2", "2.0.0" */
-        reader_note(r, &asset, "version", "\"%.40s\" is no version, as \"2.0\" is", version);
+        io_note(r, &asset, "version", "\"%.40s\" is no version, as \"2.0\" is", version);
         major = 2;
         minor = 0;
     } else if (!parse_version(version, &major, &minor)) {
-        reader_fail(r, &asset, "version", FACET_ERROR_INVALID, "\"%.40s\" is no version, as \"2.0\" is",
-                    version);
+        io_fail(r, &asset, "version", FACET_ERROR_INVALID, "\"%.40s\" is no version, as \"2.0\" is", version);
         return;
     }
     if (major != 2) {
-        reader_fail(r, &asset, "version", FACET_ERROR_UNSUPPORTED, "is glTF %u.%u; only glTF 2.0 is read",
-                    major, minor);
+        io_fail(r, &asset, "version", FACET_ERROR_UNSUPPORTED, "is glTF %u.%u; only glTF 2.0 is read", major,
+                minor);
         return;
     }
     if (minor != 0)
-        reader_warn(r, &asset, "version", "is glTF %u.%u; it is read as glTF 2.0", major, minor);
+        io_warn(r, &asset, "version", "is glTF %u.%u; it is read as glTF 2.0", major, minor);
     if (minimum && !parse_version(minimum, &major, &minor))
-        reader_note(r, &asset, "minVersion", "\"%.40s\" is no version", minimum);
+        io_note(r, &asset, "minVersion", "\"%.40s\" is no version", minimum);
     else if (minimum && (major > 2 || minor > 0))
-        reader_fail(r, &asset, "minVersion", FACET_ERROR_UNSUPPORTED,
-                    "asks for a reader of glTF %u.%u; facet "
-                    "reads 2.0",
-                    major, minor);
-    if (!reader_is_ok(r))
+        io_fail(r, &asset, "minVersion", FACET_ERROR_UNSUPPORTED,
+                "asks for a reader of glTF %u.%u; facet "
+                "reads 2.0",
+                major, minor);
+    if (!io_is_ok(r))
         return;
     r->scene->version = copy_string(r, &asset, "version");
     r->scene->generator = copy_string(r, &asset, "generator");
@@ -90,52 +89,53 @@ static void read_asset(reader *r, const json_place *root)
 
 /* ---- the file ---- */
 
-static void read_document(reader *r)
+static void read_document(io_reader *r)
 {
     const json_place root = {.value = r->json};
     read_asset(r, &root);
-    if (reader_is_ok(r))
-        read_extensions(r, &root);
-    void (*const concerns[])(reader *, const json_place *) = {
-        read_buffers,  read_views,  read_accessors, read_images,       read_textures, read_materials,
-        read_variants, read_meshes, read_lights,    read_image_lights, read_cameras,  read_nodes,
-        read_scenes,   read_center, read_skins,     read_animations,   read_meta,     read_legacy_extras,
+    if (io_is_ok(r))
+        gltf_read_extensions(r, &root);
+    void (*const concerns[])(io_reader *, const json_place *) = {
+        gltf_read_buffers,  gltf_read_views,         gltf_read_accessors, gltf_read_images,
+        gltf_read_textures, gltf_read_materials,     gltf_read_variants,  gltf_read_meshes,
+        gltf_read_lights,   gltf_read_image_lights,  gltf_read_cameras,   gltf_read_nodes,
+        gltf_read_scenes,   gltf_read_center,        gltf_read_skins,     gltf_read_animations,
+        gltf_read_meta,     gltf_read_legacy_extras,
     };
-    for (size_t i = 0; i < sizeof concerns / sizeof *concerns && reader_is_ok(r); i++)
+    for (size_t i = 0; i < sizeof concerns / sizeof *concerns && io_is_ok(r); i++)
         concerns[i](r, &root);
-    if (reader_is_ok(r))
-        check_unused_parts(r);
+    if (io_is_ok(r))
+        gltf_check_unused_parts(r);
 }
 
-static void read_bytes(reader *r, const unsigned char *bytes, size_t size)
+static void read_bytes(io_reader *r, const unsigned char *bytes, size_t size)
 {
     const char *json = (const char *)bytes;
     size_t json_size = size;
     bool is_glb = size >= 4 && memcmp(bytes, "glTF", 4) == 0;
     if (size == 0) {
-        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is empty");
+        io_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is empty");
         return;
     }
-    if (is_glb && !split_glb(r, bytes, size, &json, &json_size))
+    if (is_glb && !gltf_split_glb(r, bytes, size, &json, &json_size))
         return;
     size_t at = json_size >= 3 && memcmp(json, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     while (at < json_size && strchr(" \t\r\n", json[at]) && json[at])
         at++;
     if (!is_glb && (at == json_size || json[at] != '{')) {
-        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID,
-                    "is neither a .glb file nor the JSON of a .gltf file");
+        io_fail(r, NULL, NULL, FACET_ERROR_INVALID, "is neither a .glb file nor the JSON of a .gltf file");
         return;
     }
-    size_t estimate = json_memory_estimate(json, json_size);
+    size_t estimate = io_json_memory_estimate(json, json_size);
     void *reserve = mem_alloc(r->allocator, estimate, 1);
     if (!reserve) {
-        reader_fail_memory(r, "JSON", estimate);
+        io_fail_memory(r, "JSON", estimate);
         return;
     }
     r->json = parse(r, json, json_size);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         read_document(r);
-    release_draco(r);
+    gltf_release_draco(r);
     json_decref(r->json);
     r->json = NULL;
     mem_free(reserve);
@@ -157,17 +157,19 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
         scene_destroy(scene);
         return fail_memory(error, "files", sizeof *file);
     }
-    reader r = {.scene = scene,
-                .allocator = &desc->allocator,
-                .log = &desc->log,
-                .error = error,
-                .thread_count = desc->thread_count,
-                .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
-                .folder = folder,
-                .root = desc->root};
-    reader_begin_remarks(&r);
+    gltf_tables tables = {0};
+    io_reader r = {.scene = scene,
+                   .gltf = &tables,
+                   .allocator = &desc->allocator,
+                   .log = &desc->log,
+                   .error = error,
+                   .thread_count = desc->thread_count,
+                   .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
+                   .folder = folder,
+                   .root = desc->root};
+    io_begin_remarks(&r);
     read_bytes(&r, bytes, size);
-    reader_end_remarks(&r);
+    io_end_remarks(&r);
     if (r.result != FACET_OK) {
         scene_destroy(scene);
         return r.result;

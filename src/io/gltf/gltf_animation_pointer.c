@@ -99,7 +99,7 @@ static const char *resolve_weights(const facet_scene *scene, const pointer_path 
     return NULL;
 }
 
-static const char *resolve_mesh(reader *r, const pointer_path *p, gltf_target *out)
+static const char *resolve_mesh(io_reader *r, const pointer_path *p, gltf_target *out)
 {
     uint32_t index;
     if (!get_number(p, 1, r->scene->mesh_count, &index))
@@ -113,7 +113,7 @@ static const char *resolve_mesh(reader *r, const pointer_path *p, gltf_target *o
 
 /* ---- nodes ---- */
 
-static const char *resolve_node(reader *r, const pointer_path *p, gltf_target *out)
+static const char *resolve_node(io_reader *r, const pointer_path *p, gltf_target *out)
 {
     static const struct {
         const char *name;
@@ -124,7 +124,7 @@ static const char *resolve_node(reader *r, const pointer_path *p, gltf_target *o
                    {"scale", offsetof(scene_node, scale), 3}};
     static const char *const visible[] = {"extensions", "KHR_node_visibility", "visible"};
     uint32_t index;
-    if (!get_number(p, 1, r->file_node_count, &index))
+    if (!get_number(p, 1, r->gltf->file_node_count, &index))
         return "names a node that is not there";
     if (p->count >= 3 && strcmp(p->tokens[2], "weights") == 0)
         return resolve_weights(r->scene, p, index, r->scene->nodes[index].mesh, out);
@@ -214,7 +214,7 @@ static const char *resolve_transform(const scene_material *m, const pointer_path
     return NOTHING;
 }
 
-static const char *resolve_material(reader *r, const pointer_path *p, gltf_target *out)
+static const char *resolve_material(io_reader *r, const pointer_path *p, gltf_target *out)
 {
     static const material_texture diffuse = {SCENE_SPECULAR_GLOSSINESS, "KHR_materials_pbrSpecularGlossiness",
                                              "diffuseTexture", true};
@@ -231,7 +231,7 @@ static const char *resolve_material(reader *r, const pointer_path *p, gltf_targe
 
 /* ---- lights and cameras ---- */
 
-static const char *resolve_light(reader *r, const pointer_path *p, gltf_target *out)
+static const char *resolve_light(io_reader *r, const pointer_path *p, gltf_target *out)
 {
     static const struct {
         const char *object, *name;
@@ -257,7 +257,7 @@ static const char *resolve_light(reader *r, const pointer_path *p, gltf_target *
     return NOTHING;
 }
 
-static const char *resolve_camera(reader *r, const pointer_path *p, gltf_target *out)
+static const char *resolve_camera(io_reader *r, const pointer_path *p, gltf_target *out)
 {
     static const struct {
         const char *object, *name;
@@ -289,7 +289,7 @@ static const char *resolve_camera(reader *r, const pointer_path *p, gltf_target 
 
 /* ---- the pointer ---- */
 
-static const char *resolve_tokens(reader *r, const pointer_path *p, gltf_target *out)
+static const char *resolve_tokens(io_reader *r, const pointer_path *p, gltf_target *out)
 {
     if (strcmp(p->tokens[0], "nodes") == 0)
         return resolve_node(r, p, out);
@@ -305,7 +305,7 @@ static const char *resolve_tokens(reader *r, const pointer_path *p, gltf_target 
     return NOTHING;
 }
 
-const char *resolve_pointer(reader *r, const char *pointer, gltf_target *out)
+const char *gltf_resolve_pointer(io_reader *r, const char *pointer, gltf_target *out)
 {
     pointer_path path;
     *out = (gltf_target){0};
@@ -316,6 +316,6 @@ const char *resolve_pointer(reader *r, const char *pointer, gltf_target *out)
         return message;
     out->channel.pointer = arena_strdup(r->scene->arena, pointer);
     if (!out->channel.pointer)
-        reader_fail_memory(r, "animation", strlen(pointer));
+        io_fail_memory(r, "animation", strlen(pointer));
     return out->channel.pointer ? NULL : NOTHING;
 }

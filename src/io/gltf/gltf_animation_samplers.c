@@ -46,18 +46,18 @@ static uint32_t order_keys(const float *times, uint32_t count, key *out)
 }
 
 /* Replaces the keys of a sampler, which do not increase, by those of them that do. */
-static bool repair_times(reader *r, const json_place *at, scene_sampler *s)
+static bool repair_times(io_reader *r, const json_place *at, scene_sampler *s)
 {
     size_t width = (size_t)s->width * (s->interpolation == SCENE_CUBIC_SPLINE ? 3 : 1);
     key *keys = mem_alloc(r->allocator, s->key_count, sizeof *keys);
     if (!keys)
-        return reader_fail_memory(r, "animation", s->key_count * sizeof *keys);
+        return io_fail_memory(r, "animation", s->key_count * sizeof *keys);
     uint32_t count = order_keys(s->times, s->key_count, keys);
-    reader_warn(r, at, "input", "does not increase strictly; %u of %u keys are used in their order", count,
-                s->key_count);
-    float *times = reader_alloc_raw(r, "animation", count, sizeof *times);
-    float *values = reader_alloc_raw(r, "animation", count, width * sizeof *values);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+    io_warn(r, at, "input", "does not increase strictly; %u of %u keys are used in their order", count,
+            s->key_count);
+    float *times = io_alloc_raw(r, "animation", count, sizeof *times);
+    float *values = io_alloc_raw(r, "animation", count, width * sizeof *values);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
         times[i] = keys[i].time;
         memcpy(values + width * i, s->values + width * keys[i].index, width * sizeof *values);
     }
@@ -65,7 +65,7 @@ static bool repair_times(reader *r, const json_place *at, scene_sampler *s)
     s->key_count = count;
     s->times = times;
     s->values = values;
-    return reader_is_ok(r) && count > 0;
+    return io_is_ok(r) && count > 0;
 }
 
 /* ---- rotations ---- */
@@ -81,7 +81,7 @@ static double length_of(const float q[4])
 }
 
 /* Makes the rotations of a sampler unit; tangents of splines shrink with them. */
-static bool repair_rotations(reader *r, const json_place *at, scene_sampler *s)
+static bool repair_rotations(io_reader *r, const json_place *at, scene_sampler *s)
 {
     bool is_cubic = s->interpolation == SCENE_CUBIC_SPLINE;
     size_t step = is_cubic ? 12 : 4;
@@ -90,14 +90,14 @@ static bool repair_rotations(reader *r, const json_place *at, scene_sampler *s)
         is_unit &= fabs(length_of(s->values + step * i + (is_cubic ? 4 : 0)) - 1.0) <= UNIT_TOLERANCE;
     if (is_unit)
         return true;
-    float *values = reader_alloc_raw(r, "animation", s->key_count, step * sizeof *values);
+    float *values = io_alloc_raw(r, "animation", s->key_count, step * sizeof *values);
     if (!values)
         return false;
     memcpy(values, s->values, s->key_count * step * sizeof *values);
     size_t far_off = 0;
     for (size_t i = 0; i < s->key_count; i++) {
         float *q = values + step * i + (is_cubic ? 4 : 0);
-        double length = normalise_rotation(q);
+        double length = gltf_normalize_rotation(q);
         far_off += fabs(length - 1.0) <= FAR_OFF ? 0u : 1u;
         for (int k = 0; is_cubic && length > 0.0 && k < 4; k++) {
             q[k - 4] = (float)((double)q[k - 4] / length);
@@ -105,57 +105,56 @@ static bool repair_rotations(reader *r, const json_place *at, scene_sampler *s)
         }
     }
     if (far_off)
-        reader_warn(r, at, "output", "has %zu rotations that are not of length 1", far_off);
+        io_warn(r, at, "output", "has %zu rotations that are not of length 1", far_off);
     s->values = values;
     return true;
 }
 
 /* ---- samplers ---- */
 
-void check_animation_sampler(reader *r, const json_place *at)
+void gltf_check_animation_sampler(io_reader *r, const json_place *at)
 {
     static const char *const keys[2] = {"input", "output"};
     for (int i = 0; i < 2; i++) {
-        uint32_t index = get_required_accessor(r, at, keys[i]);
+        uint32_t index = gltf_get_required_accessor(r, at, keys[i]);
         if (index == SCENE_NONE)
             return;
-        const gltf_accessor *a = &r->accessors[index];
-        if (a->view != SCENE_NONE && r->views[a->view].stride)
-            reader_note(r, at, keys[i], "accessor %u is in a buffer view with byteStride", index);
+        const gltf_accessor *a = &r->gltf->accessors[index];
+        if (a->view != SCENE_NONE && r->gltf->views[a->view].stride)
+            io_note(r, at, keys[i], "accessor %u is in a buffer view with byteStride", index);
     }
 }
 
-static scene_interpolation get_interpolation(reader *r, const json_place *at)
+static scene_interpolation get_interpolation(io_reader *r, const json_place *at)
 {
     static const char *const names[] = {
         [SCENE_STEP] = "STEP", [SCENE_LINEAR] = "LINEAR", [SCENE_CUBIC_SPLINE] = "CUBICSPLINE"};
-    const char *name = get_string(r, at, "interpolation", "LINEAR");
-    if (reader_leave_out(r, "LINEAR is used"))
+    const char *name = io_get_string(r, at, "interpolation", "LINEAR");
+    if (io_leave_out(r, "LINEAR is used"))
         return SCENE_LINEAR;
     for (int i = 0; i < 3; i++)
         if (strcmp(name, names[i]) == 0)
             return (scene_interpolation)i;
-    reader_warn(r, at, "interpolation", "\"%.40s\" is none of LINEAR, STEP, CUBICSPLINE; LINEAR is used",
-                name);
+    io_warn(r, at, "interpolation", "\"%.40s\" is none of LINEAR, STEP, CUBICSPLINE; LINEAR is used", name);
     return SCENE_LINEAR;
 }
 
 /* The keys as the file has them. False: an error is recorded, or a warning says what is wrong with them. */
-static bool read_sampler(reader *r, const json_place *at, scene_sampler *out)
+static bool read_sampler(io_reader *r, const json_place *at, scene_sampler *out)
 {
-    uint32_t input = get_required_accessor(r, at, "input");
-    uint32_t output = get_required_accessor(r, at, "output");
-    if (!reader_is_ok(r))
+    uint32_t input = gltf_get_required_accessor(r, at, "input");
+    uint32_t output = gltf_get_required_accessor(r, at, "output");
+    if (!io_is_ok(r))
         return false;
-    const gltf_accessor *times = &r->accessors[input];
-    const gltf_accessor *values = &r->accessors[output];
+    const gltf_accessor *times = &r->gltf->accessors[input];
+    const gltf_accessor *values = &r->gltf->accessors[output];
     if (times->type != GLTF_SCALAR || times->component != GLTF_F32) {
-        reader_warn(r, at, "input", "accessor %u must have SCALAR elements of floats; nothing moves by it",
-                    input);
+        io_warn(r, at, "input", "accessor %u must have SCALAR elements of floats; nothing moves by it",
+                input);
         return false;
     }
-    if (!has_accessor_source(r, input) || !has_accessor_source(r, output)) {
-        reader_warn(r, at, NULL, "is in a buffer without bytes; nothing moves by it");
+    if (!gltf_has_accessor_source(r, input) || !gltf_has_accessor_source(r, output)) {
+        io_warn(r, at, NULL, "is in a buffer without bytes; nothing moves by it");
         return false;
     }
     *out = (scene_sampler){.interpolation = get_interpolation(r, at), .key_count = times->count};
@@ -163,28 +162,28 @@ static bool read_sampler(reader *r, const json_place *at, scene_sampler *out)
     uint64_t per_element = out->interpolation == SCENE_CUBIC_SPLINE ? 3 : 1;
     uint64_t keys = per_element * out->key_count;
     if (keys == 0 || values->count < keys || values->count % keys != 0) {
-        reader_warn(r, at, "output",
-                    "accessor %u has %u elements, which is no multiple of %llu as %u keys need it; nothing "
-                    "moves by it",
-                    output, values->count, (unsigned long long)keys, out->key_count);
+        io_warn(r, at, "output",
+                "accessor %u has %u elements, which is no multiple of %llu as %u keys need it; nothing "
+                "moves by it",
+                output, values->count, (unsigned long long)keys, out->key_count);
         return false;
     }
-    if (!reader_spend(r, at, out->key_count + (uint64_t)values->count))
+    if (!io_spend(r, at, out->key_count + (uint64_t)values->count))
         return false;
-    out->times = get_accessor_floats(r, at, input);
-    out->values = get_finite(r, at, output, "values");
+    out->times = gltf_get_accessor_floats(r, at, input);
+    out->values = gltf_get_finite(r, at, output, "values");
     out->width =
         (uint32_t)(values->count / keys) * gltf_component_counts[values->type]; /* below 2^30 by now */
     return out->times && out->values;
 }
 
-bool read_animation_sampler(reader *r, const json_place *at, bool is_rotation, scene_sampler *out)
+bool gltf_read_animation_sampler(io_reader *r, const json_place *at, bool is_rotation, scene_sampler *out)
 {
     if (!read_sampler(r, at, out))
         return false;
     if (!is_increasing(out->times, out->key_count) && !repair_times(r, at, out))
         return false;
     if (out->times[0] < 0.0f)
-        reader_note(r, at, "input", "begins before 0 s");
+        io_note(r, at, "input", "begins before 0 s");
     return !is_rotation || out->width != 4 || repair_rotations(r, at, out);
 }

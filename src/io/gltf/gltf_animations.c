@@ -26,15 +26,15 @@ static const uint32_t USELESS = UINT32_MAX - 1; /* a warning said why */
 /* ---- samplers ---- */
 
 /* The number in the scene of a sampler of the file, or USELESS. */
-static uint32_t get_sampler(reader *r, animation_reader *a, uint32_t index, bool is_rotation)
+static uint32_t get_sampler(io_reader *r, animation_reader *a, uint32_t index, bool is_rotation)
 {
     uint32_t *number = &a->numbers[index][is_rotation];
     if (*number != NOT_YET)
         return *number;
-    json_place at = get_element_object(r, &a->samplers, index);
+    json_place at = io_get_element_object(r, &a->samplers, index);
     scene_sampler *out = &a->made[a->made_count];
     *number = USELESS;
-    if (!read_animation_sampler(r, &at, is_rotation, out))
+    if (!gltf_read_animation_sampler(r, &at, is_rotation, out))
         return USELESS;
     *number = a->made_count++;
     return *number;
@@ -42,18 +42,18 @@ static uint32_t get_sampler(reader *r, animation_reader *a, uint32_t index, bool
 
 /* ---- channels ---- */
 
-static void add_channel(reader *r, animation_reader *a, const scene_channel *channel)
+static void add_channel(io_reader *r, animation_reader *a, const scene_channel *channel)
 {
     if (!mem_reserve(r->allocator, (void **)&a->channels, &a->channel_capacity, a->channel_count + 1,
                      sizeof *a->channels)) {
-        reader_fail_memory(r, "animation", a->channel_count * sizeof *a->channels);
+        io_fail_memory(r, "animation", a->channel_count * sizeof *a->channels);
         return;
     }
     a->channels[a->channel_count++] = *channel;
 }
 
 /* What node and path name. False: nothing that moves; a warning says so where it is not as the specification asks. */
-static bool find_core_target(reader *r, const json_place *target, const char *path, gltf_target *out)
+static bool find_core_target(io_reader *r, const json_place *target, const char *path, gltf_target *out)
 {
     static const struct {
         const char *path;
@@ -64,12 +64,12 @@ static bool find_core_target(reader *r, const json_place *target, const char *pa
                  {"rotation", SCENE_TARGET_NODE, 4, offsetof(scene_node, rotation)},
                  {"scale", SCENE_TARGET_NODE, 3, offsetof(scene_node, scale)},
                  {"weights", SCENE_TARGET_WEIGHTS, 0, 0}};
-    uint32_t node = get_index(r, target, "node", r->file_node_count, "node");
+    uint32_t node = io_get_index(r, target, "node", r->gltf->file_node_count, "node");
     size_t i = 0;
     while (i < 4 && strcmp(path, paths[i].path) != 0)
         i++;
     if (i == 4)
-        reader_warn(r, target, "path", "\"%.40s\" is nothing that moves", path);
+        io_warn(r, target, "path", "\"%.40s\" is nothing that moves", path);
     if (i == 4 || node == SCENE_NONE)
         return false;
     *out = (gltf_target){.channel = {.kind = paths[i].kind,
@@ -83,39 +83,39 @@ static bool find_core_target(reader *r, const json_place *target, const char *pa
     uint32_t mesh = r->scene->nodes[node].mesh;
     out->width = mesh == SCENE_NONE ? 0 : r->scene->meshes[mesh].weight_count;
     if (mesh == SCENE_NONE)
-        reader_warn(r, target, NULL, "asks for weights of node %u, which has no mesh", node);
+        io_warn(r, target, NULL, "asks for weights of node %u, which has no mesh", node);
     else if (out->width == 0)
-        reader_warn(r, target, NULL, "asks for weights of node %u, whose mesh has no morph targets", node);
+        io_warn(r, target, NULL, "asks for weights of node %u, whose mesh has no morph targets", node);
     return out->width > 0;
 }
 
-static bool find_pointed_target(reader *r, const json_place *target, gltf_target *out)
+static bool find_pointed_target(io_reader *r, const json_place *target, gltf_target *out)
 {
-    json_place extension = get_extension(r, target, "KHR_animation_pointer");
-    const char *pointer = get_string(r, &extension, "pointer", NULL);
-    if (!reader_is_ok(r))
+    json_place extension = io_get_extension(r, target, "KHR_animation_pointer");
+    const char *pointer = io_get_string(r, &extension, "pointer", NULL);
+    if (!io_is_ok(r))
         return false;
     if (!pointer) {
-        reader_warn(r, target, "path", "is \"pointer\", but there is none");
+        io_warn(r, target, "path", "is \"pointer\", but there is none");
         return false;
     }
-    if (has_member(target, "node"))
-        reader_note(r, target, "node", "is there beside a pointer; it is ignored");
-    const char *message = resolve_pointer(r, pointer, out);
-    if (message && reader_is_ok(r))
-        reader_warn(r, &extension, "pointer", "\"%.200s\" %s; it is ignored", pointer, message);
+    if (io_has_member(target, "node"))
+        io_note(r, target, "node", "is there beside a pointer; it is ignored");
+    const char *message = gltf_resolve_pointer(r, pointer, out);
+    if (message && io_is_ok(r))
+        io_warn(r, &extension, "pointer", "\"%.200s\" %s; it is ignored", pointer, message);
     return !message;
 }
 
 /* Weights of a mesh are those of every node that has it and no weights of its own: a channel for each, as a file
  * without pointers would have them. */
-static void add_mesh_channels(reader *r, animation_reader *a, const scene_channel *channel, uint32_t width)
+static void add_mesh_channels(io_reader *r, animation_reader *a, const scene_channel *channel, uint32_t width)
 {
     const facet_scene *scene = r->scene;
-    if (!reader_spend(r, NULL, scene->node_count))
+    if (!io_spend(r, NULL, scene->node_count))
         return;
     bool is_whole = channel->offset == 0 && width == scene->meshes[channel->index].weight_count;
-    for (uint32_t i = 0; i < scene->node_count && reader_is_ok(r); i++) {
+    for (uint32_t i = 0; i < scene->node_count && io_is_ok(r); i++) {
         if (scene->nodes[i].mesh != channel->index || scene->nodes[i].weights)
             continue;
         char pointer[64];
@@ -124,25 +124,25 @@ static void add_mesh_channels(reader *r, animation_reader *a, const scene_channe
         own.index = i;
         own.pointer = is_whole ? NULL : arena_strdup(scene->arena, pointer);
         if (!is_whole && !own.pointer)
-            reader_fail_memory(r, "animation", sizeof pointer);
+            io_fail_memory(r, "animation", sizeof pointer);
         add_channel(r, a, &own);
     }
 }
 
 /* Copies of a node, which has several parents, move with it. */
-static void add_node_channels(reader *r, animation_reader *a, const scene_channel *channel)
+static void add_node_channels(io_reader *r, animation_reader *a, const scene_channel *channel)
 {
     add_channel(r, a, channel);
     if (channel->kind != SCENE_TARGET_NODE && channel->kind != SCENE_TARGET_WEIGHTS &&
         channel->kind != SCENE_TARGET_VISIBLE)
         return;
     const char *rest = channel->pointer ? strchr(channel->pointer + strlen("/nodes/"), '/') : NULL;
-    for (uint32_t i = next_node_copy(r, channel->index); i != SCENE_NONE && reader_spend(r, NULL, 1);
-         i = next_node_copy(r, i)) {
+    for (uint32_t i = gltf_next_node_copy(r, channel->index); i != SCENE_NONE && io_spend(r, NULL, 1);
+         i = gltf_next_node_copy(r, i)) {
         scene_channel own = *channel;
         own.index = i;
         if (rest) {
-            char *pointer = reader_alloc_raw(r, "animation", strlen(rest) + sizeof "/nodes/4294967295", 1);
+            char *pointer = io_alloc_raw(r, "animation", strlen(rest) + sizeof "/nodes/4294967295", 1);
             if (!pointer)
                 return;
             sprintf(pointer, "/nodes/%u%s", i, rest);
@@ -152,16 +152,17 @@ static void add_node_channels(reader *r, animation_reader *a, const scene_channe
     }
 }
 
-static void read_channel(reader *r, animation_reader *a, const json_place *at)
+static void read_channel(io_reader *r, animation_reader *a, const json_place *at)
 {
-    uint32_t sampler = get_required_index(r, at, "sampler", (uint32_t)get_count(&a->samplers), "sampler");
-    json_place target = get_object(r, at, "target");
-    if (reader_is_ok(r) && !target.value)
-        reader_fail(r, at, "target", FACET_ERROR_INVALID, "is missing");
-    const char *path = get_string(r, &target, "path", "");
+    uint32_t sampler =
+        io_get_required_index(r, at, "sampler", (uint32_t)io_get_count(&a->samplers), "sampler");
+    json_place target = io_get_object(r, at, "target");
+    if (io_is_ok(r) && !target.value)
+        io_fail(r, at, "target", FACET_ERROR_INVALID, "is missing");
+    const char *path = io_get_string(r, &target, "path", "");
     gltf_target found;
-    if (!reader_is_ok(r) || !(strcmp(path, "pointer") == 0 ? find_pointed_target(r, &target, &found)
-                                                           : find_core_target(r, &target, path, &found)))
+    if (!io_is_ok(r) || !(strcmp(path, "pointer") == 0 ? find_pointed_target(r, &target, &found)
+                                                       : find_core_target(r, &target, path, &found)))
         return;
     uint32_t number = get_sampler(r, a, sampler, found.channel.is_rotation);
     if (number == USELESS)
@@ -169,16 +170,16 @@ static void read_channel(reader *r, animation_reader *a, const json_place *at)
     found.channel.sampler = number;
     const scene_sampler *s = &a->made[number];
     if (s->width != found.width) {
-        reader_warn(r, at, "sampler", "has %u numbers per key, but %u move; it is ignored", s->width,
-                    found.width);
+        io_warn(r, at, "sampler", "has %u numbers per key, but %u move; it is ignored", s->width,
+                found.width);
         return;
     }
     if (found.needs_steps && s->interpolation != SCENE_STEP) {
-        reader_warn(r, at, "sampler", "must be of interpolation STEP to move a truth value; it is ignored");
+        io_warn(r, at, "sampler", "must be of interpolation STEP to move a truth value; it is ignored");
         return;
     }
     if (found.channel.kind == SCENE_TARGET_NODE && r->scene->nodes[found.channel.index].has_matrix)
-        reader_warn(r, &target, NULL, "moves node %u, which has a matrix", found.channel.index);
+        io_warn(r, &target, NULL, "moves node %u, which has a matrix", found.channel.index);
     if (found.is_of_mesh)
         add_mesh_channels(r, a, &found.channel, s->width);
     else
@@ -187,9 +188,9 @@ static void read_channel(reader *r, animation_reader *a, const json_place *at)
 
 /* ---- animations ---- */
 
-static void finish_animation(reader *r, const animation_reader *a, scene_animation *out)
+static void finish_animation(io_reader *r, const animation_reader *a, scene_animation *out)
 {
-    scene_channel *channels = reader_alloc_raw(r, "animation", a->channel_count, sizeof *channels);
+    scene_channel *channels = io_alloc_raw(r, "animation", a->channel_count, sizeof *channels);
     if (!channels)
         return;
     if (a->channel_count)
@@ -206,51 +207,51 @@ static void finish_animation(reader *r, const animation_reader *a, scene_animati
     }
 }
 
-static void read_animation(reader *r, const json_place *at, scene_animation *out)
+static void read_animation(io_reader *r, const json_place *at, scene_animation *out)
 {
     static const char consequence[] = "nothing moves by it";
-    animation_reader a = {.samplers = get_array(r, at, "samplers")};
-    json_place channels = get_array(r, at, "channels");
-    out->name = get_name(r, at);
-    if (reader_is_ok(r) && (!a.samplers.value || !channels.value))
-        reader_fail(r, at, a.samplers.value ? "channels" : "samplers", FACET_ERROR_INVALID, "is missing");
-    if (reader_leave_out(r, consequence))
+    animation_reader a = {.samplers = io_get_array(r, at, "samplers")};
+    json_place channels = io_get_array(r, at, "channels");
+    out->name = io_get_name(r, at);
+    if (io_is_ok(r) && (!a.samplers.value || !channels.value))
+        io_fail(r, at, a.samplers.value ? "channels" : "samplers", FACET_ERROR_INVALID, "is missing");
+    if (io_leave_out(r, consequence))
         a.samplers.value = channels.value = NULL;
-    size_t count = get_count(&a.samplers);
-    a.made = reader_alloc(r, "animation", count, 2 * sizeof *a.made);
+    size_t count = io_get_count(&a.samplers);
+    a.made = io_alloc(r, "animation", count, 2 * sizeof *a.made);
     a.numbers = mem_alloc(r->allocator, count, sizeof *a.numbers);
     if (!a.numbers)
-        reader_fail_memory(r, "animation", count * sizeof *a.numbers);
+        io_fail_memory(r, "animation", count * sizeof *a.numbers);
     else
         memset(a.numbers, 0xff, count * sizeof *a.numbers); /* NOT_YET */
-    for (size_t i = 0; i < get_count(&channels) && reader_is_ok(r); i++) {
-        json_place channel = get_element_object(r, &channels, i);
+    for (size_t i = 0; i < io_get_count(&channels) && io_is_ok(r); i++) {
+        json_place channel = io_get_element_object(r, &channels, i);
         read_channel(r, &a, &channel);
-        reader_leave_out(r, consequence);
+        io_leave_out(r, consequence);
     }
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place sampler = get_element_object(r, &a.samplers, i);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place sampler = io_get_element_object(r, &a.samplers, i);
         if (a.numbers[i][0] != USELESS && a.numbers[i][1] != USELESS)
-            check_animation_sampler(r, &sampler);
-        reader_leave_out(r, consequence);
+            gltf_check_animation_sampler(r, &sampler);
+        io_leave_out(r, consequence);
     }
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         finish_animation(r, &a, out);
-    out->meta = get_meta(r, at);
+    out->meta = gltf_get_meta(r, at);
     mem_free(a.numbers);
     mem_free(a.channels);
 }
 
-void read_animations(reader *r, const json_place *root)
+void gltf_read_animations(io_reader *r, const json_place *root)
 {
-    json_place array = get_array(r, root, "animations");
-    size_t count = get_count(&array);
-    reader_leave_out(r, "nothing moves by them");
-    r->scene->animations = reader_alloc(r, "animations", count, sizeof *r->scene->animations);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
+    json_place array = io_get_array(r, root, "animations");
+    size_t count = io_get_count(&array);
+    io_leave_out(r, "nothing moves by them");
+    r->scene->animations = io_alloc(r, "animations", count, sizeof *r->scene->animations);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
         r->scene->animations[i].name = "";
-        if (!reader_leave_out(r, "nothing moves by it"))
+        if (!io_leave_out(r, "nothing moves by it"))
             read_animation(r, &at, &r->scene->animations[i]);
         r->scene->animation_count = (uint32_t)(i + 1);
     }

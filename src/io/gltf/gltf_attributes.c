@@ -19,13 +19,13 @@ typedef struct check {
 } check;
 
 /* Sums what body counts over count elements. False: no memory. */
-static bool run_check(reader *r, check *c, size_t count, void (*body)(void *, size_t, size_t),
+static bool run_check(io_reader *r, check *c, size_t count, void (*body)(void *, size_t, size_t),
                       size_t *to_repair, size_t *to_warn)
 {
     size_t ranges = count / GRAIN + 1;
     c->counts = mem_zalloc(r->allocator, 2 * ranges, sizeof *c->counts);
     if (!c->counts)
-        return reader_fail_memory(r, "vertices", 2 * ranges * sizeof *c->counts);
+        return io_fail_memory(r, "vertices", 2 * ranges * sizeof *c->counts);
     c->warnings = c->counts + ranges;
     parallel_for(r->thread_count, count, GRAIN, body, c);
     *to_repair = *to_warn = 0;
@@ -58,13 +58,13 @@ static void check_positions(void *context, size_t begin, size_t end)
     c->counts[begin / GRAIN] = lost;
 }
 
-const float *get_positions(reader *r, const json_place *at, uint32_t index, const uint8_t **is_lost)
+const float *gltf_get_positions(io_reader *r, const json_place *at, uint32_t index, const uint8_t **is_lost)
 {
-    gltf_accessor *a = &r->accessors[index];
+    gltf_accessor *a = &r->gltf->accessors[index];
     *is_lost = a->is_lost;
     if (a->positions)
         return a->positions;
-    const float *in = get_accessor_floats(r, at, index);
+    const float *in = gltf_get_accessor_floats(r, at, index);
     check c = {.in = in};
     size_t lost;
     size_t unused;
@@ -73,8 +73,8 @@ const float *get_positions(reader *r, const json_place *at, uint32_t index, cons
     if (lost == 0)
         return a->positions = in;
 
-    float *out = reader_alloc_raw(r, "positions", a->count, 3 * sizeof *out);
-    uint8_t *flags = reader_alloc(r, "positions", a->count, sizeof *flags);
+    float *out = io_alloc_raw(r, "positions", a->count, 3 * sizeof *out);
+    uint8_t *flags = io_alloc(r, "positions", a->count, sizeof *flags);
     if (!out || !flags)
         return NULL;
     for (size_t i = 0; i < a->count; i++) {
@@ -82,9 +82,9 @@ const float *get_positions(reader *r, const json_place *at, uint32_t index, cons
         for (size_t k = 0; k < 3; k++)
             out[3 * i + k] = flags[i] ? 0.0f : in[3 * i + k];
     }
-    reader_warn(r, at, NULL,
-                "accessor %u has positions that are not finite or beyond %g m; what uses them is not drawn",
-                index, (double)SCENE_FARTHEST);
+    io_warn(r, at, NULL,
+            "accessor %u has positions that are not finite or beyond %g m; what uses them is not drawn",
+            index, (double)SCENE_FARTHEST);
     *is_lost = a->is_lost = flags;
     return a->positions = out;
 }
@@ -131,13 +131,13 @@ static void check_normals(void *context, size_t begin, size_t end)
     check_units(context, begin, end, 3);
 }
 
-const float *get_normals(reader *r, const json_place *at, uint32_t index, bool *has_missing)
+const float *gltf_get_normals(io_reader *r, const json_place *at, uint32_t index, bool *has_missing)
 {
-    gltf_accessor *a = &r->accessors[index];
+    gltf_accessor *a = &r->gltf->accessors[index];
     *has_missing = a->has_missing_normals;
     if (a->normals)
         return a->normals;
-    const float *in = get_accessor_floats(r, at, index);
+    const float *in = gltf_get_accessor_floats(r, at, index);
     check c = {.in = in};
     size_t repairs;
     size_t warnings;
@@ -146,8 +146,8 @@ const float *get_normals(reader *r, const json_place *at, uint32_t index, bool *
     if (repairs == 0)
         return a->normals = in;
     if (warnings && a->component == GLTF_F32)
-        reader_note(r, at, NULL, "%zu normals of accessor %u are not of length 1", warnings, index);
-    float *out = reader_alloc_raw(r, "normals", a->count, 3 * sizeof *out);
+        io_note(r, at, NULL, "%zu normals of accessor %u are not of length 1", warnings, index);
+    float *out = io_alloc_raw(r, "normals", a->count, 3 * sizeof *out);
     if (!out)
         return NULL;
     memcpy(out, in, (size_t)a->count * 3 * sizeof *out);
@@ -169,12 +169,12 @@ static void check_tangents(void *context, size_t begin, size_t end)
     c->warnings[begin / GRAIN] += repairs;
 }
 
-const float *get_tangents(reader *r, const json_place *at, uint32_t index)
+const float *gltf_get_tangents(io_reader *r, const json_place *at, uint32_t index)
 {
-    gltf_accessor *a = &r->accessors[index];
+    gltf_accessor *a = &r->gltf->accessors[index];
     if (a->tangents)
         return a->has_tangents ? a->tangents : NULL;
-    const float *in = get_accessor_floats(r, at, index);
+    const float *in = gltf_get_accessor_floats(r, at, index);
     check c = {.in = in};
     size_t repairs;
     size_t warnings;
@@ -184,8 +184,8 @@ const float *get_tangents(reader *r, const json_place *at, uint32_t index)
     if (repairs == 0)
         return a->tangents = in;
     if (warnings && a->component == GLTF_F32)
-        reader_note(r, at, NULL, "tangents of accessor %u are not all of length 1 with w 1 or -1", index);
-    float *out = reader_alloc_raw(r, "tangents", a->count, 4 * sizeof *out);
+        io_note(r, at, NULL, "tangents of accessor %u are not all of length 1 with w 1 or -1", index);
+    float *out = io_alloc_raw(r, "tangents", a->count, 4 * sizeof *out);
     if (!out)
         return NULL;
     memcpy(out, in, (size_t)a->count * 4 * sizeof *out);
@@ -197,8 +197,7 @@ const float *get_tangents(reader *r, const json_place *at, uint32_t index)
     }
     a->tangents = out;
     if (!a->has_tangents)
-        reader_note(r, at, NULL, "tangents of accessor %u have no direction; they are computed instead",
-                    index);
+        io_note(r, at, NULL, "tangents of accessor %u have no direction; they are computed instead", index);
     return a->has_tangents ? out : NULL;
 }
 
@@ -213,12 +212,12 @@ static void check_finite(void *context, size_t begin, size_t end)
     c->counts[begin / GRAIN] = repairs;
 }
 
-const float *get_finite(reader *r, const json_place *at, uint32_t index, const char *what)
+const float *gltf_get_finite(io_reader *r, const json_place *at, uint32_t index, const char *what)
 {
-    gltf_accessor *a = &r->accessors[index];
+    gltf_accessor *a = &r->gltf->accessors[index];
     if (a->finite)
         return a->finite;
-    const float *in = get_accessor_floats(r, at, index);
+    const float *in = gltf_get_accessor_floats(r, at, index);
     check c = {.in = in, .width = gltf_component_counts[a->type]};
     size_t repairs;
     size_t unused;
@@ -226,13 +225,13 @@ const float *get_finite(reader *r, const json_place *at, uint32_t index, const c
         return NULL;
     if (repairs == 0)
         return a->finite = in;
-    float *out = reader_alloc_raw(r, what, a->count, c.width * sizeof *out);
+    float *out = io_alloc_raw(r, what, a->count, c.width * sizeof *out);
     if (!out)
         return NULL;
     for (size_t i = 0; i < c.width * a->count; i++)
         out[i] = is_sane(in[i]) ? in[i] : 0.0f;
-    reader_warn(r, at, NULL, "accessor %u has %s that are not finite or beyond %g; they are 0", index, what,
-                (double)SCENE_FARTHEST);
+    io_warn(r, at, NULL, "accessor %u has %s that are not finite or beyond %g; they are 0", index, what,
+            (double)SCENE_FARTHEST);
     return a->finite = out;
 }
 
@@ -256,17 +255,17 @@ static void add_alpha(void *context, size_t begin, size_t end)
     }
 }
 
-const float *get_colors(reader *r, const json_place *at, uint32_t index)
+const float *gltf_get_colors(io_reader *r, const json_place *at, uint32_t index)
 {
-    gltf_accessor *a = &r->accessors[index];
+    gltf_accessor *a = &r->gltf->accessors[index];
     if (a->colors)
         return a->colors;
-    const float *in = get_accessor_floats(r, at, index);
+    const float *in = gltf_get_accessor_floats(r, at, index);
     check c = {.in = in};
     if (!in)
         return NULL;
     if (a->type == GLTF_VEC3) {
-        c.out = reader_alloc_raw(r, "colors", a->count, 4 * sizeof *c.out);
+        c.out = io_alloc_raw(r, "colors", a->count, 4 * sizeof *c.out);
         if (!c.out)
             return NULL;
         parallel_for(r->thread_count, a->count, GRAIN, add_alpha, &c);
@@ -278,8 +277,8 @@ const float *get_colors(reader *r, const json_place *at, uint32_t index)
         return NULL;
     if (repairs == 0)
         return a->colors = c.in;
-    reader_warn(r, at, NULL, "accessor %u has colors outside [0, 1]; they are clamped", index);
-    float *out = c.out ? c.out : reader_alloc_raw(r, "colors", a->count, 4 * sizeof *out);
+    io_warn(r, at, NULL, "accessor %u has colors outside [0, 1]; they are clamped", index);
+    float *out = c.out ? c.out : io_alloc_raw(r, "colors", a->count, 4 * sizeof *out);
     if (!out)
         return NULL;
     for (size_t i = 0; i < 4 * (size_t)a->count; i++)

@@ -3,149 +3,149 @@
 
 #include "io/gltf/gltf_reader.h"
 
-void read_buffers(reader *r, const json_place *root)
+void gltf_read_buffers(io_reader *r, const json_place *root)
 {
-    json_place array = get_array(r, root, "buffers");
-    size_t count = get_count(&array);
-    r->buffers = reader_alloc(r, "buffers", count, sizeof *r->buffers);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
-        gltf_buffer *buffer = &r->buffers[i];
-        buffer->byte_length = get_uint(r, &at, "byteLength", (uint64_t)1 << 53, REQUIRED_UINT);
-        buffer->uri = get_string(r, &at, "uri", NULL);
-        buffer->is_fallback = is_meshopt_fallback(r, &at);
-        if (reader_is_ok(r) && buffer->byte_length == 0)
-            reader_note(r, &at, "byteLength", "must be at least 1, but is 0");
-        reader_defer(r, &buffer->problem);
-        r->buffer_count = (uint32_t)(i + 1);
+    json_place array = io_get_array(r, root, "buffers");
+    size_t count = io_get_count(&array);
+    r->gltf->buffers = io_alloc(r, "buffers", count, sizeof *r->gltf->buffers);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
+        gltf_buffer *buffer = &r->gltf->buffers[i];
+        buffer->byte_length = io_get_uint(r, &at, "byteLength", (uint64_t)1 << 53, IO_REQUIRED_UINT);
+        buffer->uri = io_get_string(r, &at, "uri", NULL);
+        buffer->is_fallback = gltf_is_meshopt_fallback(r, &at);
+        if (io_is_ok(r) && buffer->byte_length == 0)
+            io_note(r, &at, "byteLength", "must be at least 1, but is 0");
+        io_defer(r, &buffer->problem);
+        r->gltf->buffer_count = (uint32_t)(i + 1);
     }
 }
 
-static void read_view(reader *r, const json_place *at, gltf_view *view)
+static void read_view(io_reader *r, const json_place *at, gltf_view *view)
 {
-    view->buffer = get_required_index(r, at, "buffer", r->buffer_count, "buffer");
-    view->offset = get_uint(r, at, "byteOffset", (uint64_t)1 << 53, 0);
-    view->length = get_uint(r, at, "byteLength", (uint64_t)1 << 53, REQUIRED_UINT);
-    view->stride = get_uint(r, at, "byteStride", UINT32_MAX, 0);
-    if (reader_is_ok(r) && r->buffers[view->buffer].problem.message)
-        reader_fail_deferred(r, &r->buffers[view->buffer].problem);
-    if (!reader_is_ok(r))
+    view->buffer = io_get_required_index(r, at, "buffer", r->gltf->buffer_count, "buffer");
+    view->offset = io_get_uint(r, at, "byteOffset", (uint64_t)1 << 53, 0);
+    view->length = io_get_uint(r, at, "byteLength", (uint64_t)1 << 53, IO_REQUIRED_UINT);
+    view->stride = io_get_uint(r, at, "byteStride", UINT32_MAX, 0);
+    if (io_is_ok(r) && r->gltf->buffers[view->buffer].problem.message)
+        io_fail_deferred(r, &r->gltf->buffers[view->buffer].problem);
+    if (!io_is_ok(r))
         return;
-    size_t size = r->buffers[view->buffer].byte_length;
+    size_t size = r->gltf->buffers[view->buffer].byte_length;
     if (view->offset > size) {
-        reader_fail(r, at, "byteOffset", FACET_ERROR_INVALID, "%zu is past the end of buffer %u (%zu bytes)",
-                    view->offset, view->buffer, size);
+        io_fail(r, at, "byteOffset", FACET_ERROR_INVALID, "%zu is past the end of buffer %u (%zu bytes)",
+                view->offset, view->buffer, size);
         return;
     }
     if (view->length > size - view->offset) {
-        reader_warn(r, at, "byteLength",
-                    "%zu from offset %zu goes past the end of buffer %u (%zu bytes); it ends there",
-                    view->length, view->offset, view->buffer, size);
+        io_warn(r, at, "byteLength",
+                "%zu from offset %zu goes past the end of buffer %u (%zu bytes); it ends there", view->length,
+                view->offset, view->buffer, size);
         view->length = size - view->offset;
     }
     if (view->stride && (view->stride < 4 || view->stride > 252 || view->stride % 4))
-        reader_note(r, at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
-    if (view->stride && get_uint(r, at, "target", UINT32_MAX, 0) == 34963)
-        reader_note(r, at, "byteStride", "means nothing for indices");
-    read_meshopt(r, at, view);
+        io_note(r, at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
+    if (view->stride && io_get_uint(r, at, "target", UINT32_MAX, 0) == 34963)
+        io_note(r, at, "byteStride", "means nothing for indices");
+    gltf_read_meshopt(r, at, view);
 }
 
-void read_views(reader *r, const json_place *root)
+void gltf_read_views(io_reader *r, const json_place *root)
 {
-    json_place array = get_array(r, root, "bufferViews");
-    size_t count = get_count(&array);
-    r->views = reader_alloc(r, "buffer views", count, sizeof *r->views);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
-        gltf_view *view = &r->views[i];
+    json_place array = io_get_array(r, root, "bufferViews");
+    size_t count = io_get_count(&array);
+    r->gltf->views = io_alloc(r, "buffer views", count, sizeof *r->gltf->views);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
+        gltf_view *view = &r->gltf->views[i];
         read_view(r, &at, view);
-        if (reader_defer(r, &view->problem))
+        if (io_defer(r, &view->problem))
             view->compressed = NULL;
-        r->view_count = (uint32_t)(i + 1);
+        r->gltf->view_count = (uint32_t)(i + 1);
     }
 }
 
-bool has_buffer_source(const reader *r, uint32_t buffer)
+bool gltf_has_buffer_source(const io_reader *r, uint32_t buffer)
 {
-    return r->buffers[buffer].uri || (buffer == 0 && r->bin);
+    return r->gltf->buffers[buffer].uri || (buffer == 0 && r->gltf->bin);
 }
 
-bool has_view_source(const reader *r, uint32_t view)
+bool gltf_has_view_source(const io_reader *r, uint32_t view)
 {
-    const gltf_view *v = &r->views[view];
+    const gltf_view *v = &r->gltf->views[view];
     return v->problem.message || /* reported when the bytes are requested */
-           has_buffer_source(r, v->compressed ? get_meshopt_buffer(v->compressed) : v->buffer);
+           gltf_has_buffer_source(r, v->compressed ? gltf_get_meshopt_buffer(v->compressed) : v->buffer);
 }
 
-bool has_accessor_source(const reader *r, uint32_t accessor)
+bool gltf_has_accessor_source(const io_reader *r, uint32_t accessor)
 {
-    const gltf_accessor *a = &r->accessors[accessor];
+    const gltf_accessor *a = &r->gltf->accessors[accessor];
     if (a->problem.message) /* reported when the elements are requested */
         return true;
-    return (a->decoded || a->indices || a->view == SCENE_NONE || has_view_source(r, a->view)) &&
+    return (a->decoded || a->indices || a->view == SCENE_NONE || gltf_has_view_source(r, a->view)) &&
            (a->sparse_count == 0 ||
-            (has_view_source(r, a->sparse_index_view) && has_view_source(r, a->sparse_value_view)));
+            (gltf_has_view_source(r, a->sparse_index_view) && gltf_has_view_source(r, a->sparse_value_view)));
 }
 
 /* Makes the bytes of a buffer come to be. */
-static bool load_buffer(reader *r, const json_place *at, uint32_t index)
+static bool load_buffer(io_reader *r, const json_place *at, uint32_t index)
 {
-    gltf_buffer *buffer = &r->buffers[index];
+    gltf_buffer *buffer = &r->gltf->buffers[index];
     if (buffer->data)
         return true;
     if (buffer->problem.message)
-        return reader_fail_deferred(r, &buffer->problem);
+        return io_fail_deferred(r, &buffer->problem);
     size_t size = 0;
     if (buffer->uri) {
         uri_bytes bytes;
-        if (!load_uri(r, buffer->uri, &bytes)) { /* looked for once */
-            reader_fail(r, at, "uri", bytes.result, "%s", bytes.message);
-            return reader_defer(r, &buffer->problem) && reader_fail_deferred(r, &buffer->problem);
+        if (!io_load_uri(r, buffer->uri, &bytes)) { /* looked for once */
+            io_fail(r, at, "uri", bytes.result, "%s", bytes.message);
+            return io_defer(r, &buffer->problem) && io_fail_deferred(r, &buffer->problem);
         }
         buffer->data = bytes.data;
         size = bytes.size;
-    } else if (index == 0 && r->bin) {
-        buffer->data = r->bin;
-        size = r->bin_size;
+    } else if (index == 0 && r->gltf->bin) {
+        buffer->data = r->gltf->bin;
+        size = r->gltf->bin_size;
     } else {
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID, "has neither a uri nor a binary chunk");
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID, "has neither a uri nor a binary chunk");
     }
     buffer->available = size < buffer->byte_length ? size : buffer->byte_length;
     if (size > buffer->byte_length && size - buffer->byte_length > (buffer->uri ? 0u : 3u))
-        reader_note(r, at, "byteLength", "says %zu bytes, but there are %zu; the rest is ignored",
-                    buffer->byte_length, size);
+        io_note(r, at, "byteLength", "says %zu bytes, but there are %zu; the rest is ignored",
+                buffer->byte_length, size);
     return true;
 }
 
-const unsigned char *get_buffer_bytes(reader *r, uint32_t index, size_t end)
+const unsigned char *gltf_get_buffer_bytes(io_reader *r, uint32_t index, size_t end)
 {
     const json_place root = {.value = r->json};
     const json_place array = {.parent = &root, .key = "buffers"};
     const json_place at = {.parent = &array, .index = index};
-    const gltf_buffer *buffer = &r->buffers[index];
-    if (!reader_is_ok(r) || !load_buffer(r, &at, index))
+    const gltf_buffer *buffer = &r->gltf->buffers[index];
+    if (!io_is_ok(r) || !load_buffer(r, &at, index))
         return NULL;
     if (end > buffer->available) {
-        reader_fail(r, &at, "byteLength", FACET_ERROR_INVALID, "says %zu bytes, but there are %zu",
-                    buffer->byte_length, buffer->available);
+        io_fail(r, &at, "byteLength", FACET_ERROR_INVALID, "says %zu bytes, but there are %zu",
+                buffer->byte_length, buffer->available);
         return NULL;
     }
     if (buffer->available < buffer->byte_length)
-        reader_warn(r, &at, NULL, "has %zu of its %zu bytes; what needs only those is drawn",
-                    buffer->available, buffer->byte_length);
+        io_warn(r, &at, NULL, "has %zu of its %zu bytes; what needs only those is drawn", buffer->available,
+                buffer->byte_length);
     return buffer->data;
 }
 
-const unsigned char *get_view_bytes(reader *r, const json_place *at, uint32_t index)
+const unsigned char *gltf_get_view_bytes(io_reader *r, const json_place *at, uint32_t index)
 {
-    gltf_view *view = &r->views[index];
+    gltf_view *view = &r->gltf->views[index];
     if (view->problem.message)
-        reader_fail_deferred(r, &view->problem);
-    if (!reader_is_ok(r))
+        io_fail_deferred(r, &view->problem);
+    if (!io_is_ok(r))
         return NULL;
     if (view->compressed)
-        return get_meshopt_bytes(r, at, index);
-    const unsigned char *bytes = get_buffer_bytes(r, view->buffer, view->offset + view->length);
+        return gltf_get_meshopt_bytes(r, at, index);
+    const unsigned char *bytes = gltf_get_buffer_bytes(r, view->buffer, view->offset + view->length);
     return bytes ? bytes + view->offset : NULL;
 }
 
@@ -157,28 +157,28 @@ static bool draws_meshes(const facet_scene *scene)
     return i < scene->node_count;
 }
 
-void check_unused_parts(reader *r)
+void gltf_check_unused_parts(io_reader *r)
 {
     const json_place root = {.value = r->json};
     const json_place array = {.parent = &root, .key = "buffers"};
-    for (uint32_t i = 0; i < r->buffer_count; i++) {
+    for (uint32_t i = 0; i < r->gltf->buffer_count; i++) {
         const json_place at = {.parent = &array, .index = i};
         uri_bytes bytes;
-        reader_warn_deferred(r, &r->buffers[i].problem);
-        if (!r->buffers[i].data && r->buffers[i].uri && !r->buffers[i].is_fallback &&
-            !load_uri(r, r->buffers[i].uri, &bytes))
-            reader_note(r, &at, "uri", "%s; nothing uses it", bytes.message);
+        io_warn_deferred(r, &r->gltf->buffers[i].problem);
+        if (!r->gltf->buffers[i].data && r->gltf->buffers[i].uri && !r->gltf->buffers[i].is_fallback &&
+            !io_load_uri(r, r->gltf->buffers[i].uri, &bytes))
+            io_note(r, &at, "uri", "%s; nothing uses it", bytes.message);
     }
-    for (uint32_t i = 0; i < r->view_count; i++)
-        reader_warn_deferred(r, &r->views[i].problem);
-    for (uint32_t i = 0; i < r->accessor_count; i++)
-        reader_warn_deferred(r, &r->accessors[i].problem);
+    for (uint32_t i = 0; i < r->gltf->view_count; i++)
+        io_warn_deferred(r, &r->gltf->views[i].problem);
+    for (uint32_t i = 0; i < r->gltf->accessor_count; i++)
+        io_warn_deferred(r, &r->gltf->accessors[i].problem);
     for (uint32_t i = 0; i < r->scene->mesh_count; i++) {
-        if (r->meshes[i].problem.message && !draws_meshes(r->scene))
-            reader_fail_deferred(r, &r->meshes[i].problem); /* rather than an empty image */
-        reader_warn_deferred(r, &r->meshes[i].problem);
-        reader_warn_deferred(r, &r->meshes[i].joints);
+        if (r->gltf->meshes[i].problem.message && !draws_meshes(r->scene))
+            io_fail_deferred(r, &r->gltf->meshes[i].problem); /* rather than an empty image */
+        io_warn_deferred(r, &r->gltf->meshes[i].problem);
+        io_warn_deferred(r, &r->gltf->meshes[i].joints);
     }
     for (uint32_t i = 0; i < r->scene->material_count; i++)
-        reader_warn_deferred(r, &r->material_problems[i]);
+        io_warn_deferred(r, &r->gltf->material_problems[i]);
 }

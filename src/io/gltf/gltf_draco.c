@@ -9,7 +9,7 @@
 /* A buffer view with a bitstream; primitives may share it. */
 typedef struct bitstream {
     const unsigned char *bytes; /* NULL: they cannot be had */
-    reader_problem missing;     /* why */
+    io_problem missing;         /* why */
     size_t size;
     draco_limits limits;
     uint32_t user_count; /* primitives that are still to be read */
@@ -19,7 +19,7 @@ typedef struct bitstream {
     const uint32_t *corners; /* of its faces; NULL: nobody asked yet */
 } bitstream;
 
-struct draco_state {
+struct gltf_draco_state {
     bitstream *streams; /* of the arena */
     uint32_t stream_count;
     uint32_t *stream_of_view; /* SCENE_NONE: the view is none */
@@ -36,88 +36,88 @@ enum { VALUES_PER_BYTE = 4096, VALUES_OF_NOTHING = 1 << 20 };
 
 /* Calls visit for each primitive of the file that has the extension, until one is false. What is wrong with other
  * primitives is reported when they are read. */
-static bool for_each_primitive(reader *r, bool (*visit)(reader *, const json_place *primitive,
-                                                        const json_place *extension))
+static bool for_each_primitive(io_reader *r, bool (*visit)(io_reader *, const json_place *primitive,
+                                                           const json_place *extension))
 {
     const json_place meshes = {.key = "meshes", .value = json_object_get(r->json, "meshes")};
-    for (size_t i = 0; i < get_count(&meshes); i++) {
-        const json_place mesh = get_element(&meshes, i);
+    for (size_t i = 0; i < io_get_count(&meshes); i++) {
+        const json_place mesh = io_get_element(&meshes, i);
         const json_place primitives = {
             .parent = &mesh, .key = "primitives", .value = json_object_get(mesh.value, "primitives")};
-        for (size_t k = 0; k < get_count(&primitives); k++) {
-            const json_place primitive = get_element(&primitives, k);
-            json_place extension = get_extension(r, &primitive, NAME);
+        for (size_t k = 0; k < io_get_count(&primitives); k++) {
+            const json_place primitive = io_get_element(&primitives, k);
+            json_place extension = io_get_extension(r, &primitive, NAME);
             if (extension.value && !visit(r, &primitive, &extension))
                 return false;
         }
     }
-    return reader_is_ok(r);
+    return io_is_ok(r);
 }
 
 /* The bitstream of a primitive; NULL: an error is recorded. */
-static bitstream *find_stream(reader *r, const json_place *extension)
+static bitstream *find_stream(io_reader *r, const json_place *extension)
 {
-    uint32_t view = get_required_index(r, extension, "bufferView", r->view_count, "buffer view");
-    return reader_is_ok(r) ? &r->draco->streams[r->draco->stream_of_view[view]] : NULL;
+    uint32_t view = io_get_required_index(r, extension, "bufferView", r->gltf->view_count, "buffer view");
+    return io_is_ok(r) ? &r->gltf->draco->streams[r->gltf->draco->stream_of_view[view]] : NULL;
 }
 
-static bool list_stream(reader *r, const json_place *primitive, const json_place *extension)
+static bool list_stream(io_reader *r, const json_place *primitive, const json_place *extension)
 {
     (void)primitive;
-    draco_state *d = r->draco;
-    uint32_t view = peek_index(extension, "bufferView", r->view_count);
+    gltf_draco_state *d = r->gltf->draco;
+    uint32_t view = io_peek_index(extension, "bufferView", r->gltf->view_count);
     if (view != SCENE_NONE && d->stream_of_view[view] == SCENE_NONE)
         d->stream_of_view[view] = d->stream_count++;
-    return reader_is_ok(r);
+    return io_is_ok(r);
 }
 
 /* Counts a primitive among the users of its bitstream, and what its accessors say into the limits. */
-static bool note_user(reader *r, const json_place *primitive, const json_place *extension)
+static bool note_user(io_reader *r, const json_place *primitive, const json_place *extension)
 {
-    uint32_t view = peek_index(extension, "bufferView", r->view_count);
+    uint32_t view = io_peek_index(extension, "bufferView", r->gltf->view_count);
     const json_place attributes = {.value = json_object_get(primitive->value, "attributes")};
     const char *name;
     json_t *value;
     uint32_t points = 0;
     if (view == SCENE_NONE)
         return true;
-    bitstream *s = &r->draco->streams[r->draco->stream_of_view[view]];
+    bitstream *s = &r->gltf->draco->streams[r->gltf->draco->stream_of_view[view]];
     json_object_foreach((json_t *)(uintptr_t)attributes.value, name, value)
     {
-        uint32_t accessor = peek_index(&attributes, name, r->accessor_count);
-        if (accessor != SCENE_NONE && r->accessors[accessor].count > points)
-            points = r->accessors[accessor].count;
+        uint32_t accessor = io_peek_index(&attributes, name, r->gltf->accessor_count);
+        if (accessor != SCENE_NONE && r->gltf->accessors[accessor].count > points)
+            points = r->gltf->accessors[accessor].count;
     }
-    uint32_t indices = peek_index(primitive, "indices", r->accessor_count);
-    uint32_t mode = has_member(primitive, "mode") ? peek_index(primitive, "mode", 7) : 4;
+    uint32_t indices = io_peek_index(primitive, "indices", r->gltf->accessor_count);
+    uint32_t mode = io_has_member(primitive, "mode") ? io_peek_index(primitive, "mode", 7) : 4;
     /* of a strip each index may close a triangle; without indices the faces may be any */
-    uint32_t faces = indices == SCENE_NONE ? points : r->accessors[indices].count;
+    uint32_t faces = indices == SCENE_NONE ? points : r->gltf->accessors[indices].count;
     faces = mode == 5 || indices == SCENE_NONE ? faces : faces / 3;
     s->limits.point_count = points > s->limits.point_count ? points : s->limits.point_count;
     s->limits.face_count = faces > s->limits.face_count ? faces : s->limits.face_count;
     s->user_count++;
-    return reader_is_ok(r);
+    return io_is_ok(r);
 }
 
 /* Finds the bytes of all bitstreams; a missing buffer is an error of the primitives that use it. */
-static bool find_bytes(reader *r)
+static bool find_bytes(io_reader *r)
 {
     const json_place root = {.value = r->json};
     const json_place array = {.parent = &root, .key = "bufferViews"};
-    draco_state *d = r->draco;
-    for (uint32_t view = 0; view < r->view_count; view++) {
+    gltf_draco_state *d = r->gltf->draco;
+    for (uint32_t view = 0; view < r->gltf->view_count; view++) {
         const json_place at = {.parent = &array, .index = view};
         if (d->stream_of_view[view] == SCENE_NONE)
             continue;
         bitstream *s = &d->streams[d->stream_of_view[view]];
-        s->size = r->views[view].length;
+        s->size = r->gltf->views[view].length;
         s->limits.value_count = VALUES_OF_NOTHING + VALUES_PER_BYTE * (uint64_t)s->size;
-        if (!has_view_source(r, view))
+        if (!gltf_has_view_source(r, view))
             continue;
-        if (!reader_spend(r, &at, (uint64_t)s->limits.point_count + s->limits.face_count))
+        if (!io_spend(r, &at, (uint64_t)s->limits.point_count + s->limits.face_count))
             return false;
-        s->bytes = get_view_bytes(r, &at, view);
-        if (!reader_defer(r, &s->missing) && !s->bytes)
+        s->bytes = gltf_get_view_bytes(r, &at, view);
+        if (!io_defer(r, &s->missing) && !s->bytes)
             return false;
     }
     return true;
@@ -125,7 +125,7 @@ static bool find_bytes(reader *r)
 
 static void decode_streams(void *context, size_t begin, size_t end)
 {
-    const draco_state *d = context;
+    const gltf_draco_state *d = context;
     for (size_t i = begin; i < end; i++) {
         bitstream *s = &d->streams[i];
         if (s->bytes)
@@ -133,33 +133,33 @@ static void decode_streams(void *context, size_t begin, size_t end)
     }
 }
 
-/* Makes r->draco, with all bitstreams decoded that can be. */
-static bool decode_all(reader *r)
+/* Makes r->gltf->draco, with all bitstreams decoded that can be. */
+static bool decode_all(io_reader *r)
 {
-    draco_state *d = reader_alloc(r, NAME, 1, sizeof *d);
+    gltf_draco_state *d = io_alloc(r, NAME, 1, sizeof *d);
     if (!d)
         return false;
     d->allocator = r->allocator;
-    d->stream_of_view = reader_alloc_raw(r, NAME, r->view_count, sizeof *d->stream_of_view);
+    d->stream_of_view = io_alloc_raw(r, NAME, r->gltf->view_count, sizeof *d->stream_of_view);
     if (!d->stream_of_view)
         return false;
-    for (uint32_t i = 0; i < r->view_count; i++)
+    for (uint32_t i = 0; i < r->gltf->view_count; i++)
         d->stream_of_view[i] = SCENE_NONE;
-    r->draco = d;
+    r->gltf->draco = d;
     if (!for_each_primitive(r, list_stream))
         return false;
-    d->streams = reader_alloc(r, NAME, d->stream_count, sizeof *d->streams);
+    d->streams = io_alloc(r, NAME, d->stream_count, sizeof *d->streams);
     if (!d->streams || !for_each_primitive(r, note_user) || !find_bytes(r))
         return false;
     parallel_for(r->thread_count, d->stream_count, 1, decode_streams, d);
     return true;
 }
 
-void release_draco(reader *r)
+void gltf_release_draco(io_reader *r)
 {
-    for (uint32_t i = 0; r->draco && r->draco->streams && i < r->draco->stream_count; i++)
-        draco_shim_destroy(r->draco->streams[i].mesh);
-    r->draco = NULL;
+    for (uint32_t i = 0; r->gltf->draco && r->gltf->draco->streams && i < r->gltf->draco->stream_count; i++)
+        draco_shim_destroy(r->gltf->draco->streams[i].mesh);
+    r->gltf->draco = NULL;
 }
 
 /* ---- one primitive ---- */
@@ -197,116 +197,114 @@ static void replace_elements(gltf_accessor *a, const unsigned char *elements, ui
 }
 
 /* Gives the accessor of an attribute what the bitstream has under id. at: the attribute in the extension. */
-static bool bind_attribute(reader *r, const json_place *at, const bitstream *s, uint32_t view, uint32_t id,
+static bool bind_attribute(io_reader *r, const json_place *at, const bitstream *s, uint32_t view, uint32_t id,
                            uint32_t accessor)
 {
-    gltf_accessor *a = &r->accessors[accessor];
+    gltf_accessor *a = &r->gltf->accessors[accessor];
     uint32_t points = draco_shim_point_count(s->mesh);
     uint32_t components = draco_shim_component_count(s->mesh, id);
     if (a->decoded && a->draco_view == view && a->draco_attribute == id)
         return true;
     if (components == 0)
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                           "%u is no attribute of the bitstream in buffer view %u", id, view);
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID,
+                       "%u is no attribute of the bitstream in buffer view %u", id, view);
     if (a->count != points)
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                           "accessor %u has %u elements, but the bitstream in buffer view %u has %u vertices",
-                           accessor, a->count, view, points);
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID,
+                       "accessor %u has %u elements, but the bitstream in buffer view %u has %u vertices",
+                       accessor, a->count, view, points);
     if (a->type > GLTF_VEC4 || gltf_component_counts[a->type] != components)
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                           "accessor %u has elements of %u components, but those in buffer view %u have %u",
-                           accessor, gltf_component_counts[a->type], view, components);
-    if (!reader_spend(r, at, (uint64_t)points * components / 3))
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID,
+                       "accessor %u has elements of %u components, but those in buffer view %u have %u",
+                       accessor, gltf_component_counts[a->type], view, components);
+    if (!io_spend(r, at, (uint64_t)points * components / 3))
         return false;
-    void *elements = reader_alloc_raw(r, "accessor", points, gltf_element_size(a->component, a->type));
+    void *elements = io_alloc_raw(r, "accessor", points, gltf_element_size(a->component, a->type));
     if (!elements)
         return false;
     if (!draco_shim_copy_attribute(s->mesh, id, type_of(a->component), elements))
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                           "the values in buffer view %u do not have the componentType of accessor %u", view,
-                           accessor);
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID,
+                       "the values in buffer view %u do not have the componentType of accessor %u", view,
+                       accessor);
     replace_elements(a, elements, view, id);
     return true;
 }
 
 /* The faces become the indices of the primitive, and the number of those that its accessor claims is checked. */
-static bool bind_faces(reader *r, const json_place *primitive, bitstream *s, uint32_t view, uint64_t mode)
+static bool bind_faces(io_reader *r, const json_place *primitive, bitstream *s, uint32_t view, uint64_t mode)
 {
     uint32_t faces = draco_shim_face_count(s->mesh);
-    uint32_t accessor = get_accessor(r, primitive, "indices");
+    uint32_t accessor = gltf_get_accessor(r, primitive, "indices");
     if (accessor == SCENE_NONE)
-        reader_note(r, primitive, NULL, "has no indices, but the bitstream in buffer view %u has", view);
-    else if (mode == 4 && r->accessors[accessor].count != (uint64_t)faces * 3)
-        return reader_fail(
-            r, primitive, "indices", FACET_ERROR_INVALID,
-            "accessor %u has %u elements, but the bitstream in buffer view %u has %u triangles", accessor,
-            r->accessors[accessor].count, view, faces);
+        io_note(r, primitive, NULL, "has no indices, but the bitstream in buffer view %u has", view);
+    else if (mode == 4 && r->gltf->accessors[accessor].count != (uint64_t)faces * 3)
+        return io_fail(r, primitive, "indices", FACET_ERROR_INVALID,
+                       "accessor %u has %u elements, but the bitstream in buffer view %u has %u triangles",
+                       accessor, r->gltf->accessors[accessor].count, view, faces);
     if (!s->corners) {
-        uint32_t *corners = reader_alloc_raw(r, "indices", (size_t)faces * 3, sizeof *corners);
-        if (!corners || !reader_spend(r, primitive, (uint64_t)faces * 3))
+        uint32_t *corners = io_alloc_raw(r, "indices", (size_t)faces * 3, sizeof *corners);
+        if (!corners || !io_spend(r, primitive, (uint64_t)faces * 3))
             return false;
         draco_shim_copy_faces(s->mesh, corners);
         s->corners = corners;
     }
     if (accessor != SCENE_NONE && mode == 4) {
-        r->accessors[accessor].indices = s->corners;
-        r->accessors[accessor].largest_index = draco_shim_point_count(s->mesh) - 1;
+        r->gltf->accessors[accessor].indices = s->corners;
+        r->gltf->accessors[accessor].largest_index = draco_shim_point_count(s->mesh) - 1;
     }
-    r->faces = s->corners;
-    r->face_count = faces;
+    r->gltf->faces = s->corners;
+    r->gltf->face_count = faces;
     return true;
 }
 
-static bool bind(reader *r, const json_place *primitive, const json_place *extension, bitstream *s,
+static bool bind(io_reader *r, const json_place *primitive, const json_place *extension, bitstream *s,
                  uint64_t mode)
 {
-    json_place ids = get_object(r, extension, "attributes");
-    json_place attributes = get_object(r, primitive, "attributes");
-    uint32_t view = get_index(r, extension, "bufferView", r->view_count, "buffer view");
+    json_place ids = io_get_object(r, extension, "attributes");
+    json_place attributes = io_get_object(r, primitive, "attributes");
+    uint32_t view = io_get_index(r, extension, "bufferView", r->gltf->view_count, "buffer view");
     const char *name;
     json_t *value;
     json_object_foreach((json_t *)(uintptr_t)ids.value, name, value)
     {
         json_place at = {.parent = &ids, .key = name, .value = value};
-        uint32_t id = (uint32_t)get_uint(r, &ids, name, UINT32_MAX, 0);
-        uint32_t accessor = get_accessor(r, &attributes, name);
+        uint32_t id = (uint32_t)io_get_uint(r, &ids, name, UINT32_MAX, 0);
+        uint32_t accessor = gltf_get_accessor(r, &attributes, name);
         if (accessor == SCENE_NONE)
-            reader_note(r, &at, NULL, "is not among the attributes of the primitive");
-        else if (!reader_is_ok(r) || !bind_attribute(r, &at, s, view, id, accessor))
+            io_note(r, &at, NULL, "is not among the attributes of the primitive");
+        else if (!io_is_ok(r) || !bind_attribute(r, &at, s, view, id, accessor))
             return false;
     }
-    uint32_t position = get_accessor(r, &attributes, "POSITION");
-    if (position != SCENE_NONE && r->accessors[position].count != draco_shim_point_count(s->mesh))
-        return reader_fail(r, &attributes, "POSITION", FACET_ERROR_INVALID,
-                           "accessor %u has %u elements, but the bitstream in buffer view %u has %u vertices",
-                           position, r->accessors[position].count, view, draco_shim_point_count(s->mesh));
-    return reader_is_ok(r) && bind_faces(r, primitive, s, view, mode);
+    uint32_t position = gltf_get_accessor(r, &attributes, "POSITION");
+    if (position != SCENE_NONE && r->gltf->accessors[position].count != draco_shim_point_count(s->mesh))
+        return io_fail(r, &attributes, "POSITION", FACET_ERROR_INVALID,
+                       "accessor %u has %u elements, but the bitstream in buffer view %u has %u vertices",
+                       position, r->gltf->accessors[position].count, view, draco_shim_point_count(s->mesh));
+    return io_is_ok(r) && bind_faces(r, primitive, s, view, mode);
 }
 
-bool prepare_draco(reader *r, const json_place *primitive)
+bool gltf_prepare_draco(io_reader *r, const json_place *primitive)
 {
-    r->faces = NULL;
-    json_place extension = get_extension(r, primitive, NAME);
-    if (!extension.value || !reader_is_ok(r))
-        return reader_is_ok(r);
-    uint64_t mode = get_uint(r, primitive, "mode", 6, 4);
+    r->gltf->faces = NULL;
+    json_place extension = io_get_extension(r, primitive, NAME);
+    if (!extension.value || !io_is_ok(r))
+        return io_is_ok(r);
+    uint64_t mode = io_get_uint(r, primitive, "mode", 6, 4);
     if (mode != 4 && mode != 5)
-        return reader_fail(r, primitive, "mode", FACET_ERROR_INVALID,
-                           "must be 4 or 5, triangles or strips of them, with %s", NAME);
-    if (!r->draco && !decode_all(r))
+        return io_fail(r, primitive, "mode", FACET_ERROR_INVALID,
+                       "must be 4 or 5, triangles or strips of them, with %s", NAME);
+    if (!r->gltf->draco && !decode_all(r))
         return false;
     bitstream *s = find_stream(r, &extension);
     if (!s)
         return false;
     if (s->missing.message)
-        return reader_fail_deferred(r, &s->missing);
+        return io_fail_deferred(r, &s->missing);
     if (!s->bytes)
-        return reader_fail(r, &extension, "bufferView", FACET_ERROR_INVALID, "is in a buffer without bytes");
+        return io_fail(r, &extension, "bufferView", FACET_ERROR_INVALID, "is in a buffer without bytes");
     if (!s->mesh)
         return s->result == FACET_ERROR_MEMORY
-                   ? reader_fail(r, &extension, NULL, s->result, "out of memory: its bitstream %s",
-                                 s->message)
-                   : reader_fail(r, &extension, NULL, s->result, "has a bitstream that %s", s->message);
+                   ? io_fail(r, &extension, NULL, s->result, "out of memory: its bitstream %s", s->message)
+                   : io_fail(r, &extension, NULL, s->result, "has a bitstream that %s", s->message);
     if (!bind(r, primitive, &extension, s, mode))
         return false;
     if (--s->user_count == 0) {

@@ -100,7 +100,7 @@ static void convert_floats(void *context, size_t begin, size_t end)
         convert_element(c, c->bytes + i * c->stride, c->floats + i * c->component_count);
 }
 
-static conversion make_conversion(const reader *r, const gltf_accessor *a, const unsigned char *bytes)
+static conversion make_conversion(const io_reader *r, const gltf_accessor *a, const unsigned char *bytes)
 {
     size_t component_count = gltf_component_counts[a->type];
     return (conversion){.bytes = bytes,
@@ -113,13 +113,13 @@ static conversion make_conversion(const reader *r, const gltf_accessor *a, const
 }
 
 /* Puts the sparse elements over what is there: into floats, or into indices. */
-static bool apply_sparse(reader *r, const json_place *at, const gltf_accessor *a, float *floats,
+static bool apply_sparse(io_reader *r, const json_place *at, const gltf_accessor *a, float *floats,
                          uint32_t *indices)
 {
     if (a->sparse_count == 0)
         return true;
-    const unsigned char *places = get_view_bytes(r, at, a->sparse_index_view);
-    const unsigned char *values = get_view_bytes(r, at, a->sparse_value_view);
+    const unsigned char *places = gltf_get_view_bytes(r, at, a->sparse_index_view);
+    const unsigned char *values = gltf_get_view_bytes(r, at, a->sparse_value_view);
     if (!places || !values)
         return false;
     places += a->sparse_index_offset;
@@ -130,9 +130,8 @@ static bool apply_sparse(reader *r, const json_place *at, const gltf_accessor *a
     for (size_t i = 0; i < a->sparse_count; i++) {
         uint32_t place = load_unsigned(places + i * place_size, a->sparse_index_component);
         if (place >= a->count)
-            return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                               "sparse index %zu is %u, but the accessor has %u elements", i, place,
-                               a->count);
+            return io_fail(r, at, NULL, FACET_ERROR_INVALID,
+                           "sparse index %zu is %u, but the accessor has %u elements", i, place, a->count);
         const unsigned char *value = values + i * c.stride;
         if (floats)
             convert_element(&c, value, floats + place * c.component_count);
@@ -159,13 +158,13 @@ static bool is_little_endian(void)
 }
 
 /* The first dense element; *bytes is NULL where there are none, which stand for zeros. */
-static bool get_dense_bytes(reader *r, const json_place *at, const gltf_accessor *a,
+static bool get_dense_bytes(io_reader *r, const json_place *at, const gltf_accessor *a,
                             const unsigned char **bytes)
 {
     *bytes = a->decoded;
     if (a->decoded || a->view == SCENE_NONE)
         return true;
-    const unsigned char *view = get_view_bytes(r, at, a->view);
+    const unsigned char *view = gltf_get_view_bytes(r, at, a->view);
     if (!view)
         return false;
     *bytes = view + a->offset;
@@ -173,7 +172,7 @@ static bool get_dense_bytes(reader *r, const json_place *at, const gltf_accessor
 }
 
 /* Whether the bytes are an array of this component (of 4 bytes) already, so that nothing has to be copied. */
-static bool is_plain_array(const reader *r, const gltf_accessor *a, const unsigned char *bytes,
+static bool is_plain_array(const io_reader *r, const gltf_accessor *a, const unsigned char *bytes,
                            gltf_component component)
 {
     return bytes && a->component == component && a->sparse_count == 0 &&
@@ -181,25 +180,25 @@ static bool is_plain_array(const reader *r, const gltf_accessor *a, const unsign
            is_little_endian();
 }
 
-const float *get_accessor_floats(reader *r, const json_place *at, uint32_t index)
+const float *gltf_get_accessor_floats(io_reader *r, const json_place *at, uint32_t index)
 {
-    gltf_accessor *a = &r->accessors[index];
-    if (a->floats || !reader_is_ok(r))
+    gltf_accessor *a = &r->gltf->accessors[index];
+    if (a->floats || !io_is_ok(r))
         return a->floats;
     size_t components = gltf_component_counts[a->type];
-    if (!reader_spend(r, at, (uint64_t)a->count * components / 3))
+    if (!io_spend(r, at, (uint64_t)a->count * components / 3))
         return NULL;
     ACCESSOR_PLACE(place, index);
     const unsigned char *bytes;
-    if (!check_claim(r, &place, a) || !get_dense_bytes(r, &place, a, &bytes))
+    if (!gltf_check_claim(r, &place, a) || !get_dense_bytes(r, &place, a, &bytes))
         return NULL;
     if (a->count > 0 && is_plain_array(r, a, bytes, GLTF_F32)) {
         a->floats = (const float *)(const void *)bytes;
         return a->floats;
     }
     size_t count = (size_t)a->count * components;
-    float *floats = bytes ? reader_alloc_raw(r, "accessor", count, sizeof *floats)
-                          : reader_alloc(r, "accessor", count, sizeof *floats);
+    float *floats = bytes ? io_alloc_raw(r, "accessor", count, sizeof *floats)
+                          : io_alloc(r, "accessor", count, sizeof *floats);
     if (!floats)
         return NULL;
     if (bytes) {
@@ -239,33 +238,34 @@ static void find_largest(void *context, size_t begin, size_t end)
     c->largest[begin / GRAIN] = largest;
 }
 
-const uint32_t *get_accessor_indices(reader *r, const json_place *at, uint32_t index, uint32_t *largest)
+const uint32_t *gltf_get_accessor_indices(io_reader *r, const json_place *at, uint32_t index,
+                                          uint32_t *largest)
 {
-    gltf_accessor *a = &r->accessors[index];
+    gltf_accessor *a = &r->gltf->accessors[index];
     *largest = a->largest_index;
-    if (a->indices || !reader_is_ok(r))
+    if (a->indices || !io_is_ok(r))
         return a->indices;
     ACCESSOR_PLACE(place, index);
     if (a->type != GLTF_SCALAR ||
         (a->component != GLTF_U8 && a->component != GLTF_U16 && a->component != GLTF_U32)) {
-        reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                    "accessor %u must have SCALAR elements of an unsigned type to be indices", index);
+        io_fail(r, at, NULL, FACET_ERROR_INVALID,
+                "accessor %u must have SCALAR elements of an unsigned type to be indices", index);
         return NULL;
     }
-    if (!reader_spend(r, at, a->count))
+    if (!io_spend(r, at, a->count))
         return NULL;
     const unsigned char *bytes;
-    if (!check_claim(r, &place, a) || !get_dense_bytes(r, &place, a, &bytes))
+    if (!gltf_check_claim(r, &place, a) || !get_dense_bytes(r, &place, a, &bytes))
         return NULL;
-    if (bytes && !a->decoded && r->views[a->view].stride)
-        reader_note(r, &place, NULL, "holds indices, but its buffer view has a byteStride");
+    if (bytes && !a->decoded && r->gltf->views[a->view].stride)
+        io_note(r, &place, NULL, "holds indices, but its buffer view has a byteStride");
     conversion c = make_conversion(r, a, bytes);
     const uint32_t *indices;
     if (is_plain_array(r, a, bytes, GLTF_U32)) {
         indices = (const uint32_t *)(const void *)bytes;
         c.indices = (uint32_t *)(uintptr_t)bytes; /* find_largest only reads */
     } else {
-        c.indices = reader_alloc(r, "indices", a->count, sizeof *c.indices);
+        c.indices = io_alloc(r, "indices", a->count, sizeof *c.indices);
         if (!c.indices)
             return NULL;
         if (bytes)
@@ -277,7 +277,7 @@ const uint32_t *get_accessor_indices(reader *r, const json_place *at, uint32_t i
     size_t ranges = a->count / GRAIN + 1;
     c.largest = mem_zalloc(r->allocator, ranges, sizeof *c.largest);
     if (!c.largest) {
-        reader_fail_memory(r, "indices", ranges * sizeof *c.largest);
+        io_fail_memory(r, "indices", ranges * sizeof *c.largest);
         return NULL;
     }
     parallel_for(r->thread_count, a->count, GRAIN, find_largest, &c);

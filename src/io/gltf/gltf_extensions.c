@@ -114,7 +114,7 @@ static const known_extension *find_known(const char *name)
     return NULL;
 }
 
-static scene_extension *find_listed(const reader *r, const char *name)
+static scene_extension *find_listed(const io_reader *r, const char *name)
 {
     for (uint32_t i = 0; i < r->scene->extension_count; i++)
         if (strcmp(r->scene->extensions[i].name, name) == 0)
@@ -122,16 +122,16 @@ static scene_extension *find_listed(const reader *r, const char *name)
     return NULL;
 }
 
-bool is_extension_listed(const reader *r, const char *name)
+bool gltf_is_extension_listed(const io_reader *r, const char *name)
 {
     return find_listed(r, name) != NULL;
 }
 
 /* Takes a name from extensionsUsed or extensionsRequired into the list; NULL: it is no name, or an error is recorded. */
-static scene_extension *list(reader *r, const json_place *at)
+static scene_extension *list(io_reader *r, const json_place *at)
 {
     if (!json_is_string(at->value)) {
-        reader_warn(r, at, NULL, "must be a string; it is ignored");
+        io_warn(r, at, NULL, "must be a string; it is ignored");
         return NULL;
     }
     const char *name = json_string_value(at->value);
@@ -141,7 +141,7 @@ static scene_extension *list(reader *r, const json_place *at)
     const known_extension *known = find_known(name);
     char *copy = arena_strdup(r->scene->arena, name);
     if (!copy) {
-        reader_fail_memory(r, "extensions", strlen(name));
+        io_fail_memory(r, "extensions", strlen(name));
         return NULL;
     }
     listed = &r->scene->extensions[r->scene->extension_count++];
@@ -171,7 +171,7 @@ static int place_below(int place, const char *key)
     return ELSEWHERE;
 }
 
-static void check_extensions_of(reader *r, json_t *extensions, int place)
+static void check_extensions_of(io_reader *r, json_t *extensions, int place)
 {
     const char *name;
     json_t *extension;
@@ -182,18 +182,18 @@ static void check_extensions_of(reader *r, json_t *extensions, int place)
         if (listed)
             listed->is_present = true;
         else
-            (known ? reader_note_each : reader_warn_each)(
-                r, NULL, NULL, "uses %.100s without naming it in extensionsUsed", name);
+            (known ? io_note_each : io_warn_each)(r, NULL, NULL,
+                                                  "uses %.100s without naming it in extensionsUsed", name);
         if (listed && known && !(known->places & place))
-            reader_note_each(r, NULL, NULL, "has %.100s in an object that it does not extend", name);
+            io_note_each(r, NULL, NULL, "has %.100s in an object that it does not extend", name);
         if (!json_is_object(extension))
-            reader_note_each(r, NULL, NULL, "has an extension %.100s that is no object", name);
+            io_note_each(r, NULL, NULL, "has an extension %.100s that is no object", name);
     }
 }
 
 /* Says, once per name, which extension objects stand below value, an object or array at place, without being listed
  * or where they mean nothing. Bounded in depth: glTF's own objects nest no deeper. */
-static void check_objects(reader *r, json_t *value, int place, int depth)
+static void check_objects(io_reader *r, json_t *value, int place, int depth)
 {
     size_t index;
     json_t *element;
@@ -214,64 +214,62 @@ static void check_objects(reader *r, json_t *value, int place, int depth)
 }
 
 /* Of what an image lacks; an extension that no object has is lost to none. */
-static void warn_ignored(reader *r)
+static void warn_ignored(io_reader *r)
 {
     for (uint32_t i = 0; i < r->scene->extension_count; i++) {
         const scene_extension *extension = &r->scene->extensions[i];
         const known_extension *known = find_known(extension->name);
         if (!known && !extension->is_present)
-            reader_note_each(r, NULL, NULL, "lists the extension %.100s, which no object has",
-                             extension->name);
+            io_note_each(r, NULL, NULL, "lists the extension %.100s, which no object has", extension->name);
         else if (!known)
-            reader_warn_each(r, NULL, NULL, "uses the extension %.100s, which facet does not know",
-                             extension->name);
+            io_warn_each(r, NULL, NULL, "uses the extension %.100s, which facet does not know",
+                         extension->name);
         else if (extension->is_present && extension->support == SCENE_IGNORED && known->effect)
-            reader_warn_each(r, NULL, NULL, "uses %s, which is not drawn: %s", extension->name,
-                             known->effect);
+            io_warn_each(r, NULL, NULL, "uses %s, which is not drawn: %s", extension->name, known->effect);
     }
 }
 
-void read_extensions(reader *r, const json_place *root)
+void gltf_read_extensions(io_reader *r, const json_place *root)
 {
-    json_place used = get_array(r, root, "extensionsUsed");
-    reader_leave_out(r, "extensions count where they are");
-    json_place required = get_array(r, root, "extensionsRequired");
-    reader_leave_out(r, "none is required");
-    size_t most = get_count(&used) + get_count(&required);
+    json_place used = io_get_array(r, root, "extensionsUsed");
+    io_leave_out(r, "extensions count where they are");
+    json_place required = io_get_array(r, root, "extensionsRequired");
+    io_leave_out(r, "none is required");
+    size_t most = io_get_count(&used) + io_get_count(&required);
     enum { MOST_EXTENSIONS = 1000 }; /* lookups are linear */
     if (most > MOST_EXTENSIONS) {
-        reader_fail(r, &used, NULL, FACET_ERROR_LIMIT, "lists more than %d extensions", (int)MOST_EXTENSIONS);
+        io_fail(r, &used, NULL, FACET_ERROR_LIMIT, "lists more than %d extensions", (int)MOST_EXTENSIONS);
         return;
     }
-    r->scene->extensions = reader_alloc(r, "extensions", most, sizeof *r->scene->extensions);
-    for (size_t i = 0; i < get_count(&used) && reader_is_ok(r); i++) {
-        json_place at = get_element(&used, i);
+    r->scene->extensions = io_alloc(r, "extensions", most, sizeof *r->scene->extensions);
+    for (size_t i = 0; i < io_get_count(&used) && io_is_ok(r); i++) {
+        json_place at = io_get_element(&used, i);
         uint32_t before = r->scene->extension_count;
         scene_extension *extension = list(r, &at);
         if (extension && r->scene->extension_count == before)
-            reader_note(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
+            io_note(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
     }
-    for (size_t i = 0; i < get_count(&required) && reader_is_ok(r); i++) {
-        json_place at = get_element(&required, i);
+    for (size_t i = 0; i < io_get_count(&required) && io_is_ok(r); i++) {
+        json_place at = io_get_element(&required, i);
         uint32_t before = r->scene->extension_count;
         scene_extension *extension = list(r, &at);
         if (!extension)
             continue;
         if (r->scene->extension_count != before)
-            reader_note(r, &at, NULL, "\"%.100s\" is not in extensionsUsed", extension->name);
+            io_note(r, &at, NULL, "\"%.100s\" is not in extensionsUsed", extension->name);
         else if (extension->is_required)
-            reader_note(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
+            io_note(r, &at, NULL, "\"%.100s\" is listed twice", extension->name);
         extension->is_required = true;
         const known_extension *known = find_known(extension->name);
         if (!known || !is_built(known) || (known->support == SCENE_IGNORED && known->effect))
-            reader_fail(r, NULL, NULL, FACET_ERROR_UNSUPPORTED,
-                        "requires the extension %.100s, which facet lacks", extension->name);
+            io_fail(r, NULL, NULL, FACET_ERROR_UNSUPPORTED,
+                    "requires the extension %.100s, which facet lacks", extension->name);
     }
     scene_extension *quantization = find_listed(r, "KHR_mesh_quantization");
-    r->has_quantization = quantization != NULL;
+    r->gltf->has_quantization = quantization != NULL;
     if (quantization && !quantization->is_required)
-        reader_note(r, NULL, NULL, "uses KHR_mesh_quantization, which must be among extensionsRequired");
-    if (reader_is_ok(r)) {
+        io_note(r, NULL, NULL, "uses KHR_mesh_quantization, which must be among extensionsRequired");
+    if (io_is_ok(r)) {
         check_objects(r, (json_t *)(uintptr_t)root->value, ROOT, 12);
         warn_ignored(r);
     }

@@ -87,20 +87,20 @@ static void spread(void *context, size_t begin, size_t end)
 
 /* Adds an array of elements of size bytes to what is spread. Returns where it will be; NULL: in is NULL, or an error
  * is recorded. */
-static void *add_stream(reader *r, spreading *s, const void *in, size_t size)
+static void *add_stream(io_reader *r, spreading *s, const void *in, size_t size)
 {
-    void *out = in ? reader_alloc_raw(r, "vertices", s->in->index_count, size) : NULL;
+    void *out = in ? io_alloc_raw(r, "vertices", s->in->index_count, size) : NULL;
     if (out)
         s->streams[s->stream_count++] = (stream){in, out, size};
     return out;
 }
 
 /* All arrays of the primitive but normals and tangents, which a flat one has no use for. */
-static void add_streams(reader *r, spreading *s, scene_primitive *out)
+static void add_streams(io_reader *r, spreading *s, scene_primitive *out)
 {
     const scene_primitive *in = s->in;
-    const float **texcoords = reader_alloc(r, "vertices", in->texcoord_count, sizeof *texcoords);
-    scene_morph_target *targets = reader_alloc(r, "morph targets", in->target_count, sizeof *targets);
+    const float **texcoords = io_alloc(r, "vertices", in->texcoord_count, sizeof *texcoords);
+    scene_morph_target *targets = io_alloc(r, "morph targets", in->target_count, sizeof *targets);
     if (!texcoords || !targets)
         return;
     out->positions = add_stream(r, s, in->positions, 3 * sizeof(float));
@@ -115,21 +115,21 @@ static void add_streams(reader *r, spreading *s, scene_primitive *out)
     out->targets = in->target_count ? targets : NULL;
 }
 
-bool make_flat(reader *r, const json_place *at, scene_primitive *p)
+bool gltf_make_flat(io_reader *r, const json_place *at, scene_primitive *p)
 {
     size_t count = p->index_count;
     const scene_primitive in = *p;
     size_t arrays = 4 + (size_t)in.texcoord_count + in.target_count;
-    if (!reader_spend(r, at, count * (1 + arrays + in.influence_count / 4)))
+    if (!io_spend(r, at, count * (1 + arrays + in.influence_count / 4)))
         return false;
     spreading s = {.in = &in, .streams = mem_alloc(r->allocator, arrays, sizeof *s.streams)};
     if (!s.streams)
-        return reader_fail_memory(r, "vertices", arrays * sizeof *s.streams);
+        return io_fail_memory(r, "vertices", arrays * sizeof *s.streams);
     scene_primitive out = in;
     add_streams(r, &s, &out);
-    out.normals = s.normals = reader_alloc_raw(r, "normals", count, 3 * sizeof(float));
-    uint32_t *indices = reader_alloc_raw(r, "indices", count, sizeof *indices);
-    if (reader_is_ok(r)) {
+    out.normals = s.normals = io_alloc_raw(r, "normals", count, 3 * sizeof(float));
+    uint32_t *indices = io_alloc_raw(r, "indices", count, sizeof *indices);
+    if (io_is_ok(r)) {
         parallel_for(r->thread_count, count / 3, GRAIN, spread, &s);
         for (size_t i = 0; i < count; i++)
             indices[i] = (uint32_t)i;
@@ -140,16 +140,16 @@ bool make_flat(reader *r, const json_place *at, scene_primitive *p)
         *p = out;
     }
     mem_free(s.streams);
-    return reader_is_ok(r);
+    return io_is_ok(r);
 }
 
-bool fill_missing_normals(reader *r, const json_place *at, scene_primitive *p)
+bool gltf_fill_missing_normals(io_reader *r, const json_place *at, scene_primitive *p)
 {
     double *sums = mem_zalloc(r->allocator, p->vertex_count, 3 * sizeof *sums);
-    float *normals = reader_alloc_raw(r, "normals", p->vertex_count, 3 * sizeof *normals);
-    if (!sums || !normals || !reader_spend(r, at, p->vertex_count)) {
+    float *normals = io_alloc_raw(r, "normals", p->vertex_count, 3 * sizeof *normals);
+    if (!sums || !normals || !io_spend(r, at, p->vertex_count)) {
         mem_free(sums);
-        return reader_fail_memory(r, "normals", (size_t)p->vertex_count * 3 * sizeof *sums);
+        return io_fail_memory(r, "normals", (size_t)p->vertex_count * 3 * sizeof *sums);
     }
     for (size_t i = 0; p->mode == SCENE_TRIANGLES && i < p->index_count; i += 3) {
         double vector[3];

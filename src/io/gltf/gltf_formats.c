@@ -48,46 +48,45 @@ static unsigned format_of(const gltf_accessor *a)
     }
 }
 
-uint32_t get_attribute(reader *r, const json_place *attributes, const char *name, gltf_attribute attribute,
-                       uint32_t vertex_count)
+uint32_t gltf_get_attribute(io_reader *r, const json_place *attributes, const char *name,
+                            gltf_attribute attribute, uint32_t vertex_count)
 {
-    uint32_t index = get_accessor(r, attributes, name);
+    uint32_t index = gltf_get_accessor(r, attributes, name);
     if (index == SCENE_NONE)
         return SCENE_NONE;
-    gltf_accessor *a = &r->accessors[index];
+    gltf_accessor *a = &r->gltf->accessors[index];
     /* Colors as plain integers are a common slip; normalised is the only thing they can mean. */
     if (attribute == GLTF_COLOR && format_of(a) == PLAIN_UNSIGNED && !a->floats) {
-        reader_warn(r, attributes, name, "accessor %u must be normalized; it is taken as if", index);
+        io_warn(r, attributes, name, "accessor %u must be normalized; it is taken as if", index);
         a->is_normalized = true;
     }
     unsigned format = format_of(a);
     if ((a->type != RULES[attribute].type && a->type != RULES[attribute].other_type) ||
         !(format & (RULES[attribute].formats | RULES[attribute].quantized_formats))) {
-        reader_fail(r, attributes, name, FACET_ERROR_INVALID,
-                    "accessor %u has a type and componentType that %s cannot have", index, name);
+        io_fail(r, attributes, name, FACET_ERROR_INVALID,
+                "accessor %u has a type and componentType that %s cannot have", index, name);
         return SCENE_NONE;
     }
-    if (!(format & RULES[attribute].formats) && !r->has_quantization)
-        reader_note(
-            r, attributes, name,
-            "accessor %u has a componentType that needs KHR_mesh_quantization, which the file does not "
-            "declare",
-            index);
+    if (!(format & RULES[attribute].formats) && !r->gltf->has_quantization)
+        io_note(r, attributes, name,
+                "accessor %u has a componentType that needs KHR_mesh_quantization, which the file does not "
+                "declare",
+                index);
     if (a->count != vertex_count) {
-        reader_fail(r, attributes, name, FACET_ERROR_INVALID,
-                    "accessor %u has %u elements, but POSITION has %u", index, a->count, vertex_count);
+        io_fail(r, attributes, name, FACET_ERROR_INVALID, "accessor %u has %u elements, but POSITION has %u",
+                index, a->count, vertex_count);
         return SCENE_NONE;
     }
     return index;
 }
 
-uint32_t count_sets(const json_place *attributes, const char *prefix)
+uint32_t gltf_count_sets(const json_place *attributes, const char *prefix)
 {
     enum { MOST = 64 };
     char name[32];
     for (uint32_t count = 0; count < MOST; count++) {
         snprintf(name, sizeof name, "%s%u", prefix, count);
-        if (!has_member(attributes, name))
+        if (!io_has_member(attributes, name))
             return count;
     }
     return MOST;
@@ -95,7 +94,7 @@ uint32_t count_sets(const json_place *attributes, const char *prefix)
 
 /* ---- names ---- */
 
-bool is_read_attribute(const char *name)
+bool gltf_is_read_attribute(const char *name)
 {
     static const char *const read[] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
     for (size_t i = 0; i < sizeof read / sizeof *read; i++)
@@ -105,7 +104,7 @@ bool is_read_attribute(const char *name)
            strncmp(name, "WEIGHTS_", 8) == 0;
 }
 
-void check_attribute_names(reader *r, const json_place *attributes)
+void gltf_check_attribute_names(io_reader *r, const json_place *attributes)
 {
     static const char *const numbered[] = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
     const char *name;
@@ -124,18 +123,18 @@ void check_attribute_names(reader *r, const json_place *attributes)
                        name[length + (size_t)used] == 0 && (name[length] != '0' || used == 1);
             char previous[32];
             snprintf(previous, sizeof previous, "%s%u", numbered[i], number - 1);
-            if (is_known && number > 0 && !has_member(attributes, previous))
-                reader_warn(r, attributes, name, "is there without %s", previous);
+            if (is_known && number > 0 && !io_has_member(attributes, previous))
+                io_warn(r, attributes, name, "is there without %s", previous);
         }
         if (!is_known)
-            reader_note(r, attributes, name, "is no attribute of glTF and is ignored");
-        if (!is_read_attribute(name) && reader_is_ok(r)) {
-            get_accessor(r, attributes, name);
-            reader_leave_out(r, "nothing reads it");
+            io_note(r, attributes, name, "is no attribute of glTF and is ignored");
+        if (!gltf_is_read_attribute(name) && io_is_ok(r)) {
+            gltf_get_accessor(r, attributes, name);
+            io_leave_out(r, "nothing reads it");
         }
-        uint32_t accessor = peek_index(attributes, name, r->accessor_count);
-        if (accessor != SCENE_NONE && r->accessors[accessor].component == GLTF_U32)
-            reader_note(r, attributes, name,
-                        "accessor %u has componentType 5125, which attributes cannot have", accessor);
+        uint32_t accessor = io_peek_index(attributes, name, r->gltf->accessor_count);
+        if (accessor != SCENE_NONE && r->gltf->accessors[accessor].component == GLTF_U32)
+            io_note(r, attributes, name, "accessor %u has componentType 5125, which attributes cannot have",
+                    accessor);
     }
 }

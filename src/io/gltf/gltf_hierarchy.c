@@ -10,19 +10,19 @@
  * ways are too many copies already. */
 enum { MAX_COPIES = 1 << 16, WAYS_ENOUGH = MAX_COPIES + 2 };
 
-void read_children(reader *r, const json_place *at, uint32_t index, uint32_t node_count)
+void gltf_read_children(io_reader *r, const json_place *at, uint32_t index, uint32_t node_count)
 {
-    json_place array = get_array(r, at, "children");
-    size_t count = get_count(&array);
-    uint32_t *children = reader_alloc(r, "nodes", count, sizeof *children);
+    json_place array = io_get_array(r, at, "children");
+    size_t count = io_get_count(&array);
+    uint32_t *children = io_alloc(r, "nodes", count, sizeof *children);
     uint32_t used = 0;
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place element = get_element(&array, i);
-        uint32_t child = get_index_value(r, &element, node_count, "node");
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place element = io_get_element(&array, i);
+        uint32_t child = io_get_index_value(r, &element, node_count, "node");
         if (child == SCENE_NONE)
             return;
         if (r->scene->nodes[child].parent == index) { /* the last node that listed it */
-            reader_note(r, &element, NULL, "node %u is listed twice", child);
+            io_note(r, &element, NULL, "node %u is listed twice", child);
             continue;
         }
         r->scene->nodes[child].parent = index;
@@ -67,7 +67,7 @@ static uint32_t follow_ways(const scene_node *nodes, uint32_t count, way_count *
 }
 
 /* How many nodes there are when each is there once for every way from a root to it. False: an error is recorded. */
-static bool count_nodes(reader *r, const json_place *array, uint64_t *total)
+static bool count_nodes(io_reader *r, const json_place *array, uint64_t *total)
 {
     uint32_t count = r->scene->node_count;
     way_count w = {.waiting = mem_zalloc(r->allocator, count, sizeof *w.waiting),
@@ -75,37 +75,37 @@ static bool count_nodes(reader *r, const json_place *array, uint64_t *total)
                    .ways = mem_zalloc(r->allocator, count, sizeof *w.ways)};
     *total = 0;
     if (!w.waiting || !w.queue || !w.ways) {
-        reader_fail_memory(r, "nodes", count * (2 * sizeof *w.queue + sizeof *w.ways));
+        io_fail_memory(r, "nodes", count * (2 * sizeof *w.queue + sizeof *w.ways));
     } else if (follow_ways(r->scene->nodes, count, &w, total) < count) {
         uint32_t i = 0;
         while (w.waiting[i] == 0)
             i++;
-        json_place at = get_element(array, i);
-        reader_fail(r, &at, NULL, FACET_ERROR_INVALID, "is its own ancestor");
+        json_place at = io_get_element(array, i);
+        io_fail(r, &at, NULL, FACET_ERROR_INVALID, "is its own ancestor");
     } else if (*total > (uint64_t)count + MAX_COPIES) {
-        reader_fail(r, array, NULL, FACET_ERROR_LIMIT, "with several parents make more than %d copies",
-                    (int)MAX_COPIES);
+        io_fail(r, array, NULL, FACET_ERROR_LIMIT, "with several parents make more than %d copies",
+                (int)MAX_COPIES);
     }
     mem_free(w.waiting);
     mem_free(w.queue);
     mem_free(w.ways);
-    return reader_is_ok(r);
+    return io_is_ok(r);
 }
 
 /* ---- copies ---- */
 
-static void warn_shared(reader *r, const json_place *array, uint32_t parent, uint32_t k, uint32_t child)
+static void warn_shared(io_reader *r, const json_place *array, uint32_t parent, uint32_t k, uint32_t child)
 {
-    const json_place node = get_element(array, parent);
+    const json_place node = io_get_element(array, parent);
     const json_place children = {.parent = &node, .key = "children"};
     const json_place at = {.parent = &children, .index = k};
-    reader_warn(r, &at, NULL, "node %u is a child of node %u already; it is drawn under each parent", child,
-                r->scene->nodes[child].parent);
+    io_warn(r, &at, NULL, "node %u is a child of node %u already; it is drawn under each parent", child,
+            r->scene->nodes[child].parent);
 }
 
 /* A copy has no camera, as choosing one is choosing a node, and draws no mesh that joints place: that would be drawn
  * again where it is. */
-static void make_copy(reader *r, uint32_t copy, uint32_t of, uint32_t parent)
+static void make_copy(io_reader *r, uint32_t copy, uint32_t of, uint32_t parent)
 {
     scene_node *node = &r->scene->nodes[copy];
     *node = r->scene->nodes[of];
@@ -113,22 +113,23 @@ static void make_copy(reader *r, uint32_t copy, uint32_t of, uint32_t parent)
     node->camera = SCENE_NONE;
     if (node->skin != SCENE_NONE)
         node->mesh = node->skin = SCENE_NONE;
-    uint32_t original = of < r->file_node_count ? of : r->copy_of[of];
-    r->copy_of[copy] = original;
-    r->next_copy[copy] = r->next_copy[original];
-    r->next_copy[original] = copy;
+    uint32_t original = of < r->gltf->file_node_count ? of : r->gltf->copy_of[of];
+    r->gltf->copy_of[copy] = original;
+    r->gltf->next_copy[copy] = r->gltf->next_copy[original];
+    r->gltf->next_copy[original] = copy;
 }
 
 /* Gives a node its children: those of the file that have no parent yet, and copies of the others. */
-static void adopt(reader *r, const json_place *array, uint32_t index, uint32_t *used)
+static void adopt(io_reader *r, const json_place *array, uint32_t index, uint32_t *used)
 {
     scene_node *nodes = r->scene->nodes;
     uint32_t count = nodes[index].child_count;
-    uint32_t *children = reader_alloc_raw(r, "nodes", count, sizeof *children);
-    bool is_copy = index >= r->file_node_count;
-    const uint32_t *originals = nodes[is_copy ? r->copy_of[index] : index].children;
+    uint32_t *children = io_alloc_raw(r, "nodes", count, sizeof *children);
+    bool is_copy = index >= r->gltf->file_node_count;
+    const uint32_t *originals = nodes[is_copy ? r->gltf->copy_of[index] : index].children;
     for (uint32_t k = 0; k < count && children; k++) {
-        uint32_t child = originals[k] < r->file_node_count ? originals[k] : r->copy_of[originals[k]];
+        uint32_t child =
+            originals[k] < r->gltf->file_node_count ? originals[k] : r->gltf->copy_of[originals[k]];
         if (!is_copy && nodes[child].parent == SCENE_NONE) {
             nodes[child].parent = index;
             children[k] = child;
@@ -143,18 +144,18 @@ static void adopt(reader *r, const json_place *array, uint32_t index, uint32_t *
         nodes[index].children = children;
 }
 
-void settle_hierarchy(reader *r, const json_place *array)
+void gltf_settle_hierarchy(io_reader *r, const json_place *array)
 {
     uint64_t total;
     uint32_t count = r->scene->node_count;
-    r->file_node_count = count;
+    r->gltf->file_node_count = count;
     if (!count_nodes(r, array, &total))
         return;
     if (total > count) {
-        scene_node *nodes = reader_alloc_raw(r, "nodes", total, sizeof *nodes);
-        r->copy_of = reader_alloc(r, "nodes", total, sizeof *r->copy_of);
-        r->next_copy = reader_alloc(r, "nodes", total, sizeof *r->next_copy);
-        if (!nodes || !r->copy_of || !r->next_copy)
+        scene_node *nodes = io_alloc_raw(r, "nodes", total, sizeof *nodes);
+        r->gltf->copy_of = io_alloc(r, "nodes", total, sizeof *r->gltf->copy_of);
+        r->gltf->next_copy = io_alloc(r, "nodes", total, sizeof *r->gltf->next_copy);
+        if (!nodes || !r->gltf->copy_of || !r->gltf->next_copy)
             return;
         memcpy(nodes, r->scene->nodes, count * sizeof *nodes);
         r->scene->nodes = nodes;
@@ -162,30 +163,30 @@ void settle_hierarchy(reader *r, const json_place *array)
     uint32_t used = count;
     for (uint32_t i = 0; i < count; i++)
         r->scene->nodes[i].parent = SCENE_NONE;
-    for (uint32_t i = 0; i < used && reader_is_ok(r); i++)
+    for (uint32_t i = 0; i < used && io_is_ok(r); i++)
         adopt(r, array, i, &used);
     r->scene->node_count = used;
 }
 
-uint32_t next_node_copy(const reader *r, uint32_t node)
+uint32_t gltf_next_node_copy(const io_reader *r, uint32_t node)
 {
-    return r->next_copy && r->next_copy[node] ? r->next_copy[node] : SCENE_NONE;
+    return r->gltf->next_copy && r->gltf->next_copy[node] ? r->gltf->next_copy[node] : SCENE_NONE;
 }
 
 /* ---- CESIUM_RTC ---- */
 
 /* Every root gets a node above it that is at the center: its own place may be animated. */
-void read_center(reader *r, const json_place *root)
+void gltf_read_center(io_reader *r, const json_place *root)
 {
     double center[3];
-    json_place at = get_extension(r, root, "CESIUM_RTC");
-    bool is_there = get_doubles(r, &at, "center", center, 3);
+    json_place at = io_get_extension(r, root, "CESIUM_RTC");
+    bool is_there = io_get_doubles(r, &at, "center", center, 3);
     facet_scene *scene = r->scene;
-    if (reader_leave_out(r, "the model is not moved") || !is_there || !reader_is_ok(r))
+    if (io_leave_out(r, "the model is not moved") || !is_there || !io_is_ok(r))
         return;
     uint32_t count = scene->node_count;
-    scene_node *nodes = reader_alloc_raw(r, "nodes", 2 * (size_t)count, sizeof *nodes);
-    uint32_t *children = reader_alloc_raw(r, "nodes", count, sizeof *children);
+    scene_node *nodes = io_alloc_raw(r, "nodes", 2 * (size_t)count, sizeof *nodes);
+    uint32_t *children = io_alloc_raw(r, "nodes", count, sizeof *children);
     if (!nodes || !children)
         return;
     memcpy(nodes, scene->nodes, count * sizeof *nodes);

@@ -7,19 +7,20 @@
 enum { POINTS, LINES, LINE_LOOP, LINE_STRIP, TRIANGLES, TRIANGLE_STRIP, TRIANGLE_FAN, MODE_COUNT };
 
 /* 0, 1, .. count - 1; one array serves all primitives. */
-static const uint32_t *get_iota(reader *r, uint32_t count)
+static const uint32_t *get_iota(io_reader *r, uint32_t count)
 {
-    if (r->iota && r->iota_count >= count)
-        return r->iota;
-    uint32_t capacity =
-        r->iota_count > UINT32_MAX / 2 || 2 * r->iota_count < count ? count : 2 * r->iota_count;
-    uint32_t *iota = reader_alloc_raw(r, "indices", capacity, sizeof *iota);
+    if (r->gltf->iota && r->gltf->iota_count >= count)
+        return r->gltf->iota;
+    uint32_t capacity = r->gltf->iota_count > UINT32_MAX / 2 || 2 * r->gltf->iota_count < count
+                            ? count
+                            : 2 * r->gltf->iota_count;
+    uint32_t *iota = io_alloc_raw(r, "indices", capacity, sizeof *iota);
     if (!iota)
         return NULL;
     for (uint32_t i = 0; i < capacity; i++)
         iota[i] = i;
-    r->iota = iota;
-    r->iota_count = capacity;
+    r->gltf->iota = iota;
+    r->gltf->iota_count = capacity;
     return iota;
 }
 
@@ -121,28 +122,28 @@ static void unroll_all(unsigned mode, const index_source *s, uint32_t *out)
 /* The largest number of a component type is no index in glTF 2.0, but was written as one before that rule came, and is:
  * lists know no restart. In strips, loops and fans it restarts where the vertex is not there, or the file has
  * EXT_mesh_primitive_restart. (That extension itself joins ordinary primitives, which are drawn.) */
-static void find_restarts(reader *r, const json_place *at, unsigned mode, uint32_t vertex_count,
+static void find_restarts(io_reader *r, const json_place *at, unsigned mode, uint32_t vertex_count,
                           index_source *s)
 {
     if (s->count == 0 || s->largest != s->restart)
         return;
-    s->has_restarts = is_connected(mode) &&
-                      (s->restart >= vertex_count || is_extension_listed(r, "EXT_mesh_primitive_restart"));
+    s->has_restarts = is_connected(mode) && (s->restart >= vertex_count ||
+                                             gltf_is_extension_listed(r, "EXT_mesh_primitive_restart"));
     if (s->has_restarts)
-        reader_warn(r, at, "indices", "has the index %u, which is taken as a primitive restart", s->restart);
+        io_warn(r, at, "indices", "has the index %u, which is taken as a primitive restart", s->restart);
     else if (s->restart < vertex_count)
-        reader_warn(r, at, "indices",
-                    "has the index %u, which glTF keeps for primitive restart; it is drawn as that vertex",
-                    s->restart);
+        io_warn(r, at, "indices",
+                "has the index %u, which glTF keeps for primitive restart; it is drawn as that vertex",
+                s->restart);
 }
 
 /* ---- vertices that are lost or not there ---- */
 
 /* Leaves out the elements of a list, of so many corners each, that use such vertices; is_lost: NULL: none is. False: an
  * error is recorded. */
-static bool drop_unusable(reader *r, scene_primitive *p, size_t corners, const uint8_t *is_lost)
+static bool drop_unusable(io_reader *r, scene_primitive *p, size_t corners, const uint8_t *is_lost)
 {
-    uint32_t *out = reader_alloc_raw(r, "indices", p->index_count, sizeof *out);
+    uint32_t *out = io_alloc_raw(r, "indices", p->index_count, sizeof *out);
     if (!out)
         return false;
     uint32_t kept = 0;
@@ -162,36 +163,37 @@ static bool drop_unusable(reader *r, scene_primitive *p, size_t corners, const u
     return true;
 }
 
-static void warn_missing_vertex(reader *r, const json_place *at, const index_source *s, uint32_t vertex_count)
+static void warn_missing_vertex(io_reader *r, const json_place *at, const index_source *s,
+                                uint32_t vertex_count)
 {
     uint32_t i = 0;
     while (s->indices[i] < vertex_count || (s->has_restarts && s->indices[i] == s->restart))
         if (++i == s->count)
             return;
-    reader_warn(r, at, "indices",
-                "index %u is %u, but there are %u vertices; what uses it or others like it is left out", i,
-                s->indices[i], vertex_count);
+    io_warn(r, at, "indices",
+            "index %u is %u, but there are %u vertices; what uses it or others like it is left out", i,
+            s->indices[i], vertex_count);
 }
 
 /* ---- the primitive ---- */
 
 /* Where the indices come from; indices NULL: an error is recorded. *mode becomes that of a list where a bitstream has
  * faces, whatever mode they were stored in: each corner is a vertex. */
-static index_source find_indices(reader *r, const json_place *at, uint32_t vertex_count, unsigned *mode)
+static index_source find_indices(io_reader *r, const json_place *at, uint32_t vertex_count, unsigned *mode)
 {
-    uint32_t accessor = get_accessor(r, at, "indices");
+    uint32_t accessor = gltf_get_accessor(r, at, "indices");
     index_source s = {.count = vertex_count};
-    if (r->faces) {
-        s.indices = r->faces;
-        s.count = 3 * r->face_count;
+    if (r->gltf->faces) {
+        s.indices = r->gltf->faces;
+        s.count = 3 * r->gltf->face_count;
         *mode = TRIANGLES;
     } else if (accessor == SCENE_NONE) {
         s.indices = get_iota(r, vertex_count);
     } else {
         json_place place = {.parent = at, .key = "indices"};
-        gltf_component c = r->accessors[accessor].component;
-        s.indices = get_accessor_indices(r, &place, accessor, &s.largest);
-        s.count = r->accessors[accessor].count;
+        gltf_component c = r->gltf->accessors[accessor].component;
+        s.indices = gltf_get_accessor_indices(r, &place, accessor, &s.largest);
+        s.count = r->gltf->accessors[accessor].count;
         s.restart = c == GLTF_U8 ? UINT8_MAX : c == GLTF_U16 ? UINT16_MAX : UINT32_MAX;
         if (s.indices)
             find_restarts(r, at, *mode, vertex_count, &s);
@@ -199,25 +201,26 @@ static index_source find_indices(reader *r, const json_place *at, uint32_t verte
     return s;
 }
 
-bool read_primitive_indices(reader *r, const json_place *at, scene_primitive *p, const uint8_t *is_lost)
+bool gltf_read_primitive_indices(io_reader *r, const json_place *at, scene_primitive *p,
+                                 const uint8_t *is_lost)
 {
-    unsigned mode = (unsigned)get_uint(r, at, "mode", MODE_COUNT - 1, TRIANGLES);
+    unsigned mode = (unsigned)io_get_uint(r, at, "mode", MODE_COUNT - 1, TRIANGLES);
     index_source in = find_indices(r, at, p->vertex_count, &mode);
-    if (!reader_is_ok(r))
+    if (!io_is_ok(r))
         return false;
 
     static const uint8_t corners[MODE_COUNT] = {1, 2, 2, 2, 3, 3, 3};
     uint64_t count = total_length(mode, &in);
     p->mode = mode == POINTS ? SCENE_POINTS : mode < TRIANGLES ? SCENE_LINES : SCENE_TRIANGLES;
     if ((mode == LINES || mode == TRIANGLES) ? count != in.count : count == 0)
-        reader_note(r, at, NULL, "%u vertices do not make whole %s", in.count,
-                    p->mode == SCENE_LINES ? "lines" : "triangles");
-    if (!reader_spend(r, at, count)) /* also what follows is linear in it: bounds, flat normals */
+        io_note(r, at, NULL, "%u vertices do not make whole %s", in.count,
+                p->mode == SCENE_LINES ? "lines" : "triangles");
+    if (!io_spend(r, at, count)) /* also what follows is linear in it: bounds, flat normals */
         return false;
     p->index_count = (uint32_t)count;
     p->indices = in.indices;
     if (is_connected(mode)) {
-        uint32_t *list = reader_alloc_raw(r, "indices", count, sizeof *list);
+        uint32_t *list = io_alloc_raw(r, "indices", count, sizeof *list);
         if (!list)
             return false;
         unroll_all(mode, &in, list);

@@ -54,44 +54,44 @@ static void gather(void *context, size_t begin, size_t end)
 }
 
 /* The arrays of the sets. False: an error is recorded, or (set_count 0) the file has none. */
-static bool get_sets(reader *r, const json_place *attributes, uint32_t vertex_count, gathering *g)
+static bool get_sets(io_reader *r, const json_place *attributes, uint32_t vertex_count, gathering *g)
 {
-    uint32_t joint_sets = count_sets(attributes, "JOINTS_");
-    uint32_t weight_sets = count_sets(attributes, "WEIGHTS_");
+    uint32_t joint_sets = gltf_count_sets(attributes, "JOINTS_");
+    uint32_t weight_sets = gltf_count_sets(attributes, "WEIGHTS_");
     g->set_count = joint_sets < weight_sets ? joint_sets : weight_sets;
     if (joint_sets != weight_sets)
-        reader_warn(r, attributes, NULL,
-                    "has %u sets of JOINTS_n, but %u of WEIGHTS_n; those without the other are ignored",
-                    joint_sets, weight_sets);
-    for (uint32_t i = 0; i < g->set_count && reader_is_ok(r); i++) {
+        io_warn(r, attributes, NULL,
+                "has %u sets of JOINTS_n, but %u of WEIGHTS_n; those without the other are ignored",
+                joint_sets, weight_sets);
+    for (uint32_t i = 0; i < g->set_count && io_is_ok(r); i++) {
         char name[32];
         snprintf(name, sizeof name, "JOINTS_%u", i);
-        uint32_t joints = get_attribute(r, attributes, name, GLTF_JOINTS, vertex_count);
+        uint32_t joints = gltf_get_attribute(r, attributes, name, GLTF_JOINTS, vertex_count);
         snprintf(name, sizeof name, "WEIGHTS_%u", i);
-        uint32_t weights = get_attribute(r, attributes, name, GLTF_WEIGHTS, vertex_count);
+        uint32_t weights = gltf_get_attribute(r, attributes, name, GLTF_WEIGHTS, vertex_count);
         if (joints == SCENE_NONE || weights == SCENE_NONE)
             return false;
-        g->joints[i] = get_accessor_floats(r, attributes, joints);
-        g->weights[i] = get_accessor_floats(r, attributes, weights);
+        g->joints[i] = gltf_get_accessor_floats(r, attributes, joints);
+        g->weights[i] = gltf_get_accessor_floats(r, attributes, weights);
     }
-    return reader_is_ok(r) && g->set_count > 0;
+    return io_is_ok(r) && g->set_count > 0;
 }
 
-bool read_influences(reader *r, const json_place *attributes, scene_primitive *p)
+bool gltf_read_influences(io_reader *r, const json_place *attributes, scene_primitive *p)
 {
     gathering g = {0};
     if (!get_sets(r, attributes, p->vertex_count, &g))
-        return reader_is_ok(r);
+        return io_is_ok(r);
     uint32_t count = 4 * g.set_count;
     size_t ranges = p->vertex_count / GRAIN + 1;
-    if (!reader_spend(r, attributes, (uint64_t)p->vertex_count * g.set_count))
+    if (!io_spend(r, attributes, (uint64_t)p->vertex_count * g.set_count))
         return false;
-    g.out_joints = reader_alloc_raw(r, "joints", p->vertex_count, count * sizeof *g.out_joints);
-    g.out_weights = reader_alloc_raw(r, "weights", p->vertex_count, count * sizeof *g.out_weights);
+    g.out_joints = io_alloc_raw(r, "joints", p->vertex_count, count * sizeof *g.out_joints);
+    g.out_weights = io_alloc_raw(r, "weights", p->vertex_count, count * sizeof *g.out_weights);
     g.far_off = mem_zalloc(r->allocator, 2 * ranges, sizeof *g.far_off);
     if (!g.far_off)
-        reader_fail_memory(r, "weights", 2 * ranges * sizeof *g.far_off);
-    if (reader_is_ok(r)) {
+        io_fail_memory(r, "weights", 2 * ranges * sizeof *g.far_off);
+    if (io_is_ok(r)) {
         g.without = g.far_off + ranges;
         parallel_for(r->thread_count, p->vertex_count, GRAIN, gather, &g);
         size_t far_off = 0;
@@ -101,15 +101,14 @@ bool read_influences(reader *r, const json_place *attributes, scene_primitive *p
             without += g.without[i];
         }
         if (far_off)
-            reader_warn(r, attributes, NULL, "weights of %zu vertices do not sum to 1; they are scaled",
-                        far_off);
+            io_warn(r, attributes, NULL, "weights of %zu vertices do not sum to 1; they are scaled", far_off);
         if (without)
-            reader_warn(r, attributes, NULL,
-                        "weights of %zu vertices are all 0; the first joint of each moves it", without);
+            io_warn(r, attributes, NULL,
+                    "weights of %zu vertices are all 0; the first joint of each moves it", without);
         p->influence_count = count;
         p->joints = g.out_joints;
         p->weights = g.out_weights;
     }
     mem_free(g.far_off);
-    return reader_is_ok(r);
+    return io_is_ok(r);
 }

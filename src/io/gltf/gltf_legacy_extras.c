@@ -46,19 +46,19 @@ static int get_choice(const json_t *value, const char *const *names, int fallbac
     return fallback;
 }
 
-static const char *get_text(reader *r, const json_t *value)
+static const char *get_text(io_reader *r, const json_t *value)
 {
-    if (!json_is_string(value) || !reader_is_ok(r))
+    if (!json_is_string(value) || !io_is_ok(r))
         return NULL;
     const char *copy = arena_strdup(r->scene->arena, json_string_value(value));
     if (!copy)
-        reader_fail_memory(r, "extras", json_string_length(value));
+        io_fail_memory(r, "extras", json_string_length(value));
     return copy;
 }
 
 /* ---- materials ---- */
 
-static void get_ref(const reader *r, const json_t *object, legacy_map *map)
+static void get_ref(const io_reader *r, const json_t *object, legacy_map *map)
 {
     scene_texture_ref *ref = &map->ref;
     const json_t *texture = json_object_get(object, "texture");
@@ -77,7 +77,7 @@ static void get_ref(const reader *r, const json_t *object, legacy_map *map)
     scene_texture_ref_update(ref);
 }
 
-static void get_map(reader *r, const json_t *object, legacy_map *map)
+static void get_map(io_reader *r, const json_t *object, legacy_map *map)
 {
     const json_t *channel = json_object_get(object, "imfchan");
     const float most = LEGACY_LARGEST;
@@ -95,7 +95,7 @@ static void get_map(reader *r, const json_t *object, legacy_map *map)
         map->channel = *json_string_value(channel);
 }
 
-static void get_material(reader *r, const json_t *object, legacy_material *m)
+static void get_material(io_reader *r, const json_t *object, legacy_material *m)
 {
     const json_t *illum = json_object_get(object, "illum");
     for (int i = 0; i < LEGACY_PARAMETER_COUNT; i++) {
@@ -152,19 +152,19 @@ static void get_light(const json_t *object, legacy_light *light)
     get_numbers(json_object_get(object, "specular"), light->specular, 3, 0, LEGACY_LARGEST);
 }
 
-static void get_lights(reader *r, const json_t *array, scene_legacy *legacy)
+static void get_lights(io_reader *r, const json_t *array, scene_legacy *legacy)
 {
     size_t count = json_array_size(array);
     if (count == 0 || count >= SCENE_NONE)
         return;
-    legacy->lights = reader_alloc(r, "lights", count, sizeof *legacy->lights);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
+    legacy->lights = io_alloc(r, "lights", count, sizeof *legacy->lights);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
         get_light(json_array_get(array, i), &legacy->lights[i]);
         legacy->light_count = (uint32_t)(i + 1);
     }
 }
 
-static void get_scene(reader *r, const json_t *object, scene_legacy *legacy)
+static void get_scene(io_reader *r, const json_t *object, scene_legacy *legacy)
 {
     const json_t *fog = json_object_get(object, "fog");
     get_lights(r, json_object_get(object, "lights"), legacy);
@@ -190,7 +190,7 @@ static const json_t *find_member(const json_t *object)
     return json_is_object(member) ? member : NULL;
 }
 
-void read_legacy_extras(reader *r, const json_place *root)
+void gltf_read_legacy_extras(io_reader *r, const json_place *root)
 {
     facet_scene *scene = r->scene;
     const json_t *materials = json_object_get(root->value, "materials");
@@ -202,13 +202,13 @@ void read_legacy_extras(reader *r, const json_place *root)
     }
     if (!has_any)
         return;
-    scene_legacy *legacy = reader_alloc(r, "legacy materials", 1, sizeof *legacy);
+    scene_legacy *legacy = io_alloc(r, "legacy materials", 1, sizeof *legacy);
     if (!legacy)
         return;
     legacy->fog.scale = 1.0f;
-    legacy->materials = reader_alloc(r, "legacy materials", scene->material_count, sizeof *legacy->materials);
+    legacy->materials = io_alloc(r, "legacy materials", scene->material_count, sizeof *legacy->materials);
     get_scene(r, whole, legacy);
-    for (uint32_t i = 0; i < scene->material_count && reader_is_ok(r); i++) {
+    for (uint32_t i = 0; i < scene->material_count && io_is_ok(r); i++) {
         const json_t *member = find_member(json_array_get(materials, i));
         legacy->materials[i] = legacy_material_default();
         legacy->materials[i].name = scene->materials[i].name;
@@ -219,6 +219,6 @@ void read_legacy_extras(reader *r, const json_place *root)
         if (!legacy_lacks_pictures(&known))
             legacy->materials[i] = known;
     }
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         scene->legacy = legacy;
 }

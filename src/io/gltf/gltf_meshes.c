@@ -9,85 +9,88 @@
 enum { GRAIN = 1 << 15 };
 
 /* Whether a texture of the material reads a set of texture coordinates; the materials of variants may. */
-static bool is_set_read(const reader *r, const json_place *at, const scene_primitive *p, uint32_t set)
+static bool is_set_read(const io_reader *r, const json_place *at, const scene_primitive *p, uint32_t set)
 {
     const scene_material *m = scene_get_material(r->scene, p->material);
-    bool is_read = has_member(at, "extensions");
+    bool is_read = io_has_member(at, "extensions");
     for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
         is_read |= m->textures[i].texture != SCENE_NONE && m->textures[i].texcoord == set;
     return is_read;
 }
 
 /* at: the primitive. */
-static bool read_texcoords(reader *r, const json_place *at, const json_place *attributes, scene_primitive *p)
+static bool read_texcoords(io_reader *r, const json_place *at, const json_place *attributes,
+                           scene_primitive *p)
 {
-    uint32_t count = count_sets(attributes, "TEXCOORD_");
-    const float **sets = reader_alloc(r, "texture coordinates", count, sizeof *sets);
-    for (uint32_t i = 0; i < count && reader_is_ok(r); i++) {
+    uint32_t count = gltf_count_sets(attributes, "TEXCOORD_");
+    const float **sets = io_alloc(r, "texture coordinates", count, sizeof *sets);
+    for (uint32_t i = 0; i < count && io_is_ok(r); i++) {
         char name[24];
         snprintf(name, sizeof name, "TEXCOORD_%u", i);
-        uint32_t accessor = get_attribute(r, attributes, name, GLTF_TEXCOORD, p->vertex_count);
+        uint32_t accessor = gltf_get_attribute(r, attributes, name, GLTF_TEXCOORD, p->vertex_count);
         if (accessor != SCENE_NONE)
-            sets[i] = get_finite(r, attributes, accessor, "texture coordinates");
-        if (!is_set_read(r, at, p, i) && reader_leave_out(r, "no texture reads it"))
-            sets[i] = reader_alloc(r, "texture coordinates", p->vertex_count, 2 * sizeof **sets);
+            sets[i] = gltf_get_finite(r, attributes, accessor, "texture coordinates");
+        if (!is_set_read(r, at, p, i) && io_leave_out(r, "no texture reads it"))
+            sets[i] = io_alloc(r, "texture coordinates", p->vertex_count, 2 * sizeof **sets);
     }
     p->texcoords = sets;
     p->texcoord_count = count;
-    return reader_is_ok(r);
+    return io_is_ok(r);
 }
 
 /* Joints are needed where a skin moves the mesh, which is known later. */
-static bool read_joints(reader *r, const json_place *attributes, scene_primitive *p)
+static bool read_joints(io_reader *r, const json_place *attributes, scene_primitive *p)
 {
-    if (!read_influences(r, attributes, p) && reader_defer(r, &r->mesh->joints)) {
+    if (!gltf_read_influences(r, attributes, p) && io_defer(r, &r->gltf->mesh->joints)) {
         p->influence_count = 0;
         p->joints = NULL;
         p->weights = NULL;
     }
-    return reader_is_ok(r);
+    return io_is_ok(r);
 }
 
 /* Whether all that the primitive reads has bytes somewhere. Errors of an accessor are reported when it is read. */
-static bool has_sources(reader *r, const json_place *at, const json_place *attributes)
+static bool has_sources(io_reader *r, const json_place *at, const json_place *attributes)
 {
     const char *name;
     json_t *value;
-    uint32_t indices = peek_index(at, "indices", r->accessor_count);
-    bool has_all = indices == SCENE_NONE || has_accessor_source(r, indices);
+    uint32_t indices = io_peek_index(at, "indices", r->gltf->accessor_count);
+    bool has_all = indices == SCENE_NONE || gltf_has_accessor_source(r, indices);
     json_object_foreach((json_t *)(uintptr_t)attributes->value, name, value)
     {
-        uint32_t accessor =
-            is_read_attribute(name) ? peek_index(attributes, name, r->accessor_count) : SCENE_NONE;
-        has_all = has_all && (accessor == SCENE_NONE || has_accessor_source(r, accessor));
+        uint32_t accessor = gltf_is_read_attribute(name)
+                                ? io_peek_index(attributes, name, r->gltf->accessor_count)
+                                : SCENE_NONE;
+        has_all = has_all && (accessor == SCENE_NONE || gltf_has_accessor_source(r, accessor));
     }
     return has_all;
 }
 
-static bool read_attributes(reader *r, const json_place *at, const json_place *attributes, scene_primitive *p,
-                            const uint8_t **is_lost, bool *has_missing_normals)
+static bool read_attributes(io_reader *r, const json_place *at, const json_place *attributes,
+                            scene_primitive *p, const uint8_t **is_lost, bool *has_missing_normals)
 {
-    uint32_t position = get_accessor(r, attributes, "POSITION");
+    uint32_t position = gltf_get_accessor(r, attributes, "POSITION");
     if (position == SCENE_NONE)
         return false;
-    p->vertex_count = r->accessors[position].count;
-    uint32_t accessor = get_attribute(r, attributes, "POSITION", GLTF_POSITION, p->vertex_count);
-    if (accessor == SCENE_NONE || !(p->positions = get_positions(r, attributes, accessor, is_lost)))
+    p->vertex_count = r->gltf->accessors[position].count;
+    uint32_t accessor = gltf_get_attribute(r, attributes, "POSITION", GLTF_POSITION, p->vertex_count);
+    if (accessor == SCENE_NONE || !(p->positions = gltf_get_positions(r, attributes, accessor, is_lost)))
         return false;
-    accessor = get_attribute(r, attributes, "NORMAL", GLTF_NORMAL, p->vertex_count);
-    if (accessor != SCENE_NONE && !(p->normals = get_normals(r, attributes, accessor, has_missing_normals)))
+    accessor = gltf_get_attribute(r, attributes, "NORMAL", GLTF_NORMAL, p->vertex_count);
+    if (accessor != SCENE_NONE &&
+        !(p->normals = gltf_get_normals(r, attributes, accessor, has_missing_normals)))
         return false;
-    if (!reader_is_ok(r))
+    if (!io_is_ok(r))
         return false;
-    accessor = get_attribute(r, attributes, "TANGENT", GLTF_TANGENT, p->vertex_count);
+    accessor = gltf_get_attribute(r, attributes, "TANGENT", GLTF_TANGENT, p->vertex_count);
     if (accessor != SCENE_NONE && p->normals)
-        p->tangents = get_tangents(r, attributes, accessor);
-    if (reader_leave_out(r, "tangents are computed"))
+        p->tangents = gltf_get_tangents(r, attributes, accessor);
+    if (io_leave_out(r, "tangents are computed"))
         p->tangents = NULL;
-    accessor = get_attribute(r, attributes, "COLOR_0", GLTF_COLOR, p->vertex_count);
-    if (accessor != SCENE_NONE && !(p->colors = get_colors(r, attributes, accessor)))
+    accessor = gltf_get_attribute(r, attributes, "COLOR_0", GLTF_COLOR, p->vertex_count);
+    if (accessor != SCENE_NONE && !(p->colors = gltf_get_colors(r, attributes, accessor)))
         return false;
-    return reader_is_ok(r) && read_texcoords(r, at, attributes, p) && read_joints(r, attributes, p);
+    return io_is_ok(r) && read_texcoords(r, at, attributes, p) && read_joints(r, attributes, p);
 }
 
 /* ---- bounds ---- */
@@ -112,7 +115,7 @@ static void bound_range(void *context, size_t begin, size_t end)
     memcpy(job->boxes[begin / GRAIN], box, sizeof box);
 }
 
-static bool bound_primitive(reader *r, scene_primitive *p)
+static bool bound_primitive(io_reader *r, scene_primitive *p)
 {
     if (p->index_count == 0)
         return true;
@@ -121,7 +124,7 @@ static bool bound_primitive(reader *r, scene_primitive *p)
     bounds_job job = {.primitive = p,
                       .boxes = ranges > 1 ? mem_alloc(r->allocator, ranges, sizeof small) : &small};
     if (!job.boxes)
-        return reader_fail_memory(r, "bounds", ranges * sizeof small);
+        return io_fail_memory(r, "bounds", ranges * sizeof small);
     parallel_for(r->thread_count, p->index_count, GRAIN, bound_range, &job);
     for (int k = 0; k < 3; k++) {
         p->bounds_min[k] = job.boxes[0][k];
@@ -149,55 +152,55 @@ static void make_empty(scene_primitive *p)
 }
 
 /* Whether the texture coordinates that the material reads are there. */
-static void check_texcoords(reader *r, const json_place *at, const scene_primitive *p)
+static void check_texcoords(io_reader *r, const json_place *at, const scene_primitive *p)
 {
     if (p->material == SCENE_NONE)
         return;
     const scene_material *m = &r->scene->materials[p->material];
     for (int i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
         if (m->textures[i].texture != SCENE_NONE && m->textures[i].texcoord >= p->texcoord_count)
-            reader_warn(r, at, NULL, "has no TEXCOORD_%u, which material %u reads; it is taken as 0",
-                        m->textures[i].texcoord, p->material);
+            io_warn(r, at, NULL, "has no TEXCOORD_%u, which material %u reads; it is taken as 0",
+                    m->textures[i].texcoord, p->material);
 }
 
-static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
+static void read_primitive(io_reader *r, const json_place *at, scene_primitive *p)
 {
-    p->material = get_index(r, at, "material", r->scene->material_count, "material");
-    if (p->material != SCENE_NONE && r->material_problems[p->material].message)
-        reader_fail_deferred(r, &r->material_problems[p->material]);
-    json_place attributes = get_object(r, at, "attributes");
+    p->material = io_get_index(r, at, "material", r->scene->material_count, "material");
+    if (p->material != SCENE_NONE && r->gltf->material_problems[p->material].message)
+        io_fail_deferred(r, &r->gltf->material_problems[p->material]);
+    json_place attributes = io_get_object(r, at, "attributes");
     if (!attributes.value) {
-        reader_fail(r, at, "attributes", FACET_ERROR_INVALID, "is missing");
+        io_fail(r, at, "attributes", FACET_ERROR_INVALID, "is missing");
         return;
     }
     if (json_object_size(attributes.value) == 0)
-        reader_note(r, &attributes, NULL, "is empty, which glTF does not allow");
-    check_attribute_names(r, &attributes);
-    if (!prepare_draco(r, at))
+        io_note(r, &attributes, NULL, "is empty, which glTF does not allow");
+    gltf_check_attribute_names(r, &attributes);
+    if (!gltf_prepare_draco(r, at))
         return;
     if (!has_sources(r, at, &attributes)) {
-        reader_warn(r, at, NULL, "is in a buffer without bytes and is not drawn");
+        io_warn(r, at, NULL, "is in a buffer without bytes and is not drawn");
         make_empty(p);
         return;
     }
-    uint32_t position = get_accessor(r, &attributes, "POSITION");
-    if (!reader_is_ok(r))
+    uint32_t position = gltf_get_accessor(r, &attributes, "POSITION");
+    if (!io_is_ok(r))
         return;
-    if (position != SCENE_NONE && is_zero_accessor(r, position) && !has_member(at, "targets")) {
-        reader_warn(r, &attributes, "POSITION",
-                    "is without data, so that all vertices are at 0; it is not drawn");
+    if (position != SCENE_NONE && gltf_is_zero_accessor(r, position) && !io_has_member(at, "targets")) {
+        io_warn(r, &attributes, "POSITION",
+                "is without data, so that all vertices are at 0; it is not drawn");
         make_empty(p);
         return;
     }
     const uint8_t *is_lost = NULL;
     bool has_missing_normals = false;
     if (!read_attributes(r, at, &attributes, p, &is_lost, &has_missing_normals)) {
-        if (reader_is_ok(r))
-            reader_warn(r, at, NULL, "has no POSITION and is not drawn");
+        if (io_is_ok(r))
+            io_warn(r, at, NULL, "has no POSITION and is not drawn");
         make_empty(p);
         return;
     }
-    if (!read_targets(r, at, p) || !read_primitive_indices(r, at, p, is_lost))
+    if (!gltf_read_targets(r, at, p) || !gltf_read_primitive_indices(r, at, p, is_lost))
         return;
     if (p->index_count == 0) {
         make_empty(p);
@@ -205,54 +208,54 @@ static void read_primitive(reader *r, const json_place *at, scene_primitive *p)
     }
     check_texcoords(r, at, p);
     if (p->mode == SCENE_TRIANGLES && !p->normals)
-        make_flat(r, at, p);
+        gltf_make_flat(r, at, p);
     else if (has_missing_normals)
-        fill_missing_normals(r, at, p);
-    if (reader_is_ok(r))
+        gltf_fill_missing_normals(r, at, p);
+    if (io_is_ok(r))
         bound_primitive(r, p);
 }
 
-static void read_mesh(reader *r, const json_place *at, scene_mesh *mesh)
+static void read_mesh(io_reader *r, const json_place *at, scene_mesh *mesh)
 {
-    mesh->name = get_name(r, at);
-    json_place array = get_array(r, at, "primitives");
-    if (reader_is_ok(r) && !array.value)
-        reader_fail(r, at, "primitives", FACET_ERROR_INVALID, "is missing");
-    size_t count = get_count(&array);
-    mesh->primitives = reader_alloc(r, "primitives", count, sizeof *mesh->primitives);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at_primitive = get_element_object(r, &array, i);
+    mesh->name = io_get_name(r, at);
+    json_place array = io_get_array(r, at, "primitives");
+    if (io_is_ok(r) && !array.value)
+        io_fail(r, at, "primitives", FACET_ERROR_INVALID, "is missing");
+    size_t count = io_get_count(&array);
+    mesh->primitives = io_alloc(r, "primitives", count, sizeof *mesh->primitives);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at_primitive = io_get_element_object(r, &array, i);
         scene_primitive *primitive = &mesh->primitives[i];
         read_primitive(r, &at_primitive, primitive);
-        primitive->variant_materials = read_mappings(r, &at_primitive);
-        primitive->meta = get_meta(r, &at_primitive);
-        json_place targets = get_array(r, &at_primitive, "targets");
-        uint32_t target_count = (uint32_t)get_count(&targets);
+        primitive->variant_materials = gltf_read_mappings(r, &at_primitive);
+        primitive->meta = gltf_get_meta(r, &at_primitive);
+        json_place targets = io_get_array(r, &at_primitive, "targets");
+        uint32_t target_count = (uint32_t)io_get_count(&targets);
         if (i > 0 && target_count != mesh->weight_count)
-            reader_warn(r, &targets, NULL, "must be as many as those of the other primitives of the mesh");
+            io_warn(r, &targets, NULL, "must be as many as those of the other primitives of the mesh");
         mesh->weight_count = target_count > mesh->weight_count ? target_count : mesh->weight_count;
         mesh->primitive_count = (uint32_t)(i + 1);
     }
-    if (!reader_is_ok(r))
+    if (!io_is_ok(r))
         return;
-    mesh->weights = read_weights(r, at, mesh->weight_count);
-    if (reader_leave_out(r, "no morph target counts"))
+    mesh->weights = gltf_read_weights(r, at, mesh->weight_count);
+    if (io_leave_out(r, "no morph target counts"))
         mesh->weights = NULL;
     if (!mesh->weights && mesh->weight_count)
-        mesh->weights = reader_alloc(r, "weights", mesh->weight_count, sizeof *mesh->weights);
-    mesh->meta = get_meta(r, at);
+        mesh->weights = io_alloc(r, "weights", mesh->weight_count, sizeof *mesh->weights);
+    mesh->meta = gltf_get_meta(r, at);
 }
 
 /* A mesh that cannot be read, and may not be needed, keeps its number. */
-static void read_or_defer_mesh(reader *r, const json_place *at, uint32_t index)
+static void read_or_defer_mesh(io_reader *r, const json_place *at, uint32_t index)
 {
     scene_mesh *mesh = &r->scene->meshes[index];
-    r->mesh = &r->meshes[index];
+    r->gltf->mesh = &r->gltf->meshes[index];
     read_mesh(r, at, mesh);
-    if (!reader_defer(r, &r->mesh->problem))
+    if (!io_defer(r, &r->gltf->mesh->problem))
         return;
     *mesh = (scene_mesh){.name = mesh->name,
-                         .primitives = reader_alloc(r, "primitives", 1, sizeof *mesh->primitives),
+                         .primitives = io_alloc(r, "primitives", 1, sizeof *mesh->primitives),
                          .primitive_count = 1};
     if (mesh->primitives) {
         mesh->primitives->material = SCENE_NONE;
@@ -260,14 +263,14 @@ static void read_or_defer_mesh(reader *r, const json_place *at, uint32_t index)
     }
 }
 
-void read_meshes(reader *r, const json_place *root)
+void gltf_read_meshes(io_reader *r, const json_place *root)
 {
-    json_place array = get_array(r, root, "meshes");
-    size_t count = get_count(&array);
-    r->scene->meshes = reader_alloc(r, "meshes", count, sizeof *r->scene->meshes);
-    r->meshes = reader_alloc(r, "meshes", count, sizeof *r->meshes);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
+    json_place array = io_get_array(r, root, "meshes");
+    size_t count = io_get_count(&array);
+    r->scene->meshes = io_alloc(r, "meshes", count, sizeof *r->scene->meshes);
+    r->gltf->meshes = io_alloc(r, "meshes", count, sizeof *r->gltf->meshes);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
         read_or_defer_mesh(r, &at, (uint32_t)i);
         r->scene->mesh_count = (uint32_t)(i + 1);
     }

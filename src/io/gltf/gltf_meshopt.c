@@ -7,24 +7,24 @@
 #include "io/gltf/gltf_reader.h"
 #include "io/gltf/meshopt.h"
 
-struct compressed_view {
+struct gltf_compressed_view {
     uint32_t buffer;
     size_t offset;
     meshopt_stream stream; /* bytes: NULL: they cannot be had */
     uint8_t *decoded;      /* NULL: not asked for yet, or problem says why */
     const char *problem;
-    reader_problem missing; /* why its stream cannot be had */
+    io_problem missing; /* why its stream cannot be had */
 };
 
 static const char *const NAMES[] = {"KHR_meshopt_compression", "EXT_meshopt_compression"};
 enum { KHR, EXT, NAME_COUNT };
 
-bool is_meshopt_fallback(reader *r, const json_place *buffer)
+bool gltf_is_meshopt_fallback(io_reader *r, const json_place *buffer)
 {
     bool is_fallback = false;
     for (int i = 0; i < NAME_COUNT; i++) {
-        json_place at = get_extension(r, buffer, NAMES[i]);
-        is_fallback |= get_bool(r, &at, "fallback", false);
+        json_place at = io_get_extension(r, buffer, NAMES[i]);
+        is_fallback |= io_get_bool(r, &at, "fallback", false);
     }
     return is_fallback;
 }
@@ -32,80 +32,80 @@ bool is_meshopt_fallback(reader *r, const json_place *buffer)
 /* ---- the table ---- */
 
 /* The place of key's value among count words; 0 with the error recorded, where it is none of them. */
-static int get_word(reader *r, const json_place *at, const char *key, const char *const *words, int count,
+static int get_word(io_reader *r, const json_place *at, const char *key, const char *const *words, int count,
                     const char *fallback)
 {
-    const char *word = get_string(r, at, key, fallback);
+    const char *word = io_get_string(r, at, key, fallback);
     for (int i = 0; word && i < count; i++)
         if (strcmp(word, words[i]) == 0)
             return i;
     if (word)
-        reader_fail(r, at, key, FACET_ERROR_INVALID, "\"%.40s\" is not known", word);
-    else if (reader_is_ok(r))
-        reader_fail(r, at, key, FACET_ERROR_INVALID, "is missing");
+        io_fail(r, at, key, FACET_ERROR_INVALID, "\"%.40s\" is not known", word);
+    else if (io_is_ok(r))
+        io_fail(r, at, key, FACET_ERROR_INVALID, "is missing");
     return 0;
 }
 
-static void read_stream(reader *r, const json_place *at, compressed_view *v)
+static void read_stream(io_reader *r, const json_place *at, gltf_compressed_view *v)
 {
     static const char *const modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
     static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
     const uint64_t most = (uint64_t)1 << 53;
-    v->buffer = get_required_index(r, at, "buffer", r->buffer_count, "buffer");
-    v->offset = get_uint(r, at, "byteOffset", most, 0);
-    v->stream.size = get_uint(r, at, "byteLength", most, REQUIRED_UINT);
-    v->stream.stride = get_uint(r, at, "byteStride", UINT32_MAX, REQUIRED_UINT);
-    v->stream.count = get_uint(r, at, "count", UINT32_MAX, REQUIRED_UINT);
+    v->buffer = io_get_required_index(r, at, "buffer", r->gltf->buffer_count, "buffer");
+    v->offset = io_get_uint(r, at, "byteOffset", most, 0);
+    v->stream.size = io_get_uint(r, at, "byteLength", most, IO_REQUIRED_UINT);
+    v->stream.stride = io_get_uint(r, at, "byteStride", UINT32_MAX, IO_REQUIRED_UINT);
+    v->stream.count = io_get_uint(r, at, "count", UINT32_MAX, IO_REQUIRED_UINT);
     v->stream.mode = (meshopt_mode)get_word(r, at, "mode", modes, 3, NULL);
     v->stream.filter = (meshopt_filter)get_word(r, at, "filter", filters, 5, "NONE");
 }
 
 /* Whether the numbers fit one another, the buffer with the stream, and the view of size bytes that it makes. */
-static bool check_stream(reader *r, const json_place *at, const compressed_view *v, size_t size)
+static bool check_stream(io_reader *r, const json_place *at, const gltf_compressed_view *v, size_t size)
 {
-    const gltf_buffer *buffer = &r->buffers[v->buffer];
+    const gltf_buffer *buffer = &r->gltf->buffers[v->buffer];
     const meshopt_stream *s = &v->stream;
     const char *problem = meshopt_check(s);
     if (problem)
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID, "%s", problem);
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID, "%s", problem);
     if (buffer->is_fallback)
-        return reader_fail(r, at, "buffer", FACET_ERROR_INVALID,
-                           "%u is there for readers without this extension and cannot hold its stream",
-                           v->buffer);
+        return io_fail(r, at, "buffer", FACET_ERROR_INVALID,
+                       "%u is there for readers without this extension and cannot hold its stream",
+                       v->buffer);
     if (v->offset > buffer->byte_length || s->size > buffer->byte_length - v->offset)
-        return reader_fail(r, at, "byteLength", FACET_ERROR_INVALID,
-                           "%zu from offset %zu goes past the end of buffer %u (%zu bytes)", s->size,
-                           v->offset, v->buffer, buffer->byte_length);
+        return io_fail(r, at, "byteLength", FACET_ERROR_INVALID,
+                       "%zu from offset %zu goes past the end of buffer %u (%zu bytes)", s->size, v->offset,
+                       v->buffer, buffer->byte_length);
     if (s->count * s->stride != size) /* below 2^40 */
-        return reader_fail(r, at, "count", FACET_ERROR_INVALID,
-                           "%zu elements of %zu bytes are not the %zu bytes of the buffer view", s->count,
-                           s->stride, size);
+        return io_fail(r, at, "count", FACET_ERROR_INVALID,
+                       "%zu elements of %zu bytes are not the %zu bytes of the buffer view", s->count,
+                       s->stride, size);
     return true;
 }
 
-void read_meshopt(reader *r, const json_place *view_place, gltf_view *view)
+void gltf_read_meshopt(io_reader *r, const json_place *view_place, gltf_view *view)
 {
-    for (int i = 0; i < NAME_COUNT && reader_is_ok(r); i++) {
-        json_place at = get_extension(r, view_place, NAMES[i]);
+    for (int i = 0; i < NAME_COUNT && io_is_ok(r); i++) {
+        json_place at = io_get_extension(r, view_place, NAMES[i]);
         if (!at.value)
             continue;
         if (view->compressed) {
-            reader_note(r, &at, NULL, "stands beside %s, which is read instead", NAMES[KHR]);
+            io_note(r, &at, NULL, "stands beside %s, which is read instead", NAMES[KHR]);
             return;
         }
-        compressed_view *v = reader_alloc(r, "buffer view", 1, sizeof *v);
+        gltf_compressed_view *v = io_alloc(r, "buffer view", 1, sizeof *v);
         if (!v)
             return;
         read_stream(r, &at, v);
-        if (!reader_is_ok(r) || !check_stream(r, &at, v, view->length))
+        if (!io_is_ok(r) || !check_stream(r, &at, v, view->length))
             return;
         if (i == EXT && v->stream.filter == MESHOPT_COLOR)
-            reader_note(r, &at, "filter", "COLOR belongs to %s", NAMES[KHR]);
+            io_note(r, &at, "filter", "COLOR belongs to %s", NAMES[KHR]);
         view->compressed = v;
     }
 }
 
-uint32_t get_meshopt_buffer(const compressed_view *view)
+uint32_t gltf_get_meshopt_buffer(const gltf_compressed_view *view)
 {
     return view->buffer;
 }
@@ -114,22 +114,22 @@ uint32_t get_meshopt_buffer(const compressed_view *view)
 
 /* Finds the bytes of a stream and takes memory for what they decode to. What is wrong with one view is said when that
  * one is asked for. */
-static bool prepare(reader *r, const json_place *at, compressed_view *v)
+static bool prepare(io_reader *r, const json_place *at, gltf_compressed_view *v)
 {
     meshopt_stream *s = &v->stream;
-    if (!has_buffer_source(r, v->buffer))
+    if (!gltf_has_buffer_source(r, v->buffer))
         return true;
-    const unsigned char *bytes = get_buffer_bytes(r, v->buffer, v->offset + s->size);
-    if (reader_defer(r, &v->missing) || !bytes)
-        return reader_is_ok(r);
+    const unsigned char *bytes = gltf_get_buffer_bytes(r, v->buffer, v->offset + s->size);
+    if (io_defer(r, &v->missing) || !bytes)
+        return io_is_ok(r);
     s->bytes = bytes + v->offset;
     if (s->size < meshopt_smallest_size(s)) {
         v->problem = MESHOPT_TOO_SHORT;
         return true;
     }
-    if (!reader_spend(r, at, s->count * s->stride / 12)) /* as many floats of 3 components */
+    if (!io_spend(r, at, s->count * s->stride / 12)) /* as many floats of 3 components */
         return false;
-    v->decoded = reader_alloc_raw(r, "buffer view", s->count, s->stride);
+    v->decoded = io_alloc_raw(r, "buffer view", s->count, s->stride);
     return v->decoded != NULL;
 }
 
@@ -137,33 +137,33 @@ static void decode_views(void *context, size_t begin, size_t end)
 {
     gltf_view *views = context;
     for (size_t i = begin; i < end; i++) {
-        compressed_view *v = views[i].compressed;
+        gltf_compressed_view *v = views[i].compressed;
         if (v && v->decoded)
             v->problem = meshopt_decode(&v->stream, v->decoded);
     }
 }
 
-const unsigned char *get_meshopt_bytes(reader *r, const json_place *at, uint32_t index)
+const unsigned char *gltf_get_meshopt_bytes(io_reader *r, const json_place *at, uint32_t index)
 {
     const json_place root = {.value = r->json};
     const json_place array = {.parent = &root, .key = "bufferViews"};
     const json_place view = {.parent = &array, .index = index};
-    compressed_view *v = r->views[index].compressed;
-    if (!r->has_decoded_views) {
-        for (uint32_t i = 0; i < r->view_count; i++) {
+    gltf_compressed_view *v = r->gltf->views[index].compressed;
+    if (!r->gltf->has_decoded_views) {
+        for (uint32_t i = 0; i < r->gltf->view_count; i++) {
             const json_place place = {.parent = &array, .index = i};
-            if (r->views[i].compressed && !prepare(r, &place, r->views[i].compressed))
+            if (r->gltf->views[i].compressed && !prepare(r, &place, r->gltf->views[i].compressed))
                 return NULL;
         }
-        parallel_for(r->thread_count, r->view_count, 1, decode_views, r->views);
-        r->has_decoded_views = true;
+        parallel_for(r->thread_count, r->gltf->view_count, 1, decode_views, r->gltf->views);
+        r->gltf->has_decoded_views = true;
     }
     if (v->problem)
-        reader_fail(r, &view, NULL, FACET_ERROR_INVALID, "has a compressed stream that %s", v->problem);
+        io_fail(r, &view, NULL, FACET_ERROR_INVALID, "has a compressed stream that %s", v->problem);
     else if (v->missing.message)
-        reader_fail_deferred(r, &v->missing);
+        io_fail_deferred(r, &v->missing);
     else if (!v->decoded)
-        reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                    "bufferViews[%u] has its stream in a buffer without bytes", index);
-    return reader_is_ok(r) ? v->decoded : NULL;
+        io_fail(r, at, NULL, FACET_ERROR_INVALID, "bufferViews[%u] has its stream in a buffer without bytes",
+                index);
+    return io_is_ok(r) ? v->decoded : NULL;
 }

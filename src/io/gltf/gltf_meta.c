@@ -22,15 +22,15 @@ static size_t choose_format(const json_t *value)
 }
 
 /* A value as text in the scene, members in the order of the file; NULL: an error is recorded. */
-static const char *keep_text(reader *r, const json_t *value)
+static const char *keep_text(io_reader *r, const json_t *value)
 {
     size_t format = choose_format(value);
     size_t size = json_dumpb(value, NULL, 0, format);
-    char *text = reader_alloc_raw(r, "metadata", size + 1, 1);
+    char *text = io_alloc_raw(r, "metadata", size + 1, 1);
     if (!text)
         return NULL;
     if (size == 0 || json_dumpb(value, text, size, format) != size) { /* jansson had no memory */
-        reader_fail_memory(r, "metadata", size);
+        io_fail_memory(r, "metadata", size);
         return NULL;
     }
     text[size] = 0;
@@ -40,55 +40,55 @@ static const char *keep_text(reader *r, const json_t *value)
 /* ---- objects ---- */
 
 /* Other objects name a packet of the root by its number; a wrong one harms nobody who draws. */
-static void check_packet(reader *r, const json_place *extension)
+static void check_packet(io_reader *r, const json_place *extension)
 {
     const json_place root = {.value = r->json};
-    json_place packets = get_extension(r, &root, extension->key);
-    json_place list = get_array(r, &packets, "packets");
+    json_place packets = io_get_extension(r, &root, extension->key);
+    json_place list = io_get_array(r, &packets, "packets");
     const json_t *packet = json_object_get(extension->value, "packet");
     json_int_t index = json_is_integer(packet) ? json_integer_value(packet) : -1;
-    if (packet && (index < 0 || (uint64_t)index >= get_count(&list)))
-        reader_note(r, extension, "packet", "is the number of no packet");
+    if (packet && (index < 0 || (uint64_t)index >= io_get_count(&list)))
+        io_note(r, extension, "packet", "is the number of no packet");
 }
 
-scene_meta get_meta(reader *r, const json_place *object)
+scene_meta gltf_get_meta(io_reader *r, const json_place *object)
 {
     scene_meta out = {0};
-    if (!reader_is_ok(r) || !object->value)
+    if (!io_is_ok(r) || !object->value)
         return out;
     const json_t *extras = json_object_get(object->value, "extras");
     if (extras)
         out.extras = keep_text(r, extras);
     json_t *kept = NULL;
-    for (size_t i = 0; i < sizeof METADATA / sizeof *METADATA && reader_is_ok(r); i++) {
-        json_place at = get_extension(r, object, METADATA[i]);
+    for (size_t i = 0; i < sizeof METADATA / sizeof *METADATA && io_is_ok(r); i++) {
+        json_place at = io_get_extension(r, object, METADATA[i]);
         if (!at.value)
             continue;
         check_packet(r, &at);
         kept = kept ? kept : json_object();
         if (!kept || json_object_set(kept, METADATA[i], (json_t *)(uintptr_t)at.value) != 0)
-            reader_fail_memory(r, "metadata", 0);
+            io_fail_memory(r, "metadata", 0);
     }
-    if (kept && reader_is_ok(r))
+    if (kept && io_is_ok(r))
         out.extensions = keep_text(r, kept);
     json_decref(kept);
     return out;
 }
 
-void read_meta(reader *r, const json_place *root)
+void gltf_read_meta(io_reader *r, const json_place *root)
 {
     facet_scene *scene = r->scene;
-    json_place asset = get_object(r, root, "asset");
-    json_place images = get_array(r, root, "images");
-    json_place textures = get_array(r, root, "textures");
-    scene->meta = get_meta(r, root);
-    scene->asset_meta = get_meta(r, &asset);
-    for (uint32_t i = 0; i < scene->image_count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &images, i);
-        scene->images[i].meta = get_meta(r, &at);
+    json_place asset = io_get_object(r, root, "asset");
+    json_place images = io_get_array(r, root, "images");
+    json_place textures = io_get_array(r, root, "textures");
+    scene->meta = gltf_get_meta(r, root);
+    scene->asset_meta = gltf_get_meta(r, &asset);
+    for (uint32_t i = 0; i < scene->image_count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &images, i);
+        scene->images[i].meta = gltf_get_meta(r, &at);
     }
-    for (uint32_t i = 0; i < scene->texture_count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &textures, i);
-        scene->textures[i].meta = get_meta(r, &at);
+    for (uint32_t i = 0; i < scene->texture_count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &textures, i);
+        scene->textures[i].meta = gltf_get_meta(r, &at);
     }
 }

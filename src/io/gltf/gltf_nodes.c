@@ -7,44 +7,44 @@
 
 /* ---- cameras ---- */
 
-static float get_required_float(reader *r, const json_place *object, const char *key)
+static float get_required_float(io_reader *r, const json_place *object, const char *key)
 {
-    if (object->value && !has_member(object, key))
-        reader_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
-    return get_float(r, object, key, 1.0f);
+    if (object->value && !io_has_member(object, key))
+        io_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
+    return io_get_float(r, object, key, 1.0f);
 }
 
-static void read_perspective(reader *r, const json_place *at, scene_camera *out)
+static void read_perspective(io_reader *r, const json_place *at, scene_camera *out)
 {
     out->fov_y_rad = get_required_float(r, at, "yfov");
-    out->aspect = get_float_in(r, at, "aspectRatio", 0.0f, FLT_MAX, 0.0f);
+    out->aspect = io_get_float_in(r, at, "aspectRatio", 0.0f, FLT_MAX, 0.0f);
     if (out->fov_y_rad > 0.0f && out->fov_y_rad < 3.14f)
         return;
-    reader_warn(r, at, "yfov", "%g is not between 0 and pi; 0.8 is used", (double)out->fov_y_rad);
+    io_warn(r, at, "yfov", "%g is not between 0 and pi; 0.8 is used", (double)out->fov_y_rad);
     out->fov_y_rad = 0.8f;
 }
 
-static float get_magnitude(reader *r, const json_place *at, const char *key)
+static float get_magnitude(io_reader *r, const json_place *at, const char *key)
 {
     float magnitude = get_required_float(r, at, key);
     if (magnitude > 0.0f)
         return 2.0f * magnitude;
-    reader_warn(r, at, key, "%g must be above 0", (double)magnitude);
+    io_warn(r, at, key, "%g must be above 0", (double)magnitude);
     return magnitude < 0.0f ? -2.0f * magnitude : 2.0f;
 }
 
-static void read_camera(reader *r, const json_place *at, scene_camera *out)
+static void read_camera(io_reader *r, const json_place *at, scene_camera *out)
 {
-    *out = (scene_camera){.name = get_name(r, at)};
-    const char *type = get_string(r, at, "type", "");
+    *out = (scene_camera){.name = io_get_name(r, at)};
+    const char *type = io_get_string(r, at, "type", "");
     out->is_orthographic = strcmp(type, "orthographic") == 0;
     if (!out->is_orthographic && strcmp(type, "perspective") != 0) {
-        reader_fail(r, at, "type", FACET_ERROR_INVALID, "must be perspective or orthographic");
+        io_fail(r, at, "type", FACET_ERROR_INVALID, "must be perspective or orthographic");
         return;
     }
-    json_place lens = get_object(r, at, type);
+    json_place lens = io_get_object(r, at, type);
     if (!lens.value) {
-        reader_fail(r, at, type, FACET_ERROR_INVALID, "is missing");
+        io_fail(r, at, type, FACET_ERROR_INVALID, "is missing");
         return;
     }
     if (out->is_orthographic) {
@@ -53,60 +53,60 @@ static void read_camera(reader *r, const json_place *at, scene_camera *out)
         out->far_m = get_required_float(r, &lens, "zfar");
     } else {
         read_perspective(r, &lens, out);
-        out->far_m = get_float(r, &lens, "zfar", 0.0f);
+        out->far_m = io_get_float(r, &lens, "zfar", 0.0f);
     }
     out->near_m = get_required_float(r, &lens, "znear");
     if (out->near_m < 0.0f || (out->near_m == 0.0f && !out->is_orthographic)) {
-        reader_note(r, &lens, "znear", "%g must be above 0", (double)out->near_m);
+        io_note(r, &lens, "znear", "%g must be above 0", (double)out->near_m);
         out->near_m = 0.0f;
     }
-    if ((out->far_m != 0.0f || has_member(&lens, "zfar")) && !(out->far_m > out->near_m)) {
-        reader_note(r, &lens, "zfar", "%g must be above znear; it is taken as infinite", (double)out->far_m);
+    if ((out->far_m != 0.0f || io_has_member(&lens, "zfar")) && !(out->far_m > out->near_m)) {
+        io_note(r, &lens, "zfar", "%g must be above znear; it is taken as infinite", (double)out->far_m);
         out->far_m = 0.0f;
     }
 }
 
-void read_cameras(reader *r, const json_place *root)
+void gltf_read_cameras(io_reader *r, const json_place *root)
 {
-    json_place array = get_array(r, root, "cameras");
-    size_t count = get_count(&array);
-    reader_leave_out(r, "there are no cameras");
-    r->scene->cameras = reader_alloc(r, "cameras", count, sizeof *r->scene->cameras);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
+    json_place array = io_get_array(r, root, "cameras");
+    size_t count = io_get_count(&array);
+    io_leave_out(r, "there are no cameras");
+    r->scene->cameras = io_alloc(r, "cameras", count, sizeof *r->scene->cameras);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
         read_camera(r, &at, &r->scene->cameras[i]);
-        if (reader_leave_out(r, "the camera gets an angle of 0.8"))
-            r->scene->cameras[i] = (scene_camera){.name = get_name(r, &at), .fov_y_rad = 0.8f};
-        r->scene->cameras[i].meta = get_meta(r, &at);
+        if (io_leave_out(r, "the camera gets an angle of 0.8"))
+            r->scene->cameras[i] = (scene_camera){.name = io_get_name(r, &at), .fov_y_rad = 0.8f};
+        r->scene->cameras[i].meta = gltf_get_meta(r, &at);
         r->scene->camera_count = (uint32_t)(i + 1);
     }
 }
 
 /* ---- lights ---- */
 
-static void read_spot(reader *r, const json_place *light, scene_light *out)
+static void read_spot(io_reader *r, const json_place *light, scene_light *out)
 {
     const float right_angle = 1.57079633f;
-    json_place at = get_object(r, light, "spot");
+    json_place at = io_get_object(r, light, "spot");
     if (!at.value)
-        reader_warn(r, light, "spot", "is missing; an angle of 45 degrees is used");
-    out->outer_cone_rad = get_float_in(r, &at, "outerConeAngle", 0.0f, right_angle, 0.785398163f);
-    out->inner_cone_rad = get_float_in(r, &at, "innerConeAngle", 0.0f, right_angle, 0.0f);
+        io_warn(r, light, "spot", "is missing; an angle of 45 degrees is used");
+    out->outer_cone_rad = io_get_float_in(r, &at, "outerConeAngle", 0.0f, right_angle, 0.785398163f);
+    out->inner_cone_rad = io_get_float_in(r, &at, "innerConeAngle", 0.0f, right_angle, 0.0f);
     if (out->inner_cone_rad < out->outer_cone_rad)
         return;
-    reader_note(r, &at, "innerConeAngle", "must be below outerConeAngle");
+    io_note(r, &at, "innerConeAngle", "must be below outerConeAngle");
     out->inner_cone_rad = out->outer_cone_rad;
 }
 
-static void read_light(reader *r, const json_place *at, scene_light *out)
+static void read_light(io_reader *r, const json_place *at, scene_light *out)
 {
-    *out = (scene_light){.name = get_name(r, at), .color = {1, 1, 1}};
-    get_floats_in(r, at, "color", 0.0f, FLT_MAX, out->color, 3);
-    out->intensity = get_float_in(r, at, "intensity", 0.0f, FLT_MAX, 1.0f);
-    out->range = get_float_in(r, at, "range", 0.0f, FLT_MAX, 0.0f);
-    const char *type = get_string(r, at, "type", NULL);
+    *out = (scene_light){.name = io_get_name(r, at), .color = {1, 1, 1}};
+    io_get_floats_in(r, at, "color", 0.0f, FLT_MAX, out->color, 3);
+    out->intensity = io_get_float_in(r, at, "intensity", 0.0f, FLT_MAX, 1.0f);
+    out->range = io_get_float_in(r, at, "range", 0.0f, FLT_MAX, 0.0f);
+    const char *type = io_get_string(r, at, "type", NULL);
     if (!type) {
-        reader_fail(r, at, "type", FACET_ERROR_INVALID, "is missing");
+        io_fail(r, at, "type", FACET_ERROR_INVALID, "is missing");
     } else if (strcmp(type, "directional") == 0) {
         out->type = SCENE_LIGHT_DIRECTIONAL;
     } else if (strcmp(type, "point") == 0) {
@@ -115,34 +115,34 @@ static void read_light(reader *r, const json_place *at, scene_light *out)
         out->type = SCENE_LIGHT_SPOT;
         read_spot(r, at, out);
     } else {
-        reader_warn(r, at, "type", "\"%.40s\" is none of directional, point, spot; the light is dark", type);
+        io_warn(r, at, "type", "\"%.40s\" is none of directional, point, spot; the light is dark", type);
         out->type = SCENE_LIGHT_POINT;
         out->intensity = 0.0f;
     }
 }
 
-void read_lights(reader *r, const json_place *root)
+void gltf_read_lights(io_reader *r, const json_place *root)
 {
-    json_place extension = get_extension(r, root, "KHR_lights_punctual");
-    json_place array = get_array(r, &extension, "lights");
-    size_t count = get_count(&array);
-    if (reader_is_ok(r) && extension.value && !array.value)
-        reader_note(r, &extension, "lights", "is missing");
-    reader_leave_out(r, "there are no lights");
-    r->scene->lights = reader_alloc(r, "lights", count, sizeof *r->scene->lights);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
+    json_place extension = io_get_extension(r, root, "KHR_lights_punctual");
+    json_place array = io_get_array(r, &extension, "lights");
+    size_t count = io_get_count(&array);
+    if (io_is_ok(r) && extension.value && !array.value)
+        io_note(r, &extension, "lights", "is missing");
+    io_leave_out(r, "there are no lights");
+    r->scene->lights = io_alloc(r, "lights", count, sizeof *r->scene->lights);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
         read_light(r, &at, &r->scene->lights[i]);
-        if (reader_leave_out(r, "the light is dark"))
-            r->scene->lights[i] = (scene_light){.name = get_name(r, &at), .type = SCENE_LIGHT_POINT};
-        r->scene->lights[i].meta = get_meta(r, &at);
+        if (io_leave_out(r, "the light is dark"))
+            r->scene->lights[i] = (scene_light){.name = io_get_name(r, &at), .type = SCENE_LIGHT_POINT};
+        r->scene->lights[i].meta = gltf_get_meta(r, &at);
         r->scene->light_count = (uint32_t)(i + 1);
     }
 }
 
 /* ---- nodes ---- */
 
-double normalise_rotation(float rotation[4])
+double gltf_normalize_rotation(float rotation[4])
 {
     double length = 0.0;
     for (int i = 0; i < 4; i++)
@@ -153,157 +153,158 @@ double normalise_rotation(float rotation[4])
     return length;
 }
 
-static void read_rotation(reader *r, const json_place *at, float rotation[4])
+static void read_rotation(io_reader *r, const json_place *at, float rotation[4])
 {
-    if (get_floats(r, at, "rotation", rotation, 4) && !(fabs(normalise_rotation(rotation) - 1.0) < 0.001))
-        reader_warn(r, at, "rotation", "is not a quaternion of length 1");
+    if (io_get_floats(r, at, "rotation", rotation, 4) &&
+        !(fabs(gltf_normalize_rotation(rotation) - 1.0) < 0.001))
+        io_warn(r, at, "rotation", "is not a quaternion of length 1");
 }
 
-static void read_transform(reader *r, const json_place *at, scene_node *out)
+static void read_transform(io_reader *r, const json_place *at, scene_node *out)
 {
     out->matrix = dmat4_identity();
     out->rotation[3] = out->scale[0] = out->scale[1] = out->scale[2] = 1.0f;
-    out->has_matrix = get_doubles(r, at, "matrix", out->matrix.m, 16);
-    get_doubles(r, at, "translation", out->translation, 3);
+    out->has_matrix = io_get_doubles(r, at, "matrix", out->matrix.m, 16);
+    io_get_doubles(r, at, "translation", out->translation, 3);
     read_rotation(r, at, out->rotation);
-    get_floats(r, at, "scale", out->scale, 3);
+    io_get_floats(r, at, "scale", out->scale, 3);
     if (!out->has_matrix)
         return;
-    if (has_member(at, "translation") || has_member(at, "rotation") || has_member(at, "scale"))
-        reader_warn(r, at, NULL, "has a matrix beside translation, rotation or scale; the matrix is used");
+    if (io_has_member(at, "translation") || io_has_member(at, "rotation") || io_has_member(at, "scale"))
+        io_warn(r, at, NULL, "has a matrix beside translation, rotation or scale; the matrix is used");
     const double *m = out->matrix.m;
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
-        reader_warn(r, at, "matrix", "has a last row other than 0 0 0 1, which is ignored");
+        io_warn(r, at, "matrix", "has a last row other than 0 0 0 1, which is ignored");
         out->matrix.m[3] = out->matrix.m[7] = out->matrix.m[11] = 0.0;
         out->matrix.m[15] = 1.0;
     }
 }
 
 /* What a node has beside its mesh: what of that is wrong is left out. */
-static void read_attachments(reader *r, const json_place *at, scene_node *out)
+static void read_attachments(io_reader *r, const json_place *at, scene_node *out)
 {
-    out->camera = get_index(r, at, "camera", r->scene->camera_count, "camera");
-    reader_leave_out(r, "the node has no camera");
-    json_place light = get_extension(r, at, "KHR_lights_punctual");
-    out->light = get_required_index(r, &light, "light", r->scene->light_count, "light");
-    reader_leave_out(r, "the node has no light");
-    json_place visibility = get_extension(r, at, "KHR_node_visibility");
-    out->is_hidden = !get_bool(r, &visibility, "visible", true);
-    reader_leave_out(r, "the node is visible");
+    out->camera = io_get_index(r, at, "camera", r->scene->camera_count, "camera");
+    io_leave_out(r, "the node has no camera");
+    json_place light = io_get_extension(r, at, "KHR_lights_punctual");
+    out->light = io_get_required_index(r, &light, "light", r->scene->light_count, "light");
+    io_leave_out(r, "the node has no light");
+    json_place visibility = io_get_extension(r, at, "KHR_node_visibility");
+    out->is_hidden = !io_get_bool(r, &visibility, "visible", true);
+    io_leave_out(r, "the node is visible");
     if (out->mesh != SCENE_NONE)
-        out->weights = read_weights(r, at, r->scene->meshes[out->mesh].weight_count);
-    else if (has_member(at, "weights"))
-        reader_note(r, at, "weights", "are there without a mesh");
-    if (reader_leave_out(r, "the node has the weights of its mesh"))
+        out->weights = gltf_read_weights(r, at, r->scene->meshes[out->mesh].weight_count);
+    else if (io_has_member(at, "weights"))
+        io_note(r, at, "weights", "are there without a mesh");
+    if (io_leave_out(r, "the node has the weights of its mesh"))
         out->weights = NULL;
 }
 
-static void read_node(reader *r, const json_place *at, scene_node *out, uint32_t skin_count)
+static void read_node(io_reader *r, const json_place *at, scene_node *out, uint32_t skin_count)
 {
-    out->name = get_name(r, at);
+    out->name = io_get_name(r, at);
     out->mesh = out->camera = out->skin = out->light = SCENE_NONE;
     read_transform(r, at, out);
-    out->mesh = get_index(r, at, "mesh", r->scene->mesh_count, "mesh");
-    if (out->mesh != SCENE_NONE && r->meshes[out->mesh].problem.message)
-        reader_fail_deferred(r, &r->meshes[out->mesh].problem);
-    if (!reader_is_ok(r))
+    out->mesh = io_get_index(r, at, "mesh", r->scene->mesh_count, "mesh");
+    if (out->mesh != SCENE_NONE && r->gltf->meshes[out->mesh].problem.message)
+        io_fail_deferred(r, &r->gltf->meshes[out->mesh].problem);
+    if (!io_is_ok(r))
         return;
     read_attachments(r, at, out);
-    out->skin = get_index(r, at, "skin", skin_count, "skin");
-    out->instancing = read_instancing(r, at);
+    out->skin = io_get_index(r, at, "skin", skin_count, "skin");
+    out->instancing = gltf_read_instancing(r, at);
     if (out->mesh == SCENE_NONE) {
-        reader_leave_out(r, "the node has no mesh");
+        io_leave_out(r, "the node has no mesh");
         if (out->skin != SCENE_NONE)
-            reader_note(r, at, "skin", "is there without a mesh");
+            io_note(r, at, "skin", "is there without a mesh");
         if (out->instancing)
-            reader_note(r, at, NULL, "has instances, but no mesh");
+            io_note(r, at, NULL, "has instances, but no mesh");
     } else if (out->skin != SCENE_NONE && out->instancing) {
-        reader_warn(r, at, NULL, "has instances of a skinned mesh, which its joints place; it is drawn %s",
-                    out->instancing->count ? "once" : "nowhere, as there are 0 of them");
+        io_warn(r, at, NULL, "has instances of a skinned mesh, which its joints place; it is drawn %s",
+                out->instancing->count ? "once" : "nowhere, as there are 0 of them");
     }
-    out->meta = get_meta(r, at);
+    out->meta = gltf_get_meta(r, at);
 }
 
-void read_nodes(reader *r, const json_place *root)
+void gltf_read_nodes(io_reader *r, const json_place *root)
 {
-    json_place array = get_array(r, root, "nodes");
-    json_place skins = get_array(r, root, "skins");
-    uint32_t skin_count = (uint32_t)get_count(&skins);
-    uint32_t count = (uint32_t)get_count(&array);
-    scene_node *nodes = reader_alloc(r, "nodes", count, sizeof *nodes);
+    json_place array = io_get_array(r, root, "nodes");
+    json_place skins = io_get_array(r, root, "skins");
+    uint32_t skin_count = (uint32_t)io_get_count(&skins);
+    uint32_t count = (uint32_t)io_get_count(&array);
+    scene_node *nodes = io_alloc(r, "nodes", count, sizeof *nodes);
     r->scene->nodes = nodes;
-    for (uint32_t i = 0; i < count && reader_is_ok(r); i++)
+    for (uint32_t i = 0; i < count && io_is_ok(r); i++)
         nodes[i].parent = SCENE_NONE;
-    for (uint32_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
+    for (uint32_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
         read_node(r, &at, &nodes[i], skin_count);
-        read_children(r, &at, i, count);
+        gltf_read_children(r, &at, i, count);
         r->scene->node_count = i + 1;
     }
-    if (reader_is_ok(r))
-        settle_hierarchy(r, &array);
+    if (io_is_ok(r))
+        gltf_settle_hierarchy(r, &array);
 }
 
 /* ---- scenes ---- */
 
-static void read_scene(reader *r, const json_place *at, scene_root *out, bool *is_listed)
+static void read_scene(io_reader *r, const json_place *at, scene_root *out, bool *is_listed)
 {
-    out->name = get_name(r, at);
-    json_place array = get_array(r, at, "nodes");
-    size_t count = get_count(&array);
-    uint32_t *nodes = reader_alloc(r, "scenes", count, sizeof *nodes);
+    out->name = io_get_name(r, at);
+    json_place array = io_get_array(r, at, "nodes");
+    size_t count = io_get_count(&array);
+    uint32_t *nodes = io_alloc(r, "scenes", count, sizeof *nodes);
     out->nodes = nodes;
     memset(is_listed, 0, r->scene->node_count * sizeof *is_listed);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place element = get_element(&array, i);
-        uint32_t node = get_index_value(r, &element, r->file_node_count, "node");
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place element = io_get_element(&array, i);
+        uint32_t node = io_get_index_value(r, &element, r->gltf->file_node_count, "node");
         if (node == SCENE_NONE)
             return;
         if (r->scene->nodes[node].parent != SCENE_NONE) {
-            reader_warn(r, &element, NULL, "node %u is no root, but a child of node %u", node,
-                        r->scene->nodes[node].parent);
+            io_warn(r, &element, NULL, "node %u is no root, but a child of node %u", node,
+                    r->scene->nodes[node].parent);
         }
         if (is_listed[node]) {
-            reader_note(r, &element, NULL, "node %u is listed twice", node);
+            io_note(r, &element, NULL, "node %u is listed twice", node);
             continue;
         }
         is_listed[node] = true;
         nodes[out->node_count++] = node;
     }
-    if (!reader_is_ok(r))
+    if (!io_is_ok(r))
         return;
-    json_place light = get_extension(r, at, "EXT_lights_image_based");
-    out->image_light = get_required_index(r, &light, "light", r->scene->image_light_count, "light");
+    json_place light = io_get_extension(r, at, "EXT_lights_image_based");
+    out->image_light = io_get_required_index(r, &light, "light", r->scene->image_light_count, "light");
     if (out->image_light != SCENE_NONE && r->scene->image_lights[out->image_light].mip_count == 0)
         out->image_light = SCENE_NONE; /* a warning said why */
-    if (reader_leave_out(r, "the scene has no light of images"))
+    if (io_leave_out(r, "the scene has no light of images"))
         out->image_light = SCENE_NONE;
-    out->meta = get_meta(r, at);
+    out->meta = gltf_get_meta(r, at);
 }
 
-void read_scenes(reader *r, const json_place *root)
+void gltf_read_scenes(io_reader *r, const json_place *root)
 {
-    json_place array = get_array(r, root, "scenes");
-    size_t count = get_count(&array);
-    r->scene->scenes = reader_alloc(r, "scenes", count, sizeof *r->scene->scenes);
-    uint32_t drawn = get_index(r, root, "scene", (uint32_t)count, "scene");
-    bool is_wrong = reader_leave_out(r, count ? "the first scene is drawn" : "all nodes are drawn");
+    json_place array = io_get_array(r, root, "scenes");
+    size_t count = io_get_count(&array);
+    r->scene->scenes = io_alloc(r, "scenes", count, sizeof *r->scene->scenes);
+    uint32_t drawn = io_get_index(r, root, "scene", (uint32_t)count, "scene");
+    bool is_wrong = io_leave_out(r, count ? "the first scene is drawn" : "all nodes are drawn");
     if (count && (is_wrong || drawn == SCENE_NONE))
         drawn = 0;
     bool *is_listed = mem_alloc(r->allocator, r->scene->node_count, sizeof *is_listed);
     if (!is_listed)
-        reader_fail_memory(r, "scenes", r->scene->node_count);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
+        io_fail_memory(r, "scenes", r->scene->node_count);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
         scene_root *scene = &r->scene->scenes[i];
         scene->image_light = SCENE_NONE;
         read_scene(r, &at, scene, is_listed);
-        if (i != drawn && reader_leave_out(r, "that scene is empty"))
+        if (i != drawn && io_leave_out(r, "that scene is empty"))
             scene->node_count = 0;
         r->scene->scene_count = (uint32_t)(i + 1);
     }
     mem_free(is_listed);
     r->scene->default_scene = drawn;
-    if (reader_is_ok(r) && r->scene->scene_count == 0 && r->scene->node_count)
-        reader_note(r, NULL, NULL, "has no scene; all its nodes are drawn");
+    if (io_is_ok(r) && r->scene->scene_count == 0 && r->scene->node_count)
+        io_note(r, NULL, NULL, "has no scene; all its nodes are drawn");
 }

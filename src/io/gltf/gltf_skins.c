@@ -7,12 +7,12 @@
 /* ---- the nodes above joints ---- */
 
 /* For each node the outermost one above it; a block of mem_alloc(), NULL: an error is recorded. */
-static uint32_t *find_roots(reader *r)
+static uint32_t *find_roots(io_reader *r)
 {
     const facet_scene *scene = r->scene;
     uint32_t *roots = mem_alloc(r->allocator, scene->node_count, sizeof *roots);
     if (!roots) {
-        reader_fail_memory(r, "nodes", scene->node_count * sizeof *roots);
+        io_fail_memory(r, "nodes", scene->node_count * sizeof *roots);
         return NULL;
     }
     memset(roots, 0xff, scene->node_count * sizeof *roots);
@@ -30,22 +30,22 @@ static uint32_t *find_roots(reader *r)
 
 /* ---- one skin ---- */
 
-static void read_joints(reader *r, const json_place *at, const uint32_t *roots, scene_skin *out)
+static void read_joints(io_reader *r, const json_place *at, const uint32_t *roots, scene_skin *out)
 {
-    json_place array = get_array(r, at, "joints");
-    if (reader_is_ok(r) && !array.value)
-        reader_fail(r, at, "joints", FACET_ERROR_INVALID, "is missing");
-    size_t count = get_count(&array);
-    uint32_t *joints = reader_alloc(r, "joints", count, sizeof *joints);
+    json_place array = io_get_array(r, at, "joints");
+    if (io_is_ok(r) && !array.value)
+        io_fail(r, at, "joints", FACET_ERROR_INVALID, "is missing");
+    size_t count = io_get_count(&array);
+    uint32_t *joints = io_alloc(r, "joints", count, sizeof *joints);
     bool has_several_roots = false;
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place element = get_element(&array, i);
-        joints[i] = get_index_value(r, &element, r->file_node_count, "node");
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place element = io_get_element(&array, i);
+        joints[i] = io_get_index_value(r, &element, r->gltf->file_node_count, "node");
         if (joints[i] != SCENE_NONE)
             has_several_roots |= roots[joints[i]] != roots[joints[0]];
     }
     if (has_several_roots)
-        reader_note(r, &array, NULL, "have no common root");
+        io_note(r, &array, NULL, "have no common root");
     out->joints = joints;
     out->joint_count = (uint32_t)count;
 }
@@ -61,12 +61,12 @@ static bool is_affine(const float m[16], bool *has_last_row)
 }
 
 /* Copies of the file's matrices, which are set right where they do not move points. */
-static const mat4 *get_matrices(reader *r, const json_place *skin, uint32_t accessor, uint32_t count)
+static const mat4 *get_matrices(io_reader *r, const json_place *skin, uint32_t accessor, uint32_t count)
 {
-    const float *in = get_accessor_floats(r, skin, accessor);
-    if (!in || !reader_spend(r, skin, count))
+    const float *in = gltf_get_accessor_floats(r, skin, accessor);
+    if (!in || !io_spend(r, skin, count))
         return NULL;
-    mat4 *out = reader_alloc_raw(r, "joints", count, sizeof *out);
+    mat4 *out = io_alloc_raw(r, "joints", count, sizeof *out);
     if (!out)
         return NULL;
     size_t lost = 0;
@@ -83,52 +83,51 @@ static const mat4 *get_matrices(reader *r, const json_place *skin, uint32_t acce
         out[i].m[15] = 1.0f;
     }
     if (lost)
-        reader_warn(r, skin, "inverseBindMatrices", "%zu are not finite; the identity is used", lost);
+        io_warn(r, skin, "inverseBindMatrices", "%zu are not finite; the identity is used", lost);
     if (projecting)
-        reader_warn(r, skin, "inverseBindMatrices",
-                    "%zu have a last row other than 0 0 0 1, which is ignored", projecting);
+        io_warn(r, skin, "inverseBindMatrices", "%zu have a last row other than 0 0 0 1, which is ignored",
+                projecting);
     return out;
 }
 
-static void read_bind_matrices(reader *r, const json_place *skin, scene_skin *out)
+static void read_bind_matrices(io_reader *r, const json_place *skin, scene_skin *out)
 {
-    uint32_t index = get_accessor(r, skin, "inverseBindMatrices");
+    uint32_t index = gltf_get_accessor(r, skin, "inverseBindMatrices");
     if (index == SCENE_NONE)
         return;
-    const gltf_accessor *a = &r->accessors[index];
+    const gltf_accessor *a = &r->gltf->accessors[index];
     if (a->type != GLTF_MAT4 || a->component != GLTF_F32)
-        reader_fail(r, skin, "inverseBindMatrices", FACET_ERROR_INVALID,
-                    "accessor %u must have MAT4 elements of floats", index);
+        io_fail(r, skin, "inverseBindMatrices", FACET_ERROR_INVALID,
+                "accessor %u must have MAT4 elements of floats", index);
     else if (a->count < out->joint_count)
-        reader_fail(r, skin, "inverseBindMatrices", FACET_ERROR_INVALID,
-                    "accessor %u has %u elements, but there are %u joints", index, a->count,
-                    out->joint_count);
-    if (!reader_is_ok(r))
+        io_fail(r, skin, "inverseBindMatrices", FACET_ERROR_INVALID,
+                "accessor %u has %u elements, but there are %u joints", index, a->count, out->joint_count);
+    if (!io_is_ok(r))
         return;
-    if (a->view != SCENE_NONE && r->views[a->view].stride)
-        reader_note(r, skin, "inverseBindMatrices", "is in a buffer view with byteStride");
-    if (has_accessor_source(r, index))
+    if (a->view != SCENE_NONE && r->gltf->views[a->view].stride)
+        io_note(r, skin, "inverseBindMatrices", "is in a buffer view with byteStride");
+    if (gltf_has_accessor_source(r, index))
         out->inverse_bind = get_matrices(r, skin, index, out->joint_count);
     else
-        reader_warn(r, skin, "inverseBindMatrices", "is in a buffer without bytes; identities are used");
+        io_warn(r, skin, "inverseBindMatrices", "is in a buffer without bytes; identities are used");
 }
 
 /* A skin that cannot be read, and may not be needed, keeps its number: it has one joint where there is a node. */
-static void make_unused_skin(reader *r, scene_skin *out)
+static void make_unused_skin(io_reader *r, scene_skin *out)
 {
     *out = (scene_skin){.name = out->name, .skeleton = SCENE_NONE};
-    out->joints = reader_alloc(r, "joints", 1, sizeof *out->joints);
+    out->joints = io_alloc(r, "joints", 1, sizeof *out->joints);
     out->joint_count = r->scene->node_count > 0;
 }
 
-static void read_skin(reader *r, const json_place *at, const uint32_t *roots, scene_skin *out)
+static void read_skin(io_reader *r, const json_place *at, const uint32_t *roots, scene_skin *out)
 {
-    out->name = get_name(r, at);
+    out->name = io_get_name(r, at);
     read_joints(r, at, roots, out);
-    out->skeleton = get_index(r, at, "skeleton", r->file_node_count, "node");
-    if (reader_is_ok(r))
+    out->skeleton = io_get_index(r, at, "skeleton", r->gltf->file_node_count, "node");
+    if (io_is_ok(r))
         read_bind_matrices(r, at, out);
-    out->meta = get_meta(r, at);
+    out->meta = gltf_get_meta(r, at);
 }
 
 /* ---- the meshes that skins move ---- */
@@ -147,57 +146,57 @@ static uint32_t count_joints(const scene_mesh *mesh)
 }
 
 /* Every vertex must name joints that the skins of its mesh have. */
-static void check_users(reader *r, const json_place *root, reader_problem *problems)
+static void check_users(io_reader *r, const json_place *root, io_problem *problems)
 {
     const facet_scene *scene = r->scene;
-    json_place array = get_array(r, root, "nodes");
+    json_place array = io_get_array(r, root, "nodes");
     uint32_t *joint_counts = mem_alloc(r->allocator, scene->mesh_count, sizeof *joint_counts);
     if (!joint_counts) {
-        reader_fail_memory(r, "meshes", scene->mesh_count * sizeof *joint_counts);
+        io_fail_memory(r, "meshes", scene->mesh_count * sizeof *joint_counts);
         return;
     }
     memset(joint_counts, 0xff, scene->mesh_count * sizeof *joint_counts);
-    for (uint32_t i = 0; i < scene->node_count && reader_is_ok(r); i++) {
+    for (uint32_t i = 0; i < scene->node_count && io_is_ok(r); i++) {
         const scene_node *node = &scene->nodes[i];
         if (node->mesh == SCENE_NONE || node->skin == SCENE_NONE)
             continue;
         if (problems[node->skin].message)
-            reader_fail_deferred(r, &problems[node->skin]);
-        else if (r->meshes[node->mesh].joints.message)
-            reader_fail_deferred(r, &r->meshes[node->mesh].joints);
+            io_fail_deferred(r, &problems[node->skin]);
+        else if (r->gltf->meshes[node->mesh].joints.message)
+            io_fail_deferred(r, &r->gltf->meshes[node->mesh].joints);
         uint32_t *count = &joint_counts[node->mesh];
         if (*count == SCENE_NONE)
             *count = count_joints(&scene->meshes[node->mesh]);
-        json_place at = get_element(&array, i);
+        json_place at = io_get_element(&array, i);
         if (*count == 0)
-            reader_warn(r, &at, "skin", "moves nothing: mesh %u has no JOINTS_0 and WEIGHTS_0", node->mesh);
+            io_warn(r, &at, "skin", "moves nothing: mesh %u has no JOINTS_0 and WEIGHTS_0", node->mesh);
         if (*count > scene->skins[node->skin].joint_count)
-            reader_fail(r, &at, "skin", FACET_ERROR_INVALID,
-                        "a vertex of mesh %u is moved by joint %u, but skin %u has %u joints", node->mesh,
-                        *count - 1, node->skin, scene->skins[node->skin].joint_count);
+            io_fail(r, &at, "skin", FACET_ERROR_INVALID,
+                    "a vertex of mesh %u is moved by joint %u, but skin %u has %u joints", node->mesh,
+                    *count - 1, node->skin, scene->skins[node->skin].joint_count);
     }
     mem_free(joint_counts);
 }
 
-void read_skins(reader *r, const json_place *root)
+void gltf_read_skins(io_reader *r, const json_place *root)
 {
-    json_place array = get_array(r, root, "skins");
-    size_t count = get_count(&array);
+    json_place array = io_get_array(r, root, "skins");
+    size_t count = io_get_count(&array);
     if (count == 0)
         return;
-    r->scene->skins = reader_alloc(r, "skins", count, sizeof *r->scene->skins);
-    reader_problem *problems = reader_alloc(r, "skins", count, sizeof *problems);
+    r->scene->skins = io_alloc(r, "skins", count, sizeof *r->scene->skins);
+    io_problem *problems = io_alloc(r, "skins", count, sizeof *problems);
     uint32_t *roots = find_roots(r);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place at = get_element_object(r, &array, i);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
         read_skin(r, &at, roots, &r->scene->skins[i]);
-        if (reader_defer(r, &problems[i]))
+        if (io_defer(r, &problems[i]))
             make_unused_skin(r, &r->scene->skins[i]);
         r->scene->skin_count = (uint32_t)(i + 1);
     }
     mem_free(roots);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         check_users(r, root, problems);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++)
-        reader_warn_deferred(r, &problems[i]);
+    for (size_t i = 0; i < count && io_is_ok(r); i++)
+        io_warn_deferred(r, &problems[i]);
 }

@@ -12,83 +12,86 @@ enum { GLB_MAGIC = 0x46546C67, GLB_JSON = 0x4E4F534A, GLB_BIN = 0x004E4942 };
 
 /* ---- the document ---- */
 
-static void write_asset(writer *w)
+static void write_asset(gltf_writer *w)
 {
     const facet_scene *scene = w->scene;
-    json_t *asset = put_object(w, w->root, "asset");
-    put(w, asset, "version", json_string("2.0"));
-    put(w, asset, "generator", json_text(w, w->generator));
+    json_t *asset = gltf_put_object(w, w->root, "asset");
+    gltf_put(w, asset, "version", json_string("2.0"));
+    gltf_put(w, asset, "generator", gltf_json_text(w, w->generator));
     if (scene->copyright[0])
-        put(w, asset, "copyright", json_text(w, scene->copyright));
-    put_meta(w, asset, &scene->asset_meta);
+        gltf_put(w, asset, "copyright", gltf_json_text(w, scene->copyright));
+    gltf_put_meta(w, asset, &scene->asset_meta);
 }
 
-static void write_variant_names(writer *w)
+static void write_variant_names(gltf_writer *w)
 {
     for (uint32_t i = 0; i < w->scene->variant_count; i++) {
         json_t *variant = json_object();
-        put(w, variant, "name", json_text(w, w->scene->variants[i]));
-        append(w, put_array(w, put_extension(w, w->root, "KHR_materials_variants"), "variants"), variant);
+        gltf_put(w, variant, "name", gltf_json_text(w, w->scene->variants[i]));
+        gltf_append(w,
+                    gltf_put_array(w, gltf_put_extension(w, w->root, "KHR_materials_variants"), "variants"),
+                    variant);
     }
 }
 
 /* What the file that was read required is required of this one as far as it is used. */
-static void write_extension_names(writer *w)
+static void write_extension_names(gltf_writer *w)
 {
     const char *name;
     json_t *is_required;
     for (uint32_t i = 0; i < w->scene->extension_count; i++) {
         const scene_extension *e = &w->scene->extensions[i];
         if (e->is_required && json_object_get(w->extensions_used, e->name))
-            require_extension(w, e->name);
+            gltf_require_extension(w, e->name);
     }
     json_object_foreach(w->extensions_used, name, is_required)
     {
-        append(w, put_array(w, w->root, "extensionsUsed"), json_text(w, name));
+        gltf_append(w, gltf_put_array(w, w->root, "extensionsUsed"), gltf_json_text(w, name));
         if (json_is_true(is_required))
-            append(w, put_array(w, w->root, "extensionsRequired"), json_text(w, name));
+            gltf_append(w, gltf_put_array(w, w->root, "extensionsRequired"), gltf_json_text(w, name));
     }
 }
 
 /* uri: that of the binary data; NULL: the binary chunk. */
-static void write_buffer(writer *w, const char *uri)
+static void write_buffer(gltf_writer *w, const char *uri)
 {
     if (w->bin_size == 0)
         return;
     json_t *buffer = json_object();
     if (uri)
-        put_uri(w, buffer, uri);
-    put(w, buffer, "byteLength", json_integer((json_int_t)w->bin_size));
-    append(w, put_array(w, w->root, "buffers"), buffer);
+        gltf_put_uri(w, buffer, uri);
+    gltf_put(w, buffer, "byteLength", json_integer((json_int_t)w->bin_size));
+    gltf_append(w, gltf_put_array(w, w->root, "buffers"), buffer);
 }
 
-static void put_filled(writer *w, const char *key, json_t *array)
+static void put_filled(gltf_writer *w, const char *key, json_t *array)
 {
     if (json_array_size(array))
-        put(w, w->root, key, json_incref(array));
+        gltf_put(w, w->root, key, json_incref(array));
 }
 
-static void write_document(writer *w, const char *bin_name)
+static void write_document(gltf_writer *w, const char *bin_name)
 {
-    void (*const concerns[])(writer *) = {
-        write_asset,     write_scenes,   write_nodes,  write_meshes,  write_skins,  write_animations,
-        write_materials, write_textures, write_images, write_cameras, write_lights, write_variant_names};
-    for (size_t i = 0; i < sizeof concerns / sizeof *concerns && writer_is_ok(w); i++)
+    void (*const concerns[])(gltf_writer *) = {
+        write_asset,       gltf_write_scenes,     gltf_write_nodes,     gltf_write_meshes,
+        gltf_write_skins,  gltf_write_animations, gltf_write_materials, gltf_write_textures,
+        gltf_write_images, gltf_write_cameras,    gltf_write_lights,    write_variant_names};
+    for (size_t i = 0; i < sizeof concerns / sizeof *concerns && gltf_writer_is_ok(w); i++)
         concerns[i](w);
     put_filled(w, "accessors", w->accessors);
     put_filled(w, "bufferViews", w->views);
     write_buffer(w, bin_name);
-    put_meta(w, w->root, &w->scene->meta);
+    gltf_put_meta(w, w->root, &w->scene->meta);
     write_extension_names(w);
 }
 
 /* The JSON text; for free(). */
-static char *dump(writer *w)
+static char *dump(gltf_writer *w)
 {
     size_t flags = w->needs_all_digits ? JSON_REAL_PRECISION(17) : JSON_REAL_PRECISION(15);
     char *text = json_dumps(w->root, flags | (w->stem ? JSON_INDENT(2) : JSON_COMPACT));
     if (!text)
-        writer_fail_memory(w, 0);
+        gltf_writer_fail_memory(w, 0);
     return text;
 }
 
@@ -111,10 +114,10 @@ static void add_chunk(unsigned char **at, size_t type, const void *bytes, size_t
     *at += 8 + padded;
 }
 
-static facet_result save_glb(writer *w, const char *path)
+static facet_result save_glb(gltf_writer *w, const char *path)
 {
     write_document(w, NULL);
-    char *text = writer_is_ok(w) ? dump(w) : NULL;
+    char *text = gltf_writer_is_ok(w) ? dump(w) : NULL;
     if (!text)
         return w->result;
     size_t length = strlen(text);
@@ -125,7 +128,7 @@ static facet_result save_glb(writer *w, const char *path)
         w->result = fail(w->error, FACET_ERROR_LIMIT,
                          "%s: a .glb file holds at most 4 GiB; write a .gltf file", path);
     } else if (!file) {
-        writer_fail_memory(w, size);
+        gltf_writer_fail_memory(w, size);
     } else {
         unsigned char *at = file + 12;
         put_u32(file, GLB_MAGIC);
@@ -136,7 +139,7 @@ static facet_result save_glb(writer *w, const char *path)
             add_chunk(&at, GLB_BIN, w->bin, w->bin_size, 0);
         file_set set = file_set_begin(w->scene, path, w->desc);
         w->result = file_set_add(&set, NULL, file, size, w->error);
-        if (writer_is_ok(w))
+        if (gltf_writer_is_ok(w))
             w->result = file_set_commit(&set, w->error);
         file_set_destroy(&set);
     }
@@ -146,21 +149,21 @@ static facet_result save_glb(writer *w, const char *path)
 }
 
 /* All files, or none where one cannot be written. */
-static void save_files(writer *w, const char *path, const char *text, const char *bin_name)
+static void save_files(gltf_writer *w, const char *path, const char *text, const char *bin_name)
 {
     file_set set = file_set_begin(w->scene, path, w->desc);
-    for (size_t i = 0; i < w->file_count && writer_is_ok(w); i++)
+    for (size_t i = 0; i < w->file_count && gltf_writer_is_ok(w); i++)
         w->result = file_set_add(&set, w->files[i].name, w->files[i].bytes, w->files[i].size, w->error);
-    if (writer_is_ok(w) && w->bin_size)
+    if (gltf_writer_is_ok(w) && w->bin_size)
         w->result = file_set_add(&set, bin_name, w->bin, w->bin_size, w->error);
-    if (writer_is_ok(w))
+    if (gltf_writer_is_ok(w))
         w->result = file_set_add(&set, NULL, text, strlen(text), w->error);
-    if (writer_is_ok(w))
+    if (gltf_writer_is_ok(w))
         w->result = file_set_commit(&set, w->error);
     file_set_destroy(&set);
 }
 
-static facet_result save_gltf(writer *w, const char *path)
+static facet_result save_gltf(gltf_writer *w, const char *path)
 {
     const char *base = path_base_name(path);
     const char *extension = path_extension(path);
@@ -169,15 +172,15 @@ static facet_result save_gltf(writer *w, const char *path)
     char *bin_name = mem_alloc(w->allocator, length + 5, 1);
     char *text = NULL;
     if (!stem || !bin_name) {
-        writer_fail_memory(w, length + 5);
+        gltf_writer_fail_memory(w, length + 5);
         goto done;
     }
     snprintf(stem, length + 1, "%s", base);
     snprintf(bin_name, length + 5, "%s.bin", stem);
     w->stem = stem;
     write_document(w, bin_name);
-    text = writer_is_ok(w) ? dump(w) : NULL;
-    if (writer_is_ok(w))
+    text = gltf_writer_is_ok(w) ? dump(w) : NULL;
+    if (gltf_writer_is_ok(w))
         save_files(w, path, text, bin_name);
 done:
     free(text);
@@ -194,20 +197,20 @@ facet_result gltf_save(const facet_scene *scene, const char *path, const char *g
     bool is_glb = desc->is_glb || strcasecmp(path_extension(path), "glb") == 0;
     if (!is_glb && strcasecmp(path_extension(path), "gltf") != 0)
         return fail(error, FACET_ERROR_ARGUMENT, "%s: the name does not end in .glb or .gltf", path);
-    writer w = {.scene = scene,
-                .generator = generator,
-                .allocator = &desc->allocator,
-                .log = &desc->log,
-                .desc = desc,
-                .error = error,
-                .result = FACET_OK,
-                .thread_count = desc->thread_count,
-                .root = json_object(),
-                .accessors = json_array(),
-                .views = json_array(),
-                .extensions_used = json_object()};
+    gltf_writer w = {.scene = scene,
+                     .generator = generator,
+                     .allocator = &desc->allocator,
+                     .log = &desc->log,
+                     .desc = desc,
+                     .error = error,
+                     .result = FACET_OK,
+                     .thread_count = desc->thread_count,
+                     .root = json_object(),
+                     .accessors = json_array(),
+                     .views = json_array(),
+                     .extensions_used = json_object()};
     if (!w.root || !w.accessors || !w.views || !w.extensions_used)
-        writer_fail_memory(&w, 0);
+        gltf_writer_fail_memory(&w, 0);
     else if (is_glb)
         save_glb(&w, path);
     else

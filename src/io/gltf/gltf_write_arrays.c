@@ -11,11 +11,11 @@ static const char *const type_names[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT4
 static const uint32_t component_counts[] = {1, 2, 3, 4, 16};
 
 /* Room for size bytes at a multiple of 4; NULL: no memory. */
-static unsigned char *add_bytes(writer *w, size_t size, size_t *offset)
+static unsigned char *add_bytes(gltf_writer *w, size_t size, size_t *offset)
 {
     size_t begin = (w->bin_size + 3) & ~(size_t)3;
     if (size > UINT32_MAX || begin + size > UINT32_MAX - 64) {
-        if (writer_is_ok(w))
+        if (gltf_writer_is_ok(w))
             w->result = fail(w->error, FACET_ERROR_LIMIT,
                              "%s: has more than 4 GiB of data, the most that a glTF "
                              "buffer of facet holds",
@@ -23,7 +23,7 @@ static unsigned char *add_bytes(writer *w, size_t size, size_t *offset)
         return NULL;
     }
     if (!mem_reserve(w->allocator, (void **)&w->bin, &w->bin_capacity, begin + size + 4, 1)) {
-        writer_fail_memory(w, begin + size + 4);
+        gltf_writer_fail_memory(w, begin + size + 4);
         return NULL;
     }
     memset(w->bin + w->bin_size, 0, begin - w->bin_size);
@@ -32,22 +32,22 @@ static unsigned char *add_bytes(writer *w, size_t size, size_t *offset)
     return w->bin + begin;
 }
 
-static uint32_t add_view(writer *w, size_t offset, size_t size, size_t stride, int target)
+static uint32_t add_view(gltf_writer *w, size_t offset, size_t size, size_t stride, int target)
 {
     json_t *view = json_object();
-    put(w, view, "buffer", json_integer(0));
+    gltf_put(w, view, "buffer", json_integer(0));
     if (offset)
-        put(w, view, "byteOffset", json_integer((json_int_t)offset));
-    put(w, view, "byteLength", json_integer((json_int_t)size));
+        gltf_put(w, view, "byteOffset", json_integer((json_int_t)offset));
+    gltf_put(w, view, "byteLength", json_integer((json_int_t)size));
     if (stride)
-        put(w, view, "byteStride", json_integer((json_int_t)stride));
+        gltf_put(w, view, "byteStride", json_integer((json_int_t)stride));
     if (target)
-        put(w, view, "target", json_integer(target));
-    append(w, w->views, view);
+        gltf_put(w, view, "target", json_integer(target));
+    gltf_append(w, w->views, view);
     return (uint32_t)json_array_size(w->views) - 1;
 }
 
-uint32_t write_view(writer *w, const void *bytes, size_t size, int target)
+uint32_t gltf_write_view(gltf_writer *w, const void *bytes, size_t size, int target)
 {
     size_t offset;
     unsigned char *at = add_bytes(w, size, &offset);
@@ -58,25 +58,25 @@ uint32_t write_view(writer *w, const void *bytes, size_t size, int target)
 }
 
 /* view: SCENE_NONE: zeros. */
-static json_t *add_accessor(writer *w, uint32_t view, int component, size_t count, write_type type)
+static json_t *add_accessor(gltf_writer *w, uint32_t view, int component, size_t count, write_type type)
 {
     json_t *accessor = json_object();
-    put_index(w, accessor, "bufferView", view);
-    put(w, accessor, "componentType", json_integer(component));
-    put(w, accessor, "count", json_integer((json_int_t)count));
-    put(w, accessor, "type", json_string(type_names[type]));
-    append(w, w->accessors, accessor);
+    gltf_put_index(w, accessor, "bufferView", view);
+    gltf_put(w, accessor, "componentType", json_integer(component));
+    gltf_put(w, accessor, "count", json_integer((json_int_t)count));
+    gltf_put(w, accessor, "type", json_string(type_names[type]));
+    gltf_append(w, w->accessors, accessor);
     return accessor;
 }
 
-static uint32_t last_accessor(const writer *w)
+static uint32_t last_accessor(const gltf_writer *w)
 {
     return (uint32_t)json_array_size(w->accessors) - 1;
 }
 
 /* ---- what was written before ---- */
 
-static size_t hash(const written_array *a)
+static size_t hash(const gltf_written_array *a)
 {
     uint64_t h = (uint64_t)(uintptr_t)a->data * 0x9e3779b97f4a7c15u ^
                  (uint64_t)a->size * 0xc2b2ae3d27d4eb4fu ^ (uint64_t)a->kind * 0x165667b19e3779f9u;
@@ -84,7 +84,7 @@ static size_t hash(const written_array *a)
 }
 
 /* The place of an array, or a free one. */
-static written_array *find(written_array *table, size_t capacity, const written_array *a)
+static gltf_written_array *find(gltf_written_array *table, size_t capacity, const gltf_written_array *a)
 {
     size_t i = hash(a) & (capacity - 1);
     while (table[i].data &&
@@ -93,14 +93,14 @@ static written_array *find(written_array *table, size_t capacity, const written_
     return &table[i];
 }
 
-static bool grow(writer *w)
+static bool grow(gltf_writer *w)
 {
     if (w->written_count * 2 < w->written_capacity)
         return true;
     size_t capacity = w->written_capacity ? 2 * w->written_capacity : 256;
-    written_array *table = mem_zalloc(w->allocator, capacity, sizeof *table);
+    gltf_written_array *table = mem_zalloc(w->allocator, capacity, sizeof *table);
     if (!table) {
-        writer_fail_memory(w, capacity * sizeof *table);
+        gltf_writer_fail_memory(w, capacity * sizeof *table);
         return false;
     }
     for (size_t i = 0; i < w->written_capacity; i++)
@@ -113,12 +113,12 @@ static bool grow(writer *w)
 }
 
 /* The accessor of an array that was written, or SCENE_NONE; the next accessor will be noted as its own then. */
-static uint32_t find_or_note(writer *w, const void *data, size_t size, uint32_t kind)
+static uint32_t find_or_note(gltf_writer *w, const void *data, size_t size, uint32_t kind)
 {
     if (!grow(w))
         return SCENE_NONE;
-    const written_array a = {.data = data, .size = size, .kind = kind, .accessor = last_accessor(w) + 1};
-    written_array *place = find(w->written, w->written_capacity, &a);
+    const gltf_written_array a = {.data = data, .size = size, .kind = kind, .accessor = last_accessor(w) + 1};
+    gltf_written_array *place = find(w->written, w->written_capacity, &a);
     if (place->data)
         return place->accessor;
     *place = a;
@@ -128,7 +128,8 @@ static uint32_t find_or_note(writer *w, const void *data, size_t size, uint32_t 
 
 /* ---- arrays ---- */
 
-static void put_bounds(writer *w, json_t *accessor, const float *values, size_t count, uint32_t components)
+static void put_bounds(gltf_writer *w, json_t *accessor, const float *values, size_t count,
+                       uint32_t components)
 {
     float low[16], high[16];
     for (size_t i = 0; i < count; i++)
@@ -137,11 +138,12 @@ static void put_bounds(writer *w, json_t *accessor, const float *values, size_t 
             low[c] = i == 0 || value < low[c] ? value : low[c];
             high[c] = i == 0 || value > high[c] ? value : high[c];
         }
-    put(w, accessor, "min", json_floats(low, components));
-    put(w, accessor, "max", json_floats(high, components));
+    gltf_put(w, accessor, "min", gltf_json_floats(low, components));
+    gltf_put(w, accessor, "max", gltf_json_floats(high, components));
 }
 
-uint32_t write_floats(writer *w, const float *values, size_t count, write_type type, int target, bool bounds)
+uint32_t gltf_write_floats(gltf_writer *w, const float *values, size_t count, write_type type, int target,
+                           bool bounds)
 {
     uint32_t components = component_counts[type];
     size_t size = count * components * sizeof(float);
@@ -149,44 +151,45 @@ uint32_t write_floats(writer *w, const float *values, size_t count, write_type t
         w, values, size, (uint32_t)type | (uint32_t)(target != 0) << 4 | (uint32_t)bounds << 5 | 1u << 8);
     if (found != SCENE_NONE)
         return found;
-    json_t *accessor = add_accessor(w, write_view(w, values, size, target), FLOAT, count, type);
+    json_t *accessor = add_accessor(w, gltf_write_view(w, values, size, target), FLOAT, count, type);
     if (bounds)
         put_bounds(w, accessor, values, count, components);
     return last_accessor(w);
 }
 
-uint32_t write_positions(writer *w, const float *values, size_t count, const double origin[3])
+uint32_t gltf_write_positions(gltf_writer *w, const float *values, size_t count, const double origin[3])
 {
     if (origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0)
-        return write_floats(w, values, count, WRITE_VEC3, WRITE_VERTICES, true);
+        return gltf_write_floats(w, values, count, WRITE_VEC3, WRITE_VERTICES, true);
     size_t size = 3 * count * sizeof(float);
     uint32_t found = find_or_note(w, values, size, 5u << 8);
     if (found != SCENE_NONE)
         return found;
     float *moved = mem_alloc(w->allocator, count, 3 * sizeof *moved);
     if (!moved) {
-        writer_fail_memory(w, size);
+        gltf_writer_fail_memory(w, size);
         return 0;
     }
     for (size_t i = 0; i < 3 * count; i++)
         moved[i] = (float)(origin[i % 3] + (double)values[i]);
-    json_t *accessor = add_accessor(w, write_view(w, moved, size, WRITE_VERTICES), FLOAT, count, WRITE_VEC3);
+    json_t *accessor =
+        add_accessor(w, gltf_write_view(w, moved, size, WRITE_VERTICES), FLOAT, count, WRITE_VEC3);
     put_bounds(w, accessor, moved, count, 3);
     mem_free(moved);
     return last_accessor(w);
 }
 
-uint32_t write_zeros(writer *w, size_t count, write_type type)
+uint32_t gltf_write_zeros(gltf_writer *w, size_t count, write_type type)
 {
     static const float zeros[16] = {0};
     uint32_t components = component_counts[type];
     json_t *accessor = add_accessor(w, SCENE_NONE, FLOAT, count, type);
-    put(w, accessor, "min", json_floats(zeros, components));
-    put(w, accessor, "max", json_floats(zeros, components));
+    gltf_put(w, accessor, "min", gltf_json_floats(zeros, components));
+    gltf_put(w, accessor, "max", gltf_json_floats(zeros, components));
     return last_accessor(w);
 }
 
-uint32_t write_indices(writer *w, const uint32_t *values, size_t count)
+uint32_t gltf_write_indices(gltf_writer *w, const uint32_t *values, size_t count)
 {
     uint32_t found = find_or_note(w, values, count, 2u << 8);
     if (found != SCENE_NONE)
@@ -208,7 +211,7 @@ uint32_t write_indices(writer *w, const uint32_t *values, size_t count)
     return last_accessor(w);
 }
 
-uint32_t write_joints(writer *w, const uint16_t *joints, size_t count, size_t stride)
+uint32_t gltf_write_joints(gltf_writer *w, const uint16_t *joints, size_t count, size_t stride)
 {
     uint32_t found = find_or_note(w, joints, count, 3u << 8);
     if (found != SCENE_NONE)
@@ -231,7 +234,7 @@ uint32_t write_joints(writer *w, const uint16_t *joints, size_t count, size_t st
     return last_accessor(w);
 }
 
-uint32_t write_weights(writer *w, const float *weights, size_t count, size_t stride)
+uint32_t gltf_write_weights(gltf_writer *w, const float *weights, size_t count, size_t stride)
 {
     uint32_t found = find_or_note(w, weights, count, 4u << 8);
     if (found != SCENE_NONE)
@@ -245,8 +248,8 @@ uint32_t write_weights(writer *w, const float *weights, size_t count, size_t str
     return last_accessor(w);
 }
 
-uint32_t write_bytes(writer *w, const unsigned char *values, size_t count)
+uint32_t gltf_write_bytes(gltf_writer *w, const unsigned char *values, size_t count)
 {
-    add_accessor(w, write_view(w, values, count, WRITE_NO_TARGET), UNSIGNED_BYTE, count, WRITE_SCALAR);
+    add_accessor(w, gltf_write_view(w, values, count, WRITE_NO_TARGET), UNSIGNED_BYTE, count, WRITE_SCALAR);
     return last_accessor(w);
 }

@@ -9,30 +9,30 @@
 #include "base/utf8.h"
 #include "io/gltf/gltf_writer.h"
 
-bool writer_is_ok(const writer *w)
+bool gltf_writer_is_ok(const gltf_writer *w)
 {
     return w->result == FACET_OK;
 }
 
-void writer_fail_memory(writer *w, size_t size)
+void gltf_writer_fail_memory(gltf_writer *w, size_t size)
 {
-    if (writer_is_ok(w))
+    if (gltf_writer_is_ok(w))
         w->result = fail_memory(w->error, "glTF", size);
 }
 
-void put(writer *w, json_t *object, const char *key, json_t *value)
+void gltf_put(gltf_writer *w, json_t *object, const char *key, json_t *value)
 {
     if (json_object_set_new(object, key, value) != 0)
-        writer_fail_memory(w, 0);
+        gltf_writer_fail_memory(w, 0);
 }
 
-void append(writer *w, json_t *array, json_t *value)
+void gltf_append(gltf_writer *w, json_t *array, json_t *value)
 {
     if (json_array_append_new(array, value) != 0)
-        writer_fail_memory(w, 0);
+        gltf_writer_fail_memory(w, 0);
 }
 
-json_t *json_text(writer *w, const char *words)
+json_t *gltf_json_text(gltf_writer *w, const char *words)
 {
     size_t size = strlen(words);
     if (utf8_is_valid(words, size))
@@ -47,21 +47,21 @@ json_t *json_text(writer *w, const char *words)
     return string;
 }
 
-json_t *put_object(writer *w, json_t *object, const char *key)
+json_t *gltf_put_object(gltf_writer *w, json_t *object, const char *key)
 {
     json_t *there = json_object_get(object, key);
     if (there)
         return there;
-    put(w, object, key, json_object());
+    gltf_put(w, object, key, json_object());
     return json_object_get(object, key);
 }
 
-json_t *put_array(writer *w, json_t *object, const char *key)
+json_t *gltf_put_array(gltf_writer *w, json_t *object, const char *key)
 {
     json_t *there = json_object_get(object, key);
     if (there)
         return there;
-    put(w, object, key, json_array());
+    gltf_put(w, object, key, json_array());
     return json_object_get(object, key);
 }
 
@@ -77,25 +77,25 @@ static json_t *json_decimal(const char digits[TEXT_FLOAT_SIZE])
 }
 
 /* The double that is nearest to the shortest decimal of the float, which is printed with 9 digits. */
-json_t *json_float(float value)
+json_t *gltf_json_float(float value)
 {
     char digits[TEXT_FLOAT_SIZE];
     text_shortest_float(value, digits);
     return json_decimal(digits);
 }
 
-json_t *json_floats(const float *values, size_t count)
+json_t *gltf_json_floats(const float *values, size_t count)
 {
     json_t *array = json_array();
     for (size_t i = 0; i < count; i++)
-        if (json_array_append_new(array, json_float(values[i])) != 0) {
+        if (json_array_append_new(array, gltf_json_float(values[i])) != 0) {
             json_decref(array);
             return NULL;
         }
     return array;
 }
 
-json_t *json_doubles(const double *values, size_t count)
+json_t *gltf_json_doubles(const double *values, size_t count)
 {
     json_t *array = json_array();
     for (size_t i = 0; i < count; i++) {
@@ -109,7 +109,7 @@ json_t *json_doubles(const double *values, size_t count)
     return array;
 }
 
-json_t *json_indices(const uint32_t *indices, size_t count)
+json_t *gltf_json_indices(const uint32_t *indices, size_t count)
 {
     json_t *array = json_array();
     for (size_t i = 0; i < count; i++)
@@ -120,48 +120,48 @@ json_t *json_indices(const uint32_t *indices, size_t count)
     return array;
 }
 
-void put_name(writer *w, json_t *object, const char *name)
+void gltf_put_name(gltf_writer *w, json_t *object, const char *name)
 {
     if (name && name[0])
-        put(w, object, "name", json_text(w, name));
+        gltf_put(w, object, "name", gltf_json_text(w, name));
 }
 
-void put_index(writer *w, json_t *object, const char *key, uint32_t index)
+void gltf_put_index(gltf_writer *w, json_t *object, const char *key, uint32_t index)
 {
     if (index != SCENE_NONE)
-        put(w, object, key, json_integer(index));
+        gltf_put(w, object, key, json_integer(index));
 }
 
-void put_floats(writer *w, json_t *object, const char *key, const float *values, const float *defaults,
-                size_t count)
+void gltf_put_floats(gltf_writer *w, json_t *object, const char *key, const float *values,
+                     const float *defaults, size_t count)
 {
     bool differs = false;
     for (size_t i = 0; i < count; i++)
         differs = differs || values[i] != (defaults ? defaults[i] : 0.0f);
     if (differs)
-        put(w, object, key, count == 1 ? json_float(values[0]) : json_floats(values, count));
+        gltf_put(w, object, key, count == 1 ? gltf_json_float(values[0]) : gltf_json_floats(values, count));
 }
 
-void put_float(writer *w, json_t *object, const char *key, float value, float default_value)
+void gltf_put_float(gltf_writer *w, json_t *object, const char *key, float value, float default_value)
 {
-    put_floats(w, object, key, &value, &default_value, 1);
+    gltf_put_floats(w, object, key, &value, &default_value, 1);
 }
 
-static void use_extension(writer *w, const char *name)
+static void use_extension(gltf_writer *w, const char *name)
 {
     if (!json_object_get(w->extensions_used, name))
-        put(w, w->extensions_used, name, json_false());
+        gltf_put(w, w->extensions_used, name, json_false());
 }
 
-void require_extension(writer *w, const char *name)
+void gltf_require_extension(gltf_writer *w, const char *name)
 {
-    put(w, w->extensions_used, name, json_true());
+    gltf_put(w, w->extensions_used, name, json_true());
 }
 
-json_t *put_extension(writer *w, json_t *object, const char *name)
+json_t *gltf_put_extension(gltf_writer *w, json_t *object, const char *name)
 {
     use_extension(w, name);
-    return put_object(w, put_object(w, object, "extensions"), name);
+    return gltf_put_object(w, gltf_put_object(w, object, "extensions"), name);
 }
 
 static bool has_many_digits(const json_t *value)
@@ -184,11 +184,11 @@ static bool has_many_digits(const json_t *value)
 }
 
 /* JSON text of the file that was read, whose nesting the reader bounded. */
-static json_t *parse(writer *w, const char *json)
+static json_t *parse(gltf_writer *w, const char *json)
 {
     json_t *value = json_loads(json, JSON_DECODE_ANY | JSON_ALLOW_NUL, NULL);
     if (!value) {
-        writer_fail_memory(w, 0);
+        gltf_writer_fail_memory(w, 0);
         return NULL;
     }
     w->needs_all_digits = w->needs_all_digits || has_many_digits(value);
@@ -197,13 +197,13 @@ static json_t *parse(writer *w, const char *json)
 
 /* RFC 3986: what is neither unreserved nor a character of UTF-8 is escaped; of a name that is not UTF-8, which files
  * may have, all bytes beyond ASCII. */
-void put_uri(writer *w, json_t *object, const char *name)
+void gltf_put_uri(gltf_writer *w, json_t *object, const char *name)
 {
     const bool has_characters = utf8_is_valid(name, strlen(name));
     char *uri = mem_alloc(w->allocator, 3 * strlen(name) + 1, 1);
     char *at = uri;
     if (!uri) {
-        writer_fail_memory(w, 3 * strlen(name) + 1);
+        gltf_writer_fail_memory(w, 3 * strlen(name) + 1);
         return;
     }
     for (; *name; name++) {
@@ -216,11 +216,11 @@ void put_uri(writer *w, json_t *object, const char *name)
             at += snprintf(at, 4, "%%%02X", c);
     }
     *at = 0;
-    put(w, object, "uri", json_string(uri));
+    gltf_put(w, object, "uri", json_string(uri));
     mem_free(uri);
 }
 
-void put_meta(writer *w, json_t *object, const scene_meta *meta)
+void gltf_put_meta(gltf_writer *w, json_t *object, const scene_meta *meta)
 {
     if (meta->extensions) {
         json_t *extensions = parse(w, meta->extensions);
@@ -229,10 +229,10 @@ void put_meta(writer *w, json_t *object, const scene_meta *meta)
         json_object_foreach(extensions, name, value)
         {
             use_extension(w, name);
-            put(w, put_object(w, object, "extensions"), name, json_incref(value));
+            gltf_put(w, gltf_put_object(w, object, "extensions"), name, json_incref(value));
         }
         json_decref(extensions);
     }
     if (meta->extras)
-        put(w, object, "extras", parse(w, meta->extras));
+        gltf_put(w, object, "extras", parse(w, meta->extras));
 }

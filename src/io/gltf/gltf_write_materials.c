@@ -5,11 +5,11 @@
 #include "scene/material_table.h"
 
 /* The object of the JSON that a row names; borrowed. */
-static json_t *object_of(writer *w, json_t *material, const char *name, uint32_t extension)
+static json_t *object_of(gltf_writer *w, json_t *material, const char *name, uint32_t extension)
 {
     if (name[0] == 0)
         return material;
-    return extension ? put_extension(w, material, name) : put_object(w, material, name);
+    return extension ? gltf_put_extension(w, material, name) : gltf_put_object(w, material, name);
 }
 
 /* pbrSpecularGlossiness stands in place of pbrMetallicRoughness and shares members with it: whether the material is
@@ -24,37 +24,37 @@ static bool is_of_kind(const scene_material *m, uint32_t extension, const char *
 }
 
 /* In place of the texture's number: its image by the name of the file, its sampler and its name. */
-static void put_named_texture(writer *w, json_t *info, uint32_t texture)
+static void put_named_texture(gltf_writer *w, json_t *info, uint32_t texture)
 {
     const scene_texture *t = &w->scene->textures[texture];
     const char *file = t->image == SCENE_NONE || !w->image_names ? NULL : w->image_names[t->image];
-    put(w, info, "image", file ? json_text(w, file) : json_null());
-    put(w, info, "sampler", new_sampler(w, t));
-    put_name(w, info, t->name);
+    gltf_put(w, info, "image", file ? gltf_json_text(w, file) : json_null());
+    gltf_put(w, info, "sampler", gltf_new_sampler(w, t));
+    gltf_put_name(w, info, t->name);
 }
 
-static json_t *new_texture_info(writer *w, const scene_texture_ref *ref)
+static json_t *new_texture_info(gltf_writer *w, const scene_texture_ref *ref)
 {
     json_t *info = json_object();
     if (w->names_images)
         put_named_texture(w, info, ref->texture);
     else
-        put_index(w, info, "index", ref->texture);
+        gltf_put_index(w, info, "index", ref->texture);
     if (ref->texcoord)
-        put(w, info, "texCoord", json_integer(ref->texcoord));
+        gltf_put(w, info, "texCoord", json_integer(ref->texcoord));
     const float one[2] = {1, 1};
     bool is_moved = ref->offset[0] != 0.0f || ref->offset[1] != 0.0f || ref->rotation_rad != 0.0f ||
                     ref->scale[0] != 1.0f || ref->scale[1] != 1.0f;
     if (is_moved) {
-        json_t *transform = put_extension(w, info, "KHR_texture_transform");
-        put_floats(w, transform, "offset", ref->offset, NULL, 2);
-        put_float(w, transform, "rotation", ref->rotation_rad, 0.0f);
-        put_floats(w, transform, "scale", ref->scale, one, 2);
+        json_t *transform = gltf_put_extension(w, info, "KHR_texture_transform");
+        gltf_put_floats(w, transform, "offset", ref->offset, NULL, 2);
+        gltf_put_float(w, transform, "rotation", ref->rotation_rad, 0.0f);
+        gltf_put_floats(w, transform, "scale", ref->scale, one, 2);
     }
     return info;
 }
 
-static void write_texture_infos(writer *w, json_t *out, const scene_material *m)
+static void write_texture_infos(gltf_writer *w, json_t *out, const scene_material *m)
 {
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
         const material_texture *row = &material_textures[slot];
@@ -71,11 +71,11 @@ static void write_texture_infos(writer *w, json_t *out, const scene_material *m)
         } else if (!is_of_kind(m, extension, object) || (extension && !(m->extensions & extension))) {
             continue;
         }
-        put(w, object_of(w, out, object, extension), key, new_texture_info(w, ref));
+        gltf_put(w, object_of(w, out, object, extension), key, new_texture_info(w, ref));
     }
 }
 
-static void write_parameters(writer *w, json_t *out, const scene_material *m)
+static void write_parameters(gltf_writer *w, json_t *out, const scene_material *m)
 {
     scene_material defaults = scene_material_default();
     for (int i = 0; i < MATERIAL_PARAMETER_COUNT; i++) {
@@ -89,32 +89,33 @@ static void write_parameters(writer *w, json_t *out, const scene_material *m)
         if (row->texture) /* a member of the texture's object, which is there or says nothing */
             object = json_object_get(object, row->texture);
         if (object)
-            put_floats(w, object, row->key, values, material_floats_const(&defaults, row), row->count);
+            gltf_put_floats(w, object, row->key, values, material_floats_const(&defaults, row), row->count);
     }
 }
 
-json_t *new_material(writer *w, const scene_material *m)
+json_t *gltf_new_material(gltf_writer *w, const scene_material *m)
 {
     static const char *const alpha_modes[] = {"OPAQUE", "MASK", "BLEND"};
     json_t *out = json_object();
-    put_name(w, out, m->name);
+    gltf_put_name(w, out, m->name);
     for (int i = 0; i < MATERIAL_EXTENSION_COUNT; i++)
         if (m->extensions & material_extensions[i].bit)
-            put_extension(w, out, material_extensions[i].name);
+            gltf_put_extension(w, out, material_extensions[i].name);
     write_texture_infos(w, out, m);
     write_parameters(w, out, m);
     if (m->alpha_mode != SCENE_ALPHA_OPAQUE)
-        put(w, out, "alphaMode", json_string(alpha_modes[m->alpha_mode]));
+        gltf_put(w, out, "alphaMode", json_string(alpha_modes[m->alpha_mode]));
     if (m->alpha_mode != SCENE_ALPHA_MASK)
         json_object_del(out, "alphaCutoff");
     if (m->is_double_sided)
-        put(w, out, "doubleSided", json_true());
-    put_meta(w, out, &m->meta);
+        gltf_put(w, out, "doubleSided", json_true());
+    gltf_put_meta(w, out, &m->meta);
     return out;
 }
 
-void write_materials(writer *w)
+void gltf_write_materials(gltf_writer *w)
 {
     for (uint32_t i = 0; i < w->scene->material_count; i++)
-        append(w, put_array(w, w->root, "materials"), new_material(w, &w->scene->materials[i]));
+        gltf_append(w, gltf_put_array(w, w->root, "materials"),
+                    gltf_new_material(w, &w->scene->materials[i]));
 }

@@ -22,7 +22,7 @@ static const unsigned char WHITE[] = {
     0x1c, 0xb0, 0x8c, 0x99, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
 /* Takes made, which is NULL where bytes are the scene's. */
-static void add_file(writer *w, json_t *object, uint32_t index, const char *extension,
+static void add_file(gltf_writer *w, json_t *object, uint32_t index, const char *extension,
                      const unsigned char *bytes, size_t size, unsigned char *made)
 {
     char number[48];
@@ -33,17 +33,17 @@ static void add_file(writer *w, json_t *object, uint32_t index, const char *exte
                               sizeof *w->files)) {
         mem_free(name);
         mem_free(made);
-        writer_fail_memory(w, length);
+        gltf_writer_fail_memory(w, length);
         return;
     }
     snprintf(name, length, "%s%s", w->stem, number);
-    w->files[w->file_count++] = (written_file){.name = name, .bytes = bytes, .size = size, .made = made};
-    put_uri(w, object, name);
+    w->files[w->file_count++] = (gltf_written_file){.name = name, .bytes = bytes, .size = size, .made = made};
+    gltf_put_uri(w, object, name);
 }
 
 /* An image as the bytes of a PNG file, a block of mem_alloc(). NULL: it cannot be read, which is a warning, or there is no
  * memory. */
-static unsigned char *convert_to_png(writer *w, uint32_t index, size_t *size)
+static unsigned char *convert_to_png(gltf_writer *w, uint32_t index, size_t *size)
 {
     const scene_image *source = &w->scene->images[index];
     image decoded;
@@ -61,13 +61,13 @@ static unsigned char *convert_to_png(writer *w, uint32_t index, size_t *size)
                          &bytes, size, &error);
     image_destroy(&decoded);
     if (result == FACET_ERROR_MEMORY)
-        writer_fail_memory(w, source->size);
+        gltf_writer_fail_memory(w, source->size);
     else if (result != FACET_OK)
         log_warning(w->log, "%s; it is written as white", error.message);
     return result == FACET_OK ? bytes : NULL;
 }
 
-void write_images(writer *w)
+void gltf_write_images(gltf_writer *w)
 {
     const facet_scene *scene = w->scene;
     const image_kind *png = image_kind_of_bytes(WHITE, sizeof WHITE);
@@ -87,16 +87,16 @@ void write_images(writer *w)
             kind = png;
         }
         json_t *out = json_object();
-        put_name(w, out, source->name);
+        gltf_put_name(w, out, source->name);
         if (w->stem) {
             add_file(w, out, i, kind->file_extension, bytes, size, made);
         } else {
-            put(w, out, "bufferView", json_integer(write_view(w, bytes, size, WRITE_NO_TARGET)));
-            put(w, out, "mimeType", json_string(kind->mime_type));
+            gltf_put(w, out, "bufferView", json_integer(gltf_write_view(w, bytes, size, WRITE_NO_TARGET)));
+            gltf_put(w, out, "mimeType", json_string(kind->mime_type));
             mem_free(made);
         }
-        put_meta(w, out, &source->meta);
-        append(w, put_array(w, w->root, "images"), out);
+        gltf_put_meta(w, out, &source->meta);
+        gltf_append(w, gltf_put_array(w, w->root, "images"), out);
     }
 }
 
@@ -121,49 +121,49 @@ static int min_filter_number(const scene_texture *t)
     return is_nearest ? 9986 : 9987;
 }
 
-json_t *new_sampler(writer *w, const scene_texture *t)
+json_t *gltf_new_sampler(gltf_writer *w, const scene_texture *t)
 {
     json_t *sampler = json_object();
-    put(w, sampler, "magFilter", json_integer(t->mag_filter == SCENE_FILTER_NEAREST ? 9728 : 9729));
-    put(w, sampler, "minFilter", json_integer(min_filter_number(t)));
-    put(w, sampler, "wrapS", json_integer(wrap_number(t->wrap_u)));
-    put(w, sampler, "wrapT", json_integer(wrap_number(t->wrap_v)));
+    gltf_put(w, sampler, "magFilter", json_integer(t->mag_filter == SCENE_FILTER_NEAREST ? 9728 : 9729));
+    gltf_put(w, sampler, "minFilter", json_integer(min_filter_number(t)));
+    gltf_put(w, sampler, "wrapS", json_integer(wrap_number(t->wrap_u)));
+    gltf_put(w, sampler, "wrapT", json_integer(wrap_number(t->wrap_v)));
     return sampler;
 }
 
-static uint32_t write_sampler(writer *w, const scene_texture *t)
+static uint32_t write_sampler(gltf_writer *w, const scene_texture *t)
 {
-    json_t *sampler = new_sampler(w, t);
-    json_t *samplers = put_array(w, w->root, "samplers");
+    json_t *sampler = gltf_new_sampler(w, t);
+    json_t *samplers = gltf_put_array(w, w->root, "samplers");
     for (size_t i = 0; i < json_array_size(samplers); i++)
         if (json_equal(json_array_get(samplers, i), sampler)) {
             json_decref(sampler);
             return (uint32_t)i;
         }
-    append(w, samplers, sampler);
+    gltf_append(w, samplers, sampler);
     return (uint32_t)json_array_size(samplers) - 1;
 }
 
 /* ---- textures ---- */
 
-void write_textures(writer *w)
+void gltf_write_textures(gltf_writer *w)
 {
     const facet_scene *scene = w->scene;
     for (uint32_t i = 0; i < scene->texture_count; i++) {
         const scene_texture *texture = &scene->textures[i];
         json_t *out = json_object();
-        put_name(w, out, texture->name);
-        put(w, out, "sampler", json_integer(write_sampler(w, texture)));
+        gltf_put_name(w, out, texture->name);
+        gltf_put(w, out, "sampler", json_integer(write_sampler(w, texture)));
         const image_kind *kind =
             texture->image == SCENE_NONE ? NULL : kind_of(&scene->images[texture->image]);
         if (kind && kind->gltf_extension && !kind->is_converted) {
-            json_t *extension = put_extension(w, out, kind->gltf_extension);
-            put_index(w, extension, "source", texture->image);
-            require_extension(w, kind->gltf_extension);
+            json_t *extension = gltf_put_extension(w, out, kind->gltf_extension);
+            gltf_put_index(w, extension, "source", texture->image);
+            gltf_require_extension(w, kind->gltf_extension);
         } else {
-            put_index(w, out, "source", texture->image);
+            gltf_put_index(w, out, "source", texture->image);
         }
-        put_meta(w, out, &texture->meta);
-        append(w, put_array(w, w->root, "textures"), out);
+        gltf_put_meta(w, out, &texture->meta);
+        gltf_append(w, gltf_put_array(w, w->root, "textures"), out);
     }
 }

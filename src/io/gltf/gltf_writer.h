@@ -13,14 +13,14 @@
 enum { WRITE_NO_TARGET = 0, WRITE_VERTICES = 34962, WRITE_INDICES = 34963 };
 
 /* An array of the scene that was written already. */
-typedef struct written_array {
+typedef struct gltf_written_array {
     const void *data; /* NULL: a free place of the table */
     size_t size;
     uint32_t kind; /* of accessor: type, component, target */
     uint32_t accessor;
-} written_array;
+} gltf_written_array;
 
-typedef struct writer {
+typedef struct gltf_writer {
     const facet_scene *scene;
     const char *generator;
     const facet_allocator *allocator;
@@ -37,54 +37,56 @@ typedef struct writer {
     unsigned char *bin;
     size_t bin_size, bin_capacity;
 
-    written_array *written; /* hash table, capacity a power of two */
+    gltf_written_array *written; /* hash table, capacity a power of two */
     size_t written_count, written_capacity;
 
     bool names_images;              /* textures are told by the names of their images' files, not by number */
     const char *const *image_names; /* by image; NULL, or a NULL in it: the file is not written */
     const char *stem; /* images become files STEM_image0.png ..; NULL: they go into the binary chunk */
-    struct written_file *files;
+    struct gltf_written_file *files;
     size_t file_count, file_capacity;
-} writer;
+} gltf_writer;
 
 /* A file beside a .gltf file. */
-typedef struct written_file {
+typedef struct gltf_written_file {
     char *name; /* block of mem_alloc() */
     const unsigned char *bytes;
     size_t size;
     unsigned char *made; /* bytes that are not of the scene; block of mem_alloc() */
-} written_file;
+} gltf_written_file;
 
-bool writer_is_ok(const writer *w);
-void writer_fail_memory(writer *w, size_t size); /* bytes that were asked for; 0: by a library */
+bool gltf_writer_is_ok(const gltf_writer *w);
+void gltf_writer_fail_memory(gltf_writer *w, size_t size); /* bytes that were asked for; 0: by a library */
 
 /* ---- JSON: value is taken over; NULL means out of memory ---- */
 
-void put(writer *w, json_t *object, const char *key, json_t *value);
-void append(writer *w, json_t *array, json_t *value);
+void gltf_put(gltf_writer *w, json_t *object, const char *key, json_t *value);
+void gltf_append(gltf_writer *w, json_t *array, json_t *value);
 /* A string of text of the scene, or of a file's name, which need not be UTF-8: other bytes are taken for Latin-1, with one
  * warning per file. */
-json_t *json_text(writer *w, const char *words);
-json_t *put_object(writer *w, json_t *object, const char *key); /* borrowed; made where it is not there */
-json_t *put_array(writer *w, json_t *object, const char *key);
+json_t *gltf_json_text(gltf_writer *w, const char *words);
+json_t *gltf_put_object(gltf_writer *w, json_t *object,
+                        const char *key); /* borrowed; made where it is not there */
+json_t *gltf_put_array(gltf_writer *w, json_t *object, const char *key);
 /* A number that reads back as the same float and prints as short as can be. */
-json_t *json_float(float value);
-json_t *json_floats(const float *values, size_t count);
-json_t *json_doubles(const double *values, size_t count); /* with 15 digits or more */
-json_t *json_indices(const uint32_t *indices, size_t count);
-void put_name(writer *w, json_t *object, const char *name); /* unless it is "" */
-void put_index(writer *w, json_t *object, const char *key, uint32_t index);
+json_t *gltf_json_float(float value);
+json_t *gltf_json_floats(const float *values, size_t count);
+json_t *gltf_json_doubles(const double *values, size_t count); /* with 15 digits or more */
+json_t *gltf_json_indices(const uint32_t *indices, size_t count);
+void gltf_put_name(gltf_writer *w, json_t *object, const char *name); /* unless it is "" */
+void gltf_put_index(gltf_writer *w, json_t *object, const char *key, uint32_t index);
 /* Unless all values are those of defaults (NULL: 0). */
-void put_floats(writer *w, json_t *object, const char *key, const float *values, const float *defaults,
-                size_t count);
-void put_float(writer *w, json_t *object, const char *key, float value, float default_value);
+void gltf_put_floats(gltf_writer *w, json_t *object, const char *key, const float *values,
+                     const float *defaults, size_t count);
+void gltf_put_float(gltf_writer *w, json_t *object, const char *key, float value, float default_value);
 /* extensions.NAME of object, noted in extensionsUsed; borrowed. */
-json_t *put_extension(writer *w, json_t *object, const char *name);
+json_t *gltf_put_extension(gltf_writer *w, json_t *object, const char *name);
 /* Names it in extensionsRequired as well. */
-void require_extension(writer *w, const char *name);
-void put_uri(writer *w, json_t *object, const char *name); /* "uri": a file's name, percent-encoded */
+void gltf_require_extension(gltf_writer *w, const char *name);
+void gltf_put_uri(gltf_writer *w, json_t *object,
+                  const char *name); /* "uri": a file's name, percent-encoded */
 /* extras and the extensions that are metadata. */
-void put_meta(writer *w, json_t *object, const scene_meta *meta);
+void gltf_put_meta(gltf_writer *w, json_t *object, const scene_meta *meta);
 
 /* ---- binary data ---- */
 
@@ -92,38 +94,41 @@ typedef enum write_type { WRITE_SCALAR, WRITE_VEC2, WRITE_VEC3, WRITE_VEC4, WRIT
 
 /* Index of an accessor with count elements of floats; arrays that were written before are shared. bounds: with min and
  * max. */
-uint32_t write_floats(writer *w, const float *values, size_t count, write_type type, int target, bool bounds);
+uint32_t gltf_write_floats(gltf_writer *w, const float *values, size_t count, write_type type, int target,
+                           bool bounds);
 /* Positions of a mesh in the coordinates of the file, with bounds. */
-uint32_t write_positions(writer *w, const float *values, size_t count, const double origin[3]);
-/* write_floats() of zeros, which take no bytes, with min and max. */
-uint32_t write_zeros(writer *w, size_t count, write_type type);
+uint32_t gltf_write_positions(gltf_writer *w, const float *values, size_t count, const double origin[3]);
+/* gltf_write_floats() of zeros, which take no bytes, with min and max. */
+uint32_t gltf_write_zeros(gltf_writer *w, size_t count, write_type type);
 /* Of 32-bit values, stored in as many bytes as the largest needs, but for 8 bits where they are indices. */
-uint32_t write_indices(writer *w, const uint32_t *values, size_t count);
+uint32_t gltf_write_indices(gltf_writer *w, const uint32_t *values, size_t count);
 /* count elements of 4 joints; of 8 bits where all fit. stride: values from one element to the next. */
-uint32_t write_joints(writer *w, const uint16_t *joints, size_t count, size_t stride);
-uint32_t write_weights(writer *w, const float *weights, size_t count, size_t stride); /* the same, floats */
-uint32_t write_bytes(writer *w, const unsigned char *values, size_t count); /* SCALAR UNSIGNED_BYTE */
+uint32_t gltf_write_joints(gltf_writer *w, const uint16_t *joints, size_t count, size_t stride);
+uint32_t gltf_write_weights(gltf_writer *w, const float *weights, size_t count,
+                            size_t stride); /* the same, floats */
+uint32_t gltf_write_bytes(gltf_writer *w, const unsigned char *values,
+                          size_t count); /* SCALAR UNSIGNED_BYTE */
 /* Bytes that no accessor describes; index of their buffer view. */
-uint32_t write_view(writer *w, const void *bytes, size_t size, int target);
+uint32_t gltf_write_view(gltf_writer *w, const void *bytes, size_t size, int target);
 
 /* ---- the concerns, one file each ---- */
 
 /* gltf_write_textures.c */
-void write_images(writer *w);
-void write_textures(writer *w);
-json_t *new_sampler(writer *w, const scene_texture *texture); /* NULL: no memory */
+void gltf_write_images(gltf_writer *w);
+void gltf_write_textures(gltf_writer *w);
+json_t *gltf_new_sampler(gltf_writer *w, const scene_texture *texture); /* NULL: no memory */
 /* gltf_write_materials.c */
-void write_materials(writer *w);
-json_t *new_material(writer *w, const scene_material *material); /* NULL: no memory */
+void gltf_write_materials(gltf_writer *w);
+json_t *gltf_new_material(gltf_writer *w, const scene_material *material); /* NULL: no memory */
 /* gltf_write_meshes.c */
-void write_meshes(writer *w);
+void gltf_write_meshes(gltf_writer *w);
 /* gltf_write_nodes.c: cameras, lights, nodes, scenes. */
-void write_cameras(writer *w);
-void write_lights(writer *w);
-void write_nodes(writer *w);
-void write_scenes(writer *w);
+void gltf_write_cameras(gltf_writer *w);
+void gltf_write_lights(gltf_writer *w);
+void gltf_write_nodes(gltf_writer *w);
+void gltf_write_scenes(gltf_writer *w);
 /* gltf_write_motion.c */
-void write_skins(writer *w);
-void write_animations(writer *w);
+void gltf_write_skins(gltf_writer *w);
+void gltf_write_animations(gltf_writer *w);
 
 #endif

@@ -34,14 +34,14 @@ static json_t *statements_json(const facet_allocator *allocator, const legacy_ma
 
 /* ---- reading ---- */
 
-static reader begin_reader(mtl_parser *p, mtl_files *f, json_t *json, facet_error *error)
+static io_reader begin_reader(mtl_parser *p, mtl_files *f, json_t *json, facet_error *error)
 {
-    return (reader){.scene = p->scene,
-                    .allocator = p->allocator,
-                    .log = p->log,
-                    .error = error,
-                    .json = json,
-                    .max_file_bytes = f ? f->scope.max_file_bytes : 0};
+    return (io_reader){.scene = p->scene,
+                       .allocator = p->allocator,
+                       .log = p->log,
+                       .error = error,
+                       .json = json,
+                       .max_file_bytes = f ? f->scope.max_file_bytes : 0};
 }
 
 /* Index of the texture that an info tells of; SCENE_NONE: its image cannot be had. */
@@ -51,19 +51,19 @@ static uint32_t find_texture(mtl_parser *p, mtl_files *f, const char *folder, js
     const json_t *image = json_object_get(info, "image");
     const json_t *name = json_object_get(info, "name");
     const json_place at = {.value = info};
-    reader r = begin_reader(p, f, info, &error);
+    io_reader r = begin_reader(p, f, info, &error);
     scene_texture texture = {.name = "", .image = SCENE_NONE};
-    json_place sampler = get_object(&r, &at, "sampler");
-    read_texture_sampler(&r, &sampler, &texture);
+    json_place sampler = io_get_object(&r, &at, "sampler");
+    gltf_read_texture_sampler(&r, &sampler, &texture);
     if (json_is_string(name))
         texture.name = mtl_keep(
             p, (mtl_span){json_string_value(name), json_string_value(name) + json_string_length(name)});
     if (r.result == FACET_ERROR_MEMORY)
         p->has_failed = true;
-    else if (!reader_is_ok(&r))
+    else if (!io_is_ok(&r))
         mtl_warn(p, "#facet-gltf: %.400s; the texture is left out", error.message);
-    if (!reader_is_ok(&r) || !json_is_string(image))
-        return json_is_null(image) && reader_is_ok(&r) ? mtl_files_texture(f, &texture) : SCENE_NONE;
+    if (!io_is_ok(&r) || !json_is_string(image))
+        return json_is_null(image) && io_is_ok(&r) ? mtl_files_texture(f, &texture) : SCENE_NONE;
     const char *file = json_string_value(image);
     texture.image = mtl_files_image(f, p, folder, mtl_keep(p, (mtl_span){file, file + strlen(file)}));
     return texture.image == SCENE_NONE ? SCENE_NONE : mtl_files_texture(f, &texture);
@@ -99,7 +99,7 @@ static void resolve_texture(mtl_parser *p, mtl_files *f, const char *folder, jso
         p->has_failed = true;
 }
 
-/* All textures that read_material() knows; what else has images in it is nobody's. */
+/* All textures that gltf_read_material() knows; what else has images in it is nobody's. */
 static void resolve_textures(mtl_parser *p, mtl_files *f, const char *folder, json_t *json,
                              const char *material)
 {
@@ -144,7 +144,7 @@ static void settle_name(mtl_parser *p, json_t *json, const legacy_material *m)
 mtl_gltf *mtl_gltf_begin(mtl_parser *p, mtl_files *f, const char *folder, const legacy_material *m)
 {
     size_t length = strlen(m->gltf_json);
-    size_t estimate = json_memory_estimate(m->gltf_json, length);
+    size_t estimate = io_json_memory_estimate(m->gltf_json, length);
     mtl_gltf *g = mem_zalloc(p->allocator, 1, sizeof *g);
     void *reserve = mem_alloc(p->allocator, estimate, 1);
     json_error_t error;
@@ -172,17 +172,17 @@ bool mtl_gltf_end(mtl_gltf *g, mtl_parser *p, scene_material *out)
 {
     facet_error error;
     const json_place at = {.value = g->json};
-    reader r = begin_reader(p, NULL, g->json, &error);
+    io_reader r = begin_reader(p, NULL, g->json, &error);
     scene_material m;
-    read_material(&r, &at, &m);
-    if (reader_is_ok(&r))
+    gltf_read_material(&r, &at, &m);
+    if (io_is_ok(&r))
         *out = m;
     else if (r.result == FACET_ERROR_MEMORY)
         p->has_failed = true;
     else
         mtl_warn(p, "#facet-gltf: %.400s; the statements count", error.message);
     mtl_gltf_destroy(g);
-    return reader_is_ok(&r);
+    return io_is_ok(&r);
 }
 
 void mtl_gltf_destroy(mtl_gltf *g)
@@ -245,20 +245,20 @@ static scene_material with_one_set(const facet_scene *scene, uint32_t material)
 void mtl_gltf_write(const facet_scene *scene, uint32_t material, const char *name, const char *statements,
                     const char *const *image_names, const facet_scene_save_desc *desc, text *out)
 {
-    writer w = {.scene = scene,
-                .allocator = &desc->allocator,
-                .log = &desc->log,
-                .root = json_object(),
-                .extensions_used = json_object(),
-                .names_images = true,
-                .image_names = image_names};
+    gltf_writer w = {.scene = scene,
+                     .allocator = &desc->allocator,
+                     .log = &desc->log,
+                     .root = json_object(),
+                     .extensions_used = json_object(),
+                     .names_images = true,
+                     .image_names = image_names};
     json_t *facet = parse_back(statements, name, desc);
     const scene_material m = with_one_set(scene, material);
-    json_t *json = w.root && w.extensions_used ? new_material(&w, &m) : NULL;
+    json_t *json = w.root && w.extensions_used ? gltf_new_material(&w, &m) : NULL;
     char *dumped = NULL;
     if (facet && json)
-        put(&w, json, "facet", json_incref(facet));
-    if (facet && json && writer_is_ok(&w))
+        gltf_put(&w, json, "facet", json_incref(facet));
+    if (facet && json && gltf_writer_is_ok(&w))
         dumped = json_dumps(json, w.needs_all_digits ? JSON_COMPACT | JSON_REAL_PRECISION(17)
                                                      : JSON_COMPACT | JSON_REAL_PRECISION(15));
     if (dumped)

@@ -79,13 +79,13 @@ bool ogl1_json_detect(const void *bytes, size_t size)
 
 /* ---- reading ---- */
 
-static json_t *parse(reader *r, const char *bytes, size_t size)
+static json_t *parse(io_reader *r, const char *bytes, size_t size)
 {
     size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    json_t *json = reader_parse(r, bytes + mark, size - mark);
+    json_t *json = io_parse_json(r, bytes + mark, size - mark);
     if (json && !json_is_object(json))
-        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID,
-                    "must be a JSON object with \"materials\" or \"material3d\"");
+        io_fail(r, NULL, NULL, FACET_ERROR_INVALID,
+                "must be a JSON object with \"materials\" or \"material3d\"");
     return json;
 }
 
@@ -104,7 +104,7 @@ static bool is_material(const json_t *object)
 static void read_header(ogl1_document *d, const json_place *root)
 {
     static const char *const spaces[] = {"srgb", "linear", NULL};
-    reader *r = &d->r;
+    io_reader *r = &d->r;
     const char *kind = "ogl1";
     const char *generator = "";
     double version = VERSION;
@@ -117,46 +117,47 @@ static void read_header(ogl1_document *d, const json_place *root)
                 : space == 0 ? FACET_LEGACY_COLORS_SRGB
                              : FACET_LEGACY_COLORS_LINEAR;
     if (strcmp(kind, "ogl1") != 0)
-        reader_fail(r, root, "facet", FACET_ERROR_UNSUPPORTED, "\"%.40s\" is not \"ogl1\"", kind);
+        io_fail(r, root, "facet", FACET_ERROR_UNSUPPORTED, "\"%.40s\" is not \"ogl1\"", kind);
     if (version != VERSION)
-        reader_fail(r, root, "version", FACET_ERROR_UNSUPPORTED, "%g is not %d, the only one that is read",
-                    version, VERSION);
+        io_fail(r, root, "version", FACET_ERROR_UNSUPPORTED, "%g is not %d, the only one that is read",
+                version, VERSION);
     d->generator = arena_strdup(r->scene->arena, generator);
     if (!d->generator)
-        reader_fail_memory(r, "generator", strlen(generator));
+        io_fail_memory(r, "generator", strlen(generator));
 }
 
 /* What toJSON() makes of a bare material3d(): the root itself is the material. */
 static bool is_bare(const json_place *root)
 {
-    return !has_member(root, "materials") && !has_member(root, "material3d") && is_material(root->value);
+    return !io_has_member(root, "materials") && !io_has_member(root, "material3d") &&
+           is_material(root->value);
 }
 
 /* "materials", then "material3d". */
 static void read_entries(ogl1_document *d, const json_place *root)
 {
-    reader *r = &d->r;
+    io_reader *r = &d->r;
     json_place at;
     ogl1_list list = ogl1_list_begin(r, root, "materials", is_material);
     json_place bare = is_bare(root) ? *root : ogl1_object(r, root, "material3d");
     if (list.count > MOST_MATERIALS)
-        reader_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu materials, more than %d", list.count,
-                    MOST_MATERIALS);
-    d->entries = reader_alloc(r, "materials", list.count + 1, sizeof *d->entries);
+        io_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu materials, more than %d", list.count,
+                MOST_MATERIALS);
+    d->entries = io_alloc(r, "materials", list.count + 1, sizeof *d->entries);
     while (ogl1_list_next(r, &list, &at)) {
         ogl1_entry *entry = &d->entries[d->entry_count++];
         ogl1_read_material(r, &at, entry);
         if (!entry->name && at.key && at.key[0] && !list.is_single) { /* of a named list */
             entry->name = arena_strdup(r->scene->arena, at.key);
             if (!entry->name)
-                reader_fail_memory(r, "name", strlen(at.key));
+                io_fail_memory(r, "name", strlen(at.key));
         }
     }
-    if (bare.value && reader_is_ok(r))
+    if (bare.value && io_is_ok(r))
         ogl1_read_material(r, &bare, &d->entries[d->entry_count++]);
 }
 
-static void report_unknown(reader *r, const json_place *root)
+static void report_unknown(io_reader *r, const json_place *root)
 {
     static const char *const known[] = {"facet",      "version", "generator",  "colors", "materials",
                                         "material3d", "lights",  "background", "fog"};
@@ -168,22 +169,22 @@ static void report_unknown(reader *r, const json_place *root)
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
             is_known |= strcmp(key, known[i]) == 0;
         if (!is_known)
-            reader_warn(r, NULL, NULL, "\"%.60s\" has no meaning here; it is dropped", key);
+            io_warn(r, NULL, NULL, "\"%.60s\" has no meaning here; it is dropped", key);
     }
 }
 
 static void read_root(ogl1_document *d, const json_place *root)
 {
-    reader *r = &d->r;
+    io_reader *r = &d->r;
     read_header(d, root);
     read_entries(d, root);
     if (is_bare(root)) /* its "fog" is a switch */
         return;
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         ogl1_read_lights(d, root);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         ogl1_read_fog(d, root);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         report_unknown(r, root);
 }
 
@@ -199,15 +200,15 @@ void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes,
               .folder = folder,
               .root = desc->root},
         .generator = ""};
-    size_t estimate = json_memory_estimate(bytes, size);
+    size_t estimate = io_json_memory_estimate(bytes, size);
     void *reserve = mem_alloc(&desc->allocator, estimate, 1);
     if (!reserve) {
-        reader_fail_memory(&d->r, "JSON", estimate);
+        io_fail_memory(&d->r, "JSON", estimate);
         return;
     }
     json_t *json = parse(&d->r, bytes, size);
     const json_place root = {.value = json};
-    if (reader_is_ok(&d->r))
+    if (io_is_ok(&d->r))
         read_root(d, &root);
     json_decref(json);
     mem_free(reserve);

@@ -25,15 +25,15 @@ void ogl1_set_surroundings(const ogl1_document *d, const facet_legacy_desc *desc
 
 static void read_scene(ogl1_document *d, const facet_scene_desc *desc)
 {
-    reader *r = &d->r;
-    if (reader_is_ok(r) && d->entry_count == 0)
-        reader_fail(r, NULL, NULL, FACET_ERROR_INVALID,
-                    "has neither \"materials\" nor \"material3d\", so there is nothing to show");
-    if (reader_is_ok(r))
+    io_reader *r = &d->r;
+    if (io_is_ok(r) && d->entry_count == 0)
+        io_fail(r, NULL, NULL, FACET_ERROR_INVALID,
+                "has neither \"materials\" nor \"material3d\", so there is nothing to show");
+    if (io_is_ok(r))
         ogl1_find_textures(d);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         ogl1_make_balls(d);
-    if (!reader_is_ok(r))
+    if (!io_is_ok(r))
         return;
     r->scene->generator = d->generator;
     r->scene->legacy->fog.scale = 1.0f;

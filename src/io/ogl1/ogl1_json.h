@@ -31,6 +31,6 @@ facet_result ogl1_json_save(const facet_scene *scene, const char *path, const ch
                             const facet_scene_save_desc *desc, facet_error *error);
 
 /* A color as R knows it: "#rrggbb", "#rrggbbaa", "steelblue", "gray10", "transparent"; [0, 1] as displayed. */
-bool r_color_find(const char *name, float rgba[4]);
+bool ogl1_find_r_color(const char *name, float rgba[4]);
 
 #endif

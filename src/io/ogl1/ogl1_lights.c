@@ -15,7 +15,7 @@ static bool is_among(const char *key, const char *const *names, size_t count)
 }
 
 /* Tells, once per name, which members nothing reads. */
-static void report_unknown(reader *r, const json_place *at, const char *what, const char *const *known,
+static void report_unknown(io_reader *r, const json_place *at, const char *what, const char *const *known,
                            size_t count)
 {
     const char *key;
@@ -23,7 +23,7 @@ static void report_unknown(reader *r, const json_place *at, const char *what, co
     json_object_foreach((json_t *)at->value, key, value)
     {
         if (!is_among(key, known, count) && ogl1_member(at, key).value)
-            reader_warn(r, NULL, NULL, "\"%.60s\" is no parameter of %s; it is dropped", key, what);
+            io_warn(r, NULL, NULL, "\"%.60s\" is no parameter of %s; it is dropped", key, what);
     }
 }
 
@@ -37,21 +37,21 @@ static const char *const FOG_KEYS[] = {"fogtype",  "fogScale", "fogscale", "colo
 /* ---- lights ---- */
 
 /* A unit vector as it is, to the last bit, so that what was written reads back equal; others made unit. */
-static bool set_direction(reader *r, const json_place *at, const char *key, const float v[3],
+static bool set_direction(io_reader *r, const json_place *at, const char *key, const float v[3],
                           legacy_light *out)
 {
     double length =
         sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2]);
     bool is_unit = fabs(length - 1.0) < 1e-6;
     if (!(length > 0.0))
-        return reader_fail(r, at, key, FACET_ERROR_INVALID, "is no direction: its length is 0");
+        return io_fail(r, at, key, FACET_ERROR_INVALID, "is no direction: its length is 0");
     for (int k = 0; k < 3; k++)
         out->position[k] = is_unit ? v[k] : (float)((double)v[k] / length);
     return true;
 }
 
 /* theta and phi in degrees; (0, 15) where neither is stated. */
-static void read_angles(reader *r, const json_place *at, legacy_light *out)
+static void read_angles(io_reader *r, const json_place *at, legacy_light *out)
 {
     const double to_rad = 3.14159265358979323846 / 180.0;
     double theta = 0.0;
@@ -66,7 +66,7 @@ static void read_angles(reader *r, const json_place *at, legacy_light *out)
 }
 
 /* x alone may hold all three, as for xyz.coords(). False: there is no x. */
-static bool read_point(reader *r, const json_place *at, legacy_light *out)
+static bool read_point(io_reader *r, const json_place *at, legacy_light *out)
 {
     json_place x = ogl1_member(at, "x");
     if (!x.value)
@@ -78,12 +78,11 @@ static bool read_point(reader *r, const json_place *at, legacy_light *out)
     for (int k = 0; k < 3; k++)
         if (!ogl1_number_in(r, at, axes[k], -(double)SCENE_FARTHEST, (double)SCENE_FARTHEST,
                             &out->position[k]))
-            return reader_fail(r, at, axes[k], FACET_ERROR_INVALID,
-                               "is missing beside the other coordinates");
+            return io_fail(r, at, axes[k], FACET_ERROR_INVALID, "is missing beside the other coordinates");
     return true;
 }
 
-static void read_position(reader *r, const json_place *at, legacy_light *out)
+static void read_position(io_reader *r, const json_place *at, legacy_light *out)
 {
     float v[3];
     if (ogl1_vector(r, at, "vertices", v)) { /* of scene3d() */
@@ -94,29 +93,29 @@ static void read_position(reader *r, const json_place *at, legacy_light *out)
             set_direction(r, at, "vertices", v, out);
     } else if (ogl1_vector(r, at, "direction", v)) {
         set_direction(r, at, "direction", v, out);
-    } else if (reader_is_ok(r) && !read_point(r, at, out)) {
+    } else if (io_is_ok(r) && !read_point(r, at, out)) {
         read_angles(r, at, out);
     }
 }
 
-static void read_light_colors(reader *r, const json_place *at, legacy_light *out)
+static void read_light_colors(io_reader *r, const json_place *at, legacy_light *out)
 {
     static const char *const names[3] = {"ambient", "diffuse", "specular"};
     float *const colors[3] = {out->ambient, out->diffuse, out->specular};
     json_place rows = ogl1_member(at, "colors"); /* of scene3d() */
     if (rows.value && !(json_array_size(rows.value) == 3 && json_is_array(json_array_get(rows.value, 0)))) {
-        reader_fail(r, &rows, NULL, FACET_ERROR_INVALID, "must have three rows: ambient, diffuse, specular");
+        io_fail(r, &rows, NULL, FACET_ERROR_INVALID, "must have three rows: ambient, diffuse, specular");
         return;
     }
-    for (size_t k = 0; k < 3 && reader_is_ok(r); k++) {
+    for (size_t k = 0; k < 3 && io_is_ok(r); k++) {
         float rgba[4];
-        json_place row = get_element(&rows, k);
+        json_place row = io_get_element(&rows, k);
         if ((rows.value && ogl1_color_value(r, &row, rgba)) || ogl1_color(r, at, names[k], rgba))
             memcpy(colors[k], rgba, 3 * sizeof *rgba);
     }
 }
 
-static void read_light(reader *r, const json_place *at, legacy_light *out)
+static void read_light(io_reader *r, const json_place *at, legacy_light *out)
 {
     *out = legacy_light_default();
     read_position(r, at, out);
@@ -124,7 +123,7 @@ static void read_light(reader *r, const json_place *at, legacy_light *out)
     static const char *const names[] = {"viewpoint.rel", "viewpoint_rel", "viewpoint"};
     for (size_t i = 0; i < 3; i++)
         ogl1_bool(r, at, names[i], &out->is_viewpoint_relative);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         report_unknown(r, at, "light3d()", LIGHT_KEYS, sizeof LIGHT_KEYS / sizeof *LIGHT_KEYS);
 }
 
@@ -141,27 +140,27 @@ static bool is_light(const json_t *value)
 
 void ogl1_read_lights(ogl1_document *d, const json_place *root)
 {
-    reader *r = &d->r;
+    io_reader *r = &d->r;
     json_place at;
-    if (!has_member(root, "lights"))
+    if (!io_has_member(root, "lights"))
         return;
     ogl1_list list = ogl1_list_begin(r, root, "lights", is_light);
     d->has_lights = true;
-    if (list.count == 0 && reader_is_ok(r))
-        reader_warn(r, &list.at, NULL, "is empty; the light that rgl begins with shines");
+    if (list.count == 0 && io_is_ok(r))
+        io_warn(r, &list.at, NULL, "is empty; the light that rgl begins with shines");
     if (list.count > RGL_LIGHTS)
-        reader_warn(r, &list.at, NULL, "has %zu lights; OpenGL 1 shows %d", list.count, RGL_LIGHTS);
+        io_warn(r, &list.at, NULL, "has %zu lights; OpenGL 1 shows %d", list.count, RGL_LIGHTS);
     if (list.count > MOST_LIGHTS)
-        reader_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu lights, more than %d", list.count,
-                    MOST_LIGHTS);
-    d->lights = reader_alloc(r, "lights", list.count, sizeof *d->lights);
+        io_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu lights, more than %d", list.count,
+                MOST_LIGHTS);
+    d->lights = io_alloc(r, "lights", list.count, sizeof *d->lights);
     while (ogl1_list_next(r, &list, &at))
         read_light(r, &at, &d->lights[d->light_count++]);
 }
 
 /* ---- fog ---- */
 
-static void read_fog_color(reader *r, const json_place *at, legacy_fog *fog)
+static void read_fog_color(io_reader *r, const json_place *at, legacy_fog *fog)
 {
     float rgba[4];
     json_place material = ogl1_object(r, at, "material"); /* of scene3d() */
@@ -173,7 +172,7 @@ static void read_fog_color(reader *r, const json_place *at, legacy_fog *fog)
 static void read_one_fog(ogl1_document *d, const json_place *root, const char *key)
 {
     static const char *const types[] = {"none", "linear", "exp", "exp2", NULL};
-    reader *r = &d->r;
+    io_reader *r = &d->r;
     json_place at = ogl1_object(r, root, key);
     int type = LEGACY_FOG_NONE;
     if (!at.value)
@@ -186,7 +185,7 @@ static void read_one_fog(ogl1_document *d, const json_place *root, const char *k
     ogl1_number_in(r, &at, ogl1_member(&at, "fogScale").value ? "fogScale" : "fogscale", 1e-6, 1e6,
                    &d->fog.scale);
     read_fog_color(r, &at, &d->fog);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         report_unknown(r, &at, "bg3d()", FOG_KEYS, sizeof FOG_KEYS / sizeof *FOG_KEYS);
 }
 

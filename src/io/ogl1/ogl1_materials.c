@@ -21,17 +21,17 @@ static legacy_material default_material(void)
 
 /* ---- reading ---- */
 
-static void read_color(reader *r, const json_place *at, legacy_material *m)
+static void read_color(io_reader *r, const json_place *at, legacy_material *m)
 {
     float rgba[4] = {1, 1, 1, 1};
-    if (ogl1_color(r, at, has_member(at, "color") ? "color" : "col", rgba))
+    if (ogl1_color(r, at, io_has_member(at, "color") ? "color" : "col", rgba))
         memcpy(m->diffuse, rgba, sizeof m->diffuse);
     /* rgl itself drops the alpha of a color. Who writes one by hand means it. */
     if (!ogl1_number_in(r, at, "alpha", 0.0, 1.0, &m->opacity))
         m->opacity = rgba[3];
 }
 
-static void read_table(reader *r, const json_place *at, legacy_material *m)
+static void read_table(io_reader *r, const json_place *at, legacy_material *m)
 {
     for (int i = 0; i < OGL1_PARAMETER_COUNT; i++) {
         void *member = (char *)m + OGL1_PARAMETERS[i].offset;
@@ -46,7 +46,7 @@ static void read_table(reader *r, const json_place *at, legacy_material *m)
     }
 }
 
-static void read_texture(reader *r, const json_place *at, ogl1_entry *out)
+static void read_texture(io_reader *r, const json_place *at, ogl1_entry *out)
 {
     legacy_material *m = &out->material;
     const char *path = NULL;
@@ -77,10 +77,10 @@ static void read_texture(reader *r, const json_place *at, ogl1_entry *out)
         return;
     m->maps[LEGACY_DIFFUSE_MAP].path = arena_strdup(r->scene->arena, path);
     if (!m->maps[LEGACY_DIFFUSE_MAP].path)
-        reader_fail_memory(r, "texture", strlen(path));
+        io_fail_memory(r, "texture", strlen(path));
 }
 
-static void read_sides(reader *r, const json_place *at, legacy_material *m)
+static void read_sides(io_reader *r, const json_place *at, legacy_material *m)
 {
     int front = OGL1_FILLED;
     int back = OGL1_FILLED;
@@ -88,10 +88,10 @@ static void read_sides(reader *r, const json_place *at, legacy_material *m)
     ogl1_choice(r, at, "back", OGL1_SIDES, &back);
     m->is_culled = back == OGL1_CULLED && front != OGL1_CULLED;
     if (front == OGL1_CULLED)
-        reader_warn(r, at, "front", "\"culled\" leaves the inside, or nothing; both sides are shown");
+        io_warn(r, at, "front", "\"culled\" leaves the inside, or nothing; both sides are shown");
 }
 
-static void read_statements(reader *r, const json_place *at, legacy_material *m)
+static void read_statements(io_reader *r, const json_place *at, legacy_material *m)
 {
     json_place mtl = ogl1_object(r, at, "mtl");
     float illum = -1.0f;
@@ -141,7 +141,7 @@ static void add_line(const char *key, const json_t *value, text *lines)
 }
 
 /* The lines of both, what is foreign to rgl first. */
-static void join_unknown(reader *r, const text *foreign, const text *kept, legacy_material *m)
+static void join_unknown(io_reader *r, const text *foreign, const text *kept, legacy_material *m)
 {
     size_t at = foreign->length + (foreign->length && kept->length);
     size_t size = at + kept->length + 1;
@@ -149,7 +149,7 @@ static void join_unknown(reader *r, const text *foreign, const text *kept, legac
         return;
     char *all = arena_zalloc(r->scene->arena, size, 1);
     if (!all || foreign->has_failed || kept->has_failed) {
-        reader_fail_memory(r, "parameters", size);
+        io_fail_memory(r, "parameters", size);
         return;
     }
     if (foreign->length)
@@ -163,7 +163,7 @@ static void join_unknown(reader *r, const text *foreign, const text *kept, legac
 }
 
 /* Keeps what nothing here reads. */
-static void keep_unknown(reader *r, const json_place *at, legacy_material *m)
+static void keep_unknown(io_reader *r, const json_place *at, legacy_material *m)
 {
     const char *key;
     json_t *value;
@@ -175,10 +175,10 @@ static void keep_unknown(reader *r, const json_place *at, legacy_material *m)
             continue;
         bool is_rgls = ogl1_is_parameter(key) || ogl1_is_kept(key);
         if (!is_rgls)
-            reader_warn(r, NULL, NULL,
-                        is_word(key) ? "\"%.60s\" is no parameter of material3d(); it is kept"
-                                     : "\"%.60s\" is no parameter of material3d(); it is dropped",
-                        key);
+            io_warn(r, NULL, NULL,
+                    is_word(key) ? "\"%.60s\" is no parameter of material3d(); it is kept"
+                                 : "\"%.60s\" is no parameter of material3d(); it is dropped",
+                    key);
         if (is_word(key))
             add_line(key, value, is_rgls ? &kept : &foreign);
     }
@@ -187,31 +187,31 @@ static void keep_unknown(reader *r, const json_place *at, legacy_material *m)
     text_destroy(&kept);
 }
 
-static void read_objects(reader *r, const json_place *at, ogl1_entry *out)
+static void read_objects(io_reader *r, const json_place *at, ogl1_entry *out)
 {
     json_place objects = ogl1_member(at, "objects");
     size_t count = !objects.value ? 0 : json_is_array(objects.value) ? json_array_size(objects.value) : 1;
-    out->objects = reader_alloc(r, "objects", count, sizeof *out->objects);
-    for (size_t i = 0; i < count && reader_is_ok(r); i++) {
-        json_place element = json_is_array(objects.value) ? get_element(&objects, i) : objects;
+    out->objects = io_alloc(r, "objects", count, sizeof *out->objects);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place element = json_is_array(objects.value) ? io_get_element(&objects, i) : objects;
         const char *name;
         if (!ogl1_string_value(r, &element, &name))
             return;
         out->objects[i] = arena_strdup(r->scene->arena, name);
         if (!out->objects[i])
-            reader_fail_memory(r, "objects", strlen(name));
+            io_fail_memory(r, "objects", strlen(name));
         out->object_count = (uint32_t)(i + 1);
     }
 }
 
-void ogl1_read_material(reader *r, const json_place *at, ogl1_entry *out)
+void ogl1_read_material(io_reader *r, const json_place *at, ogl1_entry *out)
 {
     const char *name = NULL;
     *out = (ogl1_entry){.material = default_material()};
     if (ogl1_string(r, at, "name", &name) && name[0]) {
         out->name = arena_strdup(r->scene->arena, name);
         if (!out->name)
-            reader_fail_memory(r, "name", strlen(name));
+            io_fail_memory(r, "name", strlen(name));
     }
     read_objects(r, at, out);
     read_color(r, at, &out->material);
@@ -219,6 +219,6 @@ void ogl1_read_material(reader *r, const json_place *at, ogl1_entry *out)
     read_texture(r, at, out);
     read_sides(r, at, &out->material);
     read_statements(r, at, &out->material);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         keep_unknown(r, at, &out->material);
 }

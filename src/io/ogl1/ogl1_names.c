@@ -21,8 +21,8 @@ static void keep_last(ogl1_document *d, bool of_objects, ogl1_names *n)
         if (is_last)
             n->names[kept++] = n->names[i];
         else if (n->names[i].entry != n->names[i + 1].entry)
-            reader_warn(&d->r, NULL, NULL, "%s \"%.200s\" is there more than once; the last one counts",
-                        of_objects ? "object" : "material", n->names[i].name);
+            io_warn(&d->r, NULL, NULL, "%s \"%.200s\" is there more than once; the last one counts",
+                    of_objects ? "object" : "material", n->names[i].name);
     }
     n->count = kept;
 }

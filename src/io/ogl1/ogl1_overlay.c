@@ -39,7 +39,7 @@ static bool take_memory(overlay *o)
     o->uses = mem_alloc(allocator, scene->node_count, sizeof *o->uses);
     if (!o->is_set || !o->numbers || !o->is_met || !o->is_named || !o->node_entries || !o->path || !o->uses ||
         !ogl1_names_create(&o->d, false, &o->materials) || !ogl1_names_create(&o->d, true, &o->objects))
-        return reader_fail_memory(&o->d.r, "parameters", scene->node_count * sizeof *o->uses);
+        return io_fail_memory(&o->d.r, "parameters", scene->node_count * sizeof *o->uses);
     memset(o->numbers, 0xff, o->d.entry_count * sizeof *o->numbers);
     memset(o->node_entries, 0xff, scene->node_count * sizeof *o->node_entries);
     o->all = SCENE_NONE;
@@ -67,13 +67,13 @@ static void release(overlay *o)
 /* Room for those to come, in both models. A scene of glTF materials gets legacy ones: what is not met stays glTF's. */
 static void make_room(overlay *o)
 {
-    reader *r = &o->d.r;
+    io_reader *r = &o->d.r;
     facet_scene *scene = r->scene;
     size_t count = (size_t)scene->material_count + o->d.entry_count + 1;
-    scene_material *materials = reader_alloc(r, "materials", count, sizeof *materials);
-    legacy_material *legacy = reader_alloc(r, "materials", count, sizeof *legacy);
-    scene_legacy *all = scene->legacy ? scene->legacy : reader_alloc(r, "materials", 1, sizeof *all);
-    if (!reader_is_ok(r))
+    scene_material *materials = io_alloc(r, "materials", count, sizeof *materials);
+    legacy_material *legacy = io_alloc(r, "materials", count, sizeof *legacy);
+    scene_legacy *all = scene->legacy ? scene->legacy : io_alloc(r, "materials", 1, sizeof *all);
+    if (!io_is_ok(r))
         return;
     for (uint32_t i = 0; i < scene->material_count; i++) {
         materials[i] = scene->materials[i];
@@ -207,7 +207,7 @@ static void make_mesh_room(overlay *o)
         count += begins_group(o, i) && !begins_mesh(o, i);
     if (count == scene->mesh_count)
         return;
-    scene_mesh *meshes = reader_alloc(&o->d.r, "meshes", count, sizeof *meshes);
+    scene_mesh *meshes = io_alloc(&o->d.r, "meshes", count, sizeof *meshes);
     if (!meshes)
         return;
     memcpy(meshes, scene->meshes, scene->mesh_count * sizeof *meshes);
@@ -219,7 +219,7 @@ static uint32_t copy_mesh(overlay *o, uint32_t mesh)
     facet_scene *scene = o->d.r.scene;
     const scene_mesh *from = &scene->meshes[mesh];
     scene_primitive *primitives =
-        reader_alloc_raw(&o->d.r, "primitives", from->primitive_count, sizeof *primitives);
+        io_alloc_raw(&o->d.r, "primitives", from->primitive_count, sizeof *primitives);
     if (!primitives)
         return mesh;
     memcpy(primitives, from->primitives, from->primitive_count * sizeof *primitives);
@@ -233,7 +233,7 @@ static void assign_objects(overlay *o)
 {
     facet_scene *scene = o->d.r.scene;
     uint32_t mesh = SCENE_NONE;
-    for (size_t i = 0; i < o->use_count && reader_is_ok(&o->d.r); i++) {
+    for (size_t i = 0; i < o->use_count && io_is_ok(&o->d.r); i++) {
         const use *u = &o->uses[i];
         if (begins_group(o, i)) {
             mesh = begins_mesh(o, i) ? u->mesh : copy_mesh(o, u->mesh);
@@ -305,34 +305,34 @@ static void decide_rules(overlay *o)
 
 static void warn_unmet(overlay *o)
 {
-    reader *r = &o->d.r;
+    io_reader *r = &o->d.r;
     for (size_t i = 0; i < o->objects.count; i++)
         if (o->objects.names[i].is_met)
             o->is_met[o->objects.names[i].entry] = true;
     for (size_t i = 0; i < o->objects.count; i++) {
         const ogl1_name *n = &o->objects.names[i];
         if (!n->is_met && !o->is_named[n->entry])
-            reader_warn(r, NULL, NULL, "object \"%.200s\" is not in the model", n->name);
+            io_warn(r, NULL, NULL, "object \"%.200s\" is not in the model", n->name);
     }
     for (size_t i = 0; i < o->materials.count; i++) {
         const ogl1_name *n = &o->materials.names[i];
         if (!n->is_met && !o->is_met[n->entry] && o->d.entries[n->entry].object_count == 0)
-            reader_warn(r, NULL, NULL, "material \"%.200s\" is not in the model", n->name);
+            io_warn(r, NULL, NULL, "material \"%.200s\" is not in the model", n->name);
     }
 }
 
 static void lay(overlay *o, const facet_scene_desc *desc)
 {
-    reader *r = &o->d.r;
+    io_reader *r = &o->d.r;
     void (*const steps[])(overlay *) = {make_room,      replace_materials, find_uses,
                                         make_mesh_room, assign_objects,    assign_rest,
                                         drop_unnamed,   decide_rules,      warn_unmet};
     ogl1_find_textures(&o->d);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         take_memory(o);
-    for (size_t i = 0; i < sizeof steps / sizeof *steps && reader_is_ok(r); i++)
+    for (size_t i = 0; i < sizeof steps / sizeof *steps && io_is_ok(r); i++)
         steps[i](o);
-    if (reader_is_ok(r))
+    if (io_is_ok(r))
         ogl1_set_surroundings(&o->d, &desc->legacy);
     release(o);
 }
@@ -353,7 +353,7 @@ facet_result ogl1_json_overlay(facet_scene *scene, const char *path, const facet
     if (folder) {
         scene->source = path; /* in messages: they are about this file */
         ogl1_document_read(&o.d, scene, (const char *)file.data, file.size, folder, desc, error);
-        if (reader_is_ok(&o.d.r))
+        if (io_is_ok(&o.d.r))
             lay(&o, desc);
         scene->source = source;
         result = o.d.r.result;

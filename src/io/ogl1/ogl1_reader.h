@@ -4,10 +4,10 @@
 #ifndef IO_OGL1_READER_H
 #define IO_OGL1_READER_H
 
-#include "io/gltf/gltf_reader.h"
+#include "io/json_reader.h"
 #include "scene/legacy.h"
 
-/* One of "materials". The texture of its map is not found yet: ogl1_textures_find(). */
+/* One of "materials". The texture of its map is not found yet: ogl1_find_textures(). */
 typedef struct ogl1_entry {
     const char *name; /* NULL: not stated */
     uint32_t object_count;
@@ -17,7 +17,7 @@ typedef struct ogl1_entry {
 } ogl1_entry;
 
 typedef struct ogl1_document {
-    reader r;
+    io_reader r;
     uint32_t entry_count;
     ogl1_entry *entries;
     bool has_lights, has_fog; /* false: the document does not speak of them */
@@ -32,22 +32,23 @@ typedef struct ogl1_document {
  * A value may stand in an array of its own. Absent, so that the fallback counts: no such member, null, [] and {} (R's
  * empty vectors and NULL), "NA". Of longer vectors the first value counts, with a warning. Where a getter returns false,
  * *out stays: the value is absent, or an error is recorded. */
-json_place ogl1_member(const json_place *object, const char *key);            /* value NULL: absent */
-json_place ogl1_object(reader *r, const json_place *object, const char *key); /* the same, or an error */
-bool ogl1_number(reader *r, const json_place *object, const char *key, double *out);
+json_place ogl1_member(const json_place *object, const char *key);               /* value NULL: absent */
+json_place ogl1_object(io_reader *r, const json_place *object, const char *key); /* the same, or an error */
+bool ogl1_number(io_reader *r, const json_place *object, const char *key, double *out);
 /* Clamped, with a warning. */
-bool ogl1_number_in(reader *r, const json_place *object, const char *key, double minimum, double maximum,
+bool ogl1_number_in(io_reader *r, const json_place *object, const char *key, double minimum, double maximum,
                     float *out);
-bool ogl1_bool(reader *r, const json_place *object, const char *key, bool *out); /* 0 and 1 are taken too */
-bool ogl1_string(reader *r, const json_place *object, const char *key, const char **out); /* the JSON's */
-bool ogl1_string_value(reader *r, const json_place *at, const char **out);
+bool ogl1_bool(io_reader *r, const json_place *object, const char *key,
+               bool *out); /* 0 and 1 are taken too */
+bool ogl1_string(io_reader *r, const json_place *object, const char *key, const char **out); /* the JSON's */
+bool ogl1_string_value(io_reader *r, const json_place *at, const char **out);
 /* Three numbers, at most SCENE_FARTHEST: an array, or a matrix of one row. */
-bool ogl1_vector(reader *r, const json_place *object, const char *key, float out[3]);
+bool ogl1_vector(io_reader *r, const json_place *object, const char *key, float out[3]);
 /* A name of R, "#rrggbb", a number of R's palette, or 3 to 4 numbers >= 0. */
-bool ogl1_color(reader *r, const json_place *object, const char *key, float rgba[4]);
-bool ogl1_color_value(reader *r, const json_place *at, float rgba[4]);
+bool ogl1_color(io_reader *r, const json_place *object, const char *key, float rgba[4]);
+bool ogl1_color_value(io_reader *r, const json_place *at, float rgba[4]);
 /* The number of one of names, which end with NULL. */
-bool ogl1_choice(reader *r, const json_place *object, const char *key, const char *const *names, int *out);
+bool ogl1_choice(io_reader *r, const json_place *object, const char *key, const char *const *names, int *out);
 
 /* What R writes for a list of lists: an array of objects, an object of objects where they had names, or the one object
  * itself where the list was forgotten (is_element() tells). */
@@ -58,15 +59,15 @@ typedef struct ogl1_list {
     bool is_single;
 } ogl1_list;
 /* count 0: absent, empty, or an error is recorded. */
-ogl1_list ogl1_list_begin(reader *r, const json_place *object, const char *key,
+ogl1_list ogl1_list_begin(io_reader *r, const json_place *object, const char *key,
                           bool (*is_element)(const json_t *));
 /* The next object, whose parent is list->at; false: there is none, or an error is recorded. */
-bool ogl1_list_next(reader *r, ogl1_list *list, json_place *element);
+bool ogl1_list_next(io_reader *r, ogl1_list *list, json_place *element);
 
 /* ---- parts of a document ---- */
 
 /* ogl1_materials.c: one of "materials". */
-void ogl1_read_material(reader *r, const json_place *at, ogl1_entry *out);
+void ogl1_read_material(io_reader *r, const json_place *at, ogl1_entry *out);
 
 /* ogl1_lights.c: "lights", "fog", "background". */
 void ogl1_read_lights(ogl1_document *d, const json_place *root);

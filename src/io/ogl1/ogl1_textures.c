@@ -18,13 +18,13 @@ typedef struct findings {
     index_table images_by_file, textures_by_hash;
 } findings;
 
-static void warn(reader *r, const char *path, const char *what)
+static void warn(io_reader *r, const char *path, const char *what)
 {
-    reader_warn(r, NULL, NULL, "texture \"%.200s\": %.400s; it is left out", path, what);
+    io_warn(r, NULL, NULL, "texture \"%.200s\": %.400s; it is left out", path, what);
 }
 
 /* Number of the image among those found, SCENE_NONE: there is none; a warning says so. */
-static uint32_t find_image(reader *r, findings *f, const char *path)
+static uint32_t find_image(io_reader *r, findings *f, const char *path)
 {
     uri_bytes bytes;
     const char *found;
@@ -32,7 +32,7 @@ static uint32_t find_image(reader *r, findings *f, const char *path)
     facet_error error;
     if (!mtl_files_open(&f->files, "", path, &bytes, &found)) {
         if (f->files.has_failed)
-            reader_fail_memory(r, "texture", 0);
+            io_fail_memory(r, "texture", 0);
         else
             warn(r, path, bytes.message);
         return SCENE_NONE;
@@ -56,7 +56,7 @@ static uint32_t find_image(reader *r, findings *f, const char *path)
     if (!mem_reserve(r->allocator, (void **)&f->images, &f->image_capacity, f->image_count + 1,
                      sizeof *f->images) ||
         !index_table_add(&f->images_by_file, r->allocator, bytes.file, (uint32_t)f->image_count)) {
-        reader_fail_memory(r, "images", 0);
+        io_fail_memory(r, "images", 0);
         return SCENE_NONE;
     }
     f->images[f->image_count] = (scene_image){.name = found,
@@ -70,7 +70,7 @@ static uint32_t find_image(reader *r, findings *f, const char *path)
 }
 
 /* Number of the texture among those found. */
-static uint32_t find_texture(reader *r, findings *f, const scene_texture *like)
+static uint32_t find_texture(io_reader *r, findings *f, const scene_texture *like)
 {
     uint32_t hash = mtl_hash_texture(like);
     size_t cursor = 0;
@@ -81,7 +81,7 @@ static uint32_t find_texture(reader *r, findings *f, const scene_texture *like)
     if (!mem_reserve(r->allocator, (void **)&f->textures, &f->texture_capacity, f->texture_count + 1,
                      sizeof *f->textures) ||
         !index_table_add(&f->textures_by_hash, r->allocator, hash, (uint32_t)f->texture_count)) {
-        reader_fail_memory(r, "textures", 0);
+        io_fail_memory(r, "textures", 0);
         return SCENE_NONE;
     }
     f->textures[f->texture_count] = *like;
@@ -89,9 +89,10 @@ static uint32_t find_texture(reader *r, findings *f, const scene_texture *like)
 }
 
 /* old and, behind it, more, in the arena. */
-static void *joined(reader *r, const void *old, size_t old_count, const void *more, size_t count, size_t size)
+static void *joined(io_reader *r, const void *old, size_t old_count, const void *more, size_t count,
+                    size_t size)
 {
-    char *all = reader_alloc_raw(r, "textures", old_count + count, size);
+    char *all = io_alloc_raw(r, "textures", old_count + count, size);
     if (all && old_count)
         memcpy(all, old, old_count * size);
     if (all && count)
@@ -99,7 +100,7 @@ static void *joined(reader *r, const void *old, size_t old_count, const void *mo
     return all;
 }
 
-static void append(reader *r, findings *f)
+static void append(io_reader *r, findings *f)
 {
     facet_scene *scene = r->scene;
     for (size_t i = 0; i < f->texture_count; i++)
@@ -108,7 +109,7 @@ static void append(reader *r, findings *f)
         joined(r, scene->images, scene->image_count, f->images, f->image_count, sizeof *images);
     scene_texture *textures =
         joined(r, scene->textures, scene->texture_count, f->textures, f->texture_count, sizeof *textures);
-    if (!reader_is_ok(r))
+    if (!io_is_ok(r))
         return;
     scene->images = images;
     scene->image_count += (uint32_t)f->image_count;
@@ -118,7 +119,7 @@ static void append(reader *r, findings *f)
 
 void ogl1_find_textures(ogl1_document *d)
 {
-    reader *r = &d->r;
+    io_reader *r = &d->r;
     uint32_t first = r->scene->texture_count;
     findings f = {.files = {.scope = {.scene = r->scene,
                                       .allocator = r->allocator,
@@ -127,14 +128,14 @@ void ogl1_find_textures(ogl1_document *d)
                                       .log = r->log,
                                       .max_file_bytes = r->max_file_bytes,
                                       .allows_absolute = true}}};
-    for (uint32_t i = 0; i < d->entry_count && reader_is_ok(r); i++) {
+    for (uint32_t i = 0; i < d->entry_count && io_is_ok(r); i++) {
         legacy_map *map = &d->entries[i].material.maps[LEGACY_DIFFUSE_MAP];
         scene_texture like = d->entries[i].sampler;
         like.image = map->path ? find_image(r, &f, map->path) : SCENE_NONE;
         uint32_t texture = like.image == SCENE_NONE ? SCENE_NONE : find_texture(r, &f, &like);
         map->ref.texture = texture == SCENE_NONE ? SCENE_NONE : first + texture;
     }
-    if (reader_is_ok(r) && f.image_count)
+    if (io_is_ok(r) && f.image_count)
         append(r, &f);
     mtl_files_destroy(&f.files);
     mem_free(f.images);

@@ -19,10 +19,9 @@ static const char *type_name(const json_t *value)
                                     : "null";
 }
 
-static bool fail_type(reader *r, const json_place *at, const char *wanted)
+static bool fail_type(io_reader *r, const json_place *at, const char *wanted)
 {
-    return reader_fail(r, at, NULL, FACET_ERROR_INVALID, "must be %s, but is %s", wanted,
-                       type_name(at->value));
+    return io_fail(r, at, NULL, FACET_ERROR_INVALID, "must be %s, but is %s", wanted, type_name(at->value));
 }
 
 static bool is_absent(const json_t *value)
@@ -44,7 +43,7 @@ json_place ogl1_member(const json_place *object, const char *key)
 }
 
 /* A vector's first value, with a warning where others differ. */
-static json_place first_of(reader *r, const json_place *object, const char *key)
+static json_place first_of(io_reader *r, const json_place *object, const char *key)
 {
     json_place at = ogl1_member(object, key);
     if (!json_is_array(at.value))
@@ -54,12 +53,12 @@ static json_place first_of(reader *r, const json_place *object, const char *key)
     for (size_t i = 1; i < json_array_size(at.value) && is_same; i++)
         is_same = json_equal(first, json_array_get(at.value, i));
     if (!is_same)
-        reader_warn(r, &at, NULL, "has %zu values; the first one counts", json_array_size(at.value));
+        io_warn(r, &at, NULL, "has %zu values; the first one counts", json_array_size(at.value));
     at.value = first;
     return at;
 }
 
-json_place ogl1_object(reader *r, const json_place *object, const char *key)
+json_place ogl1_object(io_reader *r, const json_place *object, const char *key)
 {
     json_place at = ogl1_member(object, key);
     if (at.value && !json_is_object(at.value)) {
@@ -69,7 +68,7 @@ json_place ogl1_object(reader *r, const json_place *object, const char *key)
     return at;
 }
 
-bool ogl1_number(reader *r, const json_place *object, const char *key, double *out)
+bool ogl1_number(io_reader *r, const json_place *object, const char *key, double *out)
 {
     json_place at = first_of(r, object, key);
     if (!at.value)
@@ -80,7 +79,7 @@ bool ogl1_number(reader *r, const json_place *object, const char *key, double *o
     return true;
 }
 
-bool ogl1_number_in(reader *r, const json_place *object, const char *key, double minimum, double maximum,
+bool ogl1_number_in(io_reader *r, const json_place *object, const char *key, double minimum, double maximum,
                     float *out)
 {
     double number = 0.0;
@@ -88,12 +87,12 @@ bool ogl1_number_in(reader *r, const json_place *object, const char *key, double
         return false;
     double clamped = fmin(fmax(number, minimum), maximum);
     if (clamped != number)
-        reader_warn(r, object, key, "%g is out of range; %g is used", number, clamped);
+        io_warn(r, object, key, "%g is out of range; %g is used", number, clamped);
     *out = (float)clamped;
     return true;
 }
 
-bool ogl1_bool(reader *r, const json_place *object, const char *key, bool *out)
+bool ogl1_bool(io_reader *r, const json_place *object, const char *key, bool *out)
 {
     json_place at = first_of(r, object, key);
     if (!at.value)
@@ -107,23 +106,23 @@ bool ogl1_bool(reader *r, const json_place *object, const char *key, bool *out)
     return true;
 }
 
-bool ogl1_string(reader *r, const json_place *object, const char *key, const char **out)
+bool ogl1_string(io_reader *r, const json_place *object, const char *key, const char **out)
 {
     json_place at = first_of(r, object, key);
     return at.value && ogl1_string_value(r, &at, out);
 }
 
-bool ogl1_string_value(reader *r, const json_place *at, const char **out)
+bool ogl1_string_value(io_reader *r, const json_place *at, const char **out)
 {
     if (!json_is_string(at->value))
         return fail_type(r, at, "a string");
     if (strlen(json_string_value(at->value)) != json_string_length(at->value))
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID, "has a character 0 inside");
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID, "has a character 0 inside");
     *out = json_string_value(at->value);
     return true;
 }
 
-bool ogl1_choice(reader *r, const json_place *object, const char *key, const char *const *names, int *out)
+bool ogl1_choice(io_reader *r, const json_place *object, const char *key, const char *const *names, int *out)
 {
     const char *value = NULL;
     char all[256] = "";
@@ -137,10 +136,10 @@ bool ogl1_choice(reader *r, const json_place *object, const char *key, const cha
         size_t length = strlen(all);
         snprintf(all + length, sizeof all - length, "%s%s", i ? ", " : "", names[i]);
     }
-    return reader_fail(r, object, key, FACET_ERROR_INVALID, "\"%.40s\" is none of %s", value, all);
+    return io_fail(r, object, key, FACET_ERROR_INVALID, "\"%.40s\" is none of %s", value, all);
 }
 
-bool ogl1_vector(reader *r, const json_place *object, const char *key, float out[3])
+bool ogl1_vector(io_reader *r, const json_place *object, const char *key, float out[3])
 {
     json_place at = ogl1_member(object, key);
     if (!at.value)
@@ -148,12 +147,12 @@ bool ogl1_vector(reader *r, const json_place *object, const char *key, float out
     if (!json_is_array(at.value) || json_array_size(at.value) != 3)
         return fail_type(r, &at, "three numbers");
     for (size_t i = 0; i < 3; i++) {
-        json_place element = get_element(&at, i);
+        json_place element = io_get_element(&at, i);
         double number = json_number_value(element.value);
         if (!json_is_number(element.value))
             return fail_type(r, &element, "a number");
         if (!(fabs(number) <= (double)SCENE_FARTHEST))
-            return reader_fail(r, &element, NULL, FACET_ERROR_INVALID, "%g is too far out", number);
+            return io_fail(r, &element, NULL, FACET_ERROR_INVALID, "%g is too far out", number);
         out[i] = (float)number + 0.0f; /* no -0, as above */
     }
     return true;
@@ -161,32 +160,31 @@ bool ogl1_vector(reader *r, const json_place *object, const char *key, float out
 
 /* ---- colors ---- */
 
-static bool color_of_numbers(reader *r, const json_place *at, float rgba[4])
+static bool color_of_numbers(io_reader *r, const json_place *at, float rgba[4])
 {
     size_t count = json_array_size(at->value);
     if (count != 3 && count != 4)
-        return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                           "has %zu numbers; a color has red, green, blue and perhaps alpha, from 0 to 1",
-                           count);
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID,
+                       "has %zu numbers; a color has red, green, blue and perhaps alpha, from 0 to 1", count);
     rgba[3] = 1.0f;
     for (size_t i = 0; i < count; i++) {
-        json_place element = get_element(at, i);
+        json_place element = io_get_element(at, i);
         double number = json_number_value(element.value);
         if (!json_is_number(element.value))
             return fail_type(r, &element, "a number");
         if (!(number >= 0.0 && number <= (double)LEGACY_LARGEST))
-            return reader_fail(r, &element, NULL, FACET_ERROR_INVALID,
-                               "%g is no part of a color, which is from 0 to 1", number);
+            return io_fail(r, &element, NULL, FACET_ERROR_INVALID,
+                           "%g is no part of a color, which is from 0 to 1", number);
         if (number > 1.0)
-            reader_warn(r, at, NULL,
-                        "has numbers above 1, brighter than OpenGL shows; divide by 255 what col2rgb() "
-                        "gives");
+            io_warn(r, at, NULL,
+                    "has numbers above 1, brighter than OpenGL shows; divide by 255 what col2rgb() "
+                    "gives");
         rgba[i] = (float)(i == 3 && number > 1.0 ? 1.0 : number);
     }
     return true;
 }
 
-bool ogl1_color_value(reader *r, const json_place *at, float rgba[4])
+bool ogl1_color_value(io_reader *r, const json_place *at, float rgba[4])
 {
     char number[24];
     const char *name = number;
@@ -198,22 +196,22 @@ bool ogl1_color_value(reader *r, const json_place *at, float rgba[4])
         return fail_type(r, at, "a color");
     else if (!ogl1_string_value(r, at, &name))
         return false;
-    if (r_color_find(name, rgba))
+    if (ogl1_find_r_color(name, rgba))
         return true;
-    return reader_fail(r, at, NULL, FACET_ERROR_INVALID,
-                       "\"%.40s\" is no color of R; expected was a name of colors(), \"#rrggbb\" or three "
-                       "numbers from 0 to 1",
-                       name);
+    return io_fail(r, at, NULL, FACET_ERROR_INVALID,
+                   "\"%.40s\" is no color of R; expected was a name of colors(), \"#rrggbb\" or three "
+                   "numbers from 0 to 1",
+                   name);
 }
 
-bool ogl1_color(reader *r, const json_place *object, const char *key, float rgba[4])
+bool ogl1_color(io_reader *r, const json_place *object, const char *key, float rgba[4])
 {
     json_place at = ogl1_member(object, key);
     if (!at.value)
         return false;
     if (json_is_array(at.value) && !json_is_number(json_array_get(at.value, 0))) {
-        reader_warn(r, &at, NULL, "has %zu colors, for the vertices; the material gets the first one",
-                    json_array_size(at.value));
+        io_warn(r, &at, NULL, "has %zu colors, for the vertices; the material gets the first one",
+                json_array_size(at.value));
         at.value = json_array_get(at.value, 0);
     }
     return ogl1_color_value(r, &at, rgba);
@@ -221,7 +219,7 @@ bool ogl1_color(reader *r, const json_place *object, const char *key, float rgba
 
 /* ---- lists ---- */
 
-ogl1_list ogl1_list_begin(reader *r, const json_place *object, const char *key,
+ogl1_list ogl1_list_begin(io_reader *r, const json_place *object, const char *key,
                           bool (*is_element)(const json_t *))
 {
     ogl1_list list = {.at = {.parent = object, .key = key, .value = json_object_get(object->value, key)}};
@@ -240,9 +238,9 @@ ogl1_list ogl1_list_begin(reader *r, const json_place *object, const char *key,
     return list;
 }
 
-bool ogl1_list_next(reader *r, ogl1_list *list, json_place *element)
+bool ogl1_list_next(io_reader *r, ogl1_list *list, json_place *element)
 {
-    if (list->next >= list->count || !reader_is_ok(r))
+    if (list->next >= list->count || !io_is_ok(r))
         return false;
     *element = (json_place){.parent = &list->at, .index = list->next++};
     if (list->is_single) {

@@ -255,7 +255,7 @@ static bool find_named(const char *name, float out[4])
     return false;
 }
 
-bool r_color_find(const char *name, float rgba[4])
+bool ogl1_find_r_color(const char *name, float rgba[4])
 {
     char plain[LONGEST + 1];
     if (name[0] == '#')

@@ -17,7 +17,7 @@ static void assert_color(const char *name, unsigned r, unsigned g, unsigned b, u
 {
     float rgba[4];
     const unsigned expected[4] = {r, g, b, a};
-    if (!r_color_find(name, rgba))
+    if (!ogl1_find_r_color(name, rgba))
         fail_msg("\"%s\" is not found", name);
     for (int k = 0; k < 4; k++)
         if (rgba[k] != (float)expected[k] / 255.0f)
@@ -27,7 +27,7 @@ static void assert_color(const char *name, unsigned r, unsigned g, unsigned b, u
 static void assert_none(const char *name)
 {
     float rgba[4];
-    if (r_color_find(name, rgba))
+    if (ogl1_find_r_color(name, rgba))
         fail_msg("\"%s\" is found", name);
 }
 
