@@ -1,5 +1,4 @@
-/* test_support.h - what the tests of shade/ share: comparison with a message, random numbers, golden tables.
- * Includes shade.h, so it comes last. */
+/* test_support.h - what the tests of shade/ share: comparison with a message, random numbers, golden tables. */
 #ifndef SHADE_TEST_SUPPORT_H
 #define SHADE_TEST_SUPPORT_H
 
