@@ -90,7 +90,7 @@ static void probe_direction(size_t i, uint32_t size, float R[3])
     uint32_t x = (hash >> 8) % size;
     uint32_t y = (hash >> 18) % size;
     cube_direction((uint32_t)i % 6, (2.0 * x + 1.0) / size - 1.0, (2.0 * y + 1.0) / size - 1.0, d);
-    double scale = 1.0 / (sqrt)(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double scale = 1.0 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     for (int k = 0; k < 3; k++)
         R[k] = (float)(d[k] * scale);
 }
@@ -111,15 +111,15 @@ static void probe_one(void *context, size_t begin, size_t end)
             double row[3] = {0.0, 0.0, 0.0};
             double row_weight = 0.0;
             double theta = 3.14159265358979323846 * (y + 0.5) / height;
-            double st = (sin)(theta);
-            double ct = (cos)(theta);
+            double st = sin(theta);
+            double ct = cos(theta);
             for (uint32_t x = 0; x < width; x++) {
                 double phi = 6.283185307179586 * ((x + 0.5) / width - 0.5);
                 double NdotL =
-                    st * (cos)(phi) * (double)R[0] + ct * (double)R[1] + st * (sin)(phi) * (double)R[2];
+                    st * cos(phi) * (double)R[0] + ct * (double)R[1] + st * sin(phi) * (double)R[2];
                 if (NdotL <= 0.0)
                     continue;
-                float NdotH = (float)(sqrt)(0.5 + 0.5 * NdotL);
+                float NdotH = (float)sqrt(0.5 + 0.5 * NdotL);
                 double w = (double)D_GGX(NdotH, alpha) * NdotL;
                 const float *c = (const float *)p->picture->pixels + 3 * ((size_t)y * width + x);
                 for (int k = 0; k < 3; k++)
@@ -165,8 +165,8 @@ static void print_errors(const settings *s)
         cube_mean(&e->parts.levels[PREFILTER_GGX][level], mean);
         printf("roughness %.2f  size %3u  RMS error / RMS %.5f  RMS of relative error %.5f  mean G %.5f "
                "(picture %.5f)\n",
-               (double)p.roughness, e->parts.levels[PREFILTER_GGX][level].size, (sqrt)(square / reference),
-               (sqrt)(relative / PROBE_COUNT), mean[1], (double)e->parts.harmonics.mean[1]);
+               (double)p.roughness, e->parts.levels[PREFILTER_GGX][level].size, sqrt(square / reference),
+               sqrt(relative / PROBE_COUNT), mean[1], (double)e->parts.harmonics.mean[1]);
     }
     ibl_light_release(light);
     facet_environment_destroy(e);

@@ -125,8 +125,8 @@ static void test_substitute_albedo(void **state)
                 }
     print_message("substitute for E: worst %.3f, root mean square %.4f; bound at least %.4f above\n"
                   "bound of B: %.4f to %.4f above\n",
-                  worst, (sqrt)(squares / count), lowest_E, lowest_B, highest_B);
-    assert_true(worst < 0.045 && (sqrt)(squares / count) < 0.014);
+                  worst, sqrt(squares / count), lowest_E, lowest_B, highest_B);
+    assert_true(worst < 0.045 && sqrt(squares / count) < 0.014);
     assert_true(lowest_E > -1e-3 && lowest_B > -4e-3 && highest_B < 0.35);
 }
 

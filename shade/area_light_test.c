@@ -10,7 +10,7 @@ static void test_sphere_irradiance(void **state)
     const double at[][2] = {
         {0, 0.196349540849}, {60, 0.0981747704}, {80, 0.0347227199}, {90, 0.0106187960}, {100, 0.0006269799}};
     for (size_t i = 0; i < COUNT_OF(at); ++i)
-        expect_near((double)sphere_irradiance((float)(cos)(at[i][0] * pi / 180.0), 0.25f), at[i][1], 2e-6,
+        expect_near((double)sphere_irradiance((float)cos(at[i][0] * pi / 180.0), 0.25f), at[i][1], 2e-6,
                     "%g degrees", at[i][0]);
     assert_true(sphere_irradiance(-0.5f, 0.25f) == 0.0f && sphere_irradiance(-1.0f, 0.9f) == 0.0f);
     /* continuous through the horizon, falling, and a hemisphere of light gives pi */
@@ -82,8 +82,8 @@ static void test_representative_point(void **state)
         float a = (float)highlight[i][1], r = (float)highlight[i][2], alpha = r * r;
         vec3 V = normalize(vec3(-1.0f, 0.0f, 1.0f));
         double angle = (45.0 + offset) * pi / 180.0;
-        vec3 center = vec3((float)(sin)(angle), 0.0f, (float)(cos)(angle)) * 2.0f; /* d = 2 m */
-        Surface s = surface_from_metallic_roughness(up, vec3(1.0f), 1.0f, r);      /* F = 1 */
+        vec3 center = vec3((float)sin(angle), 0.0f, (float)cos(angle)) * 2.0f; /* d = 2 m */
+        Surface s = surface_from_metallic_roughness(up, vec3(1.0f), 1.0f, r);  /* F = 1 */
         RepresentativePoint p = representative_point_sphere(center, reflect(-V, up), 2.0f * a, alpha);
         double E = pi * highlight[i][1] * highlight[i][1];
         double lobe = (double)surface_lobes_cos(s, V, p.L, ENERGY_GLTF, vec2(0.0f)).specular[0];

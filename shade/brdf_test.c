@@ -6,16 +6,16 @@
 typedef double (*over_normals)(vec3 H, const void *data);
 static double integrate_normals(float alpha, int n, over_normals g, const void *data)
 {
-    const double low = -7.0, high = 12.0 - (log)((double)alpha), pi = 3.14159265358979323846;
+    const double low = -7.0, high = 12.0 - log((double)alpha), pi = 3.14159265358979323846;
     double sum = 0.0;
     for (int j = 0; j < n; ++j) {
         double x = low + (high - low) * (j + 0.5) / n;
-        double t = (double)alpha * (exp)(x);
-        double c = 1.0 / (sqrt)(1.0 + t * t), s = t * c;
-        double u = 1.0 / (1.0 + (exp)(-2.0 * x)), weight = 2.0 * u / (1.0 + (exp)(2.0 * x));
+        double t = (double)alpha * exp(x);
+        double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
+        double u = 1.0 / (1.0 + exp(-2.0 * x)), weight = 2.0 * u / (1.0 + exp(2.0 * x));
         for (int i = 0; i < n; ++i) {
             double phi = pi * (i + 0.5) / n;
-            vec3 H = vec3((float)(s * (cos)(phi)), (float)(s * (sin)(phi)), (float)c);
+            vec3 H = vec3((float)(s * cos(phi)), (float)(s * sin(phi)), (float)c);
             sum += weight * g(H, data);
         }
     }
@@ -30,20 +30,20 @@ static double projected_area(double (*D)(double theta, float alpha), float alpha
     double sum = 0.0;
     for (int i = 0; i < steps; ++i) {
         double x = -range + 2.0 * range * (i + 0.5) / steps;
-        double t = (double)alpha * (exp)(x);
-        double theta = (atan)(t);
-        double c = (cos)(theta), s = (sin)(theta);
+        double t = (double)alpha * exp(x);
+        double theta = atan(t);
+        double c = cos(theta), s = sin(theta);
         sum += D(theta, alpha) * c * s * c * c * t; /* d theta = cos^2 t dx */
     }
     return sum * 2.0 * range / steps * 2.0 * pi;
 }
 static double D_plain(double theta, float alpha)
 {
-    return (double)D_GGX((float)(cos)(theta), alpha);
+    return (double)D_GGX((float)cos(theta), alpha);
 }
 static double D_cross(double theta, float alpha)
 {
-    return (double)D_GGX_stable((float)(cos)(theta), vec3((float)(sin)(theta), 0.0f, 0.0f), alpha);
+    return (double)D_GGX_stable((float)cos(theta), vec3((float)sin(theta), 0.0f, 0.0f), alpha);
 }
 
 static void test_D_is_normalised(void **state)
@@ -68,9 +68,8 @@ static void test_D_anisotropic_is_normalised(void **state)
         double sum = 0.0;
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
-                double z = (j + 0.5) / n, phi = 2.0 * 3.14159265358979 * (i + 0.5) / n,
-                       s = (sqrt)(1.0 - z * z);
-                vec3 stretched = vec3(ax * (float)(s * (cos)(phi)), ay * (float)(s * (sin)(phi)), (float)z);
+                double z = (j + 0.5) / n, phi = 2.0 * 3.14159265358979 * (i + 0.5) / n, s = sqrt(1.0 - z * z);
+                vec3 stretched = vec3(ax * (float)(s * cos(phi)), ay * (float)(s * sin(phi)), (float)z);
                 vec3 H = normalize(stretched);
                 float len = length(stretched);
                 sum += (double)(D_GGX_anisotropic(H, ax, ay) * H[2] * ax * ay / (len * len * len));
@@ -208,8 +207,7 @@ static void test_albedo(void **state)
         }
     /* exactly 1 - ln 2 for alpha 1, head on */
     albedo_case head_on = {1.0f, 1.0f, -1.0f, false};
-    expect_near(integrate_normals(1.0f, 1000, albedo_integrand, &head_on), 1.0 - (log)(2.0), 3e-5,
-                "1 - ln 2");
+    expect_near(integrate_normals(1.0f, 1000, albedo_integrand, &head_on), 1.0 - log(2.0), 3e-5, "1 - ln 2");
 }
 
 /* Total specular albedo at N.V .5, roughness .75 for metals of four F0: single scattering and five ways to give

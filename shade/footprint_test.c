@@ -4,7 +4,7 @@
 /* Axes p >= q of an ellipse that is turned: derivatives along the picture's x and y are any pair of conjugate radii. */
 static Footprint turned(double p, double q, double turn, double phase, vec2 size)
 {
-    double c = (cos)(turn), s = (sin)(turn), cp = (cos)(phase), sp = (sin)(phase);
+    double c = cos(turn), s = sin(turn), cp = cos(phase), sp = sin(phase);
     vec2 dx = vec2((float)((c * p * cp - s * q * sp) / (double)size[0]),
                    (float)((s * p * cp + c * q * sp) / (double)size[1]));
     vec2 dy = vec2((float)((-c * p * sp - s * q * cp) / (double)size[0]),
@@ -22,8 +22,8 @@ static void test_axes(void **state)
         expect_relative(f.major2, p * p, 1e-4, "major axis, turn %g", turn);
         expect_near((double)f.minor2, q * q, 1e-5 * p * p, "minor axis, turn %g", turn);
         assert_true(footprint_is_finite(f));
-        double cross = (double)f.axis_u * (sin)(turn) - (double)f.axis_v * (cos)(turn);
-        double length = (sqrt)((double)f.axis_u * (double)f.axis_u + (double)f.axis_v * (double)f.axis_v);
+        double cross = (double)f.axis_u * sin(turn) - (double)f.axis_v * cos(turn);
+        double length = sqrt((double)f.axis_u * (double)f.axis_u + (double)f.axis_v * (double)f.axis_v);
         expect_near(cross / length, 0.0, 2e-3, "direction, turn %g", turn);
     }
     vec2 huge = vec2(1e30f, 0.0f);

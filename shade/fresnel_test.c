@@ -48,7 +48,7 @@ static void test_inside(void **state)
         }
         /* at Brewster's angle atan(n) the p half vanishes: F = ((1 - n^2) / (1 + n^2))^2 / 2 */
         double s = (1.0 - iors[k] * iors[k]) / (1.0 + iors[k] * iors[k]);
-        double c = 1.0 / (sqrt)(1.0 + iors[k] * iors[k]);
+        double c = 1.0 / sqrt(1.0 + iors[k] * iors[k]);
         expect_relative(F_dielectric((float)c, n), 0.5 * s * s, 1e-5, "Brewster, ior %g", iors[k]);
     }
     assert_true(F_dielectric(0.0f, 1.5f) == 1.0f && F_dielectric(0.0f, 1.0f) == 1.0f);

@@ -42,7 +42,7 @@ static void test_moments(void **state)
         double n = (double)counts[i];
         int cells = (n < 0.3 ? 1000000 : 250000) / CASE_STEP;
         double variance = n > 1.0 ? 2.0 / n : M * (2.0 / 3.0 + 2.0 / n) - 2.0 / 3.0;
-        double deviation = (sqrt)(variance / cells); /* of the mean */
+        double deviation = sqrt(variance / cells); /* of the mean */
         moments m = moments_of(counts[i], 1.37f, cells);
         expect_near(m.mean, 1.0, 3.0 * deviation, "mean of %g glints", n);
         expect_relative(m.variance, variance, n < 0.3 ? 0.05 : 0.1, "variance of %g glints", n);
@@ -68,11 +68,11 @@ static void test_sum(void **state)
             squares += x * x;
         }
         double variance = 2.0 / (double)n, mean = sum / draws;
-        expect_near(mean, 1.0, 3.5 * (sqrt)(variance / draws), "mean of a sum of %g", (double)n);
+        expect_near(mean, 1.0, 3.5 * sqrt(variance / draws), "mean of a sum of %g", (double)n);
         expect_relative(squares / draws - mean * mean, variance,
-                        0.02 + 3.0 * (sqrt)((6.0 / (double)n + 2.0) / draws), "variance of a sum of %g",
+                        0.02 + 3.0 * sqrt((6.0 / (double)n + 2.0) / draws), "variance of a sum of %g",
                         (double)n);
-        expect_near((double)none / draws, (exp)(-(double)n), 2e-3, "chance of none of %g", (double)n);
+        expect_near((double)none / draws, exp(-(double)n), 2e-3, "chance of none of %g", (double)n);
     }
 }
 
@@ -109,7 +109,7 @@ static void test_energy(void **state)
                 }
             double mean = sum / count, variance = squares / count - mean * mean;
             /* pixels that share a cell are not independent: up to 16 x 4 of them */
-            expect_near(mean, 1.0, 3.0 * (sqrt)(variance * 8.0 / count), "light of %g per m^2",
+            expect_near(mean, 1.0, 3.0 * sqrt(variance * 8.0 / count), "light of %g per m^2",
                         (double)density);
         }
 }
@@ -216,7 +216,7 @@ static void test_density(void **state)
         expect_relative(n, rows[i][2], 0.012, "glints per m^2 at %g m/s", rows[i][0]);
     }
     /* 10 m away, pixels of 1 mrad at 80 degrees: some 6; in twice the time that one lives three times as many */
-    float area = (float)(100.0 * 1e-6 / (cos)(1.3962634));
+    float area = (float)(100.0 * 1e-6 / cos(1.3962634));
     float n = glint_count(WATER_BECKMANN, vec3(0.0271f, 0.0271f, 0.0f), point, up, up, 6540.0f, area, 0.0f);
     expect_near((double)n, 6.4, 0.2, "glints in a pixel");
     expect_relative(
@@ -241,7 +241,7 @@ static void test_disc(void **state)
             assert_true(glint_count(WATER_BECKMANN, C, S, up, H, m4, 1e-4f, 0.0f) > GLINT_COUNT_MAX);
             continue;
         }
-        double a = 8.0 * PI_DOUBLE * (sqrt)(3.0) / (double)m4 / (5e5 + 4.0 / 3.0 / (double)variance);
+        double a = 8.0 * PI_DOUBLE * sqrt(3.0) / (double)m4 / (5e5 + 4.0 / 3.0 / (double)variance);
         float one = glint_count(WATER_BECKMANN, C, S, up, H, m4, (float)a, 0.0f);
         expect_relative(2.0 / (double)one, 0.25 * (1.0 - c) / c, 2e-3, "variance of one, slopes %g",
                         (double)variance);
@@ -257,7 +257,7 @@ static void test_gamma(void **state)
     for (float k = 1.0f; k < 40.0f; k *= 2.3f) { /* against the normal distribution's own quadrature */
         double mean = 0.0, squares = 0.0;
         for (int i = -600; i <= 600; ++i) {
-            double z = 0.01 * i, weight = 0.01 * (exp)(-0.5 * z * z) / (sqrt)(2.0 * PI_DOUBLE),
+            double z = 0.01 * i, weight = 0.01 * exp(-0.5 * z * z) / sqrt(2.0 * PI_DOUBLE),
                    x = (double)gamma_variate(k, (float)z);
             mean += weight * x;
             squares += weight * x * x;

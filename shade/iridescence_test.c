@@ -56,7 +56,7 @@ static void test_golden_numbers(void **state)
 
 static double schlick(double R0, double cosine)
 {
-    return R0 + (1.0 - R0) * (pow)(1.0 - cosine, 5.0);
+    return R0 + (1.0 - R0) * pow(1.0 - cosine, 5.0);
 }
 static double sensitivity_xyz(int axis, double path_m, double shift)
 {
@@ -64,11 +64,11 @@ static double sensitivity_xyz(int axis, double path_m, double shift)
     static const double val[3] = {5.4856e-13, 4.4201e-13, 5.2481e-13},
                         pos[3] = {1.6810e6, 1.7953e6, 2.2084e6}, var[3] = {4.3278e9, 9.3046e9, 6.6121e9};
     double phase = 2.0 * pi * path_m;
-    double s = val[axis] * (sqrt)(2.0 * pi * var[axis]) * (cos)(pos[axis] * phase + shift) *
-               (exp)(-phase * phase * var[axis]);
+    double s = val[axis] * sqrt(2.0 * pi * var[axis]) * cos(pos[axis] * phase + shift) *
+               exp(-phase * phase * var[axis]);
     if (axis == 0)
-        s += 9.7470e-14 * (sqrt)(2.0 * pi * 4.5282e9) * (cos)(2.2399e6 * phase + shift) *
-             (exp)(-4.5282e9 * phase * phase);
+        s += 9.7470e-14 * sqrt(2.0 * pi * 4.5282e9) * cos(2.2399e6 * phase + shift) *
+             exp(-4.5282e9 * phase * phase);
     return s / 1.0685e-7;
 }
 static void reference(double film, double nm, const double F0[3], double cosine, double out[3])
@@ -77,12 +77,12 @@ static void reference(double film, double nm, const double F0[3], double cosine,
                                         {-0.9692436363, 1.8759675015, 0.0415550574},
                                         {0.0556300797, -0.2039769589, 1.0569715142}};
     const double pi = 3.14159265358979323846;
-    double cos2 = (sqrt)(1.0 - (1.0 - cosine * cosine) / (film * film));
-    double R12 = schlick((pow)((film - 1.0) / (film + 1.0), 2.0), cosine), T = 1.0 - R12;
+    double cos2 = sqrt(1.0 - (1.0 - cosine * cosine) / (film * film));
+    double R12 = schlick(pow((film - 1.0) / (film + 1.0), 2.0), cosine), T = 1.0 - R12;
     double shift[3], R123[3], Rs[3];
     for (int c = 0; c < 3; ++c) {
-        double root = (sqrt)(F0[c]), n3 = (1.0 + root) / (1.0 - root);
-        double R23 = schlick((pow)((n3 - film) / (n3 + film), 2.0), cos2);
+        double root = sqrt(F0[c]), n3 = (1.0 + root) / (1.0 - root);
+        double R23 = schlick(pow((n3 - film) / (n3 + film), 2.0), cos2);
         shift[c] = pi + (n3 < film ? pi : 0.0);
         R123[c] = R12 * R23;
         Rs[c] = T * T * R23 / (1.0 - R123[c]);
@@ -91,7 +91,7 @@ static void reference(double film, double nm, const double F0[3], double cosine,
         out[c] = R12 + Rs[c];
         for (int m = 1; m <= 2; ++m)
             for (int axis = 0; axis < 3; ++axis) /* each axis has the shift of its channel */
-                out[c] += (Rs[c] - T) * (pow)(R123[c], 0.5 * m) * 2.0 * to_rgb[c][axis] *
+                out[c] += (Rs[c] - T) * pow(R123[c], 0.5 * m) * 2.0 * to_rgb[c][axis] *
                           sensitivity_xyz(axis, m * 2.0 * film * nm * 1e-9 * cos2, m * shift[axis]);
         out[c] = fmin(fmax(out[c], 0.0), 1.0);
     }

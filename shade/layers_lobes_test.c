@@ -100,7 +100,7 @@ static void test_schlick_GGX(void **state)
         float alpha = 0.1f * (float)i;
         double k = 0.5 * (double)alpha, l = 0.3, v = 0.6, a2 = (double)alpha * (double)alpha;
         double schlick = 0.25 / ((l * (1.0 - k) + k) * (v * (1.0 - k) + k));
-        double smith = 0.5 / (l * (sqrt)(v * v * (1.0 - a2) + a2) + v * (sqrt)(l * l * (1.0 - a2) + a2));
+        double smith = 0.5 / (l * sqrt(v * v * (1.0 - a2) + a2) + v * sqrt(l * l * (1.0 - a2) + a2));
         expect_relative(schlick_GGX_over_smith(0.3f, 0.6f, alpha), schlick / smith, 1e-5, "alpha %g",
                         (double)alpha);
     }

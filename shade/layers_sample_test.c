@@ -66,7 +66,7 @@ static moments moments_of(const seen *s, uint n, uint64_t seed)
         }
     }
     for (int c = 0; c < 3; ++c)
-        r.error[c] = (sqrt)(fmax(square[c] - r.mean[c] * r.mean[c], 0.0) / n);
+        r.error[c] = sqrt(fmax(square[c] - r.mean[c] * r.mean[c], 0.0) / n);
     return r;
 }
 

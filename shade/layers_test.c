@@ -144,7 +144,7 @@ static void test_clearcoat_over_black(void **state)
             m.layers = LAYER_CLEARCOAT;
             m.clearcoat = 0.75f;
             m.clearcoat_roughness = golden_roughness[r];
-            double F = 0.75 * (0.04 + 0.96 * (pow)(1.0 - (double)golden_NdotV[c], 5.0)), rgb[3];
+            double F = 0.75 * (0.04 + 0.96 * pow(1.0 - (double)golden_NdotV[c], 5.0)), rgb[3];
             layered_albedo(m, view_at(golden_NdotV[c]), ENERGY_GLTF, 1u << 12u, rgb);
             expect_near(rgb[1], F * (golden_A[r][c] + golden_B[r][c]), 3e-3, "glTF");
             layered_albedo(m, view_at(golden_NdotV[c]), ENERGY_CONSERVING, 1u << 12u, rgb);

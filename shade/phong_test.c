@@ -7,7 +7,7 @@ static const vec3 up = {0.0f, 0.0f, 1.0f};
 static vec3 direction_at(double degrees)
 {
     double a = degrees * 3.14159265358979323846 / 180.0;
-    return vec3((float)(sin)(a), 0.0f, (float)(cos)(a));
+    return vec3((float)sin(a), 0.0f, (float)cos(a));
 }
 
 static void expect_color(vec3 value, vec3 expected, double tolerance, const char *what)
@@ -54,8 +54,8 @@ static void test_several_lights(void **state)
         lit = phong_add(lit, phong_light_part(r, m, l, vec3(1.0f, 2.0f, -7.0f), up, V));
         for (int c = 0; c < 3; ++c)
             expected[c] += (double)(m.ambient[c] * La[c]) +
-                           (double)(m.diffuse[c] * Ld[c]) * (cos)(phi * to_rad) +
-                           (double)(m.specular[c] * Ls[c]) * (pow)((cos)((phi + 30.0) * 0.5 * to_rad), 12.0);
+                           (double)(m.diffuse[c] * Ld[c]) * cos(phi * to_rad) +
+                           (double)(m.specular[c] * Ls[c]) * pow(cos((phi + 30.0) * 0.5 * to_rad), 12.0);
     }
     for (int c = 0; c < 3; ++c)
         expect_relative(lit.color[c] + lit.highlight[c], expected[c], 1e-5, "channel %d", c);
@@ -96,7 +96,7 @@ static void test_highlight_without_light(void **state)
     PhongMaterial m = {vec3(0.0f), vec3(1.0f), vec3(1.0f), vec3(0.0f), 2.0f};
     vec3 V = direction_at(60.0), L = direction_at(-100.0); /* N.L = -0.17, N.H = 0.94 */
     PhongLight l = phong_light_directional(L, vec3(0.0f), vec3(1.0f), vec3(1.0f));
-    double lobe = (pow)((cos)(20.0 * 3.14159265358979323846 / 180.0), 2.0);
+    double lobe = pow(cos(20.0 * 3.14159265358979323846 / 180.0), 2.0);
     for (int variant = 0; variant < 4; ++variant) {
         PhongRules r = phong_rules(variant);
         r.is_viewer_infinite = false;
@@ -140,7 +140,7 @@ static void test_viewers(void **state)
     (void)state;
     PhongMaterial m = {vec3(0.0f), vec3(0.0f), vec3(1.0f), vec3(0.0f), 20.0f};
     PhongLight l = phong_light_directional(direction_at(30.0), vec3(0.0f), vec3(1.0f), vec3(1.0f));
-    double at_infinity = (pow)((cos)(15.0 * 3.14159265358979323846 / 180.0), 20.0);
+    double at_infinity = pow(cos(15.0 * 3.14159265358979323846 / 180.0), 20.0);
     for (int i = 0; i < 5; ++i) {
         vec3 P = vec3((float)i - 2.0f, 0.3f, -3.0f), V = normalize(-P);
         PhongRules fixed = phong_rules(PHONG_FIXED), rgl = phong_rules(PHONG_RGL_DESKTOP);
@@ -182,8 +182,8 @@ static void test_attenuation_and_spots(void **state)
     l.spot_exponent = 4.0f;
     for (int i = 0; i < 9; ++i) {
         float x = 0.3f * (float)i + 0.1f; /* cos = 2 / sqrt(4 + x^2) is 0.8 at x = 1.5 */
-        double cosine = 2.0 / (sqrt)(4.0 + (double)(x * x));
-        expect_near((double)phong_light_share(l, vec3(x, 0.0f, 0.0f)), x < 1.5f ? (pow)(cosine, 4.0) : 0.0,
+        double cosine = 2.0 / sqrt(4.0 + (double)(x * x));
+        expect_near((double)phong_light_share(l, vec3(x, 0.0f, 0.0f)), x < 1.5f ? pow(cosine, 4.0) : 0.0,
                     1e-6, "spot at %g", (double)x);
     }
     l.is_point = false;
@@ -283,10 +283,10 @@ static void test_fog_between_its_ends(void **state)
     for (int mode = PHONG_FOG_EXP; mode <= PHONG_FOG_EXP2; ++mode) {
         f = make_fog(mode, 1.5f, 0.5f);
         double w = (double)f.w, e = mode == PHONG_FOG_EXP ? 1.0 : 2.0;
-        expect_near((double)phong_fog_share(f, 2.0f), 1.0 - (exp)(-(pow)(1.5 * w, e)), 1e-6, "near");
-        expect_near((double)phong_fog_share(f, 10.0f), 1.0 - (exp)(-(pow)(1.5, e)), 1e-6, "far");
-        expect_near((double)phong_fog_share(f, 4.0f), 1.0 - (exp)(-(pow)(1.5 * (w + 0.25 * (1.0 - w)), e)),
-                    1e-6, "a quarter");
+        expect_near((double)phong_fog_share(f, 2.0f), 1.0 - exp(-pow(1.5 * w, e)), 1e-6, "near");
+        expect_near((double)phong_fog_share(f, 10.0f), 1.0 - exp(-pow(1.5, e)), 1e-6, "far");
+        expect_near((double)phong_fog_share(f, 4.0f), 1.0 - exp(-pow(1.5 * (w + 0.25 * (1.0 - w)), e)), 1e-6,
+                    "a quarter");
     }
     f = make_fog(PHONG_FOG_NONE, 1.0f, 0.5f);
     assert_true(phong_fog_share(f, 9.0f) == 0.0f && phong_fog_share_fixed(f, 9.0f) == 0.0f);
@@ -360,11 +360,11 @@ static void test_normalised_blinn_phong(void **state)
         expect_near((double)shininess_from_alpha(alpha), (double)s, 1e-5 * (double)(s + 2.0f), "inverse");
         /* Karis 2013: D = 1 / (pi alpha^2) (N.H)^(2 / alpha^2 - 2) */
         expect_relative(D_BlinnPhong(0.9f, s),
-                        (pow)(0.9, 2.0 / (double)(alpha * alpha) - 2.0) /
+                        pow(0.9, 2.0 / (double)(alpha * alpha) - 2.0) /
                             (3.14159265358979 * (double)(alpha * alpha)),
                         2e-4, "Karis, s %g", (double)s);
         expect_relative(brdf_blinn_phong(vec3(0.3f), 0.9f, s)[2],
-                        0.3 * (double)(s + 2.0f) / (8.0 * 3.14159265358979) * (pow)(0.9, (double)s), 1e-5,
+                        0.3 * (double)(s + 2.0f) / (8.0 * 3.14159265358979) * pow(0.9, (double)s), 1e-5,
                         "BRDF");
         /* Cs is pi times the BRDF's peak. */
         expect_relative(phong_specular_from_F0(vec3(0.04f), s)[0],

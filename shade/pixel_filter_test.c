@@ -12,8 +12,7 @@ static double exact_blackman_harris(double x)
     double t = 2.0 * pi * (x + 1.5) / 3.0;
     if ((fabs)(x) > 1.5)
         return 0.0;
-    return (0.35875 - 0.48829 * (cos)(t) + 0.14128 * (cos)(2.0 * t) - 0.01168 * (cos)(3.0 * t)) /
-           (3.0 * 0.35875);
+    return (0.35875 - 0.48829 * cos(t) + 0.14128 * cos(2.0 * t) - 0.01168 * cos(3.0 * t)) / (3.0 * 0.35875);
 }
 
 static double exact_mitchell(double x)
@@ -49,7 +48,7 @@ static double integral(int kind, double from, double to, int power, bool is_abso
         for (int s = 0; a < b && s <= STEPS; ++s) {
             double x = a + (b - a) * s / STEPS;
             /* from inside the piece, where the curve jumps */
-            double k = exact(kind, x + ((a + b) / 2.0 - x) * 1e-12) * (pow)(x, power);
+            double k = exact(kind, x + ((a + b) / 2.0 - x) * 1e-12) * pow(x, power);
             sum += (is_absolute ? (fabs)(k) : k) * (b - a) / (3.0 * STEPS) *
                    (s == 0 || s == STEPS ? 1.0
                     : s % 2              ? 4.0
@@ -171,7 +170,7 @@ static void test_expectation(void **state)
             double w = (double)s.weight / whole;
             assert_true(s.weight == t.weight && s.offset[0] == t.offset[1]);
             for (int power = 0; power < 4; ++power)
-                sum[power] += w * (pow)((double)s.offset[0], power) / COUNT;
+                sum[power] += w * pow((double)s.offset[0], power) / COUNT;
         }
         double second = integral(kind, -2.0, 2.0, 2, false);
         const double expected[4] = {1.0, 0.0, second, 0.0};
@@ -180,7 +179,7 @@ static void test_expectation(void **state)
     }
     /* and with random numbers: the weight's variance is W^4 - 1 */
     test_rng rng = {5};
-    double sum = 0.0, deviation = (sqrt)(((pow)(367.0 / 343.0, 4.0) - 1.0) / DRAWS);
+    double sum = 0.0, deviation = sqrt((pow(367.0 / 343.0, 4.0) - 1.0) / DRAWS);
     for (int i = 0; i < DRAWS; ++i)
         sum += (double)sample_pixel_filter(PIXEL_FILTER_MITCHELL, rng_vec2(&rng)).weight;
     expect_near(sum / DRAWS, 1.0, 4.0 * deviation, "mean of Mitchell's weights");

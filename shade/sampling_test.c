@@ -134,8 +134,8 @@ static double chi2_compare(const lobe *drawn, const lobe *l, bool stretched, uin
                 for (int a = 0; a < 5; ++a) {
                     double z = (j + 0.5 + 0.5 * node[b]) / CELLS_Z;
                     double phi = 2.0 * pi * (i + 0.5 + 0.5 * node[a]) / CELLS_PHI;
-                    double s = (sqrt)(1.0 - z * z);
-                    vec3 d = vec3(ax * (float)(s * (cos)(phi)), ay * (float)(s * (sin)(phi)), (float)z);
+                    double s = sqrt(1.0 - z * z);
+                    vec3 d = vec3(ax * (float)(s * cos(phi)), ay * (float)(s * sin(phi)), (float)z);
                     float len = length(d);
                     sum += 0.25 * weight[a] * weight[b] *
                            (double)(lobe_pdf(l, d * (1.0f / len)) * ax * ay / (len * len * len));
@@ -192,7 +192,7 @@ static double chi2_compare(const lobe *drawn, const lobe *l, bool stretched, uin
 static void chi2_test(const lobe *l, bool stretched, uint64_t seed)
 {
     double p = chi2_compare(l, l, stretched, seed);
-    double level = 1.0 - (pow)(1.0 - 0.01, 1.0 / CHI2_TESTS);
+    double level = 1.0 - pow(1.0 - 0.01, 1.0 / CHI2_TESTS);
     if (p < level)
         fail_msg("chi-square: kind %d, alpha %g %g, V.z %g: p = %g", (int)l->kind, (double)l->alpha_x,
                  (double)l->alpha_y, (double)l->V[2], p);

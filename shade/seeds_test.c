@@ -122,7 +122,7 @@ static void test_prefilter_from_mip_0(void **state)
             float lod = prefilter_lod(s.pdf, n, (float)texel);
             double away =
                 2.0 * (1.0 - (double)dot(s.L, d)) * 3.14159265358979; /* solid angle of the cap to d */
-            double footprint = texel * (pow)(4.0, (double)lod);
+            double footprint = texel * pow(4.0, (double)lod);
             weight += (double)s.weight;
             plain += away < texel ? sun * (double)s.weight : 0.0;
             filtered += away < footprint ? sun * texel / footprint * (double)s.weight : 0.0;
@@ -195,8 +195,8 @@ static void test_parameters_mixed(void **state)
 static double vignette_pbr(double phi, bool is_ramp)
 {
     const double to_rad = 3.14159265358979323846 / 180.0;
-    vec3 V = vec3((float)(sin)(30.0 * to_rad), 0.0f, (float)(cos)(30.0 * to_rad));
-    vec3 L = vec3((float)(sin)(phi * to_rad), 0.0f, (float)(cos)(phi * to_rad));
+    vec3 V = vec3((float)sin(30.0 * to_rad), 0.0f, (float)cos(30.0 * to_rad));
+    vec3 L = vec3((float)sin(phi * to_rad), 0.0f, (float)cos(phi * to_rad));
     vec3 H = normalize(V + L);
     float f = D_GGX(H[2], 1.0f) * V_SmithGGX_separable(L[2], V[2], 1.0f) * L[2];
     float ramp = H[2] * dot(H, L) * dot(H, V);

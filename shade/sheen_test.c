@@ -15,8 +15,8 @@ static double over_hemisphere(hemisphere_function f, const void *context, int z_
 }
 static vec3 at(double z, double phi)
 {
-    double r = (sqrt)(1.0 - z * z);
-    return vec3((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
+    double r = sqrt(1.0 - z * z);
+    return vec3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
 }
 
 static double D_cos(const void *context, double z, double phi)

@@ -11,7 +11,7 @@ static void test_preetham_values(void **state)
 {
     (void)state;
     PreethamSky s = preetham_sky(2.5f, (float)(45.0 * degree));
-    vec3 at = preetham_Yxy(s, (float)(cos)(60.0 * degree), (float)(cos)(30.0 * degree));
+    vec3 at = preetham_Yxy(s, (float)cos(60.0 * degree), (float)cos(30.0 * degree));
     expect_relative(at[0], 13621.81244, 2e-5, "Y");
     expect_relative(at[1], 0.26527729, 1e-5, "x");
     expect_relative(at[2], 0.27215950, 1e-5, "y");
@@ -19,7 +19,7 @@ static void test_preetham_values(void **state)
     expect_relative(zenith[0], 5916.11348, 1e-5, "Y of the zenith");
     expect_relative(zenith[1], 0.24328199, 1e-5, "x of the zenith");
     expect_relative(zenith[2], 0.24758447, 1e-5, "y of the zenith");
-    vec3 same = preetham_Yxy(s, 1.0f, (float)(cos)(45.0 * degree));
+    vec3 same = preetham_Yxy(s, 1.0f, (float)cos(45.0 * degree));
     for (int i = 0; i < 3; i++)
         expect_relative(same[i], (double)zenith[i], 1e-6, "the formula at the zenith");
 }
@@ -69,8 +69,8 @@ static void test_constants(void **state)
         Atmosphere a = atmosphere_earth(bands);
         for (int c = 0; c < 3; c++) {
             double um = (double)a.wavelength_nm[c] * 1e-3;
-            expect_relative(a.rayleigh[c], 13.558e-3 * (pow)(0.55 / um, 4.0), 1e-3, "Rayleigh");
-            expect_relative(a.haze_extinction[c], 0.06 / 1.2 * (pow)(um / 0.55, -0.6), 1e-5, "haze");
+            expect_relative(a.rayleigh[c], 13.558e-3 * pow(0.55 / um, 4.0), 1e-3, "Rayleigh");
+            expect_relative(a.haze_extinction[c], 0.06 / 1.2 * pow(um / 0.55, -0.6), 1e-5, "haze");
             expect_relative(a.haze_scattering[c] / a.haze_extinction[c], 0.98, 1e-5, "its albedo");
         }
     }
@@ -131,14 +131,14 @@ static void test_rays(void **state)
     for (int i = 0; i < 20000; ++i) {
         float h = 100.0f * rng_float(&rng) * rng_float(&rng), mu = 2.0f * rng_float(&rng) - 1.0f;
         double r = R + (double)h, t = 500.0 * (double)rng_float(&rng);
-        double there = (sqrt)(r * r + 2.0 * r * (double)mu * t + t * t);
+        double there = sqrt(r * r + 2.0 * r * (double)mu * t + t * t);
         if (there > R)
             expect_near((double)ray_height(h, mu, (float)t), there - R, 2e-4 + 1e-5 * there * 0.1, "height");
         double to_top = (double)ray_to_top(h, mu);
-        expect_near((sqrt)(r * r + 2.0 * r * (double)mu * to_top + to_top * to_top), R + 100.0, 2e-2, "top");
+        expect_near(sqrt(r * r + 2.0 * r * (double)mu * to_top + to_top * to_top), R + 100.0, 2e-2, "top");
         double to_ground = (double)ray_to_ground(h, mu);
         if (to_ground >= 0.0)
-            expect_near((sqrt)(r * r + 2.0 * r * (double)mu * to_ground + to_ground * to_ground), R, 2e-2,
+            expect_near(sqrt(r * r + 2.0 * r * (double)mu * to_ground + to_ground * to_ground), R, 2e-2,
                         "ground");
         bool is_below = mu < horizon_mu(h);
         if (fabsf(mu - horizon_mu(h)) > 1e-6f)
@@ -146,12 +146,12 @@ static void test_rays(void **state)
     }
     /* the disc of the sun sets within its diameter, at any height */
     for (int h = 0; h <= 50; h += 10) {
-        double horizon = (asin)((double)horizon_mu((float)h)), radius = (double)SUN_RADIUS;
-        assert_true(sun_visibility((float)h, (float)(sin)(horizon + 1.1 * radius)) == 1.0f);
-        assert_true(sun_visibility((float)h, (float)(sin)(horizon - 1.1 * radius)) == 0.0f);
-        expect_near((double)sun_visibility((float)h, (float)(sin)(horizon)), 0.5, 0.01, "half of it");
+        double horizon = asin((double)horizon_mu((float)h)), radius = (double)SUN_RADIUS;
+        assert_true(sun_visibility((float)h, (float)sin(horizon + 1.1 * radius)) == 1.0f);
+        assert_true(sun_visibility((float)h, (float)sin(horizon - 1.1 * radius)) == 0.0f);
+        expect_near((double)sun_visibility((float)h, (float)sin(horizon)), 0.5, 0.01, "half of it");
     }
-    expect_near((double)SUN_SOLID_ANGLE, 2.0 * 3.14159265358979 * (1.0 - (cos)((double)SUN_RADIUS)), 2e-9,
+    expect_near((double)SUN_SOLID_ANGLE, 2.0 * 3.14159265358979 * (1.0 - cos((double)SUN_RADIUS)), 2e-9,
                 "sr");
 }
 
@@ -188,9 +188,9 @@ static void test_steps(void **state)
 {
     (void)state;
     for (int i = -8; i <= 4; i++) {
-        double x = (pow)(10.0, i);
-        expect_relative(air_path1((float)x, 1.0f), (1.0 - (exp)(-x)) / x, i < -5 ? 1e-6 + x : 2e-5,
-                        "depth %g", x);
+        double x = pow(10.0, i);
+        expect_relative(air_path1((float)x, 1.0f), (1.0 - exp(-x)) / x, i < -5 ? 1e-6 + x : 2e-5, "depth %g",
+                        x);
     }
     Atmosphere a = atmosphere_earth(SKY_BANDS_THREE);
     AirField field = air_field(vec3(0.02f), vec3(-0.004f), vec3(0.003f), vec3(0.006f));
@@ -222,13 +222,13 @@ static void test_pictures(void **state)
         angle += angle < 0.0 ? 6.283185307179586 : 0.0;
         assert_true(angle > last_angle);
         last_angle = angle;
-        widest = fmax(widest, (acos)(fmin((double)dot(d, next), 1.0)));
+        widest = fmax(widest, acos(fmin((double)dot(d, next), 1.0)));
     }
     assert_true(widest < 1.28 * 6.283185307179586 / n);
     double last = 0.0;
     for (int i = 1; i <= 128; i++) {
         float row = (float)i / 128.0f, h = sky_rise(row);
-        double angle = (asin)(fmin((double)h, 1.0));
+        double angle = asin(fmin((double)h, 1.0));
         expect_near((double)sky_row(h), (double)row, i < 128 ? 2e-5 : 1e-3, "row %d", i);
         tallest = fmax(tallest, angle - last);
         assert_true(angle > last);

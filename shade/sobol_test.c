@@ -143,7 +143,7 @@ static double worst_flips(const uint prefixes[PREFIXES], int count, int depth)
             if (prefixes[i] != prefixes[j] && abs_int(together[i][j]) > worst)
                 worst = abs_int(together[i][j]);
     }
-    return worst / (sqrt)((double)SEEDS);
+    return worst / sqrt((double)SEEDS);
 }
 
 /* Which is all that the variance of Owen's estimate needs. 2080 numbers for each of 57 sets: chance takes one of all of them
@@ -236,7 +236,7 @@ static void test_orders_are_independent(void **state)
         for (int left = n; left > 1; left /= 2, term /= 32.0)
             variance += term;
         for (int c = 0; c < 4; ++c) {
-            expect_near(sum[c], 0.0, 4.0 * (sqrt)(variance / TRIES), "n %d, pair %d: mean", n, c);
+            expect_near(sum[c], 0.0, 4.0 * sqrt(variance / TRIES), "n %d, pair %d: mean", n, c);
             expect_relative(square[c], variance, 0.1, "n %d, pair %d: variance", n, c);
         }
     }
@@ -251,7 +251,7 @@ static double value_of(integrand kind, vec2 p)
     double x = (double)p[0], y = (double)p[1];
     if (kind == DISC)
         return x * x + y * y < 0.64 ? 1.0 : 0.0;
-    return (exp)(-x * y) * (sin)(3.0 * x + 2.0 * y);
+    return exp(-x * y) * sin(3.0 * x + 2.0 * y);
 }
 
 /* Root mean square error of means of n points. */
@@ -266,7 +266,7 @@ static double error_of(integrand kind, uint n, double exact, bool is_sobol)
             mean += value_of(kind, is_sobol ? sobol_point(i, t * 77u + n) : rng_vec2(&rng)) / n;
         square += (mean - exact) * (mean - exact) / TRIES;
     }
-    return (sqrt)(square);
+    return sqrt(square);
 }
 
 /* Owen 1997: n^-1.5, times a logarithm, where derivatives exist; n^-0.75 for an edge, where random points have n^-0.5. */
@@ -277,11 +277,11 @@ static void test_errors(void **state)
     for (int y = 0; y < 1000; ++y)
         for (int x = 0; x < 1000; ++x) {
             double u = (x + 0.5) / 1000.0, v = (y + 0.5) / 1000.0;
-            smooth += (exp)(-u * v) * (sin)(3.0 * u + 2.0 * v) * 1e-6;
+            smooth += exp(-u * v) * sin(3.0 * u + 2.0 * v) * 1e-6;
         }
     double s16 = error_of(SMOOTH, 16, smooth, true), s1024 = error_of(SMOOTH, 1024, smooth, true);
     double d16 = error_of(DISC, 16, disc, true), d1024 = error_of(DISC, 1024, disc, true);
-    double slope_smooth = (log)(s1024 / s16) / (log)(64.0), slope_disc = (log)(d1024 / d16) / (log)(64.0);
+    double slope_smooth = log(s1024 / s16) / log(64.0), slope_disc = log(d1024 / d16) / log(64.0);
     double random_smooth = error_of(SMOOTH, 1024, smooth, false),
            random_disc = error_of(DISC, 1024, disc, false);
     print_message("smooth: error %.2e at 1024 (random %.2e), n^%.2f; edge: %.2e (random %.2e), n^%.2f\n",

@@ -36,7 +36,7 @@ static void test_variance_is_that_of_the_normals(void **state)
     double sum = 0.0, weight = 0.0;
     float slope = 0.2f;
     for (int i = -400; i <= 400; ++i) {
-        double x = i / 100.0, w = (exp)(-0.5 * x * x / 0.25);
+        double x = i / 100.0, w = exp(-0.5 * x * x / 0.25);
         sum += w * (x * (double)slope) * (x * (double)slope);
         weight += w;
     }

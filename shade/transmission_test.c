@@ -117,8 +117,8 @@ static void test_energy_by_quadrature(void **state)
         for (int j = 0; j < Z; ++j)
             for (int i = 0; i < PHI; ++i) {
                 double t = (j + 0.5) / Z, z = 1.0 - t * t, phi = 2.0 * pi * (i + 0.5) / PHI,
-                       r = (sqrt)(1.0 - z * z);
-                vec3 L = vec3((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)-z);
+                       r = sqrt(1.0 - z * z);
+                vec3 L = vec3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)-z);
                 vec3 H = half_vector_transmission(V, L, row->eta);
                 float VdotH = dot(V, H);
                 if (VdotH > 0.0f)

@@ -18,7 +18,7 @@ static void test_beer(void **state)
         vec3 sigma = volume_extinction(color, distance);
         for (int c = 0; c < 3; ++c) {
             expect_near((double)both[c], (double)product[c], 3e-6, "two parts");
-            expect_near((double)both[c], (exp)(-(double)sigma[c] * (double)(a + b)), 1e-5, "extinction");
+            expect_near((double)both[c], exp(-(double)sigma[c] * (double)(a + b)), 1e-5, "extinction");
         }
     }
 }

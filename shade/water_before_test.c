@@ -62,7 +62,7 @@ static void test_stages(void **state)
     assert_true(narrow[1] > 100.0f * wide[1]);
     expect_near((double)before_foam(0.5f), 0.0, 0.0, "foam begins");
     expect_near((double)before_foam(0.75f), 0.5, 1e-6, "foam");
-    expect_near((double)before_display(vec3(0.5f))[1], (pow)(0.5, 0.95), 1e-6, "the display's power");
+    expect_near((double)before_display(vec3(0.5f))[1], pow(0.5, 0.95), 1e-6, "the display's power");
     assert_true(before_display(vec3(-1.0f))[0] == 0.0f);
 }
 

@@ -23,8 +23,8 @@ static void test_share(void **state)
         for (int k = 0; k < 3; k++) {
             double c = (double)(w.absorption[k] + w.scattering[k]), a = (double)w.absorption[k];
             double K = (a + (double)w.backscattering[k]) / 0.86;
-            double all = (double)down[k] * (exp)(-K * (double)depth);
-            double straight = (double)(beam[k] * mu) * (exp)(-c * (double)depth / (double)mu);
+            double all = (double)down[k] * exp(-K * (double)depth);
+            double straight = (double)(beam[k] * mu) * exp(-c * (double)depth / (double)mu);
             expect_near((double)share[k], straight / all, 1e-5, "channel %d at %g m", k, (double)depth);
             assert_true(share[k] <= last[k] && share[k] >= 0.0f);
         }
@@ -70,9 +70,9 @@ static void test_footprint(void **state)
             vec3 turned = water_refracted(w, -V, normalize(tilted));
             double x = depth * (double)(turned[0] / -turned[1] - down[0] / -down[1]) * 1e3;
             double z = depth * (double)(turned[2] / -turned[1] - down[2] / -down[1]) * 1e3;
-            areas[k] = (sqrt)(x * x + z * z);
+            areas[k] = sqrt(x * x + z * z);
         }
-        double expected = (sqrt)(12.0 * (double)variance * areas[0] * areas[1]);
+        double expected = sqrt(12.0 * (double)variance * areas[0] * areas[1]);
         float width = water_bed_footprint(w, up, V, down, vec3(variance, variance, 0.0f), 0.0f, way);
         expect_near((double)width / expected, 1.0, 0.02, "at %g", (double)angle);
     }

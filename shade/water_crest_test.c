@@ -48,7 +48,7 @@ static double uniform(uint64_t *s)
 
 static double height_over(const count *c, const photon *a, double t)
 {
-    return a->p[1] + a->d[1] * t - c->amplitude * (cos)(c->k * (a->p[0] + a->d[0] * t));
+    return a->p[1] + a->d[1] * t - c->amplitude * cos(c->k * (a->p[0] + a->d[0] * t));
 }
 
 static void move(photon *a, double t)
@@ -89,14 +89,14 @@ static double fresnel(double c, double n)
     double s2 = (1.0 - c * c) / (n * n);
     if (s2 >= 1.0)
         return 1.0;
-    double t = (sqrt)(1.0 - s2), s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
+    double t = sqrt(1.0 - s2), s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
     return 0.5 * (s * s + p * p);
 }
 
 /* Its normal, up; returns the cosine of d to it. */
 static double normal_at(const count *c, const photon *a, double n[2])
 {
-    double slope = -c->amplitude * c->k * (sin)(c->k * a->p[0]), y = 1.0 / (sqrt)(1.0 + slope * slope);
+    double slope = -c->amplitude * c->k * sin(c->k * a->p[0]), y = 1.0 / sqrt(1.0 + slope * slope);
     n[0] = -slope * y;
     n[1] = y;
     return a->d[0] * n[0] + a->d[1] * n[1];
@@ -105,7 +105,7 @@ static double normal_at(const count *c, const photon *a, double n[2])
 /* Refracts d; n: of where it goes over where it is. Not beyond the critical angle. */
 static void bend(double d[3], const double N[2], double cosine, double n)
 {
-    double c = fabs(cosine), t = (sqrt)(1.0 - (1.0 - c * c) / (n * n)), way = cosine < 0.0 ? 1.0 : -1.0;
+    double c = fabs(cosine), t = sqrt(1.0 - (1.0 - c * c) / (n * n)), way = cosine < 0.0 ? 1.0 : -1.0;
     double along = way * (c / n - t);
     d[0] = d[0] / n + along * N[0];
     d[1] = d[1] / n + along * N[1];
@@ -114,11 +114,11 @@ static void bend(double d[3], const double N[2], double cosine, double n)
 
 static void turn(double d[3], double cosine, double around)
 {
-    double s = (sqrt)(fmax(1.0 - cosine * cosine, 0.0)), h = fmax((hypot)(d[0], d[2]), 1e-9);
+    double s = sqrt(fmax(1.0 - cosine * cosine, 0.0)), h = fmax((hypot)(d[0], d[2]), 1e-9);
     double u[3] = {-d[2] / h, 0.0, d[0] / h};
     double v[3] = {d[1] * u[2], d[2] * u[0] - d[0] * u[2], -d[1] * u[0]};
     for (int i = 0; i < 3; i++)
-        d[i] = cosine * d[i] + s * ((cos)(around)*u[i] + (sin)(around)*v[i]);
+        d[i] = cosine * d[i] + s * (cos(around) * u[i] + sin(around) * v[i]);
 }
 
 /* By Henyey and Greenstein, or 1 + 0.835 cos^2. */
@@ -139,10 +139,10 @@ static void leave(count *c, const photon *a, const double N[2], double cosine, d
     photon out = *a;
     bend(out.d, N, cosine, 1.0 / n);
     double up = out.d[0] * N[0] + out.d[1] * N[1], place = a->p[0] / c->length;
-    bool is_seen = out.d[1] > (sin)(TURN / 90.0) && out.d[1] < (sin)(TURN / 30.0) && out.d[0] > 0.0 &&
-                   fabs(out.d[2]) < out.d[0] * (tan)(TURN / 18.0);
+    bool is_seen = out.d[1] > sin(TURN / 90.0) && out.d[1] < sin(TURN / 30.0) && out.d[0] > 0.0 &&
+                   fabs(out.d[2]) < out.d[0] * tan(TURN / 18.0);
     if (is_seen && up > 0.02) /* n^2 and what is reflected taken off; per horizontal area */
-        c->radiance[(int)((place - (floor)(place)) * PHASES) % PHASES] += a->weight * n * n * N[1] / up;
+        c->radiance[(int)((place - floor(place)) * PHASES) % PHASES] += a->weight * n * n * N[1] / up;
 }
 
 static void follow(count *c, const Water *w, photon *a, uint64_t *s)
@@ -155,7 +155,7 @@ static void follow(count *c, const Water *w, photon *a, uint64_t *s)
     c->horizontal += a->weight;
     bend(a->d, N, cosine, n);
     while (a->weight > 0.0) {
-        double away = 1e-7 * c->length, free = -(log)(1.0 - uniform(s)) / beam;
+        double away = 1e-7 * c->length, free = -log(1.0 - uniform(s)) / beam;
         a->p[0] -= N[0] * away;
         a->p[1] -= N[1] * away;
         for (t = meets(c, a, free, -1.0); t >= 0.0; t = meets(c, a, free, -1.0)) {
@@ -191,10 +191,10 @@ static count count_photons(const Water *w, double length, double steepness, doub
     uint64_t seed = 20260801u;
     for (int i = 0; i < number; i++) {
         photon a = {.p = {length * ((double)i + 0.5) / number, c.amplitude + 1e-6 * length, 0.0},
-                    .d = {(cos)(c.sun), -(sin)(c.sun), 0.0}};
+                    .d = {cos(c.sun), -sin(c.sun), 0.0}};
         follow(&c, w, &a, &seed);
     }
-    double each = (sin)(c.sun) / number, eyes = TURN / 9.0 * ((sin)(TURN / 30.0) - (sin)(TURN / 90.0));
+    double each = sin(c.sun) / number, eyes = TURN / 9.0 * (sin(TURN / 30.0) - sin(TURN / 90.0));
     c.horizontal *= each;
     for (int i = 0; i < PHASES; i++)
         c.radiance[i] *= each * PHASES / eyes;
@@ -205,10 +205,10 @@ static count count_photons(const Water *w, double length, double steepness, doub
 static double shaded(const Water *w, const count *c, int phase)
 {
     WaterLight light;
-    light.L = vec3(-(float)(cos)(c->sun), (float)(sin)(c->sun), 0.0f);
+    light.L = vec3(-(float)cos(c->sun), (float)sin(c->sun), 0.0f);
     light.sun_irradiance = vec3(1.0f);
     light.sky_irradiance = vec3(0.0f);
-    light.sun_fresnel = (float)(1.0 - c->horizontal / (sin)(c->sun));
+    light.sun_fresnel = (float)(1.0 - c->horizontal / sin(c->sun));
     light.downwelling = water_downwelling(*w, light);
     float steepness = (float)(c->amplitude * c->k), place = (float)(TURN * (phase + 0.5) / PHASES);
     WaterCrest crest =
@@ -313,8 +313,7 @@ static void test_sunlit_slope(void **state)
     for (double tilt = 0.0; tilt < 2.0; tilt += 0.17) {
         double light = 0.0, sum = 0.0, sd = 0.2;
         for (int i = 0; i < 4000; i++) {
-            double z = -8.0 + 0.004 * ((double)i + 0.5),
-                   seen = fmax(tilt + sd * z, 0.0) * (exp)(-0.5 * z * z);
+            double z = -8.0 + 0.004 * ((double)i + 0.5), seen = fmax(tilt + sd * z, 0.0) * exp(-0.5 * z * z);
             light += seen;
             sum += sd * z * seen;
         }

@@ -24,7 +24,7 @@ static void test_normal(void **state)
     (void)state;
     vec3 N = wave_normal(vec2(0.2f, -0.3f), vec3(-0.1f, 0.05f, 0.08f));
     double x = 0.08 * -0.3 - 1.05 * 0.2, y = 1.05 * 0.9 - 0.08 * 0.08, z = 0.08 * 0.2 - 0.9 * -0.3;
-    double length = (sqrt)(x * x + y * y + z * z);
+    double length = sqrt(x * x + y * y + z * z);
     expect_near((double)N[0], x / length, 1e-6, "x");
     expect_near((double)N[1], y / length, 1e-6, "y");
     expect_near((double)N[2], z / length, 1e-6, "z");
@@ -41,11 +41,10 @@ static void test_seen_normal(void **state)
     (void)state;
     const double C[3] = {0.02, 0.008, 0.005}, mean[2] = {0.05, -0.04};
     const vec3 N = normal_from_slope(vec2((float)mean[0], (float)mean[1]));
-    double L11 = (sqrt)(C[0]), L21 = C[2] / L11, L22 = (sqrt)(C[1] - L21 * L21); /* of Cholesky */
+    double L11 = sqrt(C[0]), L21 = C[2] / L11, L22 = sqrt(C[1] - L21 * L21); /* of Cholesky */
     for (int i = 0; i < 8; i++) {
         double elevation = i == 7 ? 1.5 : 0.06 + 0.08 * i, azimuth = 0.9 * i;
-        double V[3] = {(cos)(elevation) * (cos)(azimuth), (sin)(elevation),
-                       (cos)(elevation) * (sin)(azimuth)};
+        double V[3] = {cos(elevation) * cos(azimuth), sin(elevation), cos(elevation) * sin(azimuth)};
         double first = V[1] - V[0] * mean[0] - V[2] * mean[1];
         double variance = C[0] * V[0] * V[0] + C[1] * V[2] * V[2] + 2.0 * C[2] * V[0] * V[2];
         double sum[3] = {0.0, 0.0, 0.0};
@@ -54,7 +53,7 @@ static void test_seen_normal(void **state)
                 double a = x * 0.03, b = y * 0.03;
                 double s = mean[0] + L11 * a, t = mean[1] + L21 * a + L22 * b;
                 double tilt = fmax(V[1] - V[0] * s - V[2] * t, 0.0);
-                double seen = tilt * -expm1(-2.0 * first * tilt / variance) * (exp)(-0.5 * (a * a + b * b));
+                double seen = tilt * -expm1(-2.0 * first * tilt / variance) * exp(-0.5 * (a * a + b * b));
                 sum[0] += seen;
                 sum[1] += seen * s;
                 sum[2] += seen * t;
@@ -90,7 +89,7 @@ static double foam_integral(double mean, double sigma, double threshold)
         double z = -8.0 + 16.0 * (i + 0.5) / 20000, q = z * sigma; /* about the mean */
         double J = (1.0 - mean) - q + 0.25 * (q * q - sigma * sigma);
         if (mean + q > threshold)
-            sum += J * (exp)(-0.5 * z * z) * 0.3989422804 * 16.0 / 20000;
+            sum += J * exp(-0.5 * z * z) * 0.3989422804 * 16.0 / 20000;
     }
     return fmin(fmax(sum / all, 0.0), 1.0);
 }
@@ -119,10 +118,10 @@ static void test_lace(void **state)
         expect_near((double)foam_lace(share, 0.0f, 1.0f), (double)share, 1e-4, "unseen, %d", i);
         for (int j = 0; j < 4; j++) {
             float hidden = 0.3f * (float)j;
-            double sum = 0.0, deviation = (sqrt)(1.0 - (double)hidden);
+            double sum = 0.0, deviation = sqrt(1.0 - (double)hidden);
             for (int k = 0; k < 4000; k++) {
                 double z = -6.0 + 12.0 * (k + 0.5) / 4000,
-                       density = (exp)(-0.5 * z * z) * 0.3989422804 * 12.0 / 4000;
+                       density = exp(-0.5 * z * z) * 0.3989422804 * 12.0 / 4000;
                 sum += (double)foam_lace(share, (float)(z * deviation), hidden) * density;
             }
             expect_near(sum, (double)share, 1e-4, "mean, %d, hidden %d", i, j);
@@ -165,11 +164,11 @@ static void test_mirror_passing(void **state)
     for (double e = -0.1; e < 0.5; e += 0.1) {
         double passed = 0.0, all = 0.0;
         for (int i = 0; i < 1000; ++i) {
-            double z = 0.01 * (i - 499.5), w = (exp)(-0.5 * z * z), at = e + 0.15 * z;
+            double z = 0.01 * (i - 499.5), w = exp(-0.5 * z * z), at = e + 0.15 * z;
             all += w;
-            passed += w * (double)water_passing(C, up, vec3((float)(cos)(at), (float)(sin)(at), 0.0f));
+            passed += w * (double)water_passing(C, up, vec3((float)cos(at), (float)sin(at), 0.0f));
         }
-        m.R = vec3((float)(cos)(e), (float)(sin)(e), 0.0f);
+        m.R = vec3((float)cos(e), (float)sin(e), 0.0f);
         expect_near((double)water_mirror_passing(m, C, up).escape, 0.8 * passed / all, 0.1, "at %g", e);
     }
     m.R = vec3(0.8660254f, -0.5f, 0.0f);
@@ -186,7 +185,7 @@ static void test_tilted(void **state)
     vec3 C = vec3(0.01f, 0.02f, 0.003f), V = normalize(vec3(0.8f, 1e-4f, 0.6f));
     double variance = (double)slope_variance(C, vec2(V[0], V[2]));
     vec3 seen = water_tilted(vec3(0.0f, 1.0f, 0.0f), C, V);
-    expect_near((double)(dot(seen, V) / seen[1]), (sqrt)(2.0 * variance), 1e-3, "of a level place");
+    expect_near((double)(dot(seen, V) / seen[1]), sqrt(2.0 * variance), 1e-3, "of a level place");
     vec3 away = water_tilted(normalize(vec3(-0.1f, 1.0f, 0.0f)), C, V);
     assert_true(dot(away, V) > 0.08f);
     vec3 N = normalize(vec3(0.8f, 1.0f, 0.6f));

@@ -18,7 +18,7 @@ static vec3 direction(double elevation_deg, double azimuth_deg)
 /* Density of slopes along X times what is seen of them, by tilt: D m.X G1 over N.X, integrated across. c0, c: tilts; variance: X_h^T C X_h. */
 static double seen_density(double c0, double c, double variance)
 {
-    double density = (exp)(-0.5 * (c - c0) * (c - c0) / variance) / (sqrt)(2.0 * PI_DOUBLE * variance);
+    double density = exp(-0.5 * (c - c0) * (c - c0) / variance) / sqrt(2.0 * PI_DOUBLE * variance);
     vec3 X = vec3(1.0f, 0.0f, 0.0f); /* level: tilts are -slopes */
     vec3 N = normal_from_slope(vec2((float)-c0, 0.0f)), m = normal_from_slope(vec2((float)-c, 0.0f));
     return density * c / c0 * (double)slopes_seen(vec3((float)variance, 0.02f, 0.0f), N, m, X);
@@ -69,7 +69,7 @@ static void test_walk(void **state)
         expect_relative(sum, 1.0, 2e-3, "all, from %g", c0);
         expect_relative(square, c0 * c0 + 3.0 * sigma * sigma, 2e-3, "square, from %g", c0);
         if (c0 < 2e-3)
-            expect_relative(mean, sigma * 2.0 * (sqrt)(2.0 / PI_DOUBLE), 2e-3, "mean at the surface");
+            expect_relative(mean, sigma * 2.0 * sqrt(2.0 / PI_DOUBLE), 2e-3, "mean at the surface");
     }
 }
 
@@ -83,7 +83,7 @@ static void test_division(void **state)
     for (double share = 0.1; share < 1.0; share += 0.2)
         for (double c0 = 0.003; c0 < 0.7; c0 *= 3.7)
             for (double c = 0.02; c < 0.7; c *= 2.1) {
-                double divided = 0.0, width = c0 + 7.0 * (sqrt)(share * variance);
+                double divided = 0.0, width = c0 + 7.0 * sqrt(share * variance);
                 for (int i = 0; i < STEPS; ++i) {
                     double middle = width * (i + 0.5) / STEPS;
                     divided += seen_density(c0, middle, share * variance) *
@@ -103,8 +103,8 @@ static void test_tilts(void **state)
         enum { STEPS = 4000 };
         double sum = 0.0, low = fmax(a - 7.0, 0.0), width = a + 7.0 - low;
         for (int i = 0; i < STEPS; ++i) {
-            double x = low + width * (i + 0.5) / STEPS, e = (exp)(-0.5 * (x - a) * (x - a));
-            sum += x / a * e * -expm1(-2.0 * a * x) / (sqrt)(2.0 * PI_DOUBLE) * width / STEPS;
+            double x = low + width * (i + 0.5) / STEPS, e = exp(-0.5 * (x - a) * (x - a));
+            sum += x / a * e * -expm1(-2.0 * a * x) / sqrt(2.0 * PI_DOUBLE) * width / STEPS;
             if (i % 200 == 0)
                 expect_near((double)tilts_seen((float)a, (float)(x + 0.5 * width / STEPS)), sum,
                             3e-6 + 2e-6 * a, "tilts below %g, from %g", x, a);
@@ -120,20 +120,20 @@ static void test_mean_reflectance(void **state)
     const double mss[3] = {0.0286, 0.0542, 0.0798};
     for (int k = 0; k < 3; ++k)
         for (double degrees = 0.5; degrees < 40.0; degrees *= 3.0) {
-            double sigma = (sqrt)(0.5 * mss[k]), e = degrees * PI_DOUBLE / 180.0, sum = 0.0;
+            double sigma = sqrt(0.5 * mss[k]), e = degrees * PI_DOUBLE / 180.0, sum = 0.0;
             enum { DRAWS = 100000 };
             test_rng rng = {(uint64_t)(7 + k)};
             for (int i = 0; i < DRAWS; ++i) {
                 double g[4];
                 for (int j = 0; j < 4; ++j)
                     g[j] = sigma * (double)inverse_normal(clamp(rng_float(&rng), 1e-6f, 0.999999f));
-                double c0 = (sin)(e), level = (cos)(e);
-                double c = (sqrt)((c0 + level * g[0]) * (c0 + level * g[0]) +
-                                  level * level * (g[1] * g[1] + g[2] * g[2]));
+                double c0 = sin(e), level = cos(e);
+                double c = sqrt((c0 + level * g[0]) * (c0 + level * g[0]) +
+                                level * level * (g[1] * g[1] + g[2] * g[2]));
                 double along = (c0 - c) / level;
-                sum += (double)F_dielectric((float)(c / (sqrt)(1.0 + along * along + g[3] * g[3])), 1.34f);
+                sum += (double)F_dielectric((float)(c / sqrt(1.0 + along * along + g[3] * g[3])), 1.34f);
             }
-            float mu = (float)(sin)(e);
+            float mu = (float)sin(e);
             WaterMeans m = integrate_water_means(WATER_BECKMANN, WATER_SCALES, mu, (float)sigma, 1.34f, 96);
             expect_relative((double)(m.fresnel * F_dielectric(mu, 1.34f)), sum / DRAWS, 0.01,
                             "mss %g, %g degrees", mss[k], degrees);
@@ -160,9 +160,8 @@ enum { HEIGHTS = 1 << 18, SHORTEST = 16 };
 /* Two normal numbers. */
 static double complex normal_pair(test_rng *rng)
 {
-    double r = (sqrt)(-2.0 * (log)(1.0 - (double)rng_float(rng))),
-           phi = 2.0 * PI_DOUBLE * (double)rng_float(rng);
-    return r * (cos)(phi) + r * (sin)(phi) * (double complex)I;
+    double r = sqrt(-2.0 * log(1.0 - (double)rng_float(rng))), phi = 2.0 * PI_DOUBLE * (double)rng_float(rng);
+    return r * cos(phi) + r * sin(phi) * (double complex)I;
 }
 
 /* Sum of a[i] e^(2 pi i j i / n), in place; n is a power of two. Cooley and Tukey 1965. */
@@ -191,12 +190,12 @@ static void transform(double complex *a, size_t n)
 /* Heights, a unit apart, of a cut through a periodic Gaussian sea whose slopes have the variance 1 and as much of it in each of its octaves: k^-3. */
 static void make_cut(double octaves, test_rng *rng, double complex *a, double *heights)
 {
-    size_t last = HEIGHTS / SHORTEST, first = (size_t)((double)last * (exp2)(-octaves));
+    size_t last = HEIGHTS / SHORTEST, first = (size_t)((double)last * exp2(-octaves));
     for (size_t i = 0; i < HEIGHTS; i++)
         a[i] = 0.0;
     for (size_t i = first; i <= last; i++) {
         double k = 2.0 * PI_DOUBLE * (double)i / HEIGHTS;
-        a[i] = normal_pair(rng) * 0.5 * (sqrt)(1.0 / ((log)(2.0) * octaves * (double)i)) / k;
+        a[i] = normal_pair(rng) * 0.5 * sqrt(1.0 / (log(2.0) * octaves * (double)i)) / k;
         a[HEIGHTS - i] = conj(a[i]);
     }
     transform(a, HEIGHTS);
@@ -260,10 +259,9 @@ static void test_marched(void **state)
             double c = (r + 7.0) * (i + 0.5) / 4000.0;
             walk += c * seen_density(r, c, 1.0) * (r + 7.0) / 4000.0;
         }
-        double smith_area =
-            r * 0.5 * (1.0 + erf(r * (sqrt)(0.5))) + (exp)(-0.5 * r * r) / (sqrt)(2.0 * PI_DOUBLE);
-        double smith = (0.5 * (1.0 + erf(r * (sqrt)(0.5))) * (1.0 + r * r) +
-                        r * (exp)(-0.5 * r * r) / (sqrt)(2.0 * PI_DOUBLE)) /
+        double smith_area = r * 0.5 * (1.0 + erf(r * sqrt(0.5))) + exp(-0.5 * r * r) / sqrt(2.0 * PI_DOUBLE);
+        double smith = (0.5 * (1.0 + erf(r * sqrt(0.5))) * (1.0 + r * r) +
+                        r * exp(-0.5 * r * r) / sqrt(2.0 * PI_DOUBLE)) /
                        smith_area;
         marched sea = march(11.0, r, 4);
         double seen =

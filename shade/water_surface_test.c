@@ -39,11 +39,11 @@ static vec3 integral_of_normals(int normals, vec3 C, vec3 N, double width)
         double x = (i + 0.5) / RINGS, t = width * x / (1.0 - x); /* tan of half the angle from N */
         double angle = 2.0 * (atan2)(t, 1.0);
         double slope = width / ((1.0 - x) * (1.0 - x)); /* dt / dx */
-        double weight = (sin)(angle)*2.0 * slope / (1.0 + t * t) * 2.0 * PI_DOUBLE / (RINGS * SECTORS);
+        double weight = sin(angle) * 2.0 * slope / (1.0 + t * t) * 2.0 * PI_DOUBLE / (RINGS * SECTORS);
         for (int j = 0; j < SECTORS; ++j) {
             double phi = 2.0 * PI_DOUBLE * (j + 0.5) / SECTORS;
-            vec3 m = mul(frame, vec3((float)((sin)(angle) * (cos)(phi)), (float)((sin)(angle) * (sin)(phi)),
-                                     (float)(cos)(angle)));
+            vec3 m = mul(frame, vec3((float)(sin(angle) * cos(phi)), (float)(sin(angle) * sin(phi)),
+                                     (float)cos(angle)));
             double D = (double)D_slopes(normals, C, N, m) * weight;
             for (int k = 0; k < 3; ++k)
                 sum[k] += D * (double)m[k];
@@ -100,7 +100,7 @@ static void test_slopes(void **state)
     expect_near((double)sigma_towards(isotropic(0.02), UP, direction(20.0, 70.0)), 0.1, 1e-6, "sigma, flat");
     expect_near((double)sigma_towards(vec3(0.04f, 0.01f, 0.0f), UP, direction(20.0, 90.0)), 0.1, 1e-6,
                 "sigma across");
-    expect_near((double)sigma_towards(vec3(0.04f, 0.01f, 0.0f), UP, UP), (sqrt)(0.025), 1e-6,
+    expect_near((double)sigma_towards(vec3(0.04f, 0.01f, 0.0f), UP, UP), sqrt(0.025), 1e-6,
                 "sigma from above");
 }
 
@@ -111,12 +111,12 @@ static void test_masking(void **state)
     (void)state;
     double worst = 0.0;
     for (double a = 0.01; a < 6.0; a *= 1.03) {
-        double exact = (exp)(-a * a) / (2.0 * a * (sqrt)(PI_DOUBLE)) - 0.5 * erfc(a);
+        double exact = exp(-a * a) / (2.0 * a * sqrt(PI_DOUBLE)) - 0.5 * erfc(a);
         worst = fmax(worst, fabs((double)Lambda_Beckmann((float)a) - exact) * a);
     }
     assert_true(worst < 2e-7);
     for (double mu = 0.02; mu < 1.0; mu += 0.05) { /* GGX: alpha and cosine as brdf.h has them */
-        vec3 X = vec3((float)(sqrt)(1.0 - mu * mu), (float)mu, 0.0f);
+        vec3 X = vec3((float)sqrt(1.0 - mu * mu), (float)mu, 0.0f);
         expect_relative(Lambda_slopes(WATER_GGX, smith_a(slopes_from_roughness(0.6f), UP, X)),
                         Lambda_SmithGGX((float)mu, 0.36f), 1e-4, "Lambda of GGX at %g", mu);
     }
@@ -166,11 +166,11 @@ static double albedo(int normals, int masking, vec3 C, vec3 N, vec3 V, float sun
     double sum = 0.0;
     for (int i = 0; i < RINGS; ++i) {
         double x = (i + 0.5) / RINGS, angle = PI_DOUBLE * x * x,
-               weight = (sin)(angle)*2.0 * PI_DOUBLE * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
+               weight = sin(angle) * 2.0 * PI_DOUBLE * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
         for (int j = 0; j < SECTORS; ++j) {
             double phi = 2.0 * PI_DOUBLE * (j + 0.5) / SECTORS;
-            vec3 L = mul(frame, vec3((float)((sin)(angle) * (cos)(phi)), (float)((sin)(angle) * (sin)(phi)),
-                                     (float)(cos)(angle)));
+            vec3 L = mul(frame, vec3((float)(sin(angle) * cos(phi)), (float)(sin(angle) * sin(phi)),
+                                     (float)cos(angle)));
             sum += (double)glitter(normals, masking, C, N, L, V, sun) * weight;
         }
     }
@@ -218,10 +218,10 @@ static void test_disc(void **state)
 {
     (void)state;
     const vec3 S = vec3(4e-6f, 2e-6f, 1e-6f);
-    const double det = 7e-12, peak = 1.0 / (2.0 * PI_DOUBLE * (sqrt)(det));
+    const double det = 7e-12, peak = 1.0 / (2.0 * PI_DOUBLE * sqrt(det));
     for (double variance = 1e-8; variance < 1e-3; variance *= 3.0) {
         vec3 C = vec3((float)variance, (float)(0.6 * variance), (float)(-0.2 * variance));
-        double reach = 8.0 * (sqrt)(variance + 4e-6), sum = 0.0, square[3] = {0, 0, 0};
+        double reach = 8.0 * sqrt(variance + 4e-6), sum = 0.0, square[3] = {0, 0, 0};
         enum { STEPS = 400 };
         double area = 4.0 * reach * reach / (STEPS * STEPS);
         for (int i = 0; i < STEPS * STEPS; ++i) {
@@ -242,8 +242,8 @@ static void test_disc(void **state)
     }
     vec3 still = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
     for (double angle = 0.0; angle < 6.28; angle += 0.3) { /* the edge: S = J J^T, twice its slopes */
-        double x = 2e-3 * (cos)(angle), z = 0.5e-3 * (cos)(angle) + (sqrt)(1.75e-6) * (sin)(angle);
-        vec2 edge = vec2((float)((sqrt)(2.0) * x), (float)((sqrt)(2.0) * z));
+        double x = 2e-3 * cos(angle), z = 0.5e-3 * cos(angle) + sqrt(1.75e-6) * sin(angle);
+        vec2 edge = vec2((float)(sqrt(2.0) * x), (float)(sqrt(2.0) * z));
         expect_relative(sun_density(WATER_BECKMANN, still, S, edge * 0.85f), peak, 1e-4, "within");
         assert_true(sun_density(WATER_BECKMANN, still, S, edge * 1.15f) == 0.0f);
     }
@@ -275,11 +275,11 @@ static void test_sun(void **state)
     mat3 frame = basis_from_normal(direction(e, 180.0));
     for (int i = 0; i < RINGS; ++i) {
         double x = (i + 0.5) / RINGS, angle = PI_DOUBLE * x * x,
-               weight = (sin)(angle)*2.0 * PI_DOUBLE * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
+               weight = sin(angle) * 2.0 * PI_DOUBLE * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
         for (int j = 0; j < SECTORS; ++j) {
             double phi = 2.0 * PI_DOUBLE * (j + 0.5) / SECTORS;
-            V = mul(frame, vec3((float)((sin)(angle) * (cos)(phi)), (float)((sin)(angle) * (sin)(phi)),
-                                (float)(cos)(angle)));
+            V = mul(frame,
+                    vec3((float)(sin(angle) * cos(phi)), (float)(sin(angle) * sin(phi)), (float)cos(angle)));
             if (V[1] <= 0.0f)
                 continue;
             double F = (double)F_dielectric(clamp(dot(V, normalize(V + L)), 0.0f, 1.0f), 1.34f);
@@ -401,7 +401,7 @@ static void test_lookup(void **state)
         expect_near((double)dot(raised_reflection(N, V, 0.0f), R), 1.0, 1e-6, "no lift, elevation %g", e);
         for (double lift = -2.0; lift < 1.0; lift += 0.4)
             expect_near((double)raised_reflection(UP, V, (float)lift)[1],
-                        (sin)(e * 0.017453292519943295 + lift), 1e-5, "lifted from %g by %g", e, lift);
+                        sin(e * 0.017453292519943295 + lift), 1e-5, "lifted from %g by %g", e, lift);
     }
     /* roughness: the fit against the mean direction of prefilter_sample() */
     for (float r = 0.1f; r <= 1.0f; r += 0.15f) {
@@ -425,7 +425,7 @@ static void test_lookup(void **state)
 /* A sky that is six times as bright at the horizon as above, in facets drawn one by one and as it is looked up by the means. */
 static double bright_horizon(vec3 d)
 {
-    return d[1] > 0.0f ? 1.0 + 6.0 * (exp)(-7.0 * (double)d[1]) : 0.0;
+    return d[1] > 0.0f ? 1.0 + 6.0 * exp(-7.0 * (double)d[1]) : 0.0;
 }
 static void test_sky(void **state)
 {
@@ -467,7 +467,7 @@ static void test_sampling(void **state)
 {
     (void)state;
     for (double z = -4.5; z <= 4.5; z += 0.37)
-        expect_near((double)inverse_normal((float)(0.5 * erfc(-z * (sqrt)(0.5)))), z,
+        expect_near((double)inverse_normal((float)(0.5 * erfc(-z * sqrt(0.5)))), z,
                     fabs(z) > 3.0 ? 0.02 : 2e-5, "inverse at %g", z);
     vec3 C = vec3(0.03f, 0.012f, 0.008f), N = normal_from_slope(vec2(0.2f, -0.1f));
     for (double e = 4.0; e < 90.0; e += 21.0) {
@@ -523,11 +523,11 @@ static void test_sun_below(void **state)
         mat3 frame = basis_from_normal(d);
         for (int i = 0; i < RINGS; ++i) {
             double x = (i + 0.5) / RINGS, angle = 1.2 * x * x;
-            double weight = (sin)(angle)*1.2 * 2.0 * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
+            double weight = sin(angle) * 1.2 * 2.0 * x / RINGS * 2.0 * PI_DOUBLE / SECTORS;
             for (int j = 0; j < SECTORS; ++j) {
                 double phi = 2.0 * PI_DOUBLE * (j + 0.5) / SECTORS;
-                vec3 w = mul(frame, vec3((float)((sin)(angle) * (cos)(phi)),
-                                         (float)((sin)(angle) * (sin)(phi)), (float)(cos)(angle)));
+                vec3 w = mul(frame, vec3((float)(sin(angle) * cos(phi)), (float)(sin(angle) * sin(phi)),
+                                         (float)cos(angle)));
                 sum += (double)glitter_below(WATER_BECKMANN, isotropic(0.0286), UP, L, w, 1.34f) *
                        (double)w[1] * weight;
             }

@@ -82,7 +82,7 @@ static void test_fresnel(void **state)
     schlick.is_schlick = 1;
     for (size_t i = 0; i < COUNT_OF(fresnel_rows); ++i) {
         const double *row = fresnel_rows[i];
-        float c = (float)(cos)(row[0] * 0.017453292519943295);
+        float c = (float)cos(row[0] * 0.017453292519943295);
         expect_near((double)water_fresnel(w, c), row[1], 1e-5, "exact, %g degrees", row[0]);
         expect_near((double)water_fresnel(schlick, c), row[2], 1e-5, "Schlick, %g degrees", row[0]);
         expect_near((double)water_fresnel(ocean(1.34f), c), row[3], 1e-5, "exact 1.34, %g degrees", row[0]);
@@ -93,7 +93,7 @@ static void test_fresnel(void **state)
     /* where Schlick's formula is worst */
     double worst = 0.0, at = 0.0, relative = 0.0, relative_at = 0.0;
     for (double a = 0.0; a < 90.0; a += 0.05) {
-        float c = (float)(cos)(a * 0.017453292519943295);
+        float c = (float)cos(a * 0.017453292519943295);
         double exact = (double)water_fresnel(w, c), error = (double)water_fresnel(schlick, c) - exact;
         if (error > worst) {
             worst = error;
@@ -256,7 +256,7 @@ static void test_volume(void **state)
     vec3 thin = water_single_scattering(w, vec3(1.0f), -1.0f, 1.0f, 1.0f, 0.001f);
     expect_relative(thin[1], w.scattering[1] * water_phase_pure(-1.0f) * 0.001f, 1e-3, "a thin layer");
     for (double q = -2.0; q < 2.0; q += 0.0993) { /* the path integral, either sign */
-        double exact = (1.0 - (exp)(-q * 3.0)) / q;
+        double exact = (1.0 - exp(-q * 3.0)) / q;
         expect_relative(3.0f * water_mean_left1(0.0f, 3.0f * (float)q), exact, 1e-5, "path at %g", q);
     }
     expect_relative(3.0f * water_mean_left1(0.0f, 0.0f), 3.0, 1e-6, "path without attenuation");
@@ -270,12 +270,11 @@ static void test_deep(void **state)
     (void)state;
     Water w = ocean(1.34f);
     WaterLight day = light_of(towards(30.0, 0.0), 80000.0f, 12000.0f, w);
-    double E =
-        80000.0 * (1.0 - (double)day.sun_fresnel) * (cos)(30.0 * 0.017453292519943295) + 0.94 * 12000.0;
+    double E = 80000.0 * (1.0 - (double)day.sun_fresnel) * cos(30.0 * 0.017453292519943295) + 0.94 * 12000.0;
     expect_relative(day.downwelling[1], E, 1e-6, "downwelling");
     vec3 L = water_from_deep(w, day.downwelling);
     /* out through the surface, against pi R_rs of the irradiance above: 0.98 0.96 / n^2 is 0.52 of the published factor */
-    double above = 80000.0 * (cos)(30.0 * 0.017453292519943295) + 12000.0;
+    double above = 80000.0 * cos(30.0 * 0.017453292519943295) + 12000.0;
     double leaving = PI_DOUBLE * (double)L[2] * (1.0 - 0.0211) / (1.34 * 1.34);
     expect_relative(leaving / above, 0.0242, 0.025, "reflectance of the deep");
     assert_true(L[0] <= L[1] && L[1] < L[2]);
@@ -308,8 +307,8 @@ static void test_bed(void **state)
         bed.albedo = vec3(0.5f);
         double seen = (double)(pebble[1] - here[1]);
         double K_d = (double)(w.absorption[1] + w.backscattering[1] * (1.0f - R[1])) / 0.86;
-        double expected = 0.2 * (exp)(-K_d * (double)H) *
-                          (exp)(-(double)(w.absorption[1] + w.scattering[1]) * 1.3 * (double)H);
+        double expected =
+            0.2 * exp(-K_d * (double)H) * exp(-(double)(w.absorption[1] + w.scattering[1]) * 1.3 * (double)H);
         expect_near(seen, expected, 1e-4 * expected + 2e-7, "contrast at %g m", (double)H);
         assert_true(seen <= contrast && (double)here[0] < brightness); /* deeper: fainter, darker in red */
         contrast = seen;
@@ -328,14 +327,14 @@ static void test_bed(void **state)
 /* Reflectance from either side in double: of light from everywhere. */
 static double fresnel_from_air(double mu, double n)
 {
-    double inside = (sqrt)(1.0 - (1.0 - mu * mu) / (n * n));
+    double inside = sqrt(1.0 - (1.0 - mu * mu) / (n * n));
     double s = (mu - n * inside) / (mu + n * inside), p = (n * mu - inside) / (n * mu + inside);
     return 0.5 * (s * s + p * p);
 }
 static double fresnel_from_water(double mu, double n)
 {
     double outside2 = 1.0 - (1.0 - mu * mu) * n * n;
-    return outside2 > 0.0 ? fresnel_from_air((sqrt)(outside2), n) : 1.0;
+    return outside2 > 0.0 ? fresnel_from_air(sqrt(outside2), n) : 1.0;
 }
 
 /* 2 int f(mu) mu dmu over what passes a layer of the optical thickness t once. */
@@ -345,7 +344,7 @@ static double hemisphere(double (*reflectance)(double, double), double n, double
     double sum = 0.0;
     for (int i = 0; i < count; i++) {
         double mu = (i + 0.5) / count;
-        sum += 2.0 * mu * (reflectance ? reflectance(mu, n) : 1.0) * (exp)(-t / mu) / count;
+        sum += 2.0 * mu * (reflectance ? reflectance(mu, n) : 1.0) * exp(-t / mu) / count;
     }
     return sum;
 }
@@ -422,13 +421,13 @@ static void test_inscatter(void **state)
     vec3 E = vec3(1000.0f), from_deep = water_from_deep(w, E), K = water_K_d(w), along = water_diffuse(w);
     for (int i = 0; i < 5; i++) {
         double z = ways[i][0], up = ways[i][1], x = ways[i][2];
-        vec3 d = vec3((float)(sqrt)(1.0 - up * up), (float)up, 0.0f);
+        vec3 d = vec3((float)sqrt(1.0 - up * up), (float)up, 0.0f);
         vec3 seen = water_inscatter(w, E, (float)z, d, (float)x);
         for (int k = 0; k < 3; k++) {
             double sum = 0.0;
             for (int n = 0; n <= 2000; n++) {
                 double t = x * n / 2000.0, weight = n % 2000 == 0 ? 1.0 : n % 2 ? 4.0 : 2.0;
-                sum += weight * (exp)(-(double)K[k] * (z - t * up) - (double)along[k] * t) * x / 6000.0;
+                sum += weight * exp(-(double)K[k] * (z - t * up) - (double)along[k] * t) * x / 6000.0;
             }
             expect_relative(seen[k], (double)(from_deep[k] * (K[k] + along[k])) * sum, 1e-4,
                             "way %d, channel %d", i, k);
@@ -474,7 +473,7 @@ static void test_below(void **state)
 static double ring_mean(Water w, float z, double from_deg, double to_deg)
 {
     enum { STEPS = 64 };
-    double sum = 0.0, low = (cos)((double)radians(to_deg)), high = (cos)((double)radians(from_deg));
+    double sum = 0.0, low = cos((double)radians(to_deg)), high = cos((double)radians(from_deg));
     for (int i = 0; i < STEPS; ++i) {
         float c = (float)(low + (high - low) * (i + 0.5) / STEPS);
         vec3 d = vec3(sqrt(1.0f - c * c), c, 0.0f);

@@ -10,7 +10,7 @@ static inline double incomplete_gamma(double a, double x)
 {
     if (x <= 0.0)
         return 1.0;
-    double front = (exp)(a * (log)(x)-x - lgamma(a));
+    double front = exp(a * log(x) - x - lgamma(a));
     if (x < a + 1.0) {
         double term = 1.0 / a, sum = term;
         for (int n = 1; n < 100000 && term > sum * 1e-16; ++n) {
@@ -41,7 +41,7 @@ static inline double chi2_p_value(double chi2, double freedom)
 /* The significance of one of n tests that together have 0.01 (Sidak 1967). */
 static inline __attribute__((unused)) double sidak_level(int n)
 {
-    return 1.0 - (pow)(1.0 - 0.01, 1.0 / n);
+    return 1.0 - pow(1.0 - 0.01, 1.0 / n);
 }
 
 /* A sampler: draw() gives a unit direction, or false where it gave none; pdf() its density per sr. */
@@ -71,8 +71,8 @@ static inline double sphere_patch_gauss(const sphere_sampler *s, sphere_patch pa
     for (int b = 0; b < 5; ++b)
         for (int a = 0; a < 5; ++a) {
             double z = z_middle + z_half * node[b], phi = phi_middle + phi_half * node[a];
-            double r = (sqrt)(1.0 - z * z);
-            vec3 d = vec3((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
+            double r = sqrt(1.0 - z * z);
+            vec3 d = vec3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
             sum += weight[a] * weight[b] * (double)s->pdf(s->context, d);
         }
     return sum * z_half * phi_half;
