@@ -185,13 +185,17 @@ static void ids_have_colors(void **state)
     facet_scene_destroy(scene);
 }
 
-static bool contains(const unsigned char *bytes, size_t size, const char *text)
+static bool contains_bytes(const unsigned char *bytes, size_t size, const void *sought, size_t length)
 {
-    size_t length = strlen(text);
     for (size_t i = 0; i + length <= size; i++)
-        if (memcmp(bytes + i, text, length) == 0)
+        if (memcmp(bytes + i, sought, length) == 0)
             return true;
     return false;
+}
+
+static bool contains(const unsigned char *bytes, size_t size, const char *text)
+{
+    return contains_bytes(bytes, size, text, strlen(text));
 }
 
 /* A header of OpenEXR is not compressed. c17feb92 is MurmurHash3 of "glass". */
@@ -214,6 +218,33 @@ static void files_have_the_manifest(void **state)
         assert_true(contains(bytes, size, "\"wall#1\":\""));
         assert_true(contains(bytes, size, "{\"brick\":\""));
         assert_true(contains(bytes, size, "CryptoInstance02.A"));
+    }
+    facet_bytes_destroy(bytes);
+    facet_image_destroy(image);
+    facet_scene_destroy(scene);
+}
+
+/* Channel names of the header are followed by the pixel type: 1 half, 2 float. */
+static void depth_and_coordinates_stay_floats_in_half_files(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_squares();
+    facet_image *image = NULL;
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    facet_error error;
+    facet_render_desc desc = {
+        .width = 8, .height = 8, .aovs = FACET_AOV_DEPTH | FACET_AOV_UV | FACET_AOV_NORMAL};
+    assert_int_equal(facet_render(scene, &desc, &image, NULL), FACET_OK);
+    facet_image_save_desc exr = {.format = FACET_IMAGE_FORMAT_EXR};
+    facet_result result = facet_image_encode(image, &exr, &bytes, &size, &error);
+    if (result == FACET_ERROR_UNSUPPORTED) {
+        printf("skipped: %s\n", error.message);
+    } else {
+        assert_int_equal(result, FACET_OK);
+        assert_true(contains_bytes(bytes, size, "Z\0\2\0\0", 6));
+        assert_true(contains_bytes(bytes, size, "uv.U\0\2\0\0", 9));
+        assert_true(contains_bytes(bytes, size, "normal.X\0\1\0\0", 13));
     }
     facet_bytes_destroy(bytes);
     facet_image_destroy(image);
@@ -244,6 +275,7 @@ int main(void)
         cmocka_unit_test(what_blends_shares_pixels),
         cmocka_unit_test(ids_have_colors),
         cmocka_unit_test(files_have_the_manifest),
+        cmocka_unit_test(depth_and_coordinates_stay_floats_in_half_files),
         cmocka_unit_test(checkpoints_keep_no_shares),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

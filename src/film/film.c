@@ -35,13 +35,13 @@ typedef struct layer_kind {
 
 static const layer_kind layer_kinds[] = {
     {0, "", 4, {"R", "G", "B", "A"}, 0.0f, false},
-    {FACET_AOV_DEPTH, "depth", 1, {"Z"}, INFINITY, false},
+    {FACET_AOV_DEPTH, "depth", 1, {"Z"}, INFINITY, true},
     {FACET_AOV_NORMAL, "normal", 3, {"normal.X", "normal.Y", "normal.Z"}, 0.0f, false},
     {FACET_AOV_ALBEDO, "albedo", 3, {"albedo.R", "albedo.G", "albedo.B"}, 0.0f, false},
     {FACET_AOV_MATERIAL_ID, "material", 1, {"material.id"}, 0.0f, true},
     {FACET_AOV_OBJECT_ID, "object", 1, {"object.id"}, 0.0f, true},
     {FACET_AOV_INSTANCE_ID, "instance", 1, {"instance.id"}, 0.0f, true},
-    {FACET_AOV_UV, "uv", 2, {"uv.U", "uv.V"}, 0.0f, false},
+    {FACET_AOV_UV, "uv", 2, {"uv.U", "uv.V"}, 0.0f, true},
     {FACET_AOV_OCCLUSION, "occlusion", 1, {"occlusion.A"}, 0.0f, false},
     {FACET_AOV_VARIANCE, "variance", 3, {"variance.R", "variance.G", "variance.B"}, 0.0f, false},
     {FACET_AOV_SAMPLES, "samples", 1, {"samples.N"}, 0.0f, true},

@@ -10,7 +10,7 @@ typedef struct film_layer {
     const char *name;                 /* "", "normal" .. */
     const char *const *channel_names; /* full names as in an EXR file */
     uint32_t channel_count;
-    bool needs_float; /* IDs and counts, which halves would round */
+    bool needs_float; /* depth, texture coordinates, IDs and counts, which halves would round */
     float *pixels;    /* interleaved, width * height * channel_count; block of mem_alloc() */
 } film_layer;
 
