@@ -1,4 +1,4 @@
-/* ocean_path.c - see ocean_path.h: what water_setup.h prepares, as triangles and as what the path tracer asks of a sea. */
+/* ocean_path.c - see ocean_path.h: what water_setup.h prepares, as triangles, with their water as a surface of the path tracer. */
 #include <math.h>
 
 #include "api/api.h"
@@ -7,42 +7,7 @@
 #include "base/clock.h"
 
 #include "water/water_mesh.h"
-
-#include "path/path_sea.h"
-
-/* Refraction turns light by 1 - 1 / n of a slope; waves are steeper than Gaussian ones by a little, and the sun has a size. */
-static const float SPREAD = 1.5f, LEAST_SPREAD = 0.01f;
-
-static void seen(const void *sky, const float d[3], float radiance[3])
-{
-    store3(water_sky_seen(sky, load3(d)), radiance);
-}
-
-static void through_air(const void *sky, const float d[3], float distance_m, float height_m,
-                        float radiance[3])
-{
-    water_air air = water_sky_air(sky, load3(d), distance_m, height_m);
-    store3(load3(radiance) * air.transmittance + air.light, radiance);
-}
-
-static path_sea sea_of(const water_setup *s)
-{
-    const slope_covariance *total = &s->sea->slopes.total;
-    float bend = 1.0f - 1.0f / s->water.ior;
-    path_sea p = {.water = s->water,
-                  .downwelling = s->light.downwelling,
-                  .beam = s->beam,
-                  .sunward = s->sunward,
-                  .is_below = s->is_below,
-                  .center = {s->camera.origin[0], s->camera.origin[2]},
-                  .fall = (float)s->march.fall,
-                  .sky = &s->sky,
-                  .seen = seen,
-                  .through_air = through_air};
-    if (s->sky.L[1] > 0.0f && s->sky.sun_irradiance[1] > 0.0f)
-        p.sun_spread = SPREAD * bend * sqrt(0.5f * (total->xx + total->zz)) + LEAST_SPREAD;
-    return p;
-}
+#include "water/water_path.h"
 
 /* The light that the preview has: the sky without its lower half and without the sun, which is a disc beside it. deadline_s: of the time limit,
  * of which some has gone. */
@@ -74,9 +39,10 @@ facet_result ocean_path_render(const facet_sea *sea, const facet_scene *scene,
     if (result == FACET_OK)
         result = water_mesh_scene(&setup, scene, deadline_s, &all, error);
     if (result == FACET_OK) {
-        const path_sea water = sea_of(&setup);
+        const water_path water = water_path_make(&setup);
+        const path_surface surface = water_path_surface(&water);
         const facet_render_desc r = desc_of(&setup, deadline_s);
-        all->sea = &water;
+        all->surface = &surface;
         result = facet_render(all, &r, out, error);
     }
     facet_scene_destroy(all);

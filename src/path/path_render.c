@@ -136,7 +136,7 @@ static facet_result begin_instant(path_picture *p, facet_error *error)
                             .has_ground = desc->ground == FACET_GROUND_SHADOW,
                             .ground_y = p->ground_y,
                             .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT,
-                            .sea = p->prepared->scene->sea,
+                            .surface = p->prepared->scene->surface,
                             .finds_first = p->mattes.aovs != 0};
     return result;
 }

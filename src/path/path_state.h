@@ -34,10 +34,11 @@ typedef struct path {
     uint32_t vertex;      /* the same with those that light passes straight: number for the sampler */
     bool has_crossed;     /* what transmits, since from: straight shadows find the light behind it */
     bool follows_mirrors; /* nothing but mirrors and clear glass so far: albedo, normal are to come */
-    bool is_in_sea;       /* P is in the water of scene->sea */
-    float seen_through_m; /* of water that the eye sees through, by the surface's mirrors and windows only */
-    bool sees_no_glow;    /* something in the water is behind: what lights it includes what water scatters */
-    bool sees_no_sun;     /* it came by way of a second facet, from which the sun is seldom met, and bright */
+    bool is_in_medium;    /* P is in the medium below scene->surface */
+    float
+        seen_through_m; /* of that medium, between the camera and P, by specular lobes of the surface only */
+    bool is_indirect;   /* the path has left a surface in that medium */
+    bool excludes_sun;  /* bsdf_sample.excludes_sun */
     path_sample *out;
     vec3 radiance;
 } path;

@@ -5,24 +5,23 @@
 
 #include "path/path_camera.h"
 #include "path/path_ground.h"
-#include "path/path_sea.h"
+#include "path/path_surface.h"
 #include "path/path_trace.h"
 #include "path/path_walk.h"
 
 /* What is seen where nothing covers it. */
 static vec3 background(const path_scene *scene, vec3 D)
 {
-    const path_sea *sea = scene->sea;
+    const path_surface *surface = scene->surface;
+    if (surface)
+        return surface->background(surface->self, D);
     float blur = scene->setup->desc->background_blur;
-    if (!sea && !(blur > 0.0f))
+    if (!(blur > 0.0f))
         return path_lights_surroundings(scene->lights, D);
     float d[3];
     float radiance[3];
     store3(D, d);
-    if (sea)
-        sea->seen(sea->sky, d, radiance);
-    else
-        light_specular(&scene->setup->light, d, blur, radiance);
+    light_specular(&scene->setup->light, d, blur, radiance);
     return load3(radiance);
 }
 
@@ -66,12 +65,12 @@ static void trace_inside(path *p, const path_camera_ray *camera)
 /* Between the eye and the first surface. */
 static void add_air(path *p, const path_camera_ray *camera, const ray_first *first)
 {
-    const path_sea *sea = p->scene->sea;
+    const path_surface *surface = p->scene->surface;
     const float *d = camera->ray.direction;
-    float height = camera->ray.origin[1] + d[1] * first->hit.t, radiance[3];
-    store3(p->radiance * (1.0f / first->opacity), radiance);
-    sea->through_air(sea->sky, d, first->hit.t, height, radiance);
-    p->radiance = load3(radiance) * first->opacity;
+    float height = camera->ray.origin[1] + d[1] * first->hit.t;
+    vec3 radiance = p->radiance * (1.0f / first->opacity);
+    p->radiance =
+        surface->through_air(surface->self, load3(d), first->hit.t, height, radiance) * first->opacity;
 }
 
 static void trace_outside(path *p, const path_camera_ray *camera)
@@ -82,7 +81,7 @@ static void trace_outside(path *p, const path_camera_ray *camera)
     if (!(first.opacity > 0.0f))
         return;
     path_walk_from(p, &first.hit, &camera->ray);
-    if (p->scene->sea)
+    if (p->scene->surface)
         add_air(p, camera, &first);
 }
 
@@ -95,8 +94,8 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
     path_camera_ray_at(scene, &sampler, x, y, &camera);
     path p = start(scene, &camera, sampler, out);
     out->rays += ray_trace_media_at(p.shading, camera.ray.origin, &p.media);
-    p.is_in_sea = scene->sea && scene->sea->is_below;
-    if (p.media.count || p.is_in_sea)
+    p.is_in_medium = scene->surface && scene->surface->has_camera;
+    if (p.media.count || p.is_in_medium)
         trace_inside(&p, &camera);
     else
         trace_outside(&p, &camera);

@@ -4,8 +4,8 @@
 
 #include "cpu/render_setup.h"
 
-struct path_lights; /* path_lights.h */
-struct path_sea;    /* path_sea.h */
+struct path_lights;  /* path_lights.h */
+struct path_surface; /* path_surface.h */
 
 /* What paths go through; nothing of it changes while a pass is drawn. */
 typedef struct path_scene {
@@ -14,8 +14,8 @@ typedef struct path_scene {
     bool has_ground;
     float ground_y; /* m: the plane of FACET_GROUND_SHADOW (along the up axis of the scene: +Y) */
     bool draws_background;
-    const struct path_sea *sea; /* NULL: there is none */
-    bool finds_first;           /* path_sample.first_geometry is wanted where it costs a ray, too */
+    const struct path_surface *surface; /* NULL: meshes' materials only */
+    bool finds_first;                   /* path_sample.first_geometry is wanted where it costs a ray, too */
 } path_scene;
 
 /* One sample of a pixel. */

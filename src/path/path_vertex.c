@@ -108,29 +108,23 @@ static bool has_mirrors_only(const Layers *m, const LayersLobes *p)
     return !(p->diffuse + p->diffuse_back + p->sheen > 0.0f) && layers_scattering_lobes(*m) == 0u;
 }
 
-/* ---- a sea ---- */
+/* ---- a boundary that is no mesh's material ---- */
 
-static void meet_sea(const path_sea *sea, const visibility_hit *hit, path_vertex *v)
+/* False: the hit is none of it. */
+static bool intersect_surface(const path_surface *surface, const visibility_hit *hit, path_vertex *v)
 {
     surface_point *s = &v->s;
-    v->is_sea = v->lets_through = true;
-    v->water = path_sea_point_make(sea, &s->hit, hit->normal, s->V);
-    v->Ng = v->water.Ng * v->water.side;
-    s->m.base.N = v->water.N * v->water.side;
-    s->m.base.base_color = vec3(path_sea_albedo(&v->water, s->V));
+    path_surface_point *on = &v->on;
+    if (!surface || !surface->intersect(surface->self, &s->hit, hit->normal, s->V, on))
+        return false;
+    v->surface = surface;
+    v->lets_through = true;
+    v->lobes = (LayersLobes){.diffuse = 1.0f};
+    v->Ng = on->Ng * on->side;
+    s->m.base.N = on->N * on->side;
+    s->m.base.base_color = vec3(on->albedo);
     s->m.base.alpha = 1.0f;
-}
-
-static bool sample_sea(const path_vertex *v, float u_lobe, vec2 u, path_direction *out)
-{
-    path_sea_direction d = path_sea_sample(&v->water, v->s.V, u_lobe, u);
-    *out = (path_direction){.L = d.L,
-                            .weight = vec3(d.weight),
-                            .pdf = d.pdf,
-                            .is_mirror = d.is_second || d.is_straight,
-                            .is_through = d.is_through,
-                            .is_second = d.is_second};
-    return d.weight > 0.0f;
+    return true;
 }
 
 /* ---- all ---- */
@@ -140,17 +134,15 @@ void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray
     shading_point point = {.hit = hit, .ray = ray};
     surface_point *s = &v->s;
     surface_point_make(p->shading, &point, s);
-    v->lets_through = v->is_mirror = v->is_false = v->disperses = v->is_straight = v->is_sea = false;
+    v->lets_through = v->is_mirror = v->is_false = v->disperses = v->is_straight = false;
+    v->surface = NULL;
     if (!s->is_lit)
         return;
     v->Ng = geometric_normal(hit, s->V);
     v->tolerance = tolerance_at(s);
     v->energy = surface_energy(p->shading);
-    if (p->scene->sea && s->hit.geometry->primitive->water) {
-        v->lobes = (LayersLobes){.diffuse = 1.0f};
-        meet_sea(p->scene->sea, hit, v);
+    if (intersect_surface(p->scene->surface, hit, v))
         return;
-    }
     Layers *m = &s->m;
     if (s->plan->is_body && m->layers & LAYER_VOLUME)
         meet_body(p, hit, v);
@@ -198,8 +190,8 @@ static bool is_on_one_side(const path_vertex *v, vec3 L)
 vec3 path_vertex_scatter(const path_vertex *v, vec3 L, float *pdf)
 {
     *pdf = 0.0f;
-    if (v->is_sea)
-        return path_sea_scatter(&v->water, v->s.V, L, pdf);
+    if (v->surface)
+        return v->surface->eval(v->surface->self, &v->on, v->s.V, L, pdf);
     if (!is_on_one_side(v, L))
         return vec3(0.0f);
     const Layers *m = &v->s.m;
@@ -210,8 +202,8 @@ vec3 path_vertex_scatter(const path_vertex *v, vec3 L, float *pdf)
 vec3 path_vertex_scatter_punctual(const path_vertex *v, vec3 L)
 {
     float pdf;
-    if (v->is_sea)
-        return path_sea_scatter(&v->water, v->s.V, L, &pdf);
+    if (v->surface)
+        return v->surface->eval(v->surface->self, &v->on, v->s.V, L, &pdf);
     if (!is_on_one_side(v, L))
         return vec3(0.0f);
     Layers m = v->s.m;
@@ -228,15 +220,15 @@ static vec3 keep_side(vec3 L, vec3 Ng, float side)
     return c * side > 0.0f ? L : normalize(L - Ng * (2.0f * c - side * 1e-4f));
 }
 
-bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, path_direction *out)
+bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample *out)
 {
-    if (v->is_sea)
-        return sample_sea(v, u_lobe, u, out);
+    if (v->surface)
+        return v->surface->sample(v->surface->self, &v->on, v->s.V, u_lobe, u, out);
     const Layers *m = &v->s.m;
     LayersSample s = layers_sample(*m, v->lobes, v->s.V, u_lobe, u, v->energy, v->tables);
     if (!s.is_valid)
         return false;
-    *out = (path_direction){.L = s.L, .pdf = s.pdf, .is_mirror = s.is_mirror, .is_through = s.is_through};
+    *out = (bsdf_sample){.L = s.L, .pdf = s.pdf, .is_specular = s.is_mirror, .is_transmission = s.is_through};
     if (s.is_mirror) {
         out->L = keep_side(s.L, v->Ng, s.is_through ? -1.0f : 1.0f);
         out->weight = s.weight;

@@ -3,8 +3,8 @@
 #ifndef PATH_VERTEX_H
 #define PATH_VERTEX_H
 
-#include "path/path_sea.h"
 #include "path/path_state.h"
+#include "path/path_surface.h"
 
 typedef struct path_vertex {
     surface_point s; /* s.m.base.N sees V */
@@ -16,9 +16,9 @@ typedef struct path_vertex {
     bool is_mirror;    /* no other lobes */
     bool is_straight;  /* path_vertex_straight() is not 0, and shadow rays know */
     bool disperses;    /* light that goes through needs a wavelength first */
-    bool is_sea;       /* the surface of a sea: */
-    path_sea_point water;
-    media behind; /* what is on the other side */
+    const path_surface *surface; /* NULL: a mesh with a material */
+    path_surface_point on;       /* surface: the point of it */
+    media behind;                /* what is on the other side */
     LayerTables tables;
     LayersLobes lobes;
 } path_vertex;
@@ -36,16 +36,8 @@ vec3 path_vertex_scatter(const path_vertex *v, vec3 L, float *pdf);
 /* The same for a light without size, which mirrors show as well, as spots: layers_punctual(). */
 vec3 path_vertex_scatter_punctual(const path_vertex *v, vec3 L);
 
-typedef struct path_direction {
-    vec3 L;
-    vec3 weight; /* BSDF |N.L| / pdf */
-    float pdf;   /* per sr; of a mirror undefined */
-    bool is_mirror, is_through;
-    bool is_second; /* is_mirror: by way of another facet of a sea, where no light was aimed at */
-} path_direction;
-
 /* False: the path ends here. */
-bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, path_direction *out);
+bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample *out);
 /* Makes v that of one wavelength, for what goes through. */
 void path_vertex_set_wavelength(const path *p, path_vertex *v);
 

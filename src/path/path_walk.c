@@ -102,76 +102,77 @@ static shading_ray ray_of(const path *p, const visibility_hit *hit, ray_spread *
     return ray;
 }
 
-/* Radiance of the surroundings, of which `environment` is no sun's. The sun that an eye sees through water is what has not been scattered,
- * as the rest is in its glow. */
-static vec3 sunlit(const path *p, vec3 all, vec3 environment)
+/* Environment radiance; `sunless`: the same without the sun. Of the sun, what the medium before it neither absorbs nor scatters is
+ * seen: the rest is in its emission. */
+static vec3 sun_through_medium(const path *p, vec3 radiance, vec3 sunless)
 {
-    return environment + (all - environment) * path_sea_unscattered(p->scene->sea, p->seen_through_m);
+    const path_surface *surface = p->scene->surface;
+    return sunless + (radiance - sunless) * surface->sun_transmittance(surface->self, p->seen_through_m);
 }
 
-static vec3 surroundings_of(const path *p)
+static vec3 environment_radiance(const path *p)
 {
-    vec3 all = path_lights_surroundings(p->scene->lights, p->D);
-    return p->seen_through_m > 0.0f ? sunlit(p, all, path_lights_environment(p->scene->lights, p->D)) : all;
+    vec3 radiance = path_lights_surroundings(p->scene->lights, p->D);
+    if (!(p->seen_through_m > 0.0f))
+        return radiance;
+    return sun_through_medium(p, radiance, path_lights_environment(p->scene->lights, p->D));
 }
 
 static void meet_surroundings(path *p)
 {
     float pdf = 0.0f;
-    if (p->sees_no_sun) {
+    if (p->excludes_sun) {
         path_add(p, p->throughput * path_lights_environment(p->scene->lights, p->D));
         return;
     }
     if (p->from.is_chosen)
         pdf = path_lights_surroundings_pdf(p->scene->lights, p->from.P, p->from.N, p->D);
-    path_add(p, p->throughput * surroundings_of(p) * path_met_weight(p, pdf));
+    path_add(p, p->throughput * environment_radiance(p) * path_met_weight(p, pdf));
 }
 
-/* ---- in a sea ---- */
+/* ---- the medium below a surface ---- */
 
-/* What water adds to the way to the next vertex, and takes from what is behind it. */
-static void pass_water(path *p, float distance_m)
+/* Adds what the medium emits before the next vertex, and attenuates what is behind. */
+static void cross_medium(path *p, float distance_m)
 {
-    const path_sea *sea = p->scene->sea;
-    float way = distance_m + p->skipped_m;
-    vec3 glow =
-        p->sees_no_glow ? path_sea_glow_returned(sea, p->P, p->D, way) : path_sea_glow(sea, p->P, p->D, way);
-    path_add(p, p->throughput * glow);
-    p->throughput *= path_sea_transmittance(sea, way);
-    p->seen_through_m += p->sees_no_glow ? 0.0f : way;
+    const path_surface *surface = p->scene->surface;
+    float length_m = distance_m + p->skipped_m;
+    path_add(p, p->throughput * surface->emission(surface->self, p->P, p->D, length_m, p->is_indirect));
+    p->throughput *= surface->transmittance(surface->self, length_m);
+    p->seen_through_m += p->is_indirect ? 0.0f : length_m;
 }
 
-/* Whether a way from v into L is in the water. */
-static bool goes_through_sea(const path *p, const path_vertex *v, vec3 L)
+/* Whether a ray from v into L is in the medium. */
+static bool is_ray_in_medium(const path *p, const path_vertex *v, vec3 L)
 {
-    if (!v->is_sea)
-        return p->is_in_sea;
-    return (v->water.side < 0.0f) != (dot(v->Ng, L) < 0.0f);
+    if (!v->surface)
+        return p->is_in_medium;
+    return (v->on.side < 0.0f) != (dot(v->Ng, L) < 0.0f);
 }
 
-/* Under water the sun is found by rays towards where it is refracted: half of them go there. They are one strategy with those of
- * the surface itself: each direction's pdf is the mean of both. */
-static bool aims_at_sun(const path *p, const path_vertex *v)
+/* Inside of the medium the refracted sun is found by BSDF samples: half of them go towards it. They are one strategy with those of
+ * the material itself: each direction's pdf is the mean of both. */
+static bool guides_to_sun(const path *p, const path_vertex *v)
 {
-    return p->is_in_sea && !v->is_sea && p->scene->sea->sun_spread > 0.0f && !v->is_mirror;
+    return p->is_in_medium && !v->surface && p->scene->surface->has_sun && !v->is_mirror;
 }
 
-static bool sample_below(const path *p, const path_vertex *v, float u_lobe, vec2 u, path_direction *out)
+static bool sample_guided(const path *p, const path_vertex *v, float u_lobe, vec2 u, bsdf_sample *out)
 {
-    const path_sea *sea = p->scene->sea;
+    const path_surface *surface = p->scene->surface;
     bool is_sunward = u_lobe < 0.5f;
     float rest = is_sunward ? 2.0f * u_lobe : 2.0f * u_lobe - 1.0f;
     if (is_sunward) {
-        *out = (path_direction){.L = path_sea_sunward(sea, u)};
-        out->is_through = dot(out->L, v->Ng) < 0.0f;
+        *out = (bsdf_sample){.L = surface->sun_sample(surface->self, u)};
+        out->is_transmission = dot(out->L, v->Ng) < 0.0f;
     } else if (!path_vertex_sample(v, rest, u, out))
         return false;
-    if (out->is_mirror) {
+    if (out->is_specular) {
         out->weight *= 2.0f;
         return true;
     }
     vec3 f = path_vertex_scatter(v, out->L, &out->pdf);
-    out->pdf = 0.5f * (out->pdf + path_sea_sunward_pdf(sea, out->L));
+    out->pdf = 0.5f * (out->pdf + surface->sun_pdf(surface->self, out->L));
     out->weight = out->pdf > 0.0f ? f * (1.0f / out->pdf) : vec3(0.0f);
     return max3(out->weight) > 0.0f;
 }
@@ -189,8 +190,8 @@ static place advance(path *p, visibility_hit *hit)
         random = (uint32_t)(path_sampler_number(&p->sampler) * 4294967040.0f);
     p->out->rays++;
     bool is_met = ray_trace_nearest(p->shading, &ray, random, hit);
-    if (p->is_in_sea) {
-        pass_water(p, is_met ? hit->t : INFINITY);
+    if (p->is_in_medium) {
+        cross_medium(p, is_met ? hit->t : INFINITY);
         return is_met && max3(p->throughput) > 0.0f ? AT_SURFACE : NOWHERE;
     }
     if (p->media.count) {
@@ -242,14 +243,16 @@ static void add_light(path *p, const path_vertex *v, const numbers *u)
     if (!path_lights_sample(p->scene->lights, v->s.P, path_vertex_light_normal(v), u->which_light, u->light,
                             &light))
         return;
-    if (v->is_sea && light.is_surroundings && p->seen_through_m > 0.0f)
-        light.radiance = sunlit(p, light.radiance, path_lights_environment(p->scene->lights, light.L));
+    if (v->surface && light.is_surroundings && p->seen_through_m > 0.0f)
+        light.radiance =
+            sun_through_medium(p, light.radiance, path_lights_environment(p->scene->lights, light.L));
     float pdf;
     vec3 f = value_for(p, v, &light, &pdf);
     vec3 contribution =
         p->throughput * f * light.radiance * (path_aimed_weight(p->scene, &light, pdf) / light.pdf);
-    if (p->scene->sea && goes_through_sea(p, v, light.L))
-        contribution *= path_sea_transmittance(p->scene->sea, light.distance_m);
+    const path_surface *surface = p->scene->surface;
+    if (surface && is_ray_in_medium(p, v, light.L))
+        contribution *= surface->transmittance(surface->self, light.distance_m);
     if (!(max3(contribution) > 0.0f))
         return;
     bool is_inside = v->s.m.layers & LAYER_VOLUME && dot(v->Ng, light.L) < 0.0f;
@@ -279,45 +282,45 @@ static bool pass(path *p, const path_vertex *v, const visibility_hit *hit, vec3 
 
 /* One of many wavelengths goes on through a body that disperses, by the lobes' probabilities of them all: what is reflected
  * keeps its color. */
-static bool disperse(path *p, path_vertex *v, const numbers *u, path_direction *d)
+static bool disperse(path *p, path_vertex *v, const numbers *u, bsdf_sample *d)
 {
     WavelengthSample w = sample_wavelength(u->wavelength);
     p->wavelength_nm = w.wavelength_nm;
     p->throughput *= w.weight;
     path_vertex_set_wavelength(p, v);
-    return path_vertex_sample(v, u->which_lobe, u->direction, d) && d->is_through;
+    return path_vertex_sample(v, u->which_lobe, u->direction, d) && d->is_transmission;
 }
 
 /* Goes on in a direction; false: the path ends. */
 static bool scatter(path *p, path_vertex *v, const visibility_hit *hit, const numbers *u)
 {
-    path_direction d;
-    bool is_any = aims_at_sun(p, v) ? sample_below(p, v, u->which_lobe, u->direction, &d)
-                                    : path_vertex_sample(v, u->which_lobe, u->direction, &d);
+    bsdf_sample d;
+    bool is_any = guides_to_sun(p, v) ? sample_guided(p, v, u->which_lobe, u->direction, &d)
+                                      : path_vertex_sample(v, u->which_lobe, u->direction, &d);
     if (!is_any)
         return false;
-    if (d.is_through && v->disperses && !disperse(p, v, u, &d))
+    if (d.is_transmission && v->disperses && !disperse(p, v, u, &d))
         return false;
-    if (d.is_mirror && d.is_through && v->is_straight) {
+    if (d.is_specular && d.is_transmission && v->is_straight) {
         p->depth--;
         return pass(p, v, hit, d.weight);
     }
     p->throughput *= d.weight;
     leave(p, v, d.L);
-    if (d.is_through && v->s.m.layers & LAYER_VOLUME)
+    if (d.is_transmission && v->s.m.layers & LAYER_VOLUME)
         p->media = v->behind;
-    p->sees_no_glow = p->sees_no_glow || (p->is_in_sea && !v->is_sea);
-    p->seen_through_m = v->is_sea ? p->seen_through_m : 0.0f;
-    if (v->is_sea && d.is_through)
-        p->is_in_sea = !p->is_in_sea;
-    p->sees_no_sun = d.is_second;
-    p->has_crossed = d.is_through && p->from.is_chosen && v->s.m.layers & LAYER_TRANSMISSION &&
+    p->is_indirect = p->is_indirect || (p->is_in_medium && !v->surface);
+    p->seen_through_m = v->surface ? p->seen_through_m : 0.0f;
+    if (v->surface && d.is_transmission)
+        p->is_in_medium = !p->is_in_medium;
+    p->excludes_sun = d.excludes_sun;
+    p->has_crossed = d.is_transmission && p->from.is_chosen && v->s.m.layers & LAYER_TRANSMISSION &&
                      path_has_straight_shadows(p);
     if (!p->has_crossed)
         p->from = (path_origin){
-            .P = v->s.P, .N = path_vertex_light_normal(v), .pdf = d.pdf, .is_chosen = !d.is_mirror};
+            .P = v->s.P, .N = path_vertex_light_normal(v), .pdf = d.pdf, .is_chosen = !d.is_specular};
     p->passed_m = 0.0f;
-    if (!d.is_mirror)
+    if (!d.is_specular)
         p->angle = max(p->angle, cone_angle(d.pdf));
     return survives(p, u->roulette);
 }

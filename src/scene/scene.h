@@ -50,7 +50,7 @@ typedef struct scene_primitive {
     uint32_t texcoord_count; /* sets */
     const float *const *texcoords; /* per set 2 per vertex; (0, 0) is the top left of an image */
     const float *colors;           /* 4 per vertex, linear, [0, 1]; NULL: white */
-    /* SCENE_WATER_VALUES per vertex, of the surface of scene->sea; NULL: none. No file has it */
+    /* SCENE_WATER_VALUES per vertex, of the surface of a sea; NULL: none. No file has it */
     const float *water;
     uint32_t material; /* SCENE_NONE: the default material */
     /* of the positions that indices use, without triangles that have no area (unseen_tighten_bounds()); 0 where there are
@@ -373,7 +373,8 @@ typedef struct facet_scene {
     struct scene_legacy *legacy;         /* scene/legacy.h; NULL: materials of glTF only */
     struct scene_conversion *conversion; /* the last one; NULL: none */
 
-    const struct path_sea *sea; /* path/path_sea.h: the water of primitives that have some; NULL: none has */
+    const struct path_surface
+        *surface; /* path/path_surface.h: of primitives that have water; NULL: none has */
 
     uint32_t max_texture_size; /* from the desc, for the decoding to come */
     uint32_t thread_count;     /* from the desc, for questions about the scene; 0: facet_thread_count() */

@@ -19,7 +19,7 @@ allowed() {
     glsl) echo glsl base facet ;;
     draw) echo draw ibl scene image base shade facet ;;
     ocean) echo ocean scene image base shade facet ;;
-    water) echo water ocean cpu draw film ibl scene image base shade facet ;;
+    water) echo water path ocean cpu draw film ibl scene image base shade facet ;;
     cpu) echo cpu draw film ibl scene image base shade facet ;;
     gl) echo gl ocean draw glsl film ibl scene image base shade facet ;;
     view) echo view gl plot draw film ibl scene image base shade facet ;;
