@@ -217,16 +217,12 @@ static facet_result read_picture(const command_line *c, bake_options *out, facet
                                                FACET_LAYOUT_STRIP_VERTICAL,
                                                FACET_LAYOUT_OCTAHEDRAL,
                                                FACET_LAYOUT_FACES};
-    static const facet_tonemap tonemaps[] = {FACET_TONEMAP_NEUTRAL,        FACET_TONEMAP_ACES,
-                                             FACET_TONEMAP_ACES_NARKOWICZ, FACET_TONEMAP_AGX,
-                                             FACET_TONEMAP_REINHARD,       FACET_TONEMAP_REINHARD_EXTENDED,
-                                             FACET_TONEMAP_HABLE,          FACET_TONEMAP_NONE};
     static const option_id preview_only[] = {OPT_TONE_MAPPING};
     out->has_projection = is_given(c, OPT_PROJECTION);
     out->projection = projections[option_choice(c, OPT_PROJECTION, 0)];
     out->level = (int)option_number(c, OPT_LEVEL, -1.0);
     out->rgbm_range = (float)option_number(c, OPT_RGBM, 0.0);
-    out->tonemap = tonemaps[option_choice(c, OPT_TONE_MAPPING, 0)];
+    out->tonemap = (facet_tonemap)option_choice(c, OPT_TONE_MAPPING, FACET_TONEMAP_NEUTRAL);
     if (out->level >= (int)out->bake.level_count)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--level: there are %u levels, numbered from 0, and no %d", out->bake.level_count,

@@ -93,15 +93,11 @@ static facet_result read_output(compare_run *run, facet_error *error)
 
 static facet_result read_look(compare_run *run, facet_error *error)
 {
-    static const facet_tonemap tonemaps[] = {FACET_TONEMAP_NEUTRAL,        FACET_TONEMAP_ACES,
-                                             FACET_TONEMAP_ACES_NARKOWICZ, FACET_TONEMAP_AGX,
-                                             FACET_TONEMAP_REINHARD,       FACET_TONEMAP_REINHARD_EXTENDED,
-                                             FACET_TONEMAP_HABLE,          FACET_TONEMAP_NONE};
     const command_line *c = run->line;
     facet_compare_desc *d = &run->desc;
     double stops = 0.0;
     d->space = (facet_compare_space)option_choice(c, OPT_SPACE, FACET_COMPARE_SPACE_AUTO);
-    d->tonemap = tonemaps[option_choice(c, OPT_TONE_MAPPING, 7)];
+    d->tonemap = (facet_tonemap)option_choice(c, OPT_TONE_MAPPING, FACET_TONEMAP_NONE);
     if (d->space == FACET_COMPARE_SPACE_LINEAR && d->tonemap != FACET_TONEMAP_NONE)
         return fail_with(error, FACET_ERROR_ARGUMENT,
                          "--tone-mapping: it is for displays, not for --space linear");

@@ -17,8 +17,8 @@
 
 /* Choices of several options. */
 #define IMAGE_FORMATS "png", "png16", "jpg", "webp", "exr", "exr32", "hdr", "pfm"
-#define TONE_MAPPINGS                                                                                        \
-    "neutral", "aces", "aces-narkowicz", "agx", "reinhard", "reinhard-extended", "hable", "none"
+#define TONE_MAPPINGS /* in the order of facet_tonemap */                                                    \
+    "none", "neutral", "aces", "aces-narkowicz", "agx", "reinhard", "reinhard-extended", "hable"
 
 #define KIND_FLAG OPTION_FLAG, 0, 0, 0
 #define KIND_COUNT OPTION_COUNT, 0, 0, 0

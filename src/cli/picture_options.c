@@ -139,15 +139,10 @@ facet_result picture_options_exposure(const command_line *c, render_options *out
 
 void picture_options_look(const command_line *c, facet_tonemap otherwise, render_options *out)
 {
-    static const facet_tonemap tonemaps[] = {FACET_TONEMAP_NEUTRAL,        FACET_TONEMAP_ACES,
-                                             FACET_TONEMAP_ACES_NARKOWICZ, FACET_TONEMAP_AGX,
-                                             FACET_TONEMAP_REINHARD,       FACET_TONEMAP_REINHARD_EXTENDED,
-                                             FACET_TONEMAP_HABLE,          FACET_TONEMAP_NONE};
     static const facet_quality qualities[] = {FACET_QUALITY_DRAFT, FACET_QUALITY_NORMAL, FACET_QUALITY_FINAL};
-    int tonemap = option_choice(c, OPT_TONE_MAPPING, -1);
-    out->desc.tonemap = tonemap >= 0                  ? tonemaps[tonemap]
-                        : is_linear(out->save.format) ? FACET_TONEMAP_NONE
-                                                      : otherwise;
+    if (is_linear(out->save.format))
+        otherwise = FACET_TONEMAP_NONE;
+    out->desc.tonemap = (facet_tonemap)option_choice(c, OPT_TONE_MAPPING, (int)otherwise);
     out->desc.quality = qualities[option_choice(c, OPT_QUALITY, 1)];
     out->save.jpeg_quality = (uint32_t)option_number(c, OPT_JPEG_QUALITY, 0.0);
     out->save.png_compression = (uint32_t)option_number(c, OPT_PNG_COMPRESSION, 0.0);

@@ -225,21 +225,11 @@ static void add_background(line *l, const command_line *c, const facet_render_de
 
 static void add_look(line *l, const facet_render_desc *d)
 {
-    static const struct {
-        facet_tonemap tonemap;
-        const char *name;
-    } tonemaps[] = {{FACET_TONEMAP_ACES, "aces"},
-                    {FACET_TONEMAP_ACES_NARKOWICZ, "aces-narkowicz"},
-                    {FACET_TONEMAP_AGX, "agx"},
-                    {FACET_TONEMAP_REINHARD, "reinhard"},
-                    {FACET_TONEMAP_REINHARD_EXTENDED, "reinhard-extended"},
-                    {FACET_TONEMAP_HABLE, "hable"},
-                    {FACET_TONEMAP_NONE, "none"}};
+    const option *o = option_find_id(verb_find("render"), OPT_TONE_MAPPING);
     if (d->exposure_ev != 0.0f)
         add_float(l, OPT_EXPOSURE, d->exposure_ev);
-    for (size_t i = 0; i < sizeof tonemaps / sizeof *tonemaps; i++)
-        if (tonemaps[i].tonemap == d->tonemap && d->shading == FACET_SHADING_GLTF)
-            add_option(l, OPT_TONE_MAPPING, "%s", tonemaps[i].name);
+    if (d->tonemap != FACET_TONEMAP_NEUTRAL && d->shading == FACET_SHADING_GLTF)
+        add_to(l, o, o->choices[d->tonemap]);
 }
 
 static void add_gl(line *l, const facet_gl_desc *gl)
