@@ -69,14 +69,14 @@ static facet_result check_renderer(const char *text, const render_options *o, fa
         if (!has_word(text, aov_names[i].name) || (aov_names[i].aovs & ~all) == 0)
             continue;
         if (o->desc.path.resumes && aov_names[i].aovs & FACET_AOV_CRYPTOMATTE)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--aov: a checkpoint does not keep %s; render it without --resume",
-                             aov_names[i].name);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--aov: a checkpoint does not keep %s; render it without --resume",
+                        aov_names[i].name);
         char list[256] = "";
         list_names(all, list, sizeof list);
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--aov: %s is a layer of --renderer path only; --renderer %s has %s, or all",
-                         aov_names[i].name, renderers[o->desc.renderer], list);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--aov: %s is a layer of --renderer path only; --renderer %s has %s, or all",
+                    aov_names[i].name, renderers[o->desc.renderer], list);
     }
     return FACET_OK;
 }
@@ -92,7 +92,7 @@ static facet_result read_id_layer(const char *text, render_options *out, facet_e
             out->desc.aovs = aov_names[i].aovs | FACET_AOV_INSTANCE_ID;
             return FACET_OK;
         }
-    return fail_with(
+    return fail(
         error, FACET_ERROR_ARGUMENT,
         "--aov: only .exr files hold layers beside the image, write -o NAME.exr; a .png holds one of object, "
         "material and instance alone, in false color");

@@ -21,12 +21,11 @@ static facet_result check_folder(const char *folder, facet_error *error)
     char above[BAKE_NAME_SIZE + 4];
     if (stat(folder, &info) == 0) {
         if (!S_ISDIR(info.st_mode))
-            return fail_with(error, FACET_ERROR_WRITE, "%s: it is not a folder, which --layout fills",
-                             folder);
+            return fail(error, FACET_ERROR_WRITE, "%s: it is not a folder, which --layout fills", folder);
         return access(folder, W_OK | X_OK) == 0
                    ? FACET_OK
-                   : fail_with(error, FACET_ERROR_WRITE, "%s: the folder cannot be written to: %s", folder,
-                               strerror(errno));
+                   : fail(error, FACET_ERROR_WRITE, "%s: the folder cannot be written to: %s", folder,
+                          strerror(errno));
     }
     snprintf(above, sizeof above, "%s", folder);
     size_t length = strlen(above);
@@ -55,19 +54,18 @@ static int compare_identities(const void *a, const void *b)
 static facet_result check_twice(const bake_plan *plan, facet_error *error)
 {
     char **identities = calloc(plan->file_count + 1, sizeof *identities);
-    facet_result result =
-        identities ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    facet_result result = identities ? FACET_OK : fail(error, FACET_ERROR_MEMORY, "out of memory: names");
     for (size_t i = 0; i < plan->file_count && result == FACET_OK; i++) {
         identities[i] = output_identity(plan->files[i].path);
         if (!identities[i])
-            result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+            result = fail(error, FACET_ERROR_MEMORY, "out of memory: names");
     }
     if (result == FACET_OK)
         qsort(identities, plan->file_count, sizeof *identities, compare_identities);
     for (size_t i = 1; i < plan->file_count && result == FACET_OK; i++)
         if (strcmp(identities[i - 1], identities[i]) == 0)
-            result = fail_with(error, FACET_ERROR_ARGUMENT, "bake: two outputs would both be written to %s",
-                               strchr(identities[i], '/') + 1);
+            result = fail(error, FACET_ERROR_ARGUMENT, "bake: two outputs would both be written to %s",
+                          strchr(identities[i], '/') + 1);
     for (size_t i = 0; identities && i < plan->file_count; i++)
         free(identities[i]);
     free(identities);
@@ -112,8 +110,8 @@ static facet_result check_idle_options(const command_line *c, const bake_plan *p
                  {OPT_SH_WINDOW, has_sh, "--sh"}};
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         if (is_given(c, rules[i].id) && !rules[i].is_of_use)
-            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing without %s",
-                             option_find_id(c->verb, rules[i].id)->name, rules[i].what);
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing without %s",
+                        option_find_id(c->verb, rules[i].id)->name, rules[i].what);
     return FACET_OK;
 }
 
@@ -130,9 +128,9 @@ facet_result bake_plan_check(const command_line *c, const bake_options *o, bake_
         result = output_check(file->path, error);
         file->is_kept = result == FACET_OK && o->keeps_existing && exists;
         if (result == FACET_OK && exists && !file->is_kept && is_read(c, o, file->path))
-            result = fail_with(error, FACET_ERROR_ARGUMENT,
-                               "%s: it is an input, too, and would be overwritten; name another output",
-                               file->path);
+            result =
+                fail(error, FACET_ERROR_ARGUMENT,
+                     "%s: it is an input, too, and would be overwritten; name another output", file->path);
     }
     if (result == FACET_OK)
         result = check_twice(plan, error);

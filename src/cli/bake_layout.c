@@ -175,9 +175,9 @@ facet_result bake_layout_add(const bake_options *o, const char *stem, bake_plan 
         adders[o->layout](&a);
     else
         a.has_failed = true;
-    return a.has_failed ? fail_with(error, FACET_ERROR_ARGUMENT,
-                                    "--output: the name \"%.100s..\" is too long", a.folder)
-                        : FACET_OK;
+    return a.has_failed
+               ? fail(error, FACET_ERROR_ARGUMENT, "--output: the name \"%.100s..\" is too long", a.folder)
+               : FACET_OK;
 }
 
 float bake_layout_turn(const bake_options *o, const facet_environment_info *info)

@@ -104,8 +104,7 @@ static facet_result take_text(bake_file *file, bake_text *text, facet_error *err
     file->bytes = (unsigned char *)text->data;
     file->size = text->size;
     file->is_text = true;
-    return text->has_failed ? fail_with(error, FACET_ERROR_MEMORY, "%s: out of memory", file->path)
-                            : FACET_OK;
+    return text->has_failed ? fail(error, FACET_ERROR_MEMORY, "%s: out of memory", file->path) : FACET_OK;
 }
 
 static facet_result make_sh(const bake_making *m, bake_file *file, facet_error *error)
@@ -161,7 +160,7 @@ static facet_result encode_linear_png(const bake_making *m, const facet_image_vi
     float *pixels = m->allocator.allocate(m->allocator.user, size);
     facet_image *picture = NULL;
     if (!pixels)
-        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: %zu bytes of a picture", size);
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: %zu bytes of a picture", size);
     for (uint32_t y = 0; y < view->height; y++)
         linear_row(file->table_channel,
                    (const float *)((const char *)view->pixels + y * view->row_stride_bytes), pixels + y * row,

@@ -36,8 +36,7 @@ static facet_result refuse(const command_line *c, const option_id *ids, size_t c
 {
     for (size_t i = 0; i < count; i++)
         if (is_given(c, ids[i]))
-            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing %s", name_of(c, ids[i]),
-                             why);
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing %s", name_of(c, ids[i]), why);
     return FACET_OK;
 }
 
@@ -54,18 +53,16 @@ static facet_result read_environment(const command_line *c, bake_options *out, f
     if (out->is_table)
         return FACET_OK;
     if (c->argument_count == 0)
-        return fail_with(
-            error, FACET_ERROR_ARGUMENT,
-            "bake: which environment? facet bake studio.hdr -o studio.ktx2; or neutral, sun:40,135, "
-            "--dfg");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "bake: which environment? facet bake studio.hdr -o studio.ktx2; or neutral, sun:40,135, "
+                    "--dfg");
     bool is_output = c->argument_count == 2 && !out->output &&
                      output_name_has_type(c->arguments[1], c->verb->output_types);
     if (c->argument_count != 1 && c->argument_count != 6)
-        return fail_with(
-            error, FACET_ERROR_ARGUMENT,
-            "bake: it takes one environment, or the six faces +X -X +Y -Y +Z -Z, not %zu files%s%s%s",
-            c->argument_count, is_output ? "; did you mean -o " : "", is_output ? c->arguments[1] : "",
-            is_output ? "?" : "");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "bake: it takes one environment, or the six faces +X -X +Y -Y +Z -Z, not %zu files%s%s%s",
+                    c->argument_count, is_output ? "; did you mean -o " : "",
+                    is_output ? c->arguments[1] : "", is_output ? "?" : "");
     out->word = c->arguments[0];
     if (c->argument_count == 1)
         return environment_input_parse("bake", out->word, ENVIRONMENT_TAKES_STDIN, &out->environment, error);
@@ -73,7 +70,7 @@ static facet_result read_environment(const command_line *c, bake_options *out, f
     for (int i = 0; i < 6; i++) {
         out->faces[i] = c->arguments[i];
         if (strcmp(out->faces[i], "-") == 0)
-            return fail_with(error, FACET_ERROR_ARGUMENT, "bake: a face is not read from standard input");
+            return fail(error, FACET_ERROR_ARGUMENT, "bake: a face is not read from standard input");
     }
     return refuse(c, faces_idle, COUNT(faces_idle), "about six faces", error);
 }
@@ -116,9 +113,9 @@ static facet_result read_size(const command_line *c, bake_options *out, facet_er
     out->bake.level_count = (uint32_t)option_number(
         c, OPT_MIPS, is_lambert ? 1.0 : count_levels(size, out->layout == BAKE_LAYOUT_THREE ? 8 : 16));
     if (out->bake.level_count > most)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--mips: a cube map of %u texels has at most %u levels, not %u", size, most,
-                         out->bake.level_count);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--mips: a cube map of %u texels has at most %u levels, not %u", size, most,
+                    out->bake.level_count);
     return FACET_OK;
 }
 
@@ -135,8 +132,8 @@ static facet_result read_filter(const command_line *c, bake_options *out, facet_
     d->method = (facet_bake_method)option_choice(c, OPT_METHOD, FACET_BAKE_METHOD_AUTO);
     if (is_given(c, OPT_REFERENCE)) {
         if (is_given(c, OPT_METHOD) && d->method != FACET_BAKE_METHOD_REFERENCE)
-            return fail_with(error, FACET_ERROR_ARGUMENT, "--reference: it is not --method %s",
-                             option_text(c, OPT_METHOD, ""));
+            return fail(error, FACET_ERROR_ARGUMENT, "--reference: it is not --method %s",
+                        option_text(c, OPT_METHOD, ""));
         d->method = FACET_BAKE_METHOD_REFERENCE;
     }
     if (d->method == FACET_BAKE_METHOD_REFERENCE &&
@@ -172,10 +169,10 @@ static facet_result read_table(const command_line *c, bake_options *out, facet_e
     bool is_output =
         c->argument_count && !out->output && output_name_has_type(c->arguments[0], c->verb->output_types);
     if (c->argument_count)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--dfg: the table needs no environment, but got \"%s\"%s%s%s", c->arguments[0],
-                         is_output ? "; did you mean -o " : "", is_output ? c->arguments[0] : "",
-                         is_output ? "?" : "");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--dfg: the table needs no environment, but got \"%s\"%s%s%s", c->arguments[0],
+                    is_output ? "; did you mean -o " : "", is_output ? c->arguments[0] : "",
+                    is_output ? "?" : "");
     return refuse(c, idle, COUNT(idle), "about a table (--dfg)", error);
 }
 
@@ -195,14 +192,12 @@ static facet_result read_format(const command_line *c, bake_options *out, facet_
         out->has_texels = true;
         out->texels = texels[format];
         if (!out->is_table && format > 3)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--format: a cube map has three channels, more than %s",
-                             option_text(c, OPT_FORMAT, ""));
+            return fail(error, FACET_ERROR_ARGUMENT, "--format: a cube map has three channels, more than %s",
+                        option_text(c, OPT_FORMAT, ""));
     } else if (format >= 0) {
         out->container = containers[format - texel_count];
         if (!out->is_table && out->container == CONTAINER_HEADER)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--format: h is of tables (--dfg) and of --sh NAME.h");
+            return fail(error, FACET_ERROR_ARGUMENT, "--format: h is of tables (--dfg) and of --sh NAME.h");
     }
     out->zstd_level = (uint32_t)option_number(c, OPT_ZSTD, 0.0);
     return FACET_OK;
@@ -224,9 +219,8 @@ static facet_result read_picture(const command_line *c, bake_options *out, facet
     out->rgbm_range = (float)option_number(c, OPT_RGBM, 0.0);
     out->tonemap = (facet_tonemap)option_choice(c, OPT_TONE_MAPPING, FACET_TONEMAP_NEUTRAL);
     if (out->level >= (int)out->bake.level_count)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--level: there are %u levels, numbered from 0, and no %d", out->bake.level_count,
-                         out->level);
+        return fail(error, FACET_ERROR_ARGUMENT, "--level: there are %u levels, numbered from 0, and no %d",
+                    out->bake.level_count, out->level);
     return out->preview ? FACET_OK : refuse(c, preview_only, COUNT(preview_only), "without --preview", error);
 }
 
@@ -239,17 +233,17 @@ static facet_result check_layout(const command_line *c, const bake_options *o, f
         return FACET_OK;
     if (is_given(c, OPT_MAPPING) &&
         (o->bake.mapping == FACET_ROUGHNESS_MAPPING_LINEAR) != (o->layout == BAKE_LAYOUT_KHRONOS))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--mapping: %s it is %s", why[o->layout],
-                         o->layout == BAKE_LAYOUT_KHRONOS ? "linear" : "filament");
+        return fail(error, FACET_ERROR_ARGUMENT, "--mapping: %s it is %s", why[o->layout],
+                    o->layout == BAKE_LAYOUT_KHRONOS ? "linear" : "filament");
     const bool takes_texels = o->layout != BAKE_LAYOUT_FILAMENT;
     const bool takes_pictures = o->layout == BAKE_LAYOUT_FILAMENT;
     const bool is_picture = o->container == CONTAINER_EXR || o->container == CONTAINER_HDR;
     if ((o->has_texels && !takes_texels) ||
         (o->container != CONTAINER_FROM_NAME && !(takes_pictures && is_picture)))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--format: %s is not what is loaded %s",
-                         option_text(c, OPT_FORMAT, ""), why[o->layout]);
+        return fail(error, FACET_ERROR_ARGUMENT, "--format: %s is not what is loaded %s",
+                    option_text(c, OPT_FORMAT, ""), why[o->layout]);
     if (o->zstd_level && o->layout != BAKE_LAYOUT_KHRONOS)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--zstd: no file is compressed %s", why[o->layout]);
+        return fail(error, FACET_ERROR_ARGUMENT, "--zstd: no file is compressed %s", why[o->layout]);
     return refuse(c, idle, COUNT(idle), why[o->layout], error);
 }
 
@@ -259,24 +253,22 @@ static facet_result check_stdout(const command_line *c, const bake_options *o, f
     const char *const side[] = {o->diffuse, o->sheen, o->sh, o->preview};
     for (size_t i = 0; i < COUNT(side); i++)
         if (side[i] && strcmp(side[i], "-") == 0)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "bake: - is standard output for --output only; name a file");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "bake: - is standard output for --output only; name a file");
     if (!o->output || strcmp(o->output, "-") != 0)
         return FACET_OK;
     if (o->layout != BAKE_LAYOUT_NONE)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--output: --layout fills a folder, not standard output");
+        return fail(error, FACET_ERROR_ARGUMENT, "--output: --layout fills a folder, not standard output");
     if (!is_given(c, OPT_FORMAT))
-        return fail_with(
+        return fail(
             error, FACET_ERROR_ARGUMENT,
             "--output: - is standard output, which has no name to tell the format; add --format ktx2");
     if (is_given(c, OPT_JSON))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--json: it writes to standard output, and so does --output -; give one of them");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--json: it writes to standard output, and so does --output -; give one of them");
     if (terminal_is(stdout))
-        return fail_with(
-            error, FACET_ERROR_ARGUMENT,
-            "--output: - is standard output, which is a terminal; send it to a file or a program");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: - is standard output, which is a terminal; send it to a file or a program");
     return FACET_OK;
 }
 

@@ -70,9 +70,8 @@ void bake_plan_destroy(bake_plan *plan)
 
 static facet_result add(bake_plan *plan, const char *path, const bake_file *what, facet_error *error)
 {
-    return bake_plan_add_file(plan, path, what)
-               ? FACET_OK
-               : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    return bake_plan_add_file(plan, path, what) ? FACET_OK
+                                                : fail(error, FACET_ERROR_MEMORY, "out of memory: names");
 }
 
 /* The pictures of a cube map: one per level, or six. */
@@ -87,21 +86,21 @@ static facet_result add_pictures(const bake_options *o, bake_plan *plan, const c
     const bool has_levels = level_count > 1 && !is_one_level;
     facet_result result = FACET_OK;
     if (is_stdout && (has_levels || has_faces))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         has_faces ? "--output: standard output takes one picture, not faces"
-                                   : "--output: standard output takes one picture; say "
-                                     "which with --level, or --format ktx2 for all");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    has_faces ? "--output: standard output takes one picture, not faces"
+                              : "--output: standard output takes one picture; say "
+                                "which with --level, or --format ktx2 for all");
     if (!has_faces && bake_name_has_face(pattern))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--projection: \"%s\" has a place for a {face}; faces",
-                         pattern);
+        return fail(error, FACET_ERROR_ARGUMENT, "--projection: \"%s\" has a place for a {face}; faces",
+                    pattern);
     for (uint32_t level = 0; level < level_count && result == FACET_OK; level++)
         for (int face = has_faces ? 0 : -1; face < (has_faces ? 6 : 0) && result == FACET_OK; face++) {
             char name[BAKE_NAME_SIZE] = "-";
             if (is_one_level && level != (uint32_t)o->level)
                 continue;
             if (!is_stdout && !bake_name_expand(pattern, stem, (int)level, has_levels, face, name))
-                return fail_with(error, FACET_ERROR_ARGUMENT, "--output: the name \"%.100s..\" is too long",
-                                 pattern);
+                return fail(error, FACET_ERROR_ARGUMENT, "--output: the name \"%.100s..\" is too long",
+                            pattern);
             what.content = has_faces ? BAKE_FACE : BAKE_LEVEL;
             what.projection = o->projection;
             what.level = level;
@@ -123,21 +122,20 @@ static facet_result check_container(const bake_options *o, const wanted_cube *w,
                                     facet_error *error)
 {
     if (container == CONTAINER_KTX1)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: \"%s\": KTX 1 is written by --layout filament; otherwise .ktx2 was expected",
-                         w->option, w->pattern);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: \"%s\": KTX 1 is written by --layout filament; otherwise .ktx2 was expected",
+                    w->option, w->pattern);
     if (container != CONTAINER_KTX2 && !(container >= CONTAINER_EXR && container <= CONTAINER_PNG))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: \"%s\" does not end in .ktx2, .exr, .hdr, .pfm or .png", w->option, w->pattern);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" does not end in .ktx2, .exr, .hdr, .pfm or .png",
+                    w->option, w->pattern);
     if (container == CONTAINER_PNG && o->rgbm_range <= 0.0f)
-        return fail_with(
-            error, FACET_ERROR_ARGUMENT,
-            "%s: PNG holds numbers up to 1 only; give --rgbm RANGE, or write .ktx2, .exr or .hdr "
-            "(a picture to look at: --preview)",
-            w->option);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: PNG holds numbers up to 1 only; give --rgbm RANGE, or write .ktx2, .exr or .hdr "
+                    "(a picture to look at: --preview)",
+                    w->option);
     if (container != CONTAINER_KTX2 && w->is_main && o->has_texels)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--format: texels are chosen of .ktx2 files, not of \"%s\"", w->pattern);
+        return fail(error, FACET_ERROR_ARGUMENT, "--format: texels are chosen of .ktx2 files, not of \"%s\"",
+                    w->pattern);
     return FACET_OK;
 }
 
@@ -163,8 +161,8 @@ static facet_result add_cube_files(const bake_options *o, bake_plan *plan, const
     if (container != CONTAINER_KTX2)
         return add_pictures(o, plan, w->pattern, stem, what, error);
     if (!is_stdout && !bake_name_expand(w->pattern, stem, -1, false, -1, name))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: the name \"%.100s..\" is too long", w->option,
-                         w->pattern);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: the name \"%.100s..\" is too long", w->option,
+                    w->pattern);
     return add(plan, name, &what, error);
 }
 
@@ -177,11 +175,9 @@ static facet_result add_one(bake_plan *plan, const char *place, const char *patt
     what.container = bake_container_of(pattern);
     what.table_channel = -1;
     if (what.container < first || what.container > last)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" does not end in %s", place, pattern,
-                         expected);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" does not end in %s", place, pattern, expected);
     if (!bake_name_expand(pattern, stem, -1, false, -1, name))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: the name \"%.100s..\" is too long", place,
-                         pattern);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: the name \"%.100s..\" is too long", place, pattern);
     return add(plan, name, &what, error);
 }
 
@@ -196,9 +192,9 @@ static facet_result add_side_files(const bake_options *o, bake_plan *plan, const
     diffuse.desc.size = o->bake.size < 64 ? o->bake.size : 64;
     diffuse.desc.level_count = 1;
     if (o->sheen && o->bake.lobe == FACET_LOBE_LAMBERT)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--sheen: beside --lobe lambert it would have one level, too; write irradiance with "
-                         "--diffuse FILE");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sheen: beside --lobe lambert it would have one level, too; write irradiance with "
+                    "--diffuse FILE");
     if (o->sheen)
         result = add_cube_files(o, plan, stem, &sheen, error);
     if (result == FACET_OK && o->diffuse)
@@ -240,12 +236,12 @@ static facet_result add_table(const bake_options *o, bake_plan *plan, const char
     case CONTAINER_HEADER:
         break;
     default:
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--output: a table is .ktx2, .exr, .png (16 bits), .pfm or .h, not \"%s\"", path);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: a table is .ktx2, .exr, .png (16 bits), .pfm or .h, not \"%s\"", path);
     }
     if (o->has_texels && what.container != CONTAINER_KTX2)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--format: texels are chosen of .ktx2 files, not of \"%s\"", path);
+        return fail(error, FACET_ERROR_ARGUMENT, "--format: texels are chosen of .ktx2 files, not of \"%s\"",
+                    path);
     return add(plan, path, &what, error);
 }
 
@@ -266,13 +262,13 @@ static facet_result check_patterns(const bake_options *o, facet_error *error)
         size_t length = 0;
         const char *unknown = patterns[i] ? bake_name_find_unknown(patterns[i], &length) : NULL;
         if (unknown)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "bake: \"%.200s\": %.*s stands for nothing; {stem}, {level} and {face} do",
-                             patterns[i], (int)(length < 40 ? length : 40), unknown);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "bake: \"%.200s\": %.*s stands for nothing; {stem}, {level} and {face} do",
+                        patterns[i], (int)(length < 40 ? length : 40), unknown);
     }
     if (o->layout != BAKE_LAYOUT_NONE && o->output && bake_container_of(o->output) != CONTAINER_FROM_NAME)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--layout: it fills a folder, and \"%.200s\" is the name of a file", o->output);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--layout: it fills a folder, and \"%.200s\" is the name of a file", o->output);
     return FACET_OK;
 }
 
@@ -283,8 +279,8 @@ facet_result bake_plan_make(const bake_options *o, bake_plan *out, facet_error *
     if (check_patterns(o, error) != FACET_OK)
         return FACET_ERROR_ARGUMENT;
     if (!find_stem(o, stem, sizeof stem))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "bake: the name of the environment is too long; name outputs");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "bake: the name of the environment is too long; name outputs");
     if (o->layout != BAKE_LAYOUT_NONE) {
         out->has_own_name = !o->output;
         facet_result result = bake_layout_add(o, stem, out, error);

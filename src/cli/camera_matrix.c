@@ -97,13 +97,13 @@ facet_result camera_matrix_read(const command_line *c, render_options *out, face
     if (!is_given(c, id))
         return FACET_OK;
     if (is_view && is_given(c, OPT_CAMERA_MATRIX))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--view-matrix: it does not go together with --camera-matrix; give one of them");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--view-matrix: it does not go together with --camera-matrix; give one of them");
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (is_given(c, others[i]))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--%s: it does not go together with --%s; give one of them",
-                             option_find_id(c->verb, id)->name, option_find_id(c->verb, others[i])->name);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--%s: it does not go together with --%s; give one of them",
+                        option_find_id(c->verb, id)->name, option_find_id(c->verb, others[i])->name);
     double m[16], inverse[16];
     if (!read_numbers(option_text(c, id, ""), m))
         return option_fail(c, id, "16 numbers, column by column", error);

@@ -215,10 +215,10 @@ static facet_result bake(bake_run *run, facet_error *error)
     if (result != FACET_OK)
         failure_complete(error, bake_plan_subject(&run->plan), run->options.limits.max_memory_bytes);
     if (result == FACET_OK && interrupt_signal())
-        result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", bake_plan_subject(&run->plan));
+        result = fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", bake_plan_subject(&run->plan));
     if (result == FACET_OK && interrupt_seconds_left() <= 0.0)
-        result = fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached",
-                           bake_plan_subject(&run->plan));
+        result = fail(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached",
+                      bake_plan_subject(&run->plan));
     return result;
 }
 
@@ -232,8 +232,7 @@ static facet_result write_files(bake_run *run, facet_error *error)
         if (!file->is_kept)
             result = output_write_bytes(file->bytes, file->size, file->path, error);
         if (result == FACET_OK && interrupt_signal() && i + 1 < run->plan.file_count)
-            result =
-                fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", bake_plan_subject(&run->plan));
+            result = fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", bake_plan_subject(&run->plan));
     }
     run->is_written = result == FACET_OK;
     return result;

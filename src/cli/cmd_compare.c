@@ -36,18 +36,16 @@ static facet_result read_pictures(compare_run *run, facet_error *error)
     const command_line *c = run->line;
     const char *mask = option_text(c, OPT_MASK, NULL);
     if (c->argument_count < 2)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         c->argument_count
-                             ? "compare: %s with what? facet compare reference.png render.png"
-                             : "compare: which pictures?%s facet compare reference.png render.png",
-                         c->argument_count ? c->arguments[0] : "");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    c->argument_count ? "compare: %s with what? facet compare reference.png render.png"
+                                      : "compare: which pictures?%s facet compare reference.png render.png",
+                    c->argument_count ? c->arguments[0] : "");
     int streams = 0;
     for (int i = 0; i < 2; i++)
         streams += strcmp(c->arguments[i], "-") == 0;
     streams += mask && strcmp(mask, "-") == 0;
     if (streams > 1)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "compare: standard input is one picture, not %d",
-                         streams);
+        return fail(error, FACET_ERROR_ARGUMENT, "compare: standard input is one picture, not %d", streams);
     return FACET_OK;
 }
 
@@ -61,9 +59,8 @@ static facet_result read_output(compare_run *run, facet_error *error)
         static const option_id idle[] = {OPT_HEAT_MAP, OPT_SHEET, OPT_GAIN, OPT_FORMAT, OPT_NO_CLOBBER};
         for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
             if (is_given(c, idle[i]))
-                return fail_with(error, FACET_ERROR_ARGUMENT,
-                                 "--%s: it says something of the picture of -o only",
-                                 option_find_id(c->verb, idle[i])->name);
+                return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says something of the picture of -o only",
+                            option_find_id(c->verb, idle[i])->name);
         return FACET_OK;
     }
     const char *dot = strrchr(run->output, '.');
@@ -72,22 +69,21 @@ static facet_result read_output(compare_run *run, facet_error *error)
         is_known = is_known || strcasecmp(dot + 1, extensions[i]) == 0;
     const bool is_stdout = strcmp(run->output, "-") == 0;
     if (!is_known)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         is_stdout ? "--output: standard output (%s) needs --format png, jpg, webp, exr, .."
-                                   : "--output: \"%s\" does not end in .png, .jpg, .webp, .exr, .hdr or .pfm",
-                         run->output);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    is_stdout ? "--output: standard output (%s) needs --format png, jpg, webp, exr, .."
+                              : "--output: \"%s\" does not end in .png, .jpg, .webp, .exr, .hdr or .pfm",
+                    run->output);
     if (is_stdout && is_given(c, OPT_JSON))
-        return fail_with(
-            error, FACET_ERROR_ARGUMENT,
-            "--json: standard output is taken by the picture (-o -); write one of them elsewhere");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--json: standard output is taken by the picture (-o -); write one of them elsewhere");
     run->save.format =
         format >= 0 ? (facet_image_format)(FACET_IMAGE_FORMAT_PNG + format) : FACET_IMAGE_FORMAT_FROM_NAME;
     const char *inputs[] = {c->arguments[0], c->arguments[1], option_text(c, OPT_MASK, NULL)};
     for (int i = 0; i < 3; i++)
         if (inputs[i] && !is_stdout && input_is_same_file(inputs[i], run->output))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "%s: it is an input, too, and would be overwritten; name another output with -o",
-                             run->output);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "%s: it is an input, too, and would be overwritten; name another output with -o",
+                        run->output);
     return output_check(run->output, error);
 }
 
@@ -99,8 +95,8 @@ static facet_result read_look(compare_run *run, facet_error *error)
     d->space = (facet_compare_space)option_choice(c, OPT_SPACE, FACET_COMPARE_SPACE_AUTO);
     d->tonemap = (facet_tonemap)option_choice(c, OPT_TONE_MAPPING, FACET_TONEMAP_NONE);
     if (d->space == FACET_COMPARE_SPACE_LINEAR && d->tonemap != FACET_TONEMAP_NONE)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--tone-mapping: it is for displays, not for --space linear");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--tone-mapping: it is for displays, not for --space linear");
     if (is_given(c, OPT_EXPOSURE) && !value_exposure(option_text(c, OPT_EXPOSURE, ""), &stops))
         return option_fail(c, OPT_EXPOSURE, "stops such as +0.5, or a factor such as 2x", error);
     d->exposure_ev = (float)stops;
@@ -110,8 +106,8 @@ static facet_result read_look(compare_run *run, facet_error *error)
     if (background && !color_parse(background, d->background))
         return option_fail(c, OPT_BACKGROUND, "#rgb, #rrggbb or a CSS color name", error);
     if ((d->alpha == FACET_COMPARE_ALPHA_BACKGROUND) != (background != NULL))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--alpha: background goes with --background COLOR, and with it only");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--alpha: background goes with --background COLOR, and with it only");
     if (is_given(c, OPT_CROP) && !value_rectangle(option_text(c, OPT_CROP, ""), d->crop))
         return option_fail(c, OPT_CROP, "X,Y,WIDTH,HEIGHT in pixels", error);
     return FACET_OK;
@@ -158,10 +154,10 @@ static facet_result load(compare_run *run, const char *path, const char *layer, 
     }
     const facet_image_view loaded = picture(*image), first = picture(run->a);
     if (loaded.width != first.width || loaded.height != first.height)
-        return fail_with(error, FACET_ERROR_INVALID,
-                         "%s: %u x %u pixels, but %s has %u x %u; pictures of one size were expected",
-                         input_name(path), loaded.width, loaded.height, input_name(run->line->arguments[0]),
-                         first.width, first.height);
+        return fail(error, FACET_ERROR_INVALID,
+                    "%s: %u x %u pixels, but %s has %u x %u; pictures of one size were expected",
+                    input_name(path), loaded.width, loaded.height, input_name(run->line->arguments[0]),
+                    first.width, first.height);
     return FACET_OK;
 }
 
@@ -215,7 +211,7 @@ static facet_result compare(compare_run *run, facet_error *error)
     if (result != FACET_OK)
         failure_complete(error, "compare", run->limits.max_memory_bytes);
     if (result == FACET_OK && interrupt_signal())
-        result = fail_with(error, FACET_ERROR_CANCELLED, "compare: interrupted");
+        result = fail(error, FACET_ERROR_CANCELLED, "compare: interrupted");
     if (result == FACET_OK)
         tell(run);
     if (result == FACET_OK && is_drawn)

@@ -65,8 +65,8 @@ static facet_result save(convert_run *run, const model_name *model, const facet_
     if (run->names.report)
         result = convert_name(&run->names, model, true, report, error);
     if (result == FACET_OK && run->names.report && facet_scene_has_file(scene, report))
-        result = fail_with(error, FACET_ERROR_ARGUMENT,
-                           "%s: it is an input, too, and would be overwritten; name another report", report);
+        result = fail(error, FACET_ERROR_ARGUMENT,
+                      "%s: it is an input, too, and would be overwritten; name another report", report);
     bool is_stdout = strcmp(output, "-") == 0;
     desc.is_glb = is_stdout;
     if (result == FACET_OK)

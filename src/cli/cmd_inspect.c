@@ -34,8 +34,8 @@ static facet_result print_description(const inspect_run *run, const char *model,
     json_error_t problem;
     json_t *root = json_loads(text, JSON_ALLOW_NUL, &problem);
     if (!root)
-        return fail_with(error, FACET_ERROR_BUG, "%s: its description is not valid JSON: %s",
-                         input_name(model), problem.text);
+        return fail(error, FACET_ERROR_BUG, "%s: its description is not valid JSON: %s", input_name(model),
+                    problem.text);
     inspect_print_text(stdout, input_name(model), root, is_given(run->line, OPT_VERBOSE));
     json_decref(root);
     return FACET_OK;
@@ -99,7 +99,7 @@ int cmd_inspect(command_line *c)
     model_list models = {0};
     facet_result result = FACET_OK;
     if (c->argument_count == 0 && !is_given(c, OPT_FILES_FROM))
-        result = fail_with(&error, FACET_ERROR_ARGUMENT, "inspect: which model? facet inspect helmet.glb");
+        result = fail(&error, FACET_ERROR_ARGUMENT, "inspect: which model? facet inspect helmet.glb");
     if (result == FACET_OK)
         result = limits_read(c, &run.limits, &error);
     if (result == FACET_OK)

@@ -94,7 +94,7 @@ static facet_result make_picture(ocean_output *o, uint32_t index, const char *na
         report_partial(&run->messages, &report, NULL);
         tell(o, &report);
         if (report.stats.is_partial && interrupt_signal())
-            result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted; the image is partial", name);
+            result = fail(error, FACET_ERROR_CANCELLED, "%s: interrupted; the image is partial", name);
     }
     facet_image_destroy(image);
     return result;

@@ -51,14 +51,13 @@ static facet_result read_kind(plot_run *run, facet_error *error)
     for (int i = 0; i < KIND_COUNT; i++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", kind_names[i]);
     if (c->argument_count && plot_material_is_parameters(c->arguments[0]))
-        return fail_with(
+        return fail(
             error, FACET_ERROR_ARGUMENT,
             "plot: \"%.200s\" is a material; the kind of plot comes first, as in facet plot brdf %.200s",
             c->arguments[0], c->arguments[0]);
-    return c->argument_count
-               ? fail_with(error, FACET_ERROR_ARGUMENT, "plot: there is no plot \"%.60s\"; those are %s",
-                           c->arguments[0], names)
-               : fail_with(error, FACET_ERROR_ARGUMENT, "plot: which plot? One of %s", names);
+    return c->argument_count ? fail(error, FACET_ERROR_ARGUMENT,
+                                    "plot: there is no plot \"%.60s\"; those are %s", c->arguments[0], names)
+                             : fail(error, FACET_ERROR_ARGUMENT, "plot: which plot? One of %s", names);
 }
 
 static facet_result read_output(plot_run *run, facet_error *error)
@@ -77,10 +76,10 @@ static facet_result read_output(plot_run *run, facet_error *error)
             format = i;
     if (format < 0)
         return strcmp(run->path, "-") == 0
-                   ? fail_with(error, FACET_ERROR_ARGUMENT,
-                               "--output: standard output needs --format svg, pdf, png "
-                               "or csv")
-                   : fail_with(
+                   ? fail(error, FACET_ERROR_ARGUMENT,
+                          "--output: standard output needs --format svg, pdf, png "
+                          "or csv")
+                   : fail(
                          error, FACET_ERROR_ARGUMENT,
                          "--output: \"%s\" does not end in .svg, .pdf, .png or .csv; say which with --format",
                          run->path);
@@ -205,14 +204,14 @@ static json_t *fits_json(const plot_run *run)
 static facet_result plot(plot_run *run, facet_error *error)
 {
     if (strcmp(run->path, "-") != 0 && is_an_input(run))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: it is an input, too, and would be overwritten; name another output with -o",
-                         run->path);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: it is an input, too, and would be overwritten; name another output with -o",
+                    run->path);
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_result result = facet_plot_encode(&run->desc, run->format, &bytes, &size, error);
     if (result == FACET_OK && interrupt_signal())
-        result = fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", run->path);
+        result = fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", run->path);
     if (result == FACET_OK)
         result = output_write_bytes(bytes, size, run->path, error);
     if (result == FACET_OK)

@@ -134,8 +134,8 @@ static facet_result check_inputs(const model_run *m, const char *name, facet_err
     const render_options *o = &m->options;
     if (o->is_stdout || o->keeps_existing || !facet_scene_has_file(m->scene, name))
         return FACET_OK;
-    return fail_with(error, FACET_ERROR_ARGUMENT,
-                     "%s: it is an input, too, and would be overwritten; name another output with -o", name);
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "%s: it is an input, too, and would be overwritten; name another output with -o", name);
 }
 
 /* Seconds that a picture may take; 0: as long as it wants. Path tracing takes all that it gets: its pictures share evenly
@@ -167,7 +167,7 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
     facet_result result = frame_camera(m, index, frame, &camera, error);
     double left = interrupt_seconds_left();
     if (result == FACET_OK && left <= 0.0)
-        result = fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", output);
+        result = fail(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", output);
     if (result == FACET_OK)
         result = render_checkpoint_name(o, m->model, frame->number, checkpoint, RENDER_NAME_SIZE, error);
     if (result != FACET_OK)
@@ -206,8 +206,8 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     facet_image *image = NULL;
     facet_result result = draw_frame(m, index, frame, report->output, checkpoint, &image, error);
     if (result == FACET_ERROR_CANCELLED)
-        return fail_with(error, result, "%.400s: interrupted before there was an image%s%.400s",
-                         report->output, *checkpoint ? "; --resume goes on with " : "", checkpoint);
+        return fail(error, result, "%.400s: interrupted before there was an image%s%.400s", report->output,
+                    *checkpoint ? "; --resume goes on with " : "", checkpoint);
     if (result != FACET_OK)
         return result;
     double rendered = interrupt_clock();
@@ -246,7 +246,7 @@ static facet_result render_frames(model_run *m, facet_error *error)
         picture_report report = {
             .model = input_name(m->model->path), .output = name, .load_s = i ? 0.0 : m->load_s};
         if (interrupt_signal())
-            return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
+            return fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
         result = check_inputs(m, name, error);
         if (result != FACET_OK)
             return result;
@@ -259,8 +259,8 @@ static facet_result render_frames(model_run *m, facet_error *error)
         m->has_lost_checkpoint = m->has_lost_checkpoint || report.stats.has_lost_checkpoint;
     }
     if (result == FACET_OK && m->has_lost_checkpoint)
-        return fail_with(error, FACET_ERROR_WRITE,
-                         "--checkpoint: %s could not be written; the image is complete", o->checkpoint);
+        return fail(error, FACET_ERROR_WRITE, "--checkpoint: %s could not be written; the image is complete",
+                    o->checkpoint);
     return result;
 }
 

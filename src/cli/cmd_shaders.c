@@ -36,8 +36,8 @@ static facet_result write_text(const command_line *c, facet_error *error)
     static char names[MOST][64];
     const char *parts[MOST];
     if (c->argument_count > MOST)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "shaders: %zu parts: there are only %u",
-                         c->argument_count, facet_shader_get_part_count());
+        return fail(error, FACET_ERROR_ARGUMENT, "shaders: %zu parts: there are only %u", c->argument_count,
+                    facet_shader_get_part_count());
     for (size_t i = 0; i < c->argument_count; i++) {
         trim(c->arguments[i], names[i]);
         parts[i] = names[i];

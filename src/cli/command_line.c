@@ -31,9 +31,9 @@ static facet_result fail_choice(const char *label, const option *o, const char *
     }
     const char *near = suggest_word(text, o->choices);
     if (near)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is none of %s; did you mean %s?", label,
-                         text, list, near);
-    return fail_with(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is none of %s", label, text, list);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is none of %s; did you mean %s?", label, text,
+                    list, near);
+    return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is none of %s", label, text, list);
 }
 
 static facet_result check_choices(const char *label, const option *o, const char *text, facet_error *error)
@@ -57,8 +57,8 @@ static facet_result check_number(const char *label, const option *o, const char 
         is_good = number == (double)(long long)number;
     if (is_good)
         return FACET_OK;
-    return fail_with(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not a %s from %.10g to %.10g", label, text,
-                     kind, o->minimum, o->maximum);
+    return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not a %s from %.10g to %.10g", label, text, kind,
+                o->minimum, o->maximum);
 }
 
 /* "--size", or "thumb.json: size" for what a config file says. */
@@ -78,7 +78,7 @@ static facet_result set(command_line *c, const option *o, const char *text, opti
     label_of(c, o, source, label, sizeof label);
     facet_result result = FACET_OK;
     if (option_takes_value(o) && !*text && o->id != OPT_TITLE)
-        result = fail_with(error, FACET_ERROR_ARGUMENT, "%s: the %s is empty", label, o->argument);
+        result = fail(error, FACET_ERROR_ARGUMENT, "%s: the %s is empty", label, o->argument);
     else if (o->kind == OPTION_CHOICE && find_choice(o, text, strlen(text)) < 0)
         result = fail_choice(label, o, text, error);
     else if (o->kind == OPTION_CHOICES)
@@ -118,11 +118,11 @@ static facet_result parse_value(command_line *c, const option *o, const char *gi
 {
     if (!value) {
         if (*at + 1 >= argc)
-            return fail_with(error, FACET_ERROR_ARGUMENT, "%s: the %s is missing", given, o->argument);
+            return fail(error, FACET_ERROR_ARGUMENT, "%s: the %s is missing", given, o->argument);
         if (looks_like_option(argv[*at + 1]))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "%s: the %s is missing; if it is to begin with a dash, write --%s=%s", given,
-                             o->argument, o->name, argv[*at + 1]);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "%s: the %s is missing; if it is to begin with a dash, write --%s=%s", given,
+                        o->argument, o->name, argv[*at + 1]);
         value = argv[++*at];
     }
     return set(c, o, value, SOURCE_COMMAND_LINE, error);
@@ -146,8 +146,7 @@ static facet_result parse_long(command_line *c, int argc, char **argv, int *at, 
         return parse_value(c, o, given, value, argc, argv, at, error);
     }
     if (value)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it takes no value, but got \"%s\"", o->name,
-                         value);
+        return fail(error, FACET_ERROR_ARGUMENT, "--%s: it takes no value, but got \"%s\"", o->name, value);
     return set(c, o, NULL, SOURCE_COMMAND_LINE, error);
 }
 
@@ -157,10 +156,10 @@ static facet_result parse_letters(command_line *c, int argc, char **argv, int *a
     const char *word = argv[*at];
     size_t length = strcspn(word + 1, "=");
     if (length >= 3 && option_find(c->verb, word + 1, length)) /* -size is no -s with the value "ize" */
-        return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option %s; did you mean -%s?", word, word);
+        return fail(error, FACET_ERROR_ARGUMENT, "unknown option %s; did you mean -%s?", word, word);
     const char *foreign = length >= 4 ? suggest_foreign(c->verb, word + 1, length) : NULL;
     if (foreign) /* -outCubeMap is no -o with the value "utCubeMap" */
-        return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option %s; did you mean %s?", word, foreign);
+        return fail(error, FACET_ERROR_ARGUMENT, "unknown option %s; did you mean %s?", word, foreign);
     for (const char *letter = word + 1; *letter; letter++) {
         const option *o = option_find_letter(c->verb, *letter);
         if (!o)
@@ -198,13 +197,12 @@ static facet_result check_arguments(const command_line *c, facet_error *error)
     const verb *v = c->verb;
     for (size_t i = 0; i < c->argument_count; i++)
         if (is_output(c, i))
-            return fail_with(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not an input; did you mean %s %s?",
-                             v->name, c->arguments[i], v->output_hint ? v->output_hint : "-o",
-                             c->arguments[i]);
+            return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not an input; did you mean %s %s?",
+                        v->name, c->arguments[i], v->output_hint ? v->output_hint : "-o", c->arguments[i]);
     if (c->argument_count > v->max_arguments)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: it takes at most %zu %s%s, but got \"%s\"",
-                         v->name, v->max_arguments, v->file_types ? "file" : "argument",
-                         v->max_arguments == 1 ? "" : "s", c->arguments[v->max_arguments]);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: it takes at most %zu %s%s, but got \"%s\"", v->name,
+                    v->max_arguments, v->file_types ? "file" : "argument", v->max_arguments == 1 ? "" : "s",
+                    c->arguments[v->max_arguments]);
     return FACET_OK;
 }
 
@@ -213,7 +211,7 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
     *out = (command_line){.verb = v};
     out->arguments = malloc(((size_t)argc + 1) * sizeof *out->arguments);
     if (!out->arguments)
-        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: %d arguments", argc);
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: %d arguments", argc);
     bool has_options = true;
     for (int at = 0; at < argc; at++) {
         const char *word = argv[at];
@@ -265,6 +263,5 @@ facet_result option_fail(const command_line *c, option_id id, const char *expect
 {
     char label[512];
     label_of(c, option_find_id(c->verb, id), c->values[id].source, label, sizeof label);
-    return fail_with(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not %s", label, option_text(c, id, ""),
-                     expected);
+    return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not %s", label, option_text(c, id, ""), expected);
 }

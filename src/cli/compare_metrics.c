@@ -55,10 +55,10 @@ static facet_result set_limit(compare_wish *w, int metric, bool is_max, double l
 {
     const compare_metric *m = &compare_metrics[metric];
     if (m->is_similarity == is_max)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         is_max ? "--max: %s is larger the more alike the pictures are; write --min %s=%g"
-                                : "--min: %s is smaller the more alike the pictures are; write --max %s=%g",
-                         m->name, m->name, limit);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    is_max ? "--max: %s is larger the more alike the pictures are; write --min %s=%g"
+                           : "--min: %s is smaller the more alike the pictures are; write --max %s=%g",
+                    m->name, m->name, limit);
     compare_limit *l = &w->limits[metric];
     if (is_max) {
         l->has_max = true;
@@ -83,7 +83,7 @@ static facet_result only_metric(const compare_wish *w, const char *label, const 
         }
     if (count == 1)
         return FACET_OK;
-    return fail_with(
+    return fail(
         error, FACET_ERROR_ARGUMENT,
         "%s: of which metric is %.40s the limit? Write %s NAME=%.40s, as flip=0.02, or choose one with "
         "--metric",
@@ -104,14 +104,13 @@ static facet_result read_limits(const command_line *c, option_id id, compare_wis
         double limit;
         int metric = equals ? find_metric(at, (size_t)(equals - at)) : 0;
         if (metric < 0)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "%s: there is no metric \"%.*s\"; facet help compare lists those there are",
-                             label, (int)(equals - at), at);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "%s: there is no metric \"%.*s\"; facet help compare lists those there are", label,
+                        (int)(equals - at), at);
         snprintf(text, sizeof text, "%.*s", (int)(length - (size_t)(number - at)), number);
         if (!value_number(text, &limit))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "%s: \"%s\" is not a number; NAME=X was expected, as %s", label, text,
-                             is_max ? "flip=0.02" : "psnr=40");
+            return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not a number; NAME=X was expected, as %s",
+                        label, text, is_max ? "flip=0.02" : "psnr=40");
         facet_result result = equals ? FACET_OK : only_metric(w, label, text, &metric, error);
         if (result == FACET_OK)
             result = set_limit(w, metric, is_max, limit, error);
@@ -139,7 +138,7 @@ facet_result compare_wish_read(const command_line *c, compare_wish *out, facet_e
     const int percentile = find_metric("percentile", strlen("percentile"));
     const compare_limit *l = &out->limits[percentile];
     if (result == FACET_OK && (out->is_chosen[percentile] || l->has_max) && !is_given(c, OPT_PERCENTILE))
-        result = fail_with(error, FACET_ERROR_ARGUMENT, "--metric: percentile needs --percentile P");
+        result = fail(error, FACET_ERROR_ARGUMENT, "--metric: percentile needs --percentile P");
     return result;
 }
 

@@ -89,16 +89,16 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
     if (!o) {
         facet_error suggestion;
         suggest_option(c->verb, name, strlen(name), &suggestion);
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %.900s", path, suggestion.message);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %.900s", path, suggestion.message);
     }
     if (o->id == OPT_CONFIG || o->id == OPT_HELP || o->id == OPT_HELP_ALL)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %s: it cannot stand in a file", path, name);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it cannot stand in a file", path, name);
     if (is_given(c, o->id))
         return FACET_OK;
     if (!option_takes_value(o)) {
         long count = flag_count(o, value);
         if (count < 0)
-            return fail_with(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be true or false", path, name);
+            return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be true or false", path, name);
         facet_result result = FACET_OK;
         for (; count > 0 && result == FACET_OK; count--)
             result = command_line_set(c, o, NULL, SOURCE_CONFIG, error);
@@ -106,11 +106,11 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
     }
     char text[4096];
     if (!to_text(value, text, sizeof text))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: %s: it must be text, a number or an array of these", path, name);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be text, a number or an array of these",
+                    path, name);
     const char *kept = keep(storage, text);
     if (!kept)
-        return fail_with(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
+        return fail(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
     return command_line_set(c, o, kept, SOURCE_CONFIG, error);
 }
 
@@ -120,17 +120,16 @@ static facet_result read_config(const char *path, char **text, size_t *size, fac
     enum { MOST_BYTES = 1 << 20 };
     FILE *file = fopen(path, "re");
     if (!file)
-        return fail_with(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
+        return fail(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
     *text = malloc(MOST_BYTES + 1);
     *size = *text ? fread(*text, 1, MOST_BYTES + 1, file) : 0;
     facet_result result = FACET_OK;
     if (!*text)
-        result = fail_with(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
+        result = fail(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
     else if (ferror(file))
-        result = fail_with(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
+        result = fail(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
     else if (*size > MOST_BYTES)
-        result =
-            fail_with(error, FACET_ERROR_LIMIT, "%s: it is larger than 1 MiB; options were expected", path);
+        result = fail(error, FACET_ERROR_LIMIT, "%s: it is larger than 1 MiB; options were expected", path);
     fclose(file);
     if (result != FACET_OK) {
         free(*text);
@@ -158,11 +157,11 @@ facet_result config_apply(command_line *c, config *storage, facet_error *error)
     json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &problem);
     free(text);
     if (!root)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: line %d: %s", path, problem.line, problem.text);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: line %d: %s", path, problem.line, problem.text);
     facet_result result = FACET_OK;
     c->config_name = path;
     if (!json_is_object(root))
-        result = fail_with(error, FACET_ERROR_ARGUMENT, "%s: it must hold one JSON object", path);
+        result = fail(error, FACET_ERROR_ARGUMENT, "%s: it must hold one JSON object", path);
     const char *name;
     json_t *value;
     json_object_foreach(root, name, value)

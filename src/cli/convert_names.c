@@ -38,24 +38,22 @@ static facet_result read_format(const command_line *c, convert_names *out, facet
     if (strcmp(out->output, "-") == 0) {
         out->format = MODEL_GLB;
         if (terminal_is(stdout))
-            return fail_with(
-                error, FACET_ERROR_ARGUMENT,
-                "--output: standard output is a terminal; send the model into a file or a program");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--output: standard output is a terminal; send the model into a file or a program");
         if (is_given(c, OPT_JSON))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--json: standard output holds the model already; name a file with -o");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--json: standard output holds the model already; name a file with -o");
         return to < 0 || choices[to] == MODEL_GLB
                    ? FACET_OK
-                   : fail_with(
-                         error, FACET_ERROR_ARGUMENT,
-                         "--to: standard output takes a .glb file; the other formats are several files");
+                   : fail(error, FACET_ERROR_ARGUMENT,
+                          "--to: standard output takes a .glb file; the other formats are several files");
     }
     if (!find_format(out->output, &out->format))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "convert: \"%s\" does not end in .glb, .gltf, .obj or .json", out->output);
+        return fail(error, FACET_ERROR_ARGUMENT, "convert: \"%s\" does not end in .glb, .gltf, .obj or .json",
+                    out->output);
     if (to >= 0 && choices[to] != out->format)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--to: %s was asked for, but the output is \"%s\"",
-                         option_text(c, OPT_TO, ""), out->output);
+        return fail(error, FACET_ERROR_ARGUMENT, "--to: %s was asked for, but the output is \"%s\"",
+                    option_text(c, OPT_TO, ""), out->output);
     return FACET_OK;
 }
 
@@ -69,8 +67,8 @@ static facet_result read_report(const command_line *c, convert_names *out, facet
     if (!out->is_html && !(dot && strcasecmp(dot, ".json") == 0))
         return option_fail(c, OPT_REPORT, "a name that ends in .html or .json", error);
     if (out->models.count > 1 && !output_name_has_model(out->report))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--report: several models need a name with {stem}, as in 'reports/{stem}.html'");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--report: several models need a name with {stem}, as in 'reports/{stem}.html'");
     return FACET_OK;
 }
 
@@ -81,8 +79,8 @@ facet_result convert_name(const convert_names *n, const model_name *model, bool 
 {
     if (output_name_expand(report ? n->report : n->output, model, NULL, name, CONVERT_NAME_SIZE))
         return FACET_OK;
-    return fail_with(error, FACET_ERROR_ARGUMENT, "%s: the name for %s is too long",
-                     report ? "--report" : "--output", input_name(model->path));
+    return fail(error, FACET_ERROR_ARGUMENT, "%s: the name for %s is too long",
+                report ? "--report" : "--output", input_name(model->path));
 }
 
 static facet_result check_name(const convert_names *n, const model_name *model, bool report,
@@ -91,12 +89,12 @@ static facet_result check_name(const convert_names *n, const model_name *model, 
     char name[CONVERT_NAME_SIZE];
     facet_result result = convert_name(n, model, report, name, error);
     if (result == FACET_OK && input_is_same_file(model->path, name) && !(n->keeps_existing && !report))
-        result = fail_with(error, FACET_ERROR_ARGUMENT,
-                           "%s: it is an input, too, and would be overwritten; name another output", name);
+        result = fail(error, FACET_ERROR_ARGUMENT,
+                      "%s: it is an input, too, and would be overwritten; name another output", name);
     if (result == FACET_OK)
         result = output_check(name, error);
     if (result == FACET_OK && !(claim->identity = output_identity(name)))
-        result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+        result = fail(error, FACET_ERROR_MEMORY, "out of memory: names");
     return result;
 }
 
@@ -104,7 +102,7 @@ static facet_result check_names(convert_names *n, facet_error *error)
 {
     size_t models = n->models.count, count = models * (n->report ? 2 : 1);
     output_claim *claims = calloc(count, sizeof *claims);
-    facet_result result = claims ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    facet_result result = claims ? FACET_OK : fail(error, FACET_ERROR_MEMORY, "out of memory: names");
     for (size_t i = 0; i < count && result == FACET_OK; i++) {
         claims[i].model = i % models;
         result = check_name(n, &n->models.models[i % models], i >= models, &claims[i], error);
@@ -132,15 +130,15 @@ facet_result convert_names_read(command_line *c, convert_names *out, facet_error
     if (is_pair)
         out->output = c->arguments[--argument_count];
     if (!out->output || (argument_count == 0 && !is_given(c, OPT_FILES_FROM)))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "convert: one model and the name of the new one were expected, as in facet convert "
-                         "old.gltf new.glb; several go with -o 'new/{stem}.glb'");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "convert: one model and the name of the new one were expected, as in facet convert "
+                    "old.gltf new.glb; several go with -o 'new/{stem}.glb'");
     facet_result result = model_list_create(c, argument_count, &out->models, error);
     if (result != FACET_OK)
         return result;
     if (out->models.count > 1 && !output_name_has_model(out->output))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--output: several models need a name with {stem}, as in -o 'new/{stem}.glb'");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: several models need a name with {stem}, as in -o 'new/{stem}.glb'");
     result = read_format(c, out, error);
     if (result == FACET_OK)
         result = read_report(c, out, error);

@@ -230,7 +230,7 @@ static facet_result load_faces(const environment_input *input, const facet_envir
 {
     char(*names)[MAX_PATH] = malloc(6 * sizeof *names);
     if (!names)
-        return fail_with(error, FACET_ERROR_MEMORY, "%s: out of memory", input->path);
+        return fail(error, FACET_ERROR_MEMORY, "%s: out of memory", input->path);
     int naming = 0;
     bool fits = list_faces(input->path, 0, names);
     if (strstr(input->path, face_mark)) /* the first naming of which a file is there; else the first */
@@ -239,9 +239,8 @@ static facet_result load_faces(const environment_input *input, const facet_envir
                 naming = n;
     fits = fits && list_faces(input->path, naming, names);
     const char *paths[6] = {names[0], names[1], names[2], names[3], names[4], names[5]};
-    facet_result result = fits
-                              ? facet_environment_load_faces(paths, desc, environment, error)
-                              : fail_with(error, FACET_ERROR_ARGUMENT, "%s: a name is too long", input->path);
+    facet_result result = fits ? facet_environment_load_faces(paths, desc, environment, error)
+                               : fail(error, FACET_ERROR_ARGUMENT, "%s: a name is too long", input->path);
     free(names);
     return result;
 }
@@ -274,7 +273,7 @@ static const environment_word all_words[] = {
 static facet_result fail_expected(const char *place, const char *text, const char *expected,
                                   facet_error *error)
 {
-    return fail_with(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not %s", place, text, expected);
+    return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not %s", place, text, expected);
 }
 
 /* Words that stand alone. False: text is none of them. */
@@ -295,8 +294,8 @@ facet_result environment_input_parse(const char *place, const char *text, unsign
     *out = (environment_input){.kind = ENVIRONMENT_FILE, .path = text};
     if (read_plain_word(text, out)) {
         if (out->kind == ENVIRONMENT_NONE && !(takes & ENVIRONMENT_TAKES_NONE))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "%s: none is no light; ./none is a file of that name", place);
+            return fail(error, FACET_ERROR_ARGUMENT, "%s: none is no light; ./none is a file of that name",
+                        place);
         return FACET_OK;
     }
     if (strcmp(text, "white") == 0 || text[0] == '#') {
@@ -309,8 +308,8 @@ facet_result environment_input_parse(const char *place, const char *text, unsign
                              error);
     }
     if (strcmp(text, "-") == 0 && !(takes & ENVIRONMENT_TAKES_STDIN))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: an environment is not read from standard input; name a file", place);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: an environment is not read from standard input; name a file", place);
     for (size_t i = 0; i < sizeof all_words / sizeof *all_words; i++) {
         const environment_word *word = &all_words[i];
         size_t length = strlen(word->name);

@@ -3,7 +3,6 @@
 
 #include "cli/interrupt.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,18 +50,6 @@ int exit_code_of(facet_result result)
         break;
     }
     return EXIT_BUG;
-}
-
-facet_result fail_with(facet_error *error, facet_result result, const char *format, ...)
-{
-    if (!error)
-        return result;
-    error->result = result;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
-    va_end(arguments);
-    return result;
 }
 
 void failure_complete(facet_error *error, const char *name, uint64_t limit)

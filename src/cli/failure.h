@@ -2,7 +2,7 @@
 #ifndef CLI_FAILURE_H
 #define CLI_FAILURE_H
 
-#include "facet/facet.h"
+#include "base/result.h"
 
 /* Exit codes; failure.c has what each means, docs/cli.md why. */
 enum {
@@ -28,10 +28,6 @@ extern const exit_meaning exit_meanings[]; /* ends with {NULL} */
 
 /* The exit code for a result; of FACET_ERROR_CANCELLED that of the signal. */
 int exit_code_of(facet_result result);
-
-/* Writes one sentence to error and returns result: return fail_with(error, FACET_ERROR_ARGUMENT, ...). */
-facet_result fail_with(facet_error *error, facet_result result, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
 
 /* Puts the name of the input before what went wrong with it unless the sentence begins with a name, and behind a lack
  * of memory what --max-memory, limit bytes (0: none), has to do with it. */

@@ -49,24 +49,24 @@ static bool grow(growing *g)
 static facet_result read_stdin(uint64_t max_bytes, const char *expected, growing *out, facet_error *error)
 {
     if (terminal_is(stdin))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "stdin: - is standard input, which is a terminal; send a file into it");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "stdin: - is standard input, which is a terminal; send a file into it");
     for (;;) {
         if (out->used == out->capacity && !grow(out))
-            return fail_with(error, FACET_ERROR_MEMORY, "stdin: out of memory after %zu bytes", out->used);
+            return fail(error, FACET_ERROR_MEMORY, "stdin: out of memory after %zu bytes", out->used);
         ssize_t n = read(STDIN_FILENO, out->data + out->used, out->capacity - out->used);
         if (n == 0)
             break;
         if (n > 0)
             out->used += (size_t)n;
         else if (errno != EINTR)
-            return fail_with(error, FACET_ERROR_READ, "stdin: %s", strerror(errno));
+            return fail(error, FACET_ERROR_READ, "stdin: %s", strerror(errno));
         if (out->used > max_bytes)
-            return fail_with(error, FACET_ERROR_LIMIT, "stdin: it is larger than %llu bytes",
-                             (unsigned long long)max_bytes);
+            return fail(error, FACET_ERROR_LIMIT, "stdin: it is larger than %llu bytes",
+                        (unsigned long long)max_bytes);
     }
     return out->used ? FACET_OK
-                     : fail_with(error, FACET_ERROR_READ, "stdin: it is empty; a %s was expected", expected);
+                     : fail(error, FACET_ERROR_READ, "stdin: it is empty; a %s was expected", expected);
 }
 
 /* What can be known to be wrong before anything is read. */
@@ -74,11 +74,11 @@ static facet_result check(const char *path, const char *root, facet_error *error
 {
     struct stat info;
     if (path && !path[0])
-        return fail_with(error, FACET_ERROR_ARGUMENT, "facet: the name of a model is empty");
+        return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of a model is empty");
     if (path && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) /* others were replaced by what is in them */
-        return fail_with(error, FACET_ERROR_READ, "%s: there is no model in this folder, nor below it", path);
+        return fail(error, FACET_ERROR_READ, "%s: there is no model in this folder, nor below it", path);
     if (root && (stat(root, &info) != 0 || !S_ISDIR(info.st_mode)))
-        return fail_with(error, FACET_ERROR_READ, "%s: there is no such folder (--root)", root);
+        return fail(error, FACET_ERROR_READ, "%s: there is no such folder (--root)", root);
     return FACET_OK;
 }
 
@@ -106,7 +106,7 @@ facet_result input_load_image(const char *path, const facet_image_load_desc *des
 {
     *image = NULL;
     if (!path[0])
-        return fail_with(error, FACET_ERROR_ARGUMENT, "facet: the name of a picture is empty");
+        return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of a picture is empty");
     if (strcmp(path, "-") != 0)
         return facet_image_load(path, desc, image, error);
     growing bytes = {.allocator = &desc->allocator};
@@ -123,7 +123,7 @@ facet_result input_load_environment(const char *path, const facet_environment_de
 {
     *environment = NULL;
     if (!path[0])
-        return fail_with(error, FACET_ERROR_ARGUMENT, "facet: the name of an environment is empty");
+        return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of an environment is empty");
     if (strcmp(path, "-") != 0)
         return facet_environment_load(path, desc, environment, error);
     growing bytes = {.allocator = &desc->allocator};

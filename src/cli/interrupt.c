@@ -205,10 +205,10 @@ void interrupt_begin_reading(const char *name)
 facet_result interrupt_check(const char *name, facet_error *error)
 {
     if (pending_signal)
-        return fail_with(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
+        return fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
     return interrupt_seconds_left() > 0.0
                ? FACET_OK
-               : fail_with(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", name);
+               : fail(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", name);
 }
 
 int interrupt_exit_code(void)

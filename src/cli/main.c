@@ -66,29 +66,29 @@ static int explain_verb(const char *word, int argc, char **argv)
     const char *near = suggest_verb(word);
     facet_error error;
     if (verb_is_planned(word)) {
-        fail_with(&error, FACET_ERROR_ARGUMENT,
-                  "this version does not have the command %.60s yet; facet help lists those it has", word);
+        fail(&error, FACET_ERROR_ARGUMENT,
+             "this version does not have the command %.60s yet; facet help lists those it has", word);
     } else if (word[0] == '-') {
-        fail_with(&error, FACET_ERROR_ARGUMENT,
-                  "the command comes first, as in facet render %.300s; facet help lists the commands", word);
+        fail(&error, FACET_ERROR_ARGUMENT,
+             "the command comes first, as in facet render %.300s; facet help lists the commands", word);
     } else if (looks_like_file(word)) {
         char stem[256];
         if (!output_name_stem(word, stem, sizeof stem))
             memcpy(stem, "model", 6);
         if (looks_like_light(word))
-            fail_with(&error, FACET_ERROR_ARGUMENT,
-                      "which command? To filter it for real-time renderers: facet bake %.300s -o %s.ktx2; as "
-                      "light for a model: facet render model.glb --env %.300s",
-                      word, stem, word);
+            fail(&error, FACET_ERROR_ARGUMENT,
+                 "which command? To filter it for real-time renderers: facet bake %.300s -o %s.ktx2; as "
+                 "light for a model: facet render model.glb --env %.300s",
+                 word, stem, word);
         else
-            fail_with(&error, FACET_ERROR_ARGUMENT,
-                      "which command? For a picture: facet render %.300s -o %s.png; to see what is in it: "
-                      "facet inspect %.300s",
-                      word, stem, word);
+            fail(&error, FACET_ERROR_ARGUMENT,
+                 "which command? For a picture: facet render %.300s -o %s.png; to see what is in it: "
+                 "facet inspect %.300s",
+                 word, stem, word);
     } else {
-        fail_with(&error, FACET_ERROR_ARGUMENT, "there is no command \"%.300s\"%s%s%s", word,
-                  near ? "; did you mean " : "", near ? near : "; facet help lists those there are",
-                  near ? "?" : "");
+        fail(&error, FACET_ERROR_ARGUMENT, "there is no command \"%.300s\"%s%s%s", word,
+             near ? "; did you mean " : "", near ? near : "; facet help lists those there are",
+             near ? "?" : "");
     }
     return refuse(argc, argv, &error);
 }

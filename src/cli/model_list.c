@@ -31,18 +31,13 @@ static char *keep(model_list *list, const char *text)
     return copy;
 }
 
-static facet_result fail_memory(facet_error *error)
-{
-    return fail_with(error, FACET_ERROR_MEMORY, "out of memory: list of models");
-}
-
 /* path stays with the caller, or with the list. */
 static facet_result add(model_list *list, const char *path, const char *folder, facet_error *error)
 {
     if (list->count % 64 == 0) {
         model_name *grown = realloc(list->models, (list->count + 64) * sizeof *grown);
         if (!grown)
-            return fail_memory(error);
+            return fail_memory(error, "names of models", 0);
         list->models = grown;
     }
     list->models[list->count++] = (model_name){.path = path, .folder = folder};
@@ -64,8 +59,7 @@ static facet_result read_names(const char *path, char ***names, facet_error *err
     *names = NULL;
     DIR *folder = opendir(path);
     if (!folder)
-        return fail_with(error, FACET_ERROR_READ, "%.400s: the folder cannot be read: %s", path,
-                         strerror(errno));
+        return fail(error, FACET_ERROR_READ, "%.400s: the folder cannot be read: %s", path, strerror(errno));
     for (const struct dirent *entry; result == FACET_OK && (entry = readdir(folder));) {
         if (entry->d_name[0] == '.')
             continue;
@@ -75,7 +69,7 @@ static facet_result read_names(const char *path, char ***names, facet_error *err
         if (copy)
             (*names)[count++] = copy;
         else
-            result = fail_memory(error);
+            result = fail_memory(error, "names of models", 0);
     }
     closedir(folder);
     if (*names) {
@@ -111,9 +105,9 @@ static facet_result add_folder(folder_walk *w, const char *path, const char *bel
     facet_result result = read_names(path, &names, error);
     const char *folder = result == FACET_OK ? keep(w->list, below) : NULL;
     if (result == FACET_OK && !folder)
-        result = fail_memory(error);
+        result = fail_memory(error, "names of models", 0);
     if (result == FACET_OK && ++w->depth > MAX_DEPTH)
-        result = fail_with(error, FACET_ERROR_LIMIT, "%.400s: folders nest deeper than %d", path, MAX_DEPTH);
+        result = fail(error, FACET_ERROR_LIMIT, "%.400s: folders nest deeper than %d", path, MAX_DEPTH);
     size_t length = strlen(path);
     const char *slash = length && path[length - 1] == '/' ? "" : "/";
     for (size_t i = 0; result == FACET_OK && names && names[i]; i++) {
@@ -121,7 +115,7 @@ static facet_result add_folder(folder_walk *w, const char *path, const char *bel
         char *inner = malloc(size), *inner_below = malloc(size);
         struct stat link, info;
         if (!inner || !inner_below) {
-            result = fail_memory(error);
+            result = fail_memory(error, "names of models", 0);
         } else {
             snprintf(inner, size, "%s%s%s", path, slash, names[i]);
             snprintf(inner_below, size, "%s%s%s", below, *below ? "/" : "", names[i]);
@@ -130,7 +124,7 @@ static facet_result add_folder(folder_walk *w, const char *path, const char *bel
                 result = add_folder(w, inner, inner_below, error);
             } else if (is_there && S_ISREG(info.st_mode) && is_model(w->c, names[i])) {
                 const char *kept = keep(w->list, inner);
-                result = kept ? add(w->list, kept, folder, error) : fail_memory(error);
+                result = kept ? add(w->list, kept, folder, error) : fail_memory(error, "names of models", 0);
             }
         }
         free(inner);
@@ -147,7 +141,7 @@ static facet_result add_file(model_list *list, const char *path, facet_error *er
     size_t size = strlen(path) + 1, used = 0;
     char *folder = malloc(size);
     if (!folder)
-        return fail_memory(error);
+        return fail_memory(error, "names of models", 0);
     for (const char *part = path, *slash; (slash = strchr(part, '/')); part = slash + 1) {
         size_t length = (size_t)(slash - part);
         bool is_dots = length <= 2 && strncmp(part, "..", length) == 0; /* "", ".", ".." */
@@ -158,7 +152,7 @@ static facet_result add_file(model_list *list, const char *path, facet_error *er
     folder[used] = 0;
     const char *kept = keep(list, folder);
     free(folder);
-    return kept ? add(list, path, kept, error) : fail_memory(error);
+    return kept ? add(list, path, kept, error) : fail_memory(error, "names of models", 0);
 }
 
 static facet_result add_argument(const command_line *c, const char *path, model_list *list,
@@ -191,7 +185,7 @@ static facet_result add_lines(const command_line *c, char *text, size_t size, mo
             stop[-1] = 0;
         if (*line) {
             const char *kept = keep(list, line);
-            result = kept ? add_argument(c, kept, list, error) : fail_memory(error);
+            result = kept ? add_argument(c, kept, list, error) : fail_memory(error, "names of models", 0);
         }
         line = stop + 1;
     }
@@ -205,29 +199,29 @@ static facet_result add_files_from(const command_line *c, model_list *list, face
     bool is_stdin = strcmp(path, "-") == 0;
     for (size_t i = 0; is_stdin && i < c->argument_count; i++)
         if (strcmp(c->arguments[i], "-") == 0)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--files-from: standard input is a model already; name a file");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--files-from: standard input is a model already; name a file");
     interrupt_begin_reading(name);
     FILE *file = is_stdin ? stdin : fopen(path, "re");
     if (!file)
-        return fail_with(error, FACET_ERROR_READ, "%.400s: %s", name, strerror(errno));
+        return fail(error, FACET_ERROR_READ, "%.400s: %s", name, strerror(errno));
     char *text = malloc(MAX_LIST_BYTES + 1);
     size_t size = text ? fread(text, 1, MAX_LIST_BYTES + 1, file) : 0, before = list->count;
     facet_result result = FACET_OK;
     if (!text)
-        result = fail_memory(error);
+        result = fail_memory(error, "names of models", 0);
     else if (ferror(file))
-        result = fail_with(error, FACET_ERROR_READ, "%.400s: %s", name, strerror(errno));
+        result = fail(error, FACET_ERROR_READ, "%.400s: %s", name, strerror(errno));
     else if (size > MAX_LIST_BYTES)
-        result = fail_with(error, FACET_ERROR_LIMIT,
-                           "%.400s: it is larger than 64 MiB; a list of files was expected", name);
+        result = fail(error, FACET_ERROR_LIMIT,
+                      "%.400s: it is larger than 64 MiB; a list of files was expected", name);
     if (!is_stdin)
         fclose(file);
     if (result == FACET_OK)
         result = add_lines(c, text, size, list, error);
     free(text);
     if (result == FACET_OK && list->count == before)
-        result = fail_with(error, FACET_ERROR_ARGUMENT, "--files-from: %.400s names no file", name);
+        result = fail(error, FACET_ERROR_ARGUMENT, "--files-from: %.400s names no file", name);
     return result;
 }
 
@@ -240,7 +234,7 @@ static facet_result replace_arguments(command_line *c, size_t argument_count, co
     size_t rest = c->argument_count - argument_count;
     const char **arguments = malloc((list->count + rest + 1) * sizeof *arguments);
     if (!arguments)
-        return fail_memory(error);
+        return fail_memory(error, "names of models", 0);
     for (size_t i = 0; i < list->count; i++)
         arguments[i] = list->models[i].path;
     for (size_t i = 0; i < rest; i++)
@@ -266,7 +260,7 @@ facet_result model_list_create(command_line *c, size_t argument_count, model_lis
     if (result == FACET_OK && !out->count)
         result = add(out, NULL, "", error);
     if (result == FACET_OK && !(out->clashes = malloc(out->count * sizeof *out->clashes)))
-        result = fail_memory(error);
+        result = fail_memory(error, "names of models", 0);
     for (size_t i = 0; i < out->count && result == FACET_OK; i++) {
         out->models[i].number = i + 1;
         out->models[i].count = out->count;
@@ -312,7 +306,7 @@ facet_result model_list_check_clash(const model_list *list, size_t i, const char
     size_t other = list->clashes[i];
     if (other == MODEL_NO_CLASH)
         return FACET_OK;
-    return fail_with(
+    return fail(
         error, FACET_ERROR_ARGUMENT,
         "%.300s: it and %.300s would both be written to %.300s; put {dir}, {name} or {index} in the name",
         input_name(list->models[i].path), other == i ? "its report" : input_name(list->models[other].path),

@@ -75,7 +75,7 @@ facet_result ocean_float_load(ocean_run *run, facet_error *error)
         return result;
     /* where it is, before it is put elsewhere */
     if (!facet_scene_get_bounds(run->model, NULL, run->model_low, run->model_high))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "%s: there is nothing in it that floats", path);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is nothing in it that floats", path);
     warn_of_origin(run, path);
     return FACET_OK;
 }

@@ -30,7 +30,7 @@ facet_result ocean_map_name(const ocean_options *o, uint32_t tile, uint32_t fram
     return find_pattern(o, frame, pattern, sizeof pattern) &&
                    output_name_expand(pattern, &(model_name){.path = "sea"}, &tile, name, size)
                ? FACET_OK
-               : fail_with(error, FACET_ERROR_ARGUMENT, "--maps: the names are too long");
+               : fail(error, FACET_ERROR_ARGUMENT, "--maps: the names are too long");
 }
 
 facet_result ocean_check_name(const ocean_run *run, const char *name, facet_error *error)
@@ -38,8 +38,8 @@ facet_result ocean_check_name(const ocean_run *run, const char *name, facet_erro
     const render_options *p = &run->options.picture;
     bool is_of_model = run->model && facet_scene_has_file(run->model, name);
     if (is_of_model || render_name_is_input(run->line, p, NULL, name))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "%s: it is an input, too, and would be overwritten; name another output", name);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: it is an input, too, and would be overwritten; name another output", name);
     return output_check(name, error);
 }
 
@@ -52,8 +52,8 @@ facet_result ocean_check_maps(const ocean_run *run, const char *name, uint32_t f
         if (result != FACET_OK)
             return result;
         if (input_is_same_file(name, map))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--output: %s is one of the files of --maps; name another", name);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--output: %s is one of the files of --maps; name another", name);
     }
     return FACET_OK;
 }

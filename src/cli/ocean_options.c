@@ -159,8 +159,8 @@ static facet_result read_water(const command_line *c, ocean_options *out, facet_
     facet_water *w = &out->sea.water;
     int type = option_choice(c, OPT_WATER, -1);
     if (type >= 0 && is_given(c, OPT_CHLOROPHYLL))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--water: a type of Jerlov's does not go together with --chl; give one of them");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--water: a type of Jerlov's does not go together with --chl; give one of them");
     if (type >= 0)
         w->kind = (facet_water_kind)(FACET_WATER_KIND_JERLOV_I + type);
     if (is_given(c, OPT_CHLOROPHYLL)) {
@@ -195,8 +195,8 @@ static facet_result read_bed(const command_line *c, ocean_options *out, facet_er
     if (is_given(c, OPT_BED_COLOR) && !color_parse(option_text(c, OPT_BED_COLOR, ""), bed->albedo))
         return option_fail(c, OPT_BED_COLOR, "#rgb, #rrggbb or a CSS color name", error);
     if (bed->depth_m <= 0.0f && (is_given(c, OPT_BED_SLOPE) || is_given(c, OPT_BED_COLOR)))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--bed-%s: there is no bed; say how deep with --depth",
-                         is_given(c, OPT_BED_SLOPE) ? "slope" : "color");
+        return fail(error, FACET_ERROR_ARGUMENT, "--bed-%s: there is no bed; say how deep with --depth",
+                    is_given(c, OPT_BED_SLOPE) ? "slope" : "color");
     return FACET_OK;
 }
 
@@ -220,11 +220,11 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
             "with the lux that the sun has, to 1e9",
             error);
     if (count == 3 && !o->has_environment)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--sun: lux, the third number, go together with --env; the sky's sun has its own");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sun: lux, the third number, go together with --env; the sky's sun has its own");
     if (count < 3 && is_given(c, OPT_SUN) && o->has_environment)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--sun: beside --env it needs the light of the sun in lux, as 30,15,100000");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sun: beside --env it needs the light of the sun in lux, as 30,15,100000");
     out->sky = (facet_sky_desc){.sun_elevation_rad = (float)(numbers[0] * DEGREE),
                                 .sun_azimuth_rad = (float)(numbers[1] * DEGREE),
                                 .turbidity = (float)option_number(c, OPT_TURBIDITY, 0.0)};
@@ -268,8 +268,8 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
         .clamp = (float)option_number(c, OPT_CLAMP, 0.0),
     };
     if (out->shading.style && is_given(c, OPT_STAGE))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--before: it is the look before all stages; give it or --stage");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--before: it is the look before all stages; give it or --stage");
     o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
     static const facet_renderer_kind renderers[] = {FACET_RENDERER_KIND_PREVIEW, FACET_RENDERER_KIND_PATH,
                                                     FACET_RENDERER_KIND_GL};
@@ -278,12 +278,11 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
                                              OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS, OPT_CLAMP};
     o->desc.path.denoises = is_given(c, OPT_DENOISE);
     if (o->desc.path.denoises && o->desc.renderer != FACET_RENDERER_KIND_PATH)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--denoise: only --renderer path has noise");
+        return fail(error, FACET_ERROR_ARGUMENT, "--denoise: only --renderer path has noise");
     const option *other =
         first_given(c, preview_only, sizeof preview_only / sizeof *preview_only, SOURCE_PRESET);
     if (other && o->desc.renderer == FACET_RENDERER_KIND_PATH)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path",
-                         other->name);
+        return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path", other->name);
     return FACET_OK;
 }
 
@@ -301,8 +300,8 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
     out->picture.has_eye = is_given(c, OPT_EYE);
     if (out->picture.has_eye) {
         if (is_given(c, OPT_EYE_HEIGHT))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--eye: it does not go together with --height-of-eye; give one of them");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--eye: it does not go together with --height-of-eye; give one of them");
         if (!value_numbers(option_text(c, OPT_EYE, ""), 3, numbers) ||
             !are_within(numbers, 3, -FARTHEST, FARTHEST))
             return option_fail(c, OPT_EYE, "X,Y,Z in metres, each from -1e6 to 1e6", error);
@@ -312,8 +311,8 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
     out->has_target = is_given(c, OPT_TARGET);
     if (out->has_target) {
         if (is_given(c, OPT_HEADING))
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "--target: it does not go together with --heading; give one of them");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--target: it does not go together with --heading; give one of them");
         if (!value_numbers(option_text(c, OPT_TARGET, ""), 3, numbers) ||
             !are_within(numbers, 3, -2.0 * FARTHEST, 2.0 * FARTHEST))
             return option_fail(c, OPT_TARGET, "X,Y,Z in metres, each from -2e6 to 2e6", error);
@@ -351,12 +350,12 @@ static facet_result read_sequence(const command_line *c, ocean_options *out, fac
     if (!o->has_frames)
         o->frames = frame_list_all(1, 1);
     if (!o->has_frames && o->is_sequence && loop <= 0.0)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--fps: a sea has no end; say which --frames, or after how long it is to --loop");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--fps: a sea has no end; say which --frames, or after how long it is to --loop");
     double count = round(loop * o->fps);
     if (!o->has_frames && o->is_sequence && count > FRAME_LIST_FRAMES)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--loop: it has more than a million frames at %g a second", o->fps);
+        return fail(error, FACET_ERROR_ARGUMENT, "--loop: it has more than a million frames at %g a second",
+                    o->fps);
     if (!o->has_frames && o->is_sequence && count >= 1.0)
         o->frames = frame_list_all(1, (uint32_t)count);
     o->has_frames = o->has_frames || o->is_sequence;
@@ -380,14 +379,14 @@ static facet_result read_output(const command_line *c, ocean_options *out, facet
     out->mesh = (facet_sea_mesh_desc){.size_m = (float)option_number(c, OPT_MESH_SIZE, 0.0),
                                       .samples = (uint32_t)option_number(c, OPT_MESH_SAMPLES, 0.0)};
     if (o->is_stdout && out->has_info)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--info: it writes to standard output, and so does --output -; give one of them");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--info: it writes to standard output, and so does --output -; give one of them");
     if (!o->output && !out->maps && !out->has_info && !is_given(c, OPT_JSON))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "ocean: what shall it make? For a picture: facet ocean -o sea.png");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "ocean: what shall it make? For a picture: facet ocean -o sea.png");
     if (out->sweep && (!out->has_picture || out->is_before_after))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--sweep: it makes one picture of many, named by --output, without --before-after");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sweep: it makes one picture of many, named by --output, without --before-after");
     return out->has_picture ? picture_options_format(c, o, error) : FACET_OK;
 }
 
@@ -413,9 +412,9 @@ static facet_result check_mesh(const command_line *c, const ocean_options *out, 
     const option *other =
         first_given(c, of_pictures, sizeof of_pictures / sizeof *of_pictures, SOURCE_COMMAND_LINE);
     if (other && out->has_mesh)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--%s: it is of pictures, and %s is a mesh of the water alone", other->name,
-                         out->picture.output);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--%s: it is of pictures, and %s is a mesh of the water alone", other->name,
+                    out->picture.output);
     return FACET_OK;
 }
 
@@ -426,8 +425,8 @@ static facet_result check_output(const command_line *c, const ocean_options *out
     if (result != FACET_OK || !out->picture.output)
         return result;
     if (out->sweep && out->picture.frames.frame_count > 1)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--sweep: it is of one moment and does not go together with --frames or --loop");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sweep: it is of one moment and does not go together with --frames or --loop");
     result = check_mesh(c, out, error);
     return result == FACET_OK ? picture_options_check_sequence(c, &out->picture, error) : result;
 }

@@ -50,8 +50,8 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
     if (!out->option)
         return suggest_option(c->verb, *at, length, error);
     if (!takes_number(out->option))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--sweep: --%s is not one number that changes the picture", out->option->name);
+        return fail(error, FACET_ERROR_ARGUMENT, "--sweep: --%s is not one number that changes the picture",
+                    out->option->name);
     *at += length + 1;
     double count = 0.0;
     bool is_range = scan_number(at, &out->from) && *(*at)++ == ':' && scan_number(at, &out->to) &&
@@ -78,13 +78,13 @@ static facet_result read_axes(const ocean_run *run, axis axes[AXES], facet_error
     uint64_t columns = axes[0].count, rows = axes[1].count; /* 0: the columns are as many as look well */
     if (result == FACET_OK &&
         (columns * p->desc.width > LONGEST_EDGE || rows * p->desc.height > LONGEST_EDGE))
-        result = fail_with(
-            error, FACET_ERROR_ARGUMENT,
-            "--sweep: %u x %u pictures of %u x %u pixels are more than a sheet of %d x %d holds",
-            axes[0].count, (unsigned)rows, p->desc.width, p->desc.height, LONGEST_EDGE, LONGEST_EDGE);
+        result =
+            fail(error, FACET_ERROR_ARGUMENT,
+                 "--sweep: %u x %u pictures of %u x %u pixels are more than a sheet of %d x %d holds",
+                 axes[0].count, (unsigned)rows, p->desc.width, p->desc.height, LONGEST_EDGE, LONGEST_EDGE);
     if (result == FACET_OK && axes[0].option == axes[1].option)
-        result = fail_with(error, FACET_ERROR_ARGUMENT, "--sweep: both of its axes are --%s",
-                           axes[0].option->name);
+        result =
+            fail(error, FACET_ERROR_ARGUMENT, "--sweep: both of its axes are --%s", axes[0].option->name);
     return result;
 }
 
@@ -139,7 +139,7 @@ facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image
     char(*labels)[LABEL_SIZE] = calloc(count, sizeof *labels);
     const char **words = calloc(count, sizeof *words);
     if (!pictures || !labels || !words)
-        result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: sheet");
+        result = fail(error, FACET_ERROR_MEMORY, "out of memory: sheet");
     for (uint32_t i = 0; i < count && result == FACET_OK; i++) {
         result = draw_cell(run, axes, i, (ocean_step){output, i, count}, labels[i], &pictures[i], error);
         words[i] = labels[i];

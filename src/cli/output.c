@@ -61,8 +61,8 @@ facet_result output_make_folders(const char *path, facet_error *error)
     for (const char *slash = rest; slash && (slash = strchr(slash, '/')); slash++) {
         snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
         if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-            return fail_with(error, FACET_ERROR_WRITE, "%s: the folder %s cannot be made: %s", path, folder,
-                             strerror(errno));
+            return fail(error, FACET_ERROR_WRITE, "%s: the folder %s cannot be made: %s", path, folder,
+                        strerror(errno));
     }
     return FACET_OK;
 }
@@ -94,24 +94,23 @@ facet_result output_check(const char *path, facet_error *error)
     struct stat info;
     if (stat(path, &info) == 0) {
         if (S_ISDIR(info.st_mode))
-            return fail_with(error, FACET_ERROR_WRITE, "%s: it is a folder; the name of a file was expected",
-                             path);
+            return fail(error, FACET_ERROR_WRITE, "%s: it is a folder; the name of a file was expected",
+                        path);
         if (!S_ISREG(info.st_mode)) /* a device, a pipe: written directly */
-            return access(path, W_OK) == 0
-                       ? FACET_OK
-                       : fail_with(error, FACET_ERROR_WRITE, "%s: %s", path, strerror(errno));
+            return access(path, W_OK) == 0 ? FACET_OK
+                                           : fail(error, FACET_ERROR_WRITE, "%s: %s", path, strerror(errno));
     }
     char folder[4096];
     const char *rest = find_folder(path, folder, sizeof folder);
     if (!rest)
-        return fail_with(error, FACET_ERROR_WRITE, "%s: the name is too long", path);
+        return fail(error, FACET_ERROR_WRITE, "%s: the name is too long", path);
     if (stat(folder, &info) != 0)
-        return fail_with(error, FACET_ERROR_WRITE, "%s: there is no folder %s", path, folder);
+        return fail(error, FACET_ERROR_WRITE, "%s: there is no folder %s", path, folder);
     if (!S_ISDIR(info.st_mode))
-        return fail_with(error, FACET_ERROR_WRITE, "%s: %s is not a folder", path, folder);
+        return fail(error, FACET_ERROR_WRITE, "%s: %s is not a folder", path, folder);
     if (access(folder, W_OK | X_OK) != 0)
-        return fail_with(error, FACET_ERROR_WRITE, "%s: the folder %s cannot be written to: %s", path, folder,
-                         strerror(errno));
+        return fail(error, FACET_ERROR_WRITE, "%s: the folder %s cannot be written to: %s", path, folder,
+                    strerror(errno));
     return FACET_OK;
 }
 
@@ -145,7 +144,7 @@ facet_result output_write_bytes(const void *bytes, size_t size, const char *path
     if (strcmp(path, "-") != 0)
         result = facet_bytes_save(bytes, size, path, error);
     else if (fwrite(bytes, 1, size, stdout) != size || fflush(stdout) != 0)
-        result = fail_with(error, FACET_ERROR_WRITE, "stdout: %s", strerror(errno));
+        result = fail(error, FACET_ERROR_WRITE, "stdout: %s", strerror(errno));
     end_writing(is_file);
     return result;
 }
@@ -175,7 +174,7 @@ facet_result output_close_stdout(facet_error *error)
     bool has_failed = ferror(stdout) != 0;
     errno = 0;
     if (fflush(stdout) != 0 || has_failed)
-        return fail_with(error, FACET_ERROR_WRITE, "stdout: %s",
-                         errno ? strerror(errno) : "it could not be written");
+        return fail(error, FACET_ERROR_WRITE, "stdout: %s",
+                    errno ? strerror(errno) : "it could not be written");
     return FACET_OK;
 }

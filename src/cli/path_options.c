@@ -41,8 +41,7 @@ static facet_result refuse(const command_line *c, const option_id *list, const c
 {
     for (; *list != OPTION_ID_COUNT; list++)
         if (is_given(c, *list))
-            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: %s", option_find_id(c->verb, *list)->name,
-                             why);
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: %s", option_find_id(c->verb, *list)->name, why);
     return FACET_OK;
 }
 
@@ -56,8 +55,8 @@ static facet_result check_renderer(const command_line *c, const render_options *
     if (result == FACET_OK && !is_gl)
         result = refuse(c, gl_only, "it says something only with --renderer gl", error);
     if (result == FACET_OK && !is_path && !is_gl && is_given(c, OPT_GROUND))
-        result = fail_with(error, FACET_ERROR_ARGUMENT,
-                           "--ground: it says something only with --renderer path or gl");
+        result =
+            fail(error, FACET_ERROR_ARGUMENT, "--ground: it says something only with --renderer path or gl");
     if (result == FACET_OK && is_path)
         result = refuse(c, not_path, "it says nothing to --renderer path", error);
     return result;
@@ -94,9 +93,8 @@ static facet_result read_ground(const command_line *c, render_options *out, face
 {
     out->desc.ground = option_choice(c, OPT_GROUND, 0) == 1 ? FACET_GROUND_SHADOW : FACET_GROUND_NONE;
     if (out->desc.ground == FACET_GROUND_SHADOW && option_choice(c, OPT_UP, 0) == 1)
-        return fail_with(
-            error, FACET_ERROR_ARGUMENT,
-            "--ground: the ground is below models with +Y up; it does not go together with --up z");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--ground: the ground is below models with +Y up; it does not go together with --up z");
     return FACET_OK;
 }
 
@@ -112,8 +110,8 @@ static facet_result read_lens(const command_line *c, render_options *out, facet_
                            error);
     out->aperture = (float)(out->aperture_is_relative ? 0.01 * diameter : diameter);
     if (is_given(c, OPT_FOCUS) && !(out->aperture > 0.0f))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--focus: all is sharp without a lens; give its diameter, --aperture 2%%");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--focus: all is sharp without a lens; give its diameter, --aperture 2%%");
     text = option_text(c, OPT_FOCUS, "auto");
     double focus = 0.0;
     if (strcmp(text, "auto") != 0 && (!value_number(text, &focus) || !(focus > 0.0)))
@@ -176,21 +174,20 @@ static facet_result read_checkpoint(const command_line *c, render_options *out, 
     out->desc.path.resumes = is_given(c, OPT_RESUME);
     if (!out->checkpoint)
         return out->desc.path.resumes
-                   ? fail_with(error, FACET_ERROR_ARGUMENT, "--resume: it needs the file, --checkpoint FILE")
+                   ? fail(error, FACET_ERROR_ARGUMENT, "--resume: it needs the file, --checkpoint FILE")
                    : FACET_OK;
     const char *dot = strrchr(out->checkpoint, '.');
     if (!dot || strcmp(dot, ".exr") != 0)
         return option_fail(c, OPT_CHECKPOINT, "a name that ends in .exr", error);
     if (c->argument_count > 1 && !output_name_has_model(out->checkpoint))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--checkpoint: \"%s\" is one name for %zu models; put {stem} in it", out->checkpoint,
-                         c->argument_count);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--checkpoint: \"%s\" is one name for %zu models; put {stem} in it", out->checkpoint,
+                    c->argument_count);
     if (out->is_sequence && !output_name_has_frame(out->checkpoint))
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--checkpoint: \"%s\" is one name for several pictures; put #### in it",
-                         out->checkpoint);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--checkpoint: \"%s\" is one name for several pictures; put #### in it", out->checkpoint);
     if (out->output && strcmp(out->output, out->checkpoint) == 0)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--checkpoint: it is the name of the picture, too");
+        return fail(error, FACET_ERROR_ARGUMENT, "--checkpoint: it is the name of the picture, too");
     return FACET_OK;
 }
 

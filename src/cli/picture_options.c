@@ -22,17 +22,16 @@ facet_result picture_options_output(const command_line *c, render_options *out, 
         return FACET_OK;
     if (out->is_stdout) {
         if (terminal_is(stdout))
-            return fail_with(
+            return fail(
                 error, FACET_ERROR_ARGUMENT,
                 "--output: - is standard output, which is a terminal; send it to a file or a program");
         if (is_given(c, OPT_JSON))
-            return fail_with(
-                error, FACET_ERROR_ARGUMENT,
-                "--json: it writes to standard output, and so does --output -; give one of them");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--json: it writes to standard output, and so does --output -; give one of them");
     } else if (c->argument_count > 1 && !output_name_has_model(out->output)) {
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--output: \"%s\" is one name for %zu models; put {stem} in it, as in {stem}.png",
-                         out->output, c->argument_count);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: \"%s\" is one name for %zu models; put {stem} in it, as in {stem}.png",
+                    out->output, c->argument_count);
     }
     return FACET_OK;
 }
@@ -81,9 +80,8 @@ facet_result picture_options_format(const command_line *c, render_options *out, 
         return FACET_OK;
     }
     if (out->is_stdout)
-        return fail_with(
-            error, FACET_ERROR_ARGUMENT,
-            "--output: - is standard output, which has no name to tell the format; add --format png");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: - is standard output, which has no name to tell the format; add --format png");
     const char *slash = strrchr(out->output, '/'), *dot = strrchr(slash ? slash : out->output, '.');
     for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++)
         if (strcasecmp(dot + 1, formats[i].extension) == 0) {
@@ -184,8 +182,8 @@ facet_result picture_options_frames(const command_line *c, render_options *out, 
                            "a list of at most a million frames, from 1, such as 1-48, 1-48x2 or 1,3,5..10",
                            error);
     if (out->has_time && out->has_frames)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--time: it is one moment and does not go together with --frames; give one of them");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--time: it is one moment and does not go together with --frames; give one of them");
     return FACET_OK;
 }
 
@@ -194,23 +192,21 @@ facet_result picture_options_check_sequence(const command_line *c, const render_
 {
     bool has_mark = o->output && output_name_has_frame(o->output);
     if (o->video && has_mark)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--output: \"%s\" has a place for a number, but a video holds all frames",
-                         o->output);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: \"%s\" has a place for a number, but a video holds all frames", o->output);
     if (o->video && o->keeps_existing)
         return FACET_OK;
     if (o->video && o->is_stdout && c->argument_count > 1)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--output: standard output takes the video of one model");
+        return fail(error, FACET_ERROR_ARGUMENT, "--output: standard output takes the video of one model");
     bool is_one = o->has_frames ? o->frames.frame_count == 1 : !o->is_sequence;
     if (is_one || o->video || !o->output || o->is_stdout || has_mark)
         return FACET_OK;
     if (o->turntable)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--output: \"%s\" is one name for %u pictures; put #### in it, as in turn_####.png",
-                         o->output, o->turntable);
-    return fail_with(error, FACET_ERROR_ARGUMENT,
-                     "--output: \"%s\" is one name for the frames of an animation; put #### in it, as in "
-                     "walk_####.png, or give --time for one picture",
-                     o->output);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: \"%s\" is one name for %u pictures; put #### in it, as in turn_####.png",
+                    o->output, o->turntable);
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "--output: \"%s\" is one name for the frames of an animation; put #### in it, as in "
+                "walk_####.png, or give --time for one picture",
+                o->output);
 }

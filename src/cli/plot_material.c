@@ -91,8 +91,8 @@ static facet_result fail_parameter(const char *text, const char *key, facet_plot
         if (parameters[i].model == model)
             snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", parameters[i].name);
     }
-    return fail_with(error, FACET_ERROR_ARGUMENT,
-                     "plot: \"%.200s\": there is no parameter \"%.60s\"; those are: %s", text, key, names);
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "plot: \"%.200s\": there is no parameter \"%.60s\"; those are: %s", text, key, names);
 }
 
 static facet_result set_parameter(const char *text, const char *key, const char *value,
@@ -105,17 +105,17 @@ static facet_result set_parameter(const char *text, const char *key, const char 
         if (read_value(p, value, (float *)(void *)((char *)out + p->offset)))
             return FACET_OK;
         if (p->is_color)
-            return fail_with(
+            return fail(
                 error, FACET_ERROR_ARGUMENT,
                 "plot: \"%.200s\": %s: \"%.60s\" is not a color: #rrggbb, a CSS name, a grey or r/g/b "
                 "from 0 to 1",
                 text, p->name, value);
         if (p->is_angle)
-            return fail_with(error, FACET_ERROR_ARGUMENT, "plot: \"%.200s\": %s: \"%.60s\" is not an angle",
-                             text, p->name, value);
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "plot: \"%.200s\": %s: \"%.60s\" is not a number from %g to %g", text, p->name,
-                         value, p->minimum, p->maximum);
+            return fail(error, FACET_ERROR_ARGUMENT, "plot: \"%.200s\": %s: \"%.60s\" is not an angle", text,
+                        p->name, value);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "plot: \"%.200s\": %s: \"%.60s\" is not a number from %g to %g", text, p->name, value,
+                    p->minimum, p->maximum);
     }
     return fail_parameter(text, key, out->model, error);
 }
@@ -143,8 +143,8 @@ static facet_result read_parameters(const char *text, facet_plot_material *out, 
 {
     char copy[1024];
     if (strlen(text) >= sizeof copy)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "plot: a material of more than %zu characters",
-                         sizeof copy - 1);
+        return fail(error, FACET_ERROR_ARGUMENT, "plot: a material of more than %zu characters",
+                    sizeof copy - 1);
     memcpy(copy, text, strlen(text) + 1);
     *out = facet_plot_material_default();
     bool is_first = true;
@@ -156,9 +156,8 @@ static facet_result read_parameters(const char *text, facet_plot_material *out, 
         if (!value && is_first && find_model(word, strlen(word), &out->model))
             continue;
         if (!value)
-            return fail_with(error, FACET_ERROR_ARGUMENT,
-                             "plot: \"%.200s\": \"%.60s\" is no parameter; NAME=VALUE was expected", text,
-                             word);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "plot: \"%.200s\": \"%.60s\" is no parameter; NAME=VALUE was expected", text, word);
         *value++ = 0;
         facet_result result = set_parameter(text, word, value, out, error);
         if (result != FACET_OK)
@@ -200,8 +199,8 @@ void plot_material_write(const facet_plot_material *m, char *text, size_t size)
 static facet_result append(plot_materials *m, const facet_plot_material *one, facet_error *error)
 {
     if (m->count == FACET_PLOT_MAX_MATERIALS)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "plot: more than %d materials; name some with #NAME",
-                         FACET_PLOT_MAX_MATERIALS);
+        return fail(error, FACET_ERROR_ARGUMENT, "plot: more than %d materials; name some with #NAME",
+                    FACET_PLOT_MAX_MATERIALS);
     m->items[m->count++] = *one;
     return FACET_OK;
 }
@@ -226,10 +225,9 @@ static facet_result add_scene(plot_materials *m, const facet_scene *scene, const
         found++;
     }
     if (result == FACET_OK && found == 0)
-        result = name
-                     ? fail_with(error, FACET_ERROR_ARGUMENT, "%s: there is no material \"%s\"; there %s %s",
-                                 file, name, count == 1 ? "is" : "are", names[0] ? names : "none with a name")
-                     : fail_with(error, FACET_ERROR_ARGUMENT, "%s: it has no materials", file);
+        result = name ? fail(error, FACET_ERROR_ARGUMENT, "%s: there is no material \"%s\"; there %s %s",
+                             file, name, count == 1 ? "is" : "are", names[0] ? names : "none with a name")
+                      : fail(error, FACET_ERROR_ARGUMENT, "%s: it has no materials", file);
     return result;
 }
 
@@ -240,7 +238,7 @@ static facet_result add_file(plot_materials *m, const char *text, const facet_sc
     const char *mark = strrchr(text, '#');
     size_t length = mark ? (size_t)(mark - text) : strlen(text);
     if (length >= sizeof file || m->scene_count == FACET_PLOT_MAX_MATERIALS)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "plot: too many files, or too long a name");
+        return fail(error, FACET_ERROR_ARGUMENT, "plot: too many files, or too long a name");
     memcpy(file, text, length);
     file[length] = 0;
     facet_scene *scene = NULL;

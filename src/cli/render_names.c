@@ -16,8 +16,8 @@ facet_result render_checkpoint_name(const render_options *o, const model_name *m
     *name = 0;
     if (!o->checkpoint || output_name_expand(o->checkpoint, model, &number, name, size))
         return FACET_OK;
-    return fail_with(error, FACET_ERROR_ARGUMENT, "--checkpoint: the name for %s is too long",
-                     input_name(model->path));
+    return fail(error, FACET_ERROR_ARGUMENT, "--checkpoint: the name for %s is too long",
+                input_name(model->path));
 }
 
 facet_result render_name(const render_options *o, const model_name *model, uint32_t number, char *name,
@@ -35,8 +35,8 @@ facet_result render_name(const render_options *o, const model_name *model, uint3
         used = pattern;
     }
     if (!output_name_expand(used, model, &number, name, size))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--output: the name for %s is too long",
-                         input_name(model->path));
+        return fail(error, FACET_ERROR_ARGUMENT, "--output: the name for %s is too long",
+                    input_name(model->path));
     return FACET_OK;
 }
 
@@ -62,8 +62,7 @@ static facet_result check_checkpoint(const command_line *c, const render_options
     if (result == FACET_OK && output_exists(name) &&
         (render_name_is_input(c, o, model->path, name) ||
          (output_exists(picture) && input_is_same_file(name, picture))))
-        result =
-            fail_with(error, FACET_ERROR_ARGUMENT,
+        result = fail(error, FACET_ERROR_ARGUMENT,
                       "--checkpoint: %s is an input or the picture, too, and would be overwritten", name);
     return result;
 }
@@ -77,13 +76,12 @@ static facet_result check_model(const command_line *c, const render_options *o, 
     if (result == FACET_OK)
         result = output_check(name, error);
     if (result == FACET_OK && render_name_is_input(c, o, model->path, name))
-        result =
-            fail_with(error, FACET_ERROR_ARGUMENT,
+        result = fail(error, FACET_ERROR_ARGUMENT,
                       "%s: it is an input, too, and would be overwritten; name another output with -o", name);
     if (result == FACET_OK)
         result = check_checkpoint(c, o, model, name, error);
     if (result == FACET_OK && !(claim->identity = output_identity(name)))
-        result = fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+        result = fail(error, FACET_ERROR_MEMORY, "out of memory: names");
     return result;
 }
 
@@ -92,7 +90,7 @@ facet_result render_names_check(const command_line *c, const render_options *o, 
 {
     size_t count = models->count;
     output_claim *claims = calloc(count, sizeof *claims);
-    facet_result result = claims ? FACET_OK : fail_with(error, FACET_ERROR_MEMORY, "out of memory: names");
+    facet_result result = claims ? FACET_OK : fail(error, FACET_ERROR_MEMORY, "out of memory: names");
     for (size_t i = 0; i < count && result == FACET_OK; i++) {
         claims[i].model = i;
         result = check_model(c, o, &models->models[i], &claims[i], error);

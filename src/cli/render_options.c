@@ -52,8 +52,8 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
     static const option_id ogl1_only[] = {OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG};
     for (size_t i = 0; i < sizeof ogl1_only / sizeof *ogl1_only; i++)
         if (is_given(c, ogl1_only[i]) && d->shading != FACET_SHADING_OGL1)
-            return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: it says something only with --shading ogl1",
-                             option_find_id(c->verb, ogl1_only[i])->name);
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says something only with --shading ogl1",
+                        option_find_id(c->verb, ogl1_only[i])->name);
     picture_options_look(c, d->shading == FACET_SHADING_OGL1 ? FACET_TONEMAP_NONE : FACET_TONEMAP_NEUTRAL,
                          out);
     d->ogl1 = (facet_ogl1_desc){.variant = (facet_ogl1_variant)option_choice(c, OPT_OGL1_VARIANT, 0),
@@ -97,10 +97,9 @@ static facet_result read_camera(const command_line *c, render_options *out, face
     out->camera = option_text(c, OPT_CAMERA, NULL);
     for (size_t i = 0; out->camera && i < sizeof orbit_options / sizeof *orbit_options; i++)
         if (is_given(c, orbit_options[i]))
-            return fail_with(
-                error, FACET_ERROR_ARGUMENT,
-                "--camera: a camera of the file does not go together with --%s; give one of them",
-                option_find_id(c->verb, orbit_options[i])->name);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--camera: a camera of the file does not go together with --%s; give one of them",
+                        option_find_id(c->verb, orbit_options[i])->name);
     facet_result result = read_orbit(c, out, error);
     if (result != FACET_OK)
         return result;
@@ -111,9 +110,8 @@ static facet_result read_camera(const command_line *c, render_options *out, face
     if (!value_numbers(option_text(c, OPT_EYE, ""), 3, out->eye))
         return option_fail(c, OPT_EYE, "X,Y,Z in metres", error);
     if (is_given(c, OPT_ORBIT) || out->turntable)
-        return fail_with(error, FACET_ERROR_ARGUMENT,
-                         "--eye: it does not go together with --%s; give one of them",
-                         out->turntable ? "turntable" : "orbit");
+        return fail(error, FACET_ERROR_ARGUMENT, "--eye: it does not go together with --%s; give one of them",
+                    out->turntable ? "turntable" : "orbit");
     return FACET_OK;
 }
 
@@ -127,8 +125,8 @@ static facet_result read_motion(const command_line *c, render_options *out, face
         return result;
     bool plays_none = out->animation && strcmp(out->animation, "none") == 0;
     if (plays_none && (out->has_time || out->has_frames))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--animation: none does not go together with --%s",
-                         out->has_time ? "time" : "frames");
+        return fail(error, FACET_ERROR_ARGUMENT, "--animation: none does not go together with --%s",
+                    out->has_time ? "time" : "frames");
     bool is_still = out->has_time || plays_none;
     out->is_sequence = out->turntable || out->has_frames || (!is_still && (out->animation || out->has_fps));
     return FACET_OK;

@@ -21,16 +21,16 @@ static facet_result choose_animations(const facet_scene *scene, const char *name
     if (there == 0)
         return o->turntable && !o->animation
                    ? FACET_OK
-                   : fail_with(error, FACET_ERROR_ARGUMENT, "%s: has no animation, which --%s asks for", name,
-                               o->animation  ? "animation"
-                               : o->has_time ? "time"
-                               : o->has_fps  ? "fps"
-                                             : "frames");
+                   : fail(error, FACET_ERROR_ARGUMENT, "%s: has no animation, which --%s asks for", name,
+                          o->animation  ? "animation"
+                          : o->has_time ? "time"
+                          : o->has_fps  ? "fps"
+                                        : "frames");
     bool all = o->animation && strcmp(o->animation, "all") == 0;
     uint32_t count = all ? there : 1;
     out->animations = calloc(count, sizeof *out->animations);
     if (!out->animations)
-        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: animations");
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: animations");
     for (uint32_t i = 0; i < count; i++)
         out->animations[i] = i;
     if (o->animation && !all) {
@@ -67,7 +67,7 @@ static facet_result choose_frames(const char *name, const render_options *o, seq
         out->frames = frame_list_all(1, o->turntable);
     else if (out->moves) {
         if (count > FRAME_LIST_FRAMES)
-            return fail_with(
+            return fail(
                 error, FACET_ERROR_LIMIT,
                 "%s: its animation takes %g s, which is more than %d frames at --fps %g; give --frames", name,
                 out->duration_s, (int)FRAME_LIST_FRAMES, o->fps);

@@ -327,10 +327,9 @@ facet_result suggest_option(const verb *v, const char *name, size_t length, face
     fold(text, folded);
     const char *ours = find_foreign(v, folded);
     if (ours)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean %s?", text, ours);
+        return fail(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean %s?", text, ours);
     if (option_is_planned(folded))
-        return fail_with(error, FACET_ERROR_ARGUMENT, "--%s: this version of facet does not have it yet",
-                         text);
+        return fail(error, FACET_ERROR_ARGUMENT, "--%s: this version of facet does not have it yet", text);
     const char *best = NULL;
     unsigned least_bad = ~0u, badness;
     const option *o;
@@ -340,17 +339,17 @@ facet_result suggest_option(const verb *v, const char *name, size_t length, face
             best = o->name;
         }
     if (best)
-        return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean --%s?", text, best);
-    return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option --%s; facet help %s lists those there are",
-                     text, v->name);
+        return fail(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean --%s?", text, best);
+    return fail(error, FACET_ERROR_ARGUMENT, "unknown option --%s; facet help %s lists those there are", text,
+                v->name);
 }
 
 facet_result suggest_letter(const verb *v, char letter, facet_error *error)
 {
     for (size_t i = 0; i < sizeof foreign_letters / sizeof *foreign_letters; i++)
         if (letter == foreign_letters[i].theirs && option_find_id(v, foreign_letters[i].id))
-            return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option -%c; did you mean %s?", letter,
-                             foreign_letters[i].ours);
-    return fail_with(error, FACET_ERROR_ARGUMENT, "unknown option -%c; facet help %s lists those there are",
-                     letter, v->name);
+            return fail(error, FACET_ERROR_ARGUMENT, "unknown option -%c; did you mean %s?", letter,
+                        foreign_letters[i].ours);
+    return fail(error, FACET_ERROR_ARGUMENT, "unknown option -%c; facet help %s lists those there are",
+                letter, v->name);
 }

@@ -25,8 +25,8 @@ struct video {
 
 static facet_result fail_write(const video *v, facet_error *error)
 {
-    return fail_with(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", v->path ? v->path : "stdout",
-                     errno ? strerror(errno) : "it is closed");
+    return fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", v->path ? v->path : "stdout",
+                errno ? strerror(errno) : "it is closed");
 }
 
 /* A file of its own beside path, with the modes that a new file has. */
@@ -77,7 +77,7 @@ facet_result video_open(const char *path, video_format format, double fps, video
         v->path = malloc(strlen(path) + 1);
     if (!v || !v->path) {
         free(v);
-        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: %s", path);
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: %s", path);
     }
     memcpy(v->path, path, strlen(path) + 1);
     v->format = format;
@@ -134,15 +134,14 @@ static facet_result begin(video *v, uint32_t width, uint32_t height, facet_error
     if (v->width)
         return v->width == width && v->height == height
                    ? FACET_OK
-                   : fail_with(error, FACET_ERROR_ARGUMENT,
-                               "--output: the frames of a video must have one size");
+                   : fail(error, FACET_ERROR_ARGUMENT, "--output: the frames of a video must have one size");
     v->width = width;
     v->height = height;
     if (v->format != VIDEO_Y4M)
         return FACET_OK;
     v->planes = malloc(3 * (size_t)width * height);
     if (!v->planes)
-        return fail_with(error, FACET_ERROR_MEMORY, "out of memory: video frame");
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: video frame");
     begin_y4m(v);
     return FACET_OK;
 }

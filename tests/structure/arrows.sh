@@ -29,7 +29,7 @@ allowed() {
     path) echo path cpu draw film ibl scene image base shade facet ;;
     compare) echo compare image base shade facet ;;
     api) echo api gl path water ocean bake compare report plot legacy io cpu draw ibl film scene image base facet ;;
-    cli) echo cli facet ;;
+    cli) echo cli base facet ;;
     *) echo "" ;;
     esac
 }
