@@ -14,7 +14,6 @@
 
 #include "base/test_effort.h"
 #include "gl/core/gl_blocks.h"
-#include "gl/scene/gl_material_slots.h"
 #include "gl/core/gl_program.h"
 #include "gl/core/glsl_order.h"
 

@@ -28,44 +28,7 @@ void gl_pyramid_destroy(gl_pyramid *p)
     *p = (gl_pyramid){0};
 }
 
-static void allocate(const gl_pyramid *p)
-{
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
-    glBindTexture(GL_TEXTURE_2D, p->texture);
-    for (uint32_t level = 0; level < p->level_count; level++)
-        glTexImage2D(GL_TEXTURE_2D, (GLint)level, GL_RGBA16F, (GLsizei)halved(p->width, level),
-                     (GLsizei)halved(p->height, level), 0, GL_RGBA, GL_HALF_FLOAT, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl_pyramid_end_levels(p);
-}
-
-facet_result gl_pyramid_update(gl_pyramid *p, gl_context *context, uint32_t width, uint32_t height,
-                               uint32_t level_count, facet_error *error)
-{
-    uint32_t most = all_levels(width, height);
-    level_count = level_count == 0 || level_count > most ? most : level_count;
-    if (p->texture && p->width == width && p->height == height && p->level_count == level_count)
-        return FACET_OK;
-    gl_pyramid_destroy(p);
-    *p = (gl_pyramid){.width = width, .height = height, .level_count = level_count};
-    glGenTextures(1, &p->texture);
-    glGenFramebuffers(1, &p->framebuffer);
-    allocate(p);
-    gl_pyramid_begin_level(p, 0, -1);
-    bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    facet_result result = gl_context_check(context, "the levels of a picture", error);
-    if (result == FACET_OK && !is_complete)
-        result =
-            fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): half floats cannot be drawn into", context->name);
-    if (result != FACET_OK)
-        gl_pyramid_destroy(p);
-    return result;
-}
-
-void gl_pyramid_begin_level(const gl_pyramid *p, uint32_t level, int from)
+static void begin_level(const gl_pyramid *p, uint32_t level, int from)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, p->framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, p->texture, (GLint)level);
@@ -82,7 +45,7 @@ void gl_pyramid_begin_level(const gl_pyramid *p, uint32_t level, int from)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, from);
 }
 
-void gl_pyramid_end_levels(const gl_pyramid *p)
+static void end_levels(const gl_pyramid *p)
 {
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
     glBindTexture(GL_TEXTURE_2D, p->texture);
@@ -90,8 +53,45 @@ void gl_pyramid_end_levels(const gl_pyramid *p)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, (GLint)p->level_count - 1);
 }
 
-facet_result gl_pyramid_draw(const gl_pyramid *p, const gl_pyramid_brush *brush, gl_program_key key,
-                             uint32_t level, facet_error *error)
+static void allocate(const gl_pyramid *p)
+{
+    glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
+    glBindTexture(GL_TEXTURE_2D, p->texture);
+    for (uint32_t level = 0; level < p->level_count; level++)
+        glTexImage2D(GL_TEXTURE_2D, (GLint)level, GL_RGBA16F, (GLsizei)halved(p->width, level),
+                     (GLsizei)halved(p->height, level), 0, GL_RGBA, GL_HALF_FLOAT, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    end_levels(p);
+}
+
+static facet_result update(gl_pyramid *p, gl_context *context, uint32_t width, uint32_t height,
+                           uint32_t level_count, facet_error *error)
+{
+    uint32_t most = all_levels(width, height);
+    level_count = level_count == 0 || level_count > most ? most : level_count;
+    if (p->texture && p->width == width && p->height == height && p->level_count == level_count)
+        return FACET_OK;
+    gl_pyramid_destroy(p);
+    *p = (gl_pyramid){.width = width, .height = height, .level_count = level_count};
+    glGenTextures(1, &p->texture);
+    glGenFramebuffers(1, &p->framebuffer);
+    allocate(p);
+    begin_level(p, 0, -1);
+    bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    facet_result result = gl_context_check(context, "the levels of a picture", error);
+    if (result == FACET_OK && !is_complete)
+        result =
+            fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): half floats cannot be drawn into", context->name);
+    if (result != FACET_OK)
+        gl_pyramid_destroy(p);
+    return result;
+}
+
+static facet_result draw_level(const gl_pyramid *p, const gl_pyramid_brush *brush, gl_program_key key,
+                               uint32_t level, facet_error *error)
 {
     uint32_t program;
     facet_result result = gl_programs_get(brush->programs, key, &program, error);
@@ -105,18 +105,103 @@ facet_result gl_pyramid_draw(const gl_pyramid *p, const gl_pyramid_brush *brush,
     return FACET_OK;
 }
 
-facet_result gl_pyramid_fill(const gl_pyramid *p, const gl_pyramid_brush *brush, uint32_t picture,
-                             facet_error *error)
+static facet_result fill(const gl_pyramid *p, const gl_pyramid_brush *brush, uint32_t picture,
+                         facet_error *error)
 {
     const gl_program_key copy = {GL_MAIN_HALVE, GL_HALVE_IS_COPY}, halve = {GL_MAIN_HALVE, 0};
-    gl_pyramid_begin_level(p, 0, -1);
+    begin_level(p, 0, -1);
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
     glBindTexture(GL_TEXTURE_2D, picture);
-    facet_result result = gl_pyramid_draw(p, brush, copy, 0, error);
+    facet_result result = draw_level(p, brush, copy, 0, error);
     for (uint32_t level = 1; level < p->level_count && result == FACET_OK; level++) {
-        gl_pyramid_begin_level(p, level, (int)level - 1);
-        result = gl_pyramid_draw(p, brush, halve, level, error);
+        begin_level(p, level, (int)level - 1);
+        result = draw_level(p, brush, halve, level, error);
     }
-    gl_pyramid_end_levels(p);
+    end_levels(p);
+    return result;
+}
+
+/* ---- the opaque surfaces behind glass ---- */
+
+facet_result gl_pyramid_take_opaque(gl_pyramid *p, gl_context *context, const gl_pyramid_brush *brush,
+                                    const gl_target *target, facet_error *error)
+{
+    facet_result result = update(p, context, target->width, target->height, 0, error);
+    if (result == FACET_OK) {
+        gl_target_resolve(target);
+        result = fill(p, brush, target->color, error);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+    glViewport(0, 0, (GLsizei)target->width, (GLsizei)target->height);
+    glEnable(GL_DEPTH_TEST);
+    return result;
+}
+
+void gl_pyramid_bind_opaque(const gl_pyramid *p)
+{
+    glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
+    glBindTexture(GL_TEXTURE_2D, p->texture);
+}
+
+/* ---- bloom ---- */
+
+static const float SPREAD = 0.7f;
+enum {
+    COARSEST = 2, /* levels that are left out: the last ones have few pixels and are not smooth */
+    WIDTHS =
+        7 /* of filters, counted from the widest: the finer ones of large pictures have no weight, so that light is
+                     spread over the same part of a picture of any size */
+};
+
+static uint32_t levels_of(uint32_t width, uint32_t height)
+{
+    uint32_t count = 1;
+    while ((width < height ? width : height) >> count)
+        count++;
+    return count > 2 + COARSEST ? count - COARSEST : 2;
+}
+
+/* Level by level, from the coarsest: mix(this one, what is coarser, SPREAD). */
+static facet_result gather(const gl_pyramid *p, const gl_pyramid_brush *brush, facet_error *error)
+{
+    const gl_program_key spread = {GL_MAIN_SPREAD, 0};
+    facet_result result = FACET_OK;
+    uint32_t count = p->level_count;
+    for (uint32_t level = count - 1; level-- > 1 && result == FACET_OK;) {
+        begin_level(p, level, (int)level + 1);
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+        glBlendColor(0.0f, 0.0f, 0.0f, level + WIDTHS >= count ? SPREAD : 1.0f);
+        result = draw_level(p, brush, spread, level, error);
+    }
+    return result;
+}
+
+static facet_result add(const gl_pyramid *p, const gl_pyramid_brush *brush, const gl_target *target,
+                        float share, facet_error *error)
+{
+    const gl_program_key spread = {GL_MAIN_SPREAD, 0};
+    begin_level(p, 0, 1);
+    glBindFramebuffer(GL_FRAMEBUFFER, target->resolved_framebuffer);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    glBlendColor(0.0f, 0.0f, 0.0f, share);
+    return draw_level(p, brush, spread, 0, error);
+}
+
+facet_result gl_pyramid_bloom(gl_pyramid *p, gl_context *context, const gl_pyramid_brush *brush,
+                              const gl_target *target, float share, facet_error *error)
+{
+    facet_result result =
+        update(p, context, target->width, target->height, levels_of(target->width, target->height), error);
+    if (result == FACET_OK)
+        result = fill(p, brush, target->color, error);
+    if (result == FACET_OK && p->level_count > 1) {
+        result = gather(p, brush, error);
+        if (result == FACET_OK)
+            result = add(p, brush, target, share, error);
+    }
+    glDisable(GL_BLEND);
+    end_levels(p);
     return result;
 }

@@ -4,6 +4,8 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
+#include "draw/sample_pattern.h"
+
 static const double NEAREST = 1e-6;        /* of the largest depth: what is nearer is cut off */
 static const double NEAREST_COARSE = 1e-4; /* the same where depth is not reversed */
 
@@ -120,4 +122,30 @@ void gl_camera_end_depth(const gl_context *context)
         glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
     clear_depth(context, 1.0f);
     glDepthFunc(GL_LESS);
+}
+
+/* ---- samples ---- */
+
+enum { MAX_SAMPLES = 8 }; /* in a drawn pixel: more take memory, and passes do the same */
+
+gl_sampling gl_sampling_plan(uint32_t samples, facet_quality quality, uint32_t max_samples)
+{
+    gl_sampling plan = {.scale = quality == FACET_QUALITY_FINAL && samples >= 4 ? 2 : 1};
+    uint32_t quarter = plan.scale * plan.scale;
+    uint32_t wanted = (samples + quarter - 1) / quarter;
+    uint32_t most = max_samples < MAX_SAMPLES ? max_samples : MAX_SAMPLES;
+    plan.samples = 1;
+    while (2 * plan.samples <= most && 2 * plan.samples <= wanted)
+        plan.samples *= 2;
+    plan.passes = (wanted + plan.samples - 1) / plan.samples;
+    return plan;
+}
+
+/* A pass's samples are about 1 / sqrt(samples) apart: so far, with a sample in the middle, the others are spread. */
+void gl_sampling_jitter(const gl_sampling *sampling, float *jitter)
+{
+    float gap = 1.0f / sqrtf((float)sampling->samples);
+    sample_pattern(sampling->passes, jitter);
+    for (uint32_t i = 0; i < 2 * sampling->passes; i++)
+        jitter[i] = gap * (jitter[i] - 0.5f);
 }

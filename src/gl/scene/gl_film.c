@@ -8,7 +8,6 @@
 #include "draw/sample_pattern.h"
 #include "film/matte.h"
 #include "gl/scene/gl_camera.h"
-#include "gl/scene/gl_sampling.h"
 #include "scene/identity.h"
 
 /* Pixels that are drawn at once: some 170 MB with 4 samples; between tiles the caller may cancel. */

@@ -35,9 +35,9 @@ void gl_frame_destroy(gl_frame *f)
     if (!f->context)
         return;
     gl_timers_destroy(&f->timers);
-    gl_bloom_destroy(&f->bloom);
+    gl_pyramid_destroy(&f->bloom);
     gl_phong_destroy(f->phong);
-    gl_opaque_destroy(&f->opaque);
+    gl_pyramid_destroy(&f->opaque);
     gl_transparency_destroy(f->transparency);
     gl_light_destroy(f->light);
     gl_material_destroy(f->materials);
@@ -218,7 +218,7 @@ static void begin(gl_frame *f, const gl_target *target, const facet_render_desc 
     fill_block(f, desc, block);
     block->has_coverage = target->samples > 1 && gl_material_has_coverage(f->context);
     set_block(f, block);
-    gl_mesh_order(f->meshes, block, f->materials);
+    gl_mesh_order(f->meshes, block, f->materials, gl_material_features);
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     glViewport(0, 0, (GLsizei)target->width, (GLsizei)target->height);
     glDisable(GL_SCISSOR_TEST);
@@ -293,7 +293,7 @@ static facet_result take_opaque(gl_frame *f, const gl_target *target, facet_erro
 {
     const gl_pyramid_brush brush = {f->programs, f->empty_array};
     gl_timers_begin(&f->timers, GL_TIMER_TRANSMISSION);
-    facet_result result = gl_opaque_take(&f->opaque, f->context, &brush, target, error);
+    facet_result result = gl_pyramid_take_opaque(&f->opaque, f->context, &brush, target, error);
     gl_timers_end(&f->timers);
     return result;
 }
@@ -320,7 +320,7 @@ static facet_result draw_transmissive(gl_frame *f, facet_error *error)
 {
     if (!has_transmissive(f))
         return FACET_OK;
-    gl_opaque_bind(&f->opaque);
+    gl_pyramid_bind_opaque(&f->opaque);
     return draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
 }
 
@@ -332,7 +332,7 @@ static facet_result draw_bloom(gl_frame *f, const gl_target *target, const facet
     gl_timers_begin(&f->timers, GL_TIMER_BLOOM);
     const gl_pyramid_brush brush = {f->programs, f->empty_array};
     facet_result result =
-        gl_bloom_draw(&f->bloom, f->context, &brush, target, fminf(desc->gl.bloom, 1.0f), error);
+        gl_pyramid_bloom(&f->bloom, f->context, &brush, target, fminf(desc->gl.bloom, 1.0f), error);
     gl_timers_end(&f->timers);
     return result;
 }

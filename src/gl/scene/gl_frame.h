@@ -2,10 +2,9 @@
 #ifndef GL_GL_FRAME_H
 #define GL_GL_FRAME_H
 
-#include "gl/scene/gl_bloom.h"
 #include "gl/scene/gl_light.h"
 #include "gl/scene/gl_material.h"
-#include "gl/scene/gl_opaque.h"
+#include "gl/core/gl_pyramid.h"
 #include "gl/scene/gl_scene.h"
 #include "gl/core/gl_target.h"
 #include "gl/core/gl_timers.h"
@@ -18,8 +17,7 @@ typedef struct gl_frame {
     gl_mesh_set *meshes;
     gl_material_set *materials;
     gl_light *light;
-    gl_opaque opaque;
-    gl_bloom bloom;
+    gl_pyramid opaque, bloom;
     gl_phong *phong; /* NULL: no picture had materials of OpenGL 1 */
     gl_transparency *transparency;
     const gl_scene *scene; /* of the last update */

@@ -7,7 +7,7 @@
 #ifndef GL_GL_GROUND_H
 #define GL_GL_GROUND_H
 
-#include "gl/scene/gl_casters.h"
+#include "gl/scene/gl_shadow.h"
 #include "gl/scene/gl_light_block.h"
 
 enum { GL_GROUND_EDGE = 256 };

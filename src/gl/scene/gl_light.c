@@ -2,24 +2,242 @@
 #include "gl/scene/gl_light.h"
 
 #include <epoxy/gl.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_program.h"
 #include "gl/scene/gl_ground.h"
 #include "gl/scene/gl_light_atlas.h"
-#include "gl/scene/gl_light_tables.h"
-#include "gl/core/gl_program.h"
-#include "gl/scene/gl_punctual.h"
 #include "gl/scene/gl_shadow.h"
 #include "ibl/dfg.h"
 #include "ibl/environment.h"
+#include "image/half.h"
+
+#include "shade/shade.h"
+
+/* ---- albedo LUTs ---- */
+
+/* LUTs of directional albedo (ibl/dfg.h) as half floats: 2^-11 relative. */
+typedef struct light_tables {
+    uint32_t albedo; /* DFG and sheen's albedo */
+    uint32_t glass;  /* 3D: a layer per ior */
+} light_tables;
+
+_Static_assert(DFG_SIZE == SHEEN_SIZE, "both tables have the same nodes, so that they share texels");
+
+static uint32_t make_texture(GLenum target)
+{
+    GLuint name;
+    glGenTextures(1, &name);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(target, name);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    return name;
+}
+
+static void upload_albedo(light_tables *tables, uint16_t *texels)
+{
+    for (size_t i = 0; i < (size_t)DFG_SIZE * DFG_SIZE; i++) {
+        texels[4 * i] = half_from_float(ibl_dfg_nodes()[2 * i]);
+        texels[4 * i + 1] = half_from_float(ibl_dfg_nodes()[2 * i + 1]);
+        texels[4 * i + 2] = half_from_float(ibl_sheen_nodes()[i]);
+        texels[4 * i + 3] = 0;
+    }
+    tables->albedo = make_texture(GL_TEXTURE_2D);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, DFG_SIZE, DFG_SIZE, 0, GL_RGBA, GL_HALF_FLOAT, texels);
+}
+
+enum { GLASS_NODES = 2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE };
+
+static void upload_glass(light_tables *tables, uint16_t *texels)
+{
+    for (size_t i = 0; i < GLASS_NODES; i++) {
+        for (size_t k = 0; k < 3; k++)
+            texels[4 * i + k] = half_from_float((float)ibl_glass_nodes()[3 * i + k] * (1.0f / GLASS_UNIT));
+        texels[4 * i + 3] = 0;
+    }
+    tables->glass = make_texture(GL_TEXTURE_3D);
+    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA16F, GLASS_SIZE, GLASS_SIZE, 2 * GLASS_IORS, 0, GL_RGBA,
+                 GL_HALF_FLOAT, texels);
+}
+
+static facet_result create_tables(light_tables *tables, gl_context *context, const facet_allocator *allocator,
+                                  facet_error *error)
+{
+    enum { TEXELS = DFG_SIZE * DFG_SIZE > GLASS_NODES ? DFG_SIZE * DFG_SIZE : GLASS_NODES };
+    *tables = (light_tables){0};
+    uint16_t *texels = mem_alloc(allocator, TEXELS, 4 * sizeof *texels);
+    if (!texels)
+        return fail_memory(error, "tables", TEXELS * 4 * sizeof *texels);
+    upload_albedo(tables, texels);
+    upload_glass(tables, texels);
+    mem_free(texels);
+    return gl_context_check(context, "tables", error);
+}
+
+static void destroy_tables(light_tables *tables)
+{
+    glDeleteTextures(1, &tables->albedo);
+    glDeleteTextures(1, &tables->glass);
+    *tables = (light_tables){0};
+}
+
+/* ---- punctual lights ---- */
+
+/* Punctual lights and the grid that says where they reach (light_grid.h), as one texture.
+ *
+ * Rows of GL_LIGHT_ROW texels of four 32-bit words, one behind the other: four texels per light (position and range, spot's
+ * direction and scale, intensity and spot's offset, whether it is directional and where its shadow's record is), records of
+ * shadows (gl_shadow.h), then lists of numbers (four a texel: the
+ * lights that reach everywhere, then those of the cells), then the cells (two a texel: first and end of the list). Positions
+ * stay those of the world, so that a camera that moves costs nothing. A lookup of a point costs one texel for its cell, each
+ * light one for its number and four for itself: a thousand lights with a range cost what the few near the point cost. */
+typedef struct punctual_lights {
+    uint32_t texture;
+    uint32_t *words; /* what was uploaded */
+    uint32_t rows;
+} punctual_lights;
+
+enum {
+    LIGHT_TEXELS = 4,
+    WORDS = 4,
+    RECORD_TEXELS = sizeof(gl_shadow_record) / 16
+}; /* a texel has four words */
+
+/* Where what begins, in texels. */
+typedef struct layout {
+    size_t records, lists, cells, end, number_count, cell_count;
+} layout;
+
+/* Without a grid where none is, or where it is too large for the texture. */
+static layout plan_layout(const light_setup *setup, uint32_t record_count, bool has_grid)
+{
+    const light_grid *grid = &setup->grid;
+    layout l = {.records = LIGHT_TEXELS * (size_t)setup->punctual_count};
+    l.lists = l.records + RECORD_TEXELS * (size_t)record_count;
+    if (has_grid) {
+        l.cell_count = (size_t)grid->cell_count[0] * grid->cell_count[1] * grid->cell_count[2];
+        l.number_count = grid->everywhere_count + grid->first[l.cell_count];
+    }
+    l.cells = l.lists + (l.number_count + WORDS - 1) / WORDS;
+    l.end = l.cells + (l.cell_count + 1) / 2;
+    return l;
+}
+
+/* record: first texel of its shadow's record; 0: none. */
+static void store_light(const Light *light, size_t record, uint32_t *out)
+{
+    float rows[3][4] = {
+        {light->position[0], light->position[1], light->position[2], light->range},
+        {light->spot_direction[0], light->spot_direction[1], light->spot_direction[2], light->spot_scale},
+        {light->intensity[0], light->intensity[1], light->intensity[2], light->spot_offset}};
+    memcpy(out, rows, sizeof rows);
+    out[12] = light->directional;
+    out[13] = (uint32_t)record;
+}
+
+static void store_grid(const light_grid *grid, const layout *l, uint32_t *words)
+{
+    uint32_t *numbers = words + WORDS * l->lists;
+    uint32_t *cells = words + WORDS * l->cells;
+    size_t near_count = grid->first[l->cell_count];
+    if (grid->everywhere_count)
+        memcpy(numbers, grid->everywhere, grid->everywhere_count * sizeof *numbers);
+    memcpy(numbers + grid->everywhere_count, grid->lights, near_count * sizeof *numbers);
+    for (size_t i = 0; i < l->cell_count; i++) {
+        cells[2 * i] = grid->everywhere_count + grid->first[i];
+        cells[2 * i + 1] = grid->everywhere_count + grid->first[i + 1];
+    }
+}
+
+static void upload_lights(punctual_lights *p, uint32_t rows)
+{
+    glActiveTexture(GL_TEXTURE0);
+    if (!p->texture)
+        glGenTextures(1, &p->texture);
+    glBindTexture(GL_TEXTURE_2D, p->texture);
+    if (rows != p->rows) {
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32UI, GL_LIGHT_ROW, (GLsizei)rows, 0, GL_RGBA_INTEGER,
+                     GL_UNSIGNED_INT, NULL);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        p->rows = rows;
+    }
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GL_LIGHT_ROW, (GLsizei)rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                    p->words);
+}
+
+static void describe_grid(const light_setup *setup, const layout *l, gl_light_block *block)
+{
+    const light_grid *grid = &setup->grid;
+    for (int axis = 0; axis < 3; axis++) {
+        block->grid_origin[axis] = grid->origin[axis];
+        block->grid_cells[axis] = grid->cells_per_m[axis];
+        block->grid_size[axis] = l->cell_count ? (int32_t)grid->cell_count[axis] : 0;
+    }
+    block->lists[0] = (int32_t)l->lists;
+    block->lists[1] = (int32_t)l->cells;
+    block->lists[2] = (int32_t)(l->cell_count ? grid->everywhere_count : setup->punctual_count);
+}
+
+static facet_result update_punctual(punctual_lights *p, gl_context *context, const facet_allocator *allocator,
+                                    const light_setup *setup, const gl_shadow *shadow, gl_light_block *block,
+                                    facet_error *error)
+{
+    uint32_t record_count;
+    const gl_shadow_record *records = gl_shadow_records(shadow, &record_count);
+    size_t most = (size_t)context->max_texture_size * GL_LIGHT_ROW;
+    layout l = plan_layout(setup, record_count, setup->grid.first != NULL);
+    if (l.end > most)
+        l = plan_layout(setup, record_count, false);
+    if (l.end > most)
+        return fail(error, FACET_ERROR_LIMIT, "OpenGL (%s): %u lights; the most are %zu", context->name,
+                    setup->punctual_count, most / LIGHT_TEXELS);
+    describe_grid(setup, &l, block);
+    if (setup->punctual_count == 0)
+        return FACET_OK;
+    size_t rows = (l.end + GL_LIGHT_ROW - 1) / GL_LIGHT_ROW;
+    uint32_t *words = mem_zalloc(allocator, rows * GL_LIGHT_ROW, WORDS * sizeof *words);
+    if (!words)
+        return fail_memory(error, "lights", rows * GL_LIGHT_ROW * WORDS * sizeof *words);
+    for (uint32_t i = 0; i < setup->punctual_count; i++) {
+        uint32_t record = gl_shadow_of_light(shadow, i);
+        store_light(&setup->punctual[i], record ? l.records + RECORD_TEXELS * (record - 1) : 0,
+                    words + (size_t)i * LIGHT_TEXELS * WORDS);
+    }
+    if (record_count)
+        memcpy(words + l.records * WORDS, records, record_count * sizeof *records);
+    if (l.cell_count)
+        store_grid(&setup->grid, &l, words);
+    bool is_same =
+        p->words && mem_size(p->words) == mem_size(words) && memcmp(p->words, words, mem_size(words)) == 0;
+    mem_free(p->words);
+    p->words = words;
+    if (!is_same)
+        upload_lights(p, (uint32_t)rows);
+    return gl_context_check(context, "lights", error);
+}
+
+static void destroy_punctual(punctual_lights *p)
+{
+    glDeleteTextures(1, &p->texture);
+    mem_free(p->words);
+    *p = (punctual_lights){0};
+}
+
+/* ---- the light of an image ---- */
 
 struct gl_light {
     gl_context *context;
     facet_allocator allocator;
-    gl_light_tables tables;
+    light_tables tables;
     gl_light_atlas atlas;
-    gl_punctual punctual;
+    punctual_lights punctual;
     gl_shadow *shadow;
     gl_ground ground;
     GLuint caster_block;
@@ -42,7 +260,7 @@ facet_result gl_light_create(gl_context *context, const facet_allocator *allocat
     light->ground.context = context;
     light->allocator = allocator ? *allocator : (facet_allocator){0};
     glGenBuffers(1, &light->block);
-    facet_result result = gl_light_tables_create(&light->tables, context, &light->allocator, error);
+    facet_result result = create_tables(&light->tables, context, &light->allocator, error);
     if (result == FACET_OK)
         result = gl_shadow_create(context, &light->allocator, &light->shadow, error);
     if (result != FACET_OK) {
@@ -66,8 +284,8 @@ void gl_light_destroy(gl_light *light)
     if (!light)
         return;
     drop_environment(light);
-    gl_light_tables_destroy(&light->tables);
-    gl_punctual_destroy(&light->punctual);
+    destroy_tables(&light->tables);
+    destroy_punctual(&light->punctual);
     gl_shadow_destroy(light->shadow);
     gl_ground_destroy(&light->ground);
     glDeleteBuffers(1, &light->block);
@@ -105,8 +323,8 @@ facet_result gl_light_update(gl_light *light, const light_setup *setup, const fa
     if (result == FACET_OK)
         result = gl_shadow_plan(light->shadow, desc, setup, bounds_min, bounds_max, error);
     if (result == FACET_OK)
-        result = gl_punctual_update(&light->punctual, light->context, &light->allocator, setup, light->shadow,
-                                    &block, error);
+        result = update_punctual(&light->punctual, light->context, &light->allocator, setup, light->shadow,
+                                 &block, error);
     if (result != FACET_OK)
         return result;
     gl_shadow_describe(light->shadow, &block);

@@ -12,7 +12,6 @@
 #include <cmocka.h>
 
 #include "gl/scene/gl_fixture_test.h"
-#include "gl/scene/gl_material_slots.h"
 #include "gl/core/gl_program.h"
 #include "scene/material_table.h"
 

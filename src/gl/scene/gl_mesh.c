@@ -1,6 +1,5 @@
-/* gl_mesh.c - see gl_mesh.h: which instances make a batch, and how one is drawn. The vertices: gl_mesh_vertices.h; the
- * order: gl_mesh_order.c. */
-#include "gl/scene/gl_mesh_set.h"
+/* gl_mesh.c - see gl_mesh.h. Vertices and indices: gl_mesh_vertices.h. */
+#include "gl/scene/gl_mesh.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -11,6 +10,35 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "gl/core/gl_program.h"
+
+/* What an instance is drawn with; matrices by rows. */
+typedef struct gl_instance {
+    float world[12], normal_matrix[9];
+    float scale, bitangent_sign, number; /* of the scene's geometry; one attribute, with what follows */
+    float sprite_radius;                 /* pixels */
+} gl_instance;
+
+/* An array object, and what it was made from. */
+typedef struct gl_mesh_array {
+    gl_vertices fixed, streamed;
+    uint32_t name, elements, first_instance;
+    scene_mode mode;
+} gl_mesh_array;
+
+struct gl_mesh_set {
+    facet_allocator allocator;
+    gl_vertex_store store;
+    uint64_t revision, generation; /* of the scene; 0: there are no batches */
+    uint32_t count;
+    gl_batch *batches; /* by pass */
+    uint32_t first[GL_PASS_COUNT + 1];
+    gl_instance *instances; /* as in OpenGL's memory: those of a batch behind each other */
+    uint32_t *instance_geometries;
+    gl_mesh_array *arrays; /* of the batches in the order in which they were made */
+    size_t array_count, array_capacity;
+    uint32_t instance_buffer;
+    uint64_t sprite_feature; /* of GL_MAIN_SURFACE */
+};
 
 /* Two for each of the eight places along the outline of a sprite: surface.vert. */
 enum { SPRITE_VERTICES = 16 };
@@ -74,8 +102,7 @@ static void load_instance(const render_geometry *g, uint32_t number, gl_instance
         out->sprite_radius *= DISC_OF_TWELVE;
 }
 
-/* Of the world box around the box of an instance. */
-static void add_bounds(const scene_instance *instance, gl_batch *b)
+void gl_mesh_instance_box(const scene_instance *instance, float low[3], float high[3])
 {
     for (int row = 0; row < 3; row++) {
         float middle = instance->world.m[12 + row], extent = 0.0f;
@@ -84,8 +111,18 @@ static void add_bounds(const scene_instance *instance, gl_batch *b)
             middle += m * 0.5f * (instance->bounds_min[k] + instance->bounds_max[k]);
             extent += fabsf(m) * 0.5f * (instance->bounds_max[k] - instance->bounds_min[k]);
         }
-        b->bounds_min[row] = fminf(b->bounds_min[row], middle - extent);
-        b->bounds_max[row] = fmaxf(b->bounds_max[row], middle + extent);
+        low[row] = middle - extent;
+        high[row] = middle + extent;
+    }
+}
+
+static void add_bounds(const scene_instance *instance, gl_batch *b)
+{
+    float low[3], high[3];
+    gl_mesh_instance_box(instance, low, high);
+    for (int i = 0; i < 3; i++) {
+        b->bounds_min[i] = fminf(b->bounds_min[i], low[i]);
+        b->bounds_max[i] = fmaxf(b->bounds_max[i], high[i]);
     }
 }
 
@@ -456,4 +493,65 @@ void gl_mesh_draw(const gl_mesh_set *set, const gl_batch *b)
                                 (GLsizei)b->instance_count);
     else
         glDrawArraysInstanced(b->mode, 0, (GLsizei)b->element_count, (GLsizei)b->instance_count);
+}
+
+/* ---- order ---- */
+
+/* Whether the box is beyond one side of the picture. Sprites reach a pixel farther. */
+bool gl_mesh_is_outside(const gl_batch *b, const gl_frame_block *frame)
+{
+    const float *m = frame->view_projection;
+    const float margin = 1.0f + 0.01f; /* of half the picture: a pixel of 200 */
+    for (int side = 0; side < 4; side++) {
+        int row = side >> 1;
+        float sign = side & 1 ? -1.0f : 1.0f, most = margin * m[15] + sign * m[12 + row];
+        for (int k = 0; k < 3; k++) {
+            float n = margin * m[4 * k + 3] + sign * m[4 * k + row];
+            float farthest = n > 0.0f ? b->bounds_max[k] : b->bounds_min[k];
+            most += n * (farthest - frame->eye[k]);
+        }
+        if (most < 0.0f)
+            return true;
+    }
+    return false;
+}
+
+static float depth_of(const gl_batch *b, const gl_frame_block *frame)
+{
+    float depth = 0.0f;
+    for (int k = 0; k < 3; k++)
+        depth += frame->forward[k] * (0.5f * (b->bounds_min[k] + b->bounds_max[k]) - frame->eye[k]);
+    return depth;
+}
+
+static int by_geometry(const gl_batch *a, const gl_batch *b)
+{
+    return (a->geometry > b->geometry) - (a->geometry < b->geometry);
+}
+
+/* Changing the program costs more than what a hidden pixel saves. */
+static int by_program(const void *x, const void *y)
+{
+    const gl_batch *a = x, *b = y;
+    if (a->features != b->features)
+        return a->features < b->features ? -1 : 1;
+    if (a->depth < b->depth || a->depth > b->depth)
+        return a->depth < b->depth ? -1 : 1;
+    return by_geometry(a, b);
+}
+
+void gl_mesh_order(gl_mesh_set *set, const gl_frame_block *frame, const struct gl_material_set *materials,
+                   gl_mesh_features_function *features_of)
+{
+    for (uint32_t i = 0; i < set->count; i++) {
+        gl_batch *b = &set->batches[i];
+        b->features = features_of(materials, b) | gl_mesh_features(set, b);
+        b->depth = depth_of(b, frame);
+        b->is_outside = gl_mesh_is_outside(b, frame);
+    }
+    for (int pass = 0; pass < GL_PASS_BLENDED; pass++) {
+        uint32_t count = set->first[pass + 1] - set->first[pass];
+        if (count > 1)
+            qsort(set->batches + set->first[pass], count, sizeof *set->batches, by_program);
+    }
 }

@@ -49,10 +49,14 @@ typedef enum gl_pass {
 
 /* Orders them for a picture: by program, the nearest first. Those of GL_PASS_BLENDED stay in the order of the scene, which
  * gl_sort.h goes by. */
-void gl_mesh_order(gl_mesh_set *meshes, const gl_frame_block *frame, const struct gl_material_set *materials);
+typedef uint64_t gl_mesh_features_function(const struct gl_material_set *materials, const gl_batch *batch);
+void gl_mesh_order(gl_mesh_set *meshes, const gl_frame_block *frame, const struct gl_material_set *materials,
+                   gl_mesh_features_function *features_of);
 
 /* Those that are outside of the picture, too: shadows fall into it. */
 const gl_batch *gl_mesh_batches(const gl_mesh_set *meshes, gl_pass pass, uint32_t *count);
+/* World-space bounding box of an instance, m. */
+void gl_mesh_instance_box(const scene_instance *instance, float low[3], float high[3]);
 /* Whether all of a batch is beyond one side of what a frame sees. */
 bool gl_mesh_is_outside(const gl_batch *batch, const gl_frame_block *frame);
 /* What the program of a batch needs apart from its material. */

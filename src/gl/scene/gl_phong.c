@@ -9,9 +9,123 @@
 #include "draw/ogl1_maps.h"
 #include "gl/core/gl_texture.h"
 
-#include "gl/scene/gl_phong_block.h"
+#include "draw/ogl1_setup.h"
 
-_Static_assert((int)GL_PHONG_MAP_COUNT == (int)GL_PHONG_MAPS, "each map has its feature");
+/* ---- uniform blocks ---- */
+
+/* As phong.glsl has them (std140). */
+enum {
+    GL_PHONG_LIGHTS = 64 /* OpenGL 1 promises eight */
+};
+
+/* Of a picture. */
+typedef struct phong_picture {
+    float view[3][4]; /* rows: world to eye space */
+    int32_t variant, is_encoded, are_colors_srgb, light_count;
+    float global_ambient[3], has_rgl_colors;
+    float fog_color[3], fog_mode;
+    float fog_near, fog_far, fog_scale, fog_w;
+    float lights[GL_PHONG_LIGHTS][4][4]; /* position, 1 a point light; ambient; diffuse; specular */
+} phong_picture;
+
+/* Of a material. */
+typedef struct phong_block {
+    float ambient[3], shininess;
+    float diffuse[3], opacity;
+    float specular[3], texture_type;
+    float emission[3], texture_mode;
+    float has_texture_over_light, is_halo, has_fog, bump_multiplier;
+    float maps[GL_PHONG_MAP_COUNT][3]
+              [4]; /* rows of the transform, w: the set, 1 trilinear; base, gain, channel */
+} phong_block;
+
+static const legacy_map_slot phong_slots[GL_PHONG_MAP_COUNT] = {
+    LEGACY_AMBIENT_MAP,   LEGACY_DIFFUSE_MAP, LEGACY_SPECULAR_MAP, LEGACY_EMISSION_MAP,
+    LEGACY_SHININESS_MAP, LEGACY_OPACITY_MAP, LEGACY_NORMAL_MAP};
+
+static void store3(vec3 v, float out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = v[i];
+}
+
+static void fill_picture(const ogl1_setup *s, facet_ogl1_variant variant, phong_picture *b)
+{
+    memset(b, 0, sizeof *b);
+    for (int axis = 0; axis < 3; axis++) {
+        vec3 unit = vec3(axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f);
+        vec3 column = mul(s->view, unit);
+        for (int row = 0; row < 3; row++)
+            b->view[row][axis] = column[row];
+    }
+    b->variant = (int32_t)variant;
+    b->is_encoded = s->is_encoded;
+    b->are_colors_srgb = s->are_colors_srgb;
+    b->light_count = (int32_t)s->light_count;
+    store3(s->rules.global_ambient, b->global_ambient);
+    b->has_rgl_colors = s->has_rgl_colors ? 1.0f : 0.0f;
+    store3(s->fog.color, b->fog_color);
+    b->fog_mode = (float)s->fog.mode;
+    b->fog_near = s->fog.near_m;
+    b->fog_far = s->fog.far_m;
+    b->fog_scale = s->fog.scale;
+    b->fog_w = s->fog.w;
+    for (uint32_t i = 0; i < s->light_count; i++) {
+        store3(s->lights[i].position, b->lights[i][0]);
+        b->lights[i][0][3] = s->lights[i].is_point ? 1.0f : 0.0f;
+        store3(s->lights[i].ambient, b->lights[i][1]);
+        store3(s->lights[i].diffuse, b->lights[i][2]);
+        store3(s->lights[i].specular, b->lights[i][3]);
+    }
+}
+
+/* 0 to 3; 4: luminance. ogl1_map_scalar(). */
+static float channel_of(char channel)
+{
+    return channel == 'r'   ? 0.0f
+           : channel == 'g' ? 1.0f
+           : channel == 'b' ? 2.0f
+           : channel == 'm' ? 3.0f
+                            : 4.0f;
+}
+
+static void fill_map(const facet_scene *scene, const legacy_map *map, float out[3][4])
+{
+    static const float identity[6] = {1, 0, 0, 0, 1, 0};
+    const float *transform = map->ref.has_transform ? map->ref.transform : identity;
+    memcpy(out[0], transform, 3 * sizeof *transform);
+    memcpy(out[1], transform + 3, 3 * sizeof *transform);
+    if (map->ref.texture < scene->texture_count) {
+        const scene_texture *t = &scene->textures[map->ref.texture];
+        out[0][3] = (float)map->ref.texcoord;
+        out[1][3] = t->min_filter == SCENE_FILTER_LINEAR && t->mip_filter == SCENE_MIP_LINEAR;
+    }
+    out[2][0] = map->base;
+    out[2][1] = map->gain;
+    out[2][2] = channel_of(map->channel);
+}
+
+static void fill_material(const facet_scene *scene, const ogl1_material *m, phong_block *b)
+{
+    const legacy_material *l = m->legacy;
+    memset(b, 0, sizeof *b);
+    store3(m->phong.ambient, b->ambient);
+    b->shininess = m->phong.shininess;
+    store3(m->phong.diffuse, b->diffuse);
+    b->opacity = l->opacity;
+    store3(m->phong.specular, b->specular);
+    b->texture_type = (float)l->texture_type;
+    store3(m->phong.emission, b->emission);
+    b->texture_mode = (float)l->texture_mode;
+    b->has_texture_over_light = m->has_texture_over_light ? 1.0f : 0.0f;
+    b->is_halo = l->is_halo ? 1.0f : 0.0f;
+    b->has_fog = l->has_fog ? 1.0f : 0.0f;
+    b->bump_multiplier = l->maps[LEGACY_NORMAL_MAP].bump_multiplier;
+    for (int i = 0; i < GL_PHONG_MAP_COUNT; i++)
+        fill_map(scene, &l->maps[phong_slots[i]], b->maps[i]);
+}
+
+/* ---- the set ---- */
 
 struct gl_phong {
     gl_context *context;
@@ -53,7 +167,7 @@ facet_result gl_phong_create(gl_context *context, const facet_scene *scene, cons
     GLint alignment = 256;
     glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
     size_t step = alignment > 0 ? (size_t)alignment : 256;
-    p->stride = (sizeof(gl_phong_material) + step - 1) / step * step;
+    p->stride = (sizeof(phong_block) + step - 1) / step * step;
     glGenBuffers(1, &p->picture_buffer);
     glGenBuffers(1, &p->material_buffer);
     p->white = make_white();
@@ -86,15 +200,15 @@ static uint32_t maps_of(const gl_phong *p, const gl_batch *batch)
 
 static bool is_color(const gl_phong *p, const gl_batch *batch, int map)
 {
-    return ogl1_map_is_color(batch->geometry->legacy, gl_phong_slots[map], p->desc.is_linear);
+    return ogl1_map_is_color(batch->geometry->legacy, phong_slots[map], p->desc.is_linear);
 }
 
 static void add_uses(gl_phong *p, const gl_batch *batch)
 {
     uint32_t maps = maps_of(p, batch);
-    for (int i = 0; i < GL_PHONG_MAPS; i++) {
-        uint32_t texture = batch->geometry->legacy->maps[gl_phong_slots[i]].ref.texture;
-        if (!(maps >> gl_phong_slots[i] & 1) || texture >= p->scene->texture_count)
+    for (int i = 0; i < GL_PHONG_MAP_COUNT; i++) {
+        uint32_t texture = batch->geometry->legacy->maps[phong_slots[i]].ref.texture;
+        if (!(maps >> phong_slots[i] & 1) || texture >= p->scene->texture_count)
             continue;
         if (is_color(p, batch, i))
             p->uses[texture].is_read_as_color = true;
@@ -118,10 +232,10 @@ static facet_result update_textures(gl_phong *p, const gl_phong_view *view, face
 /* The picture's block is too large for the stack of a thread that somebody else made. */
 static facet_result upload_picture(gl_phong *p, const ogl1_setup *setup, facet_error *error)
 {
-    gl_phong_picture *block = mem_alloc(&p->allocator, 1, sizeof *block);
+    phong_picture *block = mem_alloc(&p->allocator, 1, sizeof *block);
     if (!block)
         return fail_memory(error, "lights", sizeof *block);
-    gl_phong_picture_fill(setup, p->desc.variant, block);
+    fill_picture(setup, p->desc.variant, block);
     glBindBuffer(GL_UNIFORM_BUFFER, p->picture_buffer);
     glBufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_DYNAMIC_DRAW);
     mem_free(block);
@@ -135,8 +249,8 @@ static facet_result upload_materials(gl_phong *p, const ogl1_setup *setup, facet
     if (!blocks)
         return fail_memory(error, "materials", count * p->stride);
     for (size_t i = 0; i < count; i++) {
-        gl_phong_material block;
-        gl_phong_material_fill(p->scene, &setup->materials[i], &block);
+        phong_block block;
+        fill_material(p->scene, &setup->materials[i], &block);
         memcpy(blocks + i * p->stride, &block, sizeof block);
     }
     glBindBuffer(GL_UNIFORM_BUFFER, p->material_buffer);
@@ -175,8 +289,8 @@ uint64_t gl_phong_features(const gl_phong *p, const gl_batch *batch)
     const render_geometry *g = batch->geometry;
     uint32_t maps = maps_of(p, batch);
     uint64_t features = g->tangents ? GL_SURFACE_HAS_TANGENTS : 0;
-    for (int i = 0; i < GL_PHONG_MAPS; i++)
-        if (maps >> gl_phong_slots[i] & 1)
+    for (int i = 0; i < GL_PHONG_MAP_COUNT; i++)
+        if (maps >> phong_slots[i] & 1)
             features |= 1ull << (GL_SURFACE_TEXTURES + i);
     if (maps >> LEGACY_DIFFUSE_MAP & 1 && ogl1_map_is_spherical(g->legacy, LEGACY_DIFFUSE_MAP))
         features |= 1ull << GL_PHONG_IS_SPHERE_MAP;
@@ -197,10 +311,10 @@ void gl_phong_bind(const gl_phong *p, const gl_batch *batch)
 {
     const render_geometry *g = batch->geometry;
     uint32_t maps = maps_of(p, batch);
-    for (int i = 0; i < GL_PHONG_MAPS; i++) {
-        if (!(maps >> gl_phong_slots[i] & 1))
+    for (int i = 0; i < GL_PHONG_MAP_COUNT; i++) {
+        if (!(maps >> phong_slots[i] & 1))
             continue;
-        uint32_t texture = g->legacy->maps[gl_phong_slots[i]].ref.texture;
+        uint32_t texture = g->legacy->maps[phong_slots[i]].ref.texture;
         uint32_t name = gl_texture_name(p->textures, texture, is_color(p, batch, i));
         GLuint unit = (GLuint)GL_UNIT_MATERIAL + (GLuint)i;
         glActiveTexture(GL_TEXTURE0 + unit);
@@ -209,7 +323,7 @@ void gl_phong_bind(const gl_phong *p, const gl_batch *batch)
     }
     glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_OGL1, p->picture_buffer);
     glBindBufferRange(GL_UNIFORM_BUFFER, GL_BLOCK_MATERIAL, p->material_buffer,
-                      (GLintptr)(g->material_id * p->stride), sizeof(gl_phong_material));
+                      (GLintptr)(g->material_id * p->stride), sizeof(phong_block));
     if (g->is_double_sided)
         glDisable(GL_CULL_FACE);
     else

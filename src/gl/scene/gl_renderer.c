@@ -10,7 +10,6 @@
 #include "gl/scene/gl_camera.h"
 #include "gl/scene/gl_film.h"
 #include "gl/scene/gl_frame.h"
-#include "gl/scene/gl_sampling.h"
 #include "scene/scene.h"
 
 #include "draw/ogl1_setup.h"

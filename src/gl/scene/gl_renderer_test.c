@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "gl/scene/gl_fixture_test.h"
-#include "gl/scene/gl_sampling.h"
+#include "gl/scene/gl_camera.h"
 
 static gl_fixture_contexts contexts;
 

@@ -44,21 +44,6 @@ static uint32_t corner_count(const render_geometry *g)
     return g->primitive->mode == SCENE_TRIANGLES ? 3 : g->primitive->mode == SCENE_LINES ? 2 : 1;
 }
 
-/* The box of an instance in the world. */
-static void set_box(const scene_instance *instance, float box[2][3])
-{
-    for (int row = 0; row < 3; row++) {
-        float middle = instance->world.m[12 + row], extent = 0.0f;
-        for (int k = 0; k < 3; k++) {
-            float m = instance->world.m[4 * k + row];
-            middle += m * 0.5f * (instance->bounds_min[k] + instance->bounds_max[k]);
-            extent += fabsf(m) * 0.5f * (instance->bounds_max[k] - instance->bounds_min[k]);
-        }
-        box[0][row] = middle - extent;
-        box[1][row] = middle + extent;
-    }
-}
-
 typedef struct middle_job {
     const render_geometry *geometry;
     float *out;
@@ -112,7 +97,7 @@ static facet_result collect(gl_sort *s, const gl_mesh_set *meshes, const gl_scen
                                    .instance = batches[b].first_instance + i,
                                    .first = s->count,
                                    .count = g->primitive->index_count / corner_count(g)};
-            set_box(&scene->pose.instances[number], unit->box);
+            gl_mesh_instance_box(&scene->pose.instances[number], unit->box[0], unit->box[1]);
             middle_job job = {.geometry = g, .out = s->middles + 3 * (size_t)s->count};
             parallel_for(thread_count, unit->count, GRAIN, find_middles, &job);
             for (uint32_t k = 0; k < unit->count; k++)

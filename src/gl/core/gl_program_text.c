@@ -1,0 +1,296 @@
+/* gl_program_text.c - see gl_program_text.h: which parts of the shader library and which files make up each main. */
+#include "gl/core/gl_program_text.h"
+
+#include <epoxy/gl.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/result.h"
+
+typedef struct glsl_part {
+    const char *name, *text;
+} glsl_part;
+
+#include "gl_text.h"
+
+/* ---- features and mains ---- */
+
+/* clang-format off */
+/* Texture slots in the order of scene_texture_slot. */
+#define TEXTURE_SLOTS(X) \
+    X(BASE_COLOR) X(METALLIC_ROUGHNESS) X(NORMAL) X(OCCLUSION) X(EMISSIVE) X(SPECULAR) X(SPECULAR_COLOR) \
+    X(CLEARCOAT) X(CLEARCOAT_ROUGHNESS) X(CLEARCOAT_NORMAL) X(SHEEN_COLOR) X(SHEEN_ROUGHNESS) \
+    X(TRANSMISSION) X(THICKNESS) X(IRIDESCENCE) X(IRIDESCENCE_THICKNESS) X(ANISOTROPY) \
+    X(DIFFUSE_TRANSMISSION) X(DIFFUSE_TRANSMISSION_COLOR) X(SPECULAR_GLOSSINESS)
+
+/* Pairs of slots that often share one texture: the second can then read the first one's texel. */
+#define TEXTURE_PAIRS(X) \
+    X(METALLIC_ROUGHNESS, OCCLUSION) X(SPECULAR_COLOR, SPECULAR) X(CLEARCOAT, CLEARCOAT_ROUGHNESS) \
+    X(NORMAL, CLEARCOAT_NORMAL) X(SHEEN_COLOR, SHEEN_ROUGHNESS) X(IRIDESCENCE, IRIDESCENCE_THICKNESS) \
+    X(DIFFUSE_TRANSMISSION_COLOR, DIFFUSE_TRANSMISSION)
+
+#define SLOT_NAME(slot) [SCENE_##slot##_TEXTURE] = #slot,
+#define TEXTURE_FEATURE(slot) "HAS_" #slot "_TEXTURE",
+#define PAIR(first, second) {SCENE_##first##_TEXTURE, SCENE_##second##_TEXTURE},
+#define PAIR_FEATURE(first, second) "IS_" #second "_PAIRED",
+static const char *const slot_names[] = {TEXTURE_SLOTS(SLOT_NAME)};
+const gl_slot_pair gl_slot_pairs[GL_SLOT_PAIR_COUNT] = {TEXTURE_PAIRS(PAIR)};
+
+/* Feature names become #defines; bit 0 first. gl_program_text.h has those that C sets by number. */
+static const char *const surface_features[] = {
+    "HAS_TANGENTS", "HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS",
+    TEXTURE_SLOTS(TEXTURE_FEATURE) TEXTURE_PAIRS(PAIR_FEATURE)
+    "HAS_CLEARCOAT", "HAS_SHEEN", "HAS_ANISOTROPY", "HAS_IRIDESCENCE", "HAS_TRANSMISSION",
+    "HAS_DIFFUSE_TRANSMISSION", "HAS_VOLUME", "HAS_DISPERSION", "HAS_SCATTER",
+    "IS_LIT", "IS_UNLIT", "IS_GLOSSY", "HAS_ALPHA_MASK", "HAS_ALPHA_BLEND", "HAS_COLORS", "IS_VOLUME",
+    "HAS_SPECULAR_ANTIALIASING", "IS_SPRITE", "AOVS", "IS_WEIGHTED", "IS_PEELED", "HAS_CHANNEL",
+    "HAS_SCHLICK_GGX", NULL};
+/* clang-format on */
+_Static_assert(sizeof slot_names / sizeof *slot_names == SCENE_TEXTURE_SLOT_COUNT, "every slot has a name");
+
+/* From GL_SURFACE_TEXTURES on; the other ones are those of surfaces. */
+static const char *const phong_features[] = {"HAS_AMBIENT_MAP",  "HAS_DIFFUSE_MAP",   "HAS_SPECULAR_MAP",
+                                             "HAS_EMISSION_MAP", "HAS_SHININESS_MAP", "HAS_OPACITY_MAP",
+                                             "HAS_NORMAL_MAP",   "IS_SPHERE_MAP",     "IS_AT_VERTICES",
+                                             "IS_FLAT",          "IS_SEE_THROUGH"};
+static const char *const halve_features[] = {"IS_COPY", NULL};
+static const char *const no_features[] = {NULL};
+static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
+static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
+static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
+static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE", "IS_PAINTED",       "IS_BELOW",
+                                           "HAS_BED",     "HAS_FOAM",  "HAS_GLINTS",       "HAS_CUBIC",
+                                           "IS_BESIDE",   "HAS_MODEL", "HAS_OTHER_FACETS", NULL};
+static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
+
+enum { MAX_PARTS = 12 };
+
+static const struct {
+    const char *name, *vertex, *fragment;
+    const char *parts[MAX_PARTS]; /* of the shared text; those that they use come with them */
+    const char *fragments[12];    /* files of this folder before the fragment shader's own */
+    const char *const *features;
+    const char *vertex_parts[4]; /* files before the vertex shader's own */
+} mains[GL_MAIN_COUNT] = {
+    [GL_MAIN_SURFACE] = {"surface",
+                         "surface.vert",
+                         "surface.frag",
+                         {"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material",
+                          "footprint"},
+                         {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl",
+                          "surface_in.glsl", "texel.glsl", "material.glsl", "transmission.glsl",
+                          "radiance.glsl", "channels.glsl", "transparency.glsl", "aovs.glsl"},
+                         surface_features,
+                         {0}},
+    [GL_MAIN_SHADOW] = {"shadow",
+                        "surface.vert",
+                        "shadow.frag",
+                        {"surface", "light", "layers_direct", "layers_ibl", "material", "footprint"},
+                        {"surface_in.glsl", "texel.glsl", "material.glsl"},
+                        surface_features,
+                        {0}},
+    [GL_MAIN_PHONG] = {"phong",
+                       "surface.vert",
+                       "phong.frag",
+                       {"phong", "light", "color", "material", "footprint"},
+                       {"light_block.glsl", "shadow.glsl", "lights.glsl", "surface_in.glsl", "texel.glsl",
+                        "phong.glsl", "transparency.glsl", "aovs.glsl"},
+                       surface_features,
+                       {"light_block.glsl", "lights.glsl", "phong.glsl", "phong_vertex.glsl"}},
+    [GL_MAIN_GROUND_MAP] = {"ground_map",
+                            "screen.vert",
+                            "ground_map.frag",
+                            {"constants"},
+                            {"light_block.glsl"},
+                            no_features,
+                            {0}},
+    [GL_MAIN_GROUND] = {"ground",
+                        "screen.vert",
+                        "ground.frag",
+                        {"surface", "light", "color"},
+                        {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl"},
+                        ground_features,
+                        {0}},
+    [GL_MAIN_BACKGROUND] = {"background",
+                            "screen.vert",
+                            "background.frag",
+                            {"surface"},
+                            {"light_block.glsl", "environment.glsl"},
+                            background_features,
+                            {0}},
+    [GL_MAIN_COMPOSE] = {"compose", "screen.vert", "compose.frag", {"constants"}, {0}, compose_features, {0}},
+    [GL_MAIN_PRESENT] =
+        {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, present_features, {0}},
+    [GL_MAIN_HALVE] = {"halve", "screen.vert", "halve.frag", {"constants"}, {0}, halve_features, {0}},
+    [GL_MAIN_SPREAD] = {"spread", "screen.vert", "spread.frag", {"constants"}, {0}, no_features, {0}},
+    [GL_MAIN_DEVELOP] = {"develop", "screen.vert", "develop.frag", {"color"}, {0}, no_features, {0}},
+    [GL_MAIN_SEA_GRID] = {"sea_grid",
+                          "screen.vert",
+                          "sea_grid.frag",
+                          {"water_place"},
+                          {"sea_block.glsl", "sea_waves.glsl", "sea_grid.glsl"},
+                          no_features,
+                          {0}},
+    [GL_MAIN_SEA_SURFACE] = {"sea_surface",
+                             "sea.vert",
+                             "sea_surface.frag",
+                             {"water_place"},
+                             {0},
+                             no_features,
+                             {"sea_block.glsl"}},
+    [GL_MAIN_SEA_CLASS] =
+        {"sea_class", "screen.vert", "sea_class.frag", {"water_place"}, {"sea_block.glsl"}, no_features, {0}},
+    [GL_MAIN_SEA] = {"sea",
+                     "screen.vert",
+                     "sea.frag",
+                     {"water_place", "water_crest", "water_facets", "water_caustic", "water_before", "glint",
+                      "ibl", "surface", "sobol"},
+                     {"sea_light.glsl", "light_block.glsl", "environment.glsl", "sea_block.glsl",
+                      "sea_waves.glsl", "sea_caustics.glsl", "sea_sky.glsl", "sea_place.glsl",
+                      "sea_model.glsl", "sea_look.glsl"},
+                     sea_features,
+                     {0}},
+};
+
+const char *gl_program_main_name(gl_main main)
+{
+    return mains[main].name;
+}
+
+uint32_t gl_program_feature_count(gl_main main)
+{
+    uint32_t count = 0;
+    while (mains[main].features[count])
+        count++;
+    return count;
+}
+
+const char *gl_program_feature_name(gl_main main, uint32_t feature)
+{
+    const uint32_t own = sizeof phong_features / sizeof *phong_features;
+    if (main == GL_MAIN_PHONG && UINT64_C(1) << feature == GL_SURFACE_HAS_SHADOWS) /* OpenGL 1 has none */
+        return "";
+    if (main == GL_MAIN_PHONG && feature >= GL_SURFACE_TEXTURES && feature < GL_SURFACE_IS_LIT)
+        return feature - GL_SURFACE_TEXTURES < own ? phong_features[feature - GL_SURFACE_TEXTURES] : "";
+    return mains[main].features[feature];
+}
+
+uint64_t gl_program_feature(gl_main main, const char *name)
+{
+    for (uint32_t i = 0; mains[main].features[i]; i++)
+        if (strcmp(gl_program_feature_name(main, i), name) == 0)
+            return UINT64_C(1) << i;
+    return 0;
+}
+
+/* ---- texture slots ---- */
+
+const uint8_t gl_slots_by_loss[SCENE_TEXTURE_SLOT_COUNT] = {SCENE_THICKNESS_TEXTURE,
+                                                            SCENE_IRIDESCENCE_THICKNESS_TEXTURE,
+                                                            SCENE_SPECULAR_TEXTURE,
+                                                            SCENE_SPECULAR_COLOR_TEXTURE,
+                                                            SCENE_SHEEN_ROUGHNESS_TEXTURE,
+                                                            SCENE_CLEARCOAT_ROUGHNESS_TEXTURE,
+                                                            SCENE_CLEARCOAT_NORMAL_TEXTURE,
+                                                            SCENE_DIFFUSE_TRANSMISSION_COLOR_TEXTURE,
+                                                            SCENE_IRIDESCENCE_TEXTURE,
+                                                            SCENE_OCCLUSION_TEXTURE,
+                                                            SCENE_SHEEN_COLOR_TEXTURE,
+                                                            SCENE_CLEARCOAT_TEXTURE,
+                                                            SCENE_ANISOTROPY_TEXTURE,
+                                                            SCENE_DIFFUSE_TRANSMISSION_TEXTURE,
+                                                            SCENE_TRANSMISSION_TEXTURE,
+                                                            SCENE_EMISSIVE_TEXTURE,
+                                                            SCENE_NORMAL_TEXTURE,
+                                                            SCENE_METALLIC_ROUGHNESS_TEXTURE,
+                                                            SCENE_SPECULAR_GLOSSINESS_TEXTURE,
+                                                            SCENE_BASE_COLOR_TEXTURE};
+
+static bool has(uint64_t features, int bit)
+{
+    return features >> bit & 1;
+}
+
+/* The slot whose texel it reads: itself, or that of a pair. */
+static int source_of(uint64_t features, int slot)
+{
+    for (int i = 0; i < GL_SLOT_PAIR_COUNT; i++)
+        if ((int)gl_slot_pairs[i].second == slot && has(features, GL_SURFACE_PAIRS + i))
+            return (int)gl_slot_pairs[i].first;
+    return slot;
+}
+
+int gl_material_slot_units(uint64_t features, int8_t units[SCENE_TEXTURE_SLOT_COUNT])
+{
+    int count = 0;
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
+        units[slot] = -1;
+        if (has(features, GL_SURFACE_TEXTURES + slot) && source_of(features, slot) == slot)
+            units[slot] = (int8_t)count++;
+    }
+    return count;
+}
+
+/* Adds MATERIAL_LAYERS, the samplers "u_material0".., and BASE_COLOR_TEXEL and so on for every slot: a vec4, white where there is none. */
+static void slot_text(uint64_t features, text *out)
+{
+    int8_t units[SCENE_TEXTURE_SLOT_COUNT];
+    int count = gl_material_slot_units(features, units);
+    unsigned layers = (unsigned)(features >> GL_SURFACE_LAYERS) & ((1u << GL_SURFACE_LAYER_COUNT) - 1u);
+    uint64_t by_layers = gl_program_feature(GL_MAIN_SURFACE, "HAS_CHANNEL") |
+                         gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
+    if (layers || features & by_layers)
+        text_addf(out, "#define HAS_LAYERS\n#define MATERIAL_LAYERS %uu\n", layers);
+    for (int i = 0; i < count; i++)
+        text_addf(out, "uniform sampler2D u_material%d;\n", i);
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
+        int source = source_of(features, slot);
+        if (!has(features, GL_SURFACE_TEXTURES + slot))
+            text_addf(out, "#define %s_TEXEL vec4(1.0)\n", slot_names[slot]);
+        else if (source != slot)
+            text_addf(out, "#define %s_TEXEL %s_TEXEL\n", slot_names[slot], slot_names[source]);
+        else
+            text_addf(out, "#define %s_TEXEL material_texel(u_material%d, %d)\n", slot_names[slot],
+                      units[slot], slot);
+    }
+}
+
+/* ---- the text ---- */
+
+static const char *file_text(const char *name)
+{
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (strcmp(parts[i].name, name) == 0)
+            return parts[i].text;
+    return "#error there is no such file\n";
+}
+
+facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint32_t stage, text *out,
+                             facet_error *error)
+{
+    facet_shader_desc desc = {
+        .allocator = out->allocator, .version = glsl_version, .parts = mains[key.main].parts};
+    while (desc.part_count < MAX_PARTS && desc.parts[desc.part_count])
+        desc.part_count++;
+    unsigned char *shared;
+    size_t size;
+    facet_result result = facet_shader_text(&desc, &shared, &size, error);
+    if (result != FACET_OK)
+        return result;
+    text_add(out, (const char *)shared);
+    mem_free(shared);
+    for (uint32_t i = 0; i < gl_program_feature_count(key.main); i++)
+        if (key.features >> i & 1 && gl_program_feature_name(key.main, i)[0])
+            text_addf(out, "#define %s\n", gl_program_feature_name(key.main, i));
+    if (key.main == GL_MAIN_PHONG)
+        text_add(out, "#define IS_PHONG\n");
+    if ((key.main == GL_MAIN_SURFACE || key.main == GL_MAIN_SHADOW) && stage == GL_FRAGMENT_SHADER)
+        slot_text(key.features, out);
+    text_add(out, file_text("blocks.glsl"));
+    for (int i = 0; stage == GL_FRAGMENT_SHADER && i < 12 && mains[key.main].fragments[i]; i++)
+        text_add(out, file_text(mains[key.main].fragments[i]));
+    for (int i = 0; stage == GL_VERTEX_SHADER && i < 4 && mains[key.main].vertex_parts[i]; i++)
+        text_add(out, file_text(mains[key.main].vertex_parts[i]));
+    text_add(out, file_text(stage == GL_VERTEX_SHADER ? mains[key.main].vertex : mains[key.main].fragment));
+    return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;
+}
