@@ -1,5 +1,5 @@
 /* legacy_extras.h - materials of OpenGL 1 as JSON, by the names that MTL has for them: "extras.facet_legacy" of glTF
- * materials and of the root of a glTF file. The reader is io/gltf_legacy_extras.c. */
+ * materials and of the root of a glTF file. The reader is io/gltf/gltf_extras.c. */
 #ifndef SCENE_LEGACY_EXTRAS_H
 #define SCENE_LEGACY_EXTRAS_H
 

@@ -1,10 +1,172 @@
-/* gltf_meshes.c - meshes and their primitives: which accessor is which attribute, and what a primitive lacks. */
+/* gltf_meshes.c - meshes and their primitives: which accessor is which attribute, the materials of variants
+ * (KHR_materials_variants), morph targets (glTF 2.0 section 3.7.2.2), and what a primitive lacks. Morph targets may
+ * also change texture coordinates and colors, which viewers need not draw: a warning names them. */
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/parallel.h"
 #include "io/gltf/gltf_reader.h"
+
+/* ---- variants ---- */
+
+static const char NAME[] = "KHR_materials_variants";
+
+void gltf_read_variants(io_reader *r, const json_place *root)
+{
+    json_place extension = io_get_extension(r, root, NAME);
+    json_place array = io_get_array(r, &extension, "variants");
+    size_t count = io_get_count(&array);
+    if (extension.value && !array.value)
+        io_note(r, &extension, "variants", "is missing");
+    r->scene->variants = io_alloc(r, "variants", count, sizeof *r->scene->variants);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
+        if (!io_has_member(&at, "name"))
+            io_note(r, &at, "name", "is missing");
+        r->scene->variants[i] = io_get_name(r, &at);
+        r->scene->variant_count = (uint32_t)(i + 1);
+    }
+}
+
+/* One material for some of the variants. */
+static void read_mapping(io_reader *r, const json_place *at, uint32_t *materials)
+{
+    uint32_t material = io_get_required_index(r, at, "material", r->scene->material_count, "material");
+    if (io_is_ok(r) && material != SCENE_NONE && r->gltf->material_problems[material].message)
+        io_fail_deferred(r, &r->gltf->material_problems[material]);
+    json_place array = io_get_array(r, at, "variants");
+    if (io_is_ok(r) && !array.value)
+        io_note(r, at, "variants", "is missing");
+    for (size_t i = 0; i < io_get_count(&array) && io_is_ok(r); i++) {
+        json_place element = io_get_element(&array, i);
+        uint32_t variant = io_get_index_value(r, &element, r->scene->variant_count, "variant");
+        if (variant == SCENE_NONE)
+            return;
+        if (materials[variant] != SCENE_NONE)
+            io_note(r, &element, NULL, "variant %u has a material already, which is kept", variant);
+        else
+            materials[variant] = material;
+    }
+}
+
+/* The materials of a primitive, by variant; NULL: it has its own in all of them, or an error is recorded. */
+static const uint32_t *read_mappings(io_reader *r, const json_place *primitive)
+{
+    json_place extension = io_get_extension(r, primitive, NAME);
+    json_place array = io_get_array(r, &extension, "mappings");
+    uint32_t variant_count = r->scene->variant_count;
+    if (extension.value && !array.value)
+        io_note(r, &extension, "mappings", "is missing");
+    if (io_get_count(&array) == 0 || !io_spend(r, &extension, variant_count))
+        return NULL;
+    uint32_t *materials = io_alloc_raw(r, "variants", variant_count, sizeof *materials);
+    if (!materials)
+        return NULL;
+    memset(materials, 0xff, variant_count * sizeof *materials);
+    for (size_t i = 0; i < io_get_count(&array) && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &array, i);
+        read_mapping(r, &at, materials);
+        io_leave_out(r, "the primitive keeps its material in that variant");
+    }
+    return materials;
+}
+
+/* ---- morph targets ---- */
+
+static const struct {
+    const char *name, *what;
+    gltf_attribute attribute;
+} DELTAS[3] = {
+    {"POSITION", "changes of positions", GLTF_POSITION_DELTA},
+    {"NORMAL", "changes of normals", GLTF_NORMAL_DELTA},
+    {"TANGENT", "changes of tangents", GLTF_TANGENT_DELTA},
+};
+
+/* Every accessor that a target names must be there, and so must the attribute that it changes. */
+static void check_target(io_reader *r, const json_place *target, const json_place *attributes)
+{
+    const char *name;
+    json_t *value;
+    json_object_foreach((json_t *)(uintptr_t)target->value, name, value)
+    {
+        bool is_read = false;
+        for (int i = 0; i < 3; i++)
+            is_read |= strcmp(name, DELTAS[i].name) == 0;
+        if (!is_read) {
+            gltf_get_accessor(r, target, name);
+            io_leave_out(r, "nothing reads it");
+        }
+        if (!io_has_member(attributes, name))
+            io_note(r, target, name, "is not among the attributes of the primitive");
+        else if (strncmp(name, "TEXCOORD_", 9) == 0 || strncmp(name, "COLOR_", 6) == 0)
+            io_warn(r, target, name, "is not morphed");
+        else if (!is_read && name[0] != '_')
+            io_note(r, target, name, "is nothing that a morph target can change");
+    }
+}
+
+static bool read_target(io_reader *r, const json_place *target, const scene_primitive *p,
+                        scene_morph_target *out)
+{
+    const float **const arrays[3] = {&out->positions, &out->normals, &out->tangents};
+    const bool is_used[3] = {true, p->normals != NULL, p->tangents != NULL};
+    for (int i = 0; i < 3; i++) {
+        uint32_t accessor =
+            gltf_get_attribute(r, target, DELTAS[i].name, DELTAS[i].attribute, p->vertex_count);
+        if (accessor == SCENE_NONE || !is_used[i] || gltf_is_zero_accessor(r, accessor))
+            continue; /* what changes nothing takes no memory */
+        if (!gltf_has_accessor_source(r, accessor))
+            io_warn(r, target, DELTAS[i].name, "is in a buffer without bytes and changes nothing");
+        else
+            *arrays[i] = gltf_get_finite(r, target, accessor, DELTAS[i].what);
+    }
+    return io_is_ok(r);
+}
+
+/* The targets of a primitive whose attributes are read, and the weights of a mesh or a node. */
+static bool read_targets(io_reader *r, const json_place *at, scene_primitive *p)
+{
+    json_place attributes = io_get_object(r, at, "attributes");
+    json_place array = io_get_array(r, at, "targets");
+    size_t count = io_get_count(&array);
+    if (count == 0)
+        return io_is_ok(r);
+    scene_morph_target *targets = io_alloc(r, "morph targets", count, sizeof *targets);
+    for (size_t i = 0; i < count && io_is_ok(r); i++) {
+        json_place target = io_get_element_object(r, &array, i);
+        check_target(r, &target, &attributes);
+        if (io_is_ok(r))
+            read_target(r, &target, p, &targets[i]);
+        if (io_leave_out(r, "the morph target changes nothing"))
+            targets[i] = (scene_morph_target){0};
+    }
+    p->targets = targets;
+    p->target_count = (uint32_t)count;
+    return io_is_ok(r);
+}
+
+const float *gltf_read_weights(io_reader *r, const json_place *object, uint32_t count)
+{
+    json_place array = io_get_array(r, object, "weights");
+    if (!array.value)
+        return NULL;
+    size_t given = io_get_count(&array);
+    if (given != count)
+        io_warn(r, &array, NULL, "must be as many as there are morph targets, %u, but are %zu", count, given);
+    if (count == 0 || !io_spend(r, &array, count))
+        return NULL;
+    float *all = mem_alloc(r->allocator, given, sizeof *all);
+    float *out = io_alloc(r, "weights", count, sizeof *out);
+    if (!all)
+        io_fail_memory(r, "weights", given * sizeof *all);
+    else if (out && io_get_floats(r, object, "weights", all, given))
+        memcpy(out, all, (given < count ? given : count) * sizeof *out);
+    mem_free(all);
+    return out;
+}
+
+/* ---- attributes ---- */
 
 enum { GRAIN = 1 << 15 };
 
@@ -200,7 +362,7 @@ static void read_primitive(io_reader *r, const json_place *at, scene_primitive *
         make_empty(p);
         return;
     }
-    if (!gltf_read_targets(r, at, p) || !gltf_read_primitive_indices(r, at, p, is_lost))
+    if (!read_targets(r, at, p) || !gltf_read_primitive_indices(r, at, p, is_lost))
         return;
     if (p->index_count == 0) {
         make_empty(p);
@@ -227,7 +389,7 @@ static void read_mesh(io_reader *r, const json_place *at, scene_mesh *mesh)
         json_place at_primitive = io_get_element_object(r, &array, i);
         scene_primitive *primitive = &mesh->primitives[i];
         read_primitive(r, &at_primitive, primitive);
-        primitive->variant_materials = gltf_read_mappings(r, &at_primitive);
+        primitive->variant_materials = read_mappings(r, &at_primitive);
         primitive->meta = gltf_get_meta(r, &at_primitive);
         json_place targets = io_get_array(r, &at_primitive, "targets");
         uint32_t target_count = (uint32_t)io_get_count(&targets);

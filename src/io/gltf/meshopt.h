@@ -41,8 +41,6 @@ const char *meshopt_decode(const meshopt_stream *stream, uint8_t *out);
 
 /* The parts of meshopt_decode(): a stream in one mode; a filter over elements in place, which cannot fail. */
 const char *meshopt_decode_attributes(const meshopt_stream *stream, uint8_t *out);
-const char *meshopt_decode_triangles(const meshopt_stream *stream, uint8_t *out);
-const char *meshopt_decode_indices(const meshopt_stream *stream, uint8_t *out);
 void meshopt_apply_filter(meshopt_filter filter, uint8_t *elements, size_t count, size_t stride);
 
 /* What the decoders say in more than one place. */

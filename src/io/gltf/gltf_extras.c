@@ -1,13 +1,107 @@
-/* gltf_legacy_extras.c - extras.facet_legacy: what glTF materials were converted from (scene/legacy_extras.h writes it).
+/* gltf_extras.c - metadata, kept as JSON text so that readers of the scene need no JSON parser: extras of any object,
+ * and XMP packets (KHR_xmp_json_ld and its predecessor KHR_xmp). The member extras.facet_legacy becomes the scene's
+ * OpenGL 1 materials (scene/legacy_extras.h writes it).
  *
- * A material's values count while its factors still are those of the member "pbr", to 1e-6: once an editor has changed
- * them, the glTF material is the truth. So it is where a picture of the old material is not there. Extras belong to whoever writes them: what is not as expected is left out
- * silently. */
+ * The old values of a material count while its factors equal those of the member "pbr" to 1e-6 and its images exist:
+ * otherwise an editor has changed the material, and the glTF material is the truth. Other programs may own a member of
+ * that name, so that unexpected content is ignored without a message. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "io/gltf/gltf_reader.h"
 #include "scene/legacy_extras.h"
+
+static const char *const METADATA[] = {"KHR_xmp_json_ld", "KHR_xmp"};
+
+/* ---- text ---- */
+
+/* With 15 digits 0.1 is 0.1; where those are not enough to come back to the same value, with all 17. */
+static size_t choose_format(const json_t *value)
+{
+    const size_t plain = JSON_COMPACT | JSON_ENCODE_ANY;
+    const size_t exact = plain | JSON_REAL_PRECISION(17);
+    char *string = json_dumps(value, plain | JSON_REAL_PRECISION(15));
+    json_t *back = string ? json_loads(string, JSON_DECODE_ANY | JSON_ALLOW_NUL, NULL) : NULL;
+    bool is_same = back && json_equal(value, back);
+    json_decref(back);
+    free(string);
+    return is_same ? plain | JSON_REAL_PRECISION(15) : exact;
+}
+
+/* A value as text in the scene, members in the order of the file; NULL: an error is recorded. */
+static const char *keep_text(io_reader *r, const json_t *value)
+{
+    size_t format = choose_format(value);
+    size_t size = json_dumpb(value, NULL, 0, format);
+    char *string = io_alloc_raw(r, "metadata", size + 1, 1);
+    if (!string)
+        return NULL;
+    if (size == 0 || json_dumpb(value, string, size, format) != size) { /* jansson had no memory */
+        io_fail_memory(r, "metadata", size);
+        return NULL;
+    }
+    string[size] = 0;
+    return string;
+}
+
+/* ---- objects ---- */
+
+/* Other objects name a packet of the root by its number; a wrong one harms nobody who draws. */
+static void check_packet(io_reader *r, const json_place *extension)
+{
+    const json_place root = {.value = r->json};
+    json_place packets = io_get_extension(r, &root, extension->key);
+    json_place list = io_get_array(r, &packets, "packets");
+    const json_t *packet = json_object_get(extension->value, "packet");
+    json_int_t index = json_is_integer(packet) ? json_integer_value(packet) : -1;
+    if (packet && (index < 0 || (uint64_t)index >= io_get_count(&list)))
+        io_note(r, extension, "packet", "is the number of no packet");
+}
+
+scene_meta gltf_get_meta(io_reader *r, const json_place *object)
+{
+    scene_meta out = {0};
+    if (!io_is_ok(r) || !object->value)
+        return out;
+    const json_t *extras = json_object_get(object->value, "extras");
+    if (extras)
+        out.extras = keep_text(r, extras);
+    json_t *kept = NULL;
+    for (size_t i = 0; i < sizeof METADATA / sizeof *METADATA && io_is_ok(r); i++) {
+        json_place at = io_get_extension(r, object, METADATA[i]);
+        if (!at.value)
+            continue;
+        check_packet(r, &at);
+        kept = kept ? kept : json_object();
+        if (!kept || json_object_set(kept, METADATA[i], (json_t *)(uintptr_t)at.value) != 0)
+            io_fail_memory(r, "metadata", 0);
+    }
+    if (kept && io_is_ok(r))
+        out.extensions = keep_text(r, kept);
+    json_decref(kept);
+    return out;
+}
+
+void gltf_read_meta(io_reader *r, const json_place *root)
+{
+    facet_scene *scene = r->scene;
+    json_place asset = io_get_object(r, root, "asset");
+    json_place images = io_get_array(r, root, "images");
+    json_place textures = io_get_array(r, root, "textures");
+    scene->meta = gltf_get_meta(r, root);
+    scene->asset_meta = gltf_get_meta(r, &asset);
+    for (uint32_t i = 0; i < scene->image_count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &images, i);
+        scene->images[i].meta = gltf_get_meta(r, &at);
+    }
+    for (uint32_t i = 0; i < scene->texture_count && io_is_ok(r); i++) {
+        json_place at = io_get_element_object(r, &textures, i);
+        scene->textures[i].meta = gltf_get_meta(r, &at);
+    }
+}
+
+/* ---- facet_legacy ---- */
 
 static const char MEMBER[] = "facet_legacy";
 
