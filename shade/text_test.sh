@@ -90,17 +90,18 @@ fi
 if [ "$side" = c ]; then
     for h in $headers; do
         grep -q "$h" "$here/CMakeLists.txt" || fail "CMakeLists.txt does not install $h"
-        # probe.h calls every function, so that the parity test compares all of them
+        # Some parity case calls every function, so that the parity test compares all of them.
         for f in $(sed -n 's/^FN [A-Za-z0-9]* \([A-Za-z_0-9]*\)(.*/\1/p' "$here/$h"); do
-            grep -q "[^A-Za-z_0-9]$f(" "$here/probe.h" || fail "probe.h does not call $f() of $h"
+            grep -q "[^A-Za-z_0-9]$f(" "$here"/../tests/parity/*.h || fail "no parity case calls $f() of $h"
         done
         ! LC_ALL=C grep -n '[^ -~]' "$here/$h" || fail "$h: a byte that is not ASCII"
         pass
     done
 else
     for version in "300 es" "330 core" "410 core"; do
-        "$here/glsl.sh" "$version" "$here/probe.h" "$here/probe.frag" > "$tmp/probe.frag"
-        glslangValidator "$tmp/probe.frag" > "$tmp/log" || fail "#version $version"
+        { "$here/glsl.sh" "$version" "$here/../tests/parity/common.h" "$here"/../tests/parity/[!c]*.h
+          echo 'void main() {}'; } > "$tmp/parity.frag"
+        glslangValidator "$tmp/parity.frag" > "$tmp/log" || fail "#version $version"
         pass
     done
 fi
