@@ -94,7 +94,7 @@ bool io_spend(io_reader *r, const json_place *at, uint64_t elements);
  * lives; untouched, it costs address space only. Bytes per kind of token measured with jansson 2.14 on x86-64, rounded
  * up. */
 size_t io_json_memory_estimate(const char *text, size_t size);
-/* json_text.c: the tree of a text; NULL: an error is recorded. Bytes that are no UTF-8, as exporters in Latin-1, GBK and
+/* json_reader.c: the tree of a text; NULL: an error is recorded. Bytes that are no UTF-8, as exporters in Latin-1, GBK and
  * Shift-JIS write them, are taken for Latin-1, with one warning: what they spelt is lost, but what differed still does. */
 json_t *io_parse_json(io_reader *r, const char *text, size_t size);
 

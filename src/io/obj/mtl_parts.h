@@ -83,12 +83,12 @@ void mtl_warn(mtl_parser *p, const char *format, ...) __attribute__((format(prin
 /* A copy in the arena; "" where there is no memory (has_failed). */
 const char *mtl_keep(mtl_parser *p, mtl_span s);
 
-/* mtl_map.c: options and name of a map. False: it names no file; a warning said so. */
+/* mtl_values.c: options and name of a map. False: it names no file; a warning said so. */
 bool mtl_parse_map(mtl_parser *p, const char *keyword, mtl_span arguments, legacy_map *map, bool *is_clamped);
 /* Options alone, as legacy_map.options has them. */
 void mtl_parse_options(mtl_parser *p, const char *options, legacy_map *map, bool *is_clamped);
 
-/* mtl_color.c: r [g b], spectral .., xyz ..; false: a warning said what is wrong. */
+/* r [g b], spectral .., xyz ..; false: a warning said what is wrong. */
 bool mtl_parse_color(mtl_parser *p, const char *keyword, mtl_span arguments, float out[3]);
 
 /* mtl_dialect.c: what tells which program wrote a file. */

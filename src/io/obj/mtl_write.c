@@ -159,7 +159,7 @@ static const char *find_true_options(const mtl_writer *w, const legacy_map *map)
     return is_true ? said.options : NULL;
 }
 
-/* The shortest decimal that becomes the offset again: mtl_map.c tells the formula. */
+/* The shortest decimal that becomes the offset again: see mtl_values.c. */
 static void add_offset(const mtl_writer *w, const scene_texture_ref *ref)
 {
     double scale = (double)ref->scale[1];

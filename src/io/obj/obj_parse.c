@@ -6,7 +6,7 @@
 
 /* ---- lists ---- */
 
-bool obj_floats_grow(obj_chunk *c, obj_floats *list, size_t width, const facet_allocator *allocator)
+static bool floats_grow(obj_chunk *c, obj_floats *list, size_t width, const facet_allocator *allocator)
 {
     if (!mem_reserve(allocator, (void **)&list->data, &list->capacity,
                      2 * list->capacity > 256 ? 2 * list->capacity : 256, width * sizeof *list->data))
@@ -73,7 +73,7 @@ static inline const char *read_numbers(obj_chunk *c, const char *p, float *out, 
 static void start_colors(obj_chunk *c, const facet_allocator *allocator)
 {
     while (c->colors.count < c->positions.count) {
-        if (c->colors.count == c->colors.capacity && !obj_floats_grow(c, &c->colors, 4, allocator))
+        if (c->colors.count == c->colors.capacity && !floats_grow(c, &c->colors, 4, allocator))
             return;
         for (size_t k = 0; k < 4; k++)
             c->colors.data[4 * c->colors.count + k] = -1.0f;
@@ -119,7 +119,7 @@ static const char *read_position(obj_chunk *c, const char *p, const facet_alloca
     obj_floats *list = &c->positions;
     float numbers[8];
     unsigned count;
-    if (list->count == list->capacity && !obj_floats_grow(c, list, 3, allocator))
+    if (list->count == list->capacity && !floats_grow(c, list, 3, allocator))
         return p;
     const char *end = read_numbers(c, p, numbers, 8, &count);
     if (c->origin && count >= 3)
@@ -147,7 +147,7 @@ static const char *read_texcoord(obj_chunk *c, const char *p, const facet_alloca
     obj_floats *list = &c->texcoords;
     float numbers[3] = {0.0f, 0.0f, 0.0f};
     unsigned count;
-    if (list->count == list->capacity && !obj_floats_grow(c, list, 2, allocator))
+    if (list->count == list->capacity && !floats_grow(c, list, 2, allocator))
         return p;
     const char *end = read_numbers(c, p, numbers, 3, &count);
     float *out = list->data + 2 * list->count++;
@@ -166,7 +166,7 @@ static const char *read_normal(obj_chunk *c, const char *p, const facet_allocato
     obj_floats *list = &c->normals;
     float numbers[3] = {0.0f, 0.0f, 0.0f};
     unsigned count;
-    if (list->count == list->capacity && !obj_floats_grow(c, list, 3, allocator))
+    if (list->count == list->capacity && !floats_grow(c, list, 3, allocator))
         return p;
     const char *end = read_numbers(c, p, numbers, 3, &count);
     float *out = list->data + 3 * list->count++;

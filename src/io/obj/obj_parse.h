@@ -46,7 +46,6 @@ const char *obj_read_element(obj_chunk *c, const char *p, scene_mode mode, const
 /* Sets element and corner. */
 void obj_add_event(obj_chunk *c, obj_event event, const facet_allocator *allocator);
 /* Room for at least one more. False: no memory, which the chunk knows. */
-bool obj_floats_grow(obj_chunk *c, obj_floats *list, size_t width, const facet_allocator *allocator);
 bool obj_indices_grow(obj_chunk *c, obj_indices *list, const facet_allocator *allocator);
 
 #endif

@@ -204,10 +204,10 @@ const char *obj_parse_statement(obj_chunk *c, const char *text, const facet_allo
 /* Names of what other_statements holds; NULL: there are no more. is_geometry: free-form curves and surfaces. */
 const char *obj_statement_name(unsigned bit, bool *is_geometry);
 
-/* obj_check.c */
+/* obj_chunk.c */
 void obj_check_chunk(obj_reader *r, obj_chunk *c);
 
-/* obj_runs.c */
+/* obj_scene.c */
 void obj_make_runs(obj_reader *r);
 
 /* obj_corners.c */
@@ -226,18 +226,15 @@ void obj_make_vertices(obj_reader *r);
 char *obj_copy_name(obj_reader *r, const char *bytes, size_t size);
 void obj_make_scene(obj_reader *r);
 
-/* obj_remarks.c */
+/* obj_read.c */
 void obj_warn_all(obj_reader *r, const char *text);
-/* The number of the line at byte offset, from 1. */
-size_t obj_line_number(const char *text, size_t offset);
 
-/* obj_names.c */
+/* obj_scene.c */
 /* The number of a name; UINT32_MAX: no memory. *is_new: it is the first of it. */
 uint32_t obj_names_add(obj_names *names, const void *bytes, size_t size, bool *is_new);
-const char *obj_names_get(const obj_names *names, uint32_t number, size_t *size);
 void obj_names_release(obj_names *names);
 
-/* obj_partition.c */
+/* obj_corners.c */
 /* Corners sorted by blocks of 2^shift positions from v_minimum on, in each as they were. */
 typedef struct obj_partition {
     const uint32_t *v; /* positions of corners begin .. end */

@@ -23,18 +23,18 @@ typedef struct obj_piece {
     obj_values lists[OBJ_LIST_COUNT];
 } obj_piece;
 
-/* obj_write_geometry.c: the values of all pieces in world space, shared where they are alike, and their numbers in the file.
+/* obj_write_pieces.c: the values of all pieces in world space, shared where they are alike, and their numbers in the file.
  * False: no memory. */
 bool obj_pieces_fill(obj_piece *pieces, size_t count, const facet_scene *scene,
                      const facet_scene_save_desc *desc);
 void obj_pieces_destroy(obj_piece *pieces, size_t count);
 
-/* obj_write_text.c: the statements of all pieces, each behind its heading ("o ..", "usemtl .."), behind begin. Positions are
+/* The statements of all pieces, each behind its heading ("o ..", "usemtl .."), behind begin. Positions are
  * printed in the file's coordinates: origin is the scene's. The block is of mem_alloc(), *size bytes; NULL: no memory. */
 char *obj_pieces_print(const obj_piece *pieces, const text *headings, size_t count, const text *begin,
                        const double origin[3], const facet_scene_save_desc *desc, size_t *size);
 
-/* obj_write_images.c: names of files for the images that materials use, and which of them are to be written. */
+/* obj_write.c: names of files for the images that materials use, and which of them are to be written. */
 typedef struct obj_images {
     const char **names; /* by image; NULL: not used, or nothing that can be written */
     bool *is_there;     /* by image: a file of that name holds it already */

@@ -1,11 +1,83 @@
-/* ogl1_materials.c - reads the parameters of material3d() into a legacy_material. What has no meaning here is kept as it
- * stands. */
+/* ogl1_materials.c - reads the parameters of material3d() into a legacy_material, by tables that the writer shares, and
+ * finds the images that materials name, beside the document or below the root. Members without a meaning here are kept
+ * as text. R writes absolute paths of the machine that it runs on: where such a path is not allowed or names no file, the
+ * base name is searched beside the document. */
+#include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
+#include "io/image_kind.h"
+#include "io/obj/mtl_parts.h"
 #include "io/ogl1/ogl1_parameters.h"
 #include "io/ogl1/ogl1_reader.h"
+
+/* ---- tables of parameters ---- */
+
+const ogl1_parameter OGL1_PARAMETERS[OGL1_PARAMETER_COUNT] = {
+    {"lit", OGL1_BOOLEAN, offsetof(legacy_material, is_lit), 0, 0},
+    {"ambient", OGL1_COLOR, offsetof(legacy_material, ambient), 0, 0},
+    {"specular", OGL1_COLOR, offsetof(legacy_material, specular), 0, 0},
+    {"emission", OGL1_COLOR, offsetof(legacy_material, emission), 0, 0},
+    {"shininess", OGL1_NUMBER, offsetof(legacy_material, shininess), 0, 1e6},
+    {"smooth", OGL1_BOOLEAN, offsetof(legacy_material, is_smooth), 0, 0},
+    {"fog", OGL1_BOOLEAN, offsetof(legacy_material, has_fog), 0, 0},
+};
+
+const ogl1_statement OGL1_STATEMENTS[OGL1_STATEMENT_COUNT] = {
+    {"Ni", LEGACY_IOR, offsetof(legacy_material, ior), 0.001, 100},
+    {"sharpness", LEGACY_SHARPNESS, offsetof(legacy_material, sharpness), 0, 1000},
+    {"Pr", LEGACY_ROUGHNESS, offsetof(legacy_material, roughness), 0, 1},
+    {"Pm", LEGACY_METALLIC, offsetof(legacy_material, metallic), 0, 1},
+    {"Ps", LEGACY_SHEEN, offsetof(legacy_material, sheen), 0, 1},
+    {"Pc", LEGACY_CLEARCOAT, offsetof(legacy_material, clearcoat), 0, 1},
+    {"Pcr", LEGACY_CLEARCOAT_ROUGHNESS, offsetof(legacy_material, clearcoat_roughness), 0, 1},
+    {"aniso", LEGACY_ANISOTROPY, offsetof(legacy_material, anisotropy), -1, 1},
+    {"anisor", LEGACY_ANISOTROPY_ROTATION, offsetof(legacy_material, anisotropy_rotation), -1, 1},
+};
+
+const char *const OGL1_TEXTYPES[] = {"rgb", "rgba", "alpha", "luminance", "luminance.alpha", NULL};
+const char *const OGL1_TEXMODES[] = {"modulate", "replace", "decal", "blend", "add", NULL};
+const char *const OGL1_MAG_FILTERS[] = {"linear", "nearest", NULL};
+const char *const OGL1_SIDES[] = {"filled", "lines", "points", "culled", NULL};
+
+const ogl1_min_filter OGL1_MIN_FILTERS[OGL1_MIN_FILTER_COUNT] = {
+    {"linear", SCENE_FILTER_LINEAR, SCENE_MIP_NONE},
+    {"nearest", SCENE_FILTER_NEAREST, SCENE_MIP_NONE},
+    {"linear.mipmap.linear", SCENE_FILTER_LINEAR, SCENE_MIP_LINEAR},
+    {"linear.mipmap.nearest", SCENE_FILTER_LINEAR, SCENE_MIP_NEAREST},
+    {"nearest.mipmap.linear", SCENE_FILTER_NEAREST, SCENE_MIP_LINEAR},
+    {"nearest.mipmap.nearest", SCENE_FILTER_NEAREST, SCENE_MIP_NEAREST},
+};
+
+static bool is_among(const char *key, const char *const *names, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(key, names[i]) == 0)
+            return true;
+    return false;
+}
+
+bool ogl1_is_parameter(const char *key)
+{
+    static const char *const others[] = {"color",     "col",          "alpha",        "front",
+                                         "back",      "texture",      "textype",      "texmode",
+                                         "texmipmap", "texminfilter", "texmagfilter", "texenvmap"};
+    for (int i = 0; i < OGL1_PARAMETER_COUNT; i++)
+        if (strcmp(key, OGL1_PARAMETERS[i].name) == 0)
+            return true;
+    return is_among(key, others, sizeof others / sizeof *others);
+}
+
+static bool is_kept(const char *key)
+{
+    static const char *const kept[] = {
+        "size",       "lwd",           "point_antialias", "line_antialias", "depth_mask",
+        "depth_test", "isTransparent", "polygon_offset",  "margin",         "floating",
+        "tag",        "blend"};
+    return is_among(key, kept, sizeof kept / sizeof *kept);
+}
 
 /* rgl's, where they are not those of legacy_material_default(). */
 static legacy_material default_material(void)
@@ -173,7 +245,7 @@ static void keep_unknown(io_reader *r, const json_place *at, legacy_material *m)
     {
         if (is_read(key, value) || ogl1_member(at, key).value == NULL)
             continue;
-        bool is_rgls = ogl1_is_parameter(key) || ogl1_is_kept(key);
+        bool is_rgls = ogl1_is_parameter(key) || is_kept(key);
         if (!is_rgls)
             io_warn(r, NULL, NULL,
                     is_word(key) ? "\"%.60s\" is no parameter of material3d(); it is kept"
@@ -221,4 +293,142 @@ void ogl1_read_material(io_reader *r, const json_place *at, ogl1_entry *out)
     read_statements(r, at, &out->material);
     if (io_is_ok(r))
         keep_unknown(r, at, &out->material);
+}
+
+/* ---- textures ---- */
+
+/* What is appended to the scene. */
+typedef struct findings {
+    mtl_files files; /* for its scope */
+    scene_image *images;
+    size_t image_count, image_capacity;
+    scene_texture *textures;
+    size_t texture_count, texture_capacity;
+    index_table images_by_file, textures_by_hash;
+} findings;
+
+static void warn(io_reader *r, const char *path, const char *what)
+{
+    io_warn(r, NULL, NULL, "texture \"%.200s\": %.400s; it is left out", path, what);
+}
+
+/* Number of the image among those found, SCENE_NONE: there is none; a warning says so. */
+static uint32_t find_image(io_reader *r, findings *f, const char *path)
+{
+    uri_bytes bytes;
+    const char *found;
+    image header;
+    facet_error error;
+    if (!mtl_files_open(&f->files, "", path, &bytes, &found)) {
+        if (f->files.has_failed)
+            io_fail_memory(r, "texture", 0);
+        else
+            warn(r, path, bytes.message);
+        return SCENE_NONE;
+    }
+    uint32_t there = index_table_find(&f->images_by_file, bytes.file);
+    if (there != INDEX_TABLE_NONE)
+        return there;
+    const image_kind *kind = image_kind_of_bytes(bytes.data, bytes.size);
+    if (!kind) {
+        const char *foreign = image_foreign_kind(bytes.data, bytes.size, path);
+        char what[160];
+        snprintf(what, sizeof what, "is a %s file; " IMAGE_KINDS_TEXT " was expected",
+                 foreign ? foreign : "");
+        warn(r, path, foreign ? what : "is no " IMAGE_KINDS_TEXT " file");
+        return SCENE_NONE;
+    }
+    if (image_probe(bytes.data, bytes.size, path, &header, NULL, &error) != FACET_OK) {
+        warn(r, path, error.message);
+        return SCENE_NONE;
+    }
+    if (!mem_reserve(r->allocator, (void **)&f->images, &f->image_capacity, f->image_count + 1,
+                     sizeof *f->images) ||
+        !index_table_add(&f->images_by_file, r->allocator, bytes.file, (uint32_t)f->image_count)) {
+        io_fail_memory(r, "images", 0);
+        return SCENE_NONE;
+    }
+    f->images[f->image_count] = (scene_image){.name = found,
+                                              .mime_type = kind->mime_type,
+                                              .bytes = bytes.data,
+                                              .size = bytes.size,
+                                              .width = header.width,
+                                              .height = header.height,
+                                              .uri = found};
+    return (uint32_t)f->image_count++;
+}
+
+/* Number of the texture among those found. */
+static uint32_t find_texture(io_reader *r, findings *f, const scene_texture *like)
+{
+    uint32_t hash = mtl_hash_texture(like);
+    size_t cursor = 0;
+    for (uint32_t i; (i = index_table_next(&f->textures_by_hash, hash, &cursor)) != INDEX_TABLE_NONE;)
+        if (f->textures[i].image == like->image && f->textures[i].mag_filter == like->mag_filter &&
+            f->textures[i].min_filter == like->min_filter && f->textures[i].mip_filter == like->mip_filter)
+            return i;
+    if (!mem_reserve(r->allocator, (void **)&f->textures, &f->texture_capacity, f->texture_count + 1,
+                     sizeof *f->textures) ||
+        !index_table_add(&f->textures_by_hash, r->allocator, hash, (uint32_t)f->texture_count)) {
+        io_fail_memory(r, "textures", 0);
+        return SCENE_NONE;
+    }
+    f->textures[f->texture_count] = *like;
+    return (uint32_t)f->texture_count++;
+}
+
+/* old and, behind it, more, in the arena. */
+static void *joined(io_reader *r, const void *old, size_t old_count, const void *more, size_t count,
+                    size_t size)
+{
+    char *all = io_alloc_raw(r, "textures", old_count + count, size);
+    if (all && old_count)
+        memcpy(all, old, old_count * size);
+    if (all && count)
+        memcpy(all + old_count * size, more, count * size);
+    return all;
+}
+
+static void append(io_reader *r, findings *f)
+{
+    facet_scene *scene = r->scene;
+    for (size_t i = 0; i < f->texture_count; i++)
+        f->textures[i].image += scene->image_count;
+    scene_image *images =
+        joined(r, scene->images, scene->image_count, f->images, f->image_count, sizeof *images);
+    scene_texture *textures =
+        joined(r, scene->textures, scene->texture_count, f->textures, f->texture_count, sizeof *textures);
+    if (!io_is_ok(r))
+        return;
+    scene->images = images;
+    scene->image_count += (uint32_t)f->image_count;
+    scene->textures = textures;
+    scene->texture_count += (uint32_t)f->texture_count;
+}
+
+void ogl1_find_textures(ogl1_document *d)
+{
+    io_reader *r = &d->r;
+    uint32_t first = r->scene->texture_count;
+    findings f = {.files = {.scope = {.scene = r->scene,
+                                      .allocator = r->allocator,
+                                      .folder = r->folder,
+                                      .root = r->root,
+                                      .log = r->log,
+                                      .max_file_bytes = r->max_file_bytes,
+                                      .allows_absolute = true}}};
+    for (uint32_t i = 0; i < d->entry_count && io_is_ok(r); i++) {
+        legacy_map *map = &d->entries[i].material.maps[LEGACY_DIFFUSE_MAP];
+        scene_texture like = d->entries[i].sampler;
+        like.image = map->path ? find_image(r, &f, map->path) : SCENE_NONE;
+        uint32_t texture = like.image == SCENE_NONE ? SCENE_NONE : find_texture(r, &f, &like);
+        map->ref.texture = texture == SCENE_NONE ? SCENE_NONE : first + texture;
+    }
+    if (io_is_ok(r) && f.image_count)
+        append(r, &f);
+    mtl_files_destroy(&f.files);
+    mem_free(f.images);
+    mem_free(f.textures);
+    index_table_release(&f.images_by_file);
+    index_table_release(&f.textures_by_hash);
 }

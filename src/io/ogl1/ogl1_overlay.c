@@ -5,7 +5,91 @@
 
 #include "base/result.h"
 #include "io/ogl1/ogl1_json.h"
-#include "io/ogl1/ogl1_names.h"
+#include "io/ogl1/ogl1_reader.h"
+
+/* ---- names of entries ---- */
+
+typedef struct entry_name {
+    const char *name;
+    uint32_t entry;
+    bool is_met; /* was looked up */
+} entry_name;
+
+typedef struct entry_names {
+    size_t count;
+    entry_name *names; /* sorted; each once, with the last entry that has it */
+} entry_names;
+
+static int compare(const void *a, const void *b)
+{
+    const entry_name *x = a;
+    const entry_name *y = b;
+    int order = strcmp(x->name, y->name);
+    return order ? order : (x->entry > y->entry) - (x->entry < y->entry);
+}
+
+/* Of a sorted list the last one of each name. */
+static void keep_last(ogl1_document *d, bool of_objects, entry_names *n)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < n->count; i++) {
+        bool is_last = i + 1 == n->count || strcmp(n->names[i].name, n->names[i + 1].name) != 0;
+        if (is_last)
+            n->names[kept++] = n->names[i];
+        else if (n->names[i].entry != n->names[i + 1].entry)
+            io_warn(&d->r, NULL, NULL, "%s \"%.200s\" is there more than once; the last one counts",
+                    of_objects ? "object" : "material", n->names[i].name);
+    }
+    n->count = kept;
+}
+
+static bool names_create(ogl1_document *d, bool of_objects, entry_names *out)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < d->entry_count; i++)
+        count += of_objects ? d->entries[i].object_count : d->entries[i].name != NULL;
+    *out = (entry_names){.names = mem_alloc(d->r.allocator, count, sizeof *out->names)};
+    if (!out->names)
+        return false;
+    for (uint32_t i = 0; i < d->entry_count; i++) {
+        const ogl1_entry *entry = &d->entries[i];
+        for (uint32_t k = 0; of_objects && k < entry->object_count; k++)
+            out->names[out->count++] = (entry_name){.name = entry->objects[k], .entry = i};
+        if (!of_objects && entry->name)
+            out->names[out->count++] = (entry_name){.name = entry->name, .entry = i};
+    }
+    qsort(out->names, out->count, sizeof *out->names, compare);
+    keep_last(d, of_objects, out);
+    return true;
+}
+
+/* The names of the materials, or of the objects, of all entries. Warns about those that several entries have. False: no
+ * memory. */
+static void names_destroy(entry_names *n)
+{
+    mem_free(n->names);
+    *n = (entry_names){0};
+}
+
+/* The entry that speaks of name; SCENE_NONE: none. */
+static uint32_t names_find(entry_names *n, const char *name)
+{
+    size_t begin = 0;
+    size_t end = n->count;
+    while (begin < end) {
+        size_t middle = begin + (end - begin) / 2;
+        int order = strcmp(n->names[middle].name, name);
+        if (order == 0) {
+            n->names[middle].is_met = true;
+            return n->names[middle].entry;
+        }
+        if (order < 0)
+            begin = middle + 1;
+        else
+            end = middle;
+    }
+    return SCENE_NONE;
+}
 
 /* A node with a mesh, and the entry of its objects. */
 typedef struct use {
@@ -15,7 +99,7 @@ typedef struct use {
 
 typedef struct overlay {
     ogl1_document d;
-    ogl1_names materials, objects;
+    entry_names materials, objects;
     uint32_t all;            /* the entry for all; SCENE_NONE: none */
     bool *is_set;            /* per material: an entry took its place */
     uint32_t *numbers;       /* per entry: its material in the scene; SCENE_NONE: none yet */
@@ -38,7 +122,7 @@ static bool take_memory(overlay *o)
     o->path = mem_alloc(allocator, scene->node_count, sizeof *o->path);
     o->uses = mem_alloc(allocator, scene->node_count, sizeof *o->uses);
     if (!o->is_set || !o->numbers || !o->is_met || !o->is_named || !o->node_entries || !o->path || !o->uses ||
-        !ogl1_names_create(&o->d, false, &o->materials) || !ogl1_names_create(&o->d, true, &o->objects))
+        !names_create(&o->d, false, &o->materials) || !names_create(&o->d, true, &o->objects))
         return io_fail_memory(&o->d.r, "parameters", scene->node_count * sizeof *o->uses);
     memset(o->numbers, 0xff, o->d.entry_count * sizeof *o->numbers);
     memset(o->node_entries, 0xff, scene->node_count * sizeof *o->node_entries);
@@ -51,8 +135,8 @@ static bool take_memory(overlay *o)
 
 static void release(overlay *o)
 {
-    ogl1_names_destroy(&o->materials);
-    ogl1_names_destroy(&o->objects);
+    names_destroy(&o->materials);
+    names_destroy(&o->objects);
     mem_free(o->is_set);
     mem_free(o->numbers);
     mem_free(o->is_met);
@@ -116,7 +200,7 @@ static void replace_materials(overlay *o)
 {
     facet_scene *scene = o->d.r.scene;
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        uint32_t named = ogl1_names_find(&o->materials, scene->materials[i].name);
+        uint32_t named = names_find(&o->materials, scene->materials[i].name);
         uint32_t entry = named != SCENE_NONE ? named : o->all;
         if (entry != SCENE_NONE)
             set_material(o, i, entry);
@@ -156,9 +240,9 @@ static uint32_t find_entry(overlay *o, uint32_t node)
     }
     while (length-- > 0) {
         const scene_node *n = &scene->nodes[o->path[length]];
-        uint32_t own = ogl1_names_find(&o->objects, n->name);
+        uint32_t own = names_find(&o->objects, n->name);
         uint32_t meshes =
-            n->mesh != SCENE_NONE ? ogl1_names_find(&o->objects, scene->meshes[n->mesh].name) : SCENE_NONE;
+            n->mesh != SCENE_NONE ? names_find(&o->objects, scene->meshes[n->mesh].name) : SCENE_NONE;
         own = own != SCENE_NONE ? own : meshes;
         entry = own != SCENE_NONE ? own + 1 : entry;
         o->node_entries[o->path[length]] = entry;
@@ -310,12 +394,12 @@ static void warn_unmet(overlay *o)
         if (o->objects.names[i].is_met)
             o->is_met[o->objects.names[i].entry] = true;
     for (size_t i = 0; i < o->objects.count; i++) {
-        const ogl1_name *n = &o->objects.names[i];
+        const entry_name *n = &o->objects.names[i];
         if (!n->is_met && !o->is_named[n->entry])
             io_warn(r, NULL, NULL, "object \"%.200s\" is not in the model", n->name);
     }
     for (size_t i = 0; i < o->materials.count; i++) {
-        const ogl1_name *n = &o->materials.names[i];
+        const entry_name *n = &o->materials.names[i];
         if (!n->is_met && !o->is_met[n->entry] && o->d.entries[n->entry].object_count == 0)
             io_warn(r, NULL, NULL, "material \"%.200s\" is not in the model", n->name);
     }

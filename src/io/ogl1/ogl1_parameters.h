@@ -43,6 +43,5 @@ extern const ogl1_min_filter OGL1_MIN_FILTERS[OGL1_MIN_FILTER_COUNT];
 /* Whether key is a parameter with a meaning here; and one that means nothing to a surface under light, which is kept and
  * written again. */
 bool ogl1_is_parameter(const char *key);
-bool ogl1_is_kept(const char *key);
 
 #endif

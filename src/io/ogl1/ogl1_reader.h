@@ -73,17 +73,14 @@ void ogl1_read_material(io_reader *r, const json_place *at, ogl1_entry *out);
 void ogl1_read_lights(ogl1_document *d, const json_place *root);
 void ogl1_read_fog(ogl1_document *d, const json_place *root);
 
-/* ogl1_document.c: parses the bytes and reads all of it into the arena of scene; d->r.result says how it went. folder: of the
+/* ogl1_json.c: parses the bytes and reads all of it into the arena of scene; d->r.result says how it went. folder: of the
  * document; NULL: it came from memory. */
 void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes, size_t size,
                         const char *folder, const facet_scene_desc *desc, facet_error *error);
 
-/* ogl1_textures.c: finds the images that the entries name, appends them and their textures to the scene and sets the
+/* ogl1_materials.c: finds the images that the entries name, appends them and their textures to the scene and sets the
  * maps of the entries. What cannot be had is a warning. */
 void ogl1_find_textures(ogl1_document *d);
-
-/* ogl1_balls.c: fills the scene with one ball per entry. */
-void ogl1_make_balls(ogl1_document *d);
 
 /* ogl1_json.c: lights, fog and the meaning of colors, into scene->legacy, which is there. */
 void ogl1_set_surroundings(const ogl1_document *d, const facet_legacy_desc *desc);

@@ -1,22 +1,201 @@
-/* ogl1_write.c - scene->legacy as JSON text: one line per material, in the names of material3d(). */
+/* ogl1_write.c - scene->legacy as JSON text, one line per material, in the names of material3d(), light3d() and bg3d(); and
+ * the document with the images that it names as files, all or nothing. */
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/result.h"
+#include "io/file_set.h"
+#include "io/image_kind.h"
 #include "io/ogl1/ogl1_json.h"
 #include "io/ogl1/ogl1_parameters.h"
-#include "io/ogl1/ogl1_writer.h"
+#include "scene/legacy.h"
+
+/* ---- objects that name their material ---- */
+
+/* An object that is made of one material. */
+typedef struct ogl1_object {
+    const char *name;
+    uint32_t material, node;
+} ogl1_object;
+
+/* The one material of a node's mesh; SCENE_NONE: several, or none, or what is below the node would get it too. */
+static uint32_t material_of(const facet_scene *scene, const scene_node *node)
+{
+    const scene_mesh *mesh = &scene->meshes[node->mesh];
+    uint32_t material = mesh->primitive_count ? mesh->primitives[0].material : SCENE_NONE;
+    for (uint32_t i = 1; i < mesh->primitive_count; i++)
+        if (mesh->primitives[i].material != material)
+            return SCENE_NONE;
+    return node->child_count ? SCENE_NONE : material;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const ogl1_object *x = a;
+    const ogl1_object *y = b;
+    int order = strcmp(x->name, y->name);
+    return order ? order : (x->node > y->node) - (x->node < y->node);
+}
+
+static int by_material(const void *a, const void *b)
+{
+    const ogl1_object *x = a;
+    const ogl1_object *y = b;
+    if (x->material != y->material)
+        return x->material < y->material ? -1 : 1;
+    return (x->node > y->node) - (x->node < y->node);
+}
+
+/* Of objects sorted by name: one of each name, and none where they differ. */
+static size_t keep_clear(ogl1_object *objects, size_t count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count;) {
+        size_t end = i + 1;
+        bool is_clear = objects[i].material != SCENE_NONE;
+        for (; end < count && strcmp(objects[i].name, objects[end].name) == 0; end++)
+            is_clear &= objects[end].material == objects[i].material;
+        if (is_clear)
+            objects[kept++] = objects[i];
+        i = end;
+    }
+    return kept;
+}
+
+/* The objects that say of which material they are when they are named: nodes without nodes below them
+ * whose name no other material's object has; of nodes without name their meshes. Sorted by material, then node. *out is
+ * one block of mem_alloc(). False: no memory. */
+static bool create_objects(const facet_scene *scene, const facet_allocator *allocator, ogl1_object **out,
+                           size_t *count)
+{
+    ogl1_object *objects = mem_alloc(allocator, scene->node_count, sizeof *objects);
+    size_t n = 0;
+    if (!objects)
+        return false;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const scene_node *node = &scene->nodes[i];
+        if (node->mesh == SCENE_NONE)
+            continue;
+        const char *name = node->name[0] ? node->name : scene->meshes[node->mesh].name;
+        if (name[0])
+            objects[n++] = (ogl1_object){.name = name, .material = material_of(scene, node), .node = i};
+    }
+    qsort(objects, n, sizeof *objects, by_name);
+    n = keep_clear(objects, n);
+    qsort(objects, n, sizeof *objects, by_material);
+    *out = objects;
+    *count = n;
+    return true;
+}
+
+/* ---- lights and fog ---- */
+
+/* A new line in front of the next value. */
+static void write_line(text *out)
+{
+    text_add(out, out->needs_comma ? ",\n" : "\n");
+    out->needs_comma = false;
+}
+
+/* "#rrggbb" where the color has 8 bits, else three numbers; key as for text_json_string(). */
+static void write_color(text *out, const char *key, const float rgb[3])
+{
+    int bytes[3];
+    bool has_8_bits = true;
+    for (int k = 0; k < 3; k++) {
+        float scaled = rgb[k] >= 0.0f && rgb[k] <= 1.0f ? rgb[k] * 255.0f : -1.0f;
+        bytes[k] = (int)lrintf(scaled);
+        has_8_bits &= bytes[k] >= 0 && (float)bytes[k] / 255.0f == rgb[k];
+    }
+    if (has_8_bits) {
+        char hex[8];
+        snprintf(hex, sizeof hex, "#%02X%02X%02X", (unsigned)bytes[0] & 255, (unsigned)bytes[1] & 255,
+                 (unsigned)bytes[2] & 255);
+        text_json_string(out, key, hex);
+    } else {
+        text_json_floats(out, key, rgb, 3);
+    }
+}
+
+/* Degrees in as few digits as give the direction to the last bit; false: 9 digits do not. */
+static bool find_angles(const float direction[3], char theta[32], char phi[32])
+{
+    const double to_rad = 3.14159265358979323846 / 180.0;
+    double y = fmin(fmax((double)direction[1], -1.0), 1.0);
+    double exact_theta = atan2((double)direction[0], (double)direction[2]) / to_rad;
+    double exact_phi = atan2(y, hypot((double)direction[0], (double)direction[2])) / to_rad;
+    for (int digits = 1; digits <= 9; digits++) {
+        float back[3];
+        snprintf(theta, 32, "%.*g", digits, exact_theta);
+        snprintf(phi, 32, "%.*g", digits, exact_phi);
+        legacy_light_direction((float)(strtod(theta, NULL) * to_rad), (float)(strtod(phi, NULL) * to_rad),
+                               back);
+        if (memcmp(back, direction, sizeof back) == 0)
+            return true;
+    }
+    return false;
+}
+
+static void write_light(const legacy_light *light, text *out)
+{
+    static const char *const axes[3] = {"x", "y", "z"};
+    char theta[32];
+    char phi[32];
+    write_line(out);
+    text_json_begin_object(out, NULL);
+    if (light->is_point) {
+        for (int k = 0; k < 3; k++)
+            text_json_float(out, axes[k], light->position[k]);
+    } else {
+        bool is_exact = find_angles(light->position, theta, phi);
+        text_json_raw(out, "theta", theta);
+        text_json_raw(out, "phi", phi);
+        if (!is_exact) /* rgl does not know it; here it counts more than the angles */
+            text_json_floats(out, "direction", light->position, 3);
+    }
+    text_json_bool(out, "viewpoint.rel", light->is_viewpoint_relative);
+    write_color(out, "ambient", light->ambient);
+    write_color(out, "diffuse", light->diffuse);
+    write_color(out, "specular", light->specular);
+    text_json_end_object(out);
+}
+
+/* The members "lights" and "background". */
+static void write_lights(const scene_legacy *legacy, text *out)
+{
+    static const char *const types[] = {"none", "linear", "exp", "exp2"};
+    const legacy_fog *fog = &legacy->fog;
+    if (legacy->light_count) {
+        write_line(out);
+        text_json_begin_array(out, "lights");
+        for (uint32_t i = 0; i < legacy->light_count; i++)
+            write_light(&legacy->lights[i], out);
+        text_json_end_array(out);
+    }
+    if (fog->mode != LEGACY_FOG_NONE || fog->color[0] != 0.0f || fog->color[1] != 0.0f ||
+        fog->color[2] != 0.0f) {
+        write_line(out);
+        text_json_begin_object(out, "background");
+        text_json_string(out, "fogtype", types[fog->mode]);
+        text_json_float(out, "fogScale", fog->scale);
+        write_color(out, "color", fog->color);
+        text_json_end_object(out);
+    }
+}
 
 /* ---- a material ---- */
 
 static void write_table(const legacy_material *m, text *out)
 {
-    ogl1_write_color(out, "color", m->diffuse);
+    write_color(out, "color", m->diffuse);
     text_json_float(out, "alpha", m->opacity);
     for (int i = 0; i < OGL1_PARAMETER_COUNT; i++) {
         const void *member = (const char *)m + OGL1_PARAMETERS[i].offset;
         if (OGL1_PARAMETERS[i].kind == OGL1_COLOR)
-            ogl1_write_color(out, OGL1_PARAMETERS[i].name, member);
+            write_color(out, OGL1_PARAMETERS[i].name, member);
         else if (OGL1_PARAMETERS[i].kind == OGL1_NUMBER)
             text_json_float(out, OGL1_PARAMETERS[i].name, *(const float *)member);
         else
@@ -36,8 +215,8 @@ static const char *min_filter_name(const scene_texture *t)
 static const char *texture_path(const facet_scene *scene, const legacy_map *map,
                                 const char *const *image_names)
 {
-    uint32_t image = map->ref.texture != SCENE_NONE ? scene->textures[map->ref.texture].image : SCENE_NONE;
-    const char *written = image != SCENE_NONE && image_names ? image_names[image] : NULL;
+    uint32_t index = map->ref.texture != SCENE_NONE ? scene->textures[map->ref.texture].image : SCENE_NONE;
+    const char *written = index != SCENE_NONE && image_names ? image_names[index] : NULL;
     return written ? written : map->path;
 }
 
@@ -152,18 +331,18 @@ static void write_materials(const facet_scene *scene, const char *const *image_n
     ogl1_object *objects;
     size_t count;
     size_t begin = 0;
-    if (!ogl1_objects_create(scene, &out->allocator, &objects, &count)) {
+    if (!create_objects(scene, &out->allocator, &objects, &count)) {
         out->has_failed = true;
         return;
     }
-    ogl1_write_line(out);
+    write_line(out);
     text_json_begin_array(out, "materials");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const legacy_material *m = &scene->legacy->materials[i];
         size_t end = begin;
         while (end < count && objects[end].material == i)
             end++;
-        ogl1_write_line(out);
+        write_line(out);
         text_json_begin_object(out, NULL);
         write_names(m, i, objects + begin, end - begin, out);
         write_table(m, out);
@@ -186,7 +365,120 @@ void ogl1_json_write(const facet_scene *scene, const char *generator, const char
     text_json_string(out, "generator", generator);
     text_json_string(out, "colors", scene->legacy->colors == FACET_LEGACY_COLORS_LINEAR ? "linear" : "srgb");
     write_materials(scene, image_names, out);
-    ogl1_write_lights(scene->legacy, out);
+    write_lights(scene->legacy, out);
     text_json_end_object(out);
     text_add(out, "\n");
+}
+
+/* What is written. */
+typedef struct saving {
+    const facet_scene *scene;
+    const char *path;
+    const facet_scene_save_desc *desc;
+    const facet_allocator *allocator;
+    facet_error *error;
+    char **image_names; /* per image; NULL: not written. Blocks of mem_alloc() */
+} saving;
+
+/* ---- what has no place in the document ---- */
+
+static void warn_lost(const facet_scene *scene, const facet_log *log)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const legacy_material *m = &scene->legacy->materials[i];
+        const legacy_map *map = &m->maps[LEGACY_DIFFUSE_MAP];
+        int others = 0;
+        for (int slot = 0; slot < LEGACY_MAP_COUNT; slot++)
+            others += slot != LEGACY_DIFFUSE_MAP &&
+                      (legacy_has_map(m, (legacy_map_slot)slot) || m->maps[slot].path);
+        if (others)
+            log_warning(log, "material \"%s\": rgl has one texture, that of the color; %d other%s left out",
+                        m->name, others, others == 1 ? " is" : "s are");
+        if (map->ref.has_transform || map->base != 0.0f || map->gain != 1.0f)
+            log_warning(log,
+                        "material \"%s\": rgl cannot move, scale or recolor a texture; it is used as it is",
+                        m->name);
+    }
+}
+
+/* ---- images ---- */
+
+static facet_result name_image(saving *s, uint32_t number, const char *extension)
+{
+    const char *base = path_base_name(s->path);
+    size_t stem = strlen(base) - (path_extension(base)[0] ? strlen(path_extension(base)) + 1 : 0);
+    size_t size = stem + strlen(extension) + 32;
+    char *name = mem_alloc(s->allocator, size, 1);
+    if (!name)
+        return fail_memory(s->error, "name of an image", size);
+    snprintf(name, size, "%.*s_image%u.%s", (int)stem, base, number, extension);
+    s->image_names[number] = name;
+    return FACET_OK;
+}
+
+static facet_result name_images(saving *s, const facet_log *log)
+{
+    facet_result result = FACET_OK;
+    for (uint32_t i = 0; i < s->scene->material_count && result == FACET_OK; i++) {
+        const legacy_material *m = &s->scene->legacy->materials[i];
+        uint32_t texture = m->maps[LEGACY_DIFFUSE_MAP].ref.texture;
+        uint32_t number = texture != SCENE_NONE ? s->scene->textures[texture].image : SCENE_NONE;
+        const scene_image *source = number != SCENE_NONE ? &s->scene->images[number] : NULL;
+        const image_kind *kind =
+            source && source->bytes ? image_kind_of_bytes(source->bytes, source->size) : NULL;
+        if (!kind || s->image_names[number])
+            continue;
+        if (kind->codec != IMAGE_CODEC_PNG)
+            log_warning(log, "material \"%s\": its texture is a %s file; rgl reads PNG only", m->name,
+                        kind->name);
+        result = name_image(s, number, kind->file_extension);
+    }
+    return result;
+}
+
+/* ---- files ---- */
+
+/* The document comes last: where it is, all that it names is. */
+static facet_result write_files(const saving *s, const text *document)
+{
+    file_set files = file_set_begin(s->scene, s->path, s->desc);
+    files.inputs = s->scene;
+    facet_result result = FACET_OK;
+    for (uint32_t i = 0; i < s->scene->image_count && result == FACET_OK; i++)
+        if (s->image_names[i])
+            result = file_set_add(&files, s->image_names[i], s->scene->images[i].bytes,
+                                  s->scene->images[i].size, s->error);
+    if (result == FACET_OK)
+        result = file_set_add(&files, NULL, document->data, document->length, s->error);
+    if (result == FACET_OK)
+        result = file_set_commit(&files, s->error);
+    file_set_destroy(&files);
+    return result;
+}
+
+facet_result ogl1_json_save(const facet_scene *scene, const char *path, const char *generator,
+                            const facet_scene_save_desc *desc, facet_error *error)
+{
+    const facet_scene_save_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    saving s = {.scene = scene, .path = path, .desc = desc, .allocator = &desc->allocator, .error = error};
+    text document = {.allocator = desc->allocator};
+    facet_result result = FACET_OK;
+    s.image_names = mem_zalloc(s.allocator, scene->image_count, sizeof *s.image_names);
+    if (!s.image_names)
+        return fail_memory(error, "images", scene->image_count * sizeof *s.image_names);
+    result = name_images(&s, &desc->log);
+    if (result == FACET_OK)
+        ogl1_json_write(scene, generator, (const char *const *)s.image_names, &document);
+    if (document.has_failed)
+        result = fail_memory(error, "parameters", document.capacity);
+    if (result == FACET_OK)
+        result = write_files(&s, &document);
+    if (result == FACET_OK)
+        warn_lost(scene, &desc->log);
+    for (uint32_t i = 0; i < scene->image_count; i++)
+        mem_free(s.image_names[i]);
+    mem_free(s.image_names);
+    text_destroy(&document);
+    return result;
 }

@@ -50,12 +50,10 @@ bool ply_fail(ply_reader *r, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 bool ply_fail_memory(ply_reader *r, const char *what);
 
-/* ply_header.c: reads up to the data. False: a failure is recorded. */
-bool ply_read_header(ply_reader *r);
 /* The size of a type in a binary file. */
 size_t ply_type_size(ply_type type);
 
-/* ply_values.c: the next value of a type. False: there are no more. */
+/* ply_vertices.c: the next value of a type. False: there are no more. */
 bool ply_read_value(ply_reader *r, ply_type type, double *value);
 /* How many of count elements the bytes that are left can hold at most: each has one value per property at least. */
 uint64_t ply_most_elements(const ply_reader *r, const ply_element *e);
