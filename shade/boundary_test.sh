@@ -16,8 +16,7 @@ mkdir -p "$tmp/facet/shade/lang"
 cp "$here"/*.h "$tmp/facet/shade/"
 cp "$here"/lang/*.h "$tmp/facet/shade/lang/"
 for part in begin end; do "$here/names.sh" $part >"$tmp/facet/shade/lang/names_$part.h"; done
-cp "$here/../include/facet/facet.h" "$tmp/facet/"
-[ ! -d "$here/../include/facet" ] || cp "$here"/../include/facet/*.h "$tmp/facet/"
+cp "$here"/../include/facet/*.h "$tmp/facet/"
 
 warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef -Werror -ffp-contract=off"
 c_headers="math.h tgmath.h complex.h stdlib.h string.h stdbool.h stdint.h stdio.h ctype.h fenv.h time.h sys/types.h

@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-/* facet-VERB(1); v NULL: facet(1). version is "0.1.0". */
+/* facet-VERB(1); v NULL: facet(1). version is "0.2.0". */
 void man_page_print(FILE *stream, const verb *v, const char *version);
 
 #endif

@@ -7,7 +7,7 @@ sources=$(cd "$(dirname -- "$0")" && pwd)
 prefix=$(mktemp -d)
 trap 'rm -rf "$prefix"' EXIT
 cmake --install "$build" --prefix "$prefix/usr" >/dev/null
-for file in bin/facet include/facet/facet.h share/man/man1/facet.1 share/man/man1/facet-render.1 \
+for file in bin/facet include/facet/facet.h include/facet/base.h include/facet/sea.h share/man/man1/facet.1 share/man/man1/facet-render.1 \
     share/bash-completion/completions/facet share/zsh/site-functions/_facet \
     share/fish/vendor_completions.d/facet.fish include/facet/shade/brdf.h share/doc/facet/cli.md share/doc/facet/bake.md; do
     [ -e "$prefix/usr/$file" ] || { echo "not installed: $file"; exit 1; }
