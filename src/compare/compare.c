@@ -4,13 +4,139 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "base/result.h"
-#include "compare/compare_errors.h"
-#include "compare/compare_flip.h"
-#include "compare/compare_map.h"
-#include "compare/compare_select.h"
+#include "compare/compare_math.h"
+#include "compare/compare_metrics.h"
 #include "compare/compare_source.h"
-#include "compare/compare_ssim.h"
+
+enum { BLOCK = 256, GRAIN = 16 };
+
+/* ---- colors ---- */
+
+/* Every 16th of magma's 256 colors, and the last. */
+static const float magma[17][3] = {
+    {0.001f, 0.000f, 0.014f}, {0.040f, 0.031f, 0.134f}, {0.113f, 0.065f, 0.277f}, {0.212f, 0.062f, 0.419f},
+    {0.317f, 0.072f, 0.485f}, {0.415f, 0.110f, 0.505f}, {0.513f, 0.148f, 0.508f}, {0.614f, 0.182f, 0.499f},
+    {0.716f, 0.215f, 0.475f}, {0.817f, 0.256f, 0.436f}, {0.904f, 0.320f, 0.388f}, {0.961f, 0.418f, 0.360f},
+    {0.987f, 0.536f, 0.382f}, {0.996f, 0.654f, 0.446f}, {0.997f, 0.770f, 0.535f}, {0.992f, 0.884f, 0.640f},
+    {0.987f, 0.991f, 0.750f}};
+
+void compare_magma(float error, float color[3])
+{
+    const float at =
+        compare_clamp(error, 0.0f, 1.0f) * 255.0f / 16.0f; /* the last one stands at 255, not at 256 */
+    const int i = at < 15.0f ? (int)at : 15;
+    const float t = i < 15 ? at - (float)i : (at - 15.0f) * (16.0f / 15.0f);
+    for (int k = 0; k < 3; k++)
+        color[k] = magma[i][k] + (magma[i + 1][k] - magma[i][k]) * compare_clamp(t, 0.0f, 1.0f);
+}
+
+/* ---- pictures ---- */
+
+typedef struct map_job {
+    const compare_source *source;
+    const facet_compare_desc *desc;
+    uint32_t channel_count;
+    const float *errors;
+    float gain, error_gain;
+    compare_difference *out;
+} map_job;
+
+static void put(float *pixel, float r, float g, float b)
+{
+    pixel[0] = r;
+    pixel[1] = g;
+    pixel[2] = b;
+    pixel[3] = 1.0f;
+}
+
+/* What the map shows of a difference: in display space the number itself is to stand in the file. */
+static float shown(const map_job *job, float difference)
+{
+    const float x = difference < 0.0f ? -difference * job->gain : difference * job->gain;
+    return job->source->is_display ? compare_srgb_decode(compare_clamp(x, 0.0f, 1.0f)) : x;
+}
+
+static void put_difference(const map_job *job, const compare_row *row, uint32_t i, float *pixel)
+{
+    float opacity = 0.0f, d[3];
+    if (job->channel_count == 4)
+        opacity = row->b[3][i] < row->a[3][i] ? row->a[3][i] - row->b[3][i] : row->b[3][i] - row->a[3][i];
+    for (int k = 0; k < 3; k++) {
+        const float e = row->b[k][i] - row->a[k][i];
+        d[k] = shown(job, (e < 0.0f ? -e : e) + opacity);
+    }
+    if (row->flags[i] & COMPARE_INVALID) /* as bright as it gets */
+        put(pixel, 1.0f, 1.0f, 1.0f);
+    else
+        put(pixel, d[0], d[1], d[2]);
+}
+
+static void put_heat(float error, float *pixel)
+{
+    float color[3];
+    compare_magma(error, color);
+    put(pixel, compare_srgb_decode(color[0]), compare_srgb_decode(color[1]), compare_srgb_decode(color[2]));
+}
+
+static void map_rows(void *context, size_t begin, size_t end)
+{
+    const map_job *job = context;
+    const compare_source *s = job->source;
+    float planes[8][BLOCK];
+    unsigned char flags[BLOCK];
+    compare_row row = {.flags = flags};
+    for (int k = 0; k < 4; k++) {
+        row.a[k] = planes[k];
+        row.b[k] = planes[4 + k];
+    }
+    const uint32_t place = job->desc->is_sheet ? 2 * s->width : 0; /* of the difference */
+    for (size_t y = begin; y < end; y++) {
+        float *line = job->out->rgba + 4 * (size_t)job->out->width * y;
+        for (uint32_t x = 0; x < s->width; x += BLOCK) {
+            const uint32_t count = s->width - x < BLOCK ? s->width - x : BLOCK;
+            compare_source_load(s, COMPARE_CODES, NULL, x, (int64_t)y, count, &row);
+            for (uint32_t i = 0; i < count; i++)
+                if (job->errors)
+                    put_heat(job->errors[y * s->width + x + i] * job->error_gain, line + 4 * (place + x + i));
+                else
+                    put_difference(job, &row, i, line + 4 * (place + x + i));
+            if (!job->desc->is_sheet)
+                continue;
+            compare_source_load(s, COMPARE_LIGHT, NULL, x, (int64_t)y, count, &row);
+            for (uint32_t i = 0; i < count; i++) {
+                put(line + 4 * (x + i), row.a[0][i], row.a[1][i], row.a[2][i]);
+                put(line + 4 * (s->width + x + i), row.b[0][i], row.b[1][i], row.b[2][i]);
+            }
+        }
+    }
+}
+
+static facet_result compare_map_make(const compare_source *s, const facet_compare_desc *desc,
+                                     uint32_t channel_count, const float *errors, float error_gain,
+                                     compare_difference *out, facet_error *error)
+{
+    const uint32_t columns = desc->is_sheet ? 3 : 1;
+    if (s->width > UINT32_MAX / columns)
+        return fail(error, FACET_ERROR_LIMIT,
+                    "compare: three times %u pixels are too many beside one another", s->width);
+    compare_difference made = {.width = s->width * columns, .height = s->height};
+    made.rgba = mem_alloc(&desc->allocator, (size_t)made.width * made.height, 4 * sizeof(float));
+    if (!made.rgba)
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: difference picture of %u x %u pixels",
+                    made.width, made.height);
+    map_job job = {.source = s,
+                   .desc = desc,
+                   .channel_count = channel_count,
+                   .errors = errors,
+                   .gain = desc->gain > 0.0f ? desc->gain : 1.0f,
+                   .error_gain = error_gain,
+                   .out = &made};
+    parallel_for(desc->thread_count, s->height, GRAIN, map_rows, &job);
+    *out = made;
+    return FACET_OK;
+}
 
 static facet_result check_desc(const facet_compare_desc *desc, facet_error *error)
 {

@@ -23,4 +23,8 @@ facet_result compare_pictures(const compare_picture *a, const compare_picture *b
                               const facet_compare_desc *desc, facet_comparison *out,
                               compare_difference *difference, facet_error *error);
 
+/* The colors of errors from 0 to 1, sRGB-encoded: magma (Smith and van der Walt 2015), from black over purple, red and
+ * orange to light yellow, evenly perceived. What lies outside is clamped. */
+void compare_magma(float error, float color[3]);
+
 #endif

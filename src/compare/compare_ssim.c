@@ -1,6 +1,6 @@
 /* compare_ssim.c - see compare_ssim.h. The Gaussian is separable: rows, then columns. In double, because variances are small
  * differences of large numbers. */
-#include "compare/compare_ssim.h"
+#include "compare/compare_metrics.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -11,7 +11,6 @@
 #include "base/result.h"
 #include "base/simd.h"
 #include "compare/compare_filter.h"
-#include "compare/compare_tile.h"
 
 enum {
     RADIUS = 5,

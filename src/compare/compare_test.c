@@ -12,10 +12,10 @@
 
 #include "base/failing_allocator.h"
 #include "base/memory.h"
+#include "compare/compare.h"
 #include "compare/compare_fixture.h"
-#include "compare/compare_map.h"
 #include "compare/compare_math.h"
-#include "compare/compare_select.h"
+#include "compare/compare_metrics.h"
 
 static const facet_compare_desc errors_only = {.skipped_metrics = FACET_METRIC_SSIM | FACET_METRIC_FLIP};
 

@@ -1,0 +1,50 @@
+/* compare_metrics.h - the numbers of a comparison: a survey of both images, errors per pixel and their percentiles, SSIM, FLIP. */
+#ifndef COMPARE_COMPARE_METRICS_H
+#define COMPARE_COMPARE_METRICS_H
+
+#include "compare/compare_source.h"
+
+/* What has to be known before errors can be measured. */
+typedef struct compare_survey {
+    bool is_equal;    /* all bits of the pixels that count */
+    bool has_opacity; /* some pixel that counts is not opaque */
+    uint64_t pixel_count, nonfinite_a, nonfinite_b, invalid_count;
+    float largest; /* channel of a, linear, at least 0 */
+} compare_survey;
+
+/* luminance (NULL: not wanted; width * height): of a, linear and not below 0, -1 where a pixel does not count. */
+facet_result compare_survey_make(const compare_source *s, const facet_compare_desc *desc, float *luminance,
+                                 compare_survey *out, facet_error *error);
+
+/* Fills mse to differing_share of out, except percentiles, from pixel_count and channel_count, which are there. errors (width
+ * * height): the largest |b - a| of each pixel's channels; infinity where it is invalid, -1 where it does not count. */
+facet_result compare_errors_make(const compare_source *s, const facet_compare_desc *desc, float *errors,
+                                 facet_comparison *out, facet_error *error);
+
+/* Fills ssim and ssim_channels of out by its channel_count and peak: the mean over all windows of 11 x 11 pixels, weighted
+ * by a Gaussian of 1.5 pixels, that lie in the picture and whose middle counts, of
+ *   ((2 ma mb + C1) (2 sab + C2)) / ((ma^2 + mb^2 + C1) (sa^2 + sb^2 + C2)),  C1 = (0.01 peak)^2, C2 = (0.03 peak)^2
+ * Wang, Bovik, Sheikh, Simoncelli 2004, equation 13; without the reduction of large pictures that came later. NAN where
+ * there is no such window. Fails with FACET_ERROR_MEMORY. */
+facet_result compare_ssim_make(const compare_source *s, const facet_compare_desc *desc, facet_comparison *out,
+                               facet_error *error);
+
+/* Fills flip to flip_exposure_count of out. In display space FLIP of Andersson et al. 2020, in linear space the largest over
+ * exposures of Andersson et al. 2021, with the curve of Narkowicz, from the exposure at which the brightest pixel of a to
+ * that at which the median one reaches 0.85. Where opacity is compared, the larger of those over black and over white.
+ *
+ * luminance  of a, as compare_survey_make() makes it; read in linear space only
+ * map        (width * height) gets the error of each pixel: [0, 1], 1 where it is invalid, 0 where it does not count;
+ *            NULL: not wanted; may be luminance */
+facet_result compare_flip_make(const compare_source *s, const facet_compare_desc *desc,
+                               const float *luminance, float *map, facet_comparison *out, facet_error *error);
+
+enum { COMPARE_SELECT_MAX = 8 };
+
+/* For each share (0 to 100, count of them) the least of values that at least that share of them does not exceed: the
+ * nearest-rank percentile. Negative values and NaN are no values; infinity is one. 0 where there are none. Fails with
+ * FACET_ERROR_MEMORY. */
+facet_result compare_select(const float *values, size_t value_count, const double *shares, uint32_t count,
+                            const facet_allocator *allocator, double *out, facet_error *error);
+
+#endif
