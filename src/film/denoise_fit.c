@@ -5,7 +5,7 @@
  * function of albedo, normal, opacity and place (Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression for
  * Denoising Monte Carlo Renderings"). How narrow the weights are is decided per window by Stein's unbiased estimate of
  * the error (Li, Wu, Chuang 2012, "SURE-based Optimization for Adaptive Sampling and Reconstruction"). */
-#include "film/denoise_fit.h"
+#include "film/denoise_planes.h"
 
 #include <math.h>
 #include <string.h>

@@ -38,12 +38,20 @@ static inline float denoise_divisor(float albedo)
     return albedo > least ? albedo : least;
 }
 
-/* Repeats the border of a plane in its margins. */
-void denoise_repeat_border(const denoise_planes *p, float *plane);
-
 /* Reads f, which has the layers. What is not finite is replaced by its neighbours' mean. FACET_ERROR_MEMORY. */
 facet_result denoise_planes_create(const film *f, const facet_allocator *allocator, uint32_t thread_count,
                                    denoise_planes *out, facet_error *error);
 void denoise_planes_destroy(denoise_planes *p);
+
+/* ---- fits ---- */
+
+/* The pixels of the window around a center, DENOISE_ROW in a row, the last of which is unused. */
+typedef struct denoise_fit {
+    float weight[DENOISE_WINDOW];   /* how much a pixel has in common with the center: (0, 1], 0: is none */
+    float value[3][DENOISE_WINDOW]; /* what its radiance over scale should be */
+} denoise_fit;
+
+/* Fits the window around (x, y) of the picture. */
+void denoise_fit_window(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, denoise_fit *out);
 
 #endif
