@@ -2,14 +2,18 @@
 #include "bake/bake.h"
 
 #include <assert.h>
+#include <math.h>
+#include <string.h>
 
+#include "bake/bake_area.h"
 #include "bake/bake_reference.h"
 #include "bake/bake_sampling.h"
-#include "bake/bake_sharp.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "ibl/environment.h"
 #include "ibl/prefilter.h"
+#include "ibl/sh_window.h"
 
 enum {
     DEFAULT_SIZE = 256,
@@ -24,7 +28,7 @@ enum {
 
 static const facet_bake_desc default_desc;
 
-float bake_roughness(facet_roughness_mapping mapping, uint32_t level, uint32_t level_count)
+static float bake_roughness(facet_roughness_mapping mapping, uint32_t level, uint32_t level_count)
 {
     float x = level_count > 1 ? (float)level / (float)(level_count - 1) : 0.0f;
     return mapping == FACET_ROUGHNESS_MAPPING_FILAMENT ? 1.0f - sqrtf(1.0f - x) : x;
@@ -323,4 +327,85 @@ facet_image_view facet_cube_get_face(const facet_cube *c, uint32_t level, uint32
 facet_bake_stats facet_cube_get_stats(const facet_cube *c)
 {
     return c->stats;
+}
+
+/* ---- seen in a mirror ---- */
+
+static const facet_allocator default_allocator;
+
+/* (1, -t, -s) becomes (-1, -t, -s), which is position (-s, t) of -X; of the others s changes its sign, too. */
+static void mirror_level(const cube *from, cube *to)
+{
+    static const uint32_t others[6] = {1, 0, 2, 3, 4, 5};
+    const int n = (int)from->size;
+    for (uint32_t face = 0; face < 6; face++)
+        for (int y = -1; y <= n; y++) /* the borders with it */
+            for (int x = -1; x <= n; x++)
+                *cube_texel(to, others[face], n - 1 - x, y) = *cube_texel(from, face, x, y);
+}
+
+facet_result facet_cube_create_mirrored(const facet_cube *c, const facet_allocator *allocator,
+                                        facet_cube **out, facet_error *error)
+{
+    allocator = allocator ? allocator : &default_allocator;
+    *out = NULL;
+    facet_cube *mirrored = mem_alloc(allocator, 1, sizeof *mirrored);
+    if (!mirrored)
+        return fail_memory(error, "cube map", sizeof *mirrored);
+    *mirrored = *c;
+    mirrored->allocator = *allocator;
+    memset(mirrored->levels, 0, sizeof mirrored->levels);
+    for (uint32_t level = 0; level < c->level_count; level++) {
+        facet_result result = cube_create(c->levels[level].size, allocator, &mirrored->levels[level], error);
+        if (result != FACET_OK) {
+            facet_cube_destroy(mirrored);
+            return result;
+        }
+        mirror_level(&c->levels[level], &mirrored->levels[level]);
+    }
+    *out = mirrored;
+    return FACET_OK;
+}
+
+/* ---- harmonics ---- */
+
+static const facet_sh_desc default_sh_desc;
+
+facet_result facet_environment_project_sh(const facet_environment *environment, const facet_sh_desc *desc,
+                                          float coefficients[9][3], facet_error *error)
+{
+    assert(environment && coefficients);
+    desc = desc ? desc : &default_sh_desc;
+    if ((uint32_t)desc->form > FACET_SH_FORM_FOLDED)
+        return fail(error, FACET_ERROR_ARGUMENT, "harmonics: form %u: 0 to %d were expected",
+                    (uint32_t)desc->form, FACET_SH_FORM_FOLDED);
+    if (!isfinite(desc->rotation_rad) || !isfinite(desc->ev) || !isfinite(desc->clamp) || desc->clamp < 0.0f)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "harmonics: rotation %g, ev %g, clamp %g: finite numbers, and 0 or more to clamp at, "
+                    "were expected",
+                    (double)desc->rotation_rad, (double)desc->ev, (double)desc->clamp);
+    double radiance[SH_COUNT][3];
+    facet_result result =
+        sh_project_limited(&environment->picture, desc->clamp > 0.0f ? desc->clamp : INFINITY,
+                           &desc->allocator, desc->thread_count, radiance, error);
+    if (result != FACET_OK)
+        return result;
+    sh_rotate(radiance, (double)desc->rotation_rad);
+    double scale = exp2((double)desc->ev);
+    for (int k = 0; k < SH_COUNT; k++)
+        for (int i = 0; i < 3; i++)
+            radiance[k][i] *= scale;
+    if (desc->is_windowed)
+        sh_dering(radiance);
+    double irradiance[SH_COUNT][3];
+    sh_irradiance((const double(*)[3])radiance, irradiance);
+    if (desc->form == FACET_SH_FORM_FOLDED) {
+        sh_fold_over_pi((const double(*)[3])irradiance, coefficients);
+        return FACET_OK;
+    }
+    for (int k = 0; k < SH_COUNT; k++)
+        for (int i = 0; i < 3; i++)
+            coefficients[k][i] =
+                (float)(desc->form == FACET_SH_FORM_IRRADIANCE ? irradiance[k][i] : radiance[k][i]);
+    return FACET_OK;
 }

@@ -9,6 +9,7 @@
 #define BAKE_BAKE_AREA_H
 
 #include "facet/facet.h"
+#include "bake/bake_source.h"
 #include "ibl/cube.h"
 #include "image/image.h"
 
@@ -31,5 +32,14 @@ void bake_area_destroy(bake_area *a); /* {0} is allowed; leaves {0} */
 /* Fills the faces of out and their borders. is_equiangular: edges of texels are at s = tan(pi / 4 (2 i / size - 1)), equal angles
  * apart, rather than at s = 2 i / size - 1. */
 void bake_area_fill(const bake_area *a, bool is_equiangular, float scale, uint32_t thread_count, cube *out);
+
+/* ---- mirrors ---- */
+
+/* Fills out (its size is set), borders included: bake.h says how. FACET_ERROR_MEMORY. */
+facet_result bake_sharp(const bake_source *source, float scale, const facet_allocator *allocator,
+                        uint32_t thread_count, cube *out, facet_error *error);
+
+/* Texels are smaller than the picture's, and are interpolated. */
+bool bake_sharp_is_interpolated(const bake_source *source, uint32_t size);
 
 #endif

@@ -9,7 +9,6 @@
 
 #include "bake/bake_lobe.h"
 #include "bake/bake_source.h"
-#include "bake/bake_watch.h"
 
 typedef struct bake_reference {
     const bake_source *source;

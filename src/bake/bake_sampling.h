@@ -10,7 +10,6 @@
 
 #include "bake/bake_lobe.h"
 #include "bake/bake_source.h"
-#include "bake/bake_watch.h"
 #include "ibl/cube.h"
 
 enum { BAKE_PYRAMID_LEVELS = 14 };

@@ -1,8 +1,11 @@
-/* bake_source.h - what is baked: an environment's picture, cut off where that was asked for, and how it is turned.
+/* bake_source.h - what is baked: an environment's picture, cut off where that was asked for, and how it is turned; and how far
+ * baking is, reported to the caller from any thread.
  *
  * A texel of the picture is of one radiance all over its solid angle; see bake.h. */
 #ifndef BAKE_BAKE_SOURCE_H
 #define BAKE_BAKE_SOURCE_H
+
+#include <stdatomic.h>
 
 #include "facet/facet.h"
 #include "ibl/cube.h"
@@ -26,5 +29,27 @@ void bake_source_destroy(bake_source *s); /* {0} is allowed; leaves {0} */
 
 /* Direction d of the result, turned back: where its light is in the picture. */
 void bake_source_turn(const bake_source *s, const double d[3], double out[3]);
+
+/* ---- progress ---- */
+
+typedef struct bake_watch {
+    facet_progress progress;
+    const char *stage;
+    double total; /* nanoseconds that all of it is expected to take, or any other measure of work */
+    _Atomic uint64_t done;
+    atomic_bool is_cancelled;
+    atomic_flag is_reporting;
+    double reported; /* guarded by is_reporting */
+} bake_watch;
+
+void bake_watch_init(bake_watch *w, const facet_progress *progress, const char *stage, double total);
+/* So much more is done. False: cancelled. */
+bool bake_watch_add(bake_watch *w, double done);
+static inline bool bake_watch_is_cancelled(const bake_watch *w)
+{
+    return atomic_load_explicit(&w->is_cancelled, memory_order_relaxed);
+}
+/* FACET_OK or FACET_ERROR_CANCELLED. */
+facet_result bake_watch_explain(const bake_watch *w, facet_error *error);
 
 #endif

@@ -6,7 +6,7 @@
 #include "bake/bake.h"
 
 #include "bake/bake_reference.h"
-#include "bake/bake_sharp.h"
+#include "bake/bake_area.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"

@@ -11,7 +11,7 @@
 #include "bake/bake_making_test.h"
 
 #include "bake/bake_reference.h"
-#include "bake/bake_sharp.h"
+#include "bake/bake_area.h"
 
 static void lamps(const float d[3], float out[3])
 {
