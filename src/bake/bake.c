@@ -13,7 +13,7 @@
 #include "base/result.h"
 #include "ibl/environment.h"
 #include "ibl/prefilter.h"
-#include "ibl/sh_window.h"
+#include "ibl/sh.h"
 
 enum {
     DEFAULT_SIZE = 256,

@@ -36,7 +36,6 @@ facet_result bake_complete(facet_bake_desc *desc, facet_error *error);
 /* A mirror's level: what bake.h calls one. */
 bool bake_level_is_sharp(const facet_cube *c, uint32_t level);
 
-
 /* A table of reflectance: F32, facet_dfg_get_channel_count() channels. FACET_ERROR_ARGUMENT, _MEMORY, _CANCELLED. */
 facet_result bake_dfg(const facet_dfg_desc *desc, image *out, facet_error *error);
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "ibl/sphere_resample.h"
+#include "ibl/sphere.h"
 
 /* A layout of six faces: where each is in a grid of columns x rows, and whether it is turned by half a turn. */
 typedef struct unfolding {

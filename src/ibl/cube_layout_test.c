@@ -13,7 +13,7 @@
 #include "base/memory.h"
 #include "base/test_effort.h"
 #include "ibl/cube_layout.h"
-#include "ibl/sphere_resample.h"
+#include "ibl/sphere.h"
 
 static cube make_cube(uint32_t size)
 {

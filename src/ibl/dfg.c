@@ -1,5 +1,5 @@
-/* dfg.c - tables of directional albedo and their lookup. The numbers are computed by dfg_generate.c, sheen_generate.c
- * and glass_generate.c when facet is built. */
+/* dfg.c - tables of directional albedo and their lookup. The numbers are computed by tables_generate.c when
+ * facet is built. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>

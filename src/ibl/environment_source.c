@@ -1,9 +1,12 @@
 /* environment_source.c - see environment_source.h. */
 #include "ibl/environment_source.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <stdatomic.h>
+#include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
@@ -154,5 +157,176 @@ facet_result environment_take_picture(facet_environment *e, image *picture, face
         *picture = (image){0};
     }
     image_destroy(picture);
+    return result;
+}
+
+/* ---- six faces ---- */
+
+const char *const cube_face_names[6] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+
+typedef struct decoding {
+    cube_face *faces;
+    const facet_environment_desc *desc;
+} decoding;
+
+static void decode_faces(void *context, size_t begin, size_t end)
+{
+    const decoding *job = context;
+    for (size_t i = begin; i < end; i++) {
+        cube_face *f = &job->faces[i];
+        image_decode_desc how = environment_decode_desc(job->desc, &f->largest);
+        how.thread_count = 1;
+        how.note = &f->note;
+        f->result = image_decode(f->bytes, f->size, f->name, &how, &f->picture, &f->error);
+        if (f->result == FACET_OK && f->picture.width != f->picture.height)
+            f->result = fail(&f->error, FACET_ERROR_INVALID, "%s: %u x %u texels: faces of a cube are square",
+                             f->name, f->picture.width, f->picture.height);
+    }
+}
+
+facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc *desc, facet_error *error)
+{
+    decoding job = {faces, desc};
+    parallel_for(desc->thread_count, 6, 1, decode_faces, &job);
+    facet_result result = FACET_OK;
+    for (int i = 0; i < 6 && result == FACET_OK; i++) {
+        if (faces[i].result != FACET_OK)
+            result = fail(error, faces[i].result, "%s", faces[i].error.message);
+        else if (faces[i].picture.width != faces[0].picture.width)
+            result = fail(error, FACET_ERROR_INVALID, "%s has %u texels along an edge, face +X has %u",
+                          faces[i].name, faces[i].picture.width, faces[0].picture.width);
+        else if (i == 0 || strcmp(faces[i].note.text, faces[0].note.text) != 0)
+            image_note_log(&faces[i].note, faces[i].name, &desc->log); /* alike ones once */
+    }
+    if (result != FACET_OK)
+        cube_faces_destroy(faces);
+    return result;
+}
+
+void cube_faces_destroy(cube_face faces[6])
+{
+    for (int i = 0; i < 6; i++)
+        image_destroy(&faces[i].picture);
+}
+
+static void fill_face(cube *c, uint32_t face, const float *p)
+{
+    for (int y = 0; y < (int)c->size; y++)
+        for (int x = 0; x < (int)c->size; x++, p += 3)
+            *cube_texel(c, face, x, y) = (rgbx){p[0], p[1], p[2], 0.0f};
+}
+
+facet_result cube_faces_assemble(cube_face faces[6], const facet_allocator *allocator, uint32_t thread_count,
+                                 cube *out, environment_repairs *repairs, facet_error *error)
+{
+    uint64_t face_texels = (uint64_t)faces[0].picture.width * faces[0].picture.width;
+    facet_result result = cube_create(faces[0].picture.width, allocator, out, error);
+    for (uint32_t i = 0; i < 6 && result == FACET_OK; i++) {
+        image rgb = {0};
+        result = environment_repair(&faces[i].picture, faces[i].largest, i * face_texels, allocator,
+                                    thread_count, &rgb, repairs, error);
+        if (result == FACET_OK)
+            fill_face(out, i, rgb.pixels);
+        image_destroy(&rgb);
+    }
+    if (result != FACET_OK)
+        cube_destroy(out);
+    return result;
+}
+
+void cube_faces_place(const cube *c, uint64_t place, uint32_t *face, uint32_t *x, uint32_t *y)
+{
+    *x = (uint32_t)(place % c->size);
+    *y = (uint32_t)(place / c->size % c->size);
+    *face = (uint32_t)(place / c->size / c->size);
+}
+
+/* ---- cube maps ---- */
+
+/* The environment of faces that were decoded. */
+static facet_result take_faces(facet_environment *e, cube_face faces[6], const char *name,
+                               const char *const places[6], uint32_t thread_count, facet_error *error)
+{
+    environment_repairs repairs = {.first = UINT64_MAX};
+    facet_result result = cube_faces_assemble(faces, &e->allocator, thread_count, &e->faces, &repairs, error);
+    if (result != FACET_OK)
+        return result;
+    uint32_t face, x, y;
+    cube_faces_place(&e->faces, repairs.count ? repairs.first : 0, &face, &x, &y);
+    environment_report(e, &repairs, name, places[face], x, y);
+    cube_fill_borders(&e->faces);
+    e->layout = FACET_LAYOUT_FACES;
+    e->source_width = e->source_height = e->faces.size;
+    return environment_unroll(e, &e->faces, NULL, thread_count, error);
+}
+
+/* ---- KTX2 ---- */
+
+facet_result environment_load_ktx2(facet_environment *e, const ktx2 *k, const facet_environment_desc *desc,
+                                   facet_error *error)
+{
+    static const char *const places[6] = {"face +X", "face -X", "face +Y", "face -Y", "face +Z", "face -Z"};
+    cube_face faces[6] = {0};
+    ktx2_data data = {0};
+    image_decode_desc how = environment_decode_desc(desc, NULL);
+    if (k->width > how.max_size)
+        return fail(error, FACET_ERROR_LIMIT, "%s: %u x %u texels, more than %u along an edge", k->name,
+                    k->width, k->height, how.max_size);
+    facet_result result = ktx2_load_level(k, 0, &desc->allocator, &data, error);
+    for (uint32_t i = 0; i < 6 && result == FACET_OK; i++) {
+        how.largest = &faces[i].largest;
+        result = ktx2_decode(k, &data, 0, 0, i, &how, &faces[i].picture, error);
+    }
+    ktx2_data_destroy(&data);
+    if (result == FACET_OK)
+        result = take_faces(e, faces, k->name, places, desc->thread_count, error);
+    cube_faces_destroy(faces);
+    return result;
+}
+
+/* ---- six files ---- */
+
+static facet_result load_faces(facet_environment *e, const char *const paths[6],
+                               const facet_environment_desc *desc, facet_error *error)
+{
+    file_bytes files[6] = {{0}};
+    cube_face faces[6] = {0};
+    facet_result result = FACET_OK;
+    for (int i = 0; i < 6 && result == FACET_OK; i++) {
+        result = file_open(paths[i],
+                           desc->max_file_bytes ? desc->max_file_bytes : environment_default_max_file_bytes,
+                           &desc->allocator, &files[i], error);
+        faces[i].bytes = files[i].data;
+        faces[i].size = files[i].size;
+        faces[i].name = paths[i];
+    }
+    if (result == FACET_OK)
+        result = cube_faces_decode(faces, desc, error);
+    if (result == FACET_OK)
+        result = take_faces(e, faces, "faces", paths, desc->thread_count, error);
+    for (int i = 0; i < 6 && result == FACET_OK; i++)
+        environment_identify(e, files[i].data, files[i].size);
+    cube_faces_destroy(faces);
+    for (int i = 0; i < 6; i++)
+        file_close(&files[i]);
+    return result;
+}
+
+facet_result facet_environment_load_faces(const char *const paths[6], const facet_environment_desc *desc,
+                                          facet_environment **environment, facet_error *error)
+{
+    static const facet_environment_desc default_desc;
+    assert(paths && environment);
+    *environment = NULL;
+    desc = desc ? desc : &default_desc;
+    facet_environment *e = NULL;
+    facet_result result = environment_create(desc, &e, error);
+    if (result != FACET_OK)
+        return result;
+    result = load_faces(e, paths, desc, error);
+    if (result == FACET_OK)
+        *environment = e;
+    else
+        environment_release(e);
     return result;
 }

@@ -3,7 +3,7 @@
 #define IBL_ENVIRONMENT_SOURCE_H
 
 #include "ibl/environment.h"
-#include "ibl/sphere_resample.h"
+#include "ibl/sphere.h"
 #include "image/image.h"
 #include "image/ktx2.h"
 
@@ -38,5 +38,33 @@ facet_result environment_unroll(facet_environment *e, const cube *c, const spher
 /* Makes the environment of a cube map, level 0. FACET_ERROR_LIMIT, and how ktx2_load_level() and ktx2_decode() fail. */
 facet_result environment_load_ktx2(facet_environment *e, const ktx2 *k, const facet_environment_desc *desc,
                                    facet_error *error);
+
+/* ---- six faces ---- */
+
+extern const char *const cube_face_names[6]; /* "+X" "-X" "+Y" "-Y" "+Z" "-Z" */
+
+typedef struct cube_face {
+    const void *bytes;
+    size_t size;
+    const char *name; /* for messages */
+    image picture;    /* decoded, with what is not finite */
+    float largest;    /* what infinity becomes */
+    image_note note;  /* of decoding */
+    facet_result result;
+    facet_error error;
+} cube_face;
+
+/* Decodes them side by side. FACET_ERROR_INVALID: not square, or not of one size; and how image_decode() fails. */
+facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc *desc, facet_error *error);
+void cube_faces_destroy(cube_face faces[6]); /* {0} is allowed */
+
+/* The pictures as a cube map without borders, repaired and released one by one. */
+facet_result cube_faces_assemble(cube_face faces[6], const facet_allocator *allocator, uint32_t thread_count,
+                                 cube *out, environment_repairs *repairs, facet_error *error);
+/* The face, column and row of environment_repairs.first. */
+void cube_faces_place(const cube *c, uint64_t place, uint32_t *face, uint32_t *x, uint32_t *y);
+
+/* How badly faces meet: the mean over the texels along edges of |a - b| / (a + b), b across the edge; in [0, 1]. */
+double scene_cube_seams(const cube *c);
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef IBL_FOURIER_H
 #define IBL_FOURIER_H
 
+#include <math.h>
 #include <stdint.h>
 
 #include "ibl/rgbx.h"
@@ -14,7 +15,21 @@ typedef struct fourier {
     float cosine[FOURIER_MAX / 2], sine[FOURIER_MAX / 2]; /* of 2 pi k / size */
     uint16_t mirrored[FOURIER_MAX / 2];                   /* the bits of an index in the other order */
 } fourier;
-void fourier_init(fourier *f, uint32_t size);
+
+static inline void fourier_init(fourier *f, uint32_t size)
+{
+    uint32_t bits = 30u - (uint32_t)__builtin_clz(size); /* of an index below size / 2 */
+    f->size = size;
+    for (uint32_t k = 0; k < size / 2; k++) {
+        double angle = 2.0 * 3.14159265358979323846 * k / size;
+        f->cosine[k] = (float)cos(angle);
+        f->sine[k] = (float)sin(angle);
+        uint32_t mirrored = 0;
+        for (uint32_t b = 0; b < bits; b++)
+            mirrored |= (k >> b & 1u) << (bits - 1 - b);
+        f->mirrored[k] = (uint16_t)mirrored;
+    }
+}
 
 /* X[m] = sum of x[j] e^(-2 pi i j m / size) for m < size / 2, lane by lane. Always inlined: into loops that are
  * compiled for several machines. */

@@ -14,7 +14,8 @@
 #include "base/near_test.h"
 #include "base/test_effort.h"
 #include "ibl/making_test.h"
-#include "ibl/scene_cube.h"
+#include "ibl/environment_source.h"
+#include "scene/scene.h"
 #include "ibl/sh.h"
 
 static const double pi = 3.14159265358979323846;

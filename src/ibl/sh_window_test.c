@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/near_test.h"
-#include "ibl/sh_window.h"
+#include "ibl/sh.h"
 
 static const double pi = 3.14159265358979323846;
 

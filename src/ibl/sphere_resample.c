@@ -1,5 +1,5 @@
 /* sphere_resample.c - see sphere_resample.h. */
-#include "ibl/sphere_resample.h"
+#include "ibl/sphere.h"
 
 #include <stdatomic.h>
 

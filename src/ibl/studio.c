@@ -1,14 +1,14 @@
-/* studio.c - see studio.h.
+/* studio.c - the built-in light: soft boxes in a grey room, as an environment of mean radiance 1 cd/m^2.
  *
  * A photographer's set for a product that stands at the origin and faces +Z: a large key light from the front, above
  * and to the left, a dimmer fill from the right, two narrow strips behind for the rim, a broad ceiling, all white, and
  * between them a grey room, lighter above than below, so that metals have both something bright and something dark
  * to show. A soft box is a rectangle as seen from the origin whose edges fade over its softness. */
-#include "ibl/studio.h"
-
+#include <assert.h>
 #include <math.h>
 
 #include "base/parallel.h"
+#include "ibl/environment.h"
 #include "ibl/equirect.h"
 
 enum { WIDTH = 512, HEIGHT = 256 };
@@ -103,8 +103,8 @@ DISPATCH_AVX2 static void draw_rows(void *context, size_t begin, size_t end)
     }
 }
 
-facet_result studio_create(const facet_allocator *allocator, uint32_t thread_count, image *out,
-                           facet_error *error)
+static facet_result studio_create(const facet_allocator *allocator, uint32_t thread_count, image *out,
+                                  facet_error *error)
 {
     facet_result result = image_create(allocator, WIDTH, HEIGHT, 3, IMAGE_F32, out, error);
     if (result != FACET_OK)
@@ -118,5 +118,26 @@ facet_result studio_create(const facet_allocator *allocator, uint32_t thread_cou
         s.sine[i] = (float)sin(phi);
     }
     parallel_for(thread_count, HEIGHT, 16, draw_rows, &s);
+    return FACET_OK;
+}
+
+facet_result facet_environment_create_studio(const facet_environment_desc *desc,
+                                             facet_environment **environment, facet_error *error)
+{
+    static const facet_environment_desc default_desc;
+    assert(environment);
+    *environment = NULL;
+    desc = desc ? desc : &default_desc;
+    facet_environment *e = NULL;
+    facet_result result = environment_create(desc, &e, error);
+    if (result != FACET_OK)
+        return result;
+    result = studio_create(&e->allocator, desc->thread_count, &e->picture, error);
+    if (result != FACET_OK) {
+        environment_release(e);
+        return result;
+    }
+    environment_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    *environment = e;
     return FACET_OK;
 }

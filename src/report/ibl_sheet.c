@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "ibl/environment.h"
-#include "ibl/sh_window.h"
+#include "ibl/sh.h"
 #include "report/ibl_sheet_state.h"
 
 #define DOT "  \xc2\xb7  "

@@ -5,7 +5,7 @@
 
 #include "bake/bake_lobe.h"
 #include "base/result.h"
-#include "ibl/sh_window.h"
+#include "ibl/sh.h"
 #include "report/ibl_sheet_state.h"
 
 /* value * 100 with as many decimals as say something. */
