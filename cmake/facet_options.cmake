@@ -60,7 +60,7 @@ else()
     message(STATUS "There is no folder \"${FACET_TEST_DATA}\": tests on real models are skipped")
 endif()
 
-# Whether tests do all of their cases: one build of a run does, the optimised one (src/base/test_effort.h).
+# Whether tests do all of their cases: one build of a run does, the optimised one (tests/support/support.h).
 set(FACET_QUICK_TESTS OFF)
 if(FACET_SANITIZE OR NOT FACET_TRUTH)
     set(FACET_QUICK_TESTS ON)
@@ -92,7 +92,8 @@ function(facet_add_test name)
     endif()
 endfunction()
 
-# facet_test(NAME [NUMBERS] SOURCES a_test.c LINK facet_x [LABELS threads] [TIMEOUT s]): a cmocka program as a test.
+# facet_test(NAME [NUMBERS] SOURCES a_test.c LINK facet_x [LABELS threads] [TIMEOUT s]): a cmocka program as a test, with
+# tests/support.
 function(facet_test name)
     if(NOT BUILD_TESTING)
         return()
@@ -102,7 +103,7 @@ function(facet_test name)
         return()
     endif()
     add_executable(${name}_test ${T_SOURCES})
-    target_link_libraries(${name}_test PRIVATE ${T_LINK} PkgConfig::CMOCKA m facet_flags)
+    target_link_libraries(${name}_test PRIVATE ${T_LINK} facet_test_support PkgConfig::CMOCKA m facet_flags)
     if(FACET_QUICK_TESTS)
         target_compile_definitions(${name}_test PRIVATE FACET_QUICK_TESTS)
     endif()

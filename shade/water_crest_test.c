@@ -40,12 +40,6 @@ typedef struct photon {
     double p[3], d[3], weight;
 } photon;
 
-static double uniform(uint64_t *s)
-{
-    *s = *s * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*s >> 11) * (1.0 / 9007199254740992.0);
-}
-
 static double height_over(const count *c, const photon *a, double t)
 {
     return a->p[1] + a->d[1] * t - c->amplitude * cos(c->k * (a->p[0] + a->d[0] * t));
@@ -124,13 +118,13 @@ static void turn(double d[3], double cosine, double around)
 /* By Henyey and Greenstein, or 1 + 0.835 cos^2. */
 static double turned_by(const Water *w, uint64_t *s)
 {
-    if (uniform(s) >= (double)w->pure_share[1]) {
-        double g = (double)WATER_PARTICLE_G, q = (1.0 - g * g) / (1.0 - g + 2.0 * g * uniform(s));
+    if (lcg64_double(s) >= (double)w->pure_share[1]) {
+        double g = (double)WATER_PARTICLE_G, q = (1.0 - g * g) / (1.0 - g + 2.0 * g * lcg64_double(s));
         return (1.0 + g * g - q * q) / (2.0 * g);
     }
-    double c = 2.0 * uniform(s) - 1.0;
-    while (uniform(s) * 1.835 > 1.0 + 0.835 * c * c)
-        c = 2.0 * uniform(s) - 1.0;
+    double c = 2.0 * lcg64_double(s) - 1.0;
+    while (lcg64_double(s) * 1.835 > 1.0 + 0.835 * c * c)
+        c = 2.0 * lcg64_double(s) - 1.0;
     return c;
 }
 
@@ -155,7 +149,7 @@ static void follow(count *c, const Water *w, photon *a, uint64_t *s)
     c->horizontal += a->weight;
     bend(a->d, N, cosine, n);
     while (a->weight > 0.0) {
-        double away = 1e-7 * c->length, free = -log(1.0 - uniform(s)) / beam;
+        double away = 1e-7 * c->length, free = -log(1.0 - lcg64_double(s)) / beam;
         a->p[0] -= N[0] * away;
         a->p[1] -= N[1] * away;
         for (t = meets(c, a, free, -1.0); t >= 0.0; t = meets(c, a, free, -1.0)) {
@@ -178,9 +172,9 @@ static void follow(count *c, const Water *w, photon *a, uint64_t *s)
         N[0] = N[1] = 0.0;
         move(a, free);
         a->weight *= (double)w->scattering[1] / beam;
-        turn(a->d, turned_by(w, s), TURN * uniform(s));
+        turn(a->d, turned_by(w, s), TURN * lcg64_double(s));
         if (a->weight < 0.1)
-            a->weight = uniform(s) < 0.2 ? 5.0 * a->weight : 0.0;
+            a->weight = lcg64_double(s) < 0.2 ? 5.0 * a->weight : 0.0;
     }
 }
 

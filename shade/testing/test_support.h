@@ -12,16 +12,7 @@
 #include <cmocka.h>
 
 #include "shade/shade.h"
-
-#define COUNT_OF(a) (sizeof(a) / sizeof *(a))
-
-/* Where nothing is optimised, a sanitizer looks on, or another build of the same run does them all, long tests do every third
- * of their cases. */
-#if defined(__OPTIMIZE__) && !defined(FACET_QUICK_TESTS)
-enum { CASE_STEP = 1 };
-#else
-enum { CASE_STEP = 3 };
-#endif
+#include "tests/support/support.h"
 
 /* Fails unless |value - expected| <= tolerance; NaN fails. format and its arguments say what was compared. */
 static inline __attribute__((unused, format(printf, 4, 5))) void
@@ -41,22 +32,6 @@ expect_near(double value, double expected, double tolerance, const char *format,
 #define expect_relative(value, expected, tolerance, ...)                                                     \
     expect_near((double)(value), (double)(expected), fabs((double)(expected)) * (tolerance), __VA_ARGS__)
 
-/* Random numbers of a fixed sequence: PCG-XSH-RR (O'Neill 2014). */
-typedef struct test_rng {
-    uint64_t state;
-} test_rng;
-static inline __attribute__((unused)) uint32_t rng_uint(test_rng *rng)
-{
-    uint64_t old = rng->state;
-    rng->state = old * 6364136223846793005u + 1442695040888963407u;
-    uint32_t x = (uint32_t)(((old >> 18u) ^ old) >> 27u);
-    uint32_t r = (uint32_t)(old >> 59u);
-    return (x >> r) | (x << ((32u - r) & 31u));
-}
-static inline __attribute__((unused)) float rng_float(test_rng *rng) /* [0, 1) */
-{
-    return (float)(rng_uint(rng) >> 8u) * (1.0f / 16777216.0f);
-}
 static inline __attribute__((unused)) vec2 rng_vec2(test_rng *rng)
 {
     float x = rng_float(rng);

@@ -1,0 +1,98 @@
+/* support.c - the test support that is not inline. */
+#define _XOPEN_SOURCE 700 /* mkdtemp, nftw */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <ftw.h>
+
+#include "tests/support/support.h"
+
+void assert_near_(double a, double b, double tolerance, const char *file, int line)
+{
+    if (fabs(a - b) <= tolerance)
+        return;
+    print_error("%.12g is not within %.3g of %.12g\n", a, tolerance, b);
+    _fail(file, line);
+}
+
+double srgb_encode(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+double srgb_decode(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/* ---- memory ---- */
+
+static void *failing_allocate(void *user, size_t size)
+{
+    failing_allocator *f = user;
+    if (atomic_fetch_add(&f->calls, 1) == f->fail_at)
+        return NULL;
+    atomic_fetch_add(&f->blocks, 1);
+    return malloc(size);
+}
+
+static void failing_release(void *user, void *memory, size_t size)
+{
+    (void)size;
+    atomic_fetch_sub(&((failing_allocator *)user)->blocks, 1);
+    free(memory);
+}
+
+facet_allocator failing_allocator_get(failing_allocator *f)
+{
+    return (facet_allocator){.user = f, .allocate = failing_allocate, .release = failing_release};
+}
+
+/* ---- messages ---- */
+
+static void capture(void *user, facet_log_level level, const char *message)
+{
+    (void)level;
+    captured_messages *messages = user;
+    size_t length = strlen(messages->text);
+    snprintf(messages->text + length, sizeof messages->text - length, "%s\n", message);
+    messages->count++;
+}
+
+facet_log capture_log(captured_messages *messages)
+{
+    return (facet_log){.user = messages, .message = capture};
+}
+
+/* ---- files ---- */
+
+void temporary_folder_create(temporary_folder *folder)
+{
+    snprintf(folder->path, sizeof folder->path, "/tmp/facet_test_XXXXXX");
+    assert_non_null(mkdtemp(folder->path));
+}
+
+static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *place)
+{
+    (void)status, (void)type, (void)place;
+    return remove(path);
+}
+
+void temporary_folder_remove(const temporary_folder *folder)
+{
+    nftw(folder->path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+}
+
+const char *temporary_folder_file(const temporary_folder *folder, const char *name)
+{
+    static char paths[4][512];
+    static int next;
+    char *path = paths[next++ % 4];
+    snprintf(path, sizeof paths[0], "%s/%s", folder->path, name);
+    return path;
+}
