@@ -14,7 +14,6 @@
 #include "gl/scene/gl_light_atlas.h"
 #include "gl/core/gl_program.h"
 #include "gl/sea/gl_sea_block.h"
-#include "gl/sea/gl_sea_classes.h"
 #include "gl/sea/gl_sea_model.h"
 #include "gl/sea/gl_sea_textures.h"
 #include "gl/core/gl_target.h"
@@ -169,37 +168,13 @@ static void bind_textures(const gl_sea *s)
     gl_sea_texture_bind(GL_UNIT_SEA_SEEN, GL_TEXTURE_2D, s->seen.color);
 }
 
-/* Columns of a band of the mesh: drivers on the CPU remember 256 vertices, two rows of it among them. */
-enum { BAND_COLUMNS = 64 };
-
-static size_t index_count(uint32_t columns, uint32_t rows)
-{
-    size_t bands = (columns - 1 + BAND_COLUMNS - 1) / BAND_COLUMNS;
-    return (size_t)(rows - 1) * (2 * ((size_t)columns - 1 + bands) + 2 * bands);
-}
-
-/* One strip of triangles in bands of columns, in each from circle to circle, the nearest first, with two triangles of no size in between. */
 static facet_result update_indices(gl_sea *s, const gl_sea_fan *fan, facet_error *error)
 {
     if (s->columns == fan->columns && s->rows == fan->rows)
         return FACET_OK;
-    size_t count = index_count(fan->columns, fan->rows), at = 0;
-    uint32_t *indices = mem_alloc(&s->allocator, count, sizeof *indices);
-    if (!indices)
-        return fail_memory(error, "a sea's mesh", count * sizeof *indices);
-    for (uint32_t begin = 0; begin + 1 < fan->columns; begin += BAND_COLUMNS) {
-        uint32_t left = fan->columns - 1 - begin, last = left < BAND_COLUMNS ? left : BAND_COLUMNS;
-        for (uint32_t row = 0; row + 1 < fan->rows; row++) {
-            uint32_t first = row * fan->columns + begin;
-            indices[at++] = first;
-            for (uint32_t column = 0; column <= last; column++) {
-                indices[at++] = first + column;
-                indices[at++] = first + fan->columns + column;
-            }
-            indices[at] = indices[at - 1];
-            at++;
-        }
-    }
+    uint32_t *indices;
+    size_t count = gl_sea_fan_index_count(fan);
+    TRY(gl_sea_fan_make_indices(fan, &s->allocator, &indices, error));
     glBindVertexArray(s->mesh_array);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, s->index_buffer);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *indices), indices, GL_STATIC_DRAW);
@@ -338,7 +313,7 @@ static void draw_class(const drawing *d, double depth)
 /* What all pixels look like, whose classes are the target's depths. */
 static void draw_classes(const drawing *d)
 {
-    gl_sea_class classes[GL_SEA_MOST_CLASSES];
+    gl_sea_class classes[GL_SEA_MAX_CLASSES];
     uint32_t count = gl_sea_classes(d->picture->sea->waves.tile_count, classes);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
@@ -367,7 +342,7 @@ static void draw_view(const drawing *d)
     glCullFace(d->picture->is_below ? GL_FRONT : GL_BACK);
     glUseProgram(d->surface);
     glBindVertexArray(s->mesh_array);
-    size_t count = index_count(d->fan.columns, d->fan.rows);
+    size_t count = gl_sea_fan_index_count(&d->fan);
     glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
     glCullFace(GL_BACK); /* as all others take it to be */
     glBindTexture(GL_TEXTURE_2D, s->seen.color);

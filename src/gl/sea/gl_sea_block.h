@@ -32,4 +32,18 @@ typedef struct gl_sea_block {
 void gl_sea_block_fill(const sea_picture *picture, const camera_rays *camera, const gl_sea_fan *fan,
                        gl_sea_block *block);
 
+/* ---- pixel classes ---- */
+
+/* How the tiles of waves are read: those from 0 to cubic_end may be so by cubics, those from linear_begin to linear_end linearly. */
+typedef struct gl_sea_class {
+    int32_t cubic_end, linear_begin, linear_end;
+} gl_sea_class;
+
+enum { GL_SEA_MAX_CLASSES = 24 };
+
+/* Those that there are with so many tiles; how many. Depth 0 is what is not water. */
+uint32_t gl_sea_classes(uint32_t tile_count, gl_sea_class classes[GL_SEA_MAX_CLASSES]);
+/* What sea_class.frag writes for it, exact in floats. */
+double gl_sea_class_depth(gl_sea_class c);
+
 #endif

@@ -3,9 +3,12 @@
 
 #include <math.h>
 
-static const double CELL_PIXELS = 4.0, MOST_NODES = 6e5, LONGEST_M = 1e5;
+#include "base/memory.h"
+#include "base/result.h"
+
+static const double CELL_PIXELS = 4.0, MAX_NODES = 6e5, MAX_DISTANCE_M = 1e5;
 static const double PI_D = 3.14159265358979323846;
-static const double STEEPEST_LEVEL = 0.2; /* level part of rays that need no whole circle */
+static const double MIN_LEVEL = 0.2; /* level part of rays that need no whole circle */
 enum { PROBES = 33 };
 
 static double turned(double azimuth, double from)
@@ -23,7 +26,7 @@ static void find_azimuths(const camera_rays *rays, uint32_t width, uint32_t heig
         camera_rays_at(rays, (float)width * (float)(i % PROBES) / (PROBES - 1),
                        (float)height * (float)(i / PROBES) / (PROBES - 1), o, d);
         double level = hypot((double)d[0], (double)d[2]);
-        bool is_steep = level < STEEPEST_LEVEL * hypot(level, (double)d[1]);
+        bool is_steep = level < MIN_LEVEL * hypot(level, (double)d[1]);
         half = fmax(half, is_steep ? PI_D : fabs(turned(atan2((double)d[2], (double)d[0]), middle)));
     }
     fan->azimuth = (float)middle;
@@ -34,7 +37,7 @@ static void find_azimuths(const camera_rays *rays, uint32_t width, uint32_t heig
 static double last_waves(const sea_picture *p, double pixel_rad, double from)
 {
     double r = from;
-    for (; r < LONGEST_M; r *= 1.3) {
+    for (; r < MAX_DISTANCE_M; r *= 1.3) {
         wave_bounds there = waves_bounds(&p->sea->waves, (float)(pixel_rad * r));
         if ((double)(there.highest - there.lowest) < 0.1 * pixel_rad * r)
             break;
@@ -44,7 +47,7 @@ static double last_waves(const sea_picture *p, double pixel_rad, double from)
 
 static double horizon_m(const sea_picture *p, double eye_y)
 {
-    return p->fall > 0.0 ? sqrt(fmax(fabs(eye_y), 1.0) / p->fall) : LONGEST_M;
+    return p->fall > 0.0 ? sqrt(fmax(fabs(eye_y), 1.0) / p->fall) : MAX_DISTANCE_M;
 }
 
 static uint32_t at_most(double count, uint32_t most)
@@ -72,7 +75,7 @@ gl_sea_fan gl_sea_fan_of(const sea_picture *p, const camera_rays *camera, uint32
     double standing = asinh(level / first), lying = 1.0 - level / last; /* rows of a step of 1 */
     double step = fmin(CELL_PIXELS * pixel, 0.05);
     double nodes = (standing + lying) / step * angle / step;
-    step *= nodes > MOST_NODES ? sqrt(nodes / MOST_NODES) : 1.0;
+    step *= nodes > MAX_NODES ? sqrt(nodes / MAX_NODES) : 1.0;
     fan.columns = at_most(angle / step + 3.0, most_nodes);
     fan.level_row = at_most(standing / step + 1.0, most_nodes / 2);
     fan.step = (float)(standing / fan.level_row);
@@ -82,4 +85,38 @@ gl_sea_fan gl_sea_fan_of(const sea_picture *p, const camera_rays *camera, uint32
     fan.rows = fan.wave_rows + at_most(fmax(log(beyond / last), 0.0) / log((double)fan.ratio) + 2.0, 254);
     fan.width_rad = (float)(0.5 * step);
     return fan;
+}
+
+/* ---- indices ---- */
+
+/* Columns of a band of the mesh. Software rasterizers cache 256 vertices, which holds two rows of a band. */
+enum { BAND_COLUMNS = 64 };
+
+size_t gl_sea_fan_index_count(const gl_sea_fan *fan)
+{
+    size_t bands = (fan->columns - 1 + BAND_COLUMNS - 1) / BAND_COLUMNS;
+    return (size_t)(fan->rows - 1) * (2 * ((size_t)fan->columns - 1 + bands) + 2 * bands);
+}
+
+facet_result gl_sea_fan_make_indices(const gl_sea_fan *fan, const facet_allocator *allocator, uint32_t **out,
+                                     facet_error *error)
+{
+    size_t count = gl_sea_fan_index_count(fan), at = 0;
+    uint32_t *indices = *out = mem_alloc(allocator, count, sizeof *indices);
+    if (!indices)
+        return fail_memory(error, "a sea's mesh", count * sizeof *indices);
+    for (uint32_t begin = 0; begin + 1 < fan->columns; begin += BAND_COLUMNS) {
+        uint32_t left = fan->columns - 1 - begin, last = left < BAND_COLUMNS ? left : BAND_COLUMNS;
+        for (uint32_t row = 0; row + 1 < fan->rows; row++) {
+            uint32_t first = row * fan->columns + begin;
+            indices[at++] = first;
+            for (uint32_t column = 0; column <= last; column++) {
+                indices[at++] = first + column;
+                indices[at++] = first + fan->columns + column;
+            }
+            indices[at] = indices[at - 1];
+            at++;
+        }
+    }
+    return FACET_OK;
 }

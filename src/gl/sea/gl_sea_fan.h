@@ -25,4 +25,10 @@ typedef struct gl_sea_fan {
 /* most_nodes along an edge: OpenGL's largest texture. */
 gl_sea_fan gl_sea_fan_of(const sea_picture *picture, const camera_rays *camera, uint32_t most_nodes);
 
+/* One triangle strip: bands of columns, in each of them the rows from near to far, joined by degenerate triangles. The indices are
+ * a block of mem_alloc(). FACET_ERROR_MEMORY. */
+size_t gl_sea_fan_index_count(const gl_sea_fan *fan);
+facet_result gl_sea_fan_make_indices(const gl_sea_fan *fan, const facet_allocator *allocator, uint32_t **out,
+                                     facet_error *error);
+
 #endif

@@ -1,8 +1,12 @@
 /* sea_block.glsl - a picture's sea, as gl_sea_block.h has it. Places are relative to the eye's: X, Z of the world less its. */
+#ifdef HAS_PICTURE
+#define HAS_ENVIRONMENT /* environment.glsl: an environment in place of the atmosphere */
+#endif
+
 #define SEA_TILES 4
 #define SEA_FOOTPRINTS 64
 #define SEA_LEVELS 11
-#define SEA_CLASS_STEP 8 /* gl_sea_classes.c */
+#define SEA_CLASS_STEP 8 /* gl_sea_block.c */
 #define SEA_CLASSES 512
 #define SEA_CAUSTIC_LAYERS 3
 #define SEA_FOAM_READINGS 4

@@ -1,5 +1,5 @@
 /* sea_class.frag - sorts pixels by what is done for them, as a depth that the passes behind are tested with: a driver that draws on the CPU
- * skips what fails, but goes through both branches of an if. gl_sea_classes.h has the numbers. */
+ * skips what fails, but goes through both branches of an if. gl_sea_block.h has the numbers. */
 uniform highp sampler2D u_sea_seen;
 
 /* By how much the footprint may be off: as far as sea_corrected() moves the place. */

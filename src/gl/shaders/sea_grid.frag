@@ -2,6 +2,18 @@
 layout(location = 0) out highp vec4 fragment;
 layout(location = 1) out highp vec4 fragment_rest;
 
+/* Where the water of a node rests. Near the eye, where water moves farther than it is away, the fan is wider than the picture. */
+vec2 sea_grid_rest(ivec2 node)
+{
+    float waves = sea_fan_ends.y;
+    float row = float(node.y);
+    float r = sea_fan.z * sinh(sea_fan.w * min(row, sea_fan_level.x));
+    r *= pow(sea_fan_ends.w, max(row - waves, 0.0)) / max(1.0 - sea_fan.w * max(min(row, waves) - sea_fan_level.x, 0.0), 0.5 * sea_fan.w);
+    float wider = asin(min(1.2 * sea_shift.z / max(r, 1e-6), 1.0));
+    float azimuth = sea_fan.x + (2.0 * float(node.x) / (sea_fan_ends.x - 1.0) - 1.0) * min(sea_fan.y + wider, PI);
+    return sea_shift.xy + r * vec2(cos(azimuth), sin(azimuth));
+}
+
 void main()
 {
     vec2 rest = sea_grid_rest(ivec2(gl_FragCoord.xy));

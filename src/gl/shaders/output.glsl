@@ -1,6 +1,9 @@
-/* transparency.glsl - where the radiance of a fragment goes: gl_transparency.h. */
+/* output.glsl - the outputs of a surface fragment: radiance for one of the transparency modes (gl_transparency.h), or the AOVs that
+ * gl_film.c reads. */
 #if defined(AOVS)
-/* aovs.glsl */
+layout(location = 0) out vec4 aov_normal_depth;    /* world; m along the camera's axis */
+layout(location = 1) out vec4 aov_color_occlusion; /* linear base color; 1: open */
+layout(location = 2) out vec4 aov_number_texcoord; /* of the geometry; TEXCOORD_0; opacity, 0: nothing is there */
 #elif defined(IS_WEIGHTED)
 layout(location = 0) out vec4 fragment;         /* light and what passes */
 layout(location = 1) out float fragment_weight; /* what the light is to be divided by */
@@ -19,7 +22,17 @@ bool is_behind_peeled()
 }
 #endif
 
-#ifndef AOVS
+#ifdef AOVS
+/* The nearest surface that is not fully transparent. */
+void put_aovs(vec3 N, vec3 color, float occlusion, float opacity)
+{
+    if (opacity <= 0.0)
+        discard;
+    aov_normal_depth = vec4(N, dot(v_position, forward.xyz));
+    aov_color_occlusion = vec4(color, occlusion);
+    aov_number_texcoord = vec4(v_instance.z, texcoord_of_set(0), opacity);
+}
+#else
 /* Radiance that is not yet multiplied by opacity. Every fragment ends here, after all that needs its neighbors. */
 void put_fragment(vec3 radiance, float opacity)
 {
