@@ -29,7 +29,7 @@ static double assert_aimed_is_met(const stage *s, float extent)
         float u = random_number();
         if (!path_lights_sample(s->lights, P, N, u, random_pair(), &l) || l.geometry == VISIBILITY_NONE)
             continue;
-        assert_true(!l.is_point && !l.is_surroundings && l.pdf > 0.0f && isfinite(l.pdf));
+        assert_true(!l.is_delta && !l.is_infinite && l.pdf > 0.0f && isfinite(l.pdf));
         aimed++;
         meeting m = meet(s, P, l.L);
         if (!m.is_met || m.hit.geometry != l.geometry || m.hit.primitive != l.primitive)
@@ -58,7 +58,7 @@ static estimate irradiance_by_chance(const stage *s, vec3 P, vec3 N, int count)
     for (int i = 0; i < count; i++) {
         vec3 d = mul(frame, sample_cosine(random_pair()));
         meeting m = meet(s, P, d);
-        vec3 radiance = m.is_met ? m.radiance : path_lights_surroundings(s->lights, d);
+        vec3 radiance = m.is_met ? m.radiance : path_lights_infinite(s->lights, d);
         double x = pi * (double)radiance[0];
         sum += x;
         sum2 += x * x;

@@ -246,7 +246,7 @@ static bool sample_environment(const path_lights *lights, const choice *c, const
 {
     float pdf = light_environment_sample(lights->environment, &c->environment, u, &out->L);
     bool is_in_sun = lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, out->L);
-    out->is_surroundings = true;
+    out->is_infinite = true;
     out->radiance = path_lights_environment(lights, out->L) + (is_in_sun ? lights->sun.radiance : vec3(0.0f));
     out->pdf = mixed_pdf(lights, c, pdf, is_in_sun);
     return out->pdf > 0.0f;
@@ -255,7 +255,7 @@ static bool sample_environment(const path_lights *lights, const choice *c, const
 static bool sample_sun(const path_lights *lights, const choice *c, vec2 u, path_light_sample *out)
 {
     out->L = light_sun_sample(&lights->sun, u);
-    out->is_surroundings = true;
+    out->is_infinite = true;
     out->radiance = path_lights_environment(lights, out->L) + lights->sun.radiance;
     float environment_pdf = c->probabilities[ENVIRONMENT] > 0.0f
                                 ? light_environment_pdf(lights->environment, &c->environment, out->L)
@@ -283,7 +283,7 @@ static bool sample_directional(const path_lights *lights, const choice *c, vec3 
     if (!found)
         return false;
     out->L = found->position;
-    out->is_point = true;
+    out->is_delta = true;
     out->radiance = found->intensity;
     out->pdf = c->probabilities[DIRECTIONAL] * (irradiance / c->directional);
     return true;
@@ -294,7 +294,7 @@ static bool sample_placed_light(const Light *l, vec3 P, float probability, path_
     LightSample s = light_illuminate(*l, P);
     out->L = s.L;
     out->distance_m = s.distance_m;
-    out->is_point = true;
+    out->is_delta = true;
     out->radiance = s.E;
     out->pdf = probability;
     return max3(s.E) > 0.0f && s.distance_m > 0.0f && probability > 0.0f;
@@ -361,7 +361,7 @@ bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light
     return sample_emitter(lights, light, P, u, probability * share, out);
 }
 
-vec3 path_lights_surroundings(const path_lights *lights, vec3 d)
+vec3 path_lights_infinite(const path_lights *lights, vec3 d)
 {
     vec3 radiance = path_lights_environment(lights, d);
     if (lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, d))
@@ -369,7 +369,7 @@ vec3 path_lights_surroundings(const path_lights *lights, vec3 d)
     return radiance;
 }
 
-float path_lights_surroundings_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d)
+float path_lights_infinite_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d)
 {
     choice c;
     see(lights, P, N, &c);

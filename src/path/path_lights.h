@@ -24,8 +24,8 @@ typedef struct path_light_sample {
     vec3 radiance;    /* cd/m^2; of a light without size: illuminance of a surface that faces it, lux */
     /* per sr that path_lights_sample() gives this direction; without size: the probability of this light */
     float pdf;
-    bool is_point;        /* has no size: paths never meet it */
-    bool is_surroundings; /* environment or sun */
+    bool is_delta;    /* has no size: paths never meet it */
+    bool is_infinite; /* environment or sun */
     uint32_t geometry,
         primitive; /* of an emissive triangle; VISIBILITY_NONE: none. A shadow ray towards it ends before it */
 } path_light_sample;
@@ -37,11 +37,11 @@ bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light
                         path_light_sample *out);
 
 /* Radiance of environment and sun from the unit direction d, cd/m^2. */
-vec3 path_lights_surroundings(const path_lights *lights, vec3 d);
+vec3 path_lights_infinite(const path_lights *lights, vec3 d);
 /* The same without the sun. */
 vec3 path_lights_environment(const path_lights *lights, vec3 d);
 /* The pdf per sr with which path_lights_sample(P, N) finds d in the surroundings. */
-float path_lights_surroundings_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d);
+float path_lights_infinite_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d);
 /* The same for the point of an emissive triangle that the ray from P met as hit, at distance_m, direction d unit. */
 float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const visibility_hit *hit, vec3 d,
                               float distance_m);

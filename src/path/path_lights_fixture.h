@@ -191,15 +191,15 @@ static inline estimate irradiance_by_both(const stage *s, vec3 P, vec3 N, int co
         float u = random_number();
         if (path_lights_sample(s->lights, P, N, u, random_pair(), &l) && dot(l.L, N) > 0.0f) {
             double p = (double)l.pdf;
-            double other = l.is_point ? 0.0 : (double)(dot(l.L, N) * INV_PI);
+            double other = l.is_delta ? 0.0 : (double)(dot(l.L, N) * INV_PI);
             x += (double)(l.radiance[0] * dot(l.L, N)) * p / (p * p + other * other);
         }
         vec3 d = mul(frame, sample_cosine(random_pair()));
         double own = (double)(dot(d, N) * INV_PI);
         meeting m = meet(s, P, d);
-        vec3 radiance = m.is_met ? m.radiance : path_lights_surroundings(s->lights, d);
+        vec3 radiance = m.is_met ? m.radiance : path_lights_infinite(s->lights, d);
         double other = (double)(m.is_met ? path_lights_emitter_pdf(s->lights, P, N, &m.hit, d, m.hit.t)
-                                         : path_lights_surroundings_pdf(s->lights, P, N, d));
+                                         : path_lights_infinite_pdf(s->lights, P, N, d));
         if (own > 0.0)
             x += (double)(radiance[0] * dot(d, N)) * own / (own * own + other * other);
         sum += x;

@@ -51,7 +51,7 @@ static void a_constant_sky_gives_pi(void **state)
         path_light_sample l;
         float u = random_number();
         assert_true(path_lights_sample(s.lights, vec3(0.0f), vec3(0.0f), u, random_pair(), &l));
-        assert_true(l.is_surroundings && !l.is_point && l.distance_m == INFINITY &&
+        assert_true(l.is_infinite && !l.is_delta && l.distance_m == INFINITY &&
                     l.geometry == VISIBILITY_NONE);
         assert_true(fabsf(l.radiance[1] / l.pdf / (4.0f * PI) - 1.0f) < 2e-6f);
     }
@@ -80,9 +80,8 @@ static void the_sun_gives_its_illuminance(void **state)
         for (int k = 0; k < 2; k++) {
             double turn = angle * (k ? 1.001 : 0.999);
             vec3 d = to_sun * (float)(cos)(turn) + tangent * (float)(sin)(turn);
-            assert_true((path_lights_surroundings(s.lights, d)[0] > 0.0f) == (k == 0));
-            assert_true((path_lights_surroundings_pdf(s.lights, vec3(0.0f), vec3(0.0f), d) > 0.0f) ==
-                        (k == 0));
+            assert_true((path_lights_infinite(s.lights, d)[0] > 0.0f) == (k == 0));
+            assert_true((path_lights_infinite_pdf(s.lights, vec3(0.0f), vec3(0.0f), d) > 0.0f) == (k == 0));
         }
         stage_destroy(&s);
     }
@@ -101,7 +100,7 @@ static void punctual_lights_give_what_they_should(void **state)
         bool reaches = path_lights_sample(s.lights, vec3(0.0f), up, 0.3f, vec2(0.2f, 0.7f), &l);
         assert_true(reaches == (i < 2));
         if (reaches) {
-            assert_true(l.is_point && l.pdf == 1.0f && fabsf(l.distance_m - 2.0f) < 1e-6f);
+            assert_true(l.is_delta && l.pdf == 1.0f && fabsf(l.distance_m - 2.0f) < 1e-6f);
             assert_true(fabsf(l.radiance[0] * dot(l.L, up) - (i == 0 ? 20.0f : 19.488f)) < 1e-4f);
         }
         stage_destroy(&s);
@@ -156,15 +155,15 @@ static void kinds_add_up(void **state)
     for (int i = 0; i < SAMPLES; i++) {
         path_light_sample l;
         float u = random_number();
-        aimed += path_lights_sample(s.lights, vec3(0.0f), up, u, random_pair(), &l) && l.is_surroundings;
+        aimed += path_lights_sample(s.lights, vec3(0.0f), up, u, random_pair(), &l) && l.is_infinite;
     }
     double integral = 0.0;
     for (int i = 0; i < SIDE * SIDE; i++) {
         float z = 1.0f - 2.0f * ((float)(i / SIDE) + random_number()) / (float)SIDE;
         float phi = 2.0f * PI * ((float)(i % SIDE) + random_number()) / (float)SIDE;
         float r = sqrt(max(1.0f - z * z, 0.0f));
-        integral += (double)path_lights_surroundings_pdf(s.lights, vec3(0.0f), up,
-                                                         vec3(r * cos(phi), r * sin(phi), z));
+        integral +=
+            (double)path_lights_infinite_pdf(s.lights, vec3(0.0f), up, vec3(r * cos(phi), r * sin(phi), z));
     }
     integral *= 4.0 * pi / ((double)SIDE * SIDE);
     double share = (double)aimed / SAMPLES;
@@ -251,9 +250,9 @@ static void odd_input_does_no_harm(void **state)
             assert_true(fabsf(dot(l.L, l.L) - 1.0f) < 1e-4f);
             for (int c = 0; c < 3; c++)
                 assert_true(l.radiance[c] >= 0.0f && isfinite(l.radiance[c]));
-            float pdf = path_lights_surroundings_pdf(s.lights, P, N, l.L);
+            float pdf = path_lights_infinite_pdf(s.lights, P, N, l.L);
             assert_true(pdf >= 0.0f && isfinite(pdf));
-            vec3 seen = path_lights_surroundings(s.lights, l.L);
+            vec3 seen = path_lights_infinite(s.lights, l.L);
             assert_true(isfinite(seen[0] + seen[1] + seen[2]));
         }
         stage_destroy(&s);

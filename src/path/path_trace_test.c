@@ -10,8 +10,7 @@
 #include "cpu/preview_fixture.h"
 #include "cpu/ray_trace.h"
 
-#include "path/path_camera.h"
-#include "path/path_trace.h"
+#include "path/path.h"
 
 /* ---- a scene that paths go through ---- */
 
@@ -594,7 +593,7 @@ static void lens_rays_meet_in_focus(void **state)
         for (uint32_t i = 0; i < 256; i++) {
             path_sampler sampler = path_sampler_start(0, 4, 4, i);
             path_camera_ray r;
-            path_camera_ray_at(&s.scene, &sampler, 4, 4, &r);
+            path_sample_camera_ray(&s.scene, &sampler, 4, 4, &r);
             vec3 D = load3(r.ray.direction);
             vec3 P = load3(r.ray.origin);
             assert_near((double)length(D), 1.0, 1e-6);

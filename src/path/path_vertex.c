@@ -5,11 +5,10 @@
 #include "cpu/volume_rays.h"
 
 #include "path/path_vertex.h"
-#include "path/path_volume.h"
+#include "path/path_media.h"
 
 /* ---- the surface ---- */
 
-/* Several times what rounding of the position is, which goes with the largest of the corners' coordinates. */
 static float tolerance_at(const surface_point *s)
 {
     vec3 most = abs(s->P);
@@ -33,17 +32,16 @@ static vec3 geometric_normal(const visibility_hit *hit, vec3 V)
     return dot(n, V) < 0.0f ? -n : n;
 }
 
-/* Interpolated and mapped normals may turn away from V, where nothing is to be seen: they are turned back to where it sees
- * them at grazing angle. */
-static vec3 seen_normal(vec3 N, vec3 V)
+/* Bends interpolated and mapped normals towards V until N.V >= NDOTV_MIN. */
+static vec3 faced_normal(vec3 N, vec3 V)
 {
     float c = dot(N, V);
     return c >= NDOTV_MIN ? N : normalize(N + V * (1.01f * NDOTV_MIN - c));
 }
 
-/* ---- boundaries of bodies ---- */
+/* ---- boundaries of closed volumes ---- */
 
-/* Sets N, as refraction wants it: smooth normals of a mesh may lean away from what they stand for. */
+/* Sets N for refraction (boundary_normal.h): smooth normals of a mesh may lean away from the surface that they approximate. */
 static void set_boundary_normal(const visibility_hit *hit, surface_point *s)
 {
     Layers *m = &s->m;
@@ -55,7 +53,7 @@ static void set_boundary_normal(const visibility_hit *hit, surface_point *s)
     m->anisotropy_B = cross(m->base.N, m->anisotropy_T);
 }
 
-/* F0 and F90, which are those against air, for the ior of both sides. Where they are equal nothing is reflected. */
+/* Converts F0 and F90 from those against air to those for the ior of both sides. Equal indices reflect nothing. */
 static void set_reflectance(float ior, Layers *m)
 {
     float F0 = F0_from_ior(max(ior, 1.0f));
@@ -65,47 +63,53 @@ static void set_reflectance(float ior, Layers *m)
     m->base.F0 = F0 > 0.0f ? min(m->base.F0 * (F0_here / F0), 1.0f) : vec3(F0_here * m->base.F90);
 }
 
-/* The surface as one between two media. What is in them is found by paths: nothing of it is counted in the surface. */
-static void meet_body(path *p, const visibility_hit *hit, path_vertex *v)
+static float relative_ior(const media *behind, const media *in, float wavelength_nm)
+{
+    return path_media_ior(behind, wavelength_nm) / path_media_ior(in, wavelength_nm);
+}
+
+/* Makes the surface a boundary between two media. Paths handle absorption and scattering in them: the surface has none. */
+static void set_boundary(const shading_scene *shading, const visibility_hit *hit, media *in,
+                         float wavelength_nm, path_vertex *v)
 {
     surface_point *s = &v->s;
     Layers *m = &s->m;
     const render_geometry *g = s->hit.geometry;
     if (m->layers & LAYER_TRANSMISSION)
         set_boundary_normal(hit, s);
-    if (!s->is_front && !path_media_has(&p->media, g->material))
-        media_enter(&p->media, g->material, g->material->thickness * g->scale);
-    v->behind = p->media;
-    volume_rays_cross(p->shading, hit, s, v->tolerance, &v->behind);
-    const medium *here = path_media_here(&p->media);
+    if (!s->is_front && !path_media_has(in, g->material))
+        media_enter(in, g->material, g->material->thickness * g->scale);
+    v->behind = *in;
+    volume_rays_cross(shading, hit, s, v->tolerance_m, &v->behind);
+    const medium *here = path_media_here(in);
     const medium *there = path_media_here(&v->behind);
-    v->is_false = here && there && here->material == there->material;
-    v->disperses = !(p->wavelength_nm > 0.0f) && m->layers & LAYER_TRANSMISSION &&
-                   (path_media_disperses(&p->media) || path_media_disperses(&v->behind));
-    m->eta = path_media_ior(&v->behind, p->wavelength_nm) / path_media_ior(&p->media, p->wavelength_nm);
+    v->is_null_interface = here && there && here->material == there->material;
+    v->disperses = !(wavelength_nm > 0.0f) && m->layers & LAYER_TRANSMISSION &&
+                   (path_media_disperses(in) || path_media_disperses(&v->behind));
+    m->eta = relative_ior(&v->behind, in, wavelength_nm);
     m->layers &= ~(LAYER_SCATTER | LAYER_DISPERSION);
     m->attenuation_distance = INFINITY;
     set_reflectance(g->material->ior, m);
 }
 
-void path_vertex_set_wavelength(const path *p, path_vertex *v)
+void path_vertex_set_wavelength(path_vertex *v, const media *in, float wavelength_nm)
 {
-    v->s.m.eta = path_media_ior(&v->behind, p->wavelength_nm) / path_media_ior(&p->media, p->wavelength_nm);
+    v->s.m.eta = relative_ior(&v->behind, in, wavelength_nm);
     v->tables = surface_tables(&v->s.m, v->s.V, v->energy);
     v->disperses = false;
 }
 
-/* Whether what is transmitted keeps its direction. */
-static bool goes_straight(const Layers *m)
+/* Whether transmitted light keeps its direction. */
+static bool transmits_straight(const Layers *m)
 {
     if (!(m->layers & LAYER_TRANSMISSION) || !layers_transmission_is_mirror(*m))
         return false;
     return !(m->layers & LAYER_VOLUME) || !(m->eta < 1.0f || m->eta > 1.0f);
 }
 
-static bool has_mirrors_only(const Layers *m, const LayersLobes *p)
+static bool is_specular_only(const Layers *m, const LayersLobes *lobes)
 {
-    return !(p->diffuse + p->diffuse_back + p->sheen > 0.0f) && layers_scattering_lobes(*m) == 0u;
+    return !(lobes->diffuse + lobes->diffuse_back + lobes->sheen > 0.0f) && layers_scattering_lobes(*m) == 0u;
 }
 
 /* ---- a boundary that is no mesh's material ---- */
@@ -118,7 +122,7 @@ static bool intersect_surface(const path_surface *surface, const visibility_hit 
     if (!surface || !surface->intersect(surface->self, &s->hit, hit->normal, s->V, on))
         return false;
     v->surface = surface;
-    v->lets_through = true;
+    v->is_transmissive = true;
     v->lobes = (LayersLobes){.diffuse = 1.0f};
     v->Ng = on->Ng * on->side;
     s->m.base.N = on->N * on->side;
@@ -129,34 +133,36 @@ static bool intersect_surface(const path_surface *surface, const visibility_hit 
 
 /* ---- all ---- */
 
-void path_vertex_make(path *p, const visibility_hit *hit, const shading_ray *ray, path_vertex *v)
+void path_vertex_make(const path_scene *scene, const visibility_hit *hit, const shading_ray *ray, media *in,
+                      float wavelength_nm, path_vertex *v)
 {
+    const shading_scene *shading = &scene->setup->shading;
     shading_point point = {.hit = hit, .ray = ray};
     surface_point *s = &v->s;
-    surface_point_make(p->shading, &point, s);
-    v->lets_through = v->is_mirror = v->is_false = v->disperses = v->is_straight = false;
+    surface_point_make(shading, &point, s);
+    v->is_transmissive = v->is_specular = v->is_null_interface = v->disperses = v->passes_straight = false;
     v->surface = NULL;
     if (!s->is_lit)
         return;
     v->Ng = geometric_normal(hit, s->V);
-    v->tolerance = tolerance_at(s);
-    v->energy = surface_energy(p->shading);
-    if (intersect_surface(p->scene->surface, hit, v))
+    v->tolerance_m = tolerance_at(s);
+    v->energy = surface_energy(shading);
+    if (intersect_surface(scene->surface, hit, v))
         return;
     Layers *m = &s->m;
     if (s->plan->is_body && m->layers & LAYER_VOLUME)
-        meet_body(p, hit, v);
-    m->base.N = seen_normal(m->base.N, s->V);
+        set_boundary(shading, hit, in, wavelength_nm, v);
+    m->base.N = faced_normal(m->base.N, s->V);
     if (m->layers & LAYER_CLEARCOAT)
-        m->clearcoat_N = seen_normal(m->clearcoat_N, s->V);
-    v->lets_through = (m->layers & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION)) != 0;
-    v->is_straight = s->plan->may_pass_straight && goes_straight(m);
+        m->clearcoat_N = faced_normal(m->clearcoat_N, s->V);
+    v->is_transmissive = (m->layers & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION)) != 0;
+    v->passes_straight = s->plan->may_pass_straight && transmits_straight(m);
     v->tables = surface_tables(m, s->V, v->energy);
     v->lobes = layers_lobes(*m, s->V, v->energy, v->tables);
-    v->is_mirror = has_mirrors_only(m, &v->lobes);
+    v->is_specular = is_specular_only(m, &v->lobes);
 }
 
-/* ---- light of its own ---- */
+/* ---- emission ---- */
 
 vec3 path_vertex_emission(const path_vertex *v)
 {
@@ -181,13 +187,13 @@ static float sheen_E(const Layers *m, vec3 L)
                : 0.0f;
 }
 
-/* Whether L is on the same side of the shading normal and of the triangle: what is not would shine through it. */
+/* Whether L is on the same side of the shading normal and of the triangle; light leaks through it otherwise. */
 static bool is_on_one_side(const path_vertex *v, vec3 L)
 {
     return dot(v->s.m.base.N, L) * dot(v->Ng, L) > 0.0f;
 }
 
-vec3 path_vertex_scatter(const path_vertex *v, vec3 L, float *pdf)
+vec3 path_vertex_eval(const path_vertex *v, vec3 L, float *pdf)
 {
     *pdf = 0.0f;
     if (v->surface)
@@ -199,7 +205,7 @@ vec3 path_vertex_scatter(const path_vertex *v, vec3 L, float *pdf)
     return layers_scatter_cos(*m, v->s.V, L, v->energy, v->tables, sheen_E(m, L));
 }
 
-vec3 path_vertex_scatter_punctual(const path_vertex *v, vec3 L)
+vec3 path_vertex_eval_delta(const path_vertex *v, vec3 L)
 {
     float pdf;
     if (v->surface)
@@ -212,8 +218,8 @@ vec3 path_vertex_scatter_punctual(const path_vertex *v, vec3 L)
     return layers_brdf_cos(m, v->s.V, L, v->energy, v->tables, sheen_E(&m, L));
 }
 
-/* A mirror shows what its shading normal says; where that points to the triangle's other side, the direction is mirrored
- * back out of the triangle, at grazing angle at least: a mesh that stands for a round body reflects at its rim as well. */
+/* A specular lobe follows the shading normal; where its direction is on the wrong side of the triangle it is mirrored back, at
+ * grazing angle at least: a mesh that approximates a round shape reflects at its silhouette as well. */
 static vec3 keep_side(vec3 L, vec3 Ng, float side)
 {
     float c = dot(L, Ng);
@@ -242,7 +248,7 @@ bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample 
 
 vec3 path_vertex_straight(const path_vertex *v)
 {
-    if (!v->is_straight)
+    if (!v->passes_straight)
         return vec3(0.0f);
     LayersLobes only = {.transmission = 1.0f};
     LayersSample s = layers_sample(v->s.m, only, v->s.V, 0.0f, vec2(0.0f, 0.0f), v->energy, v->tables);

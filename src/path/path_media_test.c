@@ -1,4 +1,4 @@
-/* Tests of media: which of several bodies is here, what free flight leaves. */
+/* Tests of media: which of several nested volumes is here, what a free flight leaves. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,7 +8,7 @@
 
 #include "cpu/shading_hit.h"
 
-#include "path/path_volume.h"
+#include "path/path_media.h"
 
 static scene_material body(float ior, const char *extras)
 {
@@ -110,21 +110,22 @@ static void index_goes_with_the_wavelength(void **state)
 
 enum { STRATA = 1024 };
 
-/* Means over a grid of flights of throughput 1: of what passes, and of what scatters. */
-static void fly_all(const scene_material *m, vec3 throughput, float distance_m, double passed[3],
+/* Means of beta over a grid of flights: of those that pass, and of those that scatter. */
+static void fly_all(const scene_material *m, vec3 beta, float distance_m, double passed[3],
                     double scattered[3])
 {
     for (int c = 0; c < 3; c++)
         passed[c] = scattered[c] = 0.0;
     for (int i = 0; i < STRATA; i++)
         for (int k = 0; k < STRATA; k++) {
-            path p = {.throughput = throughput, .D = vec3(0.0f, 0.0f, 1.0f)};
-            media_enter(&p.media, m, m->thickness);
-            bool scatters = path_fly(&p, distance_m, ((float)i + 0.5f) / STRATA, ((float)k + 0.5f) / STRATA);
-            if (scatters)
-                assert_true(p.P[2] >= 0.0f && p.P[2] <= distance_m);
+            media in = {.count = 0};
+            media_enter(&in, m, m->thickness);
+            path_flight f = path_media_sample_flight(&in, beta, distance_m, ((float)i + 0.5f) / STRATA,
+                                                     ((float)k + 0.5f) / STRATA);
+            if (f.is_scattered)
+                assert_true(f.distance_m >= 0.0f && f.distance_m <= distance_m);
             for (int c = 0; c < 3; c++)
-                (scatters ? scattered : passed)[c] += (double)p.throughput[c] / STRATA / STRATA;
+                (f.is_scattered ? scattered : passed)[c] += (double)(beta[c] * f.weight[c]) / STRATA / STRATA;
         }
 }
 
@@ -141,13 +142,13 @@ static void flight_keeps_the_balance(void **state)
             m.attenuation_color[c] = colors[i][c];
             m.multiscatter_color[c] = scatter[c];
         }
-        vec3 throughput = vec3(1.0f, 0.5f, 0.25f);
+        vec3 beta = vec3(1.0f, 0.5f, 0.25f);
         double passed[3], scattered[3];
-        fly_all(&m, throughput, 0.3f, passed, scattered);
+        fly_all(&m, beta, 0.3f, passed, scattered);
         vec3 albedo = single_scatter_albedo(load3(scatter));
         for (int c = 0; c < 3; c++) {
             double T = (pow)((double)colors[i][c], 0.75);
-            double each = (double)throughput[c];
+            double each = (double)beta[c];
             assert_true(fabs(passed[c] - each * T) < 1e-3 * each);
             assert_true(fabs(scattered[c] - each * (1.0 - T) * (double)albedo[c]) < 1e-3 * each);
         }
@@ -161,15 +162,16 @@ static void open_bodies_end(void **state)
     scene_material m = body(1.5f, NULL);
     m.attenuation_distance = 1.0f;
     m.attenuation_color[0] = 0.25f;
-    path p = {.throughput = vec3(1.0f)};
-    media_enter(&p.media, &m, m.thickness);
-    assert_false(path_fly(&p, INFINITY, 0.5f, 0.5f));
-    assert_true(fabsf(p.throughput[0] - 0.5f) < 1e-6f);
-    assert_true(p.throughput[1] == 1.0f);
+    media in = {.count = 0};
+    media_enter(&in, &m, m.thickness);
+    path_flight f = path_media_sample_flight(&in, vec3(1.0f), INFINITY, 0.5f, 0.5f);
+    assert_false(f.is_scattered);
+    assert_true(fabsf(f.weight[0] - 0.5f) < 1e-6f);
+    assert_true(f.weight[1] == 1.0f);
     m.attenuation_color[0] = 0.0f;
-    p.throughput = vec3(1.0f);
-    assert_false(path_fly(&p, INFINITY, 0.5f, 0.5f));
-    assert_true(p.throughput[0] == 0.0f && p.throughput[2] == 1.0f);
+    f = path_media_sample_flight(&in, vec3(1.0f), INFINITY, 0.5f, 0.5f);
+    assert_false(f.is_scattered);
+    assert_true(f.weight[0] == 0.0f && f.weight[2] == 1.0f);
 }
 
 int main(void)

@@ -1,14 +1,14 @@
-/* path_volume.c - see path_volume.h. */
+/* path_media.c - see path_media.h. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "cpu/shading_hit.h"
 
-#include "path/path_volume.h"
+#include "path/path_media.h"
 
-/* ---- nested bodies ---- */
+/* ---- nested dielectrics ---- */
 
-/* The number of the key "priority" in extras, which is asked for where bodies overlap only. */
+/* The number of the key "priority" in extras. Only overlapping volumes read it. */
 static long priority_of(const scene_material *m)
 {
     const char *key = m->meta.extras ? strstr(m->meta.extras, "\"priority\"") : NULL;
@@ -21,7 +21,7 @@ static long priority_of(const scene_material *m)
 
 static float ior_of(const scene_material *m, float wavelength_nm)
 {
-    float ior = max(m->ior, 1.0f); /* 0: infinite, of which nothing is transmitted */
+    float ior = max(m->ior, 1.0f); /* 0: infinite, which transmits nothing */
     if (wavelength_nm > 0.0f && m->extensions & SCENE_DISPERSION && m->dispersion > 0.0f)
         return dispersed_ior_at(ior, m->dispersion, wavelength_nm);
     return ior;
@@ -93,7 +93,7 @@ static bool scatters(const scene_material *m)
            max3(load3(m->multiscatter_color)) > 0.0f;
 }
 
-/* The channel whose share of weights u falls into; the shares. */
+/* The channel whose share of the weights contains u; also returns the shares. */
 static int choose_channel(vec3 weights, float u, vec3 *shares)
 {
     float sum = weights[0] + weights[1] + weights[2];
@@ -103,33 +103,36 @@ static int choose_channel(vec3 weights, float u, vec3 *shares)
     return u < (*shares)[0] + (*shares)[1] || !((*shares)[2] > 0.0f) ? 1 : 2;
 }
 
-/* Free flight with an extinction that differs by channel: the distance is drawn by one channel, chosen by what each
- * carries, and weighted as if all had been asked (one-sample multiple importance sampling). */
-bool path_fly(path *p, float distance_m, float u_channel, float u_distance)
+/* The extinction differs by channel: the distance is sampled from one channel, chosen in proportion to beta, and weighted by the mean
+ * density of all (one-sample multiple importance sampling). */
+path_flight path_media_sample_flight(const media *m, vec3 beta, float distance_m, float u_channel,
+                                     float u_distance)
 {
-    const medium *here = path_media_here(&p->media);
+    path_flight out = {.weight = vec3(1.0f)};
+    const medium *here = path_media_here(m);
     if (!here)
-        return false;
-    const scene_material *m = here->material;
-    float length_m = length_in(here, distance_m + p->skipped_m);
-    if (!scatters(m) || !(max3(p->throughput) > 0.0f)) {
-        p->throughput *= transmittance(m, length_m);
-        return false;
+        return out;
+    const scene_material *material = here->material;
+    float length_m = length_in(here, distance_m);
+    if (!scatters(material) || !(max3(beta) > 0.0f)) {
+        out.weight = transmittance(material, length_m);
+        return out;
     }
-    /* max: that of white is -0. */
-    vec3 extinction = max(volume_extinction(load3(m->attenuation_color), m->attenuation_distance), 0.0f);
+    /* max: the extinction of white is -0. */
+    vec3 extinction =
+        max(volume_extinction(load3(material->attenuation_color), material->attenuation_distance), 0.0f);
     vec3 shares;
-    int channel = choose_channel(p->throughput, u_channel, &shares);
+    int channel = choose_channel(beta, u_channel, &shares);
     float t = -log(1.0f - u_distance) / extinction[channel];
     if (!(t < length_m)) {
         vec3 passed = exp(extinction * -length_m);
-        p->throughput *= passed * (1.0f / dot(shares, passed));
-        return false;
+        out.weight = passed * (1.0f / dot(shares, passed));
+        return out;
     }
     vec3 passed = exp(extinction * -t);
-    vec3 albedo = single_scatter_albedo(clamp(load3(m->multiscatter_color), 0.0f, 1.0f));
-    p->throughput *= albedo * extinction * passed * (1.0f / dot(shares, extinction * passed));
-    p->P += p->D * (t - p->skipped_m);
-    p->skipped_m = 0.0f;
-    return true;
+    vec3 albedo = single_scatter_albedo(clamp(load3(material->multiscatter_color), 0.0f, 1.0f));
+    out.weight = albedo * extinction * passed * (1.0f / dot(shares, extinction * passed));
+    out.distance_m = t;
+    out.is_scattered = true;
+    return out;
 }
