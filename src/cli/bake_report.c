@@ -2,7 +2,7 @@
 #include "cli/bake_report.h"
 
 #include "cli/bake_names.h"
-#include "cli/render_report.h"
+#include "cli/json_report.h"
 #include "cli/table.h"
 #include "cli/terminal.h"
 

@@ -2,7 +2,7 @@
 #include "cli/bake_text.h"
 
 #include "cli/output_name.h"
-#include "cli/render_report.h"
+#include "cli/json_report.h"
 
 #include <jansson.h>
 #include <stdarg.h>

@@ -7,22 +7,16 @@
 #include "cli/bake_report.h"
 #include "cli/failure.h"
 #include "cli/interrupt.h"
-#include "cli/memory_limit.h"
 #include "cli/output.h"
-#include "cli/preset.h"
-#include "cli/progress.h"
-#include "cli/render_report.h"
+#include "cli/verb_run.h"
 
 #include <stdio.h>
 #include <string.h>
 
 typedef struct bake_run {
-    const command_line *line;
+    verb_run base;
     bake_options options;
     bake_plan plan;
-    messages messages;
-    facet_budget *budget;
-    facet_allocator allocator;
     facet_environment *environment;
     facet_environment_info info; /* .width 0: nothing was read */
     progress shown;
@@ -35,19 +29,17 @@ static void tell_environment(bake_run *run)
 {
     const char *name = bake_input_name(&run->options);
     const facet_environment_info *info = &run->info;
-    message_at(&run->messages, VERBOSITY_DETAILS, "%s: %u x %u texels, mean %.4g %.4g %.4g, largest %.4g",
-               name, info->width, info->height, info->mean[0], info->mean[1], info->mean[2],
-               (double)info->max_radiance);
+    message_at(&run->base.messages, VERBOSITY_DETAILS,
+               "%s: %u x %u texels, mean %.4g %.4g %.4g, largest %.4g", name, info->width, info->height,
+               info->mean[0], info->mean[1], info->mean[2], (double)info->max_radiance);
 }
 
 static facet_result load(bake_run *run, facet_error *error)
 {
     const bake_options *o = &run->options;
-    const facet_environment_desc desc = {.allocator = run->allocator,
-                                         .log = messages_log(&run->messages),
-                                         .thread_count = o->limits.thread_count,
-                                         .max_size = o->limits.max_texture_size,
-                                         .layout = o->input_layout};
+    facet_environment_desc desc = verb_run_environment_desc(&run->base, NULL);
+    desc.max_size = o->limits.max_texture_size;
+    desc.layout = o->input_layout;
     facet_result result = o->has_faces
                               ? facet_environment_load_faces(o->faces, &desc, &run->environment, error)
                               : environment_input_load(&o->environment, &desc, &run->environment, error);
@@ -107,7 +99,7 @@ static void tell_clamped(bake_run *run, const bake_cube *baked)
 {
     const facet_bake_stats stats = facet_cube_get_stats(baked->cube);
     if (baked->desc.clamp > 0.0f)
-        message_at(&run->messages, VERBOSITY_NORMAL, "%s: --clamp %g takes %.3g %% of the light",
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: --clamp %g takes %.3g %% of the light",
                    bake_input_name(&run->options), (double)baked->desc.clamp, 100.0 * stats.clamped_share);
 }
 
@@ -123,7 +115,7 @@ static void warn_of_cut(bake_run *run, const bake_file *file)
         return;
     baked->is_cut = true;
     char text[1024];
-    const facet_log log = messages_log(&run->messages);
+    const facet_log log = messages_log(&run->base.messages);
     snprintf(text, sizeof text,
              "%.800s: its numbers end at %g, which cuts off %.3g %% of the light; full floats "
              "(--format rgba32f or exr32) keep it, or lower it with --exposure",
@@ -147,7 +139,7 @@ static facet_result bake_cubes(bake_run *run, facet_error *error)
         bake_cube *baked = &run->plan.cubes[i];
         if (!baked->desc.size) /* its files are kept */
             continue;
-        baked->desc.allocator = run->allocator;
+        baked->desc.allocator = run->base.allocator;
         baked->desc.progress = next_step(run, STEP_BAKE, &baked->desc);
         result = facet_cube_bake(run->environment, &baked->desc, &baked->cube, error);
         if (result == FACET_OK && !has_told)
@@ -159,7 +151,7 @@ static facet_result bake_cubes(bake_run *run, facet_error *error)
         }
         baked->desc.progress = (facet_progress){0};
         if (result == FACET_OK && needs_mirrored(&run->plan, i))
-            result = facet_cube_create_mirrored(baked->cube, &run->allocator, &baked->mirrored, error);
+            result = facet_cube_create_mirrored(baked->cube, &run->base.allocator, &baked->mirrored, error);
     }
     return result;
 }
@@ -168,7 +160,7 @@ static facet_result project(bake_run *run, facet_error *error)
 {
     facet_sh_desc desc = run->options.harmonics;
     facet_result result = FACET_OK;
-    desc.allocator = run->allocator;
+    desc.allocator = run->base.allocator;
     for (int form = 0; form < 3 && run->plan.has_sh && result == FACET_OK; form++) {
         desc.form = (facet_sh_form)form;
         result = facet_environment_project_sh(run->environment, &desc, run->plan.sh[form], error);
@@ -181,7 +173,7 @@ static facet_result make_files(bake_run *run, facet_error *error)
     bake_making making = {.options = &run->options,
                           .plan = &run->plan,
                           .environment = run->environment,
-                          .allocator = run->allocator};
+                          .allocator = run->base.allocator};
     facet_result result = FACET_OK;
     for (size_t i = 0; i < run->plan.file_count && result == FACET_OK; i++) {
         bake_file *file = &run->plan.files[i];
@@ -202,7 +194,7 @@ static facet_result bake(bake_run *run, facet_error *error)
 {
     const bool has_bar = run->shown.mode == PROGRESS_BAR;
     facet_result result = run->options.is_table ? FACET_OK : load(run, error);
-    messages_flush(&run->messages);
+    messages_flush(&run->base.messages);
     interrupt_begin("facet", "baking", has_bar);
     if (result == FACET_OK)
         result = bake_cubes(run, error);
@@ -246,54 +238,19 @@ static bool is_all_kept(const bake_plan *plan)
     return true;
 }
 
-static facet_result begin(bake_run *run, command_line *c, config *storage, facet_error *error)
+static void add_json(const verb_run *base, json_t *root)
 {
-    facet_result result = config_apply(c, storage, error);
-    if (result == FACET_OK)
-        result = bake_options_read(c, &run->options, error);
-    run->messages.verbosity = messages_verbosity(c);
-    if (result == FACET_OK && run->options.layout == BAKE_LAYOUT_FILAMENT && !run->options.has_sh_window)
-        run->options.harmonics.is_windowed = true; /* as cmgen does */
-    if (result == FACET_OK)
-        result = bake_plan_make(&run->options, &run->plan, error);
-    if (result == FACET_OK)
-        result = bake_plan_check(c, &run->options, &run->plan, error);
-    if (result == FACET_OK)
-        result = facet_budget_create(run->options.limits.max_memory_bytes, &run->budget, error);
-    if (result != FACET_OK)
-        return result;
-    run->allocator = facet_budget_allocator(run->budget);
-    run->shown =
-        (progress){.mode = progress_choose(option_choice(c, OPT_PROGRESS, 0), is_given(c, OPT_QUIET)),
-                   .subject = bake_plan_subject(&run->plan),
-                   .start = interrupt_clock(),
-                   .last_percent = -10};
-    interrupt_set_deadline(run->options.limits.time_limit_s);
-    return FACET_OK;
-}
-
-static void print_json(const bake_run *run, double start, const facet_error *error, int exit_code)
-{
-    json_t *failures = json_array();
-    json_t *root = bake_report_json(&run->options, &run->plan, &run->info, run->is_written);
-    if (error->message[0])
-        json_array_append_new(failures, report_error_json(error, NULL, exit_code));
-    json_t *rest = json_pack(
-        "{s:s, s:o, s:o, s:f, s:I, s:I, s:i}", "facet", facet_version(), "failures", failures, "warnings",
-        report_warnings_json(&run->messages), "seconds", interrupt_clock() - start, "peak_memory_bytes",
-        (json_int_t)memory_peak(), "peak_data_bytes",
-        (json_int_t)(run->budget ? facet_budget_peak_bytes(run->budget) : 0), "exit_code", exit_code);
-    json_object_update(root, rest);
-    json_decref(rest);
-    report_print_json(root);
-    json_decref(root);
+    const bake_run *run = (const bake_run *)base;
+    json_t *report = bake_report_json(&run->options, &run->plan, &run->info, run->is_written);
+    json_object_update(root, report);
+    json_decref(report);
 }
 
 /* The table of --verify, and whether --max-error holds. */
 static bool tell_errors(const bake_run *run)
 {
     const bake_options *o = &run->options;
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     char worst[128];
     const bool is_wanted = is_given(c, OPT_VERIFY) || is_given(c, OPT_VERBOSE);
     if (!o->is_verified || !run->is_written || is_all_kept(&run->plan))
@@ -307,33 +264,43 @@ static bool tell_errors(const bake_run *run)
     return false;
 }
 
+static facet_result read_line(verb_run *base, facet_error *error)
+{
+    bake_run *run = (bake_run *)base;
+    TRY(bake_options_read(base->line, &run->options, error));
+    base->limits = run->options.limits;
+    if (run->options.layout == BAKE_LAYOUT_FILAMENT && !run->options.has_sh_window)
+        run->options.harmonics.is_windowed = true; /* as cmgen does */
+    TRY(bake_plan_make(&run->options, &run->plan, error));
+    return bake_plan_check(base->line, &run->options, &run->plan, error);
+}
+
+static facet_result work(verb_run *base, facet_error *error)
+{
+    bake_run *run = (bake_run *)base;
+    run->shown = (progress){.mode = base->progress,
+                            .subject = bake_plan_subject(&run->plan),
+                            .start = interrupt_clock(),
+                            .last_percent = -10};
+    if (!is_all_kept(&run->plan))
+        TRY(bake(run, error));
+    messages_flush(&base->messages);
+    TRY(write_files(run, error));
+    bake_report_files(&base->messages, &run->plan, run->plan.has_own_name, interrupt_clock() - base->start_s);
+    base->is_negative = !tell_errors(run);
+    return FACET_OK;
+}
+
+static void destroy(verb_run *base)
+{
+    bake_run *run = (bake_run *)base;
+    bake_plan_destroy(&run->plan);
+    facet_environment_destroy(run->environment);
+}
+
 int cmd_bake(command_line *c)
 {
-    double start = interrupt_clock();
-    bake_run run = {.line = c};
-    config storage = {0};
-    facet_error error = {0};
-    facet_result result = begin(&run, c, &storage, &error);
-    if (result == FACET_OK && !is_all_kept(&run.plan))
-        result = bake(&run, &error);
-    messages_flush(&run.messages);
-    if (result == FACET_OK)
-        result = write_files(&run, &error);
-    if (result == FACET_OK)
-        bake_report_files(&run.messages, &run.plan, run.plan.has_own_name, interrupt_clock() - start);
-    const bool is_within = tell_errors(&run);
-    const bool is_negative = !is_within || (run.messages.warning_count && is_given(c, OPT_STRICT));
-    const int exit_code = result != FACET_OK ? exit_code_of(result) : is_negative ? EXIT_NEGATIVE : EXIT_DONE;
-    if (result != FACET_OK) {
-        const bool is_ours = error.message[0] == '-' || strncmp(error.message, "bake:", 5) == 0;
-        message_error("%s%s", is_ours ? "facet: " : "", error.message);
-    }
-    if (is_given(c, OPT_JSON))
-        print_json(&run, start, &error, exit_code);
-    bake_plan_destroy(&run.plan);
-    facet_environment_destroy(run.environment);
-    messages_clear(&run.messages);
-    facet_budget_destroy(run.budget);
-    config_destroy(&storage);
-    return result == FACET_ERROR_CANCELLED ? interrupt_exit() : exit_code;
+    static const verb_work parts = {read_line, work, add_json, destroy};
+    bake_run run = {.is_written = false};
+    return verb_run_all(&run.base, c, &parts);
 }

@@ -6,34 +6,30 @@
 #include "cli/failure.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
-#include "cli/limits.h"
-#include "cli/messages.h"
+#include "cli/json_report.h"
 #include "cli/output.h"
-#include "cli/render_report.h"
 #include "cli/value.h"
+#include "cli/verb_run.h"
 
 #include <string.h>
 #include <strings.h>
 
 typedef struct compare_run {
-    const command_line *line;
-    limits limits;
-    messages messages;
-    facet_budget *budget;
+    verb_run base;
     compare_wish wish;
     facet_compare_desc desc;
     facet_image_save_desc save;
     const char *output; /* NULL: none */
     facet_image *a, *b, *mask, *difference;
     facet_comparison comparison;
-    bool is_measured, is_kept;
+    bool is_measured, is_kept, is_written;
 } compare_run;
 
 /* ---- what is asked for ---- */
 
 static facet_result read_pictures(compare_run *run, facet_error *error)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     const char *mask = option_text(c, OPT_MASK, NULL);
     if (c->argument_count < 2)
         return fail(error, FACET_ERROR_ARGUMENT,
@@ -52,7 +48,7 @@ static facet_result read_pictures(compare_run *run, facet_error *error)
 static facet_result read_output(compare_run *run, facet_error *error)
 {
     static const char *const extensions[] = {"png", "jpg", "jpeg", "webp", "exr", "hdr", "pfm"};
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     const int format = option_choice(c, OPT_FORMAT, -1);
     run->output = option_text(c, OPT_OUTPUT, NULL);
     if (!run->output) {
@@ -89,7 +85,7 @@ static facet_result read_output(compare_run *run, facet_error *error)
 
 static facet_result read_look(compare_run *run, facet_error *error)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     facet_compare_desc *d = &run->desc;
     double stops = 0.0;
     d->space = (facet_compare_space)option_choice(c, OPT_SPACE, FACET_COMPARE_SPACE_AUTO);
@@ -115,9 +111,9 @@ static facet_result read_look(compare_run *run, facet_error *error)
 
 static facet_result read_desc(compare_run *run, facet_error *error)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     facet_compare_desc *d = &run->desc;
-    d->thread_count = run->limits.thread_count;
+    d->thread_count = run->base.limits.thread_count;
     d->skipped_metrics = compare_wish_skipped(&run->wish);
     d->percentile = option_number(c, OPT_PERCENTILE, 0.0);
     d->threshold = (float)option_number(c, OPT_THRESHOLD, 0.0);
@@ -142,28 +138,28 @@ static facet_result load(compare_run *run, const char *path, const char *layer, 
                          facet_error *error)
 {
     const facet_image_load_desc desc = {.allocator = run->desc.allocator,
-                                        .thread_count = run->limits.thread_count,
-                                        .max_size = run->limits.max_texture_size,
+                                        .thread_count = run->base.limits.thread_count,
+                                        .max_size = run->base.limits.max_texture_size,
                                         .layer = layer,
-                                        .log = messages_log(&run->messages)};
+                                        .log = messages_log(&run->base.messages)};
     interrupt_begin_reading(input_name(path));
     facet_result result = input_load_image(path, &desc, image, error);
     if (result != FACET_OK) {
-        failure_complete(error, input_name(path), run->limits.max_memory_bytes);
+        failure_complete(error, input_name(path), run->base.limits.max_memory_bytes);
         return result;
     }
     const facet_image_view loaded = picture(*image), first = picture(run->a);
     if (loaded.width != first.width || loaded.height != first.height)
         return fail(error, FACET_ERROR_INVALID,
                     "%s: %u x %u pixels, but %s has %u x %u; pictures of one size were expected",
-                    input_name(path), loaded.width, loaded.height, input_name(run->line->arguments[0]),
+                    input_name(path), loaded.width, loaded.height, input_name(run->base.line->arguments[0]),
                     first.width, first.height);
     return FACET_OK;
 }
 
 static facet_result load_all(compare_run *run, facet_error *error)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     const char *mask = option_text(c, OPT_MASK, NULL), *layer = option_text(c, OPT_LAYER, NULL);
     facet_result result = load(run, c->arguments[0], layer, &run->a, error);
     if (result == FACET_OK)
@@ -178,15 +174,15 @@ static facet_result load_all(compare_run *run, facet_error *error)
 static void tell(compare_run *run)
 {
     const facet_comparison *c = &run->comparison;
-    const char *const *names = run->line->arguments;
+    const char *const *names = run->base.line->arguments;
     const bool is_display[] = {facet_image_is_for_display(run->a), facet_image_is_for_display(run->b)};
     const uint64_t nonfinite[] = {c->nonfinite_a, c->nonfinite_b};
-    if (is_display[0] != is_display[1] && !is_given(run->line, OPT_SPACE))
-        message_at(&run->messages, VERBOSITY_NORMAL,
+    if (is_display[0] != is_display[1] && !is_given(run->base.line, OPT_SPACE))
+        message_at(&run->base.messages, VERBOSITY_NORMAL,
                    "%s: it is light, and %s is for displays; compared as a display shows them%s",
                    input_name(names[is_display[0]]), input_name(names[!is_display[0]]),
                    run->desc.tonemap == FACET_TONEMAP_NONE ? ", clamped (--tone-mapping)" : "");
-    facet_log log = messages_log(&run->messages);
+    facet_log log = messages_log(&run->base.messages);
     for (int i = 0; i < 2; i++) {
         char text[512];
         if (!nonfinite[i])
@@ -202,14 +198,14 @@ static void tell(compare_run *run)
 static facet_result compare(compare_run *run, facet_error *error)
 {
     interrupt_begin("facet", "comparing", false);
-    run->is_kept = run->output && is_given(run->line, OPT_NO_CLOBBER) && output_exists(run->output);
+    run->is_kept = run->output && is_given(run->base.line, OPT_NO_CLOBBER) && output_exists(run->output);
     const bool is_drawn = run->output && !run->is_kept;
     facet_result result = facet_compare(run->a, run->b, &run->desc, &run->comparison,
                                         is_drawn ? &run->difference : NULL, error);
     run->is_measured = result == FACET_OK;
     interrupt_end();
     if (result != FACET_OK)
-        failure_complete(error, "compare", run->limits.max_memory_bytes);
+        failure_complete(error, "compare", run->base.limits.max_memory_bytes);
     if (result == FACET_OK && interrupt_signal())
         result = fail(error, FACET_ERROR_CANCELLED, "compare: interrupted");
     if (result == FACET_OK)
@@ -217,29 +213,8 @@ static facet_result compare(compare_run *run, facet_error *error)
     if (result == FACET_OK && is_drawn)
         result = output_write(run->difference, run->output, &run->save, error);
     if (result == FACET_OK && run->is_kept)
-        message_at(&run->messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run->output);
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run->output);
     return result;
-}
-
-static facet_result begin(compare_run *run, facet_error *error)
-{
-    facet_result result = read_pictures(run, error);
-    if (result == FACET_OK)
-        result = compare_wish_read(run->line, &run->wish, error);
-    if (result == FACET_OK)
-        result = read_output(run, error);
-    if (result == FACET_OK)
-        result = limits_read(run->line, &run->limits, error);
-    if (result == FACET_OK)
-        result = read_desc(run, error);
-    if (result == FACET_OK)
-        result = facet_budget_create(run->limits.max_memory_bytes, &run->budget, error);
-    if (result != FACET_OK)
-        return result;
-    run->desc.allocator = run->save.allocator = facet_budget_allocator(run->budget);
-    run->save.thread_count = run->limits.thread_count;
-    interrupt_set_deadline(run->limits.time_limit_s);
-    return FACET_OK;
 }
 
 /* ---- the answer ---- */
@@ -252,36 +227,26 @@ static json_t *picture_json(const char *path, const facet_image *image)
                      (int)facet_image_is_for_display(image));
 }
 
-static void print_json(const compare_run *run, double start, facet_result result, const facet_error *error,
-                       bool is_within, int exit_code)
+static void add_json(const verb_run *base, json_t *root)
 {
-    const command_line *c = run->line;
-    json_t *failures = json_array();
-    if (result != FACET_OK)
-        json_array_append_new(failures, report_error_json(error, NULL, exit_code));
-    json_t *root = json_pack("{s:s, s:o, s:o}", "facet", facet_version(), "a",
-                             picture_json(c->argument_count > 0 ? c->arguments[0] : NULL, run->a), "b",
-                             picture_json(c->argument_count > 1 ? c->arguments[1] : NULL, run->b));
+    const compare_run *run = (const compare_run *)base;
+    const command_line *c = base->line;
+    json_object_set_new(root, "a", picture_json(c->argument_count > 0 ? c->arguments[0] : NULL, run->a));
+    json_object_set_new(root, "b", picture_json(c->argument_count > 1 ? c->arguments[1] : NULL, run->b));
     if (run->is_measured) {
         json_t *found = compare_report_json(&run->wish, &run->comparison);
         json_object_update(root, found);
         json_decref(found);
-        json_object_set_new(root, "passed", run->wish.has_limits ? json_boolean(is_within) : json_null());
+        json_object_set_new(root, "passed",
+                            run->wish.has_limits ? json_boolean(!run->base.is_negative) : json_null());
     }
-    json_t *rest = json_pack("{s:o, s:o, s:o, s:f, s:i}", "output",
-                             report_string_json(result == FACET_OK ? run->output : NULL), "failures",
-                             failures, "warnings", report_warnings_json(&run->messages), "seconds",
-                             interrupt_clock() - start, "exit_code", exit_code);
-    json_object_update(root, rest);
-    json_decref(rest);
-    report_print_json(root);
-    json_decref(root);
+    json_object_set_new(root, "output", report_string_json(run->is_written ? run->output : NULL));
 }
 
 /* Numbers for people: asked for, or there is nothing else to say. */
 static void print_table(const compare_run *run)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     const bool is_wanted = run->wish.has_choice || !run->wish.has_limits || is_given(c, OPT_VERBOSE);
     if (!is_wanted || is_given(c, OPT_JSON) || is_given(c, OPT_QUIET))
         return;
@@ -291,39 +256,55 @@ static void print_table(const compare_run *run)
     fflush(stdout);
 }
 
+/* One sentence where a limit does not hold. */
+static void check_limits(compare_run *run)
+{
+    const char *const *names = run->base.line->arguments;
+    char failed[800] = "";
+    compare_report_failures(&run->wish, &run->comparison, failed, sizeof failed);
+    run->base.is_negative = failed[0] != 0;
+    messages_flush(&run->base.messages);
+    if (failed[0])
+        message_error("%.400s: %s (reference %.400s)", input_name(names[1]), failed, input_name(names[0]));
+}
+
+static facet_result read_line(verb_run *base, facet_error *error)
+{
+    compare_run *run = (compare_run *)base;
+    TRY(read_pictures(run, error));
+    TRY(compare_wish_read(base->line, &run->wish, error));
+    TRY(read_output(run, error));
+    TRY(limits_read(base->line, &base->limits, error));
+    return read_desc(run, error);
+}
+
+static facet_result work(verb_run *base, facet_error *error)
+{
+    compare_run *run = (compare_run *)base;
+    run->desc.allocator = run->save.allocator = base->allocator;
+    run->save.thread_count = base->limits.thread_count;
+    TRY(load_all(run, error));
+    facet_result result = compare(run, error);
+    run->is_written = result == FACET_OK;
+    if (run->is_measured) {
+        print_table(run);
+        check_limits(run);
+    }
+    return result;
+}
+
+static void destroy(verb_run *base)
+{
+    compare_run *run = (compare_run *)base;
+    facet_image_destroy(run->a);
+    facet_image_destroy(run->b);
+    facet_image_destroy(run->mask);
+    facet_image_destroy(run->difference);
+}
+
 int cmd_compare(command_line *c)
 {
-    double start = interrupt_clock();
-    compare_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
-    facet_error error = {0};
-    char failed[800] = "";
-    facet_result result = begin(&run, &error);
-    if (result == FACET_OK)
-        result = load_all(&run, &error);
-    if (result == FACET_OK)
-        result = compare(&run, &error);
-    interrupt_end();
-    if (run.is_measured) {
-        print_table(&run);
-        compare_report_failures(&run.wish, &run.comparison, failed, sizeof failed);
-    }
-    messages_flush(&run.messages);
-    if (failed[0])
-        message_error("%.400s: %s (reference %.400s)", input_name(c->arguments[1]), failed,
-                      input_name(c->arguments[0]));
-    const bool is_negative = failed[0] || (run.messages.warning_count && is_given(c, OPT_STRICT));
-    const int exit_code = result != FACET_OK ? exit_code_of(result) : is_negative ? EXIT_NEGATIVE : EXIT_DONE;
-    if (result != FACET_OK) {
-        const bool is_ours = error.message[0] == '-' || strncmp(error.message, "compare:", 8) == 0;
-        message_error("%s%s", is_ours ? "facet: " : "", error.message);
-    }
-    if (is_given(c, OPT_JSON))
-        print_json(&run, start, result, &error, failed[0] == 0, exit_code);
-    facet_image_destroy(run.a);
-    facet_image_destroy(run.b);
-    facet_image_destroy(run.mask);
-    facet_image_destroy(run.difference);
-    messages_clear(&run.messages);
-    facet_budget_destroy(run.budget);
-    return result == FACET_ERROR_CANCELLED ? interrupt_exit() : exit_code;
+    static const verb_work parts = {read_line, work, add_json, destroy};
+    compare_run run = {.output = NULL};
+    return verb_run_all(&run.base, c, &parts);
 }

@@ -6,38 +6,26 @@
 #include "cli/failure.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
-#include "cli/legacy_options.h"
-#include "cli/limits.h"
+#include "cli/json_report.h"
 #include "cli/output.h"
-#include "cli/render_report.h"
+#include "cli/verb_run.h"
 
 #include <string.h>
 
-/* All that a run shares. */
 typedef struct convert_run {
-    const command_line *line;
+    verb_run base;
     convert_names names;
-    limits limits;
-    messages messages;
-    facet_budget *budget;
-    facet_allocator allocator;
-    facet_scene_desc scene_desc; /* without log */
-    json_t *models, *failures;   /* NULL: nobody asked for JSON */
-    json_t *warnings;
-    size_t warning_count, failure_count;
-    uint32_t large_error_count; /* materials beyond --max-error */
-    int exit_code;              /* of the last failure */
-    bool is_interrupted;        /* by a signal, before all was done */
+    json_t *models; /* NULL without --json */
 } convert_run;
 
 /* ---- one model ---- */
 
 /* Materials in the form that the output has, or that was asked for. */
-static facet_result convert_materials(convert_run *run, facet_scene *scene, facet_error *error)
+static facet_result convert_materials(convert_run *run, facet_scene *scene, const facet_legacy_desc *desc,
+                                      facet_error *error)
 {
-    const facet_log log = messages_log(&run->messages);
-    const facet_legacy_desc *desc = &run->scene_desc.legacy;
-    int asked = option_choice(run->line, OPT_MATERIALS, 0);
+    const facet_log log = messages_log(&run->base.messages);
+    int asked = option_choice(run->base.line, OPT_MATERIALS, 0);
     if (format_is_legacy(run->names.format))
         return facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, desc, &log, error);
     if (asked == 0)
@@ -51,10 +39,10 @@ static facet_result convert_materials(convert_run *run, facet_scene *scene, face
 static facet_result save(convert_run *run, const model_name *model, const facet_scene *scene,
                          const char *output, facet_error *error)
 {
-    const command_line *c = run->line;
-    facet_scene_save_desc desc = {.allocator = run->allocator,
-                                  .log = messages_log(&run->messages),
-                                  .thread_count = run->limits.thread_count,
+    const command_line *c = run->base.line;
+    facet_scene_save_desc desc = {.allocator = run->base.allocator,
+                                  .log = messages_log(&run->base.messages),
+                                  .thread_count = run->base.limits.thread_count,
                                   .keeps_inputs = true,
                                   .has_flipped_texcoords = is_given(c, OPT_FLIP_TEXTURES),
                                   .omits_mtl_pbr = option_choice(c, OPT_MTL_PBR, 0) == 1,
@@ -80,8 +68,8 @@ static facet_result save(convert_run *run, const model_name *model, const facet_
 static uint32_t count_large_errors(const convert_run *run, const facet_scene *scene)
 {
     uint32_t count = 0;
-    double limit = option_number(run->line, OPT_MAX_ERROR, 0.0);
-    if (!is_given(run->line, OPT_MAX_ERROR))
+    double limit = option_number(run->base.line, OPT_MAX_ERROR, 0.0);
+    if (!is_given(run->base.line, OPT_MAX_ERROR))
         return 0;
     for (uint32_t i = 0; i < facet_scene_get_conversion_count(scene); i++)
         count += facet_scene_get_conversion(scene, i).error_graded > limit;
@@ -94,12 +82,12 @@ static void tell_model(convert_run *run, const char *model, const char *output, 
     uint32_t large = count_large_errors(run, scene);
     if (strcmp(output, "-") == 0)
         output = "stdout";
-    convert_report_print(&run->messages, output, scene);
+    convert_report_print(&run->base.messages, output, scene);
     if (large)
         message_error("%s: %u material%s a larger error than --max-error %g", output, large,
-                      large == 1 ? " has" : "s have", option_number(run->line, OPT_MAX_ERROR, 0.0));
-    run->large_error_count += large;
-    message_at(&run->messages, VERBOSITY_DETAILS, "%s: %.2f s", output, interrupt_clock() - start);
+                      large == 1 ? " has" : "s have", option_number(run->base.line, OPT_MAX_ERROR, 0.0));
+    run->base.is_negative = run->base.is_negative || large;
+    message_at(&run->base.messages, VERBOSITY_DETAILS, "%s: %.2f s", output, interrupt_clock() - start);
     if (run->models) {
         json_t *one = json_pack("{s:o, s:o, s:o, s:f}", "input", report_string_json(model), "output",
                                 report_string_json(output), "materials", convert_report_json(scene),
@@ -116,43 +104,35 @@ static facet_result convert_model(convert_run *run, const model_name *model, fac
     if (result != FACET_OK)
         return result;
     if (run->names.keeps_existing && output_exists(output)) {
-        message_at(&run->messages, VERBOSITY_NORMAL, "%s: kept; it was there already", output);
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", output);
         return FACET_OK;
     }
     facet_scene *scene = NULL;
-    facet_scene_desc desc = run->scene_desc;
-    desc.log = messages_log(&run->messages);
+    facet_scene_desc desc = verb_run_scene_desc(&run->base);
+    desc.legacy.keeps_materials = format_is_legacy(run->names.format);
+    desc.legacy.drops_sources = !desc.legacy.keeps_materials && !is_given(run->base.line, OPT_KEEP_SOURCES);
     interrupt_begin_reading(input_name(model->path));
     result = input_load(model->path, &desc, &scene, error);
     if (result == FACET_OK)
-        result = convert_materials(run, scene, error);
+        result = convert_materials(run, scene, &desc.legacy, error);
     interrupt_end();
-    messages_flush(&run->messages);
+    messages_flush(&run->base.messages);
     if (result == FACET_OK)
         result = interrupt_check(output, error);
     if (result == FACET_OK)
         result = save(run, model, scene, output, error);
-    messages_flush(&run->messages);
+    messages_flush(&run->base.messages);
     if (result == FACET_OK)
         tell_model(run, model->path, output, scene, start);
     facet_scene_destroy(scene);
     if (result != FACET_OK)
         failure_complete(
             error, strncmp(error->message, output, strlen(output)) == 0 ? output : input_name(model->path),
-            run->limits.max_memory_bytes);
+            run->base.limits.max_memory_bytes);
     return result;
 }
 
 /* ---- the run ---- */
-
-static void report_failure(convert_run *run, const char *model, const facet_error *error)
-{
-    message_error("%s", error->message);
-    run->failure_count++;
-    run->exit_code = exit_code_of(error->result);
-    if (run->failures)
-        json_array_append_new(run->failures, report_error_json(error, input_name(model), run->exit_code));
-}
 
 /* Whether another model has the same output: neither is converted, and the others are. */
 static facet_result check_clash(const convert_run *run, size_t i, facet_error *error)
@@ -162,87 +142,43 @@ static facet_result check_clash(const convert_run *run, size_t i, facet_error *e
     return result == FACET_OK ? model_list_check_clash(&run->names.models, i, name, error) : result;
 }
 
-static int convert_all(convert_run *run)
+static facet_result convert_one(verb_run *base, size_t i, facet_error *error)
 {
-    const model_list *models = &run->names.models;
-    for (size_t i = 0; i < models->count; i++) {
-        const model_name *model = &models->models[i];
-        facet_error error = {0};
-        facet_result result = check_clash(run, i, &error);
-        if (result == FACET_OK)
-            result = convert_model(run, model, &error);
-        run->warning_count += report_end_model(&run->messages, run->warnings);
-        if (result != FACET_OK)
-            report_failure(run, model->path, &error);
-        run->is_interrupted = interrupt_signal() && (result != FACET_OK || i + 1 < models->count);
-        if (run->is_interrupted)
-            return interrupt_exit_code();
-    }
-    if (run->failure_count)
-        return models->count == 1 ? run->exit_code : EXIT_NEGATIVE;
-    return run->large_error_count || (run->warning_count && is_given(run->line, OPT_STRICT)) ? EXIT_NEGATIVE
-                                                                                             : EXIT_DONE;
+    convert_run *run = (convert_run *)base;
+    TRY(check_clash(run, i, error));
+    return convert_model(run, &run->names.models.models[i], error);
 }
 
-static void print_json(const convert_run *run, double start, int exit_code)
+static facet_result read_line(verb_run *base, facet_error *error)
 {
-    json_t *root = json_pack("{s:s, s:O, s:O, s:O, s:f, s:i}", "facet", facet_version(), "models",
-                             run->models, "failures", run->failures, "warnings", run->warnings, "seconds",
-                             interrupt_clock() - start, "exit_code", exit_code);
-    report_print_json(root);
-    json_decref(root);
+    TRY(convert_names_read(base->line, &((convert_run *)base)->names, error));
+    return limits_read(base->line, &base->limits, error);
 }
 
-static facet_result begin(convert_run *run, command_line *c, facet_error *error)
+static facet_result convert(verb_run *base, facet_error *error)
 {
-    facet_result result = convert_names_read(c, &run->names, error);
-    if (result == FACET_OK)
-        result = limits_read(c, &run->limits, error);
-    if (result == FACET_OK)
-        result = facet_budget_create(run->limits.max_memory_bytes, &run->budget, error);
-    if (result != FACET_OK)
-        return result;
-    run->allocator = facet_budget_allocator(run->budget);
-    run->scene_desc = (facet_scene_desc){.allocator = run->allocator,
-                                         .thread_count = run->limits.thread_count,
-                                         .root = option_text(c, OPT_ROOT, NULL),
-                                         .max_texture_size = run->limits.max_texture_size};
-    legacy_options_read(c, &run->scene_desc);
-    run->scene_desc.legacy.keeps_materials = format_is_legacy(run->names.format);
-    run->scene_desc.legacy.drops_sources =
-        !format_is_legacy(run->names.format) && !is_given(c, OPT_KEEP_SOURCES);
+    convert_run *run = (convert_run *)base;
+    (void)error;
+    run->models = is_given(base->line, OPT_JSON) ? json_array() : NULL;
+    verb_run_models(base, &run->names.models, convert_one);
     return FACET_OK;
+}
+
+static void add_json(const verb_run *base, json_t *root)
+{
+    json_object_set(root, "models", ((const convert_run *)base)->models);
+}
+
+static void destroy(verb_run *base)
+{
+    convert_run *run = (convert_run *)base;
+    json_decref(run->models);
+    convert_names_destroy(&run->names);
 }
 
 int cmd_convert(command_line *c)
 {
-    double start = interrupt_clock();
-    convert_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
-    facet_error error = {0};
-    if (is_given(c, OPT_JSON)) {
-        run.models = json_array();
-        run.failures = json_array();
-        run.warnings = json_array();
-    }
-    facet_result result = begin(&run, c, &error);
-    int exit_code;
-    if (result == FACET_OK) {
-        interrupt_set_deadline(run.limits.time_limit_s);
-        exit_code = convert_all(&run);
-    } else {
-        exit_code = exit_code_of(result);
-        message_error("%s%s",
-                      error.message[0] == '-' || strncmp(error.message, "convert:", 8) == 0 ? "facet: " : "",
-                      error.message);
-        if (run.failures)
-            json_array_append_new(run.failures, report_error_json(&error, NULL, exit_code));
-    }
-    if (run.models)
-        print_json(&run, start, exit_code);
-    json_decref(run.models);
-    json_decref(run.failures);
-    json_decref(run.warnings);
-    convert_names_destroy(&run.names);
-    facet_budget_destroy(run.budget);
-    return run.is_interrupted ? interrupt_exit() : exit_code;
+    static const verb_work work = {read_line, convert, add_json, destroy};
+    convert_run run = {.models = NULL};
+    return verb_run_all(&run.base, c, &work);
 }

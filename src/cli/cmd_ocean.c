@@ -8,65 +8,54 @@
 
 #include "cli/failure.h"
 #include "cli/interrupt.h"
-#include "cli/memory_limit.h"
 #include "cli/ocean_names.h"
 #include "cli/ocean_report.h"
 #include "cli/ocean_run.h"
 #include "cli/output.h"
 #include "cli/output_name.h"
-#include "cli/preset.h"
 #include "cli/render_names.h"
 #include "cli/render_report.h"
 #include "cli/video.h"
 
-/* All that a run writes. */
-typedef struct ocean_output {
-    ocean_run *run;
-    video *video;                /* NULL: files */
-    json_t *files;               /* NULL: nobody asked for JSON */
-    char name[RENDER_NAME_SIZE]; /* what is being made; "": nothing yet */
-} ocean_output;
-
 /* Of a file that is no picture, of which there is nothing else to say. */
-static void tell_file(ocean_output *o, const char *name)
+static void tell_file(ocean_run *run, const char *name)
 {
-    if (o->files)
-        json_array_append_new(o->files, json_pack("{s:o}", "output", report_string_json(name)));
+    if (run->outputs)
+        json_array_append_new(run->outputs, json_pack("{s:o}", "output", report_string_json(name)));
 }
 
-static void tell(ocean_output *o, const picture_report *report)
+static void tell(ocean_run *run, const picture_report *report)
 {
-    report_picture(&o->run->messages, report, false);
-    if (o->files)
-        json_array_append_new(o->files, report->is_kept ? report_picture_json(report)
-                                                        : ocean_report_picture_json(o->run, report));
+    report_picture(&run->base.messages, report, false);
+    if (run->outputs)
+        json_array_append_new(run->outputs, report->is_kept ? report_picture_json(report)
+                                                            : ocean_report_picture_json(run, report));
 }
 
 /* Whether a file is to be left as it is, which is then said. */
-static bool is_kept(ocean_output *o, const char *name)
+static bool is_kept(ocean_run *run, const char *name)
 {
-    const render_options *p = &o->run->options.picture;
-    if (!p->keeps_existing || o->video || p->is_stdout || !output_exists(name))
+    const render_options *p = &run->options.picture;
+    if (!p->keeps_existing || run->video || p->is_stdout || !output_exists(name))
         return false;
-    tell(o, &(picture_report){.model = "sea", .output = name, .is_kept = true});
+    tell(run, &(picture_report){.model = "sea", .output = name, .is_kept = true});
     return true;
 }
 
 /* ---- pictures ---- */
 
-static facet_result write_picture(ocean_output *o, const facet_image *image, const char *name,
+static facet_result write_picture(ocean_run *run, const facet_image *image, const char *name,
                                   facet_error *error)
 {
-    const render_options *p = &o->run->options.picture;
+    const render_options *p = &run->options.picture;
     facet_image_save_desc save = p->save;
-    save.allocator = o->run->allocator;
-    return o->video ? video_add(o->video, image, &o->run->allocator, p->limits.thread_count, error)
-                    : output_write(image, name, &save, error);
+    save.allocator = run->base.allocator;
+    return run->video ? video_add(run->video, image, &run->base.allocator, p->limits.thread_count, error)
+                      : output_write(image, name, &save, error);
 }
 
-static facet_result make_picture(ocean_output *o, uint32_t index, const char *name, facet_error *error)
+static facet_result make_picture(ocean_run *run, uint32_t index, const char *name, facet_error *error)
 {
-    ocean_run *run = o->run;
     const ocean_options *options = &run->options;
     double start = interrupt_clock();
     facet_image *image = NULL;
@@ -75,7 +64,7 @@ static facet_result make_picture(ocean_output *o, uint32_t index, const char *na
                                          : ocean_run_draw(run, options, step, &image, error);
     double drawn = interrupt_clock();
     if (result == FACET_OK)
-        result = write_picture(o, image, name, error);
+        result = write_picture(run, image, name, error);
     if (result == FACET_OK) {
         facet_image_view view = facet_image_get_layer(image, 0);
         static const uint32_t samples[] = {4, 1, 16}, path_samples[] = {64, 16, 512}; /* of facet_quality */
@@ -91,10 +80,9 @@ static facet_result make_picture(ocean_output *o, uint32_t index, const char *na
                                  .stats = facet_image_get_render_stats(image),
                                  .save_s = interrupt_clock() - drawn,
                                  .total_s = interrupt_clock() - start};
-        report_partial(&run->messages, &report, NULL);
-        tell(o, &report);
-        if (report.stats.is_partial && interrupt_signal())
-            result = fail(error, FACET_ERROR_CANCELLED, "%s: interrupted; the image is partial", name);
+        report_partial(&run->base.messages, &report, NULL);
+        tell(run, &report);
+        run->base.is_interrupted = report.stats.is_partial && interrupt_signal();
     }
     facet_image_destroy(image);
     return result;
@@ -109,16 +97,16 @@ static bool is_gltf(const char *name)
     return !dot || strcasecmp(dot, ".obj") != 0;
 }
 
-static facet_result make_mesh(ocean_output *o, const char *name, facet_error *error)
+static facet_result make_mesh(ocean_run *run, const char *name, facet_error *error)
 {
-    ocean_run *run = o->run;
     facet_sea_mesh_desc desc = run->options.mesh;
-    desc.allocator = run->allocator;
+    desc.allocator = run->base.allocator;
     facet_scene *scene = NULL;
     facet_result result = interrupt_check(name, error);
     if (result != FACET_OK)
         return result;
-    const facet_scene_save_desc save = {.allocator = run->allocator, .log = messages_log(&run->messages)};
+    const facet_scene_save_desc save = {.allocator = run->base.allocator,
+                                        .log = messages_log(&run->base.messages)};
     interrupt_begin(name, "making it", false);
     result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
     if (result == FACET_OK && !is_gltf(name))
@@ -129,8 +117,8 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
     if (result == FACET_OK)
         result = output_write_scene(scene, name, save, error);
     if (result == FACET_OK) {
-        message_at(&run->messages, VERBOSITY_DETAILS, "%s: written", name);
-        tell_file(o, name);
+        message_at(&run->base.messages, VERBOSITY_DETAILS, "%s: written", name);
+        tell_file(run, name);
     }
     facet_scene_destroy(scene);
     return result;
@@ -138,48 +126,45 @@ static facet_result make_mesh(ocean_output *o, const char *name, facet_error *er
 
 /* ---- maps ---- */
 
-static facet_result make_map(ocean_output *o, uint32_t tile, const char *name, facet_error *error)
+static facet_result make_map(ocean_run *run, uint32_t tile, const char *name, facet_error *error)
 {
-    ocean_run *run = o->run;
     facet_image *image = NULL;
-    snprintf(o->name, sizeof o->name, "%s", name);
+    snprintf(run->name, sizeof run->name, "%s", name);
     facet_result result = ocean_check_name(run, name, error);
     if (result == FACET_OK)
         result = interrupt_check(name, error);
     if (result == FACET_OK)
-        result = facet_sea_create_maps(run->sea, tile, &run->allocator, &image, error);
-    const facet_image_save_desc save = {.allocator = run->allocator,
+        result = facet_sea_create_maps(run->sea, tile, &run->base.allocator, &image, error);
+    const facet_image_save_desc save = {.allocator = run->base.allocator,
                                         .format = FACET_IMAGE_FORMAT_EXR_FLOAT,
                                         .thread_count = run->options.picture.limits.thread_count};
     if (result == FACET_OK)
         result = output_write(image, name, &save, error);
     if (result == FACET_OK)
-        tell_file(o, name);
+        tell_file(run, name);
     facet_image_destroy(image);
     return result;
 }
 
-static facet_result make_maps(ocean_output *o, uint32_t frame, facet_error *error)
+static facet_result make_maps(ocean_run *run, uint32_t frame, facet_error *error)
 {
-    ocean_run *run = o->run;
     facet_result result = FACET_OK;
     uint32_t count = facet_sea_get_info(run->sea).tile_count;
     if (!count)
-        message_at(&run->messages, VERBOSITY_NORMAL, "--maps: the sea is flat and has none");
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "--maps: the sea is flat and has none");
     for (uint32_t tile = 0; tile < count && result == FACET_OK; tile++) {
         char name[RENDER_NAME_SIZE];
         result = ocean_map_name(&run->options, tile, frame, name, sizeof name, error);
-        if (result == FACET_OK && !is_kept(o, name))
-            result = make_map(o, tile, name, error);
+        if (result == FACET_OK && !is_kept(run, name))
+            result = make_map(run, tile, name, error);
     }
     return result;
 }
 
 /* ---- the run ---- */
 
-static facet_result set_moment(ocean_output *o, uint32_t number, facet_error *error)
+static facet_result set_moment(ocean_run *run, uint32_t number, facet_error *error)
 {
-    ocean_run *run = o->run;
     const render_options *p = &run->options.picture;
     double time = p->has_time ? p->time_s : ((double)number - 1.0) / p->fps;
     run->time_s = time;
@@ -187,47 +172,46 @@ static facet_result set_moment(ocean_output *o, uint32_t number, facet_error *er
     return result == FACET_OK && run->model ? ocean_float_place(run, error) : result;
 }
 
-static facet_result make_frame(ocean_output *o, uint32_t index, uint32_t number, const char *name,
+static facet_result make_frame(ocean_run *run, uint32_t index, uint32_t number, const char *name,
                                facet_error *error)
 {
-    ocean_run *run = o->run;
     facet_result result = interrupt_check(*name ? name : "maps", error);
     if (result == FACET_OK)
-        result = set_moment(o, number, error);
+        result = set_moment(run, number, error);
     if (result == FACET_OK && run->options.maps)
-        result = make_maps(o, number, error);
+        result = make_maps(run, number, error);
     if (result != FACET_OK || !*name)
         return result;
-    snprintf(o->name, sizeof o->name, "%s", run->options.picture.is_stdout ? "stdout" : name);
-    if (!o->video && !run->options.picture.is_stdout) {
+    snprintf(run->name, sizeof run->name, "%s", run->options.picture.is_stdout ? "stdout" : name);
+    if (!run->video && !run->options.picture.is_stdout) {
         result = ocean_check_name(run, name, error);
         if (result == FACET_OK)
             result = ocean_check_maps(run, name, number, error);
     }
     if (result != FACET_OK)
         return result;
-    return run->options.has_mesh ? make_mesh(o, name, error) : make_picture(o, index, name, error);
+    return run->options.has_mesh ? make_mesh(run, name, error) : make_picture(run, index, name, error);
 }
 
 /* Those of which there is a picture or mesh already may be left. */
-static facet_result make_frames(ocean_output *o, facet_error *error)
+static facet_result make_frames(ocean_run *run, facet_error *error)
 {
-    const render_options *p = &o->run->options.picture;
+    const render_options *p = &run->options.picture;
     facet_result result = FACET_OK;
-    for (uint32_t i = 0; i < p->frames.frame_count && result == FACET_OK; i++) {
+    for (uint32_t i = 0; i < p->frames.frame_count && result == FACET_OK && !run->base.is_interrupted; i++) {
         uint32_t number = frame_list_at(&p->frames, i);
         char name[RENDER_NAME_SIZE] = "";
         if (p->output)
             result = render_name(p, &(model_name){.path = "sea"}, number, name, sizeof name, error);
         if (result != FACET_OK)
             return result;
-        if (*name && is_kept(o, name)) {
-            if (!o->run->options.maps)
+        if (*name && is_kept(run, name)) {
+            if (!run->options.maps)
                 continue;
             *name = 0;
         }
-        result = make_frame(o, i, number, name, error);
-        messages_flush(&o->run->messages);
+        result = make_frame(run, i, number, name, error);
+        messages_flush(&run->base.messages);
     }
     return result;
 }
@@ -237,7 +221,7 @@ static void warn_of_loop(ocean_run *run)
 {
     const render_options *p = &run->options.picture;
     double loop = run->options.sea.loop_s, frames = loop * p->fps;
-    facet_log log = messages_log(&run->messages);
+    facet_log log = messages_log(&run->base.messages);
     double longest = facet_sea_get_info(run->sea).peak_period_s;
     char text[256] = "";
     if (loop > 0.0 && loop < longest)
@@ -252,13 +236,12 @@ static void warn_of_loop(ocean_run *run)
 }
 
 /* What is known is that of the first moment. */
-static facet_result make_all(ocean_output *o, facet_error *error)
+static facet_result make_all(ocean_run *run, facet_error *error)
 {
-    ocean_run *run = o->run;
     const ocean_options *options = &run->options;
     const render_options *p = &options->picture;
-    facet_result result = set_moment(o, p->has_frames ? frame_list_at(&p->frames, 0) : 1, error);
-    if (result == FACET_OK && options->has_info && !is_given(run->line, OPT_JSON))
+    facet_result result = set_moment(run, p->has_frames ? frame_list_at(&p->frames, 0) : 1, error);
+    if (result == FACET_OK && options->has_info && !is_given(run->base.line, OPT_JSON))
         ocean_report_print(run);
     warn_of_loop(run);
     if (result != FACET_OK || (!p->output && !options->maps))
@@ -267,11 +250,11 @@ static facet_result make_all(ocean_output *o, facet_error *error)
         if (!p->is_stdout)
             result = ocean_check_name(run, p->output, error);
         if (result == FACET_OK)
-            result = video_open(p->output, p->video, p->fps, &o->video, error);
+            result = video_open(p->output, p->video, p->fps, &run->video, error);
     }
     if (result == FACET_OK)
-        result = make_frames(o, error);
-    facet_result closed = video_close(o->video, result == FACET_OK, error);
+        result = make_frames(run, error);
+    facet_result closed = video_close(run->video, result == FACET_OK, error);
     return result == FACET_OK ? closed : result;
 }
 
@@ -281,17 +264,10 @@ static facet_result load_environment(ocean_run *run, facet_error *error)
     environment_input input = p->environment;
     if (!p->has_environment)
         return FACET_OK;
-    if (input.kind == ENVIRONMENT_NONE) { /* no environment would be the sky */
-        facet_result result = environment_input_parse("--env", "constant:0", 0, &input, error);
-        if (result != FACET_OK)
-            return result;
-    }
-    const facet_environment_desc desc = {.allocator = run->allocator,
-                                         .log = messages_log(&run->messages),
-                                         .thread_count = p->limits.thread_count,
-                                         .cache_folder = p->environment_cache};
-    facet_result result = environment_input_load(&input, &desc, &run->environment, error);
-    return result;
+    if (input.kind == ENVIRONMENT_NONE) /* no environment would be the sky */
+        TRY(environment_input_parse("--env", "constant:0", 0, &input, error));
+    const facet_environment_desc desc = verb_run_environment_desc(&run->base, p->environment_cache);
+    return environment_input_load(&input, &desc, &run->environment, error);
 }
 
 /* A picture without units beside a sun in lux is black. */
@@ -307,7 +283,7 @@ static void warn_of_sun(ocean_run *run)
     if (!(lux > 0.0) || times < 1000.0)
         return;
     char text[256];
-    facet_log log = messages_log(&run->messages);
+    facet_log log = messages_log(&run->base.messages);
     snprintf(text, sizeof text,
              "--sun: it has %.2g times the light of the environment, %.2g lx, which will be black; "
              "--env-intensity scales that",
@@ -323,82 +299,59 @@ static facet_result check_names(const command_line *c, const ocean_options *o, f
     return render_names_check(c, &o->picture, &one, error);
 }
 
-static facet_result begin(ocean_run *run, command_line *c, config *storage, facet_error *error)
+static facet_result read_line(verb_run *base, facet_error *error)
 {
-    ocean_options *o = &run->options;
-    facet_result result = config_apply(c, storage, error);
-    if (result == FACET_OK)
-        result = ocean_options_read(c, o, error);
-    if (result == FACET_OK && o->picture.output && !o->picture.has_frames)
-        result = check_names(c, o, error); /* before what takes long is read */
-    if (result == FACET_OK)
-        result = facet_budget_create(o->picture.limits.max_memory_bytes, &run->budget, error);
-    if (result != FACET_OK)
-        return result;
-    run->allocator = facet_budget_allocator(run->budget);
-    run->messages.verbosity = messages_verbosity(c);
-    run->progress = progress_choose(option_choice(c, OPT_PROGRESS, 0), is_given(c, OPT_QUIET));
-    interrupt_set_deadline(o->picture.limits.time_limit_s);
+    ocean_options *o = &((ocean_run *)base)->options;
+    TRY(ocean_options_read(base->line, o, error));
+    base->limits = o->picture.limits;
+    return o->picture.output && !o->picture.has_frames ? check_names(base->line, o, error) : FACET_OK;
+}
+
+static facet_result make(ocean_run *run, facet_error *error)
+{
+    const ocean_options *o = &run->options;
     if (o->has_picture)
-        result = load_environment(run, error);
-    if (result == FACET_OK)
-        warn_of_sun(run);
-    if (result == FACET_OK && o->model)
-        result = ocean_float_load(run, error);
-    if (result != FACET_OK)
-        return result;
+        TRY(load_environment(run, error));
+    warn_of_sun(run);
+    if (o->model)
+        TRY(ocean_float_load(run, error));
     interrupt_begin("sea", "making its waves and metering its light", false);
-    result = ocean_run_set_sea(run, o, error);
-    if (result == FACET_OK && o->has_picture && !o->sweep)
-        result = ocean_run_meter(run, o, error);
+    TRY(ocean_run_set_sea(run, o, error));
+    if (o->has_picture && !o->sweep)
+        TRY(ocean_run_meter(run, o, error));
     interrupt_end();
+    return make_all(run, error);
+}
+
+static facet_result work(verb_run *base, facet_error *error)
+{
+    ocean_run *run = (ocean_run *)base;
+    run->outputs = is_given(base->line, OPT_JSON) ? json_array() : NULL;
+    facet_result result = make(run, error);
+    if (result != FACET_OK)
+        failure_complete(error, *run->name ? run->name : "sea", base->limits.max_memory_bytes);
     return result;
 }
 
-static void print_json(const ocean_run *run, json_t *files, double start, const facet_error *error,
-                       int exit_code)
+static void add_json(const verb_run *base, json_t *root)
 {
-    json_t *failures = json_array();
-    if (error->result != FACET_OK)
-        json_array_append_new(failures, report_error_json(error, NULL, exit_code));
-    json_t *root =
-        json_pack("{s:s, s:o, s:O, s:o, s:o, s:f, s:I, s:i}", "facet", facet_version(), "sea",
-                  run->sea ? ocean_report_json(run) : json_null(), "outputs", files, "failures", failures,
-                  "warnings", report_warnings_json(&run->messages), "seconds", interrupt_clock() - start,
-                  "peak_memory_bytes", (json_int_t)memory_peak(), "exit_code", exit_code);
-    report_print_json(root);
-    json_decref(root);
+    const ocean_run *run = (const ocean_run *)base;
+    json_object_set_new(root, "sea", run->sea ? ocean_report_json(run) : json_null());
+    json_object_set(root, "outputs", run->outputs);
+}
+
+static void destroy(verb_run *base)
+{
+    ocean_run *run = (ocean_run *)base;
+    json_decref(run->outputs);
+    facet_sea_destroy(run->sea);
+    facet_scene_destroy(run->model);
+    facet_environment_destroy(run->environment);
 }
 
 int cmd_ocean(command_line *c)
 {
-    double start = interrupt_clock();
-    ocean_run run = {.line = c};
-    ocean_output output = {.run = &run, .files = is_given(c, OPT_JSON) ? json_array() : NULL};
-    config storage = {0};
-    facet_error error = {0};
-    facet_result result = begin(&run, c, &storage, &error);
-    if (result == FACET_OK)
-        result = make_all(&output, &error);
-    messages_flush(&run.messages);
-    int exit_code = result != FACET_OK                                      ? exit_code_of(result)
-                    : run.messages.warning_count && is_given(c, OPT_STRICT) ? EXIT_NEGATIVE
-                                                                            : EXIT_DONE;
-    if (result != FACET_OK) {
-        bool is_ours = error.message[0] == '-' || strncmp(error.message, "ocean:", 6) == 0;
-        failure_complete(&error, *output.name ? output.name : "sea",
-                         run.options.picture.limits.max_memory_bytes);
-        if (result != FACET_ERROR_CANCELLED)
-            message_error("%s%s", is_ours ? "facet: " : "", error.message);
-    }
-    if (output.files)
-        print_json(&run, output.files, start, &error, exit_code);
-    json_decref(output.files);
-    facet_sea_destroy(run.sea);
-    facet_scene_destroy(run.model);
-    facet_environment_destroy(run.environment);
-    messages_clear(&run.messages);
-    facet_budget_destroy(run.budget);
-    config_destroy(&storage);
-    return result == FACET_ERROR_CANCELLED ? interrupt_exit() : exit_code;
+    static const verb_work parts = {read_line, work, add_json, destroy};
+    ocean_run run = {.sea = NULL};
+    return verb_run_all(&run.base, c, &parts);
 }

@@ -4,13 +4,12 @@
 #include "cli/failure.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
-#include "cli/limits.h"
-#include "cli/messages.h"
+#include "cli/json_report.h"
 #include "cli/output.h"
 #include "cli/plot_material.h"
-#include "cli/render_report.h"
 #include "cli/suggest.h"
 #include "cli/value.h"
+#include "cli/verb_run.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -23,10 +22,7 @@ enum { KIND_COUNT = sizeof kind_names / sizeof *kind_names };
 static const char *const format_names[] = {"svg", "pdf", "png", "csv"}; /* of facet_plot_format */
 
 typedef struct plot_run {
-    const command_line *line;
-    limits limits;
-    messages messages;
-    facet_budget *budget;
+    verb_run base;
     facet_plot_desc desc;
     plot_materials materials;
     float angles[FACET_PLOT_MAX_ANGLES];
@@ -34,13 +30,14 @@ typedef struct plot_run {
     facet_plot_format format;
     char output[64]; /* where none is named */
     const char *path;
+    bool is_written;
 } plot_run;
 
 /* ---- what is asked for ---- */
 
 static facet_result read_kind(plot_run *run, facet_error *error)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     if (c->argument_count)
         for (int i = 0; i < KIND_COUNT; i++)
             if (strcmp(c->arguments[0], kind_names[i]) == 0) {
@@ -62,7 +59,7 @@ static facet_result read_kind(plot_run *run, facet_error *error)
 
 static facet_result read_output(plot_run *run, facet_error *error)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     int format = option_choice(c, OPT_FORMAT, -1);
     run->path = option_text(c, OPT_OUTPUT, NULL);
     if (!run->path) {
@@ -89,13 +86,13 @@ static facet_result read_output(plot_run *run, facet_error *error)
 
 static facet_result read_angles(plot_run *run, facet_error *error)
 {
-    const char *at = option_text(run->line, OPT_ANGLE, NULL);
+    const char *at = option_text(run->base.line, OPT_ANGLE, NULL);
     run->desc.angles_rad = run->angles;
     for (; at && *at; at += *at == ',') {
         double degrees;
         if (run->desc.angle_count == FACET_PLOT_MAX_ANGLES || !scan_number(&at, &degrees) || degrees < 0.0 ||
             degrees >= 90.0 || (*at && *at != ','))
-            return option_fail(run->line, OPT_ANGLE,
+            return option_fail(run->base.line, OPT_ANGLE,
                                "a list of at most 8 angles from 0 to below 90, as 0,30,60", error);
         run->angles[run->desc.angle_count++] = (float)(degrees * 0.017453292519943295);
     }
@@ -104,10 +101,8 @@ static facet_result read_angles(plot_run *run, facet_error *error)
 
 static facet_result read_materials(plot_run *run, facet_error *error)
 {
-    const command_line *c = run->line;
-    const facet_scene_desc desc = {.allocator = run->desc.allocator,
-                                   .log = messages_log(&run->messages),
-                                   .thread_count = run->limits.thread_count};
+    const command_line *c = run->base.line;
+    const facet_scene_desc desc = verb_run_scene_desc(&run->base);
     facet_result result = FACET_OK;
     for (size_t i = 1; i < c->argument_count && result == FACET_OK; i++)
         result = plot_materials_add(&run->materials, c->arguments[i], &desc, error);
@@ -120,9 +115,9 @@ static facet_result read_materials(plot_run *run, facet_error *error)
 
 static facet_result read_desc(plot_run *run, facet_error *error)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     facet_plot_desc *d = &run->desc;
-    d->thread_count = run->limits.thread_count;
+    d->thread_count = run->base.limits.thread_count;
     d->has_heaviside_ramp = option_choice(c, OPT_HEAVISIDE, 0) == 1;
     d->has_separable_smith = option_choice(c, OPT_SMITH, d->kind == FACET_PLOT_KIND_LEGACY) == 1;
     d->has_fit = is_given(c, OPT_FIT);
@@ -171,7 +166,7 @@ static void print_fits(const plot_run *run)
         else
             snprintf(error, sizeof error, "E %.3f, E_display %.3f, E_drawn %.3f", (double)fit->E,
                      (double)fit->E_display, (double)fit->E_drawn);
-        message_at(&run->messages, VERBOSITY_NORMAL, "%s: fit: %s (%s): %s", fit->name, fit->description,
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: fit: %s (%s): %s", fit->name, fit->description,
                    error, text);
     }
 }
@@ -214,8 +209,10 @@ static facet_result plot(plot_run *run, facet_error *error)
         result = fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", run->path);
     if (result == FACET_OK)
         result = output_write_bytes(bytes, size, run->path, error);
+    run->is_written = result == FACET_OK;
     if (result == FACET_OK)
-        message_at(&run->messages, is_given(run->line, OPT_OUTPUT) ? VERBOSITY_DETAILS : VERBOSITY_NORMAL,
+        message_at(&run->base.messages,
+                   is_given(run->base.line, OPT_OUTPUT) ? VERBOSITY_DETAILS : VERBOSITY_NORMAL,
                    "%s: %zu bytes", run->path, size);
     if (result == FACET_OK)
         print_fits(run);
@@ -223,63 +220,52 @@ static facet_result plot(plot_run *run, facet_error *error)
     return result;
 }
 
-static void print_json(const plot_run *run, double start, facet_result result, const facet_error *error,
-                       int exit_code)
+static void add_json(const verb_run *base, json_t *root)
 {
-    json_t *failures = json_array();
-    if (result != FACET_OK)
-        json_array_append_new(failures, report_error_json(error, NULL, exit_code));
-    json_t *root = json_pack(
-        "{s:s, s:s, s:o, s:o, s:o, s:o, s:f, s:i}", "facet", facet_version(), "kind",
-        kind_names[run->desc.kind], "output", report_string_json(result == FACET_OK ? run->path : NULL),
-        "fits", fits_json(run), "failures", failures, "warnings", report_warnings_json(&run->messages),
-        "seconds", interrupt_clock() - start, "exit_code", exit_code);
-    report_print_json(root);
-    json_decref(root);
+    const plot_run *run = (const plot_run *)base;
+    json_object_set_new(root, "kind", json_string(kind_names[run->desc.kind]));
+    json_object_set_new(root, "output", report_string_json(run->is_written ? run->path : NULL));
+    json_object_set_new(root, "fits", fits_json(run));
 }
 
-static facet_result begin(plot_run *run, facet_error *error)
+static facet_result read_line(verb_run *base, facet_error *error)
 {
-    facet_result result = read_kind(run, error);
-    if (result == FACET_OK)
-        result = read_output(run, error);
-    if (result == FACET_OK)
-        result = limits_read(run->line, &run->limits, error);
-    if (result == FACET_OK)
-        result = facet_budget_create(run->limits.max_memory_bytes, &run->budget, error);
-    if (result != FACET_OK)
-        return result;
-    run->desc.allocator = facet_budget_allocator(run->budget);
-    interrupt_set_deadline(run->limits.time_limit_s);
+    plot_run *run = (plot_run *)base;
+    TRY(read_kind(run, error));
+    TRY(read_output(run, error));
+    return limits_read(base->line, &base->limits, error);
+}
+
+static facet_result read_and_plot(plot_run *run, facet_error *error)
+{
+    const command_line *c = run->base.line;
     interrupt_begin("facet", "plotting", false);
-    return read_desc(run, error);
+    TRY(read_desc(run, error));
+    run->is_written = is_given(c, OPT_NO_CLOBBER) && output_exists(run->path);
+    if (!run->is_written)
+        return plot(run, error);
+    message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run->path);
+    return FACET_OK;
+}
+
+static facet_result work(verb_run *base, facet_error *error)
+{
+    plot_run *run = (plot_run *)base;
+    run->desc.allocator = base->allocator;
+    facet_result result = read_and_plot(run, error);
+    if (result != FACET_OK)
+        failure_complete(error, "plot", base->limits.max_memory_bytes);
+    return result;
+}
+
+static void destroy(verb_run *base)
+{
+    plot_materials_destroy(&((plot_run *)base)->materials);
 }
 
 int cmd_plot(command_line *c)
 {
-    double start = interrupt_clock();
-    plot_run run = {.line = c, .messages = {.verbosity = messages_verbosity(c)}};
-    facet_error error = {0};
-    facet_result result = begin(&run, &error);
-    bool is_kept = result == FACET_OK && is_given(c, OPT_NO_CLOBBER) && output_exists(run.path);
-    if (is_kept)
-        message_at(&run.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run.path);
-    else if (result == FACET_OK)
-        result = plot(&run, &error);
-    interrupt_end();
-    messages_flush(&run.messages);
-    int exit_code = result != FACET_OK                                      ? exit_code_of(result)
-                    : run.messages.warning_count && is_given(c, OPT_STRICT) ? EXIT_NEGATIVE
-                                                                            : EXIT_DONE;
-    if (result != FACET_OK) {
-        bool is_ours = error.message[0] == '-' || strncmp(error.message, "plot:", 5) == 0;
-        failure_complete(&error, "plot", run.limits.max_memory_bytes);
-        message_error("%s%s", is_ours ? "facet: " : "", error.message);
-    }
-    if (is_given(c, OPT_JSON))
-        print_json(&run, start, result, &error, exit_code);
-    plot_materials_destroy(&run.materials);
-    messages_clear(&run.messages);
-    facet_budget_destroy(run.budget);
-    return result == FACET_ERROR_CANCELLED ? interrupt_exit() : exit_code;
+    static const verb_work parts = {read_line, work, add_json, destroy};
+    plot_run run = {.path = NULL};
+    return verb_run_all(&run.base, c, &parts);
 }

@@ -4,53 +4,35 @@
 #include "cli/failure.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
-#include "cli/memory_limit.h"
 #include "cli/output.h"
 #include "cli/path_options.h"
 #include "cli/preset.h"
-#include "cli/progress.h"
 #include "cli/render_camera.h"
 #include "cli/render_names.h"
 #include "cli/render_options.h"
 #include "cli/render_report.h"
 #include "cli/sequence.h"
+#include "cli/verb_run.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* All that a run shares. {0}. */
 typedef struct render_run {
-    const command_line *line;
+    verb_run base;
     render_options options;
     model_list models;
-    messages messages;
-    progress_mode progress;
-    facet_budget *budget;
-    facet_allocator allocator;
     facet_environment *environment; /* read once, for all models */
     bool has_environment, environment_failed;
-    json_t *pictures, *failures; /* NULL: nobody asked for JSON */
-    json_t *warnings;
-    size_t warning_count, failure_count;
-    size_t models_left;  /* with the one that is drawn */
-    bool is_interrupted; /* by a signal, before all was done */
-    int exit_code;       /* of the last failure */
+    json_t *pictures;   /* NULL without --json */
+    size_t models_left; /* including the current one */
 } render_run;
 
 /* ---- reading ---- */
 
-static facet_environment_desc environment_desc(render_run *run)
-{
-    return (facet_environment_desc){.allocator = run->allocator,
-                                    .log = messages_log(&run->messages),
-                                    .thread_count = run->options.limits.thread_count,
-                                    .cache_folder = run->options.environment_cache};
-}
-
 static facet_result load_environment(render_run *run, facet_error *error)
 {
     const render_options *o = &run->options;
-    const facet_environment_desc desc = environment_desc(run);
+    const facet_environment_desc desc = verb_run_environment_desc(&run->base, o->environment_cache);
     const environment_input *input = &o->environment;
     facet_result result = environment_input_load(input, &desc, &run->environment, error);
     run->has_environment = result == FACET_OK;
@@ -60,9 +42,7 @@ static facet_result load_environment(render_run *run, facet_error *error)
 
 static facet_result load_model(render_run *run, const char *model, facet_scene **scene, facet_error *error)
 {
-    facet_scene_desc desc = run->options.scene_desc;
-    desc.allocator = run->allocator;
-    desc.log = messages_log(&run->messages);
+    facet_scene_desc desc = verb_run_scene_desc(&run->base);
     desc.legacy.keeps_materials = run->options.desc.shading == FACET_SHADING_OGL1;
     interrupt_begin_reading(input_name(model));
     facet_result result = input_load(model, &desc, scene, error);
@@ -95,14 +75,14 @@ static facet_result write_picture(model_run *m, const facet_image *image, const 
 {
     const render_run *run = m->run;
     if (m->video)
-        return video_add(m->video, image, &run->allocator, m->options.limits.thread_count, error);
+        return video_add(m->video, image, &run->base.allocator, m->options.limits.thread_count, error);
     facet_image_save_desc save = m->options.save;
-    save.allocator = run->allocator;
+    save.allocator = run->base.allocator;
     if (!m->options.id_layer)
         return output_write(image, name, &save, error);
     facet_image *colors = NULL;
     facet_result result =
-        facet_image_create_id_colors(image, m->options.id_layer, &run->allocator, &colors, error);
+        facet_image_create_id_colors(image, m->options.id_layer, &run->base.allocator, &colors, error);
     if (result == FACET_OK)
         result = output_write(colors, name, &save, error);
     facet_image_destroy(colors);
@@ -116,9 +96,10 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
     bool is_sequence = s->frames.frame_count > 1;
     const render_view view = {
         .pose = &s->pose, .turn = frame->turn, .turns = s->turns > 0, .moves = s->moves};
-    m->options.orbit.log = m->is_framed ? (facet_log){0} : messages_log(&m->run->messages);
+    m->options.orbit.log = m->is_framed ? (facet_log){0} : messages_log(&m->run->base.messages);
     m->is_framed = true;
-    interrupt_begin(input_name(m->model->path), "finding a camera for it", m->run->progress == PROGRESS_BAR);
+    interrupt_begin(input_name(m->model->path), "finding a camera for it",
+                    m->run->base.progress == PROGRESS_BAR);
     facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
     interrupt_end();
     if (result == FACET_OK && index == 0 && is_sequence)
@@ -157,7 +138,7 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
     render_run *run = m->run;
     const render_options *o = &m->options;
     uint32_t frame_count = m->sequence.frames.frame_count;
-    progress shown = {.mode = run->progress,
+    progress shown = {.mode = run->base.progress,
                       .subject = output,
                       .start = interrupt_clock(),
                       .done_before = (double)index / frame_count,
@@ -173,8 +154,8 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
     if (result != FACET_OK)
         return result;
     facet_render_desc desc = o->desc;
-    desc.allocator = run->allocator;
-    desc.log = messages_log(&run->messages);
+    desc.allocator = run->base.allocator;
+    desc.log = messages_log(&run->base.messages);
     desc.progress = progress_callback(&shown);
     desc.pose = m->sequence.pose;
     desc.camera = &camera;
@@ -220,15 +201,15 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     report->stats = facet_image_get_render_stats(image);
     report->save_s = interrupt_clock() - rendered;
     report->total_s = interrupt_clock() - start + report->load_s;
-    report_partial(&run->messages, report, checkpoint);
-    run->is_interrupted = report->stats.is_partial && interrupt_signal();
+    report_partial(&run->base.messages, report, checkpoint);
+    run->base.is_interrupted = report->stats.is_partial && interrupt_signal();
     facet_image_destroy(image);
     return result;
 }
 
 static void report_frame(render_run *run, const picture_report *report)
 {
-    report_picture(&run->messages, report, !run->options.output);
+    report_picture(&run->base.messages, report, !run->options.output);
     if (run->pictures)
         json_array_append_new(run->pictures, report_picture_json(report));
 }
@@ -253,7 +234,7 @@ static facet_result render_frames(model_run *m, facet_error *error)
         report.is_kept = o->keeps_existing && !m->video && !o->is_stdout && output_exists(name);
         if (!report.is_kept)
             result = render_frame(m, i, &frame, &report, error);
-        messages_flush(&m->run->messages);
+        messages_flush(&m->run->base.messages);
         if (result == FACET_OK)
             report_frame(m->run, &report);
         m->has_lost_checkpoint = m->has_lost_checkpoint || report.stats.has_lost_checkpoint;
@@ -272,9 +253,8 @@ static facet_result choose_environment(model_run *m, facet_error *error)
     facet_result result = FACET_OK;
     if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
         return FACET_OK;
-    if (!o->has_environment && o->environment.kind != ENVIRONMENT_NONE && !o->desc.ignores_scene_lights &&
-        facet_scene_has_environment(m->scene, &m->sequence.pose)) {
-        const facet_environment_desc desc = environment_desc(run);
+    if (render_is_lit_by_scene(o, m->scene, &m->sequence.pose)) {
+        const facet_environment_desc desc = verb_run_environment_desc(&run->base, o->environment_cache);
         result = facet_environment_create_from_scene(m->scene, &m->sequence.pose, &desc, &m->own_environment,
                                                      error);
         m->environment = m->own_environment;
@@ -294,7 +274,7 @@ static void tell_late_frames(const model_run *m)
     for (uint32_t i = 0; i < s->frames.range_count; i++)
         last = s->frames.ranges[i].last > last ? s->frames.ranges[i].last : last;
     if (s->frame_count_there && last > s->frame_count_there + 1)
-        message_at(&m->run->messages, VERBOSITY_NORMAL,
+        message_at(&m->run->base.messages, VERBOSITY_NORMAL,
                    "%s: frame %u is after the end of the animation, which has %u frames at %g a second",
                    input_name(m->model->path), last, s->frame_count_there, m->options.fps);
 }
@@ -320,17 +300,17 @@ static facet_result meter(model_run *m, facet_error *error)
     if (result != FACET_OK)
         return result;
     facet_render_desc desc = m->options.desc;
-    desc.allocator = run->allocator;
-    desc.log = messages_log(&run->messages);
+    desc.allocator = run->base.allocator;
+    desc.log = messages_log(&run->base.messages);
     desc.pose = m->sequence.pose;
     desc.camera = &camera;
     desc.environment = m->environment;
-    interrupt_begin(input_name(m->model->path), "metering its light", run->progress == PROGRESS_BAR);
+    interrupt_begin(input_name(m->model->path), "metering its light", run->base.progress == PROGRESS_BAR);
     result = facet_renderer_meter(m->renderer, &desc, &ev100, error);
     interrupt_end();
     m->options.desc.exposure_ev += facet_exposure_from_ev100(ev100);
-    message_at(&run->messages, VERBOSITY_DETAILS, "%s: metered: --exposure %+.2f", input_name(m->model->path),
-               (double)m->options.desc.exposure_ev);
+    message_at(&run->base.messages, VERBOSITY_DETAILS, "%s: metered: --exposure %+.2f",
+               input_name(m->model->path), (double)m->options.desc.exposure_ev);
     return result;
 }
 
@@ -339,17 +319,17 @@ static facet_result render_scene(render_run *run, const model_name *model, facet
                                  facet_error *error)
 {
     model_run m = {.run = run, .options = run->options, .model = model, .scene = scene};
-    interrupt_begin(input_name(model->path), "looking for its frames", run->progress == PROGRESS_BAR);
+    interrupt_begin(input_name(model->path), "looking for its frames", run->base.progress == PROGRESS_BAR);
     facet_result result = sequence_create(scene, input_name(model->path), &m.options, &m.sequence, error);
     interrupt_end();
     if (result == FACET_OK)
         tell_late_frames(&m);
     if (result == FACET_OK)
         result = choose_environment(&m, error);
-    messages_flush(&run->messages);
+    messages_flush(&run->base.messages);
     m.load_s = interrupt_clock() - start;
     if (result == FACET_OK)
-        result = facet_renderer_create(scene, &run->allocator, &m.renderer, error);
+        result = facet_renderer_create(scene, &run->base.allocator, &m.renderer, error);
     if (result == FACET_OK && m.options.meters_exposure)
         result = meter(&m, error);
     if (result == FACET_OK && m.options.video)
@@ -383,7 +363,7 @@ static facet_result render_model(render_run *run, const model_name *model, facet
     double start = interrupt_clock();
     facet_scene *scene = NULL;
     facet_result result = load_model(run, model->path, &scene, error);
-    messages_flush(&run->messages);
+    messages_flush(&run->base.messages);
     if (result == FACET_OK)
         result = render_scene(run, model, scene, start, error);
     facet_scene_destroy(scene);
@@ -391,20 +371,6 @@ static facet_result render_model(render_run *run, const model_name *model, facet
 }
 
 /* ---- the run ---- */
-
-/* Says what went wrong with model, once, with what the user can do about it. */
-static void report_failure(render_run *run, const char *model, facet_error *error)
-{
-    const char *name = input_name(model);
-    const char *culprit = run->environment_failed ? environment_input_name(&run->options.environment) : name;
-    failure_complete(error, culprit, run->options.limits.max_memory_bytes);
-    run->environment_failed = false;
-    message_error("%s", error->message);
-    run->failure_count++;
-    run->exit_code = exit_code_of(error->result);
-    if (run->failures)
-        json_array_append_new(run->failures, report_error_json(error, name, run->exit_code));
-}
 
 /* Whether another model has the same output: neither is drawn, and the others are. */
 static facet_result check_clash(const render_run *run, size_t i, facet_error *error)
@@ -414,96 +380,61 @@ static facet_result check_clash(const render_run *run, size_t i, facet_error *er
     return result == FACET_OK ? model_list_check_clash(&run->models, i, name, error) : result;
 }
 
-static int render_all(render_run *run)
+static facet_result render_one(verb_run *base, size_t i, facet_error *error)
 {
-    const command_line *c = run->line;
-    size_t count = run->models.count;
-    for (size_t i = 0; i < count; i++) {
-        const model_name *model = &run->models.models[i];
-        facet_error error = {0};
-        run->models_left = count - i;
-        facet_result result = check_clash(run, i, &error);
-        if (result == FACET_OK)
-            result = render_model(run, model, &error);
-        if (result != FACET_OK)
-            report_failure(run, model->path, &error);
-        run->warning_count += report_end_model(&run->messages, run->warnings);
-        if (interrupt_signal() && (result != FACET_OK || i + 1 < count))
-            run->is_interrupted = true;
-        if (run->is_interrupted)
-            return interrupt_exit_code();
-        if (result == FACET_ERROR_WRITE && run->options.is_stdout)
-            break;
-    }
-    if (run->failure_count)
-        return count == 1 ? run->exit_code : EXIT_NEGATIVE;
-    return run->warning_count && is_given(c, OPT_STRICT) ? EXIT_NEGATIVE : EXIT_DONE;
-}
-
-static void print_json(const render_run *run, double start, int exit_code)
-{
-    json_t *root = json_pack(
-        "{s:s, s:O, s:O, s:O, s:f, s:I, s:I, s:i}", "facet", facet_version(), "pictures", run->pictures,
-        "failures", run->failures, "warnings", run->warnings, "seconds", interrupt_clock() - start,
-        "peak_memory_bytes", (json_int_t)memory_peak(), "peak_data_bytes",
-        (json_int_t)(run->budget ? facet_budget_peak_bytes(run->budget) : 0), "exit_code", exit_code);
-    report_print_json(root);
-    json_decref(root);
-}
-
-static facet_result begin(render_run *run, command_line *c, config *storage, facet_error *error)
-{
-    facet_result result = config_apply(c, storage, error);
+    render_run *run = (render_run *)base;
+    const model_name *model = &run->models.models[i];
+    run->models_left = run->models.count - i;
+    run->environment_failed = false;
+    facet_result result = check_clash(run, i, error);
     if (result == FACET_OK)
-        result = model_list_create(c, c->argument_count, &run->models, error);
-    if (result == FACET_OK)
-        result = preset_apply(c, error);
-    if (result == FACET_OK)
-        result = render_options_read(c, &run->options, error);
-    if (result == FACET_OK)
-        result = render_names_check(c, &run->options, &run->models, error);
-    if (result == FACET_OK)
-        result = facet_budget_create(run->options.limits.max_memory_bytes, &run->budget, error);
+        result = render_model(run, model, error);
     if (result != FACET_OK)
-        return result;
-    run->allocator = facet_budget_allocator(run->budget);
-    run->messages.verbosity = messages_verbosity(c);
+        failure_complete(error,
+                         run->environment_failed ? environment_input_name(&run->options.environment)
+                                                 : input_name(model->path),
+                         base->limits.max_memory_bytes);
+    return result;
+}
+
+static facet_result read_line(verb_run *base, facet_error *error)
+{
+    render_run *run = (render_run *)base;
+    command_line *c = base->line;
+    TRY(model_list_create(c, c->argument_count, &run->models, error));
+    TRY(preset_apply(c, error));
+    TRY(render_options_read(c, &run->options, error));
+    base->limits = run->options.limits;
+    return render_names_check(c, &run->options, &run->models, error);
+}
+
+static facet_result render(verb_run *base, facet_error *error)
+{
+    render_run *run = (render_run *)base;
+    (void)error;
+    run->pictures = is_given(base->line, OPT_JSON) ? json_array() : NULL;
     if (run->options.note[0])
-        message_at(&run->messages, VERBOSITY_NORMAL, "%s", run->options.note);
-    run->progress = progress_choose(option_choice(c, OPT_PROGRESS, 0), is_given(c, OPT_QUIET));
+        message_at(&base->messages, VERBOSITY_NORMAL, "%s", run->options.note);
+    verb_run_models(base, &run->models, render_one);
     return FACET_OK;
+}
+
+static void add_json(const verb_run *base, json_t *root)
+{
+    json_object_set(root, "pictures", ((const render_run *)base)->pictures);
+}
+
+static void destroy(verb_run *base)
+{
+    render_run *run = (render_run *)base;
+    json_decref(run->pictures);
+    facet_environment_destroy(run->environment);
+    model_list_destroy(&run->models);
 }
 
 int cmd_render(command_line *c)
 {
-    double start = interrupt_clock();
-    render_run run = {.line = c};
-    config storage = {0};
-    facet_error error = {0};
-    if (is_given(c, OPT_JSON)) {
-        run.pictures = json_array();
-        run.failures = json_array();
-        run.warnings = json_array();
-    }
-    facet_result result = begin(&run, c, &storage, &error);
-    int exit_code;
-    if (result == FACET_OK) {
-        interrupt_set_deadline(run.options.limits.time_limit_s);
-        exit_code = render_all(&run);
-    } else {
-        exit_code = exit_code_of(result);
-        message_error(error.message[0] == '-' ? "facet: %s" : "%s", error.message);
-        if (run.failures)
-            json_array_append_new(run.failures, report_error_json(&error, NULL, exit_code));
-    }
-    if (run.pictures)
-        print_json(&run, start, exit_code);
-    json_decref(run.pictures);
-    json_decref(run.failures);
-    json_decref(run.warnings);
-    facet_environment_destroy(run.environment);
-    facet_budget_destroy(run.budget);
-    model_list_destroy(&run.models);
-    config_destroy(&storage);
-    return run.is_interrupted ? interrupt_exit() : exit_code;
+    static const verb_work work = {read_line, render, add_json, destroy};
+    render_run run = {.options = {.output = NULL}};
+    return verb_run_all(&run.base, c, &work);
 }

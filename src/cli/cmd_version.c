@@ -2,7 +2,7 @@
 #include "cli/commands.h"
 
 #include "cli/failure.h"
-#include "cli/render_report.h"
+#include "cli/json_report.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,32 +3,25 @@
 
 #include "cli/failure.h"
 #include "cli/input.h"
-#include "cli/memory_limit.h"
-#include "cli/messages.h"
-#include "cli/preset.h"
 #include "cli/render_camera.h"
 #include "cli/sequence.h"
+#include "cli/verb_run.h"
 #include "cli/view_command.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* All that a run shares. {0}. */
-typedef struct view_run_state {
-    const command_line *line;
+typedef struct view_run {
+    verb_run base;
     render_options options;
-    messages messages;
-    facet_budget *budget;
-    facet_allocator allocator;
     bool has_model; /* the first one was read */
-} view_run_state;
+} view_run;
 
 /* ---- models ---- */
 
 /* What of the file is shown, and how it moves. What was asked for by name the first model must have; others of the folder
  * are shown without it. */
-static facet_result choose_pose(view_run_state *run, const char *path, facet_view_model *model,
-                                facet_error *error)
+static facet_result choose_pose(view_run *run, const char *path, facet_view_model *model, facet_error *error)
 {
     const render_options *o = &run->options;
     sequence s;
@@ -47,7 +40,7 @@ static facet_result choose_pose(view_run_state *run, const char *path, facet_vie
     return FACET_OK;
 }
 
-static facet_result choose_camera(view_run_state *run, facet_view_model *model, facet_error *error)
+static facet_result choose_camera(view_run *run, facet_view_model *model, facet_error *error)
 {
     render_options o = run->options;
     const render_view view = {.pose = &model->pose};
@@ -70,17 +63,15 @@ static facet_result choose_camera(view_run_state *run, facet_view_model *model, 
     }
     model->orbit = render_orbit(model->scene, &model->pose, &o);
     /* who gave no view will turn the model first: the distance is one that holds all around */
-    model->orbit.fits_all_azimuths = !is_given(run->line, OPT_ORBIT);
+    model->orbit.fits_all_azimuths = !is_given(run->base.line, OPT_ORBIT);
     return result;
 }
 
 static facet_result load_model(void *user, const char *path, facet_view_model *model, facet_error *error)
 {
-    view_run_state *run = user;
+    view_run *run = user;
     bool is_ogl1 = run->options.desc.shading == FACET_SHADING_OGL1;
-    facet_scene_desc desc = run->options.scene_desc;
-    desc.allocator = run->allocator;
-    desc.log = messages_log(&run->messages);
+    facet_scene_desc desc = verb_run_scene_desc(&run->base);
     desc.legacy.keeps_materials = is_ogl1;
     *model = (facet_view_model){.scene = NULL};
     facet_result result = input_load(path, &desc, &model->scene, error);
@@ -91,8 +82,8 @@ static facet_result load_model(void *user, const char *path, facet_view_model *m
         result = choose_pose(run, path, model, error);
     if (result == FACET_OK)
         result = choose_camera(run, model, error);
-    messages_flush(&run->messages);
-    messages_clear(&run->messages);
+    messages_flush(&run->base.messages);
+    messages_clear(&run->base.messages);
     if (result == FACET_OK) {
         run->has_model = true;
         return FACET_OK;
@@ -108,12 +99,9 @@ static facet_result load_model(void *user, const char *path, facet_view_model *m
 static facet_result load_environment(void *user, const char *name, const facet_view_model *model,
                                      facet_environment **environment, facet_error *error)
 {
-    view_run_state *run = user;
+    view_run *run = user;
     const render_options *o = &run->options;
-    const facet_environment_desc desc = {.allocator = run->allocator,
-                                         .log = messages_log(&run->messages),
-                                         .thread_count = o->limits.thread_count,
-                                         .cache_folder = o->environment_cache};
+    const facet_environment_desc desc = verb_run_environment_desc(&run->base, o->environment_cache);
     environment_input input = o->environment;
     *environment = NULL;
     if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
@@ -121,13 +109,12 @@ static facet_result load_environment(void *user, const char *name, const facet_v
     facet_result result = FACET_OK;
     if (name)
         result = environment_input_parse("environment", name, ENVIRONMENT_TAKES_NONE, &input, error);
-    bool is_own = !name && !o->has_environment && input.kind != ENVIRONMENT_NONE &&
-                  !o->desc.ignores_scene_lights && facet_scene_has_environment(model->scene, &model->pose);
+    bool is_own = !name && render_is_lit_by_scene(o, model->scene, &model->pose);
     if (result == FACET_OK && is_own)
         result = facet_environment_create_from_scene(model->scene, &model->pose, &desc, environment, error);
     else if (result == FACET_OK)
         result = environment_input_load(&input, &desc, environment, error);
-    messages_flush(&run->messages);
+    messages_flush(&run->base.messages);
     if (result != FACET_OK)
         failure_complete(error, environment_input_name(&input), run->options.limits.max_memory_bytes);
     return result;
@@ -137,8 +124,8 @@ static facet_result load_environment(void *user, const char *name, const facet_v
 
 static char *describe(void *user, const facet_view_image *picture)
 {
-    const view_run_state *run = user;
-    return view_command(run->line, &run->options, picture);
+    const view_run *run = user;
+    return view_command(run->base.line, &run->options, picture);
 }
 
 static void print(void *user, const char *text)
@@ -148,40 +135,32 @@ static void print(void *user, const char *text)
     fflush(stdout);
 }
 
-static facet_result begin(view_run_state *run, command_line *c, config *storage, facet_error *error)
+static facet_result read_line(verb_run *base, facet_error *error)
 {
-    facet_result result = config_apply(c, storage, error);
-    if (result == FACET_OK)
-        result = command_line_set(c, option_find_id(c->verb, OPT_RENDERER), "gl", SOURCE_PRESET, error);
-    if (result == FACET_OK)
-        result = render_options_read(c, &run->options, error);
-    if (result == FACET_OK && run->options.meters_exposure)
-        result =
-            option_fail(c, OPT_EXPOSURE,
-                        "stops or a factor; the window has no meter, + and - change its exposure", error);
-    if (result == FACET_OK && run->options.desc.renderer == FACET_RENDERER_KIND_PREVIEW)
-        result = option_fail(c, OPT_RENDERER, "gl or path; facet render has the preview", error);
-    if (result == FACET_OK)
-        result = facet_budget_create(run->options.limits.max_memory_bytes, &run->budget, error);
-    if (result != FACET_OK)
-        return result;
-    run->allocator = facet_budget_allocator(run->budget);
-    run->messages.verbosity = messages_verbosity(c);
-    if (run->options.note[0])
-        message_at(&run->messages, VERBOSITY_NORMAL, "%s", run->options.note);
+    command_line *c = base->line;
+    render_options *o = &((view_run *)base)->options;
+    TRY(command_line_set(c, option_find_id(c->verb, OPT_RENDERER), "gl", SOURCE_PRESET, error));
+    TRY(render_options_read(c, o, error));
+    base->limits = o->limits;
+    if (o->meters_exposure)
+        return option_fail(c, OPT_EXPOSURE,
+                           "stops or a factor; the window has no meter, + and - change its exposure", error);
+    if (o->desc.renderer == FACET_RENDERER_KIND_PREVIEW)
+        return option_fail(c, OPT_RENDERER, "gl or path; facet render has the preview", error);
     return FACET_OK;
 }
 
-static facet_result show(view_run_state *run, facet_error *error)
+static facet_result show(verb_run *base, facet_error *error)
 {
+    view_run *run = (view_run *)base;
     static const char *const environments[] = {"neutral", "white", "sun:45,135", "sun:6,120", "none"};
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     const render_options *o = &run->options;
     bool is_path = o->desc.renderer == FACET_RENDERER_KIND_PATH;
     const char *script = option_text(c, OPT_SCRIPT, NULL);
     facet_view_desc desc = {
-        .allocator = run->allocator,
-        .log = messages_log(&run->messages),
+        .allocator = run->base.allocator,
+        .log = messages_log(&run->base.messages),
         .source = {.user = run,
                    .load_model = load_model,
                    .load_environment = load_environment,
@@ -198,22 +177,19 @@ static facet_result show(view_run_state *run, facet_error *error)
         desc.path_samples = is_given(c, OPT_SAMPLES) ? o->desc.samples : 0;
         desc.render.samples = 4;
     }
+    if (o->note[0])
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s", o->note);
     return facet_view(&desc, error);
+}
+
+static void destroy(verb_run *base)
+{
+    (void)base; /* the window has closed what it opened */
 }
 
 int cmd_view(command_line *c)
 {
-    view_run_state run = {.line = c};
-    config storage = {0};
-    facet_error error = {0};
-    facet_result result = begin(&run, c, &storage, &error);
-    if (result == FACET_OK)
-        result = show(&run, &error);
-    if (result != FACET_OK)
-        message_error(error.message[0] == '-' ? "facet: %s" : "%s", error.message);
-    messages_flush(&run.messages);
-    messages_clear(&run.messages);
-    facet_budget_destroy(run.budget);
-    config_destroy(&storage);
-    return exit_code_of(result);
+    static const verb_work parts = {read_line, show, NULL, destroy};
+    view_run run = {.has_model = false};
+    return verb_run_all(&run.base, c, &parts);
 }

@@ -3,7 +3,7 @@
 
 #include "cli/failure.h"
 #include "cli/output.h"
-#include "cli/render_report.h"
+#include "cli/json_report.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "cli/interrupt.h"
 
 #include "cli/failure.h"
-#include "cli/render_report.h"
+#include "cli/json_report.h"
 
 #include <jansson.h>
 #include <signal.h>
@@ -24,6 +24,7 @@ static int open_file_count;
 static volatile double deadline;      /* on interrupt_clock(); 0: none */
 static volatile double signal_time;   /* on interrupt_clock(), of pending_signal */
 static volatile double section_grace; /* s that the open section has to end by itself */
+static bool is_installed;             /* the process ends by interrupt_install()'s handlers */
 static bool has_json;                 /* standard output tells of the end, too */
 static char json_at_deadline[4096];
 
@@ -108,6 +109,7 @@ static void install_stop(int number)
 
 void interrupt_install(bool tells_json)
 {
+    is_installed = true;
     has_json = tells_json;
     install(SIGALRM, on_tick);
     install_stop(SIGINT);
@@ -124,6 +126,8 @@ int interrupt_signal(void)
 
 void interrupt_set_deadline(double seconds)
 {
+    if (!is_installed)
+        return;
     deadline = seconds > 0.0 ? interrupt_clock() + seconds : 0.0;
     if (seconds > 0.0) {
         start_ticks(seconds);

@@ -17,7 +17,7 @@ void interrupt_install(bool tells_json);
 /* The signal that came; 0: none. */
 int interrupt_signal(void);
 
-/* Begins a time limit for the process, s from now; 0: none. */
+/* Begins a time limit for the process, s from now; 0: none. Without interrupt_install() there is no limit. */
 void interrupt_set_deadline(double seconds);
 /* Seconds that are left; a very large number where there is no limit. */
 double interrupt_seconds_left(void);

@@ -8,7 +8,7 @@
 #include "cli/messages.h"
 #include "cli/output.h"
 #include "cli/output_name.h"
-#include "cli/render_report.h"
+#include "cli/json_report.h"
 #include "cli/suggest.h"
 
 #include <stdio.h>

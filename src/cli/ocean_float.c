@@ -35,7 +35,7 @@ static facet_result read_berth(const ocean_run *run, char *path, size_t size, oc
     size_t length = out->has_place ? (size_t)(at - text) : strlen(text);
     bool is_far = fabs(n[0]) > FARTHEST || fabs(n[1]) > FARTHEST || fabs(n[2]) > FARTHEST;
     if (length == 0 || length >= size || is_far || (at && !out->has_place && !strchr(at, '.')))
-        return option_fail(run->line, OPT_WITH,
+        return option_fail(run->base.line, OPT_WITH,
                            "MODEL, MODEL@X,Z or MODEL@X,Z,DEGREES, in metres from -1e6 to 1e6", error);
     memcpy(path, text, length);
     path[length] = 0;
@@ -54,7 +54,7 @@ static void warn_of_origin(ocean_run *run, const char *path)
         text, sizeof text,
         "--with: %s is far from the origin of its file; it floats as if that were at %.15g, %.15g, %.15g",
         path, origin[0], origin[1], origin[2]);
-    facet_log log = messages_log(&run->messages);
+    facet_log log = messages_log(&run->base.messages);
     log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
@@ -64,8 +64,8 @@ facet_result ocean_float_load(ocean_run *run, facet_error *error)
     facet_result result = read_berth(run, path, sizeof path, &run->berth, error);
     if (result != FACET_OK)
         return result;
-    const facet_scene_desc desc = {.allocator = run->allocator,
-                                   .log = messages_log(&run->messages),
+    const facet_scene_desc desc = {.allocator = run->base.allocator,
+                                   .log = messages_log(&run->base.messages),
                                    .thread_count = run->options.picture.limits.thread_count,
                                    .max_texture_size = run->options.picture.limits.max_texture_size};
     interrupt_begin_reading(path);
@@ -186,7 +186,7 @@ static void warn_of_view(ocean_run *run)
              "--with: the model at %g, %g is not in the picture; it lies towards %.0f degrees, and the "
              "camera looks towards %.0f (--heading, --target)",
              at[0], at[2], azimuth_of(to[0], to[2]), azimuth_of(along[0], along[2]));
-    facet_log log = messages_log(&run->messages);
+    facet_log log = messages_log(&run->base.messages);
     log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
@@ -228,7 +228,7 @@ static void warn_of_size(ocean_run *run)
             "--with: the model is %.3g m large and %.3g m or more under water: its water line is y = 0, and "
             "it reaches from y = %.3g to %.3g m",
             size, -(double)high[1], (double)low[1], (double)high[1]);
-    facet_log log = messages_log(&run->messages);
+    facet_log log = messages_log(&run->base.messages);
     if (*text)
         log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }

@@ -11,8 +11,8 @@ static const float BLACK_EV = -200.0f; /* 2 to this power is 0 */
 facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error)
 {
     facet_sea_desc desc = options->sea;
-    desc.allocator = run->allocator;
-    desc.log = messages_log(&run->messages);
+    desc.allocator = run->base.allocator;
+    desc.log = messages_log(&run->base.messages);
     facet_sea_destroy(run->sea);
     return facet_sea_create(&desc, &run->sea, error);
 }
@@ -35,8 +35,8 @@ facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
 static facet_sea_render_desc desc_of(ocean_run *run, const ocean_options *o, const facet_sea_shading *look)
 {
     facet_sea_render_desc d = {.render = o->picture.desc, .sky = o->sky, .shading = *look};
-    d.render.allocator = run->allocator;
-    d.render.log = messages_log(&run->messages);
+    d.render.allocator = run->base.allocator;
+    d.render.log = messages_log(&run->base.messages);
     d.render.environment = run->environment;
     if (o->picture.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without the others' light */
         d.render.environment_ev = BLACK_EV;
@@ -91,13 +91,13 @@ static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *
         before.style = FACET_SEA_STYLE_LEGACY_INTENDED;
     before.stage = 0;
     facet_result result = draw(run, o, &before, FACET_TONEMAP_NONE, 1, shown, &halves[0], error);
-    facet_tonemap tonemap = o->shading.style && !is_given(run->line, OPT_TONE_MAPPING)
+    facet_tonemap tonemap = o->shading.style && !is_given(run->base.line, OPT_TONE_MAPPING)
                                 ? FACET_TONEMAP_AGX
                                 : o->picture.desc.tonemap;
     if (result == FACET_OK)
         result = draw(run, o, &now, tonemap, 1, shown, &halves[1], error);
-    const facet_contact_sheet_desc sheet = {.allocator = run->allocator,
-                                            .log = messages_log(&run->messages),
+    const facet_contact_sheet_desc sheet = {.allocator = run->base.allocator,
+                                            .log = messages_log(&run->base.messages),
                                             .column_count = 2,
                                             .gap = 2,
                                             .labels = labels};
@@ -111,7 +111,7 @@ static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *
 facet_result ocean_run_draw(ocean_run *run, const ocean_options *o, ocean_step step, facet_image **image,
                             facet_error *error)
 {
-    progress shown = {.mode = run->progress,
+    progress shown = {.mode = run->base.progress,
                       .subject = step.output,
                       .start = interrupt_clock(),
                       .done_before = (double)step.index / step.count,

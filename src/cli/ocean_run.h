@@ -2,9 +2,11 @@
 #ifndef CLI_OCEAN_RUN_H
 #define CLI_OCEAN_RUN_H
 
-#include "cli/messages.h"
 #include "cli/ocean_options.h"
-#include "cli/progress.h"
+#include "cli/output_name.h"
+#include "cli/render_names.h"
+#include "cli/verb_run.h"
+#include "cli/video.h"
 
 /* Where a model floats. */
 typedef struct ocean_berth {
@@ -12,14 +14,9 @@ typedef struct ocean_berth {
     double numbers[3]; /* x, z in m; heading in degrees, from +Z towards +X */
 } ocean_berth;
 
-/* {0}. */
 typedef struct ocean_run {
-    const command_line *line;
+    verb_run base;
     ocean_options options;
-    messages messages;
-    progress_mode progress;
-    facet_budget *budget;
-    facet_allocator allocator;
     facet_environment *environment; /* NULL: the sky */
     facet_sea *sea;
     facet_scene *model;                /* NULL: none */
@@ -28,7 +25,10 @@ typedef struct ocean_run {
     bool is_afloat;       /* it has been placed before */
     float model_pose[16]; /* where it floats: columns of a matrix */
     double time_s;
-    double ev100; /* that pictures are exposed for, --exposure included */
+    double ev100;                /* that pictures are exposed for, --exposure included */
+    video *video;                /* NULL: files */
+    json_t *outputs;             /* NULL without --json */
+    char name[RENDER_NAME_SIZE]; /* what is being made; "": nothing yet */
 } ocean_run;
 
 /* How far a picture is, of all. */

@@ -65,7 +65,7 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
 
 static facet_result read_axes(const ocean_run *run, axis axes[AXES], facet_error *error)
 {
-    const command_line *c = run->line;
+    const command_line *c = run->base.line;
     const char *at = option_text(c, OPT_SWEEP, "");
     facet_result result = read_axis(c, &at, &axes[0], error);
     if (result == FACET_OK && *at == ',') {
@@ -102,7 +102,7 @@ static void put_number(const axis *a, uint32_t i, char *text, size_t size)
 static facet_result draw_cell(ocean_run *run, const axis *axes, uint32_t cell, ocean_step step, char *label,
                               facet_image **image, facet_error *error)
 {
-    command_line line = *run->line;
+    command_line line = *run->base.line;
     char numbers[AXES][32];
     *label = 0;
     for (int i = 0; i < AXES && axes[i].option; i++) {
@@ -144,8 +144,8 @@ facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image
         result = draw_cell(run, axes, i, (ocean_step){output, i, count}, labels[i], &pictures[i], error);
         words[i] = labels[i];
     }
-    const facet_contact_sheet_desc desc = {.allocator = run->allocator,
-                                           .log = messages_log(&run->messages),
+    const facet_contact_sheet_desc desc = {.allocator = run->base.allocator,
+                                           .log = messages_log(&run->base.messages),
                                            .column_count = axes[1].option ? axes[0].count : 0,
                                            .labels = words};
     if (result == FACET_OK)

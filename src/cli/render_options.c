@@ -1,8 +1,6 @@
 /* render_options.c - the options of facet render become descs. */
 #include "cli/render_options.h"
 
-#include "cli/legacy_options.h"
-
 #include "cli/aov_options.h"
 #include "cli/camera_matrix.h"
 #include "cli/color.h"
@@ -156,9 +154,11 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
     if (result != FACET_OK)
         return result;
     out->desc.thread_count = out->save.thread_count = out->limits.thread_count;
-    out->scene_desc = (facet_scene_desc){.thread_count = out->limits.thread_count,
-                                         .root = option_text(c, OPT_ROOT, NULL),
-                                         .max_texture_size = out->limits.max_texture_size};
-    legacy_options_read(c, &out->scene_desc);
     return FACET_OK;
+}
+
+bool render_is_lit_by_scene(const render_options *o, const facet_scene *scene, const facet_pose_desc *pose)
+{
+    return !o->has_environment && o->environment.kind != ENVIRONMENT_NONE && !o->desc.ignores_scene_lights &&
+           facet_scene_has_environment(scene, pose);
 }

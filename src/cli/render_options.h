@@ -47,15 +47,17 @@ typedef struct render_options {
     environment_input environment;
     const char *environment_cache;
 
-    /* model and limits */
-    const char *scene;           /* NULL: the file's */
-    const char *variant;         /* NULL: none */
-    facet_scene_desc scene_desc; /* without allocator and log */
+    /* scene and limits */
+    const char *scene;   /* NULL: the file's */
+    const char *variant; /* NULL: none */
     limits limits;
 } render_options;
 
 /* Fails with FACET_ERROR_ARGUMENT. Text stays with c. */
 facet_result render_options_read(const command_line *c, render_options *out, facet_error *error);
+
+/* Whether the environment that a scene brings lights it: --env names no other, and lights of files are wanted. */
+bool render_is_lit_by_scene(const render_options *o, const facet_scene *scene, const facet_pose_desc *pose);
 
 /* The extension, without point, that files of a format have. */
 const char *render_extension(facet_image_format format);
