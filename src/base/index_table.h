@@ -1,5 +1,5 @@
-/* index_table.h - a hash table of numbers by 32-bit keys, for lists that are looked through by what they hold. Several
- * entries may have one key: where it is a hash, the caller compares what they stand for. */
+/* index_table.h - a hash table of indices by 32-bit keys, for arrays that are searched by content: the key is a hash of
+ * it, and the caller compares the elements that index_table_next() gives. */
 #ifndef BASE_INDEX_TABLE_H
 #define BASE_INDEX_TABLE_H
 
@@ -10,17 +10,17 @@
 #define INDEX_TABLE_NONE UINT32_MAX
 
 typedef struct index_entry {
-    uint32_t key, index; /* index INDEX_TABLE_NONE: the place is free */
+    uint32_t key, index; /* index INDEX_TABLE_NONE: a free slot */
 } index_entry;
 
 /* {0}: empty. */
 typedef struct index_table {
     index_entry *entries;
-    size_t size; /* places: a power of two, 0 or at least twice count */
+    size_t size; /* slots: a power of two, 0 or at least twice count */
     size_t count;
 } index_table;
 
-/* Multiplied by an odd number close to 2^64 over the golden ratio: keys that follow each other are spread. */
+/* Fibonacci hashing: the multiplier is 2^64 over the golden ratio, made odd, so that consecutive keys are spread. */
 static inline size_t index_table_place(const index_table *t, uint32_t key)
 {
     return (size_t)(key * UINT64_C(0x9e3779b97f4a7c15) >> 32) & (t->size - 1);
@@ -34,12 +34,15 @@ static inline void index_table_put(index_table *t, index_entry entry)
     t->entries[at] = entry;
 }
 
-/* Room for one more. False: no memory, all is as it was. */
-static inline bool index_table_reserve(index_table *t, const facet_allocator *allocator)
+/* Room for `more` entries. False: no memory, and the table is unchanged. */
+static inline bool index_table_reserve(index_table *t, const facet_allocator *allocator, size_t more)
 {
-    if (2 * (t->count + 1) <= t->size)
+    size_t size = t->size ? t->size : 16;
+    while (size / 2 < t->count + more)
+        size *= 2;
+    if (size == t->size)
         return true;
-    index_table larger = {.size = t->size ? 2 * t->size : 16, .count = t->count};
+    index_table larger = {.size = size, .count = t->count};
     larger.entries = (index_entry *)mem_alloc(allocator, larger.size, sizeof *larger.entries);
     if (!larger.entries)
         return false;
@@ -56,15 +59,14 @@ static inline bool index_table_reserve(index_table *t, const facet_allocator *al
 static inline bool index_table_add(index_table *t, const facet_allocator *allocator, uint32_t key,
                                    uint32_t index)
 {
-    if (!index_table_reserve(t, allocator))
+    if (!index_table_reserve(t, allocator, 1))
         return false;
     index_table_put(t, (index_entry){key, index});
     t->count++;
     return true;
 }
 
-/* Goes through the entries of a key, in the order in which they were added; *cursor is 0 at first. INDEX_TABLE_NONE:
- * there are no more. */
+/* Iterates over the entries of a key; *cursor starts at 0. INDEX_TABLE_NONE: no more. */
 static inline uint32_t index_table_next(const index_table *t, uint32_t key, size_t *cursor)
 {
     while (*cursor < t->size) {
@@ -77,7 +79,7 @@ static inline uint32_t index_table_next(const index_table *t, uint32_t key, size
     return INDEX_TABLE_NONE;
 }
 
-/* The first of a key. */
+/* An entry of the key. */
 static inline uint32_t index_table_find(const index_table *t, uint32_t key)
 {
     size_t cursor = 0;
@@ -90,7 +92,7 @@ static inline void index_table_release(index_table *t)
     *t = (index_table){0};
 }
 
-/* FNV-1a, which goes on from hash; INDEX_TABLE_HASH at first. */
+/* FNV-1a of bytes; hash is INDEX_TABLE_HASH, or that of the bytes before. */
 #define INDEX_TABLE_HASH UINT32_C(0x811c9dc5)
 static inline uint32_t index_table_hash(uint32_t hash, const void *bytes, size_t size)
 {

@@ -5,70 +5,70 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/memory.h"
+struct name_entry {
+    const char *name;
+    size_t next; /* numbers below it are taken; 0: none was tried */
+};
 
-typedef struct name_entry {
-    const char *name; /* NULL: free */
-    size_t next;      /* numbers below it are taken; 0: none was tried */
-} name_entry;
-
-/* FNV-1a. */
-static size_t hash_name(const name_table *table, const char *name)
+static uint32_t hash_name(const name_table *table, const char *name)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
+    uint32_t hash = INDEX_TABLE_HASH;
     for (; *name; name++) {
         unsigned char c = (unsigned char)*name;
         if (table->ignores_case && c >= 'A' && c <= 'Z')
             c = (unsigned char)(c | 0x20);
-        hash = (hash ^ c) * 0x100000001b3u;
+        hash = index_table_hash(hash, &c, 1);
     }
-    return (size_t)(hash ^ hash >> 32);
+    return hash;
 }
 
-/* The entry of a name, or the free one that it would have. */
-static name_entry *find(const name_table *table, const char *name)
+/* NULL: the name is not in the table. */
+static struct name_entry *find(const name_table *table, const char *name)
 {
-    size_t at = hash_name(table, name) & (table->size - 1);
-    for (; table->entries[at].name; at = (at + 1) & (table->size - 1))
-        if ((table->ignores_case ? strcasecmp : strcmp)(table->entries[at].name, name) == 0)
-            break;
-    return &table->entries[at];
+    uint32_t hash = hash_name(table, name);
+    size_t cursor = 0;
+    for (uint32_t i; (i = index_table_next(&table->by_name, hash, &cursor)) != INDEX_TABLE_NONE;)
+        if ((table->ignores_case ? strcasecmp : strcmp)(table->entries[i].name, name) == 0)
+            return &table->entries[i];
+    return NULL;
 }
 
 bool name_table_create(name_table *table, size_t count, bool ignores_case, const facet_allocator *allocator)
 {
-    *table = (name_table){.size = 16, .ignores_case = ignores_case};
-    while (table->size / 2 < count)
-        table->size *= 2;
-    table->entries = mem_zalloc(allocator, table->size, sizeof *table->entries);
-    return table->entries != NULL;
+    *table = (name_table){.allocator = allocator, .ignores_case = ignores_case};
+    table->entries = mem_alloc(allocator, count, sizeof *table->entries);
+    if (table->entries && count < INDEX_TABLE_NONE && index_table_reserve(&table->by_name, allocator, count))
+        return true;
+    name_table_destroy(table);
+    return false;
 }
 
 void name_table_destroy(name_table *table)
 {
     mem_free(table->entries);
+    index_table_release(&table->by_name);
     *table = (name_table){0};
 }
 
 bool name_table_has(const name_table *table, const char *name)
 {
-    return find(table, name)->name != NULL;
+    return find(table, name) != NULL;
 }
 
 bool name_table_add(name_table *table, const char *name)
 {
-    name_entry *entry = find(table, name);
-    if (entry->name)
+    if (find(table, name))
         return false;
-    entry->name = name;
-    return true;
+    uint32_t number = (uint32_t)table->by_name.count;
+    table->entries[number] = (struct name_entry){.name = name};
+    return index_table_add(&table->by_name, table->allocator, hash_name(table, name), number);
 }
 
 void name_table_add_numbered(name_table *table, char *name, size_t number)
 {
-    name_entry *base = find(table, name);
-    if (!base->name) {
-        base->name = name;
+    struct name_entry *base = find(table, name);
+    if (!base) {
+        name_table_add(table, name);
         return;
     }
     char *end = name + strlen(name);

@@ -1,12 +1,13 @@
-/* name_table.h - names that a file has already, and numbers that make others different. */
+/* name_table.h - the names that a file uses, and numbered suffixes that make others unique. */
 #ifndef IO_NAME_TABLE_H
 #define IO_NAME_TABLE_H
 
-#include "facet/facet.h"
+#include "base/index_table.h"
 
 typedef struct name_table {
-    struct name_entry *entries; /* hash table; block of mem_alloc() */
-    size_t size;                /* a power of two */
+    const facet_allocator *allocator;
+    struct name_entry *entries; /* block of mem_alloc() */
+    index_table by_name;        /* with room for all entries */
     bool ignores_case;          /* of ASCII letters */
 } name_table;
 

@@ -221,6 +221,7 @@ facet_result gltf_save(const facet_scene *scene, const char *path, const char *g
     }
     mem_free(w.files);
     mem_free(w.written);
+    index_table_release(&w.written_table);
     mem_free(w.bin);
     json_decref(w.root);
     json_decref(w.accessors);

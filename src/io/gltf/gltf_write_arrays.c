@@ -74,55 +74,30 @@ static uint32_t last_accessor(const gltf_writer *w)
     return (uint32_t)json_array_size(w->accessors) - 1;
 }
 
-/* ---- what was written before ---- */
+/* ---- arrays that have an accessor ---- */
 
-static size_t hash(const gltf_written_array *a)
+static uint32_t hash(const gltf_written_array *a)
 {
-    uint64_t h = (uint64_t)(uintptr_t)a->data * 0x9e3779b97f4a7c15u ^
-                 (uint64_t)a->size * 0xc2b2ae3d27d4eb4fu ^ (uint64_t)a->kind * 0x165667b19e3779f9u;
-    return (size_t)(h ^ h >> 29);
+    uint32_t h = index_table_hash(INDEX_TABLE_HASH, &a->data, sizeof a->data);
+    return index_table_hash(index_table_hash(h, &a->size, sizeof a->size), &a->kind, sizeof a->kind);
 }
 
-/* The place of an array, or a free one. */
-static gltf_written_array *find(gltf_written_array *table, size_t capacity, const gltf_written_array *a)
-{
-    size_t i = hash(a) & (capacity - 1);
-    while (table[i].data &&
-           !(table[i].data == a->data && table[i].size == a->size && table[i].kind == a->kind))
-        i = (i + 1) & (capacity - 1);
-    return &table[i];
-}
-
-static bool grow(gltf_writer *w)
-{
-    if (w->written_count * 2 < w->written_capacity)
-        return true;
-    size_t capacity = w->written_capacity ? 2 * w->written_capacity : 256;
-    gltf_written_array *table = mem_zalloc(w->allocator, capacity, sizeof *table);
-    if (!table) {
-        gltf_writer_fail_memory(w, capacity * sizeof *table);
-        return false;
-    }
-    for (size_t i = 0; i < w->written_capacity; i++)
-        if (w->written[i].data)
-            *find(table, capacity, &w->written[i]) = w->written[i];
-    mem_free(w->written);
-    w->written = table;
-    w->written_capacity = capacity;
-    return true;
-}
-
-/* The accessor of an array that was written, or SCENE_NONE; the next accessor will be noted as its own then. */
+/* The accessor of an array. SCENE_NONE: it has none yet; the next accessor is then recorded as its own. */
 static uint32_t find_or_note(gltf_writer *w, const void *data, size_t size, uint32_t kind)
 {
-    if (!grow(w))
-        return SCENE_NONE;
     const gltf_written_array a = {.data = data, .size = size, .kind = kind, .accessor = last_accessor(w) + 1};
-    gltf_written_array *place = find(w->written, w->written_capacity, &a);
-    if (place->data)
-        return place->accessor;
-    *place = a;
-    w->written_count++;
+    size_t cursor = 0;
+    for (uint32_t i; (i = index_table_next(&w->written_table, hash(&a), &cursor)) != INDEX_TABLE_NONE;) {
+        const gltf_written_array *there = &w->written[i];
+        if (there->data == data && there->size == size && there->kind == kind)
+            return there->accessor;
+    }
+    size_t count = w->written_table.count;
+    if (mem_reserve(w->allocator, (void **)&w->written, &w->written_capacity, count + 1, sizeof a) &&
+        index_table_add(&w->written_table, w->allocator, hash(&a), (uint32_t)count))
+        w->written[count] = a;
+    else
+        gltf_writer_fail_memory(w, (count + 1) * sizeof a);
     return SCENE_NONE;
 }
 

@@ -7,6 +7,7 @@
 
 #include <jansson.h>
 
+#include "base/index_table.h"
 #include "scene/scene.h"
 
 /* OpenGL's constants, which glTF uses. */
@@ -14,7 +15,7 @@ enum { WRITE_NO_TARGET = 0, WRITE_VERTICES = 34962, WRITE_INDICES = 34963 };
 
 /* An array of the scene that has an accessor. */
 typedef struct gltf_written_array {
-    const void *data; /* NULL: a free slot of the table */
+    const void *data;
     size_t size;
     uint32_t kind; /* type, component and target of the accessor */
     uint32_t accessor;
@@ -37,8 +38,9 @@ typedef struct gltf_writer {
     unsigned char *bin;
     size_t bin_size, bin_capacity;
 
-    gltf_written_array *written; /* hash table, capacity a power of two */
-    size_t written_count, written_capacity;
+    gltf_written_array *written; /* block of mem_alloc() */
+    size_t written_capacity;
+    index_table written_table; /* by hash of data, size and kind */
 
     bool names_images;              /* textures refer to files of images by name, not by index */
     const char *const *image_names; /* by image; NULL, or a NULL element: the file is not written */

@@ -14,8 +14,7 @@ struct mtl_reader {
     mtl_clues clues;
     mtl_draft *drafts;
     size_t count, capacity;
-    uint32_t *table; /* hash table of names; a power of two, 0 or at least twice count */
-    size_t table_size;
+    index_table names;     /* of drafts; of equal names the first */
     index_table libraries; /* those read, by file */
     size_t library_count;
     const char **missing; /* why libraries that are named cannot be read; block of mem_alloc() */
@@ -55,7 +54,7 @@ void mtl_reader_destroy(mtl_reader *r)
     }
     mtl_files_destroy(&r->files);
     mem_free(r->drafts);
-    mem_free(r->table);
+    index_table_release(&r->names);
     mem_free(r->missing);
     index_table_release(&r->libraries);
     mtl_spectra_destroy(&r->spectra);
@@ -64,61 +63,31 @@ void mtl_reader_destroy(mtl_reader *r)
 
 /* ---- names ---- */
 
-/* FNV-1a. */
-static size_t hash_name(const char *name, size_t length)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < length; i++)
-        hash = (hash ^ (unsigned char)name[i]) * 0x100000001b3u;
-    return (size_t)(hash ^ hash >> 32);
-}
-
-/* Where a name is in the table, or the free place for it. */
-static size_t find_place(const mtl_reader *r, const char *name, size_t length)
-{
-    size_t at = hash_name(name, length) & (r->table_size - 1);
-    for (; r->table[at] != SCENE_NONE; at = (at + 1) & (r->table_size - 1)) {
-        const char *there = r->drafts[r->table[at]].m.name;
-        if (strlen(there) == length && memcmp(there, name, length) == 0)
-            break;
-    }
-    return at;
-}
-
-static bool grow_table(mtl_reader *r)
-{
-    size_t size = r->table_size ? 2 * r->table_size : 64;
-    uint32_t *table = mem_alloc(&r->desc.allocator, size, sizeof *table);
-    if (!table)
-        return false;
-    memset(table, 0xff, size * sizeof *table);
-    mem_free(r->table);
-    r->table = table;
-    r->table_size = size;
-    for (size_t i = 0; i < r->count; i++)
-        r->table[find_place(r, r->drafts[i].m.name, strlen(r->drafts[i].m.name))] = (uint32_t)i;
-    return true;
-}
-
 uint32_t mtl_reader_find(mtl_reader *r, const char *name, size_t length)
 {
-    return r->table_size ? r->table[find_place(r, name, length)] : SCENE_NONE;
+    uint32_t hash = index_table_hash(INDEX_TABLE_HASH, name, length);
+    size_t cursor = 0;
+    for (uint32_t i; (i = index_table_next(&r->names, hash, &cursor)) != INDEX_TABLE_NONE;)
+        if (strlen(r->drafts[i].m.name) == length && memcmp(r->drafts[i].m.name, name, length) == 0)
+            return i;
+    return SCENE_NONE;
 }
 
 uint32_t mtl_reader_add(mtl_reader *r, const char *name, size_t length)
 {
     mtl_parser p = {.arena = r->scene->arena};
-    if ((2 * r->count >= r->table_size && !grow_table(r)) || r->count >= SCENE_NONE ||
+    if (r->count >= SCENE_NONE || !index_table_reserve(&r->names, &r->desc.allocator, 1) ||
         !mem_reserve(&r->desc.allocator, (void **)&r->drafts, &r->capacity, r->count + 1, sizeof *r->drafts))
         return SCENE_NONE;
     mtl_draft draft = mtl_draft_begin(&r->desc.allocator);
     draft.m.name = mtl_keep(&p, (mtl_span){name, name + length});
     if (p.has_failed)
         return SCENE_NONE;
-    size_t place = find_place(r, draft.m.name, strlen(draft.m.name));
+    size_t size = strlen(draft.m.name);
+    if (mtl_reader_find(r, draft.m.name, size) == SCENE_NONE)
+        index_table_add(&r->names, &r->desc.allocator, index_table_hash(INDEX_TABLE_HASH, draft.m.name, size),
+                        (uint32_t)r->count); /* room is reserved */
     r->drafts[r->count] = draft;
-    if (r->table[place] == SCENE_NONE)
-        r->table[place] = (uint32_t)r->count;
     return (uint32_t)r->count++;
 }
 

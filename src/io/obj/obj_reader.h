@@ -17,6 +17,7 @@
 
 #include <stdatomic.h>
 
+#include "base/index_table.h"
 #include "io/obj/mtl.h"
 #include "io/obj/obj.h"
 
@@ -138,8 +139,7 @@ typedef struct obj_names {
     size_t count, capacity;
     char *bytes;
     size_t size, byte_capacity;
-    uint32_t *table;
-    size_t table_size;
+    index_table table; /* by hash */
 } obj_names;
 
 typedef struct obj_reader {

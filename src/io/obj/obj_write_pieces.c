@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/index_table.h"
 #include "base/parallel.h"
 #include "image/srgb.h"
 #include "io/obj/obj_write.h"
@@ -59,7 +60,7 @@ static void put_value(const obj_piece *piece, const facet_scene *scene, obj_list
 
 /* ---- one list ---- */
 
-static size_t hash_bits(const float *values, uint32_t width)
+static uint32_t hash_bits(const float *values, uint32_t width)
 {
     uint64_t hash = 0;
     for (uint32_t i = 0; i < width; i++) {
@@ -68,7 +69,7 @@ static size_t hash_bits(const float *values, uint32_t width)
         hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 29;
     }
-    return (size_t)hash;
+    return (uint32_t)(hash >> 32);
 }
 
 /* What is being done for all lists. */
@@ -78,40 +79,41 @@ typedef struct fill_job {
     const facet_scene_save_desc *desc;
 } fill_job;
 
-/* Fills a list by way of a hash table of its values. False: no memory. */
+/* Fills a list with the values of used vertices, each once. False: no memory. */
 static bool fill_list(const fill_job *job, obj_piece *piece, obj_list list)
 {
     obj_values *out = &piece->lists[list];
     const scene_primitive *p = piece->instance->primitive;
-    size_t table_size = 16;
-    while (table_size < 2 * (size_t)p->vertex_count)
-        table_size *= 2;
+    const facet_allocator *allocator = &job->desc->allocator;
     const uint32_t unused = UINT32_MAX;
-    const uint32_t used = UINT32_MAX - 1;
-    uint32_t *table = mem_alloc(&job->desc->allocator, table_size, sizeof *table);
-    out->map = mem_alloc(&job->desc->allocator, p->vertex_count, sizeof *out->map);
-    out->values = mem_alloc(&job->desc->allocator, p->vertex_count, out->width * sizeof *out->values);
-    bool is_done = table && out->map && out->values;
+    index_table by_value = {0};
+    out->map = mem_alloc(allocator, p->vertex_count, sizeof *out->map);
+    out->values = mem_alloc(allocator, p->vertex_count, out->width * sizeof *out->values);
+    bool is_done = out->map && out->values && index_table_reserve(&by_value, allocator, p->vertex_count);
     if (is_done) {
-        memset(table, 0xff, table_size * sizeof *table);
         memset(out->map, 0xff, p->vertex_count * sizeof *out->map);
         for (size_t i = 0; i < p->index_count; i++)
-            out->map[p->indices[i]] = used;
+            out->map[p->indices[i]] = 0;
     }
     for (size_t i = 0; is_done && i < p->vertex_count; i++) {
         if (out->map[i] == unused)
             continue;
         float *value = out->values + out->count * out->width;
         put_value(piece, job->scene, list, job->desc->has_flipped_texcoords, i, value);
-        size_t at = hash_bits(value, out->width) & (table_size - 1);
-        while (table[at] != unused &&
-               memcmp(out->values + (size_t)table[at] * out->width, value, out->width * sizeof *value) != 0)
-            at = (at + 1) & (table_size - 1);
-        if (table[at] == unused)
-            table[at] = (uint32_t)out->count++;
-        out->map[i] = table[at];
+        uint32_t hash = hash_bits(value, out->width);
+        size_t cursor = 0;
+        uint32_t found;
+        do
+            found = index_table_next(&by_value, hash, &cursor);
+        while (found != INDEX_TABLE_NONE &&
+               memcmp(out->values + (size_t)found * out->width, value, out->width * sizeof *value) != 0);
+        if (found == INDEX_TABLE_NONE) {
+            found = (uint32_t)out->count++;
+            is_done = index_table_add(&by_value, allocator, hash, found);
+        }
+        out->map[i] = found;
     }
-    mem_free(table);
+    index_table_release(&by_value);
     return is_done;
 }
 
