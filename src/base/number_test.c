@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/mix64.h"
+#include "base/hash.h"
 
 /* Reads text, which may be followed by anything, and tells how many characters were the number; -1: none. */
 static long read_text(const char *text, float *value)

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/murmur3.h"
+#include "base/hash.h"
 
 static const struct {
     uint32_t aov;

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "base/mix64.h"
+#include "base/hash.h"
 #include "base/parallel.h"
 
 enum { RANKS = 4096, OCTAVES = 6 };

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "base/mix64.h"
+#include "base/hash.h"
 #include "base/parallel.h"
 
 static const double TWO_PI = 6.28318530717958647693;

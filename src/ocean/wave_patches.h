@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-#include "base/mix64.h"
+#include "base/hash.h"
 #include "ocean/waves.h"
 
 enum { WAVES_MAX_PATCHES = 3 };

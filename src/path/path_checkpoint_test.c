@@ -15,7 +15,7 @@
 #include "base/failing_allocator.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/mix64.h"
+#include "base/hash.h"
 #include "base/test_effort.h"
 #include "image/image.h"
 #include "path/path_film_state.h"

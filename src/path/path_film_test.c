@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "base/failing_allocator.h"
-#include "base/mix64.h"
+#include "base/hash.h"
 #include "base/near_test.h"
 #include "base/parallel.h"
 #include "base/test_effort.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/murmur3.h"
+#include "base/hash.h"
 #include "base/result.h"
 #include "base/text.h"
 

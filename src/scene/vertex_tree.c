@@ -2,7 +2,7 @@
 #include "scene/vertex_tree.h"
 
 #include "base/memory.h"
-#include "base/mix64.h"
+#include "base/hash.h"
 #include "scene/unseen.h"
 
 enum {

@@ -6,7 +6,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
-#include "base/mix64.h"
+#include "base/hash.h"
 #include "base/result.h"
 #include "image/codec.h"
 #include "io/obj/obj_soup.h"

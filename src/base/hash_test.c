@@ -1,4 +1,4 @@
-/* Tests of murmur3.h. */
+/* Tests of hash.h. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/murmur3.h"
+#include "base/hash.h"
 
 /* Of the reference implementation (SMHasher), every length of the last block, with and without a seed. */
 static void hashes_are_those_of_the_reference(void **state)

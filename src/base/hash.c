@@ -1,5 +1,5 @@
-/* murmur3.c - see murmur3.h. */
-#include "base/murmur3.h"
+/* hash.c - MurmurHash3; see hash.h. */
+#include "base/hash.h"
 
 static uint32_t rotate_left(uint32_t x, int bits)
 {
