@@ -1,4 +1,5 @@
-/* animation.c - applies the channels of animations to copies of what they move. */
+/* animation.c - applies the channels of animations to copies of what they move, and clamps the results to the ranges of the
+ * file format, since splines overshoot. */
 #include "scene/animation.h"
 
 #include <float.h>
@@ -6,8 +7,69 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "scene/material_table.h"
 #include "scene/sampler.h"
-#include "scene/settle.h"
+
+/* ---- ranges ---- */
+
+static float clamp_to(float value, float minimum, float maximum)
+{
+    return value < minimum ? minimum : value > maximum ? maximum : value;
+}
+
+static bool overlaps(size_t offset, size_t size, size_t other, size_t other_size)
+{
+    return offset < other + other_size && other < offset + size;
+}
+
+/* What bytes [offset, offset + size) of the material hold: parameters keep to what the specification allows, texture
+ * refs get their transform. */
+static void settle_material(scene_material *material, size_t offset, size_t size)
+{
+    for (int i = 0; i < MATERIAL_PARAMETER_COUNT; i++) {
+        const material_parameter *row = &material_parameters[i];
+        if (!overlaps(offset, size, row->offset, row->count * sizeof(float)) ||
+            (row->extension && !(row->extension & material->extensions)))
+            continue;
+        float *values = material_floats(material, row);
+        for (uint32_t k = 0; k < row->count; k++)
+            values[k] = clamp_to(values[k], row->minimum, row->maximum);
+    }
+    for (size_t i = 0; i < SCENE_TEXTURE_SLOT_COUNT; i++)
+        if (overlaps(offset, size, offsetof(scene_material, textures) + i * sizeof *material->textures,
+                     sizeof *material->textures))
+            scene_texture_ref_update(&material->textures[i]);
+}
+
+/* Nothing is negative, cones are at most right angles, the inner one is inside. */
+static void settle_light(scene_light *light)
+{
+    const float right_angle = 1.57079633f;
+    for (int i = 0; i < 3; i++)
+        light->color[i] = clamp_to(light->color[i], 0.0f, FLT_MAX);
+    light->intensity = clamp_to(light->intensity, 0.0f, FLT_MAX);
+    light->range = clamp_to(light->range, 0.0f, FLT_MAX);
+    light->outer_cone_rad = clamp_to(light->outer_cone_rad, 0.0f, right_angle);
+    light->inner_cone_rad = clamp_to(light->inner_cone_rad, 0.0f, light->outer_cone_rad);
+}
+
+/* A lens that cannot be is the one that the camera rests with. */
+static void settle_camera(scene_camera *camera, const scene_camera *rest)
+{
+    if (!(camera->fov_y_rad > 0.0f && camera->fov_y_rad < 3.14f))
+        camera->fov_y_rad = rest->fov_y_rad;
+    if (!(camera->aspect >= 0.0f))
+        camera->aspect = rest->aspect;
+    if (!(camera->ortho_height > 0.0f))
+        camera->ortho_height = rest->ortho_height;
+    if (!(camera->ortho_width > 0.0f))
+        camera->ortho_width = rest->ortho_width;
+    if (!(camera->near_m >= 0.0f && camera->far_m >= 0.0f) ||
+        (camera->far_m != 0.0f && !(camera->far_m > camera->near_m))) {
+        camera->near_m = rest->near_m;
+        camera->far_m = rest->far_m;
+    }
+}
 
 /* ---- floats of a struct ---- */
 
@@ -142,11 +204,11 @@ static void settle_channel(const facet_scene *scene, scene_state *state, const s
 {
     uint32_t i = channel->index;
     if (channel->kind == SCENE_TARGET_MATERIAL)
-        scene_settle_material(&state->material_copies[i], channel->offset, sampler->width * sizeof(float));
+        settle_material(&state->material_copies[i], channel->offset, sampler->width * sizeof(float));
     else if (channel->kind == SCENE_TARGET_LIGHT)
-        scene_settle_light(&state->light_copies[i]);
+        settle_light(&state->light_copies[i]);
     else if (channel->kind == SCENE_TARGET_CAMERA)
-        scene_settle_camera(&state->camera_copies[i], &scene->cameras[i]);
+        settle_camera(&state->camera_copies[i], &scene->cameras[i]);
 }
 
 /* ---- copies ---- */

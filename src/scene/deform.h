@@ -34,10 +34,6 @@ facet_result deform_create(const facet_scene *scene, const scene_state *state, h
                            facet_error *error);
 void deform_destroy(deform_set *set); /* {0} is allowed */
 
-/* Second half of deform_create(): fills the arrays, bounds and is_endless. */
-facet_result deform_run(deform_set *set, const facet_allocator *allocator, uint32_t thread_count,
-                        facet_error *error);
-
 /* Primitive number index of the mesh of the shown node number shown; NULL: it is as the file has it. */
 static inline const deformed *deform_get(const deform_set *set, uint32_t shown, uint32_t index)
 {

@@ -1,7 +1,160 @@
 /* describe.c - a scene in numbers and as JSON; docs/inspect.md lists the members. */
 #include "scene/describe.h"
 
+#include <stddef.h>
 #include <stdio.h>
+#include <string.h>
+
+/* ---- values ---- */
+
+/* Levels of extras and metadata that a description shows. System.Text.Json reads 64 levels, other programs 100 to 1000; a
+ * description adds at most 8 around them. */
+enum { MAX_DEPTH = 32 };
+
+void describe_index(text *t, const char *key, uint32_t index)
+{
+    if (index == SCENE_NONE)
+        text_json_string(t, key, NULL);
+    else
+        text_json_integer(t, key, index);
+}
+
+static void describe_indices(text *t, const char *key, const uint32_t *indices, uint32_t count)
+{
+    text_json_begin_array(t, key);
+    for (uint32_t i = 0; i < count; i++)
+        text_json_integer(t, NULL, indices[i]);
+    text_json_end_array(t);
+}
+
+/* Behind the string that begins at json. */
+static const char *skip_string(const char *json)
+{
+    for (json++; *json && *json != '"'; json++)
+        if (*json == '\\' && json[1])
+            json++;
+    return *json ? json + 1 : json;
+}
+
+/* Behind the value at json, an array or object. */
+static const char *skip_nested(const char *json)
+{
+    size_t depth = 0;
+    do {
+        if (*json == '"') {
+            json = skip_string(json);
+            continue;
+        }
+        depth += *json == '[' || *json == '{';
+        depth -= *json == ']' || *json == '}';
+        json++;
+    } while (*json && depth);
+    return json;
+}
+
+/* A valid value as it stands, but for what is nested deeper than MAX_DEPTH: a string takes its place. */
+static void describe_json(text *t, const char *key, const char *json)
+{
+    text_json_raw(t, key, "");
+    size_t depth = 0;
+    const char *from = json;
+    for (const char *at = json; *at;) {
+        if (*at == '"') {
+            at = skip_string(at);
+        } else if ((*at == '[' || *at == '{') && depth == MAX_DEPTH) {
+            text_add_bytes(t, from, (size_t)(at - from));
+            text_add(t, "\"(nested too deep to show)\"");
+            from = at = skip_nested(at);
+        } else {
+            depth += *at == '[' || *at == '{';
+            depth -= *at == ']' || *at == '}';
+            at++;
+        }
+    }
+    text_add(t, from);
+}
+
+void describe_meta(text *t, const scene_meta *meta)
+{
+    if (meta->extras)
+        describe_json(t, "extras", meta->extras);
+    if (meta->extensions)
+        describe_json(t, "metadata", meta->extensions);
+}
+
+/* ---- skins and animations ---- */
+
+static void write_skin(text *t, const scene_skin *skin)
+{
+    text_json_begin_object(t, NULL);
+    text_json_string(t, "name", skin->name);
+    describe_indices(t, "joints", skin->joints, skin->joint_count);
+    describe_index(t, "skeleton", skin->skeleton);
+    describe_meta(t, &skin->meta);
+    text_json_end_object(t);
+}
+
+static const char *path_of(const scene_channel *c)
+{
+    switch (c->kind) {
+    case SCENE_TARGET_WEIGHTS:
+        return "weights";
+    case SCENE_TARGET_VISIBLE:
+        return "visible";
+    case SCENE_TARGET_NODE:
+        return c->offset == offsetof(scene_node, translation) ? "translation"
+               : c->offset == offsetof(scene_node, rotation)  ? "rotation"
+                                                              : "scale";
+    default:
+        return "pointer";
+    }
+}
+
+static void write_channel(text *t, const scene_animation *animation, const scene_channel *c)
+{
+    static const char *const kinds[] = {[SCENE_TARGET_NODE] = "node",    [SCENE_TARGET_VISIBLE] = "node",
+                                        [SCENE_TARGET_WEIGHTS] = "node", [SCENE_TARGET_MATERIAL] = "material",
+                                        [SCENE_TARGET_LIGHT] = "light",  [SCENE_TARGET_CAMERA] = "camera"};
+    static const char *const interpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+    const scene_sampler *sampler = &animation->samplers[c->sampler];
+    text_json_begin_object(t, NULL);
+    text_json_integer(t, kinds[c->kind], c->index);
+    text_json_string(t, "path", path_of(c));
+    if (c->pointer)
+        text_json_string(t, "pointer", c->pointer);
+    text_json_string(t, "interpolation", interpolations[sampler->interpolation]);
+    text_json_integer(t, "keys", sampler->key_count);
+    text_json_end_object(t);
+}
+
+static void write_animation(text *t, const scene_animation *animation)
+{
+    text_json_begin_object(t, NULL);
+    text_json_string(t, "name", animation->name);
+    text_json_float(t, "begin", animation->begin_s);
+    text_json_float(t, "end", animation->end_s);
+    text_json_begin_array(t, "channels");
+    for (uint32_t i = 0; i < animation->channel_count; i++)
+        write_channel(t, animation, &animation->channels[i]);
+    text_json_end_array(t);
+    describe_meta(t, &animation->meta);
+    text_json_end_object(t);
+}
+
+/* "skins", "animations" */
+static void describe_motion(text *t, const facet_scene *scene)
+{
+    text_json_begin_array(t, "skins");
+    for (uint32_t i = 0; i < scene->skin_count; i++)
+        write_skin(t, &scene->skins[i]);
+    text_json_end_array(t);
+    text_json_begin_array(t, "animations");
+    for (uint32_t i = 0; i < scene->animation_count; i++)
+        write_animation(t, &scene->animations[i]);
+    text_json_end_array(t);
+}
+
+/* ---- counts ---- */
 
 static uint64_t element_count(const scene_primitive *p)
 {
