@@ -66,8 +66,7 @@ if grep -q 'FACET_HAS_GL 1' "$build/generated/build_config.h"; then
     fi
 fi
 # The sources of the shared text stand alone as well.
-printf '#include <facet/shade/shade.h>\nint main(void) { return shade_D_GGX(1.0f, 1.0f) > 0.0f ? 0 : 1; }\n' >shade.c
-cc -std=c11 -I"$prefix/usr/include/facet" -I"$prefix/usr/include" shade.c -lm -o shade && ./shade
+cc -std=c11 -I"$prefix/usr/include" "$sources/../../docs/examples/c/shade.c" -lm -o shade && ./shade
 printf '#include <facet/shade/shade.h>\nint main() { return facet::D_GGX(1.0f, 1.0f) > 0.0f ? 0 : 1; }\n' >shade.cc
 c++ -std=c++17 -I"$prefix/usr/include" shade.cc -o shade && ./shade
 echo "package: shared, static and CMake consumers draw the same picture"
