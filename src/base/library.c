@@ -16,11 +16,23 @@ static bool is_about_memory(const char *reason)
     return false;
 }
 
+static facet_result find_symbols(const char *name, const library_desc *desc, void *handle, facet_error *error)
+{
+    for (size_t i = 0; i < desc->symbol_count; i++) {
+        void *address = dlsym(handle, desc->symbols[i].name);
+        if (!address)
+            return fail(error, desc->missing, "%s: %s has no %s%s", desc->subject, name,
+                        desc->symbols[i].name, desc->version ? desc->version : "");
+        memcpy(desc->symbols[i].pointer, &address, sizeof address);
+    }
+    return FACET_OK;
+}
+
 facet_result library_open(const char *name, const library_desc *desc, void **handle, facet_error *error)
 {
     *handle = dlopen(name, RTLD_NOW | RTLD_LOCAL | (desc->stays ? RTLD_NODELETE : 0));
     if (*handle)
-        return FACET_OK;
+        return find_symbols(name, desc, *handle, error);
     const char *reason = dlerror();
     reason = reason ? reason : "";
     if (is_about_memory(reason))

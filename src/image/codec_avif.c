@@ -15,17 +15,18 @@
 #include "base/library.h"
 #include "base/result.h"
 
+/* clang-format off */
+#define AVIF_FUNCTIONS(F, out) \
+    F(out, avifResultToString, result_text) F(out, avifDecoderCreate, create) \
+    F(out, avifDecoderDestroy, destroy) F(out, avifDecoderSetIOMemory, set_memory) \
+    F(out, avifDecoderParse, parse) F(out, avifDecoderNextImage, next_image) \
+    F(out, avifRGBImageSetDefaults, rgb_defaults) F(out, avifImageYUVToRGB, to_rgb)
+/* clang-format on */
+
 /* The functions of libavif that are called. */
 typedef struct avif_library {
     void *handle;
-    const char *(*result_text)(avifResult);
-    avifDecoder *(*create)(void);
-    void (*destroy)(avifDecoder *);
-    avifResult (*set_memory)(avifDecoder *, const uint8_t *, size_t);
-    avifResult (*parse)(avifDecoder *);
-    avifResult (*next_image)(avifDecoder *);
-    void (*rgb_defaults)(avifRGBImage *, const avifImage *);
-    avifResult (*to_rgb)(const avifImage *, avifRGBImage *);
+    AVIF_FUNCTIONS(LIBRARY_MEMBER, )
 } avif_library;
 
 /* A decoder and the library that it is of. {0}. */
@@ -38,30 +39,13 @@ static facet_result open_library(avif_library *out, const char *name, facet_erro
 {
     char subject[512];
     snprintf(subject, sizeof subject, "%.400s: AVIF", name);
-    const library_desc desc = {
-        .subject = subject, .advice = " is not installed", .missing = FACET_ERROR_UNSUPPORTED};
-    facet_result result = library_open(FACET_AVIF_SONAME, &desc, &out->handle, error);
-    if (result != FACET_OK)
-        return result;
-    const struct {
-        const char *symbol;
-        void *place; /* of the pointer */
-    } functions[] = {{"avifResultToString", &out->result_text},
-                     {"avifDecoderCreate", &out->create},
-                     {"avifDecoderDestroy", &out->destroy},
-                     {"avifDecoderSetIOMemory", &out->set_memory},
-                     {"avifDecoderParse", &out->parse},
-                     {"avifDecoderNextImage", &out->next_image},
-                     {"avifRGBImageSetDefaults", &out->rgb_defaults},
-                     {"avifImageYUVToRGB", &out->to_rgb}};
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
-        void *symbol = dlsym(out->handle, functions[i].symbol);
-        if (!symbol)
-            return fail(error, FACET_ERROR_UNSUPPORTED, "%s: AVIF: %s has no %s", name, FACET_AVIF_SONAME,
-                        functions[i].symbol);
-        memcpy(functions[i].place, &symbol, sizeof symbol);
-    }
-    return FACET_OK;
+    const library_symbol symbols[] = {AVIF_FUNCTIONS(LIBRARY_SYMBOL, out)};
+    const library_desc desc = {.subject = subject,
+                               .advice = " is not installed",
+                               .missing = FACET_ERROR_UNSUPPORTED,
+                               .symbols = symbols,
+                               .symbol_count = sizeof symbols / sizeof *symbols};
+    return library_open(FACET_AVIF_SONAME, &desc, &out->handle, error);
 }
 
 static void close_file(avif_file *f)

@@ -7,57 +7,42 @@
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 
-#include "facet/facet.h"
+#include "base/library.h"
 
-/* Each name is that of cairo without "cairo_"; {0} is none. */
+/* clang-format off */
+#define CAIRO_FUNCTIONS(F, out) \
+    F(out, cairo_image_surface_create_for_data, image_surface_create_for_data) \
+    F(out, cairo_svg_surface_create_for_stream, svg_surface_create_for_stream) \
+    F(out, cairo_svg_surface_set_document_unit, svg_surface_set_document_unit) \
+    F(out, cairo_pdf_surface_create_for_stream, pdf_surface_create_for_stream) \
+    F(out, cairo_pdf_surface_set_metadata, pdf_surface_set_metadata) \
+    F(out, cairo_surface_finish, surface_finish) F(out, cairo_surface_flush, surface_flush) \
+    F(out, cairo_surface_destroy, surface_destroy) F(out, cairo_surface_status, surface_status) \
+    F(out, cairo_status_to_string, status_to_string) F(out, cairo_create, create) \
+    F(out, cairo_destroy, destroy) F(out, cairo_status, status) F(out, cairo_save, save) \
+    F(out, cairo_restore, restore) F(out, cairo_clip, clip) F(out, cairo_translate, translate) \
+    F(out, cairo_scale, scale) F(out, cairo_rotate, rotate) F(out, cairo_new_path, new_path) \
+    F(out, cairo_move_to, move_to) F(out, cairo_line_to, line_to) F(out, cairo_arc, arc) \
+    F(out, cairo_rectangle, rectangle) F(out, cairo_close_path, close_path) \
+    F(out, cairo_set_source_rgba, set_source_rgba) F(out, cairo_set_source_surface, set_source_surface) \
+    F(out, cairo_get_source, get_source) F(out, cairo_pattern_set_filter, pattern_set_filter) \
+    F(out, cairo_set_line_width, set_line_width) F(out, cairo_set_line_join, set_line_join) \
+    F(out, cairo_set_line_cap, set_line_cap) F(out, cairo_set_dash, set_dash) \
+    F(out, cairo_stroke, stroke) F(out, cairo_fill, fill) F(out, cairo_paint, paint) \
+    F(out, cairo_select_font_face, select_font_face) F(out, cairo_set_font_size, set_font_size) \
+    F(out, cairo_font_options_create, font_options_create) \
+    F(out, cairo_font_options_destroy, font_options_destroy) \
+    F(out, cairo_font_options_set_antialias, font_options_set_antialias) \
+    F(out, cairo_font_options_set_hint_style, font_options_set_hint_style) \
+    F(out, cairo_font_options_set_hint_metrics, font_options_set_hint_metrics) \
+    F(out, cairo_set_font_options, set_font_options) F(out, cairo_text_extents, text_extents) \
+    F(out, cairo_show_text, show_text)
+/* clang-format on */
+
+/* Members have cairo's names without "cairo_"; {0} is none. */
 typedef struct cairo_library {
     void *handle;
-    cairo_surface_t *(*image_surface_create_for_data)(unsigned char *, cairo_format_t, int, int, int);
-    cairo_surface_t *(*svg_surface_create_for_stream)(cairo_write_func_t, void *, double, double);
-    void (*svg_surface_set_document_unit)(cairo_surface_t *, cairo_svg_unit_t);
-    cairo_surface_t *(*pdf_surface_create_for_stream)(cairo_write_func_t, void *, double, double);
-    void (*pdf_surface_set_metadata)(cairo_surface_t *, cairo_pdf_metadata_t, const char *);
-    void (*surface_finish)(cairo_surface_t *);
-    void (*surface_flush)(cairo_surface_t *);
-    void (*surface_destroy)(cairo_surface_t *);
-    cairo_status_t (*surface_status)(cairo_surface_t *);
-    const char *(*status_to_string)(cairo_status_t);
-    cairo_t *(*create)(cairo_surface_t *);
-    void (*destroy)(cairo_t *);
-    cairo_status_t (*status)(cairo_t *);
-    void (*save)(cairo_t *);
-    void (*restore)(cairo_t *);
-    void (*clip)(cairo_t *);
-    void (*translate)(cairo_t *, double, double);
-    void (*scale)(cairo_t *, double, double);
-    void (*rotate)(cairo_t *, double);
-    void (*new_path)(cairo_t *);
-    void (*move_to)(cairo_t *, double, double);
-    void (*line_to)(cairo_t *, double, double);
-    void (*arc)(cairo_t *, double, double, double, double, double);
-    void (*rectangle)(cairo_t *, double, double, double, double);
-    void (*close_path)(cairo_t *);
-    void (*set_source_rgba)(cairo_t *, double, double, double, double);
-    void (*set_source_surface)(cairo_t *, cairo_surface_t *, double, double);
-    cairo_pattern_t *(*get_source)(cairo_t *);
-    void (*pattern_set_filter)(cairo_pattern_t *, cairo_filter_t);
-    void (*set_line_width)(cairo_t *, double);
-    void (*set_line_join)(cairo_t *, cairo_line_join_t);
-    void (*set_line_cap)(cairo_t *, cairo_line_cap_t);
-    void (*set_dash)(cairo_t *, const double *, int, double);
-    void (*stroke)(cairo_t *);
-    void (*fill)(cairo_t *);
-    void (*paint)(cairo_t *);
-    void (*select_font_face)(cairo_t *, const char *, cairo_font_slant_t, cairo_font_weight_t);
-    void (*set_font_size)(cairo_t *, double);
-    cairo_font_options_t *(*font_options_create)(void);
-    void (*font_options_destroy)(cairo_font_options_t *);
-    void (*font_options_set_antialias)(cairo_font_options_t *, cairo_antialias_t);
-    void (*font_options_set_hint_style)(cairo_font_options_t *, cairo_hint_style_t);
-    void (*font_options_set_hint_metrics)(cairo_font_options_t *, cairo_hint_metrics_t);
-    void (*set_font_options)(cairo_t *, const cairo_font_options_t *);
-    void (*text_extents)(cairo_t *, const char *, cairo_text_extents_t *);
-    void (*show_text)(cairo_t *, const char *);
+    CAIRO_FUNCTIONS(LIBRARY_MEMBER, )
 } cairo_library;
 
 /* soname: "libcairo.so.2". FACET_ERROR_SYSTEM: it is not installed, or lacks a function. */

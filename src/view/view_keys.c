@@ -46,7 +46,7 @@ const view_binding view_bindings[] = {
     {'S', 0, VIEW_ACTION_SHADOWS, 0, NULL, "their shadows"},
     {'G', 0, VIEW_ACTION_GROUND, 0, NULL, "shadow on the ground"},
 
-    {'J', 0, VIEW_ACTION_BACKGROUND, 0, "Picture", "background: color, environment, transparent"},
+    {'J', 0, VIEW_ACTION_BACKGROUND, 0, "Image", "background: color, environment, transparent"},
     {'U', 0, VIEW_ACTION_BLUR, 0, NULL, "blur of the environment behind"},
     {'+', 0, VIEW_ACTION_EXPOSURE, 1, NULL, "exposure up, down"},
     {'-', 0, VIEW_ACTION_EXPOSURE, -1, NULL, NULL},
@@ -68,7 +68,7 @@ const view_binding view_bindings[] = {
     {'H', 0, VIEW_ACTION_HELP, 0, "Window", "this help"},
     {'Z', 0, VIEW_ACTION_VALUES, 0, NULL, "frame time and settings"},
     {VIEW_KEY_F11, 0, VIEW_ACTION_FULL_SCREEN, 0, NULL, "full screen"},
-    {VIEW_KEY_F12, 0, VIEW_ACTION_SCREENSHOT, 0, NULL, "save the picture as a PNG"},
+    {VIEW_KEY_F12, 0, VIEW_ACTION_SCREENSHOT, 0, NULL, "save the image as a PNG"},
     {'C', CONTROL, VIEW_ACTION_COPY, 0, NULL, "copy it as a facet render command"},
     {'?', 0, VIEW_ACTION_PRINT, 0, NULL, "print that command"},
     {'Q', 0, VIEW_ACTION_QUIT, 0, NULL, "quit"},

@@ -2,13 +2,50 @@
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "view/view_window.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/library.h"
 #include "base/memory.h"
 #include "base/result.h"
-#include "view/glfw_library.h"
+
+/* clang-format off */
+#define GLFW_FUNCTIONS(F, out) \
+    F(out, glfwInit, init) F(out, glfwTerminate, terminate) F(out, glfwGetError, get_error) \
+    F(out, glfwWindowHint, window_hint) F(out, glfwWindowHintString, window_hint_string) \
+    F(out, glfwCreateWindow, create_window) F(out, glfwDestroyWindow, destroy_window) \
+    F(out, glfwShowWindow, show_window) F(out, glfwIconifyWindow, iconify_window) \
+    F(out, glfwRestoreWindow, restore_window) F(out, glfwGetWindowAttrib, get_window_attrib) \
+    F(out, glfwSetWindowTitle, set_window_title) \
+    F(out, glfwSetWindowUserPointer, set_window_user_pointer) \
+    F(out, glfwGetWindowUserPointer, get_window_user_pointer) F(out, glfwGetWindowSize, get_window_size) \
+    F(out, glfwSetWindowSize, set_window_size) F(out, glfwGetWindowPos, get_window_pos) \
+    F(out, glfwGetFramebufferSize, get_framebuffer_size) \
+    F(out, glfwGetWindowContentScale, get_window_content_scale) \
+    F(out, glfwGetPrimaryMonitor, get_primary_monitor) F(out, glfwGetMonitors, get_monitors) \
+    F(out, glfwGetMonitorPos, get_monitor_pos) F(out, glfwGetVideoMode, get_video_mode) \
+    F(out, glfwSetWindowMonitor, set_window_monitor) F(out, glfwMakeContextCurrent, make_context_current) \
+    F(out, glfwSwapInterval, swap_interval) F(out, glfwSwapBuffers, swap_buffers) \
+    F(out, glfwPollEvents, poll_events) F(out, glfwWaitEvents, wait_events) \
+    F(out, glfwWaitEventsTimeout, wait_events_timeout) F(out, glfwPostEmptyEvent, post_empty_event) \
+    F(out, glfwGetKey, get_key) F(out, glfwGetKeyName, get_key_name) \
+    F(out, glfwSetClipboardString, set_clipboard_string) F(out, glfwSetKeyCallback, set_key_callback) \
+    F(out, glfwSetCharCallback, set_char_callback) \
+    F(out, glfwSetMouseButtonCallback, set_mouse_button_callback) \
+    F(out, glfwSetCursorPosCallback, set_cursor_pos_callback) \
+    F(out, glfwSetScrollCallback, set_scroll_callback) F(out, glfwSetDropCallback, set_drop_callback) \
+    F(out, glfwSetWindowCloseCallback, set_window_close_callback) \
+    F(out, glfwSetWindowRefreshCallback, set_window_refresh_callback)
+/* clang-format on */
+
+/* Members have GLFW's names. */
+typedef struct glfw_library {
+    void *handle;
+    GLFW_FUNCTIONS(LIBRARY_MEMBER, )
+} glfw_library;
 
 struct view_window {
     glfw_library glfw;
@@ -172,6 +209,20 @@ static void on_refresh(GLFWwindow *handle)
 
 /* ---- making it ---- */
 
+static facet_result open_glfw(glfw_library *out, facet_error *error)
+{
+    const library_symbol symbols[] = {GLFW_FUNCTIONS(LIBRARY_SYMBOL, out)};
+    /* It stays: it opens libraries of the display that do not support being unloaded. */
+    const library_desc desc = {.subject = "window",
+                               .advice = ", which opens windows, is not installed (Debian: libglfw3)",
+                               .version = "; GLFW 3.3 or later was expected",
+                               .missing = FACET_ERROR_SYSTEM,
+                               .stays = true,
+                               .symbols = symbols,
+                               .symbol_count = sizeof symbols / sizeof *symbols};
+    return library_open("libglfw.so.3", &desc, &out->handle, error);
+}
+
 static facet_result fail_glfw(const view_window *w, const char *what, facet_error *error)
 {
     const char *why = NULL;
@@ -223,7 +274,7 @@ facet_result view_window_create(const facet_allocator *allocator, uint32_t width
     if (!w)
         return fail_memory(error, "window", sizeof *w);
     w->queue = queue;
-    facet_result result = glfw_library_open("libglfw.so.3", &w->glfw, error);
+    facet_result result = open_glfw(&w->glfw, error);
     if (result == FACET_OK && !w->glfw.init())
         result = fail_glfw(w, "there is no display to open one on", error);
     w->is_started = result == FACET_OK;
