@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/simd.h"
 
-#include "path/light_choice.h"
+#include "path/light_distribution.h"
 #include "path/light_tree_nodes.h"
 
 /* The weights of eight children at P; returns their sum. With d to the middle of a child and its radius r:

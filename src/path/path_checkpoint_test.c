@@ -18,6 +18,7 @@
 #include "base/hash.h"
 #include "base/test_effort.h"
 #include "image/image.h"
+#include "path/path_checkpoint.h"
 #include "path/path_film_state.h"
 
 enum { WIDTH = 23, HEIGHT = 17, COUNT = WIDTH * HEIGHT };

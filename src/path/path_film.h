@@ -45,18 +45,4 @@ void path_film_resolve(const path_film *f, float scale, film *target, uint32_t t
  * kept. FACET_ERROR_MEMORY. */
 facet_result path_film_calm_ground(path_film *f, uint32_t thread_count, facet_error *error);
 
-/* ---- checkpoints ---- */
-
-/* Writes all of it into an OpenEXR file, whole or nothing, bit for bit, that other programs can look at: the layers "" (RGBA,
- * means), albedo, normal, samples, and what is needed beside. key: describes the picture (64 hex digits, path_key.h). Fails
- * with FACET_ERROR_WRITE, _MEMORY, and _UNSUPPORTED in a build without OpenEXR. */
-facet_result path_film_save(const path_film *f, const char *key, const char *path, uint32_t thread_count,
-                            facet_error *error);
-/* Whether a new checkpoint may be written there: nothing is. FACET_ERROR_ARGUMENT, FACET_ERROR_WRITE where it is no file. */
-facet_result path_checkpoint_check(const char *path, facet_error *error);
-/* Reads it into a film of the same size, which stays as it is on failure. FACET_ERROR_ARGUMENT: another picture's key or size,
- * FACET_ERROR_INVALID: no checkpoint, damaged. *exists: false, and FACET_OK, where there is no such file. */
-facet_result path_film_load(path_film *f, const char *key, const char *path, bool *exists,
-                            facet_error *error);
-
 #endif

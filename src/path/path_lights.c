@@ -11,11 +11,91 @@
 
 #include "path/light_emitters.h"
 #include "path/light_environment.h"
-#include "path/light_sun.h"
 #include "path/light_tree.h"
 
 static const float EVEN_SHARE = 0.25f;
 static const float MOST_INTENSITY = 1e15f; /* cd or lx; above, sums might not be finite */
+
+/* ---- the sun: a disc of uniform radiance at infinite distance ---- */
+
+typedef struct light_sun {
+    vec3 direction;   /* unit, to its middle */
+    vec3 radiance;    /* cd/m^2 */
+    vec3 illuminance; /* lx, of a surface that faces it */
+    float sin_radius;
+    float height; /* of the cap of the unit sphere that it is: 1 - cos(radius) */
+    float chord2; /* squared distance on the unit sphere from the middle to the border */
+    float pdf;    /* per sr, in the disc; 0: there is no sun */
+} light_sun;
+
+static bool sun_contains(const light_sun *sun, vec3 d)
+{
+    vec3 difference = d - sun->direction; /* the cosine of so small an angle would have no digits */
+    return dot(difference, difference) < sun->chord2;
+}
+
+static const double DEFAULT_DIAMETER_RAD = 0.53 * 3.14159265358979323846 / 180.0;
+static const double MIN_RADIUS_RAD = 5e-5;
+
+static bool is_sunlight(const float channels[3])
+{
+    bool is_any = false;
+    for (int i = 0; i < 3; i++) {
+        if (!isfinite(channels[i]) || channels[i] > 1e20f)
+            return false;
+        is_any |= channels[i] > 0.0f;
+    }
+    return is_any;
+}
+
+/* Without an illuminance above 0 in any channel, or with one, or a direction, that is not finite: no sun. Its radius is clamped to
+ * [5e-5 rad (the resolution of floats), a right angle]. */
+static light_sun sun_create(const facet_sun *desc)
+{
+    light_sun sun = {.pdf = 0.0f};
+    if (!is_sunlight(desc->illuminance_lux) || !isfinite(desc->azimuth_rad) ||
+        !isfinite(desc->elevation_rad) || isnan(desc->diameter_rad))
+        return sun;
+    double radius = 0.5 * (desc->diameter_rad > 0.0f ? (double)desc->diameter_rad : DEFAULT_DIAMETER_RAD);
+    double half_pi = 0.5 * 3.14159265358979323846;
+    radius = radius < MIN_RADIUS_RAD ? MIN_RADIUS_RAD : radius > half_pi ? half_pi : radius;
+    double azimuth = (double)desc->azimuth_rad;
+    double elevation = (double)desc->elevation_rad;
+    double half_sine = (sin)(0.5 * radius);
+    double sine = (sin)(radius);
+    sun.direction = vec3((float)((cos)(elevation) * (sin)(azimuth)), (float)(sin)(elevation),
+                         (float)((cos)(elevation) * (cos)(azimuth)));
+    for (int i = 0; i < 3; i++)
+        sun.illuminance[i] = max(desc->illuminance_lux[i], 0.0f);
+    /* The projected solid angle of a disc around the normal is pi sin^2(radius). */
+    sun.radiance = sun.illuminance * (float)(1.0 / (3.14159265358979323846 * sine * sine));
+    sun.sin_radius = (float)sine;
+    sun.height = (float)(2.0 * half_sine * half_sine);
+    sun.chord2 = (float)(4.0 * half_sine * half_sine);
+    sun.pdf = (float)(1.0 / (2.0 * 3.14159265358979323846 * 2.0 * half_sine * half_sine));
+    return sun;
+}
+
+/* About the illuminance (lx, mean of the channels) of a surface with unit normal N, {0}: one that faces it. 0 only where
+ * all of it is below the horizon. */
+static float sun_irradiance(const light_sun *sun, vec3 N)
+{
+    float all = (sun->illuminance[0] + sun->illuminance[1] + sun->illuminance[2]) * (1.0f / 3.0f);
+    if (!(dot(N, N) > 0.0f))
+        return all;
+    float x = dot(N, sun->direction);
+    return all * max(max(x, 0.5f * (x + sun->sin_radius)), 0.0f);
+}
+
+/* A uniform direction in the disc; density sun->pdf. Shirley and Wang 1994, "Direct Lighting Calculation by Monte Carlo
+ * Integration": uniform height in the cap. */
+static vec3 sun_sample(const light_sun *sun, vec2 u)
+{
+    float height = sun->height * u[0];
+    float r = sqrt(height * (2.0f - height)); /* sin^2 = 1 - (1 - height)^2 */
+    float phi = 2.0f * PI * u[1];
+    return normalize(mul(basis_from_normal(sun->direction), vec3(r * cos(phi), r * sin(phi), 1.0f - height)));
+}
 
 struct path_lights {
     const render_setup *setup;
@@ -139,7 +219,7 @@ facet_result path_lights_create(const render_setup *setup, path_lights **out, fa
     if (!lights)
         return fail_memory(error, "lights", sizeof *lights);
     lights->setup = setup;
-    lights->sun = light_sun_create(&desc->sun);
+    lights->sun = sun_create(&desc->sun);
     facet_result result = take_punctual(lights, allocator, error);
     if (result == FACET_OK && desc->environment)
         result = light_environment_create(&desc->environment->picture, &setup->light, allocator,
@@ -208,7 +288,7 @@ static void see(const path_lights *lights, vec3 P, vec3 N, choice *c)
         p[ENVIRONMENT] = c->environment.irradiance;
     }
     if (lights->sun.pdf > 0.0f)
-        p[SUN] = light_sun_irradiance(&lights->sun, N);
+        p[SUN] = sun_irradiance(&lights->sun, N);
     for (uint32_t i = 0; i < lights->directional_count; i++)
         c->directional += directional_irradiance(&lights->directional[i], N);
     p[DIRECTIONAL] = c->directional;
@@ -245,7 +325,7 @@ static bool sample_environment(const path_lights *lights, const choice *c, const
                                path_light_sample *out)
 {
     float pdf = light_environment_sample(lights->environment, &c->environment, u, &out->L);
-    bool is_in_sun = lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, out->L);
+    bool is_in_sun = lights->sun.pdf > 0.0f && sun_contains(&lights->sun, out->L);
     out->is_infinite = true;
     out->radiance = path_lights_environment(lights, out->L) + (is_in_sun ? lights->sun.radiance : vec3(0.0f));
     out->pdf = mixed_pdf(lights, c, pdf, is_in_sun);
@@ -254,7 +334,7 @@ static bool sample_environment(const path_lights *lights, const choice *c, const
 
 static bool sample_sun(const path_lights *lights, const choice *c, vec2 u, path_light_sample *out)
 {
-    out->L = light_sun_sample(&lights->sun, u);
+    out->L = sun_sample(&lights->sun, u);
     out->is_infinite = true;
     out->radiance = path_lights_environment(lights, out->L) + lights->sun.radiance;
     float environment_pdf = c->probabilities[ENVIRONMENT] > 0.0f
@@ -364,7 +444,7 @@ bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light
 vec3 path_lights_infinite(const path_lights *lights, vec3 d)
 {
     vec3 radiance = path_lights_environment(lights, d);
-    if (lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, d))
+    if (lights->sun.pdf > 0.0f && sun_contains(&lights->sun, d))
         radiance += lights->sun.radiance;
     return radiance;
 }
@@ -376,8 +456,7 @@ float path_lights_infinite_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d
     float environment_pdf = c.probabilities[ENVIRONMENT] > 0.0f
                                 ? light_environment_pdf(lights->environment, &c.environment, d)
                                 : 0.0f;
-    return mixed_pdf(lights, &c, environment_pdf,
-                     lights->sun.pdf > 0.0f && light_sun_contains(&lights->sun, d));
+    return mixed_pdf(lights, &c, environment_pdf, lights->sun.pdf > 0.0f && sun_contains(&lights->sun, d));
 }
 
 float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const visibility_hit *hit, vec3 d,

@@ -1,7 +1,7 @@
 /* fuzz_checkpoint.c - checkpoints of the path tracer, read into a film of 4 x 4 pixels. */
 #include "fuzz_support.h"
 
-#include "path/path_film.h"
+#include "path/path_checkpoint.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -1,4 +1,4 @@
-/* path_ground_filter.c - see path_film_calm_ground(). */
+/* path_film_ground.c - the shadow on the ground in a film (path_film.h): its opacity and error, and the filter that denoises it. */
 #include "path/path_film_state.h"
 
 #include <math.h>
@@ -7,6 +7,44 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+
+#include "shade/shade.h"
+
+/* ---- opacity ---- */
+
+/* The standard error of what is taken. One sample says nothing of it. */
+static double taken_error(const path_ground *g)
+{
+    return g->samples > 1.0f ? (sqrt)((double)g->spread / ((double)g->samples - 1.0)) : 0.0;
+}
+
+float path_ground_error(const path_ground *g)
+{
+    double error = g->open > 0.0f ? taken_error(g) / (double)g->open : 0.0;
+    return (float)(error < 1.0 ? error : 1.0);
+}
+
+/* The share of the light that is taken: one minus the ratio of the means (not the mean of ratios) of lit and open. Where
+ * nothing is taken but for noise, clamping at 0 would darken by 0.4 standard errors in the mean; so what is taken is
+ * first drawn towards 0 by the gain d^2 / (d^2 + e^2) of Wiener's filter, estimated as max(0, 1 - e^2 / d^2) for an
+ * observed d with the standard error e, which leaves 0.1 of them and a real shadow as it is: e^2 / d less. */
+float path_ground_opacity(const path_ground *g)
+{
+    double taken = (double)g->taken, error = taken_error(g);
+    if (!(taken > error && g->open > 0.0f))
+        return 0.0f;
+    taken -= error * error / taken;
+    return (float)(taken < (double)g->open ? taken / (double)g->open : 1.0);
+}
+
+float path_ground_share(const path_ground *g, const path_pixel *p)
+{
+    float share = p->samples > 0.0f ? (float)((double)g->samples / (double)p->samples) : 0.0f;
+    float left = 1.0f - shade_f_clamp(p->mean[3] * path_pixel_scale(p), 0.0f, 1.0f);
+    return share < left ? share : left;
+}
+
+/* ---- filter ---- */
 
 enum { LEVELS = 4, GRAIN_ROWS = 8 };
 
