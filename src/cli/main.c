@@ -1,15 +1,15 @@
 /* main.c - facet VERB ...: finds the verb, parses its options, runs it. */
-#include "cli/commands.h"
-#include "cli/completion.h"
-#include "cli/failure.h"
-#include "cli/help.h"
-#include "cli/interrupt.h"
-#include "cli/man_page.h"
-#include "cli/messages.h"
-#include "cli/output.h"
-#include "cli/output_name.h"
-#include "cli/json_report.h"
-#include "cli/suggest.h"
+#include "cli/shared/commands.h"
+#include "cli/help/completion.h"
+#include "cli/shared/failure.h"
+#include "cli/help/help.h"
+#include "cli/shared/interrupt.h"
+#include "cli/help/man_page.h"
+#include "cli/shared/messages.h"
+#include "cli/shared/output.h"
+#include "cli/shared/output_name.h"
+#include "cli/shared/json_report.h"
+#include "cli/shared/suggest.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static const struct {
     int (*run)(command_line *c);
 } commands[] = {
 #define VERB(name) {#name, cmd_##name},
-#include "cli/verbs.def"
+#include "cli/shared/verbs.def"
 #undef VERB
 };
 

@@ -4,12 +4,12 @@
 
 #include <string.h>
 
-#include "cli/bake_options.h"
-#include "cli/compare_metrics.h"
-#include "cli/convert_names.h"
-#include "cli/ocean_options.h"
-#include "cli/plot_material.h"
-#include "cli/render_options.h"
+#include "cli/bake/bake_options.h"
+#include "cli/compare/compare_metrics.h"
+#include "cli/convert/convert_names.h"
+#include "cli/ocean/ocean_options.h"
+#include "cli/plot/plot_material.h"
+#include "cli/render/render_options.h"
 
 enum { MAX_WORDS = 64 };
 

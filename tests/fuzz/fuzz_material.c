@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cli/plot_material.h"
+#include "cli/plot/plot_material.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -84,8 +84,8 @@ seen_only 'GLFW/' view
 seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zlib|zstd|avif/|astcenc)' image
 
 # The command writes files in output.c and video.c only, which keep signals from ending it meanwhile (interrupt.h).
-found=$(grep -nE '\<facet_(bytes|image|scene)_save\(|fopen\([^)]*"[wa]' src/cli/*.c |
-    grep -vE '^src/cli/(output|video)\.c:' || true)
+found=$(grep -nE '\<facet_(bytes|image|scene)_save\(|fopen\([^)]*"[wa]' src/cli/*/*.c src/cli/*.c |
+    grep -vE '^src/cli/(shared/output|render/video)\.c:' || true)
 if [ -n "$found" ]; then
     echo "files are written by output.c and video.c: $found"
     status=1

@@ -1,5 +1,5 @@
 /* bake_verb.c - facet bake: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb bake_verb = {
     .name = "bake",

@@ -1,5 +1,5 @@
 /* compare_verb.c - facet compare: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb compare_verb = {
     .name = "compare",

@@ -1,5 +1,5 @@
 /* convert_verb.c - facet convert: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb convert_verb = {
     .name = "convert",

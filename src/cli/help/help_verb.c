@@ -1,5 +1,5 @@
 /* help_verb.c - facet help: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb help_verb = {
     .name = "help",
@@ -9,7 +9,7 @@ const verb help_verb = {
     .words =
         (const char *const[]){
 #define VERB(name) #name,
-#include "cli/verbs.def"
+#include "cli/shared/verbs.def"
 #undef VERB
             "exit-codes", "documents", NULL},
     .description =

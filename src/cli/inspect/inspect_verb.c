@@ -1,5 +1,5 @@
 /* inspect_verb.c - facet inspect: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb inspect_verb = {
     .name = "inspect",

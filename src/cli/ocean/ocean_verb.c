@@ -1,5 +1,5 @@
 /* ocean_verb.c - facet ocean: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb ocean_verb = {
     .name = "ocean",

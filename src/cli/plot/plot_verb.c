@@ -1,5 +1,5 @@
 /* plot_verb.c - facet plot: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb plot_verb = {
     .name = "plot",

@@ -1,5 +1,5 @@
 /* render_verb.c - facet render: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb render_verb = {
     .name = "render",

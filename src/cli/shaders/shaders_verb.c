@@ -1,5 +1,5 @@
 /* shaders_verb.c - facet shaders: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb shaders_verb = {
     .name = "shaders",

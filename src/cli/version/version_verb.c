@@ -1,5 +1,5 @@
 /* version_verb.c - facet version: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb version_verb = {
     .name = "version",

@@ -1,5 +1,5 @@
 /* view_verb.c - facet view: its arguments, options and help. */
-#include "cli/commands.h"
+#include "cli/shared/commands.h"
 
 const verb view_verb = {
     .name = "view",

@@ -1,0 +1,238 @@
+/* bake_make.c - see bake_make.h. */
+#include "cli/bake/bake_make.h"
+
+#include "cli/bake/bake_text.h"
+#include "cli/shared/failure.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- pictures ---- */
+
+static facet_image_format picture_format(bake_container container)
+{
+    switch (container) {
+    case CONTAINER_EXR:
+        return FACET_IMAGE_FORMAT_EXR;
+    case CONTAINER_EXR_FLOAT:
+        return FACET_IMAGE_FORMAT_EXR_FLOAT;
+    case CONTAINER_HDR:
+        return FACET_IMAGE_FORMAT_HDR;
+    case CONTAINER_PFM:
+        return FACET_IMAGE_FORMAT_PFM;
+    case CONTAINER_JPEG:
+        return FACET_IMAGE_FORMAT_JPEG;
+    case CONTAINER_WEBP:
+        return FACET_IMAGE_FORMAT_WEBP;
+    default:
+        return FACET_IMAGE_FORMAT_PNG;
+    }
+}
+
+static facet_image_save_desc save_desc(const bake_making *m, facet_image_format format)
+{
+    return (facet_image_save_desc){
+        .allocator = m->allocator, .thread_count = m->options->limits.thread_count, .format = format};
+}
+
+/* A picture as its container has it; with --rgbm PNG is RGBM. */
+static facet_result encode_picture(const bake_making *m, const facet_image *picture, bake_file *file,
+                                   facet_error *error)
+{
+    const facet_image_save_desc desc = save_desc(m, picture_format(file->container));
+    if (file->container == CONTAINER_PNG && file->content != BAKE_SHEET)
+        return facet_image_encode_rgbm(picture, m->options->rgbm_range, &desc, &file->bytes, &file->size,
+                                       error);
+    return facet_image_encode(picture, &desc, &file->bytes, &file->size, error);
+}
+
+static const facet_cube *cube_of(const bake_making *m, const bake_file *file)
+{
+    const bake_cube *baked = &m->plan->cubes[file->cube];
+    return file->is_mirrored ? baked->mirrored : baked->cube;
+}
+
+static facet_result make_face(const bake_making *m, bake_file *file, facet_error *error)
+{
+    facet_image *picture = NULL;
+    facet_result result =
+        facet_cube_copy_face(cube_of(m, file), file->level, file->face, &m->allocator, &picture, error);
+    if (result == FACET_OK)
+        result = encode_picture(m, picture, file, error);
+    facet_image_destroy(picture);
+    return result;
+}
+
+static facet_result make_level(const bake_making *m, bake_file *file, facet_error *error)
+{
+    facet_image *picture = NULL;
+    facet_result result =
+        facet_cube_unfold(cube_of(m, file), file->level, file->projection, 0, &m->allocator, &picture, error);
+    if (result == FACET_OK)
+        result = encode_picture(m, picture, file, error);
+    facet_image_destroy(picture);
+    return result;
+}
+
+/* ---- cube maps ---- */
+
+static facet_ktx2_desc ktx2_desc(const bake_making *m, const bake_file *file)
+{
+    return (facet_ktx2_desc){.allocator = m->allocator,
+                             .thread_count = m->options->limits.thread_count,
+                             .format = file->texels,
+                             .zstd_level = m->options->zstd_level};
+}
+
+static facet_result make_cube(const bake_making *m, bake_file *file, facet_error *error)
+{
+    if (file->container == CONTAINER_KTX1) {
+        const bool has_sh = m->plan->cubes[file->cube].desc.lobe == FACET_LOBE_GGX;
+        const facet_ktx1_desc desc = {.allocator = m->allocator,
+                                      .thread_count = m->options->limits.thread_count,
+                                      .harmonics = has_sh ? m->plan->sh[FACET_SH_FORM_FOLDED] : NULL};
+        return facet_cube_encode_ktx1(cube_of(m, file), &desc, &file->bytes, &file->size, error);
+    }
+    const facet_ktx2_desc desc = ktx2_desc(m, file);
+    return facet_cube_encode_ktx2(cube_of(m, file), &desc, &file->bytes, &file->size, error);
+}
+
+/* ---- text ---- */
+
+static facet_result take_text(bake_file *file, bake_text *text, facet_error *error)
+{
+    file->bytes = (unsigned char *)text->data;
+    file->size = text->size;
+    file->is_text = true;
+    return text->has_failed ? fail(error, FACET_ERROR_MEMORY, "%s: out of memory", file->path) : FACET_OK;
+}
+
+static facet_result make_sh(const bake_making *m, bake_file *file, facet_error *error)
+{
+    bake_text text = {0};
+    char symbol[128];
+    const float(*sh)[9][3] = m->plan->sh;
+    const char *source = bake_input_name(m->options);
+    bake_text_symbol(file->path, symbol, sizeof symbol);
+    if (file->container == CONTAINER_JSON)
+        bake_text_sh_json(&text, sh, source, m->options->harmonics.is_windowed);
+    else if (file->container == CONTAINER_HEADER)
+        bake_text_sh_header(&text, sh, source, symbol);
+    else
+        bake_text_sh_filament(&text, sh[FACET_SH_FORM_FOLDED]);
+    return take_text(file, &text, error);
+}
+
+/* ---- tables ---- */
+
+static const char *table_meaning(facet_dfg_kind kind)
+{
+    static const char *const meanings[] = {
+        [FACET_DFG_KIND_SCHLICK] =
+            "Scale and bias of F0 (split sum), GGX with Schlick's masking, k = alpha / 2",
+        [FACET_DFG_KIND_CORRELATED] =
+            "Scale and bias of F0 (split sum), GGX with height-correlated Smith masking",
+        [FACET_DFG_KIND_MULTISCATTER] = "Integral of Fc and of 1, GGX, height-correlated: Filament's layout",
+        [FACET_DFG_KIND_CHARLIE] = "Albedo of sheen, Charlie with Estevez and Kulla's masking",
+        [FACET_DFG_KIND_CHARLIE_NEUBELT] = "Albedo of sheen, Charlie with Neubelt's masking",
+        [FACET_DFG_KIND_GGX_AVERAGE] = "Albedo of GGX averaged over the cosine; equal along x",
+        [FACET_DFG_KIND_FILAMENT] =
+            "Integral of Fc and of 1, GGX; albedo of sheen with Neubelt's masking: Filament's"};
+    return meanings[kind];
+}
+
+/* What PNG's sRGB encoding turns into the table's numbers, in the channels where they are wanted. */
+static void linear_row(int channel, const float *from, float *to, uint32_t width)
+{
+    for (size_t i = 0; i < (size_t)width * 4; i += 4)
+        for (int k = 0; k < 4; k++) {
+            float number = channel < 0 ? from[i + (size_t)k] : k == channel ? from[i] : 0.0f;
+            number = number < 0.0f ? 0.0f : number > 1.0f ? 1.0f : number;
+            to[i + (size_t)k] = k == 3 ? 1.0f : facet_linear_from_srgb(number);
+        }
+}
+
+static facet_result encode_linear_png(const bake_making *m, const facet_image_view *view, bake_file *file,
+                                      facet_error *error)
+{
+    const facet_image_save_desc desc = save_desc(m, FACET_IMAGE_FORMAT_PNG16);
+    const size_t row = (size_t)view->width * 4, size = row * view->height * sizeof(float);
+    float *pixels = m->allocator.allocate(m->allocator.user, size);
+    facet_image *picture = NULL;
+    if (!pixels)
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: %zu bytes of a picture", size);
+    for (uint32_t y = 0; y < view->height; y++)
+        linear_row(file->table_channel,
+                   (const float *)((const char *)view->pixels + y * view->row_stride_bytes), pixels + y * row,
+                   view->width);
+    const facet_image_view linear = {
+        .width = view->width, .height = view->height, .channel_count = 4, .pixels = pixels};
+    facet_result result = facet_image_create(&linear, &m->allocator, &picture, error);
+    m->allocator.release(m->allocator.user, pixels, size);
+    if (result == FACET_OK)
+        result = facet_image_encode(picture, &desc, &file->bytes, &file->size, error);
+    facet_image_destroy(picture);
+    return result;
+}
+
+static facet_result encode_table(const bake_making *m, const facet_image *table, bake_file *file,
+                                 facet_error *error)
+{
+    const facet_image_view view = facet_image_get_layer(table, 0);
+    if (file->container == CONTAINER_KTX2) {
+        const facet_ktx2_desc desc = ktx2_desc(m, file);
+        return facet_image_encode_ktx2(table, &desc, &file->bytes, &file->size, error);
+    }
+    if (file->container == CONTAINER_PNG)
+        return encode_linear_png(m, &view, file, error);
+    if (file->container == CONTAINER_HEADER) {
+        bake_text text = {0};
+        char symbol[128];
+        bake_text_symbol(strcmp(file->path, "-") == 0 ? "dfg" : file->path, symbol, sizeof symbol);
+        bake_text_table(&text, &view, facet_dfg_get_channel_count(file->table), table_meaning(file->table),
+                        symbol);
+        return take_text(file, &text, error);
+    }
+    return encode_picture(m, table, file, error);
+}
+
+static facet_result make_table(const bake_making *m, bake_file *file, facet_error *error)
+{
+    const facet_dfg_desc desc = {.allocator = m->allocator,
+                                 .progress = m->progress,
+                                 .thread_count = m->options->limits.thread_count,
+                                 .kind = file->table,
+                                 .size = m->options->table_size};
+    facet_image *table = NULL;
+    facet_result result = facet_dfg_bake(&desc, &table, error);
+    if (result == FACET_OK)
+        result = encode_table(m, table, file, error);
+    facet_image_destroy(table);
+    return result;
+}
+
+/* ---- the sheet ---- */
+
+static facet_result make_sheet(const bake_making *m, bake_file *file, facet_error *error)
+{
+    const bake_cube *baked = &m->plan->cubes[file->cube];
+    const facet_sheet_desc desc = {.allocator = m->allocator,
+                                   .progress = m->progress,
+                                   .thread_count = m->options->limits.thread_count,
+                                   .bake = baked->desc,
+                                   .tonemap = m->options->tonemap};
+    facet_image *sheet = NULL;
+    facet_result result = facet_cube_draw_sheet(baked->cube, m->environment, &desc, &sheet, error);
+    if (result == FACET_OK)
+        result = encode_picture(m, sheet, file, error);
+    facet_image_destroy(sheet);
+    return result;
+}
+
+facet_result bake_file_make(const bake_making *m, bake_file *file, facet_error *error)
+{
+    static facet_result (*const makers[])(const bake_making *, bake_file *, facet_error *) = {
+        [BAKE_CUBE] = make_cube, [BAKE_LEVEL] = make_level, [BAKE_FACE] = make_face,
+        [BAKE_SH] = make_sh,     [BAKE_TABLE] = make_table, [BAKE_SHEET] = make_sheet};
+    return makers[file->content](m, file, error);
+}

@@ -1,0 +1,42 @@
+/* compare_metrics.h - the metrics of facet compare by name, and limits on them. */
+#ifndef CLI_COMPARE_METRICS_H
+#define CLI_COMPARE_METRICS_H
+
+#include "cli/shared/command_line.h"
+
+enum { COMPARE_METRIC_COUNT = 20 };
+
+typedef struct compare_metric {
+    const char *name;
+    bool is_similarity;  /* the larger, the more alike */
+    unsigned skip;       /* FACET_METRIC_* that it needs; 0: it is always measured */
+    bool is_in_table;    /* is printed where no --metric is given */
+    const char *meaning; /* for people */
+} compare_metric;
+
+/* In the order of the words of --metric. */
+extern const compare_metric compare_metrics[COMPARE_METRIC_COUNT];
+
+double compare_metric_value(const facet_comparison *c, int metric);
+
+typedef struct compare_limit {
+    bool has_max, has_min;
+    double max, min;
+} compare_limit;
+
+/* What is printed, and what is not to be exceeded. */
+typedef struct compare_wish {
+    bool is_chosen[COMPARE_METRIC_COUNT]; /* by --metric */
+    bool has_choice, has_limits;
+    compare_limit limits[COMPARE_METRIC_COUNT];
+} compare_wish;
+
+/* Reads --metric, --max and --min. Fails with FACET_ERROR_ARGUMENT. */
+facet_result compare_wish_read(const command_line *c, compare_wish *out, facet_error *error);
+/* The metrics that need not be measured, for facet_compare_desc. */
+uint32_t compare_wish_skipped(const compare_wish *w);
+
+/* Whether the limits on a metric hold; those on what was not measured do not. */
+bool compare_limit_holds(const compare_wish *w, int metric, double value);
+
+#endif

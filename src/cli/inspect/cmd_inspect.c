@@ -1,0 +1,92 @@
+/* cmd_inspect.c - facet inspect: what is in a model. */
+#include "cli/shared/commands.h"
+
+#include "cli/shared/failure.h"
+#include "cli/shared/input.h"
+#include "cli/inspect/inspect_text.h"
+#include "cli/shared/interrupt.h"
+#include "cli/shared/verb_run.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct inspect_run {
+    verb_run base;
+    model_list models;
+} inspect_run;
+
+/* Prints the description text of a scene that was loaded. */
+static facet_result print_description(const inspect_run *run, const char *model, const char *text,
+                                      facet_error *error)
+{
+    if (is_given(run->base.line, OPT_JSON)) {
+        puts(text);
+        return FACET_OK;
+    }
+    json_error_t problem;
+    json_t *root = json_loads(text, JSON_ALLOW_NUL, &problem);
+    if (!root)
+        return fail(error, FACET_ERROR_BUG, "%s: its description is not valid JSON: %s", input_name(model),
+                    problem.text);
+    inspect_print_text(stdout, input_name(model), root, is_given(run->base.line, OPT_VERBOSE));
+    json_decref(root);
+    return FACET_OK;
+}
+
+static facet_result inspect_model(inspect_run *run, const char *model, facet_error *error)
+{
+    const facet_scene_desc desc = verb_run_scene_desc(&run->base);
+    facet_scene *scene = NULL;
+    char *text = NULL;
+    interrupt_begin_reading(input_name(model));
+    facet_result result = input_load(model, &desc, &scene, error);
+    if (result == FACET_OK)
+        result = facet_scene_describe_json(scene, &text, error);
+    if (result == FACET_OK)
+        result = print_description(run, model, text, error);
+    interrupt_end();
+    facet_text_destroy(text);
+    facet_scene_destroy(scene);
+    return result;
+}
+
+static facet_result inspect_one(verb_run *base, size_t i, facet_error *error)
+{
+    inspect_run *run = (inspect_run *)base;
+    const char *model = run->models.models[i].path;
+    if (i > 0 && !is_given(base->line, OPT_JSON))
+        putchar('\n');
+    facet_result result = inspect_model(run, model, error);
+    if (result != FACET_OK)
+        failure_complete(error, input_name(model), base->limits.max_memory_bytes);
+    return result;
+}
+
+static facet_result read_line(verb_run *base, facet_error *error)
+{
+    command_line *c = base->line;
+    if (c->argument_count == 0 && !is_given(c, OPT_FILES_FROM))
+        return fail(error, FACET_ERROR_ARGUMENT, "inspect: which model? facet inspect helmet.glb");
+    TRY(limits_read(c, &base->limits, error));
+    return model_list_create(c, c->argument_count, &((inspect_run *)base)->models, error);
+}
+
+static facet_result inspect(verb_run *base, facet_error *error)
+{
+    (void)error;
+    base->messages.verbosity = VERBOSITY_QUIET; /* the description lists the warnings */
+    verb_run_models(base, &((inspect_run *)base)->models, inspect_one);
+    return FACET_OK;
+}
+
+static void destroy(verb_run *base)
+{
+    model_list_destroy(&((inspect_run *)base)->models);
+}
+
+int cmd_inspect(command_line *c)
+{
+    static const verb_work work = {read_line, inspect, NULL, destroy}; /* an object per model */
+    inspect_run run = {.models = {.count = 0}};
+    return verb_run_all(&run.base, c, &work);
+}

@@ -1,0 +1,357 @@
+/* cmd_ocean.c - facet ocean: pictures, maps and meshes of a sea. */
+#include "cli/shared/commands.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "cli/shared/failure.h"
+#include "cli/shared/interrupt.h"
+#include "cli/ocean/ocean_names.h"
+#include "cli/ocean/ocean_report.h"
+#include "cli/ocean/ocean_run.h"
+#include "cli/shared/output.h"
+#include "cli/shared/output_name.h"
+#include "cli/render/render_names.h"
+#include "cli/render/render_report.h"
+#include "cli/render/video.h"
+
+/* Of a file that is no picture, of which there is nothing else to say. */
+static void tell_file(ocean_run *run, const char *name)
+{
+    if (run->outputs)
+        json_array_append_new(run->outputs, json_pack("{s:o}", "output", report_string_json(name)));
+}
+
+static void tell(ocean_run *run, const picture_report *report)
+{
+    report_picture(&run->base.messages, report, false);
+    if (run->outputs)
+        json_array_append_new(run->outputs, report->is_kept ? report_picture_json(report)
+                                                            : ocean_report_picture_json(run, report));
+}
+
+/* Whether a file is to be left as it is, which is then said. */
+static bool is_kept(ocean_run *run, const char *name)
+{
+    const render_options *p = &run->options.picture;
+    if (!p->keeps_existing || run->video || p->is_stdout || !output_exists(name))
+        return false;
+    tell(run, &(picture_report){.model = "sea", .output = name, .is_kept = true});
+    return true;
+}
+
+/* ---- pictures ---- */
+
+static facet_result write_picture(ocean_run *run, const facet_image *image, const char *name,
+                                  facet_error *error)
+{
+    const render_options *p = &run->options.picture;
+    facet_image_save_desc save = p->save;
+    save.allocator = run->base.allocator;
+    return run->video ? video_add(run->video, image, &run->base.allocator, p->limits.thread_count, error)
+                      : output_write(image, name, &save, error);
+}
+
+static facet_result make_picture(ocean_run *run, uint32_t index, const char *name, facet_error *error)
+{
+    const ocean_options *options = &run->options;
+    double start = interrupt_clock();
+    facet_image *image = NULL;
+    ocean_step step = {name, index, options->picture.frames.frame_count};
+    facet_result result = options->sweep ? ocean_sweep(run, name, &image, error)
+                                         : ocean_run_draw(run, options, step, &image, error);
+    double drawn = interrupt_clock();
+    if (result == FACET_OK)
+        result = write_picture(run, image, name, error);
+    if (result == FACET_OK) {
+        facet_image_view view = facet_image_get_layer(image, 0);
+        static const uint32_t samples[] = {4, 1, 16}, path_samples[] = {64, 16, 512}; /* of facet_quality */
+        const facet_render_desc *d = &options->picture.desc;
+        bool is_path = d->renderer == FACET_RENDERER_KIND_PATH;
+        picture_report report = {.model = "sea",
+                                 .output = name,
+                                 .width = view.width,
+                                 .height = view.height,
+                                 .samples = d->samples ? d->samples
+                                            : is_path  ? path_samples[d->quality]
+                                                       : samples[d->quality],
+                                 .stats = facet_image_get_render_stats(image),
+                                 .save_s = interrupt_clock() - drawn,
+                                 .total_s = interrupt_clock() - start};
+        report_partial(&run->base.messages, &report, NULL);
+        tell(run, &report);
+        run->base.is_interrupted = report.stats.is_partial && interrupt_signal();
+    }
+    facet_image_destroy(image);
+    return result;
+}
+
+/* ---- meshes ---- */
+
+/* Else its materials are those of OpenGL 1. */
+static bool is_gltf(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return !dot || strcasecmp(dot, ".obj") != 0;
+}
+
+static facet_result make_mesh(ocean_run *run, const char *name, facet_error *error)
+{
+    facet_sea_mesh_desc desc = run->options.mesh;
+    desc.allocator = run->base.allocator;
+    facet_scene *scene = NULL;
+    facet_result result = interrupt_check(name, error);
+    if (result != FACET_OK)
+        return result;
+    const facet_scene_save_desc save = {.allocator = run->base.allocator,
+                                        .log = messages_log(&run->base.messages)};
+    interrupt_begin(name, "making it", false);
+    result = facet_sea_create_mesh(run->sea, &desc, &scene, error);
+    if (result == FACET_OK && !is_gltf(name))
+        result = facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, &save.log, error);
+    interrupt_end();
+    if (result == FACET_OK)
+        result = interrupt_check(name, error);
+    if (result == FACET_OK)
+        result = output_write_scene(scene, name, save, error);
+    if (result == FACET_OK) {
+        message_at(&run->base.messages, VERBOSITY_DETAILS, "%s: written", name);
+        tell_file(run, name);
+    }
+    facet_scene_destroy(scene);
+    return result;
+}
+
+/* ---- maps ---- */
+
+static facet_result make_map(ocean_run *run, uint32_t tile, const char *name, facet_error *error)
+{
+    facet_image *image = NULL;
+    snprintf(run->name, sizeof run->name, "%s", name);
+    facet_result result = ocean_check_name(run, name, error);
+    if (result == FACET_OK)
+        result = interrupt_check(name, error);
+    if (result == FACET_OK)
+        result = facet_sea_create_maps(run->sea, tile, &run->base.allocator, &image, error);
+    const facet_image_save_desc save = {.allocator = run->base.allocator,
+                                        .format = FACET_IMAGE_FORMAT_EXR_FLOAT,
+                                        .thread_count = run->options.picture.limits.thread_count};
+    if (result == FACET_OK)
+        result = output_write(image, name, &save, error);
+    if (result == FACET_OK)
+        tell_file(run, name);
+    facet_image_destroy(image);
+    return result;
+}
+
+static facet_result make_maps(ocean_run *run, uint32_t frame, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    uint32_t count = facet_sea_get_info(run->sea).tile_count;
+    if (!count)
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "--maps: the sea is flat and has none");
+    for (uint32_t tile = 0; tile < count && result == FACET_OK; tile++) {
+        char name[RENDER_NAME_SIZE];
+        result = ocean_map_name(&run->options, tile, frame, name, sizeof name, error);
+        if (result == FACET_OK && !is_kept(run, name))
+            result = make_map(run, tile, name, error);
+    }
+    return result;
+}
+
+/* ---- the run ---- */
+
+static facet_result set_moment(ocean_run *run, uint32_t number, facet_error *error)
+{
+    const render_options *p = &run->options.picture;
+    double time = p->has_time ? p->time_s : ((double)number - 1.0) / p->fps;
+    run->time_s = time;
+    facet_result result = facet_sea_set_time(run->sea, time, error);
+    return result == FACET_OK && run->model ? ocean_float_place(run, error) : result;
+}
+
+static facet_result make_frame(ocean_run *run, uint32_t index, uint32_t number, const char *name,
+                               facet_error *error)
+{
+    facet_result result = interrupt_check(*name ? name : "maps", error);
+    if (result == FACET_OK)
+        result = set_moment(run, number, error);
+    if (result == FACET_OK && run->options.maps)
+        result = make_maps(run, number, error);
+    if (result != FACET_OK || !*name)
+        return result;
+    snprintf(run->name, sizeof run->name, "%s", run->options.picture.is_stdout ? "stdout" : name);
+    if (!run->video && !run->options.picture.is_stdout) {
+        result = ocean_check_name(run, name, error);
+        if (result == FACET_OK)
+            result = ocean_check_maps(run, name, number, error);
+    }
+    if (result != FACET_OK)
+        return result;
+    return run->options.has_mesh ? make_mesh(run, name, error) : make_picture(run, index, name, error);
+}
+
+/* Those of which there is a picture or mesh already may be left. */
+static facet_result make_frames(ocean_run *run, facet_error *error)
+{
+    const render_options *p = &run->options.picture;
+    facet_result result = FACET_OK;
+    for (uint32_t i = 0; i < p->frames.frame_count && result == FACET_OK && !run->base.is_interrupted; i++) {
+        uint32_t number = frame_list_at(&p->frames, i);
+        char name[RENDER_NAME_SIZE] = "";
+        if (p->output)
+            result = render_name(p, &(model_name){.path = "sea"}, number, name, sizeof name, error);
+        if (result != FACET_OK)
+            return result;
+        if (*name && is_kept(run, name)) {
+            if (!run->options.maps)
+                continue;
+            *name = 0;
+        }
+        result = make_frame(run, i, number, name, error);
+        messages_flush(&run->base.messages);
+    }
+    return result;
+}
+
+/* Waves that a loop is too short for run faster, and frames that do not fill it make a jump. */
+static void warn_of_loop(ocean_run *run)
+{
+    const render_options *p = &run->options.picture;
+    double loop = run->options.sea.loop_s, frames = loop * p->fps;
+    facet_log log = messages_log(&run->base.messages);
+    double longest = facet_sea_get_info(run->sea).peak_period_s;
+    char text[256] = "";
+    if (loop > 0.0 && loop < longest)
+        snprintf(text, sizeof text,
+                 "--loop: %g s are less than the %.3g s that the highest waves take, which go faster for it",
+                 loop, longest);
+    else if (loop > 0.0 && p->is_sequence && fabs(frames - round(frames)) > 1e-6 * frames)
+        snprintf(text, sizeof text, "--loop: %g s are %g frames; the last one does not join the first", loop,
+                 frames);
+    if (*text)
+        log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+}
+
+/* What is known is that of the first moment. */
+static facet_result make_all(ocean_run *run, facet_error *error)
+{
+    const ocean_options *options = &run->options;
+    const render_options *p = &options->picture;
+    facet_result result = set_moment(run, p->has_frames ? frame_list_at(&p->frames, 0) : 1, error);
+    if (result == FACET_OK && options->has_info && !is_given(run->base.line, OPT_JSON))
+        ocean_report_print(run);
+    warn_of_loop(run);
+    if (result != FACET_OK || (!p->output && !options->maps))
+        return result;
+    if (p->output && p->video) {
+        if (!p->is_stdout)
+            result = ocean_check_name(run, p->output, error);
+        if (result == FACET_OK)
+            result = video_open(p->output, p->video, p->fps, &run->video, error);
+    }
+    if (result == FACET_OK)
+        result = make_frames(run, error);
+    facet_result closed = video_close(run->video, result == FACET_OK, error);
+    return result == FACET_OK ? closed : result;
+}
+
+static facet_result load_environment(ocean_run *run, facet_error *error)
+{
+    const render_options *p = &run->options.picture;
+    environment_input input = p->environment;
+    if (!p->has_environment)
+        return FACET_OK;
+    if (input.kind == ENVIRONMENT_NONE) /* no environment would be the sky */
+        TRY(environment_input_parse("--env", "constant:0", 0, &input, error));
+    const facet_environment_desc desc = verb_run_environment_desc(&run->base, p->environment_cache);
+    return environment_input_load(&input, &desc, &run->environment, error);
+}
+
+/* A picture without units beside a sun in lux is black. */
+static void warn_of_sun(ocean_run *run)
+{
+    const facet_render_desc *d = &run->options.picture.desc;
+    facet_environment_info info;
+    if (!run->environment || facet_environment_get_info(run->environment, &info, NULL) != FACET_OK)
+        return;
+    double radiance = 0.2126 * info.mean[0] + 0.7152 * info.mean[1] + 0.0722 * info.mean[2];
+    double lux = 3.141592653589793 * radiance * exp2((double)d->environment_ev);
+    double times = (double)d->sun.illuminance_lux[1] / lux;
+    if (!(lux > 0.0) || times < 1000.0)
+        return;
+    char text[256];
+    facet_log log = messages_log(&run->base.messages);
+    snprintf(text, sizeof text,
+             "--sun: it has %.2g times the light of the environment, %.2g lx, which will be black; "
+             "--env-intensity scales that",
+             times, lux);
+    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+}
+
+static facet_result check_names(const command_line *c, const ocean_options *o, facet_error *error)
+{
+    model_name sea = {.number = 1, .count = 1};
+    size_t no_clash = MODEL_NO_CLASH;
+    model_list one = {.models = &sea, .count = 1, .clashes = &no_clash};
+    return render_names_check(c, &o->picture, &one, error);
+}
+
+static facet_result read_line(verb_run *base, facet_error *error)
+{
+    ocean_options *o = &((ocean_run *)base)->options;
+    TRY(ocean_options_read(base->line, o, error));
+    base->limits = o->picture.limits;
+    return o->picture.output && !o->picture.has_frames ? check_names(base->line, o, error) : FACET_OK;
+}
+
+static facet_result make(ocean_run *run, facet_error *error)
+{
+    const ocean_options *o = &run->options;
+    if (o->has_picture)
+        TRY(load_environment(run, error));
+    warn_of_sun(run);
+    if (o->model)
+        TRY(ocean_float_load(run, error));
+    interrupt_begin("sea", "making its waves and metering its light", false);
+    TRY(ocean_run_set_sea(run, o, error));
+    if (o->has_picture && !o->sweep)
+        TRY(ocean_run_meter(run, o, error));
+    interrupt_end();
+    return make_all(run, error);
+}
+
+static facet_result work(verb_run *base, facet_error *error)
+{
+    ocean_run *run = (ocean_run *)base;
+    run->outputs = is_given(base->line, OPT_JSON) ? json_array() : NULL;
+    facet_result result = make(run, error);
+    if (result != FACET_OK)
+        failure_complete(error, *run->name ? run->name : "sea", base->limits.max_memory_bytes);
+    return result;
+}
+
+static void add_json(const verb_run *base, json_t *root)
+{
+    const ocean_run *run = (const ocean_run *)base;
+    json_object_set_new(root, "sea", run->sea ? ocean_report_json(run) : json_null());
+    json_object_set(root, "outputs", run->outputs);
+}
+
+static void destroy(verb_run *base)
+{
+    ocean_run *run = (ocean_run *)base;
+    json_decref(run->outputs);
+    facet_sea_destroy(run->sea);
+    facet_scene_destroy(run->model);
+    facet_environment_destroy(run->environment);
+}
+
+int cmd_ocean(command_line *c)
+{
+    static const verb_work parts = {read_line, work, add_json, destroy};
+    ocean_run run = {.sea = NULL};
+    return verb_run_all(&run.base, c, &parts);
+}

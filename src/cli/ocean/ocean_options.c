@@ -1,0 +1,457 @@
+/* ocean_options.c - the options of facet ocean become descs. */
+#include "cli/ocean/ocean_options.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+#include "cli/shared/color.h"
+#include "cli/shared/failure.h"
+#include "cli/shared/output_name.h"
+#include "cli/render/picture_options.h"
+#include "cli/shared/value.h"
+
+#define DEGREE 0.017453292519943295 /* pi / 180 */
+
+static const double DEFAULT_SUN_EL = 22.0, BESIDE_SUN = 36.0;
+/* Of what the options take: of a length, a place, an azimuth (degrees), light (lx), a coefficient (1/m). */
+static const double LONGEST = 1e7, FARTHEST = 1e6, MOST_TURNED = 1e6, BRIGHTEST = 1e9, MOST_ABSORBING = 1e3;
+static const float SAND[3] = {0.42f, 0.36f, 0.27f};
+
+/* ---- notations ---- */
+
+bool value_length(const char *text, double *metres)
+{
+    if (strcasecmp(text, "inf") == 0) {
+        *metres = (double)INFINITY;
+        return true;
+    }
+    double number;
+    const char *at = text;
+    if (!scan_number(&at, &number))
+        return false;
+    if (strcmp(at, "km") == 0)
+        number *= 1000.0;
+    else if (*at && strcmp(at, "m") != 0)
+        return false;
+    *metres = number;
+    return number <= LONGEST;
+}
+
+/* Between least and most numbers separated by commas; how many, 0: it is no such list. */
+static size_t scan_list(const char *text, size_t least, size_t most, double *numbers)
+{
+    for (size_t count = least; count <= most; count++)
+        if (value_numbers(text, count, numbers))
+            return count;
+    return 0;
+}
+
+static bool are_within(const double *numbers, size_t count, double least, double most)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!(numbers[i] >= least && numbers[i] <= most))
+            return false;
+    return true;
+}
+
+static bool is_azimuth(double degrees)
+{
+    return fabs(degrees) <= MOST_TURNED;
+}
+
+/* The command line's directions are azimuths from +Z towards +X, the sea's angles from +X towards +Z. */
+static float plane_angle(double azimuth)
+{
+    return (float)((90.0 - azimuth) * DEGREE);
+}
+
+/* ---- waves ---- */
+
+static facet_result read_wind(const command_line *c, ocean_options *out, facet_error *error)
+{
+    double numbers[2] = {0.0, 90.0}, fetch = 0.0;
+    if (is_given(c, OPT_WIND)) {
+        size_t count = scan_list(option_text(c, OPT_WIND, ""), 1, 2, numbers);
+        if (!count || !are_within(numbers, 1, 0.0, 40.0) || !is_azimuth(numbers[1]))
+            return option_fail(c, OPT_WIND,
+                               "SPEED or SPEED,DIRECTION such as 10 or 10,45: 0 to 40 m/s, degrees", error);
+        out->sea.wind_mps = (float)numbers[0];
+        if (count == 2)
+            out->sea.wind_direction_rad = plane_angle(numbers[1]);
+    }
+    if (!is_given(c, OPT_FETCH))
+        return FACET_OK;
+    if (!value_length(option_text(c, OPT_FETCH, ""), &fetch) || fetch < 100.0)
+        return option_fail(c, OPT_FETCH, "a length from 100 m to 10000 km, such as 5000 or 20km, or inf",
+                           error);
+    out->sea.fetch_m = (float)fetch;
+    return FACET_OK;
+}
+
+static facet_result read_swell(const command_line *c, ocean_options *out, facet_error *error)
+{
+    if (!is_given(c, OPT_SWELL))
+        return FACET_OK;
+    double numbers[3] = {0.0, 0.0, 90.0};
+    if (!scan_list(option_text(c, OPT_SWELL, ""), 2, 3, numbers) || !are_within(numbers, 1, 0.0, 30.0) ||
+        !are_within(numbers + 1, 1, 0.1, 40.0) || !is_azimuth(numbers[2]))
+        return option_fail(c, OPT_SWELL,
+                           "HEIGHT,PERIOD[,DIRECTION] such as 2,12 or 2,12,45: to 30 m, 0.1 to 40 s, degrees",
+                           error);
+    out->sea.swell = (facet_swell){.height_m = (float)numbers[0],
+                                   .period_s = (float)numbers[1],
+                                   .direction_rad = plane_angle(numbers[2]),
+                                   .elongation = 0.8f};
+    return FACET_OK;
+}
+
+static facet_result read_waves(const command_line *c, ocean_options *out, facet_error *error)
+{
+    facet_sea_desc *d = &out->sea;
+    facet_result result = read_wind(c, out, error);
+    if (result == FACET_OK)
+        result = read_swell(c, out, error);
+    if (result != FACET_OK)
+        return result;
+    d->spectrum = (facet_sea_spectrum)option_choice(c, OPT_SPECTRUM, (int)d->spectrum);
+    d->spreading = (facet_sea_spreading)option_choice(c, OPT_SPREADING, (int)d->spreading);
+    d->choppiness = (float)option_number(c, OPT_CHOPPINESS, (double)d->choppiness);
+    d->seed = (uint64_t)option_number(c, OPT_SEED, (double)d->seed);
+    d->resolution = (uint32_t)option_number(c, OPT_TILE_SAMPLES, d->resolution);
+    d->cascade_count = (uint32_t)option_number(c, OPT_CASCADES, d->cascade_count);
+    d->loop_s = option_number(c, OPT_LOOP, 0.0);
+    if (d->resolution & (d->resolution - 1))
+        return option_fail(c, OPT_TILE_SAMPLES, "a power of two from 32 to 1024", error);
+    return FACET_OK;
+}
+
+/* ---- water, bed ---- */
+
+/* --absorption replaces one of three coefficients; the others stay what the water has. */
+static facet_result read_absorption(const command_line *c, facet_sea_desc *d, facet_error *error)
+{
+    double numbers[3];
+    if (!is_given(c, OPT_ABSORPTION))
+        return FACET_OK;
+    if (!value_numbers(option_text(c, OPT_ABSORPTION, ""), 3, numbers) ||
+        !are_within(numbers, 3, 0.0, MOST_ABSORBING))
+        return option_fail(c, OPT_ABSORPTION, "R,G,B in 1/m, each from 0 to 1000", error);
+    facet_sea_desc flat = *d;
+    flat.wind_mps = flat.swell.height_m = 0.0f;
+    facet_sea *sea = NULL;
+    facet_result result = facet_sea_create(&flat, &sea, error);
+    if (result != FACET_OK)
+        return result;
+    facet_sea_info info = facet_sea_get_info(sea);
+    facet_sea_destroy(sea);
+    d->water.kind = FACET_WATER_KIND_COEFFICIENTS;
+    for (int i = 0; i < 3; i++) {
+        d->water.absorption[i] = (float)numbers[i];
+        d->water.scattering[i] = (float)info.scattering[i];
+        d->water.backscattering[i] = (float)info.backscattering[i];
+    }
+    return FACET_OK;
+}
+
+static facet_result read_water(const command_line *c, ocean_options *out, facet_error *error)
+{
+    facet_water *w = &out->sea.water;
+    int type = option_choice(c, OPT_WATER, -1);
+    if (type >= 0 && is_given(c, OPT_CHLOROPHYLL))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--water: a type of Jerlov's does not go together with --chl; give one of them");
+    if (type >= 0)
+        w->kind = (facet_water_kind)(FACET_WATER_KIND_JERLOV_I + type);
+    if (is_given(c, OPT_CHLOROPHYLL)) {
+        w->kind = FACET_WATER_KIND_CHLOROPHYLL;
+        w->chlorophyll_mg_m3 = (float)option_number(c, OPT_CHLOROPHYLL, 0.0);
+    }
+    w->salinity = (float)option_number(c, OPT_SALINITY, (double)w->salinity);
+    w->temperature_C = (float)option_number(c, OPT_TEMPERATURE, (double)w->temperature_C);
+    w->ior = (float)option_number(c, OPT_IOR, (double)w->ior);
+    return read_absorption(c, &out->sea, error);
+}
+
+static facet_result read_bed(const command_line *c, ocean_options *out, facet_error *error)
+{
+    facet_sea_bed *bed = &out->sea.bed;
+    double depth, numbers[2] = {0.0, 90.0};
+    if (is_given(c, OPT_DEPTH)) {
+        if (!value_length(option_text(c, OPT_DEPTH, ""), &depth) || depth < 0.001)
+            return option_fail(c, OPT_DEPTH, "a length from 1 mm to 10000 km, such as 3, or inf", error);
+        if (bed->depth_m <= 0.0f)
+            memcpy(bed->albedo, SAND, sizeof SAND);
+        bed->depth_m = isinf(depth) ? 0.0f : (float)depth;
+    }
+    if (is_given(c, OPT_BED_SLOPE)) {
+        size_t count = scan_list(option_text(c, OPT_BED_SLOPE, ""), 1, 2, numbers);
+        if (!count || !are_within(numbers, 1, 0.0, 1.0) || !is_azimuth(numbers[1]))
+            return option_fail(c, OPT_BED_SLOPE, "SLOPE or SLOPE,DIRECTION such as 0.05,90: 0 to 1, degrees",
+                               error);
+        bed->slope = (float)numbers[0];
+        bed->direction_rad = plane_angle(numbers[1]);
+    }
+    if (is_given(c, OPT_BED_COLOR) && !color_parse(option_text(c, OPT_BED_COLOR, ""), bed->albedo))
+        return option_fail(c, OPT_BED_COLOR, "#rgb, #rrggbb or a CSS color name", error);
+    if (bed->depth_m <= 0.0f && (is_given(c, OPT_BED_SLOPE) || is_given(c, OPT_BED_COLOR)))
+        return fail(error, FACET_ERROR_ARGUMENT, "--bed-%s: there is no bed; say how deep with --depth",
+                    is_given(c, OPT_BED_SLOPE) ? "slope" : "color");
+    return FACET_OK;
+}
+
+/* ---- light ---- */
+
+static facet_result read_sky(const command_line *c, ocean_options *out, facet_error *error)
+{
+    render_options *o = &out->picture;
+    double numbers[3] = {DEFAULT_SUN_EL, 0.0, 0.0};
+    size_t count = 2;
+    facet_result result = picture_options_environment(c, o, error);
+    if (result != FACET_OK)
+        return result;
+    if (is_given(c, OPT_SUN))
+        count = scan_list(option_text(c, OPT_SUN, ""), 1, 3, numbers);
+    if (!count || !are_within(numbers, 1, -90.0, 90.0) || !is_azimuth(numbers[1]) ||
+        !are_within(numbers + 2, 1, 0.0, BRIGHTEST))
+        return option_fail(
+            c, OPT_SUN,
+            "ELEVATION or ELEVATION,AZIMUTH in degrees such as 30,15, from -90 to 90; beside --env "
+            "with the lux that the sun has, to 1e9",
+            error);
+    if (count == 3 && !o->has_environment)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sun: lux, the third number, go together with --env; the sky's sun has its own");
+    if (count < 3 && is_given(c, OPT_SUN) && o->has_environment)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sun: beside --env it needs the light of the sun in lux, as 30,15,100000");
+    out->sky = (facet_sky_desc){.sun_elevation_rad = (float)(numbers[0] * DEGREE),
+                                .sun_azimuth_rad = (float)(numbers[1] * DEGREE),
+                                .turbidity = (float)option_number(c, OPT_TURBIDITY, 0.0)};
+    if (o->has_environment && count == 3)
+        o->desc.sun =
+            (facet_sun){.azimuth_rad = out->sky.sun_azimuth_rad,
+                        .elevation_rad = out->sky.sun_elevation_rad,
+                        .illuminance_lux = {(float)numbers[2], (float)numbers[2], (float)numbers[2]}};
+    out->has_ev100 = is_given(c, OPT_EV100);
+    out->ev100 = option_number(c, OPT_EV100, 0.0);
+    return picture_options_exposure(c, o, error);
+}
+
+/* ---- look ---- */
+
+/* The first of the options that somebody gave, up to the last of option_source that counts; NULL: none is. */
+static const option *first_given(const command_line *c, const option_id *ids, size_t count,
+                                 option_source last)
+{
+    for (size_t i = 0; i < count; i++)
+        if (is_given(c, ids[i]) && c->values[ids[i]].source <= last)
+            return option_find_id(c->verb, ids[i]);
+    return NULL;
+}
+
+static facet_result read_look(const command_line *c, ocean_options *out, facet_error *error)
+{
+    render_options *o = &out->picture;
+    int before = option_choice(c, OPT_BEFORE, -1);
+    out->is_before_after = is_given(c, OPT_BEFORE_AFTER);
+    out->shading = (facet_sea_shading){
+        .style = (facet_sea_style)(before + 1),
+        .normals = (facet_sea_normals)option_choice(c, OPT_NORMALS, 0),
+        .masking = (facet_sea_masking)option_choice(c, OPT_MASKING, 0),
+        .has_schlick_fresnel = option_choice(c, OPT_FRESNEL, 0) == 1,
+        .perceptual_roughness = (float)option_number(c, OPT_ROUGHNESS, 0.0),
+        .omits_glints = is_given(c, OPT_NO_GLINTS),
+        .omits_foam = is_given(c, OPT_NO_FOAM),
+        .omits_caustics = is_given(c, OPT_NO_CAUSTICS),
+        .stage = (uint32_t)option_number(c, OPT_STAGE, 0.0),
+        .clamp = (float)option_number(c, OPT_CLAMP, 0.0),
+    };
+    if (out->shading.style && is_given(c, OPT_STAGE))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--before: it is the look before all stages; give it or --stage");
+    o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
+    static const facet_renderer_kind renderers[] = {FACET_RENDERER_KIND_PREVIEW, FACET_RENDERER_KIND_PATH,
+                                                    FACET_RENDERER_KIND_GL};
+    o->desc.renderer = renderers[option_choice(c, OPT_RENDERER, 0)];
+    static const option_id preview_only[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,       OPT_NORMALS,
+                                             OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS, OPT_CLAMP};
+    o->desc.path.denoises = is_given(c, OPT_DENOISE);
+    if (o->desc.path.denoises && o->desc.renderer != FACET_RENDERER_KIND_PATH)
+        return fail(error, FACET_ERROR_ARGUMENT, "--denoise: only --renderer path has noise");
+    const option *other =
+        first_given(c, preview_only, sizeof preview_only / sizeof *preview_only, SOURCE_PRESET);
+    if (other && o->desc.renderer == FACET_RENDERER_KIND_PATH)
+        return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path", other->name);
+    return FACET_OK;
+}
+
+/* ---- camera ---- */
+
+static facet_result read_camera(const command_line *c, ocean_options *out, facet_error *error)
+{
+    double numbers[3], angle = (double)out->sky.sun_azimuth_rad + BESIDE_SUN * DEGREE;
+    out->eye_height_m = (float)option_number(c, OPT_EYE_HEIGHT, 0.0);
+    if (is_given(c, OPT_EYE_HEIGHT) && out->eye_height_m == 0.0f)
+        out->eye_height_m = 1e-6f; /* 0 would be the height that one has where none is given */
+    if (is_given(c, OPT_HEADING) && !value_angle(option_text(c, OPT_HEADING, ""), &angle))
+        return option_fail(c, OPT_HEADING, "an angle in degrees", error);
+    out->heading_rad = (float)angle;
+    out->picture.has_eye = is_given(c, OPT_EYE);
+    if (out->picture.has_eye) {
+        if (is_given(c, OPT_EYE_HEIGHT))
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--eye: it does not go together with --height-of-eye; give one of them");
+        if (!value_numbers(option_text(c, OPT_EYE, ""), 3, numbers) ||
+            !are_within(numbers, 3, -FARTHEST, FARTHEST))
+            return option_fail(c, OPT_EYE, "X,Y,Z in metres, each from -1e6 to 1e6", error);
+        for (int i = 0; i < 3; i++)
+            out->picture.eye[i] = numbers[i];
+    }
+    out->has_target = is_given(c, OPT_TARGET);
+    if (out->has_target) {
+        if (is_given(c, OPT_HEADING))
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--target: it does not go together with --heading; give one of them");
+        if (!value_numbers(option_text(c, OPT_TARGET, ""), 3, numbers) ||
+            !are_within(numbers, 3, -2.0 * FARTHEST, 2.0 * FARTHEST))
+            return option_fail(c, OPT_TARGET, "X,Y,Z in metres, each from -2e6 to 2e6", error);
+        for (int i = 0; i < 3; i++)
+            out->target[i] = (float)numbers[i];
+    }
+    if (!is_given(c, OPT_FOV))
+        return FACET_OK;
+    if (!value_angle(option_text(c, OPT_FOV, ""), &angle) || angle < 0.1 * DEGREE || angle > 170.0 * DEGREE)
+        return option_fail(c, OPT_FOV, "an angle from 0.1 to 170 degrees", error);
+    out->fov_y_rad = (float)angle;
+    return FACET_OK;
+}
+
+/* ---- what is made ---- */
+
+static bool is_mesh_name(const char *name)
+{
+    static const char *const extensions[] = {".glb", ".gltf", ".obj"};
+    const char *dot = name ? strrchr(name, '.') : NULL;
+    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++)
+        if (strcasecmp(dot, extensions[i]) == 0)
+            return true;
+    return false;
+}
+
+static facet_result read_sequence(const command_line *c, ocean_options *out, facet_error *error)
+{
+    render_options *o = &out->picture;
+    facet_result result = picture_options_frames(c, o, error);
+    if (result != FACET_OK)
+        return result;
+    double loop = out->sea.loop_s;
+    o->is_sequence = o->has_frames || (!o->has_time && (is_given(c, OPT_LOOP) || o->has_fps));
+    if (!o->has_frames)
+        o->frames = frame_list_all(1, 1);
+    if (!o->has_frames && o->is_sequence && loop <= 0.0)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--fps: a sea has no end; say which --frames, or after how long it is to --loop");
+    double count = round(loop * o->fps);
+    if (!o->has_frames && o->is_sequence && count > FRAME_LIST_FRAMES)
+        return fail(error, FACET_ERROR_ARGUMENT, "--loop: it has more than a million frames at %g a second",
+                    o->fps);
+    if (!o->has_frames && o->is_sequence && count >= 1.0)
+        o->frames = frame_list_all(1, (uint32_t)count);
+    o->has_frames = o->has_frames || o->is_sequence;
+    return FACET_OK;
+}
+
+static facet_result read_output(const command_line *c, ocean_options *out, facet_error *error)
+{
+    render_options *o = &out->picture;
+    facet_result result = picture_options_output(c, o, error);
+    if (result != FACET_OK)
+        return result;
+    out->maps = option_text(c, OPT_MAPS, NULL);
+    out->sweep = option_text(c, OPT_SWEEP, NULL);
+    out->model = option_text(c, OPT_WITH, NULL);
+    if (c->values[OPT_WITH].count > 1)
+        return option_fail(c, OPT_WITH, "one model; it was given more than once", error);
+    out->has_mesh = is_mesh_name(o->output);
+    out->has_picture = o->output && !out->has_mesh;
+    out->has_info = is_given(c, OPT_INFO);
+    out->mesh = (facet_sea_mesh_desc){.size_m = (float)option_number(c, OPT_MESH_SIZE, 0.0),
+                                      .samples = (uint32_t)option_number(c, OPT_MESH_SAMPLES, 0.0)};
+    if (o->is_stdout && out->has_info)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--info: it writes to standard output, and so does --output -; give one of them");
+    if (!o->output && !out->maps && !out->has_info && !is_given(c, OPT_JSON))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "ocean: what shall it make? For a picture: facet ocean -o sea.png");
+    if (out->sweep && (!out->has_picture || out->is_before_after))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sweep: it makes one picture of many, named by --output, without --before-after");
+    return out->has_picture ? picture_options_format(c, o, error) : FACET_OK;
+}
+
+static facet_result check_maps(const command_line *c, const ocean_options *out, facet_error *error)
+{
+    const char *maps = out->maps, *dot = maps ? strrchr(maps, '.') : NULL;
+    bool has_place = maps && output_name_has_frame(maps);
+    if (has_place && (!dot || strcasecmp(dot, ".exr") != 0))
+        return option_fail(c, OPT_MAPS, "a folder, or a name with #### that ends in .exr", error);
+    if (has_place && out->picture.is_sequence)
+        return option_fail(c, OPT_MAPS, "a folder, as there are several frames", error);
+    return FACET_OK;
+}
+
+/* What has no meaning for a mesh, and would be dropped without a word. */
+static facet_result check_mesh(const command_line *c, const ocean_options *out, facet_error *error)
+{
+    static const option_id of_pictures[] = {
+        OPT_FORMAT,  OPT_SIZE,    OPT_CROP,   OPT_JPEG_QUALITY, OPT_SUN,      OPT_TURBIDITY,
+        OPT_ENV,     OPT_EV100,   OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE,    OPT_ROUGHNESS,
+        OPT_NORMALS, OPT_MASKING, OPT_CLAMP,  OPT_WITH,         OPT_RENDERER, OPT_EXPOSURE,
+        OPT_SAMPLES, OPT_EYE,     OPT_TARGET, OPT_HEADING};
+    const option *other =
+        first_given(c, of_pictures, sizeof of_pictures / sizeof *of_pictures, SOURCE_COMMAND_LINE);
+    if (other && out->has_mesh)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--%s: it is of pictures, and %s is a mesh of the water alone", other->name,
+                    out->picture.output);
+    return FACET_OK;
+}
+
+/* Sequences of pictures or of meshes have a number in their names; a sheet is one picture. */
+static facet_result check_output(const command_line *c, const ocean_options *out, facet_error *error)
+{
+    facet_result result = check_maps(c, out, error);
+    if (result != FACET_OK || !out->picture.output)
+        return result;
+    if (out->sweep && out->picture.frames.frame_count > 1)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--sweep: it is of one moment and does not go together with --frames or --loop");
+    result = check_mesh(c, out, error);
+    return result == FACET_OK ? picture_options_check_sequence(c, &out->picture, error) : result;
+}
+
+facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error)
+{
+    *out = (ocean_options){.sea = facet_sea_default()};
+    facet_result result = FACET_OK;
+    if (is_given(c, OPT_PRESET))
+        result = facet_sea_preset(option_text(c, OPT_PRESET, ""), &out->sea, error);
+    facet_result (*const readers[])(const command_line *, ocean_options *, facet_error *) = {
+        read_output, read_waves, read_water, read_bed, read_sky, read_look, read_camera, read_sequence};
+    if (result == FACET_OK)
+        result = limits_read(c, &out->picture.limits, error);
+    for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
+        result = readers[i](c, out, error);
+    if (result == FACET_OK)
+        result = picture_options_size(c, "1280x720", &out->picture, error);
+    if (result == FACET_OK)
+        result = check_output(c, out, error);
+    if (result != FACET_OK)
+        return result;
+    bool is_before = out->shading.style || (out->shading.stage && out->shading.stage <= 2);
+    picture_options_look(c, is_before ? FACET_TONEMAP_NONE : FACET_TONEMAP_AGX, &out->picture);
+    out->picture.desc.thread_count = out->picture.save.thread_count = out->picture.limits.thread_count;
+    out->sea.thread_count = out->picture.limits.thread_count;
+    return FACET_OK;
+}

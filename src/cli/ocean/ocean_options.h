@@ -1,0 +1,38 @@
+/* ocean_options.h - what the options of facet ocean ask for, checked, before anything is made. */
+#ifndef CLI_OCEAN_OPTIONS_H
+#define CLI_OCEAN_OPTIONS_H
+
+#include "cli/render/render_options.h"
+
+typedef struct ocean_options {
+    /* output, format, size, environment, frames, limits; desc.exposure_ev: beside the meter */
+    render_options picture;
+    facet_sea_desc sea;
+    facet_sky_desc sky;
+    facet_sea_shading shading;
+    bool has_ev100;
+    double ev100;
+
+    /* camera */
+    float eye_height_m; /* 0: facet_sea_camera()'s */
+    float heading_rad;  /* from +Z towards +X */
+    bool has_target;
+    float target[3]; /* eye and has_eye are picture's */
+    float fov_y_rad; /* 0: facet_sea_camera()'s */
+
+    /* what is made */
+    bool has_picture, has_mesh, has_info;
+    bool is_before_after;
+    const char *maps;  /* folder or pattern; NULL: none */
+    const char *model; /* of --with; NULL: none. Its name is longer by what stands behind @ */
+    const char *sweep; /* NULL: none */
+    facet_sea_mesh_desc mesh;
+} ocean_options;
+
+/* Fails with FACET_ERROR_ARGUMENT, and as facet_sea_create() where the water's numbers are asked for. Text stays with c. */
+facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error);
+
+/* "1500", "1.5km", "inf"; m. False: it is no such. */
+bool value_length(const char *text, double *metres);
+
+#endif

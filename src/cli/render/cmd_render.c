@@ -1,0 +1,440 @@
+/* cmd_render.c - facet render: models to pictures, one after the other. */
+#include "cli/shared/commands.h"
+
+#include "cli/shared/failure.h"
+#include "cli/shared/input.h"
+#include "cli/shared/interrupt.h"
+#include "cli/shared/output.h"
+#include "cli/render/path_options.h"
+#include "cli/shared/preset.h"
+#include "cli/render/render_camera.h"
+#include "cli/render/render_names.h"
+#include "cli/render/render_options.h"
+#include "cli/render/render_report.h"
+#include "cli/render/sequence.h"
+#include "cli/shared/verb_run.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct render_run {
+    verb_run base;
+    render_options options;
+    model_list models;
+    facet_environment *environment; /* read once, for all models */
+    bool has_environment, environment_failed;
+    json_t *pictures;   /* NULL without --json */
+    size_t models_left; /* including the current one */
+} render_run;
+
+/* ---- reading ---- */
+
+static facet_result load_environment(render_run *run, facet_error *error)
+{
+    const render_options *o = &run->options;
+    const facet_environment_desc desc = verb_run_environment_desc(&run->base, o->environment_cache);
+    const environment_input *input = &o->environment;
+    facet_result result = environment_input_load(input, &desc, &run->environment, error);
+    run->has_environment = result == FACET_OK;
+    run->environment_failed = result != FACET_OK;
+    return result;
+}
+
+static facet_result load_model(render_run *run, const char *model, facet_scene **scene, facet_error *error)
+{
+    facet_scene_desc desc = verb_run_scene_desc(&run->base);
+    desc.legacy.keeps_materials = run->options.desc.shading == FACET_SHADING_OGL1;
+    interrupt_begin_reading(input_name(model));
+    facet_result result = input_load(model, &desc, scene, error);
+    if (result == FACET_OK && run->options.desc.shading == FACET_SHADING_OGL1)
+        result =
+            facet_scene_convert_materials(*scene, FACET_MATERIAL_MODEL_OGL1, &desc.legacy, &desc.log, error);
+    interrupt_end();
+    return result;
+}
+
+/* ---- pictures ---- */
+
+/* One model on its way to its pictures. */
+typedef struct model_run {
+    render_run *run;
+    render_options options; /* the framing of a sequence is found with its first picture */
+    const model_name *model;
+    facet_scene *scene;
+    facet_renderer *renderer;
+    facet_environment *environment, *own_environment; /* what lights it; NULL, or the one that it brings */
+    sequence sequence;
+    video *video; /* NULL: files */
+    double load_s;
+    bool has_lost_checkpoint;
+    bool is_framed; /* a camera was found, and what framing had to say was said */
+} model_run;
+
+static facet_result write_picture(model_run *m, const facet_image *image, const char *name,
+                                  facet_error *error)
+{
+    const render_run *run = m->run;
+    if (m->video)
+        return video_add(m->video, image, &run->base.allocator, m->options.limits.thread_count, error);
+    facet_image_save_desc save = m->options.save;
+    save.allocator = run->base.allocator;
+    if (!m->options.id_layer)
+        return output_write(image, name, &save, error);
+    facet_image *colors = NULL;
+    facet_result result =
+        facet_image_create_id_colors(image, m->options.id_layer, &run->base.allocator, &colors, error);
+    if (result == FACET_OK)
+        result = output_write(colors, name, &save, error);
+    facet_image_destroy(colors);
+    return result;
+}
+
+static facet_result frame_camera(model_run *m, uint32_t index, const sequence_frame *frame,
+                                 facet_camera *camera, facet_error *error)
+{
+    const sequence *s = &m->sequence;
+    bool is_sequence = s->frames.frame_count > 1;
+    const render_view view = {
+        .pose = &s->pose, .turn = frame->turn, .turns = s->turns > 0, .moves = s->moves};
+    m->options.orbit.log = m->is_framed ? (facet_log){0} : messages_log(&m->run->base.messages);
+    m->is_framed = true;
+    interrupt_begin(input_name(m->model->path), "finding a camera for it",
+                    m->run->base.progress == PROGRESS_BAR);
+    facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
+    interrupt_end();
+    if (result == FACET_OK && index == 0 && is_sequence)
+        render_keep_framing(&m->options, m->scene, camera);
+    if (result == FACET_OK)
+        path_options_set_lens(&m->options, m->scene, &s->pose, camera);
+    return result;
+}
+
+/* helmet.gltf with a texture helmet.png beside it is common, and helmet.png is what the picture would be called. */
+static facet_result check_inputs(const model_run *m, const char *name, facet_error *error)
+{
+    const render_options *o = &m->options;
+    if (o->is_stdout || o->keeps_existing || !facet_scene_has_file(m->scene, name))
+        return FACET_OK;
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "%s: it is an input, too, and would be overwritten; name another output with -o", name);
+}
+
+/* Seconds that a picture may take; 0: as long as it wants. Path tracing takes all that it gets: its pictures share evenly
+ * what is left. */
+static double time_for_frame(const model_run *m, uint32_t index, double left)
+{
+    if (!(left < 1e29))
+        return 0.0;
+    if (m->options.desc.renderer != FACET_RENDERER_KIND_PATH)
+        return left;
+    double frames_left = (double)(m->sequence.frames.frame_count - index);
+    return left / (frames_left * (double)m->run->models_left);
+}
+
+/* The image of a frame; checkpoint gets the name of its checkpoint, RENDER_NAME_SIZE characters, "" for none. */
+static facet_result draw_frame(model_run *m, uint32_t index, const sequence_frame *frame, const char *output,
+                               char *checkpoint, facet_image **image, facet_error *error)
+{
+    render_run *run = m->run;
+    const render_options *o = &m->options;
+    uint32_t frame_count = m->sequence.frames.frame_count;
+    progress shown = {.mode = run->base.progress,
+                      .subject = output,
+                      .start = interrupt_clock(),
+                      .done_before = (double)index / frame_count,
+                      .share = 1.0 / frame_count,
+                      .last_percent = -10};
+    facet_camera camera;
+    facet_result result = frame_camera(m, index, frame, &camera, error);
+    double left = interrupt_seconds_left();
+    if (result == FACET_OK && left <= 0.0)
+        result = fail(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", output);
+    if (result == FACET_OK)
+        result = render_checkpoint_name(o, m->model, frame->number, checkpoint, RENDER_NAME_SIZE, error);
+    if (result != FACET_OK)
+        return result;
+    facet_render_desc desc = o->desc;
+    desc.allocator = run->base.allocator;
+    desc.log = messages_log(&run->base.messages);
+    desc.progress = progress_callback(&shown);
+    desc.pose = m->sequence.pose;
+    desc.camera = &camera;
+    desc.environment = m->environment;
+    desc.time_limit_s = time_for_frame(m, index, left);
+    if (o->checkpoint && output_make_folders(checkpoint, error) != FACET_OK)
+        return FACET_ERROR_WRITE;
+    desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
+    desc.path.keeps_cancelled = true;
+    bool has_bar = shown.mode == PROGRESS_BAR;
+    /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. */
+    if (desc.renderer == FACET_RENDERER_KIND_GL)
+        interrupt_begin(output, "OpenGL drew", has_bar);
+    else
+        interrupt_begin_polling(output, "drawing", has_bar);
+    result = facet_renderer_render(m->renderer, &desc, image, error);
+    interrupt_end();
+    progress_clear();
+    return result;
+}
+
+static facet_result render_frame(model_run *m, uint32_t index, const sequence_frame *frame,
+                                 picture_report *report, facet_error *error)
+{
+    render_run *run = m->run;
+    const render_options *o = &m->options;
+    double start = interrupt_clock();
+    char checkpoint[RENDER_NAME_SIZE] = "";
+    facet_image *image = NULL;
+    facet_result result = draw_frame(m, index, frame, report->output, checkpoint, &image, error);
+    if (result == FACET_ERROR_CANCELLED)
+        return fail(error, result, "%.400s: interrupted before there was an image%s%.400s", report->output,
+                    *checkpoint ? "; --resume goes on with " : "", checkpoint);
+    if (result != FACET_OK)
+        return result;
+    double rendered = interrupt_clock();
+    result = write_picture(m, image, report->output, error);
+    facet_image_view view = facet_image_get_layer(image, 0);
+    report->width = view.width;
+    report->height = view.height;
+    report->exposure_ev = (double)o->desc.exposure_ev;
+    report->samples = o->desc.samples;
+    report->stats = facet_image_get_render_stats(image);
+    report->save_s = interrupt_clock() - rendered;
+    report->total_s = interrupt_clock() - start + report->load_s;
+    report_partial(&run->base.messages, report, checkpoint);
+    run->base.is_interrupted = report->stats.is_partial && interrupt_signal();
+    facet_image_destroy(image);
+    return result;
+}
+
+static void report_frame(render_run *run, const picture_report *report)
+{
+    report_picture(&run->base.messages, report, !run->options.output);
+    if (run->pictures)
+        json_array_append_new(run->pictures, report_picture_json(report));
+}
+
+static facet_result render_frames(model_run *m, facet_error *error)
+{
+    const render_options *o = &m->options;
+    facet_result result = FACET_OK;
+    for (uint32_t i = 0; i < m->sequence.frames.frame_count && result == FACET_OK; i++) {
+        char name[RENDER_NAME_SIZE];
+        sequence_frame frame = sequence_at(&m->sequence, i);
+        result = render_name(o, m->model, frame.number, name, sizeof name, error);
+        if (result != FACET_OK)
+            break;
+        picture_report report = {
+            .model = input_name(m->model->path), .output = name, .load_s = i ? 0.0 : m->load_s};
+        if (interrupt_signal())
+            return fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
+        result = check_inputs(m, name, error);
+        if (result != FACET_OK)
+            return result;
+        report.is_kept = o->keeps_existing && !m->video && !o->is_stdout && output_exists(name);
+        if (!report.is_kept)
+            result = render_frame(m, i, &frame, &report, error);
+        messages_flush(&m->run->base.messages);
+        if (result == FACET_OK)
+            report_frame(m->run, &report);
+        m->has_lost_checkpoint = m->has_lost_checkpoint || report.stats.has_lost_checkpoint;
+    }
+    if (result == FACET_OK && m->has_lost_checkpoint)
+        return fail(error, FACET_ERROR_WRITE, "--checkpoint: %s could not be written; the image is complete",
+                    o->checkpoint);
+    return result;
+}
+
+/* What lights the model: what was asked for, else what it brings, else the studio. */
+static facet_result choose_environment(model_run *m, facet_error *error)
+{
+    render_run *run = m->run;
+    const render_options *o = &m->options;
+    facet_result result = FACET_OK;
+    if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
+        return FACET_OK;
+    if (render_is_lit_by_scene(o, m->scene, &m->sequence.pose)) {
+        const facet_environment_desc desc = verb_run_environment_desc(&run->base, o->environment_cache);
+        result = facet_environment_create_from_scene(m->scene, &m->sequence.pose, &desc, &m->own_environment,
+                                                     error);
+        m->environment = m->own_environment;
+        return result;
+    }
+    if (!run->has_environment)
+        result = load_environment(run, error);
+    m->environment = run->environment;
+    return result;
+}
+
+/* What is after the last key is its pose again and again, and hardly meant. */
+static void tell_late_frames(const model_run *m)
+{
+    const sequence *s = &m->sequence;
+    uint32_t last = 0;
+    for (uint32_t i = 0; i < s->frames.range_count; i++)
+        last = s->frames.ranges[i].last > last ? s->frames.ranges[i].last : last;
+    if (s->frame_count_there && last > s->frame_count_there + 1)
+        message_at(&m->run->base.messages, VERBOSITY_NORMAL,
+                   "%s: frame %u is after the end of the animation, which has %u frames at %g a second",
+                   input_name(m->model->path), last, s->frame_count_there, m->options.fps);
+}
+
+static facet_result open_video(model_run *m, facet_error *error)
+{
+    char name[RENDER_NAME_SIZE];
+    facet_result result = render_name(&m->options, m->model, 1, name, sizeof name, error);
+    if (result == FACET_OK)
+        result = check_inputs(m, name, error);
+    return result == FACET_OK ? video_open(name, m->options.video, m->options.fps, &m->video, error) : result;
+}
+
+/* --exposure auto: one for all frames, so that they do not flicker, by the first one of the whole sequence, so that it does not
+ * depend on which of them are drawn. */
+static facet_result meter(model_run *m, facet_error *error)
+{
+    render_run *run = m->run;
+    const sequence_frame first = sequence_first(&m->sequence);
+    facet_camera camera;
+    double ev100 = 0.0;
+    facet_result result = frame_camera(m, 0, &first, &camera, error);
+    if (result != FACET_OK)
+        return result;
+    facet_render_desc desc = m->options.desc;
+    desc.allocator = run->base.allocator;
+    desc.log = messages_log(&run->base.messages);
+    desc.pose = m->sequence.pose;
+    desc.camera = &camera;
+    desc.environment = m->environment;
+    interrupt_begin(input_name(m->model->path), "metering its light", run->base.progress == PROGRESS_BAR);
+    result = facet_renderer_meter(m->renderer, &desc, &ev100, error);
+    interrupt_end();
+    m->options.desc.exposure_ev += facet_exposure_from_ev100(ev100);
+    message_at(&run->base.messages, VERBOSITY_DETAILS, "%s: metered: --exposure %+.2f",
+               input_name(m->model->path), (double)m->options.desc.exposure_ev);
+    return result;
+}
+
+/* All pictures of a model that is loaded. */
+static facet_result render_scene(render_run *run, const model_name *model, facet_scene *scene, double start,
+                                 facet_error *error)
+{
+    model_run m = {.run = run, .options = run->options, .model = model, .scene = scene};
+    interrupt_begin(input_name(model->path), "looking for its frames", run->base.progress == PROGRESS_BAR);
+    facet_result result = sequence_create(scene, input_name(model->path), &m.options, &m.sequence, error);
+    interrupt_end();
+    if (result == FACET_OK)
+        tell_late_frames(&m);
+    if (result == FACET_OK)
+        result = choose_environment(&m, error);
+    messages_flush(&run->base.messages);
+    m.load_s = interrupt_clock() - start;
+    if (result == FACET_OK)
+        result = facet_renderer_create(scene, &run->base.allocator, &m.renderer, error);
+    if (result == FACET_OK && m.options.meters_exposure)
+        result = meter(&m, error);
+    if (result == FACET_OK && m.options.video)
+        result = open_video(&m, error);
+    if (result == FACET_OK)
+        result = render_frames(&m, error);
+    facet_result closed = video_close(m.video, result == FACET_OK, error);
+    facet_renderer_destroy(m.renderer);
+    facet_environment_destroy(m.own_environment);
+    sequence_destroy(&m.sequence);
+    return result == FACET_OK ? closed : result;
+}
+
+/* --no-clobber for a file of its own: nothing need be read. True: the picture was there, and that is reported. */
+static bool is_kept(render_run *run, const model_name *model)
+{
+    char name[RENDER_NAME_SIZE];
+    facet_error ignored;
+    if (!run->options.keeps_existing || run->options.is_stdout ||
+        (run->options.is_sequence && !run->options.video) ||
+        render_name(&run->options, model, 1, name, sizeof name, &ignored) != FACET_OK || !output_exists(name))
+        return false;
+    report_frame(run, &(picture_report){.model = input_name(model->path), .output = name, .is_kept = true});
+    return true;
+}
+
+static facet_result render_model(render_run *run, const model_name *model, facet_error *error)
+{
+    if (is_kept(run, model))
+        return FACET_OK;
+    double start = interrupt_clock();
+    facet_scene *scene = NULL;
+    facet_result result = load_model(run, model->path, &scene, error);
+    messages_flush(&run->base.messages);
+    if (result == FACET_OK)
+        result = render_scene(run, model, scene, start, error);
+    facet_scene_destroy(scene);
+    return result;
+}
+
+/* ---- the run ---- */
+
+/* Whether another model has the same output: neither is drawn, and the others are. */
+static facet_result check_clash(const render_run *run, size_t i, facet_error *error)
+{
+    char name[RENDER_NAME_SIZE];
+    facet_result result = render_name(&run->options, &run->models.models[i], 1, name, sizeof name, error);
+    return result == FACET_OK ? model_list_check_clash(&run->models, i, name, error) : result;
+}
+
+static facet_result render_one(verb_run *base, size_t i, facet_error *error)
+{
+    render_run *run = (render_run *)base;
+    const model_name *model = &run->models.models[i];
+    run->models_left = run->models.count - i;
+    run->environment_failed = false;
+    facet_result result = check_clash(run, i, error);
+    if (result == FACET_OK)
+        result = render_model(run, model, error);
+    if (result != FACET_OK)
+        failure_complete(error,
+                         run->environment_failed ? environment_input_name(&run->options.environment)
+                                                 : input_name(model->path),
+                         base->limits.max_memory_bytes);
+    return result;
+}
+
+static facet_result read_line(verb_run *base, facet_error *error)
+{
+    render_run *run = (render_run *)base;
+    command_line *c = base->line;
+    TRY(model_list_create(c, c->argument_count, &run->models, error));
+    TRY(preset_apply(c, error));
+    TRY(render_options_read(c, &run->options, error));
+    base->limits = run->options.limits;
+    return render_names_check(c, &run->options, &run->models, error);
+}
+
+static facet_result render(verb_run *base, facet_error *error)
+{
+    render_run *run = (render_run *)base;
+    (void)error;
+    run->pictures = is_given(base->line, OPT_JSON) ? json_array() : NULL;
+    if (run->options.note[0])
+        message_at(&base->messages, VERBOSITY_NORMAL, "%s", run->options.note);
+    verb_run_models(base, &run->models, render_one);
+    return FACET_OK;
+}
+
+static void add_json(const verb_run *base, json_t *root)
+{
+    json_object_set(root, "pictures", ((const render_run *)base)->pictures);
+}
+
+static void destroy(verb_run *base)
+{
+    render_run *run = (render_run *)base;
+    json_decref(run->pictures);
+    facet_environment_destroy(run->environment);
+    model_list_destroy(&run->models);
+}
+
+int cmd_render(command_line *c)
+{
+    static const verb_work work = {read_line, render, add_json, destroy};
+    render_run run = {.options = {.output = NULL}};
+    return verb_run_all(&run.base, c, &work);
+}

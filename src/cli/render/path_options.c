@@ -1,0 +1,252 @@
+/* path_options.c - see path_options.h. */
+#include "cli/render/path_options.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/shared/failure.h"
+#include "cli/shared/output_name.h"
+#include "cli/shared/value.h"
+
+#define DEGREE 0.017453292519943295 /* pi / 180 */
+
+/* Samples per pixel of draft, normal, final, as facet_render() has them; told in reports. */
+static const uint32_t preview_samples[] = {1, 4, 16};
+static const uint32_t path_samples[] = {16, 64, 512};
+
+static facet_result read_renderer(const command_line *c, render_options *out, facet_error *error)
+{
+    const char *renderer = option_text(c, OPT_RENDERER, "preview");
+    if (strcmp(renderer, "preview") == 0)
+        out->desc.renderer = FACET_RENDERER_KIND_PREVIEW;
+    else if (strcmp(renderer, "path") == 0)
+        out->desc.renderer = FACET_RENDERER_KIND_PATH;
+    else if (strcmp(renderer, "gl") == 0)
+        out->desc.renderer = FACET_RENDERER_KIND_GL;
+    else
+        return option_fail(c, OPT_RENDERER, "preview, path or gl", error);
+    return FACET_OK;
+}
+
+/* Lists end with OPTION_ID_COUNT. */
+static const option_id path_only[] = {
+    OPT_BOUNCES,  OPT_NOISE, OPT_SEED,    OPT_FILTER,     OPT_DENOISE, OPT_CLAMP,          OPT_GLASS_SHADOWS,
+    OPT_APERTURE, OPT_FOCUS, OPT_SHUTTER, OPT_CHECKPOINT, OPT_RESUME,  OPT_LIGHT_SAMPLING, OPTION_ID_COUNT};
+static const option_id gl_only[] = {OPT_SHADOWS, OPT_TRANSPARENCY, OPT_BLOOM,
+                                    OPT_CHANNEL, OPT_BRDF,         OPTION_ID_COUNT};
+static const option_id not_path[] = {OPT_SPECULAR_AA, OPT_SHADING, OPTION_ID_COUNT};
+
+static facet_result refuse(const command_line *c, const option_id *list, const char *why, facet_error *error)
+{
+    for (; *list != OPTION_ID_COUNT; list++)
+        if (is_given(c, *list))
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: %s", option_find_id(c->verb, *list)->name, why);
+    return FACET_OK;
+}
+
+static facet_result check_renderer(const command_line *c, const render_options *o, facet_error *error)
+{
+    bool is_path = o->desc.renderer == FACET_RENDERER_KIND_PATH,
+         is_gl = o->desc.renderer == FACET_RENDERER_KIND_GL;
+    facet_result result = FACET_OK;
+    if (!is_path)
+        result = refuse(c, path_only, "it says something only with --renderer path", error);
+    if (result == FACET_OK && !is_gl)
+        result = refuse(c, gl_only, "it says something only with --renderer gl", error);
+    if (result == FACET_OK && !is_path && !is_gl && is_given(c, OPT_GROUND))
+        result =
+            fail(error, FACET_ERROR_ARGUMENT, "--ground: it says something only with --renderer path or gl");
+    if (result == FACET_OK && is_path)
+        result = refuse(c, not_path, "it says nothing to --renderer path", error);
+    return result;
+}
+
+/* ---- light ---- */
+
+/* AZ,EL[,LUX[,DIAMETER]]. A sun that is not told otherwise lights a facing surface as a white sky of radiance 1 does. */
+static facet_result read_sun(const command_line *c, render_options *out, facet_error *error)
+{
+    if (!is_given(c, OPT_SUN))
+        return FACET_OK;
+    const char *text = option_text(c, OPT_SUN, "");
+    double numbers[4] = {0.0, 0.0, 3.14159265, 0.53};
+    bool is_read = false;
+    for (size_t count = 2; count <= 4 && !is_read; count++)
+        is_read = value_numbers(text, count, numbers);
+    if (!is_read || fabs(numbers[1]) > 90.0 || !(numbers[2] >= 0.0) || numbers[2] > 1e9 ||
+        !(numbers[3] > 0.0) || numbers[3] > 90.0)
+        return option_fail(c, OPT_SUN,
+                           "AZIMUTH,ELEVATION[,LUX[,DIAMETER]] in degrees, -90 to 90 above the horizon, lux "
+                           "from 0, and a diameter up to 90 degrees, such as 30,45 or 30,45,3,0.53",
+                           error);
+    facet_sun *sun = &out->desc.sun;
+    sun->azimuth_rad = (float)(numbers[0] * DEGREE);
+    sun->elevation_rad = (float)(numbers[1] * DEGREE);
+    sun->diameter_rad = (float)(numbers[3] * DEGREE);
+    for (int i = 0; i < 3; i++)
+        sun->illuminance_lux[i] = (float)numbers[2];
+    return FACET_OK;
+}
+
+static facet_result read_ground(const command_line *c, render_options *out, facet_error *error)
+{
+    out->desc.ground = option_choice(c, OPT_GROUND, 0) == 1 ? FACET_GROUND_SHADOW : FACET_GROUND_NONE;
+    if (out->desc.ground == FACET_GROUND_SHADOW && option_choice(c, OPT_UP, 0) == 1)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--ground: the ground is below models with +Y up; it does not go together with --up z");
+    return FACET_OK;
+}
+
+/* ---- lens and shutter ---- */
+
+static facet_result read_lens(const command_line *c, render_options *out, facet_error *error)
+{
+    const char *text = option_text(c, OPT_APERTURE, "0");
+    double diameter = 0.0;
+    out->aperture_is_relative = scan_number(&text, &diameter) && strcmp(text, "%") == 0;
+    if ((!out->aperture_is_relative && *text) || diameter < 0.0 || diameter > 1e9)
+        return option_fail(c, OPT_APERTURE, "a diameter in m, or in % of the distance that is sharp, as 2%",
+                           error);
+    out->aperture = (float)(out->aperture_is_relative ? 0.01 * diameter : diameter);
+    if (is_given(c, OPT_FOCUS) && !(out->aperture > 0.0f))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--focus: all is sharp without a lens; give its diameter, --aperture 2%%");
+    text = option_text(c, OPT_FOCUS, "auto");
+    double focus = 0.0;
+    if (strcmp(text, "auto") != 0 && (!value_number(text, &focus) || !(focus > 0.0)))
+        return option_fail(c, OPT_FOCUS, "a distance in m, or auto", error);
+    out->focus_m = (float)focus;
+    return FACET_OK;
+}
+
+static facet_result read_shutter(const command_line *c, render_options *out, facet_error *error)
+{
+    const char *text = option_text(c, OPT_SHUTTER, "0");
+    double open = 0.0;
+    bool is_read = scan_number(&text, &open);
+    bool is_angle = is_read && strcmp(text, "deg") == 0;
+    if (!is_read || !(is_angle || *text == 0 || strcmp(text, "s") == 0) || open < 0.0 || open > 1e9)
+        return option_fail(c, OPT_SHUTTER, "a time in s, or an angle of the shutter, as 180deg", error);
+    out->desc.path.shutter_s = (float)(is_angle ? open / 360.0 / out->fps : open);
+    return FACET_OK;
+}
+
+/* The distance along the axis to the middle of the model, for cameras of the file, which look at no point. */
+static float distance_to_middle(const facet_scene *scene, const facet_pose_desc *pose, const facet_camera *c)
+{
+    float low[3];
+    float high[3];
+    facet_scene_get_bounds(scene, pose, low, high);
+    float axis2 = 0.0f;
+    float along = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        float axis = c->target[i] - c->eye[i];
+        axis2 += axis * axis;
+        along += axis * (0.5f * low[i] + 0.5f * high[i] - c->eye[i]);
+    }
+    return along > 0.0f && axis2 > 0.0f ? along / sqrtf(axis2) : 0.0f;
+}
+
+static float distance_to_target(const facet_camera *c)
+{
+    return hypotf(hypotf(c->target[0] - c->eye[0], c->target[1] - c->eye[1]), c->target[2] - c->eye[2]);
+}
+
+void path_options_set_lens(const render_options *o, const facet_scene *scene, const facet_pose_desc *pose,
+                           facet_camera *camera)
+{
+    if (!(o->aperture > 0.0f))
+        return;
+    camera->focus_m = o->focus_m;
+    if (!(camera->focus_m > 0.0f) && o->camera)
+        camera->focus_m = distance_to_middle(scene, pose, camera);
+    if (!(camera->focus_m > 0.0f))
+        camera->focus_m = distance_to_target(camera);
+    camera->lens_radius_m = 0.5f * o->aperture * (o->aperture_is_relative ? camera->focus_m : 1.0f);
+}
+
+/* ---- sampling ---- */
+
+static facet_result read_checkpoint(const command_line *c, render_options *out, facet_error *error)
+{
+    out->checkpoint = option_text(c, OPT_CHECKPOINT, NULL);
+    out->desc.path.resumes = is_given(c, OPT_RESUME);
+    if (!out->checkpoint)
+        return out->desc.path.resumes
+                   ? fail(error, FACET_ERROR_ARGUMENT, "--resume: it needs the file, --checkpoint FILE")
+                   : FACET_OK;
+    const char *dot = strrchr(out->checkpoint, '.');
+    if (!dot || strcmp(dot, ".exr") != 0)
+        return option_fail(c, OPT_CHECKPOINT, "a name that ends in .exr", error);
+    if (c->argument_count > 1 && !output_name_has_model(out->checkpoint))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--checkpoint: \"%s\" is one name for %zu models; put {stem} in it", out->checkpoint,
+                    c->argument_count);
+    if (out->is_sequence && !output_name_has_frame(out->checkpoint))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--checkpoint: \"%s\" is one name for several pictures; put #### in it", out->checkpoint);
+    if (out->output && strcmp(out->output, out->checkpoint) == 0)
+        return fail(error, FACET_ERROR_ARGUMENT, "--checkpoint: it is the name of the picture, too");
+    return FACET_OK;
+}
+
+static void read_sampling(const command_line *c, render_options *out)
+{
+    facet_path_desc *p = &out->desc.path;
+    p->max_depth = 1 + (uint32_t)option_number(c, OPT_BOUNCES, 63.0);
+    p->seed = (uint32_t)option_number(c, OPT_SEED, 0.0);
+    p->filter = (facet_filter)option_choice(c, OPT_FILTER, FACET_FILTER_BLACKMAN_HARRIS);
+    p->light_sampling = (facet_light_sampling)option_choice(c, OPT_LIGHT_SAMPLING, FACET_LIGHT_SAMPLING_MIS);
+    p->noise = (float)option_number(c, OPT_NOISE, 0.0);
+    p->clamp = (float)option_number(c, OPT_CLAMP, 0.0);
+    p->has_straight_shadows = option_choice(c, OPT_GLASS_SHADOWS, 0) == 1;
+    p->denoises = is_given(c, OPT_DENOISE);
+}
+
+static void read_gl(const command_line *c, render_options *out)
+{
+    facet_gl_desc *gl = &out->desc.gl;
+    gl->has_shadows = is_given(c, OPT_SHADOWS);
+    gl->transparency = (facet_transparency)option_choice(c, OPT_TRANSPARENCY, FACET_TRANSPARENCY_SORTED);
+    gl->bloom = (float)option_number(c, OPT_BLOOM, 0.0);
+    gl->channel = (facet_channel)option_choice(c, OPT_CHANNEL, FACET_CHANNEL_LIGHT);
+    gl->brdf = (facet_brdf)option_choice(c, OPT_BRDF, FACET_BRDF_ENERGY);
+}
+
+/* What has another default with each renderer. */
+static void read_defaults(const command_line *c, render_options *out)
+{
+    bool is_path = out->desc.renderer == FACET_RENDERER_KIND_PATH;
+    int quality = option_choice(c, OPT_QUALITY, 1);
+    const uint32_t *samples = is_path ? path_samples : preview_samples;
+    out->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, samples[quality]);
+    out->desc.isa = (facet_isa)option_choice(c, OPT_ISA, FACET_ISA_PORTABLE);
+    out->desc.energy =
+        option_choice(c, OPT_ENERGY, is_path ? 1 : 0) ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF;
+}
+
+facet_result path_options_read(const command_line *c, render_options *out, facet_error *error)
+{
+    facet_result result = read_renderer(c, out, error);
+    if (result == FACET_OK)
+        result = check_renderer(c, out, error);
+    if (result == FACET_OK)
+        result = read_sun(c, out, error);
+    if (result != FACET_OK)
+        return result;
+    read_defaults(c, out);
+    if (out->desc.renderer != FACET_RENDERER_KIND_PATH && out->desc.samples > 4096)
+        return option_fail(c, OPT_SAMPLES, "a number from 1 to 4096 (--renderer path takes more)", error);
+    result = read_ground(c, out, error);
+    if (out->desc.renderer == FACET_RENDERER_KIND_GL)
+        read_gl(c, out);
+    if (out->desc.renderer != FACET_RENDERER_KIND_PATH)
+        return result;
+    read_sampling(c, out);
+    facet_result (*const readers[])(const command_line *, render_options *,
+                                    facet_error *) = {read_lens, read_shutter, read_checkpoint};
+    for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
+        result = readers[i](c, out, error);
+    return result;
+}

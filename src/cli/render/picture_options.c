@@ -1,0 +1,212 @@
+/* picture_options.c - see picture_options.h. */
+#include "cli/render/picture_options.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "cli/shared/failure.h"
+#include "cli/shared/output_name.h"
+#include "cli/shared/terminal.h"
+#include "cli/shared/value.h"
+
+/* ---- output ---- */
+
+facet_result picture_options_output(const command_line *c, render_options *out, facet_error *error)
+{
+    out->output = option_text(c, OPT_OUTPUT, NULL);
+    out->is_stdout = out->output && strcmp(out->output, "-") == 0;
+    out->keeps_existing = is_given(c, OPT_NO_CLOBBER);
+    if (!out->output)
+        return FACET_OK;
+    if (out->is_stdout) {
+        if (terminal_is(stdout))
+            return fail(
+                error, FACET_ERROR_ARGUMENT,
+                "--output: - is standard output, which is a terminal; send it to a file or a program");
+        if (is_given(c, OPT_JSON))
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--json: it writes to standard output, and so does --output -; give one of them");
+    } else if (c->argument_count > 1 && !output_name_has_model(out->output)) {
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: \"%s\" is one name for %zu models; put {stem} in it, as in {stem}.png",
+                    out->output, c->argument_count);
+    }
+    return FACET_OK;
+}
+
+/* In the order of --format's choices; then other names of the same. */
+static const struct {
+    const char *extension;
+    facet_image_format format;
+} formats[] = {{"png", FACET_IMAGE_FORMAT_PNG},  {"png", FACET_IMAGE_FORMAT_PNG16},
+               {"jpg", FACET_IMAGE_FORMAT_JPEG}, {"webp", FACET_IMAGE_FORMAT_WEBP},
+               {"exr", FACET_IMAGE_FORMAT_EXR},  {"exr", FACET_IMAGE_FORMAT_EXR_FLOAT},
+               {"hdr", FACET_IMAGE_FORMAT_HDR},  {"pfm", FACET_IMAGE_FORMAT_PFM},
+               {"y4m", FACET_IMAGE_FORMAT_RAW},  {"raw", FACET_IMAGE_FORMAT_RAW},
+               {"jpeg", FACET_IMAGE_FORMAT_JPEG}};
+enum { Y4M = 8, RAW = 9 }; /* in formats */
+
+const char *render_extension(facet_image_format format)
+{
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (formats[i].format == format)
+            return formats[i].extension;
+    return "png";
+}
+
+static void set_format(render_options *out, size_t number)
+{
+    out->save.format = formats[number].format;
+    out->video = number == Y4M ? VIDEO_Y4M : number == RAW ? VIDEO_RAW : VIDEO_NONE;
+}
+
+static bool is_linear(facet_image_format format)
+{
+    return format == FACET_IMAGE_FORMAT_EXR || format == FACET_IMAGE_FORMAT_EXR_FLOAT ||
+           format == FACET_IMAGE_FORMAT_HDR || format == FACET_IMAGE_FORMAT_PFM;
+}
+
+facet_result picture_options_format(const command_line *c, render_options *out, facet_error *error)
+{
+    int choice = option_choice(c, OPT_FORMAT, -1);
+    if (choice >= 0) {
+        set_format(out, (size_t)choice);
+        return FACET_OK;
+    }
+    if (!out->output) {
+        out->save.format = FACET_IMAGE_FORMAT_PNG;
+        return FACET_OK;
+    }
+    if (out->is_stdout)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: - is standard output, which has no name to tell the format; add --format png");
+    const char *slash = strrchr(out->output, '/'), *dot = strrchr(slash ? slash : out->output, '.');
+    for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++)
+        if (strcasecmp(dot + 1, formats[i].extension) == 0) {
+            set_format(out, i);
+            return FACET_OK;
+        }
+    return option_fail(c, OPT_OUTPUT,
+                       "a name that ends in .png, .jpg, .webp, .exr, .hdr, .pfm or .y4m (videos in other "
+                       "forms: send --format y4m to ffmpeg)",
+                       error);
+}
+
+/* ---- size ---- */
+
+facet_result picture_options_size(const command_line *c, const char *otherwise, render_options *out,
+                                  facet_error *error)
+{
+    facet_render_desc *d = &out->desc;
+    if (!value_size(option_text(c, OPT_SIZE, otherwise), &d->width, &d->height))
+        return option_fail(
+            c, OPT_SIZE,
+            "WIDTHxHEIGHT in pixels such as 640x480, or one number for a square; the most are 65536", error);
+    if (!is_given(c, OPT_CROP))
+        return FACET_OK;
+    if (!value_rectangle(option_text(c, OPT_CROP, ""), d->crop))
+        return option_fail(c, OPT_CROP, "X,Y,WIDTH,HEIGHT in pixels", error);
+    if (d->crop[0] + d->crop[2] > d->width || d->crop[1] + d->crop[3] > d->height)
+        return option_fail(c, OPT_CROP, "inside the picture that --size gives", error);
+    return FACET_OK;
+}
+
+/* ---- color, quality ---- */
+
+facet_result picture_options_exposure(const command_line *c, render_options *out, facet_error *error)
+{
+    double stops = 0.0;
+    const char *text = option_text(c, OPT_EXPOSURE, "+0");
+    out->meters_exposure = strncmp(text, "auto", 4) == 0;
+    text += out->meters_exposure ? 4 : 0;
+    bool has_stops = !out->meters_exposure || *text;
+    if (has_stops && !value_exposure(text, &stops))
+        return option_fail(c, OPT_EXPOSURE, "stops such as +0.5, a factor such as 2x, auto, or auto+0.5",
+                           error);
+    double plain;
+    if (c->has_attributes && has_stops && text[0] != '+' && text[0] != '-' && value_number(text, &plain))
+        snprintf(out->note, sizeof out->note,
+                 "--exposure %s: read as stops, a factor of %.4g; model-viewer's exposure is the factor: for "
+                 "that write --exposure %sx",
+                 text, exp2(stops), text);
+    out->desc.exposure_ev = (float)stops;
+    return FACET_OK;
+}
+
+void picture_options_look(const command_line *c, facet_tonemap otherwise, render_options *out)
+{
+    static const facet_quality qualities[] = {FACET_QUALITY_DRAFT, FACET_QUALITY_NORMAL, FACET_QUALITY_FINAL};
+    if (is_linear(out->save.format))
+        otherwise = FACET_TONEMAP_NONE;
+    out->desc.tonemap = (facet_tonemap)option_choice(c, OPT_TONE_MAPPING, (int)otherwise);
+    out->desc.quality = qualities[option_choice(c, OPT_QUALITY, 1)];
+    out->save.jpeg_quality = (uint32_t)option_number(c, OPT_JPEG_QUALITY, 0.0);
+    out->save.png_compression = (uint32_t)option_number(c, OPT_PNG_COMPRESSION, 0.0);
+}
+
+/* ---- light ---- */
+
+facet_result picture_options_environment(const command_line *c, render_options *out, facet_error *error)
+{
+    out->has_environment = is_given(c, OPT_ENV);
+    out->environment_cache = option_text(c, OPT_ENV_CACHE, NULL);
+    facet_result result = environment_input_parse("--env", option_text(c, OPT_ENV, "neutral"),
+                                                  ENVIRONMENT_TAKES_NONE, &out->environment, error);
+    if (result != FACET_OK)
+        return result;
+    double rotation = 0.0;
+    if (is_given(c, OPT_ENV_ROTATION) && !value_angle(option_text(c, OPT_ENV_ROTATION, ""), &rotation))
+        return option_fail(c, OPT_ENV_ROTATION, "an angle in degrees, such as 90", error);
+    out->desc.environment_rotation_rad = (float)rotation;
+    double intensity = option_number(c, OPT_ENV_INTENSITY, 1.0);
+    if (intensity > 0.0)
+        out->desc.environment_ev = (float)log2(intensity);
+    else
+        out->environment.kind = ENVIRONMENT_NONE;
+    return FACET_OK;
+}
+
+/* ---- sequences ---- */
+
+facet_result picture_options_frames(const command_line *c, render_options *out, facet_error *error)
+{
+    out->has_time = is_given(c, OPT_TIME);
+    out->has_frames = is_given(c, OPT_FRAMES);
+    out->has_fps = is_given(c, OPT_FPS);
+    out->time_s = option_number(c, OPT_TIME, 0.0);
+    out->fps = option_number(c, OPT_FPS, 24.0);
+    if (out->has_frames && !frame_list_parse(option_text(c, OPT_FRAMES, ""), &out->frames))
+        return option_fail(c, OPT_FRAMES,
+                           "a list of at most a million frames, from 1, such as 1-48, 1-48x2 or 1,3,5..10",
+                           error);
+    if (out->has_time && out->has_frames)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--time: it is one moment and does not go together with --frames; give one of them");
+    return FACET_OK;
+}
+
+facet_result picture_options_check_sequence(const command_line *c, const render_options *o,
+                                            facet_error *error)
+{
+    bool has_mark = o->output && output_name_has_frame(o->output);
+    if (o->video && has_mark)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: \"%s\" has a place for a number, but a video holds all frames", o->output);
+    if (o->video && o->keeps_existing)
+        return FACET_OK;
+    if (o->video && o->is_stdout && c->argument_count > 1)
+        return fail(error, FACET_ERROR_ARGUMENT, "--output: standard output takes the video of one model");
+    bool is_one = o->has_frames ? o->frames.frame_count == 1 : !o->is_sequence;
+    if (is_one || o->video || !o->output || o->is_stdout || has_mark)
+        return FACET_OK;
+    if (o->turntable)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: \"%s\" is one name for %u pictures; put #### in it, as in turn_####.png",
+                    o->output, o->turntable);
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "--output: \"%s\" is one name for the frames of an animation; put #### in it, as in "
+                "walk_####.png, or give --time for one picture",
+                o->output);
+}

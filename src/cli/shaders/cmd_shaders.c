@@ -1,0 +1,81 @@
+/* cmd_shaders.c - facet shaders: the shading text as GLSL, for other programs. */
+#include "cli/shared/commands.h"
+
+#include "cli/shared/failure.h"
+#include "cli/shared/messages.h"
+#include "cli/shared/output.h"
+#include "cli/shared/suggest.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* In the order of the option table's words. */
+static const char *const versions[] = {"300 es",   "310 es",   "320 es",   "330 core",
+                                       "410 core", "450 core", "460 core", NULL};
+
+/* Names of parts may be given as file names: fresnel, fresnel.h, shade/fresnel.h. */
+static void trim(const char *argument, char name[64])
+{
+    const char *slash = strrchr(argument, '/');
+    snprintf(name, 64, "%s", slash ? slash + 1 : argument);
+    char *dot = strrchr(name, '.');
+    if (dot && strcmp(dot, ".h") == 0)
+        *dot = 0;
+}
+
+static void list_parts(void)
+{
+    for (uint32_t i = 0; i < facet_shader_get_part_count(); i++)
+        puts(facet_shader_get_part_name(i));
+}
+
+static facet_result write_text(const command_line *c, facet_error *error)
+{
+    enum { MOST = 64 };
+    static char names[MOST][64];
+    const char *parts[MOST];
+    if (c->argument_count > MOST)
+        return fail(error, FACET_ERROR_ARGUMENT, "shaders: %zu parts: there are only %u", c->argument_count,
+                    facet_shader_get_part_count());
+    for (size_t i = 0; i < c->argument_count; i++) {
+        trim(c->arguments[i], names[i]);
+        parts[i] = names[i];
+    }
+    const char *path = option_text(c, OPT_OUTPUT, "-");
+    facet_result result = output_check(path, error);
+    if (result != FACET_OK)
+        return result;
+    if (is_given(c, OPT_NO_CLOBBER) && output_exists(path)) {
+        if (!is_given(c, OPT_QUIET))
+            fprintf(stderr, "%s: kept; it was there already\n", path);
+        return FACET_OK;
+    }
+    const facet_shader_desc desc = {.version = versions[option_choice(c, OPT_GLSL, 0)],
+                                    .parts = parts,
+                                    .part_count = (uint32_t)c->argument_count,
+                                    .names = (facet_shader_names)option_choice(c, OPT_NAMES, 0)};
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    result = facet_shader_text(&desc, &bytes, &size, error);
+    if (result == FACET_OK)
+        result = output_write_bytes(bytes, size, path, error);
+    facet_bytes_destroy(bytes);
+    return result;
+}
+
+int cmd_shaders(command_line *c)
+{
+    facet_error error = {0};
+    facet_result result = FACET_OK;
+    if (is_given(c, OPT_LIST))
+        list_parts();
+    else
+        result = write_text(c, &error);
+    if (result == FACET_OK)
+        return EXIT_DONE;
+    bool names_no_file = result == FACET_ERROR_ARGUMENT || result == FACET_ERROR_MEMORY;
+    message_error("%s%s%s", names_no_file ? "facet: " : "", error.message,
+                  result == FACET_ERROR_ARGUMENT ? "; facet shaders --list has them" : "");
+    return exit_code_of(result);
+}

@@ -1,0 +1,174 @@
+/* config.c - options from a JSON file (--config). */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/shared/preset.h"
+
+#include "cli/shared/failure.h"
+#include "cli/shared/interrupt.h"
+#include "cli/shared/limits.h"
+#include "cli/shared/suggest.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Keeps text until config_destroy(); NULL: no memory. */
+static const char *keep(config *storage, const char *text)
+{
+    char **grown = realloc(storage->texts, (storage->text_count + 1) * sizeof *grown);
+    if (!grown)
+        return NULL;
+    storage->texts = grown;
+    char *copy = strdup(text);
+    if (copy)
+        storage->texts[storage->text_count++] = copy;
+    return copy;
+}
+
+void config_destroy(config *storage)
+{
+    for (size_t i = 0; i < storage->text_count; i++)
+        free(storage->texts[i]);
+    free(storage->texts);
+    *storage = (config){0};
+}
+
+/* Appends a string or number to text as it would stand on the command line. False: it is neither, or too long. */
+static bool append_scalar(const json_t *value, char *text, size_t size)
+{
+    size_t used = strlen(text);
+    int n = -1;
+    if (json_is_string(value))
+        n = snprintf(text + used, size - used, "%s", json_string_value(value));
+    else if (json_is_integer(value))
+        n = snprintf(text + used, size - used, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    else if (json_is_real(value))
+        n = snprintf(text + used, size - used, "%.17g", json_real_value(value));
+    return n >= 0 && (size_t)n < size - used;
+}
+
+/* A string, number, or array of these as text. */
+static bool to_text(const json_t *value, char *text, size_t size)
+{
+    text[0] = 0;
+    if (!json_is_array(value))
+        return append_scalar(value, text, size);
+    size_t i;
+    json_t *element;
+    json_array_foreach(value, i, element)
+    {
+        size_t used = strlen(text);
+        if (i > 0 && used + 1 < size)
+            memcpy(text + used, ",", 2);
+        if (!append_scalar(element, text, size))
+            return false;
+    }
+    return true;
+}
+
+/* How often a flag is meant: true once, a number for those that count. Negative: neither. */
+static long flag_count(const option *o, const json_t *value)
+{
+    if (json_is_boolean(value))
+        return json_is_true(value);
+    if (o->kind == OPTION_COUNT && json_is_integer(value) && json_integer_value(value) <= 9)
+        return (long)json_integer_value(value);
+    return -1;
+}
+
+static facet_result apply_member(command_line *c, const char *name, const json_t *value, config *storage,
+                                 facet_error *error)
+{
+    const char *path = c->config_name;
+    const option *o = option_find(c->verb, name, strlen(name));
+    if (!o) {
+        o = option_find_attribute(c->verb, name, strlen(name));
+        c->has_attributes = c->has_attributes || o;
+    }
+    if (!o) {
+        facet_error suggestion;
+        suggest_option(c->verb, name, strlen(name), &suggestion);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %.900s", path, suggestion.message);
+    }
+    if (o->id == OPT_CONFIG || o->id == OPT_HELP || o->id == OPT_HELP_ALL)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it cannot stand in a file", path, name);
+    if (is_given(c, o->id))
+        return FACET_OK;
+    if (!option_takes_value(o)) {
+        long count = flag_count(o, value);
+        if (count < 0)
+            return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be true or false", path, name);
+        facet_result result = FACET_OK;
+        for (; count > 0 && result == FACET_OK; count--)
+            result = command_line_set(c, o, NULL, SOURCE_CONFIG, error);
+        return result;
+    }
+    char text[4096];
+    if (!to_text(value, text, sizeof text))
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be text, a number or an array of these",
+                    path, name);
+    const char *kept = keep(storage, text);
+    if (!kept)
+        return fail(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
+    return command_line_set(c, o, kept, SOURCE_CONFIG, error);
+}
+
+/* The whole file in *text, for free(). */
+static facet_result read_config(const char *path, char **text, size_t *size, facet_error *error)
+{
+    enum { MOST_BYTES = 1 << 20 };
+    FILE *file = fopen(path, "re");
+    if (!file)
+        return fail(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
+    *text = malloc(MOST_BYTES + 1);
+    *size = *text ? fread(*text, 1, MOST_BYTES + 1, file) : 0;
+    facet_result result = FACET_OK;
+    if (!*text)
+        result = fail(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
+    else if (ferror(file))
+        result = fail(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
+    else if (*size > MOST_BYTES)
+        result = fail(error, FACET_ERROR_LIMIT, "%s: it is larger than 1 MiB; options were expected", path);
+    fclose(file);
+    if (result != FACET_OK) {
+        free(*text);
+        *text = NULL;
+    }
+    return result;
+}
+
+facet_result config_apply(command_line *c, config *storage, facet_error *error)
+{
+    const char *path = option_text(c, OPT_CONFIG, NULL);
+    if (!path)
+        return FACET_OK;
+    char *text = NULL;
+    size_t size = 0;
+    facet_result read = limits_start_clock(c, error);
+    if (read == FACET_OK) {
+        interrupt_begin_reading(path);
+        read = read_config(path, &text, &size, error);
+        interrupt_end();
+    }
+    if (read != FACET_OK)
+        return read;
+    json_error_t problem;
+    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &problem);
+    free(text);
+    if (!root)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: line %d: %s", path, problem.line, problem.text);
+    facet_result result = FACET_OK;
+    c->config_name = path;
+    if (!json_is_object(root))
+        result = fail(error, FACET_ERROR_ARGUMENT, "%s: it must hold one JSON object", path);
+    const char *name;
+    json_t *value;
+    json_object_foreach(root, name, value)
+    {
+        if (result == FACET_OK)
+            result = apply_member(c, name, value, storage, error);
+    }
+    json_decref(root);
+    return result;
+}

@@ -1,0 +1,69 @@
+/* failure.c - results become sentences and exit codes. */
+#include "cli/shared/failure.h"
+
+#include "cli/shared/interrupt.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const exit_meaning exit_meanings[] = {
+    {"0", "done; the output is complete"},
+    {"1", "done, with a negative answer: --strict and there were warnings, an error above --max-error, "
+          "pictures beyond --max or --min, or "
+          "some of several models failed"},
+    {"2", "the command line, or the file of --config, is wrong"},
+    {"3", "an input cannot be read: missing, no permission, I/O"},
+    {"4", "an input is not valid"},
+    {"5", "an input needs a feature that facet lacks"},
+    {"6", "the output cannot be written"},
+    {"7", "a limit is reached: memory, time, size of a texture or file"},
+    {"8", "the machine lacks something"},
+    {"70", "a bug in facet"},
+    {"75", "interrupted by SIGTERM; run it again"},
+    {"128+N", "killed by signal N"},
+    {NULL, NULL},
+};
+
+int exit_code_of(facet_result result)
+{
+    switch (result) {
+    case FACET_OK:
+        return EXIT_DONE;
+    case FACET_ERROR_ARGUMENT:
+        return EXIT_USAGE;
+    case FACET_ERROR_READ:
+        return EXIT_READ;
+    case FACET_ERROR_INVALID:
+        return EXIT_INVALID;
+    case FACET_ERROR_UNSUPPORTED:
+        return EXIT_UNSUPPORTED;
+    case FACET_ERROR_WRITE:
+        return EXIT_WRITE;
+    case FACET_ERROR_LIMIT:
+    case FACET_ERROR_MEMORY:
+        return EXIT_LIMIT;
+    case FACET_ERROR_SYSTEM:
+        return EXIT_ENVIRONMENT;
+    case FACET_ERROR_CANCELLED:
+        return interrupt_exit_code();
+    case FACET_ERROR_BUG:
+        break;
+    }
+    return EXIT_BUG;
+}
+
+void failure_complete(facet_error *error, const char *name, uint64_t limit)
+{
+    char sentence[sizeof error->message + 256];
+    size_t length = strlen(name);
+    bool is_named = strncmp(error->message, name, length) == 0 && error->message[length] == ':';
+    bool is_general = error->result == FACET_ERROR_MEMORY || error->result == FACET_ERROR_LIMIT;
+    int n = snprintf(sentence, sizeof sentence, "%s%s%s", is_general && !is_named ? name : "",
+                     is_general && !is_named ? ": " : "", error->message);
+    if (strstr(sentence, "(--max-memory)"))
+        return; /* it is complete */
+    if (error->result == FACET_ERROR_MEMORY && limit && n > 0 && (size_t)n < sizeof sentence)
+        snprintf(sentence + n, sizeof sentence - (size_t)n, "; the limit is %.6g MiB (--max-memory)",
+                 (double)limit / 1048576.0);
+    snprintf(error->message, sizeof error->message, "%.1000s", sentence);
+}

@@ -1,0 +1,186 @@
+/* value.c - the notations of option values. */
+#include "cli/shared/value.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define DEGREE 0.017453292519943295 /* pi / 180 */
+
+/* More turns than anybody means; floats still tell a tenth of a degree apart. */
+static const double MAX_ANGLE = 1e4;
+
+static const char *skip_blanks(const char *text)
+{
+    return text + strspn(text, " \t");
+}
+
+bool scan_number(const char **text, double *number)
+{
+    const char *start = skip_blanks(*text);
+    const char *digits = start + (*start == '+' || *start == '-');
+    size_t length = strspn(digits, "0123456789.");
+    /* strtod() also takes hexadecimal, inf and nan, which nobody means here */
+    if (strcspn(digits, "0123456789") >= length ||
+        (digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X') && strspn(digits + 2, "0123456789") == 0))
+        return false;
+    char *end;
+    double parsed;
+    if (digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X')) { /* "0x480" as a size: the number is 0 */
+        parsed = 0.0;
+        end = (char *)(uintptr_t)(digits + 1);
+    } else {
+        parsed = strtod(start, &end);
+    }
+    if (end == start || !isfinite(parsed))
+        return false;
+    *text = end;
+    *number = parsed;
+    return true;
+}
+
+bool value_number(const char *text, double *number)
+{
+    double parsed;
+    if (!scan_number(&text, &parsed) || *skip_blanks(text))
+        return false;
+    *number = parsed;
+    return true;
+}
+
+bool value_numbers(const char *text, size_t count, double *numbers)
+{
+    double parsed[16];
+    for (size_t i = 0; i < count; i++) {
+        if (i > 0) {
+            text = skip_blanks(text);
+            text += *text == ',';
+        }
+        if (!scan_number(&text, &parsed[i]))
+            return false;
+    }
+    if (*skip_blanks(text))
+        return false;
+    memcpy(numbers, parsed, count * sizeof *numbers);
+    return true;
+}
+
+/* A number as a whole one from minimum to maximum. */
+static bool whole(double number, double minimum, double maximum, uint32_t *out)
+{
+    if (!(number >= minimum && number <= maximum) || number != floor(number))
+        return false;
+    *out = (uint32_t)number;
+    return true;
+}
+
+bool value_size(const char *text, uint32_t *width, uint32_t *height)
+{
+    static const char times[] = "\xc3\x97"; /* the multiplication sign in UTF-8 */
+    const double largest = 65536.0;
+    double w, h;
+    uint32_t parsed[2];
+    if (!scan_number(&text, &w))
+        return false;
+    text = skip_blanks(text);
+    h = w;
+    if (*text) {
+        if (strncmp(text, times, 2) == 0)
+            text += 2;
+        else if (*text == 'x' || *text == 'X' || *text == ',')
+            text++;
+        else
+            return false;
+        if (!value_number(text, &h))
+            return false;
+    }
+    if (!whole(w, 1.0, largest, &parsed[0]) || !whole(h, 1.0, largest, &parsed[1]))
+        return false;
+    *width = parsed[0];
+    *height = parsed[1];
+    return true;
+}
+
+bool value_rectangle(const char *text, uint32_t rectangle[4])
+{
+    double numbers[4];
+    uint32_t parsed[4];
+    if (!value_numbers(text, 4, numbers))
+        return false;
+    for (int i = 0; i < 4; i++)
+        if (!whole(numbers[i], i < 2 ? 0.0 : 1.0, 65536.0, &parsed[i]))
+            return false;
+    memcpy(rectangle, parsed, sizeof parsed);
+    return true;
+}
+
+/* Multiplies *number by the factor of the unit that text is; "" is the first one. */
+typedef struct unit {
+    const char *name;
+    double factor;
+} unit;
+
+static bool apply_unit(const char *text, const unit *units, double *number)
+{
+    text = skip_blanks(text);
+    for (; units->name; units++)
+        if (strcasecmp(text, units->name) == 0) {
+            *number *= units->factor;
+            return true;
+        }
+    return false;
+}
+
+bool value_bytes(const char *text, uint64_t *bytes)
+{
+    const double K = 1024.0, M = K * K, G = M * K, T = G * K;
+    const unit units[] = {{"", 1},    {"B", 1},  {"K", K},   {"KB", K},  {"KiB", K},
+                          {"M", M},   {"MB", M}, {"MiB", M}, {"G", G},   {"GB", G},
+                          {"GiB", G}, {"T", T},  {"TB", T},  {"TiB", T}, {NULL, 0}};
+    double number;
+    if (!scan_number(&text, &number) || !apply_unit(text, units, &number) || number < 0.0 || number > 9e18)
+        return false;
+    *bytes = (uint64_t)number;
+    return true;
+}
+
+bool value_seconds(const char *text, double *seconds)
+{
+    static const unit units[] = {{"", 1},   {"s", 1},    {"sec", 1},  {"ms", 1e-3},
+                                 {"m", 60}, {"min", 60}, {"h", 3600}, {NULL, 0}};
+    double number;
+    if (!scan_number(&text, &number) || !apply_unit(text, units, &number) || !(number > 0.0) || number > 1e9)
+        return false;
+    *seconds = number;
+    return true;
+}
+
+bool value_exposure(const char *text, double *stops)
+{
+    double number;
+    if (!scan_number(&text, &number))
+        return false;
+    text = skip_blanks(text);
+    if (strcasecmp(text, "x") == 0) {
+        if (!(number > 0.0))
+            return false;
+        number = log2(number);
+    } else if (*text && strcasecmp(text, "ev") != 0 && strcasecmp(text, "stops") != 0) {
+        return false;
+    }
+    if (fabs(number) > 100.0)
+        return false;
+    *stops = number;
+    return true;
+}
+
+bool value_angle(const char *text, double *radians)
+{
+    static const unit units[] = {{"", DEGREE}, {"deg", DEGREE}, {"rad", 1.0}, {NULL, 0}};
+    double number;
+    if (!scan_number(&text, &number) || !apply_unit(text, units, &number) || fabs(number) > MAX_ANGLE)
+        return false;
+    *radians = number;
+    return true;
+}

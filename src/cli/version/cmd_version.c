@@ -1,0 +1,47 @@
+/* cmd_version.c - facet version. */
+#include "cli/shared/commands.h"
+
+#include "cli/shared/failure.h"
+#include "cli/shared/json_report.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* The text of the report, which asks a driver of OpenGL who it is: once, and only where somebody reads it. */
+static char *read_report(void)
+{
+    size_t size = 4096;
+    char *report = malloc(size);
+    size_t length = report ? facet_build_report(report, size) : 0;
+    if (length < size)
+        return report;
+    free(report);
+    report = malloc(length + 1);
+    if (report)
+        facet_build_report(report, length + 1);
+    return report;
+}
+
+int cmd_version(command_line *c)
+{
+    bool is_json = is_given(c, OPT_JSON);
+    if (!is_json && !is_given(c, OPT_VERBOSE)) {
+        printf("facet %s\n", facet_version());
+        return EXIT_DONE;
+    }
+    char *report = read_report();
+    if (!report) {
+        message_error("facet: out of memory");
+        return EXIT_LIMIT;
+    }
+    if (is_json) {
+        json_t *root = json_pack("{s:s, s:I, s:s}", "version", facet_version(), "threads",
+                                 (json_int_t)facet_thread_count(), "report", report);
+        report_print_json(root);
+        json_decref(root);
+    } else {
+        fputs(report, stdout);
+    }
+    free(report);
+    return EXIT_DONE;
+}

@@ -1,0 +1,195 @@
+/* cmd_view.c - facet view: a window that reads models and environments as facet render does. */
+#include "cli/shared/commands.h"
+
+#include "cli/shared/failure.h"
+#include "cli/shared/input.h"
+#include "cli/render/render_camera.h"
+#include "cli/render/sequence.h"
+#include "cli/shared/verb_run.h"
+#include "cli/view/view_command.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct view_run {
+    verb_run base;
+    render_options options;
+    bool has_model; /* the first one was read */
+} view_run;
+
+/* ---- models ---- */
+
+/* What of the file is shown, and how it moves. What was asked for by name the first model must have; others of the folder
+ * are shown without it. */
+static facet_result choose_pose(view_run *run, const char *path, facet_view_model *model, facet_error *error)
+{
+    const render_options *o = &run->options;
+    sequence s;
+    facet_result result = sequence_create(model->scene, input_name(path), o, &s, error);
+    if (result != FACET_OK && run->has_model && result == FACET_ERROR_ARGUMENT)
+        return FACET_OK;
+    if (result != FACET_OK)
+        return result;
+    model->pose = s.pose;
+    model->animation_count = s.pose.animation_count;
+    model->first_animation = s.pose.animation_count ? s.pose.animations[0] : 0;
+    model->is_playing = o->animation && !o->has_time;
+    model->pose.animations = NULL;
+    model->pose.animation_count = 0;
+    sequence_destroy(&s);
+    return FACET_OK;
+}
+
+static facet_result choose_camera(view_run *run, facet_view_model *model, facet_error *error)
+{
+    render_options o = run->options;
+    const render_view view = {.pose = &model->pose};
+    bool aims = o.has_target[0] || o.has_target[1] || o.has_target[2];
+    bool aims_fully = o.has_target[0] && o.has_target[1] && o.has_target[2];
+    facet_camera camera;
+    facet_result result = FACET_OK;
+    if (o.camera) {
+        result = facet_scene_find_camera(model->scene, o.camera, &model->camera, error);
+        model->has_camera = result == FACET_OK;
+        if (result == FACET_ERROR_ARGUMENT && run->has_model)
+            result = FACET_OK;
+    } else if (o.has_eye) {
+        result = render_camera(model->scene, &view, &o, &model->eye, error);
+        model->has_eye = true;
+    } else if (aims && !aims_fully) { /* one coordinate is given, the others are the model's */
+        result = render_camera(model->scene, &view, &o, &camera, error);
+        if (result == FACET_OK)
+            render_keep_framing(&o, model->scene, &camera);
+    }
+    model->orbit = render_orbit(model->scene, &model->pose, &o);
+    /* who gave no view will turn the model first: the distance is one that holds all around */
+    model->orbit.fits_all_azimuths = !is_given(run->base.line, OPT_ORBIT);
+    return result;
+}
+
+static facet_result load_model(void *user, const char *path, facet_view_model *model, facet_error *error)
+{
+    view_run *run = user;
+    bool is_ogl1 = run->options.desc.shading == FACET_SHADING_OGL1;
+    facet_scene_desc desc = verb_run_scene_desc(&run->base);
+    desc.legacy.keeps_materials = is_ogl1;
+    *model = (facet_view_model){.scene = NULL};
+    facet_result result = input_load(path, &desc, &model->scene, error);
+    if (result == FACET_OK && is_ogl1)
+        result = facet_scene_convert_materials(model->scene, FACET_MATERIAL_MODEL_OGL1, &desc.legacy,
+                                               &desc.log, error);
+    if (result == FACET_OK)
+        result = choose_pose(run, path, model, error);
+    if (result == FACET_OK)
+        result = choose_camera(run, model, error);
+    messages_flush(&run->base.messages);
+    messages_clear(&run->base.messages);
+    if (result == FACET_OK) {
+        run->has_model = true;
+        return FACET_OK;
+    }
+    failure_complete(error, input_name(path), run->options.limits.max_memory_bytes);
+    facet_scene_destroy(model->scene);
+    *model = (facet_view_model){.scene = NULL};
+    return result;
+}
+
+/* ---- light ---- */
+
+static facet_result load_environment(void *user, const char *name, const facet_view_model *model,
+                                     facet_environment **environment, facet_error *error)
+{
+    view_run *run = user;
+    const render_options *o = &run->options;
+    const facet_environment_desc desc = verb_run_environment_desc(&run->base, o->environment_cache);
+    environment_input input = o->environment;
+    *environment = NULL;
+    if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
+        return FACET_OK;
+    facet_result result = FACET_OK;
+    if (name)
+        result = environment_input_parse("environment", name, ENVIRONMENT_TAKES_NONE, &input, error);
+    bool is_own = !name && render_is_lit_by_scene(o, model->scene, &model->pose);
+    if (result == FACET_OK && is_own)
+        result = facet_environment_create_from_scene(model->scene, &model->pose, &desc, environment, error);
+    else if (result == FACET_OK)
+        result = environment_input_load(&input, &desc, environment, error);
+    messages_flush(&run->base.messages);
+    if (result != FACET_OK)
+        failure_complete(error, environment_input_name(&input), run->options.limits.max_memory_bytes);
+    return result;
+}
+
+/* ---- the run ---- */
+
+static char *describe(void *user, const facet_view_image *picture)
+{
+    const view_run *run = user;
+    return view_command(run->base.line, &run->options, picture);
+}
+
+static void print(void *user, const char *text)
+{
+    (void)user;
+    printf("%s\n", text);
+    fflush(stdout);
+}
+
+static facet_result read_line(verb_run *base, facet_error *error)
+{
+    command_line *c = base->line;
+    render_options *o = &((view_run *)base)->options;
+    TRY(command_line_set(c, option_find_id(c->verb, OPT_RENDERER), "gl", SOURCE_PRESET, error));
+    TRY(render_options_read(c, o, error));
+    base->limits = o->limits;
+    if (o->meters_exposure)
+        return option_fail(c, OPT_EXPOSURE,
+                           "stops or a factor; the window has no meter, + and - change its exposure", error);
+    if (o->desc.renderer == FACET_RENDERER_KIND_PREVIEW)
+        return option_fail(c, OPT_RENDERER, "gl or path; facet render has the preview", error);
+    return FACET_OK;
+}
+
+static facet_result show(verb_run *base, facet_error *error)
+{
+    view_run *run = (view_run *)base;
+    static const char *const environments[] = {"neutral", "white", "sun:45,135", "sun:6,120", "none"};
+    const command_line *c = run->base.line;
+    const render_options *o = &run->options;
+    bool is_path = o->desc.renderer == FACET_RENDERER_KIND_PATH;
+    const char *script = option_text(c, OPT_SCRIPT, NULL);
+    facet_view_desc desc = {
+        .allocator = run->base.allocator,
+        .log = messages_log(&run->base.messages),
+        .source = {.user = run,
+                   .load_model = load_model,
+                   .load_environment = load_environment,
+                   .describe = describe,
+                   .print = print},
+        .paths = c->arguments,
+        .path_count = (uint32_t)c->argument_count,
+        .environments = environments,
+        .environment_count = sizeof environments / sizeof *environments,
+        .environment = o->environment.kind == ENVIRONMENT_NONE ? NULL : option_text(c, OPT_ENV, NULL),
+        .render = o->desc,
+        .script = script && strcmp(script, "-") == 0 ? "/dev/stdin" : script};
+    if (is_path) {
+        desc.path_samples = is_given(c, OPT_SAMPLES) ? o->desc.samples : 0;
+        desc.render.samples = 4;
+    }
+    if (o->note[0])
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s", o->note);
+    return facet_view(&desc, error);
+}
+
+static void destroy(verb_run *base)
+{
+    (void)base; /* the window has closed what it opened */
+}
+
+int cmd_view(command_line *c)
+{
+    static const verb_work parts = {read_line, show, NULL, destroy};
+    view_run run = {.has_model = false};
+    return verb_run_all(&run.base, c, &parts);
+}

@@ -1,0 +1,379 @@
+/* view_command.c - see view_command.h. What is as facet render has it anyway is left out, so that the line can be read. */
+#include "cli/view/view_command.h"
+
+#include "cli/shared/output_name.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEGREE 0.017453292519943295 /* pi / 180 */
+
+/* Text that grows in memory of malloc(). */
+typedef struct line {
+    char *text;
+    size_t length, capacity;
+    bool has_failed;
+} line;
+
+static void add_bytes(line *l, const char *bytes, size_t size)
+{
+    if (l->length + size + 1 > l->capacity) {
+        size_t capacity = 2 * (l->length + size) + 256;
+        char *grown = l->has_failed ? NULL : realloc(l->text, capacity);
+        l->has_failed = !grown;
+        if (!grown)
+            return;
+        l->text = grown;
+        l->capacity = capacity;
+    }
+    memcpy(l->text + l->length, bytes, size);
+    l->length += size;
+    l->text[l->length] = 0;
+}
+
+/* A word for the shell: in quotes where it needs them. */
+static void add_word(line *l, const char *word)
+{
+    static const char harmless[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%^";
+    if (l->length)
+        add_bytes(l, " ", 1);
+    if (*word && strspn(word, harmless) == strlen(word)) {
+        add_bytes(l, word, strlen(word));
+        return;
+    }
+    add_bytes(l, "'", 1);
+    for (; *word; word++)
+        if (*word == '\'')
+            add_bytes(l, "'\\''", 4);
+        else
+            add_bytes(l, word, 1);
+    add_bytes(l, "'", 1);
+}
+
+/* --name=value where the value could be taken for an option, else --name value. */
+static void add_to(line *l, const option *o, const char *value)
+{
+    char word[4300];
+    bool is_joined = value[0] == '-';
+    snprintf(word, sizeof word, "--%s%s%s", o->name, is_joined ? "=" : "", is_joined ? value : "");
+    add_word(l, word);
+    if (!is_joined && option_takes_value(o))
+        add_word(l, value);
+}
+
+static void add_option(line *l, option_id id, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void add_option(line *l, option_id id, const char *format, ...)
+{
+    char value[4200];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(value, sizeof value, format, arguments);
+    va_end(arguments);
+    add_to(l, option_find_id(verb_find("render"), id), value);
+}
+
+/* A choice by its place in the table, unless it is the first. */
+static void add_choice(line *l, option_id id, int choice)
+{
+    const option *o = option_find_id(verb_find("render"), id);
+    if (choice > 0)
+        add_to(l, o, o->choices[choice]);
+}
+
+/* How an option makes of what is written what the renderer gets. */
+typedef double reading(double written);
+
+static double read_float(double x)
+{
+    return (double)(float)x;
+}
+
+static double read_double(double x)
+{
+    return x;
+}
+
+static double read_degrees(double x)
+{
+    return (double)(float)(x * DEGREE);
+}
+
+static double read_factor(double x)
+{
+    return (double)(float)log2(x);
+}
+
+/* Decimals as people write them; exponents for what is tiny or huge. */
+static void write_digits(double value, int digits, char out[48])
+{
+    int exponent = value != 0.0 ? (int)floor(log10(fabs(value))) : 0;
+    int decimals = digits - 1 - exponent;
+    if (exponent < -4 || exponent > 9)
+        snprintf(out, 48, "%.*g", digits, value);
+    else
+        snprintf(out, 48, "%.*f", decimals > 0 ? decimals : 0, value);
+}
+
+/* The fewest digits that are read as the same number. about: what was written, nearly. */
+static void write_number(double about, double wanted, reading *read, char out[48])
+{
+    if (wanted == read(0.0))
+        about = 0.0; /* without a sign */
+    for (int digits = 1; digits <= 17; digits++) {
+        write_digits(about, digits, out);
+        if (read(strtod(out, NULL)) == wanted)
+            return;
+    }
+}
+
+static void write_float(float x, char out[48])
+{
+    write_number((double)x, (double)x, read_float, out);
+}
+
+static void write_degrees(float radians, char out[48])
+{
+    write_number((double)radians / DEGREE, (double)radians, read_degrees, out);
+}
+
+/* In the file's coordinates: the fewest digits that are the same place relative to the origin. */
+static void write_coordinate(float x, double origin, char out[48])
+{
+    double place = origin + (double)x;
+    if (place == 0.0)
+        place = 0.0; /* without a sign */
+    for (int digits = 1; digits <= 17; digits++) {
+        write_digits(place, digits, out);
+        if ((float)(strtod(out, NULL) - origin) == x)
+            return;
+    }
+}
+
+/* ---- parts of a picture ---- */
+
+static void add_float(line *l, option_id id, float x)
+{
+    char word[48];
+    write_float(x, word);
+    add_option(l, id, "%s", word);
+}
+
+static void add_degrees(line *l, option_id id, float radians)
+{
+    char word[48];
+    write_degrees(radians, word);
+    add_option(l, id, "%s", word);
+}
+
+static void add_camera(line *l, const render_options *o, const facet_view_image *p)
+{
+    const facet_orbit *orbit = p->orbit;
+    if (!orbit) {
+        add_option(l, OPT_CAMERA, "%u", p->camera);
+        return;
+    }
+    char words[3][48];
+    write_degrees(orbit->azimuth_rad, words[0]);
+    write_degrees(orbit->polar_rad, words[1]);
+    write_float(orbit->radius, words[2]);
+    add_option(l, OPT_ORBIT, "%s,%s,%s", words[0], words[1], words[2]);
+    for (int i = 0; i < 3; i++)
+        write_coordinate(orbit->target[i], p->origin[i], words[i]);
+    add_option(l, OPT_TARGET, "%s,%s,%s", words[0], words[1], words[2]);
+    if (orbit->fov_y_rad != facet_orbit_default().fov_y_rad)
+        add_degrees(l, OPT_FOV, orbit->fov_y_rad);
+    if (orbit->is_orthographic)
+        add_option(l, OPT_ORTHO, "%s", "");
+    if (o->orbit.is_z_up)
+        add_option(l, OPT_UP, "z");
+}
+
+static void add_light(line *l, const command_line *c, const facet_view_image *p)
+{
+    const facet_render_desc *d = p->render;
+    const char *name = p->environment ? p->environment : option_text(c, OPT_ENV, NULL);
+    if (name)
+        add_option(l, OPT_ENV, "%s", name);
+    if (d->environment_rotation_rad != 0.0f)
+        add_degrees(l, OPT_ENV_ROTATION, d->environment_rotation_rad);
+    if (d->environment_ev != 0.0f) {
+        char factor[48];
+        write_number(exp2((double)d->environment_ev), (double)d->environment_ev, read_factor, factor);
+        add_option(l, OPT_ENV_INTENSITY, "%s", factor);
+    }
+    if (d->ignores_scene_lights)
+        add_option(l, OPT_LIGHTS, "none");
+    if (d->ground == FACET_GROUND_SHADOW)
+        add_option(l, OPT_GROUND, "shadow");
+}
+
+static void add_background(line *l, const command_line *c, const facet_render_desc *d)
+{
+    if (d->background == FACET_BACKGROUND_TRANSPARENT)
+        add_option(l, OPT_BACKGROUND, "transparent");
+    else if (d->background == FACET_BACKGROUND_ENVIRONMENT)
+        add_option(l, OPT_BACKGROUND, "env");
+    else if (is_given(c, OPT_BACKGROUND)) /* the color is that which was given, or white */
+        add_option(l, OPT_BACKGROUND, "%s", option_text(c, OPT_BACKGROUND, "white"));
+    if (d->background == FACET_BACKGROUND_ENVIRONMENT && d->background_blur > 0.0f)
+        add_float(l, OPT_BACKGROUND_BLUR, d->background_blur);
+}
+
+static void add_look(line *l, const facet_render_desc *d)
+{
+    const option *o = option_find_id(verb_find("render"), OPT_TONE_MAPPING);
+    if (d->exposure_ev != 0.0f)
+        add_float(l, OPT_EXPOSURE, d->exposure_ev);
+    if (d->tonemap != FACET_TONEMAP_NEUTRAL && d->shading == FACET_SHADING_GLTF)
+        add_to(l, o, o->choices[d->tonemap]);
+}
+
+static void add_gl(line *l, const facet_gl_desc *gl)
+{
+    add_choice(l, OPT_CHANNEL, (int)gl->channel);
+    add_choice(l, OPT_BRDF, (int)gl->brdf);
+    add_choice(l, OPT_TRANSPARENCY, (int)gl->transparency);
+    if (gl->has_shadows)
+        add_option(l, OPT_SHADOWS, "%s", "");
+    if (gl->bloom > 0.0f)
+        add_float(l, OPT_BLOOM, gl->bloom);
+}
+
+static void add_rendering(line *l, const facet_render_desc *d)
+{
+    bool is_path = d->renderer == FACET_RENDERER_KIND_PATH;
+    bool is_conserving = d->energy == FACET_ENERGY_CONSERVING;
+    add_option(l, OPT_RENDERER, "%s", is_path ? "path" : "gl");
+    if (is_conserving != is_path)
+        add_option(l, OPT_ENERGY, "%s", is_conserving ? "conserving" : "gltf");
+    if (is_path || d->samples != 4)
+        add_option(l, OPT_SAMPLES, "%u", d->samples);
+    if (is_path && d->path.denoises)
+        add_option(l, OPT_DENOISE, "%s", "");
+    if (!is_path)
+        add_gl(l, &d->gl);
+}
+
+static void add_pose(line *l, const command_line *c, const facet_pose_desc *p)
+{
+    const char *animation = option_text(c, OPT_ANIMATION, "");
+    if (p->has_scene_index)
+        add_option(l, OPT_SCENE, "%u", p->scene_index);
+    if (p->has_variant)
+        add_option(l, OPT_VARIANT, "%u", p->variant);
+    if (p->animation_count == 0)
+        return;
+    if (p->animation_count > 1)
+        add_option(l, OPT_ANIMATION, "%s", strcmp(animation, "all") == 0 ? animation : "all");
+    else
+        add_option(l, OPT_ANIMATION, "%u", p->animations[0]);
+    char time[48];
+    write_number(p->time_s, p->time_s, read_double, time);
+    add_option(l, OPT_TIME, "%s", time);
+}
+
+/* ---- what no key changes ---- */
+
+/* Those above, and those that are about the window. */
+static bool is_known(option_id id)
+{
+    static const option_id ids[] = {OPT_SIZE,
+                                    OPT_BACKGROUND,
+                                    OPT_BACKGROUND_BLUR,
+                                    OPT_ORBIT,
+                                    OPT_TARGET,
+                                    OPT_FOV,
+                                    OPT_EYE,
+                                    OPT_UP,
+                                    OPT_ORTHO,
+                                    OPT_FRAMING,
+                                    OPT_CAMERA,
+                                    OPT_ENV,
+                                    OPT_ENV_ROTATION,
+                                    OPT_ENV_INTENSITY,
+                                    OPT_LIGHTS,
+                                    OPT_GROUND,
+                                    OPT_EXPOSURE,
+                                    OPT_TONE_MAPPING,
+                                    OPT_QUALITY,
+                                    OPT_SAMPLES,
+                                    OPT_RENDERER,
+                                    OPT_ENERGY,
+                                    OPT_DENOISE,
+                                    OPT_ANIMATION,
+                                    OPT_TIME,
+                                    OPT_SCENE,
+                                    OPT_VARIANT,
+                                    OPT_THREADS,
+                                    OPT_TIME_LIMIT,
+                                    OPT_QUIET,
+                                    OPT_VERBOSE,
+                                    OPT_HELP,
+                                    OPT_HELP_ALL,
+                                    OPT_SCRIPT,
+                                    OPT_CONFIG,
+                                    OPT_ENV_CACHE,
+                                    OPT_CHANNEL,
+                                    OPT_BRDF,
+                                    OPT_TRANSPARENCY,
+                                    OPT_SHADOWS,
+                                    OPT_BLOOM};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (ids[i] == id)
+            return true;
+    return false;
+}
+
+/* Options that path tracing alone reads are refused elsewhere. */
+static bool is_of_paths(option_id id)
+{
+    static const option_id ids[] = {PATH_OPTIONS};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (ids[i] == id)
+            return true;
+    return false;
+}
+
+static void add_others(line *l, const command_line *c, bool is_path)
+{
+    const option *o;
+    for (size_t i = 0; (o = option_at(c->verb, i)); i++) {
+        bool is_left_out = is_known(o->id) || !is_given(c, o->id) || (is_of_paths(o->id) && !is_path);
+        if (!is_left_out)
+            add_option(l, o->id, "%s", option_text(c, o->id, ""));
+    }
+}
+
+char *view_command(const command_line *c, const render_options *options, const facet_view_image *p)
+{
+    line l = {0};
+    char stem[1024];
+    char output[1100];
+    const facet_render_desc *d = p->render;
+    if (!output_name_stem(p->model ? p->model : "facet", stem, sizeof stem))
+        memcpy(stem, "model", 6);
+    snprintf(output, sizeof output, "%s.png", stem);
+    add_word(&l, "facet");
+    add_word(&l, "render");
+    if (p->model)
+        add_word(&l, p->model);
+    add_word(&l, "-o");
+    add_word(&l, output);
+    add_option(&l, OPT_SIZE, "%ux%u", d->width, d->height);
+    add_rendering(&l, d);
+    add_camera(&l, options, p);
+    add_pose(&l, c, &d->pose);
+    add_light(&l, c, p);
+    add_background(&l, c, d);
+    add_look(&l, d);
+    add_others(&l, c, d->renderer == FACET_RENDERER_KIND_PATH);
+    if (l.has_failed) {
+        free(l.text);
+        return NULL;
+    }
+    return l.text;
+}
