@@ -78,7 +78,7 @@ static void press_key(view_app *a, const view_event *e)
     if (!b)
         return;
     if (view_state_apply(&a->state, b->action, b->amount)) {
-        a->needs_picture = true;
+        a->needs_image = true;
         view_app_forget_warning(a);
         if (a->state.message[0])
             view_app_say(a, a->state.message, 2.0);
@@ -142,11 +142,11 @@ static void handle_events(view_app *a)
             break;
         default:
             if (view_state_point(&a->state, &e)) {
-                a->needs_picture = true;
+                a->needs_image = true;
                 a->moves_until_s = a->state.divider.is_dragged ? 0.0 : clock_seconds() + rest_s;
             }
             /* what was moved is traced when it is let go */
-            a->needs_picture = a->needs_picture || (was_held && !a->state.is_held);
+            a->needs_image = a->needs_image || (was_held && !a->state.is_held);
         }
         free(e.path);
     }
@@ -160,7 +160,7 @@ static double time_to_sleep(const view_app *a)
     bool is_visible = a->state.width > 0;
     if (a->desc->script)
         return 0.02; /* steps wait for threads, windows, files */
-    if (a->needs_picture || a->needs_frame)
+    if (a->needs_image || a->needs_frame)
         return 0.0;
     if (!a->is_shown)
         return 0.01;
@@ -179,10 +179,10 @@ static void advance_clock(view_app *a)
     if (!a->desc->script) {
         a->time_s += passed;
         if (view_state_advance(&a->state, fmin(passed, longest_step_s)))
-            a->needs_picture = true;
+            a->needs_image = true;
     }
     if (a->divisor > 1 && now >= a->moves_until_s)
-        a->needs_picture = true;
+        a->needs_image = true;
     if (a->message[0] && a->time_s >= a->message_until_s) {
         a->message[0] = 0;
         a->needs_frame = true;
@@ -196,7 +196,7 @@ static void show_window(view_app *a, double start)
         return;
     view_window_show(a->window);
     a->is_shown = true;
-    a->needs_picture = true;
+    a->needs_image = true;
 }
 
 static void draw(view_app *a)
@@ -209,14 +209,14 @@ static void draw(view_app *a)
         return;
     }
     if (view_window_needs_drawing(a->window))
-        a->needs_picture = true;
+        a->needs_image = true;
     bool traces = a->state.render.renderer == FACET_RENDERER_KIND_PATH ||
                   a->state.divider.comparison == VIEW_COMPARE_RENDERER;
     if (traces)
         a->needs_frame = true; /* the tracer may have more */
     facet_error error;
-    if ((a->needs_picture || a->needs_frame) && view_show(a, &error) != FACET_OK) {
-        a->needs_picture = a->needs_frame = false;
+    if ((a->needs_image || a->needs_frame) && view_show(a, &error) != FACET_OK) {
+        a->needs_image = a->needs_frame = false;
         view_app_say(a, error.message, 8.0);
         if (a->desc->script) { /* nobody reads messages */
             a->error = error;

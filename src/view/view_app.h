@@ -11,9 +11,8 @@
 #include "view/view_folder.h"
 #include "view/view_load.h"
 #include "view/view_overlay.h"
-#include "view/view_pace.h"
-#include "view/view_script.h"
 #include "view/view_state.h"
+#include "view/view_script.h"
 #include "view/view_trace.h"
 #include "view/view_watch.h"
 #include "view/view_window.h"
@@ -74,7 +73,7 @@ typedef struct view_app {
     uint32_t divisor;     /* of the resolution in which it was drawn */
     double moves_until_s; /* on the clock; the hand rests when it has not moved the camera for a moment */
     char variant[128];    /* label of a side */
-    bool needs_picture;   /* something of the model, the camera, the light changed */
+    bool needs_image;     /* something of the model, the camera, the light changed */
     bool needs_frame;     /* only what is laid over it did */
     bool has_drawn;       /* OpenGL did, for the frame that is being made */
     bool is_for_file;     /* with all the care that facet render takes, if slower */

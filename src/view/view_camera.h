@@ -3,7 +3,7 @@
 #ifndef VIEW_VIEW_CAMERA_H
 #define VIEW_VIEW_CAMERA_H
 
-#include "view/view_keys.h"
+#include "view/view_input.h"
 
 #include "facet/facet.h"
 

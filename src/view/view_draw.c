@@ -95,7 +95,7 @@ static const char vertex_text[] =
 
 /* The squares are mixed with the display's numbers, as browsers lay transparent pictures over a page. */
 static const char fragment_text[] =
-    "uniform sampler2D u_picture;\n"
+    "uniform sampler2D u_image;\n"
     "uniform vec4 u_color;   /* times the picture; with u_square < 0 in its place */\n"
     "uniform float u_square; /* pixels; 0: no checkerboard */\n"
     "in vec2 v_place;\n"
@@ -106,7 +106,7 @@ static const char fragment_text[] =
     "        fragment = u_color;\n"
     "        return;\n"
     "    }\n"
-    "    vec4 c = texture(u_picture, v_place);\n"
+    "    vec4 c = texture(u_image, v_place);\n"
     "    if (u_square > 0.0) {\n"
     "        vec2 square = floor(gl_FragCoord.xy / u_square);\n"
     "        float light = mod(square.x + square.y, 2.0) < 0.5 ? 0.56 : 0.64;\n"
@@ -166,7 +166,7 @@ static facet_result link_program(view_draw *d, facet_error *error)
     d->color = glGetUniformLocation(d->program, "u_color");
     d->square = glGetUniformLocation(d->program, "u_square");
     glUseProgram(d->program);
-    glUniform1i(glGetUniformLocation(d->program, "u_picture"), 0);
+    glUniform1i(glGetUniformLocation(d->program, "u_image"), 0);
     return FACET_OK;
 }
 
@@ -235,7 +235,7 @@ void view_draw_surface(view_draw *d, const view_surface *s, view_laying laying, 
     set_place(d, (float)x, (float)y, (float)width, (float)height);
     glUniform1f(d->is_upside_down, s->is_upside_down ? 1.0f : 0.0f);
     glUniform4f(d->color, 1.0f, 1.0f, 1.0f, 1.0f);
-    glUniform1f(d->square, laying == VIEW_LAY_PICTURE ? d->square_size : 0.0f);
+    glUniform1f(d->square, laying == VIEW_LAY_IMAGE ? d->square_size : 0.0f);
     glEnable(GL_SCISSOR_TEST);
     glScissor(left, 0, right - left, (GLsizei)d->height);
     if (laying == VIEW_LAY_PANEL) {

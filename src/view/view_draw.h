@@ -21,8 +21,8 @@ void view_surface_destroy(view_surface *s);
 
 /* How a picture is laid on the window. */
 typedef enum view_laying {
-    VIEW_LAY_PICTURE, /* straight alpha, over a checkerboard */
-    VIEW_LAY_PANEL    /* premultiplied alpha, over what is there */
+    VIEW_LAY_IMAGE, /* straight alpha, over a checkerboard */
+    VIEW_LAY_PANEL  /* premultiplied alpha, over what is there */
 } view_laying;
 
 typedef struct view_draw view_draw;

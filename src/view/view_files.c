@@ -5,17 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/file.h"
 #include "base/result.h"
 #include "scene/scene.h"
-
-static bool is_folder(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-}
 
 static void request(view_app *a, const view_request *r)
 {
@@ -82,7 +75,7 @@ void view_files_drop(view_app *a, const char *path)
         return;
     }
     view_list dropped = {.allocator = a->desc->allocator};
-    if (is_folder(path)) {
+    if (view_path_is_folder(path)) {
         const char *const paths[] = {path};
         if (!view_list_models(&dropped, paths, 1) || dropped.count == 0) {
             char text[512];
@@ -142,7 +135,7 @@ static void show_environment(view_app *a, view_loaded *l)
     free(a->environment_name);
     a->environment_name = l->environment_name;
     l->environment_name = NULL;
-    a->needs_picture = true;
+    a->needs_image = true;
     view_app_forget_warning(a);
     if (!l->wanted_model)
         tell_environment(a);
@@ -210,7 +203,7 @@ static facet_result show_model(view_app *a, view_loaded *l, facet_error *error)
     set_title(a);
     tell_model(a, is_again, is_first);
     view_app_forget_warning(a);
-    a->needs_picture = true;
+    a->needs_image = true;
     return FACET_OK;
 }
 

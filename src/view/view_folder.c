@@ -105,7 +105,7 @@ static int compare_names(const void *a, const void *b)
     return (*x != 0) - (*y != 0);
 }
 
-static bool is_folder(const char *path)
+bool view_path_is_folder(const char *path)
 {
     struct stat info;
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
@@ -124,7 +124,7 @@ static bool add_folder(view_list *l, const char *folder, bool (*is_wanted)(const
         if (entry->d_name[0] == '.')
             continue;
         char *path = path_join(&l->allocator, folder, entry->d_name);
-        if (path && is_folder(path))
+        if (path && view_path_is_folder(path))
             fits = add(&folders, path);
         else if (is_wanted(entry->d_name))
             fits = add(l, path);
@@ -180,13 +180,13 @@ static bool add_neighbours(view_list *l, const char *path, bool (*is_wanted)(con
 bool view_list_models(view_list *l, const char *const *paths, uint32_t path_count)
 {
     view_list_clear(l);
-    if (path_count == 1 && !is_folder(paths[0]))
+    if (path_count == 1 && !view_path_is_folder(paths[0]))
         return strcmp(paths[0], "-") == 0 ? add_copy(l, paths[0])
                                           : add_neighbours(l, paths[0], view_path_is_model);
     bool fits = true;
     for (uint32_t i = 0; fits && i < path_count; i++)
-        fits = is_folder(paths[i]) ? add_folder(l, paths[i], view_path_is_model, DEEPEST)
-                                   : add_copy(l, paths[i]);
+        fits = view_path_is_folder(paths[i]) ? add_folder(l, paths[i], view_path_is_model, DEEPEST)
+                                             : add_copy(l, paths[i]);
     return fits;
 }
 

@@ -11,7 +11,8 @@ typedef struct view_list {
     size_t at; /* which is shown; count: none of them */
 } view_list;
 
-bool view_path_is_model(const char *path);       /* by its extension: .glb .gltf .obj */
+bool view_path_is_model(const char *path); /* by its extension: .glb .gltf .obj */
+bool view_path_is_folder(const char *path);
 bool view_path_is_environment(const char *path); /* .hdr .exr .pfm .ktx2 and pictures */
 
 /* What is given: models as they are, of folders the models in them, or where there are none those one or two folders below,

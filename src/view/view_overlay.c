@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "plot/chart_text.h"
-#include "view/view_keys.h"
+#include "view/view_input.h"
 
 enum { MAX_ROWS = 96, MAX_COLUMNS = 4, OVERLAY_TEXT = 512 };
 

@@ -1,5 +1,5 @@
 /* view_pace_test.c - view_pace.h: coarse where it helps, and sharp as soon as it can be. */
-#include "view/view_pace.h"
+#include "view/view_state.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

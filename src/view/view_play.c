@@ -108,9 +108,9 @@ static void play_step(view_app *a, const view_step *s)
         break;
     case VIEW_STEP_WAIT:
         a->time_s += s->numbers[0];
-        a->needs_picture = view_state_advance(&a->state, s->numbers[0]) || a->needs_picture;
+        a->needs_image = view_state_advance(&a->state, s->numbers[0]) || a->needs_image;
         break;
-    case VIEW_STEP_PICTURE:
+    case VIEW_STEP_IMAGE:
     case VIEW_STEP_WINDOW:
         save(a, s);
         break;

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/result.h"
-#include "view/view_keys.h"
+#include "view/view_input.h"
 
 /* What stands behind a word. */
 typedef enum step_takes { TAKES_NOTHING, TAKES_KEY, TAKES_DRAG, TAKES_NUMBERS, TAKES_PATH } step_takes;
@@ -30,7 +30,7 @@ static const struct {
     {"load", VIEW_STEP_LOAD, TAKES_NOTHING, 0, 0, "nothing more"},
     {"reload", VIEW_STEP_RELOAD, TAKES_NOTHING, 0, 0, "nothing more"},
     {"trace", VIEW_STEP_TRACE, TAKES_NUMBERS, 0, 2, "samples per pixel, and the seconds that they may take"},
-    {"picture", VIEW_STEP_PICTURE, TAKES_PATH, 0, 0, "a file"},
+    {"picture", VIEW_STEP_IMAGE, TAKES_PATH, 0, 0, "a file"},
     {"window", VIEW_STEP_WINDOW, TAKES_PATH, 0, 0, "a file"},
     {"print", VIEW_STEP_PRINT, TAKES_NOTHING, 0, 0, "nothing more"},
     {"minimise", VIEW_STEP_MINIMISE, TAKES_NOTHING, 0, 0, "nothing more"},

@@ -2,7 +2,7 @@
 #ifndef VIEW_VIEW_SCRIPT_H
 #define VIEW_VIEW_SCRIPT_H
 
-#include "view/view_event.h"
+#include "view/view_input.h"
 
 #include "facet/facet.h"
 
@@ -17,9 +17,9 @@ typedef enum view_step_kind {
     VIEW_STEP_RELOAD, /* until the model was read again as its files had changed */
     VIEW_STEP_TRACE, /* until path tracing has numbers[0] samples per pixel (0: all), for at most numbers[1] s (0: as
                           other steps wait) */
-    VIEW_STEP_PICTURE, /* path: what F12 saves */
-    VIEW_STEP_WINDOW,  /* path: with the text over it */
-    VIEW_STEP_PRINT,   /* the facet render command */
+    VIEW_STEP_IMAGE,  /* path: what F12 saves */
+    VIEW_STEP_WINDOW, /* path: with the text over it */
+    VIEW_STEP_PRINT,  /* the facet render command */
     VIEW_STEP_MINIMISE,
     VIEW_STEP_RESTORE,
     VIEW_STEP_CLOSE

@@ -1,4 +1,4 @@
-/* view_shot.c - what is kept of a view: a picture of it, and the command line that renders it. */
+/* view_shot.c - what is kept of a view: an image of it, and the command line that renders it. */
 #include "view/view_app.h"
 
 #include <stdio.h>
@@ -12,18 +12,18 @@
 #include "scene/scene.h"
 #include "view/view_camera.h"
 
-static facet_result save(view_app *a, const view_picture *picture, const char *path, facet_error *error)
+static facet_result save(view_app *a, const view_image *display, const char *path, facet_error *error)
 {
     const facet_allocator *allocator = &a->desc->allocator;
-    float *linear = view_picture_to_linear(picture, allocator);
+    float *linear = view_image_to_linear(display, allocator);
     if (!linear)
-        return fail_memory(error, "picture", (size_t)picture->width * picture->height * 16);
+        return fail_memory(error, "image", (size_t)display->width * display->height * 16);
     const facet_image_view view = {.name = "",
-                                   .width = picture->width,
-                                   .height = picture->height,
+                                   .width = display->width,
+                                   .height = display->height,
                                    .channel_count = 4,
                                    .pixels = linear,
-                                   .row_stride_bytes = (size_t)picture->width * 16};
+                                   .row_stride_bytes = (size_t)display->width * 16};
     facet_image *image = NULL;
     facet_result result = a->host->image_create(&view, allocator, &image, error);
     if (result == FACET_OK)
@@ -39,18 +39,18 @@ facet_result view_shot_save(view_app *a, const char *path, bool has_panels, face
 {
     if (a->scene && scene_has_file(a->scene, path))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: the model was read from it, and would be overwritten; name another picture", path);
+                    "%s: the model was read from it, and would be overwritten; name another file", path);
     facet_result result = view_show_into(a, has_panels, error);
     if (result != FACET_OK)
         return result;
     const view_surface *s = &a->shot;
-    view_picture picture = {s->width, s->height,
-                            mem_alloc(&a->desc->allocator, (size_t)s->width * s->height, 4)};
-    if (!picture.pixels)
-        return fail_memory(error, "picture", (size_t)s->width * s->height * 4);
-    view_surface_read(s, picture.pixels);
-    result = save(a, &picture, path, error);
-    view_picture_destroy(&picture);
+    view_image display = {s->width, s->height,
+                          mem_alloc(&a->desc->allocator, (size_t)s->width * s->height, 4)};
+    if (!display.pixels)
+        return fail_memory(error, "image", (size_t)s->width * s->height * 4);
+    view_surface_read(s, display.pixels);
+    result = save(a, &display, path, error);
+    view_image_destroy(&display);
     return result;
 }
 
@@ -74,7 +74,7 @@ void view_shot_key(view_app *a)
     char text[1024];
     facet_error error;
     if (!find_name(a, name, sizeof name))
-        snprintf(text, sizeof text, "%s: there are too many pictures already", name);
+        snprintf(text, sizeof text, "%s: there are too many images already", name);
     else if (view_shot_save(a, name, false, &error) == FACET_OK)
         snprintf(text, sizeof text, "Saved %s", name);
     else
@@ -96,13 +96,13 @@ static char *describe(view_app *a)
         desc.samples = a->traced[1].samples;
     const view_state *s = &a->state;
     const facet_orbit orbit = view_camera_round(&s->orbit);
-    facet_view_image picture = {.model = a->path,
-                                .environment = a->environment_name,
-                                .render = &desc,
-                                .orbit = s->camera == VIEW_NO_CAMERA ? &orbit : NULL,
-                                .camera = s->camera == VIEW_NO_CAMERA ? 0 : (uint32_t)s->camera};
-    memcpy(picture.origin, a->scene->origin, sizeof picture.origin);
-    return a->desc->source.describe(a->desc->source.user, &picture);
+    facet_view_image image = {.model = a->path,
+                              .environment = a->environment_name,
+                              .render = &desc,
+                              .orbit = s->camera == VIEW_NO_CAMERA ? &orbit : NULL,
+                              .camera = s->camera == VIEW_NO_CAMERA ? 0 : (uint32_t)s->camera};
+    memcpy(image.origin, a->scene->origin, sizeof image.origin);
+    return a->desc->source.describe(a->desc->source.user, &image);
 }
 
 void view_shot_copy(view_app *a)

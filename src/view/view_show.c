@@ -12,7 +12,7 @@
 
 #include <epoxy/gl.h>
 
-/* ---- the picture ---- */
+/* ---- the image ---- */
 
 /* The orbit's radius and target where they are to be found, or the file's camera at this moment. */
 static facet_result find_camera(view_app *a, uint32_t width, uint32_t height, facet_error *error)
@@ -27,7 +27,7 @@ facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, f
 {
     facet_render_desc sides[2];
     const char *labels[2];
-    find_camera(a, width, height, NULL); /* a key may have asked for it since the last picture */
+    find_camera(a, width, height, NULL); /* a key may have asked for it since the last image */
     facet_render_desc base = view_state_desc(&a->state, width, height, camera);
     base.environment = a->environment;
     view_divider_sides(&a->state.divider, &base, sides, labels);
@@ -36,7 +36,7 @@ facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, f
     return sides[1];
 }
 
-/* Traces what is still, and draws with OpenGL what moves: a picture that is one sample old says less than one that keeps
+/* Traces what is still, and draws with OpenGL what moves: an image that is one sample old says less than one that keeps
  * up. What a held pointer does not change, as where the divider is, is traced on. */
 static bool trace(view_app *a, int side, const facet_render_desc *wanted)
 {
@@ -51,10 +51,10 @@ static bool trace(view_app *a, int side, const facet_render_desc *wanted)
     }
     if (view_trace_start(t->tracer, a->scene, &desc))
         t->is_current = false;
-    view_picture picture;
-    if (view_trace_take(t->tracer, &picture, &t->samples)) {
-        view_surface_upload(&t->surface, picture.width, picture.height, picture.pixels);
-        view_picture_destroy(&picture);
+    view_image display;
+    if (view_trace_take(t->tracer, &display, &t->samples)) {
+        view_surface_upload(&t->surface, display.width, display.height, display.pixels);
+        view_image_destroy(&display);
         t->is_current = true;
     }
     return t->is_current;
@@ -74,7 +74,7 @@ static facet_result draw_for_file(view_app *a, view_surface *to, const facet_ren
     facet_render_desc desc = *wanted;
     facet_camera camera;
     facet_image *image = NULL;
-    view_picture picture = {0};
+    view_image display = {0};
     facet_orbit orbit = view_camera_round(&a->state.orbit);
     facet_result result = FACET_OK;
     if (a->state.camera == VIEW_NO_CAMERA) {
@@ -86,11 +86,11 @@ static facet_result draw_for_file(view_app *a, view_surface *to, const facet_ren
         result = a->host->render_gl(a->renderer, &desc, &image, error);
     if (result == FACET_OK) {
         facet_image_view view = a->host->image_get_layer(image, 0);
-        result = view_picture_create(&view, &a->desc->allocator, &picture, error);
+        result = view_image_create(&view, &a->desc->allocator, &display, error);
     }
     if (result == FACET_OK)
-        view_surface_upload(to, picture.width, picture.height, picture.pixels);
-    view_picture_destroy(&picture);
+        view_surface_upload(to, display.width, display.height, display.pixels);
+    view_image_destroy(&display);
     a->host->image_destroy(image);
     return result;
 }
@@ -111,8 +111,8 @@ static facet_result draw_side(view_app *a, int side, facet_render_desc *desc, fa
 }
 
 /* What each side shows, in *shown[2]; labels are empty without a divider. */
-static facet_result draw_picture(view_app *a, uint32_t width, uint32_t height, const view_surface *shown[2],
-                                 const char *labels[2], facet_error *error)
+static facet_result draw_sides(view_app *a, uint32_t width, uint32_t height, const view_surface *shown[2],
+                               const char *labels[2], facet_error *error)
 {
     facet_camera camera;
     facet_render_desc sides[2];
@@ -134,7 +134,7 @@ static facet_result draw_picture(view_app *a, uint32_t width, uint32_t height, c
         bool is_path = sides[i].renderer == FACET_RENDERER_KIND_PATH;
         if (is_path && trace(a, i, &sides[i]))
             shown[i] = &a->traced[i].surface;
-        else if (a->needs_picture || is_path)
+        else if (a->needs_image || is_path)
             result = draw_side(a, i, &sides[i], error);
     }
     if (!is_divided)
@@ -295,7 +295,7 @@ static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, u
     const view_surface *shown[2] = {NULL, NULL};
     const char *labels[2] = {"", ""};
     if (a->scene) {
-        facet_result result = draw_picture(a, width, height, shown, labels, error);
+        facet_result result = draw_sides(a, width, height, shown, labels, error);
         if (result != FACET_OK)
             return result;
     }
@@ -308,8 +308,8 @@ static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, u
     } else {
         bool is_divided = a->state.divider.comparison != VIEW_COMPARE_NOTHING;
         int border = is_divided ? (int)(a->state.divider.position * width) : 0;
-        view_draw_surface(a->draw, shown[0], VIEW_LAY_PICTURE, 0, 0, width, height, 0, border);
-        view_draw_surface(a->draw, shown[1], VIEW_LAY_PICTURE, 0, 0, width, height, border, (int)width);
+        view_draw_surface(a->draw, shown[0], VIEW_LAY_IMAGE, 0, 0, width, height, 0, border);
+        view_draw_surface(a->draw, shown[1], VIEW_LAY_IMAGE, 0, 0, width, height, border, (int)width);
         if (is_divided && has_panels)
             draw_border(a, border);
     }
@@ -321,7 +321,7 @@ static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, u
 /* Without waiting for the driver it would be how long asking took. */
 static void measure_frame(view_app *a, double start, bool is_moving)
 {
-    if (!a->has_drawn || !a->needs_picture || (a->script.count && !a->state.shows_values))
+    if (!a->has_drawn || !a->needs_image || (a->script.count && !a->state.shows_values))
         return;
     glFinish();
     double s = clock_seconds() - start;
@@ -342,7 +342,7 @@ facet_result view_show(view_app *a, facet_error *error)
     bool is_moving = !a->script.count && start < a->moves_until_s;
     uint32_t divisor = view_pace_divisor(&a->pace, is_moving);
     if (divisor != a->divisor) {
-        a->needs_picture = true;
+        a->needs_image = true;
         a->frame_s = 0.0;
     }
     a->divisor = divisor;
@@ -353,10 +353,10 @@ facet_result view_show(view_app *a, facet_error *error)
     facet_result result = compose(a, 0, width, height, 8.0f * a->state.scale, true, error);
     if (result != FACET_OK)
         return result;
-    bool had_picture = a->needs_picture;
+    bool had_image = a->needs_image;
     measure_frame(a, start, is_moving);
-    a->needs_picture = false;
-    a->needs_frame = had_picture && a->state.shows_values && !a->state.is_playing; /* what it took */
+    a->needs_image = false;
+    a->needs_frame = had_image && a->state.shows_values && !a->state.is_playing; /* what it took */
     view_window_present(w);
     return FACET_OK;
 }
@@ -369,7 +369,7 @@ facet_result view_show_into(view_app *a, bool has_panels, facet_error *error)
     width = width ? width : a->desc->render.width;
     height = height ? height : a->desc->render.height;
     facet_result result = view_surface_resize(&a->shot, &a->context, width, height, error);
-    a->needs_picture = true; /* sides may have another size */
+    a->needs_image = true; /* sides may have another size */
     a->divisor = 1;
     a->is_for_file = !has_panels;
     if (result == FACET_OK)

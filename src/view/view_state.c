@@ -1,4 +1,4 @@
-/* view_state.c - see view_state.h. */
+/* view_state.c - see view_state.h. The keys: view_actions.c. */
 #include "view/view_state.h"
 
 #include <math.h>
@@ -121,4 +121,222 @@ facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t 
                   : s->file_camera;
     desc.camera = camera;
     return desc;
+}
+
+/* ---- framing: the whole model, in all of its motion ---- */
+
+facet_result view_state_frame(view_state *s, float aspect, facet_error *error)
+{
+    if (!s->needs_framing || s->camera != VIEW_NO_CAMERA)
+        return FACET_OK;
+    facet_camera camera;
+    facet_orbit wanted = s->orbit;
+    wanted.fits_all_times = s->pose.animation_count > 0;
+    facet_result result = scene_fit_orbit(s->scene, &s->pose, &wanted, aspect, &camera, error);
+    if (result != FACET_OK)
+        return result;
+    s->framing = s->orbit;
+    facet_orbit *o = &s->orbit;
+    double distance2 = 0.0;
+    for (int i = 0; i < 3; i++) {
+        double d = (double)camera.eye[i] - (double)camera.target[i];
+        o->target[i] = camera.target[i];
+        distance2 += d * d;
+    }
+    o->radius = o->is_orthographic
+                    ? (float)(0.5 * (double)camera.ortho_height / tan(0.5 * (double)o->fov_y_rad))
+                    : (float)sqrt(distance2);
+    o->has_target = true;
+    s->needs_framing = false;
+    s->is_framed = true;
+    return FACET_OK;
+}
+
+void view_state_show_whole(view_state *s)
+{
+    facet_orbit whole = scene_orbit_default();
+    view_state_leave_file_camera(s);
+    whole.azimuth_rad = s->orbit.azimuth_rad;
+    whole.polar_rad = s->orbit.polar_rad;
+    whole.is_orthographic = s->orbit.is_orthographic;
+    whole.is_z_up = s->orbit.is_z_up;
+    whole.fov_y_rad = s->orbit.fov_y_rad;
+    s->orbit = whole;
+    s->needs_framing = true;
+}
+
+void view_state_follow_motion(view_state *s)
+{
+    if (!s->is_framed || s->needs_framing)
+        return;
+    bool is_orthographic = s->orbit.is_orthographic;
+    s->orbit = s->framing;
+    s->orbit.is_orthographic = is_orthographic;
+    s->needs_framing = true;
+}
+
+/* ---- the divider ---- */
+
+void view_divider_sides(const view_divider *d, const facet_render_desc *base, facet_render_desc sides[2],
+                        const char *labels[2])
+{
+    static const char *const names[][2] = {
+        [VIEW_COMPARE_NOTHING] = {"", ""},
+        [VIEW_COMPARE_MASKING] = {"Schlick-GGX, separable", "Smith, height-correlated"},
+        [VIEW_COMPARE_SCATTERING] = {"Single scattering", "Multiple scattering"},
+        [VIEW_COMPARE_RENDERER] = {"OpenGL", "Path tracing"},
+        [VIEW_COMPARE_TONEMAP] = {"Linear", "Tone-mapped"},
+        [VIEW_COMPARE_VARIANT] = {"Materials of the file", "Variant"}};
+    sides[0] = sides[1] = *base;
+    labels[0] = names[d->comparison][0];
+    labels[1] = names[d->comparison][1];
+    switch (d->comparison) {
+    case VIEW_COMPARE_MASKING:
+        sides[0].renderer = sides[1].renderer = FACET_RENDERER_KIND_GL;
+        sides[0].gl.brdf = FACET_BRDF_SCHLICK_GGX;
+        sides[1].gl.brdf = FACET_BRDF_ENERGY;
+        break;
+    case VIEW_COMPARE_SCATTERING:
+        sides[0].gl.brdf = sides[1].gl.brdf = FACET_BRDF_ENERGY;
+        sides[0].energy = FACET_ENERGY_GLTF;
+        sides[1].energy = FACET_ENERGY_CONSERVING;
+        break;
+    case VIEW_COMPARE_RENDERER:
+        sides[0].renderer = FACET_RENDERER_KIND_GL;
+        sides[1].renderer = FACET_RENDERER_KIND_PATH;
+        break;
+    case VIEW_COMPARE_TONEMAP:
+        sides[0].tonemap = FACET_TONEMAP_NONE;
+        if (base->tonemap == FACET_TONEMAP_NONE)
+            sides[1].tonemap = FACET_TONEMAP_NEUTRAL;
+        break;
+    case VIEW_COMPARE_VARIANT:
+        sides[0].pose.has_variant = false;
+        if (!base->pose.has_variant)
+            sides[1].pose.variant = d->variant;
+        sides[1].pose.has_variant = true;
+        break;
+    default:
+        break;
+    }
+}
+
+bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double reach)
+{
+    return d->comparison != VIEW_COMPARE_NOTHING && fabs(x - d->position * width) <= reach;
+}
+
+void view_divider_drag(view_divider *d, double x, uint32_t width)
+{
+    d->position = width ? fmin(fmax(x / width, 0.02), 0.98) : 0.5;
+}
+
+static view_comparison step(view_comparison from, int steps, int count)
+{
+    return (view_comparison)((((int)from + steps) % count + count) % count);
+}
+
+void view_divider_step(view_divider *d, int steps, bool has_variants, bool traces_paths)
+{
+    int count = has_variants ? VIEW_COMPARISON_COUNT : VIEW_COMPARE_VARIANT;
+    d->comparison = step(d->comparison, steps, count);
+    if (traces_paths && d->comparison == VIEW_COMPARE_MASKING)
+        d->comparison = step(d->comparison, steps, count);
+}
+
+bool view_divider_labels(int border, int width, int margin, const int widths[2], int x[2])
+{
+    int first = margin;
+    int last = width - margin - widths[1];
+    x[0] = border - margin - widths[0];
+    x[1] = border + margin;
+    bool is_narrow = x[0] < first || x[1] > last;
+    x[0] = x[0] < first ? first : x[0];
+    x[1] = x[1] > last ? last : x[1];
+    return is_narrow;
+}
+
+/* ---- the pointer ---- */
+
+/* model-viewer's and Blender's habits: left and middle orbit; right, or either with shift, moves; with control comes
+ * nearer. */
+static void drag(view_state *s, double dx, double dy, unsigned modifiers)
+{
+    view_state_leave_file_camera(s);
+    s->is_framed = false;
+    if (modifiers & VIEW_CONTROL)
+        view_camera_dolly(&s->orbit, -dy * 40.0 / (s->height ? s->height : 1), (double)view_state_size(s));
+    else if (s->button == VIEW_RIGHT_BUTTON || modifiers & VIEW_SHIFT)
+        view_camera_pan(&s->orbit, dx, dy, s->height);
+    else
+        view_camera_turn(&s->orbit, dx, dy, s->height);
+}
+
+static void scroll(view_state *s, const view_event *e)
+{
+    const double pixels = 40.0 * (double)s->scale; /* of a step, of two fingers or a wheel */
+    view_state_leave_file_camera(s);
+    s->is_framed = false;
+    if (e->modifiers & VIEW_SHIFT)
+        view_camera_pan(&s->orbit, pixels * e->x, pixels * e->y, s->height);
+    else if (e->modifiers & VIEW_ALT)
+        view_camera_turn(&s->orbit, pixels * e->x, pixels * e->y, s->height);
+    else
+        view_camera_dolly(&s->orbit, e->y, (double)view_state_size(s));
+}
+
+bool view_state_point(view_state *s, const view_event *e)
+{
+    double dx = e->x - s->x;
+    double dy = e->y - s->y;
+    switch (e->kind) {
+    case VIEW_PRESS:
+        s->x = e->x;
+        s->y = e->y;
+        s->is_held = true;
+        s->button = e->button;
+        s->held_modifiers = e->modifiers;
+        s->divider.is_dragged = e->button == VIEW_LEFT_BUTTON &&
+                                view_divider_is_at(&s->divider, e->x, s->width, 8.0 * (double)s->scale);
+        return false;
+    case VIEW_RELEASE:
+        s->is_held = s->is_held && e->button != s->button;
+        s->divider.is_dragged = s->divider.is_dragged && s->is_held;
+        return false;
+    case VIEW_MOVE:
+        s->x = e->x;
+        s->y = e->y;
+        if (!s->is_held || !s->scene || (dx == 0.0 && dy == 0.0))
+            return false;
+        if (s->divider.is_dragged)
+            view_divider_drag(&s->divider, e->x, s->width);
+        else
+            drag(s, dx, dy, s->held_modifiers);
+        return true;
+    case VIEW_SCROLL:
+        if (s->scene)
+            scroll(s, e);
+        return s->scene != NULL;
+    default:
+        return false;
+    }
+}
+
+/* ---- resolution while the camera moves ---- */
+
+static const double slow_s = 0.05;
+
+uint32_t view_pace_divisor(const view_pace *p, bool is_moving)
+{
+    if (!is_moving || p->full_s <= slow_s)
+        return 1;
+    return p->full_s <= 4.0 * slow_s ? 2 : 4;
+}
+
+/* No frame takes more than its pixels times what a pixel of a coarse one took. The first frame, in which the driver compiles, is
+ * corrected so. */
+void view_pace_measure(view_pace *p, uint32_t divisor, double seconds)
+{
+    double most = seconds * divisor * divisor;
+    p->full_s = divisor == 1 ? seconds : fmin(p->full_s, most);
 }

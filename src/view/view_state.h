@@ -2,11 +2,44 @@
 #ifndef VIEW_VIEW_STATE_H
 #define VIEW_VIEW_STATE_H
 
-#include "view/view_divider.h"
-#include "view/view_event.h"
-#include "view/view_keys.h"
+#include "view/view_input.h"
 
 #include "facet/facet.h"
+
+/* ---- the divider: two variants side by side, with a border that can be dragged ---- */
+
+typedef enum view_comparison {
+    VIEW_COMPARE_NOTHING,
+    VIEW_COMPARE_MASKING,    /* separable Schlick-GGX | height-correlated Smith */
+    VIEW_COMPARE_SCATTERING, /* single | multiple scattering on rough surfaces */
+    VIEW_COMPARE_RENDERER,   /* OpenGL | path tracing */
+    VIEW_COMPARE_TONEMAP,    /* none | the one chosen */
+    VIEW_COMPARE_VARIANT,    /* the file's materials | a variant */
+    VIEW_COMPARISON_COUNT
+} view_comparison;
+
+typedef struct view_divider {
+    view_comparison comparison;
+    double position;  /* [0, 1] of the width */
+    uint32_t variant; /* that is compared where none is chosen */
+    bool is_dragged;
+} view_divider;
+
+/* What the left and the right side draw, by name; base is what is drawn without a divider, and keeps its renderer: paths are
+ * traced on both sides, where what is compared is not OpenGL's alone (VIEW_COMPARE_MASKING) or the renderer. */
+void view_divider_sides(const view_divider *d, const facet_render_desc *base, facet_render_desc sides[2],
+                        const char *labels[2]);
+/* Whether the pointer at x can take hold of it. reach: px to either side. */
+bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double reach);
+void view_divider_drag(view_divider *d, double x, uint32_t width);
+/* The next comparison, in either direction; those of variants only where there are some, that of masking only without path
+ * tracing, which has no separable one. */
+void view_divider_step(view_divider *d, int steps, bool has_variants, bool traces_paths);
+/* Where labels of those widths begin (x), beside the border where they fit there, else as near as the window allows. True: one of
+ * them does not fit on its own side, and they are not to stand in one line. */
+bool view_divider_labels(int border, int width, int margin, const int widths[2], int x[2]);
+
+/* ---- the state ---- */
 
 enum { VIEW_MAX_ANIMATIONS = 256, VIEW_NO_CAMERA = -1, VIEW_NO_ANIMATION = -1 };
 
@@ -75,5 +108,25 @@ void view_state_follow_motion(view_state *s);
 
 /* The whole desc of a picture of that size, but for the environment. camera: where it is kept. */
 facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t height, facet_camera *camera);
+
+/* ---- resolution while the camera moves: a coarse image that keeps up says more than a sharp one that lags ---- */
+
+typedef struct view_pace {
+    double full_s; /* that a frame in full resolution takes, or more; 0: unknown */
+} view_pace;
+
+/* By what width and height are divided: 1; 2 where frames take more than 50 ms, 4 where a half would, too. */
+uint32_t view_pace_divisor(const view_pace *pace, bool is_moving);
+/* A frame took this long. */
+void view_pace_measure(view_pace *pace, uint32_t divisor, double seconds);
+
+/* ---- names of settings, for users ---- */
+
+const char *view_tonemap_name(facet_tonemap tonemap);
+const char *view_channel_name(facet_channel channel);
+const char *view_brdf_name(facet_brdf brdf);
+const char *view_energy_name(facet_energy energy);
+const char *view_transparency_name(facet_transparency transparency);
+const char *view_background_name(facet_background background);
 
 #endif

@@ -34,8 +34,8 @@ struct view_tracer {
     trace_job next;
     bool has_last;
     trace_job last; /* what was asked for last */
-    bool has_picture;
-    view_picture picture;
+    bool has_image;
+    view_image display;
     view_trace_state state;
 };
 
@@ -61,22 +61,22 @@ static void fill_job(trace_job *job, const facet_scene *scene, const facet_rende
 static void give(view_tracer *t, const facet_image *image, uint32_t samples)
 {
     facet_image_view view = t->host->image_get_layer(image, 0);
-    view_picture picture;
-    if (view_picture_create(&view, &t->allocator, &picture, NULL) != FACET_OK)
+    view_image display;
+    if (view_image_create(&view, &t->allocator, &display, NULL) != FACET_OK)
         return;
     pthread_mutex_lock(&t->mutex);
     bool is_wanted = !t->is_cancelled;
     if (is_wanted) {
-        view_picture_destroy(&t->picture);
-        t->picture = picture;
-        t->has_picture = true;
+        view_image_destroy(&t->display);
+        t->display = display;
+        t->has_image = true;
         t->state.samples = samples;
     }
     pthread_mutex_unlock(&t->mutex);
     if (is_wanted)
         t->wake(t->user);
     else
-        view_picture_destroy(&picture);
+        view_image_destroy(&display);
 }
 
 static void on_pass(void *user, const facet_image *image, uint32_t samples)
@@ -194,7 +194,7 @@ void view_trace_destroy(view_tracer *t)
         pthread_join(t->thread, NULL);
     }
     t->host->renderer_destroy(t->renderer);
-    view_picture_destroy(&t->picture);
+    view_image_destroy(&t->display);
     pthread_cond_destroy(&t->changed);
     pthread_mutex_destroy(&t->mutex);
     mem_free(t);
@@ -213,7 +213,7 @@ bool view_trace_start(view_tracer *t, const facet_scene *scene, const facet_rend
         t->has_next = true;
         t->is_cancelled = true; /* what is traced now */
         t->state = (view_trace_state){.wanted = desc->samples};
-        t->has_picture = false;
+        t->has_image = false;
         pthread_cond_broadcast(&t->changed);
     }
     pthread_mutex_unlock(&t->mutex);
@@ -235,7 +235,7 @@ void view_trace_stop(view_tracer *t)
     pthread_mutex_lock(&t->mutex);
     t->has_next = false;
     t->has_last = false;
-    t->has_picture = false;
+    t->has_image = false;
     t->is_cancelled = true;
     while (t->is_working)
         pthread_cond_wait(&t->changed, &t->mutex);
@@ -246,18 +246,18 @@ void view_trace_stop(view_tracer *t)
     pthread_mutex_unlock(&t->mutex);
 }
 
-bool view_trace_take(view_tracer *t, view_picture *out, uint32_t *samples)
+bool view_trace_take(view_tracer *t, view_image *out, uint32_t *samples)
 {
     pthread_mutex_lock(&t->mutex);
-    bool has_picture = t->has_picture;
-    if (has_picture) {
-        *out = t->picture;
+    bool has_image = t->has_image;
+    if (has_image) {
+        *out = t->display;
         *samples = t->state.samples;
-        t->picture = (view_picture){0};
-        t->has_picture = false;
+        t->display = (view_image){0};
+        t->has_image = false;
     }
     pthread_mutex_unlock(&t->mutex);
-    return has_picture;
+    return has_image;
 }
 
 view_trace_state view_trace_get(view_tracer *t)

@@ -4,7 +4,7 @@
 #define VIEW_VIEW_TRACE_H
 
 #include "gl/gl_entry.h"
-#include "view/view_picture.h"
+#include "view/view_image.h"
 
 typedef struct view_tracer view_tracer;
 
@@ -22,7 +22,7 @@ bool view_trace_is_of(view_tracer *t, const facet_scene *scene, const facet_rend
 void view_trace_stop(view_tracer *t);
 
 /* The newest picture and how many samples a pixel has; false: none that was not taken yet. */
-bool view_trace_take(view_tracer *t, view_picture *out, uint32_t *samples);
+bool view_trace_take(view_tracer *t, view_image *out, uint32_t *samples);
 /* Samples a pixel of the last picture taken or not, and of what is wanted; done: there comes no other. */
 typedef struct view_trace_state {
     uint32_t samples, wanted;

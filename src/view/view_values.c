@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 #include "scene/scene.h"
-#include "view/view_names.h"
+#include "view/view_state.h"
 
 #include <epoxy/gl.h>
 

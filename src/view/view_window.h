@@ -2,7 +2,7 @@
 #ifndef VIEW_VIEW_WINDOW_H
 #define VIEW_VIEW_WINDOW_H
 
-#include "view/view_event.h"
+#include "view/view_input.h"
 
 #include "facet/facet.h"
 

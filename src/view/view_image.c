@@ -1,16 +1,16 @@
-/* view_picture.c - see view_picture.h. */
-#include "view/view_picture.h"
+/* view_image.c - see view_image.h. */
+#include "view/view_image.h"
 
 #include "base/memory.h"
 #include "base/result.h"
 #include "image/srgb.h"
 
-facet_result view_picture_create(const facet_image_view *v, const facet_allocator *allocator,
-                                 view_picture *out, facet_error *error)
+facet_result view_image_create(const facet_image_view *v, const facet_allocator *allocator, view_image *out,
+                               facet_error *error)
 {
     size_t count = (size_t)v->width * v->height;
     srgb_tables tables;
-    *out = (view_picture){v->width, v->height, mem_alloc(allocator, count, 4)};
+    *out = (view_image){v->width, v->height, mem_alloc(allocator, count, 4)};
     if (!out->pixels)
         return fail_memory(error, "picture", count * 4);
     srgb_tables_prepare(&tables);
@@ -28,13 +28,13 @@ facet_result view_picture_create(const facet_image_view *v, const facet_allocato
     return FACET_OK;
 }
 
-void view_picture_destroy(view_picture *p)
+void view_image_destroy(view_image *p)
 {
     mem_free(p->pixels);
-    *p = (view_picture){0};
+    *p = (view_image){0};
 }
 
-float *view_picture_to_linear(const view_picture *p, const facet_allocator *allocator)
+float *view_image_to_linear(const view_image *p, const facet_allocator *allocator)
 {
     size_t count = (size_t)p->width * p->height;
     srgb_tables tables;

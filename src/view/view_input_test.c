@@ -1,5 +1,5 @@
 /* view_keys_test.c - view_keys.h: every key once, every key with help, all of it in docs/view.md. */
-#include "view/view_keys.h"
+#include "view/view_input.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
