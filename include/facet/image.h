@@ -63,6 +63,9 @@ typedef struct facet_image_load_desc {
      * channel fills all three, the third of two is 0. NULL: the image. */
     const char *layer;
     facet_log log; /* features of the file that are ignored, color conversions */
+    /* Keep the file's texels as they are, for facet_compare() alone: 1 or 2 bytes a channel instead of 16 a pixel for 8
+     * and 16-bit formats. Layer 0 has no pixels (NULL), and the image cannot be saved. */
+    bool is_compact;
 } facet_image_load_desc;
 
 /* Reads a PNG, JPEG, WebP, AVIF, KTX2, TGA, BMP, GIF, DDS, Radiance HDR, OpenEXR or PFM file, recognized by

@@ -5,8 +5,13 @@
 #include "film/film.h"
 #include "gl/gl_entry.h"
 
+struct image; /* image/image.h */
+
 struct facet_image {
-    film film; /* developed: tone-mapped, background laid under it */
+    film
+        film; /* developed: tone-mapped, background laid under it; layer 0 has no pixels where there are texels */
+    struct image *texels; /* those of a file as they are (facet_image_load_desc.is_compact); NULL: none */
+    bool is_straight;     /* the colors of texels are not multiplied by alpha yet */
     facet_render_stats stats;
     bool is_for_display; /* read from a file whose colors are a display's */
 };

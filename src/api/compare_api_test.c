@@ -163,6 +163,52 @@ static void the_difference_is_a_picture(void **state)
     facet_image_destroy(b);
 }
 
+/* A compact image takes part in comparisons as any other, and in nothing else. */
+static void compact_images_are_compared_alike(void **state)
+{
+    (void)state;
+    const facet_image_format formats[] = {FACET_IMAGE_FORMAT_PNG, FACET_IMAGE_FORMAT_PNG16,
+                                          FACET_IMAGE_FORMAT_PFM};
+    for (int i = 0; i < 3; i++) {
+        facet_image *drawn = draw(1.0f, i == 2), *other = draw(0.7f, i == 2), *back[2] = {NULL};
+        unsigned char *bytes = NULL;
+        size_t size = 0;
+        facet_error error;
+        assert_int_equal(
+            facet_image_encode(drawn, &(facet_image_save_desc){.format = formats[i]}, &bytes, &size, NULL),
+            FACET_OK);
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(facet_image_load_memory(bytes, size, "file",
+                                                     &(facet_image_load_desc){.is_compact = k == 1}, &back[k],
+                                                     NULL),
+                             FACET_OK);
+        facet_comparison c[2];
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(facet_compare(other, back[k], NULL, &c[k], NULL, NULL), FACET_OK);
+        assert_memory_equal(&c[0].mse, &c[1].mse, sizeof c[0].mse);
+        assert_memory_equal(&c[0].ssim, &c[1].ssim, sizeof c[0].ssim);
+        assert_memory_equal(&c[0].flip, &c[1].flip, sizeof c[0].flip);
+        assert_int_equal(facet_compare(back[0], back[1], NULL, &c[0], NULL, NULL), FACET_OK);
+        assert_true(c[0].is_equal);
+        const facet_image_view view = facet_image_get_layer(back[1], 0);
+        assert_true(!view.pixels && view.width == WIDTH && view.height == HEIGHT);
+        facet_bytes_destroy(bytes);
+        bytes = NULL;
+        assert_int_equal(facet_image_encode(back[1],
+                                            &(facet_image_save_desc){.format = FACET_IMAGE_FORMAT_PNG},
+                                            &bytes, &size, &error),
+                         FACET_ERROR_ARGUMENT);
+        assert_null(bytes);
+        facet_image_destroy(other);
+        assert_int_equal(facet_image_create_sheet((const facet_image *const *)back, 2, NULL, &other, &error),
+                         FACET_ERROR_ARGUMENT);
+        assert_null(other);
+        facet_image_destroy(drawn);
+        for (int k = 0; k < 2; k++)
+            facet_image_destroy(back[k]);
+    }
+}
+
 static void bad_files_are_refused(void **state)
 {
     (void)state;
@@ -227,6 +273,7 @@ int main(void)
         cmocka_unit_test(not_a_number_survives_files_of_light),
         cmocka_unit_test(pixels_have_rows_and_channels),
         cmocka_unit_test(the_difference_is_a_picture),
+        cmocka_unit_test(compact_images_are_compared_alike),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(memory_that_runs_out_is_a_result),
     };

@@ -33,6 +33,9 @@ void facet_image_destroy(facet_image *picture)
     if (!picture)
         return;
     film_destroy(&picture->film);
+    if (picture->texels)
+        image_destroy(picture->texels);
+    mem_free(picture->texels);
     mem_free(picture);
 }
 
@@ -48,8 +51,11 @@ facet_result facet_image_create_sheet(const facet_image *const *images, uint32_t
     facet_result result = FACET_OK;
     if (!made || !films)
         result = fail_memory(error, "sheet", count * sizeof *films);
-    for (uint32_t i = 0; i < count && films; i++)
+    for (uint32_t i = 0; i < count && films; i++) {
         films[i] = &images[i]->film;
+        if (images[i]->texels)
+            result = fail(error, FACET_ERROR_ARGUMENT, "sheet: a compact image is for comparisons only");
+    }
     if (result == FACET_OK)
         result = contact_sheet_create(films, count, desc, &made->film, error);
     mem_free(films);
@@ -148,6 +154,9 @@ facet_result facet_image_encode(const facet_image *picture, const facet_image_sa
     *size = 0;
     desc = desc ? desc : &defaults;
     const film *f = &picture->film;
+    if (picture->texels)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "image: a compact image is for comparisons and cannot be encoded");
     image_encode_desc encode = {.allocator = desc->allocator,
                                 .thread_count =
                                     desc->thread_count ? desc->thread_count : facet_thread_count(),

@@ -1,4 +1,4 @@
-/* image_load_api.c - images of facet.h that no renderer made: from files, from pixels. */
+/* image_load_api.c - images of facet.h that no renderer made: from files, from pixels, from comparisons. */
 #include "api/api.h"
 
 #include <string.h>
@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "compare/compare.h"
 #include "image/image.h"
 
 enum { GRAIN = 16384 }; /* pixels */
@@ -14,23 +15,30 @@ static const uint64_t default_max_file_bytes = 4ull << 30;
 
 /* ---- pixels to images ---- */
 
-/* Makes rgba (F32, 4 channels) the picture; it is taken, also on failure. */
-static facet_result take_pixels(image *rgba, const facet_allocator *allocator, bool is_for_display,
-                                facet_image **out, facet_error *error)
+/* Makes an image of rgba (F32, 4 channels) or, compact, of texels of any type; they are taken, also on failure. */
+static facet_result take_pixels(image *rgba, bool is_compact, const facet_allocator *allocator,
+                                bool is_for_display, facet_image **out, facet_error *error)
 {
     facet_image *made = mem_zalloc(allocator, 1, sizeof *made);
-    facet_result result = made ? FACET_OK : fail_memory(error, "image", sizeof *made);
+    if (made && is_compact)
+        made->texels = mem_zalloc(allocator, 1, sizeof *made->texels);
+    facet_result result =
+        made && (!is_compact || made->texels) ? FACET_OK : fail_memory(error, "image", sizeof *made);
     if (result == FACET_OK) /* for its layer's names; the pixels are there already */
         result = film_create(allocator, 1, 1, 0, &made->film, error);
     if (result != FACET_OK) {
+        if (made)
+            mem_free(made->texels);
         mem_free(made);
         image_destroy(rgba);
         return result;
     }
     mem_free(made->film.layers[0].pixels);
-    made->film.layers[0].pixels = rgba->pixels;
+    made->film.layers[0].pixels = is_compact ? NULL : rgba->pixels;
     made->film.width = rgba->width;
     made->film.height = rgba->height;
+    if (is_compact)
+        *made->texels = *rgba;
     made->is_for_display = is_for_display;
     *rgba = (image){0};
     *out = made;
@@ -67,7 +75,7 @@ facet_result facet_image_create(const facet_image_view *pixels, const facet_allo
             to[3] = channels == 4 ? from[3] : 1.0f;
         }
     }
-    return take_pixels(&rgba, allocator, false, picture, error);
+    return take_pixels(&rgba, false, allocator, false, picture, error);
 }
 
 bool facet_image_is_for_display(const facet_image *picture)
@@ -117,10 +125,17 @@ facet_result facet_image_load_memory(const void *bytes, size_t size, const char 
     const bool is_associated = image_codec_detect(bytes, size) == IMAGE_CODEC_EXR; /* the format says so */
     const bool is_straight = decoded.channel_count % 2 == 0 && !is_associated;
     const bool is_for_display = decoded.is_srgb;
+    const bool is_pair = desc->layer && decoded.channel_count == 2; /* not grey with opacity */
+    if (desc->is_compact && !is_pair) {
+        result = take_pixels(&decoded, true, &desc->allocator, is_for_display, picture, error);
+        if (result == FACET_OK)
+            (*picture)->is_straight = is_straight;
+        return result;
+    }
     if (decoded.type == IMAGE_F32 && decoded.channel_count == 4 && !decoded.is_srgb) {
         rgba = decoded;
         decoded = (image){0};
-    } else if (desc->layer && decoded.channel_count == 2) {
+    } else if (is_pair) {
         result = expand_pair(&decoded, &desc->allocator, &rgba, error);
         image_destroy(&decoded);
     } else {
@@ -131,7 +146,7 @@ facet_result facet_image_load_memory(const void *bytes, size_t size, const char 
         return result;
     if (is_straight)
         parallel_for(thread_count, (size_t)rgba.width * rgba.height, GRAIN, premultiply, &rgba);
-    return take_pixels(&rgba, &desc->allocator, is_for_display, picture, error);
+    return take_pixels(&rgba, false, &desc->allocator, is_for_display, picture, error);
 }
 
 facet_result facet_image_load(const char *path, const facet_image_load_desc *desc, facet_image **picture,
@@ -147,5 +162,43 @@ facet_result facet_image_load(const char *path, const facet_image_load_desc *des
     if (result == FACET_OK)
         result = facet_image_load_memory(file.data, file.size, path, desc, picture, error);
     file_close(&file);
+    return result;
+}
+
+/* ---- comparisons ---- */
+
+/* An image to compare; rgba is filled in where the pixels are floats. */
+static compare_image view_image(const facet_image *i, image *rgba)
+{
+    *rgba = (image){.pixels = i->film.layers[0].pixels,
+                    .width = i->film.width,
+                    .height = i->film.height,
+                    .channel_count = 4,
+                    .type = IMAGE_F32};
+    return (compare_image){.texels = i->texels ? i->texels : rgba,
+                           .is_straight = i->is_straight,
+                           .is_display = i->is_for_display};
+}
+
+facet_result facet_compare(const facet_image *a, const facet_image *b, const facet_compare_desc *desc,
+                           facet_comparison *out, facet_image **difference, facet_error *error)
+{
+    const facet_compare_desc defaults = {0};
+    desc = desc ? desc : &defaults;
+    if (difference)
+        *difference = NULL;
+    image rgba[3];
+    const compare_image first = view_image(a, &rgba[0]), second = view_image(b, &rgba[1]);
+    compare_image mask = {0};
+    if (desc->mask)
+        mask = view_image(desc->mask, &rgba[2]);
+    image made = {0};
+    TRY(compare_images(&first, &second, desc->mask ? &mask : NULL, desc, out, difference ? &made : NULL,
+                       error));
+    if (!difference)
+        return FACET_OK;
+    facet_result result = take_pixels(&made, false, &desc->allocator, false, difference, error);
+    if (result != FACET_OK)
+        *out = (facet_comparison){0};
     return result;
 }

@@ -40,7 +40,7 @@ typedef struct map_job {
     uint32_t channel_count;
     const float *errors;
     float gain, error_gain;
-    compare_difference *out;
+    image *out;
 } map_job;
 
 static void put(float *pixel, float r, float g, float b)
@@ -93,7 +93,7 @@ static void map_rows(void *context, size_t begin, size_t end)
     }
     const uint32_t place = job->desc->is_sheet ? 2 * s->width : 0; /* of the difference */
     for (size_t y = begin; y < end; y++) {
-        float *line = job->out->rgba + 4 * (size_t)job->out->width * y;
+        float *line = (float *)job->out->pixels + 4 * (size_t)job->out->width * y;
         for (uint32_t x = 0; x < s->width; x += BLOCK) {
             const uint32_t count = s->width - x < BLOCK ? s->width - x : BLOCK;
             compare_source_load(s, COMPARE_CODES, NULL, x, (int64_t)y, count, &row);
@@ -115,17 +115,14 @@ static void map_rows(void *context, size_t begin, size_t end)
 
 static facet_result compare_map_make(const compare_source *s, const facet_compare_desc *desc,
                                      uint32_t channel_count, const float *errors, float error_gain,
-                                     compare_difference *out, facet_error *error)
+                                     image *out, facet_error *error)
 {
     const uint32_t columns = desc->is_sheet ? 3 : 1;
     if (s->width > UINT32_MAX / columns)
         return fail(error, FACET_ERROR_LIMIT,
                     "compare: three times %u pixels are too many beside one another", s->width);
-    compare_difference made = {.width = s->width * columns, .height = s->height};
-    made.rgba = mem_alloc(&desc->allocator, (size_t)made.width * made.height, 4 * sizeof(float));
-    if (!made.rgba)
-        return fail(error, FACET_ERROR_MEMORY, "out of memory: difference picture of %u x %u pixels",
-                    made.width, made.height);
+    image made;
+    TRY(image_create(&desc->allocator, s->width * columns, s->height, 4, IMAGE_F32, &made, error));
     map_job job = {.source = s,
                    .desc = desc,
                    .channel_count = channel_count,
@@ -242,33 +239,30 @@ static facet_result measure(compare_source *s, const facet_compare_desc *desc, f
     return result;
 }
 
-facet_result compare_pictures(const compare_picture *a, const compare_picture *b, const compare_picture *mask,
-                              const facet_compare_desc *desc, facet_comparison *out,
-                              compare_difference *difference, facet_error *error)
+facet_result compare_images(const compare_image *a, const compare_image *b, const compare_image *mask,
+                            const facet_compare_desc *desc, facet_comparison *out, image *difference,
+                            facet_error *error)
 {
     const facet_compare_desc defaults = {0};
     facet_compare_desc d = desc ? *desc : defaults;
     d.thread_count = d.thread_count ? d.thread_count : facet_thread_count();
     *out = (facet_comparison){0};
     if (difference)
-        *difference = (compare_difference){0};
+        *difference = (image){0};
     compare_source s;
-    facet_result result = check_desc(&d, error);
-    if (result == FACET_OK)
-        result = compare_source_open(a, b, mask, &d, &s, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check_desc(&d, error));
+    TRY(compare_source_open(a, b, mask, &d, &s, error));
     const size_t count = (size_t)s.width * s.height;
     float *map = mem_alloc(&d.allocator, count, sizeof *map);
-    if (!map)
-        return fail_memory(error, "errors of pixels", count * sizeof *map);
     const bool is_heat = difference && d.difference == FACET_DIFFERENCE_HEAT_MAP;
     const bool is_flip_shown = is_heat && !(d.skipped_metrics & FACET_METRIC_FLIP);
-    result = measure(&s, &d, map, is_flip_shown, out, error);
+    facet_result result = map ? measure(&s, &d, map, is_flip_shown, out, error)
+                              : fail_memory(error, "errors of pixels", count * sizeof *map);
     if (result == FACET_OK && difference)
         result = compare_map_make(&s, &d, out->channel_count, is_heat ? map : NULL,
                                   !is_flip_shown && d.gain > 0.0f ? d.gain : 1.0f, difference, error);
     mem_free(map);
+    compare_source_close(&s);
     if (result != FACET_OK)
         *out = (facet_comparison){0};
     return result;

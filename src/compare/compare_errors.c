@@ -51,10 +51,13 @@ static bool is_finite_pixel(const float *p)
 /* What the pixels are before anything is done to them. */
 static void survey_raw(const compare_source *s, uint32_t y, compare_survey *row)
 {
-    const size_t first = (size_t)(s->y + y) * s->a.width + s->x;
+    compare_texels t;
     for (uint32_t x = 0; x < s->width; x++) {
-        const float *a = s->a.rgba + 4 * (first + x), *b = s->b.rgba + 4 * (first + x);
-        if (s->mask && !compare_source_counts(s, x, y))
+        const uint32_t i = x % COMPARE_TEXELS;
+        if (i == 0)
+            compare_source_read(s, x, y, s->width - x < COMPARE_TEXELS ? s->width - x : COMPARE_TEXELS, &t);
+        const float *a = t.a + 4 * i, *b = t.b + 4 * i;
+        if (!t.counts[i])
             continue;
         row->is_equal = row->is_equal && memcmp(a, b, 4 * sizeof *a) == 0;
         row->has_opacity = row->has_opacity || a[3] < 1.0f || b[3] < 1.0f;

@@ -161,7 +161,7 @@ static double reference_flip(const plane *a, const plane *b, double ppd, double 
 
 static plane plane_of(const fixture *f, double gain, bool is_mapped)
 {
-    plane p = {(int)f->picture.width, (int)f->picture.height, NULL};
+    plane p = {(int)f->texels.width, (int)f->texels.height, NULL};
     p.at = malloc((size_t)p.width * (size_t)p.height * sizeof *p.at);
     assert_non_null(p.at);
     for (int i = 0; i < p.width * p.height; i++) {

@@ -21,7 +21,7 @@ _Static_assert(TONEMAP_NEUTRAL == (int)FACET_TONEMAP_NEUTRAL && TONEMAP_ACES == 
 
 static facet_result take_crop(const uint32_t crop[4], compare_source *s, facet_error *error)
 {
-    const uint32_t width = s->a.width, height = s->a.height;
+    const uint32_t width = s->a.image.texels->width, height = s->a.image.texels->height;
     if (!crop[0] && !crop[1] && !crop[2] && !crop[3]) {
         s->width = width;
         s->height = height;
@@ -39,20 +39,20 @@ static facet_result take_crop(const uint32_t crop[4], compare_source *s, facet_e
     return FACET_OK;
 }
 
-facet_result compare_source_open(const compare_picture *a, const compare_picture *b,
-                                 const compare_picture *mask, const facet_compare_desc *desc,
-                                 compare_source *out, facet_error *error)
+facet_result compare_source_open(const compare_image *a, const compare_image *b, const compare_image *mask,
+                                 const facet_compare_desc *desc, compare_source *out, facet_error *error)
 {
-    if (a->width != b->width || a->height != b->height)
+    const image *first = a->texels, *second = b->texels;
+    if (first->width != second->width || first->height != second->height)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "compare: the pictures are of different sizes, %u x %u and %u x %u pixels", a->width,
-                    a->height, b->width, b->height);
-    if (mask && (mask->width != a->width || mask->height != a->height))
-        return fail(error, FACET_ERROR_ARGUMENT, "compare: the mask has %u x %u pixels, the pictures %u x %u",
-                    mask->width, mask->height, a->width, a->height);
-    *out = (compare_source){.a = *a,
-                            .b = *b,
-                            .mask = mask,
+                    "compare: the images are of different sizes, %u x %u and %u x %u pixels", first->width,
+                    first->height, second->width, second->height);
+    if (mask && (mask->texels->width != first->width || mask->texels->height != first->height))
+        return fail(error, FACET_ERROR_ARGUMENT, "compare: the mask has %u x %u pixels, the images %u x %u",
+                    mask->texels->width, mask->texels->height, first->width, first->height);
+    *out = (compare_source){.a.image = *a,
+                            .b.image = *b,
+                            .has_mask = mask != NULL,
                             .has_opacity = desc->alpha == FACET_COMPARE_ALPHA_CHANNEL,
                             .tonemap = desc->tonemap,
                             .scale = exp2f(desc->exposure_ev)};
@@ -62,7 +62,24 @@ facet_result compare_source_open(const compare_picture *a, const compare_picture
     if (desc->alpha == FACET_COMPARE_ALPHA_BACKGROUND)
         for (int k = 0; k < 3; k++)
             out->background[k] = desc->background[k];
-    return take_crop(desc->crop, out, error);
+    TRY(take_crop(desc->crop, out, error));
+    facet_result result = image_reader_create(first, &desc->allocator, &out->a.reader, error);
+    if (result == FACET_OK)
+        result = image_reader_create(second, &desc->allocator, &out->b.reader, error);
+    if (result == FACET_OK && mask) {
+        out->mask.image = *mask;
+        result = image_reader_create(mask->texels, &desc->allocator, &out->mask.reader, error);
+    }
+    if (result != FACET_OK)
+        compare_source_close(out);
+    return result;
+}
+
+void compare_source_close(compare_source *s)
+{
+    image_reader_destroy(&s->a.reader);
+    image_reader_destroy(&s->b.reader);
+    image_reader_destroy(&s->mask.reader);
 }
 
 /* ---- loading ---- */
@@ -78,12 +95,31 @@ static bool is_same(float a, float b)
     return a == b || (isnan(a) && isnan(b));
 }
 
-bool compare_source_counts(const compare_source *s, uint32_t x, uint32_t y)
+/* Texels from number first on: where they are if they are floats already, else converted into memory. */
+static const float *read_side(const compare_side *s, size_t first, uint32_t count, float *memory)
 {
-    if (!s->mask)
-        return true;
-    const float *c = s->mask->rgba + 4 * ((size_t)(s->y + y) * s->mask->width + s->x + x);
-    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2] >= 0.21404114f; /* the light of sRGB 0.5 */
+    const image *i = s->image.texels;
+    if (i->type == IMAGE_F32 && i->channel_count == 4 && !i->is_srgb && !s->image.is_straight)
+        return (const float *)i->pixels + 4 * first;
+    image_reader_load(&s->reader, first, count, memory);
+    for (uint32_t k = 0; k < count && s->image.is_straight; k++)
+        for (uint32_t c = 0; c < 3; c++)
+            memory[4 * k + c] *= memory[4 * k + 3];
+    return memory;
+}
+
+void compare_source_read(const compare_source *s, uint32_t x, uint32_t y, uint32_t count, compare_texels *out)
+{
+    const size_t first = (size_t)(s->y + y) * s->a.image.texels->width + s->x + x;
+    for (uint32_t i = 0; i < count; i++)
+        out->counts[i] = true;
+    if (s->has_mask) {
+        const float *c = read_side(&s->mask, first, count, out->memory[0]);
+        for (uint32_t i = 0; i < count; i++, c += 4) /* 0.214: the light of sRGB 0.5 */
+            out->counts[i] = 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2] >= 0.21404114f;
+    }
+    out->a = read_side(&s->a, first, count, out->memory[0]);
+    out->b = read_side(&s->b, first, count, out->memory[1]);
 }
 
 /* A pixel of which a channel is not finite: what of it is the same in both, or finite in both, can be compared. */
@@ -105,17 +141,20 @@ static uint32_t clamp_index(int64_t i, uint32_t count)
     return i < 0 ? 0 : i >= (int64_t)count ? count - 1 : (uint32_t)i;
 }
 
-static void gather(const compare_source *s, int64_t x, int64_t y, uint32_t count, const compare_row *out)
+/* Pixels from (x, y) on, up to COMPARE_TEXELS, to position at in out. */
+static void gather(const compare_source *s, int64_t x, int64_t y, uint32_t count, uint32_t at,
+                   const compare_row *out)
 {
-    const uint32_t row = clamp_index(y, s->height);
-    const size_t first = (size_t)(s->y + row) * s->a.width + s->x;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t column = clamp_index(x + i, s->width);
-        const float *a = s->a.rgba + 4 * (first + column);
-        const float *b = s->b.rgba + 4 * (first + column);
+    const uint32_t first = clamp_index(x, s->width), last = clamp_index(x + count - 1, s->width);
+    compare_texels t;
+    compare_source_read(s, first, clamp_index(y, s->height), last - first + 1, &t);
+    for (uint32_t n = 0, i = at; n < count; n++, i++) {
+        const uint32_t column = clamp_index(x + n, s->width) - first;
+        const float *a = t.a + 4 * (size_t)column;
+        const float *b = t.b + 4 * (size_t)column;
         float pa[4], pb[4];
         unsigned flags = COMPARE_COUNTS;
-        if (s->mask && !compare_source_counts(s, column, row)) {
+        if (!t.counts[column]) {
             b = a;
             flags = 0;
         }
@@ -178,10 +217,11 @@ void compare_source_load(const compare_source *s, compare_values values, const f
                          int64_t y, uint32_t count, const compare_row *out)
 {
     const bool is_encoded = s->is_display && values == COMPARE_CODES;
-    gather(s, x, y, count, out);
-    if (!s->a.is_display)
+    for (uint32_t done = 0; done < count; done += COMPARE_TEXELS)
+        gather(s, x + done, y, count - done < COMPARE_TEXELS ? count - done : COMPARE_TEXELS, done, out);
+    if (!s->a.image.is_display)
         develop(s, out->a, count);
-    if (!s->b.is_display)
+    if (!s->b.image.is_display)
         develop(s, out->b, count);
     background = background ? background : s->background;
     compare_finish(out->a, count, background, s->is_display, is_encoded);

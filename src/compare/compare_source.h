@@ -5,9 +5,15 @@
 
 #include "compare/compare.h"
 
+/* One of the images with what its rows are read by. */
+typedef struct compare_side {
+    compare_image image;
+    image_reader reader;
+} compare_side;
+
 typedef struct compare_source {
-    compare_picture a, b;
-    const compare_picture *mask;  /* NULL: all pixels count */
+    compare_side a, b, mask;
+    bool has_mask;                /* else all pixels count */
     uint32_t x, y, width, height; /* the crop */
     bool is_display;              /* the space */
     bool has_opacity;             /* is compared: alpha is a channel and some pixel is not opaque */
@@ -33,16 +39,25 @@ typedef struct compare_row {
 } compare_row;
 
 /* The space, crop and all else that desc says of the pictures; has_opacity is what alpha asks for, before the pixels were
- * looked at. Fails with FACET_ERROR_ARGUMENT. */
-facet_result compare_source_open(const compare_picture *a, const compare_picture *b,
-                                 const compare_picture *mask, const facet_compare_desc *desc,
-                                 compare_source *out, facet_error *error);
+ * looked at. FACET_ERROR_ARGUMENT, _MEMORY. */
+facet_result compare_source_open(const compare_image *a, const compare_image *b, const compare_image *mask,
+                                 const facet_compare_desc *desc, compare_source *out, facet_error *error);
+void compare_source_close(compare_source *s); /* {0} is allowed */
 
 /* The pixels from (x, y) of the crop to the right. Those outside of the crop are its nearest ones. background replaces that
  * of the source where it is not NULL. */
 void compare_source_load(const compare_source *s, compare_values values, const float background[3], int64_t x,
                          int64_t y, uint32_t count, const compare_row *out);
 
-bool compare_source_counts(const compare_source *s, uint32_t x, uint32_t y);
+/* Texels of both images before anything is done to them. */
+enum { COMPARE_TEXELS = 128 };
+typedef struct compare_texels {
+    const float *a, *b;          /* RGBA, linear, premultiplied */
+    bool counts[COMPARE_TEXELS]; /* by the mask */
+    float memory[2][4 * COMPARE_TEXELS];
+} compare_texels;
+/* Up to COMPARE_TEXELS of them from (x, y) to the right, inside the crop. */
+void compare_source_read(const compare_source *s, uint32_t x, uint32_t y, uint32_t count,
+                         compare_texels *out);
 
 #endif

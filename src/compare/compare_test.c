@@ -141,7 +141,7 @@ static void percentiles_are_those_of_sorting(void **state)
 static double slow_ssim(const fixture *a, const fixture *b, int channel, double peak)
 {
     const double luma[3] = {0.2126, 0.7152, 0.0722}, c1 = pow(0.01 * peak, 2.0), c2 = pow(0.03 * peak, 2.0);
-    const int width = (int)a->picture.width, height = (int)a->picture.height;
+    const int width = (int)a->texels.width, height = (int)a->texels.height;
     double total = 0.0, window[11][11], sum = 0.0;
     for (int j = 0; j < 11; j++)
         for (int i = 0; i < 11; i++)
@@ -176,7 +176,7 @@ static void ssim_is_that_of_every_window(void **state)
     const facet_compare_desc desc = {.skipped_metrics = FACET_METRIC_FLIP, .peak = 1.0f};
     for (int i = 0; i < 3; i++) {
         fixture *a = fixture_create(i == 2 ? 11 : 150, i == 2 ? 11 : 80, false),
-                *b = fixture_create(a->picture.width, a->picture.height, false);
+                *b = fixture_create(a->texels.width, a->texels.height, false);
         fixture_draw(a, 0, 0.0f);
         fixture_draw(b, 4, i ? 0.5f : 0.1f);
         facet_comparison c = fixture_compare(a, b, &desc);
@@ -232,7 +232,7 @@ static void only_the_crop_counts(void **state)
     for (int i = 0; i < 5; i++) {
         memcpy(desc.crop, wrong[i], sizeof desc.crop);
         facet_error error;
-        assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, NULL, &error),
+        assert_int_equal(compare_images(&a->image, &b->image, NULL, &desc, &c, NULL, &error),
                          FACET_ERROR_ARGUMENT);
     }
     free(a);
@@ -257,21 +257,19 @@ static void only_what_the_mask_shows_counts(void **state)
         }
     facet_comparison c;
     facet_error error;
-    assert_int_equal(compare_pictures(&a->picture, &b->picture, &m->picture, NULL, &c, NULL, &error),
-                     FACET_OK);
+    assert_int_equal(compare_images(&a->image, &b->image, &m->image, NULL, &c, NULL, &error), FACET_OK);
     assert_true(c.is_equal && c.mse == 0.0 && c.flip == 0.0 && c.ssim == 1.0 && c.nonfinite_b == 0);
     assert_int_equal(c.pixel_count, 150 * 90);
     fixture_at(b, 0, 0)[1] += 0.5f;
-    assert_int_equal(compare_pictures(&a->picture, &b->picture, &m->picture, NULL, &c, NULL, &error),
-                     FACET_OK);
+    assert_int_equal(compare_images(&a->image, &b->image, &m->image, NULL, &c, NULL, &error), FACET_OK);
     assert_near(c.mse, 0.25 / (150 * 90 * 3), 1e-9);
     assert_near(c.differing_share, 1.0 / (150 * 90), 1e-15);
     fixture_fill(m, 0.0f, 0.0f, 0.0f, 1.0f);
-    assert_int_equal(compare_pictures(&a->picture, &b->picture, &m->picture, NULL, &c, NULL, &error),
+    assert_int_equal(compare_images(&a->image, &b->image, &m->image, NULL, &c, NULL, &error),
                      FACET_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "mask"));
-    m->picture.width = 199;
-    assert_int_equal(compare_pictures(&a->picture, &b->picture, &m->picture, NULL, &c, NULL, &error),
+    m->texels.width = 199;
+    assert_int_equal(compare_images(&a->image, &b->image, &m->image, NULL, &c, NULL, &error),
                      FACET_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "199 x 90"));
     free(a);
@@ -372,6 +370,60 @@ static void assert_same_numbers(const facet_comparison *a, const facet_compariso
     assert_int_equal(a->flip_exposure_count, b->flip_exposure_count);
 }
 
+/* Images that are compared as their files have them give the bits that they give as linear, premultiplied floats. */
+static void integers_are_compared_as_floats_are(void **state)
+{
+    (void)state;
+    static const struct {
+        image_type type;
+        uint32_t channel_count;
+        bool is_srgb;
+    } kinds[] = {{IMAGE_U8, 1, true},   {IMAGE_U8, 2, true},   {IMAGE_U8, 3, true},  {IMAGE_U8, 4, true},
+                 {IMAGE_U8, 3, false},  {IMAGE_U16, 2, true},  {IMAGE_U16, 4, true}, {IMAGE_U16, 3, false},
+                 {IMAGE_F16, 4, false}, {IMAGE_F32, 3, false}, {IMAGE_F32, 4, false}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        image files[2], floats[2];
+        compare_image own[2], converted[2];
+        uint32_t seed = 9;
+        const bool has_alpha = kinds[k].channel_count % 2 == 0;
+        for (int side = 0; side < 2; side++) {
+            image noise;
+            assert_int_equal(image_create(NULL, 301, 40, 4, IMAGE_F32, &noise, NULL), FACET_OK);
+            for (size_t i = 0; i < (size_t)301 * 40 * 4; i++)
+                ((float *)noise.pixels)[i] = fixture_random(&seed);
+            if (kinds[k].channel_count < 3) {
+                noise.channel_count = kinds[k].channel_count; /* fewer of the random numbers */
+            }
+            assert_int_equal(image_convert(&noise, NULL, 1, kinds[k].channel_count, kinds[k].type,
+                                           kinds[k].is_srgb, &files[side], NULL),
+                             FACET_OK);
+            assert_int_equal(image_convert(&files[side], NULL, 1, 4, IMAGE_F32, false, &floats[side], NULL),
+                             FACET_OK);
+            float *p = floats[side].pixels;
+            for (size_t i = 0; i < (size_t)301 * 40 && has_alpha; i++)
+                for (int c = 0; c < 3; c++)
+                    p[4 * i + (size_t)c] *= p[4 * i + 3];
+            own[side] = (compare_image){&files[side], has_alpha, kinds[k].is_srgb};
+            converted[side] = (compare_image){&floats[side], false, kinds[k].is_srgb};
+            image_destroy(&noise);
+        }
+        const facet_compare_desc desc = {.crop = {3, 1, 290, 37}};
+        facet_comparison c[2];
+        /* the second image is its own mask */
+        assert_int_equal(compare_images(&own[0], &own[1], &own[1], &desc, &c[0], NULL, NULL), FACET_OK);
+        assert_int_equal(
+            compare_images(&converted[0], &converted[1], &converted[1], &desc, &c[1], NULL, NULL), FACET_OK);
+        assert_true(c[0].mse > 0.0 && c[0].pixel_count > 100 && c[0].pixel_count < 290 * 37);
+        assert_same_numbers(&c[0], &c[1]);
+        assert_int_equal(compare_images(&own[0], &converted[0], NULL, &desc, &c[0], NULL, NULL), FACET_OK);
+        assert_true(c[0].is_equal);
+        for (int side = 0; side < 2; side++) {
+            image_destroy(&files[side]);
+            image_destroy(&floats[side]);
+        }
+    }
+}
+
 static void threads_change_no_bit(void **state)
 {
     (void)state;
@@ -380,23 +432,23 @@ static void threads_change_no_bit(void **state)
     fixture_draw(b, 8, 0.7f);
     fixture_at(b, 100, 100)[3] = 0.5f;
     facet_comparison first = {0}, c;
-    compare_difference heat[2] = {{0}, {0}};
+    image heat[2] = {{0}, {0}};
     for (uint32_t threads = 1; threads < 6; threads++) {
         facet_compare_desc desc = {.thread_count = threads,
                                    .difference = FACET_DIFFERENCE_HEAT_MAP,
                                    .is_sheet = true,
                                    .percentile = 33.0};
-        assert_int_equal(
-            compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &heat[threads > 1], NULL), FACET_OK);
+        assert_int_equal(compare_images(&a->image, &b->image, NULL, &desc, &c, &heat[threads > 1], NULL),
+                         FACET_OK);
         if (threads == 1) {
             first = c;
             continue;
         }
         assert_same_numbers(&c, &first);
-        assert_memory_equal(heat[0].rgba, heat[1].rgba, 3 * 310 * 190 * 4 * sizeof(float));
-        mem_free(heat[1].rgba);
+        assert_memory_equal(heat[0].pixels, heat[1].pixels, 3 * 310 * 190 * 4 * sizeof(float));
+        mem_free(heat[1].pixels);
     }
-    mem_free(heat[0].rgba);
+    mem_free(heat[0].pixels);
     free(a);
     free(b);
 }
@@ -411,19 +463,18 @@ static void running_out_of_memory_is_a_result(void **state)
         failing_allocator memory = {.fail_at = at};
         facet_compare_desc desc = {.allocator = failing_allocator_get(&memory), .thread_count = 1};
         facet_comparison c;
-        compare_difference difference;
+        image difference;
         facet_error error = {0};
-        facet_result result =
-            compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &difference, &error);
+        facet_result result = compare_images(&a->image, &b->image, NULL, &desc, &c, &difference, &error);
         if (at < 0) {
             calls = atomic_load(&memory.calls);
             assert_true(calls > 6 && result == FACET_OK && c.flip > 0.0);
         } else {
             assert_int_equal(result, FACET_ERROR_MEMORY);
             assert_non_null(strstr(error.message, "memory"));
-            assert_true(!difference.rgba && c.width == 0);
+            assert_true(!difference.pixels && c.width == 0);
         }
-        mem_free(difference.rgba);
+        mem_free(difference.pixels);
         assert_int_equal(atomic_load(&memory.blocks), 0);
     }
     free(a);
@@ -436,10 +487,10 @@ static void what_cannot_be_is_refused(void **state)
     fixture *a = fixture_create(40, 40, false), *b = fixture_create(40, 41, false);
     facet_comparison c;
     facet_error error;
-    assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, NULL, &c, NULL, &error),
+    assert_int_equal(compare_images(&a->image, &b->image, NULL, NULL, &c, NULL, &error),
                      FACET_ERROR_ARGUMENT);
     assert_string_equal(error.message,
-                        "compare: the pictures are of different sizes, 40 x 40 and 40 x 41 pixels");
+                        "compare: the images are of different sizes, 40 x 40 and 40 x 41 pixels");
     const facet_compare_desc wrong[] = {{.pixels_per_degree = 0.5f},
                                         {.pixels_per_degree = NAN},
                                         {.percentile = 101.0},
@@ -454,7 +505,7 @@ static void what_cannot_be_is_refused(void **state)
                                         {.space = FACET_COMPARE_SPACE_LINEAR, .tonemap = FACET_TONEMAP_ACES},
                                         {.alpha = (facet_compare_alpha)9}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        assert_int_equal(compare_pictures(&a->picture, &a->picture, NULL, &wrong[i], &c, NULL, &error),
+        assert_int_equal(compare_images(&a->image, &a->image, NULL, &wrong[i], &c, NULL, &error),
                          FACET_ERROR_ARGUMENT);
     free(a);
     free(b);
@@ -469,32 +520,32 @@ static void the_difference_picture_has_the_numbers(void **state)
     fixture_fill(a, (float)srgb_decode(0.5), 0.0f, 0.0f, 1.0f);
     fixture_fill(b, (float)srgb_decode(0.4), 1.0f, 0.0f, 1.0f);
     facet_comparison c;
-    compare_difference d;
+    image d;
     facet_compare_desc desc = {.gain = 3.0f, .is_sheet = true};
-    assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &d, NULL), FACET_OK);
+    assert_int_equal(compare_images(&a->image, &b->image, NULL, &desc, &c, &d, NULL), FACET_OK);
     assert_true(d.width == 90 && d.height == 20);
-    const float *row = d.rgba + 4 * 90 * 7;
+    const float *row = (const float *)d.pixels + 4 * 90 * 7;
     assert_near(row[4 * 3], srgb_decode(0.5), 1e-6); /* a */
     assert_near(row[4 * 33 + 1], 1.0, 1e-6);         /* b */
     assert_near(srgb_encode((double)row[4 * 63]), 0.3, 1e-5);
     assert_near(row[4 * 63 + 1], 1.0, 0.0);
     assert_true(row[4 * 63 + 2] == 0.0f && row[4 * 63 + 3] == 1.0f);
-    mem_free(d.rgba);
+    mem_free(d.pixels);
     desc = (facet_compare_desc){.difference = FACET_DIFFERENCE_HEAT_MAP};
-    assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &d, NULL), FACET_OK);
+    assert_int_equal(compare_images(&a->image, &b->image, NULL, &desc, &c, &d, NULL), FACET_OK);
     float wanted[3];
     compare_magma((float)c.flip_max, wanted);
     double best = 1.0;
     for (int i = 0; i < 600; i++)
-        best = fmin(best, fabs(srgb_encode((double)d.rgba[4 * i]) - (double)wanted[0]));
+        best = fmin(best, fabs(srgb_encode((double)((const float *)d.pixels)[4 * i]) - (double)wanted[0]));
     assert_near(best, 0.0, 1e-5);
-    mem_free(d.rgba);
-    a->picture.is_display = b->picture.is_display = false; /* linear: as they are, also above 1 */
+    mem_free(d.pixels);
+    a->image.is_display = b->image.is_display = false; /* linear: as they are, also above 1 */
     fixture_at(b, 1, 0)[0] = 9.0f;
     desc = (facet_compare_desc){.gain = 0.5f};
-    assert_int_equal(compare_pictures(&a->picture, &b->picture, NULL, &desc, &c, &d, NULL), FACET_OK);
-    assert_near(d.rgba[4], (9.0 - srgb_decode(0.5)) / 2.0, 1e-6);
-    mem_free(d.rgba);
+    assert_int_equal(compare_images(&a->image, &b->image, NULL, &desc, &c, &d, NULL), FACET_OK);
+    assert_near(((const float *)d.pixels)[4], (9.0 - srgb_decode(0.5)) / 2.0, 1e-6);
+    mem_free(d.pixels);
     free(a);
     free(b);
 }
@@ -547,6 +598,7 @@ int main(void)
         cmocka_unit_test(opacity_is_a_channel_where_there_is_some),
         cmocka_unit_test(light_meets_what_a_display_shows),
         cmocka_unit_test(what_is_no_number_is_told_and_spoils_nothing),
+        cmocka_unit_test(integers_are_compared_as_floats_are),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(running_out_of_memory_is_a_result),
         cmocka_unit_test(what_cannot_be_is_refused),

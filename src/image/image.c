@@ -63,37 +63,43 @@ static float clamp_unit(float x) /* NaN becomes 0 */
     return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
 }
 
-/* One channel of count texels to floats, stride channels apart on both sides. */
-static void load_channel(const conversion *c, uint32_t channel, size_t first, size_t count, float *to)
+/* One channel of count texels to floats. light: that of each code where 8 bits are decoded; of 16 bits it may be NULL. */
+static void load_channel(const image *in, const float *light, bool is_decoded, uint32_t channel, size_t first,
+                         size_t count, float *to)
 {
-    const uint32_t stride = c->in->channel_count;
-    const bool decode = c->transfer == TRANSFER_DECODE && !is_alpha(channel, stride);
+    const uint32_t stride = in->channel_count;
+    const bool decode = is_decoded && !is_alpha(channel, stride);
     const size_t start = first * stride + channel;
-    switch (c->in->type) {
+    switch (in->type) {
     case IMAGE_U8: {
-        const uint8_t *from = (const uint8_t *)c->in->pixels + start;
+        const uint8_t *from = (const uint8_t *)in->pixels + start;
         if (decode)
             for (size_t i = 0; i < count; i++)
-                to[i] = c->tables.decoded[from[i * stride]];
+                to[i] = light[from[i * stride]];
         else
             for (size_t i = 0; i < count; i++)
                 to[i] = (float)from[i * stride] / 255.0f;
         return;
     }
     case IMAGE_U16: {
-        const uint16_t *from = (const uint16_t *)c->in->pixels + start;
+        const uint16_t *from = (const uint16_t *)in->pixels + start;
+        if (decode && light) {
+            for (size_t i = 0; i < count; i++)
+                to[i] = light[from[i * stride]];
+            return;
+        }
         for (size_t i = 0; i < count; i++)
             to[i] = (float)from[i * stride] / 65535.0f;
         break;
     }
     case IMAGE_F16: {
-        const uint16_t *from = (const uint16_t *)c->in->pixels + start;
+        const uint16_t *from = (const uint16_t *)in->pixels + start;
         for (size_t i = 0; i < count; i++)
             to[i] = half_to_float(from[i * stride]);
         break;
     }
     case IMAGE_F32: {
-        const float *from = (const float *)c->in->pixels + start;
+        const float *from = (const float *)in->pixels + start;
         for (size_t i = 0; i < count; i++)
             to[i] = from[i * stride];
         break;
@@ -164,7 +170,8 @@ static void convert_texels(const conversion *c, size_t first, size_t count)
         /* store_channel() may have encoded the values in place */
         if (source != loaded || c->transfer == TRANSFER_ENCODE) {
             if (source >= 0)
-                load_channel(c, (uint32_t)source, first, count, values);
+                load_channel(c->in, c->in->type == IMAGE_U8 ? c->tables.decoded : NULL,
+                             c->transfer == TRANSFER_DECODE, (uint32_t)source, first, count, values);
             else
                 for (size_t i = 0; i < count; i++)
                     values[i] = 1.0f;
@@ -239,4 +246,46 @@ facet_result image_convert(const image *in, const facet_allocator *allocator, ui
     parallel_for(thread_count, in->height, rows, convert_rows, &c);
     *out = made;
     return FACET_OK;
+}
+
+/* ---- reading ---- */
+
+facet_result image_reader_create(const image *source, const facet_allocator *allocator, image_reader *out,
+                                 facet_error *error)
+{
+    *out = (image_reader){.source = source};
+    if (!source->is_srgb || source->type == IMAGE_F16 || source->type == IMAGE_F32)
+        return FACET_OK;
+    const size_t count = source->type == IMAGE_U8 ? 256 : 65536;
+    out->light = mem_alloc(allocator, count, sizeof *out->light);
+    if (!out->light)
+        return fail_memory(error, "light of sRGB codes", count * sizeof *out->light);
+    for (size_t code = 0; code < count; code++) /* as load_channel() and srgb_tables_prepare() decode them */
+        out->light[code] = source->type == IMAGE_U8 ? (float)srgb_decode((double)code / 255.0)
+                                                    : (float)srgb_decode((double)((float)code / 65535.0f));
+    return FACET_OK;
+}
+
+void image_reader_destroy(image_reader *r)
+{
+    mem_free(r->light);
+    *r = (image_reader){0};
+}
+
+void image_reader_load(const image_reader *r, size_t first, size_t count, float *rgba)
+{
+    float values[BLOCK_TEXELS];
+    for (size_t done = 0; done < count; done += BLOCK_TEXELS) {
+        const size_t n = count - done < BLOCK_TEXELS ? count - done : BLOCK_TEXELS;
+        int loaded = -1;
+        for (uint32_t channel = 0; channel < 4; channel++) {
+            const int source = source_channel(channel, 4, r->source->channel_count);
+            if (source >= 0 && source != loaded)
+                load_channel(r->source, r->light, r->source->is_srgb, (uint32_t)source, first + done, n,
+                             values);
+            loaded = source;
+            for (size_t i = 0; i < n; i++)
+                rgba[4 * (done + i) + channel] = source >= 0 ? values[i] : 1.0f;
+        }
+    }
 }

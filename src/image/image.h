@@ -36,6 +36,20 @@ facet_result image_convert(const image *in, const facet_allocator *allocator, ui
                            uint32_t channel_count, image_type type, bool to_srgb, image *out,
                            facet_error *error);
 
+/* Reads texels of an image of any type as linear RGBA floats, with the values of image_convert(), a few at a time. */
+typedef struct image_reader {
+    const image *source; /* not owned */
+    float *
+        light; /* of each code where the channels are sRGB-encoded integers; block of mem_alloc(), else NULL */
+} image_reader;
+
+/* FACET_ERROR_MEMORY. */
+facet_result image_reader_create(const image *source, const facet_allocator *allocator, image_reader *out,
+                                 facet_error *error);
+void image_reader_destroy(image_reader *r); /* {0} is allowed; leaves {0} */
+/* count texels from texel first on, row by row, into rgba. */
+void image_reader_load(const image_reader *r, size_t first, size_t count, float *rgba);
+
 /* ---- codecs: files in memory to images and back ---- */
 
 typedef enum image_codec {

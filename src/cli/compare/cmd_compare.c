@@ -141,6 +141,7 @@ static facet_result load(compare_run *run, const char *path, const char *layer, 
                                         .thread_count = run->base.limits.thread_count,
                                         .max_size = run->base.limits.max_texture_size,
                                         .layer = layer,
+                                        .is_compact = true,
                                         .log = messages_log(&run->base.messages)};
     interrupt_begin_reading(input_name(path));
     facet_result result = input_load_image(path, &desc, image, error);
