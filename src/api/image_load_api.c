@@ -11,7 +11,6 @@
 #include "image/image.h"
 
 enum { GRAIN = 16384 }; /* pixels */
-static const uint64_t default_max_file_bytes = 4ull << 30;
 
 /* ---- pixels to images ---- */
 
@@ -156,9 +155,7 @@ facet_result facet_image_load(const char *path, const facet_image_load_desc *des
     desc = desc ? desc : &defaults;
     *picture = NULL;
     file_bytes file = {0};
-    facet_result result =
-        file_open(path, desc->max_file_bytes ? desc->max_file_bytes : default_max_file_bytes,
-                  &desc->allocator, &file, error);
+    facet_result result = file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error);
     if (result == FACET_OK)
         result = facet_image_load_memory(file.data, file.size, path, desc, picture, error);
     file_close(&file);

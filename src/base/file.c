@@ -290,15 +290,15 @@ facet_result file_replace(const char *path, const void *data, size_t size, facet
     file_stage stage = {0};
     if (lstat(path, &old) == 0 && S_ISDIR(old.st_mode))
         return fail(error, FACET_ERROR_WRITE, "%s: is a folder, not a file", path);
-    facet_result result = stage_regular(path, data, size, &stage, error);
-    return result == FACET_OK ? file_stage_commit(&stage, error) : result;
+    TRY(stage_regular(path, data, size, &stage, error));
+    return file_stage_commit(&stage, error);
 }
 
 facet_result file_write(const char *path, const void *data, size_t size, facet_error *error)
 {
     file_stage stage;
-    facet_result result = file_stage_write(path, data, size, &stage, error);
-    return result == FACET_OK ? file_stage_commit(&stage, error) : result;
+    TRY(file_stage_write(path, data, size, &stage, error));
+    return file_stage_commit(&stage, error);
 }
 
 char *path_join(const facet_allocator *allocator, const char *folder, const char *name)

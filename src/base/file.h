@@ -13,6 +13,12 @@ typedef struct file_bytes {
     uint64_t device, number; /* of a regular file: what it is known by under any name; number 0: none */
 } file_bytes;
 
+/* The limit that the max_file_bytes of a desc stands for, of which 0 is the default. */
+static inline uint64_t file_limit(uint64_t max_file_bytes)
+{
+    return max_file_bytes ? max_file_bytes : (uint64_t)4 << 30;
+}
+
 /* Opens path for reading as a whole. Fails with FACET_ERROR_READ (missing, a folder, no permission), _LIMIT
  * where it is larger than max_bytes (0: no limit), _MEMORY. A mapped file must not shrink while it is open. */
 facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocator *allocator,

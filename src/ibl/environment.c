@@ -201,7 +201,7 @@ facet_result facet_environment_load_memory(const void *bytes, size_t size, const
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     name = name ? name : "environment";
-    uint64_t max_bytes = desc->max_file_bytes ? desc->max_file_bytes : environment_default_max_file_bytes;
+    uint64_t max_bytes = file_limit(desc->max_file_bytes);
     if (size > max_bytes)
         return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes: at most %llu are read", name, size,
                     (unsigned long long)max_bytes);
@@ -227,9 +227,7 @@ facet_result facet_environment_load(const char *path, const facet_environment_de
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     file_bytes file = {0};
-    facet_result result =
-        file_open(path, desc->max_file_bytes ? desc->max_file_bytes : environment_default_max_file_bytes,
-                  &desc->allocator, &file, error);
+    facet_result result = file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error);
     if (result != FACET_OK)
         return result;
     result = facet_environment_load_memory(file.data, file.size, path, desc, environment, error);

@@ -293,9 +293,7 @@ static facet_result load_faces(facet_environment *e, const char *const paths[6],
     cube_face faces[6] = {0};
     facet_result result = FACET_OK;
     for (int i = 0; i < 6 && result == FACET_OK; i++) {
-        result = file_open(paths[i],
-                           desc->max_file_bytes ? desc->max_file_bytes : environment_default_max_file_bytes,
-                           &desc->allocator, &files[i], error);
+        result = file_open(paths[i], file_limit(desc->max_file_bytes), &desc->allocator, &files[i], error);
         faces[i].bytes = files[i].data;
         faces[i].size = files[i].size;
         faces[i].name = paths[i];

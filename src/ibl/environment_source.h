@@ -8,7 +8,6 @@
 #include "image/ktx2.h"
 
 enum { ENVIRONMENT_DEFAULT_MAX_SIZE = 32768 };
-static const uint64_t environment_default_max_file_bytes = 4ull << 30;
 
 /* How sources are decoded: what is not finite stays, to be counted. *largest: image_decode_desc.largest. */
 image_decode_desc environment_decode_desc(const facet_environment_desc *desc, float *largest);

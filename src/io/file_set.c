@@ -54,10 +54,10 @@ facet_result file_set_add(file_set *set, const char *name, const void *bytes, si
 
 facet_result file_set_commit(file_set *set, facet_error *error)
 {
-    facet_result result = ask(set, 1.0, error);
-    for (size_t i = 0; i < set->count && result == FACET_OK; i++)
-        result = file_stage_commit(&set->stages[i], error);
-    return result;
+    TRY(ask(set, 1.0, error));
+    for (size_t i = 0; i < set->count; i++)
+        TRY(file_stage_commit(&set->stages[i], error));
+    return FACET_OK;
 }
 
 void file_set_destroy(file_set *set)

@@ -71,8 +71,7 @@ facet_result model_file_load(const char *path, const facet_scene_desc *desc, fac
 {
     file_bytes file = {0};
     *scene = NULL;
-    facet_result result = file_open(path, desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
-                                    &desc->allocator, &file, error);
+    facet_result result = file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error);
     if (result == FACET_ERROR_READ && is_url(path))
         return fail(error, FACET_ERROR_READ,
                     "%s: facet reads files, not addresses; try: curl -sL %s | facet render - -o out.png",

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/result.h"
 #include "io/file_alike.h"
 #include "io/json_reader.h"
 
@@ -332,4 +333,25 @@ bool io_load_uri(io_reader *r, const char *uri, uri_bytes *out)
     }
     mem_free(name);
     return done;
+}
+
+/* ---- the file of a model ---- */
+
+facet_result io_load_file(io_loader *load, const char *path, const facet_scene_desc *desc,
+                          facet_scene **scene, facet_error *error)
+{
+    file_bytes file = {0};
+    *scene = NULL;
+    TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
+    char *folder = path_folder(&desc->allocator, path);
+    facet_result result = folder ? load((const char *)file.data, file.size, path, folder, desc, scene, error)
+                                 : fail_memory(error, "path", strlen(path));
+    if (result == FACET_OK && !scene_note_file(*scene, &file)) {
+        scene_destroy(*scene);
+        *scene = NULL;
+        result = fail_memory(error, "files", sizeof file);
+    }
+    mem_free(folder);
+    file_close(&file);
+    return result;
 }

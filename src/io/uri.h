@@ -16,6 +16,13 @@ typedef struct file_scope {
     bool is_literal;         /* names that are only alike do not count */
 } file_scope;
 
+/* Reads a model from bytes; folder: of its file, NULL: none. */
+typedef facet_result io_loader(const char *bytes, size_t size, const char *source, const char *folder,
+                               const facet_scene_desc *desc, facet_scene **scene, facet_error *error);
+/* Opens a file, calls load with its bytes and folder, and notes the file in the scene. *scene is NULL on failure. */
+facet_result io_load_file(io_loader *load, const char *path, const facet_scene_desc *desc,
+                          facet_scene **scene, facet_error *error);
+
 /* The bytes that a name stands for. */
 typedef struct uri_bytes {
     const unsigned char *data;

@@ -329,9 +329,10 @@ facet_result scene_state_create(const facet_scene *scene, const facet_pose_desc 
                            .materials = scene->materials,
                            .lights = scene->lights,
                            .cameras = scene->cameras};
-    facet_result result = desc ? check(scene, desc, error) : FACET_OK;
-    if (result != FACET_OK || !desc || desc->animation_count == 0)
-        return result;
+    if (desc)
+        TRY(check(scene, desc, error));
+    if (!desc || desc->animation_count == 0)
+        return FACET_OK;
     if (!copy_moved(scene, desc, allocator, state) || !copy_weights(scene, desc, allocator, state)) {
         scene_state_destroy(state);
         return fail_memory(error, "what animations move",

@@ -227,9 +227,7 @@ facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **ou
 {
     *out = NULL;
     facet_scene *scene = NULL;
-    facet_result result = scene_create(&desc->allocator, "built-in scene", &scene, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(scene_create(&desc->allocator, "built-in scene", &scene, error));
     builder b = {.arena = scene->arena, .scene = scene};
     scene->generator = "facet";
     scene->version = "2.0";

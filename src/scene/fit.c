@@ -378,9 +378,7 @@ facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, co
                             float aspect, uint32_t thread_count, facet_camera *camera, facet_error *error)
 {
     *camera = (facet_camera){0};
-    facet_result result = check(orbit, aspect, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check(orbit, aspect, error));
     subject s = empty_subject();
     stray_parts stray;
     const box *kept = NULL;
@@ -400,46 +398,42 @@ static facet_result look_at_times(const facet_scene *scene, const facet_pose_des
                                   const fit_times *list, const facet_orbit *orbit, const view *v, subject *s,
                                   facet_error *error)
 {
-    facet_result result = FACET_OK;
     facet_pose_desc at = *desc;
-    for (uint32_t i = 0; result == FACET_OK && i < list->count; i++) {
+    for (uint32_t i = 0; i < list->count; i++) {
         scene_pose pose;
         stray_parts stray;
         const box *kept;
         at.time_s = list->times[i];
-        result = scene_pose_create(scene, &at, &scene->allocator, scene->thread_count, &pose, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(scene_pose_create(scene, &at, &scene->allocator, scene->thread_count, &pose, error));
         add_bounds(s, &pose, orbit, &stray, &kept);
-        if (v && pose.has_bounds && !measure(scene, &pose, v, kept, scene->thread_count, &s->extent))
-            result = fail_memory(error, "camera", sizeof s->extent);
+        bool has_extent =
+            !v || !pose.has_bounds || measure(scene, &pose, v, kept, scene->thread_count, &s->extent);
         scene_pose_destroy(&pose);
+        if (!has_extent)
+            return fail_memory(error, "camera", sizeof s->extent);
     }
-    return result;
+    return FACET_OK;
 }
 
 static facet_result fit_motion(const facet_scene *scene, const facet_pose_desc *desc,
                                const facet_orbit *orbit, float aspect, facet_camera *camera,
                                facet_error *error)
 {
-    facet_result result = check(orbit, aspect, error);
-    for (uint32_t i = 0; result == FACET_OK && i < desc->animation_count; i++)
+    TRY(check(orbit, aspect, error));
+    for (uint32_t i = 0; i < desc->animation_count; i++)
         if (desc->animations[i] >= scene->animation_count)
-            result = fail(error, FACET_ERROR_ARGUMENT, "%s: has no animation %u", scene->source,
-                          desc->animations[i]);
-    if (result != FACET_OK)
-        return result;
+            return fail(error, FACET_ERROR_ARGUMENT, "%s: has no animation %u", scene->source,
+                        desc->animations[i]);
     fit_times list;
     fit_times_list(scene, desc, &list);
     subject s = empty_subject();
     if (!orbit->has_target)
-        result = look_at_times(scene, desc, &list, orbit, NULL, &s, error);
+        TRY(look_at_times(scene, desc, &list, orbit, NULL, &s, error));
     view v = make_view(orbit, aspect, &s);
-    if (result == FACET_OK && is_measured(orbit))
-        result = look_at_times(scene, desc, &list, orbit, &v, &s, error);
-    if (result == FACET_OK)
-        warn_of_stray(scene, orbit, &s.stray);
-    return result == FACET_OK ? stand(&v, &s, orbit, aspect, camera, error) : result;
+    if (is_measured(orbit))
+        TRY(look_at_times(scene, desc, &list, orbit, &v, &s, error));
+    warn_of_stray(scene, orbit, &s.stray);
+    return stand(&v, &s, orbit, aspect, camera, error);
 }
 
 facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *desc, const facet_orbit *orbit,
@@ -449,10 +443,8 @@ facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *de
     if (orbit->fits_all_times && desc && desc->animation_count > 0)
         return fit_motion(scene, desc, orbit, aspect, camera, error);
     scene_pose pose;
-    facet_result result =
-        scene_pose_create(scene, desc, &scene->allocator, scene->thread_count, &pose, error);
-    if (result == FACET_OK)
-        result = scene_fit_pose(scene, &pose, orbit, aspect, scene->thread_count, camera, error);
+    TRY(scene_pose_create(scene, desc, &scene->allocator, scene->thread_count, &pose, error));
+    facet_result result = scene_fit_pose(scene, &pose, orbit, aspect, scene->thread_count, camera, error);
     scene_pose_destroy(&pose);
     return result;
 }

@@ -371,13 +371,14 @@ facet_result scene_settle_origin(facet_scene *scene, const facet_pose_desc *desc
                                  facet_error *error)
 {
     uint32_t index;
-    facet_result result = scene_pose_check(scene, desc, &index, error);
-    if (result != FACET_OK || scene->is_placed)
-        return result;
+    TRY(scene_pose_check(scene, desc, &index, error));
+    if (scene->is_placed)
+        return FACET_OK;
     samples *s = mem_alloc(&scene->allocator, 1, sizeof *s);
     if (!s)
         return fail_memory(error, "samples", sizeof *s);
-    result = find_scene_origin(scene, index, desc, s, error);
+    facet_result result = find_scene_origin(scene, index, desc, s, error);
     mem_free(s);
-    return result == FACET_OK && scene->is_far ? move_meshes(scene, log, error) : result;
+    TRY(result);
+    return scene->is_far ? move_meshes(scene, log, error) : FACET_OK;
 }

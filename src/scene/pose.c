@@ -249,30 +249,33 @@ facet_result scene_pose_check(const facet_scene *scene, const facet_pose_desc *d
                 desc->variant, scene->variant_count - 1);
 }
 
+/* Fills pose and parts, which the caller releases. */
+static facet_result create(const facet_scene *scene, const facet_pose_desc *desc,
+                           const facet_allocator *allocator, uint32_t thread_count, pose_parts *parts,
+                           scene_pose *pose, facet_error *error)
+{
+    uint32_t index;
+    TRY(scene_pose_check(scene, desc, &index, error));
+    TRY(scene_state_create(scene, desc, allocator, &parts->state, error));
+    if (!hierarchy_create(scene, &parts->state, index, allocator, &parts->nodes))
+        return fail_memory(error, "world matrices", scene->node_count * sizeof(dmat4));
+    TRY(deform_create(scene, &parts->state, &parts->nodes, allocator, thread_count, &parts->deformed, error));
+    TRY(allocate(pose, parts, allocator, error));
+    fill(pose, parts);
+    pose->materials = parts->state.materials;
+    TRY(bound_instances(scene, pose, allocator, thread_count, error));
+    mark_copies(pose);
+    return FACET_OK;
+}
+
 facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *desc,
                                const facet_allocator *allocator, uint32_t thread_count, scene_pose *pose,
                                facet_error *error)
 {
     *pose = (scene_pose){.materials = scene->materials};
     pose_parts parts = {.scene = scene, .variant = desc && desc->has_variant ? desc->variant : SCENE_NONE};
-    uint32_t index;
-    facet_result result = scene_pose_check(scene, desc, &index, error);
-    if (result == FACET_OK)
-        result = scene_state_create(scene, desc, allocator, &parts.state, error);
-    if (result == FACET_OK && !hierarchy_create(scene, &parts.state, index, allocator, &parts.nodes))
-        result = fail_memory(error, "world matrices", scene->node_count * sizeof(dmat4));
-    if (result == FACET_OK)
-        result =
-            deform_create(scene, &parts.state, &parts.nodes, allocator, thread_count, &parts.deformed, error);
-    if (result == FACET_OK)
-        result = allocate(pose, &parts, allocator, error);
+    facet_result result = create(scene, desc, allocator, thread_count, &parts, pose, error);
     if (result == FACET_OK) {
-        fill(pose, &parts);
-        pose->materials = parts.state.materials;
-        result = bound_instances(scene, pose, allocator, thread_count, error);
-    }
-    if (result == FACET_OK) {
-        mark_copies(pose);
         pose->material_copies = parts.state.material_copies;
         pose->deformed = parts.deformed.block;
         parts.state.material_copies = NULL;

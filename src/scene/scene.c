@@ -279,9 +279,8 @@ facet_result scene_place(facet_scene *scene, const float matrix[16], facet_error
     if (!is_affine(matrix))
         return fail(error, FACET_ERROR_ARGUMENT, "%s: a matrix whose last row is 0 0 0 1 was expected",
                     scene->source);
-    facet_result result = scene->is_placed ? FACET_OK : add_root(scene, error);
-    if (result != FACET_OK)
-        return result;
+    if (!scene->is_placed)
+        TRY(add_root(scene, error));
     dmat4 place;
     for (int i = 0; i < 16; i++)
         place.m[i] = (double)matrix[i];

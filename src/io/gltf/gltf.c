@@ -222,9 +222,7 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
                          const facet_scene_desc *desc, facet_scene **out, facet_error *error)
 {
     facet_scene *scene = NULL;
-    facet_result result = scene_create(&desc->allocator, source, &scene, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(scene_create(&desc->allocator, source, &scene, error));
     scene->max_texture_size = desc->max_texture_size;
     scene->thread_count = desc->thread_count;
     const unsigned char *bytes = file->data;
@@ -240,7 +238,7 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
                    .log = &desc->log,
                    .error = error,
                    .thread_count = desc->thread_count,
-                   .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
+                   .max_file_bytes = file_limit(desc->max_file_bytes),
                    .folder = folder,
                    .root = desc->root};
     io_begin_remarks(&r);
@@ -261,15 +259,10 @@ facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_sce
     desc = desc ? desc : &defaults;
     *scene = NULL;
     file_bytes file = {0};
-    uint64_t most = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32;
-    facet_result result = file_open(path, most, &desc->allocator, &file, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
     char *folder = path_folder(&desc->allocator, path);
-    if (folder)
-        result = load(&file, path, folder, desc, scene, error);
-    else
-        result = fail_memory(error, "path", strlen(path));
+    facet_result result =
+        folder ? load(&file, path, folder, desc, scene, error) : fail_memory(error, "path", strlen(path));
     mem_free(folder);
     file_close(&file);
     return result;
@@ -281,7 +274,7 @@ facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, 
     const facet_scene_desc defaults = {0};
     desc = desc ? desc : &defaults;
     *scene = NULL;
-    uint64_t most = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32;
+    uint64_t most = file_limit(desc->max_file_bytes);
     if (size > most)
         return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes is larger than the limit of %llu", name, size,
                     (unsigned long long)most);

@@ -38,7 +38,7 @@ facet_result mtl_reader_create(facet_scene *scene, const facet_scene_desc *desc,
         .folder = folder,
         .root = desc->root,
         .log = &r->desc.log,
-        .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
+        .max_file_bytes = file_limit(desc->max_file_bytes),
         .allows_absolute = true,
     };
     return FACET_OK;

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "io/obj/obj.h"
 #include "io/obj/obj_parse.h"
+#include "io/uri.h"
 #include "scene/origin.h"
 
 /* ---- remarks ---- */
@@ -348,24 +349,7 @@ static facet_result load(const char *bytes, size_t size, const char *source, con
 facet_result obj_load(const char *path, const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
 {
     const facet_scene_desc defaults = {0};
-    desc = desc ? desc : &defaults;
-    *scene = NULL;
-    file_bytes file = {0};
-    facet_result result = file_open(path, desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
-                                    &desc->allocator, &file, error);
-    if (result != FACET_OK)
-        return result;
-    char *folder = path_folder(&desc->allocator, path);
-    result = folder ? load((const char *)file.data, file.size, path, folder, desc, scene, error)
-                    : fail_memory(error, "path", strlen(path));
-    if (result == FACET_OK && !scene_note_file(*scene, &file)) {
-        scene_destroy(*scene);
-        *scene = NULL;
-        result = fail_memory(error, "files", sizeof file);
-    }
-    mem_free(folder);
-    file_close(&file);
-    return result;
+    return io_load_file(load, path, desc ? desc : &defaults, scene, error);
 }
 
 facet_result obj_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,

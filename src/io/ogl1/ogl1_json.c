@@ -196,15 +196,14 @@ static void read_root(ogl1_document *d, const json_place *root)
 void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes, size_t size,
                         const char *folder, const facet_scene_desc *desc, facet_error *error)
 {
-    *d = (ogl1_document){
-        .r = {.scene = scene,
-              .allocator = &desc->allocator,
-              .log = &desc->log,
-              .error = error,
-              .max_file_bytes = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
-              .folder = folder,
-              .root = desc->root},
-        .generator = ""};
+    *d = (ogl1_document){.r = {.scene = scene,
+                               .allocator = &desc->allocator,
+                               .log = &desc->log,
+                               .error = error,
+                               .max_file_bytes = file_limit(desc->max_file_bytes),
+                               .folder = folder,
+                               .root = desc->root},
+                         .generator = ""};
     size_t estimate = io_json_memory_estimate(bytes, size);
     void *reserve = mem_alloc(&desc->allocator, estimate, 1);
     if (!reserve) {
@@ -351,9 +350,7 @@ static facet_result load(const char *bytes, size_t size, const char *source, con
 {
     facet_scene *scene = NULL;
     ogl1_document d;
-    facet_result result = scene_create(&desc->allocator, source, &scene, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(scene_create(&desc->allocator, source, &scene, error));
     scene->max_texture_size = desc->max_texture_size;
     scene->thread_count = desc->thread_count;
     ogl1_document_read(&d, scene, bytes, size, folder, desc, error);
@@ -370,26 +367,7 @@ facet_result ogl1_json_load(const char *path, const facet_scene_desc *desc, face
                             facet_error *error)
 {
     const facet_scene_desc defaults = {0};
-    desc = desc ? desc : &defaults;
-    *scene = NULL;
-    file_bytes file = {0};
-    facet_result result = file_open(path, desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
-                                    &desc->allocator, &file, error);
-    if (result != FACET_OK)
-        return result;
-    char *folder = path_folder(&desc->allocator, path);
-    if (folder)
-        result = load((const char *)file.data, file.size, path, folder, desc, scene, error);
-    else
-        result = fail_memory(error, "path", strlen(path));
-    if (result == FACET_OK && !scene_note_file(*scene, &file)) {
-        scene_destroy(*scene);
-        *scene = NULL;
-        result = fail_memory(error, "files", sizeof file);
-    }
-    mem_free(folder);
-    file_close(&file);
-    return result;
+    return io_load_file(load, path, desc ? desc : &defaults, scene, error);
 }
 
 facet_result ogl1_json_load_memory(const void *bytes, size_t size, const char *name,
@@ -398,7 +376,7 @@ facet_result ogl1_json_load_memory(const void *bytes, size_t size, const char *n
     const facet_scene_desc defaults = {0};
     desc = desc ? desc : &defaults;
     *scene = NULL;
-    uint64_t most = desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32;
+    uint64_t most = file_limit(desc->max_file_bytes);
     if (size > most)
         return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes is larger than the limit of %llu", name, size,
                     (unsigned long long)most);

@@ -427,10 +427,8 @@ facet_result ogl1_json_overlay(facet_scene *scene, const char *path, const facet
     const facet_scene_desc defaults = {0};
     desc = desc ? desc : &defaults;
     file_bytes file = {0};
-    facet_result result = file_open(path, desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)1 << 32,
-                                    &desc->allocator, &file, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
+    facet_result result;
     overlay o = {0};
     const char *source = scene->source;
     char *folder = path_folder(&desc->allocator, path);

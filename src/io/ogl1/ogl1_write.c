@@ -418,8 +418,7 @@ static facet_result name_image(saving *s, uint32_t number, const char *extension
 
 static facet_result name_images(saving *s, const facet_log *log)
 {
-    facet_result result = FACET_OK;
-    for (uint32_t i = 0; i < s->scene->material_count && result == FACET_OK; i++) {
+    for (uint32_t i = 0; i < s->scene->material_count; i++) {
         const legacy_material *m = &s->scene->legacy->materials[i];
         uint32_t texture = m->maps[LEGACY_DIFFUSE_MAP].ref.texture;
         uint32_t number = texture != SCENE_NONE ? s->scene->textures[texture].image : SCENE_NONE;
@@ -431,27 +430,29 @@ static facet_result name_images(saving *s, const facet_log *log)
         if (kind->codec != IMAGE_CODEC_PNG)
             log_warning(log, "material \"%s\": its texture is a %s file; rgl reads PNG only", m->name,
                         kind->name);
-        result = name_image(s, number, kind->file_extension);
+        TRY(name_image(s, number, kind->file_extension));
     }
-    return result;
+    return FACET_OK;
 }
 
 /* ---- files ---- */
 
-/* The document comes last: where it is, all that it names is. */
+/* The document comes last, so that its presence implies that of all files that it names. */
+static facet_result add_files(const saving *s, const text *document, file_set *files)
+{
+    for (uint32_t i = 0; i < s->scene->image_count; i++)
+        if (s->image_names[i])
+            TRY(file_set_add(files, s->image_names[i], s->scene->images[i].bytes, s->scene->images[i].size,
+                             s->error));
+    TRY(file_set_add(files, NULL, document->data, document->length, s->error));
+    return file_set_commit(files, s->error);
+}
+
 static facet_result write_files(const saving *s, const text *document)
 {
     file_set files = file_set_begin(s->scene, s->path, s->desc);
     files.inputs = s->scene;
-    facet_result result = FACET_OK;
-    for (uint32_t i = 0; i < s->scene->image_count && result == FACET_OK; i++)
-        if (s->image_names[i])
-            result = file_set_add(&files, s->image_names[i], s->scene->images[i].bytes,
-                                  s->scene->images[i].size, s->error);
-    if (result == FACET_OK)
-        result = file_set_add(&files, NULL, document->data, document->length, s->error);
-    if (result == FACET_OK)
-        result = file_set_commit(&files, s->error);
+    facet_result result = add_files(s, document, &files);
     file_set_destroy(&files);
     return result;
 }

@@ -273,13 +273,12 @@ static void find_texture(ply_reader *r, const char *folder)
 {
     if (!r->texture_file || r->soup.texcoord_count == 0)
         return;
-    mtl_files files = {
-        .scope = {.scene = r->scene,
-                  .allocator = &r->desc->allocator,
-                  .log = &r->desc->log,
-                  .folder = folder,
-                  .root = r->desc->root,
-                  .max_file_bytes = r->desc->max_file_bytes ? r->desc->max_file_bytes : (uint64_t)1 << 32}};
+    mtl_files files = {.scope = {.scene = r->scene,
+                                 .allocator = &r->desc->allocator,
+                                 .log = &r->desc->log,
+                                 .folder = folder,
+                                 .root = r->desc->root,
+                                 .max_file_bytes = file_limit(r->desc->max_file_bytes)}};
     mtl_parser p = {.arena = r->scene->arena,
                     .allocator = &r->desc->allocator,
                     .scene = r->scene,
