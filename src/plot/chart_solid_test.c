@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "base/failing_allocator.h"
-#include "plot/chart_solid.h"
+#include "plot/chart_space.h"
 
 enum { SIZE = 70 }; /* more than two bands */
 

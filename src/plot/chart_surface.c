@@ -6,7 +6,6 @@
 #include <stdio.h>
 
 #include "base/result.h"
-#include "plot/chart_solid.h"
 #include "plot/chart_space.h"
 
 static const double DEGREE = 0.017453292519943295;

@@ -1,10 +1,13 @@
-/* material.c - the reflectance of a material. See material.h. */
+/* material.c - reflectance, directional albedo and label of a material. See material.h. */
+#include "plot/material.h"
+
 #include <math.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "ibl/ibl.h"
-#include "plot/material.h"
 #include "plot/merl.h"
 
 #include "shade/shade.h"
@@ -252,4 +255,223 @@ facet_plot_material material_from_ogl1(const ogl1_surface *s)
 bool material_has_layers(const facet_plot_material *p)
 {
     return layers_of(p).layers != 0u;
+}
+
+/* ---- directional albedo ---- */
+
+enum { MAX_LOBES = 6, BATCH = 256, FIRST_COUNT = 1024, LAST_COUNT = 65536 };
+
+/* A density of directions to light: cosine, GGX by visible normals, or Charlie's fibres. */
+typedef struct lobe {
+    enum { LOBE_COSINE, LOBE_GGX, LOBE_CHARLIE } kind;
+    float alpha_x, alpha_y;
+    vec2 along; /* of alpha_x, in the plane */
+} lobe;
+
+typedef struct lobe_set {
+    uint32_t count;
+    lobe lobes[MAX_LOBES];
+} lobe_set;
+
+static void add_lobe(lobe_set *set, lobe l)
+{
+    set->lobes[set->count++] = l;
+}
+static void add_ggx(lobe_set *set, float alpha)
+{
+    float a = clamp(alpha, ALPHA_MIRROR, 1.0f);
+    add_lobe(set, (lobe){.kind = LOBE_GGX, .alpha_x = a, .alpha_y = a, .along = vec2(1.0f, 0.0f)});
+}
+
+static lobe_set lobes_of(const material *m)
+{
+    const facet_plot_material *p = &m->parameters;
+    lobe_set set = {0};
+    add_lobe(&set, (lobe){.kind = LOBE_COSINE});
+    if (p->model == FACET_PLOT_MODEL_MERL) { /* whatever was measured: mirrors to velvet */
+        add_ggx(&set, 0.02f);
+        add_ggx(&set, 0.1f);
+        add_ggx(&set, 0.4f);
+    } else if (p->model == FACET_PLOT_MODEL_OGL1) {
+        add_ggx(&set, alpha_from_roughness(perceptual_roughness_from_shininess(p->shininess)));
+        add_ggx(&set,
+                1.0f); /* its highlight reaches the horizon undiminished, where the cosine's density is 0 */
+    } else {
+        vec2 a = anisotropic_alpha(alpha_from_roughness(p->perceptual_roughness), p->anisotropy);
+        vec2 along = anisotropy_direction(vec2(1.0f, 0.0f), p->anisotropy_rotation_rad);
+        a = max(a, ALPHA_MIRROR);
+        add_lobe(&set, (lobe){.kind = LOBE_GGX, .alpha_x = a[0], .alpha_y = a[1], .along = along});
+        if (p->clearcoat > 0.0f)
+            add_ggx(&set, alpha_from_roughness(p->clearcoat_roughness));
+        float sheen = sheen_alpha(p->sheen_roughness);
+        if (max(p->sheen_color[0], max(p->sheen_color[1], p->sheen_color[2])) > 0.0f)
+            add_lobe(&set, (lobe){.kind = LOBE_CHARLIE, .alpha_x = sheen, .alpha_y = sheen});
+    }
+    return set;
+}
+
+static vec3 into_grain(const lobe *l, vec3 v)
+{
+    return vec3(l->along[0] * v[0] + l->along[1] * v[1], l->along[0] * v[1] - l->along[1] * v[0], v[2]);
+}
+static vec3 out_of_grain(const lobe *l, vec3 v)
+{
+    return vec3(l->along[0] * v[0] - l->along[1] * v[1], l->along[1] * v[0] + l->along[0] * v[1], v[2]);
+}
+
+static vec3 sample_lobe(const lobe *l, vec2 u, vec3 V)
+{
+    if (l->kind == LOBE_COSINE)
+        return sample_cosine(u);
+    if (l->kind == LOBE_CHARLIE)
+        return reflect(-V, sample_D_Charlie(u, l->alpha_x));
+    vec3 H = sample_VNDF_GGX(u, into_grain(l, V), l->alpha_x, l->alpha_y);
+    return reflect(-V, out_of_grain(l, H));
+}
+
+/* Density of L per sr, of all lobes together. */
+static float pdf_lobes(const lobe_set *set, vec3 V, vec3 L)
+{
+    vec3 H = normalize(V + L);
+    float jacobian = 1.0f / (4.0f * max(dot(V, H), 1e-7f));
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < set->count; i++) {
+        const lobe *l = &set->lobes[i];
+        if (l->kind == LOBE_COSINE)
+            sum += pdf_cosine(L[2]);
+        else if (l->kind == LOBE_CHARLIE)
+            sum += pdf_D_Charlie(H[2], l->alpha_x) * jacobian;
+        else
+            sum += pdf_VNDF_GGX(into_grain(l, V), into_grain(l, H), l->alpha_x, l->alpha_y) * jacobian;
+    }
+    return sum;
+}
+
+/* Adds the terms of samples begin .. begin + BATCH of n of one lobe: the balance heuristic, Veach and Guibas 1995. */
+static void add_batch(const material *m, const lobe_set *set, const lobe *l, const float V_[3],
+                      uint32_t begin, uint32_t n, double sum[3])
+{
+    vec3 V = vec3(V_[0], V_[1], V_[2]);
+    float L[BATCH][3];
+    double f[BATCH][3];
+    for (uint32_t i = 0; i < BATCH; i++) {
+        vec3 d = sample_lobe(l, hammersley(begin + i, n), V);
+        L[i][0] = d[0];
+        L[i][1] = d[1];
+        L[i][2] = d[2];
+    }
+    material_brdf_cos(m, V_, BATCH, (const float(*)[3])L, f);
+    for (uint32_t i = 0; i < BATCH; i++) {
+        if (!(L[i][2] > 0.0f))
+            continue;
+        double pdf = (double)pdf_lobes(set, V, vec3(L[i][0], L[i][1], L[i][2]));
+        for (int c = 0; c < 3; c++)
+            if (f[i][c] > 0.0) /* not NAN: measured */
+                sum[c] += f[i][c] / (pdf * (double)n);
+    }
+}
+
+static void estimate(const material *m, const lobe_set *set, const float V[3], uint32_t n, double out[3])
+{
+    out[0] = out[1] = out[2] = 0.0;
+    for (uint32_t i = 0; i < set->count; i++)
+        for (uint32_t begin = 0; begin < n; begin += BATCH)
+            add_batch(m, set, &set->lobes[i], V, begin, n, out);
+}
+
+void material_albedo(const material *m, const float V[3], double out[3])
+{
+    lobe_set set = lobes_of(m);
+    estimate(m, &set, V, FIRST_COUNT, out);
+    for (uint32_t n = 2 * FIRST_COUNT; n <= LAST_COUNT; n *= 2) {
+        double before[3] = {out[0], out[1], out[2]};
+        estimate(m, &set, V, n, out);
+        double change = 0.0;
+        for (int c = 0; c < 3; c++)
+            change = fmax(change, fabs(out[c] - before[c]));
+        if (change < 5e-4)
+            return;
+    }
+}
+
+/* ---- labels ---- */
+
+static bool is_gray(const float c[3])
+{
+    return !(c[0] < c[1]) && !(c[0] > c[1]) && !(c[1] < c[2]) && !(c[1] > c[2]);
+}
+
+/* " name 0.3" or " name (0.8, 0.1, 0.1)", as short as the numbers allow. */
+static void add_number(text *t, const char *before, float value)
+{
+    text_addf(t, "%s%.3g", before, (double)value);
+}
+static void add_color(text *t, const char *before, const float c[3])
+{
+    if (is_gray(c))
+        add_number(t, before, c[0]);
+    else
+        text_addf(t, "%s(%.3g, %.3g, %.3g)", before, (double)c[0], (double)c[1], (double)c[2]);
+}
+
+/* No dielectric reflects more than diamond, whose F0 is this. */
+static const float MAX_DIELECTRIC_F0 = 0.17f;
+
+/* A surface whose F0 is free (ior 0), as fits are: a metal where the interface returns more than any dielectric's, and most of
+ * what is returned. Linear luminance of Rec.709. */
+static void describe_free_F0(const facet_plot_material *p, text *t)
+{
+    static const double weights[3] = {0.2126, 0.7152, 0.0722};
+    double reflected = 0.0, diffuse = 0.0;
+    float F0[3];
+    for (int c = 0; c < 3; c++) {
+        float scaled = p->specular * p->specular_color[c];
+        F0[c] = scaled < 1.0f ? scaled : 1.0f;
+        reflected += weights[c] * (double)F0[c];
+        diffuse += weights[c] * (double)p->base_color[c];
+    }
+    bool is_metal = reflected > (double)MAX_DIELECTRIC_F0 && reflected > 2.0 * diffuse;
+    add_color(t, is_metal ? "metal " : "dielectric ", is_metal ? F0 : p->base_color);
+    add_color(t, is_metal ? ", diffuse " : ", F0 ", is_metal ? p->base_color : F0);
+}
+
+static void describe_pbr(const facet_plot_material *p, text *t)
+{
+    bool is_metal = p->metallic >= 0.5f;
+    if (p->metallic <= 0.0f && p->ior <= 0.0f) {
+        describe_free_F0(p, t);
+    } else {
+        add_color(t, is_metal ? "metal " : "dielectric ", p->base_color);
+        if (p->metallic > 0.0f && p->metallic < 1.0f)
+            add_number(t, ", metallic ", p->metallic);
+        if (p->metallic < 1.0f && (p->ior < 1.5f || p->ior > 1.5f))
+            add_number(t, ", ior ", p->ior);
+        if (p->metallic < 1.0f && p->specular < 1.0f)
+            add_number(t, ", specular ", p->specular);
+    }
+    add_number(t, ", roughness ", p->perceptual_roughness);
+    if (p->clearcoat > 0.0f)
+        add_number(t, ", clearcoat ", p->clearcoat);
+    if (p->sheen_color[0] > 0.0f || p->sheen_color[1] > 0.0f || p->sheen_color[2] > 0.0f)
+        add_number(t, ", sheen of roughness ", p->sheen_roughness);
+    if (p->anisotropy > 0.0f)
+        add_number(t, ", anisotropy ", p->anisotropy);
+    if (p->iridescence > 0.0f)
+        text_addf(t, ", film of %.4g nm", (double)p->iridescence_thickness_nm);
+}
+
+const char *material_describe(const facet_plot_material *p, const facet_allocator *allocator, arena *memory)
+{
+    text t = {.allocator = *allocator};
+    if (p->model == FACET_PLOT_MODEL_PBR)
+        describe_pbr(p, &t);
+    else if (p->model == FACET_PLOT_MODEL_OGL1) {
+        add_color(&t, "OpenGL 1, diffuse ", p->diffuse);
+        add_color(&t, ", specular ", p->ogl1_specular);
+        add_number(&t, ", shininess ", p->shininess);
+    } else
+        text_add(&t, path_base_name(p->path));
+    const char *label = t.has_failed ? NULL : arena_strdup(memory, t.data);
+    text_destroy(&t);
+    return label;
 }

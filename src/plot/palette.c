@@ -60,7 +60,7 @@ static canvas_color own_color(const float rgb[3], bool is_dark)
     for (int i = 0; i < 3; i++)
         own[i] = isfinite(rgb[i]) ? fmin(fmax((double)rgb[i], 0.0), 1.0) : 0.0;
     canvas_color color = {own[0], own[1], own[2], 1.0};
-    for (double t = 0.1; t < 1.0 && palette_contrast(color, theme->background) < PALETTE_LEAST_CONTRAST;
+    for (double t = 0.1; t < 1.0 && palette_contrast(color, theme->background) < PALETTE_MIN_CONTRAST;
          t += 0.1)
         color = (canvas_color){own[0] + t * (theme->text.r - own[0]), own[1] + t * (theme->text.g - own[1]),
                                own[2] + t * (theme->text.b - own[2]), 1.0};

@@ -15,9 +15,9 @@ const palette_theme *palette_get_theme(bool is_dark);
 double palette_contrast(canvas_color a, canvas_color b);
 
 enum { PALETTE_COUNT = 8 };
-static const double PALETTE_LEAST_CONTRAST = 2.2;
+static const double PALETTE_MIN_CONTRAST = 2.2;
 /* The color of a curve. On dark ground the palette's darkest colors are lighter, its black is white; a color of its own
- * is moved away from the ground where its contrast is less than PALETTE_LEAST_CONTRAST. */
+ * is moved away from the ground where its contrast is less than PALETTE_MIN_CONTRAST. */
 canvas_color palette_color(const chart_style *style, bool is_dark);
 /* The stroke of a curve, scale px wide per px of style. */
 canvas_stroke palette_stroke(const chart_style *style, bool is_dark, double scale);

@@ -54,12 +54,12 @@ static void colors_are_seen_on_both_grounds(void **state)
         assert_true(palette_contrast(theme->grid, theme->background) < 2.0);        /* stays behind */
         for (int i = 0; i < PALETTE_COUNT; i++)
             assert_true(palette_contrast(palette_color(&(chart_style){.color = i}, is_dark),
-                                         theme->background) >= (is_dark ? 4.5 : PALETTE_LEAST_CONTRAST));
+                                         theme->background) >= (is_dark ? 4.5 : PALETTE_MIN_CONTRAST));
         for (int i = 0; i < 8; i++) {
             const chart_style own = {.color = -1,
                                      .rgb = {(float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2)}};
             assert_true(palette_contrast(palette_color(&own, is_dark), theme->background) >=
-                        PALETTE_LEAST_CONTRAST);
+                        PALETTE_MIN_CONTRAST);
         }
     }
     const canvas_color red = palette_color(&(chart_style){.color = -1, .rgb = {0.8f, 0.1f, 0.0f}}, false);

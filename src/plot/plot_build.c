@@ -1,10 +1,12 @@
-/* plot_build.c - panels, curves and text of a plot in the making. See plot_build.h. */
+/* plot_build.c - panels, curves, text, light directions and conversions of a plot under construction. See plot_build.h. */
+#include "plot/plot_build.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/result.h"
-#include "plot/plot_build.h"
 
 /* ---- memory and text ---- */
 
@@ -199,4 +201,174 @@ double *plot_steps(plot *p, size_t count, double first, double last)
 const char *plot_degrees(plot *p, double rad)
 {
     return plot_text(p, "%.4g", round(rad / PLOT_DEGREE * 1e4) / 1e4);
+}
+
+/* ---- light directions ---- */
+
+void plot_direction(double angle_rad, double azimuth_rad, float out[3])
+{
+    double s = sin(angle_rad);
+    out[0] = (float)(s * cos(azimuth_rad));
+    out[1] = (float)(s * sin(azimuth_rad));
+    out[2] = (float)cos(angle_rad);
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a;
+    double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+enum {
+    EVEN = 357,    /* half a degree apart, nearly */
+    NEAR_PEAK = 81 /* per width */
+};
+
+/* Widths of all subjects, each once. */
+static size_t widths_of(const plot *p, double *widths)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < p->subject_count; i++) {
+        double width = material_width(&p->subjects[i].material);
+        bool is_new = width < 0.5;
+        for (size_t k = 0; k < count; k++)
+            is_new = is_new && fabs(widths[k] / width - 1.0) > 0.1;
+        if (is_new)
+            widths[count++] = width;
+    }
+    return count;
+}
+
+/* The half vector turns by half the light's angle, and D falls to a quarter at tan theta_h = alpha: places even in
+ * atan(tan theta_h / alpha) follow D from its peak to its tail. */
+double *plot_light_angles(plot *p, double view_rad, size_t *count)
+{
+    const double limit = 89.9 * PLOT_DEGREE;
+    double widths[2 * FACET_PLOT_MAX_MATERIALS];
+    size_t width_count = widths_of(p, widths);
+    double *x = plot_numbers(p, EVEN + width_count * NEAR_PEAK);
+    *count = 0;
+    if (!x)
+        return NULL;
+    size_t n = 0;
+    for (int i = 0; i < EVEN; i++)
+        x[n++] = limit * (2.0 * i / (EVEN - 1) - 1.0);
+    for (size_t k = 0; k < width_count; k++)
+        for (int i = 0; i < NEAR_PEAK; i++) {
+            double u = 88.0 * PLOT_DEGREE * (2.0 * i / (NEAR_PEAK - 1) - 1.0);
+            double angle = -view_rad + 2.0 * atan(widths[k] * tan(u));
+            if (fabs(angle) < limit)
+                x[n++] = angle;
+        }
+    qsort(x, n, sizeof *x, compare);
+    for (size_t i = 0; i < n; i++) /* each once: closer than floats of directions differ is the same */
+        if (*count == 0 || x[i] - x[*count - 1] > 1e-7)
+            x[(*count)++] = x[i];
+    return x;
+}
+
+double (*plot_slice(plot *p, const material *m, double view_rad, size_t count, const double *angles,
+                    bool has_cosine))[3]
+{
+    float V[3];
+    float(*L)[3] = plot_alloc(p, count, sizeof *L);
+    double(*f)[3] = plot_alloc(p, count, sizeof *f);
+    if (!L || !f || !angles)
+        return NULL;
+    plot_direction(view_rad, 0.0, V);
+    for (size_t i = 0; i < count; i++)
+        plot_direction(angles[i], 0.0, L[i]);
+    material_brdf_cos(m, V, count, (const float(*)[3])L, f);
+    for (size_t i = 0; i < count && !has_cosine; i++)
+        for (int c = 0; c < 3; c++)
+            f[i][c] /= (double)L[i][2];
+    return f;
+}
+
+/* ---- conversions to the other model ---- */
+
+const fit_metric *plot_metric(plot *p)
+{
+    if (!p->metric && !p->has_failed) {
+        pbr_masking masking = p->desc->has_separable_smith ? PBR_SEPARABLE : PBR_CORRELATED;
+        /* the vignette's own material is seen with its own formula */
+        if (p->desc->kind == FACET_PLOT_KIND_LEGACY && p->has_default_materials)
+            masking = PBR_SEPARABLE;
+        if (fit_metric_create(&p->desc->allocator, masking, &p->metric, NULL) != FACET_OK)
+            p->has_failed = true;
+    }
+    return p->metric;
+}
+
+static void convert_pbr(const fit_metric *metric, const material *source, bool is_fit, plot_conversion *out)
+{
+    pbr_surface pbr = material_pbr_surface(&source->parameters);
+    ogl1_surface ogl1;
+    if (is_fit)
+        pbr_to_ogl1_fit(metric, &pbr, FACET_LEGACY_TARGET_LINEAR, FIT_DISPLAYABLE, &ogl1);
+    else
+        pbr_to_ogl1_closed(&pbr, &ogl1);
+    out->material.parameters = material_from_ogl1(&ogl1);
+    out->has_error = true;
+    out->error = fit_compare(metric, &ogl1, &pbr, FIT_FROM_PBR);
+}
+
+static void convert_ogl1(const fit_metric *metric, const material *source, bool is_fit, plot_conversion *out)
+{
+    ogl1_surface ogl1 = material_ogl1_surface(&source->parameters);
+    pbr_surface pbr;
+    if (is_fit)
+        ogl1_to_pbr_fit(metric, &ogl1, FACET_LEGACY_TARGET_LINEAR, &pbr);
+    else
+        ogl1_to_pbr_closed(&ogl1, &pbr);
+    out->material.parameters = material_from_pbr(&pbr);
+    out->has_error = true;
+    out->error = fit_compare(metric, &ogl1, &pbr, FIT_FROM_OGL1);
+}
+
+facet_result plot_convert(plot *p, const material *source, facet_plot_model to, bool is_fit,
+                          plot_conversion *out)
+{
+    *out = (plot_conversion){.material = *source};
+    out->material.measured = NULL;
+    if (source->measured) {
+        facet_result result =
+            material_fit(source, to, &p->desc->allocator, &out->material.parameters, &out->rms, p->error);
+        if (result != FACET_OK)
+            return result;
+    } else {
+        const fit_metric *metric = plot_metric(p);
+        if (!metric)
+            return fail_memory(p->error, "directions of a fit", 0);
+        if (source->parameters.model == FACET_PLOT_MODEL_PBR)
+            convert_pbr(metric, source, is_fit, out);
+        else
+            convert_ogl1(metric, source, is_fit, out);
+    }
+    const char *what = material_describe(&out->material.parameters, &p->desc->allocator, p->memory);
+    if (!what)
+        return fail_memory(p->error, "plot", 0);
+    out->what = what;
+    double error = out->has_error ? out->error.E : out->rms;
+    out->material.label = plot_text(p, "%s (%s %.3f): %s", is_fit || source->measured ? "fit" : "converted",
+                                    out->has_error ? "E" : "RMS of logarithms", error, what);
+    return FACET_OK;
+}
+
+void plot_report_fit(const plot *p, uint32_t number, const material *source, const plot_conversion *fit)
+{
+    facet_plot_fit *out = p->desc->fits ? &p->desc->fits[number] : NULL;
+    if (!out)
+        return;
+    *out = (facet_plot_fit){.is_found = true,
+                            .fitted = fit->material.parameters,
+                            .is_of_measured = !fit->has_error,
+                            .E = (float)fit->error.E,
+                            .E_display = (float)fit->error.E_display,
+                            .E_drawn = (float)fit->error.E_drawn,
+                            .log_rms = (float)fit->rms};
+    out->fitted.label = NULL;
+    snprintf(out->name, sizeof out->name, "%s", source->label);
+    snprintf(out->description, sizeof out->description, "%s", fit->what);
 }

@@ -128,10 +128,6 @@ facet_result plot_convert(plot *p, const material *source, facet_plot_model to, 
 /* Fills the desc's fit of material number, if it is wanted; source is the material. */
 void plot_report_fit(const plot *p, uint32_t number, const material *source, const plot_conversion *fit);
 
-/* Adds the panel of errors of all methods over roughness (PBR) or shininess (OpenGL 1) of a material whose other
- * parameters stay; point_count of them. */
-plot_panel *plot_add_errors(plot *p, const facet_plot_material *m, const char *title, uint32_t point_count);
-
 /* ---- kinds: a file each ---- */
 
 facet_result plot_make_legacy(plot *p);
