@@ -1,6 +1,6 @@
 /* ogl1_point.c - see ogl1_point.h. */
 #include "cpu/material_texels.h"
-#include "draw/ogl1_maps.h"
+#include "draw/ogl1_setup.h"
 #include "cpu/shading_frame.h"
 #include "cpu/surface_point.h"
 

@@ -1,6 +1,6 @@
 /* ogl1_shade.c - see ogl1_shade.h. The order of OpenGL: light, texture, the highlight where it is separate, fog, clamp.
  * Every formula is in shade/phong.h. */
-#include "draw/ogl1_maps.h"
+#include "draw/ogl1_setup.h"
 #include "cpu/ogl1_shade.h"
 
 #include "cpu/ogl1_point.h"

@@ -11,7 +11,7 @@
 #define CPU_PREPARED_SCENE_H
 
 #include "cpu/embree_scene.h"
-#include "draw/pose_key.h"
+#include "draw/render_geometry.h"
 #include "draw/tangent_store.h"
 
 struct texture_store; /* draw/texture_store.h */

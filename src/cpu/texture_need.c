@@ -2,7 +2,7 @@
 #include "cpu/texture_need.h"
 
 #include "draw/material_plan.h"
-#include "draw/ogl1_maps.h"
+#include "draw/ogl1_setup.h"
 
 #include <math.h>
 #include <stdatomic.h>

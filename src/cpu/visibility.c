@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "draw/sample_pattern.h"
+#include "draw/camera_rays.h"
 
 /* What an RTCRayHitN is made of: arrays of N values of 4 bytes each, in this order. */
 enum ray_field {

@@ -1,4 +1,4 @@
-/* camera_rays.h - from a camera to the rays through a picture. */
+/* camera_rays.h - from a camera to the rays through an image, and where in a pixel they are sampled. */
 #ifndef DRAW_CAMERA_RAYS_H
 #define DRAW_CAMERA_RAYS_H
 
@@ -40,5 +40,9 @@ static inline float camera_rays_pixel_size(const camera_rays *rays, float depth_
 {
     return rays->is_orthographic ? rays->pixel_size : rays->pixel_size * (depth_m > 0.0f ? depth_m : 0.0f);
 }
+
+/* Writes count points in (0, 1)^2, x and y interleaved; the same in every pixel. Each of count columns and each of
+ * count rows holds one point, so that edges near the axes show count + 1 shades; 1: the middle. */
+void sample_pattern(uint32_t count, float *points);
 
 #endif

@@ -7,7 +7,6 @@
 #include <cmocka.h>
 
 #include "draw/camera_rays.h"
-#include "draw/sample_pattern.h"
 
 static void directions_have_unit_depth(void **state)
 {

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "draw/render_watch.h"
-#include "draw/sample_pattern.h"
+#include "draw/camera_rays.h"
 
 #include "water/water_pixel.h"
 

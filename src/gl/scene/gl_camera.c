@@ -4,7 +4,7 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-#include "draw/sample_pattern.h"
+#include "draw/camera_rays.h"
 
 static const double NEAREST = 1e-6;        /* of the largest depth: what is nearer is cut off */
 static const double NEAREST_COARSE = 1e-4; /* the same where depth is not reversed */

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/result.h"
-#include "draw/sample_pattern.h"
+#include "draw/camera_rays.h"
 #include "film/matte.h"
 #include "gl/scene/gl_camera.h"
 #include "scene/identity.h"

@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "base/result.h"
-#include "draw/ogl1_maps.h"
 #include "gl/core/gl_texture.h"
 
 #include "draw/ogl1_setup.h"

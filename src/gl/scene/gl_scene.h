@@ -5,7 +5,7 @@
 #define GL_GL_SCENE_H
 
 #include "draw/material_plan.h"
-#include "draw/pose_key.h"
+#include "draw/render_geometry.h"
 #include "draw/tangent_store.h"
 
 typedef struct gl_scene {

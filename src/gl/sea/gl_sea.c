@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "draw/render_watch.h"
-#include "draw/sample_pattern.h"
+#include "draw/camera_rays.h"
 #include "gl/core/gl_blocks.h"
 #include "gl/scene/gl_camera.h"
 #include "gl/scene/gl_light_atlas.h"
