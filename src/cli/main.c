@@ -1,14 +1,13 @@
 /* main.c - facet VERB ...: finds the verb, parses its options, runs it. */
-#include "cli/shared/commands.h"
-#include "cli/help/completion.h"
-#include "cli/shared/failure.h"
+#include "cli/help/generate.h"
 #include "cli/help/help.h"
+#include "cli/shared/command_line.h"
+#include "cli/shared/options.h"
+#include "cli/shared/failure.h"
 #include "cli/shared/interrupt.h"
-#include "cli/help/man_page.h"
 #include "cli/shared/messages.h"
 #include "cli/shared/output.h"
 #include "cli/shared/output_name.h"
-#include "cli/shared/json_report.h"
 #include "cli/shared/suggest.h"
 
 #include <stdio.h>

@@ -8,7 +8,7 @@
  * three     environment.hdr for HDRLoader; pmrem.ktx2, levels as three.js' PMREMGenerator filters them since r182; px.hdr ..
  *           nz.hdr for HDRCubeTextureLoader; sh.json for LightProbe. three.js looks up cube maps from files with x negated. */
 #define _DEFAULT_SOURCE
-#include "cli/bake/bake_layout.h"
+#include "cli/bake/bake_plan.h"
 
 #include "cli/bake/bake_names.h"
 #include "cli/shared/failure.h"

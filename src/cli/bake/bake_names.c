@@ -2,6 +2,8 @@
 #define _DEFAULT_SOURCE
 #include "cli/bake/bake_names.h"
 
+#include "cli/shared/output_name.h"
+
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -142,4 +144,19 @@ void bake_name_of_folder(const char *folder, char *name)
     }
     memcpy(name, part, length);
     name[length] = 0;
+}
+
+void bake_symbol(const char *path, char *symbol, size_t size)
+{
+    char stem[256];
+    size_t n = 0;
+    if (!output_name_stem(path, stem, sizeof stem))
+        memcpy(stem, "baked", 6);
+    if (stem[0] >= '0' && stem[0] <= '9')
+        symbol[n++] = '_';
+    for (const char *at = stem; *at && n + 1 < size; at++) {
+        bool is_good = (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') || (*at >= '0' && *at <= '9');
+        symbol[n++] = is_good ? *at : '_';
+    }
+    symbol[n] = 0;
 }

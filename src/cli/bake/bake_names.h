@@ -30,4 +30,7 @@ bool bake_name_join(const char *folder, const char *file, char *name);
  * there is none. */
 void bake_name_of_folder(const char *folder, char *name);
 
+/* path's base name without extension as an identifier of C. */
+void bake_symbol(const char *path, char *symbol, size_t size);
+
 #endif

@@ -9,7 +9,6 @@
 #include <cmocka.h>
 
 #include "cli/bake/bake_names.h"
-#include "cli/bake/bake_text.h"
 
 static void test_expand(void **state)
 {
@@ -89,9 +88,9 @@ static void test_symbols(void **state)
 {
     (void)state;
     char symbol[8];
-    bake_text_symbol("a/9 lives.h", symbol, sizeof symbol);
+    bake_symbol("a/9 lives.h", symbol, sizeof symbol);
     assert_string_equal(symbol, "_9_live");
-    bake_text_symbol("a/sh.h", symbol, sizeof symbol);
+    bake_symbol("a/sh.h", symbol, sizeof symbol);
     assert_string_equal(symbol, "sh");
 }
 

@@ -2,8 +2,7 @@
 #include "cli/bake/bake_report.h"
 
 #include "cli/bake/bake_names.h"
-#include "cli/shared/json_report.h"
-#include "cli/shared/table.h"
+#include "cli/shared/failure.h"
 #include "cli/shared/terminal.h"
 
 #include <math.h>

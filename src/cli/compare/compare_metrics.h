@@ -2,6 +2,8 @@
 #ifndef CLI_COMPARE_METRICS_H
 #define CLI_COMPARE_METRICS_H
 
+#include <stdio.h>
+#include <jansson.h>
 #include "cli/shared/command_line.h"
 
 enum { COMPARE_METRIC_COUNT = 20 };
@@ -38,5 +40,15 @@ uint32_t compare_wish_skipped(const compare_wish *w);
 
 /* Whether the limits on a metric hold; those on what was not measured do not. */
 bool compare_limit_holds(const compare_wish *w, int metric, double value);
+
+/* Prints the metrics that are wished for, or the main ones. */
+void compare_report_table(FILE *stream, const compare_wish *wish, const facet_comparison *c,
+                          bool has_percentile);
+
+/* "flip 0.051 is more than 0.02, .." of the limits that do not hold; "" where all do. */
+void compare_report_failures(const compare_wish *wish, const facet_comparison *c, char *text, size_t size);
+
+/* Members of the result: space, size, metrics, limits; NULL: no memory. Numbers that JSON lacks are null. */
+json_t *compare_report_json(const compare_wish *wish, const facet_comparison *c);
 
 #endif

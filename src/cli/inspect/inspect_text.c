@@ -1,7 +1,6 @@
 /* inspect_text.c - the description of a model, laid out for reading. */
 #include "cli/inspect/inspect_text.h"
 
-#include "cli/shared/table.h"
 #include "cli/shared/terminal.h"
 
 #include <math.h>

@@ -8,7 +8,7 @@
 #include "cli/shared/color.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/output_name.h"
-#include "cli/render/picture_options.h"
+#include "cli/render/render_options.h"
 #include "cli/shared/value.h"
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */

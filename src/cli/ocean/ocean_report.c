@@ -1,5 +1,5 @@
 /* ocean_report.c - see ocean_report.h. */
-#include "cli/ocean/ocean_report.h"
+#include "cli/ocean/ocean_run.h"
 
 #include <math.h>
 #include <stdio.h>

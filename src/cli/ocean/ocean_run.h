@@ -4,7 +4,7 @@
 
 #include "cli/ocean/ocean_options.h"
 #include "cli/shared/output_name.h"
-#include "cli/render/render_names.h"
+#include "cli/render/render_output.h"
 #include "cli/shared/verb_run.h"
 #include "cli/render/video.h"
 
@@ -56,5 +56,15 @@ facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image
 /* Reads --with, and floats it on the sea as it is. Without a place it lies in view of the camera of the first moment. */
 facet_result ocean_float_load(ocean_run *run, facet_error *error);
 facet_result ocean_float_place(ocean_run *run, facet_error *error);
+
+/* ---- what is known of a sea ---- */
+
+/* Lines on standard output. */
+void ocean_report_print(const ocean_run *run);
+/* The same; NULL: no memory. */
+json_t *ocean_report_json(const ocean_run *run);
+
+/* report_picture_json() with what another program needs to draw the same: exposure, time, camera, where the model floats. */
+json_t *ocean_report_picture_json(const ocean_run *run, const picture_report *p);
 
 #endif

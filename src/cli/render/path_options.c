@@ -1,5 +1,5 @@
 /* path_options.c - see path_options.h. */
-#include "cli/render/path_options.h"
+#include "cli/render/render_options.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* picture_options.c - see picture_options.h. */
-#include "cli/render/picture_options.h"
+#include "cli/render/render_options.h"
 
 #include <math.h>
 #include <stdio.h>

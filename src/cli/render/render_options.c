@@ -1,18 +1,126 @@
 /* render_options.c - the options of facet render become descs. */
 #include "cli/render/render_options.h"
 
-#include "cli/render/aov_options.h"
-#include "cli/render/camera_matrix.h"
 #include "cli/shared/color.h"
 #include "cli/shared/failure.h"
-#include "cli/render/orbit.h"
-#include "cli/render/path_options.h"
-#include "cli/render/picture_options.h"
 #include "cli/shared/value.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
+
+static const uint32_t path_only = FACET_AOV_VARIANCE | FACET_AOV_SAMPLES;
+
+static const struct aov_name {
+    const char *name;
+    uint32_t aovs;
+} aov_names[] = {{"depth", FACET_AOV_DEPTH},
+                 {"normal", FACET_AOV_NORMAL},
+                 {"albedo", FACET_AOV_ALBEDO},
+                 {"material", FACET_AOV_MATERIAL_ID},
+                 {"object", FACET_AOV_OBJECT_ID},
+                 {"instance", FACET_AOV_INSTANCE_ID},
+                 {"uv", FACET_AOV_UV},
+                 {"occlusion", FACET_AOV_OCCLUSION},
+                 {"variance", FACET_AOV_VARIANCE},
+                 {"samples", FACET_AOV_SAMPLES},
+                 {"cryptomatte", FACET_AOV_CRYPTOMATTE},
+                 {"crypto-object", FACET_AOV_CRYPTO_OBJECT},
+                 {"crypto-material", FACET_AOV_CRYPTO_MATERIAL},
+                 {"crypto-instance", FACET_AOV_CRYPTO_INSTANCE}};
+enum { AOV_NAMES = sizeof aov_names / sizeof *aov_names };
+
+static bool has_word(const char *list, const char *word)
+{
+    size_t length = strlen(word);
+    for (; *list; list += *list == ',') {
+        size_t here = strcspn(list, ",");
+        if (here == length && memcmp(list, word, length) == 0)
+            return true;
+        list += here;
+    }
+    return false;
+}
+
+/* All that the renderer has, except for what a continued picture cannot have. */
+static uint32_t all_aovs(const render_options *o)
+{
+    uint32_t all = 0;
+    for (size_t i = 0; i < AOV_NAMES; i++)
+        all |= aov_names[i].aovs;
+    if (o->desc.renderer != FACET_RENDERER_KIND_PATH)
+        all &= ~path_only;
+    if (o->desc.path.resumes)
+        all &= ~(uint32_t)FACET_AOV_CRYPTOMATTE;
+    return all;
+}
+
+/* "depth, normal and uv" of what a renderer has. */
+static void list_names(uint32_t aovs, char *list, size_t size)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < AOV_NAMES; i++)
+        if ((aov_names[i].aovs & aovs) == aov_names[i].aovs && used < size)
+            used += (size_t)snprintf(list + used, size - used, "%s%s", used ? ", " : "", aov_names[i].name);
+}
+
+static facet_result check_renderer(const char *text, const render_options *o, facet_error *error)
+{
+    static const char *const renderers[] = {"preview", "path", "gl"};
+    uint32_t all = all_aovs(o);
+    for (size_t i = 0; i < AOV_NAMES; i++) {
+        if (!has_word(text, aov_names[i].name) || (aov_names[i].aovs & ~all) == 0)
+            continue;
+        if (o->desc.path.resumes && aov_names[i].aovs & FACET_AOV_CRYPTOMATTE)
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--aov: a checkpoint does not keep %s; render it without --resume",
+                        aov_names[i].name);
+        char list[256] = "";
+        list_names(all, list, sizeof list);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--aov: %s is a layer of --renderer path only; --renderer %s has %s, or all",
+                    aov_names[i].name, renderers[o->desc.renderer], list);
+    }
+    return FACET_OK;
+}
+
+/* A .png holds one layer of IDs: false colors, which are lossless, in place of the image. */
+static facet_result read_id_layer(const char *text, render_options *out, facet_error *error)
+{
+    static const uint32_t ids = FACET_AOV_OBJECT_ID | FACET_AOV_MATERIAL_ID | FACET_AOV_INSTANCE_ID;
+    bool is_png = out->save.format == FACET_IMAGE_FORMAT_PNG && out->video == VIDEO_NONE;
+    for (size_t i = 0; i < AOV_NAMES && is_png; i++)
+        if (strcmp(text, aov_names[i].name) == 0 && aov_names[i].aovs & ids) {
+            out->id_layer = aov_names[i].name;
+            out->desc.aovs = aov_names[i].aovs | FACET_AOV_INSTANCE_ID;
+            return FACET_OK;
+        }
+    return fail(
+        error, FACET_ERROR_ARGUMENT,
+        "--aov: only .exr files hold layers beside the image, write -o NAME.exr; a .png holds one of object, "
+        "material and instance alone, in false color");
+}
+
+/* Sets desc.aovs; the format and the renderer are read before. FACET_ERROR_ARGUMENT: the renderer lacks a layer, or the file
+ * has no room for one. */
+static facet_result aov_options_read(const command_line *c, render_options *out, facet_error *error)
+{
+    const char *text = option_text(c, OPT_AOV, "");
+    bool is_exr =
+        out->save.format == FACET_IMAGE_FORMAT_EXR || out->save.format == FACET_IMAGE_FORMAT_EXR_FLOAT;
+    if (*text && !is_exr)
+        return read_id_layer(text, out, error);
+    facet_result result = check_renderer(text, out, error);
+    if (result != FACET_OK)
+        return result;
+    if (has_word(text, "all"))
+        out->desc.aovs = all_aovs(out);
+    for (size_t i = 0; i < AOV_NAMES; i++)
+        if (has_word(text, aov_names[i].name))
+            out->desc.aovs |= aov_names[i].aovs;
+    return FACET_OK;
+}
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
@@ -62,57 +170,6 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
     return FACET_OK;
 }
 
-/* ---- camera ---- */
-
-static facet_result read_orbit(const command_line *c, render_options *out, facet_error *error)
-{
-    facet_orbit *orbit = &out->orbit;
-    *orbit = facet_orbit_default();
-    orbit->is_z_up = option_choice(c, OPT_UP, 0) == 1;
-    orbit->is_orthographic = is_given(c, OPT_ORTHO);
-    orbit->includes_far_parts = option_choice(c, OPT_FRAMING, 0) == 1;
-    const char *text = option_text(c, OPT_ORBIT, NULL);
-    if (text && !orbit_parse(text, orbit))
-        return option_fail(
-            c, OPT_ORBIT,
-            "AZIMUTH,POLAR,RADIUS such as 30,75,105% or \"30deg 75deg 2m\" (polar: 0 to 180 degrees)", error);
-    text = option_text(c, OPT_TARGET, "auto");
-    if (!target_parse(text, out->target, out->has_target))
-        return option_fail(c, OPT_TARGET, "X,Y,Z in metres, or auto", error);
-    text = option_text(c, OPT_FOV, "auto");
-    double fov = (double)orbit->fov_y_rad;
-    if (strcasecmp(text, "auto") != 0 &&
-        (!value_angle(text, &fov) || fov < 0.1 * DEGREE || fov > 179.0 * DEGREE))
-        return option_fail(c, OPT_FOV, "an angle from 0.1 to 179 degrees", error);
-    orbit->fov_y_rad = (float)fov;
-    return FACET_OK;
-}
-
-static facet_result read_camera(const command_line *c, render_options *out, facet_error *error)
-{
-    static const option_id orbit_options[] = {OPT_ORBIT, OPT_TARGET, OPT_FOV,     OPT_EYE,
-                                              OPT_UP,    OPT_ORTHO,  OPT_FRAMING, OPT_TURNTABLE};
-    out->camera = option_text(c, OPT_CAMERA, NULL);
-    for (size_t i = 0; out->camera && i < sizeof orbit_options / sizeof *orbit_options; i++)
-        if (is_given(c, orbit_options[i]))
-            return fail(error, FACET_ERROR_ARGUMENT,
-                        "--camera: a camera of the file does not go together with --%s; give one of them",
-                        option_find_id(c->verb, orbit_options[i])->name);
-    facet_result result = read_orbit(c, out, error);
-    if (result != FACET_OK)
-        return result;
-    out->turntable = (uint32_t)option_number(c, OPT_TURNTABLE, 0.0);
-    out->has_eye = is_given(c, OPT_EYE);
-    if (!out->has_eye)
-        return camera_matrix_read(c, out, error);
-    if (!value_numbers(option_text(c, OPT_EYE, ""), 3, out->eye))
-        return option_fail(c, OPT_EYE, "X,Y,Z in metres", error);
-    if (is_given(c, OPT_ORBIT) || out->turntable)
-        return fail(error, FACET_ERROR_ARGUMENT, "--eye: it does not go together with --%s; give one of them",
-                    out->turntable ? "turntable" : "orbit");
-    return FACET_OK;
-}
-
 /* ---- motion ---- */
 
 static facet_result read_motion(const command_line *c, render_options *out, facet_error *error)
@@ -140,7 +197,7 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
                                                       read_size,
                                                       read_background,
                                                       read_look,
-                                                      read_camera,
+                                                      camera_options_read,
                                                       read_motion,
                                                       picture_options_environment,
                                                       path_options_read,

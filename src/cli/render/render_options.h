@@ -62,4 +62,42 @@ bool render_is_lit_by_scene(const render_options *o, const facet_scene *scene, c
 /* The extension, without point, that files of a format have. */
 const char *render_extension(facet_image_format format);
 
+/* ---- parts, in files of their own ---- */
+
+facet_result picture_options_output(const command_line *c, render_options *out, facet_error *error);
+facet_result picture_options_format(const command_line *c, render_options *out, facet_error *error);
+/* --size (otherwise: where it is not given), --crop. */
+facet_result picture_options_size(const command_line *c, const char *otherwise, render_options *out,
+                                  facet_error *error);
+/* --exposure, as stops. */
+facet_result picture_options_exposure(const command_line *c, render_options *out, facet_error *error);
+/* --tone-mapping (otherwise: where nothing is given and the file is for a display), --quality, --jpeg-quality, --png-compression. */
+void picture_options_look(const command_line *c, facet_tonemap otherwise, render_options *out);
+/* --time, --frames, --fps. */
+facet_result picture_options_frames(const command_line *c, render_options *out, facet_error *error);
+/* --env and what belongs to it. */
+facet_result picture_options_environment(const command_line *c, render_options *out, facet_error *error);
+
+/* Whether all pictures have a place to go, is_sequence being known. */
+facet_result picture_options_check_sequence(const command_line *c, const render_options *o,
+                                            facet_error *error);
+
+/* The camera, without its lens. */
+facet_result camera_options_read(const command_line *c, render_options *out, facet_error *error);
+/* "AZIMUTH,POLAR,RADIUS", separated by commas or blanks; later parts may be left out, and a part may be "auto", which
+ * keeps that of orbit. Angles are in deg (the default) or rad, the radius in % of the framing distance, m (the default),
+ * cm or mm. False, with orbit untouched, where text is none of these, polar is not in [0 deg, 180 deg] or the radius is
+ * not above 0. */
+bool orbit_parse(const char *text, facet_orbit *orbit);
+/* "X,Y,Z" in m (the default), cm, mm; "auto" for all or for one keeps target[i] and clears is_given[i]. */
+bool target_parse(const char *text, double target[3], bool is_given[3]);
+
+/* Reads --renderer and what depends on it, after all that is not about it. Fails with FACET_ERROR_ARGUMENT, also where an
+ * option says nothing to the renderer. */
+facet_result path_options_read(const command_line *c, render_options *out, facet_error *error);
+
+/* Gives the camera its lens. */
+void path_options_set_lens(const render_options *o, const facet_scene *scene, const facet_pose_desc *pose,
+                           facet_camera *camera);
+
 #endif

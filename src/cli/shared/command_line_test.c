@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "cli/shared/command_line.h"
-#include "cli/shared/preset.h"
+#include "cli/shared/config.h"
 #include "cli/shared/suggest.h"
 
 #include <stdio.h>
@@ -101,7 +101,7 @@ static void test_choices(void **state)
 {
     (void)state;
     assert_int_equal(PARSE("--tone-mapping", "agx", "--aov", "depth,normal"), FACET_OK);
-    assert_int_equal(option_choice(&line, OPT_TONE_MAPPING, -1), 3);
+    assert_int_equal(option_choice(&line, OPT_TONE_MAPPING, -1), FACET_TONEMAP_AGX);
     assert_int_equal(option_choice(&line, OPT_LIGHTS, -1), -1);
 }
 

@@ -1,10 +1,10 @@
 /* config.c - options from a JSON file (--config). */
+#define _DEFAULT_SOURCE
 #define _POSIX_C_SOURCE 200809L
-#include "cli/shared/preset.h"
-
 #include "cli/shared/failure.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/limits.h"
+#include "cli/shared/config.h"
 #include "cli/shared/suggest.h"
 
 #include <errno.h>
@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 /* Keeps text until config_destroy(); NULL: no memory. */
 static const char *keep(config *storage, const char *text)
@@ -170,5 +171,33 @@ facet_result config_apply(command_line *c, config *storage, facet_error *error)
             result = apply_member(c, name, value, storage, error);
     }
     json_decref(root);
+    return result;
+}
+
+typedef struct setting {
+    option_id id;
+    const char *text; /* NULL for flags */
+} setting;
+
+/* For file managers: small, bounded, silent. */
+static const setting thumbnail[] = {
+    {OPT_SIZE, "256"}, {OPT_BACKGROUND, "transparent"}, {OPT_MAX_MEMORY, "1G"}};
+
+facet_result preset_apply(command_line *c, facet_error *error)
+{
+    if (!is_given(c, OPT_PRESET))
+        return FACET_OK;
+    static char limit[32]; /* 5 s for each model; a command line lives as long as the process */
+    snprintf(limit, sizeof limit, "%zus", 5 * (c->argument_count ? c->argument_count : 1));
+    facet_result result =
+        command_line_set(c, option_find_id(c->verb, OPT_TIME_LIMIT), limit, SOURCE_PRESET, error);
+    if (result == FACET_OK && !is_given(c, OPT_VERBOSE))
+        result = command_line_set(c, option_find_id(c->verb, OPT_QUIET), NULL, SOURCE_PRESET, error);
+    for (size_t i = 0; i < sizeof thumbnail / sizeof *thumbnail && result == FACET_OK; i++)
+        result = command_line_set(c, option_find_id(c->verb, thumbnail[i].id), thumbnail[i].text,
+                                  SOURCE_PRESET, error);
+    /* several thumbnailers at once must not take every core (f3d issue 300) */
+    if (result == FACET_OK && getpriority(PRIO_PROCESS, 0) > 0)
+        result = command_line_set(c, option_find_id(c->verb, OPT_THREADS), "1", SOURCE_PRESET, error);
     return result;
 }

@@ -1,9 +1,8 @@
 /* failure.c - results become sentences and exit codes. */
 #include "cli/shared/failure.h"
 
-#include "cli/shared/interrupt.h"
-
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const exit_meaning exit_meanings[] = {
@@ -45,7 +44,7 @@ int exit_code_of(facet_result result)
     case FACET_ERROR_SYSTEM:
         return EXIT_ENVIRONMENT;
     case FACET_ERROR_CANCELLED:
-        return interrupt_exit_code();
+        return EXIT_AGAIN;
     case FACET_ERROR_BUG:
         break;
     }
@@ -66,4 +65,57 @@ void failure_complete(facet_error *error, const char *name, uint64_t limit)
         snprintf(sentence + n, sizeof sentence - (size_t)n, "; the limit is %.6g MiB (--max-memory)",
                  (double)limit / 1048576.0);
     snprintf(error->message, sizeof error->message, "%.1000s", sentence);
+}
+
+/* ---- JSON ---- */
+
+/* text with U+FFFD for each byte that is no UTF-8; jansson tells what is. */
+static json_t *replace_others(const char *text)
+{
+    const char replacement[] = "\xef\xbf\xbd";
+    char *copy = malloc(3 * strlen(text) + 1);
+    size_t used = 0;
+    while (copy && *text) {
+        size_t length = 1;
+        json_t *character = NULL;
+        while (length <= 4 && !memchr(text, 0, length) && !(character = json_stringn(text, length)))
+            length++;
+        memcpy(copy + used, character ? text : replacement, character ? length : 3);
+        used += character ? length : 3;
+        text += character ? length : 1;
+        json_decref(character);
+    }
+    json_t *string = copy ? json_stringn(copy, used) : NULL;
+    free(copy);
+    return string;
+}
+
+json_t *report_string_json(const char *text)
+{
+    json_t *string = text ? json_string(text) : NULL;
+    if (text && !string)
+        string = replace_others(text);
+    return string ? string : json_null();
+}
+
+json_t *report_error_json(const facet_error *error, const char *model, int exit_code)
+{
+    if (model)
+        return json_pack("{s:o, s:o, s:i}", "model", report_string_json(model), "message",
+                         report_string_json(error->message), "exit_code", exit_code);
+    return json_pack("{s:o, s:i}", "message", report_string_json(error->message), "exit_code", exit_code);
+}
+
+void report_print_json(const json_t *root)
+{
+    json_dumpf(root, stdout, JSON_REAL_PRECISION(9));
+    putchar('\n');
+}
+
+void report_print_failure_json(const facet_error *error, int exit_code)
+{
+    json_t *root = json_pack("{s:s, s:[o], s:i}", "facet", facet_version(), "failures",
+                             report_error_json(error, NULL, exit_code), "exit_code", exit_code);
+    report_print_json(root);
+    json_decref(root);
 }

@@ -4,6 +4,8 @@
 
 #include "base/result.h"
 
+#include <jansson.h>
+
 /* Exit codes; failure.c has what each means, docs/cli.md why. */
 enum {
     EXIT_DONE = 0,
@@ -26,11 +28,20 @@ typedef struct exit_meaning {
 } exit_meaning;
 extern const exit_meaning exit_meanings[]; /* ends with {NULL} */
 
-/* The exit code for a result; of FACET_ERROR_CANCELLED that of the signal. */
+/* The exit code for a result; of FACET_ERROR_CANCELLED EXIT_AGAIN, unless a signal says another (interrupt.h). */
 int exit_code_of(facet_result result);
 
 /* Puts the name of the input before what went wrong with it unless the sentence begins with a name, and behind a lack
  * of memory what --max-memory, limit bytes (0: none), has to do with it. */
 void failure_complete(facet_error *error, const char *name, uint64_t limit);
+
+/* A JSON string; null where text is NULL. Bytes that are not UTF-8, as names of files may have, become U+FFFD. */
+json_t *report_string_json(const char *text);
+json_t *report_error_json(const facet_error *error, const char *model /* NULL: none */, int exit_code);
+
+/* Prints root as one line on standard output. */
+void report_print_json(const json_t *root);
+/* Prints the object of a command that did nothing but fail: facet, failures, exit_code. */
+void report_print_failure_json(const facet_error *error, int exit_code);
 
 #endif

@@ -3,7 +3,6 @@
 #include "cli/shared/interrupt.h"
 
 #include "cli/shared/failure.h"
-#include "cli/shared/json_report.h"
 
 #include <jansson.h>
 #include <signal.h>

@@ -16,4 +16,7 @@ facet_result limits_read(const command_line *c, limits *out, facet_error *error)
  * lists of models may be pipes that nothing is written to. Fails with FACET_ERROR_ARGUMENT. */
 facet_result limits_start_clock(const command_line *c, facet_error *error);
 
+/* The most that the process had resident so far, bytes. */
+uint64_t memory_peak(void);
+
 #endif

@@ -1,8 +1,6 @@
 /* options.c - the tables of options and verbs, and how options are found. */
 #include "cli/shared/options.h"
 
-#include "cli/shared/commands.h"
-
 #include <string.h>
 
 /* ---- the table of options ---- */

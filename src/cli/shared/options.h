@@ -97,6 +97,15 @@ typedef struct verb {
     const option_group *const *groups; /* ends with NULL */
 } verb;
 
+/* What each verb of verbs.def defines in NAME/cmd_NAME.c: NAME_verb, its arguments, options and help, and cmd_NAME(), which
+ * runs it. It returns the exit code and has reported what went wrong. */
+struct command_line;
+#define VERB(name)                                                                                           \
+    extern const verb name##_verb;                                                                           \
+    int cmd_##name(struct command_line *c);
+#include "cli/shared/verbs.def"
+#undef VERB
+
 extern const verb *const verbs[];        /* in the order of verbs.def; ends with NULL */
 const verb *verb_find(const char *name); /* NULL: no such verb in this version */
 /* Whether a later version is meant to have that verb, that option. */

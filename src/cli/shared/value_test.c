@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "cli/shared/color.h"
-#include "cli/render/orbit.h"
+#include "cli/render/render_options.h"
 #include "cli/shared/output_name.h"
 #include "cli/shared/value.h"
 

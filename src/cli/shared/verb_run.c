@@ -4,9 +4,8 @@
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
 #include "cli/shared/interrupt.h"
-#include "cli/shared/json_report.h"
-#include "cli/shared/memory_limit.h"
-#include "cli/shared/preset.h"
+#include "cli/shared/limits.h"
+#include "cli/shared/config.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -23,13 +22,29 @@ static void print_error(const verb_run *run, const facet_error *error)
     message_error("%s%s", is_of_words ? "facet: " : "", error->message);
 }
 
+/* After a signal that of the signal. */
+static int code_of(const facet_error *error)
+{
+    return error->result == FACET_ERROR_CANCELLED ? interrupt_exit_code() : exit_code_of(error->result);
+}
+
 /* Takes note of a failure; model NULL: of no model. */
 static void add_failure(verb_run *run, const facet_error *error, const char *model)
 {
     run->failure_count++;
-    run->failure_code = exit_code_of(error->result);
+    run->failure_code = code_of(error);
     if (run->failures)
         json_array_append_new(run->failures, report_error_json(error, model, run->failure_code));
+}
+
+static json_t *warnings_json(const messages *m)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < m->warning_count; i++) {
+        json_array_append_new(list, json_pack("{s:o, s:I}", "text", report_string_json(m->warnings[i].text),
+                                              "count", (json_int_t)m->warnings[i].count));
+    }
+    return list;
 }
 
 /* Prints the warnings that were not yet, takes note of all, and forgets them. */
@@ -38,7 +53,7 @@ static void end_messages(verb_run *run)
     messages_flush(&run->messages);
     run->warning_count += run->messages.warning_count;
     if (run->warnings) {
-        json_t *list = report_warnings_json(&run->messages);
+        json_t *list = warnings_json(&run->messages);
         json_array_extend(run->warnings, list);
         json_decref(list);
     }
@@ -153,7 +168,7 @@ static void print_json(const verb_run *run, int exit_code)
 /* Reports a failure that ends the command. Returns the exit code. */
 static int end_failed(verb_run *run, const facet_error *error)
 {
-    int exit_code = exit_code_of(error->result);
+    int exit_code = code_of(error);
     print_error(run, error);
     if (is_given(run->line, OPT_JSON))
         report_print_failure_json(error, exit_code);

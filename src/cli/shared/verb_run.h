@@ -7,7 +7,6 @@
 #include "cli/shared/limits.h"
 #include "cli/shared/messages.h"
 #include "cli/shared/model_list.h"
-#include "cli/shared/progress.h"
 
 #include <jansson.h>
 

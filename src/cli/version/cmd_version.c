@@ -1,11 +1,23 @@
 /* cmd_version.c - facet version. */
-#include "cli/shared/commands.h"
+#include "cli/shared/options.h"
 
+#include "cli/shared/command_line.h"
 #include "cli/shared/failure.h"
-#include "cli/shared/json_report.h"
+#include "cli/shared/messages.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+
+const verb version_verb = {
+    .name = "version",
+    .summary = "say which facet this is",
+    .arguments = "",
+    .description = "Prints the version; with -v also how it was built and what it found on this machine.",
+    .examples = (const example[]){{"facet version -v", "for a bug report"}, {NULL, NULL}},
+    .groups =
+        (const option_group *const[]){OPTION_GROUP("Options", OPT_VERBOSE, OPT_JSON, OPT_HELP, OPT_HELP_ALL),
+                                      NULL},
+};
 
 /* The text of the report, which asks a driver of OpenGL who it is: once, and only where somebody reads it. */
 static char *read_report(void)

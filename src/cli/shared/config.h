@@ -1,6 +1,6 @@
-/* preset.h - options from elsewhere than the command line: presets and JSON files. */
-#ifndef CLI_PRESET_H
-#define CLI_PRESET_H
+/* config.h - options from elsewhere than the command line: presets and JSON files. */
+#ifndef CLI_CONFIG_H
+#define CLI_CONFIG_H
 
 #include "cli/shared/command_line.h"
 

@@ -1,7 +1,9 @@
-/* render_names.h - what the pictures of facet render are called. */
-#ifndef CLI_RENDER_NAMES_H
-#define CLI_RENDER_NAMES_H
+/* render_output.h - what pictures are called, and what is reported of them. */
+#ifndef CLI_RENDER_OUTPUT_H
+#define CLI_RENDER_OUTPUT_H
 
+#include "cli/shared/failure.h"
+#include "cli/shared/messages.h"
 #include "cli/shared/model_list.h"
 #include "cli/render/render_options.h"
 
@@ -26,5 +28,28 @@ bool render_name_is_input(const command_line *c, const render_options *o, const 
  * read. */
 facet_result render_names_check(const command_line *c, const render_options *o, model_list *models,
                                 facet_error *error);
+
+/* ---- reports: a line for people, an object for programs ---- */
+
+/* One picture that was written, or kept. */
+typedef struct picture_report {
+    const char *model, *output;
+    uint32_t width, height, samples;
+    double exposure_ev;       /* stops */
+    bool is_kept;             /* --no-clobber: it was there */
+    facet_render_stats stats; /* of facet_render() */
+    double load_s, save_s, total_s;
+} picture_report;
+
+/* Lines on standard error as verbosity asks; is_news: also without -v and off a terminal (the user did not name the
+ * output). */
+void report_picture(const messages *m, const picture_report *p, bool is_news);
+
+/* The same as JSON; NULL: no memory. */
+json_t *report_picture_json(const picture_report *p);
+
+/* Warns of an image that has less samples than were asked for; resume_with: the checkpoint that has them, "" or NULL:
+ * none. */
+void report_partial(messages *m, const picture_report *p, const char *resume_with);
 
 #endif
