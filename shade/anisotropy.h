@@ -1,5 +1,5 @@
-/* anisotropy.h - brushed metal, hair, records (KHR_materials_anisotropy): a lobe stretched along one tangent. D and V
- * of it are in brdf.h. */
+/* anisotropy.h - brushed metal, hair, records (KHR_materials_anisotropy): a lobe stretched along one tangent.
+ * Its D and V are in brdf.h. */
 #ifndef SHADE_ANISOTROPY_H
 #define SHADE_ANISOTROPY_H
 
@@ -10,8 +10,8 @@ FN vec2 anisotropic_alpha(float alpha, float strength)
     return vec2(mix(alpha, 1.0f, strength * strength), alpha);
 }
 
-/* Unit direction of stretching in tangent space: the texture's direction, or (1, 0), turned counter-clockwise by
- * rotation (rad). direction is the texel's (2 r - 1, 2 g - 1), not 0. */
+/* Unit direction of stretching in tangent space: the texture's direction, or (1, 0), rotated counter-clockwise
+ * by rotation (rad). direction is the texel's (2 r - 1, 2 g - 1), not 0. */
 FN vec2 anisotropy_direction(vec2 direction, float rotation)
 {
     float c = cos(rotation);
@@ -20,20 +20,20 @@ FN vec2 anisotropy_direction(vec2 direction, float rotation)
     return vec2(c * direction[0] - s * direction[1], s * direction[0] + c * direction[1]) * scale;
 }
 
-/* v in the frame T, B, N, orthonormal: what the anisotropic terms take. */
+/* v in the orthonormal frame T, B, N, as the anisotropic terms require. */
 FN vec3 to_frame(vec3 v, vec3 T, vec3 B, vec3 N)
 {
     return vec3(dot(T, v), dot(B, v), dot(N, v));
 }
 
-/* Where to read light prefiltered for an isotropic lobe: the normal is bent in the plane of B and V, as far as the
- * surface is anisotropic and smooth, the reflection of it brought back for rough ones. B is the bitangent, across the
- * stretching. KHR_materials_anisotropy, "Image based lighting", with its last line, which Khronos' renderer leaves
- * out:
+/* Lookup direction for light prefiltered with an isotropic lobe: the normal is bent in the plane of B and V,
+ * the more so the more anisotropic and smooth the surface is, and the reflection is bent back for rough ones. B
+ * is the bitangent, across the stretching. KHR_materials_anisotropy, "Image based lighting", with its last
+ * line, which Khronos' renderer omits:
  *   a = (1 - strength (1 - r))^4,  N' = mix((B x V) x B, N, a),  R = mix(reflect(-V, N'), N', r^2) */
 FN vec3 anisotropic_reflection(vec3 N, vec3 B, vec3 V, float strength, float perceptual_roughness)
 {
-    vec3 grain_N = cross(cross(B, V), B); /* V without its part along B; 0 where V = B */
+    vec3 grain_N = cross(cross(B, V), B); /* the component of V across B; 0 where V = B */
     float bend = 1.0f - strength * (1.0f - perceptual_roughness);
     float bend2 = bend * bend;
     vec3 bent = mix(grain_N, N, bend2 * bend2);
@@ -43,12 +43,12 @@ FN vec3 anisotropic_reflection(vec3 N, vec3 B, vec3 V, float strength, float per
     return normalize(mix(R, bent, perceptual_roughness * perceptual_roughness));
 }
 
-/* The isotropic lobe whose directional albedo is that of an anisotropic one: (N.V, perceptual roughness) at which a
- * table of split-sum terms is read. Width is the root mean square of the two, and V is tilted until it sees the
- * slopes as steep as it does here:
+/* The isotropic lobe with the directional albedo of an anisotropic one: (N.V, perceptual roughness) of the
+ * lookup in a LUT of split-sum terms. Its width is the root mean square of both, and V is tilted until slopes
+ * appear as steep as they do here:
  *   a^2 = (ax^2 + ay^2) / 2,   a tan' = |(ax V.x, ay V.y)| / V.z
  * V in the frame of the lobe. Found by comparing quadratures: within 0.04 of E over all strengths, azimuths and
- * elevations down to N.V = 0.05, 0.012 in the mean; reading at (N.V, r) itself is wrong by up to 0.35. */
+ * elevations down to N.V = 0.05, 0.012 on average; a lookup at (N.V, r) itself has errors of up to 0.35. */
 FN vec2 anisotropic_table_point(vec3 V, vec2 alpha)
 {
     float a2 = 0.5f * dot(alpha, alpha);
@@ -73,10 +73,10 @@ FN float anisotropic_grazing_share(vec3 V, vec2 alpha)
     return pow(clamp(1.0f - V[2], 0.0f, 1.0f) + 1e-6f, power) / (1.0f + 22.7f * pow(a, 1.36f));
 }
 
-/* Split-sum terms of the anisotropic lobe seen from V, from those read at anisotropic_table_point(), as an upper bound:
- * what an albedo that is too small compensates would return more than it received. E goes towards 1 by 0.2 (1 - E) k,
- * B is 1 + k (0.3 + 0.6 max(ax, ay)^2) of its fit, k = |ax^2 - ay^2| / (ax^2 + ay^2) being how anisotropic the lobe
- * is. */
+/* Upper bound of the split-sum terms of the anisotropic lobe seen from V, from those at
+ * anisotropic_table_point(): an albedo that is too small would overcompensate and gain energy. E is moved
+ * towards 1 by 0.2 (1 - E) k, B is 1 + k (0.3 + 0.6 max(ax, ay)^2) times its fit; k = |ax^2 - ay^2| / (ax^2 +
+ * ay^2) measures the anisotropy. */
 FN vec2 anisotropic_table_bound(vec2 dfg, vec3 V, vec2 alpha)
 {
     vec2 a2 = alpha * alpha;

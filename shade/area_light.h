@@ -1,13 +1,13 @@
-/* area_light.h - spheres and tubes of light, as if they were points: exact diffuse irradiance, and highlights by
- * the representative point of Karis 2013, or by a widened lobe.
+/* area_light.h - sphere and tube lights without sampling: exact diffuse irradiance, and highlights by the
+ * representative point of Karis 2013 or by a widened lobe.
  *
- * Karis' representative point is an approximation: 5 to 11 % dark on axis while the light is narrow against the
- * lobe, within about 30 % mostly, and up to twice too bright where radius / distance is above alpha (compared with
- * the exact integral in area_light_test.c). */
+ * The representative point is an approximation: 5 to 11 % too dark on axis while the light is narrow compared
+ * with the lobe, mostly within 30 %, and up to twice too bright where radius / distance exceeds alpha (compared
+ * with the exact integral in area_light_test.c). */
 #ifndef SHADE_AREA_LIGHT_H
 #define SHADE_AREA_LIGHT_H
 
-/* The point of a light that stands for all of it in one reflection. */
+/* The point of a light that represents all of it in one reflection. */
 STRUCT(RepresentativePoint)
 {
     vec3 L;              /* unit, towards it */
@@ -15,7 +15,7 @@ STRUCT(RepresentativePoint)
 };
 
 /* Alpha of a lobe convolved with a light: saturate(alpha + radius / (spread distance)), lengths in m. spread 3:
- * Karis 2013 (v2), equation 10; 2: the form of the slides and of seed code. */
+ * Karis 2013 (v2), equation 10; 2: the form of the slides and of older code. */
 FN float widened_alpha(float alpha, float radius, float distance_m, float spread)
 {
     return clamp(alpha + radius / (spread * distance_m), 0.0f, 1.0f);
@@ -23,9 +23,9 @@ FN float widened_alpha(float alpha, float radius, float distance_m, float spread
 
 /* ---- irradiance ---- */
 
-/* Irradiance per radiance (sr, at most pi) of a sphere of radius a whose centre is d away at cos_angle from N,
- * partly below the horizon or not; sin_sigma = a / d < 1. Above the horizon it is pi sin_sigma^2 cos_angle.
- * Snyder 1996, "Area light sources for real-time graphics". */
+/* Irradiance per radiance (sr, at most pi) of a sphere of radius a whose center is at the distance d and at
+ * cos_angle from N, possibly partly below the horizon; sin_sigma = a / d < 1. Above the horizon it is pi
+ * sin_sigma^2 cos_angle. Snyder 1996, "Area light sources for real-time graphics". */
 FN float sphere_irradiance(float cos_angle, float sin_sigma)
 {
     float s2 = sin_sigma * sin_sigma;
@@ -40,10 +40,11 @@ FN float sphere_irradiance(float cos_angle, float sin_sigma)
     return max((c * atan(w, y) - x * q) * s2 + atan(q, x), 0.0f); /* atan(w, y) = acos(y), precise near +-1 */
 }
 
-/* Irradiance per intensity (1/m^2) of a thin line between end0 and end1 (from the shaded point, m), all of it above
- * the horizon, whose intensity is spread evenly along it and in all directions: the mean of N.p / |p|^3 over it,
+/* Irradiance per intensity (1/m^2) of a thin line between end0 and end1 (from the shaded point, m), all of it
+ * above the horizon, whose intensity is uniform along it and in all directions: the mean of N.p / |p|^3 over
+ * it,
  *   (N.L0 / |L0| + N.L1 / |L1|) / (|L0| |L1| + L0.L1)
- * For a short line N.L / d^2, as for a point. Karis 2013, tube lights. */
+ * Approaches N.L / d^2, a point light, as the line gets shorter. Karis 2013, tube lights. */
 FN float line_irradiance(vec3 N, vec3 end0, vec3 end1)
 {
     float d0 = length(end0);
@@ -53,9 +54,8 @@ FN float line_irradiance(vec3 N, vec3 end0, vec3 end1)
 
 /* ---- the representative point ---- */
 
-/* Sphere: the point of it next to the ray along R = reflect(-V, N). center: from the shaded point, m. The factor
- * (alpha / alpha')^2 keeps the energy that D had before the light got a size. Karis 2013,
- * equation 11 and the normalisation after it. */
+/* Sphere: its point closest to the ray along R = reflect(-V, N). center: from the shaded point, m. The factor
+ * (alpha / alpha')^2 compensates the widening of D. Karis 2013, equation 11 and the normalisation after it. */
 FN RepresentativePoint representative_point_sphere(vec3 center, vec3 R, float radius, float alpha)
 {
     vec3 off_ray = R * dot(center, R) - center;
@@ -67,8 +67,8 @@ FN RepresentativePoint representative_point_sphere(vec3 center, vec3 R, float ra
     return p;
 }
 
-/* Tube (capsule) between end0 and end1 (from the shaded point, m): the point of the segment next to the ray, then
- * the sphere step. A line widens the lobe along one axis only: alpha / alpha'. Karis 2013, tube lights. */
+/* Tube (capsule) between end0 and end1 (from the shaded point, m): the point of the segment closest to the ray,
+ * then the sphere step. A line widens the lobe along one axis only: alpha / alpha'. Karis 2013, tube lights. */
 FN RepresentativePoint representative_point_tube(vec3 end0, vec3 end1, vec3 R, float radius, float alpha)
 {
     vec3 axis = end1 - end0;
@@ -83,9 +83,9 @@ FN RepresentativePoint representative_point_tube(vec3 end0, vec3 end1, vec3 R, f
 
 /* ---- lighting ---- */
 
-/* Radiance (cd/m^2 per channel) that leaves P (m) towards V because of a sphere of light; intensity in cd per
- * channel (radiance pi radius^2), center and radius in m, P outside. Diffuse light is exact. energy and dfg as in
- * surface_lobes_cos(). For radius -> 0 this is a point light. */
+/* Radiance (cd/m^2 per channel) reflected at P (m) towards V from a sphere light; intensity in cd per channel
+ * (radiance pi radius^2), center and radius in m, P outside. The diffuse part is exact. energy and dfg as in
+ * surface_lobes_cos(). Approaches a point light for radius -> 0. */
 FN vec3 shade_sphere(Surface s, vec3 P, vec3 V, vec3 center, float radius, vec3 intensity, int energy,
                      vec2 dfg)
 {
@@ -98,8 +98,8 @@ FN vec3 shade_sphere(Surface s, vec3 P, vec3 V, vec3 center, float radius, vec3 
     RepresentativePoint p = representative_point_sphere(to_center, reflect(-V, s.N), radius, s.alpha);
     vec3 specular = surface_lobes_cos(s, V, p.L, energy, dfg).specular * p.normalisation;
 
-    /* The base sees the whole sphere: E sphere_irradiance / (pi sin^2) in place of E N.L. A light that is just
-     * below the horizon with its centre gives the base's weight at the horizon. */
+    /* The whole sphere lights the base: E sphere_irradiance / (pi sin^2) in place of E N.L. A light whose
+     * center is just below the horizon takes the base's weight at the horizon. */
     float NdotL = dot(s.N, L);
     float cos_mean = sphere_irradiance(NdotL, sin_sigma) / (PI * sin_sigma * sin_sigma);
     vec3 L_above = normalize(L + s.N * max(1e-3f - NdotL, 0.0f));
@@ -107,8 +107,8 @@ FN vec3 shade_sphere(Surface s, vec3 P, vec3 V, vec3 center, float radius, vec3 
     return (specular + diffuse) * (intensity * (1.0f / d2));
 }
 
-/* The same with the lobe itself widened to alpha': keeps its normalisation without a factor, and makes glossy
- * surfaces look rough, for which Karis gave it up ("Specular D modification"). Diffuse as a point light. */
+/* The same with the lobe itself widened to alpha': normalised without a factor, but glossy surfaces look rough,
+ * for which Karis abandoned it ("Specular D modification"). Diffuse as a point light. */
 FN vec3 shade_sphere_widened(Surface s, vec3 P, vec3 V, vec3 center, float radius, vec3 intensity, int energy,
                              vec2 dfg)
 {

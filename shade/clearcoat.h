@@ -1,10 +1,10 @@
-/* clearcoat.h - a clear lacquer over everything else (KHR_materials_clearcoat): ior 1.5, a roughness and a normal of
- * its own. */
+/* clearcoat.h - a clear lacquer over all other layers (KHR_materials_clearcoat): ior 1.5, its own roughness and
+ * normal. */
 #ifndef SHADE_CLEARCOAT_H
 #define SHADE_CLEARCOAT_H
 
-/* What the coat reflects of the light towards V: 0.04 + 0.96 (1 - N.V)^5. N.V, not V.H, so that one number weights
- * lobe and base and their mix keeps the energy. KHR_materials_clearcoat, "Implementation". */
+/* Reflectance of the coat towards V: 0.04 + 0.96 (1 - N.V)^5. N.V rather than V.H, so that one number weights
+ * lobe and base and their mix conserves energy. KHR_materials_clearcoat, "Implementation". */
 FN float F_clearcoat(float NdotV)
 {
     return F_Schlick1(0.04f, 1.0f, NdotV);

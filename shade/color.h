@@ -1,13 +1,13 @@
-/* color.h - transfer functions and color spaces. Linear values have Rec.709 primaries and white D65 unless a
- * name says otherwise. Matrices are of the primaries themselves, to ten digits (ITU-R BT.709, BT.2020,
- * SMPTE RP 431, D65 = (0.3127, 0.3290)); mat3() takes columns. */
+/* color.h - transfer functions and color spaces. Linear values have Rec.709 primaries and a D65 white unless a
+ * name says otherwise. Matrices are derived from the primaries to ten digits (ITU-R BT.709, BT.2020, SMPTE RP
+ * 431, D65 = (0.3127, 0.3290)); mat3() takes columns. */
 #ifndef SHADE_COLOR_H
 #define SHADE_COLOR_H
 
 /* ---- transfer ---- */
 
-/* sRGB transfer function, one channel, linear [0, 1] to encoded [0, 1] and back. Not a power of 2.2. The larger
- * argument of pow keeps the arm that is not taken away from NaN. IEC 61966-2-1. */
+/* sRGB transfer function, one channel, linear [0, 1] to encoded [0, 1] and back; not a power of 2.2. max()
+ * keeps the unselected arm of sel() from being NaN. IEC 61966-2-1. */
 FN float srgb_from_linear1(float c)
 {
     return sel(c <= 0.0031308f, 12.92f * c, 1.055f * pow(max(c, 0.0031308f), 1.0f / 2.4f) - 0.055f);

@@ -2,7 +2,7 @@
 #ifndef SHADE_DISPERSION_H
 #define SHADE_DISPERSION_H
 
-/* Index of the middle of a channel (0 red, 1 green, 2 blue): ior -+ (ior - 1) 0.025 dispersion, at least 1;
+/* Index at the center of a channel (0 red, 1 green, 2 blue): ior -+ (ior - 1) 0.025 dispersion, at least 1;
  * dispersion is 20 / Abbe number. ior 0 (infinite) has no dispersion. KHR_materials_dispersion, "Real-time". */
 FN float dispersed_ior(float ior, float dispersion, int channel)
 {
@@ -21,8 +21,8 @@ FN float dispersed_ior_at(float ior, float dispersion, float wavelength_nm)
 
 /* ---- one wavelength at a time ---- */
 
-/* A wavelength and what a path that has it counts for: 3 in its channel, 0 in the others, so that the mean over
- * channels is 1. */
+/* A wavelength and the weight of its path: 3 in its channel, 0 in the others, so that the mean over channels is
+ * 1. */
 STRUCT(WavelengthSample)
 {
     float wavelength_nm;
@@ -30,15 +30,16 @@ STRUCT(WavelengthSample)
     vec3 weight;
 };
 
-/* Where the bands of the channels have their middles: the dominant wavelengths of Rec.709's primaries against D65. */
+/* Centers of the channels' bands: the dominant wavelengths of Rec.709's primaries against D65. */
 #define RED_NM 611.4f
 #define GREEN_NM 549.1f
 #define BLUE_NM 464.2f
 /* Half width of a band: neighbours overlap, so that a rainbow has no gaps and no steps. */
 #define BAND_NM 75.0f
 
-/* u in [0, 1) chooses a channel and a wavelength in its band, a tent of mean RED_NM, GREEN_NM or BLUE_NM. No weight is
- * negative, unlike those of color matching functions: a rainbow is less saturated than the spectrum, and less noisy. */
+/* Samples a channel and a wavelength in its band, a tent around RED_NM, GREEN_NM or BLUE_NM, from u in [0, 1).
+ * No weight is negative, unlike those of color matching functions: a rainbow is less saturated than the
+ * spectrum, and less noisy. */
 FN WavelengthSample sample_wavelength(float u)
 {
     WavelengthSample s;

@@ -1,10 +1,10 @@
-/* footprint.h - where a pixel lands in a texture: how large, how stretched, and where lookups are made that cover it. */
+/* footprint.h - the footprint of a pixel in a texture, and the anisotropic lookups that cover it. */
 #ifndef SHADE_FOOTPRINT_H
 #define SHADE_FOOTPRINT_H
 
 #define FOOTPRINT_MAX_PROBES 16
 
-/* An ellipse. Lengths in texels of the full image, squared. */
+/* An ellipse. Lengths in texels of mip 0, squared. */
 STRUCT(Footprint)
 {
     float longest2; /* of the derivatives along x and y: rho of OpenGL */
@@ -14,7 +14,7 @@ STRUCT(Footprint)
     float axis_v;
 };
 
-/* Trilinear lookups in a row along the major axis, around the middle. */
+/* Trilinear lookups in a row along the major axis, around the center. */
 STRUCT(ProbeRow)
 {
     int count;
@@ -23,8 +23,8 @@ STRUCT(ProbeRow)
     float step_v;
 };
 
-/* Of an image of size texels, from the change of its coordinates from pixel to pixel. The axes' squares are the eigenvalues
- * of J J^T of the derivatives J = (ux uy; vx vy). */
+/* From the derivatives of texture coordinates by pixel, for an image of size texels. The squared axes are the
+ * eigenvalues of J J^T of J = (ux uy; vx vy). */
 FN Footprint footprint_from_derivatives(vec2 size, vec2 duv_dx, vec2 duv_dy)
 {
     float ux = duv_dx[0] * size[0];
@@ -47,19 +47,20 @@ FN Footprint footprint_from_derivatives(vec2 size, vec2 duv_dx, vec2 duv_dy)
     return f;
 }
 
-/* Whether it has a size whose square is finite; false for NaN. */
+/* Whether its area is finite; false for NaN. */
 FN bool footprint_is_finite(Footprint f)
 {
     return f.major2 + f.minor2 < 2e18f;
 }
 
-/* Covers the footprint with probes (after McCormack et al. 1999, "Feline"). finest: width of the texels of the finest level
- * that is there, in texels of the full image, whose size is 1 / texel_size; nothing is finer.
+/* Covers the footprint with probes (after McCormack et al. 1999, "Feline"). finest: texel width of the finest
+ * mip that is resident, in texels of mip 0, whose size is 1 / texel_size.
  *
- * As many as the axes' ratio asks for, up to 16, each as wide as the minor axis. Up to a ratio of 1.5 one probe as
- * wide as the major axis does; from there to 2 two of them part while their width shrinks to the minor axis. n probes
- * of width w that are s apart have the second moment (w^2 + (n^2 - 1) s^2) / 12; s is such that it is major^2 / 12,
- * that of the footprint, so that hardly anything jumps where one more probe comes in. */
+ * There are as many probes as the ratio of the axes requires, up to 16, each as wide as the minor axis. Up to a
+ * ratio of 1.5 one probe as wide as the major axis suffices; from there to 2 two probes move apart while their
+ * width shrinks to the minor axis. n probes of width w at a distance s have the second moment (w^2 + (n^2 - 1)
+ * s^2) / 12; s makes it major^2 / 12, that of the footprint, so that the result hardly jumps where the count
+ * changes. */
 FN ProbeRow footprint_probes(Footprint f, float finest, vec2 texel_size)
 {
     ProbeRow p;

@@ -1,14 +1,14 @@
-/* fresnel.h - how much an interface reflects. All results are in [0, 1] for arguments in their domain.
+/* fresnel.h - Fresnel reflectance of an interface. All results are in [0, 1] for arguments in their domain.
  *
- * Which cosine goes in is the caller's choice and matters: V.H inside a microfacet lobe; N.V for a resolved
- * smooth surface, and for the split of prefiltered light. */
+ * The caller chooses the cosine: V.H inside a microfacet lobe; N.V for a resolved smooth surface and for the
+ * split sum of prefiltered light. */
 #ifndef SHADE_FRESNEL_H
 #define SHADE_FRESNEL_H
 
 /* ---- Schlick's approximation ---- */
 
-/* The weight w = (1 - V.H)^5 of Schlick's approximation. The clamp is for cosines that rounding put outside
- * [0, 1]. Schlick 1994, equation 15. */
+/* The weight w = (1 - V.H)^5 of Schlick's approximation. The clamp guards against cosines that rounding puts
+ * outside [0, 1]. Schlick 1994, equation 15. */
 FN float schlick_weight(float VdotH)
 {
     float m = clamp(1.0f - VdotH, 0.0f, 1.0f);
@@ -22,9 +22,9 @@ FN vec3 F_Schlick(vec3 F0, vec3 F90, float VdotH)
     return F0 + (F90 - F0) * schlick_weight(VdotH);
 }
 
-/* The same seen from either side of a volume's boundary; eta is the ior of the far side over that of the near one.
- * From the denser side (eta < 1) the cosine is that of the rarer side, the larger angle, and beyond the critical angle
- * all is reflected: 1, whatever F90. KHR_materials_volume, "Fresnel". */
+/* The same from either side of a volume's boundary; eta is the ior of the far side over that of the near one.
+ * From the denser side (eta < 1) the cosine is that of the rarer side, the larger angle; beyond the critical
+ * angle there is total internal reflection: 1 for any F90. KHR_materials_volume, "Fresnel". */
 FN vec3 F_Schlick_boundary(vec3 F0, vec3 F90, float VdotH, float eta)
 {
     float sin2 = (1.0f - VdotH * VdotH) / (eta * eta);
@@ -38,9 +38,9 @@ FN float F_Schlick1(float F0, float F90, float VdotH)
     return F0 + (F90 - F0) * schlick_weight(VdotH);
 }
 
-/* Schlick's approximation with a spherical Gaussian for the power:
+/* Schlick's approximation with a spherical Gaussian in place of the power:
  *   F = F0 + (1 - F0) 2^((-5.55473 V.H - 6.98316) V.H)
- * Within 0.004 of the power; at V.H = 1 it leaves 1.7e-4. Karis 2013, equation 5; Lagarde 2012. */
+ * Within 0.004 of the power; 1.7e-4 too large at V.H = 1. Karis 2013, equation 5; Lagarde 2012. */
 FN vec3 F_Schlick_SG(vec3 F0, float VdotH)
 {
     return F0 + (1.0f - F0) * exp2((-5.55473f * VdotH - 6.98316f) * VdotH);
@@ -80,10 +80,10 @@ FN float ior_from_F0(float F0)
 
 /* ---- Fresnel's equations, unpolarised light ---- */
 
-/* Reflectance of a dielectric. cos_i in [0, 1] against the normal on the side light comes from; eta = ior of the
- * far side / ior of the near side; below 1 there is total reflection (1) beyond the critical angle. Fresnel 1823
- * in the form of r_s and r_p with the refracted cosine, eta cos_t = sqrt(g2) with g2 = eta^2 - 1 + cos_i^2, in which
- * nothing cancels where eta is near 1. */
+/* Reflectance of a dielectric. cos_i in [0, 1] against the normal on the side of incidence; eta = ior of the
+ * far side / ior of the near side; below 1 there is total internal reflection (1) beyond the critical angle.
+ * Fresnel 1823 in the form of r_s and r_p with the refracted cosine, eta cos_t = sqrt(g2) with g2 = eta^2 - 1 +
+ * cos_i^2, which does not cancel where eta is near 1. */
 FN float F_dielectric(float cos_i, float eta)
 {
     float g2 = (eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i;
@@ -94,7 +94,7 @@ FN float F_dielectric(float cos_i, float eta)
 }
 
 /* Cosine-weighted mean of F_dielectric for eta >= 1, a fit (within 0.006 up to 2.5): Kulla and Conty 2017 as
- * refitted in Cycles. From inside: 1 - (1 - mean) / eta^2, exact. */
+ * refitted in Cycles. For light from the denser side: 1 - (1 - mean) / eta^2, exact. */
 FN float F_dielectric_avg(float eta)
 {
     return (eta - 1.0f) / (4.08567f + 1.00071f * eta);

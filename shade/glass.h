@@ -1,5 +1,5 @@
-/* glass.h - the boundary of a dielectric that lets light through, energy conserved: Fresnel's equations, and what
- * microfacets scatter more than once shared out between both sides.
+/* glass.h - the energy-conserving boundary of a transmissive dielectric: Fresnel's equations, and multiple
+ * scattering between microfacets distributed to both sides.
  *
  * eta is the ior of the far side over that of the near one. */
 #ifndef SHADE_GLASS_H
@@ -7,23 +7,24 @@
 
 /* ---- Fresnel's equations in the terms of glTF ---- */
 
-/* How far F_dielectric has come on its way from normal incidence to grazing, in [0, 1]:
+/* Weight of F90 in F_dielectric, from 0 at normal incidence to 1 at grazing:
  *   w = (F - f0) / (1 - f0),  f0 = ((eta - 1) / (eta + 1))^2
- * It takes the place of schlick_weight(). 1 where all is reflected. eta > 0, finite. */
+ * It replaces schlick_weight(). 1 for total internal reflection. eta > 0, finite. */
 FN float dielectric_weight(float cos_i, float eta)
 {
     float f0 = F0_from_ior(eta);
     return clamp((F_dielectric(cos_i, eta) - f0) / (1.0f - f0), 0.0f, 1.0f);
 }
 
-/* Whether light that meets a microfacet at cos_i is reflected totally. */
+/* Whether a microfacet at cos_i reflects totally. */
 FN bool is_total_reflection(float cos_i, float eta)
 {
     return (eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i <= 0.0f;
 }
 
-/* F_dielectric with the strength and color of KHR_materials_specular: F0 + (F90 - F0) w; total reflection is neither
- * weakened nor colored (KHR_materials_volume). F0 of F0_from_ior(eta) and F90 1 give F_dielectric itself. */
+/* F_dielectric with the strength and color of KHR_materials_specular: F0 + (F90 - F0) w; total internal
+ * reflection is neither weakened nor colored (KHR_materials_volume). F0 = F0_from_ior(eta) and F90 = 1 give
+ * F_dielectric itself. */
 FN vec3 F_boundary(vec3 F0, vec3 F90, float cos_i, float eta)
 {
     return sel(is_total_reflection(cos_i, eta), vec3(1.0f), F0 + (F90 - F0) * dielectric_weight(cos_i, eta));
@@ -31,7 +32,7 @@ FN vec3 F_boundary(vec3 F0, vec3 F90, float cos_i, float eta)
 
 /* ---- albedos ---- */
 
-/* What a rough boundary does to light towards V by one scattering event. */
+/* Directional albedos of a rough boundary towards V for single scattering. */
 STRUCT(GlassAlbedo)
 {
     float E;       /* reflected if F were 1: A + B of the split sum */
@@ -40,7 +41,7 @@ STRUCT(GlassAlbedo)
     float through; /* transmitted if F were 0 where it is below 1 */
 };
 
-/* Term i of n: a visible normal, and both ways from it. */
+/* Term i of n: a visible normal, with reflection and transmission at it. */
 FN GlassAlbedo glass_albedo_sample(uint i, uint n, float alpha, float NdotV, float eta)
 {
     vec3 V = vec3(sqrt((1.0f - NdotV) * (1.0f + NdotV)), 0.0f, NdotV);
@@ -68,8 +69,9 @@ FN vec3 smooth_glass(float NdotV, float eta)
     return vec3(dielectric_weight(NdotV, eta), 1.0f, sel(is_total_reflection(NdotV, eta), 0.0f, 1.0f));
 }
 
-/* What layer_tables() wants of a boundary, by n terms: (w, R + T, through), where w is the mean of dielectric_weight()
- * over the reflection: R = E (f0 + (1 - f0) w). All three change slowly with eta, unlike R and T. */
+/* The LUT values of a boundary for layer_tables(), by n terms: (w, R + T, through), where w is the mean of
+ * dielectric_weight() over the reflection: R = E (f0 + (1 - f0) w). All three vary slowly with eta, unlike R
+ * and T. */
 FN vec3 integrate_glass(float perceptual_roughness, float NdotV, float eta, uint n)
 {
     float mu = clamp(NdotV, NDOTV_MIN, 1.0f);
@@ -94,8 +96,8 @@ FN vec3 integrate_glass(float perceptual_roughness, float NdotV, float eta, uint
 
 /* ---- compensation ---- */
 
-/* The albedos of a boundary whose F is F_boundary() of F0 and F90, from E of the split sum and (w, R + T, through) of
- * integrate_glass(). F90 is 1 for what total reflection may be part of: an upper bound of R. */
+/* Albedos of a boundary whose F is F_boundary() of F0 and F90, from E of the split sum and (w, R + T, through)
+ * of integrate_glass(). Where total internal reflection is possible F90 is taken as 1: an upper bound of R. */
 FN GlassAlbedo glass_albedo(float F0, float F90, float eta, float E, vec3 glass)
 {
     float f0 = F0_from_ior(eta);
@@ -110,9 +112,9 @@ FN GlassAlbedo glass_albedo(float F0, float F90, float eta, float E, vec3 glass)
     return a;
 }
 
-/* Factor on both lobes with which they add up to 1: what leaves a microfacet only to meet another is taken to be shared
- * out as the rest is. At most 3: from inside, at grazing angles, boundaries of nearly equal ior scatter once what they
- * scatter up to six times. */
+/* Factor on both lobes with which they add up to 1: multiply scattered light is assumed to be distributed like
+ * singly scattered light. At most 3: seen from inside at grazing angles, boundaries of nearly equal ior scatter
+ * up to six times more than their single scattering. */
 FN float glass_compensation(GlassAlbedo a)
 {
     return clamp(1.0f / max(a.R + a.T, 1e-3f), 1.0f, 3.0f);

@@ -1,5 +1,5 @@
-/* ibl.h - image based light. What reads a texture is passed in and out as values: the *_sample functions say
- * where to look and with what weight; a loop over them with a texture is the integral.
+/* ibl.h - image-based lighting. Texture lookups stay outside: the *_sample functions return directions and
+ * weights, and the integral is a loop over them that reads a texture.
  *
  *   reference    specular_ibl_sample()   Monte Carlo over the BRDF itself, "SpecularIBL" of Karis 2013
  *   prefilter    prefilter_sample()      one radiance per direction and roughness, "PrefilterEnvMap"
@@ -12,7 +12,7 @@
 
 STRUCT(SpecularSample)
 {
-    vec3 L;      /* unit, where to read the environment */
+    vec3 L;      /* unit, direction of the environment lookup */
     vec3 weight; /* f N.L / pdf; 0 below the horizon */
     float pdf;   /* of L, per sr */
 };
@@ -43,14 +43,14 @@ FN SpecularSample specular_ibl_sample(uint i, uint n, vec3 F0, vec3 F90, float p
 
 STRUCT(PrefilterSample)
 {
-    vec3 L;       /* unit, where to read the environment */
-    float weight; /* N.L; 0 below the horizon, then not to be read */
+    vec3 L;       /* unit, direction of the environment lookup */
+    float weight; /* N.L; 0 below the horizon: no lookup */
     float pdf;    /* of L, per sr */
 };
 
-/* Sample i of n for the lobe around R, with N = V = R: the lobe of a surface seen head on. Prefiltered radiance is
- * the sum of weight times radiance(L, prefilter_lod()) over the sum of weight. alpha 0 is a copy: every sample is
- * R. Karis 2013, "PrefilterEnvMap". */
+/* Sample i of n for the lobe around R, with N = V = R (a surface seen head-on). Prefiltered radiance is the sum
+ * of weight times radiance(L, prefilter_lod()) over the sum of weight. alpha 0 copies the environment: every
+ * sample is R. Karis 2013, "PrefilterEnvMap". */
 FN PrefilterSample prefilter_sample(uint i, uint n, float alpha, vec3 R)
 {
     float a = max(alpha, ALPHA_MIRROR);
@@ -63,9 +63,10 @@ FN PrefilterSample prefilter_sample(uint i, uint n, float alpha, vec3 R)
     return r;
 }
 
-/* Mip at which a sample of density pdf, one of n, covers a texel: 1/2 log2(omega_s / omega_p) + 1, at least 0.
- * omega_s = 1 / (n pdf); texel_solid_angle = omega_p, 4 pi / (6 size^2) for a cube. The 1 overlaps the footprints.
- * Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"; GPU Gems 3, chapter 20. */
+/* Mip at which the texels match a sample of density pdf, one of n: 1/2 log2(omega_s / omega_p) + 1, at least 0.
+ * omega_s = 1 / (n pdf); texel_solid_angle = omega_p, 4 pi / (6 size^2) for a cube. The 1 makes the footprints
+ * overlap. Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"; GPU Gems 3,
+ * chapter 20. */
 FN float prefilter_lod(float pdf, uint n, float texel_solid_angle)
 {
     float sample_solid_angle = 1.0f / max(float(n) * pdf, 1e-20f);
@@ -74,9 +75,9 @@ FN float prefilter_lod(float pdf, uint n, float texel_solid_angle)
 
 /* ---- the split sum ---- */
 
-/* Sample i of n of (A, B) with int f N.L dL = F0 A + F90 B: A carries 1 - (1 - V.H)^5, B carries (1 - V.H)^5, both
- * times 4 Vis N.L V.H / N.H. N = z, V in the plane y = 0. NdotV in [0, 1]. k < 0: height-correlated Smith; else
- * Schlick-GGX with that k. Karis 2013, "IntegrateBRDF". */
+/* Sample i of n of (A, B) with int f N.L dL = F0 A + F90 B: A has the weight 1 - (1 - V.H)^5, B has (1 -
+ * V.H)^5, both times 4 Vis N.L V.H / N.H. N = z, V in the plane y = 0. NdotV in [0, 1]. k < 0:
+ * height-correlated Smith; otherwise Schlick-GGX with that k. Karis 2013, "IntegrateBRDF". */
 FN vec2 dfg_sample_k(uint i, uint n, float perceptual_roughness, float NdotV, float k)
 {
     float alpha = max(alpha_from_roughness(perceptual_roughness), ALPHA_MIRROR);
@@ -128,7 +129,7 @@ FN vec3 approximate_specular_ibl(vec3 F0, vec3 F90, vec3 prefiltered, vec2 dfg)
     return prefiltered * (F0 * dfg[0] + F90 * dfg[1]);
 }
 
-/* Reflectance of the specular layer: what leaves after one bounce, and after more. */
+/* Reflectance of the specular layer after a single bounce, and after more. */
 STRUCT(MultiScatter)
 {
     vec3 single;   /* FssEss, to be multiplied with prefiltered radiance */
@@ -150,14 +151,14 @@ FN MultiScatter multiscatter_ibl(vec3 k_S, vec3 F0, vec3 F90, vec2 dfg)
     return r;
 }
 
-/* Radiance (cd/m^2) that a surface reflects of its surroundings, occlusion included, emission not.
+/* Radiance (cd/m^2) of the environment reflected by a surface, with occlusion, without emission.
  * specular_radiance is prefiltered for the surface's roughness along reflect(-V, N); dfg is (A, B) at NdotV.
  *
  * ENERGY_GLTF is Khronos' renderer: k_S by F_Schlick_roughness, the sum of single and multiple scattering times
  * the specular radiance, the base under a dielectric weighted with one minus that sum (its largest channel, as
- * KHR_materials_specular asks; Khronos' renderer takes each channel, which differs for a colored F0 only), and the
- * whole sum times occlusion. ENERGY_CONSERVING: k_S = F0, and multiple scattering takes the irradiance, as
- * Fdez-Aguera has it. Either way a white surface in a uniform light returns that light. */
+ * required by KHR_materials_specular; Khronos' renderer does it per channel, which differs for a colored F0
+ * only), and the whole sum times occlusion. ENERGY_CONSERVING: k_S = F0, and multiple scattering takes the
+ * irradiance, as in Fdez-Aguera. In either mode a white surface in a uniform environment returns its radiance. */
 FN vec3 surface_ibl(Surface s, float NdotV, vec2 dfg, vec3 specular_radiance, vec3 irradiance_over_pi,
                     int energy)
 {

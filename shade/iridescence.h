@@ -7,16 +7,16 @@
 #ifndef SHADE_IRIDESCENCE_H
 #define SHADE_IRIDESCENCE_H
 
-/* One Gaussian of the eye's sensitivity in the Fourier domain of optical path: amplitude sqrt(2 pi variance)
- * cos(position phase + shift) exp(-variance phase^2); phase in 1/m, normalised by 1.0685e-7. */
+/* One Gaussian of the eye's sensitivity in the Fourier domain of the optical path: amplitude sqrt(2 pi
+ * variance) cos(position phase + shift) exp(-variance phase^2); phase in 1/m, normalised by 1.0685e-7. */
 FN float film_gaussian(float amplitude, float position, float variance, float phase, float shift)
 {
     return amplitude * (1.0f / 1.0685e-7f) * sqrt(2.0f * PI * variance) * cos(position * phase + shift) *
            exp(-variance * phase * phase);
 }
 
-/* The sensitivity to interference of light with an optical path difference in nm and a phase shift per channel in
- * rad, linear Rec.709. Belcour and Barla 2017, equation 12; x has a second lobe in the blue. */
+/* Sensitivity to interference at an optical path difference in nm and a phase shift per channel in rad, linear
+ * Rec.709. Belcour and Barla 2017, equation 12; x has a second lobe in the blue. */
 FN vec3 film_sensitivity(float path_nm, vec3 shift)
 {
     float phase = 2.0f * PI * path_nm * 1e-9f;
@@ -27,21 +27,22 @@ FN vec3 film_sensitivity(float path_nm, vec3 shift)
     return rec709_from_xyz(vec3(x, y, z));
 }
 
-/* Refractive index whose reflectance against air is F0; F0 of 1 has none and counts as 0.9999. */
+/* Refractive index with the reflectance F0 against air; F0 of 1 is clamped to 0.9999, as no index has it. */
 FN vec3 film_base_ior(vec3 F0)
 {
     vec3 root = sqrt(clamp(F0, 0.0f, 0.9999f));
     return (1.0f + root) / (1.0f - root);
 }
 
-/* Light reflected at the far side of the film, from its index and that of the base: Schlick per channel. */
+/* Reflectance of the far side of the film, from its index and that of the base: Schlick per channel. */
 FN vec3 film_base_reflectance(float film_ior, vec3 base_ior, float cos_film)
 {
     vec3 r = (base_ior - film_ior) / (base_ior + film_ior);
     return F_Schlick(r * r, vec3(1.0f), cos_film);
 }
 
-/* The sum over interreflections: R12 at the film's near side (T121 = 1 - R12 passes twice), R23 at its far side. */
+/* The sum over interreflections: R12 is the reflectance of the film's near side (T121 = 1 - R12, passed twice),
+ * R23 that of its far side. */
 FN vec3 film_series(float R12, vec3 R23, float path_nm, vec3 shift)
 {
     float T121 = 1.0f - R12;
@@ -55,19 +56,20 @@ FN vec3 film_series(float R12, vec3 R23, float path_nm, vec3 shift)
     return clamp(I, 0.0f, 1.0f);
 }
 
-/* Below 0.03 nm, a tenth of an atom, there is no film: from 0 to 1. KHR_materials_iridescence. */
+/* Fades the film in from 0 to 0.03 nm, a tenth of an atom. KHR_materials_iridescence. */
 FN float film_fade(float thickness_nm)
 {
     return smoothstep(0.0f, 0.03f, thickness_nm);
 }
 
-/* Reflectance in [0, 1] of a film of the given index and thickness (nm) over a base of reflectance F0, in air, for
- * light at cos_air to the normal. Below 0.03 nm the film fades into F_Schlick(F0, 1, cos_air); head on, so does a film
- * whose index is that of air or of the base. (At other angles Schlick's curve reflects at a boundary that is none.)
+/* Reflectance in [0, 1] of a film of the given index and thickness (nm) over a base of reflectance F0, in air,
+ * for light at cos_air to the normal. Below 0.03 nm the film fades into F_Schlick(F0, 1, cos_air); at normal
+ * incidence, so does a film with the index of air or of the base. (At other angles Schlick's curve reflects
+ * without an interface.)
  *
- * From the text this differs where there is no film: it fades the index alone and keeps the product of both
- * reflectances above 1e-5, with which a thickness of 0 would still add 0.006 and more. And its sum exceeds 1 by 3e-5 at
- * places; here it does not. */
+ * This differs from the extension's text for vanishing films: the text fades the index only and keeps the
+ * product of both reflectances above 1e-5, with which a thickness of 0 would still add 0.006 and more. Its sum
+ * also exceeds 1 by 3e-5 in places; this one does not. */
 FN vec3 F_iridescent(float film_ior, float thickness_nm, vec3 F0, float cos_air)
 {
     float fade = film_fade(thickness_nm);

@@ -1,5 +1,5 @@
-/* layers.h - the glTF surface with its material extensions: what it is, and where its lobes ask for light. The light
- * itself is in layers_direct.h (lamps) and layers_ibl.h (surroundings). Outermost first:
+/* layers.h - the glTF surface with its material extensions: parameters and lookup coordinates of its lobes.
+ * Evaluation is in layers_direct.h (punctual lights) and layers_ibl.h (environment). Outermost first:
  *
  *   clearcoat > sheen > mix(metallic) of
  *     metal:      specular                                iridescence replaces F, anisotropy D and V
@@ -7,8 +7,8 @@
  *       specular transmission                             a thin wall, or the boundary of a volume
  *       mix(diffuse transmission) of diffuse reflection and diffuse transmission
  *
- * Values are passed in; no texture is read here. Both energy modes are those of surface.h: ENERGY_GLTF mixes as the
- * extensions' texts do, ENERGY_CONSERVING never returns more than it received. */
+ * Values are passed in; no texture is read here. Both energy modes are those of surface.h: ENERGY_GLTF mixes as
+ * specified by the extensions, ENERGY_CONSERVING never gains energy. */
 #ifndef SHADE_LAYERS_H
 #define SHADE_LAYERS_H
 
@@ -22,7 +22,8 @@
 #define LAYER_DISPERSION 128u
 #define LAYER_SCATTER 256u
 
-/* A shaded point. Members of a layer whose bit is not in `layers` are not read. Start from layers_from_surface(). */
+/* A shaded point. Members of a layer whose bit is not in `layers` are ignored. Start from
+ * layers_from_surface(). */
 STRUCT(Layers)
 {
     Surface base;
@@ -46,22 +47,22 @@ STRUCT(Layers)
     float iridescence_ior;          /* of the film, >= 1 */
     float iridescence_thickness_nm; /* >= 0 */
     /* LAYER_TRANSMISSION */
-    float transmission; /* [0, 1]: share of what enters the dielectric */
+    float transmission; /* [0, 1]: fraction of the light that enters the dielectric */
     /* LAYER_DIFFUSE_TRANSMISSION */
-    float diffuse_transmission;      /* [0, 1]: share of what is neither reflected nor transmitted */
+    float diffuse_transmission;      /* [0, 1]: fraction of the light neither reflected nor transmitted */
     vec3 diffuse_transmission_color; /* [0, 1] */
     /* LAYER_VOLUME: set where the thickness is above 0; without it a wall is thin */
-    float thickness;            /* m, node scale in it: for diffuse transmission; rays have real distances */
-    vec3 attenuation_color;     /* [0, 1] */
-    float attenuation_distance; /* m; infinity: nothing is absorbed */
+    float thickness;        /* m, in world scale: for diffuse transmission; rays know their real distances */
+    vec3 attenuation_color; /* [0, 1] */
+    float attenuation_distance; /* m; infinity: no absorption */
     /* LAYER_DISPERSION */
-    float dispersion; /* 20 / Abbe number; for volume.h's users, the lobes here do not read it */
+    float dispersion; /* 20 / Abbe number; not read by the lobes here */
     /* LAYER_SCATTER */
-    vec3 multiscatter_color;  /* [0, 1]: what a deep layer of the volume returns */
+    vec3 multiscatter_color;  /* [0, 1]: albedo of a deep volume */
     float scatter_anisotropy; /* g of Henyey and Greenstein, (-1, 1) */
 };
 
-/* What depends on the eye alone: once per point, for all lights. Make it with layer_tables(). */
+/* View-dependent terms, computed once per point for all lights by layer_tables(). */
 STRUCT(LayerTables)
 {
     vec2 dfg;             /* (A, B) of the split sum at layers_dfg_point() */
@@ -69,12 +70,12 @@ STRUCT(LayerTables)
     float transmission_E; /* A + B at layers_transmission_point() */
     vec3 glass;           /* integrate_glass() at layers_glass_point(), where layers_is_exact() */
     float sheen_E;     /* Charlie's directional albedo at surface_NdotV() and sheen_roughness; not clamped */
-    float film_weight; /* iridescence, faded out where the film has no thickness: there it changes nothing */
+    float film_weight; /* iridescence, faded out for a film of no thickness */
     vec3 film_F_base;  /* reflectance of the film over the dielectric and over the metal, at N.V */
     vec3 film_F_metal;
 };
 
-/* What the surroundings send, cd/m^2. Members of inactive layers are not read. */
+/* Radiance of the environment, cd/m^2. Members of inactive layers are ignored. */
 STRUCT(LayerLight)
 {
     vec3 specular;                /* prefiltered for layers_reflection() and the base's roughness */
@@ -82,7 +83,7 @@ STRUCT(LayerLight)
     vec3 irradiance_back_over_pi; /* around -N */
     vec3 clearcoat;               /* prefiltered for layers_clearcoat_reflection() and its roughness */
     vec3 sheen;                   /* prefiltered with Charlie for reflect(-V, N) and its roughness */
-    vec3 transmitted; /* along the refracted rays, attenuation in it; the boundary's tint and 1 - F not */
+    vec3 transmitted; /* along the refracted rays, with attenuation, without the boundary's tint and 1 - F */
 };
 
 /* The surface without layers, every member neutral. */
@@ -123,27 +124,27 @@ FN bool has_layer(Layers m, uint layer)
 
 /* ---- the base's lobe ---- */
 
-/* V or L in the frame in which the base's lobe is axis-aligned; without anisotropy any tangent will do. */
+/* V or L in the frame in which the base's lobe is axis-aligned; without anisotropy any tangent serves. */
 FN vec3 layers_to_frame(Layers m, vec3 v)
 {
     return to_frame(v, m.anisotropy_T, m.anisotropy_B, m.base.N);
 }
 
-/* GGX widths (along T, along B) of reflection at the base, of a given width without anisotropy. */
+/* GGX widths (along T, along B) of reflection at the base, from the width without anisotropy. */
 FN vec2 layers_alpha(Layers m, float alpha)
 {
     float strength = sel(has_layer(m, LAYER_ANISOTROPY), m.anisotropy, 0.0f);
     return max(anisotropic_alpha(alpha, strength), ALPHA_MIRROR);
 }
 
-/* Width of the specular transmission without anisotropy: a volume's boundary is as rough as it reflects, a thin wall
- * blurs by its ior. */
+/* Width of the specular transmission without anisotropy: a volume's boundary has the roughness of its
+ * reflection, a thin wall blurs by its ior. */
 FN float layers_transmission_alpha(Layers m)
 {
     return sel(has_layer(m, LAYER_VOLUME), m.base.alpha, thin_wall_alpha(m.base.alpha, m.ior));
 }
 
-/* ior beyond the surface over that on the eye's side, of the middle of a channel (0 red, 1 green, 2 blue). */
+/* ior beyond the surface over that on the eye's side, at the center of a channel (0 red, 1 green, 2 blue). */
 FN float layers_eta(Layers m, int channel)
 {
     if (!has_layer(m, LAYER_DISPERSION))
@@ -159,9 +160,9 @@ FN bool layers_is_inside(Layers m)
     return has_layer(m, LAYER_VOLUME) && m.eta < 1.0f;
 }
 
-/* Whether the dielectric reflects by Fresnel's equations (F_boundary()): where it lets light through and energy is
- * conserved, so that what is reflected and what is not are both right. Else, and for an infinite ior, by Schlick's
- * approximation. */
+/* Whether the dielectric reflects by Fresnel's equations (F_boundary()): where it transmits and energy is
+ * conserved, so that both reflection and transmission are exact. Otherwise, and for an infinite ior, by
+ * Schlick's approximation. */
 FN bool layers_is_exact(Layers m, int energy)
 {
     return energy == ENERGY_CONSERVING && has_layer(m, LAYER_TRANSMISSION) && m.ior >= 1.0f;
@@ -173,15 +174,15 @@ FN float layers_fresnel_eta(Layers m)
     return sel(has_layer(m, LAYER_VOLUME), m.eta, m.ior);
 }
 
-/* ---- where to look: directions and table coordinates ---- */
+/* ---- lookups: directions and LUT coordinates ---- */
 
-/* Whether tables are read for the albedo that an anisotropic lobe has. Khronos' renderer reads as if it had none. */
+/* Whether LUT lookups account for anisotropy. Khronos' renderer ignores it. */
 FN bool layers_reads_anisotropic(Layers m, int energy)
 {
     return energy == ENERGY_CONSERVING && has_layer(m, LAYER_ANISOTROPY);
 }
 
-/* (N.V, perceptual roughness) at which LayerTables.dfg is read. */
+/* (N.V, perceptual roughness) of the lookup of LayerTables.dfg. */
 FN vec2 layers_dfg_point(Layers m, vec3 V, int energy)
 {
     if (layers_reads_anisotropic(m, energy))
@@ -211,7 +212,7 @@ FN float layers_clearcoat_NdotV(Layers m, vec3 V)
     return clamp(dot(m.clearcoat_N, V), NDOTV_MIN, 1.0f);
 }
 
-/* Unit direction in which LayerLight.specular is read: reflect(-V, N), bent for anisotropy. */
+/* Unit direction of the lookup of LayerLight.specular: reflect(-V, N), bent for anisotropy. */
 FN vec3 layers_reflection(Layers m, vec3 V)
 {
     if (has_layer(m, LAYER_ANISOTROPY))
@@ -224,9 +225,9 @@ FN vec3 layers_clearcoat_reflection(Layers m, vec3 V)
     return normalize(reflect(-V, m.clearcoat_N));
 }
 
-/* A boundary's terms for an anisotropic lobe, from those of the isotropic one and both lobes' split sums: the mean
- * weight goes with that of Schlick's, losses are underestimated as those of E are. Seen from inside, where each width
- * has its share of total reflection, both are bounds found by comparing quadratures. */
+/* Terms of a boundary for an anisotropic lobe, from those of the isotropic one and the split sums of both: the
+ * mean weight scales with that of Schlick's, losses are underestimated as those of E are. Seen from inside,
+ * where total internal reflection depends on the width, both are bounds found by comparing quadratures. */
 FN vec3 layers_glass_bound(vec3 glass, vec2 dfg, vec2 bound, vec2 alpha, float eta)
 {
     float share = dfg[1] * (bound[0] + bound[1]);
@@ -241,8 +242,8 @@ FN vec3 layers_glass_bound(vec3 glass, vec2 dfg, vec2 bound, vec2 alpha, float e
     return vec3(w, 1.0f - (1.0f - glass[1]) * lost, 1.0f - (1.0f - glass[2]) * lost);
 }
 
-/* dfg, clearcoat_E, transmission_E, sheen_E, glass as LayerTables says; those after the first are not read where their
- * layer is off. */
+/* dfg, clearcoat_E, transmission_E, sheen_E, glass as described in LayerTables; those after the first are
+ * ignored where their layer is off. */
 FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearcoat_E, float transmission_E,
                             float sheen_E, vec3 glass)
 {
@@ -265,7 +266,7 @@ FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearc
         t.glass = layers_glass_bound(glass, dfg, t.dfg, alpha, layers_fresnel_eta(m));
     }
     if (layers_is_exact(m, energy) && max(alpha[0], alpha[1]) <= ALPHA_MIRROR) {
-        t.dfg = t.dfg / (t.dfg[0] + t.dfg[1]); /* 1 but for the table's steps */
+        t.dfg = t.dfg / (t.dfg[0] + t.dfg[1]); /* 1 except for LUT interpolation */
         t.glass = smooth_glass(surface_NdotV(m.base, V), layers_fresnel_eta(m));
     }
     if (has_layer(m, LAYER_IRIDESCENCE)) {
@@ -278,7 +279,7 @@ FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearc
     return t;
 }
 
-/* Emission in cd/m^2, seen through the coat. Sheen does not dim it: Khronos' renderer; fibres that glow below. */
+/* Emission in cd/m^2, attenuated by the coat. Sheen does not dim it, as in Khronos' renderer. */
 FN vec3 layers_emission(Layers m, vec3 V)
 {
     if (!has_layer(m, LAYER_CLEARCOAT))

@@ -1,15 +1,16 @@
-/* layers_direct.h - the layered surface under lamps: one BSDF of all lobes, light from either side. */
+/* layers_direct.h - the layered surface under punctual lights: the BSDF of all lobes, for light from either
+ * side. */
 #ifndef SHADE_LAYERS_DIRECT_H
 #define SHADE_LAYERS_DIRECT_H
 
-/* Lobes that may be left out of a sum: those that are mirrors where they are narrow. */
+/* Lobes that may be excluded from a sum: those that are specular (deltas) where they are narrow. */
 #define LOBE_CLEARCOAT 1u
 #define LOBE_SPECULAR 2u
 #define LOBE_TRANSMISSION 4u
 #define LOBES_ALL 7u
 
-/* How a boundary divides light: factors of the lobe D V, metallic mixed in, of what is below the dielectric, and of the
- * lobe that goes through it. */
+/* Weights of a boundary: of the lobe D V with metallic mixed in, of the layers below the dielectric, and of the
+ * lobe transmitted through it. */
 STRUCT(BoundaryWeights)
 {
     vec3 specular;
@@ -17,7 +18,7 @@ STRUCT(BoundaryWeights)
     float through;
 };
 
-/* The dielectric's reflectance for the microfacet's cosine. */
+/* Reflectance of the dielectric for the microfacet's cosine. */
 FN vec3 layers_F_base(Layers m, float VdotH)
 {
     vec3 F90 = vec3(m.base.F90);
@@ -26,8 +27,8 @@ FN vec3 layers_F_base(Layers m, float VdotH)
     return F_Schlick(m.base.F0, F90, VdotH);
 }
 
-/* glTF's weights: the base gets what the microfacet with V.H does not reflect. The film's reflectance is that of N.V,
- * as in Khronos' renderer, and mixed with the plain one, not its thickness (KHR_materials_iridescence). */
+/* glTF's weights: the base receives 1 - F of the microfacet at V.H. The film's reflectance is that of N.V, as
+ * in Khronos' renderer, and is mixed with the plain one rather than its thickness (KHR_materials_iridescence). */
 FN BoundaryWeights boundary_weights_gltf(Layers m, float VdotH, LayerTables t)
 {
     vec3 F_base = layers_F_base(m, VdotH);
@@ -40,7 +41,7 @@ FN BoundaryWeights boundary_weights_gltf(Layers m, float VdotH, LayerTables t)
     }
     BoundaryWeights w;
     w.specular = mix(F_base, F_metal, m.base.metallic);
-    w.below = (1.0f - m.base.metallic) * max(below, 0.0f); /* rounding, where all is reflected */
+    w.below = (1.0f - m.base.metallic) * max(below, 0.0f); /* rounding of total internal reflection */
     w.through = w.below;
     return w;
 }
@@ -51,11 +52,11 @@ FN vec3 compensation(vec3 F0, vec3 F90, vec2 dfg)
     return multiscatter_scale(F_avg(F0, F90), dfg[0] + dfg[1]);
 }
 
-/* A dielectric by Fresnel's equations, film and metal aside. */
+/* A dielectric by Fresnel's equations, without film and metal. */
 STRUCT(ExactBoundary)
 {
-    vec3 R;        /* albedo towards V, with all scattering */
-    vec3 scale;    /* factor on F D V that gives it */
+    vec3 R;        /* albedo towards V, multiple scattering included */
+    vec3 scale;    /* the factor on F D V for it */
     float through; /* factor on the transmitted lobe beside 1 - F; a volume's boundary alone */
 };
 
@@ -65,8 +66,8 @@ FN vec3 layers_F_exact(Layers m, float VdotH)
     return F_boundary(m.base.F0, vec3(m.base.F90), VdotH, layers_fresnel_eta(m));
 }
 
-/* The two lobes of a volume's boundary lose together, and gain together. A thin wall lets through what it does not
- * reflect, and its reflection is compensated as that of opaque surfaces is. */
+/* Both lobes of a volume's boundary share one compensation. A thin wall transmits 1 - R, and its reflection is
+ * compensated as for opaque surfaces. */
 FN ExactBoundary exact_boundary(Layers m, LayerTables t)
 {
     float eta = layers_fresnel_eta(m);
@@ -87,11 +88,10 @@ FN ExactBoundary exact_boundary(Layers m, LayerTables t)
     return b;
 }
 
-/* Weights of which nothing is returned twice: the base gets one minus the albedo that the specular lobe has towards V,
- * so the sum over all L is at most 1. Where light goes through, that is by Fresnel's equations, and microfacets of a
- * volume's boundary each let through what they do not reflect. In the denser medium of a volume that lets none through
- * tables do not hold, F being that of the rarer side; there V takes the microfacet's place and the albedo is F(N.V), the
- * lobe scaled to it. */
+/* Energy-conserving weights: the base receives one minus the albedo of the specular lobe towards V, so the sum
+ * over all L is at most 1. Transmissive surfaces use Fresnel's equations, and each microfacet of a volume's
+ * boundary transmits what it does not reflect. Inside an opaque volume the LUTs do not apply, as F is that of
+ * the rarer side; there F(N.V) replaces the albedo, and the lobe is scaled to it. */
 FN BoundaryWeights boundary_weights_conserving(Layers m, float NdotV, float VdotH, LayerTables t)
 {
     vec3 F90 = vec3(m.base.F90);
@@ -140,7 +140,7 @@ FN BoundaryWeights boundary_weights(Layers m, float NdotV, float VdotH, int ener
     return boundary_weights_gltf(m, VdotH, t);
 }
 
-/* How what is below the boundary is shared out, per channel; together at most 1. */
+/* Distribution of the light below the boundary, per channel; together at most 1. */
 STRUCT(BelowShares)
 {
     vec3 diffuse;      /* scattered back to the eye's side */
@@ -148,9 +148,10 @@ STRUCT(BelowShares)
     vec3 specular;     /* transmitted by the boundary, tinted */
 };
 
-/* mix(mix(diffuse, diffuse transmission), specular transmission); transmission goes first, the rest is divided again.
- * In a volume that scatters, light that enters diffusely comes back as if the volume were deep and dense, in the share
- * of its multiscatter color: the limit of a mean free path of 0, of which rays or diffusion are the better account. */
+/* mix(mix(diffuse, diffuse transmission), specular transmission); transmission is applied first, the rest is
+ * divided again. In a scattering volume, light that enters diffusely returns as from a deep and dense volume,
+ * in the fraction of its multiscatter color: the limit of a mean free path of 0, which ray marching or
+ * diffusion resolve better. */
 FN BelowShares below_shares(Layers m)
 {
     BelowShares s;
@@ -174,7 +175,7 @@ FN BelowShares below_shares(Layers m)
     return s;
 }
 
-/* D V of the base's reflection, with L on the side of the eye; H and cosines given. */
+/* D V of the base's reflection, L on the side of the eye; H and cosines given. */
 FN float layers_DV(Layers m, vec3 V, vec3 L, vec3 H, float NdotL, float NdotV)
 {
     if (has_layer(m, LAYER_ANISOTROPY)) {
@@ -207,7 +208,7 @@ FN vec3 layers_base_front_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables 
     return (specular + brdf_lambert(below_shares(m).diffuse) * w.below) * NdotL;
 }
 
-/* A frame of N with the base's tangents, or any where there is no anisotropy. */
+/* v in a frame of N: with the tangents of the base, or any without anisotropy. */
 FN vec3 layers_to_any_frame(Layers m, vec3 v)
 {
     if (has_layer(m, LAYER_ANISOTROPY))
@@ -215,7 +216,7 @@ FN vec3 layers_to_any_frame(Layers m, vec3 v)
     return mul(transpose(basis_from_normal(m.base.N)), v);
 }
 
-/* Specular transmission through a thin wall for light from behind, without boundary_weights() and tint. */
+/* Specular transmission through a thin wall, without boundary_weights() and tint. */
 FN float layers_thin_wall_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
 {
     vec2 a = layers_alpha(m, layers_transmission_alpha(m));
@@ -223,7 +224,7 @@ FN float layers_thin_wall_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables 
     return sel(energy == ENERGY_CONSERVING, f / max(t.transmission_E, 1e-3f), f);
 }
 
-/* Cosine at the microfacet that transmits L through a volume's boundary; N.V where there is none. */
+/* Cosine at the microfacet that transmits L through a volume's boundary; N.V if there is none. */
 FN float transmission_VdotH(vec3 V, vec3 L, float eta)
 {
     float VdotH = dot(V, half_vector_transmission(V, L, eta));
@@ -238,7 +239,7 @@ FN float layers_volume_cos1(Layers m, vec3 V, vec3 L, float eta, int energy, Lay
     return btdf_GGX_cos(V, L, a[0], a[1], eta) * boundary_weights(m, V[2], VdotH, energy, t).through;
 }
 
-/* Per channel, each with its own ior where the volume disperses. */
+/* Per channel, each with its own ior if the volume disperses. */
 FN vec3 layers_volume_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
 {
     int last = sel(has_layer(m, LAYER_DISPERSION), 2, 0);
@@ -248,7 +249,7 @@ FN vec3 layers_volume_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
     return sel(last == 0, vec3(f[0]), f);
 }
 
-/* The base for light from behind. The microfacet of what goes straight through is that of L mirrored to V's side. */
+/* The base for light from behind. The microfacet of straight transmission is that of L mirrored to V's side. */
 FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, LayerTables t, uint lobes)
 {
     vec3 V = layers_to_any_frame(m, V_world);
@@ -269,7 +270,7 @@ FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, L
     return f + share.specular * (w.through * layers_thin_wall_cos(m, V, L, energy, t));
 }
 
-/* What is below sheen and coat. */
+/* The base, below sheen and coat. */
 FN vec3 layers_base_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, uint lobes)
 {
     float NdotL = dot(m.base.N, L);
@@ -286,9 +287,9 @@ FN vec3 layers_base_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, uin
     return vec3(0.0f);
 }
 
-/* Sheen over f, which is what is below it. glTF dims by the larger albedo of both directions, which is reciprocal;
- * ENERGY_CONSERVING by that at V, with which lobe and base add up, and keeps the lobe's own albedo at 1. Light from
- * behind has no second direction on the fibres' side. KHR_materials_sheen. */
+/* Sheen over f, the layers below. glTF dims by the larger albedo of both directions, which is reciprocal;
+ * ENERGY_CONSERVING by that at V, with which lobe and base add up, and limits the lobe's own albedo to 1. Light
+ * from behind has no direction on the fibers' side. KHR_materials_sheen. */
 FN vec3 layers_sheen_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L, vec3 f)
 {
     float NdotL = min(dot(m.base.N, L), 1.0f);
@@ -307,7 +308,7 @@ FN vec3 layers_sheen_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, fl
     return m.sheen_color * lobe + f * sheen_scaling(m.sheen_color, E);
 }
 
-/* The coat over f: mix(f, coat, clearcoat F(N.V)). glTF's lobe loses what scatters twice in it; ENERGY_CONSERVING's
+/* The coat over f: mix(f, coat, clearcoat F(N.V)). glTF's lobe loses multiple scattering; ENERGY_CONSERVING's
  * does not. KHR_materials_clearcoat. */
 FN vec3 layers_clearcoat_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, vec3 f, uint lobes)
 {
@@ -332,7 +333,7 @@ FN vec3 layers_brdf_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, flo
     return f;
 }
 
-/* Radiance (cd/m^2 per channel) that leaves P (m) towards the unit vector V because of one light, not shadowed. */
+/* Radiance (cd/m^2 per channel) reflected at P (m) towards the unit vector V from one unshadowed light. */
 FN vec3 layers_punctual(Layers m, vec3 P, vec3 V, Light l, int energy, LayerTables t, float sheen_E_L)
 {
     LightSample light = light_illuminate(l, P);

@@ -1,8 +1,8 @@
-/* layers_ibl.h - the layered surface under its surroundings: what arrives prefiltered, weighted and added up. */
+/* layers_ibl.h - the layered surface in an environment: weighted sums of prefiltered radiance. */
 #ifndef SHADE_LAYERS_IBL_H
 #define SHADE_LAYERS_IBL_H
 
-/* A boundary in uniform light: shares that multiply prefiltered radiance and irradiance / pi. */
+/* A boundary in uniform light: factors of prefiltered radiance and of irradiance / pi. */
 STRUCT(BoundaryIbl)
 {
     vec3 single;
@@ -10,7 +10,8 @@ STRUCT(BoundaryIbl)
     float below;
 };
 
-/* The dielectric's. Where it is not exact, F is that of N.V from inside a volume: a rough boundary there has no table. */
+/* The dielectric. Unless it is exact, a rough boundary seen from inside a volume takes F(N.V): there is no LUT
+ * for it. */
 FN BoundaryIbl boundary_ibl_base(Layers m, float NdotV, LayerTables t, int energy)
 {
     vec3 F90 = vec3(m.base.F90);
@@ -48,8 +49,8 @@ FN BoundaryIbl boundary_ibl_metal(Layers m, float NdotV, LayerTables t, int ener
     return b;
 }
 
-/* A film's, of reflectance F: glTF's, as in Khronos' renderer, multiplies the radiance as it is; the conserving one
- * has the lobe's albedo and what scatters on. */
+/* A film of reflectance F: glTF's, as in Khronos' renderer, multiplies the radiance; the conserving one has the
+ * lobe's albedo and multiple scattering. */
 FN BoundaryIbl boundary_ibl_film(vec3 F, LayerTables t, int energy)
 {
     BoundaryIbl b;
@@ -86,14 +87,14 @@ FN BoundaryIbl boundary_ibl(Layers m, float NdotV, LayerTables t, int energy)
     return mix_boundary(base, metal, m.base.metallic);
 }
 
-/* Radiance from the eye's side and from behind, which occlusion treats differently. */
+/* Radiance from the eye's side and from behind, which differ in occlusion. */
 STRUCT(LayeredRadiance)
 {
     vec3 front;
     vec3 back;
 };
 
-/* What is below sheen and coat. */
+/* The base, below sheen and coat. */
 FN LayeredRadiance layers_base_ibl(Layers m, float NdotV, LayerTables t, LayerLight light, int energy)
 {
     BoundaryIbl b = boundary_ibl(m, NdotV, t, energy);
@@ -110,9 +111,9 @@ FN LayeredRadiance layers_base_ibl(Layers m, float NdotV, LayerTables t, LayerLi
     return r;
 }
 
-/* The lobe of the sheen returns color E of uniform light, and leaves sheen_scaling() to what is below. Where E exceeds 1,
- * light that is blurred over the rim no longer says how much of it comes from there: E counts as 1, as in the 8 bits of
- * Khronos' table; where energy is conserved, color E as 1. */
+/* The sheen lobe returns color E of uniform light and transmits sheen_scaling(). Where E exceeds 1, light
+ * blurred over the rim no longer separates the rim's part: E is clamped to 1, as in the 8 bits of Khronos' LUT;
+ * in the conserving mode color E is. */
 FN LayeredRadiance layers_sheen_ibl(Layers m, LayerTables t, vec3 sheen, int energy, LayeredRadiance r)
 {
     float E = t.sheen_E;
@@ -134,10 +135,10 @@ FN LayeredRadiance layers_clearcoat_ibl(Layers m, vec3 V, vec3 coat, LayeredRadi
     return r;
 }
 
-/* Radiance (cd/m^2) towards V of all surroundings, occlusion included, emission not.
+/* Radiance (cd/m^2) of the environment towards V, with occlusion, without emission.
  *
- * Occlusion dims what the hemisphere above sends, sheen and coat included, as Khronos' renderer does; what comes from
- * behind it does not: rays found that light behind whatever stands in its way. */
+ * Occlusion dims light from the hemisphere above, sheen and coat included, as in Khronos' renderer; light from
+ * behind is not dimmed, since refracted rays have already been traced. */
 FN vec3 layers_ibl(Layers m, vec3 V, LayerTables t, LayerLight light, int energy)
 {
     float NdotV = surface_NdotV(m.base, V);

@@ -1,5 +1,6 @@
-/* layers_lobes.h - the light of one lobe alone, as it is in the whole: what is above it dims it. The lobes add up to
- * layers_ibl() and layers_brdf_cos(), which are linear in what each lobe receives. For viewers that show them apart. */
+/* layers_lobes.h - the contribution of one lobe, as in the sum: attenuated by the layers above it. The lobes
+ * add up to layers_ibl() and layers_brdf_cos(), which are linear in the light of each lobe. For viewers that
+ * show lobes separately. */
 #ifndef SHADE_LAYERS_LOBES_H
 #define SHADE_LAYERS_LOBES_H
 
@@ -9,7 +10,7 @@
 #define ALONE_SHEEN 3
 #define ALONE_TRANSMISSION 4 /* diffuse transmission too */
 
-/* The same boundary over a black base: all that enters goes through, and nothing comes out there. */
+/* The same boundary over a black base: no diffuse reflection or transmission. */
 FN Layers layers_without_diffuse(Layers m)
 {
     m.layers = (m.layers & ~LAYER_SCATTER) | LAYER_DIFFUSE_TRANSMISSION;
@@ -30,8 +31,8 @@ FN LayerLight layer_light_of(vec3 radiance)
     return light;
 }
 
-/* What one lobe (ALONE_*) makes of the surroundings, cd/m^2. What conserving formulas scatter several times is specular,
- * though it is irradiance that they take for it. */
+/* Environment light of one lobe (ALONE_*), cd/m^2. Multiple scattering of the conserving mode counts as
+ * specular, though it multiplies irradiance. */
 FN vec3 layers_ibl_alone(Layers m, vec3 V, LayerTables t, LayerLight light, int energy, int lobe)
 {
     LayerLight some = layer_light_of(vec3(0.0f));
@@ -56,7 +57,7 @@ FN vec3 layers_ibl_alone(Layers m, vec3 V, LayerTables t, LayerLight light, int 
     return radiance;
 }
 
-/* The same of layers_brdf_cos(), 1/sr. */
+/* The same for layers_brdf_cos(), 1/sr. */
 FN vec3 layers_brdf_cos_alone(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L, int lobe)
 {
     bool is_front = dot(m.base.N, L) > 0.0f;
@@ -77,7 +78,7 @@ FN vec3 layers_brdf_cos_alone(Layers m, vec3 V, vec3 L, int energy, LayerTables 
     return f;
 }
 
-/* The same of layers_punctual(), cd/m^2. */
+/* The same for layers_punctual(), cd/m^2. */
 FN vec3 layers_punctual_alone(Layers m, vec3 P, vec3 V, Light l, int energy, LayerTables t, float sheen_E_L,
                               int lobe)
 {
@@ -87,8 +88,8 @@ FN vec3 layers_punctual_alone(Layers m, vec3 P, vec3 V, Light l, int energy, Lay
     return layers_brdf_cos_alone(m, V, light.L, energy, t, sheen_E_L, lobe) * light.E;
 }
 
-/* What the base's specular lobe is multiplied with where its visibility is to be Schlick-GGX with k = alpha / 2 rather than
- * height-correlated Smith: older renderers. Karis 2013, equation 4; cosines above 0. */
+/* Factor on the base's specular lobe that replaces height-correlated Smith visibility by Schlick-GGX with k =
+ * alpha / 2, as in older renderers. Karis 2013, equation 4; cosines above 0. */
 FN float schlick_GGX_over_smith(float NdotL, float NdotV, float alpha)
 {
     return V_SchlickGGX(NdotL, NdotV, k_ibl(alpha)) / V_SmithGGX(NdotL, NdotV, max(alpha, ALPHA_MIRROR));

@@ -1,17 +1,19 @@
-/* layers_sample.h - the layered surface for paths: one lobe is chosen, a direction is drawn from it, and the density is
- * that of all lobes together (one-sample multiple importance sampling, Veach 1997, section 9.2.4), so that
- *     f |N.L| / pdf
- * is right whatever the probabilities, as long as none is 0 where its lobe is not.
+/* layers_sample.h - sampling of the layered surface for path tracing: a lobe is chosen, a direction is drawn
+ * from it, and the density is that of all lobes (one-sample multiple importance sampling, Veach 1997, section
+ * 9.2.4), so that
+ *   f |N.L| / pdf
+ * is unbiased for any probabilities that are not 0 where the lobe is not.
  *
- * Mirrors, lobes too narrow to be evaluated in single precision, stand beside that: they have a direction, no density,
- * and a weight of their own. What is a mirror depends on the surface alone.
+ * Specular (delta) lobes, too narrow to evaluate in single precision, are separate: they have a direction and a
+ * weight but no density. Whether a lobe is specular depends on the surface only.
  *
- * A mapped normal may turn away from the eye. Lobes then take the nearest V that is above it (view_above()), for
- * drawing, densities and values alike: with the V that is below, they would be drawn in one place and be in another. */
+ * A mapped normal may face away from the eye. Lobes then use the nearest V above the surface (view_above()) for
+ * sampling, densities and evaluation alike; otherwise they would be sampled in one place and evaluated in
+ * another. */
 #ifndef SHADE_LAYERS_SAMPLE_H
 #define SHADE_LAYERS_SAMPLE_H
 
-/* Probabilities of the lobes; they add up to 1, or are all 0 where the surface sends nothing to V. */
+/* Probabilities of the lobes; they add up to 1, or are all 0 if the surface reflects nothing to V. */
 STRUCT(LayersLobes)
 {
     float clearcoat;
@@ -22,22 +24,22 @@ STRUCT(LayersLobes)
     float diffuse_back;
 };
 
-/* A direction to go on in. */
+/* A sampled direction. */
 STRUCT(LayersSample)
 {
     vec3 L;      /* unit */
-    float pdf;   /* per sr, of all lobes that are not mirrors; of a mirror 0 */
-    vec3 weight; /* of a mirror: f |N.L| / pdf, with the probability of its choice in it; else 0 */
-    /* the lobe is too narrow to be evaluated: no other way of finding L has a density for it */
+    float pdf;   /* per sr, of all non-specular lobes; 0 for a specular one */
+    vec3 weight; /* of a specular lobe: f |N.L| / pdf, its probability included; otherwise 0 */
+    /* a specular (delta) lobe: no other technique has a density for L */
     bool is_mirror;
     bool is_through; /* L is on the other side of the surface: N.L < 0 */
     bool is_valid;   /* false: the path ends here */
 };
 
-/* ---- one of many wavelengths ---- */
+/* ---- single wavelengths ---- */
 
-/* The surface for light of one wavelength: with the ior that it has there, and without dispersion. Its tables are other
- * ones, too. Dispersion 0 leaves eta as it is. */
+/* The surface at one wavelength: with its ior there and without dispersion. Its LUT values differ, too.
+ * Dispersion 0 leaves eta unchanged. */
 FN Layers layers_with_wavelength(Layers m, float wavelength_nm)
 {
     if (has_layer(m, LAYER_DISPERSION) && m.dispersion > 0.0f) {
@@ -49,9 +51,9 @@ FN Layers layers_with_wavelength(Layers m, float wavelength_nm)
     return m;
 }
 
-/* ---- mirrors ---- */
+/* ---- specular lobes ---- */
 
-/* V, or the nearest direction to it that is not below the surface. */
+/* V, or the nearest direction above the surface. */
 FN vec3 view_above(vec3 N, vec3 V)
 {
     float NdotV = dot(N, V);
@@ -60,16 +62,16 @@ FN vec3 view_above(vec3 N, vec3 V)
     return normalize(V + N * (NDOTV_MIN - NdotV));
 }
 
-/* Whether a lobe of these widths is a mirror: not wider than the narrowest that is evaluated. There a direction's
- * rounding, 6e-8, is 6e-4 of the width, and moves D by about as much. */
+/* Whether a lobe of these widths is specular: not wider than the narrowest that is evaluated. There the
+ * rounding of a direction, 6e-8, is 6e-4 of the width and changes D by about as much. */
 FN bool is_mirror_alpha(vec2 alpha)
 {
     return max(alpha[0], alpha[1]) <= ALPHA_MIRROR;
 }
 
-/* The same for refraction, which turns L by |1 - 1 / eta| times the microfacet's angle where reflection turns it by 2:
- * what counts is how wide the lobe is in L. With the ior of both sides equal or nearly so, light goes straight on
- * however rough the boundary is, and a half vector would be rounding and nothing else. */
+/* The same for refraction, which turns L by |1 - 1 / eta| times the microfacet's angle where reflection turns
+ * it by 2: the width of the lobe in L decides. With equal or nearly equal iors light goes straight on however
+ * rough the boundary is, and a half vector would be rounding noise. */
 FN bool is_mirror_refraction(vec2 alpha, float eta)
 {
     return max(alpha[0], alpha[1]) * abs(eta - 1.0f) <= 2.0f * ALPHA_MIRROR * eta;
@@ -93,9 +95,9 @@ FN bool layers_clearcoat_is_mirror(Layers m)
     return alpha_from_roughness(m.clearcoat_roughness) <= ALPHA_MIRROR;
 }
 
-/* Whether reflection and transmission start from one microfacet: both are lobes of a volume's boundary. Which of the two
- * it is to be is then chosen by the microfacet's own Fresnel term, so that no weight is more than what the boundary
- * returns; chosen before, a microfacet that reflects all would weigh 1 / R. */
+/* Whether reflection and transmission share one microfacet, as both lobes of a volume's boundary do. The
+ * microfacet's own Fresnel term then chooses between them, so no weight exceeds the albedo of the boundary; a
+ * choice before sampling would give a totally reflecting microfacet the weight 1 / R. */
 FN bool layers_is_coupled(Layers m)
 {
     if (!has_layer(m, LAYER_TRANSMISSION) || !has_layer(m, LAYER_VOLUME))
@@ -103,7 +105,7 @@ FN bool layers_is_coupled(Layers m)
     return !layers_specular_is_mirror(m) && !layers_transmission_is_mirror(m);
 }
 
-/* LOBE_* of the lobes that are not mirrors. */
+/* LOBE_* of the non-specular lobes. */
 FN uint layers_scattering_lobes(Layers m)
 {
     uint lobes = 0u;
@@ -118,7 +120,7 @@ FN uint layers_scattering_lobes(Layers m)
 
 /* ---- probabilities ---- */
 
-/* What coat and sheen leave of the base's light. */
+/* Transmittance of coat and sheen. */
 FN float layers_below_coat(Layers m, vec3 V)
 {
     if (!has_layer(m, LAYER_CLEARCOAT))
@@ -132,8 +134,8 @@ FN float layers_below_sheen(Layers m, LayerTables t)
     return sheen_scaling(m.sheen_color, t.sheen_E);
 }
 
-/* What the base's boundary returns towards V and what goes below it, ENERGY_CONSERVING: the numbers with which its
- * weights are made. */
+/* Albedo and transmittance of the base's boundary towards V in ENERGY_CONSERVING, from the terms of its
+ * weights. */
 FN BoundaryWeights layers_boundary_albedo_conserving(Layers m, float NdotV, LayerTables t)
 {
     BoundaryWeights w = boundary_weights_conserving(m, NdotV, NdotV, t);
@@ -154,8 +156,8 @@ FN BoundaryWeights layers_boundary_albedo_conserving(Layers m, float NdotV, Laye
     return w;
 }
 
-/* The same of ENERGY_GLTF, by estimates. Inside a volume, its weights are those of each microfacet: some that face V
- * let light out where N.V is beyond the critical angle. */
+/* The same for ENERGY_GLTF, estimated. Inside a volume, weights belong to microfacets: some that face V
+ * transmit where N.V is beyond the critical angle. */
 FN BoundaryWeights layers_boundary_albedo_gltf(Layers m, float NdotV, LayerTables t)
 {
     float E = t.dfg[0] + t.dfg[1];
@@ -181,7 +183,7 @@ FN BoundaryWeights layers_boundary_albedo(Layers m, float NdotV, int energy, Lay
     return layers_boundary_albedo_gltf(m, NdotV, t);
 }
 
-/* p in place of its share of a sum: at least 0.05 where it is above 0. */
+/* Probability of a lobe with this fraction of the sum: at least 0.05 if above 0. */
 FN float lobe_excess(float share)
 {
     return max(share - 0.05f, 0.0f);
@@ -191,8 +193,8 @@ FN float lobe_probability(float share, float scale)
     return sel(share > 0.0f, 0.05f + lobe_excess(share) * scale, 0.0f);
 }
 
-/* From albedos to probabilities: in proportion, but none below 0.05, which the larger ones give; where none is smaller
- * the probabilities are the albedos' shares, and weights are the albedo itself. */
+/* Probabilities proportional to albedos, but none below 0.05, taken from the larger ones. Without such small
+ * lobes the sample weight is the total albedo. */
 FN LayersLobes lobes_normalised(LayersLobes w)
 {
     float sum = w.clearcoat + w.sheen + w.specular + w.diffuse + w.transmission + w.diffuse_back;
@@ -219,7 +221,7 @@ FN LayersLobes lobes_normalised(LayersLobes w)
     return p;
 }
 
-/* lobes_normalised() for two lobes: a surface without layers. */
+/* lobes_normalised() for the two lobes of a surface without layers. */
 FN LayersLobes layers_lobes_plain(Layers m, int energy, LayerTables t)
 {
     vec3 R_base = m.base.F0 * t.dfg[0] + vec3(m.base.F90) * t.dfg[1];
@@ -244,8 +246,8 @@ FN LayersLobes layers_lobes_plain(Layers m, int energy, LayerTables t)
     return p;
 }
 
-/* The largest channel stands for the lobe: then no channel's weight exceeds what the lobe returns by much, whatever its
- * color. V unit, towards the eye. */
+/* The largest channel represents the lobe, so that no channel's weight exceeds the lobe's albedo by much,
+ * whatever its color. V unit, towards the eye. */
 FN LayersLobes layers_lobes(Layers m, vec3 V, int energy, LayerTables t)
 {
     if (m.layers == 0u)
@@ -279,7 +281,7 @@ FN LayersLobes layers_lobes(Layers m, vec3 V, int energy, LayerTables t)
 
 /* ---- densities ---- */
 
-/* Of a reflection by sample_bounded_VNDF_GGX() of one width, per sr; V above N. */
+/* Density per sr of a reflection by sample_bounded_VNDF_GGX() of one width; V above N. */
 FN float pdf_reflection(vec3 N, vec3 V, vec3 L, float alpha)
 {
     vec3 sum = V + L;
@@ -292,7 +294,7 @@ FN float pdf_reflection(vec3 N, vec3 V, vec3 L, float alpha)
            (2.0f * (bounded_VNDF_k(NdotV, alpha, alpha) * NdotV + smith_root_GGX(NdotV, alpha)));
 }
 
-/* The same of two widths, in the lobe's frame. */
+/* The same with two widths, in the frame of the lobe. */
 FN float pdf_reflection_anisotropic(vec3 V, vec3 L, vec2 alpha)
 {
     vec3 sum = V + L;
@@ -302,8 +304,8 @@ FN float pdf_reflection_anisotropic(vec3 V, vec3 L, vec2 alpha)
     return pdf_bounded_reflection(V, sum * inversesqrt(sum2), alpha[0], alpha[1]);
 }
 
-/* Probability that the microfacet at V.H of a coupled boundary is used to reflect, the rest being to transmit: as the
- * two are bright, by Fresnel's equations in either energy mode. A film may reflect any share. */
+/* Probability of reflection, rather than transmission, at a microfacet of a coupled boundary at V.H:
+ * proportional to their albedos, by Fresnel's equations in either energy mode. A film may reflect any fraction. */
 FN float layers_reflection_share(Layers m, float VdotH)
 {
     vec3 F = layers_F_base(m, VdotH);
@@ -318,7 +320,7 @@ FN float layers_reflection_share(Layers m, float VdotH)
     return clamp(r / (r + s), least, 1.0f - least);
 }
 
-/* V as the base's lobes see it, in their frame. */
+/* V above the base, in the frame of its lobes. */
 FN vec3 layers_V_local(Layers m, vec3 V)
 {
     vec3 v = layers_to_any_frame(m, V);
@@ -344,7 +346,7 @@ FN float layers_transmission_pdf(Layers m, vec3 V, vec3 L)
     return pdf_thin_wall(v, l, alpha[0], alpha[1]);
 }
 
-/* Of both lobes of a coupled boundary. */
+/* For both lobes of a coupled boundary. */
 FN float layers_coupled_pdf(Layers m, vec3 V, vec3 L)
 {
     vec3 v = layers_V_local(m, V);
@@ -369,7 +371,7 @@ FN float layers_clearcoat_pdf(Layers m, vec3 V, vec3 L)
                           alpha_from_roughness(m.clearcoat_roughness));
 }
 
-/* Density per sr with which layers_sample() draws L by lobes that are not mirrors. */
+/* Density per sr of L in layers_sample(), for the non-specular lobes. */
 FN float layers_pdf(Layers m, LayersLobes p, vec3 V_eye, vec3 L)
 {
     vec3 V = view_above(m.base.N, V_eye);
@@ -394,7 +396,7 @@ FN float layers_pdf(Layers m, LayersLobes p, vec3 V_eye, vec3 L)
 
 /* ---- values ---- */
 
-/* layers_brdf_cos() of all lobes that are not mirrors: what layers_pdf() is the density for. */
+/* layers_brdf_cos() of the non-specular lobes, whose density is layers_pdf(). */
 FN vec3 layers_scatter_cos(Layers m, vec3 V_eye, vec3 L, int energy, LayerTables t, float sheen_E_L)
 {
     uint lobes = layers_scattering_lobes(m);
@@ -429,7 +431,7 @@ FN mat3 layers_any_frame(Layers m)
     return basis_from_normal(m.base.N);
 }
 
-/* Draws: directions L in world space; the zero vector where the lobe gives none. */
+/* Sampled directions L in world space; the zero vector if the lobe gives none. */
 
 FN vec3 layers_draw_clearcoat(Layers m, vec3 V, vec2 u)
 {
@@ -447,8 +449,8 @@ FN vec3 layers_draw_sheen(Layers m, vec3 V, vec2 u)
     return mul(basis_from_normal(m.base.N), L);
 }
 
-/* One of the two lobes of the base's boundary that are not mirrors, transmission above u_side = p_specular; of a coupled
- * boundary both, and the microfacet decides. V above N. */
+/* One of the two non-specular lobes of the base's boundary, transmission for u_side above p_specular; at a
+ * coupled boundary the microfacet decides. V above N. */
 FN vec3 layers_draw_boundary(Layers m, vec3 V, float u_side, float p_specular, vec2 u)
 {
     bool is_coupled = layers_is_coupled(m);
@@ -476,9 +478,9 @@ FN vec3 layers_draw_boundary(Layers m, vec3 V, float u_side, float p_specular, v
     return sel(L[2] < 0.0f, normalize(mul(frame, L)), vec3(0.0f));
 }
 
-/* What goes through a boundary whose refraction is a mirror. Where that is because the ior of both sides is nearly equal,
- * all microfacets of a rough boundary let light go straight on: glTF's term is that of their mean, by the split sum, less
- * what G2 takes; conserving it is all that is not reflected. V and L in the base's frame. */
+/* Transmittance of a boundary with specular refraction. If it is specular because the iors are nearly equal,
+ * all microfacets of a rough boundary transmit straight on: glTF's term is their mean, by the split sum, less
+ * the masking G2; the conserving one is all that is not reflected. V and L in the base's frame. */
 FN float layers_mirror_through(Layers m, BoundaryWeights b, vec3 V, vec3 L, int energy, LayerTables t)
 {
     bool is_smooth = layers_specular_is_mirror(m);
@@ -494,7 +496,7 @@ FN float layers_mirror_through(Layers m, BoundaryWeights b, vec3 V, vec3 L, int 
     return (1.0f - m.base.metallic) * max(1.0f - max3(F), 0.0f) * lobe;
 }
 
-/* Mirrors: their boundary weights are those of N.V, the microfacet's cosine there. */
+/* Specular lobes: their boundary weights are those of N.V, the cosine of the microfacet. */
 FN LayersSample layers_mirror(Layers m, LayersLobes p, vec3 V_eye, bool is_through, int energy, LayerTables t)
 {
     vec3 V = view_above(m.base.N, V_eye);
@@ -529,8 +531,8 @@ FN LayersSample layers_clearcoat_mirror(Layers m, LayersLobes p, vec3 V)
     return s;
 }
 
-/* L for u_lobe and u, uniform in [0, 1). A surface that disperses (LAYER_DISPERSION) is to be given one ior first, and
- * the tables for it: layers_with_wavelength(). */
+/* Samples L from u_lobe and u, uniform in [0, 1). For a dispersive surface (LAYER_DISPERSION) first choose a
+ * wavelength: layers_with_wavelength(), with LUT values of that ior. */
 FN LayersSample layers_sample(Layers m, LayersLobes p, vec3 V_eye, float u_lobe, vec2 u, int energy,
                               LayerTables t)
 {

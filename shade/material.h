@@ -1,8 +1,9 @@
-/* material.h - what the numbers of a glTF material mean: factors and texels in, the surface and its layers out. Each
- * KHR_materials_* says which channel of which texture scales which factor; that is here and nowhere else.
+/* material.h - the semantics of glTF material parameters: from factors and texels to the surface and its
+ * layers. Which channel of which texture scales which factor, as specified by each KHR_materials_*, is defined
+ * here only.
  *
- * Texels are those of textures as they are read: colors linear, 1 in every channel where there is no texture. A layer
- * starts with layers_from_surface(); with_...() adds to it and turns its bit on where its factor is above 0. */
+ * Texels are linear, and 1 in every channel without a texture. A layered surface starts with
+ * layers_from_surface(); each with_...() adds a layer and sets its bit if its factor is above 0. */
 #ifndef SHADE_MATERIAL_H
 #define SHADE_MATERIAL_H
 
@@ -23,8 +24,8 @@ STRUCT(MaterialFactors)
     vec3 emissive; /* factor times strength, cd/m^2 */
 };
 
-/* Tangent, bitangent and normal in world space on the side that is seen, as they are interpolated: not unit, not
- * quite at right angles, which is what MikkTSpace (2008) and the tools that bake for it use. */
+/* Interpolated tangent, bitangent and normal in world space on the visible side: neither unit nor exactly
+ * orthogonal, as in MikkTSpace (2008) and the tools that bake for it. */
 STRUCT(ShadingFrame)
 {
     vec3 T;
@@ -47,7 +48,7 @@ FN vec3 material_base_color(vec3 factor, vec3 texel, vec3 vertex_color)
     return texel * (factor * vertex_color);
 }
 
-/* Coverage that alphaMode (one of ALPHA_MODE_*) makes of the opacity: 0 not there, 1 opaque. glTF 2.0, 3.9.4. */
+/* Coverage from the opacity by alphaMode (one of ALPHA_MODE_*): 0 transparent, 1 opaque. glTF 2.0, 3.9.4. */
 FN float material_coverage(int alpha_mode, float opacity, float cutoff)
 {
     if (alpha_mode == ALPHA_MODE_MASK)
@@ -59,7 +60,7 @@ FN float material_coverage(int alpha_mode, float opacity, float cutoff)
 
 /* ---- normals ---- */
 
-/* The unit vector, or otherwise where v has no direction. */
+/* v normalised, or `otherwise` if it has no direction. */
 FN vec3 normalize_or(vec3 v, vec3 otherwise)
 {
     float length2 = dot(v, v);
@@ -68,8 +69,8 @@ FN vec3 normalize_or(vec3 v, vec3 otherwise)
     return otherwise;
 }
 
-/* With the interpolated normal on the side that is seen (side 1: the front, -1: the back), the tangent of the front and
- * its handedness, -1 or 1, of mirrored instances with the other sign. glTF 2.0, 3.7.2.1. */
+/* From the interpolated normal on the visible side (side 1: the front, -1: the back), the tangent of the front
+ * and its handedness, -1 or 1, negated for mirrored instances. glTF 2.0, 3.7.2.1. */
 FN ShadingFrame frame_from_tangent(vec3 N, vec3 T, float handedness, float side)
 {
     ShadingFrame f;
@@ -79,9 +80,9 @@ FN ShadingFrame frame_from_tangent(vec3 N, vec3 T, float handedness, float side)
     return f;
 }
 
-/* With the direction in which u of a texture coordinate grows on the plane: dP/du of P(u, v) = p0 + e1 s + e2 t from
- * the changes uv1 and uv2 along e1 and e2. B points to where v falls, which is up in a picture (glTF 2.0, 3.9.3: green
- * is +Y). T is 0 where (u, v) does not grow; else unit. */
+/* From texture coordinates: T is dP/du of P(u, v) = p0 + e1 s + e2 t from the changes uv1 and uv2 along e1 and
+ * e2. B points to decreasing v, up in an image (glTF 2.0, 3.9.3: green is +Y). T is unit, or 0 where (u, v) is
+ * degenerate. */
 FN ShadingFrame frame_from_texcoord(vec3 N, vec3 e1, vec3 e2, vec2 uv1, vec2 uv2, float side)
 {
     ShadingFrame f;
@@ -107,8 +108,8 @@ FN bool frame_has_tangent(ShadingFrame f)
     return dot(f.T, f.T) > 0.0f;
 }
 
-/* The vector that a texel of a normal texture holds, with its scale; 0: nothing that is a normal (there is no texture,
- * or it could not be decoded and reads as white). glTF 2.0, 3.9.3. */
+/* The vector of a normal-map texel, with its scale; 0 if the texel is no normal (no texture, or one that could
+ * not be decoded and reads as white). glTF 2.0, 3.9.3. */
 FN vec3 normal_from_texel(vec3 texel, float scale)
 {
     if (texel[0] >= 1.0f && texel[1] >= 1.0f && texel[2] >= 1.0f)
@@ -117,7 +118,7 @@ FN vec3 normal_from_texel(vec3 texel, float scale)
     return vec3(c[0] * scale, c[1] * scale, c[2]);
 }
 
-/* Unit vector n of a frame in world space, or otherwise where it has no direction. */
+/* Vector n of a frame in world space, unit; `otherwise` if it has no direction. */
 FN vec3 frame_normal(ShadingFrame f, vec3 n, vec3 otherwise)
 {
     return normalize_or(f.T * n[0] + f.B * n[1] + f.N * n[2], otherwise);
@@ -125,8 +126,8 @@ FN vec3 frame_normal(ShadingFrame f, vec3 n, vec3 otherwise)
 
 /* ---- the surface ---- */
 
-/* Metallic-roughness. N unit, on the side that is seen; base_color of material_base_color(). Texels: green roughness,
- * blue metallic; red occlusion; alpha specular. */
+/* Metallic-roughness. N unit, on the visible side; base_color of material_base_color(). Channels: green
+ * roughness, blue metallic; red occlusion; alpha specular. */
 FN Surface material_surface(MaterialFactors f, vec3 N, vec3 base_color, vec3 metallic_roughness_texel,
                             float occlusion_texel, vec3 emissive_texel, float specular_texel,
                             vec3 specular_color_texel)
@@ -157,7 +158,7 @@ FN Layers with_ior(Layers m, float ior, bool is_inside)
     return m;
 }
 
-/* KHR_materials_clearcoat: red, green. clearcoat_N is left to the caller. */
+/* KHR_materials_clearcoat: red, green. The caller sets clearcoat_N. */
 FN Layers with_clearcoat(Layers m, float clearcoat, float roughness, vec3 texel, vec3 roughness_texel)
 {
     m.clearcoat = clearcoat * texel[0];
@@ -177,7 +178,7 @@ FN Layers with_sheen(Layers m, vec3 color, float roughness, vec3 color_texel, fl
     return m;
 }
 
-/* KHR_materials_iridescence: red; green goes from the minimum to the maximum of the thickness. */
+/* KHR_materials_iridescence: red; green interpolates from the minimum to the maximum thickness. */
 FN Layers with_iridescence(Layers m, float iridescence, float ior, float minimum_nm, float maximum_nm,
                            vec3 texel, vec3 thickness_texel)
 {
@@ -195,8 +196,7 @@ FN float anisotropy_strength(float anisotropy, vec3 texel)
     return clamp(anisotropy * texel[2], 0.0f, 1.0f);
 }
 
-/* The texel's direction, red and green; (1, 0) where there is no texture, or the texel is that of what cannot be
- * decoded. */
+/* Direction of the texel, red and green; (1, 0) without a texture, or if it could not be decoded. */
 FN vec2 anisotropy_texel_direction(vec3 texel)
 {
     vec2 d = vec2(2.0f * texel[0] - 1.0f, 2.0f * texel[1] - 1.0f);
@@ -205,7 +205,7 @@ FN vec2 anisotropy_texel_direction(vec3 texel)
     return d;
 }
 
-/* strength of anisotropy_strength(), above 0. Without effect where the frame's tangent is along N. */
+/* strength of anisotropy_strength(), above 0. Without effect if the frame's tangent is along N. */
 FN Layers with_anisotropy(Layers m, float strength, float rotation_rad, vec3 texel, ShadingFrame f)
 {
     m.anisotropy = strength;
@@ -221,7 +221,7 @@ FN Layers with_anisotropy(Layers m, float strength, float rotation_rad, vec3 tex
     return m;
 }
 
-/* KHR_materials_transmission: red. A metal lets nothing through. */
+/* KHR_materials_transmission: red. Metals do not transmit. */
 FN Layers with_transmission(Layers m, float transmission, vec3 texel)
 {
     m.transmission = clamp(transmission * texel[0], 0.0f, 1.0f);
@@ -241,7 +241,7 @@ FN Layers with_diffuse_transmission(Layers m, float diffuse_transmission, vec3 c
     return m;
 }
 
-/* KHR_materials_volume (thickness: green; m, with the node's scale) and _dispersion; after what lets light in. */
+/* KHR_materials_volume (thickness: green; m, in world scale) and _dispersion; after the transmission layers. */
 FN Layers with_volume(Layers m, float thickness, vec3 texel, vec3 attenuation_color,
                       float attenuation_distance, float dispersion)
 {
@@ -271,7 +271,7 @@ FN Layers with_scatter(Layers m, vec3 multiscatter_color, float anisotropy)
 
 /* ---- specular anti-aliasing ---- */
 
-/* Perceptual roughness of alpha_specular_aa(). */
+/* Perceptual roughness for alpha_specular_aa(). */
 FN float roughness_specular_aa(float perceptual_roughness, vec3 dN_dx, vec3 dN_dy)
 {
     return sqrt(alpha_specular_aa(alpha_from_roughness(perceptual_roughness), dN_dx, dN_dy));

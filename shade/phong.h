@@ -1,37 +1,38 @@
-/* phong.h - the light model of OpenGL 1: ambient, diffuse and Blinn-Phong's highlight, texture environments, fog; in the
- * variants in which programs have it. Numbers are what the old programs computed with, the display's; nothing here
- * knows whether they are encoded.
+/* phong.h - the lighting model of OpenGL 1: ambient, diffuse and Blinn-Phong specular light, texture
+ * environments, fog; in the variants found in programs. Colors are display values, as in those programs; the
+ * functions do not depend on whether they are encoded.
  *
- * Eye space: the eye at the origin, +X right, +Y up, +Z towards the viewer; a point that is seen has a negative z.
- * Sources: OpenGL 2.1 specification, 2.14 (lighting), 2.11.4 (sphere maps), 3.8.13 (texture environments), 3.9 (color
- * sum), 3.10 (fog); the shaders of rgl 0.111 to 1.3 (D. Adler, D. Murdoch), one of which the vignette "Shininess in
- * OpenGL 1 versus glTF PBR" of rgl2gltf prints. */
+ * Eye space: the eye at the origin, +X right, +Y up, +Z towards the viewer; visible points have a negative z.
+ * Sources: OpenGL 2.1 specification, 2.14 (lighting), 2.11.4 (sphere maps), 3.8.13 (texture environments), 3.9
+ * (color sum), 3.10 (fog); the shaders of rgl 0.111 to 1.3 (D. Adler, D. Murdoch), one of which is printed in
+ * the vignette "Shininess in OpenGL 1 versus glTF PBR" of rgl2gltf. */
 #ifndef SHADE_PHONG_H
 #define SHADE_PHONG_H
 
 /* ---- variants ---- */
 
-#define PHONG_VIGNETTE 0    /* the shader that the vignette prints */
-#define PHONG_WEBGL 1       /* rgl's present WebGL shader */
+#define PHONG_VIGNETTE 0    /* the shader printed in the vignette */
+#define PHONG_WEBGL 1       /* rgl's current WebGL shader */
 #define PHONG_FIXED 2       /* fixed-function OpenGL 1 with its defaults */
-#define PHONG_RGL_DESKTOP 3 /* the same as rgl's desktop program sets it up */
+#define PHONG_RGL_DESKTOP 3 /* the same as configured by rgl's desktop program */
 
-/* Which side of a surface the normal is turned to before it is lit. */
-#define PHONG_SIDE_OF_EYE 0        /* where the eye is: N.V >= 0 */
-#define PHONG_SIDE_OF_VIEW_PLANE 1 /* N.z >= 0: not the same towards the border of a picture */
-#define PHONG_SIDE_OF_FACE 2       /* the face's that is seen (GL_LIGHT_MODEL_TWO_SIDE) */
-#define PHONG_SIDE_AS_GIVEN 3      /* none: backs are lit as the fronts are, from the front */
+/* Orientation of the normal before lighting. */
+#define PHONG_SIDE_OF_EYE 0        /* towards the eye: N.V >= 0 */
+#define PHONG_SIDE_OF_VIEW_PLANE 1 /* N.z >= 0: differs towards the border of an image */
+#define PHONG_SIDE_OF_FACE 2       /* the visible face's (GL_LIGHT_MODEL_TWO_SIDE) */
+#define PHONG_SIDE_AS_GIVEN 3      /* unchanged: back faces are lit like front faces */
 
 STRUCT(PhongRules)
 {
     int side;
     bool gates_highlight;     /* no highlight where N.L <= 0 */
-    bool is_viewer_infinite;  /* V is (0, 0, 1) for the highlight, whatever the point */
+    bool is_viewer_infinite;  /* V is (0, 0, 1) for the highlight */
     bool separates_highlight; /* added after the texture: GL_SEPARATE_SPECULAR_COLOR */
     bool has_attenuation;     /* lights have attenuation and spots */
-    bool is_lit_at_vertices;  /* colors are interpolated (Gouraud), and clamped to [0, 1] before */
-    bool has_fixed_fog;       /* glFog's curves, not the shaders' */
-    /* of the world's directions as they go to eye space; 1 is an error: see seeds_test.c */
+    bool is_lit_at_vertices;  /* Gouraud: vertex colors are clamped to [0, 1], then interpolated */
+    bool has_fixed_fog;       /* glFog's curves rather than those of the shaders */
+    /* w of world directions in their transformation to eye space; 1 is an error of that program: see
+     * seeds_test.c */
     float direction_w;
     vec3 global_ambient; /* times the material's ambient color */
 };
@@ -49,12 +50,12 @@ STRUCT(PhongMaterial)
 /* A light in eye space. */
 STRUCT(PhongLight)
 {
-    vec3 position; /* m; of a directional light the unit vector towards it */
+    vec3 position; /* m; for a directional light the unit vector towards it */
     vec3 ambient;
     vec3 diffuse;
     vec3 specular;
     vec3 attenuation;    /* 1 / (a0 + a1 d + a2 d^2); (1, 0, 0): none */
-    vec3 spot_direction; /* unit, the way it shines */
+    vec3 spot_direction; /* unit, from the light */
     float spot_exponent;
     float spot_cos; /* of the cone's half angle; -1: not a spot */
     bool is_point;
@@ -67,7 +68,7 @@ STRUCT(PhongColor)
     float opacity;
 };
 
-/* Lit, before textures: all light, or all but the highlight and the highlight. */
+/* Lit color before textures: all light, or the highlight apart. */
 STRUCT(PhongLit)
 {
     vec3 color;
@@ -98,23 +99,23 @@ FN PhongRules phong_rules(int variant)
 
 /* ---- the equation ---- */
 
-/* cosine^shininess, with 0^0 = 1 as the limit of exponents has it (GLSL leaves it open, and log(0)). */
+/* cosine^shininess with 0^0 = 1, the limit of the exponent (GLSL leaves it and log(0) undefined). */
 FN float phong_power(float cosine, float shininess)
 {
     float lobe = pow(max(cosine, 1e-7f), shininess);
     return sel(cosine > 0.0f || shininess <= 0.0f, lobe, 0.0f);
 }
 
-/* N.H of the half vector between two directions; 0 where they are opposite. L need not be a unit vector: H is what the
- * shaders make of it, normalize(L + V). */
+/* N.H of the half vector between two directions; 0 for opposite ones. L need not be unit: the shaders use H =
+ * normalize(L + V). */
 FN float phong_NdotH(vec3 N, vec3 V, vec3 L)
 {
     vec3 H = L + V;
     return max(dot(N, H) * inversesqrt(max(dot(H, H), 1e-20f)), 0.0f);
 }
 
-/* max(N.L, 0) Cd + max(N.H, 0)^s Cs under one white light. N, V, L unit. The highlight is not multiplied by N.L and not
- * normalised: its peak is Cs for every s, and it shows where N.L <= 0. */
+/* max(N.L, 0) Cd + max(N.H, 0)^s Cs under one white light. N, V, L unit. The highlight is neither multiplied by
+ * N.L nor normalised: its peak is Cs for every s, and it is visible where N.L <= 0. */
 FN vec3 phong_reflection(vec3 N, vec3 V, vec3 L, vec3 diffuse, vec3 specular, float shininess)
 {
     return diffuse * max(dot(N, L), 0.0f) + specular * phong_power(phong_NdotH(N, V, L), shininess);
@@ -122,7 +123,7 @@ FN vec3 phong_reflection(vec3 N, vec3 V, vec3 L, vec3 diffuse, vec3 specular, fl
 
 /* ---- normals and views ---- */
 
-/* The normal as it is lit. is_front: the face's counter-clockwise side is seen. */
+/* The normal used for lighting. is_front: the counter-clockwise side of the face is visible. */
 FN vec3 phong_normal(PhongRules r, vec3 N, vec3 V, bool is_front)
 {
     bool is_turned = r.side == PHONG_SIDE_OF_EYE && dot(N, V) < 0.0f;
@@ -131,13 +132,13 @@ FN vec3 phong_normal(PhongRules r, vec3 N, vec3 V, bool is_front)
     return sel(is_turned, -N, N);
 }
 
-/* The view of the highlight; V: the unit vector to the eye. */
+/* The view vector of the highlight; V: the unit vector to the eye. */
 FN vec3 phong_view(PhongRules r, vec3 V)
 {
     return sel(r.is_viewer_infinite, vec3(0.0f, 0.0f, 1.0f), V);
 }
 
-/* A position (w 1) or direction (w 0) of the world in eye space: rotation by the columns of view, then translation. */
+/* A world position (w 1) or direction (w 0) in eye space: rotated by the columns of view, then translated. */
 FN vec3 phong_to_eye(mat3 view, vec3 translation, vec3 p, float w)
 {
     return mul(view, p) + translation * w;
@@ -167,15 +168,15 @@ FN PhongLight phong_light_point(vec3 position, vec3 ambient, vec3 diffuse, vec3 
     return l;
 }
 
-/* The vector towards the light at P: unit for a point light, position as it is for a directional one. */
+/* The vector towards the light at P: unit for a point light, position itself for a directional one. */
 FN vec3 phong_light_vector(PhongLight l, vec3 P)
 {
     vec3 d = l.position - P;
     return sel(l.is_point, d * inversesqrt(max(dot(d, d), 1e-20f)), l.position);
 }
 
-/* Share of a point light's colors, the ambient one too, that arrives at P: attenuation times spot. Directional lights
- * have neither. */
+/* Attenuation of a point light's colors, ambient included, at P: distance attenuation times spot factor.
+ * Directional lights have neither. */
 FN float phong_light_share(PhongLight l, vec3 P)
 {
     vec3 d = l.position - P;
@@ -190,7 +191,7 @@ FN float phong_light_share(PhongLight l, vec3 P)
 
 /* ---- lighting ---- */
 
-/* What a surface shows without lights: emission, and global ambient light. Once, however many lights there are. */
+/* Emission and global ambient light. Once per point, for any number of lights. */
 FN PhongLit phong_unlit_part(PhongRules r, PhongMaterial m)
 {
     PhongLit lit;
@@ -199,8 +200,9 @@ FN PhongLit phong_unlit_part(PhongRules r, PhongMaterial m)
     return lit;
 }
 
-/* What one light adds at P. N: of phong_normal(); V: unit, to the eye. Opacity is the material's whatever the lights:
- * rgl's WebGL shader adds it once per light, so that two lights make 0.5 opaque; that is not copied. */
+/* Contribution of one light at P. N: of phong_normal(); V: unit, to the eye. Opacity is the material's for any
+ * number of lights: rgl's WebGL shader adds it once per light, so that two lights make 0.5 opaque; facet does
+ * not. */
 FN PhongLit phong_light_part(PhongRules r, PhongMaterial m, PhongLight l, vec3 P, vec3 N, vec3 V)
 {
     vec3 L = phong_light_vector(l, P);
@@ -234,7 +236,7 @@ FN PhongLit phong_add(PhongLit a, PhongLit b)
 #define PHONG_BLEND 3
 #define PHONG_ADD 4
 
-/* The texel as its type has it: colors that the type lacks are 1, luminance is the mean of the channels. */
+/* The texel by its type: missing colors are 1, luminance is the mean of the channels. */
 FN PhongColor phong_texel(int type, PhongColor t)
 {
     float mean = (t.rgb[0] + t.rgb[1] + t.rgb[2]) * (1.0f / 3.0f);
@@ -249,9 +251,10 @@ FN PhongColor phong_texel(int type, PhongColor t)
     return t;
 }
 
-/* A lit color under a texel (0 where there is none of it, 1 full): rgl's table after glTexEnv, which OpenGL leaves open
- * for DECAL of types other than RGB and RGBA (rgl: REPLACE) and has with a constant color of 0 for BLEND. ALPHA leaves
- * the color alone; REPLACE by a luminance with alpha takes the texel's alpha, by RGB and luminance keeps the color's. */
+/* A lit color combined with a texel (0: no texture coverage, 1: full): rgl's table after glTexEnv, which OpenGL
+ * leaves undefined for DECAL of types other than RGB and RGBA (rgl: REPLACE) and defines with a constant color
+ * of 0 for BLEND. ALPHA keeps the color; REPLACE with luminance and alpha takes the texel's alpha, with RGB and
+ * luminance it keeps the color's. */
 FN PhongColor phong_texture(int type, int mode, PhongColor e, PhongColor texel)
 {
     PhongColor t = phong_texel(type, texel);
@@ -276,9 +279,9 @@ FN PhongColor phong_texture(int type, int mode, PhongColor e, PhongColor texel)
     return c;
 }
 
-/* Texture coordinates of a sphere map, (0, 0) at its bottom left: r.xy / m + 1/2 with m = 2 sqrt(r.x^2 + r.y^2 +
- * (r.z + 1)^2) and r the reflected direction from the eye. N unit, V the unit vector to the eye, eye space. N = V = +Z
- * is the middle; the rim is what lies straight behind. OpenGL 2.1, 2.11.4. */
+/* Texture coordinates of a sphere map, (0, 0) at its bottom left: r.xy / m + 1/2 with m = 2 sqrt(r.x^2 + r.y^2
+ * + (r.z + 1)^2) and r the reflected view direction. N unit, V the unit vector to the eye, eye space. N = V =
+ * +Z maps to the center; the rim is the direction straight behind. OpenGL 2.1, 2.11.4. */
 FN vec2 phong_sphere_map(vec3 N, vec3 V)
 {
     vec3 r = reflect(-V, N);
@@ -298,23 +301,23 @@ STRUCT(PhongFog)
 {
     int mode;
     vec3 color;
-    float near_m; /* of the frustum, along the axis of the view */
+    float near_m; /* of the frustum, along the view axis */
     float far_m;  /* > near_m */
     float scale;  /* rgl's fogScale, > 0; 1 */
     float w;      /* phong_fog_w() */
 };
 
-/* near / far of a frustum that holds a sphere closely, as rgl's do: (1 - sin(FOV / 2)) / (1 + sin(FOV / 2)); FOV 0 is
- * drawn as from two radii, which makes 1/3. */
+/* near / far of a frustum that tightly encloses a sphere, as in rgl: (1 - sin(FOV / 2)) / (1 + sin(FOV / 2));
+ * FOV 0 (orthographic) is drawn from two radii away, which gives 1/3. */
 FN float phong_fog_w(float fov_rad)
 {
     float s = sin(0.5f * fov_rad);
     return sel(fov_rad > 0.0f, (1.0f - s) / (1.0f + s), 1.0f / 3.0f);
 }
 
-/* The fog's share of the color at distance_m along the axis, [0, 1], by rgl's shaders: with c from 0 at near to 1 at far
- * and c' = mix(w, 1, c), scale c; 1 - exp(-scale c'); 1 - exp(-(scale c')^2). Where w is near / far, c' is
- * distance / far. (The shaders write c as (y - z) / (y - x) with z < 0: x is -far, y is -near.) */
+/* Fog density at distance_m along the axis, [0, 1], by rgl's shaders: with c from 0 at near to 1 at far and c'
+ * = mix(w, 1, c), scale c; 1 - exp(-scale c'); 1 - exp(-(scale c')^2). If w is near / far, c' is distance /
+ * far. (The shaders write c as (y - z) / (y - x) with z < 0: x is -far, y is -near.) */
 FN float phong_fog_share(PhongFog f, float distance_m)
 {
     float c = (distance_m - f.near_m) / max(f.far_m - f.near_m, 1e-20f);
@@ -324,9 +327,10 @@ FN float phong_fog_share(PhongFog f, float distance_m)
     return sel(f.mode == PHONG_FOG_NONE, 0.0f, clamp(share, 0.0f, 1.0f));
 }
 
-/* The same by glFog as rgl's desktop program sets it: start = near, end = near + (far - near) / scale, density =
- * scale / far. The specification gives the object's share: (end - z) / (end - start), exp(-density z),
- * exp(-(density z)^2). Linear fog is the shaders'; the others are where w is near / far. */
+/* The same by glFog as configured by rgl's desktop program: start = near, end = near + (far - near) / scale,
+ * density = scale / far. The specification gives the weight of the object's color: (end - z) / (end - start),
+ * exp(-density z), exp(-(density z)^2). Linear fog equals that of the shaders; the others do if w is near /
+ * far. */
 FN float phong_fog_share_fixed(PhongFog f, float distance_m)
 {
     float density = f.scale / max(f.far_m, 1e-20f);
@@ -346,16 +350,16 @@ FN vec3 phong_fogged(PhongRules r, PhongFog f, vec3 color, float distance_m)
 
 /* ---- opacity ---- */
 
-/* MTL's "d -halo": 1 - (N.V) (1 - d): a body that is thinnest where it faces the eye. */
+/* MTL's "d -halo": 1 - (N.V) (1 - d): most transparent where the surface faces the eye. */
 FN float phong_halo(float dissolve, float NdotV)
 {
     return 1.0f - clamp(NdotV, 0.0f, 1.0f) * (1.0f - dissolve);
 }
 
-/* ---- the exponent as a distribution of microfacets ---- */
+/* ---- the exponent as a microfacet distribution ---- */
 
-/* The width of Beckmann's distribution with the slopes of cos^s: sqrt(2 / (s + 2)). Walter et al. 2007, section 5.2 (s =
- * 2 / alpha^2 - 2). glTF's alpha is perceptual_roughness^2, so that takes a second square root. */
+/* Width of Beckmann's distribution with the slopes of cos^s: sqrt(2 / (s + 2)). Walter et al. 2007, section 5.2
+ * (s = 2 / alpha^2 - 2). glTF's alpha is perceptual_roughness^2: take another square root for the latter. */
 FN float alpha_from_shininess(float shininess)
 {
     return sqrt(2.0f / (shininess + 2.0f));
@@ -378,9 +382,9 @@ FN vec3 brdf_blinn_phong(vec3 F0, float NdotH, float shininess)
     return F0 * (0.25f * D_BlinnPhong(NdotH, shininess));
 }
 
-/* What c (N.H)^s is multiplied with so that it returns c of the light that a surface seen head on receives, in 1/sr:
- * (s + 2) (s + 4) / (8 pi (2^(-s/2) + s)). The usual (s + 8) / (8 pi) is up to 7.5 % more (s = 9), 2.7 % at s = 64.
- * Giesen 2009, "Phong and Blinn-Phong Normalization Factors". */
+/* Normalisation of c (N.H)^s, in 1/sr: with it a surface seen head-on reflects the fraction c of its incident
+ * light, (s + 2) (s + 4) / (8 pi (2^(-s/2) + s)). The usual (s + 8) / (8 pi) is up to 7.5 % more (s = 9), 2.7 %
+ * at s = 64. Giesen 2009, "Phong and Blinn-Phong Normalization Factors". */
 FN float blinn_phong_normalisation(float shininess)
 {
     return (shininess + 2.0f) * (shininess + 4.0f) * (0.125f * INV_PI) /
@@ -391,8 +395,8 @@ FN float blinn_phong_normalisation_linear(float shininess)
     return (shininess + 8.0f) * (0.125f * INV_PI);
 }
 
-/* Cs of OpenGL 1 with the peak of brdf_blinn_phong() under a light of irradiance pi: F0 (s + 2) / 8, which the old model
- * shows for every N.L. */
+/* Cs of OpenGL 1 with the peak of brdf_blinn_phong() under a light of irradiance pi: F0 (s + 2) / 8, which the
+ * legacy model shows for every N.L. */
 FN vec3 phong_specular_from_F0(vec3 F0, float shininess)
 {
     return F0 * (0.125f * (shininess + 2.0f));

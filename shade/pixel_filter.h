@@ -1,8 +1,8 @@
-/* pixel_filter.h - reconstruction filters of a pixel, sampled by importance: a sample is drawn where the filter is large and
- * belongs to that pixel alone, so that its estimate is a plain mean (Ernst, Stamminger and Greiner 2006).
+/* pixel_filter.h - reconstruction filters of a pixel, importance-sampled: each sample belongs to one pixel,
+ * whose estimate is a plain mean (Ernst, Stamminger and Greiner 2006).
  *
- * Filters are products of the same curve along x and y. Offsets are from the pixel's middle, in pixels; u is uniform in
- * [0, 1)^2, and what is stratified in u is stratified in the pixel, since offsets grow with u. */
+ * Filters are separable. Offsets are from the pixel's center, in pixels; u is uniform in [0, 1)^2. Offsets
+ * increase with u, so stratification of u carries over to the pixel. */
 #ifndef SHADE_PIXEL_FILTER_H
 #define SHADE_PIXEL_FILTER_H
 
@@ -13,12 +13,12 @@
 STRUCT(FilterSample)
 {
     vec2 offset;  /* px */
-    float weight; /* of the sample in the mean; 1, but for Mitchell's +-(367/343)^2; its own mean is 1 */
+    float weight; /* of the sample in the mean: 1, or Mitchell's +-(367/343)^2, whose mean is 1 */
 };
 
 /* ---- Blackman-Harris ---- */
 
-/* The four-term window over [-1.5, 1.5] px, scaled to the integral 1:
+/* The four-term window over [-1.5, 1.5] px, normalised to the integral 1:
  *   k(x) = (1 + b1 cos t + b2 cos 2t + b3 cos 3t) / 3,  t = 2 pi x / 3
  * Harris 1978, minimum sidelobes; the coefficients divided by the first. */
 #define BLACKMAN_HARRIS_1 (0.48829f / 0.35875f)
@@ -33,7 +33,8 @@ FN float blackman_harris(float x)
     return sel(abs(x) <= 1.5f, k * (1.0f / 3.0f), 0.0f);
 }
 
-/* One step of Newton's method towards the z, in windows' widths from the end, that tail of the window lies before:
+/* One step of Newton's method towards the z, in units of the window's width from its end, with the cumulative
+ * distribution `tail`:
  *   T(z) = z - (b1 sin a - b2 sin(2a) / 2 + b3 sin(3a) / 3) / (2 pi) = tail,  a = 2 pi z */
 FN float blackman_harris_step(float z, float tail)
 {
@@ -47,8 +48,9 @@ FN float blackman_harris_step(float z, float tail)
     return clamp(z + (tail - t) / max(slope, 1e-4f), 0.0f, 0.5f);
 }
 
-/* The offset below which lies u of the window. The polynomial in the fourth root of the tail is a fit that is off by at most
- * 0.1 % of z for all but 1e-4 of u, 3 % for all but 1e-6; one step leaves 2e-6 and 3e-3 of it. */
+/* Inverse cumulative distribution of the window at u. The polynomial in the fourth root of the tail is a fit
+ * with an error of at most 0.1 % of z for all but 1e-4 of u, 3 % for all but 1e-6; one Newton step reduces it
+ * to 2e-6 and 3e-3. */
 FN float sample_blackman_harris(float u)
 {
     float tail = min(u, 1.0f - u);
@@ -73,9 +75,9 @@ FN float mitchell(float x)
     return sel(a < 1.0f, inner, sel(a < 2.0f, outer, 0.0f));
 }
 
-/* One side of |k| has the positive mass 355/686 and the negative one 12/686. The x in [0, 8/7] beyond which lies the share
- * q of the positive one, by f = 8/7 - x: a cubic in sqrt(q) that is off by at most 10 % of f, and three steps of Newton's
- * method, which leave rounding. */
+/* One side of |k| has the positive mass 355/686 and the negative mass 12/686. Inverts the positive one: the x
+ * in [0, 8/7] beyond which lies its fraction q, by f = 8/7 - x: a cubic in sqrt(q) with an error of at most 10
+ * % of f, then three Newton steps to rounding. */
 FN float sample_mitchell_positive(float q)
 {
     float s = sqrt(q);
@@ -91,8 +93,8 @@ FN float sample_mitchell_positive(float q)
     return 8.0f / 7.0f - f;
 }
 
-/* The x in [8/7, 2] beyond which lies the share q of the negative mass: q = 4 e^3 - 3 e^4 with e = (2 - x) 7/6. The first
- * guess, made of e's limits at both ends, is off by at most 8 %. */
+/* Inverts the negative mass: the x in [8/7, 2] beyond which lies its fraction q = 4 e^3 - 3 e^4 with e = (2 -
+ * x) 7/6. The first guess, from the limits of e at both ends, has an error of at most 8 %. */
 FN float sample_mitchell_negative(float q)
 {
     float c = pow(q, 1.0f / 3.0f);
@@ -104,8 +106,8 @@ FN float sample_mitchell_negative(float q)
     return 2.0f - (6.0f / 7.0f) * e;
 }
 
-/* The offset below which lies u of |k|, and the weight that turns a mean over |k| into one over k: the integral of |k|,
- * 367/343, with the sign of k. */
+/* Inverse cumulative distribution of |k| at u, and the weight that turns a mean over |k| into one over k: the
+ * integral of |k|, 367/343, with the sign of k. */
 FN vec2 sample_mitchell(float u)
 {
     float tail = 2.0f * min(u, 1.0f - u); /* of one side's |k|: 1 in the middle, 0 at the end */
@@ -120,7 +122,7 @@ FN vec2 sample_mitchell(float u)
 
 /* ---- any ---- */
 
-/* The filter's value, per square pixel; its integral over the plane is 1. */
+/* Value of the filter, per square pixel; its integral over the plane is 1. */
 FN float pixel_filter(int kind, vec2 offset)
 {
     if (kind == PIXEL_FILTER_BLACKMAN_HARRIS)
@@ -130,7 +132,7 @@ FN float pixel_filter(int kind, vec2 offset)
     return sel(abs(offset[0]) <= 0.5f && abs(offset[1]) <= 0.5f, 1.0f, 0.0f);
 }
 
-/* Draws an offset with the density |pixel_filter()| over its integral. */
+/* Samples an offset with a density proportional to |pixel_filter()|. */
 FN FilterSample sample_pixel_filter(int kind, vec2 u)
 {
     FilterSample s;

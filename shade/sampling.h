@@ -56,8 +56,8 @@ FN float pdf_cosine(float NdotL)
 
 /* ---- GGX normals ---- */
 
-/* Microfacet normal H with density D_GGX(z, alpha) z. Walter et al. 2007, equation 35, as
- * sin^2 = a^2 u / (1 - u + a^2 u), in which nothing cancels. */
+/* Microfacet normal H with density D_GGX(z, alpha) z. Walter et al. 2007, equation 35, as sin^2 = a^2 u / (1 -
+ * u + a^2 u), which does not cancel. */
 FN vec3 sample_D_GGX(vec2 u, float alpha)
 {
     float phi = 2.0f * PI * u[0];
@@ -73,8 +73,8 @@ FN float pdf_D_GGX(float NdotH, float alpha)
     return D_GGX(NdotH, alpha) * NdotH;
 }
 
-/* Microfacet normal H as seen from V (z > 0): density G1(V) max(0, V.H) D(H) / V.z. Bends the hemisphere to
- * alpha = 1, where visible normals are a spherical cap around V, and back. Dupuy and Benyoub 2023, "Sampling
+/* Visible microfacet normal H of V (z > 0): density G1(V) max(0, V.H) D(H) / V.z. Stretches the hemisphere to
+ * alpha = 1, where visible normals form a spherical cap around V, and back. Dupuy and Benyoub 2023, "Sampling
  * Visible GGX Normals with Spherical Caps". */
 FN vec3 sample_VNDF_GGX(vec2 u, vec3 V, float alpha_x, float alpha_y)
 {
@@ -93,9 +93,9 @@ FN float pdf_VNDF_GGX(vec3 V, vec3 H, float alpha_x, float alpha_y)
            D_GGX_anisotropic(H, alpha_x, alpha_y) / V[2];
 }
 
-/* The same for reflections alone: normals that turn V below the surface are left out, as far as a spherical cap can,
- * so fewer draws are lost and f cos / pdf is nearer to its mean. Of the bent hemisphere's cap, z > -V.z, what is
- * below -k V.z goes:
+/* The same for reflection only: a smaller cap leaves out most normals that reflect V below the surface, so
+ * fewer samples are lost and the variance is lower. The cap of the stretched hemisphere, z > -V.z, is cut at -k
+ * V.z:
  *   k = (1 - a^2) s^2 / (s^2 + a^2 V.z^2),  s = 1 + sqrt(1 - V.z^2),  a = min(alpha_x, alpha_y)
  * Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections". V.z > 0. */
 FN float bounded_VNDF_k(float NdotV, float alpha_x, float alpha_y)

@@ -1,12 +1,12 @@
-/* sheen.h - the soft rim of cloth (KHR_materials_sheen): fibres that stand up from the surface.
+/* sheen.h - the soft rim of cloth (KHR_materials_sheen): fibers that stand up from the surface.
  *
- * Two models. Charlie is glTF's; its directional albedo E has no closed form, so a table is made of
- * sheen_albedo_sample(). The lobe of linearly transformed cosines has its albedo by a fit and is sampled exactly.
- * Names are those of brdf.h; alpha here is sheen roughness squared. */
+ * Two models. Charlie is glTF's; its directional albedo E has no closed form, so a LUT is made from
+ * sheen_albedo_sample(). The linearly transformed cosine has a fitted albedo and is sampled exactly. Names are
+ * those of brdf.h; alpha here is sheen roughness squared. */
 #ifndef SHADE_SHEEN_H
 #define SHADE_SHEEN_H
 
-/* Below sheen roughness 0.01 the rim is thinner than the cosines of single precision resolve. */
+/* Below sheen roughness 0.01 the rim is narrower than cosines in single precision can resolve. */
 #define SHEEN_ALPHA_MIN 1e-4f
 
 FN float sheen_alpha(float perceptual_roughness)
@@ -16,7 +16,7 @@ FN float sheen_alpha(float perceptual_roughness)
 
 /* ---- Charlie ---- */
 
-/* Distribution of fibre normals in 1/sr, largest at the horizon, 0 at N:
+/* Distribution of fiber normals in 1/sr, largest at the horizon, 0 at N:
  *   D = (2 + 1 / a) sin^(1 / a) / (2 pi)
  * Normalised so that the integral of D (N.H) over the hemisphere is 1. Estevez and Kulla 2017, equation 2. */
 FN float D_Charlie(float NdotH, float alpha)
@@ -57,8 +57,8 @@ FN float V_Charlie(float NdotL, float NdotV, float alpha)
     return 1.0f / max(shadowing * 4.0f * NdotL * NdotV, 1e-20f);
 }
 
-/* The cheaper V = 1 / (4 (N.L + N.V - (N.L) (N.V))): Filament's. Its albedo is up to twice Charlie's and above 1 at
- * grazing views of low roughness: a table of E belongs to one visibility. Neubelt and Pettineo 2013. */
+/* The cheaper V = 1 / (4 (N.L + N.V - (N.L) (N.V))): Filament's. Its albedo is up to twice Charlie's and above
+ * 1 at grazing views of low roughness: a LUT of E holds for one visibility only. Neubelt and Pettineo 2013. */
 FN float V_Neubelt(float NdotL, float NdotV)
 {
     return 0.25f / max(NdotL + NdotV - NdotL * NdotV, 1e-20f);
@@ -70,8 +70,8 @@ FN float brdf_sheen(float NdotL, float NdotV, float NdotH, float alpha)
     return D_Charlie(NdotH, alpha) * V_Charlie(NdotL, NdotV, alpha);
 }
 
-/* Fibre normal H with density D_Charlie (N.H): sin = u^(a / (2 a + 1)). For prefiltered light; a view sees few of
- * these normals, so a path tracer is better off with sample_sheen_rim(). */
+/* Fiber normal H with density D_Charlie (N.H): sin = u^(a / (2 a + 1)). For prefiltering; few of these normals
+ * are visible from one view, so a path tracer should use sample_sheen_rim(). */
 FN vec3 sample_D_Charlie(vec2 u, float alpha)
 {
     float phi = 2.0f * PI * u[0];
@@ -84,10 +84,10 @@ FN float pdf_D_Charlie(float NdotH, float alpha)
     return D_Charlie(NdotH, alpha) * NdotH;
 }
 
-/* A direction for the lobe, denser towards the horizon the narrower the rim is, azimuth uniform: N.L = z with
+/* Direction L for the lobe, denser towards the horizon the narrower the rim is, azimuth uniform: N.L = z with
  *   p(z) = (1 + s) s / (s + z)^2 in [0, 1],   s = 1 / (N.V / (4 a) + 1 / sqrt(8 a))
- * after D = exp(-(N.H)^2 / (2 a)) with N.H from (N.V + z) / 2 on: s is where that has fallen by a factor e, either by
- * the linear or by the square term. Covers the hemisphere; uniform in the limit of large s. */
+ * after D = exp(-(N.H)^2 / (2 a)) with N.H from (N.V + z) / 2 on: s is where that has fallen by a factor e, by
+ * either the linear or the square term. Covers the hemisphere; uniform in the limit of large s. */
 FN float sheen_rim_width(float NdotV, float alpha)
 {
     return 1.0f / (0.25f * NdotV / alpha + inversesqrt(8.0f * alpha));
@@ -107,12 +107,12 @@ FN float pdf_sheen_rim(float NdotL, float NdotV, float alpha)
     return sel(NdotL > 0.0f, (1.0f + s) * s / (d * d) * (0.5f * INV_PI), 0.0f);
 }
 
-/* Term i of n of Charlie's directional albedo E(N.V) = int D V N.L dL; the mean of all n is E, 1e-3 accurate from
- * some n = 4096 on. E is above 1 at grazing views of low roughness (1.033 at roughness 0.1, N.V 0.05): a table keeps
- * it so, the user clamps.
+/* Term i of n of Charlie's directional albedo E(N.V) = int D V N.L dL; the mean of all n is E, accurate to 1e-3
+ * from about n = 4096 on. E exceeds 1 at grazing views of low roughness (1.033 at roughness 0.1, N.V 0.05): a
+ * LUT stores it as is, its reader clamps.
  *
- * Normals of density D N.H leave a factor 1 / N.H, whose variance has no bound. Their random number is therefore
- * taken as w^2 of a uniform w, which puts more of them at the horizon, N.H ~ w, and weighs them with 2 w:
+ * Normals of density D N.H leave a factor 1 / N.H of unbounded variance. Their random number is therefore w^2
+ * of a uniform w, which moves normals to the horizon, N.H ~ w, and weights them with 2 w:
  *   term = 4 V N.L V.H / N.H * 2 w,   cos^2 = 1 - (1 - w^2)^(2 a / (2 a + 1)) */
 FN float sheen_albedo_sample(uint i, uint n, float perceptual_roughness, float NdotV)
 {
@@ -145,9 +145,9 @@ FN float integrate_sheen_albedo(float perceptual_roughness, float NdotV, uint n)
     return sum / float(n);
 }
 
-/* prefilter_sample() of ibl.h for this lobe: sample i of n around R with N = V = R, whose weights N.L are to be divided
- * by their sum. D is 0 at N, so the lobe is a ring and most of it lies below the horizon at low roughness; Khronos'
- * renderer accepts that. KHR_materials_sheen, "Image-Based Lighting". */
+/* prefilter_sample() of ibl.h for this lobe: sample i of n around R with N = V = R; divide by the sum of the
+ * weights N.L. D is 0 at N, so the lobe is a ring, most of which is below the horizon at low roughness;
+ * Khronos' renderer accepts that. KHR_materials_sheen, "Image-Based Lighting". */
 FN PrefilterSample prefilter_sheen_sample(uint i, uint n, float alpha, vec3 R)
 {
     vec3 H = sample_D_Charlie(hammersley(i, n), alpha);
@@ -159,8 +159,8 @@ FN PrefilterSample prefilter_sheen_sample(uint i, uint n, float alpha, vec3 R)
     return r;
 }
 
-/* What the sheen leaves of the light below it: 1 - max3(color) E, in [0, 1]. The clamp is for E above 1.
- * KHR_materials_sheen, "Albedo scaling technique". */
+/* Transmittance of the sheen: 1 - max3(color) E, in [0, 1]. The clamp is for E above 1. KHR_materials_sheen,
+ * "Albedo scaling technique". */
 FN float sheen_scaling(vec3 sheen_color, float E)
 {
     return clamp(1.0f - max3(sheen_color) * E, 0.0f, 1.0f);
@@ -168,10 +168,10 @@ FN float sheen_scaling(vec3 sheen_color, float E)
 
 /* ---- a linearly transformed cosine ----
  *
- * Zeltner, Burley and Chiang 2022, "Practical Multiple-Scattering Sheen Using Linearly Transformed Cosines": a volume
- * of fibres, seen from V in the plane y = 0 of a frame with z = N, reflects R(N.V) times a cosine lobe transformed by
- * the inverse of M = ((A, 0, B), (0, A, 0), (0, 0, 1)). A, B, R by the rational fits of MaterialX; roughness is
- * perceptual, at least 0.01. */
+ * Zeltner, Burley and Chiang 2022, "Practical Multiple-Scattering Sheen Using Linearly Transformed Cosines": a
+ * volume of fibers, seen from V in the plane y = 0 of a frame with z = N, reflects R(N.V) times a cosine lobe
+ * transformed by the inverse of M = ((A, 0, B), (0, A, 0), (0, 0, 1)). A, B, R by the rational fits of
+ * MaterialX; roughness is perceptual, at least 0.01. */
 
 /* (A, B) of the transform. */
 FN vec2 sheen_ltc_transform(float NdotV, float perceptual_roughness)
@@ -195,8 +195,8 @@ FN float sheen_ltc_albedo(float NdotV, float perceptual_roughness)
     return clamp(exp(-0.5f * t * t) / (s * 2.50662827f) + o, 0.0f, 1.0f);
 }
 
-/* Density per sr of L, and the lobe times N.L over R: the integral over the hemisphere is 1. V in the plane y = 0,
- * x >= 0. */
+/* Density per sr of L, which is also the lobe times N.L over R: the integral over the hemisphere is 1. V in the
+ * plane y = 0, x >= 0. */
 FN float pdf_sheen_ltc(vec3 V, vec3 L, float perceptual_roughness)
 {
     vec2 t = sheen_ltc_transform(V[2], perceptual_roughness);
@@ -205,7 +205,7 @@ FN float pdf_sheen_ltc(vec3 V, vec3 L, float perceptual_roughness)
     return max(L[2], 0.0f) * INV_PI * s * s;
 }
 
-/* L of that density. */
+/* Samples L with that density. */
 FN vec3 sample_sheen_ltc(vec2 u, vec3 V, float perceptual_roughness)
 {
     vec2 t = sheen_ltc_transform(V[2], perceptual_roughness);

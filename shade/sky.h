@@ -1,12 +1,13 @@
-/* sky.h - clear skies: Preetham's formula, and light scattered in the Earth's atmosphere after Hillaire 2020. What loops
- * over rays and keeps tables stays outside: functions give where to look up, take what was found and march one step.
+/* sky.h - clear skies: Preetham's model, and scattering in the Earth's atmosphere after Hillaire 2020. Ray
+ * loops and LUTs stay outside: functions return LUT coordinates, take LUT values and march one step.
  *
- * Lengths in km, coefficients in 1/km. Elevation angles are told by mu, the cosine from straight up. Light of the sun is
- * followed at three wavelengths at a time, as a share of what arrives outside the atmosphere (radiance: 1/sr);
- * atmosphere_color() turns it into linear Rec.709 in lx or cd/m^2.
+ * Lengths in km, coefficients in 1/km. Elevations are given by mu, the cosine from the zenith. Sunlight is
+ * computed at three wavelengths at a time, relative to that outside the atmosphere (radiance: 1/sr);
+ * atmosphere_color() converts it to linear Rec.709 in lx or cd/m^2.
  *
- * Order of use: air_column() fills the table of columns; air_light_*() with table_sun() and a table of air_bounce_*()
- * marches along a ray from the eye; air_radiance() adds the parts up. src/ibl/sky_tables.c does all of it in C. */
+ * Order of use: air_column() fills the LUT of optical columns; air_light_*() with table_sun() and a LUT of
+ * air_bounce_*() marches along a ray from the eye; air_radiance() adds the terms up. src/ibl/sky_tables.c does
+ * all of it in C. */
 #ifndef SHADE_SKY_H
 #define SHADE_SKY_H
 
@@ -19,7 +20,7 @@
 
 /* ---- Preetham ---- */
 
-/* Coefficients of the formula for luminance Y and chromaticity x, y, and what it is multiplied by. */
+/* Coefficients of the formula for luminance Y and chromaticity x, y, and their scale. */
 STRUCT(PreethamSky)
 {
     vec3 A;
@@ -30,8 +31,8 @@ STRUCT(PreethamSky)
     vec3 scale; /* value at the zenith over F(0, sun_zenith) */
 };
 
-/* Perez et al. 1993: F = (1 + A e^(B / cos theta)) (1 + C e^(D gamma) + E cos^2 gamma), theta from the zenith (its cosine
- * is taken as at least 0.01), gamma from the sun. */
+/* Perez et al. 1993: F = (1 + A e^(B / cos theta)) (1 + C e^(D gamma) + E cos^2 gamma), theta from the zenith
+ * (its cosine clamped to 0.01), gamma from the sun. */
 FN vec3 preetham_F(PreethamSky s, float cos_theta, float cos_gamma)
 {
     float gamma = acos(clamp(cos_gamma, -1.0f, 1.0f));
@@ -39,8 +40,8 @@ FN vec3 preetham_F(PreethamSky s, float cos_theta, float cos_gamma)
            (1.0f + s.C * exp(s.D * gamma) + s.E * (cos_gamma * cos_gamma));
 }
 
-/* Y in cd/m^2, x, y at the zenith; sun_zenith: angle of the sun from there in [0, pi/2]. Preetham, Shirley and Smits 1999,
- * appendix A.2. */
+/* Y in cd/m^2, x, y at the zenith; sun_zenith: zenith angle of the sun in [0, pi/2]. Preetham, Shirley and
+ * Smits 1999, appendix A.2. */
 FN vec3 preetham_zenith(float turbidity, float sun_zenith)
 {
     float T = turbidity;
@@ -86,7 +87,7 @@ FN vec3 rec709_from_Yxy(vec3 c)
     return rec709_from_xyz(vec3(k * c[1], c[0], k * (1.0f - c[1] - c[2])));
 }
 
-/* Radiance in cd/m^2, linear Rec.709; what lies outside of its primaries is brought to 0. */
+/* Radiance in cd/m^2, linear Rec.709; negative channels (out of gamut) become 0. */
 FN vec3 preetham_radiance(PreethamSky s, float cos_theta, float cos_gamma)
 {
     return max(rec709_from_Yxy(preetham_Yxy(s, cos_theta, cos_gamma)), 0.0f);
@@ -94,10 +95,11 @@ FN vec3 preetham_radiance(PreethamSky s, float cos_theta, float cos_gamma)
 
 /* ---- the atmosphere ---- */
 
-/* Which wavelengths an Atmosphere has. Six in two halves, whose colors are added, are as good as a spectrum of 10 nm
- * steps: 0.01 % of luminance, for suns from 1 degree up, haze up to a depth of 0.5, direct and scattered light. Three alone
- * are off by 0.9 % (rms; 5 % at most, in light of a sun 1 degree high). They were found by least squares over such
- * light (solar spectrum ASTM G-173 from 380 to 720 nm, color matching functions of Wyman, Sloan and Shirley 2013). */
+/* Wavelengths of an Atmosphere. Six in two halves, whose colors are added, are as good as a spectrum of 10 nm
+ * steps: 0.01 % of luminance, for suns from 1 degree up, haze up to a depth of 0.5, direct and scattered light.
+ * Three alone have an error of 0.9 % (rms; 5 % at most, for a sun 1 degree high). Found by least squares over
+ * such light (solar spectrum ASTM G-173 from 380 to 720 nm, color matching functions of Wyman, Sloan and
+ * Shirley 2013). */
 #define SKY_BANDS_THREE 0  /* 624, 541, 448 nm */
 #define SKY_BANDS_FIRST 1  /* 656, 574, 465 nm */
 #define SKY_BANDS_SECOND 2 /* 612, 521, 427 nm */
@@ -105,8 +107,8 @@ FN vec3 preetham_radiance(PreethamSky s, float cos_theta, float cos_gamma)
 STRUCT(Atmosphere)
 {
     vec3 wavelength_nm;
-    mat3 rec709;          /* columns: lx of sunlight outside of the air that a wavelength stands for */
-    vec3 rayleigh;        /* scattering at the ground, 1/km */
+    mat3 rec709;   /* columns: illuminance (lx) of extraterrestrial sunlight represented by a wavelength */
+    vec3 rayleigh; /* scattering at the ground, 1/km */
     vec3 haze_scattering; /* at the ground, 1/km */
     vec3 haze_extinction;
     float haze_g; /* mean cosine of its phase function */
@@ -114,7 +116,7 @@ STRUCT(Atmosphere)
     vec3 ground_albedo;
 };
 
-/* Haze with a vertical optical depth at 550 nm, which goes with wavelength^-angstrom. */
+/* Haze of a vertical optical depth at 550 nm, proportional to wavelength^-angstrom. */
 FN Atmosphere atmosphere_with_haze(Atmosphere a, float depth_550nm, float angstrom, float scattering_albedo,
                                    float g)
 {
@@ -124,21 +126,23 @@ FN Atmosphere atmosphere_with_haze(Atmosphere a, float depth_550nm, float angstr
     return a;
 }
 
-/* Turbidity is the vertical depth of molecules and haze over that of molecules alone, which is 0.10846 at 550 nm: 1 is air
- * without haze, 1.55 the clear air over a sea, 2.5 a clear day inland, 6 a hazy one (McCartney 1976). */
+/* Turbidity is the vertical optical depth of molecules and haze over that of molecules alone, which is 0.10846
+ * at 550 nm: 1 for pure air, 1.55 for clear air over the sea, 2.5 for a clear day inland, 6 for a hazy one
+ * (McCartney 1976). */
 FN float haze_depth_from_turbidity(float turbidity)
 {
     return (turbidity - 1.0f) * 0.10846f;
 }
 
-/* Light of the sun that passes the bands of a, as Rec.709 in lx (irradiance) or cd/m^2 (radiance). */
+/* Color of transmitted or scattered sunlight in the bands of a: Rec.709 in lx (irradiance) or cd/m^2
+ * (radiance). */
 FN vec3 atmosphere_color(Atmosphere a, vec3 share)
 {
     return mul(a.rec709, share);
 }
 
-/* The Earth's over a sea: haze of depth 0.06, Angstrom's exponent 0.6, albedo 0.98, g 0.76, ground of albedo 0.06. Rayleigh
- * scattering 1.24062e-3 / km (1 um / wavelength)^4 (Bruneton 2017), 300 DU of ozone. */
+/* The Earth's atmosphere over the sea: haze of depth 0.06, Angstrom exponent 0.6, albedo 0.98, g 0.76, ground
+ * of albedo 0.06. Rayleigh scattering 1.24062e-3 / km (1 um / wavelength)^4 (Bruneton 2017), 300 DU of ozone. */
 FN Atmosphere atmosphere_earth(int bands)
 {
     Atmosphere a;
@@ -164,9 +168,10 @@ FN Atmosphere atmosphere_earth(int bands)
     return atmosphere_with_haze(a, 0.06f, 0.6f, 0.98f, 0.76f);
 }
 
-/* Share of sunlight that arrives at the ground under Preetham's sky; zenith: angle of the sun from there in [0, pi/2]. Air mass of
- * Kasten 1965, Rayleigh 0.008735 wavelength^-4.08, haze (0.04608 T - 0.04586) wavelength^-1.3 (Angstrom), 350 DU of ozone;
- * water vapour and mixed gases take next to nothing of what is seen. Preetham, Shirley and Smits 1999, appendix A.1. */
+/* Transmittance of sunlight to the ground under Preetham's sky; zenith: zenith angle of the sun in [0, pi/2].
+ * Air mass of Kasten 1965, Rayleigh 0.008735 wavelength^-4.08, haze (0.04608 T - 0.04586) wavelength^-1.3
+ * (Angstrom), 350 DU of ozone; water vapor and mixed gases absorb hardly any visible light. Preetham, Shirley
+ * and Smits 1999, appendix A.1. */
 FN vec3 preetham_sun(Atmosphere a, float turbidity, float zenith)
 {
     float air_mass = 1.0f / (cos(zenith) + 0.15f * pow(93.885f - zenith * (180.0f * INV_PI), -1.253f));
@@ -183,21 +188,21 @@ FN float phase_rayleigh(float cos_angle)
     return 3.0f / (16.0f * PI) * (1.0f + cos_angle * cos_angle);
 }
 
-/* Densities of molecules, haze and ozone over their largest at a height: e^(-h / 8 km), e^(-h / 1.2 km), and a tent from
- * 10 over 25 to 40 km. */
+/* Densities of molecules, haze and ozone at a height, relative to their maxima: e^(-h / 8 km), e^(-h / 1.2 km),
+ * and a tent from 10 over 25 to 40 km. */
 FN vec3 air_density(float height_km)
 {
     return vec3(exp(height_km * (-1.0f / 8.0f)), exp(height_km * (-1.0f / 1.2f)),
                 max(0.0f, 1.0f - abs(height_km - 25.0f) * (1.0f / 15.0f)));
 }
 
-/* 1/km, from densities; of columns (km) the optical depth. */
+/* Extinction in 1/km from densities; optical depth from columns (km). */
 FN vec3 air_extinction(Atmosphere a, vec3 density)
 {
     return a.rayleigh * density[0] + a.haze_extinction * density[1] + a.ozone * density[2];
 }
 
-/* Share of light that passes a column. */
+/* Transmittance of a column. */
 FN vec3 air_transmittance(Atmosphere a, vec3 column_km)
 {
     return exp(-air_extinction(a, column_km));
@@ -205,26 +210,26 @@ FN vec3 air_transmittance(Atmosphere a, vec3 column_km)
 
 /* ---- rays through a sphere of air ---- */
 
-/* r^2 - R^2 for a height, without cancelling. */
+/* r^2 - R^2 for a height, without cancellation. */
 FN float height_square(float height_km)
 {
     return height_km * (2.0f * EARTH_RADIUS_KM + height_km);
 }
 
-/* Height after t km along a ray from a height. */
+/* Height at the distance t km along a ray from a height. */
 FN float ray_height(float height_km, float mu, float t)
 {
     float q = height_square(height_km) + t * (2.0f * (EARTH_RADIUS_KM + height_km) * mu + t);
     return max(q / (sqrt(EARTH_RADIUS_KM * EARTH_RADIUS_KM + q) + EARTH_RADIUS_KM), 0.0f);
 }
 
-/* mu of the ray itself, there. */
+/* mu of the ray at that point. */
 FN float ray_mu(float height_km, float mu, float t, float height_there_km)
 {
     return clamp(((EARTH_RADIUS_KM + height_km) * mu + t) / (EARTH_RADIUS_KM + height_there_km), -1.0f, 1.0f);
 }
 
-/* Cosine from straight up, there, of another direction that has mu_sun at the beginning and cos_angle to the ray. */
+/* mu at that point of another direction, which has mu_sun at the start of the ray and cos_angle to the ray. */
 FN float ray_mu_sun(float height_km, float t, float mu_sun, float cos_angle, float height_there_km)
 {
     return clamp(((EARTH_RADIUS_KM + height_km) * mu_sun + t * cos_angle) /
@@ -238,7 +243,7 @@ FN float horizon_mu(float height_km)
     return -sqrt(height_square(height_km)) / (EARTH_RADIUS_KM + height_km);
 }
 
-/* km to the top of the atmosphere, as if there were no ground. */
+/* Distance in km to the top of the atmosphere, ignoring the ground. */
 FN float ray_to_top(float height_km, float mu)
 {
     float b = (EARTH_RADIUS_KM + height_km) * mu;
@@ -248,7 +253,7 @@ FN float ray_to_top(float height_km, float mu)
     return sel(b > 0.0f, c / max(b + root, 1e-20f), root - b);
 }
 
-/* km to the ground; -1: it is not met. */
+/* Distance in km to the ground; -1: no hit. */
 FN float ray_to_ground(float height_km, float mu)
 {
     float b = (EARTH_RADIUS_KM + height_km) * mu;
@@ -257,14 +262,14 @@ FN float ray_to_ground(float height_km, float mu)
     return sel(b <= 0.0f && d >= 0.0f, q / max(sqrt(max(d, 0.0f)) - b, 1e-20f), -1.0f);
 }
 
-/* Where to put step i of count, as shares of a ray: close together where it begins. */
+/* Position of step i of count as a fraction of the ray, denser near its start. */
 FN float ray_share(float i, float count)
 {
     float s = i / count;
     return s * s;
 }
 
-/* Share of the sun's disc above the horizon, from a height. */
+/* Fraction of the sun's disc above the horizon, from a height. */
 FN float sun_visibility(float height_km, float mu_sun)
 {
     float horizon = horizon_mu(height_km);
@@ -272,9 +277,9 @@ FN float sun_visibility(float height_km, float mu_sun)
     return smoothstep(-width, width, mu_sun - horizon);
 }
 
-/* ---- columns: the table of what light from outside passes ---- */
+/* ---- columns: the LUT of transmittance to space ---- */
 
-/* Texture coordinate whose 0 and 1 are the middles of the first and the last of count texels. */
+/* Texture coordinate that maps 0 and 1 to the centers of the first and the last of count texels. */
 FN float table_coordinate(float share, float count)
 {
     return 0.5f / count + clamp(share, 0.0f, 1.0f) * (1.0f - 1.0f / count);
@@ -287,8 +292,9 @@ FN float table_share(float coordinate, float count)
 #define COLUMN_TABLE_WIDTH 256
 #define COLUMN_TABLE_HEIGHT 64
 
-/* Where in [0, 1]^2 the column from a height to the top of the atmosphere is found; directions below the horizon give the
- * horizon's. Even in the distance to the top (x) and to the horizon (y): Bruneton and Neyret 2008. */
+/* LUT coordinates in [0, 1]^2 of the column from a height to the top of the atmosphere; directions below the
+ * horizon map to the horizon. Linear in the distances to the top (x) and to the horizon (y): Bruneton and
+ * Neyret 2008. */
 FN vec2 column_table_place(float height_km, float mu)
 {
     float top = sqrt(height_square(ATMOSPHERE_HEIGHT_KM));
@@ -298,7 +304,7 @@ FN vec2 column_table_place(float height_km, float mu)
     return vec2(table_coordinate(x, float(COLUMN_TABLE_WIDTH)),
                 table_coordinate(rho / top, float(COLUMN_TABLE_HEIGHT)));
 }
-/* Height and mu of a place; the inverse. */
+/* The inverse: height and mu. */
 FN vec2 column_table_ray(vec2 place)
 {
     float top = sqrt(height_square(ATMOSPHERE_HEIGHT_KM));
@@ -310,8 +316,8 @@ FN vec2 column_table_ray(vec2 place)
     return vec2(height, sel(t > 1e-6f, clamp(mu, -1.0f, 1.0f), 1.0f));
 }
 
-/* Columns of molecules, haze and ozone along a ray that does not meet the ground: integrals of air_density(), km, by the
- * midpoint rule with count steps. They do not depend on what the air holds. */
+/* Columns of molecules, haze and ozone along a ray that misses the ground: integrals of air_density(), km, by
+ * the midpoint rule with count steps. Independent of the amounts of haze and ozone. */
 FN vec3 air_column(float height_km, float mu, int count)
 {
     float length_km = ray_to_top(height_km, mu);
@@ -324,7 +330,7 @@ FN vec3 air_column(float height_km, float mu, int count)
     return sum;
 }
 
-/* Share of sunlight that arrives at a height, from the column that the table has for it. */
+/* Transmittance of sunlight to a height, from its column in the LUT. */
 FN vec3 table_sun(Atmosphere a, vec3 column_km, float height_km, float mu_sun)
 {
     return air_transmittance(a, column_km) * sun_visibility(height_km, mu_sun);
@@ -332,8 +338,8 @@ FN vec3 table_sun(Atmosphere a, vec3 column_km, float height_km, float mu_sun)
 
 /* ---- light along a ray ---- */
 
-/* Light scattered towards the eye over a ray: what is still to be multiplied by the phase function of molecules and of haze,
- * and what was scattered more than once; and what the way lets pass. */
+/* Light scattered towards the eye along a ray: single scattering by molecules and by haze, without their phase
+ * functions; multiple scattering; and the transmittance of the ray. */
 STRUCT(AirLight)
 {
     vec3 rayleigh;
@@ -352,7 +358,7 @@ FN AirLight air_light_none(void)
     return s;
 }
 
-/* (1 - e^(-depth)) / extinction over a length, without cancelling for thin air. */
+/* (1 - e^(-depth)) / extinction over a length, without cancellation for thin air. */
 FN float air_path1(float extinction, float length_km)
 {
     float x = extinction * length_km;
@@ -365,9 +371,9 @@ FN vec3 air_path(vec3 extinction, float length_km)
                 air_path1(extinction[2], length_km));
 }
 
-/* Light that was scattered before and arrives at a place from everywhere: means over directions of its radiance, of that times
- * the Legendre polynomial P2 = (3 mu^2 - 1) / 2 of where it comes from, and of that times the part of the direction that is
- * up, and that is level and towards the sun. */
+/* Incident multiply scattered light at a point: means over directions of its radiance, of its radiance times
+ * the Legendre polynomial P2 = (3 mu^2 - 1) / 2 of its direction of origin, and times the upward and the
+ * horizontal sunward components of that direction. */
 STRUCT(AirField)
 {
     vec3 mean;
@@ -395,18 +401,18 @@ FN float legendre_P2(float mu)
     return 1.5f * mu * mu - 0.5f;
 }
 
-/* The part of a direction that is level and towards the sun, from its mu, that of the sun, and the cosine between them. */
+/* Horizontal sunward component of a direction, from its mu, that of the sun, and the cosine between them. */
 FN float sunward_part(float mu, float mu_sun, float cos_angle)
 {
     float level = sqrt(max(1.0f - mu_sun * mu_sun, 1e-6f));
     return clamp((cos_angle - mu * mu_sun) / level, -1.0f, 1.0f);
 }
 
-/* Radiance scattered towards an eye that looks along mu, per albedo, by molecules and by haze. A phase function of moments w1, w2
- * turns the field into mean + 3 w1 (up, sunward) . direction + 5 w2 P2(mu) P2 .. (Chandrasekhar 1960, chapter 6).
- * Rayleigh's has 0 and 1 / 10: more at the horizon, where most light comes from, and less at the zenith. Haze has g: more on
- * the sun's side, and less of what comes from the ground. Half of that is taken, since light loses its direction from one
- * scattering to the next, and Rayleigh's second moment. Hillaire 2020 has the mean alone. */
+/* In-scattered radiance, per albedo, by molecules and by haze, for a view direction of mu. A phase function of
+ * moments w1, w2 turns the field into mean + 3 w1 (up, sunward) . direction + 5 w2 P2(mu) P2 .. (Chandrasekhar
+ * 1960, chapter 6). Rayleigh has 0 and 1 / 10: more at the horizon, from where most light comes, and less at
+ * the zenith. Haze has g: more on the sun's side, and less from the ground. Half of both is taken, since light
+ * loses its direction with each scattering. Hillaire 2020 has the mean only. */
 FN vec3 air_field_rayleigh(AirField f, float mu)
 {
     return max(f.mean + f.P2 * (0.5f * legendre_P2(mu)), 0.0f);
@@ -417,20 +423,20 @@ FN vec3 air_field_haze(AirField f, float mu, float sunward, float g)
                0.0f);
 }
 
-/* Share of what haze scatters that is counted as not scattered, on the way to the eye: most of it goes on nearly straight, and
- * the sky beside a direction sends there what goes astray. g^2 would be the share of Joseph, Wiscombe and Weinman 1976
- * (delta-Eddington) for a sky without edges; the horizon is one. 0.15 of that is fitted. With it and the moments above
- * all luminances of the reference (all orders by Monte Carlo, src/ibl/sky_test.c) are met to 7 %, with the mean alone to
- * 12 %; haze of a depth of 0.16 to 20 % by day, and in twilight the glow at the horizon comes out a third too dark. */
+/* Fraction of haze scattering that counts as unscattered along the view ray: most of it is nearly forward, and
+ * the neighboring sky replaces the loss. g^2 would be the fraction of Joseph, Wiscombe and Weinman 1976
+ * (delta-Eddington) for a sky without edges; the horizon is one. The 0.15 is fitted. With it and the moments
+ * above all luminances of the reference (all orders by Monte Carlo, src/ibl/sky_test.c) are met to 7 %, with
+ * the mean alone to 12 %; for haze of a depth of 0.16 to 20 % by day, and in twilight the glow at the horizon
+ * is a third too dark. */
 FN float haze_forward_share(Atmosphere a)
 {
     return 0.15f * a.haze_g * a.haze_g;
 }
 
-/* One step of length_km through air of a density, away from the eye. sun: table_sun() there; field: what
- * air_bounce_field() gave for there, mu, sunward: parts
- * of the ray there. Hillaire 2020, section 4; the integral over the step as in
- * Hillaire 2015. */
+/* One step of length_km through air of a density, away from the eye. sun: table_sun() at the step; field: its
+ * air_bounce_field(); mu, sunward: components of the ray there. Hillaire 2020, section 4; the integral over the
+ * step as in Hillaire 2015. */
 FN AirLight air_light_step(Atmosphere a, AirLight s, vec3 density, float length_km, vec3 sun, AirField field,
                            float mu, float sunward)
 {
@@ -453,18 +459,18 @@ FN vec3 air_radiance(Atmosphere a, AirLight s, float cos_angle)
     return s.rayleigh * phase_rayleigh(cos_angle) + s.haze * phase_HG(cos_angle, a.haze_g) + s.multiple;
 }
 
-/* ---- light scattered more than once ---- */
+/* ---- multiple scattering ---- */
 
 #define BOUNCE_TABLE_SIZE 32
 
-/* Where light scattered several times is found, for a height and a sun; finest at the ground and at sunset. */
+/* LUT coordinates of multiple scattering for a height and a sun; densest at the ground and at sunset. */
 FN vec2 bounce_table_place(float height_km, float mu_sun)
 {
     float size = float(BOUNCE_TABLE_SIZE);
     return vec2(table_coordinate(0.5f + 0.5f * sign(mu_sun) * sqrt(abs(mu_sun)), size),
                 table_coordinate(sqrt(clamp(height_km / ATMOSPHERE_HEIGHT_KM, 0.0f, 1.0f)), size));
 }
-/* Height and mu of the sun; the inverse. */
+/* The inverse: height and mu of the sun. */
 FN vec2 bounce_table_ray(vec2 place)
 {
     float x = 2.0f * table_share(place[0], float(BOUNCE_TABLE_SIZE)) - 1.0f;
@@ -472,8 +478,8 @@ FN vec2 bounce_table_ray(vec2 place)
     return vec2(y * y * ATMOSPHERE_HEIGHT_KM, x * abs(x));
 }
 
-/* Light that was scattered once and arrives (1/sr), and the share that scatters again of light that comes equally from
- * everywhere; mean over directions. */
+/* Incident singly scattered light (1/sr), and the fraction of isotropic incident light that is scattered again;
+ * means over directions. */
 STRUCT(AirBounce)
 {
     AirField once;
@@ -488,8 +494,8 @@ FN AirBounce air_bounce_none(void)
     return b;
 }
 
-/* Adds a ray that goes along mu and stands for a share of the sphere. light: along it, marched in a field of mean 1;
- * ground: illuminance of the ground where the ray ends; 0: it ends in space. */
+/* Adds a ray of direction mu that represents a fraction of the sphere. light: along it, marched in a field of
+ * mean 1; ground: illuminance of the ground at its end; 0: it ends in space. */
 FN AirBounce air_bounce_add(Atmosphere a, AirBounce b, AirLight light, float mu, float sunward,
                             float cos_angle, vec3 ground, float share)
 {
@@ -502,17 +508,17 @@ FN AirBounce air_bounce_add(Atmosphere a, AirBounce b, AirLight light, float mu,
     return b;
 }
 
-/* All light that was scattered once or more, arriving to be scattered: the mean is the series once (1 + again + again^2 ..) of Hillaire
- * 2020, equations 9 and 10; what comes later comes evenly. */
+/* Incident light of all scattering orders: the mean is the series once (1 + again + again^2 ..) of Hillaire
+ * 2020, equations 9 and 10; higher orders are isotropic. */
 FN AirField air_bounce_field(AirBounce b)
 {
     return air_field(b.once.mean / (1.0f - min(b.again, 0.999f)), b.once.P2, b.once.up, b.once.sunward);
 }
 
-/* ---- rows of a table of the sky ---- */
+/* ---- rows of a sky-view LUT ---- */
 
-/* Angle from the zenith, rad, of a row v in [-1, 1]: -1 nadir, 0 the horizon, 1 zenith; rows are closest at the horizon. The
- * square is that of Hillaire 2020, section 5.3. */
+/* Zenith angle, rad, of a row v in [-1, 1]: -1 nadir, 0 the horizon, 1 zenith; rows are densest at the horizon.
+ * The square is that of Hillaire 2020, section 5.3. */
 FN float sky_view_zenith_angle(float height_km, float v)
 {
     float horizon = acos(horizon_mu(height_km));
@@ -526,17 +532,18 @@ FN float sky_view_row(float height_km, float zenith_angle)
     return sel(zenith_angle <= horizon, up, down);
 }
 
-/* ---- pictures of a half of the sky, for the GPU ---- */
+/* ---- maps of half of the sky, for the GPU ---- */
 
-/* Column of a direction in [0, 1], once around from +X towards +Z: the share of its way along a square that stands on a corner.
- * No more than a division, and nowhere 0.8 times as fine as angles of the same number. x = z = 0: any. */
+/* Column of a direction in [0, 1], once around from +X towards +Z: the fraction of the perimeter of a square
+ * standing on a corner. It needs one division, and its resolution is never below 0.8 of that of equal angles. x
+ * = z = 0: any. */
 FN float sky_turn(float x, float z)
 {
     float along = x / max(abs(x) + abs(z), 1e-30f);
     return sel(z < 0.0f, 0.75f + 0.25f * along, 0.25f - 0.25f * along);
 }
 
-/* The level unit direction (x, z) of a column. */
+/* The horizontal unit direction (x, z) of a column. */
 FN vec2 sky_turned(float turn)
 {
     float along = sel(turn < 0.5f, 1.0f - 4.0f * turn, 4.0f * turn - 3.0f);
@@ -544,8 +551,9 @@ FN vec2 sky_turned(float turn)
     return vec2(along, aside) * inversesqrt(along * along + aside * aside);
 }
 
-/* Row in [0, 1] of a direction whose sine of elevation is the share h of the way from the horizon's, 0, to that of the zenith (or
- * nadir), 1: the square of the row goes with the angle at both ends, so that rows are closest at the horizon. And back. */
+/* Row in [0, 1] of a direction whose sine of elevation is at the fraction h between that of the horizon, 0, and
+ * of the zenith (or nadir), 1: the square of the row is proportional to the angle at both ends, so that rows
+ * are densest at the horizon. And its inverse. */
 FN float sky_row(float h)
 {
     float share = clamp(h, 0.0f, 1.0f);

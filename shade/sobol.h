@@ -1,13 +1,15 @@
-/* sobol.h - well distributed numbers for Monte Carlo integration: points of Sobol's (0, 2)-sequence, shuffled and
- * Owen-scrambled by hashes, so that every power of two of them is even in the strictest sense, each of them is uniform, and
- * point i needs no other.
+/* sobol.h - low-discrepancy points for Monte Carlo integration: Sobol's (0, 2)-sequence, shuffled and
+ * Owen-scrambled by hashes. Every aligned block of 2^m points is a (0, m, 2)-net, each point is uniform, and
+ * any point can be computed by itself.
  *
- * A number in [0, 1) is a row of binary digits. Here digit 0, the largest, is bit 0 of a uint, and reverse_bits() turns rows
- * into fractions: the hash that scrambles has to run from digit 0 on, and multiplications run from bit 0 on. */
+ * A number in [0, 1) is a row of binary digits. Digit 0, the most significant, is bit 0 of a uint, and
+ * reverse_bits() converts rows to fractions: scrambling must propagate from digit 0 on, and multiplications
+ * carry from bit 0 on. */
 #ifndef SHADE_SOBOL_H
 #define SHADE_SOBOL_H
 
-/* A well mixed number of 32 bits: every bit of the result depends on every bit of x. Wellons 2018, "lowbias32". */
+/* A 32-bit hash with full avalanche: every bit of the result depends on every bit of x. Wellons 2018,
+ * "lowbias32". */
 FN uint hash_uint(uint x)
 {
     uint h = x;
@@ -19,11 +21,11 @@ FN uint hash_uint(uint x)
     return h;
 }
 
-/* Owen's scrambling of the digits of x: each is flipped or not by a hash of seed and of the digits before it. seed is to be
- * well mixed (hash_uint()). The form is Laine and Karras' (2011, section 3.1): additions, products and x ^= x * even only
- * pass digits on to later ones. Theirs leaves flips that go together; here seed enters six times, and over all seeds each
- * flip is even and every two are independent, on which the variance of an estimate rests (Owen 1997). Any constants of the
- * form 4n + 2 did equally well in the test. */
+/* Owen scrambling of the digits of x: each is flipped or not by a hash of the seed and of the digits before it.
+ * The seed must be a hash (hash_uint()). The form is that of Laine and Karras (2011, section 3.1): additions,
+ * products and x ^= x * even propagate to later digits only. Their flips are correlated; here the seed enters
+ * six times, and over all seeds each flip is unbiased and every two are independent, on which the variance of
+ * an estimate rests (Owen 1997). Any constants of the form 4n + 2 did equally well in the test. */
 FN uint owen_scramble(uint x, uint seed)
 {
     uint d = x + seed;
@@ -34,8 +36,9 @@ FN uint owen_scramble(uint x, uint seed)
     return d;
 }
 
-/* Digits of Sobol's second dimension for digits i of the first: Pascal's triangle modulo 2 as a matrix, digit j = sum over
- * k of binomial(k, j) digit k. The triangle is the Kronecker power of that of two rows, hence five shifts (Ahmed 2024). */
+/* Digits of Sobol's second dimension from the digits i of the first: Pascal's triangle modulo 2 as a matrix,
+ * digit j = sum over k of binomial(k, j) digit k. The matrix is a Kronecker power of its 2 x 2 case, hence five
+ * shifts (Ahmed 2024). */
 FN uint sobol_second(uint i)
 {
     uint d = i ^ ((i >> 1u) & 0x55555555u);
@@ -45,36 +48,38 @@ FN uint sobol_second(uint i)
     return d ^ (d >> 16u);
 }
 
-/* Index i of a sequence moved to another place of it: digit j becomes the sum, modulo 2, of the digits j, j + t1, .. j + t4
- * (binary digits of i from the last one on), with the four numbers t from 1 to 31 as bytes of taps; 31 is none for i below
- * 2^31. A multiplication by the polynomial 1 + z^t1 + .. + z^t4. Blocks of 2^m indices stay blocks of 2^m, so each of these
- * orders runs through nets as the plain one does; two orders side by side give points of four dimensions, which are as
- * even as the quotient of their polynomials is irregular (Niederreiter 1987). */
+/* Another order of a sequence: digit j of index i becomes the sum, modulo 2, of the digits j, j + t1, .. j + t4
+ * (binary digits of i from the last one on), with the four numbers t from 1 to 31 as bytes of taps; 31 is none
+ * for i below 2^31. A multiplication by the polynomial 1 + z^t1 + .. + z^t4. Blocks of 2^m indices stay blocks
+ * of 2^m, so each order runs through nets as the plain one does; two orders side by side give points of four
+ * dimensions, which are as well distributed as the quotient of their polynomials is irregular (Niederreiter
+ * 1987). */
 FN uint sobol_order(uint i, uint taps)
 {
     return i ^ (i >> (taps & 31u)) ^ (i >> ((taps >> 8u) & 31u)) ^ (i >> ((taps >> 16u) & 31u)) ^
            (i >> (taps >> 24u));
 }
 
-/* Index i of a sequence in an order of its own: scrambled, its largest digit first, which keeps blocks of 2^m together.
- * seed as that of owen_scramble(). */
+/* Index i of a sequence in random order: scrambled, most significant digit first, which keeps blocks of 2^m
+ * together. seed as for owen_scramble(). */
 FN uint sobol_shuffle(uint i, uint seed)
 {
     return reverse_bits(owen_scramble(reverse_bits(i), seed));
 }
 
-/* Point i of the sequence whose digits are scrambled by seed, which is as that of owen_scramble(), in [0, 1)^2. Points n 2^m
- * to (n + 1) 2^m - 1 are a (0, m, 2)-net: each box of area 2^-m that halving the square's edges leads to holds one of them. */
+/* Point i of the sequence in [0, 1)^2, its digits scrambled by seed (as for owen_scramble()). Points n 2^m to
+ * (n + 1) 2^m - 1 are a (0, m, 2)-net: each elementary interval of area 2^-m contains one of them. */
 FN vec2 sobol_scrambled(uint i, uint seed)
 {
-    /* turned by a third, the seed's bits play other parts in owen_scramble() */
+    /* rotated by a third, the bits of the seed enter owen_scramble() at other places */
     uint x = reverse_bits(owen_scramble(i, (seed << 11u) | (seed >> 21u)));
     uint y = reverse_bits(owen_scramble(sobol_second(i), (seed << 21u) | (seed >> 11u)));
     return vec2(float(x >> 8u), float(y >> 8u)) * (1.0f / 16777216.0f); /* 24 bits: exact, never 1 */
 }
 
-/* Point index of the sequence that belongs to seed (any number). Sequences of different seeds are independent, also in
- * their order, and so may be paired to points of more dimensions. Burley 2020, "Practical Hash-based Owen Scrambling". */
+/* Point `index` of the sequence of a seed (any number). Sequences of different seeds are independent, in their
+ * order as well, and may be combined to points of more dimensions. Burley 2020, "Practical Hash-based Owen
+ * Scrambling". */
 FN vec2 sobol_point(uint index, uint seed)
 {
     uint h = hash_uint(seed);

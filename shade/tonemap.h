@@ -1,6 +1,6 @@
-/* tonemap.h - from scene light to what a display can show. Every operator takes linear Rec.709 in [0, inf), already
- * exposed, and returns display-linear Rec.709 in [0, 1]; the sRGB transfer function (color.h) comes after. Each is
- * monotone for greys and keeps black black. */
+/* tonemap.h - tone mapping from scene-linear to display-linear color. Every operator takes linear Rec.709 in
+ * [0, inf), already exposed, and returns display-linear Rec.709 in [0, 1]; the sRGB transfer function (color.h)
+ * comes after. Each is monotonic for grays and keeps black. */
 #ifndef SHADE_TONEMAP_H
 #define SHADE_TONEMAP_H
 
@@ -19,8 +19,8 @@ FN vec3 tonemap_reinhard(vec3 c)
     return c / (1.0f + c);
 }
 
-/* c (1 + Y / white^2) / (1 + Y) with luminance Y: keeps hue, and luminance white becomes 1. Saturated colors leave
- * [0, 1] and are clamped. Reinhard et al. 2002, equation 4. */
+/* c (1 + Y / white^2) / (1 + Y) with luminance Y: preserves hue, and maps the luminance white to 1. Saturated
+ * colors exceed [0, 1] and are clamped. Reinhard et al. 2002, equation 4. */
 FN vec3 tonemap_reinhard_extended(vec3 c, float white)
 {
     float Y = luminance(c);
@@ -39,14 +39,15 @@ FN vec3 tonemap_hable(vec3 c)
     return clamp(hable_curve(c * 2.0f) / hable_curve(vec3(11.2f)), 0.0f, 1.0f);
 }
 
-/* Narkowicz's one-curve fit of ACES, per channel, without the pre-scale of 0.6: as Khronos' renderer has it.
- * Narkowicz 2015, "ACES Filmic Tone Mapping Curve". */
+/* Narkowicz's fit of ACES, per channel, without the pre-scale of 0.6, as in Khronos' renderer. Narkowicz 2015,
+ * "ACES Filmic Tone Mapping Curve". */
 FN vec3 tonemap_aces_narkowicz(vec3 c)
 {
     return clamp(c * (c * 2.51f + 0.03f) / (c * (c * 2.43f + 0.59f) + 0.14f), 0.0f, 1.0f);
 }
 
-/* Hill's fit of the ACES reference rendering and output transforms, without the 1 / 0.6 that some apply first. */
+/* Hill's fit of the ACES reference rendering and output transforms, without the 1 / 0.6 of some
+ * implementations. */
 FN vec3 tonemap_aces(vec3 color)
 {
     mat3 into_rrt = mat3(vec3(0.59719f, 0.07600f, 0.02840f), vec3(0.35458f, 0.90834f, 0.13383f),
@@ -84,8 +85,8 @@ FN vec3 agx_contrast(vec3 x)
            0.00232f;
 }
 
-/* AgX: Rec.2020, inset, 16.5 stops of log2, contrast, outset, and back through a power of 2.2. Sobotka 2022, with
- * the matrices of Blender 4 as three.js has them. */
+/* AgX: Rec.2020, inset, 16.5 stops of log2, contrast, outset, and decoding by a power of 2.2. Sobotka 2022,
+ * with the matrices of Blender 4 as in three.js. */
 FN vec3 tonemap_agx(vec3 color)
 {
     mat3 inset =
@@ -101,7 +102,7 @@ FN vec3 tonemap_agx(vec3 color)
     return clamp(rec709_from_rec2020(c), 0.0f, 1.0f);
 }
 
-/* The operator op, one of TONEMAP_*, on any color: negative light counts as none, and light is bounded so that
+/* The operator op, one of TONEMAP_*, for any color: negative values count as 0, and values are bounded so that
  * no operator computes inf / inf. */
 FN vec3 tonemap(int op, vec3 color)
 {

@@ -1,33 +1,34 @@
-/* transmission.h - light that goes through a specular boundary (KHR_materials_transmission, KHR_materials_volume).
+/* transmission.h - specular transmission (KHR_materials_transmission, KHR_materials_volume).
  *
- * Two cases. A thin wall (no volume): both its sides refract, so light goes straight on, and roughness blurs it; the
- * lobe is the reflection's, mirrored to the other side. A volume's boundary refracts once.
+ * Two cases. A thin wall (no volume) refracts at both of its sides, so light goes straight on, blurred by the
+ * roughness; the lobe is that of the reflection, mirrored to the other side. The boundary of a volume refracts
+ * once.
  *
- * eta is the ior beyond the boundary over that on the side of V. Tangent space: z is the normal on V's side, so V.z > 0
- * and transmitted L.z < 0. Neither Fresnel's 1 - F nor the tint by base_color is in these functions: both cosines and
- * colors are the caller's choice. Radiance is counted as L / n^2, which refraction leaves as it is; what counts plain
- * radiance divides by eta^2. */
+ * eta is the ior beyond the boundary over that on the side of V. Tangent space: z is the normal on V's side, so
+ * V.z > 0 and transmitted L.z < 0. These functions contain neither Fresnel's 1 - F nor the tint by base_color:
+ * the caller chooses cosines and colors. Radiance is L / n^2, which refraction preserves; for plain radiance
+ * divide by eta^2. */
 #ifndef SHADE_TRANSMISSION_H
 #define SHADE_TRANSMISSION_H
 
 /* ---- directions ---- */
 
-/* Direction of travel behind the boundary, I that before (both unit, N against I); the zero vector: total reflection.
- * Snell's law. */
+/* Direction of propagation behind the boundary, from that before it, I (both unit, N against I); the zero
+ * vector for total internal reflection. Snell's law. */
 FN vec3 refract_or_zero(vec3 I, vec3 N, float eta)
 {
     return refract(I, N, 1.0f / eta);
 }
 
-/* L on the other side of the surface. */
+/* L mirrored to the other side of the surface. */
 FN vec3 mirror_through(vec3 L, vec3 N)
 {
     return L - N * (2.0f * dot(N, L));
 }
 
-/* GGX width of a thin wall's lobe: alpha clamp(2 ior - 2, 0, 1). A wall of ior 1 bends nothing, so it blurs nothing;
- * from ior 1.5 on it is alpha. ior 0 (infinite) transmits nothing; 1. Khronos' renderer; the extension's text has
- * alpha for every ior. */
+/* GGX width of a thin wall's lobe: alpha clamp(2 ior - 2, 0, 1). A wall of ior 1 does not refract, so it does
+ * not blur; from ior 1.5 on it is alpha. ior 0 (infinite) transmits nothing; 1. Khronos' renderer; the
+ * extension's text has alpha for every ior. */
 FN float thin_wall_alpha(float alpha, float ior)
 {
     return alpha * sel(ior < 1.0f, 1.0f, clamp(2.0f * ior - 2.0f, 0.0f, 1.0f));
@@ -35,8 +36,8 @@ FN float thin_wall_alpha(float alpha, float ior)
 
 /* ---- a volume's boundary ---- */
 
-/* Normal of the microfacet that refracts L to V, on V's side: parallel to V + eta L; the zero vector where there is
- * none: both on one side, or ior equal and L straight on. Walter et al. 2007, equation 16. */
+/* Half vector of transmission, on V's side: parallel to V + eta L; the zero vector if there is none (both on
+ * one side, or equal iors and L straight on). Walter et al. 2007, equation 16. */
 FN vec3 half_vector_transmission(vec3 V, vec3 L, float eta)
 {
     vec3 h = V + L * eta;
@@ -46,8 +47,8 @@ FN vec3 half_vector_transmission(vec3 V, vec3 L, float eta)
     return h * (sel(h[2] < 0.0f, -1.0f, 1.0f) * inversesqrt(length2));
 }
 
-/* Change of solid angle from microfacet normals to refracted directions, eta^2 |L.H| / (V.H + eta L.H)^2; cosines
- * signed. Walter et al. 2007, equation 17. */
+/* Jacobian from microfacet normals to refracted directions, eta^2 |L.H| / (V.H + eta L.H)^2; cosines signed.
+ * Walter et al. 2007, equation 17. */
 FN float transmission_jacobian(float VdotH, float LdotH, float eta)
 {
     float d = VdotH + eta * LdotH;
@@ -63,7 +64,7 @@ FN float btdf_GGX_cos(vec3 V, vec3 L, float alpha_x, float alpha_y, float eta)
     vec3 H = half_vector_transmission(V, L, eta);
     float VdotH = dot(V, H);
     float LdotH = dot(L, H);
-    if (VdotH <= 0.0f || LdotH >= 0.0f) /* no such microfacet, or it shows its back */
+    if (VdotH <= 0.0f || LdotH >= 0.0f) /* no such microfacet, or it faces away */
         return 0.0f;
     vec3 below = vec3(L[0], L[1], -L[2]);
     float Vis = V_SmithGGX_anisotropic(below, V, alpha_x, alpha_y);
@@ -71,7 +72,7 @@ FN float btdf_GGX_cos(vec3 V, vec3 L, float alpha_x, float alpha_y, float eta)
            transmission_jacobian(VdotH, LdotH, eta);
 }
 
-/* Density per sr of L as sample_transmission() draws it. */
+/* Density per sr of L in sample_transmission(). */
 FN float pdf_transmission(vec3 V, vec3 L, float alpha_x, float alpha_y, float eta)
 {
     vec3 H = half_vector_transmission(V, L, eta);
@@ -82,17 +83,17 @@ FN float pdf_transmission(vec3 V, vec3 L, float alpha_x, float alpha_y, float et
     return pdf_VNDF_GGX(V, H, alpha_x, alpha_y) * transmission_jacobian(VdotH, LdotH, eta);
 }
 
-/* A direction of light that is transmitted to V. */
+/* A direction of transmitted light. */
 STRUCT(TransmissionSample)
 {
-    vec3 L;      /* unit, z < 0; towards where the light comes from, the way a ray from V goes on */
+    vec3 L;      /* unit, z < 0; towards the light, the direction in which a ray from V continues */
     float VdotH; /* of the microfacet, for 1 - F */
-    /* BTDF |N.L| / pdf = G2 / G1(V), in [0, 1]; 0: no direction (total reflection, or not below) */
+    /* BTDF |N.L| / pdf = G2 / G1(V), in [0, 1]; 0: no direction (total internal reflection, or not below) */
     float weight;
     float pdf; /* of L, per sr */
 };
 
-/* G2 / G1(V) for a direction L on either side: what visible normals leave of the BSDF. */
+/* G2 / G1(V) for a direction L on either side: the BSDF over the density of visible normals. */
 FN float weight_VNDF_GGX(vec3 V, vec3 L, float alpha_x, float alpha_y)
 {
     vec3 above = vec3(L[0], L[1], abs(L[2]));
@@ -119,8 +120,9 @@ FN TransmissionSample sample_transmission(vec2 u, vec3 V, float alpha_x, float a
 
 /* ---- a thin wall ---- */
 
-/* The lobe times |N.L| in 1/sr: D V of the reflection, L mirrored to V's side. KHR_materials_transmission; the text
- * has the separable Smith term, facet the height-correlated one, as Khronos' renderer and as for reflection. */
+/* The lobe times |N.L| in 1/sr: D V of the reflection, L mirrored to V's side. KHR_materials_transmission; its
+ * text has the separable Smith term, facet the height-correlated one, like Khronos' renderer and like its own
+ * reflection. */
 FN float thin_wall_cos(vec3 V, vec3 L, float alpha_x, float alpha_y)
 {
     vec3 above = vec3(L[0], L[1], -L[2]);
@@ -132,7 +134,7 @@ FN float thin_wall_cos(vec3 V, vec3 L, float alpha_x, float alpha_y)
            V_SmithGGX_anisotropic(above, V, alpha_x, alpha_y) * above[2];
 }
 
-/* Density per sr of L as sample_thin_wall() draws it. */
+/* Density per sr of L in sample_thin_wall(). */
 FN float pdf_thin_wall(vec3 V, vec3 L, float alpha_x, float alpha_y)
 {
     vec3 sum = V + vec3(L[0], L[1], -L[2]);

@@ -1,11 +1,11 @@
-/* volume.h - what happens between two surfaces of a closed body (KHR_materials_volume and volume_scatter):
- * absorption, and scattering in free flight. Distances in m. */
+/* volume.h - the interior of a closed volume (KHR_materials_volume and volume_scatter): absorption and
+ * scattering. Distances in m. */
 #ifndef SHADE_VOLUME_H
 #define SHADE_VOLUME_H
 
-/* Share of light that passes x m, per channel in [0, 1]: color^(x / attenuation_distance), Beer and Lambert.
- * attenuation_distance: at which white becomes color; infinity (or 0, which no file may say): nothing is absorbed.
- * A channel of 0 is opaque from the first path > 0 on. KHR_materials_volume, "Attenuation". */
+/* Transmittance over x m, per channel in [0, 1]: color^(x / attenuation_distance), Beer-Lambert.
+ * attenuation_distance: where white becomes color; infinity (or 0, which files must not contain): no
+ * absorption. A channel of 0 is opaque from the first path > 0 on. KHR_materials_volume, "Attenuation". */
 FN vec3 volume_transmittance(vec3 attenuation_color, float attenuation_distance, float x)
 {
     float t = min(sel(attenuation_distance > 0.0f, x / max(attenuation_distance, 1e-30f), 0.0f), 1e30f);
@@ -16,18 +16,18 @@ FN vec3 volume_transmittance(vec3 attenuation_color, float attenuation_distance,
                 sel(attenuation_color[2] > 0.0f, T[2], opaque[2]));
 }
 
-/* Extinction coefficient in 1/m of the same: -ln(color) / attenuation_distance; 0 for distance infinity or 0. An
- * opaque channel counts as a color of 1e-30. */
+/* Extinction coefficient in 1/m of the same: -ln(color) / attenuation_distance; 0 for a distance of infinity or
+ * 0. An opaque channel counts as a color of 1e-30. */
 FN vec3 volume_extinction(vec3 attenuation_color, float attenuation_distance)
 {
     float per_m = sel(attenuation_distance > 0.0f, 1.0f / max(attenuation_distance, 1e-30f), 0.0f);
     return -log(clamp(attenuation_color, 1e-30f, 1.0f)) * per_m;
 }
 
-/* Albedo of one scattering event from the color that a deep volume of it shows, one channel in [0, 1]:
+/* Single-scattering albedo from the multiple-scattering color of a deep volume, one channel in [0, 1]:
  *   1 - (4.09712 + 4.20863 c - sqrt(9.59217 + 41.6808 c + 17.7126 c^2))^2
- * The scattering coefficient is this times the extinction. Kulla and Conty 2017, inverted; KHR_materials_volume_
- * scatter. */
+ * The scattering coefficient is this times the extinction. Kulla and Conty 2017, inverted;
+ * KHR_materials_volume_scatter. */
 FN float single_scatter_albedo1(float multiscatter)
 {
     float c = multiscatter;
@@ -40,15 +40,15 @@ FN vec3 single_scatter_albedo(vec3 multiscatter_color)
                 single_scatter_albedo1(multiscatter_color[2]));
 }
 
-/* Phase function in 1/sr: (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)), integral 1, mean cosine g in (-1, 1). cos is
- * between the directions of travel before and after: -dot(V, L). Henyey and Greenstein 1941. */
+/* Phase function in 1/sr: (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)), integral 1, mean cosine g in (-1, 1).
+ * cos is between the directions of propagation before and after: -dot(V, L). Henyey and Greenstein 1941. */
 FN float phase_HG(float cos_angle, float g)
 {
     float d = max(1.0f + g * g - 2.0f * g * cos_angle, 1e-12f);
     return (1.0f - g * g) * 0.25f * INV_PI / (d * sqrt(d));
 }
 
-/* Direction of travel after scattering, of density phase_HG, from that before (both unit). */
+/* Direction of propagation after scattering, with the density phase_HG, from that before (both unit). */
 FN vec3 sample_phase_HG(vec2 u, vec3 before, float g)
 {
     float t = (1.0f - g * g) / (1.0f - g + 2.0f * g * u[1]);

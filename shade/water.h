@@ -1,36 +1,37 @@
-/* water.h - the water of a sea: what its surface does to light that arrives, what comes up from the depth or from a bed, what
- * the eye sees below, and foam. Which waves are seen is the caller's matter, who brings a normal for them, and
- * the covariance of slopes of those that are not (water_surface.h); glints of the sun on these are glint.h's.
+/* water.h - the optics of a sea: reflection and refraction at its surface, light from the depth or from a bed,
+ * the view from below, and foam. The caller supplies the normal of the resolved waves and the slope covariance
+ * of the unresolved ones (water_surface.h); sun glints on the latter are in glint.h.
  *
- * SI units; radiance in cd/m^2, linear Rec.709. V: from the surface to the eye, L: to the sun, both unit; still water lies in the plane
- * y = 0. Nothing is painted: light is reflected, or goes into the water and is absorbed and scattered there.
+ * SI units; radiance in cd/m^2, linear Rec.709. V: from the surface to the eye, L: to the sun, both unit; still
+ * water lies in the plane y = 0. No color is painted: light is reflected, or enters the water and is absorbed
+ * and scattered there.
  *
- * Order of use. Once per picture: water_downwelling(). At a point of the surface: sigma_towards() and water_table_place() tell
- * where to read the table of means, water_mirror() what to look up in the sky; water_from_deep(), or water_from_bed() by the light that
- * water_interreflected() finds, is what comes up;
- * water_parts() puts them together, water_radiance() adds them up and lays foam over. */
+ * Order of use. Once per image: water_downwelling(). At a point of the surface: sigma_towards() and
+ * water_table_place() give the coordinates in the LUT of means, water_mirror() the lookup in the sky;
+ * water_from_deep(), or water_from_bed() with the irradiance of water_interreflected(), gives the upwelling
+ * radiance; water_parts() combines them, water_radiance() adds them up with foam on top. */
 #ifndef SHADE_WATER_H
 #define SHADE_WATER_H
 
-/* Mean cosine of light that goes down: see water_K_d(). Mobley 1994, section 3.9, for the open ocean. */
+/* Mean cosine of downwelling light: see water_K_d(). Mobley 1994, section 3.9, for the open ocean. */
 #define WATER_MEAN_COSINE 0.86f
-/* Of Lee et al. 2002, equation 4: R_rs = 0.52 r_rs / (1 - 1.7 r_rs), both interfaces of a sea seen from above. */
+/* Lee et al. 2002, equation 4: R_rs = 0.52 r_rs / (1 - 1.7 r_rs), both interfaces of a sea seen from above. */
 #define WATER_RRS_SHARE 0.52f
-/* Of that equation as well: what the surface sends back of light that comes up in a sea, 1.7 sr / Q of Gordon et al. 1988. */
+/* From the same equation: internal reflection of upwelling light, 1.7 sr / Q of Gordon et al. 1988. */
 #define WATER_RRS_INTERNAL 0.48f
 /* Mean cosine of scattering by particles, for phase_HG(). */
 #define WATER_PARTICLE_G 0.92f
 
-/* What does not change from place to place. */
+/* Properties that are constant over the sea. */
 STRUCT(Water)
 {
     float ior;           /* of water over that of air */
     vec3 absorption;     /* a, 1/m */
     vec3 scattering;     /* b, 1/m */
-    vec3 backscattering; /* b_b, 1/m, the part of scattering that goes backwards */
+    vec3 backscattering; /* b_b, 1/m, the backward part of scattering */
     vec3 reflectance;    /* of deep water just above its surface, pi R_rs: upward over downward irradiance */
-    vec3 pure_share;     /* of scattering that is the water's own and not strongly forward, [0, 1] */
-    /* of the surface for light from all of the sky: 2 int F mu dmu, with the whole sea's slopes */
+    vec3 pure_share;     /* fraction of scattering by the water itself, not strongly forward, [0, 1] */
+    /* of the surface for sky light: 2 int F mu dmu, with the slopes of the whole sea */
     float sky_reflectance;
     float foam_albedo;
     int normals;    /* WATER_BECKMANN or WATER_GGX */
@@ -38,23 +39,23 @@ STRUCT(Water)
     int is_schlick; /* 1: Schlick's Fresnel in place of the exact one */
 };
 
-/* A place of the surface, as wide as a footprint. */
+/* A point of the surface, averaged over a footprint. */
 STRUCT(WaterPoint)
 {
-    vec3 N; /* unit normal of the waves that are seen, N.y > 0 */
-    /* xx, zz, xz of the slopes that are not, in world axes, with SLOPE_VARIANCE_MIN on xx and zz */
+    vec3 N; /* unit normal of the resolved waves, N.y > 0 */
+    /* xx, zz, xz of the unresolved slopes, in world axes, with SLOPE_VARIANCE_MIN on xx and zz */
     vec3 covariance;
-    float foam; /* share of it that foam covers, [0, 1] */
+    float foam; /* fraction covered by foam, [0, 1] */
 };
 
-/* Light that arrives. */
+/* Incident light. */
 STRUCT(WaterLight)
 {
     vec3 L;              /* to the sun */
-    vec3 sun_irradiance; /* lx on a plane that faces it; 0 where it is below the horizon */
+    vec3 sun_irradiance; /* lx on a plane facing it; 0 below the horizon */
     vec3 sky_irradiance; /* lx on a horizontal plane, without the sun */
     vec3 downwelling;    /* lx on a horizontal plane just below the surface: water_downwelling() */
-    /* share of the sun's light that the whole sea reflects: its mean reflectance seen from L */
+    /* fraction of sunlight reflected by the whole sea: its mean reflectance from L */
     float sun_fresnel;
 };
 
@@ -66,7 +67,8 @@ FN float water_fresnel(Water w, float c)
     return sel(w.is_schlick == 1, F_Schlick1(F0_from_ior(w.ior), 1.0f, c), F_dielectric(c, w.ior));
 }
 
-/* From below, c on the water's side: 1 beyond the critical angle. With Schlick's formula the cosine is that of the air's side. */
+/* From below, c on the water's side: 1 beyond the critical angle. Schlick's formula takes the cosine on the
+ * air's side. */
 FN float water_fresnel_inside(Water w, float c)
 {
     float sin2 = (1.0f - c * c) * w.ior * w.ior;
@@ -74,29 +76,29 @@ FN float water_fresnel_inside(Water w, float c)
     return sel(w.is_schlick == 1, sel(sin2 >= 1.0f, 1.0f, schlick), F_dielectric(c, 1.0f / w.ior));
 }
 
-/* Cosine of the angle from which on all light from below is reflected, > 0. */
+/* Cosine of the critical angle of total internal reflection from below, > 0. */
 FN float water_critical_cosine(Water w)
 {
     return sqrt(max(1.0f - 1.0f / (w.ior * w.ior), 1e-6f));
 }
 
-/* Unit direction in which a ray with the direction d (down) goes on below a surface of normal N (up). Snell. */
+/* Refraction of a ray with the unit direction d (down) at a surface of normal N (up). Snell. */
 FN vec3 water_refracted(Water w, vec3 d, vec3 N)
 {
     return refract(d, N, 1.0f / w.ior);
 }
 
-/* What the table of water_means.h is made of: mean reflectance over that of flat water .. See integrate_water_means(). */
+/* Values of the LUT of water_means.h, see integrate_water_means(), and the lookup in the sky. */
 STRUCT(WaterMirror)
 {
-    float fresnel;              /* mean reflectance of the facets that are seen */
-    float escape;               /* share of the reflected light that comes from the sky */
-    vec3 R;                     /* where to look the sky up, unit; after water_mirror_passing() R.y >= 0 */
-    float perceptual_roughness; /* for which it is to be prefiltered */
-    float deviation;            /* rad, standard, of elevations within it */
+    float fresnel;              /* mean reflectance of the visible facets */
+    float escape;               /* fraction of the reflected light that comes from the sky */
+    vec3 R;                     /* unit direction of the sky lookup; after water_mirror_passing() R.y >= 0 */
+    float perceptual_roughness; /* of its prefiltering */
+    float deviation;            /* rad, standard deviation of elevations within it */
 };
 
-/* From the table's fresnel, escape, lift and spread, read at water_table_place(N.V, sigma_towards(..)). */
+/* From the fresnel, escape, lift and spread of the LUT at water_table_place(N.V, sigma_towards(..)). */
 FN WaterMirror water_mirror(Water w, WaterPoint p, vec3 V, float fresnel, float escape, float lift,
                             float spread)
 {
@@ -106,12 +108,12 @@ FN WaterMirror water_mirror(Water w, WaterPoint p, vec3 V, float fresnel, float 
     r.escape = escape;
     r.R = raised_reflection(p.N, V, lift);
     r.perceptual_roughness = roughness_from_spread(spread);
-    /* a slope along V turns what it mirrors by twice its angle, one across by N.V of that */
+    /* a slope along V turns the reflection by twice its angle, one across by N.V of that */
     r.deviation = sqrt(2.0f * spread / (1.0f + NdotV * NdotV));
     return r;
 }
 
-/* Radiance (cd/m^2) of the sun in the facets: F D G E / (4 N.V). */
+/* Radiance (cd/m^2) of the sun reflected by the facets: F D G E / (4 N.V). */
 FN vec3 water_sun(Water w, WaterPoint p, WaterLight light, vec3 V)
 {
     float mirrored = glitter(w.normals, w.masking, p.covariance, p.N, light.L, V, 1.0f);
@@ -131,7 +133,8 @@ FN vec3 water_downwelling(Water w, WaterLight light)
     return light.sun_irradiance * sun + light.sky_irradiance * (1.0f - w.sky_reflectance);
 }
 
-/* Upward over downward irradiance below the surface of deep water, R in [0, 1]. R_rs counts what the surface sends back:
+/* Upward over downward irradiance below the surface of deep water, R in [0, 1]. R_rs includes internal
+ * reflection:
  *   pi R_rs = 0.52 R / (1 - 0.48 R) */
 FN vec3 water_deep_reflectance(Water w)
 {
@@ -139,9 +142,10 @@ FN vec3 water_deep_reflectance(Water w)
     return x / (1.0f + WATER_RRS_INTERNAL * x);
 }
 
-/* Attenuation in 1/m: of what is seen sharply, c = a + b; of diffuse light along a ray, a + b_b, as most scattering hardly turns
- * it (Gordon 1973); and of irradiance with depth, K_d = (a + b_b (1 - R)) / 0.86, as what comes up is scattered down again (Schuster 1905):
- * water that absorbs nothing is as bright at any depth. In seas the last term is below 0.5 %. */
+/* Attenuation in 1/m: of the image of an object, c = a + b; of diffuse light along a ray, a + b_b, as most
+ * scattering is nearly forward (Gordon 1973); and of irradiance with depth, K_d = (a + b_b (1 - R)) / 0.86, as
+ * upwelling light is scattered down again (Schuster 1905): water without absorption is equally bright at any
+ * depth. In seas the last term is below 0.5 %. */
 FN vec3 water_beam(Water w)
 {
     return w.absorption + w.scattering;
@@ -156,14 +160,14 @@ FN vec3 water_K_d(Water w)
     return (water_diffuse(w) - returned) * (1.0f / WATER_MEAN_COSINE);
 }
 
-/* Share of light left after x m, per channel. Beer and Lambert. */
+/* Transmittance over x m, per channel. Beer-Lambert. */
 FN vec3 water_transmittance(vec3 attenuation, float x)
 {
     return exp(-attenuation * x);
 }
 
-/* Phase function in 1/sr: of pure sea water, 1 + 0.835 cos^2 (Morel 1974), and of particles, Henyey and Greenstein. cos_angle between
- * the directions of travel. */
+/* Phase function in 1/sr: of pure sea water, 1 + 0.835 cos^2 (Morel 1974), and of particles, Henyey-Greenstein.
+ * cos_angle between the directions of propagation. */
 FN float water_phase_pure(float cos_angle)
 {
     return (1.0f + 0.835f * cos_angle * cos_angle) * (0.25f * INV_PI / (1.0f + 0.835f / 3.0f));
@@ -173,28 +177,29 @@ FN vec3 water_phase(Water w, float cos_angle)
     return mix(vec3(phase_HG(cos_angle, WATER_PARTICLE_G)), vec3(water_phase_pure(cos_angle)), w.pure_share);
 }
 
-/* ---- between what is below and the surface ---- */
+/* ---- between the surface and the light below ---- */
 
-/* Share of diffuse light from below that the surface sends back, 0.48 for sea water:
+/* Internal reflectance of the surface for diffuse light from below, 0.48 for sea water:
  *   R_int = 1 - (1 - R_sky) / n^2
- * Exact, as light goes both ways alike: what a uniform sky sends in comes out again through 1 / n^2 of the directions. Judd 1942. */
+ * Exact by reciprocity: light of a uniform sky leaves again through 1 / n^2 of the directions. Judd 1942. */
 FN float water_internal_reflectance(Water w)
 {
     return 1.0f - (1.0f - w.sky_reflectance) / (w.ior * w.ior);
 }
 
-/* Share of diffuse light that a layer of the optical thickness t >= 0 lets through, 2 E_3(t). A fit between its bounds e^-t / (t + 3) <
- * E_3(t) < e^-t / (t + 2) (Abramowitz and Stegun 1964, 5.1.19), exact at both ends, within 0.004. */
+/* Transmittance of a layer of the optical thickness t >= 0 for diffuse light, 2 E_3(t). A fit between its
+ * bounds e^-t / (t + 3) < E_3(t) < e^-t / (t + 2) (Abramowitz and Stegun 1964, 5.1.19), exact at both ends,
+ * within 0.004. */
 FN vec3 water_slab(vec3 t)
 {
     return 2.0f * exp(-t) / (t + 3.0f - 1.0f / (1.0f + 0.68f * t));
 }
 
-/* Upward over downward irradiance below the surface of water over a bed, `depth` m deep. What light may still do there that goes down, up
- * and down again is weakened as much as nearly all of it that the surface sends back: beyond the critical angle, whose cosine is
- * mu_c = sqrt(1 - 1 / n^2),
+/* Upward over downward irradiance below the surface of water over a bed, `depth` m deep. Diffuse light on its
+ * way down, up and down again is attenuated like most of the light that the surface reflects: beyond the
+ * critical angle, whose cosine is mu_c = sqrt(1 - 1 / n^2),
  *   R + (albedo - R) 2 E_3(2 (a + b_b) H / mu_c)
- * What of it comes back to the bed, R_int times that, is within 0.012 of the integral over all directions. */
+ * The part that returns to the bed, R_int times that, is within 0.012 of the integral over all directions. */
 FN vec3 water_bed_reflectance(Water w, vec3 albedo, float depth)
 {
     vec3 R = water_deep_reflectance(w);
@@ -202,37 +207,39 @@ FN vec3 water_bed_reflectance(Water w, vec3 albedo, float depth)
     return R + (albedo - R) * water_slab(water_diffuse(w) * (2.0f * depth / critical));
 }
 
-/* Irradiance (lx) on a horizontal plane just below the surface: `downwelling`, what has come in, and all that goes to and fro between the
- * surface and what reflects R of it below.
+/* Irradiance (lx) on a horizontal plane just below the surface: `downwelling`, the transmitted light, and all
+ * interreflections between the surface and a reflectance R below.
  *   E_d(0-) / (1 - R_int R)
- * A white bed below clear water shows as much as the sky does. Lee et al. 1998, equation 2; of a wet ground Lekner and Dorf 1988. */
+ * A white bed below clear water is as bright as the sky. Lee et al. 1998, equation 2; for wet ground Lekner and
+ * Dorf 1988. */
 FN vec3 water_interreflected(Water w, vec3 downwelling, vec3 R)
 {
     return downwelling / (1.0f - water_internal_reflectance(w) * R);
 }
 
-/* Radiance (cd/m^2) that goes up below the surface of deep water, the same in all directions: R / pi of the light there. Gordon et al.
- * 1988; Lee et al. 2002. */
+/* Upwelling radiance (cd/m^2) below the surface of deep water, isotropic: R / pi of the irradiance there.
+ * Gordon et al. 1988; Lee et al. 2002. */
 FN vec3 water_from_deep(Water w, vec3 downwelling)
 {
     vec3 R = water_deep_reflectance(w);
     return R * water_interreflected(w, downwelling, R) * INV_PI;
 }
 
-/* Ground below, where the refracted ray meets it. */
+/* The bed where the refracted ray meets it. */
 STRUCT(WaterBed)
 {
     vec3 albedo;      /* there */
-    vec3 mean_albedo; /* around it, as wide as a quarter of the way */
+    vec3 mean_albedo; /* around it, over a quarter of the path length */
     float depth;      /* m of water above it, >= 0 */
-    float way;        /* m that the ray went through the water, >= depth */
+    float way;        /* path length (m) of the ray in the water, >= depth */
 };
 
-/* Radiance (cd/m^2) that goes up below the surface: the bed, sharp as far as light was not scattered and blurred as far as it was
- * scattered forward, and the water before it. light: water_interreflected() by water_bed_reflectance(), E.
+/* Upwelling radiance (cd/m^2) below the surface: the bed, sharp by unscattered and blurred by forward scattered
+ * light, and the water in front of it. light: water_interreflected() with water_bed_reflectance(), E.
  *   E_bed = E e^(-K_d H)
  *   E_bed / pi (albedo e^(-c l) + mean (e^(-(a + b_b) l) - e^(-c l))) + R E / pi (1 - e^(-K_d H - (a + b_b) l))
- * Goes to water_from_deep() with the depth, and to that of a bed under a mere skin of water without it. Lee et al. 1998. */
+ * Approaches water_from_deep() with increasing depth, and the bed itself with decreasing depth. Lee et al.
+ * 1998. */
 FN vec3 water_from_bed(Water w, vec3 light, WaterBed bed)
 {
     vec3 sharp = water_transmittance(water_beam(w), bed.way);
@@ -242,8 +249,8 @@ FN vec3 water_from_bed(Water w, vec3 light, WaterBed bed)
     return light * INV_PI * (ground + water_deep_reflectance(w) * (1.0f - down * blurred));
 }
 
-/* Radiance (cd/m^2) below the surface of sunlight scattered once, in water of the depth H: eye and sun at the cosines mu_v, mu_s
- * below the surface, beam: irradiance (lx) across the sun's beam there.
+/* Radiance (cd/m^2) of singly scattered sunlight below the surface, in water of the depth H: eye and sun at the
+ * cosines mu_v, mu_s below the surface, beam: irradiance (lx) across the sun's beam there.
  *   E b p / (c (1 + mu_v / mu_s)) (1 - e^(-c H (1 / mu_s + 1 / mu_v)))
  * Chandrasekhar 1960, section 68. */
 FN vec3 water_single_scattering(Water w, vec3 beam, float cos_angle, float mu_s, float mu_v, float depth)
@@ -253,15 +260,15 @@ FN vec3 water_single_scattering(Water w, vec3 beam, float cos_angle, float mu_s,
     return beam * w.scattering * water_phase(w, cos_angle) * (1.0f - left) / (c * (1.0f + mu_v / mu_s));
 }
 
-/* ---- the eye below ---- */
+/* ---- the view from below ---- */
 
-/* Share and direction of what the surface shows from below: d unit, up to it; N its normal, up. */
+/* Reflection and refraction of the surface seen from below: d unit, up to it; N its normal, up. */
 STRUCT(WaterWindow)
 {
-    float fresnel; /* share that is reflected, 1 outside of Snell's window */
-    vec3 mirrored; /* unit direction in which the water is seen */
-    vec3 outside;  /* unit direction in which the sky is seen; 0 where it is not */
-    float gain;    /* of radiance that comes in: n^2 (1 - F) */
+    float fresnel; /* reflectance, 1 outside of Snell's window */
+    vec3 mirrored; /* unit direction of the reflected water */
+    vec3 outside;  /* unit direction of the refracted sky; 0 if there is none */
+    float gain;    /* of transmitted radiance: n^2 (1 - F) */
 };
 FN WaterWindow water_window(Water w, vec3 d, vec3 N)
 {
@@ -273,8 +280,8 @@ FN WaterWindow water_window(Water w, vec3 d, vec3 N)
     return r;
 }
 
-/* Radiance (cd/m^2) of the sun that an eye below sees in the facets, looking along d (unit, up): n^2 (1 - F) times its disc where the
- * water is flat. */
+/* Radiance (cd/m^2) of the sun refracted by the facets to an eye below, along d (unit, up): n^2 (1 - F) times
+ * its disc where the water is flat. */
 FN vec3 water_sun_below(Water w, WaterPoint p, WaterLight light, vec3 d)
 {
     float through = glitter_below(w.normals, p.covariance, p.N, light.L, d, w.ior);
@@ -284,7 +291,7 @@ FN vec3 water_sun_below(Water w, WaterPoint p, WaterLight light, vec3 d)
     return light.sun_irradiance * ((1.0f - water_fresnel(w, clamp(LdotM, 0.0f, 1.0f))) * through);
 }
 
-/* Mean of e^-t over t from `first` to `last`, of any sign: what of light is left on average where so much is lost at the ends of a way. */
+/* Mean transmittance e^-t over an optical depth t from `first` to `last`, of any sign. */
 FN float water_mean_left1(float first, float last)
 {
     float t = 0.5f * (last - first);
@@ -297,9 +304,10 @@ FN vec3 water_mean_left(vec3 first, vec3 last)
                 water_mean_left1(first[2], last[2]));
 }
 
-/* Radiance (cd/m^2) that water adds along a ray of x m below the surface, from an eye at the depth z (m) in the unit direction d.
- * Diffuse light scatters so much that deep water seen from above shines as it does: at the depth h L_deep (K_d + a + b_b) e^(-K_d h).
- * Looking up, it grows by more than the way takes from it; so the two are one exponent, never above 0. */
+/* In-scattered radiance (cd/m^2) along a ray of x m below the surface, from an eye at the depth z (m) in the
+ * unit direction d. The diffuse source is such that deep water seen from above has its radiance: at the depth h
+ * L_deep (K_d + a + b_b) e^(-K_d h). Looking up, it increases faster than the ray attenuates it; so both form
+ * one exponent, never above 0. */
 FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
 {
     vec3 K = water_K_d(w);
@@ -308,10 +316,11 @@ FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
     return water_from_deep(w, downwelling) * (K + along) * water_mean_left(K * z, last) * x;
 }
 
-/* Phase function (1/sr) of light that left the sun's beam in t of scattering, by particles but for pure_share. Of that which did,
+/* Phase function (1/sr) of light scattered out of the sun's beam over an optical depth t of scattering, by
+ * particles except for pure_share. Of that light,
  *   t e^-t / (1 - e^-t)
- * was scattered once, and the rest, of t / (1 - e^-t) times on average, as often as is left for it, m. Henyey and Greenstein's functions of
- * g, one after the other, are one of g^m (their Legendre moments are g^l). */
+ * was scattered once, and the rest m times, which leaves the mean of t / (1 - e^-t). The convolution of
+ * Henyey-Greenstein functions of g is one of g^m (their Legendre moments are g^l). */
 FN float water_glow_phase1(float t, float pure_share, float cos_angle)
 {
     float x = max(t, 1e-3f);
@@ -323,16 +332,17 @@ FN float water_glow_phase1(float t, float pure_share, float cos_angle)
     return mix(particles, water_phase_pure(cos_angle), pure_share);
 }
 
-/* And of the sun's own beam, scattered forward: the glow around it. Light leaves the beam by c on the way down, turned a little, and
- * from there on is weakened by a + b_b like all that is diffuse: with the beam it is what Gordon's quasi-single scattering lets through,
+/* In-scattered radiance of the sun's beam, by forward scattering: the glow around it. Light leaves the beam by
+ * c on the way down, turned slightly, and is attenuated by a + b_b from there on like all diffuse light; beam
+ * and glow add up to Gordon's quasi-single scattering,
  *   beam e^(-c x) + glow = beam e^(-(a + b_b) x) along the beam
- * Within 4 % of photons that were counted up to 1.1 scatterings, 11 % up to 2.3 of them; 7 to 35 degrees from the sun 27 % up to 4.6, where what is
- * scattered once alone has 0.1 to 0.01. What is scattered as much as sideways, or backwards, is diffuse light's. sunward: unit
- * direction to the sun below the surface; beam: irradiance (lx) across it just below. */
+ * Within 4 % of a photon count up to 1.1 scatterings, 11 % up to 2.3; 7 to 35 degrees from the sun 27 % up to
+ * 4.6, where single scattering alone has 0.1 to 0.01. Sideways and backward scattering belong to the diffuse
+ * light. sunward: unit direction to the sun below the surface; beam: irradiance (lx) across it just below. */
 FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float x)
 {
     float forward = dot(sunward, d);
-    if (forward <= 0.0f) /* as all that the surface mirrors: most rays of an eye below */
+    if (forward <= 0.0f) /* as for all reflections by the surface: most rays of an eye below */
         return vec3(0.0f);
     float mu = max(sunward[1], 1e-3f);
     vec3 first = water_beam(w) * (z / mu); /* scattered here, and at the other end */
@@ -347,7 +357,8 @@ FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float 
     return beam * w.scattering * glow * x;
 }
 
-/* What the beam of the sun has left of the light that a + b_b would leave it after x m: the rest is in its glow. */
+/* Fraction of the quasi-single scattering transmittance e^(-(a + b_b) x) in the unscattered beam; the rest is
+ * its glow. */
 FN vec3 water_unscattered(Water w, float x)
 {
     return exp((w.backscattering - w.scattering) * x);
@@ -361,27 +372,27 @@ FN vec3 water_beam_below(Water w, WaterLight light)
     return light.sun_irradiance * ((1.0f - light.sun_fresnel) * c / max(mu, 1e-6f)); /* n = 1: 0 / 0 */
 }
 
-/* ---- all together ---- */
+/* ---- sum ---- */
 
-/* Radiance (cd/m^2) by where it comes from; their sum is what the eye sees. */
+/* Radiance (cd/m^2) by source; their sum reaches the eye. */
 STRUCT(WaterParts)
 {
     vec3 reflection;   /* of the sky */
     vec3 sun;          /* in the facets */
     vec3 transmission; /* from below */
-    vec3 between;      /* from the sky or from below, by way of a second facet */
+    vec3 between;      /* from the sky or from below, over a second facet */
     vec3 foam;
 };
 
-/* Foam is Lambertian and hides the water where it is: foam_albedo / pi (E_n N.L + E_sky). */
+/* Foam is Lambertian and opaque: foam_albedo / pi (E_n N.L + E_sky). */
 FN vec3 water_foam(Water w, WaterLight light, vec3 N)
 {
     float NdotL = max(dot(N, light.L), 0.0f);
     return (light.sun_irradiance * NdotL + light.sky_irradiance) * (w.foam_albedo * INV_PI);
 }
 
-/* From below, of `upwelling` (lx, just below the surface) and of the light that arrives: foam absorbs nothing, so that where there is n^2
- * below a uniform sky of 1 it shows n^2.
+/* Foam from below, lit by `upwelling` (lx, just below the surface) and from above: foam absorbs nothing, so
+ * that with n^2 below a uniform sky of 1 its radiance is n^2.
  *   (1 - albedo) / pi (E_n L.y + E_sky) + (1 - (1 - albedo) / n^2) / pi E_u */
 FN vec3 water_foam_below(Water w, WaterLight light, vec3 upwelling)
 {
@@ -390,8 +401,8 @@ FN vec3 water_foam_below(Water w, WaterLight light, vec3 upwelling)
     return (from_above * through + upwelling * (1.0f - through / (w.ior * w.ior))) * INV_PI;
 }
 
-/* sky: radiance read at m.R; sun: water_sun() times its glints; below: radiance that goes up just below the surface. What
- * facets reflect of other facets is the sky again, or comes from below:
+/* sky: radiance of the lookup at m.R; sun: water_sun() times its glints; below: upwelling radiance just below
+ * the surface. Facets reflected in other facets show the sky again, or light from below:
  *   F e L_sky + (1 - F) L_below / n^2 + F (1 - e) (F L_sky + (1 - F) L_below / n^2) + L_sun
  * In a closed box, L_below = n^2 L_sky, the sum is L_sky. */
 FN WaterParts water_parts(Water w, WaterPoint p, WaterLight light, WaterMirror m, vec3 sky, vec3 sun,

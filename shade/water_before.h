@@ -1,23 +1,24 @@
-/* water_before.h - a look of water before physics: Blinn and Phong's highlight on a mixture of colors that were liked, kept to
- * compare with. It exceeds 1 where the sun is mirrored and glows in the dark; nothing else here uses it.
+/* water_before.h - the legacy shading style of water, kept for comparison: Blinn-Phong highlights on a mix of
+ * hand-picked colors. It exceeds 1 at reflections of the sun and glows in the dark; nothing else depends on it.
  *
  *   f = (1 - max(w.N, 0))^5,  W = shallow to deep by the height of the surface,  c = mix(W, sky(R), f)
  *   c = 0.5 c + 0.3 ambient + 0.1 s N.L + 1.5 s (N.H)^64 + sparkle (N.H)^256,  c = mix(c, 1, 0.7 foam)
  *
- * Shown as c^0.95, without tone mapping or a transfer function. */
+ * Displayed as c^0.95, without tone mapping or a transfer function. */
 #ifndef SHADE_WATER_BEFORE_H
 #define SHADE_WATER_BEFORE_H
 
-/* w goes from the eye to the surface: f is 1, and the sky is looked up below the horizon; or to the eye, as was meant. */
+/* w points from the eye to the surface: f is 1, and the sky lookup is below the horizon; or to the eye, as
+ * intended. */
 #define BEFORE_WRITTEN 0
 #define BEFORE_INTENDED 1
 
-/* How far this look went on its way, for comparison: Schlick's formula with the reflectance of an ior; then also a highlight of GGX, F D V
- * N.L, with the sun's color for irradiance. */
+/* Stages of this style on the way to the current one: Schlick's formula with the reflectance of an ior; then
+ * also a GGX highlight, F D V N.L, with the sun's color as irradiance. */
 #define BEFORE_STAGE_NONE 0
 #define BEFORE_STAGE_FRESNEL 1
 #define BEFORE_STAGE_COOK_TORRANCE 2
-/* Perceptual, where none is given: the widest that was planned. */
+/* Perceptual roughness by default: the widest of the original plan. */
 #define BEFORE_ROUGHNESS 0.1f
 
 /* Unit direction to the sun, along (0.8, 1, 0.6), and its color. */
@@ -29,13 +30,13 @@ FN vec3 before_sky(vec3 d)
     return mix(vec3(0.6f, 0.7f, 0.9f), vec3(0.1f, 0.3f, 0.6f), 0.5f * d[1] + 0.5f);
 }
 
-/* Slopes that are foam, [0, 1]: from 0.5 to 1. */
+/* Foam amount in [0, 1] for slopes from 0.5 to 1. */
 FN float before_foam(float slope)
 {
     return smoothstep(0.5f, 1.0f, slope);
 }
 
-/* The highlight of stage 0 and 1, and of 2. */
+/* The highlight of stages 0 and 1, and of 2. */
 FN vec3 before_highlight(int stage, vec3 N, vec3 V, vec3 L, float ior, float perceptual_roughness)
 {
     vec3 H = normalize(V + L);
@@ -50,8 +51,9 @@ FN vec3 before_highlight(int stage, vec3 N, vec3 V, vec3 L, float ior, float per
     return BEFORE_SUN_COLOR * (F * D * V_SmithGGX(NdotL, NdotV, alpha) * NdotL);
 }
 
-/* Linear color of the surface of normal N that the ray d (unit, from the eye) meets at the height y (m). sparkle and foam in
- * [0, 1]. stage: BEFORE_STAGE_*; ior and perceptual_roughness are of stages above 0, which are BEFORE_INTENDED. L: the sun. */
+/* Linear color of the surface of normal N hit by the ray d (unit, from the eye) at the height y (m). sparkle
+ * and foam in [0, 1]. stage: BEFORE_STAGE_*; ior and perceptual_roughness apply to stages above 0, which are
+ * BEFORE_INTENDED. L: the sun. */
 FN vec3 before_shade(int variant, int stage, vec3 d, vec3 N, vec3 L, float y, float sparkle, float foam,
                      float ior, float perceptual_roughness)
 {
@@ -70,22 +72,23 @@ FN vec3 before_shade(int variant, int stage, vec3 d, vec3 N, vec3 L, float y, fl
     return mix(c, vec3(1.0f), 0.7f * foam);
 }
 
-/* What a display is given. */
+/* Display value. */
 FN vec3 before_display(vec3 c)
 {
     return pow(max(c, 0.0f), vec3(0.95f));
 }
 
-/* ---- a stage on the way ---- */
+/* ---- an intermediate stage ---- */
 
-/* The direction in which it looks the sky up; not below the horizon. */
+/* Direction of the sky lookup; not below the horizon. */
 FN vec3 painted_mirror(vec3 N, vec3 V)
 {
     vec3 R = reflect(-V, N);
     return normalize(vec3(R[0], max(R[1], 0.0f), R[2]));
 }
 
-/* The sky (radiance there) in a mirror of Schlick's reflectance, the sun in GGX of one roughness, and a matt base color below:
+/* The sky (radiance in the mirror direction) by Schlick's reflectance, the sun by GGX of one roughness, over a
+ * diffuse base color:
  *   F L_sky + F D V N.L E + (1 - F) albedo / pi (E N.L + E_sky) */
 FN vec3 painted_water(WaterLight light, vec3 N, vec3 V, float ior, float perceptual_roughness, vec3 sky)
 {

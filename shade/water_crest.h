@@ -1,14 +1,14 @@
-/* water_crest.h - sunlight that enters the sunlit sides of waves and is scattered out of the sides that an eye sees against the sun. Which wave
- * a place belongs to is not known: it counts as one of a sine as high as the sea and as long as its highest waves, at the height
- * that the place has.
+/* water_crest.h - sunlight that enters the sunlit sides of waves and is scattered out of the sides seen against
+ * the sun. The wave at a point is unknown: it is taken as a sine with the amplitude of the sea and the
+ * wavelength of its highest waves, at the phase given by the height of the point.
  *
- * Sun and eye are refracted downwards both, so that light is turned by some 50 to 90 degrees between, and no sun is seen
- * through water without being scattered: that takes a prism of slopes over 41 degrees on either side, where waves
- * break at 30. A side that the sun does not reach has water in front of the light, as wide as the wave. */
+ * Both sun and view are refracted downwards, so that light is scattered by some 50 to 90 degrees, and the sun
+ * is never visible unscattered: that would require a prism with slopes over 41 degrees on either side, while
+ * waves break at 30. A shaded side has unlit water in front of the light, up to the width of the wave. */
 #ifndef SHADE_WATER_CREST_H
 #define SHADE_WATER_CREST_H
 
-/* Of a picture. */
+/* Parameters of an image. */
 STRUCT(WaterCrest)
 {
     vec3 beam;        /* irradiance (lx) across the sun's beam in the water, 0: no sun */
@@ -17,8 +17,9 @@ STRUCT(WaterCrest)
     float amplitude;  /* m */
 };
 
-/* Mean slope towards the sun of what it shines on: of Gaussian slopes of that variance, each seen as tilt + slope, tilt the tangent of the
- * sun's height. s^2 Phi(z) / (tilt Phi(z) + s phi(z)), z = tilt / s; 1.25 s at the horizon. */
+/* Mean slope towards the sun of sunlit points: of Gaussian slopes of that variance, each weighted by tilt +
+ * slope, tilt the tangent of the sun's elevation. s^2 Phi(z) / (tilt Phi(z) + s phi(z)), z = tilt / s; 1.25 s
+ * at the horizon. */
 FN float water_sunlit_slope(float tilt, float variance)
 {
     float z = max(tilt, 0.0f) * inversesqrt(max(variance, SLOPE_VARIANCE_MIN));
@@ -28,8 +29,8 @@ FN float water_sunlit_slope(float tilt, float variance)
            (max(tilt, 0.0f) * share + 0.398942280f * above * sqrt(max(variance, SLOPE_VARIANCE_MIN)));
 }
 
-/* variance: of all slopes along the sun's azimuth. The beam comes through water that is tilted as what it shines on is on average, and
- * brings what level water lets in: E (1 - F) L.y = beam sunward.y. */
+/* variance: of all slopes along the sun's azimuth. The beam enters through water tilted like the average sunlit
+ * point, and carries the irradiance transmitted by level water: E (1 - F) L.y = beam sunward.y. */
 FN WaterCrest water_crest_beam(Water w, WaterLight light, float variance, float wavenumber, float amplitude)
 {
     float level = max(sqrt(light.L[0] * light.L[0] + light.L[2] * light.L[2]), 1e-4f);
@@ -43,11 +44,12 @@ FN WaterCrest water_crest_beam(Water w, WaterLight light, float variance, float 
     return c;
 }
 
-/* m of water from a place of that phase (rad, [0, pi]: from the crest on, away from the sun) to the beam of sunlight that enters at another
- * before it, along the refracted ray `down`, and back along that beam. sun: unit and level, towards it. 0 from one place to itself. */
+/* Path length (m) in water from a point of that phase (rad, [0, pi]: from the crest on, away from the sun) to
+ * the sunbeam that enters at `entry` before it, along the refracted ray `down`, and back along that beam. sun:
+ * unit and horizontal, towards it. 0 from a point to itself. */
 FN float water_crest_way(WaterCrest c, vec2 sun, vec3 down, float phase, float entry)
 {
-    float across = max(phase - entry, 0.0f) / c.wavenumber; /* to where it enters, towards the sun */
+    float across = max(phase - entry, 0.0f) / c.wavenumber; /* to its entry, towards the sun */
     float up = max(cos(entry) - cos(phase), 0.0f) * c.amplitude;
     float level = max(c.sunward[0] * sun[0] + c.sunward[2] * sun[1], 1e-3f);
     float along = down[0] * sun[0] + down[2] * sun[1];
@@ -56,11 +58,12 @@ FN float water_crest_way(WaterCrest c, vec2 sun, vec3 down, float phase, float e
     return before + max(across - before * along, 0.0f) / level;
 }
 
-/* Of the light that a place `height` m over the level would show in water that is lit as brightly all over as its crest, the share that it shows,
- * per channel. tilt: tangent of the sun's height. Behind the crest sunlight fades with the slope and ends where that is the sun's height. A ray
- * that first meets light at the way x and all of it at x + d, growing evenly between, gathers
+/* Fraction, per channel, of the light of water lit everywhere as at its crest, at a point `height` m above the
+ * level. tilt: tangent of the sun's elevation. Behind the crest sunlight fades with the slope and ends where
+ * that equals the sun's elevation. A ray that first meets light at the path length x and all of it at x + d,
+ * increasing linearly between, gathers
  *   e^(-K x) (r + (1 - r) (1 - e^(-K d)) / (K d)),  K = a + b_b
- * where the place itself has the share r, or has x > 0. */
+ * where the point itself has the fraction r, or has x > 0. */
 FN vec3 water_crest_lit(Water w, WaterCrest c, vec2 sun, float tilt, vec3 down, float height)
 {
     float cosine = clamp(height / c.amplitude, -1.0f, 1.0f);
@@ -76,19 +79,20 @@ FN vec3 water_crest_lit(Water w, WaterCrest c, vec2 sun, float tilt, vec3 down, 
     return water_transmittance(K, way) * mix(growing, vec3(1.0f), here);
 }
 
-/* Irradiance on level water is 1: radiance (1/sr) of a beam that is scattered once, for cosines of the sun and the eye in the water,
+/* Radiance (1/sr) of a singly scattered beam for an irradiance of 1 on level water and cosines of sun and eye
+ * in the water,
  *   b p / ((a + b_b) (mu_s + mu_v))
- * as what is scattered by little counts as not scattered (Gordon 1973). p of angles up to 90 degrees: light that turns
- * back is in the reflectance of the depth. */
+ * as near-forward scattering counts as unscattered (Gordon 1973). p for angles up to 90 degrees: backscattered
+ * light is in the reflectance of deep water. */
 FN vec3 water_forward(Water w, float cos_angle, float mu_s, float mu_v)
 {
     return w.scattering * water_phase(w, max(cos_angle, 0.0f)) /
            (max(water_diffuse(w), 1e-9f) * max(mu_s + mu_v, 1e-3f));
 }
 
-/* Radiance (cd/m^2) below the surface that a place has beside the reflectance of the depth: of sunlight scattered forward, what is more than on level
- * water. N: of the waves that are seen there; down: refracted from the eye; height: over the mean level, m. Nothing
- * on level water, and where the sun stands behind the eye. */
+/* Radiance (cd/m^2) below the surface, beside the reflectance of deep water, of forward scattered sunlight in
+ * excess of that of level water. N: of the resolved waves; down: refracted from the eye; height: over the mean
+ * level, m. Zero for level water and with the sun behind the eye. */
 FN vec3 water_crest(Water w, WaterLight light, WaterCrest c, vec3 N, vec3 V, vec3 down, float height)
 {
     float level = sqrt(light.L[0] * light.L[0] + light.L[2] * light.L[2]);

@@ -1,27 +1,29 @@
-/* water_facets.h - facets of water in which something is to be seen: those of all that an eye sees that may mirror a box, or show it
- * through Snell's window, and some of them by chance. What is small, and is shown by few facets of a rough surface, is found by as many rays
- * as what is large. And a few that stand for all that an eye in the water sees, inside of Snell's window and outside of it.
+/* water_facets.h - facets of water that may show a given object: the range of visible facets that may reflect a
+ * box or refract it through Snell's window, and random samples of them. Small objects, shown by few facets of a
+ * rough surface, take as many rays as large ones. And a fixed set of facets that represents all facets visible
+ * from below, inside and outside of Snell's window.
  *
- * Facets have Gaussian slopes (water_surface.h). Their places are in standard deviations from the mean: z.x along the eye's direction,
- * z.y across, about the regression on z.x, so that both are independent and normal. */
+ * Facets have Gaussian slopes (water_surface.h). Their coordinates are in standard deviations from the mean:
+ * z.x along the azimuth of the eye, z.y across, around the regression on z.x, so that both are independent and
+ * normal. */
 #ifndef SHADE_WATER_FACETS_H
 #define SHADE_WATER_FACETS_H
 
-/* Beyond so many standard deviations no facet is looked at. */
+/* Facets beyond this number of standard deviations are ignored. */
 #define FACETS_END 4.0f
 
-/* A rectangle of places. */
+/* A rectangle of facet coordinates. */
 STRUCT(FacetRange)
 {
     vec2 towards; /* unit, horizontal, to the eye */
     float along;  /* standard deviation of slopes along it */
     float lean;   /* slope across for one such deviation */
     float across; /* standard deviation about that */
-    float n;      /* how many deviations a facet is that the eye sees edge on */
+    float n;      /* deviations of a facet seen edge-on */
     vec2 low, high;
 };
 
-/* All that an eye sees of facets with the covariance C about the normal N; V: unit, to it. */
+/* Range of all visible facets, with the covariance C around the normal N; V: unit, to the eye. */
 FN FacetRange facets_seen(vec3 C, vec3 N, vec3 V)
 {
     FacetRange r;
@@ -38,7 +40,7 @@ FN FacetRange facets_seen(vec3 C, vec3 N, vec3 V)
     return r;
 }
 
-/* Where the facet of normal m is. */
+/* Coordinates of the facet of normal m. */
 FN vec2 facet_place(FacetRange r, vec3 N, vec3 m)
 {
     vec2 d = slope_from_normal(m) - slope_from_normal(N);
@@ -46,7 +48,8 @@ FN vec2 facet_place(FacetRange r, vec3 N, vec3 m)
     return vec2(z, (r.towards[0] * d[1] - r.towards[1] * d[0] - r.lean * z) / r.across);
 }
 
-/* The rectangle about places, with a margin, as edges of a box are bent; of a box that is wide it is all. */
+/* The rectangle around coordinates, with a margin for the curved edges of a box; for a wide box the whole
+ * range. */
 FN FacetRange facets_about(FacetRange all, vec2 low, vec2 high, bool is_wide)
 {
     FacetRange r = all;
@@ -58,15 +61,15 @@ FN FacetRange facets_about(FacetRange all, vec2 low, vec2 high, bool is_wide)
     return r;
 }
 
-/* Whether a box about the direction `middle` is too wide for its corners to tell which facets show it; D: to a corner. */
+/* Whether a box around the direction `middle` is too wide to be bounded by its corners; D: to a corner. */
 FN bool is_wide_box(vec3 middle, vec3 D)
 {
     return dot(vec2(D[0], D[2]), vec2(middle[0], middle[2])) < 0.5f;
 }
 
-/* Of those, which may mirror a box; low, high: its corners from the place of the surface. What facets send down meets another wave and
- * goes up again: they show the box as if it stood upside down as well. Larger than need be where the box is wide. An eye in the water
- * that looks along V sees what they mirror of the box -high to -low. */
+/* Range of facets that may reflect a box; low, high: its corners from the point of the surface. Downward
+ * reflections meet another wave and go up again: they show the box upside down as well. Conservative for wide
+ * boxes. An eye in the water looking along V sees reflections of the box -high to -low. */
 FN FacetRange facets_that_mirror(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
 {
     FacetRange all = facets_seen(C, N, V);
@@ -79,7 +82,7 @@ FN FacetRange facets_that_mirror(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
         vec3 D = normalize(vec3(sel(i % 2 == 0, low[0], high[0]), sel(i < 4, bottom, high[1]),
                                 sel(i / 2 % 2 == 0, low[2], high[2])));
         is_wide = is_wide || is_wide_box(middle, D);
-        vec3 H = V + normalize(vec3(D[0], max(D[1], -0.5f * V[1]), D[2])); /* seen edge on, the lowest */
+        vec3 H = V + normalize(vec3(D[0], max(D[1], -0.5f * V[1]), D[2])); /* seen edge-on, the lowest */
         vec2 z = facet_place(all, N, vec3(H[0], max(H[1], 1e-4f), H[2]));
         first = min(first, z);
         last = max(last, z);
@@ -87,9 +90,10 @@ FN FacetRange facets_that_mirror(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
     return facets_about(all, first, last, is_wide);
 }
 
-/* Normal, not of unit length, of the facet that bends light from D, in the air, to an eye in the water that looks along d; both unit:
+/* Normal, not unit, of the facet that refracts light from D, in the air, to an eye in the water looking along
+ * d; both unit:
  *   n d - D
- * Of light that none bends so far it is that of the rim, where D is nearest. */
+ * If no facet refracts so far it is that of the rim, where D is nearest. */
 FN vec3 facet_that_bends(vec3 d, vec3 D, float ior)
 {
     float least = 1.0f / ior;
@@ -100,8 +104,8 @@ FN vec3 facet_that_bends(vec3 d, vec3 D, float ior)
     return d * ior - sel(c < least, rim, D);
 }
 
-/* Of those that an eye sees which looks along d (unit, up) in the water, which may show a box through Snell's window; low, high: its corners
- * from the place of the surface, none below it. */
+/* Range of facets, for an eye in the water looking along d (unit, up), that may show a box through Snell's
+ * window; low, high: its corners from the point of the surface, none below it. */
 FN FacetRange facets_that_bend(vec3 C, vec3 N, vec3 d, vec3 low, vec3 high, float ior)
 {
     FacetRange all = facets_seen(C, N, d);
@@ -121,7 +125,7 @@ FN FacetRange facets_that_bend(vec3 C, vec3 N, vec3 d, vec3 low, vec3 high, floa
     return facets_about(all, first, last, is_wide);
 }
 
-/* Share of all facets that is in the rectangle, seen or not; 0: it is empty. */
+/* Fraction of all facets in the rectangle, visible or not; 0: it is empty. */
 FN float facets_share(FacetRange r)
 {
     vec2 from = vec2(normal_below(r.low[0]), normal_below(r.low[1]));
@@ -129,15 +133,15 @@ FN float facets_share(FacetRange r)
     return max(to[0] - from[0], 0.0f) * max(to[1] - from[1], 0.0f);
 }
 
-/* A facet, and what it stands for: the mean of weights over many is the share that the rectangle has of what is seen. */
+/* A facet and its weight: the mean of many weights is the rectangle's fraction of the visible area. */
 STRUCT(Facet)
 {
     vec3 m; /* unit normal */
     float weight;
 };
 
-/* u: uniform in [0, 1)^2. Density phi(z.x) phi(z.y) in the rectangle; of facets that are seen (slopes_seen()) it is
- * (1 - z.x / n) (1 - exp(-2 n (n - z.x))) phi(z.x) phi(z.y), as sample_slopes() has it. */
+/* u: uniform in [0, 1)^2. Density phi(z.x) phi(z.y) in the rectangle; that of visible facets (slopes_seen()) is
+ * (1 - z.x / n) (1 - exp(-2 n (n - z.x))) phi(z.x) phi(z.y), as in sample_slopes(). */
 FN Facet facet_drawn(FacetRange r, vec3 N, vec2 u)
 {
     float x = mix(normal_below(r.low[0]), normal_below(r.high[0]), u[0]);
@@ -153,17 +157,18 @@ FN Facet facet_drawn(FacetRange r, vec3 N, vec2 u)
     return f;
 }
 
-/* ---- the eye below ---- */
+/* ---- the view from below ---- */
 
 #define WINDOW_CELLS 3
 #define WINDOW_FACETS 8
-/* Of so small deviations one facet stands for all: their window has an edge a tenth of a degree wide. */
+/* Below this deviation one facet represents all: their window has an edge a tenth of a degree wide. */
 #define WINDOW_SHARP 1e-3f
-/* Of the variance of all slopes, what is left within a cell: 1.4^2 / 12, less, and what the rim does not divide. */
+/* Fraction of the slope variance within a cell: below 1.4^2 / 12, plus the part not divided by the rim. */
 #define WINDOW_BETWEEN 0.12f
 
-/* Tilt towards d, in deviations, from which on facets are transparent; 1e9: none is. d unit, up; critical: cosine of the angle of total
- * reflection. c = x along |d_h| is compared with critical sqrt(1 + s_along^2 + s_across^2), side: deviations across. */
+/* Tilt towards d, in deviations, from which on facets transmit; 1e9: none does. d unit, up; critical: cosine of
+ * the critical angle. c = x along |d_h| is compared with critical sqrt(1 + s_along^2 + s_across^2), side:
+ * deviations across. */
 FN float window_rim(FacetRange r, vec3 N, vec3 d, float critical, float side)
 {
     vec2 t = r.towards;
@@ -179,7 +184,7 @@ FN float window_rim(FacetRange r, vec3 N, vec3 d, float critical, float side)
     return sel(linear * linear + square * rest < 0.0f || root <= 0.0f, 1e9f, rest / max(root, 1e-12f));
 }
 
-/* The middle of tilts that are seen, in deviations, which have one about it; and the edges of cells. */
+/* Center of the visible tilts, whose deviation is about one; and the edges of cells. */
 FN float window_middle(FacetRange r)
 {
     float n = max(r.n, 0.0f);
@@ -192,7 +197,7 @@ FN float window_edge(FacetRange r, int cell)
     return max(window_middle(r) + sel(cell == 0 || cell == WINDOW_CELLS, outer, inner), 0.0f);
 }
 
-/* Mean of normally distributed numbers between two. */
+/* Mean of a normal distribution between two bounds. */
 FN float window_mean(float from, float to)
 {
     float share = normal_below(to) - normal_below(from);
@@ -200,7 +205,7 @@ FN float window_mean(float from, float to)
     return sel(to - from < 0.1f || share < 1e-4f, 0.5f * (from + to), clamp(mean, from, to));
 }
 
-/* Edge 0 to WINDOW_CELLS + 1 of what the rim of Snell's window makes of the cells: it divides the one that it is in. */
+/* Edge 0 to WINDOW_CELLS + 1 of the cells after the rim of Snell's window divided the one that contains it. */
 FN float window_part(FacetRange r, float rim, int edge)
 {
     float last = sel(edge > 0, window_edge(r, edge - 1), 0.0f);
@@ -208,15 +213,16 @@ FN float window_part(FacetRange r, float rim, int edge)
     return clamp(rim, last, next);
 }
 
-/* Perceptual roughness of what one of them shows; C: of all slopes. */
+/* Perceptual roughness of the view through one facet; C: of all slopes. */
 FN float window_roughness(FacetRange r, vec3 C)
 {
     return roughness_from_slopes(C * sel(r.along < WINDOW_SHARP, 0.1f, 0.1f * WINDOW_BETWEEN));
 }
 
-/* One of WINDOW_FACETS; r: facets_seen(). Their weights sum to 1 within 0.0015. Tilts towards d are in WINDOW_CELLS cells, one of them divided by the rim of
- * Snell's window: a part's weight is exactly what is seen of it, so that light changes smoothly as a wave is tilted.
- * Across, one deviation to either side has the moments of all (Gauss and Hermite). */
+/* Facet k of WINDOW_FACETS; r: facets_seen(). Their weights sum to 1 within 0.0015. Tilts towards d are in
+ * WINDOW_CELLS cells, one of which is divided by the rim of Snell's window: the weight of each part is exactly
+ * its visible fraction, so that light changes smoothly with the tilt of a wave. Across, one deviation to either
+ * side has the moments of all (Gauss-Hermite). */
 FN Facet facet_of_window(FacetRange r, vec3 N, vec3 d, float critical, int k)
 {
     float side = sel(k % 2 == 0, -1.0f, 1.0f);
@@ -233,7 +239,7 @@ FN Facet facet_of_window(FacetRange r, vec3 N, vec3 d, float critical, int k)
     f.weight = 0.5f * max(tilts_seen(n, to) - tilts_seen(n, from), 0.0f);
     float middle = window_middle(r);
     float tilt = middle + window_mean(from - middle, to - middle);
-    if (from == rim && rim > first) /* light through the window grows ever slower from its rim on */
+    if (from == rim && rim > first) /* transmittance increases ever more slowly from the rim on */
         tilt -= 0.125f * (to - from);
     float z = r.n - tilt;
     f.m = normal_from_slope(slope_from_normal(N) + r.towards * (z * r.along) +
@@ -241,8 +247,9 @@ FN Facet facet_of_window(FacetRange r, vec3 N, vec3 d, float critical, int k)
     return f;
 }
 
-/* Radiance (cd/m^2) through the window: the sky, and where waves of the slopes C, which N is one of, are in its way, these as they are seen from
- * the air: mirrors of the sky, through which comes `upwards`, the radiance that goes up just below the surface. */
+/* Radiance (cd/m^2) through the window: the sky, and where waves of the slopes C, which include N, occlude it,
+ * these as seen from the air: reflections of the sky, and `upwards`, the upwelling radiance just below the
+ * surface, through them. */
 FN vec3 window_light(Water w, WaterWindow window, vec3 C, vec3 N, vec3 sky, vec3 upwards)
 {
     float F = water_fresnel(w, water_seen_cosine(window.outside, C));

@@ -1,32 +1,33 @@
-/* water_means.h - what a rough sea reflects of the sky: means over all facets that an eye sees, kept as a table, and where to look the
- * sky up by them. Slopes and masking are those of water_surface.h.
+/* water_means.h - mean reflection of the sky by a rough sea: means over all visible facets, kept as a LUT, and
+ * the lookup direction and lobe they imply. Slopes and masking are those of water_surface.h.
  *
- * A pixel with several samples may draw facets instead (sample_slopes()), which is exact; one direction and one round lobe
- * are within 2 % where the sea is seen from above, and up to 15 % too dark near the horizon below a sky that is six times as bright
- * there as at the zenith. */
+ * A pixel with several samples may sample facets instead (sample_slopes()), which is exact; one direction and
+ * one round lobe are within 2 % where the sea is seen from above, and up to 15 % too dark near the horizon
+ * below a sky that is six times as bright there as at the zenith. */
 #ifndef SHADE_WATER_MEANS_H
 #define SHADE_WATER_MEANS_H
 
-/* Largest slope, root of the variance along an axis, that the table of means has; and its size. */
+/* Largest slope deviation along an axis in the LUT of means; and its size. */
 #define WATER_TABLE_SIGMA 0.5f
 #define WATER_TABLE_COLUMNS 32
 #define WATER_TABLE_ROWS 16
 
-/* Of a sea with Gaussian slopes of variance sigma^2 along each axis; N up, V at the cosine mu. Light that facets reflect
- * counts by area seen and Fresnel reflectance. */
+/* Means for a sea with Gaussian slopes of variance sigma^2 along each axis; N up, V at the cosine mu. Reflected
+ * light is weighted by visible area and Fresnel reflectance. */
 STRUCT(WaterMeans)
 {
-    float fresnel; /* mean reflectance over that of flat water */
-    float escape;  /* share of the reflected light that comes from the sky; the rest is that of other waves */
-    float lift;    /* rad: of the mean direction that it comes from, above that which flat water mirrors */
+    float fresnel; /* mean reflectance relative to flat water */
+    float escape;  /* fraction of the reflected light that comes from the sky rather than from other waves */
+    float lift;    /* rad: elevation of its mean direction above the mirror direction of flat water */
     float spread;  /* 1 minus the length of the mean of these unit directions, [0, 1] */
-    float below;   /* share of the area seen that mirrors what is below the horizon */
-    float elevation; /* rad, mean over the light that is reflected from above the horizon */
+    float below;   /* fraction of the visible area that reflects directions below the horizon */
+    float elevation; /* rad, mean over the light reflected from above the horizon */
 };
 
-/* The integral by n x n points. sigma 0 is flat water. Facets and reflected directions are masked by slopes_seen() (WATER_SCALES, of
- * Gaussian slopes), or else with Smith's G2 / G1 = (1 + Lambda(V)) / (1 + Lambda(V) + Lambda(L)); points are spread evenly over azimuths of slope, and for their size by its distribution, closer where it is
- * large. Ross, Dion and Potvin 2005, section 3. */
+/* The integral by n x n points. sigma 0 is flat water. Facets and reflected directions are masked by
+ * slopes_seen() (WATER_SCALES, Gaussian slopes), or with Smith's G2 / G1 = (1 + Lambda(V)) / (1 + Lambda(V) +
+ * Lambda(L)); points are uniform in the azimuth of the slope, and importance-sampled in its magnitude, denser
+ * where it is large. Ross, Dion and Potvin 2005, section 3. */
 FN WaterMeans integrate_water_means(int normals, int masking, float mu, float sigma, float ior, int n)
 {
     float s = max(sigma, 1e-4f);
@@ -44,11 +45,11 @@ FN WaterMeans integrate_water_means(int normals, int masking, float mu, float si
     float escaped = 0.0f;
     float elevation = 0.0f;
     float above_horizon = 0.0f;
-    float astray = 0.0f; /* 1 - cos to what flat water mirrors, without rounding */
+    float astray = 0.0f; /* 1 - cos to the mirror direction of flat water, without rounding */
     float raised = 0.0f;
     for (int i = 0; i < n; ++i) {
         float tail = 1.0f - (float(i) + 0.5f) / float(n);
-        float above = tail * tail; /* share of slopes that are larger */
+        float above = tail * tail; /* fraction of larger slopes */
         float radius = s * sqrt(2.0f * sel(normals == WATER_GGX, (1.0f - above) / above, -log(above)));
         for (int j = 0; j < n; ++j) {
             float phi = PI * (float(j) + 0.5f) / float(n);
@@ -86,7 +87,8 @@ FN WaterMeans integrate_water_means(int normals, int masking, float mu, float si
     return r;
 }
 
-/* Bruneton, Neyret and Holzschuch 2010, equation 15, in the place of mean reflectance (not over that of flat water):
+/* Bruneton, Neyret and Holzschuch 2010, equation 15, an approximation of the mean reflectance (not relative to
+ * flat water):
  *   R0 + (1 - R0) (1 - mu)^(5 exp(-2.69 sigma)) / (1 + 22.7 sigma^1.5)
  * Within 0.009 of the integral up to 80 degrees from the vertical, 0.07 too large at the horizon. */
 FN float water_mean_fresnel_fit(float mu, float sigma, float ior)
@@ -97,8 +99,9 @@ FN float water_mean_fresnel_fit(float mu, float sigma, float ior)
            (1.0f - R0) * pow(clamp(1.0f - mu, 1e-6f, 1.0f), power) / (1.0f + 22.7f * sigma * sqrt(sigma));
 }
 
-/* Where a pair of (mu, sigma) stands in the table, from 0 to WATER_TABLE_COLUMNS - 1 and WATER_TABLE_ROWS - 1: both with the
- * square, closer near grazing angles and flat water. Texels are at whole numbers, linear in between. And the pair of a place. */
+/* LUT coordinates of a pair (mu, sigma), from 0 to WATER_TABLE_COLUMNS - 1 and WATER_TABLE_ROWS - 1: both by
+ * the square root, denser near grazing angles and flat water. Texels are at integers, linear in between. And
+ * the inverse. */
 FN vec2 water_table_place(float mu, float sigma)
 {
     return vec2(sqrt(clamp(mu, 0.0f, 1.0f)) * float(WATER_TABLE_COLUMNS - 1),
@@ -111,8 +114,8 @@ FN vec2 water_table_pair(vec2 place)
     return vec2(x * x, WATER_TABLE_SIGMA * y * y);
 }
 
-/* Root of the variance of slopes against N in the plane of N and V: what sigma is for a surface of any normal. Where V is N, of
- * the mean of both axes. */
+/* Standard deviation of slopes relative to N in the plane of N and V: the sigma of a surface of any normal. For
+ * V = N, of the mean of both axes. */
 FN float sigma_towards(vec3 C, vec3 N, vec3 V)
 {
     vec3 t = V - N * dot(N, V);
@@ -121,8 +124,9 @@ FN float sigma_towards(vec3 C, vec3 N, vec3 V)
     return N[1] * sqrt(max(sel(length2 > 1e-6f, variance, 0.5f * (C[0] + C[1])), 0.0f));
 }
 
-/* Perceptual roughness whose prefiltered light (prefilter_sample() of ibl.h) comes from directions as far apart as `spread` tells:
- * whose mean, weighted as there, is a vector of the length 1 - spread. A fit, within 0.006 in [0, 1]; 0 for a mirror. */
+/* Perceptual roughness whose prefiltering (prefilter_sample() of ibl.h) has the given spread of directions:
+ * their weighted mean is a vector of the length 1 - spread. A fit, within 0.006 in [0, 1]; 0 for a perfect
+ * mirror. */
 FN float roughness_from_spread(float spread)
 {
     float d = clamp(spread, 0.0f, 0.3333f);
@@ -130,12 +134,12 @@ FN float roughness_from_spread(float spread)
     return clamp(y * (0.49444f + 0.89477f * y * y) + 18.357f * d * d * d * d, 0.0f, 1.0f);
 }
 
-/* The direction that a surface of normal N reflects to the eye, raised by WaterMeans.lift in the plane of N and V; unit, and perhaps below
- * the horizon. */
+/* The reflection of V at N, raised by WaterMeans.lift in the plane of N and V; unit, possibly below the
+ * horizon. */
 FN vec3 raised_reflection(vec3 N, vec3 V, float lift)
 {
     float NdotV = dot(N, V);
-    vec3 tangent = V - N * NdotV; /* sin theta long, as the reflection's is */
+    vec3 tangent = V - N * NdotV; /* length sin theta, as the reflection has */
     float sin_theta = sqrt(dot(tangent, tangent));
     vec3 across = tangent * (NdotV / max(sin_theta, 1e-6f)) + N * sin_theta;
     return (N * NdotV - tangent) * cos(lift) + across * sin(lift);

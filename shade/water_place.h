@@ -1,15 +1,15 @@
-/* water_place.h - a place of the sea as an eye sees it: how wide it is looked at, its normal, what foam covers, what hides it from
- * light, and the ground below. Which waves are there is the caller's matter, who sums tiles of them.
+/* water_place.h - local properties of the sea for one view ray: footprint, normal, foam cover, self-shadowing,
+ * and the bed below. The caller evaluates the waves, by summing tiles.
  *
- * V to the eye, unit; C: xx, zz, xz of a covariance of slopes (water_surface.h). */
+ * V to the eye, unit; C: xx, zz, xz of a slope covariance (water_surface.h). */
 #ifndef SHADE_WATER_PLACE_H
 #define SHADE_WATER_PLACE_H
 
 /* ---- waves ---- */
 
-/* Weights of the patches that a tile without repetition is laid out with, at a place in the axes of their triangles' rhombi,
- * [0, 1)^2: of the corner (0, 0), or (1, 1) where place.x + place.y > 1, then (0, 1) and (1, 0). Each is the square of what its
- * barycentric coordinate has over a quarter; the squares of all sum to 1. Heitz and Neyret 2018. */
+/* Blend weights of the patches of a tile without repetition, at a position in the rhombus of their triangles,
+ * [0, 1)^2: of the corner (0, 0), or (1, 1) if place.x + place.y > 1, then (0, 1) and (1, 0). Each is the
+ * square of its barycentric coordinate above a quarter; the squares of all sum to 1. Heitz and Neyret 2018. */
 FN vec3 wave_patch_weights(vec2 place)
 {
     float sum = place[0] + place[1];
@@ -21,16 +21,17 @@ FN vec3 wave_patch_weights(vec2 place)
     return squares * (1.0f / length(squares));
 }
 
-/* Weights of four samples in a row for a place between the middle two, f in [0, 1): the first three; all sum to 1. Catmull and
- * Rom 1974. */
+/* Weights of four samples in a row for a position between the middle two, f in [0, 1): the first three; all sum
+ * to 1. Catmull and Rom 1974. */
 FN vec3 wave_cubic_weights(float f)
 {
     return vec3(f * (-0.5f + f * (1.0f - 0.5f * f)), 1.0f + f * f * (-2.5f + 1.5f * f),
                 f * (0.5f + f * (2.0f - 1.5f * f)));
 }
 
-/* The displaced surface is (x + D_x, eta, z + D_z) over (x, z); D: xx, zz, xz of D's derivatives. Its Jacobian, and its normal, unit:
- * the cross product of its derivatives. Where it is folded, or nearly, its Jacobian counts as 0.02: the normal points up. */
+/* The displaced surface is (x + D_x, eta, z + D_z) over (x, z); D: xx, zz, xz of D's derivatives. Its Jacobian,
+ * and its unit normal: the cross product of its derivatives. Where it folds or nearly so, its Jacobian is
+ * clamped to 0.02: the normal points up. */
 FN float wave_jacobian(vec3 D)
 {
     return (1.0f + D[1]) * (1.0f + D[0]) - D[2] * D[2];
@@ -43,17 +44,17 @@ FN vec3 wave_normal(vec2 slope, vec3 D)
 
 /* ---- how wide ---- */
 
-/* Width (m) with which the surface is read where a ray as wide as `width` meets it that rises by `rise` over the level: as wide,
- * until waves, of the standard deviation `deviation` (m), are not even a width high. Then no longer they but their slopes are seen,
- * and as much more of them at once as rays are flat: up to the ray's length on still water. */
+/* Filter width (m) of the surface for a ray `width` wide that meets it at the slope `rise`: the same, until
+ * waves of the standard deviation `deviation` (m) are lower than a width. From then on only their slopes are
+ * visible, over a footprint stretched by the grazing ray: up to the ray's length on still water. */
 FN float water_footprint(float width, float rise, float deviation)
 {
     float flat_share = 2.75f * width / max(deviation, 1e-6f);
     return width * min(1.0f + flat_share * flat_share, 1.0f / max(abs(rise), 1e-4f));
 }
 
-/* About the cosine at which waves are seen by a ray towards V: no less than the slopes C make of grazing rays. The mean slope
- * towards the eye, of Gaussian ones of a standard deviation sigma that a grazing ray meets, is 1.25 sigma. */
+/* Typical cosine between waves and a ray towards V, bounded below by the slopes C at grazing angles. The mean
+ * slope towards the eye of Gaussian slopes of standard deviation sigma on a grazing ray is 1.25 sigma. */
 FN float water_seen_cosine(vec3 V, vec3 C)
 {
     float level2 = max(V[0] * V[0] + V[2] * V[2], 1e-8f);
@@ -61,7 +62,7 @@ FN float water_seen_cosine(vec3 V, vec3 C)
     return clamp(sqrt(V[1] * V[1] + 1.5708f * variance * level2), 1e-3f, 1.0f);
 }
 
-/* N turned to V as far as it takes to see it: facets that are not resolved do so. */
+/* N bent towards V until it is visible, as unresolved facets are. */
 FN vec3 water_faced(vec3 N, vec3 V)
 {
     float least = 1e-3f;
@@ -70,9 +71,10 @@ FN vec3 water_faced(vec3 N, vec3 V)
     return sel(n[1] > least, n, normalize(vec3(n[0], least, n[2])));
 }
 
-/* N as V sees it, of waves that are finer than the place is known at which they are read, of the slopes C: a slope that is found by area,
- * not by what is seen of it, and may face away. What is seen has a tilt c that is the length of a vector in three dimensions (slopes_seen()):
- * as N has one of them, the root of c^2 + 2 V_h^T C V_h on average. Where these slopes hardly matter beside c, the place is right, and N, too. */
+/* Visible normal for V where the position is less precise than the waves it reads, of the slopes C: the slope
+ * is sampled by area rather than by visibility, and may face away. Visible tilts c are the length of a
+ * three-dimensional vector (slopes_seen()): with N as one component, the root of c^2 + 2 V_h^T C V_h on
+ * average. Where these slopes hardly matter beside c, the position is precise, and so is N. */
 FN vec3 water_tilted(vec3 N, vec3 C, vec3 V)
 {
     float variance = max(slope_variance(C, vec2(V[0], V[2])), 1e-14f);
@@ -82,17 +84,18 @@ FN vec3 water_tilted(vec3 N, vec3 C, vec3 V)
     return normal_from_slope(slope_from_normal(N) + vec2(V[0], V[2]) * change);
 }
 
-/* Share of light along X that comes to a place of normal N past waves of the slopes C, which N is one of; of Gaussian slopes, about the
- * level. What passes the waves that are not in N, a masking has: the product is what passes all. */
+/* Visibility along X from a point of normal N past waves of the slopes C, which include N; Gaussian slopes
+ * around the level. Masking accounts for the waves not in N: the product is the visibility past all. */
 FN float water_passing(vec3 C, vec3 N, vec3 X)
 {
     bool is_up = X[1] > 0.0f && dot(N, X) > 0.0f;
     return sel(is_up, slopes_seen(C, vec3(0.0f, 1.0f, 0.0f), N, X), 0.0f);
 }
 
-/* What of a mirror image comes past waves of the slopes C, which N is one of. Elevations in it are normally distributed about that of R:
- * what is below the horizon meets waves, and the rest, whose mean is higher by the deviation times phi / Phi, is hidden by them as it is
- * there. Phi is taken for 1 / (1 + exp(-1.702 z)), which is within 0.01 (Haley 1952), and phi for what belongs to it. */
+/* Visibility of a reflection past waves of the slopes C, which include N. Elevations in it are normally
+ * distributed around that of R: those below the horizon hit waves, and the rest, whose mean is higher by the
+ * deviation times phi / Phi, is hidden by them accordingly. Phi is approximated by 1 / (1 + exp(-1.702 z)),
+ * within 0.01 (Haley 1952), and phi by its derivative. */
 FN WaterMirror water_mirror_passing(WaterMirror m, vec3 C, vec3 N)
 {
     float level = max(sqrt(m.R[0] * m.R[0] + m.R[2] * m.R[2]), 1e-6f);
@@ -105,12 +108,14 @@ FN WaterMirror water_mirror_passing(WaterMirror m, vec3 C, vec3 N)
     return r;
 }
 
-/* Normal of the mean slope of those facets that V sees (unit, V.y > 0; slopes_seen()), of all whose slopes have the covariance C about that
- * of N. Tilts to the eye, in deviations sigma = sqrt(u^T C u), u along V's horizontal part of the length l, begin at
- * a = (V.y / l - s_N.u) / sigma
- * and are lengths of a vector in three dimensions, longer by
+/* Normal of the mean slope of the facets visible from V (unit, V.y > 0; slopes_seen()), whose slopes have the
+ * covariance C around that of N. Tilts to the eye, in deviations sigma = sqrt(u^T C u), u along V's horizontal
+ * part of the length l, start at
+ *   a = (V.y / l - s_N.u) / sigma
+ * and are lengths of a three-dimensional vector, longer by
  *   (2 Phi(a) - 1) / a - 2 a Phi(-a) + 2 phi(a)
- * on average; across u slopes follow by C u / sigma^2. A grazing ray sees tilts of 1.6 sigma, and never the back of one. */
+ * on average; across u slopes follow by C u / sigma^2. A grazing ray sees tilts of 1.6 sigma, and never a back
+ * side. */
 FN vec3 water_seen_normal(vec3 C, vec3 N, vec3 V)
 {
     float level = max(sqrt(V[0] * V[0] + V[2] * V[2]), 1e-4f);
@@ -127,8 +132,9 @@ FN vec3 water_seen_normal(vec3 C, vec3 N, vec3 V)
 
 /* ---- foam ---- */
 
-/* Of a footprint whose water converges by `mean` with this variance, the share that breaks: where q is above the threshold. Areas are
- * seen from above, where water that converges has less of it: the mean Jacobian at q is 1 - q + (q^2 - sigma^2) / 4. */
+/* Breaking fraction of a footprint whose water converges by `mean` with this variance: where q is above the
+ * threshold. Areas are seen from above, where converging water covers less: the mean Jacobian at q is 1 - q +
+ * (q^2 - sigma^2) / 4. */
 FN float foam_share(float mean, float variance, float threshold)
 {
     float sigma = sqrt(max(variance, 0.0f));
@@ -141,12 +147,13 @@ FN float foam_share(float mean, float variance, float threshold)
     return clamp(covered / area, 0.0f, 1.0f);
 }
 
-/* Foam of the share, (0, 1), lies where a Gaussian field of variance 1 is above the number that this share of it exceeds. How much of a
- * footprint with that mean and variance of the field it covers. Most of it has sharp edges; the rest is a veil that gets thin
- * around them. A field with so much more variance, whose own number the share of it exceeds, has the same mean. */
+/* Foam of the fraction `share`, (0, 1), covers the points where a Gaussian field of variance 1 exceeds its
+ * quantile. Returns the covered fraction of a footprint with that mean and variance of the field. Most foam has
+ * sharp edges; the rest is a veil that thins out around them: a field of larger variance, thresholded at its
+ * own quantile, has the same mean. */
 FN float foam_lace(float share, float mean, float variance)
 {
-    float sharp = 0.015f; /* variances that are added */
+    float sharp = 0.015f; /* added variances */
     float veil = 0.4f;
     float z = inverse_normal(share);
     float rest = max(variance, 0.0f);
@@ -154,30 +161,31 @@ FN float foam_lace(float share, float mean, float variance)
                normal_below((mean + z * sqrt(1.0f + veil)) * inversesqrt(rest + veil)), 0.3f);
 }
 
-/* Share of a footprint that foam hides which lies on a share of it. Foam gets thin: water is seen between its bubbles, so that a patch
- * reflects 0.22 over its life and 0.55 in the beginning, when its amount is 1. Koepke 1984. */
+/* Opaque fraction of a footprint of which `share` is foam. Foam thins out: water is visible between its
+ * bubbles, so that a patch reflects 0.22 over its life and 0.55 in the beginning, when its amount is 1. Koepke
+ * 1984. */
 FN float water_foam_cover(float share, float amount)
 {
     return share * mix(0.4f, 1.0f, amount);
 }
 
-/* ---- what comes from below ---- */
+/* ---- the bed ---- */
 
-/* How far (m) it is along `down` to a bed that is a plane, `depth` m below the place and rising by `rise` m per m along it. */
+/* Distance (m) along `down` to a planar bed, `depth` m below the point and rising by `rise` m per m along it. */
 FN float water_way_to_bed(float depth, float rise, vec3 down)
 {
     float closing = rise - down[1];
     return max(sel(closing > 1e-6f, min(depth / closing, 1e6f), 1e6f), 0.0f);
 }
 
-/* What water (m) lies over the place of that bed which is met after `way` m, as high as it is here. */
+/* Depth (m) of that bed after the path length `way`, below the same level. */
 FN float water_bed_depth(float depth, float rise, float way)
 {
     return clamp(depth - way * rise, 0.0f, way);
 }
 
-/* That bed seen through the water: of the albedo `albedo`, and `mean_albedo` around, both as they are lit; light:
- * water_interreflected(). See water_from_bed(). */
+/* That bed seen through the water: of the albedo `albedo`, and `mean_albedo` around, both with their lighting;
+ * light: water_interreflected(). See water_from_bed(). */
 FN vec3 water_over_bed(Water w, vec3 light, vec3 albedo, vec3 mean_albedo, float depth, float rise, vec3 down)
 {
     WaterBed b;
@@ -188,7 +196,7 @@ FN vec3 water_over_bed(Water w, vec3 light, vec3 albedo, vec3 mean_albedo, float
     return water_from_bed(w, light, b);
 }
 
-/* Radiance (cd/m^2) of ground of normal N that the water leaves dry. */
+/* Radiance (cd/m^2) of dry ground of normal N. */
 FN vec3 water_land(WaterLight light, vec3 albedo, vec3 N)
 {
     vec3 E = light.sun_irradiance * max(dot(N, light.L), 0.0f) + light.sky_irradiance;
@@ -197,9 +205,9 @@ FN vec3 water_land(WaterLight light, vec3 albedo, vec3 N)
 
 /* ---- through water ---- */
 
-/* Light behind x m of water, as seen from a depth z (m) along the unit direction d: weakened by absorption and by all scattering, and
- * with what is scattered into the ray, of the light that goes down and of the sun's beam (lx across it, unit direction to the
- * sun there). */
+/* Radiance behind x m of water, seen from a depth z (m) along the unit direction d: attenuated by absorption
+ * and all scattering, with in-scattering of downwelling light and of the sun's beam (lx across it, unit
+ * direction to the sun there). */
 FN vec3 water_through(Water w, vec3 downwelling, vec3 beam, vec3 sunward, vec3 behind, float z, vec3 d,
                       float x)
 {
@@ -207,8 +215,9 @@ FN vec3 water_through(Water w, vec3 downwelling, vec3 beam, vec3 sunward, vec3 b
     return behind * water_transmittance(water_beam(w), x) + inscatter;
 }
 
-/* The surface from below, x m away: light that comes from many directions, `wide`, which scattering forward hardly weakens as it brings
- * as much from around, and the sun, whose scattered light water_through() adds. Waves and the rim of Snell's window stay as sharp. */
+/* The surface from below, x m away: `wide`, light from many directions, is hardly attenuated by forward
+ * scattering, which brings as much from around; the sun's scattered light is added by water_through(). Waves
+ * and the rim of Snell's window stay sharp. */
 FN vec3 water_surface_through(Water w, vec3 downwelling, vec3 beam, vec3 sunward, vec3 wide, vec3 sun,
                               float z, vec3 d, float x)
 {
@@ -222,7 +231,7 @@ FN vec3 water_bed_below(Water w, vec3 light, vec3 albedo, float depth)
     return albedo * light * INV_PI * water_transmittance(water_K_d(w), depth);
 }
 
-/* A wide bed behind x m of water, of which light that is scattered forward shows the mean, as in water_from_bed(). */
+/* A wide bed behind x m of water; forward scattered light shows its mean, as in water_from_bed(). */
 FN vec3 water_bed_through(Water w, vec3 bed, vec3 mean, float x)
 {
     vec3 sharp = water_transmittance(water_beam(w), x);

@@ -1,23 +1,24 @@
-/* water_surface.h - waves that are too small to be seen one by one, as microfacets whose slopes have a covariance: what they reflect
- * of the sun and, on average, of the sky.
+/* water_surface.h - unresolved waves as microfacets with a slope covariance: reflection of the sun and, on
+ * average, of the sky.
  *
- * Axes: +Y up. A normal n with n.y > 0 has the slope s = (-n.x, -n.z) / n.y. Slopes of the facets are spread about that of the
- * normal N of the waves that are seen, with covariance (xx, zz, xz) in world axes: the microsurface is that of waves added to
- * waves, and its mean normal is N exactly (Dupuy et al. 2013, "LEADR mapping", section 4). V to the eye, L to the sun, unit.
+ * Axes: +Y up. A normal n with n.y > 0 has the slope s = (-n.x, -n.z) / n.y. Slopes of the microfacets are
+ * distributed around that of N, the normal of the resolved waves, with covariance (xx, zz, xz) in world axes:
+ * the microsurface is a sum of waves, and its mean normal is exactly N (Dupuy et al. 2013, "LEADR mapping",
+ * section 4). V to the eye, L to the sun, unit.
  *
- * No covariance may be singular: SLOPE_VARIANCE_MIN belongs on its diagonal. */
+ * A covariance must not be singular: add SLOPE_VARIANCE_MIN to its diagonal. */
 #ifndef SHADE_WATER_SURFACE_H
 #define SHADE_WATER_SURFACE_H
 
-/* How slopes are distributed. */
-#define WATER_BECKMANN 0 /* Gaussian, which those of the sea nearly are */
+/* Slope distribution. */
+#define WATER_BECKMANN 0 /* Gaussian, nearly that of the sea */
 #define WATER_GGX 1
-/* How facets hide each other. */
-#define WATER_SCALES 0 /* waves of all lengths on each other: slopes_seen(); GGX has Smith's */
-#define WATER_SMITH 1  /* facets whose heights do not know their neighbours'; height-correlated, Heitz 2014 */
+/* Masking. */
+#define WATER_SCALES 0 /* superposed waves of all lengths: slopes_seen(); Smith for GGX */
+#define WATER_SMITH 1  /* uncorrelated neighboring facets; height-correlated masking-shadowing, Heitz 2014 */
 #define WATER_SCHLICK_KARIS 2 /* separable, k = (r + 1)^2 / 8, for comparison */
 
-/* Slope variance, along each axis, of water that looks flat. */
+/* Slope variance, along each axis, of water that appears flat. */
 #define SLOPE_VARIANCE_MIN 1e-8f
 
 /* ---- slopes ---- */
@@ -50,7 +51,7 @@ FN float slope_density(int normals, vec3 C, vec2 d)
     return shape * 0.5f * INV_PI * inversesqrt(det);
 }
 
-/* Distribution of facets' normals m, in 1/sr, per area of the surface of normal N:
+/* Distribution of microfacet normals m, in 1/sr, per area of the surface of normal N:
  *   D = N.y p(s_m - s_N) / m.y^4,  so that the integral of D m is N
  * 0 for m.y <= 0. */
 FN float D_slopes(int normals, vec3 C, vec3 N, vec3 m)
@@ -62,32 +63,40 @@ FN float D_slopes(int normals, vec3 C, vec3 N, vec3 m)
 
 /* ---- masking ---- */
 
-/* Smith's a: how many root mean square slopes (times sqrt 2) the direction X stands above the surface, 1 / (alpha tan theta):
+/* Smith's a: elevation of the direction X in root mean square slopes (times sqrt 2), 1 / (alpha tan theta):
  *   a = (N.X / N.y) / sqrt(2 X_h^T C X_h)
- * Heitz 2014, equations 79 and 80, with slopes about those of N. */
+ * Heitz 2014, equations 79 and 80, with slopes around those of N. */
 FN float smith_a(vec3 C, vec3 N, vec3 X)
 {
     float variance = max(slope_variance(C, vec2(X[0], X[2])), 1e-14f);
     return dot(N, X) / N[1] * inversesqrt(2.0f * variance);
 }
 
-/* Share of the facets of normal m, on a surface of normal N, that X sees, waves of all lengths being on each other; X.m, X.N > 0:
+/* Masking of superposed waves: the fraction of the microfacets of normal m, on a surface of normal N, visible
+ * from X; X.m, X.N > 0:
  *   G1 = 1 - exp(-2 c0 c / (X_h^T C X_h)),  c0 = N.X / N.y,  c = m.X / m.y
- * c is how far a slope is tilted towards X. Waves are added from the longest to the shortest: c goes from that of N to that of m by
- * independent Gaussian steps that are small, as every octave of a sea adds about as much to the variance. Water that faces away
- * from X with the waves so far is hidden, and what is hidden stays so: of all walks from c0 to c those are seen that never come
- * to 0. Those that do are as many as walk from -c0 to c (reflection principle), p(c + c0) of p(c - c0).
- *   The area seen, D m.X G1, has the integral N.X, as it must. Along X its slopes are distributed as c / c0 (p(c - c0) - p(c + c0)): a
- * walk that is conditioned to stay positive, or the length of a vector that walks in three dimensions (Williams 1974; Pitman 1975).
- * At grazing angles that is c^2 p(c), which looks steeper than Smith's c p(c): 1.6 standard deviations towards the eye on average
- * instead of 1.25, and a sea of 10 m/s mirrors a quarter less.
- *   As walks can be stopped on their way, a surface may be divided at any wave length: what is seen of long waves, and of short
- * ones on these, is what is seen of all at once. So a pixel shows the same light whichever waves it resolves.
- *   It is a limit: heights are Gaussian, waves of one length know nothing of the others, and there are many octaves. Of surfaces that are as
- * steep in every octave, rays that are marched (test_marched) find tilts of 1.51 deviations at grazing angles with 14 octaves, as many as a sea
- * of 10 m/s has, 1.47 with 11, 1.37 with 6, and of a single one 1.15, for which Smith's are right. That V and L see a facet is taken
- * for independent, which is exact where they stand across; face to face, as low as half a deviation, the product is 0.155 where
- * 0.12 (14) to 0.16 (11) are found. */
+ * c is the tilt of a slope towards X. Waves are added from the longest to the shortest: c goes from that of N
+ * to that of m in small independent Gaussian steps, since every octave of a sea adds about as much to the
+ * variance. Water that faces away from X with the waves so far is hidden and stays hidden: of all walks from c0
+ * to c only those that never reach 0 are visible. The others correspond to walks from -c0 to c (reflection
+ * principle), p(c + c0) of p(c - c0).
+ *
+ * The projected visible area, D m.X G1, has the integral N.X, as required. Along X its slopes are distributed
+ * as c / c0 (p(c - c0) - p(c + c0)): a walk conditioned to stay positive, or the length of a three-dimensional
+ * random vector (Williams 1974; Pitman 1975). At grazing angles that is c^2 p(c), steeper than Smith's c p(c):
+ * 1.6 standard deviations towards the eye on average instead of 1.25, and a sea of 10 m/s reflects a quarter
+ * less.
+ *
+ * Since walks can be stopped anywhere, a surface may be split at any wavelength: masking of long waves, times
+ * masking of short waves on them, is masking of all. So a pixel shows the same light whichever waves it
+ * resolves.
+ *
+ * It is a limit: heights are Gaussian, waves of different lengths are independent, and there are many octaves.
+ * For surfaces equally steep in every octave, ray marching (test_marched) finds tilts of 1.51 deviations at
+ * grazing angles with 14 octaves, as many as a sea of 10 m/s has, 1.47 with 11, 1.37 with 6, and 1.15 for a
+ * single one, for which Smith is right. Visibility from V and L is assumed independent, which is exact for
+ * perpendicular azimuths; for equal azimuths at half a deviation the product is 0.155 where 0.12 (14) to 0.16
+ * (11) are found. */
 FN float slopes_seen(vec3 C, vec3 N, vec3 m, vec3 X)
 {
     float variance = max(slope_variance(C, vec2(X[0], X[2])), 1e-14f);
@@ -112,7 +121,7 @@ FN float Lambda_Beckmann(float a)
     return max(exp(-a * a) * (0.282094792f / a - 0.5f * erfcx(a)), 0.0f);
 }
 
-/* Of GGX: (sqrt(1 + 1 / a^2) - 1) / 2. Heitz 2014, equation 68. */
+/* The same for GGX: (sqrt(1 + 1 / a^2) - 1) / 2. Heitz 2014, equation 68. */
 FN float Lambda_GGX(float a)
 {
     float b = 1.0f / (a * a);
@@ -124,13 +133,13 @@ FN float Lambda_slopes(int normals, float a)
     return sel(normals == WATER_GGX, Lambda_GGX(x), Lambda_Beckmann(x));
 }
 
-/* Width of a GGX lobe as high as that of the slopes: alpha = sqrt(C_xx + C_zz), and its perceptual roughness. */
+/* GGX width with the peak of the slope distribution: alpha = sqrt(C_xx + C_zz), and its perceptual roughness. */
 FN float roughness_from_slopes(vec3 C)
 {
     return sqrt(sqrt(clamp(C[0] + C[1], 0.0f, 1.0f)));
 }
 
-/* Slope covariance, the same along both axes, of a perceptual roughness. */
+/* Isotropic slope covariance of a perceptual roughness. */
 FN vec3 slopes_from_roughness(float perceptual_roughness)
 {
     float alpha = alpha_from_roughness(perceptual_roughness);
@@ -138,10 +147,10 @@ FN vec3 slopes_from_roughness(float perceptual_roughness)
     return vec3(variance, variance, 0.0f);
 }
 
-/* Visibility G / (4 N.L N.V), both cosines > 0. WATER_SMITH: 1 / (1 + Lambda(V) + Lambda(L)), Heitz 2014, equation 99.
- * WATER_SCALES: slopes_seen() of both; GGX, whose slopes have no variance to walk by, has Smith's.
- * WATER_SCHLICK_KARIS: V_SchlickGGX with k_direct, which darkens calm water at grazing angles (G1 = 0.29 at N.V = 0.05
- * and roughness 0.02, where 1 is right). */
+/* Visibility G / (4 N.L N.V), both cosines > 0. WATER_SMITH: 1 / (1 + Lambda(V) + Lambda(L)), Heitz 2014,
+ * equation 99. WATER_SCALES: slopes_seen() for both; Smith for GGX, whose slopes have no variance.
+ * WATER_SCHLICK_KARIS: V_SchlickGGX with k_direct, which darkens calm water at grazing angles (G1 = 0.29 at N.V
+ * = 0.05 and roughness 0.02, where 1 is right). */
 FN float V_slopes(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V)
 {
     float NdotL = max(dot(N, L), 1e-6f);
@@ -159,10 +168,11 @@ FN float V_slopes(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V)
 
 /* ---- the sun ---- */
 
-/* Slopes that bring light from the disc of the sun (angular radius SUN_RADIUS) to the eye, about the slope of the half vector h, L plus
- * what belongs to the eye: twice their covariance, that of a Gaussian which is as bright in the middle and has the same flux, with
- * the variance radius^2 / 2 along each axis of directions; s = -h_xz / h.y, so ds = -(dL_xz + s dL.y) / h.y. On flat water the
- * image of the sun is as bright as F times its disc, whatever the angle; facing it, alpha^2 is radius^2 / 4. */
+/* Slopes that reflect the disc of the sun (angular radius SUN_RADIUS) to the eye, around the slope of the half
+ * vector h (L plus a term of the eye): twice their covariance, of a Gaussian with the same peak and flux, whose
+ * variance is radius^2 / 2 along each axis of directions; s = -h_xz / h.y, so ds = -(dL_xz + s dL.y) / h.y. On
+ * flat water the image of the sun is F times as bright as its disc at any angle; facing it, alpha^2 is radius^2
+ * / 4. */
 FN vec3 sun_slopes_about(vec3 L, vec3 h)
 {
     bool is_wall =
@@ -175,17 +185,18 @@ FN vec3 sun_slopes_about(vec3 L, vec3 h)
                 s[0] * s[1] - p[0] * p[1]) *
            k;
 }
-/* Of mirrored light. */
+/* For reflection. */
 FN vec3 sun_slopes(vec3 L, vec3 V)
 {
     return sun_slopes_about(L, V + L);
 }
 
-/* Density of slopes C about their mean, blurred by the disc of the sun whose slopes are S (sun_slopes(); 0: a point): of what brings light of
- * it to the eye at a distance d. The disc is an ellipse of the area 2 pi sqrt |S| and the covariance S / 2. With its radius as unit, the slopes
- * have the variance v = tr(S^-1 C) / 4. Where that is small, the disc is seen as it is, its edge blurred by them and, so
- * that light is kept, at sqrt(1 - v); from 3/8 on it is as good as a Gaussian; between it is a mixture with one that is wide enough not to be
- * brighter than the disc. The integral is 1, the covariance C + S / 2 within a fifth, and it is at most 1 / (2 pi sqrt |S|). */
+/* Density of slopes C around their mean, convolved with the disc of the sun whose slopes are S (sun_slopes();
+ * 0: a point): of those that reflect the sun to the eye at a distance d. The disc is an ellipse of the area 2
+ * pi sqrt |S| and the covariance S / 2. With its radius as unit, the slopes have the variance v = tr(S^-1 C) /
+ * 4. For small v the disc is resolved, its edge blurred by the slopes and, to conserve flux, at sqrt(1 - v);
+ * from 3/8 on a Gaussian is as good; in between it is a mixture with one wide enough not to exceed the disc.
+ * The integral is 1, the covariance C + S / 2 within a fifth, and the maximum 1 / (2 pi sqrt |S|). */
 FN float sun_density(int normals, vec3 C, vec3 S, vec2 d)
 {
     float det = max(S[0] * S[1] - S[2] * S[2], 0.0f);
@@ -193,7 +204,7 @@ FN float sun_density(int normals, vec3 C, vec3 S, vec2 d)
     if (spread >= 0.375f * det)
         return slope_density(normals, C + S * 0.5f, d);
     float v = spread / det;
-    float blur = min(v, 0.16f); /* a wider edge would reach the middle */
+    float blur = min(v, 0.16f); /* a wider edge would reach the center */
     float off = S[1] * d[0] * d[0] + S[0] * d[1] * d[1] - 2.0f * S[2] * d[0] * d[1];
     float inside = sqrt(1.0f - blur) - sqrt(max(0.5f * off / det, 0.0f));
     float x = clamp(0.5f + 0.5f * inside * inversesqrt(5.0f * blur), 0.0f, 1.0f);
@@ -204,7 +215,7 @@ FN float sun_density(int normals, vec3 C, vec3 S, vec2 d)
     return mix(disc, slope_density(normals, C + S * (1.0f - v * (4.0f / 3.0f)), d), wide);
 }
 
-/* D_slopes() of facets that bring light of the sun's disc. */
+/* D_slopes() convolved with the disc of the sun. */
 FN float D_sun(int normals, vec3 C, vec3 S, vec3 N, vec3 m)
 {
     float y = max(m[1], 1e-4f);
@@ -212,29 +223,29 @@ FN float D_sun(int normals, vec3 C, vec3 S, vec3 N, vec3 m)
     return sel(m[1] > 0.0f, N[1] * sun_density(normals, C, S, d) / (y * y * y * y), 0.0f);
 }
 
-/* BRDF times N.L of facets that reflect all light, in 1/sr: D G / (4 N.V), D as wide as slopes and sun (sun: 1; 0: a point far
- * away) are together. Times F(V.H) and the sun's irradiance it is reflected radiance, at most F times that of the disc.
- * 0 where N.L <= 0 or L is below the horizon. */
+/* BRDF times N.L of perfectly reflecting facets, in 1/sr: D G / (4 N.V), D of slopes and sun together (sun: 1;
+ * 0: a point). Times F(V.H) and the sun's irradiance it is the reflected radiance, at most F times that of the
+ * disc. 0 for N.L <= 0 or L below the horizon. */
 FN float glitter(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V, float sun)
 {
     float NdotL = dot(N, L);
     if (NdotL <= 0.0f || L[1] <= 0.0f || dot(N, V) <= 0.0f)
         return 0.0f;
     float D = D_sun(normals, C, sun_slopes(L, V) * sun, N, normalize(V + L));
-    if (D < 1e-14f) /* most of the sea, most of the time: nothing of the sun would be seen of it */
+    if (D < 1e-14f) /* most of the sea, most of the time: the sun would not be visible in it */
         return 0.0f;
     return D * V_slopes(normals, masking, C, N, L, V) * NdotL;
 }
 
-/* BTDF times N.L for an eye below that looks along d (unit, up) and the sun above, both at the surface, in 1/sr: facets of the ior n
- * that let all light through,
+/* BTDF times N.L for an eye below, with the view direction d (unit, up), and the sun above, both at the
+ * surface, in 1/sr: perfectly transmitting facets of the ior n,
  *   n^2 (L.m) (d.m) D G / (d.N (L.m - n d.m)^2),  m along n d - L
- * with G of both sides taken as independent: slopes_seen(), or Smith's of GGX. Times 1 - F(L.m) and the sun's irradiance it is the radiance that the eye sees.
- * Walter et al. 2007, equation 21. */
+ * with independent masking on both sides: slopes_seen(), or Smith for GGX. Times 1 - F(L.m) and the sun's
+ * irradiance it is the transmitted radiance. Walter et al. 2007, equation 21. */
 FN float glitter_below(int normals, vec3 C, vec3 N, vec3 L, vec3 d, float n)
 {
-    vec3 h = L - d * n;                                /* downwards: light is bent towards the normal */
-    vec3 m = h * -inversesqrt(max(dot(h, h), 1e-20f)); /* n = 1: 0, and no light is bent */
+    vec3 h = L - d * n;                                /* downwards: light is refracted towards the normal */
+    vec3 m = h * -inversesqrt(max(dot(h, h), 1e-20f)); /* n = 1: 0, no refraction */
     float LdotM = dot(L, m);
     float ddotM = dot(d, m);
     float NdotD = dot(N, d);
@@ -248,7 +259,7 @@ FN float glitter_below(int normals, vec3 C, vec3 N, vec3 L, vec3 d, float n)
     return n * n * LdotM * ddotM * D * G / (NdotD * t * t);
 }
 
-/* ---- a facet by chance ---- */
+/* ---- sampling of a facet ---- */
 
 /* The inverse of the normal distribution function, u in (0, 1). Giles 2010, "Approximating the erfinv function", single precision. */
 FN float inverse_normal(float u)
@@ -278,15 +289,16 @@ FN float inverse_normal(float u)
     return 1.41421356f * x * sel(w < 5.0f, p, q);
 }
 
-/* Share of a normal distribution below z standard deviations. */
+/* Cumulative normal distribution at z standard deviations. */
 FN float normal_below(float z)
 {
     float tail = 0.5f * exp(-0.5f * z * z) * erfcx(abs(z) * 0.707106781f);
     return sel(z < 0.0f, tail, 1.0f - tail);
 }
 
-/* Of the area that slopes_seen() leaves to an eye a standard deviations above the surface, c0 = a: the share that is tilted to it by less
- * than x of them. The integral of x / a (phi(x - a) - phi(x + a)):
+/* Cumulative distribution of the tilts of visible area (slopes_seen()), for an eye a standard deviations above
+ * the surface, c0 = a: the fraction tilted towards it by less than x. The integral of x / a (phi(x - a) - phi(x
+ * + a)):
  *   Phi(x - a) - Phi(-x - a) - (phi(x - a) - phi(x + a)) / a
  * a, x >= 0, within 1e-6. */
 FN float tilts_seen(float a, float x)
@@ -297,8 +309,9 @@ FN float tilts_seen(float a, float x)
     return normal_below(x - a) - normal_below(-x - a) - 0.398942280f * sel(t < 0.5f, near, far);
 }
 
-/* Normal of a facet of Gaussian slopes, with the density D max(V.m, 0) slopes_seen() of those that V sees, unit; found by halving. Across,
- * slopes are Gaussian about their regression. What it mirrors, L, weighs F(V.m) slopes_seen(L) where L.y > 0. */
+/* Samples the unit normal of a facet of Gaussian slopes with the density D max(V.m, 0) slopes_seen() of the
+ * visible ones, by bisection. Across, slopes are Gaussian around their regression. The reflected direction L
+ * has the weight F(V.m) slopes_seen(L) if L.y > 0. */
 FN vec3 sample_slopes(vec2 u, vec3 C, vec3 N, vec3 V)
 {
     float across2 = V[0] * V[0] + V[2] * V[2];

@@ -1,3 +1,3 @@
-/* Names that Khronos' Sample Viewer gives to functions of its own: facet's get another one. */
+/* khronos_begin.glsl - renames facet's functions whose names Khronos' Sample Viewer gives to its own. */
 #define D_Charlie facet_D_Charlie
 #define max3 facet_max3

@@ -1,6 +1,6 @@
-/* khronos_end.glsl - the functions of the text under the names and with the arguments of Khronos' Sample Viewer, of
- * its present brdf.glsl and of the one before 2025, for shaders that call these. alphaRoughness is alpha, the square of
- * the perceptual roughness; sheenRoughness is perceptual. */
+/* khronos_end.glsl - the functions of the shader library with the names and arguments of Khronos' Sample
+ * Viewer, both of its current brdf.glsl and of that before 2025, for shaders that call these. alphaRoughness is
+ * alpha, the square of the perceptual roughness; sheenRoughness is perceptual. */
 #undef D_Charlie
 #undef max3
 
@@ -11,7 +11,7 @@ float F_Schlick(float f0, float VdotH) { return F_Schlick1(f0, 1.0, VdotH); }
 vec3 F_Schlick(vec3 f0, float f90, float VdotH) { return F_Schlick(f0, vec3(f90), VdotH); }
 vec3 F_Schlick(vec3 f0, float VdotH) { return F_Schlick(f0, vec3(1.0), VdotH); }
 
-/* F0 of a reflectance f at an angle: the inverse of F_Schlick, as far as grazing light leaves one. */
+/* F0 from the reflectance f at an angle: the inverse of F_Schlick, clamped at grazing angles. */
 vec3 Schlick_to_F0(vec3 f, vec3 f90, float VdotH)
 {
     float w = min(schlick_weight(VdotH), 0.9999);
@@ -96,7 +96,7 @@ vec3 BRDF_specularGGXIridescence(vec3 f0, vec3 f90, vec3 iridescenceFresnel, flo
     return F * BRDF_specularGGX(alphaRoughness, NdotL, NdotV, NdotH) * specularWeight;
 }
 
-/* The viewer has names of its own for these. */
+/* The viewer defines these itself. */
 #undef FN
 #undef STRUCT
 #undef sel

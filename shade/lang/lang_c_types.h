@@ -1,9 +1,10 @@
-/* The vectors of the shared text in C and what GLSL does with them, under names that start with shade_ or SHADE_
- * (C11 + GNU vector extensions; gcc >= 12, clang >= 14). lang_c.h gives them GLSL's names while the text is read.
+/* lang_c_types.h - the vectors of the shader library in C and GLSL's functions on them, under names that start
+ * with shade_ or SHADE_ (C11 + GNU vector extensions; gcc >= 12, clang >= 14). lang_c.h gives them GLSL's names
+ * while shader text is read.
  *
- * A vec3 is four lanes wide; lane 3 is undefined and nothing here reads it. A vec3 and a four-component vector would be
- * the same C type, so there is no vec4. Every selection on the first argument lists float and the vectors and nothing
- * else: a double (a literal without f) is a compile error. */
+ * A vec3 is four lanes wide; lane 3 is undefined and never read. A vec3 and a four-component vector would be
+ * the same C type, so there is no vec4. Every selection on the first argument lists float and the vectors and
+ * nothing else: a double (a literal without f) is a compile error. */
 #ifndef LANG_C_TYPES_H
 #define LANG_C_TYPES_H
 
@@ -68,7 +69,8 @@ SHADE_FN shade_vec3 shade_v3_cross(shade_vec3 a, shade_vec3 b)
     return shade_v3_new(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
 }
 SHADE_FN shade_vec3 shade_v3_reflect(shade_vec3 i, shade_vec3 n) { return i - n * (2.0f * shade_v3_dot(n, i)); }
-SHADE_FN shade_vec3 shade_v3_refract(shade_vec3 i, shade_vec3 n, float eta) /* eta: ior before / ior behind; 0 where all is reflected */
+SHADE_FN shade_vec3 shade_v3_refract(shade_vec3 i, shade_vec3 n, float eta) /* eta: ior before / ior behind; 0
+                                                                             * for total internal reflection */
 {
     float c = shade_v3_dot(n, i);
     float k = 1.0f - eta * eta * (1.0f - c * c);

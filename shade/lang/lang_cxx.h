@@ -1,6 +1,6 @@
-/* lang_cxx.h - the shared dialect, C++ side (C++17 and later): vectors as classes, GLSL's functions as overloads, in
- * namespace facet. float(x), int(x) and uint(x) are C++'s own conversions. A literal without f is a double here, and
- * where functions have overloads for float and vectors only, it converts. */
+/* lang_cxx.h - the dialect in C++ (C++17 and later): vectors as classes, GLSL's functions as overloads, in
+ * namespace facet. float(x), int(x) and uint(x) are C++'s own conversions. A literal without f is a double
+ * here, and is converted where functions have overloads for float and vectors only. */
 #ifndef LANG_CXX_H
 #define LANG_CXX_H
 

@@ -1,4 +1,5 @@
-/* test_support.h - what the tests of shade/ share: comparison with a message, random numbers, golden tables. */
+/* test_support.h - shared by the tests of shade/: comparison with a message, random vectors, golden tables of
+ * the split sum. */
 #ifndef SHADE_TEST_SUPPORT_H
 #define SHADE_TEST_SUPPORT_H
 
