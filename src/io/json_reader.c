@@ -152,6 +152,17 @@ void *io_alloc(io_reader *r, const char *what, size_t count, size_t size)
     return memory;
 }
 
+bool io_load_uri(io_reader *r, const char *uri, uri_bytes *out)
+{
+    const file_scope scope = {.scene = r->scene,
+                              .allocator = r->allocator,
+                              .folder = r->folder,
+                              .root = r->root,
+                              .log = r->log,
+                              .max_file_bytes = r->max_file_bytes};
+    return uri_load(&scope, uri, out);
+}
+
 bool io_spend(io_reader *r, const json_place *at, uint64_t elements)
 {
     r->work += elements;

@@ -142,8 +142,7 @@ const char *io_get_string(io_reader *r, const json_place *object, const char *ke
 /* "name", copied to the scene; "" where there is none. Never fails but for memory. */
 const char *io_get_name(io_reader *r, const json_place *object);
 
-/* uri.c: the bytes that a URI stands for: decoded into the arena (data:) or mapped (a file; closed with the scene).
- * False: *message says why, and *result. Never touches the network. */
+/* uri_load() for the files of the model. */
 bool io_load_uri(io_reader *r, const char *uri, uri_bytes *out);
 
 #endif

@@ -10,7 +10,7 @@
 
 #include "base/result.h"
 #include "io/file_alike.h"
-#include "io/json_reader.h"
+#include "io/uri.h"
 
 static bool uri_fail(uri_bytes *out, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -80,14 +80,14 @@ static bool decode_base64(const char *text, size_t length, unsigned char *out, s
     return true;
 }
 
-static bool load_data_uri(io_reader *r, const char *uri, uri_bytes *out)
+static bool load_data_uri(const file_scope *scope, const char *uri, uri_bytes *out)
 {
     const char *comma = strchr(uri, ',');
     if (!comma || comma - uri < 7 || strncmp(comma - 7, ";base64", 7) != 0)
         return uri_fail(out, FACET_ERROR_INVALID, "is a data URI that is not base64");
     const char *text = comma + 1;
     size_t length = strlen(text);
-    unsigned char *bytes = arena_alloc(r->scene->arena, length / 4 + 1, 3);
+    unsigned char *bytes = arena_alloc(scope->scene->arena, length / 4 + 1, 3);
     if (!bytes)
         return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a data URI of %zu characters", length);
     if (!decode_base64(text, length, bytes, &out->size))
@@ -299,34 +299,23 @@ bool file_scope_open(const file_scope *scope, const char *name, const char *show
            (out->result == FACET_ERROR_READ && open_otherwise(scope, name, shown, out));
 }
 
-static bool open_below(io_reader *r, const char *name, const char *uri, uri_bytes *out)
-{
-    const file_scope scope = {.scene = r->scene,
-                              .allocator = r->allocator,
-                              .folder = r->folder,
-                              .root = r->root,
-                              .log = r->log,
-                              .max_file_bytes = r->max_file_bytes};
-    return file_scope_open(&scope, name, uri, out);
-}
-
-bool io_load_uri(io_reader *r, const char *uri, uri_bytes *out)
+bool uri_load(const file_scope *scope, const char *uri, uri_bytes *out)
 {
     *out = (uri_bytes){0};
     if (strncmp(uri, "data:", 5) == 0)
-        return load_data_uri(r, uri, out);
+        return load_data_uri(scope, uri, out);
     if (has_scheme(uri))
         return uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is no file beside the model; only those are read",
                         uri);
     size_t length = strlen(uri);
-    char *name = mem_alloc(r->allocator, length + 1, 1);
+    char *name = mem_alloc(scope->allocator, length + 1, 1);
     if (!name)
         return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
-    bool done = decode_percent(uri, name) ? open_below(r, name, uri, out)
+    bool done = decode_percent(uri, name) ? file_scope_open(scope, name, uri, out)
                                           : uri_fail(out, FACET_ERROR_INVALID, "has a character 0 inside");
     if (!done && out->result == FACET_ERROR_READ && strchr(uri, '%')) {
         uri_bytes raw = {0}; /* a name that was written without escaping its % */
-        if (open_below(r, uri, uri, &raw)) {
+        if (file_scope_open(scope, uri, uri, &raw)) {
             *out = raw;
             done = true;
         }

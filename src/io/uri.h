@@ -39,5 +39,8 @@ typedef struct uri_bytes {
  * Unicode's form. A warning says where another name than the written one is read, separators apart. shown: the name for
  * messages. False: *message says why, and *result. */
 bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out);
+/* The bytes of a URI: data: decoded into the arena of the scene, or a file by file_scope_open(). Never uses the network.
+ * False: *message says why, and *result. */
+bool uri_load(const file_scope *scope, const char *uri, uri_bytes *out);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef SCENE_DEFORM_H
 #define SCENE_DEFORM_H
 
-#include "scene/bounds.h"
+#include "scene/box.h"
 #include "scene/skinning.h"
 
 /* A primitive as one set of weights and one skin move it. Nodes that agree in both share it. */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "scene/bounds.h"
+#include "scene/box.h"
 #include "scene/hierarchy.h"
 
 enum {

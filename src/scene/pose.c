@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "scene/bounds.h"
 #include "scene/deform.h"
 #include "scene/unit.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "scene/bounds.h"
+#include "scene/box.h"
 
 /* ---- opacity ---- */
 

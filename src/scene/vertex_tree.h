@@ -3,7 +3,7 @@
 #ifndef SCENE_VERTEX_TREE_H
 #define SCENE_VERTEX_TREE_H
 
-#include "scene/bounds.h"
+#include "scene/box.h"
 
 typedef struct vertex_node {
     box bounds;

@@ -1,19 +1,10 @@
 /* fuzz_gltf.c - the glTF reader, and what is made of a scene before it is drawn, over any bytes. */
+#include "fuzz_support.h"
+
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 
 #include "base/text.h"
 #include "io/gltf/gltf.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void ignore(void *user, facet_log_level level, const char *message)
-{
-    (void)user;
-    (void)level;
-    (void)message;
-}
 
 /* What scene_primitive promises of joints and morph targets. */
 static void use_deformation(const scene_primitive *p)
@@ -103,11 +94,9 @@ static void use_scene(const facet_scene *scene, const facet_allocator *allocator
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    facet_budget *budget = NULL;
-    if (facet_budget_create((uint64_t)64 << 20, &budget, NULL) != FACET_OK)
-        return 0;
+    facet_budget *budget = fuzz_begin((uint64_t)64 << 20);
     facet_allocator allocator = facet_budget_allocator(budget);
-    facet_scene_desc desc = {.allocator = allocator, .log = {.message = ignore}, .thread_count = 1};
+    facet_scene_desc desc = {.allocator = allocator, .log = {.message = fuzz_ignore}, .thread_count = 1};
     facet_scene *scene = NULL;
     facet_error error;
     if (gltf_load_memory(data, size, "fuzz", &desc, &scene, &error) == FACET_OK)
@@ -115,8 +104,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     else if (scene || error.message[0] == 0)
         abort();
     scene_destroy(scene);
-    if (facet_budget_used_bytes(budget) != 0)
-        abort();
-    facet_budget_destroy(budget);
+    fuzz_end(budget);
     return 0;
 }

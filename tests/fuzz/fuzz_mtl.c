@@ -1,21 +1,12 @@
 /* fuzz_mtl.c - the MTL reader over any bytes; what it understood is written, read again, and must be the same. */
+#include "fuzz_support.h"
+
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
 #include "io/obj/mtl_parts.h"
 #include "scene/legacy_extras.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void ignore(void *user, facet_log_level level, const char *message)
-{
-    (void)user;
-    (void)level;
-    (void)message;
-}
 
 /* What legacy_material promises. */
 static void check_material(const legacy_material *m)
@@ -81,12 +72,12 @@ static void check_round_trip(const facet_scene *scene, const facet_scene_desc *d
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    facet_budget *budget = NULL;
-    if (size == 0 || facet_budget_create((uint64_t)64 << 20, &budget, NULL) != FACET_OK)
+    if (size == 0)
         return 0;
+    facet_budget *budget = fuzz_begin((uint64_t)64 << 20);
     facet_scene_desc desc = {
         .allocator = facet_budget_allocator(budget),
-        .log = {.message = ignore},
+        .log = {.message = fuzz_ignore},
         .has_flipped_texcoords = size % 2,
         .legacy = {.colors = size % 3 == 0 ? FACET_LEGACY_COLORS_LINEAR : FACET_LEGACY_COLORS_DEFAULT}};
     facet_scene *scene = read_library(data, size, &desc);
@@ -96,8 +87,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         check_round_trip(scene, &desc);
     }
     scene_destroy(scene);
-    if (facet_budget_used_bytes(budget) != 0)
-        abort();
-    facet_budget_destroy(budget);
+    fuzz_end(budget);
     return 0;
 }

@@ -1,19 +1,10 @@
 /* fuzz_ogl1_json.c - the reader of rgl's parameters over any bytes; and what it read, written and read again. */
+#include "fuzz_support.h"
+
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "io/ogl1/ogl1_json.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void ignore(void *user, facet_log_level level, const char *message)
-{
-    (void)user;
-    (void)level;
-    (void)message;
-}
 
 static void check_numbers(const float *values, size_t count, float minimum, float maximum)
 {
@@ -49,7 +40,7 @@ static void check_legacy(const facet_scene *scene)
     check_numbers(&legacy->fog.scale, 1, 1e-7f, 1e6f);
 }
 
-static text write(const facet_scene *scene, const facet_allocator *allocator)
+static text print(const facet_scene *scene, const facet_allocator *allocator)
 {
     text t = {.allocator = *allocator};
     ogl1_json_write(scene, "fuzz", NULL, &t);
@@ -59,7 +50,7 @@ static text write(const facet_scene *scene, const facet_allocator *allocator)
 static void use_scene(const facet_scene *scene, const facet_scene_desc *desc)
 {
     check_legacy(scene);
-    text first = write(scene, &desc->allocator);
+    text first = print(scene, &desc->allocator);
     facet_scene *back = NULL;
     facet_error error;
     if (!first.has_failed) {
@@ -68,7 +59,7 @@ static void use_scene(const facet_scene *scene, const facet_scene_desc *desc)
             abort();
     }
     if (back) {
-        text second = write(back, &desc->allocator);
+        text second = print(back, &desc->allocator);
         if (!second.has_failed && strcmp(first.data, second.data) != 0)
             abort();
         text_destroy(&second);
@@ -79,11 +70,9 @@ static void use_scene(const facet_scene *scene, const facet_scene_desc *desc)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    facet_budget *budget = NULL;
-    if (facet_budget_create((uint64_t)64 << 20, &budget, NULL) != FACET_OK)
-        return 0;
+    facet_budget *budget = fuzz_begin((uint64_t)64 << 20);
     facet_scene_desc desc = {
-        .allocator = facet_budget_allocator(budget), .log = {.message = ignore}, .thread_count = 1};
+        .allocator = facet_budget_allocator(budget), .log = {.message = fuzz_ignore}, .thread_count = 1};
     facet_scene *scene = NULL;
     facet_error error = {0};
     ogl1_json_detect(data, size);
@@ -92,8 +81,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     else if (scene || error.message[0] == 0)
         abort();
     scene_destroy(scene);
-    if (facet_budget_used_bytes(budget) != 0)
-        abort();
-    facet_budget_destroy(budget);
+    fuzz_end(budget);
     return 0;
 }

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "io/obj/obj_reader.h"
 #include "io/obj/obj_table.h"
-#include "scene/bounds.h"
+#include "scene/box.h"
 #include "scene/unit.h"
 
 enum {
