@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "ibl/cube_layout.h"
-#include "image/rgbm.h"
+#include "image/image.h"
 #include "report/ibl_sheet.h"
 
 static const facet_allocator default_allocator;

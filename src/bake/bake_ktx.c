@@ -3,8 +3,7 @@
 
 #include "base/result.h"
 #include "base/text.h"
-#include "image/ktx1_write.h"
-#include "image/ktx2_write.h"
+#include "image/ktx_write.h"
 
 static const facet_ktx2_desc default_desc;
 

@@ -33,7 +33,7 @@ void bake_reference_set_lobe(const bake_lobe *lobe, bake_reference_lobe *out);
 void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *lobe, const double d[3],
                            double out[3]);
 /* The mean over a texel of a cube map of size texels, from 64 x 64 points of it and more, 8 for each texel of the picture along an
- * edge: what a mirror's texel is, within 1 % of what is small in it and bright. is_interpolated: bake_sharp.h. */
+ * edge: what a mirror's texel is, within 1 % of what is small in it and bright. is_interpolated: bake_area.h. */
 void bake_reference_average(const bake_reference *r, bool is_interpolated, uint32_t size, uint32_t face,
                             uint32_t x, uint32_t y, double out[3]);
 

@@ -1,8 +1,10 @@
 /* compare_errors.c - see compare_errors.h. Each row has sums of its own, which are then added from top to bottom: the same
  * for every number of threads. */
 #include "compare/compare_metrics.h"
+
 #include <math.h>
 #include <string.h>
+
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"

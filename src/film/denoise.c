@@ -1,7 +1,9 @@
 /* denoise.c - windows over the whole picture, each pixel the mean of what they say; see denoise.h. */
 #include "film/denoise.h"
+
 #include <math.h>
 #include <string.h>
+
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"

@@ -15,7 +15,7 @@ facet_result layout_check(facet_layout layout, uint32_t width, uint32_t height, 
                           facet_error *error);
 
 /* The faces of a picture (F32 RGB or RGBA), borders filled: texels as they are of crosses and strips; resampled to faces
- * half as high as the picture where it is equirectangular or octahedral (sphere_resample.h). name stands first in messages.
+ * half as high as the picture where it is equirectangular or octahedral (sphere.h). name stands first in messages.
  * FACET_ERROR_INVALID: its edges do not fit the layout; _MEMORY. */
 facet_result layout_read(const image *picture, facet_layout layout, const char *name,
                          const facet_allocator *allocator, uint32_t thread_count, cube *out,

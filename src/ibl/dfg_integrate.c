@@ -12,10 +12,13 @@
  * closes, s is substituted by a square, which takes away the root there. 16 points of p are done at a time. Sampling
  * (integrate_dfg() of shade/ibl.h) would need 10^6 samples for what 1000 points give. */
 #include "ibl/dfg_integrate.h"
+
 #include <math.h>
 #include <stdbool.h>
+
 #include "base/simd.h"
 #include "ibl/gauss.h"
+
 #include "shade/shade.h"
 
 static const double half_pi = 1.57079632679489661923;

@@ -23,7 +23,7 @@
 #include "image/codec.h"
 #include "image/exr_test_file.h"
 #include "image/ktx2_test_file.h"
-#include "image/ktx2_write.h"
+#include "image/ktx_write.h"
 
 typedef struct messages {
     int count;

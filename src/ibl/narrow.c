@@ -1,11 +1,13 @@
-/* narrow.c - the blurred pictures of narrow.h; their weights: narrow_fit.c.
+/* narrow.c - see narrow.h: the blurred pictures and the fit of their weights.
  *
  * A Gaussian on the sphere is blurred along rows, where its variance is 1 / sin(theta)^2 times as large in columns, and
  * then along columns. Columns exchange radiance through the edges between their texels, in proportion to the length of
  * the edge: what leaves a texel arrives in the next, and nothing passes a pole, around which rows are uniform anyway. */
 #include "ibl/narrow.h"
+
 #include <math.h>
 #include <string.h>
+
 #include "base/parallel.h"
 #include "base/simd.h"
 #include "ibl/equirect.h"

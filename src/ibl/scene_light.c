@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
 #include "base/memory.h"
 #include "base/result.h"
 #include "ibl/environment_source.h"

@@ -2,7 +2,9 @@
  * each row is summed against five functions of longitude, and the sums against functions of latitude. Rows are
  * summed in float over SPAN texels and from there on in double. */
 #include "ibl/sh.h"
+
 #include <math.h>
+
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"

@@ -1,4 +1,4 @@
-/* sky.c - clear skies as environments: what is asked for, and to what it is exposed. The skies themselves: sky_picture.c, sky_sun.c. */
+/* sky.c - clear skies as environments: what is asked for, and to what it is exposed. The skies themselves: sky_picture.c. */
 #include <assert.h>
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* sky_picture.c - see sky_picture.h. */
 #include <math.h>
 #include <string.h>
+
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"

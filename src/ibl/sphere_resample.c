@@ -1,4 +1,4 @@
-/* sphere_resample.c - see sphere_resample.h. */
+/* sphere_resample.c - see sphere.h. */
 #include "ibl/sphere.h"
 
 #include <stdatomic.h>

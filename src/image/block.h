@@ -14,17 +14,15 @@ enum { TILE_EDGE = 4, TILE_TEXELS = 16, TILE_CHANNELS = 4 };
 
 typedef void block_decode(const unsigned char *block, void *tile);
 
-/* block_s3tc.c. U8; bc1_rgb: what the format's third color mode leaves out is black, bc1_rgba: and transparent */
+/* block_s3tc.c. S3TC: U8; bc1_rgb: the fourth color of the three-color mode is black, bc1_rgba: and transparent */
 block_decode bc1_rgb_decode, bc1_rgba_decode, bc2_decode, bc3_decode;
-/* block_rgtc.c. U8, signed ones F32 */
+/* RGTC: U8, signed ones F32 */
 block_decode bc4_decode, bc4_signed_decode, bc5_decode, bc5_signed_decode;
-void rgtc_decode_channel(const unsigned char block[8], unsigned char *channel); /* every fourth byte */
-/* block_bc6h.c: F16; block_bc7.c: U8 */
+/* block_bptc.c. BC6H: F16; BC7: U8 */
 block_decode bc6h_decode, bc6h_signed_decode, bc7_decode;
-/* block_etc.c: U8, ETC1 is part of ETC2; block_eac.c: U16, signed ones F32 */
+/* block_etc.c. ETC2: U8, ETC1 is part of it; EAC: U16, signed ones F32 */
 block_decode etc2_rgb_decode, etc2_rgb_a1_decode, etc2_rgba_decode;
 block_decode eac_r11_decode, eac_r11_signed_decode, eac_rg11_decode, eac_rg11_signed_decode;
-void eac_decode_alpha(const unsigned char block[8], unsigned char *channel); /* every fourth byte */
 /* basis_uastc.c: U8. srgb: as a sampler reads it that decodes sRGB afterwards */
 block_decode uastc_decode, uastc_srgb_decode;
 
@@ -72,14 +70,7 @@ static inline uint32_t take_bits(block_bits *b, unsigned count)
     return value;
 }
 
-/* The weights of BC6H and BC7, of 64, by the bits of an index (KDF 20.1, "interpolation weights"). Those of 2
- * and 3 bits are ASTC's as well. */
-extern const unsigned char bptc_weights2[4], bptc_weights3[8], bptc_weights4[16];
-/* Which of two subsets a texel belongs to: bit i for texel i; of three: bits 2 i and 2 i + 1 (KDF tables
- * "partition table for 2-subset" and "3-subset BPTC"). */
-extern const uint16_t bptc_partitions2[64];
-extern const uint32_t bptc_partitions3[64];
-/* The texels, besides texel 0, whose index is stored without its highest bit, which is 0. */
-extern const unsigned char bptc_anchors2[64], bptc_anchors3_second[64], bptc_anchors3_third[64];
+/* Interpolation weights of BC6H and BC7, of 64, by an index of 2 and 3 bits (KDF 20.1); ASTC and UASTC have the same. */
+extern const unsigned char bptc_weights2[4], bptc_weights3[8];
 
 #endif

@@ -50,6 +50,15 @@ void image_reader_destroy(image_reader *r); /* {0} is allowed; leaves {0} */
 /* count texels from texel first on, row by row, into rgba. */
 void image_reader_load(const image_reader *r, size_t first, size_t count, float *rgba);
 
+/* Radiance in 8 bits, RGB with a multiplier as alpha: U8 RGBA of F32 RGB or RGBA (alpha is not looked at), such that
+ *   value = RGB / 255 * M / 255 * range
+ * with the smallest M that holds the texel's largest channel, M = ceil(255 max / range), and at least 1 (Karis 2009, "RGBM
+ * color encoding"; three.js' RGBMToLinear() reads it. PlayCanvas squares what it reads: it keeps roots). Values above range
+ * become range, below 0 and NaN 0. The error is at most M range / (2 255^2): a part in 510 of the texel's largest channel,
+ * or of a step of range / 255 where that is more. range: above 0. FACET_ERROR_MEMORY. */
+facet_result rgbm_encode(const image *in, float range, const facet_allocator *allocator,
+                         uint32_t thread_count, image *out, facet_error *error);
+
 /* ---- codecs: files in memory to images and back ---- */
 
 typedef enum image_codec {

@@ -1,8 +1,8 @@
-/* ktx1_write.c - see ktx1_write.h.
+/* ktx1_write.c - see ktx_write.h.
  *
  * glType should be GL_UNSIGNED_INT_10F_11F_11F_REV (0x8C3B); Filament's cmgen writes GL_R11F_G11F_B10F (0x8C3A), and its
  * reader takes nothing else, so that is what is written. As glFormat it takes GL_RGB, as the specification wants it. */
-#include "image/ktx1_write.h"
+#include "image/ktx_write.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "image/codec.h"
-#include "image/ktx1_write.h"
+#include "image/ktx_write.h"
 
 enum { EDGE = 4, LEVELS = 3, FACES = 6 };
 

@@ -1,5 +1,5 @@
 /* ktx2.h - KTX 2.0 texture containers: what a file holds, checked against its bytes, and its pictures, one by one:
- * levels (0: the full size), layers of arrays, faces of cubes (+X -X +Y -Y +Z -Z). codec_ktx2.c shows the first of them
+ * levels (0: the full size), layers of arrays, faces of cubes (+X -X +Y -Y +Z -Z). ktx2.c shows the first of them
  * as an image file. Khronos, "KTX File Format Specification 2.0". */
 #ifndef IMAGE_KTX2_H
 #define IMAGE_KTX2_H

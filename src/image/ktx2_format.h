@@ -42,4 +42,7 @@ enum {
 };
 const ktx2_format *ktx2_find_basis_format(unsigned model, int first, int second);
 
+/* unpack as it is but for what is not finite, which stays. */
+texel_unpack *unpack_nonfinite(texel_unpack *unpack);
+
 #endif

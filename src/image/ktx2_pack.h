@@ -1,5 +1,5 @@
 /* ktx2_pack.h - texels of floats as KTX2 files hold them: the formats of facet_texel_format, their sizes, their rounding.
- * The way back: ktx2_texels.h. */
+ * The way back: ktx2_format.h. */
 #ifndef IMAGE_KTX2_PACK_H
 #define IMAGE_KTX2_PACK_H
 

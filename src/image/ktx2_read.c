@@ -4,8 +4,8 @@
 
 #include <float.h>
 #include <stdatomic.h>
-
 #include <zlib.h>
+
 #ifdef HAVE_ZSTD
 #include <zstd.h>
 #endif
@@ -13,10 +13,73 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#ifdef HAVE_ASTC
+#include "image/astc_shim.h"
+#endif
 #include "image/basis_etc1s.h"
 #include "image/codec.h"
-#include "image/ktx2_astc.h"
-#include "image/ktx2_texels.h"
+#include "image/ktx2_format.h"
+
+/* ---- ASTC ---- */
+
+/* Decodes size bytes of blocks of k->format into out, RGBA U8 of its size. The memory of the library comes from malloc.
+ * FACET_ERROR_MEMORY; _UNSUPPORTED where this build has no libastcenc. */
+#ifdef HAVE_ASTC
+
+enum { THREAD_TEXELS = 65536 }; /* fewer are not worth another thread */
+
+/* What the threads share; the library shares out the blocks. */
+typedef struct astc_job {
+    astc_shim *shim;
+    const unsigned char *bytes;
+    size_t size;
+    image *out;
+    atomic_int failure; /* 0: none yet */
+} astc_job;
+
+static void run_threads(void *context, size_t begin, size_t end)
+{
+    astc_job *j = context;
+    for (size_t thread = begin; thread < end; thread++) {
+        int failure = astc_shim_decode(j->shim, j->bytes, j->size, j->out->width, j->out->height,
+                                       j->out->pixels, (unsigned)thread);
+        if (failure)
+            atomic_store(&j->failure, failure);
+    }
+}
+
+static facet_result decode_astc_blocks(const ktx2 *k, const unsigned char *bytes, size_t size,
+                                       uint32_t thread_count, image *out, facet_error *error)
+{
+    const ktx2_format *f = k->format;
+    const size_t useful = 1 + (size_t)out->width * out->height / THREAD_TEXELS;
+    const uint32_t threads = thread_count == 0 ? 1 : thread_count < useful ? thread_count : (uint32_t)useful;
+    astc_job j = {.bytes = bytes, .size = size, .out = out};
+    int failure = astc_shim_create(f->block_width, f->block_height, k->is_srgb, threads, &j.shim);
+    if (!failure) {
+        parallel_for(threads, threads, 1, run_threads, &j);
+        failure = atomic_load(&j.failure);
+    }
+    astc_shim_destroy(j.shim);
+    if (failure == ASTC_SHIM_MEMORY)
+        return fail_memory(error, "ASTC decoder", 0);
+    if (failure)
+        return fail(error, FACET_ERROR_SYSTEM, "%s: KTX2: libastcenc does not decode %s here", k->name,
+                    f->name);
+    return FACET_OK;
+}
+
+#else
+
+static facet_result decode_astc_blocks(const ktx2 *k, const unsigned char *bytes, size_t size,
+                                       uint32_t thread_count, image *out, facet_error *error)
+{
+    (void)bytes, (void)size, (void)thread_count, (void)out;
+    return fail(error, FACET_ERROR_UNSUPPORTED, "%s: KTX2: this build of facet does not read %s", k->name,
+                k->format->name); /* ktx2_open() has refused before */
+}
+
+#endif
 
 /* ---- supercompression ---- */
 
@@ -363,7 +426,7 @@ static facet_result decode_astc(const ktx2 *k, const unsigned char *bytes, size_
     if (!is_direct)
         result = image_create(&desc->allocator, j->out->width, j->out->height, 4, IMAGE_U8, &rgba, error);
     if (result == FACET_OK)
-        result = ktx2_decode_astc(k, bytes, size, desc->thread_count, to, error);
+        result = decode_astc_blocks(k, bytes, size, desc->thread_count, to, error);
     if (result == FACET_OK && !is_direct) {
         j->bytes = rgba.pixels;
         run_rows(j, desc->thread_count, store_rows, 1);

@@ -8,7 +8,7 @@
 #include "image/half.h"
 #include "image/ktx2.h"
 #include "image/ktx2_pack.h"
-#include "image/ktx2_write.h"
+#include "image/ktx_write.h"
 
 enum { FORMAT_COUNT = 8, MAX_PICTURES = 6 * 16 };
 static const char *const format_names[FORMAT_COUNT] = {"RGBA16F", "RGBA32F", "RGB9E5", "B10G11R11",

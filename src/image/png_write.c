@@ -5,15 +5,60 @@
 #include "image/codec.h"
 
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
-
 #include <zlib.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
 #include "image/deflate.h"
-#include "image/png_filter.h"
+
+/* ---- filters ---- */
+
+/* What PNG puts before deflate: each byte less a prediction of it (PNG third edition, section 9). */
+typedef enum png_filter { PNG_NONE, PNG_LEFT, PNG_UP, PNG_AVERAGE, PNG_PAETH } png_filter;
+enum { PNG_FILTER_COUNT = 5 };
+
+/* The predictor of Paeth: of left, up and their corner what is nearest to left + up - corner. */
+static inline int paeth(int left, int up, int corner)
+{
+    int to_left = abs(up - corner);
+    int to_up = abs(left - corner);
+    int to_corner = abs(left + up - 2 * corner);
+    int nearest = to_up <= to_corner ? up : corner;
+    return to_left <= to_up && to_left <= to_corner ? left : nearest;
+}
+
+/* row less the prediction into out. above is the row before, zeros at the top; texel (1 to 8) zeros stand
+ * before row and above. */
+static void filter_row(png_filter filter, const unsigned char *row, const unsigned char *above, size_t size,
+                       size_t texel, unsigned char *restrict out)
+{
+    const unsigned char *left = row - texel;
+    const unsigned char *corner = above - texel;
+    switch (filter) {
+    case PNG_NONE:
+        memcpy(out, row, size);
+        return;
+    case PNG_LEFT:
+        for (size_t k = 0; k < size; k++)
+            out[k] = (unsigned char)(row[k] - left[k]);
+        return;
+    case PNG_UP:
+        for (size_t k = 0; k < size; k++)
+            out[k] = (unsigned char)(row[k] - above[k]);
+        return;
+    case PNG_AVERAGE:
+        for (size_t k = 0; k < size; k++)
+            out[k] = (unsigned char)(row[k] - ((left[k] + above[k]) >> 1));
+        return;
+    case PNG_PAETH:
+        for (size_t k = 0; k < size; k++)
+            out[k] = (unsigned char)(row[k] - paeth(left[k], above[k], corner[k]));
+        return;
+    }
+}
 
 enum {
     BLOCK_SIZE = 128 * 1024, /* filtered bytes that are deflated by one thread at a time */
@@ -85,7 +130,7 @@ static void filter_rows(void *context, size_t begin, size_t end)
         uint32_t best_weight = UINT32_MAX;
         for (int filter = 0; filter < PNG_FILTER_COUNT && best_weight > 0; filter++) {
             unsigned char *out = tried + (size_t)filter * w->row_size;
-            png_filter_row((png_filter)filter, row, above, w->row_size, texel, out);
+            filter_row((png_filter)filter, row, above, w->row_size, texel, out);
             uint32_t sum = weight(out, w->row_size);
             if (sum < best_weight) {
                 best_weight = sum;

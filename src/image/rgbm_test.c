@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "image/rgbm.h"
+#include "image/image.h"
 
 enum { WIDTH = 256, HEIGHT = 64 };
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "image/cie.h"
+#include "image/primaries.h"
 
 /* ---- tables, every 10 nm from 380 to 720 ---- */
 

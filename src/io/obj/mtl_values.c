@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "image/cie.h"
+#include "image/primaries.h"
 #include "image/srgb.h"
 #include "io/obj/mtl_parts.h"
 

@@ -1,0 +1,47 @@
+/* ktx_write.h - writing KTX files. ktx2.h reads those of version 2. */
+#ifndef IMAGE_KTX_WRITE_H
+#define IMAGE_KTX_WRITE_H
+
+#include "facet/facet.h"
+
+/* ---- KTX 2.0: textures of floats, 2D or cube maps, with any number of levels ----
+ *
+ * Khronos, "KTX File Format Specification 2.0"; "Khronos Data Format Specification 1.3" (KDF), section 5. */
+
+typedef struct ktx2_write_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
+    facet_texel_format format;
+    uint32_t zstd_level; /* each level a frame of Zstandard: 1 to 19; 0: none */
+    uint32_t level_count;
+    uint32_t face_count; /* 1, or 6: +X -X +Y -Y +Z -Z */
+    /* level_count * face_count pictures of 1 to 4 channels, the faces of level 0 first; the edges of a level are those of
+     * the one before halved, rounded down, at least 1. */
+    const facet_image_view *pictures;
+    bool is_opaque;     /* alpha is 1, whatever a fourth channel says */
+    const char *writer; /* KTXwriter: name and version of the program */
+} ktx2_write_desc;
+
+/* The bytes are a block of mem_alloc(). FACET_ERROR_ARGUMENT: sizes and counts that are no texture; _UNSUPPORTED: a build
+ * without Zstandard; _MEMORY. */
+facet_result ktx2_write(const ktx2_write_desc *desc, unsigned char **bytes, size_t *size, facet_error *error);
+
+/* ---- KTX 1: cube maps of light for programs that do not read KTX 2 (Filament's loaders of light) ----
+ *
+ * Khronos, "KTX File Format Specification", version 1. */
+
+typedef struct ktx1_write_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
+    uint32_t level_count;
+    /* Six square pictures of 1 to 4 channels per level, +X -X +Y -Y +Z -Z, the faces of level 0 first; the edges of a level
+     * are half as long as those of the one before. */
+    const facet_image_view *pictures;
+    const char *key, *value; /* one entry of metadata; the value is written without a final 0. NULL: none */
+} ktx1_write_desc;
+
+/* Texels are R11F_G11F_B10F. The bytes are a block of mem_alloc(). FACET_ERROR_ARGUMENT: sizes that are no cube map; _MEMORY. */
+facet_result ktx1_write_cube(const ktx1_write_desc *desc, unsigned char **bytes, size_t *size,
+                             facet_error *error);
+
+#endif
