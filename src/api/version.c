@@ -6,7 +6,7 @@
 
 #include "api/gl_library.h"
 #include "build_config.h"
-#include "cpu/cpu_report.h"
+#include "cpu/embree_scene.h"
 
 const char *facet_version(void)
 {
@@ -53,7 +53,7 @@ size_t facet_build_report(char *out, size_t size)
     add_cpu(&t);
     text_addf(&t, "threads   %u\n", facet_thread_count());
     text_addf(&t, "renderers preview, path, gl\n");
-    text_addf(&t, "embree    %s\n", cpu_embree_version());
+    text_addf(&t, "embree    %s\n", embree_scene_version());
     text_addf(&t, "images    png (spng %s), jpeg (turbojpeg %s), webp (%s), exr (%s), hdr, pfm\n",
               FACET_SPNG_VERSION, FACET_TURBOJPEG_VERSION, FACET_WEBP_VERSION, FACET_OPENEXR_VERSION);
     text_addf(&t, "textures  ktx2 (%s, %s), avif (%s)\n", FACET_ZSTD_VERSION, FACET_ASTC_VERSION,

@@ -351,3 +351,8 @@ void embree_scene_destroy(embree_scene *scene)
         mem_account(&scene->memory.allocator, -left);
     scene->object_bytes = 0;
 }
+
+const char *embree_scene_version(void)
+{
+    return RTC_VERSION_STRING;
+}

@@ -52,4 +52,7 @@ facet_result embree_scene_update(embree_scene *scene, render_likeness likeness, 
                                  uint64_t ray_count, facet_error *error);
 void embree_scene_destroy(embree_scene *scene); /* {0} is allowed */
 
+/* "3.13.5": the version of Embree, for `facet version -v`. */
+const char *embree_scene_version(void);
+
 #endif

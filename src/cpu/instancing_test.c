@@ -10,7 +10,6 @@
 
 #include "base/memory.h"
 #include "cpu/instancing.h"
-#include "cpu/nearest_copies.h"
 #include "cpu/preview_fixture.h"
 
 /* 64 * 32 * 2 = 4096 triangles: 9 of them save as many as the smallest picture asks for. */

@@ -1,10 +1,14 @@
-/* media.h - the bodies that a ray is in, glass in liquid in glass: a small stack of their materials. */
+/* media.h - the closed volumes that a ray is in, glass in liquid in glass: a small stack of their materials, and where a ray crosses
+ * their boundaries. Holds shared shading text: include it last. */
 #ifndef CPU_MEDIA_H
 #define CPU_MEDIA_H
 
 #include <string.h>
 
+#include "cpu/surface_point.h"
 #include "scene/scene.h"
+
+/* ---- the stack ---- */
 
 enum { MEDIA_DEPTH = 8 };
 
@@ -45,5 +49,34 @@ static inline void media_leave(media *m, const scene_material *material)
             return;
         }
 }
+
+/* ---- boundaries ---- */
+
+/* Lengths, m, below which positions on a triangle are the same: several times what rounding of the intersection is, which
+ * goes with the largest of its corners' coordinates. */
+static inline float media_tolerance(float coordinate_m)
+{
+    return 1e-6f * coordinate_m + 1e-12f;
+}
+
+/* That of a point. */
+float media_tolerance_at(const surface_point *s);
+
+typedef struct media_exit {
+    float distance_m;
+    vec3 normal; /* unit, geometric, out of the body */
+} media_exit;
+
+/* Where the body behind s, which is a boundary of it, ends along a unit direction into it. False: nowhere. */
+bool media_find_exit(const shading_scene *scene, const surface_point *s, vec3 direction, media_exit *out);
+
+/* Takes the ray that meets s across the boundary there, and across those of other bodies in the same place (a liquid
+ * that touches its glass): within tolerance, m. */
+void media_cross(const shading_scene *scene, const visibility_hit *hit, const surface_point *s,
+                 float tolerance, media *m);
+
+/* Enters the bodies that P is in, the outermost first as far as that can be told: those that are left more often than
+ * entered on the way out, whichever way that is. Returns the number of rays. */
+uint32_t media_at(const shading_scene *scene, const float P[3], media *m);
 
 #endif

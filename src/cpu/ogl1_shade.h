@@ -2,7 +2,7 @@
 #ifndef CPU_OGL1_SHADE_H
 #define CPU_OGL1_SHADE_H
 
-#include "cpu/shading.h"
+#include "cpu/shading_scene.h"
 
 /* [0, 1]; 1 is opaque. */
 float ogl1_opacity(const shading_scene *scene, const shading_point *point);

@@ -9,8 +9,7 @@
 
 #include "cpu/media.h"
 
-#include "cpu/boundary_normal.h"
-#include "cpu/ray_bundle.h"
+#include "cpu/boundary.h"
 #include "cpu/ray_samples.h"
 
 /* ---- normals of boundaries ---- */

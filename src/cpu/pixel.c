@@ -13,11 +13,6 @@
  * a pixel: a shade in between differs from both by less than can be seen. */
 static const float SAME_FACE_COS = 0.97f;
 
-static vec3 load3(const float *v)
-{
-    return vec3(v[0], v[1], v[2]);
-}
-
 /* ---- fragments ---- */
 
 static bool add_fragment(pixel_resolver *r, const visibility_hit *hit, uint32_t sample)
@@ -43,7 +38,7 @@ static bool is_simple(const pixel_resolver *r, const visibility_hit *hit, float 
     float direction[3];
     for (int i = 0; i < 3; i++)
         direction[i] = camera->direction[i] + X * camera->direction_dx[i] + Y * camera->direction_dy[i];
-    return shading_is_visible_side(r->scene, hit, direction);
+    return ray_trace_is_visible_side(r->scene, hit, direction);
 }
 
 static bool collect_fragments(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hits)
@@ -61,10 +56,10 @@ static bool collect_fragments(pixel_resolver *r, uint32_t x, uint32_t y, const v
                 return false;
             continue;
         }
-        visibility_hit layers[SEE_THROUGH_LAYERS + 1];
+        visibility_hit layers[RAY_TRACE_LAYERS + 1];
         shading_ray ray =
             shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, px, py, footprint);
-        uint32_t count = see_through(r->scene, &ray, layers);
+        uint32_t count = ray_trace_layers(r->scene, &ray, layers);
         r->rays++;
         for (uint32_t i = 0; i < count; i++)
             if (!add_fragment(r, &layers[i], sample))
@@ -299,11 +294,11 @@ bool pixel_nearest_surface(pixel_resolver *r, uint32_t x, uint32_t y, const visi
         return false;
     float px = (float)x + 0.5f;
     float py = (float)y + 0.5f;
-    visibility_hit layers[SEE_THROUGH_LAYERS + 1];
+    visibility_hit layers[RAY_TRACE_LAYERS + 1];
     shading_ray ray = shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, px, py, 1.0f);
     if (!is_simple(r, hit, px, py)) {
         r->rays++;
-        if (see_through(r->scene, &ray, layers) == 0)
+        if (ray_trace_layers(r->scene, &ray, layers) == 0)
             return false;
         hit = &layers[0];
     }

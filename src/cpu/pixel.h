@@ -2,7 +2,8 @@
 #ifndef CPU_PIXEL_H
 #define CPU_PIXEL_H
 
-#include "cpu/see_through.h"
+#include "cpu/ray_trace.h"
+#include "cpu/shading.h"
 #include "film/matte.h"
 
 struct scene_identity; /* scene/identity.h */

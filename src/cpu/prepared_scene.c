@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "cpu/instancing.h"
-#include "cpu/nearest_copies.h"
 #include "draw/texture_store.h"
 
 void prepared_scene_init(prepared_scene *p, const facet_scene *scene, const facet_allocator *allocator)

@@ -1,27 +1,191 @@
 /* ray_trace.c - see ray_trace.h. Embree's own nearest hit is taken where it is opaque, which is nearly always; only where
  * it is not, a filter looks at every candidate. */
-#include "cpu/see_through.h"
+#include <math.h>
+#include <string.h>
 
+#include "cpu/ogl1_shade.h"
 #include "cpu/ray_trace.h"
 
-static struct RTCRay embree_ray(const shading_ray *ray)
+/* ---- a hit ---- */
+
+bool ray_trace_is_visible_side(const shading_scene *scene, const visibility_hit *hit,
+                               const float direction[3])
 {
-    return (struct RTCRay){.org_x = ray->origin[0],
-                           .org_y = ray->origin[1],
-                           .org_z = ray->origin[2],
-                           .tnear = ray->near_t,
-                           .dir_x = ray->direction[0],
-                           .dir_y = ray->direction[1],
-                           .dir_z = ray->direction[2],
-                           .tfar = ray->far_t,
-                           .mask = UINT32_MAX};
+    const render_geometry *g = &scene->geometries->items[hit->geometry];
+    return g->is_double_sided || surface_sees_front(g, hit, load3(direction)) ||
+           scene->plans->items[hit->geometry].is_volume;
 }
+
+float ray_trace_opacity(const shading_scene *scene, const shading_point *point)
+{
+    if (scene->ogl1)
+        return ogl1_opacity(scene, point);
+    const render_geometry *g = &scene->geometries->items[point->hit->geometry];
+    if (!g->is_see_through)
+        return 1.0f;
+    shading_hit h = shading_hit_make(scene, point);
+    float base_color[4];
+    surface_base_color(scene, &h, &scene->plans->items[point->hit->geometry], base_color);
+    return surface_opacity(g->material, base_color[3]);
+}
+
+/* ---- all surfaces along a ray ---- */
+
+/* One traversal per ray: Embree calls a filter for every candidate. A transparent one is noted and refused, so that Embree goes on;
+ * an opaque one is taken, so that Embree looks no farther. */
+
+/* From this opacity on nothing behind can be seen in 8 bits of color. */
+static const float OPAQUE = 0.999f;
+/* Distances that differ by less, relatively, are the same: rounding of the intersection. */
+static const float SAME_DISTANCE = 2e-6f;
+/* Weights below this are on an edge of the triangle. */
+static const float ON_EDGE = 1e-4f;
+
+typedef struct layer_search {
+    embree_context context; /* first: what Embree hands to the filter */
+    const shading_scene *scene;
+    const shading_ray *ray;
+    bool has_opaque;
+    visibility_hit opaque;
+    uint32_t count;
+    visibility_hit layers[RAY_TRACE_LAYERS]; /* nearest first */
+} layer_search;
+
+static bool has_smaller_number(const visibility_hit *a, const visibility_hit *b)
+{
+    return a->geometry != b->geometry ? a->geometry < b->geometry : a->primitive < b->primitive;
+}
+
+static bool is_nearer(const visibility_hit *a, const visibility_hit *b)
+{
+    if (a->t < b->t || a->t > b->t)
+        return a->t < b->t;
+    return has_smaller_number(a, b);
+}
+
+static bool is_same_distance(float a, float b)
+{
+    return fabsf(a - b) <= SAME_DISTANCE * fabsf(a);
+}
+
+static bool is_on_edge(const visibility_hit *hit)
+{
+    return hit->u < ON_EDGE || hit->v < ON_EDGE || hit->u + hit->v > 1.0f - ON_EDGE;
+}
+
+static bool have_common_edge(const render_geometry *g, const visibility_hit *a, const visibility_hit *b)
+{
+    const uint32_t *i = render_geometry_triangle(g, a->primitive);
+    const uint32_t *k = render_geometry_triangle(g, b->primitive);
+    int common = 0;
+    for (int n = 0; n < 3; n++)
+        for (int m = 0; m < 3; m++)
+            common += memcmp(g->vertices + 3 * (size_t)i[n], g->vertices + 3 * (size_t)k[m],
+                             3 * sizeof(float)) == 0;
+    return common == 2;
+}
+
+/* A ray through an edge meets both triangles, which are one surface there. */
+static bool is_twin(const layer_search *w, const visibility_hit *a, const visibility_hit *b)
+{
+    const render_geometry *g = &w->scene->geometries->items[a->geometry];
+    return a->geometry == b->geometry && a->primitive != b->primitive &&
+           g->primitive->mode == SCENE_TRIANGLES && is_same_distance(a->t, b->t) && is_on_edge(a) &&
+           is_on_edge(b) && have_common_edge(g, a, b);
+}
+
+/* Notes a layer; when there are too many, the farthest goes, and nothing behind it is of interest. */
+static void insert(layer_search *w, const visibility_hit *hit)
+{
+    uint32_t place = w->count;
+    while (place > 0 && is_nearer(hit, &w->layers[place - 1]))
+        place--;
+    if (place == RAY_TRACE_LAYERS)
+        return;
+    uint32_t kept = w->count < RAY_TRACE_LAYERS ? w->count : RAY_TRACE_LAYERS - 1;
+    memmove(&w->layers[place + 1], &w->layers[place], (kept - place) * sizeof *w->layers);
+    w->layers[place] = *hit;
+    w->count = kept + 1;
+}
+
+/* Whether the candidate ends the ray. */
+static bool consider(layer_search *w, const visibility_hit *hit)
+{
+    if (!ray_trace_is_visible_side(w->scene, hit, w->ray->direction))
+        return false;
+    shading_point point = {.hit = hit, .ray = w->ray};
+    float opacity = ray_trace_opacity(w->scene, &point);
+    if (opacity >= OPAQUE) {
+        if (!w->has_opaque || is_nearer(hit, &w->opaque))
+            w->opaque = *hit;
+        w->has_opaque = true;
+        return true;
+    }
+    if (opacity > 0.0f)
+        insert(w, hit);
+    return false;
+}
+
+static void collect_layers(const struct RTCFilterFunctionNArguments *arguments)
+{
+    if (arguments->valid[0] != -1)
+        return;
+    layer_search *w = (layer_search *)(void *)arguments->context;
+    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
+    const struct RTCHit *h = (const struct RTCHit *)(const void *)arguments->hit;
+    visibility_hit hit = visibility_hit_read(w->scene->geometries, ray->tfar, h);
+    if (!consider(w, &hit))
+        arguments->valid[0] = 0;
+}
+
+/* Layers at the same distance by number, twins once. */
+static void tidy(layer_search *w)
+{
+    for (uint32_t i = 1; i < w->count; i++)
+        for (uint32_t k = i; k > 0 && is_same_distance(w->layers[k].t, w->layers[k - 1].t) &&
+                             has_smaller_number(&w->layers[k], &w->layers[k - 1]);
+             k--) {
+            visibility_hit swap = w->layers[k];
+            w->layers[k] = w->layers[k - 1];
+            w->layers[k - 1] = swap;
+        }
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < w->count; i++) {
+        bool repeats = false;
+        for (uint32_t k = kept; k > 0 && is_same_distance(w->layers[i].t, w->layers[k - 1].t); k--)
+            repeats = repeats || is_twin(w, &w->layers[i], &w->layers[k - 1]);
+        if (!repeats)
+            w->layers[kept++] = w->layers[i];
+    }
+    w->count = kept;
+}
+
+uint32_t ray_trace_layers(const shading_scene *scene, const shading_ray *ray,
+                          visibility_hit hits[RAY_TRACE_LAYERS + 1])
+{
+    layer_search w; /* 2 kB of layers that need no zeros */
+    w.scene = scene;
+    w.ray = ray;
+    w.has_opaque = false;
+    w.count = 0;
+    struct RTCRayHit rayhit = ray_trace_embree_hit(ray);
+    embree_intersect1_filtered(scene->embree->scene, &rayhit, &w.context, collect_layers);
+
+    /* An opaque surface may have been found after layers behind it. */
+    while (w.has_opaque && w.count > 0 && is_nearer(&w.opaque, &w.layers[w.count - 1]))
+        w.count--;
+    tidy(&w);
+    memcpy(hits, w.layers, w.count * sizeof *hits);
+    if (w.has_opaque)
+        hits[w.count] = w.opaque;
+    return w.count + w.has_opaque;
+}
+
+/* ---- single rays ---- */
 
 static bool nearest_of_all(const shading_scene *scene, const shading_ray *ray, visibility_hit *hit)
 {
-    struct RTCRayHit rayhit = {
-        .ray = embree_ray(ray),
-        .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
+    struct RTCRayHit rayhit = ray_trace_embree_hit(ray);
     embree_intersect1(scene->embree->scene, &rayhit);
     if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
@@ -39,7 +203,7 @@ static bool is_see_through(const shading_scene *scene, const visibility_hit *hit
 static float opacity_of(const shading_scene *scene, const shading_ray *ray, const visibility_hit *hit)
 {
     shading_point point = {.hit = hit, .ray = ray};
-    return is_see_through(scene, hit) ? shading_opacity(scene, &point) : 1.0f;
+    return is_see_through(scene, hit) ? ray_trace_opacity(scene, &point) : 1.0f;
 }
 
 /* Takes the next of several things, of the given weight, in place of the one that was drawn among those before it, whose
@@ -55,15 +219,15 @@ static bool draws(float weight, float sum, float *u)
     return false;
 }
 
-/* see_through() gives up after many layers, and where hardly any light passes: the rest of the ray is a ray again. */
+/* ray_trace_layers() gives up after many layers, and where hardly any light passes: the rest of the ray is a ray again. */
 static void gather_layers(const shading_scene *scene, const shading_ray *ray, float u, ray_first *first)
 {
-    visibility_hit hits[SEE_THROUGH_LAYERS + 1];
+    visibility_hit hits[RAY_TRACE_LAYERS + 1];
     shading_ray rest = *ray;
     float passes = 1.0f;
     uint32_t count;
     do {
-        count = see_through(scene, &rest, hits);
+        count = ray_trace_layers(scene, &rest, hits);
         first->rays++;
         float opacity = 0.0f;
         for (uint32_t i = 0; i < count; i++) {
@@ -74,7 +238,7 @@ static void gather_layers(const shading_scene *scene, const shading_ray *ray, fl
             first->opacity += weight;
             passes *= 1.0f - opacity;
         }
-        bool goes_on = count >= SEE_THROUGH_LAYERS || (opacity > 0.99f && opacity < 1.0f);
+        bool goes_on = count >= RAY_TRACE_LAYERS || (opacity > 0.99f && opacity < 1.0f);
         if (!goes_on || !(passes > 0.0f))
             break;
         rest.near_t = nextafterf(hits[count - 1].t, INFINITY);
@@ -87,7 +251,7 @@ ray_first ray_trace_first(const shading_scene *scene, const shading_ray *ray, fl
     ray_first first = {.rays = 1};
     if (!nearest_of_all(scene, ray, &first.hit))
         return first;
-    if (is_see_through(scene, &first.hit) || !shading_is_visible_side(scene, &first.hit, ray->direction)) {
+    if (is_see_through(scene, &first.hit) || !ray_trace_is_visible_side(scene, &first.hit, ray->direction)) {
         gather_layers(scene, ray, u, &first);
         return first;
     }
@@ -142,9 +306,7 @@ bool ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint3
         return true;
     search s = {.scene = scene, .ray = *ray, .random = random};
     s.ray.spread = &NO_SPREAD;
-    struct RTCRayHit rayhit = {
-        .ray = embree_ray(ray),
-        .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
+    struct RTCRayHit rayhit = ray_trace_embree_hit(ray);
     rayhit.ray.tnear = max(ray->near_t, hit->t);
     embree_intersect1_filtered(scene->embree->scene, &rayhit, &s.context, meet_by_chance);
     if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -190,9 +352,9 @@ static void dim(const struct RTCFilterFunctionNArguments *arguments)
         arguments->valid[0] = 0;
 }
 
-float ray_trace_opening(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings)
+float ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings)
 {
-    struct RTCRay r = embree_ray(ray);
+    struct RTCRay r = ray_trace_embree(ray);
     if (crossings) {
         crossings->count = 0;
         crossings->is_cut = false;
@@ -202,96 +364,4 @@ float ray_trace_opening(const shading_scene *scene, const shading_ray *ray, ray_
     search s = {.scene = scene, .ray = *ray, .opening = 1.0f, .crossings = crossings};
     s.ray.spread = &NO_SPREAD;
     return embree_occluded1_filtered(scene->embree->scene, &r, &s.context, dim) ? 0.0f : s.opening;
-}
-
-/* ---- the bodies around a point ---- */
-
-typedef struct survey {
-    embree_context context; /* first: what Embree hands to the filter */
-    const shading_scene *scene;
-    vec3 direction;
-    uint32_t count;
-    struct {
-        const render_geometry *geometry;
-        int excess;        /* sides met from inside, less those from outside */
-    } bodies[MEDIA_DEPTH]; /* by material, in the order in which they are met */
-} survey;
-
-static void count_side(survey *s, const visibility_hit *hit)
-{
-    const render_geometry *g = &s->scene->geometries->items[hit->geometry];
-    uint32_t i = 0;
-    while (i < s->count && s->bodies[i].geometry->material != g->material)
-        i++;
-    if (i == MEDIA_DEPTH)
-        return;
-    if (i == s->count) {
-        s->bodies[s->count].geometry = g;
-        s->bodies[s->count++].excess = 0;
-    }
-    s->bodies[i].excess += surface_sees_front(g, hit, s->direction) ? -1 : 1;
-}
-
-static void note_side(const struct RTCFilterFunctionNArguments *arguments)
-{
-    if (arguments->valid[0] != -1)
-        return;
-    survey *s = (survey *)(void *)arguments->context;
-    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
-    const struct RTCHit *h = (const struct RTCHit *)(const void *)arguments->hit;
-    visibility_hit hit = visibility_hit_read(s->scene->geometries, ray->tfar, h);
-    arguments->valid[0] = 0;
-    if (s->scene->plans->items[hit.geometry].is_body)
-        count_side(s, &hit);
-}
-
-static survey survey_from(const shading_scene *scene, const float P[3], vec3 direction)
-{
-    survey s = {.scene = scene, .direction = direction};
-    shading_ray ray = {.origin = {P[0], P[1], P[2]}, .far_t = INFINITY};
-    store3(direction, ray.direction);
-    struct RTCRayHit rayhit = {
-        .ray = embree_ray(&ray),
-        .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
-    embree_intersect1_filtered(scene->embree->scene, &rayhit, &s.context, note_side);
-    return s;
-}
-
-static int excess_of(const survey *s, const scene_material *material)
-{
-    for (uint32_t i = 0; i < s->count; i++)
-        if (s->bodies[i].geometry->material == material)
-            return s->bodies[i].excess;
-    return 0;
-}
-
-static bool is_within_bounds(const shading_scene *scene, const float P[3])
-{
-    struct RTCBounds b;
-    rtcGetSceneBounds(scene->embree->scene, &b);
-    return P[0] >= b.lower_x && P[0] <= b.upper_x && P[1] >= b.lower_y && P[1] <= b.upper_y &&
-           P[2] >= b.lower_z && P[2] <= b.upper_z;
-}
-
-/* Three ways out that no model is aligned to: an open mesh has its back turned to one of them at most by chance. */
-uint32_t ray_trace_media_at(const shading_scene *scene, const float P[3], media *m)
-{
-    enum { WAYS = 3 };
-    static const float ways[WAYS][3] = {
-        {0.3015f, 0.9045f, 0.3015f}, {-0.8018f, -0.2673f, 0.5345f}, {0.4575f, -0.1525f, -0.8760f}};
-    if (!scene->plans->has_bodies || !is_within_bounds(scene, P))
-        return 0;
-    survey surveys[WAYS];
-    for (uint32_t i = 0; i < WAYS; i++) {
-        surveys[i] = survey_from(scene, P, load3(ways[i]));
-        if (surveys[i].count == 0)
-            return i + 1;
-    }
-    for (uint32_t i = surveys[0].count; i > 0; i--) {
-        const render_geometry *g = surveys[0].bodies[i - 1].geometry;
-        if (surveys[0].bodies[i - 1].excess > 0 && excess_of(&surveys[1], g->material) > 0 &&
-            excess_of(&surveys[2], g->material) > 0)
-            media_enter(m, g->material, g->material->thickness * g->scale);
-    }
-    return WAYS;
 }

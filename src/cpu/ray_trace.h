@@ -3,10 +3,9 @@
 #ifndef CPU_RAY_TRACE_H
 #define CPU_RAY_TRACE_H
 
-#include "cpu/media.h"
 #include "cpu/surface_point.h"
 
-/* Rays of the camera do not meet the culled sides of single-sided surfaces (shading_is_visible_side()); all others meet
+/* Rays of the camera do not meet the culled sides of single-sided surfaces (ray_trace_is_visible_side()); all others meet
  * both sides of everything: a wall that the camera looks through still keeps light out, from either side. */
 
 /* The surface that a ray of the camera meets, or one of those in a row that alpha lets it see. */
@@ -36,10 +35,49 @@ typedef struct ray_crossings {
 
 /* The share of light that alpha lets pass along the ray, [0, 1]. crossings: comes with takes_all set, and gets the
  * surfaces that are left out of that share; NULL: none are. */
-float ray_trace_opening(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings);
+float ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings);
 
-/* Enters the bodies that P is in, the outermost first as far as that can be told: those that are left more often than
- * entered on the way out, whichever way that is. Returns the number of rays. */
-uint32_t ray_trace_media_at(const shading_scene *scene, const float P[3], media *m);
+/* ---- all surfaces along a ray ---- */
+
+/* More than RAY_TRACE_LAYERS surfaces that let light pass lie one behind the other in no picture worth drawing;
+ * what is farther is left out. */
+enum { RAY_TRACE_LAYERS = 64 };
+
+/* Writes the hits of the ray, nearest first, and returns their number: surfaces with opacity between 0 and 1, and
+ * behind them the nearest opaque one. Culled sides and masked texels are not among them. Hits at the same distance
+ * are ordered by geometry and primitive; the result does not depend on the order in which Embree finds them. */
+uint32_t ray_trace_layers(const shading_scene *scene, const shading_ray *ray,
+                          visibility_hit hits[RAY_TRACE_LAYERS + 1]);
+
+/* ---- a hit ---- */
+
+/* Whether the hit shows a side that is drawn: the front, or any of a double-sided surface. direction is the ray's. */
+bool ray_trace_is_visible_side(const shading_scene *scene, const visibility_hit *hit,
+                               const float direction[3]);
+/* Whether light passes the surface: 0 not there, 1 opaque. MASK gives 0 or 1. Cheaper than a shade. */
+float ray_trace_opacity(const shading_scene *scene, const shading_point *point);
+
+/* ---- for Embree ---- */
+
+static inline struct RTCRay ray_trace_embree(const shading_ray *ray)
+{
+    return (struct RTCRay){.org_x = ray->origin[0],
+                           .org_y = ray->origin[1],
+                           .org_z = ray->origin[2],
+                           .tnear = ray->near_t,
+                           .dir_x = ray->direction[0],
+                           .dir_y = ray->direction[1],
+                           .dir_z = ray->direction[2],
+                           .tfar = ray->far_t,
+                           .mask = UINT32_MAX};
+}
+
+/* The same with room for a hit: none yet. */
+static inline struct RTCRayHit ray_trace_embree_hit(const shading_ray *ray)
+{
+    return (struct RTCRayHit){
+        .ray = ray_trace_embree(ray),
+        .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
+}
 
 #endif

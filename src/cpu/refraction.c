@@ -1,13 +1,11 @@
 /* refraction.c - see refraction.h. */
 #include "cpu/media.h"
-#include "cpu/see_through.h"
+#include "cpu/ray_trace.h"
 
-#include "cpu/boundary_normal.h"
-#include "cpu/ray_bundle.h"
+#include "cpu/boundary.h"
 #include "cpu/ray_samples.h"
 #include "cpu/refraction.h"
 #include "cpu/surface_light.h"
-#include "cpu/volume_rays.h"
 
 enum {
     WAITING = 24, /* rays that branched off and were not followed yet */
@@ -174,7 +172,7 @@ static boundary boundary_of(const shading_scene *scene, const branch *b, const v
                   .behind = b->media};
     y.bundle = ray_bundle_meet(&b->ray, s, &y.normal);
     if (s->plan->is_volume)
-        volume_rays_cross(scene, hit, s, y.normal.tolerance, &y.behind);
+        media_cross(scene, hit, s, y.normal.tolerance, &y.behind);
     return y;
 }
 
@@ -348,8 +346,8 @@ static void meet(tracer *t, const branch *b, const visibility_hit *hit, const su
 /* Along a ray to what is opaque, or lets it through to become another. */
 static void follow(tracer *t, branch *b)
 {
-    visibility_hit hits[SEE_THROUGH_LAYERS + 1];
-    uint32_t count = see_through(t->scene, &b->ray, hits);
+    visibility_hit hits[RAY_TRACE_LAYERS + 1];
+    uint32_t count = ray_trace_layers(t->scene, &b->ray, hits);
     float from = 0.0f;
     t->rays++;
     for (uint32_t i = 0; i < count; i++) {

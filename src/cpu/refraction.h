@@ -12,7 +12,7 @@
 #ifndef CPU_REFRACTION_H
 #define CPU_REFRACTION_H
 
-#include "cpu/shading.h"
+#include "cpu/shading_scene.h"
 
 struct surface_point;
 

@@ -149,6 +149,16 @@ static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
 
 /* ---- all ---- */
 
+/* Sets camera_spread, from camera, and all members behind it. */
+static void set_options(shading_scene *scene, const facet_render_desc *desc)
+{
+    scene->camera_spread = ray_spread_of_camera(scene->camera);
+    scene->energy = desc->energy;
+    scene->quality = desc->quality;
+    scene->has_specular_antialiasing = desc->has_specular_antialiasing;
+    scene->background_blur = desc->background == FACET_BACKGROUND_ENVIRONMENT ? desc->background_blur : 0.0f;
+}
+
 facet_result render_setup_create(render_setup *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
@@ -180,7 +190,7 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
                                  .textures = p->textures,
                                  .light = &p->light,
                                  .camera = &p->camera};
-    shading_scene_set_options(&p->shading, desc);
+    set_options(&p->shading, desc);
     if (result == FACET_OK)
         light_setup_tell_dark(&p->light, &p->prepared->geometries, desc);
     return result;

@@ -4,7 +4,7 @@
 #define CPU_RENDER_SETUP_H
 
 #include "cpu/prepared_scene.h"
-#include "cpu/shading.h"
+#include "cpu/shading_scene.h"
 #include "draw/render_watch.h"
 #include "film/film.h"
 

@@ -1,9 +1,9 @@
-/* shading_hit.h - where on its triangle, line or point a ray hit, and the vertex attributes there. Holds shared shading
+/* shading_hit.h - where on its triangle, line or point a ray hit; the vertex attributes, frames and texels there. Holds shared shading
  * text: include it last. */
 #ifndef CPU_SHADING_HIT_H
 #define CPU_SHADING_HIT_H
 
-#include "cpu/shading.h"
+#include "cpu/shading_scene.h"
 #include "shade/shade.h"
 
 /* Corners of the triangle, weights at the hit, and how the weights change from pixel to pixel. */
@@ -40,5 +40,34 @@ vec3 shading_hit_vec3(const shading_hit *h, const float *attribute);
 void shading_hit_color(const shading_hit *h, float out[4]);
 /* 0 where the primitive has no such set. */
 shading_texcoord shading_hit_texcoord(const shading_hit *h, uint32_t set);
+
+/* ---- normals and tangents ---- */
+
+/* With the tangents of the geometry, which has some. */
+ShadingFrame shading_frame_of_tangents(const shading_hit *h, bool is_front);
+/* With the directions in which TEXCOORD_set grows on the triangle; no tangent where it does not grow. */
+ShadingFrame shading_frame_of_texcoord(const shading_hit *h, bool is_front, uint32_t set);
+/* The interpolated normal, not unit; the geometry has some. */
+static inline vec3 shading_frame_normal(const shading_hit *h, bool is_front)
+{
+    const float *m = h->geometry->normal_matrix;
+    vec3 n = shading_hit_vec3(h, h->geometry->normals);
+    return vec3(dot(load3(m), n), dot(load3(m + 3), n), dot(load3(m + 6), n)) * (is_front ? 1.0f : -1.0f);
+}
+
+/* ---- textures ---- */
+
+/* RGBA by scene_texture_slot, white where there is no texture. */
+typedef float material_texels[SCENE_TEXTURE_SLOT_COUNT][4];
+
+/* Where a texture is read at a hit. */
+shading_texcoord material_texture_coordinates(const shading_hit *h, const scene_texture_ref *ref);
+/* Reads the textures whose bits are set in wanted, all of which the hit's material has; the
+ * others of the first slot_count are white. */
+void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted, int slot_count,
+                          material_texels texels);
+/* Reads one texture `step` footprints along their x (axis 0) or y (axis 1) away from the hit. */
+void material_texel_beside(const shading_scene *scene, const shading_hit *h, scene_texture_slot slot,
+                           int axis, float step, float texel[4]);
 
 #endif

@@ -1,8 +1,8 @@
 /* surface_light.c - see surface_light.h. What is looked up for which layer; the formulas are in shade/. */
-#include "cpu/volume_rays.h"
+#include "cpu/media.h"
 
 #include "cpu/surface_light.h"
-#include "cpu/surface_tables.h"
+#include "cpu/surface_point.h"
 
 static light_cursor lights_at(const shading_scene *scene, vec3 P)
 {
@@ -72,8 +72,8 @@ static vec3 light_from_behind(const shading_scene *scene, const surface_point *s
     vec3 N = m->base.N;
     if (!(m->layers & LAYER_VOLUME))
         return irradiance(scene, -N);
-    volume_exit exit = {.distance_m = m->thickness, .normal = -N};
-    if (volume_rays_find_exit(scene, s, -N, &exit))
+    media_exit exit = {.distance_m = m->thickness, .normal = -N};
+    if (media_find_exit(scene, s, -N, &exit))
         m->thickness = exit.distance_m;
     (*rays)++;
     return irradiance(scene, exit.normal) *

@@ -1,6 +1,5 @@
 /* surface_point.c - see surface_point.h. What is looked up at a hit; what it means is in shade/material.h. */
-#include "cpu/material_texels.h"
-#include "cpu/shading_frame.h"
+#include "cpu/shading_hit.h"
 #include "cpu/surface_point.h"
 
 /* ---- color and opacity ---- */

@@ -2,7 +2,7 @@
 #ifndef CPU_TILES_H
 #define CPU_TILES_H
 
-#include "cpu/shading.h"
+#include "cpu/shading_scene.h"
 #include "film/film.h"
 
 /* What is drawn; {0} members as in facet_render_desc. */

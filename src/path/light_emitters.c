@@ -5,7 +5,8 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "cpu/material_texels.h"
+#include "cpu/ray_trace.h"
+#include "cpu/shading_hit.h"
 
 #include "path/light_emitters.h"
 
@@ -80,7 +81,7 @@ vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, fl
     shading_ray ray = {.far_t = INFINITY, .spread = &spread, .footprint = 0.0f};
     store3(P, ray.origin);
     store3(d, ray.direction);
-    if (!shading_is_visible_side(e->scene, &hit, ray.direction))
+    if (!ray_trace_is_visible_side(e->scene, &hit, ray.direction))
         return vec3(0.0f);
     shading_point point = {.hit = &hit, .ray = &ray, .shade_count = 1};
     surface_point s;

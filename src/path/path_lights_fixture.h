@@ -169,7 +169,7 @@ static inline meeting meet(const stage *s, vec3 P, vec3 d)
     }
     uint32_t random = (uint32_t)(random_number() * 4294967040.0f);
     m.is_met = ray_trace_nearest(&s->setup.shading, &ray, random, &m.hit);
-    if (!m.is_met || !shading_is_visible_side(&s->setup.shading, &m.hit, ray.direction))
+    if (!m.is_met || !ray_trace_is_visible_side(&s->setup.shading, &m.hit, ray.direction))
         return m;
     surface_point point;
     surface_point_make(&s->setup.shading, &(shading_point){.hit = &m.hit, .ray = &ray, .shade_count = 1},

@@ -1,6 +1,6 @@
 /* path_shadow.c - path_shadow(): see path.h. */
 #include "cpu/ray_trace.h"
-#include "cpu/volume_rays.h"
+#include "cpu/media.h"
 
 #include "path/path.h"
 #include "path/path_media.h"
@@ -19,7 +19,7 @@ static float tolerance_of(const shading_scene *shading, vec3 end, const path_lig
             largest = max(largest, abs(load3(corner)));
         }
     }
-    return volume_rays_tolerance_of(max3(largest));
+    return media_tolerance(max3(largest));
 }
 
 /* From P to the light that was sampled for the point `at`; it ends shortly before an emissive surface. */
@@ -70,7 +70,7 @@ static bool pass_crossings(shadow_walk *w, const ray_crossings *c, const shading
         const visibility_hit *hit = &c->hits[i];
         media before = w->media;
         path_vertex_make(w->scene, hit, ray, &w->media, w->wavelength_nm, &v);
-        /* Coincident boundaries were crossed together: volume_rays_cross(). */
+        /* Coincident boundaries were crossed together: media_cross(). */
         bool is_crossed =
             w->from_m > 0.0f && hit->t - w->from_m <= 2.0f * v.tolerance_m && v.s.plan->is_volume;
         if (is_crossed) {
@@ -94,13 +94,13 @@ static vec3 walk(shadow_walk *w, shading_ray *ray, uint64_t *rays)
     const shading_scene *shading = &w->scene->setup->shading;
     ray_crossings crossings = {.takes_all = path_has_straight_shadows(w->scene)};
     ray->spread = &none;
-    w->transmittance = vec3(ray_trace_opening(shading, ray, &crossings));
+    w->transmittance = vec3(ray_trace_transmittance(shading, ray, &crossings));
     if (!(w->transmittance[0] > 0.0f) || !pass_crossings(w, &crossings, ray))
         return vec3(0.0f);
     while (crossings.is_cut) {
         ray->near_t = nextafterf(w->from_m, INFINITY);
         (*rays)++;
-        ray_trace_opening(shading, ray, &crossings);
+        ray_trace_transmittance(shading, ray, &crossings);
         if (!pass_crossings(w, &crossings, ray))
             return vec3(0.0f);
     }
@@ -120,6 +120,6 @@ vec3 path_shadow(const path_scene *scene, vec3 at, vec3 P, const path_light_samp
         shadow_walk w = {.scene = scene, .wavelength_nm = wavelength_nm, .from_m = -skipped_m, .media = *in};
         return walk(&w, &ray, rays);
     }
-    vec3 share = vec3(ray_trace_opening(shading, &ray, NULL));
+    vec3 share = vec3(ray_trace_transmittance(shading, &ray, NULL));
     return in->count && share[0] > 0.0f ? share * path_media_transmittance(in, ray.far_t + skipped_m) : share;
 }

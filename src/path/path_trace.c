@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "cpu/ray_trace.h"
-#include "cpu/volume_rays.h"
+#include "cpu/media.h"
 
 #include "path/path.h"
 #include "path/path_surface.h"
@@ -156,7 +156,7 @@ static void light_ground(const path_scene *scene, path_sampler sampler, vec3 P, 
               .vertex = 1,
               .out = out};
     /* The model may stand on the plane: its points of contact cast their shadow from there. */
-    p.P[1] += volume_rays_tolerance_of(max3(abs(P)));
+    p.P[1] += media_tolerance(max3(abs(P)));
     path_sampler_begin(&p.sampler, p.vertex);
     vec2 u_light = path_sampler_pair(&p.sampler);
     vec2 u_direction = path_sampler_pair(&p.sampler);
@@ -253,7 +253,7 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
     path_camera_ray camera;
     path_sample_camera_ray(scene, &sampler, x, y, &camera);
     path p = start(scene, &camera, sampler, out);
-    out->rays += ray_trace_media_at(&scene->setup->shading, camera.ray.origin, &p.media);
+    out->rays += media_at(&scene->setup->shading, camera.ray.origin, &p.media);
     p.is_in_medium = scene->surface && scene->surface->has_camera;
     if (p.media.count || p.is_in_medium)
         trace_inside(&p, &camera);

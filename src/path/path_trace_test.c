@@ -203,7 +203,7 @@ static void all_layers_count(void **state)
     assert_near(seen.opacity, 1.0 - passes, 1e-5);
     assert_near(seen.radiance[1], 1.0 - passes, 1e-5);
     shading_ray ray = {.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}, .far_t = INFINITY};
-    assert_near((double)ray_trace_opening(&s.setup.shading, &ray, NULL), passes, 1e-6);
+    assert_near((double)ray_trace_transmittance(&s.setup.shading, &ray, NULL), passes, 1e-6);
     double met = 0.0;
     for (uint32_t i = 0; i < 4000; i++) {
         visibility_hit hit;
@@ -389,7 +389,7 @@ static void media_around_a_point_are_found(void **state)
                   {{9.0f, 0.0f, 0.0f}, 0}};
     for (size_t i = 0; i < sizeof points / sizeof *points; i++) {
         media m = {.count = 0};
-        ray_trace_media_at(&s.setup.shading, points[i].P, &m);
+        media_at(&s.setup.shading, points[i].P, &m);
         assert_int_equal(m.count, points[i].count);
     }
     stage_end(&s);

@@ -1,26 +1,13 @@
 /* path_vertex.c - see path_vertex.h. */
-#include "cpu/boundary_normal.h"
-#include "cpu/shading_frame.h"
-#include "cpu/surface_tables.h"
-#include "cpu/volume_rays.h"
+#include "cpu/boundary.h"
+#include "cpu/shading_hit.h"
+#include "cpu/surface_point.h"
+#include "cpu/media.h"
 
 #include "path/path_vertex.h"
 #include "path/path_media.h"
 
 /* ---- the surface ---- */
-
-static float tolerance_at(const surface_point *s)
-{
-    vec3 most = abs(s->P);
-    const render_geometry *g = s->hit.geometry;
-    if (g->primitive->mode == SCENE_TRIANGLES)
-        for (int i = 0; i < 3; i++) {
-            float corner[3];
-            render_geometry_corner(g, s->hit.corner[i], corner);
-            most = max(most, abs(load3(corner)));
-        }
-    return volume_rays_tolerance_of(max3(most));
-}
 
 static vec3 geometric_normal(const visibility_hit *hit, vec3 V)
 {
@@ -80,7 +67,7 @@ static void set_boundary(const shading_scene *shading, const visibility_hit *hit
     if (!s->is_front && !path_media_has(in, g->material))
         media_enter(in, g->material, g->material->thickness * g->scale);
     v->behind = *in;
-    volume_rays_cross(shading, hit, s, v->tolerance_m, &v->behind);
+    media_cross(shading, hit, s, v->tolerance_m, &v->behind);
     const medium *here = path_media_here(in);
     const medium *there = path_media_here(&v->behind);
     v->is_null_interface = here && there && here->material == there->material;
@@ -145,7 +132,7 @@ void path_vertex_make(const path_scene *scene, const visibility_hit *hit, const 
     if (!s->is_lit)
         return;
     v->Ng = geometric_normal(hit, s->V);
-    v->tolerance_m = tolerance_at(s);
+    v->tolerance_m = media_tolerance_at(s);
     v->energy = surface_energy(shading);
     if (intersect_surface(scene->surface, hit, v))
         return;

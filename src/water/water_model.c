@@ -9,6 +9,7 @@
 #include "water/water_model.h"
 
 #include "cpu/ray_trace.h"
+#include "cpu/shading.h"
 
 static const ray_spread no_spread = {.moves = false, .turns = false};
 static const double farthest = 1e6;
@@ -148,7 +149,7 @@ float water_model_opening(const water_model *m, const double P[3], vec3 d, doubl
     if (!water_model_may_meet(m, P, d, far_m))
         return 1.0f;
     shading_ray ray = ray_from(P, d, far_m);
-    return ray_trace_opening(&m->setup.shading, &ray, NULL);
+    return ray_trace_transmittance(&m->setup.shading, &ray, NULL);
 }
 
 /* The sun's shadow begins off the surface, on the side that the sun is on. */

@@ -1,5 +1,6 @@
-/* volume_rays.c - see volume_rays.h. Embree asks a filter about every candidate on a ray. */
-#include "cpu/volume_rays.h"
+/* media.c - see media.h. Embree calls a filter for every candidate on a ray. */
+#include "cpu/media.h"
+#include "cpu/ray_trace.h"
 
 enum { COINCIDENT = 8 };
 
@@ -22,7 +23,7 @@ typedef struct search {
     boundary boundaries[COINCIDENT]; /* by geometry */
 } search;
 
-static float tolerance_at(const surface_point *s)
+float media_tolerance_at(const surface_point *s)
 {
     vec3 most = abs(s->P);
     if (s->hit.geometry->primitive->mode == SCENE_TRIANGLES)
@@ -31,7 +32,7 @@ static float tolerance_at(const surface_point *s)
             render_geometry_corner(s->hit.geometry, s->hit.corner[i], corner);
             most = max(most, abs(load3(corner)));
         }
-    return volume_rays_tolerance_of(max3(most));
+    return media_tolerance(max3(most));
 }
 
 static void trace(search *s, vec3 origin, vec3 direction, float near_t, float far_t,
@@ -77,11 +78,10 @@ static void take_exit(const struct RTCFilterFunctionNArguments *arguments)
         s->exit_normal[i] = hit.normal[i] * sign;
 }
 
-bool volume_rays_find_exit(const shading_scene *scene, const surface_point *s, vec3 direction,
-                           volume_exit *out)
+bool media_find_exit(const shading_scene *scene, const surface_point *s, vec3 direction, media_exit *out)
 {
     search w = {.scene = scene, .material = s->hit.geometry->material};
-    trace(&w, s->P, direction, tolerance_at(s), INFINITY, take_exit);
+    trace(&w, s->P, direction, media_tolerance_at(s), INFINITY, take_exit);
     if (!w.has_exit)
         return false;
     vec3 n = load3(w.exit_normal);
@@ -127,8 +127,8 @@ static void cross_one(const render_geometry *g, bool is_front, media *m)
         media_leave(m, g->material);
 }
 
-void volume_rays_cross(const shading_scene *scene, const visibility_hit *hit, const surface_point *s,
-                       float tolerance, media *m)
+void media_cross(const shading_scene *scene, const visibility_hit *hit, const surface_point *s,
+                 float tolerance, media *m)
 {
     const render_geometry *g = &scene->geometries->items[hit->geometry];
     cross_one(g, s->is_front, m);
@@ -139,4 +139,94 @@ void volume_rays_cross(const shading_scene *scene, const visibility_hit *hit, co
     trace(&w, s->P - d * tolerance, d, 0.0f, 2.0f * tolerance, note_boundary);
     for (uint32_t i = 0; i < w.count; i++)
         cross_one(&scene->geometries->items[w.boundaries[i].geometry], w.boundaries[i].is_front, m);
+}
+
+/* ---- the bodies around a point ---- */
+
+typedef struct survey {
+    embree_context context; /* first: what Embree hands to the filter */
+    const shading_scene *scene;
+    vec3 direction;
+    uint32_t count;
+    struct {
+        const render_geometry *geometry;
+        int excess;        /* sides met from inside, less those from outside */
+    } bodies[MEDIA_DEPTH]; /* by material, in the order in which they are met */
+} survey;
+
+static void count_side(survey *s, const visibility_hit *hit)
+{
+    const render_geometry *g = &s->scene->geometries->items[hit->geometry];
+    uint32_t i = 0;
+    while (i < s->count && s->bodies[i].geometry->material != g->material)
+        i++;
+    if (i == MEDIA_DEPTH)
+        return;
+    if (i == s->count) {
+        s->bodies[s->count].geometry = g;
+        s->bodies[s->count++].excess = 0;
+    }
+    s->bodies[i].excess += surface_sees_front(g, hit, s->direction) ? -1 : 1;
+}
+
+static void note_side(const struct RTCFilterFunctionNArguments *arguments)
+{
+    if (arguments->valid[0] != -1)
+        return;
+    survey *s = (survey *)(void *)arguments->context;
+    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
+    const struct RTCHit *h = (const struct RTCHit *)(const void *)arguments->hit;
+    visibility_hit hit = visibility_hit_read(s->scene->geometries, ray->tfar, h);
+    arguments->valid[0] = 0;
+    if (s->scene->plans->items[hit.geometry].is_body)
+        count_side(s, &hit);
+}
+
+static survey survey_from(const shading_scene *scene, const float P[3], vec3 direction)
+{
+    survey s = {.scene = scene, .direction = direction};
+    shading_ray ray = {.origin = {P[0], P[1], P[2]}, .far_t = INFINITY};
+    store3(direction, ray.direction);
+    struct RTCRayHit rayhit = ray_trace_embree_hit(&ray);
+    embree_intersect1_filtered(scene->embree->scene, &rayhit, &s.context, note_side);
+    return s;
+}
+
+static int excess_of(const survey *s, const scene_material *material)
+{
+    for (uint32_t i = 0; i < s->count; i++)
+        if (s->bodies[i].geometry->material == material)
+            return s->bodies[i].excess;
+    return 0;
+}
+
+static bool is_within_bounds(const shading_scene *scene, const float P[3])
+{
+    struct RTCBounds b;
+    rtcGetSceneBounds(scene->embree->scene, &b);
+    return P[0] >= b.lower_x && P[0] <= b.upper_x && P[1] >= b.lower_y && P[1] <= b.upper_y &&
+           P[2] >= b.lower_z && P[2] <= b.upper_z;
+}
+
+/* Three ways out that no model is aligned to: an open mesh has its back turned to one of them at most by chance. */
+uint32_t media_at(const shading_scene *scene, const float P[3], media *m)
+{
+    enum { WAYS = 3 };
+    static const float ways[WAYS][3] = {
+        {0.3015f, 0.9045f, 0.3015f}, {-0.8018f, -0.2673f, 0.5345f}, {0.4575f, -0.1525f, -0.8760f}};
+    if (!scene->plans->has_bodies || !is_within_bounds(scene, P))
+        return 0;
+    survey surveys[WAYS];
+    for (uint32_t i = 0; i < WAYS; i++) {
+        surveys[i] = survey_from(scene, P, load3(ways[i]));
+        if (surveys[i].count == 0)
+            return i + 1;
+    }
+    for (uint32_t i = surveys[0].count; i > 0; i--) {
+        const render_geometry *g = surveys[0].bodies[i - 1].geometry;
+        if (surveys[0].bodies[i - 1].excess > 0 && excess_of(&surveys[1], g->material) > 0 &&
+            excess_of(&surveys[2], g->material) > 0)
+            media_enter(m, g->material, g->material->thickness * g->scale);
+    }
+    return WAYS;
 }

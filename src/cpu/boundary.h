@@ -1,9 +1,24 @@
-/* ray_bundle.h - how a bundle of rays goes on after a surface: direction, and its changes over the footprint. Holds
- * shared shading text: include it last. */
-#ifndef CPU_RAY_BUNDLE_H
-#define CPU_RAY_BUNDLE_H
+/* boundary.h - a refracting surface: the normal by which it refracts, and how a bundle of rays goes on behind it: direction, and
+ * its changes over the footprint. Holds shared shading text: include it last. */
+#ifndef CPU_BOUNDARY_H
+#define CPU_BOUNDARY_H
 
-#include "cpu/boundary_normal.h"
+#include "cpu/surface_point.h"
+
+/* ---- the normal ---- */
+
+/* Smooth normals often lie: a modeller's rim has them averaged over its sharp edge, which turns the wall below it into a
+ * prism that reflects totally. Here the vertices' normals are limited to those of a curved surface through them. */
+typedef struct boundary_normal {
+    vec3 N;            /* unit, on the side of V; with what the normal texture adds */
+    vec3 dN_dx, dN_dy; /* its change over the ray's footprint */
+    vec3 Ng;           /* unit, geometric, on the side of V */
+    float tolerance;   /* of volume_rays.h, m */
+} boundary_normal;
+
+boundary_normal boundary_normal_at(const surface_point *s, const visibility_hit *hit);
+
+/* ---- bundles of rays ---- */
 
 /* A surface as a bundle meets it. */
 typedef struct bundle_hit {

@@ -1,0 +1,96 @@
+/* shading_scene.h - what shading reads and returns: the scene, a ray with its footprint, a hit. */
+#ifndef CPU_SHADING_SCENE_H
+#define CPU_SHADING_SCENE_H
+
+#include "cpu/visibility.h"
+#include "draw/camera_rays.h"
+#include "draw/light_setup.h"
+#include "draw/material_plan.h"
+#include "draw/texture.h"
+
+/* ---- rays ---- */
+
+/* How a ray changes over what it stands for, along two axes (a camera ray's: the picture's x and y), after Igehy 1999,
+ * "Tracing Ray Differentials". */
+typedef struct ray_spread {
+    float origin_dx[3], origin_dy[3];       /* m; not read unless moves */
+    float direction_dx[3], direction_dy[3]; /* not read unless turns */
+    bool moves, turns;
+} ray_spread;
+
+/* origin + t direction. */
+typedef struct shading_ray {
+    float origin[3], direction[3]; /* m; direction of any length, t counts in it */
+    float near_t, far_t;
+    const ray_spread *spread;
+    float footprint; /* of the spread that the ray stands for */
+} shading_ray;
+
+/* The spread of a camera's rays for a pixel. */
+static inline ray_spread ray_spread_of_camera(const camera_rays *camera)
+{
+    ray_spread spread = {.moves = camera->is_orthographic, .turns = !camera->is_orthographic};
+    for (int i = 0; i < 3; i++) {
+        spread.origin_dx[i] = camera->origin_dx[i];
+        spread.origin_dy[i] = camera->origin_dy[i];
+        spread.direction_dx[i] = camera->direction_dx[i];
+        spread.direction_dy[i] = camera->direction_dy[i];
+    }
+    return spread;
+}
+
+/* The ray through (x, y) of the picture for a square of footprint pixels. */
+static inline shading_ray shading_ray_of_camera(const camera_rays *camera, const ray_spread *spread, float x,
+                                                float y, float footprint)
+{
+    shading_ray ray = {
+        .near_t = camera->near_m, .far_t = camera->far_m, .spread = spread, .footprint = footprint};
+    camera_rays_at(camera, x, y, ray.origin, ray.direction);
+    return ray;
+}
+
+/* ---- the scene ---- */
+
+struct ogl1_setup; /* draw/ogl1_setup.h */
+
+/* All that shading reads; nothing of it changes while a picture is drawn. */
+typedef struct shading_scene {
+    const render_geometry_set *geometries;
+    const embree_scene *embree;
+    const material_plan_set *plans;
+    const texture_set *textures;
+    const light_setup *light;
+    const struct ogl1_setup *ogl1; /* NULL: shaded as glTF */
+    const camera_rays *camera;
+    ray_spread camera_spread;
+    facet_energy energy;
+    facet_quality quality;
+    bool has_specular_antialiasing;
+    /* perceptual roughness of the environment where it is drawn; 0: sharp, or not drawn */
+    float background_blur;
+} shading_scene;
+
+/* A hit and the ray that made it. */
+typedef struct shading_point {
+    const visibility_hit *hit;
+    const shading_ray *ray;
+    uint32_t x, y; /* pixel */
+    /* Of glass: which of how many shades of the pixel. What is drawn at random depends on these and the pixel. */
+    uint32_t shade, shade_count;
+} shading_point;
+
+typedef struct shading_result {
+    float radiance[3]; /* cd/m^2 towards the camera; with ogl1 what it computes with */
+    float opacity;     /* [0, 1] */
+    uint64_t rays;     /* that were traced for it */
+} shading_result;
+
+/* What is known of a surface without light. */
+typedef struct shading_description {
+    float normal[3]; /* unit shading normal, world space, on the side of the camera */
+    float base_color[3];
+    float occlusion;
+    float uv[2]; /* TEXCOORD_0 */
+} shading_description;
+
+#endif
