@@ -70,11 +70,13 @@ static void keep(rays_kind kind, const record *r)
 ray_first __real_ray_trace_first(const shading_scene *scene, const shading_ray *ray, float u);
 bool __real_ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint32_t random,
                               visibility_hit *hit);
-float __real_ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings);
+float __real_ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray,
+                                     ray_crossings *crossings);
 ray_first __wrap_ray_trace_first(const shading_scene *scene, const shading_ray *ray, float u);
 bool __wrap_ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint32_t random,
                               visibility_hit *hit);
-float __wrap_ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings);
+float __wrap_ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray,
+                                     ray_crossings *crossings);
 
 ray_first __wrap_ray_trace_first(const shading_scene *scene, const shading_ray *ray, float u)
 {
@@ -91,7 +93,8 @@ bool __wrap_ray_trace_nearest(const shading_scene *scene, const shading_ray *ray
     return __real_ray_trace_nearest(scene, ray, random, hit);
 }
 
-float __wrap_ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings)
+float __wrap_ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray,
+                                     ray_crossings *crossings)
 {
     if (recording.capacity)
         keep(RAYS_SHADOW, &(record){.ray = *ray,
@@ -122,7 +125,8 @@ static void trace_facet(void *context, size_t begin, size_t end)
         visibility_hit *hit = &p->hits[i];
         if (p->kind == RAYS_SHADOW) {
             crossings.takes_all = r->takes_all;
-            float opening = __real_ray_trace_transmittance(p->scene, &r->ray, r->has_crossings ? &crossings : NULL);
+            float opening =
+                __real_ray_trace_transmittance(p->scene, &r->ray, r->has_crossings ? &crossings : NULL);
             hit->geometry = opening > 0.0f ? VISIBILITY_NONE : 0;
         } else if (p->kind == RAYS_BOUNCE) {
             if (!__real_ray_trace_nearest(p->scene, &r->ray, r->random, hit))
