@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "legacy/convert_ogl1_grid.h"
 #include "legacy/convert_texels.h"
 
 /* ---- texels as surfaces ---- */

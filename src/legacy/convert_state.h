@@ -2,8 +2,8 @@
  *   convert_read.c       a legacy material, its dialect, illum and switches understood
  *   convert_solve.c      the numbers of all materials, in parallel, each distinct one once, with their errors
  *   convert_build.c      a glTF material of numbers and maps; convert_build_maps.c its textures
- *   convert_ogl1.c       legacy materials of glTF's; convert_ogl1_maps.c their textures
- *   convert_drop.c       textures that only the old materials read leave
+ *   convert_to_ogl1.c    legacy materials of glTF's; convert_ogl1_maps.c their textures
+ *   convert.c            the order of these, extras, textures that leave
  *   specular_glossiness.c, lights.c */
 #ifndef LEGACY_CONVERT_STATE_H
 #define LEGACY_CONVERT_STATE_H
@@ -121,13 +121,6 @@ facet_result convert_from_ogl1(conversion *c, facet_error *error);
 facet_result convert_to_ogl1(conversion *c, facet_error *error);
 facet_result convert_from_glossiness(conversion *c, facet_error *error);
 facet_result convert_to_glossiness(conversion *c, facet_error *error);
-
-/* What leaves, and new materials that say so; then that it has left, which cannot fail. */
-facet_result drop_plan_make(conversion *c, facet_error *error);
-void drop_plan_carry_out(conversion *c);
-
-/* extras.facet_legacy of the new materials and of the scene. */
-facet_result convert_extras(conversion *c, facet_error *error);
 
 /* "wood_specular" for a texture made of map; in the arena, "" without memory. */
 const char *made_name(conversion *c, uint32_t texture, const char *purpose);

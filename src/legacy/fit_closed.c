@@ -1,12 +1,16 @@
-/* fit_closed.c - OpenGL 1 to PBR without a quadrature: the roughness whose lobe comes nearest to Blinn's, and linear least
- * squares with integrals from a table (fit_gram.h). */
+/* fit_closed.c - conversions without quadrature: the roughness whose lobe is nearest to Blinn's, and linear least squares with
+ * integrals from a LUT (fit_gram.h); and the usual formulas, which the others are measured against. */
 #include <math.h>
+#include <string.h>
 
+#include "legacy/fit.h"
 #include "legacy/fit_gram.h"
 #include "legacy/fit_linear.h"
 #include "legacy/fit_minimize.h"
 
 #include "shade/shade.h"
+
+/* ---- OpenGL 1 to PBR ---- */
 
 /* The best roughness for exponents from 0 to 10^8 is near alpha = 1.5 / sqrt(s), and the best strength near 8.5 / (s + 2);
  * neither depends on the colors as long as these need no clamping. */
@@ -181,4 +185,111 @@ uint32_t ogl1_to_pbr_core_closed(const ogl1_surface *in, pbr_surface *out)
     for (int k = 0; k < 3; k++)
         out->base_color[k] = (float)s.base[k];
     return fit_remarks_to_pbr(in, out);
+}
+
+/* ---- PBR to OpenGL 1: a search along the exponent where it is open ---- */
+
+typedef struct ogl1_search {
+    fit_gram gram;
+    gram_place roughness;
+    fit_lobes lobes;
+    double factor[3][2]; /* Cd, Cs */
+} ogl1_search;
+
+/* Square of the difference, less what the source alone has; x: log(1 + s). */
+static double square_at(void *context, const double *x)
+{
+    static const fit_bounds displayable = {{0.0, 0.0}, {1.0, 1.0}};
+    ogl1_search *s = context;
+    fit_gram *g = &s->gram;
+    gram_place shininess = fit_gram_shininess(g, expm1(*x));
+    fit_gram_both(g, &s->roughness, &shininess);
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double d0 = (double)s->lobes.diffuse[k] * (1.0 - (double)s->lobes.shade[0]);
+        double d1 = (double)s->lobes.diffuse[k] * (double)(s->lobes.shade[0] - s->lobes.shade[1]);
+        double F0 = (double)s->lobes.F0[k];
+        double F1 = (double)s->lobes.F90[k] - F0;
+        fit_moments m = {{g->nn[0], g->nP[0], g->PP},
+                         {d0 * g->nn[0] + d1 * g->nn[1] + F0 * g->nS[0] + F1 * g->nS[1],
+                          d0 * g->nP[0] + d1 * g->nP[1] + F0 * g->SP[0] + F1 * g->SP[1]},
+                         0.0};
+        sum += fit_box(&m, &displayable, s->factor[k]);
+    }
+    return sum;
+}
+
+static void start(ogl1_search *s, const pbr_surface *in)
+{
+    s->lobes = fit_lobes_of(in);
+    s->roughness = fit_gram_roughness(&s->gram, (double)in->perceptual_roughness);
+}
+
+static uint32_t finish(const ogl1_search *s, const pbr_surface *in, double shininess, ogl1_surface *out)
+{
+    bool has_highlight = false;
+    for (int k = 0; k < 3; k++) {
+        out->diffuse[k] = (float)s->factor[k][0];
+        out->specular[k] = (float)s->factor[k][1];
+        has_highlight = has_highlight || out->specular[k] > 0.0f;
+    }
+    out->shininess = has_highlight ? (float)shininess : 0.0f;
+    return fit_remarks_to_ogl1(in, out);
+}
+
+uint32_t pbr_to_ogl1_closed(const pbr_surface *in, ogl1_surface *out)
+{
+    ogl1_search s;
+    double x;
+    start(&s, in);
+    fit_minimize_1(square_at, &s, 0.0, log1p((double)OGL1_MOST_SHININESS), 15, 0.01, &x);
+    return finish(&s, in, fmin(expm1(x), (double)OGL1_MOST_SHININESS), out);
+}
+
+uint32_t pbr_to_ogl1_closed_at(const pbr_surface *in, float shininess, ogl1_surface *out)
+{
+    ogl1_search s;
+    start(&s, in);
+    square_at(&s, (const double[1]){log1p((double)shininess)});
+    uint32_t remarks = finish(&s, in, (double)shininess, out);
+    out->shininess = shininess;
+    return remarks;
+}
+
+/* ---- the usual formulas: equal slope variance, colors as they are ---- */
+
+pbr_surface pbr_surface_default(void)
+{
+    return (pbr_surface){.base_color = {1.0f, 1.0f, 1.0f},
+                         .perceptual_roughness = 1.0f,
+                         .ior = 1.5f,
+                         .specular = 1.0f,
+                         .specular_color = {1.0f, 1.0f, 1.0f}};
+}
+
+/* Diffuse as base color, shininess to roughness, and the dielectric's usual 4 % for specular. */
+uint32_t ogl1_to_pbr_naive(const ogl1_surface *in, pbr_surface *out)
+{
+    uint32_t remarks = 0;
+    *out = pbr_surface_default();
+    for (int k = 0; k < 3; k++) {
+        out->base_color[k] = clamp(in->diffuse[k], 0.0f, 1.0f);
+        remarks |= in->diffuse[k] > 1.0f ? (uint32_t)FIT_BASE_CLAMPED : 0u;
+    }
+    out->perceptual_roughness = sqrt(alpha_from_shininess(in->shininess));
+    return remarks;
+}
+
+uint32_t pbr_to_ogl1_naive(const pbr_surface *in, ogl1_surface *out)
+{
+    vec3 color = vec3(in->specular_color[0], in->specular_color[1], in->specular_color[2]);
+    vec3 F0 = dielectric_F0(in->ior, in->specular, color);
+    float alpha = max(alpha_from_roughness(in->perceptual_roughness), ALPHA_MIRROR);
+    float shininess = shininess_from_alpha(alpha);
+    for (int k = 0; k < 3; k++) {
+        out->diffuse[k] = in->base_color[k] * (1.0f - in->metallic);
+        out->specular[k] = mix(F0[k], in->base_color[k], in->metallic);
+    }
+    out->shininess = clamp(shininess, 0.0f, 128.0f);
+    return shininess > 128.0f ? (uint32_t)FIT_SHININESS_CLAMPED : 0u;
 }

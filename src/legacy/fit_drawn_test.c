@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/failing_allocator.h"
-#include "legacy/convert_ogl1_grid.h"
+#include "legacy/convert_texels.h"
 #include "legacy/convert_test_support.h"
 
 static fit_metric *metric;

@@ -1,16 +1,156 @@
-/* fit_metric.c - how far apart two models are: their radiance at the nodes of fit_quadrature.c, and the error of it.
+/* fit_metric.c - the difference between two models: the directions over which errors are integrated, radiance there, and its
+ * error.
  *
  * The formulas are shade/'s; here they are arranged as loops over arrays, which the compiler vectorises. Sums have
- * FIT_LANES partial sums, so their order does not depend on how wide the instructions are. */
+ * FIT_LANES partial sums, so their order does not depend on the width of the instructions. */
+#include "legacy/fit_metric.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
 #include "base/simd.h"
-#include "legacy/fit_metric.h"
+#include "legacy/fit.h"
 
 #include "shade/shade.h"
+
+/* ---- the quadrature: views at 0, 30 and 60 degrees, light from the upper hemisphere, cosine-weighted ----
+ *
+ * Lobes are narrow, so the nodes are half vectors, dL = 4 (V.H) dH (Walter et al. 2007, equation 14). With V at angle v
+ * from N and H at t, N.L = 2 (V.H) (N.H) - N.V is positive all around for 2 t < pi / 2 - v, nowhere for 2 t > pi / 2 + v,
+ * and for cos p > -cot v cot 2 t between. Panels of t grow by a factor from 1e-5 on: lobes of every width get as many
+ * nodes. Where the range of p opens and closes, t is substituted by a square, which removes the square root there. */
+
+static const double pi = 3.14159265358979323846;
+static const double view_rad[FIT_VIEWS] = {0.0, 0.52359877559829887308, 1.04719755119659774615};
+
+enum { POINTS = 8, MAX_POINTS = 16, GROWING_PANELS = 12 };
+
+/* Gauss and Legendre's nodes in (0, 1) and their weights: roots of P_n by Newton's method. */
+static void gauss_legendre(int n, double *x, double *w)
+{
+    for (int i = 0; i < n; i++) {
+        double z = cos(pi * (i + 0.75) / (n + 0.5));
+        double slope = 1.0;
+        for (int step = 0; step < 8; step++) {
+            double p = 1.0;
+            double before = 0.0;
+            for (int j = 0; j < n; j++) {
+                double next = ((2.0 * j + 1.0) * z * p - j * before) / (j + 1.0);
+                before = p;
+                p = next;
+            }
+            slope = n * (z * p - before) / (z * z - 1.0);
+            z -= p / slope;
+        }
+        x[i] = 0.5 * (1.0 - z);
+        w[i] = 1.0 / ((1.0 - z * z) * slope * slope);
+    }
+}
+
+typedef struct builder {
+    fit_metric *metric;
+    int view;
+    size_t ring, node;
+    double x[POINTS], w[POINTS];               /* along t */
+    double arc[MAX_POINTS], arc_w[MAX_POINTS]; /* along p, where it does not go all around */
+} builder;
+
+static void add_node(builder *b, double t, double p, double weight)
+{
+    double v = view_rad[b->view];
+    double VdotH = sin(v) * sin(t) * cos(p) + cos(v) * cos(t);
+    double NdotL = 2.0 * VdotH * cos(t) - cos(v);
+    if (NdotL <= 0.0 || VdotH <= 0.0)
+        return; /* by rounding */
+    size_t i = b->node++;
+    b->metric->ring[i] = (uint16_t)b->ring;
+    b->metric->NdotL[i] = (float)NdotL;
+    b->metric->VdotH[i] = (float)VdotH;
+    b->metric->weight[i] = (float)(weight * sin(t) * 4.0 * VdotH * NdotL);
+}
+
+/* All p at one t; p and -p are the same. */
+static void add_ring(builder *b, double t, double weight)
+{
+    double v = view_rad[b->view];
+    fit_metric *m = b->metric;
+    m->cos_h[b->ring] = (float)cos(t);
+    m->sin_h[b->ring] = (float)sin(t);
+    m->log_cos_h[b->ring] = (float)(0.5 * log1p(-sin(t) * sin(t)));
+    if (v == 0.0) {
+        add_node(b, t, 0.0, weight * 2.0 * pi);
+    } else if (2.0 * t <= 0.5 * pi - v) { /* the midpoint rule: best for a whole period */
+        int n = t < 0.01 ? 4 : t < 0.1 ? 8 : MAX_POINTS;
+        for (int i = 0; i < n; i++)
+            add_node(b, t, pi * (i + 0.5) / n, weight * 2.0 * pi / n);
+    } else {
+        double end = acos(fmin(fmax(-cos(v) * cos(2.0 * t) / (sin(v) * sin(2.0 * t)), -1.0), 1.0));
+        for (int i = 0; i < MAX_POINTS; i++)
+            add_node(b, t, end * b->arc[i], weight * 2.0 * end * b->arc_w[i]);
+    }
+    b->ring++;
+}
+
+/* t from from to to; end -1: a root at from, 1: at to. */
+static void add_panel(builder *b, double from, double to, int end)
+{
+    double width = to - from;
+    for (int i = 0; i < POINTS; i++) {
+        double x = b->x[i];
+        double w = b->w[i] * width;
+        if (end < 0)
+            add_ring(b, from + width * x * x, w * 2.0 * x);
+        else if (end > 0)
+            add_ring(b, to - width * x * x, w * 2.0 * x);
+        else
+            add_ring(b, from + width * x, w);
+    }
+}
+
+static void add_view(builder *b)
+{
+    double v = view_rad[b->view];
+    double closing = 0.5 * (0.5 * pi - v);
+    double end = 0.5 * (0.5 * pi + v);
+    double factor = pow(closing / 1e-5, 1.0 / GROWING_PANELS);
+    double from = 0.0;
+    double to = 1e-5;
+    for (int i = 0; i <= GROWING_PANELS; i++) {
+        add_panel(b, from, to, 0);
+        from = to;
+        to = i + 1 < GROWING_PANELS ? to * factor : closing;
+    }
+    if (end > closing) {
+        double quarter = 0.25 * (end - closing);
+        add_panel(b, closing, closing + quarter, -1);
+        add_panel(b, closing + quarter, closing + 2.0 * quarter, 0);
+        add_panel(b, closing + 2.0 * quarter, end - quarter, 0);
+        add_panel(b, end - quarter, end, 1);
+    }
+}
+
+void fit_quadrature(fit_metric *metric)
+{
+    builder b = {.metric = metric};
+    gauss_legendre(POINTS, b.x, b.w);
+    gauss_legendre(MAX_POINTS, b.arc, b.arc_w);
+    for (b.view = 0; b.view < FIT_VIEWS; b.view++) {
+        metric->ring_begin[b.view] = b.ring;
+        metric->node_begin[b.view] = b.node;
+        metric->NdotV[b.view] = (float)cos(view_rad[b.view]);
+        add_view(&b);
+        for (size_t last = b.node - 1; b.node % FIT_LANES != 0; b.node++) {
+            metric->ring[b.node] = metric->ring[last];
+            metric->NdotL[b.node] = metric->NdotL[last];
+            metric->VdotH[b.node] = metric->VdotH[last];
+            metric->weight[b.node] = 0.0f;
+        }
+    }
+    metric->ring_begin[FIT_VIEWS] = b.ring;
+    metric->node_begin[FIT_VIEWS] = b.node;
+}
 
 facet_result fit_metric_create(const facet_allocator *allocator, pbr_masking masking, fit_metric **out,
                                facet_error *error)
@@ -273,4 +413,36 @@ fit_error fit_compare(const fit_metric *metric, const ogl1_surface *ogl1, const 
     error.E_display = relative(all.difference_display, all.source_display, FIT_VIEWS);
     error.E_drawn = relative(drawn_difference, drawn_source, FIT_VIEWS);
     return error;
+}
+
+/* ---- both models for one pair of directions ---- */
+
+void ogl1_radiance(const ogl1_surface *s, const float V[3], const float L[3], float out[3])
+{
+    vec3 radiance = phong_reflection(vec3(0.0f, 0.0f, 1.0f), vec3(V[0], V[1], V[2]), vec3(L[0], L[1], L[2]),
+                                     vec3(s->diffuse[0], s->diffuse[1], s->diffuse[2]),
+                                     vec3(s->specular[0], s->specular[1], s->specular[2]), s->shininess);
+    for (int k = 0; k < 3; k++)
+        out[k] = radiance[k];
+}
+
+/* The renderer's own function; separable masking by the ratio of the two visibilities. */
+void pbr_radiance(const pbr_surface *p, pbr_masking masking, const float V[3], const float L[3], float out[3])
+{
+    vec3 v = vec3(V[0], V[1], V[2]);
+    vec3 l = vec3(L[0], L[1], L[2]);
+    Surface s = surface_from_gltf(
+        vec3(0.0f, 0.0f, 1.0f), vec3(p->base_color[0], p->base_color[1], p->base_color[2]), p->metallic,
+        p->perceptual_roughness, p->ior, p->specular,
+        vec3(p->specular_color[0], p->specular_color[1], p->specular_color[2]), 1.0f, vec3(0.0f));
+    SurfaceLobes lobes = surface_lobes_cos(s, v, l, ENERGY_GLTF, vec2(0.0f));
+    if (masking == PBR_SEPARABLE && L[2] > 0.0f) {
+        float alpha = max(s.alpha, ALPHA_MIRROR);
+        float NdotL = min(L[2], 1.0f);
+        float NdotV = surface_NdotV(s, v);
+        lobes.specular *= V_SmithGGX_separable(NdotL, NdotV, alpha) / V_SmithGGX(NdotL, NdotV, alpha);
+    }
+    vec3 radiance = (lobes.specular + lobes.diffuse) * PI;
+    for (int k = 0; k < 3; k++)
+        out[k] = radiance[k];
 }
