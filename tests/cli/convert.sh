@@ -29,7 +29,11 @@ says "one model and the name of the new one were expected"
 expect 2 convert in.gltf out.stl
 says '"out.stl" does not end in .glb, .gltf, .obj or .json'
 expect 2 convert in.gltf out.glb --to gltf
-says '--to: gltf was asked for, but the output is "out.glb"'
+says '--to: gltf is written to a .gltf file, but the output is "out.glb"'
+expect 2 convert in.gltf out.glb --to ogl1
+says "--to: ogl1 is written to a .json file of rgl's parameters (as MTL the same materials need an .obj file"
+expect 2 convert in.gltf out.glb --to mtl
+says 'mtl is written to an .obj file'
 expect 2 convert in.gltf in.gltf -o out.glb
 says "several models need a name with {stem}"
 expect 2 convert in.gltf out.glb --report report.txt

@@ -37,6 +37,7 @@ write_old old
 expect 0 convert old.obj new.glb
 says "new.glb: 2 materials converted: "
 says "mean error E 0.0"
+grep -q "on a screen [0-9.]* (graded)" err || failed "the line does not say which error is graded"
 [ "$(head -c 4 new.glb)" = glTF ] || failed "new.glb is no .glb file"
 expect 0 inspect new.glb
 grep -q gold out || failed "the material has lost its name"
@@ -63,7 +64,7 @@ cat >metal.gltf <<'END'
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}]}
 END
 expect 0 convert metal.gltf metal.obj --report metal.json
-says "on a screen 0.252, as drawn 0.158"
+says "on a screen 0.252, as drawn 0.158 (graded)"
 grep -q '"graded":"E_drawn"' metal.json || failed "the grade of a metal is not of what is drawn"
 expect 0 convert metal.gltf metal.obj --fit-target display
 says "on a screen 0.219"

@@ -61,6 +61,8 @@ grep -q '"fits": *\[\]' out || failed "a fit that was not asked for"
 for name in ggx phong blinn-phong; do
     expect 0 plot brdf $name -o $name.csv
 done
+expect 2 plot brdf ogl1:shininess=30
+says 'a comma stands after ogl1: ogl1,shininess=30'
 expect 2 plot ggx -o c.csv
 says "the kind of plot comes first, as in facet plot brdf ggx"
 cmp -s phong.csv blinn-phong.csv || failed "phong is another model than blinn-phong"

@@ -83,6 +83,34 @@ expect 2 render -o - --format png --json
 expect 2 version word
 expect 2 inspect
 
+# A plural finds what a singular does.
+expect 0 help thumbnails
+grep -q "preset thumbnail" out || failed "help thumbnails does not find the preset"
+
+# An address is a wrong command line, not a missing file.
+for words in "render https://example.org/a.glb" "inspect http://example.org/a.glb" "compare https://example.org/a.png b.png" \
+    "bake https://example.org/a.hdr -o a.ktx2" "convert HTTPS://example.org/a.glb a.gltf"; do
+    expect 2 $words
+    says "facet reads files, not addresses"
+done
+
+# A word in braces that stands for nothing is refused.
+expect 2 render -o '{nope}.png'
+says "facet: --output: {nope} stands for nothing; there are {stem}, {name}, {dir}, {index}"
+expect 2 ocean -o 'sea_{level}.png'
+says "{level} stands for nothing"
+expect 2 bake neutral -o '{stem}.hdr'
+says "{stem} stands for nothing; there are {level}, {face}"
+expect 2 convert a.glb '{dirname}.gltf'
+says "facet: convert: {dirname} stands for nothing"
+expect 2 convert a.glb b.glb --report '{Stem}.json'
+says "--report: {Stem} stands for nothing"
+expect 2 render --renderer path -o a.exr --checkpoint '{face}.exr'
+says "--checkpoint: {face} stands for nothing"
+expect 0 render --size 8 -q -o '{}{1}.png'
+only '{}{1}.png'
+rm '{}{1}.png'
+
 # With --json a wrong command line is reported as JSON, too, in one shape: found while parsing or later.
 fails_json() {
     wanted=$1

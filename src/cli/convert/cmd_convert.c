@@ -59,6 +59,8 @@ static int compare_errors(const void *a, const void *b)
 
 static void print_material(const messages *m, verbosity least, const char *model, const facet_conversion *one)
 {
+    const char *const graded[] = {one->is_graded_as_drawn ? "" : " (graded)",
+                                  one->is_graded_as_drawn ? " (graded)" : ""};
     char drawn[64] = "";
     if (isnan(one->error)) {
         message_at(m, least, "%s: material \"%s\": %s", model, one->name, one->method);
@@ -68,9 +70,10 @@ static void print_material(const messages *m, verbosity least, const char *model
         snprintf(drawn, sizeof drawn, ", as drawn %.3f (%s)", one->error_drawn,
                  grade_names[one->grade_drawn]);
     else if (!isnan(one->error_drawn))
-        snprintf(drawn, sizeof drawn, ", as drawn %.3f", one->error_drawn);
-    message_at(m, least, "%s: material \"%s\": %s, E %.3f, on a screen %.3f%s (%s, %s)", model, one->name,
-               grade_names[one->grade], one->error, one->error_display, drawn, one->method, one->profile);
+        snprintf(drawn, sizeof drawn, ", as drawn %.3f%s", one->error_drawn, graded[1]);
+    message_at(m, least, "%s: material \"%s\": %s, E %.3f, on a screen %.3f%s%s (%s, %s)", model, one->name,
+               grade_names[one->grade], one->error, one->error_display, graded[0], drawn, one->method,
+               one->profile);
 }
 
 static void print_materials(const messages *m, const char *model, const facet_scene *scene, uint32_t count)
@@ -108,11 +111,14 @@ static void convert_report_print(const messages *m, const char *model, const fac
     if (t.worst.error_graded > 0.005)
         snprintf(worst, sizeof worst, "; worst \"%.200s\" with %.3f", t.worst.name, t.worst.error_graded);
     char drawn[64] = "";
+    bool is_drawn = t.worst.is_graded_as_drawn;
     if (!isnan(t.mean_drawn))
-        snprintf(drawn, sizeof drawn, ", as OpenGL 1 programs draw %.3f", t.mean_drawn);
+        snprintf(drawn, sizeof drawn, ", as OpenGL 1 programs draw %.3f%s", t.mean_drawn,
+                 is_drawn ? " (graded)" : "");
     message_at(m, VERBOSITY_NORMAL,
-               "%s: %u material%s converted: %s; mean error E %.3f, on a screen %.3f%s%s", model, t.count,
-               t.count == 1 ? "" : "s", grades, t.mean_error, t.mean_display, drawn, worst);
+               "%s: %u material%s converted: %s; mean error E %.3f, on a screen %.3f%s%s%s", model, t.count,
+               t.count == 1 ? "" : "s", grades, t.mean_error, t.mean_display, is_drawn ? "" : " (graded)",
+               drawn, worst);
 }
 
 /* ---- for programs ---- */

@@ -34,6 +34,9 @@ static facet_result read_format(const command_line *c, convert_names *out, facet
 {
     /* the order of the choices of --to */
     static const model_format choices[] = {MODEL_GLB, MODEL_GLTF, MODEL_OBJ, MODEL_OBJ, MODEL_OGL1};
+    static const char *const files[] = {
+        "a .glb file", "a .gltf file", "an .obj file", "an .obj file, the .mtl beside it",
+        "a .json file of rgl's parameters (as MTL the same materials need an .obj file and --to mtl)"};
     int to = option_choice(c, OPT_TO, -1);
     if (strcmp(out->output, "-") == 0) {
         out->format = MODEL_GLB;
@@ -52,8 +55,8 @@ static facet_result read_format(const command_line *c, convert_names *out, facet
         return fail(error, FACET_ERROR_ARGUMENT, "convert: \"%s\" does not end in .glb, .gltf, .obj or .json",
                     out->output);
     if (to >= 0 && choices[to] != out->format)
-        return fail(error, FACET_ERROR_ARGUMENT, "--to: %s was asked for, but the output is \"%s\"",
-                    option_text(c, OPT_TO, ""), out->output);
+        return fail(error, FACET_ERROR_ARGUMENT, "--to: %s is written to %s, but the output is \"%s\"",
+                    option_text(c, OPT_TO, ""), files[to], out->output);
     return FACET_OK;
 }
 
@@ -62,6 +65,7 @@ static facet_result read_report(const command_line *c, convert_names *out, facet
     out->report = option_text(c, OPT_REPORT, NULL);
     if (!out->report)
         return FACET_OK;
+    TRY(output_name_check("--report", out->report, OUTPUT_NAME_WORDS, error));
     const char *dot = strrchr(out->report, '.');
     out->is_html = dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0);
     if (!out->is_html && !(dot && strcasecmp(dot, ".json") == 0))
@@ -133,14 +137,12 @@ facet_result convert_names_read(command_line *c, convert_names *out, facet_error
         return fail(error, FACET_ERROR_ARGUMENT,
                     "convert: one model and the name of the new one were expected, as in facet convert "
                     "old.gltf new.glb; several go with -o 'new/{stem}.glb'");
-    facet_result result = model_list_create(c, argument_count, &out->models, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(output_name_check(is_pair ? "convert" : "--output", out->output, OUTPUT_NAME_WORDS, error));
+    TRY(model_list_create(c, argument_count, &out->models, error));
     if (out->models.count > 1 && !output_name_has_model(out->output))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--output: several models need a name with {stem}, as in -o 'new/{stem}.glb'");
-    result = read_format(c, out, error);
-    if (result == FACET_OK)
-        result = read_report(c, out, error);
-    return result == FACET_OK ? check_names(out, error) : result;
+    TRY(read_format(c, out, error));
+    TRY(read_report(c, out, error));
+    return check_names(out, error);
 }

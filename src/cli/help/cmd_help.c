@@ -235,7 +235,11 @@ const verb help_verb = {
 
 static int search(const char *word)
 {
-    if (help_search(stdout, word))
+    size_t length = strlen(word);
+    char singular[64] = "";
+    if (length > 3 && length < sizeof singular && word[length - 1] == 's')
+        memcpy(singular, word, length - 1);
+    if (help_search(stdout, word) || help_search(stdout, singular))
         return EXIT_DONE;
     message_error("facet: no command, option or document mentions \"%s\"", word);
     return EXIT_USAGE;

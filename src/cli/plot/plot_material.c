@@ -152,7 +152,13 @@ static facet_result read_parameters(const char *text, facet_plot_material *out, 
         next = strchr(word, ',');
         if (next)
             *next++ = 0;
-        char *value = strchr(word, '=');
+        char *value = strchr(word, '='), *colon = strchr(word, ':');
+        if (colon && is_first && find_model(word, (size_t)(colon - word), &out->model)) {
+            size_t length = (size_t)(colon - word);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "plot: \"%.200s\": a comma stands after %.*s: %.*s,%.200s", text, (int)length, text,
+                        (int)length, text, text + length + 1);
+        }
         if (!value && is_first && find_model(word, strlen(word), &out->model))
             continue;
         if (!value)

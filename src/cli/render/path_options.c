@@ -176,6 +176,7 @@ static facet_result read_checkpoint(const command_line *c, render_options *out, 
         return out->desc.path.resumes
                    ? fail(error, FACET_ERROR_ARGUMENT, "--resume: it needs the file, --checkpoint FILE")
                    : FACET_OK;
+    TRY(output_name_check("--checkpoint", out->checkpoint, OUTPUT_NAME_WORDS, error));
     const char *dot = strrchr(out->checkpoint, '.');
     if (!dot || strcmp(dot, ".exr") != 0)
         return option_fail(c, OPT_CHECKPOINT, "a name that ends in .exr", error);

@@ -20,6 +20,7 @@ facet_result picture_options_output(const command_line *c, render_options *out, 
     out->keeps_existing = is_given(c, OPT_NO_CLOBBER);
     if (!out->output)
         return FACET_OK;
+    TRY(output_name_check("--output", out->output, OUTPUT_NAME_WORDS, error));
     if (out->is_stdout) {
         if (terminal_is(stdout))
             return fail(

@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -44,9 +45,11 @@ static bool grow(growing *g)
     return true;
 }
 
-/* All of standard input. Fails with FACET_ERROR_READ, _LIMIT (more than max_bytes), _MEMORY, and _ARGUMENT where it is
- * a terminal. */
-static facet_result read_stdin(uint64_t max_bytes, const char *expected, growing *out, facet_error *error)
+/* As the library reads of a file where max_file_bytes is 0. */
+static const uint64_t MAX_STDIN_BYTES = (uint64_t)4 << 30;
+
+/* All of standard input. Fails with FACET_ERROR_READ, _LIMIT, _MEMORY, and _ARGUMENT where it is a terminal. */
+static facet_result read_stdin(const char *expected, growing *out, facet_error *error)
 {
     if (terminal_is(stdin))
         return fail(error, FACET_ERROR_ARGUMENT,
@@ -61,12 +64,26 @@ static facet_result read_stdin(uint64_t max_bytes, const char *expected, growing
             out->used += (size_t)n;
         else if (errno != EINTR)
             return fail(error, FACET_ERROR_READ, "stdin: %s", strerror(errno));
-        if (out->used > max_bytes)
+        if (out->used > MAX_STDIN_BYTES)
             return fail(error, FACET_ERROR_LIMIT, "stdin: it is larger than %llu bytes",
-                        (unsigned long long)max_bytes);
+                        (unsigned long long)MAX_STDIN_BYTES);
     }
     return out->used ? FACET_OK
                      : fail(error, FACET_ERROR_READ, "stdin: it is empty; a %s was expected", expected);
+}
+
+/* Reads of addresses fail as usage errors. */
+static facet_result check_address(const char *path, facet_error *error)
+{
+    struct stat info;
+    bool is_address = strncasecmp(path, "http://", 7) == 0 || strncasecmp(path, "https://", 8) == 0;
+    if (!is_address || stat(path, &info) == 0)
+        return FACET_OK;
+    return fail(
+        error, FACET_ERROR_ARGUMENT,
+        "%.400s: facet reads files, not addresses; fetch it first, as with curl -LO, or send it to standard "
+        "input: curl -sL %.400s | facet render - -o out.png",
+        path, path);
 }
 
 /* What can be known to be wrong before anything is read. */
@@ -75,6 +92,8 @@ static facet_result check(const char *path, const char *root, facet_error *error
     struct stat info;
     if (path && !path[0])
         return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of a model is empty");
+    if (path)
+        TRY(check_address(path, error));
     if (path && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) /* others were replaced by what is in them */
         return fail(error, FACET_ERROR_READ, "%s: there is no model in this folder, nor below it", path);
     if (root && (stat(root, &info) != 0 || !S_ISDIR(info.st_mode)))
@@ -93,8 +112,7 @@ facet_result input_load(const char *path, const facet_scene_desc *desc, facet_sc
     if (strcmp(path, "-") != 0)
         return facet_scene_load(path, desc, scene, error);
     growing bytes = {.allocator = &desc->allocator};
-    facet_result result =
-        read_stdin(desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)4 << 30, "model", &bytes, error);
+    facet_result result = read_stdin("model", &bytes, error);
     if (result == FACET_OK)
         result = facet_scene_load_memory(bytes.data, bytes.used, input_name(path), desc, scene, error);
     release(&bytes);
@@ -107,11 +125,11 @@ facet_result input_load_image(const char *path, const facet_image_load_desc *des
     *image = NULL;
     if (!path[0])
         return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of a picture is empty");
+    TRY(check_address(path, error));
     if (strcmp(path, "-") != 0)
         return facet_image_load(path, desc, image, error);
     growing bytes = {.allocator = &desc->allocator};
-    facet_result result =
-        read_stdin(desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)4 << 30, "picture", &bytes, error);
+    facet_result result = read_stdin("picture", &bytes, error);
     if (result == FACET_OK)
         result = facet_image_load_memory(bytes.data, bytes.used, input_name(path), desc, image, error);
     release(&bytes);
@@ -124,11 +142,11 @@ facet_result input_load_environment(const char *path, const facet_environment_de
     *environment = NULL;
     if (!path[0])
         return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of an environment is empty");
+    TRY(check_address(path, error));
     if (strcmp(path, "-") != 0)
         return facet_environment_load(path, desc, environment, error);
     growing bytes = {.allocator = &desc->allocator};
-    facet_result result =
-        read_stdin(desc->max_file_bytes ? desc->max_file_bytes : (uint64_t)4 << 30, "picture", &bytes, error);
+    facet_result result = read_stdin("picture", &bytes, error);
     if (result == FACET_OK)
         result =
             facet_environment_load_memory(bytes.data, bytes.used, input_name(path), desc, environment, error);

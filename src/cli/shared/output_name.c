@@ -1,6 +1,7 @@
 /* output_name.c - see output_name.h. */
 #include "cli/shared/output_name.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,39 @@ bool output_name_has_model(const char *pattern)
         if (strstr(pattern, marks[i]))
             return true;
     return false;
+}
+
+/* Whether a list of words separated by blanks has the first length characters of word. */
+static bool has_word(const char *words, const char *word, size_t length)
+{
+    for (; *words; words += strspn(words, " ")) {
+        size_t n = strcspn(words, " ");
+        if (n == length && memcmp(words, word, n) == 0)
+            return true;
+        words += n;
+    }
+    return false;
+}
+
+facet_result output_name_check(const char *place, const char *pattern, const char *words, facet_error *error)
+{
+    for (const char *at = pattern; (at = strchr(at, '{')); at++) {
+        size_t length = 0;
+        while (isalpha((unsigned char)at[1 + length]))
+            length++;
+        if (length == 0 || at[1 + length] != '}' || has_word(words, at + 1, length))
+            continue;
+        char known[128] = "";
+        for (const char *w = words; *w; w += strspn(w, " ")) {
+            size_t used = strlen(known);
+            int n = (int)strcspn(w, " ");
+            snprintf(known + used, sizeof known - used, "%s{%.*s}", used ? ", " : "", n, w);
+            w += n;
+        }
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: {%.*s} stands for nothing; there are %s", place,
+                    (int)(length < 60 ? length : 60), at + 1, known);
+    }
+    return FACET_OK;
 }
 
 /* ---- filling in ---- */

@@ -2,6 +2,8 @@
 #ifndef CLI_OUTPUT_NAME_H
 #define CLI_OUTPUT_NAME_H
 
+#include "base/result.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -17,6 +19,10 @@ typedef struct model_name {
 bool output_name_has_frame(const char *pattern);
 /* Whether pattern may have several models: one of {stem}, {name}, {dir}, {index} is in it. */
 bool output_name_has_model(const char *pattern);
+
+/* FACET_ERROR_ARGUMENT where pattern has a {word} that is none of words, separated by blanks; place begins the message. */
+#define OUTPUT_NAME_WORDS "stem name dir index"
+facet_result output_name_check(const char *place, const char *pattern, const char *words, facet_error *error);
 
 /* Writes pattern with all places filled to name (size bytes): {stem} is the model's name without folder and extension,
  * {name} with its extension, and the frame number is filled with 0 to the width of its place. frame NULL: those places
