@@ -86,10 +86,6 @@ void describe_materials(text *t, const facet_scene *scene)
 
 /* ---- OpenGL 1 ---- */
 
-static const char *const MAP_NAMES[LEGACY_MAP_COUNT] = {
-    "ambient", "diffuse",    "specular", "emission",  "shininess", "opacity", "bump", "displacement",
-    "decal",   "reflection", "normal",   "roughness", "metallic",  "sheen",   "orm"};
-
 static void write_maps(text *t, const legacy_material *m)
 {
     text_json_begin_object(t, "maps");
@@ -97,7 +93,7 @@ static void write_maps(text *t, const legacy_material *m)
         const legacy_map *map = &m->maps[i];
         if (!map->path && map->ref.texture == SCENE_NONE)
             continue;
-        text_json_begin_object(t, MAP_NAMES[i]);
+        text_json_begin_object(t, legacy_map_names[i]);
         text_json_string(t, "path", map->path);
         describe_index(t, "texture", map->ref.texture);
         if (map->options)
@@ -105,19 +101,6 @@ static void write_maps(text *t, const legacy_material *m)
         text_json_end_object(t);
     }
     text_json_end_object(t);
-}
-
-static void write_number(text *t, const legacy_material *m, uint32_t field, const char *key, float value)
-{
-    if (m->fields & field)
-        text_json_float(t, key, value);
-}
-
-static void write_color(text *t, const legacy_material *m, uint32_t field, const char *key,
-                        const float value[3])
-{
-    if (m->fields & field)
-        text_json_floats(t, key, value, 3);
 }
 
 static void write_flag(text *t, const char *key, bool value, bool usual)
@@ -130,24 +113,15 @@ static void write_legacy_material(text *t, const legacy_material *m)
 {
     text_json_begin_object(t, NULL);
     text_json_string(t, "name", m->name);
-    write_color(t, m, LEGACY_AMBIENT, "ambient", m->ambient);
-    write_color(t, m, LEGACY_DIFFUSE, "diffuse", m->diffuse);
-    write_color(t, m, LEGACY_SPECULAR, "specular", m->specular);
-    write_color(t, m, LEGACY_EMISSION, "emission", m->emission);
-    write_number(t, m, LEGACY_SHININESS, "shininess", m->shininess);
-    write_number(t, m, LEGACY_OPACITY, "opacity", m->opacity);
+    for (int i = 0; i < LEGACY_PARAMETER_COUNT; i++) {
+        const legacy_parameter *row = &legacy_parameters[i];
+        if (m->fields & row->field && row->count == 1)
+            text_json_float(t, row->name, *legacy_floats_const(m, row));
+        else if (m->fields & row->field)
+            text_json_floats(t, row->name, legacy_floats_const(m, row), row->count);
+    }
     if (m->fields & LEGACY_ILLUM)
         text_json_integer(t, "illum", m->illum);
-    write_number(t, m, LEGACY_IOR, "ior", m->ior);
-    write_color(t, m, LEGACY_TRANSMISSION_FILTER, "transmission_filter", m->transmission_filter);
-    write_number(t, m, LEGACY_SHARPNESS, "sharpness", m->sharpness);
-    write_number(t, m, LEGACY_ROUGHNESS, "roughness", m->roughness);
-    write_number(t, m, LEGACY_METALLIC, "metallic", m->metallic);
-    write_number(t, m, LEGACY_SHEEN, "sheen", m->sheen);
-    write_number(t, m, LEGACY_CLEARCOAT, "clearcoat", m->clearcoat);
-    write_number(t, m, LEGACY_CLEARCOAT_ROUGHNESS, "clearcoat_roughness", m->clearcoat_roughness);
-    write_number(t, m, LEGACY_ANISOTROPY, "anisotropy", m->anisotropy);
-    write_number(t, m, LEGACY_ANISOTROPY_ROTATION, "anisotropy_rotation", m->anisotropy_rotation);
     write_flag(t, "lit", m->is_lit, true);
     write_flag(t, "smooth", m->is_smooth, true);
     write_flag(t, "fog", m->has_fog, true);

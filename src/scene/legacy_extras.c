@@ -8,7 +8,7 @@
 
 #define ROW(key, field, member, count, minimum, maximum)                                                     \
     {                                                                                                        \
-        key, field, offsetof(legacy_material, member), count, minimum, maximum                               \
+        key, #member, field, offsetof(legacy_material, member), count, minimum, maximum                      \
     }
 
 /* Ns to 1000 by the letter of MTL; larger ones are written and mean what they say. Colors are light as well. */
@@ -31,6 +31,9 @@ const legacy_parameter legacy_parameters[LEGACY_PARAMETER_COUNT] = {
     ROW("anisor", LEGACY_ANISOTROPY_ROTATION, anisotropy_rotation, 1, 0, 1),
 };
 
+const char *const legacy_map_names[LEGACY_MAP_COUNT] = {
+    "ambient", "diffuse",    "specular", "emission",  "shininess", "opacity", "bump", "displacement",
+    "decal",   "reflection", "normal",   "roughness", "metallic",  "sheen",   "orm"};
 const char *const legacy_map_keys[LEGACY_MAP_COUNT] = {"map_Ka", "map_Kd",   "map_Ks", "map_Ke", "map_Ns",
                                                        "map_d",  "map_Bump", "disp",   "decal",  "refl",
                                                        "norm",   "map_Pr",   "map_Pm", "map_Ps", "map_ORM"};

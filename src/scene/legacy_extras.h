@@ -10,16 +10,18 @@
 
 /* Numbers of a legacy_material that a file may state. */
 typedef struct legacy_parameter {
-    const char *key; /* "Kd": of MTL and of JSON */
-    uint32_t field;  /* LEGACY_DIFFUSE .. */
-    size_t offset;   /* of the first float */
-    uint32_t count;  /* floats */
+    const char *key;  /* "Kd": of MTL and of extras */
+    const char *name; /* "diffuse": of descriptions */
+    uint32_t field;   /* LEGACY_DIFFUSE .. */
+    size_t offset;    /* of the first float */
+    uint32_t count;   /* floats */
     float minimum, maximum;
 } legacy_parameter;
 
 enum { LEGACY_PARAMETER_COUNT = 16, LEGACY_PBR_FACTOR_COUNT = 8 };
 extern const legacy_parameter legacy_parameters[LEGACY_PARAMETER_COUNT];
-extern const char *const legacy_map_keys[LEGACY_MAP_COUNT]; /* "map_Kd"; of map_RMA: "map_ORM" */
+extern const char *const legacy_map_keys[LEGACY_MAP_COUNT];  /* "map_Kd"; of map_RMA: "map_ORM" */
+extern const char *const legacy_map_names[LEGACY_MAP_COUNT]; /* "diffuse" */
 
 static inline float *legacy_floats(legacy_material *m, const legacy_parameter *row)
 {
