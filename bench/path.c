@@ -18,7 +18,7 @@
 #include "base/parallel.h"
 #include "median.h"
 #include "path/path_lights.h"
-#include "path/path_trace.h"
+#include "path/path_scene.h"
 #include "path_rays.h"
 
 enum { MOST_RUNS = 100, SAMPLES = 4, TILE = 16, DEPTH = 64 };

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "path/light_triangle.h"
+#include "path/light_emitters.h"
 
 static uint64_t random_state = 1;
 static float random_number(void)

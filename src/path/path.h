@@ -5,7 +5,7 @@
 
 #include "cpu/media.h"
 #include "path/path_lights.h"
-#include "path/path_trace.h"
+#include "path/path_scene.h"
 #include "path/sampler.h"
 
 /* The vertex at which the direction of the ray was sampled: a light that it hits could have been sampled there as well. */

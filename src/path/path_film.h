@@ -4,7 +4,7 @@
 #define PATH_FILM_H
 
 #include "film/film.h"
-#include "path/path_trace.h"
+#include "path/path_scene.h"
 
 typedef struct path_film path_film;
 

@@ -1,4 +1,4 @@
-/* path_trace.c - see path_trace.h: one sample of a pixel, from the camera's ray to the radiance that it contributes. */
+/* path_trace.c - path_trace(): one sample of a pixel, from the camera's ray to the radiance that it contributes. */
 #include <string.h>
 
 #include "cpu/ray_trace.h"

@@ -5,7 +5,7 @@
 
 #include "cpu/media.h"
 #include "path/path_surface.h"
-#include "path/path_trace.h"
+#include "path/path_scene.h"
 
 typedef struct path_vertex {
     surface_point s;   /* s.m.base.N is visible from V */

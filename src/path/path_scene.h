@@ -1,6 +1,6 @@
-/* path_trace.h - one light path: from a point of the picture through the scene, and what it brings back. */
-#ifndef PATH_TRACE_H
-#define PATH_TRACE_H
+/* path_scene.h - what paths go through, and the radiance that one sample of a pixel finds. */
+#ifndef PATH_PATH_SCENE_H
+#define PATH_PATH_SCENE_H
 
 #include "cpu/render_setup.h"
 
@@ -35,7 +35,7 @@ typedef struct path_sample {
     uint64_t rays; /* traced for it */
 } path_sample;
 
-/* Sample number `index` of pixel (x, y) of the whole picture. Thread-safe. */
+/* Sample number `index` of pixel (x, y) of the whole image. Thread-safe. */
 void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index, path_sample *out);
 
 #endif
