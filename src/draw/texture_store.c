@@ -136,10 +136,7 @@ static uint32_t get_exact_reduction(const image_record *record, uint32_t wanted)
 static facet_result copy_image(const image *in, const facet_allocator *allocator, image *out,
                                facet_error *error)
 {
-    facet_result result =
-        image_create(allocator, in->width, in->height, in->channel_count, in->type, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, in->width, in->height, in->channel_count, in->type, out, error));
     out->is_srgb = in->is_srgb;
     memcpy(out->pixels, in->pixels, image_row_size(in) * in->height);
     return FACET_OK;

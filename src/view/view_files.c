@@ -182,10 +182,7 @@ static void tell_model(view_app *a, bool is_again, bool is_first)
 static facet_result show_model(view_app *a, view_loaded *l, facet_error *error)
 {
     gl_renderer *renderer = NULL;
-    facet_result result =
-        gl_renderer_create(l->model.scene, &a->context, &a->desc->allocator, &renderer, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_renderer_create(l->model.scene, &a->context, &a->desc->allocator, &renderer, error));
     bool is_again = a->scene && a->is_reloading;
     bool is_first = !a->scene;
     stop_traces(a);

@@ -61,10 +61,7 @@ static facet_result frame(const facet_view_desc *desc, view_loaded *out, facet_e
     facet_view_model *m = &out->model;
     facet_camera camera;
     scene_pose pose;
-    facet_result result =
-        scene_pose_create(m->scene, &m->pose, &desc->allocator, desc->render.thread_count, &pose, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(scene_pose_create(m->scene, &m->pose, &desc->allocator, desc->render.thread_count, &pose, error));
     memcpy(out->low, pose.bounds_min, sizeof out->low);
     memcpy(out->high, pose.bounds_max, sizeof out->high);
     scene_pose_destroy(&pose);

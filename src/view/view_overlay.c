@@ -117,9 +117,7 @@ static facet_result read_panel(canvas *c, const facet_allocator *allocator, view
                                facet_error *error)
 {
     const uint32_t *words;
-    facet_result result = canvas_read(c, &words, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(canvas_read(c, &words, error));
     size_t count = (size_t)out->width * out->height;
     out->pixels = mem_alloc(allocator, count, 4);
     if (!out->pixels)
@@ -226,9 +224,7 @@ facet_result view_overlay_text(const char *lines, float scale, uint32_t max_widt
         p += length + (p[length] == '\n');
     }
     canvas *ruler = NULL;
-    facet_result result = open_canvas(allocator, 1, 1, &ruler, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(open_canvas(allocator, 1, 1, &ruler, error));
     overlay_metrics m = metrics_of(13.0 * (double)scale);
     double widest = fmax((double)max_width - 2.0 * m.margin, m.size);
     wrap_rows(ruler, &rows, m.size, widest);
@@ -378,9 +374,7 @@ facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_hei
     *page_count = 1;
     add_help_rows(&rows);
     canvas *ruler = NULL;
-    facet_result result = open_canvas(allocator, 1, 1, &ruler, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(open_canvas(allocator, 1, 1, &ruler, error));
     overlay_block blocks[MAX_COLUMNS + 1];
     overlay_metrics m = {0};
     int count = 0;

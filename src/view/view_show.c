@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/result.h"
 #include "scene/scene.h"
 #include "view/view_camera.h"
 
@@ -105,9 +106,8 @@ static facet_result draw_side(view_app *a, int side, facet_render_desc *desc, fa
         return draw_for_file(a, s, desc, error);
     desc->width = desc->crop[2] = (desc->width + a->divisor - 1) / a->divisor;
     desc->height = desc->crop[3] = (desc->height + a->divisor - 1) / a->divisor;
-    facet_result result = view_surface_resize(s, &a->context, desc->width, desc->height, error);
-    return result == FACET_OK ? gl_renderer_present(a->renderer, desc, s->framebuffer, 0, 0, &stats, error)
-                              : result;
+    TRY(view_surface_resize(s, &a->context, desc->width, desc->height, error));
+    return gl_renderer_present(a->renderer, desc, s->framebuffer, 0, 0, &stats, error);
 }
 
 /* What each side shows, in *shown[2]; labels are empty without a divider. */
@@ -295,9 +295,7 @@ static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, u
     const view_surface *shown[2] = {NULL, NULL};
     const char *labels[2] = {"", ""};
     if (a->scene) {
-        facet_result result = draw_sides(a, width, height, shown, labels, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(draw_sides(a, width, height, shown, labels, error));
     }
     if (has_panels)
         make_panels(a, width, height, labels);
@@ -350,9 +348,7 @@ facet_result view_show(view_app *a, facet_error *error)
     a->state.width = width;
     a->state.height = height;
     a->state.scale = view_window_scale(w);
-    facet_result result = compose(a, 0, width, height, 8.0f * a->state.scale, true, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(compose(a, 0, width, height, 8.0f * a->state.scale, true, error));
     bool had_image = a->needs_image;
     measure_frame(a, start, is_moving);
     a->needs_image = false;

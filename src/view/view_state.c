@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/result.h"
 #include "scene/scene.h"
 #include "view/view_camera.h"
 
@@ -132,9 +133,7 @@ facet_result view_state_frame(view_state *s, float aspect, facet_error *error)
     facet_camera camera;
     facet_orbit wanted = s->orbit;
     wanted.fits_all_times = s->pose.animation_count > 0;
-    facet_result result = scene_fit_orbit(s->scene, &s->pose, &wanted, aspect, &camera, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(scene_fit_orbit(s->scene, &s->pose, &wanted, aspect, &camera, error));
     s->framing = s->orbit;
     facet_orbit *o = &s->orbit;
     double distance2 = 0.0;

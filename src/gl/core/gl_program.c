@@ -234,9 +234,7 @@ static void bind_names(const gl_program *p)
 
 facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t *name, facet_error *error)
 {
-    facet_result result = gl_programs_request(programs, key, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_programs_request(programs, key, error));
     gl_program *p = find(programs, key);
     if (!p->is_linked) {
         GLint is_linked = 0;

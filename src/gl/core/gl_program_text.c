@@ -274,9 +274,7 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
         desc.part_count++;
     unsigned char *shared;
     size_t size;
-    facet_result result = facet_shader_text(&desc, &shared, &size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(facet_shader_text(&desc, &shared, &size, error));
     text_add(out, (const char *)shared);
     mem_free(shared);
     for (uint32_t i = 0; i < gl_program_feature_count(key.main); i++)

@@ -94,9 +94,7 @@ static facet_result draw_level(const gl_pyramid *p, const gl_pyramid_brush *brus
                                uint32_t level, facet_error *error)
 {
     uint32_t program;
-    facet_result result = gl_programs_get(brush->programs, key, &program, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_programs_get(brush->programs, key, &program, error));
     glUseProgram(program);
     glUniform2f(glGetUniformLocation(program, "u_pixel"), 1.0f / (float)halved(p->width, level),
                 1.0f / (float)halved(p->height, level));

@@ -226,10 +226,7 @@ static facet_result upload_want(gl_texture_set *set, const texture_want *want, c
             if (want->first_level && !is_told)
                 tell_reduced(set, want, p, log);
             is_told = true;
-            facet_result result =
-                upload(set, p, want->first_level, as_color, &record->names[as_color], error);
-            if (result != FACET_OK)
-                return result;
+            TRY(upload(set, p, want->first_level, as_color, &record->names[as_color], error));
         }
         record->is_known[as_color] = true;
         record->lacks_red |= p && p->lacks_red;

@@ -259,10 +259,9 @@ static facet_result sample_layers(drawing *d, const tile *t, const float jitter[
     memcpy(view.jitter, jitter, sizeof view.jitter);
     gl_camera_set(desc->frame->context, desc->camera, desc->scene->pose.bounds_min,
                   desc->scene->pose.bounds_max, desc->render->width, desc->render->height, &view, &block);
-    facet_result result = gl_target_update(&d->layers, desc->frame->context, GL_TARGET_LAYERED, view.width,
-                                           view.height, 1, error);
-    return result == FACET_OK ? gl_frame_draw_layers(desc->frame, &d->layers, desc->render, &block, error)
-                              : result;
+    TRY(gl_target_update(&d->layers, desc->frame->context, GL_TARGET_LAYERED, view.width, view.height, 1,
+                         error));
+    return gl_frame_draw_layers(desc->frame, &d->layers, desc->render, &block, error);
 }
 
 /* Opaque surfaces and the nearest of those that are not: what is behind one that light passes counts as nothing. */

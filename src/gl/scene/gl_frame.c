@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/clock.h"
+#include "base/result.h"
 #include "gl/scene/gl_camera.h"
 #include "gl/gl_entry.h"
 
@@ -14,17 +15,11 @@ facet_result gl_frame_create(gl_frame *f, gl_context *context, const facet_scene
                              const facet_allocator *allocator, facet_error *error)
 {
     *f = (gl_frame){.context = context, .timers.context = context};
-    facet_result result = gl_programs_create(context, allocator, NULL, &f->programs, error);
-    if (result == FACET_OK)
-        result = gl_mesh_create(context, allocator, &f->meshes, error);
-    if (result == FACET_OK)
-        result = gl_material_create(context, scene, allocator, &f->materials, error);
-    if (result == FACET_OK)
-        result = gl_light_create(context, allocator, &f->light, error);
-    if (result == FACET_OK)
-        result = gl_transparency_create(context, allocator, &f->transparency, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_programs_create(context, allocator, NULL, &f->programs, error));
+    TRY(gl_mesh_create(context, allocator, &f->meshes, error));
+    TRY(gl_material_create(context, scene, allocator, &f->materials, error));
+    TRY(gl_light_create(context, allocator, &f->light, error));
+    TRY(gl_transparency_create(context, allocator, &f->transparency, error));
     glGenBuffers(1, &f->frame_buffer);
     glGenVertexArrays(1, &f->empty_array);
     return FACET_OK;
@@ -167,10 +162,7 @@ static facet_result draw_batches(gl_frame *f, gl_pass pass, bool is_layers, face
         uint32_t program;
         if (batches[i].is_outside)
             continue;
-        facet_result result =
-            gl_programs_get(f->programs, key_of(f, &batches[i], is_layers), &program, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(gl_programs_get(f->programs, key_of(f, &batches[i], is_layers), &program, error));
         glUseProgram(program);
         gl_material_bind(f->materials, &batches[i]);
         gl_mesh_draw(f->meshes, &batches[i]);
@@ -182,9 +174,7 @@ static facet_result draw_batches(gl_frame *f, gl_pass pass, bool is_layers, face
 static facet_result draw_screen(gl_frame *f, gl_main main, uint64_t features, facet_error *error)
 {
     uint32_t program;
-    facet_result result = gl_programs_get(f->programs, (gl_program_key){main, features}, &program, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_programs_get(f->programs, (gl_program_key){main, features}, &program, error));
     glUseProgram(program);
     glBindVertexArray(f->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);

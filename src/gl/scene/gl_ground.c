@@ -1,5 +1,6 @@
 /* gl_ground.c - see gl_ground.h. */
 #include "gl/scene/gl_ground.h"
+#include "base/result.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -51,10 +52,8 @@ static facet_result make_textures(gl_ground *g, facet_error *error)
 {
     if (g->map)
         return FACET_OK;
-    facet_result result = gl_casters_make_texture(g->context, 4 * GL_GROUND_EDGE, false, &g->heights,
-                                                  &g->heights_framebuffer, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_casters_make_texture(g->context, 4 * GL_GROUND_EDGE, false, &g->heights, &g->heights_framebuffer,
+                                error));
     bool is_half = g->context->has_half_target;
     glGenTextures(1, &g->map);
     glBindTexture(GL_TEXTURE_2D, g->map);
@@ -103,10 +102,7 @@ static facet_result draw_heights(const gl_ground *g, gl_casters *casters, facet_
 static facet_result draw_map(const gl_ground *g, gl_casters *casters, facet_error *error)
 {
     uint32_t program;
-    facet_result result =
-        gl_programs_get(casters->programs, (gl_program_key){GL_MAIN_GROUND_MAP, 0}, &program, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_programs_get(casters->programs, (gl_program_key){GL_MAIN_GROUND_MAP, 0}, &program, error));
     glBindFramebuffer(GL_FRAMEBUFFER, g->map_framebuffer);
     glViewport(0, 0, GL_GROUND_EDGE, GL_GROUND_EDGE);
     glDisable(GL_DEPTH_TEST);

@@ -319,14 +319,10 @@ facet_result gl_light_update(gl_light *light, const light_setup *setup, const fa
     light->rotation_cos = setup->rotation_cos;
     light->rotation_sin = setup->rotation_sin;
     light->light_count = setup->punctual_count;
-    facet_result result = update_environment(light, setup->ibl, &block, error);
-    if (result == FACET_OK)
-        result = gl_shadow_plan(light->shadow, desc, setup, bounds_min, bounds_max, error);
-    if (result == FACET_OK)
-        result = update_punctual(&light->punctual, light->context, &light->allocator, setup, light->shadow,
-                                 &block, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(update_environment(light, setup->ibl, &block, error));
+    TRY(gl_shadow_plan(light->shadow, desc, setup, bounds_min, bounds_max, error));
+    TRY(update_punctual(&light->punctual, light->context, &light->allocator, setup, light->shadow, &block,
+                        error));
     gl_shadow_describe(light->shadow, &block);
     gl_ground_plan(&light->ground, desc, bounds_min, bounds_max);
     gl_ground_describe(&light->ground, &block);
@@ -389,10 +385,9 @@ facet_result gl_light_request_programs(const gl_light *light, gl_programs *progr
     bool has_shadows = gl_light_features(light) & GL_SURFACE_HAS_SHADOWS;
     uint32_t first = has_shadows || light->ground.is_wanted ? 0 : 1;
     uint32_t end = light->ground.is_wanted ? 3 : 1;
-    facet_result result = FACET_OK;
-    for (uint32_t i = first; i < end && result == FACET_OK; i++)
-        result = gl_programs_request(programs, keys[i], error);
-    return result;
+    for (uint32_t i = first; i < end; i++)
+        TRY(gl_programs_request(programs, keys[i], error));
+    return FACET_OK;
 }
 
 void gl_light_bind_ground(const gl_light *light)

@@ -340,9 +340,7 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
     gl_material_show(set, desc->gl.channel);
     memset(set->uses, 0, set->scene->texture_count * sizeof *set->uses);
     for_each_batch(set, meshes, add_uses);
-    facet_result result = gl_texture_update(set->textures, set->uses, &desc->log, desc->thread_count, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_texture_update(set->textures, set->uses, &desc->log, desc->thread_count, error));
     glBindBuffer(GL_UNIFORM_BUFFER, set->buffer);
     for_each_batch(set, meshes, update_block);
     for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {

@@ -333,9 +333,7 @@ static facet_result make_arrays(gl_mesh_set *set, facet_error *error)
 
 static facet_result upload_batch(gl_mesh_set *set, gl_batch *b, facet_error *error)
 {
-    facet_result result = gl_vertex_store_use(&set->store, b->geometry, &b->vertices, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_vertex_store_use(&set->store, b->geometry, &b->vertices, error));
     if (b->is_sprites) {
         b->mode = GL_TRIANGLE_STRIP;
         b->element_count = SPRITE_VERTICES;

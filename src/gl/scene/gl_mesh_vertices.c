@@ -346,9 +346,7 @@ static facet_result upload_elements(gl_vertex_store *store, const uint32_t *indi
                                     bool changes, gl_elements *e, facet_error *error)
 {
     size_t bytes = count * sizeof *indices;
-    facet_result result = check_size(store, "indices", bytes, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check_size(store, "indices", bytes, error));
     e->buffer = fill_buffer(store, e->buffer, GL_ELEMENT_ARRAY_BUFFER, bytes, indices, changes);
     e->count = count;
     e->indices = indices;

@@ -339,12 +339,8 @@ facet_result gl_phong_develop(gl_phong *p, const gl_pyramid_brush *brush, const 
         return FACET_OK;
     gl_program_key key = {GL_MAIN_DEVELOP, 0};
     uint32_t program;
-    facet_result result =
-        gl_target_update(&p->copy, p->context, target->kind, target->width, target->height, 1, error);
-    if (result == FACET_OK)
-        result = gl_programs_get(brush->programs, key, &program, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_target_update(&p->copy, p->context, target->kind, target->width, target->height, 1, error));
+    TRY(gl_programs_get(brush->programs, key, &program, error));
     GLint w = (GLint)target->width, h = (GLint)target->height;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved_framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, p->copy.framebuffer);

@@ -65,9 +65,7 @@ static facet_result draw_batch(const gl_casters *c, const gl_batch *batch, facet
     bool is_masked = all >> GL_SURFACE_HAS_ALPHA_MASK & 1;
     uint32_t program;
     gl_program_key key = {GL_MAIN_SHADOW, is_masked ? all : 0};
-    facet_result result = gl_programs_get(c->programs, key, &program, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_programs_get(c->programs, key, &program, error));
     glUseProgram(program);
     if (is_masked)
         gl_material_bind(c->materials, batch);
@@ -93,9 +91,7 @@ facet_result gl_casters_draw(gl_casters *c, const float matrix[16], uint32_t x, 
         for (uint32_t i = 0; i < count; i++) {
             if (!casts(&batches[i], pass) || gl_mesh_is_outside(&batches[i], &frame))
                 continue;
-            facet_result result = draw_batch(c, &batches[i], error);
-            if (result != FACET_OK)
-                return result;
+            TRY(draw_batch(c, &batches[i], error));
         }
     }
     return FACET_OK;
@@ -297,10 +293,8 @@ static facet_result draw_tiles(const gl_shadow *s, const gl_shadow_record *recor
         float matrix[16];
         uint32_t tile = (uint32_t)record->tile + face;
         shadow_matrix(record, face, casters->eye, matrix);
-        facet_result result = gl_casters_draw(casters, matrix, tile % s->tiles_per_row * s->tile,
-                                              tile / s->tiles_per_row * s->tile, s->tile, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(gl_casters_draw(casters, matrix, tile % s->tiles_per_row * s->tile,
+                            tile / s->tiles_per_row * s->tile, s->tile, error));
     }
     return FACET_OK;
 }

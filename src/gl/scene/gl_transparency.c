@@ -49,9 +49,7 @@ static facet_result use_batch(const gl_transparency_view *view, const gl_batch *
 {
     uint32_t program;
     gl_program_key key = {gl_material_main(view->materials, b), b->features | view->features | features};
-    facet_result result = gl_programs_get(view->programs, key, &program, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_programs_get(view->programs, key, &program, error));
     glUseProgram(program);
     gl_material_bind(view->materials, b);
     return FACET_OK;
@@ -64,9 +62,7 @@ static facet_result draw_all(const gl_transparency_view *view, uint64_t features
     for (uint32_t i = 0; i < count; i++) {
         if (batches[i].is_outside)
             continue;
-        facet_result result = use_batch(view, &batches[i], features, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(use_batch(view, &batches[i], features, error));
         gl_mesh_draw(view->meshes, &batches[i]);
     }
     return FACET_OK;
@@ -186,9 +182,7 @@ static facet_result draw_runs(const gl_transparency *t, const gl_transparency_vi
         if (b->is_outside)
             continue;
         if (batch != u->batch) {
-            facet_result result = use_batch(view, b, 0, error);
-            if (result != FACET_OK)
-                return result;
+            TRY(use_batch(view, b, 0, error));
             glBindVertexArray(s->arrays[u->batch]);
             batch = u->batch;
             unit = UINT32_MAX;
@@ -341,9 +335,7 @@ static facet_result compose(gl_transparency *t, const gl_transparency_view *view
         [COMPOSE_LAYER] = "", [COMPOSE_SUM] = "IS_SUM", [COMPOSE_WEIGHTED] = "IS_WEIGHTED"};
     uint32_t program;
     gl_program_key key = {GL_MAIN_COMPOSE, gl_program_feature(GL_MAIN_COMPOSE, features[what])};
-    facet_result result = gl_programs_get(view->programs, key, &program, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_programs_get(view->programs, key, &program, error));
     glUseProgram(program);
     if (what == COMPOSE_WEIGHTED)
         layers_bind(GL_UNIT_MATERIAL + 1, t->layers.layer);
@@ -451,9 +443,7 @@ static facet_result draw_weighted(gl_transparency *t, const gl_transparency_view
     for (uint32_t i = 0; i < count; i++) {
         if (batches[i].is_outside)
             continue;
-        facet_result result = use_batch(view, &batches[i], t->weighted_feature, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(use_batch(view, &batches[i], t->weighted_feature, error));
         GLint program;
         glGetIntegerv(GL_CURRENT_PROGRAM, &program);
         glUniform2fv(glGetUniformLocation((GLuint)program, "u_depths"), 1, depths);

@@ -75,11 +75,8 @@ static facet_result start(gl_sea *s, facet_error *error)
         stop(s);
     if (s->context.context)
         return gl_context_make_current(&s->context, error);
-    facet_result result = gl_context_create_api(&s->context, s->api, error);
-    if (result == FACET_OK)
-        result = gl_programs_create(&s->context, &s->allocator, NULL, &s->programs, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_context_create_api(&s->context, s->api, error));
+    TRY(gl_programs_create(&s->context, &s->allocator, NULL, &s->programs, error));
     GLuint buffers[4];
     glGenBuffers(4, buffers);
     s->frame_buffer = buffers[0];
@@ -150,9 +147,7 @@ static facet_result update_light(gl_sea *s, const sea_picture *p, facet_error *e
     if (!p->background)
         return FACET_OK;
     gl_light_block block = {.atlas = {0.0f}};
-    facet_result result = gl_light_atlas_update(&s->atlas, &s->context, &s->allocator, &both, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_light_atlas_update(&s->atlas, &s->context, &s->allocator, &both, error));
     gl_light_atlas_describe(&s->atlas, &both, &block);
     set_block(s->light_buffer, GL_BLOCK_LIGHT, &block, sizeof block);
     return FACET_OK;
@@ -234,13 +229,12 @@ static facet_result get_programs(drawing *d, facet_error *error)
         {GL_MAIN_SEA_CLASS, 0},  {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
         {GL_MAIN_SEA, features}, {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE}};
     GLuint *names[COUNT] = {&d->grid, &d->surface, &d->sorting, &d->smooth, &d->linear, &d->beside};
-    facet_result result = FACET_OK;
     gl_programs_set_log(d->s->programs, &d->picture->desc->render.log);
-    for (int i = 0; i < COUNT && result == FACET_OK; i++)
-        result = gl_programs_request(d->s->programs, keys[i], error);
-    for (int i = 0; i < COUNT && result == FACET_OK; i++)
-        result = gl_programs_get(d->s->programs, keys[i], names[i], error);
-    return result;
+    for (int i = 0; i < COUNT; i++)
+        TRY(gl_programs_request(d->s->programs, keys[i], error));
+    for (int i = 0; i < COUNT; i++)
+        TRY(gl_programs_get(d->s->programs, keys[i], names[i], error));
+    return FACET_OK;
 }
 
 static void begin_pass(const gl_target *t)
@@ -266,10 +260,7 @@ static void use(GLuint program, gl_sea_class reading)
 static facet_result draw_grid(drawing *d, facet_error *error)
 {
     gl_sea *s = d->s;
-    facet_result result =
-        gl_target_update(&s->grid, &s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_target_update(&s->grid, &s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error));
     begin_pass(&s->grid);
     gl_sea_textures_bind(&s->textures);
     use(d->grid, (gl_sea_class){.linear_end = (int32_t)d->picture->sea->waves.tile_count});

@@ -211,10 +211,7 @@ facet_result gl_sea_model_draw(gl_sea_model *m, const sea_picture *p, const came
                                const gl_view *view, gl_sea_block *b, facet_error *error)
 {
     gl_frame_block block = {.channel = 0};
-    facet_result result =
-        gl_target_update(&m->seen, m->context, GL_TARGET_FILM, view->width, view->height, 1, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(gl_target_update(&m->seen, m->context, GL_TARGET_FILM, view->width, view->height, 1, error));
     gl_camera_set(m->context, camera, p->model_low, p->model_high, p->desc->render.width,
                   p->desc->render.height, view, &block);
     float along = 0.0f; /* depth in clip space is along * depth + block.view_projection[14] */

@@ -260,11 +260,8 @@ facet_result gl_sea_textures_update(gl_sea_textures *t, gl_context *c, const sea
     if (!t->sky)
         upload_light(t, c, p);
     gl_sea_textures_bind(t);
-    facet_result result = upload_waves(p, error);
-    if (result == FACET_OK)
-        result = upload_patches(t, p, camera, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(upload_waves(p, error));
+    TRY(upload_patches(t, p, camera, error));
     upload_foam(t, p->foam);
     upload_caustics(p->caustics);
     return gl_context_check(c, "a sea", error);
