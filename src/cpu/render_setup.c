@@ -192,7 +192,7 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
                                  .camera = &p->camera};
     set_options(&p->shading, desc);
     if (result == FACET_OK)
-        light_setup_tell_dark(&p->light, &p->prepared->geometries, desc);
+        light_setup_warn_dark(&p->light, &p->prepared->geometries, desc);
     return result;
 }
 

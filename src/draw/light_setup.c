@@ -205,7 +205,7 @@ static bool shines(const render_geometry *g)
 }
 
 /* A picture that is black because nothing shines is rarely meant. */
-void light_setup_tell_dark(const light_setup *light, const render_geometry_set *set,
+void light_setup_warn_dark(const light_setup *light, const render_geometry_set *set,
                            const facet_render_desc *desc)
 {
     const float *sun = desc->sun.illuminance_lux;

@@ -28,7 +28,7 @@ facet_result light_setup_create(const render_geometry_set *set, const scene_pose
                                 facet_error *error);
 void light_setup_destroy(light_setup *light); /* {0} is allowed */
 /* Warns of a picture that is black because nothing shines, which is rarely meant. */
-void light_setup_tell_dark(const light_setup *light, const render_geometry_set *set,
+void light_setup_warn_dark(const light_setup *light, const render_geometry_set *set,
                            const facet_render_desc *desc);
 
 /* As the ibl_* lookups (radiance in cd/m^2), for unit directions in world space. 0 where there is no light, or

@@ -104,7 +104,7 @@ static void set_title(view_app *a)
     view_window_set_title(a->window, title);
 }
 
-static void tell_environment(view_app *a)
+static void report_environment(view_app *a)
 {
     char text[512];
     const view_list *l = &a->environments;
@@ -138,7 +138,7 @@ static void show_environment(view_app *a, view_loaded *l)
     a->needs_image = true;
     view_app_forget_warning(a);
     if (!l->wanted_model)
-        tell_environment(a);
+        report_environment(a);
 }
 
 /* A model that was dropped brings the others of its folder. */
@@ -157,7 +157,7 @@ static void find_in_list(view_app *a)
 static const double HINT_S = 10.0; /* at the start, unless there is input before */
 
 /* The first message says, too, which keys to begin with; and what was asked for and does nothing. */
-static void tell_model(view_app *a, bool is_again, bool is_first)
+static void report_model(view_app *a, bool is_again, bool is_first)
 {
     char text[512];
     static const char hint[] =
@@ -198,7 +198,7 @@ static facet_result show_model(view_app *a, view_loaded *l, facet_error *error)
     view_watch_set(a->watcher, a->scene, a->path);
     find_in_list(a);
     set_title(a);
-    tell_model(a, is_again, is_first);
+    report_model(a, is_again, is_first);
     view_app_forget_warning(a);
     a->needs_image = true;
     return FACET_OK;

@@ -41,7 +41,7 @@ static void steps_are_what_lines_say(void **state)
     view_script_destroy(&s);
 }
 
-static void what_is_wrong_is_told_with_its_line(void **state)
+static void errors_name_their_line(void **state)
 {
     (void)state;
     static const char *const wrong[] = {"load\njump\n",     "load\nkey\n",          "load\nkey F99\n",
@@ -101,7 +101,7 @@ static void movements_that_follow_each_other_are_one(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_what_lines_say),
-                                       cmocka_unit_test(what_is_wrong_is_told_with_its_line),
+                                       cmocka_unit_test(errors_name_their_line),
                                        cmocka_unit_test(running_out_of_memory_is_a_result),
                                        cmocka_unit_test(movements_that_follow_each_other_are_one)};
     return cmocka_run_group_tests(tests, NULL, NULL);

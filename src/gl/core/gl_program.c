@@ -182,7 +182,7 @@ facet_result gl_programs_request(gl_programs *programs, gl_program_key key, face
 }
 
 /* The text with numbers before its lines, a message for each: people are to find line 812. */
-static void tell_source(const gl_programs *programs, const char *source)
+static void report_source(const gl_programs *programs, const char *source)
 {
     char line[320];
     int number = 1;
@@ -206,7 +206,7 @@ static facet_result fail_link(gl_programs *programs, const gl_program *p, facet_
         glGetShaderInfoLog(p->shaders[i], sizeof message, NULL, message);
         text t = {.allocator = programs->allocator};
         if (source_text(programs, p->key, stages[i], &t, NULL) == FACET_OK)
-            tell_source(programs, t.data);
+            report_source(programs, t.data);
         text_destroy(&t);
     }
     if (!message[0])

@@ -187,7 +187,7 @@ static void compile_broken(gl_context *context)
     gl_programs_destroy(programs);
 }
 
-static void a_broken_program_is_told_with_its_text(void **state)
+static void a_broken_program_is_reported_with_its_text(void **state)
 {
     (void)state;
     run_on_drivers(compile_broken);
@@ -278,7 +278,7 @@ static void the_reference_compiler_takes_every_text(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(programs_compile),
-                                       cmocka_unit_test(a_broken_program_is_told_with_its_text),
+                                       cmocka_unit_test(a_broken_program_is_reported_with_its_text),
                                        cmocka_unit_test(the_frame_block_is_the_same_in_shaders),
                                        cmocka_unit_test(the_reference_compiler_takes_every_text)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -58,9 +58,18 @@ static const char *const no_features[] = {NULL};
 static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
 static const char *const compose_features[] = {"IS_WEIGHTED", "IS_SUM", NULL};
-static const char *const sea_features[] = {"HAS_PICTURE", "IS_BEFORE", "IS_PAINTED",       "IS_BELOW",
-                                           "HAS_BED",     "HAS_FOAM",  "HAS_GLINTS",       "HAS_CUBIC",
-                                           "IS_BESIDE",   "HAS_MODEL", "HAS_OTHER_FACETS", NULL};
+static const char *const sea_features[] = {"HAS_IMAGE",
+                                           "IS_LEGACY",
+                                           "IS_PAINTED",
+                                           "IS_BELOW",
+                                           "HAS_BED",
+                                           "HAS_FOAM",
+                                           "HAS_GLINTS",
+                                           "HAS_CUBIC",
+                                           "IS_BESIDE",
+                                           "HAS_MODEL",
+                                           "HAS_OTHER_MICROFACETS",
+                                           NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
 enum { MAX_PARTS = 12 };

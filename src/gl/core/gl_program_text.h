@@ -70,17 +70,17 @@ enum {
 
 /* GL_MAIN_SEA. */
 enum {
-    GL_SEA_HAS_PICTURE = 1u << 0, /* an environment's in the sky's place */
-    GL_SEA_IS_BEFORE = 1u << 1,   /* looks without physics */
-    GL_SEA_IS_PAINTED = 1u << 2,  /* stage 3 */
-    GL_SEA_IS_BELOW = 1u << 3,    /* the eye is in the water */
+    GL_SEA_HAS_IMAGE = 1u << 0,  /* an environment's in the sky's place */
+    GL_SEA_IS_LEGACY = 1u << 1,  /* looks without physics */
+    GL_SEA_IS_PAINTED = 1u << 2, /* stage 3 */
+    GL_SEA_IS_BELOW = 1u << 3,   /* the eye is in the water */
     GL_SEA_HAS_BED = 1u << 4,
     GL_SEA_HAS_FOAM = 1u << 5,
     GL_SEA_HAS_GLINTS = 1u << 6,
     GL_SEA_HAS_CUBIC = 1u << 7, /* near enough that samples of waves are wider than pixels */
     GL_SEA_IS_BESIDE = 1u << 8, /* where the surface is not seen */
     GL_SEA_HAS_MODEL = 1u << 9,
-    GL_SEA_HAS_OTHER_FACETS = 1u << 10 /* than Gaussian ones with Smith's masking and exact Fresnel */
+    GL_SEA_HAS_OTHER_MICROFACETS = 1u << 10 /* than Gaussian ones with Smith's masking and exact Fresnel */
 };
 
 /* features: bits of the main's list of names in gl_program.c, each of which becomes a #define. */

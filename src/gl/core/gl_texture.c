@@ -204,7 +204,7 @@ static size_t collect_wants(const gl_texture_set *set, const texture_use *uses, 
     return count;
 }
 
-static void tell_reduced(const gl_texture_set *set, const texture_want *want, const texture_pyramid *p,
+static void warn_reduced(const gl_texture_set *set, const texture_want *want, const texture_pyramid *p,
                          const facet_log *log)
 {
     const texture_level *l = &p->levels[want->first_level];
@@ -217,15 +217,15 @@ static facet_result upload_want(gl_texture_set *set, const texture_want *want, c
                                 facet_error *error)
 {
     gl_image *record = &set->images[want->image];
-    bool is_told = false;
+    bool is_reported = false;
     for (int as_color = 0; as_color < 2; as_color++) {
         if (!want->is_read[as_color])
             continue;
         const texture_pyramid *p = want->pyramid[as_color];
         if (p) {
-            if (want->first_level && !is_told)
-                tell_reduced(set, want, p, log);
-            is_told = true;
+            if (want->first_level && !is_reported)
+                warn_reduced(set, want, p, log);
+            is_reported = true;
             TRY(upload(set, p, want->first_level, as_color, &record->names[as_color], error));
         }
         record->is_known[as_color] = true;

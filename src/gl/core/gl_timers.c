@@ -28,7 +28,7 @@ static void take(gl_timers *t)
     else
         glGetQueryObjectui64v(t->ring[t->first].query, GL_QUERY_RESULT, &ns);
     t->sum.ms[t->ring[t->first].timer] += 1e-6 * (double)ns;
-    if (t->ring[t->first].ends_picture) {
+    if (t->ring[t->first].ends_image) {
         t->last = t->sum;
         t->last.is_known = true;
         t->sum = (gl_times){.is_known = false};
@@ -47,7 +47,7 @@ void gl_timers_begin(gl_timers *t, gl_timer timer)
     if (!t->ring[place].query)
         glGenQueries(1, &t->ring[place].query);
     t->ring[place].timer = timer;
-    t->ring[place].ends_picture = false;
+    t->ring[place].ends_image = false;
     glBeginQuery(GL_TIME_ELAPSED, t->ring[place].query);
     t->is_running = true;
 }
@@ -65,7 +65,7 @@ gl_times gl_timers_finish(gl_timers *t, bool waits)
 {
     gl_timers_end(t);
     if (t->count)
-        t->ring[(t->first + t->count - 1) % GL_TIMERS_PENDING].ends_picture = true;
+        t->ring[(t->first + t->count - 1) % GL_TIMERS_PENDING].ends_image = true;
     while (t->count && (waits || has_answer(t)))
         take(t);
     return t->last;

@@ -33,7 +33,7 @@ typedef struct gl_timers {
     struct {
         uint32_t query; /* made when it is first needed */
         gl_timer timer;
-        bool ends_picture;
+        bool ends_image;
     } ring[GL_TIMERS_PENDING];
     uint32_t first, count; /* that have not answered */
     bool is_running;

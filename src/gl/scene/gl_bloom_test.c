@@ -13,7 +13,7 @@
 static gl_fixture_contexts contexts;
 
 /* An unlit square in the middle, of edge 2 `scale` in a picture that is 2 m high. */
-static fixture lamp_fixture(uint32_t width, uint32_t height, float scale)
+static fixture light_fixture(uint32_t width, uint32_t height, float scale)
 {
     fixture f = fixture_create();
     f.desc.width = width;
@@ -43,7 +43,7 @@ static void light_is_kept(void **state)
     static const uint32_t sizes[][2] = {{128, 96}, {129, 97}, {200, 61}};
     for (int c = 0; c < contexts.count; c++)
         for (int size = 0; size < 3; size++) {
-            fixture f = lamp_fixture(sizes[size][0], sizes[size][1], 0.05f);
+            fixture f = light_fixture(sizes[size][0], sizes[size][1], 0.05f);
             film without = gl_fixture_render(&f, &contexts.items[c]);
             f.desc.gl.bloom = 0.25f;
             film with = gl_fixture_render(&f, &contexts.items[c]);
@@ -66,7 +66,7 @@ static void none_is_off(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
-        fixture f = lamp_fixture(64, 64, 0.3f);
+        fixture f = light_fixture(64, 64, 0.3f);
         gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[c]);
         film before = gl_fixture_draw(&f, renderer);
         f.desc.gl.bloom = 0.5f;
@@ -88,7 +88,7 @@ static void even_light_stays_even(void **state)
     (void)state;
     static const float wanted[4] = {1.0f, 0.5f, 0.25f, 1.0f};
     for (int c = 0; c < contexts.count; c++) {
-        fixture f = lamp_fixture(100, 70, 4.0f);
+        fixture f = light_fixture(100, 70, 4.0f);
         f.desc.gl.bloom = 1.0f;
         film picture = gl_fixture_render(&f, &contexts.items[c]);
         for (uint32_t i = 0; i < 70; i += 3)
@@ -116,7 +116,7 @@ static void light_falls_with_distance(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
-        fixture f = lamp_fixture(512, 512, 0.01f);
+        fixture f = light_fixture(512, 512, 0.01f);
         f.desc.gl.bloom = 1.0f;
         film picture = gl_fixture_render(&f, &contexts.items[c]);
         double last = ring(&picture, 4.0);
@@ -137,7 +137,7 @@ static void coverage_is_spread_too(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
-        fixture f = lamp_fixture(96, 96, 0.4f);
+        fixture f = light_fixture(96, 96, 0.4f);
         f.desc.gl.bloom = 0.3f;
         film over = gl_fixture_render(&f, &contexts.items[c]);
         scene_material wall = gl_fixture_unlit(0.75f, 0.75f, 0.75f, 1.0f);
@@ -163,7 +163,7 @@ static void size_does_not_matter(void **state)
     for (int c = 0; c < contexts.count; c++) {
         film pictures[2];
         for (int i = 0; i < 2; i++) {
-            fixture f = lamp_fixture(512u << i, 512u << i, 0.05f);
+            fixture f = light_fixture(512u << i, 512u << i, 0.05f);
             f.desc.samples = 1;
             f.desc.gl.bloom = 1.0f;
             pictures[i] = gl_fixture_render(&f, &contexts.items[c]);

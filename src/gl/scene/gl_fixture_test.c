@@ -69,9 +69,9 @@ film gl_fixture_render(const fixture *f, gl_context *context)
     return out;
 }
 
-picture_difference gl_fixture_compare(const film *a, const film *b, float most)
+image_difference gl_fixture_compare(const film *a, const film *b, float most)
 {
-    picture_difference d = {0.0, 0.0};
+    image_difference d = {0.0, 0.0};
     size_t shown = 0;
     assert_int_equal(a->width, b->width);
     assert_int_equal(a->height, b->height);

@@ -22,10 +22,10 @@ film gl_fixture_render(const fixture *f, gl_context *context);
 
 /* How two pictures of the same size differ: mean absolute difference and share of the pixels that differ by more than
  * `most` in some channel; of all pixels in which either shows something. */
-typedef struct picture_difference {
+typedef struct image_difference {
     double mean, share;
-} picture_difference;
-picture_difference gl_fixture_compare(const film *a, const film *b, float most);
+} image_difference;
+image_difference gl_fixture_compare(const film *a, const film *b, float most);
 /* Fails where a channel of a pixel is farther from rgba than tolerance. */
 void gl_fixture_assert_pixel(const film *picture, uint32_t x, uint32_t y, const float rgba[4],
                              float tolerance);

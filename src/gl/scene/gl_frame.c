@@ -123,7 +123,7 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
         result =
             gl_light_update(f->light, &light, desc, scene->pose.bounds_min, scene->pose.bounds_max, error);
     if (result == FACET_OK && gl_channel_is_light(desc->gl.channel))
-        light_setup_tell_dark(&light, &scene->geometries, desc);
+        light_setup_warn_dark(&light, &scene->geometries, desc);
     stats->light_s += clock_seconds() - start;
     start = clock_seconds();
     if (result == FACET_OK)

@@ -25,7 +25,7 @@ static atlas_source source_of(const ibl_light *light, uint32_t part)
                             : NULL;
     if (faces)
         return (atlas_source){.faces = faces->texels ? faces : NULL};
-    uint32_t number = part - GL_ATLAS_PICTURES;
+    uint32_t number = part - GL_ATLAS_IMAGES;
     const image *picture = number == 0 ? &light->sharp
                            : light->narrow && number <= light->narrow->count
                                ? &light->narrow->pictures[number - 1]
@@ -102,8 +102,8 @@ static facet_result send_cube(const cube *c, gl_atlas_part *part, const facet_al
 enum { BAND = 64 }; /* rows that are sent at a time */
 
 /* Rows of a picture; border: of texels around it, which repeat what is across the seam, or at a pole the row itself. */
-static facet_result send_picture(const image *picture, uint32_t border, gl_atlas_part *part,
-                                 const facet_allocator *allocator, facet_error *error)
+static facet_result send_equirect(const image *picture, uint32_t border, gl_atlas_part *part,
+                                  const facet_allocator *allocator, facet_error *error)
 {
     uint32_t width = picture->width + 2 * border;
     uint32_t height = picture->height + 2 * border;
@@ -133,11 +133,11 @@ static facet_result send_fitting(const image *picture, uint32_t border, gl_atlas
                                  const facet_allocator *allocator, facet_error *error)
 {
     if (part->width == picture->width && part->height == picture->height)
-        return send_picture(picture, border, part, allocator, error);
+        return send_equirect(picture, border, part, allocator, error);
     image small = {0};
     facet_result result = equirect_resize(picture, part->width, part->height, allocator, 1, &small, error);
     if (result == FACET_OK)
-        result = send_picture(&small, border, part, allocator, error);
+        result = send_equirect(&small, border, part, allocator, error);
     image_destroy(&small);
     return result;
 }
@@ -161,7 +161,7 @@ static uint32_t make_texture(uint32_t width, uint32_t height, GLint wrap)
 
 static bool is_cube(uint32_t part)
 {
-    return part < GL_ATLAS_PICTURES;
+    return part < GL_ATLAS_IMAGES;
 }
 
 /* What a part takes of the texture. */
@@ -334,18 +334,18 @@ static void describe_levels(const gl_light_atlas *a, const ibl_light *light, pre
 
 static void describe_narrow(const gl_light_atlas *a, const ibl_light *light, gl_light_block *block)
 {
-    for (uint32_t k = 0; k < GL_LIGHT_PICTURES; k++) {
-        const gl_atlas_part *p = &a->parts[GL_ATLAS_PICTURES + k];
+    for (uint32_t k = 0; k < GL_LIGHT_IMAGES; k++) {
+        const gl_atlas_part *p = &a->parts[GL_ATLAS_IMAGES + k];
         float place[4] = {(float)p->x, (float)p->y, (float)p->width, (float)p->height};
         memcpy(block->pictures[k], place, sizeof place);
     }
     for (uint32_t i = 0; i < GL_LIGHT_STEPS; i++) {
         const float mirror[NARROW_PARTS] = {1.0f};
         const float *weights = light->narrow ? light->narrow->weights[i] : mirror;
-        for (uint32_t k = 0; k < GL_LIGHT_PICTURES; k++)
-            if (a->parts[GL_ATLAS_PICTURES + k].texels)
+        for (uint32_t k = 0; k < GL_LIGHT_IMAGES; k++)
+            if (a->parts[GL_ATLAS_IMAGES + k].texels)
                 block->narrow_weights[i][k] =
-                    weights[NARROW_MIRROR + k] * a->parts[GL_ATLAS_PICTURES + k].scale;
+                    weights[NARROW_MIRROR + k] * a->parts[GL_ATLAS_IMAGES + k].scale;
         block->narrow_lobe[i] = weights[NARROW_LOBE];
     }
 }

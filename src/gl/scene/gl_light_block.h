@@ -8,7 +8,7 @@
 #include "ibl/prefilter.h"
 
 enum {
-    GL_LIGHT_PICTURES = 1 + NARROW_COUNT, /* mirror, blurred ones */
+    GL_LIGHT_IMAGES = 1 + NARROW_COUNT, /* mirror, blurred ones */
     GL_LIGHT_STEPS = NARROW_STEPS + 1,
     GL_LIGHT_ROW = 1024 /* texels in a row of the punctual lights' texture */
 };
@@ -22,7 +22,7 @@ typedef struct gl_light_block {
     float irradiance[4]; /* a place */
     float steps[PREFILTER_LEVEL_COUNT]
                [4]; /* roughness of GGX, 1 over what is missing to the next one; Charlie's */
-    float pictures[GL_LIGHT_PICTURES][4];            /* places */
+    float pictures[GL_LIGHT_IMAGES][4];              /* places */
     float narrow_weights[GL_LIGHT_STEPS][4];         /* of the pictures, with their scales */
     float narrow_lobe[(GL_LIGHT_STEPS + 3) / 4 * 4]; /* of level 1 of GGX */
     float grid_origin[4];                            /* m, world */

@@ -321,7 +321,7 @@ static const ibl_light_desc everything = {.needs_irradiance = true,
                                           .max_sheen_roughness = 1.0f,
                                           .needs_background = true};
 
-static void surroundings_are_those_of_the_cpu(void **state)
+static void environment_light_is_that_of_the_cpu(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(1024, 512, gentle);
@@ -482,8 +482,10 @@ static void lights_are_those_of_the_cpu(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(surroundings_are_those_of_the_cpu), cmocka_unit_test(a_sun_leaves_the_shadow_dark),
-        cmocka_unit_test(what_is_missing_is_as_on_the_cpu),  cmocka_unit_test(tables_are_those_of_the_cpu),
+        cmocka_unit_test(environment_light_is_that_of_the_cpu),
+        cmocka_unit_test(a_sun_leaves_the_shadow_dark),
+        cmocka_unit_test(what_is_missing_is_as_on_the_cpu),
+        cmocka_unit_test(tables_are_those_of_the_cpu),
         cmocka_unit_test(lights_are_those_of_the_cpu),
     };
     static const gl_api apis[2] = {GL_API_CORE, GL_API_ES};

@@ -109,8 +109,8 @@ static void fill_block(const facet_scene *scene, const scene_material *m, gl_mat
 typedef struct gl_material {
     gl_material_block block;
     bool is_known;
-    bool is_told;           /* that it has more textures than there are units */
-    bool is_occlusion_told; /* that its occlusion texture is left out */
+    bool is_reported;           /* that it has more textures than there are units */
+    bool is_occlusion_reported; /* that its occlusion texture is left out */
 } gl_material;
 
 struct gl_material_set {
@@ -122,8 +122,8 @@ struct gl_material_set {
     gl_material *items;    /* by material_id */
     texture_use *uses;     /* by texture */
     GLuint buffer;
-    size_t stride;             /* of blocks in the buffer, bytes */
-    uint64_t picture_features; /* of what is lit */
+    size_t stride;           /* of blocks in the buffer, bytes */
+    uint64_t image_features; /* of what is lit */
     uint64_t channel_feature;
 };
 
@@ -289,19 +289,19 @@ static void update_block(gl_material_set *set, const gl_batch *batch)
                     &block);
 }
 
-static void tell_lost(gl_material_set *set, const gl_batch *batch, const facet_log *log)
+static void warn_lost(gl_material_set *set, const gl_batch *batch, const facet_log *log)
 {
     gl_material *item = &set->items[batch->geometry->material_id];
     uint32_t lost;
     if ((batch->plan->textures & ~slots_of(set, batch)) >> SCENE_OCCLUSION_TEXTURE & 1 &&
-        !item->is_occlusion_told) {
-        item->is_occlusion_told = true;
+        !item->is_occlusion_reported) {
+        item->is_occlusion_reported = true;
         material_plan_warn_occlusion(set->scene, batch->geometry->material_id - 1, log);
     }
     texture_features(set, batch, &lost);
-    if (!lost || item->is_told)
+    if (!lost || item->is_reported)
         return;
-    item->is_told = true;
+    item->is_reported = true;
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
         if (lost >> slot & 1)
             log_warning(
@@ -332,11 +332,11 @@ void gl_material_show(gl_material_set *set, facet_channel channel)
 facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
                                 const facet_render_desc *desc, facet_error *error)
 {
-    set->picture_features = 0;
+    set->image_features = 0;
     if (desc->has_specular_antialiasing)
-        set->picture_features |= 1ull << GL_SURFACE_HAS_SPECULAR_ANTIALIASING;
+        set->image_features |= 1ull << GL_SURFACE_HAS_SPECULAR_ANTIALIASING;
     if (desc->gl.brdf == FACET_BRDF_SCHLICK_GGX)
-        set->picture_features |= gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
+        set->image_features |= gl_program_feature(GL_MAIN_SURFACE, "HAS_SCHLICK_GGX");
     gl_material_show(set, desc->gl.channel);
     memset(set->uses, 0, set->scene->texture_count * sizeof *set->uses);
     for_each_batch(set, meshes, add_uses);
@@ -347,7 +347,7 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
         uint32_t count;
         const gl_batch *batches = gl_mesh_batches(meshes, pass, &count);
         for (uint32_t i = 0; i < count; i++)
-            tell_lost(set, &batches[i], &desc->log);
+            warn_lost(set, &batches[i], &desc->log);
     }
     return gl_context_check(set->context, "materials", error);
 }
@@ -376,7 +376,7 @@ uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch)
     if (g->tangents)
         features |= GL_SURFACE_HAS_TANGENTS;
     if (g->is_lit)
-        features |= set->picture_features | 1ull << GL_SURFACE_IS_LIT;
+        features |= set->image_features | 1ull << GL_SURFACE_IS_LIT;
     if (m->extensions & SCENE_UNLIT)
         features |= 1ull << GL_SURFACE_IS_UNLIT;
     if (m->extensions & SCENE_SPECULAR_GLOSSINESS)

@@ -262,7 +262,7 @@ static void assert_as_preview(const fixture *f, double mean, double share)
     film preview = fixture_render((fixture *)(uintptr_t)f);
     for (int c = 0; c < contexts.count; c++) {
         film picture = gl_fixture_render(f, &contexts.items[c]);
-        picture_difference d = gl_fixture_compare(&picture, &preview, 0.1f);
+        image_difference d = gl_fixture_compare(&picture, &preview, 0.1f);
         if (d.mean > mean || d.share > share)
             fail_msg("context %d: mean %g, share %g", c, d.mean, d.share);
         film_destroy(&picture);
@@ -417,7 +417,7 @@ static void sprites_are_a_pixel_wide(void **state)
             for (int k = 0; k < 4; k++) /* what they cover, and the colors between their ends */
                 if (!(fabs(sums[1][k] / sums[0][k] - 1.0) < 0.02))
                     fail_msg("%d: channel %d: %g for %g", i, k, sums[1][k], sums[0][k]);
-            picture_difference d = gl_fixture_compare(&picture, &preview, 0.25f);
+            image_difference d = gl_fixture_compare(&picture, &preview, 0.25f);
             if (d.share > 0.02 || d.mean > 0.05)
                 fail_msg("%d: share %g, mean %g", i, d.share, d.mean);
             film_destroy(&picture);

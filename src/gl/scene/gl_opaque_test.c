@@ -267,7 +267,7 @@ static void a_furnace_stays_white(void **state)
 
 /* The picture of what is opaque is as wide as the picture: what lies beyond it is the environment, which is reached without
  * a step. A wide sphere whose rays leave the picture. */
-static void rays_leave_the_picture_smoothly(void **state)
+static void rays_leave_the_image_smoothly(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
@@ -302,7 +302,7 @@ int main(void)
         cmocka_unit_test(ior_1_stays_sharp),
         cmocka_unit_test(a_slab_shifts_by_snells_law),
         cmocka_unit_test(a_furnace_stays_white),
-        cmocka_unit_test(rays_leave_the_picture_smoothly),
+        cmocka_unit_test(rays_leave_the_image_smoothly),
     };
     if (gl_fixture_open(&contexts) == 0)
         return 77;

@@ -18,17 +18,17 @@ enum {
 };
 
 /* Of a picture. */
-typedef struct phong_picture {
+typedef struct phong_frame_block {
     float view[3][4]; /* rows: world to eye space */
     int32_t variant, is_encoded, are_colors_srgb, light_count;
     float global_ambient[3], has_rgl_colors;
     float fog_color[3], fog_mode;
     float fog_near, fog_far, fog_scale, fog_w;
     float lights[GL_PHONG_LIGHTS][4][4]; /* position, 1 a point light; ambient; diffuse; specular */
-} phong_picture;
+} phong_frame_block;
 
 /* Of a material. */
-typedef struct phong_block {
+typedef struct phong_material_block {
     float ambient[3], shininess;
     float diffuse[3], opacity;
     float specular[3], texture_type;
@@ -36,7 +36,7 @@ typedef struct phong_block {
     float has_texture_over_light, is_halo, has_fog, bump_multiplier;
     float maps[GL_PHONG_MAP_COUNT][3]
               [4]; /* rows of the transform, w: the set, 1 trilinear; base, gain, channel */
-} phong_block;
+} phong_material_block;
 
 static const legacy_map_slot phong_slots[GL_PHONG_MAP_COUNT] = {
     LEGACY_AMBIENT_MAP,   LEGACY_DIFFUSE_MAP, LEGACY_SPECULAR_MAP, LEGACY_EMISSION_MAP,
@@ -48,7 +48,7 @@ static void store3(vec3 v, float out[3])
         out[i] = v[i];
 }
 
-static void fill_picture(const ogl1_setup *s, facet_ogl1_variant variant, phong_picture *b)
+static void fill_frame(const ogl1_setup *s, facet_ogl1_variant variant, phong_frame_block *b)
 {
     memset(b, 0, sizeof *b);
     for (int axis = 0; axis < 3; axis++) {
@@ -104,7 +104,7 @@ static void fill_map(const facet_scene *scene, const legacy_map *map, float out[
     out[2][2] = channel_of(map->channel);
 }
 
-static void fill_material(const facet_scene *scene, const ogl1_material *m, phong_block *b)
+static void fill_material(const facet_scene *scene, const ogl1_material *m, phong_material_block *b)
 {
     const legacy_material *l = m->legacy;
     memset(b, 0, sizeof *b);
@@ -132,7 +132,7 @@ struct gl_phong {
     facet_allocator allocator;
     gl_texture_set *textures;
     texture_use *uses; /* by texture */
-    GLuint picture_buffer, material_buffer, white;
+    GLuint frame_buffer, material_buffer, white;
     size_t stride; /* of the materials' blocks */
     facet_ogl1_desc desc;
     gl_target copy; /* of what is developed */
@@ -166,8 +166,8 @@ facet_result gl_phong_create(gl_context *context, const facet_scene *scene, cons
     GLint alignment = 256;
     glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
     size_t step = alignment > 0 ? (size_t)alignment : 256;
-    p->stride = (sizeof(phong_block) + step - 1) / step * step;
-    glGenBuffers(1, &p->picture_buffer);
+    p->stride = (sizeof(phong_material_block) + step - 1) / step * step;
+    glGenBuffers(1, &p->frame_buffer);
     glGenBuffers(1, &p->material_buffer);
     p->white = make_white();
     if (result != FACET_OK) {
@@ -181,7 +181,7 @@ void gl_phong_destroy(gl_phong *p)
 {
     if (!p)
         return;
-    glDeleteBuffers(1, &p->picture_buffer);
+    glDeleteBuffers(1, &p->frame_buffer);
     glDeleteBuffers(1, &p->material_buffer);
     glDeleteTextures(1, &p->white);
     gl_target_destroy(&p->copy);
@@ -229,13 +229,13 @@ static facet_result update_textures(gl_phong *p, const gl_phong_view *view, face
 }
 
 /* The picture's block is too large for the stack of a thread that somebody else made. */
-static facet_result upload_picture(gl_phong *p, const ogl1_setup *setup, facet_error *error)
+static facet_result upload_frame(gl_phong *p, const ogl1_setup *setup, facet_error *error)
 {
-    phong_picture *block = mem_alloc(&p->allocator, 1, sizeof *block);
+    phong_frame_block *block = mem_alloc(&p->allocator, 1, sizeof *block);
     if (!block)
         return fail_memory(error, "lights", sizeof *block);
-    fill_picture(setup, p->desc.variant, block);
-    glBindBuffer(GL_UNIFORM_BUFFER, p->picture_buffer);
+    fill_frame(setup, p->desc.variant, block);
+    glBindBuffer(GL_UNIFORM_BUFFER, p->frame_buffer);
     glBufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_DYNAMIC_DRAW);
     mem_free(block);
     return FACET_OK;
@@ -248,7 +248,7 @@ static facet_result upload_materials(gl_phong *p, const ogl1_setup *setup, facet
     if (!blocks)
         return fail_memory(error, "materials", count * p->stride);
     for (size_t i = 0; i < count; i++) {
-        phong_block block;
+        phong_material_block block;
         fill_material(p->scene, &setup->materials[i], &block);
         memcpy(blocks + i * p->stride, &block, sizeof block);
     }
@@ -274,7 +274,7 @@ facet_result gl_phong_update(gl_phong *p, const gl_phong_view *view, facet_error
     if (result == FACET_OK)
         result = update_textures(p, view, error);
     if (result == FACET_OK)
-        result = upload_picture(p, &setup, error);
+        result = upload_frame(p, &setup, error);
     if (result == FACET_OK)
         result = upload_materials(p, &setup, error);
     ogl1_setup_destroy(&setup);
@@ -320,9 +320,9 @@ void gl_phong_bind(const gl_phong *p, const gl_batch *batch)
         glBindTexture(GL_TEXTURE_2D, name ? name : p->white);
         glBindSampler(unit, gl_texture_sampler(p->textures, texture));
     }
-    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_OGL1, p->picture_buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_OGL1, p->frame_buffer);
     glBindBufferRange(GL_UNIFORM_BUFFER, GL_BLOCK_MATERIAL, p->material_buffer,
-                      (GLintptr)(g->material_id * p->stride), sizeof(phong_block));
+                      (GLintptr)(g->material_id * p->stride), sizeof(phong_material_block));
     if (g->is_double_sided)
         glDisable(GL_CULL_FACE);
     else

@@ -30,7 +30,7 @@ static void assert_same(fixture *f, float most, double share, const char *what)
         film picture = gl_fixture_render(f, &contexts.items[c]);
         /* OpenGL ES has half floats where a pixel has several samples: 2^-11 of each number. */
         float near = contexts.items[c].is_es ? fmaxf(most, 1e-3f) : most;
-        picture_difference d = gl_fixture_compare(&reference, &picture, near);
+        image_difference d = gl_fixture_compare(&reference, &picture, near);
         if (d.share > share)
             fail_msg("%s, context %d: %g of the pixels differ by more than %g, mean %g", what, c, d.share,
                      (double)near, d.mean);
@@ -287,7 +287,7 @@ static void layers_are_blended_as_numbers(void **state)
 }
 
 /* Lamps of glTF where there are no legacy lights; vertex colors; points and lines. */
-static void lamps_colors_and_sprites(void **state)
+static void lights_colors_and_sprites(void **state)
 {
     (void)state;
     static const float positions[12] = {-0.8f, -0.5f, 0.2f, 0.7f, 0.6f,  0.2f,
@@ -388,7 +388,7 @@ int main(void)
         cmocka_unit_test(maps_of_the_terms),
         cmocka_unit_test(spheres_of_every_variant),
         cmocka_unit_test(layers_are_blended_as_numbers),
-        cmocka_unit_test(lamps_colors_and_sprites),
+        cmocka_unit_test(lights_colors_and_sprites),
         cmocka_unit_test(what_cannot_be_drawn),
         cmocka_unit_test(models_take_turns),
     };

@@ -21,7 +21,7 @@ struct gl_renderer {
     gl_frame frame;
     gl_target target;
     gl_times times;
-    bool has_told_driver;
+    bool has_reported_driver;
 };
 
 /* ---- what is kept ---- */
@@ -40,7 +40,7 @@ static void stop(gl_renderer *r)
         gl_target_destroy(&r->target);
     }
     gl_context_destroy(&spare);
-    r->has_told_driver = false;
+    r->has_reported_driver = false;
     if (is_own)
         gl_context_destroy(&r->own);
 }
@@ -139,14 +139,14 @@ static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camer
 }
 
 /* Once for a context. */
-static void tell_driver(gl_renderer *r, const facet_log *log)
+static void report_driver(gl_renderer *r, const facet_log *log)
 {
     char line[sizeof r->context->name + 16];
-    if (r->has_told_driver || !log->message)
+    if (r->has_reported_driver || !log->message)
         return;
     snprintf(line, sizeof line, "OpenGL: %s", r->context->name);
     log->message(log->user, FACET_LOG_LEVEL_DETAIL, line);
-    r->has_told_driver = true;
+    r->has_reported_driver = true;
 }
 
 static facet_result attempt(gl_renderer *r, const facet_render_desc *desc, double deadline_s, film *target,
@@ -156,7 +156,7 @@ static facet_result attempt(gl_renderer *r, const facet_render_desc *desc, doubl
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     facet_result result = start(r, error);
     if (result == FACET_OK)
-        tell_driver(r, &desc->log);
+        report_driver(r, &desc->log);
     if (result == FACET_OK)
         result = prepare(r, desc, &camera, deadline_s, stats, error);
     double begin = clock_seconds();

@@ -261,7 +261,7 @@ static bool stop_at_once(void *user, const char *stage, double fraction)
     return --*(int *)user > 0;
 }
 
-static void a_picture_may_be_cancelled(void **state)
+static void an_image_may_be_cancelled(void **state)
 {
     (void)state;
     fixture f = gl_fixture_scene();
@@ -293,7 +293,7 @@ static void count_warning(void *user, facet_log_level level, const char *said)
     *(int *)user += strncmp(said, "the picture is black", 20) == 0;
 }
 
-static void the_dark_is_told(void **state)
+static void darkness_is_reported(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -319,8 +319,8 @@ int main(void)
                                        cmocka_unit_test(any_thread_may_draw),
                                        cmocka_unit_test(a_lost_context_is_followed_by_a_new_one),
                                        cmocka_unit_test(the_callers_context_comes_back),
-                                       cmocka_unit_test(a_picture_may_be_cancelled),
-                                       cmocka_unit_test(the_dark_is_told)};
+                                       cmocka_unit_test(an_image_may_be_cancelled),
+                                       cmocka_unit_test(darkness_is_reported)};
     if (!gl_fixture_open(&contexts))
         return 77;
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,7 +31,7 @@ static void check_preview(fixture *f, gl_context *context)
     for (int i = 0; i < 2; i++) {
         f->desc.samples = samples[i];
         film ours = gl_fixture_render(f, context), theirs = fixture_render(f);
-        picture_difference d = gl_fixture_compare(&ours, &theirs, 0.02f);
+        image_difference d = gl_fixture_compare(&ours, &theirs, 0.02f);
         if (d.mean > 0.002 || d.share > 0.02)
             fail_msg("%u samples: mean difference %g, %g of the pixels by more than 0.02", samples[i], d.mean,
                      d.share);
@@ -45,7 +45,7 @@ static void check_preview(fixture *f, gl_context *context)
     }
 }
 
-static void pictures_are_the_previews(void **state)
+static void images_are_the_previews(void **state)
 {
     (void)state;
     on_each(check_preview);
@@ -103,7 +103,7 @@ static void check_crop(fixture *f, gl_context *context)
     film_destroy(&part);
 }
 
-static void a_crop_is_a_part_of_the_picture(void **state)
+static void a_crop_is_a_part_of_the_image(void **state)
 {
     (void)state;
     on_each(check_crop);
@@ -119,14 +119,14 @@ static void check_tiles(fixture *f, gl_context *context)
         gl_context small = *context;
         small.max_texture_size = 40;
         film tiled = gl_fixture_render(f, &small);
-        picture_difference d = gl_fixture_compare(&whole, &tiled, 2e-3f);
+        image_difference d = gl_fixture_compare(&whole, &tiled, 2e-3f);
         assert_true(d.share < 0.01);
         film_destroy(&whole);
         film_destroy(&tiled);
     }
 }
 
-static void tiles_make_the_same_picture(void **state)
+static void tiles_make_the_same_image(void **state)
 {
     (void)state;
     on_each(check_tiles);
@@ -195,7 +195,7 @@ static void check_poor_driver(fixture *f, gl_context *context)
     film bottom_up = gl_fixture_render(f, &poor);
     poor.has_float_target = false;
     film half = gl_fixture_render(f, &poor);
-    picture_difference d = gl_fixture_compare(&rich, &bottom_up, 0.02f);
+    image_difference d = gl_fixture_compare(&rich, &bottom_up, 0.02f);
     assert_true(d.mean < 0.01 && d.share < 0.1); /* edges: other samples */
     d = gl_fixture_compare(&bottom_up, &half, 1e-2f);
     assert_true(d.mean < 1e-3 && d.share < 1e-3);
@@ -291,7 +291,7 @@ static void check_window(fixture *f, gl_context *context)
     film_destroy(&picture);
 }
 
-static void a_window_shows_the_picture(void **state)
+static void a_window_shows_the_image(void **state)
 {
     (void)state;
     on_each(check_window);
@@ -326,15 +326,15 @@ static void passes_are_timed(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_are_the_previews),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(images_are_the_previews),
                                        cmocka_unit_test(layers_are_the_previews),
-                                       cmocka_unit_test(a_crop_is_a_part_of_the_picture),
-                                       cmocka_unit_test(tiles_make_the_same_picture),
+                                       cmocka_unit_test(a_crop_is_a_part_of_the_image),
+                                       cmocka_unit_test(tiles_make_the_same_image),
                                        cmocka_unit_test(samples_are_as_many_as_asked_for),
                                        cmocka_unit_test(more_samples_are_closer),
                                        cmocka_unit_test(drivers_that_have_less_draw_the_same),
                                        cmocka_unit_test(nothing_flickers_far_away),
-                                       cmocka_unit_test(a_window_shows_the_picture),
+                                       cmocka_unit_test(a_window_shows_the_image),
                                        cmocka_unit_test(passes_are_timed)};
     if (!gl_fixture_open(&contexts))
         return 77;

@@ -106,8 +106,8 @@ struct gl_shadow {
     uint32_t edge; /* of the texture, texels */
     uint32_t tile, tiles_per_row, tile_count;
     gl_shadow_record *records;
-    uint32_t record_count, untold; /* lights without shadows that nobody was told of */
-    uint32_t *of_light;            /* per light: number of its record + 1 */
+    uint32_t record_count, lost; /* lights without shadows that nobody was told of */
+    uint32_t *of_light;          /* per light: number of its record + 1 */
     uint32_t light_count;
     uint64_t drawn_revision; /* of the scene whose shadows are in the texture; 0: none */
     shadow_bounds bounds;
@@ -188,16 +188,16 @@ static uint32_t lay_out(gl_shadow *s, const candidate *candidates, uint32_t coun
     return taken;
 }
 
-static void tell_lost(gl_shadow *s, const facet_log *log, uint32_t lost, uint32_t all)
+static void warn_lost(gl_shadow *s, const facet_log *log, uint32_t lost, uint32_t all)
 {
-    if (lost && lost != s->untold && log->message) {
+    if (lost && lost != s->lost && log->message) {
         char message[160];
         snprintf(message, sizeof message,
                  "shadows: %u of %u lights cast none; the map has room for the %u brightest", lost, all,
                  all - lost);
         log->message(log->user, FACET_LOG_LEVEL_WARNING, message);
     }
-    s->untold = lost;
+    s->lost = lost;
 }
 
 /* Takes over what was decided; where it is what it was, what was drawn stays. */
@@ -241,7 +241,7 @@ facet_result gl_shadow_plan(gl_shadow *s, const facet_render_desc *desc, const l
     if (result == FACET_OK) {
         uint32_t count = find_candidates(setup, &s->bounds, candidates);
         uint32_t taken = lay_out(s, candidates, count);
-        tell_lost(s, &desc->log, count - taken, count);
+        warn_lost(s, &desc->log, count - taken, count);
         result = take_records(s, setup, candidates, taken, error);
     }
     mem_free(candidates);

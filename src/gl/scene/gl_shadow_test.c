@@ -116,7 +116,7 @@ static float edge_along(bool is_row, float across_m, float dark_m, float light_m
 
 /* A point 3 m before the wall and 2 m before the square makes its shadow 1.5 times as large. Texels are 2 * 3 m / 1357 and 2 *
  * 3 m tan(0.5) / 2040 wide; pixels in which light is known 7.8 mm, of which the sum over an edge knows a tenth. */
-static void edges_of_lamps_are_where_they_are_to_be(void **state)
+static void edges_of_lights_are_where_they_should_be(void **state)
 {
     (void)state;
     for (int i = 0; i < contexts.count; i++)
@@ -259,7 +259,7 @@ static void note(void *user, facet_log_level level, const char *message)
 }
 
 /* 50 points need 300 tiles; the map has 256. The brightest lamp is the last one. */
-static void too_many_lights_are_told_once(void **state)
+static void too_many_lights_are_reported_once(void **state)
 {
     (void)state;
     fixture f = wall_fixture(true);
@@ -364,13 +364,13 @@ static void the_ground_loses_what_a_plate_hides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edges_of_lamps_are_where_they_are_to_be),
+        cmocka_unit_test(edges_of_lights_are_where_they_should_be),
         cmocka_unit_test(edges_of_the_sun_are_where_they_are_to_be),
         cmocka_unit_test(nothing_shades_itself),
         cmocka_unit_test(a_ball_is_lit_to_its_terminator),
         cmocka_unit_test(shadows_begin_at_the_foot),
         cmocka_unit_test(masked_texels_cast_blended_surfaces_do_not),
-        cmocka_unit_test(too_many_lights_are_told_once),
+        cmocka_unit_test(too_many_lights_are_reported_once),
         cmocka_unit_test(without_shadows_nothing_is_left_of_them),
         cmocka_unit_test(the_ground_loses_what_a_plate_hides),
     };

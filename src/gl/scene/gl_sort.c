@@ -10,8 +10,8 @@
 #include "base/result.h"
 
 enum {
-    MOST_RUNS = 4096, /* of what is ordered together; a call takes 1 to 3 us */
-    LEAST_SLICES = 64,
+    MAX_RUNS = 4096, /* of what is ordered together; a call takes 1 to 3 us */
+    MIN_SLICES = 64,
     GRAIN = 1 << 14
 };
 
@@ -131,10 +131,10 @@ static extent extent_of(const gl_sort_unit *unit, const gl_frame_block *frame)
             int row = k == 2 ? 3 : k;
             clip[k] = m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row];
         }
-        bool is_before = clip[2] > 0.0f;
+        bool is_in_front = clip[2] > 0.0f;
         for (int k = 0; k < 2; k++) {
-            e.low[k] = fminf(e.low[k], is_before ? clip[k] / clip[2] : -INFINITY);
-            e.high[k] = fmaxf(e.high[k], is_before ? clip[k] / clip[2] : INFINITY);
+            e.low[k] = fminf(e.low[k], is_in_front ? clip[k] / clip[2] : -INFINITY);
+            e.high[k] = fmaxf(e.high[k], is_in_front ? clip[k] / clip[2] : INFINITY);
         }
         e.low[2] = fminf(e.low[2], depth);
         e.high[2] = fmaxf(e.high[2], depth);
@@ -298,8 +298,8 @@ static float depth_at(const gl_sort *s, const gl_frame_block *f, uint32_t item)
 static void take_turns(gl_sort *s, const gl_frame_block *frame, uint32_t *items, uint32_t *keys,
                        uint32_t count, uint32_t unit_count)
 {
-    uint32_t slices = MOST_RUNS / unit_count;
-    slices = slices < LEAST_SLICES ? LEAST_SLICES : slices;
+    uint32_t slices = MAX_RUNS / unit_count;
+    slices = slices < MIN_SLICES ? MIN_SLICES : slices;
     float far = depth_at(s, frame, items[0]), near = depth_at(s, frame, items[count - 1]);
     float scale = far > near ? (float)slices / (far - near) : 0.0f;
     uint32_t *other = s->scratch + 2 * (size_t)s->count, *other_keys = s->scratch + 3 * (size_t)s->count;
@@ -353,7 +353,7 @@ static bool put_in_order(gl_sort *s, const gl_frame_block *frame, uint32_t threa
         uint32_t cluster = cluster_of[s->unit_of[items[i]]], units = 0;
         while (end < s->count && cluster_of[s->unit_of[items[end]]] == cluster)
             end++;
-        if (count_runs(s, items + i, end - i) <= MOST_RUNS)
+        if (count_runs(s, items + i, end - i) <= MAX_RUNS)
             continue;
         for (uint32_t k = 0; k < s->unit_count; k++)
             units += cluster_of[k] == cluster;

@@ -99,7 +99,7 @@ static void weighted_needs_no_order(void **state)
             if (p == 0) {
                 first = picture;
             } else {
-                picture_difference d = gl_fixture_compare(&first, &picture, 2e-3f);
+                image_difference d = gl_fixture_compare(&first, &picture, 2e-3f);
                 assert_true(d.share <= 0.0);
                 film_destroy(&picture);
             }
@@ -197,8 +197,8 @@ static void crossed_surfaces_are_peeled(void **state)
         film peeled = gl_fixture_render(&f, &contexts.items[c]);
         f.desc.gl.transparency = FACET_TRANSPARENCY_SORTED;
         film sorted = gl_fixture_render(&f, &contexts.items[c]);
-        picture_difference d = gl_fixture_compare(&peeled, &preview, 4.0f / 255.0f);
-        picture_difference sorted_d = gl_fixture_compare(&sorted, &preview, 4.0f / 255.0f);
+        image_difference d = gl_fixture_compare(&peeled, &preview, 4.0f / 255.0f);
+        image_difference sorted_d = gl_fixture_compare(&sorted, &preview, 4.0f / 255.0f);
         assert_true(d.share < 0.05);        /* borders, by other samples */
         assert_true(sorted_d.share > 0.25); /* half of it is the other way round: the test can fail */
         film_destroy(&peeled);
@@ -242,7 +242,7 @@ static void spheres_are_the_previews(void **state)
         for (int mode = 0; mode < 2; mode++) {
             f.desc.gl.transparency = modes[mode];
             film picture = gl_fixture_render(&f, &contexts.items[c]);
-            picture_difference d = gl_fixture_compare(&picture, &preview, 4.0f / 255.0f);
+            image_difference d = gl_fixture_compare(&picture, &preview, 4.0f / 255.0f);
             assert_true(d.mean < 1.0 / 255.0);
             assert_true(d.share < 0.06);
             film_destroy(&picture);

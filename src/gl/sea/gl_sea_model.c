@@ -8,7 +8,7 @@
 #include "base/result.h"
 #include "gl/sea/gl_sea_textures.h"
 
-static const uint32_t MOST_PIXELS = 2048; /* of a cut along an edge */
+static const uint32_t MAX_PIXELS = 2048; /* of a cut along an edge */
 
 /* ---- cuts: gl_sea_block.h ---- */
 
@@ -98,7 +98,7 @@ static void lay_near_plane(gl_frame_block *block, float scale, float below_m, bo
 static gl_view view_of(const facet_render_desc *r)
 {
     double edge = r->width > r->height ? r->width : r->height;
-    double share = fmin(1.0, (double)MOST_PIXELS / edge);
+    double share = fmin(1.0, (double)MAX_PIXELS / edge);
     return (gl_view){.scale = 1,
                      .width = (uint32_t)fmax((double)r->width * share, 1.0),
                      .height = (uint32_t)fmax((double)r->height * share, 1.0)};
@@ -142,7 +142,7 @@ static facet_result draw_cuts(gl_sea_model *m, const sea_picture *p, gl_sea_bloc
         return result;
     facet_camera camera = window_camera(p, eye.origin, p->sea->optics.ior);
     float edge = 2.0f * tanf(0.5f * camera.fov_y_rad) / eye.pixel_size; /* pixels as large as the picture's */
-    v.width = v.height = (uint32_t)fminf(fmaxf(edge, 1.0f), (float)MOST_PIXELS);
+    v.width = v.height = (uint32_t)fminf(fmaxf(edge, 1.0f), (float)MAX_PIXELS);
     result = camera_rays_create(&camera, v.width, v.height, &window, error);
     return result == FACET_OK ? draw_cut(m, p, &window, &v, eye.origin, GL_SEA_WINDOW, b, error) : result;
 }

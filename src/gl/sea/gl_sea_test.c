@@ -356,7 +356,7 @@ static void frames_are_stills(void **state)
     sea_destroy(again);
 }
 
-static void what_cannot_be_drawn_is_said(void **state)
+static void unsupported_cameras_are_reported(void **state)
 {
     (void)state;
     gl_sea *renderer = renderer_of(GL_API_CORE);
@@ -395,6 +395,6 @@ int main(void)
                                        cmocka_unit_test(a_hull_in_waves),
                                        cmocka_unit_test(a_model_from_below_in_opengl_es),
                                        cmocka_unit_test(frames_are_stills),
-                                       cmocka_unit_test(what_cannot_be_drawn_is_said)};
+                                       cmocka_unit_test(unsupported_cameras_are_reported)};
     return cmocka_run_group_tests(tests, NULL, destroy_renderers);
 }

@@ -87,9 +87,9 @@ vec3 light_narrow(float lod, vec3 d)
     vec3 c = vec3(0.0);
     if (lobe > 0.0)
         c = cube_fetch(light_places[1], cube_locate(d)) * lobe;
-    for (int k = 0; k < LIGHT_PICTURES; k++)
+    for (int k = 0; k < LIGHT_IMAGES; k++)
         if (weights[k] > 0.0)
-            c += equirect_fetch(light_pictures[k], at) * weights[k];
+            c += equirect_fetch(light_images[k], at) * weights[k];
     return c;
 }
 

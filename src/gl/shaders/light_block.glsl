@@ -1,6 +1,6 @@
 /* light_block.glsl - where a picture's light lies in textures, as gl_light_block.h has it. */
 #define LIGHT_LEVELS 16
-#define LIGHT_PICTURES 4
+#define LIGHT_IMAGES 4
 #define LIGHT_STEPS 17
 #define LIGHT_ROW 1024
 
@@ -11,7 +11,7 @@ layout(std140) uniform Lighting
     vec4 light_places[2 * LIGHT_LEVELS]; /* of the levels of GGX, then of Charlie: column, row, edge, scale */
     vec4 light_irradiance;               /* the same */
     vec4 light_steps[LIGHT_LEVELS];      /* roughness of GGX, 1 over what is missing to the next one; Charlie's */
-    vec4 light_pictures[LIGHT_PICTURES]; /* mirror, blurred ones: column, row, width, height */
+    vec4 light_images[LIGHT_IMAGES]; /* mirror, blurred ones: column, row, width, height */
     vec4 light_narrow_weights[LIGHT_STEPS];         /* of the pictures, with their scales */
     vec4 light_narrow_lobe[(LIGHT_STEPS + 3) / 4];  /* of level 1 of GGX, four steps each */
     vec4 light_grid_origin;                         /* m, world */

@@ -96,7 +96,7 @@ PhongLight ogl1_light(int i)
 
 #ifdef HAS_LIGHTS
 /* A lamp of glTF as a light that shines on the point only: legacy light 1 is the irradiance pi. */
-PhongLight ogl1_lamp(Light light, vec3 P)
+PhongLight ogl1_punctual(Light light, vec3 P)
 {
     LightSample l = light_illuminate(light, P);
     vec3 color = ogl1_from_linear(l.E * INV_PI);
@@ -117,7 +117,7 @@ PhongLit light_at_point(PhongMaterial m, vec3 at, vec3 N, bool is_front)
 #ifdef HAS_LIGHTS
     int count = ogl1_modes.w > 0 ? 0 : light_count(at);
     for (int i = 0; i < count; i++)
-        lit = phong_add(lit, phong_light_part(r, m, ogl1_lamp(light_at(i), at), P, lit_N, V));
+        lit = phong_add(lit, phong_light_part(r, m, ogl1_punctual(light_at(i), at), P, lit_N, V));
 #endif
     return lit;
 }

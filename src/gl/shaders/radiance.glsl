@@ -57,7 +57,7 @@ LayerTables tables_of(Layers m, vec3 V)
 }
 
 #ifdef HAS_ENVIRONMENT
-LayerLight surroundings_of(Layers m, vec3 V)
+LayerLight environment_light_of(Layers m, vec3 V)
 {
     LayerLight light;
     light.specular = light_specular(layers_reflection(m, V), m.base.perceptual_roughness);
@@ -87,7 +87,7 @@ LayerLight layer_light(Layers m, vec3 V)
 {
     LayerLight light;
 #ifdef HAS_ENVIRONMENT
-    light = surroundings_of(m, V);
+    light = environment_light_of(m, V);
 #else
     light.specular = vec3(0.0);
     light.irradiance_over_pi = vec3(0.0);

@@ -4,10 +4,10 @@ uniform highp sampler2D u_sea_seen; /* where the water rests that is seen, from 
 
 layout(location = 0) out highp vec4 fragment;
 
-#ifdef IS_BEFORE
+#ifdef IS_LEGACY
 vec4 sea_pixel(vec3 d, vec4 seen, ivec2 pixel)
 {
-    return sea_shown(sea_before(sea_place(d, seen)));
+    return sea_shown(sea_legacy(sea_place(d, seen)));
 }
 vec4 sea_beside(vec3 d, ivec2 pixel)
 {
@@ -45,7 +45,7 @@ vec4 sea_beside(vec3 d, ivec2 pixel)
 }
 vec4 sea_pixel(vec3 d, vec4 seen, ivec2 pixel)
 {
-    if (seen.z < sea_way_to_bed(vec3(0.0, sea_eye.x, 0.0), d))
+    if (seen.z < sea_distance_to_bed(vec3(0.0, sea_eye.x, 0.0), d))
         return sea_exposed(sea_model_over(sea_shade_below(sea_place(d, seen)), d, seen.z, pixel));
     return sea_beside(d, pixel);
 }

@@ -1,5 +1,5 @@
 /* sea_block.glsl - a picture's sea, as gl_sea_block.h has it. Places are relative to the eye's: X, Z of the world less its. */
-#ifdef HAS_PICTURE
+#ifdef HAS_IMAGE
 #define HAS_ENVIRONMENT /* environment.glsl: an environment in place of the atmosphere */
 #endif
 
@@ -58,7 +58,7 @@ layout(std140) uniform Sea
 
 Water sea_water()
 {
-#ifdef HAS_OTHER_FACETS
+#ifdef HAS_OTHER_MICROFACETS
     ivec3 facets = ivec3(sea_backscattering.w, sea_reflectance.w, sea_pure_share.w);
 #else
     const ivec3 facets = ivec3(WATER_BECKMANN, WATER_SCALES, 0); /* known to the compiler, what others take is left out */

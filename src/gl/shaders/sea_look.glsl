@@ -85,7 +85,7 @@ vec3 sea_shade(SeaPlace p)
 #ifdef HAS_MODEL
     vec3 P = p.d * p.t;
     uvec2 at = uvec2(gl_FragCoord.xy);
-    vec4 mirrored = sea_model_in_facets(P, p.V, p.point, w, hash_uint(at.y * 65536u + at.x));
+    vec4 mirrored = sea_model_reflected(P, p.V, p.point, w, hash_uint(at.y * 65536u + at.x));
     if (mirrored.w > 0.0) {
         float share = min(mirrored.w / m.fresnel, 1.0);
         sky = sky * (1.0 - share) + mirrored.xyz * (share / mirrored.w);
@@ -108,7 +108,7 @@ vec3 sea_mirrored_below(SeaPlace p, vec3 m)
 }
 
 /* What the facets show to it: facets_light of water_below.c. */
-struct SeaFacets
+struct SeaMicrofacets
 {
     vec3 window;
     float fresnel;
@@ -116,14 +116,14 @@ struct SeaFacets
 };
 
 /* upwards: radiance of what goes up below the surface. */
-SeaFacets sea_facets_below(SeaPlace p, Water w, vec3 upwards)
+SeaMicrofacets sea_microfacets_below(SeaPlace p, Water w, vec3 upwards)
 {
     vec3 C = p.point.covariance;
     vec3 N = p.point.N;
     FacetRange all = facets_seen(C, N, p.d);
     bool is_sharp = all.along < WINDOW_SHARP;
     float roughness = window_roughness(all, C);
-    SeaFacets L = SeaFacets(vec3(0.0), 0.0, vec3(0.0));
+    SeaMicrofacets L = SeaMicrofacets(vec3(0.0), 0.0, vec3(0.0));
     vec3 mirrors = vec3(0.0);
     float share = 0.0;
     int k = 0;
@@ -157,7 +157,7 @@ vec3 sea_shade_below(SeaPlace p)
     vec3 R = water_deep_reflectance(w);
 #endif
     vec3 upwelling = R * water_interreflected(w, light.downwelling, R);
-    SeaFacets facets = sea_facets_below(p, w, upwelling * INV_PI);
+    SeaMicrofacets facets = sea_microfacets_below(p, w, upwelling * INV_PI);
     vec3 L = facets.window + facets.mirrored * facets.fresnel;
     vec3 sharp = water_sun_below(w, p.point, light, p.d) * water_passing(p.resolved, p.point.N, light.L);
 #if defined(HAS_MODEL) && defined(IS_BELOW)
@@ -173,7 +173,7 @@ vec3 sea_shade_below(SeaPlace p)
 }
 
 /* The looks before, in numbers of a display. */
-vec3 sea_before(SeaPlace p)
+vec3 sea_legacy(SeaPlace p)
 {
     vec2 slope = slope_from_normal(p.point.N);
     float sparkle = 0.0;

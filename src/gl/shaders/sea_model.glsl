@@ -17,9 +17,9 @@ struct SeaModel
 };
 
 const int SEA_MODEL_STEPS = 32;
-const int SEA_FACETS = 16;
-const int SEA_FACET_STEPS = 8;
-const float SEA_LEAST_FACETS = 1e-3; /* as in water_find.c, these two */
+const int SEA_SAMPLES = 16;
+const int SEA_SAMPLE_STEPS = 8;
+const float SEA_MIN_SHARE = 1e-3; /* as in water_find.c, these two */
 const float SEA_SMOOTH = 1e-3;
 
 /* d: at depth 1 m. What is but blended has no depth, and counts as nearest. */
@@ -163,25 +163,25 @@ vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
 
 /* Of all light that is reflected, whatever it brings, the share of facets that show the model: .w; and its radiance. water_find() of
  * water_find.c. */
-vec4 sea_model_in_facets(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
+vec4 sea_model_reflected(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
 {
     float way;
     vec3 from = sea_model_ball.xyz - P;
     FacetRange r = facets_that_mirror(point.covariance, point.N, V, from - sea_model_half.xyz, from + sea_model_half.xyz);
-    if (facets_share(r) < SEA_LEAST_FACETS)
+    if (facets_share(r) < SEA_MIN_SHARE)
         return vec4(0.0);
     if (max(r.along, r.across) < SEA_SMOOTH)
         return sea_model_in_cut(SEA_MIRRORED, P, reflect(-V, point.N), SEA_MODEL_STEPS, way) * water_fresnel(w, clamp(dot(point.N, V), 0.0, 1.0));
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < SEA_FACETS; i++) {
+    for (int i = 0; i < SEA_SAMPLES; i++) {
         Facet f = facet_drawn(r, point.N, sobol_scrambled(uint(i), seed));
         vec3 R = reflect(-V, f.m);
         R.y = max(abs(R.y), 1e-4);
         float weight = f.weight * water_fresnel(w, clamp(dot(f.m, V), 0.0, 1.0));
         if (weight > 0.0)
-            sum += sea_model_in_cut(SEA_MIRRORED, P, R, SEA_FACET_STEPS, way) * weight;
+            sum += sea_model_in_cut(SEA_MIRRORED, P, R, SEA_SAMPLE_STEPS, way) * weight;
     }
-    return sum / float(SEA_FACETS);
+    return sum / float(SEA_SAMPLES);
 }
 
 #ifdef IS_BELOW
@@ -243,24 +243,24 @@ SeaFound sea_find_below(SeaPlace p, uint seed)
     float roughness = window_roughness(facets_seen(C, p.point.N, p.d), C);
     FacetRange mirror = facets_that_mirror(C, N, p.d, -vec3(high.x, min(high.y, 0.0), high.z), -low);
     FacetRange window = facets_that_bend(C, N, p.d, vec3(low.x, max(low.y, 0.0), low.z), high, sea_water().ior);
-    bool is_mirrored = low.y < 0.0 && facets_share(mirror) >= SEA_LEAST_FACETS;
-    bool is_through = high.y > 0.0 && facets_share(window) >= SEA_LEAST_FACETS;
+    bool is_mirrored = low.y < 0.0 && facets_share(mirror) >= SEA_MIN_SHARE;
+    bool is_through = high.y > 0.0 && facets_share(window) >= SEA_MIN_SHARE;
     bool is_smooth = max(mirror.along, mirror.across) < SEA_SMOOTH;
     Facet smoothed = Facet(water_seen_normal(C, p.point.N, p.d), 1.0);
     if (is_smooth && is_mirrored)
         found = sea_look_down(found, p, smoothed, SEA_MODEL_STEPS);
     if (is_smooth && is_through)
         found = sea_look_through(found, p, smoothed, roughness, SEA_MODEL_STEPS);
-    for (int i = 0; i < SEA_FACETS && !is_smooth && (is_mirrored || is_through); i++) {
+    for (int i = 0; i < SEA_SAMPLES && !is_smooth && (is_mirrored || is_through); i++) {
         vec2 u = sobol_scrambled(uint(i), seed);
         Facet f = facet_drawn(mirror, N, u);
-        f.weight /= float(SEA_FACETS);
+        f.weight /= float(SEA_SAMPLES);
         if (is_mirrored)
-            found = sea_look_down(found, p, f, SEA_FACET_STEPS);
+            found = sea_look_down(found, p, f, SEA_SAMPLE_STEPS);
         f = facet_drawn(window, N, u);
-        f.weight /= float(SEA_FACETS);
+        f.weight /= float(SEA_SAMPLES);
         if (is_through)
-            found = sea_look_through(found, p, f, roughness, SEA_FACET_STEPS);
+            found = sea_look_through(found, p, f, roughness, SEA_SAMPLE_STEPS);
     }
     return found;
 }

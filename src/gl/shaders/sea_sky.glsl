@@ -7,7 +7,7 @@
 #define SEA_LOBE_LAYERS 17
 
 uniform highp sampler2DArray u_sea_sky;
-#ifndef HAS_PICTURE
+#ifndef HAS_IMAGE
 uniform highp sampler3D u_sea_lobes; /* layers: perceptual roughness */
 #endif
 
@@ -34,7 +34,7 @@ vec3 sea_disc(vec3 d)
 
 vec3 sea_sky_seen(vec3 d)
 {
-#ifdef HAS_PICTURE
+#ifdef HAS_IMAGE
     vec3 sky = light_background(normalize(vec3(d.x, max(d.y, 0.0), d.z)));
 #else
     vec3 sky = sea_sky_at_side(SEA_SKY_SEEN, d, 1.0).xyz;
@@ -44,7 +44,7 @@ vec3 sea_sky_seen(vec3 d)
 
 vec3 sea_sky_reflected(vec3 R, float perceptual_roughness)
 {
-#ifdef HAS_PICTURE
+#ifdef HAS_IMAGE
     return light_specular(vec3(R.x, abs(R.y), R.z), perceptual_roughness);
 #else
     float layer = clamp(perceptual_roughness, 0.0, 1.0) * float(SEA_LOBE_LAYERS - 1) + 0.5;
@@ -88,7 +88,7 @@ vec3 sea_land_seen(vec3 d, float land)
 #endif
 
 /* m to the bed along d from a place at x, z from the eye and y over still water; 1e4: it is not met. */
-float sea_way_to_bed(vec3 at, vec3 d)
+float sea_distance_to_bed(vec3 at, vec3 d)
 {
 #ifdef HAS_BED
     float closing = dot(sea_bed_slope.xy, d.xz) - d.y;
@@ -105,7 +105,7 @@ float sea_way_to_bed(vec3 at, vec3 d)
 vec3 sea_seen_through_water(vec3 at, vec3 d, float width, float spread)
 {
     Water w = sea_water();
-    float x = sea_way_to_bed(at, d);
+    float x = sea_distance_to_bed(at, d);
     float z = max(-at.y, 0.0);
     vec3 ground = vec3(0.0);
     if (x < 1e4) {

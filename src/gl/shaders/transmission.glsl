@@ -10,7 +10,7 @@ uniform highp sampler2D u_opaque; /* premultiplied, with exposure */
 /* ---- the picture of what is opaque ---- */
 
 /* Where a point (m, relative to the eye) is seen, [0, 1] in the picture. What is behind the eye is far outside. */
-vec2 place_in_picture(vec3 P)
+vec2 place_in_image(vec3 P)
 {
     vec2 at = vec2(dot(P, right.xyz) / dot(right.xyz, right.xyz), dot(P, up.xyz) / dot(up.xyz, up.xyz));
     if (eye.w < 0.5)
@@ -98,7 +98,7 @@ vec3 light_through_body(Layers m, vec3 V, float eta)
     vec3 D = refract_or_zero(-V, m.base.N, eta);
     vec3 P = v_position + D * m.thickness;
     float own = 0.5 * abs(1.0 - eta) * m.base.alpha;
-    vec3 light = light_behind(place_in_picture(P), D, opaque_lod(m), own * own) * m.base.base_color;
+    vec3 light = light_behind(place_in_image(P), D, opaque_lod(m), own * own) * m.base.base_color;
     vec3 T = volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
     light *= T;
     if (has_layer(m, LAYER_SCATTER))
@@ -113,7 +113,7 @@ vec3 light_out_of_body(Layers m, vec3 V, float eta)
     float own = 0.5 * abs(1.0 - eta) * m.base.alpha;
     if (dot(D, D) < 0.5)
         return environment_seen(normalize(reflect(-V, m.base.N)), m.base.alpha * m.base.alpha);
-    return light_behind(place_in_picture(v_position + D * m.thickness), D, opaque_lod(m), own * own);
+    return light_behind(place_in_image(v_position + D * m.thickness), D, opaque_lod(m), own * own);
 }
 
 /* ---- both ---- */
