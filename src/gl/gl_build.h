@@ -1,4 +1,4 @@
-/* gl_build.h - tells builds of facet apart whose structures may differ. */
+/* gl_build.h - the identity of a build; structures may differ between builds. */
 #ifndef GL_GL_BUILD_H
 #define GL_GL_BUILD_H
 

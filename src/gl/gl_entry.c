@@ -1,4 +1,4 @@
-/* gl_entry.c - the module's entry: gl_entry.h. */
+/* gl_entry.c - see gl_entry.h. */
 #include "gl/gl_entry.h"
 
 #include <stdio.h>

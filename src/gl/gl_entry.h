@@ -1,5 +1,5 @@
-/* gl_entry.h - what libfacet knows of OpenGL: the functions of a module that is opened when a picture is to be drawn with
- * it. Whoever only renders on the CPU never loads a driver. */
+/* gl_entry.h - the interface between libfacet and its OpenGL module, which is loaded when an image is rendered
+ * with OpenGL. Programs that render on the CPU load no driver. */
 #ifndef GL_GL_ENTRY_H
 #define GL_GL_ENTRY_H
 
@@ -10,14 +10,14 @@ typedef struct gl_renderer gl_renderer;
 typedef struct gl_sea gl_sea;
 struct sea_picture;
 
-/* What the module wants of libfacet; the rest of what it uses it has a copy of. */
+/* Functions of libfacet that the module calls. It has its own copy of everything else that it uses. */
 typedef struct gl_host {
     facet_result (*renderer_create)(const facet_scene *scene, const facet_allocator *allocator,
                                     facet_renderer **renderer, facet_error *error);
     facet_result (*renderer_render)(facet_renderer *renderer, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
     void (*renderer_destroy)(facet_renderer *renderer);
-    /* What facet_render() makes of desc, by a renderer of the caller's: the same bytes. */
+    /* Renders desc as facet_render() does, to the same bytes, with a renderer of the caller. */
     facet_result (*render_gl)(gl_renderer *renderer, const facet_render_desc *desc, facet_image **image,
                               facet_error *error);
     uint32_t (*image_get_layer_count)(const facet_image *image);
@@ -33,7 +33,7 @@ typedef struct gl_host {
                                       facet_camera *camera, facet_error *error);
 } gl_host;
 
-/* Whether a channel is radiance, which is exposed and tone-mapped; the others are numbers over black. */
+/* Whether a channel is radiance, which is exposed and tone-mapped. The other channels are data, drawn over black. */
 static inline bool gl_channel_is_light(facet_channel channel)
 {
     return channel == FACET_CHANNEL_LIGHT ||
@@ -41,31 +41,32 @@ static inline bool gl_channel_is_light(facet_channel channel)
 }
 
 typedef struct gl_entry {
-    /* A context without a window, and what is prepared of a scene for it. The scene outlives it. Fails with
+    /* Creates an off-screen context and the renderer of a scene. The scene outlives it. Fails with
      * FACET_ERROR_SYSTEM where there is no OpenGL, FACET_ERROR_MEMORY. */
     facet_result (*create)(const facet_scene *scene, const facet_allocator *allocator, gl_renderer **out,
                            facet_error *error);
-    /* As preview_render_prepared(): desc is resolved but for its camera, which may be NULL. Calls may come from different
-     * threads, one at a time. */
+    /* As preview_render_prepared(): desc is resolved, except for its camera, which may be NULL. Calls may come
+     * from different threads, one at a time. */
     facet_result (*render)(gl_renderer *renderer, const facet_render_desc *desc, film *target,
                            facet_render_stats *stats, facet_error *error);
     void (*destroy)(gl_renderer *renderer); /* NULL is allowed */
-    /* What draws seas, with a context of its own, and keeps programs and textures from picture to picture: gl_sea.h. */
+    /* Creates the renderer of seas, with a context of its own. It keeps programs and textures from image to image:
+     * gl_sea.h. */
     facet_result (*create_sea)(const facet_allocator *allocator, gl_sea **out, facet_error *error);
     facet_result (*draw_sea)(gl_sea *sea, const struct sea_picture *picture, film *target,
                              facet_render_stats *stats, facet_error *error);
     void (*destroy_sea)(gl_sea *sea); /* NULL is allowed */
-    /* One line: version, driver, whether without a window; or why there is none. */
+    /* Writes one line: renderer and version, or the reason why there is no OpenGL. */
     void (*report)(char *out, size_t size);
-    /* facet_view() with a desc whose functions are all there. */
+    /* facet_view() with a desc in which every function is set. */
     facet_result (*view)(const gl_host *host, const facet_view_desc *desc, facet_error *error);
 } gl_entry;
 
-/* src/view's, which is linked into the module; view_none.c has it where there is no GLFW to build with. */
+/* Defined in src/view, which is linked into the module; in view_none.c where GLFW was missing at build time. */
 facet_result view_run(const gl_host *host, const facet_view_desc *desc, facet_error *error);
 
-/* The module's only symbol, by this name. build: GL_ENTRY_BUILD of who asks; NULL where the module is of another build,
- * whose structures may look different. host outlives all that comes of it. */
+/* The module's only exported symbol. build: the caller's GL_ENTRY_BUILD. NULL where the module is of another
+ * build, whose structures may differ. host outlives everything that the module creates. */
 FACET_API const gl_entry *facet_gl_entry(const char *build, const gl_host *host);
 typedef const gl_entry *gl_entry_function(const char *build, const gl_host *host);
 

@@ -1,4 +1,5 @@
-/* gl_context.c - see gl_context.h: what any context can do. Where contexts come from: gl_context_egl.c. */
+/* gl_context.c - see gl_context.h: capabilities and errors of any context. Contexts are created in
+ * gl_context_egl.c. */
 #include "gl/core/gl_context.h"
 
 #include <dlfcn.h>
@@ -7,14 +8,14 @@
 
 #include "base/result.h"
 
-/* ---- what a context can do ---- */
+/* ---- capabilities ---- */
 
 static bool has_any(const char *a, const char *b)
 {
     return epoxy_has_gl_extension(a) || epoxy_has_gl_extension(b);
 }
 
-/* Function pointers of epoxy are variables; these are functions. */
+/* Function pointers of epoxy are variables, so wrap them in functions. */
 static unsigned core_reset_status(void)
 {
     return glGetGraphicsResetStatus();
@@ -69,7 +70,7 @@ static void read_limits(gl_context *c)
     c->has_debug_output = epoxy_has_gl_extension("GL_KHR_debug");
 }
 
-/* epoxy ends the process where it finds neither. libEGL may be there alone. */
+/* epoxy ends the process where it finds neither library, which can happen where only libEGL is installed. */
 static bool has_client_library(void)
 {
     static const char *const names[] = {"libOpenGL.so.0", "libGL.so.1"};
@@ -99,7 +100,7 @@ facet_result gl_context_adopt(gl_context *c, facet_error *error)
     return FACET_OK;
 }
 
-/* Errors stay until they are asked for; a lost context gives the same one for ever. */
+/* Clears the error flags. A lost context reports the same error forever, so the loop is bounded. */
 static GLenum take_error(void)
 {
     GLenum first = glGetError();

@@ -1,7 +1,7 @@
-/* gl_context_egl.c - contexts without a window: see gl_context.h.
+/* gl_context_egl.c - off-screen contexts by EGL; see gl_context.h.
  *
- * Displays are never terminated: EGL gives one and the same to all who ask, another renderer of the process may draw with it,
- * and terminating ends them all. What stays is a driver that is loaded, once for a process. */
+ * Displays are never terminated: EGL returns the same display to every caller, another renderer in the process may use it, and
+ * terminating it would destroy all of their contexts. The cost is one loaded driver per process. */
 #include "gl/core/gl_context.h"
 
 #include <epoxy/egl.h>
@@ -18,7 +18,7 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
-/* ---- current, and what was current before ---- */
+/* ---- the current context ---- */
 
 facet_result gl_context_make_current(gl_context *c, facet_error *error)
 {
@@ -59,9 +59,9 @@ void gl_context_destroy(gl_context *c)
     *c = (gl_context){0};
 }
 
-/* ---- new ones ---- */
+/* ---- creation ---- */
 
-/* With news of resets where the driver has them: level 0 asks as EGL 1.5 does, 1 as its extension, 2 not at all. */
+/* Enables notification of resets where the driver has it: level 0 by EGL 1.5, 1 by its extension, 2 not at all. */
 static EGLContext new_context(EGLDisplay display, EGLConfig config, bool is_es, int level)
 {
     EGLint wanted[16];
@@ -119,7 +119,7 @@ static bool create_on(gl_context *c, EGLDisplay display, gl_api wanted)
            (wanted != GL_API_CORE && create_of(c, display, extensions, true));
 }
 
-/* A graphics card, else whatever draws in memory, else what a window system has. */
+/* A GPU, else a software renderer, else the window system's display. */
 static bool create_anywhere(gl_context *c, gl_api wanted)
 {
     const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -141,7 +141,7 @@ facet_result gl_context_create_api(gl_context *c, gl_api wanted, facet_error *er
 {
     *c = (gl_context){0};
     bool has_egl = epoxy_has_egl();
-    EGLenum api = has_egl ? eglQueryAPI() : EGL_NONE; /* of the thread, which is the caller's */
+    EGLenum api = has_egl ? eglQueryAPI() : EGL_NONE; /* the thread's API, which is the caller's to choose */
     bool is_created = has_egl && create_anywhere(c, wanted);
     if (api != EGL_NONE)
         eglBindAPI(api);

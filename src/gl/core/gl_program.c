@@ -9,7 +9,7 @@
 #include "base/result.h"
 #include "gl/core/gl_blocks.h"
 
-/* Samplers and their units. */
+/* Texture units of samplers. */
 static const struct {
     const char *name;
     int unit;
@@ -59,7 +59,7 @@ static const char *const attributes[GL_ATTRIBUTE_COUNT] = {
     "position",  "normal",         "tangent",        "color",          "texcoord0",
     "texcoord1", "texcoord2",      "texcoord3",      "world0",         "world1",
     "world2",    "normal_matrix0", "normal_matrix1", "normal_matrix2", "instance"};
-/* What sprites have in the same places. */
+/* Attributes of sprites in the same locations. */
 static const char *const sprite_attributes[GL_ATTRIBUTE_COUNT] = {
     [GL_ATTRIBUTE_TANGENT] = "position_end",
     [GL_ATTRIBUTE_NORMAL_MATRIX] = "normal_end",
@@ -94,7 +94,7 @@ facet_result gl_programs_create(gl_context *context, const facet_allocator *allo
     (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
     gl_programs_set_log(*out, log);
     if (context->has_parallel_compile)
-        glMaxShaderCompilerThreadsKHR(0xffffffff); /* as many as the driver likes */
+        glMaxShaderCompilerThreadsKHR(0xffffffff); /* as many as the driver allows */
     return FACET_OK;
 }
 
@@ -113,7 +113,7 @@ void gl_programs_destroy(gl_programs *programs)
     if (!programs)
         return;
     if (programs->count > 0)
-        glUseProgram(0); /* one that is in use would stay */
+        glUseProgram(0); /* a program in use would not be deleted */
     for (size_t i = 0; i < programs->count; i++)
         glDeleteProgram(programs->items[i].name);
     mem_free(programs->items);
@@ -128,7 +128,7 @@ static gl_program *find(gl_programs *programs, gl_program_key key)
     return NULL;
 }
 
-/* The text of a shader of programs, with the prelude behind its line of version. */
+/* Shader source with the prelude inserted after its #version line. */
 static facet_result source_text(const gl_programs *programs, gl_program_key key, GLenum stage, text *out,
                                 facet_error *error)
 {
@@ -165,7 +165,7 @@ facet_result gl_programs_request(gl_programs *programs, gl_program_key key, face
             glShaderSource(p->shaders[i], 1, &source, NULL);
             glCompileShader(p->shaders[i]);
             glAttachShader(p->name, p->shaders[i]);
-            glDeleteShader(p->shaders[i]); /* with the program */
+            glDeleteShader(p->shaders[i]); /* deleted together with the program */
         }
         text_destroy(&t);
     }
@@ -181,7 +181,7 @@ facet_result gl_programs_request(gl_programs *programs, gl_program_key key, face
     return result;
 }
 
-/* The text with numbers before its lines, a message for each: people are to find line 812. */
+/* Logs the source with line numbers, so that the line of a compiler error can be found. */
 static void report_source(const gl_programs *programs, const char *source)
 {
     char line[320];

@@ -22,7 +22,7 @@ enum { MAX_KEYS = 512, RANDOM_KEYS = 48, COMPILED_RANDOM_KEYS = 8 };
 
 /* ---- configurations ---- */
 
-/* A material has no more textures than there are units; gl_material.c drops those that matter least. */
+/* Drops the textures beyond the number of units, the least important first, as gl_material.c does. */
 static uint64_t drop_textures(uint64_t features)
 {
     int8_t units[SCENE_TEXTURE_SLOT_COUNT];
@@ -47,7 +47,7 @@ static uint64_t next_random(uint64_t *state) /* xorshift64*, Vigna 2016 */
     return *state * UINT64_C(2685821657736338717);
 }
 
-/* None, each alone, all; then, for surfaces, each with what lit materials have, and random ones. */
+/* No feature, each alone, all; then, for surfaces, each with the features of lit materials, and random sets. */
 static size_t list_keys(gl_program_key keys[MAX_KEYS])
 {
     size_t count = 0;
@@ -150,7 +150,7 @@ static void programs_compile(void **state)
     run_on_drivers(compile_all);
 }
 
-/* What does not compile is told in a sentence, and its text with numbers of lines. */
+/* A program that does not compile is reported in one sentence, with its numbered source in the log. */
 static void compile_broken(gl_context *context)
 {
     static heard h;
@@ -171,13 +171,13 @@ static void compile_broken(gl_context *context)
     assert_non_null(strstr(h.all, "   1  #version "));
     const char *line = strstr(h.all, "  float broken()");
     assert_non_null(line);
-    int number = 0; /* that the driver names is that of the log */
+    int number = 0; /* the driver's line number is that of the log */
     while (line > h.all && line[-1] != '\n')
         line--;
     number = atoi(line);
     assert_int_equal(number, 3);
     char place[32];
-    snprintf(place, sizeof place, ":%d(", number); /* Mesa; others write it otherwise */
+    snprintf(place, sizeof place, ":%d(", number); /* Mesa's format; other drivers have their own */
     if (strstr(context->name, "Mesa"))
         assert_non_null(strstr(error.message, place));
     assert_int_equal(gl_programs_get(programs, key, &name, &error), FACET_ERROR_SYSTEM);
@@ -193,7 +193,7 @@ static void a_broken_program_is_reported_with_its_text(void **state)
     run_on_drivers(compile_broken);
 }
 
-/* Blocks are laid out in shaders as in C. */
+/* Uniform blocks have the same layout in shaders and in C. */
 static void check_frame_block(gl_context *context)
 {
     static const struct {

@@ -48,7 +48,7 @@ static const char *const surface_features[] = {
 /* clang-format on */
 _Static_assert(sizeof slot_names / sizeof *slot_names == SCENE_TEXTURE_SLOT_COUNT, "every slot has a name");
 
-/* From GL_SURFACE_TEXTURES on; the other ones are those of surfaces. */
+/* In place of the surface features from GL_SURFACE_TEXTURES on. */
 static const char *const phong_features[] = {"HAS_AMBIENT_MAP",  "HAS_DIFFUSE_MAP",   "HAS_SPECULAR_MAP",
                                              "HAS_EMISSION_MAP", "HAS_SHININESS_MAP", "HAS_OPACITY_MAP",
                                              "HAS_NORMAL_MAP",   "IS_SPHERE_MAP",     "IS_AT_VERTICES",
@@ -76,10 +76,10 @@ enum { MAX_PARTS = 12 };
 
 static const struct {
     const char *name, *vertex, *fragment;
-    const char *parts[MAX_PARTS]; /* of the shared text; those that they use come with them */
-    const char *fragments[12];    /* files of this folder before the fragment shader's own */
+    const char *parts[MAX_PARTS]; /* of the shader library; their dependencies are added */
+    const char *fragments[12];    /* files of src/gl/shaders before the fragment shader */
     const char *const *features;
-    const char *vertex_parts[4]; /* files before the vertex shader's own */
+    const char *vertex_parts[4]; /* files before the vertex shader */
 } mains[GL_MAIN_COUNT] = {
     [GL_MAIN_SURFACE] = {"surface",
                          "surface.vert",
@@ -177,7 +177,8 @@ uint32_t gl_program_feature_count(gl_main main)
 const char *gl_program_feature_name(gl_main main, uint32_t feature)
 {
     const uint32_t own = sizeof phong_features / sizeof *phong_features;
-    if (main == GL_MAIN_PHONG && UINT64_C(1) << feature == GL_SURFACE_HAS_SHADOWS) /* OpenGL 1 has none */
+    /* OpenGL 1 has no shadows */
+    if (main == GL_MAIN_PHONG && UINT64_C(1) << feature == GL_SURFACE_HAS_SHADOWS)
         return "";
     if (main == GL_MAIN_PHONG && feature >= GL_SURFACE_TEXTURES && feature < GL_SURFACE_IS_LIT)
         return feature - GL_SURFACE_TEXTURES < own ? phong_features[feature - GL_SURFACE_TEXTURES] : "";
@@ -220,7 +221,7 @@ static bool has(uint64_t features, int bit)
     return features >> bit & 1;
 }
 
-/* The slot whose texel it reads: itself, or that of a pair. */
+/* The slot that is sampled for a slot: itself, or the first of its pair. */
 static int source_of(uint64_t features, int slot)
 {
     for (int i = 0; i < GL_SLOT_PAIR_COUNT; i++)
@@ -240,7 +241,8 @@ int gl_material_slot_units(uint64_t features, int8_t units[SCENE_TEXTURE_SLOT_CO
     return count;
 }
 
-/* Adds MATERIAL_LAYERS, the samplers "u_material0".., and BASE_COLOR_TEXEL and so on for every slot: a vec4, white where there is none. */
+/* Adds MATERIAL_LAYERS, the samplers u_material0.., and BASE_COLOR_TEXEL and so on: a vec4 per slot, white for
+ * absent textures. */
 static void slot_text(uint64_t features, text *out)
 {
     int8_t units[SCENE_TEXTURE_SLOT_COUNT];

@@ -38,7 +38,7 @@ static void begin_level(const gl_pyramid *p, uint32_t level, int from)
     glViewport(0, 0, (GLsizei)halved(p->width, level), (GLsizei)halved(p->height, level));
     if (from < 0)
         return;
-    /* What is drawn into must not be among what can be read. */
+    /* A level must not be readable while it is drawn into. */
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
     glBindTexture(GL_TEXTURE_2D, p->texture);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, from);
@@ -145,10 +145,9 @@ void gl_pyramid_bind_opaque(const gl_pyramid *p)
 
 static const float SPREAD = 0.7f;
 enum {
-    COARSEST = 2, /* levels that are left out: the last ones have few pixels and are not smooth */
+    COARSEST = 2, /* coarsest levels that are left out: they have too few pixels to be smooth */
     WIDTHS =
-        7 /* of filters, counted from the widest: the finer ones of large pictures have no weight, so that light is
-                     spread over the same part of a picture of any size */
+        7 /* filter widths in use, from the widest: large images leave out the finer ones, so that the glow covers the same part of an image of any size */
 };
 
 static uint32_t levels_of(uint32_t width, uint32_t height)
@@ -159,7 +158,7 @@ static uint32_t levels_of(uint32_t width, uint32_t height)
     return count > 2 + COARSEST ? count - COARSEST : 2;
 }
 
-/* Level by level, from the coarsest: mix(this one, what is coarser, SPREAD). */
+/* From the coarsest level up: mix(level, coarser level, SPREAD). */
 static facet_result gather(const gl_pyramid *p, const gl_pyramid_brush *brush, facet_error *error)
 {
     const gl_program_key spread = {GL_MAIN_SPREAD, 0};

@@ -18,7 +18,7 @@ void gl_target_destroy(gl_target *t)
     *t = (gl_target){.width = 0};
 }
 
-/* Looked up texel by texel: where floats cannot be filtered, too. */
+/* Point-sampled, so it also works where float textures cannot be filtered. */
 static GLuint make_texture(GLenum format, uint32_t width, uint32_t height)
 {
     GLuint name;
@@ -85,7 +85,7 @@ static void make(gl_target *t)
     glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
 }
 
-/* The formats that a driver may draw into, the wanted one first. */
+/* Renderable formats of the driver, the preferred one first. */
 static int list_formats(const gl_context *context, gl_target_kind kind, GLenum formats[2])
 {
     bool prefers_half = kind == GL_TARGET_WINDOW;

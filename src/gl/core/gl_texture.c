@@ -1,5 +1,5 @@
-/* gl_texture.c - see gl_texture.h. An image is one texture for each way of reading it, however many textures of the scene
- * show it; how they wrap and filter is in sampler objects. */
+/* gl_texture.c - see gl_texture.h. An image becomes one texture per way of reading it (as color, as data), shared
+ * by all textures of the scene that refer to it. Wrapping and filtering are in sampler objects. */
 #include "gl/core/gl_texture.h"
 
 #include <epoxy/gl.h>
@@ -12,7 +12,7 @@
 enum {
     WRAPS = 3,
     FILTERS = 2,
-    BAND_TEXELS = 1 << 20, /* that are brought to the form of OpenGL at a time */
+    BAND_TEXELS = 1 << 20, /* texels that are converted at a time */
     MIP_FILTERS = 3,
     SAMPLER_COUNT = WRAPS * WRAPS * FILTERS * FILTERS * MIP_FILTERS
 };
@@ -20,8 +20,8 @@ enum {
 /* An image as data and as color. */
 typedef struct gl_image {
     GLuint names[2];
-    bool is_known[2]; /* uploaded, or cannot be */
-    bool lacks_red;   /* as data */
+    bool is_known[2]; /* uploaded, or failed */
+    bool lacks_red;   /* read as data */
 } gl_image;
 
 struct gl_texture_set {
@@ -64,7 +64,7 @@ void gl_texture_destroy(gl_texture_set *set)
 
 /* ---- texels as they are uploaded ---- */
 
-/* Gray to RGB, no alpha to 1: not every OpenGL reads a channel in the place of another. */
+/* Expands gray to RGB and missing alpha to 1: channel swizzles are not available everywhere. */
 static void expand_8(const unsigned char *in, size_t count, uint32_t channel_count, unsigned char *out)
 {
     bool is_gray = channel_count < 3;
@@ -89,7 +89,7 @@ static void expand_16(const uint16_t *in, size_t count, uint32_t channel_count, 
     }
 }
 
-/* Rows of a band of an image of that width. */
+/* Rows that are converted at a time. */
 static uint32_t band_rows(uint32_t width)
 {
     return width < BAND_TEXELS ? BAND_TEXELS / width : 1;
@@ -100,7 +100,7 @@ static GLenum internal_format(const texture_pyramid *p, bool as_color)
     return p->type != IMAGE_U8 ? GL_RGBA16F : as_color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
 }
 
-/* Memory for the levels from first on, without contents. All at once where OpenGL can: Mesa otherwise holds two copies of
+/* Allocates the levels from first on. With immutable storage where possible: otherwise Mesa holds two copies of
  * the finest level for a while. */
 static void allocate_levels(const gl_context *c, const texture_pyramid *p, uint32_t first, bool as_color)
 {
@@ -118,7 +118,7 @@ static void allocate_levels(const gl_context *c, const texture_pyramid *p, uint3
                      is_8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT, NULL);
 }
 
-/* One level; buffer has room for a band of it. */
+/* Uploads one level; buffer holds one band of it. */
 static void upload_level(const texture_pyramid *p, uint32_t level, GLint gl_level, void *buffer)
 {
     const texture_level *l = &p->levels[level];
@@ -141,7 +141,7 @@ static void upload_level(const texture_pyramid *p, uint32_t level, GLint gl_leve
     }
 }
 
-/* Levels from first on. */
+/* Uploads the levels from first on. */
 static facet_result upload(gl_texture_set *set, const texture_pyramid *p, uint32_t first, bool as_color,
                            GLuint *name, facet_error *error)
 {
@@ -165,9 +165,9 @@ static facet_result upload(gl_texture_set *set, const texture_pyramid *p, uint32
     return gl_context_check(set->context, "textures", error);
 }
 
-/* ---- which ---- */
+/* ---- selection ---- */
 
-/* The finest level that OpenGL can hold. */
+/* The finest level within OpenGL's size limit. */
 static uint32_t find_first_level(const gl_texture_set *set, uint32_t width, uint32_t height)
 {
     uint32_t most = (uint32_t)set->context->max_texture_size;
@@ -177,7 +177,7 @@ static uint32_t find_first_level(const gl_texture_set *set, uint32_t width, uint
     return level;
 }
 
-/* Adds to wants, one per image, what is not there; returns their number. */
+/* Adds the missing images to wants, each once; returns their number. */
 static size_t collect_wants(const gl_texture_set *set, const texture_use *uses, texture_want *wants)
 {
     const facet_scene *scene = set->scene;
@@ -237,7 +237,7 @@ static facet_result upload_want(gl_texture_set *set, const texture_want *want, c
 facet_result gl_texture_update(gl_texture_set *set, const texture_use *uses, const facet_log *log,
                                uint32_t thread_count, facet_error *error)
 {
-    texture_store *store = NULL; /* goes when all is uploaded */
+    texture_store *store = NULL; /* destroyed after the upload */
     texture_want *wants = mem_zalloc(&set->allocator, set->scene->image_count, sizeof *wants);
     if (!wants)
         return fail_memory(error, "textures", set->scene->image_count * sizeof *wants);

@@ -1,5 +1,5 @@
-/* gl_texture_test.c - textures in OpenGL's memory hold the texels that the CPU looks up, at every level, and samplers say
- * what glTF's do. Exits with 77 where there is no OpenGL. */
+/* gl_texture_test.c - uploaded textures hold the CPU's texels at every level, and samplers follow glTF. Exits with
+ * 77 where there is no OpenGL. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -51,7 +51,7 @@ static unsigned char *encoded(uint32_t width, uint32_t height, uint32_t channel_
     return bytes;
 }
 
-/* Number of the texture and its image. */
+/* Returns the index of the texture and of its image. */
 static uint32_t add(fixture *f, uint32_t width, uint32_t height, uint32_t channel_count, image_type type)
 {
     static const unsigned char nothing[4] = {0};
@@ -67,9 +67,9 @@ static uint32_t add(fixture *f, uint32_t width, uint32_t height, uint32_t channe
     return texture;
 }
 
-/* ---- what is there ---- */
+/* ---- contents ---- */
 
-/* What the uploaded texel is to be, in the numbers of the texture: codes, or values of 16 bits. */
+/* The expected texel in the texture's format: 8-bit codes or 16-bit values. */
 static void expected_texel(const texture_pyramid *p, const texture_level *l, size_t i, float out[4])
 {
     uint32_t n = p->channel_count;
@@ -163,17 +163,17 @@ static void test_texels(void **state)
         uint64_t texels = gl_texture_decoded_texels(set);
         assert_true(texels > 0);
         for (uint32_t i = 0; i < COUNT; i++) {
-            /* OpenGL ES draws into half floats, and reads from them, with an extension only. */
+            /* OpenGL ES needs an extension to render to and read back half floats. */
             if (wants[i].pyramid[0]->type == IMAGE_U16 && contexts.items[k].is_es)
                 continue;
             assert_uploaded(gl_texture_name(set, i, true), wants[i].pyramid[1], 0);
             if (i != 2)
                 assert_uploaded(gl_texture_name(set, i, false), wants[i].pyramid[0], 0);
         }
-        assert_int_equal(gl_texture_name(set, 2, false), 0); /* nobody asked for it */
+        assert_int_equal(gl_texture_name(set, 2, false), 0); /* not requested yet */
         assert_int_equal(gl_texture_name(set, 1000, true), 0);
         uint32_t name = gl_texture_name(set, 0, true);
-        uses[2].is_read_as_data = true; /* somebody does now: nothing else is decoded again */
+        uses[2].is_read_as_data = true; /* requested now: nothing else is decoded again */
         assert_int_equal(gl_texture_update(set, uses, &test_log, 2, NULL), FACET_OK);
         assert_uploaded(gl_texture_name(set, 2, false), wants[2].pyramid[0], 0);
         assert_int_equal(gl_texture_name(set, 0, true), name);
@@ -186,7 +186,7 @@ static void test_texels(void **state)
     fixture_destroy(&f);
 }
 
-/* What OpenGL cannot hold starts at a coarser level, with one warning. */
+/* An image beyond OpenGL's limit starts at a coarser level, with one warning. */
 static void test_too_large(void **state)
 {
     (void)state;
@@ -217,7 +217,7 @@ static void test_too_large(void **state)
     fixture_destroy(&f);
 }
 
-/* What cannot be decoded reads as white, and is told once. */
+/* An image that cannot be decoded reads as white, with one warning. */
 static void test_broken(void **state)
 {
     (void)state;

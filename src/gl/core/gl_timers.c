@@ -1,5 +1,4 @@
-/* gl_timers.c - see gl_timers.h. Answers come when the GPU is done: a ring of queries waits for them, so that nobody else
- * has to. */
+/* gl_timers.c - see gl_timers.h. A ring of pending queries, so that nothing waits for the GPU. */
 #include "gl/core/gl_timers.h"
 
 #include <epoxy/gl.h>
@@ -19,7 +18,7 @@ static bool has_answer(const gl_timers *t)
     return is_available;
 }
 
-/* The oldest one; waits for it. */
+/* Takes the result of the oldest query, waiting for it. */
 static void take(gl_timers *t)
 {
     GLuint64 ns = 0;
